@@ -1,0 +1,1 @@
+//! Non-linear unsteady vortex lattice with free wakes.

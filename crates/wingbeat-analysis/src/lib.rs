@@ -1,0 +1,1 @@
+//! Analysis of flight: cycle means, power, studies.

@@ -1,0 +1,1 @@
+//! Constrained multibody dynamics of flapping flight.

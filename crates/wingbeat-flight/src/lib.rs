@@ -1,0 +1,1 @@
+//! Coupled flight: multibody dynamics and unsteady air integrated together.

@@ -1,0 +1,1 @@
+//! Case files, result directories, figures.

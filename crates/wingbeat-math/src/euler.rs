@@ -1,0 +1,121 @@
+//! Euler-angle sequences: rotation, the matrix G of seed eq. 15, its time derivative, inverse.
+
+use crate::rotation::rotation_about;
+use crate::{DMat3, DVec3};
+
+/// Three successive rotations about body axes, `R = R_i(eta_0) R_j(eta_1) R_k(eta_2)`.
+///
+/// Only sequences of three different axes (Tait-Bryan) occur here: 2-3-1 for the central body
+/// and 1-3-2 for wings (seed sec. 3). They are singular where the cosine of the middle angle
+/// vanishes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct EulerSequence {
+    axes: [usize; 3],
+}
+
+impl EulerSequence {
+    /// 2-3-1, the central body of the seed: `R = R2(phi) R3(theta) R1(psi)`.
+    pub const BODY_231: Self = Self { axes: [1, 2, 0] };
+    /// 1-3-2, the wings of the seed: `R = R1(phi) R3(theta) R2(psi)`.
+    pub const WING_132: Self = Self { axes: [0, 2, 1] };
+
+    /// Rotation matrix R_NB of the angles `eta` [rad] (seed eq. 3).
+    pub fn rotation(&self, eta: DVec3) -> DMat3 {
+        rotation_about(self.axes[0], eta.x)
+            * rotation_about(self.axes[1], eta.y)
+            * rotation_about(self.axes[2], eta.z)
+    }
+
+    /// The matrix G of seed eq. 15: angular velocity in body components `w = G eta'`.
+    /// `det G = +-cos(eta_1)`.
+    pub fn g(&self, eta: DVec3) -> DMat3 {
+        let [i, j, k] = self.axes;
+        let rk_t = rotation_about(k, -eta.z);
+        let rj_t = rotation_about(j, -eta.y);
+        DMat3::from_cols(
+            rk_t * (rj_t * DVec3::AXES[i]),
+            rk_t * DVec3::AXES[j],
+            DVec3::AXES[k],
+        )
+    }
+
+    /// Time derivative of [`Self::g`] along the rates `eta_dot` [rad/s].
+    pub fn g_dot(&self, eta: DVec3, eta_dot: DVec3) -> DMat3 {
+        let [dy, dz] = self.g_partials(eta);
+        dy * eta_dot.y + dz * eta_dot.z
+    }
+
+    /// Partial derivatives of G with respect to the second and third angle (G does not depend
+    /// on the first).
+    pub fn g_partials(&self, eta: DVec3) -> [DMat3; 2] {
+        let [i, j, k] = self.axes;
+        let rk_t = rotation_about(k, -eta.z);
+        let rj_t = rotation_about(j, -eta.y);
+        let first = rj_t * DVec3::AXES[i];
+        let d_first = -DVec3::AXES[j].cross(first);
+        let ek = DVec3::AXES[k];
+        let d_eta1 = DMat3::from_cols(rk_t * d_first, DVec3::ZERO, DVec3::ZERO);
+        let d_eta2 = DMat3::from_cols(
+            -ek.cross(rk_t * first),
+            -ek.cross(rk_t * DVec3::AXES[j]),
+            DVec3::ZERO,
+        );
+        [d_eta1, d_eta2]
+    }
+
+    /// Angles of a rotation matrix [rad], the middle one in [-pi/2, pi/2].
+    pub fn angles(&self, r: DMat3) -> DVec3 {
+        let [i, j, k] = self.axes;
+        // e_i . R e_k = s sin(eta_1), s the parity of (i, j, k); in full, for R = R_i R_j R_k:
+        let s = self.parity();
+        let entry = |row: usize, col: usize| r.col(col)[row];
+        let middle = (s * entry(i, k)).clamp(-1.0, 1.0).asin();
+        let first = (-s * entry(j, k)).atan2(entry(k, k));
+        let last = (-s * entry(i, j)).atan2(entry(i, i));
+        DVec3::new(first, middle, last)
+    }
+
+    /// Cosine of the middle angle: the distance from the singularity, |det G|.
+    pub fn regularity(&self, eta: DVec3) -> f64 {
+        eta.y.cos().abs()
+    }
+
+    /// +1 for an even permutation of (1, 2, 3), -1 for an odd one.
+    fn parity(&self) -> f64 {
+        let [i, j, _] = self.axes;
+        if (i + 1) % 3 == j { 1.0 } else { -1.0 }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::rotation::untilde;
+
+    const BOTH: [EulerSequence; 2] = [EulerSequence::BODY_231, EulerSequence::WING_132];
+
+    #[test]
+    fn exact_angles_invert_rotation() {
+        for s in BOTH {
+            let eta = DVec3::new(2.1, -0.7, -1.3);
+            assert!((s.angles(s.rotation(eta)) - eta).length() < 1e-14); // a few roundings
+        }
+    }
+
+    #[test]
+    fn agrees_g_and_g_dot_with_differences_of_the_rotation() {
+        let at = |t: f64| DVec3::new(0.4 + t, -0.6 + 0.5 * t * t, 0.9 - 2.0 * t);
+        let rate = |t: f64| DVec3::new(1.0, t, -2.0);
+        let (t, h) = (0.3, 1e-5);
+        for s in BOTH {
+            let r = s.rotation(at(t));
+            let r_dot = (s.rotation(at(t + h)) - s.rotation(at(t - h))) * (0.5 / h);
+            let w = untilde(r.transpose() * r_dot);
+            // Second-order differences at h = 1e-5: truncation 1e-10, rounding 1e-11.
+            assert!((w - s.g(at(t)) * rate(t)).length() < 1e-9);
+            let g_dot = (s.g(at(t + h)) - s.g(at(t - h))) * (0.5 / h) - s.g_dot(at(t), rate(t));
+            assert!(g_dot.to_cols_array().iter().all(|e| e.abs() < 1e-9));
+            assert!((s.g(at(t)).determinant().abs() - s.regularity(at(t))).abs() < 1e-14);
+        }
+    }
+}

@@ -1,0 +1,24 @@
+//! The mathematics every other crate of wingbeat stands on.
+//!
+//! What is here: rotations that move in time, Euler-angle sequences, the algebra of mass
+//! properties, dense linear solves, Newton iteration, quadrature and time integrators.
+//! What this crate does not know: animals, air, joints, files.
+//!
+//! Vectors and 3 x 3 matrices are [`glam`]'s `f64` types, re-exported here.
+//!
+//! | symbol | name in code | meaning | seed |
+//! |---|---|---|---|
+//! | T^{NB} | `R_NB` (`r_nb`) | rotation, B components to N components; columns are the B axes in N | eq. 3 |
+//! | tilde(r) | [`tilde`] | skew matrix, `tilde(a) b = a x b` | eq. 14 |
+//! | G | [`EulerSequence::g`] | angular velocity in body components = G eta' | eq. 15 |
+//! | m, U, I | [`MassProperties`] | mass, first and second inertia tensors about the body origin | eq. 19 |
+#![warn(missing_docs)]
+
+pub mod euler;
+pub mod mass;
+pub mod rotation;
+
+pub use euler::EulerSequence;
+pub use glam::{DMat3, DQuat, DVec3};
+pub use mass::{MassError, MassProperties};
+pub use rotation::{MovingRotation, RotationLaw, r1, r2, r3, rotation_about, tilde, untilde};

@@ -1,0 +1,218 @@
+//! Mass properties of rigid bodies about a frame origin and their algebra (seed eq. 19).
+
+use crate::rotation::tilde;
+use crate::{DMat3, DVec3};
+
+/// Mass, first and second moment of mass of a rigid body about its frame origin, in body
+/// components. The mass centre may be anywhere.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MassProperties {
+    /// Mass m [kg].
+    pub mass: f64,
+    /// First moment `S = integral rho r` [kg m]; the seed's U is `tilde(S)`.
+    pub first_moment: DVec3,
+    /// Inertia about the origin `J = integral rho (r.r I - r r^T)` [kg m2], the seed's I^{eta eta}.
+    pub inertia: DMat3,
+}
+
+/// Why a set of numbers is not the mass properties of a body.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+pub enum MassError {
+    /// The mass is negative or not finite.
+    #[error("mass {0} kg is not a finite number >= 0")]
+    Mass(f64),
+    /// A moment is not a finite number.
+    #[error("a moment of mass is not a finite number")]
+    NotFinite,
+    /// The inertia matrix is not symmetric.
+    #[error("the inertia matrix is not symmetric")]
+    NotSymmetric,
+    /// A principal moment about the mass centre is negative.
+    #[error(
+        "the principal moment of inertia {0:.3e} kg m2 about the mass centre is negative; check the products of inertia and the mass centre"
+    )]
+    Negative(f64),
+    /// The principal moments break the triangle inequality.
+    #[error(
+        "the principal moments of inertia {0:.3e}, {1:.3e} and {2:.3e} kg m2 about the mass centre break the triangle inequality: no distribution of positive mass has them"
+    )]
+    Triangle(f64, f64, f64),
+}
+
+impl MassProperties {
+    /// A body without mass.
+    pub const ZERO: Self = Self {
+        mass: 0.0,
+        first_moment: DVec3::ZERO,
+        inertia: DMat3::ZERO,
+    };
+
+    /// A point mass [kg] at `r` [m].
+    pub fn point(mass: f64, r: DVec3) -> Self {
+        let t = tilde(r);
+        Self {
+            mass,
+            first_moment: mass * r,
+            inertia: t.transpose() * t * mass,
+        }
+    }
+
+    /// From mass [kg], mass centre [m] and inertia about the mass centre [kg m2].
+    pub fn about_centre(mass: f64, centre: DVec3, inertia_centre: DMat3) -> Self {
+        let p = Self::point(mass, centre);
+        Self {
+            inertia: inertia_centre + p.inertia,
+            ..p
+        }
+    }
+
+    /// Mass centre [m]; the origin for a body without mass.
+    pub fn centre(&self) -> DVec3 {
+        if self.mass > 0.0 {
+            self.first_moment / self.mass
+        } else {
+            DVec3::ZERO
+        }
+    }
+
+    /// Inertia about the mass centre [kg m2].
+    pub fn inertia_about_centre(&self) -> DMat3 {
+        self.inertia - Self::point(self.mass, self.centre()).inertia
+    }
+
+    /// The same body in another frame: `p` is the old origin in the new frame [m], `r` maps old
+    /// components to new.
+    pub fn moved(&self, r: DMat3, p: DVec3) -> Self {
+        let s = r * self.first_moment;
+        let (ts, tp) = (tilde(s), tilde(p));
+        Self {
+            mass: self.mass,
+            first_moment: s + self.mass * p,
+            inertia: r * self.inertia * r.transpose() - ts * tp - tp * ts - tp * tp * self.mass,
+        }
+    }
+
+    /// All mass multiplied by `factor`.
+    pub fn scaled(&self, factor: f64) -> Self {
+        Self {
+            mass: factor * self.mass,
+            first_moment: factor * self.first_moment,
+            inertia: self.inertia * factor,
+        }
+    }
+
+    /// Checks that some distribution of positive mass has these moments.
+    ///
+    /// # Errors
+    /// [`MassError`] names the first condition that fails. Round-off of 1e-9 of the largest
+    /// principal moment is forgiven (published inertias carry three digits at best, meshes of
+    /// flat plates meet the triangle inequality with equality).
+    pub fn validate(&self) -> Result<(), MassError> {
+        if !(self.mass.is_finite() && self.mass >= 0.0) {
+            return Err(MassError::Mass(self.mass));
+        }
+        if !(self.first_moment.is_finite() && self.inertia.is_finite()) {
+            return Err(MassError::NotFinite);
+        }
+        let j = self.inertia_about_centre();
+        let scale = self
+            .inertia
+            .to_cols_array()
+            .iter()
+            .fold(0.0_f64, |a, e| a.max(e.abs()));
+        let skew = j - j.transpose();
+        if skew.to_cols_array().iter().any(|e| e.abs() > 1e-9 * scale) {
+            return Err(MassError::NotSymmetric);
+        }
+        let [a, b, c] = symmetric_eigenvalues(j);
+        if a < -1e-9 * scale {
+            return Err(MassError::Negative(a));
+        }
+        if a + b < c - 1e-9 * scale {
+            return Err(MassError::Triangle(a, b, c));
+        }
+        Ok(())
+    }
+}
+
+impl std::ops::Add for MassProperties {
+    type Output = Self;
+    /// Two bodies rigidly joined, both about the same frame.
+    fn add(self, o: Self) -> Self {
+        Self {
+            mass: self.mass + o.mass,
+            first_moment: self.first_moment + o.first_moment,
+            inertia: self.inertia + o.inertia,
+        }
+    }
+}
+
+/// Eigenvalues of a symmetric 3 x 3 matrix, ascending (closed form by the trigonometric solution
+/// of the characteristic cubic).
+fn symmetric_eigenvalues(m: DMat3) -> [f64; 3] {
+    let mean = (m.x_axis.x + m.y_axis.y + m.z_axis.z) / 3.0;
+    let d = m - DMat3::from_diagonal(DVec3::splat(mean));
+    let p =
+        (d.x_axis.length_squared() + d.y_axis.length_squared() + d.z_axis.length_squared()) / 6.0;
+    if p == 0.0 {
+        return [mean; 3];
+    }
+    let radius = p.sqrt();
+    let half_det = ((d * (1.0 / radius)).determinant() / 2.0).clamp(-1.0, 1.0);
+    let angle = half_det.acos() / 3.0;
+    let third = 2.0 * std::f64::consts::PI / 3.0;
+    let at = |a: f64| mean + 2.0 * radius * a.cos();
+    [at(angle + third), at(angle - third), at(angle)]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::rotation::{r1, r3};
+
+    #[test]
+    fn exact_moving_a_body_equals_moving_its_points() {
+        let points = [
+            (1.0, DVec3::new(0.1, 0.2, -0.3)),
+            (2.0, DVec3::new(-0.4, 0.5, 0.6)),
+            (0.5, DVec3::new(0.7, -0.8, 0.9)),
+        ];
+        let (r, p) = (r1(0.4) * r3(-1.1), DVec3::new(1.0, -2.0, 0.5));
+        let sum = |f: &dyn Fn(DVec3) -> DVec3| {
+            points
+                .iter()
+                .map(|&(m, x)| MassProperties::point(m, f(x)))
+                .fold(MassProperties::ZERO, |a, b| a + b)
+        };
+        let moved = sum(&|x| x).moved(r, p);
+        let direct = sum(&|x| r * x + p);
+        assert!((moved.first_moment - direct.first_moment).length() < 1e-14); // roundings of O(1) numbers
+        assert!(
+            (moved.inertia - direct.inertia)
+                .to_cols_array()
+                .iter()
+                .all(|e| e.abs() < 1e-13)
+        );
+        assert_eq!(moved.validate(), Ok(()));
+    }
+
+    #[test]
+    fn exact_box_and_impossible_inertias() {
+        let ok = MassProperties::about_centre(
+            1.0,
+            DVec3::X,
+            DMat3::from_diagonal(DVec3::new(1.0, 2.0, 3.0)),
+        );
+        assert_eq!(ok.validate(), Ok(())); // a flat plate: equality in the triangle
+        let bad = MassProperties::about_centre(
+            1.0,
+            DVec3::X,
+            DMat3::from_diagonal(DVec3::new(1.0, 2.0, 3.1)),
+        );
+        assert!(matches!(bad.validate(), Err(MassError::Triangle(..))));
+        assert!(matches!(
+            ok.scaled(-1.0).validate(),
+            Err(MassError::Mass(_))
+        ));
+    }
+}

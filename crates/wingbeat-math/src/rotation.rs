@@ -1,0 +1,153 @@
+//! Elementary rotations (active, right-handed) and rotations that move in time.
+
+use crate::{DMat3, DVec3};
+
+/// Active rotation about axis 1 by `a` [rad]: `[[1,0,0],[0,c,-s],[0,s,c]]`.
+pub fn r1(a: f64) -> DMat3 {
+    let (s, c) = a.sin_cos();
+    DMat3::from_cols_array(&[1.0, 0.0, 0.0, 0.0, c, s, 0.0, -s, c])
+}
+
+/// Active rotation about axis 2 by `a` [rad]: `[[c,0,s],[0,1,0],[-s,0,c]]`.
+pub fn r2(a: f64) -> DMat3 {
+    let (s, c) = a.sin_cos();
+    DMat3::from_cols_array(&[c, 0.0, -s, 0.0, 1.0, 0.0, s, 0.0, c])
+}
+
+/// Active rotation about axis 3 by `a` [rad]: `[[c,-s,0],[s,c,0],[0,0,1]]`.
+pub fn r3(a: f64) -> DMat3 {
+    let (s, c) = a.sin_cos();
+    DMat3::from_cols_array(&[c, s, 0.0, -s, c, 0.0, 0.0, 0.0, 1.0])
+}
+
+/// Active rotation about coordinate axis `axis` (0, 1 or 2) by `a` [rad].
+///
+/// # Panics
+/// If `axis` is not 0, 1 or 2.
+pub fn rotation_about(axis: usize, a: f64) -> DMat3 {
+    match axis {
+        0 => r1(a),
+        1 => r2(a),
+        2 => r3(a),
+        _ => panic!("axis {axis} is not 0, 1 or 2"),
+    }
+}
+
+/// The skew matrix of a vector: `tilde(a) b = a x b` (seed eq. 14).
+///
+/// ```
+/// use wingbeat_math::{DVec3, tilde};
+/// let (a, b) = (DVec3::new(1.0, 2.0, 3.0), DVec3::new(4.0, 5.0, 6.0));
+/// assert_eq!(tilde(a) * b, a.cross(b)); // (-3, 6, -3)
+/// ```
+pub fn tilde(a: DVec3) -> DMat3 {
+    DMat3::from_cols_array(&[0.0, a.z, -a.y, -a.z, 0.0, a.x, a.y, -a.x, 0.0])
+}
+
+/// The vector of the skew part of a matrix: `untilde(tilde(a)) = a`.
+pub fn untilde(m: DMat3) -> DVec3 {
+    0.5 * DVec3::new(
+        m.y_axis.z - m.z_axis.y,
+        m.z_axis.x - m.x_axis.z,
+        m.x_axis.y - m.y_axis.x,
+    )
+}
+
+/// A rotation matrix and its first two time derivatives at one instant.
+///
+/// `c` maps components in the moving frame W to components in the reference frame B.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MovingRotation {
+    /// Rotation C_BW: W components to B components \[1\].
+    pub c: DMat3,
+    /// First time derivative of `c`, seen from B [1/s].
+    pub c_dot: DMat3,
+    /// Second time derivative of `c`, seen from B [1/s2].
+    pub c_ddot: DMat3,
+}
+
+impl MovingRotation {
+    /// A rotation that stands still.
+    pub fn fixed(c: DMat3) -> Self {
+        Self {
+            c,
+            c_dot: DMat3::ZERO,
+            c_ddot: DMat3::ZERO,
+        }
+    }
+
+    /// Rotation about a coordinate axis by an angle with its derivatives
+    /// `[angle, rate, acceleration]` [rad, rad/s, rad/s2].
+    pub fn about(axis: usize, angle: [f64; 3]) -> Self {
+        let c = rotation_about(axis, angle[0]);
+        let e = tilde(DVec3::AXES[axis]);
+        Self {
+            c,
+            c_dot: c * e * angle[1],
+            c_ddot: c * (e * angle[2] + e * e * (angle[1] * angle[1])),
+        }
+    }
+
+    /// The composition `self * inner` (inner acts first), by the product rule.
+    pub fn then(&self, inner: &Self) -> Self {
+        Self {
+            c: self.c * inner.c,
+            c_dot: self.c_dot * inner.c + self.c * inner.c_dot,
+            c_ddot: self.c_ddot * inner.c + self.c_dot * inner.c_dot * 2.0 + self.c * inner.c_ddot,
+        }
+    }
+
+    /// Angular velocity of W relative to B in W components [rad/s]: `tilde(w) = C^T C'`.
+    pub fn angular_velocity(&self) -> DVec3 {
+        untilde(self.c.transpose() * self.c_dot)
+    }
+
+    /// Angular acceleration (time derivative of [`Self::angular_velocity`]) in W components
+    /// [rad/s2]: `tilde(w') = C^T C'' - tilde(w)^2`.
+    pub fn angular_acceleration(&self) -> DVec3 {
+        untilde(self.c.transpose() * self.c_ddot)
+    }
+}
+
+/// A rotation prescribed as a function of time, twice continuously differentiable.
+pub trait RotationLaw: Send + Sync + std::fmt::Debug {
+    /// The rotation and its first two derivatives at time `t` [s].
+    fn at(&self, t: f64) -> MovingRotation;
+}
+
+/// A constant rotation is a law too.
+impl RotationLaw for DMat3 {
+    fn at(&self, _t: f64) -> MovingRotation {
+        MovingRotation::fixed(*self)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn exact_elementary_rotations_turn_axes_by_the_right_hand_rule() {
+        let q = std::f64::consts::FRAC_PI_2;
+        assert!((r1(q) * DVec3::Y - DVec3::Z).length() < 1e-15); // one rounding of cos(pi/2)
+        assert!((r2(q) * DVec3::Z - DVec3::X).length() < 1e-15);
+        assert!((r3(q) * DVec3::X - DVec3::Y).length() < 1e-15);
+    }
+
+    #[test]
+    fn agrees_moving_rotation_with_central_differences() {
+        let angle = |t: f64| [t.sin(), t.cos(), -t.sin()];
+        let other = |t: f64| [0.3 * t * t, 0.6 * t, 0.6];
+        let at =
+            |t: f64| MovingRotation::about(0, angle(t)).then(&MovingRotation::about(2, other(t)));
+        let (t, h) = (0.7, 1e-5);
+        let (m, c, p) = (at(t - h), at(t), at(t + h));
+        // Central differences are second order: h^2 = 1e-10, times derivatives of order one.
+        let dc = (p.c - m.c) * (0.5 / h) - c.c_dot;
+        let ddc = (p.c_dot - m.c_dot) * (0.5 / h) - c.c_ddot;
+        assert!(dc.to_cols_array().iter().all(|e| e.abs() < 1e-9));
+        assert!(ddc.to_cols_array().iter().all(|e| e.abs() < 1e-9));
+        let dw = (p.angular_velocity() - m.angular_velocity()) * (0.5 / h);
+        assert!((dw - c.angular_acceleration()).length() < 1e-9);
+    }
+}

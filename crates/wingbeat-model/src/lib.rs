@@ -1,0 +1,1 @@
+//! The flapping animal: geometry, quad meshes, mass properties, wing motion laws.

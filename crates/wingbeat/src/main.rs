@@ -1,0 +1,2 @@
+//! The wingbeat command line.
+fn main() {}
