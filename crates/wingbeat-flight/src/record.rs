@@ -1,0 +1,133 @@
+//! What one accepted step leaves behind: every quantity a reader may ask for, SI and radians.
+
+use wingbeat_math::DVec3;
+
+/// The record of one accepted step. Body 0 is the root, wings follow in the animal's order.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Record {
+    /// Step number, 0 is the start.
+    pub step: usize,
+    /// Time [s].
+    pub time: f64,
+    /// Wing angles per wing: phi, theta, psi [rad].
+    pub wing_angles: Vec<DVec3>,
+    /// Generalized coordinates q of seed eq. 2: per body x, y, z [m], phi, theta, psi [rad].
+    pub coordinates: Vec<f64>,
+    /// Time derivatives of the coordinates [m/s, rad/s].
+    pub rates: Vec<f64>,
+    /// Unit quaternion (w, x, y, z) of the root's R_NB.
+    pub root_quaternion: [f64; 4],
+    /// Angular velocity of the root, root components [rad/s].
+    pub root_angular_velocity: DVec3,
+    /// Mass centre of the whole animal, N components [m].
+    pub mass_centre: DVec3,
+    /// Lagrange multipliers in the seed's order [N, N m].
+    pub multipliers: Vec<f64>,
+    /// Per hinge (wing): what the body does to the wing.
+    pub hinges: Vec<HingeRecord>,
+    /// Per body: air load.
+    pub air: Vec<LoadRecord>,
+    /// Per body: applied load.
+    pub applied: Vec<LoadRecord>,
+    /// Tether reaction on the root (zero in free flight).
+    pub tether: LoadRecord,
+    /// Kinetic energy [J].
+    pub kinetic_energy: f64,
+    /// Potential energy of weight, zero at the inertial origin [J].
+    pub potential_energy: f64,
+    /// Work done so far by the hinge actuators [J].
+    pub hinge_work: f64,
+    /// Work done so far by the air on the bodies [J].
+    pub air_work: f64,
+    /// Work done so far by applied loads and the tether [J].
+    pub applied_work: f64,
+    /// Energy residual: kinetic + potential - start - all work [J].
+    pub energy_residual: f64,
+    /// Linear momentum, N components [kg m/s].
+    pub momentum: DVec3,
+    /// Angular momentum about the inertial origin, N components [kg m2/s].
+    pub angular_momentum: DVec3,
+    /// Momentum residual: momentum - start - impulse of all external forces [kg m/s].
+    pub momentum_residual: DVec3,
+    /// The same for angular momentum about the inertial origin [kg m2/s].
+    pub angular_momentum_residual: DVec3,
+    /// Largest violation of a connection constraint phi_1..6 [m].
+    pub violation_position: f64,
+    /// Largest violation of an orientation constraint phi_7..12 [1].
+    pub violation_orientation: f64,
+    /// Smallest |cos theta| over all bodies: distance from the Euler singularity [1].
+    pub euler_regularity: f64,
+    /// Corrector passes of the step.
+    pub corrector_passes: usize,
+    /// Scaled residual of the last corrector pass [1].
+    pub corrector_residual: f64,
+    /// Wake rings.
+    pub wake_rings: usize,
+    /// Events in which a near-singular velocity was regularised in this step.
+    pub regularised: usize,
+    /// Largest uniform leak velocity of the closed surfaces [m/s].
+    pub leak_velocity: f64,
+}
+
+/// One hinge: what the parent does to the child there.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct HingeRecord {
+    /// Force on the wing at the hinge, N components [N].
+    pub force: DVec3,
+    /// Moment on the wing about the hinge, wing components [N m].
+    pub moment: DVec3,
+    /// Power of the actuators at this hinge, positive when it feeds the wing [W].
+    pub power: f64,
+}
+
+/// Force and moment on one body.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct LoadRecord {
+    /// Force, N components [N].
+    pub force: DVec3,
+    /// Moment about the body's origin, N components [N m].
+    pub moment: DVec3,
+}
+
+/// The geometry of one instant, for pictures and for the eyes of ParaView.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Snapshot {
+    /// Step number.
+    pub step: usize,
+    /// Time [s].
+    pub time: f64,
+    /// Bound surfaces: wings and body parts.
+    pub surfaces: Vec<SurfaceSnapshot>,
+    /// Wake sheets.
+    pub wakes: Vec<WakeSnapshot>,
+}
+
+/// One bound surface at one instant.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct SurfaceSnapshot {
+    /// Name of the wing or body part.
+    pub name: String,
+    /// Nodes, N components [m].
+    pub nodes: Vec<DVec3>,
+    /// Panels as four node indices.
+    pub quads: Vec<[usize; 4]>,
+    /// Ring circulation per panel [m2/s].
+    pub circulation: Vec<f64>,
+    /// Pressure jump per panel [Pa], positive along the panel normal (pushes along the normal).
+    pub pressure_jump: Vec<f64>,
+}
+
+/// One wake sheet at one instant: `rows` x `cols` rings, newest row first.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct WakeSnapshot {
+    /// Name: surface and edge it leaves.
+    pub name: String,
+    /// Ring rows, newest first.
+    pub rows: usize,
+    /// Rings per row.
+    pub cols: usize,
+    /// (rows + 1) x (cols + 1) nodes, row by row, N components [m].
+    pub nodes: Vec<DVec3>,
+    /// Ring circulations, row by row [m2/s].
+    pub circulation: Vec<f64>,
+}

@@ -1,0 +1,230 @@
+//! What a flight is made of: the validated setup, before anything moves.
+
+use wingbeat_air::AirSettings;
+use wingbeat_math::{DMat3, DVec3, EulerSequence, MovingRotation};
+use wingbeat_model::Animal;
+
+/// Everything that defines one flight. Constant once built; the state is elsewhere.
+#[derive(Clone, Debug)]
+pub struct FlightSetup {
+    /// Name of the case.
+    pub name: String,
+    /// The animal or vehicle: masses, meshes, wing motion.
+    pub animal: Animal,
+    /// Acceleration of gravity in N components [m/s2], default (0, 0, 9.81): n3 points down.
+    pub gravity: DVec3,
+    /// The air, if there is any.
+    pub air: Option<AirOptions>,
+    /// How the root body moves.
+    pub mode: MotionMode,
+    /// Which equations are integrated.
+    pub formulation: FormulationChoice,
+    /// Time grid.
+    pub time: TimeGrid,
+    /// When the corrector of one step has converged.
+    pub corrector: CorrectorSettings,
+    /// Extra forces and couples.
+    pub loads: Vec<AppliedLoad>,
+}
+
+/// The vortex lattice and which parts of the animal it sees.
+#[derive(Clone, Debug)]
+pub struct AirOptions {
+    /// Settings of the lattice: density, stream, vortex core, shedding, scheme.
+    pub lattice: AirSettings,
+    /// Whether head, thorax and abdomen are part of the lattice.
+    pub body_surfaces: bool,
+}
+
+/// How the root body moves.
+#[derive(Clone, Debug)]
+pub enum MotionMode {
+    /// Free flight from a start state.
+    Free(StartState),
+    /// Tethered: the root follows a prescribed motion.
+    Tethered(PrescribedMotion),
+}
+
+/// Position, attitude and velocities of the root body at time zero.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct StartState {
+    /// Origin of the root frame, N components [m].
+    pub position: DVec3,
+    /// 2-3-1 Euler angles phi (pitch), theta (yaw), psi (roll) [rad].
+    pub angles: DVec3,
+    /// Velocity of the root origin, N components [m/s].
+    pub velocity: DVec3,
+    /// Angular velocity, root components [rad/s].
+    pub angular_velocity: DVec3,
+}
+
+/// A truncated Fourier series with a drift:
+/// `x(t) = x0 + rate t + sum_k a_k cos(2 pi k f t) + b_k sin(2 pi k f t)`, k = 1, 2, ...
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct DriftingFourier {
+    /// Value without the oscillation at t = 0.
+    pub constant: f64,
+    /// Steady rate of change [1/s].
+    pub rate: f64,
+    /// Fundamental frequency f [Hz].
+    pub frequency: f64,
+    /// Cosine coefficients a_1, a_2, ...
+    pub cosine: Vec<f64>,
+    /// Sine coefficients b_1, b_2, ...
+    pub sine: Vec<f64>,
+}
+
+impl DriftingFourier {
+    /// A constant.
+    pub fn constant(value: f64) -> Self {
+        Self { constant: value, ..Self::default() }
+    }
+
+    /// Value and first two time derivatives at `t` [s].
+    pub fn at(&self, t: f64) -> [f64; 3] {
+        let mut x = [self.constant + self.rate * t, self.rate, 0.0];
+        let base = 2.0 * std::f64::consts::PI * self.frequency;
+        for k in 1..=self.cosine.len().max(self.sine.len()) {
+            let a = self.cosine.get(k - 1).copied().unwrap_or(0.0);
+            let b = self.sine.get(k - 1).copied().unwrap_or(0.0);
+            let w = base * k as f64;
+            let (s, c) = (w * t).sin_cos();
+            x[0] += a * c + b * s;
+            x[1] += w * (b * c - a * s);
+            x[2] -= w * w * (a * c + b * s);
+        }
+        x
+    }
+}
+
+/// A prescribed motion of the root body.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PrescribedMotion {
+    /// Origin of the root frame, three N components [m].
+    pub position: [DriftingFourier; 3],
+    /// 2-3-1 Euler angles phi, theta, psi [rad].
+    pub angles: [DriftingFourier; 3],
+}
+
+/// Pose, velocities and accelerations of a prescribed root at one instant.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PrescribedRoot {
+    /// Origin, N components [m].
+    pub position: DVec3,
+    /// Velocity of the origin, N components [m/s].
+    pub velocity: DVec3,
+    /// Acceleration of the origin, N components [m/s2].
+    pub acceleration: DVec3,
+    /// Rotation R_NB.
+    pub rotation: DMat3,
+    /// Angular velocity, root components [rad/s].
+    pub angular_velocity: DVec3,
+    /// Angular acceleration, root components [rad/s2].
+    pub angular_acceleration: DVec3,
+}
+
+impl PrescribedMotion {
+    /// At rest at `position` [m] with 2-3-1 `angles` [rad].
+    pub fn at_rest(position: DVec3, angles: DVec3) -> Self {
+        let fixed = |v: DVec3| v.to_array().map(DriftingFourier::constant);
+        Self { position: fixed(position), angles: fixed(angles) }
+    }
+
+    /// The root at time `t` [s].
+    pub fn at(&self, t: f64) -> PrescribedRoot {
+        let x: [[f64; 3]; 3] = std::array::from_fn(|i| self.position[i].at(t));
+        let derivative = |k: usize| DVec3::new(x[0][k], x[1][k], x[2][k]);
+        let about = |axis: usize, i: usize| MovingRotation::about(axis, self.angles[i].at(t));
+        let r = about(1, 0).then(&about(2, 1)).then(&about(0, 2));
+        PrescribedRoot {
+            position: derivative(0),
+            velocity: derivative(1),
+            acceleration: derivative(2),
+            rotation: r.c,
+            angular_velocity: r.angular_velocity(),
+            angular_acceleration: r.angular_acceleration(),
+        }
+    }
+}
+
+impl StartState {
+    /// Rotation R_NB of the start attitude.
+    pub fn rotation(&self) -> DMat3 {
+        EulerSequence::BODY_231.rotation(self.angles)
+    }
+}
+
+/// Which equations of motion are integrated.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum FormulationChoice {
+    /// Momentum form: mass centre, quaternion, linear and angular momentum (default).
+    Momentum,
+    /// The seed's Euler coordinates with multipliers and Baumgarte stabilisation.
+    Euler(BaumgarteChoice),
+}
+
+/// Constants of Baumgarte's stabilisation (seed eq. 29).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum BaumgarteChoice {
+    /// alpha = beta = `a / h` with the step h.
+    StepTied(f64),
+    /// alpha and beta given [1/s]; zero for both reproduces seed eq. 28.
+    Fixed {
+        /// Damping constant alpha [1/s].
+        alpha: f64,
+        /// Stiffness constant beta [1/s].
+        beta: f64,
+    },
+}
+
+/// Equal time steps.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TimeGrid {
+    /// Step h [s].
+    pub step: f64,
+    /// Number of steps.
+    pub steps: usize,
+    /// Period of one wingbeat [s], for cycle means; `None` for motions without one.
+    pub period: Option<f64>,
+}
+
+/// When the corrector of one step has converged.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CorrectorSettings {
+    /// Largest scaled change between two passes that counts as converged [1].
+    pub tolerance: f64,
+    /// Most passes before the step is given up with an error.
+    pub max_passes: usize,
+    /// Relaxation factor of a pass, in (0, 1]; 1 is the plain iteration.
+    pub relaxation: f64,
+}
+
+impl Default for CorrectorSettings {
+    fn default() -> Self {
+        Self { tolerance: 1e-10, max_passes: 30, relaxation: 1.0 }
+    }
+}
+
+/// Frame in which an applied load keeps its direction.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum LoadFrame {
+    /// Fixed in the body.
+    Body,
+    /// Fixed in the inertial frame N.
+    Inertial,
+}
+
+/// A force and a couple on one body.
+#[derive(Clone, Debug, PartialEq)]
+pub struct AppliedLoad {
+    /// Index of the body: 0 the root, then the wings in their order.
+    pub body: usize,
+    /// Frame that carries the directions of force and couple.
+    pub frame: LoadFrame,
+    /// Point of application, body components [m].
+    pub point: DVec3,
+    /// Force components [N] as functions of time.
+    pub force: [DriftingFourier; 3],
+    /// Couple components [N m] as functions of time.
+    pub couple: [DriftingFourier; 3],
+}
