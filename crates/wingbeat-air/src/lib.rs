@@ -1,1 +1,3 @@
 //! Non-linear unsteady vortex lattice with free wakes.
+
+pub mod kernel;
