@@ -56,6 +56,10 @@ pub struct StartState {
     pub velocity: DVec3,
     /// Angular velocity, root components [rad/s].
     pub angular_velocity: DVec3,
+    /// Number of first steps during which the root is held: it keeps this attitude and moves
+    /// with this constant velocity while the wings beat and the wake grows, then it is
+    /// released. 0 releases at once. Holding needs zero angular velocity.
+    pub held_steps: usize,
 }
 
 /// A truncated Fourier series with a drift:

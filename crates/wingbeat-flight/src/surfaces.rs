@@ -1,0 +1,124 @@
+//! From bodies to lattice surfaces and back: node positions and velocities for the air, panel
+//! forces gathered into wrenches for the dynamics (seed eq. 9).
+
+use wingbeat_air::{AirLoads, EdgeKind, NodeMotion, SheddingSegment, Surface};
+use wingbeat_dynamics::{BodyMotion, Wrench};
+use wingbeat_math::DVec3;
+use wingbeat_model::{Animal, GridMesh, Side};
+
+/// Which lattice nodes and panels belong to which rigid body.
+#[derive(Clone, Debug)]
+pub struct SurfaceMap {
+    /// Lattice topology, surface by surface.
+    pub surfaces: Vec<Surface>,
+    /// Per surface: the body it is fixed to.
+    body: Vec<usize>,
+    /// Nodes of all surfaces, body components [m].
+    local: Vec<DVec3>,
+    /// Per surface: range of its nodes in `local`.
+    nodes: Vec<std::ops::Range<usize>>,
+    /// Per surface: range of its panels among all panels.
+    panels: Vec<std::ops::Range<usize>>,
+}
+
+impl SurfaceMap {
+    /// Wings first, in the animal's order (body `i + 1`), then the closed parts of the root body
+    /// when `body_surfaces` says so.
+    pub fn new(animal: &Animal, body_surfaces: bool) -> Self {
+        let mut map = Self {
+            surfaces: vec![],
+            body: vec![],
+            local: vec![],
+            nodes: vec![],
+            panels: vec![],
+        };
+        for (i, wing) in animal.wings.iter().enumerate() {
+            map.push(wing_surface(&wing.name, &wing.mesh, wing.side), &wing.mesh.nodes, i + 1);
+        }
+        for part in animal.parts.iter().filter(|_| body_surfaces) {
+            let surface = Surface {
+                name: part.name.clone(),
+                node_count: part.mesh.nodes.len(),
+                panels: part.mesh.quads.clone(),
+                shedding: vec![],
+                closed: true,
+            };
+            map.push(surface, &part.mesh.nodes, 0);
+        }
+        map
+    }
+
+    fn push(&mut self, surface: Surface, nodes: &[DVec3], body: usize) {
+        let first_panel = self.panels.last().map_or(0, |r| r.end);
+        self.nodes.push(self.local.len()..self.local.len() + nodes.len());
+        self.panels.push(first_panel..first_panel + surface.panels.len());
+        self.local.extend_from_slice(nodes);
+        self.body.push(body);
+        self.surfaces.push(surface);
+    }
+
+    /// Positions and velocities of all lattice nodes in N, from the motions of the bodies
+    /// (seed eq. 3 and 14).
+    pub fn node_motion(&self, bodies: &[BodyMotion], out: &mut NodeMotion) {
+        out.position.resize(self.local.len(), DVec3::ZERO);
+        out.velocity.resize(self.local.len(), DVec3::ZERO);
+        for (surface, nodes) in self.nodes.iter().enumerate() {
+            let b = &bodies[self.body[surface]];
+            for k in nodes.clone() {
+                let r = self.local[k];
+                out.position[k] = b.p + b.r * r;
+                out.velocity[k] = b.v + b.r * b.w.cross(r);
+            }
+        }
+    }
+
+    /// Panel forces gathered into one wrench per body about the body's origin, in N.
+    pub fn wrenches(&self, loads: &AirLoads, bodies: &[BodyMotion], out: &mut [Wrench]) {
+        for w in out.iter_mut() {
+            *w = Wrench { force: DVec3::ZERO, moment: DVec3::ZERO };
+        }
+        for (surface, panels) in self.panels.iter().enumerate() {
+            let body = self.body[surface];
+            for k in panels.clone() {
+                out[body].force += loads.force[k];
+                out[body].moment += (loads.point[k] - bodies[body].p).cross(loads.force[k]);
+            }
+        }
+    }
+
+    /// Range of nodes of surface `s` among all nodes.
+    pub fn node_range(&self, s: usize) -> std::ops::Range<usize> {
+        self.nodes[s].clone()
+    }
+
+    /// Range of panels of surface `s` among all panels.
+    pub fn panel_range(&self, s: usize) -> std::ops::Range<usize> {
+        self.panels[s].clone()
+    }
+}
+
+/// A wing as a lattice surface: its sharp edges shed in one chain that runs from the root along
+/// the leading edge, over the tip, and along the trailing edge back to the root.
+fn wing_surface(name: &str, mesh: &GridMesh, side: Side) -> Surface {
+    let (rows, cols) = (mesh.rows, mesh.cols);
+    let node = |i: usize, j: usize| i * (cols + 1) + j;
+    let panel = |i: usize, j: usize| i * cols + j;
+    let segment = |from, to, panel, kind| SheddingSegment { from, to, panel, kind };
+    let mut chain = Vec::with_capacity(2 * cols + rows);
+    for j in 0..cols {
+        chain.push(segment(node(0, j), node(0, j + 1), panel(0, j), EdgeKind::Leading));
+    }
+    for i in 0..rows {
+        chain.push(segment(node(i, cols), node(i + 1, cols), panel(i, cols - 1), EdgeKind::Tip));
+    }
+    for j in (0..cols).rev() {
+        chain.push(segment(node(rows, j + 1), node(rows, j), panel(rows - 1, j), EdgeKind::Trailing));
+    }
+    Surface {
+        name: name.to_string(),
+        node_count: mesh.nodes.len(),
+        panels: mesh.panels(side),
+        shedding: vec![chain],
+        closed: false,
+    }
+}
