@@ -1,0 +1,111 @@
+//! The animal as the solver sees it: meshes, masses, hinges, motions; checks and scaling.
+
+use crate::error::ModelError;
+use crate::integrate::scaled_properties;
+use crate::mesh::{GridMesh, QuadMesh, Side};
+use crate::motion::WingMotion;
+use wingbeat_math::{DVec3, MassProperties};
+
+/// A wing: flat or cambered surface with its hinge, mass and prescribed motion.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Wing {
+    /// Name, unique in the animal.
+    pub name: String,
+    /// Left or right.
+    pub side: Side,
+    /// Hinge in the body frame \[m\].
+    pub hinge_b: DVec3,
+    /// Surface in the wing frame (origin = hinge) \[m\].
+    pub mesh: GridMesh,
+    /// Mass properties about the origin of the wing frame.
+    pub mass: MassProperties,
+    /// Prescribed rotation relative to the body.
+    pub motion: WingMotion,
+}
+
+impl Wing {
+    /// The wing on the other side by mirror symmetry: mesh, hinge, mass and motion.
+    pub fn mirrored(&self, name: &str) -> Self {
+        let flip = wingbeat_math::DMat3::from_diagonal(DVec3::new(1.0, -1.0, 1.0));
+        Self {
+            name: name.to_owned(),
+            side: self.side.other(),
+            hinge_b: crate::mesh::mirror(self.hinge_b),
+            mesh: self.mesh.mirrored(),
+            mass: MassProperties {
+                mass: self.mass.mass,
+                first_moment: flip * self.mass.first_moment,
+                inertia: flip * self.mass.inertia * flip,
+            },
+            motion: self.motion.mirrored(),
+        }
+    }
+
+    /// Corner nodes of all panels, normal +axis 3.
+    pub fn panels(&self) -> Vec<[usize; 4]> {
+        self.mesh.panels(self.side)
+    }
+}
+
+/// A closed part of the body: head, thorax, abdomen.
+#[derive(Clone, Debug, PartialEq)]
+pub struct BodyPart {
+    /// Name, unique in the animal.
+    pub name: String,
+    /// Closed surface in the body frame \[m\], normals outward.
+    pub mesh: QuadMesh,
+    /// Mass properties about the origin of the body frame (zero where the mass is given for the
+    /// whole body).
+    pub mass: MassProperties,
+}
+
+/// Body and wings.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Animal {
+    /// Name.
+    pub name: String,
+    /// Mass properties of the central body (without wings) about the body frame origin.
+    pub body: MassProperties,
+    /// Closed surfaces of the body; may be empty.
+    pub parts: Vec<BodyPart>,
+    /// Wings; may be empty.
+    pub wings: Vec<Wing>,
+}
+
+impl Animal {
+    /// Total mass \[kg\].
+    pub fn mass(&self) -> f64 {
+        self.body.mass + self.wings.iter().map(|w| w.mass.mass).sum::<f64>()
+    }
+
+    /// Body length L \[m\]: extent of the body parts along b1; 0 without parts.
+    pub fn body_length(&self) -> f64 {
+        let ends = self.parts.iter().map(|p| p.mesh.bounds());
+        let fold = |[lo, hi]: [f64; 2], [a, b]: [DVec3; 2]| [lo.min(a.x), hi.max(b.x)];
+        let [lo, hi] = ends.fold([f64::INFINITY, f64::NEG_INFINITY], fold);
+        (hi - lo).max(0.0)
+    }
+
+    /// The same animal `s` times as large, with the same proportions and materials: lengths x s,
+    /// masses x s^3, inertias x s^5. Angles, frequency and starting time stay as they are.
+    pub fn scaled(&self, s: f64) -> Result<Self, ModelError> {
+        crate::error::positive("scale", s)?;
+        let wing = |w: &Wing| Wing {
+            hinge_b: w.hinge_b * s,
+            mesh: w.mesh.scaled(s),
+            mass: scaled_properties(&w.mass, s),
+            ..w.clone()
+        };
+        let part = |p: &BodyPart| BodyPart {
+            name: p.name.clone(),
+            mesh: p.mesh.map(|x| x * s),
+            mass: scaled_properties(&p.mass, s),
+        };
+        Ok(Self {
+            name: self.name.clone(),
+            body: scaled_properties(&self.body, s),
+            parts: self.parts.iter().map(part).collect(),
+            wings: self.wings.iter().map(wing).collect(),
+        })
+    }
+}

@@ -1,0 +1,160 @@
+//! What can be wrong with an animal: one enum, each case names the key, the value and the remedy.
+
+use wingbeat_math::MassError;
+
+/// Why the given data do not make an animal.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum ModelError {
+    /// A number outside its range, or not finite.
+    #[error("{key} = {value}: must be {allowed}")]
+    Value {
+        /// Name of the input.
+        key: String,
+        /// Its value (SI units).
+        value: f64,
+        /// The allowed range, in words.
+        allowed: &'static str,
+    },
+    /// A number of panels, stations or samples outside its range.
+    #[error("{key} = {value}: must be {allowed}")]
+    Count {
+        /// Name of the input.
+        key: String,
+        /// Its value.
+        value: usize,
+        /// The allowed range, in words.
+        allowed: &'static str,
+    },
+    /// A row of a table is wrong. Rows count from 1.
+    #[error("{table}, row {row}: {problem}")]
+    Table {
+        /// Name of the table.
+        table: String,
+        /// Row of the data, counted from 1.
+        row: usize,
+        /// What is wrong and what to do.
+        problem: String,
+    },
+    /// A surface that should be closed is not.
+    #[error(
+        "surface `{part}` is not closed: the edge between nodes {} and {} belongs to {panels} panel(s) in one direction and {opposite} in the other (one and one are needed); close the holes and turn all faces outward",
+        edge[0], edge[1]
+    )]
+    NotClosed {
+        /// Name of the surface.
+        part: String,
+        /// Nodes at the ends of the edge.
+        edge: [usize; 2],
+        /// Panels that use the edge in this direction.
+        panels: usize,
+        /// Panels that use it in the opposite direction.
+        opposite: usize,
+    },
+    /// One body part consists of several pieces.
+    #[error(
+        "surface `{part}` consists of {pieces} separate pieces: give each piece as a body part of its own"
+    )]
+    Pieces {
+        /// Name of the surface.
+        part: String,
+        /// Number of connected pieces.
+        pieces: usize,
+    },
+    /// A panel without area.
+    #[error("surface `{part}`: panel {panel} has no area; check its corner nodes {nodes:?}")]
+    FlatPanel {
+        /// Name of the surface.
+        part: String,
+        /// Panel index.
+        panel: usize,
+        /// Corner nodes.
+        nodes: [usize; 4],
+    },
+    /// The normals of a closed surface point inward.
+    #[error(
+        "surface `{part}` encloses the volume {volume:.3e} m3: its normals point inward; reverse the corner order of its panels"
+    )]
+    Inward {
+        /// Name of the surface.
+        part: String,
+        /// Enclosed volume with sign [m3].
+        volume: f64,
+    },
+    /// A hinge far outside the body.
+    #[error(
+        "the hinge of wing `{wing}` lies {distance:.3e} m from the nearest body surface, more than half the body length ({limit:.3e} m); hinges are given in the body frame in metres: check sign and unit"
+    )]
+    FarHinge {
+        /// Name of the wing.
+        wing: String,
+        /// Distance to the nearest body surface [m].
+        distance: f64,
+        /// Largest distance allowed [m].
+        limit: f64,
+    },
+    /// A hinge inside the body or a part has impossible mass properties.
+    #[error("mass properties of `{of}`: {source}")]
+    Mass {
+        /// The part, wing or body.
+        of: String,
+        /// What is wrong.
+        source: MassError,
+    },
+    /// A mesh file cannot be understood.
+    #[error("mesh `{name}` ({format}): {problem}")]
+    Import {
+        /// Name given to the mesh.
+        name: String,
+        /// `OBJ` or `STL`.
+        format: &'static str,
+        /// What is wrong and what to do.
+        problem: String,
+    },
+    /// A planform that cannot have the wanted shape.
+    #[error("wing planform: {0}")]
+    Planform(String),
+}
+
+/// `value` if it is finite and `ok`, else [`ModelError::Value`].
+pub(crate) fn require(
+    key: &str,
+    value: f64,
+    ok: bool,
+    allowed: &'static str,
+) -> Result<f64, ModelError> {
+    if value.is_finite() && ok {
+        return Ok(value);
+    }
+    Err(ModelError::Value {
+        key: key.to_owned(),
+        value,
+        allowed,
+    })
+}
+
+/// A finite number greater than zero.
+pub(crate) fn positive(key: &str, value: f64) -> Result<f64, ModelError> {
+    require(key, value, value > 0.0, "a finite number > 0")
+}
+
+/// A finite number.
+pub(crate) fn finite(key: &str, value: f64) -> Result<f64, ModelError> {
+    require(key, value, true, "a finite number")
+}
+
+/// `value` if it is `ok`, else [`ModelError::Count`].
+pub(crate) fn require_count(
+    key: &str,
+    value: usize,
+    ok: bool,
+    allowed: &'static str,
+) -> Result<(), ModelError> {
+    if ok {
+        return Ok(());
+    }
+    Err(ModelError::Count {
+        key: key.to_owned(),
+        value,
+        allowed,
+    })
+}

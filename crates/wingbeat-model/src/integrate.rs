@@ -1,0 +1,227 @@
+//! Integrals over meshes: volume, area and mass properties (seed eq. 19).
+//!
+//! Each panel is the bilinear patch `x(u, v)` of its four corners (a plane quadrilateral is its
+//! own patch), so a mesh with nodes in common is watertight and no diagonal is preferred.
+//! Volume integrals go to the surface by the divergence theorem, `x.n` the flux of position:
+//! `V = 1/3 int x.n`, `S = 1/4 int x (x.n)`, `int x x^T dV = 1/5 int x x^T (x.n)`.
+//! The integrands are polynomials of at most fourth degree in u and v: three Gauss points each
+//! way are exact.
+
+use crate::mesh::{QuadMesh, Side};
+use crate::{GridMesh, ModelError, error::positive};
+use wingbeat_math::{DMat3, DVec3, MassProperties};
+
+/// Abscissas on [0, 1] and weights of the three-point Gauss rule (exact to degree five).
+const GAUSS: [(f64, f64); 3] = [
+    (0.112_701_665_379_258_3, 5.0 / 18.0),
+    (0.5, 8.0 / 18.0),
+    (0.887_298_334_620_741_7, 5.0 / 18.0),
+];
+
+/// Sum of `f(x, n dA)` over the Gauss points of one patch: point [m] and area vector [m2].
+fn over_patch(c: [DVec3; 4], f: &mut impl FnMut(DVec3, DVec3)) {
+    for (u, wu) in GAUSS {
+        for (v, wv) in GAUSS {
+            let x = c[0] * ((1.0 - u) * (1.0 - v))
+                + c[1] * (u * (1.0 - v))
+                + c[2] * (u * v)
+                + c[3] * ((1.0 - u) * v);
+            let x_u = (c[1] - c[0]) * (1.0 - v) + (c[2] - c[3]) * v;
+            let x_v = (c[3] - c[0]) * (1.0 - u) + (c[2] - c[1]) * u;
+            f(x, x_u.cross(x_v) * (wu * wv));
+        }
+    }
+}
+
+fn over_mesh(mesh: &QuadMesh, mut f: impl FnMut(DVec3, DVec3)) {
+    for p in 0..mesh.quads.len() {
+        over_patch(mesh.corners(p), &mut f);
+    }
+}
+
+/// Volume enclosed by a closed surface [m3], positive for outward normals.
+pub fn volume(mesh: &QuadMesh) -> f64 {
+    let mut sum = 0.0;
+    over_mesh(mesh, |x, n| sum += x.dot(n));
+    sum / 3.0
+}
+
+/// Area of a surface [m2].
+pub fn area(mesh: &QuadMesh) -> f64 {
+    let mut sum = 0.0;
+    over_mesh(mesh, |_, n| sum += n.length());
+    sum
+}
+
+/// Mass properties about the mesh frame's origin of the solid inside a closed surface with a
+/// constant density [kg/m3]: exact for the mesh.
+pub fn solid(mesh: &QuadMesh, density: f64) -> MassProperties {
+    let (mut v, mut s, mut second) = (0.0, DVec3::ZERO, DMat3::ZERO);
+    over_mesh(mesh, |x, n| {
+        let flux = x.dot(n);
+        v += flux / 3.0;
+        s += x * (flux / 4.0);
+        second += outer(x) * (flux / 5.0);
+    });
+    from_moments(v, s, second).scaled(density)
+}
+
+/// Mass properties of a shell with areal density `sigma(x)` [kg/m2]: exact for plane panels and
+/// a density that is linear on each; a kink of the density inside a panel costs second order.
+pub fn shell(mesh: &QuadMesh, sigma: impl Fn(DVec3) -> f64) -> MassProperties {
+    let (mut m, mut s, mut second) = (0.0, DVec3::ZERO, DMat3::ZERO);
+    over_mesh(mesh, |x, n| {
+        let dm = sigma(x) * n.length();
+        m += dm;
+        s += x * dm;
+        second += outer(x) * dm;
+    });
+    from_moments(m, s, second)
+}
+
+/// `J = tr(P) I - P` with `P = int rho r r^T`.
+fn from_moments(mass: f64, first_moment: DVec3, second: DMat3) -> MassProperties {
+    let trace = second.x_axis.x + second.y_axis.y + second.z_axis.z;
+    MassProperties {
+        mass,
+        first_moment,
+        inertia: DMat3::from_diagonal(DVec3::splat(trace)) - second,
+    }
+}
+
+fn outer(x: DVec3) -> DMat3 {
+    DMat3::from_cols(x * x.x, x * x.y, x * x.z)
+}
+
+/// The mass of a body part or a wing.
+#[derive(Clone, Debug, PartialEq)]
+pub enum MassInput {
+    /// Constant density: of volume [kg/m3] for a body part, of area [kg/m2] for a wing.
+    Density(f64),
+    /// Total mass [kg], spread evenly.
+    Total(f64),
+    /// Wing only: areal density [kg/m2] at distances from the hinge along the span [m], rows
+    /// (distance, density), linear between rows and constant beyond the ends.
+    SpanTable(Vec<(f64, f64)>),
+    /// Given as numbers, about the frame origin.
+    Given(MassProperties),
+}
+
+impl MassInput {
+    /// Mass properties of a closed part about the origin of the mesh frame.
+    ///
+    /// # Errors
+    /// A negative or non-finite number, or impossible given moments.
+    pub fn of_solid(&self, name: &str, mesh: &QuadMesh) -> Result<MassProperties, ModelError> {
+        let key = format!("{name}.mass");
+        let found = match *self {
+            MassInput::Density(rho) => solid(mesh, not_negative(&key, rho)?),
+            MassInput::Total(m) => solid(mesh, not_negative(&key, m)? / volume(mesh)),
+            MassInput::Given(given) => given,
+            MassInput::SpanTable(_) => {
+                return Err(ModelError::Table {
+                    table: key,
+                    row: 1,
+                    problem: "a table along the span is for wings only".to_owned(),
+                });
+            }
+        };
+        validated(name, found)
+    }
+
+    /// Mass properties of a wing about the origin of the wing frame (the hinge).
+    ///
+    /// # Errors
+    /// A negative or non-finite number, or impossible given moments.
+    pub fn of_wing(&self, name: &str, mesh: &GridMesh) -> Result<MassProperties, ModelError> {
+        let key = format!("{name}.mass");
+        let quads = mesh.to_quads(Side::Right);
+        let found = match self {
+            &MassInput::Density(sigma) => {
+                let sigma = not_negative(&key, sigma)?;
+                shell(&quads, |_| sigma)
+            }
+            &MassInput::Total(m) => {
+                let sigma = not_negative(&key, m)? / area(&quads);
+                shell(&quads, |_| sigma)
+            }
+            MassInput::SpanTable(rows) => {
+                check_span_table(&key, rows)?;
+                shell(&quads, |x| interpolate(rows, x.y.abs()))
+            }
+            &MassInput::Given(given) => given,
+        };
+        validated(name, found)
+    }
+
+    /// The input of a wing or part `s` times as large of the same material: volume densities are
+    /// held, areal densities grow with the thickness (times s), masses times s^3, inertias s^5.
+    pub fn scaled(&self, s: f64, wing: bool) -> Self {
+        match self {
+            MassInput::Density(d) => MassInput::Density(if wing { d * s } else { *d }),
+            MassInput::Total(m) => MassInput::Total(m * s.powi(3)),
+            MassInput::SpanTable(t) => {
+                MassInput::SpanTable(t.iter().map(|&(r, d)| (r * s, d * s)).collect())
+            }
+            MassInput::Given(p) => MassInput::Given(scaled_properties(p, s)),
+        }
+    }
+}
+
+/// Mass properties of the body `s` times as large with the same densities.
+pub(crate) fn scaled_properties(p: &MassProperties, s: f64) -> MassProperties {
+    MassProperties {
+        mass: p.mass * s.powi(3),
+        first_moment: p.first_moment * s.powi(4),
+        inertia: p.inertia * s.powi(5),
+    }
+}
+
+fn validated(name: &str, p: MassProperties) -> Result<MassProperties, ModelError> {
+    p.validate().map_err(|source| ModelError::Mass {
+        of: name.to_owned(),
+        source,
+    })?;
+    Ok(p)
+}
+
+fn not_negative(key: &str, value: f64) -> Result<f64, ModelError> {
+    crate::error::require(key, value, value >= 0.0, "a finite number >= 0")
+}
+
+fn check_span_table(key: &str, rows: &[(f64, f64)]) -> Result<(), ModelError> {
+    let bad = |row: usize, problem: &str| ModelError::Table {
+        table: key.to_owned(),
+        row: row + 1,
+        problem: problem.to_owned(),
+    };
+    if rows.is_empty() {
+        return Err(bad(0, "the table is empty; give at least one row"));
+    }
+    for (k, &(r, d)) in rows.iter().enumerate() {
+        if !(r.is_finite() && d.is_finite() && d >= 0.0) {
+            return Err(bad(
+                k,
+                "distance and areal density must be finite, density >= 0",
+            ));
+        }
+        if k > 0 && r <= rows[k - 1].0 {
+            return Err(bad(k, "distances along the span must increase"));
+        }
+    }
+    positive(key, rows.iter().map(|r| r.1).sum())?;
+    Ok(())
+}
+
+/// Piecewise linear interpolation, constant beyond the ends.
+pub(crate) fn interpolate(rows: &[(f64, f64)], x: f64) -> f64 {
+    let k = rows.partition_point(|r| r.0 <= x);
+    if k == 0 {
+        return rows[0].1;
+    }
+    if k == rows.len() {
+        return rows[k - 1].1;
+    }
+    let ((x0, y0), (x1, y1)) = (rows[k - 1], rows[k]);
+    y0 + (y1 - y0) * ((x - x0) / (x1 - x0))
+}

@@ -1,0 +1,179 @@
+//! Wing motion: three prescribed angles per wing, `C(t) = R2(eta) R1(phi) R3(theta) R2(psi)`.
+//!
+//! `eta` is the constant stroke-plane pitch. Angles are laws of the phase x [wingbeats]; the
+//! phase runs as `x(t) = f tau(t) + x0` with a time warp tau that lets the motion rise from
+//! rest. Derivatives are analytic: `q' = q_x x'`, `q'' = q_xx x'^2 + q_x x''`.
+
+pub mod berman_wang;
+pub mod fourier;
+pub mod spline;
+pub mod start;
+
+pub use berman_wang::{Oval, SmoothSquare, SmoothTriangle};
+pub use fourier::Fourier;
+pub use spline::PeriodicSpline;
+pub use start::Start;
+
+use crate::ModelError;
+use crate::error::{finite, require};
+use wingbeat_math::{MovingRotation, RotationLaw};
+
+/// An angle as a function of the phase x [wingbeats], period 1 \[rad\].
+#[derive(Clone, Debug, PartialEq)]
+pub enum AngleLaw {
+    /// The same angle at all times \[rad\].
+    Constant(f64),
+    /// Fourier series.
+    Fourier(Fourier),
+    /// Berman & Wang's stroke angle, between sine and triangle.
+    SmoothTriangle(SmoothTriangle),
+    /// Berman & Wang's feathering angle, between sine and square wave.
+    SmoothSquare(SmoothSquare),
+    /// Berman & Wang's deviation angle, N oscillations per beat.
+    Oval(Oval),
+    /// Table of samples, periodic cubic spline.
+    Table(PeriodicSpline),
+}
+
+impl AngleLaw {
+    /// Value and first two derivatives with respect to the phase `x` \[rad per wingbeat^k\].
+    pub fn at(&self, x: f64) -> [f64; 3] {
+        match self {
+            AngleLaw::Constant(q) => [*q, 0.0, 0.0],
+            AngleLaw::Fourier(law) => law.at(x),
+            AngleLaw::SmoothTriangle(law) => law.at(x),
+            AngleLaw::SmoothSquare(law) => law.at(x),
+            AngleLaw::Oval(law) => law.at(x),
+            AngleLaw::Table(law) => law.at(x),
+        }
+    }
+
+    /// The law `factor * q(x)`.
+    pub fn scaled(&self, factor: f64) -> Self {
+        match self {
+            AngleLaw::Constant(q) => AngleLaw::Constant(factor * q),
+            AngleLaw::Fourier(law) => AngleLaw::Fourier(law.scaled(factor)),
+            AngleLaw::SmoothTriangle(law) => AngleLaw::SmoothTriangle(law.scaled(factor)),
+            AngleLaw::SmoothSquare(law) => AngleLaw::SmoothSquare(law.scaled(factor)),
+            AngleLaw::Oval(law) => AngleLaw::Oval(law.scaled(factor)),
+            AngleLaw::Table(law) => AngleLaw::Table(law.scaled(factor)),
+        }
+    }
+
+    fn check(&self, key: &str) -> Result<(), ModelError> {
+        match self {
+            AngleLaw::Constant(q) => finite(key, *q).map(|_| ()),
+            AngleLaw::Fourier(law) => law.check(key),
+            AngleLaw::SmoothTriangle(law) => law.check(key),
+            AngleLaw::SmoothSquare(law) => law.check(key),
+            AngleLaw::Oval(law) => law.check(key),
+            AngleLaw::Table(_) => Ok(()), // checked when it was made
+        }
+    }
+}
+
+/// The three angles of one wing in the 1-3-2 convention of this program.
+#[derive(Clone, Debug, PartialEq)]
+pub struct AngleLaws {
+    /// Flap (stroke) angle about axis 1; right wing: positive forward, towards ventral.
+    pub phi: AngleLaw,
+    /// Deviation about axis 3.
+    pub theta: AngleLaw,
+    /// Feathering about axis 2; 0: chord along the normal of the stroke plane, leading edge
+    /// up in hover; positive turns the leading edge backward.
+    pub psi: AngleLaw,
+}
+
+impl AngleLaws {
+    /// The laws of the other wing by mirror symmetry: `phi -> -phi`, `theta -> -theta`, `psi`
+    /// as it is.
+    pub fn mirrored(&self) -> Self {
+        Self {
+            phi: self.phi.scaled(-1.0),
+            theta: self.theta.scaled(-1.0),
+            psi: self.psi.clone(),
+        }
+    }
+}
+
+/// The prescribed motion of one wing relative to the body.
+#[derive(Clone, Debug, PartialEq)]
+pub struct WingMotion {
+    /// Angle laws of this wing (a left wing holds its own, mirrored signs).
+    pub angles: AngleLaws,
+    /// Wingbeat frequency f \[Hz\].
+    pub frequency: f64,
+    /// Phase x0 at t = 0 [wingbeats].
+    pub phase: f64,
+    /// Stroke-plane pitch eta \[rad\]: rotation about b2 that carries b1 to the normal of the
+    /// stroke plane. In hover with a horizontal stroke plane, body pitch + eta = 90 deg.
+    pub stroke_plane_pitch: f64,
+    /// How the motion starts.
+    pub start: Start,
+}
+
+impl WingMotion {
+    /// A wing held still at the angles phi, theta, psi \[rad\] in a stroke plane of pitch `eta`.
+    pub fn fixed(eta: f64, angles: [f64; 3]) -> Self {
+        let [phi, theta, psi] = angles.map(AngleLaw::Constant);
+        Self {
+            angles: AngleLaws { phi, theta, psi },
+            frequency: 0.0,
+            phase: 0.0,
+            stroke_plane_pitch: eta,
+            start: Start::Impulsive,
+        }
+    }
+
+    /// The motion of the other wing by mirror symmetry in the 1-3 plane.
+    pub fn mirrored(&self) -> Self {
+        Self {
+            angles: self.angles.mirrored(),
+            ..self.clone()
+        }
+    }
+
+    /// Phase and its first two time derivatives [wingbeats, 1/s, 1/s2] at `t` \[s\].
+    pub fn phase_at(&self, t: f64) -> [f64; 3] {
+        let [tau, rate, accel] = self.start.warp(t);
+        let f = self.frequency;
+        [f * tau + self.phase, f * rate, f * accel]
+    }
+
+    /// Angles phi, theta, psi, each `[value, rate, acceleration]` \[rad, rad/s, rad/s2\].
+    pub fn angles(&self, t: f64) -> [[f64; 3]; 3] {
+        let [x, x1, x2] = self.phase_at(t);
+        let x = x - x.floor(); // laws have period 1; a small argument keeps digits
+        let AngleLaws { phi, theta, psi } = &self.angles;
+        [phi, theta, psi].map(|law| {
+            let [q, q1, q2] = law.at(x);
+            [q, q1 * x1, q2 * x1 * x1 + q1 * x2]
+        })
+    }
+
+    /// Checks every number.
+    ///
+    /// # Errors
+    /// [`ModelError::Value`] naming the first number that is not allowed; `name` names the wing.
+    pub fn check(&self, name: &str) -> Result<(), ModelError> {
+        let key = |k: &str| format!("{name}.motion.{k}");
+        let f = self.frequency;
+        require(&key("frequency"), f, f >= 0.0, "a finite number >= 0")?;
+        finite(&key("phase"), self.phase)?;
+        finite(&key("stroke_plane_pitch"), self.stroke_plane_pitch)?;
+        self.start.check(&key("start"))?;
+        self.angles.phi.check(&key("phi"))?;
+        self.angles.theta.check(&key("theta"))?;
+        self.angles.psi.check(&key("psi"))
+    }
+}
+
+impl RotationLaw for WingMotion {
+    fn at(&self, t: f64) -> MovingRotation {
+        let [phi, theta, psi] = self.angles(t);
+        MovingRotation::about(1, [self.stroke_plane_pitch, 0.0, 0.0])
+            .then(&MovingRotation::about(0, phi))
+            .then(&MovingRotation::about(2, theta))
+            .then(&MovingRotation::about(1, psi))
+    }
+}
