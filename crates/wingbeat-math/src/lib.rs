@@ -15,10 +15,13 @@
 #![warn(missing_docs)]
 
 pub mod euler;
+pub mod lu;
 pub mod mass;
+pub mod ode;
 pub mod rotation;
 
 pub use euler::EulerSequence;
 pub use glam::{DMat3, DQuat, DVec3};
+pub use lu::{DenseLu, LuError};
 pub use mass::{MassError, MassProperties};
 pub use rotation::{MovingRotation, RotationLaw, r1, r2, r3, rotation_about, tilde, untilde};

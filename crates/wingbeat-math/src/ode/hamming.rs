@@ -1,0 +1,176 @@
+//! Hamming's modified predictor-corrector [Hamming 1959, J. ACM 6:37; Carnahan, Luther & Wilkes
+//! 1969, sec. 6.12], order four.
+//!
+//! ```text
+//! predict  p     = y[n-3] + 4h/3 (2 f[n] - f[n-1] + 2 f[n-2])
+//! modify   m     = p - 112/121 (p - c)[n]
+//! correct  c     = (9 y[n] - y[n-2] + 3h (f(m) + 2 f[n] - f[n-1])) / 8      (repeated)
+//! finish   y     = c + 9/121 (p - c)
+//! ```
+//!
+//! With one, two, three corrector passes the limits of stability on the real axis are
+//! |lambda h| = 0.88, 0.72, 1.46, on the imaginary axis 0.28, 0.80, 1.08.
+
+use super::{StepError, scaled_difference};
+
+/// When the corrector is done.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Convergence {
+    /// Largest scaled change of the last pass [1]; 0 always makes `max_passes` passes and never
+    /// fails.
+    pub tolerance: f64,
+    /// Most passes.
+    pub max_passes: usize,
+    /// Relaxation factor of a pass in (0, 1].
+    pub relaxation: f64,
+}
+
+/// What happened in a step.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct StepReport {
+    /// Corrector passes made.
+    pub passes: usize,
+    /// Scaled change of the last pass.
+    pub residual: f64,
+}
+
+/// The past that a multistep method needs: plain data, enough to go on bit for bit.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Multistep {
+    /// y[n-3], y[n-2], y[n-1], y[n].
+    pub y: [Vec<f64>; 4],
+    /// f[n-3], f[n-2], f[n-1], f[n].
+    pub f: [Vec<f64>; 4],
+    /// p - c of the last step; zero after the start.
+    pub predicted_minus_corrected: Vec<f64>,
+}
+
+impl Multistep {
+    /// The past made of four equidistant starting values and their rates.
+    pub fn from_start(y: [Vec<f64>; 4], f: [Vec<f64>; 4]) -> Self {
+        let predicted_minus_corrected = vec![0.0; y[0].len()];
+        Self {
+            y,
+            f,
+            predicted_minus_corrected,
+        }
+    }
+
+    /// The newest state.
+    pub fn newest(&self) -> &[f64] {
+        &self.y[3]
+    }
+}
+
+/// The method: step, convergence and scratch.
+#[derive(Clone, Debug)]
+pub struct Hamming {
+    /// Step h [s].
+    pub step: f64,
+    /// When the corrector is done.
+    pub convergence: Convergence,
+    /// Natural sizes of the components of y.
+    pub scales: Vec<f64>,
+    predicted: Vec<f64>,
+    trial: Vec<f64>,
+    corrected: Vec<f64>,
+    rates: Vec<f64>,
+}
+
+impl Hamming {
+    /// The method for states of `scales.len()` components.
+    pub fn new(step: f64, convergence: Convergence, scales: Vec<f64>) -> Self {
+        let zero = vec![0.0; scales.len()];
+        Self {
+            step,
+            convergence,
+            scales,
+            predicted: zero.clone(),
+            trial: zero.clone(),
+            corrected: zero.clone(),
+            rates: zero,
+        }
+    }
+
+    /// One step: `past` moves on by h. `rates(y, dy)` is called at the new time only; its last
+    /// call is made with the accepted state.
+    ///
+    /// # Errors
+    /// The right-hand side fails; the corrector does not converge. `past` is then unchanged.
+    pub fn advance<E>(
+        &mut self,
+        past: &mut Multistep,
+        mut rates: impl FnMut(&[f64], &mut [f64]) -> Result<(), E>,
+    ) -> Result<StepReport, StepError<E>> {
+        self.predict(past);
+        let report = self.correct(past, &mut rates)?;
+        self.finish();
+        rates(&self.trial, &mut self.rates).map_err(StepError::Rates)?;
+        self.shift(past);
+        Ok(report)
+    }
+
+    /// Predictor and modifier: `predicted` and the first `trial`.
+    fn predict(&mut self, past: &Multistep) {
+        let [y0, _, _, _] = &past.y;
+        let [_, f1, f2, f3] = &past.f;
+        for i in 0..self.trial.len() {
+            self.predicted[i] = y0[i] + 4.0 * self.step / 3.0 * (2.0 * f3[i] - f2[i] + 2.0 * f1[i]);
+            self.trial[i] = self.predicted[i] - 112.0 / 121.0 * past.predicted_minus_corrected[i];
+        }
+    }
+
+    /// Corrector passes until convergence; leaves the result in `corrected`.
+    fn correct<E>(
+        &mut self,
+        past: &Multistep,
+        rates: &mut impl FnMut(&[f64], &mut [f64]) -> Result<(), E>,
+    ) -> Result<StepReport, StepError<E>> {
+        let Convergence {
+            tolerance,
+            max_passes,
+            relaxation,
+        } = self.convergence;
+        let [_, y1, _, y3] = &past.y;
+        let [_, _, f2, f3] = &past.f;
+        let mut report = StepReport::default();
+        while report.passes < max_passes {
+            rates(&self.trial, &mut self.rates).map_err(StepError::Rates)?;
+            for i in 0..self.trial.len() {
+                let sum = self.rates[i] + 2.0 * f3[i] - f2[i];
+                self.corrected[i] = (9.0 * y3[i] - y1[i] + 3.0 * self.step * sum) / 8.0;
+            }
+            report.passes += 1;
+            report.residual = scaled_difference(&self.corrected, &self.trial, &self.scales);
+            if report.residual <= tolerance {
+                return Ok(report);
+            }
+            for (x, c) in self.trial.iter_mut().zip(&self.corrected) {
+                *x += relaxation * (c - *x);
+            }
+        }
+        if tolerance > 0.0 || !report.residual.is_finite() {
+            return Err(StepError::NotConverged(report));
+        }
+        Ok(report)
+    }
+
+    /// The final modifier: the accepted state in `trial`.
+    fn finish(&mut self) {
+        for i in 0..self.trial.len() {
+            let gap = self.predicted[i] - self.corrected[i];
+            self.trial[i] = self.corrected[i] + 9.0 / 121.0 * gap;
+        }
+    }
+
+    /// Makes the accepted state the newest of `past`.
+    fn shift(&mut self, past: &mut Multistep) {
+        past.y.rotate_left(1);
+        past.f.rotate_left(1);
+        past.y[3].copy_from_slice(&self.trial);
+        past.f[3].copy_from_slice(&self.rates);
+        for i in 0..self.trial.len() {
+            past.predicted_minus_corrected[i] = self.predicted[i] - self.corrected[i];
+        }
+    }
+}
