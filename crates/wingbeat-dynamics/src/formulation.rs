@@ -1,0 +1,75 @@
+//! The seam between a mechanical system and a time integrator.
+
+use crate::{BodyMotion, DynamicsError, Solution, System, Workspace, Wrench};
+
+/// A way to write the motion of a [`System`] as `y' = f(t, y)`.
+///
+/// `loads` holds one [`Wrench`] per body, gravity not included. All buffers are in the
+/// [`Workspace`]; no method but `initial` allocates, errors apart.
+pub trait Formulation: Send + Sync {
+    /// The system.
+    fn system(&self) -> &System;
+
+    /// Length of the state vector y.
+    fn dim(&self) -> usize;
+
+    /// Room for intermediate results.
+    fn workspace(&self) -> Workspace {
+        Workspace::new(self.system())
+    }
+
+    /// The state at time `t` [s] in which the root moves like `root` and every other body as its
+    /// hinge prescribes.
+    ///
+    /// # Errors
+    /// The root's rotation or a law's is not a rotation; no consistent state exists.
+    fn initial(&self, t: f64, root: &BodyMotion) -> Result<Vec<f64>, DynamicsError>;
+
+    /// Motion of every body in the state `y` at time `t` [s].
+    ///
+    /// # Errors
+    /// The state is not finite or singular.
+    fn motions(
+        &self,
+        t: f64,
+        y: &[f64],
+        ws: &mut Workspace,
+        out: &mut [BodyMotion],
+    ) -> Result<(), DynamicsError>;
+
+    /// Time derivative of the state.
+    ///
+    /// # Errors
+    /// The state is not finite or singular.
+    fn rates(
+        &self,
+        t: f64,
+        y: &[f64],
+        loads: &[Wrench],
+        ws: &mut Workspace,
+        dy: &mut [f64],
+    ) -> Result<(), DynamicsError>;
+
+    /// Accelerations, hinge reactions, multipliers, energies and momenta in the state `y`.
+    ///
+    /// # Errors
+    /// The state is not finite or singular.
+    fn solve(
+        &self,
+        t: f64,
+        y: &[f64],
+        loads: &[Wrench],
+        ws: &mut Workspace,
+        out: &mut Solution,
+    ) -> Result<(), DynamicsError>;
+
+    /// Natural size of every component of y, for norms of differences.
+    fn scales(&self) -> Vec<f64>;
+
+    /// Moves the state back onto what it must fulfil (unit quaternion; constraints where the
+    /// formulation was asked to project). For one-step integrators, between steps.
+    ///
+    /// # Errors
+    /// The projection fails.
+    fn normalise(&self, t: f64, y: &mut [f64], ws: &mut Workspace) -> Result<(), DynamicsError>;
+}

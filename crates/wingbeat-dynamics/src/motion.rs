@@ -1,0 +1,84 @@
+//! Motion of bodies and loads on them: what crosses the border to other crates.
+
+use wingbeat_math::{DMat3, DVec3};
+
+/// Where a body is and how it moves.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BodyMotion {
+    /// Position of the frame origin [m], N components.
+    pub p: DVec3,
+    /// Rotation R_NB: body components to N components.
+    pub r: DMat3,
+    /// Velocity of the frame origin [m/s], N components.
+    pub v: DVec3,
+    /// Angular velocity relative to N [rad/s], body components.
+    pub w: DVec3,
+}
+
+impl BodyMotion {
+    /// At rest at the origin, unrotated.
+    pub const REST: Self = Self {
+        p: DVec3::ZERO,
+        r: DMat3::IDENTITY,
+        v: DVec3::ZERO,
+        w: DVec3::ZERO,
+    };
+
+    /// Position in N [m] of the point `r` [m] of the body frame (seed eq. 3).
+    ///
+    /// ```
+    /// use wingbeat_dynamics::BodyMotion;
+    /// use wingbeat_math::{DVec3, r3};
+    /// let m = BodyMotion { p: DVec3::X, r: r3(std::f64::consts::FRAC_PI_2), ..BodyMotion::REST };
+    /// assert!((m.point(DVec3::X) - DVec3::new(1.0, 1.0, 0.0)).length() < 1e-15);
+    /// ```
+    pub fn point(&self, r: DVec3) -> DVec3 {
+        self.p + self.r * r
+    }
+
+    /// Velocity in N [m/s] of the point `r` [m] fixed to the body (seed eq. 14).
+    pub fn point_velocity(&self, r: DVec3) -> DVec3 {
+        self.v + self.r * self.w.cross(r)
+    }
+}
+
+/// Accelerations of a body.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct BodyAcceleration {
+    /// Acceleration of the frame origin [m/s2], N components.
+    pub linear: DVec3,
+    /// Angular acceleration [rad/s2], body components (time derivative of the components of w,
+    /// which equals the derivative of the vector).
+    pub angular: DVec3,
+}
+
+/// External load on a body, without gravity.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Wrench {
+    /// Force [N], N components.
+    pub force: DVec3,
+    /// Moment about the body's frame origin [N m], N components.
+    pub moment: DVec3,
+}
+
+impl Wrench {
+    /// A force [N] at a point that lies `arm` [m] from the body's frame origin (both N components).
+    pub fn at(force: DVec3, arm: DVec3) -> Self {
+        Self {
+            force,
+            moment: arm.cross(force),
+        }
+    }
+
+    /// Power on a body that moves like `motion` [W].
+    pub fn power(&self, motion: &BodyMotion) -> f64 {
+        self.force.dot(motion.v) + self.moment.dot(motion.r * motion.w)
+    }
+}
+
+impl std::ops::AddAssign for Wrench {
+    fn add_assign(&mut self, o: Self) {
+        self.force += o.force;
+        self.moment += o.moment;
+    }
+}
