@@ -17,11 +17,14 @@
 pub mod euler;
 pub mod lu;
 pub mod mass;
+pub mod newton;
 pub mod ode;
 pub mod rotation;
+mod small_lu;
 
 pub use euler::EulerSequence;
 pub use glam::{DMat3, DQuat, DVec3};
 pub use lu::{DenseLu, LuError};
 pub use mass::{MassError, MassProperties};
 pub use rotation::{MovingRotation, RotationLaw, r1, r2, r3, rotation_about, tilde, untilde};
+pub use small_lu::{SingularMatrix, solve_small};
