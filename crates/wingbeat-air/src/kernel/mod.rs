@@ -22,11 +22,15 @@
 //!
 //! What it does not know: panels, wings, wakes, time.
 
+mod direct;
 mod instruction_set;
+mod lanes;
 mod model;
+mod packed;
 pub mod reference;
 mod sources;
 
+pub use direct::{DirectSum, add_velocity};
 pub use instruction_set::InstructionSet;
 pub use model::CoreModel;
 pub use sources::{Network, Points, Segments};

@@ -1,0 +1,107 @@
+//! The direct sum: every segment at every target, in blocks over threads.
+
+use super::instruction_set::InstructionSet;
+use super::lanes::{BLOCK, Block, add_patches};
+use super::model::CoreModel;
+use super::packed::Packed;
+use super::sources::{Network, Points, Segments};
+use fearless_simd::Level;
+use rayon::prelude::*;
+
+/// Pairs of a task below which threads cost more than they give (some 30 microseconds of work).
+const TASK_PAIRS: usize = 10_000;
+
+/// Sources made ready for summing. Loading is linear in their number and allocates only while they
+/// grow; the sum allocates nothing.
+///
+/// ```
+/// use wingbeat_air::kernel::{CoreModel, DirectSum, Points, Segments};
+/// use wingbeat_math::DVec3;
+/// let model = CoreModel::Scully { radius: 0.0 };
+/// let mut segments = Segments::default();
+/// segments.push(-DVec3::X, DVec3::X, 1.0, model.core(2.0, 0.0));
+/// let mut sum = DirectSum::new(model);
+/// sum.load_segments(&segments);
+/// let mut v = Points::zeros(1);
+/// sum.add_velocity(&Points::from_iter([DVec3::Z]), &mut v);
+/// assert!((v.y[0] + 2f64.sqrt() / (4.0 * std::f64::consts::PI)).abs() < 1e-16);
+/// ```
+#[derive(Clone, Debug)]
+pub struct DirectSum {
+    model: CoreModel,
+    level: Level,
+    packed: Packed,
+}
+
+impl DirectSum {
+    /// No sources yet; the best instructions of this processor.
+    pub fn new(model: CoreModel) -> Self {
+        Self::with_instructions(model, InstructionSet::Best).expect("the best set is always there")
+    }
+
+    /// As [`DirectSum::new`] with these instructions; None where the processor lacks them.
+    pub fn with_instructions(model: CoreModel, set: InstructionSet) -> Option<Self> {
+        Some(Self {
+            model,
+            level: set.level()?,
+            packed: Packed::default(),
+        })
+    }
+
+    /// Replaces the sources by free segments.
+    pub fn load_segments(&mut self, segments: &Segments) {
+        self.packed.load_segments(self.model, segments);
+    }
+
+    /// Replaces the sources by a network, whose nodes serve all edges that meet there.
+    pub fn load_network(&mut self, network: &Network) {
+        self.packed.load_network(self.model, network);
+    }
+
+    /// Adds to `out` \[m/s\] the velocity of all sources at the `targets` \[m\]; same bits for any
+    /// number of threads of the current rayon pool.
+    pub fn add_velocity(&self, targets: &Points, out: &mut Points) {
+        let n = targets.len();
+        assert_eq!(n, out.len(), "as many velocities as targets");
+        let tasks = TASK_PAIRS.div_ceil((BLOCK * self.packed.edges.len()).max(1));
+        let Points { x, y, z } = out;
+        x.par_chunks_mut(BLOCK)
+            .zip(y.par_chunks_mut(BLOCK))
+            .zip(z.par_chunks_mut(BLOCK))
+            .enumerate()
+            .with_min_len(tasks)
+            .for_each(|(b, ((x, y), z))| self.add_block(targets, b * BLOCK, [x, y, z]));
+    }
+
+    /// The targets from `first` on, as many as `out` is long.
+    fn add_block(&self, targets: &Points, first: usize, out: [&mut [f64]; 3]) {
+        let count = out[0].len();
+        let mut block = Block::ZERO;
+        let own = first..first + count;
+        block.x[..count].copy_from_slice(&targets.x[own.clone()]);
+        block.y[..count].copy_from_slice(&targets.y[own.clone()]);
+        block.z[..count].copy_from_slice(&targets.z[own]);
+        let mut sum = Block::ZERO;
+        let all = 0..self.packed.patches.len();
+        add_patches(
+            self.level,
+            self.model,
+            &self.packed,
+            &[all],
+            &block,
+            count,
+            &mut sum,
+        );
+        for (out, sum) in out.into_iter().zip([&sum.x, &sum.y, &sum.z]) {
+            out.iter_mut().zip(sum).for_each(|(o, s)| *o += s);
+        }
+    }
+}
+
+/// Adds to `out` \[m/s\] the velocity of `segments` at `targets`: [`DirectSum`] in one call, for
+/// where its memory need not be kept.
+pub fn add_velocity(model: CoreModel, segments: &Segments, targets: &Points, out: &mut Points) {
+    let mut sum = DirectSum::new(model);
+    sum.load_segments(segments);
+    sum.add_velocity(targets, out);
+}

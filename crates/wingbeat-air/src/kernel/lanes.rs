@@ -1,0 +1,238 @@
+//! The vector loop: lanes are targets, sources come in fixed order, nothing is fused.
+//!
+//! Every operation is an IEEE sum, product, quotient or square root of one lane, in the order of
+//! [`super::reference`], so that a target's bits depend neither on the vector width nor on its lane.
+
+use super::model::CoreModel;
+use super::packed::{PATCH_NODES, Packed, Patch};
+use super::reference::EXP_TAYLOR;
+use fearless_simd::{Level, dispatch, prelude::*};
+use std::ops::Range;
+
+/// Targets worked on together; a multiple of every vector width.
+pub(crate) const BLOCK: usize = 64;
+
+/// Components of up to [`BLOCK`] vectors.
+#[derive(Clone, Debug)]
+pub(crate) struct Block {
+    pub x: [f64; BLOCK],
+    pub y: [f64; BLOCK],
+    pub z: [f64; BLOCK],
+}
+
+impl Block {
+    /// All zero.
+    pub const ZERO: Self = Self {
+        x: [0.0; BLOCK],
+        y: [0.0; BLOCK],
+        z: [0.0; BLOCK],
+    };
+}
+
+/// Adds to `sum` the velocities [m/s] of the patches in `ranges` at the first `count` of `targets`
+/// (lanes beyond may hold anything finite).
+pub(crate) fn add_patches(
+    level: Level,
+    model: CoreModel,
+    packed: &Packed,
+    ranges: &[Range<usize>],
+    targets: &Block,
+    count: usize,
+    sum: &mut Block,
+) {
+    let job = Job {
+        packed,
+        ranges,
+        targets,
+        count,
+    };
+    match model {
+        CoreModel::CutOff { .. } => dispatch!(level, simd => job.run::<_, CutOff>(simd, sum)),
+        CoreModel::Vatistas { .. } => dispatch!(level, simd => job.run::<_, Vatistas>(simd, sum)),
+        CoreModel::Scully { .. } => dispatch!(level, simd => job.run::<_, Scully>(simd, sum)),
+        CoreModel::LambOseen { .. } => dispatch!(level, simd => job.run::<_, LambOseen>(simd, sum)),
+    }
+}
+
+/// What to sum, and where.
+struct Job<'a> {
+    packed: &'a Packed,
+    ranges: &'a [Range<usize>],
+    targets: &'a Block,
+    count: usize,
+}
+
+impl Job<'_> {
+    #[inline(always)]
+    fn run<S: Simd, C: Core>(&self, simd: S, sum: &mut Block) {
+        let mut seen = [[S::f64s::splat(simd, 0.0); 4]; PATCH_NODES];
+        for patch in self
+            .ranges
+            .iter()
+            .flat_map(|r| &self.packed.patches[r.clone()])
+        {
+            for lane in (0..self.count).step_by(S::f64s::LEN) {
+                self.look_at_nodes(simd, patch, lane, &mut seen);
+                self.add_edges::<S, C>(simd, patch, lane, &seen, sum);
+            }
+        }
+    }
+
+    /// r = p - node and abs(r) for every node of the patch.
+    #[inline(always)]
+    fn look_at_nodes<S: Simd>(
+        &self,
+        simd: S,
+        patch: &Patch,
+        lane: usize,
+        seen: &mut [[S::f64s; 4]; PATCH_NODES],
+    ) {
+        let p = load(simd, self.targets, lane);
+        for (r, node) in seen.iter_mut().zip(&self.packed.nodes[patch.nodes.clone()]) {
+            let (x, y, z) = (p[0] - node.x, p[1] - node.y, p[2] - node.z);
+            *r = [x, y, z, (x * x + y * y + z * z).sqrt()];
+        }
+    }
+
+    /// Sums the edges of the patch.
+    #[inline(always)]
+    fn add_edges<S: Simd, C: Core>(
+        &self,
+        simd: S,
+        patch: &Patch,
+        lane: usize,
+        seen: &[[S::f64s; 4]; PATCH_NODES],
+        sum: &mut Block,
+    ) {
+        let [mut vx, mut vy, mut vz] = load(simd, sum, lane);
+        for edge in &self.packed.edges[patch.edges.clone()] {
+            let [x1, y1, z1, n1] = seen[edge.from as usize % PATCH_NODES];
+            let [x2, y2, z2, n2] = seen[edge.to as usize % PATCH_NODES];
+            let c = [y1 * z2 - z1 * y2, z1 * x2 - x1 * z2, x1 * y2 - y1 * x2];
+            let d = x1 * x2 + y1 * y2 + z1 * z2;
+            let (num, den) = C::fraction(simd, n1 + n2, n1 * n2, d, c, edge.term);
+            let zero = S::f64s::splat(simd, 0.0);
+            let k = den.simd_gt(zero).select(num * edge.strength / den, zero);
+            vx += c[0] * k;
+            vy += c[1] * k;
+            vz += c[2] * k;
+        }
+        vx.store_slice(&mut sum.x[lane..lane + S::f64s::LEN]);
+        vy.store_slice(&mut sum.y[lane..lane + S::f64s::LEN]);
+        vz.store_slice(&mut sum.z[lane..lane + S::f64s::LEN]);
+    }
+}
+
+/// The vectors in the lanes from `lane` on.
+#[inline(always)]
+fn load<S: Simd>(simd: S, block: &Block, lane: usize) -> [S::f64s; 3] {
+    [&block.x, &block.y, &block.z].map(|c| S::f64s::from_slice(simd, &c[lane..lane + S::f64s::LEN]))
+}
+
+/// Numerator and denominator of K without the circulation, as in [`super::reference`].
+trait Core {
+    fn fraction<S: Simd>(
+        simd: S,
+        sum: S::f64s,
+        nn: S::f64s,
+        d: S::f64s,
+        c: [S::f64s; 3],
+        term: f64,
+    ) -> (S::f64s, S::f64s);
+}
+
+struct CutOff;
+struct Scully;
+struct Vatistas;
+struct LambOseen;
+
+impl Core for CutOff {
+    #[inline(always)]
+    fn fraction<S: Simd>(
+        _: S,
+        sum: S::f64s,
+        nn: S::f64s,
+        d: S::f64s,
+        _: [S::f64s; 3],
+        term: f64,
+    ) -> (S::f64s, S::f64s) {
+        (sum, nn * (nn + d) + term)
+    }
+}
+
+impl Core for Scully {
+    #[inline(always)]
+    fn fraction<S: Simd>(
+        simd: S,
+        sum: S::f64s,
+        nn: S::f64s,
+        d: S::f64s,
+        c: [S::f64s; 3],
+        term: f64,
+    ) -> (S::f64s, S::f64s) {
+        let (c2, s, num) = bare(simd, sum, nn, d, c);
+        (num, nn * s * (c2 + term))
+    }
+}
+
+impl Core for Vatistas {
+    #[inline(always)]
+    fn fraction<S: Simd>(
+        simd: S,
+        sum: S::f64s,
+        nn: S::f64s,
+        d: S::f64s,
+        c: [S::f64s; 3],
+        term: f64,
+    ) -> (S::f64s, S::f64s) {
+        let (c2, s, num) = bare(simd, sum, nn, d, c);
+        (num, nn * s * (c2 * c2 + term * term).sqrt())
+    }
+}
+
+impl Core for LambOseen {
+    #[inline(always)]
+    fn fraction<S: Simd>(
+        simd: S,
+        sum: S::f64s,
+        nn: S::f64s,
+        d: S::f64s,
+        c: [S::f64s; 3],
+        term: f64,
+    ) -> (S::f64s, S::f64s) {
+        let (c2, s, num) = bare(simd, sum, nn, d, c);
+        (num * one_minus_exp(simd, c2 * term), nn * s * c2)
+    }
+}
+
+/// c^2, s = n1 n2 + abs(d), and the numerator of the bare filament over n1 n2 s c^2.
+#[inline(always)]
+fn bare<S: Simd>(
+    simd: S,
+    sum: S::f64s,
+    nn: S::f64s,
+    d: S::f64s,
+    c: [S::f64s; 3],
+) -> (S::f64s, S::f64s, S::f64s) {
+    let c2 = c[0] * c[0] + c[1] * c[1] + c[2] * c[2];
+    let s = nn + d.abs();
+    let ahead = d.simd_gt(S::f64s::splat(simd, 0.0));
+    (c2, s, sum * ahead.select(c2, s * s))
+}
+
+/// [`super::reference::one_minus_exp`].
+#[inline(always)]
+fn one_minus_exp<S: Simd>(simd: S, x: S::f64s) -> S::f64s {
+    let top = S::f64s::splat(simd, 40.0);
+    let y = x.simd_lt(top).select(x, top) * (1.0 / 64.0);
+    let mut u = S::f64s::splat(simd, 0.0);
+    for c in EXP_TAYLOR {
+        u = u * y + c;
+    }
+    u = u * y;
+    let two = S::f64s::splat(simd, 2.0);
+    for _ in 0..6 {
+        u = u * (two - u);
+    }
+    u
+}
