@@ -1,14 +1,47 @@
-//! The flapping animal: geometry, quad meshes, mass properties, wing motion laws.
+//! The flapping animal: geometry, quad meshes, mass properties, wing motion laws (seed sec. 2).
+//!
+//! What is computed here: closed surfaces of revolution for head, thorax and abdomen; flat
+//! wings from a planform; everything in four-node quadrilaterals; mass, first moment and inertia
+//! by integration over those meshes; the prescribed rotation C(t) of each wing with two analytic
+//! time derivatives; published motions and sizes of the fruit fly.
+//!
+//! What this crate does not know: air, forces, equations of motion, files.
+//!
+//! | symbol | name in code | meaning | unit, frame | seed |
+//! |---|---|---|---|---|
+//! | R, L | [`WingReport::length`](check::WingReport), [`Animal::body_length`] | wing and body length | m | sec. 2 |
+//! | m, U, I | [`Animal::body`], [`Wing::mass`] | mass, first and second moment about the frame origin | kg, kg m, kg m2 | eq. 19 |
+//! | r_rai, r_rad | [`Wing::hinge_b`] | hinge | m, body | eq. 4 |
+//! | C | [`WingMotion`] | wing components to body components | 1 | eq. 4 |
+//! | phi, theta, psi | [`WingMotion::angles`](fn@WingMotion::angles) | flap, deviation, feathering, sequence 1-3-2 | rad | sec. 3 |
+//! | eta | [`WingMotion::stroke_plane_pitch`] | stroke plane to body | rad | |
+//! | x | [`WingMotion::phase_at`] | phase | wingbeats | |
+//!
+//! Body axes: b1 forward, b2 right, b3 down. Wing axes: 1 to the leading edge, 2 along the span
+//! of the right wing (against it on the left wing), 3 normal; origin at the hinge.
+//! `docs/ANGLES.md` draws them.
 #![warn(missing_docs)]
 
 pub mod animal;
+pub mod build;
+pub mod check;
 pub mod error;
+pub mod import;
 pub mod integrate;
+pub mod kinematics;
 pub mod mesh;
 pub mod motion;
+pub mod planform;
+pub mod revolution;
+pub mod species;
 
 pub use animal::{Animal, BodyPart, Wing};
+pub use build::{BodyMass, fit_body_length};
+pub use check::WingReport;
 pub use error::ModelError;
+pub use import::Imported;
 pub use integrate::MassInput;
 pub use mesh::{GridMesh, QuadMesh, Side};
 pub use motion::{AngleLaw, AngleLaws, Start, WingMotion};
+pub use planform::{Planform, Spacing, WingShape};
+pub use revolution::{Profile, Revolution};

@@ -1,0 +1,140 @@
+//! Sanity of a whole animal, and a report of the sizes its meshes really have.
+
+use crate::animal::{Animal, Wing};
+use crate::error::{ModelError, require};
+use crate::integrate;
+use crate::mesh::{QuadMesh, Side};
+use wingbeat_math::{DVec3, MassProperties};
+
+/// Sizes of one wing, measured on its mesh.
+#[derive(Clone, Debug, PartialEq)]
+pub struct WingReport {
+    /// Name of the wing.
+    pub name: String,
+    /// Wing length R: distance of the tip from the hinge along the span \[m\].
+    pub length: f64,
+    /// Area S \[m2\].
+    pub area: f64,
+    /// Mean chord S/R \[m\].
+    pub mean_chord: f64,
+    /// Largest chord on a line of nodes \[m\].
+    pub max_chord: f64,
+    /// Radius of the first moment of area about the hinge over R \[1\].
+    pub r1_hat: f64,
+    /// Radius of the second moment of area about the hinge over R \[1\].
+    pub r2_hat: f64,
+    /// Mass \[kg\].
+    pub mass: f64,
+    /// Number of panels.
+    pub panels: usize,
+}
+
+impl Wing {
+    /// Sizes measured on the mesh.
+    pub fn report(&self) -> WingReport {
+        let quads = self.mesh.to_quads(Side::Right);
+        let moments = integrate::shell(&quads, |_| 1.0);
+        let area = moments.mass;
+        let length = (quads.nodes.iter()).fold(0.0_f64, |a, x| a.max(x.y.abs()));
+        let chord = |j: usize| {
+            let (lead, trail) = (self.mesh.node(0, j), self.mesh.node(self.mesh.rows, j));
+            (self.mesh.nodes[lead] - self.mesh.nodes[trail]).length()
+        };
+        let max_chord = (0..=self.mesh.cols).map(chord).fold(0.0, f64::max);
+        let j = moments.inertia;
+        let second = 0.5 * (j.x_axis.x + j.z_axis.z - j.y_axis.y); // int y^2 dA
+        WingReport {
+            name: self.name.clone(),
+            length,
+            area,
+            mean_chord: area / length,
+            max_chord,
+            r1_hat: moments.first_moment.y.abs() / (area * length),
+            r2_hat: (second / area).sqrt() / length,
+            mass: self.mass.mass,
+            panels: quads.quads.len(),
+        }
+    }
+}
+
+impl Animal {
+    /// Sizes of all wings, measured on their meshes.
+    pub fn wing_reports(&self) -> Vec<WingReport> {
+        self.wings.iter().map(Wing::report).collect()
+    }
+
+    /// Checks meshes, masses, hinges and motions.
+    ///
+    /// # Errors
+    /// The first thing that makes the animal unfit for simulation, see [`ModelError`].
+    pub fn check(&self) -> Result<(), ModelError> {
+        check_mass("body", &self.body)?;
+        let m = self.mass();
+        require("mass of the animal", m, m > 0.0, "> 0 kg")?;
+        for part in &self.parts {
+            part.mesh.check_closed(&part.name)?;
+            check_mass(&part.name, &part.mass)?;
+        }
+        for wing in &self.wings {
+            wing.mesh.check(&wing.name)?;
+            check_mass(&wing.name, &wing.mass)?;
+            wing.motion.check(&wing.name)?;
+            self.check_hinge(wing)?;
+        }
+        Ok(())
+    }
+
+    /// A hinge farther from every body surface than half the body length is a mistake of unit
+    /// or sign.
+    fn check_hinge(&self, wing: &Wing) -> Result<(), ModelError> {
+        for k in 0..3 {
+            crate::error::finite(&format!("{}.hinge[{k}]", wing.name), wing.hinge_b[k])?;
+        }
+        let to_part = |p: &crate::BodyPart| distance(&p.mesh, wing.hinge_b);
+        let nearest = self.parts.iter().map(to_part).fold(f64::INFINITY, f64::min);
+        let limit = 0.5 * self.body_length();
+        if self.parts.is_empty() || nearest <= limit {
+            return Ok(());
+        }
+        Err(ModelError::FarHinge {
+            wing: wing.name.clone(),
+            distance: nearest,
+            limit,
+        })
+    }
+}
+
+fn check_mass(of: &str, mass: &MassProperties) -> Result<(), ModelError> {
+    mass.validate().map_err(|source| ModelError::Mass {
+        of: of.to_owned(),
+        source,
+    })
+}
+
+/// Distance from a point to a surface, panels taken as two triangles \[m\].
+pub fn distance(mesh: &QuadMesh, p: DVec3) -> f64 {
+    let to_panel = |k: usize| {
+        let [a, b, c, d] = mesh.corners(k);
+        triangle_distance(p, [a, b, c]).min(triangle_distance(p, [a, c, d]))
+    };
+    (0..mesh.quads.len())
+        .map(to_panel)
+        .fold(f64::INFINITY, f64::min)
+}
+
+/// Distance to the plane where the foot of the perpendicular is inside, else to the edges.
+fn triangle_distance(p: DVec3, t: [DVec3; 3]) -> f64 {
+    let n = (t[1] - t[0]).cross(t[2] - t[0]);
+    let left_of = |k: usize| n.dot((t[(k + 1) % 3] - t[k]).cross(p - t[k])) >= 0.0;
+    if n.length_squared() > 0.0 && (0..3).all(left_of) {
+        return (p - t[0]).dot(n).abs() / n.length();
+    }
+    let to_edge = |k: usize| segment_distance(p, t[k], t[(k + 1) % 3]);
+    (0..3).map(to_edge).fold(f64::INFINITY, f64::min)
+}
+
+fn segment_distance(p: DVec3, a: DVec3, b: DVec3) -> f64 {
+    let ab = b - a;
+    let s = ((p - a).dot(ab) / ab.length_squared().max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
+    (p - a - ab * s).length()
+}

@@ -1,0 +1,282 @@
+//! Wing planforms: leading and trailing edge over the span, and the grid between them.
+//!
+//! r is the distance from the hinge along the span, x runs towards the leading edge; the hinge
+//! (feathering) axis is x = 0.
+
+pub mod beta;
+
+pub use beta::{Beta, BetaChord, ChordSize};
+
+use crate::ModelError;
+use crate::error::{finite, positive, require, require_count};
+use crate::integrate::interpolate;
+use crate::mesh::{GridMesh, Side};
+use std::f64::consts::PI;
+use wingbeat_math::DVec3;
+
+/// The outline of a wing.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Planform {
+    /// Constant chord.
+    Rectangle {
+        /// Chord \[m\].
+        chord: f64,
+        /// Span of the surface, root to tip \[m\].
+        span: f64,
+        /// Distance from the hinge to the root \[m\].
+        root_offset: f64,
+        /// Part of the chord ahead of the hinge axis, 0 (leading edge on the axis) to 1.
+        axis_fraction: f64,
+    },
+    /// Ellington's beta distribution of the chord.
+    Beta(Beta),
+    /// Edges as polylines of points (r, x) \[m\] with r increasing, both from root to tip.
+    Outline {
+        /// Leading edge.
+        leading: Vec<(f64, f64)>,
+        /// Trailing edge.
+        trailing: Vec<(f64, f64)>,
+        /// Where the outline is narrower than this part of its largest chord (pointed tip or
+        /// root), the edges are moved apart to it, so that no panel degenerates; in (0, 1).
+        least_chord: f64,
+    },
+}
+
+impl Planform {
+    /// A closed polygon of points (r, x) \[m\] split at its innermost and outermost points; the
+    /// side with larger x is the leading edge.
+    ///
+    /// # Errors
+    /// Fewer than four points, or edges on which r does not increase from root to tip.
+    pub fn from_polygon(points: &[(f64, f64)], least_chord: f64) -> Result<Self, ModelError> {
+        let n = points.len();
+        require_count("planform.points", n, n >= 4, ">= 4")?;
+        let r = |k: &usize| points[*k].0;
+        let root = (0..n).min_by(|a, b| r(a).total_cmp(&r(b))).unwrap_or(0);
+        let tip = (0..n).max_by(|a, b| r(a).total_cmp(&r(b))).unwrap_or(0);
+        let walk = |from: usize, to: usize| -> Vec<(f64, f64)> {
+            let count = (to + n - from) % n;
+            (0..=count).map(|k| points[(from + k) % n]).collect()
+        };
+        let (one, mut other) = (walk(root, tip), walk(tip, root));
+        other.reverse();
+        let [a, b] = [ends_trimmed(one), ends_trimmed(other)];
+        let mean = |e: &[(f64, f64)]| e.iter().map(|p| p.1).sum::<f64>() / e.len() as f64;
+        let (leading, trailing) = if mean(&a) > mean(&b) { (a, b) } else { (b, a) };
+        Ok(Self::Outline {
+            leading,
+            trailing,
+            least_chord,
+        })
+    }
+
+    /// The curves of both edges.
+    ///
+    /// # Errors
+    /// A size that is not allowed, or a beta distribution that cannot have the wanted r2_hat.
+    pub fn edges(&self) -> Result<Edges, ModelError> {
+        match self {
+            &Planform::Rectangle {
+                chord,
+                span,
+                root_offset,
+                axis_fraction,
+            } => {
+                positive("planform.chord", chord)?;
+                positive("planform.span", span)?;
+                not_negative("planform.root_offset", root_offset)?;
+                fraction("planform.axis_fraction", axis_fraction)?;
+                let lead = axis_fraction * chord;
+                Ok(Edges {
+                    root: root_offset,
+                    tip: root_offset + span,
+                    curve: Curve::Straight(lead, lead - chord),
+                })
+            }
+            Planform::Beta(beta) => beta.edges(),
+            Planform::Outline {
+                leading,
+                trailing,
+                least_chord,
+            } => outline_edges(leading, trailing, *least_chord),
+        }
+    }
+}
+
+/// Leading and trailing edge of a planform as functions of r.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Edges {
+    /// Distance from the hinge to the root \[m\].
+    pub root: f64,
+    /// Distance from the hinge to the tip: the wing length R \[m\].
+    pub tip: f64,
+    pub(crate) curve: Curve,
+}
+
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum Curve {
+    Straight(f64, f64),
+    Beta(BetaChord, f64),
+    Points(Vec<(f64, f64)>, Vec<(f64, f64)>, f64),
+}
+
+impl Edges {
+    /// Leading and trailing edge x at the distance `r` from the hinge \[m\].
+    pub fn at(&self, r: f64) -> [f64; 2] {
+        match &self.curve {
+            &Curve::Straight(lead, trail) => [lead, trail],
+            Curve::Beta(chord, ahead) => {
+                let c = chord.at((r - self.root) / (self.tip - self.root));
+                [ahead * c, (ahead - 1.0) * c]
+            }
+            Curve::Points(leading, trailing, least) => {
+                let [a, b] = [interpolate(leading, r), interpolate(trailing, r)];
+                let widen = 0.5 * (least - (a - b)).max(0.0);
+                [a + widen, b - widen]
+            }
+        }
+    }
+}
+
+/// Spacing of grid lines between 0 and 1.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Spacing {
+    /// Equal.
+    Uniform,
+    /// `(1 - cos(pi k / n)) / 2`: dense at both ends.
+    Cosine,
+}
+
+impl Spacing {
+    /// Line `k` of `n`.
+    pub fn at(self, k: usize, n: usize) -> f64 {
+        match self {
+            Spacing::Uniform => k as f64 / n as f64,
+            Spacing::Cosine if k == n => 1.0,
+            Spacing::Cosine => 0.5 * (1.0 - (PI * k as f64 / n as f64).cos()),
+        }
+    }
+}
+
+/// A flat wing: planform and mesh density.
+#[derive(Clone, Debug, PartialEq)]
+pub struct WingShape {
+    /// Outline.
+    pub planform: Planform,
+    /// Panels along the chord.
+    pub rows: usize,
+    /// Panels along the span.
+    pub cols: usize,
+    /// Spacing along the chord.
+    pub chordwise: Spacing,
+    /// Spacing along the span.
+    pub spanwise: Spacing,
+}
+
+impl WingShape {
+    /// With uniform spacing both ways.
+    pub fn uniform(planform: Planform, rows: usize, cols: usize) -> Self {
+        Self {
+            planform,
+            rows,
+            cols,
+            chordwise: Spacing::Uniform,
+            spanwise: Spacing::Uniform,
+        }
+    }
+
+    /// The mesh in the wing frame. The left wing is the mirror image of the right bit for bit.
+    ///
+    /// # Errors
+    /// No panels, or a planform that is not allowed; `name` names the wing.
+    pub fn mesh(&self, name: &str, side: Side) -> Result<GridMesh, ModelError> {
+        let (rows, cols) = (self.rows, self.cols);
+        require_count(&format!("{name}.rows"), rows, rows > 0, ">= 1")?;
+        require_count(&format!("{name}.cols"), cols, cols > 0, ">= 1")?;
+        let edges = self.planform.edges()?;
+        let mut nodes = Vec::with_capacity((rows + 1) * (cols + 1));
+        for i in 0..=rows {
+            let s = self.chordwise.at(i, rows);
+            for j in 0..=cols {
+                let r = edges.root + (edges.tip - edges.root) * self.spanwise.at(j, cols);
+                let [lead, trail] = edges.at(r);
+                let x = lead + (trail - lead) * s;
+                nodes.push(DVec3::new(x, side.sign() * r, 0.0));
+            }
+        }
+        let mesh = GridMesh { rows, cols, nodes };
+        mesh.check(name)?;
+        Ok(mesh)
+    }
+}
+
+pub(crate) fn not_negative(key: &str, value: f64) -> Result<f64, ModelError> {
+    require(key, value, value >= 0.0, "a finite number >= 0")
+}
+
+pub(crate) fn fraction(key: &str, value: f64) -> Result<f64, ModelError> {
+    require(key, value, (0.0..=1.0).contains(&value), "in [0, 1]")
+}
+
+/// Drops points of the root and tip edges (same r as the end point) but the innermost one of
+/// each, so that r increases strictly on a wing cut off square.
+fn ends_trimmed(mut edge: Vec<(f64, f64)>) -> Vec<(f64, f64)> {
+    while edge.len() > 2 && edge[1].0 == edge[0].0 {
+        edge.remove(0);
+    }
+    while edge.len() > 2 && edge[edge.len() - 2].0 == edge[edge.len() - 1].0 {
+        edge.pop();
+    }
+    edge
+}
+
+fn outline_edges(
+    leading: &[(f64, f64)],
+    trailing: &[(f64, f64)],
+    least_chord: f64,
+) -> Result<Edges, ModelError> {
+    check_edge("planform.leading", leading)?;
+    check_edge("planform.trailing", trailing)?;
+    let key = "planform.least_chord";
+    require(
+        key,
+        least_chord,
+        least_chord > 0.0 && least_chord < 1.0,
+        "in (0, 1)",
+    )?;
+    let [root, tip] = [leading[0].0, leading[leading.len() - 1].0];
+    let same = trailing[0].0 == root && trailing[trailing.len() - 1].0 == tip;
+    if !same || root < 0.0 {
+        return Err(ModelError::Planform(format!(
+            "leading edge (r = {root} to {tip} m) and trailing edge (r = {} to {} m) must cover the same part of the span, r >= 0",
+            trailing[0].0,
+            trailing[trailing.len() - 1].0
+        )));
+    }
+    let chord = |r: f64| interpolate(leading, r) - interpolate(trailing, r);
+    let knots = || leading.iter().chain(trailing).map(|p| p.0);
+    if let Some(r) = knots().find(|&r| chord(r) < 0.0) {
+        return Err(ModelError::Planform(format!(
+            "at r = {r} m the leading edge lies behind the trailing edge (x must rise towards the leading edge)"
+        )));
+    }
+    let widest = positive("planform.max_chord", knots().map(chord).fold(0.0, f64::max))?;
+    let curve = Curve::Points(leading.to_vec(), trailing.to_vec(), least_chord * widest);
+    Ok(Edges { root, tip, curve })
+}
+
+fn check_edge(table: &str, points: &[(f64, f64)]) -> Result<(), ModelError> {
+    require_count(table, points.len(), points.len() >= 2, ">= 2 points")?;
+    for (k, &(r, x)) in points.iter().enumerate() {
+        finite(&format!("{table}[{k}].r"), r)?;
+        finite(&format!("{table}[{k}].x"), x)?;
+        if k > 0 && r <= points[k - 1].0 {
+            return Err(ModelError::Table {
+                table: table.to_owned(),
+                row: k + 1,
+                problem: format!("r = {r} m does not increase from root to tip"),
+            });
+        }
+    }
+    Ok(())
+}
