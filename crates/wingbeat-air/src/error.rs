@@ -1,0 +1,198 @@
+//! What can go wrong in the air.
+
+use crate::surface::EdgeKind;
+use wingbeat_math::{DVec3, LuError};
+
+/// A lattice that cannot be built, or a step that cannot be made.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum AirError {
+    /// No surface has a panel.
+    #[error("the lattice has no panels; give at least one surface with panels, or fly without air")]
+    Empty,
+    /// A panel names a node its surface does not have.
+    #[error(
+        "surface {surface}, panel {panel}: node {node} does not exist, the surface has {count} nodes"
+    )]
+    NodeOutOfRange {
+        /// Name of the surface.
+        surface: String,
+        /// Panel, counted in its surface.
+        panel: usize,
+        /// The offending node, counted in its surface.
+        node: usize,
+        /// Number of nodes of the surface.
+        count: usize,
+    },
+    /// Panels do not form an oriented surface.
+    #[error(
+        "surface {surface}: {count} panels run the edge {from} -> {to} the same way; neighbouring panels must be oriented alike (corner order all clockwise or all anticlockwise seen from one side) and an edge joins at most two"
+    )]
+    Orientation {
+        /// Name of the surface.
+        surface: String,
+        /// First node of the edge.
+        from: usize,
+        /// Second node of the edge.
+        to: usize,
+        /// Panels that run the edge in this direction.
+        count: usize,
+    },
+    /// A surface said to be closed has a free edge.
+    #[error(
+        "surface {surface} is said to be closed but its edge {from} - {to} belongs to one panel only; join the nodes there or declare it open"
+    )]
+    NotClosed {
+        /// Name of the surface.
+        surface: String,
+        /// One end of the free edge.
+        from: usize,
+        /// The other end.
+        to: usize,
+    },
+    /// A shedding segment is no free edge of its panel.
+    #[error(
+        "surface {surface}: the {kind:?} shedding segment {from} -> {to} is not a free edge of panel {panel}; wakes leave free edges, named with the panel they bound, each once"
+    )]
+    Shedding {
+        /// Name of the surface.
+        surface: String,
+        /// Kind of the segment.
+        kind: EdgeKind,
+        /// First node.
+        from: usize,
+        /// Second node.
+        to: usize,
+        /// Panel, counted in its surface.
+        panel: usize,
+    },
+    /// Consecutive segments of a shedding line do not meet.
+    #[error(
+        "surface {surface}, shedding line {line}: segment {segment} starts at node {start}, the one before ends at {end}; consecutive segments share a node"
+    )]
+    BrokenLine {
+        /// Name of the surface.
+        surface: String,
+        /// Shedding line of the surface.
+        line: usize,
+        /// Segment of the line.
+        segment: usize,
+        /// Where the segment starts.
+        start: usize,
+        /// Where the one before ends.
+        end: usize,
+    },
+    /// A number of the settings makes no sense.
+    #[error("air setting {key} = {value}: {allowed}")]
+    Setting {
+        /// Name of the setting.
+        key: &'static str,
+        /// Its value.
+        value: String,
+        /// What is allowed.
+        allowed: &'static str,
+    },
+    /// The motion has the wrong number of nodes.
+    #[error(
+        "the motion gives {got} node positions and velocities, the lattice has {expected} nodes"
+    )]
+    MotionSize {
+        /// Nodes given.
+        got: usize,
+        /// Nodes of the lattice.
+        expected: usize,
+    },
+    /// A time step is not positive.
+    #[error("the time step {dt} s of air step {step} is not a positive finite number")]
+    TimeStep {
+        /// Step [s].
+        dt: f64,
+        /// Accepted steps so far.
+        step: u64,
+    },
+    /// Calls in the wrong order.
+    #[error("air step {step}: {what}")]
+    Order {
+        /// Accepted steps so far.
+        step: u64,
+        /// What was done and what is to be done first.
+        what: &'static str,
+    },
+    /// A node of a surface is not at a finite place or speed.
+    #[error(
+        "air step {step}: node {node} of surface {surface} is at {position} m with {velocity} m/s; the body's motion has diverged, reduce the time step or check the motion"
+    )]
+    SurfaceNotFinite {
+        /// Accepted steps so far.
+        step: u64,
+        /// Name of the surface.
+        surface: String,
+        /// Node, counted in its surface.
+        node: usize,
+        /// Position [m].
+        position: DVec3,
+        /// Velocity [m/s].
+        velocity: DVec3,
+    },
+    /// A panel has no area, so no normal.
+    #[error(
+        "air step {step}: panel {panel} of surface {surface} has no area (diagonals parallel); give its corners distinct places"
+    )]
+    FlatPanel {
+        /// Accepted steps so far.
+        step: u64,
+        /// Name of the surface.
+        surface: String,
+        /// Panel, counted in its surface.
+        panel: usize,
+    },
+    /// The influence equations have no unique solution.
+    #[error(
+        "air step {step}: the circulations cannot be found ({source}); look for coinciding panels or surfaces, or an open surface declared closed or the other way round"
+    )]
+    Singular {
+        /// Accepted steps so far.
+        step: u64,
+        /// What the solver met.
+        source: LuError,
+    },
+    /// Circulation, pressure or force of a panel is not finite.
+    #[error(
+        "air step {step}: the {what} of panel {panel} of surface {surface} is {value}; reduce the time step or enlarge the wake core radius"
+    )]
+    PanelNotFinite {
+        /// Accepted steps so far.
+        step: u64,
+        /// Name of the surface.
+        surface: String,
+        /// Panel, counted in its surface.
+        panel: usize,
+        /// Which quantity.
+        what: &'static str,
+        /// Its value.
+        value: f64,
+    },
+    /// A wake node moved to nowhere.
+    #[error(
+        "air step {step}: the wake node {column} of row {row} (0 = newest) of wake sheet {sheet} moves at {velocity} m/s; reduce the time step, enlarge the wake core radius or limit the displacement per step"
+    )]
+    WakeNotFinite {
+        /// Accepted steps so far.
+        step: u64,
+        /// Sheet.
+        sheet: usize,
+        /// Row, 0 = newest.
+        row: usize,
+        /// Node of the row.
+        column: usize,
+        /// Its velocity [m/s].
+        velocity: DVec3,
+    },
+    /// A state that does not belong to the lattice.
+    #[error(
+        "the air state does not fit the lattice ({what}); restart with the case the state was written by"
+    )]
+    StateMismatch {
+        /// What differs.
+        what: &'static str,
+    },
+}

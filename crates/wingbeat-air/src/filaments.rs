@@ -1,0 +1,131 @@
+//! The vortex filaments of one instant: every edge of lattice and wakes once, with its net
+//! circulation.
+
+use crate::kernel::{CoreModel, Network, Points};
+use crate::lattice::Lattice;
+use crate::settings::AirSettings;
+use crate::state::{AirState, WakeSheet};
+use wingbeat_math::DVec3;
+
+/// Filaments of lattice and wakes.
+///
+/// A shedding edge belongs to the bound network, with the circulation of its panel less that of
+/// the newest wake ring, so that both are regularised alike.
+#[derive(Clone, Debug, Default)]
+pub struct Filaments {
+    /// Edges of the lattice, in the order of [`crate::topology::Topology::edges`].
+    pub bound: Network,
+    /// All other edges of the wakes. Nodes: sheet after sheet, oldest row first, the shedding
+    /// edge last.
+    pub wake: Network,
+}
+
+impl Filaments {
+    /// Takes the nodes from `position` and `state`, the wake circulations from `state` at time
+    /// `t`; bound circulations are left zero.
+    pub(crate) fn gather(
+        &mut self,
+        lattice: &Lattice,
+        state: &AirState,
+        t: f64,
+        position: &[DVec3],
+    ) {
+        self.gather_bound(lattice, position);
+        self.wake.clear();
+        for (sheet, root) in state.sheets.iter().zip(lattice.sheets()) {
+            let front = root.nodes.iter().map(|&n| position[n]);
+            add_sheet(&mut self.wake, sheet, front, lattice.settings(), t);
+        }
+    }
+
+    fn gather_bound(&mut self, lattice: &Lattice, position: &[DVec3]) {
+        let model = lattice.settings().bound_core;
+        self.bound.clear();
+        position.iter().for_each(|&x| self.bound.nodes.push(x));
+        for edge in &lattice.topology().edges {
+            let length = (position[edge.to] - position[edge.from]).length();
+            let core = model.core(length, 0.0);
+            self.bound.push_edge(edge.from, edge.to, 0.0, core);
+        }
+    }
+
+    /// Net circulation of every lattice edge: its panels' difference, less the newest wake ring's
+    /// at a shedding edge.
+    pub(crate) fn set_bound(&mut self, lattice: &Lattice, state: &AirState, gamma: &[f64]) {
+        for (edge, net) in lattice.topology().edges.iter().zip(&mut self.bound.gamma) {
+            let minus = edge.minus.map_or(0.0, |p| gamma[p]);
+            let wake = edge
+                .wake
+                .map_or(0.0, |w| w.sign * newest(&state.sheets[w.sheet], w.column));
+            *net = gamma[edge.plus] - minus - wake;
+        }
+    }
+
+    /// Adds the velocity [m/s] of bound and wake filaments at `targets` [m] to `out`, N.
+    pub(crate) fn add_velocity(&self, settings: &AirSettings, targets: &Points, out: &mut Points) {
+        induce(settings.bound_core, &self.bound, targets, out);
+        induce(settings.wake_core, &self.wake, targets, out);
+    }
+
+    /// Half the sum of circulation x moment of every filament about `origin`, which is the vector
+    /// impulse per density [m4/s], N: `1/2 sum Gamma a x b` for filaments from a to b.
+    pub(crate) fn impulse(&self, origin: DVec3) -> DVec3 {
+        let of = |net: &Network| {
+            let mut sum = DVec3::ZERO;
+            for (&[a, b], &gamma) in net.edges.iter().zip(&net.gamma) {
+                let a = net.nodes.get(a as usize) - origin;
+                let b = net.nodes.get(b as usize) - origin;
+                sum += 0.5 * gamma * a.cross(b);
+            }
+            sum
+        };
+        of(&self.bound) + of(&self.wake)
+    }
+}
+
+/// Circulation of the newest ring of a column, zero while there is none.
+pub(crate) fn newest(sheet: &WakeSheet, column: usize) -> f64 {
+    match sheet.rows() {
+        0 => 0.0,
+        rows => sheet.gamma[(rows - 1) * sheet.columns + column],
+    }
+}
+
+/// Nodes and edges of one wake sheet, the edges at the front left out.
+fn add_sheet(
+    wake: &mut Network,
+    sheet: &WakeSheet,
+    front: impl Iterator<Item = DVec3>,
+    settings: &AirSettings,
+    t: f64,
+) {
+    let base = wake.nodes.len();
+    sheet.nodes.iter().for_each(|x| wake.nodes.push(x));
+    front.for_each(|x| wake.nodes.push(x));
+    let (rows, columns) = (sheet.rows(), sheet.columns);
+    let gamma = |r: usize, c: usize| sheet.gamma[r * columns + c];
+    let age = |r: usize| sheet.shed_time.get(r).map_or(0.0, |shed| t - shed);
+    let mut push = |[r0, c0]: [usize; 2], [r1, c1]: [usize; 2], net: f64| {
+        let a = base + r0 * (columns + 1) + c0;
+        let b = base + r1 * (columns + 1) + c1;
+        let length = (wake.nodes.get(b) - wake.nodes.get(a)).length();
+        let core = settings.wake_core.core(length, 0.5 * (age(r0) + age(r1)));
+        wake.push_edge(a, b, net, core);
+    };
+    for r in 0..rows {
+        for c in 0..columns {
+            let older = if r > 0 { gamma(r - 1, c) } else { 0.0 };
+            push([r, c], [r, c + 1], gamma(r, c) - older);
+        }
+        for c in 0..=columns {
+            let left = if c > 0 { gamma(r, c - 1) } else { 0.0 };
+            let right = if c < columns { gamma(r, c) } else { 0.0 };
+            push([r, c], [r + 1, c], left - right);
+        }
+    }
+}
+
+/// Adds the velocity of a network at `targets` to `out`.
+pub(crate) fn induce(model: CoreModel, sources: &Network, targets: &Points, out: &mut Points) {
+    crate::kernel::reference::add_velocity(model, &sources.to_segments(), targets, out);
+}

@@ -1,0 +1,184 @@
+//! The lattice: surfaces, topology and settings, checked once and constant after that.
+
+use crate::error::AirError;
+use crate::loads::AirWorkspace;
+use crate::settings::AirSettings;
+use crate::state::{AirState, NodeMotion, WakeSheet};
+use crate::surface::Surface;
+use crate::topology::{Sheet, Topology};
+use std::ops::Range;
+use wingbeat_math::DVec3;
+
+/// Vortex rings on the panels of any number of surfaces, with their wakes' roots.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Lattice {
+    surfaces: Vec<Surface>,
+    settings: AirSettings,
+    topology: Topology,
+}
+
+impl Lattice {
+    /// Builds the lattice of the given surfaces.
+    ///
+    /// # Errors
+    /// [`AirError`] names the first panel, edge, shedding segment or setting that is wrong.
+    pub fn new(surfaces: Vec<Surface>, settings: AirSettings) -> Result<Self, AirError> {
+        settings.validate()?;
+        let topology = Topology::new(&surfaces, settings.shedding)?;
+        Ok(Self {
+            surfaces,
+            settings,
+            topology,
+        })
+    }
+
+    /// The surfaces.
+    pub fn surfaces(&self) -> &[Surface] {
+        &self.surfaces
+    }
+
+    /// The settings.
+    pub fn settings(&self) -> &AirSettings {
+        &self.settings
+    }
+
+    /// Edges and panels with global numbers.
+    pub fn topology(&self) -> &Topology {
+        &self.topology
+    }
+
+    /// Roots of the wake sheets, in the order of [`AirState::sheets`].
+    pub fn sheets(&self) -> &[Sheet] {
+        &self.topology.sheets
+    }
+
+    /// Number of nodes of all surfaces.
+    pub fn node_count(&self) -> usize {
+        *self.topology.first_node.last().expect("never empty")
+    }
+
+    /// Number of panels of all surfaces.
+    pub fn panel_count(&self) -> usize {
+        self.topology.panels.len()
+    }
+
+    /// Nodes of surface `s`.
+    pub fn nodes_of(&self, s: usize) -> Range<usize> {
+        self.topology.first_node[s]..self.topology.first_node[s + 1]
+    }
+
+    /// Panels of surface `s`.
+    pub fn panels_of(&self, s: usize) -> Range<usize> {
+        self.topology.first_panel[s]..self.topology.first_panel[s + 1]
+    }
+
+    /// Scratch memory for this lattice.
+    pub fn workspace(&self) -> AirWorkspace {
+        AirWorkspace::default()
+    }
+
+    /// Air without circulation and wake around the surfaces as they are: the start from rest.
+    pub fn initial_state(&self, motion: &NodeMotion) -> AirState {
+        let sheet = |root: &Sheet| WakeSheet {
+            columns: root.panels.len(),
+            ..WakeSheet::default()
+        };
+        AirState {
+            gamma: vec![0.0; self.panel_count()],
+            gamma_before: vec![0.0; self.panel_count()],
+            position: motion.position.clone(),
+            inner_momentum: vec![DVec3::ZERO; self.surfaces.len()],
+            sheets: self.sheets().iter().map(sheet).collect(),
+            ..AirState::default()
+        }
+    }
+
+    /// Checks that a state, perhaps read from a file, has the shape this lattice needs.
+    ///
+    /// # Errors
+    /// [`AirError::StateMismatch`] says what differs.
+    pub fn check_state(&self, state: &AirState) -> Result<(), AirError> {
+        let mismatch = |what| Err(AirError::StateMismatch { what });
+        let panels = self.panel_count();
+        if state.gamma.len() != panels || state.gamma_before.len() != panels {
+            return mismatch("number of panels");
+        }
+        if state.position.len() != self.node_count() {
+            return mismatch("number of nodes");
+        }
+        if state.inner_momentum.len() != self.surfaces.len() {
+            return mismatch("number of surfaces");
+        }
+        let fits = |(sheet, root): (&WakeSheet, &Sheet)| {
+            sheet.columns == root.panels.len()
+                && sheet.nodes.len() == sheet.rows() * (sheet.columns + 1)
+                && sheet.gamma.len() == sheet.rows() * sheet.columns
+        };
+        if state.sheets.len() != self.sheets().len()
+            || !state.sheets.iter().zip(self.sheets()).all(fits)
+        {
+            return mismatch("wake sheets");
+        }
+        Ok(())
+    }
+
+    /// Checks number and finiteness of the nodes.
+    pub(crate) fn check_motion(&self, motion: &NodeMotion, step: u64) -> Result<(), AirError> {
+        for got in [motion.position.len(), motion.velocity.len()] {
+            if got != self.node_count() {
+                return Err(AirError::MotionSize {
+                    got,
+                    expected: self.node_count(),
+                });
+            }
+        }
+        let nodes = motion.position.iter().zip(&motion.velocity);
+        let mut nodes = nodes.enumerate();
+        match nodes.find(|(_, (x, v))| !(x.is_finite() && v.is_finite())) {
+            None => Ok(()),
+            Some((n, (&position, &velocity))) => {
+                let s = self.topology.first_node.partition_point(|&f| f <= n) - 1;
+                Err(AirError::SurfaceNotFinite {
+                    step,
+                    surface: self.surfaces[s].name.clone(),
+                    node: n - self.topology.first_node[s],
+                    position,
+                    velocity,
+                })
+            }
+        }
+    }
+
+    pub(crate) fn flat_panel(&self, panel: usize, step: u64) -> AirError {
+        let (surface, panel) = self.locate_panel(panel);
+        AirError::FlatPanel {
+            step,
+            surface,
+            panel,
+        }
+    }
+
+    pub(crate) fn panel_not_finite(
+        &self,
+        panel: usize,
+        step: u64,
+        what: &'static str,
+        value: f64,
+    ) -> AirError {
+        let (surface, panel) = self.locate_panel(panel);
+        AirError::PanelNotFinite {
+            step,
+            surface,
+            panel,
+            what,
+            value,
+        }
+    }
+
+    /// Name of the surface of a panel, and the panel's number there.
+    fn locate_panel(&self, panel: usize) -> (String, usize) {
+        let s = self.topology.panel_surface[panel];
+        let name = self.surfaces[s].name.clone();
+        (name, panel - self.topology.first_panel[s])
+    }
+}

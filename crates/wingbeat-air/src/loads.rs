@@ -1,0 +1,218 @@
+//! Loads of one instant: circulation, pressure jump, forces.
+
+use crate::closed;
+use crate::error::AirError;
+use crate::filaments::{Filaments, induce};
+use crate::influence::Influence;
+use crate::kernel::Points;
+use crate::lattice::Lattice;
+use crate::panels::Panels;
+use crate::pressure;
+use crate::state::{AirState, NodeMotion};
+use wingbeat_math::DVec3;
+
+/// What the air does to one surface.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct SurfaceLoads {
+    /// Force of the air [N], N.
+    pub force: DVec3,
+    /// Moment of the air about the origin of N [N m], N.
+    pub moment: DVec3,
+    /// Uniform normal velocity that the rings of a closed surface cannot make [m/s].
+    pub leak: f64,
+}
+
+impl SurfaceLoads {
+    /// Moment about the point `p` [m, N] [N m], N.
+    pub fn moment_about(&self, p: DVec3) -> DVec3 {
+        self.moment - p.cross(self.force)
+    }
+}
+
+/// Loads of one instant, panel by panel, in the inertial frame N.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct AirLoads {
+    /// Time [s].
+    pub time: f64,
+    /// Time since the last accepted step [s]; without meaning at step 0.
+    pub dt: f64,
+    /// Geometry of the panels; forces act at the control points.
+    pub panels: Panels,
+    /// Circulation of the rings, the jump of the potential along the normal [m2/s].
+    pub gamma: Vec<f64>,
+    /// Its rate of change on the moving panel [m2/s2].
+    pub gamma_rate: Vec<f64>,
+    /// Velocity of the air at the control points, the mean of the two sides [m/s].
+    pub velocity: Vec<DVec3>,
+    /// Jump of the tangential velocity along the normal [m/s].
+    pub velocity_jump: Vec<DVec3>,
+    /// Pressure behind the panel less pressure before it, the normal pointing forward [Pa]:
+    /// positive pushes along the normal. On a closed surface inner less outer pressure, the inner
+    /// being that of the fictitious fluid inside.
+    pub pressure_jump: Vec<f64>,
+    /// Force of the air on the panel [N]: pressure jump x area x normal, on a closed surface less
+    /// what the fictitious fluid inside does.
+    pub force: Vec<DVec3>,
+    /// Resultants of the surfaces.
+    pub surfaces: Vec<SurfaceLoads>,
+    /// Momentum of the fictitious fluid inside each closed surface [kg m/s].
+    pub inner_momentum: Vec<DVec3>,
+    /// Largest normal velocity through a control point, the leak apart [m/s].
+    pub penetration: f64,
+}
+
+/// Scratch memory of the air, good for any lattice: nothing in it outlives a call.
+#[derive(Default)]
+pub struct AirWorkspace {
+    pub(crate) filaments: Filaments,
+    pub(crate) influence: Influence,
+    /// Control points.
+    pub(crate) points: Points,
+    /// Velocity there, or at the wake nodes, without the free stream.
+    pub(crate) velocity: Points,
+    /// Velocity at the control points of the newest wake rings' shedding edges.
+    pub(crate) shed: Points,
+    pub(crate) leak: Vec<f64>,
+}
+
+impl AirWorkspace {
+    /// The filaments of the last call.
+    pub fn filaments(&self) -> &Filaments {
+        &self.filaments
+    }
+}
+
+impl Lattice {
+    /// Loads on the surfaces as `motion` has them at time `t` [s], `dt` [s] after the last
+    /// accepted step, in the frozen wake of `state`; the newest wake rings stay attached to the
+    /// shedding edges. Changes no state: call it as often as the bodies need to agree.
+    ///
+    /// # Errors
+    /// Motion of the wrong size or not finite, panels without area, singular influence matrix,
+    /// loads that are not finite, a step that is not positive, a wake that is still to be moved.
+    pub fn loads(
+        &self,
+        state: &AirState,
+        t: f64,
+        dt: f64,
+        motion: &NodeMotion,
+        ws: &mut AirWorkspace,
+        out: &mut AirLoads,
+    ) -> Result<(), AirError> {
+        self.check_call(state, dt)?;
+        (out.time, out.dt) = (t, dt);
+        out.panels.update(self, motion, state.step)?;
+        ws.filaments.gather(self, state, t, &motion.position);
+        self.wake_velocity(state, ws, out);
+        self.solve_circulation(state, ws, out)?;
+        self.add_bound_velocity(state, ws, out);
+        pressure::velocity_jump(self, &ws.filaments, out);
+        pressure::circulation_rate(self, state, out);
+        pressure::pressure_jump(self, out);
+        pressure::forces(self, out);
+        closed::outer_forces(self, state, out);
+        self.resultants(ws, out);
+        self.check_finite(state, out)
+    }
+
+    fn check_call(&self, state: &AirState, dt: f64) -> Result<(), AirError> {
+        self.check_state(state)?;
+        let step = state.step;
+        if state.wake_due {
+            let what = "the last step was accepted but its wake not moved; call convect first";
+            return Err(AirError::Order { step, what });
+        }
+        if step > 0 && !(dt.is_finite() && dt > 0.0) {
+            return Err(AirError::TimeStep { dt, step });
+        }
+        Ok(())
+    }
+
+    /// Velocity at the control points of the wakes alone. Their share of the shedding edges comes
+    /// from the bound network with no circulation on the panels.
+    fn wake_velocity(&self, state: &AirState, ws: &mut AirWorkspace, out: &mut AirLoads) {
+        let n = self.panel_count();
+        ws.points.clear();
+        out.panels.point.iter().for_each(|&p| ws.points.push(p));
+        ws.velocity.reset(n);
+        ws.shed.reset(n);
+        out.gamma.clear();
+        out.gamma.resize(n, 0.0);
+        let (filaments, settings) = (&mut ws.filaments, self.settings());
+        filaments.set_bound(self, state, &out.gamma);
+        let (bound, wake) = (settings.bound_core, settings.wake_core);
+        induce(wake, &filaments.wake, &ws.points, &mut ws.velocity);
+        induce(bound, &filaments.bound, &ws.points, &mut ws.shed);
+    }
+
+    /// No penetration: the rings make up for what motion, stream and wakes leave.
+    fn solve_circulation(
+        &self,
+        state: &AirState,
+        ws: &mut AirWorkspace,
+        out: &mut AirLoads,
+    ) -> Result<(), AirError> {
+        let (panels, stream) = (&out.panels, self.settings().free_stream);
+        for i in 0..panels.point.len() {
+            let v = stream + ws.velocity.get(i) + ws.shed.get(i);
+            out.gamma[i] = (panels.velocity[i] - v).dot(panels.normal[i]);
+        }
+        ws.influence
+            .factor(self, &ws.filaments, panels, state.step)?;
+        ws.influence.solve(self, &mut out.gamma, &mut ws.leak);
+        Ok(())
+    }
+
+    /// Adds the velocity of the lattice to that of stream and wakes.
+    fn add_bound_velocity(&self, state: &AirState, ws: &mut AirWorkspace, out: &mut AirLoads) {
+        let settings = self.settings();
+        ws.filaments.set_bound(self, state, &out.gamma);
+        induce(
+            settings.bound_core,
+            &ws.filaments.bound,
+            &ws.points,
+            &mut ws.velocity,
+        );
+        out.velocity.clear();
+        let total = ws.velocity.iter().map(|v| settings.free_stream + v);
+        out.velocity.extend(total);
+    }
+
+    fn resultants(&self, ws: &AirWorkspace, out: &mut AirLoads) {
+        out.surfaces.clear();
+        out.penetration = 0.0;
+        for s in 0..self.surfaces().len() {
+            let mut sum = SurfaceLoads {
+                leak: ws.leak[s],
+                ..SurfaceLoads::default()
+            };
+            for p in self.panels_of(s) {
+                let (x, normal) = (out.panels.point[p], out.panels.normal[p]);
+                sum.force += out.force[p];
+                sum.moment += x.cross(out.force[p]);
+                let through = (out.velocity[p] - out.panels.velocity[p]).dot(normal) + sum.leak;
+                out.penetration = out.penetration.max(through.abs());
+            }
+            out.surfaces.push(sum);
+        }
+    }
+
+    fn check_finite(&self, state: &AirState, out: &AirLoads) -> Result<(), AirError> {
+        let first = |x: &[f64]| x.iter().position(|v| !v.is_finite());
+        for (what, values) in [
+            ("circulation", &out.gamma),
+            ("pressure jump", &out.pressure_jump),
+        ] {
+            if let Some(p) = first(values) {
+                return Err(self.panel_not_finite(p, state.step, what, values[p]));
+            }
+        }
+        match out.force.iter().position(|f| !f.is_finite()) {
+            Some(p) => {
+                let value = out.force[p].length();
+                Err(self.panel_not_finite(p, state.step, "force", value))
+            }
+            None => Ok(()),
+        }
+    }
+}

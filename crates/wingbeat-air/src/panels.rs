@@ -1,0 +1,75 @@
+//! Geometry and motion of the panels at one instant.
+
+use crate::error::AirError;
+use crate::lattice::Lattice;
+use crate::state::NodeMotion;
+use wingbeat_math::DVec3;
+
+/// Panels at one instant, in the inertial frame N.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Panels {
+    /// Control points, the mean of the corners [m].
+    pub point: Vec<DVec3>,
+    /// Velocity of the control points with the surface [m/s].
+    pub velocity: Vec<DVec3>,
+    /// Unit normals, along the cross product of the diagonals.
+    pub normal: Vec<DVec3>,
+    /// Areas, as two triangles [m2].
+    pub area: Vec<f64>,
+    /// Vector areas, half the cross product of the diagonals [m2].
+    pub vector_area: Vec<DVec3>,
+}
+
+impl Panels {
+    fn clear(&mut self) {
+        self.point.clear();
+        self.velocity.clear();
+        self.normal.clear();
+        self.area.clear();
+        self.vector_area.clear();
+    }
+
+    /// Fills in all panels of the lattice.
+    ///
+    /// # Errors
+    /// Nodes that are not finite, panels without area.
+    pub(crate) fn update(
+        &mut self,
+        lattice: &Lattice,
+        motion: &NodeMotion,
+        step: u64,
+    ) -> Result<(), AirError> {
+        lattice.check_motion(motion, step)?;
+        self.clear();
+        for (panel, corners) in lattice.topology().panels.iter().enumerate() {
+            let x = corners.map(|n| motion.position[n]);
+            let v = corners.map(|n| motion.velocity[n]);
+            let vector_area = 0.5 * (x[2] - x[0]).cross(x[3] - x[1]);
+            let normal = vector_area
+                .try_normalize()
+                .ok_or_else(|| lattice.flat_panel(panel, step))?;
+            self.point.push(mean_corner(corners, &x));
+            self.velocity.push(mean_corner(corners, &v));
+            self.normal.push(normal);
+            self.area.push(two_triangles(&x));
+            self.vector_area.push(vector_area);
+        }
+        Ok(())
+    }
+}
+
+/// Mean over the corners, a repeated corner counted once.
+fn mean_corner(corners: &[usize; 4], x: &[DVec3; 4]) -> DVec3 {
+    let repeated = (0..4).find(|&k| corners[k] == corners[(k + 1) % 4]);
+    let sum = (x[0] + x[1]) + (x[2] + x[3]);
+    match repeated {
+        Some(k) => (sum - x[k]) / 3.0,
+        None => 0.25 * sum,
+    }
+}
+
+/// Area of the triangles (0, 1, 2) and (0, 2, 3).
+fn two_triangles(x: &[DVec3; 4]) -> f64 {
+    let d = x[2] - x[0];
+    0.5 * ((x[1] - x[0]).cross(d).length() + d.cross(x[3] - x[0]).length())
+}

@@ -1,0 +1,99 @@
+//! What the air remembers from step to step: circulations and wakes.
+
+use crate::kernel::Points;
+use wingbeat_math::DVec3;
+
+/// Positions and velocities of the nodes of all surfaces, concatenated in the order of the
+/// surfaces, in the inertial frame N.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct NodeMotion {
+    /// Positions [m], N.
+    pub position: Vec<DVec3>,
+    /// Velocities [m/s], N.
+    pub velocity: Vec<DVec3>,
+}
+
+/// The free rows of one wake sheet, **oldest row first**. The newest row of nodes, on the
+/// shedding edge itself, is not stored: it follows the surface.
+///
+/// Ring (r, c) lies between node rows r and r + 1 (the shedding edge being the row after the
+/// last) and node columns c and c + 1. Its circulation is positive if it runs its newer edge
+/// from column c + 1 to column c.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct WakeSheet {
+    /// Rings per row; a row has one node more.
+    pub columns: usize,
+    /// Free nodes [m], N, row by row.
+    pub nodes: Points,
+    /// Circulation of the rings [m2/s], row by row.
+    pub gamma: Vec<f64>,
+    /// Time at which each row of rings left the edge [s].
+    pub shed_time: Vec<f64>,
+}
+
+impl WakeSheet {
+    /// Number of rows of rings, which is the number of free rows of nodes.
+    pub fn rows(&self) -> usize {
+        self.shed_time.len()
+    }
+
+    /// Node `column` of free row `row`, counted from the oldest [m], N.
+    pub fn node(&self, row: usize, column: usize) -> DVec3 {
+        let k = row * (self.columns + 1) + column;
+        DVec3::new(self.nodes.x[k], self.nodes.y[k], self.nodes.z[k])
+    }
+
+    /// Drops the oldest rows until at most `rows` are left. Whole rings go, so every filament
+    /// that is left is still part of closed rings.
+    pub(crate) fn keep(&mut self, rows: usize) {
+        let drop = self.rows().saturating_sub(rows);
+        let nodes = drop * (self.columns + 1);
+        self.nodes.x.drain(..nodes);
+        self.nodes.y.drain(..nodes);
+        self.nodes.z.drain(..nodes);
+        self.gamma.drain(..drop * self.columns);
+        self.shed_time.drain(..drop);
+    }
+}
+
+/// How often the wake had to be tamed.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct WakeEvents {
+    /// Displacements shortened to [`crate::AirSettings::max_displacement`].
+    pub limited: u64,
+    /// Wake nodes found over a panel at less than [`crate::AirSettings::clearance`].
+    pub near_surface: u64,
+}
+
+impl std::ops::AddAssign for WakeEvents {
+    fn add_assign(&mut self, other: Self) {
+        self.limited += other.limited;
+        self.near_surface += other.near_surface;
+    }
+}
+
+/// The state of the air: plain data, enough to go on bit for bit.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct AirState {
+    /// Accepted steps so far.
+    pub step: u64,
+    /// Time of the last accepted step [s].
+    pub time: f64,
+    /// Whether the step was accepted but the wake not yet moved.
+    pub wake_due: bool,
+    /// Circulation of the panels at the last accepted step [m2/s].
+    pub gamma: Vec<f64>,
+    /// Circulation one accepted step earlier [m2/s].
+    pub gamma_before: Vec<f64>,
+    /// Time between these two [s].
+    pub dt_before: f64,
+    /// Positions of the surface nodes at the last accepted step [m], N.
+    pub position: Vec<DVec3>,
+    /// Momentum of the fictitious fluid inside each surface (zero for open ones) at the last
+    /// accepted step [kg m/s], N.
+    pub inner_momentum: Vec<DVec3>,
+    /// Wake sheets, in the order of [`crate::Lattice::sheets`].
+    pub sheets: Vec<WakeSheet>,
+    /// Regularised events since the start.
+    pub events: WakeEvents,
+}
