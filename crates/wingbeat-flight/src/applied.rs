@@ -14,7 +14,10 @@ impl AppliedLoad {
         };
         let force = to_n(vector(&self.force, t));
         let arm = body.r * self.point;
-        Wrench { force, moment: to_n(vector(&self.couple, t)) + arm.cross(force) }
+        Wrench {
+            force,
+            moment: to_n(vector(&self.couple, t)) + arm.cross(force),
+        }
     }
 }
 

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use wingbeat_dynamics::{Body, DynamicsError, Hinge, System};
+use wingbeat_dynamics::{Body, DynamicsError, Hinge, NaturalUnits, System};
 use wingbeat_math::{DVec3, EulerSequence};
 use wingbeat_model::Animal;
 
@@ -11,7 +11,11 @@ use wingbeat_model::Animal;
 ///
 /// # Errors
 /// What the dynamics refuses: see [`System::new`].
-pub fn system(animal: &Animal, gravity: DVec3) -> Result<System, DynamicsError> {
+pub fn system(
+    animal: &Animal,
+    gravity: DVec3,
+    units: NaturalUnits,
+) -> Result<System, DynamicsError> {
     let mut bodies = vec![Body {
         name: "body".into(),
         mass: animal.body,
@@ -33,5 +37,5 @@ pub fn system(animal: &Animal, gravity: DVec3) -> Result<System, DynamicsError> 
             law: Arc::new(wing.motion.clone()),
         });
     }
-    System::new(bodies, hinges, gravity)
+    System::new(bodies, hinges, gravity, units)
 }

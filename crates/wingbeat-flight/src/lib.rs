@@ -1,1 +1,40 @@
-//! Coupled flight: multibody dynamics and unsteady air integrated together.
+//! Coupled flight: multibody dynamics and unsteady air, integrated together.
+//!
+//! The chapter in order: [`setup`] says what a flight is made of; `bodies` and `surfaces` map the
+//! animal to the multibody system and to the lattice; `equations` is the coupled right-hand side;
+//! `stages` and `core` choose between free, tethered and held; [`simulation`] integrates all of it
+//! with Hamming's predictor-corrector, the wake frozen during corrector passes (seed sec. 4 and
+//! 5); `recorder` turns every accepted step into a [`Record`].
+//!
+//! Stated orders: bodies and balances fourth (Hamming's method); the air of the benchmark
+//! discretisation first (explicit Euler wake, backward circulation rate); so a coupled flight
+//! converges at first order in the step, bodies alone at fourth.
+//!
+//! | symbol | name in code | meaning | seed |
+//! |---|---|---|---|
+//! | q | [`Record::coordinates`] | absolute coordinates of all bodies, N frame [m, rad] | eq. 2 |
+//! | lambda | [`Record::multipliers`] | Lagrange multipliers \[N, N m\] | eq. 11 |
+//! | h | [`setup::TimeGrid::step`] | time step \[s\] | - |
+//!
+//! This is the only crate that sees both bodies and air. It does not know files, units other than
+//! SI, or clocks.
+#![warn(missing_docs)]
+
+mod applied;
+mod bodies;
+mod core;
+mod equations;
+mod error;
+pub mod record;
+mod recorder;
+pub mod setup;
+pub mod simulation;
+mod stages;
+mod surfaces;
+mod validate;
+
+pub use error::FlightError;
+pub use record::{HingeRecord, LoadRecord, Record, Snapshot, SurfaceSnapshot, WakeSnapshot};
+pub use recorder::Ledger;
+pub use setup::*;
+pub use simulation::{FlightState, Simulation};

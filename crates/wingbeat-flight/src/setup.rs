@@ -38,6 +38,7 @@ pub struct AirOptions {
 
 /// How the root body moves.
 #[derive(Clone, Debug)]
+#[expect(clippy::large_enum_variant, reason = "there is one per flight")]
 pub enum MotionMode {
     /// Free flight from a start state.
     Free(StartState),
@@ -81,7 +82,10 @@ pub struct DriftingFourier {
 impl DriftingFourier {
     /// A constant.
     pub fn constant(value: f64) -> Self {
-        Self { constant: value, ..Self::default() }
+        Self {
+            constant: value,
+            ..Self::default()
+        }
     }
 
     /// Value and first two time derivatives at `t` [s].
@@ -131,7 +135,10 @@ impl PrescribedMotion {
     /// At rest at `position` [m] with 2-3-1 `angles` [rad].
     pub fn at_rest(position: DVec3, angles: DVec3) -> Self {
         let fixed = |v: DVec3| v.to_array().map(DriftingFourier::constant);
-        Self { position: fixed(position), angles: fixed(angles) }
+        Self {
+            position: fixed(position),
+            angles: fixed(angles),
+        }
     }
 
     /// The root at time `t` [s].
@@ -205,7 +212,11 @@ pub struct CorrectorSettings {
 
 impl Default for CorrectorSettings {
     fn default() -> Self {
-        Self { tolerance: 1e-10, max_passes: 30, relaxation: 1.0 }
+        Self {
+            tolerance: 1e-10,
+            max_passes: 30,
+            relaxation: 1.0,
+        }
     }
 }
 

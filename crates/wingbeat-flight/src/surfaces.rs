@@ -33,7 +33,11 @@ impl SurfaceMap {
             panels: vec![],
         };
         for (i, wing) in animal.wings.iter().enumerate() {
-            map.push(wing_surface(&wing.name, &wing.mesh, wing.side), &wing.mesh.nodes, i + 1);
+            map.push(
+                wing_surface(&wing.name, &wing.mesh, wing.side),
+                &wing.mesh.nodes,
+                i + 1,
+            );
         }
         for part in animal.parts.iter().filter(|_| body_surfaces) {
             let surface = Surface {
@@ -50,8 +54,10 @@ impl SurfaceMap {
 
     fn push(&mut self, surface: Surface, nodes: &[DVec3], body: usize) {
         let first_panel = self.panels.last().map_or(0, |r| r.end);
-        self.nodes.push(self.local.len()..self.local.len() + nodes.len());
-        self.panels.push(first_panel..first_panel + surface.panels.len());
+        self.nodes
+            .push(self.local.len()..self.local.len() + nodes.len());
+        self.panels
+            .push(first_panel..first_panel + surface.panels.len());
         self.local.extend_from_slice(nodes);
         self.body.push(body);
         self.surfaces.push(surface);
@@ -75,25 +81,18 @@ impl SurfaceMap {
     /// Panel forces gathered into one wrench per body about the body's origin, in N.
     pub fn wrenches(&self, loads: &AirLoads, bodies: &[BodyMotion], out: &mut [Wrench]) {
         for w in out.iter_mut() {
-            *w = Wrench { force: DVec3::ZERO, moment: DVec3::ZERO };
+            *w = Wrench {
+                force: DVec3::ZERO,
+                moment: DVec3::ZERO,
+            };
         }
         for (surface, panels) in self.panels.iter().enumerate() {
             let body = self.body[surface];
             for k in panels.clone() {
                 out[body].force += loads.force[k];
-                out[body].moment += (loads.point[k] - bodies[body].p).cross(loads.force[k]);
+                out[body].moment += (loads.panels.point[k] - bodies[body].p).cross(loads.force[k]);
             }
         }
-    }
-
-    /// Range of nodes of surface `s` among all nodes.
-    pub fn node_range(&self, s: usize) -> std::ops::Range<usize> {
-        self.nodes[s].clone()
-    }
-
-    /// Range of panels of surface `s` among all panels.
-    pub fn panel_range(&self, s: usize) -> std::ops::Range<usize> {
-        self.panels[s].clone()
     }
 }
 
@@ -103,16 +102,36 @@ fn wing_surface(name: &str, mesh: &GridMesh, side: Side) -> Surface {
     let (rows, cols) = (mesh.rows, mesh.cols);
     let node = |i: usize, j: usize| i * (cols + 1) + j;
     let panel = |i: usize, j: usize| i * cols + j;
-    let segment = |from, to, panel, kind| SheddingSegment { from, to, panel, kind };
+    let segment = |from, to, panel, kind| SheddingSegment {
+        from,
+        to,
+        panel,
+        kind,
+    };
     let mut chain = Vec::with_capacity(2 * cols + rows);
     for j in 0..cols {
-        chain.push(segment(node(0, j), node(0, j + 1), panel(0, j), EdgeKind::Leading));
+        chain.push(segment(
+            node(0, j),
+            node(0, j + 1),
+            panel(0, j),
+            EdgeKind::Leading,
+        ));
     }
     for i in 0..rows {
-        chain.push(segment(node(i, cols), node(i + 1, cols), panel(i, cols - 1), EdgeKind::Tip));
+        chain.push(segment(
+            node(i, cols),
+            node(i + 1, cols),
+            panel(i, cols - 1),
+            EdgeKind::Tip,
+        ));
     }
     for j in (0..cols).rev() {
-        chain.push(segment(node(rows, j + 1), node(rows, j), panel(rows - 1, j), EdgeKind::Trailing));
+        chain.push(segment(
+            node(rows, j + 1),
+            node(rows, j),
+            panel(rows - 1, j),
+            EdgeKind::Trailing,
+        ));
     }
     Surface {
         name: name.to_string(),

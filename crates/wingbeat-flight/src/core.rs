@@ -1,0 +1,145 @@
+//! How the root body moves: freely, by one of the formulations, or as a tether prescribes.
+
+use wingbeat_dynamics::{
+    BodyAcceleration, BodyMotion, Formulation, RootMotion, Solution, System, Workspace, Wrench,
+    tethered, tethered_motions,
+};
+
+use crate::error::FlightError;
+use crate::setup::PrescribedMotion;
+
+/// The bodies' equations of motion, free or tethered.
+#[expect(clippy::large_enum_variant, reason = "there are one or two per flight")]
+pub enum Core {
+    /// Free flight.
+    Free(Box<dyn Formulation>),
+    /// Tethered: nothing to integrate, the support's reaction is what is asked for.
+    Tethered {
+        /// The bodies.
+        system: System,
+        /// Motion of the root.
+        motion: PrescribedMotion,
+    },
+}
+
+impl std::fmt::Debug for Core {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Free(form) => write!(f, "Free({:?})", form.system()),
+            Self::Tethered { motion, .. } => write!(f, "Tethered({motion:?})"),
+        }
+    }
+}
+
+impl Core {
+    /// The bodies.
+    pub fn system(&self) -> &System {
+        match self {
+            Self::Free(form) => form.system(),
+            Self::Tethered { system, .. } => system,
+        }
+    }
+
+    /// Length of the state vector; 0 when tethered.
+    pub fn dim(&self) -> usize {
+        match self {
+            Self::Free(form) => form.dim(),
+            Self::Tethered { .. } => 0,
+        }
+    }
+
+    /// Natural sizes of the state components.
+    pub fn scales(&self) -> Vec<f64> {
+        match self {
+            Self::Free(form) => form.scales(),
+            Self::Tethered { .. } => vec![],
+        }
+    }
+
+    /// Consistent state at time `t` [s] for a root that moves like `root`.
+    ///
+    /// # Errors
+    /// No consistent state exists, or it is singular.
+    pub fn initial(&self, t: f64, root: &BodyMotion) -> Result<Vec<f64>, FlightError> {
+        match self {
+            Self::Free(form) => Ok(form.initial(t, root)?),
+            Self::Tethered { .. } => Ok(vec![]),
+        }
+    }
+
+    /// Motions of all bodies.
+    ///
+    /// # Errors
+    /// The state is not finite or singular.
+    pub fn motions(
+        &self,
+        t: f64,
+        y: &[f64],
+        ws: &mut Workspace,
+        out: &mut [BodyMotion],
+    ) -> Result<(), FlightError> {
+        match self {
+            Self::Free(form) => form.motions(t, y, ws, out)?,
+            Self::Tethered { system, motion } => {
+                tethered_motions(system, t, &root_motion(motion, t).motion, ws, out);
+            }
+        }
+        Ok(())
+    }
+
+    /// Rates of the state under external `loads`.
+    ///
+    /// # Errors
+    /// The state is not finite or singular.
+    pub fn rates(
+        &self,
+        t: f64,
+        y: &[f64],
+        loads: &[Wrench],
+        ws: &mut Workspace,
+        dy: &mut [f64],
+    ) -> Result<(), FlightError> {
+        if let Self::Free(form) = self {
+            form.rates(t, y, loads, ws, dy)?;
+        }
+        Ok(())
+    }
+
+    /// Accelerations, reactions, energies and momenta.
+    ///
+    /// # Errors
+    /// The state is not finite or singular.
+    pub fn solve(
+        &self,
+        t: f64,
+        y: &[f64],
+        loads: &[Wrench],
+        ws: &mut Workspace,
+        out: &mut Solution,
+    ) -> Result<(), FlightError> {
+        match self {
+            Self::Free(form) => form.solve(t, y, loads, ws, out)?,
+            Self::Tethered { system, motion } => {
+                tethered(system, t, &root_motion(motion, t), loads, ws, out);
+            }
+        }
+        Ok(())
+    }
+}
+
+/// The prescribed root in the words of the dynamics.
+pub fn root_motion(motion: &PrescribedMotion, t: f64) -> RootMotion {
+    let root = motion.at(t);
+    RootMotion {
+        motion: BodyMotion {
+            p: root.position,
+            r: root.rotation,
+            v: root.velocity,
+            w: root.angular_velocity,
+        },
+        acceleration: BodyAcceleration {
+            linear: root.acceleration,
+            angular: root.angular_acceleration,
+        },
+    }
+}

@@ -1,0 +1,280 @@
+//! The coupled right-hand side: state -> body motions -> lattice nodes -> air loads -> wrenches
+//! -> rates (seed sec. 4 and 5). Quadratures of work and impulse ride along, so that balances
+//! are integrated exactly as accurately as the motion itself.
+
+use std::sync::Arc;
+
+use wingbeat_air::{AirLoads, AirState, AirWorkspace, Lattice, NodeMotion};
+use wingbeat_dynamics::{BodyMotion, Solution, Workspace, Wrench};
+use wingbeat_math::DVec3;
+
+use crate::core::Core;
+use crate::error::FlightError;
+use crate::setup::AppliedLoad;
+use crate::surfaces::SurfaceMap;
+
+/// Quadratures appended to the state of the core.
+pub const QUADRATURES: usize = 9;
+
+/// Works and impulses since the start.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Quadratures {
+    /// Work of the hinge actuators [J].
+    pub hinge_work: f64,
+    /// Work of the air on the bodies [J].
+    pub air_work: f64,
+    /// Work of applied loads and tether [J].
+    pub applied_work: f64,
+    /// Impulse of all external forces, weight included, N components [N s].
+    pub impulse: DVec3,
+    /// Impulse of all external moments about the inertial origin, N components [N m s].
+    pub angular_impulse: DVec3,
+}
+
+impl Quadratures {
+    /// Reads the tail of a state vector.
+    pub fn from_state(y: &[f64]) -> Self {
+        let q = &y[y.len() - QUADRATURES..];
+        Self {
+            hinge_work: q[0],
+            air_work: q[1],
+            applied_work: q[2],
+            impulse: DVec3::new(q[3], q[4], q[5]),
+            angular_impulse: DVec3::new(q[6], q[7], q[8]),
+        }
+    }
+
+    /// Writes the tail of a state vector.
+    fn write(&self, y: &mut [f64]) {
+        let n = y.len() - QUADRATURES;
+        let (f, m) = (self.impulse, self.angular_impulse);
+        y[n..].copy_from_slice(&[
+            self.hinge_work,
+            self.air_work,
+            self.applied_work,
+            f.x,
+            f.y,
+            f.z,
+            m.x,
+            m.y,
+            m.z,
+        ]);
+    }
+}
+
+/// The lattice and its map to the bodies.
+#[derive(Debug)]
+pub struct AirSide {
+    /// The vortex lattice.
+    pub lattice: Lattice,
+    /// Which nodes and panels belong to which body.
+    pub map: SurfaceMap,
+}
+
+/// The model: everything constant that the right-hand side needs.
+#[derive(Debug)]
+pub struct Equations {
+    /// The bodies: free or tethered.
+    pub core: Core,
+    /// The air, if any.
+    pub air: Option<Arc<AirSide>>,
+    /// Extra loads.
+    pub applied: Vec<AppliedLoad>,
+    /// Time step h [s].
+    pub step: f64,
+}
+
+/// Intermediate results of one evaluation, kept between calls. After
+/// [`Equations::evaluate`] they belong to the state last evaluated.
+pub struct Scratch {
+    /// Motions of the bodies.
+    pub motions: Vec<BodyMotion>,
+    /// Air load per body about its origin.
+    pub air: Vec<Wrench>,
+    /// Applied load per body about its origin.
+    pub applied: Vec<Wrench>,
+    /// Sum of both.
+    total: Vec<Wrench>,
+    /// Accelerations, reactions, energies.
+    pub solution: Solution,
+    dynamics: Workspace,
+    /// Lattice nodes.
+    pub nodes: NodeMotion,
+    /// Circulations, pressure jumps, panel forces.
+    pub air_loads: AirLoads,
+    /// Scratch of the lattice.
+    pub air_workspace: AirWorkspace,
+    nodes_done: NodeMotion,
+    air_is_current: bool,
+}
+
+impl Scratch {
+    /// Room for the evaluations of `equations`.
+    pub fn new(equations: &Equations) -> Self {
+        let system = equations.core.system();
+        let bodies = system.bodies().len();
+        let none = vec![Wrench::default(); bodies];
+        Self {
+            motions: vec![BodyMotion::REST; bodies],
+            air: none.clone(),
+            applied: none.clone(),
+            total: none,
+            solution: Solution::new(system),
+            dynamics: Workspace::new(system),
+            nodes: NodeMotion::default(),
+            air_loads: AirLoads::default(),
+            air_workspace: equations
+                .air
+                .as_ref()
+                .map_or_else(AirWorkspace::default, |a| a.lattice.workspace()),
+            nodes_done: NodeMotion::default(),
+            air_is_current: false,
+        }
+    }
+}
+
+impl Equations {
+    /// Length of the state vector: core and quadratures.
+    pub fn dim(&self) -> usize {
+        self.core.dim() + QUADRATURES
+    }
+
+    /// Natural sizes of the state components; infinite for the quadratures, which follow the
+    /// motion and do not decide on convergence.
+    pub fn scales(&self) -> Vec<f64> {
+        let mut s = self.core.scales();
+        s.resize(self.dim(), f64::INFINITY);
+        s
+    }
+
+    /// Rates of the state `y` at time `t` [s] in the frozen wake of `air`; leaves all
+    /// intermediate results in `s`.
+    ///
+    /// # Errors
+    /// What the dynamics or the air report: singular attitude, singular influence matrix,
+    /// numbers that are not finite.
+    pub fn evaluate(
+        &self,
+        t: f64,
+        y: &[f64],
+        air: Option<&AirState>,
+        s: &mut Scratch,
+        dy: &mut [f64],
+    ) -> Result<(), FlightError> {
+        let n = self.core.dim();
+        self.place_nodes(t, y, s)?;
+        self.air_loads(t, air, s)?;
+        self.applied_loads(t, s);
+        for ((sum, a), b) in s.total.iter_mut().zip(&s.air).zip(&s.applied) {
+            *sum = *a;
+            *sum += *b;
+        }
+        self.core
+            .rates(t, &y[..n], &s.total, &mut s.dynamics, &mut dy[..n])?;
+        self.core
+            .solve(t, &y[..n], &s.total, &mut s.dynamics, &mut s.solution)?;
+        self.quadrature_rates(s).write(dy);
+        Ok(())
+    }
+
+    /// Positions and velocities of the lattice nodes in the state `y` at time `t` [s].
+    ///
+    /// # Errors
+    /// The state is singular.
+    pub fn place_nodes(&self, t: f64, y: &[f64], s: &mut Scratch) -> Result<(), FlightError> {
+        let n = self.core.dim();
+        self.core
+            .motions(t, &y[..n], &mut s.dynamics, &mut s.motions)?;
+        if let Some(side) = &self.air {
+            side.map.node_motion(&s.motions, &mut s.nodes);
+        }
+        Ok(())
+    }
+
+    /// Moves the wake of an accepted `air` by one step.
+    ///
+    /// # Errors
+    /// Velocities that are not finite.
+    pub fn advance_air(
+        &self,
+        air: &mut Option<AirState>,
+        s: &mut Scratch,
+    ) -> Result<(), FlightError> {
+        if let (Some(side), Some(air)) = (&self.air, air) {
+            side.lattice.convect(air, self.step, &mut s.air_workspace)?;
+            s.air_is_current = false;
+        }
+        Ok(())
+    }
+
+    /// Accepts the circulations of the state last evaluated.
+    ///
+    /// # Errors
+    /// The wake has not been moved.
+    pub fn accept_air(&self, air: &mut Option<AirState>, s: &Scratch) -> Result<(), FlightError> {
+        if let (Some(side), Some(air)) = (&self.air, air) {
+            side.lattice.accept(air, &s.nodes, &s.air_loads)?;
+        }
+        Ok(())
+    }
+
+    /// Loads of the air on the bodies in their present motion. Unchanged nodes in an unchanged
+    /// wake keep their loads.
+    fn air_loads(
+        &self,
+        t: f64,
+        air: Option<&AirState>,
+        s: &mut Scratch,
+    ) -> Result<(), FlightError> {
+        let (Some(side), Some(state)) = (&self.air, air) else {
+            return Ok(());
+        };
+        if !(s.air_is_current && s.nodes == s.nodes_done) {
+            side.lattice.loads(
+                state,
+                t,
+                self.step,
+                &s.nodes,
+                &mut s.air_workspace,
+                &mut s.air_loads,
+            )?;
+            s.nodes_done.clone_from(&s.nodes);
+            s.air_is_current = true;
+        }
+        side.map.wrenches(&s.air_loads, &s.motions, &mut s.air);
+        Ok(())
+    }
+
+    /// Wrenches of the applied loads.
+    fn applied_loads(&self, t: f64, s: &mut Scratch) {
+        s.applied.fill(Wrench::default());
+        for load in &self.applied {
+            s.applied[load.body] += load.wrench(t, &s.motions[load.body]);
+        }
+    }
+
+    /// Powers and external forces at the state last evaluated.
+    fn quadrature_rates(&self, s: &Scratch) -> Quadratures {
+        let power = |loads: &[Wrench]| -> f64 {
+            loads.iter().zip(&s.motions).map(|(l, m)| l.power(m)).sum()
+        };
+        let system = self.core.system();
+        let weight = system.total_mass() * system.gravity();
+        let tether = s.solution.tether;
+        let mut impulse = weight + tether.force;
+        let mut angular = s.solution.budget.centre.cross(weight)
+            + tether.moment
+            + s.motions[0].p.cross(tether.force);
+        for (l, m) in s.total.iter().zip(&s.motions) {
+            impulse += l.force;
+            angular += l.moment + m.p.cross(l.force);
+        }
+        Quadratures {
+            hinge_work: s.solution.hinge_power(),
+            air_work: power(&s.air),
+            applied_work: power(&s.applied) + tether.power(&s.motions[0]),
+            impulse,
+            angular_impulse: angular,
+        }
+    }
+}

@@ -1,0 +1,43 @@
+//! What can go wrong in a flight.
+
+use wingbeat_air::AirError;
+use wingbeat_dynamics::DynamicsError;
+
+/// Why a flight cannot start or go on. Times in seconds.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum FlightError {
+    /// The multibody system cannot be built or evaluated.
+    #[error(transparent)]
+    Dynamics(#[from] DynamicsError),
+    /// The vortex lattice cannot be built or evaluated.
+    #[error(transparent)]
+    Air(#[from] AirError),
+    /// The corrector of a step did not converge.
+    #[error(
+        "step {step} (t = {time:.6e} s): bodies and air did not agree after {passes} corrector passes: scaled residual {residual:.2e}, allowed {tolerance:.2e}; try a smaller step, more passes, or relaxation below {relaxation} (light bodies with large wings need it)"
+    )]
+    NotConverged {
+        /// Step that failed.
+        step: usize,
+        /// Its time [s].
+        time: f64,
+        /// Passes made.
+        passes: usize,
+        /// Scaled change of the last pass.
+        residual: f64,
+        /// Allowed change.
+        tolerance: f64,
+        /// Relaxation in use.
+        relaxation: f64,
+    },
+    /// The setup contradicts itself.
+    #[error("{key} = {value}: {problem}")]
+    Setup {
+        /// What is wrong, as a key of the setup.
+        key: &'static str,
+        /// Its value.
+        value: String,
+        /// What is allowed and what to try.
+        problem: String,
+    },
+}

@@ -1,0 +1,246 @@
+//! From the last evaluation to a [`Record`]: every quantity in the units a reader expects.
+
+use wingbeat_air::AirState;
+use wingbeat_dynamics::{Body, BodyMotion, Budget, Wrench};
+use wingbeat_math::ode::StepReport;
+use wingbeat_math::{DQuat, DVec3};
+use wingbeat_model::Animal;
+
+use crate::equations::{AirSide, Equations, Quadratures, Scratch};
+use crate::record::{HingeRecord, LoadRecord, Record, Snapshot, SurfaceSnapshot, WakeSnapshot};
+
+/// Below this |cos theta| Euler angles and their rates are not evaluated but kept: they lose
+/// all their digits there.
+const EULER_LIMIT: f64 = 1e-6;
+
+/// What balances are counted from, and the angles last recorded (so that they go on without
+/// jumps of a whole turn).
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Ledger {
+    /// Energy at the start [J].
+    pub energy: f64,
+    /// Linear momentum at the start [kg m/s], N.
+    pub momentum: DVec3,
+    /// Angular momentum about the inertial origin at the start [kg m2/s], N.
+    pub angular_momentum: DVec3,
+    /// Coordinates last recorded (seed eq. 2).
+    pub coordinates: Vec<f64>,
+    /// Their rates.
+    pub rates: Vec<f64>,
+    /// Regularised events of the air up to the last record.
+    pub events: u64,
+}
+
+impl Ledger {
+    /// Opens the books at the state last evaluated.
+    pub fn open(s: &Scratch) -> Self {
+        let budget = &s.solution.budget;
+        Self {
+            energy: s.solution.energy(),
+            momentum: budget.momentum,
+            angular_momentum: about_origin(budget),
+            ..Self::default()
+        }
+    }
+}
+
+/// Everything a record is made from.
+pub struct Sources<'a> {
+    /// The animal, for the wing angles.
+    pub animal: &'a Animal,
+    /// The equations in force.
+    pub equations: &'a Equations,
+    /// Intermediate results of the last evaluation.
+    pub scratch: &'a Scratch,
+    /// State vector last evaluated.
+    pub y: &'a [f64],
+    /// The air, not yet moved on.
+    pub air: Option<&'a AirState>,
+    /// What the corrector did.
+    pub report: StepReport,
+}
+
+impl Sources<'_> {
+    /// The record of step `step` at time `time` [s]; the ledger takes note of the angles.
+    pub fn record(&self, step: usize, time: f64, ledger: &mut Ledger) -> Record {
+        let (s, work) = (self.scratch, Quadratures::from_state(self.y));
+        let system = self.equations.core.system();
+        let regularity = note_coordinates(system.bodies(), &s.motions, ledger);
+        let (solution, budget) = (&s.solution, &s.solution.budget);
+        let angular_momentum = about_origin(budget);
+        let events = self.air.map_or(0, total_events);
+        let new_events = events - ledger.events;
+        ledger.events = events;
+        let done = work.hinge_work + work.air_work + work.applied_work;
+        Record {
+            step,
+            time,
+            wing_angles: self.wing_angles(time),
+            coordinates: ledger.coordinates.clone(),
+            rates: ledger.rates.clone(),
+            root_quaternion: quaternion(&s.motions[0]),
+            root_angular_velocity: s.motions[0].w,
+            mass_centre: budget.centre,
+            multipliers: solution.multipliers.clone(),
+            hinges: solution.hinges.iter().map(hinge).collect(),
+            air: s.air.iter().map(load).collect(),
+            applied: s.applied.iter().map(load).collect(),
+            tether: load(&solution.tether),
+            kinetic_energy: budget.kinetic,
+            potential_energy: budget.potential,
+            hinge_work: work.hinge_work,
+            air_work: work.air_work,
+            applied_work: work.applied_work,
+            energy_residual: solution.energy() - ledger.energy - done,
+            momentum: budget.momentum,
+            angular_momentum,
+            momentum_residual: budget.momentum - ledger.momentum - work.impulse,
+            angular_momentum_residual: angular_momentum
+                - ledger.angular_momentum
+                - work.angular_impulse,
+            violation_position: solution.violation.position,
+            violation_orientation: solution.violation.orientation,
+            euler_regularity: regularity,
+            corrector_passes: self.report.passes,
+            corrector_residual: self.report.residual,
+            wake_rings: self
+                .air
+                .map_or(0, |a| a.sheets.iter().map(|w| w.gamma.len()).sum()),
+            regularised: new_events as usize,
+            leak_velocity: self.leak(),
+        }
+    }
+
+    fn wing_angles(&self, time: f64) -> Vec<DVec3> {
+        let value = |a: [[f64; 3]; 3]| DVec3::new(a[0][0], a[1][0], a[2][0]);
+        self.animal
+            .wings
+            .iter()
+            .map(|w| value(w.motion.angles(time)))
+            .collect()
+    }
+
+    /// Largest leak of a closed surface; the loads of a vacuum are empty.
+    fn leak(&self) -> f64 {
+        let surfaces = &self.scratch.air_loads.surfaces;
+        surfaces.iter().fold(0.0, |m, s| m.max(s.leak.abs()))
+    }
+}
+
+/// All regularised events of the air so far.
+fn total_events(air: &AirState) -> u64 {
+    air.events.limited + air.events.near_surface
+}
+
+/// Angular momentum about the inertial origin.
+fn about_origin(b: &Budget) -> DVec3 {
+    b.angular_momentum + b.centre.cross(b.momentum)
+}
+
+fn load(w: &Wrench) -> LoadRecord {
+    LoadRecord {
+        force: w.force,
+        moment: w.moment,
+    }
+}
+
+fn hinge(h: &wingbeat_dynamics::HingeReaction) -> HingeRecord {
+    HingeRecord {
+        force: h.force,
+        moment: h.moment,
+        power: h.power,
+    }
+}
+
+/// Unit quaternion (w, x, y, z) of R_NB with w >= 0.
+fn quaternion(m: &BodyMotion) -> [f64; 4] {
+    let q = DQuat::from_mat3(&m.r).normalize();
+    let q = if q.w < 0.0 { -q } else { q };
+    [q.w, q.x, q.y, q.z]
+}
+
+/// Writes coordinates and rates of all bodies (seed eq. 2) into the ledger, angles without jumps
+/// of a turn; returns the smallest |cos theta|.
+fn note_coordinates(bodies: &[Body], motions: &[BodyMotion], ledger: &mut Ledger) -> f64 {
+    let first = ledger.coordinates.is_empty();
+    ledger.coordinates.resize(6 * bodies.len(), 0.0);
+    ledger.rates.resize(6 * bodies.len(), 0.0);
+    let mut smallest = f64::INFINITY;
+    for (i, (body, m)) in bodies.iter().zip(motions).enumerate() {
+        let at = 6 * i;
+        m.p.write_to_slice(&mut ledger.coordinates[at..]);
+        m.v.write_to_slice(&mut ledger.rates[at..]);
+        let eta = body.sequence.angles(m.r);
+        let regularity = body.sequence.regularity(eta);
+        smallest = smallest.min(regularity);
+        if regularity < EULER_LIMIT && !first {
+            continue;
+        }
+        let before = DVec3::from_slice(&ledger.coordinates[at + 3..]);
+        let eta = if first {
+            eta
+        } else {
+            without_turns(eta, before)
+        };
+        let rates = body.sequence.g(eta).inverse() * m.w;
+        eta.write_to_slice(&mut ledger.coordinates[at + 3..]);
+        if rates.is_finite() {
+            rates.write_to_slice(&mut ledger.rates[at + 3..]);
+        }
+    }
+    smallest
+}
+
+/// The angles plus whole turns that come nearest to `before`. The two attitudes (a, b, c) and
+/// (a + pi, pi - b, c + pi) are one; the first, with b in [-pi/2, pi/2], is always reported.
+fn without_turns(eta: DVec3, before: DVec3) -> DVec3 {
+    let turn = 2.0 * std::f64::consts::PI;
+    eta + turn * ((before - eta) / turn).round()
+}
+
+/// The geometry of the state last evaluated: surfaces with their loads, wakes as they lie.
+pub fn snapshot(side: &AirSide, air: &AirState, s: &Scratch, step: usize, time: f64) -> Snapshot {
+    let surfaces = side.lattice.surfaces().iter().enumerate();
+    Snapshot {
+        step,
+        time,
+        surfaces: surfaces
+            .map(|(k, _)| surface_snapshot(side, s, k))
+            .collect(),
+        wakes: (0..air.sheets.len())
+            .map(|k| wake_snapshot(side, air, s, k))
+            .collect(),
+    }
+}
+
+fn surface_snapshot(side: &AirSide, s: &Scratch, k: usize) -> SurfaceSnapshot {
+    let surface = &side.lattice.surfaces()[k];
+    let panels = side.lattice.panels_of(k);
+    SurfaceSnapshot {
+        name: surface.name.clone(),
+        nodes: s.nodes.position[side.lattice.nodes_of(k)].to_vec(),
+        quads: surface.panels.clone(),
+        circulation: s.air_loads.gamma[panels.clone()].to_vec(),
+        pressure_jump: s.air_loads.pressure_jump[panels].to_vec(),
+    }
+}
+
+/// A wake sheet, newest row first, the nodes on the shedding edge included.
+fn wake_snapshot(side: &AirSide, air: &AirState, s: &Scratch, k: usize) -> WakeSnapshot {
+    let (sheet, root) = (&air.sheets[k], &side.lattice.sheets()[k]);
+    let (rows, cols) = (sheet.rows(), sheet.columns);
+    let mut nodes: Vec<DVec3> = root.nodes.iter().map(|&n| s.nodes.position[n]).collect();
+    let mut circulation = Vec::with_capacity(rows * cols);
+    for row in (0..rows).rev() {
+        nodes.extend((0..=cols).map(|c| sheet.node(row, c)));
+        circulation.extend_from_slice(&sheet.gamma[row * cols..(row + 1) * cols]);
+    }
+    let surface = &side.lattice.surfaces()[root.surface].name;
+    WakeSnapshot {
+        name: format!("{surface}-wake-{k}"),
+        rows,
+        cols,
+        nodes,
+        circulation,
+    }
+}

@@ -1,0 +1,340 @@
+//! The flight itself: from a setup to accepted steps and their records.
+//!
+//! One step is a recipe: move the wake once with the velocities of the accepted step and freeze
+//! it; predict; correct bodies and air together until they agree; accept both; record.
+
+use std::sync::Arc;
+
+use wingbeat_air::AirState;
+use wingbeat_math::ode::{Convergence, Hamming, Multistep, StepError, StepReport, block_start};
+
+use crate::equations::{Equations, QUADRATURES, Scratch};
+use crate::error::FlightError;
+use crate::record::{Record, Snapshot};
+use crate::recorder::{self, Ledger, Sources};
+use crate::setup::{CorrectorSettings, FlightSetup};
+use crate::stages::{Stage, air_side, stages};
+
+/// Everything that is integrated: plain data, enough to go on bit for bit.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FlightState {
+    /// Accepted steps.
+    pub step: usize,
+    /// Stage of the flight: held or released.
+    pub stage: usize,
+    /// Step at which the stage, and with it the past, was started.
+    pub started_at: usize,
+    /// States and rates of bodies and quadratures. During the first three steps of a stage it
+    /// holds that whole start; after that the newest four steps.
+    pub past: Multistep,
+    /// What the starter did.
+    pub start_report: StepReport,
+    /// The air after the newest step, its wake not yet moved on; none in vacuum.
+    pub air: Option<AirState>,
+    /// What balances are counted from.
+    pub ledger: Ledger,
+}
+
+/// A flight in progress.
+pub struct Simulation {
+    setup: FlightSetup,
+    stages: Vec<Stage>,
+    state: FlightState,
+    solver: Hamming,
+    scratch: Scratch,
+    record: Record,
+}
+
+impl Simulation {
+    /// Builds the flight and evaluates its start; the record of step 0 is available at once.
+    ///
+    /// # Errors
+    /// A setup that contradicts itself, bodies or surfaces that are impossible, a start state
+    /// without consistent coordinates, a start that does not converge.
+    pub fn new(setup: FlightSetup) -> Result<Self, FlightError> {
+        setup.validate()?;
+        let air = air_side(&setup)?.map(Arc::new);
+        let stages = stages(&setup, air)?;
+        let first = &stages[0].equations;
+        let state = FlightState {
+            step: 0,
+            stage: 0,
+            started_at: 0,
+            past: Multistep::default(),
+            start_report: StepReport::default(),
+            air: None,
+            ledger: Ledger::default(),
+        };
+        let mut flight = Self {
+            solver: solver(first, &setup.corrector),
+            scratch: Scratch::new(first),
+            record: Record::default(),
+            setup,
+            state,
+            stages,
+        };
+        flight.begin()?;
+        Ok(flight)
+    }
+
+    /// Goes on from a saved state of the same setup. The next [`Self::step`] makes the first new
+    /// record.
+    ///
+    /// # Errors
+    /// As [`Self::new`]; the state does not fit the setup.
+    pub fn resume(setup: FlightSetup, state: FlightState) -> Result<Self, FlightError> {
+        let mut flight = Self::new(setup)?;
+        flight.check_fits(&state)?;
+        flight.state = state;
+        let first = &flight.stages[flight.state.stage].equations;
+        flight.solver = solver(first, &flight.setup.corrector);
+        flight.scratch = Scratch::new(first);
+        Ok(flight)
+    }
+
+    /// The setup.
+    pub fn setup(&self) -> &FlightSetup {
+        &self.setup
+    }
+
+    /// The state after the newest step.
+    pub fn state(&self) -> &FlightState {
+        &self.state
+    }
+
+    /// The record of the newest step.
+    pub fn record(&self) -> &Record {
+        &self.record
+    }
+
+    /// Surfaces and wakes at the newest step; empty in vacuum.
+    pub fn snapshot(&self) -> Snapshot {
+        let (step, time) = (self.state.step, self.time(self.state.step));
+        match (&self.equations().air, &self.state.air) {
+            (Some(side), Some(air)) => recorder::snapshot(side, air, &self.scratch, step, time),
+            _ => Snapshot {
+                step,
+                time,
+                ..Snapshot::default()
+            },
+        }
+    }
+
+    /// Whether the last step of the setup has been made.
+    pub fn finished(&self) -> bool {
+        self.state.step >= self.setup.time.steps
+    }
+
+    /// One step.
+    ///
+    /// # Errors
+    /// Bodies and air do not agree; an attitude is singular; numbers are not finite. The flight
+    /// cannot go on after an error.
+    pub fn step(&mut self) -> Result<&Record, FlightError> {
+        let equations = &self.stages[self.state.stage].equations;
+        equations.advance_air(&mut self.state.air, &mut self.scratch)?;
+        self.state.step += 1;
+        let report = if self.state.step - self.state.started_at <= 3 {
+            self.replay_start()?
+        } else {
+            self.predict_and_correct()?
+        };
+        self.arrive(report)?;
+        Ok(&self.record)
+    }
+
+    fn equations(&self) -> &Equations {
+        &self.stages[self.state.stage].equations
+    }
+
+    fn time(&self, step: usize) -> f64 {
+        step as f64 * self.setup.time.step
+    }
+
+    /// Number of the newest state within `past`.
+    fn newest(&self) -> usize {
+        (self.state.step - self.state.started_at).min(3)
+    }
+
+    /// The first moment: consistent coordinates, circulation without a wake, open books.
+    fn begin(&mut self) -> Result<(), FlightError> {
+        let root = self.setup.root_at_start();
+        let core = &self.stages[0].equations.core;
+        let mut y0 = core.initial(0.0, &root)?;
+        y0.resize(y0.len() + QUADRATURES, 0.0);
+        self.state.air = self.stages[0].initial_air(&y0, &mut self.scratch)?;
+        self.enter_stage(y0)?;
+        self.state.ledger = Ledger::open(&self.scratch);
+        self.finish_arrival(StepReport::default(), true)
+    }
+
+    /// One of the three starting steps, already known: evaluates it again in its place.
+    fn replay_start(&mut self) -> Result<StepReport, FlightError> {
+        let (t, k) = (self.time(self.state.step), self.newest());
+        let equations = &self.stages[self.state.stage].equations;
+        let mut dy = vec![0.0; equations.dim()];
+        let (y, air) = (&self.state.past.y[k], self.state.air.as_ref());
+        equations.evaluate(t, y, air, &mut self.scratch, &mut dy)?;
+        Ok(self.state.start_report)
+    }
+
+    /// Hamming's predictor and corrector in the frozen wake.
+    fn predict_and_correct(&mut self) -> Result<StepReport, FlightError> {
+        let t = self.time(self.state.step);
+        let equations = &self.stages[self.state.stage].equations;
+        let (air, scratch) = (self.state.air.as_ref(), &mut self.scratch);
+        self.solver
+            .advance(&mut self.state.past, |y, dy| {
+                equations.evaluate(t, y, air, scratch, dy)
+            })
+            .map_err(|e| failure(e, self.state.step, t, &self.setup.corrector))
+    }
+
+    /// Goes over into the next stage where one starts, records, accepts, starts.
+    fn arrive(&mut self, report: StepReport) -> Result<(), FlightError> {
+        let next = self.state.stage + 1;
+        let enters = self
+            .stages
+            .get(next)
+            .is_some_and(|s| s.from_step == self.state.step);
+        if enters {
+            let past = &self.state.past.y[self.newest()];
+            let quadratures = past[past.len() - QUADRATURES..].to_vec();
+            let root = self.scratch.motions[0];
+            let core = &self.stages[next].equations.core;
+            let mut y0 = core.initial(self.time(self.state.step), &root)?;
+            y0.extend(quadratures);
+            self.state.stage = next;
+            self.enter_stage(y0)?;
+        }
+        self.finish_arrival(report, enters)
+    }
+
+    /// Makes `y0` the state at the present step in the equations of the present stage.
+    fn enter_stage(&mut self, y0: Vec<f64>) -> Result<(), FlightError> {
+        let t = self.time(self.state.step);
+        let equations = &self.stages[self.state.stage].equations;
+        self.solver = solver(equations, &self.setup.corrector);
+        let mut f0 = vec![0.0; y0.len()];
+        equations.evaluate(t, &y0, self.state.air.as_ref(), &mut self.scratch, &mut f0)?;
+        self.state.started_at = self.state.step;
+        self.state.past = Multistep::from_start(
+            std::array::from_fn(|_| y0.clone()),
+            std::array::from_fn(|_| f0.clone()),
+        );
+        Ok(())
+    }
+
+    /// Record, acceptance of the air, and the start of a stage that begins here.
+    fn finish_arrival(&mut self, report: StepReport, starts: bool) -> Result<(), FlightError> {
+        let (step, time) = (self.state.step, self.time(self.state.step));
+        let sources = Sources {
+            animal: &self.setup.animal,
+            equations: &self.stages[self.state.stage].equations,
+            scratch: &self.scratch,
+            y: &self.state.past.y[self.newest()],
+            air: self.state.air.as_ref(),
+            report,
+        };
+        self.record = sources.record(step, time, &mut self.state.ledger);
+        let equations = &self.stages[self.state.stage].equations;
+        equations.accept_air(&mut self.state.air, &self.scratch)?;
+        if starts && !self.finished() {
+            self.start()?;
+        }
+        Ok(())
+    }
+
+    /// Starting values of the order of the method: bodies and air replayed over three steps until
+    /// they agree. The state of the air stays where it is.
+    fn start(&mut self) -> Result<(), FlightError> {
+        let equations = &self.stages[self.state.stage].equations;
+        let (h, first, state) = (self.setup.time.step, self.state.step, &mut self.state);
+        let f0 = state.past.f[0].clone();
+        let mut scratch = Scratch::new(equations);
+        let sweep = |y: &[Vec<f64>; 4], f: &mut [Vec<f64>; 4]| {
+            f[0].copy_from_slice(&f0);
+            let mut air = state.air.clone();
+            for k in 1..4 {
+                let t = (first + k) as f64 * h;
+                equations.advance_air(&mut air, &mut scratch)?;
+                equations.evaluate(t, &y[k], air.as_ref(), &mut scratch, &mut f[k])?;
+                equations.accept_air(&mut air, &scratch)?;
+            }
+            Ok(())
+        };
+        let (y0, convergence) = (state.past.y[0].clone(), convergence(&self.setup.corrector));
+        let scales = equations.scales();
+        let (past, report) = block_start(&y0, h, convergence, &scales, sweep)
+            .map_err(|e| failure(e, first + 3, (first + 3) as f64 * h, &self.setup.corrector))?;
+        (state.past, state.start_report) = (past, report);
+        Ok(())
+    }
+
+    fn check_fits(&self, state: &FlightState) -> Result<(), FlightError> {
+        let misfit = |value: String, problem: &str| {
+            Err(FlightError::Setup {
+                key: "state",
+                value,
+                problem: problem.into(),
+            })
+        };
+        let Some(stage) = self.stages.get(state.stage) else {
+            return misfit(
+                format!("stage {}", state.stage),
+                "the flight has no such stage",
+            );
+        };
+        let dim = stage.equations.dim();
+        if state
+            .past
+            .y
+            .iter()
+            .chain(&state.past.f)
+            .any(|v| v.len() != dim)
+        {
+            return misfit(
+                format!("{} components", state.past.newest().len()),
+                &format!("the case has {dim}; resume with the case that was saved with it"),
+            );
+        }
+        match (&stage.equations.air, &state.air) {
+            (Some(side), Some(air)) => Ok(side.lattice.check_state(air)?),
+            (None, None) => Ok(()),
+            _ => misfit("air".into(), "only one of case and state has air"),
+        }
+    }
+}
+
+/// The integrator of a stage.
+fn solver(equations: &Equations, c: &CorrectorSettings) -> Hamming {
+    Hamming::new(equations.step, convergence(c), equations.scales())
+}
+
+fn convergence(c: &CorrectorSettings) -> Convergence {
+    Convergence {
+        tolerance: c.tolerance,
+        max_passes: c.max_passes,
+        relaxation: c.relaxation,
+    }
+}
+
+/// The error of a failed step.
+fn failure(
+    e: StepError<FlightError>,
+    step: usize,
+    time: f64,
+    settings: &CorrectorSettings,
+) -> FlightError {
+    match e {
+        StepError::Rates(e) => e,
+        StepError::NotConverged(StepReport { passes, residual }) => FlightError::NotConverged {
+            step,
+            time,
+            passes,
+            residual,
+            tolerance: settings.tolerance,
+            relaxation: settings.relaxation,
+        },
+    }
+}

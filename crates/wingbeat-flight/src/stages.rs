@@ -1,0 +1,147 @@
+//! The stages of a flight: tethered all along, free all along, or held first and then released.
+
+use std::sync::Arc;
+
+use wingbeat_air::{AirState, Lattice};
+use wingbeat_dynamics::{
+    Baumgarte, BodyMotion, EulerForm, Formulation, MomentumForm, NaturalUnits, System,
+};
+use wingbeat_math::DVec3;
+
+use crate::bodies;
+use crate::core::{Core, root_motion};
+use crate::equations::{AirSide, Equations, Scratch};
+use crate::error::FlightError;
+use crate::setup::{
+    BaumgarteChoice, DriftingFourier, FlightSetup, FormulationChoice, MotionMode, PrescribedMotion,
+    StartState,
+};
+use crate::surfaces::SurfaceMap;
+
+/// A part of the flight with the same equations.
+#[derive(Debug)]
+pub struct Stage {
+    /// Step at which it begins.
+    pub from_step: usize,
+    /// Its equations.
+    pub equations: Equations,
+}
+
+impl Stage {
+    /// The air around the bodies in the state `y0` at time zero: no wake yet.
+    ///
+    /// # Errors
+    /// The state is singular.
+    pub fn initial_air(
+        &self,
+        y0: &[f64],
+        scratch: &mut Scratch,
+    ) -> Result<Option<AirState>, FlightError> {
+        self.equations.place_nodes(0.0, y0, scratch)?;
+        let side = self.equations.air.as_ref();
+        Ok(side.map(|a| a.lattice.initial_state(&scratch.nodes)))
+    }
+}
+
+/// The lattice of a setup and its map to the bodies, if there is air.
+///
+/// # Errors
+/// Surfaces or settings that the lattice refuses.
+pub fn air_side(setup: &FlightSetup) -> Result<Option<AirSide>, FlightError> {
+    let Some(options) = &setup.air else {
+        return Ok(None);
+    };
+    let map = SurfaceMap::new(&setup.animal, options.body_surfaces);
+    let lattice = Lattice::new(map.surfaces.clone(), options.lattice.clone())?;
+    Ok(Some(AirSide { lattice, map }))
+}
+
+/// The stages of a setup.
+///
+/// # Errors
+/// Bodies that the dynamics refuse.
+pub fn stages(setup: &FlightSetup, air: Option<Arc<AirSide>>) -> Result<Vec<Stage>, FlightError> {
+    let system = || bodies::system(&setup.animal, setup.gravity, natural_units(setup));
+    let tethered = |system: System, motion: &PrescribedMotion| Core::Tethered {
+        system,
+        motion: motion.clone(),
+    };
+    let stage = |from_step: usize, core: Core| Stage {
+        from_step,
+        equations: Equations {
+            core,
+            air: air.clone(),
+            applied: setup.loads.clone(),
+            step: setup.time.step,
+        },
+    };
+    Ok(match &setup.mode {
+        MotionMode::Tethered(motion) => vec![stage(0, tethered(system()?, motion))],
+        MotionMode::Free(start) => {
+            let free = Core::Free(formulation(setup, system()?)?);
+            if start.held_steps == 0 {
+                vec![stage(0, free)]
+            } else {
+                let held = tethered(system()?, &held_motion(start));
+                vec![stage(0, held), stage(start.held_steps, free)]
+            }
+        }
+    })
+}
+
+impl FlightSetup {
+    /// Motion of the root at time zero.
+    pub fn root_at_start(&self) -> BodyMotion {
+        match &self.mode {
+            MotionMode::Tethered(motion) => root_motion(motion, 0.0).motion,
+            MotionMode::Free(start) => BodyMotion {
+                p: start.position,
+                r: start.rotation(),
+                v: start.velocity,
+                w: start.angular_velocity,
+            },
+        }
+    }
+}
+
+/// The chosen formulation of `system`.
+fn formulation(setup: &FlightSetup, system: System) -> Result<Box<dyn Formulation>, FlightError> {
+    Ok(match setup.formulation {
+        FormulationChoice::Momentum => Box::new(MomentumForm::new(system)),
+        FormulationChoice::Euler(choice) => {
+            let baumgarte = match choice {
+                BaumgarteChoice::StepTied(a) => Baumgarte::step_tied(a, setup.time.step),
+                BaumgarteChoice::Fixed { alpha, beta } => Baumgarte { alpha, beta },
+            };
+            Box::new(EulerForm::new(system, baumgarte))
+        }
+    })
+}
+
+/// The hold before the release: constant attitude, constant velocity.
+fn held_motion(start: &StartState) -> PrescribedMotion {
+    let (x, v) = (start.position.to_array(), start.velocity.to_array());
+    PrescribedMotion {
+        position: std::array::from_fn(|i| DriftingFourier {
+            rate: v[i],
+            ..DriftingFourier::constant(x[i])
+        }),
+        angles: start.angles.to_array().map(DriftingFourier::constant),
+    }
+}
+
+/// Natural units: the farthest wing node from its hinge (else the body, else a metre) and the
+/// period of a wingbeat (else ten steps).
+fn natural_units(setup: &FlightSetup) -> NaturalUnits {
+    let farthest = |nodes: &[DVec3]| nodes.iter().fold(0.0_f64, |m, r| m.max(r.length()));
+    let wings = setup.animal.wings.iter().map(|w| farthest(&w.mesh.nodes));
+    let body = setup.animal.parts.iter().map(|p| farthest(&p.mesh.nodes));
+    let length = [wings.fold(0.0, f64::max), body.fold(0.0, f64::max), 1.0];
+    NaturalUnits {
+        length: length
+            .into_iter()
+            .find(|l| *l > 0.0)
+            .expect("1 is positive"),
+        time: setup.time.period.unwrap_or(10.0 * setup.time.step),
+    }
+}

@@ -1,0 +1,109 @@
+//! What a setup must fulfil as a whole; bodies, lattice and motions check their own parts.
+
+use crate::error::FlightError;
+use crate::setup::{BaumgarteChoice, FlightSetup, FormulationChoice, MotionMode};
+
+impl FlightSetup {
+    /// Checks the numbers that no other part checks.
+    ///
+    /// # Errors
+    /// [`FlightError::Setup`] names the first key that makes no sense.
+    pub fn validate(&self) -> Result<(), FlightError> {
+        self.validate_time()?;
+        self.validate_corrector()?;
+        self.validate_mode()?;
+        if let FormulationChoice::Euler(choice) = self.formulation {
+            let (key, values) = match choice {
+                BaumgarteChoice::StepTied(a) => ("dynamics.baumgarte", [a, a]),
+                BaumgarteChoice::Fixed { alpha, beta } => ("dynamics.baumgarte", [alpha, beta]),
+            };
+            for v in values {
+                check(v.is_finite() && v >= 0.0, key, v, "a finite number >= 0")?;
+            }
+        }
+        let last = self.animal.wings.len();
+        for load in &self.loads {
+            let problem = "no such body: 0 is the root, wings follow in their order";
+            check(load.body <= last, "load.body", load.body, problem)?;
+        }
+        Ok(())
+    }
+
+    fn validate_time(&self) -> Result<(), FlightError> {
+        let (h, period) = (self.time.step, self.time.period);
+        let positive = "a finite number of seconds above 0";
+        check(h.is_finite() && h > 0.0, "time.step", h, positive)?;
+        if let Some(p) = period {
+            check(p.is_finite() && p > 0.0, "time.period", p, positive)?;
+        }
+        Ok(())
+    }
+
+    fn validate_corrector(&self) -> Result<(), FlightError> {
+        let c = &self.corrector;
+        let (key, problem) = ("corrector.tolerance", "a finite number >= 0");
+        check(
+            c.tolerance.is_finite() && c.tolerance >= 0.0,
+            key,
+            c.tolerance,
+            problem,
+        )?;
+        check(
+            c.max_passes > 0,
+            "corrector.max_passes",
+            c.max_passes,
+            "at least 1",
+        )?;
+        let ok = c.relaxation > 0.0 && c.relaxation <= 1.0;
+        check(
+            ok,
+            "corrector.relaxation",
+            c.relaxation,
+            "above 0, at most 1",
+        )
+    }
+
+    fn validate_mode(&self) -> Result<(), FlightError> {
+        let MotionMode::Free(start) = &self.mode else {
+            return Ok(());
+        };
+        let numbers = [
+            start.position,
+            start.angles,
+            start.velocity,
+            start.angular_velocity,
+        ];
+        let finite = numbers.iter().all(|v| v.is_finite());
+        check(
+            finite,
+            "flight.start",
+            format!("{numbers:?}"),
+            "finite numbers",
+        )?;
+        let still = start.held_steps == 0 || start.angular_velocity.length() == 0.0;
+        let problem = "a held start keeps its attitude; hold 0 steps or start without rotation";
+        check(
+            still,
+            "flight.start.angular_velocity",
+            start.angular_velocity,
+            problem,
+        )
+    }
+}
+
+/// An error that shows the key, its value and what is allowed, unless `ok`.
+fn check(
+    ok: bool,
+    key: &'static str,
+    value: impl ToString,
+    problem: &str,
+) -> Result<(), FlightError> {
+    if ok {
+        return Ok(());
+    }
+    Err(FlightError::Setup {
+        key,
+        value: value.to_string(),
+        problem: problem.into(),
+    })
+}

@@ -1,0 +1,113 @@
+//! Keeps ARCHITECTURE.md and NOTATION.md true by reading manifests and sources.
+
+use std::collections::BTreeSet;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+fn root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
+}
+
+fn rust_files(dir: &Path) -> Vec<PathBuf> {
+    let mut files = vec![];
+    for entry in fs::read_dir(dir).unwrap_or_else(|e| panic!("{}: {e}", dir.display())) {
+        let path = entry.expect("a directory entry").path();
+        if path.is_dir() {
+            files.extend(rust_files(&path));
+        } else if path.extension().is_some_and(|e| e == "rs") {
+            files.push(path);
+        }
+    }
+    files
+}
+
+/// Own crates that the manifest of `name` names under `[dependencies]`.
+fn dependencies(name: &str) -> BTreeSet<String> {
+    let manifest = root().join("crates").join(name).join("Cargo.toml");
+    let text = fs::read_to_string(manifest).expect("a manifest");
+    text.split("[dependencies]")
+        .nth(1)
+        .unwrap_or("")
+        .lines()
+        .take_while(|l| !l.starts_with('['))
+        .filter(|l| l.starts_with("wingbeat"))
+        .map(|l| l.split(['.', ' ', '=']).next().expect("a name").to_string())
+        .collect()
+}
+
+#[test]
+fn invariant_dependency_graph_is_the_architecture() {
+    let expect = [
+        ("wingbeat-math", vec![]),
+        ("wingbeat-model", vec!["math"]),
+        ("wingbeat-dynamics", vec!["math"]),
+        ("wingbeat-air", vec!["math"]),
+        ("wingbeat-flight", vec!["math", "model", "dynamics", "air"]),
+    ];
+    for (name, allowed) in expect {
+        let allowed: BTreeSet<_> = allowed.iter().map(|d| format!("wingbeat-{d}")).collect();
+        let found = dependencies(name);
+        assert!(found.is_subset(&allowed), "{name} depends on {found:?}, allowed {allowed:?}");
+    }
+    let analysis = dependencies("wingbeat-analysis");
+    assert!(!analysis.contains("wingbeat-io"), "analysis must not know files");
+}
+
+#[test]
+fn invariant_below_io_nothing_touches_files_clock_environment_or_chance() {
+    let banned = ["std::fs", "std::env", "std::time", "SystemTime", "Instant::now", "rand::", "File::"];
+    for name in ["math", "model", "dynamics", "air", "flight", "analysis"] {
+        for file in rust_files(&root().join(format!("crates/wingbeat-{name}/src"))) {
+            let text = fs::read_to_string(&file).expect("a source file");
+            for (n, line) in text.lines().enumerate() {
+                if line.trim_start().starts_with("//") {
+                    continue;
+                }
+                for word in banned {
+                    assert!(!line.contains(word), "{}:{}: {word}", file.display(), n + 1);
+                }
+            }
+        }
+    }
+}
+
+/// Rows `| number | functions | tests |` of the equation index.
+fn equation_index() -> Vec<(usize, Vec<String>, Vec<String>)> {
+    let text = fs::read_to_string(root().join("NOTATION.md")).expect("NOTATION.md");
+    let cells = |line: &str| -> Vec<String> {
+        line.trim_matches('|').split('|').map(|c| c.trim().to_string()).collect()
+    };
+    let quoted = |cell: &str| -> Vec<String> {
+        cell.split('`').skip(1).step_by(2).map(str::to_string).collect()
+    };
+    text.lines()
+        .skip_while(|l| !l.starts_with("## Equation index"))
+        .filter(|l| l.starts_with('|'))
+        .map(cells)
+        .filter_map(|c| Some((c[0].parse().ok()?, quoted(&c[2]), quoted(&c[3]))))
+        .collect()
+}
+
+#[test]
+fn invariant_every_seed_equation_has_a_function_and_a_test_that_exist() {
+    let sources: String = rust_files(&root().join("crates"))
+        .iter()
+        .map(|f| fs::read_to_string(f).expect("a source file"))
+        .collect();
+    let index = equation_index();
+    let numbers: Vec<_> = index.iter().map(|row| row.0).collect();
+    assert_eq!(numbers, (1..=30).collect::<Vec<_>>(), "equations 1 to 30, in order");
+    for (number, functions, tests) in index {
+        assert!(!functions.is_empty() && !tests.is_empty(), "eq. {number} lacks a function or a test");
+        for function in &functions {
+            let name = function.rsplit("::").next().expect("a name");
+            let declared = ["fn ", "struct ", "const ", "trait "]
+                .iter()
+                .any(|kind| sources.contains(&format!("{kind}{name}")));
+            assert!(declared, "eq. {number}: {function} is not in the sources");
+        }
+        for test in &tests {
+            assert!(sources.contains(&format!("fn {test}(")), "eq. {number}: no test {test}");
+        }
+    }
+}
