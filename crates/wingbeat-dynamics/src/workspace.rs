@@ -1,7 +1,8 @@
 //! Scratch room of the equations of motion.
 
+use crate::euler::EulerScratch;
 use crate::posture::Posture;
-use crate::{BodyMotion, System};
+use crate::{BodyMotion, DynamicsError, System, Wrench};
 
 /// Intermediate results, kept between calls so that nothing is allocated. Holds no state: any
 /// workspace of the same system serves any call.
@@ -9,14 +10,31 @@ use crate::{BodyMotion, System};
 pub struct Workspace {
     pub(crate) posture: Posture,
     pub(crate) motions: Vec<BodyMotion>,
+    pub(crate) demand: Vec<Wrench>,
+    pub(crate) euler: EulerScratch,
 }
 
 impl Workspace {
     /// Room for `system`.
     pub fn new(system: &System) -> Self {
+        let bodies = system.bodies().len();
         Self {
             posture: Posture::new(system),
-            motions: vec![BodyMotion::REST; system.bodies().len()],
+            motions: vec![BodyMotion::REST; bodies],
+            demand: vec![Wrench::default(); bodies],
+            euler: EulerScratch::new(system),
         }
+    }
+}
+
+/// An error if a component of the state is not finite.
+pub(crate) fn check_finite(time: f64, y: &[f64]) -> Result<(), DynamicsError> {
+    match y.iter().position(|x| !x.is_finite()) {
+        None => Ok(()),
+        Some(component) => Err(DynamicsError::NotFinite {
+            time,
+            component,
+            value: y[component],
+        }),
     }
 }

@@ -1,0 +1,285 @@
+//! The seed's form: six absolute coordinates per body, multipliers, Baumgarte stabilization.
+//!
+//! State: q, then q', both in the seed's order (eq. 2). For three bodies that is 18 + 18.
+//!
+//! The constraints hold only as far as integration and stabilization keep them: `alpha = beta =
+//! a / h` with a = 0.1 drifts least at 80 steps per beat; constants of a few tens per second do
+//! nothing at 200 Hz; a > 2.7 makes Runge-Kutta unstable. A stabilization tied to the step lowers a
+//! fourth-order integrator to second order, a fixed one keeps its order. Projection
+//! ([`EulerForm::with_projection`]) removes the drift between steps of a one-step integrator.
+
+pub mod assembly;
+pub mod constraint;
+pub mod coordinates;
+pub mod forces;
+pub mod inertia;
+pub mod saddle;
+
+use wingbeat_math::DVec3;
+
+use crate::budget::{budget, load_power};
+use crate::posture::Posture;
+use crate::system::check_rotation;
+use crate::workspace::check_finite;
+use crate::{
+    BodyAcceleration, BodyMotion, DynamicsError, Formulation, HingeReaction, Solution, System,
+    Violation, Workspace, Wrench,
+};
+use assembly::{consistent_coordinates, consistent_rates, kinematics};
+use constraint::HingeKinematics;
+use coordinates::{BodyKinematics, PER_BODY, write};
+use saddle::Saddle;
+
+/// Constants of Baumgarte's stabilization (seed eq. 29).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Baumgarte {
+    /// alpha [1/s].
+    pub alpha: f64,
+    /// beta [1/s].
+    pub beta: f64,
+}
+
+impl Baumgarte {
+    /// No stabilization: seed eq. 28.
+    pub const OFF: Self = Self {
+        alpha: 0.0,
+        beta: 0.0,
+    };
+
+    /// `alpha = beta = a / h` for the step h [s]; a = 0.1 is recommended.
+    pub fn step_tied(a: f64, h: f64) -> Self {
+        Self {
+            alpha: a / h,
+            beta: a / h,
+        }
+    }
+
+    /// The default for the step h [s]: a = 0.1.
+    pub fn for_step(h: f64) -> Self {
+        Self::step_tied(0.1, h)
+    }
+
+    /// S of seed eq. 30 from the bias of `Phi''`, and `Phi'` and `Phi`.
+    pub fn right_side(&self, bias: DVec3, rate: DVec3, value: DVec3) -> DVec3 {
+        -bias - 2.0 * self.alpha * rate - self.beta * self.beta * value
+    }
+}
+
+/// The seed's form of a [`System`].
+#[derive(Clone, Debug)]
+pub struct EulerForm {
+    system: System,
+    baumgarte: Baumgarte,
+    projection: bool,
+}
+
+/// Scratch of the Euler form.
+#[derive(Clone, Debug)]
+pub(crate) struct EulerScratch {
+    bodies: Vec<BodyKinematics>,
+    hinges: Vec<HingeKinematics>,
+    saddle: Saddle,
+}
+
+impl EulerScratch {
+    pub(crate) fn new(system: &System) -> Self {
+        let zero = vec![0.0; PER_BODY * system.bodies().len()];
+        let (bodies, hinges) = kinematics(system, 0.0, &zero, &zero);
+        Self {
+            bodies,
+            hinges,
+            saddle: Saddle::new(system),
+        }
+    }
+}
+
+impl EulerForm {
+    /// The Euler form of `system` with stabilization `baumgarte`.
+    pub fn new(system: System, baumgarte: Baumgarte) -> Self {
+        Self {
+            system,
+            baumgarte,
+            projection: false,
+        }
+    }
+
+    /// Projects coordinates and rates onto the constraints in [`Formulation::normalise`].
+    pub fn with_projection(self) -> Self {
+        Self {
+            projection: true,
+            ..self
+        }
+    }
+
+    /// Number of coordinates, six per body.
+    pub fn coordinates(&self) -> usize {
+        PER_BODY * self.system.bodies().len()
+    }
+
+    /// The state with the given motions of all bodies.
+    fn pack(&self, motions: &[BodyMotion]) -> Vec<f64> {
+        let n = self.coordinates();
+        let mut y = vec![0.0; 2 * n];
+        for (i, (b, m)) in self.system.bodies().iter().zip(motions).enumerate() {
+            let eta = b.sequence.angles(m.r);
+            write(&mut y[..n], i, m.p, eta);
+            let eta_dot = b.sequence.g(eta).inverse() * m.w;
+            write(&mut y[n..], i, m.v, eta_dot);
+        }
+        y
+    }
+
+    /// Kinematics of all bodies, checked.
+    fn unfold(&self, t: f64, y: &[f64], ws: &mut Workspace) -> Result<(), DynamicsError> {
+        let n = self.coordinates();
+        assert_eq!(y.len(), 2 * n, "the Euler form has {} components", 2 * n);
+        check_finite(t, y)?;
+        for (i, body) in self.system.bodies().iter().enumerate() {
+            let (q, qd) = (&y[PER_BODY * i..n], &y[n + PER_BODY * i..]);
+            let k = BodyKinematics::new(body, q, qd);
+            k.check(body, t)?;
+            ws.euler.bodies[i] = k;
+            ws.motions[i] = k.motion;
+        }
+        Ok(())
+    }
+
+    /// Accelerations and multipliers into the saddle (seed eq. 30).
+    fn accelerate(
+        &self,
+        t: f64,
+        y: &[f64],
+        loads: &[Wrench],
+        ws: &mut Workspace,
+    ) -> Result<(), DynamicsError> {
+        self.unfold(t, y, ws)?;
+        let s = &mut ws.euler;
+        for (k, h) in self.system.hinges().iter().enumerate() {
+            let (parent, child) = (&s.bodies[h.parent], &s.bodies[h.child]);
+            s.hinges[k] = HingeKinematics::new(h, &h.law.at(t), parent, child);
+        }
+        s.saddle
+            .assemble(&self.system, &s.bodies, &s.hinges, loads, self.baumgarte);
+        s.saddle
+            .solve()
+            .map_err(|_| DynamicsError::SingularSaddle { time: t })
+    }
+
+    /// Accelerations of bodies and reactions of hinges from the solved saddle.
+    fn read_saddle(&self, s: &EulerScratch, out: &mut Solution) {
+        for (i, k) in s.bodies.iter().enumerate() {
+            let a = &s.saddle.accelerations()[PER_BODY * i..];
+            out.bodies[i] = BodyAcceleration {
+                linear: DVec3::from_slice(a),
+                angular: k.g * DVec3::from_slice(&a[3..]) + k.g_dot * k.eta_dot,
+            };
+        }
+        let lambda = s.saddle.multipliers();
+        let (connection, orientation) = lambda.split_at(3 * s.hinges.len());
+        for (k, h) in s.hinges.iter().enumerate() {
+            let moment = h.reaction_moment(DVec3::from_slice(&orientation[3 * k..]));
+            out.hinges[k] = HingeReaction {
+                force: h.reaction_force(DVec3::from_slice(&connection[3 * k..])),
+                moment,
+                power: moment.dot(h.prescribed_rate()),
+            };
+        }
+        out.multipliers.copy_from_slice(lambda);
+        out.violation = violation(&s.hinges);
+    }
+}
+
+/// Largest constraint of each kind.
+fn violation(hinges: &[HingeKinematics]) -> Violation {
+    let mut v = Violation::default();
+    for h in hinges {
+        v.position = v.position.max(h.connection().abs().max_element());
+        v.orientation = v.orientation.max(h.orientation().abs().max_element());
+    }
+    v
+}
+
+impl Formulation for EulerForm {
+    fn system(&self) -> &System {
+        &self.system
+    }
+
+    fn dim(&self) -> usize {
+        2 * self.coordinates()
+    }
+
+    fn initial(&self, t: f64, root: &BodyMotion) -> Result<Vec<f64>, DynamicsError> {
+        check_rotation(root.r, t, || "the root's attitude".into())?;
+        Posture::check(&self.system, t)?;
+        let mut ws = self.workspace();
+        ws.posture.update(&self.system, t);
+        ws.posture.motions(root, &mut ws.motions);
+        let mut y = self.pack(&ws.motions);
+        check_finite(t, &y)?;
+        let (q, qd) = y.split_at_mut(self.coordinates());
+        consistent_coordinates(&self.system, t, q)?;
+        consistent_rates(&self.system, t, q, qd)?;
+        self.unfold(t, &y, &mut ws)?;
+        Ok(y)
+    }
+
+    fn motions(
+        &self,
+        t: f64,
+        y: &[f64],
+        ws: &mut Workspace,
+        out: &mut [BodyMotion],
+    ) -> Result<(), DynamicsError> {
+        self.unfold(t, y, ws)?;
+        out.copy_from_slice(&ws.motions);
+        Ok(())
+    }
+
+    fn rates(
+        &self,
+        t: f64,
+        y: &[f64],
+        loads: &[Wrench],
+        ws: &mut Workspace,
+        dy: &mut [f64],
+    ) -> Result<(), DynamicsError> {
+        self.accelerate(t, y, loads, ws)?;
+        let n = self.coordinates();
+        dy[..n].copy_from_slice(&y[n..]);
+        dy[n..].copy_from_slice(ws.euler.saddle.accelerations());
+        Ok(())
+    }
+
+    fn solve(
+        &self,
+        t: f64,
+        y: &[f64],
+        loads: &[Wrench],
+        ws: &mut Workspace,
+        out: &mut Solution,
+    ) -> Result<(), DynamicsError> {
+        self.accelerate(t, y, loads, ws)?;
+        self.read_saddle(&ws.euler, out);
+        out.tether = Wrench::default();
+        out.budget = budget(&self.system, &ws.motions);
+        out.load_power = load_power(loads, &ws.motions);
+        Ok(())
+    }
+
+    fn scales(&self) -> Vec<f64> {
+        let u = self.system.units();
+        let coordinate = |i: usize| if i % PER_BODY < 3 { u.length } else { 1.0 };
+        let n = self.coordinates();
+        let rates = (0..n).map(|i| coordinate(i) / u.time);
+        (0..n).map(coordinate).chain(rates).collect()
+    }
+
+    fn normalise(&self, t: f64, y: &mut [f64], _ws: &mut Workspace) -> Result<(), DynamicsError> {
+        if !self.projection {
+            return Ok(());
+        }
+        let (q, qd) = y.split_at_mut(self.coordinates());
+        consistent_coordinates(&self.system, t, q)?;
+        consistent_rates(&self.system, t, q, qd)
+    }
+}

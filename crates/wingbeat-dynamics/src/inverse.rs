@@ -1,0 +1,88 @@
+//! Inverse dynamics: what the hinges (and a support of the root) must do so that the bodies
+//! accelerate as they do. Newton and Euler for every body, summed from the tips to the root.
+
+use wingbeat_math::DVec3;
+
+use crate::solution::{HingeReaction, Solution};
+use crate::workspace::Workspace;
+use crate::{Body, BodyAcceleration, BodyMotion, System, Wrench};
+
+/// Rate of change of the momentum of a body: force [N] in N components and moment about its
+/// frame origin [N m] in N components,
+/// `f = m a + R (w' x s + w x (w x s))`, `n = R (J w' + w x J w + s x R^T a)`.
+pub fn inertia_wrench(body: &Body, m: &BodyMotion, acc: &BodyAcceleration) -> Wrench {
+    let (s, j, w) = (body.mass.first_moment, body.mass.inertia, m.w);
+    let turning = acc.angular.cross(s) + w.cross(w.cross(s));
+    let spin = j * acc.angular + w.cross(j * w) + s.cross(m.r.transpose() * acc.linear);
+    Wrench {
+        force: body.mass.mass * acc.linear + m.r * turning,
+        moment: m.r * spin,
+    }
+}
+
+/// Weight of a body and its moment about the body's frame origin (seed eq. 10, with the moment
+/// for every body).
+pub fn weight_wrench(body: &Body, m: &BodyMotion, gravity: DVec3) -> Wrench {
+    Wrench::at(gravity, m.r * body.mass.first_moment).with_force(body.mass.mass * gravity)
+}
+
+impl Wrench {
+    /// The same moment with another force: a weight's moment is that of the first moment of mass.
+    fn with_force(self, force: DVec3) -> Self {
+        Self { force, ..self }
+    }
+
+    fn minus(self, o: Self) -> Self {
+        Self {
+            force: self.force - o.force,
+            moment: self.moment - o.moment,
+        }
+    }
+}
+
+/// Reactions of all hinges and of the support of the root, from the motions in `ws` and the
+/// accelerations in `out`.
+pub(crate) fn reactions(system: &System, loads: &[Wrench], ws: &mut Workspace, out: &mut Solution) {
+    demand(system, loads, ws, out);
+    for &k in system.outward().iter().rev() {
+        let h = &system.hinges()[k];
+        let (parent, child) = (&ws.motions[h.parent], &ws.motions[h.child]);
+        let (arm_parent, arm_child) = (parent.r * h.anchor_parent, child.r * h.anchor_child);
+        let at_origin = ws.demand[h.child];
+        let at_hinge = at_origin.moment - arm_child.cross(at_origin.force);
+        ws.demand[h.parent] += Wrench {
+            force: at_origin.force,
+            moment: at_hinge + arm_parent.cross(at_origin.force),
+        };
+        let moment = child.r.transpose() * at_hinge;
+        let relative = child.w - child.r.transpose() * (parent.r * parent.w);
+        out.hinges[k] = HingeReaction {
+            force: at_origin.force,
+            moment,
+            power: moment.dot(relative),
+        };
+    }
+    out.tether = ws.demand[0];
+}
+
+/// What every body still needs beside loads and weight, about its own origin.
+fn demand(system: &System, loads: &[Wrench], ws: &mut Workspace, out: &Solution) {
+    for (i, body) in system.bodies().iter().enumerate() {
+        let m = &ws.motions[i];
+        ws.demand[i] = inertia_wrench(body, m, &out.bodies[i])
+            .minus(loads[i])
+            .minus(weight_wrench(body, m, system.gravity()));
+    }
+}
+
+/// The seed's multipliers that belong to given reactions, at constraints fulfilled: force on the
+/// child = -(lambda_1, lambda_2, lambda_3), moment on the child in child components =
+/// -(lambda_8, lambda_9, lambda_7); connection of all hinges first, then orientation.
+pub(crate) fn multipliers(hinges: &[HingeReaction], out: &mut [f64]) {
+    let (connection, orientation) = out.split_at_mut(3 * hinges.len());
+    for (k, h) in hinges.iter().enumerate() {
+        let (f, m) = (-h.force, -h.moment);
+        connection[3 * k..3 * k + 3].copy_from_slice(&[f.x, f.y, f.z]);
+        orientation[3 * k..3 * k + 3].copy_from_slice(&[m.z, m.x, m.y]);
+    }
+}

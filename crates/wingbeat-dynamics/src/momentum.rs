@@ -1,0 +1,270 @@
+//! The momentum form: mass centre, attitude, linear and angular momentum of the whole system.
+//!
+//! State, 13 numbers: mass centre r_C [m], unit quaternion (x, y, z, w) of the root, linear
+//! momentum P [kg m/s], angular momentum H about the mass centre [kg m2/s], all in N components.
+//!
+//! ```text
+//! r_C' = P / m        P' = sum F        H' = sum of moments about the mass centre
+//! w    = I(t)^-1 (R^T H - h(t))         q' = q (0, w) / 2
+//! ```
+//!
+//! I(t) and h(t) are inertia and relative angular momentum of the posture in root components. In
+//! vacuum P and H are constant in the arithmetic itself. Constraints hold by construction, so
+//! nothing can drift; a body without mass is as good as any.
+
+use wingbeat_math::{DMat3, DQuat, DVec3};
+
+use crate::budget::{budget, load_power};
+use crate::inverse::{inertia_wrench, multipliers, reactions};
+use crate::posture::{Composite, Posture};
+use crate::system::check_rotation;
+use crate::workspace::check_finite;
+use crate::{
+    BodyAcceleration, BodyMotion, DynamicsError, Formulation, Solution, System, Violation,
+    Workspace, Wrench,
+};
+
+/// Length of the state vector.
+const DIM: usize = 13;
+
+/// The momentum form of a [`System`].
+#[derive(Clone, Debug)]
+pub struct MomentumForm {
+    system: System,
+}
+
+/// The state vector, taken apart.
+struct State {
+    centre: DVec3,
+    attitude: DQuat,
+    momentum: DVec3,
+    angular: DVec3,
+}
+
+impl State {
+    fn read(t: f64, y: &[f64]) -> Result<Self, DynamicsError> {
+        assert_eq!(y.len(), DIM, "the momentum form has {DIM} components");
+        check_finite(t, y)?;
+        let v = |i: usize| DVec3::new(y[i], y[i + 1], y[i + 2]);
+        Ok(Self {
+            centre: v(0),
+            attitude: DQuat::from_xyzw(y[3], y[4], y[5], y[6]),
+            momentum: v(7),
+            angular: v(10),
+        })
+    }
+
+    fn write(&self, y: &mut [f64]) {
+        self.centre.write_to_slice(&mut y[0..]);
+        self.attitude.write_to_slice(&mut y[3..]);
+        self.momentum.write_to_slice(&mut y[7..]);
+        self.angular.write_to_slice(&mut y[10..]);
+    }
+
+    /// Rotation of the root; the length of the quaternion does not matter.
+    fn rotation(&self) -> DMat3 {
+        DMat3::from_quat(self.attitude.normalize())
+    }
+}
+
+impl MomentumForm {
+    /// The momentum form of `system`.
+    pub fn new(system: System) -> Self {
+        Self { system }
+    }
+
+    /// Angular velocity of the root from the angular momentum, `w = I^-1 (R^T H - h)` [rad/s].
+    fn root_motion(
+        &self,
+        t: f64,
+        state: &State,
+        whole: &Composite,
+    ) -> Result<BodyMotion, DynamicsError> {
+        let r = state.rotation();
+        let w = inverse_inertia(t, whole.inertia)? * (r.transpose() * state.angular - whole.h);
+        Ok(BodyMotion {
+            p: state.centre - r * whole.c,
+            r,
+            v: state.momentum / whole.mass - r * (w.cross(whole.c) + whole.c_dot),
+            w,
+        })
+    }
+
+    /// Motions of all bodies into `ws.motions`; returns the state and the whole.
+    fn unfold(
+        &self,
+        t: f64,
+        y: &[f64],
+        ws: &mut Workspace,
+    ) -> Result<(State, Composite), DynamicsError> {
+        let state = State::read(t, y)?;
+        ws.posture.update(&self.system, t);
+        let whole = ws.posture.composite(&self.system);
+        let root = self.root_motion(t, &state, &whole)?;
+        ws.posture.motions(&root, &mut ws.motions);
+        Ok((state, whole))
+    }
+
+    /// Sum of all external forces and of their moments about the mass centre `x_c`, N components.
+    fn total_load(&self, loads: &[Wrench], motions: &[BodyMotion], x_c: DVec3) -> Wrench {
+        let mut sum = Wrench {
+            force: self.system.total_mass() * self.system.gravity(),
+            moment: DVec3::ZERO,
+        };
+        for (l, m) in loads.iter().zip(motions) {
+            sum.force += l.force;
+            sum.moment += l.moment + (m.p - x_c).cross(l.force);
+        }
+        sum
+    }
+
+    /// Accelerations of all bodies from Newton's and Euler's laws for the whole system.
+    fn accelerate(
+        &self,
+        t: f64,
+        x_c: DVec3,
+        whole: &Composite,
+        load: &Wrench,
+        ws: &Workspace,
+        out: &mut [BodyAcceleration],
+    ) -> Result<(), DynamicsError> {
+        let root = ws.motions[0];
+        // With the root's accelerations zero, the momenta change at the rate of the bias.
+        ws.posture
+            .accelerations(&root, &BodyAcceleration::default(), out);
+        let bias = self.momentum_rate(&ws.motions, out, x_c);
+        let moment = root.r.transpose() * (load.moment - bias.moment);
+        let angular = inverse_inertia(t, whole.inertia)? * moment;
+        let linear = (load.force - bias.force) / whole.mass - root.r * angular.cross(whole.c);
+        let acc = BodyAcceleration { linear, angular };
+        ws.posture.accelerations(&root, &acc, out);
+        Ok(())
+    }
+
+    /// Rates of linear momentum and of angular momentum about the mass centre.
+    fn momentum_rate(
+        &self,
+        motions: &[BodyMotion],
+        acc: &[BodyAcceleration],
+        x_c: DVec3,
+    ) -> Wrench {
+        let mut sum = Wrench::default();
+        for ((b, m), a) in self.system.bodies().iter().zip(motions).zip(acc) {
+            let w = inertia_wrench(b, m, a);
+            sum += Wrench {
+                force: w.force,
+                moment: w.moment + (m.p - x_c).cross(w.force),
+            };
+        }
+        sum
+    }
+}
+
+/// The inverse of an inertia matrix.
+fn inverse_inertia(time: f64, i: DMat3) -> Result<DMat3, DynamicsError> {
+    let scale = (i.x_axis.x + i.y_axis.y + i.z_axis.z) / 3.0;
+    // 1e-12 of the mean moment cubed: a rod a million times longer than thick.
+    if i.determinant() > 1e-12 * scale.powi(3) {
+        return Ok(i.inverse());
+    }
+    Err(DynamicsError::SingularInertia { time, scale })
+}
+
+impl Formulation for MomentumForm {
+    fn system(&self) -> &System {
+        &self.system
+    }
+
+    fn dim(&self) -> usize {
+        DIM
+    }
+
+    fn initial(&self, t: f64, root: &BodyMotion) -> Result<Vec<f64>, DynamicsError> {
+        check_rotation(root.r, t, || "the root's attitude".into())?;
+        Posture::check(&self.system, t)?;
+        let mut posture = Posture::new(&self.system);
+        posture.update(&self.system, t);
+        let whole = posture.composite(&self.system);
+        inverse_inertia(t, whole.inertia)?;
+        let state = State {
+            centre: root.p + root.r * whole.c,
+            attitude: DQuat::from_mat3(&root.r).normalize(),
+            momentum: whole.mass * (root.v + root.r * (root.w.cross(whole.c) + whole.c_dot)),
+            angular: root.r * (whole.inertia * root.w + whole.h),
+        };
+        let mut y = vec![0.0; DIM];
+        state.write(&mut y);
+        check_finite(t, &y)?;
+        Ok(y)
+    }
+
+    fn motions(
+        &self,
+        t: f64,
+        y: &[f64],
+        ws: &mut Workspace,
+        out: &mut [BodyMotion],
+    ) -> Result<(), DynamicsError> {
+        self.unfold(t, y, ws)?;
+        out.copy_from_slice(&ws.motions);
+        Ok(())
+    }
+
+    fn rates(
+        &self,
+        t: f64,
+        y: &[f64],
+        loads: &[Wrench],
+        ws: &mut Workspace,
+        dy: &mut [f64],
+    ) -> Result<(), DynamicsError> {
+        let (state, whole) = self.unfold(t, y, ws)?;
+        let load = self.total_load(loads, &ws.motions, state.centre);
+        let w = ws.motions[0].w;
+        State {
+            centre: state.momentum / whole.mass,
+            attitude: state.attitude * DQuat::from_xyzw(w.x, w.y, w.z, 0.0) * 0.5,
+            momentum: load.force,
+            angular: load.moment,
+        }
+        .write(dy);
+        Ok(())
+    }
+
+    fn solve(
+        &self,
+        t: f64,
+        y: &[f64],
+        loads: &[Wrench],
+        ws: &mut Workspace,
+        out: &mut Solution,
+    ) -> Result<(), DynamicsError> {
+        let (state, whole) = self.unfold(t, y, ws)?;
+        let load = self.total_load(loads, &ws.motions, state.centre);
+        self.accelerate(t, state.centre, &whole, &load, ws, &mut out.bodies)?;
+        reactions(&self.system, loads, ws, out);
+        out.tether = Wrench::default(); // free: what `reactions` leaves there is rounding
+        multipliers(&out.hinges, &mut out.multipliers);
+        out.violation = Violation::default(); // constraints hold by construction
+        out.budget = budget(&self.system, &ws.motions);
+        out.load_power = load_power(loads, &ws.motions);
+        Ok(())
+    }
+
+    fn scales(&self) -> Vec<f64> {
+        let (m, u) = (self.system.total_mass(), self.system.units());
+        let p = m * u.length / u.time;
+        let mut s = vec![u.length; 3];
+        s.extend([1.0; 4]);
+        s.extend([p; 3]);
+        s.extend([p * u.length; 3]);
+        s
+    }
+
+    fn normalise(&self, t: f64, y: &mut [f64], _ws: &mut Workspace) -> Result<(), DynamicsError> {
+        let mut state = State::read(t, y)?;
+        state.attitude = state.attitude.normalize();
+        state.write(y);
+        Ok(())
+    }
+}
