@@ -1,0 +1,160 @@
+//! From the raw case to the validated setup, in one place.
+//!
+//! Every step answers with a [`Fault`] that names the key it is about.
+
+mod air;
+mod body;
+mod flight;
+mod motion;
+mod time;
+mod wing;
+
+pub use motion::data_sets;
+
+use serde::Serialize;
+use wingbeat_flight::{CorrectorSettings, FlightSetup};
+use wingbeat_math::{DMat3, DVec3};
+use wingbeat_model::{Animal, ModelError};
+
+use super::raw::{Case, CorrectorCase};
+use crate::error::Fault;
+
+type Built<T> = Result<T, Fault>;
+
+/// The setup of a case whose files are read in. Defaults that depend on other keys (vortex core,
+/// frequency of a data set) are filled into `case` on the way.
+pub(crate) fn setup(case: &mut Case, name: &str) -> Built<FlightSetup> {
+    check_format(case.format)?;
+    motion::fill_defaults(case)?;
+    let animal = animal(case, name)?;
+    let time = time::grid(case)?;
+    air::fill_defaults(case, &animal);
+    let setup = FlightSetup {
+        name: name.to_owned(),
+        gravity: case.gravity_m_s2.into(),
+        air: air::options(&case.air)?,
+        mode: flight::mode(case, &time)?,
+        formulation: flight::formulation(&case.dynamics)?,
+        corrector: corrector(&case.corrector)?,
+        loads: flight::loads(case, &animal)?,
+        animal,
+        time,
+    };
+    flight::check_attitudes(case, &setup)?;
+    Ok(setup)
+}
+
+fn check_format(format: u32) -> Built<()> {
+    if format == 1 {
+        return Ok(());
+    }
+    Err(Fault::new(
+        "format",
+        "this version of the case language is unknown",
+        "1",
+        "use the version of wingbeat the case was written for, or port it to format = 1",
+    ))
+}
+
+fn animal(case: &Case, name: &str) -> Built<Animal> {
+    let body = body::build(&case.body)?;
+    let wings = wing::build_all(case)?;
+    let animal = Animal { name: name.to_owned(), wings, ..body };
+    animal.check().map_err(|e| blame_animal(case, e))?;
+    let scale = positive("animal.scale", case.animal.scale)?;
+    animal.scaled(scale).map_err(|e| Fault::new("animal.scale", e.to_string(), "a number > 0", ""))
+}
+
+/// The key of a fault the finished animal shows.
+fn blame_animal(case: &Case, error: ModelError) -> Fault {
+    match &error {
+        ModelError::FarHinge { wing, .. } => Fault::new(
+            format!("wing.{}.hinge_m", wing::source_of(case, wing)),
+            error.to_string(),
+            "a point within half a body length of the body's surface, metres in body axes",
+            "check sign and unit: b1 forward, b2 right, b3 down, a millimetre is 1e-3",
+        ),
+        ModelError::Mass { of, .. } if case.wing.contains_key(of) => Fault::new(
+            format!("wing.{of}.inertia_about_centre_kg_m2"),
+            error.to_string(),
+            "moments that some distribution of positive mass has",
+            "check order (xx, yy, zz, xy, xz, yz), signs and the reference point",
+        ),
+        _ => Fault::new("body", error.to_string(), "", "correct the body of the animal"),
+    }
+}
+
+fn corrector(case: &CorrectorCase) -> Built<CorrectorSettings> {
+    let relaxation = positive("corrector.relaxation", case.relaxation)?;
+    if relaxation > 1.0 {
+        let problem = "relaxation above 1 makes the corrector overshoot";
+        return Err(Fault::new("corrector.relaxation", problem, "(0, 1]", "1 for the plain iteration"));
+    }
+    Ok(CorrectorSettings {
+        tolerance: positive("corrector.tolerance", case.tolerance)?,
+        max_passes: at_least("corrector.max_passes", case.max_passes, 1)?,
+        relaxation,
+    })
+}
+
+/// A number > 0 at `key`.
+fn positive(key: &str, value: f64) -> Built<f64> {
+    if value > 0.0 {
+        return Ok(value);
+    }
+    let problem = if value < 0.0 { "this must not be negative" } else { "this must not be zero" };
+    Err(Fault::new(key, problem, "a finite number > 0", "give a measured or estimated value"))
+}
+
+/// A number >= 0 at `key`.
+fn not_negative(key: &str, value: f64) -> Built<f64> {
+    if value >= 0.0 {
+        return Ok(value);
+    }
+    Err(Fault::new(key, "this must not be negative", "a finite number >= 0", "remove the minus sign"))
+}
+
+/// A whole number >= `least` at `key`.
+fn at_least(key: &str, value: usize, least: usize) -> Built<usize> {
+    if value >= least {
+        return Ok(value);
+    }
+    Err(Fault::new(
+        key,
+        "this is too small",
+        format!("a whole number >= {least}"),
+        format!("{least} is the least"),
+    ))
+}
+
+/// Vector from a list.
+fn vector(v: [f64; 3]) -> DVec3 {
+    DVec3::from_array(v)
+}
+
+/// Symmetric matrix from xx, yy, zz, xy, xz, yz.
+fn symmetric([xx, yy, zz, xy, xz, yz]: [f64; 6]) -> DMat3 {
+    DMat3::from_cols_array(&[xx, xy, xz, xy, yy, yz, xz, yz, zz])
+}
+
+/// A fault of the model traced to the key of the raw table `raw` at `path` it is about.
+fn blame(path: &str, raw: &impl Serialize, error: &ModelError) -> Fault {
+    let (named, allowed) = match error {
+        ModelError::Value { key, allowed, .. } | ModelError::Count { key, allowed, .. } => {
+            (key.as_str(), *allowed)
+        }
+        _ => ("", ""),
+    };
+    let stem = named.rsplit('.').next().unwrap_or("");
+    let stem = stem.split('[').next().unwrap_or("");
+    let matching = |key: &&String| {
+        let rest = key.strip_prefix(stem);
+        !stem.is_empty() && rest.is_some_and(|r| r.is_empty() || r.starts_with('_'))
+    };
+    let table = toml::Table::try_from(raw).unwrap_or_default();
+    let key = match table.keys().find(matching) {
+        Some(key) => format!("{path}.{key}"),
+        None => path.to_owned(),
+    };
+    Fault::new(key, error.to_string(), allowed, "change this value")
+}

@@ -1,0 +1,113 @@
+//! Files a case refers to are read in, so that the case stands alone afterwards.
+
+use std::path::Path;
+
+use wingbeat_model::import;
+
+use super::raw::{AngleCase, Case, PartCase, TableCase};
+use crate::error::Fault;
+
+/// Reads mesh and table files; paths are relative to `base`.
+pub(crate) fn read_in(case: &mut Case, base: &Path) -> Result<(), Fault> {
+    for (name, part) in &mut case.body.part {
+        read_mesh(&format!("body.part.{name}"), part, base)?;
+    }
+    for (name, wing) in &mut case.wing {
+        let Some(motion) = &mut wing.motion else {
+            continue;
+        };
+        let path = format!("wing.{name}.motion");
+        let angles = [
+            ("phi", &mut motion.phi),
+            ("theta", &mut motion.theta),
+            ("psi", &mut motion.psi),
+        ];
+        for (key, angle) in angles {
+            if let Some(AngleCase::Table(table)) = angle {
+                read_table(&format!("{path}.{key}.table"), table, base)?;
+            }
+        }
+    }
+    Ok(())
+}
+
+fn unreadable(key: String, file: &Path, e: &std::io::Error) -> Fault {
+    Fault::new(
+        key,
+        format!("cannot read `{}`: {e}", file.display()),
+        "a file; paths are relative to the case file",
+        "check the name and the folder",
+    )
+}
+
+fn read_mesh(path: &str, part: &mut PartCase, base: &Path) -> Result<(), Fault> {
+    let Some(name) = part.file.take() else {
+        return Ok(());
+    };
+    let key = format!("{path}.file");
+    let file = base.join(&name);
+    let bytes = std::fs::read(&file).map_err(|e| unreadable(key.clone(), &file, &e))?;
+    let unit = part.file_unit_m.take().unwrap_or(1.0);
+    let extension = file.extension().and_then(|e| e.to_str()).unwrap_or("").to_lowercase();
+    let found = match extension.as_str() {
+        "obj" => import::obj(&name, &mut bytes.as_slice(), unit),
+        "stl" => import::stl(&name, &bytes, unit),
+        _ => {
+            return Err(Fault::new(
+                key,
+                "the format of this mesh is unknown",
+                "files ending in .obj or .stl",
+                "export the mesh as Wavefront OBJ",
+            ));
+        }
+    };
+    let mesh = found.map_err(|e| {
+        Fault::new(key, e.to_string(), "one closed surface", "repair the mesh and export it again")
+    })?;
+    part.nodes_m = Some(mesh.mesh.nodes.iter().map(|x| x.to_array()).collect());
+    part.quads = Some(mesh.mesh.quads);
+    Ok(())
+}
+
+fn read_table(path: &str, table: &mut TableCase, base: &Path) -> Result<(), Fault> {
+    let Some(name) = table.file.take() else {
+        return Ok(());
+    };
+    let key = format!("{path}.file");
+    let file = base.join(&name);
+    let text = std::fs::read(&file).map_err(|e| unreadable(key.clone(), &file, &e))?;
+    let mut reader = csv::ReaderBuilder::new()
+        .comment(Some(b'#'))
+        .trim(csv::Trim::All)
+        .from_reader(text.as_slice());
+    let bad = |problem: String| {
+        Fault::new(
+            key.clone(),
+            format!("`{}`: {problem}", file.display()),
+            "a CSV file with one header line and finite numbers",
+            "correct the file",
+        )
+    };
+    let header = reader.headers().map_err(|e| bad(e.to_string()))?.clone();
+    let column = |wanted: &Option<String>, default: usize| match wanted {
+        None => Ok(default),
+        Some(w) => header.iter().position(|h| h == w).ok_or_else(|| {
+            bad(format!("there is no column `{w}` among {}", header.iter().collect::<Vec<_>>().join(", ")))
+        }),
+    };
+    let columns = [column(&table.phase_column, 0)?, column(&table.angle_column, 1)?];
+    let mut rows = vec![];
+    for record in reader.records() {
+        let record = record.map_err(|e| bad(e.to_string()))?;
+        let line = record.position().map_or(0, csv::Position::line);
+        let number = |k: usize| {
+            let text = record.get(k).unwrap_or("");
+            let value = text.parse::<f64>().ok().filter(|x| x.is_finite());
+            value.ok_or_else(|| bad(format!("line {line}: `{text}` is not a finite number")))
+        };
+        rows.push([number(columns[0])?, number(columns[1])?]);
+    }
+    table.rows_deg = Some(rows);
+    (table.phase_column, table.angle_column) = (None, None);
+    Ok(())
+}

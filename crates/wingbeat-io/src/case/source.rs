@@ -1,0 +1,259 @@
+//! The text of a case, where each key stands in it, and the overrides of the command line.
+
+use std::collections::BTreeMap;
+use std::ops::Range;
+
+use toml::de::{DeTable, DeValue};
+use toml::{Spanned, Table, Value};
+
+use crate::error::{CaseError, Fault};
+
+/// A case as written: text, key positions, overrides, and the document with overrides applied.
+#[derive(Clone, Debug)]
+pub(crate) struct CaseSource {
+    /// Name of the file or preset, for messages.
+    pub name: String,
+    /// The text as written.
+    pub text: String,
+    /// Where each key path stands: the bytes of the key (or element) and of its value.
+    places: BTreeMap<String, Place>,
+    /// Overrides: key path and the value as typed.
+    overrides: Vec<(String, String)>,
+    /// The document after overrides.
+    pub table: Table,
+}
+
+#[derive(Clone, Debug)]
+struct Place {
+    key: Range<usize>,
+    value: Range<usize>,
+}
+
+impl CaseSource {
+    /// Parses `text` and applies `KEY=VALUE` overrides.
+    ///
+    /// # Errors
+    /// Broken TOML, a broken override, or a number that is not finite anywhere.
+    pub fn new(name: &str, text: &str, overrides: &[String]) -> Result<Self, CaseError> {
+        let mut source = Self {
+            name: name.to_owned(),
+            text: text.to_owned(),
+            places: BTreeMap::new(),
+            overrides: vec![],
+            table: Table::new(),
+        };
+        let tree = DeTable::parse(text).map_err(|e| source.syntax(&e))?;
+        record_table("", tree.get_ref(), &mut source.places);
+        source.table = text.parse::<Table>().map_err(|e| source.syntax(&e))?;
+        for item in overrides {
+            source.apply(item)?;
+        }
+        let finite = check_finite("", &Value::Table(source.table.clone()));
+        finite.map_err(|fault| source.locate(fault))?;
+        Ok(source)
+    }
+
+    /// Traces a fault to its line, or to the override that caused it.
+    pub fn locate(&self, fault: Fault) -> CaseError {
+        let value = find(&self.table, &fault.key).and_then(short);
+        let overridden = self.overrides.iter().rev().find(|(key, _)| related(key, &fault.key));
+        let mut error = CaseError {
+            origin: self.name.clone(),
+            line: None,
+            column: None,
+            key: fault.key.clone(),
+            value,
+            problem: fault.problem,
+            allowed: fault.allowed,
+            remedy: fault.remedy,
+            excerpt: None,
+        };
+        if let Some((key, typed)) = overridden {
+            error.origin = format!("--set {key}={typed} (on top of {})", self.name);
+        } else if let Some(span) = self.span(&fault.key) {
+            self.mark(&mut error, span);
+        }
+        error
+    }
+
+    /// The bytes of a value, or of the key of the nearest table around it.
+    fn span(&self, key: &str) -> Option<Range<usize>> {
+        if let Some(place) = self.places.get(key) {
+            let multiline = self.text[place.value.clone()].contains('\n');
+            return Some(if multiline { place.key.clone() } else { place.value.clone() });
+        }
+        let mut outer = key;
+        while let Some(cut) = outer.rfind(['.', '[']) {
+            outer = &outer[..cut];
+            if let Some(place) = self.places.get(outer) {
+                return Some(place.key.clone());
+            }
+        }
+        None
+    }
+
+    fn mark(&self, error: &mut CaseError, span: Range<usize>) {
+        let before = &self.text[..span.start];
+        error.line = Some(before.matches('\n').count() + 1);
+        let line_start = before.rfind('\n').map_or(0, |k| k + 1);
+        error.column = Some(before[line_start..].chars().count() + 1);
+        error.excerpt = Some((self.text.clone(), span));
+    }
+
+    fn syntax(&self, e: &toml::de::Error) -> CaseError {
+        let fault = Fault::new(
+            "",
+            format!("this is not TOML: {}", e.message().trim().replace('\n', ", ")),
+            "",
+            "`wingbeat new fruit-fly-hover` writes a case to start from",
+        );
+        let mut error = self.locate(fault);
+        if let Some(span) = e.span() {
+            self.mark(&mut error, span);
+        }
+        error
+    }
+
+    fn apply(&mut self, item: &str) -> Result<(), CaseError> {
+        let wrong = |problem: String| CaseError {
+            origin: format!("--set {item}"),
+            line: None,
+            column: None,
+            key: String::new(),
+            value: None,
+            problem,
+            allowed: "KEY=VALUE with the key as in a case file".to_owned(),
+            remedy: "--set motion.frequency_hz=200 or --set 'air.stream_m_s=[1, 0, 0]'".to_owned(),
+            excerpt: None,
+        };
+        let (key, typed) = item
+            .split_once('=')
+            .ok_or_else(|| wrong(format!("`{item}` has no `=`")))?;
+        let (key, typed) = (key.trim(), typed.trim());
+        let document = format!("value = {typed}").parse::<Table>();
+        let value = match document {
+            Ok(mut table) if table.len() == 1 => table.remove("value"),
+            _ => None,
+        };
+        let value = value.unwrap_or_else(|| Value::String(typed.to_owned()));
+        set(&mut self.table, key, value).map_err(wrong)?;
+        self.overrides.push((key.to_owned(), typed.to_owned()));
+        Ok(())
+    }
+}
+
+/// Whether one path is the other or lies inside it.
+fn related(a: &str, b: &str) -> bool {
+    let inside = |outer: &str, inner: &str| {
+        inner.strip_prefix(outer).is_some_and(|rest| rest.is_empty() || rest.starts_with(['.', '[']))
+    };
+    !b.is_empty() && (inside(a, b) || inside(b, a))
+}
+
+fn join(path: &str, key: &str) -> String {
+    if path.is_empty() { key.to_owned() } else { format!("{path}.{key}") }
+}
+
+fn record_table(path: &str, table: &DeTable<'_>, places: &mut BTreeMap<String, Place>) {
+    for (key, value) in table {
+        let here = join(path, key.get_ref());
+        record(here, key.span(), value, places);
+    }
+}
+
+fn record(
+    path: String,
+    key: Range<usize>,
+    value: &Spanned<DeValue<'_>>,
+    places: &mut BTreeMap<String, Place>,
+) {
+    match value.get_ref() {
+        DeValue::Table(table) => record_table(&path, table, places),
+        DeValue::Array(items) => {
+            for (k, item) in items.iter().enumerate() {
+                record(format!("{path}[{k}]"), item.span(), item, places);
+            }
+        }
+        _ => {}
+    }
+    let value = value.span();
+    places.insert(path, Place { key, value });
+}
+
+/// The parts of a path: `load[0].force_n` is `load`, `[0]`, `force_n`.
+fn parts(path: &str) -> impl Iterator<Item = Part<'_>> {
+    path.split('.').flat_map(|piece| {
+        let (name, rest) = piece.split_at(piece.find('[').unwrap_or(piece.len()));
+        let indices = rest.split(['[', ']']).filter_map(|n| n.parse().ok()).map(Part::Index);
+        std::iter::once(Part::Name(name)).chain(indices)
+    })
+}
+
+enum Part<'a> {
+    Name(&'a str),
+    Index(usize),
+}
+
+/// The value at a path.
+fn find<'a>(table: &'a Table, path: &str) -> Option<&'a Value> {
+    let mut steps = parts(path);
+    let Some(Part::Name(first)) = steps.next() else {
+        return None;
+    };
+    steps.try_fold(table.get(first)?, |value, part| match part {
+        Part::Name(name) => value.get(name),
+        Part::Index(k) => value.get(k),
+    })
+}
+
+/// Puts a value at a path, making tables on the way.
+fn set(table: &mut Table, path: &str, value: Value) -> Result<(), String> {
+    let steps: Vec<Part<'_>> = parts(path).collect();
+    let Some((Part::Name(first), rest)) = steps.split_first() else {
+        return Err("the key is empty".to_owned());
+    };
+    if first.is_empty() {
+        return Err("the key is empty".to_owned());
+    }
+    let fresh = || Value::Table(Table::new());
+    let mut slot = table.entry((*first).to_owned()).or_insert_with(fresh);
+    for part in rest {
+        slot = match (part, slot) {
+            (Part::Name(name), Value::Table(t)) => t.entry((*name).to_owned()).or_insert_with(fresh),
+            (Part::Index(k), Value::Array(items)) if *k < items.len() => &mut items[*k],
+            (Part::Index(k), _) => return Err(format!("there is no element [{k}] to set")),
+            (Part::Name(name), _) => return Err(format!("`{name}` cannot be set: what holds it is not a table")),
+        };
+    }
+    *slot = value;
+    Ok(())
+}
+
+/// A value in one line, shortened.
+fn short(value: &Value) -> Option<String> {
+    match value {
+        Value::Table(_) => None,
+        Value::Array(items) if items.len() > 6 => Some(format!("[{} elements]", items.len())),
+        other => Some(other.to_string()),
+    }
+}
+
+fn check_finite(path: &str, value: &Value) -> Result<(), Fault> {
+    match value {
+        Value::Float(x) if !x.is_finite() => Err(Fault::new(
+            path,
+            "this is not a finite number",
+            "finite numbers everywhere",
+            "replace it by a measured or estimated value, or leave the key out to get its default",
+        )),
+        Value::Array(items) => {
+            let mut all = items.iter().enumerate();
+            all.try_for_each(|(k, item)| check_finite(&format!("{path}[{k}]"), item))
+        }
+        Value::Table(table) => {
+            let mut all = table.iter();
+            all.try_for_each(|(key, item)| check_finite(&join(path, key), item))
+        }
+        _ => Ok(()),
+    }
+}
