@@ -37,7 +37,7 @@ impl InstructionSet {
 
     /// The set in `fearless_simd`'s terms; None where the processor lacks it.
     #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
-    pub(crate) fn level(self) -> Option<Level> {
+    pub fn level(self) -> Option<Level> {
         let best = Level::new();
         match self {
             Self::Best => Some(best),
@@ -51,7 +51,7 @@ impl InstructionSet {
 
     /// The set in `fearless_simd`'s terms; None where the processor lacks it.
     #[cfg(not(any(target_arch = "x86", target_arch = "x86_64")))]
-    pub(crate) fn level(self) -> Option<Level> {
+    pub fn level(self) -> Option<Level> {
         match self {
             Self::Best => Some(Level::new()),
             Self::Scalar => Some(Level::fallback()),

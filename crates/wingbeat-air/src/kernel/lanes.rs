@@ -4,7 +4,7 @@
 //! [`super::reference`], so that a target's bits depend neither on the vector width nor on its lane.
 
 use super::model::CoreModel;
-use super::packed::{PATCH_NODES, Packed, Patch};
+use super::packed::{Packed, Patch, WINDOW};
 use super::reference::EXP_TAYLOR;
 use fearless_simd::{Level, dispatch, prelude::*};
 use std::ops::Range;
@@ -65,32 +65,32 @@ struct Job<'a> {
 impl Job<'_> {
     #[inline(always)]
     fn run<S: Simd, C: Core>(&self, simd: S, sum: &mut Block) {
-        let mut seen = [[S::f64s::splat(simd, 0.0); 4]; PATCH_NODES];
-        for patch in self
-            .ranges
-            .iter()
-            .flat_map(|r| &self.packed.patches[r.clone()])
-        {
-            for lane in (0..self.count).step_by(S::f64s::LEN) {
-                self.look_at_nodes(simd, patch, lane, &mut seen);
-                self.add_edges::<S, C>(simd, patch, lane, &seen, sum);
+        let mut window = [[S::f64s::splat(simd, 0.0); 4]; WINDOW];
+        for lane in (0..self.count).step_by(S::f64s::LEN) {
+            let p = load(simd, self.targets, lane);
+            let mut v = load(simd, sum, lane);
+            for patch in self
+                .ranges
+                .iter()
+                .flat_map(|r| &self.packed.patches[r.clone()])
+            {
+                self.look_at_nodes::<S>(p, patch, &mut window);
+                self.add_edges::<S, C>(simd, patch, &window, &mut v);
             }
+            store::<S>(v, sum, lane);
         }
     }
 
-    /// r = p - node and abs(r) for every node of the patch.
+    /// r = p - node and abs(r) for the new nodes of the patch.
     #[inline(always)]
-    fn look_at_nodes<S: Simd>(
-        &self,
-        simd: S,
-        patch: &Patch,
-        lane: usize,
-        seen: &mut [[S::f64s; 4]; PATCH_NODES],
-    ) {
-        let p = load(simd, self.targets, lane);
-        for (r, node) in seen.iter_mut().zip(&self.packed.nodes[patch.nodes.clone()]) {
+    fn look_at_nodes<S: Simd>(&self, p: [S::f64s; 3], patch: &Patch, window: &mut Window<S>) {
+        for (k, node) in patch
+            .nodes
+            .clone()
+            .zip(&self.packed.nodes[patch.nodes.clone()])
+        {
             let (x, y, z) = (p[0] - node.x, p[1] - node.y, p[2] - node.z);
-            *r = [x, y, z, (x * x + y * y + z * z).sqrt()];
+            window[k % WINDOW] = [x, y, z, (x * x + y * y + z * z).sqrt()];
         }
     }
 
@@ -100,33 +100,39 @@ impl Job<'_> {
         &self,
         simd: S,
         patch: &Patch,
-        lane: usize,
-        seen: &[[S::f64s; 4]; PATCH_NODES],
-        sum: &mut Block,
+        window: &Window<S>,
+        v: &mut [S::f64s; 3],
     ) {
-        let [mut vx, mut vy, mut vz] = load(simd, sum, lane);
         for edge in &self.packed.edges[patch.edges.clone()] {
-            let [x1, y1, z1, n1] = seen[edge.from as usize % PATCH_NODES];
-            let [x2, y2, z2, n2] = seen[edge.to as usize % PATCH_NODES];
+            let [x1, y1, z1, n1] = window[edge.from as usize % WINDOW];
+            let [x2, y2, z2, n2] = window[edge.to as usize % WINDOW];
             let c = [y1 * z2 - z1 * y2, z1 * x2 - x1 * z2, x1 * y2 - y1 * x2];
             let d = x1 * x2 + y1 * y2 + z1 * z2;
             let (num, den) = C::fraction(simd, n1 + n2, n1 * n2, d, c, edge.term);
             let zero = S::f64s::splat(simd, 0.0);
             let k = den.simd_gt(zero).select(num * edge.strength / den, zero);
-            vx += c[0] * k;
-            vy += c[1] * k;
-            vz += c[2] * k;
+            v[0] += c[0] * k;
+            v[1] += c[1] * k;
+            v[2] += c[2] * k;
         }
-        vx.store_slice(&mut sum.x[lane..lane + S::f64s::LEN]);
-        vy.store_slice(&mut sum.y[lane..lane + S::f64s::LEN]);
-        vz.store_slice(&mut sum.z[lane..lane + S::f64s::LEN]);
     }
 }
+
+/// r and abs(r) of the nodes in sight, for the targets in the lanes.
+type Window<S> = [[<S as Simd>::f64s; 4]; WINDOW];
 
 /// The vectors in the lanes from `lane` on.
 #[inline(always)]
 fn load<S: Simd>(simd: S, block: &Block, lane: usize) -> [S::f64s; 3] {
     [&block.x, &block.y, &block.z].map(|c| S::f64s::from_slice(simd, &c[lane..lane + S::f64s::LEN]))
+}
+
+/// Puts vectors into the lanes from `lane` on.
+#[inline(always)]
+fn store<S: Simd>([x, y, z]: [S::f64s; 3], block: &mut Block, lane: usize) {
+    x.store_slice(&mut block.x[lane..lane + S::f64s::LEN]);
+    y.store_slice(&mut block.y[lane..lane + S::f64s::LEN]);
+    z.store_slice(&mut block.z[lane..lane + S::f64s::LEN]);
 }
 
 /// Numerator and denominator of K without the circulation, as in [`super::reference`].
@@ -229,7 +235,7 @@ fn one_minus_exp<S: Simd>(simd: S, x: S::f64s) -> S::f64s {
     for c in EXP_TAYLOR {
         u = u * y + c;
     }
-    u = u * y;
+    u *= y;
     let two = S::f64s::splat(simd, 2.0);
     for _ in 0..6 {
         u = u * (two - u);

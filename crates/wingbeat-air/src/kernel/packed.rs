@@ -1,4 +1,8 @@
-//! Segments cut into patches that fit the first-level cache: the sources as the vector loop eats them.
+//! The sources as the vector loop eats them: a stream of "look at these nodes, sum these edges".
+//!
+//! The loop keeps the last [`WINDOW`] nodes it looked at (vector to the targets and its length) in
+//! the first-level cache. An edge whose nodes are still there costs no square root, so a sheet given
+//! row by row pays one for two edges.
 
 use super::model::CoreModel;
 use super::reference::STRENGTH;
@@ -6,15 +10,18 @@ use super::sources::{Network, Points, Segments};
 use std::ops::Range;
 use wingbeat_math::DVec3;
 
-/// Most nodes of a patch; four vectors of eight lanes each make 32 KiB.
-pub(crate) const PATCH_NODES: usize = 128;
+/// Nodes kept in sight; four vectors of eight lanes each make 32 KiB.
+pub(crate) const WINDOW: usize = 128;
 
-/// An edge between two nodes of its patch.
+/// New nodes after which a patch ends, so that square roots and sums overlap in the processor.
+const PATCH_NODES: usize = 8;
+
+/// An edge between two nodes in the window.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct PackedEdge {
-    /// First node, counted in the patch.
+    /// Place of its first node in the window.
     pub from: u32,
-    /// Second node, counted in the patch.
+    /// Place of its second node in the window.
     pub to: u32,
     /// Gamma / (4 pi) [m^2/s].
     pub strength: f64,
@@ -22,74 +29,110 @@ pub(crate) struct PackedEdge {
     pub term: f64,
 }
 
-/// A run of edges and the nodes they use.
+/// A run of nodes to look at, then a run of edges to sum. Node k stands at place k mod [`WINDOW`].
 #[derive(Clone, Debug)]
 pub(crate) struct Patch {
-    /// Its nodes in [`Packed::nodes`].
+    /// Its new nodes in [`Packed::nodes`].
     pub nodes: Range<usize>,
     /// Its edges in [`Packed::edges`].
     pub edges: Range<usize>,
+    /// Oldest node its edges use.
+    oldest: usize,
 }
 
-/// All patches; edges stay in the order given.
+/// All sources; edges stay in the order given.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Packed {
     pub nodes: Vec<DVec3>,
     pub edges: Vec<PackedEdge>,
     pub patches: Vec<Patch>,
-    /// Global node -> (patch that holds it, index there); the first half of a network's node reuse.
-    home: Vec<(u32, u32)>,
+    /// Node of the network -> where in `nodes` it was last put.
+    last_seen: Vec<usize>,
+    /// First node of the open group: a group of patches never leans on another one's nodes.
+    group: usize,
 }
 
 impl Packed {
-    /// Forgets all sources and keeps the memory.
-    pub fn clear(&mut self) {
+    /// Forgets all sources and keeps the memory; the next ones have `n` shared nodes.
+    pub fn clear(&mut self, n: usize) {
         self.nodes.clear();
         self.edges.clear();
         self.patches.clear();
+        self.last_seen.clear();
+        self.last_seen.resize(n, usize::MAX);
     }
 
     /// Takes free segments: two nodes each.
     pub fn load_segments(&mut self, model: CoreModel, s: &Segments) {
-        self.clear();
-        for first in (0..s.len()).step_by(PATCH_NODES / 2) {
-            self.open_patch();
-            for i in first..s.len().min(first + PATCH_NODES / 2) {
-                let (from, to) = (self.add_node(s.a(i)), self.add_node(s.b(i)));
-                self.add_edge(model, from, to, s.gamma[i], s.core[i]);
-            }
+        self.clear(0);
+        self.open_patch();
+        for i in 0..s.len() {
+            self.make_room(self.nodes.len());
+            let (from, to) = (self.look_at(s.a(i)), self.look_at(s.b(i)));
+            self.add_edge(model, [from, to], s.gamma[i], s.core[i]);
         }
     }
 
-    /// Takes a network: every node once per patch.
+    /// Takes a network: nodes in sight are used again.
     pub fn load_network(&mut self, model: CoreModel, network: &Network) {
-        self.clear();
-        self.forget_homes(network.nodes.len());
-        self.load_edges(model, network, 0..network.len() as u32);
+        self.clear(network.nodes.len());
+        self.load_group(model, network, 0..network.len() as u32);
     }
 
-    /// Marks all of `n` global nodes as in no patch.
-    pub fn forget_homes(&mut self, n: usize) {
-        self.home.clear();
-        self.home.resize(n, (u32::MAX, 0));
-    }
-
-    /// Appends these edges of a network, in this order, as new patches.
-    pub fn load_edges(
+    /// Appends these edges of the network, in this order; returns their patches, which can be summed
+    /// without those before.
+    pub fn load_group(
         &mut self,
         model: CoreModel,
         network: &Network,
         edges: impl IntoIterator<Item = u32>,
-    ) {
+    ) -> Range<usize> {
+        let first = self.patches.len();
+        self.group = self.nodes.len();
         self.open_patch();
         for e in edges {
-            let e = e as usize;
-            if self.patch_is_full() {
-                self.open_patch();
-            }
-            let [a, b] = network.edges[e];
-            let (from, to) = (self.adopt(&network.nodes, a), self.adopt(&network.nodes, b));
-            self.add_edge(model, from, to, network.gamma[e], network.core[e]);
+            let (e, ends) = (e as usize, network.edges[e as usize]);
+            self.make_room(
+                ends.iter()
+                    .map(|&g| self.in_sight(g))
+                    .min()
+                    .expect("two ends"),
+            );
+            let places = ends.map(|g| self.place(&network.nodes, g));
+            self.add_edge(model, places, network.gamma[e], network.core[e]);
+        }
+        first..self.patches.len()
+    }
+
+    /// Where node `g` of the network is in `nodes` if an edge added now may use it, else the end.
+    fn in_sight(&self, g: u32) -> usize {
+        let (k, end) = (self.last_seen[g as usize], self.nodes.len());
+        if k < end && k >= self.group && k + WINDOW >= end + 2 {
+            k
+        } else {
+            end
+        }
+    }
+
+    /// Where node `g` is, which is looked at now if it is not in sight.
+    fn place(&mut self, nodes: &Points, g: u32) -> usize {
+        let k = self.in_sight(g);
+        if k < self.nodes.len() {
+            return k;
+        }
+        self.last_seen[g as usize] = k;
+        self.look_at(nodes.get(g as usize))
+    }
+
+    /// Ends the patch if it is full, or if two more nodes would hide one that its edges, or an edge
+    /// to come that uses node `k`, need.
+    fn make_room(&mut self, k: usize) {
+        let end = self.nodes.len();
+        let patch = self.patches.last_mut().expect("a patch is open");
+        patch.oldest = patch.oldest.min(k);
+        if patch.nodes.len() >= PATCH_NODES || patch.oldest + WINDOW < end + 2 {
+            self.open_patch();
+            self.patches.last_mut().expect("just opened").oldest = k;
         }
     }
 
@@ -98,48 +141,28 @@ impl Packed {
         self.patches.push(Patch {
             nodes: n..n,
             edges: e..e,
+            oldest: n,
         });
     }
 
-    fn patch_is_full(&self) -> bool {
-        self.patches
-            .last()
-            .is_some_and(|p| p.nodes.len() + 2 > PATCH_NODES)
-    }
-
-    /// Index of global node `g` in the open patch, which gets it if it has it not.
-    fn adopt(&mut self, nodes: &Points, g: u32) -> u32 {
-        let patch = self.patches.len() as u32 - 1;
-        let (home, index) = self.home[g as usize];
-        if home == patch {
-            return index;
-        }
-        let index = self.add_node(nodes.get(g as usize));
-        self.home[g as usize] = (patch, index);
-        index
-    }
-
-    fn add_node(&mut self, p: DVec3) -> u32 {
-        let patch = self.patches.last_mut().expect("a patch is open");
-        let index = patch.nodes.len();
-        assert!(index < PATCH_NODES, "patch overflows");
+    /// Puts a node at the end of the stream; returns where.
+    fn look_at(&mut self, p: DVec3) -> usize {
         self.nodes.push(p);
-        patch.nodes.end += 1;
-        index as u32
+        self.patches.last_mut().expect("a patch is open").nodes.end = self.nodes.len();
+        self.nodes.len() - 1
     }
 
-    fn add_edge(&mut self, model: CoreModel, from: u32, to: u32, gamma: f64, core: f64) {
-        let patch = self.patches.last_mut().expect("a patch is open");
-        let first = patch.nodes.start;
-        let r0 = self.nodes[first + to as usize] - self.nodes[first + from as usize];
+    fn add_edge(&mut self, model: CoreModel, [from, to]: [usize; 2], gamma: f64, core: f64) {
+        let r0 = self.nodes[to] - self.nodes[from];
         let l2 = r0.x * r0.x + r0.y * r0.y + r0.z * r0.z;
         let (strength, term) = (gamma * STRENGTH, model.kernel_term(core, l2));
+        let [from, to] = [from, to].map(|k| (k % WINDOW) as u32);
         self.edges.push(PackedEdge {
             from,
             to,
             strength,
             term,
         });
-        patch.edges.end += 1;
+        self.patches.last_mut().expect("a patch is open").edges.end = self.edges.len();
     }
 }
