@@ -77,7 +77,7 @@ pub enum ModelError {
     Inward {
         /// Name of the surface.
         part: String,
-        /// Enclosed volume with sign [m3].
+        /// Enclosed volume with sign \[m3\].
         volume: f64,
     },
     /// A hinge far outside the body.
@@ -87,9 +87,9 @@ pub enum ModelError {
     FarHinge {
         /// Name of the wing.
         wing: String,
-        /// Distance to the nearest body surface [m].
+        /// Distance to the nearest body surface \[m\].
         distance: f64,
-        /// Largest distance allowed [m].
+        /// Largest distance allowed \[m\].
         limit: f64,
     },
     /// A hinge inside the body or a part has impossible mass properties.

@@ -18,7 +18,7 @@ const GAUSS: [(f64, f64); 3] = [
     (0.887_298_334_620_741_7, 5.0 / 18.0),
 ];
 
-/// Sum of `f(x, n dA)` over the Gauss points of one patch: point [m] and area vector [m2].
+/// Sum of `f(x, n dA)` over the Gauss points of one patch: point \[m\] and area vector \[m2\].
 fn over_patch(c: [DVec3; 4], f: &mut impl FnMut(DVec3, DVec3)) {
     for (u, wu) in GAUSS {
         for (v, wv) in GAUSS {
@@ -39,14 +39,14 @@ fn over_mesh(mesh: &QuadMesh, mut f: impl FnMut(DVec3, DVec3)) {
     }
 }
 
-/// Volume enclosed by a closed surface [m3], positive for outward normals.
+/// Volume enclosed by a closed surface \[m3\], positive for outward normals.
 pub fn volume(mesh: &QuadMesh) -> f64 {
     let mut sum = 0.0;
     over_mesh(mesh, |x, n| sum += x.dot(n));
     sum / 3.0
 }
 
-/// Area of a surface [m2].
+/// Area of a surface \[m2\].
 pub fn area(mesh: &QuadMesh) -> f64 {
     let mut sum = 0.0;
     over_mesh(mesh, |_, n| sum += n.length());
@@ -54,7 +54,7 @@ pub fn area(mesh: &QuadMesh) -> f64 {
 }
 
 /// Mass properties about the mesh frame's origin of the solid inside a closed surface with a
-/// constant density [kg/m3]: exact for the mesh.
+/// constant density \[kg/m3\]: exact for the mesh.
 pub fn solid(mesh: &QuadMesh, density: f64) -> MassProperties {
     let (mut v, mut s, mut second) = (0.0, DVec3::ZERO, DMat3::ZERO);
     over_mesh(mesh, |x, n| {
@@ -66,7 +66,7 @@ pub fn solid(mesh: &QuadMesh, density: f64) -> MassProperties {
     from_moments(v, s, second).scaled(density)
 }
 
-/// Mass properties of a shell with areal density `sigma(x)` [kg/m2]: exact for plane panels and
+/// Mass properties of a shell with areal density `sigma(x)` \[kg/m2\]: exact for plane panels and
 /// a density that is linear on each; a kink of the density inside a panel costs second order.
 pub fn shell(mesh: &QuadMesh, sigma: impl Fn(DVec3) -> f64) -> MassProperties {
     let (mut m, mut s, mut second) = (0.0, DVec3::ZERO, DMat3::ZERO);
@@ -96,11 +96,11 @@ fn outer(x: DVec3) -> DMat3 {
 /// The mass of a body part or a wing.
 #[derive(Clone, Debug, PartialEq)]
 pub enum MassInput {
-    /// Constant density: of volume [kg/m3] for a body part, of area [kg/m2] for a wing.
+    /// Constant density: of volume \[kg/m3\] for a body part, of area \[kg/m2\] for a wing.
     Density(f64),
-    /// Total mass [kg], spread evenly.
+    /// Total mass \[kg\], spread evenly.
     Total(f64),
-    /// Wing only: areal density [kg/m2] at distances from the hinge along the span [m], rows
+    /// Wing only: areal density \[kg/m2\] at distances from the hinge along the span \[m\], rows
     /// (distance, density), linear between rows and constant beyond the ends.
     SpanTable(Vec<(f64, f64)>),
     /// Given as numbers, about the frame origin.

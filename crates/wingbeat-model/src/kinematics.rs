@@ -108,7 +108,8 @@ pub fn fry_hover() -> PublishedMotion {
 }
 
 /// Robofly series of Dickinson, Lehmann & Sane 1999 with the total stroke and the angle of attack
-/// at mid stroke \[rad\].
+/// at mid stroke \[rad\]. The stroke is the one the wing really sweeps (the file counts that of
+/// the triangular wave before it was smoothed).
 pub fn robofly_dickinson1999(timing: Timing, stroke: f64, attack: f64) -> PublishedMotion {
     robofly_series(
         include_str!("../data/robofly_dickinson1999.csv"),
@@ -118,8 +119,8 @@ pub fn robofly_dickinson1999(timing: Timing, stroke: f64, attack: f64) -> Publis
     )
 }
 
-/// Robofly series of Sane & Dickinson 2001 with the total stroke and the angle of attack at mid
-/// stroke \[rad\].
+/// Robofly series of Sane & Dickinson 2001 with the total stroke (as swept) and the angle of
+/// attack at mid stroke \[rad\].
 pub fn robofly_sane_dickinson2001(timing: Timing, stroke: f64, attack: f64) -> PublishedMotion {
     robofly_series(
         include_str!("../data/robofly_sane_dickinson2001.csv"),
@@ -144,9 +145,11 @@ fn robofly_series(
         }
         list
     };
+    // All cosines are one at the dorsal reversal, t = 0: their sum is half the stroke.
+    let half_stroke: f64 = rows.iter().map(|r| r[1].to_radians()).sum();
     let phi = Fourier {
         mean: 0.0,
-        cos: odd(1, stroke.to_degrees() / 180.0),
+        cos: odd(1, 0.5 * stroke / half_stroke),
         sin: Vec::new(),
     };
     let alpha = Fourier {

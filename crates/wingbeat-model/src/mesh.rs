@@ -41,7 +41,7 @@ pub struct GridMesh {
     pub rows: usize,
     /// Panels along the span.
     pub cols: usize,
-    /// Nodes [m], wing frame.
+    /// Nodes \[m\], wing frame.
     pub nodes: Vec<DVec3>,
 }
 
@@ -117,14 +117,14 @@ pub fn mirror(x: DVec3) -> DVec3 {
 /// A surface of quadrilaterals. On a closed surface `(c2-c0) x (c3-c1)` points outward.
 #[derive(Clone, Debug, PartialEq)]
 pub struct QuadMesh {
-    /// Nodes [m].
+    /// Nodes \[m\].
     pub nodes: Vec<DVec3>,
     /// Corner nodes of each panel.
     pub quads: Vec<[usize; 4]>,
 }
 
 impl QuadMesh {
-    /// Corner points of a panel [m].
+    /// Corner points of a panel \[m\].
     pub fn corners(&self, panel: usize) -> [DVec3; 4] {
         self.quads[panel].map(|n| self.nodes[n])
     }
@@ -149,7 +149,7 @@ impl QuadMesh {
         }
     }
 
-    /// Smallest and largest coordinate along each axis [m].
+    /// Smallest and largest coordinate along each axis \[m\].
     pub fn bounds(&self) -> [DVec3; 2] {
         let far = DVec3::splat(f64::INFINITY);
         let fold = |[lo, hi]: [DVec3; 2], x: &DVec3| [lo.min(*x), hi.max(*x)];

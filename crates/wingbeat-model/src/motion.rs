@@ -1,6 +1,6 @@
 //! Wing motion: three prescribed angles per wing, `C(t) = R2(eta) R1(phi) R3(theta) R2(psi)`.
 //!
-//! `eta` is the constant stroke-plane pitch. Angles are laws of the phase x [wingbeats]; the
+//! `eta` is the constant stroke-plane pitch. Angles are laws of the phase x \[wingbeats\]; the
 //! phase runs as `x(t) = f tau(t) + x0` with a time warp tau that lets the motion rise from
 //! rest. Derivatives are analytic: `q' = q_x x'`, `q'' = q_xx x'^2 + q_x x''`.
 
@@ -18,7 +18,7 @@ use crate::ModelError;
 use crate::error::{finite, require};
 use wingbeat_math::{MovingRotation, RotationLaw};
 
-/// An angle as a function of the phase x [wingbeats], period 1 \[rad\].
+/// An angle as a function of the phase x \[wingbeats\], period 1 \[rad\].
 #[derive(Clone, Debug, PartialEq)]
 pub enum AngleLaw {
     /// The same angle at all times \[rad\].
@@ -103,7 +103,7 @@ pub struct WingMotion {
     pub angles: AngleLaws,
     /// Wingbeat frequency f \[Hz\].
     pub frequency: f64,
-    /// Phase x0 at t = 0 [wingbeats].
+    /// Phase x0 at t = 0 \[wingbeats\].
     pub phase: f64,
     /// Stroke-plane pitch eta \[rad\]: rotation about b2 that carries b1 to the normal of the
     /// stroke plane. In hover with a horizontal stroke plane, body pitch + eta = 90 deg.

@@ -20,8 +20,8 @@
 //! Fry's flies beat at 218 Hz with R = 2.39 mm; forces scale as R^4 f^2, and 200 Hz with
 //! R = 2.5 mm carries the same within one per cent. Not published and chosen here: lengths and
 //! radii of the three parts (ellipsoids with gaps of 0.02 mm, sized so that each has near the
-//! density of water), the root offset of 0.03 R, the part 0.25 of the chord ahead of the hinge
-//! axis, the least chord at root and tip (0.2 of the largest).
+//! density of water, the thorax slimmer so that the wings pass it at stroke reversal), the root offset of 0.05 R, the part 0.25 of the chord ahead of the hinge
+//! axis, the least chord at root and tip (0.15 of the largest).
 
 use crate::animal::{Animal, BodyPart, Wing};
 use crate::build::{BodyMass, fit_body_length};
@@ -78,7 +78,7 @@ impl Default for FlyOptions {
 pub const PARTS: [&str; 3] = ["head", "thorax", "abdomen"];
 /// Lengths of the parts \[m\]; with two gaps of 0.02 mm they sum to the body length.
 const PART_LENGTHS: [f64; 3] = [0.42e-3, 0.93e-3, 1.11e-3];
-const PART_RADII: [f64; 3] = [0.405e-3, 0.41e-3, 0.395e-3];
+const PART_RADII: [f64; 3] = [0.42e-3, 0.39e-3, 0.42e-3];
 const GAP: f64 = 0.02e-3;
 const BODY_LENGTH: f64 = 2.5e-3;
 const BODY_MASS: f64 = 0.9315e-6;
@@ -134,9 +134,9 @@ pub fn wing_shape(rows: usize, cols: usize) -> WingShape {
         length: WING_LENGTH,
         size: ChordSize::Mean(MEAN_CHORD),
         r2_hat: 0.58592,
-        root_offset: 0.03 * WING_LENGTH,
+        root_offset: 0.05 * WING_LENGTH,
         axis_fraction: 0.25,
-        least_chord: 0.2,
+        least_chord: 0.15,
     });
     WingShape::uniform(planform, rows, cols)
 }

@@ -1,6 +1,6 @@
 //! Berman & Wang's angle laws [Berman & Wang 2007, J. Fluid Mech. 582:153, sec. 2].
 //!
-//! All are functions of the phase x [wingbeats], `u = 2 pi x + shift`:
+//! All are functions of the phase x \[wingbeats\], `u = 2 pi x + shift`:
 //! stroke `phi_m / asin K asin(K sin u) + phi_0`, feathering
 //! `psi_m / tanh C tanh(C sin u) + psi_0`, deviation `theta_m cos(2 pi N x + shift) + theta_0`.
 

@@ -10,7 +10,7 @@ use crate::ModelError;
 /// `d_k` the slopes of the chords.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PeriodicSpline {
-    /// Knots [wingbeats], increasing, first and last one period apart.
+    /// Knots \[wingbeats\], increasing, first and last one period apart.
     x: Vec<f64>,
     /// Values at the knots \[rad\], the last equal to the first.
     q: Vec<f64>,
@@ -23,7 +23,7 @@ pub struct PeriodicSpline {
 const CLOSURE: f64 = 1e-4;
 
 impl PeriodicSpline {
-    /// Through rows `(phase [wingbeats], angle [rad])`; the last row repeats the first value one
+    /// Through rows `(phase \[wingbeats\], angle \[rad\])`; the last row repeats the first value one
     /// period (1.0) later.
     ///
     /// # Errors

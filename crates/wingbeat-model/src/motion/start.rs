@@ -17,7 +17,7 @@ pub enum Start {
 }
 
 impl Start {
-    /// The warped time `tau(t)` with its first two derivatives [s, 1, 1/s].
+    /// The warped time `tau(t)` with its first two derivatives \[s, 1, 1/s\].
     ///
     /// Smooth: `tau' = s(t/T)` with the smoothstep `s = 35 z^4 - 84 z^5 + 70 z^6 - 20 z^7`,
     /// whose first three derivatives vanish at both ends; after the rise `tau = t - T/2`.

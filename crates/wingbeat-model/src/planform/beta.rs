@@ -52,8 +52,9 @@ pub struct BetaChord {
     pub least: f64,
 }
 
-/// Range of the beta mean r1 searched: p > 1 and q > 1 throughout (finite chords at the ends).
-const R1: [f64; 2] = [0.385, 0.8];
+/// Range of the beta mean r1 searched: p > 1 and q > 1 throughout (finite chords at the ends);
+/// from 0.76 on, Ellington's relation would want a negative variance.
+const R1: [f64; 2] = [0.385, 0.72];
 
 impl BetaChord {
     /// The exponents of mean `r1`, with unit largest chord.

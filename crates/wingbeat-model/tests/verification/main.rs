@@ -1,0 +1,14 @@
+//! Verification of the model crate: closed forms, orders of convergence, symmetries.
+
+mod errors;
+mod geometry;
+mod import;
+mod mass;
+mod motion;
+mod planform;
+
+/// Largest absolute entry of a matrix difference.
+pub fn gap(a: wingbeat_math::DMat3, b: wingbeat_math::DMat3) -> f64 {
+    let d = (a - b).to_cols_array();
+    d.iter().fold(0.0_f64, |m, e| m.max(e.abs()))
+}

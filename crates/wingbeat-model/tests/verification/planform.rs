@@ -1,0 +1,155 @@
+//! Planforms have the size and shape that was asked for.
+
+use wingbeat_math::{DVec3, MassProperties};
+use wingbeat_model::planform::{Beta, BetaChord, ChordSize};
+use wingbeat_model::{
+    GridMesh, MassInput, Planform, Side, Spacing, Wing, WingMotion, WingReport, WingShape,
+};
+
+fn wing(shape: &WingShape) -> Wing {
+    let mass = MassInput::Given(MassProperties::ZERO);
+    let motion = WingMotion::fixed(0.0, [0.0; 3]);
+    Wing::new("wing", Side::Right, DVec3::ZERO, shape, &mass, motion).unwrap()
+}
+
+fn square(axis_fraction: f64) -> WingShape {
+    let planform = Planform::Rectangle {
+        chord: 4.0,
+        span: 4.0,
+        root_offset: 0.0,
+        axis_fraction,
+    };
+    WingShape::uniform(planform, 4, 4)
+}
+
+fn beta() -> Beta {
+    Beta {
+        length: 2.5,
+        size: ChordSize::Mean(0.7),
+        r2_hat: 0.586,
+        root_offset: 0.1,
+        axis_fraction: 0.25,
+        least_chord: 0.2,
+    }
+}
+
+fn report(planform: Planform, n: usize) -> WingReport {
+    wing(&WingShape::uniform(planform, 4, n)).report()
+}
+
+#[test]
+fn exact_a_four_by_four_square_has_its_nodes_at_integers() {
+    let mesh = square(0.0).mesh("wing", Side::Right).unwrap();
+    for i in 0..=4 {
+        for j in 0..=4 {
+            let at = mesh.nodes[mesh.node(i, j)];
+            assert_eq!(at, DVec3::new(-(i as f64), j as f64, 0.0));
+        }
+    }
+    let r = wing(&square(0.25)).report();
+    assert_eq!(
+        [r.length, r.area, r.max_chord, r.mean_chord],
+        [4.0, 16.0, 4.0, 4.0]
+    );
+}
+
+#[test]
+fn invariant_normals_are_plus_three_on_both_sides_and_left_mirrors_right_bit_for_bit() {
+    let shape = WingShape {
+        chordwise: Spacing::Cosine,
+        spanwise: Spacing::Cosine,
+        ..WingShape::uniform(Planform::Beta(beta()), 5, 7)
+    };
+    let right = shape.mesh("wing", Side::Right).unwrap();
+    let left = shape.mesh("wing", Side::Left).unwrap();
+    assert_eq!(left, right.mirrored());
+    let normals = |m: &GridMesh, side| {
+        let quads = m.to_quads(side);
+        (0..35).map(move |p| {
+            let [a, b, c, d] = quads.corners(p);
+            (c - a).cross(d - b)
+        })
+    };
+    for (r, l) in normals(&right, Side::Right).zip(normals(&left, Side::Left)) {
+        assert!(r.z > 0.0 && r == l);
+    }
+    let one = wing(&shape);
+    let other = one.mirrored("left");
+    assert_eq!(other.mesh, left);
+    assert_eq!(other.mirrored("wing"), one);
+}
+
+#[test]
+fn exact_beta_moments_have_the_closed_form_of_the_beta_function() {
+    // Without a least chord the mean of the distribution is r1 and its second moment
+    // (0.929 r1^0.732)^2 [Ellington 1984 II].
+    for r1 in [0.42_f64, 0.53, 0.65] {
+        let [m0, m1, m2] = BetaChord::of_r1(r1, 0.0).moments();
+        let r2 = 0.929 * r1.powf(0.732);
+        // Simpson's rule meets the weak end singularity xi^(p-1), p > 1.1, here: 1e-6.
+        assert!((m1 / m0 - r1).abs() < 1e-6);
+        assert!((m2 / m0 - r2 * r2).abs() < 1e-6);
+    }
+}
+
+#[test]
+fn exact_the_beta_wing_keeps_length_chord_and_r2_hat_as_given() {
+    let r = report(Planform::Beta(beta()), 400);
+    assert_eq!(r.length, 2.5);
+    // 400 trapezoids along the span: relative error of order (1/400)^2.
+    assert!((r.mean_chord / 0.7 - 1.0).abs() < 2e-5, "{}", r.mean_chord);
+    assert!((r.r2_hat / 0.586 - 1.0).abs() < 2e-5, "{}", r.r2_hat);
+    let by_max = Beta {
+        size: ChordSize::Max(r.max_chord),
+        ..beta()
+    };
+    let same = report(Planform::Beta(by_max), 400);
+    assert!((same.area / r.area - 1.0).abs() < 1e-4); // largest chord read between two lines
+    let area = Beta {
+        size: ChordSize::Area(1.75),
+        ..beta()
+    };
+    assert!((report(Planform::Beta(area), 400).area / 1.75 - 1.0).abs() < 2e-5);
+}
+
+#[test]
+fn order_area_of_the_beta_wing_converges_with_the_span_panels() {
+    let error = |n| (report(Planform::Beta(beta()), n).area - 1.75).abs();
+    let (coarse, fine) = (error(20), error(160));
+    let order = (coarse / fine).log2() / 3.0;
+    // Trapezoidal rule on a curve with two kinks: second order on average over three halvings.
+    assert!(order > 1.6, "order {order}");
+}
+
+#[test]
+fn exact_outline_of_a_trapezium_and_the_same_as_a_polygon() {
+    let outline = Planform::Outline {
+        leading: vec![(0.0, 0.5), (2.0, 0.25)],
+        trailing: vec![(0.0, -1.5), (2.0, -0.75)],
+        least_chord: 0.1,
+    };
+    let r = report(outline, 8);
+    assert!((r.area - 3.0).abs() < 1e-14); // (2 + 1) / 2 x 2
+    assert_eq!([r.max_chord, r.length], [2.0, 2.0]);
+    let corners = [(2.0, -0.75), (0.0, -1.5), (0.0, 0.5), (2.0, 0.25)];
+    let polygon = Planform::from_polygon(&corners, 0.1).unwrap();
+    assert_eq!(report(polygon, 8), r);
+    let mut other_way = corners;
+    other_way.reverse();
+    assert_eq!(
+        report(Planform::from_polygon(&other_way, 0.1).unwrap(), 8),
+        r
+    );
+}
+
+#[test]
+fn exact_a_pointed_outline_keeps_its_least_chord() {
+    let diamond = [(0.0, 0.0), (1.0, 0.5), (2.0, 0.0), (1.0, -0.5)];
+    let shape = WingShape::uniform(Planform::from_polygon(&diamond, 0.2).unwrap(), 2, 4);
+    let mesh = shape.mesh("wing", Side::Left).unwrap();
+    let chord = |j| mesh.nodes[mesh.node(0, j)].x - mesh.nodes[mesh.node(2, j)].x;
+    assert_eq!(
+        [chord(0), chord(1), chord(2), chord(4)],
+        [0.2, 0.5, 1.0, 0.2]
+    );
+}
