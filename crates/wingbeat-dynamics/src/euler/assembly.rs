@@ -13,7 +13,7 @@ use crate::{DynamicsError, System};
 const BRANCH_LIMIT: f64 = 0.1;
 
 /// Bodies and hinges for coordinates `q` and rates `qd` at time `t`.
-pub(crate) fn kinematics(
+pub fn kinematics(
     system: &System,
     t: f64,
     q: &[f64],

@@ -64,6 +64,11 @@ impl Saddle {
         &self.matrix
     }
 
+    /// The right-hand side `(Q^v + Q, S)`, as last assembled (before [`Saddle::solve`]).
+    pub fn right_side(&self) -> &[f64] {
+        &self.rhs
+    }
+
     /// Mass matrix and generalized forces of one body (seed eq. 21).
     fn put_body(&mut self, system: &System, i: usize, k: &BodyKinematics, load: &Wrench) {
         let (body, at) = (&system.bodies()[i], PER_BODY * i);
