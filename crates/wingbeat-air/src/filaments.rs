@@ -1,7 +1,7 @@
 //! The vortex filaments of one instant: every edge of lattice and wakes once, with its net
 //! circulation.
 
-use crate::kernel::{CoreModel, Network, Points};
+use crate::kernel::{CoreModel, DirectSum, Network, Points};
 use crate::lattice::Lattice;
 use crate::settings::AirSettings;
 use crate::state::{AirState, WakeSheet};
@@ -59,12 +59,6 @@ impl Filaments {
                 .map_or(0.0, |w| w.sign * newest(&state.sheets[w.sheet], w.column));
             *net = gamma[edge.plus] - minus - wake;
         }
-    }
-
-    /// Adds the velocity [m/s] of bound and wake filaments at `targets` [m] to `out`, N.
-    pub(crate) fn add_velocity(&self, settings: &AirSettings, targets: &Points, out: &mut Points) {
-        induce(settings.bound_core, &self.bound, targets, out);
-        induce(settings.wake_core, &self.wake, targets, out);
     }
 
     /// Half the sum of circulation x moment of every filament about `origin`, which is the vector
@@ -125,7 +119,24 @@ fn add_sheet(
     }
 }
 
-/// Adds the velocity of a network at `targets` to `out`.
-pub(crate) fn induce(model: CoreModel, sources: &Network, targets: &Points, out: &mut Points) {
-    crate::kernel::reference::add_velocity(model, &sources.to_segments(), targets, out);
+/// Memory of a Biot-Savart sum, kept from call to call.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Summation(Option<(CoreModel, DirectSum)>);
+
+impl Summation {
+    /// Adds the velocity of `sources` at `targets` to `out`.
+    pub(crate) fn add(
+        &mut self,
+        model: CoreModel,
+        sources: &Network,
+        targets: &Points,
+        out: &mut Points,
+    ) {
+        let kept = self.0.take().filter(|(of, _)| *of == model);
+        let (_, sum) = self
+            .0
+            .insert(kept.unwrap_or_else(|| (model, DirectSum::new(model))));
+        sum.load_network(sources);
+        sum.add_velocity(targets, out);
+    }
 }

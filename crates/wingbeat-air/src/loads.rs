@@ -2,7 +2,7 @@
 
 use crate::closed;
 use crate::error::AirError;
-use crate::filaments::{Filaments, induce};
+use crate::filaments::{Filaments, Summation};
 use crate::influence::Influence;
 use crate::kernel::Points;
 use crate::lattice::Lattice;
@@ -73,6 +73,8 @@ pub struct AirWorkspace {
     /// Velocity at the control points of the newest wake rings' shedding edges.
     pub(crate) shed: Points,
     pub(crate) leak: Vec<f64>,
+    pub(crate) bound_sum: Summation,
+    pub(crate) wake_sum: Summation,
 }
 
 impl AirWorkspace {
@@ -141,8 +143,10 @@ impl Lattice {
         let (filaments, settings) = (&mut ws.filaments, self.settings());
         filaments.set_bound(self, state, &out.gamma);
         let (bound, wake) = (settings.bound_core, settings.wake_core);
-        induce(wake, &filaments.wake, &ws.points, &mut ws.velocity);
-        induce(bound, &filaments.bound, &ws.points, &mut ws.shed);
+        ws.wake_sum
+            .add(wake, &filaments.wake, &ws.points, &mut ws.velocity);
+        ws.bound_sum
+            .add(bound, &filaments.bound, &ws.points, &mut ws.shed);
     }
 
     /// No penetration: the rings make up for what motion, stream and wakes leave.
@@ -167,12 +171,8 @@ impl Lattice {
     fn add_bound_velocity(&self, state: &AirState, ws: &mut AirWorkspace, out: &mut AirLoads) {
         let settings = self.settings();
         ws.filaments.set_bound(self, state, &out.gamma);
-        induce(
-            settings.bound_core,
-            &ws.filaments.bound,
-            &ws.points,
-            &mut ws.velocity,
-        );
+        let (model, bound) = (settings.bound_core, &ws.filaments.bound);
+        ws.bound_sum.add(model, bound, &ws.points, &mut ws.velocity);
         out.velocity.clear();
         let total = ws.velocity.iter().map(|v| settings.free_stream + v);
         out.velocity.extend(total);

@@ -79,10 +79,14 @@ pub struct AirSettings {
 }
 
 impl AirSettings {
-    /// The discretisation of the published benchmark for a given density [kg/m3] and free
-    /// stream [m/s]: cut-off 0.01, wakes from trailing edges, backward circulation rate.
-    pub fn benchmark(density: f64, free_stream: DVec3) -> Self {
-        let core = CoreModel::CutOff { delta: 0.01 };
+    /// The discretisation of the published benchmark for a given density [kg/m3], free stream
+    /// [m/s] and size of the panels [m]: wakes from trailing edges, backward circulation rate and
+    /// the cut-off 0.01, which the benchmark adds as `(0.01 length)^2` [m2] to a term in m4: on its
+    /// panels of unit size it is 0.01 of their length, here it is so on all.
+    pub fn benchmark(density: f64, free_stream: DVec3, panel_size: f64) -> Self {
+        let core = CoreModel::CutOff {
+            delta: 0.01 * panel_size,
+        };
         Self {
             density,
             free_stream,

@@ -63,10 +63,17 @@ impl Lattice {
             return Err(AirError::TimeStep { dt, step });
         }
         self.gather_accepted(state, ws);
-        let targets = &ws.filaments.wake.nodes;
-        ws.velocity.reset(targets.len());
-        ws.filaments
-            .add_velocity(self.settings(), targets, &mut ws.velocity);
+        let AirWorkspace {
+            filaments,
+            velocity,
+            bound_sum,
+            wake_sum,
+            ..
+        } = &mut *ws;
+        let (targets, settings) = (&filaments.wake.nodes, self.settings());
+        velocity.reset(targets.len());
+        bound_sum.add(settings.bound_core, &filaments.bound, targets, velocity);
+        wake_sum.add(settings.wake_core, &filaments.wake, targets, velocity);
         let mut events = self.move_sheets(state, dt, ws)?;
         events.near_surface = self.count_near_surface(state);
         state.events += events;
@@ -154,7 +161,11 @@ impl Lattice {
         for i in 0..points.len() {
             out.set(i, self.settings().free_stream);
         }
-        ws.filaments.add_velocity(self.settings(), points, out);
+        let settings = self.settings();
+        ws.bound_sum
+            .add(settings.bound_core, &ws.filaments.bound, points, out);
+        ws.wake_sum
+            .add(settings.wake_core, &ws.filaments.wake, points, out);
         Ok(())
     }
 

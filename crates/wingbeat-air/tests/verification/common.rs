@@ -1,0 +1,59 @@
+//! Wings, motions and the stepping that the tests share.
+
+use wingbeat_air::{AirError, AirLoads, AirState, AirWorkspace, Lattice, NodeMotion};
+use wingbeat_math::DVec3;
+
+/// Nodes of a flat rectangle of `rows` x `cols` panels: leading edge on the axis of `span`.
+pub fn rectangle(rows: usize, cols: usize, chord: DVec3, span: DVec3) -> Vec<DVec3> {
+    let at =
+        |i: usize, j: usize| chord * (i as f64 / rows as f64) + span * (j as f64 / cols as f64);
+    (0..=rows)
+        .flat_map(|i| (0..=cols).map(move |j| at(i, j)))
+        .collect()
+}
+
+/// Nodes that move with one velocity.
+pub fn translating(position: Vec<DVec3>, velocity: DVec3) -> NodeMotion {
+    let velocity = vec![velocity; position.len()];
+    NodeMotion { position, velocity }
+}
+
+/// A run in steps of one length: the state after the last accepted step, its wake not yet moved,
+/// and the loads of the last step.
+pub struct Run {
+    pub state: AirState,
+    pub loads: AirLoads,
+    pub ws: AirWorkspace,
+}
+
+/// Steps 0 to `last` of length `dt` with the motion as a function of time; `see` is shown every
+/// accepted step.
+pub fn fly(
+    lattice: &Lattice,
+    motion: impl Fn(f64) -> NodeMotion,
+    dt: f64,
+    last: usize,
+    mut see: impl FnMut(usize, &AirState, &AirLoads, &mut AirWorkspace),
+) -> Result<Run, AirError> {
+    let mut run = Run {
+        state: lattice.initial_state(&motion(0.0)),
+        loads: AirLoads::default(),
+        ws: lattice.workspace(),
+    };
+    for step in 0..=last {
+        let t = step as f64 * dt;
+        if step > 0 {
+            lattice.convect(&mut run.state, dt, &mut run.ws)?;
+        }
+        let now = motion(t);
+        lattice.loads(&run.state, t, dt, &now, &mut run.ws, &mut run.loads)?;
+        lattice.accept(&mut run.state, &now, &run.loads)?;
+        see(step, &run.state, &run.loads, &mut run.ws);
+    }
+    Ok(run)
+}
+
+/// Force on all surfaces [N].
+pub fn total_force(loads: &AirLoads) -> DVec3 {
+    loads.surfaces.iter().map(|s| s.force).sum()
+}
