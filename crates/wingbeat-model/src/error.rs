@@ -92,7 +92,7 @@ pub enum ModelError {
         /// Largest distance allowed \[m\].
         limit: f64,
     },
-    /// A hinge inside the body or a part has impossible mass properties.
+    /// Impossible mass properties of the body, a part or a wing.
     #[error("mass properties of `{of}`: {source}")]
     Mass {
         /// The part, wing or body.
