@@ -73,8 +73,8 @@ fn published_fruit_fly_wing_size_and_inertia() {
         j.x_axis.x / 1.82e-15,
         j.y_axis.y / 0.341e-15,
     ];
-    // A flat plate of constant areal density; real wings are heavier at root and veins: 30 %.
-    assert!(found.iter().all(|r| (r - 1.0).abs() < 0.3), "{found:?}");
+    // A flat plate of constant areal density; real wings are heavier at root and veins: 15 %.
+    assert!(found.iter().all(|r| (r - 1.0).abs() < 0.15), "{found:?}");
 }
 
 /// Fry, Sayaman & Dickinson 2005, fig. 1: the beat starts at the dorsal reversal, amplitude
@@ -109,8 +109,8 @@ fn published_robofly_stroke_and_attack_agree_between_series_and_tables() {
                 worst[k] = worst[k].max((s[k] - t[k]).abs());
             }
         }
-        // Different digitisations and smoothings of the same experiment.
-        assert!(worst[0] < 8.0 && worst[1] < 20.0, "{timing:?}: {worst:?}");
+        // Different digitisations and smoothings of the same experiment: found 0.5 and 5.7 deg.
+        assert!(worst[0] < 1.0 && worst[1] < 7.0, "{timing:?}: {worst:?}");
         assert!((angles(&table, 0.0)[0] + 80.0).abs() < 0.01);
         assert!((angles(&table, 0.5)[0] - 80.0).abs() < 0.01);
         let mid = angles(&series, 0.25)[1];
