@@ -79,14 +79,11 @@ pub struct AirSettings {
 }
 
 impl AirSettings {
-    /// The discretisation of the published benchmark for a given density [kg/m3], free stream
-    /// [m/s] and size of the panels [m]: wakes from trailing edges, backward circulation rate and
-    /// the cut-off 0.01, which the benchmark adds as `(0.01 length)^2` [m2] to a term in m4: on its
-    /// panels of unit size it is 0.01 of their length, here it is so on all.
-    pub fn benchmark(density: f64, free_stream: DVec3, panel_size: f64) -> Self {
-        let core = CoreModel::CutOff {
-            delta: 0.01 * panel_size,
-        };
+    /// The discretisation of the published benchmark for a given density [kg/m3] and free
+    /// stream [m/s]: wakes from trailing edges, backward circulation rate and the cut-off 0.01 of
+    /// its panels of unit length; see [`Self::with_cut_off_for`] for panels of any other.
+    pub fn benchmark(density: f64, free_stream: DVec3) -> Self {
+        let core = CoreModel::CutOff { delta: 0.01 };
         Self {
             density,
             free_stream,
@@ -97,6 +94,20 @@ impl AirSettings {
             max_rows: None,
             max_displacement: None,
             clearance: 0.0,
+        }
+    }
+
+    /// The benchmark's cut-off for panels of the given size [m]. The benchmark adds
+    /// `(0.01 length)^2` to a term of fourth power in length, so its 0.01 is a length, a hundredth
+    /// of its panels' size.
+    pub fn with_cut_off_for(self, panel_size: f64) -> Self {
+        let core = CoreModel::CutOff {
+            delta: 0.01 * panel_size,
+        };
+        Self {
+            bound_core: core,
+            wake_core: core,
+            ..self
         }
     }
 

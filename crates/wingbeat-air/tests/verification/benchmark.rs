@@ -40,7 +40,7 @@ fn motion(pitch: fn(f64) -> [f64; 2], t: f64) -> NodeMotion {
 }
 
 fn lattice(stream: DVec3) -> Lattice {
-    let settings = AirSettings::benchmark(1.0, stream, 1.0);
+    let settings = AirSettings::benchmark(1.0, stream);
     Lattice::new(vec![Surface::grid("wing", 4, 4)], settings).unwrap()
 }
 
