@@ -4,7 +4,7 @@ use wingbeat_math::DVec3;
 
 use crate::{Body, BodyMotion, Budget, System, Wrench};
 
-/// Kinetic energy of a body [J]: `m v.v / 2 + v . R (w x s) + w . J w / 2` (seed eq. 13, 23).
+/// Kinetic energy of a body \[J\]: `m v.v / 2 + v . R (w x s) + w . J w / 2` (seed eq. 13, 23).
 pub fn kinetic_energy(body: &Body, m: &BodyMotion) -> f64 {
     let (s, j) = (body.mass.first_moment, body.mass.inertia);
     0.5 * body.mass.mass * m.v.length_squared()
@@ -59,7 +59,7 @@ fn angular_momentum(
     sum
 }
 
-/// Power of `loads` on bodies that move like `motions` [W].
+/// Power of `loads` on bodies that move like `motions` \[W\].
 pub fn load_power(loads: &[Wrench], motions: &[BodyMotion]) -> f64 {
     loads.iter().zip(motions).map(|(l, m)| l.power(m)).sum()
 }

@@ -58,7 +58,7 @@ pub enum DynamicsError {
     NotARotation {
         /// Which matrix.
         what: String,
-        /// Time [s].
+        /// Time \[s\].
         time: f64,
         /// Largest entry of `|R^T R - I|`.
         deviation: f64,
@@ -72,9 +72,9 @@ pub enum DynamicsError {
     Singular {
         /// Name of the body.
         body: String,
-        /// Time [s].
+        /// Time \[s\].
         time: f64,
-        /// Middle angle theta [deg].
+        /// Middle angle theta \[deg\].
         theta_deg: f64,
         /// |cos theta|.
         cosine: f64,
@@ -88,9 +88,9 @@ pub enum DynamicsError {
     WrongBranch {
         /// Name of the hinge.
         hinge: String,
-        /// Time [s].
+        /// Time \[s\].
         time: f64,
-        /// Angle of the relative rotation [deg].
+        /// Angle of the relative rotation \[deg\].
         angle_deg: f64,
     },
     /// Newton-Raphson for consistent coordinates did not converge.
@@ -98,7 +98,7 @@ pub enum DynamicsError {
         "consistent coordinates at t = {time:.6e} s not found: residual {residual:.2e} (natural units) after {iterations} iterations, {tolerance:.0e} is needed; start nearer to the prescribed orientation"
     )]
     Assembly {
-        /// Time [s].
+        /// Time \[s\].
         time: f64,
         /// Largest scaled residual.
         residual: f64,
@@ -112,7 +112,7 @@ pub enum DynamicsError {
         "the saddle-point matrix (seed eq. 30) is singular at t = {time:.6e} s: the root body needs mass and inertia; with a massless root use the momentum form"
     )]
     SingularSaddle {
-        /// Time [s].
+        /// Time \[s\].
         time: f64,
     },
     /// The inertia of the whole system about its mass centre is singular.
@@ -120,7 +120,7 @@ pub enum DynamicsError {
         "the inertia of the whole system about its mass centre is singular at t = {time:.6e} s (principal moments about {scale:.2e} kg m2): the bodies need extent in all three directions"
     )]
     SingularInertia {
-        /// Time [s].
+        /// Time \[s\].
         time: f64,
         /// A third of the trace [kg m2].
         scale: f64,
@@ -130,7 +130,7 @@ pub enum DynamicsError {
         "the state is not finite at t = {time:.6e} s (component {component} is {value}): the integration has broken down, use a smaller step"
     )]
     NotFinite {
-        /// Time [s].
+        /// Time \[s\].
         time: f64,
         /// Index of the component in the state vector.
         component: usize,

@@ -18,14 +18,14 @@ pub trait Formulation: Send + Sync {
         Workspace::new(self.system())
     }
 
-    /// The state at time `t` [s] in which the root moves like `root` and every other body as its
+    /// The state at time `t` \[s\] in which the root moves like `root` and every other body as its
     /// hinge prescribes.
     ///
     /// # Errors
     /// The root's rotation or a law's is not a rotation; no consistent state exists.
     fn initial(&self, t: f64, root: &BodyMotion) -> Result<Vec<f64>, DynamicsError>;
 
-    /// Motion of every body in the state `y` at time `t` [s].
+    /// Motion of every body in the state `y` at time `t` \[s\].
     ///
     /// # Errors
     /// The state is not finite or singular.

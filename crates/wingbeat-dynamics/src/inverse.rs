@@ -7,7 +7,7 @@ use crate::solution::{HingeReaction, Solution};
 use crate::workspace::Workspace;
 use crate::{Body, BodyAcceleration, BodyMotion, System, Wrench};
 
-/// Rate of change of the momentum of a body: force [N] in N components and moment about its
+/// Rate of change of the momentum of a body: force \[N\] in N components and moment about its
 /// frame origin [N m] in N components,
 /// `f = m a + R (w' x s + w x (w x s))`, `n = R (J w' + w x J w + s x R^T a)`.
 pub fn inertia_wrench(body: &Body, m: &BodyMotion, acc: &BodyAcceleration) -> Wrench {

@@ -1,4 +1,47 @@
 //! Constrained multibody dynamics of flapping flight (seed sec. 3 and 4).
+//!
+//! A [`System`] is a tree of rigid bodies: a free root (the central body) and bodies that hang on
+//! it by hinges whose rotation is prescribed in time (the wings). Given the external loads as one
+//! [`Wrench`] per body, two [`Formulation`]s of the same mechanics answer how it moves and what
+//! its hinges carry:
+//!
+//! - [`MomentumForm`], the default: mass centre, attitude quaternion and the two momenta of the
+//!   whole, 13 numbers. Constraints and momenta hold by construction.
+//! - [`EulerForm`], the seed's: six absolute coordinates per body with Euler angles, Lagrange
+//!   multipliers, Baumgarte stabilization, the saddle-point system of seed eq. 30.
+//!
+//! [`tethered`] answers the inverse question: what a support of the root carries.
+//!
+//! The chapter, in reading order: [`System`], [`posture`] (where the bodies are, seen from the
+//! root), [`MomentumForm`], [`inverse`] (reactions), [`budget`] (energy, momenta), then the seed's
+//! form: [`euler::coordinates`] (eq. 2, 3, 14-16), [`euler::constraint`] (eq. 4, 5, 27),
+//! [`euler::forces`] (eq. 6-10), [`euler::inertia`] (eq. 17-26), [`euler::saddle`] (eq. 28-30),
+//! [`euler::assembly`] (consistent initial conditions).
+//!
+//! | symbol | name in code | meaning | unit | frame | seed |
+//! |---|---|---|---|---|---|
+//! | R_i | [`BodyMotion::p`] | position of a body's frame origin | m | N | eq. 3 |
+//! | T_i^{NB} | [`BodyMotion::r`] | rotation, body components to N components | 1 | | eq. 3 |
+//! | omega_i | [`BodyMotion::w`] | angular velocity relative to N | rad/s | body | eq. 15 |
+//! | eta_i | `eta` | Euler angles phi, theta, psi | rad | | eq. 2 |
+//! | C(t) | [`Hinge::law`] | prescribed rotation, child to parent components | 1 | | eq. 4 |
+//! | D | `HingeKinematics::d` | prescribed orientation seen from the child | 1 | child | eq. 4 |
+//! | Phi | `connection`, `orientation` | constraints | m, 1 | N, child | eq. 4, 5 |
+//! | B_q | `connection_jacobian`, `orientation_jacobian` | constraint Jacobian | | | eq. 11 |
+//! | H_j | `point_jacobian` | derivative of a point by the angles | m | N | eq. 9 |
+//! | M_i | `mass_matrix` | mass matrix of a body | kg, kg m, kg m2 | | eq. 18, 19 |
+//! | Q^v | `quadratic_velocity` | quadratic velocity vector | N, N m | | eq. 26 |
+//! | lambda | [`Solution::multipliers`] | multipliers of connection and orientation | N, N m | N, child | eq. 11 |
+//! | alpha, beta | [`Baumgarte`] | stabilization constants | 1/s | | eq. 29 |
+//! | S | `Baumgarte::right_side` | right-hand side of the constraint rows | m/s2, 1/s2 | | eq. 30 |
+//! | P, H | state of [`MomentumForm`] | momenta of the whole, H about its mass centre | kg m/s, kg m2/s | N | |
+//! | I, h, c | [`posture::Composite`] | inertia, relative angular momentum, mass centre of the whole | kg m2, kg m2/s, m | root | |
+//!
+//! The multipliers mean: hinge force on a wing = -(lambda_1, lambda_2, lambda_3) in N components,
+//! hinge moment on it = -(lambda_8, lambda_9, lambda_7) in wing components, and so on for every
+//! hinge.
+//!
+//! What this crate does not know: air, panels, animals, files, units other than SI.
 #![warn(missing_docs)]
 
 pub mod budget;

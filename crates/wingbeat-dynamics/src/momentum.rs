@@ -1,6 +1,6 @@
 //! The momentum form: mass centre, attitude, linear and angular momentum of the whole system.
 //!
-//! State, 13 numbers: mass centre r_C [m], unit quaternion (x, y, z, w) of the root, linear
+//! State, 13 numbers: mass centre r_C \[m\], unit quaternion (x, y, z, w) of the root, linear
 //! momentum P [kg m/s], angular momentum H about the mass centre [kg m2/s], all in N components.
 //!
 //! ```text

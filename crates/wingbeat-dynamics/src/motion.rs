@@ -5,7 +5,7 @@ use wingbeat_math::{DMat3, DVec3};
 /// Where a body is and how it moves.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BodyMotion {
-    /// Position of the frame origin [m], N components.
+    /// Position of the frame origin \[m\], N components.
     pub p: DVec3,
     /// Rotation R_NB: body components to N components.
     pub r: DMat3,
@@ -24,7 +24,7 @@ impl BodyMotion {
         w: DVec3::ZERO,
     };
 
-    /// Position in N [m] of the point `r` [m] of the body frame (seed eq. 3).
+    /// Position in N \[m\] of the point `r` \[m\] of the body frame (seed eq. 3).
     ///
     /// ```
     /// use wingbeat_dynamics::BodyMotion;
@@ -36,7 +36,7 @@ impl BodyMotion {
         self.p + self.r * r
     }
 
-    /// Velocity in N [m/s] of the point `r` [m] fixed to the body (seed eq. 14).
+    /// Velocity in N [m/s] of the point `r` \[m\] fixed to the body (seed eq. 14).
     pub fn point_velocity(&self, r: DVec3) -> DVec3 {
         self.v + self.r * self.w.cross(r)
     }
@@ -55,14 +55,14 @@ pub struct BodyAcceleration {
 /// External load on a body, without gravity.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Wrench {
-    /// Force [N], N components.
+    /// Force \[N\], N components.
     pub force: DVec3,
     /// Moment about the body's frame origin [N m], N components.
     pub moment: DVec3,
 }
 
 impl Wrench {
-    /// A force [N] at a point that lies `arm` [m] from the body's frame origin (both N components).
+    /// A force \[N\] at a point that lies `arm` \[m\] from the body's frame origin (both N components).
     pub fn at(force: DVec3, arm: DVec3) -> Self {
         Self {
             force,
@@ -70,7 +70,7 @@ impl Wrench {
         }
     }
 
-    /// Power on a body that moves like `motion` [W].
+    /// Power on a body that moves like `motion` \[W\].
     pub fn power(&self, motion: &BodyMotion) -> f64 {
         self.force.dot(motion.v) + self.moment.dot(motion.r * motion.w)
     }

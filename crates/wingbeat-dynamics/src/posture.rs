@@ -11,7 +11,7 @@ use crate::{BodyAcceleration, BodyMotion, DynamicsError, System};
 pub struct Placement {
     /// Rotation A: body components to root components.
     pub rotation: MovingRotation,
-    /// Position d of the body's origin [m], root components.
+    /// Position d of the body's origin \[m\], root components.
     pub d: DVec3,
     /// First derivative of `d` [m/s].
     pub d_dot: DVec3,
@@ -48,9 +48,9 @@ impl Placement {
 /// Mass properties of the whole system and the momentum of its parts relative to the root.
 #[derive(Clone, Copy, Debug)]
 pub struct Composite {
-    /// Total mass m [kg].
+    /// Total mass m \[kg\].
     pub mass: f64,
-    /// Mass centre c [m], root components.
+    /// Mass centre c \[m\], root components.
     pub c: DVec3,
     /// Velocity of the mass centre as seen from the root [m/s].
     pub c_dot: DVec3,
@@ -74,7 +74,7 @@ impl Posture {
         }
     }
 
-    /// Evaluates the hinge laws at time `t` [s].
+    /// Evaluates the hinge laws at time `t` \[s\].
     pub fn update(&mut self, system: &System, t: f64) {
         for &k in system.outward() {
             let h = &system.hinges()[k];

@@ -7,18 +7,18 @@ use crate::{BodyAcceleration, System, Wrench};
 /// What a hinge does to its child.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct HingeReaction {
-    /// Force on the child [N], N components.
+    /// Force on the child \[N\], N components.
     pub force: DVec3,
     /// Moment on the child about the hinge point [N m], child components.
     pub moment: DVec3,
-    /// Power the hinge's actuator puts into the system [W].
+    /// Power the hinge's actuator puts into the system \[W\].
     pub power: f64,
 }
 
 /// How far the coordinates are from fulfilling the constraints.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Violation {
-    /// Largest connection constraint (seed eq. 4, phi_1 to phi_6) [m].
+    /// Largest connection constraint (seed eq. 4, phi_1 to phi_6) \[m\].
     pub position: f64,
     /// Largest orientation constraint (seed eq. 4, phi_7 to phi_12) \[1\], an angle in radians when small.
     pub orientation: f64,
@@ -27,11 +27,11 @@ pub struct Violation {
 /// Energies and momenta of the whole system.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Budget {
-    /// Kinetic energy [J].
+    /// Kinetic energy \[J\].
     pub kinetic: f64,
-    /// Potential energy in the field of gravity, zero at the origin of N [J].
+    /// Potential energy in the field of gravity, zero at the origin of N \[J\].
     pub potential: f64,
-    /// Mass centre of the system [m], N components.
+    /// Mass centre of the system \[m\], N components.
     pub centre: DVec3,
     /// Linear momentum [kg m/s], N components.
     pub momentum: DVec3,
@@ -47,7 +47,7 @@ pub struct Solution {
     /// Reactions of every hinge.
     pub hinges: Vec<HingeReaction>,
     /// Lagrange multipliers of `M q'' + B^T lambda = Q` in the seed's order: three of connection
-    /// per hinge [N], then three of orientation per hinge [N m].
+    /// per hinge \[N\], then three of orientation per hinge [N m].
     pub multipliers: Vec<f64>,
     /// Load the support puts on the root about its origin; zero in free flight.
     pub tether: Wrench,
@@ -55,7 +55,7 @@ pub struct Solution {
     pub violation: Violation,
     /// Energies and momenta.
     pub budget: Budget,
-    /// Power of the external loads, gravity and support not included [W].
+    /// Power of the external loads, gravity and support not included \[W\].
     pub load_power: f64,
 }
 
@@ -74,12 +74,12 @@ impl Solution {
         }
     }
 
-    /// Sum of the actuator powers of all hinges [W].
+    /// Sum of the actuator powers of all hinges \[W\].
     pub fn hinge_power(&self) -> f64 {
         self.hinges.iter().map(|h| h.power).sum()
     }
 
-    /// Kinetic plus potential energy [J].
+    /// Kinetic plus potential energy \[J\].
     pub fn energy(&self) -> f64 {
         self.budget.kinetic + self.budget.potential
     }

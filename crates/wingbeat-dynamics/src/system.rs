@@ -27,9 +27,9 @@ pub struct Hinge {
     pub parent: usize,
     /// Index of the child body.
     pub child: usize,
-    /// Hinge point in the parent's frame [m].
+    /// Hinge point in the parent's frame \[m\].
     pub anchor_parent: DVec3,
-    /// Hinge point in the child's frame [m]; zero for wings, whose origin is the hinge.
+    /// Hinge point in the child's frame \[m\]; zero for wings, whose origin is the hinge.
     pub anchor_child: DVec3,
     /// Prescribed rotation C(t): child components to parent components.
     pub law: Arc<dyn RotationLaw>,
@@ -38,9 +38,9 @@ pub struct Hinge {
 /// Natural units of the problem: tolerances and scales are relative to them.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct NaturalUnits {
-    /// Length [m], for an insect its wing length.
+    /// Length \[m\], for an insect its wing length.
     pub length: f64,
-    /// Time [s], for an insect 1/f, the period of a wingbeat.
+    /// Time \[s\], for an insect 1/f, the period of a wingbeat.
     pub time: f64,
 }
 
@@ -107,7 +107,7 @@ impl System {
         self.units
     }
 
-    /// Total mass [kg].
+    /// Total mass \[kg\].
     pub fn total_mass(&self) -> f64 {
         self.bodies.iter().map(|b| b.mass.mass).sum()
     }

@@ -13,7 +13,7 @@ pub struct RootMotion {
     pub acceleration: BodyAcceleration,
 }
 
-/// Motions of all bodies at time `t` [s] when the root moves like `root`.
+/// Motions of all bodies at time `t` \[s\] when the root moves like `root`.
 pub fn tethered_motions(
     system: &System,
     t: f64,
@@ -25,7 +25,7 @@ pub fn tethered_motions(
     ws.posture.motions(root, out);
 }
 
-/// Inverse dynamics at time `t` [s] of a system whose root is moved by a support:
+/// Inverse dynamics at time `t` \[s\] of a system whose root is moved by a support:
 /// accelerations, hinge reactions, multipliers, budget, and in `out.tether` the force and moment
 /// (about the root's origin, N components) of the support on the root.
 pub fn tethered(

@@ -8,7 +8,7 @@ use super::constraint::HingeKinematics;
 use super::coordinates::{BodyKinematics, PER_BODY};
 use crate::{DynamicsError, System};
 
-/// Largest angle [rad] of the relative rotation taken for a fulfilled orientation. The wrong
+/// Largest angle \[rad\] of the relative rotation taken for a fulfilled orientation. The wrong
 /// branches are at 90 deg or more; round-off and drift stay below a degree.
 const BRANCH_LIMIT: f64 = 0.1;
 

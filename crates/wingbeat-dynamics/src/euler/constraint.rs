@@ -62,7 +62,7 @@ impl HingeKinematics {
         }
     }
 
-    /// phi_1 to phi_3: distance of the two hinge points [m], N components (seed eq. 4).
+    /// phi_1 to phi_3: distance of the two hinge points \[m\], N components (seed eq. 4).
     pub fn connection(&self) -> DVec3 {
         let (a, b) = (&self.parent.motion, &self.child.motion);
         b.p - a.p + b.r * self.anchor_child - a.r * self.anchor_parent
@@ -133,7 +133,7 @@ impl HingeKinematics {
         self.normals * e_rate + DVec3::new(bent(0), bent(1), bent(2))
     }
 
-    /// Force on the child [N] of the connection multipliers, N components: `-lambda`.
+    /// Force on the child \[N\] of the connection multipliers, N components: `-lambda`.
     pub fn reaction_force(&self, multipliers: DVec3) -> DVec3 {
         -multipliers
     }
@@ -150,7 +150,7 @@ impl HingeKinematics {
         self.d * self.rate
     }
 
-    /// Angle of the relative rotation D [rad].
+    /// Angle of the relative rotation D \[rad\].
     pub fn angle(&self) -> f64 {
         let trace = self.d.x_axis.x + self.d.y_axis.y + self.d.z_axis.z;
         (0.5 * (trace - 1.0)).clamp(-1.0, 1.0).acos()

@@ -15,7 +15,7 @@ pub const REGULARITY_LIMIT: f64 = 0.05;
 pub struct BodyKinematics {
     /// Position, rotation, velocity, angular velocity.
     pub motion: BodyMotion,
-    /// Euler angles eta [rad].
+    /// Euler angles eta \[rad\].
     pub eta: DVec3,
     /// Their rates [rad/s].
     pub eta_dot: DVec3,

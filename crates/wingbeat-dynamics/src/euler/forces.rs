@@ -6,12 +6,12 @@ use super::coordinates::BodyKinematics;
 use crate::Wrench;
 
 /// H of seed eq. 9, the derivative of `R r` by the angles: `H = -R tilde(r) G`, the same form for
-/// every Euler sequence; `r` [m] is the point in body components.
+/// every Euler sequence; `r` \[m\] is the point in body components.
 pub fn point_jacobian(k: &BodyKinematics, r: DVec3) -> DMat3 {
     -(k.motion.r * tilde(r) * k.g)
 }
 
-/// Generalized force of a force [N, N components] at the point `r` [m] of the body (seed eq. 8,
+/// Generalized force of a force [N, N components] at the point `r` \[m\] of the body (seed eq. 8,
 /// 9): `(F, H^T F)`.
 pub fn point_force(k: &BodyKinematics, r: DVec3, force: DVec3) -> [DVec3; 2] {
     [force, point_jacobian(k, r).transpose() * force]

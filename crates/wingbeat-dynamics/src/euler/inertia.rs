@@ -9,7 +9,7 @@ use crate::Body;
 /// Blocks of the symmetric mass matrix of one body (seed eq. 18), or of its rate.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MassBlocks {
-    /// m^{RR} = `rr` I_3 [kg].
+    /// m^{RR} = `rr` I_3 \[kg\].
     pub rr: f64,
     /// m^{R eta} [kg m].
     pub r_eta: DMat3,
@@ -48,7 +48,7 @@ pub fn mass_matrix_rate(body: &Body, k: &BodyKinematics) -> MassBlocks {
     }
 }
 
-/// Kinetic energy [J], `q'^T M q' / 2` (seed eq. 20).
+/// Kinetic energy \[J\], `q'^T M q' / 2` (seed eq. 20).
 pub fn kinetic_energy(body: &Body, k: &BodyKinematics) -> f64 {
     let [p, h] = mass_matrix(body, k).times(k.motion.v, k.eta_dot);
     0.5 * (k.motion.v.dot(p) + k.eta_dot.dot(h))

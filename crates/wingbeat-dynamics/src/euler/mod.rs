@@ -46,7 +46,7 @@ impl Baumgarte {
         beta: 0.0,
     };
 
-    /// `alpha = beta = a / h` for the step h [s]; a = 0.1 is recommended.
+    /// `alpha = beta = a / h` for the step h \[s\]; a = 0.1 is recommended.
     pub fn step_tied(a: f64, h: f64) -> Self {
         Self {
             alpha: a / h,
@@ -54,7 +54,7 @@ impl Baumgarte {
         }
     }
 
-    /// The default for the step h [s]: a = 0.1.
+    /// The default for the step h \[s\]: a = 0.1.
     pub fn for_step(h: f64) -> Self {
         Self::step_tied(0.1, h)
     }

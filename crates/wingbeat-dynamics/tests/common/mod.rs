@@ -84,6 +84,11 @@ impl Flapping {
         Self::new([-3.0, -48.0, 0.2], [-1.0, -9.0, 0.3], [-90.0, 35.0, 1.7])
     }
 
+    /// A stroke that leaves room to the singularity of the wings' Euler angles.
+    pub fn gentle() -> Self {
+        Self::new([5.0, 45.0, 0.0], [2.0, 6.0, 0.7], [-90.0, 40.0, 1.4])
+    }
+
     /// The same wing on the other side: phi and theta change sign, psi does not.
     pub fn mirrored(&self) -> Self {
         let [phi, theta, psi] = self.angles;
