@@ -22,15 +22,17 @@ pub struct SingularMatrix {
 /// ```
 ///
 /// # Errors
-/// [`SingularMatrix`] if a column has no nonzero (or no finite) pivot.
+/// [`SingularMatrix`] if a column has no finite pivot above round-off of the largest entry.
 ///
 /// # Panics
 /// If `a.len()` is not the square of `b.len()`.
 pub fn solve_small(a: &mut [f64], b: &mut [f64]) -> Result<(), SingularMatrix> {
     let n = b.len();
     assert_eq!(a.len(), n * n, "a {n} x {n} matrix is needed");
+    let largest = a.iter().fold(0.0, |m: f64, x| m.max(x.abs()));
+    let negligible = n as f64 * f64::EPSILON * largest;
     for k in 0..n {
-        exchange_pivot(a, b, k)?;
+        exchange_pivot(a, b, k, negligible)?;
         eliminate_below(a, b, k);
     }
     substitute_back(a, b);
@@ -38,7 +40,12 @@ pub fn solve_small(a: &mut [f64], b: &mut [f64]) -> Result<(), SingularMatrix> {
 }
 
 /// Brings the largest entry of column k on or below the diagonal to the diagonal.
-fn exchange_pivot(a: &mut [f64], b: &mut [f64], k: usize) -> Result<(), SingularMatrix> {
+fn exchange_pivot(
+    a: &mut [f64],
+    b: &mut [f64],
+    k: usize,
+    negligible: f64,
+) -> Result<(), SingularMatrix> {
     let n = b.len();
     let (mut p, mut largest) = (k, 0.0);
     for i in k..n {
@@ -47,7 +54,7 @@ fn exchange_pivot(a: &mut [f64], b: &mut [f64], k: usize) -> Result<(), Singular
             (p, largest) = (i, size);
         }
     }
-    if !(largest > 0.0 && largest.is_finite()) {
+    if !(largest > negligible && largest.is_finite()) {
         return Err(SingularMatrix { column: k });
     }
     if p != k {
