@@ -74,9 +74,7 @@ impl std::fmt::Display for CaseError {
                 let snippet = Snippet::source(text.as_str())
                     .path(self.origin.as_str())
                     .annotation(mark);
-                Level::ERROR
-                    .primary_title(title.as_str())
-                    .element(snippet)
+                Level::ERROR.primary_title(title.as_str()).element(snippet)
             }
             None => Level::ERROR
                 .primary_title(title.as_str())
@@ -109,7 +107,9 @@ pub enum IoError {
     #[error("{0}")]
     Case(Box<CaseError>),
     /// A preset that does not exist.
-    #[error("there is no case file and no preset called `{name}`{hint}; `wingbeat presets` lists the presets")]
+    #[error(
+        "there is no case file and no preset called `{name}`{hint}; `wingbeat presets` lists the presets"
+    )]
     NoCase {
         /// What was asked for.
         name: String,

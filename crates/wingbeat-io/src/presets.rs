@@ -17,7 +17,11 @@ pub struct Preset {
 impl Preset {
     /// One line about the case: the first comment of its file.
     pub fn line(&self) -> &'static str {
-        self.text.lines().next().unwrap_or("").trim_start_matches("# ")
+        self.text
+            .lines()
+            .next()
+            .unwrap_or("")
+            .trim_start_matches("# ")
     }
 }
 

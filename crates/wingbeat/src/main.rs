@@ -1,2 +1,114 @@
 //! The wingbeat command line.
-fn main() {}
+
+mod check;
+mod progress;
+mod run;
+
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use clap::{Args, Parser, Subcommand};
+use wingbeat::io::{IoError, case, presets};
+
+/// Simulator of flapping-wing flight.
+///
+/// Exit codes: 0 done; 1 the flight or the writing failed midway (what was flown is kept);
+/// 2 nothing was run: command line, case or output directory cannot be used; 130 interrupted by
+/// Ctrl-C or SIGTERM (what was flown is kept).
+#[derive(Parser)]
+#[command(version, max_term_width = 100)]
+struct Cli {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Subcommand)]
+enum Command {
+    /// Fly a case file or a preset; without one, the fruit fly in free hovering flight.
+    Run(RunArgs),
+    /// Check a case file or preset without flying it, and say what it holds.
+    Check {
+        /// Case file or preset.
+        case: String,
+        /// Set a key of the case, e.g. time.beats=3 (may be repeated).
+        #[arg(long = "set", value_name = "KEY=VALUE")]
+        set: Vec<String>,
+    },
+    /// List the presets and the shipped sets of wing angles.
+    Presets,
+    /// Write a preset as a commented case file to start from; never over an existing file.
+    New {
+        /// Name of the preset.
+        preset: String,
+        /// File to write; default PRESET.toml.
+        file: Option<PathBuf>,
+    },
+    /// Print the JSON schema of case files, for editors.
+    Schema,
+}
+
+/// What `wingbeat run` is told.
+#[derive(Args)]
+struct RunArgs {
+    /// Case file or preset.
+    #[arg(default_value = presets::DEFAULT)]
+    case: String,
+    /// Result directory; default results/NAME, with a number appended if that exists.
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// Replace an earlier run in the result directory.
+    #[arg(long, requires = "out")]
+    overwrite: bool,
+    /// Set a key of the case, e.g. time.beats=3 (may be repeated).
+    #[arg(long = "set", value_name = "KEY=VALUE")]
+    set: Vec<String>,
+    /// Threads to use; default all. Results do not depend on it.
+    #[arg(long, value_name = "N")]
+    threads: Option<usize>,
+    /// No progress and no summary on the terminal.
+    #[arg(long)]
+    quiet: bool,
+}
+
+fn main() -> ExitCode {
+    let cli = Cli::parse();
+    let outcome = match cli.command {
+        Command::Run(args) => return run::run(&args),
+        Command::Check { case, set } => check::check(&case, &set),
+        Command::Presets => {
+            list();
+            Ok(())
+        }
+        Command::New { preset, file } => presets::write(&preset, file.as_deref()).map(|path| {
+            println!("wrote {0}; fly it with `wingbeat run {0}`", path.display());
+        }),
+        Command::Schema => {
+            println!("{}", case::schema());
+            Ok(())
+        }
+    };
+    match outcome {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(e) => refuse(&e),
+    }
+}
+
+/// Reports an error that kept anything from being run.
+fn refuse(e: &IoError) -> ExitCode {
+    match e {
+        IoError::Case(report) => eprintln!("{report}"), // begins with `error:` itself
+        other => eprintln!("error: {other}"),
+    }
+    ExitCode::from(2)
+}
+
+fn list() {
+    println!("Presets (wingbeat run NAME, wingbeat new NAME):");
+    for preset in presets::PRESETS {
+        println!("  {:<22}{}", preset.name, preset.line());
+    }
+    println!("\nSets of wing angles (motion.data):");
+    for (name, line) in case::data_sets() {
+        println!("  {name:<28}{line}");
+    }
+}

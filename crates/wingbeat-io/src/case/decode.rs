@@ -27,10 +27,20 @@ fn explain(path: &str, message: &str) -> Fault {
     }
     if message.starts_with("missing field") {
         let key = inside(path, quoted[0]);
-        return Fault::new(key, "this key is missing", "it has no default", format!("add `{} = ...`", quoted[0]));
+        return Fault::new(
+            key,
+            "this key is missing",
+            "it has no default",
+            format!("add `{} = ...`", quoted[0]),
+        );
     }
     let (problem, expected) = message.split_once(", expected ").unwrap_or((message, ""));
-    Fault::new(path, in_words(problem), in_words(expected), remedy(problem, expected))
+    Fault::new(
+        path,
+        in_words(problem),
+        in_words(expected),
+        remedy(problem, expected),
+    )
 }
 
 fn inside(path: &str, key: &str) -> String {
@@ -42,21 +52,43 @@ fn inside(path: &str, key: &str) -> String {
 }
 
 fn unknown(path: &str, got: &str, expected: &[&str], what: &str) -> Fault {
-    let key = if what == "key" { inside(path, got) } else { path.to_owned() };
+    let key = if what == "key" {
+        inside(path, got)
+    } else {
+        path.to_owned()
+    };
     let remedy = match (same_quantity(got, expected), nearest(got, expected)) {
         (Some(near), _) => format!("`{near}`: the unit is part of the key, convert the value"),
         (None, Some(near)) => format!("did you mean `{near}`?"),
         (None, None) => format!("remove it or use one of the allowed {what}s"),
     };
-    Fault::new(key, format!("unknown {what} `{got}`"), expected.join(", "), remedy)
+    Fault::new(
+        key,
+        format!("unknown {what} `{got}`"),
+        expected.join(", "),
+        remedy,
+    )
 }
 
 /// The expected key that differs from `got` only in its unit: `mass_mg` for `mass_kg`.
 fn same_quantity<'a>(got: &str, expected: &[&'a str]) -> Option<&'a str> {
-    const UNITS: [&str; 8] = ["_m", "_kg", "_s", "_deg", "_hz", "_m_s", "_kg_m3", "_newton"];
-    let stem = |key: &str| UNITS.iter().find_map(|u| key.strip_suffix(u).map(str::to_owned));
-    let is_same = |e: &&&str| stem(e).is_some_and(|s| got == s || got.strip_prefix(&s).is_some_and(|r| r.starts_with('_')));
-    expected.iter().filter(is_same).max_by_key(|e| e.len()).copied()
+    const UNITS: [&str; 8] = [
+        "_m", "_kg", "_s", "_deg", "_hz", "_m_s", "_kg_m3", "_newton",
+    ];
+    let stem = |key: &str| {
+        UNITS
+            .iter()
+            .find_map(|u| key.strip_suffix(u).map(str::to_owned))
+    };
+    let is_same = |e: &&&str| {
+        stem(e)
+            .is_some_and(|s| got == s || got.strip_prefix(&s).is_some_and(|r| r.starts_with('_')))
+    };
+    expected
+        .iter()
+        .filter(is_same)
+        .max_by_key(|e| e.len())
+        .copied()
 }
 
 /// The nearest of `names`, if it is near.
@@ -83,7 +115,9 @@ fn in_words(text: &str) -> String {
         ("an array of length 3", "a list of three numbers [x, y, z]"),
         ("tuple variant", "a table"),
     ];
-    words.iter().fold(text.to_owned(), |t, (from, to)| t.replace(from, to))
+    words
+        .iter()
+        .fold(text.to_owned(), |t, (from, to)| t.replace(from, to))
 }
 
 fn remedy(problem: &str, expected: &str) -> &'static str {

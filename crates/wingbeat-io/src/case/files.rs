@@ -48,7 +48,11 @@ fn read_mesh(path: &str, part: &mut PartCase, base: &Path) -> Result<(), Fault> 
     let file = base.join(&name);
     let bytes = std::fs::read(&file).map_err(|e| unreadable(key.clone(), &file, &e))?;
     let unit = part.file_unit_m.take().unwrap_or(1.0);
-    let extension = file.extension().and_then(|e| e.to_str()).unwrap_or("").to_lowercase();
+    let extension = file
+        .extension()
+        .and_then(|e| e.to_str())
+        .unwrap_or("")
+        .to_lowercase();
     let found = match extension.as_str() {
         "obj" => import::obj(&name, &mut bytes.as_slice(), unit),
         "stl" => import::stl(&name, &bytes, unit),
@@ -62,7 +66,12 @@ fn read_mesh(path: &str, part: &mut PartCase, base: &Path) -> Result<(), Fault> 
         }
     };
     let mesh = found.map_err(|e| {
-        Fault::new(key, e.to_string(), "one closed surface", "repair the mesh and export it again")
+        Fault::new(
+            key,
+            e.to_string(),
+            "one closed surface",
+            "repair the mesh and export it again",
+        )
     })?;
     part.nodes_m = Some(mesh.mesh.nodes.iter().map(|x| x.to_array()).collect());
     part.quads = Some(mesh.mesh.quads);
@@ -92,10 +101,16 @@ fn read_table(path: &str, table: &mut TableCase, base: &Path) -> Result<(), Faul
     let column = |wanted: &Option<String>, default: usize| match wanted {
         None => Ok(default),
         Some(w) => header.iter().position(|h| h == w).ok_or_else(|| {
-            bad(format!("there is no column `{w}` among {}", header.iter().collect::<Vec<_>>().join(", ")))
+            bad(format!(
+                "there is no column `{w}` among {}",
+                header.iter().collect::<Vec<_>>().join(", ")
+            ))
         }),
     };
-    let columns = [column(&table.phase_column, 0)?, column(&table.angle_column, 1)?];
+    let columns = [
+        column(&table.phase_column, 0)?,
+        column(&table.angle_column, 1)?,
+    ];
     let mut rows = vec![];
     for record in reader.records() {
         let record = record.map_err(|e| bad(e.to_string()))?;

@@ -58,7 +58,10 @@ impl LoadedCase {
     ) -> Result<Self, CaseError> {
         let source = CaseSource::new(origin, text, overrides)?;
         let mut raw: raw::Case = decode::decode(&source)?;
-        let stem = Path::new(origin).file_stem().and_then(|s| s.to_str()).unwrap_or("case");
+        let stem = Path::new(origin)
+            .file_stem()
+            .and_then(|s| s.to_str())
+            .unwrap_or("case");
         let name = raw.name.get_or_insert_with(|| stem.to_owned()).clone();
         let built = check_name(&name)
             .and_then(|()| files::read_in(&mut raw, base))
@@ -68,7 +71,13 @@ impl LoadedCase {
             frames_every: raw.output.frames_every,
             figures: raw.output.figures,
         };
-        Ok(Self { name, setup, output, raw, source })
+        Ok(Self {
+            name,
+            setup,
+            output,
+            raw,
+            source,
+        })
     }
 
     /// Reads a case file.
@@ -78,7 +87,12 @@ impl LoadedCase {
     pub fn from_file(path: &Path, overrides: &[String]) -> Result<Self, IoError> {
         let text = std::fs::read_to_string(path).map_err(IoError::read(path))?;
         let base = path.parent().map(Path::to_owned).unwrap_or_default();
-        Ok(Self::from_text(&path.display().to_string(), &text, &base, overrides)?)
+        Ok(Self::from_text(
+            &path.display().to_string(),
+            &text,
+            &base,
+            overrides,
+        )?)
     }
 
     /// Reads a case file or, where no such file exists, a preset of that name.
@@ -92,7 +106,12 @@ impl LoadedCase {
         }
         let preset = presets::find(name)?;
         let origin = format!("preset {}", preset.name);
-        Ok(Self::from_text(&origin, preset.text, Path::new(""), overrides)?)
+        Ok(Self::from_text(
+            &origin,
+            preset.text,
+            Path::new(""),
+            overrides,
+        )?)
     }
 
     /// The text of the case as it was written.
@@ -108,7 +127,10 @@ impl LoadedCase {
     /// The case with everything filled in, as TOML; it gives the same setup bit for bit.
     pub fn resolved(&self) -> String {
         let body = toml::to_string(&self.raw).expect("a case that was read can be written");
-        format!("# Case `{}` with every default filled in; it reproduces the run.\n{body}", self.name)
+        format!(
+            "# Case `{}` with every default filled in; it reproduces the run.\n{body}",
+            self.name
+        )
     }
 
     /// An error about a key that showed up later, traced to its line.

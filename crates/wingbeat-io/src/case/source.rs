@@ -56,7 +56,11 @@ impl CaseSource {
     /// Traces a fault to its line, or to the override that caused it.
     pub fn locate(&self, fault: Fault) -> CaseError {
         let value = find(&self.table, &fault.key).and_then(short);
-        let overridden = self.overrides.iter().rev().find(|(key, _)| related(key, &fault.key));
+        let overridden = self
+            .overrides
+            .iter()
+            .rev()
+            .find(|(key, _)| related(key, &fault.key));
         let mut error = CaseError {
             origin: self.name.clone(),
             line: None,
@@ -80,7 +84,11 @@ impl CaseSource {
     fn span(&self, key: &str) -> Option<Range<usize>> {
         if let Some(place) = self.places.get(key) {
             let multiline = self.text[place.value.clone()].contains('\n');
-            return Some(if multiline { place.key.clone() } else { place.value.clone() });
+            return Some(if multiline {
+                place.key.clone()
+            } else {
+                place.value.clone()
+            });
         }
         let mut outer = key;
         while let Some(cut) = outer.rfind(['.', '[']) {
@@ -103,7 +111,10 @@ impl CaseSource {
     fn syntax(&self, e: &toml::de::Error) -> CaseError {
         let fault = Fault::new(
             "",
-            format!("this is not TOML: {}", e.message().trim().replace('\n', ", ")),
+            format!(
+                "this is not TOML: {}",
+                e.message().trim().replace('\n', ", ")
+            ),
             "",
             "`wingbeat new fruit-fly-hover` writes a case to start from",
         );
@@ -145,13 +156,19 @@ impl CaseSource {
 /// Whether one path is the other or lies inside it.
 fn related(a: &str, b: &str) -> bool {
     let inside = |outer: &str, inner: &str| {
-        inner.strip_prefix(outer).is_some_and(|rest| rest.is_empty() || rest.starts_with(['.', '[']))
+        inner
+            .strip_prefix(outer)
+            .is_some_and(|rest| rest.is_empty() || rest.starts_with(['.', '[']))
     };
     !b.is_empty() && (inside(a, b) || inside(b, a))
 }
 
 fn join(path: &str, key: &str) -> String {
-    if path.is_empty() { key.to_owned() } else { format!("{path}.{key}") }
+    if path.is_empty() {
+        key.to_owned()
+    } else {
+        format!("{path}.{key}")
+    }
 }
 
 fn record_table(path: &str, table: &DeTable<'_>, places: &mut BTreeMap<String, Place>) {
@@ -184,7 +201,10 @@ fn record(
 fn parts(path: &str) -> impl Iterator<Item = Part<'_>> {
     path.split('.').flat_map(|piece| {
         let (name, rest) = piece.split_at(piece.find('[').unwrap_or(piece.len()));
-        let indices = rest.split(['[', ']']).filter_map(|n| n.parse().ok()).map(Part::Index);
+        let indices = rest
+            .split(['[', ']'])
+            .filter_map(|n| n.parse().ok())
+            .map(Part::Index);
         std::iter::once(Part::Name(name)).chain(indices)
     })
 }
@@ -219,10 +239,16 @@ fn set(table: &mut Table, path: &str, value: Value) -> Result<(), String> {
     let mut slot = table.entry((*first).to_owned()).or_insert_with(fresh);
     for part in rest {
         slot = match (part, slot) {
-            (Part::Name(name), Value::Table(t)) => t.entry((*name).to_owned()).or_insert_with(fresh),
+            (Part::Name(name), Value::Table(t)) => {
+                t.entry((*name).to_owned()).or_insert_with(fresh)
+            }
             (Part::Index(k), Value::Array(items)) if *k < items.len() => &mut items[*k],
             (Part::Index(k), _) => return Err(format!("there is no element [{k}] to set")),
-            (Part::Name(name), _) => return Err(format!("`{name}` cannot be set: what holds it is not a table")),
+            (Part::Name(name), _) => {
+                return Err(format!(
+                    "`{name}` cannot be set: what holds it is not a table"
+                ));
+            }
         };
     }
     *slot = value;

@@ -26,7 +26,11 @@ fn mean_panel_length(animal: &Animal) -> f64 {
     let reports = animal.wing_reports();
     let area: f64 = reports.iter().map(|r| r.area).sum();
     let panels: usize = reports.iter().map(|r| r.panels).sum();
-    if panels == 0 { 1.0 } else { (area / panels as f64).sqrt() }
+    if panels == 0 {
+        1.0
+    } else {
+        (area / panels as f64).sqrt()
+    }
 }
 
 /// The air of the flight.
@@ -59,7 +63,10 @@ pub(super) fn options(case: &AirCase) -> Built<Option<AirOptions>> {
         max_displacement: limit("air.max_displacement_m", case.max_displacement_m)?,
         clearance: not_negative("air.clearance_m", case.clearance_m)?,
     };
-    Ok(Some(AirOptions { lattice, body_surfaces: case.body }))
+    Ok(Some(AirOptions {
+        lattice,
+        body_surfaces: case.body,
+    }))
 }
 
 fn core(path: &str, case: Option<&CoreCase>) -> Built<CoreModel> {
@@ -74,7 +81,10 @@ fn core(path: &str, case: Option<&CoreCase>) -> Built<CoreModel> {
         CoreCase::Scully { radius_m } => CoreModel::Scully {
             radius: number("scully.radius_m", *radius_m)?,
         },
-        CoreCase::LambOseen { radius_m, viscosity_m2_s } => CoreModel::LambOseen {
+        CoreCase::LambOseen {
+            radius_m,
+            viscosity_m2_s,
+        } => CoreModel::LambOseen {
             radius: number("lamb_oseen.radius_m", *radius_m)?,
             viscosity: number("lamb_oseen.viscosity_m2_s", *viscosity_m2_s)?,
         },

@@ -29,7 +29,10 @@ pub(super) fn build(case: &BodyCase) -> Built<Animal> {
 fn shapes(case: &BodyCase) -> Built<Vec<(String, Revolution)>> {
     let mut shapes = vec![];
     for (name, part) in case.part.iter().filter(|(_, p)| p.nodes_m.is_none()) {
-        shapes.push((name.clone(), revolution(&format!("body.part.{name}"), part)?));
+        shapes.push((
+            name.clone(),
+            revolution(&format!("body.part.{name}"), part)?,
+        ));
     }
     let Some(length) = case.length_m else {
         return Ok(shapes);
@@ -76,7 +79,9 @@ fn profile(case: Option<&ProfileCase>) -> Profile {
     match case {
         None | Some(ProfileCase::Ellipsoid) => Profile::Ellipsoid,
         Some(&ProfileCase::Superellipse(exponent)) => Profile::Superellipse { exponent },
-        Some(ProfileCase::Table(rows)) => Profile::Table(rows.iter().map(|&[s, r]| (s, r)).collect()),
+        Some(ProfileCase::Table(rows)) => {
+            Profile::Table(rows.iter().map(|&[s, r]| (s, r)).collect())
+        }
     }
 }
 
@@ -114,10 +119,14 @@ fn given_mesh(path: &str, nodes: &[[f64; 3]], part: &PartCase) -> Built<QuadMesh
 
 fn part_mass(body: &BodyCase, path: &str, part: &PartCase) -> Built<MassInput> {
     match (part.mass_kg, part.density_kg_m3) {
-        (Some(m), None) => Ok(MassInput::Total(not_negative(&format!("{path}.mass_kg"), m)?)),
-        (None, Some(d)) => {
-            Ok(MassInput::Density(not_negative(&format!("{path}.density_kg_m3"), d)?))
-        }
+        (Some(m), None) => Ok(MassInput::Total(not_negative(
+            &format!("{path}.mass_kg"),
+            m,
+        )?)),
+        (None, Some(d)) => Ok(MassInput::Density(not_negative(
+            &format!("{path}.density_kg_m3"),
+            d,
+        )?)),
         (None, None) if body.inertia_about_centre_kg_m2.is_some() => Ok(MassInput::Density(0.0)),
         (None, None) if body.mass_kg.is_some() => Ok(MassInput::Density(1.0)), // scaled to the total
         (None, None) => Err(Fault::new(

@@ -92,7 +92,10 @@ fn tethered(flight: &FlightCase) -> Built<MotionMode> {
 }
 
 fn path(case: Option<&PathOscillation>, constant: f64, rate: f64) -> DriftingFourier {
-    let still = DriftingFourier { rate, ..DriftingFourier::constant(constant) };
+    let still = DriftingFourier {
+        rate,
+        ..DriftingFourier::constant(constant)
+    };
     case.map_or(still.clone(), |c| DriftingFourier {
         frequency: c.frequency_hz,
         cosine: c.cosine_m.clone(),
@@ -119,7 +122,10 @@ pub(super) fn formulation(case: &DynamicsCase) -> Built<FormulationChoice> {
         BaumgarteCase::StepFactor(a) => {
             BaumgarteChoice::StepTied(not_negative(&format!("{key}.step_factor"), a)?)
         }
-        BaumgarteCase::Fixed { alpha_per_s, beta_per_s } => BaumgarteChoice::Fixed {
+        BaumgarteCase::Fixed {
+            alpha_per_s,
+            beta_per_s,
+        } => BaumgarteChoice::Fixed {
             alpha: not_negative(&format!("{key}.fixed.alpha_per_s"), alpha_per_s)?,
             beta: not_negative(&format!("{key}.fixed.beta_per_s"), beta_per_s)?,
         },
@@ -143,7 +149,10 @@ pub(super) fn check_attitudes(case: &Case, setup: &FlightSetup) -> Built<()> {
     for wing in &setup.animal.wings {
         let attitude = EulerSequence::WING_132.angles(root * wing.motion.at(0.0).c);
         if EulerSequence::WING_132.regularity(attitude) < LEAST_REGULARITY {
-            let what = format!("deviation angle of wing `{}` seen from the inertial frame", wing.name);
+            let what = format!(
+                "deviation angle of wing `{}` seen from the inertial frame",
+                wing.name
+            );
             return Err(singular("dynamics.formulation", &what));
         }
     }
@@ -153,7 +162,9 @@ pub(super) fn check_attitudes(case: &Case, setup: &FlightSetup) -> Built<()> {
 fn singular(key: &str, what: &str) -> Fault {
     Fault::new(
         key,
-        format!("at the start the {what} is within 3 degrees of +-90, where Euler angles are singular"),
+        format!(
+            "at the start the {what} is within 3 degrees of +-90, where Euler angles are singular"
+        ),
         "attitudes away from the singularity, or dynamics.formulation = \"momentum\"",
         "set dynamics.formulation = \"momentum\", which has no singularity",
     )
@@ -162,7 +173,8 @@ fn singular(key: &str, what: &str) -> Fault {
 /// Applied loads.
 pub(super) fn loads(case: &Case, animal: &Animal) -> Built<Vec<AppliedLoad>> {
     let all = case.load.iter().enumerate();
-    all.map(|(k, load)| applied(&format!("load[{k}]"), load, animal)).collect()
+    all.map(|(k, load)| applied(&format!("load[{k}]"), load, animal))
+        .collect()
 }
 
 fn applied(path: &str, load: &LoadCase, animal: &Animal) -> Built<AppliedLoad> {
@@ -194,7 +206,11 @@ fn applied(path: &str, load: &LoadCase, animal: &Animal) -> Built<AppliedLoad> {
             FrameCase::Inertial => LoadFrame::Inertial,
         },
         point: vector(load.point_m),
-        force: series(&load.force_newton, &load.force_cosine_newton, &load.force_sine_newton),
+        force: series(
+            &load.force_newton,
+            &load.force_cosine_newton,
+            &load.force_sine_newton,
+        ),
         couple: series(
             &load.couple_newton_m,
             &load.couple_cosine_newton_m,

@@ -59,10 +59,16 @@ fn check_format(format: u32) -> Built<()> {
 fn animal(case: &Case, name: &str) -> Built<Animal> {
     let body = body::build(&case.body)?;
     let wings = wing::build_all(case)?;
-    let animal = Animal { name: name.to_owned(), wings, ..body };
+    let animal = Animal {
+        name: name.to_owned(),
+        wings,
+        ..body
+    };
     animal.check().map_err(|e| blame_animal(case, e))?;
     let scale = positive("animal.scale", case.animal.scale)?;
-    animal.scaled(scale).map_err(|e| Fault::new("animal.scale", e.to_string(), "a number > 0", ""))
+    animal
+        .scaled(scale)
+        .map_err(|e| Fault::new("animal.scale", e.to_string(), "a number > 0", ""))
 }
 
 /// The key of a fault the finished animal shows.
@@ -80,7 +86,12 @@ fn blame_animal(case: &Case, error: ModelError) -> Fault {
             "moments that some distribution of positive mass has",
             "check order (xx, yy, zz, xy, xz, yz), signs and the reference point",
         ),
-        _ => Fault::new("body", error.to_string(), "", "correct the body of the animal"),
+        _ => Fault::new(
+            "body",
+            error.to_string(),
+            "",
+            "correct the body of the animal",
+        ),
     }
 }
 
@@ -88,7 +99,12 @@ fn corrector(case: &CorrectorCase) -> Built<CorrectorSettings> {
     let relaxation = positive("corrector.relaxation", case.relaxation)?;
     if relaxation > 1.0 {
         let problem = "relaxation above 1 makes the corrector overshoot";
-        return Err(Fault::new("corrector.relaxation", problem, "(0, 1]", "1 for the plain iteration"));
+        return Err(Fault::new(
+            "corrector.relaxation",
+            problem,
+            "(0, 1]",
+            "1 for the plain iteration",
+        ));
     }
     Ok(CorrectorSettings {
         tolerance: positive("corrector.tolerance", case.tolerance)?,
@@ -102,8 +118,17 @@ fn positive(key: &str, value: f64) -> Built<f64> {
     if value > 0.0 {
         return Ok(value);
     }
-    let problem = if value < 0.0 { "this must not be negative" } else { "this must not be zero" };
-    Err(Fault::new(key, problem, "a finite number > 0", "give a measured or estimated value"))
+    let problem = if value < 0.0 {
+        "this must not be negative"
+    } else {
+        "this must not be zero"
+    };
+    Err(Fault::new(
+        key,
+        problem,
+        "a finite number > 0",
+        "give a measured or estimated value",
+    ))
 }
 
 /// A number >= 0 at `key`.
@@ -111,7 +136,12 @@ fn not_negative(key: &str, value: f64) -> Built<f64> {
     if value >= 0.0 {
         return Ok(value);
     }
-    Err(Fault::new(key, "this must not be negative", "a finite number >= 0", "remove the minus sign"))
+    Err(Fault::new(
+        key,
+        "this must not be negative",
+        "a finite number >= 0",
+        "remove the minus sign",
+    ))
 }
 
 /// A whole number >= `least` at `key`.

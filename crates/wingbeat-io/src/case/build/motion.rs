@@ -6,12 +6,17 @@ use wingbeat_model::{AngleLaw, AngleLaws, Side, Start, WingMotion};
 
 use super::{Built, at_least, not_negative, positive};
 use crate::case::decode::nearest;
-use crate::case::raw::{AngleCase, Case, FourierCase, StartCase, TableCase, WingCase, WingMotionCase};
+use crate::case::raw::{
+    AngleCase, Case, FourierCase, StartCase, TableCase, WingCase, WingMotionCase,
+};
 use crate::error::Fault;
 
 /// Names of the shipped sets of wing angles with a line about each.
 pub fn data_sets() -> Vec<(&'static str, String)> {
-    NAMES.iter().map(|&n| (n, data_set(n).map_or(String::new(), |d| d.name))).collect()
+    NAMES
+        .iter()
+        .map(|&n| (n, data_set(n).map_or(String::new(), |d| d.name)))
+        .collect()
 }
 
 const NAMES: [&str; 15] = [
@@ -49,9 +54,9 @@ fn data_set(name: &str) -> Option<PublishedMotion> {
         "fwuav-bumblebee" => Some(kinematics::fwuav_hover(FwuavInsect::Bumblebee).0),
         _ if !NAMES.contains(&name) => None,
         _ if name.contains("table") => kinematics::robofly_table(timing).ok(),
-        _ if name.contains("sane") => {
-            Some(kinematics::robofly_sane_dickinson2001(timing, stroke, attack))
-        }
+        _ if name.contains("sane") => Some(kinematics::robofly_sane_dickinson2001(
+            timing, stroke, attack,
+        )),
         _ => Some(kinematics::robofly_dickinson1999(timing, stroke, attack)),
     }
 }
@@ -62,7 +67,12 @@ fn find_data(key: &str, name: &str) -> Built<PublishedMotion> {
             Some(near) => format!("did you mean `{near}`?"),
             None => "give the angles phi, theta, psi of your own".to_owned(),
         };
-        Fault::new(key, "there is no such set of wing angles", NAMES.join(", "), remedy)
+        Fault::new(
+            key,
+            "there is no such set of wing angles",
+            NAMES.join(", "),
+            remedy,
+        )
     })
 }
 
@@ -74,7 +84,10 @@ pub(super) fn fill_defaults(case: &mut Case) -> Built<()> {
     };
     let from_data = |f: fn(&PublishedMotion) -> Option<f64>| data.as_ref().and_then(f);
     let motion = &mut case.motion;
-    let frequency = motion.frequency_hz.or(from_data(|d| d.frequency)).unwrap_or(0.0);
+    let frequency = motion
+        .frequency_hz
+        .or(from_data(|d| d.frequency))
+        .unwrap_or(0.0);
     motion.frequency_hz = Some(not_negative("motion.frequency_hz", frequency)?);
     if motion.stroke_plane_pitch_deg.is_none() {
         let pitch = from_data(|d| d.stroke_plane_pitch).unwrap_or(0.0);
@@ -90,7 +103,9 @@ pub(super) fn law(case: &Case, name: &str, wing: &WingCase, side: Side) -> Built
     let path = format!("wing.{name}.motion");
     let frequency = case.motion.frequency_hz.unwrap_or(0.0);
     let laws = laws(case, &path, own, side)?;
-    let pitch = own.stroke_plane_pitch_deg.or(case.motion.stroke_plane_pitch_deg);
+    let pitch = own
+        .stroke_plane_pitch_deg
+        .or(case.motion.stroke_plane_pitch_deg);
     let still = |law: &AngleLaw| matches!(law, AngleLaw::Constant(_));
     if frequency == 0.0 && ![&laws.phi, &laws.theta, &laws.psi].into_iter().all(still) {
         return Err(Fault::new(
@@ -112,18 +127,32 @@ pub(super) fn law(case: &Case, name: &str, wing: &WingCase, side: Side) -> Built
 fn start(case: &Case, frequency: f64) -> Built<Start> {
     let beats = positive("motion.start_beats", case.motion.start_beats)?;
     Ok(match case.motion.start {
-        StartCase::Smooth if frequency > 0.0 => Start::Smooth { duration: beats / frequency },
+        StartCase::Smooth if frequency > 0.0 => Start::Smooth {
+            duration: beats / frequency,
+        },
         _ => Start::Impulsive,
     })
 }
 
 fn laws(case: &Case, path: &str, own: &WingMotionCase, side: Side) -> Built<AngleLaws> {
-    let shared = case.motion.data.as_deref().map(|n| ("motion.data".to_owned(), n));
-    let data = own.data.as_deref().map(|n| (format!("{path}.data"), n)).or(shared);
+    let shared = case
+        .motion
+        .data
+        .as_deref()
+        .map(|n| ("motion.data".to_owned(), n));
+    let data = own
+        .data
+        .as_deref()
+        .map(|n| (format!("{path}.data"), n))
+        .or(shared);
     let base = match data {
         Some((key, name)) => {
             let right = find_data(&key, name)?.right;
-            if side == Side::Right { right } else { right.mirrored() }
+            if side == Side::Right {
+                right
+            } else {
+                right.mirrored()
+            }
         }
         None => {
             let [phi, theta, psi] = [0.0; 3].map(AngleLaw::Constant);

@@ -48,7 +48,11 @@ pub(super) fn grid(case: &mut Case) -> Built<TimeGrid> {
         }
         (None, None) => return Err(no_beat("time.steps", "steps")),
     };
-    Ok(TimeGrid { step, steps, period })
+    Ok(TimeGrid {
+        step,
+        steps,
+        period,
+    })
 }
 
 fn no_beat(key: &str, name: &str) -> Fault {

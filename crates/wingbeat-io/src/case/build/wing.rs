@@ -126,7 +126,11 @@ fn hinge(source: &Source<'_>) -> Built<DVec3> {
         )
     };
     let hinge = vector(wing.hinge_m.ok_or_else(missing)?);
-    Ok(if mirrored { wingbeat_model::mesh::mirror(hinge) } else { hinge })
+    Ok(if mirrored {
+        wingbeat_model::mesh::mirror(hinge)
+    } else {
+        hinge
+    })
 }
 
 fn shape(source: &Source<'_>) -> Built<WingShape> {
@@ -185,7 +189,10 @@ fn planform(path: &str, case: &PlanformCase) -> Built<Planform> {
 
 fn chord_size(path: &str, b: &BetaCase) -> Built<ChordSize> {
     match (b.mean_chord_m, b.area_m2, b.max_chord_m) {
-        (Some(c), None, None) => Ok(ChordSize::Mean(positive(&format!("{path}.mean_chord_m"), c)?)),
+        (Some(c), None, None) => Ok(ChordSize::Mean(positive(
+            &format!("{path}.mean_chord_m"),
+            c,
+        )?)),
         (None, Some(s), None) => Ok(ChordSize::Area(positive(&format!("{path}.area_m2"), s)?)),
         (None, None, Some(c)) => Ok(ChordSize::Max(positive(&format!("{path}.max_chord_m"), c)?)),
         _ => Err(Fault::new(
@@ -237,7 +244,9 @@ fn mass_input(path: &str, wing: &WingCase, mirrored: bool) -> Built<MassInput> {
         for (k, &[_, d]) in rows.iter().enumerate() {
             not_negative(&format!("{path}.areal_density_table_m_kg_m2[{k}][1]"), d)?;
         }
-        return Ok(MassInput::SpanTable(rows.iter().map(|&[r, d]| (r, d)).collect()));
+        return Ok(MassInput::SpanTable(
+            rows.iter().map(|&[r, d]| (r, d)).collect(),
+        ));
     }
     let m = not_negative(&format!("{path}.mass_kg"), wing.mass_kg.unwrap_or_default())?;
     let Some([xx, yy, zz, xy, xz, yz]) = wing.inertia_about_centre_kg_m2 else {

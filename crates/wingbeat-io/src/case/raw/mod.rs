@@ -19,7 +19,10 @@ pub use flight::{
 pub use motion::{
     AngleCase, FourierCase, MotionCase, OvalCase, ShapedCase, StartCase, TableCase, WingMotionCase,
 };
-pub use wing::{BetaCase, OutlineCase, PlanformCase, RectangleCase, SideCase, SpacingCase, WingCase, WingMeshCase};
+pub use wing::{
+    BetaCase, OutlineCase, PlanformCase, RectangleCase, SideCase, SpacingCase, WingCase,
+    WingMeshCase,
+};
 
 use std::collections::BTreeMap;
 

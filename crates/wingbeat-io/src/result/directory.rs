@@ -1,0 +1,150 @@
+//! Making result directories without ever overwriting one unasked, and whole-file writes.
+
+use std::fs;
+use std::io::ErrorKind;
+use std::path::{Path, PathBuf};
+
+use crate::error::IoError;
+
+/// Everything a run may write; `--overwrite` removes these and nothing else.
+const ENTRIES: [&str; 7] = [
+    "case.toml",
+    "history.csv",
+    "flight.pvd",
+    "manifest.json",
+    "summary.txt",
+    "summary.json",
+    "index.html",
+];
+const FOLDERS: [&str; 2] = ["frames", "figures"];
+
+/// A directory that belongs to one run.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct ResultDir {
+    path: PathBuf,
+}
+
+impl ResultDir {
+    /// A new directory at exactly this path.
+    ///
+    /// # Errors
+    /// [`IoError::Exists`] if anything is there already, [`IoError::File`] if it cannot be made.
+    pub fn create(path: &Path) -> Result<Self, IoError> {
+        if let Some(parent) = path.parent() {
+            fs::create_dir_all(parent).map_err(make(path))?;
+        }
+        fs::create_dir(path).map_err(|e| match e.kind() {
+            ErrorKind::AlreadyExists => IoError::Exists {
+                path: path.to_owned(),
+                remedy: "choose another directory with --out, or replace this run with --overwrite",
+            },
+            _ => make(path)(e),
+        })?;
+        Ok(Self {
+            path: path.to_owned(),
+        })
+    }
+
+    /// The next free directory `base/name`, `base/name-2`, `base/name-3`, ...
+    ///
+    /// # Errors
+    /// A directory that cannot be made.
+    pub fn next_free(base: &Path, name: &str) -> Result<Self, IoError> {
+        let mut path = base.join(name);
+        for n in 2.. {
+            match Self::create(&path) {
+                Err(IoError::Exists { .. }) => path = base.join(format!("{name}-{n}")),
+                found => return found,
+            }
+        }
+        unreachable!("some number is free")
+    }
+
+    /// Takes over the directory of an earlier run, whose files are removed; makes a new one if
+    /// there is none.
+    ///
+    /// # Errors
+    /// A directory that holds no run is left untouched: [`IoError::Exists`].
+    pub fn overwrite(path: &Path) -> Result<Self, IoError> {
+        let empty = fs::read_dir(path)
+            .map(|mut d| d.next().is_none())
+            .unwrap_or(false);
+        if !path.exists() {
+            return Self::create(path);
+        }
+        if !empty && !path.join("manifest.json").is_file() {
+            return Err(IoError::Exists {
+                path: path.to_owned(),
+                remedy: "it holds no earlier run (no manifest.json), so --overwrite leaves it alone: choose another directory",
+            });
+        }
+        for entry in ENTRIES {
+            absent(fs::remove_file(path.join(entry))).map_err(make(path))?;
+        }
+        for folder in FOLDERS {
+            absent(fs::remove_dir_all(path.join(folder))).map_err(make(path))?;
+        }
+        Ok(Self {
+            path: path.to_owned(),
+        })
+    }
+
+    /// Where it is.
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// A path inside.
+    pub fn join(&self, name: &str) -> PathBuf {
+        self.path.join(name)
+    }
+
+    /// Makes a folder inside.
+    ///
+    /// # Errors
+    /// A folder that cannot be made.
+    pub fn folder(&self, name: &str) -> Result<PathBuf, IoError> {
+        let path = self.join(name);
+        fs::create_dir_all(&path).map_err(make(&path))?;
+        Ok(path)
+    }
+
+    /// Writes a file inside, whole or not at all.
+    ///
+    /// # Errors
+    /// A file that cannot be written.
+    pub fn write(&self, name: &str, content: &[u8]) -> Result<(), IoError> {
+        write_whole(&self.join(name), content)
+    }
+}
+
+fn absent(result: std::io::Result<()>) -> std::io::Result<()> {
+    match result {
+        Err(e) if e.kind() == ErrorKind::NotFound => Ok(()),
+        other => other,
+    }
+}
+
+fn make(path: &Path) -> impl FnOnce(std::io::Error) -> IoError + '_ {
+    move |source| IoError::File {
+        action: "make the result directory",
+        path: path.to_owned(),
+        source,
+        remedy: "choose a place you may write to with --out DIR",
+    }
+}
+
+/// Writes beside the target and renames: readers see the old file or the whole new one.
+///
+/// # Errors
+/// A file that cannot be written; the target is then as it was.
+pub fn write_whole(path: &Path, content: &[u8]) -> Result<(), IoError> {
+    let mut part = path.as_os_str().to_owned();
+    part.push(".part");
+    let part = PathBuf::from(part);
+    let result = fs::write(&part, content).and_then(|()| fs::rename(&part, path));
+    result.map_err(|e| {
+        let _ = fs::remove_file(&part); // nothing more can be done about a leftover
+        IoError::write(path)(e)
+    })
+}

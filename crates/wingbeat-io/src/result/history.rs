@@ -1,0 +1,147 @@
+//! history.csv: appended row by row, read back tolerating a cut last row.
+
+use std::collections::BTreeMap;
+use std::fs::File;
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+use wingbeat_flight::Record;
+
+use super::columns;
+use crate::error::IoError;
+
+/// Appends one row per record; every row is on disk before the next step begins.
+pub struct HistoryWriter {
+    path: PathBuf,
+    file: File,
+    bodies: Vec<String>,
+    values: Vec<f64>,
+    line: String,
+    started: bool,
+}
+
+impl HistoryWriter {
+    /// A new history for bodies with these names (see [`columns::body_names`]).
+    ///
+    /// # Errors
+    /// A file that cannot be created.
+    pub fn create(path: &Path, bodies: Vec<String>) -> Result<Self, IoError> {
+        Ok(Self {
+            path: path.to_owned(),
+            file: File::create(path).map_err(IoError::write(path))?,
+            bodies,
+            values: vec![],
+            line: String::new(),
+            started: false,
+        })
+    }
+
+    /// Appends a record in one write; numbers carry 17 significant digits.
+    ///
+    /// # Errors
+    /// A file that cannot be written, e.g. on a full disk.
+    pub fn append(&mut self, record: &Record) -> Result<(), IoError> {
+        self.line.clear();
+        if !self.started {
+            self.line = columns::names(&self.bodies, record).join(",") + "\n";
+            self.started = true;
+        }
+        columns::values(&self.bodies, record, &mut self.values);
+        for (k, value) in self.values.iter().enumerate() {
+            let comma = if k == 0 { "" } else { "," };
+            write_number(&mut self.line, comma, *value);
+        }
+        self.line.push('\n');
+        self.file
+            .write_all(self.line.as_bytes())
+            .map_err(IoError::write(&self.path))
+    }
+}
+
+/// Whole numbers plainly, others with 17 significant digits.
+fn write_number(line: &mut String, comma: &str, value: f64) {
+    use std::fmt::Write as _;
+    let whole =
+        value.fract() == 0.0 && value.abs() < 1e15 && !(value == 0.0 && value.is_sign_negative());
+    let written = if whole {
+        write!(line, "{comma}{value:.0}")
+    } else {
+        write!(line, "{comma}{value:.16e}")
+    };
+    written.expect("writing to a string cannot fail");
+}
+
+/// A history read back: columns of numbers by name.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct History {
+    names: Vec<String>,
+    columns: BTreeMap<String, Vec<f64>>,
+}
+
+impl History {
+    /// Reads a history; a last row that was cut by a kill is left out.
+    ///
+    /// # Errors
+    /// A file that cannot be read or is not a history.
+    pub fn read(path: &Path) -> Result<Self, IoError> {
+        let text = std::fs::read_to_string(path).map_err(IoError::read(path))?;
+        let damaged = |problem: String| IoError::Damaged {
+            path: path.to_owned(),
+            problem,
+        };
+        let whole = text.rfind('\n').map_or("", |end| &text[..end]);
+        let mut lines = whole.lines();
+        let header = lines.next().filter(|h| h.starts_with("step_count,"));
+        let header =
+            header.ok_or_else(|| damaged("this is not a history of wingbeat".to_owned()))?;
+        let names: Vec<String> = header.split(',').map(str::to_owned).collect();
+        let mut columns = vec![vec![]; names.len()];
+        for (k, line) in lines.enumerate() {
+            let fields: Vec<&str> = line.split(',').collect();
+            if fields.len() != names.len() {
+                return Err(damaged(format!(
+                    "row {} has {} fields, not {}",
+                    k + 1,
+                    fields.len(),
+                    names.len()
+                )));
+            }
+            for (column, field) in columns.iter_mut().zip(fields) {
+                let value = field.parse();
+                column.push(
+                    value.map_err(|_| {
+                        damaged(format!("row {}: `{field}` is not a number", k + 1))
+                    })?,
+                );
+            }
+        }
+        let columns = names.iter().cloned().zip(columns).collect();
+        Ok(Self { names, columns })
+    }
+
+    /// Column names in their order.
+    pub fn names(&self) -> &[String] {
+        &self.names
+    }
+
+    /// Number of rows.
+    pub fn rows(&self) -> usize {
+        self.column("step_count").len()
+    }
+
+    /// A column; empty if there is none of this name.
+    pub fn column(&self, name: &str) -> &[f64] {
+        self.columns.get(name).map_or(&[], Vec::as_slice)
+    }
+
+    /// The sum of the columns whose names satisfy `which`, row by row.
+    pub fn sum(&self, which: impl Fn(&str) -> bool) -> Vec<f64> {
+        let mut sum = vec![0.0; self.rows()];
+        for name in self.names.iter().filter(|n| which(n)) {
+            for (total, x) in sum.iter_mut().zip(self.column(name)) {
+                *total += x;
+            }
+        }
+        sum
+    }
+}

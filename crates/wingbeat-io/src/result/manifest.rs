@@ -1,0 +1,68 @@
+//! manifest.json: what was run, with what, how long it took and how it ended.
+
+use serde::{Deserialize, Serialize};
+use sha2::{Digest, Sha256};
+
+/// How a run ended.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Outcome {
+    /// Still running, or killed.
+    Running,
+    /// All steps were made.
+    Finished,
+    /// Stopped by Ctrl-C or SIGTERM; everything up to there is written.
+    Interrupted,
+    /// An error ended the flight; everything up to there is written.
+    Failed(String),
+}
+
+/// What a result directory says about itself.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Manifest {
+    /// Version of wingbeat.
+    pub version: String,
+    /// Name of the case.
+    pub case: String,
+    /// File or preset the case came from.
+    pub origin: String,
+    /// SHA-256 of case.toml in this directory.
+    pub case_sha256: String,
+    /// How the run ended.
+    pub outcome: Outcome,
+    /// Threads that were allowed.
+    pub threads: usize,
+    /// Steps made.
+    pub steps: usize,
+    /// Steps that were asked for.
+    pub steps_planned: usize,
+    /// Frames written.
+    pub frames: usize,
+    /// Panels of all surfaces in the last frame.
+    pub panels: usize,
+    /// Wake rings at the end.
+    pub wake_rings: usize,
+    /// Wall time of the flight, writing included \[s\].
+    pub wall_time_s: f64,
+    /// Wall time of the writing alone \[s\].
+    pub writing_time_s: f64,
+    /// What a reader of the results should know.
+    pub warnings: Vec<String>,
+    /// Axes of the frames.
+    pub frame_axes: String,
+}
+
+impl Manifest {
+    /// As JSON.
+    pub fn to_json(&self) -> String {
+        serde_json::to_string_pretty(self).expect("a manifest is JSON") + "\n"
+    }
+}
+
+/// SHA-256 in hexadecimal.
+pub fn sha256(data: &[u8]) -> String {
+    Sha256::digest(data)
+        .iter()
+        .map(|b| format!("{b:02x}"))
+        .collect()
+}

@@ -1,0 +1,25 @@
+//! Result directories: written while the flight runs, readable whenever it stops.
+//!
+//! ```text
+//! case.toml       the case with everything filled in; reproduces the run
+//! history.csv     one row per step, appended: a kill leaves a readable prefix
+//! flight.pvd      index of the frames for ParaView
+//! frames/         surfaces_NNNNNN.vtp and wakes_NNNNNN.vtp, each written whole or not at all
+//! figures/        drawings made from history.csv
+//! manifest.json   version, hash of the case, threads, counts, timings, warnings
+//! summary.txt     what happened and how far it can be trusted; summary.json the same numbers
+//! ```
+
+pub mod columns;
+pub mod directory;
+pub mod history;
+pub mod manifest;
+pub mod summary;
+pub mod vtp;
+pub mod writer;
+
+pub use directory::ResultDir;
+pub use history::History;
+pub use manifest::{Manifest, Outcome};
+pub use summary::Summary;
+pub use writer::RunWriter;

@@ -1,0 +1,447 @@
+//! What happened, in words and numbers, and how far it can be trusted.
+
+use std::fmt::Write as _;
+
+use serde::{Deserialize, Serialize};
+use wingbeat_air::CoreModel;
+use wingbeat_flight::{FlightSetup, FormulationChoice, MotionMode};
+use wingbeat_math::DVec3;
+
+use super::{History, Outcome};
+use crate::case::LoadedCase;
+
+/// Means over one wingbeat.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct BeatMeans {
+    /// Number of the beat, from 1.
+    pub beat: usize,
+    /// Mean air force against gravity \[N\].
+    pub lift_newton: f64,
+    /// The same over the weight; none without gravity.
+    pub lift_over_weight: Option<f64>,
+    /// Mean air force along n1 (forward) \[N\].
+    pub thrust_newton: f64,
+    /// Mean power the hinge actuators give \[W\].
+    pub power_watt: f64,
+}
+
+/// Numbers of a run.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Summary {
+    /// Case name.
+    pub case: String,
+    /// How the run ended.
+    pub outcome: Outcome,
+    /// Steps made.
+    pub steps: usize,
+    /// Time flown \[s\].
+    pub time_s: f64,
+    /// Mass of the animal \[kg\].
+    pub mass_kg: f64,
+    /// Means of each whole wingbeat.
+    pub beats: Vec<BeatMeans>,
+    /// Way of the body origin from start to end, N components \[m\].
+    pub displacement_m: [f64; 3],
+    /// Change of pitch, yaw, roll from start to end \[deg\].
+    pub turn_deg: [f64; 3],
+    /// Largest energy residual over the energy that was turned over \[1\].
+    pub energy_residual_relative: f64,
+    /// Largest momentum residual over the largest impulse or momentum \[1\].
+    pub momentum_residual_relative: f64,
+    /// Largest violation of a connection constraint \[m\].
+    pub violation_position_m: f64,
+    /// Largest violation of an orientation constraint \[1\].
+    pub violation_orientation: f64,
+    /// Smallest |cos theta| of all bodies \[1\].
+    pub euler_regularity: f64,
+    /// Most corrector passes in a step.
+    pub corrector_passes_most: usize,
+    /// Mean corrector passes.
+    pub corrector_passes_mean: f64,
+    /// Near-singular velocities that were regularised, all steps.
+    pub regularised: usize,
+    /// Wake rings at the end.
+    pub wake_rings: usize,
+    /// Largest uniform leak velocity of closed surfaces \[m/s\].
+    pub leak_velocity_m_s: f64,
+    /// What a reader should know before using the numbers.
+    pub warnings: Vec<String>,
+}
+
+/// Unit vector along gravity; n3 without gravity.
+pub fn down(setup: &FlightSetup) -> DVec3 {
+    setup.gravity.try_normalize().unwrap_or(DVec3::Z)
+}
+
+/// Total air force along a direction, row by row \[N\].
+pub fn air_force(history: &History, direction: DVec3) -> Vec<f64> {
+    let mut total = vec![0.0; history.rows()];
+    for k in 0..3 {
+        let suffix = format!("_force_n{}_newton", k + 1);
+        let part = history.sum(|n| n.starts_with("air_") && n.ends_with(&suffix));
+        for (t, x) in total.iter_mut().zip(part) {
+            *t += direction[k] * x;
+        }
+    }
+    total
+}
+
+/// Total power of the hinge actuators, row by row \[W\].
+pub fn hinge_power(history: &History) -> Vec<f64> {
+    history.sum(|n| n.starts_with("hinge_") && n.ends_with("_power_watt"))
+}
+
+/// Mean of `y` over rows `range` by the trapezoidal rule (exact to the ends of a period).
+fn mean(y: &[f64], range: std::ops::RangeInclusive<usize>) -> f64 {
+    let part = &y[range];
+    let n = part.len() - 1;
+    let inner: f64 = part[1..n].iter().sum();
+    (inner + 0.5 * (part[0] + part[n])) / n as f64
+}
+
+fn largest(values: impl IntoIterator<Item = f64>) -> f64 {
+    values.into_iter().fold(0.0, |a, x| a.max(x.abs()))
+}
+
+/// Largest length of the vectors in three columns.
+fn largest_vector(history: &History, stem: &str, unit: &str) -> f64 {
+    let column = |k: usize| history.column(&format!("{stem}_n{k}_{unit}"));
+    let [a, b, c] = [column(1), column(2), column(3)];
+    let lengths = a
+        .iter()
+        .zip(b)
+        .zip(c)
+        .map(|((x, y), z)| DVec3::new(*x, *y, *z).length());
+    largest(lengths)
+}
+
+impl Summary {
+    /// From the history of a run.
+    pub fn new(case: &LoadedCase, history: &History, outcome: &Outcome) -> Self {
+        let setup = &case.setup;
+        let time_s = history.column("time_s").last().copied().unwrap_or(0.0);
+        let total = |name: &str| history.column(name).iter().sum::<f64>();
+        let last = |name: &str| history.column(name).last().copied().unwrap_or(0.0);
+        let most = |name: &str| largest(history.column(name).iter().copied());
+        let change = |name: String| {
+            let c = history.column(&name);
+            c.last().unwrap_or(&0.0) - c.first().unwrap_or(&0.0)
+        };
+        let regularity = history.column("euler_regularity_dimensionless");
+        let passes = history.column("corrector_passes_count");
+        let mut summary = Self {
+            case: case.name.clone(),
+            outcome: outcome.clone(),
+            steps: history.rows().saturating_sub(1),
+            time_s,
+            mass_kg: setup.animal.mass(),
+            beats: beats(setup, history),
+            displacement_m: ["x", "y", "z"].map(|k| change(format!("body_{k}_m"))),
+            turn_deg: ["phi", "theta", "psi"].map(|k| change(format!("body_{k}_rad")).to_degrees()),
+            energy_residual_relative: energy_residual(history),
+            momentum_residual_relative: momentum_residual(setup, history, time_s),
+            violation_position_m: most("violation_position_m"),
+            violation_orientation: most("violation_orientation_dimensionless"),
+            euler_regularity: regularity.iter().copied().fold(1.0, f64::min),
+            corrector_passes_most: most("corrector_passes_count") as usize,
+            corrector_passes_mean: passes.iter().sum::<f64>() / passes.len().max(1) as f64,
+            regularised: total("regularised_count") as usize,
+            wake_rings: last("wake_rings_count") as usize,
+            leak_velocity_m_s: most("leak_velocity_m_per_s"),
+            warnings: vec![],
+        };
+        summary.warnings = warnings(setup, &summary);
+        summary
+    }
+
+    /// As JSON.
+    pub fn to_json(&self) -> String {
+        serde_json::to_string_pretty(self).expect("a summary is JSON") + "\n"
+    }
+
+    /// For people.
+    pub fn to_text(&self) -> String {
+        let mut out = String::new();
+        self.headline(&mut out);
+        self.beat_table(&mut out);
+        self.balances(&mut out);
+        out.push_str("\nHow far to trust it\n");
+        for warning in &self.warnings {
+            out.push_str(&wrapped("  - ", warning));
+        }
+        out
+    }
+
+    fn headline(&self, out: &mut String) {
+        let end = match &self.outcome {
+            Outcome::Finished => "flew to its end".to_owned(),
+            Outcome::Interrupted => "was interrupted; everything up to there is written".to_owned(),
+            Outcome::Failed(why) => format!("ended early: {why}"),
+            Outcome::Running => "is running".to_owned(),
+        };
+        let _ = writeln!(
+            out,
+            "{} {end}: {} steps, {:.4} s.",
+            self.case, self.steps, self.time_s
+        );
+        let [x, y, z] = self.displacement_m.map(|d| d * 1e3);
+        let _ = writeln!(
+            out,
+            "The body moved {x:+.3} mm forward (n1), {y:+.3} mm right (n2), {:+.3} mm up;",
+            -z
+        );
+        let [pitch, yaw, roll] = self.turn_deg;
+        let _ = writeln!(
+            out,
+            "it turned {pitch:+.2} deg in pitch, {yaw:+.2} in yaw, {roll:+.2} in roll (Euler 2-3-1)."
+        );
+    }
+
+    fn beat_table(&self, out: &mut String) {
+        if self.beats.is_empty() {
+            return;
+        }
+        out.push_str("\n beat   lift/weight      lift       forward      power\n");
+        for b in &self.beats {
+            let ratio = b
+                .lift_over_weight
+                .map_or("-".to_owned(), |r| format!("{r:.3}"));
+            let _ = writeln!(
+                out,
+                "{:5}   {ratio:>11}   {}   {}   {}",
+                b.beat,
+                engineering(b.lift_newton, "N"),
+                engineering(b.thrust_newton, "N"),
+                engineering(b.power_watt, "W")
+            );
+        }
+    }
+
+    fn balances(&self, out: &mut String) {
+        out.push_str("\nBalances (largest over the run)\n");
+        let _ = writeln!(
+            out,
+            "  energy residual over energy turned over   {:.1e}",
+            self.energy_residual_relative
+        );
+        let _ = writeln!(
+            out,
+            "  momentum residual over impulse            {:.1e}",
+            self.momentum_residual_relative
+        );
+        let _ = writeln!(
+            out,
+            "  constraint violation                      {:.1e} m, {:.1e} (orientation)",
+            self.violation_position_m, self.violation_orientation
+        );
+        let _ = writeln!(
+            out,
+            "  corrector passes                          {:.1} mean, {} most",
+            self.corrector_passes_mean, self.corrector_passes_most
+        );
+        let _ = writeln!(
+            out,
+            "  wake rings at the end                     {}",
+            self.wake_rings
+        );
+        let _ = writeln!(
+            out,
+            "  regularised events                        {}",
+            self.regularised
+        );
+    }
+}
+
+/// A number with a prefix that leaves one to three digits before the point.
+fn engineering(x: f64, unit: &str) -> String {
+    const PREFIXES: [(f64, &str); 6] = [
+        (1e3, "k"),
+        (1.0, " "),
+        (1e-3, "m"),
+        (1e-6, "u"),
+        (1e-9, "n"),
+        (1e-12, "p"),
+    ];
+    let fits = |p: &&(f64, &str)| x.abs() >= p.0;
+    let (scale, prefix) = PREFIXES.iter().find(fits).copied().unwrap_or((1.0, " "));
+    format!("{:8.3} {prefix}{unit}", x / scale)
+}
+
+/// Text broken at 92 columns, continued under the first word.
+fn wrapped(bullet: &str, text: &str) -> String {
+    let mut out = bullet.to_owned();
+    let mut column = bullet.len();
+    for word in text.split(' ') {
+        if column + word.len() > 92 {
+            let _ = write!(out, "\n{:width$}", "", width = bullet.len());
+            column = bullet.len();
+        }
+        out.push_str(word);
+        out.push(' ');
+        column += word.len() + 1;
+    }
+    out.truncate(out.trim_end().len());
+    out.push('\n');
+    out
+}
+
+fn beats(setup: &FlightSetup, history: &History) -> Vec<BeatMeans> {
+    let Some(period) = setup.time.period else {
+        return vec![];
+    };
+    let per_beat = (period / setup.time.step).round() as usize;
+    if per_beat == 0 || history.rows() == 0 {
+        return vec![];
+    }
+    let weight = setup.animal.mass() * setup.gravity.length();
+    let lift = air_force(history, -down(setup));
+    let thrust = air_force(history, DVec3::X);
+    let power = hinge_power(history);
+    let whole = (history.rows() - 1) / per_beat;
+    let beat = |k: usize| {
+        let rows = k * per_beat..=(k + 1) * per_beat;
+        let lift_newton = mean(&lift, rows.clone());
+        BeatMeans {
+            beat: k + 1,
+            lift_newton,
+            lift_over_weight: (weight > 0.0).then(|| lift_newton / weight),
+            thrust_newton: mean(&thrust, rows.clone()),
+            power_watt: mean(&power, rows),
+        }
+    };
+    (0..whole).map(beat).collect()
+}
+
+/// Largest residual over the largest of the energies and works.
+fn energy_residual(history: &History) -> f64 {
+    let range = |name: &str| {
+        let c = history.column(name);
+        let [lo, hi] = c
+            .iter()
+            .fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], &x| {
+                [a.min(x), b.max(x)]
+            });
+        (hi - lo).max(0.0)
+    };
+    let names = [
+        "kinetic_energy_joule",
+        "hinge_work_joule",
+        "air_work_joule",
+        "potential_energy_joule",
+    ];
+    let scale = largest(names.map(range));
+    ratio(
+        largest(history.column("energy_residual_joule").iter().copied()),
+        scale,
+    )
+}
+
+/// Largest residual over the impulse of weight and the largest momentum.
+fn momentum_residual(setup: &FlightSetup, history: &History, time: f64) -> f64 {
+    let unit = "kg_m_per_s";
+    let impulse = setup.animal.mass() * setup.gravity.length() * time;
+    let scale = impulse.max(largest_vector(history, "momentum", unit));
+    ratio(largest_vector(history, "momentum_residual", unit), scale)
+}
+
+fn ratio(x: f64, scale: f64) -> f64 {
+    if scale > 0.0 { x / scale } else { x }
+}
+
+fn warnings(setup: &FlightSetup, summary: &Summary) -> Vec<String> {
+    let mut list = vec![];
+    match &setup.air {
+        None => list.push(
+            "There is no air: this is the motion that weight and wing inertia alone give."
+                .to_owned(),
+        ),
+        Some(air) => air_warnings(setup, air, summary, &mut list),
+    }
+    if summary.euler_regularity < 0.05 {
+        let held = match setup.formulation {
+            FormulationChoice::Momentum => {
+                "the momentum form passes through unharmed, but the angles and rates in history.csv are steep there"
+            }
+            FormulationChoice::Euler(_) => {
+                "accelerations are inaccurate there; use the momentum form"
+            }
+        };
+        list.push(format!(
+            "An Euler angle came close to its singularity (|cos theta| = {:.3}): {held}.",
+            summary.euler_regularity
+        ));
+    }
+    if matches!(setup.formulation, FormulationChoice::Euler(_)) {
+        list.push(format!(
+            "Euler form: the constraints drift; here by at most {:.1e} m and {:.1e} rad.",
+            summary.violation_position_m, summary.violation_orientation
+        ));
+    }
+    if matches!(setup.mode, MotionMode::Tethered(_)) {
+        list.push("Tethered: the body does not answer to the forces on it.".to_owned());
+    }
+    list
+}
+
+fn air_warnings(
+    setup: &FlightSetup,
+    air: &wingbeat_flight::AirOptions,
+    summary: &Summary,
+    list: &mut Vec<String>,
+) {
+    let lattice = &air.lattice;
+    list.push("The air is inviscid: no friction, so at insect Reynolds numbers (100 to 1000) drag and power come out low. Forces are pressure times normal, without leading-edge suction.".to_owned());
+    let chord = setup
+        .animal
+        .wing_reports()
+        .first()
+        .map_or(1.0, |r| r.mean_chord);
+    let (kind, size) = core(&lattice.wake_core);
+    list.push(format!(
+        "The vortex core ({kind}, {size:.1e} m = {:.3} mean chords) is an input, not a result: vary it and see what changes.",
+        size / chord
+    ));
+    if lattice.shedding.leading {
+        list.push("Leading edges shed: such sheets have no converged history beyond the first half stroke. Read means over several beats and their spread, not single peaks.".to_owned());
+    }
+    if setup.time.period.is_some() {
+        list.push("The air is first order in the step and the wings are coarse: halve the step and double the panels before quoting a number.".to_owned());
+    }
+    if summary.regularised > 0 {
+        list.push(format!(
+            "{} times a wake node was stopped or ran close to a surface and was regularised.",
+            summary.regularised
+        ));
+    }
+    if summary.leak_velocity_m_s > 0.0 {
+        list.push(format!(
+            "Closed body surfaces leak at most {:.1e} m/s (the price of their one-dimensional null space).",
+            summary.leak_velocity_m_s
+        ));
+    }
+}
+
+fn core(model: &CoreModel) -> (&'static str, f64) {
+    match *model {
+        CoreModel::CutOff { delta } => ("cut-off", delta),
+        CoreModel::Vatistas { radius } => ("Vatistas", radius),
+        CoreModel::Scully { radius } => ("Scully", radius),
+        CoreModel::LambOseen { radius, .. } => ("Lamb-Oseen", radius),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn exact_mean_of_a_period_and_prefixes() {
+        // cos^2 over a whole period has the mean 1/2; the trapezoidal rule is exact for it.
+        let y: Vec<f64> = (0..=8)
+            .map(|k| (f64::from(k) * std::f64::consts::FRAC_PI_4).cos().powi(2))
+            .collect();
+        assert!((mean(&y, 0..=8) - 0.5).abs() < 1e-15); // one rounding
+        assert_eq!(engineering(9.24e-6, "N").trim(), "9.240 uN");
+        assert_eq!(engineering(0.0, "W").trim(), "0.000  W");
+    }
+}

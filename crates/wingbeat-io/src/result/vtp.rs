@@ -1,0 +1,169 @@
+//! Frames for ParaView: surfaces and wakes as VTK PolyData (`.vtp`, inline base64), and the
+//! index of a series (`.pvd`).
+//!
+//! Points are written in picture axes (n1, -n2, -n3): x forward, y to the left, z up.
+
+use std::fmt::Write as _;
+
+use base64::Engine as _;
+use base64::engine::general_purpose::STANDARD;
+use wingbeat_flight::Snapshot;
+use wingbeat_math::DVec3;
+
+/// Points, quadrilaterals and numbers per quadrilateral.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct PolyData {
+    /// Points, N components \[m\].
+    pub points: Vec<DVec3>,
+    /// Corner points of each cell.
+    pub quads: Vec<[usize; 4]>,
+    /// Named numbers per cell.
+    pub cells: Vec<(&'static str, Vec<f64>)>,
+}
+
+impl PolyData {
+    fn add(&mut self, nodes: &[DVec3], quads: impl Iterator<Item = [usize; 4]>) {
+        let first = self.points.len();
+        self.points.extend_from_slice(nodes);
+        self.quads.extend(quads.map(|q| q.map(|n| n + first)));
+    }
+
+    /// All bound surfaces of a snapshot.
+    pub fn surfaces(snapshot: &Snapshot) -> Self {
+        let mut data = Self::default();
+        let (mut gamma, mut jump, mut id) = (vec![], vec![], vec![]);
+        for (k, s) in snapshot.surfaces.iter().enumerate() {
+            data.add(&s.nodes, s.quads.iter().copied());
+            gamma.extend_from_slice(&s.circulation);
+            jump.extend_from_slice(&s.pressure_jump);
+            id.extend(s.quads.iter().map(|_| k as f64));
+        }
+        data.cells = vec![
+            ("circulation_m2_per_s", gamma),
+            ("pressure_jump_pascal", jump),
+            ("surface", id),
+        ];
+        data
+    }
+
+    /// All wake sheets of a snapshot.
+    pub fn wakes(snapshot: &Snapshot) -> Self {
+        let mut data = Self::default();
+        let (mut gamma, mut row, mut id) = (vec![], vec![], vec![]);
+        for (k, w) in snapshot.wakes.iter().enumerate() {
+            let node = |i: usize, j: usize| i * (w.cols + 1) + j;
+            let ring = |n: usize| (n / w.cols, n % w.cols);
+            let rings = 0..w.rows * w.cols;
+            data.add(
+                &w.nodes,
+                rings.clone().map(|n| {
+                    let (i, j) = ring(n);
+                    [
+                        node(i, j),
+                        node(i + 1, j),
+                        node(i + 1, j + 1),
+                        node(i, j + 1),
+                    ]
+                }),
+            );
+            gamma.extend_from_slice(&w.circulation);
+            row.extend(rings.clone().map(|n| ring(n).0 as f64));
+            id.extend(rings.map(|_| k as f64));
+        }
+        data.cells = vec![
+            ("circulation_m2_per_s", gamma),
+            ("age_rows", row),
+            ("sheet", id),
+        ];
+        data
+    }
+
+    /// The file.
+    pub fn to_vtp(&self) -> String {
+        let (points, quads) = (self.points.len(), self.quads.len());
+        let mut out = String::from(
+            "<?xml version=\"1.0\"?>\n<!-- picture axes (n1, -n2, -n3): x forward, y left, z up; metres -->\n<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">\n<PolyData>\n",
+        );
+        let _ = writeln!(
+            out,
+            "<Piece NumberOfPoints=\"{points}\" NumberOfVerts=\"0\" NumberOfLines=\"0\" NumberOfStrips=\"0\" NumberOfPolys=\"{quads}\">"
+        );
+        out.push_str("<Points>\n");
+        let picture = self.points.iter().flat_map(|p| [p.x, -p.y, -p.z]);
+        array(
+            &mut out,
+            "Float64",
+            "points",
+            3,
+            picture.map(f64::to_le_bytes),
+        );
+        out.push_str("</Points>\n<Polys>\n");
+        let corners = self
+            .quads
+            .iter()
+            .flatten()
+            .map(|&n| (n as i64).to_le_bytes());
+        array(&mut out, "Int64", "connectivity", 1, corners);
+        array(
+            &mut out,
+            "Int64",
+            "offsets",
+            1,
+            (1..=quads as i64).map(|k| (4 * k).to_le_bytes()),
+        );
+        out.push_str("</Polys>\n<CellData Scalars=\"circulation_m2_per_s\">\n");
+        for (name, values) in &self.cells {
+            array(
+                &mut out,
+                "Float64",
+                name,
+                1,
+                values.iter().map(|x| x.to_le_bytes()),
+            );
+        }
+        out.push_str("</CellData>\n</Piece>\n</PolyData>\n</VTKFile>\n");
+        out
+    }
+}
+
+/// One DataArray: base64 of the length in bytes followed by the data.
+fn array(
+    out: &mut String,
+    kind: &str,
+    name: &str,
+    components: usize,
+    items: impl Iterator<Item = [u8; 8]>,
+) {
+    let data: Vec<u8> = items.flatten().collect();
+    let mut block = (data.len() as u64).to_le_bytes().to_vec();
+    block.extend(data);
+    let _ = writeln!(
+        out,
+        "<DataArray type=\"{kind}\" Name=\"{name}\" NumberOfComponents=\"{components}\" format=\"binary\">"
+    );
+    STANDARD.encode_string(&block, out);
+    out.push_str("\n</DataArray>\n");
+}
+
+/// The index of a series of frames: time \[s\] and step of each.
+pub fn pvd(frames: &[(f64, usize)]) -> String {
+    let mut out = String::from(
+        "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\" byte_order=\"LittleEndian\">\n<Collection>\n",
+    );
+    for (time, step) in frames {
+        for (part, stem) in ["surfaces", "wakes"].iter().enumerate() {
+            let file = frame_name(stem, *step);
+            let _ = writeln!(
+                out,
+                "<DataSet timestep=\"{time:e}\" part=\"{part}\" name=\"{stem}\" file=\"frames/{file}\"/>"
+            );
+        }
+    }
+    out.push_str("</Collection>\n</VTKFile>\n");
+    out
+}
+
+/// File name of a frame.
+pub fn frame_name(stem: &str, step: usize) -> String {
+    format!("{stem}_{step:06}.vtp")
+}

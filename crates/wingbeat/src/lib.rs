@@ -1,0 +1,37 @@
+//! **wingbeat**, a simulator of flapping-wing flight: one multibody system, one unsteady vortex
+//! lattice, integrated together.
+//!
+//! This crate re-exports the library crates under one roof; the command line lives beside it.
+//!
+//! | module | what it holds |
+//! |---|---|
+//! | [`math`] | rotations, Euler sequences, mass properties, integrators |
+//! | [`model`] | the animal: meshes, masses, wing motion |
+//! | [`dynamics`] | constrained multibody dynamics |
+//! | [`air`] | unsteady vortex lattice with free wakes |
+//! | [`flight`] | the two together |
+//! | [`analysis`] | analysis of flights |
+//! | [`io`] | case files, result directories, figures |
+//!
+//! A flight from a preset, three steps long:
+//!
+//! ```
+//! let overrides = ["time.steps_per_beat=100".to_owned(), "time.beats=0.03".to_owned()];
+//! let case = wingbeat::io::LoadedCase::find("fruit-fly-vacuum", &overrides)?;
+//! let mut flight = wingbeat::flight::Simulation::new(case.setup)?;
+//! while !flight.finished() {
+//!     flight.step()?;
+//! }
+//! // The wings still rest: after t = 0.15 ms the fly has fallen g t^2 / 2 = 1.1e-7 m (n3 is down).
+//! assert!((flight.record().mass_centre.z - 1.1e-7).abs() < 1e-8);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+#![warn(missing_docs)]
+
+pub use wingbeat_air as air;
+pub use wingbeat_analysis as analysis;
+pub use wingbeat_dynamics as dynamics;
+pub use wingbeat_flight as flight;
+pub use wingbeat_io as io;
+pub use wingbeat_math as math;
+pub use wingbeat_model as model;
