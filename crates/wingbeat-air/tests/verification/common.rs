@@ -57,3 +57,35 @@ pub fn fly(
 pub fn total_force(loads: &AirLoads) -> DVec3 {
     loads.surfaces.iter().map(|s| s.force).sum()
 }
+
+/// Quadrilaterals on the unit sphere, `n` x `n` on each face of a cube, normals outward.
+pub fn sphere(n: usize) -> (Vec<DVec3>, Vec<[usize; 4]>) {
+    let mut nodes: Vec<DVec3> = Vec::new();
+    let mut node = |p: DVec3| {
+        let p = p.normalize();
+        let known = nodes.iter().position(|q| q.distance(p) < 1e-9);
+        known.unwrap_or_else(|| {
+            nodes.push(p);
+            nodes.len() - 1
+        })
+    };
+    let angle = |i: usize| (std::f64::consts::FRAC_PI_4 * (2.0 * i as f64 / n as f64 - 1.0)).tan();
+    let mut quads = Vec::new();
+    for axis in 0..3 {
+        for side in [1.0, -1.0] {
+            let (w, u) = (DVec3::AXES[axis] * side, DVec3::AXES[(axis + 1) % 3]);
+            let v = w.cross(u);
+            let at = |i: usize, j: usize| w + u * angle(i) + v * angle(j);
+            for (i, j) in (0..n * n).map(|k| (k / n, k % n)) {
+                let corners = [at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)];
+                quads.push(corners.map(&mut node));
+            }
+        }
+    }
+    (nodes, quads)
+}
+
+/// Slope of the logarithm of the error when the size of a step is halved.
+pub fn order(coarse: f64, fine: f64) -> f64 {
+    (coarse / fine).abs().log2()
+}

@@ -1,4 +1,11 @@
 //! Evidence for the air, by kind: benchmark, invariances, conservation, limits, bodies, wakes.
 
 mod benchmark;
+mod bodies;
 mod common;
+mod errors;
+mod impulse;
+mod invariance;
+mod peers;
+mod wakes;
+mod wings;

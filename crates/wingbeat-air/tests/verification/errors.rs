@@ -1,0 +1,149 @@
+//! Bad input and wrong order of calls: each an error that names what is wrong.
+
+use crate::common::{rectangle, translating};
+use wingbeat_air::{AirError, AirLoads, AirSettings, EdgeKind, Lattice, SheddingSegment, Surface};
+use wingbeat_math::DVec3;
+
+fn wing() -> Surface {
+    Surface::grid("wing", 2, 2)
+}
+
+fn settings() -> AirSettings {
+    AirSettings::benchmark(1.2, DVec3::X)
+}
+
+fn error(surface: Surface) -> AirError {
+    Lattice::new(vec![surface], settings()).unwrap_err()
+}
+
+#[test]
+fn exact_topology_errors() {
+    assert_eq!(Lattice::new(vec![], settings()), Err(AirError::Empty));
+    let mut bad = wing();
+    bad.panels[3][1] = 99;
+    assert!(matches!(
+        error(bad),
+        AirError::NodeOutOfRange {
+            panel: 3,
+            node: 99,
+            ..
+        }
+    ));
+    let mut bad = wing();
+    bad.panels[1].reverse();
+    assert!(matches!(error(bad), AirError::Orientation { .. }));
+    let mut bad = wing();
+    bad.closed = true;
+    assert!(matches!(error(bad), AirError::NotClosed { .. }));
+    let mut bad = wing();
+    bad.shedding[0].swap(0, 1);
+    assert!(matches!(error(bad), AirError::BrokenLine { line: 0, .. }));
+    let mut bad = wing();
+    // The edge between panels 2 and 3 is not free.
+    let inner = SheddingSegment {
+        from: 4,
+        to: 7,
+        panel: 2,
+        kind: EdgeKind::Trailing,
+    };
+    bad.shedding = vec![vec![inner]];
+    assert!(matches!(error(bad), AirError::Shedding { panel: 2, .. }));
+}
+
+#[test]
+fn exact_setting_errors_name_the_key() {
+    type Spoil = fn(&mut AirSettings);
+    let spoil: [(&str, Spoil); 5] = [
+        ("density", |s| s.density = -1.0),
+        ("free_stream", |s| s.free_stream.y = f64::NAN),
+        ("max_displacement", |s| s.max_displacement = Some(0.0)),
+        ("clearance", |s| s.clearance = -1.0),
+        ("max_rows", |s| s.max_rows = Some(0)),
+    ];
+    for (name, spoil) in spoil {
+        let mut s = settings();
+        spoil(&mut s);
+        let e = Lattice::new(vec![wing()], s).unwrap_err();
+        assert!(
+            matches!(e, AirError::Setting { key, .. } if key == name),
+            "{e}"
+        );
+    }
+}
+
+#[test]
+fn exact_step_errors() {
+    let lattice = Lattice::new(vec![wing()], settings()).unwrap();
+    let good = translating(rectangle(2, 2, DVec3::X, DVec3::Y), DVec3::Z);
+    let mut state = lattice.initial_state(&good);
+    let (mut ws, mut out) = (lattice.workspace(), AirLoads::default());
+    let mut loads = |state: &_, dt, motion: &_| {
+        lattice
+            .loads(state, 0.0, dt, motion, &mut ws, &mut out)
+            .map(|()| out.clone())
+    };
+    let mut bad = good.clone();
+    bad.position[5].x = f64::NAN;
+    assert!(matches!(
+        loads(&state, 1.0, &bad),
+        Err(AirError::SurfaceNotFinite { node: 5, .. })
+    ));
+    bad = good.clone();
+    bad.position = vec![DVec3::ZERO; 9];
+    assert!(matches!(
+        loads(&state, 1.0, &bad),
+        Err(AirError::FlatPanel { panel: 0, .. })
+    ));
+    bad.velocity.pop();
+    assert!(matches!(
+        loads(&state, 1.0, &bad),
+        Err(AirError::MotionSize {
+            got: 8,
+            expected: 9
+        })
+    ));
+    let accepted = loads(&state, 1.0, &good).unwrap();
+    assert!(
+        lattice
+            .convect(&mut state, 1.0, &mut lattice.workspace())
+            .is_err()
+    );
+    lattice.accept(&mut state, &good, &accepted).unwrap();
+    assert!(matches!(
+        loads(&state, 1.0, &good),
+        Err(AirError::Order { step: 1, .. })
+    ));
+    let order = lattice.accept(&mut state, &good, &accepted);
+    assert!(matches!(order, Err(AirError::Order { .. })));
+    let mut scratch = lattice.workspace();
+    assert!(matches!(
+        lattice.convect(&mut state, 0.0, &mut scratch),
+        Err(AirError::TimeStep { .. })
+    ));
+    lattice.convect(&mut state, 1.0, &mut scratch).unwrap();
+    assert!(matches!(
+        loads(&state, -1.0, &good),
+        Err(AirError::TimeStep { .. })
+    ));
+    state.sheets.clear();
+    assert!(matches!(
+        loads(&state, 1.0, &good),
+        Err(AirError::StateMismatch { .. })
+    ));
+}
+
+/// Two surfaces on the same place cannot share one no-penetration condition.
+#[test]
+fn exact_coinciding_surfaces_are_singular() {
+    let lattice = Lattice::new(vec![wing(), wing()], settings()).unwrap();
+    let mut nodes = rectangle(2, 2, DVec3::X, DVec3::Y);
+    nodes.extend(nodes.clone());
+    let motion = translating(nodes, DVec3::Z);
+    let state = lattice.initial_state(&motion);
+    let (mut ws, mut out) = (lattice.workspace(), AirLoads::default());
+    let result = lattice.loads(&state, 0.0, 1.0, &motion, &mut ws, &mut out);
+    assert!(
+        matches!(result, Err(AirError::Singular { step: 0, .. })),
+        "{result:?}"
+    );
+}

@@ -1,0 +1,97 @@
+//! Force against the rate of change of the impulse of all vorticity.
+
+use crate::common::{fly, order, rectangle, total_force, translating};
+use wingbeat_air::{AirSettings, Lattice, SheddingKinds, Surface};
+use wingbeat_math::DVec3;
+
+const NONE: SheddingKinds = SheddingKinds {
+    trailing: false,
+    tip: false,
+    leading: false,
+    root: false,
+};
+
+fn wing(rows: usize, cols: usize, shedding: SheddingKinds) -> Lattice {
+    let settings = AirSettings {
+        shedding,
+        ..AirSettings::benchmark(1.2, DVec3::ZERO).with_cut_off_for(0.01)
+    };
+    Lattice::new(vec![Surface::grid("wing", rows, cols)], settings).unwrap()
+}
+
+/// Normal forces from pressure and from impulse in the last of `steps` steps of a wing of chord 1
+/// and span 3 that advances along -x and heaves smoothly along z.
+fn heaving(rows: usize, cols: usize, steps: usize) -> [f64; 2] {
+    let lattice = wing(rows, cols, SheddingKinds::TRAILING);
+    let flat = rectangle(rows, cols, DVec3::X, 3.0 * DVec3::Y);
+    let motion = |t: f64| {
+        let path = DVec3::new(-t, 0.0, 0.2 * (1.0 - (2.0 * t).cos()));
+        let velocity = DVec3::new(-1.0, 0.0, 0.4 * (2.0 * t).sin());
+        translating(flat.iter().map(|x| *x + path).collect(), velocity)
+    };
+    let dt = 2.0 / steps as f64;
+    let mut impulse = [DVec3::ZERO; 2];
+    let run = fly(&lattice, motion, dt, steps, |_, state, _, ws| {
+        impulse = [impulse[1], lattice.impulse(state, ws).unwrap()];
+    })
+    .unwrap();
+    let rate = (impulse[1] - impulse[0]) / dt;
+    [total_force(&run.loads).z, -rate.z]
+}
+
+/// Without wake and sliding the pressure is `rho dGamma/dt` alone, and force is exactly the rate of
+/// the impulse of the rings.
+#[test]
+fn conserves_impulse_of_a_plate_without_wake() {
+    let lattice = wing(4, 6, NONE);
+    let flat = rectangle(4, 6, DVec3::X, 2.0 * DVec3::Y);
+    let motion = |t: f64| {
+        let path = DVec3::new(0.0, 0.0, t * t * t);
+        let velocity = DVec3::new(0.0, 0.0, 3.0 * t * t);
+        translating(flat.iter().map(|x| *x + path).collect(), velocity)
+    };
+    let mut impulse = Vec::new();
+    let run = fly(&lattice, motion, 0.1, 3, |_, state, _, ws| {
+        impulse.push(lattice.impulse(state, ws).unwrap());
+    })
+    .unwrap();
+    let rate = (impulse[3] - impulse[2]) / 0.1;
+    let force = total_force(&run.loads);
+    assert!(force.z < -0.1); // the air resists the acceleration
+    assert!((force + rate).length() < 1e-12 * force.length()); // roundings
+}
+
+/// With a wake the pressure jump is taken at control points: force and impulse agree in the limit
+/// of fine panels and steps.
+#[test]
+fn conserves_impulse_of_a_heaving_wing_at_first_order() {
+    let mut errors = Vec::new();
+    for k in [1, 2, 4] {
+        let [force, rate] = heaving(3 * k, 4 * k, 10 * k);
+        println!("heave: pressure {force:.5}, impulse {rate:.5}");
+        errors.push((force - rate) / rate);
+    }
+    assert!(errors[2].abs() < 0.03, "{errors:?}");
+    assert!(order(errors[0], errors[2]) / 2.0 > 0.7, "{errors:?}");
+}
+
+/// Added mass per span of a long plate: `pi/4 rho chord^2` [Lamb art. 71]. Rings on the true edges
+/// overrate it by order panel size.
+#[test]
+fn limit_added_mass_of_a_long_plate() {
+    let errors = [8, 16].map(|rows| {
+        let lattice = wing(rows, 1, NONE);
+        let flat = rectangle(rows, 1, DVec3::X, 200.0 * DVec3::Y);
+        let motion = |t: f64| {
+            translating(
+                flat.iter().map(|x| *x + t * t * DVec3::Z).collect(),
+                2.0 * t * DVec3::Z,
+            )
+        };
+        let run = fly(&lattice, motion, 0.01, 1, |_, _, _, _| {}).unwrap();
+        let added = -total_force(&run.loads).z / (2.0 * 1.2 * 200.0);
+        added / std::f64::consts::FRAC_PI_4 - 1.0
+    });
+    println!("added mass of a long plate {errors:.4?}");
+    assert!(errors[1].abs() < 0.08 && order(errors[0], errors[1]) > 0.8);
+}

@@ -1,0 +1,145 @@
+//! What may not change the answer: place, direction, handedness, speed of the observer, threads,
+//! interruptions.
+
+use crate::common::{Run, fly, rectangle, total_force};
+use wingbeat_air::{AirLoads, AirSettings, Lattice, NodeMotion, SheddingKinds, Surface};
+use wingbeat_math::{DMat3, DVec3, r1, r2, r3};
+
+const ALL: SheddingKinds = SheddingKinds {
+    trailing: true,
+    tip: true,
+    leading: true,
+    root: false,
+};
+
+/// A left and a right wing flapping about the x axis in a stream along x, z up.
+fn pair(t: f64) -> NodeMotion {
+    let (angle, rate) = (0.5 * (3.0 * t).cos(), -1.5 * (3.0 * t).sin());
+    let mut motion = NodeMotion::default();
+    for side in [1.0, -1.0] {
+        let turn = r1(side * angle) * r2(0.1);
+        for x in rectangle(3, 4, DVec3::X, side * 2.0 * DVec3::Y) {
+            let x = turn * x + side * 0.1 * DVec3::Y;
+            motion.position.push(x);
+            motion.velocity.push(side * rate * DVec3::X.cross(x));
+        }
+    }
+    motion
+}
+
+fn lattice(stream: DVec3) -> Lattice {
+    let wings = ["right", "left"].map(|name| Surface::grid(name, 3, 4));
+    let settings = AirSettings {
+        shedding: ALL,
+        ..AirSettings::benchmark(1.2, stream)
+    };
+    Lattice::new(wings.to_vec(), settings).unwrap()
+}
+
+const STREAM: DVec3 = DVec3::new(2.0, 0.0, 0.3);
+const STEPS: usize = 8;
+
+fn run(lattice: &Lattice, motion: impl Fn(f64) -> NodeMotion) -> Run {
+    fly(lattice, motion, 0.1, STEPS, |_, _, _, _| {}).unwrap()
+}
+
+fn turned(motion: NodeMotion, r: DMat3, shift: DVec3, velocity: DVec3) -> NodeMotion {
+    NodeMotion {
+        position: motion.position.iter().map(|x| r * *x + shift).collect(),
+        velocity: motion.velocity.iter().map(|v| r * *v + velocity).collect(),
+    }
+}
+
+#[test]
+fn invariant_under_rotation_and_translation() {
+    let r = r1(0.7) * r3(-1.2) * r2(2.0);
+    let a = run(&lattice(STREAM), pair);
+    let b = run(&lattice(r * STREAM), |t| {
+        turned(pair(t), r, DVec3::new(3.0, -2.0, 5.0), DVec3::ZERO)
+    });
+    let (fa, fb) = (total_force(&a.loads), total_force(&b.loads));
+    // Roundings, amplified by eight steps of a free wake near its own filaments.
+    assert!((r * fa - fb).length() < 1e-9 * fa.length());
+}
+
+#[test]
+fn invariant_under_the_motion_of_the_observer() {
+    let u = DVec3::new(0.5, -1.5, 0.8);
+    let a = run(&lattice(STREAM), pair);
+    let b = run(&lattice(STREAM + u), |t| {
+        turned(pair(t), DMat3::IDENTITY, t * u, u)
+    });
+    let (fa, fb) = (total_force(&a.loads), total_force(&b.loads));
+    assert!((fa - fb).length() < 1e-9 * fa.length()); // as above
+    let moment = |run: &Run, p| run.loads.surfaces[0].moment_about(p);
+    let t = 0.1 * STEPS as f64;
+    let (ma, mb) = (moment(&a, DVec3::ZERO), moment(&b, t * u));
+    assert!((ma - mb).length() < 1e-9 * ma.length());
+}
+
+#[test]
+fn invariant_under_reflection() {
+    let run = run(&lattice(STREAM), pair);
+    let [right, left] = [0, 1].map(|s| run.loads.surfaces[s]);
+    let mirror = DVec3::new(1.0, -1.0, 1.0);
+    // As above; the two wings are eliminated one after the other, so not bit for bit.
+    assert!((left.force - mirror * right.force).length() < 1e-9 * right.force.length());
+    assert!((left.moment + mirror * right.moment).length() < 1e-9 * right.moment.length());
+    assert!(right.force.y.abs() > 1e-3 * right.force.length()); // something to mirror
+}
+
+/// Half the size at twice the speed: forces are the same (density speed^2 size^2).
+#[test]
+fn invariant_under_scale() {
+    let a = run(&lattice(STREAM), pair);
+    let wings = lattice(STREAM).surfaces().to_vec();
+    let settings = AirSettings {
+        shedding: ALL,
+        ..AirSettings::benchmark(1.2, 2.0 * STREAM).with_cut_off_for(0.5)
+    };
+    let small = Lattice::new(wings, settings).unwrap();
+    let motion = |t: f64| {
+        let whole = pair(4.0 * t);
+        NodeMotion {
+            position: whole.position.iter().map(|x| 0.5 * *x).collect(),
+            velocity: whole.velocity.iter().map(|v| 2.0 * *v).collect(),
+        }
+    };
+    let b = fly(&small, motion, 0.025, STEPS, |_, _, _, _| {}).unwrap();
+    let (fa, fb) = (total_force(&a.loads), total_force(&b.loads));
+    assert!((fa - fb).length() < 1e-9 * fa.length()); // powers of two: roundings of sin and cos
+}
+
+#[test]
+fn invariant_bits_for_any_number_of_threads() {
+    let with = |threads: usize| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
+        pool.unwrap().install(|| run(&lattice(STREAM), pair))
+    };
+    let (one, three) = (with(1), with(3));
+    assert_eq!(one.loads, three.loads);
+    assert_eq!(one.state, three.state);
+}
+
+/// A copy of the state and fresh scratch memory go on bit for bit; trial loads leave no trace.
+#[test]
+fn invariant_bits_after_restart_and_trials() {
+    let lattice = lattice(STREAM);
+    let whole = run(&lattice, pair);
+    let mut state = fly(&lattice, pair, 0.1, STEPS - 1, |_, _, _, _| {})
+        .unwrap()
+        .state
+        .clone();
+    let (mut ws, mut loads) = (lattice.workspace(), AirLoads::default());
+    let t = STEPS as f64 * 0.1;
+    lattice.convect(&mut state, 0.1, &mut ws).unwrap();
+    let mut ws = lattice.workspace();
+    for trial in [t + 0.03, t] {
+        lattice
+            .loads(&state, t, 0.1, &pair(trial), &mut ws, &mut loads)
+            .unwrap();
+    }
+    assert_eq!(loads, whole.loads);
+    lattice.accept(&mut state, &pair(t), &loads).unwrap();
+    assert_eq!(state, whole.state);
+}
