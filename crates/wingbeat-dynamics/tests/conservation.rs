@@ -106,6 +106,24 @@ fn balances_energy_and_hinge_work_in_vacuum() {
 }
 
 #[test]
+fn conserves_momenta_and_balances_energy_of_a_chain_in_vacuum() {
+    let form = MomentumForm::new(chain(DVec3::ZERO));
+    let r = energy_residual(&form, &start(), none, 80, 4);
+    println!("chain of four bodies: energy less hinge work {r:.1e}");
+    assert!(r < 1e-10); // as for the fly
+    let mut flight = Flight::new(&form, none);
+    let mut y = form.initial(0.0, &start()).unwrap();
+    let first = flight.solve(0.0, &y).unwrap().budget;
+    flight
+        .fly(BEAT / 80.0, 160, &mut y, |_, _, _, _| {})
+        .unwrap();
+    let last = flight.solve(2.0 * BEAT, &y).unwrap().budget;
+    let change = (last.angular_momentum - first.angular_momentum).length();
+    assert!(change < 1e-12 * first.angular_momentum.length()); // rounding
+    assert!((last.momentum - first.momentum).length() < 1e-12 * first.momentum.length());
+}
+
+#[test]
 fn balances_energy_and_all_work_under_gravity_and_loads() {
     let form = MomentumForm::new(fly(GRAVITY));
     let errors = [40, 80, 160].map(|n| energy_residual(&form, &start(), applied, n, 4));

@@ -11,6 +11,7 @@ use wingbeat_dynamics::euler::coordinates::BodyKinematics;
 use wingbeat_dynamics::euler::saddle::Saddle;
 use wingbeat_dynamics::euler::{forces, inertia};
 use wingbeat_dynamics::inverse::weight_wrench;
+use wingbeat_dynamics::posture::Posture;
 use wingbeat_dynamics::{
     Baumgarte, Body, BodyAcceleration, BodyMotion, EulerForm, Formulation, Hinge, MomentumForm,
     RootMotion, Solution, System, Workspace, Wrench, tethered,
@@ -345,38 +346,107 @@ fn saddle_residual(saddle: &Saddle, x: &[f64]) -> f64 {
 
 #[test]
 fn agrees_solutions_of_both_forms_pointwise() {
-    // Accelerations, reactions, multipliers, powers and budgets; two independent derivations.
-    let system = fly(GRAVITY);
-    for t in [0.0, 0.31 * BEAT, 0.77 * BEAT] {
-        let (_, m, e) = both_solutions(t, &system);
-        let force = BODY_MASS * LENGTH / (BEAT * BEAT);
-        // Rounding times the condition number of the scaled saddle, about ten.
-        let close = |a: DVec3, b: DVec3, unit: f64| {
-            assert!((a - b).length() < 1e-11 * unit, "{a} {b} {unit}");
+    // Accelerations, reactions, multipliers, powers and budgets; two independent derivations, for
+    // the fly and for a chain whose bodies hang beside their origins.
+    for system in [fly(GRAVITY), chain(GRAVITY)] {
+        for t in [0.0, 0.31 * BEAT, 0.77 * BEAT] {
+            let (_, m, e) = both_solutions(t, &system);
+            same_accelerations(&m, &e);
+            same_reactions(&m, &e);
+            same_budgets(&m, &e);
+            assert!(e.violation.position < 1e-12 * LENGTH && e.violation.orientation < 1e-12);
+        }
+    }
+}
+
+/// Rounding times the condition number of the scaled saddle, about ten, in natural units.
+const POINTWISE: f64 = 1e-11;
+
+/// Natural unit of force [N].
+const FORCE: f64 = BODY_MASS * LENGTH / (BEAT * BEAT);
+
+fn same_vector(a: DVec3, b: DVec3, unit: f64) {
+    assert!((a - b).length() < POINTWISE * unit, "{a} {b} {unit}");
+}
+
+/// Wings accelerate by a hundred natural units and more.
+fn same_accelerations(m: &Solution, e: &Solution) {
+    for (a, b) in m.bodies.iter().zip(&e.bodies) {
+        same_vector(a.linear, b.linear, 100.0 * LENGTH / (BEAT * BEAT));
+        same_vector(a.angular, b.angular, 100.0 / (BEAT * BEAT));
+    }
+}
+
+fn same_reactions(m: &Solution, e: &Solution) {
+    for (a, b) in m.hinges.iter().zip(&e.hinges) {
+        same_vector(a.force, b.force, FORCE);
+        same_vector(a.moment, b.moment, FORCE * LENGTH);
+        assert!((a.power - b.power).abs() < POINTWISE * 100.0 * FORCE * LENGTH / BEAT);
+        assert!(a.moment.length() > 1e-4 * FORCE * LENGTH); // there is something to compare
+    }
+    for (i, (a, b)) in m.multipliers.iter().zip(&e.multipliers).enumerate() {
+        let unit = if i < 3 * m.hinges.len() {
+            FORCE
+        } else {
+            FORCE * LENGTH
         };
-        for (a, b) in m.bodies.iter().zip(&e.bodies) {
-            close(a.linear, b.linear, 100.0 * LENGTH / (BEAT * BEAT));
-            close(a.angular, b.angular, 100.0 / (BEAT * BEAT));
-        }
-        for (a, b) in m.hinges.iter().zip(&e.hinges) {
-            close(a.force, b.force, force);
-            close(a.moment, b.moment, force * LENGTH);
-            assert!((a.power - b.power).abs() < 1e-11 * force * LENGTH / BEAT * 100.0);
-            assert!(a.moment.length() > 1e-3 * force * LENGTH); // there is something to compare
-        }
-        for (a, b) in m.multipliers.iter().zip(&e.multipliers) {
-            assert!((a - b).abs() < 1e-11 * force); // force * LENGTH is 400 times smaller in SI
-        }
-        for (a, b) in m.multipliers[6..].iter().zip(&e.multipliers[6..]) {
-            assert!((a - b).abs() < 1e-11 * force * LENGTH);
-        }
-        close(
-            m.budget.momentum,
-            e.budget.momentum,
-            BODY_MASS * LENGTH / BEAT,
+        assert!((a - b).abs() < POINTWISE * unit);
+    }
+}
+
+fn same_budgets(m: &Solution, e: &Solution) {
+    same_vector(
+        m.budget.momentum,
+        e.budget.momentum,
+        BODY_MASS * LENGTH / BEAT,
+    );
+    same_vector(
+        m.budget.angular_momentum,
+        e.budget.angular_momentum,
+        FORCE * LENGTH * BEAT,
+    );
+    assert!((m.budget.kinetic / e.budget.kinetic - 1.0).abs() < POINTWISE);
+    assert!((m.load_power - e.load_power).abs() < POINTWISE * FORCE * LENGTH / BEAT);
+}
+
+#[test]
+fn agrees_posture_of_a_chain_with_time_differences() {
+    // Velocities and accelerations of every body of the chain (transport, Coriolis and relative
+    // parts) against differences of positions and velocities along a motion of the root.
+    let system = chain(GRAVITY);
+    let root = |t: f64| {
+        let [q, qd, qdd] = motion(0.7, t);
+        let k = BodyKinematics::new(&system.bodies()[0], &q, &qd);
+        let angular = k.g * DVec3::from_slice(&qdd[3..]) + k.g_dot * k.eta_dot;
+        let linear = DVec3::from_slice(&qdd);
+        (k.motion, BodyAcceleration { linear, angular })
+    };
+    // The root moves on the scale one, the wings at 2 pi / BEAT.
+    let at = |t: f64| {
+        let mut posture = Posture::new(&system);
+        posture.update(&system, 0.2 * BEAT + t);
+        let (motion, acceleration) = root(0.1 + t);
+        let mut m = vec![BodyMotion::REST; 4];
+        let mut a = vec![BodyAcceleration::default(); 4];
+        posture.motions(&motion, &mut m);
+        posture.accelerations(&motion, &acceleration, &mut a);
+        (m, a)
+    };
+    let (m, a) = at(0.0);
+    let h = 1e-3 * BEAT;
+    for i in 0..4 {
+        let (v, w) = (
+            derivative(|t| at(t).0[i].p, h),
+            derivative(|t| at(t).0[i].w, h),
         );
-        assert!((m.budget.kinetic / e.budget.kinetic - 1.0).abs() < 1e-11);
-        assert!(e.violation.position < 1e-12 * LENGTH && e.violation.orientation < 1e-12);
+        let dv = derivative(|t| at(t).0[i].v, h);
+        let turning = m[i].r.transpose() * derivative(|t| at(t).0[i].r, h);
+        // Fourth-order differences at a thousandth of a beat, (2 pi / 1000)^4 = 2e-9, of the
+        // natural velocities (0.5 m/s and 200 rad/s, squared over length for accelerations).
+        assert!((m[i].v - v).length() < 1e-7 * LENGTH / BEAT);
+        assert!((m[i].w - wingbeat_math::untilde(turning)).length() < 1e-7 / BEAT);
+        assert!((a[i].linear - dv).length() < 1e-6 * LENGTH / (BEAT * BEAT));
+        assert!((a[i].angular - w).length() < 1e-6 / (BEAT * BEAT));
     }
 }
 

@@ -179,6 +179,24 @@ pub fn fly(gravity: DVec3) -> System {
     )
 }
 
+/// Four bodies: the fly's, wings hung beside their origins, and a flap on the right wing. The
+/// flap's hinge is listed first, before that of its parent.
+pub fn chain(gravity: DVec3) -> System {
+    let base = fly(gravity);
+    let mut bodies = base.bodies().to_vec();
+    let mut hinges = base.hinges().to_vec();
+    let flap = wing_mass(0.3 * WING_MASS, 1.0).moved(r1(0.3), DVec3::new(1e-4, 2e-4, 3e-4));
+    bodies.push(body("flap", flap, EulerSequence::WING_132));
+    hinges[0].anchor_child = DVec3::new(2e-4, -3e-4, 1e-4);
+    hinges[1].anchor_child = DVec3::new(-1e-4, 2e-4, 2e-4);
+    let law = Flapping::new([0.0, 20.0, 0.4], [3.0, 15.0, 1.0], [-85.0, 10.0, 2.0]);
+    let mut tip = hinge("flap hinge", 3, DVec3::new(0.0, 0.8 * LENGTH, 0.0), law);
+    tip.parent = 2;
+    tip.anchor_child = DVec3::new(-2e-4, 1e-4, 3e-4);
+    hinges.insert(0, tip);
+    System::new(bodies, hinges, gravity, UNITS).unwrap()
+}
+
 /// A root motion without any symmetry, speeds of a flying fly.
 pub fn start() -> BodyMotion {
     BodyMotion {
