@@ -1,0 +1,293 @@
+//! Verification of coupled flight: balances, orders, symmetry, limits, restart.
+
+mod common;
+
+use common::{FREQUENCY, Fly, SPAN, distance, fly, pose};
+use wingbeat_flight::*;
+use wingbeat_math::DVec3;
+
+/// Largest absolute value over a flight.
+fn largest(records: &[Record], f: impl Fn(&Record) -> f64) -> f64 {
+    records.iter().map(|r| f(r).abs()).fold(0.0, f64::max)
+}
+
+/// Residuals of the balances of energy, momentum and angular momentum, relative to the largest
+/// kinetic energy and to weight x period (x span).
+fn residuals(records: &[Record], weight: f64) -> [f64; 3] {
+    let impulse = weight / FREQUENCY;
+    let kinetic = largest(records, |r| r.kinetic_energy);
+    [
+        largest(records, |r| r.energy_residual) / kinetic,
+        largest(records, |r| r.momentum_residual.length()) / impulse,
+        largest(records, |r| r.angular_momentum_residual.length()) / (impulse * SPAN),
+    ]
+}
+
+const ASYMMETRIC: [f64; 2] = [1.1, 1.0];
+
+#[test]
+fn balances_of_energy_and_momenta_close_at_fourth_order() {
+    let at = |steps| {
+        let setup = Fly {
+            amplitudes: ASYMMETRIC,
+            ..Fly::default()
+        }
+        .setup(steps, 1.5);
+        let weight = setup.animal.mass() * 9.81;
+        residuals(&fly(setup), weight)
+    };
+    let [coarse, fine] = [at(40), at(80)];
+    // Momentum is a state of the momentum form: its balance is round-off.
+    assert!(
+        coarse[1] < 1e-12 && fine[1] < 1e-12,
+        "momentum {coarse:?} {fine:?}"
+    );
+    // Work is a quadrature of Hamming's order four.
+    let order = (coarse[0] / fine[0]).log2();
+    assert!(
+        coarse[0] < 1e-3 && order > 3.5,
+        "energy {coarse:?} {fine:?}"
+    );
+    // Angular momentum about the origin: gravity acts at once, the added mass of the falling fly
+    // one step later (dGamma/dt is left out at step 0); that jump, some 1e-6, is what is left.
+    assert!(
+        coarse[2] < 1e-5 && fine[2] < coarse[2] / 2.0,
+        "spin {coarse:?} {fine:?}"
+    );
+}
+
+#[test]
+fn order_of_coupled_flight_in_the_step_is_one() {
+    // Explicit Euler wake and backward circulation rate: first order, so differences between
+    // h, h/2, h/4 halve (measured 2.1).
+    let end = |steps| {
+        fly(Fly::default().forward(steps, 1.0))
+            .pop()
+            .expect("records")
+    };
+    let [a, b, c] = [40, 80, 160].map(end);
+    let ratio = distance(&a, &b) / distance(&b, &c);
+    assert!((1.8..2.4).contains(&ratio), "ratio {ratio}");
+}
+
+#[test]
+fn invariant_mirror_symmetric_flight_stays_symmetric() {
+    let records = fly(Fly::default().setup(40, 2.0));
+    // Round-off of the influence solve (condition 1e2) grows by some powers of ten in two beats.
+    for r in &records {
+        let (p, e) = pose(r);
+        let sideways = [(p.y + 0.02) / SPAN, e.y, e.z];
+        assert!(
+            sideways.iter().all(|x| x.abs() < 1e-9),
+            "step {}: {sideways:?}",
+            r.step
+        );
+    }
+    let (p, _) = pose(records.last().expect("records"));
+    assert!((p.z - 0.03).abs() > 1e-3 * SPAN, "the fly did move");
+}
+
+#[test]
+fn limit_massless_wings_are_approached_at_first_order_in_the_wing_mass() {
+    let end = |wing_mass| {
+        let fly_of = Fly {
+            wing_mass,
+            amplitudes: ASYMMETRIC,
+            ..Fly::default()
+        };
+        fly(fly_of.setup(40, 1.0)).pop().expect("records")
+    };
+    let rigid = end(0.0);
+    let [a, b] = [6e-9, 3e-9].map(|m| distance(&end(m), &rigid));
+    let ratio = a / b;
+    assert!(a > 1e-4, "wing inertia matters: {a}");
+    assert!(
+        (1.8..2.2).contains(&ratio),
+        "first order halves the difference: {ratio}"
+    );
+}
+
+#[test]
+fn agrees_massless_wings_with_the_aircraft_equations() {
+    // m v' = F + m g and J w' + w x J w = M, the standard aircraft equations, checked on the
+    // recorded flight by central differences (second order in the step).
+    let misfit = |steps: usize| {
+        let setup = Fly {
+            wing_mass: 0.0,
+            ..Fly::default()
+        }
+        .forward(steps, 1.0);
+        let (body, h) = (setup.animal.body, setup.time.step);
+        let weight = body.mass * 9.81;
+        let records = fly(setup);
+        let centre_velocity = |r: &Record| r.momentum / body.mass;
+        // Second half: after the sudden start into the stream the lift changes without bound.
+        records[steps / 2..]
+            .windows(3)
+            .map(|w| {
+                let a = (centre_velocity(&w[2]) - centre_velocity(&w[0])) / (2.0 * h);
+                let force: DVec3 = w[1].air.iter().map(|l| l.force).sum();
+                let newton = (a - DVec3::Z * 9.81) * body.mass - force;
+                let alpha = (w[2].root_angular_velocity - w[0].root_angular_velocity) / (2.0 * h);
+                let spin = w[1].root_angular_velocity;
+                let j = body.inertia_about_centre();
+                let euler =
+                    j * alpha + spin.cross(j * spin) - moment_about_centre(&w[1], body.centre());
+                (newton.length() / weight).max(euler.length() / (weight * SPAN))
+            })
+            .fold(0.0, f64::max)
+    };
+    let [coarse, fine] = [misfit(40), misfit(80)];
+    assert!(fine < 0.02, "{coarse} {fine}");
+    assert!(coarse / fine > 3.0, "second order: {coarse} {fine}");
+}
+
+/// Moment of all air loads about the mass centre of the body, body components [N m].
+fn moment_about_centre(r: &Record, centre: DVec3) -> DVec3 {
+    let q = r.root_quaternion;
+    let rotation =
+        wingbeat_math::DMat3::from_quat(wingbeat_math::DQuat::from_xyzw(q[1], q[2], q[3], q[0]));
+    let c = pose(r).0 + rotation * centre;
+    let moment: DVec3 = r
+        .air
+        .iter()
+        .enumerate()
+        .map(|(i, l)| {
+            let p = DVec3::from_slice(&r.coordinates[6 * i..]);
+            l.moment + (p - c).cross(l.force)
+        })
+        .sum();
+    rotation.transpose() * moment
+}
+
+#[test]
+fn agrees_euler_form_with_momentum_form_in_coupled_flight() {
+    // The Euler form with a step-tied Baumgarte is of second order, its gap to the momentum form
+    // falls by four when the step is halved.
+    let gap = |steps: usize| {
+        let with = |formulation| {
+            let setup = Fly {
+                amplitudes: ASYMMETRIC,
+                ..Fly::default()
+            }
+            .setup(steps, 1.0);
+            fly(FlightSetup {
+                formulation,
+                ..setup
+            })
+            .pop()
+            .expect("records")
+        };
+        let euler = with(FormulationChoice::Euler(BaumgarteChoice::StepTied(0.1)));
+        distance(&euler, &with(FormulationChoice::Momentum))
+    };
+    let [coarse, fine] = [gap(40), gap(80)];
+    assert!(fine < 1e-4, "{coarse} {fine}");
+    assert!(coarse / fine > 3.0, "{coarse} {fine}");
+}
+
+#[test]
+fn invariant_resumed_flight_goes_on_bit_for_bit() {
+    let setup = || {
+        let mut s = Fly {
+            amplitudes: ASYMMETRIC,
+            ..Fly::default()
+        }
+        .setup(20, 1.0);
+        if let MotionMode::Free(start) = &mut s.mode {
+            start.held_steps = 6;
+        }
+        s
+    };
+    let whole = fly(setup());
+    for stop in [2, 6, 8, 13] {
+        let mut sim = Simulation::new(setup()).expect("a flight");
+        for _ in 0..stop {
+            sim.step().expect("a step");
+        }
+        let mut resumed =
+            Simulation::resume(setup(), sim.state().clone()).expect("a resumed flight");
+        for expected in &whole[stop + 1..] {
+            assert_eq!(resumed.step().expect("a step"), expected);
+        }
+    }
+}
+
+#[test]
+fn invariant_held_start_does_not_move_and_the_release_is_smooth() {
+    let mut setup = Fly::default().setup(40, 1.5);
+    if let MotionMode::Free(start) = &mut setup.mode {
+        start.held_steps = 40;
+    }
+    let records = fly(setup);
+    assert!(
+        records[..=40]
+            .iter()
+            .all(|r| distance(r, &records[0]) < 1e-12)
+    );
+    assert!(records[20].tether.force.length() > 0.0 && records[41].tether.force.length() == 0.0);
+    let fallen = |k: usize| distance(&records[k], &records[0]);
+    assert!(fallen(41) < 1e-3 && fallen(60) > 10.0 * fallen(41));
+    // Books stay open across the release.
+    assert!(residuals(&records, 0.96e-6 * 9.81)[0] < 5e-3);
+}
+
+#[test]
+fn exact_ballistic_flight_without_air_and_wing_mass() {
+    let mut setup = Fly {
+        wing_mass: 0.0,
+        ..Fly::default()
+    }
+    .setup(20, 2.0);
+    setup.air = None;
+    let v0 = DVec3::new(0.3, -0.2, -0.5);
+    if let MotionMode::Free(start) = &mut setup.mode {
+        start.velocity = v0;
+    }
+    let start = pose(&fly(setup.clone())[0]).0;
+    let last = fly(setup).pop().expect("records");
+    let t = last.time;
+    let parabola = start + v0 * t + DVec3::Z * (0.5 * 9.81 * t * t);
+    // Polynomials of degree two are exact for the method: only round-off is left.
+    assert!((pose(&last).0 - parabola).length() < 1e-13 * 0.05);
+}
+
+#[test]
+fn exact_applied_force_equal_to_the_weight_holds_the_body() {
+    let mut setup = Fly {
+        wing_mass: 0.0,
+        ..Fly::default()
+    }
+    .setup(20, 2.0);
+    setup.air = None;
+    let (mass, centre) = (setup.animal.mass(), setup.animal.body.centre());
+    let zero = || DriftingFourier::constant(0.0);
+    setup.loads = vec![AppliedLoad {
+        body: 0,
+        frame: LoadFrame::Inertial,
+        point: centre,
+        force: [zero(), zero(), DriftingFourier::constant(-mass * 9.81)],
+        couple: [zero(), zero(), zero()],
+    }];
+    let records = fly(setup);
+    assert!(largest(&records, |r| distance(r, &records[0])) < 1e-13);
+}
+
+#[test]
+fn exact_corrector_that_cannot_converge_says_so() {
+    let mut setup = Fly::default().setup(20, 1.0);
+    setup.corrector = CorrectorSettings {
+        tolerance: 1e-30,
+        max_passes: 2,
+        relaxation: 1.0,
+    };
+    let error = Simulation::new(setup).err().expect("an error").to_string();
+    for word in [
+        "did not agree",
+        "2 corrector passes",
+        "allowed 1.00e-30",
+        "smaller step",
+    ] {
+        assert!(error.contains(word), "{error}");
+    }
+}
