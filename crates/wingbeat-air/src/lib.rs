@@ -26,11 +26,14 @@
 //! its axes point. The ring of a panel runs c0 -> c3 -> c2 -> c1, left-handed about the normal: then
 //! positive circulation is lift along the normal.
 //!
+//! [`blade`] is the other air of this crate: blade elements, quasi-steady and without memory.
+//!
 //! What this crate does not know: coordinates, joints, animals, gravity, files. What the method
 //! does not know: viscosity (no friction drag, wakes do not decay unless their cores grow),
 //! separation other than at the edges told to shed, the suction at edges that do not shed
 //! (forces are pressure times normal).
 
+pub mod blade;
 mod closed;
 pub mod error;
 pub mod filaments;
