@@ -47,15 +47,29 @@ fn invariant_dependency_graph_is_the_architecture() {
     for (name, allowed) in expect {
         let allowed: BTreeSet<_> = allowed.iter().map(|d| format!("wingbeat-{d}")).collect();
         let found = dependencies(name);
-        assert!(found.is_subset(&allowed), "{name} depends on {found:?}, allowed {allowed:?}");
+        assert!(
+            found.is_subset(&allowed),
+            "{name} depends on {found:?}, allowed {allowed:?}"
+        );
     }
     let analysis = dependencies("wingbeat-analysis");
-    assert!(!analysis.contains("wingbeat-io"), "analysis must not know files");
+    assert!(
+        !analysis.contains("wingbeat-io"),
+        "analysis must not know files"
+    );
 }
 
 #[test]
 fn invariant_below_io_nothing_touches_files_clock_environment_or_chance() {
-    let banned = ["std::fs", "std::env", "std::time", "SystemTime", "Instant::now", "rand::", "File::"];
+    let banned = [
+        "std::fs",
+        "std::env",
+        "std::time",
+        "SystemTime",
+        "Instant::now",
+        "rand::",
+        "File::",
+    ];
     for name in ["math", "model", "dynamics", "air", "flight", "analysis"] {
         for file in rust_files(&root().join(format!("crates/wingbeat-{name}/src"))) {
             let text = fs::read_to_string(&file).expect("a source file");
@@ -75,10 +89,17 @@ fn invariant_below_io_nothing_touches_files_clock_environment_or_chance() {
 fn equation_index() -> Vec<(usize, Vec<String>, Vec<String>)> {
     let text = fs::read_to_string(root().join("NOTATION.md")).expect("NOTATION.md");
     let cells = |line: &str| -> Vec<String> {
-        line.trim_matches('|').split('|').map(|c| c.trim().to_string()).collect()
+        line.trim_matches('|')
+            .split('|')
+            .map(|c| c.trim().to_string())
+            .collect()
     };
     let quoted = |cell: &str| -> Vec<String> {
-        cell.split('`').skip(1).step_by(2).map(str::to_string).collect()
+        cell.split('`')
+            .skip(1)
+            .step_by(2)
+            .map(str::to_string)
+            .collect()
     };
     text.lines()
         .skip_while(|l| !l.starts_with("## Equation index"))
@@ -96,9 +117,16 @@ fn invariant_every_seed_equation_has_a_function_and_a_test_that_exist() {
         .collect();
     let index = equation_index();
     let numbers: Vec<_> = index.iter().map(|row| row.0).collect();
-    assert_eq!(numbers, (1..=30).collect::<Vec<_>>(), "equations 1 to 30, in order");
+    assert_eq!(
+        numbers,
+        (1..=30).collect::<Vec<_>>(),
+        "equations 1 to 30, in order"
+    );
     for (number, functions, tests) in index {
-        assert!(!functions.is_empty() && !tests.is_empty(), "eq. {number} lacks a function or a test");
+        assert!(
+            !functions.is_empty() && !tests.is_empty(),
+            "eq. {number} lacks a function or a test"
+        );
         for function in &functions {
             let name = function.rsplit("::").next().expect("a name");
             let declared = ["fn ", "struct ", "const ", "trait "]
@@ -107,7 +135,10 @@ fn invariant_every_seed_equation_has_a_function_and_a_test_that_exist() {
             assert!(declared, "eq. {number}: {function} is not in the sources");
         }
         for test in &tests {
-            assert!(sources.contains(&format!("fn {test}(")), "eq. {number}: no test {test}");
+            assert!(
+                sources.contains(&format!("fn {test}(")),
+                "eq. {number}: no test {test}"
+            );
         }
     }
 }
