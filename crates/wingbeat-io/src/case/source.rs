@@ -74,15 +74,18 @@ impl CaseSource {
         };
         if let Some((key, typed)) = overridden {
             error.origin = format!("--set {key}={typed} (on top of {})", self.name);
-        } else if let Some(span) = self.span(&fault.key) {
+        } else if let Some(span) = self.span(&fault.key, error.problem.starts_with("unknown key")) {
             self.mark(&mut error, span);
         }
         error
     }
 
-    /// The bytes of a value, or of the key of the nearest table around it.
-    fn span(&self, key: &str) -> Option<Range<usize>> {
+    /// The bytes of a value (or of its key), or of the key of the nearest table around it.
+    fn span(&self, key: &str, on_key: bool) -> Option<Range<usize>> {
         if let Some(place) = self.places.get(key) {
+            if on_key {
+                return Some(place.key.clone());
+            }
             let multiline = self.text[place.value.clone()].contains('\n');
             return Some(if multiline {
                 place.key.clone()
@@ -259,6 +262,7 @@ fn set(table: &mut Table, path: &str, value: Value) -> Result<(), String> {
 fn short(value: &Value) -> Option<String> {
     match value {
         Value::Table(_) => None,
+        Value::Float(x) => Some(format!("{x:?}")),
         Value::Array(items) if items.len() > 6 => Some(format!("[{} elements]", items.len())),
         other => Some(other.to_string()),
     }

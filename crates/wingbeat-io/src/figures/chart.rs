@@ -17,6 +17,7 @@ const SHADE: RGBColor = RGBColor(235, 235, 235);
 const WIDTH: u32 = 900;
 const PANEL_HEIGHT: u32 = 250;
 const TITLE_HEIGHT: u32 = 44;
+const LEGEND_WIDTH: u32 = 150;
 
 /// A line of a panel.
 #[derive(Clone, Debug, PartialEq)]
@@ -77,11 +78,13 @@ impl Chart {
         let areas = body.split_evenly((self.panels.len(), 1));
         for (k, (panel, area)) in self.panels.iter().zip(&areas).enumerate() {
             let last = k + 1 == self.panels.len();
+            let (axes, names) = area.split_horizontally(WIDTH - LEGEND_WIDTH);
             if panel.logarithmic {
-                self.logarithmic(panel, area, last)?;
+                self.logarithmic(panel, &axes, last)?;
             } else {
-                self.linear(panel, area, last)?;
+                self.linear(panel, &axes, last)?;
             }
+            legend(panel, &names)?;
         }
         Ok(())
     }
@@ -125,12 +128,9 @@ impl Chart {
         for (k, series) in panel.series.iter().enumerate() {
             let style = ShapeStyle::from(COLOURS[k % COLOURS.len()]).stroke_width(2);
             let points = self.x.iter().copied().zip(series.values.iter().copied());
-            chart
-                .draw_series(LineSeries::new(points.filter(|p| p.1.is_finite()), style))?
-                .label(series.label.as_str())
-                .legend(move |(x, y)| PathElement::new([(x, y), (x + 18, y)], style));
+            chart.draw_series(LineSeries::new(points.filter(|p| p.1.is_finite()), style))?;
         }
-        legend(panel, &mut chart)
+        Ok(())
     }
 
     fn logarithmic<B: DrawingBackend>(
@@ -163,12 +163,9 @@ impl Chart {
                 .iter()
                 .copied()
                 .zip(series.values.iter().map(|y| y.abs()));
-            chart
-                .draw_series(LineSeries::new(points.filter(|p| p.1 >= lo), style))?
-                .label(series.label.as_str())
-                .legend(move |(x, y)| PathElement::new([(x, y), (x + 18, y)], style));
+            chart.draw_series(LineSeries::new(points.filter(|p| p.1 >= lo), style))?;
         }
-        legend(panel, &mut chart)
+        Ok(())
     }
 }
 
@@ -179,27 +176,32 @@ fn builder<'a, 'b, B: DrawingBackend>(
     let mut builder = ChartBuilder::on(area);
     builder
         .margin_left(12)
-        .margin_right(24)
+        .margin_right(14)
         .margin_top(8)
         .set_label_area_size(LabelAreaPosition::Left, 78)
         .set_label_area_size(LabelAreaPosition::Bottom, if last { 46 } else { 24 });
     builder
 }
 
-fn legend<'a, B: DrawingBackend + 'a, C: CoordTranslate>(
+/// Names of the lines beside the axes, in their colours; a line that is zero throughout says so.
+fn legend<B: DrawingBackend>(
     panel: &Panel,
-    chart: &mut ChartContext<'a, B, C>,
+    area: &DrawingArea<B, Shift>,
 ) -> Result<(), DrawingAreaErrorKind<B::ErrorType>> {
-    if panel.series.len() < 2 {
-        return Ok(());
+    for (k, series) in panel.series.iter().enumerate() {
+        let y = 24 + 22 * k as i32;
+        let style = ShapeStyle::from(COLOURS[k % COLOURS.len()]).stroke_width(3);
+        area.draw(&PathElement::new([(0, y), (20, y)], style))?;
+        let zero = series.values.iter().all(|v| *v == 0.0);
+        let text = if zero {
+            format!("{} = 0", series.label)
+        } else {
+            series.label.clone()
+        };
+        let font = ("sans-serif", 14).into_font().color(&INK);
+        area.draw(&Text::new(text, (26, y - 7), font))?;
     }
-    chart
-        .configure_series_labels()
-        .position(SeriesLabelPosition::UpperRight)
-        .background_style(WHITE.mix(0.85))
-        .border_style(RGBColor(215, 215, 215))
-        .label_font(("sans-serif", 14).into_font().color(&INK))
-        .draw()
+    Ok(())
 }
 
 impl Panel {

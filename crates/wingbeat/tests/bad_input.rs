@@ -1,0 +1,398 @@
+//! Bad input, one test each: the report names file, line, key, value and remedy, the exit code is
+//! 2, and nothing is written.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+/// A vacuum case that is fine and quick.
+const GOOD: &str = r#"format = 1
+name = "good"
+
+[time]
+steps_per_beat = 40
+beats = 0.2
+
+[motion]
+frequency_hz = 100.0
+
+[dynamics]
+formulation = "momentum"
+
+[flight]
+yaw_deg = 0.0
+
+[air]
+model = "none"
+
+[body]
+[body.part.thorax]
+length_m = 1e-3
+diameter_m = 1e-3
+mass_kg = 1e-6
+
+[wing.right]
+hinge_m = [0, 0.5e-3, 0]
+mass_kg = 1e-8
+[wing.right.planform.rectangle]
+chord_m = 1e-3
+span_m = 2e-3
+[wing.right.mesh]
+chordwise = 2
+spanwise = 3
+[wing.right.motion.phi.table]
+rows_deg = [[0.0, 10.0], [0.25, 40.0], [0.5, 10.0], [0.75, -40.0], [1.0, 10.0]]
+"#;
+
+struct Scratch(PathBuf);
+
+impl Scratch {
+    fn new(name: &str) -> Self {
+        let path = std::env::temp_dir().join(format!("wingbeat-bad-{name}-{}", std::process::id()));
+        let _ = fs::remove_dir_all(&path);
+        fs::create_dir_all(&path).unwrap();
+        Self(path)
+    }
+
+    fn case(&self, text: &str) -> String {
+        let path = self.0.join("case.toml");
+        fs::write(&path, text).unwrap();
+        path.display().to_string()
+    }
+}
+
+impl Drop for Scratch {
+    fn drop(&mut self) {
+        let _ = fs::remove_dir_all(&self.0);
+    }
+}
+
+fn wingbeat(dir: &Path, args: &[&str]) -> Output {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_wingbeat"));
+    command.current_dir(dir).args(args).output().unwrap()
+}
+
+/// Runs the good case with `from` replaced by `to` and checks the report and that nothing else
+/// was written. `wanted` are parts of the report; the line is found from the text `at`.
+fn refused(name: &str, from: &str, to: &str, at: &str, wanted: &[&str]) {
+    assert!(GOOD.contains(from), "the test replaces nothing");
+    let scratch = Scratch::new(name);
+    let text = GOOD.replacen(from, to, 1);
+    let case = scratch.case(&text);
+    let out = wingbeat(&scratch.0, &["run", "case.toml", "--out", "run"]);
+    let report = String::from_utf8(out.stderr).unwrap();
+    assert_eq!(out.status.code(), Some(2), "{report}");
+    let line = text.lines().position(|l| l.contains(at)).unwrap() + 1;
+    assert!(
+        report.contains(&format!("case.toml:{line}:")),
+        "line {line} not in:\n{report}"
+    );
+    assert!(
+        report.contains("allowed: ") && report.contains("try: "),
+        "{report}"
+    );
+    for part in wanted {
+        assert!(report.contains(part), "`{part}` not in:\n{report}");
+    }
+    assert!(
+        Path::new(&case).exists() && !scratch.0.join("run").exists(),
+        "something was written"
+    );
+}
+
+#[test]
+fn exact_the_good_case_flies() {
+    let scratch = Scratch::new("good");
+    scratch.case(GOOD);
+    let out = wingbeat(&scratch.0, &["run", "case.toml", "--out", "run", "--quiet"]);
+    assert!(
+        out.status.success(),
+        "{}",
+        String::from_utf8_lossy(&out.stderr)
+    );
+    assert!(out.stdout.is_empty() && out.stderr.is_empty());
+    let history = fs::read_to_string(scratch.0.join("run/history.csv")).unwrap();
+    assert_eq!(history.lines().count(), 1 + 9); // header, step 0, and 8 steps: 0.2 beats of 40
+}
+
+#[test]
+fn exact_unknown_key() {
+    refused(
+        "key",
+        "mass_kg = 1e-8",
+        "mas_kg = 1e-8",
+        "mas_kg",
+        &[
+            "wing.right.mas_kg = 1e-8: unknown key `mas_kg`",
+            "hinge_m, planform, mesh, mass_kg",
+            "did you mean `mass_kg`?",
+        ],
+    );
+}
+
+#[test]
+fn exact_wrong_unit() {
+    refused(
+        "unit",
+        "mass_kg = 1e-8",
+        "mass_mg = 0.01",
+        "mass_mg",
+        &[
+            "wing.right.mass_mg = 0.01: unknown key `mass_mg`",
+            "`mass_kg`: the unit is part of the key, convert the value",
+        ],
+    );
+}
+
+#[test]
+fn exact_wrong_type() {
+    refused(
+        "type",
+        "mass_kg = 1e-8",
+        "mass_kg = \"10 ug\"",
+        "10 ug",
+        &[
+            "wing.right.mass_kg = \"10 ug\": wrong type",
+            "allowed: a number",
+            "write the number without quotes and without a unit",
+        ],
+    );
+}
+
+#[test]
+fn exact_unknown_choice() {
+    refused(
+        "choice",
+        "\"none\"",
+        "\"non\"",
+        "\"non\"",
+        &[
+            "air.model = \"non\": unknown choice `non`",
+            "vortex_lattice, none",
+            "did you mean `none`?",
+        ],
+    );
+}
+
+#[test]
+fn exact_missing_key() {
+    refused(
+        "missing",
+        "chord_m = 1e-3\n",
+        "",
+        "[wing.right.planform.rectangle]",
+        &[
+            "wing.right.planform.rectangle.chord_m: this key is missing",
+            "add `chord_m = ...`",
+        ],
+    );
+}
+
+#[test]
+fn exact_negative_mass() {
+    refused(
+        "mass",
+        "mass_kg = 1e-8",
+        "mass_kg = -1e-8",
+        "-1e-8",
+        &[
+            "wing.right.mass_kg = -1e-8: this must not be negative",
+            "a finite number >= 0",
+            "remove the minus sign",
+        ],
+    );
+}
+
+#[test]
+fn exact_hinge_far_outside_the_body() {
+    refused(
+        "hinge",
+        "[0, 0.5e-3, 0]",
+        "[0, 0.5, 0]",
+        "[0, 0.5, 0]",
+        &[
+            "wing.right.hinge_m = [0, 0.5, 0]: the hinge of wing `left` lies",
+            "within half a body length",
+            "a millimetre is 1e-3",
+        ],
+    );
+}
+
+#[test]
+fn exact_zero_panels() {
+    refused(
+        "panels",
+        "spanwise = 3",
+        "spanwise = 0",
+        "spanwise = 0",
+        &[
+            "wing.right.mesh.spanwise = 0: this is too small",
+            "a whole number >= 1",
+        ],
+    );
+}
+
+#[test]
+fn exact_nan_in_a_table() {
+    refused(
+        "nan",
+        "[0.25, 40.0]",
+        "[0.25, nan]",
+        "nan",
+        &[
+            "wing.right.motion.phi.table.rows_deg[1][1] = NaN: this is not a finite number",
+            "finite numbers everywhere",
+        ],
+    );
+}
+
+#[test]
+fn exact_table_that_is_not_periodic() {
+    refused(
+        "table",
+        "[1.0, 10.0]",
+        "[1.0, 12.0]",
+        "[1.0, 12.0]",
+        &[
+            "wing.right.motion.phi.table.rows_deg[4] = [1.0, 12.0]",
+            "the last row one beat after the first with the same angle",
+            "repeat the first angle",
+        ],
+    );
+}
+
+#[test]
+fn exact_singular_attitude_in_euler_form() {
+    let euler = "formulation = \"euler\"\n\n[flight]\nyaw_deg = 90.0";
+    let momentum = "formulation = \"momentum\"\n\n[flight]\nyaw_deg = 0.0";
+    refused(
+        "singular",
+        momentum,
+        euler,
+        "yaw_deg = 90.0",
+        &[
+            "flight.yaw_deg = 90.0",
+            "within 3 degrees of +-90, where Euler angles are singular",
+            "set dynamics.formulation = \"momentum\"",
+        ],
+    );
+}
+
+#[test]
+fn exact_broken_toml() {
+    let scratch = Scratch::new("toml");
+    scratch.case(&GOOD.replace("name = \"good\"", "name = \"good"));
+    let out = wingbeat(&scratch.0, &["check", "case.toml"]);
+    let report = String::from_utf8(out.stderr).unwrap();
+    assert_eq!(out.status.code(), Some(2));
+    assert!(
+        report.contains("this is not TOML") && report.contains("case.toml:2:"),
+        "{report}"
+    );
+}
+
+#[test]
+fn exact_bad_override_says_where_it_came_from() {
+    let scratch = Scratch::new("set");
+    scratch.case(GOOD);
+    let set = ["check", "case.toml", "--set", "wing.right.mass_kg=-1"];
+    let out = wingbeat(&scratch.0, &set);
+    let report = String::from_utf8(out.stderr).unwrap();
+    assert_eq!(out.status.code(), Some(2));
+    assert!(
+        report.contains("wing.right.mass_kg = -1: this must not be negative"),
+        "{report}"
+    );
+    assert!(
+        report.contains("--set wing.right.mass_kg=-1 (on top of case.toml)"),
+        "{report}"
+    );
+    let out = wingbeat(&scratch.0, &["check", "case.toml", "--set", "nonsense"]);
+    assert_eq!(out.status.code(), Some(2));
+    assert!(String::from_utf8_lossy(&out.stderr).contains("`nonsense` has no `=`"));
+}
+
+#[test]
+fn exact_nan_in_a_table_file() {
+    let scratch = Scratch::new("file");
+    let rows = GOOD.lines().find(|l| l.starts_with("rows_deg")).unwrap();
+    scratch.case(&GOOD.replace(rows, "file = \"phi.csv\""));
+    fs::write(
+        scratch.0.join("phi.csv"),
+        "phase,phi\n0,10\n0.25,40\n0.5,nan\n0.75,-40\n1,10\n",
+    )
+    .unwrap();
+    let out = wingbeat(&scratch.0, &["check", "case.toml"]);
+    let report = String::from_utf8(out.stderr).unwrap();
+    assert_eq!(out.status.code(), Some(2));
+    assert!(
+        report.contains("line 4: `nan` is not a finite number"),
+        "{report}"
+    );
+    assert!(
+        report.contains("case.toml:") && report.contains("table.file"),
+        "{report}"
+    );
+}
+
+#[test]
+fn exact_output_directory_that_exists() {
+    let scratch = Scratch::new("exists");
+    scratch.case(GOOD);
+    let precious = scratch.0.join("run/precious.txt");
+    fs::create_dir_all(scratch.0.join("run")).unwrap();
+    fs::write(&precious, "mine").unwrap();
+    for extra in [&[][..], &["--overwrite"][..]] {
+        let args = [&["run", "case.toml", "--out", "run"][..], extra].concat();
+        let out = wingbeat(&scratch.0, &args);
+        let report = String::from_utf8(out.stderr).unwrap();
+        assert_eq!(out.status.code(), Some(2), "{report}");
+        assert!(
+            report.contains("`run` exists already and is left untouched"),
+            "{report}"
+        );
+        assert!(report.contains("choose another directory"), "{report}");
+        assert_eq!(fs::read_to_string(&precious).unwrap(), "mine");
+        assert_eq!(fs::read_dir(scratch.0.join("run")).unwrap().count(), 1);
+    }
+}
+
+#[test]
+fn exact_output_directory_that_cannot_be_written() {
+    let scratch = Scratch::new("write");
+    scratch.case(GOOD);
+    fs::write(scratch.0.join("file"), "mine").unwrap();
+    let out = wingbeat(&scratch.0, &["run", "case.toml", "--out", "file/run"]);
+    let report = String::from_utf8(out.stderr).unwrap();
+    assert_eq!(out.status.code(), Some(2), "{report}");
+    assert!(
+        report.contains("cannot make the result directory `file/run`"),
+        "{report}"
+    );
+    assert!(
+        report.contains("choose a place you may write to with --out DIR"),
+        "{report}"
+    );
+    assert_eq!(fs::read_to_string(scratch.0.join("file")).unwrap(), "mine");
+}
+
+#[test]
+fn exact_no_such_case_and_no_overwriting_by_new() {
+    let scratch = Scratch::new("new");
+    let out = wingbeat(&scratch.0, &["run", "fruit-fly-hoover"]);
+    assert_eq!(out.status.code(), Some(2));
+    assert!(String::from_utf8_lossy(&out.stderr).contains("did you mean `fruit-fly-hover`?"));
+    assert!(
+        wingbeat(&scratch.0, &["new", "benchmark-1"])
+            .status
+            .success()
+    );
+    fs::write(scratch.0.join("benchmark-1.toml"), "mine").unwrap();
+    let out = wingbeat(&scratch.0, &["new", "benchmark-1"]);
+    assert_eq!(out.status.code(), Some(2));
+    assert!(String::from_utf8_lossy(&out.stderr).contains("exists already and is left untouched"));
+    assert_eq!(
+        fs::read_to_string(scratch.0.join("benchmark-1.toml")).unwrap(),
+        "mine"
+    );
+}
