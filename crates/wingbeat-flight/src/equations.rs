@@ -8,6 +8,7 @@ use wingbeat_air::{AirLoads, AirState, AirWorkspace, Lattice, NodeMotion};
 use wingbeat_dynamics::{BodyMotion, Solution, Workspace, Wrench};
 use wingbeat_math::DVec3;
 
+use crate::blade::BladeSide;
 use crate::core::Core;
 use crate::error::FlightError;
 use crate::setup::AppliedLoad;
@@ -76,8 +77,10 @@ pub struct AirSide {
 pub struct Equations {
     /// The bodies: free or tethered.
     pub core: Core,
-    /// The air, if any.
+    /// The vortex lattice, if that is the air.
     pub air: Option<Arc<AirSide>>,
+    /// The blade elements, if they are.
+    pub blade: Option<Arc<BladeSide>>,
     /// Extra loads.
     pub applied: Vec<AppliedLoad>,
     /// Time step h [s].
@@ -95,6 +98,10 @@ pub struct Scratch {
     pub applied: Vec<Wrench>,
     /// Sum of both.
     total: Vec<Wrench>,
+    velocity_air: Vec<Wrench>,
+    added: Vec<Wrench>,
+    added_next: Vec<Wrench>,
+    gap: Vec<f64>,
     /// Accelerations, reactions, energies.
     pub solution: Solution,
     dynamics: Workspace,
@@ -118,7 +125,11 @@ impl Scratch {
             motions: vec![BodyMotion::REST; bodies],
             air: none.clone(),
             applied: none.clone(),
-            total: none,
+            total: none.clone(),
+            velocity_air: none.clone(),
+            added: none.clone(),
+            added_next: none,
+            gap: vec![0.0; 6 * bodies],
             solution: Solution::new(system),
             dynamics: Workspace::new(system),
             nodes: NodeMotion::default(),
@@ -131,6 +142,81 @@ impl Scratch {
             air_is_current: false,
         }
     }
+}
+
+/// Most passes between added mass and accelerations.
+const ADDED_MASS_PASSES: usize = 60;
+/// Largest relative change of the loads that counts as agreement: a thousand roundings.
+const ADDED_MASS_TOLERANCE: f64 = 1e-13;
+
+impl Scratch {
+    /// Air and applied loads together.
+    fn sum_loads(&mut self) {
+        for ((sum, a), b) in self.total.iter_mut().zip(&self.air).zip(&self.applied) {
+            *sum = *a;
+            *sum += *b;
+        }
+    }
+
+    /// Aitken's relaxation factor from the gap `added_next - added` and that of the pass before;
+    /// stores the gap. Forces and moments share one norm: moments of a wing are forces on a
+    /// fixed length, and any norm gives a convergent rule.
+    fn aitken(&mut self, pass: usize, before: f64) -> f64 {
+        let (mut inner, mut square) = (0.0, 0.0);
+        for (k, (a, b)) in self.added_next.iter().zip(&self.added).enumerate() {
+            let gap = components(a, b);
+            for (i, g) in gap.iter().enumerate() {
+                let old = &mut self.gap[6 * k + i];
+                let d = g - *old;
+                inner += *old * d;
+                square += d * d;
+                *old = *g;
+            }
+        }
+        if pass == 0 || square == 0.0 {
+            return 1.0;
+        }
+        -before * inner / square
+    }
+
+    /// Moves the added-mass load towards its next value; the air load follows. Returns the change
+    /// relative to the largest load.
+    fn relax_added(&mut self, relaxation: f64) -> f64 {
+        let (mut change, mut largest) = ([0.0_f64; 2], [0.0_f64; 2]);
+        for k in 0..self.added.len() {
+            let (old, next) = (self.added[k], self.added_next[k]);
+            let step = Wrench {
+                force: relaxation * (next.force - old.force),
+                moment: relaxation * (next.moment - old.moment),
+            };
+            self.added[k] += step;
+            self.air[k] = self.velocity_air[k];
+            self.air[k] += self.added[k];
+            let air = &self.air[k];
+            change = [
+                change[0].max(step.force.length()),
+                change[1].max(step.moment.length()),
+            ];
+            largest = [
+                largest[0].max(air.force.length()),
+                largest[1].max(air.moment.length()),
+            ];
+        }
+        let relative = |i: usize| {
+            if change[i] == 0.0 {
+                0.0
+            } else {
+                change[i] / largest[i]
+            }
+        };
+        relative(0).max(relative(1))
+    }
+}
+
+/// The six components of the difference of two wrenches.
+fn components(a: &Wrench, b: &Wrench) -> [f64; 6] {
+    let (f, m) = (a.force - b.force, a.moment - b.moment);
+    [f.x, f.y, f.z, m.x, m.y, m.z]
 }
 
 impl Equations {
@@ -165,16 +251,49 @@ impl Equations {
         self.place_nodes(t, y, s)?;
         self.air_loads(t, air, s)?;
         self.applied_loads(t, s);
-        for ((sum, a), b) in s.total.iter_mut().zip(&s.air).zip(&s.applied) {
-            *sum = *a;
-            *sum += *b;
+        if let Some(blade) = &self.blade {
+            blade.velocity_loads(&s.motions, &mut s.air);
+            self.add_mass(blade, t, &y[..n], s)?;
         }
+        s.sum_loads();
         self.core
             .rates(t, &y[..n], &s.total, &mut s.dynamics, &mut dy[..n])?;
         self.core
             .solve(t, &y[..n], &s.total, &mut s.dynamics, &mut s.solution)?;
         self.quadrature_rates(s).write(dy);
         Ok(())
+    }
+
+    /// Adds the load of the added mass to `s.air`, which holds the load of the velocities. Both
+    /// sides of `load -> acceleration -> load` are affine: fixed-point passes, accelerated by
+    /// Aitken's rule for vectors [Irons & Tuck 1969], end at the exact solution.
+    fn add_mass(
+        &self,
+        blade: &BladeSide,
+        t: f64,
+        y: &[f64],
+        s: &mut Scratch,
+    ) -> Result<(), FlightError> {
+        s.velocity_air.copy_from_slice(&s.air);
+        s.added.fill(Wrench::default());
+        let mut relaxation = 1.0;
+        let mut change = f64::INFINITY;
+        for pass in 0..ADDED_MASS_PASSES {
+            s.sum_loads();
+            self.core
+                .solve(t, y, &s.total, &mut s.dynamics, &mut s.solution)?;
+            blade.acceleration_loads(&s.motions, &s.solution.bodies, &mut s.added_next);
+            relaxation = s.aitken(pass, relaxation);
+            change = s.relax_added(relaxation);
+            if change <= ADDED_MASS_TOLERANCE {
+                return Ok(());
+            }
+        }
+        Err(FlightError::AddedMass {
+            time: t,
+            passes: ADDED_MASS_PASSES,
+            change,
+        })
     }
 
     /// Positions and velocities of the lattice nodes in the state `y` at time `t` [s].

@@ -1,6 +1,7 @@
 //! What can go wrong in a flight.
 
 use wingbeat_air::AirError;
+use wingbeat_air::blade::BladeError;
 use wingbeat_dynamics::DynamicsError;
 
 /// Why a flight cannot start or go on. Times in seconds.
@@ -12,6 +13,21 @@ pub enum FlightError {
     /// The vortex lattice cannot be built or evaluated.
     #[error(transparent)]
     Air(#[from] AirError),
+    /// The blade elements cannot be built.
+    #[error(transparent)]
+    Blade(#[from] BladeError),
+    /// Added mass and accelerations did not agree.
+    #[error(
+        "t = {time:.6e} s: the added mass of the blade elements and the accelerations of the bodies did not agree after {passes} passes (relative change {change:.1e}): the added mass outweighs the animal; check masses and sizes, or leave the added mass out"
+    )]
+    AddedMass {
+        /// Time [s].
+        time: f64,
+        /// Passes made.
+        passes: usize,
+        /// Relative change of the last pass.
+        change: f64,
+    },
     /// The corrector of a step did not converge.
     #[error(
         "step {step} (t = {time:.6e} s): bodies and air did not agree after {passes} corrector passes: scaled residual {residual:.2e}, allowed {tolerance:.2e}; try a smaller step, more passes, or relaxation below {relaxation} (light bodies with large wings need it)"

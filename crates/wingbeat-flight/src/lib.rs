@@ -21,6 +21,7 @@
 #![warn(missing_docs)]
 
 mod applied;
+mod blade;
 mod bodies;
 mod core;
 mod equations;
@@ -33,6 +34,7 @@ mod stages;
 mod surfaces;
 mod validate;
 
+pub use blade::{BladeSide, strips};
 pub use error::FlightError;
 pub use record::{HingeRecord, LoadRecord, Record, Snapshot, SurfaceSnapshot, WakeSnapshot};
 pub use recorder::Ledger;

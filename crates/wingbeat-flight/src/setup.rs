@@ -1,6 +1,7 @@
 //! What a flight is made of: the validated setup, before anything moves.
 
 use wingbeat_air::AirSettings;
+use wingbeat_air::blade::{BladeSettings, BodyDrag};
 use wingbeat_math::{DMat3, DVec3, EulerSequence, MovingRotation};
 use wingbeat_model::Animal;
 
@@ -13,8 +14,8 @@ pub struct FlightSetup {
     pub animal: Animal,
     /// Acceleration of gravity in N components [m/s2], default (0, 0, 9.81): n3 points down.
     pub gravity: DVec3,
-    /// The air, if there is any.
-    pub air: Option<AirOptions>,
+    /// The air and its model.
+    pub air: AirModel,
     /// How the root body moves.
     pub mode: MotionMode,
     /// Which equations are integrated.
@@ -25,6 +26,43 @@ pub struct FlightSetup {
     pub corrector: CorrectorSettings,
     /// Extra forces and couples.
     pub loads: Vec<AppliedLoad>,
+}
+
+/// The air and its model: from none to the unsteady lattice.
+#[derive(Clone, Debug, Default)]
+#[expect(clippy::large_enum_variant, reason = "there is one per flight")]
+pub enum AirModel {
+    /// Vacuum.
+    #[default]
+    None,
+    /// Quasi-steady blade elements: no memory, fast.
+    BladeElement(BladeOptions),
+    /// Non-linear unsteady vortex lattice with free wakes.
+    VortexLattice(AirOptions),
+}
+
+impl AirModel {
+    /// Whether there is air.
+    pub fn is_some(&self) -> bool {
+        !matches!(self, Self::None)
+    }
+
+    /// Whether the loads depend on the past (a wake).
+    pub fn has_memory(&self) -> bool {
+        matches!(self, Self::VortexLattice(_))
+    }
+}
+
+/// Blade elements and what else the air does to the animal.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BladeOptions {
+    /// Coefficients, rotation, added mass, density and stream.
+    pub blade: BladeSettings,
+    /// Drag of the body; none leaves the body out of the air.
+    pub body_drag: Option<BodyDrag>,
+    /// Induced flow at the wings, added to the stream, N components [m/s]; zero for coefficients
+    /// that hold it already.
+    pub induced: DVec3,
 }
 
 /// The vortex lattice and which parts of the animal it sees.

@@ -8,13 +8,14 @@ use wingbeat_dynamics::{
 };
 use wingbeat_math::DVec3;
 
+use crate::blade::BladeSide;
 use crate::bodies;
 use crate::core::{Core, root_motion};
 use crate::equations::{AirSide, Equations, Scratch};
 use crate::error::FlightError;
 use crate::setup::{
-    BaumgarteChoice, DriftingFourier, FlightSetup, FormulationChoice, MotionMode, PrescribedMotion,
-    StartState,
+    AirModel, BaumgarteChoice, DriftingFourier, FlightSetup, FormulationChoice, MotionMode,
+    PrescribedMotion, StartState,
 };
 use crate::surfaces::SurfaceMap;
 
@@ -48,7 +49,7 @@ impl Stage {
 /// # Errors
 /// Surfaces or settings that the lattice refuses.
 pub fn air_side(setup: &FlightSetup) -> Result<Option<AirSide>, FlightError> {
-    let Some(options) = &setup.air else {
+    let AirModel::VortexLattice(options) = &setup.air else {
         return Ok(None);
     };
     let map = SurfaceMap::new(&setup.animal, options.body_surfaces);
@@ -56,11 +57,23 @@ pub fn air_side(setup: &FlightSetup) -> Result<Option<AirSide>, FlightError> {
     Ok(Some(AirSide { lattice, map }))
 }
 
+/// The blade elements of a setup, if it has any.
+///
+/// # Errors
+/// Settings or strips that are refused.
+pub fn blade_side(setup: &FlightSetup) -> Result<Option<Arc<BladeSide>>, FlightError> {
+    let AirModel::BladeElement(options) = &setup.air else {
+        return Ok(None);
+    };
+    Ok(Some(Arc::new(BladeSide::new(&setup.animal, options)?)))
+}
+
 /// The stages of a setup.
 ///
 /// # Errors
 /// Bodies that the dynamics refuse.
 pub fn stages(setup: &FlightSetup, air: Option<Arc<AirSide>>) -> Result<Vec<Stage>, FlightError> {
+    let blade = blade_side(setup)?;
     let system = || bodies::system(&setup.animal, setup.gravity, natural_units(setup));
     let tethered = |system: System, motion: &PrescribedMotion| Core::Tethered {
         system,
@@ -71,6 +84,7 @@ pub fn stages(setup: &FlightSetup, air: Option<Arc<AirSide>>) -> Result<Vec<Stag
         equations: Equations {
             core,
             air: air.clone(),
+            blade: blade.clone(),
             applied: setup.loads.clone(),
             step: setup.time.step,
         },
@@ -132,7 +146,7 @@ fn held_motion(start: &StartState) -> PrescribedMotion {
 
 /// Natural units: the farthest wing node from its hinge (else the body, else a metre) and the
 /// period of a wingbeat (else ten steps).
-fn natural_units(setup: &FlightSetup) -> NaturalUnits {
+pub(crate) fn natural_units(setup: &FlightSetup) -> NaturalUnits {
     let farthest = |nodes: &[DVec3]| nodes.iter().fold(0.0_f64, |m, r| m.max(r.length()));
     let wings = setup.animal.wings.iter().map(|w| farthest(&w.mesh.nodes));
     let body = setup.animal.parts.iter().map(|p| farthest(&p.mesh.nodes));

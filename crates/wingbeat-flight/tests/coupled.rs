@@ -239,7 +239,7 @@ fn exact_ballistic_flight_without_air_and_wing_mass() {
         ..Fly::default()
     }
     .setup(20, 2.0);
-    setup.air = None;
+    setup.air = AirModel::None;
     let v0 = DVec3::new(0.3, -0.2, -0.5);
     if let MotionMode::Free(start) = &mut setup.mode {
         start.velocity = v0;
@@ -259,7 +259,7 @@ fn exact_applied_force_equal_to_the_weight_holds_the_body() {
         ..Fly::default()
     }
     .setup(20, 2.0);
-    setup.air = None;
+    setup.air = AirModel::None;
     let (mass, centre) = (setup.animal.mass(), setup.animal.body.centre());
     let zero = || DriftingFourier::constant(0.0);
     setup.loads = vec![AppliedLoad {

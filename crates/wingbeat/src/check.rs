@@ -1,6 +1,6 @@
 //! `wingbeat check`: a case is built but not flown.
 
-use wingbeat::flight::{FlightSetup, MotionMode, Simulation};
+use wingbeat::flight::{AirModel, FlightSetup, MotionMode, Simulation};
 use wingbeat::io::{IoError, LoadedCase};
 
 /// Builds the flight up to step 0 and describes it.
@@ -50,10 +50,10 @@ fn describe(setup: &FlightSetup) {
         MotionMode::Free(_) => "free flight",
         MotionMode::Tethered(_) => "tethered",
     };
-    let air = if setup.air.is_some() {
-        "vortex lattice"
-    } else {
-        "no air"
+    let air = match setup.air {
+        AirModel::None => "no air",
+        AirModel::BladeElement(_) => "blade elements",
+        AirModel::VortexLattice(_) => "vortex lattice",
     };
     println!("{:<10}{mode}, {air}", "flight");
     let time = &setup.time;

@@ -124,7 +124,7 @@ impl Fly {
             name: "little fly".into(),
             animal: self.animal(),
             gravity: DVec3::new(0.0, 0.0, 9.81),
-            air: Some(AirOptions {
+            air: AirModel::VortexLattice(AirOptions {
                 lattice,
                 body_surfaces: false,
             }),
@@ -162,7 +162,10 @@ impl Fly {
             start.angles = DVec3::ZERO;
             start.velocity = DVec3::new(3.0, 0.0, 0.0);
         }
-        setup.air.as_mut().expect("air").lattice.shedding = SheddingKinds::TRAILING;
+        let AirModel::VortexLattice(air) = &mut setup.air else {
+            unreachable!("the little fly has a lattice")
+        };
+        air.lattice.shedding = SheddingKinds::TRAILING;
         setup
     }
 }

@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use serde::{Deserialize, Serialize};
 use wingbeat_air::CoreModel;
-use wingbeat_flight::{FlightSetup, FormulationChoice, MotionMode};
+use wingbeat_flight::{AirModel, FlightSetup, FormulationChoice, MotionMode};
 use wingbeat_math::DVec3;
 
 use super::{History, Outcome};
@@ -40,6 +40,10 @@ pub struct Summary {
     pub mass_kg: f64,
     /// Means of each whole wingbeat.
     pub beats: Vec<BeatMeans>,
+    /// Air force against gravity at the end \[N\].
+    pub final_lift_newton: f64,
+    /// Air force along n1 (forward) at the end \[N\].
+    pub final_thrust_newton: f64,
     /// Way of the body origin from start to end, N components \[m\].
     pub displacement_m: [f64; 3],
     /// Change of pitch, yaw, roll from start to end \[deg\].
@@ -68,6 +72,9 @@ pub struct Summary {
     pub warnings: Vec<String>,
 }
 
+/// No animal carries this many of its weights over a whole wingbeat.
+const IMPLAUSIBLE_LIFT: f64 = 10.0;
+
 /// Unit vector along gravity; n3 without gravity.
 pub fn down(setup: &FlightSetup) -> DVec3 {
     setup.gravity.try_normalize().unwrap_or(DVec3::Z)
@@ -84,6 +91,10 @@ pub fn air_force(history: &History, direction: DVec3) -> Vec<f64> {
         }
     }
     total
+}
+
+fn final_force(history: &History, direction: DVec3) -> f64 {
+    air_force(history, direction).last().copied().unwrap_or(0.0)
 }
 
 /// Total power of the hinge actuators, row by row \[W\].
@@ -136,6 +147,8 @@ impl Summary {
             time_s,
             mass_kg: setup.animal.mass(),
             beats: beats(setup, history),
+            final_lift_newton: final_force(history, -down(setup)),
+            final_thrust_newton: final_force(history, DVec3::X),
             displacement_m: ["x", "y", "z"].map(|k| change(format!("body_{k}_m"))),
             turn_deg: ["phi", "theta", "psi"].map(|k| change(format!("body_{k}_rad")).to_degrees()),
             energy_residual_relative: energy_residual(history),
@@ -198,6 +211,15 @@ impl Summary {
     }
 
     fn beat_table(&self, out: &mut String) {
+        let no_air = self.final_lift_newton == 0.0 && self.final_thrust_newton == 0.0;
+        if !no_air {
+            let _ = writeln!(
+                out,
+                "At the end the air pushes up with {} and forward with {}.",
+                engineering(self.final_lift_newton, "N").trim(),
+                engineering(self.final_thrust_newton, "N").trim()
+            );
+        }
         if self.beats.is_empty() {
             return;
         }
@@ -262,6 +284,10 @@ fn engineering(x: f64, unit: &str) -> String {
         (1e-9, "n"),
         (1e-12, "p"),
     ];
+    if x.abs() >= 1e6 {
+        return format!("{x:8.2e}  {unit}");
+    }
+    let x = if x.abs() < 1e-12 { 0.0 } else { x };
     let fits = |p: &&(f64, &str)| x.abs() >= p.0;
     let (scale, prefix) = PREFIXES.iter().find(fits).copied().unwrap_or((1.0, " "));
     format!("{:8.3} {prefix}{unit}", x / scale)
@@ -282,7 +308,7 @@ fn wrapped(bullet: &str, text: &str) -> String {
     }
     out.truncate(out.trim_end().len());
     out.push('\n');
-    out
+    out.replace(" \n", "\n")
 }
 
 fn beats(setup: &FlightSetup, history: &History) -> Vec<BeatMeans> {
@@ -351,11 +377,12 @@ fn ratio(x: f64, scale: f64) -> f64 {
 fn warnings(setup: &FlightSetup, summary: &Summary) -> Vec<String> {
     let mut list = vec![];
     match &setup.air {
-        None => list.push(
+        AirModel::None => list.push(
             "There is no air: this is the motion that weight and wing inertia alone give."
                 .to_owned(),
         ),
-        Some(air) => air_warnings(setup, air, summary, &mut list),
+        AirModel::VortexLattice(air) => air_warnings(setup, air, summary, &mut list),
+        AirModel::BladeElement(_) => list.push("The air is quasi-steady: blade elements with measured coefficients, no wake, no interaction of the wings with each other or with the air they moved before.".to_owned()),
     }
     if summary.euler_regularity < 0.05 {
         let held = match setup.formulation {
@@ -406,6 +433,13 @@ fn air_warnings(
     }
     if setup.time.period.is_some() {
         list.push("The air is first order in the step and the wings are coarse: halve the step and double the panels before quoting a number.".to_owned());
+    }
+    let weights = |b: &BeatMeans| b.lift_over_weight.unwrap_or(0.0).abs();
+    if let Some(b) = summary.beats.iter().find(|b| weights(b) > IMPLAUSIBLE_LIFT) {
+        list.insert(0, format!(
+            "The air diverged: a mean lift of {:.0} weights in beat {} is not physical. Enlarge the wake core, take smaller steps, keep fewer wake rows, or do not shed from leading edges.",
+            weights(b), b.beat
+        ));
     }
     if summary.regularised > 0 {
         list.push(format!(

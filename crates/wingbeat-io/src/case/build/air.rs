@@ -1,11 +1,11 @@
-//! `[air]`: settings of the vortex lattice.
+//! `[air]`: the air's model, and the settings of the vortex lattice.
 
 use wingbeat_air::{AirSettings, CirculationRate, CoreModel, SheddingKinds};
-use wingbeat_flight::AirOptions;
+use wingbeat_flight::{AirModel, AirOptions};
 use wingbeat_model::Animal;
 
-use super::{Built, at_least, not_negative, positive, vector};
-use crate::case::raw::{AirCase, AirModel, Case, CirculationRateCase, CoreCase, EdgeCase};
+use super::{Built, at_least, blade, not_negative, positive, vector};
+use crate::case::raw::{AirCase, AirModel as Model, Case, CirculationRateCase, CoreCase, EdgeCase};
 
 /// Default cut-off over the mean panel length, the published benchmark's.
 const CUT_OFF: f64 = 0.01;
@@ -34,10 +34,15 @@ fn mean_panel_length(animal: &Animal) -> f64 {
 }
 
 /// The air of the flight.
-pub(super) fn options(case: &AirCase) -> Built<Option<AirOptions>> {
-    if case.model == AirModel::None {
-        return Ok(None);
+pub(super) fn options(case: &AirCase) -> Built<AirModel> {
+    match case.model {
+        Model::None => Ok(AirModel::None),
+        Model::BladeElement => Ok(AirModel::BladeElement(blade::options(case)?)),
+        Model::VortexLattice => Ok(AirModel::VortexLattice(lattice(case)?)),
     }
+}
+
+fn lattice(case: &AirCase) -> Built<AirOptions> {
     let limit = |key: &str, value: Option<f64>| value.map(|v| positive(key, v)).transpose();
     let sheds = |edge: EdgeCase| case.shed.contains(&edge);
     let lattice = AirSettings {
@@ -63,10 +68,10 @@ pub(super) fn options(case: &AirCase) -> Built<Option<AirOptions>> {
         max_displacement: limit("air.max_displacement_m", case.max_displacement_m)?,
         clearance: not_negative("air.clearance_m", case.clearance_m)?,
     };
-    Ok(Some(AirOptions {
+    Ok(AirOptions {
         lattice,
         body_surfaces: case.body,
-    }))
+    })
 }
 
 fn core(path: &str, case: Option<&CoreCase>) -> Built<CoreModel> {

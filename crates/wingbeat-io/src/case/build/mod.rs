@@ -3,6 +3,7 @@
 //! Every step answers with a [`Fault`] that names the key it is about.
 
 mod air;
+mod blade;
 mod body;
 mod flight;
 mod motion;

@@ -5,12 +5,17 @@
 //! [`crate::case::LoadedCase`] holds the validated setup.
 
 mod air;
+mod blade;
 mod body;
 mod flight;
 mod motion;
 mod wing;
 
 pub use air::{AirCase, AirModel, CirculationRateCase, CoreCase, EdgeCase};
+pub use blade::{
+    AddedMassCase, BladeCase, BodyDragCase, OwnCoefficients, PressureCase, RotationCase,
+    ViscousCase,
+};
 pub use body::{BodyCase, OriginCase, PartCase, ProfileCase};
 pub use flight::{
     AngleOscillation, BaumgarteCase, DynamicsCase, FlightCase, Formulation, FrameCase, LoadCase,
