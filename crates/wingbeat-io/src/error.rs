@@ -105,7 +105,7 @@ impl CaseError {
 pub enum IoError {
     /// The case cannot be flown.
     #[error("{0}")]
-    Case(Box<CaseError>),
+    Case(#[from] Box<CaseError>),
     /// A preset that does not exist.
     #[error(
         "there is no case file and no preset called `{name}`{hint}; `wingbeat presets` lists the presets"

@@ -6,12 +6,12 @@ use crate::case::source::CaseSource;
 use crate::error::{CaseError, Fault};
 
 /// Decodes the document; unknown keys, missing keys and wrong types become located errors.
-pub(crate) fn decode<T: DeserializeOwned>(source: &CaseSource) -> Result<T, CaseError> {
+pub(crate) fn decode<T: DeserializeOwned>(source: &CaseSource) -> Result<T, Box<CaseError>> {
     let document = toml::Value::Table(source.table.clone());
     serde_path_to_error::deserialize(document).map_err(|e| {
         let path = e.path().to_string();
         let path = if path == "." { String::new() } else { path };
-        source.locate(explain(&path, e.inner().message()))
+        Box::new(source.locate(explain(&path, e.inner().message())))
     })
 }
 

@@ -55,7 +55,7 @@ impl LoadedCase {
         text: &str,
         base: &Path,
         overrides: &[String],
-    ) -> Result<Self, CaseError> {
+    ) -> Result<Self, IoError> {
         let source = CaseSource::new(origin, text, overrides)?;
         let mut raw: raw::Case = decode::decode(&source)?;
         let stem = Path::new(origin)
@@ -66,7 +66,7 @@ impl LoadedCase {
         let built = check_name(&name)
             .and_then(|()| files::read_in(&mut raw, base))
             .and_then(|()| build::setup(&mut raw, &name));
-        let setup = built.map_err(|fault| source.locate(fault))?;
+        let setup = built.map_err(|fault| Box::new(source.locate(fault)))?;
         let output = OutputSettings {
             frames_every: raw.output.frames_every,
             figures: raw.output.figures,
@@ -87,12 +87,7 @@ impl LoadedCase {
     pub fn from_file(path: &Path, overrides: &[String]) -> Result<Self, IoError> {
         let text = std::fs::read_to_string(path).map_err(IoError::read(path))?;
         let base = path.parent().map(Path::to_owned).unwrap_or_default();
-        Ok(Self::from_text(
-            &path.display().to_string(),
-            &text,
-            &base,
-            overrides,
-        )?)
+        Self::from_text(&path.display().to_string(), &text, &base, overrides)
     }
 
     /// Reads a case file or, where no such file exists, a preset of that name.
@@ -106,12 +101,7 @@ impl LoadedCase {
         }
         let preset = presets::find(name)?;
         let origin = format!("preset {}", preset.name);
-        Ok(Self::from_text(
-            &origin,
-            preset.text,
-            Path::new(""),
-            overrides,
-        )?)
+        Self::from_text(&origin, preset.text, Path::new(""), overrides)
     }
 
     /// The text of the case as it was written.

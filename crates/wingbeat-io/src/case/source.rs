@@ -34,7 +34,7 @@ impl CaseSource {
     ///
     /// # Errors
     /// Broken TOML, a broken override, or a number that is not finite anywhere.
-    pub fn new(name: &str, text: &str, overrides: &[String]) -> Result<Self, CaseError> {
+    pub fn new(name: &str, text: &str, overrides: &[String]) -> Result<Self, Box<CaseError>> {
         let mut source = Self {
             name: name.to_owned(),
             text: text.to_owned(),
@@ -42,14 +42,16 @@ impl CaseSource {
             overrides: vec![],
             table: Table::new(),
         };
-        let tree = DeTable::parse(text).map_err(|e| source.syntax(&e))?;
+        let tree = DeTable::parse(text).map_err(|e| Box::new(source.syntax(&e)))?;
         record_table("", tree.get_ref(), &mut source.places);
-        source.table = text.parse::<Table>().map_err(|e| source.syntax(&e))?;
+        source.table = text
+            .parse::<Table>()
+            .map_err(|e| Box::new(source.syntax(&e)))?;
         for item in overrides {
             source.apply(item)?;
         }
         let finite = check_finite("", &Value::Table(source.table.clone()));
-        finite.map_err(|fault| source.locate(fault))?;
+        finite.map_err(|fault| Box::new(source.locate(fault)))?;
         Ok(source)
     }
 
@@ -128,17 +130,20 @@ impl CaseSource {
         error
     }
 
-    fn apply(&mut self, item: &str) -> Result<(), CaseError> {
-        let wrong = |problem: String| CaseError {
-            origin: format!("--set {item}"),
-            line: None,
-            column: None,
-            key: String::new(),
-            value: None,
-            problem,
-            allowed: "KEY=VALUE with the key as in a case file".to_owned(),
-            remedy: "--set motion.frequency_hz=200 or --set 'air.stream_m_s=[1, 0, 0]'".to_owned(),
-            excerpt: None,
+    fn apply(&mut self, item: &str) -> Result<(), Box<CaseError>> {
+        let wrong = |problem: String| {
+            Box::new(CaseError {
+                origin: format!("--set {item}"),
+                line: None,
+                column: None,
+                key: String::new(),
+                value: None,
+                problem,
+                allowed: "KEY=VALUE with the key as in a case file".to_owned(),
+                remedy: "--set motion.frequency_hz=200 or --set 'air.stream_m_s=[1, 0, 0]'"
+                    .to_owned(),
+                excerpt: None,
+            })
         };
         let (key, typed) = item
             .split_once('=')

@@ -17,11 +17,9 @@ pub(super) fn build_all(case: &Case) -> Built<Vec<Wing>> {
         let side = side(name, own)?;
         let twin = twin_name(name).and_then(|n| case.wing.get_key_value(&n));
         wings.push(build(case, name, side, own, twin)?);
-        if own.mirror.unwrap_or(true) && twin.is_none() {
-            if let Some(other) = twin_name(name) {
-                let image = wings[wings.len() - 1].mirrored(&other);
-                wings.push(image);
-            }
+        let image = twin_name(name).filter(|_| own.mirror.unwrap_or(true) && twin.is_none());
+        if let Some(other) = image {
+            wings.push(wings[wings.len() - 1].mirrored(&other));
         }
     }
     wings.sort_by(|a, b| a.name.cmp(&b.name));
@@ -31,7 +29,7 @@ pub(super) fn build_all(case: &Case) -> Built<Vec<Wing>> {
 /// The wing of the case a wing of the animal was made from.
 pub(super) fn source_of(case: &Case, wing: &str) -> String {
     match twin_name(wing) {
-        Some(twin) if !case.wing.get(wing).is_some_and(|w| w.hinge_m.is_some()) => twin,
+        Some(twin) if case.wing.get(wing).is_none_or(|w| w.hinge_m.is_none()) => twin,
         _ => wing.to_owned(),
     }
 }
