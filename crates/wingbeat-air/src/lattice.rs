@@ -87,6 +87,7 @@ impl Lattice {
             gamma: vec![0.0; self.panel_count()],
             gamma_before: vec![0.0; self.panel_count()],
             position: motion.position.clone(),
+            velocity: motion.velocity.clone(),
             inner_momentum: vec![DVec3::ZERO; self.surfaces.len()],
             sheets: self.sheets().iter().map(sheet).collect(),
             ..AirState::default()
@@ -103,7 +104,10 @@ impl Lattice {
         if state.gamma.len() != panels || state.gamma_before.len() != panels {
             return mismatch("number of panels");
         }
-        if state.position.len() != self.node_count() {
+        if [&state.position, &state.velocity]
+            .iter()
+            .any(|x| x.len() != self.node_count())
+        {
             return mismatch("number of nodes");
         }
         if state.inner_momentum.len() != self.surfaces.len() {

@@ -35,6 +35,7 @@
 
 pub mod blade;
 mod closed;
+mod contact;
 pub mod error;
 pub mod filaments;
 mod influence;

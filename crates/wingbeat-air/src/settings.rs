@@ -73,8 +73,8 @@ pub struct AirSettings {
     /// Longest way a wake node may go in a step, relative to the undisturbed air [m]; longer
     /// ones are shortened and counted.
     pub max_displacement: Option<f64>,
-    /// Free wake nodes over a panel at less than this height [m] are counted as near a surface;
-    /// 0 counts none. The core radius is the natural choice.
+    /// Free wake nodes keep this distance [m] from surfaces and do not pass through them; the
+    /// core radius is the natural choice. 0 lets them pass (the published benchmark).
     pub clearance: f64,
 }
 

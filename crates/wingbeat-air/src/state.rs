@@ -61,7 +61,7 @@ impl WakeSheet {
 pub struct WakeEvents {
     /// Displacements shortened to [`crate::AirSettings::max_displacement`].
     pub limited: u64,
-    /// Wake nodes found over a panel at less than [`crate::AirSettings::clearance`].
+    /// Wake nodes kept at [`crate::AirSettings::clearance`] from a surface.
     pub near_surface: u64,
 }
 
@@ -89,6 +89,8 @@ pub struct AirState {
     pub dt_before: f64,
     /// Positions of the surface nodes at the last accepted step [m], N.
     pub position: Vec<DVec3>,
+    /// Their velocities [m/s], N.
+    pub velocity: Vec<DVec3>,
     /// Momentum of the fictitious fluid inside each surface (zero for open ones) at the last
     /// accepted step [kg m/s], N.
     pub inner_momentum: Vec<DVec3>,

@@ -1,5 +1,6 @@
 //! From step to step: accepting a step, moving and shedding the wakes.
 
+use crate::contact::Obstacles;
 use crate::error::AirError;
 use crate::kernel::Points;
 use crate::lattice::Lattice;
@@ -34,6 +35,7 @@ impl Lattice {
         state.gamma.copy_from_slice(&loads.gamma);
         state.dt_before = loads.dt;
         state.position.copy_from_slice(&motion.position);
+        state.velocity.copy_from_slice(&motion.velocity);
         state.inner_momentum.copy_from_slice(&loads.inner_momentum);
         state.time = loads.time;
         state.step += 1;
@@ -74,8 +76,7 @@ impl Lattice {
         velocity.reset(targets.len());
         bound_sum.add(settings.bound_core, &filaments.bound, targets, velocity);
         wake_sum.add(settings.wake_core, &filaments.wake, targets, velocity);
-        let mut events = self.move_sheets(state, dt, ws)?;
-        events.near_surface = self.count_near_surface(state);
+        let events = self.move_sheets(state, dt, ws)?;
         state.events += events;
         state.wake_due = false;
         Ok(events)
@@ -94,6 +95,7 @@ impl Lattice {
         dt: f64,
         ws: &AirWorkspace,
     ) -> Result<WakeEvents, AirError> {
+        let obstacles = Obstacles::new(self, state, dt);
         let (gamma, time, step) = (&state.gamma, state.time, state.step);
         let mut mover = Mover {
             nodes: &ws.filaments.wake.nodes,
@@ -101,8 +103,9 @@ impl Lattice {
             stream: self.settings().free_stream,
             limit: self.settings().max_displacement.unwrap_or(f64::INFINITY),
             dt,
+            obstacles: &obstacles,
             next: 0,
-            limited: 0,
+            events: WakeEvents::default(),
         };
         for (k, (sheet, root)) in state.sheets.iter_mut().zip(self.sheets()).enumerate() {
             mover
@@ -117,29 +120,7 @@ impl Lattice {
             shed(sheet, root, gamma, time);
             sheet.keep(self.settings().max_rows.unwrap_or(usize::MAX));
         }
-        Ok(WakeEvents {
-            limited: mover.limited,
-            near_surface: 0,
-        })
-    }
-
-    /// Free wake nodes, the row just shed apart, that stand over a panel at less than the
-    /// clearance.
-    fn count_near_surface(&self, state: &AirState) -> u64 {
-        let clearance = self.settings().clearance;
-        if clearance <= 0.0 {
-            return 0;
-        }
-        let near = |x: DVec3| {
-            let mut panels = self.topology().panels.iter();
-            panels.any(|c| stands_over(x, c.map(|n| state.position[n]), clearance))
-        };
-        let old = |sheet: &WakeSheet| (sheet.rows() - 1) * (sheet.columns + 1);
-        let count = |sheet: &WakeSheet| {
-            let nodes = sheet.nodes.iter().take(old(sheet));
-            nodes.filter(|&x| near(x)).count() as u64
-        };
-        state.sheets.iter().map(count).sum()
+        Ok(mover.events)
     }
 
     /// Velocity of the air [m/s] at `points` [m], N, in the accepted step; `out` is resized. At a
@@ -189,8 +170,9 @@ struct Mover<'a> {
     stream: DVec3,
     limit: f64,
     dt: f64,
+    obstacles: &'a Obstacles,
     next: usize,
-    limited: u64,
+    events: WakeEvents,
 }
 
 impl Mover<'_> {
@@ -198,17 +180,20 @@ impl Mover<'_> {
     /// row. The error is (row from the newest, column, velocity).
     fn move_nodes(&mut self, sheet: &mut WakeSheet) -> Result<(), (usize, usize, DVec3)> {
         let (rows, width) = (sheet.rows() + 1, sheet.columns + 1);
-        sheet.nodes.clear();
-        for k in 0..rows * width {
-            let x = self.nodes.get(self.next);
-            let v = self.velocity.get(self.next);
-            let moved = x + self.dt * self.stream + self.displacement(v);
-            if !moved.is_finite() {
-                return Err((rows - 1 - k / width, k % width, v));
+        let nodes = self.next..self.next + rows * width;
+        self.next = nodes.end;
+        let from: Vec<DVec3> = nodes.clone().map(|k| self.nodes.get(k)).collect();
+        let mut to = from.clone();
+        for (i, k) in nodes.enumerate() {
+            let v = self.velocity.get(k);
+            to[i] += self.dt * self.stream + self.displacement(v);
+            if !to[i].is_finite() {
+                return Err((rows - 1 - i / width, i % width, v));
             }
-            sheet.nodes.push(moved);
-            self.next += 1;
         }
+        self.events.near_surface += self.obstacles.keep_off(&from, &mut to);
+        sheet.nodes.clear();
+        to.into_iter().for_each(|x| sheet.nodes.push(x));
         Ok(())
     }
 
@@ -217,7 +202,7 @@ impl Mover<'_> {
         let d = self.dt * v;
         let length = d.length();
         if length > self.limit {
-            self.limited += 1;
+            self.events.limited += 1;
             return d * (self.limit / length);
         }
         d
@@ -230,17 +215,4 @@ fn shed(sheet: &mut WakeSheet, root: &Sheet, gamma: &[f64], time: f64) {
         sheet.gamma.push(sign * gamma[panel]);
     }
     sheet.shed_time.push(time);
-}
-
-/// Whether `x` is less than `height` over or under the quadrilateral `c`, its projection inside.
-fn stands_over(x: DVec3, c: [DVec3; 4], height: f64) -> bool {
-    let normal = (c[2] - c[0]).cross(c[3] - c[1]).normalize_or_zero();
-    let centre = 0.25 * ((c[0] + c[1]) + (c[2] + c[3]));
-    if (x - centre).dot(normal).abs() >= height {
-        return false;
-    }
-    (0..4).all(|k| {
-        let (a, b) = (c[k], c[(k + 1) % 4]);
-        (b - a).cross(x - a).dot(normal) >= 0.0
-    })
 }
