@@ -1,7 +1,7 @@
 //! Force against the rate of change of the impulse of all vorticity.
 
 use crate::common::{fly, order, rectangle, total_force, translating};
-use wingbeat_air::{AirSettings, Lattice, SheddingKinds, Surface};
+use wingbeat_air::{AirLoads, AirSettings, CirculationRate, Lattice, SheddingKinds, Surface};
 use wingbeat_math::DVec3;
 
 const NONE: SheddingKinds = SheddingKinds {
@@ -94,4 +94,33 @@ fn limit_added_mass_of_a_long_plate() {
     });
     println!("added mass of a long plate {errors:.4?}");
     assert!(errors[1].abs() < 0.08 && order(errors[0], errors[1]) > 0.8);
+}
+
+/// A heaving plate without wake has circulation in proportion to its speed 3 t^2, a polynomial that
+/// the two-step difference differentiates exactly, even with steps of different lengths.
+#[test]
+fn exact_second_order_rate_of_a_quadratic_circulation() {
+    let settings = AirSettings {
+        rate: CirculationRate::BackwardSecond,
+        ..wing(3, 3, NONE).settings().clone()
+    };
+    let lattice = Lattice::new(vec![Surface::grid("wing", 3, 3)], settings).unwrap();
+    let flat = rectangle(3, 3, DVec3::X, DVec3::Y);
+    let at = |t: f64| translating(flat.clone(), 3.0 * t * t * DVec3::Z);
+    let mut state = lattice.initial_state(&at(0.0));
+    let (mut ws, mut loads) = (lattice.workspace(), AirLoads::default());
+    let times = [0.1, 0.2, 0.35, 0.4];
+    for (k, &t) in times.iter().enumerate() {
+        let dt = t - times[k.saturating_sub(1)];
+        let now = at(t);
+        lattice
+            .loads(&state, t, dt, &now, &mut ws, &mut loads)
+            .unwrap();
+        lattice.accept(&mut state, &now, &loads).unwrap();
+        lattice.convect(&mut state, 0.05, &mut ws).unwrap();
+    }
+    let t = 0.4;
+    for (gamma, rate) in loads.gamma.iter().zip(&loads.gamma_rate) {
+        assert!((rate - gamma * 2.0 / t).abs() < 1e-12); // roundings over steps of 0.05
+    }
 }
