@@ -61,41 +61,52 @@ impl DirectSum {
     /// Adds to `out` \[m/s\] the velocity of all sources at the `targets` \[m\]; same bits for any
     /// number of threads of the current rayon pool.
     pub fn add_velocity(&self, targets: &Points, out: &mut Points) {
-        let n = targets.len();
-        assert_eq!(n, out.len(), "as many velocities as targets");
-        let tasks = TASK_PAIRS.div_ceil((BLOCK * self.packed.edges.len()).max(1));
-        let Points { x, y, z } = out;
-        x.par_chunks_mut(BLOCK)
-            .zip(y.par_chunks_mut(BLOCK))
-            .zip(z.par_chunks_mut(BLOCK))
-            .enumerate()
-            .with_min_len(tasks)
-            .for_each(|(b, ((x, y), z))| self.add_block(targets, b * BLOCK, [x, y, z]));
+        sum_all(self.level, self.model, &self.packed, targets, out);
     }
+}
 
-    /// The targets from `first` on, as many as `out` is long.
-    fn add_block(&self, targets: &Points, first: usize, out: [&mut [f64]; 3]) {
-        let count = out[0].len();
-        let mut block = Block::ZERO;
-        let own = first..first + count;
-        block.x[..count].copy_from_slice(&targets.x[own.clone()]);
-        block.y[..count].copy_from_slice(&targets.y[own.clone()]);
-        block.z[..count].copy_from_slice(&targets.z[own]);
-        let mut sum = Block::ZERO;
-        let all = 0..self.packed.patches.len();
-        add_patches(
-            self.level,
-            self.model,
-            &self.packed,
-            &[all],
-            &block,
-            count,
-            &mut sum,
-        );
-        for (out, sum) in out.into_iter().zip([&sum.x, &sum.y, &sum.z]) {
-            out.iter_mut().zip(sum).for_each(|(o, s)| *o += s);
-        }
-    }
+/// Adds the velocity of all of `packed` at all targets, block by block.
+pub(crate) fn sum_all(
+    level: Level,
+    model: CoreModel,
+    packed: &Packed,
+    targets: &Points,
+    out: &mut Points,
+) {
+    assert_eq!(targets.len(), out.len(), "as many velocities as targets");
+    let blocks = TASK_PAIRS.div_ceil((BLOCK * packed.edges.len()).max(1));
+    let all = 0..packed.patches.len();
+    let Points { x, y, z } = out;
+    x.par_chunks_mut(BLOCK)
+        .zip(y.par_chunks_mut(BLOCK))
+        .zip(z.par_chunks_mut(BLOCK))
+        .enumerate()
+        .with_min_len(blocks)
+        .for_each(|(b, ((x, y), z))| {
+            let (block, mut sum) = (block_at(targets, b * BLOCK, x.len()), Block::ZERO);
+            add_patches(
+                level,
+                model,
+                packed,
+                std::slice::from_ref(&all),
+                &block,
+                x.len(),
+                &mut sum,
+            );
+            for (out, sum) in [x, y, z].into_iter().zip([&sum.x, &sum.y, &sum.z]) {
+                out.iter_mut().zip(sum).for_each(|(o, s)| *o += s);
+            }
+        });
+}
+
+/// `count` targets from `first` on.
+fn block_at(targets: &Points, first: usize, count: usize) -> Block {
+    let mut block = Block::ZERO;
+    let own = first..first + count;
+    block.x[..count].copy_from_slice(&targets.x[own.clone()]);
+    block.y[..count].copy_from_slice(&targets.y[own.clone()]);
+    block.z[..count].copy_from_slice(&targets.z[own]);
+    block
 }
 
 /// Adds to `out` \[m/s\] the velocity of `segments` at `targets`: [`DirectSum`] in one call, for

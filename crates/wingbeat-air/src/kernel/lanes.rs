@@ -123,13 +123,13 @@ type Window<S> = [[<S as Simd>::f64s; 4]; WINDOW];
 
 /// The vectors in the lanes from `lane` on.
 #[inline(always)]
-fn load<S: Simd>(simd: S, block: &Block, lane: usize) -> [S::f64s; 3] {
+pub(crate) fn load<S: Simd>(simd: S, block: &Block, lane: usize) -> [S::f64s; 3] {
     [&block.x, &block.y, &block.z].map(|c| S::f64s::from_slice(simd, &c[lane..lane + S::f64s::LEN]))
 }
 
 /// Puts vectors into the lanes from `lane` on.
 #[inline(always)]
-fn store<S: Simd>([x, y, z]: [S::f64s; 3], block: &mut Block, lane: usize) {
+pub(crate) fn store<S: Simd>([x, y, z]: [S::f64s; 3], block: &mut Block, lane: usize) {
     x.store_slice(&mut block.x[lane..lane + S::f64s::LEN]);
     y.store_slice(&mut block.y[lane..lane + S::f64s::LEN]);
     z.store_slice(&mut block.z[lane..lane + S::f64s::LEN]);

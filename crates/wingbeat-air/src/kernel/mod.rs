@@ -16,21 +16,32 @@
 //!
 //! Vectors are in the inertial frame N.
 //!
+//! Two sums: [`DirectSum`] takes every segment at every target; [`FastSum`] sums far segments by the
+//! expansions of the cells of a tree, to a tolerance that it checks at every call.
+//!
 //! Promises: the same bits for every instruction set ([`InstructionSet`]) and any number of threads;
 //! never NaN or infinite for finite input, on a node and on a filament included; nothing is
 //! allocated after the first call with a given size.
 //!
 //! What it does not know: panels, wings, wakes, time.
 
+mod cells;
 mod direct;
+mod fast;
+mod groups;
+mod harmonics;
+#[cfg(test)]
+mod harmonics_tests;
 mod instruction_set;
 mod lanes;
 mod model;
+mod moments;
 mod packed;
 pub mod reference;
 mod sources;
 
 pub use direct::{DirectSum, add_velocity};
+pub use fast::{FastSettings, FastSum, Method, Report};
 pub use instruction_set::InstructionSet;
 pub use model::CoreModel;
 pub use sources::{Network, Points, Segments};

@@ -199,6 +199,22 @@ impl Network {
         self.core.push(core);
     }
 
+    /// Makes it these segments, two nodes each.
+    pub fn set_segments(&mut self, segments: &Segments) {
+        self.clear();
+        for i in 0..segments.len() {
+            self.nodes.push(segments.a(i));
+            self.nodes.push(segments.b(i));
+            self.push_edge(2 * i, 2 * i + 1, segments.gamma[i], segments.core[i]);
+        }
+    }
+
+    /// Start and end of edge `e` \[m\].
+    pub fn ends(&self, e: usize) -> (DVec3, DVec3) {
+        let [i, j] = self.edges[e];
+        (self.nodes.get(i as usize), self.nodes.get(j as usize))
+    }
+
     /// The same segments with their own end points.
     pub fn to_segments(&self) -> Segments {
         let mut out = Segments::default();

@@ -1,0 +1,269 @@
+//! The fast sum: near sources one by one, far ones cell by cell, with a checked error.
+
+use super::cells::Cells;
+use super::direct::sum_all;
+use super::groups::Groups;
+use super::instruction_set::InstructionSet;
+use super::lanes::{BLOCK, Block, add_patches};
+use super::model::CoreModel;
+use super::sources::{Network, Points, Segments};
+use rayon::prelude::*;
+use wingbeat_math::DVec3;
+
+/// Edges and targets from which the tree is the faster one.
+const AUTO_EDGES: usize = 4000;
+const AUTO_TARGETS: usize = 256;
+
+/// Targets at which the tree is checked against the direct sum.
+const SAMPLES: usize = BLOCK;
+
+/// What a far cell may leave out, in parts of the tolerance: many cells add up, with either sign.
+const SHARE: f64 = 0.03;
+
+/// Attempts at the tolerance before the direct sum takes over.
+const ATTEMPTS: usize = 4;
+
+/// How to sum.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Method {
+    /// The one that is faster at this size.
+    #[default]
+    Auto,
+    /// Every source at every target.
+    Direct,
+    /// Far sources by cells.
+    Tree,
+}
+
+/// Settings of a [`FastSum`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FastSettings {
+    /// Regularisation.
+    pub model: CoreModel,
+    /// Allowed error: root mean square over targets, relative to that of the velocity.
+    pub tolerance: f64,
+    /// Tree or direct.
+    pub method: Method,
+    /// Vector instructions.
+    pub instructions: InstructionSet,
+}
+
+impl FastSettings {
+    /// Tolerance 1e-4, method and instructions chosen by themselves.
+    pub fn new(model: CoreModel) -> Self {
+        let instructions = InstructionSet::Best;
+        Self {
+            model,
+            tolerance: 1e-4,
+            method: Method::Auto,
+            instructions,
+        }
+    }
+}
+
+/// What a sum did and how well.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Report {
+    /// Tree or direct, never [`Method::Auto`].
+    pub method: Method,
+    /// Root mean square of the error at the sampled targets, relative to that of the velocity there.
+    pub error_rms: f64,
+    /// Largest error at a sampled target, relative to the root mean square of the velocity.
+    pub error_max: f64,
+    /// Targets sampled; 0 for the direct sum, which has no error to speak of.
+    pub samples: usize,
+    /// Attempts it took to keep the tolerance.
+    pub attempts: usize,
+    /// Evaluations of an expansion (cell, target).
+    pub far: u64,
+    /// Evaluations of the kernel (edge, target), the check not included.
+    pub near: u64,
+}
+
+/// A sum that is direct for small sets and a tree for large ones, its error measured at every call.
+///
+/// The tree is a deterministic function of sources, targets and settings: same bits for any number
+/// of threads and any instructions. Its cost is about N log N, its memory linear, and nothing is
+/// allocated after the first call of a size.
+///
+/// ```
+/// use wingbeat_air::kernel::{CoreModel, FastSettings, FastSum, Network, Points};
+/// use wingbeat_math::DVec3;
+/// let model = CoreModel::Vatistas { radius: 0.1 };
+/// let mut ring = Network::default();
+/// (0..4).for_each(|k| ring.nodes.push(DVec3::new((k & 1) as f64, (k >> 1) as f64, 0.0)));
+/// [(0, 1), (1, 3), (3, 2), (2, 0)].map(|(a, b)| ring.push_edge(a, b, 1.0, model.core(1.0, 0.0)));
+/// let mut sum = FastSum::new(FastSettings::new(model));
+/// sum.load_network(&ring);
+/// let mut v = Points::zeros(1);
+/// let report = sum.add_velocity(&Points::from_iter([DVec3::new(0.5, 0.5, 0.0)]), &mut v);
+/// assert!(v.z[0] > 0.0 && report.error_rms == 0.0);
+/// ```
+#[derive(Clone, Debug)]
+pub struct FastSum {
+    settings: FastSettings,
+    cells: Cells,
+    has_tree: bool,
+    groups: Groups,
+    segments: Network,
+}
+
+impl FastSum {
+    /// No sources yet. Instructions this processor lacks are replaced by the best it has.
+    pub fn new(settings: FastSettings) -> Self {
+        let best = || {
+            InstructionSet::Best
+                .level()
+                .expect("the best is always there")
+        };
+        let level = settings.instructions.level().unwrap_or_else(best);
+        let cells = Cells::new(settings.model, level, order(settings.tolerance));
+        let (groups, segments) = (Groups::default(), Network::default());
+        Self {
+            settings,
+            cells,
+            has_tree: false,
+            groups,
+            segments,
+        }
+    }
+
+    /// Replaces the sources.
+    pub fn load_network(&mut self, network: &Network) {
+        self.has_tree = match self.settings.method {
+            Method::Auto => network.len() >= AUTO_EDGES,
+            Method::Direct => false,
+            Method::Tree => !network.is_empty(),
+        };
+        match self.has_tree {
+            true => self.cells.load(network),
+            false => self.cells.packed.load_network(self.settings.model, network),
+        }
+    }
+
+    /// Replaces the sources by free segments; a network is summed twice as fast.
+    pub fn load_segments(&mut self, segments: &Segments) {
+        let mut network = std::mem::take(&mut self.segments);
+        network.set_segments(segments);
+        self.load_network(&network);
+        self.segments = network;
+    }
+
+    /// Adds to `out` \[m/s\] the velocity of all sources at the `targets` \[m\].
+    pub fn add_velocity(&mut self, targets: &Points, out: &mut Points) -> Report {
+        assert_eq!(targets.len(), out.len(), "as many velocities as targets");
+        let few = self.settings.method == Method::Auto && targets.len() < AUTO_TARGETS;
+        if !self.has_tree || few || targets.is_empty() {
+            return self.add_direct(targets, out, 0);
+        }
+        let check = Check::new(&self.cells, targets);
+        self.groups.load(targets);
+        let mut share = SHARE;
+        for attempt in 1..=ATTEMPTS {
+            let allowed = share * self.settings.tolerance * check.scale;
+            let work = self.groups.evaluate(&self.cells, allowed);
+            let (error_rms, error_max) = check.error(&self.groups);
+            if error_rms <= self.settings.tolerance {
+                self.groups.add_to(out);
+                return Report {
+                    method: Method::Tree,
+                    error_rms,
+                    error_max,
+                    samples: check.count,
+                    attempts: attempt,
+                    far: work.far,
+                    near: work.near,
+                };
+            }
+            share *= 0.3 * self.settings.tolerance / error_rms;
+        }
+        self.add_direct(targets, out, ATTEMPTS)
+    }
+
+    fn add_direct(&self, targets: &Points, out: &mut Points, attempts: usize) -> Report {
+        let Cells {
+            level,
+            model,
+            packed,
+            ..
+        } = &self.cells;
+        sum_all(*level, *model, packed, targets, out);
+        Report {
+            method: Method::Direct,
+            error_rms: 0.0,
+            error_max: 0.0,
+            samples: 0,
+            attempts,
+            far: 0,
+            near: (packed.edges.len() * targets.len()) as u64,
+        }
+    }
+}
+
+/// Order of the expansions that is cheapest at this tolerance.
+fn order(tolerance: f64) -> usize {
+    match tolerance {
+        t if t >= 2e-3 => 4,
+        t if t >= 2e-5 => 6,
+        t if t >= 2e-7 => 8,
+        t if t >= 2e-9 => 10,
+        _ => 12,
+    }
+}
+
+/// The direct sum at targets spread evenly over their numbers.
+struct Check {
+    count: usize,
+    index: [usize; SAMPLES],
+    velocity: [DVec3; SAMPLES],
+    /// Root mean square velocity [m/s].
+    scale: f64,
+}
+
+impl Check {
+    fn new(cells: &Cells, targets: &Points) -> Self {
+        let count = targets.len().min(SAMPLES);
+        let index = std::array::from_fn(|k| k.min(count - 1) * targets.len() / count);
+        let mut velocity = [DVec3::ZERO; SAMPLES];
+        // Eight targets to a task: one vector of the widest processors.
+        velocity[..count]
+            .par_chunks_mut(8)
+            .zip(index.par_chunks(8))
+            .for_each(|(v, index)| {
+                let (mut block, mut sum) = (Block::ZERO, Block::ZERO);
+                for (lane, &i) in index.iter().enumerate() {
+                    (block.x[lane], block.y[lane], block.z[lane]) = targets.get(i).into();
+                }
+                let Cells {
+                    level,
+                    model,
+                    packed,
+                    ..
+                } = cells;
+                let all = 0..packed.patches.len();
+                add_patches(*level, *model, packed, &[all], &block, v.len(), &mut sum);
+                let vector = |lane: usize| DVec3::new(sum.x[lane], sum.y[lane], sum.z[lane]);
+                v.iter_mut()
+                    .enumerate()
+                    .for_each(|(lane, v)| *v = vector(lane));
+            });
+        let square: f64 = velocity[..count].iter().map(|v| v.length_squared()).sum();
+        Self {
+            count,
+            index,
+            velocity,
+            scale: (square / count as f64).sqrt(),
+        }
+    }
+
+    /// Root mean square and largest error, relative to the scale; zero where nothing moves.
+    fn error(&self, groups: &Groups) -> (f64, f64) {
+        let exact = self.velocity[..self.count].iter().zip(&self.index);
+        let square = exact.map(|(v, &i)| groups.velocity(i).distance_squared(*v));
+        let (sum, max) = square.fold((0.0, 0.0), |(sum, max): (f64, f64), e| {
+            (sum + e, max.max(e))
+        });
+        let scale = if self.scale > 0.0 { self.scale } else { 1.0 };
+        ((sum / self.count as f64).sqrt() / scale, max.sqrt() / scale)
+    }
+}
