@@ -6,7 +6,7 @@ use common::*;
 use wingbeat_dynamics::{
     Baumgarte, BodyMotion, DynamicsError, EulerForm, Formulation, MomentumForm,
 };
-use wingbeat_math::ode::{Convergence, Hamming, Multistep, Rk4, block_start};
+use wingbeat_math::ode::{Convergence, Hamming, Memoryless, Multistep, Rk4, block_start};
 use wingbeat_math::{DMat3, DQuat, DVec3, MassProperties};
 
 /// Duration of the compared flights, in wingbeats.
@@ -225,10 +225,14 @@ fn hamming(form: &dyn Formulation, h: f64, steps: usize) -> (Multistep, Hamming)
         max_passes: 60,
         relaxation: 1.0,
     };
-    let (mut past, _) = block_start(&y0, h, tight, &form.scales(), |y, f| {
-        (0..4).try_for_each(|k| flight.rates(k as f64 * h, &y[k], &mut f[k]))
-    })
-    .unwrap();
+    let mut f0 = vec![0.0; form.dim()];
+    flight.rates(0.0, &y0, &mut f0).unwrap();
+    let mut replay = Memoryless {
+        t0: 0.0,
+        step: h,
+        rates: |t, y: &[f64], f: &mut [f64]| flight.rates(t, y, f),
+    };
+    let (mut past, _) = block_start(&y0, &f0, h, tight, &form.scales(), &mut replay).unwrap();
     let mut method = Hamming::new(h, FIXED, form.scales());
     go_on(&mut flight, &mut method, &mut past, 3, steps);
     (past, method)

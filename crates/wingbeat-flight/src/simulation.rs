@@ -6,7 +6,9 @@
 use std::sync::Arc;
 
 use wingbeat_air::AirState;
-use wingbeat_math::ode::{Convergence, Hamming, Multistep, StepError, StepReport, block_start};
+use wingbeat_math::ode::{
+    Convergence, Hamming, Multistep, Replay, StepError, StepReport, block_start,
+};
 
 use crate::equations::{Equations, QUADRATURES, Scratch};
 use crate::error::FlightError;
@@ -250,23 +252,18 @@ impl Simulation {
     fn start(&mut self) -> Result<(), FlightError> {
         let equations = &self.stages[self.state.stage].equations;
         let (h, first, state) = (self.setup.time.step, self.state.step, &mut self.state);
-        let f0 = state.past.f[0].clone();
-        let mut scratch = Scratch::new(equations);
-        let sweep = |y: &[Vec<f64>; 4], f: &mut [Vec<f64>; 4]| {
-            f[0].copy_from_slice(&f0);
-            let mut air = state.air.clone();
-            for k in 1..4 {
-                let t = (first + k) as f64 * h;
-                equations.advance_air(&mut air, &mut scratch)?;
-                equations.evaluate(t, &y[k], air.as_ref(), &mut scratch, &mut f[k])?;
-                equations.accept_air(&mut air, &scratch)?;
-            }
-            Ok(())
+        let mut start = Start {
+            equations,
+            scratch: Scratch::new(equations),
+            first,
+            at_start: &state.air,
+            air: None,
         };
-        let (y0, convergence) = (state.past.y[0].clone(), convergence(&self.setup.corrector));
-        let scales = equations.scales();
-        let (past, report) = block_start(&y0, h, convergence, &scales, sweep)
-            .map_err(|e| failure(e, first + 3, (first + 3) as f64 * h, &self.setup.corrector))?;
+        let (y0, f0) = (&state.past.y[0], &state.past.f[0]);
+        let convergence = convergence(&self.setup.corrector);
+        let (past, report) =
+            block_start(y0, f0, h, convergence, &equations.scales(), &mut start)
+                .map_err(|e| failure(e, first + 1, start.time(1), &self.setup.corrector))?;
         (state.past, state.start_report) = (past, report);
         Ok(())
     }
@@ -303,6 +300,42 @@ impl Simulation {
             (None, None) => Ok(()),
             _ => misfit("air".into(), "only one of case and state has air"),
         }
+    }
+}
+
+/// The coupled right-hand side over the starting steps: the wake is replayed with them.
+struct Start<'a> {
+    equations: &'a Equations,
+    scratch: Scratch,
+    first: usize,
+    at_start: &'a Option<AirState>,
+    air: Option<AirState>,
+}
+
+impl Start<'_> {
+    fn time(&self, k: usize) -> f64 {
+        (self.first + k) as f64 * self.equations.step
+    }
+}
+
+impl Replay for Start<'_> {
+    type Error = FlightError;
+
+    fn enter(&mut self, k: usize) -> Result<(), FlightError> {
+        if k == 1 {
+            self.air.clone_from(self.at_start);
+        }
+        self.equations.advance_air(&mut self.air, &mut self.scratch)
+    }
+
+    fn rates(&mut self, k: usize, y: &[f64], f: &mut [f64]) -> Result<(), FlightError> {
+        let t = self.time(k);
+        self.equations
+            .evaluate(t, y, self.air.as_ref(), &mut self.scratch, f)
+    }
+
+    fn leave(&mut self, _k: usize) -> Result<(), FlightError> {
+        self.equations.accept_air(&mut self.air, &self.scratch)
     }
 }
 

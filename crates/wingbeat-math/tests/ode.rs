@@ -2,7 +2,9 @@
 
 use std::convert::Infallible;
 
-use wingbeat_math::ode::{Convergence, Hamming, Multistep, Rk4, StepError, block_start};
+use wingbeat_math::ode::{
+    Convergence, Hamming, Memoryless, Multistep, Rk4, StepError, block_start,
+};
 
 const CONVERGENCE: Convergence = Convergence {
     tolerance: 1e-13,
@@ -26,13 +28,17 @@ fn error(y: &[f64], t: f64) -> f64 {
 }
 
 fn started(h: f64) -> Multistep {
-    let sweep = |y: &[Vec<f64>; 4], f: &mut [Vec<f64>; 4]| {
-        for k in 0..4 {
-            rates(k as f64 * h, &y[k], &mut f[k]);
-        }
-        Ok::<(), Infallible>(())
+    let mut f0 = vec![0.0; 2];
+    rates(0.0, &exact(0.0), &mut f0);
+    let mut replay = Memoryless {
+        t0: 0.0,
+        step: h,
+        rates: |t, y: &[f64], f: &mut [f64]| {
+            rates(t, y, f);
+            Ok::<(), Infallible>(())
+        },
     };
-    block_start(&exact(0.0), h, CONVERGENCE, &[1.0; 2], sweep)
+    block_start(&exact(0.0), &f0, h, CONVERGENCE, &[1.0; 2], &mut replay)
         .expect("a start")
         .0
 }

@@ -11,7 +11,7 @@ pub mod start;
 
 pub use hamming::{Convergence, Hamming, Multistep, StepReport};
 pub use runge_kutta::Rk4;
-pub use start::block_start;
+pub use start::{Memoryless, Replay, block_start};
 
 /// Why a step failed.
 #[derive(Clone, Debug, PartialEq)]

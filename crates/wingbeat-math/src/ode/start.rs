@@ -1,6 +1,6 @@
-//! Starting values of order four (error of y three steps on: fifth power of h) by iterating the
-//! implicit block formulas that integrate the cubic through f[0] to f[3]
-//! [Hairer, Norsett & Wanner, Solving ODEs I, sec. III.1, ex. 1]:
+//! Starting values of order four (error of y three steps on: fifth power of h) by the implicit
+//! block formulas that integrate the cubic through f[0] to f[3]
+//! [Hairer, Norsett & Wanner, Solving ODEs I, sec. III.1]:
 //!
 //! ```text
 //! y1 = y0 +  h/24 (9 f0 + 19 f1 - 5 f2 + f3)
@@ -8,60 +8,169 @@
 //! y3 = y0 + 3h/8  (f0 + 3 f1 + 3 f2 + f3)
 //! ```
 //!
-//! Each iteration sweeps once over the three steps in order, so a right-hand side with a history
-//! (a wake) is replayed from the start with the current iterate.
+//! The three steps are swept in order, again and again, each with the latest rates of the others;
+//! the first sweep makes do with the trapezoidal rule and Adams-Moulton. Within a step y and f are
+//! iterated until they agree. A right-hand side with a history (a wake) is replayed from the
+//! start in every sweep and frozen within a step, as it will be later on.
 
 use super::hamming::{Convergence, Multistep, StepReport};
 use super::{StepError, scaled_difference};
 
-/// Three starting steps of size `step` from `y0`. `sweep(y, f)` fills the rates `f[k]` of the
-/// four states `y[k]` at the times `t0 + k h`, in order.
+/// Most sweeps over the three starting steps. Smooth right-hand sides converge in six or so; a
+/// history that reacts to the smallest change (a wake that passes a wing on this or on that side)
+/// may not settle below its own jumps, which the report then shows.
+const MAX_SWEEPS: usize = 12;
+
+/// A right-hand side that is replayed over the starting steps.
+pub trait Replay {
+    /// What can go wrong.
+    type Error;
+
+    /// Enters starting step `k` (1 to 3), at the time t0 + k h: moves the history there and
+    /// freezes it. Entering step 1 begins anew from the start.
+    ///
+    /// # Errors
+    /// The history cannot be moved.
+    fn enter(&mut self, k: usize) -> Result<(), Self::Error>;
+
+    /// The rates `f` of the state `y` in starting step `k`.
+    ///
+    /// # Errors
+    /// The right-hand side fails.
+    fn rates(&mut self, k: usize, y: &[f64], f: &mut [f64]) -> Result<(), Self::Error>;
+
+    /// Leaves starting step `k`; the state last evaluated is accepted.
+    ///
+    /// # Errors
+    /// The history cannot be kept.
+    fn leave(&mut self, k: usize) -> Result<(), Self::Error>;
+}
+
+/// A right-hand side `rates(t, y, f)` without a history.
+pub struct Memoryless<F> {
+    /// Time of the start [s].
+    pub t0: f64,
+    /// Step h [s].
+    pub step: f64,
+    /// The right-hand side.
+    pub rates: F,
+}
+
+impl<E, F: FnMut(f64, &[f64], &mut [f64]) -> Result<(), E>> Replay for Memoryless<F> {
+    type Error = E;
+
+    fn enter(&mut self, _k: usize) -> Result<(), E> {
+        Ok(())
+    }
+
+    fn rates(&mut self, k: usize, y: &[f64], f: &mut [f64]) -> Result<(), E> {
+        (self.rates)(self.t0 + k as f64 * self.step, y, f)
+    }
+
+    fn leave(&mut self, _k: usize) -> Result<(), E> {
+        Ok(())
+    }
+}
+
+/// Three starting steps of size `step` from the state `y0` with the rates `f0`.
 ///
 /// # Errors
-/// The right-hand side fails; the iteration does not converge to `convergence.tolerance` (a zero
-/// tolerance makes `max_passes` sweeps and never fails).
-pub fn block_start<E>(
+/// The right-hand side fails; y and f of a step do not agree to `convergence`.
+pub fn block_start<R: Replay>(
     y0: &[f64],
+    f0: &[f64],
     step: f64,
     convergence: Convergence,
     scales: &[f64],
-    mut sweep: impl FnMut(&[Vec<f64>; 4], &mut [Vec<f64>; 4]) -> Result<(), E>,
-) -> Result<(Multistep, StepReport), StepError<E>> {
-    let mut y: [Vec<f64>; 4] = std::array::from_fn(|_| y0.to_vec());
-    let mut f: [Vec<f64>; 4] = std::array::from_fn(|_| vec![0.0; y0.len()]);
-    let mut next = y.clone();
+    replay: &mut R,
+) -> Result<(Multistep, StepReport), StepError<R::Error>> {
+    let mut past = Multistep::from_start(
+        std::array::from_fn(|_| y0.to_vec()),
+        std::array::from_fn(|_| f0.to_vec()),
+    );
     let mut report = StepReport::default();
-    loop {
-        sweep(&y, &mut f).map_err(StepError::Rates)?;
-        let done = report.passes > 0 && report.residual <= convergence.tolerance;
-        if done || report.passes == convergence.max_passes {
+    for sweep in 0..MAX_SWEEPS {
+        let before = past.y.clone();
+        for k in 1..4 {
+            replay.enter(k).map_err(StepError::Rates)?;
+            let weights = if sweep == 0 {
+                FIRST[k - 1]
+            } else {
+                BLOCK[k - 1]
+            };
+            let inner = agree(k, weights, step, convergence, scales, replay, &mut past)?;
+            report.passes = report.passes.max(inner.passes);
+            replay.leave(k).map_err(StepError::Rates)?;
+        }
+        let change = |k: usize| scaled_difference(&before[k], &past.y[k], scales);
+        report.residual = (1..4).map(change).fold(0.0, f64::max);
+        if sweep > 0 && report.residual <= convergence.tolerance {
             break;
         }
-        block_formulas(y0, step, &f, &mut next);
-        report.passes += 1;
-        report.residual = (1..4)
-            .map(|k| scaled_difference(&next[k], &y[k], scales))
-            .fold(0.0, f64::max);
-        for (y, n) in y.iter_mut().zip(&next) {
-            for (a, b) in y.iter_mut().zip(n) {
-                *a += convergence.relaxation * (b - *a);
-            }
-        }
     }
-    let failed = report.residual > convergence.tolerance && convergence.tolerance > 0.0;
-    if failed || !report.residual.is_finite() {
-        return Err(StepError::NotConverged(report));
-    }
-    Ok((Multistep::from_start(y, f), report))
+    Ok((past, report))
 }
 
-/// The three block formulas.
-fn block_formulas(y0: &[f64], h: f64, f: &[Vec<f64>; 4], y: &mut [Vec<f64>; 4]) {
-    let [f0, f1, f2, f3] = f;
-    for i in 0..y0.len() {
-        let (a, b, c, d) = (f0[i], f1[i], f2[i], f3[i]);
-        y[1][i] = y0[i] + h / 24.0 * (9.0 * a + 19.0 * b - 5.0 * c + d);
-        y[2][i] = y0[i] + h / 3.0 * (a + 4.0 * b + c);
-        y[3][i] = y0[i] + 3.0 * h / 8.0 * (a + 3.0 * b + 3.0 * c + d);
+/// Weights of f0 to f3 in (y_k - y_0) / h.
+const BLOCK: [[f64; 4]; 3] = [
+    [9.0 / 24.0, 19.0 / 24.0, -5.0 / 24.0, 1.0 / 24.0],
+    [1.0 / 3.0, 4.0 / 3.0, 1.0 / 3.0, 0.0],
+    [3.0 / 8.0, 9.0 / 8.0, 9.0 / 8.0, 3.0 / 8.0],
+];
+
+/// The same without the rates still unknown: trapezoidal rule, Simpson's rule, and all four.
+const FIRST: [[f64; 4]; 3] = [[0.5, 0.5, 0.0, 0.0], BLOCK[1], BLOCK[2]];
+
+/// Iterates y and f of starting step `k` until they agree.
+fn agree<R: Replay>(
+    k: usize,
+    weights: [f64; 4],
+    step: f64,
+    convergence: Convergence,
+    scales: &[f64],
+    replay: &mut R,
+    past: &mut Multistep,
+) -> Result<StepReport, StepError<R::Error>> {
+    let Convergence {
+        tolerance,
+        max_passes,
+        relaxation,
+    } = convergence;
+    let mut report = StepReport::default();
+    let mut f = std::mem::take(&mut past.f[k]);
+    loop {
+        replay
+            .rates(k, &past.y[k], &mut f)
+            .map_err(StepError::Rates)?;
+        if report.passes > 0 && report.residual <= tolerance {
+            break;
+        }
+        if report.passes == max_passes {
+            if tolerance > 0.0 || !report.residual.is_finite() {
+                return Err(StepError::NotConverged(report));
+            }
+            break;
+        }
+        let mut residual = 0.0_f64;
+        for i in 0..f.len() {
+            let rate = |j: usize| if j == k { f[i] } else { past.f[j][i] };
+            let sum: f64 = (0..4).map(|j| weights[j] * rate(j)).sum();
+            let change = past.y[0][i] + step * sum - past.y[k][i];
+            past.y[k][i] += relaxation * change;
+            let scaled = if scales[i].is_finite() {
+                change.abs() / scales[i]
+            } else {
+                0.0
+            };
+            residual = if scaled.is_nan() {
+                f64::INFINITY
+            } else {
+                residual.max(scaled)
+            };
+        }
+        report.passes += 1;
+        report.residual = residual;
     }
+    past.f[k] = f;
+    Ok(report)
 }
