@@ -154,6 +154,27 @@ fn invariant_second_use_gives_the_first_one_s_bits() {
 }
 
 #[test]
+fn invariant_to_the_bit_under_a_change_of_length_by_a_power_of_two() {
+    // A fly's millimetres and a robot's metres: nothing in the sum knows an absolute length.
+    let model = MODELS[1];
+    let large = wakes::hover(model, 6_000);
+    let k = 1.0 / 1024.0;
+    let mut small = large.clone();
+    small.nodes = large.nodes.iter().map(|p| p * k).collect();
+    small.core.iter_mut().for_each(|c| *c *= k * k);
+    let run = |net: &Network| {
+        let mut fast = FastSum::new(tree(model));
+        fast.load_network(net);
+        let mut v = Points::zeros(net.nodes.len());
+        let report = fast.add_velocity(&net.nodes, &mut v);
+        (v, report)
+    };
+    let ((v, one), (w, two)) = (run(&large), run(&small));
+    let back: Points = w.iter().map(|w| w * k).collect();
+    assert_eq!((bits(&v), one), (bits(&back), two));
+}
+
+#[test]
 fn limit_a_whole_wake_from_afar_is_one_cell() {
     let model = MODELS[0];
     let net = wakes::hover(model, 5_000);

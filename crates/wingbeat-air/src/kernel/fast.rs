@@ -17,8 +17,11 @@ const AUTO_TARGETS: usize = 256;
 /// Targets at which the tree is checked against the direct sum.
 const SAMPLES: usize = BLOCK;
 
-/// What a far cell may leave out, in parts of the tolerance: many cells add up, with either sign.
-const SHARE: f64 = 0.03;
+/// What a far cell may leave out, in parts of the tolerance. Many cells add up, with either sign:
+/// fewer may leave out more, as the inverse root of their number.
+fn share(leaves: usize) -> f64 {
+    0.03 * (3000.0 / leaves as f64).sqrt().max(1.0)
+}
 
 /// Attempts at the tolerance before the direct sum takes over.
 const ATTEMPTS: usize = 4;
@@ -158,7 +161,7 @@ impl FastSum {
         }
         let check = Check::new(&self.cells, targets);
         self.groups.load(targets);
-        let mut share = SHARE;
+        let mut share = share(self.cells.leaf_patches.len());
         for attempt in 1..=ATTEMPTS {
             let allowed = share * self.settings.tolerance * check.scale;
             let work = self.groups.evaluate(&self.cells, allowed);

@@ -1,12 +1,16 @@
 //! Targets in groups of neighbours, and the walk of a group through the cells.
 
 use super::cells::{Cells, Item, half_fade, split};
-use super::lanes::{BLOCK, Block, add_patches, load, store};
+use super::lanes::{Block, add_patches, load, store};
 use super::sources::Points;
 use fearless_simd::{Simd, dispatch, prelude::*};
 use rayon::prelude::*;
 use std::ops::Range;
 use wingbeat_math::DVec3;
+
+/// Groups of a part that is worth a task of its own.
+/// Targets of a group; fewer see fewer cells near, more share the walk.
+const GROUP: usize = 32;
 
 /// Groups of a part that is worth a task of its own.
 const TASK_GROUPS: usize = 32;
@@ -17,7 +21,7 @@ const NOTES: usize = 128;
 /// A far cell is at least this many radii away: the expansions converge as its inverse powers.
 const FAREST: f64 = 1.5;
 
-/// Targets sorted in space, [`BLOCK`] to a group.
+/// Targets sorted in space, [`GROUP`] to a group.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Groups {
     items: Vec<Item>,
@@ -68,10 +72,10 @@ impl Groups {
     pub fn evaluate(&mut self, cells: &Cells, allowed: f64) -> Work {
         self.sums.reset(self.items.len());
         let Points { x, y, z } = &mut self.sums;
-        x.par_chunks_mut(BLOCK)
-            .zip(y.par_chunks_mut(BLOCK))
-            .zip(z.par_chunks_mut(BLOCK))
-            .zip(self.items.par_chunks(BLOCK))
+        x.par_chunks_mut(GROUP)
+            .zip(y.par_chunks_mut(GROUP))
+            .zip(z.par_chunks_mut(GROUP))
+            .zip(self.items.par_chunks(GROUP))
             .map(|(((x, y), z), items)| {
                 let (sum, work) = Walk::of(cells, items, allowed).done();
                 let n = items.len();
@@ -97,13 +101,13 @@ impl Groups {
     }
 }
 
-/// Sorts the items so that every [`BLOCK`] of them are neighbours.
+/// Sorts the items so that every [`GROUP`] of them are neighbours.
 fn gather(items: &mut [Item]) {
-    let groups = items.len().div_ceil(BLOCK);
+    let groups = items.len().div_ceil(GROUP);
     if groups < 2 {
         return;
     }
-    let first = groups / 2 * BLOCK;
+    let first = groups / 2 * GROUP;
     split(items, first);
     let (one, two) = items.split_at_mut(first);
     if groups > TASK_GROUPS {
