@@ -1,1 +1,46 @@
-//! Analysis of flight: cycle means, power, studies.
+//! Questions of flight dynamics, asked of the full flapping model.
+//!
+//! The chapter in order: [`beat`] is one wingbeat of free flight as a map of the state; [`trim`]
+//! finds steady flight as a periodic orbit of that map (Newton's method, shooting over one beat);
+//! [`mean`] averages loads over a beat of steadily moving body; [`stability`] linearises: the
+//! cycle-averaged rigid-body model with its derivatives, and Floquet's multipliers of the
+//! periodic orbit from the [`monodromy`] matrix; [`modes`] names what comes out; [`derivatives`]
+//! are the controls; [`power`] is the price; [`control`] holds a flyer on its orbit by feedback.
+//!
+//! | symbol | name in code | meaning | unit |
+//! |---|---|---|---|
+//! | T | [`Beat::period`] | period of the wingbeat | s |
+//! | R | [`Beat::wing_length`] | wing length | m |
+//! | F | [`Level`] | level frame: forward, right, down at the reference attitude | - |
+//! | u, v, w | `velocity` | velocity of the mass centre along F turned with the body | m/s |
+//! | p, q, r | `rate` | angular velocity about F turned with the body | rad/s |
+//! | (phi, theta, psi) | `tilt` | small rotation vector roll, pitch, heading | rad |
+//! | A | [`LinearModel::matrix`] | rates of (u, v, w, p, q, r, phi, theta, psi) | - |
+//! | M | [`monodromy::monodromy`] | derivative of the state one beat later by the state now | - |
+//!
+//! **Wake memory.** Everything here that linearises uses air without memory (blade elements). In
+//! a vortex lattice a perturbed flight carries a perturbed wake; neither choice of what to hold
+//! fixed is offered here yet.
+//!
+//! What this crate does not know: files, clocks, units other than SI.
+#![warn(missing_docs)]
+
+pub mod beat;
+pub mod control;
+pub mod derivatives;
+pub mod eigen;
+mod error;
+pub mod level;
+pub mod mean;
+pub mod modes;
+pub mod monodromy;
+pub mod power;
+pub mod stability;
+pub mod trim;
+
+pub use beat::{Beat, State};
+pub use error::AnalysisError;
+pub use level::{Level, Perturbation};
+pub use modes::{Mode, ModeSet};
+pub use stability::{LinearModel, floquet, linear_model};
+pub use trim::{Trim, TrimProblem, TrimSettings, Unknown, trim};

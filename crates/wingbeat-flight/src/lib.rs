@@ -35,8 +35,10 @@ mod surfaces;
 mod validate;
 
 pub use blade::{BladeSide, strips};
+pub use bodies::system;
 pub use error::FlightError;
 pub use record::{HingeRecord, LoadRecord, Record, Snapshot, SurfaceSnapshot, WakeSnapshot};
 pub use recorder::Ledger;
 pub use setup::*;
 pub use simulation::{FlightState, Simulation};
+pub use stages::natural_units;

@@ -146,7 +146,7 @@ fn held_motion(start: &StartState) -> PrescribedMotion {
 
 /// Natural units: the farthest wing node from its hinge (else the body, else a metre) and the
 /// period of a wingbeat (else ten steps).
-pub(crate) fn natural_units(setup: &FlightSetup) -> NaturalUnits {
+pub fn natural_units(setup: &FlightSetup) -> NaturalUnits {
     let farthest = |nodes: &[DVec3]| nodes.iter().fold(0.0_f64, |m, r| m.max(r.length()));
     let wings = setup.animal.wings.iter().map(|w| farthest(&w.mesh.nodes));
     let body = setup.animal.parts.iter().map(|p| farthest(&p.mesh.nodes));

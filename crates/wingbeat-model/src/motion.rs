@@ -4,11 +4,13 @@
 //! phase runs as `x(t) = f tau(t) + x0` with a time warp tau that lets the motion rise from
 //! rest. Derivatives are analytic: `q' = q_x x'`, `q'' = q_xx x'^2 + q_x x''`.
 
+pub mod adjust;
 pub mod berman_wang;
 pub mod fourier;
 pub mod spline;
 pub mod start;
 
+pub use adjust::Adjustment;
 pub use berman_wang::{Oval, SmoothSquare, SmoothTriangle};
 pub use fourier::Fourier;
 pub use spline::PeriodicSpline;

@@ -55,6 +55,28 @@ impl PeriodicSpline {
         ]
     }
 
+    /// Mean over the period, exact for the cubic pieces.
+    pub(crate) fn mean(&self) -> f64 {
+        let piece = |k: usize| {
+            let h = self.x[k + 1] - self.x[k];
+            let (q, m) = (self.q[k] + self.q[k + 1], self.m[k] + self.m[k + 1]);
+            0.5 * h * q - h * h * h / 24.0 * m
+        };
+        (0..self.x.len() - 1).map(piece).sum()
+    }
+
+    pub(crate) fn raised(&self, offset: f64) -> Self {
+        let mut spline = self.clone();
+        spline.q.iter_mut().for_each(|q| *q += offset);
+        spline
+    }
+
+    pub(crate) fn advanced(&self, lead: f64) -> Self {
+        let mut spline = self.clone();
+        spline.x.iter_mut().for_each(|x| *x -= lead);
+        spline
+    }
+
     pub(crate) fn scaled(&self, factor: f64) -> Self {
         let times = |v: &[f64]| v.iter().map(|c| c * factor).collect();
         Self {

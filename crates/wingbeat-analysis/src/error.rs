@@ -1,0 +1,35 @@
+//! What can go wrong in an analysis.
+
+use wingbeat_dynamics::DynamicsError;
+use wingbeat_flight::FlightError;
+
+/// An analysis that cannot be made.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum AnalysisError {
+    /// The flight cannot be built or flown.
+    #[error(transparent)]
+    Flight(#[from] FlightError),
+    /// The bodies refuse.
+    #[error(transparent)]
+    Dynamics(#[from] DynamicsError),
+    /// The setup has something this analysis does not cover.
+    #[error("{what}: {remedy}")]
+    NotCovered {
+        /// What is in the way.
+        what: String,
+        /// What to do instead.
+        remedy: &'static str,
+    },
+    /// A number is not finite or a matrix singular.
+    #[error("{0}")]
+    Numbers(String),
+}
+
+impl AnalysisError {
+    pub(crate) fn not_covered(what: impl Into<String>, remedy: &'static str) -> Self {
+        Self::NotCovered {
+            what: what.into(),
+            remedy,
+        }
+    }
+}

@@ -1,0 +1,81 @@
+//! The level frame of a reference attitude, and small departures from it.
+
+use wingbeat_math::{DMat3, DQuat, DVec3};
+
+use crate::beat::{Beat, State};
+
+/// Forward, right and down at a reference attitude: down along gravity, forward the horizontal
+/// part of b1.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Level {
+    /// Level frame to N.
+    pub to_n: DMat3,
+    /// Level frame to root, at the reference attitude.
+    pub to_root: DMat3,
+}
+
+impl Level {
+    /// The level frame of the attitude `r` (root to N) under `gravity` (N components).
+    pub fn new(r: DMat3, gravity: DVec3) -> Self {
+        let down = gravity.try_normalize().unwrap_or(DVec3::Z);
+        let ahead = r.x_axis - r.x_axis.dot(down) * down;
+        // A body that points straight down or up: its belly shows forward.
+        let ahead = ahead
+            .try_normalize()
+            .unwrap_or_else(|| -r.z_axis.reject_from(down).normalize());
+        let to_n = DMat3::from_cols(ahead, down.cross(ahead), down);
+        Self {
+            to_n,
+            to_root: r.transpose() * to_n,
+        }
+    }
+}
+
+/// A state of flight seen from a level frame that turns with the body: nine numbers, position
+/// left out (the air is the same everywhere).
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Perturbation {
+    /// Velocity of the mass centre u, v, w [m/s].
+    pub velocity: DVec3,
+    /// Angular velocity of the root p, q, r [rad/s].
+    pub rate: DVec3,
+    /// Rotation vector roll, pitch, heading from the reference attitude [rad].
+    pub tilt: DVec3,
+}
+
+impl Perturbation {
+    /// As u, v, w, p, q, r, phi, theta, psi.
+    pub fn to_array(self) -> [f64; 9] {
+        let (v, w, d) = (self.velocity, self.rate, self.tilt);
+        [v.x, v.y, v.z, w.x, w.y, w.z, d.x, d.y, d.z]
+    }
+
+    /// From u, v, w, p, q, r, phi, theta, psi.
+    pub fn from_array(x: [f64; 9]) -> Self {
+        Self {
+            velocity: DVec3::from_slice(&x),
+            rate: DVec3::from_slice(&x[3..]),
+            tilt: DVec3::from_slice(&x[6..]),
+        }
+    }
+
+    /// The state at the start of a beat, mass centre at the origin.
+    pub fn state(&self, beat: &Beat, level: &Level) -> State {
+        let turned = level.to_n * DMat3::from_quat(DQuat::from_scaled_axis(self.tilt));
+        let r = turned * level.to_root.transpose();
+        let rate = level.to_root * self.rate;
+        beat.state(DVec3::ZERO, r, turned * self.velocity, rate)
+    }
+
+    /// What the state at the start of a beat looks like.
+    pub fn of(beat: &Beat, level: &Level, y: &State) -> Self {
+        let root = beat.root(y);
+        let turned = root.r * level.to_root;
+        let tilt = DQuat::from_mat3(&(level.to_n.transpose() * turned)).to_scaled_axis();
+        Self {
+            velocity: turned.transpose() * (DVec3::from_slice(&y[7..]) / beat.mass()),
+            rate: level.to_root.transpose() * root.w,
+            tilt,
+        }
+    }
+}

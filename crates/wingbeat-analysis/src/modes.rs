@@ -1,0 +1,189 @@
+//! Modes of flight, named in the words of flight dynamics.
+
+use std::f64::consts::{LN_2, TAU};
+
+use crate::eigen::Eigenpair;
+use crate::stability::STATE;
+
+/// Natural sizes by which components of eigenvectors are compared.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Scales {
+    /// Of velocities: R / T [m/s].
+    pub velocity: f64,
+    /// Of angular velocities: 1 / T [rad/s].
+    pub rate: f64,
+    /// Period of a wingbeat T [s].
+    pub period: f64,
+}
+
+impl Scales {
+    /// Size of each of the nine components; angles by one radian.
+    pub fn array(&self) -> [f64; 9] {
+        let (v, w) = (self.velocity, self.rate);
+        [v, v, v, w, w, w, 1.0, 1.0, 1.0]
+    }
+}
+
+/// Which motions a mode consists of.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Plane {
+    /// u, w, q, theta.
+    Longitudinal,
+    /// v, p, r, phi, psi.
+    Lateral,
+}
+
+/// A mode of flight.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Mode {
+    /// Name, as "unstable oscillation", "fast subsidence".
+    pub name: String,
+    /// Which motions it consists of.
+    pub plane: Plane,
+    /// Real part of the exponent [1/s].
+    pub growth: f64,
+    /// Imaginary part of the exponent, >= 0: one mode stands for the conjugate pair [rad/s].
+    pub frequency: f64,
+    /// Floquet multiplier (of the averaged model: `exp(exponent T)`).
+    pub multiplier: [f64; 2],
+    /// Period of a wingbeat [s], for times in wingbeats.
+    pub wingbeat: f64,
+    /// Components of the eigenvector over their natural sizes, largest 1: size and phase \[rad\].
+    pub vector: Vec<(&'static str, f64, f64)>,
+}
+
+impl Mode {
+    /// Period of the oscillation [s]; none of a subsidence or divergence.
+    pub fn period(&self) -> Option<f64> {
+        (self.frequency > 0.0).then(|| TAU / self.frequency)
+    }
+
+    /// Time to double (growing) or halve (decaying) [s]; none if neutral.
+    pub fn doubling(&self) -> Option<f64> {
+        (!self.is_neutral()).then(|| LN_2 / self.growth.abs())
+    }
+
+    /// Neither grows nor decays by a millionth in a wingbeat.
+    pub fn is_neutral(&self) -> bool {
+        (self.growth * self.wingbeat).abs() < 1e-6 && self.frequency * self.wingbeat < 1e-3
+    }
+}
+
+/// All modes.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ModeSet {
+    /// By falling growth.
+    pub modes: Vec<Mode>,
+}
+
+impl ModeSet {
+    /// From eigenpairs of a rate matrix, values in 1/s.
+    pub fn of_exponents(pairs: Vec<Eigenpair>, scales: &Scales) -> Self {
+        let with = |p: &Eigenpair| {
+            let [re, im] = [p.value[0] * scales.period, p.value[1] * scales.period];
+            (p.value, [re.exp() * im.cos(), re.exp() * im.sin()])
+        };
+        Self::build(&pairs, scales, with)
+    }
+
+    /// From eigenpairs of a monodromy matrix.
+    pub fn of_multipliers(pairs: Vec<Eigenpair>, scales: &Scales) -> Self {
+        let with = |p: &Eigenpair| {
+            let [a, b] = p.value;
+            let exponent = [a.hypot(b).ln() / scales.period, b.atan2(a) / scales.period];
+            (exponent, p.value)
+        };
+        Self::build(&pairs, scales, with)
+    }
+
+    fn build(
+        pairs: &[Eigenpair],
+        scales: &Scales,
+        with: impl Fn(&Eigenpair) -> ([f64; 2], [f64; 2]),
+    ) -> Self {
+        let upper = pairs.iter().filter(|p| p.value[1] >= 0.0);
+        let mode = |p: &Eigenpair| {
+            let (exponent, multiplier) = with(p);
+            let vector = scaled_vector(p, scales);
+            Mode {
+                name: String::new(),
+                plane: plane(&vector),
+                growth: exponent[0],
+                frequency: exponent[1].abs(),
+                multiplier,
+                wingbeat: scales.period,
+                vector,
+            }
+        };
+        let mut modes: Vec<Mode> = upper.map(mode).collect();
+        modes.sort_by(|a, b| b.growth.total_cmp(&a.growth));
+        name(&mut modes);
+        Self { modes }
+    }
+
+    /// The modes of a plane, by falling growth.
+    pub fn plane(&self, plane: Plane) -> impl Iterator<Item = &Mode> {
+        self.modes.iter().filter(move |m| m.plane == plane)
+    }
+
+    /// The first mode of this name in a plane.
+    pub fn find(&self, plane: Plane, name: &str) -> Option<&Mode> {
+        self.plane(plane).find(|m| m.name == name)
+    }
+}
+
+/// Components over their sizes, the largest 1.
+fn scaled_vector(p: &Eigenpair, scales: &Scales) -> Vec<(&'static str, f64, f64)> {
+    let sizes = scales.array();
+    let scaled = p
+        .vector
+        .iter()
+        .zip(sizes)
+        .map(|(z, s)| [z[0] / s, z[1] / s]);
+    let scaled: Vec<[f64; 2]> = scaled.collect();
+    let largest = scaled.iter().fold(0.0_f64, |m, z| m.max(z[0].hypot(z[1])));
+    let component = |(z, name): (&[f64; 2], &&'static str)| {
+        (*name, z[0].hypot(z[1]) / largest, z[1].atan2(z[0]))
+    };
+    scaled.iter().zip(&STATE).map(component).collect()
+}
+
+/// The plane in which most of the eigenvector lies.
+fn plane(vector: &[(&'static str, f64, f64)]) -> Plane {
+    let share = |names: &[&str]| -> f64 {
+        let of = vector.iter().filter(|c| names.contains(&c.0));
+        of.map(|c| c.1 * c.1).sum()
+    };
+    let longitudinal = share(&["u", "w", "q", "theta"]);
+    if longitudinal > share(&["v", "p", "r", "phi", "psi"]) {
+        Plane::Longitudinal
+    } else {
+        Plane::Lateral
+    }
+}
+
+/// Names the modes of each plane: oscillations by stability; real ones as divergence or
+/// subsidence, the fastest and slowest subsidence told apart; a neutral lateral one is heading.
+fn name(modes: &mut [Mode]) {
+    for plane in [Plane::Longitudinal, Plane::Lateral] {
+        let real = |m: &Mode| m.plane == plane && m.frequency == 0.0 && !m.is_neutral();
+        let decaying: Vec<f64> = modes
+            .iter()
+            .filter(|m| real(m) && m.growth < 0.0)
+            .map(|m| m.growth)
+            .collect();
+        let fastest = decaying.iter().copied().fold(0.0, f64::min);
+        for m in modes.iter_mut().filter(|m| m.plane == plane) {
+            m.name = match (m.is_neutral(), m.frequency > 0.0, m.growth > 0.0) {
+                (true, _, _) => "neutral (heading)",
+                (_, true, true) => "unstable oscillation",
+                (_, true, false) => "stable oscillation",
+                (_, false, true) => "divergence",
+                _ if decaying.len() < 2 => "subsidence",
+                _ if m.growth == fastest => "fast subsidence",
+                _ => "slow subsidence",
+            }
+            .to_owned();
+        }
+    }
+}

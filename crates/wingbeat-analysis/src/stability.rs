@@ -1,0 +1,127 @@
+//! Linear models of flight: averaged over the beat, and Floquet's.
+
+use wingbeat_math::{DMat3, DVec3};
+
+use crate::AnalysisError;
+use crate::beat::{Beat, State};
+use crate::eigen::eigen;
+use crate::level::{Level, Perturbation};
+use crate::modes::{ModeSet, Scales};
+use crate::monodromy::monodromy;
+
+/// Names of the nine state components.
+pub const STATE: [&str; 9] = ["u", "v", "w", "p", "q", "r", "phi", "theta", "psi"];
+/// Names of the six loads.
+pub const LOADS: [&str; 6] = ["X", "Y", "Z", "L", "M", "N"];
+
+/// The cycle-averaged linear model about a reference flight: a rigid body of the mean mass
+/// properties under the mean air loads of a beat.
+#[derive(Clone, Debug)]
+pub struct LinearModel {
+    /// Rates of (u, v, w, p, q, r, phi, theta, psi), 9 x 9 by rows, SI.
+    pub matrix: Vec<f64>,
+    /// Derivatives of (X, Y, Z, L, M, N) by (u, v, w, p, q, r), 6 x 6 by rows, SI.
+    pub derivatives: [[f64; 6]; 6],
+    /// Modes.
+    pub modes: ModeSet,
+}
+
+/// The natural sizes of perturbations of a beat.
+fn scales(beat: &Beat) -> Scales {
+    Scales {
+        velocity: beat.wing_length() / beat.period(),
+        rate: 1.0 / beat.period(),
+        period: beat.period(),
+    }
+}
+
+/// The cycle-averaged model about steady flight with the attitude and mean velocity of the
+/// periodic orbit through `state`.
+///
+/// # Errors
+/// Numbers that are not finite.
+pub fn linear_model(beat: &Beat, state: &State) -> Result<LinearModel, AnalysisError> {
+    let level = Level::new(beat.root(state).r, beat.gravity());
+    let end = beat.advance(state);
+    let travelled = DVec3::from_slice(&end) - DVec3::from_slice(state);
+    let velocity = level.to_n.transpose() * travelled / beat.period();
+    let reference = Perturbation {
+        velocity,
+        ..Perturbation::default()
+    };
+    let size = scales(beat);
+    let f = |x: &[f64]| -> Result<Vec<f64>, AnalysisError> {
+        Ok(averaged_rates(beat, &level, x).to_vec())
+    };
+    // Mean loads are smooth: steps of 1e-3 of the natural sizes, error of the formula 1e-12.
+    let steps = size.array().map(|s| 1e-3 * s);
+    let matrix = monodromy(f, &reference.to_array(), &steps)?;
+    let modes = ModeSet::of_exponents(eigen(&matrix, 9)?, &size);
+    Ok(LinearModel {
+        derivatives: load_derivatives(beat, &level, &reference, &steps)?,
+        matrix,
+        modes,
+    })
+}
+
+/// Newton's and Euler's laws for the mean rigid body in the level frame that turns with it.
+fn averaged_rates(beat: &Beat, level: &Level, x: &[f64]) -> [f64; 9] {
+    let state = Perturbation::from_array(x.try_into().expect("nine components"));
+    let (v, w) = (state.velocity, state.rate);
+    let load = beat.mean_load(level, v, w);
+    let tilt = DMat3::from_quat(wingbeat_math::DQuat::from_scaled_axis(state.tilt));
+    let weight = tilt.transpose() * (level.to_n.transpose() * beat.gravity());
+    let j = level.to_root.transpose() * beat.mean_inertia() * level.to_root;
+    // To first order in tilt and rate the rotation vector changes at the rate w.
+    Perturbation {
+        velocity: load.force / beat.mass() + weight - w.cross(v),
+        rate: j.inverse() * (load.moment - w.cross(j * w)),
+        tilt: w,
+    }
+    .to_array()
+}
+
+/// Derivatives of the mean loads by velocities and rates.
+fn load_derivatives(
+    beat: &Beat,
+    level: &Level,
+    reference: &Perturbation,
+    steps: &[f64; 9],
+) -> Result<[[f64; 6]; 6], AnalysisError> {
+    let f = |x: &[f64]| -> Result<Vec<f64>, AnalysisError> {
+        let load = beat.mean_load(level, DVec3::from_slice(x), DVec3::from_slice(&x[3..]));
+        let (f, m) = (load.force, load.moment);
+        Ok(vec![f.x, f.y, f.z, m.x, m.y, m.z])
+    };
+    let d = monodromy(f, &reference.to_array()[..6], &steps[..6])?;
+    Ok(std::array::from_fn(|i| {
+        std::array::from_fn(|j| d[6 * i + j])
+    }))
+}
+
+/// The monodromy matrix of the periodic orbit through `state` in the nine components of
+/// [`Perturbation`]: position left out, for the flight is the same everywhere.
+///
+/// # Errors
+/// Numbers that are not finite.
+pub fn orbit_monodromy(beat: &Beat, state: &State) -> Result<Vec<f64>, AnalysisError> {
+    let level = Level::new(beat.root(state).r, beat.gravity());
+    let x = Perturbation::of(beat, &level, state).to_array();
+    let map = |x: &[f64]| -> Result<Vec<f64>, AnalysisError> {
+        let start = Perturbation::from_array(x.try_into().expect("nine components"));
+        let end = beat.advance(&start.state(beat, &level));
+        Ok(Perturbation::of(beat, &level, &end).to_array().to_vec())
+    };
+    let steps = scales(beat).array().map(|s| 1e-4 * s);
+    monodromy(map, &x, &steps)
+}
+
+/// Floquet's modes of the periodic orbit through `state`: exponents `ln(multiplier) / T` (principal
+/// branch: periods below two wingbeats cannot be told from slower ones).
+///
+/// # Errors
+/// Numbers that are not finite.
+pub fn floquet(beat: &Beat, state: &State) -> Result<ModeSet, AnalysisError> {
+    let m = orbit_monodromy(beat, state)?;
+    Ok(ModeSet::of_multipliers(eigen(&m, 9)?, &scales(beat)))
+}

@@ -1,0 +1,295 @@
+//! Trim: steady flight as a periodic orbit of the full model.
+//!
+//! Unknowns are the state at the start of a beat in the plane of symmetry (velocity of the mass
+//! centre, pitch rate, body pitch) and two controls of the wings; equations are that one beat
+//! later nothing has changed but the position, which has moved as asked:
+//!
+//! ```text
+//! dP_1 / (m g T) = 0    dP_3 / (m g T) = 0    dH_2 / (m g R T) = 0
+//! d pitch = 0           dx / R = V_1 T / R    dz / R = V_3 T / R
+//! ```
+//!
+//! The first three are the mean forces and the mean moment over weight and weight times wing
+//! length. Newton's method with differences for the Jacobian and a line search; a failure keeps
+//! the best point found.
+
+use wingbeat_flight::FlightSetup;
+use wingbeat_math::{DVec3, r2, solve_small};
+use wingbeat_model::motion::Adjustment;
+
+use crate::AnalysisError;
+use crate::beat::{Beat, State};
+
+/// A control that trim may choose.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Unknown {
+    /// Relative change of the stroke amplitude.
+    StrokeAmplitude,
+    /// Mean stroke angle, positive forward \[rad\].
+    StrokeOffset,
+    /// Relative change of the frequency.
+    Frequency,
+    /// Change of the stroke-plane pitch \[rad\].
+    StrokePlane,
+    /// Change of the mean feathering angle \[rad\].
+    FeatheringOffset,
+    /// Lead of feathering \[wingbeats\].
+    FeatheringLead,
+    /// Change of the mean deviation \[rad\].
+    DeviationOffset,
+    /// Pitch of the body \[rad\]; when it is not chosen, it is kept and one more control is needed.
+    BodyPitch,
+    /// Mass centre along b1, relative to the hinges, in wing lengths.
+    MassCentre,
+}
+
+/// All unknowns with their names in cases and reports.
+pub const UNKNOWNS: [(Unknown, &str); 9] = [
+    (Unknown::StrokeAmplitude, "stroke_amplitude"),
+    (Unknown::StrokeOffset, "stroke_offset"),
+    (Unknown::Frequency, "frequency"),
+    (Unknown::StrokePlane, "stroke_plane"),
+    (Unknown::FeatheringOffset, "feathering_offset"),
+    (Unknown::FeatheringLead, "feathering_lead"),
+    (Unknown::DeviationOffset, "deviation_offset"),
+    (Unknown::BodyPitch, "body_pitch"),
+    (Unknown::MassCentre, "mass_centre"),
+];
+
+impl Unknown {
+    /// Name in cases and reports.
+    pub fn name(self) -> &'static str {
+        let found = UNKNOWNS.iter().find(|u| u.0 == self);
+        found.expect("the table holds all").1
+    }
+}
+
+/// What to trim.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TrimProblem {
+    /// Three controls: body pitch and two of the wings, or three of the wings.
+    pub unknowns: [Unknown; 3],
+    /// Mean velocity wanted, N components, in the plane n1-n3 [m/s].
+    pub velocity: DVec3,
+    /// Body pitch at the start of the iteration (kept if not an unknown) \[rad\].
+    pub body_pitch: f64,
+    /// Iteration.
+    pub settings: TrimSettings,
+}
+
+/// How the iteration runs.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TrimSettings {
+    /// Steps per wingbeat.
+    pub steps: usize,
+    /// Largest residual that counts as trimmed \[1\].
+    pub tolerance: f64,
+    /// Most Newton steps.
+    pub iterations: usize,
+}
+
+impl Default for TrimSettings {
+    fn default() -> Self {
+        Self {
+            steps: 100,
+            tolerance: 1e-9,
+            iterations: 40,
+        }
+    }
+}
+
+/// A trimmed flight, or the best point found.
+#[derive(Clone, Debug)]
+pub struct Trim {
+    /// Whether the residual is within the tolerance.
+    pub converged: bool,
+    /// The six residuals: horizontal and vertical force over weight, pitch moment over weight
+    /// times wing length, pitch per beat \[rad\], horizontal and vertical drift per beat over wing
+    /// length.
+    pub residual: [f64; 6],
+    /// Newton steps made.
+    pub iterations: usize,
+    /// The adjustment of all wings.
+    pub adjustment: Adjustment,
+    /// Shift of the mass centre along b1 [m].
+    pub mass_centre: f64,
+    /// Pitch of the body at the start of the beat \[rad\].
+    pub body_pitch: f64,
+    /// State at the start of the beat, mass centre at the origin.
+    pub state: State,
+    /// The wingbeat of the adjusted animal.
+    pub beat: Beat,
+    /// The adjusted setup (animal only; start and time are those given).
+    pub setup: FlightSetup,
+}
+
+impl Trim {
+    /// Largest residual.
+    pub fn error(&self) -> f64 {
+        largest(&self.residual)
+    }
+}
+
+/// Trims the symmetric flight of `setup`.
+///
+/// # Errors
+/// A setup that [`Beat`] does not cover; numbers that stop being finite at the very start. A
+/// trim that does not converge is no error: see [`Trim::converged`].
+pub fn trim(setup: &FlightSetup, problem: &TrimProblem) -> Result<Trim, AnalysisError> {
+    let first = Beat::new(setup, problem.settings.steps)?;
+    let speed = first.wing_length() / first.period();
+    let v = problem.velocity;
+    // Unknowns: velocity over R f, pitch rate times T, pitch, then the controls.
+    let mut x = vec![v.x / speed, v.z / speed, 0.0];
+    x.extend(problem.unknowns.map(|u| match u {
+        Unknown::BodyPitch => problem.body_pitch,
+        _ => 0.0,
+    }));
+    let mut residual = evaluate(setup, problem, &x)?.residual;
+    let mut iterations = 0;
+    while iterations < problem.settings.iterations
+        && largest(&residual) > problem.settings.tolerance
+    {
+        let jacobian = jacobian(setup, problem, &x)?;
+        let Some((better, r)) = line_search(setup, problem, &x, &residual, jacobian)? else {
+            break;
+        };
+        (x, residual) = (better, r);
+        iterations += 1;
+    }
+    let mut found = evaluate(setup, problem, &x)?;
+    found.iterations = iterations;
+    found.converged = found.error() <= problem.settings.tolerance;
+    Ok(found)
+}
+
+/// The residual at the point `x`, with everything that belongs to it.
+fn evaluate(setup: &FlightSetup, problem: &TrimProblem, x: &[f64]) -> Result<Trim, AnalysisError> {
+    let (setup, adjustment, mass_centre, pitch) = adjusted(setup, problem, &x[3..]);
+    let beat = Beat::new(&setup, problem.settings.steps)?;
+    let (length, period) = (beat.wing_length(), beat.period());
+    let speed = length / period;
+    let velocity = DVec3::new(x[0] * speed, 0.0, x[1] * speed);
+    let rate = DVec3::new(0.0, x[2] / period, 0.0);
+    let state = beat.state(DVec3::ZERO, r2(pitch), velocity, rate);
+    let end = beat.advance(&state);
+    let weight = beat.mass() * beat.gravity().length();
+    let (before, after) = (beat.root(&state), beat.root(&end));
+    let turned = before.r.transpose() * after.r;
+    let residual = [
+        (end[7] - state[7]) / (weight * period),
+        (end[9] - state[9]) / (weight * period),
+        (end[11] - state[11]) / (weight * length * period),
+        turned.z_axis.x.atan2(turned.x_axis.x),
+        (end[0] - problem.velocity.x * period) / length,
+        (end[2] - problem.velocity.z * period) / length,
+    ];
+    Ok(Trim {
+        converged: false,
+        residual,
+        iterations: 0,
+        adjustment,
+        mass_centre,
+        body_pitch: pitch,
+        state,
+        beat,
+        setup,
+    })
+}
+
+/// The setup with the controls `values` of the problem's unknowns; adjustment, shift of the mass
+/// centre and body pitch.
+fn adjusted(
+    setup: &FlightSetup,
+    problem: &TrimProblem,
+    values: &[f64],
+) -> (FlightSetup, Adjustment, f64, f64) {
+    let mut a = Adjustment::default();
+    let (mut shift, mut pitch) = (0.0, problem.body_pitch);
+    for (unknown, &x) in problem.unknowns.iter().zip(values) {
+        match unknown {
+            Unknown::StrokeAmplitude => a.stroke_amplitude = x,
+            Unknown::StrokeOffset => a.stroke_offset = x,
+            Unknown::Frequency => a.frequency = x,
+            Unknown::StrokePlane => a.stroke_plane = x,
+            Unknown::FeatheringOffset => a.feathering_offset = x,
+            Unknown::FeatheringLead => a.feathering_lead = x,
+            Unknown::DeviationOffset => a.deviation_offset = x,
+            Unknown::BodyPitch => pitch = x,
+            Unknown::MassCentre => shift = x,
+        }
+    }
+    let mut setup = setup.clone();
+    let tips = setup.animal.wings.iter().flat_map(|w| &w.mesh.nodes);
+    shift *= tips.fold(0.0_f64, |m, r| m.max(r.length()));
+    for wing in &mut setup.animal.wings {
+        wing.motion = wing.motion.adjusted(wing.side, &a);
+        wing.hinge_b.x -= shift;
+    }
+    (setup, a, shift, pitch)
+}
+
+/// Derivatives of the residuals, rows by residual, by central differences.
+fn jacobian(
+    setup: &FlightSetup,
+    problem: &TrimProblem,
+    x: &[f64],
+) -> Result<Vec<f64>, AnalysisError> {
+    // The cube root of the rounding of the map: central differences are then best.
+    const STEP: f64 = 1e-5;
+    let n = x.len();
+    let mut j = vec![0.0; n * n];
+    for k in 0..n {
+        let moved = |s: f64| {
+            let mut x = x.to_vec();
+            x[k] += s;
+            evaluate(setup, problem, &x).map(|t| t.residual)
+        };
+        let (plus, minus) = (moved(STEP)?, moved(-STEP)?);
+        for i in 0..n {
+            j[i * n + k] = (plus[i] - minus[i]) / (2.0 * STEP);
+        }
+    }
+    Ok(j)
+}
+
+type Point = (Vec<f64>, [f64; 6]);
+
+/// A point on Newton's direction that lowers the sum of squares of the residuals; none if there
+/// is none.
+fn line_search(
+    setup: &FlightSetup,
+    problem: &TrimProblem,
+    x: &[f64],
+    residual: &[f64; 6],
+    mut jacobian: Vec<f64>,
+) -> Result<Option<Point>, AnalysisError> {
+    let mut step = residual.to_vec();
+    if solve_small(&mut jacobian, &mut step).is_err() {
+        return Ok(None);
+    }
+    let squares = |r: &[f64; 6]| r.iter().map(|x| x * x).sum::<f64>();
+    // No unknown moves by more than 0.5 (radians, relative changes, R f) at once.
+    let longest = step.iter().fold(0.0_f64, |m, s| m.max(s.abs()));
+    let mut length = (0.5 / longest).min(1.0);
+    for _ in 0..20 {
+        let trial: Vec<f64> = x.iter().zip(&step).map(|(x, s)| x - length * s).collect();
+        if let Ok(found) = evaluate(setup, problem, &trial)
+            && squares(&found.residual) < squares(residual)
+        {
+            return Ok(Some((trial, found.residual)));
+        }
+        length *= 0.5;
+    }
+    Ok(None)
+}
+
+fn largest(r: &[f64; 6]) -> f64 {
+    r.iter().fold(0.0, |m, x| {
+        if x.is_nan() {
+            f64::INFINITY
+        } else {
+            m.max(x.abs())
+        }
+    })
+}

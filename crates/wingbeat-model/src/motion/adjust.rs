@@ -1,0 +1,96 @@
+//! Adjusted angle laws: the means of steering and trim.
+
+use super::{AngleLaw, WingMotion};
+use crate::mesh::Side;
+
+impl AngleLaw {
+    /// Mean over a beat \[rad\].
+    pub fn mean(&self) -> f64 {
+        match self {
+            AngleLaw::Constant(q) => *q,
+            AngleLaw::Fourier(law) => law.mean,
+            AngleLaw::SmoothTriangle(law) => law.mean,
+            AngleLaw::SmoothSquare(law) => law.mean,
+            AngleLaw::Oval(law) => law.mean,
+            AngleLaw::Table(law) => law.mean(),
+        }
+    }
+
+    /// The law `q(x) + offset` \[rad\].
+    pub fn raised(&self, offset: f64) -> Self {
+        let mut law = self.clone();
+        match &mut law {
+            AngleLaw::Constant(q) => *q += offset,
+            AngleLaw::Fourier(law) => law.mean += offset,
+            AngleLaw::SmoothTriangle(law) => law.mean += offset,
+            AngleLaw::SmoothSquare(law) => law.mean += offset,
+            AngleLaw::Oval(law) => law.mean += offset,
+            AngleLaw::Table(law) => *law = law.raised(offset),
+        }
+        law
+    }
+
+    /// The law with `factor` times the swing about its mean.
+    pub fn amplified(&self, factor: f64) -> Self {
+        let mean = self.mean();
+        self.raised(-mean).scaled(factor).raised(mean)
+    }
+
+    /// The law `q(x + lead)`, lead in wingbeats.
+    pub fn advanced(&self, lead: f64) -> Self {
+        let turn = std::f64::consts::TAU * lead;
+        let mut law = self.clone();
+        match &mut law {
+            AngleLaw::Constant(_) => {}
+            AngleLaw::Fourier(law) => *law = law.shifted(lead),
+            AngleLaw::SmoothTriangle(law) => law.shift += turn,
+            AngleLaw::SmoothSquare(law) => law.shift += turn,
+            AngleLaw::Oval(law) => law.shift += turn * law.count as f64,
+            AngleLaw::Table(law) => *law = law.advanced(lead),
+        }
+        law
+    }
+}
+
+/// Adjustments of a wing's motion. All zero leaves it as it is.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Adjustment {
+    /// Relative change of the stroke's swing about its mean \[1\].
+    pub stroke_amplitude: f64,
+    /// Added to the stroke angle, positive forward (ventral) on either side \[rad\].
+    pub stroke_offset: f64,
+    /// Added to the feathering angle \[rad\].
+    pub feathering_offset: f64,
+    /// Relative change of the feathering's swing about its mean \[1\].
+    pub feathering_amplitude: f64,
+    /// Lead of feathering \[wingbeats\].
+    pub feathering_lead: f64,
+    /// Added to the deviation, in the sense of a right wing on either side \[rad\].
+    pub deviation_offset: f64,
+    /// Added to the pitch of the stroke plane \[rad\].
+    pub stroke_plane: f64,
+    /// Relative change of the frequency \[1\].
+    pub frequency: f64,
+}
+
+impl WingMotion {
+    /// The motion of a wing of this side with the adjustment.
+    pub fn adjusted(&self, side: Side, by: &Adjustment) -> Self {
+        let s = side.sign();
+        let mut m = self.clone();
+        let a = &self.angles;
+        m.angles.phi = a
+            .phi
+            .amplified(1.0 + by.stroke_amplitude)
+            .raised(s * by.stroke_offset);
+        m.angles.theta = a.theta.raised(s * by.deviation_offset);
+        m.angles.psi = a
+            .psi
+            .amplified(1.0 + by.feathering_amplitude)
+            .advanced(by.feathering_lead)
+            .raised(by.feathering_offset);
+        m.stroke_plane_pitch += by.stroke_plane;
+        m.frequency *= 1.0 + by.frequency;
+        m
+    }
+}
