@@ -51,3 +51,17 @@ fn agrees_the_default_preset_with_the_fruit_fly_of_the_model() {
         }
     }
 }
+
+#[test]
+fn exact_schema_describes_every_key_of_the_resolved_default() {
+    let schema: serde_json::Value = serde_json::from_str(&wingbeat_io::case::schema()).unwrap();
+    let case = LoadedCase::find("fruit-fly-hover", &[]).unwrap();
+    let resolved: toml::Table = case.resolved().parse().unwrap();
+    for key in resolved.keys() {
+        assert!(
+            schema["properties"][key].is_object(),
+            "`{key}` is not in the schema"
+        );
+    }
+    assert_eq!(schema["additionalProperties"], false);
+}

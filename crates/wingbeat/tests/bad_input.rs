@@ -2,8 +2,11 @@
 //! 2, and nothing is written.
 
 use std::fs;
-use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
+use std::path::PathBuf;
+
+mod support;
+
+use support::{Scratch, wingbeat};
 
 /// A vacuum case that is fine and quick.
 const GOOD: &str = r#"format = 1
@@ -44,32 +47,11 @@ spanwise = 3
 rows_deg = [[0.0, 10.0], [0.25, 40.0], [0.5, 10.0], [0.75, -40.0], [1.0, 10.0]]
 "#;
 
-struct Scratch(PathBuf);
-
-impl Scratch {
-    fn new(name: &str) -> Self {
-        let path = std::env::temp_dir().join(format!("wingbeat-bad-{name}-{}", std::process::id()));
-        let _ = fs::remove_dir_all(&path);
-        fs::create_dir_all(&path).unwrap();
-        Self(path)
-    }
-
-    fn case(&self, text: &str) -> String {
-        let path = self.0.join("case.toml");
-        fs::write(&path, text).unwrap();
-        path.display().to_string()
-    }
-}
-
-impl Drop for Scratch {
-    fn drop(&mut self) {
-        let _ = fs::remove_dir_all(&self.0);
-    }
-}
-
-fn wingbeat(dir: &Path, args: &[&str]) -> Output {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_wingbeat"));
-    command.current_dir(dir).args(args).output().unwrap()
+/// Writes the case into the folder.
+fn case_in(scratch: &Scratch, text: &str) -> PathBuf {
+    let path = scratch.0.join("case.toml");
+    fs::write(&path, text).unwrap();
+    path
 }
 
 /// Runs the good case with `from` replaced by `to` and checks the report and that nothing else
@@ -78,7 +60,7 @@ fn refused(name: &str, from: &str, to: &str, at: &str, wanted: &[&str]) {
     assert!(GOOD.contains(from), "the test replaces nothing");
     let scratch = Scratch::new(name);
     let text = GOOD.replacen(from, to, 1);
-    let case = scratch.case(&text);
+    let case = case_in(&scratch, &text);
     let out = wingbeat(&scratch.0, &["run", "case.toml", "--out", "run"]);
     let report = String::from_utf8(out.stderr).unwrap();
     assert_eq!(out.status.code(), Some(2), "{report}");
@@ -95,7 +77,7 @@ fn refused(name: &str, from: &str, to: &str, at: &str, wanted: &[&str]) {
         assert!(report.contains(part), "`{part}` not in:\n{report}");
     }
     assert!(
-        Path::new(&case).exists() && !scratch.0.join("run").exists(),
+        case.exists() && !scratch.0.join("run").exists(),
         "something was written"
     );
 }
@@ -103,7 +85,7 @@ fn refused(name: &str, from: &str, to: &str, at: &str, wanted: &[&str]) {
 #[test]
 fn exact_the_good_case_flies() {
     let scratch = Scratch::new("good");
-    scratch.case(GOOD);
+    case_in(&scratch, GOOD);
     let out = wingbeat(&scratch.0, &["run", "case.toml", "--out", "run", "--quiet"]);
     assert!(
         out.status.success(),
@@ -168,7 +150,7 @@ fn exact_unknown_choice() {
         "\"non\"",
         &[
             "air.model = \"non\": unknown choice `non`",
-            "vortex_lattice, none",
+            "vortex_lattice, blade_element, none",
             "did you mean `none`?",
         ],
     );
@@ -281,7 +263,7 @@ fn exact_singular_attitude_in_euler_form() {
 #[test]
 fn exact_broken_toml() {
     let scratch = Scratch::new("toml");
-    scratch.case(&GOOD.replace("name = \"good\"", "name = \"good"));
+    case_in(&scratch, &GOOD.replace("name = \"good\"", "name = \"good"));
     let out = wingbeat(&scratch.0, &["check", "case.toml"]);
     let report = String::from_utf8(out.stderr).unwrap();
     assert_eq!(out.status.code(), Some(2));
@@ -294,7 +276,7 @@ fn exact_broken_toml() {
 #[test]
 fn exact_bad_override_says_where_it_came_from() {
     let scratch = Scratch::new("set");
-    scratch.case(GOOD);
+    case_in(&scratch, GOOD);
     let set = ["check", "case.toml", "--set", "wing.right.mass_kg=-1"];
     let out = wingbeat(&scratch.0, &set);
     let report = String::from_utf8(out.stderr).unwrap();
@@ -316,7 +298,7 @@ fn exact_bad_override_says_where_it_came_from() {
 fn exact_nan_in_a_table_file() {
     let scratch = Scratch::new("file");
     let rows = GOOD.lines().find(|l| l.starts_with("rows_deg")).unwrap();
-    scratch.case(&GOOD.replace(rows, "file = \"phi.csv\""));
+    case_in(&scratch, &GOOD.replace(rows, "file = \"phi.csv\""));
     fs::write(
         scratch.0.join("phi.csv"),
         "phase,phi\n0,10\n0.25,40\n0.5,nan\n0.75,-40\n1,10\n",
@@ -338,7 +320,7 @@ fn exact_nan_in_a_table_file() {
 #[test]
 fn exact_output_directory_that_exists() {
     let scratch = Scratch::new("exists");
-    scratch.case(GOOD);
+    case_in(&scratch, GOOD);
     let precious = scratch.0.join("run/precious.txt");
     fs::create_dir_all(scratch.0.join("run")).unwrap();
     fs::write(&precious, "mine").unwrap();
@@ -360,7 +342,7 @@ fn exact_output_directory_that_exists() {
 #[test]
 fn exact_output_directory_that_cannot_be_written() {
     let scratch = Scratch::new("write");
-    scratch.case(GOOD);
+    case_in(&scratch, GOOD);
     fs::write(scratch.0.join("file"), "mine").unwrap();
     let out = wingbeat(&scratch.0, &["run", "case.toml", "--out", "file/run"]);
     let report = String::from_utf8(out.stderr).unwrap();

@@ -1,6 +1,6 @@
 //! Case files: from text to a validated setup, and back to text with everything filled in.
 //!
-//! The way of a case: text -> [`source`] (document, positions of keys, overrides) -> `decode`
+//! The way of a case: text -> `source` (document, positions of keys, overrides) -> `decode`
 //! (raw types of [`raw`], unknown keys refused) -> `files` (meshes and tables read in) ->
 //! `build` (every number checked) -> [`wingbeat_flight::FlightSetup`].
 

@@ -1,10 +1,10 @@
 //! What happened, in words and numbers, and how far it can be trusted.
 
-use std::fmt::Write as _;
+mod trust;
+mod words;
 
 use serde::{Deserialize, Serialize};
-use wingbeat_air::CoreModel;
-use wingbeat_flight::{AirModel, FlightSetup, FormulationChoice, MotionMode};
+use wingbeat_flight::FlightSetup;
 use wingbeat_math::DVec3;
 
 use super::{History, Outcome};
@@ -71,9 +71,6 @@ pub struct Summary {
     /// What a reader should know before using the numbers.
     pub warnings: Vec<String>,
 }
-
-/// No animal carries this many of its weights over a whole wingbeat.
-const IMPLAUSIBLE_LIFT: f64 = 10.0;
 
 /// Unit vector along gravity; n3 without gravity.
 pub fn down(setup: &FlightSetup) -> DVec3 {
@@ -163,7 +160,7 @@ impl Summary {
             leak_velocity_m_s: most("leak_velocity_m_per_s"),
             warnings: vec![],
         };
-        summary.warnings = warnings(setup, &summary);
+        summary.warnings = trust::warnings(setup, &summary);
         summary
     }
 
@@ -171,144 +168,6 @@ impl Summary {
     pub fn to_json(&self) -> String {
         serde_json::to_string_pretty(self).expect("a summary is JSON") + "\n"
     }
-
-    /// For people.
-    pub fn to_text(&self) -> String {
-        let mut out = String::new();
-        self.headline(&mut out);
-        self.beat_table(&mut out);
-        self.balances(&mut out);
-        out.push_str("\nHow far to trust it\n");
-        for warning in &self.warnings {
-            out.push_str(&wrapped("  - ", warning));
-        }
-        out
-    }
-
-    fn headline(&self, out: &mut String) {
-        let end = match &self.outcome {
-            Outcome::Finished => "flew to its end".to_owned(),
-            Outcome::Interrupted => "was interrupted; everything up to there is written".to_owned(),
-            Outcome::Failed(why) => format!("ended early: {why}"),
-            Outcome::Running => "is running".to_owned(),
-        };
-        let _ = writeln!(
-            out,
-            "{} {end}: {} steps, {:.4} s.",
-            self.case, self.steps, self.time_s
-        );
-        let [x, y, z] = self.displacement_m.map(|d| d * 1e3);
-        let _ = writeln!(
-            out,
-            "The body moved {x:+.3} mm forward (n1), {y:+.3} mm right (n2), {:+.3} mm up;",
-            -z
-        );
-        let [pitch, yaw, roll] = self.turn_deg;
-        let _ = writeln!(
-            out,
-            "it turned {pitch:+.2} deg in pitch, {yaw:+.2} in yaw, {roll:+.2} in roll (Euler 2-3-1)."
-        );
-    }
-
-    fn beat_table(&self, out: &mut String) {
-        let no_air = self.final_lift_newton == 0.0 && self.final_thrust_newton == 0.0;
-        if !no_air {
-            let _ = writeln!(
-                out,
-                "At the end the air pushes up with {} and forward with {}.",
-                engineering(self.final_lift_newton, "N").trim(),
-                engineering(self.final_thrust_newton, "N").trim()
-            );
-        }
-        if self.beats.is_empty() {
-            return;
-        }
-        out.push_str("\n beat   lift/weight      lift       forward      power\n");
-        for b in &self.beats {
-            let ratio = b
-                .lift_over_weight
-                .map_or("-".to_owned(), |r| format!("{r:.3}"));
-            let _ = writeln!(
-                out,
-                "{:5}   {ratio:>11}   {}   {}   {}",
-                b.beat,
-                engineering(b.lift_newton, "N"),
-                engineering(b.thrust_newton, "N"),
-                engineering(b.power_watt, "W")
-            );
-        }
-    }
-
-    fn balances(&self, out: &mut String) {
-        out.push_str("\nBalances (largest over the run)\n");
-        let _ = writeln!(
-            out,
-            "  energy residual over energy turned over   {:.1e}",
-            self.energy_residual_relative
-        );
-        let _ = writeln!(
-            out,
-            "  momentum residual over impulse            {:.1e}",
-            self.momentum_residual_relative
-        );
-        let _ = writeln!(
-            out,
-            "  constraint violation                      {:.1e} m, {:.1e} (orientation)",
-            self.violation_position_m, self.violation_orientation
-        );
-        let _ = writeln!(
-            out,
-            "  corrector passes                          {:.1} mean, {} most",
-            self.corrector_passes_mean, self.corrector_passes_most
-        );
-        let _ = writeln!(
-            out,
-            "  wake rings at the end                     {}",
-            self.wake_rings
-        );
-        let _ = writeln!(
-            out,
-            "  regularised events                        {}",
-            self.regularised
-        );
-    }
-}
-
-/// A number with a prefix that leaves one to three digits before the point.
-fn engineering(x: f64, unit: &str) -> String {
-    const PREFIXES: [(f64, &str); 6] = [
-        (1e3, "k"),
-        (1.0, " "),
-        (1e-3, "m"),
-        (1e-6, "u"),
-        (1e-9, "n"),
-        (1e-12, "p"),
-    ];
-    if x.abs() >= 1e6 {
-        return format!("{x:8.2e}  {unit}");
-    }
-    let x = if x.abs() < 1e-12 { 0.0 } else { x };
-    let fits = |p: &&(f64, &str)| x.abs() >= p.0;
-    let (scale, prefix) = PREFIXES.iter().find(fits).copied().unwrap_or((1.0, " "));
-    format!("{:8.3} {prefix}{unit}", x / scale)
-}
-
-/// Text broken at 92 columns, continued under the first word.
-fn wrapped(bullet: &str, text: &str) -> String {
-    let mut out = bullet.to_owned();
-    let mut column = bullet.len();
-    for word in text.split(' ') {
-        if column + word.len() > 92 {
-            let _ = write!(out, "\n{:width$}", "", width = bullet.len());
-            column = bullet.len();
-        }
-        out.push_str(word);
-        out.push(' ');
-        column += word.len() + 1;
-    }
-    out.truncate(out.trim_end().len());
-    out.push('\n');
-    out.replace(" \n", "\n")
 }
 
 fn beats(setup: &FlightSetup, history: &History) -> Vec<BeatMeans> {
@@ -373,109 +232,15 @@ fn momentum_residual(setup: &FlightSetup, history: &History, time: f64) -> f64 {
 fn ratio(x: f64, scale: f64) -> f64 {
     if scale > 0.0 { x / scale } else { x }
 }
-
-fn warnings(setup: &FlightSetup, summary: &Summary) -> Vec<String> {
-    let mut list = vec![];
-    match &setup.air {
-        AirModel::None => list.push(
-            "There is no air: this is the motion that weight and wing inertia alone give."
-                .to_owned(),
-        ),
-        AirModel::VortexLattice(air) => air_warnings(setup, air, summary, &mut list),
-        AirModel::BladeElement(_) => list.push("The air is quasi-steady: blade elements with measured coefficients, no wake, no interaction of the wings with each other or with the air they moved before.".to_owned()),
-    }
-    if summary.euler_regularity < 0.05 {
-        let held = match setup.formulation {
-            FormulationChoice::Momentum => {
-                "the momentum form passes through unharmed, but the angles and rates in history.csv are steep there"
-            }
-            FormulationChoice::Euler(_) => {
-                "accelerations are inaccurate there; use the momentum form"
-            }
-        };
-        list.push(format!(
-            "An Euler angle came close to its singularity (|cos theta| = {:.3}): {held}.",
-            summary.euler_regularity
-        ));
-    }
-    if matches!(setup.formulation, FormulationChoice::Euler(_)) {
-        list.push(format!(
-            "Euler form: the constraints drift; here by at most {:.1e} m and {:.1e} rad.",
-            summary.violation_position_m, summary.violation_orientation
-        ));
-    }
-    if matches!(setup.mode, MotionMode::Tethered(_)) {
-        list.push("Tethered: the body does not answer to the forces on it.".to_owned());
-    }
-    list
-}
-
-fn air_warnings(
-    setup: &FlightSetup,
-    air: &wingbeat_flight::AirOptions,
-    summary: &Summary,
-    list: &mut Vec<String>,
-) {
-    let lattice = &air.lattice;
-    list.push("The air is inviscid: no friction, so at insect Reynolds numbers (100 to 1000) drag and power come out low. Forces are pressure times normal, without leading-edge suction.".to_owned());
-    let chord = setup
-        .animal
-        .wing_reports()
-        .first()
-        .map_or(1.0, |r| r.mean_chord);
-    let (kind, size) = core(&lattice.wake_core);
-    list.push(format!(
-        "The vortex core ({kind}, {size:.1e} m = {:.3} mean chords) is an input, not a result: vary it and see what changes.",
-        size / chord
-    ));
-    if lattice.shedding.leading {
-        list.push("Leading edges shed: such sheets have no converged history beyond the first half stroke. Read means over several beats and their spread, not single peaks.".to_owned());
-    }
-    if setup.time.period.is_some() {
-        list.push("The air is first order in the step and the wings are coarse: halve the step and double the panels before quoting a number.".to_owned());
-    }
-    let weights = |b: &BeatMeans| b.lift_over_weight.unwrap_or(0.0).abs();
-    if let Some(b) = summary.beats.iter().find(|b| weights(b) > IMPLAUSIBLE_LIFT) {
-        list.insert(0, format!(
-            "The air diverged: a mean lift of {:.0} weights in beat {} is not physical. Enlarge the wake core, take smaller steps, keep fewer wake rows, or do not shed from leading edges.",
-            weights(b), b.beat
-        ));
-    }
-    if summary.regularised > 0 {
-        list.push(format!(
-            "{} times a wake node was stopped or ran close to a surface and was regularised.",
-            summary.regularised
-        ));
-    }
-    if summary.leak_velocity_m_s > 0.0 {
-        list.push(format!(
-            "Closed body surfaces leak at most {:.1e} m/s (the price of their one-dimensional null space).",
-            summary.leak_velocity_m_s
-        ));
-    }
-}
-
-fn core(model: &CoreModel) -> (&'static str, f64) {
-    match *model {
-        CoreModel::CutOff { delta } => ("cut-off", delta),
-        CoreModel::Vatistas { radius } => ("Vatistas", radius),
-        CoreModel::Scully { radius } => ("Scully", radius),
-        CoreModel::LambOseen { radius, .. } => ("Lamb-Oseen", radius),
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
     #[test]
-    fn exact_mean_of_a_period_and_prefixes() {
+    fn exact_mean_of_a_period() {
         // cos^2 over a whole period has the mean 1/2; the trapezoidal rule is exact for it.
-        let y: Vec<f64> = (0..=8)
-            .map(|k| (f64::from(k) * std::f64::consts::FRAC_PI_4).cos().powi(2))
-            .collect();
+        let angle = |k: i32| f64::from(k) * std::f64::consts::FRAC_PI_4;
+        let y: Vec<f64> = (0..=8).map(|k| angle(k).cos().powi(2)).collect();
         assert!((mean(&y, 0..=8) - 0.5).abs() < 1e-15); // one rounding
-        assert_eq!(engineering(9.24e-6, "N").trim(), "9.240 uN");
-        assert_eq!(engineering(0.0, "W").trim(), "0.000  W");
     }
 }

@@ -1,0 +1,100 @@
+//! How far the results can be trusted.
+
+use wingbeat_air::CoreModel;
+use wingbeat_flight::{AirModel, FlightSetup, FormulationChoice, MotionMode};
+
+use super::{BeatMeans, Summary};
+
+/// No animal carries this many of its weights over a whole wingbeat.
+const IMPLAUSIBLE_LIFT: f64 = 10.0;
+
+/// What a reader should know before using the numbers.
+pub(super) fn warnings(setup: &FlightSetup, summary: &Summary) -> Vec<String> {
+    let mut list = vec![];
+    match &setup.air {
+        AirModel::None => list.push(
+            "There is no air: this is the motion that weight and wing inertia alone give."
+                .to_owned(),
+        ),
+        AirModel::VortexLattice(air) => air_warnings(setup, air, summary, &mut list),
+        AirModel::BladeElement(_) => list.push("The air is quasi-steady: blade elements with measured coefficients, no wake, no interaction of the wings with each other or with the air they moved before.".to_owned()),
+    }
+    if summary.euler_regularity < 0.05 {
+        let held = match setup.formulation {
+            FormulationChoice::Momentum => {
+                "the momentum form passes through unharmed, but the angles and rates in history.csv are steep there"
+            }
+            FormulationChoice::Euler(_) => {
+                "accelerations are inaccurate there; use the momentum form"
+            }
+        };
+        list.push(format!(
+            "An Euler angle came close to its singularity (|cos theta| = {:.3}): {held}.",
+            summary.euler_regularity
+        ));
+    }
+    if matches!(setup.formulation, FormulationChoice::Euler(_)) {
+        list.push(format!(
+            "Euler form: the constraints drift; here by at most {:.1e} m and {:.1e} rad.",
+            summary.violation_position_m, summary.violation_orientation
+        ));
+    }
+    if matches!(setup.mode, MotionMode::Tethered(_)) {
+        list.push("Tethered: the body does not answer to the forces on it.".to_owned());
+    }
+    list
+}
+
+fn air_warnings(
+    setup: &FlightSetup,
+    air: &wingbeat_flight::AirOptions,
+    summary: &Summary,
+    list: &mut Vec<String>,
+) {
+    let lattice = &air.lattice;
+    list.push("The air is inviscid: no friction, so at insect Reynolds numbers (100 to 1000) drag and power come out low. Forces are pressure times normal, without leading-edge suction.".to_owned());
+    let chord = setup
+        .animal
+        .wing_reports()
+        .first()
+        .map_or(1.0, |r| r.mean_chord);
+    let (kind, size) = core(&lattice.wake_core);
+    list.push(format!(
+        "The vortex core ({kind}, {size:.1e} m = {:.3} mean chords) is an input, not a result: vary it and see what changes.",
+        size / chord
+    ));
+    if lattice.shedding.leading {
+        list.push("Leading edges shed: such sheets have no converged history beyond the first half stroke. Read means over several beats and their spread, not single peaks.".to_owned());
+    }
+    if setup.time.period.is_some() {
+        list.push("The air is first order in the step and the wings are coarse: halve the step and double the panels before quoting a number.".to_owned());
+    }
+    let weights = |b: &BeatMeans| b.lift_over_weight.unwrap_or(0.0).abs();
+    if let Some(b) = summary.beats.iter().find(|b| weights(b) > IMPLAUSIBLE_LIFT) {
+        list.insert(0, format!(
+            "The air diverged: a mean lift of {:.0} weights in beat {} is not physical. Enlarge the wake core, take smaller steps, keep fewer wake rows, or do not shed from leading edges.",
+            weights(b), b.beat
+        ));
+    }
+    if summary.regularised > 0 {
+        list.push(format!(
+            "{} times a wake node was stopped or ran close to a surface and was regularised.",
+            summary.regularised
+        ));
+    }
+    if summary.leak_velocity_m_s > 0.0 {
+        list.push(format!(
+            "Closed body surfaces leak at most {:.1e} m/s (the price of their one-dimensional null space).",
+            summary.leak_velocity_m_s
+        ));
+    }
+}
+
+fn core(model: &CoreModel) -> (&'static str, f64) {
+    match *model {
+        CoreModel::CutOff { delta } => ("cut-off", delta),
+        CoreModel::Vatistas { radius } => ("Vatistas", radius),
+        CoreModel::Scully { radius } => ("Scully", radius),
+        CoreModel::LambOseen { radius, .. } => ("Lamb-Oseen", radius),
+    }
+}

@@ -1,0 +1,47 @@
+//! What the tests of the program share.
+#![allow(dead_code, reason = "not every test file uses everything")]
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+/// A folder of its own, removed at the end.
+pub struct Scratch(pub PathBuf);
+
+impl Scratch {
+    pub fn new(name: &str) -> Self {
+        let path =
+            std::env::temp_dir().join(format!("wingbeat-test-{name}-{}", std::process::id()));
+        let _ = fs::remove_dir_all(&path);
+        fs::create_dir_all(&path).unwrap();
+        Self(path)
+    }
+}
+
+impl Drop for Scratch {
+    fn drop(&mut self) {
+        let _ = fs::remove_dir_all(&self.0);
+    }
+}
+
+/// Runs the program in a folder.
+pub fn wingbeat(dir: &Path, args: &[&str]) -> Output {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_wingbeat"));
+    command.current_dir(dir).args(args).output().unwrap()
+}
+
+/// The numbers of one DataArray of a .vtp file.
+pub fn array(text: &str, name: &str) -> Vec<[u8; 8]> {
+    use base64::Engine as _;
+    let tag = format!("Name=\"{name}\"");
+    let body = text.split(&tag).nth(1).unwrap().split('\n').nth(1).unwrap();
+    let bytes = base64::engine::general_purpose::STANDARD
+        .decode(body)
+        .unwrap();
+    let length = u64::from_le_bytes(bytes[..8].try_into().unwrap());
+    assert_eq!(length as usize, bytes.len() - 8);
+    bytes[8..]
+        .chunks(8)
+        .map(|c| c.try_into().unwrap())
+        .collect()
+}
