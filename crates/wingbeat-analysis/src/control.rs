@@ -11,9 +11,7 @@ use wingbeat_model::motion::Adjustment;
 
 use crate::AnalysisError;
 use crate::beat::{Beat, State};
-use crate::derivatives::control_derivatives;
-use crate::level::Level;
-use crate::mean::MeanLoad;
+use crate::level::{Level, Perturbation};
 use crate::trim::Trim;
 
 /// What a controller sees at the start of a beat.
@@ -23,12 +21,8 @@ pub struct Sensed {
     pub beat: usize,
     /// Mass centre relative to the start, level frame of the trimmed flight [m].
     pub position: DVec3,
-    /// Velocity of the mass centre: mean over the last beat, level frame [m/s].
-    pub velocity: DVec3,
-    /// Rotation vector roll, pitch, heading from the trimmed attitude \[rad\].
-    pub tilt: DVec3,
-    /// Mean rate of the tilt over the last beat [rad/s].
-    pub rate: DVec3,
+    /// Velocity, angular velocity and tilt at this instant, less those of the trimmed flight.
+    pub departure: Perturbation,
 }
 
 /// A controller: from what is sensed to one adjustment per wing.
@@ -47,122 +41,6 @@ impl Controller for Free {
     }
 }
 
-/// Proportional-derivative stabiliser of attitude, altitude and place, its gains laid out on the
-/// averaged model of the trimmed flight.
-///
-/// Pitch acts on the mean stroke angle of all wings; roll and heading together on the differences
-/// of amplitude and stroke plane between right and left; height on the amplitude. A horizontal
-/// error asks for a tilt towards the place wanted.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Stabiliser {
-    /// Bandwidth of the attitude [rad/s].
-    pub attitude: f64,
-    /// Bandwidth of height and place [rad/s]; well below that of the attitude.
-    pub place: f64,
-    /// Largest tilt asked for \[rad\].
-    pub largest_tilt: f64,
-    /// Largest adjustment of any kind \[rad, 1\].
-    pub largest_adjustment: f64,
-    gravity: f64,
-    /// Pitch acceleration per stroke offset [1/s2].
-    pitch: f64,
-    /// Downward acceleration per relative amplitude [m/s2].
-    heave: f64,
-    /// Inverse of the (roll, heading) accelerations per (amplitude, stroke plane) difference.
-    lateral: [[f64; 2]; 2],
-    /// Sign of every wing in the differences: +1 right, -1 left.
-    sides: Vec<f64>,
-}
-
-impl Stabiliser {
-    /// Gains for the trimmed flight: attitude to follow at `attitude` rad/s, place at `place`.
-    ///
-    /// # Errors
-    /// Controls that do nothing about an axis.
-    pub fn new(trim: &Trim, attitude: f64, place: f64) -> Result<Self, AnalysisError> {
-        let r = trim.beat.root(&trim.state).r;
-        let list = control_derivatives(&trim.setup, r, DVec3::ZERO, trim.beat.steps())?;
-        let level = Level::new(r, trim.beat.gravity());
-        let j = level.to_root.transpose() * trim.beat.mean_inertia() * level.to_root;
-        let sides: Vec<f64> = trim
-            .setup
-            .animal
-            .wings
-            .iter()
-            .map(|w| w.side.sign())
-            .collect();
-        let of = |control: &str, wing: &str| {
-            let found = list.iter().find(|d| d.control == control && d.wing == wing);
-            found.map_or(MeanLoad::default(), |d| d.derivative)
-        };
-        // Right up, left down by one half each.
-        let difference = |control: &str| {
-            let moments = trim.setup.animal.wings.iter().zip(&sides);
-            let sum: DVec3 = moments
-                .map(|(w, s)| 0.5 * s * of(control, &w.name).moment)
-                .sum();
-            j.inverse() * sum
-        };
-        let (a, b) = (difference("stroke_amplitude"), difference("stroke_plane"));
-        let det = a.x * b.z - b.x * a.z;
-        let pitch = (j.inverse() * of("stroke_offset", "all").moment).y;
-        let heave = of("stroke_amplitude", "all").force.z / trim.beat.mass();
-        if det == 0.0 || pitch == 0.0 || heave == 0.0 {
-            return Err(AnalysisError::not_covered(
-                "the strokes do not steer all axes",
-                "stabilise an animal with a pair of wings in air",
-            ));
-        }
-        Ok(Self {
-            attitude,
-            place,
-            largest_tilt: 0.2,
-            largest_adjustment: 0.15,
-            gravity: trim.beat.gravity().length(),
-            pitch,
-            heave,
-            lateral: [[b.z / det, -b.x / det], [-a.z / det, a.x / det]],
-            sides,
-        })
-    }
-
-    /// Acceleration asked for by an error and its rate: critically damped.
-    fn asked(bandwidth: f64, error: f64, rate: f64) -> f64 {
-        -bandwidth * bandwidth * error - 2.0 * bandwidth * rate
-    }
-}
-
-impl Controller for Stabiliser {
-    fn command(&mut self, s: &Sensed, wings: usize) -> Vec<Adjustment> {
-        let limit = |x: f64, m: f64| x.clamp(-m, m);
-        let ask = |e: DVec3, r: DVec3, b: f64| {
-            DVec3::from_array(std::array::from_fn(|i| Self::asked(b, e[i], r[i])))
-        };
-        let motion = ask(s.position, s.velocity, self.place);
-        // Pitching up (positive) accelerates backward, rolling right to the right.
-        let tilt = [motion.y / self.gravity, -motion.x / self.gravity]
-            .map(|x| limit(x, self.largest_tilt));
-        let turn = ask(
-            s.tilt - DVec3::new(tilt[0], tilt[1], 0.0),
-            s.rate,
-            self.attitude,
-        );
-        let [[a, b], [c, d]] = self.lateral;
-        let m = self.largest_adjustment;
-        let amplitude = limit(a * turn.x + b * turn.z, m);
-        let plane = limit(c * turn.x + d * turn.z, m);
-        let lift = limit(motion.z / self.heave, m);
-        let offset = limit(turn.y / self.pitch, m);
-        let wing = |k: usize| Adjustment {
-            stroke_amplitude: lift + 0.5 * self.sides[k] * amplitude,
-            stroke_offset: offset,
-            stroke_plane: 0.5 * self.sides[k] * plane,
-            ..Adjustment::default()
-        };
-        (0..wings).map(wing).collect()
-    }
-}
-
 /// A flight under control, beat by beat.
 pub struct ControlledFlight<'a> {
     trim: &'a Trim,
@@ -172,6 +50,7 @@ pub struct ControlledFlight<'a> {
     queue: VecDeque<Vec<Adjustment>>,
     acting: Vec<Adjustment>,
     state: State,
+    reference: Perturbation,
     sensed: Sensed,
 }
 
@@ -192,18 +71,18 @@ impl<'a> ControlledFlight<'a> {
             root.w,
         );
         let none = vec![Adjustment::default(); trim.setup.animal.wings.len()];
-        Self {
+        let mut flight = Self {
             level,
             steps: trim.beat.steps(),
             queue: VecDeque::from(vec![none.clone(); latency]),
             acting: none,
-            sensed: Sensed {
-                tilt,
-                ..Sensed::default()
-            },
+            reference: Perturbation::of(&trim.beat, &level, &trim.state),
+            sensed: Sensed::default(),
             state,
             trim,
-        }
+        };
+        flight.sense(0, &trim.beat);
+        flight
     }
 
     /// What was sensed last.
@@ -227,27 +106,29 @@ impl<'a> ControlledFlight<'a> {
         let beat = Beat::between(&self.trim.setup, self.steps, &self.acting, &next)?;
         self.state = beat.advance(&self.state);
         self.acting = next;
-        self.sense(beat.period())
-    }
-
-    fn sense(&mut self, period: f64) -> Result<&Sensed, AnalysisError> {
+        let number = self.sensed.beat + 1;
         if self.state.iter().any(|x| !x.is_finite()) {
             return Err(AnalysisError::Numbers(format!(
-                "beat {}: the flyer is lost",
-                self.sensed.beat + 1
+                "beat {number}: the flyer is lost"
             )));
         }
-        let to_level = self.level.to_n.transpose();
-        let r = DMat3::from_quat(DQuat::from_slice(&self.state[3..7]).normalize());
-        let tilt = DQuat::from_mat3(&(to_level * r * self.level.to_root)).to_scaled_axis();
-        let position = to_level * DVec3::from_slice(&self.state);
-        self.sensed = Sensed {
-            beat: self.sensed.beat + 1,
-            position,
-            velocity: (position - self.sensed.position) / period,
-            tilt,
-            rate: (tilt - self.sensed.tilt) / period,
-        };
+        // The next beat begins as this one ended.
+        self.sense(
+            number,
+            &Beat::between(&self.trim.setup, 1, &self.acting, &self.acting)?,
+        );
         Ok(&self.sensed)
+    }
+
+    /// Looks at the state at the start of the wingbeat `beat`.
+    fn sense(&mut self, number: usize, beat: &Beat) {
+        let seen = Perturbation::of(beat, &self.level, &self.state).to_array();
+        let reference = self.reference.to_array();
+        let departure = std::array::from_fn(|i| seen[i] - reference[i]);
+        self.sensed = Sensed {
+            beat: number,
+            position: self.level.to_n.transpose() * DVec3::from_slice(&self.state),
+            departure: Perturbation::from_array(departure),
+        };
     }
 }

@@ -35,6 +35,7 @@ pub mod mean;
 pub mod modes;
 pub mod monodromy;
 pub mod power;
+pub mod regulator;
 pub mod stability;
 pub mod trim;
 

@@ -3,7 +3,7 @@
 /// Derivative of `map` at `x` by fourth-order central differences with steps `step[k]`, by rows:
 /// entry (i, j) is the derivative of component i by component j.
 ///
-/// For the map "state one period later" this is the monodromy matrix, its eigenvalues Floquet's
+/// The map may have more or fewer components than the point. For the map "state one period later" this is the monodromy matrix, its eigenvalues Floquet's
 /// multipliers.
 ///
 /// # Errors
@@ -14,7 +14,8 @@ pub fn monodromy<E>(
     step: &[f64],
 ) -> Result<Vec<f64>, E> {
     let n = x.len();
-    let mut m = vec![0.0; n * n];
+    let rows = map(x)?.len();
+    let mut m = vec![0.0; rows * n];
     for j in 0..n {
         let at = |s: f64| {
             let mut x = x.to_vec();
@@ -22,7 +23,7 @@ pub fn monodromy<E>(
             map(&x)
         };
         let (p1, m1, p2, m2) = (at(1.0)?, at(-1.0)?, at(2.0)?, at(-2.0)?);
-        for i in 0..n {
+        for i in 0..rows {
             let slope = 8.0 * (p1[i] - m1[i]) - (p2[i] - m2[i]);
             m[i * n + j] = slope / (12.0 * step[j]);
         }

@@ -1,0 +1,206 @@
+//! The fruit fly: trim, modes, power, stabilised hover.
+
+mod common;
+
+use common::*;
+use wingbeat_analysis::control::{ControlledFlight, Controller, Free};
+use wingbeat_analysis::modes::Plane;
+use wingbeat_analysis::power::power;
+use wingbeat_analysis::regulator::{Regulator, Weights};
+use wingbeat_analysis::*;
+use wingbeat_flight::*;
+use wingbeat_math::{DMat3, DQuat, DVec3};
+
+#[test]
+fn published_fry_strokes_carry_the_fly() {
+    // Hovering flies of 0.96 to 1.0 mg by these strokes. Quasi-steady two-wing lift, worked out
+    // independently for R = 2.5 mm, 200 Hz: 1.04-1.22 mg translational, 1.23-1.38 mg with rotation
+    // (the spread is that of wing outlines; other coefficients, no added mass).
+    let lift = |rotation| {
+        let mut setup = fly();
+        if let AirModel::BladeElement(options) = &mut setup.air {
+            options.blade.rotation = rotation;
+            options.blade.translation =
+                wingbeat_air::blade::find_set("dickinson-1999").unwrap().law;
+        }
+        let beat = Beat::new(&setup, 100).unwrap();
+        let y = beat.state(
+            DVec3::ZERO,
+            wingbeat_math::r2(47.5_f64.to_radians()),
+            DVec3::ZERO,
+            DVec3::ZERO,
+        );
+        let level = Level::new(beat.root(&y).r, beat.gravity());
+        -beat.mean_load(&level, DVec3::ZERO, DVec3::ZERO).force.z / 9.81 * 1e6
+    };
+    use wingbeat_air::blade::Rotation;
+    let (without, with) = (lift(Rotation::None), lift(Rotation::SaneDickinson));
+    // 5 % on either side for the outline, a beta distribution of the same r2_hat.
+    assert!(
+        (1.04 * 0.95..1.22 * 1.05).contains(&without),
+        "{without} mg"
+    );
+    assert!((1.23 * 0.95..1.38 * 1.05).contains(&with), "{with} mg");
+}
+
+#[test]
+fn balances_hover_trims_and_then_stays_where_it_is() {
+    let t = trim(&fly(), &hover(100)).unwrap();
+    assert!(t.converged && t.error() < 1e-9, "{:?}", t.residual);
+    // Flown freely by the coupled simulation, a different integrator: within 1 % of R and 0.1
+    // degree of the start after the first beat.
+    let root = t.beat.root(&t.state);
+    let mut setup = t.setup.clone();
+    for wing in &mut setup.animal.wings {
+        wing.motion.start = wingbeat_model::Start::Impulsive;
+    }
+    let angles = wingbeat_math::EulerSequence::BODY_231.angles(root.r);
+    setup.mode = MotionMode::Free(StartState {
+        position: root.p,
+        angles,
+        velocity: root.v,
+        angular_velocity: root.w,
+        held_steps: 0,
+    });
+    let mut flight = Simulation::new(setup).unwrap();
+    while !flight.finished() {
+        flight.step().unwrap();
+    }
+    let record = flight.record();
+    let p = DVec3::from_slice(&record.coordinates);
+    assert!((p - root.p).length() < 0.01 * 2.5e-3, "{:?}", p - root.p);
+    let turned = (record.coordinates[3] - angles.x).abs();
+    assert!(turned < 0.1_f64.to_radians(), "{turned}");
+}
+
+#[test]
+fn balances_forward_flight_and_climb_trim_too() {
+    for velocity in [DVec3::new(0.5, 0.0, 0.0), DVec3::new(0.0, 0.0, -0.3)] {
+        let problem = TrimProblem {
+            velocity,
+            ..hover(60)
+        };
+        let t = trim(&fly(), &problem).unwrap();
+        assert!(t.converged, "{velocity}: {:?}", t.residual);
+        let end = t.beat.advance(&t.state);
+        let travelled = DVec3::from_slice(&end) / t.beat.period();
+        assert!((travelled - velocity).length() < 1e-6, "{travelled}"); // tolerance times R/T
+    }
+}
+
+#[test]
+fn limit_an_impossible_trim_reports_the_best_point() {
+    // Ten times gravity: no stroke of this wing carries that.
+    let mut setup = fly();
+    setup.gravity *= 10.0;
+    let t = trim(&setup, &hover(40)).unwrap();
+    assert!(!t.converged);
+    let untouched = trim(
+        &setup,
+        &TrimProblem {
+            settings: TrimSettings {
+                iterations: 0,
+                ..hover(40).settings
+            },
+            ..hover(40)
+        },
+    )
+    .unwrap();
+    assert!(t.error() < untouched.error());
+}
+
+#[test]
+fn published_longitudinal_modes_have_the_known_structure() {
+    // One unstable oscillation, one fast and one slow subsidence: published for bumblebee [Sun &
+    // Xiong 2005], hoverfly, crane fly, drone fly, hawkmoth [Sun, Wang & Xiong 2007].
+    let t = trim(&fly(), &hover(100)).unwrap();
+    let averaged = linear_model(&t.beat, &t.state).unwrap().modes;
+    let exact = floquet(&t.beat, &t.state).unwrap();
+    for set in [&averaged, &exact] {
+        let names: Vec<_> = set
+            .plane(Plane::Longitudinal)
+            .map(|m| m.name.as_str())
+            .collect();
+        assert_eq!(
+            names,
+            ["unstable oscillation", "slow subsidence", "fast subsidence"]
+        );
+    }
+    // The averaged theory is good for insects of high wingbeat frequency [Wu & Sun 2012]: here
+    // within 3 % of Floquet's.
+    for (a, b) in averaged
+        .plane(Plane::Longitudinal)
+        .zip(exact.plane(Plane::Longitudinal))
+    {
+        assert!(
+            (a.growth / b.growth - 1.0).abs() < 0.03,
+            "{} {}",
+            a.growth,
+            b.growth
+        );
+    }
+}
+
+#[test]
+fn balances_power_of_hover() {
+    let t = trim(&fly(), &hover(100)).unwrap();
+    let mut setup = t.setup.clone();
+    let angles = DVec3::new(t.body_pitch, 0.0, 0.0);
+    setup.mode = MotionMode::Tethered(PrescribedMotion::at_rest(DVec3::ZERO, angles));
+    setup.time.steps = 300;
+    let p = power(&setup).unwrap();
+    // Over a period inertia and added mass return all they took, so the mean power is
+    // aerodynamic; the mean of a periodic function over 100 equal steps is exact to round-off.
+    assert!((p.perfect_storage / p.aerodynamic - 1.0).abs() < 1e-6);
+    assert!(p.no_storage >= p.perfect_storage && p.peak >= p.no_storage);
+    // Published for the hovering Drosophila virilis: 28.7 W/kg [Sun & Tang 2002]; hoverflies 27.5 to
+    // 46.3 W/kg. The species differ: the same order of magnitude is all that can be asked.
+    let specific = p.body_specific(p.no_storage);
+    assert!((10.0..60.0).contains(&specific), "{specific} W/kg");
+}
+
+/// Largest and last distance from the start in wing lengths, last tilt in degrees.
+fn hundred_beats(t: &Trim, controller: &mut dyn Controller, latency: usize) -> [f64; 3] {
+    let tilt = DVec3::new(0.0, 10.0_f64.to_radians(), 0.0);
+    let mut flight = ControlledFlight::new(t, tilt, DVec3::ZERO, latency);
+    let mut far = 0.0_f64;
+    for _ in 0..100 {
+        let s = flight.beat(controller).unwrap();
+        far = far.max(s.position.length());
+    }
+    let s = flight.sensed();
+    let r = t.beat.wing_length();
+    let last = s.departure.tilt.length().to_degrees();
+    [far / r, s.position.length() / r, last]
+}
+
+#[test]
+fn balances_stabilised_hover_recovers_from_ten_degrees_of_pitch() {
+    let t = trim(&fly(), &hover(60)).unwrap();
+    for latency in [0, 2] {
+        let mut regulator = Regulator::new(&t, &Weights::default(), latency).unwrap();
+        let [far, end, tilt] = hundred_beats(&t, &mut regulator, latency);
+        assert!(far < 1.0, "latency {latency}: {far} R");
+        assert!(
+            end < 0.02 && tilt < 0.1,
+            "latency {latency}: {end} R, {tilt} deg"
+        );
+    }
+    // Without feedback the same disturbance is lost: hover is unstable.
+    let [far, ..] = hundred_beats(&t, &mut Free, 0);
+    assert!(far > 5.0, "{far}");
+}
+
+#[test]
+fn invariant_results_do_not_depend_on_heading() {
+    // The same flight turned about the vertical: same state one beat later, turned.
+    let beat = Beat::new(&fly(), 50).unwrap();
+    let turn = DMat3::from_quat(DQuat::from_rotation_z(1.1));
+    let r = wingbeat_math::r2(0.8);
+    let (v, w) = (DVec3::new(0.3, 0.1, -0.2), DVec3::new(5.0, -8.0, 3.0));
+    let a = beat.root(&beat.advance(&beat.state(DVec3::ZERO, r, v, w)));
+    let b = beat.root(&beat.advance(&beat.state(DVec3::ZERO, turn * r, turn * v, w)));
+    // Roundings of 50 steps of velocities of order 1.
+    assert!((turn * a.v - b.v).length() < 1e-12);
+    assert!((a.w - b.w).length() < 1e-9);
+}
