@@ -81,7 +81,7 @@ impl MomentumForm {
         whole: &Composite,
     ) -> Result<BodyMotion, DynamicsError> {
         let r = state.rotation();
-        let w = inverse_inertia(t, whole.inertia)? * (r.transpose() * state.angular - whole.h);
+        let w = turn(t, whole.inertia, r.transpose() * state.angular - whole.h)?;
         Ok(BodyMotion {
             p: state.centre - r * whole.c,
             r,
@@ -118,6 +118,20 @@ impl MomentumForm {
         sum
     }
 
+    /// As [`Self::total_load`], from the placements: `r` is the root's rotation, `c` the mass centre
+    /// in root components.
+    fn whole_load(&self, loads: &[Wrench], posture: &Posture, r: DMat3, c: DVec3) -> Wrench {
+        let mut sum = Wrench {
+            force: self.system.total_mass() * self.system.gravity(),
+            moment: DVec3::ZERO,
+        };
+        for (l, at) in loads.iter().zip(posture.placements()) {
+            sum.force += l.force;
+            sum.moment += l.moment + (r * (at.d - c)).cross(l.force);
+        }
+        sum
+    }
+
     /// Accelerations of all bodies from Newton's and Euler's laws for the whole system.
     fn accelerate(
         &self,
@@ -134,7 +148,7 @@ impl MomentumForm {
             .accelerations(&root, &BodyAcceleration::default(), out);
         let bias = self.momentum_rate(&ws.motions, out, x_c);
         let moment = root.r.transpose() * (load.moment - bias.moment);
-        let angular = inverse_inertia(t, whole.inertia)? * moment;
+        let angular = turn(t, whole.inertia, moment)?;
         let linear = (load.force - bias.force) / whole.mass - root.r * angular.cross(whole.c);
         let acc = BodyAcceleration { linear, angular };
         ws.posture.accelerations(&root, &acc, out);
@@ -160,12 +174,14 @@ impl MomentumForm {
     }
 }
 
-/// The inverse of an inertia matrix.
-fn inverse_inertia(time: f64, i: DMat3) -> Result<DMat3, DynamicsError> {
-    let scale = (i.x_axis.x + i.y_axis.y + i.z_axis.z) / 3.0;
+/// Solves `inertia x = h` by Cramer's rule.
+fn turn(time: f64, inertia: DMat3, h: DVec3) -> Result<DVec3, DynamicsError> {
+    let (x, y, z) = (inertia.x_axis, inertia.y_axis, inertia.z_axis);
+    let (yz, zx, xy) = (y.cross(z), z.cross(x), x.cross(y));
+    let (determinant, scale) = (x.dot(yz), (x.x + y.y + z.z) / 3.0);
     // 1e-12 of the mean moment cubed: a rod a million times longer than thick.
-    if i.determinant() > 1e-12 * scale.powi(3) {
-        return Ok(i.inverse());
+    if determinant > 1e-12 * scale.powi(3) {
+        return Ok(DVec3::new(h.dot(yz), h.dot(zx), h.dot(xy)) / determinant);
     }
     Err(DynamicsError::SingularInertia { time, scale })
 }
@@ -185,7 +201,7 @@ impl Formulation for MomentumForm {
         let mut posture = Posture::new(&self.system);
         posture.update(&self.system, t);
         let whole = posture.composite(&self.system);
-        inverse_inertia(t, whole.inertia)?;
+        turn(t, whole.inertia, DVec3::ZERO)?;
         let state = State {
             centre: root.p + root.r * whole.c,
             attitude: DQuat::from_mat3(&root.r).normalize(),
@@ -218,9 +234,12 @@ impl Formulation for MomentumForm {
         ws: &mut Workspace,
         dy: &mut [f64],
     ) -> Result<(), DynamicsError> {
-        let (state, whole) = self.unfold(t, y, ws)?;
-        let load = self.total_load(loads, &ws.motions, state.centre);
-        let w = ws.motions[0].w;
+        let state = State::read(t, y)?;
+        ws.posture.update(&self.system, t);
+        let whole = ws.posture.composite(&self.system);
+        let r = state.rotation();
+        let w = turn(t, whole.inertia, r.transpose() * state.angular - whole.h)?;
+        let load = self.whole_load(loads, &ws.posture, r, whole.c);
         State {
             centre: state.momentum / whole.mass,
             attitude: state.attitude * DQuat::from_xyzw(w.x, w.y, w.z, 0.0) * 0.5,

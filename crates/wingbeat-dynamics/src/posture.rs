@@ -1,6 +1,6 @@
 //! The bodies as seen from the root: a function of time alone, because every hinge is prescribed.
 
-use wingbeat_math::{DMat3, DVec3, MovingRotation, tilde};
+use wingbeat_math::{DMat3, DVec3, MovingRotation};
 
 use crate::system::check_rotation;
 use crate::{BodyAcceleration, BodyMotion, DynamicsError, System};
@@ -10,7 +10,11 @@ use crate::{BodyAcceleration, BodyMotion, DynamicsError, System};
 #[derive(Clone, Copy, Debug)]
 pub struct Placement {
     /// Rotation A: body components to root components.
-    pub rotation: MovingRotation,
+    pub c: DMat3,
+    /// Angular velocity relative to the root [rad/s], body components.
+    pub w: DVec3,
+    /// Its time derivative [rad/s2], body components.
+    pub w_dot: DVec3,
     /// Position d of the body's origin \[m\], root components.
     pub d: DVec3,
     /// First derivative of `d` [m/s].
@@ -21,26 +25,41 @@ pub struct Placement {
 
 impl Placement {
     /// The root itself.
-    const ROOT: Self = Self {
-        rotation: MovingRotation {
-            c: DMat3::IDENTITY,
-            c_dot: DMat3::ZERO,
-            c_ddot: DMat3::ZERO,
-        },
+    pub(crate) const ROOT: Self = Self {
+        c: DMat3::IDENTITY,
+        w: DVec3::ZERO,
+        w_dot: DVec3::ZERO,
         d: DVec3::ZERO,
         d_dot: DVec3::ZERO,
         d_ddot: DVec3::ZERO,
     };
 
-    /// The child of a body placed like `self`, hung at `anchor_parent` by its `anchor_child` and
-    /// turned by `law`.
-    fn child(&self, law: &MovingRotation, anchor_parent: DVec3, anchor_child: DVec3) -> Self {
-        let (a, b) = (&self.rotation, self.rotation.then(law));
+    /// A frame at the same origin, turned by `law`.
+    pub(crate) fn turned(&self, law: &MovingRotation) -> Self {
+        self.turned_by(law.c, law.angular_velocity(), law.angular_acceleration())
+    }
+
+    /// A frame at the same origin, turned by `c` with the relative angular velocity `w` and its
+    /// derivative `w_dot`, components of the turned frame.
+    pub(crate) fn turned_by(&self, c: DMat3, w: DVec3, w_dot: DVec3) -> Self {
+        let back = c.transpose();
+        let seen = back * self.w;
         Self {
-            rotation: b,
-            d: self.d + a.c * anchor_parent - b.c * anchor_child,
-            d_dot: self.d_dot + a.c_dot * anchor_parent - b.c_dot * anchor_child,
-            d_ddot: self.d_ddot + a.c_ddot * anchor_parent - b.c_ddot * anchor_child,
+            c: self.c * c,
+            w: seen + w,
+            w_dot: back * self.w_dot - w.cross(seen) + w_dot,
+            ..*self
+        }
+    }
+
+    /// A frame with the same axes whose origin is the point `r` \[m\] fixed in this one.
+    pub(crate) fn shifted(&self, r: DVec3) -> Self {
+        let (spin, w) = (self.w.cross(r), self.w);
+        Self {
+            d: self.d + self.c * r,
+            d_dot: self.d_dot + self.c * spin,
+            d_ddot: self.d_ddot + self.c * (self.w_dot.cross(r) + w.cross(spin)),
+            ..*self
         }
     }
 }
@@ -78,8 +97,9 @@ impl Posture {
     pub fn update(&mut self, system: &System, t: f64) {
         for &k in system.outward() {
             let h = &system.hinges()[k];
-            let parent = self.placements[h.parent];
-            self.placements[h.child] = parent.child(&h.law.at(t), h.anchor_parent, h.anchor_child);
+            let hinge = self.placements[h.parent].shifted(h.anchor_parent);
+            let child = hinge.turned(&h.law.at(t));
+            self.placements[h.child] = child.shifted(-h.anchor_child);
         }
     }
 
@@ -91,12 +111,11 @@ impl Posture {
     /// Motion of every body when the root moves like `root`.
     pub fn motions(&self, root: &BodyMotion, out: &mut [BodyMotion]) {
         for (m, at) in out.iter_mut().zip(&self.placements) {
-            let a = &at.rotation;
             *m = BodyMotion {
                 p: root.p + root.r * at.d,
-                r: root.r * a.c,
+                r: root.r * at.c,
                 v: root.v + root.r * (root.w.cross(at.d) + at.d_dot),
-                w: a.c.transpose() * root.w + a.angular_velocity(),
+                w: at.c.transpose() * root.w + at.w,
             };
         }
     }
@@ -111,8 +130,7 @@ impl Posture {
     ) {
         let w = root.w;
         for (o, at) in out.iter_mut().zip(&self.placements) {
-            let a = &at.rotation;
-            let seen = a.c.transpose() * w;
+            let back = at.c.transpose();
             *o = BodyAcceleration {
                 linear: acc.linear
                     + root.r
@@ -120,8 +138,7 @@ impl Posture {
                             + w.cross(w.cross(at.d))
                             + 2.0 * w.cross(at.d_dot)
                             + at.d_ddot),
-                angular: a.c.transpose() * acc.angular - a.angular_velocity().cross(seen)
-                    + a.angular_acceleration(),
+                angular: back * acc.angular - at.w.cross(back * w) + at.w_dot,
             };
         }
     }
@@ -131,22 +148,24 @@ impl Posture {
         let (mut mass, mut s, mut s_dot) = (0.0, DVec3::ZERO, DVec3::ZERO);
         let (mut inertia, mut h) = (DMat3::ZERO, DVec3::ZERO);
         for (b, at) in system.bodies().iter().zip(&self.placements) {
-            let (a, w) = (at.rotation.c, at.rotation.angular_velocity());
-            let moved = b.mass.moved(a, at.d);
-            let spun = a * w.cross(b.mass.first_moment);
-            mass += b.mass.mass;
-            s += moved.first_moment;
-            s_dot += b.mass.mass * at.d_dot + spun;
-            inertia += moved.inertia;
-            h += moved.first_moment.cross(at.d_dot) + at.d.cross(spun) + a * (b.mass.inertia * w);
+            let (m, j) = (b.mass.mass, at.c * b.mass.inertia * at.c.transpose());
+            let (first, spin) = (at.c * b.mass.first_moment, at.c * at.w);
+            let spun = spin.cross(first);
+            mass += m;
+            s += first + m * at.d;
+            s_dot += m * at.d_dot + spun;
+            inertia += j + steiner(m, first, at.d);
+            h += (first + m * at.d).cross(at.d_dot) + at.d.cross(spun) + j * spin;
         }
         let (c, c_dot) = (s / mass, s_dot / mass);
-        let tc = tilde(c);
+        let about_centre = inertia - steiner(mass, DVec3::ZERO, c);
+        // What is left of a point mass is round-off.
+        let is_point = trace(about_centre) < 1e-14 * trace(inertia);
         Composite {
             mass,
             c,
             c_dot,
-            inertia: inertia + tc * tc * mass,
+            inertia: if is_point { DMat3::ZERO } else { about_centre },
             h: h - mass * c.cross(c_dot),
         }
     }
@@ -162,4 +181,18 @@ impl Posture {
             })
         })
     }
+}
+
+fn trace(m: DMat3) -> f64 {
+    m.x_axis.x + m.y_axis.y + m.z_axis.z
+}
+
+/// Change of the inertia about the origin when a body of mass `m` \[kg\] and first moment `s`
+/// [kg m] moves by `d` \[m\]: `(2 s.d + m d.d) I - s d^T - d s^T - m d d^T`.
+fn steiner(m: f64, s: DVec3, d: DVec3) -> DMat3 {
+    let e = s + m * d;
+    let trace = s.dot(d) + d.dot(e);
+    // Column k of s d^T + d e^T, symmetric because s d^T + d s^T is.
+    let col = |k: usize| trace * DVec3::AXES[k] - s * d[k] - d * e[k];
+    DMat3::from_cols(col(0), col(1), col(2))
 }

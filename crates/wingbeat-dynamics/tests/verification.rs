@@ -6,6 +6,7 @@ mod common;
 use common::*;
 use wingbeat_dynamics::budget;
 use wingbeat_dynamics::euler::assembly::kinematics;
+use wingbeat_dynamics::euler::condensed::Condensed;
 use wingbeat_dynamics::euler::constraint::HingeKinematics;
 use wingbeat_dynamics::euler::coordinates::BodyKinematics;
 use wingbeat_dynamics::euler::saddle::Saddle;
@@ -323,6 +324,49 @@ fn agrees_momentum_form_fulfils_the_seeds_thirty_equations() {
     }
     println!("largest residual of the seed's equations {worst:.1e}");
     assert!(worst < 1e-11); // rounding of 1e-16 times forces 1000 times the body's weight
+}
+
+#[test]
+fn agrees_condensed_solution_with_the_saddle_point_matrix() {
+    // Inconsistent rates and coordinates too: the stabilization terms must agree as well.
+    for system in [fly(GRAVITY), chain(GRAVITY)] {
+        let n = 6 * system.bodies().len();
+        let form = EulerForm::new(system.clone(), Baumgarte::OFF);
+        let mut y = form.initial(0.31 * BEAT, &start()).unwrap();
+        for (i, y) in y.iter_mut().enumerate() {
+            let length = if i % 6 < 3 { LENGTH } else { 1.0 };
+            let time = if i < n { 1.0 } else { BEAT };
+            *y += 1e-3 * length / time * (3.0 * i as f64).sin();
+        }
+        let (bodies, hinges) = kinematics(&system, 0.31 * BEAT, &y[..n], &y[n..]);
+        let motions: Vec<BodyMotion> = bodies.iter().map(|k| k.motion).collect();
+        let mut loads = vec![Wrench::default(); motions.len()];
+        applied(0.31 * BEAT, &motions, &mut loads);
+        let b = Baumgarte::for_step(BEAT / 80.0);
+        let mut saddle = Saddle::new(&system);
+        saddle.assemble(&system, &bodies, &hinges, &loads, b);
+        saddle.solve().unwrap();
+        let mut condensed = Condensed::new(&system);
+        condensed
+            .solve(&system, &bodies, &hinges, &loads, b)
+            .unwrap();
+        // Norms of positions, angles, forces and moments apart: each triple by its own size.
+        let close = |a: &[f64], b: &[f64]| {
+            let (a, b) = (DVec3::from_slice(a), DVec3::from_slice(b));
+            (a - b).length() / b.length()
+        };
+        let x = condensed
+            .accelerations()
+            .chunks(3)
+            .zip(saddle.accelerations().chunks(3));
+        let l = condensed
+            .multipliers()
+            .chunks(3)
+            .zip(saddle.multipliers().chunks(3));
+        let worst = x.chain(l).map(|(a, b)| close(a, b)).fold(0.0, f64::max);
+        println!("condensed against saddle: {worst:.1e}");
+        assert!(worst < 1e-11); // rounding times condition numbers of order 100
+    }
 }
 
 /// Largest residual of eq. 30: rows of motion by body mass, wing length and beat, rows of

@@ -13,6 +13,17 @@ pub struct EulerSequence {
     axes: [usize; 3],
 }
 
+/// What follows from three Euler angles.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct EulerMatrices {
+    /// Rotation R_NB.
+    pub r: DMat3,
+    /// G, `w = G eta'`.
+    pub g: DMat3,
+    /// Partial derivatives of G with respect to the second and third angle.
+    pub g_partials: [DMat3; 2],
+}
+
 impl EulerSequence {
     /// 2-3-1, the central body of the seed: `R = R2(phi) R3(theta) R1(psi)`.
     pub const BODY_231: Self = Self { axes: [1, 2, 0] };
@@ -63,6 +74,47 @@ impl EulerSequence {
         [d_eta1, d_eta2]
     }
 
+    /// Rotation, G and its partial derivatives at once, from three sines and cosines.
+    pub fn matrices(&self, eta: DVec3) -> EulerMatrices {
+        let [i, j, k] = self.axes;
+        let s = self.parity();
+        let (sines, cosines) = (eta.x.sin_cos(), (eta.y.sin_cos(), eta.z.sin_cos()));
+        let ((sb, cb), (sc, cc)) = cosines;
+        let put = |x: f64, y: f64, z: f64| {
+            let mut v = [0.0; 3];
+            (v[i], v[j], v[k]) = (x, y, z);
+            DVec3::from_array(v)
+        };
+        let first = put(cb * cc, -s * cb * sc, s * sb);
+        let second = put(s * sc, cc, 0.0);
+        let g = DMat3::from_cols(first, second, DVec3::AXES[k]);
+        let d_eta1 = DMat3::from_cols(put(-sb * cc, s * sb * sc, s * cb), DVec3::ZERO, DVec3::ZERO);
+        let d_eta2 = DMat3::from_cols(
+            put(-cb * sc, -s * cb * cc, 0.0),
+            put(s * cc, -sc, 0.0),
+            DVec3::ZERO,
+        );
+        EulerMatrices {
+            r: self.rotation_from(sines, first, second),
+            g,
+            g_partials: [d_eta1, d_eta2],
+        }
+    }
+
+    /// The rotation from the sine and cosine of the first angle and the first two columns of G:
+    /// row i of R_j R_k is column 1 of G, `R_k^T e_j` is column 2, and `R_i` turns the other two
+    /// rows of R_j R_k into one another.
+    fn rotation_from(&self, (sa, ca): (f64, f64), first: DVec3, second: DVec3) -> DMat3 {
+        let [i, j, k] = self.axes;
+        let s = self.parity();
+        let third = s * first.cross(second);
+        let mut rows = [DVec3::ZERO; 3];
+        rows[i] = first;
+        rows[j] = ca * second - s * sa * third;
+        rows[k] = s * sa * second + ca * third;
+        DMat3::from_cols_array_2d(&rows.map(|r| r.to_array())).transpose()
+    }
+
     /// Angles of a rotation matrix [rad], the middle one in [-pi/2, pi/2].
     pub fn angles(&self, r: DMat3) -> DVec3 {
         let [i, j, k] = self.axes;
@@ -99,6 +151,18 @@ mod tests {
         for s in BOTH {
             let eta = DVec3::new(2.1, -0.7, -1.3);
             assert!((s.angles(s.rotation(eta)) - eta).length() < 1e-14); // a few roundings
+        }
+    }
+
+    #[test]
+    fn agrees_all_matrices_at_once_with_one_by_one() {
+        let same = |a: DMat3, b: DMat3| (a - b).to_cols_array().iter().all(|e| e.abs() < 1e-15);
+        let eta = DVec3::new(2.1, -0.7, -1.3);
+        for s in BOTH {
+            let m = s.matrices(eta);
+            assert!(same(m.r, s.rotation(eta)) && same(m.g, s.g(eta))); // a few roundings
+            let [b, c] = s.g_partials(eta);
+            assert!(same(m.g_partials[0], b) && same(m.g_partials[1], c));
         }
     }
 

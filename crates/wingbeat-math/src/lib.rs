@@ -22,7 +22,7 @@ pub mod ode;
 pub mod rotation;
 mod small_lu;
 
-pub use euler::EulerSequence;
+pub use euler::{EulerMatrices, EulerSequence};
 pub use glam::{DMat3, DQuat, DVec3};
 pub use lu::{DenseLu, LuError};
 pub use mass::{MassError, MassProperties};

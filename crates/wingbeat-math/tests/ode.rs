@@ -3,7 +3,8 @@
 use std::convert::Infallible;
 
 use wingbeat_math::ode::{
-    Convergence, Hamming, Memoryless, Multistep, Rk4, StepError, block_start,
+    AdamsBashforthMoulton, AdaptiveError, Convergence, Dop853, Hamming, Memoryless, Multistep, Rk4,
+    StepError, Tolerance, block_start,
 };
 
 const CONVERGENCE: Convergence = Convergence {
@@ -145,4 +146,156 @@ fn exact_failure_to_converge_is_an_error_with_its_numbers() {
         other => panic!("{other:?}"),
     }
     assert_eq!(past, before, "a failed step leaves the past alone");
+}
+
+#[test]
+fn order_adams_bashforth_moulton_is_four() {
+    let s = slopes(|n| {
+        let h = 2.0 / n as f64;
+        let (mut past, mut abm) = (started(h), AdamsBashforthMoulton::new(h, 2));
+        for k in 3..n {
+            let t = (k + 1) as f64 * h;
+            abm.advance(&mut past, |y, dy| {
+                rates(t, y, dy);
+                Ok::<(), Infallible>(())
+            })
+            .expect("a step");
+        }
+        error(past.newest(), 2.0)
+    });
+    assert!((s[1] - 4.0).abs() < 0.3, "slopes {s:?}");
+}
+
+fn dop853(tolerance: f64) -> Dop853 {
+    let tolerance = Tolerance {
+        relative: tolerance,
+        absolute: tolerance,
+        max_steps: 1000,
+    };
+    Dop853::new(tolerance, vec![1.0; 2])
+}
+
+fn smooth(t: f64, y: &[f64], dy: &mut [f64]) -> Result<(), Infallible> {
+    rates(t, y, dy);
+    Ok(())
+}
+
+#[test]
+fn order_dop853_is_eight() {
+    let e = [4, 8, 16].map(|n| {
+        let (mut y, h, mut method) = (exact(0.0), 4.0 / n as f64, dop853(1e-12));
+        for k in 0..n {
+            method
+                .advance(k as f64 * h, h, &mut y, smooth)
+                .expect("a step");
+        }
+        error(&y, 4.0)
+    });
+    let s = [(e[0] / e[1]).log2(), (e[1] / e[2]).log2()];
+    println!("dop853: errors {e:?}, slopes {s:?}");
+    // The leading error term is small here: the slope is above eight until the steps are short.
+    assert!(s[0] > 7.5 && s[1] > 7.5 && s[1] < 9.5, "slopes {s:?}");
+}
+
+#[test]
+fn order_dense_output_is_as_good_as_the_steps() {
+    for tolerance in [1e-6, 1e-9, 1e-12] {
+        let (mut y, mut worst, mut inside) = (exact(0.0), 0.0_f64, [0.0; 2]);
+        let report = dop853(tolerance)
+            .integrate((0.0, 10.0), &mut y, smooth, |dense| {
+                for k in 1..8 {
+                    let t = dense.t + dense.h * f64::from(k) / 8.0;
+                    dense.at(t, &mut inside);
+                    worst = worst.max(error(&inside, t));
+                }
+            })
+            .expect("a smooth problem");
+        let end = error(&y, 10.0);
+        println!("tolerance {tolerance:.0e}: {report:?}, end {end:.1e}, inside {worst:.1e}");
+        // The errors of 17 to 60 steps, each grown by up to e^3 (the term 0.3 y).
+        assert!(end < 300.0 * tolerance && worst < 600.0 * tolerance);
+    }
+}
+
+#[test]
+fn exact_adaptive_steps_stop_at_a_pole_and_at_the_limit_of_steps() {
+    let pole = |_: f64, y: &[f64], dy: &mut [f64]| {
+        (dy[0], dy[1]) = (y[0] * y[0], 0.0); // y = 1 / (1 - t)
+        Ok::<(), Infallible>(())
+    };
+    let end = dop853(1e-9).integrate((0.0, 2.0), &mut [1.0, 0.0], pole, |_| {});
+    match end {
+        Err(AdaptiveError::StepTooSmall { time, .. } | AdaptiveError::TooManySteps { time }) => {
+            assert!((time - 1.0).abs() < 1e-3);
+        }
+        other => panic!("{other:?}"),
+    }
+}
+
+/// Largest growth factor per step of Hamming's method with `passes` passes on `y' = z y / h`, from
+/// a long run: the method is linear, so the ratio of late values is the dominant root.
+fn growth(z: [f64; 2], passes: usize) -> f64 {
+    let convergence = Convergence {
+        tolerance: 0.0,
+        max_passes: passes,
+        relaxation: 1.0,
+    };
+    let f = |y: &[f64], dy: &mut [f64]| {
+        dy[0] = z[0] * y[0] - z[1] * y[1];
+        dy[1] = z[1] * y[0] + z[0] * y[1];
+        Ok::<(), Infallible>(())
+    };
+    // A start with a share of every mode; only the dominant one survives.
+    let y = [[1.0, 0.0], [-0.4, 0.3], [0.8, -0.5], [-0.9, 0.7]].map(|y| y.to_vec());
+    let rates = y.clone().map(|y| {
+        let mut dy = vec![0.0; 2];
+        f(&y, &mut dy).expect("a linear rate");
+        dy
+    });
+    let mut past = Multistep::from_start(y, rates);
+    let mut method = Hamming::new(1.0, convergence, vec![1.0; 2]);
+    // Several modes may beat against each other: the largest value of a window counts.
+    let (window, early, late) = (200, 2_000, 30_000);
+    let (mut first, mut last) = (0.0_f64, 0.0_f64);
+    for n in 0..late {
+        if method.advance(&mut past, f).is_err() {
+            return f64::INFINITY; // overflow
+        }
+        let size = past.newest()[0].hypot(past.newest()[1]);
+        if (early..early + window).contains(&n) {
+            first = first.max(size);
+        }
+        if n >= late - window {
+            last = last.max(size);
+        }
+    }
+    (last / first).powf(1.0 / f64::from(late - early - window))
+}
+
+#[test]
+fn limit_of_hammings_stability_on_both_axes() {
+    // |lambda h| at which the dominant root leaves the unit circle, by bisection, against the
+    // published limits (two digits).
+    let limit = |direction: [f64; 2], passes: usize| {
+        let (mut stable, mut unstable) = (0.05, 2.5);
+        for _ in 0..12 {
+            let z = 0.5 * (stable + unstable);
+            let g = growth([z * direction[0], z * direction[1]], passes);
+            if g <= 1.0 + 1e-6 {
+                stable = z
+            } else {
+                unstable = z
+            }
+        }
+        stable
+    };
+    let real = [1, 2, 3].map(|p| limit([-1.0, 0.0], p));
+    let imaginary = [1, 2, 3].map(|p| limit([0.0, 1.0], p));
+    println!("real axis {real:.3?}, imaginary axis {imaginary:.3?}");
+    for (found, known) in real.iter().zip([0.88, 0.72, 1.46]) {
+        assert!((found - known).abs() < 0.02, "{real:?}");
+    }
+    for (found, known) in imaginary.iter().zip([0.28, 0.80, 1.08]) {
+        assert!((found - known).abs() < 0.03, "{imaginary:?}"); // growth just beyond is weak
+    }
 }

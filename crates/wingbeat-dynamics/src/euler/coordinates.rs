@@ -1,6 +1,6 @@
 //! Generalized coordinates of a body and what follows from them (seed eq. 2, 3, 14-16).
 
-use wingbeat_math::{DMat3, DVec3};
+use wingbeat_math::{DMat3, DVec3, EulerMatrices};
 
 use crate::{Body, BodyMotion, DynamicsError};
 
@@ -32,12 +32,11 @@ impl BodyKinematics {
     pub fn new(body: &Body, q: &[f64], qd: &[f64]) -> Self {
         let v = |x: &[f64], i: usize| DVec3::new(x[i], x[i + 1], x[i + 2]);
         let (eta, eta_dot) = (v(q, 3), v(qd, 3));
-        let g = body.sequence.g(eta);
-        let g_partials = body.sequence.g_partials(eta);
+        let EulerMatrices { r, g, g_partials } = body.sequence.matrices(eta);
         Self {
             motion: BodyMotion {
                 p: v(q, 0),
-                r: body.sequence.rotation(eta),
+                r,
                 v: v(qd, 0),
                 w: g * eta_dot,
             },

@@ -4,10 +4,12 @@
 use wingbeat_math::{DMat3, DVec3, tilde};
 
 use super::coordinates::BodyKinematics;
-use crate::Body;
+use super::forces::generalized_wrench;
+use crate::inverse::weight_wrench;
+use crate::{Body, Wrench};
 
 /// Blocks of the symmetric mass matrix of one body (seed eq. 18), or of its rate.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct MassBlocks {
     /// m^{RR} = `rr` I_3 \[kg\].
     pub rr: f64,
@@ -77,4 +79,18 @@ pub fn kinetic_energy_gradient(body: &Body, k: &BodyKinematics) -> DVec3 {
 pub fn quadratic_velocity(body: &Body, k: &BodyKinematics) -> [DVec3; 2] {
     let [p, h] = mass_matrix_rate(body, k).times(k.motion.v, k.eta_dot);
     [-p, -h + kinetic_energy_gradient(body, k)]
+}
+
+/// Mass matrix and right-hand side `Q^v + Q` of one body (seed eq. 21), weight included.
+pub fn equations(
+    body: &Body,
+    k: &BodyKinematics,
+    load: &Wrench,
+    gravity: DVec3,
+) -> (MassBlocks, [DVec3; 2]) {
+    let mut applied = *load;
+    applied += weight_wrench(body, &k.motion, gravity);
+    let (quadratic, forces) = (quadratic_velocity(body, k), generalized_wrench(k, &applied));
+    let sum = [quadratic[0] + forces[0], quadratic[1] + forces[1]];
+    (mass_matrix(body, k), sum)
 }

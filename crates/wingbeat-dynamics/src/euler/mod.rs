@@ -9,6 +9,7 @@
 //! ([`EulerForm::with_projection`]) removes the drift between steps of a one-step integrator.
 
 pub mod assembly;
+pub mod condensed;
 pub mod constraint;
 pub mod coordinates;
 pub mod forces;
@@ -26,9 +27,9 @@ use crate::{
     Violation, Workspace, Wrench,
 };
 use assembly::{consistent_coordinates, consistent_rates, kinematics};
+use condensed::Condensed;
 use constraint::HingeKinematics;
 use coordinates::{BodyKinematics, PER_BODY, write};
-use saddle::Saddle;
 
 /// Constants of Baumgarte's stabilization (seed eq. 29).
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -78,7 +79,7 @@ pub struct EulerForm {
 pub(crate) struct EulerScratch {
     bodies: Vec<BodyKinematics>,
     hinges: Vec<HingeKinematics>,
-    saddle: Saddle,
+    condensed: Condensed,
 }
 
 impl EulerScratch {
@@ -88,7 +89,7 @@ impl EulerScratch {
         Self {
             bodies,
             hinges,
-            saddle: Saddle::new(system),
+            condensed: Condensed::new(system),
         }
     }
 }
@@ -144,7 +145,7 @@ impl EulerForm {
         Ok(())
     }
 
-    /// Accelerations and multipliers into the saddle (seed eq. 30).
+    /// Accelerations and multipliers of seed eq. 30 into the scratch.
     fn accelerate(
         &self,
         t: f64,
@@ -158,23 +159,21 @@ impl EulerForm {
             let (parent, child) = (&s.bodies[h.parent], &s.bodies[h.child]);
             s.hinges[k] = HingeKinematics::new(h, &h.law.at(t), parent, child);
         }
-        s.saddle
-            .assemble(&self.system, &s.bodies, &s.hinges, loads, self.baumgarte);
-        s.saddle
-            .solve()
-            .map_err(|_| DynamicsError::SingularSaddle { time: t })
+        s.condensed
+            .solve(&self.system, &s.bodies, &s.hinges, loads, self.baumgarte)
+            .ok_or(DynamicsError::SingularSaddle { time: t })
     }
 
-    /// Accelerations of bodies and reactions of hinges from the solved saddle.
-    fn read_saddle(&self, s: &EulerScratch, out: &mut Solution) {
+    /// Accelerations of bodies and reactions of hinges from the solved equations.
+    fn read_solved(&self, s: &EulerScratch, out: &mut Solution) {
         for (i, k) in s.bodies.iter().enumerate() {
-            let a = &s.saddle.accelerations()[PER_BODY * i..];
+            let a = &s.condensed.accelerations()[PER_BODY * i..];
             out.bodies[i] = BodyAcceleration {
                 linear: DVec3::from_slice(a),
                 angular: k.g * DVec3::from_slice(&a[3..]) + k.g_dot * k.eta_dot,
             };
         }
-        let lambda = s.saddle.multipliers();
+        let lambda = s.condensed.multipliers();
         let (connection, orientation) = lambda.split_at(3 * s.hinges.len());
         for (k, h) in s.hinges.iter().enumerate() {
             let moment = h.reaction_moment(DVec3::from_slice(&orientation[3 * k..]));
@@ -246,7 +245,7 @@ impl Formulation for EulerForm {
         self.accelerate(t, y, loads, ws)?;
         let n = self.coordinates();
         dy[..n].copy_from_slice(&y[n..]);
-        dy[n..].copy_from_slice(ws.euler.saddle.accelerations());
+        dy[n..].copy_from_slice(ws.euler.condensed.accelerations());
         Ok(())
     }
 
@@ -259,7 +258,7 @@ impl Formulation for EulerForm {
         out: &mut Solution,
     ) -> Result<(), DynamicsError> {
         self.accelerate(t, y, loads, ws)?;
-        self.read_saddle(&ws.euler, out);
+        self.read_solved(&ws.euler, out);
         out.tether = Wrench::default();
         out.budget = budget(&self.system, &ws.motions);
         out.load_power = load_power(loads, &ws.motions);

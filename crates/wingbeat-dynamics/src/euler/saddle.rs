@@ -10,9 +10,7 @@ use wingbeat_math::{DMat3, DVec3, SingularMatrix, solve_small};
 use super::Baumgarte;
 use super::constraint::{AngleJacobian, HingeKinematics};
 use super::coordinates::{BodyKinematics, PER_BODY};
-use super::forces::generalized_wrench;
-use super::inertia::{mass_matrix, quadratic_velocity};
-use crate::inverse::weight_wrench;
+use super::inertia::equations;
 use crate::{System, Wrench};
 
 /// Share of the total mass that sets the scale of a body without mass.
@@ -72,16 +70,13 @@ impl Saddle {
     /// Mass matrix and generalized forces of one body (seed eq. 21).
     fn put_body(&mut self, system: &System, i: usize, k: &BodyKinematics, load: &Wrench) {
         let (body, at) = (&system.bodies()[i], PER_BODY * i);
-        let m = mass_matrix(body, k);
+        let (m, force) = equations(body, k, load, system.gravity());
         self.put(at, at, DMat3::from_diagonal(DVec3::splat(m.rr)));
         self.put(at, at + 3, m.r_eta);
         self.put(at + 3, at, m.r_eta.transpose());
         self.put(at + 3, at + 3, m.eta_eta);
-        let mut applied = *load;
-        applied += weight_wrench(body, &k.motion, system.gravity());
-        let (quadratic, forces) = (quadratic_velocity(body, k), generalized_wrench(k, &applied));
         for part in 0..2 {
-            (quadratic[part] + forces[part]).write_to_slice(&mut self.rhs[at + 3 * part..]);
+            force[part].write_to_slice(&mut self.rhs[at + 3 * part..]);
         }
         self.scale_body(system, at);
     }

@@ -1,14 +1,20 @@
-//! Time integration of `y' = f(t, y)` with equal steps.
+//! Time integration of `y' = f(t, y)`.
 //!
 //! [`hamming`] is the predictor-corrector of coupled flight (seed sec. 5 announces one): a
 //! right-hand side is evaluated only at the ends of steps, so that it may carry its own history,
 //! as a vortex wake does. [`start`] finds its first values at the same order. [`runge_kutta`] is
-//! for right-hand sides without history.
+//! for right-hand sides without history, as are [`adams`] (multistep, order four) and [`dop853`]
+//! (order eight, its own steps, dense output).
 
+pub mod adams;
+pub mod dop853;
+mod dop853_table;
 pub mod hamming;
 pub mod runge_kutta;
 pub mod start;
 
+pub use adams::AdamsBashforthMoulton;
+pub use dop853::{AdaptiveError, AdaptiveReport, Dense, Dop853, Tolerance};
 pub use hamming::{Convergence, Hamming, Multistep, StepReport};
 pub use runge_kutta::Rk4;
 pub use start::{Memoryless, Replay, block_start};

@@ -1,0 +1,59 @@
+//! The hot loop allocates nothing: a counting allocator watches right-hand sides and steps.
+#![allow(unsafe_code)] // an allocator is unsafe by its trait
+
+mod common;
+
+use std::alloc::{GlobalAlloc, Layout, System as Heap};
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use common::*;
+use wingbeat_dynamics::{Baumgarte, EulerForm, Formulation, MomentumForm};
+use wingbeat_math::ode::Rk4;
+
+struct Counting;
+
+static COUNT: AtomicUsize = AtomicUsize::new(0);
+
+// SAFETY: every call is handed to the system's allocator unchanged.
+unsafe impl GlobalAlloc for Counting {
+    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
+        COUNT.fetch_add(1, Ordering::Relaxed);
+        // SAFETY: the caller keeps the contract of `alloc`.
+        unsafe { Heap.alloc(layout) }
+    }
+    unsafe fn dealloc(&self, p: *mut u8, layout: Layout) {
+        // SAFETY: the caller keeps the contract of `dealloc`.
+        unsafe { Heap.dealloc(p, layout) }
+    }
+}
+
+#[global_allocator]
+static ALLOCATOR: Counting = Counting;
+
+#[test]
+fn exact_no_allocation_in_steps_of_any_form() {
+    let forms: [Box<dyn Formulation>; 2] = [
+        Box::new(MomentumForm::new(fly(GRAVITY))),
+        Box::new(EulerForm::new(
+            fly(GRAVITY),
+            Baumgarte::for_step(BEAT / 80.0),
+        )),
+    ];
+    for form in &forms {
+        let mut flight = Flight::new(form.as_ref(), applied);
+        let mut y = form.initial(0.0, &start()).unwrap();
+        let (mut rk4, h) = (Rk4::new(y.len()), BEAT / 80.0);
+        let mut step = |n: usize, y: &mut [f64]| {
+            rk4.advance(n as f64 * h, h, y, |t, y, dy| flight.rates(t, y, dy))
+                .unwrap();
+            flight.solve((n + 1) as f64 * h, y).unwrap();
+        };
+        step(0, &mut y);
+        let before = COUNT.load(Ordering::Relaxed);
+        (1..40).for_each(|n| step(n, &mut y));
+        assert_eq!(COUNT.load(Ordering::Relaxed) - before, 0);
+    }
+    let before = COUNT.load(Ordering::Relaxed);
+    drop(vec![0_u8; 10]);
+    assert_eq!(COUNT.load(Ordering::Relaxed) - before, 1); // the counter counts
+}

@@ -1,0 +1,235 @@
+//! The Runge-Kutta method of order eight of Dormand and Prince with an error estimate of orders
+//! five and three, step control, and dense output of order seven [Hairer, Norsett & Wanner 1993,
+//! Solving ODEs I, sec. II.5 and II.6; coefficients as published with it].
+//!
+//! For dynamics alone: its steps are long, so the right-hand side must be smooth.
+
+use super::dop853_table::{A, B, B_THIRD, C, D, E_FIFTH};
+
+/// Accuracy asked for.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Tolerance {
+    /// Error per step relative to the size of a component.
+    pub relative: f64,
+    /// Error per step in units of the component's natural size.
+    pub absolute: f64,
+    /// Most steps, accepted and rejected.
+    pub max_steps: usize,
+}
+
+/// Why the integration ended early.
+#[derive(Clone, Debug, PartialEq)]
+pub enum AdaptiveError<E> {
+    /// The right-hand side failed.
+    Rates(E),
+    /// The steps became too small to move the time: a singularity or a jump.
+    StepTooSmall {
+        /// Time \[s\].
+        time: f64,
+        /// Step \[s\].
+        step: f64,
+    },
+    /// The allowed number of steps was used up.
+    TooManySteps {
+        /// Time reached \[s\].
+        time: f64,
+    },
+}
+
+/// What an integration cost.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct AdaptiveReport {
+    /// Steps accepted.
+    pub accepted: usize,
+    /// Steps rejected.
+    pub rejected: usize,
+}
+
+/// The method with its scratch.
+#[derive(Clone, Debug)]
+pub struct Dop853 {
+    tolerance: Tolerance,
+    scales: Vec<f64>,
+    k: Vec<Vec<f64>>,
+    stage: Vec<f64>,
+    next: Vec<f64>,
+    dense: [Vec<f64>; 8],
+}
+
+/// The accepted step as a function of time.
+#[derive(Clone, Copy, Debug)]
+pub struct Dense<'a> {
+    /// Start of the step \[s\].
+    pub t: f64,
+    /// Length of the step \[s\].
+    pub h: f64,
+    coefficients: &'a [Vec<f64>; 8],
+}
+
+impl Dense<'_> {
+    /// The state at `t` \[s\] inside the step.
+    pub fn at(&self, t: f64, y: &mut [f64]) {
+        let (s, r) = ((t - self.t) / self.h, 1.0 - (t - self.t) / self.h);
+        let c = self.coefficients;
+        for (i, y) in y.iter_mut().enumerate() {
+            let inner = c[4][i] + s * (c[5][i] + r * (c[6][i] + s * c[7][i]));
+            *y = c[0][i] + s * (c[1][i] + r * (c[2][i] + s * (c[3][i] + r * inner)));
+        }
+    }
+}
+
+impl Dop853 {
+    /// For states whose components have the natural sizes `scales`.
+    pub fn new(tolerance: Tolerance, scales: Vec<f64>) -> Self {
+        let zero = vec![0.0; scales.len()];
+        Self {
+            tolerance,
+            k: vec![zero.clone(); 16],
+            stage: zero.clone(),
+            next: zero.clone(),
+            dense: std::array::from_fn(|_| zero.clone()),
+            scales,
+        }
+    }
+
+    /// From `t0` to `t1` \[s\]; `y` moves on; `each` sees every accepted step.
+    ///
+    /// # Errors
+    /// [`AdaptiveError`]; `y` then holds the last accepted state.
+    pub fn integrate<E>(
+        &mut self,
+        (t0, t1): (f64, f64),
+        y: &mut [f64],
+        mut f: impl FnMut(f64, &[f64], &mut [f64]) -> Result<(), E>,
+        mut each: impl FnMut(Dense),
+    ) -> Result<AdaptiveReport, AdaptiveError<E>> {
+        let mut report = AdaptiveReport::default();
+        let (mut t, mut h) = (t0, 1e-3 * (t1 - t0));
+        f(t, y, &mut self.k[0]).map_err(AdaptiveError::Rates)?;
+        while (t1 - t) * (t1 - t0) > 0.0 {
+            if report.accepted + report.rejected >= self.tolerance.max_steps {
+                return Err(AdaptiveError::TooManySteps { time: t });
+            }
+            if t + 0.1 * h == t {
+                return Err(AdaptiveError::StepTooSmall { time: t, step: h });
+            }
+            let last = ((t + h) - t1) * (t1 - t0) >= 0.0;
+            h = if last { t1 - t } else { h };
+            self.stages(t, h, y, &mut f).map_err(AdaptiveError::Rates)?;
+            let error = self.error(h, y);
+            let factor = (0.9 * error.max(1e-12).powf(-0.125)).clamp(0.333, 6.0);
+            if error <= 1.0 {
+                let end = if last { t1 } else { t + h };
+                self.finish(t, h, y, &mut f).map_err(AdaptiveError::Rates)?;
+                each(Dense {
+                    t,
+                    h,
+                    coefficients: &self.dense,
+                });
+                y.copy_from_slice(&self.next);
+                self.k.swap(0, 12);
+                (t, report.accepted) = (end, report.accepted + 1);
+                h *= factor;
+            } else {
+                report.rejected += 1;
+                h *= if error.is_finite() {
+                    factor.min(1.0)
+                } else {
+                    0.1
+                };
+            }
+        }
+        Ok(report)
+    }
+
+    /// One step of length `h` without control.
+    ///
+    /// # Errors
+    /// The right-hand side fails.
+    pub fn advance<E>(
+        &mut self,
+        t: f64,
+        h: f64,
+        y: &mut [f64],
+        mut f: impl FnMut(f64, &[f64], &mut [f64]) -> Result<(), E>,
+    ) -> Result<(), E> {
+        f(t, y, &mut self.k[0])?;
+        self.stages(t, h, y, &mut f)?;
+        y.copy_from_slice(&self.next);
+        Ok(())
+    }
+
+    /// The twelve stages and the new state in `next`.
+    fn stages<E>(
+        &mut self,
+        t: f64,
+        h: f64,
+        y: &[f64],
+        f: &mut impl FnMut(f64, &[f64], &mut [f64]) -> Result<(), E>,
+    ) -> Result<(), E> {
+        for s in 1..12 {
+            combine(&self.k, A[s], h, y, &mut self.stage);
+            f(t + C[s] * h, &self.stage, &mut self.k[s])?;
+        }
+        combine(&self.k, B, h, y, &mut self.next);
+        Ok(())
+    }
+
+    /// Rates at the end, the extra stages, and the coefficients of the dense output.
+    fn finish<E>(
+        &mut self,
+        t: f64,
+        h: f64,
+        y: &[f64],
+        f: &mut impl FnMut(f64, &[f64], &mut [f64]) -> Result<(), E>,
+    ) -> Result<(), E> {
+        f(t + h, &self.next, &mut self.k[12])?;
+        for s in 13..16 {
+            combine(&self.k, A[s], h, y, &mut self.stage);
+            f(t + C[s] * h, &self.stage, &mut self.k[s])?;
+        }
+        for i in 0..y.len() {
+            let rise = self.next[i] - y[i];
+            let bend = h * self.k[0][i] - rise;
+            self.dense[0][i] = y[i];
+            self.dense[1][i] = rise;
+            self.dense[2][i] = bend;
+            self.dense[3][i] = rise - h * self.k[12][i] - bend;
+            for (row, d) in D.iter().enumerate() {
+                self.dense[4 + row][i] = h * weighted(&self.k, d, i);
+            }
+        }
+        Ok(())
+    }
+
+    /// Error of the step in units of the tolerance.
+    fn error(&self, h: f64, y: &[f64]) -> f64 {
+        let (mut fifth, mut third) = (0.0, 0.0);
+        for (i, scale) in self.scales.iter().enumerate() {
+            let size = y[i].abs().max(self.next[i].abs());
+            let unit = self.tolerance.absolute * scale + self.tolerance.relative * size;
+            fifth += (weighted(&self.k, E_FIFTH, i) / unit).powi(2);
+            let gap = weighted(&self.k, B, i) - weighted(&self.k, B_THIRD, i);
+            third += (gap / unit).powi(2);
+        }
+        let sum = fifth + 0.01 * third;
+        let n = self.scales.len() as f64;
+        if sum > 0.0 {
+            h.abs() * fifth / (n * sum).sqrt()
+        } else {
+            sum
+        }
+    }
+}
+
+/// `sum of w_j k_j[i]`.
+fn weighted(k: &[Vec<f64>], weights: &[(usize, f64)], i: usize) -> f64 {
+    weights.iter().map(|&(j, w)| w * k[j - 1][i]).sum()
+}
+
+/// `out = y + h sum of w_j k_j`.
+fn combine(k: &[Vec<f64>], weights: &[(usize, f64)], h: f64, y: &[f64], out: &mut [f64]) {
+    for (i, o) in out.iter_mut().enumerate() {
+        *o = y[i] + h * weighted(k, weights, i);
+    }
+}
