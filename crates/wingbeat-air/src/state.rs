@@ -19,7 +19,7 @@ pub struct NodeMotion {
 /// Ring (r, c) lies between node rows r and r + 1 (the shedding edge being the row after the
 /// last) and node columns c and c + 1. Its circulation is positive if it runs its newer edge
 /// from column c + 1 to column c.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct WakeSheet {
     /// Rings per row; a row has one node more.
     pub columns: usize,
@@ -57,7 +57,7 @@ impl WakeSheet {
 }
 
 /// How often the wake had to be tamed.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 pub struct WakeEvents {
     /// Displacements shortened to [`crate::AirSettings::max_displacement`].
     pub limited: u64,
@@ -73,7 +73,7 @@ impl std::ops::AddAssign for WakeEvents {
 }
 
 /// The state of the air: plain data, enough to go on bit for bit.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct AirState {
     /// Accepted steps so far.
     pub step: u64,

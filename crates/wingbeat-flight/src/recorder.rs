@@ -15,7 +15,7 @@ const EULER_LIMIT: f64 = 1e-6;
 
 /// What balances are counted from, and the angles last recorded (so that they go on without
 /// jumps of a whole turn).
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Ledger {
     /// Energy at the start [J].
     pub energy: f64,

@@ -18,7 +18,7 @@ use crate::setup::{CorrectorSettings, FlightSetup};
 use crate::stages::{Stage, air_side, stages};
 
 /// Everything that is integrated: plain data, enough to go on bit for bit.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct FlightState {
     /// Accepted steps.
     pub step: usize,

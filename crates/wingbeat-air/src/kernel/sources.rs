@@ -3,7 +3,7 @@
 use wingbeat_math::DVec3;
 
 /// Positions \[m\] or velocities \[m/s\], frame N, one array per component.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Points {
     /// Components along n1.
     pub x: Vec<f64>,

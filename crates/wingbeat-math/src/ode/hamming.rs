@@ -26,7 +26,7 @@ pub struct Convergence {
 }
 
 /// What happened in a step.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct StepReport {
     /// Corrector passes made.
     pub passes: usize,
@@ -35,7 +35,7 @@ pub struct StepReport {
 }
 
 /// The past that a multistep method needs: plain data, enough to go on bit for bit.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Multistep {
     /// y[n-3], y[n-2], y[n-1], y[n].
     pub y: [Vec<f64>; 4],
