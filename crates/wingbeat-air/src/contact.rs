@@ -23,6 +23,7 @@ struct Panel {
 }
 
 /// One surface with a sphere that holds it at the start and at the end of the step.
+#[derive(Default)]
 struct Obstacle {
     closed: bool,
     panels: Vec<Panel>,
@@ -31,16 +32,17 @@ struct Obstacle {
 }
 
 /// All surfaces in the way of the wakes during one step.
+#[derive(Default)]
 pub(crate) struct Obstacles {
     surfaces: Vec<Obstacle>,
     clearance: f64,
 }
 
 impl Obstacles {
-    /// The surfaces of `state`, moving on for `dt` [s]; none if the clearance is zero.
-    pub(crate) fn new(lattice: &Lattice, state: &AirState, dt: f64) -> Self {
-        let clearance = lattice.settings().clearance;
-        let count = if clearance > 0.0 {
+    /// Takes the surfaces of `state`, moving on for `dt` [s]; none if the clearance is zero.
+    pub(crate) fn take(&mut self, lattice: &Lattice, state: &AirState, dt: f64) {
+        self.clearance = lattice.settings().clearance;
+        let count = if self.clearance > 0.0 {
             lattice.surfaces().len()
         } else {
             0
@@ -51,24 +53,16 @@ impl Obstacles {
                 state.position[n] + dt * state.velocity[n],
             ]
         };
-        let surfaces = (0..count).map(|s| {
-            let panels: Vec<Panel> = lattice
-                .panels_of(s)
-                .map(|p| panel(lattice.topology().panels[p].map(ends)))
-                .collect();
+        self.surfaces.resize_with(count, Obstacle::default);
+        for (s, obstacle) in self.surfaces.iter_mut().enumerate() {
+            let own = lattice.panels_of(s);
+            let panels = own.map(|p| panel(lattice.topology().panels[p].map(ends)));
+            obstacle.panels.clear();
+            obstacle.panels.extend(panels);
             let nodes = || lattice.nodes_of(s).flat_map(ends);
-            let centre = nodes().sum::<DVec3>() / nodes().count() as f64;
-            let radius = nodes().fold(0.0_f64, |r, x| r.max(x.distance(centre)));
-            Obstacle {
-                closed: lattice.surfaces()[s].closed,
-                panels,
-                centre,
-                radius,
-            }
-        });
-        Self {
-            surfaces: surfaces.collect(),
-            clearance,
+            obstacle.closed = lattice.surfaces()[s].closed;
+            obstacle.centre = nodes().sum::<DVec3>() / nodes().count() as f64;
+            obstacle.radius = nodes().fold(0.0_f64, |r, x| r.max(x.distance(obstacle.centre)));
         }
     }
 

@@ -91,6 +91,18 @@ pub enum AirError {
         /// What is allowed.
         allowed: &'static str,
     },
+    /// A gust's table cannot be used.
+    #[error(
+        "gust {gust}: row {row} of its table {problem}; give at least two rows of time and share, times rising"
+    )]
+    GustTable {
+        /// Gust, counted from 0.
+        gust: usize,
+        /// Row, counted from 0.
+        row: usize,
+        /// What is wrong.
+        problem: &'static str,
+    },
     /// The motion has the wrong number of nodes.
     #[error(
         "the motion gives {got} node positions and velocities, the lattice has {expected} nodes"

@@ -1,8 +1,10 @@
 //! The vortex filaments of one instant: every edge of lattice and wakes once, with its net
 //! circulation.
 
+use crate::images::Mirror;
 use crate::kernel::{CoreModel, DirectSum, Network, Points};
 use crate::lattice::Lattice;
+use crate::rings;
 use crate::settings::AirSettings;
 use crate::state::{AirState, WakeSheet};
 use wingbeat_math::DVec3;
@@ -33,7 +35,7 @@ impl Filaments {
         self.gather_bound(lattice, position);
         self.wake.clear();
         for (sheet, root) in state.sheets.iter().zip(lattice.sheets()) {
-            let front = root.nodes.iter().map(|&n| position[n]);
+            let front = root.nodes.iter().map(|&n| self.bound.nodes.get(n));
             add_sheet(&mut self.wake, sheet, front, lattice.settings(), t);
         }
     }
@@ -42,8 +44,17 @@ impl Filaments {
         let model = lattice.settings().bound_core;
         self.bound.clear();
         position.iter().for_each(|&x| self.bound.nodes.push(x));
+        let nodes = &mut self.bound.nodes;
+        rings::offsets(
+            lattice.insets(),
+            lattice.settings().inset,
+            position,
+            |n, d| {
+                nodes.set(n, nodes.get(n) + d);
+            },
+        );
         for edge in &lattice.topology().edges {
-            let length = (position[edge.to] - position[edge.from]).length();
+            let length = (self.bound.nodes.get(edge.to) - self.bound.nodes.get(edge.from)).length();
             let core = model.core(length, 0.0);
             self.bound.push_edge(edge.from, edge.to, 0.0, core);
         }
@@ -121,22 +132,38 @@ fn add_sheet(
 
 /// Memory of a Biot-Savart sum, kept from call to call.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Summation(Option<(CoreModel, DirectSum)>);
+pub(crate) struct Summation {
+    kept: Option<(CoreModel, DirectSum)>,
+    reflected: Points,
+    image: Points,
+}
 
 impl Summation {
-    /// Adds the velocity of `sources` at `targets` to `out`.
+    /// Adds the velocity of `sources` and their images at `targets` to `out`.
     pub(crate) fn add(
         &mut self,
         model: CoreModel,
         sources: &Network,
         targets: &Points,
+        mirrors: &[Mirror],
         out: &mut Points,
     ) {
-        let kept = self.0.take().filter(|(of, _)| *of == model);
+        let kept = self.kept.take().filter(|(of, _)| *of == model);
         let (_, sum) = self
-            .0
+            .kept
             .insert(kept.unwrap_or_else(|| (model, DirectSum::new(model))));
         sum.load_network(sources);
         sum.add_velocity(targets, out);
+        for mirror in mirrors {
+            self.reflected.clear();
+            targets
+                .iter()
+                .for_each(|x| self.reflected.push(mirror.place(x)));
+            self.image.reset(targets.len());
+            sum.add_velocity(&self.reflected, &mut self.image);
+            for i in 0..targets.len() {
+                out.set(i, out.get(i) + mirror.vector(self.image.get(i)));
+            }
+        }
     }
 }

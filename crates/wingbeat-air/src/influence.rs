@@ -71,7 +71,18 @@ impl Influence {
         let normal_velocity = |point: DVec3, normal: DVec3, edge: &Edge, core: f64| {
             let a = bound.nodes.get(edge.from);
             let b = bound.nodes.get(edge.to);
-            segment_velocity(model, point, a, b, 1.0, core).dot(normal)
+            let mut v = segment_velocity(model, point, a, b, 1.0, core);
+            for mirror in lattice.mirrors() {
+                v += mirror.vector(segment_velocity(
+                    model,
+                    mirror.place(point),
+                    a,
+                    b,
+                    1.0,
+                    core,
+                ));
+            }
+            v.dot(normal)
         };
         self.matrix
             .par_chunks_mut(n)

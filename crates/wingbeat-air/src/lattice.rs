@@ -1,11 +1,15 @@
 //! The lattice: surfaces, topology and settings, checked once and constant after that.
 
 use crate::error::AirError;
+use crate::filaments::newest;
+use crate::images::{Mirror, mirrors};
 use crate::loads::AirWorkspace;
-use crate::settings::AirSettings;
+use crate::rings::{Inset, insets};
+use crate::settings::{AirSettings, LeadingEdge};
 use crate::state::{AirState, NodeMotion, WakeSheet};
-use crate::surface::Surface;
-use crate::topology::{Sheet, Topology};
+use crate::strips::{Strip, strips};
+use crate::surface::{EdgeKind, Surface};
+use crate::topology::{Edge, Sheet, Topology};
 use std::ops::Range;
 use wingbeat_math::DVec3;
 
@@ -15,6 +19,9 @@ pub struct Lattice {
     surfaces: Vec<Surface>,
     settings: AirSettings,
     topology: Topology,
+    strips: Vec<Strip>,
+    insets: Vec<Inset>,
+    mirrors: Vec<Mirror>,
 }
 
 impl Lattice {
@@ -24,12 +31,51 @@ impl Lattice {
     /// [`AirError`] names the first panel, edge, shedding segment or setting that is wrong.
     pub fn new(surfaces: Vec<Surface>, settings: AirSettings) -> Result<Self, AirError> {
         settings.validate()?;
+        let mut settings = settings;
+        settings.shedding.leading &= settings.leading != LeadingEdge::Never;
         let topology = Topology::new(&surfaces, settings.shedding)?;
         Ok(Self {
+            strips: strips(&topology, &surfaces),
+            insets: insets(&topology, &surfaces, &settings),
+            mirrors: mirrors(&settings.images)?,
             surfaces,
             settings,
             topology,
         })
+    }
+
+    /// Strips of panels behind the leading edges, in the order of [`AirState::leading`].
+    pub fn strips(&self) -> &[Strip] {
+        &self.strips
+    }
+
+    pub(crate) fn insets(&self) -> &[Inset] {
+        &self.insets
+    }
+
+    pub(crate) fn mirrors(&self) -> &[Mirror] {
+        &self.mirrors
+    }
+
+    /// Velocity of the undisturbed air [m/s] at `x` [m] and time `t` [s], N.
+    pub fn stream(&self, x: DVec3, t: f64) -> DVec3 {
+        let uniform = self.settings.free_stream;
+        match self.settings.wind.is_none() {
+            true => uniform,
+            false => uniform + self.settings.wind.at(x, t),
+        }
+    }
+
+    /// Whether the flow stays attached at an edge that could shed: its newest ring was left
+    /// without circulation by the separation criterion.
+    pub(crate) fn is_attached(&self, state: &AirState, edge: &Edge) -> bool {
+        let Some(w) = edge.wake else {
+            return false;
+        };
+        let kind = self.topology.sheets[w.sheet].kinds[w.column];
+        kind == EdgeKind::Leading
+            && self.settings.leading != LeadingEdge::Always
+            && newest(&state.sheets[w.sheet], w.column) == 0.0
     }
 
     /// The surfaces.
@@ -89,6 +135,7 @@ impl Lattice {
             position: motion.position.clone(),
             velocity: motion.velocity.clone(),
             inner_momentum: vec![DVec3::ZERO; self.surfaces.len()],
+            leading: vec![0.0; self.strips.len()],
             sheets: self.sheets().iter().map(sheet).collect(),
             ..AirState::default()
         }
@@ -110,6 +157,9 @@ impl Lattice {
         {
             return mismatch("number of nodes");
         }
+        if state.leading.len() != self.strips.len() {
+            return mismatch("number of leading-edge strips");
+        }
         if state.inner_momentum.len() != self.surfaces.len() {
             return mismatch("number of surfaces");
         }
@@ -117,6 +167,7 @@ impl Lattice {
             sheet.columns == root.panels.len()
                 && sheet.nodes.len() == sheet.rows() * (sheet.columns + 1)
                 && sheet.gamma.len() == sheet.rows() * sheet.columns
+                && (sheet.velocity.is_empty() || sheet.velocity.len() == sheet.nodes.len())
         };
         if state.sheets.len() != self.sheets().len()
             || !state.sheets.iter().zip(self.sheets()).all(fits)

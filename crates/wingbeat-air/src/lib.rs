@@ -30,31 +30,40 @@
 //!
 //! What this crate does not know: coordinates, joints, animals, gravity, files. What the method
 //! does not know: viscosity (no friction drag, wakes do not decay unless their cores grow),
-//! separation other than at the edges told to shed, the suction at edges that do not shed
-//! (forces are pressure times normal).
+//! separation other than at the edges told to shed. Forces are pressure times normal unless
+//! [`LoadMethod`] says otherwise, so without the suction at edges that do not shed.
 
 pub mod blade;
 mod closed;
 mod contact;
 pub mod error;
 pub mod filaments;
+pub mod images;
 mod influence;
+mod joukowski;
 pub mod kernel;
 pub mod lattice;
 pub mod loads;
 pub mod panels;
 mod pressure;
+mod rings;
 pub mod settings;
 pub mod state;
+pub mod strips;
 pub mod surface;
 pub mod topology;
 mod wake;
+pub mod wind;
 
 pub use error::AirError;
+pub use images::Plane;
 pub use kernel::{CoreModel, Points};
 pub use lattice::Lattice;
 pub use loads::{AirLoads, AirWorkspace, SurfaceLoads};
 pub use panels::Panels;
-pub use settings::{AirSettings, CirculationRate, SheddingKinds};
+pub use settings::{
+    AirSettings, CirculationRate, Convection, LeadingEdge, LoadMethod, SheddingKinds,
+};
 pub use state::{AirState, NodeMotion, WakeEvents, WakeSheet};
 pub use surface::{EdgeKind, SheddingSegment, Surface};
+pub use wind::{Gust, GustShape, Wind};

@@ -1,14 +1,17 @@
 //! Loads of one instant: circulation, pressure jump, forces.
 
 use crate::closed;
+use crate::contact::Obstacles;
 use crate::error::AirError;
 use crate::filaments::{Filaments, Summation};
 use crate::influence::Influence;
+use crate::joukowski;
 use crate::kernel::Points;
 use crate::lattice::Lattice;
 use crate::panels::Panels;
 use crate::pressure;
 use crate::state::{AirState, NodeMotion};
+use crate::strips;
 use wingbeat_math::DVec3;
 
 /// What the air does to one surface.
@@ -50,9 +53,15 @@ pub struct AirLoads {
     /// positive pushes along the normal. On a closed surface inner less outer pressure, the inner
     /// being that of the fictitious fluid inside.
     pub pressure_jump: Vec<f64>,
-    /// Force of the air on the panel [N]: pressure jump x area x normal, on a closed surface less
-    /// what the fictitious fluid inside does.
+    /// Force of the air on the panel [N]: as [`crate::LoadMethod`] has it; on a closed surface
+    /// pressure jump x area x normal less what the fictitious fluid inside does.
     pub force: Vec<DVec3>,
+    /// Moment of the air on the panel about its control point [N m]: of forces on segments, zero
+    /// for pressures.
+    pub couple: Vec<DVec3>,
+    /// What the separation criterion compares with its threshold, for each leading-edge strip
+    /// (angle [rad], suction parameter [1]; zero for the criteria that need none).
+    pub leading: Vec<f64>,
     /// Resultants of the surfaces.
     pub surfaces: Vec<SurfaceLoads>,
     /// Momentum of the fictitious fluid inside each closed surface [kg m/s].
@@ -73,6 +82,16 @@ pub struct AirWorkspace {
     /// Velocity at the control points of the newest wake rings' shedding edges.
     pub(crate) shed: Points,
     pub(crate) leak: Vec<f64>,
+    /// Middles of the bound segments, velocity of the air relative to them, velocity of the ring
+    /// nodes; force and moment of the segments on each panel.
+    pub(crate) middle: Points,
+    pub(crate) middle_velocity: Points,
+    pub(crate) ring_velocity: Vec<DVec3>,
+    pub(crate) panel_force: Vec<[DVec3; 2]>,
+    /// Surfaces in the way of the wakes, and the paths of a sheet's nodes.
+    pub(crate) obstacles: Obstacles,
+    pub(crate) from: Vec<DVec3>,
+    pub(crate) to: Vec<DVec3>,
     pub(crate) bound_sum: Summation,
     pub(crate) wake_sum: Summation,
 }
@@ -108,11 +127,13 @@ impl Lattice {
         self.wake_velocity(state, ws, out);
         self.solve_circulation(state, ws, out)?;
         self.add_bound_velocity(state, ws, out);
-        pressure::velocity_jump(self, &ws.filaments, out);
+        pressure::velocity_jump(self, state, &ws.filaments, out);
         pressure::circulation_rate(self, state, out);
         pressure::pressure_jump(self, out);
         pressure::forces(self, out);
+        joukowski::segment_forces(self, state, motion, ws, out);
         closed::outer_forces(self, state, out);
+        strips::leading_values(self, &motion.position, out);
         self.resultants(ws, out);
         self.check_finite(state, out)
     }
@@ -143,10 +164,20 @@ impl Lattice {
         let (filaments, settings) = (&mut ws.filaments, self.settings());
         filaments.set_bound(self, state, &out.gamma);
         let (bound, wake) = (settings.bound_core, settings.wake_core);
-        ws.wake_sum
-            .add(wake, &filaments.wake, &ws.points, &mut ws.velocity);
-        ws.bound_sum
-            .add(bound, &filaments.bound, &ws.points, &mut ws.shed);
+        ws.wake_sum.add(
+            wake,
+            &filaments.wake,
+            &ws.points,
+            self.mirrors(),
+            &mut ws.velocity,
+        );
+        ws.bound_sum.add(
+            bound,
+            &filaments.bound,
+            &ws.points,
+            self.mirrors(),
+            &mut ws.shed,
+        );
     }
 
     /// No penetration: the rings make up for what motion, stream and wakes leave.
@@ -156,8 +187,9 @@ impl Lattice {
         ws: &mut AirWorkspace,
         out: &mut AirLoads,
     ) -> Result<(), AirError> {
-        let (panels, stream) = (&out.panels, self.settings().free_stream);
+        let panels = &out.panels;
         for i in 0..panels.point.len() {
+            let stream = self.stream(panels.point[i], out.time);
             let v = stream + ws.velocity.get(i) + ws.shed.get(i);
             out.gamma[i] = (panels.velocity[i] - v).dot(panels.normal[i]);
         }
@@ -172,9 +204,11 @@ impl Lattice {
         let settings = self.settings();
         ws.filaments.set_bound(self, state, &out.gamma);
         let (model, bound) = (settings.bound_core, &ws.filaments.bound);
-        ws.bound_sum.add(model, bound, &ws.points, &mut ws.velocity);
+        ws.bound_sum
+            .add(model, bound, &ws.points, self.mirrors(), &mut ws.velocity);
         out.velocity.clear();
-        let total = ws.velocity.iter().map(|v| settings.free_stream + v);
+        let at = ws.points.iter().zip(ws.velocity.iter());
+        let total = at.map(|(x, v)| self.stream(x, out.time) + v);
         out.velocity.extend(total);
     }
 
@@ -189,7 +223,7 @@ impl Lattice {
             for p in self.panels_of(s) {
                 let (x, normal) = (out.panels.point[p], out.panels.normal[p]);
                 sum.force += out.force[p];
-                sum.moment += x.cross(out.force[p]);
+                sum.moment += x.cross(out.force[p]) + out.couple[p];
                 let through = (out.velocity[p] - out.panels.velocity[p]).dot(normal) + sum.leak;
                 out.penetration = out.penetration.max(through.abs());
             }

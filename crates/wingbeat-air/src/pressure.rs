@@ -10,7 +10,12 @@ use wingbeat_math::DVec3;
 /// Jump of the tangential velocity across each panel [m/s]: the vorticity of the panel's edges
 /// spread over its area, `dV = (sum w Gamma l) x n / A`, an edge shared by two rings giving half
 /// to either side (w = 1/2), a free edge all (w = 1).
-pub(crate) fn velocity_jump(lattice: &Lattice, filaments: &Filaments, out: &mut AirLoads) {
+pub(crate) fn velocity_jump(
+    lattice: &Lattice,
+    state: &AirState,
+    filaments: &Filaments,
+    out: &mut AirLoads,
+) {
     let (topology, bound) = (lattice.topology(), &filaments.bound);
     out.velocity_jump.clear();
     for (p, edges) in topology.panel_edges.iter().enumerate() {
@@ -18,7 +23,9 @@ pub(crate) fn velocity_jump(lattice: &Lattice, filaments: &Filaments, out: &mut 
         for e in edges {
             let edge = &topology.edges[e.edge];
             let l = bound.nodes.get(edge.to) - bound.nodes.get(edge.from);
-            vorticity += e.weight * bound.gamma[e.edge] * l;
+            let attached = lattice.is_attached(state, edge);
+            let weight = if attached { 1.0 } else { e.weight };
+            vorticity += weight * bound.gamma[e.edge] * l;
         }
         let jump = vorticity.cross(out.panels.normal[p]) / out.panels.area[p];
         out.velocity_jump.push(jump);

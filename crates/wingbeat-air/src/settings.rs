@@ -1,8 +1,10 @@
 //! Choices of the air model.
 
 use crate::error::AirError;
+use crate::images::{Plane, mirrors};
 use crate::kernel::CoreModel;
 use crate::surface::EdgeKind;
+use crate::wind::Wind;
 use wingbeat_math::DVec3;
 
 /// How the rate of change of circulation in the unsteady Bernoulli equation is formed.
@@ -16,6 +18,55 @@ pub enum CirculationRate {
     BackwardSecond,
     /// Left out: quasi-steady loads.
     Omitted,
+}
+
+/// How wake nodes are moved with the velocities of the accepted step.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Convection {
+    /// With the velocity of the step: explicit Euler, first order, the published benchmark's.
+    #[default]
+    Euler,
+    /// With the velocity extrapolated to the middle of the step from those of this step and the
+    /// one before (Adams-Bashforth, steps of any lengths): second order. A node that has just left
+    /// its edge has no past and takes one Euler step.
+    AdamsBashforth,
+}
+
+/// How forces follow from circulations. The methods differ in what they do with the suction at
+/// attached leading edges: never mix them in one comparison.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum LoadMethod {
+    /// Unsteady Bernoulli, pressure jump times normal: no suction (the published benchmark's).
+    #[default]
+    Pressure,
+    /// Joukowski's force on every segment and `rho A dGamma/dt` along the normal: with suction at
+    /// the edges that do not shed.
+    Joukowski,
+    /// Pressure, and the suction of the leading edge of each strip turned into a normal force on
+    /// its leading panel: Polhamus's analogy for an attached leading-edge vortex
+    /// [Polhamus 1966, NASA TN D-3767].
+    Polhamus,
+}
+
+/// Where and when the flow leaves leading edges, judged strip by strip at every step. Needs
+/// [`SheddingKinds::leading`]; see [`crate::strips`] for the two numbers.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum LeadingEdge {
+    /// Nowhere.
+    Never,
+    /// Everywhere.
+    #[default]
+    Always,
+    /// Where the effective angle of attack [rad] exceeds the threshold.
+    AngleOfAttack {
+        /// Threshold [rad], 0 to pi.
+        threshold: f64,
+    },
+    /// Where the leading-edge suction parameter exceeds the threshold.
+    Suction {
+        /// Threshold, above 0.
+        threshold: f64,
+    },
 }
 
 /// Which kinds of edges shed wakes.
@@ -70,12 +121,32 @@ pub struct AirSettings {
     /// Rows of rings kept in each wake sheet; none keeps all. The oldest row is dropped ring by
     /// ring, so what is left is closed; its far influence is lost.
     pub max_rows: Option<usize>,
+    /// Rows older than this [s] are dropped, as above.
+    pub max_age: Option<f64>,
+    /// Rows farther from the middle of their edge than this [m] with all nodes are dropped, as
+    /// above, with all older ones.
+    pub max_distance: Option<f64>,
     /// Longest way a wake node may go in a step, relative to the undisturbed air [m]; longer
     /// ones are shortened and counted.
     pub max_displacement: Option<f64>,
     /// Free wake nodes keep this distance [m] from surfaces and do not pass through them; the
     /// core radius is the natural choice. 0 lets them pass (the published benchmark).
     pub clearance: f64,
+    /// Convection of the wakes.
+    pub convection: Convection,
+    /// Forces of open surfaces; those of closed ones are pressures always.
+    pub loads: LoadMethod,
+    /// Separation from leading edges.
+    pub leading: LeadingEdge,
+    /// Part of its panel by which a ring stays inside a side edge that does not shed; a quarter
+    /// makes the loads of coarse lattices good to second order, 0 is the published benchmark's. A
+    /// leading edge is treated so only if the trailing edge does not shed: the lattice of a
+    /// lifting wing has its right chord as it is.
+    pub inset: f64,
+    /// What is added to the free stream.
+    pub wind: Wind,
+    /// Planes of symmetry and ground: none, one, or two at right angles.
+    pub images: Vec<Plane>,
 }
 
 impl AirSettings {
@@ -93,7 +164,26 @@ impl AirSettings {
             rate: CirculationRate::Backward,
             max_rows: None,
             max_displacement: None,
+            max_age: None,
+            max_distance: None,
             clearance: 0.0,
+            convection: Convection::Euler,
+            loads: LoadMethod::Pressure,
+            leading: LeadingEdge::Always,
+            inset: 0.0,
+            wind: Wind::default(),
+            images: Vec::new(),
+        }
+    }
+
+    /// The accurate discretisation: as the benchmark, but circulation rate and convection of
+    /// second order and side edges inset by a quarter panel.
+    pub fn accurate(density: f64, free_stream: DVec3) -> Self {
+        Self {
+            rate: CirculationRate::BackwardSecond,
+            convection: Convection::AdamsBashforth,
+            inset: 0.25,
+            ..Self::benchmark(density, free_stream)
         }
     }
 
@@ -149,11 +239,70 @@ impl AirSettings {
             self.clearance.to_string(),
             "a finite height in m, 0 to count nothing",
         )?;
+        for (key, value) in [
+            ("max_age", self.max_age),
+            ("max_distance", self.max_distance),
+        ] {
+            let allowed = "a finite number above 0, or none for no limit";
+            check(
+                value.is_none_or(positive),
+                key,
+                format!("{value:?}"),
+                allowed,
+            )?;
+        }
+        check(
+            (0.0..0.5).contains(&self.inset),
+            "inset",
+            self.inset.to_string(),
+            "a part of a panel from 0 to below 1/2",
+        )?;
+        self.check_leading()?;
+        self.wind.validate()?;
+        mirrors(&self.images)?;
+        let through = |p: &&Plane| {
+            let across = self.free_stream.dot(p.normal.normalize()).abs();
+            across > 1e-12 * self.free_stream.length()
+        };
+        if let Some(plane) = self.images.iter().find(through) {
+            return Err(AirError::Setting {
+                key: "images",
+                value: format!("{plane:?}"),
+                allowed: "planes along the free stream: no air goes through them",
+            });
+        }
         check(
             self.max_rows != Some(0),
             "max_rows",
             "0".to_owned(),
             "at least 1 row, or none to keep all; without any shed row there is no Kutta condition",
         )
+    }
+
+    fn check_leading(&self) -> Result<(), AirError> {
+        let (key, value, ok, allowed) = match self.leading {
+            LeadingEdge::AngleOfAttack { threshold: a } => (
+                "leading angle-of-attack threshold",
+                a,
+                (0.0..=std::f64::consts::PI).contains(&a),
+                "an angle in rad from 0 to pi",
+            ),
+            LeadingEdge::Suction { threshold: a } => (
+                "leading suction threshold",
+                a,
+                a.is_finite() && a > 0.0,
+                "a finite number above 0",
+            ),
+            LeadingEdge::Never | LeadingEdge::Always => return Ok(()),
+        };
+        let value = value.to_string();
+        match ok {
+            true => Ok(()),
+            false => Err(AirError::Setting {
+                key,
+                value,
+                allowed,
+            }),
+        }
     }
 }

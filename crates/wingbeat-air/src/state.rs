@@ -29,6 +29,8 @@ pub struct WakeSheet {
     pub gamma: Vec<f64>,
     /// Time at which each row of rings left the edge [s].
     pub shed_time: Vec<f64>,
+    /// Velocity with which the nodes came here [m/s], N; empty unless convection looks back.
+    pub velocity: Points,
 }
 
 impl WakeSheet {
@@ -48,11 +50,17 @@ impl WakeSheet {
     pub(crate) fn keep(&mut self, rows: usize) {
         let drop = self.rows().saturating_sub(rows);
         let nodes = drop * (self.columns + 1);
-        self.nodes.x.drain(..nodes);
-        self.nodes.y.drain(..nodes);
-        self.nodes.z.drain(..nodes);
+        drop_first(&mut self.nodes, nodes);
+        drop_first(&mut self.velocity, nodes);
         self.gamma.drain(..drop * self.columns);
         self.shed_time.drain(..drop);
+    }
+}
+
+fn drop_first(points: &mut Points, n: usize) {
+    let n = n.min(points.len());
+    for c in [&mut points.x, &mut points.y, &mut points.z] {
+        c.drain(..n);
     }
 }
 
@@ -63,12 +71,15 @@ pub struct WakeEvents {
     pub limited: u64,
     /// Wake nodes kept at [`crate::AirSettings::clearance`] from a surface.
     pub near_surface: u64,
+    /// Rows of wake that were dropped.
+    pub dropped_rows: u64,
 }
 
 impl std::ops::AddAssign for WakeEvents {
     fn add_assign(&mut self, other: Self) {
         self.limited += other.limited;
         self.near_surface += other.near_surface;
+        self.dropped_rows += other.dropped_rows;
     }
 }
 
@@ -87,6 +98,11 @@ pub struct AirState {
     pub gamma_before: Vec<f64>,
     /// Time between these two [s].
     pub dt_before: f64,
+    /// What the separation criterion compares with its threshold, for each leading-edge strip,
+    /// at the last accepted step.
+    pub leading: Vec<f64>,
+    /// Length of the last step of the wakes [s], zero before it.
+    pub dt_wake: f64,
     /// Positions of the surface nodes at the last accepted step [m], N.
     pub position: Vec<DVec3>,
     /// Their velocities [m/s], N.

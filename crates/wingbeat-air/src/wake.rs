@@ -2,11 +2,13 @@
 
 use crate::contact::Obstacles;
 use crate::error::AirError;
+use crate::images::Plane;
 use crate::kernel::Points;
 use crate::lattice::Lattice;
 use crate::loads::{AirLoads, AirWorkspace};
+use crate::settings::Convection;
 use crate::state::{AirState, NodeMotion, WakeEvents, WakeSheet};
-use crate::topology::Sheet;
+use crate::surface::EdgeKind;
 use wingbeat_math::DVec3;
 
 impl Lattice {
@@ -27,7 +29,7 @@ impl Lattice {
             let step = state.step;
             return Err(AirError::Order { step, what });
         }
-        if loads.gamma.len() != self.panel_count() {
+        if loads.gamma.len() != self.panel_count() || loads.leading.len() != self.strips().len() {
             let what = "number of panels of the loads";
             return Err(AirError::StateMismatch { what });
         }
@@ -37,14 +39,16 @@ impl Lattice {
         state.position.copy_from_slice(&motion.position);
         state.velocity.copy_from_slice(&motion.velocity);
         state.inner_momentum.copy_from_slice(&loads.inner_momentum);
+        state.leading.copy_from_slice(&loads.leading);
         state.time = loads.time;
         state.step += 1;
         state.wake_due = true;
         Ok(())
     }
 
-    /// Moves the wakes by `dt` [s] with the velocities of the accepted step (explicit Euler) and
-    /// sheds a row of rings with the circulations of that step (the unsteady Kutta condition).
+    /// Moves the wakes by `dt` [s] with the velocities of the accepted step, as
+    /// [`Convection`] says, and sheds a row of rings with the circulations of that step (the
+    /// unsteady Kutta condition); then drops the rows that are too old or too far.
     /// Returns what had to be tamed in this step.
     ///
     /// # Errors
@@ -74,11 +78,25 @@ impl Lattice {
         } = &mut *ws;
         let (targets, settings) = (&filaments.wake.nodes, self.settings());
         velocity.reset(targets.len());
-        bound_sum.add(settings.bound_core, &filaments.bound, targets, velocity);
-        wake_sum.add(settings.wake_core, &filaments.wake, targets, velocity);
+        let mirrors = self.mirrors();
+        bound_sum.add(
+            settings.bound_core,
+            &filaments.bound,
+            targets,
+            mirrors,
+            velocity,
+        );
+        wake_sum.add(
+            settings.wake_core,
+            &filaments.wake,
+            targets,
+            mirrors,
+            velocity,
+        );
         let events = self.move_sheets(state, dt, ws)?;
         state.events += events;
         state.wake_due = false;
+        state.dt_wake = dt;
         Ok(events)
     }
 
@@ -93,34 +111,93 @@ impl Lattice {
         &self,
         state: &mut AirState,
         dt: f64,
-        ws: &AirWorkspace,
+        ws: &mut AirWorkspace,
     ) -> Result<WakeEvents, AirError> {
-        let obstacles = Obstacles::new(self, state, dt);
-        let (gamma, time, step) = (&state.gamma, state.time, state.step);
+        ws.obstacles.take(self, state, dt);
+        let step = state.step;
+        let looks_back = self.settings().convection == Convection::AdamsBashforth;
         let mut mover = Mover {
+            lattice: self,
             nodes: &ws.filaments.wake.nodes,
             velocity: &ws.velocity,
-            stream: self.settings().free_stream,
             limit: self.settings().max_displacement.unwrap_or(f64::INFINITY),
+            time: state.time,
             dt,
-            obstacles: &obstacles,
+            looks_back,
+            // Weight of the change of velocity since the step before.
+            change: if looks_back && state.dt_wake > 0.0 {
+                0.5 * dt / state.dt_wake
+            } else {
+                0.0
+            },
+            obstacles: &ws.obstacles,
             next: 0,
             events: WakeEvents::default(),
         };
-        for (k, (sheet, root)) in state.sheets.iter_mut().zip(self.sheets()).enumerate() {
-            mover
-                .move_nodes(sheet)
-                .map_err(|(row, column, velocity)| AirError::WakeNotFinite {
+        let mut sheets = std::mem::take(&mut state.sheets);
+        for (k, sheet) in sheets.iter_mut().enumerate() {
+            let moved = mover.move_nodes(sheet, &mut ws.from, &mut ws.to);
+            if let Err((row, column, velocity)) = moved {
+                state.sheets = sheets;
+                return Err(AirError::WakeNotFinite {
                     step,
                     sheet: k,
                     row,
                     column,
                     velocity,
-                })?;
-            shed(sheet, root, gamma, time);
-            sheet.keep(self.settings().max_rows.unwrap_or(usize::MAX));
+                });
+            }
+            self.shed(k, sheet, state);
+            mover.events.dropped_rows += self.truncate(k, sheet, state);
         }
+        state.sheets = sheets;
         Ok(mover.events)
+    }
+
+    /// Unsteady Kutta condition: the row that leaves carries the circulation of its panels; none
+    /// where the flow stays attached to a leading edge.
+    fn shed(&self, k: usize, sheet: &mut WakeSheet, state: &AirState) {
+        let root = &self.sheets()[k];
+        for (c, (&panel, &sign)) in root.panels.iter().zip(&root.signs).enumerate() {
+            let attached = root.kinds[c] == EdgeKind::Leading && !self.leaves(panel, state);
+            let gamma = if attached {
+                0.0
+            } else {
+                sign * state.gamma[panel]
+            };
+            sheet.gamma.push(gamma);
+        }
+        sheet.shed_time.push(state.time);
+    }
+
+    /// Whether the flow leaves the leading edge at this leading panel.
+    fn leaves(&self, panel: usize, state: &AirState) -> bool {
+        let strip = self.strips().iter().position(|s| s.panels[0] == panel);
+        strip.is_none_or(|s| self.is_separated(s, state))
+    }
+
+    /// Drops the oldest rows that are too many, too old or too far; returns how many.
+    fn truncate(&self, k: usize, sheet: &mut WakeSheet, state: &AirState) -> u64 {
+        let settings = self.settings();
+        let before = sheet.rows();
+        let mut keep = before.min(settings.max_rows.unwrap_or(usize::MAX));
+        if let Some(age) = settings.max_age {
+            let young = |t: &&f64| state.time - **t <= age;
+            keep = keep.min(sheet.shed_time.iter().filter(young).count());
+        }
+        if let Some(far) = settings.max_distance {
+            let nodes = &self.sheets()[k].nodes;
+            let sum: DVec3 = nodes.iter().map(|&n| state.position[n]).sum();
+            let edge = sum / nodes.len() as f64;
+            let is_far = |r: usize| {
+                let mut row = (0..=sheet.columns).map(|c| sheet.node(r, c));
+                row.all(|x| x.distance(edge) > far)
+            };
+            let farthest = (0..before).rev().find(|&r| is_far(r));
+            keep = keep.min(farthest.map_or(before, |r| before - 1 - r));
+        }
+        sheet.keep(keep.max(1));
+        (before - sheet.rows()) as u64
     }
 
     /// Velocity of the air [m/s] at `points` [m], N, in the accepted step; `out` is resized. At a
@@ -140,13 +217,23 @@ impl Lattice {
         self.gather_accepted(state, ws);
         out.reset(points.len());
         for i in 0..points.len() {
-            out.set(i, self.settings().free_stream);
+            out.set(i, self.stream(points.get(i), state.time));
         }
         let settings = self.settings();
-        ws.bound_sum
-            .add(settings.bound_core, &ws.filaments.bound, points, out);
-        ws.wake_sum
-            .add(settings.wake_core, &ws.filaments.wake, points, out);
+        ws.bound_sum.add(
+            settings.bound_core,
+            &ws.filaments.bound,
+            points,
+            self.mirrors(),
+            out,
+        );
+        ws.wake_sum.add(
+            settings.wake_core,
+            &ws.filaments.wake,
+            points,
+            self.mirrors(),
+            out,
+        );
         Ok(())
     }
 
@@ -165,11 +252,14 @@ impl Lattice {
 
 /// Walks through the wake nodes of all sheets in order and moves them.
 struct Mover<'a> {
+    lattice: &'a Lattice,
     nodes: &'a Points,
     velocity: &'a Points,
-    stream: DVec3,
     limit: f64,
+    time: f64,
     dt: f64,
+    looks_back: bool,
+    change: f64,
     obstacles: &'a Obstacles,
     next: usize,
     events: WakeEvents,
@@ -178,22 +268,42 @@ struct Mover<'a> {
 impl Mover<'_> {
     /// Fills `sheet` with its moved nodes, those that were on the shedding edge being the new last
     /// row. The error is (row from the newest, column, velocity).
-    fn move_nodes(&mut self, sheet: &mut WakeSheet) -> Result<(), (usize, usize, DVec3)> {
+    fn move_nodes(
+        &mut self,
+        sheet: &mut WakeSheet,
+        from: &mut Vec<DVec3>,
+        to: &mut Vec<DVec3>,
+    ) -> Result<(), (usize, usize, DVec3)> {
         let (rows, width) = (sheet.rows() + 1, sheet.columns + 1);
         let nodes = self.next..self.next + rows * width;
         self.next = nodes.end;
-        let from: Vec<DVec3> = nodes.clone().map(|k| self.nodes.get(k)).collect();
-        let mut to = from.clone();
-        for (i, k) in nodes.enumerate() {
-            let v = self.velocity.get(k);
-            to[i] += self.dt * self.stream + self.displacement(v);
-            if !to[i].is_finite() {
+        from.clear();
+        from.extend(nodes.clone().map(|k| self.nodes.get(k)));
+        to.clear();
+        for (i, k) in nodes.clone().enumerate() {
+            let (x, v) = (from[i], self.velocity.get(k));
+            let stream = self.lattice.stream(x, self.time);
+            let past = (i < sheet.velocity.len()).then(|| sheet.velocity.get(i));
+            let change = past.map_or(DVec3::ZERO, |past| self.change * (v + stream - past));
+            let end = x + (self.dt * stream + self.displacement(v + change));
+            if !end.is_finite() {
                 return Err((rows - 1 - i / width, i % width, v));
             }
+            to.push(end);
         }
-        self.events.near_surface += self.obstacles.keep_off(&from, &mut to);
+        if self.looks_back {
+            sheet.velocity.clear();
+            for (i, k) in nodes.enumerate() {
+                let stream = self.lattice.stream(from[i], self.time);
+                sheet.velocity.push(self.velocity.get(k) + stream);
+            }
+        }
+        self.events.near_surface += self.obstacles.keep_off(from, to);
+        for plane in &self.lattice.settings().images {
+            self.events.near_surface += keep_on_side(plane, from, to);
+        }
         sheet.nodes.clear();
-        to.into_iter().for_each(|x| sheet.nodes.push(x));
+        to.iter().for_each(|&x| sheet.nodes.push(x));
         Ok(())
     }
 
@@ -209,10 +319,15 @@ impl Mover<'_> {
     }
 }
 
-/// Unsteady Kutta condition: the row that leaves carries the circulation of its panels.
-fn shed(sheet: &mut WakeSheet, root: &Sheet, gamma: &[f64], time: f64) {
-    for (&panel, &sign) in root.panels.iter().zip(&root.signs) {
-        sheet.gamma.push(sign * gamma[panel]);
+/// Nodes that would go through a plane of symmetry or a ground end on it; returns how many. There
+/// they and their images cancel.
+fn keep_on_side(plane: &Plane, from: &[DVec3], to: &mut [DVec3]) -> u64 {
+    let mut count = 0;
+    for (a, b) in from.iter().zip(to) {
+        if plane.height(*a) * plane.height(*b) < 0.0 {
+            *b = plane.foot(*b);
+            count += 1;
+        }
     }
-    sheet.shed_time.push(time);
+    count
 }

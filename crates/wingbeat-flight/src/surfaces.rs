@@ -90,7 +90,8 @@ impl SurfaceMap {
             let body = self.body[surface];
             for k in panels.clone() {
                 out[body].force += loads.force[k];
-                out[body].moment += (loads.panels.point[k] - bodies[body].p).cross(loads.force[k]);
+                let arm = loads.panels.point[k] - bodies[body].p;
+                out[body].moment += arm.cross(loads.force[k]) + loads.couple[k];
             }
         }
     }

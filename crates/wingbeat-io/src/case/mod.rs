@@ -9,12 +9,14 @@ mod decode;
 mod files;
 pub mod raw;
 mod source;
+mod trimmed;
 
 use std::path::{Path, PathBuf};
 
 use wingbeat_flight::FlightSetup;
 
 pub use build::data_sets;
+pub use trimmed::{trimmed_case, write_new};
 pub(crate) use decode::nearest;
 
 use crate::error::{CaseError, Fault, IoError};

@@ -1,11 +1,19 @@
 //! `[air]`: the air's model, and the settings of the vortex lattice.
 
-use wingbeat_air::{AirSettings, CirculationRate, CoreModel, SheddingKinds};
+use wingbeat_air::{
+    AirSettings, CirculationRate, Convection, CoreModel, Gust, GustShape, LeadingEdge, LoadMethod,
+    Plane, SheddingKinds, Wind,
+};
 use wingbeat_flight::{AirModel, AirOptions};
+use wingbeat_math::{DMat3, DVec3};
 use wingbeat_model::Animal;
 
 use super::{Built, at_least, blade, not_negative, positive, vector};
-use crate::case::raw::{AirCase, AirModel as Model, Case, CirculationRateCase, CoreCase, EdgeCase};
+use crate::case::raw::{
+    AirCase, AirModel as Model, Case, CirculationRateCase, ConvectionCase, CoreCase, EdgeCase,
+    GustCase, LeadingEdgeCase, LoadMethodCase, SchemeCase,
+};
+use crate::error::Fault;
 
 /// Default cut-off over the mean panel length, the published benchmark's.
 const CUT_OFF: f64 = 0.01;
@@ -45,9 +53,17 @@ pub(super) fn options(case: &AirCase) -> Built<AirModel> {
 fn lattice(case: &AirCase) -> Built<AirOptions> {
     let limit = |key: &str, value: Option<f64>| value.map(|v| positive(key, v)).transpose();
     let sheds = |edge: EdgeCase| case.shed.contains(&edge);
+    let density = positive("air.density_kg_m3", case.density_kg_m3)?;
+    let scheme = match case.scheme {
+        SchemeCase::Benchmark => AirSettings::benchmark,
+        SchemeCase::Accurate => AirSettings::accurate,
+    };
+    let scheme = scheme(density, vector(case.stream_m_s));
+    let ground = case.ground.map(|g| Plane {
+        point: vector(g.point_m),
+        normal: vector(g.normal),
+    });
     let lattice = AirSettings {
-        density: positive("air.density_kg_m3", case.density_kg_m3)?,
-        free_stream: vector(case.stream_m_s),
         bound_core: core("air.bound_core", case.bound_core.as_ref())?,
         wake_core: core("air.wake_core", case.wake_core.as_ref())?,
         shedding: SheddingKinds {
@@ -57,20 +73,114 @@ fn lattice(case: &AirCase) -> Built<AirOptions> {
             root: sheds(EdgeCase::Root),
         },
         rate: match case.circulation_rate {
-            CirculationRateCase::Backward => CirculationRate::Backward,
-            CirculationRateCase::BackwardSecond => CirculationRate::BackwardSecond,
-            CirculationRateCase::Omitted => CirculationRate::Omitted,
+            None => scheme.rate,
+            Some(CirculationRateCase::Backward) => CirculationRate::Backward,
+            Some(CirculationRateCase::BackwardSecond) => CirculationRate::BackwardSecond,
+            Some(CirculationRateCase::Omitted) => CirculationRate::Omitted,
         },
+        convection: match case.convection {
+            None => scheme.convection,
+            Some(ConvectionCase::Euler) => Convection::Euler,
+            Some(ConvectionCase::AdamsBashforth) => Convection::AdamsBashforth,
+        },
+        inset: case.ring_inset.unwrap_or(scheme.inset),
+        loads: match case.loads {
+            LoadMethodCase::Pressure => LoadMethod::Pressure,
+            LoadMethodCase::Joukowski => LoadMethod::Joukowski,
+            LoadMethodCase::Polhamus => LoadMethod::Polhamus,
+        },
+        leading: leading_edge(case)?,
+        wind: wind(case)?,
+        images: ground.into_iter().collect(),
+        max_age: limit("air.max_wake_age_s", case.max_wake_age_s)?,
+        max_distance: limit("air.max_wake_distance_m", case.max_wake_distance_m)?,
         max_rows: match case.max_wake_rows {
             Some(rows) => Some(at_least("air.max_wake_rows", rows, 1)?),
             None => None,
         },
         max_displacement: limit("air.max_displacement_m", case.max_displacement_m)?,
         clearance: not_negative("air.clearance_m", case.clearance_m)?,
+        ..scheme
     };
+    lattice.validate().map_err(|e| {
+        Fault::new(
+            "air",
+            e.to_string(),
+            "see the message",
+            "correct that number",
+        )
+    })?;
     Ok(AirOptions {
         lattice,
         body_surfaces: case.body,
+    })
+}
+
+/// The separation criterion with the threshold it needs.
+fn leading_edge(case: &AirCase) -> Built<LeadingEdge> {
+    let need = |key: &str, value: Option<f64>| {
+        value.ok_or_else(|| {
+            Fault::new(
+                key,
+                "air.leading_edge needs this threshold, which has no default",
+                "a finite number > 0",
+                "give a threshold that fits wing section and Reynolds number",
+            )
+        })
+    };
+    Ok(match case.leading_edge {
+        LeadingEdgeCase::Never => LeadingEdge::Never,
+        LeadingEdgeCase::Always => LeadingEdge::Always,
+        LeadingEdgeCase::AngleOfAttack => {
+            let key = "air.leading_edge_threshold_deg";
+            let threshold = need(key, case.leading_edge_threshold_deg)?;
+            LeadingEdge::AngleOfAttack {
+                threshold: positive(key, threshold)?.to_radians(),
+            }
+        }
+        LeadingEdgeCase::Suction => {
+            let key = "air.leading_edge_threshold";
+            let threshold = need(key, case.leading_edge_threshold)?;
+            LeadingEdge::Suction {
+                threshold: positive(key, threshold)?,
+            }
+        }
+    })
+}
+
+fn wind(case: &AirCase) -> Built<Wind> {
+    let gusts: Built<Vec<Gust>> = case.gust.iter().enumerate().map(gust).collect();
+    let shear = case.shear_1_s.map(|rows| {
+        let [a, b, c] = rows.map(DVec3::from_array);
+        DMat3::from_cols(a, b, c).transpose()
+    });
+    Ok(Wind {
+        shear,
+        gusts: gusts?,
+    })
+}
+
+fn gust((k, case): (usize, &GustCase)) -> Built<Gust> {
+    let shape = match (case.duration_s, &case.table) {
+        (Some(duration), None) => GustShape::OneMinusCosine {
+            duration: positive(&format!("air.gust[{k}].duration_s"), duration)?,
+        },
+        (None, Some(rows)) => GustShape::Table(rows.clone()),
+        _ => {
+            return Err(Fault::new(
+                format!("air.gust[{k}]"),
+                "a gust has either a duration or a table",
+                "duration_s or table",
+                "give one of the two",
+            ));
+        }
+    };
+    let front = case.front_m_s.map(vector);
+    Ok(Gust {
+        amplitude: vector(case.amplitude_m_s),
+        start: case.start_s,
+        slowness: front.map_or(DVec3::ZERO, |u| u / u.length_squared()),
+        shape,
     })
 }
 

@@ -1,13 +1,15 @@
 //! `[motion]` and `[wing.NAME.motion]`: angle laws and shipped data sets.
 
 use wingbeat_model::kinematics::{self, FwuavInsect, PublishedMotion, Timing};
-use wingbeat_model::motion::{Fourier, Oval, PeriodicSpline, SmoothSquare, SmoothTriangle};
+use wingbeat_model::motion::{
+    Adjustment, Fourier, Oval, PeriodicSpline, SmoothSquare, SmoothTriangle,
+};
 use wingbeat_model::{AngleLaw, AngleLaws, Side, Start, WingMotion};
 
 use super::{Built, at_least, not_negative, positive};
 use crate::case::decode::nearest;
 use crate::case::raw::{
-    AngleCase, Case, FourierCase, StartCase, TableCase, WingCase, WingMotionCase,
+    AngleCase, Case, FourierCase, MotionCase, StartCase, TableCase, WingCase, WingMotionCase,
 };
 use crate::error::Fault;
 
@@ -115,13 +117,28 @@ pub(super) fn law(case: &Case, name: &str, wing: &WingCase, side: Side) -> Built
             "add `frequency_hz = ...` to [motion]",
         ));
     }
-    Ok(WingMotion {
+    let motion = WingMotion {
         angles: laws,
         frequency,
         phase: own.phase.unwrap_or(case.motion.phase),
         stroke_plane_pitch: pitch.unwrap_or(0.0).to_radians(),
         start: start(case, frequency)?,
-    })
+    };
+    Ok(motion.adjusted(side, &adjustment(&case.motion)))
+}
+
+fn adjustment(motion: &MotionCase) -> Adjustment {
+    let case = &motion.adjust;
+    Adjustment {
+        stroke_amplitude: case.stroke_amplitude,
+        stroke_offset: case.stroke_offset_deg.to_radians(),
+        feathering_amplitude: case.feathering_amplitude,
+        feathering_offset: case.feathering_offset_deg.to_radians(),
+        feathering_lead: case.feathering_lead,
+        deviation_offset: case.deviation_offset_deg.to_radians(),
+        stroke_plane: case.stroke_plane_deg.to_radians(),
+        frequency: 0.0,
+    }
 }
 
 fn start(case: &Case, frequency: f64) -> Built<Start> {

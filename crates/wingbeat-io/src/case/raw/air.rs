@@ -28,8 +28,46 @@ pub struct AirCase {
     /// `bound_core`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub wake_core: Option<CoreCase>,
-    /// How the rate of change of circulation in the pressure is formed.
-    pub circulation_rate: CirculationRateCase,
+    /// Set of numerical choices: what the keys `circulation_rate`, `convection` and `ring_inset`
+    /// are where they are left out. `benchmark`: the published benchmark's, first order;
+    /// `accurate`: second order, side edges inset by a quarter panel.
+    pub scheme: SchemeCase,
+    /// How the rate of change of circulation in the pressure is formed; default by `scheme`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub circulation_rate: Option<CirculationRateCase>,
+    /// How wake nodes are moved; default by `scheme`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub convection: Option<ConvectionCase>,
+    /// Part of a panel by which rings stay inside side edges that do not shed, 0 to below 0.5;
+    /// default by `scheme`: 0 or 0.25.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub ring_inset: Option<f64>,
+    /// How forces follow from circulations.
+    pub loads: LoadMethodCase,
+    /// Where the flow leaves leading edges, if `shed` names them.
+    pub leading_edge: LeadingEdgeCase,
+    /// Threshold of `leading_edge = "angle_of_attack"`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub leading_edge_threshold_deg: Option<f64>,
+    /// Threshold of `leading_edge = "suction"`, the leading-edge suction parameter.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub leading_edge_threshold: Option<f64>,
+    /// Gusts, added to the stream.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub gust: Vec<GustCase>,
+    /// Gradient of a steady shear in 1/s, three rows: the velocity (gradient x place) is added to
+    /// the stream.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub shear_1_s: Option<[[f64; 3]; 3]>,
+    /// A plane through which no air goes.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub ground: Option<GroundCase>,
+    /// Wake rows older than this are dropped; left out: none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub max_wake_age_s: Option<f64>,
+    /// Wake rows farther than this from their edge are dropped; left out: none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub max_wake_distance_m: Option<f64>,
     /// Rows kept in each wake sheet; left out: all.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub max_wake_rows: Option<usize>,
@@ -58,7 +96,19 @@ impl Default for AirCase {
             shed: vec![EdgeCase::Trailing, EdgeCase::Tip, EdgeCase::Leading],
             bound_core: None,
             wake_core: None,
-            circulation_rate: CirculationRateCase::Backward,
+            scheme: SchemeCase::Benchmark,
+            circulation_rate: None,
+            convection: None,
+            ring_inset: None,
+            loads: LoadMethodCase::Pressure,
+            leading_edge: LeadingEdgeCase::Always,
+            leading_edge_threshold_deg: None,
+            leading_edge_threshold: None,
+            gust: Vec::new(),
+            shear_1_s: None,
+            ground: None,
+            max_wake_age_s: None,
+            max_wake_distance_m: None,
             max_wake_rows: None,
             max_displacement_m: None,
             clearance_m: 0.0,
@@ -131,4 +181,80 @@ pub enum CirculationRateCase {
     BackwardSecond,
     /// Left out.
     Omitted,
+}
+
+/// Set of numerical choices.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum SchemeCase {
+    /// The published benchmark's: first order.
+    Benchmark,
+    /// Second order, side edges inset.
+    Accurate,
+}
+
+/// How wake nodes are moved.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum ConvectionCase {
+    /// Explicit Euler, first order (the published benchmark's).
+    Euler,
+    /// Adams-Bashforth over two steps, second order.
+    AdamsBashforth,
+}
+
+/// How forces follow from circulations.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum LoadMethodCase {
+    /// Pressure jump times normal: no leading-edge suction (the published benchmark's).
+    Pressure,
+    /// Joukowski's force on every segment: with suction.
+    Joukowski,
+    /// Pressure, and the leading-edge suction turned into normal force (Polhamus's analogy).
+    Polhamus,
+}
+
+/// Where the flow leaves leading edges.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum LeadingEdgeCase {
+    /// Nowhere.
+    Never,
+    /// Everywhere.
+    Always,
+    /// Strips whose effective angle of attack exceeds `leading_edge_threshold_deg`.
+    AngleOfAttack,
+    /// Strips whose leading-edge suction parameter exceeds `leading_edge_threshold`.
+    Suction,
+}
+
+/// A gust: amplitude times a course in time; give `duration_s` or `table`.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct GustCase {
+    /// Velocity at the height of the gust, inertial axes.
+    pub amplitude_m_s: [f64; 3],
+    /// When it begins at the origin.
+    #[serde(default)]
+    pub start_s: f64,
+    /// Velocity with which its front travels; left out: it is everywhere at once.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub front_m_s: Option<[f64; 3]>,
+    /// Length of a 1-cosine gust.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub duration_s: Option<f64>,
+    /// Rows of time since the start in s and share of the amplitude, straight lines between.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub table: Option<Vec<(f64, f64)>>,
+}
+
+/// A plane through which no air goes; animal and wake stay on one side.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct GroundCase {
+    /// A point of the plane, inertial axes.
+    pub point_m: [f64; 3],
+    /// Its normal, of any length, inertial axes.
+    pub normal: [f64; 3],
 }

@@ -11,7 +11,10 @@ mod flight;
 mod motion;
 mod wing;
 
-pub use air::{AirCase, AirModel, CirculationRateCase, CoreCase, EdgeCase};
+pub use air::{
+    AirCase, AirModel, CirculationRateCase, ConvectionCase, CoreCase, EdgeCase, GroundCase,
+    GustCase, LeadingEdgeCase, LoadMethodCase, SchemeCase,
+};
 pub use blade::{
     AddedMassCase, BladeCase, BodyDragCase, OwnCoefficients, PressureCase, RotationCase,
     ViscousCase,

@@ -24,6 +24,33 @@ pub struct MotionCase {
     pub start_beats: f64,
     /// Phase at t = 0 in wingbeats.
     pub phase: f64,
+    /// Adjustments of all wings on top of their angles, as trim finds them.
+    #[serde(skip_serializing_if = "is_default")]
+    pub adjust: AdjustCase,
+}
+
+fn is_default(case: &AdjustCase) -> bool {
+    *case == AdjustCase::default()
+}
+
+/// Adjustments of the wing angles, the same on both sides by mirror symmetry.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct AdjustCase {
+    /// Relative change of the stroke's swing about its mean.
+    pub stroke_amplitude: f64,
+    /// Added to the stroke angle, positive forward.
+    pub stroke_offset_deg: f64,
+    /// Relative change of the feathering's swing about its mean.
+    pub feathering_amplitude: f64,
+    /// Added to the feathering angle.
+    pub feathering_offset_deg: f64,
+    /// Lead of the feathering in wingbeats.
+    pub feathering_lead: f64,
+    /// Added to the deviation, in the sense of a right wing.
+    pub deviation_offset_deg: f64,
+    /// Added to the pitch of the stroke plane.
+    pub stroke_plane_deg: f64,
 }
 
 impl Default for MotionCase {
@@ -35,6 +62,7 @@ impl Default for MotionCase {
             start: StartCase::Smooth,
             start_beats: 1.0,
             phase: 0.0,
+            adjust: AdjustCase::default(),
         }
     }
 }

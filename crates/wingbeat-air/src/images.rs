@@ -1,0 +1,94 @@
+//! Planes of symmetry and grounds by images: what is on one side has its mirror image on the
+//! other, so no air goes through the plane.
+//!
+//! The image of the whole vortex system makes at x the reflection of what the system itself makes
+//! at the reflected place: no image filament is ever formed, a sum is taken at the reflected
+//! targets and its result reflected back.
+
+use crate::error::AirError;
+use wingbeat_math::{DMat3, DVec3};
+
+/// A plane through which no air goes: a plane of symmetry or a ground. All surfaces lie on one
+/// side of it, or touch it; the undisturbed air must not cross it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Plane {
+    /// A point of it [m], N.
+    pub point: DVec3,
+    /// Its normal, of any length, N.
+    pub normal: DVec3,
+}
+
+impl Plane {
+    /// Distance of `x` [m], positive on the side of the normal [m].
+    pub fn height(&self, x: DVec3) -> f64 {
+        (x - self.point).dot(self.normal) / self.normal.length()
+    }
+
+    /// The foot of the perpendicular from `x` [m].
+    pub(crate) fn foot(&self, x: DVec3) -> DVec3 {
+        x - self.height(x) * self.normal.normalize()
+    }
+}
+
+/// A reflection, or two of them after each other: `x -> turn x + shift`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Mirror {
+    turn: DMat3,
+    shift: DVec3,
+}
+
+impl Mirror {
+    fn new(plane: &Plane) -> Self {
+        let n = plane.normal.normalize();
+        let outer = DMat3::from_cols(n * n.x, n * n.y, n * n.z);
+        Self {
+            turn: DMat3::IDENTITY - outer * 2.0,
+            shift: 2.0 * plane.point.dot(n) * n,
+        }
+    }
+
+    /// The image of a place.
+    pub(crate) fn place(&self, x: DVec3) -> DVec3 {
+        self.turn * x + self.shift
+    }
+
+    /// The image of a velocity. All turns here are symmetric, so this is also the way back.
+    pub(crate) fn vector(&self, v: DVec3) -> DVec3 {
+        self.turn * v
+    }
+}
+
+/// The images that one plane, or two at right angles, make.
+///
+/// # Errors
+/// [`AirError::Setting`] for more planes, other angles, or a normal without direction.
+pub(crate) fn mirrors(planes: &[Plane]) -> Result<Vec<Mirror>, AirError> {
+    let wrong = |allowed| {
+        Err(AirError::Setting {
+            key: "images",
+            value: format!("{planes:?}"),
+            allowed,
+        })
+    };
+    let usable = |p: &Plane| p.point.is_finite() && p.normal.try_normalize().is_some();
+    if !planes.iter().all(usable) {
+        return wrong("planes with a finite point and a normal that has a direction");
+    }
+    match planes {
+        [] => Ok(Vec::new()),
+        [one] => Ok(vec![Mirror::new(one)]),
+        [one, two] => {
+            let cosine = one.normal.normalize().dot(two.normal.normalize());
+            if cosine.abs() > 1e-12 {
+                return wrong("two planes at right angles: others have endless images");
+            }
+            let [one, two] = [one, two].map(Mirror::new);
+            let both = Mirror {
+                turn: one.turn * two.turn,
+                shift: one.place(two.shift),
+            };
+            Ok(vec![one, two, both])
+        }
+        _ => wrong("at most two planes"),
+    }
+}
