@@ -13,8 +13,9 @@
 //! length. Newton's method with differences for the Jacobian and a line search; a failure keeps
 //! the best point found.
 
-use wingbeat_flight::FlightSetup;
+use wingbeat_flight::{FlightSetup, MotionMode, PrescribedMotion, TimeGrid};
 use wingbeat_math::{DVec3, r2, solve_small};
+use wingbeat_model::Start;
 use wingbeat_model::motion::Adjustment;
 
 use crate::AnalysisError;
@@ -124,6 +125,24 @@ pub struct Trim {
 }
 
 impl Trim {
+    /// The adjusted animal tethered in its trimmed attitude at rest, for two beats of the trim's
+    /// steps.
+    pub fn tethered(&self) -> FlightSetup {
+        let mut setup = self.setup.clone();
+        for wing in &mut setup.animal.wings {
+            wing.motion.start = Start::Impulsive;
+        }
+        let angles = DVec3::new(self.body_pitch, 0.0, 0.0);
+        setup.mode = MotionMode::Tethered(PrescribedMotion::at_rest(DVec3::ZERO, angles));
+        let steps = self.beat.steps();
+        setup.time = TimeGrid {
+            step: self.beat.period() / steps as f64,
+            steps: 2 * steps,
+            period: Some(self.beat.period()),
+        };
+        setup
+    }
+
     /// Largest residual.
     pub fn error(&self) -> f64 {
         largest(&self.residual)

@@ -39,6 +39,7 @@ presets![
     "fruit-fly-hover",
     "fruit-fly-tethered",
     "fruit-fly-vacuum",
+    "fruit-fly-blade",
     "rectangular-wing",
     "robofly-advanced",
     "robofly-symmetrical",

@@ -1,5 +1,6 @@
 //! The wingbeat command line.
 
+mod analyse;
 mod check;
 mod progress;
 mod run;
@@ -34,6 +35,17 @@ enum Command {
         #[arg(long = "set", value_name = "KEY=VALUE")]
         set: Vec<String>,
     },
+    /// Find the wing motion and attitude that hold a steady flight: a periodic orbit of the full
+    /// model.
+    Trim(analyse::trim::TrimArgs),
+    /// Trim, then give derivatives, modes averaged over the beat, and Floquet's modes.
+    Stability(analyse::Trimming),
+    /// Trim, then give the control derivatives of every wing.
+    Derivatives(analyse::Trimming),
+    /// Trim, then give the mechanical power of flapping.
+    Power(analyse::power::PowerArgs),
+    /// Trim, disturb, and fly under feedback.
+    Stabilise(analyse::stabilise::StabiliseArgs),
     /// List the presets and the shipped sets of wing angles.
     Presets,
     /// Write a preset as a commented case file to start from; never over an existing file.
@@ -75,6 +87,11 @@ fn main() -> ExitCode {
     let outcome = match cli.command {
         Command::Run(args) => return run::run(&args),
         Command::Check { case, set } => check::check(&case, &set),
+        Command::Trim(args) => return analyse::trim::run(&args),
+        Command::Stability(args) => return analyse::stability::run(&args),
+        Command::Derivatives(args) => return analyse::derivatives::run(&args),
+        Command::Power(args) => return analyse::power::run(&args),
+        Command::Stabilise(args) => return analyse::stabilise::run(&args),
         Command::Presets => {
             list();
             Ok(())

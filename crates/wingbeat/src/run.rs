@@ -106,10 +106,7 @@ fn fly(
     let outcome = match flown {
         Ok(outcome) => outcome,
         Err(Trouble::Flight(e)) => Outcome::Failed(e.to_string()),
-        Err(Trouble::Writing(e)) => {
-            eprintln!("error: {e}");
-            Outcome::Failed(e.to_string())
-        }
+        Err(Trouble::Writing(e)) => Outcome::Unwritten(e.to_string()),
     };
     let path = writer.dir().path().to_owned();
     match writer.finish(outcome.clone()) {
@@ -135,7 +132,7 @@ fn report(outcome: &Outcome, path: &Path) -> ExitCode {
             );
             ExitCode::from(INTERRUPTED)
         }
-        Outcome::Failed(why) => {
+        Outcome::Unwritten(why) | Outcome::Failed(why) => {
             eprintln!(
                 "error: {why}\nEverything up to there is written to {}",
                 path.display()

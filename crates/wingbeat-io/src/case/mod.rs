@@ -16,8 +16,8 @@ use std::path::{Path, PathBuf};
 use wingbeat_flight::FlightSetup;
 
 pub use build::data_sets;
-pub use trimmed::{trimmed_case, write_new};
 pub(crate) use decode::nearest;
+pub use trimmed::{trimmed_case, write_new};
 
 use crate::error::{CaseError, Fault, IoError};
 use crate::presets;

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use crate::error::IoError;
 
 /// Everything a run may write; `--overwrite` removes these and nothing else.
-const ENTRIES: [&str; 7] = [
+const ENTRIES: [&str; 9] = [
     "case.toml",
     "history.csv",
     "flight.pvd",
@@ -15,6 +15,8 @@ const ENTRIES: [&str; 7] = [
     "summary.txt",
     "summary.json",
     "index.html",
+    "flight.html",
+    "checkpoint.bin",
 ];
 const FOLDERS: [&str; 2] = ["frames", "figures"];
 
@@ -89,6 +91,41 @@ impl ResultDir {
         })
     }
 
+    /// An existing result directory.
+    ///
+    /// # Errors
+    /// [`IoError::Damaged`] for a directory that holds no run.
+    pub fn open(path: &Path) -> Result<Self, IoError> {
+        super::saver::read_manifest(path)?;
+        Ok(Self {
+            path: path.to_owned(),
+        })
+    }
+
+    /// The case that was flown.
+    ///
+    /// # Errors
+    /// A case.toml that is missing or was damaged.
+    pub fn case(&self) -> Result<crate::LoadedCase, IoError> {
+        crate::LoadedCase::from_file(&self.join("case.toml"), &[])
+    }
+
+    /// The history as far as it was written.
+    ///
+    /// # Errors
+    /// A history.csv that is missing or was damaged.
+    pub fn history(&self) -> Result<super::History, IoError> {
+        super::History::read(&self.join("history.csv"))
+    }
+
+    /// The manifest.
+    ///
+    /// # Errors
+    /// A manifest.json that is missing or was damaged.
+    pub fn manifest(&self) -> Result<super::Manifest, IoError> {
+        super::saver::read_manifest(&self.path)
+    }
+
     /// Where it is.
     pub fn path(&self) -> &Path {
         &self.path
@@ -142,7 +179,8 @@ pub fn write_whole(path: &Path, content: &[u8]) -> Result<(), IoError> {
     let mut part = path.as_os_str().to_owned();
     part.push(".part");
     let part = PathBuf::from(part);
-    let result = fs::write(&part, content).and_then(|()| fs::rename(&part, path));
+    let written = fs::write(&part, content);
+    let result = written.and_then(|()| fs::rename(&part, path));
     result.map_err(|e| {
         let _ = fs::remove_file(&part); // nothing more can be done about a leftover
         IoError::write(path)(e)

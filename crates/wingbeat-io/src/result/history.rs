@@ -1,13 +1,15 @@
 //! history.csv: appended row by row, read back tolerating a cut last row.
 
 use std::collections::BTreeMap;
-use std::fs::File;
-use std::io::Write;
+use std::fs::{File, OpenOptions};
+use std::io::{Read, Write};
 use std::path::{Path, PathBuf};
 
+use sha2::{Digest, Sha256};
 use wingbeat_flight::Record;
 
 use super::columns;
+use super::manifest::hexadecimal;
 use crate::error::IoError;
 
 /// Appends one row per record; every row is on disk before the next step begins.
@@ -18,6 +20,8 @@ pub struct HistoryWriter {
     values: Vec<f64>,
     line: String,
     started: bool,
+    bytes: u64,
+    hash: Sha256,
 }
 
 impl HistoryWriter {
@@ -33,7 +37,43 @@ impl HistoryWriter {
             values: vec![],
             line: String::new(),
             started: false,
+            bytes: 0,
+            hash: Sha256::new(),
         })
+    }
+
+    /// Goes on after the last row of an existing history.
+    ///
+    /// # Errors
+    /// A file that cannot be read and appended to.
+    pub fn reopen(path: &Path, bodies: Vec<String>) -> Result<Self, IoError> {
+        let mut written = vec![];
+        let mut file = OpenOptions::new()
+            .read(true)
+            .append(true)
+            .open(path)
+            .map_err(IoError::write(path))?;
+        file.read_to_end(&mut written)
+            .map_err(IoError::read(path))?;
+        Ok(Self {
+            path: path.to_owned(),
+            file,
+            bodies,
+            values: vec![],
+            line: String::new(),
+            started: true,
+            bytes: written.len() as u64,
+            hash: Sha256::new_with_prefix(&written),
+        })
+    }
+
+    /// Bytes written so far and their SHA-256; the system is asked to put them onto the disk.
+    ///
+    /// # Errors
+    /// A file that cannot be written.
+    pub fn seal(&self) -> Result<(u64, String), IoError> {
+        self.file.sync_data().map_err(IoError::write(&self.path))?;
+        Ok((self.bytes, hexadecimal(self.hash.clone())))
     }
 
     /// Appends a record in one write; numbers carry 17 significant digits.
@@ -54,7 +94,10 @@ impl HistoryWriter {
         self.line.push('\n');
         self.file
             .write_all(self.line.as_bytes())
-            .map_err(IoError::write(&self.path))
+            .map_err(IoError::write(&self.path))?;
+        self.bytes += self.line.len() as u64;
+        self.hash.update(self.line.as_bytes());
+        Ok(())
     }
 }
 

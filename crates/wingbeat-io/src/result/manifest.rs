@@ -13,6 +13,9 @@ pub enum Outcome {
     Finished,
     /// Stopped by Ctrl-C or SIGTERM; everything up to there is written.
     Interrupted,
+    /// A file could not be written, e.g. on a full disk; `wingbeat resume` goes on from the last
+    /// checkpoint.
+    Unwritten(String),
     /// An error ended the flight; everything up to there is written.
     Failed(String),
 }
@@ -61,8 +64,11 @@ impl Manifest {
 
 /// SHA-256 in hexadecimal.
 pub fn sha256(data: &[u8]) -> String {
-    Sha256::digest(data)
-        .iter()
-        .map(|b| format!("{b:02x}"))
-        .collect()
+    hexadecimal(Sha256::new_with_prefix(data))
+}
+
+/// The digest in hexadecimal.
+pub(crate) fn hexadecimal(hash: Sha256) -> String {
+    let digits = hash.finalize();
+    digits.iter().map(|b| format!("{b:02x}")).collect()
 }

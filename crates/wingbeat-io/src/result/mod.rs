@@ -7,13 +7,16 @@
 //! frames/         surfaces_NNNNNN.vtp and wakes_NNNNNN.vtp, each written whole or not at all
 //! figures/        drawings made from history.csv
 //! manifest.json   version, hash of the case, threads, counts, timings, warnings
+//! checkpoint.bin  the state from which `wingbeat resume` goes on; removed when the flight is done
 //! summary.txt     what happened and how far it can be trusted; summary.json the same numbers
 //! ```
 
+pub mod checkpoint;
 pub mod columns;
 pub mod directory;
 pub mod history;
 pub mod manifest;
+pub mod saver;
 pub mod summary;
 pub mod vtp;
 pub mod writer;
@@ -21,5 +24,6 @@ pub mod writer;
 pub use directory::ResultDir;
 pub use history::History;
 pub use manifest::{Manifest, Outcome};
+pub use saver::SaveSettings;
 pub use summary::Summary;
 pub use writer::RunWriter;

@@ -1,15 +1,18 @@
 //! The sink of a flight: takes every accepted step, keeps the result directory readable.
 
+use std::path::Path;
 use std::time::{Duration, Instant};
 
-use wingbeat_flight::{Record, Snapshot};
+use wingbeat_flight::{FlightState, Record, Snapshot};
 
+use super::checkpoint::{self, Header};
 use super::columns::body_names;
 use super::directory::write_whole;
 use super::history::HistoryWriter;
 use super::manifest::{Manifest, Outcome, sha256};
+use super::saver::{self, SaveSettings, Schedule};
 use super::vtp::{PolyData, frame_name, pvd};
-use super::{History, ResultDir, Summary};
+use super::{ResultDir, Summary};
 use crate::case::LoadedCase;
 use crate::error::IoError;
 use crate::figures;
@@ -26,6 +29,8 @@ pub struct RunWriter {
     manifest: Manifest,
     started: Instant,
     writing: Duration,
+    flown_before: Duration,
+    schedule: Schedule,
 }
 
 impl RunWriter {
@@ -67,7 +72,88 @@ impl RunWriter {
             manifest,
             started: Instant::now(),
             writing: Duration::ZERO,
+            flown_before: Duration::ZERO,
+            schedule: Schedule::new(SaveSettings::default()),
         })
+    }
+
+    /// Goes on with a run from its checkpoint: what was written later is cut off.
+    ///
+    /// # Errors
+    /// A file that cannot be changed.
+    pub fn resume(
+        dir: ResultDir,
+        case: &LoadedCase,
+        header: &Header,
+        manifest: Manifest,
+    ) -> Result<Self, IoError> {
+        let steps = saver::go_back(dir.path(), header)?;
+        let bodies = body_names(&case.setup.animal);
+        let history = HistoryWriter::reopen(&dir.join("history.csv"), bodies)?;
+        let step = case.setup.time.step;
+        let writer = Self {
+            case: case.clone(),
+            history,
+            frames: steps.iter().map(|k| (*k as f64 * step, *k)).collect(),
+            started: Instant::now(),
+            writing: Duration::from_secs_f64(manifest.writing_time_s),
+            flown_before: Duration::from_secs_f64(manifest.wall_time_s),
+            schedule: Schedule::new(SaveSettings::default()),
+            manifest: Manifest {
+                outcome: Outcome::Running,
+                steps: header.step,
+                ..manifest
+            },
+            dir,
+        };
+        writer.note()?;
+        Ok(writer)
+    }
+
+    /// How often [`Self::save_if_due`] saves.
+    pub fn save_every(&mut self, settings: SaveSettings) {
+        self.schedule = Schedule::new(settings);
+    }
+
+    /// Saves the state if it is time to; to be called after [`Self::write`] of the same step.
+    ///
+    /// # Errors
+    /// A file that cannot be written; the last checkpoint stays valid.
+    pub fn save_if_due(&mut self, state: &FlightState) -> Result<(), IoError> {
+        if self.schedule.due(state.step) {
+            self.save(state)?;
+        }
+        Ok(())
+    }
+
+    /// Saves the state now.
+    ///
+    /// # Errors
+    /// A file that cannot be written; the last checkpoint stays valid.
+    pub fn save(&mut self, state: &FlightState) -> Result<(), IoError> {
+        let begun = Instant::now();
+        let (history_bytes, history_sha256) = self.history.seal()?;
+        let header = Header {
+            version: self.manifest.version.clone(),
+            case_sha256: self.manifest.case_sha256.clone(),
+            step: state.step,
+            history_bytes,
+            history_sha256,
+        };
+        saver::write(self.dir.path(), &header, state)?;
+        self.schedule.done();
+        self.writing += begun.elapsed();
+        self.note()
+    }
+
+    /// Writes the manifest as it is now.
+    fn note(&self) -> Result<(), IoError> {
+        let mut manifest = self.manifest.clone();
+        manifest.frames = self.frames.len();
+        manifest.wall_time_s = (self.flown_before + self.started.elapsed()).as_secs_f64();
+        manifest.writing_time_s = self.writing.as_secs_f64();
+        self.dir
+            .write("manifest.json", manifest.to_json().as_bytes())
     }
 
     /// The directory.
@@ -129,7 +215,7 @@ impl RunWriter {
     pub fn finish(mut self, outcome: Outcome) -> Result<Summary, IoError> {
         let begun = Instant::now();
         self.index()?;
-        let history = History::read(&self.dir.join("history.csv"))?;
+        let history = self.dir.history()?;
         let summary = Summary::new(&self.case, &history, &outcome);
         if self.case.output.figures && history.rows() > 2 {
             figures::draw_all(&self.dir, &self.case, &history)?;
@@ -140,12 +226,19 @@ impl RunWriter {
             .write("summary.json", summary.to_json().as_bytes())?;
         self.writing += begun.elapsed();
         self.manifest.outcome = outcome;
-        self.manifest.frames = self.frames.len();
         self.manifest.warnings.clone_from(&summary.warnings);
-        self.manifest.wall_time_s = self.started.elapsed().as_secs_f64();
-        self.manifest.writing_time_s = self.writing.as_secs_f64();
-        self.dir
-            .write("manifest.json", self.manifest.to_json().as_bytes())?;
+        self.note()?;
+        if self.manifest.outcome == Outcome::Finished {
+            forget(&self.dir.join(checkpoint::FILE))?;
+        }
         Ok(summary)
+    }
+}
+
+/// Removes the checkpoint of a flight that is done.
+fn forget(path: &Path) -> Result<(), IoError> {
+    match std::fs::remove_file(path) {
+        Err(e) if e.kind() != std::io::ErrorKind::NotFound => Err(IoError::write(path)(e)),
+        _ => Ok(()),
     }
 }

@@ -76,6 +76,9 @@ pub struct Adjustment {
 impl WingMotion {
     /// The motion of a wing of this side with the adjustment.
     pub fn adjusted(&self, side: Side, by: &Adjustment) -> Self {
+        if *by == Adjustment::default() {
+            return self.clone(); // to the bit
+        }
         let s = side.sign();
         let mut m = self.clone();
         let a = &self.angles;

@@ -23,6 +23,7 @@ impl Summary {
         let end = match &self.outcome {
             Outcome::Finished => "flew to its end".to_owned(),
             Outcome::Interrupted => "was interrupted; everything up to there is written".to_owned(),
+            Outcome::Unwritten(why) => format!("stopped because {why}"),
             Outcome::Failed(why) => format!("ended early: {why}"),
             Outcome::Running => "is running".to_owned(),
         };

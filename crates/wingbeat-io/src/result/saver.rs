@@ -1,0 +1,167 @@
+//! When checkpoints are due, and going back to one.
+
+use std::fs::{self, OpenOptions};
+use std::path::Path;
+use std::time::{Duration, Instant};
+
+use wingbeat_flight::FlightState;
+
+use super::checkpoint::{self, FILE, Header};
+use super::directory::write_whole;
+use super::manifest::{Manifest, Outcome, sha256};
+use crate::error::IoError;
+
+/// How often the state is saved.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct SaveSettings {
+    /// Steps between checkpoints; 0: not by steps.
+    pub every: usize,
+    /// Wall time between checkpoints; zero: not by time.
+    pub interval: Duration,
+}
+
+impl Default for SaveSettings {
+    fn default() -> Self {
+        Self {
+            every: 0,
+            interval: Duration::from_secs(20),
+        }
+    }
+}
+
+/// Remembers when it last saved.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Schedule {
+    settings: SaveSettings,
+    last: Option<Instant>,
+}
+
+impl Schedule {
+    pub fn new(settings: SaveSettings) -> Self {
+        Self {
+            settings,
+            last: None,
+        }
+    }
+
+    /// Whether a checkpoint is due after this step; the first one always is.
+    pub fn due(&self, step: usize) -> bool {
+        let SaveSettings { every, interval } = self.settings;
+        let by_time = !interval.is_zero() && self.last.is_none_or(|t| t.elapsed() >= interval);
+        by_time || self.last.is_none() || (every > 0 && step.is_multiple_of(every))
+    }
+
+    pub fn done(&mut self) {
+        self.last = Some(Instant::now());
+    }
+}
+
+/// What a run goes on from.
+#[derive(Debug)]
+pub struct Saved {
+    /// The manifest of the run.
+    pub manifest: Manifest,
+    /// The checkpoint; none if the run was killed before it wrote its first.
+    pub checkpoint: Option<(Header, FlightState)>,
+}
+
+/// Reads what is needed to go on with the run in `dir`, and changes nothing.
+///
+/// # Errors
+/// A directory that holds no run; a checkpoint that is damaged or of another version or case; a
+/// history that is not the one the checkpoint was made beside.
+pub fn read(dir: &Path) -> Result<Saved, IoError> {
+    let manifest = read_manifest(dir)?;
+    let case = dir.join("case.toml");
+    let case_sha256 = sha256(&fs::read(&case).map_err(IoError::read(&case))?);
+    let path = dir.join(FILE);
+    if !path.exists() {
+        if matches!(manifest.outcome, Outcome::Running) && case_sha256 != manifest.case_sha256 {
+            return Err(IoError::Damaged {
+                path: case,
+                problem: "the case was changed after the run began; fly it with `wingbeat run`"
+                    .to_owned(),
+            });
+        }
+        return Ok(Saved {
+            manifest,
+            checkpoint: None,
+        });
+    }
+    let bytes = fs::read(&path).map_err(IoError::read(&path))?;
+    let (header, state) = checkpoint::decode(&path, &bytes, &case_sha256)?;
+    check_history(&dir.join("history.csv"), &header)?;
+    Ok(Saved {
+        manifest,
+        checkpoint: Some((header, state)),
+    })
+}
+
+/// The manifest of a result directory.
+///
+/// # Errors
+/// A directory that holds no run; a manifest that cannot be read.
+pub fn read_manifest(dir: &Path) -> Result<Manifest, IoError> {
+    let path = dir.join("manifest.json");
+    if !path.is_file() {
+        return Err(IoError::Damaged {
+            path: dir.to_owned(),
+            problem: "this is not a result directory of wingbeat (no manifest.json)".to_owned(),
+        });
+    }
+    let text = fs::read_to_string(&path).map_err(IoError::read(&path))?;
+    serde_json::from_str(&text).map_err(|e| IoError::Damaged {
+        path,
+        problem: format!("the manifest cannot be read: {e}"),
+    })
+}
+
+fn check_history(path: &Path, header: &Header) -> Result<(), IoError> {
+    let bytes = fs::read(path).map_err(IoError::read(path))?;
+    let part = bytes.get(..header.history_bytes as usize);
+    if part.is_some_and(|p| sha256(p) == header.history_sha256) {
+        return Ok(());
+    }
+    Err(IoError::Damaged {
+        path: path.to_owned(),
+        problem: format!(
+            "this is not the history that the checkpoint of step {} was made beside: it was cut or changed; fly the case again with `wingbeat run case.toml`",
+            header.step
+        ),
+    })
+}
+
+/// Takes the directory back to the checkpoint: cuts the history, removes later frames and
+/// half-written files. Returns the steps of the frames that are left.
+///
+/// # Errors
+/// A file that cannot be changed.
+pub(crate) fn go_back(dir: &Path, header: &Header) -> Result<Vec<usize>, IoError> {
+    let path = dir.join("history.csv");
+    let file = OpenOptions::new().write(true).open(&path);
+    file.and_then(|f| f.set_len(header.history_bytes))
+        .map_err(IoError::write(&path))?;
+    let folder = dir.join("frames");
+    let Ok(entries) = fs::read_dir(&folder) else {
+        return Ok(vec![]);
+    };
+    let mut steps = vec![];
+    for entry in entries.flatten() {
+        let path = entry.path();
+        let stem = path.file_stem().and_then(|s| s.to_str()).unwrap_or("");
+        let step = stem.rsplit('_').next().and_then(|s| s.parse().ok());
+        let whole = path.extension().is_some_and(|e| e == "vtp");
+        match step {
+            Some(step) if whole && step <= header.step => steps.push(step),
+            _ => fs::remove_file(&path).map_err(IoError::write(&path))?,
+        }
+    }
+    steps.sort_unstable();
+    steps.dedup();
+    Ok(steps)
+}
+
+/// Writes a checkpoint, whole or not at all, and sees it onto the disk.
+pub(crate) fn write(dir: &Path, header: &Header, state: &FlightState) -> Result<(), IoError> {
+    write_whole(&dir.join(FILE), &checkpoint::encode(header, state))
+}
