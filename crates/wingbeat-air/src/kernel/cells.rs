@@ -224,9 +224,9 @@ impl Grower<'_> {
         let (a, b) = self.network.ends(e);
         let strength = (self.network.gamma[e] * STRENGTH).abs() * a.distance(b);
         let change = match self.model {
-            CoreModel::CutOff { .. } => 0.5,
-            CoreModel::Vatistas { .. } | CoreModel::LambOseen { .. } => 0.1,
-            CoreModel::Scully { .. } => 0.5,
+            CoreModel::CutOff { .. } => 5.0,
+            CoreModel::Vatistas { .. } | CoreModel::LambOseen { .. } => 4.00,
+            CoreModel::Scully { .. } => 5.0,
         };
         strength * self.network.core[e] * change
     }

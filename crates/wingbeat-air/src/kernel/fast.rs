@@ -20,7 +20,7 @@ const SAMPLES: usize = BLOCK;
 /// What a far cell may leave out, in parts of the tolerance. Many cells add up, with either sign:
 /// fewer may leave out more, as the inverse root of their number.
 fn share(leaves: usize) -> f64 {
-    0.03 * (3000.0 / leaves as f64).sqrt().max(1.0)
+    0.6 * (3000.0 / leaves as f64).sqrt().max(1.0)
 }
 
 /// Attempts at the tolerance before the direct sum takes over.

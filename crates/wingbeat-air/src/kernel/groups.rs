@@ -206,10 +206,9 @@ impl<'a> Walk<'a> {
             .distance_squared(cell.centre.clamp(self.low, self.high));
         let power = |half: usize| (0..half).fold(1.0, |p, _| p * d2);
         let half_order = self.cells.harmonics.order / 2;
-        let half = 0.5 * self.allowed;
         d2 > (FAREST * cell.radius).powi(2)
-            && cell.reach <= half * power(half_order + 1)
-            && cell.smear <= half * power(half_fade(self.cells.model))
+            && cell.reach <= self.allowed * power(half_order + 1)
+            && cell.smear <= self.allowed * power(half_fade(self.cells.model))
     }
 
     fn sum_near(&mut self) {
