@@ -137,4 +137,78 @@ pub enum DynamicsError {
         /// Its value.
         value: f64,
     },
+    /// A joint's numbers are impossible.
+    #[error("joint `{joint}`: {what} is {value}")]
+    BadJoint {
+        /// Name of the joint.
+        joint: String,
+        /// What the number is.
+        what: String,
+        /// Its value.
+        value: f64,
+    },
+    /// A body is joined to nothing.
+    #[error(
+        "body `{body}` is not joined to {from} by any chain of joints: add a joint, or leave the body out"
+    )]
+    Disconnected {
+        /// Name of the body.
+        body: String,
+        /// "the ground" or "body 0".
+        from: &'static str,
+    },
+    /// Joints ask for the same thing twice.
+    #[error(
+        "at t = {time:.6e} s the joints {joints} ask for the same thing twice, so their reactions are not determined: free one of them (a planar loop closes with `point_on_line` in place of its last revolute joint), or start away from a singular position"
+    )]
+    Redundant {
+        /// Time \[s\].
+        time: f64,
+        /// Names of the joints.
+        joints: String,
+    },
+    /// Joints ask for different things.
+    #[error(
+        "at t = {time:.6e} s the joints {joints} contradict each other: what they ask for differs by {residual:.2e} (natural units)"
+    )]
+    Contradiction {
+        /// Time \[s\].
+        time: f64,
+        /// Names of the joints.
+        joints: String,
+        /// Size of the contradiction.
+        residual: f64,
+    },
+    /// The bodies cannot be moved so that all joints close.
+    #[error(
+        "joint `{joint}` cannot be closed at t = {time:.6e} s: it stays open by {residual:.2e} (natural units) after {iterations} iterations; check lengths and anchors, or start nearer to the closed position"
+    )]
+    NotAssembled {
+        /// Time \[s\].
+        time: f64,
+        /// Name of the joint.
+        joint: String,
+        /// What stays open.
+        residual: f64,
+        /// Iterations made.
+        iterations: usize,
+    },
+    /// The equations of a mechanism are singular.
+    #[error(
+        "the equations of motion are singular at t = {time:.6e} s at {what}: a body without mass or inertia that its joints leave free, or joints that ask for the same thing twice in this position"
+    )]
+    SingularMechanism {
+        /// Time \[s\].
+        time: f64,
+        /// Body or joint.
+        what: String,
+    },
+    /// The Euler form has no free joints.
+    #[error(
+        "hinge `{hinge}` has a free or travelling joint, which the Euler form does not have; use the momentum form (`formulation = \"momentum\"`) or the quaternion form"
+    )]
+    NotInEulerForm {
+        /// Name of the hinge.
+        hinge: String,
+    },
 }

@@ -43,11 +43,12 @@ impl Wrench {
 /// Reactions of all hinges and of the support of the root, from the motions in `ws` and the
 /// accelerations in `out`.
 pub(crate) fn reactions(system: &System, loads: &[Wrench], ws: &mut Workspace, out: &mut Solution) {
-    demand(system, loads, ws, out);
+    demand(system, loads, &ws.motions, &out.bodies, &mut ws.demand);
     for &k in system.outward().iter().rev() {
         let h = &system.hinges()[k];
         let (parent, child) = (&ws.motions[h.parent], &ws.motions[h.child]);
-        let (arm_parent, arm_child) = (parent.r * h.anchor_parent, child.r * h.anchor_child);
+        let arm_child = child.r * h.anchor_child;
+        let arm_parent = child.p + arm_child - parent.p;
         let at_origin = ws.demand[h.child];
         let at_hinge = at_origin.moment - arm_child.cross(at_origin.force);
         ws.demand[h.parent] += Wrench {
@@ -56,20 +57,29 @@ pub(crate) fn reactions(system: &System, loads: &[Wrench], ws: &mut Workspace, o
         };
         let moment = child.r.transpose() * at_hinge;
         let relative = child.w - child.r.transpose() * (parent.r * parent.w);
+        let slide = child.point_velocity(h.anchor_child)
+            - parent.v
+            - (parent.r * parent.w).cross(arm_parent);
         out.hinges[k] = HingeReaction {
             force: at_origin.force,
             moment,
-            power: moment.dot(relative),
+            power: moment.dot(relative) + at_origin.force.dot(slide),
         };
     }
     out.tether = ws.demand[0];
 }
 
 /// What every body still needs beside loads and weight, about its own origin.
-fn demand(system: &System, loads: &[Wrench], ws: &mut Workspace, out: &Solution) {
+pub(crate) fn demand(
+    system: &System,
+    loads: &[Wrench],
+    motions: &[BodyMotion],
+    accelerations: &[BodyAcceleration],
+    out: &mut [Wrench],
+) {
     for (i, body) in system.bodies().iter().enumerate() {
-        let m = &ws.motions[i];
-        ws.demand[i] = inertia_wrench(body, m, &out.bodies[i])
+        let m = &motions[i];
+        out[i] = inertia_wrench(body, m, &accelerations[i])
             .minus(loads[i])
             .minus(weight_wrench(body, m, system.gravity()));
     }

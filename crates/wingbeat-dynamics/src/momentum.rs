@@ -11,20 +11,24 @@
 //! I(t) and h(t) are inertia and relative angular momentum of the posture in root components. In
 //! vacuum P and H are constant in the arithmetic itself. Constraints hold by construction, so
 //! nothing can drift; a body without mass is as good as any.
+//!
+//! Free joints add their coordinates and speeds to the state ([`crate::free`]); I and h then
+//! depend on them too.
 
 use wingbeat_math::{DMat3, DQuat, DVec3};
 
 use crate::budget::{budget, load_power};
-use crate::inverse::{inertia_wrench, multipliers, reactions};
+use crate::free::coordinate_rates;
+use crate::inverse::{demand, inertia_wrench, multipliers, reactions};
 use crate::posture::{Composite, Posture};
 use crate::system::check_rotation;
 use crate::workspace::check_finite;
 use crate::{
-    BodyAcceleration, BodyMotion, DynamicsError, Formulation, Solution, System, Violation,
+    BodyAcceleration, BodyMotion, DynamicsError, Formulation, Freedom, Solution, System, Violation,
     Workspace, Wrench,
 };
 
-/// Length of the state vector.
+/// Length of the state vector without free joint coordinates.
 const DIM: usize = 13;
 
 /// The momentum form of a [`System`].
@@ -43,7 +47,6 @@ struct State {
 
 impl State {
     fn read(t: f64, y: &[f64]) -> Result<Self, DynamicsError> {
-        assert_eq!(y.len(), DIM, "the momentum form has {DIM} components");
         check_finite(t, y)?;
         let v = |i: usize| DVec3::new(y[i], y[i + 1], y[i + 2]);
         Ok(Self {
@@ -61,6 +64,16 @@ impl State {
         self.angular.write_to_slice(&mut y[10..]);
     }
 
+    /// Rates of the state when the root turns at `w` under the total `load`.
+    fn rates(&self, whole: &Composite, w: DVec3, load: &Wrench) -> Self {
+        Self {
+            centre: self.momentum / whole.mass,
+            attitude: self.attitude * DQuat::from_xyzw(w.x, w.y, w.z, 0.0) * 0.5,
+            momentum: load.force,
+            angular: load.moment,
+        }
+    }
+
     /// Rotation of the root; the length of the quaternion does not matter.
     fn rotation(&self) -> DMat3 {
         DMat3::from_quat(self.attitude.normalize())
@@ -71,6 +84,56 @@ impl MomentumForm {
     /// The momentum form of `system`.
     pub fn new(system: System) -> Self {
         Self { system }
+    }
+
+    /// Free joint coordinates and speeds in the state.
+    fn free<'a>(&self, y: &'a [f64]) -> (&'a [f64], &'a [f64]) {
+        assert_eq!(y.len(), self.dim(), "a state of this momentum form");
+        y[DIM..].split_at(self.system.coordinates())
+    }
+
+    /// Accelerations of the free joint speeds into `ws.free` and into the placements; motions and
+    /// placements as [`Self::unfold`] left them.
+    fn move_joints(
+        &self,
+        t: f64,
+        y: &[f64],
+        loads: &[Wrench],
+        whole: &Composite,
+        ws: &mut Workspace,
+    ) -> Result<(), DynamicsError> {
+        let root = ws.motions[0];
+        let still = BodyAcceleration::default();
+        ws.posture.accelerations(&root, &still, &mut ws.bias);
+        demand(&self.system, loads, &ws.motions, &ws.bias, &mut ws.demand);
+        let (q, u) = self.free(y);
+        let posture = (ws.posture.placements(), whole, root.r);
+        (ws.free)
+            .solve(&self.system, (t, q, u), posture, &ws.demand)
+            .map_err(|e| DynamicsError::SingularMechanism {
+                time: t,
+                what: format!("hinge `{}`", ws.free.hinge(&self.system, e.column)),
+            })?;
+        ws.free
+            .accelerate(&self.system, ws.posture.placements_mut());
+        Ok(())
+    }
+
+    /// Rates of the free joint coordinates and speeds.
+    fn write_joint_rates(&self, y: &[f64], ws: &Workspace, dy: &mut [f64]) {
+        let (q, u) = self.free(y);
+        let (dq, du) = dy[DIM..].split_at_mut(q.len());
+        for (joint, s) in self.system.joints().iter().zip(self.system.slots()) {
+            let (q, u) = (&q[s.q..s.q + s.coordinates], &u[s.u..s.u + s.speeds]);
+            coordinate_rates(joint.freedom, q, u, &mut dq[s.q..s.q + s.coordinates]);
+        }
+        du.copy_from_slice(&ws.free.u_dot);
+    }
+
+    /// Coordinates (angles, displacements, quaternion) and speeds of hinge `index` in the state.
+    pub fn joint_state<'a>(&self, y: &'a [f64], index: usize) -> (&'a [f64], &'a [f64]) {
+        let ((q, u), s) = (self.free(y), self.system.slots()[index]);
+        (&q[s.q..s.q + s.coordinates], &u[s.u..s.u + s.speeds])
     }
 
     /// Angular velocity of the root from the angular momentum, `w = I^-1 (R^T H - h)` [rad/s].
@@ -98,7 +161,7 @@ impl MomentumForm {
         ws: &mut Workspace,
     ) -> Result<(State, Composite), DynamicsError> {
         let state = State::read(t, y)?;
-        ws.posture.update(&self.system, t);
+        ws.posture.update_free(&self.system, t, self.free(y));
         let whole = ws.posture.composite(&self.system);
         let root = self.root_motion(t, &state, &whole)?;
         ws.posture.motions(&root, &mut ws.motions);
@@ -192,7 +255,7 @@ impl Formulation for MomentumForm {
     }
 
     fn dim(&self) -> usize {
-        DIM
+        DIM + self.system.coordinates() + self.system.speeds()
     }
 
     fn initial(&self, t: f64, root: &BodyMotion) -> Result<Vec<f64>, DynamicsError> {
@@ -210,6 +273,9 @@ impl Formulation for MomentumForm {
         };
         let mut y = vec![0.0; DIM];
         state.write(&mut y);
+        let (q, u) = self.system.start();
+        y.extend(q);
+        y.extend(u);
         check_finite(t, &y)?;
         Ok(y)
     }
@@ -234,19 +300,21 @@ impl Formulation for MomentumForm {
         ws: &mut Workspace,
         dy: &mut [f64],
     ) -> Result<(), DynamicsError> {
+        if self.system.speeds() > 0 {
+            let (state, whole) = self.unfold(t, y, ws)?;
+            let load = self.total_load(loads, &ws.motions, state.centre);
+            self.move_joints(t, y, loads, &whole, ws)?;
+            state.rates(&whole, ws.motions[0].w, &load).write(dy);
+            self.write_joint_rates(y, ws, dy);
+            return Ok(());
+        }
         let state = State::read(t, y)?;
-        ws.posture.update(&self.system, t);
+        ws.posture.update_free(&self.system, t, self.free(y));
         let whole = ws.posture.composite(&self.system);
         let r = state.rotation();
         let w = turn(t, whole.inertia, r.transpose() * state.angular - whole.h)?;
         let load = self.whole_load(loads, &ws.posture, r, whole.c);
-        State {
-            centre: state.momentum / whole.mass,
-            attitude: state.attitude * DQuat::from_xyzw(w.x, w.y, w.z, 0.0) * 0.5,
-            momentum: load.force,
-            angular: load.moment,
-        }
-        .write(dy);
+        state.rates(&whole, w, &load).write(dy);
         Ok(())
     }
 
@@ -260,6 +328,9 @@ impl Formulation for MomentumForm {
     ) -> Result<(), DynamicsError> {
         let (state, whole) = self.unfold(t, y, ws)?;
         let load = self.total_load(loads, &ws.motions, state.centre);
+        if self.system.speeds() > 0 {
+            self.move_joints(t, y, loads, &whole, ws)?;
+        }
         self.accelerate(t, state.centre, &whole, &load, ws, &mut out.bodies)?;
         reactions(&self.system, loads, ws, out);
         out.tether = Wrench::default(); // free: what `reactions` leaves there is rounding
@@ -277,6 +348,17 @@ impl Formulation for MomentumForm {
         s.extend([1.0; 4]);
         s.extend([p; 3]);
         s.extend([p * u.length; 3]);
+        let joints = || self.system.joints().iter().zip(self.system.slots());
+        let size = |freedom| match freedom {
+            Freedom::Prismatic { .. } => u.length,
+            _ => 1.0,
+        };
+        for (j, slot) in joints() {
+            s.extend(vec![size(j.freedom); slot.coordinates]);
+        }
+        for (j, slot) in joints() {
+            s.extend(vec![size(j.freedom) / u.time; slot.speeds]);
+        }
         s
     }
 
@@ -284,6 +366,12 @@ impl Formulation for MomentumForm {
         let mut state = State::read(t, y)?;
         state.attitude = state.attitude.normalize();
         state.write(y);
+        for (joint, slot) in self.system.joints().iter().zip(self.system.slots()) {
+            if joint.freedom == Freedom::Spherical {
+                let q = &mut y[DIM + slot.q..];
+                DQuat::from_slice(q).normalize().write_to_slice(q);
+            }
+        }
         Ok(())
     }
 }

@@ -1,7 +1,8 @@
-//! The bodies as seen from the root: a function of time alone, because every hinge is prescribed.
+//! The bodies as seen from the root: a function of time and of the free joint coordinates.
 
 use wingbeat_math::{DMat3, DVec3, MovingRotation};
 
+use crate::free::carry;
 use crate::system::check_rotation;
 use crate::{BodyAcceleration, BodyMotion, DynamicsError, System};
 
@@ -52,6 +53,18 @@ impl Placement {
         }
     }
 
+    /// A frame with the same axes whose origin is a point that moves in this one: position \[m\],
+    /// velocity [m/s] and acceleration [m/s2] as seen from this frame.
+    pub(crate) fn slid(&self, [r, v, a]: [DVec3; 3]) -> Self {
+        let w = self.w;
+        let still = self.shifted(r);
+        Self {
+            d_dot: still.d_dot + self.c * v,
+            d_ddot: still.d_ddot + self.c * (2.0 * w.cross(v) + a),
+            ..still
+        }
+    }
+
     /// A frame with the same axes whose origin is the point `r` \[m\] fixed in this one.
     pub(crate) fn shifted(&self, r: DVec3) -> Self {
         let (spin, w) = (self.w.cross(r), self.w);
@@ -93,14 +106,36 @@ impl Posture {
         }
     }
 
-    /// Evaluates the hinge laws at time `t` \[s\].
+    /// Evaluates the hinge laws at time `t` \[s\]; free joints are held at their start.
     pub fn update(&mut self, system: &System, t: f64) {
+        if system.coordinates() == 0 {
+            self.update_free(system, t, (&[], &[]));
+        } else {
+            let (q, u) = system.start();
+            self.update_free(system, t, (&q, &u));
+        }
+    }
+
+    /// Evaluates the hinge laws at time `t` \[s\] for the free coordinates and speeds `free`.
+    pub fn update_free(&mut self, system: &System, t: f64, free: (&[f64], &[f64])) {
         for &k in system.outward() {
-            let h = &system.hinges()[k];
-            let hinge = self.placements[h.parent].shifted(h.anchor_parent);
-            let child = hinge.turned(&h.law.at(t));
+            let (h, joint, slot) = (&system.hinges()[k], &system.joints()[k], &system.slots()[k]);
+            let mut travel = [h.anchor_parent, DVec3::ZERO, DVec3::ZERO];
+            if let Some(law) = &joint.travel {
+                let moved = law.at(t);
+                (0..3).for_each(|i| travel[i] += moved[i]);
+            }
+            let frame = self.placements[h.parent].slid(travel).turned(&h.law.at(t));
+            let (q, u) = (&free.0[slot.q..], &free.1[slot.u..]);
+            let (q, u) = (&q[..slot.coordinates], &u[..slot.speeds]);
+            let child = carry(joint.freedom, frame, q, u);
             self.placements[h.child] = child.shifted(-h.anchor_child);
         }
+    }
+
+    /// Placement of every body, to change.
+    pub(crate) fn placements_mut(&mut self) -> &mut [Placement] {
+        &mut self.placements
     }
 
     /// Placement of every body.

@@ -4,7 +4,8 @@ use std::sync::Arc;
 
 use wingbeat_math::{DMat3, DVec3, EulerSequence, MassProperties, RotationLaw};
 
-use crate::DynamicsError;
+use crate::free::{Slot, start};
+use crate::{DynamicsError, Freedom, Joint};
 
 /// A rigid body.
 #[derive(Clone, Debug)]
@@ -62,6 +63,9 @@ pub struct System {
     gravity: DVec3,
     units: NaturalUnits,
     outward: Vec<usize>,
+    joints: Vec<Joint>,
+    slots: Vec<Slot>,
+    behind: Vec<Vec<bool>>,
 }
 
 impl System {
@@ -78,13 +82,125 @@ impl System {
     ) -> Result<Self, DynamicsError> {
         check_numbers(&bodies, &hinges, gravity, units)?;
         let outward = outward_order(&bodies, &hinges)?;
+        let behind = bodies_behind(bodies.len(), &hinges, &outward);
         Ok(Self {
+            joints: vec![Joint::new(Freedom::Weld); hinges.len()],
+            slots: vec![Slot::default(); hinges.len()],
             bodies,
             hinges,
             gravity,
             units,
             outward,
+            behind,
         })
+    }
+
+    /// The same system with `joint` at hinge `index`: what is free there beside the prescribed
+    /// rotation, a prescribed travel, springs, dampers, stops, actuators.
+    ///
+    /// # Errors
+    /// No such hinge; axes that are no unit vectors, numbers that are not finite, elements along
+    /// directions that are not free; a joint that only closes loops.
+    pub fn with_joint(mut self, index: usize, joint: Joint) -> Result<Self, DynamicsError> {
+        let name = match self.hinges.get(index) {
+            Some(h) => h.name.clone(),
+            None => format!("number {index}"),
+        };
+        let fault = if index >= self.hinges.len() {
+            Some(("hinge that does not exist: number".into(), index as f64))
+        } else if matches!(joint.freedom, Freedom::PointOnLine { .. }) {
+            Some((
+                "free directions of a point on a line, which only closes loops:".into(),
+                4.0,
+            ))
+        } else {
+            joint.fault()
+        };
+        if let Some((what, value)) = fault {
+            return Err(DynamicsError::BadJoint {
+                joint: name,
+                what,
+                value,
+            });
+        }
+        self.joints[index] = joint;
+        let mut before = Slot::default();
+        for (slot, joint) in self.slots.iter_mut().zip(&self.joints) {
+            *slot = Slot::after(&before, joint.freedom);
+            before = *slot;
+        }
+        Ok(self)
+    }
+
+    /// The joints of the hinges, in their order.
+    pub fn joints(&self) -> &[Joint] {
+        &self.joints
+    }
+
+    /// Where the free coordinates of the hinges lie.
+    pub fn slots(&self) -> &[Slot] {
+        &self.slots
+    }
+
+    /// Number of free joint coordinates (four for a spherical joint).
+    pub fn coordinates(&self) -> usize {
+        self.slots.last().map_or(0, |s| s.q + s.coordinates)
+    }
+
+    /// Number of free joint speeds.
+    pub fn speeds(&self) -> usize {
+        self.slots.last().map_or(0, |s| s.u + s.speeds)
+    }
+
+    /// The first hinge whose motion is not all prescribed by its rotation law.
+    pub fn first_free_hinge(&self) -> Option<&str> {
+        let moves = |j: &&Joint| j.freedom != Freedom::Weld || j.travel.is_some();
+        let k = self.joints.iter().position(|j| moves(&j))?;
+        Some(&self.hinges[k].name)
+    }
+
+    /// Which bodies hang behind hinge `index`.
+    pub(crate) fn behind(&self, index: usize) -> &[bool] {
+        &self.behind[index]
+    }
+
+    /// Start of the free coordinates and speeds.
+    pub(crate) fn start(&self) -> (Vec<f64>, Vec<f64>) {
+        let (mut q, mut u) = (vec![0.0; self.coordinates()], vec![0.0; self.speeds()]);
+        for (joint, slot) in self.joints.iter().zip(&self.slots) {
+            start(joint, slot, &mut q, &mut u);
+        }
+        (q, u)
+    }
+
+    /// What looks like a slip of units, as text; nothing here is an error.
+    ///
+    /// ```
+    /// # use wingbeat_dynamics::{Body, NaturalUnits, System};
+    /// # use wingbeat_math::{DMat3, DVec3, EulerSequence, MassProperties};
+    /// let mass = MassProperties::about_centre(1.0, DVec3::ZERO, DMat3::IDENTITY * 1e-7);
+    /// let fly = Body { name: "fly".into(), mass, sequence: EulerSequence::BODY_231 };
+    /// let units = NaturalUnits { length: 2.5e-3, time: 5e-3 };
+    /// let system = System::new(vec![fly], vec![], DVec3::new(0.0, 0.0, 9.81), units).unwrap();
+    /// assert!(system.warnings()[0].contains("1 kg"));
+    /// ```
+    pub fn warnings(&self) -> Vec<String> {
+        let mut out = vec![];
+        let (mass, length) = (self.total_mass(), self.units.length);
+        let density = mass / length.powi(3);
+        // Flying animals: 30 kg/m3 (a bee's mass over its wing length cubed) to 3000.
+        if !(0.1..1e5).contains(&density) {
+            out.push(format!(
+                "total mass {mass} kg with wing length {length} m: mass over length cubed is {density:.1e} kg/m3, flying animals have 1 to 10000; check the units of mass and length"
+            ));
+        }
+        let g = self.gravity.length();
+        if g > 100.0 {
+            out.push(format!(
+                "gravity {g} m/s2 is more than ten times the Earth's; check its unit"
+            ));
+        }
+        out
     }
 
     /// The bodies; 0 is the root.
@@ -173,14 +289,14 @@ fn check_numbers(
     check_positive("natural unit of time [s]", units.time)
 }
 
-fn check_finite(what: &str, v: DVec3) -> Result<(), DynamicsError> {
+pub(crate) fn check_finite(what: &str, v: DVec3) -> Result<(), DynamicsError> {
     match v.to_array().into_iter().find(|x| !x.is_finite()) {
         None => Ok(()),
         Some(value) => Err(bad_number(what, value, "")),
     }
 }
 
-fn check_positive(what: &str, value: f64) -> Result<(), DynamicsError> {
+pub(crate) fn check_positive(what: &str, value: f64) -> Result<(), DynamicsError> {
     if value.is_finite() && value > 0.0 {
         return Ok(());
     }
@@ -193,6 +309,21 @@ fn bad_number(what: &str, value: f64, bound: &'static str) -> DynamicsError {
         value,
         bound,
     }
+}
+
+/// For every hinge, which bodies hang behind it.
+fn bodies_behind(bodies: usize, hinges: &[Hinge], outward: &[usize]) -> Vec<Vec<bool>> {
+    let mut behind = vec![vec![false; bodies]; hinges.len()];
+    for &k in outward {
+        let (parent, child) = (hinges[k].parent, hinges[k].child);
+        behind[k][child] = true;
+        for other in &mut behind {
+            if other[parent] {
+                other[child] = true;
+            }
+        }
+    }
+    behind
 }
 
 /// Orders the hinges from the root outward.

@@ -1,8 +1,10 @@
 //! Scratch room of the equations of motion.
 
 use crate::euler::EulerScratch;
+use crate::free::FreeScratch;
+use crate::mechanism::form::AbsoluteScratch;
 use crate::posture::Posture;
-use crate::{BodyMotion, DynamicsError, System, Wrench};
+use crate::{BodyAcceleration, BodyMotion, DynamicsError, System, Wrench};
 
 /// Intermediate results, kept between calls so that nothing is allocated. Holds no state: any
 /// workspace of the same system serves any call.
@@ -12,6 +14,9 @@ pub struct Workspace {
     pub(crate) motions: Vec<BodyMotion>,
     pub(crate) demand: Vec<Wrench>,
     pub(crate) euler: EulerScratch,
+    pub(crate) free: FreeScratch,
+    pub(crate) bias: Vec<BodyAcceleration>,
+    pub(crate) absolute: Option<AbsoluteScratch>,
 }
 
 impl Workspace {
@@ -23,6 +28,9 @@ impl Workspace {
             motions: vec![BodyMotion::REST; bodies],
             demand: vec![Wrench::default(); bodies],
             euler: EulerScratch::new(system),
+            free: FreeScratch::new(system),
+            bias: vec![BodyAcceleration::default(); bodies],
+            absolute: None,
         }
     }
 }

@@ -208,6 +208,11 @@ impl Formulation for EulerForm {
     }
 
     fn initial(&self, t: f64, root: &BodyMotion) -> Result<Vec<f64>, DynamicsError> {
+        if let Some(hinge) = self.system.first_free_hinge() {
+            return Err(DynamicsError::NotInEulerForm {
+                hinge: hinge.into(),
+            });
+        }
         check_rotation(root.r, t, || "the root's attitude".into())?;
         Posture::check(&self.system, t)?;
         let mut ws = self.workspace();

@@ -1,0 +1,341 @@
+//! Free joint coordinates of a tree, and the equations that give their accelerations.
+//!
+//! A generalized speed u_j of a hinge moves every body behind the hinge: the origin of body i at
+//! `V_ij u_j` and its axes at `omega_j u_j`. With f_j, n_j the momenta of the whole for u_j = 1
+//! (n about the mass centre), and the demand d of every body (rate of momentum at zero u' and zero
+//! acceleration of the root, less loads and weight), Kane's equations with the root eliminated by
+//! the momenta of the whole are
+//!
+//! ```text
+//! sum_k (M_jk - f_j.f_k / m - n_j.I^-1 n_k) u_k' = Q_j - D_j + f_j.F / m + n_j.I^-1 N
+//! M_jk = sum_i V_ij.f_ik + omega_j.n_ik      D_j = sum_i V_ij.d_i + omega_j.(moment of d_i)
+//! ```
+//!
+//! F, N the sum of all demands and of their moments about the mass centre. All in root components.
+
+use wingbeat_math::{DMat3, DQuat, DVec3, SingularMatrix, solve_small};
+
+use crate::mechanism::link::rotation_vector;
+use crate::posture::{Composite, Placement};
+use crate::{Freedom, Joint, System, Wrench};
+
+/// Where a hinge's coordinates and speeds lie among those of all hinges.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Slot {
+    /// First coordinate.
+    pub q: usize,
+    /// Number of coordinates: 4 (a quaternion) for a spherical joint.
+    pub coordinates: usize,
+    /// First speed.
+    pub u: usize,
+    /// Number of speeds.
+    pub speeds: usize,
+}
+
+impl Slot {
+    /// The slot of a joint behind `before`.
+    pub(crate) fn after(before: &Self, freedom: Freedom) -> Self {
+        let (coordinates, speeds) = match freedom {
+            Freedom::Weld | Freedom::PointOnLine { .. } => (0, 0),
+            Freedom::Revolute { .. } | Freedom::Prismatic { .. } => (1, 1),
+            Freedom::Universal { .. } => (2, 2),
+            Freedom::Spherical => (4, 3),
+        };
+        Self {
+            q: before.q + before.coordinates,
+            coordinates,
+            u: before.u + before.speeds,
+            speeds,
+        }
+    }
+}
+
+/// Start of a joint's coordinates and speeds.
+pub(crate) fn start(joint: &Joint, slot: &Slot, q: &mut [f64], u: &mut [f64]) {
+    let get = |x: &[f64], k: usize| x.get(k).copied().unwrap_or(0.0);
+    if joint.freedom == Freedom::Spherical {
+        let turn = DVec3::from_array([0, 1, 2].map(|k| get(&joint.coordinates, k)));
+        DQuat::from_scaled_axis(turn).write_to_slice(&mut q[slot.q..]);
+    } else {
+        (0..slot.coordinates).for_each(|k| q[slot.q + k] = get(&joint.coordinates, k));
+    }
+    (0..slot.speeds).for_each(|k| u[slot.u + k] = get(&joint.rates, k));
+}
+
+/// The child's frame at the joint point, from the joint's frame `k`.
+pub(crate) fn carry(freedom: Freedom, k: Placement, q: &[f64], u: &[f64]) -> Placement {
+    let zero = DVec3::ZERO;
+    let about = |k: Placement, a: DVec3, i: usize| {
+        k.turned_by(DMat3::from_axis_angle(a, q[i]), a * u[i], zero)
+    };
+    match freedom {
+        Freedom::Weld | Freedom::PointOnLine { .. } => k,
+        Freedom::Revolute { axis } => about(k, axis, 0),
+        Freedom::Universal { axes: [a, b] } => about(about(k, a, 0), b, 1),
+        Freedom::Spherical => {
+            let turn = DMat3::from_quat(DQuat::from_slice(q).normalize());
+            k.turned_by(turn, DVec3::from_slice(u), zero)
+        }
+        Freedom::Prismatic { axis } => k.slid([axis * q[0], axis * u[0], zero]),
+    }
+}
+
+/// Rates of a joint's coordinates.
+pub(crate) fn coordinate_rates(freedom: Freedom, q: &[f64], u: &[f64], out: &mut [f64]) {
+    if freedom == Freedom::Spherical {
+        let rate = DQuat::from_slice(q) * DQuat::from_xyzw(u[0], u[1], u[2], 0.0) * 0.5;
+        rate.write_to_slice(out);
+    } else {
+        out.copy_from_slice(u);
+    }
+}
+
+/// A free direction: velocity of the child's joint point and angular velocity for unit speed, and
+/// the joint point; root components.
+#[derive(Clone, Copy, Debug, Default)]
+struct Direction {
+    hinge: usize,
+    slide: DVec3,
+    spin: DVec3,
+    point: DVec3,
+}
+
+/// First moment and inertia of a body about its origin, and what it still needs, root components.
+#[derive(Clone, Copy, Debug, Default)]
+struct Part {
+    first: DVec3,
+    inertia: DMat3,
+    demand: [DVec3; 2],
+}
+
+/// Scratch of the joint equations.
+#[derive(Clone, Debug)]
+pub(crate) struct FreeScratch {
+    directions: Vec<Direction>,
+    parts: Vec<Part>,
+    /// Momenta of the whole for unit speeds.
+    momenta: Vec<[DVec3; 2]>,
+    matrix: Vec<f64>,
+    scale: Vec<f64>,
+    /// Accelerations of the speeds after [`FreeScratch::solve`].
+    pub u_dot: Vec<f64>,
+}
+
+impl FreeScratch {
+    pub(crate) fn new(system: &System) -> Self {
+        let n = system.speeds();
+        Self {
+            directions: vec![Direction::default(); n],
+            parts: vec![Part::default(); system.bodies().len()],
+            momenta: vec![[DVec3::ZERO; 2]; n],
+            matrix: vec![0.0; n * n],
+            scale: vec![0.0; n],
+            u_dot: vec![0.0; n],
+        }
+    }
+
+    /// Accelerations of all speeds into `u_dot`; `demand` holds what every body needs at zero u'
+    /// and zero acceleration of the root (N components, about its origin), `r` the root's
+    /// rotation.
+    pub(crate) fn solve(
+        &mut self,
+        system: &System,
+        (t, q, u): (f64, &[f64], &[f64]),
+        (placements, whole, r): (&[Placement], &Composite, DMat3),
+        demand: &[Wrench],
+    ) -> Result<(), SingularMatrix> {
+        self.find_directions(system, placements, q);
+        self.find_parts(system, placements, r, demand);
+        let inverse = whole.inertia.inverse();
+        let total = self.total_demand(placements, whole.c);
+        for j in 0..self.u_dot.len() {
+            self.momenta[j] = self.momentum(system, placements, j, whole);
+        }
+        for j in 0..self.u_dot.len() {
+            self.put_row(system, placements, j, whole.mass, inverse);
+            let [f, n] = self.momenta[j];
+            let drive = self.effort(system, j, t, q, u) - self.work(system, placements, j);
+            self.u_dot[j] = drive + f.dot(total[0]) / whole.mass + n.dot(inverse * total[1]);
+        }
+        self.eliminate()
+    }
+
+    fn find_directions(&mut self, system: &System, placements: &[Placement], q: &[f64]) {
+        for (hinge, h) in system.hinges().iter().enumerate() {
+            let (slot, child) = (system.slots()[hinge], &placements[h.child]);
+            let point = child.d + child.c * h.anchor_child;
+            for k in 0..slot.speeds {
+                let (mut slide, mut spin) = (DVec3::ZERO, DVec3::ZERO);
+                match system.joints()[hinge].freedom {
+                    Freedom::Revolute { axis } => spin = axis,
+                    Freedom::Universal { axes: [a, b] } if k == 0 => {
+                        spin = DMat3::from_axis_angle(b, -q[slot.q + 1]) * a;
+                    }
+                    Freedom::Universal { axes } => spin = axes[1],
+                    Freedom::Spherical => spin = DVec3::AXES[k],
+                    Freedom::Prismatic { axis } => slide = axis,
+                    Freedom::Weld | Freedom::PointOnLine { .. } => {}
+                }
+                self.directions[slot.u + k] = Direction {
+                    hinge,
+                    slide: child.c * slide,
+                    spin: child.c * spin,
+                    point,
+                };
+            }
+        }
+    }
+
+    fn find_parts(
+        &mut self,
+        system: &System,
+        placements: &[Placement],
+        r: DMat3,
+        demand: &[Wrench],
+    ) {
+        let back = r.transpose();
+        for (i, (b, at)) in system.bodies().iter().zip(placements).enumerate() {
+            self.parts[i] = Part {
+                first: at.c * b.mass.first_moment,
+                inertia: at.c * b.mass.inertia * at.c.transpose(),
+                demand: [back * demand[i].force, back * demand[i].moment],
+            };
+        }
+    }
+
+    /// Velocity of the origin of a body at `d` for unit speed j.
+    fn velocity(&self, j: usize, d: DVec3) -> DVec3 {
+        let v = &self.directions[j];
+        v.slide + v.spin.cross(d - v.point)
+    }
+
+    /// Momentum of body i and its moment about the body's origin for unit speed j.
+    fn body_momentum(&self, system: &System, i: usize, j: usize, d: DVec3) -> [DVec3; 2] {
+        let (p, v, w) = (&self.parts[i], self.velocity(j, d), self.directions[j].spin);
+        let mass = system.bodies()[i].mass.mass;
+        [
+            mass * v + w.cross(p.first),
+            p.inertia * w + p.first.cross(v),
+        ]
+    }
+
+    /// Bodies that speed j moves.
+    fn moved<'a>(&self, system: &'a System, j: usize) -> impl Iterator<Item = usize> + use<'a> {
+        let behind = system.behind(self.directions[j].hinge);
+        (0..behind.len()).filter(move |&i| behind[i])
+    }
+
+    /// Momentum of the whole and its moment about the mass centre for unit speed j.
+    fn momentum(
+        &self,
+        system: &System,
+        placements: &[Placement],
+        j: usize,
+        whole: &Composite,
+    ) -> [DVec3; 2] {
+        let mut sum = [DVec3::ZERO; 2];
+        for i in self.moved(system, j) {
+            let d = placements[i].d;
+            let [f, n] = self.body_momentum(system, i, j, d);
+            sum[0] += f;
+            sum[1] += n + (d - whole.c).cross(f);
+        }
+        sum
+    }
+
+    fn total_demand(&self, placements: &[Placement], c: DVec3) -> [DVec3; 2] {
+        let mut sum = [DVec3::ZERO; 2];
+        for (p, at) in self.parts.iter().zip(placements) {
+            let [f, n] = p.demand;
+            sum[0] += f;
+            sum[1] += n + (at.d - c).cross(f);
+        }
+        sum
+    }
+
+    /// D_j.
+    fn work(&self, system: &System, placements: &[Placement], j: usize) -> f64 {
+        let one = |i: usize| {
+            let [f, n] = self.parts[i].demand;
+            self.velocity(j, placements[i].d).dot(f) + self.directions[j].spin.dot(n)
+        };
+        self.moved(system, j).map(one).sum()
+    }
+
+    /// Q_j, the effort of the joint's elements.
+    fn effort(&self, system: &System, j: usize, t: f64, q: &[f64], u: &[f64]) -> f64 {
+        let hinge = self.directions[j].hinge;
+        let (joint, slot) = (&system.joints()[hinge], system.slots()[hinge]);
+        if joint.elements.is_empty() {
+            return 0.0;
+        }
+        let k = j - slot.u;
+        let value = if joint.freedom == Freedom::Spherical {
+            let turn = DQuat::from_slice(&q[slot.q..]).normalize();
+            rotation_vector(DMat3::from_quat(turn))[k]
+        } else {
+            q[slot.q + k]
+        };
+        joint.effort(k, t, value, u[j])
+    }
+
+    /// Row j of the matrix.
+    fn put_row(
+        &mut self,
+        system: &System,
+        placements: &[Placement],
+        j: usize,
+        mass: f64,
+        inverse: DMat3,
+    ) {
+        let (n, [fj, nj]) = (self.u_dot.len(), self.momenta[j]);
+        for k in 0..n {
+            let [fk, nk] = self.momenta[k];
+            let mut sum = -fj.dot(fk) / mass - nj.dot(inverse * nk);
+            let other = system.behind(self.directions[k].hinge);
+            for i in self.moved(system, j).filter(|&i| other[i]) {
+                let d = placements[i].d;
+                let [f, m] = self.body_momentum(system, i, k, d);
+                sum += self.velocity(j, d).dot(f) + self.directions[j].spin.dot(m);
+            }
+            self.matrix[j * n + k] = sum;
+        }
+    }
+
+    /// Scales by the diagonal, solves.
+    fn eliminate(&mut self) -> Result<(), SingularMatrix> {
+        let n = self.u_dot.len();
+        for j in 0..n {
+            let d = self.matrix[j * n + j];
+            if d <= 0.0 {
+                return Err(SingularMatrix { column: j });
+            }
+            self.scale[j] = 1.0 / d.sqrt();
+        }
+        for j in 0..n {
+            for k in 0..n {
+                self.matrix[j * n + k] *= self.scale[j] * self.scale[k];
+            }
+            self.u_dot[j] *= self.scale[j];
+        }
+        solve_small(&mut self.matrix, &mut self.u_dot)?;
+        (self.u_dot.iter_mut().zip(&self.scale)).for_each(|(x, s)| *x *= s);
+        Ok(())
+    }
+
+    /// Adds the accelerations of the speeds to those of the placements.
+    pub(crate) fn accelerate(&self, system: &System, placements: &mut [Placement]) {
+        for (j, u_dot) in self.u_dot.iter().enumerate() {
+            for i in self.moved(system, j) {
+                let at = &mut placements[i];
+                at.d_ddot += self.velocity(j, at.d) * *u_dot;
+                at.w_dot += at.c.transpose() * self.directions[j].spin * *u_dot;
+            }
+        }
+    }
+
+    /// Name of the hinge of speed `j`.
+    pub(crate) fn hinge<'a>(&self, system: &'a System, j: usize) -> &'a str {
+        &system.hinges()[self.directions[j].hinge].name
+    }
+}
