@@ -27,6 +27,8 @@ struct Cli {
 enum Command {
     /// Fly a case file or a preset; without one, the fruit fly in free hovering flight.
     Run(RunArgs),
+    /// Go on with a run that was interrupted, killed or ran out of disk, bit for bit.
+    Resume(ResumeArgs),
     /// Check a case file or preset without flying it, and say what it holds.
     Check {
         /// Case file or preset.
@@ -74,18 +76,45 @@ struct RunArgs {
     /// Set a key of the case, e.g. time.beats=3 (may be repeated).
     #[arg(long = "set", value_name = "KEY=VALUE")]
     set: Vec<String>,
+    #[command(flatten)]
+    manner: Manner,
+}
+
+/// What `wingbeat resume` is told.
+#[derive(Args)]
+struct ResumeArgs {
+    /// Result directory of the run.
+    dir: PathBuf,
+    #[command(flatten)]
+    manner: Manner,
+}
+
+/// How a flight is computed and shown.
+#[derive(Args)]
+struct Manner {
     /// Threads to use; default all. Results do not depend on it.
     #[arg(long, value_name = "N")]
     threads: Option<usize>,
     /// No progress and no summary on the terminal.
     #[arg(long)]
     quiet: bool,
+    /// Progress and summary as JSON, one object per line.
+    #[arg(long, conflicts_with = "quiet")]
+    json: bool,
+}
+
+impl Manner {
+    /// Whether nothing is said in words.
+    fn silent(&self) -> bool {
+        self.quiet || self.json
+    }
 }
 
 fn main() -> ExitCode {
     let cli = Cli::parse();
     let outcome = match cli.command {
         Command::Run(args) => return run::run(&args),
+        Command::Resume(args) => return run::resume(&args),
         Command::Check { case, set } => check::check(&case, &set),
         Command::Trim(args) => return analyse::trim::run(&args),
         Command::Stability(args) => return analyse::stability::run(&args),

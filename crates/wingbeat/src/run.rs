@@ -1,4 +1,4 @@
-//! `wingbeat run`: fly a case, write its results, say what happened.
+//! `wingbeat run` and `wingbeat resume`: fly a case, write its results, say what happened.
 
 use std::path::Path;
 use std::process::ExitCode;
@@ -6,36 +6,49 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use wingbeat::flight::{FlightError, Simulation};
-use wingbeat::io::{IoError, LoadedCase, Outcome, ResultDir, RunWriter};
+use wingbeat::io::{IoError, LoadedCase, Outcome, ResultDir, RunWriter, result::saver};
 
 use crate::progress::Progress;
-use crate::{RunArgs, refuse};
+use crate::{Manner, ResumeArgs, RunArgs, refuse};
 
 const INTERRUPTED: u8 = 130;
 
-/// The whole command.
+/// A flight and where it is written to; the newest record is written already.
+struct Run {
+    case: LoadedCase,
+    flight: Simulation,
+    writer: RunWriter,
+}
+
+/// `wingbeat run`.
 pub(crate) fn run(args: &RunArgs) -> ExitCode {
-    let threads = match set_threads(args.threads) {
+    start(&args.manner, |threads| prepare(args, threads).map(Some))
+}
+
+/// `wingbeat resume`.
+pub(crate) fn resume(args: &ResumeArgs) -> ExitCode {
+    start(&args.manner, |threads| go_back(&args.dir, threads))
+}
+
+fn start(manner: &Manner, prepare: impl FnOnce(usize) -> Result<Option<Run>, IoError>) -> ExitCode {
+    let threads = match set_threads(manner.threads) {
         Ok(n) => n,
         Err(problem) => {
             eprintln!("error: {problem}");
             return ExitCode::from(2);
         }
     };
-    let prepared = prepare(args, threads);
-    let (case, flight, writer) = match prepared {
-        Ok(ready) => ready,
-        Err(e) => return refuse(&e),
-    };
-    if !args.quiet {
-        eprintln!(
-            "{}: results go to {}",
-            case.name,
-            writer.dir().path().display()
-        );
+    match prepare(threads) {
+        Err(e) => refuse(&e),
+        Ok(None) => ExitCode::SUCCESS,
+        Ok(Some(run)) => {
+            let dir = run.writer.dir().path().display();
+            if !manner.silent() {
+                eprintln!("{}: results go to {dir}", run.case.name);
+            }
+            fly(manner, run, &stop_flag())
+        }
     }
-    let stop = stop_flag();
-    fly(args, &case, flight, writer, &stop)
 }
 
 /// The number of threads in use.
@@ -52,7 +65,7 @@ fn set_threads(wanted: Option<usize>) -> Result<usize, String> {
 }
 
 /// Everything that can be refused before a step is made; the directory is made last.
-fn prepare(args: &RunArgs, threads: usize) -> Result<(LoadedCase, Simulation, RunWriter), IoError> {
+fn prepare(args: &RunArgs, threads: usize) -> Result<Run, IoError> {
     let case = LoadedCase::find(&args.case, &args.set)?;
     if let Some(out) = args
         .out
@@ -61,21 +74,65 @@ fn prepare(args: &RunArgs, threads: usize) -> Result<(LoadedCase, Simulation, Ru
     {
         ResultDir::create(out)?; // refuses before the flight is built
     }
-    let flight = Simulation::new(case.setup.clone());
-    let flight = flight.map_err(|e| {
-        case.fault(
-            "",
-            e.to_string(),
-            "correct the case; `wingbeat check` tells whether it can be flown",
-        )
-    })?;
+    let flight = build(&case)?;
     let dir = match &args.out {
         Some(out) if args.overwrite => ResultDir::overwrite(out)?,
         Some(out) => ResultDir::create(out)?,
         None => ResultDir::next_free(Path::new("results"), &case.name)?,
     };
-    let writer = RunWriter::new(dir, &case, threads)?;
-    Ok((case, flight, writer))
+    begin(dir, case, flight, threads)
+}
+
+fn build(case: &LoadedCase) -> Result<Simulation, IoError> {
+    let remedy = "correct the case; `wingbeat check` tells whether it can be flown";
+    let flight = Simulation::new(case.setup.clone());
+    Ok(flight.map_err(|e| case.fault("", e.to_string(), remedy))?)
+}
+
+/// Writes what there is before the first step.
+fn begin(
+    dir: ResultDir,
+    case: LoadedCase,
+    flight: Simulation,
+    threads: usize,
+) -> Result<Run, IoError> {
+    let mut writer = RunWriter::new(dir, &case, threads)?;
+    writer.write(flight.record(), || flight.snapshot())?;
+    Ok(Run {
+        case,
+        flight,
+        writer,
+    })
+}
+
+/// Goes back to the last checkpoint; to the start, where a run was killed before its first one;
+/// nowhere, where it flew to its end.
+fn go_back(dir: &Path, threads: usize) -> Result<Option<Run>, IoError> {
+    let dir = ResultDir::open(dir)?;
+    let saved = saver::read(dir.path())?;
+    if saved.manifest.outcome == Outcome::Finished {
+        println!("{} is flown to its end already.", dir.path().display());
+        return Ok(None);
+    }
+    let case = dir.case()?;
+    let Some((header, state)) = saved.checkpoint else {
+        let flight = build(&case)?;
+        return begin(dir, case, flight, threads).map(Some);
+    };
+    let flight = Simulation::resume(case.setup.clone(), state).map_err(|e| IoError::Damaged {
+        path: dir.join("checkpoint.bin"),
+        problem: format!("the flight cannot go on from it: {e}"),
+    })?;
+    eprintln!(
+        "{}: goes on after step {} of {}",
+        case.name, header.step, case.setup.time.steps
+    );
+    let writer = RunWriter::resume(dir, &case, &header, saved.manifest, threads)?;
+    Ok(Some(Run {
+        case,
+        flight,
+        writer,
+    }))
 }
 
 /// Set by Ctrl-C or SIGTERM; a second one ends the program at once.
@@ -93,50 +150,56 @@ fn stop_flag() -> Arc<AtomicBool> {
     stop
 }
 
-fn fly(
-    args: &RunArgs,
-    case: &LoadedCase,
-    mut flight: Simulation,
-    mut writer: RunWriter,
-    stop: &AtomicBool,
-) -> ExitCode {
-    let progress = Progress::new(&case.setup, args.quiet);
-    let flown = steps(&mut flight, &mut writer, &progress, stop);
+fn fly(manner: &Manner, mut run: Run, stop: &AtomicBool) -> ExitCode {
+    let mut progress = Progress::new(&run.case.setup, manner, run.flight.state().step);
+    let flown = steps(&mut run, &mut progress, stop);
     progress.clear();
     let outcome = match flown {
         Ok(outcome) => outcome,
         Err(Trouble::Flight(e)) => Outcome::Failed(e.to_string()),
-        Err(Trouble::Writing(e)) => Outcome::Unwritten(e.to_string()),
+        Err(Trouble::Writing(e)) => return unwritten(run.writer, &e),
     };
-    let path = writer.dir().path().to_owned();
-    match writer.finish(outcome.clone()) {
-        Ok(summary) if !args.quiet => {
+    let path = run.writer.dir().path().to_owned();
+    match run.writer.finish(outcome.clone()) {
+        Ok(summary) if manner.json => println!("{}", summary.to_json_line(&path)),
+        Ok(summary) if !manner.quiet => {
             println!("\n{}\nResults: {}", summary.to_text(), path.display())
         }
         Ok(_) => {}
         Err(e) => {
-            eprintln!("error: {e}");
+            eprintln!(
+                "error: {e}\nThe flight itself is kept: `wingbeat resume {0}` goes on from its last checkpoint.",
+                path.display()
+            );
             return ExitCode::from(1);
         }
     }
     report(&outcome, &path)
 }
 
+/// A result that cannot be written any more, e.g. on a full disk.
+fn unwritten(writer: RunWriter, e: &IoError) -> ExitCode {
+    let path = writer.dir().path().to_owned();
+    writer.abandon(e.to_string());
+    eprintln!(
+        "error: {e}\nThe run stopped. What was written up to there is kept; when there is space again, `wingbeat resume {}` goes on from the last checkpoint, bit for bit.",
+        path.display()
+    );
+    ExitCode::from(1)
+}
+
 fn report(outcome: &Outcome, path: &Path) -> ExitCode {
+    let dir = path.display();
     match outcome {
         Outcome::Finished | Outcome::Running => ExitCode::SUCCESS,
         Outcome::Interrupted => {
             eprintln!(
-                "interrupted: everything up to here is written to {}",
-                path.display()
+                "interrupted: everything up to here is written to {dir}; `wingbeat resume {dir}` goes on"
             );
             ExitCode::from(INTERRUPTED)
         }
         Outcome::Unwritten(why) | Outcome::Failed(why) => {
-            eprintln!(
-                "error: {why}\nEverything up to there is written to {}",
-                path.display()
-            );
+            eprintln!("error: {why}\nEverything up to there is written to {dir}");
             ExitCode::from(1)
         }
     }
@@ -147,24 +210,26 @@ enum Trouble {
     Writing(IoError),
 }
 
-/// The loop of the flight.
-fn steps(
-    flight: &mut Simulation,
-    writer: &mut RunWriter,
-    progress: &Progress,
-    stop: &AtomicBool,
-) -> Result<Outcome, Trouble> {
+/// The loop of the flight: the newest step is written; save, step, write.
+fn steps(run: &mut Run, progress: &mut Progress, stop: &AtomicBool) -> Result<Outcome, Trouble> {
+    let Run { flight, writer, .. } = run;
     loop {
+        let stopped = stop.load(Ordering::SeqCst);
+        let saved = match stopped {
+            true => writer.save(flight.state()),
+            false => writer.save_if_due(flight.state()),
+        };
+        saved.map_err(Trouble::Writing)?;
+        if flight.finished() {
+            return Ok(Outcome::Finished);
+        }
+        if stopped {
+            return Ok(Outcome::Interrupted);
+        }
+        flight.step().map_err(Trouble::Flight)?;
         writer
             .write(flight.record(), || flight.snapshot())
             .map_err(Trouble::Writing)?;
         progress.show(flight.record());
-        if flight.finished() {
-            return Ok(Outcome::Finished);
-        }
-        if stop.load(Ordering::SeqCst) {
-            return Ok(Outcome::Interrupted);
-        }
-        flight.step().map_err(Trouble::Flight)?;
     }
 }

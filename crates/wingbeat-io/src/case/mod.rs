@@ -21,6 +21,7 @@ pub use trimmed::{trimmed_case, write_new};
 
 use crate::error::{CaseError, Fault, IoError};
 use crate::presets;
+use crate::result::SaveSettings;
 use source::CaseSource;
 
 /// What is written beside the history.
@@ -30,6 +31,8 @@ pub struct OutputSettings {
     pub frames_every: usize,
     /// Whether figures are drawn.
     pub figures: bool,
+    /// When the state is saved.
+    pub save: SaveSettings,
 }
 
 /// A case, validated and ready to fly.
@@ -68,11 +71,8 @@ impl LoadedCase {
         let built = check_name(&name)
             .and_then(|()| files::read_in(&mut raw, base))
             .and_then(|()| build::setup(&mut raw, &name));
-        let setup = built.map_err(|fault| Box::new(source.locate(fault)))?;
-        let output = OutputSettings {
-            frames_every: raw.output.frames_every,
-            figures: raw.output.figures,
-        };
+        let built = built.and_then(|setup| Ok((setup, build::output(&raw.output)?)));
+        let (setup, output) = built.map_err(|fault| Box::new(source.locate(fault)))?;
         Ok(Self {
             name,
             setup,

@@ -1,22 +1,22 @@
 //! Making result directories without ever overwriting one unasked, and whole-file writes.
 
 use std::fs;
-use std::io::ErrorKind;
+use std::io::{ErrorKind, Write as _};
 use std::path::{Path, PathBuf};
 
 use crate::error::IoError;
 
-/// Everything a run may write; `--overwrite` removes these and nothing else.
-const ENTRIES: [&str; 9] = [
-    "case.toml",
+/// Everything a run may write; `--overwrite` removes these and nothing else. The manifest comes
+/// first and goes last: where it is, there is a run.
+const ENTRIES: [&str; 8] = [
     "history.csv",
     "flight.pvd",
-    "manifest.json",
     "summary.txt",
     "summary.json",
-    "index.html",
     "flight.html",
     "checkpoint.bin",
+    "case.toml",
+    "manifest.json",
 ];
 const FOLDERS: [&str; 2] = ["frames", "figures"];
 
@@ -80,11 +80,17 @@ impl ResultDir {
                 remedy: "it holds no earlier run (no manifest.json), so --overwrite leaves it alone: choose another directory",
             });
         }
-        for entry in ENTRIES {
-            absent(fs::remove_file(path.join(entry))).map_err(make(path))?;
+        if super::history::is_locked(&path.join("history.csv")) {
+            return Err(IoError::Exists {
+                path: path.to_owned(),
+                remedy: "another wingbeat is writing it right now: wait for it, or choose another directory",
+            });
         }
         for folder in FOLDERS {
             absent(fs::remove_dir_all(path.join(folder))).map_err(make(path))?;
+        }
+        for entry in ENTRIES {
+            absent(fs::remove_file(path.join(entry))).map_err(make(path))?;
         }
         Ok(Self {
             path: path.to_owned(),
@@ -176,10 +182,25 @@ fn make(path: &Path) -> impl FnOnce(std::io::Error) -> IoError + '_ {
 /// # Errors
 /// A file that cannot be written; the target is then as it was.
 pub fn write_whole(path: &Path, content: &[u8]) -> Result<(), IoError> {
+    whole(path, content, false)
+}
+
+/// The same, and the system is asked to put it onto the disk before the old file goes.
+///
+/// # Errors
+/// A file that cannot be written; the target is then as it was.
+pub(crate) fn write_safely(path: &Path, content: &[u8]) -> Result<(), IoError> {
+    whole(path, content, true)
+}
+
+fn whole(path: &Path, content: &[u8], sync: bool) -> Result<(), IoError> {
     let mut part = path.as_os_str().to_owned();
     part.push(".part");
     let part = PathBuf::from(part);
-    let written = fs::write(&part, content);
+    let written = fs::File::create(&part).and_then(|mut file| {
+        file.write_all(content)?;
+        if sync { file.sync_data() } else { Ok(()) }
+    });
     let result = written.and_then(|()| fs::rename(&part, path));
     result.map_err(|e| {
         let _ = fs::remove_file(&part); // nothing more can be done about a leftover

@@ -1,7 +1,7 @@
 //! history.csv: appended row by row, read back tolerating a cut last row.
 
 use std::collections::BTreeMap;
-use std::fs::{File, OpenOptions};
+use std::fs::{File, OpenOptions, TryLockError};
 use std::io::{Read, Write};
 use std::path::{Path, PathBuf};
 
@@ -30,9 +30,14 @@ impl HistoryWriter {
     /// # Errors
     /// A file that cannot be created.
     pub fn create(path: &Path, bodies: Vec<String>) -> Result<Self, IoError> {
+        let mut options = OpenOptions::new();
+        let file = options.write(true).create(true).truncate(false).open(path);
+        let file = file.map_err(IoError::write(path))?;
+        lock(&file, path)?;
+        file.set_len(0).map_err(IoError::write(path))?;
         Ok(Self {
             path: path.to_owned(),
-            file: File::create(path).map_err(IoError::write(path))?,
+            file,
             bodies,
             values: vec![],
             line: String::new(),
@@ -42,19 +47,17 @@ impl HistoryWriter {
         })
     }
 
-    /// Goes on after the last row of an existing history.
+    /// Goes on after the first `bytes` bytes of an existing history; what follows is cut off.
     ///
     /// # Errors
-    /// A file that cannot be read and appended to.
-    pub fn reopen(path: &Path, bodies: Vec<String>) -> Result<Self, IoError> {
-        let mut written = vec![];
-        let mut file = OpenOptions::new()
-            .read(true)
-            .append(true)
-            .open(path)
-            .map_err(IoError::write(path))?;
-        file.read_to_end(&mut written)
-            .map_err(IoError::read(path))?;
+    /// A file that cannot be read and changed, or that another wingbeat is writing.
+    pub fn reopen(path: &Path, bodies: Vec<String>, bytes: u64) -> Result<Self, IoError> {
+        let mut options = OpenOptions::new();
+        let file = options.read(true).append(true).open(path);
+        let file = file.map_err(IoError::write(path))?;
+        lock(&file, path)?;
+        file.set_len(bytes).map_err(IoError::write(path))?;
+        let hash = hash_start(&file, bytes).map_err(IoError::read(path))?;
         Ok(Self {
             path: path.to_owned(),
             file,
@@ -62,8 +65,8 @@ impl HistoryWriter {
             values: vec![],
             line: String::new(),
             started: true,
-            bytes: written.len() as u64,
-            hash: Sha256::new_with_prefix(&written),
+            bytes,
+            hash,
         })
     }
 
@@ -92,13 +95,51 @@ impl HistoryWriter {
             write_number(&mut self.line, comma, *value);
         }
         self.line.push('\n');
-        self.file
-            .write_all(self.line.as_bytes())
-            .map_err(IoError::write(&self.path))?;
+        if let Err(e) = self.file.write_all(self.line.as_bytes()) {
+            let _ = self.file.set_len(self.bytes); // a cut row is left out by readers, too
+            return Err(IoError::write(&self.path)(e));
+        }
         self.bytes += self.line.len() as u64;
         self.hash.update(self.line.as_bytes());
         Ok(())
     }
+}
+
+/// One writer at a time; the system lets go of the lock however the program ends.
+fn lock(file: &File, path: &Path) -> Result<(), IoError> {
+    match file.try_lock() {
+        Err(TryLockError::WouldBlock) => Err(IoError::Damaged {
+            path: path.to_owned(),
+            problem: "another wingbeat is writing it right now; wait for it or end it".to_owned(),
+        }),
+        _ => Ok(()), // file systems without locks are written to all the same
+    }
+}
+
+/// Whether some wingbeat is writing this history.
+pub(crate) fn is_locked(path: &Path) -> bool {
+    let file = File::open(path).map(|f| f.try_lock());
+    matches!(file, Ok(Err(TryLockError::WouldBlock)))
+}
+
+/// SHA-256 of the first `bytes` bytes, read in pieces.
+///
+/// # Errors
+/// A file that cannot be read or is shorter.
+pub(crate) fn hash_start(file: &File, bytes: u64) -> std::io::Result<Sha256> {
+    let mut hash = Sha256::new();
+    let mut piece = vec![0; 1 << 16];
+    let mut part = file.take(bytes);
+    let mut left = bytes;
+    while left > 0 {
+        let n = part.read(&mut piece)?;
+        if n == 0 {
+            return Err(std::io::ErrorKind::UnexpectedEof.into());
+        }
+        hash.update(&piece[..n]);
+        left -= n as u64;
+    }
+    Ok(hash)
 }
 
 /// Whole numbers plainly, others with 17 significant digits.

@@ -1,14 +1,15 @@
 //! When checkpoints are due, and going back to one.
 
-use std::fs::{self, OpenOptions};
+use std::fs;
 use std::path::Path;
 use std::time::{Duration, Instant};
 
 use wingbeat_flight::FlightState;
 
 use super::checkpoint::{self, FILE, Header};
-use super::directory::write_whole;
-use super::manifest::{Manifest, Outcome, sha256};
+use super::directory::write_safely;
+use super::history::hash_start;
+use super::manifest::{Manifest, hexadecimal, sha256};
 use crate::error::IoError;
 
 /// How often the state is saved.
@@ -73,10 +74,16 @@ pub struct Saved {
 pub fn read(dir: &Path) -> Result<Saved, IoError> {
     let manifest = read_manifest(dir)?;
     let case = dir.join("case.toml");
+    if !case.is_file() {
+        return Err(IoError::Damaged {
+            path: dir.to_owned(),
+            problem: "case.toml is missing: the run was killed before it began, or the file was removed; fly the case again with `wingbeat run CASE --out DIR --overwrite`".to_owned(),
+        });
+    }
     let case_sha256 = sha256(&fs::read(&case).map_err(IoError::read(&case))?);
     let path = dir.join(FILE);
     if !path.exists() {
-        if matches!(manifest.outcome, Outcome::Running) && case_sha256 != manifest.case_sha256 {
+        if case_sha256 != manifest.case_sha256 {
             return Err(IoError::Damaged {
                 path: case,
                 problem: "the case was changed after the run began; fly it with `wingbeat run`"
@@ -117,9 +124,9 @@ pub fn read_manifest(dir: &Path) -> Result<Manifest, IoError> {
 }
 
 fn check_history(path: &Path, header: &Header) -> Result<(), IoError> {
-    let bytes = fs::read(path).map_err(IoError::read(path))?;
-    let part = bytes.get(..header.history_bytes as usize);
-    if part.is_some_and(|p| sha256(p) == header.history_sha256) {
+    let file = fs::File::open(path).map_err(IoError::read(path))?;
+    let sum = hash_start(&file, header.history_bytes).map(hexadecimal);
+    if sum.is_ok_and(|sum| sum == header.history_sha256) {
         return Ok(());
     }
     Err(IoError::Damaged {
@@ -131,16 +138,12 @@ fn check_history(path: &Path, header: &Header) -> Result<(), IoError> {
     })
 }
 
-/// Takes the directory back to the checkpoint: cuts the history, removes later frames and
-/// half-written files. Returns the steps of the frames that are left.
+/// Takes the frames back to step `last`: removes later and half-written ones. Returns the steps
+/// of those that are left.
 ///
 /// # Errors
 /// A file that cannot be changed.
-pub(crate) fn go_back(dir: &Path, header: &Header) -> Result<Vec<usize>, IoError> {
-    let path = dir.join("history.csv");
-    let file = OpenOptions::new().write(true).open(&path);
-    file.and_then(|f| f.set_len(header.history_bytes))
-        .map_err(IoError::write(&path))?;
+pub(crate) fn go_back(dir: &Path, last: usize) -> Result<Vec<usize>, IoError> {
     let folder = dir.join("frames");
     let Ok(entries) = fs::read_dir(&folder) else {
         return Ok(vec![]);
@@ -152,7 +155,7 @@ pub(crate) fn go_back(dir: &Path, header: &Header) -> Result<Vec<usize>, IoError
         let step = stem.rsplit('_').next().and_then(|s| s.parse().ok());
         let whole = path.extension().is_some_and(|e| e == "vtp");
         match step {
-            Some(step) if whole && step <= header.step => steps.push(step),
+            Some(step) if whole && step <= last => steps.push(step),
             _ => fs::remove_file(&path).map_err(IoError::write(&path))?,
         }
     }
@@ -163,5 +166,5 @@ pub(crate) fn go_back(dir: &Path, header: &Header) -> Result<Vec<usize>, IoError
 
 /// Writes a checkpoint, whole or not at all, and sees it onto the disk.
 pub(crate) fn write(dir: &Path, header: &Header, state: &FlightState) -> Result<(), IoError> {
-    write_whole(&dir.join(FILE), &checkpoint::encode(header, state))
+    write_safely(&dir.join(FILE), &checkpoint::encode(header, state))
 }

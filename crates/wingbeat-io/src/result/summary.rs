@@ -164,6 +164,11 @@ impl Summary {
         summary
     }
 
+    /// As JSON in one line, with the directory it belongs to.
+    pub fn to_json_line(&self, dir: &std::path::Path) -> String {
+        serde_json::json!({ "directory": dir, "summary": self }).to_string()
+    }
+
     /// As JSON.
     pub fn to_json(&self) -> String {
         serde_json::to_string_pretty(self).expect("a summary is JSON") + "\n"

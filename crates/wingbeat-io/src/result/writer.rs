@@ -10,15 +10,16 @@ use super::columns::body_names;
 use super::directory::write_whole;
 use super::history::HistoryWriter;
 use super::manifest::{Manifest, Outcome, sha256};
-use super::saver::{self, SaveSettings, Schedule};
+use super::saver::{self, Schedule};
 use super::vtp::{PolyData, frame_name, pvd};
 use super::{ResultDir, Summary};
 use crate::case::LoadedCase;
 use crate::error::IoError;
 use crate::figures;
 
-/// The index is rewritten after this many frames, so that writing it stays a small part.
-const FRAMES_PER_INDEX: usize = 16;
+/// The index is rewritten when it has grown by one part in this many, so that writing it stays a
+/// small part however long the run is.
+const INDEX_GROWTH: usize = 4;
 
 /// Writes one run.
 pub struct RunWriter {
@@ -26,6 +27,7 @@ pub struct RunWriter {
     case: LoadedCase,
     history: HistoryWriter,
     frames: Vec<(f64, usize)>,
+    indexed: usize,
     manifest: Manifest,
     started: Instant,
     writing: Duration,
@@ -40,12 +42,6 @@ impl RunWriter {
     /// A file that cannot be written.
     pub fn new(dir: ResultDir, case: &LoadedCase, threads: usize) -> Result<Self, IoError> {
         let resolved = case.resolved();
-        dir.write("case.toml", resolved.as_bytes())?;
-        let bodies = body_names(&case.setup.animal);
-        let history = HistoryWriter::create(&dir.join("history.csv"), bodies)?;
-        if case.output.frames_every > 0 {
-            dir.folder("frames")?;
-        }
         let manifest = Manifest {
             version: env!("CARGO_PKG_VERSION").to_owned(),
             case: case.name.clone(),
@@ -64,16 +60,23 @@ impl RunWriter {
             frame_axes: "n1, -n2, -n3 (x forward, y left, z up)".to_owned(),
         };
         dir.write("manifest.json", manifest.to_json().as_bytes())?;
+        dir.write("case.toml", resolved.as_bytes())?;
+        let bodies = body_names(&case.setup.animal);
+        let history = HistoryWriter::create(&dir.join("history.csv"), bodies)?;
+        if case.output.frames_every > 0 {
+            dir.folder("frames")?;
+        }
         Ok(Self {
             dir,
             case: case.clone(),
             history,
             frames: vec![],
+            indexed: 0,
             manifest,
             started: Instant::now(),
             writing: Duration::ZERO,
             flown_before: Duration::ZERO,
-            schedule: Schedule::new(SaveSettings::default()),
+            schedule: Schedule::new(case.output.save),
         })
     }
 
@@ -86,21 +89,25 @@ impl RunWriter {
         case: &LoadedCase,
         header: &Header,
         manifest: Manifest,
+        threads: usize,
     ) -> Result<Self, IoError> {
-        let steps = saver::go_back(dir.path(), header)?;
         let bodies = body_names(&case.setup.animal);
-        let history = HistoryWriter::reopen(&dir.join("history.csv"), bodies)?;
+        let path = dir.join("history.csv");
+        let history = HistoryWriter::reopen(&path, bodies, header.history_bytes)?;
+        let steps = saver::go_back(dir.path(), header.step)?;
         let step = case.setup.time.step;
         let writer = Self {
             case: case.clone(),
             history,
             frames: steps.iter().map(|k| (*k as f64 * step, *k)).collect(),
+            indexed: 0,
             started: Instant::now(),
             writing: Duration::from_secs_f64(manifest.writing_time_s),
             flown_before: Duration::from_secs_f64(manifest.wall_time_s),
-            schedule: Schedule::new(SaveSettings::default()),
+            schedule: Schedule::new(case.output.save),
             manifest: Manifest {
                 outcome: Outcome::Running,
+                threads,
                 steps: header.step,
                 ..manifest
             },
@@ -108,11 +115,6 @@ impl RunWriter {
         };
         writer.note()?;
         Ok(writer)
-    }
-
-    /// How often [`Self::save_if_due`] saves.
-    pub fn save_every(&mut self, settings: SaveSettings) {
-        self.schedule = Schedule::new(settings);
     }
 
     /// Saves the state if it is time to; to be called after [`Self::write`] of the same step.
@@ -195,17 +197,24 @@ impl RunWriter {
             write_whole(&path, data.to_vtp().as_bytes())?;
         }
         self.frames.push((snapshot.time, snapshot.step));
-        if self.frames.len() % FRAMES_PER_INDEX == 1 {
+        if self.frames.len() >= self.indexed + self.indexed.div_ceil(INDEX_GROWTH).max(1) {
             self.index()?;
         }
         Ok(())
     }
 
-    fn index(&self) -> Result<(), IoError> {
+    fn index(&mut self) -> Result<(), IoError> {
         if self.frames.is_empty() {
             return Ok(());
         }
+        self.indexed = self.frames.len();
         self.dir.write("flight.pvd", pvd(&self.frames).as_bytes())
+    }
+
+    /// Ends a result that cannot be written any more: only the reason is noted, if that still goes.
+    pub fn abandon(mut self, why: String) {
+        self.manifest.outcome = Outcome::Unwritten(why);
+        let _ = self.note(); // on a full disk not even this may go
     }
 
     /// Ends the result: index, figures, summary, manifest.

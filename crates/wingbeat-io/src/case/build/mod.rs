@@ -7,10 +7,12 @@ mod blade;
 mod body;
 mod flight;
 mod motion;
+mod output;
 mod time;
 mod wing;
 
 pub use motion::data_sets;
+pub(crate) use output::output;
 
 use serde::Serialize;
 use wingbeat_flight::{CorrectorSettings, FlightSetup};

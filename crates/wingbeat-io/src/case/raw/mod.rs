@@ -158,6 +158,10 @@ pub struct OutputCase {
     pub frames_every: usize,
     /// Draw figures (.svg) at the end.
     pub figures: bool,
+    /// Save the state for `wingbeat resume` every so many steps; 0: not by steps.
+    pub checkpoint_every: usize,
+    /// Save the state after so much wall time; 0: not by time.
+    pub checkpoint_interval_s: f64,
 }
 
 impl Default for OutputCase {
@@ -165,6 +169,8 @@ impl Default for OutputCase {
         Self {
             frames_every: 2,
             figures: true,
+            checkpoint_every: 0,
+            checkpoint_interval_s: 20.0,
         }
     }
 }
