@@ -1,8 +1,7 @@
 //! The vortex filaments of one instant: every edge of lattice and wakes once, with its net
 //! circulation.
 
-use crate::images::Mirror;
-use crate::kernel::{CoreModel, DirectSum, Network, Points};
+use crate::kernel::{Network, Points};
 use crate::lattice::Lattice;
 use crate::rings;
 use crate::settings::AirSettings;
@@ -17,8 +16,11 @@ use wingbeat_math::DVec3;
 pub struct Filaments {
     /// Edges of the lattice, in the order of [`crate::topology::Topology::edges`].
     pub bound: Network,
-    /// All other edges of the wakes. Nodes: sheet after sheet, oldest row first, the shedding
-    /// edge last.
+    /// Edges of the newest rings from the shedding edges to the first free nodes: they follow the
+    /// surfaces. Nodes: sheet after sheet, first the free row, then the shedding edge.
+    pub front: Network,
+    /// All other edges of the wakes, which do not move within a step. Nodes: sheet after sheet,
+    /// oldest row first.
     pub wake: Network,
 }
 
@@ -34,9 +36,22 @@ impl Filaments {
     ) {
         self.gather_bound(lattice, position);
         self.wake.clear();
+        self.front.clear();
         for (sheet, root) in state.sheets.iter().zip(lattice.sheets()) {
-            let front = root.nodes.iter().map(|&n| self.bound.nodes.get(n));
-            add_sheet(&mut self.wake, sheet, front, lattice.settings(), t);
+            let edge = root.nodes.iter().map(|&n| self.bound.nodes.get(n));
+            add_sheet(&mut self.wake, sheet, lattice.settings(), t);
+            add_front(&mut self.front, sheet, edge, lattice.settings(), t);
+        }
+    }
+
+    /// All wake nodes that are to be moved, those on the shedding edges too: sheet after sheet,
+    /// oldest row first, the shedding edge last.
+    pub(crate) fn movable(&self, lattice: &Lattice, state: &AirState, out: &mut Points) {
+        out.clear();
+        for (sheet, root) in state.sheets.iter().zip(lattice.sheets()) {
+            sheet.nodes.iter().for_each(|x| out.push(x));
+            let edge = root.nodes.iter().map(|&n| self.bound.nodes.get(n));
+            edge.for_each(|x| out.push(x));
         }
     }
 
@@ -84,7 +99,7 @@ impl Filaments {
             }
             sum
         };
-        of(&self.bound) + of(&self.wake)
+        of(&self.bound) + of(&self.front) + of(&self.wake)
     }
 }
 
@@ -96,20 +111,20 @@ pub(crate) fn newest(sheet: &WakeSheet, column: usize) -> f64 {
     }
 }
 
-/// Nodes and edges of one wake sheet, the edges at the front left out.
-fn add_sheet(
-    wake: &mut Network,
-    sheet: &WakeSheet,
-    front: impl Iterator<Item = DVec3>,
-    settings: &AirSettings,
-    t: f64,
-) {
+/// Circulation of the edge that lies between the columns `c - 1` and `c` of row `r`.
+fn between(sheet: &WakeSheet, r: usize, c: usize) -> f64 {
+    let gamma = |c: usize| sheet.gamma[r * sheet.columns + c];
+    let left = if c > 0 { gamma(c - 1) } else { 0.0 };
+    let right = if c < sheet.columns { gamma(c) } else { 0.0 };
+    left - right
+}
+
+/// Free nodes of one wake sheet and the edges among them.
+fn add_sheet(wake: &mut Network, sheet: &WakeSheet, settings: &AirSettings, t: f64) {
     let base = wake.nodes.len();
     sheet.nodes.iter().for_each(|x| wake.nodes.push(x));
-    front.for_each(|x| wake.nodes.push(x));
     let (rows, columns) = (sheet.rows(), sheet.columns);
-    let gamma = |r: usize, c: usize| sheet.gamma[r * columns + c];
-    let age = |r: usize| sheet.shed_time.get(r).map_or(0.0, |shed| t - shed);
+    let age = |r: usize| t - sheet.shed_time[r];
     let mut push = |[r0, c0]: [usize; 2], [r1, c1]: [usize; 2], net: f64| {
         let a = base + r0 * (columns + 1) + c0;
         let b = base + r1 * (columns + 1) + c1;
@@ -117,53 +132,39 @@ fn add_sheet(
         let core = settings.wake_core.core(length, 0.5 * (age(r0) + age(r1)));
         wake.push_edge(a, b, net, core);
     };
+    let gamma = |r: usize, c: usize| sheet.gamma[r * columns + c];
     for r in 0..rows {
         for c in 0..columns {
             let older = if r > 0 { gamma(r - 1, c) } else { 0.0 };
             push([r, c], [r, c + 1], gamma(r, c) - older);
         }
         for c in 0..=columns {
-            let left = if c > 0 { gamma(r, c - 1) } else { 0.0 };
-            let right = if c < columns { gamma(r, c) } else { 0.0 };
-            push([r, c], [r + 1, c], left - right);
+            if r + 1 < rows {
+                push([r, c], [r + 1, c], between(sheet, r, c));
+            }
         }
     }
 }
 
-/// Memory of a Biot-Savart sum, kept from call to call.
-#[derive(Clone, Debug, Default)]
-pub(crate) struct Summation {
-    kept: Option<(CoreModel, DirectSum)>,
-    reflected: Points,
-    image: Points,
-}
-
-impl Summation {
-    /// Adds the velocity of `sources` and their images at `targets` to `out`.
-    pub(crate) fn add(
-        &mut self,
-        model: CoreModel,
-        sources: &Network,
-        targets: &Points,
-        mirrors: &[Mirror],
-        out: &mut Points,
-    ) {
-        let kept = self.kept.take().filter(|(of, _)| *of == model);
-        let (_, sum) = self
-            .kept
-            .insert(kept.unwrap_or_else(|| (model, DirectSum::new(model))));
-        sum.load_network(sources);
-        sum.add_velocity(targets, out);
-        for mirror in mirrors {
-            self.reflected.clear();
-            targets
-                .iter()
-                .for_each(|x| self.reflected.push(mirror.place(x)));
-            self.image.reset(targets.len());
-            sum.add_velocity(&self.reflected, &mut self.image);
-            for i in 0..targets.len() {
-                out.set(i, out.get(i) + mirror.vector(self.image.get(i)));
-            }
-        }
+/// Edges from the newest free row of a sheet to the shedding edge.
+fn add_front(
+    front: &mut Network,
+    sheet: &WakeSheet,
+    edge: impl Iterator<Item = DVec3>,
+    settings: &AirSettings,
+    t: f64,
+) {
+    let Some(newest) = sheet.rows().checked_sub(1) else {
+        return;
+    };
+    let (base, width) = (front.nodes.len(), sheet.columns + 1);
+    (0..width).for_each(|c| front.nodes.push(sheet.node(newest, c)));
+    edge.for_each(|x| front.nodes.push(x));
+    let age = 0.5 * (t - sheet.shed_time[newest]);
+    for c in 0..width {
+        let (a, b) = (base + c, base + width + c);
+        let length = (front.nodes.get(b) - front.nodes.get(a)).length();
+        let core = settings.wake_core.core(length, age);
+        front.push_edge(a, b, between(sheet, newest, c), core);
     }
 }

@@ -2,12 +2,11 @@
 
 use crate::error::AirError;
 use crate::filaments::Filaments;
-use crate::kernel::reference::segment_velocity;
+use crate::kernel::{BLOCK, UnitEdges};
 use crate::lattice::Lattice;
 use crate::panels::Panels;
-use crate::topology::Edge;
 use rayon::prelude::*;
-use wingbeat_math::{DVec3, DenseLu};
+use wingbeat_math::DenseLu;
 
 /// Influence equations `A gamma = b`: A the normal velocity at control point i of the ring of
 /// panel j with unit circulation, b the normal velocity that the rings have to make.
@@ -19,6 +18,9 @@ use wingbeat_math::{DVec3, DenseLu};
 /// circulations is set to zero afterwards, which changes no velocity.
 pub(crate) struct Influence {
     matrix: Vec<f64>,
+    /// Normal velocity of every edge at a block of control points, for each block.
+    rates: Vec<f64>,
+    edges: UnitEdges,
     lu: DenseLu,
     /// `alpha` of each surface, zero for open ones [1/m].
     alpha: Vec<f64>,
@@ -28,6 +30,8 @@ impl Default for Influence {
     fn default() -> Self {
         Self {
             matrix: Vec::new(),
+            rates: Vec::new(),
+            edges: UnitEdges::default(),
             lu: DenseLu::new(0),
             alpha: Vec::new(),
         }
@@ -62,39 +66,26 @@ impl Influence {
         }
     }
 
-    /// Rows are independent, so the bits do not depend on how threads share them.
+    /// Blocks of rows are independent, so the bits do not depend on how threads share them.
     fn assemble(&mut self, lattice: &Lattice, filaments: &Filaments, panels: &Panels) {
-        let n = lattice.panel_count();
-        let edges = &lattice.topology().edges;
-        let model = lattice.settings().bound_core;
-        let bound = &filaments.bound;
-        let normal_velocity = |point: DVec3, normal: DVec3, edge: &Edge, core: f64| {
-            let a = bound.nodes.get(edge.from);
-            let b = bound.nodes.get(edge.to);
-            let mut v = segment_velocity(model, point, a, b, 1.0, core);
-            for mirror in lattice.mirrors() {
-                v += mirror.vector(segment_velocity(
-                    model,
-                    mirror.place(point),
-                    a,
-                    b,
-                    1.0,
-                    core,
-                ));
-            }
-            v.dot(normal)
-        };
+        let (n, model) = (lattice.panel_count(), lattice.settings().bound_core);
+        self.edges.load(model, &filaments.bound);
+        let (edges, size) = (&self.edges, self.edges.len() * BLOCK);
+        self.rates.resize(n.div_ceil(BLOCK) * size, 0.0);
         self.matrix
-            .par_chunks_mut(n)
+            .par_chunks_mut(BLOCK * n)
+            .zip(self.rates.par_chunks_mut(size))
             .enumerate()
-            .for_each(|(i, row)| {
-                row.fill(0.0);
-                for (edge, &core) in edges.iter().zip(&bound.core) {
-                    let u = normal_velocity(panels.point[i], panels.normal[i], edge, core);
-                    row[edge.plus] += u;
-                    if let Some(minus) = edge.minus {
-                        row[minus] -= u;
-                    }
+            .for_each(|(b, (rows, rates))| {
+                rows.fill(0.0);
+                let own = b * BLOCK..n.min((b + 1) * BLOCK);
+                let places = || own.clone().map(|i| [panels.point[i], panels.normal[i]]);
+                edges.normal_velocities(model, places(), rates);
+                add_edges(lattice, rates, rows);
+                for mirror in lattice.mirrors() {
+                    let images = places().map(|[x, n]| [mirror.place(x), mirror.vector(n)]);
+                    edges.normal_velocities(model, images, rates);
+                    add_edges(lattice, rates, rows);
                 }
             });
     }
@@ -129,6 +120,19 @@ impl Influence {
                 leak[s] = self.alpha[s] * sum;
                 let mean = sum / own.len() as f64;
                 own.iter_mut().for_each(|g| *g -= mean);
+            }
+        }
+    }
+}
+
+/// Adds the normal velocities of the edges to the columns of the panels they bound.
+fn add_edges(lattice: &Lattice, rates: &[f64], rows: &mut [f64]) {
+    let n = lattice.panel_count();
+    for (edge, rates) in lattice.topology().edges.iter().zip(rates.chunks(BLOCK)) {
+        for (row, u) in rows.chunks_mut(n).zip(rates) {
+            row[edge.plus] += u;
+            if let Some(minus) = edge.minus {
+                row[minus] -= u;
             }
         }
     }

@@ -49,7 +49,7 @@ fn middle_velocities(lattice: &Lattice, motion: &NodeMotion, ws: &mut AirWorkspa
             ring_velocity[n] += d;
         },
     );
-    let Filaments { bound, wake } = &ws.filaments;
+    let Filaments { bound, .. } = &ws.filaments;
     ws.middle.clear();
     for &[a, b] in &bound.edges {
         let ends = [a, b].map(|n| bound.nodes.get(n as usize));
@@ -58,10 +58,7 @@ fn middle_velocities(lattice: &Lattice, motion: &NodeMotion, ws: &mut AirWorkspa
     ws.middle_velocity.reset(bound.edges.len());
     let mirrors = lattice.mirrors();
     let (points, sum) = (&ws.middle, &mut ws.middle_velocity);
-    ws.bound_sum
-        .add(settings.bound_core, bound, points, mirrors, sum);
-    ws.wake_sum
-        .add(settings.wake_core, wake, points, mirrors, sum);
+    ws.sums.add(points, mirrors, sum);
     for (e, &[a, b]) in bound.edges.iter().enumerate() {
         let surface = 0.5 * (ws.ring_velocity[a as usize] + ws.ring_velocity[b as usize]);
         let v = sum.get(e) + lattice.stream(points.get(e), t) - surface;

@@ -50,6 +50,7 @@ mod rings;
 pub mod settings;
 pub mod state;
 pub mod strips;
+mod summation;
 pub mod surface;
 pub mod topology;
 mod wake;
@@ -57,7 +58,7 @@ pub mod wind;
 
 pub use error::AirError;
 pub use images::Plane;
-pub use kernel::{CoreModel, Points};
+pub use kernel::{CoreModel, Method, Points};
 pub use lattice::Lattice;
 pub use loads::{AirLoads, AirWorkspace, SurfaceLoads};
 pub use panels::Panels;

@@ -3,7 +3,7 @@
 use crate::closed;
 use crate::contact::Obstacles;
 use crate::error::AirError;
-use crate::filaments::{Filaments, Summation};
+use crate::filaments::Filaments;
 use crate::influence::Influence;
 use crate::joukowski;
 use crate::kernel::Points;
@@ -12,6 +12,7 @@ use crate::panels::Panels;
 use crate::pressure;
 use crate::state::{AirState, NodeMotion};
 use crate::strips;
+use crate::summation::{StillWake, Sums, direct, free};
 use wingbeat_math::DVec3;
 
 /// What the air does to one surface.
@@ -70,6 +71,10 @@ pub struct AirLoads {
     pub penetration: f64,
 }
 
+/// How far a control point may go, in panel sizes, before the wakes are summed for it anew: what
+/// this leaves out is a tenth of what the default tree does.
+const STILL: f64 = 1e-5;
+
 /// Scratch memory of the air, good for any lattice: nothing in it outlives a call.
 #[derive(Default)]
 pub struct AirWorkspace {
@@ -92,8 +97,10 @@ pub struct AirWorkspace {
     pub(crate) obstacles: Obstacles,
     pub(crate) from: Vec<DVec3>,
     pub(crate) to: Vec<DVec3>,
-    pub(crate) bound_sum: Summation,
-    pub(crate) wake_sum: Summation,
+    /// Nodes of the wakes that are to be moved.
+    pub(crate) movable: Points,
+    pub(crate) sums: Sums,
+    pub(crate) still: StillWake,
 }
 
 impl AirWorkspace {
@@ -157,27 +164,23 @@ impl Lattice {
         let n = self.panel_count();
         ws.points.clear();
         out.panels.point.iter().for_each(|&p| ws.points.push(p));
-        ws.velocity.reset(n);
         ws.shed.reset(n);
         out.gamma.clear();
         out.gamma.resize(n, 0.0);
-        let (filaments, settings) = (&mut ws.filaments, self.settings());
+        let (filaments, settings, mirrors) = (&mut ws.filaments, self.settings(), self.mirrors());
         filaments.set_bound(self, state, &out.gamma);
-        let (bound, wake) = (settings.bound_core, settings.wake_core);
-        ws.wake_sum.add(
-            wake,
-            &filaments.wake,
-            &ws.points,
-            self.mirrors(),
-            &mut ws.velocity,
-        );
-        ws.bound_sum.add(
-            bound,
-            &filaments.bound,
-            &ws.points,
-            self.mirrors(),
-            &mut ws.shed,
-        );
+        let sums = &mut ws.sums;
+        let is_new = sums.wake.load(free(settings), &filaments.wake);
+        let near = STILL * out.panels.size();
+        let (points, velocity) = (&ws.points, &mut ws.velocity);
+        ws.still
+            .velocity(&mut sums.wake, is_new, points, near, mirrors, velocity);
+        sums.front
+            .load(direct(settings.wake_core), &filaments.front);
+        sums.front.add(points, mirrors, velocity);
+        sums.bound
+            .load(direct(settings.bound_core), &filaments.bound);
+        sums.bound.add(points, mirrors, &mut ws.shed);
     }
 
     /// No penetration: the rings make up for what motion, stream and wakes leave.
@@ -201,11 +204,10 @@ impl Lattice {
 
     /// Adds the velocity of the lattice to that of stream and wakes.
     fn add_bound_velocity(&self, state: &AirState, ws: &mut AirWorkspace, out: &mut AirLoads) {
-        let settings = self.settings();
         ws.filaments.set_bound(self, state, &out.gamma);
-        let (model, bound) = (settings.bound_core, &ws.filaments.bound);
-        ws.bound_sum
-            .add(model, bound, &ws.points, self.mirrors(), &mut ws.velocity);
+        let (model, sum) = (self.settings().bound_core, &mut ws.sums.bound);
+        sum.load(direct(model), &ws.filaments.bound);
+        sum.add(&ws.points, self.mirrors(), &mut ws.velocity);
         out.velocity.clear();
         let at = ws.points.iter().zip(ws.velocity.iter());
         let total = at.map(|(x, v)| self.stream(x, out.time) + v);

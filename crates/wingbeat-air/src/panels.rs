@@ -29,6 +29,11 @@ impl Panels {
         self.vector_area.clear();
     }
 
+    /// Root of the mean area [m].
+    pub(crate) fn size(&self) -> f64 {
+        (self.area.iter().sum::<f64>() / self.area.len().max(1) as f64).sqrt()
+    }
+
     /// Fills in all panels of the lattice.
     ///
     /// # Errors

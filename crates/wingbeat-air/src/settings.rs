@@ -2,7 +2,7 @@
 
 use crate::error::AirError;
 use crate::images::{Plane, mirrors};
-use crate::kernel::CoreModel;
+use crate::kernel::{CoreModel, Method};
 use crate::surface::EdgeKind;
 use crate::wind::Wind;
 use wingbeat_math::DVec3;
@@ -147,6 +147,11 @@ pub struct AirSettings {
     pub wind: Wind,
     /// Planes of symmetry and ground: none, one, or two at right angles.
     pub images: Vec<Plane>,
+    /// How the velocities of the wakes are summed.
+    pub summation: Method,
+    /// Allowed error of the tree: root mean square over the places where velocities are wanted,
+    /// relative to that of the velocity.
+    pub tolerance: f64,
 }
 
 impl AirSettings {
@@ -173,6 +178,8 @@ impl AirSettings {
             inset: 0.0,
             wind: Wind::default(),
             images: Vec::new(),
+            summation: Method::Auto,
+            tolerance: 1e-4,
         }
     }
 
@@ -256,6 +263,12 @@ impl AirSettings {
             "inset",
             self.inset.to_string(),
             "a part of a panel from 0 to below 1/2",
+        )?;
+        check(
+            positive(self.tolerance) && self.tolerance <= 0.1,
+            "summation tolerance",
+            self.tolerance.to_string(),
+            "a number above 0 and up to 0.1",
         )?;
         self.check_leading()?;
         self.wind.validate()?;

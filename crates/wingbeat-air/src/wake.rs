@@ -69,30 +69,11 @@ impl Lattice {
             return Err(AirError::TimeStep { dt, step });
         }
         self.gather_accepted(state, ws);
-        let AirWorkspace {
-            filaments,
-            velocity,
-            bound_sum,
-            wake_sum,
-            ..
-        } = &mut *ws;
-        let (targets, settings) = (&filaments.wake.nodes, self.settings());
-        velocity.reset(targets.len());
+        ws.filaments.movable(self, state, &mut ws.movable);
+        ws.velocity.reset(ws.movable.len());
         let mirrors = self.mirrors();
-        bound_sum.add(
-            settings.bound_core,
-            &filaments.bound,
-            targets,
-            mirrors,
-            velocity,
-        );
-        wake_sum.add(
-            settings.wake_core,
-            &filaments.wake,
-            targets,
-            mirrors,
-            velocity,
-        );
+        ws.sums.load(self.settings(), &ws.filaments);
+        ws.sums.add(&ws.movable, mirrors, &mut ws.velocity);
         let events = self.move_sheets(state, dt, ws)?;
         state.events += events;
         state.wake_due = false;
@@ -118,7 +99,7 @@ impl Lattice {
         let looks_back = self.settings().convection == Convection::AdamsBashforth;
         let mut mover = Mover {
             lattice: self,
-            nodes: &ws.filaments.wake.nodes,
+            nodes: &ws.movable,
             velocity: &ws.velocity,
             limit: self.settings().max_displacement.unwrap_or(f64::INFINITY),
             time: state.time,
@@ -219,21 +200,8 @@ impl Lattice {
         for i in 0..points.len() {
             out.set(i, self.stream(points.get(i), state.time));
         }
-        let settings = self.settings();
-        ws.bound_sum.add(
-            settings.bound_core,
-            &ws.filaments.bound,
-            points,
-            self.mirrors(),
-            out,
-        );
-        ws.wake_sum.add(
-            settings.wake_core,
-            &ws.filaments.wake,
-            points,
-            self.mirrors(),
-            out,
-        );
+        ws.sums.load(self.settings(), &ws.filaments);
+        ws.sums.add(points, self.mirrors(), out);
         Ok(())
     }
 

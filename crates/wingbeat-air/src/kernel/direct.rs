@@ -1,12 +1,13 @@
 //! The direct sum: every segment at every target, in blocks over threads.
 
 use super::instruction_set::InstructionSet;
-use super::lanes::{BLOCK, Block, add_patches};
+use super::lanes::{BLOCK, Block, add_patches, edge_normal_velocities};
 use super::model::CoreModel;
 use super::packed::Packed;
 use super::sources::{Network, Points, Segments};
 use fearless_simd::Level;
 use rayon::prelude::*;
+use wingbeat_math::DVec3;
 
 /// Pairs of a task below which threads cost more than they give (some 30 microseconds of work).
 const TASK_PAIRS: usize = 10_000;
@@ -97,6 +98,60 @@ pub(crate) fn sum_all(
                 out.iter_mut().zip(sum).for_each(|(o, s)| *o += s);
             }
         });
+}
+
+/// The edges of a network one by one, each with unit circulation.
+#[derive(Clone, Debug)]
+pub(crate) struct UnitEdges {
+    level: Level,
+    packed: Packed,
+}
+
+impl Default for UnitEdges {
+    fn default() -> Self {
+        let best = InstructionSet::Best.level();
+        Self {
+            level: best.expect("the best set is always there"),
+            packed: Packed::default(),
+        }
+    }
+}
+
+impl UnitEdges {
+    /// Replaces the edges.
+    pub(crate) fn load(&mut self, model: CoreModel, network: &Network) {
+        self.packed.load_network(model, network);
+    }
+
+    /// Number of edges.
+    pub(crate) fn len(&self) -> usize {
+        self.packed.edges.len()
+    }
+
+    /// Velocity of every edge at up to [`BLOCK`] `places` (point, normal) along the normal [m/s]:
+    /// `out[edge * BLOCK + place]`.
+    pub(crate) fn normal_velocities(
+        &self,
+        model: CoreModel,
+        places: impl Iterator<Item = [DVec3; 2]>,
+        out: &mut [f64],
+    ) {
+        let (mut points, mut normals, mut count) = (Block::ZERO, Block::ZERO, 0);
+        for (k, [x, n]) in places.enumerate() {
+            (points.x[k], points.y[k], points.z[k]) = x.into();
+            (normals.x[k], normals.y[k], normals.z[k]) = n.into();
+            count = k + 1;
+        }
+        edge_normal_velocities(
+            self.level,
+            model,
+            &self.packed,
+            &points,
+            &normals,
+            count,
+            out,
+        );
+    }
 }
 
 /// `count` targets from `first` on.

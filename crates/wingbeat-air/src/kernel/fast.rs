@@ -131,6 +131,11 @@ impl FastSum {
         }
     }
 
+    /// The settings.
+    pub fn settings(&self) -> &FastSettings {
+        &self.settings
+    }
+
     /// Replaces the sources.
     pub fn load_network(&mut self, network: &Network) {
         self.has_tree = match self.settings.method {

@@ -4,8 +4,8 @@
 //! [`super::reference`], so that a target's bits depend neither on the vector width nor on its lane.
 
 use super::model::CoreModel;
-use super::packed::{Packed, Patch, WINDOW};
-use super::reference::EXP_TAYLOR;
+use super::packed::{Packed, PackedEdge, Patch, WINDOW};
+use super::reference::{EXP_TAYLOR, STRENGTH};
 use fearless_simd::{Level, dispatch, prelude::*};
 use std::ops::Range;
 
@@ -54,6 +54,40 @@ pub(crate) fn add_patches(
     }
 }
 
+/// Normal velocity [m/s] of every edge by itself, with unit circulation, at the first `count` of
+/// `targets`: `out[e * BLOCK + lane]`. Patches must be those of one network, in its order.
+pub(crate) fn edge_normal_velocities(
+    level: Level,
+    model: CoreModel,
+    packed: &Packed,
+    targets: &Block,
+    normals: &Block,
+    count: usize,
+    out: &mut [f64],
+) {
+    let all = 0..packed.patches.len();
+    let job = Job {
+        packed,
+        ranges: std::slice::from_ref(&all),
+        targets,
+        count,
+    };
+    match model {
+        CoreModel::CutOff { .. } => {
+            dispatch!(level, simd => job.each::<_, CutOff>(simd, normals, out));
+        }
+        CoreModel::Vatistas { .. } => {
+            dispatch!(level, simd => job.each::<_, Vatistas>(simd, normals, out));
+        }
+        CoreModel::Scully { .. } => {
+            dispatch!(level, simd => job.each::<_, Scully>(simd, normals, out));
+        }
+        CoreModel::LambOseen { .. } => {
+            dispatch!(level, simd => job.each::<_, LambOseen>(simd, normals, out));
+        }
+    }
+}
+
 /// What to sum, and where.
 struct Job<'a> {
     packed: &'a Packed,
@@ -81,6 +115,22 @@ impl Job<'_> {
         }
     }
 
+    #[inline(always)]
+    fn each<S: Simd, C: Core>(&self, simd: S, normals: &Block, out: &mut [f64]) {
+        let mut window = [[S::f64s::splat(simd, 0.0); 4]; WINDOW];
+        for lane in (0..self.count).step_by(S::f64s::LEN) {
+            let (p, n) = (load(simd, self.targets, lane), load(simd, normals, lane));
+            for patch in &self.packed.patches {
+                self.look_at_nodes::<S>(p, patch, &mut window);
+                for e in patch.edges.clone() {
+                    let (c, k) = induced::<S, C>(simd, &self.packed.edges[e], STRENGTH, &window);
+                    let v = c[0] * k * n[0] + c[1] * k * n[1] + c[2] * k * n[2];
+                    v.store_slice(&mut out[e * BLOCK + lane..][..S::f64s::LEN]);
+                }
+            }
+        }
+    }
+
     /// r = p - node and abs(r) for the new nodes of the patch.
     #[inline(always)]
     fn look_at_nodes<S: Simd>(&self, p: [S::f64s; 3], patch: &Patch, window: &mut Window<S>) {
@@ -104,18 +154,29 @@ impl Job<'_> {
         v: &mut [S::f64s; 3],
     ) {
         for edge in &self.packed.edges[patch.edges.clone()] {
-            let [x1, y1, z1, n1] = window[edge.from as usize % WINDOW];
-            let [x2, y2, z2, n2] = window[edge.to as usize % WINDOW];
-            let c = [y1 * z2 - z1 * y2, z1 * x2 - x1 * z2, x1 * y2 - y1 * x2];
-            let d = x1 * x2 + y1 * y2 + z1 * z2;
-            let (num, den) = C::fraction(simd, n1 + n2, n1 * n2, d, c, edge.term);
-            let zero = S::f64s::splat(simd, 0.0);
-            let k = den.simd_gt(zero).select(num * edge.strength / den, zero);
+            let (c, k) = induced::<S, C>(simd, edge, edge.strength, window);
             v[0] += c[0] * k;
             v[1] += c[1] * k;
             v[2] += c[2] * k;
         }
     }
+}
+
+/// The velocity of an edge as c k, with c = r1 x r2 and k the rest.
+#[inline(always)]
+fn induced<S: Simd, C: Core>(
+    simd: S,
+    edge: &PackedEdge,
+    strength: f64,
+    window: &Window<S>,
+) -> ([S::f64s; 3], S::f64s) {
+    let [x1, y1, z1, n1] = window[edge.from as usize % WINDOW];
+    let [x2, y2, z2, n2] = window[edge.to as usize % WINDOW];
+    let c = [y1 * z2 - z1 * y2, z1 * x2 - x1 * z2, x1 * y2 - y1 * x2];
+    let d = x1 * x2 + y1 * y2 + z1 * z2;
+    let (num, den) = C::fraction(simd, n1 + n2, n1 * n2, d, c, edge.term);
+    let zero = S::f64s::splat(simd, 0.0);
+    (c, den.simd_gt(zero).select(num * strength / den, zero))
 }
 
 /// r and abs(r) of the nodes in sight, for the targets in the lanes.

@@ -40,8 +40,10 @@ mod packed;
 pub mod reference;
 mod sources;
 
+pub(crate) use direct::UnitEdges;
 pub use direct::{DirectSum, add_velocity};
 pub use fast::{FastSettings, FastSum, Method, Report};
 pub use instruction_set::InstructionSet;
+pub(crate) use lanes::BLOCK;
 pub use model::CoreModel;
 pub use sources::{Network, Points, Segments};

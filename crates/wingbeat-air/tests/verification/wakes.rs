@@ -140,20 +140,28 @@ fn exact_truncation_keeps_rings_closed() {
     assert_eq!(run.state.sheets[0].rows(), 3);
     short.impulse(&run.state, &mut run.ws).unwrap();
     let filaments = run.ws.filaments();
-    let front: Vec<usize> = short.sheets()[0].nodes.clone();
-    let mut sum = vec![0.0; filaments.wake.nodes.len() + filaments.bound.nodes.len()];
-    let wake_nodes = filaments.wake.nodes.len();
-    let global = |n: usize| match n.checked_sub(wake_nodes - front.len()) {
-        Some(k) => wake_nodes + front[k], // the front row is the lattice's
-        None => n,
+    let (nodes, width) = (filaments.wake.nodes.len(), filaments.front.nodes.len() / 2);
+    let mut sum = vec![0.0; nodes + filaments.bound.nodes.len()];
+    let shed = &short.sheets()[0].nodes;
+    // The front joins the newest free row of the wake to nodes of the lattice.
+    let in_front = |n: usize| match n.checked_sub(width) {
+        Some(c) => nodes + shed[c],
+        None => nodes - width + n,
     };
-    for (&[a, b], g) in filaments.wake.edges.iter().zip(&filaments.wake.gamma) {
-        sum[global(a as usize)] -= g;
-        sum[global(b as usize)] += g;
+    let mut flow = |[a, b]: [usize; 2], g: f64| {
+        sum[a] -= g;
+        sum[b] += g;
+    };
+    let ends = |[a, b]: [u32; 2]| [a as usize, b as usize];
+    let (wake, front, bound) = (&filaments.wake, &filaments.front, &filaments.bound);
+    for (&edge, &g) in wake.edges.iter().zip(&wake.gamma) {
+        flow(ends(edge), g);
     }
-    for (&[a, b], g) in filaments.bound.edges.iter().zip(&filaments.bound.gamma) {
-        sum[wake_nodes + a as usize] -= g;
-        sum[wake_nodes + b as usize] += g;
+    for (&edge, &g) in front.edges.iter().zip(&front.gamma) {
+        flow(ends(edge).map(in_front), g);
+    }
+    for (&edge, &g) in bound.edges.iter().zip(&bound.gamma) {
+        flow(ends(edge).map(|n| nodes + n), g);
     }
     // As much vorticity enters every node as leaves it, but for roundings.
     assert!(sum.iter().all(|s| s.abs() < 1e-14), "{sum:?}");

@@ -1,0 +1,124 @@
+//! The velocity that filaments make at many points: which sum serves which filaments, and what need
+//! not be summed again.
+
+use crate::filaments::Filaments;
+use crate::images::Mirror;
+use crate::kernel::{CoreModel, FastSettings, FastSum, Method, Network, Points, Report};
+use crate::settings::AirSettings;
+
+/// A Biot-Savart sum over one network, its memory kept from call to call.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Summation {
+    sum: Option<FastSum>,
+    loaded: Network,
+    reflected: Points,
+    image: Points,
+    /// What the last sum did.
+    pub report: Option<Report>,
+}
+
+impl Summation {
+    /// Takes the sources; says whether they differ from those it holds already.
+    pub(crate) fn load(&mut self, settings: FastSettings, sources: &Network) -> bool {
+        let kept = self.sum.take_if(|sum| *sum.settings() == settings);
+        let is_known = kept.is_some() && self.loaded == *sources;
+        let sum = self
+            .sum
+            .insert(kept.unwrap_or_else(|| FastSum::new(settings)));
+        if !is_known {
+            sum.load_network(sources);
+            self.loaded.clone_from(sources);
+        }
+        !is_known
+    }
+
+    /// Adds the velocity of the sources and their images at `targets` to `out`.
+    pub(crate) fn add(&mut self, targets: &Points, mirrors: &[Mirror], out: &mut Points) {
+        let sum = self.sum.as_mut().expect("sources are loaded");
+        self.report = Some(sum.add_velocity(targets, out));
+        for mirror in mirrors {
+            self.reflected.clear();
+            targets
+                .iter()
+                .for_each(|x| self.reflected.push(mirror.place(x)));
+            self.image.reset(targets.len());
+            sum.add_velocity(&self.reflected, &mut self.image);
+            for i in 0..targets.len() {
+                out.set(i, out.get(i) + mirror.vector(self.image.get(i)));
+            }
+        }
+    }
+}
+
+/// How filaments of this core are summed: those on and near surfaces one by one.
+pub(crate) fn direct(model: CoreModel) -> FastSettings {
+    FastSettings {
+        method: Method::Direct,
+        ..FastSettings::new(model)
+    }
+}
+
+/// How the free wakes are summed.
+pub(crate) fn free(settings: &AirSettings) -> FastSettings {
+    FastSettings {
+        method: settings.summation,
+        tolerance: settings.tolerance,
+        ..FastSettings::new(settings.wake_core)
+    }
+}
+
+/// The sums over all filaments.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Sums {
+    pub bound: Summation,
+    pub front: Summation,
+    pub wake: Summation,
+}
+
+impl Sums {
+    /// Takes all filaments.
+    pub(crate) fn load(&mut self, settings: &AirSettings, filaments: &Filaments) {
+        self.bound
+            .load(direct(settings.bound_core), &filaments.bound);
+        self.front
+            .load(direct(settings.wake_core), &filaments.front);
+        self.wake.load(free(settings), &filaments.wake);
+    }
+
+    /// Adds the velocity of all filaments and their images at `targets` to `out`.
+    pub(crate) fn add(&mut self, targets: &Points, mirrors: &[Mirror], out: &mut Points) {
+        self.bound.add(targets, mirrors, out);
+        self.front.add(targets, mirrors, out);
+        self.wake.add(targets, mirrors, out);
+    }
+}
+
+/// Velocity of the free wakes at points that hardly move while bodies and air come to agree.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct StillWake {
+    points: Points,
+    velocity: Points,
+}
+
+impl StillWake {
+    /// Sets `out` to the velocity of the `wake` at `points`. While the wake is the same and no point
+    /// is farther than `near` [m] from where the velocity was last summed, that velocity is taken.
+    pub(crate) fn velocity(
+        &mut self,
+        wake: &mut Summation,
+        is_new: bool,
+        points: &Points,
+        near: f64,
+        mirrors: &[Mirror],
+        out: &mut Points,
+    ) {
+        let kept = !is_new && self.points.len() == points.len();
+        let is_near = |(a, b): (wingbeat_math::DVec3, wingbeat_math::DVec3)| a.distance(b) <= near;
+        if !(kept && self.points.iter().zip(points.iter()).all(is_near)) {
+            self.points.clone_from(points);
+            self.velocity.reset(points.len());
+            wake.add(points, mirrors, &mut self.velocity);
+        }
+        out.clone_from(&self.velocity);
+    }
+}
