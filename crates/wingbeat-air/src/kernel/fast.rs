@@ -14,8 +14,11 @@ use wingbeat_math::DVec3;
 const AUTO_EDGES: usize = 4000;
 const AUTO_TARGETS: usize = 256;
 
-/// Targets at which the tree is checked against the direct sum.
+/// Targets, at most, at which the tree is checked against the direct sum: one of every
+/// [`SAMPLE_EVERY`].
 const SAMPLES: usize = BLOCK;
+const SAMPLE_EVERY: usize = 250;
+const LEAST_SAMPLES: usize = 16;
 
 /// What a far cell may leave out, in parts of the tolerance. Many cells add up, with either sign:
 /// fewer may leave out more, as the inverse root of their number.
@@ -23,8 +26,16 @@ fn share(leaves: usize) -> f64 {
     0.6 * (3000.0 / leaves as f64).sqrt().max(1.0)
 }
 
+/// The first attempt is this much laxer than estimates say it should be.
+const LAX: f64 = 10.0;
+
+/// Cost of summing an edge in a leaf, and of evaluating an expansion, in tenths of the cost of an
+/// edge in the direct sum, which looks at fewer nodes per edge; measured.
+const NEAR: u64 = 13;
+const FAR: u64 = 160;
+
 /// Attempts at the tolerance before the direct sum takes over.
-const ATTEMPTS: usize = 4;
+const ATTEMPTS: usize = 6;
 
 /// How to sum.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -166,26 +177,49 @@ impl FastSum {
         }
         let check = Check::new(&self.cells, targets);
         self.groups.load(targets);
-        let mut share = share(self.cells.leaf_patches.len());
-        for attempt in 1..=ATTEMPTS {
-            let allowed = share * self.settings.tolerance * check.scale;
-            let work = self.groups.evaluate(&self.cells, allowed);
-            let (error_rms, error_max) = check.error(&self.groups);
-            if error_rms <= self.settings.tolerance {
-                self.groups.add_to(out);
-                return Report {
-                    method: Method::Tree,
-                    error_rms,
-                    error_max,
-                    samples: check.count,
-                    attempts: attempt,
-                    far: work.far,
-                    near: work.near,
-                };
-            }
-            share *= 0.3 * self.settings.tolerance / error_rms;
+        let (share, attempts) = match self.find_share(&check) {
+            Ok(found) => found,
+            Err(attempts) => return self.add_direct(targets, out, attempts),
+        };
+        let allowed = share * self.settings.tolerance * check.scale;
+        let work = self.groups.evaluate(&self.cells, allowed);
+        let (error_rms, error_max) = check.error(&self.groups);
+        self.groups.add_to(out);
+        Report {
+            method: Method::Tree,
+            error_rms,
+            error_max,
+            samples: check.count,
+            attempts,
+            far: work.far,
+            near: work.near,
         }
-        self.add_direct(targets, out, ATTEMPTS)
+    }
+
+    /// What far cells may leave out so that the error at the sampled targets keeps the tolerance,
+    /// and the attempts it took: begins too lax, for a lax attempt costs little, and tries on the
+    /// groups of the samples only. The error is the attempts made: the tolerance cannot be kept, or
+    /// not cheaper than by the direct sum.
+    fn find_share(&mut self, check: &Check) -> Result<(f64, usize), usize> {
+        let tolerance = self.settings.tolerance;
+        let mut share = LAX * share(self.cells.leaf_patches.len());
+        for attempt in 1..=ATTEMPTS {
+            let allowed = share * tolerance * check.scale;
+            let samples = &check.index[..check.count];
+            let work = self.groups.evaluate_around(&self.cells, allowed, samples);
+            let pairs = self.cells.packed.edges.len() as u64 * work.targets;
+            if self.settings.method == Method::Auto
+                && NEAR * work.near + FAR * work.far > 10 * pairs
+            {
+                return Err(attempt); // a stricter one costs more still
+            }
+            let (error_rms, _) = check.error(&self.groups);
+            if error_rms <= tolerance {
+                return Ok((share, attempt));
+            }
+            share *= (0.5 * tolerance / error_rms).max(1e-3);
+        }
+        Err(ATTEMPTS)
     }
 
     fn add_direct(&self, targets: &Points, out: &mut Points, attempts: usize) -> Report {
@@ -219,7 +253,7 @@ fn order(tolerance: f64) -> usize {
     }
 }
 
-/// The direct sum at targets spread evenly over their numbers.
+/// The direct sum at targets spread over their numbers.
 struct Check {
     count: usize,
     index: [usize; SAMPLES],
@@ -230,8 +264,12 @@ struct Check {
 
 impl Check {
     fn new(cells: &Cells, targets: &Points) -> Self {
-        let count = targets.len().min(SAMPLES);
-        let index = std::array::from_fn(|k| k.min(count - 1) * targets.len() / count);
+        let few = targets.len().min(LEAST_SAMPLES);
+        let count = (targets.len() / SAMPLE_EVERY).clamp(few, SAMPLES);
+        let index = std::array::from_fn(|k| {
+            // A square more than even steps: no pattern in the numbering is always missed.
+            (k.min(count - 1) * targets.len() / count + k * k) % targets.len()
+        });
         let mut velocity = [DVec3::ZERO; SAMPLES];
         // Eight targets to a task: one vector of the widest processors.
         velocity[..count]

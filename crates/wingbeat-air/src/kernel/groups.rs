@@ -8,7 +8,6 @@ use rayon::prelude::*;
 use std::ops::Range;
 use wingbeat_math::DVec3;
 
-/// Groups of a part that is worth a task of its own.
 /// Targets of a group; fewer see fewer cells near, more share the walk.
 const GROUP: usize = 32;
 
@@ -29,6 +28,8 @@ pub(crate) struct Groups {
     sums: Points,
     /// Place of a target among the items.
     place: Vec<u32>,
+    /// Groups that are to be evaluated.
+    wanted: Vec<bool>,
 }
 
 /// Work done for a group.
@@ -38,6 +39,8 @@ pub(crate) struct Work {
     pub far: u64,
     /// Edges summed, times targets.
     pub near: u64,
+    /// Targets.
+    pub targets: u64,
 }
 
 impl std::ops::Add for Work {
@@ -46,6 +49,7 @@ impl std::ops::Add for Work {
         Self {
             far: self.far + other.far,
             near: self.near + other.near,
+            targets: self.targets + other.targets,
         }
     }
 }
@@ -70,13 +74,37 @@ impl Groups {
     /// Velocities of all sources at all targets, with a part of about `allowed` \[m/s\] left out for
     /// every far cell.
     pub fn evaluate(&mut self, cells: &Cells, allowed: f64) -> Work {
+        self.evaluate_where(cells, allowed, |_| true)
+    }
+
+    /// The same for the groups of the targets with these numbers only.
+    pub fn evaluate_around(&mut self, cells: &Cells, allowed: f64, targets: &[usize]) -> Work {
+        let mut wanted = std::mem::take(&mut self.wanted);
+        wanted.clear();
+        wanted.resize(self.items.len().div_ceil(GROUP), false);
+        for &i in targets {
+            wanted[self.place[i] as usize / GROUP] = true;
+        }
+        let work = self.evaluate_where(cells, allowed, |group| wanted[group]);
+        self.wanted = wanted;
+        work
+    }
+
+    fn evaluate_where(
+        &mut self,
+        cells: &Cells,
+        allowed: f64,
+        wanted: impl Fn(usize) -> bool + Sync,
+    ) -> Work {
         self.sums.reset(self.items.len());
         let Points { x, y, z } = &mut self.sums;
         x.par_chunks_mut(GROUP)
             .zip(y.par_chunks_mut(GROUP))
             .zip(z.par_chunks_mut(GROUP))
             .zip(self.items.par_chunks(GROUP))
-            .map(|(((x, y), z), items)| {
+            .enumerate()
+            .filter(|(group, _)| wanted(*group))
+            .map(|(_, (((x, y), z), items))| {
                 let (sum, work) = Walk::of(cells, items, allowed).done();
                 let n = items.len();
                 x.copy_from_slice(&sum.x[..n]);
@@ -178,6 +206,7 @@ impl<'a> Walk<'a> {
         self.visit(0);
         self.sum_far();
         self.sum_near();
+        self.work.targets = self.count as u64;
         (self.sum, self.work)
     }
 
