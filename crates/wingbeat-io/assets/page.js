@@ -15,6 +15,7 @@ byId("name").textContent = flight.name;
 byId("about").textContent = [flight.description, "wingbeat " + flight.version, flight.outcome].filter(Boolean).join(" · ");
 byId("summary").textContent = flight.summary;
 byId("thinned").textContent = flight.thinned;
+byId("case").textContent = flight.case;
 
 // ---- numbers of a frame: 16-bit whole numbers, scaled by the box of the frame ----
 function unpack(k) {
@@ -26,14 +27,15 @@ function unpack(k) {
     for (let i = 0; i < 3 * n; i++) out[i] = (f.low[i % 3] + whole[i] * f.step_m) * flight.scale;
     return out;
   };
-  const signed = (n) => { const w = take(Int16Array, n), out = new Float32Array(n); for (let i = 0; i < n; i++) out[i] = w[i] / 32767; return out; };
+  const signed = (n, share) => { const w = take(Int16Array, n), out = new Float32Array(n); for (let i = 0; i < n; i++) out[i] = w[i] / 32767 * share; return out; };
+  const circulation = f.circulation / flight.most.circulation, pressure = f.pressure / flight.most.pressure;
   const cells = flight.surfaces.reduce((n, s) => n + s.quads.length / 4, 0);
   const nodes = flight.surfaces.reduce((n, s) => n + s.nodes, 0);
-  const surfaces = { points: points(nodes), circulation: signed(cells), pressure: signed(cells) };
-  const sheets = flight.sheets.map((cols, s) => ({ cols, rows: f.rows[s] }));
+  const surfaces = { points: points(nodes), circulation: signed(cells, circulation), pressure: signed(cells, pressure) };
+  const sheets = flight.sheets.map((cols, s) => ({ cols, rows: f.rows[s] || 0 }));
   const wakeNodes = sheets.reduce((n, s) => n + (s.rows ? (s.rows + 1) * (s.cols + 1) : 0), 0);
   const rings = sheets.reduce((n, s) => n + s.rows * s.cols, 0);
-  return { surfaces, sheets, wake: { points: points(wakeNodes), circulation: signed(rings) } };
+  return { surfaces, sheets, wake: { points: points(wakeNodes), circulation: signed(rings, circulation) } };
 }
 
 // Blue, white, red: told apart by colour-blind readers.
@@ -61,19 +63,22 @@ const moving = new THREE.Group();
 scene.add(moving);
 
 // Each quadrilateral becomes two triangles with their own corners, so that a panel has one colour.
+// Wakes are the more transparent the weaker they are, so that old sheets do not hide the animal.
 function mesh(points, corners, values, material) {
-  const n = corners.length / 4, position = new Float32Array(18 * n), paint = new Float32Array(18 * n);
+  const n = corners.length / 4, parts = material.transparent ? 4 : 3, position = new Float32Array(18 * n), paint = new Float32Array(6 * parts * n);
   const order = [0, 1, 2, 0, 2, 3];
   for (let q = 0; q < n; q++) {
     for (let t = 0; t < 6; t++) {
       const p = 3 * corners[4 * q + order[t]], at = 18 * q + 3 * t;
       position[at] = points[p]; position[at + 1] = points[p + 1]; position[at + 2] = points[p + 2];
-      if (values) colour(values[q], paint, at); else paint.set([0.82, 0.80, 0.74], at);
+      const dye = parts * (6 * q + t);
+      if (values) colour(values[q], paint, dye); else paint.set([0.82, 0.80, 0.74], dye);
+      if (parts === 4) paint[dye + 3] = 0.05 + 0.5 * Math.sqrt(Math.min(1, Math.abs(values[q])));
     }
   }
   const geometry = new THREE.BufferGeometry();
   geometry.setAttribute("position", new THREE.BufferAttribute(position, 3));
-  geometry.setAttribute("color", new THREE.BufferAttribute(paint, 3));
+  geometry.setAttribute("color", new THREE.BufferAttribute(paint, parts));
   geometry.computeVertexNormals();
   return new THREE.Mesh(geometry, material);
 }
@@ -92,7 +97,7 @@ function line(points, material) {
   return new THREE.Line(geometry, material);
 }
 const SOLID = new THREE.MeshLambertMaterial({ vertexColors: true, side: THREE.DoubleSide });
-const WAKE = new THREE.MeshBasicMaterial({ vertexColors: true, side: THREE.DoubleSide, transparent: true, opacity: 0.42, depthWrite: false });
+const WAKE = new THREE.MeshBasicMaterial({ vertexColors: true, side: THREE.DoubleSide, transparent: true, depthWrite: false });
 const EDGE = new THREE.LineBasicMaterial({ color: 0x333333, transparent: true, opacity: 0.35 });
 const TRAIL = new THREE.LineBasicMaterial({ color: 0x009e73 });
 const PATH = new THREE.LineBasicMaterial({ color: 0x222222 });
@@ -157,7 +162,9 @@ function drawScene() {
   const values = coloured === "pressure" ? now.surfaces.pressure : now.surfaces.circulation;
   flight.surfaces.forEach((s, k) => {
     const slice = SLICES[k], corners = s.quads.map((n) => n + slice.node);
-    moving.add(mesh(points, corners, flight.air ? values.subarray(slice.cell, slice.cell + slice.cells) : null, SOLID));
+    // The circulation of a closed body is known but for a constant: it is not shown.
+    const painted = flight.air && (k < flight.wings || coloured === "pressure");
+    moving.add(mesh(points, corners, painted ? values.subarray(slice.cell, slice.cell + slice.cells) : null, SOLID));
     moving.add(edges(points, corners));
   });
   if (byId("wakes").checked) moving.add(mesh(now.wake.points, sheetCorners(now.sheets), now.wake.circulation, WAKE));
@@ -180,6 +187,7 @@ function drawScene() {
     controls.target.add(shift);
   }
   target = here;
+  controls.update();
   render();
   say(tipPaths.map((p) => p.slice(3 * frame, 3 * frame + 3).map((x) => (x / flight.scale).toExponential(4)).join(" ")).join(" | "));
 }
@@ -243,7 +251,7 @@ function range(panel) {
   return [lo - margin, hi + margin];
 }
 function ticks(lo, hi) {
-  const raw = (hi - lo) / 4, p = 10 ** Math.floor(Math.log10(raw)), step = [1, 2, 5, 10].map((m) => m * p).find((s) => s >= raw);
+  const raw = (hi - lo) / 6, p = 10 ** Math.floor(Math.log10(raw)), step = [1, 2, 5, 10].map((m) => m * p).find((s) => s >= raw);
   const out = [];
   for (let t = Math.ceil(lo / step) * step; t <= hi; t += step) out.push(Math.abs(t) < step / 1e6 ? 0 : t);
   return out;
@@ -264,7 +272,8 @@ function drawPlot(p) {
     g.fillText(p.panel.logarithmic ? "1e" + (+t.toFixed(1)) : String(+t.toPrecision(4)), LEFT - 5, Y(t));
   }
   g.textAlign = "center"; g.textBaseline = "alphabetic";
-  for (const t of ticks(x0, x1)) g.fillText(String(+t.toPrecision(4)), X(t), h - 5);
+  const free = w - RIGHT - g.measureText(p.chart.x_label).width - 12;
+  for (const t of ticks(x0, x1)) if (X(t) < free) g.fillText(String(+t.toPrecision(4)), X(t), h - 5);
   g.textAlign = "right"; g.fillText(p.chart.x_label, w - RIGHT, h - 5);
   g.textAlign = "left"; g.fillText(p.panel.label, 6, 14);
   let at = 14 + g.measureText(p.panel.label).width;

@@ -4,6 +4,7 @@ mod analyse;
 mod check;
 mod progress;
 mod run;
+mod view;
 
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -29,6 +30,8 @@ enum Command {
     Run(RunArgs),
     /// Go on with a run that was interrupted, killed or ran out of disk, bit for bit.
     Resume(ResumeArgs),
+    /// Write the flight page of a run, one HTML file, and open it in the browser.
+    View(view::ViewArgs),
     /// Check a case file or preset without flying it, and say what it holds.
     Check {
         /// Case file or preset.
@@ -115,6 +118,7 @@ fn main() -> ExitCode {
     let outcome = match cli.command {
         Command::Run(args) => return run::run(&args),
         Command::Resume(args) => return run::resume(&args),
+        Command::View(args) => view::view(&args),
         Command::Check { case, set } => check::check(&case, &set),
         Command::Trim(args) => return analyse::trim::run(&args),
         Command::Stability(args) => return analyse::stability::run(&args),

@@ -6,18 +6,9 @@ use std::process::{Command, Stdio};
 
 mod support;
 
-use support::{Scratch, array, wingbeat};
+use support::{Scratch, array, flown};
 use wingbeat::flight::Simulation;
 use wingbeat::io::{History, LoadedCase, Manifest, Outcome, presets::PRESETS, result};
-
-fn flown(dir: &Path, args: &[&str]) {
-    let out = wingbeat(dir, args);
-    assert!(
-        out.status.success(),
-        "{args:?}: {}",
-        String::from_utf8_lossy(&out.stderr)
-    );
-}
 
 fn manifest(dir: &Path) -> Manifest {
     serde_json::from_str(&fs::read_to_string(dir.join("manifest.json")).unwrap()).unwrap()

@@ -31,6 +31,8 @@ pub struct OutputSettings {
     pub frames_every: usize,
     /// Whether figures are drawn.
     pub figures: bool,
+    /// Whether the flight page is written.
+    pub page: bool,
     /// When the state is saved.
     pub save: SaveSettings,
 }

@@ -11,6 +11,9 @@ use crate::error::IoError;
 use crate::result::{History, ResultDir};
 pub use chart::{Chart, Panel, Series};
 
+/// More rows of a history than this do not make a figure better.
+pub(crate) const MOST_ROWS: usize = 4000;
+
 /// Draws every figure that makes sense for the case into `figures/`.
 ///
 /// # Errors
@@ -25,6 +28,14 @@ pub fn draw_all(dir: &ResultDir, case: &LoadedCase, history: &History) -> Result
         dir.write(&format!("figures/{name}.svg"), svg.as_bytes())?;
     }
     Ok(())
+}
+
+/// The charts of a run.
+pub(crate) fn charts(setup: &FlightSetup, history: &History) -> Vec<Chart> {
+    kinds::all(setup, history)
+        .into_iter()
+        .map(|c| c.1)
+        .collect()
 }
 
 /// Time axis: wingbeats where there are any, else seconds.

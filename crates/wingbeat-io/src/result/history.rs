@@ -10,6 +10,7 @@ use wingbeat_flight::Record;
 
 use super::columns;
 use super::manifest::hexadecimal;
+use super::rows::Rows;
 use crate::error::IoError;
 
 /// Appends one row per record; every row is on disk before the next step begins.
@@ -168,36 +169,38 @@ impl History {
     /// # Errors
     /// A file that cannot be read or is not a history.
     pub fn read(path: &Path) -> Result<Self, IoError> {
-        let text = std::fs::read_to_string(path).map_err(IoError::read(path))?;
-        let damaged = |problem: String| IoError::Damaged {
-            path: path.to_owned(),
-            problem,
-        };
-        let whole = text.rfind('\n').map_or("", |end| &text[..end]);
-        let mut lines = whole.lines();
-        let header = lines.next().filter(|h| h.starts_with("step_count,"));
-        let header =
-            header.ok_or_else(|| damaged("this is not a history of wingbeat".to_owned()))?;
-        let names: Vec<String> = header.split(',').map(str::to_owned).collect();
+        Self::every(path, 1)
+    }
+
+    /// Reads about `most` rows of a history, evenly spaced, the first and the last among them:
+    /// memory does not grow with the run. Returns the spacing, too.
+    ///
+    /// # Errors
+    /// As [`Self::read`].
+    pub fn thinned(path: &Path, most: usize) -> Result<(Self, usize), IoError> {
+        let stride = Rows::count(path)?.div_ceil(most.max(1)).max(1);
+        Ok((Self::every(path, stride)?, stride))
+    }
+
+    /// Every `stride`-th row and the last.
+    fn every(path: &Path, stride: usize) -> Result<Self, IoError> {
+        let mut rows = Rows::open(path)?;
+        let names = rows.names().to_vec();
         let mut columns = vec![vec![]; names.len()];
-        for (k, line) in lines.enumerate() {
-            let fields: Vec<&str> = line.split(',').collect();
-            if fields.len() != names.len() {
-                return Err(damaged(format!(
-                    "row {} has {} fields, not {}",
-                    k + 1,
-                    fields.len(),
-                    names.len()
-                )));
+        let mut last: Vec<f64> = vec![];
+        let mut count = 0;
+        while let Some(row) = rows.next_row()? {
+            if count % stride == 0 {
+                push(&mut columns, row);
+                last.clear();
+            } else {
+                last.clear();
+                last.extend_from_slice(row);
             }
-            for (column, field) in columns.iter_mut().zip(fields) {
-                let value = field.parse();
-                column.push(
-                    value.map_err(|_| {
-                        damaged(format!("row {}: `{field}` is not a number", k + 1))
-                    })?,
-                );
-            }
+            count += 1;
+        }
+        if !last.is_empty() {
+            push(&mut columns, &last);
         }
         let columns = names.iter().cloned().zip(columns).collect();
         Ok(Self { names, columns })
@@ -227,5 +230,11 @@ impl History {
             }
         }
         sum
+    }
+}
+
+fn push(columns: &mut [Vec<f64>], row: &[f64]) {
+    for (column, value) in columns.iter_mut().zip(row) {
+        column.push(*value);
     }
 }

@@ -8,14 +8,18 @@
 //! figures/        drawings made from history.csv
 //! manifest.json   version, hash of the case, threads, counts, timings, warnings
 //! checkpoint.bin  the state from which `wingbeat resume` goes on; removed when the flight is done
+//! flight.html     the flight page, if it was asked for
 //! summary.txt     what happened and how far it can be trusted; summary.json the same numbers
 //! ```
 
 pub mod checkpoint;
 pub mod columns;
 pub mod directory;
+pub mod frames;
 pub mod history;
 pub mod manifest;
+pub mod poses;
+pub mod rows;
 pub mod saver;
 pub mod summary;
 pub mod vtp;

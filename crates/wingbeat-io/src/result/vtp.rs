@@ -10,6 +10,8 @@ use base64::engine::general_purpose::STANDARD;
 use wingbeat_flight::Snapshot;
 use wingbeat_math::DVec3;
 
+use super::poses::picture;
+
 /// Points, quadrilaterals and numbers per quadrilateral.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct PolyData {
@@ -89,7 +91,7 @@ impl PolyData {
             "<Piece NumberOfPoints=\"{points}\" NumberOfVerts=\"0\" NumberOfLines=\"0\" NumberOfStrips=\"0\" NumberOfPolys=\"{quads}\">"
         );
         out.push_str("<Points>\n");
-        let picture = self.points.iter().flat_map(|p| [p.x, -p.y, -p.z]);
+        let picture = self.points.iter().flat_map(|p| picture(*p));
         array(
             &mut out,
             "Float64",

@@ -12,10 +12,11 @@ use super::history::HistoryWriter;
 use super::manifest::{Manifest, Outcome, sha256};
 use super::saver::{self, Schedule};
 use super::vtp::{PolyData, frame_name, pvd};
-use super::{ResultDir, Summary};
+use super::{History, ResultDir, Summary};
 use crate::case::LoadedCase;
 use crate::error::IoError;
 use crate::figures;
+use crate::page;
 
 /// The index is rewritten when it has grown by one part in this many, so that writing it stays a
 /// small part however long the run is.
@@ -224,9 +225,10 @@ impl RunWriter {
     pub fn finish(mut self, outcome: Outcome) -> Result<Summary, IoError> {
         let begun = Instant::now();
         self.index()?;
-        let history = self.dir.history()?;
-        let summary = Summary::new(&self.case, &history, &outcome);
-        if self.case.output.figures && history.rows() > 2 {
+        let path = self.dir.join("history.csv");
+        let summary = Summary::read(&self.case, &path, &outcome)?;
+        if self.case.output.figures && summary.steps > 1 {
+            let (history, _) = History::thinned(&path, figures::MOST_ROWS)?;
             figures::draw_all(&self.dir, &self.case, &history)?;
         }
         self.dir
@@ -237,6 +239,9 @@ impl RunWriter {
         self.manifest.outcome = outcome;
         self.manifest.warnings.clone_from(&summary.warnings);
         self.note()?;
+        if self.case.output.page && summary.steps > 1 {
+            page::write(&self.dir, page::DEFAULT_BYTES)?;
+        }
         if self.manifest.outcome == Outcome::Finished {
             forget(&self.dir.join(checkpoint::FILE))?;
         }

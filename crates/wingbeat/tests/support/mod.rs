@@ -30,6 +30,22 @@ pub fn wingbeat(dir: &Path, args: &[&str]) -> Output {
     command.current_dir(dir).args(args).output().unwrap()
 }
 
+/// Runs the program, which must succeed.
+pub fn flown(dir: &Path, args: &[&str]) {
+    let out = wingbeat(dir, args);
+    let said = String::from_utf8_lossy(&out.stderr);
+    assert!(out.status.success(), "{args:?}: {said}");
+}
+
+/// Says that a test is skipped, and why; where WINGBEAT_SKIPS=no (as in CI) that is a failure.
+pub fn required(missing: &str) {
+    assert!(
+        std::env::var_os("WINGBEAT_SKIPS").is_none_or(|v| v != "no"),
+        "{missing}"
+    );
+    println!("skipped: {missing}");
+}
+
 /// The numbers of one DataArray of a .vtp file.
 pub fn array(text: &str, name: &str) -> Vec<[u8; 8]> {
     use base64::Engine as _;

@@ -23,6 +23,7 @@ pub(crate) fn output(case: &OutputCase) -> Built<OutputSettings> {
     Ok(OutputSettings {
         frames_every: case.frames_every,
         figures: case.figures,
+        page: case.page,
         save: SaveSettings {
             every: case.checkpoint_every,
             interval,

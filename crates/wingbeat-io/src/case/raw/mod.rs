@@ -158,6 +158,8 @@ pub struct OutputCase {
     pub frames_every: usize,
     /// Draw figures (.svg) at the end.
     pub figures: bool,
+    /// Write the flight page (flight.html) at the end.
+    pub page: bool,
     /// Save the state for `wingbeat resume` every so many steps; 0: not by steps.
     pub checkpoint_every: usize,
     /// Save the state after so much wall time; 0: not by time.
@@ -169,6 +171,7 @@ impl Default for OutputCase {
         Self {
             frames_every: 2,
             figures: true,
+            page: true,
             checkpoint_every: 0,
             checkpoint_interval_s: 20.0,
         }

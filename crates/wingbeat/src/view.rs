@@ -1,0 +1,44 @@
+//! `wingbeat view`: the flight page, opened in the browser.
+
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+
+use clap::Args;
+use wingbeat::io::{IoError, ResultDir, page};
+
+/// What `wingbeat view` is told.
+#[derive(Args)]
+pub(crate) struct ViewArgs {
+    /// Result directory of the run.
+    dir: PathBuf,
+    /// Only write the page.
+    #[arg(long)]
+    no_open: bool,
+    /// Largest size of the page, MB; the flight is thinned to fit.
+    #[arg(long, value_name = "MB", default_value_t = page::DEFAULT_BYTES as f64 / 1e6)]
+    size: f64,
+}
+
+/// The whole command.
+pub(crate) fn view(args: &ViewArgs) -> Result<(), IoError> {
+    let dir = ResultDir::open(&args.dir)?;
+    let page = page::write(&dir, (args.size * 1e6).max(0.0) as usize)?;
+    println!("wrote {}", page.display());
+    if !args.no_open && !open(&page) {
+        println!("No browser could be started: open this file in one.");
+    }
+    Ok(())
+}
+
+/// Hands a file to the browser the system prefers.
+fn open(page: &Path) -> bool {
+    let starter: &[&str] = match std::env::consts::OS {
+        "macos" => &["open"],
+        "windows" => &["cmd", "/C", "start", ""],
+        _ => &["xdg-open"],
+    };
+    let mut command = Command::new(starter[0]);
+    command.args(&starter[1..]).arg(page);
+    command.stdout(Stdio::null()).stderr(Stdio::null());
+    command.status().is_ok_and(|s| s.success())
+}
