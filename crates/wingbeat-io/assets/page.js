@@ -63,9 +63,9 @@ const moving = new THREE.Group();
 scene.add(moving);
 
 // Each quadrilateral becomes two triangles with their own corners, so that a panel has one colour.
-// Wakes are the more transparent the weaker they are, so that old sheets do not hide the animal.
-function mesh(points, corners, values, material) {
-  const n = corners.length / 4, parts = material.transparent ? 4 : 3, position = new Float32Array(18 * n), paint = new Float32Array(6 * parts * n);
+// Wakes are the more transparent the weaker and the older they are, so that they do not hide the animal.
+function mesh(points, corners, values, material, youth) {
+  const n = corners.length / 4, parts = youth ? 4 : 3, position = new Float32Array(18 * n), paint = new Float32Array(6 * parts * n);
   const order = [0, 1, 2, 0, 2, 3];
   for (let q = 0; q < n; q++) {
     for (let t = 0; t < 6; t++) {
@@ -73,14 +73,16 @@ function mesh(points, corners, values, material) {
       position[at] = points[p]; position[at + 1] = points[p + 1]; position[at + 2] = points[p + 2];
       const dye = parts * (6 * q + t);
       if (values) colour(values[q], paint, dye); else paint.set([0.82, 0.80, 0.74], dye);
-      if (parts === 4) paint[dye + 3] = 0.05 + 0.5 * Math.sqrt(Math.min(1, Math.abs(values[q])));
+      if (parts === 4) paint[dye + 3] = (0.02 + 0.3 * Math.min(1, Math.abs(values[q]))) * youth[q];
     }
   }
   const geometry = new THREE.BufferGeometry();
   geometry.setAttribute("position", new THREE.BufferAttribute(position, 3));
   geometry.setAttribute("color", new THREE.BufferAttribute(paint, parts));
   geometry.computeVertexNormals();
-  return new THREE.Mesh(geometry, material);
+  const out = new THREE.Mesh(geometry, material);
+  out.renderOrder = youth ? 0 : 1; // the animal is drawn over its wakes
+  return out;
 }
 function edges(points, corners) {
   const position = [];
@@ -89,14 +91,16 @@ function edges(points, corners) {
       for (const c of [corners[q + e], corners[q + (e + 1) % 4]]) position.push(points[3 * c], points[3 * c + 1], points[3 * c + 2]);
   const geometry = new THREE.BufferGeometry();
   geometry.setAttribute("position", new THREE.Float32BufferAttribute(position, 3));
-  return new THREE.LineSegments(geometry, EDGE);
+  const out = new THREE.LineSegments(geometry, EDGE);
+  out.renderOrder = 2;
+  return out;
 }
 function line(points, material) {
   const geometry = new THREE.BufferGeometry();
   geometry.setAttribute("position", new THREE.Float32BufferAttribute(points, 3));
   return new THREE.Line(geometry, material);
 }
-const SOLID = new THREE.MeshLambertMaterial({ vertexColors: true, side: THREE.DoubleSide });
+const SOLID = new THREE.MeshLambertMaterial({ vertexColors: true, side: THREE.DoubleSide, transparent: true });
 const WAKE = new THREE.MeshBasicMaterial({ vertexColors: true, side: THREE.DoubleSide, transparent: true, depthWrite: false });
 const EDGE = new THREE.LineBasicMaterial({ color: 0x333333, transparent: true, opacity: 0.35 });
 const TRAIL = new THREE.LineBasicMaterial({ color: 0x009e73 });
@@ -112,6 +116,12 @@ function sheetCorners(sheets) {
     first += (rows + 1) * (cols + 1);
   }
   return corners;
+}
+// From 1 for the newest row to 0.15 for rows older than a wingbeat.
+function youthOf(sheets) {
+  const beat = last > 0 ? flight.trail * (flight.frames[1].step - flight.frames[0].step) : 1, out = [];
+  for (const { cols, rows } of sheets) for (let i = 0; i < rows; i++) for (let j = 0; j < cols; j++) out.push(Math.max(0.15, 1 - i / beat));
+  return out;
 }
 function slices() {
   let node = 0, cell = 0;
@@ -167,7 +177,7 @@ function drawScene() {
     moving.add(mesh(points, corners, painted ? values.subarray(slice.cell, slice.cell + slice.cells) : null, SOLID));
     moving.add(edges(points, corners));
   });
-  if (byId("wakes").checked) moving.add(mesh(now.wake.points, sheetCorners(now.sheets), now.wake.circulation, WAKE));
+  if (byId("wakes").checked) moving.add(mesh(now.wake.points, sheetCorners(now.sheets), now.wake.circulation, WAKE, youthOf(now.sheets)));
   if (byId("trails").checked) {
     const from = Math.max(0, frame - flight.trail);
     tipPaths.forEach((path) => moving.add(line(path.slice(3 * from, 3 * frame + 3), TRAIL)));
