@@ -207,4 +207,28 @@ pub enum AirError {
         /// What differs.
         what: &'static str,
     },
+    /// Mirror twins that do not pair.
+    #[error(
+        "{what} {index} has no mirror twin that fits (a twin has the same number in mirror image and names this one back); compute both halves"
+    )]
+    Twins {
+        /// Node, panel, wake sheet, or the plane itself.
+        what: &'static str,
+        /// Its number.
+        index: usize,
+    },
+    /// Motion that is not mirror-symmetric though only one half is computed.
+    #[error(
+        "air step {step}: surface node {node} is {distance:e} m away from the mirror image of its twin {twin}; the flight is not mirror-symmetric: compute both halves"
+    )]
+    Asymmetric {
+        /// Accepted steps so far.
+        step: u64,
+        /// Node of all surfaces.
+        node: usize,
+        /// Its twin.
+        twin: usize,
+        /// Distance [m].
+        distance: f64,
+    },
 }

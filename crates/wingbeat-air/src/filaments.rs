@@ -44,11 +44,14 @@ impl Filaments {
         }
     }
 
-    /// All wake nodes that are to be moved, those on the shedding edges too: sheet after sheet,
+    /// All wake nodes that are to be moved (twins follow theirs), those on the shedding edges too: sheet after sheet,
     /// oldest row first, the shedding edge last.
     pub(crate) fn movable(&self, lattice: &Lattice, state: &AirState, out: &mut Points) {
         out.clear();
-        for (sheet, root) in state.sheets.iter().zip(lattice.sheets()) {
+        for (k, (sheet, root)) in state.sheets.iter().zip(lattice.sheets()).enumerate() {
+            if lattice.followed(k).is_some() {
+                continue;
+            }
             sheet.nodes.iter().for_each(|x| out.push(x));
             let edge = root.nodes.iter().map(|&n| self.bound.nodes.get(n));
             edge.for_each(|x| out.push(x));

@@ -38,6 +38,12 @@ pub(crate) struct Mirror {
 }
 
 impl Mirror {
+    /// The mirror of a plane that has a direction and a place.
+    pub(crate) fn of(plane: &Plane) -> Option<Self> {
+        let usable = plane.point.is_finite() && plane.normal.try_normalize().is_some();
+        usable.then(|| Self::new(plane))
+    }
+
     fn new(plane: &Plane) -> Self {
         let n = plane.normal.normalize();
         let outer = DMat3::from_cols(n * n.x, n * n.y, n * n.z);

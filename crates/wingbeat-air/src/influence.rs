@@ -18,6 +18,8 @@ use wingbeat_math::DenseLu;
 /// circulations is set to zero afterwards, which changes no velocity.
 pub(crate) struct Influence {
     matrix: Vec<f64>,
+    /// Circulations of the lead panels, where only one half is computed.
+    half: Vec<f64>,
     /// Normal velocity of every edge at a block of control points, for each block.
     rates: Vec<f64>,
     edges: UnitEdges,
@@ -30,6 +32,7 @@ impl Default for Influence {
     fn default() -> Self {
         Self {
             matrix: Vec::new(),
+            half: Vec::new(),
             rates: Vec::new(),
             edges: UnitEdges::default(),
             lu: DenseLu::new(0),
@@ -57,7 +60,7 @@ impl Influence {
 
     /// Makes room for the lattice, if there is none yet.
     fn fit(&mut self, lattice: &Lattice) {
-        let n = lattice.panel_count();
+        let n = unknowns(lattice);
         self.matrix.resize(n * n, 0.0);
         self.alpha.clear();
         self.alpha.resize(lattice.surfaces().len(), 0.0);
@@ -68,7 +71,8 @@ impl Influence {
 
     /// Blocks of rows are independent, so the bits do not depend on how threads share them.
     fn assemble(&mut self, lattice: &Lattice, filaments: &Filaments, panels: &Panels) {
-        let (n, model) = (lattice.panel_count(), lattice.settings().bound_core);
+        let (n, model) = (unknowns(lattice), lattice.settings().bound_core);
+        let lead = |i: usize| lattice.halves().map_or(i, |h| h.lead[i]);
         self.edges.load(model, &filaments.bound);
         let (edges, size) = (&self.edges, self.edges.len() * BLOCK);
         self.rates.resize(n.div_ceil(BLOCK) * size, 0.0);
@@ -79,7 +83,8 @@ impl Influence {
             .for_each(|(b, (rows, rates))| {
                 rows.fill(0.0);
                 let own = b * BLOCK..n.min((b + 1) * BLOCK);
-                let places = || own.clone().map(|i| [panels.point[i], panels.normal[i]]);
+                let place = |p: usize| [panels.point[p], panels.normal[p]];
+                let places = || own.clone().map(|i| place(lead(i)));
                 edges.normal_velocities(model, places(), rates);
                 add_edges(lattice, rates, rows);
                 for mirror in lattice.mirrors() {
@@ -91,26 +96,48 @@ impl Influence {
     }
 
     fn augment(&mut self, lattice: &Lattice) {
-        let n = lattice.panel_count();
+        let n = unknowns(lattice);
+        let unknown = |p: usize| lattice.halves().map_or(p, |h| h.unknown[p]);
         for (s, surface) in lattice.surfaces().iter().enumerate() {
             let own = lattice.panels_of(s);
             if !surface.closed {
                 continue;
             }
-            let diagonal: f64 = own.clone().map(|i| self.matrix[i * n + i].abs()).sum();
-            self.alpha[s] = diagonal / (own.len() * own.len()) as f64;
-            for i in own.clone() {
-                for a in &mut self.matrix[i * n..][own.clone()] {
-                    *a += self.alpha[s];
+            let leads = lattice
+                .halves()
+                .is_none_or(|h| h.panel[own.start] >= own.start);
+            let diagonal = |p: usize| self.matrix[unknown(p) * n + unknown(p)].abs();
+            self.alpha[s] = if leads {
+                own.clone().map(diagonal).sum::<f64>() / (own.len() * own.len()) as f64
+            } else {
+                let panel = lattice.halves().expect("only halves follow").panel[own.start];
+                self.alpha[lattice.topology().panel_surface[panel]]
+            };
+            for i in own
+                .clone()
+                .filter(|_| leads)
+                .filter(|&p| is_lead(lattice, p))
+            {
+                for j in own.clone() {
+                    self.matrix[unknown(i) * n + unknown(j)] += self.alpha[s];
                 }
             }
         }
     }
 
-    /// Solves for the circulations in place of the right-hand side; `leak` is the uniform normal
-    /// velocity [m/s] of each surface that the rings could not make.
+    /// Solves for the circulations in place of the right-hand side, which stands in the first
+    /// unknowns; `leak` is the uniform normal velocity [m/s] of each surface that the rings could
+    /// not make.
     pub(crate) fn solve(&mut self, lattice: &Lattice, gamma: &mut [f64], leak: &mut Vec<f64>) {
-        self.lu.solve_in_place(gamma);
+        match lattice.halves() {
+            None => self.lu.solve_in_place(gamma),
+            Some(halves) => {
+                self.half.clear();
+                self.half.extend(&gamma[..halves.lead.len()]);
+                self.lu.solve_in_place(&mut self.half);
+                halves.spread(&self.half, gamma);
+            }
+        }
         leak.clear();
         leak.resize(lattice.surfaces().len(), 0.0);
         for (s, surface) in lattice.surfaces().iter().enumerate() {
@@ -125,13 +152,26 @@ impl Influence {
     }
 }
 
+/// Number of circulations to be found.
+fn unknowns(lattice: &Lattice) -> usize {
+    lattice
+        .halves()
+        .map_or(lattice.panel_count(), |h| h.lead.len())
+}
+
+fn is_lead(lattice: &Lattice, panel: usize) -> bool {
+    lattice.halves().is_none_or(|h| panel <= h.panel[panel])
+}
+
 /// Adds the normal velocities of the edges to the columns of the panels they bound.
 fn add_edges(lattice: &Lattice, rates: &[f64], rows: &mut [f64]) {
-    let n = lattice.panel_count();
+    let n = unknowns(lattice);
+    let unknown = |p: usize| lattice.halves().map_or(p, |h| h.unknown[p]);
     for (edge, rates) in lattice.topology().edges.iter().zip(rates.chunks(BLOCK)) {
+        let (plus, minus) = (unknown(edge.plus), edge.minus.map(unknown));
         for (row, u) in rows.chunks_mut(n).zip(rates) {
-            row[edge.plus] += u;
-            if let Some(minus) = edge.minus {
+            row[plus] += u;
+            if let Some(minus) = minus {
                 row[minus] -= u;
             }
         }

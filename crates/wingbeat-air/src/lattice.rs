@@ -10,6 +10,7 @@ use crate::state::{AirState, NodeMotion, WakeSheet};
 use crate::strips::{Strip, strips};
 use crate::surface::{EdgeKind, Surface};
 use crate::topology::{Edge, Sheet, Topology};
+use crate::twins::{Halves, Twins};
 use std::ops::Range;
 use wingbeat_math::DVec3;
 
@@ -22,6 +23,7 @@ pub struct Lattice {
     strips: Vec<Strip>,
     insets: Vec<Inset>,
     mirrors: Vec<Mirror>,
+    halves: Option<Halves>,
 }
 
 impl Lattice {
@@ -41,7 +43,21 @@ impl Lattice {
             surfaces,
             settings,
             topology,
+            halves: None,
         })
+    }
+
+    /// The same lattice for motions that are mirror-symmetric: computed on one half.
+    ///
+    /// # Errors
+    /// [`AirError::Twins`] names the first node, panel or wake sheet whose twin does not fit.
+    pub fn with_twins(mut self, twins: Twins) -> Result<Self, AirError> {
+        self.halves = Some(Halves::new(twins, &self.topology)?);
+        Ok(self)
+    }
+
+    pub(crate) fn halves(&self) -> Option<&Halves> {
+        self.halves.as_ref()
     }
 
     /// Strips of panels behind the leading edges, in the order of [`AirState::leading`].

@@ -53,6 +53,7 @@ pub mod strips;
 mod summation;
 pub mod surface;
 pub mod topology;
+pub mod twins;
 mod wake;
 pub mod wind;
 
@@ -67,4 +68,5 @@ pub use settings::{
 };
 pub use state::{AirState, NodeMotion, WakeEvents, WakeSheet};
 pub use surface::{EdgeKind, SheddingSegment, Surface};
+pub use twins::Twins;
 pub use wind::{Gust, GustShape, Wind};

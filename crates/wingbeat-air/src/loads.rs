@@ -130,6 +130,9 @@ impl Lattice {
         self.check_call(state, dt)?;
         (out.time, out.dt) = (t, dt);
         out.panels.update(self, motion, state.step)?;
+        if let Some(halves) = self.halves() {
+            halves.check(motion, state.step)?;
+        }
         ws.filaments.gather(self, state, t, &motion.position);
         self.wake_velocity(state, ws, out);
         self.solve_circulation(state, ws, out)?;
@@ -163,8 +166,14 @@ impl Lattice {
     fn wake_velocity(&self, state: &AirState, ws: &mut AirWorkspace, out: &mut AirLoads) {
         let n = self.panel_count();
         ws.points.clear();
-        out.panels.point.iter().for_each(|&p| ws.points.push(p));
-        ws.shed.reset(n);
+        match self.halves() {
+            None => out.panels.point.iter().for_each(|&p| ws.points.push(p)),
+            Some(h) => h
+                .lead
+                .iter()
+                .for_each(|&p| ws.points.push(out.panels.point[p])),
+        }
+        ws.shed.reset(ws.points.len());
         out.gamma.clear();
         out.gamma.resize(n, 0.0);
         let (filaments, settings, mirrors) = (&mut ws.filaments, self.settings(), self.mirrors());
@@ -191,10 +200,11 @@ impl Lattice {
         out: &mut AirLoads,
     ) -> Result<(), AirError> {
         let panels = &out.panels;
-        for i in 0..panels.point.len() {
-            let stream = self.stream(panels.point[i], out.time);
+        for i in 0..ws.points.len() {
+            let p = self.halves().map_or(i, |h| h.lead[i]);
+            let stream = self.stream(panels.point[p], out.time);
             let v = stream + ws.velocity.get(i) + ws.shed.get(i);
-            out.gamma[i] = (panels.velocity[i] - v).dot(panels.normal[i]);
+            out.gamma[i] = (panels.velocity[p] - v).dot(panels.normal[p]);
         }
         ws.influence
             .factor(self, &ws.filaments, panels, state.step)?;
@@ -208,9 +218,13 @@ impl Lattice {
         let (model, sum) = (self.settings().bound_core, &mut ws.sums.bound);
         sum.load(direct(model), &ws.filaments.bound);
         sum.add(&ws.points, self.mirrors(), &mut ws.velocity);
+        if let Some(halves) = self.halves() {
+            halves.reflect(&ws.velocity, &mut ws.shed);
+            std::mem::swap(&mut ws.velocity, &mut ws.shed);
+        }
         out.velocity.clear();
-        let at = ws.points.iter().zip(ws.velocity.iter());
-        let total = at.map(|(x, v)| self.stream(x, out.time) + v);
+        let at = out.panels.point.iter().zip(ws.velocity.iter());
+        let total = at.map(|(&x, v)| self.stream(x, out.time) + v);
         out.velocity.extend(total);
     }
 

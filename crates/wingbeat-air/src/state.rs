@@ -1,5 +1,6 @@
 //! What the air remembers from step to step: circulations and wakes.
 
+use crate::images::Mirror;
 use crate::kernel::Points;
 use wingbeat_math::DVec3;
 
@@ -54,6 +55,23 @@ impl WakeSheet {
         drop_first(&mut self.velocity, nodes);
         self.gamma.drain(..drop * self.columns);
         self.shed_time.drain(..drop);
+    }
+}
+
+impl WakeSheet {
+    /// Takes the nodes of the twin sheet `lead`, which has been moved and truncated already, after
+    /// its own row was shed; returns how many rows were dropped.
+    pub(crate) fn follow(&mut self, lead: &WakeSheet, mirror: Mirror) -> u64 {
+        self.nodes.clear();
+        let places = lead.nodes.iter().map(|x| mirror.place(x));
+        places.for_each(|x| self.nodes.push(x));
+        self.velocity.clear();
+        let velocities = lead.velocity.iter().map(|v| mirror.vector(v));
+        velocities.for_each(|v| self.velocity.push(v));
+        let drop = self.rows() - lead.rows();
+        self.gamma.drain(..drop * self.columns);
+        self.shed_time.drain(..drop);
+        drop as u64
     }
 }
 

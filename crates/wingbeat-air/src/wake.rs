@@ -2,7 +2,7 @@
 
 use crate::contact::Obstacles;
 use crate::error::AirError;
-use crate::images::Plane;
+use crate::images::{Mirror, Plane};
 use crate::kernel::Points;
 use crate::lattice::Lattice;
 use crate::loads::{AirLoads, AirWorkspace};
@@ -49,7 +49,7 @@ impl Lattice {
     /// Moves the wakes by `dt` [s] with the velocities of the accepted step, as
     /// [`Convection`] says, and sheds a row of rings with the circulations of that step (the
     /// unsteady Kutta condition); then drops the rows that are too old or too far.
-    /// Returns what had to be tamed in this step.
+    /// Returns what had to be tamed in this step, of a mirror-symmetric flow on the half computed.
     ///
     /// # Errors
     /// No accepted step to move from, a step that is not positive, velocities that are not finite.
@@ -116,7 +116,14 @@ impl Lattice {
             events: WakeEvents::default(),
         };
         let mut sheets = std::mem::take(&mut state.sheets);
-        for (k, sheet) in sheets.iter_mut().enumerate() {
+        for k in 0..sheets.len() {
+            if let Some((lead, mirror)) = self.followed(k) {
+                let (first, rest) = sheets.split_at_mut(k);
+                self.shed(k, &mut rest[0], state);
+                mover.events.dropped_rows += rest[0].follow(&first[lead], mirror);
+                continue;
+            }
+            let sheet = &mut sheets[k];
             let moved = mover.move_nodes(sheet, &mut ws.from, &mut ws.to);
             if let Err((row, column, velocity)) = moved {
                 state.sheets = sheets;
@@ -133,6 +140,13 @@ impl Lattice {
         }
         state.sheets = sheets;
         Ok(mover.events)
+    }
+
+    /// The sheet whose mirror image sheet `k` is, if that one is moved for both.
+    pub(crate) fn followed(&self, k: usize) -> Option<(usize, Mirror)> {
+        let halves = self.halves()?;
+        let lead = halves.sheet[k];
+        (lead < k).then_some((lead, halves.mirror))
     }
 
     /// Unsteady Kutta condition: the row that leaves carries the circulation of its panels; none

@@ -72,6 +72,9 @@ pub struct AirOptions {
     pub lattice: AirSettings,
     /// Whether head, thorax and abdomen are part of the lattice.
     pub body_surfaces: bool,
+    /// Whether animal and motion are mirror-symmetric, so that the air is computed on one half.
+    /// A motion that is not so is refused at the step where it shows.
+    pub mirror: bool,
 }
 
 /// How the root body moves.

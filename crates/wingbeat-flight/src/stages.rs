@@ -17,7 +17,7 @@ use crate::setup::{
     AirModel, BaumgarteChoice, DriftingFourier, FlightSetup, FormulationChoice, MotionMode,
     PrescribedMotion, StartState,
 };
-use crate::surfaces::SurfaceMap;
+use crate::surfaces::{SurfaceMap, twins};
 
 /// A part of the flight with the same equations.
 #[derive(Debug)]
@@ -54,6 +54,16 @@ pub fn air_side(setup: &FlightSetup) -> Result<Option<AirSide>, FlightError> {
     };
     let map = SurfaceMap::new(&setup.animal, options.body_surfaces);
     let lattice = Lattice::new(map.surfaces.clone(), options.lattice.clone())?;
+    if !options.mirror {
+        return Ok(Some(AirSide { lattice, map }));
+    }
+    let root = setup.root_at_start();
+    let twins = twins(&setup.animal, options.body_surfaces, &root).ok_or(FlightError::Setup {
+        key: "air.mirror",
+        value: "true".into(),
+        problem: "the animal is not its own mirror image; compute both halves (false)".into(),
+    })?;
+    let lattice = lattice.with_twins(twins)?;
     Ok(Some(AirSide { lattice, map }))
 }
 

@@ -1,8 +1,10 @@
 //! What may not change the answer: place, direction, handedness, speed of the observer, threads,
 //! interruptions.
 
-use crate::common::{Run, fly, rectangle, total_force};
-use wingbeat_air::{AirLoads, AirSettings, Lattice, NodeMotion, SheddingKinds, Surface};
+use crate::common::{Run, fly, rectangle, sphere, total_force};
+use wingbeat_air::{
+    AirLoads, AirSettings, Convection, Lattice, NodeMotion, Plane, SheddingKinds, Surface, Twins,
+};
 use wingbeat_math::{DMat3, DVec3, r1, r2, r3};
 
 const ALL: SheddingKinds = SheddingKinds {
@@ -75,6 +77,95 @@ fn invariant_under_the_motion_of_the_observer() {
     let t = 0.1 * STEPS as f64;
     let (ma, mb) = (moment(&a, DVec3::ZERO), moment(&b, t * u));
     assert!((ma - mb).length() < 1e-9 * ma.length());
+}
+
+/// Two wings beside a sphere, with twins; the left wing's panels run the other way round.
+fn halves(motion: &NodeMotion, whole: bool) -> Lattice {
+    let right = Surface::grid("right", 3, 4);
+    let mut left = Surface::grid("left", 3, 4);
+    left.panels.iter_mut().for_each(|c| c.swap(1, 3));
+    let (nodes, quads) = sphere(2);
+    let body = Surface::closed("body", nodes.len(), quads.clone());
+    let settings = AirSettings {
+        shedding: ALL,
+        convection: Convection::AdamsBashforth,
+        max_rows: Some(5),
+        ..AirSettings::benchmark(1.2, STREAM)
+    };
+    let lattice = Lattice::new(vec![right, left, body], settings).unwrap();
+    if whole {
+        return lattice;
+    }
+    let flip = |x: DVec3| DVec3::new(x.x, -x.y, x.z);
+    let twin = |x: &DVec3| {
+        let is_image = |y: &DVec3| y.distance(flip(*x)) < 1e-9;
+        motion.position.iter().position(is_image).unwrap()
+    };
+    let node: Vec<usize> = motion.position.iter().map(twin).collect();
+    let corners = |p: usize| {
+        let mut c = lattice.topology().panels[p];
+        c.sort_unstable();
+        c
+    };
+    let panel = |p: usize| {
+        let mut image = corners(p).map(|n| node[n]);
+        image.sort_unstable();
+        (0..lattice.panel_count()).find(|&q| corners(q) == image)
+    };
+    let panel = (0..lattice.panel_count())
+        .map(|p| panel(p).unwrap())
+        .collect();
+    let plane = Plane {
+        point: DVec3::ZERO,
+        normal: DVec3::Y,
+    };
+    lattice.with_twins(Twins { plane, node, panel }).unwrap()
+}
+
+fn with_body(t: f64) -> NodeMotion {
+    let mut motion = pair(t);
+    // Clear of the wings, and with nodes in the plane of symmetry.
+    let body = sphere(2).0.into_iter().map(|x| 0.3 * x - 1.2 * DVec3::Z);
+    motion.position.extend(body);
+    motion.velocity.resize(motion.position.len(), DVec3::ZERO);
+    motion
+}
+
+#[test]
+fn agrees_with_both_halves_when_only_one_is_computed() {
+    let start = with_body(0.0);
+    let [whole, half] = [true, false].map(|whole| run(&halves(&start, whole), with_body));
+    let scale = total_force(&whole.loads).length();
+    for (a, b) in whole.loads.force.iter().zip(&half.loads.force) {
+        assert!((*a - *b).length() < 1e-9 * scale); // roundings in a free wake, as above
+    }
+    assert!(half.loads.penetration < 1e-12 && half.state.sheets[0].rows() == 5);
+    let leaks = [&whole, &half].map(|r| r.loads.surfaces[2].leak);
+    assert!((leaks[0] - leaks[1]).abs() < 1e-12);
+    // The wakes are each other's image to the bit.
+    let [right, left] = [0, 1].map(|k| &half.state.sheets[k]);
+    let flipped: Vec<f64> = right.nodes.y.iter().map(|y| -y).collect();
+    assert_eq!((&left.nodes.x, &left.nodes.y), (&right.nodes.x, &flipped));
+    let turned: Vec<f64> = right.gamma.iter().map(|g| -g).collect();
+    assert_eq!(left.gamma, turned);
+}
+
+#[test]
+fn refuses_an_asymmetric_motion_where_one_half_is_computed() {
+    let start = with_body(0.0);
+    let motion = |t: f64| {
+        let mut motion = with_body(t);
+        if t > 0.25 {
+            motion.position[3] += 1e-5 * DVec3::Z;
+        }
+        motion
+    };
+    let result = fly(&halves(&start, false), motion, 0.1, STEPS, |_, _, _, _| {});
+    let error = result.err().expect("refused").to_string();
+    assert!(
+        error.contains("step 3") && error.contains("node 3"),
+        "{error}"
+    );
 }
 
 #[test]

@@ -127,6 +127,7 @@ impl Fly {
             air: AirModel::VortexLattice(AirOptions {
                 lattice,
                 body_surfaces: false,
+                mirror: false,
             }),
             mode: MotionMode::Free(StartState {
                 position: DVec3::new(0.01, -0.02, 0.03),

@@ -2,7 +2,7 @@
 
 use wingbeat_air::{
     AirSettings, CirculationRate, Convection, CoreModel, Gust, GustShape, LeadingEdge, LoadMethod,
-    Plane, SheddingKinds, Wind,
+    Method, Plane, SheddingKinds, Wind,
 };
 use wingbeat_flight::{AirModel, AirOptions};
 use wingbeat_math::{DMat3, DVec3};
@@ -11,7 +11,7 @@ use wingbeat_model::Animal;
 use super::{Built, at_least, blade, not_negative, positive, vector};
 use crate::case::raw::{
     AirCase, AirModel as Model, Case, CirculationRateCase, ConvectionCase, CoreCase, EdgeCase,
-    GustCase, LeadingEdgeCase, LoadMethodCase, SchemeCase,
+    GustCase, LeadingEdgeCase, LoadMethodCase, SchemeCase, SummationCase,
 };
 use crate::error::Fault;
 
@@ -100,6 +100,12 @@ fn lattice(case: &AirCase) -> Built<AirOptions> {
         },
         max_displacement: limit("air.max_displacement_m", case.max_displacement_m)?,
         clearance: not_negative("air.clearance_m", case.clearance_m)?,
+        summation: match case.summation {
+            SummationCase::Auto => Method::Auto,
+            SummationCase::Direct => Method::Direct,
+            SummationCase::Tree => Method::Tree,
+        },
+        tolerance: positive("air.summation_tolerance", case.summation_tolerance)?,
         ..scheme
     };
     lattice.validate().map_err(|e| {
@@ -113,6 +119,7 @@ fn lattice(case: &AirCase) -> Built<AirOptions> {
     Ok(AirOptions {
         lattice,
         body_surfaces: case.body,
+        mirror: case.mirror,
     })
 }
 

@@ -18,6 +18,9 @@ pub struct AirCase {
     pub stream_m_s: [f64; 3],
     /// Whether head, thorax and abdomen are part of the lattice.
     pub body: bool,
+    /// The flight is mirror-symmetric: the air is computed on one half. Lateral motion cannot
+    /// grow; a motion that is not symmetric is refused.
+    pub mirror: bool,
     /// Edges of the wings that shed wakes.
     pub shed: Vec<EdgeCase>,
     /// Core of the vortex filaments on the surfaces; default a cut-off of 0.01 mean panel
@@ -77,6 +80,10 @@ pub struct AirCase {
     /// Wake nodes keep this distance from surfaces and do not pass through them, which is
     /// counted and reported; 0 lets them pass (the published benchmark's).
     pub clearance_m: f64,
+    /// How the velocities of the wakes are summed: `direct`, `tree`, or whichever is faster.
+    pub summation: SummationCase,
+    /// Allowed error of the tree, relative to the velocity; it is checked at every sum.
+    pub summation_tolerance: f64,
     /// Settings of `model = "blade_element"`; the lattice's keys do not matter then.
     #[serde(skip_serializing_if = "is_default")]
     pub blade: BladeCase,
@@ -93,6 +100,7 @@ impl Default for AirCase {
             density_kg_m3: 1.225,
             stream_m_s: [0.0; 3],
             body: true,
+            mirror: false,
             shed: vec![EdgeCase::Trailing, EdgeCase::Tip, EdgeCase::Leading],
             bound_core: None,
             wake_core: None,
@@ -112,9 +120,23 @@ impl Default for AirCase {
             max_wake_rows: None,
             max_displacement_m: None,
             clearance_m: 0.0,
+            summation: SummationCase::Auto,
+            summation_tolerance: 1e-4,
             blade: BladeCase::default(),
         }
     }
+}
+
+/// How velocities are summed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum SummationCase {
+    /// The faster one.
+    Auto,
+    /// Every filament at every place.
+    Direct,
+    /// Far filaments by the expansions of a tree.
+    Tree,
 }
 
 /// Air model.

@@ -13,7 +13,7 @@ mod wing;
 
 pub use air::{
     AirCase, AirModel, CirculationRateCase, ConvectionCase, CoreCase, EdgeCase, GroundCase,
-    GustCase, LeadingEdgeCase, LoadMethodCase, SchemeCase,
+    GustCase, LeadingEdgeCase, LoadMethodCase, SchemeCase, SummationCase,
 };
 pub use blade::{
     AddedMassCase, BladeCase, BodyDragCase, OwnCoefficients, PressureCase, RotationCase,
