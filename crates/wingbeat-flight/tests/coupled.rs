@@ -2,7 +2,7 @@
 
 mod common;
 
-use common::{FREQUENCY, Fly, SPAN, distance, fly, pose};
+use common::{FREQUENCY, Fly, SPAN, distance, fly, pose, sine};
 use wingbeat_flight::*;
 use wingbeat_math::DVec3;
 
@@ -85,6 +85,33 @@ fn invariant_mirror_symmetric_flight_stays_symmetric() {
     }
     let (p, _) = pose(records.last().expect("records"));
     assert!((p.z - 0.03).abs() > 1e-3 * SPAN, "the fly did move");
+}
+
+#[test]
+fn agrees_with_both_halves_when_only_one_is_computed() {
+    let mut setup = Fly::default().setup(40, 1.0);
+    let whole = fly(setup.clone()).pop().expect("records");
+    let AirModel::VortexLattice(air) = &mut setup.air else {
+        unreachable!("the little fly has a lattice")
+    };
+    air.mirror = true;
+    let half = fly(setup.clone()).pop().expect("records");
+    // Both are solved to a corrector tolerance of 1e-8.
+    assert!(
+        distance(&whole, &half) < 1e-7,
+        "{}",
+        distance(&whole, &half)
+    );
+    let (p, e) = pose(&half);
+    let sideways = [(p.y + 0.02) / SPAN, e.y, e.z];
+    assert!(sideways.iter().all(|x| x.abs() < 1e-13), "{sideways:?}");
+
+    setup.animal.wings[0].motion.angles.phi = sine(0.1, 0.9, 0.0);
+    let error = Simulation::new(setup)
+        .err()
+        .expect("an asymmetric flight is refused")
+        .to_string();
+    assert!(error.contains("not mirror-symmetric"), "{error}");
 }
 
 #[test]

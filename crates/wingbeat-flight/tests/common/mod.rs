@@ -15,7 +15,7 @@ pub const FREQUENCY: f64 = 200.0;
 /// Span of a wing [m].
 pub const SPAN: f64 = 2.4e-3;
 
-fn sine(mean: f64, cos: f64, sin: f64) -> AngleLaw {
+pub fn sine(mean: f64, cos: f64, sin: f64) -> AngleLaw {
     AngleLaw::Fourier(Fourier {
         mean,
         cos: vec![cos],

@@ -63,6 +63,9 @@ fn air_warnings(
         "The vortex core ({kind}, {size:.1e} m = {:.3} mean chords) is an input, not a result: vary it and see what changes.",
         size / chord
     ));
+    if air.mirror {
+        list.push("Mirror symmetry was assumed (air.mirror): a real flow of this kind loses it, and with it roll, yaw and sideways drift would come.".to_owned());
+    }
     if lattice.shedding.leading {
         list.push("Leading edges shed: such sheets have no converged history beyond the first half stroke. Read means over several beats and their spread, not single peaks.".to_owned());
     }
