@@ -31,6 +31,12 @@ pub trait Controller {
     fn command(&mut self, sensed: &Sensed, wings: usize) -> Vec<Adjustment>;
 }
 
+impl Controller for Box<dyn Controller> {
+    fn command(&mut self, sensed: &Sensed, wings: usize) -> Vec<Adjustment> {
+        (**self).command(sensed, wings)
+    }
+}
+
 /// No feedback.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Free;
@@ -38,6 +44,34 @@ pub struct Free;
 impl Controller for Free {
     fn command(&mut self, _sensed: &Sensed, wings: usize) -> Vec<Adjustment> {
         vec![Adjustment::default(); wings]
+    }
+}
+
+/// A controller that looks only every so many beats and holds its command in between.
+#[derive(Clone, Debug)]
+pub struct Sampled<C> {
+    controller: C,
+    every: usize,
+    held: Vec<Adjustment>,
+}
+
+impl<C: Controller> Sampled<C> {
+    /// `controller`, asked every `every` beats (at least 1).
+    pub fn new(controller: C, every: usize) -> Self {
+        Self {
+            controller,
+            every: every.max(1),
+            held: vec![],
+        }
+    }
+}
+
+impl<C: Controller> Controller for Sampled<C> {
+    fn command(&mut self, sensed: &Sensed, wings: usize) -> Vec<Adjustment> {
+        if sensed.beat.is_multiple_of(self.every) || self.held.is_empty() {
+            self.held = self.controller.command(sensed, wings);
+        }
+        self.held.clone()
     }
 }
 

@@ -36,6 +36,7 @@ pub mod modes;
 pub mod monodromy;
 pub mod power;
 pub mod regulator;
+pub mod stabiliser;
 pub mod stability;
 pub mod trim;
 

@@ -143,6 +143,12 @@ impl Trim {
         setup
     }
 
+    /// Mean velocity of the mass centre over the beat, N components [m/s].
+    pub fn mean_velocity(&self) -> DVec3 {
+        let end = self.beat.advance(&self.state);
+        (DVec3::from_slice(&end) - DVec3::from_slice(&self.state)) / self.beat.period()
+    }
+
     /// Largest residual.
     pub fn error(&self) -> f64 {
         largest(&self.residual)

@@ -204,3 +204,23 @@ fn invariant_results_do_not_depend_on_heading() {
     assert!((turn * a.v - b.v).length() < 1e-12);
     assert!((a.w - b.w).length() < 1e-9);
 }
+
+#[test]
+fn balances_loops_hold_attitude_and_altitude() {
+    use wingbeat_analysis::control::Sampled;
+    use wingbeat_analysis::stabiliser::{ProportionalDerivative, Stiffness};
+    let t = trim(&fly(), &hover(60)).unwrap();
+    let loops = ProportionalDerivative::new(&t, &Stiffness::default()).unwrap();
+    let tilt = DVec3::new(3.0, 10.0, 3.0).map(f64::to_radians);
+    for (latency, every) in [(0, 1), (1, 1), (0, 2)] {
+        let mut flight = ControlledFlight::new(&t, tilt, DVec3::ZERO, latency);
+        let mut controller = Sampled::new(loops.clone(), every);
+        for _ in 0..150 {
+            flight.beat(&mut controller).unwrap();
+        }
+        let s = flight.sensed();
+        let left = s.departure.tilt.length().to_degrees();
+        assert!(left < 1.0, "latency {latency}, every {every}: {left} deg");
+        assert!(s.position.z.abs() < 0.1 * t.beat.wing_length());
+    }
+}

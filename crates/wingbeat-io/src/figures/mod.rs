@@ -3,6 +3,7 @@
 
 mod chart;
 mod kinds;
+pub mod stabilised;
 
 use wingbeat_flight::FlightSetup;
 

@@ -1,10 +1,15 @@
 //! `wingbeat stabilise`.
 
+use std::path::PathBuf;
 use std::process::ExitCode;
 
-use clap::Args;
-use wingbeat::analysis::control::{ControlledFlight, Controller, Free};
+use clap::{Args, ValueEnum};
+use wingbeat::analysis::control::{ControlledFlight, Controller, Free, Sampled};
 use wingbeat::analysis::regulator::{Regulator, Weights};
+use wingbeat::analysis::stabiliser::{ProportionalDerivative, Stiffness};
+use wingbeat::analysis::{AnalysisError, Trim};
+use wingbeat::io::case::write_new;
+use wingbeat::io::figures::stabilised::{BeatRow, stabilised};
 use wingbeat::math::DVec3;
 
 use super::{Trimming, Trouble, exit, trimmed};
@@ -24,9 +29,26 @@ pub(crate) struct StabiliseArgs {
     /// Wingbeats between sensing and acting.
     #[arg(long, default_value_t = 2)]
     latency: usize,
-    /// Fly without feedback.
-    #[arg(long)]
-    free: bool,
+    /// Wingbeats from one look to the next.
+    #[arg(long, default_value_t = 1)]
+    sample: usize,
+    /// Which feedback.
+    #[arg(long, value_enum, default_value_t = Feedback::Regulator)]
+    controller: Feedback,
+    /// Draw the flight as SVG; never over an existing file.
+    #[arg(long, value_name = "FILE")]
+    figure: Option<PathBuf>,
+}
+
+/// Which feedback.
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Feedback {
+    /// Discrete linear-quadratic regulator: holds attitude and place.
+    Regulator,
+    /// Proportional-derivative loops: pitch, roll, heading and altitude; for latencies up to 1.
+    Pd,
+    /// None.
+    Free,
 }
 
 /// The whole command: beat by beat as CSV on the standard output.
@@ -35,38 +57,68 @@ pub(crate) fn run(args: &StabiliseArgs) -> ExitCode {
 }
 
 fn fly(args: &StabiliseArgs) -> Result<(), Trouble> {
-    let (_, trim) = trimmed(&args.trimming)?;
+    let (case, trim) = trimmed(&args.trimming)?;
+    let mut controller = Sampled::new(controller(args, &trim)?, args.sample);
     let tilt = DVec3::from_slice(&args.tilt).map(f64::to_radians);
-    let mut free = Free;
-    let mut regulator;
-    let controller: &mut dyn Controller = if args.free {
-        &mut free
-    } else {
-        regulator = Regulator::new(&trim, &Weights::default(), args.latency)?;
-        &mut regulator
-    };
     let mut flight = ControlledFlight::new(&trim, tilt, DVec3::ZERO, args.latency);
+    let mut rows = vec![row(&flight)];
+    let mut lost = None;
+    for _ in 0..args.beats {
+        match flight.beat(&mut controller) {
+            Ok(_) => rows.push(row(&flight)),
+            Err(e) => {
+                lost = Some(e);
+                break;
+            }
+        }
+    }
+    print(&rows);
+    if let Some(path) = &args.figure {
+        let svg = stabilised(&case.name, trim.beat.wing_length(), &rows, path)?;
+        write_new(path, &svg)?;
+    }
+    lost.map_or(Ok(()), |e| Err(e.into()))
+}
+
+fn controller(args: &StabiliseArgs, trim: &Trim) -> Result<Box<dyn Controller>, AnalysisError> {
+    Ok(match args.controller {
+        Feedback::Free => Box::new(Free),
+        Feedback::Pd => Box::new(ProportionalDerivative::new(trim, &Stiffness::default())?),
+        Feedback::Regulator => Box::new(Regulator::new(trim, &Weights::default(), args.latency)?),
+    })
+}
+
+/// What is seen at this beat.
+fn row(flight: &ControlledFlight) -> BeatRow {
+    let (s, acting) = (flight.sensed(), flight.acting());
+    let (first, last) = (&acting[0], &acting[acting.len() - 1]);
+    BeatRow {
+        beat: s.beat,
+        position: s.position,
+        tilt: s.departure.tilt,
+        amplitude: [first.stroke_amplitude, last.stroke_amplitude],
+        offset: last.stroke_offset,
+    }
+}
+
+fn print(rows: &[BeatRow]) {
     println!(
         "\nbeat,forward_mm,right_mm,down_mm,roll_deg,pitch_deg,heading_deg,stroke_amplitude_left,stroke_amplitude_right,stroke_offset_deg"
     );
-    for _ in 0..args.beats {
-        let s = *flight.beat(controller)?;
-        let (x, a) = (s.position * 1e3, s.departure.tilt.map(f64::to_degrees));
-        let wing = |k: usize| flight.acting()[k];
-        let last = flight.acting().len() - 1;
+    for r in rows {
+        let (x, a) = (r.position * 1e3, r.tilt.map(f64::to_degrees));
         println!(
             "{},{:.5},{:.5},{:.5},{:.4},{:.4},{:.4},{:.5},{:.5},{:.4}",
-            s.beat,
+            r.beat,
             x.x,
             x.y,
             x.z,
             a.x,
             a.y,
             a.z,
-            wing(0).stroke_amplitude,
-            wing(last).stroke_amplitude,
-            wing(last).stroke_offset.to_degrees()
+            r.amplitude[0],
+            r.amplitude[1],
+            r.offset.to_degrees()
         );
     }
-    Ok(())
 }

@@ -1,0 +1,143 @@
+//! A proportional-derivative stabiliser: attitude and altitude, each by its own stroke control.
+//!
+//! ```text
+//! pitch    <- mean stroke angle of all wings        roll    <- right-left difference of amplitude
+//! heading  <- right-left difference of stroke plane  altitude <- amplitude of all wings
+//! u = -(omega^2 x + 2 zeta omega x') / B
+//! ```
+//!
+//! with B the acceleration per unit of the control (control derivative over mass or inertia;
+//! of roll and heading a 2 x 2 matrix, for either control does both): each loop, alone and
+//! without latency, has the natural frequency omega and the damping zeta.
+//! Drift is braked by leaning against it: the pitch and roll held are `-+ omega_v u / g`. The
+//! place is not held; the regulator ([`crate::regulator`]) holds it, and bears longer latencies.
+
+use wingbeat_math::DVec3;
+use wingbeat_model::Wing;
+use wingbeat_model::motion::Adjustment;
+
+use crate::AnalysisError;
+use crate::control::{Controller, Sensed};
+use crate::derivatives::{ControlDerivative, control_derivatives};
+use crate::level::Level;
+use crate::trim::Trim;
+
+/// How stiff the loops are.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Stiffness {
+    /// Natural frequency of pitch [rad per wingbeat].
+    pub pitch: f64,
+    /// Natural frequency of roll and heading [rad per wingbeat]: stiff enough to hold the lateral
+    /// divergence.
+    pub lateral: f64,
+    /// Natural frequency of altitude [rad per wingbeat].
+    pub altitude: f64,
+    /// Rate at which drift is braked [1 per wingbeat].
+    pub drift: f64,
+    /// Damping ratio of all \[1\].
+    pub damping: f64,
+}
+
+impl Default for Stiffness {
+    fn default() -> Self {
+        Self {
+            pitch: 0.25,
+            lateral: 0.45,
+            altitude: 0.1,
+            drift: 0.1,
+            damping: 1.0,
+        }
+    }
+}
+
+/// What the controls do, and the stiffness asked for.
+#[derive(Clone, Debug)]
+pub struct ProportionalDerivative {
+    /// Acceleration upward-negative per relative amplitude of all wings [m/s2].
+    lift: f64,
+    /// Pitch acceleration per mean stroke angle [1/s2].
+    nod: f64,
+    /// Inverse of roll and heading accelerations (rows) per difference of amplitude and of
+    /// stroke plane (columns) [s2].
+    lateral: [[f64; 2]; 2],
+    /// Natural frequencies of roll, pitch, heading and altitude [rad/s].
+    omega: [f64; 4],
+    /// Lean per drift [rad s/m].
+    lean: f64,
+    /// Damping ratio \[1\].
+    damping: f64,
+    sides: Vec<f64>,
+    /// Largest command of any kind \[1, rad\].
+    pub limit: f64,
+}
+
+impl ProportionalDerivative {
+    /// The stabiliser of the trimmed flight.
+    ///
+    /// # Errors
+    /// A setup without control derivatives; a control without effect.
+    pub fn new(trim: &Trim, stiffness: &Stiffness) -> Result<Self, AnalysisError> {
+        let root = trim.beat.root(&trim.state);
+        let level = Level::new(root.r, trim.beat.gravity());
+        let velocity = level.to_n.transpose() * trim.mean_velocity();
+        let list = control_derivatives(&trim.setup, root.r, velocity, trim.beat.steps())?;
+        let wings = &trim.setup.animal.wings;
+        let j = level.to_root.transpose() * trim.beat.mean_inertia() * level.to_root;
+        let turn = |moment: DVec3| j.inverse() * moment;
+        let apart = |name: &str| {
+            let part = |w: &Wing| 0.5 * w.side.sign() * find(&list, name, &w.name).moment;
+            turn(wings.iter().map(part).sum())
+        };
+        let (bank, yaw) = (apart("stroke_amplitude"), apart("stroke_plane"));
+        let det = bank.x * yaw.z - yaw.x * bank.z;
+        let lift = find(&list, "stroke_amplitude", "all").force.z / trim.beat.mass();
+        let nod = turn(find(&list, "stroke_offset", "all").moment).y;
+        if [det, lift, nod].iter().any(|x| *x == 0.0 || !x.is_finite()) {
+            return Err(AnalysisError::Numbers(
+                "a control of the stabiliser has no effect on this flyer".into(),
+            ));
+        }
+        let (period, k) = (trim.beat.period(), stiffness);
+        Ok(Self {
+            lift,
+            nod,
+            lateral: [[yaw.z / det, -yaw.x / det], [-bank.z / det, bank.x / det]],
+            omega: [k.lateral, k.pitch, k.lateral, k.altitude].map(|x| x / period),
+            lean: k.drift / period / trim.beat.gravity().length(),
+            damping: k.damping,
+            sides: wings.iter().map(|w| w.side.sign()).collect(),
+            limit: 0.2,
+        })
+    }
+}
+
+/// The derivative of a control in the list.
+fn find(list: &[ControlDerivative], control: &str, wing: &str) -> crate::mean::MeanLoad {
+    let found = list.iter().find(|d| d.control == control && d.wing == wing);
+    found.map(|d| d.derivative).unwrap_or_default()
+}
+
+impl Controller for ProportionalDerivative {
+    fn command(&mut self, sensed: &Sensed, _wings: usize) -> Vec<Adjustment> {
+        let d = &sensed.departure;
+        let wanted =
+            |omega: f64, x: f64, rate: f64| -omega * omega * x - 2.0 * self.damping * omega * rate;
+        // Nose up accelerates backwards, right wing down accelerates to the right.
+        let lean = self.lean * DVec3::new(d.velocity.y, -d.velocity.x, 0.0);
+        let turn = |k: usize| wanted(self.omega[k], d.tilt[k] + lean[k], d.rate[k]);
+        let [roll, heading] = [turn(0), turn(2)];
+        let limited = |u: f64| u.clamp(-self.limit, self.limit);
+        let amplitude = limited(wanted(self.omega[3], sensed.position.z, d.velocity.z) / self.lift);
+        let pitch = limited(turn(1) / self.nod);
+        let [bank, yaw] = self
+            .lateral
+            .map(|row| limited(row[0] * roll + row[1] * heading));
+        let wing = |s: &f64| Adjustment {
+            stroke_amplitude: amplitude + 0.5 * s * bank,
+            stroke_offset: pitch,
+            stroke_plane: 0.5 * s * yaw,
+            ..Adjustment::default()
+        };
+        self.sides.iter().map(wing).collect()
+    }
+}
