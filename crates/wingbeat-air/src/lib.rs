@@ -36,6 +36,7 @@
 pub mod blade;
 mod closed;
 mod contact;
+pub mod derivatives;
 pub mod error;
 pub mod filaments;
 pub mod images;

@@ -141,10 +141,16 @@ impl Beat {
                 beat.added = beat.wings.iter().map(added_matrix).collect();
                 beat.has_added = beat.added.iter().any(|a| *a != DMat3::ZERO);
             }
-            AirModel::VortexLattice(_) => {
+            AirModel::VortexLattice(_) | AirModel::External(_) => {
                 return Err(AnalysisError::not_covered(
-                    "a vortex lattice remembers its wake",
+                    "this air has a memory (a wake)",
                     "use air.model = \"blade_element\"",
+                ));
+            }
+            AirModel::Derivatives(_) => {
+                return Err(AnalysisError::not_covered(
+                    "stability derivatives know no wingbeat",
+                    "use air.model = \"blade_element\"; `wingbeat stability` takes tables as they are",
                 ));
             }
         }

@@ -70,12 +70,18 @@ impl Perturbation {
     /// What the state at the start of a beat looks like.
     pub fn of(beat: &Beat, level: &Level, y: &State) -> Self {
         let root = beat.root(y);
-        let turned = root.r * level.to_root;
-        let tilt = DQuat::from_mat3(&(level.to_n.transpose() * turned)).to_scaled_axis();
+        let velocity = DVec3::from_slice(&y[7..]) / beat.mass();
+        Self::seen(level, root.r, velocity, root.w)
+    }
+
+    /// What an attitude (root to N), a velocity of the mass centre (N components) and an angular
+    /// velocity (root components) look like.
+    pub fn seen(level: &Level, rotation: DMat3, velocity: DVec3, rate: DVec3) -> Self {
+        let turned = rotation * level.to_root;
         Self {
-            velocity: turned.transpose() * (DVec3::from_slice(&y[7..]) / beat.mass()),
-            rate: level.to_root.transpose() * root.w,
-            tilt,
+            velocity: turned.transpose() * velocity,
+            rate: level.to_root.transpose() * rate,
+            tilt: DQuat::from_mat3(&(level.to_n.transpose() * turned)).to_scaled_axis(),
         }
     }
 }

@@ -18,9 +18,9 @@
 //! | A | [`LinearModel::matrix`] | rates of (u, v, w, p, q, r, phi, theta, psi) | - |
 //! | M | [`monodromy::monodromy`] | derivative of the state one beat later by the state now | - |
 //!
-//! **Wake memory.** Everything here that linearises uses air without memory (blade elements). In
-//! a vortex lattice a perturbed flight carries a perturbed wake; neither choice of what to hold
-//! fixed is offered here yet.
+//! **Wake memory.** Most of this linearises air without memory (blade elements). In a vortex
+//! lattice a perturbed flight carries a perturbed wake; [`wake`] trims there and offers both
+//! choices of what to hold fixed.
 //!
 //! What this crate does not know: files, clocks, units other than SI.
 #![warn(missing_docs)]
@@ -38,11 +38,14 @@ pub mod power;
 pub mod regulator;
 pub mod stabiliser;
 pub mod stability;
+pub mod table;
 pub mod trim;
+pub mod wake;
 
 pub use beat::{Beat, State};
 pub use error::AnalysisError;
 pub use level::{Level, Perturbation};
 pub use modes::{Mode, ModeSet};
 pub use stability::{LinearModel, floquet, linear_model};
+pub use table::table_model;
 pub use trim::{Trim, TrimProblem, TrimSettings, Unknown, trim};

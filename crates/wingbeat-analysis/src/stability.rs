@@ -1,11 +1,12 @@
 //! Linear models of flight: averaged over the beat, and Floquet's.
 
-use wingbeat_math::{DMat3, DVec3};
+use wingbeat_math::{DMat3, DQuat, DVec3};
 
 use crate::AnalysisError;
 use crate::beat::{Beat, State};
 use crate::eigen::eigen;
 use crate::level::{Level, Perturbation};
+use crate::mean::MeanLoad;
 use crate::modes::{ModeSet, Scales};
 use crate::monodromy::monodromy;
 
@@ -66,19 +67,40 @@ pub fn linear_model(beat: &Beat, state: &State) -> Result<LinearModel, AnalysisE
 
 /// Newton's and Euler's laws for the mean rigid body in the level frame that turns with it.
 fn averaged_rates(beat: &Beat, level: &Level, x: &[f64]) -> [f64; 9] {
-    let state = Perturbation::from_array(x.try_into().expect("nine components"));
-    let (v, w) = (state.velocity, state.rate);
-    let load = beat.mean_load(level, v, w);
-    let tilt = DMat3::from_quat(wingbeat_math::DQuat::from_scaled_axis(state.tilt));
-    let weight = tilt.transpose() * (level.to_n.transpose() * beat.gravity());
-    let j = level.to_root.transpose() * beat.mean_inertia() * level.to_root;
-    // To first order in tilt and rate the rotation vector changes at the rate w.
-    Perturbation {
-        velocity: load.force / beat.mass() + weight - w.cross(v),
-        rate: j.inverse() * (load.moment - w.cross(j * w)),
-        tilt: w,
+    let body = RigidBody {
+        mass: beat.mass(),
+        inertia: level.to_root.transpose() * beat.mean_inertia() * level.to_root,
+        gravity: level.to_n.transpose() * beat.gravity(),
+    };
+    body.rates(x, |v, w| beat.mean_load(level, v, w))
+}
+
+/// What the equations of a rigid aircraft need; axes fixed in the body, level in the reference
+/// attitude.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct RigidBody {
+    pub(crate) mass: f64,
+    /// About the mass centre.
+    pub(crate) inertia: DMat3,
+    /// In the reference attitude.
+    pub(crate) gravity: DVec3,
+}
+
+impl RigidBody {
+    /// Rates of the nine components of [`Perturbation`] under the air's `load(velocity, rate)`.
+    pub(crate) fn rates(&self, x: &[f64], load: impl Fn(DVec3, DVec3) -> MeanLoad) -> [f64; 9] {
+        let state = Perturbation::from_array(x.try_into().expect("nine components"));
+        let (v, w, j) = (state.velocity, state.rate, self.inertia);
+        let load = load(v, w);
+        let tilt = DMat3::from_quat(DQuat::from_scaled_axis(state.tilt));
+        // To first order in tilt and rate the rotation vector changes at the rate w.
+        Perturbation {
+            velocity: load.force / self.mass + tilt.transpose() * self.gravity - w.cross(v),
+            rate: j.inverse() * (load.moment - w.cross(j * w)),
+            tilt: w,
+        }
+        .to_array()
     }
-    .to_array()
 }
 
 /// Derivatives of the mean loads by velocities and rates.

@@ -224,7 +224,7 @@ fn evaluate(setup: &FlightSetup, problem: &TrimProblem, x: &[f64]) -> Result<Tri
 
 /// The setup with the controls `values` of the problem's unknowns; adjustment, shift of the mass
 /// centre and body pitch.
-fn adjusted(
+pub(crate) fn adjusted(
     setup: &FlightSetup,
     problem: &TrimProblem,
     values: &[f64],
@@ -309,7 +309,7 @@ fn line_search(
     Ok(None)
 }
 
-fn largest(r: &[f64; 6]) -> f64 {
+pub(crate) fn largest(r: &[f64; 6]) -> f64 {
     r.iter().fold(0.0, |m, x| {
         if x.is_nan() {
             f64::INFINITY

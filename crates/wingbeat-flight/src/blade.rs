@@ -93,7 +93,7 @@ pub fn strips(wing: &Wing) -> Vec<Strip> {
 }
 
 /// A body's motion in the words of the blade elements.
-fn frame(m: &BodyMotion) -> FrameMotion {
+pub(crate) fn frame(m: &BodyMotion) -> FrameMotion {
     FrameMotion {
         rotation: m.r,
         velocity: m.v,
@@ -102,7 +102,7 @@ fn frame(m: &BodyMotion) -> FrameMotion {
 }
 
 /// A load in wing components as a wrench in N components.
-fn turned(load: &Load, m: &BodyMotion) -> Wrench {
+pub(crate) fn turned(load: &Load, m: &BodyMotion) -> Wrench {
     Wrench {
         force: m.r * load.force,
         moment: m.r * load.moment,

@@ -4,13 +4,15 @@
 
 use std::sync::Arc;
 
+use wingbeat_air::derivatives::DerivativeTable;
 use wingbeat_air::{AirLoads, AirState, AirWorkspace, Lattice, NodeMotion};
 use wingbeat_dynamics::{BodyMotion, Solution, Workspace, Wrench};
 use wingbeat_math::DVec3;
 
-use crate::blade::BladeSide;
+use crate::blade::{self, BladeSide};
 use crate::core::Core;
 use crate::error::FlightError;
+use crate::external::Session;
 use crate::setup::AppliedLoad;
 use crate::surfaces::SurfaceMap;
 
@@ -81,6 +83,10 @@ pub struct Equations {
     pub air: Option<Arc<AirSide>>,
     /// The blade elements, if they are.
     pub blade: Option<Arc<BladeSide>>,
+    /// The stability derivatives, if they are.
+    pub table: Option<DerivativeTable>,
+    /// The air computed elsewhere, if that is it.
+    pub external: Option<Session>,
     /// Extra loads.
     pub applied: Vec<AppliedLoad>,
     /// Time step h [s].
@@ -251,9 +257,16 @@ impl Equations {
         self.place_nodes(t, y, s)?;
         self.air_loads(t, air, s)?;
         self.applied_loads(t, s);
-        if let Some(blade) = &self.blade {
-            blade.velocity_loads(&s.motions, &mut s.air);
-            self.add_mass(blade, t, &y[..n], s)?;
+        if let Some(strips) = &self.blade {
+            strips.velocity_loads(&s.motions, &mut s.air);
+            self.add_mass(strips, t, &y[..n], s)?;
+        }
+        if let Some(table) = &self.table {
+            s.air.fill(Wrench::default());
+            s.air[0] = blade::turned(&table.load(&blade::frame(&s.motions[0])), &s.motions[0]);
+        }
+        if let Some(session) = &self.external {
+            session.loads(t, self.step, &s.motions, &mut s.air)?;
         }
         s.sum_loads();
         self.core
@@ -333,6 +346,9 @@ impl Equations {
     pub fn accept_air(&self, air: &mut Option<AirState>, s: &Scratch) -> Result<(), FlightError> {
         if let (Some(side), Some(air)) = (&self.air, air) {
             side.lattice.accept(air, &s.nodes, &s.air_loads)?;
+        }
+        if let Some(session) = &self.external {
+            session.accept()?;
         }
         Ok(())
     }

@@ -28,6 +28,9 @@ pub enum FlightError {
         /// Relative change of the last pass.
         change: f64,
     },
+    /// Air computed elsewhere failed.
+    #[error("external air: {0}")]
+    External(String),
     /// The corrector of a step did not converge.
     #[error(
         "step {step} (t = {time:.6e} s): bodies and air did not agree after {passes} corrector passes: scaled residual {residual:.2e}, allowed {tolerance:.2e}; try a smaller step, more passes, or relaxation below {relaxation} (light bodies with large wings need it)"

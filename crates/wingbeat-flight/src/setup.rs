@@ -1,9 +1,14 @@
 //! What a flight is made of: the validated setup, before anything moves.
 
+use std::sync::Arc;
+
 use wingbeat_air::AirSettings;
 use wingbeat_air::blade::{BladeSettings, BodyDrag};
+use wingbeat_air::derivatives::DerivativeTable;
 use wingbeat_math::{DMat3, DVec3, EulerSequence, MovingRotation};
 use wingbeat_model::Animal;
+
+use crate::external::ExternalAir;
 
 /// Everything that defines one flight. Constant once built; the state is elsewhere.
 #[derive(Clone, Debug)]
@@ -30,7 +35,6 @@ pub struct FlightSetup {
 
 /// The air and its model: from none to the unsteady lattice.
 #[derive(Clone, Debug, Default)]
-#[expect(clippy::large_enum_variant, reason = "there is one per flight")]
 pub enum AirModel {
     /// Vacuum.
     #[default]
@@ -39,6 +43,10 @@ pub enum AirModel {
     BladeElement(BladeOptions),
     /// Non-linear unsteady vortex lattice with free wakes.
     VortexLattice(AirOptions),
+    /// Stability derivatives of the whole animal, acting on the root body: linear.
+    Derivatives(DerivativeTable),
+    /// Loads computed by someone else.
+    External(Arc<dyn ExternalAir>),
 }
 
 impl AirModel {
@@ -49,7 +57,7 @@ impl AirModel {
 
     /// Whether the loads depend on the past (a wake).
     pub fn has_memory(&self) -> bool {
-        matches!(self, Self::VortexLattice(_))
+        matches!(self, Self::VortexLattice(_) | Self::External(_))
     }
 }
 
@@ -96,11 +104,11 @@ pub struct StartState {
     pub angles: DVec3,
     /// Velocity of the root origin, N components [m/s].
     pub velocity: DVec3,
-    /// Angular velocity, root components [rad/s].
+    /// Angular velocity at the release, root components [rad/s].
     pub angular_velocity: DVec3,
     /// Number of first steps during which the root is held: it keeps this attitude and moves
     /// with this constant velocity while the wings beat and the wake grows, then it is
-    /// released. 0 releases at once. Holding needs zero angular velocity.
+    /// released. 0 releases at once.
     pub held_steps: usize,
 }
 

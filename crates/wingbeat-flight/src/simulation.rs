@@ -6,6 +6,7 @@
 use std::sync::Arc;
 
 use wingbeat_air::AirState;
+use wingbeat_dynamics::BodyMotion;
 use wingbeat_math::ode::{
     Convergence, Hamming, Multistep, Replay, StepError, StepReport, block_start,
 };
@@ -14,7 +15,7 @@ use crate::equations::{Equations, QUADRATURES, Scratch};
 use crate::error::FlightError;
 use crate::record::{Record, Snapshot};
 use crate::recorder::{self, Ledger, Sources};
-use crate::setup::{CorrectorSettings, FlightSetup};
+use crate::setup::{AirModel, CorrectorSettings, FlightSetup};
 use crate::stages::{Stage, air_side, stages};
 
 /// Everything that is integrated: plain data, enough to go on bit for bit.
@@ -45,6 +46,7 @@ pub struct Simulation {
     solver: Hamming,
     scratch: Scratch,
     record: Record,
+    release: Option<BodyMotion>,
 }
 
 impl Simulation {
@@ -71,6 +73,7 @@ impl Simulation {
             solver: solver(first, &setup.corrector),
             scratch: Scratch::new(first),
             record: Record::default(),
+            release: None,
             setup,
             state,
             stages,
@@ -85,6 +88,11 @@ impl Simulation {
     /// # Errors
     /// As [`Self::new`]; the state does not fit the setup.
     pub fn resume(setup: FlightSetup, state: FlightState) -> Result<Self, FlightError> {
+        if matches!(setup.air, AirModel::External(_)) {
+            return Err(FlightError::External(
+                "the partner's memory is not in the saved state; fly from the start".into(),
+            ));
+        }
         let mut flight = Self::new(setup)?;
         flight.check_fits(&state)?;
         flight.state = state;
@@ -107,6 +115,17 @@ impl Simulation {
     /// The record of the newest step.
     pub fn record(&self) -> &Record {
         &self.record
+    }
+
+    /// Motion of the root at the newest step.
+    pub fn root(&self) -> BodyMotion {
+        self.scratch.motions[0]
+    }
+
+    /// Sets the root into the motion `root` when its hold ends; the air stays as it is. For
+    /// disturbances: a jump of the attitude is one of the wings, too.
+    pub fn release_into(&mut self, root: BodyMotion) {
+        self.release = Some(root);
     }
 
     /// Surfaces and wakes at the newest step; empty in vacuum.
@@ -202,7 +221,9 @@ impl Simulation {
         if enters {
             let past = &self.state.past.y[self.newest()];
             let quadratures = past[past.len() - QUADRATURES..].to_vec();
-            let root = self.scratch.motions[0];
+            let mut root = self.scratch.motions[0];
+            root.w = self.setup.root_at_start().w;
+            let root = self.release.take().unwrap_or(root);
             let core = &self.stages[next].equations.core;
             let mut y0 = core.initial(self.time(self.state.step), &root)?;
             y0.extend(quadratures);

@@ -13,6 +13,7 @@ use crate::bodies;
 use crate::core::{Core, root_motion};
 use crate::equations::{AirSide, Equations, Scratch};
 use crate::error::FlightError;
+use crate::external::Session;
 use crate::setup::{
     AirModel, BaumgarteChoice, DriftingFourier, FlightSetup, FormulationChoice, MotionMode,
     PrescribedMotion, StartState,
@@ -84,6 +85,11 @@ pub fn blade_side(setup: &FlightSetup) -> Result<Option<Arc<BladeSide>>, FlightE
 /// Bodies that the dynamics refuse.
 pub fn stages(setup: &FlightSetup, air: Option<Arc<AirSide>>) -> Result<Vec<Stage>, FlightError> {
     let blade = blade_side(setup)?;
+    let external = Session::open(setup)?;
+    let table = match &setup.air {
+        AirModel::Derivatives(table) => Some(*table),
+        _ => None,
+    };
     let system = || bodies::system(&setup.animal, setup.gravity, natural_units(setup));
     let tethered = |system: System, motion: &PrescribedMotion| Core::Tethered {
         system,
@@ -95,6 +101,8 @@ pub fn stages(setup: &FlightSetup, air: Option<Arc<AirSide>>) -> Result<Vec<Stag
             core,
             air: air.clone(),
             blade: blade.clone(),
+            table,
+            external: external.clone(),
             applied: setup.loads.clone(),
             step: setup.time.step,
         },

@@ -15,6 +15,7 @@
 
 pub mod case;
 mod error;
+pub mod external;
 pub mod figures;
 pub mod page;
 pub mod presets;

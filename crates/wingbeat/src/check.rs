@@ -54,6 +54,8 @@ fn describe(setup: &FlightSetup) {
         AirModel::None => "no air",
         AirModel::BladeElement(_) => "blade elements",
         AirModel::VortexLattice(_) => "vortex lattice",
+        AirModel::Derivatives(_) => "stability derivatives",
+        AirModel::External(_) => "external program",
     };
     println!("{:<10}{mode}, {air}", "flight");
     let time = &setup.time;

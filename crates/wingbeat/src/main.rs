@@ -44,7 +44,7 @@ enum Command {
     /// model.
     Trim(analyse::trim::TrimArgs),
     /// Trim, then give derivatives, modes averaged over the beat, and Floquet's modes.
-    Stability(analyse::Trimming),
+    Stability(analyse::stability::StabilityArgs),
     /// Trim, then give the control derivatives of every wing.
     Derivatives(analyse::Trimming),
     /// Trim, then give the mechanical power of flapping.
@@ -114,6 +114,7 @@ impl Manner {
 }
 
 fn main() -> ExitCode {
+    end_quietly_when_nobody_reads();
     let cli = Cli::parse();
     let outcome = match cli.command {
         Command::Run(args) => return run::run(&args),
@@ -141,6 +142,18 @@ fn main() -> ExitCode {
         Ok(()) => ExitCode::SUCCESS,
         Err(e) => refuse(&e),
     }
+}
+
+/// `wingbeat ... | head` is no failure: a reader who has seen enough ends the program.
+fn end_quietly_when_nobody_reads() {
+    let report = std::panic::take_hook();
+    std::panic::set_hook(Box::new(move |info| {
+        let text = info.payload().downcast_ref::<String>();
+        if text.is_some_and(|t| t.starts_with("failed printing to stdout")) {
+            std::process::exit(0);
+        }
+        report(info);
+    }));
 }
 
 /// Reports an error that kept anything from being run.

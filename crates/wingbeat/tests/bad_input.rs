@@ -150,7 +150,7 @@ fn exact_unknown_choice() {
         "\"non\"",
         &[
             "air.model = \"non\": unknown choice `non`",
-            "vortex_lattice, blade_element, none",
+            "vortex_lattice, blade_element, derivatives, external, none",
             "did you mean `none`?",
         ],
     );

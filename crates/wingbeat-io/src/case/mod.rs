@@ -17,7 +17,7 @@ use wingbeat_flight::FlightSetup;
 
 pub use build::data_sets;
 pub(crate) use decode::nearest;
-pub use trimmed::{trimmed_case, write_new};
+pub use trimmed::{derivative_case, trimmed_case, wake_trimmed_case, write_new};
 
 use crate::error::{CaseError, Fault, IoError};
 use crate::presets;

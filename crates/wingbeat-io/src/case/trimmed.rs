@@ -3,18 +3,48 @@
 use std::io::Write;
 use std::path::Path;
 
-use wingbeat_analysis::Trim;
+use wingbeat_analysis::table::rigid_animal;
+use wingbeat_analysis::wake::WakeTrim;
+use wingbeat_analysis::{LinearModel, Trim};
+use wingbeat_dynamics::BodyMotion;
 use wingbeat_math::EulerSequence;
+use wingbeat_model::motion::Adjustment;
 
 use super::LoadedCase;
-use super::raw::{Mode, StartCase};
+use super::raw::{
+    AirCase, AirModel, BodyCase, Case, DerivativesCase, FlightCase, Mode, MotionCase, StartCase,
+};
 use crate::error::IoError;
 
 /// The case of a trimmed flight as TOML: the given case with the adjusted wing motion, hinges and
 /// the state of the body at the start of the periodic beat, impulsively started.
 pub fn trimmed_case(case: &LoadedCase, trim: &Trim) -> String {
+    let raw = adjusted(case, &trim.adjustment, trim.mass_centre);
+    with_start(case, raw, &trim.beat.root(&trim.state), 0.0, trim.error())
+}
+
+/// The same for a flight in air with memory: held while the wake grows, then released.
+pub fn wake_trimmed_case(case: &LoadedCase, trim: &WakeTrim) -> String {
+    let mut raw = adjusted(case, &trim.adjustment, trim.mass_centre);
+    let start = trim.start();
+    let root = BodyMotion {
+        p: start.position,
+        r: start.rotation(),
+        v: start.velocity,
+        w: start.angular_velocity,
+    };
+    let time = &trim.setup.time;
+    let held = start.held_steps as f64 * time.step / time.period.unwrap_or(1.0);
+    // The hold and the free wingbeat that was trimmed.
+    raw.time.beats = Some(held + 1.0);
+    raw.time.steps = None;
+    raw.motion.start = case.raw.motion.start;
+    with_start(case, raw, &root, held, trim.error())
+}
+
+/// The case with the adjusted wing motion and hinges.
+fn adjusted(case: &LoadedCase, a: &Adjustment, mass_centre: f64) -> Case {
     let mut raw = case.raw.clone();
-    let a = &trim.adjustment;
     let motion = &mut raw.motion;
     let adjust = &mut motion.adjust;
     adjust.stroke_amplitude = (1.0 + adjust.stroke_amplitude) * (1.0 + a.stroke_amplitude) - 1.0;
@@ -28,14 +58,24 @@ pub fn trimmed_case(case: &LoadedCase, trim: &Trim) -> String {
     motion.frequency_hz = motion.frequency_hz.map(|f| f * (1.0 + a.frequency));
     motion.start = StartCase::Impulsive;
     for hinge in raw.wing.values_mut().filter_map(|w| w.hinge_m.as_mut()) {
-        hinge[0] -= trim.mass_centre / raw.animal.scale;
+        hinge[0] -= mass_centre / raw.animal.scale;
     }
-    let root = trim.beat.root(&trim.state);
+    raw
+}
+
+/// The case as text with this start of its free flight.
+fn with_start(
+    case: &LoadedCase,
+    mut raw: Case,
+    root: &BodyMotion,
+    held: f64,
+    error: f64,
+) -> String {
     let angles = EulerSequence::BODY_231.angles(root.r);
     let flight = &mut raw.flight;
     flight.mode = Mode::Free;
     flight.tether = None;
-    flight.held_beats = 0.0;
+    flight.held_beats = held;
     flight.pitch_deg = angles.x.to_degrees();
     flight.yaw_deg = angles.y.to_degrees();
     flight.roll_deg = angles.z.to_degrees();
@@ -44,8 +84,68 @@ pub fn trimmed_case(case: &LoadedCase, trim: &Trim) -> String {
     let body = toml::to_string(&raw).expect("a case that was read can be written");
     format!(
         "# `{}`, trimmed: largest residual {:.1e} of weight, weight times wing length, radian and\n# wing length per beat.\n{body}",
-        case.name,
-        trim.error()
+        case.name, error
+    )
+}
+
+/// The rigid animal of a trimmed flight under the derivatives of its averaged model, as TOML.
+pub fn derivative_case(case: &LoadedCase, trim: &Trim, model: &LinearModel) -> String {
+    let (mass, inertia, table) = rigid_animal(trim, model);
+    let j = |i: usize, k: usize| inertia.col(k)[i];
+    let block = |i: usize, k: usize| -> Option<[[f64; 3]; 3]> {
+        let entry = |r: usize, c: usize| table.derivatives[i + r][k + c];
+        Some(std::array::from_fn(|r| {
+            std::array::from_fn(|c| entry(r, c))
+        }))
+    };
+    // The table's axes are level: the body is pitched by the angle of its first axis.
+    let pitch = table
+        .to_body
+        .x_axis
+        .z
+        .atan2(table.to_body.x_axis.x)
+        .to_degrees();
+    let mut raw = case.raw.clone();
+    raw.name = Some(format!("{}-averaged", case.name));
+    raw.wing.clear();
+    raw.animal.scale = 1.0;
+    raw.body = BodyCase {
+        mass_kg: Some(mass),
+        centre_m: Some([0.0; 3]),
+        inertia_about_centre_kg_m2: Some([j(0, 0), j(1, 1), j(2, 2), j(0, 1), j(0, 2), j(1, 2)]),
+        ..BodyCase::default()
+    };
+    raw.motion = MotionCase {
+        frequency_hz: Some(1.0 / trim.beat.period()),
+        ..MotionCase::default()
+    };
+    let r = table.reference;
+    raw.air = AirCase {
+        model: AirModel::Derivatives,
+        density_kg_m3: case.raw.air.density_kg_m3,
+        stream_m_s: case.raw.air.stream_m_s,
+        ..AirCase::default()
+    };
+    raw.air.derivatives = Some(DerivativesCase {
+        body_pitch_deg: pitch,
+        velocity_m_s: table.velocity.to_array(),
+        force_newton: Some([r[0], r[1], r[2]]),
+        moment_newton_m: [r[3], r[4], r[5]],
+        force_by_velocity_newton_s_m: block(0, 0),
+        force_by_rate_newton_s: block(0, 3),
+        moment_by_velocity_newton_s: block(3, 0),
+        moment_by_rate_newton_m_s: block(3, 3),
+        dimensionless: None,
+    });
+    raw.flight = FlightCase {
+        pitch_deg: pitch,
+        velocity_m_s: table.velocity.to_array(),
+        ..FlightCase::default()
+    };
+    let body = toml::to_string(&raw).expect("a case that was read can be written");
+    format!(
+        "# `{}`, averaged over the wingbeat: a rigid body under stability derivatives.\n{body}",
+        case.name
     )
 }
 

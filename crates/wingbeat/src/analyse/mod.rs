@@ -10,10 +10,12 @@ use std::process::ExitCode;
 
 use clap::Args;
 use wingbeat::analysis::trim::{UNKNOWNS, trim as find_trim};
+use wingbeat::analysis::wake::{WakeSettings, WakeTrim, trim_with_wake};
 use wingbeat::analysis::{AnalysisError, Trim, TrimProblem, TrimSettings, Unknown};
 use wingbeat::flight::MotionMode;
 use wingbeat::io::{IoError, LoadedCase};
 use wingbeat::math::DVec3;
+use wingbeat::model::motion::Adjustment;
 
 /// What is trimmed and how.
 #[derive(Args)]
@@ -34,9 +36,12 @@ pub(crate) struct Trimming {
     /// Mean velocity upward (-n3), m/s.
     #[arg(long, default_value_t = 0.0, allow_negative_numbers = true)]
     climb: f64,
-    /// Steps per wingbeat.
-    #[arg(long, default_value_t = 100)]
-    steps: usize,
+    /// Steps per wingbeat; default 100, in a vortex lattice those of the case.
+    #[arg(long)]
+    steps: Option<usize>,
+    /// In a vortex lattice: wingbeats during which the body is held while its wake grows.
+    #[arg(long, default_value_t = 2)]
+    hold: usize,
 }
 
 /// What kept an analysis from being made.
@@ -74,28 +79,105 @@ pub(crate) fn exit(outcome: Result<(), Trouble>) -> ExitCode {
     }
 }
 
+impl Trimming {
+    /// The case.
+    pub(crate) fn load(&self) -> Result<LoadedCase, IoError> {
+        LoadedCase::find(&self.case, &self.set)
+    }
+}
+
 /// Loads the case and trims it; reports the trim.
 pub(crate) fn trimmed(args: &Trimming) -> Result<(LoadedCase, Trim), Trouble> {
-    let case = LoadedCase::find(&args.case, &args.set)?;
-    let body_pitch = match &case.setup.mode {
-        MotionMode::Free(start) => start.angles.x,
-        MotionMode::Tethered(motion) => motion.angles[0].constant,
-    };
-    let problem = TrimProblem {
-        unknowns: [args.unknowns[0], args.unknowns[1], args.unknowns[2]],
-        velocity: DVec3::new(args.forward, 0.0, -args.climb),
-        body_pitch,
-        settings: TrimSettings {
-            steps: args.steps.max(1),
-            ..TrimSettings::default()
-        },
-    };
+    let case = args.load()?;
+    let problem = args.problem(&case);
     let found = find_trim(&case.setup, &problem)?;
-    trim::report(&case, &problem, &found);
+    trim::report(&case, &problem, &Found::from(&found));
     if found.converged {
         Ok((case, found))
     } else {
         Err(Trouble::NotTrimmed)
+    }
+}
+
+/// The same in air with memory.
+pub(crate) fn trimmed_with_wake(args: &Trimming) -> Result<(LoadedCase, WakeTrim), Trouble> {
+    let mut case = args.load()?;
+    if let (Some(steps), Some(period)) = (args.steps, case.setup.time.period) {
+        case.setup.time.step = period / steps.max(4) as f64;
+        case.raw.time.steps_per_beat = Some(steps.max(4));
+    }
+    let problem = args.problem(&case);
+    let settings = WakeSettings {
+        held_beats: args.hold.max(1),
+        ..WakeSettings::default()
+    };
+    let found = trim_with_wake(&case.setup, &problem, &settings)?;
+    trim::report(&case, &problem, &Found::from(&found));
+    println!(
+        "  {} flights of {} wingbeats",
+        found.flights,
+        args.hold.max(1) + 1
+    );
+    if found.converged {
+        Ok((case, found))
+    } else {
+        Err(Trouble::NotTrimmed)
+    }
+}
+
+/// What is reported of a trim of either kind.
+pub(crate) struct Found {
+    pub(crate) converged: bool,
+    pub(crate) residual: [f64; 6],
+    pub(crate) iterations: usize,
+    pub(crate) adjustment: Adjustment,
+    pub(crate) mass_centre: f64,
+    pub(crate) body_pitch: f64,
+}
+
+impl From<&Trim> for Found {
+    fn from(t: &Trim) -> Self {
+        Self {
+            converged: t.converged,
+            residual: t.residual,
+            iterations: t.iterations,
+            adjustment: t.adjustment,
+            mass_centre: t.mass_centre,
+            body_pitch: t.body_pitch,
+        }
+    }
+}
+
+impl From<&WakeTrim> for Found {
+    fn from(t: &WakeTrim) -> Self {
+        Self {
+            converged: t.converged,
+            residual: t.residual,
+            iterations: t.iterations,
+            adjustment: t.adjustment,
+            mass_centre: t.mass_centre,
+            body_pitch: t.body_pitch,
+        }
+    }
+}
+
+impl Trimming {
+    /// What is asked of the trim.
+    fn problem(&self, case: &LoadedCase) -> TrimProblem {
+        let args = self;
+        let body_pitch = match &case.setup.mode {
+            MotionMode::Free(start) => start.angles.x,
+            MotionMode::Tethered(motion) => motion.angles[0].constant,
+        };
+        TrimProblem {
+            unknowns: [args.unknowns[0], args.unknowns[1], args.unknowns[2]],
+            velocity: DVec3::new(args.forward, 0.0, -args.climb),
+            body_pitch,
+            settings: TrimSettings {
+                steps: args.steps.unwrap_or(100).max(1),
+                ..TrimSettings::default()
+            },
+        }
     }
 }
 

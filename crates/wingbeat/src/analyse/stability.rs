@@ -1,19 +1,55 @@
 //! `wingbeat stability`.
 
+use std::path::PathBuf;
 use std::process::ExitCode;
 
+use clap::{Args, ValueEnum};
 use wingbeat::analysis::stability::{LOADS, LinearModel};
-use wingbeat::analysis::{ModeSet, floquet, linear_model};
+use wingbeat::analysis::wake::{WakeMemory, wake_floquet};
+use wingbeat::analysis::{ModeSet, floquet, linear_model, table_model};
+use wingbeat::flight::AirModel;
+use wingbeat::io::LoadedCase;
+use wingbeat::io::case::{derivative_case, write_new};
 
-use super::{Trimming, Trouble, exit, trimmed};
+use super::{Trimming, Trouble, exit, trimmed, trimmed_with_wake};
+
+/// What `wingbeat stability` is told.
+#[derive(Args)]
+pub(crate) struct StabilityArgs {
+    #[command(flatten)]
+    trimming: Trimming,
+    /// Write the averaged model as a case file with stability derivatives; never over an
+    /// existing file.
+    #[arg(long, value_name = "FILE")]
+    write: Option<PathBuf>,
+    /// In a vortex lattice: what is held fixed when the body is disturbed.
+    #[arg(long, value_enum, default_value_t = Wake::Carried)]
+    wake: Wake,
+}
+
+/// What is held fixed.
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Wake {
+    /// The wake of the trimmed flight; the body jumps at its release.
+    Given,
+    /// The disturbance during the hold: the wake goes with it.
+    Carried,
+}
 
 /// The whole command.
-pub(crate) fn run(args: &Trimming) -> ExitCode {
+pub(crate) fn run(args: &StabilityArgs) -> ExitCode {
     exit(find(args))
 }
 
-fn find(args: &Trimming) -> Result<(), Trouble> {
-    let (_, trim) = trimmed(args)?;
+fn find(args: &StabilityArgs) -> Result<(), Trouble> {
+    let case = args.trimming.load()?;
+    if matches!(case.setup.air, AirModel::Derivatives(_)) {
+        return table(&case);
+    }
+    if case.setup.air.has_memory() {
+        return with_wake(args);
+    }
+    let (case, trim) = trimmed(&args.trimming)?;
     let averaged = linear_model(&trim.beat, &trim.state)?;
     derivatives(&averaged);
     println!("\nModes of the rigid body under mean loads (averaged over the beat):");
@@ -23,6 +59,37 @@ fn find(args: &Trimming) -> Result<(), Trouble> {
     println!(
         "\nAxes: level frame of the trimmed attitude, forward, right, down, about the mass centre. The air has no\nmemory; times in wingbeats of {:.3} ms.",
         1e3 * trim.beat.period()
+    );
+    if let Some(path) = &args.write {
+        write_new(path, &derivative_case(&case, &trim, &averaged))?;
+        println!("\nwrote {}", path.display());
+    }
+    Ok(())
+}
+
+/// Floquet's modes of the free wingbeat after a hold.
+fn with_wake(args: &StabilityArgs) -> Result<(), Trouble> {
+    let (_, trim) = trimmed_with_wake(&args.trimming)?;
+    let (memory, held) = match args.wake {
+        Wake::Given => (WakeMemory::Given, "the wake of the trimmed flight"),
+        Wake::Carried => (WakeMemory::Carried, "the disturbance during the hold"),
+    };
+    println!("\nModes of the free wingbeat after the hold (Floquet); held fixed: {held}:");
+    modes(&wake_floquet(&trim, memory)?);
+    Ok(())
+}
+
+/// The modes of a case that is linear already.
+fn table(case: &LoadedCase) -> Result<(), Trouble> {
+    let model = table_model(&case.setup)?;
+    println!("{}: rigid body under its table of derivatives", case.name);
+    derivatives(&model);
+    println!("\nModes:");
+    modes(&model.modes);
+    let beat = case.setup.time.period.unwrap_or(1.0);
+    println!(
+        "\nAxes: those of the table, about the mass centre; times in beats of {:.3} ms.",
+        1e3 * beat
     );
     Ok(())
 }

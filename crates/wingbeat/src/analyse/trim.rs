@@ -4,11 +4,11 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::Args;
-use wingbeat::analysis::{Trim, TrimProblem, Unknown};
+use wingbeat::analysis::{TrimProblem, Unknown};
 use wingbeat::io::LoadedCase;
-use wingbeat::io::case::{trimmed_case, write_new};
+use wingbeat::io::case::{trimmed_case, wake_trimmed_case, write_new};
 
-use super::{Trimming, Trouble, exit, trimmed};
+use super::{Found, Trimming, Trouble, exit, trimmed, trimmed_with_wake};
 
 /// What `wingbeat trim` is told.
 #[derive(Args)]
@@ -26,9 +26,16 @@ pub(crate) fn run(args: &TrimArgs) -> ExitCode {
 }
 
 fn find(args: &TrimArgs) -> Result<(), Trouble> {
-    let (case, trim) = trimmed(&args.trimming)?;
+    let with_memory = args.trimming.load()?.setup.air.has_memory();
+    let text = if with_memory {
+        let (case, trim) = trimmed_with_wake(&args.trimming)?;
+        wake_trimmed_case(&case, &trim)
+    } else {
+        let (case, trim) = trimmed(&args.trimming)?;
+        trimmed_case(&case, &trim)
+    };
     if let Some(path) = &args.write {
-        write_new(path, &trimmed_case(&case, &trim))?;
+        write_new(path, &text)?;
         println!(
             "\nwrote {0}; fly it with `wingbeat run {0}`",
             path.display()
@@ -38,7 +45,7 @@ fn find(args: &TrimArgs) -> Result<(), Trouble> {
 }
 
 /// The trim on the terminal.
-pub(crate) fn report(case: &LoadedCase, problem: &TrimProblem, t: &Trim) {
+pub(crate) fn report(case: &LoadedCase, problem: &TrimProblem, t: &Found) {
     let v = problem.velocity;
     println!(
         "{}: trim to {:.3} m/s forward, {:.3} m/s up",
@@ -52,7 +59,7 @@ pub(crate) fn report(case: &LoadedCase, problem: &TrimProblem, t: &Trim) {
     println!(
         "{verdict} after {} Newton steps, largest residual {:.1e}",
         t.iterations,
-        t.error()
+        t.residual.iter().fold(0.0_f64, |m, r| m.max(r.abs()))
     );
     for u in problem.unknowns {
         println!("  {:<18}{}", u.name(), value(u, t));
@@ -70,7 +77,7 @@ pub(crate) fn report(case: &LoadedCase, problem: &TrimProblem, t: &Trim) {
     }
 }
 
-fn value(u: Unknown, t: &Trim) -> String {
+fn value(u: Unknown, t: &Found) -> String {
     let a = &t.adjustment;
     let degrees = |x: f64| format!("{:+.4} deg", x.to_degrees());
     let percent = |x: f64| format!("{:+.3} %", 100.0 * x);

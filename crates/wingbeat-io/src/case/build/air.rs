@@ -8,7 +8,7 @@ use wingbeat_flight::{AirModel, AirOptions};
 use wingbeat_math::{DMat3, DVec3};
 use wingbeat_model::Animal;
 
-use super::{Built, at_least, blade, not_negative, positive, vector};
+use super::{Built, at_least, blade, derivatives, not_negative, positive, vector};
 use crate::case::raw::{
     AirCase, AirModel as Model, Case, CirculationRateCase, ConvectionCase, CoreCase, EdgeCase,
     GustCase, LeadingEdgeCase, LoadMethodCase, SchemeCase, SummationCase,
@@ -42,10 +42,13 @@ fn mean_panel_length(animal: &Animal) -> f64 {
 }
 
 /// The air of the flight.
-pub(super) fn options(case: &AirCase) -> Built<AirModel> {
+pub(super) fn options(whole: &Case, animal: &Animal) -> Built<AirModel> {
+    let case = &whole.air;
     match case.model {
         Model::None => Ok(AirModel::None),
         Model::BladeElement => Ok(AirModel::BladeElement(blade::options(case)?)),
+        Model::Derivatives => Ok(AirModel::Derivatives(derivatives::table(whole, animal)?)),
+        Model::External => Ok(AirModel::External(derivatives::external(case, animal)?)),
         Model::VortexLattice => Ok(AirModel::VortexLattice(lattice(case)?)),
     }
 }

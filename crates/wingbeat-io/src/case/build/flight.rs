@@ -44,14 +44,6 @@ fn free(flight: &FlightCase, time: &TimeGrid) -> Built<MotionMode> {
         ));
     }
     let held = not_negative("flight.held_beats", flight.held_beats)?;
-    if held > 0.0 && flight.angular_velocity_deg_s != [0.0; 3] {
-        return Err(Fault::new(
-            "flight.angular_velocity_deg_s",
-            "a body that is held for its first beats cannot rotate",
-            "[0, 0, 0] with flight.held_beats > 0",
-            "set flight.held_beats = 0",
-        ));
-    }
     let held_time = held * time.period.unwrap_or(0.0);
     Ok(MotionMode::Free(StartState {
         position: vector(flight.position_m),

@@ -5,6 +5,7 @@
 mod air;
 mod blade;
 mod body;
+mod derivatives;
 mod flight;
 mod motion;
 mod output;
@@ -19,7 +20,7 @@ use wingbeat_flight::{CorrectorSettings, FlightSetup};
 use wingbeat_math::{DMat3, DVec3};
 use wingbeat_model::{Animal, ModelError};
 
-use super::raw::{Case, CorrectorCase};
+use super::raw::{Case, CorrectorCase, WingInertia};
 use crate::error::Fault;
 
 type Built<T> = Result<T, Fault>;
@@ -35,7 +36,7 @@ pub(crate) fn setup(case: &mut Case, name: &str) -> Built<FlightSetup> {
     let setup = FlightSetup {
         name: name.to_owned(),
         gravity: case.gravity_m_s2.into(),
-        air: air::options(&case.air)?,
+        air: air::options(case, &animal)?,
         mode: flight::mode(case, &time)?,
         formulation: flight::formulation(&case.dynamics)?,
         corrector: corrector(&case.corrector)?,
@@ -69,9 +70,15 @@ fn animal(case: &Case, name: &str) -> Built<Animal> {
     };
     animal.check().map_err(|e| blame_animal(case, e))?;
     let scale = positive("animal.scale", case.animal.scale)?;
-    animal
+    let mut animal = animal
         .scaled(scale)
-        .map_err(|e| Fault::new("animal.scale", e.to_string(), "a number > 0", ""))
+        .map_err(|e| Fault::new("animal.scale", e.to_string(), "a number > 0", ""))?;
+    if case.dynamics.wings == WingInertia::Massless {
+        for wing in &mut animal.wings {
+            wing.mass = wing.mass.scaled(0.0);
+        }
+    }
+    Ok(animal)
 }
 
 /// The key of a fault the finished animal shows.

@@ -3,14 +3,15 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::BladeCase;
+use super::{BladeCase, DerivativesCase, ExternalCase};
 
 /// The air and its model.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct AirCase {
     /// `vortex_lattice`: non-linear, unsteady, with free wakes; `blade_element`: quasi-steady
-    /// strips, fast; `none`: vacuum.
+    /// strips, fast; `derivatives`: a table of stability derivatives acting on the body;
+    /// `external`: a program of your own; `none`: vacuum.
     pub model: AirModel,
     /// Density.
     pub density_kg_m3: f64,
@@ -87,6 +88,12 @@ pub struct AirCase {
     /// Settings of `model = "blade_element"`; the lattice's keys do not matter then.
     #[serde(skip_serializing_if = "is_default")]
     pub blade: BladeCase,
+    /// Settings of `model = "derivatives"`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub derivatives: Option<DerivativesCase>,
+    /// Settings of `model = "external"`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub external: Option<ExternalCase>,
 }
 
 fn is_default(case: &BladeCase) -> bool {
@@ -123,6 +130,8 @@ impl Default for AirCase {
             summation: SummationCase::Auto,
             summation_tolerance: 1e-4,
             blade: BladeCase::default(),
+            derivatives: None,
+            external: None,
         }
     }
 }
@@ -147,6 +156,10 @@ pub enum AirModel {
     VortexLattice,
     /// Quasi-steady blade elements.
     BladeElement,
+    /// Stability derivatives.
+    Derivatives,
+    /// A program of your own.
+    External,
     /// No air.
     None,
 }

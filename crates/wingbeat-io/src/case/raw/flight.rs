@@ -19,7 +19,7 @@ pub struct FlightCase {
     pub roll_deg: f64,
     /// Velocity of the body origin, inertial axes; a tethered body keeps it.
     pub velocity_m_s: [f64; 3],
-    /// Angular velocity in body axes (free flight).
+    /// Angular velocity in body axes (free flight), at the release if the body is held.
     pub angular_velocity_deg_s: [f64; 3],
     /// Wingbeats during which a free body is still held while its wake grows.
     pub held_beats: f64,
@@ -119,6 +119,9 @@ pub struct DynamicsCase {
     pub formulation: Formulation,
     /// Baumgarte's stabilisation of the constraints (Euler form only).
     pub baumgarte: BaumgarteCase,
+    /// `massive`: wings with the masses given; `massless`: wings that carry air loads but no
+    /// inertia, which leaves the standard equations of a rigid aircraft of the body's mass.
+    pub wings: WingInertia,
 }
 
 impl Default for DynamicsCase {
@@ -126,8 +129,19 @@ impl Default for DynamicsCase {
         Self {
             formulation: Formulation::Momentum,
             baumgarte: BaumgarteCase::StepFactor(0.1),
+            wings: WingInertia::Massive,
         }
     }
+}
+
+/// Whether wings have mass.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum WingInertia {
+    /// The masses given.
+    Massive,
+    /// None.
+    Massless,
 }
 
 /// Which equations are integrated.

@@ -7,6 +7,7 @@
 mod air;
 mod blade;
 mod body;
+mod derivatives;
 mod flight;
 mod motion;
 mod wing;
@@ -20,9 +21,10 @@ pub use blade::{
     ViscousCase,
 };
 pub use body::{BodyCase, OriginCase, PartCase, ProfileCase};
+pub use derivatives::{DerivativesCase, DimensionlessCase, ExternalCase};
 pub use flight::{
     AngleOscillation, BaumgarteCase, DynamicsCase, FlightCase, Formulation, FrameCase, LoadCase,
-    Mode, PathOscillation, TetherCase,
+    Mode, PathOscillation, TetherCase, WingInertia,
 };
 pub use motion::{
     AngleCase, FourierCase, MotionCase, OvalCase, ShapedCase, StartCase, TableCase, WingMotionCase,

@@ -1,0 +1,103 @@
+//! The linear model of an animal whose air is a table of stability derivatives, and such a table
+//! from the cycle means of a flapping one.
+
+use wingbeat_air::blade::FrameMotion;
+use wingbeat_air::derivatives::DerivativeTable;
+use wingbeat_flight::{AirModel, FlightSetup};
+use wingbeat_math::{DMat3, DVec3};
+
+use crate::AnalysisError;
+use crate::eigen::eigen;
+use crate::level::Level;
+use crate::mean::MeanLoad;
+use crate::modes::{ModeSet, Scales};
+use crate::monodromy::monodromy;
+use crate::stability::{LinearModel, RigidBody};
+use crate::trim::Trim;
+
+/// The linear model of a rigid animal under its table of derivatives about the table's reference
+/// flight, level. Times in wingbeats refer to the setup's period, else to a second.
+///
+/// # Errors
+/// Other air; wings with mass, for the table is that of a rigid body; numbers not finite.
+pub fn table_model(setup: &FlightSetup) -> Result<LinearModel, AnalysisError> {
+    let AirModel::Derivatives(table) = setup.air else {
+        return Err(AnalysisError::not_covered(
+            "the air is no table of derivatives",
+            "use air.model = \"derivatives\"",
+        ));
+    };
+    if setup.animal.wings.iter().any(|w| w.mass.mass > 0.0) {
+        return Err(AnalysisError::not_covered(
+            "the animal has wings with mass beside its table of derivatives",
+            "leave the wings out, or set dynamics.wings = \"massless\"",
+        ));
+    }
+    let inertia = setup.animal.body.inertia_about_centre();
+    let body = RigidBody {
+        mass: setup.animal.body.mass,
+        inertia: table.to_body.transpose() * inertia * table.to_body,
+        gravity: DVec3::Z * setup.gravity.length(),
+    };
+    let mut reference = [0.0; 9];
+    table.velocity.write_to_slice(&mut reference);
+    let rates = |x: &[f64]| -> Result<Vec<f64>, AnalysisError> {
+        Ok(body.rates(x, |v, w| load(&table, v, w)).to_vec())
+    };
+    let period = setup.time.period.unwrap_or(1.0);
+    let rate = 1.0 / period;
+    // Speed by which components are compared: that of a fall over a wingbeat.
+    let speed = setup.gravity.length() * period;
+    let scales = Scales {
+        velocity: if speed > 0.0 { speed } else { 1.0 },
+        rate,
+        period,
+    };
+    let steps = scales.array().map(|s| 1e-3 * s);
+    let matrix = monodromy(rates, &reference, &steps)?;
+    let modes = ModeSet::of_exponents(eigen(&matrix, 9)?, &scales);
+    Ok(LinearModel {
+        matrix,
+        derivatives: table.derivatives,
+        modes,
+    })
+}
+
+/// Loads about the mass centre, axes of the table, when the body stands in its reference
+/// attitude.
+fn load(table: &DerivativeTable, velocity: DVec3, rate: DVec3) -> MeanLoad {
+    let (v, w) = (table.to_body * velocity, table.to_body * rate);
+    let still = DerivativeTable {
+        stream: DVec3::ZERO,
+        ..*table
+    };
+    let load = still.load(&FrameMotion {
+        rotation: DMat3::IDENTITY,
+        velocity: v - w.cross(table.point),
+        rate: w,
+    });
+    let to_table = table.to_body.transpose();
+    MeanLoad {
+        force: to_table * load.force,
+        moment: to_table * (load.moment - table.point.cross(load.force)),
+    }
+}
+
+/// The rigid animal with the mean mass properties of a trimmed flight, and its derivatives: mass
+/// [kg], inertia about the mass centre in body axes [kg m2], table.
+pub fn rigid_animal(trim: &Trim, model: &LinearModel) -> (f64, DMat3, DerivativeTable) {
+    let root = trim.beat.root(&trim.state);
+    let level = Level::new(root.r, trim.beat.gravity());
+    let velocity = level.to_n.transpose() * trim.mean_velocity();
+    let air = trim.beat.mean_load(&level, velocity, DVec3::ZERO);
+    let (f, m) = (air.force, air.moment);
+    let table = DerivativeTable {
+        to_body: level.to_root,
+        point: DVec3::ZERO,
+        velocity,
+        reference: [f.x, f.y, f.z, m.x, m.y, m.z],
+        derivatives: model.derivatives,
+        stream: DVec3::ZERO,
+    };
+    (trim.beat.mass(), trim.beat.mean_inertia(), table)
+}

@@ -1,0 +1,431 @@
+//! Trim and Floquet's modes in air that remembers: the vortex lattice.
+//!
+//! A periodic orbit of body **and** wake has thousands of unknowns. What is done instead: the body
+//! is held for some wingbeats with constant velocity and attitude while the wake grows, then
+//! released; the free wingbeat that follows is the map of the state. Trim asks that this beat
+//! changes nothing but the place (six residuals, as [`crate::trim`]). For stability the map is
+//! differentiated, and two things can be held fixed:
+//!
+//! - [`WakeMemory::Given`]: the wake of the trimmed hold; the disturbance is put on the body at
+//!   its release (its velocities and attitude jump, the wake does not).
+//! - [`WakeMemory::Carried`]: the hold is flown in the disturbed motion already, so the wake is that
+//!   of a steadily disturbed flight; only angular velocity, which a hold cannot have, jumps.
+//!
+//! Neither is the full monodromy of body and wake; the two bracket what the memory does within
+//! a wingbeat.
+
+use wingbeat_dynamics::BodyMotion;
+use wingbeat_flight::{FlightSetup, MotionMode, Record, Simulation, StartState};
+use wingbeat_math::{DMat3, DQuat, DVec3, EulerSequence, solve_small};
+use wingbeat_model::motion::Adjustment;
+
+use crate::AnalysisError;
+use crate::eigen::eigen;
+use crate::level::{Level, Perturbation};
+use crate::modes::{ModeSet, Scales};
+use crate::trim::{TrimProblem, adjusted, largest};
+
+/// What is held fixed when the state of the body is disturbed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum WakeMemory {
+    /// The wake of the trimmed flight.
+    Given,
+    /// The disturbed motion during the hold: the wake goes with it.
+    Carried,
+}
+
+/// How the flights are flown.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct WakeSettings {
+    /// Wingbeats during which the body is held.
+    pub held_beats: usize,
+    /// Largest residual that counts as trimmed \[1\].
+    pub tolerance: f64,
+    /// Most quasi-Newton steps.
+    pub iterations: usize,
+}
+
+impl Default for WakeSettings {
+    fn default() -> Self {
+        Self {
+            held_beats: 2,
+            tolerance: 1e-6,
+            iterations: 40,
+        }
+    }
+}
+
+/// A trimmed flight in air with memory, or the best point found.
+#[derive(Clone, Debug)]
+pub struct WakeTrim {
+    /// Whether the residual is within the tolerance.
+    pub converged: bool,
+    /// As [`crate::Trim::residual`].
+    pub residual: [f64; 6],
+    /// Quasi-Newton steps made.
+    pub iterations: usize,
+    /// Flights flown.
+    pub flights: usize,
+    /// The adjustment of all wings.
+    pub adjustment: Adjustment,
+    /// Shift of the mass centre along b1 [m].
+    pub mass_centre: f64,
+    /// Pitch of the body at its release \[rad\].
+    pub body_pitch: f64,
+    /// The adjusted flight: held, released, one free wingbeat.
+    pub setup: FlightSetup,
+}
+
+impl WakeTrim {
+    /// Largest residual.
+    pub fn error(&self) -> f64 {
+        largest(&self.residual)
+    }
+
+    /// How it starts.
+    pub fn start(&self) -> &StartState {
+        start(&self.setup)
+    }
+}
+
+fn start(setup: &FlightSetup) -> &StartState {
+    match &setup.mode {
+        MotionMode::Free(start) => start,
+        MotionMode::Tethered(_) => unreachable!("trimmed flights are free"),
+    }
+}
+
+/// Wingbeat of a setup in steps.
+fn steps_per_beat(setup: &FlightSetup) -> Result<usize, AnalysisError> {
+    let period = setup.time.period.unwrap_or(0.0);
+    let steps = (period / setup.time.step).round();
+    let fits = steps >= 4.0 && (steps * setup.time.step / period - 1.0).abs() < 1e-9;
+    if fits {
+        return Ok(steps as usize);
+    }
+    Err(AnalysisError::not_covered(
+        "a wingbeat is not a whole number of steps",
+        "give time.steps_per_beat",
+    ))
+}
+
+/// Trims the symmetric flight of `setup` in air with memory.
+///
+/// # Errors
+/// No wingbeat, or one that is not a whole number of steps; a first flight that fails. A trim
+/// that does not converge is no error: see [`WakeTrim::converged`].
+pub fn trim_with_wake(
+    setup: &FlightSetup,
+    problem: &TrimProblem,
+    settings: &WakeSettings,
+) -> Result<WakeTrim, AnalysisError> {
+    let mut search = Search {
+        setup,
+        problem,
+        settings,
+        steps: steps_per_beat(setup)?,
+        flights: 0,
+    };
+    let mut x = [0.0; 6];
+    for (k, unknown) in problem.unknowns.iter().enumerate() {
+        if unknown.name() == "body_pitch" {
+            x[3 + k] = problem.body_pitch;
+        }
+    }
+    let (length, period) = search.scales();
+    x[0] = problem.velocity.x * period / length;
+    x[1] = problem.velocity.z * period / length;
+    let mut r = search.fly(&x)?.0;
+    let mut iterations = 0;
+    let mut jacobian = search.jacobian(&x, &r)?;
+    let mut fresh = true;
+    while iterations < settings.iterations && largest(&r) > settings.tolerance {
+        let found = search.step(&x, &r, &jacobian);
+        let Some((x_new, r_new)) = found else {
+            if fresh {
+                break;
+            }
+            jacobian = search.jacobian(&x, &r)?;
+            fresh = true;
+            continue;
+        };
+        // A step that hardly helps: the slopes have become old.
+        let poor = largest(&r_new) > 0.5 * largest(&r) && !fresh;
+        broyden(&mut jacobian, &x, &r, &x_new, &r_new);
+        (x, r) = (x_new, r_new);
+        fresh = false;
+        iterations += 1;
+        if poor && largest(&r) > settings.tolerance {
+            jacobian = search.jacobian(&x, &r)?;
+            fresh = true;
+        }
+    }
+    let (residual, mut found) = search.fly(&x)?;
+    found.residual = residual;
+    found.converged = largest(&residual) <= settings.tolerance;
+    found.iterations = iterations;
+    found.flights = search.flights;
+    Ok(found)
+}
+
+/// The search: what to fly and how often it was.
+struct Search<'a> {
+    setup: &'a FlightSetup,
+    problem: &'a TrimProblem,
+    settings: &'a WakeSettings,
+    steps: usize,
+    flights: usize,
+}
+
+impl Search<'_> {
+    fn scales(&self) -> (f64, f64) {
+        let nodes = self.setup.animal.wings.iter().flat_map(|w| &w.mesh.nodes);
+        let length = nodes.fold(0.0_f64, |m, r| m.max(r.length()));
+        (length, self.setup.time.period.unwrap_or(1.0))
+    }
+
+    /// Residual and flight at the point (velocity over R f, pitch rate times T, three controls).
+    fn fly(&mut self, x: &[f64; 6]) -> Result<([f64; 6], WakeTrim), AnalysisError> {
+        self.flights += 1;
+        let (mut setup, adjustment, mass_centre, pitch) =
+            adjusted(self.setup, self.problem, &x[3..]);
+        let frequency = setup
+            .animal
+            .wings
+            .first()
+            .map_or(0.0, |w| w.motion.frequency);
+        let period = 1.0 / frequency;
+        let (length, old) = self.scales();
+        setup.time.step = period / self.steps as f64;
+        setup.time.period = Some(period);
+        setup.time.steps = (self.settings.held_beats + 1) * self.steps;
+        setup.mode = MotionMode::Free(StartState {
+            position: DVec3::ZERO,
+            angles: DVec3::new(pitch, 0.0, 0.0),
+            velocity: DVec3::new(x[0], 0.0, x[1]) * length / old,
+            angular_velocity: DVec3::new(0.0, x[2] / old, 0.0),
+            held_steps: self.settings.held_beats * self.steps,
+        });
+        let [a, b] = free_beat(&setup, self.steps, None)?;
+        let weight = setup.animal.mass() * setup.gravity.length();
+        let v = self.problem.velocity;
+        let change = b.momentum - a.momentum;
+        let travelled = b.mass_centre - a.mass_centre;
+        let residual = [
+            change.x / (weight * period),
+            change.z / (weight * period),
+            (spin(&b).y - spin(&a).y) / (weight * length * period),
+            pitched(&a, &b),
+            (travelled.x - v.x * period) / length,
+            (travelled.z - v.z * period) / length,
+        ];
+        let found = WakeTrim {
+            converged: false,
+            residual,
+            iterations: 0,
+            flights: self.flights,
+            adjustment,
+            mass_centre,
+            body_pitch: pitch,
+            setup,
+        };
+        Ok((residual, found))
+    }
+
+    /// Slopes of the residuals at `x`, rows by residual, by one-sided differences.
+    fn jacobian(&mut self, x: &[f64; 6], r: &[f64; 6]) -> Result<[[f64; 6]; 6], AnalysisError> {
+        const STEP: f64 = 1e-4;
+        let mut j = [[0.0; 6]; 6];
+        for k in 0..6 {
+            let mut moved = *x;
+            moved[k] += STEP;
+            let at = self.fly(&moved)?.0;
+            (0..6).for_each(|i| j[i][k] = (at[i] - r[i]) / STEP);
+        }
+        Ok(j)
+    }
+
+    /// A point on the quasi-Newton direction with smaller residuals.
+    fn step(
+        &mut self,
+        x: &[f64; 6],
+        r: &[f64; 6],
+        jacobian: &[[f64; 6]; 6],
+    ) -> Option<([f64; 6], [f64; 6])> {
+        let mut direction = r.to_vec();
+        solve_small(&mut jacobian.concat(), &mut direction).ok()?;
+        let longest = direction.iter().fold(0.0_f64, |m, s| m.max(s.abs()));
+        let squares = |r: &[f64; 6]| r.iter().map(|x| x * x).sum::<f64>();
+        let mut length = (0.3 / longest).min(1.0);
+        for _ in 0..6 {
+            let trial = std::array::from_fn(|i| x[i] - length * direction[i]);
+            if let Ok((found, _)) = self.fly(&trial)
+                && squares(&found) < squares(r)
+            {
+                return Some((trial, found));
+            }
+            length *= 0.4;
+        }
+        None
+    }
+}
+
+/// Broyden's update of the slopes by what a step showed [Broyden 1965].
+fn broyden(j: &mut [[f64; 6]; 6], x: &[f64; 6], r: &[f64; 6], x1: &[f64; 6], r1: &[f64; 6]) {
+    let s: [f64; 6] = std::array::from_fn(|i| x1[i] - x[i]);
+    let square: f64 = s.iter().map(|a| a * a).sum();
+    for i in 0..6 {
+        let predicted: f64 = (0..6).map(|k| j[i][k] * s[k]).sum();
+        let gap = r1[i] - r[i] - predicted;
+        (0..6).for_each(|k| j[i][k] += gap * s[k] / square);
+    }
+}
+
+/// Angular momentum about the mass centre, N components.
+fn spin(r: &Record) -> DVec3 {
+    r.angular_momentum - r.mass_centre.cross(r.momentum)
+}
+
+fn rotation(r: &Record) -> DMat3 {
+    let [w, x, y, z] = r.root_quaternion;
+    DMat3::from_quat(DQuat::from_xyzw(x, y, z, w))
+}
+
+/// Pitch from one record to another \[rad\].
+fn pitched(a: &Record, b: &Record) -> f64 {
+    let turned = rotation(a).transpose() * rotation(b);
+    turned.z_axis.x.atan2(turned.x_axis.x)
+}
+
+/// The motion into which the root is released, from that at the end of the hold.
+type Release<'a> = dyn Fn(BodyMotion, &Record) -> BodyMotion + 'a;
+
+/// Records at the release and one wingbeat later; `release` sets the root into another motion
+/// then.
+fn free_beat(
+    setup: &FlightSetup,
+    steps: usize,
+    release: Option<&Release>,
+) -> Result<[Record; 2], AnalysisError> {
+    let held = start(setup).held_steps;
+    let mut flight = Simulation::new(setup.clone())?;
+    while flight.state().step < held {
+        if flight.state().step + 1 == held
+            && let Some(change) = release
+        {
+            // The hold is prescribed: what it will be at the release is known beforehand.
+            let mut probe = Simulation::resume(setup.clone(), flight.state().clone())?;
+            probe.step()?;
+            let root = change(probe.root(), probe.record());
+            flight.release_into(root);
+        }
+        flight.step()?;
+    }
+    let first = flight.record().clone();
+    for _ in 0..steps {
+        flight.step()?;
+    }
+    Ok([first, flight.record().clone()])
+}
+
+/// The derivative of the free beat by the nine components of [`Perturbation`] at the release, 9 x 9
+/// by rows, about the trimmed flight.
+///
+/// # Errors
+/// A flight that fails; disturbances that do not reach all nine components.
+pub fn wake_monodromy(trim: &WakeTrim, memory: WakeMemory) -> Result<Vec<f64>, AnalysisError> {
+    let steps = steps_per_beat(&trim.setup)?;
+    let level = Level::new(start(&trim.setup).rotation(), trim.setup.gravity);
+    let scales = scales(&trim.setup).array();
+    let seen = |r: &Record| {
+        let velocity = r.momentum / trim.setup.animal.mass();
+        Perturbation::seen(&level, rotation(r), velocity, r.root_angular_velocity).to_array()
+    };
+    let (mut before, mut after) = (vec![0.0; 81], vec![0.0; 81]);
+    for k in 0..9 {
+        let h = 1e-3 * scales[k];
+        let fly = |s: f64| -> Result<[[f64; 9]; 2], AnalysisError> {
+            let mut x = [0.0; 9];
+            x[k] = s * h;
+            let [a, b] = disturbed(trim, &level, &Perturbation::from_array(x), memory, steps)?;
+            Ok([seen(&a), seen(&b)])
+        };
+        let (plus, minus) = (fly(1.0)?, fly(-1.0)?);
+        for i in 0..9 {
+            before[9 * i + k] = (plus[0][i] - minus[0][i]) / (2.0 * h);
+            after[9 * i + k] = (plus[1][i] - minus[1][i]) / (2.0 * h);
+        }
+    }
+    // after = M before: rows of M solve before^T m = after row.
+    let mut m = vec![0.0; 81];
+    for i in 0..9 {
+        let mut transposed: Vec<f64> = (0..81).map(|e| before[9 * (e % 9) + e / 9]).collect();
+        let mut row = after[9 * i..9 * i + 9].to_vec();
+        solve_small(&mut transposed, &mut row)
+            .map_err(|e| AnalysisError::Numbers(format!("the disturbances are dependent: {e}")))?;
+        m[9 * i..9 * i + 9].copy_from_slice(&row);
+    }
+    Ok(m)
+}
+
+/// The free beat with a disturbance.
+fn disturbed(
+    trim: &WakeTrim,
+    level: &Level,
+    by: &Perturbation,
+    memory: WakeMemory,
+    steps: usize,
+) -> Result<[Record; 2], AnalysisError> {
+    // Rotation in N that carries the trimmed attitude to the disturbed one.
+    let tilt = DMat3::from_quat(DQuat::from_scaled_axis(by.tilt));
+    let turn = level.to_n * tilt * level.to_n.transpose();
+    let push = level.to_n * tilt * by.velocity;
+    let rate = level.to_root * by.rate;
+    let trimmed = start(&trim.setup);
+    let mut setup = trim.setup.clone();
+    match memory {
+        WakeMemory::Carried => {
+            let attitude = turn * trimmed.rotation();
+            setup.mode = MotionMode::Free(StartState {
+                angles: EulerSequence::BODY_231.angles(attitude),
+                velocity: turn * trimmed.velocity + push,
+                angular_velocity: trimmed.angular_velocity + rate,
+                ..*trimmed
+            });
+            free_beat(&setup, steps, None)
+        }
+        WakeMemory::Given => {
+            let change = |root: BodyMotion, record: &Record| {
+                let arm = root.p - record.mass_centre;
+                let r = turn * root.r;
+                BodyMotion {
+                    p: record.mass_centre + turn * arm,
+                    r,
+                    v: turn * root.v + push + (r * rate).cross(turn * arm),
+                    w: root.w + rate,
+                }
+            };
+            free_beat(&setup, steps, Some(&change))
+        }
+    }
+}
+
+fn scales(setup: &FlightSetup) -> Scales {
+    let nodes = setup.animal.wings.iter().flat_map(|w| &w.mesh.nodes);
+    let length = nodes.fold(0.0_f64, |m, r| m.max(r.length()));
+    let period = setup.time.period.unwrap_or(1.0);
+    Scales {
+        velocity: length / period,
+        rate: 1.0 / period,
+        period,
+    }
+}
+
+/// Floquet's modes of the free beat about the trimmed flight.
+///
+/// # Errors
+/// As [`wake_monodromy`].
+pub fn wake_floquet(trim: &WakeTrim, memory: WakeMemory) -> Result<ModeSet, AnalysisError> {
+    let m = wake_monodromy(trim, memory)?;
+    Ok(ModeSet::of_multipliers(eigen(&m, 9)?, &scales(&trim.setup)))
+}

@@ -1,0 +1,80 @@
+//! `[air.derivatives]` and `[air.external]`.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// Stability derivatives of the whole animal in axes fixed in the body: forward, right, down at
+/// the reference attitude; moments about the mass centre of the body. Matrices have rows X, Y, Z
+/// (or L, M, N) and columns u, v, w (or p, q, r).
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct DerivativesCase {
+    /// Pitch of the body in the reference flight: the angle about b2 from the table's axes to
+    /// the body's.
+    pub body_pitch_deg: f64,
+    /// Velocity in the reference flight, axes of the table.
+    pub velocity_m_s: [f64; 3],
+    /// Force in the reference flight; default: it carries the weight.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub force_newton: Option<[f64; 3]>,
+    /// Moment in the reference flight.
+    pub moment_newton_m: [f64; 3],
+    /// Force by velocity.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub force_by_velocity_newton_s_m: Option<[[f64; 3]; 3]>,
+    /// Force by angular velocity.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub force_by_rate_newton_s: Option<[[f64; 3]; 3]>,
+    /// Moment by velocity.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub moment_by_velocity_newton_s: Option<[[f64; 3]; 3]>,
+    /// Moment by angular velocity.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub moment_by_rate_newton_m_s: Option<[[f64; 3]; 3]>,
+    /// Dimensionless derivatives instead of the four matrices.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub dimensionless: Option<DimensionlessCase>,
+}
+
+/// Dimensionless derivatives: forces over `rho U^2 S / 2`, moments over that times c, velocities
+/// over U, angular velocities times the period of the wingbeat (Sun & Xiong 2005).
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct DimensionlessCase {
+    /// Reference speed U.
+    pub speed_m_s: f64,
+    /// Area S of all wings.
+    pub area_m2: f64,
+    /// Mean chord c.
+    pub chord_m: f64,
+    /// Period of the wingbeat.
+    pub period_s: f64,
+    /// Force by velocity.
+    #[serde(default)]
+    pub force_by_velocity: [[f64; 3]; 3],
+    /// Force by angular velocity.
+    #[serde(default)]
+    pub force_by_rate: [[f64; 3]; 3],
+    /// Moment by velocity.
+    #[serde(default)]
+    pub moment_by_velocity: [[f64; 3]; 3],
+    /// Moment by angular velocity.
+    #[serde(default)]
+    pub moment_by_rate: [[f64; 3]; 3],
+}
+
+/// A program that computes the loads; it is started for the flight and talked to over its
+/// standard input and output (docs/external-air.md).
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ExternalCase {
+    /// The program and its arguments. It runs with your rights.
+    pub command: Vec<String>,
+    /// Longest wait for an answer.
+    #[serde(default = "patience")]
+    pub timeout_s: f64,
+}
+
+fn patience() -> f64 {
+    600.0
+}

@@ -1,0 +1,311 @@
+//! The analysing commands and the kinds of air, through the program.
+
+mod support;
+
+use std::fs;
+use std::path::Path;
+
+use support::{Scratch, wingbeat};
+
+/// Standard output of a command that succeeds.
+fn said(dir: &Path, args: &[&str]) -> String {
+    let out = wingbeat(dir, args);
+    let problem = String::from_utf8_lossy(&out.stderr);
+    assert!(out.status.success(), "{args:?}: {problem}");
+    String::from_utf8(out.stdout).unwrap()
+}
+
+/// Standard error of a command that fails with this exit code.
+fn refused(dir: &Path, code: i32, args: &[&str]) -> String {
+    let out = wingbeat(dir, args);
+    assert_eq!(out.status.code(), Some(code), "{args:?}");
+    String::from_utf8(out.stderr).unwrap()
+}
+
+/// A column of the history of a run.
+fn column(run: &Path, name: &str) -> Vec<f64> {
+    let text = fs::read_to_string(run.join("history.csv")).unwrap();
+    let mut lines = text.lines().filter(|l| !l.starts_with('#'));
+    let k = lines.next().unwrap().split(',').position(|c| c == name);
+    let k = k.unwrap_or_else(|| panic!("no column {name}"));
+    lines
+        .map(|l| l.split(',').nth(k).unwrap().parse().unwrap())
+        .collect()
+}
+
+/// The value at the end of the line that begins with `name`.
+fn figure(text: &str, name: &str) -> String {
+    let line = text.lines().find(|l| l.trim_start().starts_with(name));
+    let line = line.unwrap_or_else(|| panic!("no line `{name}` in\n{text}"));
+    line.trim_start()[name.len()..].trim().to_owned()
+}
+
+#[test]
+fn balances_a_trimmed_case_flies_where_it_is() {
+    let scratch = Scratch::new("trimmed");
+    let dir = &scratch.0;
+    let text = said(dir, &["trim", "--write", "hover.toml"]);
+    assert!(text.contains("trimmed after"), "{text}");
+    said(
+        dir,
+        &[
+            "run",
+            "hover.toml",
+            "--quiet",
+            "--out",
+            "r",
+            "--set",
+            "time.beats=1",
+        ],
+    );
+    let run = dir.join("r");
+    // Within 1 % of the wing length (2.5 mm) and 0.1 degree after the first wingbeat.
+    for axis in ["x", "y", "z"] {
+        let x = column(&run, &format!("body_{axis}_m"));
+        let gone = x[x.len() - 1] - x[0];
+        assert!(gone.abs() < 0.01 * 2.5e-3, "{axis}: {gone}");
+    }
+    for angle in ["phi", "theta", "psi"] {
+        let q = column(&run, &format!("body_{angle}_rad"));
+        assert!((q[q.len() - 1] - q[0]).abs() < 0.1_f64.to_radians());
+    }
+    // The file is not written over; it is trimmed already.
+    let again = refused(dir, 2, &["trim", "--write", "hover.toml"]);
+    assert!(again.contains("hover.toml"), "{again}");
+    let text = said(dir, &["trim", "hover.toml"]);
+    let left: f64 = figure(&text, "stroke_amplitude")
+        .trim_end_matches(" %")
+        .parse()
+        .unwrap();
+    assert!(left.abs() < 0.001, "{text}");
+}
+
+#[test]
+fn balances_trim_reaches_forward_flight_and_says_when_it_fails() {
+    let scratch = Scratch::new("trim-forward");
+    let dir = &scratch.0;
+    let text = said(
+        dir,
+        &[
+            "trim",
+            "--forward",
+            "0.4",
+            "--climb",
+            "0.1",
+            "--steps",
+            "60",
+        ],
+    );
+    assert!(text.contains("trim to 0.400 m/s forward, 0.100 m/s up"));
+    // Ten times the weight: no stroke of this wing carries that. Exit code 1, best point shown.
+    let heavy = ["trim", "--steps", "40", "--set", "gravity_m_s2=[0,0,98.1]"];
+    let out = wingbeat(dir, &heavy);
+    assert_eq!(out.status.code(), Some(1));
+    assert!(String::from_utf8_lossy(&out.stdout).contains("NOT trimmed; the best point found"));
+    let problem = refused(
+        dir,
+        2,
+        &["trim", "--unknowns", "body_pitch", "lift", "frequency"],
+    );
+    assert!(problem.contains("stroke_amplitude"), "{problem}");
+}
+
+#[test]
+fn published_structure_of_longitudinal_modes_of_all_insects() {
+    // One unstable oscillation, one fast and one slow subsidence [Sun & Xiong 2005; Sun, Wang &
+    // Xiong 2007], averaged and by Floquet's theory.
+    let scratch = Scratch::new("modes");
+    for preset in [
+        "fruit-fly-blade",
+        "bumblebee-blade",
+        "hoverfly-blade",
+        "hawkmoth-blade",
+    ] {
+        let text = said(&scratch.0, &["stability", preset, "--steps", "60"]);
+        let names: Vec<&str> = text
+            .lines()
+            .filter_map(|l| l.trim_start().strip_prefix("longitudinal "))
+            .map(|l| l.trim_start().split("   ").next().unwrap().trim())
+            .collect();
+        let structure = ["unstable oscillation", "slow subsidence", "fast subsidence"];
+        assert_eq!(names, [structure, structure].concat(), "{preset}");
+    }
+}
+
+#[test]
+fn agrees_a_written_table_of_derivatives_with_the_averaged_model() {
+    let scratch = Scratch::new("table");
+    let dir = &scratch.0;
+    let full = said(dir, &["stability", "--write", "table.toml"]);
+    let table = said(dir, &["stability", "table.toml"]);
+    // Growth and frequency of every mode, printed with four decimals.
+    let modes = |text: &str| -> Vec<Vec<String>> {
+        let section = text.split("Modes").nth(1).unwrap();
+        let rows = section.lines().filter(|l| {
+            let l = l.trim_start();
+            l.starts_with("longitudinal") || l.starts_with("lateral")
+        });
+        let words = |l: &str| -> Vec<String> {
+            let numbers = l.split_whitespace().filter(|w| w.parse::<f64>().is_ok());
+            numbers
+                .take(2)
+                .map(|w| w.trim_start_matches('-').to_owned())
+                .collect()
+        };
+        rows.map(words).collect()
+    };
+    assert_eq!(modes(&full).len(), 7);
+    assert_eq!(modes(&full), modes(&table));
+    // The table's flight stays in its trimmed state.
+    said(
+        dir,
+        &[
+            "run",
+            "table.toml",
+            "--quiet",
+            "--out",
+            "r",
+            "--set",
+            "time.beats=2",
+        ],
+    );
+    let z = column(&dir.join("r"), "body_z_m");
+    // The mean loads of the swaying orbit and of its mean differ by a hundredth of the weight.
+    assert!(z[z.len() - 1].abs() < 0.01 * 2.5e-3, "{}", z[z.len() - 1]);
+}
+
+/// A ball of 1 g in free fall.
+const BALL: &str = r#"
+format = 1
+[time]
+step_s = 0.01
+steps = 100
+[body]
+mass_kg = 1e-3
+centre_m = [0, 0, 0]
+inertia_about_centre_kg_m2 = [1e-8, 1e-8, 1e-8, 0, 0, 0]
+[output]
+frames_every = 0
+figures = false
+"#;
+
+/// Fall speed after a second with drag `c v`: `m g / c (1 - exp(-c t / m))`, c / m = 2 / s.
+fn fall_speed() -> f64 {
+    9.81 / 2.0 * (1.0 - (-2.0_f64).exp())
+}
+
+#[test]
+fn exact_fall_in_derivative_air() {
+    let scratch = Scratch::new("derivative-fall");
+    let dir = &scratch.0;
+    let air = "[air]\nmodel = \"derivatives\"\n[air.derivatives]\nforce_newton = [0, 0, 0]\nforce_by_velocity_newton_s_m = [[-2e-3, 0, 0], [0, -2e-3, 0], [0, 0, -2e-3]]\n";
+    fs::write(dir.join("ball.toml"), format!("{BALL}{air}")).unwrap();
+    said(dir, &["run", "ball.toml", "--quiet", "--out", "r"]);
+    let v = *column(&dir.join("r"), "body_z_rate_m_per_s")
+        .last()
+        .unwrap();
+    // Fourth order: (0.02)^4 / 100 or so.
+    assert!((v - fall_speed()).abs() < 1e-8, "{v} {}", fall_speed());
+    let problem = refused(
+        dir,
+        2,
+        &["run", "fruit-fly-blade", "--set", "air.model=derivatives"],
+    );
+    assert!(problem.contains("air.derivatives"), "{problem}");
+}
+
+#[test]
+fn exact_fall_in_the_air_of_a_partner_program() {
+    let scratch = Scratch::new("external-fall");
+    let dir = &scratch.0;
+    let program = Path::new(env!("CARGO_BIN_EXE_wingbeat"));
+    let partner = program.parent().unwrap().join("examples/partner");
+    assert!(
+        partner.exists(),
+        "build the example first: cargo build -p wingbeat --example partner"
+    );
+    let partner = partner.to_str().unwrap();
+    let case = |command: &str| {
+        let air = format!("[air]\nmodel = \"external\"\n[air.external]\ncommand = {command}\n");
+        fs::write(dir.join("ball.toml"), format!("{BALL}{air}")).unwrap();
+    };
+    case(&format!("[{partner:?}, \"2e-3\"]"));
+    said(dir, &["run", "ball.toml", "--quiet", "--out", "r"]);
+    let v = *column(&dir.join("r"), "body_z_rate_m_per_s")
+        .last()
+        .unwrap();
+    assert!((v - fall_speed()).abs() < 1e-8, "{v} {}", fall_speed());
+    // A partner that complains, one that does not speak, one that is not there.
+    case(&format!("[{partner:?}, \"syrup\"]"));
+    let problem = refused(dir, 2, &["run", "ball.toml", "--out", "a"]);
+    assert!(problem.contains("COEFFICIENT"), "{problem}");
+    case("[\"true\"]");
+    let problem = refused(dir, 2, &["run", "ball.toml", "--out", "b"]);
+    assert!(problem.contains("`true`"), "{problem}");
+    case("[\"no-such-program-anywhere\"]");
+    let problem = refused(dir, 2, &["run", "ball.toml", "--out", "c"]);
+    assert!(problem.contains("cannot be started"), "{problem}");
+}
+
+#[test]
+fn balances_stabilised_hover_is_drawn() {
+    let scratch = Scratch::new("stabilise");
+    let dir = &scratch.0;
+    let args = [
+        "stabilise",
+        "--steps",
+        "60",
+        "--beats",
+        "100",
+        "--figure",
+        "s.svg",
+    ];
+    let text = said(dir, &args);
+    let rows: Vec<Vec<f64>> = text
+        .lines()
+        .map(|l| l.split(',').map_while(|w| w.parse().ok()).collect())
+        .filter(|r: &Vec<f64>| r.len() == 10)
+        .collect();
+    assert_eq!(rows.len(), 101);
+    assert_eq!(rows[0][5], 10.0); // degrees of pitch at the start
+    assert!(rows[100][5].abs() < 0.01);
+    // Within one wing length (2.5 mm) of the start all along.
+    assert!(rows.iter().all(|r| r[1].hypot(r[2]).hypot(r[3]) < 2.5));
+    assert!(
+        fs::read_to_string(dir.join("s.svg"))
+            .unwrap()
+            .contains("wing lengths")
+    );
+}
+
+#[test]
+fn limit_massless_wings_are_a_rigid_aircraft() {
+    // Without wing mass the inertial power of the wings is nothing.
+    let scratch = Scratch::new("massless");
+    let rigid = ["power", "--steps", "60", "--set", "dynamics.wings=massless"];
+    let text = said(&scratch.0, &rigid);
+    let inertial = figure(&text, "inertial, positive part");
+    let first: f64 = inertial.split_whitespace().next().unwrap().parse().unwrap();
+    assert!(first < 1e-3, "{text}"); // microwatts, of 14 against the air
+}
+
+#[test]
+fn invariant_control_derivatives_mirror() {
+    let scratch = Scratch::new("derivatives");
+    let text = said(&scratch.0, &["derivatives", "--steps", "60"]);
+    let row = |control: &str, wing: &str| -> Vec<f64> {
+        let line = text.lines().find(|l| {
+            let words: Vec<&str> = l.split_whitespace().collect();
+            words.len() == 8 && words[0] == control && words[1] == wing
+        });
+        let words = line.unwrap().split_whitespace().skip(2);
+        words.map(|w| w.parse().unwrap()).collect()
+    };
+    let (l, r) = (
+        row("stroke_amplitude", "left"),
+        row("stroke_amplitude", "right"),
+    );
+    for (k, sign) in [1.0, -1.0, 1.0, -1.0, 1.0, -1.0].into_iter().enumerate() {
+        assert_eq!(l[k], sign * r[k], "component {k}");
+    }
+}
