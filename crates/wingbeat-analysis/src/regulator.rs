@@ -92,7 +92,7 @@ impl Regulator {
         })
     }
 
-    /// Feedback gains, [`CONTROLS`] rows; columns: position, velocity, rate, tilt (SI), then
+    /// Feedback gains, `CONTROLS` rows; columns: position, velocity, rate, tilt (SI), then
     /// commands in force and under way.
     pub fn gain(&self) -> &[f64] {
         &self.gain
