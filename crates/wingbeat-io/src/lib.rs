@@ -4,7 +4,7 @@
 //! [`wingbeat_flight::FlightSetup`], or says what is wrong with it, where and what to do;
 //! [`presets`] are ordinary case files that come with the program; [`result`] writes what a
 //! flight leaves behind so that it is readable whenever the flight stops; [`figures`] draws it;
-//! [`page`] shows it in a browser.
+//! [`page`] shows it in a browser; [`export`] writes it in formats of other programs.
 //!
 //! Only this crate touches files and holds names with units in them. Numbers are SI and radians
 //! on the other side of its border.
@@ -15,6 +15,7 @@
 
 pub mod case;
 mod error;
+pub mod export;
 pub mod external;
 pub mod figures;
 pub mod page;

@@ -2,6 +2,7 @@
 
 mod analyse;
 mod check;
+mod export;
 mod progress;
 mod run;
 mod view;
@@ -32,6 +33,8 @@ enum Command {
     Resume(ResumeArgs),
     /// Write the flight page of a run, one HTML file, and open it in the browser.
     View(view::ViewArgs),
+    /// Write a run in a format of other programs: hdf5, vtkhdf, parquet or gltf.
+    Export(export::ExportArgs),
     /// Check a case file or preset without flying it, and say what it holds.
     Check {
         /// Case file or preset.
@@ -120,6 +123,7 @@ fn main() -> ExitCode {
         Command::Run(args) => return run::run(&args),
         Command::Resume(args) => return run::resume(&args),
         Command::View(args) => view::view(&args),
+        Command::Export(args) => export::export(&args),
         Command::Check { case, set } => check::check(&case, &set),
         Command::Trim(args) => return analyse::trim::run(&args),
         Command::Stability(args) => return analyse::stability::run(&args),

@@ -8,13 +8,18 @@ use crate::error::IoError;
 
 /// Everything a run may write; `--overwrite` removes these and nothing else. The manifest comes
 /// first and goes last: where it is, there is a run.
-const ENTRIES: [&str; 8] = [
+const ENTRIES: [&str; 13] = [
     "history.csv",
     "flight.pvd",
     "summary.txt",
     "summary.json",
     "flight.html",
     "checkpoint.bin",
+    "flight.h5",
+    "flight.glb",
+    "history.parquet",
+    "surfaces.vtkhdf",
+    "wakes.vtkhdf",
     "case.toml",
     "manifest.json",
 ];

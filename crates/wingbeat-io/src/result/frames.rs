@@ -1,6 +1,7 @@
 //! Frames read back: the `.vtp` files of a result directory, one at a time.
 
 use std::collections::BTreeMap;
+use std::io::Read as _;
 use std::path::{Path, PathBuf};
 
 use base64::Engine as _;
@@ -95,6 +96,30 @@ impl Mesh {
             path: path.to_owned(),
             problem: format!("{problem}; fly the case again with `wingbeat run case.toml`"),
         })
+    }
+
+    /// Points and cells that the head of a `.vtp` file promises.
+    ///
+    /// # Errors
+    /// A file that cannot be read or is no frame.
+    pub fn count(path: &Path) -> Result<[usize; 2], IoError> {
+        let mut head = vec![];
+        let file = std::fs::File::open(path).map_err(IoError::read(path))?;
+        file.take(1024)
+            .read_to_end(&mut head)
+            .map_err(IoError::read(path))?;
+        let head = String::from_utf8_lossy(&head);
+        let number = |name: &str| {
+            let tag = format!("{name}=\"");
+            head.split(&tag).nth(1)?.split('"').next()?.parse().ok()
+        };
+        match [number("NumberOfPoints"), number("NumberOfPolys")] {
+            [Some(points), Some(quads)] => Ok([points, quads]),
+            _ => Err(IoError::Damaged {
+                path: path.to_owned(),
+                problem: "this is no frame of wingbeat".to_owned(),
+            }),
+        }
     }
 
     /// From the text of a `.vtp` file.

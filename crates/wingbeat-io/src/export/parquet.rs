@@ -1,0 +1,245 @@
+//! A table of numbers as Apache Parquet: uncompressed columns of doubles in groups of rows.
+//!
+//! Numbers of fields are those of `parquet.thrift` (Apache Parquet format 2.x), written in
+//! Thrift's compact protocol.
+
+use std::fs::File;
+use std::io::{BufWriter, Write};
+use std::path::Path;
+
+/// Rows that are gathered before they are written: the memory the writer takes.
+const GROUP: usize = 4096;
+const MAGIC: &[u8] = b"PAR1";
+const DOUBLE: i64 = 5;
+const REQUIRED: i64 = 0;
+const PLAIN: i64 = 0;
+const RLE: i64 = 3;
+
+/// A table being written.
+pub struct ParquetWriter {
+    file: BufWriter<File>,
+    at: u64,
+    names: Vec<String>,
+    columns: Vec<Vec<f64>>,
+    groups: Vec<Group>,
+}
+
+/// A group of rows that is written: its rows and where its columns begin, and their lengths.
+struct Group {
+    rows: usize,
+    pages: Vec<[u64; 2]>,
+}
+
+impl ParquetWriter {
+    /// A table with these columns.
+    ///
+    /// # Errors
+    /// A file that cannot be written.
+    pub fn create(path: &Path, names: &[String]) -> std::io::Result<Self> {
+        let mut file = BufWriter::new(File::create(path)?);
+        file.write_all(MAGIC)?;
+        Ok(Self {
+            file,
+            at: MAGIC.len() as u64,
+            names: names.to_vec(),
+            columns: vec![Vec::with_capacity(GROUP); names.len()],
+            groups: vec![],
+        })
+    }
+
+    /// Adds a row.
+    ///
+    /// # Errors
+    /// A file that cannot be written.
+    pub fn row(&mut self, row: &[f64]) -> std::io::Result<()> {
+        for (column, value) in self.columns.iter_mut().zip(row) {
+            column.push(*value);
+        }
+        match self.columns.first() {
+            Some(first) if first.len() >= GROUP => self.flush(),
+            _ => Ok(()),
+        }
+    }
+
+    /// Writes the gathered rows as a group, each column as one page.
+    fn flush(&mut self) -> std::io::Result<()> {
+        let rows = self.columns.first().map_or(0, Vec::len);
+        if rows == 0 {
+            return Ok(());
+        }
+        let mut pages = vec![];
+        for column in &mut self.columns {
+            let data: Vec<u8> = column.iter().flat_map(|v| v.to_le_bytes()).collect();
+            let head = page_header(rows, data.len());
+            self.file.write_all(&head)?;
+            self.file.write_all(&data)?;
+            let length = (head.len() + data.len()) as u64;
+            pages.push([self.at, length]);
+            self.at += length;
+            column.clear();
+        }
+        self.groups.push(Group { rows, pages });
+        Ok(())
+    }
+
+    /// Ends the table; `notes` are kept beside it.
+    ///
+    /// # Errors
+    /// A file that cannot be written.
+    pub fn finish(mut self, notes: &[(&str, &str)]) -> std::io::Result<()> {
+        self.flush()?;
+        let footer = self.footer(notes);
+        self.file.write_all(&footer)?;
+        self.file.write_all(&(footer.len() as u32).to_le_bytes())?;
+        self.file.write_all(MAGIC)?;
+        self.file.into_inner()?.sync_data()
+    }
+
+    /// FileMetaData.
+    fn footer(&self, notes: &[(&str, &str)]) -> Vec<u8> {
+        let mut t = Thrift::default();
+        t.integer(1, 2);
+        t.list(2, 12, self.names.len() + 1);
+        t.element(|t| {
+            t.text(4, "history");
+            t.integer(5, self.names.len() as i64);
+        });
+        for name in &self.names {
+            t.element(|t| {
+                t.integer(1, DOUBLE);
+                t.integer(3, REQUIRED);
+                t.text(4, name);
+            });
+        }
+        t.long(3, self.groups.iter().map(|g| g.rows as i64).sum());
+        t.list(4, 12, self.groups.len());
+        for group in &self.groups {
+            t.element(|t| self.group(t, group));
+        }
+        t.list(5, 12, notes.len());
+        for (key, value) in notes {
+            t.element(|t| {
+                t.text(1, key);
+                t.text(2, value);
+            });
+        }
+        t.text(6, concat!("wingbeat version ", env!("CARGO_PKG_VERSION")));
+        t.stop();
+        t.bytes
+    }
+
+    /// RowGroup with its ColumnChunks and ColumnMetaData.
+    fn group(&self, t: &mut Thrift, group: &Group) {
+        t.list(1, 12, self.names.len());
+        for (name, [at, length]) in self.names.iter().zip(&group.pages) {
+            t.element(|t| {
+                t.long(2, *at as i64);
+                t.structure(3, |t| {
+                    t.integer(1, DOUBLE);
+                    t.list(2, 5, 2);
+                    t.zigzag(PLAIN);
+                    t.zigzag(RLE);
+                    t.list(3, 8, 1);
+                    t.bare(name);
+                    t.integer(4, 0); // uncompressed
+                    t.long(5, group.rows as i64);
+                    t.long(6, *length as i64);
+                    t.long(7, *length as i64);
+                    t.long(9, *at as i64);
+                });
+            });
+        }
+        t.long(2, group.pages.iter().map(|p| p[1] as i64).sum());
+        t.long(3, group.rows as i64);
+    }
+}
+
+/// PageHeader with its DataPageHeader.
+fn page_header(rows: usize, bytes: usize) -> Vec<u8> {
+    let mut t = Thrift::default();
+    t.integer(1, 0);
+    t.integer(2, bytes as i64);
+    t.integer(3, bytes as i64);
+    t.structure(5, |t| {
+        t.integer(1, rows as i64);
+        t.integer(2, PLAIN);
+        t.integer(3, RLE);
+        t.integer(4, RLE);
+    });
+    t.stop();
+    t.bytes
+}
+
+/// Thrift's compact protocol, as far as it is needed.
+#[derive(Default)]
+struct Thrift {
+    bytes: Vec<u8>,
+    last: u8,
+}
+
+impl Thrift {
+    /// Head of a field of some type; fields come in rising order.
+    fn field(&mut self, id: u8, kind: u8) {
+        self.bytes.push((id - self.last) << 4 | kind);
+        self.last = id;
+    }
+
+    fn integer(&mut self, id: u8, value: i64) {
+        self.field(id, 5);
+        self.zigzag(value);
+    }
+
+    fn long(&mut self, id: u8, value: i64) {
+        self.field(id, 6);
+        self.zigzag(value);
+    }
+
+    fn text(&mut self, id: u8, text: &str) {
+        self.field(id, 8);
+        self.bare(text);
+    }
+
+    fn bare(&mut self, text: &str) {
+        self.whole(text.len() as u64);
+        self.bytes.extend(text.as_bytes());
+    }
+
+    fn list(&mut self, id: u8, kind: u8, count: usize) {
+        self.field(id, 9);
+        if count < 15 {
+            self.bytes.push((count as u8) << 4 | kind);
+        } else {
+            self.bytes.push(0xf0 | kind);
+            self.whole(count as u64);
+        }
+    }
+
+    fn structure(&mut self, id: u8, fill: impl FnOnce(&mut Self)) {
+        self.field(id, 12);
+        self.element(fill);
+    }
+
+    /// A structure in a list.
+    fn element(&mut self, fill: impl FnOnce(&mut Self)) {
+        let last = std::mem::take(&mut self.last);
+        fill(self);
+        self.stop();
+        self.last = last;
+    }
+
+    fn stop(&mut self) {
+        self.bytes.push(0);
+    }
+
+    fn zigzag(&mut self, value: i64) {
+        self.whole(((value << 1) ^ (value >> 63)) as u64);
+    }
+
+    fn whole(&mut self, mut value: u64) {
+        while value >= 0x80 {
+            self.bytes.push(value as u8 | 0x80);
+            value >>= 7;
+        }
+        self.bytes.push(value as u8);
+    }
+}
