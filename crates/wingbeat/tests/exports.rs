@@ -79,7 +79,7 @@ fn validator() -> Result<PathBuf, String> {
             "--silent",
             "--no-audit",
             "--no-fund",
-            "gltf-validator@2",
+            "gltf-validator@2.0.0-dev.3.10",
         ];
         works(
             Command::new("npm")
