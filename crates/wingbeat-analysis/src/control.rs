@@ -19,7 +19,7 @@ use crate::trim::Trim;
 pub struct Sensed {
     /// Number of the beat.
     pub beat: usize,
-    /// Mass centre relative to the start, level frame of the trimmed flight [m].
+    /// Mass centre relative to where the trimmed flight would be, level frame [m].
     pub position: DVec3,
     /// Velocity, angular velocity and tilt at this instant, less those of the trimmed flight.
     pub departure: Perturbation,
@@ -84,6 +84,8 @@ pub struct ControlledFlight<'a> {
     queue: VecDeque<Vec<Adjustment>>,
     acting: Vec<Adjustment>,
     state: State,
+    /// Way of the trimmed flight in a beat, N components [m].
+    travel: DVec3,
     reference: Perturbation,
     sensed: Sensed,
 }
@@ -113,6 +115,7 @@ impl<'a> ControlledFlight<'a> {
             reference: Perturbation::of(&trim.beat, &level, &trim.state),
             sensed: Sensed::default(),
             state,
+            travel: trim.mean_velocity() * trim.beat.period(),
             trim,
         };
         flight.sense(0, &trim.beat);
@@ -161,7 +164,8 @@ impl<'a> ControlledFlight<'a> {
         let departure = std::array::from_fn(|i| seen[i] - reference[i]);
         self.sensed = Sensed {
             beat: number,
-            position: self.level.to_n.transpose() * DVec3::from_slice(&self.state),
+            position: self.level.to_n.transpose()
+                * (DVec3::from_slice(&self.state) - number as f64 * self.travel),
             departure: Perturbation::from_array(departure),
         };
     }

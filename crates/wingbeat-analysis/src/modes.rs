@@ -162,8 +162,9 @@ fn plane(vector: &[(&'static str, f64, f64)]) -> Plane {
     }
 }
 
-/// Names the modes of each plane: oscillations by stability; real ones as divergence or
-/// subsidence, the fastest and slowest subsidence told apart; a neutral lateral one is heading.
+/// Names the modes of each plane: oscillations by stability, two longitudinal ones as phugoid
+/// (the slower) and short period; real ones as divergence or subsidence, the fastest and slowest
+/// subsidence told apart; a neutral lateral one is heading.
 fn name(modes: &mut [Mode]) {
     for plane in [Plane::Longitudinal, Plane::Lateral] {
         let real = |m: &Mode| m.plane == plane && m.frequency == 0.0 && !m.is_neutral();
@@ -172,18 +173,27 @@ fn name(modes: &mut [Mode]) {
             .filter(|m| real(m) && m.growth < 0.0)
             .map(|m| m.growth)
             .collect();
+        let waves = modes
+            .iter()
+            .filter(|m| m.plane == plane && m.frequency > 0.0);
+        let speeds: Vec<f64> = waves.map(|m| m.growth.hypot(m.frequency)).collect();
+        let slowest_wave = speeds.iter().copied().fold(f64::INFINITY, f64::min);
+        let wave = |m: &Mode| match (plane, speeds.len()) {
+            (Plane::Longitudinal, 2) if m.growth.hypot(m.frequency) == slowest_wave => "phugoid",
+            (Plane::Longitudinal, 2) => "short period",
+            _ => "oscillation",
+        };
         let fastest = decaying.iter().copied().fold(0.0, f64::min);
         for m in modes.iter_mut().filter(|m| m.plane == plane) {
             m.name = match (m.is_neutral(), m.frequency > 0.0, m.growth > 0.0) {
-                (true, _, _) => "neutral (heading)",
-                (_, true, true) => "unstable oscillation",
-                (_, true, false) => "stable oscillation",
-                (_, false, true) => "divergence",
-                _ if decaying.len() < 2 => "subsidence",
-                _ if m.growth == fastest => "fast subsidence",
-                _ => "slow subsidence",
-            }
-            .to_owned();
+                (true, _, _) => "neutral (heading)".to_owned(),
+                (_, true, true) => format!("unstable {}", wave(m)),
+                (_, true, false) => format!("stable {}", wave(m)),
+                (_, false, true) => "divergence".to_owned(),
+                _ if decaying.len() < 2 => "subsidence".to_owned(),
+                _ if m.growth == fastest => "fast subsidence".to_owned(),
+                _ => "slow subsidence".to_owned(),
+            };
         }
     }
 }

@@ -15,7 +15,7 @@
 //! a wingbeat.
 
 use wingbeat_dynamics::BodyMotion;
-use wingbeat_flight::{FlightSetup, MotionMode, Record, Simulation, StartState};
+use wingbeat_flight::{AirModel, FlightSetup, MotionMode, Record, Simulation, StartState};
 use wingbeat_math::{DMat3, DQuat, DVec3, EulerSequence, solve_small};
 use wingbeat_model::motion::Adjustment;
 
@@ -133,8 +133,12 @@ pub fn trim_with_wake(
         }
     }
     let (length, period) = search.scales();
-    x[0] = problem.velocity.x * period / length;
-    x[1] = problem.velocity.z * period / length;
+    let (v, w) = match &setup.mode {
+        // A case that was trimmed before: its motion at the release.
+        MotionMode::Free(s) if s.held_steps > 0 => (s.velocity, s.angular_velocity),
+        _ => (problem.velocity, DVec3::ZERO),
+    };
+    x[..3].copy_from_slice(&[v.x * period / length, v.z * period / length, w.y * period]);
     let mut r = search.fly(&x)?.0;
     let mut iterations = 0;
     let mut jacobian = search.jacobian(&x, &r)?;
@@ -383,6 +387,9 @@ fn disturbed(
     let rate = level.to_root * by.rate;
     let trimmed = start(&trim.setup);
     let mut setup = trim.setup.clone();
+    if let AirModel::VortexLattice(air) = &mut setup.air {
+        air.mirror = false; // lateral disturbances need both halves
+    }
     match memory {
         WakeMemory::Carried => {
             let attitude = turn * trimmed.rotation();

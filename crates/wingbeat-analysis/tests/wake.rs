@@ -1,0 +1,97 @@
+//! Trim and stability by flights of hold and release.
+
+mod common;
+
+use common::*;
+use wingbeat_air::{AirSettings, CoreModel};
+use wingbeat_analysis::modes::Plane;
+use wingbeat_analysis::wake::*;
+use wingbeat_analysis::*;
+use wingbeat_flight::*;
+use wingbeat_math::DVec3;
+
+/// The growth and frequency of the longitudinal modes.
+fn longitudinal(set: &ModeSet) -> Vec<[f64; 2]> {
+    let modes = set.plane(Plane::Longitudinal);
+    modes.map(|m| [m.growth, m.frequency]).collect()
+}
+
+#[test]
+fn agrees_trim_and_modes_by_flights_with_the_beat_map_where_air_forgets() {
+    // Air without memory does not care about the hold: two integrators, two Newton methods, two
+    // ways to the monodromy, one answer. 60 steps a beat, both of fourth order.
+    let mut setup = fly();
+    setup.time.step = 0.005 / 60.0;
+    for wing in &mut setup.animal.wings {
+        wing.motion.start = wingbeat_model::Start::Impulsive;
+    }
+    let problem = hover(60);
+    let settings = WakeSettings {
+        held_beats: 1,
+        ..WakeSettings::default()
+    };
+    let flown = trim_with_wake(&setup, &problem, &settings).unwrap();
+    assert!(flown.converged, "{:?}", flown.residual);
+    let mapped = trim(&setup, &problem).unwrap();
+    let gap = (flown.adjustment.stroke_amplitude - mapped.adjustment.stroke_amplitude).abs();
+    assert!(gap < 1e-4, "{gap}"); // truncation at 60 steps
+    assert!((flown.body_pitch - mapped.body_pitch).abs() < 1e-3);
+    let exact = longitudinal(&floquet(&mapped.beat, &mapped.state).unwrap());
+    for memory in [WakeMemory::Given, WakeMemory::Carried] {
+        let found = longitudinal(&wake_floquet(&flown, memory).unwrap());
+        assert_eq!(found.len(), exact.len());
+        for (a, b) in found.iter().zip(&exact) {
+            let gap = (a[0] - b[0]).hypot(a[1] - b[1]);
+            assert!(gap < 5e-3 * b[0].hypot(b[1]), "{memory:?}: {a:?} {b:?}");
+        }
+    }
+}
+
+/// The fly in a vortex lattice of 3 x 4 panels a wing with cores of a seventh of the chord.
+fn in_lattice(steps: usize) -> FlightSetup {
+    let mut setup = fly();
+    let options = wingbeat_model::species::FlyOptions {
+        wing_rows: 3,
+        wing_cols: 4,
+        ..Default::default()
+    };
+    setup.animal = wingbeat_model::species::drosophila_melanogaster(&options).unwrap();
+    setup.animal.parts.clear();
+    let mut lattice = AirSettings::benchmark(RHO, DVec3::ZERO);
+    lattice.loads = wingbeat_air::LoadMethod::Polhamus;
+    lattice.bound_core = CoreModel::LambOseen {
+        radius: 1e-4,
+        viscosity: 1.5e-5,
+    };
+    lattice.wake_core = lattice.bound_core;
+    setup.air = AirModel::VortexLattice(AirOptions {
+        lattice,
+        body_surfaces: false,
+        mirror: true,
+    });
+    setup.time.step = 0.005 / steps as f64;
+    setup
+}
+
+#[test]
+fn balances_hover_trims_in_the_vortex_lattice() {
+    let settings = WakeSettings {
+        held_beats: 1,
+        ..WakeSettings::default()
+    };
+    let found = trim_with_wake(&in_lattice(20), &hover(20), &settings).unwrap();
+    assert!(found.converged, "{:?}", found.residual);
+    // Flown once more: released, it is after a wingbeat where and as it was.
+    let mut flight = Simulation::new(found.setup.clone()).unwrap();
+    let mut released = None;
+    while !flight.finished() {
+        flight.step().unwrap();
+        if flight.state().step == 20 {
+            released = Some(flight.record().clone());
+        }
+    }
+    let (a, b) = (released.unwrap(), flight.record());
+    assert!((b.mass_centre - a.mass_centre).length() < 1e-5 * 2.5e-3);
+    assert!((b.momentum - a.momentum).length() < 1e-5 * 9.81 * 0.005 * 0.94e-6);
+    assert!(b.wake_rings > 0);
+}
