@@ -88,13 +88,24 @@ impl Conversation {
 
     fn say(&mut self, line: &str) -> Result<(), String> {
         let input = self.input.as_mut().expect("open while the flight lasts");
-        writeln!(input, "{line}").map_err(|e| format!("`{}` does not listen: {e}", self.name))
+        let said = writeln!(input, "{line}");
+        said.map_err(|e| self.last_words(&e))
     }
 
     fn flush(&mut self) -> Result<(), String> {
         let input = self.input.as_mut().expect("open while the flight lasts");
         let done = input.flush();
-        done.map_err(|e| format!("`{}` does not listen: {e}", self.name))
+        done.map_err(|e| self.last_words(&e))
+    }
+
+    /// Why a partner no longer listens: what it said before it went, if anything.
+    fn last_words(&mut self, e: &std::io::Error) -> String {
+        let said = self.lines.recv_timeout(Duration::from_secs(1));
+        let problem = said.ok().and_then(|line| {
+            let problem = line.trim().strip_prefix("error")?;
+            Some(problem.trim().to_owned())
+        });
+        self.complain(&problem.unwrap_or_else(|| format!("it does not listen: {e}")))
     }
 
     /// The next line of the partner.
