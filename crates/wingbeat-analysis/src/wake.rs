@@ -141,7 +141,10 @@ pub fn trim_with_wake(
     x[..3].copy_from_slice(&[v.x * period / length, v.z * period / length, w.y * period]);
     let mut r = search.fly(&x)?.0;
     let mut iterations = 0;
-    let mut jacobian = search.jacobian(&x, &r)?;
+    let mut jacobian = [[0.0; 6]; 6];
+    if largest(&r) > settings.tolerance {
+        jacobian = search.jacobian(&x, &r)?;
+    }
     let mut fresh = true;
     while iterations < settings.iterations && largest(&r) > settings.tolerance {
         let found = search.step(&x, &r, &jacobian);

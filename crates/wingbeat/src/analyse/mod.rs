@@ -111,12 +111,17 @@ pub(crate) fn trimmed_with_wake(args: &Trimming) -> Result<(LoadedCase, WakeTrim
         held_beats: args.hold.max(1),
         ..WakeSettings::default()
     };
+    eprintln!(
+        "{}: trimming in air with memory, some 20 to 60 flights of {} wingbeats; this takes minutes",
+        case.name,
+        settings.held_beats + 1
+    );
     let found = trim_with_wake(&case.setup, &problem, &settings)?;
     trim::report(&case, &problem, &Found::from(&found));
     println!(
         "  {} flights of {} wingbeats",
         found.flights,
-        args.hold.max(1) + 1
+        settings.held_beats + 1
     );
     if found.converged {
         Ok((case, found))
