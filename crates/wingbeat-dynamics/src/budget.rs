@@ -2,7 +2,8 @@
 
 use wingbeat_math::DVec3;
 
-use crate::{Body, BodyMotion, Budget, System, Wrench};
+use crate::inverse::inertia_wrench;
+use crate::{Body, BodyAcceleration, BodyMotion, Budget, System, Wrench};
 
 /// Kinetic energy of a body \[J\]: `m v.v / 2 + v . R (w x s) + w . J w / 2` (seed eq. 13, 23).
 pub fn kinetic_energy(body: &Body, m: &BodyMotion) -> f64 {
@@ -62,4 +63,37 @@ fn angular_momentum(
 /// Power of `loads` on bodies that move like `motions` \[W\].
 pub fn load_power(loads: &[Wrench], motions: &[BodyMotion]) -> f64 {
     loads.iter().zip(motions).map(|(l, m)| l.power(m)).sum()
+}
+
+/// Kinetic energy of the motion relative to the root \[J\] and its rate \[W\]: what a flyer on a
+/// fixed root would have. All of the prescribed motion's, for light wings nearly all of the
+/// energy that the hinges turn over.
+pub fn relative_energy(
+    system: &System,
+    motions: &[BodyMotion],
+    accelerations: &[BodyAcceleration],
+) -> [f64; 2] {
+    let (root, acc) = (&motions[0], &accelerations[0]);
+    let (back, w, w_dot) = (root.r.transpose(), root.w, acc.angular);
+    let mut sum = [0.0; 2];
+    let bodies = system.bodies().iter().zip(motions).zip(accelerations);
+    for ((body, m), a) in bodies.skip(1) {
+        let (p, r) = (back * (m.p - root.p), back * m.r);
+        let v = back * (m.v - root.v) - w.cross(p);
+        let seen = r.transpose() * w;
+        let relative = BodyMotion {
+            p,
+            r,
+            v,
+            w: m.w - seen,
+        };
+        let turning = w_dot.cross(p) + w.cross(w.cross(p)) + 2.0 * w.cross(v);
+        let rate = BodyAcceleration {
+            linear: back * (a.linear - acc.linear) - turning,
+            angular: a.angular - r.transpose() * w_dot + relative.w.cross(seen),
+        };
+        sum[0] += kinetic_energy(body, &relative);
+        sum[1] += inertia_wrench(body, &relative, &rate).power(&relative);
+    }
+    sum
 }

@@ -203,6 +203,16 @@ pub enum DynamicsError {
         /// Body or joint.
         what: String,
     },
+    /// The formulation flies trees only.
+    #[error(
+        "joint `{joint}` closes a loop, which the {form} form does not have; use the quaternion form (`formulation = \"quaternion\"`)"
+    )]
+    Loop {
+        /// Name of the joint.
+        joint: String,
+        /// Name of the formulation.
+        form: &'static str,
+    },
     /// The Euler form has no free joints.
     #[error(
         "hinge `{hinge}` has a free or travelling joint, which the Euler form does not have; use the momentum form (`formulation = \"momentum\"`) or the quaternion form"

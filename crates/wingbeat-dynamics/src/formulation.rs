@@ -25,6 +25,15 @@ pub trait Formulation: Send + Sync {
     /// The root's rotation or a law's is not a rotation; no consistent state exists.
     fn initial(&self, t: f64, root: &BodyMotion) -> Result<Vec<f64>, DynamicsError>;
 
+    /// The state in which the bodies move like `motions`, which fulfil all constraints at time `t`
+    /// \[s\]: how a flight changes over from other equations.
+    ///
+    /// # Errors
+    /// As [`Self::initial`].
+    fn initial_from(&self, t: f64, motions: &[BodyMotion]) -> Result<Vec<f64>, DynamicsError> {
+        self.initial(t, &motions[0])
+    }
+
     /// Motion of every body in the state `y` at time `t` \[s\].
     ///
     /// # Errors

@@ -18,8 +18,9 @@
 use wingbeat_math::{DMat3, DQuat, DVec3};
 
 use crate::budget::{budget, load_power};
-use crate::free::coordinate_rates;
+use crate::free::{coordinate_rates, start};
 use crate::inverse::{demand, inertia_wrench, multipliers, reactions};
+use crate::mechanism::Mechanism;
 use crate::posture::{Composite, Posture};
 use crate::system::check_rotation;
 use crate::workspace::check_finite;
@@ -90,6 +91,35 @@ impl MomentumForm {
     fn free<'a>(&self, y: &'a [f64]) -> (&'a [f64], &'a [f64]) {
         assert_eq!(y.len(), self.dim(), "a state of this momentum form");
         y[DIM..].split_at(self.system.coordinates())
+    }
+
+    /// The state in which the root moves like `root` and the free joints stand at `q` and move at
+    /// `u`.
+    fn start_at(
+        &self,
+        t: f64,
+        root: &BodyMotion,
+        (q, u): (Vec<f64>, Vec<f64>),
+    ) -> Result<Vec<f64>, DynamicsError> {
+        self.system.refuse_loops("momentum")?;
+        check_rotation(root.r, t, || "the root's attitude".into())?;
+        Posture::check(&self.system, t)?;
+        let mut posture = Posture::new(&self.system);
+        posture.update_free(&self.system, t, (&q, &u));
+        let whole = posture.composite(&self.system);
+        turn(t, whole.inertia, DVec3::ZERO)?;
+        let state = State {
+            centre: root.p + root.r * whole.c,
+            attitude: DQuat::from_mat3(&root.r).normalize(),
+            momentum: whole.mass * (root.v + root.r * (root.w.cross(whole.c) + whole.c_dot)),
+            angular: root.r * (whole.inertia * root.w + whole.h),
+        };
+        let mut y = vec![0.0; DIM];
+        state.write(&mut y);
+        y.extend(q);
+        y.extend(u);
+        check_finite(t, &y)?;
+        Ok(y)
     }
 
     /// Accelerations of the free joint speeds into `ws.free` and into the placements; motions and
@@ -259,25 +289,21 @@ impl Formulation for MomentumForm {
     }
 
     fn initial(&self, t: f64, root: &BodyMotion) -> Result<Vec<f64>, DynamicsError> {
-        check_rotation(root.r, t, || "the root's attitude".into())?;
-        Posture::check(&self.system, t)?;
-        let mut posture = Posture::new(&self.system);
-        posture.update(&self.system, t);
-        let whole = posture.composite(&self.system);
-        turn(t, whole.inertia, DVec3::ZERO)?;
-        let state = State {
-            centre: root.p + root.r * whole.c,
-            attitude: DQuat::from_mat3(&root.r).normalize(),
-            momentum: whole.mass * (root.v + root.r * (root.w.cross(whole.c) + whole.c_dot)),
-            angular: root.r * (whole.inertia * root.w + whole.h),
-        };
-        let mut y = vec![0.0; DIM];
-        state.write(&mut y);
-        let (q, u) = self.system.start();
-        y.extend(q);
-        y.extend(u);
-        check_finite(t, &y)?;
-        Ok(y)
+        self.start_at(t, root, self.system.start())
+    }
+
+    fn initial_from(&self, t: f64, motions: &[BodyMotion]) -> Result<Vec<f64>, DynamicsError> {
+        let mut free = vec![];
+        Mechanism::of(&self.system).coordinates(t, motions, &mut free);
+        let (mut q, mut u) = self.system.start();
+        let mut rest = free.as_slice();
+        for (joint, slot) in self.system.joints().iter().zip(self.system.slots()) {
+            let (own, others) = rest.split_at(slot.speeds);
+            let [x, v] = [0, 1].map(|k| own.iter().map(|c| c[k]).collect::<Vec<f64>>());
+            start(&joint.clone().starting(&x, &v), slot, &mut q, &mut u);
+            rest = others;
+        }
+        self.start_at(t, &motions[0], (q, u))
     }
 
     fn motions(

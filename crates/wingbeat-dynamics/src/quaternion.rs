@@ -1,15 +1,20 @@
 //! A [`System`] in absolute coordinates with multipliers: [`AbsoluteForm`] behind the seam of the
 //! formulations, with prescribed and free joints, singular at no attitude.
 
+use std::sync::Arc;
+
+use wingbeat_math::RotationLaw;
+
 use crate::budget::{budget, load_power};
 use crate::inverse::multipliers;
-use crate::mechanism::Mechanism;
 use crate::mechanism::form::{AbsoluteForm, AbsoluteScratch, Stabilization};
+use crate::mechanism::{Link, Mechanism};
 use crate::posture::Posture;
 use crate::system::check_rotation;
 use crate::workspace::check_finite;
 use crate::{
-    BodyMotion, DynamicsError, Formulation, Solution, System, Violation, Workspace, Wrench,
+    BodyMotion, DynamicsError, Formulation, Freedom, Solution, System, TravelLaw, Violation,
+    Workspace, Wrench,
 };
 
 /// The quaternion form of a [`System`].
@@ -24,6 +29,34 @@ impl QuaternionForm {
     pub fn new(system: System, stabilization: Stabilization) -> Self {
         let form = AbsoluteForm::new(Mechanism::of(&system), stabilization);
         Self { system, form }
+    }
+
+    /// The same with the root on a support that turns it by `law` against N and moves its origin
+    /// along `path`; [`Solution::tether`] is what the support does to the root.
+    pub fn supported(self, law: Arc<dyn RotationLaw>, path: Arc<dyn TravelLaw>) -> Self {
+        let mut link = Link {
+            law,
+            ..Link::new("support of the root", None, 0, Freedom::Weld)
+        };
+        link.joint.travel = Some(path);
+        let mechanism = Mechanism::of(&self.system).with_link(link);
+        Self {
+            form: AbsoluteForm::new(mechanism, self.form.stabilization()),
+            ..self
+        }
+    }
+
+    /// Reactions of hinges, loops and support.
+    fn read_reactions(&self, s: &AbsoluteScratch, out: &mut Solution) {
+        let hinges = out.hinges.len();
+        let (tree, rest) = s.reactions.split_at(hinges);
+        let (loops, support) = rest.split_at(out.loops.len());
+        out.hinges.copy_from_slice(tree);
+        out.loops.copy_from_slice(loops);
+        out.tether = support.first().map_or(Wrench::default(), |r| Wrench {
+            force: r.force,
+            moment: s.motions[0].r * r.moment,
+        });
     }
 }
 
@@ -57,8 +90,15 @@ impl Formulation for QuaternionForm {
         posture.update(&self.system, t);
         let mut motions = vec![BodyMotion::REST; self.system.bodies().len()];
         posture.motions(root, &mut motions);
+        if self.system.loops().is_empty() {
+            return self.initial_from(t, &motions);
+        }
+        self.form.initial(t, &motions, &[0])
+    }
+
+    fn initial_from(&self, t: f64, motions: &[BodyMotion]) -> Result<Vec<f64>, DynamicsError> {
         let mut y = vec![0.0; self.dim()];
-        self.form.pack(&motions, &mut y);
+        self.form.pack(motions, &mut y);
         check_finite(t, &y)?;
         Ok(y)
     }
@@ -95,8 +135,7 @@ impl Formulation for QuaternionForm {
         let s = scratch(ws);
         self.form.solve(t, y, loads, s)?;
         out.bodies.copy_from_slice(&s.accelerations);
-        out.hinges.copy_from_slice(&s.reactions);
-        out.tether = Wrench::default();
+        self.read_reactions(s, out);
         multipliers(&out.hinges, &mut out.multipliers);
         out.violation = Violation {
             position: s.violation[0],

@@ -46,6 +46,8 @@ pub struct Solution {
     pub bodies: Vec<BodyAcceleration>,
     /// Reactions of every hinge.
     pub hinges: Vec<HingeReaction>,
+    /// Reactions of the joints that close loops.
+    pub loops: Vec<HingeReaction>,
     /// Lagrange multipliers of `M q'' + B^T lambda = Q` in the seed's order: three of connection
     /// per hinge \[N\], then three of orientation per hinge [N m].
     pub multipliers: Vec<f64>,
@@ -66,6 +68,7 @@ impl Solution {
         Self {
             bodies: vec![BodyAcceleration::default(); system.bodies().len()],
             hinges: vec![HingeReaction::default(); hinges],
+            loops: vec![HingeReaction::default(); system.loops().len()],
             multipliers: vec![0.0; 6 * hinges],
             tether: Wrench::default(),
             violation: Violation::default(),
@@ -74,9 +77,10 @@ impl Solution {
         }
     }
 
-    /// Sum of the actuator powers of all hinges \[W\].
+    /// Sum of the powers of all joints \[W\]: actuators, springs, dampers, stops.
     pub fn hinge_power(&self) -> f64 {
-        self.hinges.iter().map(|h| h.power).sum()
+        let all = self.hinges.iter().chain(&self.loops);
+        all.map(|h| h.power).sum()
     }
 
     /// Kinetic plus potential energy \[J\].

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use wingbeat_math::{DMat3, DVec3, EulerSequence, MassProperties, RotationLaw};
 
 use crate::free::{Slot, start};
+use crate::mechanism::{Link, check_link};
 use crate::{DynamicsError, Freedom, Joint};
 
 /// A rigid body.
@@ -66,6 +67,7 @@ pub struct System {
     joints: Vec<Joint>,
     slots: Vec<Slot>,
     behind: Vec<Vec<bool>>,
+    loops: Vec<Link>,
 }
 
 impl System {
@@ -92,6 +94,7 @@ impl System {
             units,
             outward,
             behind,
+            loops: vec![],
         })
     }
 
@@ -130,6 +133,32 @@ impl System {
             before = *slot;
         }
         Ok(self)
+    }
+
+    /// The same system with joints that close loops on top of the tree. Only the quaternion form
+    /// flies it.
+    ///
+    /// # Errors
+    /// Bodies that do not exist; impossible numbers of a joint.
+    pub fn with_loops(self, loops: Vec<Link>) -> Result<Self, DynamicsError> {
+        (loops.iter()).try_for_each(|l| check_link(l, self.bodies.len()))?;
+        Ok(Self { loops, ..self })
+    }
+
+    /// The joints that close loops.
+    pub fn loops(&self) -> &[Link] {
+        &self.loops
+    }
+
+    /// An error if there are loops, which `form` does not have.
+    pub(crate) fn refuse_loops(&self, form: &'static str) -> Result<(), DynamicsError> {
+        let first = self.loops.first();
+        first.map_or(Ok(()), |l| {
+            Err(DynamicsError::Loop {
+                joint: l.name.clone(),
+                form,
+            })
+        })
     }
 
     /// The joints of the hinges, in their order.

@@ -233,6 +233,9 @@ fn conserves_momenta_over_two_hundred_beats_in_vacuum() {
 /// Root after `beats` beats by an integrator with `n` steps per beat.
 type Method = fn(&dyn Formulation, usize, usize) -> BodyMotion;
 
+/// Name, method, its order, the least number of steps per beat, the forms it flies.
+type Case<'a> = (&'a str, Method, f64, usize, &'a [&'a dyn Formulation]);
+
 fn multistep(form: &dyn Formulation, h: f64) -> Multistep {
     let mut flight = Flight::new(form, applied);
     let y0 = form.initial(0.0, &start()).unwrap();
@@ -341,7 +344,7 @@ fn order_of_every_integrator_with_every_form() {
     let seed: Box<dyn Formulation> =
         Box::new(EulerForm::new(system, Baumgarte::OFF).with_projection());
     // Multistep methods take no projected states: projection is for one-step methods.
-    let cases: [(&str, Method, f64, usize, &[&dyn Formulation]); 4] = [
+    let cases: [Case; 4] = [
         ("Hamming", by_hamming, 4.0, 80, &[&*e, &*q, &*m]),
         ("Adams", by_adams, 4.0, 160, &[&*e, &*q, &*m]),
         (

@@ -5,9 +5,10 @@ mod common;
 
 use common::*;
 use std::sync::Arc;
+use wingbeat_dynamics::budget::{budget, relative_energy};
 use wingbeat_dynamics::{
-    BodyMotion, ElementLaw, Formulation, Fourier, Freedom, Joint, MomentumForm, QuaternionForm,
-    Stabilization, System, TravelLaw, Wrench,
+    BodyAcceleration, BodyMotion, ElementLaw, Formulation, Fourier, Freedom, Joint, MomentumForm,
+    QuaternionForm, Stabilization, System, TravelLaw, tethered_motions,
 };
 use wingbeat_math::ode::{Dop853, Tolerance};
 use wingbeat_math::{DMat3, DVec3, EulerSequence, MassProperties};
@@ -298,4 +299,40 @@ fn exact_free_rigid_body_in_jacobi_elliptic_functions() {
             assert!(worst < 1e-11 / (1.0 - m));
         }
     }
+}
+
+#[test]
+fn agrees_relative_energy_with_its_rate_and_a_fixed_root() {
+    // Differences of the energy along a flight against the rate; and on a root at rest all energy
+    // is relative.
+    let form = MomentumForm::new(menagerie());
+    let y0 = fly_on(&form, applied, 0.3, 1e-13);
+    let (t0, mut flight) = (0.3 * BEAT, Flight::new(&form, applied));
+    let mut at = |dt: f64| {
+        let mut y = y0.clone();
+        let tolerance = Tolerance {
+            relative: 1e-13,
+            absolute: 1e-13,
+            max_steps: 1000,
+        };
+        if dt != 0.0 {
+            let rates = |t: f64, y: &[f64], dy: &mut [f64]| flight.rates(t, y, dy);
+            let mut method = Dop853::new(tolerance, form.scales());
+            (method.integrate((t0, t0 + dt), &mut y, rates, |_| {})).unwrap();
+        }
+        let s = flight.solve(t0 + dt, &y).unwrap().clone();
+        relative_energy(form.system(), &flight.motions, &s.bodies)
+    };
+    let rate = at(0.0)[1];
+    let h = 1e-3 * BEAT;
+    let slope = (8.0 * (at(h)[0] - at(-h)[0]) - (at(2.0 * h)[0] - at(-2.0 * h)[0])) / (12.0 * h);
+    assert!((slope - rate).abs() < 1e-7 * rate.abs(), "{slope} {rate}"); // h^4 and rounding / h
+    let system = fly(GRAVITY);
+    let mut m = vec![BodyMotion::REST; 3];
+    let mut ws = wingbeat_dynamics::Workspace::new(&system);
+    tethered_motions(&system, t0, &BodyMotion::REST, &mut ws, &mut m);
+    let still = vec![BodyAcceleration::default(); 3];
+    let [energy, _] = relative_energy(&system, &m, &still);
+    let whole = budget(&system, &m).kinetic;
+    assert!((energy - whole).abs() < 1e-14 * whole);
 }

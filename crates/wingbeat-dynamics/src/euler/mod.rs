@@ -208,6 +208,7 @@ impl Formulation for EulerForm {
     }
 
     fn initial(&self, t: f64, root: &BodyMotion) -> Result<Vec<f64>, DynamicsError> {
+        self.system.refuse_loops("Euler")?;
         if let Some(hinge) = self.system.first_free_hinge() {
             return Err(DynamicsError::NotInEulerForm {
                 hinge: hinge.into(),

@@ -15,8 +15,9 @@ use std::sync::Arc;
 
 use wingbeat_math::{DMat3, DVec3, RotationLaw};
 
+use crate::mechanism::form::kinematics;
 use crate::system::{check_finite, check_positive};
-use crate::{Body, DynamicsError, Freedom, Joint, NaturalUnits, System};
+use crate::{Body, BodyMotion, DynamicsError, Freedom, Joint, NaturalUnits, System};
 
 /// A joint between two bodies, or between the ground and a body.
 #[derive(Clone, Debug)]
@@ -105,24 +106,40 @@ impl Mechanism {
         })
     }
 
-    /// The mechanism of a [`System`]: its hinges as links, in their order.
+    /// The mechanism of a [`System`]: its hinges as links, in their order, then those that close
+    /// loops.
     pub fn of(system: &System) -> Self {
-        let links = system.hinges().iter().zip(system.joints());
+        let hinges = system.hinges().iter().zip(system.joints());
+        let tree = hinges.map(|(h, joint)| Link {
+            name: h.name.clone(),
+            parent: Some(h.parent),
+            child: h.child,
+            anchor_parent: h.anchor_parent,
+            anchor_child: h.anchor_child,
+            law: h.law.clone(),
+            joint: joint.clone(),
+        });
         Self {
             bodies: system.bodies().to_vec(),
-            links: links
-                .map(|(h, joint)| Link {
-                    name: h.name.clone(),
-                    parent: Some(h.parent),
-                    child: h.child,
-                    anchor_parent: h.anchor_parent,
-                    anchor_child: h.anchor_child,
-                    law: h.law.clone(),
-                    joint: joint.clone(),
-                })
-                .collect(),
+            links: tree.chain(system.loops().iter().cloned()).collect(),
             gravity: system.gravity(),
             units: system.units(),
+        }
+    }
+
+    /// The same mechanism with one more joint.
+    pub(crate) fn with_link(mut self, link: Link) -> Self {
+        self.links.push(link);
+        self
+    }
+
+    /// Coordinates and rates along the free directions of all joints at time `t` \[s\], joint after
+    /// joint: angles in (-pi, pi] \[rad\], rotation vectors of spherical joints, displacements \[m\].
+    pub fn coordinates(&self, t: f64, motions: &[BodyMotion], out: &mut Vec<[f64; 2]>) {
+        out.clear();
+        for link in &self.links {
+            let n = link.joint.freedom.directions().min(3);
+            out.extend(&kinematics(link, t, motions).coordinates()[..n]);
         }
     }
 
@@ -147,7 +164,7 @@ impl Mechanism {
     }
 }
 
-fn check_link(l: &Link, bodies: usize) -> Result<(), DynamicsError> {
+pub(crate) fn check_link(l: &Link, bodies: usize) -> Result<(), DynamicsError> {
     for index in l.parent.into_iter().chain([l.child]) {
         if index >= bodies {
             return Err(DynamicsError::NoSuchBody {
