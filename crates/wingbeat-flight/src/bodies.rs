@@ -1,13 +1,22 @@
-//! From the animal to the multibody system: the root body and one driven hinge per wing.
+//! From the animal to the multibody system: the root body, one driven hinge per wing, and the
+//! joints of further segments.
 
 use std::sync::Arc;
 
-use wingbeat_dynamics::{Body, DynamicsError, Hinge, NaturalUnits, System};
-use wingbeat_math::{DVec3, EulerSequence};
+use wingbeat_dynamics::{
+    Baumgarte, Body, BodyMotion, DynamicsError, EulerForm, Formulation, Freedom, Hinge, Joint,
+    Link, MomentumForm, NaturalUnits, QuaternionForm, Stabilization, System,
+};
+use wingbeat_math::{DMat3, DVec3, EulerSequence, RotationLaw};
 use wingbeat_model::Animal;
 
-/// The multibody system of an animal: body 0 is the central body (2-3-1 angles), then its wings
-/// (1-3-2 angles), each on a hinge whose rotation is prescribed (seed sec. 3).
+use crate::joints::JointSetup;
+use crate::setup::{FlightSetup, FormulationChoice, MotionMode};
+use crate::stages::natural_units;
+
+/// The multibody system of an animal of body and wings: body 0 is the central body (2-3-1
+/// angles), then its wings (1-3-2 angles), each on a hinge whose rotation is prescribed (seed
+/// sec. 3).
 ///
 /// # Errors
 /// What the dynamics refuses: see [`System::new`].
@@ -16,26 +25,134 @@ pub fn system(
     gravity: DVec3,
     units: NaturalUnits,
 ) -> Result<System, DynamicsError> {
-    let mut bodies = vec![Body {
-        name: "body".into(),
-        mass: animal.body,
-        sequence: EulerSequence::BODY_231,
-    }];
-    let mut hinges = vec![];
-    for (i, wing) in animal.wings.iter().enumerate() {
-        bodies.push(Body {
-            name: wing.name.clone(),
-            mass: wing.mass,
-            sequence: EulerSequence::WING_132,
-        });
-        hinges.push(Hinge {
-            name: wing.name.clone(),
-            parent: 0,
-            child: i + 1,
-            anchor_parent: wing.hinge_b,
-            anchor_child: DVec3::ZERO,
-            law: Arc::new(wing.motion.clone()),
-        });
+    articulated(animal, &[], gravity, units)
+}
+
+/// The multibody system of a setup: central body, wings, segments, in this order; the first joint
+/// of every body makes the tree, further ones close loops.
+///
+/// # Errors
+/// What the dynamics refuses: see [`System::new`] and [`System::with_joint`].
+pub fn system_of(setup: &FlightSetup) -> Result<System, DynamicsError> {
+    articulated(
+        &setup.animal,
+        &setup.joints,
+        setup.gravity,
+        natural_units(setup),
+    )
+}
+
+/// Builds the system of a setup and, where joints close loops, closes them at time zero.
+///
+/// # Errors
+/// The first thing that is wrong with the joints, by name.
+pub fn check_assembly(setup: &FlightSetup) -> Result<(), DynamicsError> {
+    let system = system_of(setup)?;
+    let root = setup.root_at_start();
+    if !system.loops().is_empty() {
+        quaternion(system.clone(), &root)?;
     }
-    System::new(bodies, hinges, gravity, units)
+    if matches!(setup.mode, MotionMode::Tethered(_)) {
+        return Ok(());
+    }
+    match setup.formulation {
+        FormulationChoice::Quaternion(_) => quaternion(system, &root),
+        FormulationChoice::Momentum => MomentumForm::new(system).initial(0.0, &root),
+        FormulationChoice::Euler(_) => EulerForm::new(system, Baumgarte::OFF).initial(0.0, &root),
+    }
+    .map(|_| ())
+}
+
+fn quaternion(system: System, root: &BodyMotion) -> Result<Vec<f64>, DynamicsError> {
+    QuaternionForm::new(system, Stabilization::None).initial(0.0, root)
+}
+
+fn articulated(
+    animal: &Animal,
+    joints: &[JointSetup],
+    gravity: DVec3,
+    units: NaturalUnits,
+) -> Result<System, DynamicsError> {
+    let bodies = bodies(animal);
+    let mut hinges: Vec<(Hinge, Joint)> = vec![];
+    let mut loops = vec![];
+    let first = |child: usize| joints.iter().position(|j| j.child == child);
+    for child in 1..bodies.len() {
+        let wing = animal.wings.get(child - 1);
+        match (first(child), wing) {
+            (Some(k), _) => hinges.push(joined(&joints[k], animal)),
+            (None, Some(w)) => hinges.push((wing_hinge(w, child), Joint::new(Freedom::Weld))),
+            (None, None) => {}
+        }
+    }
+    for (k, joint) in joints.iter().enumerate() {
+        if first(joint.child) != Some(k) || joint.child == 0 {
+            loops.push(link(joint));
+        }
+    }
+    let (hinges, freedoms): (Vec<_>, Vec<_>) = hinges.into_iter().unzip();
+    let mut system = System::new(bodies, hinges, gravity, units)?;
+    for (k, joint) in freedoms.into_iter().enumerate() {
+        system = system.with_joint(k, joint)?;
+    }
+    system.with_loops(loops)
+}
+
+fn bodies(animal: &Animal) -> Vec<Body> {
+    let body = |name: &str, mass, sequence| Body {
+        name: name.to_owned(),
+        mass,
+        sequence,
+    };
+    let mut bodies = vec![body("body", animal.body, EulerSequence::BODY_231)];
+    for w in &animal.wings {
+        bodies.push(body(&w.name, w.mass, EulerSequence::WING_132));
+    }
+    for s in &animal.segments {
+        bodies.push(body(&s.name, s.mass, EulerSequence::BODY_231));
+    }
+    bodies
+}
+
+fn wing_hinge(wing: &wingbeat_model::Wing, child: usize) -> Hinge {
+    Hinge {
+        name: wing.name.clone(),
+        parent: 0,
+        child,
+        anchor_parent: wing.hinge_b,
+        anchor_child: DVec3::ZERO,
+        law: Arc::new(wing.motion.clone()),
+    }
+}
+
+/// A hinge with its freedom; a wing without a law of its own keeps its motion.
+fn joined(joint: &JointSetup, animal: &Animal) -> (Hinge, Joint) {
+    let wing = animal.wings.get(joint.child.wrapping_sub(1));
+    let motion = || -> Arc<dyn RotationLaw> {
+        wing.map_or(Arc::new(DMat3::IDENTITY), |w| Arc::new(w.motion.clone()))
+    };
+    let hinge = Hinge {
+        name: joint.name.clone(),
+        parent: joint.parent,
+        child: joint.child,
+        anchor_parent: joint.anchor_parent,
+        anchor_child: joint.anchor_child,
+        law: joint.law.clone().unwrap_or_else(motion),
+    };
+    (hinge, joint.joint.clone())
+}
+
+fn link(joint: &JointSetup) -> Link {
+    Link {
+        name: joint.name.clone(),
+        parent: Some(joint.parent),
+        child: joint.child,
+        anchor_parent: joint.anchor_parent,
+        anchor_child: joint.anchor_child,
+        law: joint
+            .law
+            .clone()
+            .unwrap_or_else(|| Arc::new(DMat3::IDENTITY)),
+        joint: joint.joint.clone(),
+    }
 }

@@ -11,9 +11,9 @@ use crate::setup::PrescribedMotion;
 /// The bodies' equations of motion, free or tethered.
 #[expect(clippy::large_enum_variant, reason = "there are one or two per flight")]
 pub enum Core {
-    /// Free flight.
+    /// Integrated: free flight, or a support that carries a root with free joints.
     Free(Box<dyn Formulation>),
-    /// Tethered: nothing to integrate, the support's reaction is what is asked for.
+    /// Tethered with all joints prescribed: nothing to integrate, the support's reaction is what is asked for.
     Tethered {
         /// The bodies.
         system: System,
@@ -65,6 +65,36 @@ impl Core {
             Self::Free(form) => Ok(form.initial(t, root)?),
             Self::Tethered { .. } => Ok(vec![]),
         }
+    }
+
+    /// Consistent state at time `t` [s] for bodies that move like `motions`.
+    ///
+    /// # Errors
+    /// No consistent state exists, or it is singular.
+    pub fn initial_from(&self, t: f64, motions: &[BodyMotion]) -> Result<Vec<f64>, FlightError> {
+        match self {
+            Self::Free(form) => Ok(form.initial_from(t, motions)?),
+            Self::Tethered { .. } => Ok(vec![]),
+        }
+    }
+
+    /// Room for intermediate results.
+    pub fn workspace(&self) -> Workspace {
+        match self {
+            Self::Free(form) => form.workspace(),
+            Self::Tethered { system, .. } => Workspace::new(system),
+        }
+    }
+
+    /// Puts the state back onto what it must fulfil, after a step of a one-step method.
+    ///
+    /// # Errors
+    /// The projection fails.
+    pub fn normalise(&self, t: f64, y: &mut [f64], ws: &mut Workspace) -> Result<(), FlightError> {
+        if let Self::Free(form) = self {
+            form.normalise(t, y, ws)?;
+        }
+        Ok(())
     }
 
     /// Motions of all bodies.

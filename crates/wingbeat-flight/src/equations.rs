@@ -6,7 +6,8 @@ use std::sync::Arc;
 
 use wingbeat_air::derivatives::DerivativeTable;
 use wingbeat_air::{AirLoads, AirState, AirWorkspace, Lattice, NodeMotion};
-use wingbeat_dynamics::{BodyMotion, Solution, Workspace, Wrench};
+use wingbeat_dynamics::budget::relative_energy;
+use wingbeat_dynamics::{BodyMotion, Mechanism, Solution, Workspace, Wrench};
 use wingbeat_math::DVec3;
 
 use crate::blade::{self, BladeSide};
@@ -22,7 +23,9 @@ pub const QUADRATURES: usize = 9;
 /// Works and impulses since the start.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Quadratures {
-    /// Work of the hinge actuators [J].
+    /// Work of the hinges less the change of the energy relative to the root [J]. What wings on
+    /// a fixed root would take up and give back is known in closed form and left out, so that
+    /// the quadrature has only the rest to integrate.
     pub hinge_work: f64,
     /// Work of the air on the bodies [J].
     pub air_work: f64,
@@ -87,6 +90,8 @@ pub struct Equations {
     pub table: Option<DerivativeTable>,
     /// The air computed elsewhere, if that is it.
     pub external: Option<Session>,
+    /// All joints, for their coordinates.
+    pub mechanism: Mechanism,
     /// Extra loads.
     pub applied: Vec<AppliedLoad>,
     /// Time step h [s].
@@ -110,6 +115,8 @@ pub struct Scratch {
     gap: Vec<f64>,
     /// Accelerations, reactions, energies.
     pub solution: Solution,
+    /// Kinetic energy relative to the root [J] and its rate [W].
+    pub relative: [f64; 2],
     dynamics: Workspace,
     /// Lattice nodes.
     pub nodes: NodeMotion,
@@ -137,7 +144,8 @@ impl Scratch {
             added_next: none,
             gap: vec![0.0; 6 * bodies],
             solution: Solution::new(system),
-            dynamics: Workspace::new(system),
+            relative: [0.0; 2],
+            dynamics: equations.core.workspace(),
             nodes: NodeMotion::default(),
             air_loads: AirLoads::default(),
             air_workspace: equations
@@ -147,6 +155,13 @@ impl Scratch {
             nodes_done: NodeMotion::default(),
             air_is_current: false,
         }
+    }
+}
+
+impl Scratch {
+    /// Makes room for the dynamics of other equations of the same bodies.
+    pub fn fit(&mut self, equations: &Equations) {
+        self.dynamics = equations.core.workspace();
     }
 }
 
@@ -273,8 +288,18 @@ impl Equations {
             .rates(t, &y[..n], &s.total, &mut s.dynamics, &mut dy[..n])?;
         self.core
             .solve(t, &y[..n], &s.total, &mut s.dynamics, &mut s.solution)?;
+        s.relative = relative_energy(self.core.system(), &s.motions, &s.solution.bodies);
         self.quadrature_rates(s).write(dy);
         Ok(())
+    }
+
+    /// Puts the state at time `t` [s] back onto what it must fulfil.
+    ///
+    /// # Errors
+    /// The projection fails.
+    pub fn normalise(&self, t: f64, y: &mut [f64], s: &mut Scratch) -> Result<(), FlightError> {
+        let n = self.core.dim();
+        self.core.normalise(t, &mut y[..n], &mut s.dynamics)
     }
 
     /// Adds the load of the added mass to `s.air`, which holds the load of the velocities. Both
@@ -405,7 +430,7 @@ impl Equations {
             angular += l.moment + m.p.cross(l.force);
         }
         Quadratures {
-            hinge_work: s.solution.hinge_power(),
+            hinge_work: s.solution.hinge_power() - s.relative[1],
             air_work: power(&s.air),
             applied_work: power(&s.applied) + tether.power(&s.motions[0]),
             impulse,

@@ -31,6 +31,26 @@ pub enum FlightError {
     /// Air computed elsewhere failed.
     #[error("external air: {0}")]
     External(String),
+    /// The adaptive integrator cannot go on.
+    #[error(
+        "t = {time:.6e} s: the adaptive steps became too small ({step:.1e} s): a motion law or load jumps there, or the motion is singular; smooth it, or take integrator = \"hamming\""
+    )]
+    StepTooSmall {
+        /// Time [s].
+        time: f64,
+        /// Step [s].
+        step: f64,
+    },
+    /// The adaptive integrator made too many steps.
+    #[error(
+        "t = {time:.6e} s: {most} adaptive steps inside one step of the time grid: something oscillates fast (a stiff spring or stop); make it softer, or shorten the step"
+    )]
+    TooManySteps {
+        /// Time reached [s].
+        time: f64,
+        /// Most steps.
+        most: usize,
+    },
     /// The corrector of a step did not converge.
     #[error(
         "step {step} (t = {time:.6e} s): bodies and air did not agree after {passes} corrector passes: scaled residual {residual:.2e}, allowed {tolerance:.2e}; try a smaller step, more passes, or relaxation below {relaxation} (light bodies with large wings need it)"

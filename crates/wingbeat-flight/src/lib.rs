@@ -1,9 +1,9 @@
 //! Coupled flight: multibody dynamics and unsteady air, integrated together.
 //!
-//! The chapter in order: [`setup`] says what a flight is made of; `bodies` and `surfaces` map the
+//! The chapter in order: [`setup`] says what a flight is made of; [`joints`], `bodies` and `surfaces` map the
 //! animal to the multibody system and to the lattice; `equations` is the coupled right-hand side;
 //! `stages` and `core` choose between free, tethered and held; [`simulation`] integrates all of it
-//! with Hamming's predictor-corrector, the wake frozen during corrector passes (seed sec. 4 and
+//! with Hamming's predictor-corrector (or, without a wake, another method of `solver`), the wake frozen during corrector passes (seed sec. 4 and
 //! 5); `recorder` turns every accepted step into a [`Record`].
 //!
 //! Stated orders: bodies and balances fourth (Hamming's method); the air of the benchmark
@@ -27,18 +27,21 @@ mod core;
 mod equations;
 mod error;
 pub mod external;
+pub mod joints;
 pub mod record;
 mod recorder;
 pub mod setup;
 pub mod simulation;
+mod solver;
 mod stages;
 mod surfaces;
 mod validate;
 
 pub use blade::{BladeSide, strips};
-pub use bodies::system;
+pub use bodies::{check_assembly, system, system_of};
 pub use error::FlightError;
 pub use external::{ExternalAir, ExternalSession};
+pub use joints::JointSetup;
 pub use record::{HingeRecord, LoadRecord, Record, Snapshot, SurfaceSnapshot, WakeSnapshot};
 pub use recorder::Ledger;
 pub use setup::*;

@@ -25,6 +25,9 @@ pub struct Record {
     pub multipliers: Vec<f64>,
     /// Per hinge (wing): what the body does to the wing.
     pub hinges: Vec<HingeRecord>,
+    /// Coordinate and rate along every free direction of every joint, in the order of the joints
+    /// [rad or m, per s].
+    pub joints: Vec<[f64; 2]>,
     /// Per body: air load.
     pub air: Vec<LoadRecord>,
     /// Per body: applied load.

@@ -19,6 +19,8 @@ const EULER_LIMIT: f64 = 1e-6;
 pub struct Ledger {
     /// Energy at the start [J].
     pub energy: f64,
+    /// Kinetic energy relative to the root at the start [J].
+    pub relative_energy: f64,
     /// Linear momentum at the start [kg m/s], N.
     pub momentum: DVec3,
     /// Angular momentum about the inertial origin at the start [kg m2/s], N.
@@ -37,6 +39,7 @@ impl Ledger {
         let budget = &s.solution.budget;
         Self {
             energy: s.solution.energy(),
+            relative_energy: s.relative[0],
             momentum: budget.momentum,
             angular_momentum: about_origin(budget),
             ..Self::default()
@@ -71,7 +74,8 @@ impl Sources<'_> {
         let events = self.air.map_or(0, total_events);
         let new_events = events - ledger.events;
         ledger.events = events;
-        let done = work.hinge_work + work.air_work + work.applied_work;
+        let hinge_work = work.hinge_work + s.relative[0] - ledger.relative_energy;
+        let done = hinge_work + work.air_work + work.applied_work;
         Record {
             step,
             time,
@@ -83,12 +87,13 @@ impl Sources<'_> {
             mass_centre: budget.centre,
             multipliers: solution.multipliers.clone(),
             hinges: solution.hinges.iter().map(hinge).collect(),
+            joints: self.joint_coordinates(time),
             air: s.air.iter().map(load).collect(),
             applied: s.applied.iter().map(load).collect(),
             tether: load(&solution.tether),
             kinetic_energy: budget.kinetic,
             potential_energy: budget.potential,
-            hinge_work: work.hinge_work,
+            hinge_work,
             air_work: work.air_work,
             applied_work: work.applied_work,
             energy_residual: solution.energy() - ledger.energy - done,
@@ -118,6 +123,13 @@ impl Sources<'_> {
             .iter()
             .map(|w| value(w.motion.angles(time)))
             .collect()
+    }
+
+    /// Coordinates along the free directions of all joints.
+    fn joint_coordinates(&self, time: f64) -> Vec<[f64; 2]> {
+        let mut out = vec![];
+        (self.equations.mechanism).coordinates(time, &self.scratch.motions, &mut out);
+        out
     }
 
     /// Largest leak of a closed surface; the loads of a vacuum are empty.

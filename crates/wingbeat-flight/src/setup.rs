@@ -8,6 +8,8 @@ use wingbeat_air::derivatives::DerivativeTable;
 use wingbeat_math::{DMat3, DVec3, EulerSequence, MovingRotation};
 use wingbeat_model::Animal;
 
+use crate::joints::JointSetup;
+
 use crate::external::ExternalAir;
 
 /// Everything that defines one flight. Constant once built; the state is elsewhere.
@@ -23,8 +25,12 @@ pub struct FlightSetup {
     pub air: AirModel,
     /// How the root body moves.
     pub mode: MotionMode,
+    /// Joints of segments, and of wings that are not simply driven; mostly empty.
+    pub joints: Vec<JointSetup>,
     /// Which equations are integrated.
     pub formulation: FormulationChoice,
+    /// By which method.
+    pub integrator: IntegratorChoice,
     /// Time grid.
     pub time: TimeGrid,
     /// When the corrector of one step has converged.
@@ -190,12 +196,17 @@ impl PrescribedMotion {
         }
     }
 
+    /// Rotation R_NB of the root at time `t` [s] with its derivatives.
+    pub(crate) fn turning(&self, t: f64) -> MovingRotation {
+        let about = |axis: usize, i: usize| MovingRotation::about(axis, self.angles[i].at(t));
+        about(1, 0).then(&about(2, 1)).then(&about(0, 2))
+    }
+
     /// The root at time `t` [s].
     pub fn at(&self, t: f64) -> PrescribedRoot {
         let x: [[f64; 3]; 3] = std::array::from_fn(|i| self.position[i].at(t));
         let derivative = |k: usize| DVec3::new(x[0][k], x[1][k], x[2][k]);
-        let about = |axis: usize, i: usize| MovingRotation::about(axis, self.angles[i].at(t));
-        let r = about(1, 0).then(&about(2, 1)).then(&about(0, 2));
+        let r = self.turning(t);
         PrescribedRoot {
             position: derivative(0),
             velocity: derivative(1),
@@ -221,6 +232,47 @@ pub enum FormulationChoice {
     Momentum,
     /// The seed's Euler coordinates with multipliers and Baumgarte stabilisation.
     Euler(BaumgarteChoice),
+    /// Positions and quaternions of all bodies with multipliers: loops, free joints, singular
+    /// nowhere.
+    Quaternion(StabilizationChoice),
+}
+
+/// How the constraints of the quaternion form are kept.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum StabilizationChoice {
+    /// Not at all.
+    None,
+    /// By feedback.
+    Baumgarte(BaumgarteChoice),
+    /// By projection of positions and velocities after every step; one-step integrators only.
+    Projection,
+}
+
+/// The time integrator.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum IntegratorChoice {
+    /// Hamming's modified predictor-corrector, order four: the one that carries a wake along.
+    Hamming,
+    /// Adams-Bashforth-Moulton, order four.
+    Adams,
+    /// Runge-Kutta, order four.
+    RungeKutta,
+    /// Dormand and Prince's method of order eight, steps inside the time grid chosen by its error
+    /// estimate.
+    OrderEight {
+        /// Error allowed per step, relative to the natural size of each component [1].
+        tolerance: f64,
+    },
+}
+
+impl IntegratorChoice {
+    /// The default without a wake: order eight at 1e-10.
+    pub const WITHOUT_WAKE: Self = Self::OrderEight { tolerance: 1e-10 };
+
+    /// Whether the method needs nothing but the present state.
+    pub fn is_one_step(&self) -> bool {
+        matches!(self, Self::RungeKutta | Self::OrderEight { .. })
+    }
 }
 
 /// Constants of Baumgarte's stabilisation (seed eq. 29).

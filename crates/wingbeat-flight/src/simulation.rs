@@ -7,15 +7,14 @@ use std::sync::Arc;
 
 use wingbeat_air::AirState;
 use wingbeat_dynamics::BodyMotion;
-use wingbeat_math::ode::{
-    Convergence, Hamming, Multistep, Replay, StepError, StepReport, block_start,
-};
+use wingbeat_math::ode::{Multistep, Replay, StepError, StepReport, block_start};
 
 use crate::equations::{Equations, QUADRATURES, Scratch};
 use crate::error::FlightError;
 use crate::record::{Record, Snapshot};
 use crate::recorder::{self, Ledger, Sources};
 use crate::setup::{AirModel, CorrectorSettings, FlightSetup};
+use crate::solver::{Solver, convergence};
 use crate::stages::{Stage, air_side, stages};
 
 /// Everything that is integrated: plain data, enough to go on bit for bit.
@@ -43,7 +42,7 @@ pub struct Simulation {
     setup: FlightSetup,
     stages: Vec<Stage>,
     state: FlightState,
-    solver: Hamming,
+    solver: Solver,
     scratch: Scratch,
     record: Record,
     release: Option<BodyMotion>,
@@ -70,7 +69,7 @@ impl Simulation {
             ledger: Ledger::default(),
         };
         let mut flight = Self {
-            solver: solver(first, &setup.corrector),
+            solver: Solver::new(first, setup.integrator, &setup.corrector),
             scratch: Scratch::new(first),
             record: Record::default(),
             release: None,
@@ -97,7 +96,7 @@ impl Simulation {
         flight.check_fits(&state)?;
         flight.state = state;
         let first = &flight.stages[flight.state.stage].equations;
-        flight.solver = solver(first, &flight.setup.corrector);
+        flight.solver = flight.new_solver();
         flight.scratch = Scratch::new(first);
         Ok(flight)
     }
@@ -155,7 +154,8 @@ impl Simulation {
         let equations = &self.stages[self.state.stage].equations;
         equations.advance_air(&mut self.state.air, &mut self.scratch)?;
         self.state.step += 1;
-        let report = if self.state.step - self.state.started_at <= 3 {
+        let has_start = !self.setup.integrator.is_one_step();
+        let report = if has_start && self.state.step - self.state.started_at <= 3 {
             self.replay_start()?
         } else {
             self.predict_and_correct()?
@@ -172,8 +172,16 @@ impl Simulation {
         step as f64 * self.setup.time.step
     }
 
+    fn new_solver(&self) -> Solver {
+        let (method, corrector) = (self.setup.integrator, &self.setup.corrector);
+        Solver::new(self.equations(), method, corrector)
+    }
+
     /// Number of the newest state within `past`.
     fn newest(&self) -> usize {
+        if self.setup.integrator.is_one_step() {
+            return 3;
+        }
         (self.state.step - self.state.started_at).min(3)
     }
 
@@ -199,15 +207,14 @@ impl Simulation {
         Ok(self.state.start_report)
     }
 
-    /// Hamming's predictor and corrector in the frozen wake.
+    /// One step of the integrator; Hamming's corrects in the frozen wake.
     fn predict_and_correct(&mut self) -> Result<StepReport, FlightError> {
-        let t = self.time(self.state.step);
+        let (before, t) = (self.time(self.state.step - 1), self.time(self.state.step));
         let equations = &self.stages[self.state.stage].equations;
         let (air, scratch) = (self.state.air.as_ref(), &mut self.scratch);
+        let past = &mut self.state.past;
         self.solver
-            .advance(&mut self.state.past, |y, dy| {
-                equations.evaluate(t, y, air, scratch, dy)
-            })
+            .advance((before, t), past, equations, air, scratch)
             .map_err(|e| failure(e, self.state.step, t, &self.setup.corrector))
     }
 
@@ -225,7 +232,9 @@ impl Simulation {
             root.w = self.setup.root_at_start().w;
             let root = self.release.take().unwrap_or(root);
             let core = &self.stages[next].equations.core;
-            let mut y0 = core.initial(self.time(self.state.step), &root)?;
+            let mut motions = self.scratch.motions.clone();
+            carry(&mut motions, &root);
+            let mut y0 = core.initial_from(self.time(self.state.step), &motions)?;
             y0.extend(quadratures);
             self.state.stage = next;
             self.enter_stage(y0)?;
@@ -237,9 +246,10 @@ impl Simulation {
     fn enter_stage(&mut self, y0: Vec<f64>) -> Result<(), FlightError> {
         let t = self.time(self.state.step);
         let equations = &self.stages[self.state.stage].equations;
-        self.solver = solver(equations, &self.setup.corrector);
+        self.scratch.fit(equations);
         let mut f0 = vec![0.0; y0.len()];
         equations.evaluate(t, &y0, self.state.air.as_ref(), &mut self.scratch, &mut f0)?;
+        self.solver = self.new_solver();
         self.state.started_at = self.state.step;
         self.state.past = Multistep::from_start(
             std::array::from_fn(|_| y0.clone()),
@@ -262,7 +272,7 @@ impl Simulation {
         self.record = sources.record(step, time, &mut self.state.ledger);
         let equations = &self.stages[self.state.stage].equations;
         equations.accept_air(&mut self.state.air, &self.scratch)?;
-        if starts && !self.finished() {
+        if starts && !self.finished() && !self.setup.integrator.is_one_step() {
             self.start()?;
         }
         Ok(())
@@ -360,16 +370,22 @@ impl Replay for Start<'_> {
     }
 }
 
-/// The integrator of a stage.
-fn solver(equations: &Equations, c: &CorrectorSettings) -> Hamming {
-    Hamming::new(equations.step, convergence(c), equations.scales())
-}
-
-fn convergence(c: &CorrectorSettings) -> Convergence {
-    Convergence {
-        tolerance: c.tolerance,
-        max_passes: c.max_passes,
-        relaxation: c.relaxation,
+/// Moves all bodies rigidly with the root so that it moves like `root`; what they do relative to it
+/// stays.
+fn carry(motions: &mut [BodyMotion], root: &BodyMotion) {
+    let old = motions[0];
+    motions[0] = *root;
+    for m in &mut motions[1..] {
+        let back = old.r.transpose();
+        let (p, c) = (back * (m.p - old.p), back * m.r);
+        let v = back * (m.v - old.v) - old.w.cross(p);
+        let w = m.w - c.transpose() * old.w;
+        *m = BodyMotion {
+            p: root.p + root.r * p,
+            r: root.r * c,
+            v: root.v + root.r * (root.w.cross(p) + v),
+            w: c.transpose() * root.w + w,
+        };
     }
 }
 

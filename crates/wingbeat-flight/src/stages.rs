@@ -4,7 +4,8 @@ use std::sync::Arc;
 
 use wingbeat_air::{AirState, Lattice};
 use wingbeat_dynamics::{
-    Baumgarte, BodyMotion, EulerForm, Formulation, MomentumForm, NaturalUnits, System,
+    Baumgarte, BodyMotion, EulerForm, Formulation, Mechanism, MomentumForm, NaturalUnits,
+    QuaternionForm, Stabilization, System,
 };
 use wingbeat_math::DVec3;
 
@@ -14,9 +15,10 @@ use crate::core::{Core, root_motion};
 use crate::equations::{AirSide, Equations, Scratch};
 use crate::error::FlightError;
 use crate::external::Session;
+use crate::joints::Path;
 use crate::setup::{
     AirModel, BaumgarteChoice, DriftingFourier, FlightSetup, FormulationChoice, MotionMode,
-    PrescribedMotion, StartState,
+    PrescribedMotion, StabilizationChoice, StartState,
 };
 use crate::surfaces::{SurfaceMap, twins};
 
@@ -90,11 +92,8 @@ pub fn stages(setup: &FlightSetup, air: Option<Arc<AirSide>>) -> Result<Vec<Stag
         AirModel::Derivatives(table) => Some(*table),
         _ => None,
     };
-    let system = || bodies::system(&setup.animal, setup.gravity, natural_units(setup));
-    let tethered = |system: System, motion: &PrescribedMotion| Core::Tethered {
-        system,
-        motion: motion.clone(),
-    };
+    let system = bodies::system_of(setup)?;
+    let mechanism = Mechanism::of(&system);
     let stage = |from_step: usize, core: Core| Stage {
         from_step,
         equations: Equations {
@@ -103,22 +102,54 @@ pub fn stages(setup: &FlightSetup, air: Option<Arc<AirSide>>) -> Result<Vec<Stag
             blade: blade.clone(),
             table,
             external: external.clone(),
+            mechanism: mechanism.clone(),
             applied: setup.loads.clone(),
             step: setup.time.step,
         },
     };
     Ok(match &setup.mode {
-        MotionMode::Tethered(motion) => vec![stage(0, tethered(system()?, motion))],
+        MotionMode::Tethered(motion) => vec![stage(0, tethered(setup, system, motion))],
         MotionMode::Free(start) => {
-            let free = Core::Free(formulation(setup, system()?)?);
+            let free = Core::Free(formulation(setup, system.clone())?);
             if start.held_steps == 0 {
                 vec![stage(0, free)]
             } else {
-                let held = tethered(system()?, &held_motion(start));
+                let held = tethered(setup, system, &held_motion(start));
                 vec![stage(0, held), stage(start.held_steps, free)]
             }
         }
     })
+}
+
+/// A root that moves like `motion`: inverse dynamics where all joints are prescribed, the
+/// quaternion form on a support where some are free.
+fn tethered(setup: &FlightSetup, system: System, motion: &PrescribedMotion) -> Core {
+    let motion = motion.clone();
+    if system.speeds() == 0 && system.loops().is_empty() {
+        return Core::Tethered { system, motion };
+    }
+    let stabilization = match setup.formulation {
+        FormulationChoice::Quaternion(choice) => stabilization(choice, setup.time.step),
+        _ => Stabilization::Baumgarte(Baumgarte::for_step(setup.time.step)),
+    };
+    let path = Arc::new(Path(motion.position.clone()));
+    let form = QuaternionForm::new(system, stabilization).supported(Arc::new(motion), path);
+    Core::Free(Box::new(form))
+}
+
+fn baumgarte(choice: BaumgarteChoice, step: f64) -> Baumgarte {
+    match choice {
+        BaumgarteChoice::StepTied(a) => Baumgarte::step_tied(a, step),
+        BaumgarteChoice::Fixed { alpha, beta } => Baumgarte { alpha, beta },
+    }
+}
+
+fn stabilization(choice: StabilizationChoice, step: f64) -> Stabilization {
+    match choice {
+        StabilizationChoice::None => Stabilization::None,
+        StabilizationChoice::Baumgarte(b) => Stabilization::Baumgarte(baumgarte(b, step)),
+        StabilizationChoice::Projection => Stabilization::Projection,
+    }
 }
 
 impl FlightSetup {
@@ -141,11 +172,11 @@ fn formulation(setup: &FlightSetup, system: System) -> Result<Box<dyn Formulatio
     Ok(match setup.formulation {
         FormulationChoice::Momentum => Box::new(MomentumForm::new(system)),
         FormulationChoice::Euler(choice) => {
-            let baumgarte = match choice {
-                BaumgarteChoice::StepTied(a) => Baumgarte::step_tied(a, setup.time.step),
-                BaumgarteChoice::Fixed { alpha, beta } => Baumgarte { alpha, beta },
-            };
-            Box::new(EulerForm::new(system, baumgarte))
+            Box::new(EulerForm::new(system, baumgarte(choice, setup.time.step)))
+        }
+        FormulationChoice::Quaternion(choice) => {
+            let stabilization = stabilization(choice, setup.time.step);
+            Box::new(QuaternionForm::new(system, stabilization))
         }
     })
 }

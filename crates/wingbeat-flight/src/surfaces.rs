@@ -5,7 +5,7 @@ use wingbeat_air::{AirLoads, EdgeKind, NodeMotion, Plane, SheddingSegment, Surfa
 use wingbeat_dynamics::{BodyMotion, Wrench};
 use wingbeat_math::DVec3;
 use wingbeat_model::mesh::mirror;
-use wingbeat_model::{Animal, GridMesh, Side, Wing};
+use wingbeat_model::{Animal, BodyPart, GridMesh, Side, Wing};
 
 /// Which lattice nodes and panels belong to which rigid body.
 #[derive(Clone, Debug)]
@@ -24,7 +24,7 @@ pub struct SurfaceMap {
 
 impl SurfaceMap {
     /// Wings first, in the animal's order (body `i + 1`), then the closed parts of the root body
-    /// when `body_surfaces` says so.
+    /// and those of the segments when `body_surfaces` says so.
     pub fn new(animal: &Animal, body_surfaces: bool) -> Self {
         let mut map = Self {
             surfaces: vec![],
@@ -41,14 +41,13 @@ impl SurfaceMap {
             );
         }
         for part in animal.parts.iter().filter(|_| body_surfaces) {
-            let surface = Surface {
-                name: part.name.clone(),
-                node_count: part.mesh.nodes.len(),
-                panels: part.mesh.quads.clone(),
-                shedding: vec![],
-                closed: true,
-            };
-            map.push(surface, &part.mesh.nodes, 0);
+            map.push(part_surface(part), &part.mesh.nodes, 0);
+        }
+        let first = animal.wings.len() + 1;
+        for (i, segment) in animal.segments.iter().enumerate() {
+            for part in segment.parts.iter().filter(|_| body_surfaces) {
+                map.push(part_surface(part), &part.mesh.nodes, first + i);
+            }
         }
         map
     }
@@ -101,6 +100,9 @@ impl SurfaceMap {
 /// The twins of an animal that is its own mirror image in the plane of axes 1 and 3 of the body,
 /// at rest at `root`; none if a wing or a body node has no counterpart.
 pub fn twins(animal: &Animal, body_surfaces: bool, root: &BodyMotion) -> Option<Twins> {
+    if !animal.segments.is_empty() {
+        return None;
+    }
     let mut twins = Twins {
         plane: Plane {
             point: root.p,
@@ -165,6 +167,17 @@ fn mirror_nodes(nodes: &[DVec3]) -> Option<Vec<usize>> {
         nodes.iter().position(near)
     };
     nodes.iter().map(image).collect()
+}
+
+/// A closed part as a lattice surface.
+fn part_surface(part: &BodyPart) -> Surface {
+    Surface {
+        name: part.name.clone(),
+        node_count: part.mesh.nodes.len(),
+        panels: part.mesh.quads.clone(),
+        shedding: vec![],
+        closed: true,
+    }
 }
 
 /// A wing as a lattice surface: its sharp edges shed in one chain that runs from the root along

@@ -1,7 +1,10 @@
 //! What a setup must fulfil as a whole; bodies, lattice and motions check their own parts.
 
 use crate::error::FlightError;
-use crate::setup::{BaumgarteChoice, FlightSetup, FormulationChoice, MotionMode};
+use crate::setup::{
+    BaumgarteChoice, FlightSetup, FormulationChoice, IntegratorChoice, MotionMode,
+    StabilizationChoice,
+};
 
 impl FlightSetup {
     /// Checks the numbers that no other part checks.
@@ -12,7 +15,13 @@ impl FlightSetup {
         self.validate_time()?;
         self.validate_corrector()?;
         self.validate_mode()?;
-        if let FormulationChoice::Euler(choice) = self.formulation {
+        self.validate_integrator()?;
+        let choice = match self.formulation {
+            FormulationChoice::Euler(choice)
+            | FormulationChoice::Quaternion(StabilizationChoice::Baumgarte(choice)) => Some(choice),
+            _ => None,
+        };
+        if let Some(choice) = choice {
             let (key, values) = match choice {
                 BaumgarteChoice::StepTied(a) => ("dynamics.baumgarte", [a, a]),
                 BaumgarteChoice::Fixed { alpha, beta } => ("dynamics.baumgarte", [alpha, beta]),
@@ -21,12 +30,29 @@ impl FlightSetup {
                 check(v.is_finite() && v >= 0.0, key, v, "a finite number >= 0")?;
             }
         }
-        let last = self.animal.wings.len();
+        let last = self.animal.wings.len() + self.animal.segments.len();
         for load in &self.loads {
-            let problem = "no such body: 0 is the root, wings follow in their order";
+            let problem = "no such body: 0 is the root, wings follow in their order, then segments";
             check(load.body <= last, "load.body", load.body, problem)?;
         }
         Ok(())
+    }
+
+    fn validate_integrator(&self) -> Result<(), FlightError> {
+        let (key, method) = ("dynamics.integrator", format!("{:?}", self.integrator));
+        if let IntegratorChoice::OrderEight { tolerance } = self.integrator {
+            let ok = tolerance.is_finite() && tolerance > 0.0;
+            let allowed = "a finite number above 0";
+            check(ok, "dynamics.tolerance", tolerance, allowed)?;
+        }
+        let fits = !self.air.has_memory() || self.integrator == IntegratorChoice::Hamming;
+        let wake = "a wake is moved once per step: only Hamming's method carries it along";
+        check(fits, key, &method, wake)?;
+        let projects =
+            self.formulation == FormulationChoice::Quaternion(StabilizationChoice::Projection);
+        let fits = !projects || self.integrator.is_one_step();
+        let past = "projection changes the newest state, multistep methods use older ones too: take a one-step method (runge_kutta, order_eight) or Baumgarte's stabilisation";
+        check(fits, key, method, past)
     }
 
     fn validate_time(&self) -> Result<(), FlightError> {

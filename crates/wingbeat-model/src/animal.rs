@@ -59,6 +59,21 @@ pub struct BodyPart {
     pub mass: MassProperties,
 }
 
+/// A rigid body beside the central body and the wings: an abdomen that moves, a head, the arm of a
+/// wing. How it is joined to the others is the dynamics' matter.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Segment {
+    /// Name, unique in the animal.
+    pub name: String,
+    /// Origin of its frame in the body frame \[m\] in the posture of reference, in which the axes
+    /// of both frames are parallel.
+    pub origin_b: DVec3,
+    /// Mass properties about the origin of its frame.
+    pub mass: MassProperties,
+    /// Closed surfaces in its frame; may be empty.
+    pub parts: Vec<BodyPart>,
+}
+
 /// Body and wings.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Animal {
@@ -70,17 +85,27 @@ pub struct Animal {
     pub parts: Vec<BodyPart>,
     /// Wings; may be empty.
     pub wings: Vec<Wing>,
+    /// Further bodies; mostly empty.
+    pub segments: Vec<Segment>,
 }
 
 impl Animal {
     /// Total mass \[kg\].
     pub fn mass(&self) -> f64 {
-        self.body.mass + self.wings.iter().map(|w| w.mass.mass).sum::<f64>()
+        let wings = self.wings.iter().map(|w| w.mass.mass);
+        let segments = self.segments.iter().map(|s| s.mass.mass);
+        self.body.mass + wings.sum::<f64>() + segments.sum::<f64>()
     }
 
-    /// Body length L \[m\]: extent of the body parts along b1; 0 without parts.
+    /// Body length L \[m\]: extent of the parts of body and segments along b1 in the posture of
+    /// reference; 0 without parts.
     pub fn body_length(&self) -> f64 {
-        let ends = self.parts.iter().map(|p| p.mesh.bounds());
+        let own = self.parts.iter().map(|p| p.mesh.bounds());
+        let others = self.segments.iter().flat_map(|s| {
+            let shifted = |p: &BodyPart| p.mesh.bounds().map(|x| x + s.origin_b);
+            s.parts.iter().map(shifted)
+        });
+        let ends = own.chain(others);
         let fold = |[lo, hi]: [f64; 2], [a, b]: [DVec3; 2]| [lo.min(a.x), hi.max(b.x)];
         let [lo, hi] = ends.fold([f64::INFINITY, f64::NEG_INFINITY], fold);
         (hi - lo).max(0.0)
@@ -101,11 +126,18 @@ impl Animal {
             mesh: p.mesh.map(|x| x * s),
             mass: scaled_properties(&p.mass, s),
         };
+        let segment = |x: &Segment| Segment {
+            name: x.name.clone(),
+            origin_b: x.origin_b * s,
+            mass: scaled_properties(&x.mass, s),
+            parts: x.parts.iter().map(part).collect(),
+        };
         Ok(Self {
             name: self.name.clone(),
             body: scaled_properties(&self.body, s),
             parts: self.parts.iter().map(part).collect(),
             wings: self.wings.iter().map(wing).collect(),
+            segments: self.segments.iter().map(segment).collect(),
         })
     }
 }

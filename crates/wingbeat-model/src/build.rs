@@ -106,6 +106,7 @@ impl Animal {
             body,
             parts,
             wings,
+            segments: vec![],
         };
         animal.check()?;
         Ok(animal)
@@ -124,11 +125,16 @@ impl Animal {
             hinge_b: w.hinge_b - origin,
             ..w.clone()
         };
+        let segment = |s: &crate::Segment| crate::Segment {
+            origin_b: s.origin_b - origin,
+            ..s.clone()
+        };
         Self {
             name: self.name.clone(),
             body: moved(&self.body),
             parts: self.parts.iter().map(part).collect(),
             wings: self.wings.iter().map(wing).collect(),
+            segments: self.segments.iter().map(segment).collect(),
         }
     }
 }

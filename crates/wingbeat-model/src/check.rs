@@ -75,6 +75,13 @@ impl Animal {
             part.mesh.check_closed(&part.name)?;
             check_mass(&part.name, &part.mass)?;
         }
+        for s in &self.segments {
+            check_mass(&s.name, &s.mass)?;
+            for part in &s.parts {
+                part.mesh.check_closed(&part.name)?;
+                check_mass(&part.name, &part.mass)?;
+            }
+        }
         for wing in &self.wings {
             wing.mesh.check(&wing.name)?;
             check_mass(&wing.name, &wing.mass)?;

@@ -35,7 +35,7 @@ pub mod planform;
 pub mod revolution;
 pub mod species;
 
-pub use animal::{Animal, BodyPart, Wing};
+pub use animal::{Animal, BodyPart, Segment, Wing};
 pub use build::{BodyMass, fit_body_length};
 pub use check::WingReport;
 pub use error::ModelError;

@@ -32,7 +32,9 @@ pub fn fly() -> FlightSetup {
             angular_velocity: DVec3::ZERO,
             held_steps: 0,
         }),
+        joints: vec![],
         formulation: FormulationChoice::Momentum,
+        integrator: IntegratorChoice::Hamming,
         time: TimeGrid {
             step: period / 100.0,
             steps: 100,

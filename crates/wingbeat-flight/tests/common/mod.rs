@@ -136,7 +136,9 @@ impl Fly {
                 angular_velocity: DVec3::ZERO,
                 held_steps: 0,
             }),
+            joints: vec![],
             formulation: FormulationChoice::Momentum,
+            integrator: IntegratorChoice::Hamming,
             time: TimeGrid {
                 step: period / steps as f64,
                 steps: (beats * steps as f64).round() as usize,

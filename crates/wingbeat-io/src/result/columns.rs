@@ -35,11 +35,14 @@ impl Row<'_> {
     }
 }
 
-/// Names of the bodies in column names: `body`, then `wing_NAME`.
+/// Names of the bodies in column names: `body`, then `wing_NAME`, then `segment_NAME`.
 pub fn body_names(animal: &Animal) -> Vec<String> {
     let wing = |w: &wingbeat_model::Wing| format!("wing_{}", plain(&w.name));
     let wings = animal.wings.iter().map(wing);
-    std::iter::once("body".to_owned()).chain(wings).collect()
+    let segment = |s: &wingbeat_model::Segment| format!("segment_{}", plain(&s.name));
+    let segments = animal.segments.iter().map(segment);
+    let body = std::iter::once("body".to_owned());
+    body.chain(wings).chain(segments).collect()
 }
 
 /// A name with everything but letters and digits replaced by underscores.
@@ -86,6 +89,7 @@ fn fill(bodies: &[String], record: &Record, mut row: Row<'_>) {
         mass_centre,
         multipliers,
         hinges,
+        joints,
         air,
         applied,
         tether,
@@ -123,6 +127,10 @@ fn fill(bodies: &[String], record: &Record, mut row: Row<'_>) {
     );
     row.vector("mass_centre", "n", "m", *mass_centre);
     forces(&mut row, bodies, [multipliers], hinges);
+    for (k, [value, rate]) in joints.iter().enumerate() {
+        row.number(|| format!("joint_coordinate_{}_rad_or_m", k + 1), *value);
+        row.number(|| format!("joint_rate_{}_rad_or_m_per_s", k + 1), *rate);
+    }
     for (what, loads) in [("air", air), ("applied", applied)] {
         for (body, load) in bodies.iter().zip(loads) {
             row.load(&format!("{what}_{body}"), load);

@@ -50,6 +50,7 @@ pub struct AdaptiveReport {
 pub struct Dop853 {
     tolerance: Tolerance,
     scales: Vec<f64>,
+    first: f64,
     k: Vec<Vec<f64>>,
     stage: Vec<f64>,
     next: Vec<f64>,
@@ -89,6 +90,15 @@ impl Dop853 {
             next: zero.clone(),
             dense: std::array::from_fn(|_| zero.clone()),
             scales,
+            first: 1e-3,
+        }
+    }
+
+    /// The same with a first step of `fraction` of the interval; a thousandth if nothing is said.
+    pub fn starting_with(self, fraction: f64) -> Self {
+        Self {
+            first: fraction,
+            ..self
         }
     }
 
@@ -104,7 +114,7 @@ impl Dop853 {
         mut each: impl FnMut(Dense),
     ) -> Result<AdaptiveReport, AdaptiveError<E>> {
         let mut report = AdaptiveReport::default();
-        let (mut t, mut h) = (t0, 1e-3 * (t1 - t0));
+        let (mut t, mut h) = (t0, self.first * (t1 - t0));
         f(t, y, &mut self.k[0]).map_err(AdaptiveError::Rates)?;
         while (t1 - t) * (t1 - t0) > 0.0 {
             if report.accepted + report.rejected >= self.tolerance.max_steps {

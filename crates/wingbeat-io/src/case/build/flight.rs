@@ -1,16 +1,18 @@
 //! `[flight]`, `[dynamics]` and `[[load]]`.
 
 use wingbeat_flight::{
-    AppliedLoad, BaumgarteChoice, DriftingFourier, FlightSetup, FormulationChoice, LoadFrame,
-    MotionMode, PrescribedMotion, StartState, TimeGrid,
+    AppliedLoad, BaumgarteChoice, DriftingFourier, FlightSetup, FormulationChoice,
+    IntegratorChoice, JointSetup, LoadFrame, MotionMode, PrescribedMotion, StabilizationChoice,
+    StartState, TimeGrid,
 };
 use wingbeat_math::{DVec3, EulerSequence, RotationLaw};
 use wingbeat_model::Animal;
 
-use super::{Built, not_negative, vector};
+use super::joint::body_names;
+use super::{Built, not_negative, positive, vector};
 use crate::case::raw::{
-    AngleOscillation, BaumgarteCase, Case, DynamicsCase, FlightCase, Formulation, FrameCase,
-    LoadCase, Mode, PathOscillation, TetherCase,
+    AirModel, AngleOscillation, BaumgarteCase, Case, DynamicsCase, FlightCase, Formulation,
+    FrameCase, IntegratorCase, LoadCase, Mode, PathOscillation, StabilisationCase, TetherCase,
 };
 use crate::error::Fault;
 
@@ -122,15 +124,72 @@ pub(super) fn formulation(case: &DynamicsCase) -> Built<FormulationChoice> {
             beta: not_negative(&format!("{key}.fixed.beta_per_s"), beta_per_s)?,
         },
     };
-    Ok(match case.formulation {
+    let kept = match case.stabilisation {
+        StabilisationCase::Baumgarte => StabilizationChoice::Baumgarte(choice),
+        StabilisationCase::Projection => StabilizationChoice::Projection,
+        StabilisationCase::None => StabilizationChoice::None,
+    };
+    Ok(match case.formulation.unwrap_or(Formulation::Momentum) {
         Formulation::Momentum => FormulationChoice::Momentum,
         Formulation::Euler => FormulationChoice::Euler(choice),
+        Formulation::Quaternion => FormulationChoice::Quaternion(kept),
     })
+}
+
+/// What is not said: the quaternion form where joints close loops, the momentum form else;
+/// Hamming's method with air, order eight without.
+pub(super) fn fill_defaults(case: &mut Case, joints: &[JointSetup]) {
+    let again = |k: usize| joints[..k].iter().any(|j| j.child == joints[k].child);
+    let loops = (0..joints.len()).any(again);
+    let form = if loops {
+        Formulation::Quaternion
+    } else {
+        Formulation::Momentum
+    };
+    case.dynamics.formulation.get_or_insert(form);
+    let method = if case.air.model == AirModel::None {
+        IntegratorCase::OrderEight
+    } else {
+        IntegratorCase::Hamming
+    };
+    case.dynamics.integrator.get_or_insert(method);
+}
+
+/// By which method.
+pub(super) fn integrator(case: &Case) -> Built<IntegratorChoice> {
+    let (dynamics, key) = (&case.dynamics, "dynamics.integrator");
+    let choice = match dynamics.integrator.unwrap_or(IntegratorCase::Hamming) {
+        IntegratorCase::Hamming => IntegratorChoice::Hamming,
+        IntegratorCase::Adams => IntegratorChoice::Adams,
+        IntegratorCase::RungeKutta => IntegratorChoice::RungeKutta,
+        IntegratorCase::OrderEight => IntegratorChoice::OrderEight {
+            tolerance: positive("dynamics.tolerance", dynamics.tolerance)?,
+        },
+    };
+    if case.air.model == AirModel::VortexLattice && choice != IntegratorChoice::Hamming {
+        return Err(Fault::new(
+            key,
+            "a wake is moved once per step: only Hamming's method carries it along",
+            "hamming with air.model = \"vortex_lattice\"",
+            "remove the key, or set it to \"hamming\"",
+        ));
+    }
+    let projects = dynamics.formulation == Some(Formulation::Quaternion)
+        && dynamics.stabilisation == StabilisationCase::Projection;
+    if projects && !choice.is_one_step() {
+        return Err(Fault::new(
+            "dynamics.stabilisation",
+            "projection changes the newest state, multistep methods use older ones too",
+            "baumgarte or none with hamming and adams",
+            "integrator = \"order_eight\" or \"runge_kutta\", or stabilisation = \"baumgarte\"",
+        ));
+    }
+    Ok(choice)
 }
 
 /// In the Euler form no body may start near the singularity of its angles.
 pub(super) fn check_attitudes(case: &Case, setup: &FlightSetup) -> Built<()> {
-    if setup.formulation == FormulationChoice::Momentum {
+    if !matches!(setup.formulation, FormulationChoice::Euler(_)) {
         return Ok(());
     }
     let angles = start_angles(&case.flight);
@@ -170,14 +229,13 @@ pub(super) fn loads(case: &Case, animal: &Animal) -> Built<Vec<AppliedLoad>> {
 }
 
 fn applied(path: &str, load: &LoadCase, animal: &Animal) -> Built<AppliedLoad> {
-    let names: Vec<&str> = animal.wings.iter().map(|w| w.name.as_str()).collect();
-    let wing = names.iter().position(|n| *n == load.on).map(|i| i + 1);
-    let body = if load.on == "body" { Some(0) } else { wing };
+    let names = body_names(animal);
+    let body = names.iter().position(|n| *n == load.on);
     let body = body.ok_or_else(|| {
         Fault::new(
             format!("{path}.on"),
             "there is no such body",
-            format!("body, {}", names.join(", ")),
+            names.join(", "),
             "use one of these names",
         )
     })?;

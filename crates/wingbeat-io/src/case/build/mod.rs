@@ -6,9 +6,12 @@ mod air;
 mod blade;
 mod body;
 mod derivatives;
+mod element;
 mod flight;
+mod joint;
 mod motion;
 mod output;
+mod segment;
 mod time;
 mod wing;
 
@@ -33,18 +36,26 @@ pub(crate) fn setup(case: &mut Case, name: &str) -> Built<FlightSetup> {
     let animal = animal(case, name)?;
     let time = time::grid(case)?;
     air::fill_defaults(case, &animal);
+    let joints = joint::build_all(case, &animal)?;
+    flight::fill_defaults(case, &joints);
     let setup = FlightSetup {
         name: name.to_owned(),
         gravity: case.gravity_m_s2.into(),
         air: air::options(case, &animal)?,
         mode: flight::mode(case, &time)?,
+        joints,
         formulation: flight::formulation(&case.dynamics)?,
+        integrator: flight::integrator(case)?,
         corrector: corrector(&case.corrector)?,
         loads: flight::loads(case, &animal)?,
         animal,
         time,
     };
     flight::check_attitudes(case, &setup)?;
+    if !setup.joints.is_empty() {
+        let assembled = wingbeat_flight::check_assembly(&setup);
+        assembled.map_err(|e| joint::blame(case, &setup, &e))?;
+    }
     Ok(setup)
 }
 
@@ -63,11 +74,12 @@ fn check_format(format: u32) -> Built<()> {
 fn animal(case: &Case, name: &str) -> Built<Animal> {
     let body = body::build(&case.body)?;
     let wings = wing::build_all(case)?;
-    let animal = Animal {
+    let mut animal = Animal {
         name: name.to_owned(),
         wings,
         ..body
     };
+    segment::split(case, &mut animal)?;
     animal.check().map_err(|e| blame_animal(case, e))?;
     let scale = positive("animal.scale", case.animal.scale)?;
     let mut animal = animal

@@ -35,7 +35,7 @@ pub(super) fn source_of(case: &Case, wing: &str) -> String {
 }
 
 /// The name with `left` and `right` exchanged.
-fn twin_name(name: &str) -> Option<String> {
+pub(super) fn twin_name(name: &str) -> Option<String> {
     if name.contains("right") {
         Some(name.replace("right", "left"))
     } else if name.contains("left") {

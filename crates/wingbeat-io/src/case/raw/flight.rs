@@ -114,22 +114,37 @@ pub struct AngleOscillation {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct DynamicsCase {
-    /// `momentum`: momenta and a quaternion, cannot drift, no singularity (default). `euler`:
-    /// 18 Euler coordinates with 12 multipliers as in the paper.
-    pub formulation: Formulation,
-    /// Baumgarte's stabilisation of the constraints (Euler form only).
+    /// `momentum`: momenta and a quaternion, cannot drift, no singularity (default where joints
+    /// make a tree). `euler`: Euler coordinates with multipliers as in the paper, all joints
+    /// prescribed. `quaternion`: positions and quaternions of all bodies with multipliers (default
+    /// where joints close loops).
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub formulation: Option<Formulation>,
+    /// Baumgarte's stabilisation of the constraints (Euler and quaternion form).
     pub baumgarte: BaumgarteCase,
     /// `massive`: wings with the masses given; `massless`: wings that carry air loads but no
     /// inertia, which leaves the standard equations of a rigid aircraft of the body's mass.
     pub wings: WingInertia,
+    /// How the quaternion form keeps its constraints: `baumgarte` (default), `projection` after
+    /// every step of a one-step integrator, or `none`.
+    pub stabilisation: StabilisationCase,
+    /// Integrator: `hamming` (default with air), `adams`, `runge_kutta`, `order_eight` (adaptive,
+    /// default without air). A wake needs `hamming`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub integrator: Option<IntegratorCase>,
+    /// Error per step of `order_eight`, relative to natural sizes.
+    pub tolerance: f64,
 }
 
 impl Default for DynamicsCase {
     fn default() -> Self {
         Self {
-            formulation: Formulation::Momentum,
+            formulation: None,
             baumgarte: BaumgarteCase::StepFactor(0.1),
             wings: WingInertia::Massive,
+            stabilisation: StabilisationCase::Baumgarte,
+            integrator: None,
+            tolerance: 1e-10,
         }
     }
 }
@@ -152,6 +167,34 @@ pub enum Formulation {
     Momentum,
     /// Euler coordinates with multipliers.
     Euler,
+    /// Positions and quaternions of all bodies with multipliers.
+    Quaternion,
+}
+
+/// How the quaternion form keeps its constraints.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum StabilisationCase {
+    /// By feedback with the constants of `baumgarte`.
+    Baumgarte,
+    /// By projection of positions and velocities after every step.
+    Projection,
+    /// Not at all.
+    None,
+}
+
+/// Time integrators.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum IntegratorCase {
+    /// Hamming's predictor-corrector, order 4.
+    Hamming,
+    /// Adams-Bashforth-Moulton, order 4.
+    Adams,
+    /// Runge-Kutta, order 4.
+    RungeKutta,
+    /// Dormand and Prince, order 8, adaptive.
+    OrderEight,
 }
 
 /// Constants of Baumgarte's stabilisation.
@@ -174,7 +217,7 @@ pub enum BaumgarteCase {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct LoadCase {
-    /// `body` or the name of a wing.
+    /// `body` or the name of a wing or segment.
     #[serde(default = "root")]
     pub on: String,
     /// Axes of the components.

@@ -9,6 +9,7 @@ mod blade;
 mod body;
 mod derivatives;
 mod flight;
+mod joint;
 mod motion;
 mod wing;
 
@@ -23,8 +24,12 @@ pub use blade::{
 pub use body::{BodyCase, OriginCase, PartCase, ProfileCase};
 pub use derivatives::{DerivativesCase, DimensionlessCase, ExternalCase};
 pub use flight::{
-    AngleOscillation, BaumgarteCase, DynamicsCase, FlightCase, Formulation, FrameCase, LoadCase,
-    Mode, PathOscillation, TetherCase, WingInertia,
+    AngleOscillation, BaumgarteCase, DynamicsCase, FlightCase, Formulation, FrameCase,
+    IntegratorCase, LoadCase, Mode, PathOscillation, StabilisationCase, TetherCase, WingInertia,
+};
+pub use joint::{
+    ElementCase, FollowCase, JointCase, JointKind, SegmentCase, SeriesCase, StopCase, TravelCase,
+    TurnCase,
 };
 pub use motion::{
     AngleCase, FourierCase, MotionCase, OvalCase, ShapedCase, StartCase, TableCase, WingMotionCase,
@@ -87,6 +92,14 @@ pub struct Case {
     /// Wings by name, e.g. `[wing.right]`; a right wing brings its mirror image along.
     #[serde(default)]
     pub wing: BTreeMap<String, WingCase>,
+    /// Further rigid bodies by name, e.g. `[segment.abdomen]`; each needs a joint.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub segment: BTreeMap<String, SegmentCase>,
+    /// Joints by name, e.g. `[joint.waist]`. The first joint (by name) that has a body as its child
+    /// carries it, others close loops. Wings without a joint hang on the body, their motion
+    /// prescribed.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub joint: BTreeMap<String, JointCase>,
     /// Extra forces and couples, one `[[load]]` each.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub load: Vec<LoadCase>,

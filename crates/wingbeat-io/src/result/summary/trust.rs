@@ -10,7 +10,7 @@ const IMPLAUSIBLE_LIFT: f64 = 10.0;
 
 /// What a reader should know before using the numbers.
 pub(super) fn warnings(setup: &FlightSetup, summary: &Summary) -> Vec<String> {
-    let mut list = vec![];
+    let mut list = wingbeat_flight::system_of(setup).map_or(vec![], |s| s.warnings());
     match &setup.air {
         AirModel::None => list.push(
             "There is no air: this is the motion that weight and wing inertia alone give."
@@ -23,8 +23,8 @@ pub(super) fn warnings(setup: &FlightSetup, summary: &Summary) -> Vec<String> {
     }
     if summary.euler_regularity < 0.05 {
         let held = match setup.formulation {
-            FormulationChoice::Momentum => {
-                "the momentum form passes through unharmed, but the angles and rates in history.csv are steep there"
+            FormulationChoice::Momentum | FormulationChoice::Quaternion(_) => {
+                "the equations in use pass through unharmed, but the angles and rates in history.csv are steep there"
             }
             FormulationChoice::Euler(_) => {
                 "accelerations are inaccurate there; use the momentum form"

@@ -1,0 +1,160 @@
+//! The time integrators behind one face: a step of the coupled equations.
+
+use wingbeat_air::AirState;
+use wingbeat_math::ode::{
+    AdamsBashforthMoulton, AdaptiveError, Convergence, Dop853, Hamming, Multistep, Rk4, StepError,
+    StepReport, Tolerance,
+};
+
+use crate::equations::{Equations, Scratch};
+use crate::error::FlightError;
+use crate::setup::{CorrectorSettings, IntegratorChoice};
+
+/// Most steps inside one step of the time grid.
+const MOST_SUBSTEPS: usize = 10_000;
+
+/// An integrator with its scratch.
+#[derive(Debug)]
+pub enum Solver {
+    /// Predictor-corrector with memory.
+    Hamming(Hamming),
+    /// Predictor-corrector with memory.
+    Adams(AdamsBashforthMoulton),
+    /// One step, order four.
+    RungeKutta(Rk4, Buffers),
+    /// Adaptive steps, order eight.
+    OrderEight(Dop853, Buffers),
+}
+
+/// State and rates at the end of a step.
+#[derive(Clone, Debug)]
+pub struct Buffers {
+    step: f64,
+    y: Vec<f64>,
+    f: Vec<f64>,
+}
+
+impl Buffers {
+    fn new(equations: &Equations) -> Self {
+        let zero = vec![0.0; equations.dim()];
+        Self {
+            step: equations.step,
+            y: zero.clone(),
+            f: zero,
+        }
+    }
+
+    /// Projects the new state, evaluates it in its place and makes it the newest of the past.
+    fn accept(
+        &mut self,
+        t: f64,
+        past: &mut Multistep,
+        equations: &Equations,
+        s: &mut Scratch,
+    ) -> Result<(), FlightError> {
+        equations.normalise(t, &mut self.y, s)?;
+        equations.evaluate(t, &self.y, None, s, &mut self.f)?;
+        past.y.rotate_left(1);
+        past.f.rotate_left(1);
+        past.y[3].copy_from_slice(&self.y);
+        past.f[3].copy_from_slice(&self.f);
+        Ok(())
+    }
+}
+
+impl Solver {
+    /// The integrator of a stage.
+    pub fn new(equations: &Equations, choice: IntegratorChoice, c: &CorrectorSettings) -> Self {
+        let (step, scales) = (equations.step, equations.scales());
+        match choice {
+            IntegratorChoice::Hamming => Self::Hamming(Hamming::new(step, convergence(c), scales)),
+            IntegratorChoice::Adams => {
+                Self::Adams(AdamsBashforthMoulton::new(step, equations.dim()))
+            }
+            IntegratorChoice::RungeKutta => {
+                Self::RungeKutta(Rk4::new(equations.dim()), Buffers::new(equations))
+            }
+            IntegratorChoice::OrderEight { tolerance } => {
+                let tolerance = Tolerance {
+                    relative: tolerance,
+                    absolute: tolerance,
+                    max_steps: MOST_SUBSTEPS,
+                };
+                let method = Dop853::new(tolerance, scales).starting_with(1.0);
+                Self::OrderEight(method, Buffers::new(equations))
+            }
+        }
+    }
+
+    /// One step from `t` to `end` [s] in the frozen wake of `air`: `past` moves on, and the newest state
+    /// is the one last evaluated in `s`.
+    ///
+    /// # Errors
+    /// The right-hand side fails, the corrector does not converge, or the steps become too small.
+    pub fn advance(
+        &mut self,
+        (t, end): (f64, f64),
+        past: &mut Multistep,
+        equations: &Equations,
+        air: Option<&AirState>,
+        s: &mut Scratch,
+    ) -> Result<StepReport, StepError<FlightError>> {
+        let once = StepReport {
+            passes: 1,
+            residual: 0.0,
+        };
+        match self {
+            Self::Hamming(method) => {
+                method.advance(past, |y, dy| equations.evaluate(end, y, air, s, dy))
+            }
+            Self::Adams(method) => method
+                .advance(past, |y, dy| equations.evaluate(end, y, air, s, dy))
+                .map(|()| once)
+                .map_err(StepError::Rates),
+            Self::RungeKutta(method, b) => {
+                b.y.copy_from_slice(past.newest());
+                method
+                    .advance(t, b.step, &mut b.y, |t, y, dy| {
+                        equations.evaluate(t, y, None, s, dy)
+                    })
+                    .and_then(|()| b.accept(end, past, equations, s))
+                    .map(|()| once)
+                    .map_err(StepError::Rates)
+            }
+            Self::OrderEight(method, b) => {
+                b.y.copy_from_slice(past.newest());
+                let rates =
+                    |t: f64, y: &[f64], dy: &mut [f64]| equations.evaluate(t, y, None, s, dy);
+                let report = method
+                    .integrate((t, end), &mut b.y, rates, |_| {})
+                    .map_err(|e| StepError::Rates(adaptive(e)))?;
+                b.accept(end, past, equations, s)
+                    .map_err(StepError::Rates)?;
+                Ok(StepReport {
+                    passes: report.accepted + report.rejected,
+                    residual: 0.0,
+                })
+            }
+        }
+    }
+}
+
+fn adaptive(e: AdaptiveError<FlightError>) -> FlightError {
+    match e {
+        AdaptiveError::Rates(e) => e,
+        AdaptiveError::StepTooSmall { time, step } => FlightError::StepTooSmall { time, step },
+        AdaptiveError::TooManySteps { time } => FlightError::TooManySteps {
+            time,
+            most: MOST_SUBSTEPS,
+        },
+    }
+}
+
+/// The corrector's settings in the integrator's words.
+pub fn convergence(c: &CorrectorSettings) -> Convergence {
+    Convergence {
+        tolerance: c.tolerance,
+        max_passes: c.max_passes,
+        relaxation: c.relaxation,
+    }
+}
