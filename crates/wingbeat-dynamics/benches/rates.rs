@@ -6,7 +6,10 @@
 //! `cargo bench -p wingbeat-dynamics --bench rates`
 
 use divan::{Bencher, counter::ItemsCount};
-use wingbeat_dynamics::{Baumgarte, BodyMotion, EulerForm, Formulation, MomentumForm, Wrench};
+use wingbeat_dynamics::{
+    Baumgarte, BodyMotion, ElementLaw, EulerForm, Formulation, Freedom, Joint, MomentumForm,
+    QuaternionForm, Stabilization, Wrench,
+};
 
 #[path = "../tests/common/mod.rs"]
 mod common;
@@ -78,4 +81,23 @@ fn momentum_form(bencher: Bencher) {
 fn euler_form(bencher: Bencher) {
     let form = EulerForm::new(system(), Baumgarte::for_step(BEAT / 80.0));
     time(bencher, &form);
+}
+
+#[divan::bench]
+fn quaternion_form(bencher: Bencher) {
+    let b = Stabilization::Baumgarte(Baumgarte::for_step(BEAT / 80.0));
+    time(bencher, &QuaternionForm::new(system(), b));
+}
+
+#[divan::bench]
+fn momentum_form_with_passive_hinges(bencher: Bencher) {
+    let spring = ElementLaw::Spring {
+        stiffness: 1e-9,
+        rest: 0.0,
+    };
+    let passive = || Joint::new(Freedom::Revolute { axis: DVec3::Y }).with(0, spring.clone());
+    let hinged = system()
+        .with_joint(0, passive())
+        .and_then(|s| s.with_joint(1, passive()));
+    time(bencher, &MomentumForm::new(hinged.unwrap()));
 }

@@ -1,14 +1,20 @@
 //! Constrained multibody dynamics of flapping flight (seed sec. 3 and 4).
 //!
 //! A [`System`] is a tree of rigid bodies: a free root (the central body) and bodies that hang on
-//! it by hinges whose rotation is prescribed in time (the wings). Given the external loads as one
-//! [`Wrench`] per body, two [`Formulation`]s of the same mechanics answer how it moves and what
+//! it by hinges whose rotation is prescribed in time (the wings), and joints that close loops. Given the external loads as one
+//! [`Wrench`] per body, three [`Formulation`]s of the same mechanics answer how it moves and what
 //! its hinges carry:
 //!
 //! - [`MomentumForm`], the default: mass centre, attitude quaternion and the two momenta of the
 //!   whole, 13 numbers. Constraints and momenta hold by construction.
 //! - [`EulerForm`], the seed's: six absolute coordinates per body with Euler angles, Lagrange
 //!   multipliers, Baumgarte stabilization, the saddle-point system of seed eq. 30.
+//!
+//! - [`QuaternionForm`]: positions and quaternions of all bodies with multipliers, singular
+//!   nowhere, with loops ([`mechanism`]); also for a root on a moving support.
+//!
+//! Hinges may leave freedoms beside what they prescribe ([`Joint`], [`free`]), with springs, dampers,
+//! stops and actuators along them.
 //!
 //! [`tethered`] answers the inverse question: what a support of the root carries.
 //!

@@ -21,6 +21,7 @@ pub(super) fn warnings(setup: &FlightSetup, summary: &Summary) -> Vec<String> {
         AirModel::Derivatives(_) => list.push("The air is a table of stability derivatives: linear about its reference flight, and wrong far from it.".to_owned()),
         AirModel::External(_) => list.push("The air was computed by another program: wingbeat vouches for the motion under its loads, not for the loads.".to_owned()),
     }
+    balance_warnings(setup, summary, &mut list);
     if summary.euler_regularity < 0.05 {
         let held = match setup.formulation {
             FormulationChoice::Momentum | FormulationChoice::Quaternion(_) => {
@@ -45,6 +46,23 @@ pub(super) fn warnings(setup: &FlightSetup, summary: &Summary) -> Vec<String> {
         list.push("Tethered: the body does not answer to the forces on it.".to_owned());
     }
     list
+}
+
+/// A balance worse than it should be. Without a wake the motion is smooth and integrated to many
+/// digits; a wake's loads jump where it starts and where it is regularised.
+fn balance_warnings(setup: &FlightSetup, summary: &Summary, list: &mut Vec<String>) {
+    let energy = if setup.air.has_memory() { 1e-2 } else { 1e-6 };
+    let balances = [
+        ("energy", summary.energy_residual_relative, energy),
+        ("momentum", summary.momentum_residual_relative, 1e-6),
+    ];
+    for (what, residual, tolerance) in balances {
+        if residual > tolerance || residual.is_nan() {
+            list.insert(0, format!(
+                "The balance of {what} is open by {residual:.1e} (tolerance {tolerance:.0e}): take smaller steps before trusting the motion."
+            ));
+        }
+    }
 }
 
 fn air_warnings(
