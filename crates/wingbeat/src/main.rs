@@ -5,6 +5,7 @@ mod check;
 mod export;
 mod progress;
 mod run;
+mod show;
 mod view;
 
 use std::path::PathBuf;
@@ -35,6 +36,10 @@ enum Command {
     View(view::ViewArgs),
     /// Write a run in a format of other programs: hdf5, vtkhdf, parquet or gltf.
     Export(export::ExportArgs),
+    /// Say what happened in a run, finished or not.
+    Show(show::ShowArgs),
+    /// Set the numbers of two runs side by side.
+    Compare(show::CompareArgs),
     /// Check a case file or preset without flying it, and say what it holds.
     Check {
         /// Case file or preset.
@@ -124,6 +129,8 @@ fn main() -> ExitCode {
         Command::Resume(args) => return run::resume(&args),
         Command::View(args) => view::view(&args),
         Command::Export(args) => export::export(&args),
+        Command::Show(args) => show::show(&args),
+        Command::Compare(args) => show::compare(&args),
         Command::Check { case, set } => check::check(&case, &set),
         Command::Trim(args) => return analyse::trim::run(&args),
         Command::Stability(args) => return analyse::stability::run(&args),

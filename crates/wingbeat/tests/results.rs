@@ -6,7 +6,7 @@ use std::process::{Command, Stdio};
 
 mod support;
 
-use support::{Scratch, array, flown};
+use support::{Scratch, array, flown, wingbeat};
 use wingbeat::flight::Simulation;
 use wingbeat::io::{History, LoadedCase, Manifest, Outcome, presets::PRESETS, result};
 
@@ -321,4 +321,51 @@ fn exact_ctrl_c_and_sigterm_end_a_run_with_everything_written() {
         let summary = fs::read_to_string(scratch.0.join("run/summary.txt")).unwrap();
         assert!(summary.contains("was interrupted; everything up to there is written"));
     }
+}
+
+#[test]
+fn exact_show_and_compare_say_what_the_summary_says() {
+    let scratch = Scratch::new("show");
+    for (out, steps) in [("one", "time.steps=4"), ("two", "time.steps=6")] {
+        let args = [
+            "run",
+            "benchmark-2",
+            "--out",
+            out,
+            "--quiet",
+            "--set",
+            steps,
+        ];
+        flown(&scratch.0, &args);
+    }
+    let said = |args: &[&str]| {
+        let out = wingbeat(&scratch.0, args);
+        assert!(
+            out.status.success(),
+            "{}",
+            String::from_utf8_lossy(&out.stderr)
+        );
+        String::from_utf8(out.stdout).unwrap()
+    };
+    let summary = fs::read_to_string(scratch.0.join("one/summary.txt")).unwrap();
+    assert!(said(&["show", "one"]).starts_with(&summary));
+    let json: serde_json::Value = serde_json::from_str(&said(&["show", "one", "--json"])).unwrap();
+    let written = fs::read_to_string(scratch.0.join("one/summary.json")).unwrap();
+    let written: serde_json::Value = serde_json::from_str(&written).unwrap();
+    assert_eq!(json["summary"], written);
+    assert_eq!(json["manifest"]["steps"], 4);
+    assert!(said(&["compare", "one", "two"]).contains("different cases"));
+    assert!(said(&["compare", "one", "one"]).contains("the same case"));
+    let rows: serde_json::Value =
+        serde_json::from_str(&said(&["compare", "one", "two", "--json"])).unwrap();
+    let steps = rows
+        .as_array()
+        .unwrap()
+        .iter()
+        .find(|r| r["what"] == "steps")
+        .unwrap();
+    assert_eq!(
+        (&steps["first"], &steps["second"]),
+        (&4.0.into(), &6.0.into())
+    );
 }

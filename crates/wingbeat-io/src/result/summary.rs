@@ -138,6 +138,59 @@ impl Summary {
         Ok(summary)
     }
 
+    /// The numbers of two runs beside each other: what, this, the other; wingbeats as far as both
+    /// have them.
+    pub fn beside(&self, other: &Self) -> Vec<(String, f64, f64)> {
+        let mut rows = vec![];
+        for (k, (a, b)) in self.beats.iter().zip(&other.beats).enumerate() {
+            let of = |what: &str| format!("{what}, beat {}", k + 1);
+            if let (Some(x), Some(y)) = (a.lift_over_weight, b.lift_over_weight) {
+                rows.push((of("lift over weight"), x, y));
+            }
+            rows.push((of("lift [N]"), a.lift_newton, b.lift_newton));
+            rows.push((of("forward force [N]"), a.thrust_newton, b.thrust_newton));
+            rows.push((of("power [W]"), a.power_watt, b.power_watt));
+        }
+        let [a, b] = [self.numbers(), other.numbers()];
+        rows.extend(
+            a.into_iter()
+                .zip(b)
+                .map(|((what, x), (_, y))| (what.to_owned(), x, y)),
+        );
+        rows
+    }
+
+    fn numbers(&self) -> [(&'static str, f64); 18] {
+        let [x, y, z] = self.displacement_m;
+        let [pitch, yaw, roll] = self.turn_deg;
+        [
+            ("steps", self.steps as f64),
+            ("time [s]", self.time_s),
+            ("mass [kg]", self.mass_kg),
+            ("moved forward n1 [m]", x),
+            ("moved right n2 [m]", y),
+            ("moved down n3 [m]", z),
+            ("turned in pitch [deg]", pitch),
+            ("turned in yaw [deg]", yaw),
+            ("turned in roll [deg]", roll),
+            ("lift at the end [N]", self.final_lift_newton),
+            ("forward force at the end [N]", self.final_thrust_newton),
+            ("energy residual, relative", self.energy_residual_relative),
+            (
+                "momentum residual, relative",
+                self.momentum_residual_relative,
+            ),
+            ("constraint violation [m]", self.violation_position_m),
+            (
+                "constraint violation, orientation",
+                self.violation_orientation,
+            ),
+            ("corrector passes, mean", self.corrector_passes_mean),
+            ("wake rings", self.wake_rings as f64),
+            ("regularised events", self.regularised as f64),
+        ]
+    }
+
     /// As JSON in one line, with the directory it belongs to.
     pub fn to_json_line(&self, dir: &std::path::Path) -> String {
         serde_json::json!({ "directory": dir, "summary": self }).to_string()

@@ -1,0 +1,95 @@
+//! `wingbeat show` and `wingbeat compare`: what a result says, what two results say.
+
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+use wingbeat::io::{IoError, Manifest, ResultDir, Summary};
+
+/// What `wingbeat show` is told.
+#[derive(Args)]
+pub(crate) struct ShowArgs {
+    /// Result directory of the run.
+    dir: PathBuf,
+    /// As JSON: summary and manifest.
+    #[arg(long)]
+    json: bool,
+}
+
+/// What `wingbeat compare` is told.
+#[derive(Args)]
+pub(crate) struct CompareArgs {
+    /// Result directory of a run.
+    first: PathBuf,
+    /// Result directory of another run.
+    second: PathBuf,
+    /// As JSON.
+    #[arg(long)]
+    json: bool,
+}
+
+fn read(dir: &Path) -> Result<(Summary, Manifest), IoError> {
+    let dir = ResultDir::open(dir)?;
+    let manifest = dir.manifest()?;
+    let summary = Summary::read(&dir.case()?, &dir.join("history.csv"), &manifest.outcome)?;
+    Ok((summary, manifest))
+}
+
+/// `wingbeat show`: the summary made anew from the history, whatever state the run is in.
+pub(crate) fn show(args: &ShowArgs) -> Result<(), IoError> {
+    let (summary, manifest) = read(&args.dir)?;
+    if args.json {
+        println!(
+            "{}",
+            serde_json::json!({ "summary": summary, "manifest": manifest })
+        );
+        return Ok(());
+    }
+    print!("{}", summary.to_text());
+    println!(
+        "\nwingbeat {}, {} threads, {:.1} s of which {:.2} s writing, {} frames",
+        manifest.version,
+        manifest.threads,
+        manifest.wall_time_s,
+        manifest.writing_time_s,
+        manifest.frames
+    );
+    Ok(())
+}
+
+/// `wingbeat compare`: the same numbers of two runs side by side.
+pub(crate) fn compare(args: &CompareArgs) -> Result<(), IoError> {
+    let [first, second] = [read(&args.first)?, read(&args.second)?];
+    let rows = first.0.beside(&second.0);
+    if args.json {
+        let list: Vec<_> = rows
+            .iter()
+            .map(|(what, a, b)| serde_json::json!({ "what": what, "first": a, "second": b }))
+            .collect();
+        println!("{}", serde_json::json!(list));
+        return Ok(());
+    }
+    let same = if first.1.case_sha256 == second.1.case_sha256 {
+        "the same case"
+    } else {
+        "different cases"
+    };
+    println!(
+        "{} and {}: {same}\n",
+        args.first.display(),
+        args.second.display()
+    );
+    println!(
+        "{:<38}{:>14}{:>14}{:>14}{:>11}",
+        "", "first", "second", "difference", "relative"
+    );
+    for (what, a, b) in rows {
+        let scale = a.abs().max(b.abs());
+        let relative = if scale > 0.0 { (b - a) / scale } else { 0.0 };
+        println!(
+            "{what:<38}{a:>14.5e}{b:>14.5e}{:>14.5e}{:>10.2}%",
+            b - a,
+            100.0 * relative
+        );
+    }
+    Ok(())
+}
