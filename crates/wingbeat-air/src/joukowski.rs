@@ -8,7 +8,6 @@
 use crate::filaments::Filaments;
 use crate::lattice::Lattice;
 use crate::loads::{AirLoads, AirWorkspace};
-use crate::rings;
 use crate::settings::LoadMethod;
 use crate::state::{AirState, NodeMotion};
 use crate::strips;
@@ -28,7 +27,7 @@ pub(crate) fn segment_forces(
     if method == LoadMethod::Pressure {
         return;
     }
-    middle_velocities(lattice, motion, ws, out.time);
+    middle_velocities(lattice, ws, out.time);
     collect(lattice, state, ws, out);
     match method {
         LoadMethod::Joukowski => joukowski(lattice, ws, out),
@@ -37,18 +36,7 @@ pub(crate) fn segment_forces(
 }
 
 /// Velocity of the air relative to the middle of every bound segment.
-fn middle_velocities(lattice: &Lattice, motion: &NodeMotion, ws: &mut AirWorkspace, t: f64) {
-    let settings = lattice.settings();
-    ws.ring_velocity.clone_from(&motion.velocity);
-    let ring_velocity = &mut ws.ring_velocity;
-    rings::offsets(
-        lattice.insets(),
-        settings.inset,
-        &motion.velocity,
-        |n, d| {
-            ring_velocity[n] += d;
-        },
-    );
+fn middle_velocities(lattice: &Lattice, ws: &mut AirWorkspace, t: f64) {
     let Filaments { bound, .. } = &ws.filaments;
     ws.middle.clear();
     for &[a, b] in &bound.edges {
@@ -60,7 +48,7 @@ fn middle_velocities(lattice: &Lattice, motion: &NodeMotion, ws: &mut AirWorkspa
     let (points, sum) = (&ws.middle, &mut ws.middle_velocity);
     ws.sums.add(points, mirrors, sum);
     for (e, &[a, b]) in bound.edges.iter().enumerate() {
-        let surface = 0.5 * (ws.ring_velocity[a as usize] + ws.ring_velocity[b as usize]);
+        let surface = 0.5 * (ws.rings.velocity[a as usize] + ws.rings.velocity[b as usize]);
         let v = sum.get(e) + lattice.stream(points.get(e), t) - surface;
         sum.set(e, v);
     }

@@ -10,6 +10,7 @@ use crate::kernel::Points;
 use crate::lattice::Lattice;
 use crate::panels::Panels;
 use crate::pressure;
+use crate::rings;
 use crate::state::{AirState, NodeMotion};
 use crate::strips;
 use crate::summation::{StillWake, Sums, direct, free};
@@ -87,11 +88,12 @@ pub struct AirWorkspace {
     /// Velocity at the control points of the newest wake rings' shedding edges.
     pub(crate) shed: Points,
     pub(crate) leak: Vec<f64>,
-    /// Middles of the bound segments, velocity of the air relative to them, velocity of the ring
-    /// nodes; force and moment of the segments on each panel.
+    /// Nodes of the rings, see [`crate::rings`].
+    pub(crate) rings: NodeMotion,
+    /// Middles of the bound segments, velocity of the air relative to them; force and moment of
+    /// the segments on each panel.
     pub(crate) middle: Points,
     pub(crate) middle_velocity: Points,
-    pub(crate) ring_velocity: Vec<DVec3>,
     pub(crate) panel_force: Vec<[DVec3; 2]>,
     /// Surfaces in the way of the wakes, and the paths of a sheet's nodes.
     pub(crate) obstacles: Obstacles,
@@ -129,7 +131,9 @@ impl Lattice {
     ) -> Result<(), AirError> {
         self.check_call(state, dt)?;
         (out.time, out.dt) = (t, dt);
-        out.panels.update(self, motion, state.step)?;
+        self.check_motion(motion, state.step)?;
+        rings::place(self, motion, &mut ws.rings);
+        out.panels.update(self, &ws.rings, state.step)?;
         if let Some(halves) = self.halves() {
             halves.check(motion, state.step)?;
         }

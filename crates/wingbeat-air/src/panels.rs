@@ -34,17 +34,16 @@ impl Panels {
         (self.area.iter().sum::<f64>() / self.area.len().max(1) as f64).sqrt()
     }
 
-    /// Fills in all panels of the lattice.
+    /// Fills in all panels of the lattice, between the nodes of its rings.
     ///
     /// # Errors
-    /// Nodes that are not finite, panels without area.
+    /// Panels without area.
     pub(crate) fn update(
         &mut self,
         lattice: &Lattice,
         motion: &NodeMotion,
         step: u64,
     ) -> Result<(), AirError> {
-        lattice.check_motion(motion, step)?;
         self.clear();
         for (panel, corners) in lattice.topology().panels.iter().enumerate() {
             let x = corners.map(|n| motion.position[n]);

@@ -2,9 +2,12 @@
 //!
 //! A lattice represents a sheet a quarter panel larger on every free side than its outermost
 //! filaments [Hough 1973, J. Aircraft 10:314]: rings on the true edges overrate lift slope and added
-//! mass at first order of the panel size, rings inset by a quarter panel at second.
+//! mass at first order of the panel size, rings inset by a quarter panel are good to second. Control
+//! point, normal and area of a panel are those of its ring.
 
+use crate::lattice::Lattice;
 use crate::settings::AirSettings;
+use crate::state::NodeMotion;
 use crate::surface::{EdgeKind, Surface};
 use crate::topology::Topology;
 use std::collections::{BTreeMap, BTreeSet};
@@ -44,6 +47,9 @@ pub(crate) fn insets(
             let side = [c[i], c[(i + 1) % 4]];
             if [side[0].min(side[1]), side[0].max(side[1])] == pair {
                 let inward = [c[(i + 3) % 4], c[(i + 2) % 4]];
+                if is_free(topology, edge.plus, inward) {
+                    continue; // a single panel from edge to edge
+                }
                 for (node, inward) in side.into_iter().zip(inward) {
                     if !side.contains(&inward) {
                         found.insert(Inset { node, inward });
@@ -53,6 +59,24 @@ pub(crate) fn insets(
         }
     }
     found.into_iter().collect()
+}
+
+/// Whether the edge of `panel` between these nodes is its surface's border.
+fn is_free(topology: &Topology, panel: usize, [a, b]: [usize; 2]) -> bool {
+    topology.panel_edges[panel].iter().any(|e| {
+        let edge = &topology.edges[e.edge];
+        let same = [edge.from, edge.to] == [a, b] || [edge.to, edge.from] == [a, b];
+        same && edge.minus.is_none()
+    })
+}
+
+/// Nodes of the rings from those of the surfaces.
+pub(crate) fn place(lattice: &Lattice, motion: &NodeMotion, rings: &mut NodeMotion) {
+    let (insets, part) = (lattice.insets(), lattice.settings().inset);
+    rings.position.clone_from(&motion.position);
+    rings.velocity.clone_from(&motion.velocity);
+    offsets(insets, part, &motion.position, |n, d| rings.position[n] += d);
+    offsets(insets, part, &motion.velocity, |n, d| rings.velocity[n] += d);
 }
 
 /// What the surfaces call their border edges (global nodes).

@@ -1,0 +1,31 @@
+//! The suite, in the order of the dossier.
+
+mod benchmark;
+mod bodies;
+mod conservation;
+mod invariance;
+mod kernel;
+mod peer;
+mod plates;
+mod start;
+mod steady;
+mod unsteady;
+
+use crate::Case;
+
+/// All cases.
+pub fn suite() -> Vec<Case> {
+    [
+        kernel::CASES,
+        bodies::CASES,
+        steady::CASES,
+        unsteady::CASES,
+        plates::CASES,
+        conservation::CASES,
+        invariance::CASES,
+        benchmark::CASES,
+        start::CASES,
+        peer::CASES,
+    ]
+    .concat()
+}

@@ -1,0 +1,244 @@
+//! The dossier: all rows of all cases, as a page and as tables for machines.
+
+use std::fmt::Write;
+
+use crate::row::{Row, Trouble, Verdict};
+use crate::{Case, Part};
+
+/// What one case gave.
+#[derive(Clone, Debug, serde::Serialize)]
+pub struct Entry {
+    /// Name of the case.
+    pub case: &'static str,
+    /// What it is about.
+    pub about: &'static str,
+    /// Part of the dossier.
+    pub part: Part,
+    /// Its rows.
+    pub rows: Vec<Row>,
+    /// Why it could not be run, if so: counts as a miss.
+    pub failure: Option<String>,
+}
+
+impl Entry {
+    /// From the outcome of a case.
+    pub fn of(case: &Case, outcome: Result<Vec<Row>, Trouble>) -> Self {
+        let (rows, failure) = match outcome {
+            Ok(rows) => (rows, None),
+            Err(e) => (Vec::new(), Some(e.to_string())),
+        };
+        Self {
+            case: case.name,
+            about: case.about,
+            part: case.part,
+            rows,
+            failure,
+        }
+    }
+
+    /// Rows that passed, missed, were only reported; a failure is a miss.
+    pub fn counts(&self) -> [usize; 3] {
+        let of = |v| self.rows.iter().filter(|r| r.verdict() == v).count();
+        let failed = usize::from(self.failure.is_some());
+        [
+            of(Verdict::Pass),
+            of(Verdict::Miss) + failed,
+            of(Verdict::Report),
+        ]
+    }
+}
+
+/// All entries of one run of the suite.
+#[derive(Clone, Debug, serde::Serialize)]
+pub struct Dossier {
+    /// Whether this is the short set.
+    pub quick: bool,
+    /// One entry a case.
+    pub entries: Vec<Entry>,
+}
+
+const PARTS: [(Part, &str); 4] = [
+    (Part::Analytic, "Closed forms, theory, conservation, invariance"),
+    (Part::Programs, "Published numbers of other programs"),
+    (Part::Experiments, "Experiments"),
+    (Part::Sensitivity, "Sensitivity to our own choices"),
+];
+
+impl Dossier {
+    /// Rows that passed, missed, were only reported.
+    pub fn counts(&self) -> [usize; 3] {
+        let add = |a: [usize; 3], e: &Entry| {
+            let b = e.counts();
+            std::array::from_fn(|k| a[k] + b[k])
+        };
+        self.entries.iter().fold([0; 3], add)
+    }
+
+    /// The page, in Markdown; `version` is that of the program.
+    pub fn page(&self, version: &str) -> String {
+        let [pass, miss, report] = self.counts();
+        let (set, command) = if self.quick {
+            ("short set", "wingbeat verify --quick --out docs")
+        } else {
+            ("whole set", "wingbeat verify --out docs")
+        };
+        let mut text = format!(
+            "# Verification\n\nMade by `{command}` of wingbeat {version} ({set}); do not edit. \
+             {pass} rows pass, {miss} miss, {report} are reported without a verdict.\n\n\
+             The error is ours less the reference. The uncertainty is ours, from refinement of mesh \
+             and step, or from the spread over wingbeats where it says so. A report compares \
+             without judging: experiments are not fitted, all insects fly with one setting. The \
+             same rows are in `verification.csv` and `verification.json`.\n"
+        );
+        self.page_misses(&mut text);
+        for (part, title) in PARTS {
+            let entries = self.entries.iter().filter(|e| e.part == part);
+            let body: String = entries.map(section).collect();
+            if !body.is_empty() {
+                let _ = write!(text, "\n## {title}\n{body}");
+            }
+        }
+        text
+    }
+
+    fn page_misses(&self, text: &mut String) {
+        let missed = |e: &&Entry| e.counts()[1] > 0;
+        if !self.entries.iter().any(|e| missed(&e)) {
+            text.push_str("\nNo row misses.\n");
+            return;
+        }
+        text.push_str("\n## Misses\n\n");
+        for entry in self.entries.iter().filter(missed) {
+            if let Some(failure) = &entry.failure {
+                let _ = writeln!(text, "- {}: did not run: {failure}", entry.case);
+            }
+            let rows = entry.rows.iter().filter(|r| r.verdict() == Verdict::Miss);
+            for r in rows {
+                let (error, may) = (number(r.error()), number(r.tolerance.unwrap_or(0.0)));
+                let _ = writeln!(
+                    text,
+                    "- {}, {}: off by {error} {}, {may} would pass",
+                    entry.case, r.quantity, r.unit
+                );
+            }
+        }
+    }
+
+    /// One row a line, comma separated, with a header.
+    pub fn csv(&self) -> String {
+        let mut text = String::from(
+            "case,quantity,unit,reference,source,ours,error,uncertainty,tolerance,verdict,reason\n",
+        );
+        for e in &self.entries {
+            for r in &e.rows {
+                let cells = [
+                    e.case.to_owned(),
+                    r.quantity.clone(),
+                    r.unit.to_owned(),
+                    exact(r.reference),
+                    r.source.to_owned(),
+                    exact(Some(r.ours)),
+                    exact(Some(r.error())),
+                    exact(r.uncertainty),
+                    exact(r.tolerance),
+                    word(r.verdict()).to_owned(),
+                    r.reason.to_owned(),
+                ];
+                let cells = cells.map(|c| quoted(&c));
+                let _ = writeln!(text, "{}", cells.join(","));
+            }
+            if let Some(failure) = &e.failure {
+                let _ = writeln!(text, "{},,,,,,,,,miss,{}", e.case, quoted(failure));
+            }
+        }
+        text
+    }
+
+    /// As JSON.
+    pub fn json(&self) -> String {
+        let mut text = serde_json::to_string_pretty(self).expect("plain data");
+        text.push('\n');
+        text
+    }
+}
+
+fn section(entry: &Entry) -> String {
+    let mut text = format!("\n### {}\n\n{}\n\n", entry.case, entry.about);
+    if let Some(failure) = &entry.failure {
+        let _ = writeln!(text, "**Did not run:** {failure}");
+        return text;
+    }
+    text.push_str("| quantity | reference | ours | error | uncertainty | tolerance | verdict |\n");
+    text.push_str("|---|---|---|---|---|---|---|\n");
+    for r in &entry.rows {
+        let or_dash = |x: Option<f64>| x.map_or("-".to_owned(), number);
+        let _ = writeln!(
+            text,
+            "| {} [{}] | {} | {} | {} | {} | {} | {} |",
+            r.quantity,
+            r.unit,
+            or_dash(r.reference),
+            number(r.ours),
+            r.reference.map_or("-".to_owned(), |_| number(r.error())),
+            or_dash(r.uncertainty),
+            or_dash(r.tolerance),
+            word(r.verdict()),
+        );
+    }
+    notes(entry, &mut text);
+    text
+}
+
+/// Sources and reasons, each once.
+fn notes(entry: &Entry, text: &mut String) {
+    let mut seen: Vec<&str> = Vec::new();
+    text.push('\n');
+    for (label, of) in [
+        ("Source", (|r| r.source) as fn(&Row) -> &'static str),
+        ("Tolerance", |r| r.reason),
+    ] {
+        for r in &entry.rows {
+            let note = of(r);
+            if !note.is_empty() && !seen.contains(&note) {
+                seen.push(note);
+                let label = match (label, r.tolerance) {
+                    ("Tolerance", None) => "Note",
+                    _ => label,
+                };
+                let _ = writeln!(text, "{label}: {note}.  ");
+            }
+        }
+    }
+}
+
+fn word(verdict: Verdict) -> &'static str {
+    match verdict {
+        Verdict::Pass => "pass",
+        Verdict::Miss => "**miss**",
+        Verdict::Report => "report",
+    }
+}
+
+/// Four significant digits.
+fn number(x: f64) -> String {
+    match x.abs() {
+        0.0 => "0".to_owned(),
+        a if (1e-3..1e5).contains(&a) => {
+            let digits = (3 - a.log10().floor() as i32).max(0) as usize;
+            format!("{x:.digits$}")
+        }
+        _ => format!("{x:.2e}"),
+    }
+}
+
+fn exact(x: Option<f64>) -> String {
+    x.map_or(String::new(), |x| format!("{x:e}"))
+}
+
+fn quoted(cell: &str) -> String {
+    let plain = cell.replace("**", "");
+    match plain.contains([',', '"', '\n']) {
+        true => format!("\"{}\"", plain.replace('"', "\"\"")),
+        false => plain,
+    }
+}

@@ -1,0 +1,83 @@
+//! Histories: means, harmonics, differences, tables.
+
+use std::f64::consts::TAU;
+
+/// Columns of a table by their names; comment lines from `#` are left out.
+pub struct Table {
+    header: Vec<String>,
+    rows: Vec<Vec<String>>,
+}
+
+impl Table {
+    /// Reads comma-separated text.
+    pub fn new(text: &str) -> Self {
+        let cells = |l: &str| l.split(',').map(|w| w.trim().to_owned()).collect();
+        let mut lines = text
+            .lines()
+            .filter(|l| !l.starts_with('#') && !l.trim().is_empty());
+        let header = cells(lines.next().expect("a header"));
+        let rows = lines.map(cells).collect();
+        Self { header, rows }
+    }
+
+    /// A column as words.
+    pub fn words(&self, name: &str) -> impl Iterator<Item = &str> {
+        let k = self.header.iter().position(|h| h == name).expect(name);
+        self.rows.iter().map(move |r| r[k].as_str())
+    }
+
+    /// A column as numbers.
+    pub fn numbers(&self, name: &str) -> Vec<f64> {
+        self.words(name).map(|w| w.parse().expect(name)).collect()
+    }
+}
+
+/// Mean over samples that begin and end at the same phase (trapezoidal rule).
+pub fn mean(x: &[f64]) -> f64 {
+    let n = x.len() - 1;
+    (0.5 * (x[0] + x[n]) + x[1..n].iter().sum::<f64>()) / n as f64
+}
+
+/// Root of the mean square.
+pub fn rms(x: &[f64]) -> f64 {
+    (x.iter().map(|v| v * v).sum::<f64>() / x.len() as f64).sqrt()
+}
+
+/// Complex amplitude (a, b) of a cos(2 pi k x) + b sin(2 pi k x) over samples x(n / n_period) of whole
+/// periods, the last sample repeating the first phase.
+pub fn harmonic(x: &[f64], per_period: usize, k: usize) -> [f64; 2] {
+    let n = x.len() - 1;
+    let mut sum = [0.0; 2];
+    for (i, v) in x[..n].iter().enumerate() {
+        let phase = TAU * (k * i) as f64 / per_period as f64;
+        sum[0] += v * phase.cos();
+        sum[1] += v * phase.sin();
+    }
+    sum.map(|s| 2.0 * s / n as f64)
+}
+
+/// Value at `x` of a table with rising abscissae, straight lines between, held beyond the ends.
+pub fn interpolate(xs: &[f64], ys: &[f64], x: f64) -> f64 {
+    let k = xs.partition_point(|&v| v <= x);
+    if k == 0 {
+        return ys[0];
+    }
+    if k == xs.len() {
+        return ys[k - 1];
+    }
+    let s = (x - xs[k - 1]) / (xs[k] - xs[k - 1]);
+    ys[k - 1] + s * (ys[k] - ys[k - 1])
+}
+
+/// Largest correlation is not asked here: the plain linear correlation of two histories.
+pub fn correlation(a: &[f64], b: &[f64]) -> f64 {
+    let n = a.len() as f64;
+    let (ma, mb) = (a.iter().sum::<f64>() / n, b.iter().sum::<f64>() / n);
+    let (mut ab, mut aa, mut bb) = (0.0, 0.0, 0.0);
+    for (x, y) in a.iter().zip(b) {
+        ab += (x - ma) * (y - mb);
+        aa += (x - ma).powi(2);
+        bb += (y - mb).powi(2);
+    }
+    ab / (aa * bb).sqrt()
+}

@@ -1,0 +1,125 @@
+//! One line of the dossier.
+
+/// What a row says about us.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Verdict {
+    /// Within the tolerance.
+    Pass,
+    /// Outside it.
+    Miss,
+    /// Stated, not judged.
+    Report,
+}
+
+/// Why a case could not be run to its end.
+#[derive(Debug, thiserror::Error)]
+pub enum Trouble {
+    /// The air refused.
+    #[error("{0}")]
+    Air(#[from] wingbeat_air::AirError),
+    /// The flight refused.
+    #[error("{0}")]
+    Flight(#[from] wingbeat_flight::FlightError),
+    /// The case file was refused.
+    #[error("{0}")]
+    Case(#[from] wingbeat_io::IoError),
+}
+
+/// A quantity, its reference and ours.
+#[derive(Clone, Debug, serde::Serialize)]
+pub struct Row {
+    /// What is compared.
+    pub quantity: String,
+    /// Its unit.
+    pub unit: &'static str,
+    /// The reference; none where a bound or a spread alone is stated.
+    pub reference: Option<f64>,
+    /// Where the reference comes from.
+    pub source: &'static str,
+    /// Ours.
+    pub ours: f64,
+    /// Half-width of our own uncertainty, from refinement; none for exact statements.
+    pub uncertainty: Option<f64>,
+    /// Largest error that passes, in the unit; none: a report.
+    pub tolerance: Option<f64>,
+    /// Why that much, or what a report means.
+    pub reason: &'static str,
+}
+
+impl Row {
+    /// Ours against a reference, as a report until [`Self::within`] judges it.
+    pub fn new(quantity: impl Into<String>, unit: &'static str, ours: f64) -> Self {
+        Self {
+            quantity: quantity.into(),
+            unit,
+            reference: None,
+            source: "",
+            ours,
+            uncertainty: None,
+            tolerance: None,
+            reason: "",
+        }
+    }
+
+    /// What it is compared with, and where that stands.
+    pub fn against(mut self, reference: f64, source: &'static str) -> Self {
+        self.reference = Some(reference);
+        self.source = source;
+        self
+    }
+
+    /// Our own uncertainty, in the unit.
+    pub fn uncertain(mut self, by: f64) -> Self {
+        self.uncertainty = Some(by.abs());
+        self
+    }
+
+    /// Judged: the error may be this large, in the unit, for this reason.
+    pub fn within(mut self, tolerance: f64, reason: &'static str) -> Self {
+        self.tolerance = Some(tolerance);
+        self.reason = reason;
+        self
+    }
+
+    /// As [`Self::within`], as a part of the reference.
+    pub fn within_part(self, part: f64, reason: &'static str) -> Self {
+        let scale = self.reference.unwrap_or(1.0).abs();
+        self.within(part * scale, reason)
+    }
+
+    /// What a report means.
+    pub fn because(mut self, reason: &'static str) -> Self {
+        self.reason = reason;
+        self
+    }
+
+    /// Ours less the reference; ours where there is none.
+    pub fn error(&self) -> f64 {
+        self.ours - self.reference.unwrap_or(0.0)
+    }
+
+    /// The judgement.
+    pub fn verdict(&self) -> Verdict {
+        match self.tolerance {
+            None => Verdict::Report,
+            Some(tolerance) if self.error().abs() <= tolerance => Verdict::Pass,
+            Some(_) => Verdict::Miss,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn exact_verdicts_follow_the_tolerance() {
+        let row = Row::new("x", "1", 1.02).against(1.0, "by hand");
+        assert_eq!(row.verdict(), Verdict::Report);
+        assert_eq!(row.clone().within(0.03, "").verdict(), Verdict::Pass);
+        assert_eq!(row.within_part(0.01, "").verdict(), Verdict::Miss);
+        let lost = Row::new("x", "1", f64::NAN).within(1.0, "");
+        assert_eq!(lost.verdict(), Verdict::Miss, "not a number never passes");
+    }
+}
