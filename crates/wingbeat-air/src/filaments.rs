@@ -1,9 +1,9 @@
 //! The vortex filaments of one instant: every edge of lattice and wakes once, with its net
 //! circulation.
 
+use crate::front::{self, Row, Share, add_front, at_edge};
 use crate::kernel::{Network, Points};
 use crate::lattice::Lattice;
-use crate::rings;
 use crate::settings::AirSettings;
 use crate::state::{AirState, WakeSheet};
 use wingbeat_math::DVec3;
@@ -17,8 +17,12 @@ pub struct Filaments {
     /// Edges of the lattice, in the order of [`crate::topology::Topology::edges`].
     pub bound: Network,
     /// Edges of the newest rings from the shedding edges to the first free nodes: they follow the
-    /// surfaces. Nodes: sheet after sheet, first the free row, then the shedding edge.
+    /// surfaces. Nodes: sheet after sheet, first the free row, last the shedding edge.
     pub front: Network,
+    /// How their circulations follow from those of the panels.
+    pub(crate) shares: Vec<Share>,
+    /// Length of the newest row in panel lengths, sheet by sheet and column by column.
+    pub(crate) lengths: Vec<Vec<f64>>,
     /// All other edges of the wakes, which do not move within a step. Nodes: sheet after sheet,
     /// oldest row first.
     pub wake: Network,
@@ -37,10 +41,19 @@ impl Filaments {
         self.gather_bound(lattice, position);
         self.wake.clear();
         self.front.clear();
-        for (sheet, root) in state.sheets.iter().zip(lattice.sheets()) {
-            let edge = root.nodes.iter().map(|&n| self.bound.nodes.get(n));
+        self.shares.clear();
+        self.lengths.resize_with(state.sheets.len(), Vec::new);
+        for (s, (sheet, root)) in state.sheets.iter().zip(lattice.sheets()).enumerate() {
             add_sheet(&mut self.wake, sheet, lattice.settings(), t);
-            add_front(&mut self.front, sheet, edge, lattice.settings(), t);
+            let edge = root.nodes.iter().map(|&n| self.bound.nodes.get(n));
+            front::lengths(lattice, state, s, &self.bound.nodes, &mut self.lengths[s]);
+            let row = Row {
+                lattice,
+                state,
+                s,
+                lengths: &self.lengths[s],
+            };
+            add_front(&mut self.front, &mut self.shares, &row, t, edge);
         }
     }
 
@@ -63,14 +76,7 @@ impl Filaments {
         self.bound.clear();
         position.iter().for_each(|&x| self.bound.nodes.push(x));
         let nodes = &mut self.bound.nodes;
-        rings::offsets(
-            lattice.insets(),
-            lattice.settings().inset,
-            position,
-            |n, d| {
-                nodes.set(n, nodes.get(n) + d);
-            },
-        );
+        (lattice.rings()).place(position, |n, d| nodes.set(n, nodes.get(n) + d));
         for edge in &lattice.topology().edges {
             let length = (self.bound.nodes.get(edge.to) - self.bound.nodes.get(edge.from)).length();
             let core = model.core(length, 0.0);
@@ -78,15 +84,26 @@ impl Filaments {
         }
     }
 
-    /// Net circulation of every lattice edge: its panels' difference, less the newest wake ring's
-    /// at a shedding edge.
+    /// Net circulation of every lattice edge, its panels' difference, less the newest wake ring's
+    /// at a shedding edge; and of the newest rows.
     pub(crate) fn set_bound(&mut self, lattice: &Lattice, state: &AirState, gamma: &[f64]) {
         for (edge, net) in lattice.topology().edges.iter().zip(&mut self.bound.gamma) {
             let minus = edge.minus.map_or(0.0, |p| gamma[p]);
-            let wake = edge
-                .wake
-                .map_or(0.0, |w| w.sign * newest(&state.sheets[w.sheet], w.column));
+            let wake = edge.wake.map_or(0.0, |w| {
+                let (s, lengths) = (w.sheet, &self.lengths[w.sheet]);
+                let row = Row {
+                    lattice,
+                    state,
+                    s,
+                    lengths,
+                };
+                let [fixed, part] = at_edge(&row, w.column);
+                fixed + part * gamma[edge.plus]
+            });
             *net = gamma[edge.plus] - minus - wake;
+        }
+        for (share, net) in self.shares.iter().zip(&mut self.front.gamma) {
+            *net = share.net(gamma);
         }
     }
 
@@ -146,28 +163,5 @@ fn add_sheet(wake: &mut Network, sheet: &WakeSheet, settings: &AirSettings, t: f
                 push([r, c], [r + 1, c], between(sheet, r, c));
             }
         }
-    }
-}
-
-/// Edges from the newest free row of a sheet to the shedding edge.
-fn add_front(
-    front: &mut Network,
-    sheet: &WakeSheet,
-    edge: impl Iterator<Item = DVec3>,
-    settings: &AirSettings,
-    t: f64,
-) {
-    let Some(newest) = sheet.rows().checked_sub(1) else {
-        return;
-    };
-    let (base, width) = (front.nodes.len(), sheet.columns + 1);
-    (0..width).for_each(|c| front.nodes.push(sheet.node(newest, c)));
-    edge.for_each(|x| front.nodes.push(x));
-    let age = 0.5 * (t - sheet.shed_time[newest]);
-    for c in 0..width {
-        let (a, b) = (base + c, base + width + c);
-        let length = (front.nodes.get(b) - front.nodes.get(a)).length();
-        let core = settings.wake_core.core(length, age);
-        front.push_edge(a, b, between(sheet, newest, c), core);
     }
 }

@@ -2,9 +2,12 @@
 
 use crate::error::AirError;
 use crate::filaments::Filaments;
+use crate::front::{self, Row};
 use crate::kernel::{BLOCK, UnitEdges};
 use crate::lattice::Lattice;
 use crate::panels::Panels;
+use crate::state::AirState;
+use crate::topology::Edge;
 use rayon::prelude::*;
 use wingbeat_math::DenseLu;
 
@@ -23,6 +26,8 @@ pub(crate) struct Influence {
     /// Normal velocity of every edge at a block of control points, for each block.
     rates: Vec<f64>,
     edges: UnitEdges,
+    /// Part of the circulation of its panel that each edge keeps, the newest row taking the rest.
+    keeps: Vec<f64>,
     lu: DenseLu,
     /// `alpha` of each surface, zero for open ones [1/m].
     alpha: Vec<f64>,
@@ -35,6 +40,7 @@ impl Default for Influence {
             half: Vec::new(),
             rates: Vec::new(),
             edges: UnitEdges::default(),
+            keeps: Vec::new(),
             lu: DenseLu::new(0),
             alpha: Vec::new(),
         }
@@ -46,12 +52,16 @@ impl Influence {
     pub(crate) fn factor(
         &mut self,
         lattice: &Lattice,
+        state: &AirState,
         filaments: &Filaments,
         panels: &Panels,
-        step: u64,
     ) -> Result<(), AirError> {
+        let step = state.step;
         self.fit(lattice);
-        self.assemble(lattice, filaments, panels);
+        self.assemble(lattice, state, filaments, panels);
+        let (front, shares) = (&filaments.front, &filaments.shares);
+        let (edges, matrix) = (&mut self.edges, &mut self.matrix);
+        front::add_influence(lattice, front, shares, panels, edges, matrix);
         self.augment(lattice);
         self.lu
             .factor(&self.matrix)
@@ -70,7 +80,29 @@ impl Influence {
     }
 
     /// Blocks of rows are independent, so the bits do not depend on how threads share them.
-    fn assemble(&mut self, lattice: &Lattice, filaments: &Filaments, panels: &Panels) {
+    fn assemble(
+        &mut self,
+        lattice: &Lattice,
+        state: &AirState,
+        filaments: &Filaments,
+        panels: &Panels,
+    ) {
+        let keeps = |edge: &Edge| {
+            let part = edge.wake.map_or(0.0, |w| {
+                let (s, lengths) = (w.sheet, &filaments.lengths[w.sheet]);
+                let row = Row {
+                    lattice,
+                    state,
+                    s,
+                    lengths,
+                };
+                front::at_edge(&row, w.column)[1]
+            });
+            1.0 - part
+        };
+        self.keeps.clear();
+        (self.keeps).extend(lattice.topology().edges.iter().map(keeps));
+        let keeps = &self.keeps;
         let (n, model) = (unknowns(lattice), lattice.settings().bound_core);
         let lead = |i: usize| lattice.halves().map_or(i, |h| h.lead[i]);
         self.edges.load(model, &filaments.bound);
@@ -86,11 +118,11 @@ impl Influence {
                 let place = |p: usize| [panels.point[p], panels.normal[p]];
                 let places = || own.clone().map(|i| place(lead(i)));
                 edges.normal_velocities(model, places(), rates);
-                add_edges(lattice, rates, rows);
+                add_edges(lattice, keeps, rates, rows);
                 for mirror in lattice.mirrors() {
                     let images = places().map(|[x, n]| [mirror.place(x), mirror.vector(n)]);
                     edges.normal_velocities(model, images, rates);
-                    add_edges(lattice, rates, rows);
+                    add_edges(lattice, keeps, rates, rows);
                 }
             });
     }
@@ -153,7 +185,7 @@ impl Influence {
 }
 
 /// Number of circulations to be found.
-fn unknowns(lattice: &Lattice) -> usize {
+pub(crate) fn unknowns(lattice: &Lattice) -> usize {
     lattice
         .halves()
         .map_or(lattice.panel_count(), |h| h.lead.len())
@@ -164,13 +196,14 @@ fn is_lead(lattice: &Lattice, panel: usize) -> bool {
 }
 
 /// Adds the normal velocities of the edges to the columns of the panels they bound.
-fn add_edges(lattice: &Lattice, rates: &[f64], rows: &mut [f64]) {
+fn add_edges(lattice: &Lattice, keeps: &[f64], rates: &[f64], rows: &mut [f64]) {
     let n = unknowns(lattice);
     let unknown = |p: usize| lattice.halves().map_or(p, |h| h.unknown[p]);
-    for (edge, rates) in lattice.topology().edges.iter().zip(rates.chunks(BLOCK)) {
+    let edges = lattice.topology().edges.iter().zip(keeps);
+    for ((edge, keeps), rates) in edges.zip(rates.chunks(BLOCK)) {
         let (plus, minus) = (unknown(edge.plus), edge.minus.map(unknown));
         for (row, u) in rows.chunks_mut(n).zip(rates) {
-            row[plus] += u;
+            row[plus] += keeps * u;
             if let Some(minus) = minus {
                 row[minus] -= u;
             }

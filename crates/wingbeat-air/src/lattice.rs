@@ -4,7 +4,7 @@ use crate::error::AirError;
 use crate::filaments::newest;
 use crate::images::{Mirror, mirrors};
 use crate::loads::AirWorkspace;
-use crate::rings::{Inset, insets};
+use crate::rings::{Rings, rings};
 use crate::settings::{AirSettings, LeadingEdge};
 use crate::state::{AirState, NodeMotion, WakeSheet};
 use crate::strips::{Strip, strips};
@@ -21,7 +21,7 @@ pub struct Lattice {
     settings: AirSettings,
     topology: Topology,
     strips: Vec<Strip>,
-    insets: Vec<Inset>,
+    rings: Rings,
     mirrors: Vec<Mirror>,
     halves: Option<Halves>,
 }
@@ -38,7 +38,7 @@ impl Lattice {
         let topology = Topology::new(&surfaces, settings.shedding)?;
         Ok(Self {
             strips: strips(&topology, &surfaces),
-            insets: insets(&topology, &surfaces, &settings),
+            rings: rings(&topology, &surfaces, &settings),
             mirrors: mirrors(&settings.images)?,
             surfaces,
             settings,
@@ -65,8 +65,8 @@ impl Lattice {
         &self.strips
     }
 
-    pub(crate) fn insets(&self) -> &[Inset] {
-        &self.insets
+    pub(crate) fn rings(&self) -> &Rings {
+        &self.rings
     }
 
     pub(crate) fn mirrors(&self) -> &[Mirror] {
@@ -85,13 +85,15 @@ impl Lattice {
     /// Whether the flow stays attached at an edge that could shed: its newest ring was left
     /// without circulation by the separation criterion.
     pub(crate) fn is_attached(&self, state: &AirState, edge: &Edge) -> bool {
-        let Some(w) = edge.wake else {
-            return false;
-        };
-        let kind = self.topology.sheets[w.sheet].kinds[w.column];
-        kind == EdgeKind::Leading
+        edge.wake
+            .is_some_and(|w| self.keeps_attached(state, w.sheet, w.column))
+    }
+
+    /// The same of a column of a wake sheet.
+    pub(crate) fn keeps_attached(&self, state: &AirState, sheet: usize, column: usize) -> bool {
+        self.topology.sheets[sheet].kinds[column] == EdgeKind::Leading
             && self.settings.leading != LeadingEdge::Always
-            && newest(&state.sheets[w.sheet], w.column) == 0.0
+            && newest(&state.sheets[sheet], column) == 0.0
     }
 
     /// The surfaces.

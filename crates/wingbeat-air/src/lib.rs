@@ -39,6 +39,7 @@ mod contact;
 pub mod derivatives;
 pub mod error;
 pub mod filaments;
+mod front;
 pub mod images;
 mod influence;
 mod joukowski;
@@ -65,7 +66,7 @@ pub use lattice::Lattice;
 pub use loads::{AirLoads, AirWorkspace, SurfaceLoads};
 pub use panels::Panels;
 pub use settings::{
-    AirSettings, CirculationRate, Convection, LeadingEdge, LoadMethod, SheddingKinds,
+    AirSettings, CirculationRate, Convection, LeadingEdge, LoadMethod, NewestRow, SheddingKinds,
 };
 pub use state::{AirState, NodeMotion, WakeEvents, WakeSheet};
 pub use surface::{EdgeKind, SheddingSegment, Surface};

@@ -165,8 +165,8 @@ impl Lattice {
         Ok(())
     }
 
-    /// Velocity at the control points of the wakes alone. Their share of the shedding edges comes
-    /// from the bound network with no circulation on the panels.
+    /// Velocity at the control points of the wakes alone. Their newest rows and their share of the
+    /// shedding edges come from front and bound network with no circulation on the panels.
     fn wake_velocity(&self, state: &AirState, ws: &mut AirWorkspace, out: &mut AirLoads) {
         let n = self.panel_count();
         ws.points.clear();
@@ -190,7 +190,7 @@ impl Lattice {
             .velocity(&mut sums.wake, is_new, points, near, mirrors, velocity);
         sums.front
             .load(direct(settings.wake_core), &filaments.front);
-        sums.front.add(points, mirrors, velocity);
+        sums.front.add(points, mirrors, &mut ws.shed);
         sums.bound
             .load(direct(settings.bound_core), &filaments.bound);
         sums.bound.add(points, mirrors, &mut ws.shed);
@@ -210,8 +210,7 @@ impl Lattice {
             let v = stream + ws.velocity.get(i) + ws.shed.get(i);
             out.gamma[i] = (panels.velocity[p] - v).dot(panels.normal[p]);
         }
-        ws.influence
-            .factor(self, &ws.filaments, panels, state.step)?;
+        ws.influence.factor(self, state, &ws.filaments, panels)?;
         ws.influence.solve(self, &mut out.gamma, &mut ws.leak);
         Ok(())
     }
@@ -219,9 +218,15 @@ impl Lattice {
     /// Adds the velocity of the lattice to that of stream and wakes.
     fn add_bound_velocity(&self, state: &AirState, ws: &mut AirWorkspace, out: &mut AirLoads) {
         ws.filaments.set_bound(self, state, &out.gamma);
-        let (model, sum) = (self.settings().bound_core, &mut ws.sums.bound);
-        sum.load(direct(model), &ws.filaments.bound);
-        sum.add(&ws.points, self.mirrors(), &mut ws.velocity);
+        let (settings, mirrors) = (self.settings(), self.mirrors());
+        let Filaments { bound, front, .. } = &ws.filaments;
+        for (model, sum, sources) in [
+            (settings.wake_core, &mut ws.sums.front, front),
+            (settings.bound_core, &mut ws.sums.bound, bound),
+        ] {
+            sum.load(direct(model), sources);
+            sum.add(&ws.points, mirrors, &mut ws.velocity);
+        }
         if let Some(halves) = self.halves() {
             halves.reflect(&ws.velocity, &mut ws.shed);
             std::mem::swap(&mut ws.velocity, &mut ws.shed);

@@ -1,4 +1,4 @@
-//! Where the rings lie: on the panels' edges, or a little inside edges that do not shed.
+//! Where the rings lie: on the panels' edges, or a little inside edges that do not shed and aft.
 //!
 //! A lattice represents a sheet a quarter panel larger on every free side than its outermost
 //! filaments [Hough 1973, J. Aircraft 10:314]: rings on the true edges overrate lift slope and added
@@ -13,23 +13,35 @@ use crate::topology::Topology;
 use std::collections::{BTreeMap, BTreeSet};
 use wingbeat_math::DVec3;
 
-/// A ring node lies off its surface node, towards `inward`, by the part `AirSettings::inset` of the
-/// way.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub(crate) struct Inset {
-    pub node: usize,
-    pub inward: usize,
+/// A ring node lies off its surface node, towards the node `to`, by a part of the way (away from it if
+/// negative).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Offset {
+    node: usize,
+    to: usize,
+    part: f64,
 }
 
-/// All insets of the open surfaces.
-pub(crate) fn insets(
-    topology: &Topology,
-    surfaces: &[Surface],
-    settings: &AirSettings,
-) -> Vec<Inset> {
-    if settings.inset == 0.0 {
-        return Vec::new();
+/// Where the rings lie.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) struct Rings {
+    offsets: Vec<Offset>,
+}
+
+/// The offsets of all nodes of the open surfaces.
+pub(crate) fn rings(topology: &Topology, surfaces: &[Surface], settings: &AirSettings) -> Rings {
+    let mut rings = Rings::default();
+    if settings.inset > 0.0 {
+        inset(topology, surfaces, settings, &mut rings);
+        if settings.shedding.trailing && !settings.shedding.leading {
+            shift(topology, surfaces, settings, &mut rings);
+        }
     }
+    rings
+}
+
+/// Side edges that do not shed: rings stay inside.
+fn inset(topology: &Topology, surfaces: &[Surface], settings: &AirSettings, rings: &mut Rings) {
     let kinds = edge_kinds(topology, surfaces);
     let mut found = BTreeSet::new();
     for edge in &topology.edges {
@@ -45,20 +57,59 @@ pub(crate) fn insets(
         let c = topology.panels[edge.plus];
         for i in 0..4 {
             let side = [c[i], c[(i + 1) % 4]];
-            if [side[0].min(side[1]), side[0].max(side[1])] == pair {
-                let inward = [c[(i + 3) % 4], c[(i + 2) % 4]];
-                if is_free(topology, edge.plus, inward) {
-                    continue; // a single panel from edge to edge
-                }
-                for (node, inward) in side.into_iter().zip(inward) {
-                    if !side.contains(&inward) {
-                        found.insert(Inset { node, inward });
-                    }
-                }
+            let inward = [c[(i + 3) % 4], c[(i + 2) % 4]];
+            let is_here = [side[0].min(side[1]), side[0].max(side[1])] == pair;
+            // Not where a single panel reaches from edge to edge.
+            if is_here && !is_free(topology, edge.plus, inward) {
+                let ends = side.into_iter().zip(inward);
+                found.extend(ends.filter(|(_, inward)| !side.contains(inward)));
             }
         }
     }
-    found.into_iter().collect()
+    let part = settings.inset;
+    (rings.offsets).extend(
+        found
+            .into_iter()
+            .map(|(node, to)| Offset { node, to, part }),
+    );
+}
+
+/// A lifting wing that sheds from its trailing edge: all rings lie aft by the same part of a panel,
+/// vortices at a quarter and control points at three quarters of each panel [Katz & Plotkin, Low-Speed
+/// Aerodynamics, sec. 12.3]. Without it the lattice is that of a wing a quarter panel ahead.
+fn shift(topology: &Topology, surfaces: &[Surface], settings: &AirSettings, rings: &mut Rings) {
+    let part = settings.inset;
+    let mut found = BTreeMap::new();
+    for strip in crate::strips::strips(topology, surfaces) {
+        let mut front = strip.nodes;
+        for &p in &strip.panels {
+            let rear = opposite(topology.panels[p], front);
+            for k in 0..2 {
+                found.insert(front[k], (rear[k], part));
+            }
+            front = rear;
+        }
+        let last = strip.panels[strip.panels.len() - 1];
+        let fore = opposite(topology.panels[last], front);
+        for k in 0..2 {
+            found.insert(front[k], (fore[k], -part));
+        }
+    }
+    let of = |(node, (to, part))| Offset { node, to, part };
+    rings.offsets.extend(found.into_iter().map(of));
+}
+
+/// The nodes across the panel from those of an edge, in their order.
+pub(crate) fn opposite(corners: [usize; 4], edge: [usize; 2]) -> [usize; 2] {
+    edge.map(|n| {
+        let k = corners.iter().position(|&c| c == n).expect("a corner");
+        let sides = [corners[(k + 1) % 4], corners[(k + 3) % 4]];
+        if edge.contains(&sides[0]) {
+            sides[1]
+        } else {
+            sides[0]
+        }
+    })
 }
 
 /// Whether the edge of `panel` between these nodes is its surface's border.
@@ -70,13 +121,22 @@ fn is_free(topology: &Topology, panel: usize, [a, b]: [usize; 2]) -> bool {
     })
 }
 
+impl Rings {
+    /// Moves the places (or velocities) of nodes from the surfaces to the rings.
+    pub(crate) fn place(&self, of: &[DVec3], mut add: impl FnMut(usize, DVec3)) {
+        for o in &self.offsets {
+            add(o.node, o.part * (of[o.to] - of[o.node]));
+        }
+    }
+}
+
 /// Nodes of the rings from those of the surfaces.
-pub(crate) fn place(lattice: &Lattice, motion: &NodeMotion, rings: &mut NodeMotion) {
-    let (insets, part) = (lattice.insets(), lattice.settings().inset);
-    rings.position.clone_from(&motion.position);
-    rings.velocity.clone_from(&motion.velocity);
-    offsets(insets, part, &motion.position, |n, d| rings.position[n] += d);
-    offsets(insets, part, &motion.velocity, |n, d| rings.velocity[n] += d);
+pub(crate) fn place(lattice: &Lattice, motion: &NodeMotion, at: &mut NodeMotion) {
+    at.position.clone_from(&motion.position);
+    at.velocity.clone_from(&motion.velocity);
+    let rings = lattice.rings();
+    rings.place(&motion.position, |n, d| at.position[n] += d);
+    rings.place(&motion.velocity, |n, d| at.velocity[n] += d);
 }
 
 /// What the surfaces call their border edges (global nodes).
@@ -90,17 +150,4 @@ fn edge_kinds(topology: &Topology, surfaces: &[Surface]) -> BTreeMap<[usize; 2],
         }
     }
     kinds
-}
-
-/// How far the ring nodes are off the surface nodes: `add(node, offset)` for every inset. Works for
-/// velocities as well as for places.
-pub(crate) fn offsets(
-    insets: &[Inset],
-    part: f64,
-    of: &[DVec3],
-    mut add: impl FnMut(usize, DVec3),
-) {
-    for i in insets {
-        add(i.node, part * (of[i.inward] - of[i.node]));
-    }
 }

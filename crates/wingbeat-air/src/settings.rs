@@ -32,6 +32,19 @@ pub enum Convection {
     AdamsBashforth,
 }
 
+/// How circulation is spread over the newest row of a wake, next to its edge.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum NewestRow {
+    /// One value, that of the panel when the row's far side left: first order, the published
+    /// benchmark's.
+    #[default]
+    Constant,
+    /// Falling from the panel's present circulation to its past one in steps of a panel length, as
+    /// the lattice continued into the wake would: second order, for steps of one to four panels;
+    /// for shorter ones as `Constant`.
+    Matched,
+}
+
 /// How forces follow from circulations. The methods differ in what they do with the suction at
 /// attached leading edges: never mix them in one comparison.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -134,14 +147,15 @@ pub struct AirSettings {
     pub clearance: f64,
     /// Convection of the wakes.
     pub convection: Convection,
+    /// Circulation of the newest row of a wake.
+    pub newest_row: NewestRow,
     /// Forces of open surfaces; those of closed ones are pressures always.
     pub loads: LoadMethod,
     /// Separation from leading edges.
     pub leading: LeadingEdge,
     /// Part of its panel by which a ring stays inside a side edge that does not shed; a quarter
-    /// makes the loads of coarse lattices good to second order, 0 is the published benchmark's. A
-    /// leading edge is treated so only if the trailing edge does not shed: the lattice of a
-    /// lifting wing has its right chord as it is.
+    /// makes the loads of coarse lattices good to second order, 0 is the published benchmark's.
+    /// Where trailing edges shed and leading edges do not, all rings lie aft by the same part.
     pub inset: f64,
     /// What is added to the free stream.
     pub wind: Wind,
@@ -173,6 +187,7 @@ impl AirSettings {
             max_distance: None,
             clearance: 0.0,
             convection: Convection::Euler,
+            newest_row: NewestRow::Constant,
             loads: LoadMethod::Pressure,
             leading: LeadingEdge::Always,
             inset: 0.0,
@@ -183,12 +198,13 @@ impl AirSettings {
         }
     }
 
-    /// The accurate discretisation: as the benchmark, but circulation rate and convection of
-    /// second order and side edges inset by a quarter panel.
+    /// The accurate discretisation: as the benchmark, but circulation rate, convection and newest
+    /// row of second order and side edges inset by a quarter panel.
     pub fn accurate(density: f64, free_stream: DVec3) -> Self {
         Self {
             rate: CirculationRate::BackwardSecond,
             convection: Convection::AdamsBashforth,
+            newest_row: NewestRow::Matched,
             inset: 0.25,
             ..Self::benchmark(density, free_stream)
         }

@@ -2,11 +2,12 @@
 
 use crate::contact::Obstacles;
 use crate::error::AirError;
+use crate::front;
 use crate::images::{Mirror, Plane};
 use crate::kernel::Points;
 use crate::lattice::Lattice;
 use crate::loads::{AirLoads, AirWorkspace};
-use crate::settings::Convection;
+use crate::settings::{Convection, LeadingEdge, NewestRow};
 use crate::state::{AirState, NodeMotion, WakeEvents, WakeSheet};
 use crate::surface::EdgeKind;
 use wingbeat_math::DVec3;
@@ -119,7 +120,7 @@ impl Lattice {
         for k in 0..sheets.len() {
             if let Some((lead, mirror)) = self.followed(k) {
                 let (first, rest) = sheets.split_at_mut(k);
-                self.shed(k, &mut rest[0], state);
+                self.shed(k, &mut rest[0], state, &ws.filaments.lengths[k]);
                 mover.events.dropped_rows += rest[0].follow(&first[lead], mirror);
                 continue;
             }
@@ -135,7 +136,7 @@ impl Lattice {
                     velocity,
                 });
             }
-            self.shed(k, sheet, state);
+            self.shed(k, sheet, state, &ws.filaments.lengths[k]);
             mover.events.dropped_rows += self.truncate(k, sheet, state);
         }
         state.sheets = sheets;
@@ -151,8 +152,9 @@ impl Lattice {
 
     /// Unsteady Kutta condition: the row that leaves carries the circulation of its panels; none
     /// where the flow stays attached to a leading edge.
-    fn shed(&self, k: usize, sheet: &mut WakeSheet, state: &AirState) {
+    fn shed(&self, k: usize, sheet: &mut WakeSheet, state: &AirState, lengths: &[f64]) {
         let root = &self.sheets()[k];
+        self.settle(k, sheet, state, lengths);
         for (c, (&panel, &sign)) in root.panels.iter().zip(&root.signs).enumerate() {
             let attached = root.kinds[c] == EdgeKind::Leading && !self.leaves(panel, state);
             let gamma = if attached {
@@ -163,6 +165,27 @@ impl Lattice {
             sheet.gamma.push(gamma);
         }
         sheet.shed_time.push(state.time);
+    }
+
+    /// The row that was the newest gets the circulation it keeps.
+    fn settle(&self, k: usize, sheet: &mut WakeSheet, state: &AirState, lengths: &[f64]) {
+        let Some(newest) = sheet.rows().checked_sub(1) else {
+            return;
+        };
+        if self.settings().newest_row == NewestRow::Constant {
+            return;
+        }
+        let root = &self.sheets()[k];
+        for c in 0..sheet.columns {
+            let ring = &mut sheet.gamma[newest * sheet.columns + c];
+            let held = root.kinds[c] == EdgeKind::Leading
+                && self.settings().leading != LeadingEdge::Always
+                && *ring == 0.0;
+            if !held {
+                let change = root.signs[c] * state.gamma[root.panels[c]] - *ring;
+                *ring += front::kept(lengths[c]) * change;
+            }
+        }
     }
 
     /// Whether the flow leaves the leading edge at this leading panel.

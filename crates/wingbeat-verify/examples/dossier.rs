@@ -3,11 +3,19 @@
 fn main() {
     let args: Vec<String> = std::env::args().skip(1).collect();
     let quick = args.iter().any(|a| a == "quick");
-    let only = args.iter().find(|a| *a != "quick").map_or("", String::as_str);
+    let only = args
+        .iter()
+        .find(|a| *a != "quick")
+        .map_or("", String::as_str);
     let start = std::time::Instant::now();
     let cases = wingbeat_verify::select(quick, only);
     let dossier = wingbeat_verify::run(&cases, quick, |e| {
-        eprintln!("{:>7.1} s {} {:?}", start.elapsed().as_secs_f64(), e.case, e.counts());
+        eprintln!(
+            "{:>7.1} s {} {:?}",
+            start.elapsed().as_secs_f64(),
+            e.case,
+            e.counts()
+        );
     });
     println!("{}", dossier.page("example"));
 }

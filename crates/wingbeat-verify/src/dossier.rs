@@ -58,7 +58,10 @@ pub struct Dossier {
 }
 
 const PARTS: [(Part, &str); 4] = [
-    (Part::Analytic, "Closed forms, theory, conservation, invariance"),
+    (
+        Part::Analytic,
+        "Closed forms, theory, conservation, invariance",
+    ),
     (Part::Programs, "Published numbers of other programs"),
     (Part::Experiments, "Experiments"),
     (Part::Sensitivity, "Sensitivity to our own choices"),

@@ -73,7 +73,9 @@ pub fn forces(
     last: usize,
 ) -> Result<Vec<DVec3>, AirError> {
     let mut force = Vec::with_capacity(last + 1);
-    fly(lattice, motion, dt, last, |_, _, loads, _| force.push(total_force(loads)))?;
+    fly(lattice, motion, dt, last, |_, _, loads, _| {
+        force.push(total_force(loads))
+    })?;
     Ok(force)
 }
 

@@ -12,6 +12,7 @@
 //! | [`flight`] | the two together |
 //! | [`analysis`] | analysis of flights |
 //! | [`io`] | case files, result directories, figures |
+//! | [`verify`] | the verification suite |
 //!
 //! A flight from a preset, three steps long:
 //!
@@ -37,3 +38,4 @@ pub use wingbeat_flight as flight;
 pub use wingbeat_io as io;
 pub use wingbeat_math as math;
 pub use wingbeat_model as model;
+pub use wingbeat_verify as verify;

@@ -6,6 +6,7 @@ mod export;
 mod progress;
 mod run;
 mod show;
+mod verify;
 mod view;
 
 use std::path::PathBuf;
@@ -59,6 +60,9 @@ enum Command {
     Power(analyse::power::PowerArgs),
     /// Trim, disturb, and fly under feedback.
     Stabilise(analyse::stabilise::StabiliseArgs),
+    /// Run the verification suite and write its dossier: what is claimed of the air, against what,
+    /// how far off.
+    Verify(verify::VerifyArgs),
     /// List the presets and the shipped sets of wing angles.
     Presets,
     /// Write a preset as a commented case file to start from; never over an existing file.
@@ -137,6 +141,7 @@ fn main() -> ExitCode {
         Command::Derivatives(args) => return analyse::derivatives::run(&args),
         Command::Power(args) => return analyse::power::run(&args),
         Command::Stabilise(args) => return analyse::stabilise::run(&args),
+        Command::Verify(args) => return verify::run(&args),
         Command::Presets => {
             list();
             Ok(())

@@ -31,7 +31,11 @@ fn reference(loads: &str, panels: &str) -> Reference {
             .lines()
             .filter(|l| l.split(',').nth(1) == Some(word))
             .map(|l| {
-                let x: Vec<f64> = l.split(',').skip(2).map(|w| w.parse().expect("number")).collect();
+                let x: Vec<f64> = l
+                    .split(',')
+                    .skip(2)
+                    .map(|w| w.parse().expect("number"))
+                    .collect();
                 std::array::from_fn(|k| x[k])
             })
             .collect()
@@ -49,8 +53,14 @@ fn motion([angle, rate]: [f64; 2]) -> NodeMotion {
     let flat = rectangle(4, 4, 4.0 * DVec3::Y, -4.0 * DVec3::X);
     let (s, c) = angle.sin_cos();
     NodeMotion {
-        position: flat.iter().map(|p| DVec3::new(p.x + 4.0, p.y * c, -p.y * s)).collect(),
-        velocity: flat.iter().map(|p| DVec3::new(0.0, -p.y * s, -p.y * c) * rate).collect(),
+        position: flat
+            .iter()
+            .map(|p| DVec3::new(p.x + 4.0, p.y * c, -p.y * s))
+            .collect(),
+        velocity: flat
+            .iter()
+            .map(|p| DVec3::new(0.0, -p.y * s, -p.y * c) * rate)
+            .collect(),
     }
 }
 
@@ -67,19 +77,32 @@ fn compare(
     let numbers = |c: &str| reference.loads.numbers(c);
     let [fx, fy, fz] = ["Fx", "Fy", "Fz"].map(numbers);
     let mut worst = [0.0_f64; 3];
-    fly(&lattice, |t| motion(pitch(t)), 1.0, fx.len() - 1, |n, _, loads, _| {
-        let theirs = DVec3::new(fx[n], fy[n], fz[n]);
-        worst[0] = worst[0].max((total_force(loads) - theirs).length());
-        for p in 0..16 {
-            let q = 4 * (p / 4) + 3 - p % 4; // their columns run along +x
-            worst[1] = worst[1].max((loads.gamma[p] - reference.gamma[n][q]).abs());
-            worst[2] = worst[2].max((loads.pressure_jump[p] - reference.dp[n][q]).abs());
-        }
-    })?;
+    fly(
+        &lattice,
+        |t| motion(pitch(t)),
+        1.0,
+        fx.len() - 1,
+        |n, _, loads, _| {
+            let theirs = DVec3::new(fx[n], fy[n], fz[n]);
+            worst[0] = worst[0].max((total_force(loads) - theirs).length());
+            for p in 0..16 {
+                let q = 4 * (p / 4) + 3 - p % 4; // their columns run along +x
+                worst[1] = worst[1].max((loads.gamma[p] - reference.gamma[n][q]).abs());
+                worst[2] = worst[2].max((loads.pressure_jump[p] - reference.dp[n][q]).abs());
+            }
+        },
+    )?;
     let row = |(what, error): (&str, f64)| {
-        Row::new(format!("{name}: largest difference of {what} over all steps"), "1", error)
-            .against(0.0, SOURCE)
-            .within(1e-10, "13 digits of the tables; the free wake amplifies roundings some hundredfold")
+        Row::new(
+            format!("{name}: largest difference of {what} over all steps"),
+            "1",
+            error,
+        )
+        .against(0.0, SOURCE)
+        .within(
+            1e-10,
+            "13 digits of the tables; the free wake amplifies roundings some hundredfold",
+        )
     };
     let what = ["the force", "circulations", "pressure jumps"];
     Ok(what.into_iter().zip(worst).map(row).collect())

@@ -41,12 +41,18 @@ fn circulation(
     let mut sum = 0.0;
     for side in corner.windows(2) {
         let path = side[1] - side[0];
-        let points: Points = (0..=n).map(|k| side[0] + path * (k as f64 / n as f64)).collect();
+        let points: Points = (0..=n)
+            .map(|k| side[0] + path * (k as f64 / n as f64))
+            .collect();
         let mut v = Points::default();
         lattice.velocity(state, &points, ws, &mut v)?;
         for k in 0..=n {
             let ends = k == 0 || k == n;
-            let weight = if ends { 1.0 } else { 2.0 + 2.0 * (k % 2) as f64 };
+            let weight = if ends {
+                1.0
+            } else {
+                2.0 + 2.0 * (k % 2) as f64
+            };
             sum += weight / (3.0 * n as f64) * v.get(k).dot(path);
         }
     }
@@ -54,17 +60,31 @@ fn circulation(
 }
 
 fn kelvin(_quick: bool) -> Result<Vec<Row>, Trouble> {
-    let all = SheddingKinds { trailing: true, tip: true, leading: true, root: false };
+    let all = SheddingKinds {
+        trailing: true,
+        tip: true,
+        leading: true,
+        root: false,
+    };
     let mut rows = Vec::new();
-    for (name, shedding) in [("trailing edge", SheddingKinds::TRAILING), ("all edges", all)] {
-        let settings = AirSettings { shedding, ..AirSettings::accurate(1.2, DVec3::X) };
+    for (name, shedding) in [
+        ("trailing edge", SheddingKinds::TRAILING),
+        ("all edges", all),
+    ] {
+        let settings = AirSettings {
+            shedding,
+            ..AirSettings::accurate(1.2, DVec3::X)
+        };
         let lattice = Lattice::new(vec![Surface::grid("wing", 4, 5)], settings)?;
         let flat: Vec<DVec3> = (rectangle(4, 5, DVec3::X, 2.5 * DVec3::Y).iter())
             .map(|x| r2(0.2) * *x)
             .collect();
         let motion = |t: f64| {
             let path = DVec3::new(-0.5 * t * t, 0.0, 0.0);
-            translating(flat.iter().map(|x| *x + path).collect(), DVec3::new(-t, 0.0, 0.0))
+            translating(
+                flat.iter().map(|x| *x + path).collect(),
+                DVec3::new(-t, 0.0, 0.0),
+            )
         };
         let mut run = fly(&lattice, motion, 0.25, 6, |_, _, _, _| {})?;
         let x = run.state.position[4 * 6 + 2].x;
@@ -72,9 +92,16 @@ fn kelvin(_quick: bool) -> Result<Vec<Row>, Trouble> {
         let far = [x - 4.0, x + 8.0, -4.0, 4.0];
         let total = circulation(&lattice, &run.state, &mut run.ws, far, 1.25)?;
         rows.push(
-            Row::new(format!("circulation about wing and wake over the wing's, {name} sheds"), "1", total / bound)
-                .against(0.0, "Kelvin's theorem")
-                .within(1e-8, "Simpson's rule on 400 intervals, 4 chords from everything"),
+            Row::new(
+                format!("circulation about wing and wake over the wing's, {name} sheds"),
+                "1",
+                total / bound,
+            )
+            .against(0.0, "Kelvin's theorem")
+            .within(
+                1e-8,
+                "Simpson's rule on 400 intervals, 4 chords from everything",
+            ),
         );
     }
     Ok(rows)
@@ -110,7 +137,10 @@ fn heaving(k: usize, loads: LoadMethod) -> Result<[f64; 2], AirError> {
 fn impulse(quick: bool) -> Result<Vec<Row>, Trouble> {
     let k = if quick { [1, 2, 4] } else { [2, 4, 8] };
     let mut rows = Vec::new();
-    for (name, method) in [("pressure", LoadMethod::Pressure), ("segments", LoadMethod::Joukowski)] {
+    for (name, method) in [
+        ("pressure", LoadMethod::Pressure),
+        ("segments", LoadMethod::Joukowski),
+    ] {
         let mut error = [0.0; 3];
         let mut last = [0.0; 2];
         for (k, e) in k.into_iter().zip(&mut error) {
@@ -118,14 +148,25 @@ fn impulse(quick: bool) -> Result<Vec<Row>, Trouble> {
             *e = last[0] / last[1] - 1.0;
         }
         rows.push(
-            Row::new(format!("normal force from {name} over that from the impulse"), "1", last[0] / last[1])
-                .against(1.0, "force = - d(impulse)/dt in air at rest at infinity")
-                .uncertain(error[2] - error[1])
-                .within(if quick { 0.03 } else { 0.015 }, "forces act at panels: first order in panels and steps"),
+            Row::new(
+                format!("normal force from {name} over that from the impulse"),
+                "1",
+                last[0] / last[1],
+            )
+            .against(1.0, "force = - d(impulse)/dt in air at rest at infinity")
+            .uncertain(error[2] - error[1])
+            .within(
+                if quick { 0.03 } else { 0.015 },
+                "forces act at panels: first order in panels and steps",
+            ),
         );
         rows.push(
-            Row::new(format!("order of the disagreement, {name}"), "1", order(error[0], error[2]) / 2.0)
-                .because("halving panels and steps together; first order is expected"),
+            Row::new(
+                format!("order of the disagreement, {name}"),
+                "1",
+                order(error[0], error[2]) / 2.0,
+            )
+            .because("halving panels and steps together; first order is expected"),
         );
     }
     Ok(rows)

@@ -35,9 +35,20 @@ fn wings(sides: &[f64], t: f64) -> NodeMotion {
 }
 
 fn lattice(count: usize, stream: DVec3, images: Vec<Plane>) -> Result<Lattice, AirError> {
-    let surfaces = (0..count).map(|k| Surface::grid(&format!("wing {k}"), 3, 4)).collect();
-    let shedding = SheddingKinds { trailing: true, tip: true, leading: true, root: false };
-    let settings = AirSettings { shedding, images, ..AirSettings::accurate(1.2, stream) };
+    let surfaces = (0..count)
+        .map(|k| Surface::grid(&format!("wing {k}"), 3, 4))
+        .collect();
+    let shedding = SheddingKinds {
+        trailing: true,
+        tip: true,
+        leading: true,
+        root: false,
+    };
+    let settings = AirSettings {
+        shedding,
+        images,
+        ..AirSettings::accurate(1.2, stream)
+    };
     Lattice::new(surfaces, settings)
 }
 
@@ -67,11 +78,21 @@ fn run(_quick: bool) -> Result<Vec<Row>, Trouble> {
         turned(wings(BOTH, t), DMat3::IDENTITY, t * u, u)
     })?;
     let zero = |what: &str, x: f64, source| {
-        Row::new(what, "1", x / force.length()).against(0.0, source).within(1e-9, ROUNDING)
+        Row::new(what, "1", x / force.length())
+            .against(0.0, source)
+            .within(1e-9, ROUNDING)
     };
     Ok(vec![
-        zero("force, everything turned", (r * force - total_force(&rotated.loads)).length(), "rotation"),
-        zero("force, moving observer", (force - total_force(&observed.loads)).length(), "Galileo"),
+        zero(
+            "force, everything turned",
+            (r * force - total_force(&rotated.loads)).length(),
+            "rotation",
+        ),
+        zero(
+            "force, moving observer",
+            (force - total_force(&observed.loads)).length(),
+            "Galileo",
+        ),
         mirror_bits()?,
         mirror_plane(&plain)?,
         ground()?,
@@ -82,28 +103,45 @@ fn run(_quick: bool) -> Result<Vec<Row>, Trouble> {
 /// A right wing alone and its mirror image alone: nothing may differ but the sign of y.
 fn mirror_bits() -> Result<Row, Trouble> {
     let alone = lattice(1, STREAM, vec![])?;
-    let [right, left] = [flight(&alone, |t| wings(&[1.0], t))?, flight(&alone, |t| wings(&[-1.0], t))?];
+    let [right, left] = [
+        flight(&alone, |t| wings(&[1.0], t))?,
+        flight(&alone, |t| wings(&[-1.0], t))?,
+    ];
     let flip = DVec3::new(1.0, -1.0, 1.0);
     let pairs = right.loads.force.iter().zip(&left.loads.force);
     let differ = pairs.filter(|(a, b)| **a * flip != **b).count();
-    Ok(Row::new("panels whose force differs in a bit from its mirror image", "1", differ as f64)
-        .against(0.0, "mirror symmetry")
-        .within(0.0, "bit for bit"))
+    Ok(Row::new(
+        "panels whose force differs in a bit from its mirror image",
+        "1",
+        differ as f64,
+    )
+    .against(0.0, "mirror symmetry")
+    .within(0.0, "bit for bit"))
 }
 
 /// One wing and a plane of symmetry against two wings.
 fn mirror_plane(two: &Run) -> Result<Row, Trouble> {
-    let plane = Plane { point: DVec3::ZERO, normal: DVec3::Y };
+    let plane = Plane {
+        point: DVec3::ZERO,
+        normal: DVec3::Y,
+    };
     let half = flight(&lattice(1, STREAM, vec![plane])?, |t| wings(&[1.0], t))?;
     let [a, b] = [half.loads.surfaces[0].force, two.loads.surfaces[0].force];
-    Ok(Row::new("force with a plane of symmetry against two wings", "1", (a - b).length() / b.length())
-        .against(0.0, "mirror symmetry")
-        .within(1e-9, ROUNDING))
+    Ok(Row::new(
+        "force with a plane of symmetry against two wings",
+        "1",
+        (a - b).length() / b.length(),
+    )
+    .against(0.0, "mirror symmetry")
+    .within(1e-9, ROUNDING))
 }
 
 /// A wing over a ground against the wing and its image flown together.
 fn ground() -> Result<Row, Trouble> {
-    let plane = Plane { point: -2.0 * DVec3::Z, normal: DVec3::Z };
+    let plane = Plane {
+        point: -2.0 * DVec3::Z,
+        normal: DVec3::Z,
+    };
     let stream = 2.0 * DVec3::X;
     let over = flight(&lattice(1, stream, vec![plane])?, |t| wings(&[1.0], t))?;
     let both = flight(&lattice(2, stream, vec![])?, |t| {
@@ -116,21 +154,31 @@ fn ground() -> Result<Row, Trouble> {
         motion
     })?;
     let [a, b] = [over.loads.surfaces[0].force, both.loads.surfaces[0].force];
-    Ok(Row::new("force over a ground against wing and image flown together", "1", (a - b).length() / b.length())
-        .against(0.0, "method of images")
-        .within(1e-9, ROUNDING))
+    Ok(Row::new(
+        "force over a ground against wing and image flown together",
+        "1",
+        (a - b).length() / b.length(),
+    )
+    .against(0.0, "method of images")
+    .within(1e-9, ROUNDING))
 }
 
 fn threads() -> Result<Row, Trouble> {
     let on = |threads: usize| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
         let lattice = lattice(2, STREAM, vec![])?;
-        let flown = pool.expect("a few threads").install(|| flight(&lattice, |t| wings(BOTH, t)));
+        let flown = pool
+            .expect("a few threads")
+            .install(|| flight(&lattice, |t| wings(BOTH, t)));
         flown.map(|r| r.loads.force)
     };
     let (one, three) = (on(1)?, on(3)?);
     let differ = one.iter().zip(&three).filter(|(a, b)| a != b).count();
-    Ok(Row::new("panels whose force differs in a bit between one and three threads", "1", differ as f64)
-        .against(0.0, "same case, same bits")
-        .within(0.0, "bit for bit"))
+    Ok(Row::new(
+        "panels whose force differs in a bit between one and three threads",
+        "1",
+        differ as f64,
+    )
+    .against(0.0, "same case, same bits")
+    .within(0.0, "bit for bit"))
 }

@@ -32,7 +32,12 @@ fn motion(rows: usize, cols: usize, t: f64) -> NodeMotion {
 }
 
 /// Lift of both wings [N] over `beats`; the left one is the image of the right one.
-pub fn lift(mesh: [usize; 2], per_beat: usize, beats: usize, accurate: bool) -> Result<Vec<f64>, AirError> {
+fn lift(
+    mesh: [usize; 2],
+    per_beat: usize,
+    beats: usize,
+    accurate: bool,
+) -> Result<Vec<f64>, AirError> {
     let (s, c) = 5_f64.to_radians().sin_cos();
     let stream = 4.0 * DVec3::new(c, 0.0, s);
     let core = CoreModel::Scully { radius: 0.003 };
@@ -43,7 +48,10 @@ pub fn lift(mesh: [usize; 2], per_beat: usize, beats: usize, accurate: bool) -> 
     let settings = AirSettings {
         bound_core: core,
         wake_core: core,
-        images: vec![Plane { point: DVec3::ZERO, normal: DVec3::Y }],
+        images: vec![Plane {
+            point: DVec3::ZERO,
+            normal: DVec3::Y,
+        }],
         ..scheme
     };
     let [rows, cols] = mesh;
@@ -70,28 +78,54 @@ fn run(_quick: bool) -> Result<Vec<Row>, Trouble> {
     let bound = difference(&middle, 80, &fine, 160);
     let whole = |x: &[f64], per: usize| mean(&x[per..=2 * per]);
     let mut rows = vec![
-        Row::new("accurate scheme, 40 steps: rms difference of lift from converged over the second beat", "1",
-            difference(&ours, 40, &fine, 160))
-            .against(0.0, "our own run with 16 x 40 panels and 160 steps")
-            .uncertain(bound)
-            .within(0.02, "what is asked of the accurate scheme; the other programs are 4 % and 12 % off theirs"),
-        Row::new("benchmark scheme, 40 steps: the same", "1", difference(&benchmark, 40, &fine, 160))
-            .against(0.0, "our own run with 16 x 40 panels and 160 steps")
-            .uncertain(bound)
-            .because("first order"),
-        Row::new("mean lift of the second beat, accurate scheme", "N", whole(&ours, 40))
-            .against(whole(&fine, 160), "our own run with 16 x 40 panels and 160 steps")
-            .within_part(0.01, "half of what the history may be off"),
+        Row::new(
+            "accurate scheme, 40 steps: rms difference of lift from converged over the second beat",
+            "1",
+            difference(&ours, 40, &fine, 160),
+        )
+        .against(0.0, "our own run with 16 x 40 panels and 160 steps")
+        .uncertain(bound)
+        .within(
+            0.02,
+            "what is asked of the accurate scheme; the other programs are 4 % and 12 % off theirs",
+        ),
+        Row::new(
+            "benchmark scheme, 40 steps: the same",
+            "1",
+            difference(&benchmark, 40, &fine, 160),
+        )
+        .against(0.0, "our own run with 16 x 40 panels and 160 steps")
+        .uncertain(bound)
+        .because("first order"),
+        Row::new(
+            "mean lift of the second beat, accurate scheme",
+            "N",
+            whole(&ours, 40),
+        )
+        .against(
+            whole(&fine, 160),
+            "our own run with 16 x 40 panels and 160 steps",
+        )
+        .within_part(0.01, "half of what the history may be off"),
     ];
     for (name, text) in [
-        ("PteraSoftware 5.1.0", include_str!("../../data/flap_rect_pterasoftware.csv")),
-        ("Imperial College UVLM", include_str!("../../data/flap_rect_imperial_uvlm.csv")),
+        (
+            "PteraSoftware 5.1.0",
+            include_str!("../../data/flap_rect_pterasoftware.csv"),
+        ),
+        (
+            "Imperial College UVLM",
+            include_str!("../../data/flap_rect_imperial_uvlm.csv"),
+        ),
     ] {
         let theirs = Table::new(text).numbers("lift_N");
         rows.push(
-            Row::new(format!("{name}, 40 steps: rms difference of lift from our converged history"), "1",
-                difference(&theirs, 40, &fine, 160))
-                .because("theirs holds leading-edge suction, which acts along x and so hardly in lift"),
+            Row::new(
+                format!("{name}, 40 steps: rms difference of lift from our converged history"),
+                "1",
+                difference(&theirs, 40, &fine, 160),
+            )
+            .because("theirs holds leading-edge suction, which acts along x and so hardly in lift"),
         );
     }
     Ok(rows)

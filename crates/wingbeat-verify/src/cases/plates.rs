@@ -46,8 +46,7 @@ fn added_mass(nodes: &[DVec3], [rows, cols]: [usize; 2], accurate: bool) -> Resu
     Ok(-total_force(&run.loads).z / 2.0)
 }
 
-const TABLE: &str =
-    "rectangular plates: pi/4 rho c^2 b times 0.579, 0.757, 0.872, 0.934 for b/c = 1, 2, 4, 8 \
+const TABLE: &str = "rectangular plates: pi/4 rho c^2 b times 0.579, 0.757, 0.872, 0.934 for b/c = 1, 2, 4, 8 \
      (table of DNV-RP-H103, after Meyerhoff 1970)";
 
 fn plates(_quick: bool) -> Result<Vec<Row>, Trouble> {
@@ -61,17 +60,25 @@ fn plates(_quick: bool) -> Result<Vec<Row>, Trouble> {
         };
         let [coarse, fine] = [of(8, true)?, of(16, true)?];
         rows.push(
-            Row::new(format!("rectangle b/c = {aspect}, 16 panels, accurate"), "1", fine)
-                .against(1.0, TABLE)
-                .uncertain(extrapolated(coarse, fine, 2.0) - fine)
-                .within(0.01, "three digits of the table, second-order mesh error"),
+            Row::new(
+                format!("rectangle b/c = {aspect}, 16 panels, accurate"),
+                "1",
+                fine,
+            )
+            .against(1.0, TABLE)
+            .uncertain(extrapolated(coarse, fine, 2.0) - fine)
+            .within(0.01, "three digits of the table, second-order mesh error"),
         );
         let [coarse, fine] = [of(8, false)?, of(16, false)?];
         rows.push(
-            Row::new(format!("rectangle b/c = {aspect}, 16 panels, benchmark rings"), "1", fine)
-                .against(1.0, TABLE)
-                .uncertain(extrapolated(coarse, fine, 1.0) - fine)
-                .because("rings on the true edges overrate added mass at first order"),
+            Row::new(
+                format!("rectangle b/c = {aspect}, 16 panels, benchmark rings"),
+                "1",
+                fine,
+            )
+            .against(1.0, TABLE)
+            .uncertain(extrapolated(coarse, fine, 1.0) - fine)
+            .because("rings on the true edges overrate added mass at first order"),
         );
     }
     rows.extend(disc()?);
@@ -101,7 +108,10 @@ fn long_plate() -> Result<Row, Trouble> {
         added_mass(&nodes, [rows, 1], true).map(|m| m / (0.25 * PI * 1e4))
     };
     let [coarse, fine] = [of(8)?, of(16)?];
-    let name = format!("endless plate, 16 panels, accurate (order {:.1})", order(coarse - 1.0, fine - 1.0));
+    let name = format!(
+        "endless plate, 16 panels, accurate (order {:.1})",
+        order(coarse - 1.0, fine - 1.0)
+    );
     Ok(Row::new(name, "1", fine)
         .against(1.0, "pi/4 rho c^2, Lamb art. 71")
         .uncertain(extrapolated(coarse, fine, 2.0) - fine)

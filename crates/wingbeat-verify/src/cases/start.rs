@@ -45,7 +45,9 @@ fn history(aspect: f64, mesh: [usize; 2], dt: f64, accurate: bool) -> Result<Vec
 /// edge.
 fn their_rings(nodes: &mut [DVec3], [rows, cols]: [usize; 2], dt: f64) {
     nodes.iter_mut().for_each(|x| x.x += 0.25 / rows as f64);
-    nodes[rows * (cols + 1)..].iter_mut().for_each(|x| x.x = 1.0 + 0.3 * dt);
+    nodes[rows * (cols + 1)..]
+        .iter_mut()
+        .for_each(|x| x.x = 1.0 + 0.3 * dt);
 }
 
 struct Published {
@@ -85,12 +87,14 @@ fn published() -> [Published; 2] {
 
 fn run(quick: bool) -> Result<Vec<Row>, Trouble> {
     let mut rows = Vec::new();
-    for case in published() {
+    // The short form leaves out the longer wing and the converged history.
+    for case in published().into_iter().take(if quick { 1 } else { 2 }) {
         let theirs = |chords: f64| interpolate(&case.chords, &case.lift, chords);
         let same = history(case.aspect, case.mesh, 1.0 / 16.0, false)?;
         let cols = (5.0 * case.aspect.sqrt()) as usize;
-        let n = if quick { 4 } else { 8 };
-        let runs = [n, 2 * n].map(|n| history(case.aspect, [n, cols * n / 4], 1.0 / n as f64, true));
+        let n = if quick { 2 } else { 8 };
+        let runs =
+            [n, 2 * n].map(|n| history(case.aspect, [n, cols * n / 4], 1.0 / n as f64, true));
         let [coarse, fine] = runs;
         let (coarse, fine) = (coarse?, fine?);
         for chords in [0.5_f64, 1.0, 2.0, 5.0, 10.0] {
@@ -104,10 +108,14 @@ fn run(quick: bool) -> Result<Vec<Row>, Trouble> {
             let (a, b) = (at(&coarse, n), at(&fine, 2 * n));
             let limit = extrapolated(a, b, 1.0);
             rows.push(
-                Row::new(format!("AR {}, {chords} chords, converged: C_L", case.aspect), "1", limit)
-                    .against(theirs(chords), case.source)
-                    .uncertain(limit - b)
-                    .because("what their step and four panels add to the converged lift"),
+                Row::new(
+                    format!("AR {}, {chords} chords, converged: C_L", case.aspect),
+                    "1",
+                    limit,
+                )
+                .against(theirs(chords), case.source)
+                .uncertain(limit - b)
+                .because("what their step and four panels add to the converged lift"),
             );
         }
     }

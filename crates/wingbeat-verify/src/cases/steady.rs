@@ -124,7 +124,10 @@ fn rectangular(_quick: bool) -> Result<Vec<Row>, Trouble> {
     let [one, _] = refined(|k| rectangle(1.0, k))?;
     let mut rows = vec![
         one.row("lift slope, aspect ratio 1")
-            .against(1.4602, "Tuck 1993, J. Austral. Math. Soc. B 35:127 (square wing)")
+            .against(
+                1.4602,
+                "Tuck 1993, J. Austral. Math. Soc. B 35:127 (square wing)",
+            )
             .within_part(0.01, "8 x 32 panels"),
     ];
     for (aspect, tolerance) in [(4.0, 0.03), (8.0, 0.02), (20.0, 0.015)] {
@@ -189,10 +192,15 @@ fn warren(_quick: bool) -> Result<Vec<Row>, Trouble> {
     };
     let source = "Warren-12 planform: C_La = 2.743, C_ma = -3.10 about the apex, mean chord";
     Ok(vec![
-        lift.row("lift slope").against(2.743, source).within_part(0.01, "12 x 48 panels"),
+        lift.row("lift slope")
+            .against(2.743, source)
+            .within_part(0.01, "12 x 48 panels"),
         moment
             .row("moment slope about the apex, extrapolated at first order")
             .against(-3.10, source)
-            .within_part(0.02, "pressure acts at control points: the moment is of first order"),
+            .within_part(
+                0.02,
+                "pressure acts at control points: the moment is of first order",
+            ),
     ])
 }

@@ -4,7 +4,9 @@ use crate::lab::series::harmonic;
 use crate::lab::{extrapolated, fly, forces, rectangle, translating};
 use crate::{Case, Part, Row, Trouble};
 use std::f64::consts::{PI, TAU};
-use wingbeat_air::{AirError, AirSettings, CoreModel, Gust, GustShape, Lattice, NodeMotion, Surface, Wind};
+use wingbeat_air::{
+    AirError, AirSettings, CoreModel, Gust, GustShape, Lattice, NodeMotion, Surface, Wind,
+};
 use wingbeat_math::DVec3;
 
 pub(super) const CASES: &[Case] = &[
@@ -41,7 +43,6 @@ fn lattice(rows: usize, wind: Wind) -> Result<Lattice, AirError> {
     let settings = AirSettings {
         bound_core: core,
         wake_core: core,
-        inset: 0.0,
         wind,
         ..AirSettings::accurate(1.0, DVec3::X)
     };
@@ -88,10 +89,17 @@ fn wagner(quick: bool) -> Result<Vec<Row>, Trouble> {
         let (fine, limit) = at(chords);
         let s = 2.0 * chords;
         out.push(
-            Row::new(format!("lift over steady lift after {chords} chords"), "1", limit)
-                .against(jones(s), "Wagner 1925 in R. T. Jones's form (NACA Rep. 681)")
-                .uncertain((limit - fine).abs() + (jones(s) - garrick(s)).abs() / 2.0)
-                .within(0.012, "the form itself is good to 1 %"),
+            Row::new(
+                format!("lift over steady lift after {chords} chords"),
+                "1",
+                limit,
+            )
+            .against(
+                jones(s),
+                "Wagner 1925 in R. T. Jones's form (NACA Rep. 681)",
+            )
+            .uncertain((limit - fine).abs() + (jones(s) - garrick(s)).abs() / 2.0)
+            .within(0.012, "the form itself is good to 1 %"),
         );
     }
     Ok(out)
@@ -108,12 +116,19 @@ fn kuessner(quick: bool) -> Result<Vec<Row>, Trouble> {
             slowness: DVec3::X,
             shape: GustShape::Table(vec![(0.0, 0.0), (1e-9, 1.0)]),
         };
-        let wind = Wind { shear: None, gusts: vec![front] };
+        let wind = Wind {
+            shear: None,
+            gusts: vec![front],
+        };
         let lattice = lattice(rows, wind)?;
         let motion = |_| translating(flat(rows), DVec3::ZERO);
         let dt = 1.0 / rows as f64;
         let lift = forces(&lattice, motion, dt, (chords / dt) as usize)?;
-        runs.push(lift.iter().map(|f| f.z / (PI * w * SPAN)).collect::<Vec<_>>());
+        runs.push(
+            lift.iter()
+                .map(|f| f.z / (PI * w * SPAN))
+                .collect::<Vec<_>>(),
+        );
     }
     let mut out = Vec::new();
     for chords in [1.0, 2.0, 5.0] {
@@ -123,10 +138,14 @@ fn kuessner(quick: bool) -> Result<Vec<Row>, Trouble> {
         let at = |i: usize| runs[i][(chords * rows[i] as f64) as usize];
         let limit = extrapolated(at(0), at(1), 1.0);
         out.push(
-            Row::new(format!("lift over steady lift {chords} chords into the gust"), "1", limit)
-                .against(exact, "Kuessner 1936 in Sears and Sparks's form")
-                .uncertain(limit - at(1))
-                .within(0.02, "the form itself is good to 1-2 %"),
+            Row::new(
+                format!("lift over steady lift {chords} chords into the gust"),
+                "1",
+                limit,
+            )
+            .against(exact, "Kuessner 1936 in Sears and Sparks's form")
+            .uncertain(limit - at(1))
+            .within(0.02, "the form itself is good to 1-2 %"),
         );
     }
     Ok(out)
@@ -195,8 +214,14 @@ fn ours(mode: Mode, k: f64, rows: usize) -> Result<[f64; 2], AirError> {
                 translating(nodes, 0.5 * a * w * s * DVec3::Z)
             }
             Mode::Pitch => NodeMotion {
-                position: flat.iter().map(|x| *x - a * c * (x.x - 0.5) * DVec3::Z).collect(),
-                velocity: flat.iter().map(|x| a * w * s * (x.x - 0.5) * DVec3::Z).collect(),
+                position: flat
+                    .iter()
+                    .map(|x| *x - a * c * (x.x - 0.5) * DVec3::Z)
+                    .collect(),
+                velocity: flat
+                    .iter()
+                    .map(|x| a * w * s * (x.x - 0.5) * DVec3::Z)
+                    .collect(),
             },
         }
     };
@@ -211,7 +236,11 @@ fn ours(mode: Mode, k: f64, rows: usize) -> Result<[f64; 2], AirError> {
 }
 
 fn theodorsen(quick: bool) -> Result<Vec<Row>, Trouble> {
-    let ks: &[f64] = if quick { &[0.5, 1.0, 2.0] } else { &[0.1, 0.2, 0.5, 1.0, 2.0] };
+    let ks: &[f64] = if quick {
+        &[0.5, 1.0, 2.0]
+    } else {
+        &[0.1, 0.2, 0.5, 1.0, 2.0]
+    };
     let mut rows = Vec::new();
     for (name, mode) in [("plunge", Mode::Plunge), ("pitch", Mode::Pitch)] {
         for &k in ks {
@@ -222,10 +251,14 @@ fn theodorsen(quick: bool) -> Result<Vec<Row>, Trouble> {
             let off = |x: [f64; 2]| (x[0] - want[0]).hypot(x[1] - want[1]) / size;
             let limit = [0, 1].map(|i| extrapolated(a[i], b[i], 1.0));
             rows.push(
-                Row::new(format!("{name}, k = {k}: error of the complex lift, {fine} panels"), "1", off(b))
-                    .against(0.0, "Theodorsen 1935, NACA Rep. 496")
-                    .uncertain((off(limit) - off(b)).abs())
-                    .within(0.6 * k.max(0.5) / fine as f64 + 0.005, SPAN_NOTE),
+                Row::new(
+                    format!("{name}, k = {k}: error of the complex lift, {fine} panels"),
+                    "1",
+                    off(b),
+                )
+                .against(0.0, "Theodorsen 1935, NACA Rep. 496")
+                .uncertain((off(limit) - off(b)).abs())
+                .within(0.6 * k.max(0.5) / fine as f64 + 0.005, SPAN_NOTE),
             );
         }
     }
@@ -239,7 +272,11 @@ mod tests {
     #[test]
     fn published_theodorsen_function() {
         // Bisplinghoff, Ashley, Halfman, table 5-1.
-        for (k, f, g) in [(0.1, 0.8319, -0.1723), (0.5, 0.5979, -0.1507), (1.0, 0.5394, -0.1003)] {
+        for (k, f, g) in [
+            (0.1, 0.8319, -0.1723),
+            (0.5, 0.5979, -0.1507),
+            (1.0, 0.5394, -0.1003),
+        ] {
             let [a, b] = theodorsen_function(k);
             assert!((a - f).abs() < 1e-4 && (b - g).abs() < 1e-4, "{k} {a} {b}");
         }

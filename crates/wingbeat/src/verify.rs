@@ -1,0 +1,80 @@
+//! `wingbeat verify`: run the verification suite and write its dossier.
+
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+use std::time::Instant;
+
+use clap::Args;
+use wingbeat::verify::{Dossier, Entry};
+
+/// What `wingbeat verify` is told.
+#[derive(Args)]
+pub(crate) struct VerifyArgs {
+    /// Only the short set, some two minutes on two cores.
+    #[arg(long)]
+    quick: bool,
+    /// Only cases whose name holds this.
+    #[arg(long, value_name = "TEXT", default_value = "")]
+    only: String,
+    /// Folder for verification.md, .csv and .json, which are replaced.
+    #[arg(long, value_name = "DIR", default_value = "verification")]
+    out: PathBuf,
+    /// Names and contents of the cases; nothing is run.
+    #[arg(long)]
+    list: bool,
+}
+
+/// The whole command: exit code 0 if nothing missed, 1 otherwise.
+pub(crate) fn run(args: &VerifyArgs) -> ExitCode {
+    let cases = wingbeat::verify::select(args.quick, &args.only);
+    if cases.is_empty() {
+        eprintln!(
+            "error: no case holds `{}`; see `wingbeat verify --list`",
+            args.only
+        );
+        return ExitCode::from(2);
+    }
+    if args.list {
+        cases
+            .iter()
+            .for_each(|c| println!("{:<28}{}", c.name, c.about));
+        return ExitCode::SUCCESS;
+    }
+    let start = Instant::now();
+    let dossier = wingbeat::verify::run(&cases, args.quick, |e| tell(e, start));
+    if let Err(e) = write(&dossier, &args.out) {
+        eprintln!(
+            "error: {}: {e}; name a folder that can be written",
+            args.out.display()
+        );
+        return ExitCode::from(2);
+    }
+    let [pass, miss, report] = dossier.counts();
+    println!(
+        "{pass} rows pass, {miss} miss, {report} are reported; {:.0} s; see {}",
+        start.elapsed().as_secs_f64(),
+        args.out.join("verification.md").display()
+    );
+    ExitCode::from(u8::from(miss > 0))
+}
+
+fn tell(entry: &Entry, start: Instant) {
+    let [pass, miss, report] = entry.counts();
+    let seconds = start.elapsed().as_secs_f64();
+    eprintln!(
+        "{seconds:>7.1} s  {:<28} {pass} pass, {miss} miss, {report} reported",
+        entry.case
+    );
+}
+
+fn write(dossier: &Dossier, folder: &Path) -> std::io::Result<()> {
+    std::fs::create_dir_all(folder)?;
+    for (name, text) in [
+        ("verification.md", dossier.page(env!("CARGO_PKG_VERSION"))),
+        ("verification.csv", dossier.csv()),
+        ("verification.json", dossier.json()),
+    ] {
+        std::fs::write(folder.join(name), text)?;
+    }
+    Ok(())
+}
