@@ -3,6 +3,7 @@
 mod benchmark;
 mod bodies;
 mod conservation;
+mod insects;
 mod invariance;
 mod kernel;
 mod peer;
@@ -10,6 +11,7 @@ mod plates;
 mod start;
 mod steady;
 mod unsteady;
+mod yeo;
 
 use crate::Case;
 
@@ -26,6 +28,8 @@ pub fn suite() -> Vec<Case> {
         benchmark::CASES,
         start::CASES,
         peer::CASES,
+        yeo::CASES,
+        insects::CASES,
     ]
     .concat()
 }

@@ -34,7 +34,7 @@ pub struct AirCase {
     pub wake_core: Option<CoreCase>,
     /// Set of numerical choices: what the keys `circulation_rate`, `convection` and `ring_inset`
     /// are where they are left out. `benchmark`: the published benchmark's, first order;
-    /// `accurate`: second order, side edges inset by a quarter panel.
+    /// `accurate`: second order, rings at quarter panels, newest wake row matched to the lattice.
     pub scheme: SchemeCase,
     /// How the rate of change of circulation in the pressure is formed; default by `scheme`.
     #[serde(skip_serializing_if = "Option::is_none")]

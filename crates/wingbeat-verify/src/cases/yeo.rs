@@ -1,0 +1,170 @@
+//! A rigid flapping wing in a wind tunnel.
+
+use crate::lab::fly;
+use crate::lab::series::{Table, interpolate, rms};
+use crate::{Case, Part, Row, Trouble};
+use std::f64::consts::TAU;
+use wingbeat_air::{AirError, AirSettings, CoreModel, Lattice, NodeMotion, Plane, Surface};
+use wingbeat_math::{DVec3, r1};
+
+pub(super) const CASES: &[Case] = &[Case {
+    name: "yeo-2011",
+    about: "A rigid rectangular wing with rounded tip flapping in a wind tunnel at zero incidence: lift \
+            that nine pressure ports gave, integrated over their areas.",
+    part: Part::Experiments,
+    quick: true,
+    run,
+}];
+
+const FREQUENCY: f64 = 3.3;
+const SPEED: f64 = 2.9;
+/// What bears lift: half span less the 5 mm of the rounded tip [m].
+const SPAN: f64 = 0.208;
+/// Areas of the ports [m2] in the order leading, middle, trailing: row blue near the root, orange,
+/// green near the tip.
+const AREAS: [(&str, [f64; 3]); 3] = [
+    ("blue", [0.072 * 0.024, 0.072 * 0.024, 0.072 * 0.024]),
+    ("orange", [0.07 * 0.02112, 0.07 * 0.02112, 0.07 * 0.02112]),
+    ("green", [0.071 * 0.015, 0.06565 * 0.015, 0.04165 * 0.015]),
+];
+
+/// Flap angle [rad] and rate [rad/s], tips up positive.
+fn flap(t: f64) -> [f64; 2] {
+    let a = [4.1e-5, -0.0322, -8.9e-7, 0.00046];
+    let b = [0.3793, -1.95e-6, -0.0035, -3.6e-6];
+    let (mut angle, mut rate) = (0.0354, 0.0);
+    for k in 0..4 {
+        let w = TAU * FREQUENCY * (k + 1) as f64;
+        let (s, c) = (w * t).sin_cos();
+        angle += a[k] * c + b[k] * s;
+        rate += w * (b[k] * c - a[k] * s);
+    }
+    [angle, rate]
+}
+
+/// Lift of both wings by the ports at hundredths of a beat [N].
+fn measured() -> Vec<f64> {
+    let table = Table::new(include_str!("../../data/yeo2011_pressures.csv"));
+    let (t, p) = (table.numbers("t_over_T"), table.numbers("pressure"));
+    let names: Vec<(String, String)> = (table.words("row").map(str::to_owned))
+        .zip(table.words("position").map(str::to_owned))
+        .collect();
+    let mut lift = vec![0.0; 100];
+    for (row, areas) in AREAS {
+        for (position, area) in ["leading", "middle", "trailing"].iter().zip(areas) {
+            let own: Vec<usize> = (0..t.len())
+                .filter(|&k| names[k].0 == row && names[k].1 == *position)
+                .collect();
+            let (t, p): (Vec<f64>, Vec<f64>) = own.iter().map(|&k| (t[k], p[k])).unzip();
+            for (k, lift) in lift.iter_mut().enumerate() {
+                let phase = k as f64 / 100.0;
+                let [angle, _] = flap(phase / FREQUENCY);
+                // Inches of water.
+                *lift += 2.0 * 248.84 * interpolate(&t, &p, phase) * area * angle.cos();
+            }
+        }
+    }
+    lift
+}
+
+/// Leading and trailing edge of the right wing at span positions [m], x aft.
+fn planform(mesh: [usize; 2]) -> Vec<DVec3> {
+    let table = Table::new(include_str!("../../data/yeo2011_wing_planform_mm.csv"));
+    let (y, x) = (table.numbers("span_mm"), table.numbers("chordwise_mm"));
+    let tip = (0..y.len())
+        .max_by(|&a, &b| y[a].total_cmp(&y[b]))
+        .unwrap_or(0);
+    let aft = |k: usize| 0.072 - 1e-3 * x[k];
+    let lead: (Vec<f64>, Vec<f64>) = (0..tip).map(|k| (1e-3 * y[k], aft(k))).unzip();
+    let trail: (Vec<f64>, Vec<f64>) = (tip..y.len()).rev().map(|k| (1e-3 * y[k], aft(k))).unzip();
+    let [rows, cols] = mesh;
+    let at = |i: usize, j: usize| {
+        let y = SPAN * j as f64 / cols as f64;
+        let (a, b) = (
+            interpolate(&lead.0, &lead.1, y),
+            interpolate(&trail.0, &trail.1, y),
+        );
+        DVec3::new(a + (b - a) * i as f64 / rows as f64, y, 0.0)
+    };
+    (0..=rows)
+        .flat_map(|i| (0..=cols).map(move |j| (i, j)))
+        .map(|(i, j)| at(i, j))
+        .collect()
+}
+
+/// Lift of both wings over the third beat at hundredths of it [N]; steps of about one panel.
+fn lift(mesh: [usize; 2]) -> Result<Vec<f64>, AirError> {
+    let per_beat = (SPEED / FREQUENCY / (0.072 / mesh[0] as f64)).round() as usize;
+    let core = CoreModel::Scully { radius: 0.002 };
+    let settings = AirSettings {
+        bound_core: core,
+        wake_core: core,
+        inset: 0.0, // the roots meet at the plane of symmetry
+        images: vec![Plane {
+            point: DVec3::ZERO,
+            normal: DVec3::Y,
+        }],
+        ..AirSettings::accurate(1.225, SPEED * DVec3::X)
+    };
+    let lattice = Lattice::new(vec![Surface::grid("wing", mesh[0], mesh[1])], settings)?;
+    let flat = planform(mesh);
+    let motion = |t: f64| {
+        let [angle, rate] = flap(t);
+        let position: Vec<DVec3> = flat.iter().map(|x| r1(angle) * *x).collect();
+        let velocity = position.iter().map(|x| rate * DVec3::X.cross(*x)).collect();
+        NodeMotion { position, velocity }
+    };
+    let dt = 1.0 / (FREQUENCY * per_beat as f64);
+    let mut lift = Vec::new();
+    fly(&lattice, motion, dt, 3 * per_beat, |_, _, loads, _| {
+        // Pressure normal to the wing, as the ports have it.
+        lift.push(2.0 * loads.surfaces[0].force.z);
+    })?;
+    let steps: Vec<f64> = (0..lift.len())
+        .map(|k| k as f64 / per_beat as f64)
+        .collect();
+    Ok((0..100)
+        .map(|k| interpolate(&steps, &lift, 2.0 + k as f64 / 100.0))
+        .collect())
+}
+
+fn run(quick: bool) -> Result<Vec<Row>, Trouble> {
+    let mesh = if quick {
+        [[2, 7], [3, 11]]
+    } else {
+        [[5, 18], [8, 28]]
+    };
+    let [coarse, fine] = [lift(mesh[0])?, lift(mesh[1])?];
+    let measured = measured();
+    let apart = |a: &[f64], b: &[f64]| {
+        a.iter().zip(b).map(|(a, b)| (a - b).abs()).sum::<f64>() / a.len() as f64
+    };
+    let mean = |x: &[f64]| x.iter().sum::<f64>() / x.len() as f64;
+    let source = "Yeo, Atkins, Shyy 2011, digitised in camUrban/PteraSoftware, validation";
+    let change = apart(&coarse, &fine);
+    let note =
+        "ports at nine places stand for the whole pressure; the flow is attached and inviscid";
+    Ok(vec![
+        Row::new(
+            "mean absolute error of lift over the third beat",
+            "N",
+            apart(&fine, &measured),
+        )
+        .uncertain(change)
+        .because("PteraSoftware states 0.0291 N on a measured rms of 0.0717 N for this case"),
+        Row::new(
+            "mean absolute error of lift, other program's less ours",
+            "N",
+            0.0291 - apart(&fine, &measured),
+        )
+        .because("positive: ours is nearer"),
+        Row::new("rms lift", "N", rms(&fine))
+            .against(rms(&measured), source)
+            .uncertain(change)
+            .because(note),
+        Row::new("mean lift", "N", mean(&fine))
+            .against(mean(&measured), source)
+            .uncertain(change)
+            .because(note),
+    ])
+}
