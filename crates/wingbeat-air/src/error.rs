@@ -157,6 +157,34 @@ pub enum AirError {
         /// Panel, counted in its surface.
         panel: usize,
     },
+    /// Two corners of a panel lie on one place: an edge without length.
+    #[error(
+        "air step {step}: nodes {from} and {to} of panel {panel} of surface {surface} coincide; a panel's edges have a length (a triangle names one node twice)"
+    )]
+    NoLength {
+        /// Accepted steps so far.
+        step: u64,
+        /// Name of the surface.
+        surface: String,
+        /// Panel, counted in its surface.
+        panel: usize,
+        /// One end, counted in the surface.
+        from: usize,
+        /// The other end.
+        to: usize,
+    },
+    /// The sides of a panel cross.
+    #[error(
+        "air step {step}: the sides of panel {panel} of surface {surface} cross; give its corners in their order round the panel"
+    )]
+    Crossed {
+        /// Accepted steps so far.
+        step: u64,
+        /// Name of the surface.
+        surface: String,
+        /// Panel, counted in its surface.
+        panel: usize,
+    },
     /// The influence equations have no unique solution.
     #[error(
         "air step {step}: the circulations cannot be found ({source}); look for coinciding panels or surfaces, or an open surface declared closed or the other way round"

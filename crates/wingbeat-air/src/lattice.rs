@@ -222,6 +222,28 @@ impl Lattice {
         }
     }
 
+    pub(crate) fn no_length(&self, panel: usize, nodes: [usize; 2], step: u64) -> AirError {
+        let first = self.topology.first_node[self.topology.panel_surface[panel]];
+        let [from, to] = nodes.map(|n| n - first);
+        let (surface, panel) = self.locate_panel(panel);
+        AirError::NoLength {
+            step,
+            surface,
+            panel,
+            from,
+            to,
+        }
+    }
+
+    pub(crate) fn crossed(&self, panel: usize, step: u64) -> AirError {
+        let (surface, panel) = self.locate_panel(panel);
+        AirError::Crossed {
+            step,
+            surface,
+            panel,
+        }
+    }
+
     pub(crate) fn flat_panel(&self, panel: usize, step: u64) -> AirError {
         let (surface, panel) = self.locate_panel(panel);
         AirError::FlatPanel {

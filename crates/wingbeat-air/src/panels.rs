@@ -37,7 +37,7 @@ impl Panels {
     /// Fills in all panels of the lattice, between the nodes of its rings.
     ///
     /// # Errors
-    /// Panels without area.
+    /// Panels without area, with an edge without length, with crossing sides.
     pub(crate) fn update(
         &mut self,
         lattice: &Lattice,
@@ -48,6 +48,12 @@ impl Panels {
         for (panel, corners) in lattice.topology().panels.iter().enumerate() {
             let x = corners.map(|n| motion.position[n]);
             let v = corners.map(|n| motion.velocity[n]);
+            if let Some([from, to]) = coincident(corners, &x) {
+                return Err(lattice.no_length(panel, [from, to], step));
+            }
+            if is_crossed(&x) {
+                return Err(lattice.crossed(panel, step));
+            }
             let vector_area = 0.5 * (x[2] - x[0]).cross(x[3] - x[1]);
             let normal = vector_area
                 .try_normalize()
@@ -60,6 +66,21 @@ impl Panels {
         }
         Ok(())
     }
+}
+
+/// Neighbouring corners, not the same node, on one place.
+fn coincident(corners: &[usize; 4], x: &[DVec3; 4]) -> Option<[usize; 2]> {
+    (0..4)
+        .map(|k| (k, (k + 1) % 4))
+        .find(|&(a, b)| corners[a] != corners[b] && x[a] == x[b])
+        .map(|(a, b)| [corners[a], corners[b]])
+}
+
+/// Whether two sides cross: then either diagonal cuts the panel into triangles that face opposite
+/// ways. (Where the panel is merely concave, one of the diagonals does not.)
+fn is_crossed(x: &[DVec3; 4]) -> bool {
+    let face = |a: usize, b: usize, c: usize| (x[b] - x[a]).cross(x[c] - x[a]);
+    face(0, 1, 2).dot(face(0, 2, 3)) < 0.0 && face(1, 2, 3).dot(face(1, 3, 0)) < 0.0
 }
 
 /// Mean over the corners, a repeated corner counted once.

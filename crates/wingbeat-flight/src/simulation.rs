@@ -5,7 +5,7 @@
 
 use std::sync::Arc;
 
-use wingbeat_air::AirState;
+use wingbeat_air::{AirState, Points};
 use wingbeat_dynamics::BodyMotion;
 use wingbeat_math::ode::{Multistep, Replay, StepError, StepReport, block_start};
 
@@ -138,6 +138,20 @@ impl Simulation {
                 ..Snapshot::default()
             },
         }
+    }
+
+    /// Velocity of the air [m/s] at `points` [m], N, at the newest step; none where the air is no
+    /// vortex lattice.
+    pub fn air_velocity(&self, points: &Points) -> Option<Points> {
+        let (side, air) = (self.equations().air.as_ref()?, self.state.air.as_ref()?);
+        let (mut ws, mut velocity) = (side.lattice.workspace(), Points::default());
+        let sampled = side.lattice.velocity(air, points, &mut ws, &mut velocity);
+        sampled.ok().map(|()| velocity)
+    }
+
+    /// Time of the newest step [s].
+    pub fn newest_time(&self) -> f64 {
+        self.time(self.state.step)
     }
 
     /// Whether the last step of the setup has been made.

@@ -6,6 +6,7 @@ mod export;
 mod progress;
 mod run;
 mod show;
+mod velocity;
 mod verify;
 mod view;
 
@@ -60,6 +61,8 @@ enum Command {
     Power(analyse::power::PowerArgs),
     /// Trim, disturb, and fly under feedback.
     Stabilise(analyse::stabilise::StabiliseArgs),
+    /// The velocity of the air at points, on a line or on a plane, from a run.
+    Velocity(velocity::VelocityArgs),
     /// Run the verification suite and write its dossier: what is claimed of the air, against what,
     /// how far off.
     Verify(verify::VerifyArgs),
@@ -141,6 +144,7 @@ fn main() -> ExitCode {
         Command::Derivatives(args) => return analyse::derivatives::run(&args),
         Command::Power(args) => return analyse::power::run(&args),
         Command::Stabilise(args) => return analyse::stabilise::run(&args),
+        Command::Velocity(args) => return velocity::run(&args),
         Command::Verify(args) => return verify::run(&args),
         Command::Presets => {
             list();

@@ -89,10 +89,22 @@ fn exact_step_errors() {
         Err(AirError::SurfaceNotFinite { node: 5, .. })
     ));
     bad = good.clone();
-    bad.position = vec![DVec3::ZERO; 9];
+    bad.position = (0..9).map(|k| k as f64 * DVec3::X).collect();
     assert!(matches!(
         loads(&state, 1.0, &bad),
         Err(AirError::FlatPanel { panel: 0, .. })
+    ));
+    bad = good.clone();
+    bad.position[8] = bad.position[7];
+    assert!(matches!(
+        loads(&state, 1.0, &bad),
+        Err(AirError::NoLength { panel: 3, from, to, .. }) if from.min(to) == 7 && from.max(to) == 8
+    ));
+    bad = good.clone();
+    bad.position.swap(7, 8);
+    assert!(matches!(
+        loads(&state, 1.0, &bad),
+        Err(AirError::Crossed { panel: 2 | 3, .. })
     ));
     bad.velocity.pop();
     assert!(matches!(

@@ -90,7 +90,8 @@ fn factors(axes: DVec3) -> [f64; 3] {
 
 const EDGES: &str = "6 n^2 panels of first order, and of less where three or four rows of different \
                      directions meet: 0.1 at n = 8";
-const THIN: &str = "first order of 1/n: the cube's mesh stretched to 3 : 2 : 1 has steep panels at the ends";
+const THIN: &str =
+    "first order of 1/n: the cube's mesh stretched to 3 : 2 : 1 has steep panels at the ends";
 const LAST: &str = "no more than the last refinement, from n to 2 n panels a side, still changes";
 
 fn ball(quick: bool) -> Result<Vec<Row>, Trouble> {
