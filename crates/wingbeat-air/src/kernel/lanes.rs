@@ -5,7 +5,7 @@
 
 use super::model::CoreModel;
 use super::packed::{Packed, PackedEdge, Patch, WINDOW};
-use super::reference::{EXP_TAYLOR, STRENGTH};
+use super::reference::{EXP_POLYNOMIAL, STRENGTH};
 use fearless_simd::{Level, dispatch, prelude::*};
 use std::ops::Range;
 
@@ -290,13 +290,13 @@ fn bare<S: Simd>(
 /// [`super::reference::one_minus_exp`].
 #[inline(always)]
 fn one_minus_exp<S: Simd>(simd: S, x: S::f64s) -> S::f64s {
+    let a = EXP_POLYNOMIAL;
     let top = S::f64s::splat(simd, 40.0);
     let y = x.simd_lt(top).select(x, top) * (1.0 / 64.0);
-    let mut u = S::f64s::splat(simd, 0.0);
-    for c in EXP_TAYLOR {
-        u = u * y + c;
-    }
-    u *= y;
+    let (y2, pair) = (y * y, |i: usize| y * a[i + 1] + a[i]);
+    let y4 = y2 * y2;
+    let (low, middle) = (pair(0) + pair(2) * y2, pair(4) + pair(6) * y2);
+    let mut u = ((low + middle * y4) + pair(8) * (y4 * y4)) * y;
     let two = S::f64s::splat(simd, 2.0);
     for _ in 0..6 {
         u = u * (two - u);
