@@ -188,7 +188,7 @@ fn refuse(e: &IoError) -> ExitCode {
 fn list() {
     println!("Presets (wingbeat run NAME, wingbeat new NAME):");
     for preset in presets::PRESETS {
-        println!("  {:<22}{}", preset.name, preset.line());
+        println!("  {:<27}{}", preset.name, preset.line());
     }
     println!("\nSets of wing angles (motion.data):");
     for (name, line) in case::data_sets() {
