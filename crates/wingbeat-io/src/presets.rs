@@ -49,6 +49,7 @@ presets![
     "robobee",
     "dragonfly",
     "rectangular-wing",
+    "flapping-rectangles",
     "robofly-advanced",
     "robofly-symmetrical",
     "robofly-delayed",

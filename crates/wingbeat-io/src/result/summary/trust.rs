@@ -1,6 +1,6 @@
 //! How far the results can be trusted.
 
-use wingbeat_air::CoreModel;
+use wingbeat_air::{Convection, CoreModel, LoadMethod};
 use wingbeat_flight::{AirModel, FlightSetup, FormulationChoice, MotionMode};
 
 use super::{BeatMeans, Summary};
@@ -72,7 +72,14 @@ fn air_warnings(
     list: &mut Vec<String>,
 ) {
     let lattice = &air.lattice;
-    list.push("The air is inviscid: no friction, so at insect Reynolds numbers (100 to 1000) drag and power come out low. Forces are pressure times normal, without leading-edge suction.".to_owned());
+    let suction = match lattice.loads {
+        LoadMethod::Pressure => "Forces are pressure times normal, without leading-edge suction.",
+        LoadMethod::Joukowski => "Forces hold the full suction of the edges that do not shed.",
+        LoadMethod::Polhamus => "The suction of attached leading edges is turned into a normal force (Polhamus).",
+    };
+    list.push(format!(
+        "The air is inviscid: no friction, so at insect Reynolds numbers (100 to 1000) drag and power come out low. {suction}"
+    ));
     let chord = setup
         .animal
         .wing_reports()
@@ -89,7 +96,7 @@ fn air_warnings(
     if lattice.shedding.leading {
         list.push("Leading edges shed: such sheets have no converged history beyond the first half stroke. Read means over several beats and their spread, not single peaks.".to_owned());
     }
-    if setup.time.period.is_some() {
+    if setup.time.period.is_some() && lattice.convection == Convection::Euler {
         list.push("The air is first order in the step and the wings are coarse: halve the step and double the panels before quoting a number.".to_owned());
     }
     let weights = |b: &BeatMeans| b.lift_over_weight.unwrap_or(0.0).abs();
