@@ -75,7 +75,9 @@ fn air_warnings(
     let suction = match lattice.loads {
         LoadMethod::Pressure => "Forces are pressure times normal, without leading-edge suction.",
         LoadMethod::Joukowski => "Forces hold the full suction of the edges that do not shed.",
-        LoadMethod::Polhamus => "The suction of attached leading edges is turned into a normal force (Polhamus).",
+        LoadMethod::Polhamus => {
+            "The suction of attached leading edges is turned into a normal force (Polhamus)."
+        }
     };
     list.push(format!(
         "The air is inviscid: no friction, so at insect Reynolds numbers (100 to 1000) drag and power come out low. {suction}"
