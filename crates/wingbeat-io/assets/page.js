@@ -244,7 +244,17 @@ for (const chart of flight.charts) for (const panel of chart.panels) {
   c.addEventListener("pointerdown", seek);
   c.addEventListener("pointermove", (e) => { if (e.buttons) seek(e); });
 }
-const LEFT = 62, RIGHT = 10, TOP = 22, BOTTOM = 18;
+const LEFT = 62, RIGHT = 10, BOTTOM = 18, ROW = 15;
+// Where the legend's entries stand: after the name of the axis, in more rows where one is too short.
+function legend(p, g, w) {
+  let at = 14 + g.measureText(p.panel.label).width, row = 0;
+  return p.panel.series.map((s) => {
+    const text = "— " + s.label + (s.values.every((v) => v === 0) ? " = 0" : ""), width = g.measureText(text).width + 10;
+    if (at + width > w && at > LEFT) { at = LEFT; row += 1; }
+    at += width;
+    return { text, x: at - width, y: 14 + ROW * row };
+  });
+}
 const span = (p) => [p.chart.x[0], p.chart.x[p.chart.x.length - 1]];
 const toX = (p, px) => { const [a, b] = span(p); return a + (b - a) * (px - LEFT) / (p.c.clientWidth - LEFT - RIGHT); };
 function range(panel) {
@@ -272,9 +282,10 @@ function drawPlot(p) {
   g.scale(ratio, ratio);
   const [x0, x1] = span(p), [y0, y1] = range(p.panel);
   const X = (x) => LEFT + (w - LEFT - RIGHT) * (x - x0) / (x1 - x0 || 1), Y = (y) => h - BOTTOM - (h - TOP - BOTTOM) * (y - y0) / (y1 - y0);
+  g.font = "11px system-ui, sans-serif";
+  const entries = legend(p, g, w), TOP = 8 + Math.max(14, ...entries.map((e) => e.y));
   g.fillStyle = "#ececf0";
   for (const [a, b] of p.chart.shaded) g.fillRect(X(a), TOP, X(b) - X(a), h - TOP - BOTTOM);
-  g.font = "11px system-ui, sans-serif";
   g.strokeStyle = "#d5d9e0"; g.fillStyle = "#374151"; g.lineWidth = 1;
   g.textAlign = "right"; g.textBaseline = "middle";
   for (const t of ticks(y0, y1)) {
@@ -286,11 +297,9 @@ function drawPlot(p) {
   for (const t of ticks(x0, x1)) if (X(t) < free) g.fillText(String(+t.toPrecision(4)), X(t), h - 5);
   g.textAlign = "right"; g.fillText(p.chart.x_label, w - RIGHT, h - 5);
   g.textAlign = "left"; g.fillText(p.panel.label, 6, 14);
-  let at = 14 + g.measureText(p.panel.label).width;
   p.panel.series.forEach((s, k) => {
     g.strokeStyle = g.fillStyle = COLOURS[k % COLOURS.length];
-    g.fillText("— " + s.label, at, 14);
-    at += g.measureText("— " + s.label).width + 10;
+    g.fillText(entries[k].text, entries[k].x, entries[k].y);
     g.lineWidth = 1.5;
     g.beginPath();
     let pen = false;

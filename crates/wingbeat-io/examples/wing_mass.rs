@@ -42,7 +42,7 @@ fn main() -> Result<(), Any> {
             .map(|(label, k)| panel(label, &differences, k))
             .to_vec(),
     };
-    std::fs::write(&figure, chart.to_svg()?)?;
+    std::fs::write(&figure, chart.to_svg())?;
     println!("drawn: {figure}");
     Ok(())
 }

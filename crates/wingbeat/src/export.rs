@@ -29,7 +29,7 @@ fn format(name: &str) -> Result<Format, String> {
 
 /// The whole command.
 pub(crate) fn export(args: &ExportArgs) -> Result<(), IoError> {
-    let dir = ResultDir::open(&args.dir)?;
+    let dir = ResultDir::read(&args.dir)?;
     let into = args.out.as_ref().unwrap_or(&args.dir);
     for file in export::export(&dir, args.format, into)? {
         println!("wrote {}", file.display());

@@ -3,6 +3,7 @@
 mod analyse;
 mod check;
 mod export;
+mod plot;
 mod progress;
 mod run;
 mod show;
@@ -36,6 +37,8 @@ enum Command {
     Resume(ResumeArgs),
     /// Write the flight page of a run, one HTML file, and open it in the browser.
     View(view::ViewArgs),
+    /// Draw figures of a run: SVG or PNG for papers and screens, or an animation.
+    Plot(plot::PlotArgs),
     /// Write a run in a format of other programs: hdf5, vtkhdf, parquet or gltf.
     Export(export::ExportArgs),
     /// Say what happened in a run, finished or not.
@@ -135,6 +138,7 @@ fn main() -> ExitCode {
         Command::Run(args) => return run::run(&args),
         Command::Resume(args) => return run::resume(&args),
         Command::View(args) => view::view(&args),
+        Command::Plot(args) => plot::plot(&args),
         Command::Export(args) => export::export(&args),
         Command::Show(args) => show::show(&args),
         Command::Compare(args) => show::compare(&args),

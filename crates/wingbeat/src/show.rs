@@ -28,7 +28,7 @@ pub(crate) struct CompareArgs {
 }
 
 fn read(dir: &Path) -> Result<(Summary, Manifest), IoError> {
-    let dir = ResultDir::open(dir)?;
+    let dir = ResultDir::read(dir)?;
     let manifest = dir.manifest()?;
     let summary = Summary::read(&dir.case()?, &dir.join("history.csv"), &manifest.outcome)?;
     Ok((summary, manifest))

@@ -21,7 +21,7 @@ pub(crate) struct ViewArgs {
 
 /// The whole command.
 pub(crate) fn view(args: &ViewArgs) -> Result<(), IoError> {
-    let dir = ResultDir::open(&args.dir)?;
+    let dir = ResultDir::read(&args.dir)?;
     let page = page::write(&dir, (args.size * 1e6).max(0.0) as usize)?;
     println!("wrote {}", page.display());
     if !args.no_open && !open(&page) {

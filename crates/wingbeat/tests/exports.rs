@@ -198,7 +198,10 @@ fn refuses_exports_of_what_is_not_there() {
     let path = scratch.0.join("run/history.csv");
     let text = fs::read_to_string(&path).unwrap();
     fs::write(&path, text.replacen("0,", "zero,", 3)).unwrap();
-    refused(&["export", "run", "--format", "parquet"], "is not a number");
+    refused(
+        &["export", "run", "--format", "parquet"],
+        "it was cut or changed",
+    );
     assert!(!scratch.0.join("run/history.parquet").exists());
     assert!(!scratch.0.join("run/history.parquet.part").exists());
 }

@@ -189,7 +189,7 @@ fn refuses_damaged_and_missing_frames() {
     let mut flipped = whole.clone();
     flipped[whole.len() / 2] = b'!';
     fs::write(&path, &flipped).unwrap();
-    refused("wakes_000004.vtp`: the array");
+    refused("wakes_000004.vtp`: this frame is damaged");
     fs::remove_file(&path).unwrap();
     refused("this frame is missing");
     let out = wingbeat(&scratch.0, &["view", "."]);

@@ -68,7 +68,14 @@ fn exact_a_result_directory_recreates_its_run_bit_for_bit() {
         manifest.case_sha256,
         result::manifest::sha256(&read("two/case.toml"))
     );
-    for figure in ["lift", "trajectory", "wings", "balances"] {
+    for figure in [
+        "forces",
+        "trajectory",
+        "angles",
+        "balances",
+        "lollipop",
+        "phase",
+    ] {
         let svg = fs::read_to_string(scratch.0.join(format!("one/figures/{figure}.svg"))).unwrap();
         assert!(svg.starts_with("<svg") && svg.trim_end().ends_with("</svg>"));
     }

@@ -30,7 +30,8 @@ pub(super) fn write(source: &Source, name: &str, path: &Path) -> Result<(), IoEr
         .iter()
         .map(|f| Mesh::count(f))
         .collect::<Result<_, _>>()?;
-    let names = Mesh::read(&files[0])?.cells.into_keys().collect();
+    let part = |step: usize| Frame::part(source.dir.path(), step, wakes);
+    let names = part(steps[0])?.cells.into_keys().collect();
     let mut layout = Layout::default();
     let places = Places::new(&counts, names, &mut layout);
     let mut file = layout.create(path).map_err(IoError::write(path))?;
@@ -40,8 +41,8 @@ pub(super) fn write(source: &Source, name: &str, path: &Path) -> Result<(), IoEr
         .head(&mut file, &counts, &times)
         .map_err(IoError::write(path))?;
     let mut at = [0; 2];
-    for (k, f) in files.iter().enumerate() {
-        let mesh = Mesh::read(f)?;
+    for (k, step) in steps.iter().enumerate() {
+        let mesh = part(*step)?;
         places
             .frame(&mut file, k, at, &mesh)
             .map_err(IoError::write(path))?;

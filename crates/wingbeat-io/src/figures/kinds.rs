@@ -1,6 +1,7 @@
-//! Which figures there are and what they show.
+//! Figures over time: angles, forces, trajectory, balances.
 
 use wingbeat_flight::FlightSetup;
+use wingbeat_math::DVec3;
 
 use super::chart::{Chart, Panel};
 use super::time_axis;
@@ -8,15 +9,15 @@ use crate::result::History;
 use crate::result::columns::body_names;
 use crate::result::summary::{air_force, down, hinge_power};
 
-/// The figures of a run by file name.
+/// The charts over time that make sense for a run, by kind.
 pub(super) fn all(setup: &FlightSetup, history: &History) -> Vec<(&'static str, Chart)> {
     let mut list = vec![];
     if setup.air.is_some() {
-        list.push(("lift", lift(setup, history)));
+        list.push(("forces", forces(setup, history)));
     }
     list.push(("trajectory", trajectory(setup, history)));
     if setup.time.period.is_some() {
-        list.push(("wings", wings(setup, history)));
+        list.push(("angles", angles(setup, history)));
     }
     list.push(("balances", balances(setup, history)));
     list
@@ -39,102 +40,107 @@ fn chart(setup: &FlightSetup, history: &History, title: &str, panels: Vec<Panel>
     }
 }
 
-fn scaled(values: &[f64], factor: f64) -> Vec<f64> {
+pub(super) fn scaled(values: &[f64], factor: f64) -> Vec<f64> {
     values.iter().map(|v| v * factor).collect()
 }
 
-/// Intervals in which the tip of the last (right) wing moves down or forward: towards +axis 3
-/// or, in a horizontal stroke plane, ventrally: its stroke angle phi rises.
-fn downstrokes(setup: &FlightSetup, history: &History, x: &[f64]) -> Vec<[f64; 2]> {
-    let Some(wing) = setup
-        .animal
-        .wings
-        .last()
-        .filter(|_| setup.time.period.is_some())
-    else {
+/// Name in column names of the wing that stands for all, the last one, and the sign that makes its
+/// stroke angle rise in the downstroke; none for a motion without a period.
+pub(super) fn reference_wing(setup: &FlightSetup) -> Option<(String, f64)> {
+    setup.time.period?;
+    let wing = setup.animal.wings.last()?;
+    let name = body_names(&setup.animal).swap_remove(setup.animal.wings.len());
+    Some((name, wing.side.sign()))
+}
+
+/// Whether the reference wing goes down (or forward: its stroke angle phi rises) from each row to
+/// the next.
+pub(super) fn goes_down(setup: &FlightSetup, history: &History) -> Vec<bool> {
+    let Some((wing, sign)) = reference_wing(setup) else {
         return vec![];
     };
-    let name = body_names(&setup.animal).pop().unwrap_or_default();
-    let phi = history.column(&format!("{name}_prescribed_phi_rad"));
-    let sign = wing.side.sign();
+    let phi = history.column(&format!("{wing}_prescribed_phi_rad"));
+    phi.windows(2).map(|p| sign * (p[1] - p[0]) > 0.0).collect()
+}
+
+/// Intervals of the downstroke.
+pub(super) fn downstrokes(setup: &FlightSetup, history: &History, x: &[f64]) -> Vec<[f64; 2]> {
     let mut list: Vec<[f64; 2]> = vec![];
-    for k in 1..phi.len().min(x.len()) {
-        if sign * (phi[k] - phi[k - 1]) <= 0.0 {
-            continue;
-        }
+    for (ends, down) in x.windows(2).zip(goes_down(setup, history)) {
         match list.last_mut() {
-            Some(last) if last[1] == x[k - 1] => last[1] = x[k],
-            _ => list.push([x[k - 1], x[k]]),
+            _ if !down => {}
+            Some(last) if last[1] == ends[0] => last[1] = ends[1],
+            _ => list.push([ends[0], ends[1]]),
         }
     }
     list
 }
 
-fn lift(setup: &FlightSetup, history: &History) -> Chart {
+/// What forces are given in: unit as a label, and the factor from newtons.
+pub(super) fn force_unit(setup: &FlightSetup, values: &[f64]) -> (String, f64) {
     let weight = setup.animal.mass() * setup.gravity.length();
-    let up = air_force(history, -down(setup));
-    let forward = air_force(history, wingbeat_math::DVec3::X);
-    let (unit, factor) = if weight > 0.0 {
-        ("weight", 1.0 / weight)
-    } else {
-        ("N", 1.0)
-    };
-    let label = if weight > 0.0 {
-        "air force / weight".to_owned()
-    } else {
-        "air force [N]".to_owned()
-    };
-    let forces = Panel::new(
-        &label,
-        vec![
-            ("up", scaled(&up, factor)),
-            ("forward", scaled(&forward, factor)),
-        ],
-    );
-    let (scale, prefix) = prefix(&hinge_power(history));
-    let power = Panel::new(
-        &format!("hinge power [{prefix}W]"),
-        vec![("power", scaled(&hinge_power(history), 1.0 / scale))],
-    );
-    let title = if unit == "weight" {
-        "lift over weight, hinge power"
-    } else {
-        "air force, hinge power"
-    };
-    chart(setup, history, title, vec![forces, power])
+    if weight > 0.0 {
+        return ("weight".to_owned(), 1.0 / weight);
+    }
+    let (scale, prefix) = prefix(values);
+    (format!("{prefix}N"), 1.0 / scale)
 }
 
-/// A decimal prefix that suits the largest magnitude.
-fn prefix(values: &[f64]) -> (f64, &'static str) {
-    let top = values.iter().fold(0.0_f64, |a, v| a.max(v.abs()));
-    let all = [(1.0, ""), (1e-3, "m"), (1e-6, "u"), (1e-9, "n")];
-    all.into_iter()
-        .find(|(s, _)| top >= *s)
-        .unwrap_or((1.0, ""))
+fn forces(setup: &FlightSetup, history: &History) -> Chart {
+    let up = air_force(history, -down(setup));
+    let forward = air_force(history, DVec3::X);
+    let right = air_force(history, DVec3::Y);
+    let (unit, factor) = force_unit(setup, &up);
+    let size = |f: &[f64]| f.iter().fold(0.0_f64, |a, v| a.max(v.abs()));
+    let mut series = vec![
+        ("up", scaled(&up, factor)),
+        ("forward", scaled(&forward, factor)),
+    ];
+    if size(&right) > 1e-9 * size(&up).max(size(&forward)) {
+        series.push(("right", scaled(&right, factor)));
+    }
+    let label = match &unit[..] {
+        "weight" => "force of the air / weight".to_owned(),
+        _ => format!("force of the air [{unit}]"),
+    };
+    let power = hinge_power(history);
+    let (scale, prefix) = prefix(&power);
+    let panels = vec![
+        Panel::new(&label, series),
+        Panel::new(
+            &format!("power of the hinges [{prefix}W]"),
+            vec![("power", scaled(&power, 1.0 / scale))],
+        ),
+    ];
+    chart(setup, history, "forces and power", panels)
+}
+
+/// A decimal prefix that suits the largest magnitude, and its factor.
+pub(super) fn prefix(values: &[f64]) -> (f64, &'static str) {
+    let finite = values.iter().filter(|v| v.is_finite());
+    let top = finite.fold(0.0_f64, |a, v| a.max(v.abs()));
+    let all = [(1e3, "k"), (1.0, ""), (1e-3, "m"), (1e-6, "µ"), (1e-9, "n")];
+    let fits = |(scale, _): &(f64, &str)| top >= 0.99 * scale;
+    let smallest = if top > 0.0 { all[4] } else { all[1] };
+    all.into_iter().find(fits).unwrap_or(smallest)
 }
 
 fn trajectory(setup: &FlightSetup, history: &History) -> Chart {
-    let from_start = |name: &str, factor: f64| {
-        let c = history.column(name);
-        c.iter().map(|v| (v - c[0]) * factor).collect::<Vec<f64>>()
-    };
     let path: Vec<Vec<f64>> = ["body_x_m", "body_y_m", "body_z_m"]
         .iter()
-        .map(|n| from_start(n, 1.0))
+        .map(|name| from_start(history.column(name)))
         .collect();
     let all: Vec<f64> = path.iter().flatten().copied().collect();
     let (scale, unit) = prefix(&all);
-    let path: Vec<Vec<f64>> = path.iter().map(|c| scaled(c, 1.0 / scale)).collect();
     let position = Panel::new(
-        &format!("position [{unit}m]"),
+        &format!("position from the start [{unit}m]"),
         vec![
-            ("forward n1", path[0].clone()),
-            ("right n2", path[1].clone()),
-            ("up -n3", scaled(&path[2], -1.0)),
+            ("forward n1", scaled(&path[0], 1.0 / scale)),
+            ("right n2", scaled(&path[1], 1.0 / scale)),
+            ("up −n3", scaled(&path[2], -1.0 / scale)),
         ],
     );
-    let degrees = 1f64.to_degrees();
-    let angle = |name: &str| scaled(history.column(name), degrees);
+    let angle = |name: &str| scaled(history.column(name), 1f64.to_degrees());
     let attitude = Panel::new(
         "attitude [deg]",
         vec![
@@ -143,77 +149,92 @@ fn trajectory(setup: &FlightSetup, history: &History) -> Chart {
             ("roll", angle("body_psi_rad")),
         ],
     );
-    chart(
-        setup,
-        history,
-        "path from the start and attitude",
-        vec![position, attitude],
-    )
+    let panels = vec![position, attitude];
+    chart(setup, history, "path of the body and attitude", panels)
 }
 
-fn wings(setup: &FlightSetup, history: &History) -> Chart {
-    let panels = body_names(&setup.animal)[1..]
-        .iter()
-        .map(|wing| {
-            let angle = |k: &str| {
-                scaled(
-                    history.column(&format!("{wing}_prescribed_{k}_rad")),
-                    1f64.to_degrees(),
-                )
-            };
-            let series = vec![
-                ("stroke phi", angle("phi")),
-                ("deviation theta", angle("theta")),
-                ("feathering psi", angle("psi")),
-            ];
-            Panel::new(&format!("{} [deg]", wing.replace('_', " ")), series)
-        })
-        .collect();
-    chart(setup, history, "wing angles", panels)
+/// Differences to the first number.
+pub(super) fn from_start(values: &[f64]) -> Vec<f64> {
+    let first = values.first().copied().unwrap_or(0.0);
+    values.iter().map(|v| v - first).collect()
+}
+
+fn angles(setup: &FlightSetup, history: &History) -> Chart {
+    let names = body_names(&setup.animal);
+    let panels = names[1..][..setup.animal.wings.len()].iter().map(|wing| {
+        let angle = |k: &str| {
+            let column = format!("{wing}_prescribed_{k}_rad");
+            scaled(history.column(&column), 1f64.to_degrees())
+        };
+        let series = vec![
+            ("stroke φ", angle("phi")),
+            ("deviation θ", angle("theta")),
+            ("feathering ψ", angle("psi")),
+        ];
+        Panel::new(&format!("{} [deg]", wing.replace('_', " ")), series)
+    });
+    chart(setup, history, "prescribed wing angles", panels.collect())
 }
 
 fn balances(setup: &FlightSetup, history: &History) -> Chart {
     let column = |name: &str| history.column(name).to_vec();
-    let magnitude = |stem: &str, unit: &str| -> Vec<f64> {
-        let c = |k: usize| history.column(&format!("{stem}_n{k}_{unit}"));
-        let squares = c(1).iter().zip(c(2)).zip(c(3));
-        squares
-            .map(|((a, b), c)| (a * a + b * b + c * c).sqrt())
-            .collect()
-    };
-    let constraints = Panel::new(
-        "violation",
-        vec![
-            ("position [m]", column("violation_position_m")),
-            (
-                "orientation [1]",
-                column("violation_orientation_dimensionless"),
-            ),
-        ],
-    );
-    let energy = Panel::new(
-        "energy [J]",
-        vec![
-            ("work of hinges", column("hinge_work_joule")),
-            ("work of air", column("air_work_joule")),
-            ("kinetic", column("kinetic_energy_joule")),
-            ("residual", column("energy_residual_joule")),
-        ],
-    );
-    let momentum = Panel::new(
-        "momentum [kg m/s]",
-        vec![
-            ("momentum", magnitude("momentum", "kg_m_per_s")),
-            ("residual", magnitude("momentum_residual", "kg_m_per_s")),
-        ],
-    );
-    let panels = vec![
-        constraints.logarithmic(),
-        energy.logarithmic(),
-        momentum.logarithmic(),
+    let names = [
+        ("kinetic", "kinetic_energy_joule"),
+        ("potential", "potential_energy_joule"),
+        ("work of hinges", "hinge_work_joule"),
+        ("work of air", "air_work_joule"),
+        ("work of loads", "applied_work_joule"),
+        ("residual", "energy_residual_joule"),
     ];
-    let mut chart = chart(setup, history, "constraints and balances", panels);
+    let mut energies: Vec<(&str, Vec<f64>)> =
+        names.map(|(label, name)| (label, column(name))).into();
+    energies[1].1 = from_start(&energies[1].1);
+    energies.retain(|(label, values)| *label == "residual" || values.iter().any(|v| *v != 0.0));
+    let all: Vec<f64> = energies.iter().flat_map(|e| &e.1).copied().collect();
+    let (scale, prefix) = prefix(&all);
+    let residual = energies.last().map_or(vec![], |e| e.1.clone());
+    let shown = energies
+        .into_iter()
+        .map(|(label, values)| (label, scaled(&values, 1.0 / scale)));
+    let momentum = vec![
+        ("momentum", magnitude(history, "momentum", "kg_m_per_s")),
+        (
+            "residual",
+            magnitude(history, "momentum_residual", "kg_m_per_s"),
+        ),
+    ];
+    let constraints = vec![
+        ("position [m]", column("violation_position_m")),
+        (
+            "orientation [1]",
+            column("violation_orientation_dimensionless"),
+        ),
+    ];
+    let mut panels = vec![
+        Panel::new(&format!("energy [{prefix}J]"), shown.collect()),
+        Panel::new("energy residual [J]", vec![("residual", residual)]).logarithmic(),
+        Panel::new("momentum [kg m/s]", momentum).logarithmic(),
+    ];
+    // Forms that cannot violate a constraint have nothing to show.
+    if constraints.iter().flat_map(|c| &c.1).any(|v| *v != 0.0) {
+        panels.push(Panel::new("violation of constraints", constraints).logarithmic());
+    }
+    let mut chart = chart(
+        setup,
+        history,
+        "balances (magnitudes on logarithmic axes)",
+        panels,
+    );
     chart.shaded.clear();
-    chart.title = format!("{}: constraints and balances (magnitudes)", setup.name);
+    chart.title = format!("{}: balances (magnitudes on logarithmic axes)", setup.name);
     chart
+}
+
+/// Length of a vector, row by row.
+fn magnitude(history: &History, stem: &str, unit: &str) -> Vec<f64> {
+    let c = |k: usize| history.column(&format!("{stem}_n{k}_{unit}"));
+    let parts = c(1).iter().zip(c(2)).zip(c(3));
+    parts
+        .map(|((a, b), c)| DVec3::new(*a, *b, *c).length())
+        .collect()
 }

@@ -1,11 +1,8 @@
 //! The figure of a flight under feedback.
 
-use std::path::Path;
-
 use wingbeat_math::DVec3;
 
 use super::{Chart, Panel, Series};
-use crate::error::IoError;
 
 /// What is seen at the start of a wingbeat.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -22,17 +19,8 @@ pub struct BeatRow {
     pub offset: f64,
 }
 
-/// Tilt, place in wing lengths (`length` [m]) and commands over the wingbeats as SVG, meant for
-/// `path`.
-///
-/// # Errors
-/// A figure that cannot be drawn.
-pub fn stabilised(
-    name: &str,
-    length: f64,
-    rows: &[BeatRow],
-    path: &Path,
-) -> Result<String, IoError> {
+/// Tilt, place in wing lengths (`length` [m]) and commands over the wingbeats as SVG.
+pub fn stabilised(name: &str, length: f64, rows: &[BeatRow]) -> String {
     let chart = Chart {
         title: format!("{name}: disturbed and flown under feedback"),
         x_label: "wingbeats".into(),
@@ -40,10 +28,7 @@ pub fn stabilised(
         shaded: vec![],
         panels: panels(length, rows),
     };
-    chart.to_svg().map_err(|problem| IoError::Figure {
-        path: path.to_owned(),
-        problem,
-    })
+    chart.to_svg()
 }
 
 fn panels(length: f64, rows: &[BeatRow]) -> Vec<Panel> {

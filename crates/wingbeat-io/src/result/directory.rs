@@ -113,6 +113,19 @@ impl ResultDir {
         })
     }
 
+    /// An existing result directory whose case and history are the ones that were written, by
+    /// their hashes.
+    ///
+    /// # Errors
+    /// [`IoError::Damaged`] for a directory that holds no run, a case or history that is missing
+    /// or was changed.
+    pub fn read(path: &Path) -> Result<Self, IoError> {
+        super::saver::check(path)?;
+        Ok(Self {
+            path: path.to_owned(),
+        })
+    }
+
     /// The case that was flown.
     ///
     /// # Errors

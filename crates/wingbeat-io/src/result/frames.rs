@@ -7,7 +7,8 @@ use std::path::{Path, PathBuf};
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
 
-use super::vtp::frame_name;
+use super::manifest::sha256;
+use super::vtp::{CHECKSUM, frame_name};
 use crate::error::IoError;
 
 /// One `.vtp` file: points, quadrilaterals and numbers per quadrilateral.
@@ -49,8 +50,7 @@ pub fn steps(dir: &Path) -> Result<Vec<usize>, IoError> {
     let index = std::fs::read_to_string(dir.join("flight.pvd")).unwrap_or_default();
     for name in index.split("file=\"frames/").skip(1) {
         let name = name.split('"').next().unwrap_or("");
-        let known = step_of(&name.replace("wakes", "surfaces"));
-        if known.is_none_or(|k| steps.binary_search(&k).is_err()) {
+        if !folder.join(name).is_file() {
             return Err(IoError::Damaged {
                 path: folder.join(name),
                 problem: "this frame is missing though flight.pvd names it; put it back, or fly the case again".to_owned(),
@@ -76,12 +76,20 @@ impl Frame {
     /// # Errors
     /// A file that cannot be read or is damaged.
     pub fn read(dir: &Path, step: usize) -> Result<Self, IoError> {
-        let [surfaces, wakes] = Self::paths(dir, step);
         Ok(Self {
             step,
-            surfaces: Mesh::read(&surfaces)?,
-            wakes: Mesh::read(&wakes)?,
+            surfaces: Self::part(dir, step, 0)?,
+            wakes: Self::part(dir, step, 1)?,
         })
+    }
+
+    /// Reads the surfaces (0) or the wakes (1) of a step.
+    ///
+    /// # Errors
+    /// A file that cannot be read, is damaged, or holds the other part.
+    pub fn part(dir: &Path, step: usize, part: usize) -> Result<Mesh, IoError> {
+        let path = &Self::paths(dir, step)[part];
+        Mesh::read(path)?.with(path, ["pressure_jump_pascal", "sheet"][part])
     }
 }
 
@@ -95,6 +103,19 @@ impl Mesh {
         Self::parse(&text).map_err(|problem| IoError::Damaged {
             path: path.to_owned(),
             problem: format!("{problem}; fly the case again with `wingbeat run case.toml`"),
+        })
+    }
+
+    /// The mesh, if it has the array that surfaces or wakes are known by.
+    fn with(self, path: &Path, name: &str) -> Result<Self, IoError> {
+        if self.cells.contains_key(name) && self.cells.contains_key("circulation_m2_per_s") {
+            return Ok(self);
+        }
+        Err(IoError::Damaged {
+            path: path.to_owned(),
+            problem: format!(
+                "this frame has no array `{name}`: another frame stands in its place; fly the case again with `wingbeat run case.toml`"
+            ),
         })
     }
 
@@ -127,9 +148,7 @@ impl Mesh {
     /// # Errors
     /// What is wrong with it.
     pub fn parse(text: &str) -> Result<Self, String> {
-        if !text.trim_end().ends_with("</VTKFile>") {
-            return Err("this frame is cut or no frame of wingbeat".to_owned());
-        }
+        check_sum(text)?;
         let mut mesh = Self::default();
         for block in text.split("<DataArray ").skip(1) {
             let name = block
@@ -195,6 +214,19 @@ impl Mesh {
             s.rings == s.rows() * s.cols && s.first_node + nodes <= self.points.len()
         });
         sheets
+    }
+}
+
+/// Whether a frame ends with the hash of what stands before.
+fn check_sum(text: &str) -> Result<(), String> {
+    let end = text.rfind(CHECKSUM);
+    let end = end.ok_or("this frame is cut or no frame of wingbeat")?;
+    let (body, last) = text.split_at(end);
+    let sum = last[CHECKSUM.len()..].strip_suffix(" -->\n");
+    let sum = sum.ok_or("this frame is cut or no frame of wingbeat")?;
+    match sha256(body.as_bytes()) == sum {
+        true => Ok(()),
+        false => Err("this frame is damaged (its checksum is wrong)".to_owned()),
     }
 }
 

@@ -48,7 +48,8 @@ impl HistoryWriter {
         })
     }
 
-    /// Goes on after the first `bytes` bytes of an existing history; what follows is cut off.
+    /// Goes on after the first `bytes` bytes of an existing history; [`Self::cut`] drops what
+    /// follows, before anything is appended.
     ///
     /// # Errors
     /// A file that cannot be read and changed, or that another wingbeat is writing.
@@ -57,7 +58,6 @@ impl HistoryWriter {
         let file = options.read(true).append(true).open(path);
         let file = file.map_err(IoError::write(path))?;
         lock(&file, path)?;
-        file.set_len(bytes).map_err(IoError::write(path))?;
         let hash = hash_start(&file, bytes).map_err(IoError::read(path))?;
         Ok(Self {
             path: path.to_owned(),
@@ -69,6 +69,15 @@ impl HistoryWriter {
             bytes,
             hash,
         })
+    }
+
+    /// Drops what follows the part that is gone on from.
+    ///
+    /// # Errors
+    /// A file that cannot be changed.
+    pub fn cut(&mut self) -> Result<(), IoError> {
+        let cut = self.file.set_len(self.bytes);
+        cut.map_err(IoError::write(&self.path))
     }
 
     /// Bytes written so far and their SHA-256; the system is asked to put them onto the disk.

@@ -31,6 +31,10 @@ pub struct Manifest {
     pub origin: String,
     /// SHA-256 of case.toml in this directory.
     pub case_sha256: String,
+    /// Length of history.csv when this was written \[bytes\]; more may follow.
+    pub history_bytes: u64,
+    /// SHA-256 of that part of history.csv.
+    pub history_sha256: String,
     /// How the run ended.
     pub outcome: Outcome,
     /// Threads that were allowed.

@@ -124,9 +124,8 @@ pub fn read_manifest(dir: &Path) -> Result<Manifest, IoError> {
 }
 
 fn check_history(path: &Path, header: &Header) -> Result<(), IoError> {
-    let file = fs::File::open(path).map_err(IoError::read(path))?;
-    let sum = hash_start(&file, header.history_bytes).map(hexadecimal);
-    if sum.is_ok_and(|sum| sum == header.history_sha256) {
+    let wanted = (header.history_bytes, &header.history_sha256[..]);
+    if starts_with(path, wanted)? {
         return Ok(());
     }
     Err(IoError::Damaged {
@@ -136,6 +135,38 @@ fn check_history(path: &Path, header: &Header) -> Result<(), IoError> {
             header.step
         ),
     })
+}
+
+/// Whether a file begins with so many bytes of this hash.
+fn starts_with(path: &Path, (bytes, hash): (u64, &str)) -> Result<bool, IoError> {
+    let file = fs::File::open(path).map_err(IoError::read(path))?;
+    let sum = hash_start(&file, bytes).map(hexadecimal);
+    Ok(sum.is_ok_and(|sum| sum == hash))
+}
+
+/// Whether case and history of a result are the ones that were written.
+///
+/// # Errors
+/// A directory that holds no run; a case or history that is missing or was changed.
+pub(crate) fn check(dir: &Path) -> Result<(), IoError> {
+    let manifest = read_manifest(dir)?;
+    let path = dir.join("case.toml");
+    let case = fs::read(&path).map_err(IoError::read(&path))?;
+    if sha256(&case) != manifest.case_sha256 {
+        return Err(IoError::Damaged {
+            path,
+            problem: "this is not the case that was flown here: it was changed or damaged; put the original back (`wingbeat run` flies a changed case into a directory of its own)".to_owned(),
+        });
+    }
+    let path = dir.join("history.csv");
+    let wanted = (manifest.history_bytes, &manifest.history_sha256[..]);
+    match starts_with(&path, wanted)? {
+        true => Ok(()),
+        false => Err(IoError::Damaged {
+            path,
+            problem: "this is not the history that was written here: it was cut or changed; fly the case again with `wingbeat run case.toml`".to_owned(),
+        }),
+    }
 }
 
 /// Takes the frames back to step `last`: removes later and half-written ones. Returns the steps

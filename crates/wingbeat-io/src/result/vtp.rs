@@ -1,6 +1,8 @@
 //! Frames for ParaView: surfaces and wakes as VTK PolyData (`.vtp`, inline base64), and the
 //! index of a series (`.pvd`).
 //!
+//! A frame ends with a comment that holds its checksum.
+//!
 //! Points are written in picture axes (n1, -n2, -n3): x forward, y to the left, z up.
 
 use std::fmt::Write as _;
@@ -10,7 +12,11 @@ use base64::engine::general_purpose::STANDARD;
 use wingbeat_flight::Snapshot;
 use wingbeat_math::DVec3;
 
+use super::manifest::sha256;
 use super::poses::picture;
+
+/// Begins the last line of a frame, which holds the hash of everything before it.
+pub(super) const CHECKSUM: &str = "<!-- SHA-256 of the lines above: ";
 
 /// Points, quadrilaterals and numbers per quadrilateral.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -124,6 +130,8 @@ impl PolyData {
             );
         }
         out.push_str("</CellData>\n</Piece>\n</PolyData>\n</VTKFile>\n");
+        let sum = sha256(out.as_bytes());
+        let _ = writeln!(out, "{CHECKSUM}{sum} -->");
         out
     }
 }

@@ -48,6 +48,8 @@ impl RunWriter {
             case: case.name.clone(),
             origin: case.origin().to_owned(),
             case_sha256: sha256(resolved.as_bytes()),
+            history_bytes: 0,
+            history_sha256: sha256(b""),
             outcome: Outcome::Running,
             threads,
             steps: 0,
@@ -94,7 +96,18 @@ impl RunWriter {
     ) -> Result<Self, IoError> {
         let bodies = body_names(&case.setup.animal);
         let path = dir.join("history.csv");
-        let history = HistoryWriter::reopen(&path, bodies, header.history_bytes)?;
+        let mut history = HistoryWriter::reopen(&path, bodies, header.history_bytes)?;
+        let manifest = Manifest {
+            history_bytes: header.history_bytes,
+            history_sha256: header.history_sha256.clone(),
+            outcome: Outcome::Running,
+            threads,
+            steps: header.step,
+            ..manifest
+        };
+        // A manifest never promises more of the history than there is.
+        dir.write("manifest.json", manifest.to_json().as_bytes())?;
+        history.cut()?;
         let steps = saver::go_back(dir.path(), header.step)?;
         let step = case.setup.time.step;
         let writer = Self {
@@ -106,12 +119,7 @@ impl RunWriter {
             writing: Duration::from_secs_f64(manifest.writing_time_s),
             flown_before: Duration::from_secs_f64(manifest.wall_time_s),
             schedule: Schedule::new(case.output.save),
-            manifest: Manifest {
-                outcome: Outcome::Running,
-                threads,
-                steps: header.step,
-                ..manifest
-            },
+            manifest,
             dir,
         };
         writer.note()?;
@@ -135,7 +143,7 @@ impl RunWriter {
     /// A file that cannot be written; the last checkpoint stays valid.
     pub fn save(&mut self, state: &FlightState) -> Result<(), IoError> {
         let begun = Instant::now();
-        let (history_bytes, history_sha256) = self.history.seal()?;
+        let (history_bytes, history_sha256) = self.seal()?;
         let header = Header {
             version: self.manifest.version.clone(),
             case_sha256: self.manifest.case_sha256.clone(),
@@ -147,6 +155,14 @@ impl RunWriter {
         self.schedule.done();
         self.writing += begun.elapsed();
         self.note()
+    }
+
+    /// Sees the history onto the disk; its length and hash.
+    fn seal(&mut self) -> Result<(u64, String), IoError> {
+        let (bytes, hash) = self.history.seal()?;
+        self.manifest.history_bytes = bytes;
+        self.manifest.history_sha256.clone_from(&hash);
+        Ok((bytes, hash))
     }
 
     /// Writes the manifest as it is now.
@@ -225,11 +241,12 @@ impl RunWriter {
     pub fn finish(mut self, outcome: Outcome) -> Result<Summary, IoError> {
         let begun = Instant::now();
         self.index()?;
+        self.seal()?;
         let path = self.dir.join("history.csv");
         let summary = Summary::read(&self.case, &path, &outcome)?;
         if self.case.output.figures && summary.steps > 1 {
             let (history, _) = History::thinned(&path, figures::MOST_ROWS)?;
-            figures::draw_all(&self.dir, &self.case, &history)?;
+            figures::draw_all(&self.dir, &self.case, &history, &summary)?;
         }
         self.dir
             .write("summary.txt", summary.to_text().as_bytes())?;

@@ -74,7 +74,7 @@ fn fly(args: &StabiliseArgs) -> Result<(), Trouble> {
     }
     print(&rows);
     if let Some(path) = &args.figure {
-        let svg = stabilised(&case.name, trim.beat.wing_length(), &rows, path)?;
+        let svg = stabilised(&case.name, trim.beat.wing_length(), &rows);
         write_new(path, &svg)?;
     }
     lost.map_or(Ok(()), |e| Err(e.into()))

@@ -1,0 +1,164 @@
+//! A drawing as a list of marks, from which SVG and pictures are made alike.
+//!
+//! Coordinates are points (1/72 inch) from the upper left corner, the second one downwards.
+
+/// Colours: Okabe & Ito's, told apart by colour-blind readers
+/// [Okabe & Ito 2008, *Color Universal Design*, J*Fly, <https://jfly.uni-koeln.de/color/>].
+pub(super) const COLOURS: [Colour; 7] = [
+    Colour(0, 114, 178),
+    Colour(213, 94, 0),
+    Colour(0, 158, 115),
+    Colour(204, 121, 167),
+    Colour(86, 180, 233),
+    Colour(230, 159, 0),
+    Colour(110, 110, 110),
+];
+/// Frames, ticks and words.
+pub(super) const INK: Colour = Colour(40, 40, 40);
+/// Shaded intervals.
+pub(super) const SHADE: Colour = Colour(233, 233, 236);
+/// Grid lines.
+pub(super) const FAINT: Colour = Colour(214, 214, 218);
+/// Red, green, blue, 0 to 255.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Colour(pub u8, pub u8, pub u8);
+
+impl Colour {
+    /// A part `x` (0 to 1) of the way to another colour.
+    pub fn toward(self, other: Self, x: f64) -> Self {
+        let mix = |a: u8, b: u8| (f64::from(a) + x * (f64::from(b) - f64::from(a))).round() as u8;
+        Self(
+            mix(self.0, other.0),
+            mix(self.1, other.1),
+            mix(self.2, other.2),
+        )
+    }
+}
+
+/// How a line is drawn.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Stroke {
+    pub colour: Colour,
+    pub width: f64,
+    /// Lengths of dash and gap in line widths; none: solid.
+    pub dash: &'static [f64],
+}
+
+impl Stroke {
+    pub fn solid(colour: Colour, width: f64) -> Self {
+        Self {
+            colour,
+            width,
+            dash: &[],
+        }
+    }
+}
+
+/// Where a text stands to its point.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Anchor {
+    Start,
+    Middle,
+    End,
+}
+
+/// One mark.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum Mark {
+    /// A line, open or closed.
+    Line {
+        points: Vec<[f64; 2]>,
+        closed: bool,
+        stroke: Stroke,
+    },
+    /// A filled polygon, covering by `opacity`.
+    Area {
+        points: Vec<[f64; 2]>,
+        fill: Colour,
+        opacity: f64,
+    },
+    /// Words; the point is on their baseline.
+    Text {
+        at: [f64; 2],
+        text: String,
+        size: f64,
+        colour: Colour,
+        anchor: Anchor,
+    },
+}
+
+/// Marks in the order they are drawn, on white.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Drawing {
+    /// Width and height \[points\].
+    pub size: [f64; 2],
+    pub marks: Vec<Mark>,
+}
+
+impl Drawing {
+    pub fn new(size: [f64; 2]) -> Self {
+        Self {
+            size,
+            marks: vec![],
+        }
+    }
+
+    pub fn line(&mut self, points: Vec<[f64; 2]>, stroke: Stroke) {
+        self.marks.push(Mark::Line {
+            points,
+            closed: false,
+            stroke,
+        });
+    }
+
+    pub fn outline(&mut self, points: Vec<[f64; 2]>, stroke: Stroke) {
+        self.marks.push(Mark::Line {
+            points,
+            closed: true,
+            stroke,
+        });
+    }
+
+    pub fn area(&mut self, points: Vec<[f64; 2]>, fill: Colour, opacity: f64) {
+        self.marks.push(Mark::Area {
+            points,
+            fill,
+            opacity,
+        });
+    }
+
+    pub fn text(&mut self, at: [f64; 2], text: &str, size: f64, anchor: Anchor) {
+        self.marks.push(Mark::Text {
+            at,
+            text: text.to_owned(),
+            size,
+            colour: INK,
+            anchor,
+        });
+    }
+
+    /// A filled disk, as a polygon of 20 corners.
+    pub fn dot(&mut self, [x, y]: [f64; 2], radius: f64, fill: Colour) {
+        let corner = |k: usize| {
+            let (s, c) = (k as f64 * std::f64::consts::TAU / 20.0).sin_cos();
+            [x + radius * c, y + radius * s]
+        };
+        self.area((0..20).map(corner).collect(), fill, 1.0);
+    }
+
+    /// An arrow; its head is as long as three line widths, or as the arrow.
+    pub fn arrow(&mut self, from: [f64; 2], to: [f64; 2], stroke: Stroke) {
+        let [dx, dy] = [to[0] - from[0], to[1] - from[1]];
+        let length = dx.hypot(dy);
+        if length == 0.0 || !length.is_finite() {
+            return;
+        }
+        let [ux, uy] = [dx / length, dy / length];
+        let head = (4.0 * stroke.width).min(length);
+        let neck = [to[0] - head * ux, to[1] - head * uy];
+        let half = 0.4 * head;
+        self.line(vec![from, neck], stroke);
+        let side = |s: f64| [neck[0] - s * half * uy, neck[1] + s * half * ux];
+        self.area(vec![to, side(1.0), side(-1.0)], stroke.colour, 1.0);
+    }
+}

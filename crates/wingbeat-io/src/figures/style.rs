@@ -1,0 +1,95 @@
+//! How figures look: for the screen or for a paper.
+
+use super::drawing::{Colour, Stroke};
+
+/// What a figure is for.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Style {
+    /// Large, with title and grid.
+    #[default]
+    Screen,
+    /// 180 mm wide (two columns of most journals), small type, thin lines also told apart by
+    /// their dashes, no title: the caption says it.
+    Paper,
+}
+
+impl Style {
+    /// All styles by name.
+    pub const ALL: [(&'static str, Self); 2] = [("screen", Self::Screen), ("paper", Self::Paper)];
+
+    pub(super) fn look(self) -> Look {
+        match self {
+            Self::Screen => Look {
+                width: 675.0,
+                font: 10.5,
+                line: 1.5,
+                hair: 0.75,
+                panel: 165.0,
+                titled: true,
+                gridded: true,
+                dashed: false,
+                pixels_per_point: 2.0,
+            },
+            Self::Paper => Look {
+                width: 510.0,
+                font: 8.0,
+                line: 1.0,
+                hair: 0.5,
+                panel: 112.0,
+                titled: false,
+                gridded: false,
+                dashed: true,
+                pixels_per_point: 300.0 / 72.0,
+            },
+        }
+    }
+}
+
+/// Sizes \[points\] and choices of a style.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Look {
+    pub width: f64,
+    pub font: f64,
+    /// Width of curves.
+    pub line: f64,
+    /// Width of frames, ticks and grids.
+    pub hair: f64,
+    /// Height of one of several stacked panels.
+    pub panel: f64,
+    pub titled: bool,
+    pub gridded: bool,
+    pub dashed: bool,
+    pub pixels_per_point: f64,
+}
+
+impl Look {
+    /// Height that a line of text needs.
+    pub fn row(&self) -> f64 {
+        1.45 * self.font
+    }
+
+    /// Room above the panels, for the title.
+    pub fn head(&self) -> f64 {
+        if self.titled {
+            2.6 * self.font
+        } else {
+            0.4 * self.font
+        }
+    }
+
+    /// The pen of the curve with number `k`.
+    pub fn pen(&self, colour: Colour, k: usize) -> Stroke {
+        const DASHES: [&[f64]; 5] = [
+            &[],
+            &[5.0, 2.0],
+            &[1.5, 1.5],
+            &[6.0, 1.5, 1.5, 1.5],
+            &[9.0, 2.5],
+        ];
+        Stroke {
+            colour,
+            width: self.line,
+            dash: if self.dashed { DASHES[k % 5] } else { &[] },
+        }
+    }
+}

@@ -1,0 +1,176 @@
+//! `wingbeat plot`: every figure, in both styles and formats, never over another one unasked; an
+//! animation that moves.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+mod support;
+
+use support::{Scratch, flown, wingbeat};
+use wingbeat::io::figures::Kind;
+
+const CASE: [&str; 13] = [
+    "run",
+    "fruit-fly-hover",
+    "--quiet",
+    "--out",
+    "run",
+    "--set",
+    "time.beats=1.25",
+    "--set",
+    "wing.right.mesh.spanwise=6",
+    "--set",
+    "wing.right.mesh.chordwise=3",
+    "--set=air.shed=[\"trailing\"]",
+    "--set=air.body=false",
+];
+
+/// Draws, and returns the files the program names.
+fn plotted(dir: &Path, args: &[&str]) -> Vec<PathBuf> {
+    let out = wingbeat(dir, &[&["plot", "run"][..], args].concat());
+    let said = String::from_utf8_lossy(&out.stderr);
+    assert!(out.status.success(), "{args:?}: {said}");
+    let files = String::from_utf8(out.stdout).unwrap();
+    files.lines().map(|f| dir.join(f)).collect()
+}
+
+fn refused(dir: &Path, args: &[&str], reason: &str) {
+    let out = wingbeat(dir, args);
+    let said = String::from_utf8_lossy(&out.stderr);
+    assert_eq!(out.status.code(), Some(2), "{args:?}: {said}");
+    assert!(said.contains(reason), "{said}\ndoes not say: {reason}");
+}
+
+/// Width and height of a PNG file.
+fn pixels(png: &[u8]) -> [u32; 2] {
+    assert!(png.starts_with(b"\x89PNG\r\n\x1a\n"));
+    [16, 20].map(|at| u32::from_be_bytes(png[at..at + 4].try_into().unwrap()))
+}
+
+/// Width and height of an SVG file [points].
+fn points(svg: &str) -> [f64; 2] {
+    ["width", "height"].map(|name| {
+        let tag = format!("{name}=\"");
+        let value = svg.split(&tag).nth(1).unwrap().split("pt\"").next();
+        value.unwrap().parse().unwrap()
+    })
+}
+
+#[test]
+fn exact_every_figure_is_drawn_in_both_styles_and_formats() {
+    let scratch = Scratch::new("figures");
+    flown(&scratch.0, &CASE);
+    let still: Vec<&str> = Kind::ALL
+        .iter()
+        .map(|k| k.0)
+        .filter(|k| *k != "animation")
+        .collect();
+    for (style, per_point) in [("screen", 2.0), ("paper", 300.0 / 72.0)] {
+        let folder = ["--style", style, "--out", style];
+        let svgs = plotted(&scratch.0, &folder);
+        let stems: Vec<&str> = svgs
+            .iter()
+            .map(|f| f.file_stem().unwrap().to_str().unwrap())
+            .collect();
+        assert_eq!(stems, still);
+        let pngs = plotted(&scratch.0, &[&folder[..], &["--format", "png"]].concat());
+        for (svg, png) in svgs.iter().zip(&pngs) {
+            let text = fs::read_to_string(svg).unwrap();
+            assert!(text.starts_with("<svg") && text.ends_with("</svg>\n"));
+            assert!(
+                !text.contains("NaN") && !text.contains("inf"),
+                "{}",
+                svg.display()
+            );
+            assert!(text.contains("</text>"), "no words in {}", svg.display());
+            let found = pixels(&fs::read(png).unwrap());
+            let wanted = points(&text).map(|p| (p * per_point).ceil());
+            for c in [0, 1] {
+                assert!(
+                    (f64::from(found[c]) - wanted[c]).abs() <= 1.0,
+                    "{}",
+                    png.display()
+                );
+            }
+        }
+    }
+    let paper = fs::read_to_string(scratch.0.join("paper/forces.svg")).unwrap();
+    assert!(paper.contains("width=\"510pt\""), "180 mm are 510 points");
+    assert!(!paper.contains("fruit-fly-hover"), "a title in a paper");
+    let axes = [
+        "force of the air / weight",
+        "power of the hinges [µW]",
+        "wingbeats",
+    ];
+    for name in axes {
+        assert!(paper.contains(&format!(">{name}<")), "no axis {name}");
+    }
+    // One downstroke, shaded in both panels; curves differ in their dashes, too.
+    assert!(paper.matches("#e9e9ec").count() == 2 && paper.contains("stroke-dasharray"));
+}
+
+#[test]
+fn refuses_to_replace_figures_unasked() {
+    let scratch = Scratch::new("figures-kept");
+    let args = ["--set", "time.beats=0.3", "--set=air.model=none"];
+    flown(&scratch.0, &[&CASE[..5], &args].concat());
+    // The run has drawn this one: the same figure again is no conflict.
+    assert_eq!(
+        plotted(&scratch.0, &["angles"]),
+        [scratch.0.join("run/figures/angles.svg")]
+    );
+    let file = scratch.0.join("run/figures/angles.svg");
+    let drawn = fs::read(&file).unwrap();
+    fs::write(&file, "mine").unwrap();
+    refused(
+        &scratch.0,
+        &["plot", "run", "angles"],
+        "exists already and is left untouched",
+    );
+    assert_eq!(fs::read(&file).unwrap(), b"mine");
+    plotted(&scratch.0, &["angles", "--overwrite"]);
+    assert_eq!(fs::read(&file).unwrap(), drawn);
+    plotted(&scratch.0, &["animation"]);
+    refused(&scratch.0, &["plot", "run", "animation"], "exists already");
+    for (kind, reason) in [
+        ("forces", "this flight has no air"),
+        ("wake", "no frames were written"),
+        ("beats", "no whole wingbeat"),
+        ("nonsense", "choose one of angles, forces"),
+    ] {
+        refused(&scratch.0, &["plot", "run", kind], reason);
+    }
+    assert!(!scratch.0.join("run/figures/forces.svg").exists());
+}
+
+#[test]
+fn exact_the_animation_moves() {
+    let scratch = Scratch::new("figures-animation");
+    let args = [
+        "--set",
+        "time.beats=0.3",
+        "--set=air.shed=[\"trailing\"]",
+        "--set=air.body=false",
+        "--set=motion.start=impulsive",
+    ];
+    flown(&scratch.0, &[&CASE[..5], &args].concat());
+    let files = plotted(&scratch.0, &["animation"]);
+    let mut options = gif::DecodeOptions::new();
+    options.set_color_output(gif::ColorOutput::RGBA);
+    let file = fs::File::open(&files[0]).unwrap();
+    let mut decoder = options.read_info(file).unwrap();
+    let mut pictures: Vec<Vec<u8>> = vec![];
+    while let Some(frame) = decoder.read_next_frame().unwrap() {
+        pictures.push(frame.buffer.to_vec());
+    }
+    assert_eq!(pictures.len(), 7); // 12 steps, every second one written
+    let changed = |a: &[u8], b: &[u8]| {
+        let differ = |p: &(&[u8], &[u8])| (0..3).any(|c| p.0[c].abs_diff(p.1[c]) > 60);
+        a.chunks(4).zip(b.chunks(4)).filter(differ).count()
+    };
+    let all = pictures[0].len() / 4;
+    for pair in pictures.windows(2) {
+        let n = changed(&pair[0], &pair[1]);
+        assert!(n > all / 1000 && n < all / 2, "{n} of {all} pixels changed");
+    }
+}
