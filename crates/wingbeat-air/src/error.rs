@@ -227,6 +227,20 @@ pub enum AirError {
         /// Its velocity [m/s].
         velocity: DVec3,
     },
+    /// A particle moved to nowhere.
+    #[error(
+        "air step {step}: particle {particle} of wake sheet {sheet} moves at {velocity} m/s; reduce the time step, enlarge the particles' radius or omit stretching"
+    )]
+    ParticleNotFinite {
+        /// Accepted steps so far.
+        step: u64,
+        /// Sheet.
+        sheet: usize,
+        /// Particle, 0 = oldest.
+        particle: usize,
+        /// Its velocity [m/s].
+        velocity: DVec3,
+    },
     /// A state that does not belong to the lattice.
     #[error(
         "the air state does not fit the lattice ({what}); restart with the case the state was written by"

@@ -2,8 +2,9 @@
 //! circulation.
 
 use crate::front::{self, Row, Share, add_front, at_edge};
-use crate::kernel::{Network, Points};
+use crate::kernel::{Network, Particle, Points};
 use crate::lattice::Lattice;
+use crate::particles::borders_ring;
 use crate::settings::AirSettings;
 use crate::state::{AirState, WakeSheet};
 use wingbeat_math::DVec3;
@@ -26,6 +27,8 @@ pub struct Filaments {
     /// All other edges of the wakes, which do not move within a step. Nodes: sheet after sheet,
     /// oldest row first.
     pub wake: Network,
+    /// Particles of all sheets.
+    pub particles: Vec<Particle>,
 }
 
 impl Filaments {
@@ -54,6 +57,13 @@ impl Filaments {
                 lengths: &self.lengths[s],
             };
             add_front(&mut self.front, &mut self.shares, &row, t, edge);
+        }
+        self.particles.clear();
+        if let Some(settings) = &lattice.settings().particles {
+            for set in state.sheets.iter().map(|s| &s.particles) {
+                let all = (0..set.len()).map(|i| set.at(i, settings, t));
+                self.particles.extend(all);
+            }
         }
     }
 
@@ -108,7 +118,8 @@ impl Filaments {
     }
 
     /// Half the sum of circulation x moment of every filament about `origin`, which is the vector
-    /// impulse per density [m4/s], N: `1/2 sum Gamma a x b` for filaments from a to b.
+    /// impulse per density [m4/s], N: `1/2 sum Gamma a x b` for filaments from a to b, and
+    /// `1/2 x cross alpha` for particles.
     pub(crate) fn impulse(&self, origin: DVec3) -> DVec3 {
         let of = |net: &Network| {
             let mut sum = DVec3::ZERO;
@@ -119,7 +130,9 @@ impl Filaments {
             }
             sum
         };
-        of(&self.bound) + of(&self.front) + of(&self.wake)
+        let of_particle = |p: &Particle| 0.5 * (p.position - origin).cross(p.strength);
+        let particles: DVec3 = self.particles.iter().map(of_particle).sum();
+        of(&self.bound) + of(&self.front) + of(&self.wake) + particles
     }
 }
 
@@ -132,14 +145,20 @@ pub(crate) fn newest(sheet: &WakeSheet, column: usize) -> f64 {
 }
 
 /// Circulation of the edge that lies between the columns `c - 1` and `c` of row `r`.
-fn between(sheet: &WakeSheet, r: usize, c: usize) -> f64 {
+pub(crate) fn between(sheet: &WakeSheet, r: usize, c: usize) -> f64 {
     let gamma = |c: usize| sheet.gamma[r * sheet.columns + c];
     let left = if c > 0 { gamma(c - 1) } else { 0.0 };
     let right = if c < sheet.columns { gamma(c) } else { 0.0 };
     left - right
 }
 
-/// Free nodes of one wake sheet and the edges among them.
+/// Circulation of the edge of column `c` that lies between the rows `r - 1` and `r`.
+pub(crate) fn across(sheet: &WakeSheet, r: usize, c: usize) -> f64 {
+    let gamma = |r: usize| sheet.gamma[r * sheet.columns + c];
+    gamma(r) - if r > 0 { gamma(r - 1) } else { 0.0 }
+}
+
+/// Free nodes of one wake sheet and the edges among them that lie at rings.
 fn add_sheet(wake: &mut Network, sheet: &WakeSheet, settings: &AirSettings, t: f64) {
     let base = wake.nodes.len();
     sheet.nodes.iter().for_each(|x| wake.nodes.push(x));
@@ -152,16 +171,13 @@ fn add_sheet(wake: &mut Network, sheet: &WakeSheet, settings: &AirSettings, t: f
         let core = settings.wake_core.core(length, 0.5 * (age(r0) + age(r1)));
         wake.push_edge(a, b, net, core);
     };
-    let gamma = |r: usize, c: usize| sheet.gamma[r * columns + c];
+    let there = |r: usize, c: usize, along: bool| borders_ring(&sheet.spent, [r, c], along);
     for r in 0..rows {
-        for c in 0..columns {
-            let older = if r > 0 { gamma(r - 1, c) } else { 0.0 };
-            push([r, c], [r, c + 1], gamma(r, c) - older);
+        for c in (0..columns).filter(|&c| there(r, c, true)) {
+            push([r, c], [r, c + 1], across(sheet, r, c));
         }
-        for c in 0..=columns {
-            if r + 1 < rows {
-                push([r, c], [r + 1, c], between(sheet, r, c));
-            }
+        for c in (0..=columns).filter(|&c| r + 1 < rows && there(r, c, false)) {
+            push([r, c], [r + 1, c], between(sheet, r, c));
         }
     }
 }

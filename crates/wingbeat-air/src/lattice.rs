@@ -145,6 +145,7 @@ impl Lattice {
     pub fn initial_state(&self, motion: &NodeMotion) -> AirState {
         let sheet = |root: &Sheet| WakeSheet {
             columns: root.panels.len(),
+            spent: vec![0; root.panels.len()],
             ..WakeSheet::default()
         };
         AirState {
@@ -186,6 +187,10 @@ impl Lattice {
                 && sheet.nodes.len() == sheet.rows() * (sheet.columns + 1)
                 && sheet.gamma.len() == sheet.rows() * sheet.columns
                 && (sheet.velocity.is_empty() || sheet.velocity.len() == sheet.nodes.len())
+                && sheet.spent.len() == sheet.columns
+                && sheet.spent.iter().all(|&s| s < sheet.rows().max(1))
+                && sheet.particles.is_sound()
+                && (sheet.particles.is_empty() || self.settings.particles.is_some())
         };
         if state.sheets.len() != self.sheets().len()
             || !state.sheets.iter().zip(self.sheets()).all(fits)

@@ -26,6 +26,8 @@
 //! its axes point. The ring of a panel runs c0 -> c3 -> c2 -> c1, left-handed about the normal: then
 //! positive circulation is lift along the normal.
 //!
+//! Old rows of wake, or those of leading edges at once, can become vortex [`particles`].
+//!
 //! [`blade`] is the other air of this crate: blade elements, quasi-steady and without memory.
 //!
 //! What this crate does not know: coordinates, joints, animals, gravity, files. What the method
@@ -47,6 +49,8 @@ pub mod kernel;
 pub mod lattice;
 pub mod loads;
 pub mod panels;
+mod particle_motion;
+pub mod particles;
 mod pressure;
 mod rings;
 pub mod settings;
@@ -61,10 +65,11 @@ pub mod wind;
 
 pub use error::AirError;
 pub use images::Plane;
-pub use kernel::{CoreModel, Method, Points};
+pub use kernel::{CoreModel, Method, Points, Stretching};
 pub use lattice::Lattice;
 pub use loads::{AirLoads, AirWorkspace, SurfaceLoads};
 pub use panels::Panels;
+pub use particles::{ParticleSettings, Particles};
 pub use settings::{
     AirSettings, CirculationRate, Convection, LeadingEdge, LoadMethod, NewestRow, SheddingKinds,
 };

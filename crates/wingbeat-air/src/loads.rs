@@ -9,11 +9,12 @@ use crate::joukowski;
 use crate::kernel::Points;
 use crate::lattice::Lattice;
 use crate::panels::Panels;
+use crate::particle_motion::ParticleFlow;
 use crate::pressure;
 use crate::rings;
 use crate::state::{AirState, NodeMotion};
 use crate::strips;
-use crate::summation::{StillWake, Sums, direct, free};
+use crate::summation::{StillWake, Sums, direct};
 use wingbeat_math::DVec3;
 
 /// What the air does to one surface.
@@ -68,6 +69,12 @@ pub struct AirLoads {
     pub surfaces: Vec<SurfaceLoads>,
     /// Momentum of the fictitious fluid inside each closed surface [kg m/s].
     pub inner_momentum: Vec<DVec3>,
+    /// Impulse of all vorticity, that of dropped wakes included, less the momentum of the fictitious
+    /// fluid [kg m/s], N. In air that is at rest or in uniform motion far away, without images, its
+    /// rate of decrease is the force on all surfaces together, the suction at attached edges
+    /// included: a method independent of pressures and segments
+    /// [Saffman 1992, Vortex Dynamics, ch. 3].
+    pub impulse: DVec3,
     /// Largest normal velocity through a control point, the leak apart [m/s].
     pub penetration: f64,
 }
@@ -103,6 +110,7 @@ pub struct AirWorkspace {
     pub(crate) movable: Points,
     pub(crate) sums: Sums,
     pub(crate) still: StillWake,
+    pub(crate) flow: ParticleFlow,
 }
 
 impl AirWorkspace {
@@ -148,6 +156,9 @@ impl Lattice {
         joukowski::segment_forces(self, state, motion, ws, out);
         closed::outer_forces(self, state, out);
         strips::leading_values(self, &motion.position, out);
+        let inner: DVec3 = out.inner_momentum.iter().sum();
+        let vorticity = ws.filaments.impulse(DVec3::ZERO) + state.dropped_impulse;
+        out.impulse = self.settings().density * vorticity - inner;
         self.resultants(ws, out);
         self.check_finite(state, out)
     }
@@ -183,11 +194,11 @@ impl Lattice {
         let (filaments, settings, mirrors) = (&mut ws.filaments, self.settings(), self.mirrors());
         filaments.set_bound(self, state, &out.gamma);
         let sums = &mut ws.sums;
-        let is_new = sums.wake.load(free(settings), &filaments.wake);
+        let is_new = sums.load_free(settings, filaments);
         let near = STILL * out.panels.size();
         let (points, velocity) = (&ws.points, &mut ws.velocity);
         ws.still
-            .velocity(&mut sums.wake, is_new, points, near, mirrors, velocity);
+            .velocity(sums, is_new, points, near, mirrors, velocity);
         sums.front
             .load(direct(settings.wake_core), &filaments.front);
         sums.front.add(points, mirrors, &mut ws.shed);

@@ -3,6 +3,7 @@
 use crate::error::AirError;
 use crate::images::{Plane, mirrors};
 use crate::kernel::{CoreModel, Method};
+use crate::particles::ParticleSettings;
 use crate::surface::EdgeKind;
 use crate::wind::Wind;
 use wingbeat_math::DVec3;
@@ -161,7 +162,9 @@ pub struct AirSettings {
     pub wind: Wind,
     /// Planes of symmetry and ground: none, one, or two at right angles.
     pub images: Vec<Plane>,
-    /// How the velocities of the wakes are summed.
+    /// Vortex particles in place of old or leading-edge rows of wake; none: rings only.
+    pub particles: Option<ParticleSettings>,
+    /// How the velocities of the wakes' rings are summed.
     pub summation: Method,
     /// Allowed error of the tree: root mean square over the places where velocities are wanted,
     /// relative to that of the velocity.
@@ -193,6 +196,7 @@ impl AirSettings {
             inset: 0.0,
             wind: Wind::default(),
             images: Vec::new(),
+            particles: None,
             summation: Method::Auto,
             tolerance: 1e-4,
         }
@@ -287,6 +291,7 @@ impl AirSettings {
             "a number above 0 and up to 0.1",
         )?;
         self.check_leading()?;
+        self.particles.map_or(Ok(()), |p| p.validate(self))?;
         self.wind.validate()?;
         mirrors(&self.images)?;
         let through = |p: &&Plane| {

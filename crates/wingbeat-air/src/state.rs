@@ -2,6 +2,7 @@
 
 use crate::images::Mirror;
 use crate::kernel::Points;
+use crate::particles::Particles;
 use wingbeat_math::DVec3;
 
 /// Positions and velocities of the nodes of all surfaces, concatenated in the order of the
@@ -32,6 +33,11 @@ pub struct WakeSheet {
     pub shed_time: Vec<f64>,
     /// Velocity with which the nodes came here [m/s], N; empty unless convection looks back.
     pub velocity: Points,
+    /// Oldest rows of each column whose rings have become particles. Their circulations are kept
+    /// while a neighbour is still a ring.
+    pub spent: Vec<usize>,
+    /// Particles that were rings.
+    pub particles: Particles,
 }
 
 impl WakeSheet {
@@ -46,6 +52,20 @@ impl WakeSheet {
         DVec3::new(self.nodes.x[k], self.nodes.y[k], self.nodes.z[k])
     }
 
+    /// Impulse per density [m4/s], N, of the rings of the oldest `rows` rows.
+    pub(crate) fn impulse_of_oldest(&self, rows: usize) -> DVec3 {
+        let mut sum = DVec3::ZERO;
+        for r in 0..rows.min(self.rows().saturating_sub(1)) {
+            for c in 0..self.columns {
+                let at = |r: usize, c: usize| self.node(r, c);
+                let ring = [at(r + 1, c + 1), at(r + 1, c), at(r, c), at(r, c + 1)];
+                let area = (ring[2] - ring[0]).cross(ring[3] - ring[1]);
+                sum += 0.5 * self.gamma[r * self.columns + c] * area;
+            }
+        }
+        sum
+    }
+
     /// Drops the oldest rows until at most `rows` are left. Whole rings go, so every filament
     /// that is left is still part of closed rings.
     pub(crate) fn keep(&mut self, rows: usize) {
@@ -55,6 +75,9 @@ impl WakeSheet {
         drop_first(&mut self.velocity, nodes);
         self.gamma.drain(..drop * self.columns);
         self.shed_time.drain(..drop);
+        self.spent
+            .iter_mut()
+            .for_each(|s| *s = s.saturating_sub(drop));
     }
 }
 
@@ -71,6 +94,8 @@ impl WakeSheet {
         let drop = self.rows() - lead.rows();
         self.gamma.drain(..drop * self.columns);
         self.shed_time.drain(..drop);
+        self.spent.clone_from(&lead.spent);
+        self.particles.follow(&lead.particles, mirror);
         drop as u64
     }
 }
@@ -85,12 +110,17 @@ fn drop_first(points: &mut Points, n: usize) {
 /// How often the wake had to be tamed.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 pub struct WakeEvents {
-    /// Displacements shortened to [`crate::AirSettings::max_displacement`].
+    /// Displacements shortened to [`crate::AirSettings::max_displacement`], and changes of a
+    /// particle's strength in one step shortened to half of it.
     pub limited: u64,
-    /// Wake nodes kept at [`crate::AirSettings::clearance`] from a surface.
+    /// Wake nodes and particles kept at [`crate::AirSettings::clearance`] from a surface.
     pub near_surface: u64,
     /// Rows of wake that were dropped.
     pub dropped_rows: u64,
+    /// Particles made of rings.
+    pub new_particles: u64,
+    /// Particles that were dropped.
+    pub dropped_particles: u64,
 }
 
 impl std::ops::AddAssign for WakeEvents {
@@ -98,6 +128,8 @@ impl std::ops::AddAssign for WakeEvents {
         self.limited += other.limited;
         self.near_surface += other.near_surface;
         self.dropped_rows += other.dropped_rows;
+        self.new_particles += other.new_particles;
+        self.dropped_particles += other.dropped_particles;
     }
 }
 
@@ -132,4 +164,6 @@ pub struct AirState {
     pub sheets: Vec<WakeSheet>,
     /// Regularised events since the start.
     pub events: WakeEvents,
+    /// Impulse per density of rings and particles when they were dropped [m4/s], N.
+    pub dropped_impulse: DVec3,
 }

@@ -3,7 +3,9 @@
 
 use crate::filaments::Filaments;
 use crate::images::Mirror;
-use crate::kernel::{CoreModel, FastSettings, FastSum, Method, Network, Points, Report};
+use crate::kernel::{
+    CoreModel, FastSettings, FastSum, Method, Network, ParticleSum, Points, Report,
+};
 use crate::settings::AirSettings;
 
 /// A Biot-Savart sum over one network, its memory kept from call to call.
@@ -67,29 +69,58 @@ pub(crate) fn free(settings: &AirSettings) -> FastSettings {
     }
 }
 
-/// The sums over all filaments.
+/// The sums over all filaments and particles.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Sums {
     pub bound: Summation,
     pub front: Summation,
     pub wake: Summation,
+    pub particles: ParticleSum,
 }
 
 impl Sums {
-    /// Takes all filaments.
+    /// Takes all filaments and particles.
     pub(crate) fn load(&mut self, settings: &AirSettings, filaments: &Filaments) {
         self.bound
             .load(direct(settings.bound_core), &filaments.bound);
         self.front
             .load(direct(settings.wake_core), &filaments.front);
-        self.wake.load(free(settings), &filaments.wake);
+        self.load_free(settings, filaments);
     }
 
-    /// Adds the velocity of all filaments and their images at `targets` to `out`.
+    /// Takes what is frozen within a step: free wakes and particles; says whether they are new.
+    pub(crate) fn load_free(&mut self, settings: &AirSettings, filaments: &Filaments) -> bool {
+        let is_new = self.wake.load(free(settings), &filaments.wake);
+        self.particles.load(&filaments.particles) || is_new
+    }
+
+    /// Adds the velocity of all filaments, particles and their images at `targets` to `out`.
     pub(crate) fn add(&mut self, targets: &Points, mirrors: &[Mirror], out: &mut Points) {
+        self.add_filaments(targets, mirrors, out);
+        self.add_particles(targets, mirrors, out);
+    }
+
+    /// The same of filaments alone.
+    pub(crate) fn add_filaments(&mut self, targets: &Points, mirrors: &[Mirror], out: &mut Points) {
         self.bound.add(targets, mirrors, out);
         self.front.add(targets, mirrors, out);
         self.wake.add(targets, mirrors, out);
+    }
+
+    /// The same of particles alone.
+    fn add_particles(&self, targets: &Points, mirrors: &[Mirror], out: &mut Points) {
+        if self.particles.is_empty() {
+            return;
+        }
+        self.particles.add_velocity(targets, out);
+        for mirror in mirrors {
+            let reflected: Points = targets.iter().map(|x| mirror.place(x)).collect();
+            let mut image = Points::zeros(targets.len());
+            self.particles.add_velocity(&reflected, &mut image);
+            for i in 0..targets.len() {
+                out.set(i, out.get(i) + mirror.vector(image.get(i)));
+            }
+        }
     }
 }
 
@@ -101,11 +132,12 @@ pub(crate) struct StillWake {
 }
 
 impl StillWake {
-    /// Sets `out` to the velocity of the `wake` at `points`. While the wake is the same and no point
-    /// is farther than `near` [m] from where the velocity was last summed, that velocity is taken.
+    /// Sets `out` to the velocity of the free wakes of `sums` at `points`. While these are the same
+    /// and no point is farther than `near` [m] from where the velocity was last summed, that
+    /// velocity is taken.
     pub(crate) fn velocity(
         &mut self,
-        wake: &mut Summation,
+        sums: &mut Sums,
         is_new: bool,
         points: &Points,
         near: f64,
@@ -117,7 +149,8 @@ impl StillWake {
         if !(kept && self.points.iter().zip(points.iter()).all(is_near)) {
             self.points.clone_from(points);
             self.velocity.reset(points.len());
-            wake.add(points, mirrors, &mut self.velocity);
+            sums.wake.add(points, mirrors, &mut self.velocity);
+            sums.add_particles(points, mirrors, &mut self.velocity);
         }
         out.clone_from(&self.velocity);
     }

@@ -7,6 +7,7 @@ use crate::images::{Mirror, Plane};
 use crate::kernel::Points;
 use crate::lattice::Lattice;
 use crate::loads::{AirLoads, AirWorkspace};
+use crate::particle_motion::ParticleFlow;
 use crate::settings::{Convection, LeadingEdge, NewestRow};
 use crate::state::{AirState, NodeMotion, WakeEvents, WakeSheet};
 use crate::surface::EdgeKind;
@@ -75,6 +76,7 @@ impl Lattice {
         let mirrors = self.mirrors();
         ws.sums.load(self.settings(), &ws.filaments);
         ws.sums.add(&ws.movable, mirrors, &mut ws.velocity);
+        ws.flow.take(self, state, &mut ws.sums);
         let events = self.move_sheets(state, dt, ws)?;
         state.events += events;
         state.wake_due = false;
@@ -114,14 +116,21 @@ impl Lattice {
             },
             obstacles: &ws.obstacles,
             next: 0,
+            flow: &ws.flow,
+            next_particle: 0,
             events: WakeEvents::default(),
         };
         let mut sheets = std::mem::take(&mut state.sheets);
+        let mut dropped = vec![DVec3::ZERO; sheets.len()];
         for k in 0..sheets.len() {
             if let Some((lead, mirror)) = self.followed(k) {
                 let (first, rest) = sheets.split_at_mut(k);
                 self.shed(k, &mut rest[0], state, &ws.filaments.lengths[k]);
-                mover.events.dropped_rows += rest[0].follow(&first[lead], mirror);
+                let rows = rest[0].follow(&first[lead], mirror);
+                if self.settings().particles.is_none() {
+                    mover.events.dropped_rows += rows;
+                }
+                dropped[k] = mirror.vector(dropped[lead]);
                 continue;
             }
             let sheet = &mut sheets[k];
@@ -136,11 +145,24 @@ impl Lattice {
                     velocity,
                 });
             }
+            if let Err((particle, velocity)) = mover.move_particles(&mut sheet.particles) {
+                state.sheets = sheets;
+                return Err(AirError::ParticleNotFinite {
+                    step,
+                    sheet: k,
+                    particle,
+                    velocity,
+                });
+            }
             self.shed(k, sheet, state, &ws.filaments.lengths[k]);
-            mover.events.dropped_rows += self.truncate(k, sheet, state);
+            let (events, impulse) = self.truncate(k, sheet, state);
+            mover.events += events;
+            dropped[k] = impulse;
         }
         state.sheets = sheets;
-        Ok(mover.events)
+        let events = mover.events;
+        state.dropped_impulse += dropped.into_iter().sum::<DVec3>();
+        Ok(events)
     }
 
     /// The sheet whose mirror image sheet `k` is, if that one is moved for both.
@@ -194,8 +216,9 @@ impl Lattice {
         strip.is_none_or(|s| self.is_separated(s, state))
     }
 
-    /// Drops the oldest rows that are too many, too old or too far; returns how many.
-    fn truncate(&self, k: usize, sheet: &mut WakeSheet, state: &AirState) -> u64 {
+    /// Drops the oldest rows that are too many, too old or too far, or makes particles of them.
+    /// Returns also the impulse per density [m4/s], N, of what was dropped.
+    fn truncate(&self, k: usize, sheet: &mut WakeSheet, state: &AirState) -> (WakeEvents, DVec3) {
         let settings = self.settings();
         let before = sheet.rows();
         let mut keep = before.min(settings.max_rows.unwrap_or(usize::MAX));
@@ -204,9 +227,7 @@ impl Lattice {
             keep = keep.min(sheet.shed_time.iter().filter(young).count());
         }
         if let Some(far) = settings.max_distance {
-            let nodes = &self.sheets()[k].nodes;
-            let sum: DVec3 = nodes.iter().map(|&n| state.position[n]).sum();
-            let edge = sum / nodes.len() as f64;
+            let edge = self.edge_middle(k, state);
             let is_far = |r: usize| {
                 let mut row = (0..=sheet.columns).map(|c| sheet.node(r, c));
                 row.all(|x| x.distance(edge) > far)
@@ -214,8 +235,24 @@ impl Lattice {
             let farthest = (0..before).rev().find(|&r| is_far(r));
             keep = keep.min(farthest.map_or(before, |r| before - 1 - r));
         }
-        sheet.keep(keep.max(1));
-        (before - sheet.rows()) as u64
+        let dropped = before - keep.clamp(1, before.max(1));
+        if settings.particles.is_some() {
+            return self.make_particles(k, sheet, dropped, state);
+        }
+        let impulse = sheet.impulse_of_oldest(dropped);
+        sheet.keep(before - dropped);
+        let events = WakeEvents {
+            dropped_rows: dropped as u64,
+            ..WakeEvents::default()
+        };
+        (events, impulse)
+    }
+
+    /// Middle of the edge that sheet `k` leaves [m], N.
+    pub(crate) fn edge_middle(&self, k: usize, state: &AirState) -> DVec3 {
+        let nodes = &self.sheets()[k].nodes;
+        let sum: DVec3 = nodes.iter().map(|&n| state.position[n]).sum();
+        sum / nodes.len() as f64
     }
 
     /// Velocity of the air [m/s] at `points` [m], N, in the accepted step; `out` is resized. At a
@@ -255,19 +292,21 @@ impl Lattice {
     }
 }
 
-/// Walks through the wake nodes of all sheets in order and moves them.
-struct Mover<'a> {
-    lattice: &'a Lattice,
+/// Walks through the wake nodes and particles of all sheets in order and moves them.
+pub(crate) struct Mover<'a> {
+    pub lattice: &'a Lattice,
     nodes: &'a Points,
     velocity: &'a Points,
     limit: f64,
-    time: f64,
-    dt: f64,
-    looks_back: bool,
-    change: f64,
+    pub time: f64,
+    pub dt: f64,
+    pub looks_back: bool,
+    pub change: f64,
     obstacles: &'a Obstacles,
     next: usize,
-    events: WakeEvents,
+    pub flow: &'a ParticleFlow,
+    pub next_particle: usize,
+    pub events: WakeEvents,
 }
 
 impl Mover<'_> {
@@ -303,17 +342,22 @@ impl Mover<'_> {
                 sheet.velocity.push(self.velocity.get(k) + stream);
             }
         }
-        self.events.near_surface += self.obstacles.keep_off(from, to);
-        for plane in &self.lattice.settings().images {
-            self.events.near_surface += keep_on_side(plane, from, to);
-        }
+        self.keep_clear(from, to);
         sheet.nodes.clear();
         to.iter().for_each(|&x| sheet.nodes.push(x));
         Ok(())
     }
 
+    /// Keeps ends of paths off surfaces and on their side of planes.
+    pub(crate) fn keep_clear(&mut self, from: &[DVec3], to: &mut [DVec3]) {
+        self.events.near_surface += self.obstacles.keep_off(from, to);
+        for plane in &self.lattice.settings().images {
+            self.events.near_surface += keep_on_side(plane, from, to);
+        }
+    }
+
     /// Displacement relative to the undisturbed air, shortened to the limit.
-    fn displacement(&mut self, v: DVec3) -> DVec3 {
+    pub(crate) fn displacement(&mut self, v: DVec3) -> DVec3 {
         let d = self.dt * v;
         let length = d.length();
         if length > self.limit {

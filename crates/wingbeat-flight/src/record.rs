@@ -64,8 +64,14 @@ pub struct Record {
     pub corrector_passes: usize,
     /// Scaled residual of the last corrector pass [1].
     pub corrector_residual: f64,
+    /// Impulse of all vorticity [kg m/s], N, less the momentum of the fictitious fluid in closed
+    /// surfaces; zero without a lattice. In air at rest far away its rate of decrease is the force
+    /// of the air on all bodies, see [`wingbeat_air::AirLoads::impulse`].
+    pub vortex_impulse: DVec3,
     /// Wake rings.
     pub wake_rings: usize,
+    /// Vortex particles of the wakes.
+    pub wake_particles: usize,
     /// Events in which a near-singular velocity was regularised in this step.
     pub regularised: usize,
     /// Largest uniform leak velocity of the closed surfaces [m/s].

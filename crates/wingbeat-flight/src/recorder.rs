@@ -1,6 +1,6 @@
 //! From the last evaluation to a [`Record`]: every quantity in the units a reader expects.
 
-use wingbeat_air::AirState;
+use wingbeat_air::{AirState, WakeSheet};
 use wingbeat_dynamics::{Body, BodyMotion, Budget, Wrench};
 use wingbeat_math::ode::StepReport;
 use wingbeat_math::{DQuat, DVec3};
@@ -108,9 +108,13 @@ impl Sources<'_> {
             euler_regularity: regularity,
             corrector_passes: self.report.passes,
             corrector_residual: self.report.residual,
+            vortex_impulse: s.air_loads.impulse,
             wake_rings: self
                 .air
-                .map_or(0, |a| a.sheets.iter().map(|w| w.gamma.len()).sum()),
+                .map_or(0, |a| a.sheets.iter().map(WakeSheet::ring_count).sum()),
+            wake_particles: self
+                .air
+                .map_or(0, |a| a.sheets.iter().map(|w| w.particles.len()).sum()),
             regularised: new_events as usize,
             leak_velocity: self.leak(),
         }
@@ -245,7 +249,12 @@ fn wake_snapshot(side: &AirSide, air: &AirState, s: &Scratch, k: usize) -> WakeS
     let mut circulation = Vec::with_capacity(rows * cols);
     for row in (0..rows).rev() {
         nodes.extend((0..=cols).map(|c| sheet.node(row, c)));
-        circulation.extend_from_slice(&sheet.gamma[row * cols..(row + 1) * cols]);
+        // Rings that have become particles are drawn without circulation.
+        let of = |c: usize| match sheet.is_ring(row, c) {
+            true => sheet.gamma[row * cols + c],
+            false => 0.0,
+        };
+        circulation.extend((0..cols).map(of));
     }
     let surface = &side.lattice.surfaces()[root.surface].name;
     WakeSnapshot {

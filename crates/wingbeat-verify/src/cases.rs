@@ -3,9 +3,12 @@
 mod benchmark;
 mod bodies;
 mod conservation;
+mod dragonflies;
+mod hover;
 mod insects;
 mod invariance;
 mod kernel;
+mod particles;
 mod peer;
 mod plates;
 mod start;
@@ -24,12 +27,15 @@ pub fn suite() -> Vec<Case> {
         unsteady::CASES,
         plates::CASES,
         conservation::CASES,
+        particles::CASES,
         invariance::CASES,
         benchmark::CASES,
         start::CASES,
         peer::CASES,
         yeo::CASES,
         insects::CASES,
+        dragonflies::CASES,
+        hover::CASES,
     ]
     .concat()
 }

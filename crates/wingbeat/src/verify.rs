@@ -2,10 +2,11 @@
 
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
+use std::sync::Mutex;
 use std::time::Instant;
 
 use clap::Args;
-use wingbeat::verify::{Dossier, Entry};
+use wingbeat::verify::{Case, Dossier, Entry};
 
 /// What `wingbeat verify` is told.
 #[derive(Args)]
@@ -41,7 +42,11 @@ pub(crate) fn run(args: &VerifyArgs) -> ExitCode {
         return ExitCode::SUCCESS;
     }
     let start = Instant::now();
-    let dossier = wingbeat::verify::run(&cases, args.quick, |e| tell(e, start));
+    let so_far = Mutex::new(Vec::new());
+    let dossier = wingbeat::verify::run(&cases, args.quick, |e| {
+        tell(e, start);
+        keep(&so_far, e, args, &cases);
+    });
     if let Err(e) = write(&dossier, &args.out) {
         eprintln!(
             "error: {}: {e}; name a folder that can be written",
@@ -56,6 +61,19 @@ pub(crate) fn run(args: &VerifyArgs) -> ExitCode {
         args.out.join("verification.md").display()
     );
     ExitCode::from(u8::from(miss > 0))
+}
+
+/// Writes what is done so far: a long run that is ended early is not lost.
+fn keep(so_far: &Mutex<Vec<Entry>>, entry: &Entry, args: &VerifyArgs, cases: &[Case]) {
+    let mut entries = so_far.lock().expect("no case panicked while writing");
+    entries.push(entry.clone());
+    entries.sort_by_key(|e| cases.iter().position(|c| c.name == e.case));
+    let dossier = Dossier {
+        quick: args.quick,
+        entries: entries.clone(),
+    };
+    // The whole dossier is written at the end, and trouble told then.
+    let _ = write(&dossier, &args.out);
 }
 
 fn tell(entry: &Entry, start: Instant) {

@@ -13,8 +13,8 @@ use wingbeat::flight::Simulation;
 use wingbeat::io::result::{checkpoint, saver};
 use wingbeat::io::{History, LoadedCase, Manifest, Outcome, ResultDir, RunWriter};
 
-/// A short flight with wakes: held at first, then free.
-const CASE: [&str; 14] = [
+/// A short flight with wakes of rings and particles: held at first, then free.
+const CASE: [&str; 16] = [
     "fruit-fly-hover",
     "--quiet",
     "--set",
@@ -25,6 +25,8 @@ const CASE: [&str; 14] = [
     "flight.held_beats=0.2",
     "--set",
     "air.shed=[\"trailing\"]",
+    "--set",
+    "air.particles={after_rows=8}",
     "--set",
     "air.body=false",
     "--set",

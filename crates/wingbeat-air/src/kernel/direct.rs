@@ -155,7 +155,7 @@ impl UnitEdges {
 }
 
 /// `count` targets from `first` on.
-fn block_at(targets: &Points, first: usize, count: usize) -> Block {
+pub(super) fn block_at(targets: &Points, first: usize, count: usize) -> Block {
     let mut block = Block::ZERO;
     let own = first..first + count;
     block.x[..count].copy_from_slice(&targets.x[own.clone()]);

@@ -19,6 +19,8 @@
 //! Two sums: [`DirectSum`] takes every segment at every target; [`FastSum`] sums far segments by the
 //! expansions of the cells of a tree, to a tolerance that it checks at every call.
 //!
+//! [`ParticleSum`] is the direct sum over vortex particles.
+//!
 //! Promises: the same bits for every instruction set ([`InstructionSet`]) and any number of threads;
 //! never NaN or infinite for finite input, on a node and on a filament included; nothing is
 //! allocated after the first call with a given size.
@@ -37,6 +39,7 @@ mod lanes;
 mod model;
 mod moments;
 mod packed;
+mod particles;
 pub mod reference;
 mod sources;
 
@@ -46,4 +49,5 @@ pub use fast::{FastSettings, FastSum, Method, Report};
 pub use instruction_set::InstructionSet;
 pub(crate) use lanes::BLOCK;
 pub use model::CoreModel;
+pub use particles::{Particle, ParticleSum, Stretching};
 pub use sources::{Network, Points, Segments};

@@ -6,6 +6,7 @@ mod common;
 mod errors;
 mod impulse;
 mod invariance;
+mod particles;
 mod peers;
 mod wakes;
 mod wings;

@@ -108,7 +108,9 @@ fn fill(bodies: &[String], record: &Record, mut row: Row<'_>) {
         euler_regularity,
         corrector_passes,
         corrector_residual,
+        vortex_impulse,
         wake_rings,
+        wake_particles,
         regularised,
         leak_velocity,
     } = record;
@@ -165,7 +167,9 @@ fn fill(bodies: &[String], record: &Record, mut row: Row<'_>) {
     row.plain("euler_regularity_dimensionless", *euler_regularity);
     row.plain("corrector_passes_count", *corrector_passes as f64);
     row.plain("corrector_residual_dimensionless", *corrector_residual);
+    row.vector("vortex_impulse", "n", linear, *vortex_impulse);
     row.plain("wake_rings_count", *wake_rings as f64);
+    row.plain("wake_particles_count", *wake_particles as f64);
     row.plain("regularised_count", *regularised as f64);
     row.plain("leak_velocity_m_per_s", *leak_velocity);
 }

@@ -28,6 +28,10 @@ pub struct BeatMeans {
     pub thrust_newton: f64,
     /// Mean power the hinge actuators give \[W\].
     pub power_watt: f64,
+    /// Mean air force against gravity by another way, the rate of the vortex impulse \[N\]; zero
+    /// without a lattice.
+    #[serde(default)]
+    pub lift_by_impulse_newton: f64,
 }
 
 /// Numbers of a run.
@@ -71,6 +75,9 @@ pub struct Summary {
     pub regularised: usize,
     /// Wake rings at the end.
     pub wake_rings: usize,
+    /// Vortex particles at the end.
+    #[serde(default)]
+    pub wake_particles: usize,
     /// Largest uniform leak velocity of closed surfaces \[m/s\].
     pub leak_velocity_m_s: f64,
     /// What a reader should know before using the numbers.
@@ -130,6 +137,7 @@ impl Summary {
             corrector_passes_mean: passes.sum / s.rows.max(1) as f64,
             regularised: s.of("regularised_count").sum as usize,
             wake_rings: s.of("wake_rings_count").last as usize,
+            wake_particles: s.of("wake_particles_count").last as usize,
             leak_velocity_m_s: s.of("leak_velocity_m_per_s").most,
             warnings: vec![],
             beats: s.beats,

@@ -24,6 +24,14 @@ pub(super) const CASES: &[Case] = &[
         quick: true,
         run: impulse,
     },
+    Case {
+        name: "impulse-force",
+        about: "The third way to the force, the rate of the impulse of all vorticity: a plate without wake, a \
+                plunging wing at k = 0.5 with attached flow, a sphere.",
+        part: Part::Analytic,
+        quick: true,
+        run: impulse_force,
+    },
 ];
 
 /// Circulation around the rectangle [x0, x1] x [z0, z1] in the plane y, right-handed about +y, by
@@ -170,4 +178,135 @@ fn impulse(quick: bool) -> Result<Vec<Row>, Trouble> {
         );
     }
     Ok(rows)
+}
+
+/// Rate of decrease of the impulse [N], second order, from the third step on.
+fn force_of(impulse: &[DVec3], dt: f64) -> Vec<DVec3> {
+    let rate = |w: &[DVec3]| -(3.0 * w[2] - 4.0 * w[1] + w[0]) / (2.0 * dt);
+    impulse.windows(3).map(rate).collect()
+}
+
+/// Forces by the method and by the impulse, step by step from the third on.
+fn both_ways(
+    lattice: &Lattice,
+    motion: impl Fn(f64) -> NodeMotion,
+    dt: f64,
+    last: usize,
+) -> Result<[Vec<DVec3>; 2], AirError> {
+    let (mut force, mut impulse) = (Vec::new(), Vec::new());
+    fly(lattice, motion, dt, last, |_, _, loads, _| {
+        force.push(total_force(loads));
+        impulse.push(loads.impulse);
+    })?;
+    Ok([force.split_off(2), force_of(&impulse, dt)])
+}
+
+/// Root mean square of the difference over the last `n` steps, relative to the second's.
+fn apart([a, b]: &[Vec<DVec3>; 2], n: usize) -> f64 {
+    let from = b.len() - n;
+    let square = |x: &dyn Fn(usize) -> DVec3| -> f64 {
+        (from..b.len()).map(|k| x(k).z.powi(2)).sum::<f64>()
+    };
+    (square(&|k| a[k] - b[k]) / square(&|k| b[k])).sqrt()
+}
+
+/// A wing of aspect ratio 6 that plunges by a tenth of its chord in a stream, over two periods.
+fn plunging(k: usize, loads: LoadMethod) -> Result<f64, AirError> {
+    let core = CoreModel::Scully { radius: 1e-7 };
+    let settings = AirSettings {
+        bound_core: core,
+        wake_core: core,
+        loads,
+        ..AirSettings::accurate(1.2, DVec3::X)
+    };
+    let (rows, cols, steps) = (2 * k, 6 * k, 12 * k);
+    let lattice = Lattice::new(vec![Surface::grid("wing", rows, cols)], settings)?;
+    let flat = rectangle(rows, cols, DVec3::X, 6.0 * DVec3::Y);
+    let motion = |t: f64| {
+        let path = 0.1 * (1.0 - t.cos()) * DVec3::Z;
+        let nodes = flat.iter().map(|x| *x + path).collect();
+        translating(nodes, 0.1 * t.sin() * DVec3::Z)
+    };
+    let dt = std::f64::consts::TAU / steps as f64;
+    Ok(apart(&both_ways(&lattice, motion, dt, 2 * steps)?, steps))
+}
+
+fn impulse_force(quick: bool) -> Result<Vec<Row>, Trouble> {
+    let mut rows = vec![plate()?, ball()?];
+    let k = if quick { [1, 2] } else { [2, 4] };
+    for (name, method) in [
+        ("pressure", LoadMethod::Pressure),
+        ("segments", LoadMethod::Joukowski),
+    ] {
+        let [coarse, fine] = [plunging(k[0], method)?, plunging(k[1], method)?];
+        rows.push(
+            Row::new(
+                format!("plunging wing, {name}: rms difference from the impulse over a period"),
+                "1",
+                fine,
+            )
+            .against(
+                0.0,
+                "force = - d(impulse)/dt, unchanged by a uniform stream",
+            )
+            .uncertain(fine - coarse)
+            .within(
+                0.16 / k[1] as f64,
+                "forces act at panels: first order in panels and steps",
+            ),
+        );
+    }
+    Ok(rows)
+}
+
+/// Without wake and sliding, pressure is rho dGamma/dt alone and the two ways are one sum.
+fn plate() -> Result<Row, Trouble> {
+    let none = SheddingKinds {
+        trailing: false,
+        ..SheddingKinds::TRAILING
+    };
+    let settings = AirSettings {
+        shedding: none,
+        ..AirSettings::accurate(1.2, DVec3::ZERO)
+    };
+    let lattice = Lattice::new(vec![Surface::grid("plate", 4, 6)], settings)?;
+    let flat = rectangle(4, 6, DVec3::X, 2.0 * DVec3::Y);
+    let motion = |t: f64| {
+        let nodes = flat.iter().map(|x| *x + t.powi(3) * DVec3::Z).collect();
+        translating(nodes, 3.0 * t * t * DVec3::Z)
+    };
+    let ways = both_ways(&lattice, motion, 0.1, 6)?;
+    Ok(Row::new(
+        "accelerated plate: difference over the force",
+        "1",
+        apart(&ways, 3),
+    )
+    .against(0.0, "added mass either way")
+    .within(1e-12, "roundings"))
+}
+
+/// A sphere that accelerates: the fictitious fluid inside is taken out of both.
+fn ball() -> Result<Row, Trouble> {
+    let (nodes, quads) = crate::lab::sphere(4);
+    let surface = Surface::closed("ball", nodes.len(), quads);
+    let settings = AirSettings {
+        rate: wingbeat_air::CirculationRate::BackwardSecond,
+        ..AirSettings::benchmark(1.2, DVec3::ZERO).with_cut_off_for(0.01)
+    };
+    let lattice = Lattice::new(vec![surface], settings)?;
+    let motion = |t: f64| {
+        let at = nodes.iter().map(|x| *x + 0.5 * t * t * DVec3::Z);
+        translating(at.collect(), t * DVec3::Z)
+    };
+    let ways = both_ways(&lattice, motion, 0.1, 5)?;
+    Ok(Row::new(
+        "accelerated sphere: difference over the force",
+        "1",
+        apart(&ways, 2),
+    )
+    .against(0.0, "added mass either way")
+    .within(
+        1e-9,
+        "the mesh is symmetric: what the speed alone does cancels but for roundings",
+    ))
 }

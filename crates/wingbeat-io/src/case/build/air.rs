@@ -2,7 +2,7 @@
 
 use wingbeat_air::{
     AirSettings, CirculationRate, Convection, CoreModel, Gust, GustShape, LeadingEdge, LoadMethod,
-    Method, Plane, SheddingKinds, Wind,
+    Method, ParticleSettings, Plane, SheddingKinds, Stretching, Wind,
 };
 use wingbeat_flight::{AirModel, AirOptions};
 use wingbeat_math::{DMat3, DVec3};
@@ -11,7 +11,8 @@ use wingbeat_model::Animal;
 use super::{Built, at_least, blade, derivatives, not_negative, positive, vector};
 use crate::case::raw::{
     AirCase, AirModel as Model, Case, CirculationRateCase, ConvectionCase, CoreCase, EdgeCase,
-    GustCase, LeadingEdgeCase, LoadMethodCase, SchemeCase, SummationCase,
+    GustCase, LeadingEdgeCase, LoadMethodCase, ParticlesCase, SchemeCase, StretchingCase,
+    SummationCase,
 };
 use crate::error::Fault;
 
@@ -103,6 +104,10 @@ fn lattice(case: &AirCase) -> Built<AirOptions> {
         },
         max_displacement: limit("air.max_displacement_m", case.max_displacement_m)?,
         clearance: not_negative("air.clearance_m", case.clearance_m)?,
+        particles: match &case.particles {
+            Some(p) => Some(particles(p, case.wake_core.as_ref())?),
+            None => None,
+        },
         summation: match case.summation {
             SummationCase::Auto => Method::Auto,
             SummationCase::Direct => Method::Direct,
@@ -158,6 +163,51 @@ fn leading_edge(case: &AirCase) -> Built<LeadingEdge> {
     })
 }
 
+/// Particles; radius and viscosity are those of the wake's filaments where left out.
+fn particles(case: &ParticlesCase, wake: Option<&CoreCase>) -> Built<ParticleSettings> {
+    let (radius, viscosity) = match wake {
+        Some(CoreCase::LambOseen {
+            radius_m,
+            viscosity_m2_s,
+        }) => (Some(*radius_m), *viscosity_m2_s),
+        Some(CoreCase::Vatistas { radius_m } | CoreCase::Scully { radius_m }) => {
+            (Some(*radius_m), 0.0)
+        }
+        _ => (None, 0.0),
+    };
+    let radius = case.radius_m.or(radius).ok_or_else(|| {
+        Fault::new(
+            "air.particles",
+            "particles need a radius, and wake_core has none",
+            "radius_m > 0",
+            "add radius_m: about the distance between rows of wake",
+        )
+    })?;
+    if case.after_rows.is_none() && !case.leading_edge {
+        return Err(Fault::new(
+            "air.particles",
+            "nothing becomes a particle",
+            "after_rows, leading_edge = true, or both",
+            "add after_rows = 8",
+        ));
+    }
+    let after = |rows| at_least("air.particles.after_rows", rows, 1);
+    Ok(ParticleSettings {
+        after: case.after_rows.map(after).transpose()?,
+        leading_at_once: case.leading_edge,
+        radius: positive("air.particles.radius_m", radius)?,
+        viscosity: not_negative(
+            "air.particles.viscosity_m2_s",
+            case.viscosity_m2_s.unwrap_or(viscosity),
+        )?,
+        stretching: match case.stretching {
+            StretchingCase::Transpose => Stretching::Transpose,
+            StretchingCase::Classical => Stretching::Classical,
+            StretchingCase::Omitted => Stretching::Omitted,
+        },
+    })
+}
+
 fn wind(case: &AirCase) -> Built<Wind> {
     let gusts: Built<Vec<Gust>> = case.gust.iter().enumerate().map(gust).collect();
     let shear = case.shear_1_s.map(|rows| {
@@ -175,7 +225,20 @@ fn gust((k, case): (usize, &GustCase)) -> Built<Gust> {
         (Some(duration), None) => GustShape::OneMinusCosine {
             duration: positive(&format!("air.gust[{k}].duration_s"), duration)?,
         },
-        (None, Some(rows)) => GustShape::Table(rows.clone()),
+        (None, Some(rows)) => {
+            if let Some(row) = rows.windows(2).position(|w| w[1].0 <= w[0].0) {
+                return Err(Fault::new(
+                    format!("air.gust[{k}].table"),
+                    format!(
+                        "the time of row {} is not later than that of the row before",
+                        row + 1
+                    ),
+                    "rows of time and share, counted from 0, times rising",
+                    "put the rows in the order of their times",
+                ));
+            }
+            GustShape::Table(rows.clone())
+        }
         _ => {
             return Err(Fault::new(
                 format!("air.gust[{k}]"),

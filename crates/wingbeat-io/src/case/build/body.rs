@@ -113,7 +113,19 @@ fn given_mesh(path: &str, nodes: &[[f64; 3]], part: &PartCase) -> Built<QuadMesh
             ));
         }
     }
-    let nodes = nodes.iter().map(|&x| DVec3::from_array(x)).collect();
+    let nodes: Vec<DVec3> = nodes.iter().map(|&x| DVec3::from_array(x)).collect();
+    for (k, quad) in quads.iter().enumerate() {
+        let side = |i: usize| [quad[i], quad[(i + 1) % 4]];
+        let meets = |s: &[usize; 2]| s[0] != s[1] && nodes[s[0]] == nodes[s[1]];
+        if let Some([a, b]) = (0..4).map(side).find(meets) {
+            return Err(Fault::new(
+                format!("{path}.quads[{k}]"),
+                format!("its nodes {a} and {b} coincide, so it has an edge without length"),
+                "panels whose corners have places of their own; a triangle names one node twice",
+                "use one of the two nodes in all panels and remove the other",
+            ));
+        }
+    }
     Ok(QuadMesh { nodes, quads })
 }
 

@@ -81,6 +81,9 @@ pub struct AirCase {
     /// Wake nodes keep this distance from surfaces and do not pass through them, which is
     /// counted and reported; 0 lets them pass (the published benchmark's).
     pub clearance_m: f64,
+    /// Vortex particles in place of old or leading-edge rows of wake; left out: rings only.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub particles: Option<ParticlesCase>,
     /// How the velocities of the wakes are summed: `direct`, `tree`, or whichever is faster.
     pub summation: SummationCase,
     /// Allowed error of the tree, relative to the velocity; it is checked at every sum.
@@ -127,6 +130,7 @@ impl Default for AirCase {
             max_wake_rows: None,
             max_displacement_m: None,
             clearance_m: 0.0,
+            particles: None,
             summation: SummationCase::Auto,
             summation_tolerance: 1e-4,
             blade: BladeCase::default(),
@@ -134,6 +138,40 @@ impl Default for AirCase {
             external: None,
         }
     }
+}
+
+/// Vortex particles made of the wakes' rings.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ParticlesCase {
+    /// Newest rows of every sheet that stay rings; left out: all.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub after_rows: Option<usize>,
+    /// Whether rows that leave leading edges become particles at once.
+    #[serde(default)]
+    pub leading_edge: bool,
+    /// Radius of new particles; default that of `wake_core`, which is needed if that is a cut-off.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub radius_m: Option<f64>,
+    /// Effective kinematic viscosity, with which they spread; default that of `wake_core`, or 0.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub viscosity_m2_s: Option<f64>,
+    /// How their strengths change.
+    #[serde(default)]
+    pub stretching: StretchingCase,
+}
+
+/// How the strengths of particles change.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum StretchingCase {
+    /// Transpose scheme: keeps the total vorticity.
+    #[default]
+    Transpose,
+    /// Classical scheme.
+    Classical,
+    /// They stay.
+    Omitted,
 }
 
 /// How velocities are summed.

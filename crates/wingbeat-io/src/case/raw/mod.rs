@@ -15,7 +15,8 @@ mod wing;
 
 pub use air::{
     AirCase, AirModel, CirculationRateCase, ConvectionCase, CoreCase, EdgeCase, GroundCase,
-    GustCase, LeadingEdgeCase, LoadMethodCase, SchemeCase, SummationCase,
+    GustCase, LeadingEdgeCase, LoadMethodCase, ParticlesCase, SchemeCase, StretchingCase,
+    SummationCase,
 };
 pub use blade::{
     AddedMassCase, BladeCase, BodyDragCase, OwnCoefficients, PressureCase, RotationCase,

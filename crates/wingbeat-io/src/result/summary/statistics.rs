@@ -79,7 +79,9 @@ impl Statistics {
             last_force = [-force.dot(down(setup)), force.x];
             let sizes = places.momenta.map(|at| vector(row, at).length());
             largest = [largest[0].max(sizes[0]), largest[1].max(sizes[1])];
-            beats.take(count, [last_force[0], last_force[1], places.power(row)]);
+            let impulse = vector(row, places.impulse).dot(down(setup));
+            let values = [last_force[0], last_force[1], places.power(row)];
+            beats.take(count, values, impulse);
             count += 1;
         }
         Ok(Self {
@@ -102,6 +104,7 @@ struct Places {
     forces: Vec<usize>,
     powers: Vec<usize>,
     momenta: [Option<usize>; 2],
+    impulse: Option<usize>,
 }
 
 impl Places {
@@ -118,6 +121,7 @@ impl Places {
                 at("momentum_n1_kg_m_per_s"),
                 at("momentum_residual_n1_kg_m_per_s"),
             ],
+            impulse: at("vortex_impulse_n1_kg_m_per_s"),
         }
     }
 
@@ -142,6 +146,9 @@ struct Beats {
     per_beat: usize,
     weight: f64,
     sum: [f64; 3],
+    /// Length of a beat [s], impulse along gravity at its start [kg m/s].
+    period: f64,
+    impulse: f64,
     done: Vec<BeatMeans>,
 }
 
@@ -152,12 +159,14 @@ impl Beats {
             per_beat: setup.time.period.map_or(0, steps),
             weight: setup.animal.mass() * setup.gravity.length(),
             sum: [0.0; 3],
+            period: setup.time.period.unwrap_or(1.0),
+            impulse: 0.0,
             done: vec![],
         }
     }
 
-    /// Lift, thrust and power of a row.
-    fn take(&mut self, row: usize, values: [f64; 3]) {
+    /// Lift, thrust and power of a row; impulse of the vortices along gravity.
+    fn take(&mut self, row: usize, values: [f64; 3], impulse: f64) {
         if self.per_beat == 0 {
             return;
         }
@@ -171,14 +180,15 @@ impl Beats {
         add(&mut self.sum);
         if end {
             if row > 0 {
-                self.close();
+                self.close((impulse - self.impulse) / self.period);
             }
+            self.impulse = impulse;
             self.sum = [0.0; 3];
             add(&mut self.sum);
         }
     }
 
-    fn close(&mut self) {
+    fn close(&mut self, lift_by_impulse_newton: f64) {
         let [lift_newton, thrust_newton, power_watt] = self.sum.map(|s| s / self.per_beat as f64);
         self.done.push(BeatMeans {
             beat: self.done.len() + 1,
@@ -186,6 +196,7 @@ impl Beats {
             lift_over_weight: (self.weight > 0.0).then(|| lift_newton / self.weight),
             thrust_newton,
             power_watt,
+            lift_by_impulse_newton,
         });
     }
 }
@@ -202,15 +213,18 @@ mod tests {
             per_beat: 8,
             weight: 0.0,
             sum: [0.0; 3],
+            period: 2.0,
+            impulse: 0.0,
             done: vec![],
         };
         for k in 0..=20 {
-            beats.take(k, [angle(k).cos().powi(2), 1.0, 0.0]);
+            beats.take(k, [angle(k).cos().powi(2), 1.0, 0.0], 3.0 * k as f64);
         }
         assert_eq!(beats.done.len(), 2);
         for beat in beats.done {
             assert!((beat.lift_newton - 0.5).abs() < 1e-15); // one rounding
             assert_eq!(beat.thrust_newton, 1.0);
+            assert_eq!(beat.lift_by_impulse_newton, 12.0); // 24 in 2 s
         }
     }
 }

@@ -108,6 +108,19 @@ fn air_warnings(
             weights(b), b.beat
         ));
     }
+    let still = lattice.images.is_empty() && lattice.wind.is_none();
+    if let Some(b) = summary.beats.last().filter(|_| still) {
+        list.push(format!(
+            "Mean lift of the last beat by the rate of the vortex impulse, another way to the same force: {:.3e} N; by the pressures {:.3e} N.",
+            b.lift_by_impulse_newton, b.lift_newton
+        ));
+    }
+    if summary.wake_particles > 0 {
+        list.push(format!(
+            "Part of the wake is vortex particles ({} at the end), which frames and page do not show.",
+            summary.wake_particles
+        ));
+    }
     if summary.regularised > 0 {
         list.push(format!(
             "{} times a wake node was stopped or ran close to a surface and was regularised.",

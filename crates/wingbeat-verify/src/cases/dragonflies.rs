@@ -1,0 +1,283 @@
+//! Two dragonflies with four wings each, in the setting of all insects.
+//!
+//! Angles of the source: gamma, inclination of the stroke plane to the horizontal; phi, positive up;
+//! psi, chord normal to the stroke plane at zero, leading edge up positive; a cone angle to the fore.
+//! Here: stroke-plane pitch 90 deg - gamma, flap -phi, deviation - cone, feathering psi.
+
+use super::insects::{Choice, Fluid, MODELS, forces, middle};
+use crate::lab::series::{Table, correlation, interpolate, mean, rms};
+use crate::{Case, Part, Row, Trouble};
+use std::fmt::Write;
+
+pub(super) const CASES: &[Case] = &[
+    Case {
+        name: "dragonfly-azuma-1985",
+        about: "Sympetrum frequens climbing at 60 deg with 0.54 m/s: vertical force of all wings that Azuma \
+                and others computed from the measured motion by the local circulation method.",
+        part: Part::Experiments,
+        quick: false,
+        run: azuma,
+    },
+    Case {
+        name: "dragonfly-wang-russell-2007",
+        about: "A tethered dragonfly: vertical force of all wings that Wang & Russell computed by \
+                Navier-Stokes equations in plane flow from the measured motion.",
+        part: Part::Experiments,
+        quick: false,
+        run: wang_russell,
+    },
+];
+
+/// Mean and harmonics (amplitude, phase) [deg]: mean + sum A cos(2 pi k t + phase).
+struct Series(f64, &'static [[f64; 2]]);
+
+struct Pair {
+    name: &'static str,
+    length: f64,
+    area: f64,
+    gamma: f64,
+    place: f64,
+    cone: Series,
+    phi: Series,
+    psi: Series,
+}
+
+struct Dragonfly {
+    body: f64,
+    frequency: f64,
+    /// Flight speed [m/s] and direction above the horizontal [deg].
+    flight: [f64; 2],
+    pairs: [Pair; 2],
+}
+
+impl Series {
+    /// As in a case file, `sign` times the series.
+    fn text(&self, key: &str, sign: f64) -> String {
+        let amplitude = |f: fn(f64) -> f64, s: f64| -> Vec<f64> {
+            let of = |h: &[f64; 2]| sign * s * h[0] * f(h[1].to_radians());
+            self.1.iter().map(of).collect()
+        };
+        format!(
+            "{key}.fourier = {{ mean_deg = {:?}, cosine_deg = {:?}, sine_deg = {:?} }}\n",
+            sign * self.0,
+            amplitude(f64::cos, 1.0),
+            amplitude(f64::sin, -1.0)
+        )
+    }
+}
+
+impl Dragonfly {
+    fn case(&self, with: Choice) -> String {
+        let [fore, hind] = &self.pairs;
+        let (s, c) = self.flight[1].to_radians().sin_cos();
+        let mut text = with.air(Fluid {
+            density: 1.225,
+            viscosity: 1.5e-5,
+            // The air comes against the flight; n3 is down.
+            stream: [-self.flight[0] * c, 0.0, self.flight[0] * s],
+            chord: 0.5 * (fore.area / fore.length + hind.area / hind.length),
+            length: fore.length,
+            frequency: self.frequency,
+        });
+        let _ = write!(
+            text,
+            "[output]\nframes_every = 0\nfigures = false\n\
+             [body]\nmass_kg = 1.0\ninertia_about_centre_kg_m2 = [1e-2, 1e-2, 1e-2, 0, 0, 0]\n\
+             [motion]\nfrequency_hz = {:?}\nstart = \"smooth\"\n",
+            self.frequency
+        );
+        for pair in [fore, hind] {
+            pair.write(self.body, with.mesh, &mut text);
+        }
+        text
+    }
+}
+
+impl Pair {
+    fn write(&self, body: f64, mesh: [usize; 2], text: &mut String) {
+        let name = self.name;
+        let _ = write!(
+            text,
+            "[wing.{name}-right]\nhinge_m = [{:e}, {:e}, 0]\nmass_kg = 1e-9\n\
+             [wing.{name}-right.planform.beta]\nlength_m = {:e}\nmean_chord_m = {:e}\nr2_hat = 0.55\n\
+             axis_fraction = 0.25\nleast_chord = 0.3\n\
+             [wing.{name}-right.mesh]\nchordwise = {}\nspanwise = {}\n\
+             [wing.{name}-right.motion]\nstroke_plane_pitch_deg = {:?}\n",
+            self.place * body,
+            0.06 * body,
+            self.length,
+            self.area / self.length,
+            mesh[0],
+            mesh[1],
+            90.0 - self.gamma,
+        );
+        text.push_str(&self.phi.text("phi", -1.0));
+        text.push_str(&self.cone.text("theta", -1.0));
+        text.push_str(&self.psi.text("psi", 1.0));
+    }
+}
+
+/// Rows for the vertical force over the motion's second beat [`unit` newton] against `theirs`, at
+/// fortieths of a beat.
+fn compare(
+    animal: &Dragonfly,
+    theirs: &[f64],
+    [unit, source, note]: [&'static str; 3],
+    newton: f64,
+) -> Result<Vec<Row>, Trouble> {
+    let mut rows = Vec::new();
+    for (name, choice) in [MODELS[0], MODELS[2], MODELS[3]] {
+        let lift = forces(&animal.case(choice))?;
+        let lift: Vec<f64> = lift.iter().map(|f| -f.z / newton).collect();
+        let beats = [1, 2].map(|b| mean(&lift[40 * b..=40 * (b + 1)]));
+        let [_, spread] = middle(&beats);
+        let second = &lift[60..100]; // the smooth start takes half a beat of phase
+        let apart: Vec<f64> = second.iter().zip(theirs).map(|(a, b)| a - b).collect();
+        let their_mean = theirs.iter().sum::<f64>() / 40.0;
+        rows.push(
+            Row::new(format!("{name}: mean vertical force"), unit, beats[1])
+                .against(their_mean, source)
+                .uncertain(spread)
+                .because(note),
+        );
+        rows.push(Row::new(
+            format!("{name}: rms difference over the motion's second beat"),
+            unit,
+            rms(&apart),
+        ));
+        rows.push(Row::new(
+            format!("{name}: correlation over the motion's second beat"),
+            "1",
+            correlation(second, theirs),
+        ));
+    }
+    Ok(rows)
+}
+
+fn azuma(_quick: bool) -> Result<Vec<Row>, Trouble> {
+    let animal = Dragonfly {
+        body: 0.04,
+        frequency: 41.5,
+        flight: [0.54, 60.0],
+        pairs: [
+            Pair {
+                name: "fore",
+                length: 0.0335,
+                area: 2.21e-4,
+                gamma: 37.0,
+                place: 0.06,
+                cone: Series(8.0, &[]),
+                phi: Series(3.0, &[[43.0, 0.0]]),
+                psi: Series(8.0, &[[-77.0, -49.0], [-3.0, 67.0], [-8.0, 29.0]]),
+            },
+            Pair {
+                name: "hind",
+                length: 0.0325,
+                area: 2.72e-4,
+                gamma: 40.0,
+                place: -0.06,
+                cone: Series(-2.0, &[]),
+                phi: Series(-2.0, &[[47.0, 77.0]]),
+                psi: Series(3.0, &[[-65.0, 18.0], [8.0, 74.0], [8.0, 28.0]]),
+            },
+        ],
+    };
+    let table = Table::new(include_str!("../../data/dragonfly_azuma1985_forces.csv"));
+    let t = table.numbers("t");
+    let [fore, hind] = ["Fz_fore", "Fz_hind"].map(|name| table.numbers(name));
+    let both: Vec<f64> = fore.iter().zip(&hind).map(|(a, b)| a + b).collect();
+    let theirs: Vec<f64> = (0..40)
+        .map(|k| interpolate(&t, &both, k as f64 / 40.0))
+        .collect();
+    let words = [
+        "mN",
+        "Azuma et al. 1985, table in jpecquet/dragonfly-flight-control; its mean is the weight of 0.26 g, \
+         2.55 mN",
+        "wing shape, distance of the pairs and body are estimates; uncertainty: half the change from the \
+         second to the third beat",
+    ];
+    compare(&animal, &theirs, words, 1e-3)
+}
+
+fn wang_russell(_quick: bool) -> Result<Vec<Row>, Trouble> {
+    let animal = Dragonfly {
+        body: 0.051,
+        frequency: 33.4,
+        flight: [0.0, 0.0],
+        pairs: [
+            Pair {
+                name: "fore",
+                length: 0.046,
+                area: 3.8e-4,
+                gamma: 53.0,
+                place: 0.06,
+                cone: Series(
+                    10.0,
+                    &[
+                        [0.997, 146.0],
+                        [1.077, 33.0],
+                        [1.611, -103.8],
+                        [0.968, 116.8],
+                        [0.042, -33.3],
+                    ],
+                ),
+                phi: Series(0.282, &[[40.453, -69.006], [4.372, -90.413]]),
+                psi: Series(
+                    33.645,
+                    &[
+                        [43.276, 13.484],
+                        [1.061, -96.766],
+                        [9.051, -166.51],
+                        [2.067, -23.795],
+                    ],
+                ),
+            },
+            Pair {
+                name: "hind",
+                length: 0.043,
+                area: 4.4e-4,
+                gamma: 44.0,
+                place: -0.06,
+                cone: Series(
+                    -5.0,
+                    &[
+                        [0.484, 41.0],
+                        [0.368, -43.6],
+                        [1.164, -130.4],
+                        [1.218, -92.1],
+                        [0.326, 144.6],
+                    ],
+                ),
+                phi: Series(2.414, &[[45.019, -46.817], [6.604, -51.487]]),
+                psi: Series(
+                    23.935,
+                    &[
+                        [44.018, 34.582],
+                        [13.653, 22.773],
+                        [4.771, -73.0],
+                        [1.768, -143.739],
+                    ],
+                ),
+            },
+        ],
+    };
+    let table = Table::new(include_str!(
+        "../../data/dragonfly_wang_russell2007_vertical_force.csv"
+    ));
+    let (t, force) = (table.numbers("t"), table.numbers("Fz"));
+    // Mean of the four beats after the first.
+    let theirs: Vec<f64> = (0..40)
+        .map(|k| {
+            let at = |b: usize| interpolate(&t, &force, b as f64 + k as f64 / 40.0);
+            (1..5).map(at).sum::<f64>() / 4.0
+        })
+        .collect();
+    let words = [
+        "weights",
+        "Wang & Russell 2007, digitised in jpecquet/dragonfly-flight-control; mean of four beats",
+        "theirs is plane flow, normalised as the source has it, taken as the weight of 0.62 g; wing shape, \
+         distance of the pairs and body are estimates; uncertainty: half the change from the second to the \
+         third beat",
+    ];
+    compare(&animal, &theirs, words, 0.62e-3 * 9.81)
+}
