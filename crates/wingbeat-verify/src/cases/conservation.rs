@@ -306,7 +306,8 @@ fn ball() -> Result<Row, Trouble> {
     )
     .against(0.0, "added mass either way")
     .within(
-        1e-9,
-        "the mesh is symmetric: what the speed alone does cancels but for roundings",
+        0.01,
+        "a panel's area is that of its two triangles, as in the benchmark; a ring's impulse has its \
+         vector area, less where four corners are not in one plane: second order, 0.003 here",
     ))
 }

@@ -144,19 +144,23 @@ fn run(quick: bool) -> Result<Vec<Row>, Trouble> {
     let change = apart(&coarse, &fine);
     let note =
         "ports at nine places stand for the whole pressure; the flow is attached and inviscid";
+    let error = Row::new(
+        "mean absolute error of lift over the third beat",
+        "N",
+        apart(&fine, &measured),
+    )
+    .against(0.0, source)
+    .uncertain(change);
     Ok(vec![
-        Row::new(
-            "mean absolute error of lift over the third beat",
-            "N",
-            apart(&fine, &measured),
-        )
-        .uncertain(change)
-        .against(0.0, source)
-        .within(
-            0.027,
-            "what the other program, PteraSoftware, publishes for this case: 0.027 N (0.0291 N in \
-             its repository), on a measured rms of 0.0717 N; nothing here is fitted",
-        ),
+        if quick {
+            error.because("two coarse meshes; the whole set judges a finer one")
+        } else {
+            error.within(
+                0.027,
+                "what the other program, PteraSoftware, publishes for this case: 0.027 N (0.0291 N in \
+                 its repository), on a measured rms of 0.0717 N; nothing here is fitted",
+            )
+        },
         Row::new("rms lift", "N", rms(&fine))
             .against(rms(&measured), source)
             .uncertain(change)
