@@ -15,8 +15,10 @@ use crate::summation::Sums;
 use crate::wake::Mover;
 use wingbeat_math::DVec3;
 
-/// Largest change of a strength in a step, relative to it.
+/// Largest change of a strength in a step, relative to it, and in all, relative to its first size: the
+/// core of a rolled-up sheet turns too fast for the steps of a flight, and would blow strengths up.
 const MOST_CHANGE: f64 = 0.5;
+const MOST_GROWTH: f64 = 2.0;
 
 /// Velocity and stretching at all particles that are moved (twins follow theirs), sheet after sheet.
 #[derive(Clone, Debug, Default)]
@@ -122,7 +124,8 @@ impl Mover<'_> {
                 [v + stream - v0, rate - s0].map(|d| self.change * d)
             });
             to.push(x + (self.dt * stream + self.displacement(v + dv)));
-            let strength = self.stretched(set.strength.get(i), self.dt * (rate + ds));
+            let most = MOST_GROWTH * set.first_size[i];
+            let strength = self.stretched(set.strength.get(i), self.dt * (rate + ds), most);
             if !(to[i].is_finite() && strength.is_finite()) {
                 return Err((i, v));
             }
@@ -142,13 +145,17 @@ impl Mover<'_> {
         Ok(())
     }
 
-    /// The strength after a step, its change shortened to the limit.
-    fn stretched(&mut self, strength: DVec3, change: DVec3) -> DVec3 {
-        let most = MOST_CHANGE * strength.length();
-        if change.length() > most {
-            self.events.limited += 1;
-            return strength + change.clamp_length_max(most);
+    /// The strength after a step, its change and its size, `most`, held to their limits.
+    fn stretched(&mut self, strength: DVec3, change: DVec3, most: f64) -> DVec3 {
+        let step = MOST_CHANGE * strength.length();
+        let end = strength + change;
+        if change.length() <= step && end.length() <= most {
+            return end;
         }
-        strength + change
+        if !end.is_finite() {
+            return end;
+        }
+        self.events.limited += 1;
+        (strength + change.clamp_length_max(step)).clamp_length_max(most)
     }
 }

@@ -99,6 +99,8 @@ pub struct Particles {
     pub position: Points,
     /// Strengths alpha [m3/s], N.
     pub strength: Points,
+    /// Sizes of the strengths when the particles were made [m3/s].
+    pub first_size: Vec<f64>,
     /// Time at which the row they were left the edge [s].
     pub shed_time: Vec<f64>,
     /// Velocity with which the first ones came here [m/s], N; newer ones have no past.
@@ -129,6 +131,7 @@ impl Particles {
         let past = self.velocity.len();
         self.position.len() == self.len()
             && self.strength.len() == self.len()
+            && self.first_size.len() == self.len()
             && past == self.rate.len()
             && past <= self.len()
     }
@@ -142,6 +145,14 @@ impl Particles {
         }
     }
 
+    /// Appends a particle of this place [m], strength [m3/s], both N, and time of shedding [s].
+    pub fn push(&mut self, position: DVec3, strength: DVec3, shed: f64) {
+        self.position.push(position);
+        self.strength.push(strength);
+        self.first_size.push(strength.length());
+        self.shed_time.push(shed);
+    }
+
     /// Appends the segment from `a` to `b` of circulation `gamma`; none without circulation.
     fn push_segment(&mut self, [a, b]: [DVec3; 2], gamma: f64, radius: f64, shed: f64) -> u64 {
         if gamma == 0.0 {
@@ -150,9 +161,7 @@ impl Particles {
         let pieces = (a.distance(b) / radius).ceil().clamp(1.0, MOST_PIECES);
         for k in 0..pieces as usize {
             let middle = (k as f64 + 0.5) / pieces;
-            self.position.push(a + middle * (b - a));
-            self.strength.push(gamma / pieces * (b - a));
-            self.shed_time.push(shed);
+            self.push(a + middle * (b - a), gamma / pieces * (b - a), shed);
         }
         pieces as u64
     }
@@ -167,6 +176,7 @@ impl Particles {
         reflect(&lead.velocity, &mut self.velocity, &|v| mirror.vector(v));
         reflect(&lead.strength, &mut self.strength, &|a| -mirror.vector(a));
         reflect(&lead.rate, &mut self.rate, &|a| -mirror.vector(a));
+        self.first_size.clone_from(&lead.first_size);
         self.shed_time.clone_from(&lead.shed_time);
     }
 
@@ -184,6 +194,7 @@ impl Particles {
         pick(&mut self.strength, &stay);
         pick(&mut self.velocity, &stay[..past]);
         pick(&mut self.rate, &stay[..past]);
+        self.first_size = stay.iter().map(|&i| self.first_size[i]).collect();
         self.shed_time = stay.iter().map(|&i| self.shed_time[i]).collect();
         (before - stay.len()) as u64
     }

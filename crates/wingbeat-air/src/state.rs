@@ -110,8 +110,8 @@ fn drop_first(points: &mut Points, n: usize) {
 /// How often the wake had to be tamed.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 pub struct WakeEvents {
-    /// Displacements shortened to [`crate::AirSettings::max_displacement`], and changes of a
-    /// particle's strength in one step shortened to half of it.
+    /// Displacements shortened to [`crate::AirSettings::max_displacement`], and strengths
+    /// of particles held to a change of half in a step and twice their first size in all.
     pub limited: u64,
     /// Wake nodes and particles kept at [`crate::AirSettings::clearance`] from a surface.
     pub near_surface: u64,

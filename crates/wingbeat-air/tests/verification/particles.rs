@@ -130,10 +130,9 @@ fn add_ring(state: &mut AirState, n: usize, turn: DMat3, centre: DVec3) {
     let set = &mut state.sheets[0].particles;
     for k in 0..n {
         let (s, c) = (TAU * (k as f64 + 0.5) / n as f64).sin_cos();
-        set.position.push(turn * DVec3::new(c, s, 0.0) + centre);
         let strength = TAU / n as f64 * DVec3::new(-s, c, 0.0);
-        set.strength.push(turn * strength);
-        set.shed_time.push(0.0);
+        let place = turn * DVec3::new(c, s, 0.0) + centre;
+        set.push(place, turn * strength, 0.0);
     }
 }
 

@@ -327,7 +327,7 @@ fn robofly_row(robot: &Insect, q: f64, name: String, base: Choice) -> Result<Row
     let beats = robot.lifts(base)?;
     let [lift, _] = middle(&beats);
     let mut all = beats;
-    for choice in [
+    let changes = [
         Choice { core: 2.0, ..base },
         Choice { core: 0.5, ..base },
         Choice { steps: 28, ..base },
@@ -335,7 +335,9 @@ fn robofly_row(robot: &Insect, q: f64, name: String, base: Choice) -> Result<Row
             mesh: [4, 7],
             ..base
         },
-    ] {
+    ];
+    // Particles are summed one by one: their beats alone.
+    for choice in changes.into_iter().filter(|_| !base.particles) {
         all.extend(robot.lifts(choice)?);
     }
     let [_, spread] = middle(&all);
@@ -344,7 +346,8 @@ fn robofly_row(robot: &Insect, q: f64, name: String, base: Choice) -> Result<Row
             .uncertain(spread / q)
             .because(
                 "over the mean speed at the radius of gyration; uncertainty: half the span over \
-                 the second and third beat, core x 2 and x 0.5, 28 steps, 4 x 7 panels",
+                 the second and third beat, core x 2 and x 0.5, 28 steps, 4 x 7 panels (particles: \
+                 the beats alone)",
             ),
     )
 }

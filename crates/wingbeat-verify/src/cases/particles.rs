@@ -75,10 +75,9 @@ impl Cloud {
         let set = &mut self.state.sheets[0].particles;
         for k in 0..n {
             let (s, c) = (TAU * (k as f64 + 0.5) / n as f64).sin_cos();
-            set.position.push(turn * DVec3::new(c, s, 0.0) + centre);
-            set.strength
-                .push(turn * (TAU / n as f64 * DVec3::new(-s, c, 0.0)));
-            set.shed_time.push(0.0);
+            let strength = TAU / n as f64 * DVec3::new(-s, c, 0.0);
+            let place = turn * DVec3::new(c, s, 0.0) + centre;
+            set.push(place, turn * strength, 0.0);
         }
     }
 
