@@ -1,17 +1,18 @@
 //! The dossier: all rows of all cases, as a page and as tables for machines.
 
+use std::borrow::Cow;
 use std::fmt::Write;
 
 use crate::row::{Row, Trouble, Verdict};
 use crate::{Case, Part};
 
 /// What one case gave.
-#[derive(Clone, Debug, serde::Serialize)]
+#[derive(Clone, Debug, serde::Serialize, serde::Deserialize)]
 pub struct Entry {
     /// Name of the case.
-    pub case: &'static str,
+    pub case: Cow<'static, str>,
     /// What it is about.
-    pub about: &'static str,
+    pub about: Cow<'static, str>,
     /// Part of the dossier.
     pub part: Part,
     /// Its rows.
@@ -28,8 +29,8 @@ impl Entry {
             Err(e) => (Vec::new(), Some(e.to_string())),
         };
         Self {
-            case: case.name,
-            about: case.about,
+            case: case.name.into(),
+            about: case.about.into(),
             part: case.part,
             rows,
             failure,
@@ -49,7 +50,7 @@ impl Entry {
 }
 
 /// All entries of one run of the suite.
-#[derive(Clone, Debug, serde::Serialize)]
+#[derive(Clone, Debug, serde::Serialize, serde::Deserialize)]
 pub struct Dossier {
     /// Whether this is the short set.
     pub quick: bool,
@@ -135,17 +136,17 @@ impl Dossier {
         for e in &self.entries {
             for r in &e.rows {
                 let cells = [
-                    e.case.to_owned(),
+                    e.case.to_string(),
                     r.quantity.clone(),
-                    r.unit.to_owned(),
+                    r.unit.to_string(),
                     exact(r.reference),
-                    r.source.to_owned(),
+                    r.source.to_string(),
                     exact(Some(r.ours)),
                     exact(Some(r.error())),
                     exact(r.uncertainty),
                     exact(r.tolerance),
                     word(r.verdict()).to_owned(),
-                    r.reason.to_owned(),
+                    r.reason.to_string(),
                 ];
                 let cells = cells.map(|c| quoted(&c));
                 let _ = writeln!(text, "{}", cells.join(","));
@@ -155,6 +156,14 @@ impl Dossier {
             }
         }
         text
+    }
+
+    /// From JSON that [`Self::json`] wrote.
+    ///
+    /// # Errors
+    /// Text that is no dossier.
+    pub fn from_json(text: &str) -> Result<Self, serde_json::Error> {
+        serde_json::from_str(text)
     }
 
     /// As JSON.
@@ -197,8 +206,8 @@ fn notes(entry: &Entry, text: &mut String) {
     let mut seen: Vec<&str> = Vec::new();
     text.push('\n');
     for (label, of) in [
-        ("Source", (|r| r.source) as fn(&Row) -> &'static str),
-        ("Tolerance", |r| r.reason),
+        ("Source", (|r| &r.source) as fn(&Row) -> &str),
+        ("Tolerance", |r| &r.reason),
     ] {
         for r in &entry.rows {
             let note = of(r);

@@ -24,7 +24,9 @@ pub use row::{Row, Trouble, Verdict};
 use rayon::prelude::*;
 
 /// Which part of the dossier a case belongs to.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, serde::Serialize)]
+#[derive(
+    Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, serde::Serialize, serde::Deserialize,
+)]
 #[serde(rename_all = "snake_case")]
 pub enum Part {
     /// Closed forms, theory, conservation, invariance.

@@ -1,5 +1,7 @@
 //! One line of the dossier.
 
+use std::borrow::Cow;
+
 /// What a row says about us.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
 #[serde(rename_all = "snake_case")]
@@ -27,16 +29,16 @@ pub enum Trouble {
 }
 
 /// A quantity, its reference and ours.
-#[derive(Clone, Debug, serde::Serialize)]
+#[derive(Clone, Debug, serde::Serialize, serde::Deserialize)]
 pub struct Row {
     /// What is compared.
     pub quantity: String,
     /// Its unit.
-    pub unit: &'static str,
+    pub unit: Cow<'static, str>,
     /// The reference; none where a bound or a spread alone is stated.
     pub reference: Option<f64>,
     /// Where the reference comes from.
-    pub source: &'static str,
+    pub source: Cow<'static, str>,
     /// Ours.
     pub ours: f64,
     /// Half-width of our own uncertainty, from refinement; none for exact statements.
@@ -44,7 +46,7 @@ pub struct Row {
     /// Largest error that passes, in the unit; none: a report.
     pub tolerance: Option<f64>,
     /// Why that much, or what a report means.
-    pub reason: &'static str,
+    pub reason: Cow<'static, str>,
 }
 
 impl Row {
@@ -52,20 +54,20 @@ impl Row {
     pub fn new(quantity: impl Into<String>, unit: &'static str, ours: f64) -> Self {
         Self {
             quantity: quantity.into(),
-            unit,
+            unit: unit.into(),
             reference: None,
-            source: "",
+            source: "".into(),
             ours,
             uncertainty: None,
             tolerance: None,
-            reason: "",
+            reason: "".into(),
         }
     }
 
     /// What it is compared with, and where that stands.
     pub fn against(mut self, reference: f64, source: &'static str) -> Self {
         self.reference = Some(reference);
-        self.source = source;
+        self.source = source.into();
         self
     }
 
@@ -78,7 +80,7 @@ impl Row {
     /// Judged: the error may be this large, in the unit, for this reason.
     pub fn within(mut self, tolerance: f64, reason: &'static str) -> Self {
         self.tolerance = Some(tolerance);
-        self.reason = reason;
+        self.reason = reason.into();
         self
     }
 
@@ -90,7 +92,7 @@ impl Row {
 
     /// What a report means.
     pub fn because(mut self, reason: &'static str) -> Self {
-        self.reason = reason;
+        self.reason = reason.into();
         self
     }
 

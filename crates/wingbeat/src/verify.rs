@@ -20,6 +20,9 @@ pub(crate) struct VerifyArgs {
     /// Folder for verification.md, .csv and .json, which are replaced.
     #[arg(long, value_name = "DIR", default_value = "verification")]
     out: PathBuf,
+    /// Go on where an earlier run into the same folder ended: its cases are taken as they are.
+    #[arg(long)]
+    resume: bool,
     /// Names and contents of the cases; nothing is run.
     #[arg(long)]
     list: bool,
@@ -42,11 +45,22 @@ pub(crate) fn run(args: &VerifyArgs) -> ExitCode {
         return ExitCode::SUCCESS;
     }
     let start = Instant::now();
-    let so_far = Mutex::new(Vec::new());
-    let dossier = wingbeat::verify::run(&cases, args.quick, |e| {
+    let so_far = Mutex::new(if args.resume {
+        earlier(args, &cases)
+    } else {
+        vec![]
+    });
+    let known =
+        |c: &Case| (so_far.lock().expect("one thread so far").iter()).any(|e| e.case == c.name);
+    let (_, left): (Vec<Case>, Vec<Case>) = cases.iter().partition(|c| known(c));
+    wingbeat::verify::run(&left, args.quick, |e| {
         tell(e, start);
         keep(&so_far, e, args, &cases);
     });
+    let dossier = Dossier {
+        quick: args.quick,
+        entries: so_far.into_inner().expect("no case panicked while writing"),
+    };
     if let Err(e) = write(&dossier, &args.out) {
         eprintln!(
             "error: {}: {e}; name a folder that can be written",
@@ -61,6 +75,17 @@ pub(crate) fn run(args: &VerifyArgs) -> ExitCode {
         args.out.join("verification.md").display()
     );
     ExitCode::from(u8::from(miss > 0))
+}
+
+/// What an earlier run of the same set left of these cases; failures are tried again.
+fn earlier(args: &VerifyArgs, cases: &[Case]) -> Vec<Entry> {
+    let text = std::fs::read_to_string(args.out.join("verification.json")).unwrap_or_default();
+    let same = Dossier::from_json(&text)
+        .ok()
+        .filter(|d| d.quick == args.quick);
+    let mut entries = same.map_or(vec![], |d| d.entries);
+    entries.retain(|e| e.failure.is_none() && cases.iter().any(|c| c.name == e.case));
+    entries
 }
 
 /// Writes what is done so far: a long run that is ended early is not lost.

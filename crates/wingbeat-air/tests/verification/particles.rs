@@ -191,7 +191,7 @@ fn two_rings(n: usize, sigma: f64, scheme: Stretching) -> [f64; 2] {
     add_ring(&mut state, n, DMat3::IDENTITY, DVec3::ZERO);
     add_ring(&mut state, n, r1(1.0), DVec3::new(0.3, 1.2, 0.0));
     let before = state.sheets[0].particles.impulse();
-    go_on(&lattice, &rest, &mut state, 0.8 / n as f64, n);
+    go_on(&lattice, &rest, &mut state, 0.1 / n as f64, 4 * n);
     let set = &state.sheets[0].particles;
     let total: DVec3 = set.strength.iter().sum();
     let drift = (set.impulse() - before).length() / before.length();

@@ -118,7 +118,8 @@ fn kelvin(_quick: bool) -> Result<Vec<Row>, Trouble> {
 /// Normal forces at the end of a heave: pressure (or segments), impulse.
 fn heaving(k: usize, loads: LoadMethod) -> Result<[f64; 2], AirError> {
     let (rows, cols, steps) = (3 * k, 4 * k, 10 * k);
-    let core = CoreModel::Scully { radius: 1e-7 };
+    // With next to no core close filaments of the rolled-up wake circle faster than the steps follow.
+    let core = CoreModel::Scully { radius: 0.01 };
     let settings = AirSettings {
         bound_core: core,
         wake_core: core,

@@ -108,7 +108,7 @@ fn two_rings(n: usize, sigma: f64, stretching: Stretching) -> Result<[f64; 2], A
     cloud.add_ring(n, DMat3::IDENTITY, DVec3::ZERO);
     cloud.add_ring(n, r1(1.0), DVec3::new(0.3, 1.2, 0.0));
     let before = cloud.state.sheets[0].particles.impulse();
-    cloud.go_on(0.8 / n as f64, n)?;
+    cloud.go_on(0.1 / n as f64, 4 * n)?;
     let set = &cloud.state.sheets[0].particles;
     let drift = (set.impulse() - before).length() / before.length();
     Ok([set.strength.iter().sum::<DVec3>().length(), drift])
