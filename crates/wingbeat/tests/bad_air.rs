@@ -79,7 +79,7 @@ fn refused(name: &str, from: &str, to: &str, at: &str, wanted: &[&str]) {
         report.contains(&format!("case.toml:{line}:")),
         "line {line} not in:\n{report}"
     );
-    for part in ["allowed: ", "try: "].iter().chain(wanted) {
+    for part in wanted {
         assert!(report.contains(part), "`{part}` not in:\n{report}");
     }
     assert!(!scratch.0.join("run").exists(), "something was written");
@@ -102,7 +102,7 @@ fn refuses_an_inverted_panel() {
         "[1, 2, 6, 5]",
         "[5, 6, 2, 1]",
         "[body.part.cube]",
-        &["body.part.cube", "the same way"],
+        &["body.part.cube", "nodes 1 and 5", "turn all faces outward"],
     );
 }
 
@@ -116,7 +116,7 @@ fn refuses_a_body_turned_inside_out() {
         quads,
         turned,
         "[body.part.cube]",
-        &["body.part.cube", "inward"],
+        &["body.part.cube", "inward", "reverse the corner order"],
     );
 }
 
@@ -127,7 +127,7 @@ fn refuses_an_open_body() {
         "  [3, 0, 4, 7],\n",
         "",
         "[body.part.cube]",
-        &["body.part.cube", "closed"],
+        &["body.part.cube", "not closed", "close the holes"],
     );
 }
 
@@ -138,7 +138,11 @@ fn refuses_coincident_nodes() {
         "  [-1e-3, 1e-3, 1e-3],\n",
         "  [1e-3, 1e-3, 1e-3],\n",
         "  [4, 5, 6, 7]",
-        &["body.part.cube.quads[1]", "6 and 7 coincide"],
+        &[
+            "body.part.cube.quads[1]",
+            "6 and 7 coincide",
+            "remove the other",
+        ],
     );
 }
 
@@ -148,8 +152,8 @@ fn refuses_an_edge_without_length() {
         "air-edge",
         "[[0.0, -0.8e-3], [2e-3, -0.8e-3]]",
         "[[0.0, -0.8e-3], [0.0, -0.8e-3]]",
-        "trailing_m",
-        &["wing.right.planform.outline"],
+        "[wing.right.planform.outline]",
+        &["trailing, row 2", "does not increase from root to tip"],
     );
 }
 
@@ -160,7 +164,13 @@ fn refuses_a_gust_table_that_goes_backwards() {
         "[2e-3, 0.0]]",
         "[0.5e-3, 0.0]]",
         "table",
-        &["air.gust[0].table", "row 2", "not later"],
+        &[
+            "air.gust[0].table",
+            "row 2",
+            "not later",
+            "allowed: ",
+            "try: ",
+        ],
     );
 }
 
@@ -171,14 +181,22 @@ fn refuses_a_criterion_without_its_threshold() {
         "leading_edge_threshold = 0.2\n",
         "",
         "[air]",
-        &["air.leading_edge_threshold", "needs this threshold"],
+        &[
+            "air.leading_edge_threshold",
+            "needs this threshold",
+            "try: ",
+        ],
     );
     refused(
         "air-threshold-deg",
         "leading_edge = \"suction\"",
         "leading_edge = \"angle_of_attack\"",
         "[air]",
-        &["air.leading_edge_threshold_deg", "needs this threshold"],
+        &[
+            "air.leading_edge_threshold_deg",
+            "needs this threshold",
+            "try: ",
+        ],
     );
 }
 
