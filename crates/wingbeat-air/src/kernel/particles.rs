@@ -180,7 +180,7 @@ impl ParticleSum {
                 } else {
                     let along = (alpha[0] * c[0] + alpha[1] * c[1] + alpha[2] * c[2]) * h;
                     for k in 0..3 {
-                        d[k] = d[k] - (g * turn[k] + along * r[k]);
+                        d[k] -= g * turn[k] + along * r[k];
                     }
                 }
             }
