@@ -189,7 +189,8 @@ function drawScene() {
   });
   const here = flight.path.slice(3 * frame, 3 * frame + 3).map((x) => x * flight.scale);
   if (!target) {
-    camera.position.set(here[0] + 2.6, here[1] - 3.6, here[2] + 1.5);
+    const far = Math.max(1, 0.8 * canvas.clientHeight / Math.max(1, canvas.clientWidth)); // narrow screens
+    camera.position.set(here[0] + 2.6 * far, here[1] - 3.6 * far, here[2] + 1.5 * far);
     controls.target.set(...here);
   } else if (byId("camera").value === "follow") {
     const shift = new THREE.Vector3(here[0] - target[0], here[1] - target[1], here[2] - target[2]);
@@ -266,7 +267,7 @@ function range(panel) {
     if (y > hi) hi = y;
   }
   if (!(hi > lo)) { lo = Number.isFinite(lo) ? lo - 1 : -1; hi = lo + 2; }
-  if (panel.logarithmic) lo = Math.max(lo, hi - 16);
+  if (panel.logarithmic) lo = Math.max(lo, hi - 18);
   const margin = 0.06 * (hi - lo);
   return [lo - margin, hi + margin];
 }

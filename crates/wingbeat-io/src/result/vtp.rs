@@ -144,9 +144,12 @@ fn array(
     components: usize,
     items: impl Iterator<Item = [u8; 8]>,
 ) {
-    let data: Vec<u8> = items.flatten().collect();
-    let mut block = (data.len() as u64).to_le_bytes().to_vec();
-    block.extend(data);
+    let mut block = vec![0; 8];
+    for item in items {
+        block.extend_from_slice(&item);
+    }
+    let length = block.len() as u64 - 8;
+    block[..8].copy_from_slice(&length.to_le_bytes());
     let _ = writeln!(
         out,
         "<DataArray type=\"{kind}\" Name=\"{name}\" NumberOfComponents=\"{components}\" format=\"binary\">"
