@@ -111,6 +111,7 @@ fn go_back(dir: &Path, threads: usize) -> Result<Option<Run>, IoError> {
     let dir = ResultDir::open(dir)?;
     let saved = saver::read(dir.path())?;
     if saved.manifest.outcome == Outcome::Finished {
+        saver::forget(dir.path())?; // a kill at the very end may have left it
         println!("{} is flown to its end already.", dir.path().display());
         return Ok(None);
     }

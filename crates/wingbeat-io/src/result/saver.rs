@@ -199,3 +199,15 @@ pub(crate) fn go_back(dir: &Path, last: usize) -> Result<Vec<usize>, IoError> {
 pub(crate) fn write(dir: &Path, header: &Header, state: &FlightState) -> Result<(), IoError> {
     write_safely(&dir.join(FILE), &checkpoint::encode(header, state))
 }
+
+/// Removes the checkpoint of a flight that is done.
+///
+/// # Errors
+/// A file that cannot be removed.
+pub fn forget(dir: &Path) -> Result<(), IoError> {
+    let path = dir.join(FILE);
+    match fs::remove_file(&path) {
+        Err(e) if e.kind() != std::io::ErrorKind::NotFound => Err(IoError::write(&path)(e)),
+        _ => Ok(()),
+    }
+}

@@ -1,11 +1,10 @@
 //! The sink of a flight: takes every accepted step, keeps the result directory readable.
 
-use std::path::Path;
 use std::time::{Duration, Instant};
 
 use wingbeat_flight::{FlightState, Record, Snapshot};
 
-use super::checkpoint::{self, Header};
+use super::checkpoint::Header;
 use super::columns::body_names;
 use super::directory::write_whole;
 use super::history::HistoryWriter;
@@ -260,16 +259,8 @@ impl RunWriter {
             page::write(&self.dir, page::DEFAULT_BYTES)?;
         }
         if self.manifest.outcome == Outcome::Finished {
-            forget(&self.dir.join(checkpoint::FILE))?;
+            saver::forget(self.dir.path())?;
         }
         Ok(summary)
-    }
-}
-
-/// Removes the checkpoint of a flight that is done.
-fn forget(path: &Path) -> Result<(), IoError> {
-    match std::fs::remove_file(path) {
-        Err(e) if e.kind() != std::io::ErrorKind::NotFound => Err(IoError::write(path)(e)),
-        _ => Ok(()),
     }
 }
