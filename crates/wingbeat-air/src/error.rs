@@ -241,6 +241,29 @@ pub enum AirError {
         /// Its velocity [m/s].
         velocity: DVec3,
     },
+    /// Surfaces that cannot be joined.
+    #[error(
+        "seam {seam}: {problem}; a seam lists the nodes of a free edge line of both surfaces, in step"
+    )]
+    Seam {
+        /// Number of the seam.
+        seam: usize,
+        /// What does not fit.
+        problem: &'static str,
+    },
+    /// Joined surfaces that come apart.
+    #[error(
+        "air step {step}: node {} of surface {} and node {} of surface {} are joined but {distance:e} m apart; move joined surfaces so that their shared edge is one",
+        nodes[0].1, nodes[0].0, nodes[1].1, nodes[1].0
+    )]
+    SeamOpen {
+        /// Accepted steps so far.
+        step: u64,
+        /// Surface and node, counted in it, on either side.
+        nodes: Box<[(String, usize); 2]>,
+        /// Distance [m].
+        distance: f64,
+    },
     /// A state that does not belong to the lattice.
     #[error(
         "the air state does not fit the lattice ({what}); restart with the case the state was written by"

@@ -5,6 +5,7 @@ use crate::filaments::newest;
 use crate::images::{Mirror, mirrors};
 use crate::loads::AirWorkspace;
 use crate::rings::{Rings, rings};
+use crate::seams::Seam;
 use crate::settings::{AirSettings, LeadingEdge};
 use crate::state::{AirState, NodeMotion, WakeSheet};
 use crate::strips::{Strip, strips};
@@ -32,10 +33,22 @@ impl Lattice {
     /// # Errors
     /// [`AirError`] names the first panel, edge, shedding segment or setting that is wrong.
     pub fn new(surfaces: Vec<Surface>, settings: AirSettings) -> Result<Self, AirError> {
+        Self::joined(surfaces, &[], settings)
+    }
+
+    /// Builds the lattice of surfaces some of which share edges.
+    ///
+    /// # Errors
+    /// As [`Self::new`]; seams that fit nowhere.
+    pub fn joined(
+        surfaces: Vec<Surface>,
+        seams: &[Seam],
+        settings: AirSettings,
+    ) -> Result<Self, AirError> {
         settings.validate()?;
         let mut settings = settings;
         settings.shedding.leading &= settings.leading != LeadingEdge::Never;
-        let topology = Topology::new(&surfaces, settings.shedding)?;
+        let topology = Topology::new(&surfaces, seams, settings.shedding)?;
         Ok(Self {
             strips: strips(&topology, &surfaces),
             rings: rings(&topology, &surfaces, &settings),

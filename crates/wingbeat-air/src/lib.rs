@@ -30,8 +30,11 @@
 //!
 //! [`blade`] is the other air of this crate: blade elements, quasi-steady and without memory.
 //!
+//! Surfaces may change their shape: their nodes move as the caller says. [`seams`] joins surfaces to
+//! one; [`section_drag`] adds friction and profile drag.
+//!
 //! What this crate does not know: coordinates, joints, animals, gravity, files. What the method
-//! does not know: viscosity (no friction drag, wakes do not decay unless their cores grow),
+//! does not know: viscosity (no friction drag of its own, wakes do not decay unless their cores grow),
 //! separation other than at the edges told to shed. Forces are pressure times normal unless
 //! [`LoadMethod`] says otherwise, so without the suction at edges that do not shed.
 
@@ -53,6 +56,8 @@ mod particle_motion;
 pub mod particles;
 mod pressure;
 mod rings;
+pub mod seams;
+pub mod section_drag;
 pub mod settings;
 pub mod state;
 pub mod strips;
@@ -70,6 +75,8 @@ pub use lattice::Lattice;
 pub use loads::{AirLoads, AirWorkspace, SurfaceLoads};
 pub use panels::Panels;
 pub use particles::{ParticleSettings, Particles};
+pub use seams::Seam;
+pub use section_drag::{Friction, SectionDrag};
 pub use settings::{
     AirSettings, CirculationRate, Convection, LeadingEdge, LoadMethod, NewestRow, SheddingKinds,
 };

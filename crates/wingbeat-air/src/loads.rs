@@ -12,6 +12,7 @@ use crate::panels::Panels;
 use crate::particle_motion::ParticleFlow;
 use crate::pressure;
 use crate::rings;
+use crate::section_drag;
 use crate::state::{AirState, NodeMotion};
 use crate::strips;
 use crate::summation::{StillWake, Sums, direct};
@@ -142,6 +143,7 @@ impl Lattice {
         self.check_motion(motion, state.step)?;
         rings::place(self, motion, &mut ws.rings);
         out.panels.update(self, &ws.rings, state.step)?;
+        self.check_seams(motion, out.panels.size(), state.step)?;
         if let Some(halves) = self.halves() {
             halves.check(motion, state.step)?;
         }
@@ -155,6 +157,7 @@ impl Lattice {
         pressure::forces(self, out);
         joukowski::segment_forces(self, state, motion, ws, out);
         closed::outer_forces(self, state, out);
+        section_drag::add(self, &motion.position, out);
         strips::leading_values(self, &motion.position, out);
         let inner: DVec3 = out.inner_momentum.iter().sum();
         let vorticity = ws.filaments.impulse(DVec3::ZERO) + state.dropped_impulse;

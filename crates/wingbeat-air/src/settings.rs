@@ -4,6 +4,7 @@ use crate::error::AirError;
 use crate::images::{Plane, mirrors};
 use crate::kernel::{CoreModel, Method};
 use crate::particles::ParticleSettings;
+use crate::section_drag::SectionDrag;
 use crate::surface::EdgeKind;
 use crate::wind::Wind;
 use wingbeat_math::DVec3;
@@ -154,6 +155,8 @@ pub struct AirSettings {
     pub loads: LoadMethod,
     /// Separation from leading edges.
     pub leading: LeadingEdge,
+    /// Drag of the wings' sections added to the forces; none is the method's own.
+    pub section_drag: Option<SectionDrag>,
     /// Part of its panel by which a ring stays inside a side edge that does not shed; a quarter
     /// makes the loads of coarse lattices good to second order, 0 is the published benchmark's.
     /// Where trailing edges shed and leading edges do not, all rings lie aft by the same part.
@@ -193,6 +196,7 @@ impl AirSettings {
             newest_row: NewestRow::Constant,
             loads: LoadMethod::Pressure,
             leading: LeadingEdge::Always,
+            section_drag: None,
             inset: 0.0,
             wind: Wind::default(),
             images: Vec::new(),
@@ -292,6 +296,7 @@ impl AirSettings {
         )?;
         self.check_leading()?;
         self.particles.map_or(Ok(()), |p| p.validate(self))?;
+        self.section_drag.map_or(Ok(()), |d| d.validate())?;
         self.wind.validate()?;
         mirrors(&self.images)?;
         let through = |p: &&Plane| {

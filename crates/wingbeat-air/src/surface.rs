@@ -45,13 +45,13 @@ pub struct Surface {
 impl Surface {
     /// An open sheet of `rows` x `cols` quadrilaterals, nodes numbered row by row
     /// (`i (cols + 1) + j`), row 0 the leading edge, column 0 the root. The normal is along
-    /// (leading to trailing) x (root to tip). One line sheds, running along the whole border
-    /// but the root: leading edge root to tip, tip, trailing edge tip to root.
+    /// (leading to trailing) x (root to tip). One line may shed, running along the whole border:
+    /// leading edge root to tip, tip, trailing edge tip to root, root.
     ///
     /// ```
     /// let wing = wingbeat_air::Surface::grid("wing", 4, 10);
     /// assert_eq!(wing.panels.len(), 40);
-    /// assert_eq!(wing.shedding[0].len(), 10 + 4 + 10);
+    /// assert_eq!(wing.shedding[0].len(), 2 * (10 + 4));
     /// ```
     pub fn grid(name: &str, rows: usize, cols: usize) -> Self {
         let node = |i: usize, j: usize| i * (cols + 1) + j;
@@ -81,11 +81,14 @@ impl Surface {
             let panel = (rows - 1) * cols + j;
             segment(node(rows, j + 1), node(rows, j), panel, EdgeKind::Trailing)
         });
+        let root = (0..rows)
+            .rev()
+            .map(|i| segment(node(i + 1, 0), node(i, 0), i * cols, EdgeKind::Root));
         Self {
             name: name.to_owned(),
             node_count: (rows + 1) * (cols + 1),
             panels,
-            shedding: vec![leading.chain(tip).chain(trailing).collect()],
+            shedding: vec![leading.chain(tip).chain(trailing).chain(root).collect()],
             closed: false,
         }
     }

@@ -1,9 +1,13 @@
 //! What is joined to what: edges of the lattice, the panels they bound, the wakes they shed.
 
 use crate::error::AirError;
+use crate::seams::{self, Seam, Tie};
 use crate::settings::SheddingKinds;
 use crate::surface::{EdgeKind, SheddingSegment, Surface};
 use std::collections::BTreeMap;
+
+/// In place of a panel: an edge that a seam has made superfluous.
+const GONE: usize = usize::MAX;
 
 /// One edge of the lattice: a straight vortex filament from node `from` to node `to`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -74,29 +78,112 @@ pub struct Topology {
     pub panel_edges: Vec<Vec<PanelEdge>>,
     /// Wake sheets.
     pub sheets: Vec<Sheet>,
+    /// Pairs of nodes that are one, on joined surfaces (global).
+    pub seams: Vec<[usize; 2]>,
+    /// Columns of wake nodes that leave them.
+    pub ties: Vec<Tie>,
 }
 
 impl Topology {
     /// Joins the surfaces.
     ///
     /// # Errors
-    /// [`AirError`] names the first panel, edge or shedding segment that fits nowhere.
-    pub fn new(surfaces: &[Surface], kinds: SheddingKinds) -> Result<Self, AirError> {
+    /// [`AirError`] names the first panel, edge, seam or shedding segment that fits nowhere.
+    pub fn new(
+        surfaces: &[Surface],
+        seams: &[Seam],
+        kinds: SheddingKinds,
+    ) -> Result<Self, AirError> {
         let mut t = Self {
             first_node: vec![0],
             first_panel: vec![0],
             ..Self::default()
         };
+        seams::check(seams, surfaces)?;
+        let mut directed = Vec::new();
         for (s, surface) in surfaces.iter().enumerate() {
             t.add_panels(s, surface)?;
-            let edges = t.add_edges(s, surface)?;
-            t.add_sheets(s, surface, kinds, &edges)?;
+            directed.push(t.add_edges(s, surface)?);
+        }
+        for (k, seam) in seams.iter().enumerate() {
+            t.sew(k, seam, surfaces, &mut directed)?;
+        }
+        t.close_gaps(&mut directed);
+        for (s, surface) in surfaces.iter().enumerate() {
+            t.add_sheets(s, surface, kinds, &directed[s])?;
         }
         if t.panels.is_empty() {
             return Err(AirError::Empty);
         }
+        t.ties = seams::ties(&t.seams, &t.sheets);
         t.join_panels_to_edges();
         Ok(t)
+    }
+
+    /// Makes the edges of a seam those of the first surface, shared with the panels of the second;
+    /// those of the second are left without a panel of their own.
+    fn sew(
+        &mut self,
+        k: usize,
+        seam: &Seam,
+        surfaces: &[Surface],
+        directed: &mut [BTreeMap<[usize; 2], usize>],
+    ) -> Result<(), AirError> {
+        let wrong = |problem: &'static str| AirError::Seam { seam: k, problem };
+        let [a, b] = seam.surfaces;
+        let offset = [a, b].map(|s| self.first_node[s]);
+        for ends in seam.nodes.windows(2) {
+            let run = |side: usize| {
+                let [m, n] = [ends[0][side], ends[1][side]];
+                let of = &directed[seam.surfaces[side]];
+                let forward = of.get(&[m, n]).map(|&e| (e, true));
+                forward.or_else(|| of.get(&[n, m]).map(|&e| (e, false)))
+            };
+            let (Some((one, along)), Some((other, alike))) = (run(0), run(1)) else {
+                return Err(wrong("two nodes in succession are no edge"));
+            };
+            let [own, theirs] = [one, other].map(|e| &self.edges[e]);
+            if own.minus.is_some() || theirs.minus.is_some() {
+                return Err(wrong("an edge is shared already"));
+            }
+            if along == alike {
+                return Err(AirError::Orientation {
+                    surface: surfaces[b].name.clone(),
+                    from: ends[0][1],
+                    to: ends[1][1],
+                    count: 2,
+                });
+            }
+            let panel = theirs.plus;
+            self.edges[one].minus = Some(panel);
+            self.edges[other].plus = GONE;
+            directed[b].values_mut().for_each(|e| {
+                if *e == other {
+                    *e = one;
+                }
+            });
+        }
+        let nodes = seam.nodes.iter();
+        self.seams
+            .extend(nodes.map(|n| [n[0] + offset[0], n[1] + offset[1]]));
+        Ok(())
+    }
+
+    /// Takes out the edges that seams have left without panels.
+    fn close_gaps(&mut self, directed: &mut [BTreeMap<[usize; 2], usize>]) {
+        if self.seams.is_empty() {
+            return;
+        }
+        let mut number = Vec::with_capacity(self.edges.len());
+        let mut next = 0;
+        for edge in &self.edges {
+            number.push(next);
+            next += usize::from(edge.plus != GONE);
+        }
+        self.edges.retain(|e| e.plus != GONE);
+        for e in directed.iter_mut().flat_map(BTreeMap::values_mut) {
+            *e = number[*e];
+        }
     }
 
     fn add_panels(&mut self, s: usize, surface: &Surface) -> Result<(), AirError> {
@@ -186,9 +273,24 @@ impl Topology {
                     });
                 }
             }
-            let sheds = |g: &&SheddingSegment| kinds.sheds(g.kind);
-            for run in segments.chunk_by(|a, b| kinds.sheds(a.kind) == kinds.sheds(b.kind)) {
-                if run.first().filter(sheds).is_some() {
+            // The edges of a seam are no border any more.
+            let sewn = |g: &SheddingSegment| {
+                let edge = directed.get(&[g.from, g.to]);
+                let edge = edge.or_else(|| directed.get(&[g.to, g.from]));
+                edge.map(|&e| &self.edges[e]).is_some_and(|e| {
+                    let surface = |p: usize| self.panel_surface[p];
+                    e.minus.is_some_and(|p| surface(p) != surface(e.plus))
+                })
+            };
+            let sheds: Vec<bool> = segments
+                .iter()
+                .map(|g| kinds.sheds(g.kind) && !sewn(g))
+                .collect();
+            let mut from = 0;
+            for same in sheds.chunk_by(|a, b| a == b) {
+                let run = &segments[from..from + same.len()];
+                from += same.len();
+                if same[0] {
                     self.add_sheet(s, surface, run, directed)?;
                 }
             }

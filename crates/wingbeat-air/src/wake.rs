@@ -8,6 +8,7 @@ use crate::kernel::Points;
 use crate::lattice::Lattice;
 use crate::loads::{AirLoads, AirWorkspace};
 use crate::particle_motion::ParticleFlow;
+use crate::seams;
 use crate::settings::{Convection, LeadingEdge, NewestRow};
 use crate::state::{AirState, NodeMotion, WakeEvents, WakeSheet};
 use crate::surface::EdgeKind;
@@ -159,6 +160,7 @@ impl Lattice {
             mover.events += events;
             dropped[k] = impulse;
         }
+        seams::tie(self.topology(), &mut sheets);
         state.sheets = sheets;
         let events = mover.events;
         state.dropped_impulse += dropped.into_iter().sum::<DVec3>();

@@ -129,6 +129,12 @@ impl Beat {
         let mut beat = Self::without_air(setup, &bodies, steps, period);
         match &setup.air {
             AirModel::None => {}
+            AirModel::BladeElement(_) if deforms(setup) => {
+                return Err(AnalysisError::not_covered(
+                    "the fast model of a beat knows no deforming wings",
+                    "leave out [wing.NAME.deformation], or use air.model = \"vortex_lattice\" for trim",
+                ));
+            }
             AirModel::BladeElement(options) => {
                 beat.stream_body = options.blade.free_stream;
                 beat.stream_wings = options.blade.free_stream + options.induced;
@@ -367,6 +373,10 @@ impl Beat {
             at.inertia * turn + gyro,
         )
     }
+}
+
+fn deforms(setup: &FlightSetup) -> bool {
+    (setup.animal.wings.iter()).any(|w| w.deformation.is_some())
 }
 
 impl Placed {

@@ -73,7 +73,7 @@ pub fn power(setup: &FlightSetup) -> Result<Power, AnalysisError> {
     })
 }
 
-/// Hinge powers of every wing at every step of the last beat.
+/// Powers of hinge and deformation of every wing at every step of the last beat.
 fn hinge_powers(setup: FlightSetup, per_beat: usize) -> Result<Vec<Vec<f64>>, AnalysisError> {
     let first = setup.time.steps - per_beat;
     let mut flight = Simulation::new(setup)?;
@@ -81,7 +81,11 @@ fn hinge_powers(setup: FlightSetup, per_beat: usize) -> Result<Vec<Vec<f64>>, An
     while !flight.finished() {
         let record = flight.step()?;
         if record.step > first {
-            list.push(record.hinges.iter().map(|h| h.power).collect());
+            let mut powers: Vec<f64> = record.hinges.iter().map(|h| h.power).collect();
+            for (power, deforming) in powers.iter_mut().zip(&record.deformation_power) {
+                *power += deforming;
+            }
+            list.push(powers);
         }
     }
     Ok(list)

@@ -68,6 +68,7 @@ fn in_lattice(steps: usize) -> FlightSetup {
         lattice,
         body_surfaces: false,
         mirror: true,
+        joined: vec![],
     });
     setup.time.step = 0.005 / steps as f64;
     setup

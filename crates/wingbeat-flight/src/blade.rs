@@ -5,11 +5,12 @@
 //! function of state and time alone: quasi-steady air needs no history.
 
 use wingbeat_air::blade::{
-    BladeError, BladeWing, BodyDrag, FrameAcceleration, FrameMotion, Load, Strip,
+    BladeError, BladeWing, BodyDrag, FrameAcceleration, FrameMotion, Load, SectionMotion, Strip,
 };
 use wingbeat_dynamics::{BodyAcceleration, BodyMotion, Wrench};
 use wingbeat_math::DVec3;
-use wingbeat_model::{Animal, Wing};
+use wingbeat_model::deformation::Stations;
+use wingbeat_model::{Animal, Wing, WingMotion};
 
 use crate::setup::BladeOptions;
 
@@ -18,9 +19,44 @@ use crate::setup::BladeOptions;
 pub struct BladeSide {
     /// Wings in the animal's order: body `i + 1`.
     pub wings: Vec<BladeWing>,
+    /// How they are deformed.
+    deforming: Vec<Option<DeformingStrips>>,
     drag: Option<BodyDrag>,
     density: f64,
     stream: DVec3,
+}
+
+/// Strips of a wing that changes its shape in the phase of its beat.
+#[derive(Clone, Debug)]
+struct DeformingStrips {
+    stations: Stations,
+    motion: WingMotion,
+    /// Span and distance of the feathering axis ahead of the twist axis, strip by strip [m].
+    places: Vec<[f64; 2]>,
+}
+
+impl DeformingStrips {
+    fn new(wing: &Wing) -> Option<Self> {
+        let deformation = wing.deformation.as_ref()?;
+        let strips = strips(wing);
+        let tip = wing.report().length;
+        let r: Vec<f64> = strips.iter().map(|s| s.y.abs() / tip).collect();
+        let ahead = |s: &Strip| deformation.axis_fraction * s.chord - s.x_leading;
+        Some(Self {
+            stations: Stations::new(deformation, &r, wing.root()),
+            motion: wing.motion.clone(),
+            places: strips.iter().map(|s| [s.y, ahead(s)]).collect(),
+        })
+    }
+
+    fn section(&self, k: usize, phase: [f64; 3]) -> SectionMotion {
+        let (s, [y, ahead]) = (self.stations.at(k, phase), self.places[k]);
+        let [d, v, a] = s.displacement(ahead, 0.0, 0.0);
+        SectionMotion {
+            axis: [DVec3::new(0.0, y, 0.0) + d, v, a],
+            twist: s.twist,
+        }
+    }
 }
 
 impl BladeSide {
@@ -37,40 +73,83 @@ impl BladeSide {
         let wing = |w: &Wing| BladeWing::new(strips(w), settings);
         Ok(Self {
             wings: animal.wings.iter().map(wing).collect::<Result<_, _>>()?,
+            deforming: animal.wings.iter().map(DeformingStrips::new).collect(),
             drag: options.body_drag,
             density: options.blade.density,
             stream: options.blade.free_stream,
         })
     }
 
-    /// Loads that depend on velocities alone, about the origins of the bodies, N components.
-    pub fn velocity_loads(&self, motions: &[BodyMotion], out: &mut [Wrench]) {
+    /// Whether any wing is deformed.
+    pub fn deforms(&self) -> bool {
+        self.deforming.iter().any(Option::is_some)
+    }
+
+    /// Loads that depend on velocities alone, at time `t` [s], about the origins of the bodies, N
+    /// components.
+    pub fn velocity_loads(&self, t: f64, motions: &[BodyMotion], out: &mut [Wrench]) {
         out.fill(Wrench::default());
         if let Some(drag) = &self.drag {
             let b = &motions[0];
             let v = b.r.transpose() * (b.v - self.stream);
             out[0].force = b.r * drag.force(self.density, v);
         }
-        for ((wing, m), o) in self.wings.iter().zip(&motions[1..]).zip(&mut out[1..]) {
-            *o = turned(&wing.velocity_load(&frame(m)), m);
+        for (i, wing) in self.wings.iter().enumerate() {
+            let m = &motions[i + 1];
+            let load = match &self.deforming[i] {
+                None => wing.velocity_load(&frame(m)),
+                Some(d) => {
+                    let phase = d.motion.phase_at(t);
+                    let section = |k| d.section(k, phase);
+                    wing.deforming_velocity_load(&frame(m), section).load
+                }
+            };
+            out[i + 1] = turned(&load, m);
         }
     }
 
-    /// Loads of the added mass.
+    /// Loads of the added mass at time `t` [s].
     pub fn acceleration_loads(
         &self,
+        t: f64,
         motions: &[BodyMotion],
         accelerations: &[BodyAcceleration],
         out: &mut [Wrench],
     ) {
         out.fill(Wrench::default());
         for (i, wing) in self.wings.iter().enumerate() {
-            let (m, a) = (&motions[i + 1], &accelerations[i + 1]);
-            let acc = FrameAcceleration {
-                linear: a.linear,
-                angular: a.angular,
+            let (m, acc) = (&motions[i + 1], acceleration(&accelerations[i + 1]));
+            let load = match &self.deforming[i] {
+                None => wing.acceleration_load(&frame(m), &acc),
+                Some(d) => {
+                    let phase = d.motion.phase_at(t);
+                    let section = |k| d.section(k, phase);
+                    wing.deforming_acceleration_load(&frame(m), &acc, section)
+                        .load
+                }
             };
-            out[i + 1] = turned(&wing.acceleration_load(&frame(m), &acc), m);
+            out[i + 1] = turned(&load, m);
+        }
+    }
+
+    /// Power that is needed to deform the wings against the air at time `t` [W], body by body.
+    pub fn deformation_power(
+        &self,
+        t: f64,
+        motions: &[BodyMotion],
+        accelerations: &[BodyAcceleration],
+        out: &mut [f64],
+    ) {
+        out.fill(0.0);
+        for (i, (wing, deforming)) in self.wings.iter().zip(&self.deforming).enumerate() {
+            let Some(d) = deforming else { continue };
+            let (m, acc) = (&motions[i + 1], acceleration(&accelerations[i + 1]));
+            let phase = d.motion.phase_at(t);
+            let section = |k| d.section(k, phase);
+            out[i + 1] = wing.deforming_velocity_load(&frame(m), section).power
+                + wing
+                    .deforming_acceleration_load(&frame(m), &acc, section)
+                    .power;
         }
     }
 }
@@ -90,6 +169,13 @@ pub fn strips(wing: &Wing) -> Vec<Strip> {
         }
     };
     (0..mesh.cols).map(strip).collect()
+}
+
+fn acceleration(a: &BodyAcceleration) -> FrameAcceleration {
+    FrameAcceleration {
+        linear: a.linear,
+        angular: a.angular,
+    }
 }
 
 /// A body's motion in the words of the blade elements.

@@ -18,7 +18,7 @@ use crate::setup::AppliedLoad;
 use crate::surfaces::SurfaceMap;
 
 /// Quadratures appended to the state of the core.
-pub const QUADRATURES: usize = 9;
+pub const QUADRATURES: usize = 10;
 
 /// Works and impulses since the start.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -27,7 +27,7 @@ pub struct Quadratures {
     /// a fixed root would take up and give back is known in closed form and left out, so that
     /// the quadrature has only the rest to integrate.
     pub hinge_work: f64,
-    /// Work of the air on the bodies [J].
+    /// Work of the air on the bodies [J], on their deformation too.
     pub air_work: f64,
     /// Work of applied loads and tether [J].
     pub applied_work: f64,
@@ -35,6 +35,8 @@ pub struct Quadratures {
     pub impulse: DVec3,
     /// Impulse of all external moments about the inertial origin, N components [N m s].
     pub angular_impulse: DVec3,
+    /// Work of what deforms the wings against the air [J].
+    pub deformation_work: f64,
 }
 
 impl Quadratures {
@@ -47,6 +49,7 @@ impl Quadratures {
             applied_work: q[2],
             impulse: DVec3::new(q[3], q[4], q[5]),
             angular_impulse: DVec3::new(q[6], q[7], q[8]),
+            deformation_work: q[9],
         }
     }
 
@@ -64,6 +67,7 @@ impl Quadratures {
             m.x,
             m.y,
             m.z,
+            self.deformation_work,
         ]);
     }
 }
@@ -117,6 +121,8 @@ pub struct Scratch {
     pub solution: Solution,
     /// Kinetic energy relative to the root [J] and its rate [W].
     pub relative: [f64; 2],
+    /// Power of what deforms each body against the air [W]; empty where nothing is deformed.
+    pub deformation: Vec<f64>,
     dynamics: Workspace,
     /// Lattice nodes.
     pub nodes: NodeMotion,
@@ -145,6 +151,7 @@ impl Scratch {
             gap: vec![0.0; 6 * bodies],
             solution: Solution::new(system),
             relative: [0.0; 2],
+            deformation: vec![0.0; if equations.deforms() { bodies } else { 0 }],
             dynamics: equations.core.workspace(),
             nodes: NodeMotion::default(),
             air_loads: AirLoads::default(),
@@ -273,7 +280,7 @@ impl Equations {
         self.air_loads(t, air, s)?;
         self.applied_loads(t, s);
         if let Some(strips) = &self.blade {
-            strips.velocity_loads(&s.motions, &mut s.air);
+            strips.velocity_loads(t, &s.motions, &mut s.air);
             self.add_mass(strips, t, &y[..n], s)?;
         }
         if let Some(table) = &self.table {
@@ -289,6 +296,7 @@ impl Equations {
         self.core
             .solve(t, &y[..n], &s.total, &mut s.dynamics, &mut s.solution)?;
         s.relative = relative_energy(self.core.system(), &s.motions, &s.solution.bodies);
+        self.deformation_power(t, s);
         self.quadrature_rates(s).write(dy);
         Ok(())
     }
@@ -320,7 +328,7 @@ impl Equations {
             s.sum_loads();
             self.core
                 .solve(t, y, &s.total, &mut s.dynamics, &mut s.solution)?;
-            blade.acceleration_loads(&s.motions, &s.solution.bodies, &mut s.added_next);
+            blade.acceleration_loads(t, &s.motions, &s.solution.bodies, &mut s.added_next);
             relaxation = s.aitken(pass, relaxation);
             change = s.relax_added(relaxation);
             if change <= ADDED_MASS_TOLERANCE {
@@ -337,13 +345,13 @@ impl Equations {
     /// Positions and velocities of the lattice nodes in the state `y` at time `t` [s].
     ///
     /// # Errors
-    /// The state is singular.
+    /// The state is singular; joined roots are too far apart.
     pub fn place_nodes(&self, t: f64, y: &[f64], s: &mut Scratch) -> Result<(), FlightError> {
         let n = self.core.dim();
         self.core
             .motions(t, &y[..n], &mut s.dynamics, &mut s.motions)?;
         if let Some(side) = &self.air {
-            side.map.node_motion(&s.motions, &mut s.nodes);
+            side.map.node_motion(t, &s.motions, &mut s.nodes)?;
         }
         Ok(())
     }
@@ -413,6 +421,25 @@ impl Equations {
         }
     }
 
+    /// Whether any wing moves otherwise than its body.
+    pub fn deforms(&self) -> bool {
+        self.air.as_ref().is_some_and(|a| a.map.deforms())
+            || self.blade.as_ref().is_some_and(|b| b.deforms())
+    }
+
+    /// What deforming the wings takes at the state last evaluated.
+    fn deformation_power(&self, t: f64, s: &mut Scratch) {
+        if s.deformation.is_empty() {
+            return;
+        }
+        if let Some(side) = &self.air {
+            (side.map).deformation_power(&s.air_loads, &s.nodes, &s.motions, &mut s.deformation);
+        }
+        if let Some(blade) = &self.blade {
+            blade.deformation_power(t, &s.motions, &s.solution.bodies, &mut s.deformation);
+        }
+    }
+
     /// Powers and external forces at the state last evaluated.
     fn quadrature_rates(&self, s: &Scratch) -> Quadratures {
         let power = |loads: &[Wrench]| -> f64 {
@@ -429,12 +456,14 @@ impl Equations {
             impulse += l.force;
             angular += l.moment + m.p.cross(l.force);
         }
+        let deformation: f64 = s.deformation.iter().sum();
         Quadratures {
             hinge_work: s.solution.hinge_power() - s.relative[1],
-            air_work: power(&s.air),
+            air_work: power(&s.air) - deformation,
             applied_work: power(&s.applied) + tether.power(&s.motions[0]),
             impulse,
             angular_impulse: angular,
+            deformation_work: deformation,
         }
     }
 }

@@ -28,6 +28,21 @@ pub enum FlightError {
         /// Relative change of the last pass.
         change: f64,
     },
+    /// Wings that are joined at their roots moved apart there.
+    #[error(
+        "t = {time:.6e} s: the joined roots of `{}` and `{}` are {gap:.3e} m apart, allowed {limit:.3e} m (half a panel): bring the hinges and the surfaces' roots together, feather less there (twist the wing instead), or do not join them",
+        wings[0], wings[1]
+    )]
+    RootsApart {
+        /// Names of the wings.
+        wings: [String; 2],
+        /// Time [s].
+        time: f64,
+        /// Largest distance of two nodes that should be one [m].
+        gap: f64,
+        /// Allowed distance [m].
+        limit: f64,
+    },
     /// Air computed elsewhere failed.
     #[error("external air: {0}")]
     External(String),

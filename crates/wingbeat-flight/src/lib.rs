@@ -47,3 +47,4 @@ pub use recorder::Ledger;
 pub use setup::*;
 pub use simulation::{FlightState, Simulation};
 pub use stages::natural_units;
+pub use surfaces::check_joined;

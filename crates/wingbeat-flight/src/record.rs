@@ -28,6 +28,8 @@ pub struct Record {
     /// Coordinate and rate along every free direction of every joint, in the order of the joints
     /// [rad or m, per s].
     pub joints: Vec<[f64; 2]>,
+    /// Per wing: power of what deforms it against the air [W]; empty where nothing is deformed.
+    pub deformation_power: Vec<f64>,
     /// Per body: air load.
     pub air: Vec<LoadRecord>,
     /// Per body: applied load.
@@ -40,8 +42,10 @@ pub struct Record {
     pub potential_energy: f64,
     /// Work done so far by the hinge actuators [J].
     pub hinge_work: f64,
-    /// Work done so far by the air on the bodies [J].
+    /// Work done so far by the air on the bodies [J], on their deformation too.
     pub air_work: f64,
+    /// Work done so far by what deforms the wings against the air [J].
+    pub deformation_work: f64,
     /// Work done so far by applied loads and the tether [J].
     pub applied_work: f64,
     /// Energy residual: kinetic + potential - start - all work [J].

@@ -75,7 +75,8 @@ impl Sources<'_> {
         let new_events = events - ledger.events;
         ledger.events = events;
         let hinge_work = work.hinge_work + s.relative[0] - ledger.relative_energy;
-        let done = hinge_work + work.air_work + work.applied_work;
+        let done = hinge_work + work.air_work + work.deformation_work + work.applied_work;
+        let wings = 1..s.deformation.len().min(self.animal.wings.len() + 1);
         Record {
             step,
             time,
@@ -88,6 +89,7 @@ impl Sources<'_> {
             multipliers: solution.multipliers.clone(),
             hinges: solution.hinges.iter().map(hinge).collect(),
             joints: self.joint_coordinates(time),
+            deformation_power: s.deformation.get(wings).unwrap_or(&[]).to_vec(),
             air: s.air.iter().map(load).collect(),
             applied: s.applied.iter().map(load).collect(),
             tether: load(&solution.tether),
@@ -95,6 +97,7 @@ impl Sources<'_> {
             potential_energy: budget.potential,
             hinge_work,
             air_work: work.air_work,
+            deformation_work: work.deformation_work,
             applied_work: work.applied_work,
             energy_residual: solution.energy() - ledger.energy - done,
             momentum: budget.momentum,

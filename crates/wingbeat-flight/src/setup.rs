@@ -89,6 +89,8 @@ pub struct AirOptions {
     /// Whether animal and motion are mirror-symmetric, so that the air is computed on one half.
     /// A motion that is not so is refused at the step where it shows.
     pub mirror: bool,
+    /// Pairs of wings, by their numbers, that share the edge at their roots.
+    pub joined: Vec<[usize; 2]>,
 }
 
 /// How the root body moves.

@@ -55,8 +55,9 @@ pub fn air_side(setup: &FlightSetup) -> Result<Option<AirSide>, FlightError> {
     let AirModel::VortexLattice(options) = &setup.air else {
         return Ok(None);
     };
-    let map = SurfaceMap::new(&setup.animal, options.body_surfaces);
-    let lattice = Lattice::new(map.surfaces.clone(), options.lattice.clone())?;
+    let map = SurfaceMap::new(&setup.animal, options.body_surfaces, &options.joined);
+    let (surfaces, settings) = (map.surfaces.clone(), options.lattice.clone());
+    let lattice = Lattice::joined(surfaces, &map.seams(), settings)?;
     if !options.mirror {
         return Ok(Some(AirSide { lattice, map }));
     }

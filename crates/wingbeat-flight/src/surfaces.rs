@@ -1,11 +1,13 @@
 //! From bodies to lattice surfaces and back: node positions and velocities for the air, panel
 //! forces gathered into wrenches for the dynamics (seed eq. 9).
 
-use wingbeat_air::{AirLoads, EdgeKind, NodeMotion, Plane, SheddingSegment, Surface, Twins};
+use wingbeat_air::{AirLoads, EdgeKind, NodeMotion, Plane, Seam, SheddingSegment, Surface, Twins};
 use wingbeat_dynamics::{BodyMotion, Wrench};
-use wingbeat_math::DVec3;
+use wingbeat_math::{DVec3, RotationLaw};
 use wingbeat_model::mesh::mirror;
-use wingbeat_model::{Animal, BodyPart, GridMesh, Side, Wing};
+use wingbeat_model::{Animal, BodyPart, DeformingMesh, GridMesh, Side, Wing, WingMotion};
+
+use crate::error::FlightError;
 
 /// Which lattice nodes and panels belong to which rigid body.
 #[derive(Clone, Debug)]
@@ -14,21 +16,47 @@ pub struct SurfaceMap {
     pub surfaces: Vec<Surface>,
     /// Per surface: the body it is fixed to.
     body: Vec<usize>,
-    /// Nodes of all surfaces, body components [m].
+    /// Nodes of all surfaces, body components [m]; at rest where they are deformed.
     local: Vec<DVec3>,
+    /// Per surface: how it is deformed.
+    deforming: Vec<Option<Deforming>>,
+    /// Roots of wings that are joined.
+    roots: Vec<Roots>,
     /// Per surface: range of its nodes in `local`.
     nodes: Vec<std::ops::Range<usize>>,
     /// Per surface: range of its panels among all panels.
     panels: Vec<std::ops::Range<usize>>,
 }
 
+/// A surface that changes its shape in the phase of its wing's beat.
+#[derive(Clone, Debug)]
+struct Deforming {
+    mesh: DeformingMesh,
+    motion: WingMotion,
+}
+
+/// Two wings that share the edge at their roots. Where their motions part the roots, the edge lies
+/// midway.
+#[derive(Clone, Debug)]
+struct Roots {
+    /// The wings.
+    wings: [usize; 2],
+    /// Nodes of the one and the other root among all nodes, from leading to trailing edge.
+    nodes: Vec<[usize; 2]>,
+    /// How far they may part [m]: half the width of the panels there.
+    limit: f64,
+}
+
 impl SurfaceMap {
     /// Wings first, in the animal's order (body `i + 1`), then the closed parts of the root body
-    /// and those of the segments when `body_surfaces` says so.
-    pub fn new(animal: &Animal, body_surfaces: bool) -> Self {
+    /// and those of the segments when `body_surfaces` says so. The pairs of wings in `joined` share
+    /// the edge at their roots.
+    pub fn new(animal: &Animal, body_surfaces: bool, joined: &[[usize; 2]]) -> Self {
         let mut map = Self {
             surfaces: vec![],
             body: vec![],
+            deforming: vec![],
+            roots: vec![],
             local: vec![],
             nodes: vec![],
             panels: vec![],
@@ -39,6 +67,15 @@ impl SurfaceMap {
                 &wing.mesh.nodes,
                 i + 1,
             );
+            let deforming = |d| Deforming {
+                mesh: DeformingMesh::new(&wing.mesh, d),
+                motion: wing.motion.clone(),
+            };
+            map.deforming[i] = wing.deformation.as_ref().map(deforming);
+        }
+        for &[a, b] in joined {
+            let nodes = [a, b].map(|k| map.nodes[k].clone());
+            map.roots.push(roots(animal, [a, b], nodes));
         }
         for part in animal.parts.iter().filter(|_| body_surfaces) {
             map.push(part_surface(part), &part.mesh.nodes, 0);
@@ -61,21 +98,86 @@ impl SurfaceMap {
         self.local.extend_from_slice(nodes);
         self.body.push(body);
         self.surfaces.push(surface);
+        self.deforming.push(None);
     }
 
-    /// Positions and velocities of all lattice nodes in N, from the motions of the bodies
-    /// (seed eq. 3 and 14).
-    pub fn node_motion(&self, bodies: &[BodyMotion], out: &mut NodeMotion) {
+    /// What is joined to what, in the words of the lattice.
+    pub fn seams(&self) -> Vec<Seam> {
+        let seam = |r: &Roots| {
+            let first = r.wings.map(|w| self.nodes[w].start);
+            let local = |n: &[usize; 2]| [n[0] - first[0], n[1] - first[1]];
+            Seam {
+                surfaces: r.wings,
+                nodes: r.nodes.iter().map(local).collect(),
+            }
+        };
+        self.roots.iter().map(seam).collect()
+    }
+
+    /// Positions and velocities of all lattice nodes in N at time `t` [s], from the motions of the
+    /// bodies (seed eq. 3 and 14) and the deformation of the wings.
+    ///
+    /// # Errors
+    /// Joined roots are too far apart.
+    pub fn node_motion(
+        &self,
+        t: f64,
+        bodies: &[BodyMotion],
+        out: &mut NodeMotion,
+    ) -> Result<(), FlightError> {
         out.position.resize(self.local.len(), DVec3::ZERO);
         out.velocity.resize(self.local.len(), DVec3::ZERO);
         for (surface, nodes) in self.nodes.iter().enumerate() {
             let b = &bodies[self.body[surface]];
-            for k in nodes.clone() {
-                let r = self.local[k];
+            let mut put = |k: usize, r: DVec3, u: DVec3| {
                 out.position[k] = b.p + b.r * r;
-                out.velocity[k] = b.v + b.r * b.w.cross(r);
+                out.velocity[k] = b.v + b.r * (b.w.cross(r) + u);
+            };
+            match &self.deforming[surface] {
+                None => nodes
+                    .clone()
+                    .for_each(|k| put(k, self.local[k], DVec3::ZERO)),
+                Some(d) => d.mesh.visit(d.motion.phase_at(t), |k, [r, u, _]| {
+                    put(nodes.start + k, r, u);
+                }),
             }
         }
+        self.roots.iter().try_for_each(|r| r.join(t, self, out))
+    }
+
+    /// Power that is needed to deform the wings against the air [W], body by body: that of the air
+    /// on what the surfaces move beside their bodies, with the opposite sign.
+    pub fn deformation_power(
+        &self,
+        loads: &AirLoads,
+        nodes: &NodeMotion,
+        bodies: &[BodyMotion],
+        out: &mut [f64],
+    ) {
+        out.fill(0.0);
+        for (s, panels) in self.panels.iter().enumerate() {
+            let joined = self.roots.iter().any(|r| r.wings.contains(&s));
+            if self.deforming[s].is_none() && !joined {
+                continue;
+            }
+            let (body, first) = (self.body[s], self.nodes[s].start);
+            let b = &bodies[body];
+            let w = b.r * b.w;
+            for (k, corners) in panels.clone().zip(&self.surfaces[s].panels) {
+                let rigid = b.v + w.cross(loads.panels.point[k] - b.p);
+                let mut power = loads.force[k].dot(loads.panels.velocity[k] - rigid);
+                if loads.couple[k] != DVec3::ZERO {
+                    let turn = spin(nodes, corners.map(|n| first + n));
+                    power += loads.couple[k].dot(turn - w);
+                }
+                out[body] -= power;
+            }
+        }
+    }
+
+    /// Whether any surface moves otherwise than its body.
+    pub fn deforms(&self) -> bool {
+        !self.roots.is_empty() || self.deforming.iter().any(Option::is_some)
     }
 
     /// Panel forces gathered into one wrench per body about the body's origin, in N.
@@ -95,6 +197,92 @@ impl SurfaceMap {
             }
         }
     }
+}
+
+/// Whether the roots of two wings meet at time zero, as they must to be joined.
+///
+/// # Errors
+/// Different panels at the roots; roots apart.
+pub fn check_joined(animal: &Animal, pair: [usize; 2]) -> Result<(), FlightError> {
+    let meshes = pair.map(|w| &animal.wings[w].mesh);
+    let along = |mesh: &GridMesh| -> Vec<f64> {
+        let x = |i: usize| mesh.nodes[mesh.node(i, 0)].x;
+        (0..=mesh.rows).map(x).collect()
+    };
+    let [a, b] = meshes.map(along);
+    let chord = a[0] - a[a.len() - 1];
+    let same = a.len() == b.len() && a.iter().zip(&b).all(|(a, b)| (a - b).abs() <= 1e-9 * chord);
+    if !same {
+        let names = pair.map(|w| animal.wings[w].name.clone());
+        return Err(FlightError::Setup {
+            key: "joined",
+            value: names.join(", "),
+            problem: "the roots have different chords, or different panels along the chord".into(),
+        });
+    }
+    let at = |w: &Wing| BodyMotion {
+        p: w.hinge_b,
+        r: w.motion.at(0.0).c,
+        ..BodyMotion::REST
+    };
+    let wings = animal.wings.iter().map(at);
+    let motions: Vec<BodyMotion> = std::iter::once(BodyMotion::REST).chain(wings).collect();
+    SurfaceMap::new(animal, false, &[pair]).node_motion(0.0, &motions, &mut NodeMotion::default())
+}
+
+impl Roots {
+    /// Puts the shared nodes midway between the two roots.
+    fn join(&self, t: f64, map: &SurfaceMap, out: &mut NodeMotion) -> Result<(), FlightError> {
+        for &[a, b] in &self.nodes {
+            let gap = out.position[a].distance(out.position[b]);
+            if gap > self.limit {
+                return Err(FlightError::RootsApart {
+                    wings: self.wings.map(|w| map.surfaces[w].name.clone()),
+                    time: t,
+                    gap,
+                    limit: self.limit,
+                });
+            }
+            for x in [&mut out.position, &mut out.velocity] {
+                let middle = 0.5 * (x[a] + x[b]);
+                (x[a], x[b]) = (middle, middle);
+            }
+        }
+        Ok(())
+    }
+}
+
+/// The roots of two wings, whose nodes are numbered as in `nodes`.
+fn roots(animal: &Animal, wings: [usize; 2], nodes: [std::ops::Range<usize>; 2]) -> Roots {
+    let meshes = wings.map(|w| &animal.wings[w].mesh);
+    let width = |mesh: &GridMesh, i: usize| {
+        let [root, next] = [0, 1].map(|j| mesh.nodes[mesh.node(i, j)]);
+        root.distance(next)
+    };
+    let rows = 0..=meshes[0].rows.min(meshes[1].rows);
+    let widths = rows.clone().flat_map(|i| meshes.map(|m| width(m, i)));
+    Roots {
+        wings,
+        limit: 0.5 * widths.fold(f64::INFINITY, f64::min),
+        nodes: rows
+            .map(|i| [0, 1].map(|k| nodes[k].start + meshes[k].node(i, 0)))
+            .collect(),
+    }
+}
+
+/// Angular velocity of a panel [rad/s], N: that of its normal, and the mean one of its diagonals
+/// about it. Exact for a panel that moves as a rigid one.
+fn spin(nodes: &NodeMotion, corners: [usize; 4]) -> DVec3 {
+    let across = |of: &[DVec3]| {
+        let [a, b, c, d] = corners.map(|n| of[n]);
+        [c - a, d - b]
+    };
+    let ([d, e], [d1, e1]) = (across(&nodes.position), across(&nodes.velocity));
+    let area = d.cross(e);
+    let n = area.normalize_or_zero();
+    let area_rate = d1.cross(e) + d.cross(e1);
+    let about = |d: DVec3, d1: DVec3| n.cross(d).dot(d1) / d.length_squared();
+    n.cross(area_rate) / area.length() + 0.5 * (about(d, d1) + about(e, e1)) * n
 }
 
 /// The twins of an animal that is its own mirror image in the plane of axes 1 and 3 of the body,
@@ -154,6 +342,7 @@ fn is_image(wing: &Wing, other: &Wing) -> bool {
     let same = |a: DVec3, b: DVec3| a.distance(mirror(b)) <= 1e-9 * (a.length() + b.length());
     let nodes = wing.mesh.nodes.iter().zip(&other.mesh.nodes);
     wing.side != other.side
+        && wing.deformation == other.deformation
         && (wing.mesh.rows, wing.mesh.cols) == (other.mesh.rows, other.mesh.cols)
         && same(wing.hinge_b, other.hinge_b)
         && nodes.into_iter().all(|(&a, &b)| same(a, b))
@@ -180,8 +369,8 @@ fn part_surface(part: &BodyPart) -> Surface {
     }
 }
 
-/// A wing as a lattice surface: its sharp edges shed in one chain that runs from the root along
-/// the leading edge, over the tip, and along the trailing edge back to the root.
+/// A wing as a lattice surface: its edges shed in one chain that runs from the root along the
+/// leading edge, over the tip, along the trailing edge back to the root, and along the root.
 fn wing_surface(name: &str, mesh: &GridMesh, side: Side) -> Surface {
     let (rows, cols) = (mesh.rows, mesh.cols);
     let node = |i: usize, j: usize| i * (cols + 1) + j;
@@ -192,7 +381,7 @@ fn wing_surface(name: &str, mesh: &GridMesh, side: Side) -> Surface {
         panel,
         kind,
     };
-    let mut chain = Vec::with_capacity(2 * cols + rows);
+    let mut chain = Vec::with_capacity(2 * (cols + rows));
     for j in 0..cols {
         chain.push(segment(
             node(0, j),
@@ -215,6 +404,14 @@ fn wing_surface(name: &str, mesh: &GridMesh, side: Side) -> Surface {
             node(rows, j),
             panel(rows - 1, j),
             EdgeKind::Trailing,
+        ));
+    }
+    for i in (0..rows).rev() {
+        chain.push(segment(
+            node(i + 1, 0),
+            node(i, 0),
+            panel(i, 0),
+            EdgeKind::Root,
         ));
     }
     Surface {

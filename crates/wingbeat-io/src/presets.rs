@@ -48,6 +48,7 @@ presets![
     "fruit-fly-abdomen-spring",
     "robobee",
     "dragonfly",
+    "bird-cruise",
     "rectangular-wing",
     "flapping-rectangles",
     "robofly-advanced",

@@ -1,5 +1,6 @@
 //! The animal as the solver sees it: meshes, masses, hinges, motions; checks and scaling.
 
+use crate::deformation::Deformation;
 use crate::error::ModelError;
 use crate::integrate::scaled_properties;
 use crate::mesh::{GridMesh, QuadMesh, Side};
@@ -21,6 +22,8 @@ pub struct Wing {
     pub mass: MassProperties,
     /// Prescribed rotation relative to the body.
     pub motion: WingMotion,
+    /// Prescribed deformation of the surface, if any; the mass stays where it is.
+    pub deformation: Option<Deformation>,
 }
 
 impl Wing {
@@ -38,6 +41,7 @@ impl Wing {
                 inertia: flip * self.mass.inertia * flip,
             },
             motion: self.motion.mirrored(),
+            deformation: self.deformation.clone(),
         }
     }
 
@@ -119,6 +123,7 @@ impl Animal {
             hinge_b: w.hinge_b * s,
             mesh: w.mesh.scaled(s),
             mass: scaled_properties(&w.mass, s),
+            deformation: w.deformation.as_ref().map(|d| d.scaled(s)),
             ..w.clone()
         };
         let part = |p: &BodyPart| BodyPart {

@@ -60,6 +60,7 @@ impl Wing {
             mesh,
             mass,
             motion,
+            deformation: None,
         })
     }
 }

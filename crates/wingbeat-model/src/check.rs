@@ -86,6 +86,9 @@ impl Animal {
             wing.mesh.check(&wing.name)?;
             check_mass(&wing.name, &wing.mass)?;
             wing.motion.check(&wing.name)?;
+            if let Some(deformation) = &wing.deformation {
+                deformation.check(&wing.name, wing.root(), &wing.motion)?;
+            }
             self.check_hinge(wing)?;
         }
         Ok(())

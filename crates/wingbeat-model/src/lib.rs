@@ -16,6 +16,7 @@
 //! | phi, theta, psi | [`WingMotion::angles`](fn@WingMotion::angles) | flap, deviation, feathering, sequence 1-3-2 | rad | sec. 3 |
 //! | eta | [`WingMotion::stroke_plane_pitch`] | stroke plane to body | rad | |
 //! | x | [`WingMotion::phase_at`] | phase | wingbeats | |
+//! | tau, h, w | [`deformation`] | twist, camber over chord, bending of a wing | rad, 1, m | |
 //!
 //! Body axes: b1 forward, b2 right, b3 down. Wing axes: 1 to the leading edge, 2 along the span
 //! of the right wing (against it on the left wing), 3 normal; origin at the hinge.
@@ -25,6 +26,7 @@
 pub mod animal;
 pub mod build;
 pub mod check;
+pub mod deformation;
 pub mod error;
 pub mod import;
 pub mod integrate;
@@ -38,6 +40,7 @@ pub mod species;
 pub use animal::{Animal, BodyPart, Segment, Wing};
 pub use build::{BodyMass, fit_body_length};
 pub use check::WingReport;
+pub use deformation::{Deformation, DeformingMesh};
 pub use error::ModelError;
 pub use import::Imported;
 pub use integrate::MassInput;

@@ -24,12 +24,14 @@
 //! | Gamma_rot | - | `C_rot c^2 q` | m2/s |
 //!
 //! A section is taken as symmetric fore and aft: air from the trailing edge (u < 0) gives the
-//! mirrored force. Velocities along the span are ignored, as in all the sources.
+//! mirrored force. Velocities along the span are ignored, as in all the sources. Twist and bending of
+//! a wing place and move its strips ([`SectionMotion`]).
 //!
 //! What this module does not know: wakes, neighbouring strips, animals, coordinates, time.
 
 mod body_drag;
 pub mod coefficients;
+mod deforming;
 mod error;
 pub mod induced;
 mod settings;
@@ -38,6 +40,7 @@ mod wing;
 
 pub use body_drag::BodyDrag;
 pub use coefficients::{NamedSet, SETS, Translation, find_set};
+pub use deforming::{DeformingLoad, SectionMotion};
 pub use error::BladeError;
 pub use settings::{AddedMass, BladeSettings, CentreOfPressure, Rotation, ViscousMoment};
 pub use strip::Strip;

@@ -162,12 +162,12 @@ impl BladeWing {
     }
 
     /// Velocity of the hinge through the undisturbed air, wing components.
-    fn velocity_through_air(&self, motion: &FrameMotion) -> DVec3 {
+    pub(super) fn velocity_through_air(&self, motion: &FrameMotion) -> DVec3 {
         motion.rotation.transpose() * (motion.velocity - self.settings.free_stream)
     }
 
     /// Translation, rotation and viscous moment of one strip.
-    fn add_strip(&self, s: &Strip, v: DVec3, rate: DVec3, sum: &mut Load) {
+    pub(super) fn add_strip(&self, s: &Strip, v: DVec3, rate: DVec3, sum: &mut Load) {
         // Velocity of the strip's point on the feathering axis, v + rate x (0, y, 0).
         let (u, w) = (v.x - rate.z * s.y, v.z + rate.x * s.y);
         let speed = (u * u + w * w).sqrt();

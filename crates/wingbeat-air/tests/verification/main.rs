@@ -8,5 +8,7 @@ mod impulse;
 mod invariance;
 mod particles;
 mod peers;
+mod seams;
+mod section_drag;
 mod wakes;
 mod wings;

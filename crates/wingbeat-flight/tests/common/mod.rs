@@ -128,6 +128,7 @@ impl Fly {
                 lattice,
                 body_surfaces: false,
                 mirror: false,
+                joined: vec![],
             }),
             mode: MotionMode::Free(StartState {
                 position: DVec3::new(0.01, -0.02, 0.03),

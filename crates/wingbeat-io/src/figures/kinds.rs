@@ -183,6 +183,7 @@ fn balances(setup: &FlightSetup, history: &History) -> Chart {
         ("potential", "potential_energy_joule"),
         ("work of hinges", "hinge_work_joule"),
         ("work of air", "air_work_joule"),
+        ("work of deformation", "deformation_work_joule"),
         ("work of loads", "applied_work_joule"),
         ("residual", "energy_residual_joule"),
     ];

@@ -97,6 +97,8 @@ fn fill(bodies: &[String], record: &Record, mut row: Row<'_>) {
         potential_energy,
         hinge_work,
         air_work,
+        deformation_power,
+        deformation_work,
         applied_work,
         energy_residual,
         momentum,
@@ -133,6 +135,9 @@ fn fill(bodies: &[String], record: &Record, mut row: Row<'_>) {
         row.number(|| format!("joint_coordinate_{}_rad_or_m", k + 1), *value);
         row.number(|| format!("joint_rate_{}_rad_or_m_per_s", k + 1), *rate);
     }
+    for (wing, power) in bodies[1..].iter().zip(deformation_power) {
+        row.number(|| format!("deformation_{wing}_power_watt"), *power);
+    }
     for (what, loads) in [("air", air), ("applied", applied)] {
         for (body, load) in bodies.iter().zip(loads) {
             row.load(&format!("{what}_{body}"), load);
@@ -144,6 +149,7 @@ fn fill(bodies: &[String], record: &Record, mut row: Row<'_>) {
         ("potential_energy_joule", potential_energy),
         ("hinge_work_joule", hinge_work),
         ("air_work_joule", air_work),
+        ("deformation_work_joule", deformation_work),
         ("applied_work_joule", applied_work),
         ("energy_residual_joule", energy_residual),
     ] {

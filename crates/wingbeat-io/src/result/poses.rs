@@ -1,10 +1,13 @@
 //! Where the surfaces of an animal are, from a row of its history: wings and body parts carried
-//! along rigidly by their bodies.
+//! along by their bodies, wings deformed as the case says.
 
 use wingbeat_math::{DMat3, DVec3, EulerSequence};
-use wingbeat_model::Animal;
+use wingbeat_model::{Animal, DeformingMesh, WingMotion};
 
 use super::columns::body_names;
+
+/// Column of the time.
+const TIME: usize = 1;
 
 /// A surface that its body carries along.
 #[derive(Clone, Debug)]
@@ -13,8 +16,10 @@ pub struct Surface {
     pub name: String,
     /// Body: 0, or 1 + number of the wing.
     pub body: usize,
-    /// Nodes in the axes of the body \[m\].
+    /// Nodes in the axes of the body \[m\]; at rest where they are deformed.
     pub nodes: Vec<DVec3>,
+    /// How it is deformed, in the phase of which motion.
+    deforming: Option<(DeformingMesh, WingMotion)>,
     /// Panels as four nodes.
     pub quads: Vec<[usize; 4]>,
 }
@@ -34,12 +39,15 @@ impl Poses {
             name: w.name.clone(),
             body: k + 1,
             nodes: w.mesh.nodes.clone(),
+            deforming: (w.deformation.as_ref())
+                .map(|d| (DeformingMesh::new(&w.mesh, d), w.motion.clone())),
             quads: w.panels(),
         });
         let parts = animal.parts.iter().map(|p| Surface {
             name: p.name.clone(),
             body: 0,
             nodes: p.mesh.nodes.clone(),
+            deforming: None,
             quads: p.mesh.quads.clone(),
         });
         let place = |body: &String| names.iter().position(|n| *n == format!("{body}_x_m"));
@@ -65,7 +73,11 @@ impl Poses {
     pub fn nodes(&self, row: &[f64], surface: usize) -> impl Iterator<Item = DVec3> {
         let s = &self.surfaces[surface];
         let (p, r) = self.pose(row, s.body);
-        s.nodes.iter().map(move |x| p + r * *x)
+        let nodes = match &s.deforming {
+            None => s.nodes.clone(),
+            Some((mesh, motion)) => mesh.places(motion.phase_at(row[TIME])[0]),
+        };
+        nodes.into_iter().map(move |x| p + r * x)
     }
 }
 

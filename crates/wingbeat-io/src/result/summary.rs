@@ -26,7 +26,7 @@ pub struct BeatMeans {
     pub lift_over_weight: Option<f64>,
     /// Mean air force along n1 (forward) \[N\].
     pub thrust_newton: f64,
-    /// Mean power the hinge actuators give \[W\].
+    /// Mean power that hinge actuators and prescribed deformation give \[W\].
     pub power_watt: f64,
     /// Mean air force against gravity by another way, the rate of the vortex impulse \[N\]; zero
     /// without a lattice.
@@ -102,9 +102,10 @@ pub fn air_force(history: &History, direction: DVec3) -> Vec<f64> {
     total
 }
 
-/// Total power of the hinge actuators, row by row \[W\].
+/// Total power of hinge actuators and prescribed deformation, row by row \[W\].
 pub fn hinge_power(history: &History) -> Vec<f64> {
-    history.sum(|n| n.starts_with("hinge_") && n.ends_with("_power_watt"))
+    let gives = |n: &str| n.starts_with("hinge_") || n.starts_with("deformation_");
+    history.sum(|n| gives(n) && n.ends_with("_power_watt"))
 }
 
 impl Summary {
@@ -216,6 +217,7 @@ fn energy_residual(s: &Statistics) -> f64 {
         "kinetic_energy_joule",
         "hinge_work_joule",
         "air_work_joule",
+        "deformation_work_joule",
         "potential_energy_joule",
     ];
     let range = |name: &str| (s.of(name).highest - s.of(name).least).max(0.0);

@@ -1,17 +1,18 @@
 //! `[air]`: the air's model, and the settings of the vortex lattice.
 
 use wingbeat_air::{
-    AirSettings, CirculationRate, Convection, CoreModel, Gust, GustShape, LeadingEdge, LoadMethod,
-    Method, ParticleSettings, Plane, SheddingKinds, Stretching, Wind,
+    AirSettings, CirculationRate, Convection, CoreModel, Friction, Gust, GustShape, LeadingEdge,
+    LoadMethod, Method, ParticleSettings, Plane, SectionDrag, SheddingKinds, Stretching, Wind,
 };
 use wingbeat_flight::{AirModel, AirOptions};
 use wingbeat_math::{DMat3, DVec3};
 use wingbeat_model::Animal;
 
-use super::{Built, at_least, blade, derivatives, not_negative, positive, vector};
+use super::{Built, at_least, blade, deformation, derivatives, not_negative, positive, vector};
 use crate::case::raw::{
     AirCase, AirModel as Model, Case, CirculationRateCase, ConvectionCase, CoreCase, EdgeCase,
-    GustCase, LeadingEdgeCase, LoadMethodCase, ParticlesCase, SchemeCase, StretchingCase,
+    FrictionCase, GustCase, LeadingEdgeCase, LoadMethodCase, ParticlesCase, SchemeCase,
+    SectionDragCase, StretchingCase,
     SummationCase,
 };
 use crate::error::Fault;
@@ -50,11 +51,14 @@ pub(super) fn options(whole: &Case, animal: &Animal) -> Built<AirModel> {
         Model::BladeElement => Ok(AirModel::BladeElement(blade::options(case)?)),
         Model::Derivatives => Ok(AirModel::Derivatives(derivatives::table(whole, animal)?)),
         Model::External => Ok(AirModel::External(derivatives::external(case, animal)?)),
-        Model::VortexLattice => Ok(AirModel::VortexLattice(lattice(case)?)),
+        Model::VortexLattice => {
+            let joined = deformation::joined(whole, animal)?;
+            Ok(AirModel::VortexLattice(lattice(case, joined)?))
+        }
     }
 }
 
-fn lattice(case: &AirCase) -> Built<AirOptions> {
+fn lattice(case: &AirCase, joined: Vec<[usize; 2]>) -> Built<AirOptions> {
     let limit = |key: &str, value: Option<f64>| value.map(|v| positive(key, v)).transpose();
     let sheds = |edge: EdgeCase| case.shed.contains(&edge);
     let density = positive("air.density_kg_m3", case.density_kg_m3)?;
@@ -108,6 +112,7 @@ fn lattice(case: &AirCase) -> Built<AirOptions> {
             Some(p) => Some(particles(p, case.wake_core.as_ref())?),
             None => None,
         },
+        section_drag: case.section_drag.map(section_drag).transpose()?,
         summation: match case.summation {
             SummationCase::Auto => Method::Auto,
             SummationCase::Direct => Method::Direct,
@@ -128,6 +133,32 @@ fn lattice(case: &AirCase) -> Built<AirOptions> {
         lattice,
         body_surfaces: case.body,
         mirror: case.mirror,
+        joined,
+    })
+}
+
+/// Drag of the sections.
+fn section_drag(case: SectionDragCase) -> Built<SectionDrag> {
+    let key = |k: &str| format!("air.section_drag.{k}");
+    let viscosity = case.viscosity_m2_s.unwrap_or(0.0);
+    let friction = match case.friction {
+        FrictionCase::None => Friction::None,
+        FrictionCase::Blasius if case.viscosity_m2_s.is_none() => {
+            return Err(Fault::new(
+                key("viscosity_m2_s"),
+                "the friction needs the viscosity of the air, which has no default",
+                "a finite number > 0",
+                "1.5e-5 for air at sea level; friction = \"none\" leaves friction out",
+            ));
+        }
+        FrictionCase::Blasius => Friction::Blasius {
+            viscosity: positive(&key("viscosity_m2_s"), viscosity)?,
+        },
+    };
+    Ok(SectionDrag {
+        friction,
+        cd0: not_negative(&key("cd0"), case.cd0)?,
+        cd2: not_negative(&key("cd2_per_rad2"), case.cd2_per_rad2)?,
     })
 }
 

@@ -5,6 +5,7 @@
 mod air;
 mod blade;
 mod body;
+mod deformation;
 mod derivatives;
 mod element;
 mod flight;

@@ -4,7 +4,9 @@ use wingbeat_math::{DVec3, MassProperties};
 use wingbeat_model::planform::{Beta, ChordSize, Planform, Spacing, WingShape};
 use wingbeat_model::{MassInput, Side, Wing};
 
-use super::{Built, at_least, blame, motion, not_negative, positive, symmetric, vector};
+use super::{
+    Built, at_least, blame, deformation, motion, not_negative, positive, symmetric, vector,
+};
 use crate::case::raw::{
     BetaCase, Case, PlanformCase, SideCase, SpacingCase, WingCase, WingMeshCase,
 };
@@ -93,7 +95,12 @@ fn build(
     let law = if mirrored { law.mirrored() } else { law };
     let path = format!("wing.{name}");
     let wing = Wing::new(name, side, hinge(&source)?, &shape, &mass, law);
-    wing.map_err(|e| blame_wing(&path, &source, &e))
+    let wing = wing.map_err(|e| blame_wing(&path, &source, &e))?;
+    let (name, case, _) = source.of(|w| w.deformation.is_some());
+    match &case.deformation {
+        Some(case) => deformation::deform(wing, &format!("wing.{name}.deformation"), case),
+        None => Ok(wing),
+    }
 }
 
 /// Traces a fault of the model into planform, mesh, or the wing.

@@ -84,6 +84,10 @@ pub struct AirCase {
     /// Vortex particles in place of old or leading-edge rows of wake; left out: rings only.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub particles: Option<ParticlesCase>,
+    /// Friction and profile drag of the wings' sections, added to the forces of the lattice; left
+    /// out: none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub section_drag: Option<SectionDragCase>,
     /// How the velocities of the wakes are summed: `direct`, `tree`, or whichever is faster.
     pub summation: SummationCase,
     /// Allowed error of the tree, relative to the velocity; it is checked at every sum.
@@ -131,6 +135,7 @@ impl Default for AirCase {
             max_displacement_m: None,
             clearance_m: 0.0,
             particles: None,
+            section_drag: None,
             summation: SummationCase::Auto,
             summation_tolerance: 1e-4,
             blade: BladeCase::default(),
@@ -320,6 +325,36 @@ pub struct GustCase {
     /// Rows of time since the start in s and share of the amplitude, straight lines between.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub table: Option<Vec<(f64, f64)>>,
+}
+
+/// Drag of the sections of wings: `1/2 rho U^2 A C` against the velocity U of the undisturbed air past
+/// the strip, `C = friction + cd0 + cd2 alpha^2`, alpha the angle between that velocity and the strip.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct SectionDragCase {
+    /// Law of the friction.
+    #[serde(default)]
+    pub friction: FrictionCase,
+    /// Kinematic viscosity of the air; needed by the friction.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub viscosity_m2_s: Option<f64>,
+    /// Profile drag at zero incidence.
+    #[serde(default)]
+    pub cd0: f64,
+    /// Its growth with the square of the incidence.
+    #[serde(default)]
+    pub cd2_per_rad2: f64,
+}
+
+/// Law of the friction of a section.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum FrictionCase {
+    /// Laminar flat plate, both sides: `2.656 / sqrt(Re)` (Blasius).
+    #[default]
+    Blasius,
+    /// None.
+    None,
 }
 
 /// A plane through which no air goes; animal and wake stay on one side.

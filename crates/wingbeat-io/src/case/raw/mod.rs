@@ -7,6 +7,7 @@
 mod air;
 mod blade;
 mod body;
+mod deformation;
 mod derivatives;
 mod flight;
 mod joint;
@@ -14,8 +15,9 @@ mod motion;
 mod wing;
 
 pub use air::{
-    AirCase, AirModel, CirculationRateCase, ConvectionCase, CoreCase, EdgeCase, GroundCase,
-    GustCase, LeadingEdgeCase, LoadMethodCase, ParticlesCase, SchemeCase, StretchingCase,
+    AirCase, AirModel, CirculationRateCase, ConvectionCase, CoreCase, EdgeCase, FrictionCase,
+    GroundCase, GustCase, LeadingEdgeCase, LoadMethodCase, ParticlesCase, SchemeCase,
+    SectionDragCase, StretchingCase,
     SummationCase,
 };
 pub use blade::{
@@ -23,6 +25,7 @@ pub use blade::{
     ViscousCase,
 };
 pub use body::{BodyCase, OriginCase, PartCase, ProfileCase};
+pub use deformation::{BendingCase, CamberCase, CourseCase, DeformationCase, TwistCase};
 pub use derivatives::{DerivativesCase, DimensionlessCase, ExternalCase};
 pub use flight::{
     AngleOscillation, BaumgarteCase, DynamicsCase, FlightCase, Formulation, FrameCase,

@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::WingMotionCase;
+use super::{DeformationCase, WingMotionCase};
 
 /// One wing. What a left wing leaves out it takes from the mirror image of its right twin, and
 /// the other way round (`left` and `right` in the names make twins).
@@ -45,6 +45,13 @@ pub struct WingCase {
     /// Motion of this wing.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub motion: Option<WingMotionCase>,
+    /// Twist, camber and bending of this wing.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub deformation: Option<DeformationCase>,
+    /// Whether the wing shares the edge at its root with its twin on the other side: one lifting
+    /// surface without a vortex in the middle. The roots must meet. Default false.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub joined: Option<bool>,
 }
 
 /// Side of the body.

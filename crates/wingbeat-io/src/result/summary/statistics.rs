@@ -109,14 +109,17 @@ struct Places {
 
 impl Places {
     fn new(names: &[String]) -> Self {
-        let all = |start: &str, end: &str| {
+        let all = |start: &str, end: &str| -> Vec<usize> {
             let fits = |n: &String| n.starts_with(start) && n.ends_with(end);
             (0..names.len()).filter(|&k| fits(&names[k])).collect()
         };
         let at = |name: &str| names.iter().position(|n| n == name);
         Self {
             forces: all("air_", "_force_n1_newton"),
-            powers: all("hinge_", "_power_watt"),
+            powers: ["hinge_", "deformation_"]
+                .iter()
+                .flat_map(|start| all(start, "_power_watt"))
+                .collect(),
             momenta: [
                 at("momentum_n1_kg_m_per_s"),
                 at("momentum_residual_n1_kg_m_per_s"),

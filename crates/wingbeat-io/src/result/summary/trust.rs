@@ -1,6 +1,6 @@
 //! How far the results can be trusted.
 
-use wingbeat_air::{Convection, CoreModel, LoadMethod};
+use wingbeat_air::{Convection, CoreModel, Friction, LoadMethod, SectionDrag};
 use wingbeat_flight::{AirModel, FlightSetup, FormulationChoice, MotionMode};
 
 use super::{BeatMeans, Summary};
@@ -21,6 +21,7 @@ pub(super) fn warnings(setup: &FlightSetup, summary: &Summary) -> Vec<String> {
         AirModel::Derivatives(_) => list.push("The air is a table of stability derivatives: linear about its reference flight, and wrong far from it.".to_owned()),
         AirModel::External(_) => list.push("The air was computed by another program: wingbeat vouches for the motion under its loads, not for the loads.".to_owned()),
     }
+    deformation_warnings(setup, &mut list);
     balance_warnings(setup, summary, &mut list);
     if summary.euler_regularity < 0.05 {
         let held = match setup.formulation {
@@ -46,6 +47,24 @@ pub(super) fn warnings(setup: &FlightSetup, summary: &Summary) -> Vec<String> {
         list.push("Tethered: the body does not answer to the forces on it.".to_owned());
     }
     list
+}
+
+/// What prescribed deformation leaves out.
+fn deformation_warnings(setup: &FlightSetup, list: &mut Vec<String>) {
+    let deformed = || {
+        setup
+            .animal
+            .wings
+            .iter()
+            .filter_map(|w| w.deformation.as_ref())
+    };
+    if deformed().next().is_none() {
+        return;
+    }
+    list.push("The wings' deformation is prescribed: it does not answer to the air, and for their inertia the wings stay rigid, so hinge moments lack what the moving shape would add. What deforms the wings against the air is in the power and in its own columns (deformation_...).".to_owned());
+    if matches!(setup.air, AirModel::BladeElement(_)) && deformed().any(|d| !d.camber.is_empty()) {
+        list.push("Blade elements take twist and bending of the wings, not their camber: that is in the coefficients or nowhere.".to_owned());
+    }
 }
 
 /// A balance worse than it should be. Without a wake the motion is smooth and integrated to many
@@ -79,9 +98,10 @@ fn air_warnings(
             "The suction of attached leading edges is turned into a normal force (Polhamus)."
         }
     };
-    list.push(format!(
-        "The air is inviscid: no friction, so at insect Reynolds numbers (100 to 1000) drag and power come out low. {suction}"
-    ));
+    list.push(match &lattice.section_drag {
+        None => format!("The air is inviscid: no friction, so at insect Reynolds numbers (100 to 1000) drag and power come out low. {suction}"),
+        Some(drag) => format!("The air is inviscid; drag of the sections was added to its forces (air.section_drag: {}, cd0 = {}, cd2 = {} per rad2), from the undisturbed air past each strip. {suction}", friction(drag), drag.cd0, drag.cd2),
+    });
     let chord = setup
         .animal
         .wing_reports()
@@ -132,6 +152,15 @@ fn air_warnings(
             "Closed body surfaces leak at most {:.1e} m/s (the price of their one-dimensional null space).",
             summary.leak_velocity_m_s
         ));
+    }
+}
+
+fn friction(drag: &SectionDrag) -> String {
+    match drag.friction {
+        Friction::None => "no friction".to_owned(),
+        Friction::Blasius { viscosity } => {
+            format!("laminar friction at a viscosity of {viscosity:.2e} m2/s")
+        }
     }
 }
 

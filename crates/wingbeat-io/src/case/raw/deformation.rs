@@ -1,0 +1,95 @@
+//! `[wing.NAME.deformation]`: how a wing changes its shape over the beat.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// Prescribed deformation of a wing: the sum of its terms, each a law along the span times a series
+/// in time. The air sees it; for its inertia the wing stays rigid.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct DeformationCase {
+    /// Place of the twist axis behind the leading edge over the chord.
+    pub axis_fraction: f64,
+    /// Place of the highest camber behind the leading edge over the chord, between 0 and 1.
+    pub camber_peak: f64,
+    /// Twist of the sections about the axis, positive like feathering: leading edge towards -axis 3.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub twist: Vec<TwistCase>,
+    /// Height of the mean line over the local chord, positive towards -axis 3.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub camber: Vec<CamberCase>,
+    /// Displacement of the sections towards -axis 3.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub bending: Vec<BendingCase>,
+}
+
+impl Default for DeformationCase {
+    fn default() -> Self {
+        let d = wingbeat_model::Deformation::default();
+        Self {
+            axis_fraction: d.axis_fraction,
+            camber_peak: d.camber_peak,
+            twist: vec![],
+            camber: vec![],
+            bending: vec![],
+        }
+    }
+}
+
+/// A term of the twist: `linear_deg` or `table_deg`, times `fourier`.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct TwistCase {
+    /// Values at root and tip of the surface, linear between.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub linear_deg: Option<[f64; 2]>,
+    /// Rows [r/R, value] from the root (or the hinge, 0) to the tip (1), straight lines between.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub table_deg: Option<Vec<[f64; 2]>>,
+    /// Course over the beat; left out: always 1.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub fourier: Option<CourseCase>,
+}
+
+/// A term of the camber: `linear` or `table`, times `fourier`.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct CamberCase {
+    /// Heights over the chord at root and tip of the surface, linear between.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub linear: Option<[f64; 2]>,
+    /// Rows [r/R, height over the chord] from the root (or the hinge, 0) to the tip (1).
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub table: Option<Vec<[f64; 2]>>,
+    /// Course over the beat; left out: always 1.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub fourier: Option<CourseCase>,
+}
+
+/// A term of the bending: `linear_m` or `table_m`, times `fourier`.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct BendingCase {
+    /// Displacements at root and tip of the surface, linear between.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub linear_m: Option<[f64; 2]>,
+    /// Rows [r/R, displacement] from the root (or the hinge, 0) to the tip (1).
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub table_m: Option<Vec<[f64; 2]>>,
+    /// Course over the beat; left out: always 1.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub fourier: Option<CourseCase>,
+}
+
+/// `mean + sum_k cosine_k cos(2 pi k x) + sine_k sin(2 pi k x)`, x the phase of the wing in
+/// wingbeats, k = 1, 2, ...
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct CourseCase {
+    /// Mean (not halved).
+    pub mean: f64,
+    /// Cosine coefficients of harmonics 1, 2, ...
+    pub cosine: Vec<f64>,
+    /// Sine coefficients of harmonics 1, 2, ...
+    pub sine: Vec<f64>,
+}

@@ -1,0 +1,143 @@
+//! The laws of a deformation: along the span and over the beat.
+
+use crate::error::{ModelError, finite};
+use crate::motion::Fourier;
+
+/// A quantity along the span, at the relative distance r/R from the hinge.
+#[derive(Clone, Debug, PartialEq)]
+pub enum SpanLaw {
+    /// Linear from the root of the surface to the tip.
+    Linear {
+        /// Value at the root.
+        root: f64,
+        /// Value at the tip.
+        tip: f64,
+    },
+    /// Rows (r/R, value) from the root (or farther in) to the tip, straight lines between.
+    Table(Vec<(f64, f64)>),
+}
+
+/// Rounding allowed where a table has to reach root and tip.
+const END: f64 = 1e-9;
+
+impl SpanLaw {
+    /// The same value all along.
+    pub fn constant(value: f64) -> Self {
+        Self::Linear {
+            root: value,
+            tip: value,
+        }
+    }
+
+    /// Value at `r` = r/R of a wing whose surface begins at `root` = r/R.
+    pub fn at(&self, r: f64, root: f64) -> f64 {
+        match self {
+            &Self::Linear { root: a, tip: b } => a + (b - a) * ((r - root) / (1.0 - root)),
+            Self::Table(rows) => crate::integrate::interpolate(rows, r),
+        }
+    }
+
+    /// All values times `s`.
+    pub fn scaled(&self, s: f64) -> Self {
+        match self {
+            &Self::Linear { root, tip } => Self::Linear {
+                root: s * root,
+                tip: s * tip,
+            },
+            Self::Table(rows) => Self::Table(rows.iter().map(|&(r, v)| (r, s * v)).collect()),
+        }
+    }
+
+    /// Checks the law of a wing whose surface begins at `root` = r/R.
+    ///
+    /// # Errors
+    /// A number that is not finite; a table that is unsorted or does not reach from root to tip.
+    pub fn check(&self, key: &str, root: f64) -> Result<(), ModelError> {
+        match self {
+            Self::Linear { root, tip } => {
+                finite(&format!("{key}.linear[0]"), *root)?;
+                finite(&format!("{key}.linear[1]"), *tip).map(|_| ())
+            }
+            Self::Table(rows) => check_table(&format!("{key}.table"), rows, root),
+        }
+    }
+}
+
+fn check_table(table: &str, rows: &[(f64, f64)], root: f64) -> Result<(), ModelError> {
+    let bad = |row: usize, problem: String| {
+        Err(ModelError::Table {
+            table: table.to_owned(),
+            row: row + 1,
+            problem,
+        })
+    };
+    for (k, &(r, v)) in rows.iter().enumerate() {
+        if !(r.is_finite() && v.is_finite()) {
+            return bad(k, format!("({r}, {v}) is not finite"));
+        }
+        if k > 0 && r <= rows[k - 1].0 {
+            let before = rows[k - 1].0;
+            return bad(k, format!("r/R = {r} does not rise (row before: {before})"));
+        }
+    }
+    match rows {
+        [] | [_] => bad(rows.len(), "a table needs at least 2 rows".to_owned()),
+        [first, ..] if first.0 > root + END => bad(
+            0,
+            format!(
+                "the table begins at r/R = {}, the surface at {root}: it does not cover the span",
+                first.0
+            ),
+        ),
+        [.., last] if last.0 < 1.0 - END => bad(
+            rows.len() - 1,
+            format!(
+                "the table ends at r/R = {}, not at the tip (1): it does not cover the span",
+                last.0
+            ),
+        ),
+        _ => Ok(()),
+    }
+}
+
+/// A law along the span times a Fourier series in the phase of the wing's beat.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Term {
+    /// Along the span; carries the unit.
+    pub span: SpanLaw,
+    /// Over the beat \[1\].
+    pub time: Fourier,
+}
+
+impl Term {
+    /// The same at all times.
+    pub fn steady(span: SpanLaw) -> Self {
+        let time = Fourier {
+            mean: 1.0,
+            ..Fourier::default()
+        };
+        Self { span, time }
+    }
+
+    /// Whether it does not vary over the beat.
+    pub fn is_steady(&self) -> bool {
+        self.time.cos.is_empty() && self.time.sin.is_empty()
+    }
+
+    /// Value and first two time derivatives of the series at the phase `[x, x', x'']`.
+    pub(crate) fn over_time(&self, [x, x1, x2]: [f64; 3]) -> [f64; 3] {
+        let [q, q1, q2] = self.time.at(x - x.floor());
+        [q, q1 * x1, q2 * x1 * x1 + q1 * x2]
+    }
+}
+
+/// Deformation of one section, each with its first two time derivatives.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Section {
+    /// Twist tau \[rad\].
+    pub twist: [f64; 3],
+    /// Height of the mean line over the chord \[1\].
+    pub camber: [f64; 3],
+    /// Displacement towards -axis 3 \[m\].
+    pub bending: [f64; 3],
+}
