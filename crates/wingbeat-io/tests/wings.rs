@@ -17,6 +17,7 @@ frequency_hz = 5
 mode = "tethered"
 [air]
 stream_m_s = [-5, 0, 0]
+scheme = "accurate"
 shed = ["trailing"]
 [body]
 mass_kg = 0.1
@@ -61,7 +62,10 @@ fn fly(setup: FlightSetup) -> Vec<Record> {
 fn refused(text: &str, at: &str, wanted: &[&str]) {
     let report = load(text, &[]).err().expect("refused");
     let line = text.lines().position(|l| l.contains(at)).unwrap() + 1;
-    assert!(report.contains(&format!("case.toml:{line}:")), "line {line} not in:\n{report}");
+    assert!(
+        report.contains(&format!("case.toml:{line}:")),
+        "line {line} not in:\n{report}"
+    );
     for part in wanted {
         assert!(report.contains(part), "`{part}` not in:\n{report}");
     }
@@ -71,7 +75,10 @@ fn refused(text: &str, at: &str, wanted: &[&str]) {
 fn exact_deformation_of_a_case_is_that_of_the_model() {
     let setup = good(&format!("{GOOD}{TWIST}"), &[]);
     for wing in &setup.animal.wings {
-        let d = wing.deformation.as_ref().expect("both wings, the image too");
+        let d = wing
+            .deformation
+            .as_ref()
+            .expect("both wings, the image too");
         let value = d.twist[0].span.at(0.75, 0.0);
         assert!((value - 6f64.to_radians()).abs() < 1e-15); // roundings
         assert_eq!((d.twist[0].time.mean, d.twist[0].time.cos[0]), (0.5, 1.0));
@@ -118,7 +125,11 @@ fn exact_joined_wings_of_a_case_share_their_root() {
     assert_eq!(air.joined, [[0, 1]]);
     let [one, two] = [fly(setup), fly(good(GOOD, &[]))].map(|r| r.last().unwrap().air.clone());
     let lift = |air: &[wingbeat_flight::LoadRecord]| air.iter().map(|l| l.force.z).sum::<f64>();
-    println!("lift joined {:.4} N, apart {:.4} N", -lift(&one), -lift(&two));
+    println!(
+        "lift joined {:.4} N, apart {:.4} N",
+        -lift(&one),
+        -lift(&two)
+    );
     assert!(lift(&one).abs() > 1.02 * lift(&two).abs()); // no root vortices
     // Half of it computed is the same.
     let half = fly(good(&joined, &["air.mirror=true"]));
@@ -147,7 +158,10 @@ fn exact_side_edges_shed_from_a_case() {
 #[test]
 fn exact_section_drag_of_a_case() {
     let still = GOOD
-        .replace("steps_per_beat = 20\nbeats = 0.4", "step_s = 0.01\nsteps = 3")
+        .replace(
+            "steps_per_beat = 20\nbeats = 0.4",
+            "step_s = 0.01\nsteps = 3",
+        )
         .replace("motion.phi.fourier = { sine_deg = [20] }\n", "")
         .replace("frequency_hz = 5\n", "");
     let with = format!("{still}\n[air.section_drag]\nviscosity_m2_s = 1.5e-5\ncd0 = 0.01\n");
@@ -168,14 +182,34 @@ fn refuses_deformations_that_do_not_fit() {
     let span = "table_deg = [[0, 0], [0.5, 2], [1, 10]]";
     let table = |rows: &str| with(span, &format!("table_deg = {rows}"));
     let at = "table_deg";
-    refused(&table("[[0.2, 0], [1, 1]]"), at, &["twist[0].table_deg[0]", "cover"]);
-    refused(&table("[[0, 0], [0.8, 1]]"), at, &["twist[0].table_deg[1]", "cover"]);
-    refused(&table("[[0, 0], [0.7, 1], [0.6, 1], [1, 0]]"), at, &["table_deg[2]", "rise"]);
+    refused(
+        &table("[[0.2, 0], [1, 1]]"),
+        at,
+        &["twist[0].table_deg[0]", "cover"],
+    );
+    refused(
+        &table("[[0, 0], [0.8, 1]]"),
+        at,
+        &["twist[0].table_deg[1]", "cover"],
+    );
+    refused(
+        &table("[[0, 0], [0.7, 1], [0.6, 1], [1, 0]]"),
+        at,
+        &["table_deg[2]", "rise"],
+    );
     refused(&table("[[0, 0], [1, nan]]"), at, &["table_deg"]);
     refused(&table("[[0, 0]]"), at, &["2 rows"]);
-    refused(&with("mean = 0.5", "mean = inf"), "fourier", &["mean"]);
-    refused(&with(span, ""), "[[wing.right.deformation.twist]]", &["linear_deg or table_deg"]);
-    refused(&with("table_deg", "table_m"), "table_m", &["unknown key", "table_deg"]);
+    refused(&with("mean = 0.5", "mean = inf"), "mean = inf", &["mean"]);
+    refused(
+        &with(span, ""),
+        "[[wing.right.deformation.twist]]",
+        &["linear_deg or table_deg"],
+    );
+    refused(
+        &with("table_deg", "table_m"),
+        "table_m",
+        &["unknown key", "table_deg"],
+    );
     let peak = format!("{GOOD}[wing.right.deformation]\ncamber_peak = 1.5\n");
     refused(&peak, "camber_peak", &["above 0 and below 1"]);
     let unknown = format!("{GOOD}{}", TWIST.replace("right", "rigth"));
@@ -183,23 +217,42 @@ fn refuses_deformations_that_do_not_fit() {
     let still = format!("{GOOD}{TWIST}")
         .replace("frequency_hz = 5\n", "")
         .replace("motion.phi.fourier = { sine_deg = [20] }\n", "")
-        .replace("steps_per_beat = 20\nbeats = 0.4", "step_s = 0.01\nsteps = 3");
-    refused(&still, "fourier", &["no wingbeat frequency"]);
+        .replace(
+            "steps_per_beat = 20\nbeats = 0.4",
+            "step_s = 0.01\nsteps = 3",
+        );
+    refused(&still, "mean = 0.5", &["no wingbeat frequency"]);
 }
 
 #[test]
 fn refuses_roots_that_do_not_meet_and_drag_without_sense() {
     let joined = GOOD.replace("mass_kg = 0.01", "mass_kg = 0.01\njoined = true");
     let apart = joined.replace("hinge_m = [0, 0, 0]", "hinge_m = [0, 0.1, 0]");
-    refused(&apart, "joined = true", &["right", "left", "2.000e-1 m apart"]);
+    refused(
+        &apart,
+        "joined = true",
+        &["right", "left", "2.000e-1 m apart"],
+    );
     let alone = joined.replace("joined = true", "joined = true\nmirror = false");
     refused(&alone, "joined = true", &["no twin"]);
     let drag = |keys: &str| format!("{GOOD}[air.section_drag]\n{keys}\n");
-    refused(&drag("cd0 = 0.1"), "[air.section_drag]", &["viscosity_m2_s", "no default"]);
+    refused(
+        &drag("cd0 = 0.1"),
+        "[air.section_drag]",
+        &["viscosity_m2_s", "no default"],
+    );
     refused(&drag("viscosity_m2_s = -1"), "viscosity", &["negative"]);
     refused(&drag("friction = \"none\"\ncd0 = -1"), "cd0", &["negative"]);
-    refused(&drag("friction = \"none\"\ncd2_per_rad2 = nan"), "cd2", &["cd2_per_rad2"]);
-    refused(&drag("friction = \"turbulent\""), "friction", &["blasius, none"]);
+    refused(
+        &drag("friction = \"none\"\ncd2_per_rad2 = nan"),
+        "cd2",
+        &["cd2_per_rad2"],
+    );
+    refused(
+        &drag("friction = \"turbulent\""),
+        "friction",
+        &["blasius, none"],
+    );
     // Wings that part in flight say when.
     let parting = joined
         .replace("motion.phi", "motion.psi.constant_deg = 40\nmotion.phi")
@@ -212,5 +265,8 @@ fn refuses_roots_that_do_not_meet_and_drag_without_sense() {
             Err(e) => break e.to_string(),
         }
     };
-    assert!(error.contains("joined roots") && error.contains("t = "), "{error}");
+    assert!(
+        error.contains("joined roots") && error.contains("t = "),
+        "{error}"
+    );
 }

@@ -61,11 +61,13 @@ fn whole() -> Vec<DVec3> {
     places.into_iter().map(|x| x + 2.0 * DVec3::Y).collect()
 }
 
-/// The halves' normals point the same way: the right one's panels run the other way round, as those
-/// of the whole wing, whose span runs to the left.
+/// The halves' normals point the same way: the right one's panels run the other way round, and begin at
+/// the corner where those of the whole wing begin (a warped panel has its area along one diagonal).
 fn surfaces() -> [Surface; 2] {
     let mut right = Surface::grid("right", ROWS, COLS);
-    right.panels.iter_mut().for_each(|c| c.swap(1, 3));
+    for c in &mut right.panels {
+        *c = [c[3], c[2], c[1], c[0]];
+    }
     [right, Surface::grid("left", ROWS, COLS)]
 }
 
