@@ -60,7 +60,7 @@ fn fly(setup: FlightSetup) -> Vec<Record> {
 
 /// The case is refused at the line of `at`, and the report has all of `wanted`.
 fn refused(text: &str, at: &str, wanted: &[&str]) {
-    let report = load(text, &[]).err().expect("refused");
+    let report = load(text, &[]).expect_err("refused");
     let line = text.lines().position(|l| l.contains(at)).unwrap() + 1;
     assert!(
         report.contains(&format!("case.toml:{line}:")),
