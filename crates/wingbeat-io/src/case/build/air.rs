@@ -12,8 +12,7 @@ use super::{Built, at_least, blade, deformation, derivatives, not_negative, posi
 use crate::case::raw::{
     AirCase, AirModel as Model, Case, CirculationRateCase, ConvectionCase, CoreCase, EdgeCase,
     FrictionCase, GustCase, LeadingEdgeCase, LoadMethodCase, ParticlesCase, SchemeCase,
-    SectionDragCase, StretchingCase,
-    SummationCase,
+    SectionDragCase, StretchingCase, SummationCase,
 };
 use crate::error::Fault;
 

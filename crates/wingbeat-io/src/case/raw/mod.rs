@@ -17,8 +17,7 @@ mod wing;
 pub use air::{
     AirCase, AirModel, CirculationRateCase, ConvectionCase, CoreCase, EdgeCase, FrictionCase,
     GroundCase, GustCase, LeadingEdgeCase, LoadMethodCase, ParticlesCase, SchemeCase,
-    SectionDragCase, StretchingCase,
-    SummationCase,
+    SectionDragCase, StretchingCase, SummationCase,
 };
 pub use blade::{
     AddedMassCase, BladeCase, BodyDragCase, OwnCoefficients, PressureCase, RotationCase,
