@@ -18,7 +18,7 @@ const TOLERANCE: f64 = 1e-10;
 
 fn table(name: &str) -> Vec<Vec<String>> {
     let path = Path::new(env!("CARGO_MANIFEST_DIR"))
-        .join("tests/data")
+        .join("../wingbeat-verify/data")
         .join(name);
     let text = fs::read_to_string(path).unwrap();
     let rows = text.lines().filter(|l| !l.starts_with('#')).skip(1);

@@ -106,9 +106,9 @@ fn published_impulsive_start_at_ten_degrees() {
         &Case {
             stream: DVec3::new(0.0, c, s),
             pitch: |_| [0.0, 0.0],
-            loads: include_str!("../data/bench1_alpha10_loads.csv"),
-            panels: include_str!("../data/bench1_alpha10_panels.csv"),
-            wake: include_str!("../data/bench1_alpha10_wake_last.csv"),
+            loads: include_str!("../../../wingbeat-verify/data/bench1_alpha10_loads.csv"),
+            panels: include_str!("../../../wingbeat-verify/data/bench1_alpha10_panels.csv"),
+            wake: include_str!("../../../wingbeat-verify/data/bench1_alpha10_wake_last.csv"),
         },
         11,
     );
@@ -123,9 +123,9 @@ fn published_pitching_about_the_leading_edge() {
                 let (a, w) = (5_f64.to_radians(), std::f64::consts::TAU / 10.0);
                 [a * (w * t).sin(), a * w * (w * t).cos()]
             },
-            loads: include_str!("../data/bench2_alpha0_loads.csv"),
-            panels: include_str!("../data/bench2_alpha0_panels.csv"),
-            wake: include_str!("../data/bench2_alpha0_wake_last.csv"),
+            loads: include_str!("../../../wingbeat-verify/data/bench2_alpha0_loads.csv"),
+            panels: include_str!("../../../wingbeat-verify/data/bench2_alpha0_panels.csv"),
+            wake: include_str!("../../../wingbeat-verify/data/bench2_alpha0_wake_last.csv"),
         },
         41,
     );
@@ -136,7 +136,9 @@ fn published_pitching_about_the_leading_edge() {
 fn invariant_benchmark_in_a_wing_that_moves_through_air_at_rest() {
     let (s, c) = 10_f64.to_radians().sin_cos();
     let stream = DVec3::new(0.0, c, s);
-    let panels = table(include_str!("../data/bench1_alpha10_panels.csv"));
+    let panels = table(include_str!(
+        "../../../wingbeat-verify/data/bench1_alpha10_panels.csv"
+    ));
     let moving = |t: f64| {
         let at_rest = motion(|_| [0.0, 0.0], t).position;
         translating(at_rest.iter().map(|x| *x - t * stream).collect(), -stream)

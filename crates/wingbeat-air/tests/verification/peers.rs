@@ -75,11 +75,11 @@ fn agrees_flapping_lift_with_two_other_programs() {
     for (name, text) in [
         (
             "PteraSoftware",
-            include_str!("../data/flap_rect_pterasoftware.csv"),
+            include_str!("../../../wingbeat-verify/data/flap_rect_pterasoftware.csv"),
         ),
         (
             "Imperial",
-            include_str!("../data/flap_rect_imperial_uvlm.csv"),
+            include_str!("../../../wingbeat-verify/data/flap_rect_imperial_uvlm.csv"),
         ),
     ] {
         let (lift, drag) = (column(text, "lift_N"), column(text, "drag_N"));
