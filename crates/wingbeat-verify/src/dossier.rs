@@ -94,6 +94,7 @@ impl Dossier {
              without judging: experiments are not fitted, all insects fly with one setting. The \
              same rows are in `verification.csv` and `verification.json`.\n"
         );
+        self.page_left_out(&mut text);
         self.page_misses(&mut text);
         for (part, title) in PARTS {
             let entries = self.entries.iter().filter(|e| e.part == part);
@@ -103,6 +104,18 @@ impl Dossier {
             }
         }
         text
+    }
+
+    /// Cases of the set that were not run, so that a short dossier does not look whole.
+    fn page_left_out(&self, text: &mut String) {
+        let all = crate::select(self.quick, "");
+        let missing = all
+            .iter()
+            .filter(|c| self.entries.iter().all(|e| e.case != c.name));
+        let names: Vec<&str> = missing.map(|c| c.name).collect();
+        if !names.is_empty() {
+            let _ = writeln!(text, "\nNot run, and so not here: {}.", names.join(", "));
+        }
     }
 
     fn page_misses(&self, text: &mut String) {

@@ -20,7 +20,8 @@ pub(crate) struct VerifyArgs {
     /// Folder for verification.md, .csv and .json, which are replaced.
     #[arg(long, value_name = "DIR", default_value = "verification")]
     out: PathBuf,
-    /// Go on where an earlier run into the same folder ended: its cases are taken as they are.
+    /// Go on where an earlier run into the same folder ended: its cases are taken as they are,
+    /// those named by `--only` run anew.
     #[arg(long)]
     resume: bool,
     /// Names and contents of the cases; nothing is run.
@@ -45,17 +46,13 @@ pub(crate) fn run(args: &VerifyArgs) -> ExitCode {
         return ExitCode::SUCCESS;
     }
     let start = Instant::now();
-    let so_far = Mutex::new(if args.resume {
-        earlier(args, &cases)
-    } else {
-        vec![]
-    });
-    let known =
-        |c: &Case| (so_far.lock().expect("one thread so far").iter()).any(|e| e.case == c.name);
-    let (_, left): (Vec<Case>, Vec<Case>) = cases.iter().partition(|c| known(c));
+    let known = if args.resume { earlier(args) } else { vec![] };
+    let is_left = |c: &Case| !args.only.is_empty() || known.iter().all(|e| e.case != c.name);
+    let left: Vec<Case> = cases.into_iter().filter(is_left).collect();
+    let so_far = Mutex::new(known);
     wingbeat::verify::run(&left, args.quick, |e| {
         tell(e, start);
-        keep(&so_far, e, args, &cases);
+        keep(&so_far, e, args);
     });
     let dossier = Dossier {
         quick: args.quick,
@@ -77,22 +74,23 @@ pub(crate) fn run(args: &VerifyArgs) -> ExitCode {
     ExitCode::from(u8::from(miss > 0))
 }
 
-/// What an earlier run of the same set left of these cases; failures are tried again.
-fn earlier(args: &VerifyArgs, cases: &[Case]) -> Vec<Entry> {
+/// What an earlier run of the same set left; failures are tried again.
+fn earlier(args: &VerifyArgs) -> Vec<Entry> {
     let text = std::fs::read_to_string(args.out.join("verification.json")).unwrap_or_default();
-    let same = Dossier::from_json(&text)
-        .ok()
-        .filter(|d| d.quick == args.quick);
+    let same = Dossier::from_json(&text).ok();
+    let same = same.filter(|d| d.quick == args.quick);
     let mut entries = same.map_or(vec![], |d| d.entries);
-    entries.retain(|e| e.failure.is_none() && cases.iter().any(|c| c.name == e.case));
+    entries.retain(|e| e.failure.is_none());
     entries
 }
 
 /// Writes what is done so far: a long run that is ended early is not lost.
-fn keep(so_far: &Mutex<Vec<Entry>>, entry: &Entry, args: &VerifyArgs, cases: &[Case]) {
+fn keep(so_far: &Mutex<Vec<Entry>>, entry: &Entry, args: &VerifyArgs) {
+    let all = wingbeat::verify::select(args.quick, "");
     let mut entries = so_far.lock().expect("no case panicked while writing");
+    entries.retain(|e| e.case != entry.case);
     entries.push(entry.clone());
-    entries.sort_by_key(|e| cases.iter().position(|c| c.name == e.case));
+    entries.sort_by_key(|e| all.iter().position(|c| c.name == e.case));
     let dossier = Dossier {
         quick: args.quick,
         entries: entries.clone(),
