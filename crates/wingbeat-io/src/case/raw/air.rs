@@ -145,7 +145,8 @@ impl Default for AirCase {
     }
 }
 
-/// Vortex particles made of the wakes' rings.
+/// Vortex particles made of the wakes' rings. A strength may change by half in a step and grow to
+/// twice its first size; what would change more is held there, counted and reported.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ParticlesCase {

@@ -130,9 +130,15 @@ fn air_warnings(
     }
     let still = lattice.images.is_empty() && lattice.wind.is_none();
     if let Some(b) = summary.beats.last().filter(|_| still) {
+        let (other, lift) = (b.lift_by_impulse_newton, b.lift_newton);
+        // A fifth: thirty times what the two differ by for a plunging wing, whose wake is resolved.
+        let meaning = if (other - lift).abs() > 0.2 * lift.abs() {
+            " They are apart: the wake does not keep its impulse (steps too long for its rolled-up parts, nodes held off surfaces), so its shape is not to be trusted."
+        } else {
+            ""
+        };
         list.push(format!(
-            "Mean lift of the last beat by the rate of the vortex impulse, another way to the same force: {:.3e} N; by the pressures {:.3e} N.",
-            b.lift_by_impulse_newton, b.lift_newton
+            "Mean lift of the last beat by the rate of the vortex impulse, another way to the same force: {other:.3e} N; by the pressures {lift:.3e} N.{meaning}"
         ));
     }
     if summary.wake_particles > 0 {
