@@ -7,7 +7,7 @@ use crate::loads::AirWorkspace;
 use crate::rings::{Rings, rings};
 use crate::seams::Seam;
 use crate::settings::{AirSettings, LeadingEdge};
-use crate::state::{AirState, NodeMotion, WakeSheet};
+use crate::state::{AirState, NodeMotion, WakeSheet, is_whole};
 use crate::strips::{Strip, strips};
 use crate::surface::{EdgeKind, Surface};
 use crate::topology::{Edge, Sheet, Topology};
@@ -197,6 +197,7 @@ impl Lattice {
         }
         let fits = |(sheet, root): (&WakeSheet, &Sheet)| {
             sheet.columns == root.panels.len()
+                && [&sheet.nodes, &sheet.velocity].into_iter().all(is_whole)
                 && sheet.nodes.len() == sheet.rows() * (sheet.columns + 1)
                 && sheet.gamma.len() == sheet.rows() * sheet.columns
                 && (sheet.velocity.is_empty() || sheet.velocity.len() == sheet.nodes.len())

@@ -19,7 +19,7 @@ use crate::images::Mirror;
 use crate::kernel::{Particle, Points, Stretching};
 use crate::lattice::Lattice;
 use crate::settings::AirSettings;
-use crate::state::{AirState, WakeEvents, WakeSheet};
+use crate::state::{AirState, WakeEvents, WakeSheet, is_whole};
 use crate::surface::EdgeKind;
 use wingbeat_math::DVec3;
 
@@ -129,7 +129,9 @@ impl Particles {
     /// Whether all arrays fit each other.
     pub(crate) fn is_sound(&self) -> bool {
         let past = self.velocity.len();
-        self.position.len() == self.len()
+        let vectors = [&self.position, &self.strength, &self.velocity, &self.rate];
+        vectors.into_iter().all(is_whole)
+            && self.position.len() == self.len()
             && self.strength.len() == self.len()
             && self.first_size.len() == self.len()
             && past == self.rate.len()

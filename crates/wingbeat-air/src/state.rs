@@ -40,6 +40,11 @@ pub struct WakeSheet {
     pub particles: Particles,
 }
 
+/// Whether there are as many components of each kind, perhaps after reading a file.
+pub(crate) fn is_whole(points: &Points) -> bool {
+    points.y.len() == points.len() && points.z.len() == points.len()
+}
+
 impl WakeSheet {
     /// Number of rows of rings, which is the number of free rows of nodes.
     pub fn rows(&self) -> usize {

@@ -3,6 +3,8 @@
 //! One step is a recipe: move the wake once with the velocities of the accepted step and freeze
 //! it; predict; correct bodies and air together until they agree; accept both; record.
 
+mod fits;
+
 use std::sync::Arc;
 
 use wingbeat_air::{AirState, Points};
@@ -311,40 +313,6 @@ impl Simulation {
                 .map_err(|e| failure(e, first + 1, start.time(1), &self.setup.corrector))?;
         (state.past, state.start_report) = (past, report);
         Ok(())
-    }
-
-    fn check_fits(&self, state: &FlightState) -> Result<(), FlightError> {
-        let misfit = |value: String, problem: &str| {
-            Err(FlightError::Setup {
-                key: "state",
-                value,
-                problem: problem.into(),
-            })
-        };
-        let Some(stage) = self.stages.get(state.stage) else {
-            return misfit(
-                format!("stage {}", state.stage),
-                "the flight has no such stage",
-            );
-        };
-        let dim = stage.equations.dim();
-        if state
-            .past
-            .y
-            .iter()
-            .chain(&state.past.f)
-            .any(|v| v.len() != dim)
-        {
-            return misfit(
-                format!("{} components", state.past.newest().len()),
-                &format!("the case has {dim}; resume with the case that was saved with it"),
-            );
-        }
-        match (&stage.equations.air, &state.air) {
-            (Some(side), Some(air)) => Ok(side.lattice.check_state(air)?),
-            (None, None) => Ok(()),
-            _ => misfit("air".into(), "only one of case and state has air"),
-        }
     }
 }
 

@@ -240,6 +240,32 @@ fn invariant_resumed_flight_goes_on_bit_for_bit() {
 }
 
 #[test]
+fn refuses_states_that_do_not_fit() {
+    let setup = || Fly::default().setup(20, 0.5);
+    let mut sim = Simulation::new(setup()).expect("a flight");
+    for _ in 0..4 {
+        sim.step().expect("a step");
+    }
+    let damages: [fn(&mut FlightState); 9] = [
+        |s| s.stage = 7,
+        |s| s.step = usize::MAX,
+        |s| s.started_at = s.step + 1,
+        |s| s.past.y[2].clear(),
+        |s| s.past.predicted_minus_corrected.clear(),
+        |s| s.ledger.coordinates.clear(),
+        |s| s.ledger.events = 1 + s.air.as_ref().map_or(0, |a| a.events.limited),
+        |s| s.air = None,
+        |s| s.air.iter_mut().for_each(|a| a.sheets[0].nodes.y.clear()),
+    ];
+    for (k, damage) in damages.iter().enumerate() {
+        let mut state = sim.state().clone();
+        damage(&mut state);
+        let resumed = Simulation::resume(setup(), state);
+        assert!(resumed.is_err(), "damage {k} was not noticed");
+    }
+}
+
+#[test]
 fn invariant_held_start_does_not_move_and_the_release_is_smooth() {
     let mut setup = Fly::default().setup(40, 1.5);
     if let MotionMode::Free(start) = &mut setup.mode {

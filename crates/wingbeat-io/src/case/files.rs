@@ -40,13 +40,23 @@ fn unreadable(key: String, file: &Path, e: &std::io::Error) -> Fault {
     )
 }
 
+/// The bytes of a file; devices and pipes, which may never end, are none.
+fn bytes_of(key: &str, file: &Path) -> Result<Vec<u8>, Fault> {
+    let read = match std::fs::metadata(file) {
+        Ok(data) if !data.is_file() => Err(std::io::Error::other("it is not a file")),
+        Ok(_) => std::fs::read(file),
+        Err(e) => Err(e),
+    };
+    read.map_err(|e| unreadable(key.to_owned(), file, &e))
+}
+
 fn read_mesh(path: &str, part: &mut PartCase, base: &Path) -> Result<(), Fault> {
     let Some(name) = part.file.take() else {
         return Ok(());
     };
     let key = format!("{path}.file");
     let file = base.join(&name);
-    let bytes = std::fs::read(&file).map_err(|e| unreadable(key.clone(), &file, &e))?;
+    let bytes = bytes_of(&key, &file)?;
     let unit = part.file_unit_m.take().unwrap_or(1.0);
     let extension = file
         .extension()
@@ -84,7 +94,7 @@ fn read_table(path: &str, table: &mut TableCase, base: &Path) -> Result<(), Faul
     };
     let key = format!("{path}.file");
     let file = base.join(&name);
-    let text = std::fs::read(&file).map_err(|e| unreadable(key.clone(), &file, &e))?;
+    let text = bytes_of(&key, &file)?;
     let mut reader = csv::ReaderBuilder::new()
         .comment(Some(b'#'))
         .trim(csv::Trim::All)

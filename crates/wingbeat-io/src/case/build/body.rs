@@ -5,7 +5,7 @@ use wingbeat_model::build::{BodyMass, fit_body_length};
 use wingbeat_model::revolution::{Profile, Revolution};
 use wingbeat_model::{Animal, BodyPart, MassInput, QuadMesh};
 
-use super::{Built, blame, not_negative, positive, symmetric, vector};
+use super::{Built, blame, not_negative, panels, positive, symmetric, vector};
 use crate::case::raw::{BodyCase, OriginCase, PartCase, ProfileCase};
 use crate::error::Fault;
 
@@ -64,14 +64,17 @@ fn revolution(path: &str, part: &PartCase) -> Built<Revolution> {
         };
         positive(&full, value.ok_or_else(missing)?)
     };
+    let [stations, meridians] = [part.stations.unwrap_or(6), part.meridians.unwrap_or(8)];
+    let keys = ["stations", "meridians"].map(|key| format!("{path}.{key}"));
+    panels([&keys[0], &keys[1]], [stations, meridians])?;
     Ok(Revolution {
         centre: vector(part.centre_m.unwrap_or_default()),
         direction: vector(part.direction.unwrap_or([1.0, 0.0, 0.0])),
         length: needed("length_m", part.length_m)?,
         radius: 0.5 * needed("diameter_m", part.diameter_m)?,
         profile: profile(part.profile.as_ref()),
-        stations: part.stations.unwrap_or(6),
-        meridians: part.meridians.unwrap_or(8),
+        stations,
+        meridians,
     })
 }
 

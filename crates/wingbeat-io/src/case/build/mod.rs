@@ -29,6 +29,11 @@ use crate::error::Fault;
 
 type Built<T> = Result<T, Fault>;
 
+/// Panels of a wing or of a part of the body at most.
+const MOST_PANELS: usize = 10_000;
+/// Passes of the corrector at most.
+const MOST_PASSES: usize = 10_000;
+
 /// The setup of a case whose files are read in. Defaults that depend on other keys (vortex core,
 /// frequency of a data set) are filled into `case` on the way.
 pub(crate) fn setup(case: &mut Case, name: &str) -> Built<FlightSetup> {
@@ -131,7 +136,12 @@ fn corrector(case: &CorrectorCase) -> Built<CorrectorSettings> {
     }
     Ok(CorrectorSettings {
         tolerance: positive("corrector.tolerance", case.tolerance)?,
-        max_passes: at_least("corrector.max_passes", case.max_passes, 1)?,
+        max_passes: at_most(
+            "corrector.max_passes",
+            at_least("corrector.max_passes", case.max_passes, 1)?,
+            MOST_PASSES,
+            "what has not converged after a hundred passes will not: lessen corrector.relaxation",
+        )?,
         relaxation,
     })
 }
@@ -177,6 +187,32 @@ fn at_least(key: &str, value: usize, least: usize) -> Built<usize> {
         "this is too small",
         format!("a whole number >= {least}"),
         format!("{least} is the least"),
+    ))
+}
+
+/// A number of panels, rows times columns at `keys`, that a lattice can have.
+fn panels(keys: [&str; 2], [rows, cols]: [usize; 2]) -> Built<()> {
+    if rows.checked_mul(cols).is_some_and(|n| n <= MOST_PANELS) {
+        return Ok(());
+    }
+    Err(Fault::new(
+        keys[usize::from(cols > rows)],
+        "this makes too many panels: every panel acts on every other, memory grows with their square",
+        format!("at most {MOST_PANELS} panels on a surface"),
+        "a few hundred panels resolve a wing",
+    ))
+}
+
+/// A whole number <= `most` at `key`.
+fn at_most(key: &str, value: usize, most: usize, remedy: &str) -> Built<usize> {
+    if value <= most {
+        return Ok(value);
+    }
+    Err(Fault::new(
+        key,
+        "this is too large",
+        format!("a whole number <= {most}"),
+        remedy,
     ))
 }
 

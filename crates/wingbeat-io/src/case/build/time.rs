@@ -2,7 +2,7 @@
 
 use wingbeat_flight::TimeGrid;
 
-use super::{Built, at_least, positive};
+use super::{Built, at_least, at_most, positive};
 use crate::case::raw::Case;
 use crate::error::Fault;
 
@@ -10,6 +10,8 @@ use crate::error::Fault;
 const STEPS_PER_BEAT: usize = 40;
 /// Wingbeats where the case does not say.
 const BEATS: f64 = 5.0;
+/// Steps at most: the history would have a terabyte.
+const MOST_STEPS: usize = 1_000_000_000;
 
 /// The time grid. Defaults are filled into the case.
 pub(super) fn grid(case: &mut Case) -> Built<TimeGrid> {
@@ -48,6 +50,17 @@ pub(super) fn grid(case: &mut Case) -> Built<TimeGrid> {
         }
         (None, None) => return Err(no_beat("time.steps", "steps")),
     };
+    let key = if time.steps.is_some() {
+        "time.steps"
+    } else {
+        "time.beats"
+    };
+    at_most(
+        key,
+        steps,
+        MOST_STEPS,
+        "fly less long, or with longer steps",
+    )?;
     Ok(TimeGrid {
         step,
         steps,

@@ -5,7 +5,7 @@ use wingbeat_model::planform::{Beta, ChordSize, Planform, Spacing, WingShape};
 use wingbeat_model::{MassInput, Side, Wing};
 
 use super::{
-    Built, at_least, blame, deformation, motion, not_negative, positive, symmetric, vector,
+    Built, at_least, blame, deformation, motion, not_negative, panels, positive, symmetric, vector,
 };
 use crate::case::raw::{
     BetaCase, Case, PlanformCase, SideCase, SpacingCase, WingCase, WingMeshCase,
@@ -151,10 +151,13 @@ fn shape(source: &Source<'_>) -> Built<WingShape> {
     };
     let (name, wing, _) = source.of(|w| w.mesh.is_some());
     let mesh = wing.mesh.clone().unwrap_or_else(WingMeshCase::default);
+    let [chordwise, spanwise] =
+        ["chordwise", "spanwise"].map(|key| format!("wing.{name}.mesh.{key}"));
+    panels([&chordwise, &spanwise], [mesh.chordwise, mesh.spanwise])?;
     Ok(WingShape {
         planform: planform(&path, case)?,
-        rows: at_least(&format!("wing.{name}.mesh.chordwise"), mesh.chordwise, 1)?,
-        cols: at_least(&format!("wing.{name}.mesh.spanwise"), mesh.spanwise, 1)?,
+        rows: at_least(&chordwise, mesh.chordwise, 1)?,
+        cols: at_least(&spanwise, mesh.spanwise, 1)?,
         chordwise: spacing(mesh.chordwise_spacing),
         spanwise: spacing(mesh.spanwise_spacing),
     })

@@ -1,0 +1,83 @@
+//! Whether a saved state, perhaps read from a file, fits the flight that is to go on from it.
+
+use super::{FlightState, Simulation};
+use crate::error::FlightError;
+
+/// No flight counts so many steps or events.
+const MOST: u64 = 1 << 60;
+
+impl Simulation {
+    /// # Errors
+    /// What does not fit.
+    pub(super) fn check_fits(&self, state: &FlightState) -> Result<(), FlightError> {
+        let Some(stage) = self.stages.get(state.stage) else {
+            let value = format!("stage {}", state.stage);
+            return misfit(value, "the flight has no such stage");
+        };
+        check_steps(state)?;
+        let dim = stage.equations.dim();
+        let past = &state.past;
+        let vectors = past.y.iter().chain(&past.f);
+        let mut vectors = vectors.chain([&past.predicted_minus_corrected]);
+        if vectors.any(|v| v.len() != dim) {
+            return misfit(
+                format!("{} components", past.newest().len()),
+                &format!("the case has {dim}; resume with the case that was saved with it"),
+            );
+        }
+        let (ledger, own) = (&state.ledger, &self.state.ledger);
+        let lengths = [ledger.coordinates.len(), ledger.rates.len()];
+        if lengths != [own.coordinates.len(), own.rates.len()] {
+            return misfit(format!("{lengths:?} coordinates"), "the case has others");
+        }
+        match (&stage.equations.air, &state.air) {
+            (Some(side), Some(air)) => {
+                side.lattice.check_state(air)?;
+                check_events(state)
+            }
+            (None, None) => Ok(()),
+            _ => misfit("air".into(), "only one of case and state has air"),
+        }
+    }
+}
+
+fn check_steps(state: &FlightState) -> Result<(), FlightError> {
+    if state.step as u64 > MOST {
+        return misfit(format!("step {}", state.step), "no flight comes so far");
+    }
+    match state.started_at > state.step {
+        true => misfit(
+            format!("stage begun at step {}", state.started_at),
+            "it is not reached yet",
+        ),
+        false => Ok(()),
+    }
+}
+
+/// Events that were recorded are among those that were counted.
+fn check_events(state: &FlightState) -> Result<(), FlightError> {
+    let Some(air) = &state.air else {
+        return Ok(());
+    };
+    let e = &air.events;
+    let counts = [
+        air.step,
+        e.limited,
+        e.near_surface,
+        e.dropped_rows,
+        e.new_particles,
+        e.dropped_particles,
+    ];
+    if counts.iter().any(|n| *n > MOST) || state.ledger.events > e.limited + e.near_surface {
+        return misfit(format!("{counts:?}"), "nothing can be counted so");
+    }
+    Ok(())
+}
+
+fn misfit(value: String, problem: &str) -> Result<(), FlightError> {
+    Err(FlightError::Setup {
+        key: "state",
+        value,
+        problem: problem.into(),
+    })
+}
