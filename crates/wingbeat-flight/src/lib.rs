@@ -42,7 +42,9 @@ pub use bodies::{check_assembly, system, system_of};
 pub use error::FlightError;
 pub use external::{ExternalAir, ExternalSession};
 pub use joints::JointSetup;
-pub use record::{HingeRecord, LoadRecord, Record, Snapshot, SurfaceSnapshot, WakeSnapshot};
+pub use record::{
+    HingeRecord, LoadRecord, ParticleSnapshot, Record, Snapshot, SurfaceSnapshot, WakeSnapshot,
+};
 pub use recorder::Ledger;
 pub use setup::*;
 pub use simulation::{FlightState, Simulation};

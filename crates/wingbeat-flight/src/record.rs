@@ -143,4 +143,17 @@ pub struct WakeSnapshot {
     pub nodes: Vec<DVec3>,
     /// Ring circulations, row by row [m2/s].
     pub circulation: Vec<f64>,
+    /// Vortex particles that rings of the sheet have become, oldest first.
+    pub particles: Vec<ParticleSnapshot>,
+}
+
+/// One vortex particle at one instant.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct ParticleSnapshot {
+    /// Place, N components [m].
+    pub position: DVec3,
+    /// Vorticity times volume, N components [m3/s].
+    pub strength: DVec3,
+    /// Radius of the ball over which the vorticity is spread [m].
+    pub radius: f64,
 }

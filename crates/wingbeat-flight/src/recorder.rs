@@ -7,7 +7,9 @@ use wingbeat_math::{DQuat, DVec3};
 use wingbeat_model::Animal;
 
 use crate::equations::{AirSide, Equations, Quadratures, Scratch};
-use crate::record::{HingeRecord, LoadRecord, Record, Snapshot, SurfaceSnapshot, WakeSnapshot};
+use crate::record::{
+    HingeRecord, LoadRecord, ParticleSnapshot, Record, Snapshot, SurfaceSnapshot, WakeSnapshot,
+};
 
 /// Below this |cos theta| Euler angles and their rates are not evaluated but kept: they lose
 /// all their digits there.
@@ -266,5 +268,21 @@ fn wake_snapshot(side: &AirSide, air: &AirState, s: &Scratch, k: usize) -> WakeS
         cols,
         nodes,
         circulation,
+        particles: particle_snapshots(side, air, k),
     }
+}
+
+fn particle_snapshots(side: &AirSide, air: &AirState, k: usize) -> Vec<ParticleSnapshot> {
+    let Some(settings) = &side.lattice.settings().particles else {
+        return vec![];
+    };
+    let particles = &air.sheets[k].particles;
+    let vectors = particles.position.iter().zip(particles.strength.iter());
+    let all = vectors.zip(&particles.shed_time);
+    let of = |((position, strength), shed): ((DVec3, DVec3), &f64)| ParticleSnapshot {
+        position,
+        strength,
+        radius: settings.core(air.time - shed).sqrt(),
+    };
+    all.map(of).collect()
 }

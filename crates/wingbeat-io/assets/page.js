@@ -35,7 +35,8 @@ function unpack(k) {
   const sheets = flight.sheets.map((cols, s) => ({ cols, rows: f.rows[s] || 0 }));
   const wakeNodes = sheets.reduce((n, s) => n + (s.rows ? (s.rows + 1) * (s.cols + 1) : 0), 0);
   const rings = sheets.reduce((n, s) => n + s.rows * s.cols, 0);
-  return { surfaces, sheets, wake: { points: points(wakeNodes), circulation: signed(rings, circulation) } };
+  const wake = { points: points(wakeNodes), circulation: signed(rings, circulation) };
+  return { surfaces, sheets, wake, particles: { points: points(f.particles), strength: signed(f.particles, f.strength / flight.most.strength) } };
 }
 
 // Blue, white, red: told apart by colour-blind readers.
@@ -100,6 +101,21 @@ function line(points, material) {
   geometry.setAttribute("position", new THREE.Float32BufferAttribute(points, 3));
   return new THREE.Line(geometry, material);
 }
+// Vortex particles: from pale to dark violet, the stronger the darker and the less transparent.
+const PALE = [0.80, 0.72, 0.90], DARK = [0.28, 0.04, 0.42];
+function particles({ points, strength }) {
+  const paint = new Float32Array(4 * strength.length);
+  strength.forEach((s, k) => {
+    const x = Math.sqrt(Math.min(1, s));
+    for (let c = 0; c < 3; c++) paint[4 * k + c] = PALE[c] + x * (DARK[c] - PALE[c]);
+    paint[4 * k + 3] = 0.1 + 0.7 * x;
+  });
+  const geometry = new THREE.BufferGeometry();
+  geometry.setAttribute("position", new THREE.BufferAttribute(points, 3));
+  geometry.setAttribute("color", new THREE.BufferAttribute(paint, 4));
+  return new THREE.Points(geometry, PARTICLE);
+}
+const PARTICLE = new THREE.PointsMaterial({ vertexColors: true, size: 0.035, transparent: true, depthWrite: false });
 const SOLID = new THREE.MeshLambertMaterial({ vertexColors: true, side: THREE.DoubleSide, transparent: true });
 const WAKE = new THREE.MeshBasicMaterial({ vertexColors: true, side: THREE.DoubleSide, transparent: true, depthWrite: false });
 const EDGE = new THREE.LineBasicMaterial({ color: 0x333333, transparent: true, opacity: 0.35 });
@@ -178,6 +194,7 @@ function drawScene() {
     moving.add(edges(points, corners));
   });
   if (byId("wakes").checked) moving.add(mesh(now.wake.points, sheetCorners(now.sheets), now.wake.circulation, WAKE, youthOf(now.sheets)));
+  if (byId("wakes").checked && now.particles.strength.length) moving.add(particles(now.particles));
   if (byId("trails").checked) {
     const from = Math.max(0, frame - flight.trail);
     tipPaths.forEach((path) => moving.add(line(path.slice(3 * from, 3 * frame + 3), TRAIL)));
@@ -224,6 +241,9 @@ function say(tips) {
   byId("legend").style.display = flight.air ? "" : "none";
   byId("low").textContent = (coloured === "pressure" ? "pressure jump " : "circulation ") + (-most).toPrecision(2);
   byId("high").textContent = most.toPrecision(2) + " " + unit + " (square-root scale)";
+  state.dataset.particles = f.particles;
+  byId("dots").style.display = f.particles ? "" : "none";
+  byId("dots").textContent = "particles, the stronger the darker: 0 to " + flight.most.strength.toExponential(1) + " m³/s and more";
 }
 
 // ---- plots ----

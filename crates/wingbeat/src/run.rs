@@ -111,7 +111,9 @@ fn go_back(dir: &Path, threads: usize) -> Result<Option<Run>, IoError> {
     let dir = ResultDir::open(dir)?;
     let saved = saver::read(dir.path())?;
     if saved.manifest.outcome == Outcome::Finished {
-        saver::forget(dir.path())?; // a kill at the very end may have left it
+        if !dir.case()?.output.save.keep {
+            saver::forget(dir.path())?; // a kill at the very end may have left it
+        }
         println!("{} is flown to its end already.", dir.path().display());
         return Ok(None);
     }

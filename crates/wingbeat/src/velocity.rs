@@ -15,7 +15,8 @@ use crate::refuse;
 /// What `wingbeat velocity` is told. Places are in inertial axes (n3 down), in metres.
 #[derive(Args)]
 pub(crate) struct VelocityArgs {
-    /// Result directory of a run; its newest checkpoint is taken (see output.checkpoint_every).
+    /// Result directory of a run; its checkpoint is taken (a finished run has one with
+    /// output.keep_checkpoint = true).
     dir: PathBuf,
     /// A point x,y,z (may be repeated).
     #[arg(long, value_name = "X,Y,Z", value_parser = place, allow_hyphen_values = true)]
@@ -112,7 +113,7 @@ fn table(args: &VelocityArgs, places: &Points) -> Result<String, IoError> {
     };
     let Some((_, state)) = saved.checkpoint else {
         return Err(damaged(
-            "there is none; run the case with --set output.checkpoint_every=1".to_owned(),
+            "there is none; run the case with --set output.keep_checkpoint=true".to_owned(),
         ));
     };
     let flight = Simulation::resume(case.setup.clone(), state)

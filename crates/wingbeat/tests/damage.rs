@@ -9,7 +9,7 @@ mod support;
 use support::{Scratch, flown, wingbeat};
 
 /// A short flight with wakes.
-const CASE: [&str; 12] = [
+const CASE: [&str; 14] = [
     "run",
     "fruit-fly-hover",
     "--quiet",
@@ -22,10 +22,12 @@ const CASE: [&str; 12] = [
     "--set=air.body=false",
     "--set=output.page=false",
     "--set=output.figures=false",
+    "--set=output.keep_checkpoint=true",
+    "--set=air.particles={after_rows=4}",
 ];
 
 /// What opens the result `run`, and whether it needs the frames.
-const COMMANDS: [(&[&str], bool); 12] = [
+const COMMANDS: [(&[&str], bool); 13] = [
     (&["show", "run"], false),
     (&["show", "run", "--json"], false),
     (&["compare", "run", "run"], false),
@@ -53,7 +55,11 @@ const COMMANDS: [(&[&str], bool); 12] = [
         &["export", "run", "--format", "gltf", "--out", "exported"],
         false,
     ),
+    (&VELOCITY, false),
 ];
+
+/// Reads the checkpoint, too.
+const VELOCITY: [&str; 4] = ["velocity", "run", "--point", "0.002,0.001,0"];
 
 /// What happened: exit code and everything said.
 fn outcome(dir: &Path, args: &[&str]) -> (i32, String) {
@@ -151,6 +157,15 @@ fn refuses_damaged_results_in_every_command() {
     );
     with_damage(dir, wakes, b"", true, "wakes_000004.vtp");
     let foreign = read("frames/wakes_000008.vtp");
+    let particles = "frames/particles_000004.vtp";
+    with_damage(
+        dir,
+        particles,
+        &cut(particles),
+        true,
+        "particles_000004.vtp",
+    );
+    with_damage(dir, particles, &foreign, true, "particles_000004.vtp");
     let surfaces = "frames/surfaces_000004.vtp";
     with_damage(dir, surfaces, &foreign, true, "surfaces_000004.vtp");
 }
@@ -164,6 +179,7 @@ fn refuses_missing_files_and_foreign_directories_in_every_command() {
     for (file, frames_only) in [
         ("frames/wakes_000004.vtp", true),
         ("frames/surfaces_000004.vtp", true),
+        ("frames/particles_000004.vtp", true),
         ("history.csv", false),
         ("case.toml", false),
         ("manifest.json", false),
@@ -188,6 +204,62 @@ fn refuses_missing_files_and_foreign_directories_in_every_command() {
         refused(dir, args, "not a result directory of wingbeat");
     }
     assert_eq!(files(&dir.join("run")), [dir.join("run/notes.txt")]);
+}
+
+#[test]
+fn agrees_velocity_of_the_air_with_the_flight_and_refuses_damage() {
+    let scratch = Scratch::new("damage-velocity");
+    let dir = &scratch.0;
+    flown(dir, &CASE);
+    let case = dir.join("run/case.toml");
+    let case = wingbeat::io::LoadedCase::from_file(&case, &[]).unwrap();
+    let mut flight = wingbeat::flight::Simulation::new(case.setup).unwrap();
+    while !flight.finished() {
+        flight.step().unwrap();
+    }
+    let place = wingbeat::math::DVec3::new(0.002, 0.001, 0.0);
+    let places = [place].into_iter().collect();
+    let velocity = flight.air_velocity(&places).unwrap().get(0);
+    let out = wingbeat(dir, &VELOCITY);
+    let table = String::from_utf8(out.stdout).unwrap();
+    let row = table.lines().nth(1).unwrap();
+    let numbers: Vec<f64> = row.split(',').map(|x| x.parse().unwrap()).collect();
+    assert_eq!(numbers, [place.to_array(), velocity.to_array()].concat());
+    let path = dir.join("run/checkpoint.bin");
+    let whole = fs::read(&path).unwrap();
+    let damage = |bytes: &[u8], reason: &str| {
+        fs::write(&path, bytes).unwrap();
+        refused(dir, &VELOCITY, "checkpoint.bin");
+        let said = outcome(dir, &VELOCITY).1;
+        assert!(said.contains(reason), "{said}");
+    };
+    damage(b"", "this is not a checkpoint");
+    damage(&whole[..whole.len() / 2], "the checksum is wrong");
+    let mut flipped = whole.clone();
+    flipped[whole.len() / 2] ^= 1;
+    damage(&flipped, "the checksum is wrong");
+    damage(b"wingbeat-checkpoint 7 \nmore", "another format");
+    fs::remove_file(&path).unwrap();
+    refused(dir, &VELOCITY, "output.keep_checkpoint=true");
+    fs::write(&path, &whole).unwrap();
+    // A flight without a wake has no air to ask.
+    flown(
+        dir,
+        &[
+            "run",
+            "fruit-fly-vacuum",
+            "--quiet",
+            "--out",
+            "bare",
+            "--set=time.beats=0.1",
+            "--set=output.keep_checkpoint=true",
+        ],
+    );
+    refused(
+        dir,
+        &["velocity", "bare", "--point", "0,0,0"],
+        "no vortex lattice",
+    );
 }
 
 /// One byte of each file of a result changed at a time: whatever is done, nothing panics.

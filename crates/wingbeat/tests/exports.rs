@@ -9,7 +9,7 @@ mod support;
 
 use support::{Scratch, flown, required, wingbeat};
 
-const CASE: [&str; 14] = [
+const CASE: [&str; 15] = [
     "run",
     "fruit-fly-hover",
     "--quiet",
@@ -23,6 +23,7 @@ const CASE: [&str; 14] = [
     "wing.right.mesh.chordwise=3",
     "--set",
     "air.shed=[\"trailing\"]",
+    "--set=air.particles={after_rows=8}",
     "--set=output.page=false",
 ];
 

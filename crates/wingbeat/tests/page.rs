@@ -9,7 +9,7 @@ mod support;
 use support::{Scratch, flown, required, wingbeat};
 use wingbeat::io::result::frames::{self, Frame};
 
-const CASE: [&str; 12] = [
+const CASE: [&str; 13] = [
     "run",
     "fruit-fly-tethered",
     "--quiet",
@@ -22,6 +22,7 @@ const CASE: [&str; 12] = [
     "--set",
     "wing.right.mesh.chordwise=3",
     "--set=air.shed=[\"trailing\"]",
+    "--set=air.particles={after_rows=8}",
 ];
 
 /// What the page says of itself in the browser.
@@ -110,6 +111,9 @@ fn exact_the_page_works_in_a_browser() {
         assert!(triangles > 100, "only {triangles} triangles were drawn");
         // The tip is a node of the wing that stands in the frame.
         let frame = Frame::read(&scratch.0.join("run"), steps[k]).unwrap();
+        let particles: usize = shown.data("particles").parse().unwrap();
+        assert_eq!(particles, frame.particles.len());
+        assert!(k == 0 || particles > 0, "no particle is shown");
         let tips = shown.tips();
         assert_eq!(tips.len(), 2);
         for tip in &tips {

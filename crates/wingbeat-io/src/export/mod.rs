@@ -4,7 +4,7 @@
 //! | format | what | read by |
 //! |---|---|---|
 //! | `hdf5` | history, frames, case and summary, units and frames as attributes | h5py, xarray, MATLAB |
-//! | `vtkhdf` | surfaces and wakes as time series | ParaView, VTK |
+//! | `vtkhdf` | surfaces, wakes and vortex particles as time series | ParaView, VTK |
 //! | `parquet` | the history as a table | pandas, polars, DuckDB |
 //! | `gltf` | the moving animal | Blender, browsers |
 //!
@@ -23,6 +23,7 @@ use std::path::{Path, PathBuf};
 
 use crate::case::LoadedCase;
 use crate::error::IoError;
+use crate::result::frames::{self, Frame};
 use crate::result::poses::Poses;
 use crate::result::rows::Rows;
 use crate::result::{Manifest, ResultDir};
@@ -49,9 +50,11 @@ impl Format {
         ("gltf", Self::Gltf),
     ];
 
-    /// Files it makes, by their names in the result directory.
-    pub fn files(self) -> &'static [&'static str] {
+    /// Files it makes, by their names in the result directory; of a flight with vortex particles
+    /// or without.
+    pub fn files(self, particles: bool) -> &'static [&'static str] {
         match self {
+            Self::Vtkhdf if particles => &["surfaces.vtkhdf", "wakes.vtkhdf", "particles.vtkhdf"],
             Self::Hdf5 => &["flight.h5"],
             Self::Vtkhdf => &["surfaces.vtkhdf", "wakes.vtkhdf"],
             Self::Parquet => &["history.parquet"],
@@ -109,7 +112,10 @@ pub fn export(dir: &ResultDir, format: Format, into: &Path) -> Result<Vec<PathBu
     };
     std::fs::create_dir_all(into).map_err(IoError::write(into))?;
     let mut made = vec![];
-    for name in format.files() {
+    let particles = format == Format::Vtkhdf
+        && (frames::steps(dir.path())?.first())
+            .is_some_and(|k| Frame::particles_path(dir.path(), *k).is_file());
+    for name in format.files(particles) {
         let part = into.join(format!("{name}.part"));
         let path = into.join(name);
         let written = match format {

@@ -1,6 +1,6 @@
 //! The history as Parquet; history, frames, case and summary as HDF5.
 //!
-//! Layout of the HDF5 file, version 1: see docs/exports.md.
+//! Layout of the HDF5 file, version 2: see docs/exports.md.
 
 use std::path::Path;
 
@@ -12,9 +12,10 @@ use super::units::{frame, unit};
 use crate::error::IoError;
 use crate::result::Summary;
 use crate::result::frames::{self, Frame, Mesh};
+use crate::result::particles::{Cloud, NUMBERS};
 
 /// Version of the layout of the HDF5 file.
-const LAYOUT: i64 = 1;
+const LAYOUT: i64 = 2;
 
 /// The history as a table.
 pub(super) fn parquet(source: &Source, path: &Path) -> Result<(), IoError> {
@@ -122,6 +123,7 @@ struct FrameArrays {
     times: usize,
     surface: Arrays,
     wake: Arrays,
+    particles: Option<PointArrays>,
 }
 
 /// The arrays of surfaces or of wakes: all frames one after the other, with offsets.
@@ -160,6 +162,7 @@ impl FrameArrays {
             times,
             surface: Arrays::new("frames/surfaces", n, sums[0], surface, layout),
             wake: Arrays::new("frames/wakes", n, sums[1], wake, layout),
+            particles: PointArrays::new(source, steps, layout)?,
         }))
     }
 
@@ -170,7 +173,7 @@ impl FrameArrays {
         file: &mut Hdf5File,
         path: &Path,
     ) -> Result<(), IoError> {
-        let mut at = [[0; 2]; 2];
+        let (mut at, mut points) = ([[0; 2]; 2], 0);
         let h = source.case.setup.time.step;
         for (k, &step) in steps.iter().enumerate() {
             let frame = Frame::read(source.dir.path(), step)?;
@@ -180,6 +183,10 @@ impl FrameArrays {
                 .and_then(|()| self.surface.put(file, k, &mut at[0], &frame.surfaces))
                 .and_then(|()| self.wake.put(file, k, &mut at[1], &frame.wakes));
             written.map_err(IoError::write(path))?;
+            if let Some(arrays) = &self.particles {
+                let put = arrays.put(file, k, &mut points, &frame.particles);
+                put.map_err(IoError::write(path))?;
+            }
         }
         Ok(())
     }
@@ -235,5 +242,66 @@ impl Arrays {
         *at = [at[0] + mesh.points.len(), at[1] + mesh.quads.len()];
         file.integers(self.point_offsets, k + 1, &[at[0] as i64])?;
         file.integers(self.cell_offsets, k + 1, &[at[1] as i64])
+    }
+}
+
+/// The arrays of the vortex particles: all frames one after the other, with offsets.
+struct PointArrays {
+    offsets: usize,
+    points: usize,
+    values: [usize; 3],
+}
+
+impl PointArrays {
+    /// None where the flight has no particles.
+    fn new(source: &Source, steps: &[usize], layout: &mut Layout) -> Result<Option<Self>, IoError> {
+        let counts = particle_counts(source, steps)?;
+        if counts.is_empty() {
+            return Ok(None);
+        }
+        let n: usize = counts.iter().sum();
+        let mut add = |name: &str, kind: Kind, shape: &[usize], unit: &str| {
+            let dataset = layout.dataset(&format!("frames/particles/{name}"), kind, shape);
+            layout.text(dataset, "units", unit);
+            dataset
+        };
+        Ok(Some(Self {
+            offsets: add("point_offsets", Kind::Integer, &[steps.len() + 1], "1"),
+            points: add("points_m", Kind::Float, &[n, 3], "m"),
+            values: NUMBERS.map(|(name, components)| match name {
+                "strength_m3_per_s" => add(name, Kind::Float, &[n, components], "m3 s-1"),
+                "radius_m" => add(name, Kind::Float, &[n], "m"),
+                _ => add(name, Kind::Float, &[n], "1"),
+            }),
+        }))
+    }
+
+    /// Puts frame `k` where the frames before it end.
+    fn put(
+        &self,
+        file: &mut Hdf5File,
+        k: usize,
+        at: &mut usize,
+        cloud: &Cloud,
+    ) -> std::io::Result<()> {
+        file.floats(self.points, 3 * *at, cloud.points.as_flattened())?;
+        let all = self.values.iter().zip(NUMBERS).zip(cloud.numbers());
+        for ((dataset, (_, components)), values) in all {
+            file.floats(*dataset, components * *at, values)?;
+        }
+        *at += cloud.len();
+        file.integers(self.offsets, k + 1, &[*at as i64])
+    }
+}
+
+/// Particles of each frame; empty where the flight has none.
+pub(super) fn particle_counts(source: &Source, steps: &[usize]) -> Result<Vec<usize>, IoError> {
+    let path = |step: usize| Frame::particles_path(source.dir.path(), step);
+    match steps.first() {
+        Some(first) if path(*first).is_file() => {
+            let count = |step: &usize| Ok(Mesh::count(&path(*step))?[0]);
+            steps.iter().map(count).collect()
+        }
+        _ => Ok(vec![]),
     }
 }

@@ -8,6 +8,7 @@ use std::path::Path;
 use gif::{Encoder, Frame as GifFrame, Repeat};
 use wingbeat_math::DVec3;
 
+use super::dots::Dots;
 use super::drawing::{Anchor, COLOURS, Drawing, INK, Stroke};
 use super::wake::{Filaments, SKIN, pen};
 use crate::case::LoadedCase;
@@ -20,7 +21,8 @@ use crate::result::rows::Rows;
 const SIZE: [f64; 2] = [560.0, 420.0];
 /// More pictures than this are thinned.
 const MOST_PICTURES: usize = 150;
-/// More rings than this are not drawn: the newest of every sheet are.
+/// More rings than this are not drawn: the newest of every sheet are; nor more particles: the
+/// strongest are.
 const MOST_RINGS: usize = 1500;
 /// Time a picture is shown \[1/100 s\].
 const DELAY: u16 = 6;
@@ -123,6 +125,7 @@ impl View {
             for (ends, strength) in &Filaments::newest(&frame.wakes, MOST_RINGS).list {
                 to.line(ends.map(flat).to_vec(), pen(*strength, 0.8));
             }
+            Dots::strongest(&frame.particles, MOST_RINGS).draw(&mut to, flat, 1.6);
         }
         let mut quads = animal(poses, row);
         quads.sort_by(|a, b| near(&a.0).total_cmp(&near(&b.0)));

@@ -138,12 +138,17 @@ impl Drawing {
     }
 
     /// A filled disk, as a polygon of 20 corners.
-    pub fn dot(&mut self, [x, y]: [f64; 2], radius: f64, fill: Colour) {
+    pub fn dot(&mut self, at: [f64; 2], radius: f64, fill: Colour) {
+        self.disk(at, radius, fill, 20);
+    }
+
+    /// A filled disk, as a polygon of so many corners.
+    pub fn disk(&mut self, [x, y]: [f64; 2], radius: f64, fill: Colour, corners: usize) {
         let corner = |k: usize| {
-            let (s, c) = (k as f64 * std::f64::consts::TAU / 20.0).sin_cos();
+            let (s, c) = (k as f64 * std::f64::consts::TAU / corners as f64).sin_cos();
             [x + radius * c, y + radius * s]
         };
-        self.area((0..20).map(corner).collect(), fill, 1.0);
+        self.area((0..corners).map(corner).collect(), fill, 1.0);
     }
 
     /// An arrow; its head is as long as three line widths, or as the arrow.

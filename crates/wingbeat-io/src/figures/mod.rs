@@ -9,6 +9,7 @@
 mod animation;
 mod beats;
 mod chart;
+mod dots;
 mod drawing;
 mod font;
 mod grid;

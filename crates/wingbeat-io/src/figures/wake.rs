@@ -1,7 +1,9 @@
-//! Wings, body and the vortex filaments of the wakes of one frame, from above and from the side.
+//! Wings, body, the vortex filaments of the wakes and the vortex particles of one frame, from above and
+//! from the side.
 
 use std::path::Path;
 
+use super::dots::{Dots, dye};
 use super::drawing::{Anchor, COLOURS, Colour, Drawing, INK, Stroke};
 use super::grid::one_scale;
 use super::kinds::prefix;
@@ -13,6 +15,8 @@ use crate::result::frames::{self, Frame, Mesh, Sheet};
 
 /// More rings than this are not drawn: the newest of every sheet are.
 pub(super) const MOST_RINGS: usize = 2500;
+/// More particles than this are not drawn: the strongest are.
+const MOST_DOTS: usize = 2500;
 /// Body and wings.
 pub(super) const SKIN: Colour = Colour(222, 217, 203);
 
@@ -39,16 +43,28 @@ pub(super) fn wake(
         None => format!("after {:.4} s", time),
     };
     let filaments = Filaments::newest(&frame.wakes, MOST_RINGS);
+    let dots = Dots::strongest(&frame.particles, MOST_DOTS);
     let note = match filaments.left_out {
         0 => String::new(),
         n => format!(", oldest {n} rings left out"),
     };
-    let title = format!("{}: wakes {when}{note}", case.name);
-    Ok(Some(draw(&frame, &filaments, &title, look)))
+    let weak = match dots.left_out {
+        0 => String::new(),
+        n => format!(", weakest {n} particles left out"),
+    };
+    let title = format!("{}: wakes {when}{note}{weak}", case.name);
+    let wakes = Wakes { filaments, dots };
+    Ok(Some(draw(&frame, &wakes, &title, look)))
 }
 
-/// Weaker filaments, relative to the usual, are not drawn.
-const FAINTEST: f64 = 0.06;
+/// What is drawn of the wakes.
+struct Wakes {
+    filaments: Filaments,
+    dots: Dots,
+}
+
+/// Weaker filaments and particles, relative to the usual, are not drawn.
+pub(super) const FAINTEST: f64 = 0.06;
 
 /// Vortex filaments between the rings of wakes, weak ones first: two ends, and the difference of the
 /// rings' circulations over that which few filaments exceed.
@@ -146,8 +162,9 @@ const VIEWS: [View; 2] = [
     },
 ];
 
-fn draw(frame: &Frame, filaments: &Filaments, title: &str, look: &Look) -> Drawing {
-    let ends = filaments.list.iter().flat_map(|f| f.0);
+fn draw(frame: &Frame, wakes: &Wakes, title: &str, look: &Look) -> Drawing {
+    let ends = wakes.filaments.list.iter().flat_map(|f| f.0);
+    let ends = ends.chain(wakes.dots.list.iter().map(|d| d.0));
     let points: Vec<[f64; 3]> = frame.surfaces.points.iter().copied().chain(ends).collect();
     let extent: Vec<f64> = points.iter().flatten().copied().collect();
     let (scale, unit) = prefix(&extent);
@@ -181,17 +198,8 @@ fn draw(frame: &Frame, filaments: &Filaments, title: &str, look: &Look) -> Drawi
             height: *height,
         };
         let axes = plot.draw(&mut drawing, area, look);
-        scene(
-            &mut drawing,
-            &axes,
-            view,
-            [scale, look.hair],
-            frame,
-            filaments,
-        );
-        if view.axes == VIEWS[0].axes {
-            bar(&mut drawing, &axes, filaments.usual, look);
-        }
+        scene(&mut drawing, &axes, view, [scale, look.hair], frame, wakes);
+        bar(&mut drawing, &axes, view, wakes, look);
         top += height + 3.1 * look.font;
     }
     drawing
@@ -204,14 +212,15 @@ fn scene(
     view: &View,
     [scale, hair]: [f64; 2],
     frame: &Frame,
-    filaments: &Filaments,
+    wakes: &Wakes,
 ) {
     let flat = |p: [f64; 3]| axes.at(view.axes.map(|c| p[c] / scale));
     let (axis, sign) = view.toward;
     let near = |quad: &[[f64; 3]; 4]| sign * quad.iter().map(|p| p[axis]).sum::<f64>();
-    for (ends, strength) in &filaments.list {
+    for (ends, strength) in &wakes.filaments.list {
         to.line(ends.map(flat).to_vec(), pen(*strength, hair));
     }
+    wakes.dots.draw(to, flat, 1.6 * hair);
     let surfaces = &frame.surfaces;
     let quads = surfaces.quads.iter().map(|q| q.map(|n| surfaces.points[n]));
     let mut quads: Vec<[[f64; 3]; 4]> = quads.collect();
@@ -223,11 +232,17 @@ fn scene(
     }
 }
 
-/// What the colours mean, above the frame on the right.
-fn bar(to: &mut Drawing, axes: &Axes, usual: f64, look: &Look) {
+/// What the colours mean, above the frame on the right: filaments in the first view, particles in the
+/// second.
+fn bar(to: &mut Drawing, axes: &Axes, view: &View, wakes: &Wakes, look: &Look) {
+    let (what, usual, unit) = match view.axes == VIEWS[0].axes {
+        true => ("filaments", wakes.filaments.usual, "m²/s"),
+        false if wakes.dots.list.is_empty() => return,
+        false => ("particles", wakes.dots.usual, "m³/s"),
+    };
     let y = axes.area.top - 0.55 * look.font;
     let right = axes.area.left + axes.area.width;
-    let text = format!("filaments, 0 to {} m²/s and more", short(usual));
+    let text = format!("{what}, 0 to {} {unit} and more", short(usual));
     to.text([right, y], &text, look.font, Anchor::End);
     let step = 0.4 * look.font;
     let end = right - super::font::width(&text, look.font) - 0.6 * look.font;
@@ -235,7 +250,12 @@ fn bar(to: &mut Drawing, axes: &Axes, usual: f64, look: &Look) {
         let x = end - f64::from(15 - k) * step;
         let [low, high] = [y, y - 0.75 * look.font];
         let corners = vec![[x, low], [x + step, low], [x + step, high], [x, high]];
-        to.area(corners, pen(f64::from(k) / 14.0, 1.0).colour, 1.0);
+        let strength = f64::from(k) / 14.0;
+        let colour = match what {
+            "filaments" => pen(strength, 1.0).colour,
+            _ => dye(strength),
+        };
+        to.area(corners, colour, 1.0);
     }
 }
 

@@ -13,6 +13,7 @@ use crate::error::IoError;
 use crate::figures::{self, Chart};
 use crate::result::columns::body_names;
 use crate::result::frames::{self, Frame, Mesh};
+use crate::result::particles::Cloud;
 use crate::result::poses::{Poses, picture};
 use crate::result::rows::Rows;
 use crate::result::{History, Outcome, ResultDir, Summary};
@@ -170,9 +171,9 @@ impl<'a> Scene<'a> {
                 continue;
             }
             let x = row[1] / unit;
-            let (surfaces, wakes) = self.frame(row)?;
+            let (surfaces, wakes, cloud) = self.frame(row)?;
             let most = self.plan.frame_bytes.saturating_sub(ENTRY);
-            let packed = self.blob.add(&surfaces, &wakes, most);
+            let packed = self.blob.add(&surfaces, &wakes, &cloud, most);
             let vector = |k: &usize| picture(DVec3::from_slice(&row[*k..]));
             self.path.extend(picture(self.poses.pose(row, 0).0));
             self.shown.push(Shown {
@@ -187,8 +188,8 @@ impl<'a> Scene<'a> {
         Ok(self)
     }
 
-    /// Surfaces and wakes at a row: as they were written; what was not is carried by its body.
-    fn frame(&self, row: &[f64]) -> Result<(Surfaces, Mesh), IoError> {
+    /// Surfaces, wakes and particles at a row: as they were written; what was not is carried by its body.
+    fn frame(&self, row: &[f64]) -> Result<(Surfaces, Mesh, Cloud), IoError> {
         let step = row[0] as usize;
         let frame = if self.framed {
             Frame::read(self.dir.path(), step)?
@@ -223,7 +224,7 @@ impl<'a> Scene<'a> {
             pressure: values("pressure_jump_pascal"),
             points,
         };
-        Ok((surfaces, frame.wakes))
+        Ok((surfaces, frame.wakes, frame.particles))
     }
 
     /// Writes the scene into the data of the page.
@@ -260,6 +261,7 @@ impl<'a> Scene<'a> {
         head["most"] = json!({
             "circulation": usual(self.shown.iter().map(|f| f.packed.circulation)),
             "pressure": usual(self.shown.iter().map(|f| f.packed.pressure)),
+            "strength": usual(self.shown.iter().map(|f| f.packed.usual_strength)),
         });
         head["thinned"] = json!(self.thinned(stride));
         head["path"] = json!(self.path);
@@ -280,6 +282,12 @@ impl<'a> Scene<'a> {
             text += &format!(
                 ", {} of them without their oldest wake rows",
                 self.blob.shortened
+            );
+        }
+        if self.blob.weakened > 0 {
+            text += &format!(
+                ", {} of them without their weakest particles",
+                self.blob.weakened
             );
         }
         text += &match stride {

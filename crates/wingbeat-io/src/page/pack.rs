@@ -1,12 +1,17 @@
 //! Numbers of the frames as 16-bit whole numbers, for the page to unpack.
 //!
 //! A frame is: points of the surfaces (3 each), circulation and pressure jump of their panels,
-//! points of the wake sheets, circulation of their rings. Points are counted in steps from the
+//! points of the wake sheets, circulation of their rings, points of the vortex particles, sizes of
+//! their strengths. Points are counted in steps from the
 //! lowest corner of the frame's box; signed numbers in 1/32767 of the largest of the frame.
 
 use serde::Serialize;
 
 use crate::result::frames::{Mesh, Sheet};
+use crate::result::particles::Cloud;
+
+/// Bytes of a particle.
+const PARTICLE: usize = 8;
 
 /// What the page needs to unpack a frame.
 #[derive(Clone, Debug, Serialize)]
@@ -19,6 +24,12 @@ pub struct Packed {
     pub step_m: f64,
     /// Rows of each wake sheet.
     pub rows: Vec<usize>,
+    /// Vortex particles.
+    pub particles: usize,
+    /// Largest strength of a particle \[m3/s\].
+    pub strength: f64,
+    /// The strength nineteen in twenty do not exceed \[m3/s\].
+    pub usual_strength: f64,
     /// Largest circulation \[m2/s\].
     pub circulation: f64,
     /// Largest pressure jump \[Pa\].
@@ -52,31 +63,49 @@ pub struct Blob {
     pub columns: Vec<usize>,
     /// Frames whose older wake rows were left out.
     pub shortened: usize,
+    /// Frames whose weaker particles were left out.
+    pub weakened: usize,
 }
 
 impl Blob {
-    /// Adds a frame that may take `most` bytes; the oldest wake rows are left out beyond that.
-    pub fn add(&mut self, surfaces: &Surfaces, wakes: &Mesh, most: usize) -> Packed {
+    /// Adds a frame that may take `most` bytes; beyond that the weakest particles are left out until
+    /// they take half of what wakes may take, then the oldest wake rows.
+    pub fn add(&mut self, surfaces: &Surfaces, wakes: &Mesh, cloud: &Cloud, most: usize) -> Packed {
         let own = Surfaces::bytes(surfaces.points.len(), surfaces.circulation.len());
-        let (sheets, cut) = fitting(&wakes.sheets(), most.saturating_sub(own));
+        let all = wakes.sheets();
+        let room = most.saturating_sub(own);
+        let longest = all.iter().map(Sheet::rows).max().unwrap_or(0);
+        let share = room.saturating_sub(cost(&all, longest)).max(room / 2);
+        let strongest = cloud.strongest(share / PARTICLE);
+        self.weakened += usize::from(strongest.len() < cloud.len());
+        let (sheets, cut) = fitting(&all, room - PARTICLE * strongest.len());
         self.shortened += usize::from(cut);
         let (nodes, rings) = kept(&sheets, wakes);
-        let (low, step_m) = grid(surfaces.points.iter().chain(&nodes));
+        let places: Vec<[f64; 3]> = strongest.iter().map(|&k| cloud.points[k]).collect();
+        let sizes: Vec<f64> = cloud.sizes().collect();
+        let sizes: Vec<f64> = strongest.iter().map(|&k| sizes[k]).collect();
+        let (low, step_m) = grid(surfaces.points.iter().chain(&nodes).chain(&places));
         let largest = |v: &[f64]| v.iter().fold(0.0_f64, |a, x| a.max(x.abs()));
         let circulation = largest(&surfaces.circulation).max(largest(&rings));
         let pressure = largest(&surfaces.pressure);
+        let strength = largest(&sizes);
         let at = self.bytes.len();
         self.points(&surfaces.points, low, step_m);
         self.signed(&surfaces.circulation, circulation);
         self.signed(&surfaces.pressure, pressure);
         self.points(&nodes, low, step_m);
         self.signed(&rings, circulation);
+        self.points(&places, low, step_m);
+        self.signed(&sizes, strength);
         let rows = self.note(&sheets);
         Packed {
             at,
             low,
             step_m,
             rows,
+            particles: places.len(),
+            strength,
+            usual_strength: usual(&sizes),
             circulation,
             pressure,
         }
@@ -117,18 +146,29 @@ impl Blob {
     }
 }
 
+/// What nineteen in twenty do not exceed; 0 of none.
+fn usual(sizes: &[f64]) -> f64 {
+    let mut sorted = sizes.to_vec();
+    sorted.sort_by(f64::total_cmp);
+    sorted.get(sorted.len() * 19 / 20).copied().unwrap_or(0.0)
+}
+
+/// Bytes of so many rows of all sheets.
+fn cost(sheets: &[Sheet], rows: usize) -> usize {
+    let one = |s: &Sheet| {
+        let rows = rows.min(s.rows());
+        6 * (rows + 1) * (s.cols + 1) + 2 * rows * s.cols
+    };
+    sheets.iter().map(one).sum()
+}
+
 /// The newest rows of all sheets that fit into so many bytes, and whether rows were left out.
 fn fitting(sheets: &[Sheet], bytes: usize) -> (Vec<Sheet>, bool) {
-    let cost = |rows: usize| -> usize {
-        let one = |s: &Sheet| {
-            let rows = rows.min(s.rows());
-            6 * (rows + 1) * (s.cols + 1) + 2 * rows * s.cols
-        };
-        sheets.iter().map(one).sum()
-    };
     let longest = sheets.iter().map(Sheet::rows).max().unwrap_or(0);
     let all: Vec<usize> = (0..=longest).collect();
-    let rows = all.partition_point(|r| cost(*r) <= bytes).saturating_sub(1);
+    let rows = all
+        .partition_point(|r| cost(sheets, *r) <= bytes)
+        .saturating_sub(1);
     let short = |s: &Sheet| Sheet {
         rings: rows.min(s.rows()) * s.cols,
         ..*s
@@ -200,7 +240,7 @@ mod tests {
             pressure: vec![0.0],
         };
         let mut blob = Blob::default();
-        let packed = blob.add(&surfaces, &wake(4), usize::MAX);
+        let packed = blob.add(&surfaces, &wake(4), &Cloud::default(), usize::MAX);
         assert_eq!((packed.rows, &blob.columns[..]), (vec![0, 4], &[0, 2][..]));
         let word = |k: usize| u16::from_le_bytes([blob.bytes[2 * k], blob.bytes[2 * k + 1]]);
         for (k, p) in surfaces.points.iter().flatten().enumerate() {
@@ -216,8 +256,30 @@ mod tests {
     fn exact_old_wake_rows_give_way() {
         let mut blob = Blob::default();
         let most = 6 * 9 + 2 * 4 + 5; // two of the four rows
-        let packed = blob.add(&Surfaces::default(), &wake(4), most);
+        let packed = blob.add(&Surfaces::default(), &wake(4), &Cloud::default(), most);
         assert_eq!((packed.rows, blob.shortened), (vec![0, 2], 1));
         assert!(blob.bytes.len() <= most);
+    }
+
+    #[test]
+    fn exact_weak_particles_give_way_to_half_of_the_room() {
+        let cloud = Cloud {
+            points: (0..10).map(|k| [k as f64, 0.0, 0.0]).collect(),
+            strength: (0..10).map(|k| [0.0, 0.0, -k as f64]).collect(),
+            ..Cloud::default()
+        };
+        let mut blob = Blob::default();
+        let none = Surfaces::default();
+        let all = blob.add(&none, &wake(4), &cloud, usize::MAX);
+        assert_eq!((all.particles, all.strength, blob.weakened), (10, 9.0, 0));
+        let first = blob.bytes.len();
+        assert_eq!(first, 6 * 15 + 2 * 8 + 80);
+        let half = blob.add(&none, &wake(4), &cloud, 100);
+        assert_eq!((half.particles, blob.weakened, blob.shortened), (6, 1, 1));
+        assert!(blob.bytes.len() - first <= 100);
+        // Sizes stand last: the sixth strongest is the first one kept.
+        let size = &blob.bytes[blob.bytes.len() - 12..][..2];
+        let share = f64::from(i16::from_le_bytes([size[0], size[1]])) / 32767.0;
+        assert!((share - 4.0 / 9.0).abs() < 1e-4, "{share}");
     }
 }

@@ -6,7 +6,8 @@ use crate::error::IoError;
 use crate::result::frames::Frame;
 
 /// Bytes of the page per byte of the `.vtp` files: 8 bytes for a point and its cell instead of 24
-/// for the point, 64 for the cell with its corners and numbers, all in base64 on both sides.
+/// for the point, 64 for the cell with its corners and numbers (or 8 instead of 80 for a particle),
+/// all in base64 on both sides.
 const PAGE_PER_FILE: f64 = 0.1;
 /// Fewer frames than this are not shown for the sake of complete wakes.
 const FEWEST_FRAMES: usize = 120;
@@ -59,7 +60,7 @@ impl Plan {
         let mut sizes = Vec::with_capacity(steps.len());
         for &step in steps {
             let mut size = 0;
-            for path in Frame::paths(dir, step) {
+            for path in Frame::files(dir, step) {
                 size += std::fs::metadata(&path)
                     .map_err(IoError::read(&path))?
                     .len();

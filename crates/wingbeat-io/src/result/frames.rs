@@ -8,6 +8,7 @@ use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
 
 use super::manifest::sha256;
+use super::particles::Cloud;
 use super::vtp::{CHECKSUM, frame_name};
 use crate::error::IoError;
 
@@ -31,6 +32,8 @@ pub struct Frame {
     pub surfaces: Mesh,
     /// Wake sheets.
     pub wakes: Mesh,
+    /// Vortex particles.
+    pub particles: Cloud,
 }
 
 /// Steps of the frames in a result directory, in order.
@@ -71,6 +74,34 @@ impl Frame {
         ["surfaces", "wakes"].map(|stem| dir.join("frames").join(frame_name(stem, step)))
     }
 
+    /// File of the particles of a step, which most flights have not.
+    pub fn particles_path(dir: &Path, step: usize) -> PathBuf {
+        dir.join("frames").join(frame_name("particles", step))
+    }
+
+    /// Files there are of a step.
+    pub fn files(dir: &Path, step: usize) -> Vec<PathBuf> {
+        let particles = Self::particles_path(dir, step);
+        let particles = particles.is_file().then_some(particles);
+        Self::paths(dir, step)
+            .into_iter()
+            .chain(particles)
+            .collect()
+    }
+
+    /// Reads the particles of a step; none where the flight has none ([`steps`] notices a file that
+    /// is missing).
+    ///
+    /// # Errors
+    /// A file that cannot be read or is damaged.
+    pub fn cloud(dir: &Path, step: usize) -> Result<Cloud, IoError> {
+        let path = Self::particles_path(dir, step);
+        match path.is_file() {
+            true => Cloud::read(&path),
+            false => Ok(Cloud::default()),
+        }
+    }
+
     /// Reads the frame of a step.
     ///
     /// # Errors
@@ -80,6 +111,7 @@ impl Frame {
             step,
             surfaces: Self::part(dir, step, 0)?,
             wakes: Self::part(dir, step, 1)?,
+            particles: Self::cloud(dir, step)?,
         })
     }
 
@@ -148,16 +180,8 @@ impl Mesh {
     /// # Errors
     /// What is wrong with it.
     pub fn parse(text: &str) -> Result<Self, String> {
-        check_sum(text)?;
         let mut mesh = Self::default();
-        for block in text.split("<DataArray ").skip(1) {
-            let name = block
-                .split("Name=\"")
-                .nth(1)
-                .and_then(|n| n.split('"').next());
-            let name = name.ok_or("a DataArray has no name")?;
-            let data = block.lines().nth(1).ok_or("a DataArray is empty")?;
-            let words = words(data).map_err(|e| format!("the array `{name}` {e}"))?;
+        for (name, words) in arrays(text)? {
             match name {
                 "points" => mesh.points = groups(&words.map_to(f64::from_le_bytes), name)?,
                 "connectivity" => {
@@ -217,6 +241,23 @@ impl Mesh {
     }
 }
 
+/// The arrays of a frame whose checksum is right, by their names.
+pub(super) fn arrays(text: &str) -> Result<Vec<(&str, Words)>, String> {
+    check_sum(text)?;
+    let mut list = vec![];
+    for block in text.split("<DataArray ").skip(1) {
+        let name = block
+            .split("Name=\"")
+            .nth(1)
+            .and_then(|n| n.split('"').next());
+        let name = name.ok_or("a DataArray has no name")?;
+        let data = block.lines().nth(1).ok_or("a DataArray is empty")?;
+        let words = words(data).map_err(|e| format!("the array `{name}` {e}"))?;
+        list.push((name, words));
+    }
+    Ok(list)
+}
+
 /// Whether a frame ends with the hash of what stands before.
 fn check_sum(text: &str) -> Result<(), String> {
     let end = text.rfind(CHECKSUM);
@@ -253,10 +294,10 @@ impl Sheet {
 }
 
 /// Words of eight bytes.
-struct Words(Vec<[u8; 8]>);
+pub(super) struct Words(Vec<[u8; 8]>);
 
 impl Words {
-    fn map_to<T>(&self, f: impl Fn([u8; 8]) -> T) -> Vec<T> {
+    pub fn map_to<T>(&self, f: impl Fn([u8; 8]) -> T) -> Vec<T> {
         self.0.iter().map(|w| f(*w)).collect()
     }
 }
@@ -274,7 +315,10 @@ fn words(data: &str) -> Result<Words, String> {
     Ok(Words(words[1..].to_vec()))
 }
 
-fn groups<T: Copy, const N: usize>(values: &[T], name: &str) -> Result<Vec<[T; N]>, String> {
+pub(super) fn groups<T: Copy, const N: usize>(
+    values: &[T],
+    name: &str,
+) -> Result<Vec<[T; N]>, String> {
     let (groups, rest) = values.as_chunks::<N>();
     if rest.is_empty() {
         Ok(groups.to_vec())

@@ -89,7 +89,7 @@ impl HistoryWriter {
         Ok((self.bytes, hexadecimal(self.hash.clone())))
     }
 
-    /// Appends a record in one write; numbers carry 17 significant digits.
+    /// Appends a record in one write; numbers carry the digits that tell them from all others.
     ///
     /// # Errors
     /// A file that cannot be written, e.g. on a full disk.
@@ -152,17 +152,16 @@ pub(crate) fn hash_start(file: &File, bytes: u64) -> std::io::Result<Sha256> {
     Ok(hash)
 }
 
-/// Whole numbers plainly, others with 17 significant digits.
+/// Whole numbers plainly, others with the fewest digits that read back bit for bit.
 fn write_number(line: &mut String, comma: &str, value: f64) {
-    use std::fmt::Write as _;
-    let whole =
-        value.fract() == 0.0 && value.abs() < 1e15 && !(value == 0.0 && value.is_sign_negative());
-    let written = if whole {
-        write!(line, "{comma}{value:.0}")
-    } else {
-        write!(line, "{comma}{value:.16e}")
-    };
-    written.expect("writing to a string cannot fail");
+    line.push_str(comma);
+    let mut buffer = zmij::Buffer::new();
+    let text = buffer.format(value);
+    let whole = text.strip_suffix(".0").filter(|_| value.abs() < 1e15);
+    line.push_str(match whole {
+        Some("-0") | None => text,
+        Some(whole) => whole,
+    });
 }
 
 /// A history read back: columns of numbers by name.

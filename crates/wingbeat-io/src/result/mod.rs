@@ -4,7 +4,8 @@
 //! case.toml       the case with everything filled in; reproduces the run
 //! history.csv     one row per step, appended: a kill leaves a readable prefix
 //! flight.pvd      index of the frames for ParaView
-//! frames/         surfaces_NNNNNN.vtp and wakes_NNNNNN.vtp, each written whole or not at all
+//! frames/         surfaces_NNNNNN.vtp, wakes_NNNNNN.vtp and, of wakes that become vortex particles,
+//!                 particles_NNNNNN.vtp; each written whole or not at all
 //! figures/        drawings made from history.csv
 //! manifest.json   version, hash of the case, threads, counts, timings, warnings
 //! checkpoint.bin  the state from which `wingbeat resume` goes on; removed when the flight is done
@@ -15,9 +16,11 @@
 pub mod checkpoint;
 pub mod columns;
 pub mod directory;
+mod framer;
 pub mod frames;
 pub mod history;
 pub mod manifest;
+pub mod particles;
 pub mod poses;
 pub mod rows;
 pub mod saver;

@@ -19,6 +19,8 @@ pub struct SaveSettings {
     pub every: usize,
     /// Wall time between checkpoints; zero: not by time.
     pub interval: Duration,
+    /// Whether the state after the last step is saved and kept.
+    pub keep: bool,
 }
 
 impl Default for SaveSettings {
@@ -26,34 +28,43 @@ impl Default for SaveSettings {
         Self {
             every: 0,
             interval: Duration::from_secs(20),
+            keep: false,
         }
     }
 }
+
+/// The first checkpoint by time comes sooner; a run that was killed before it is flown from its start.
+const FIRST: Duration = Duration::from_secs(1);
 
 /// Remembers when it last saved.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Schedule {
     settings: SaveSettings,
-    last: Option<Instant>,
+    last: Instant,
+    wait: Duration,
 }
 
 impl Schedule {
     pub fn new(settings: SaveSettings) -> Self {
         Self {
             settings,
-            last: None,
+            last: Instant::now(),
+            wait: settings.interval.min(FIRST),
         }
     }
 
-    /// Whether a checkpoint is due after this step; the first one always is.
+    /// Whether a checkpoint is due after this step.
     pub fn due(&self, step: usize) -> bool {
-        let SaveSettings { every, interval } = self.settings;
-        let by_time = !interval.is_zero() && self.last.is_none_or(|t| t.elapsed() >= interval);
-        by_time || self.last.is_none() || (every > 0 && step.is_multiple_of(every))
+        let SaveSettings {
+            every, interval, ..
+        } = self.settings;
+        let by_time = !interval.is_zero() && self.last.elapsed() >= self.wait;
+        by_time || (every > 0 && step.is_multiple_of(every))
     }
 
     pub fn done(&mut self) {
-        self.last = Some(Instant::now());
+        self.last = Instant::now();
+        self.wait = self.settings.interval;
     }
 }
 

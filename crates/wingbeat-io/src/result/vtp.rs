@@ -88,15 +88,8 @@ impl PolyData {
 
     /// The file.
     pub fn to_vtp(&self) -> String {
-        let (points, quads) = (self.points.len(), self.quads.len());
-        let mut out = String::from(
-            "<?xml version=\"1.0\"?>\n<!-- picture axes (n1, -n2, -n3): x forward, y left, z up; metres -->\n<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">\n<PolyData>\n",
-        );
-        let _ = writeln!(
-            out,
-            "<Piece NumberOfPoints=\"{points}\" NumberOfVerts=\"0\" NumberOfLines=\"0\" NumberOfStrips=\"0\" NumberOfPolys=\"{quads}\">"
-        );
-        out.push_str("<Points>\n");
+        let quads = self.quads.len();
+        let mut out = begin(self.points.len(), [0, quads]);
         let picture = self.points.iter().flat_map(|p| picture(*p));
         array(
             &mut out,
@@ -129,15 +122,28 @@ impl PolyData {
                 values.iter().map(|x| x.to_le_bytes()),
             );
         }
-        out.push_str("</CellData>\n</Piece>\n</PolyData>\n</VTKFile>\n");
-        let sum = sha256(out.as_bytes());
-        let _ = writeln!(out, "{CHECKSUM}{sum} -->");
-        out
+        out.push_str("</CellData>\n");
+        end(out)
     }
 }
 
+/// The beginning of a file, up to the array of its points, with its numbers of vertices and polygons.
+pub(super) fn begin(points: usize, [verts, polys]: [usize; 2]) -> String {
+    format!(
+        "<?xml version=\"1.0\"?>\n<!-- picture axes (n1, -n2, -n3): x forward, y left, z up; metres -->\n<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">\n<PolyData>\n<Piece NumberOfPoints=\"{points}\" NumberOfVerts=\"{verts}\" NumberOfLines=\"0\" NumberOfStrips=\"0\" NumberOfPolys=\"{polys}\">\n<Points>\n"
+    )
+}
+
+/// The file that begins so, with its checksum.
+pub(super) fn end(mut out: String) -> String {
+    out.push_str("</Piece>\n</PolyData>\n</VTKFile>\n");
+    let sum = sha256(out.as_bytes());
+    let _ = writeln!(out, "{CHECKSUM}{sum} -->");
+    out
+}
+
 /// One DataArray: base64 of the length in bytes followed by the data.
-fn array(
+pub(super) fn array(
     out: &mut String,
     kind: &str,
     name: &str,
@@ -158,13 +164,13 @@ fn array(
     out.push_str("\n</DataArray>\n");
 }
 
-/// The index of a series of frames: time \[s\] and step of each.
-pub fn pvd(frames: &[(f64, usize)]) -> String {
+/// The index of a series of frames: time \[s\] and step of each, and the parts they have.
+pub fn pvd(frames: &[(f64, usize)], parts: &[&str]) -> String {
     let mut out = String::from(
         "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\" byte_order=\"LittleEndian\">\n<Collection>\n",
     );
     for (time, step) in frames {
-        for (part, stem) in ["surfaces", "wakes"].iter().enumerate() {
+        for (part, stem) in parts.iter().enumerate() {
             let file = frame_name(stem, *step);
             let _ = writeln!(
                 out,

@@ -2,15 +2,15 @@
 
 use std::time::{Duration, Instant};
 
-use wingbeat_flight::{FlightState, Record, Snapshot};
+use wingbeat_flight::{AirModel, FlightState, Record, Snapshot};
 
 use super::checkpoint::Header;
 use super::columns::body_names;
-use super::directory::write_whole;
+use super::framer::Framer;
 use super::history::HistoryWriter;
 use super::manifest::{Manifest, Outcome, sha256};
 use super::saver::{self, Schedule};
-use super::vtp::{PolyData, frame_name, pvd};
+use super::vtp::pvd;
 use super::{History, ResultDir, Summary};
 use crate::case::LoadedCase;
 use crate::error::IoError;
@@ -26,6 +26,8 @@ pub struct RunWriter {
     dir: ResultDir,
     case: LoadedCase,
     history: HistoryWriter,
+    /// The thread that writes frames; none before the first.
+    framer: Option<Framer>,
     frames: Vec<(f64, usize)>,
     indexed: usize,
     manifest: Manifest,
@@ -72,6 +74,7 @@ impl RunWriter {
             dir,
             case: case.clone(),
             history,
+            framer: None,
             frames: vec![],
             indexed: 0,
             manifest,
@@ -112,6 +115,7 @@ impl RunWriter {
         let writer = Self {
             case: case.clone(),
             history,
+            framer: None,
             frames: steps.iter().map(|k| (*k as f64 * step, *k)).collect(),
             indexed: 0,
             started: Instant::now(),
@@ -130,7 +134,8 @@ impl RunWriter {
     /// # Errors
     /// A file that cannot be written; the last checkpoint stays valid.
     pub fn save_if_due(&mut self, state: &FlightState) -> Result<(), IoError> {
-        if self.schedule.due(state.step) {
+        let last = state.step == self.case.setup.time.steps && self.case.output.save.keep;
+        if last || self.schedule.due(state.step) {
             self.save(state)?;
         }
         Ok(())
@@ -142,6 +147,7 @@ impl RunWriter {
     /// A file that cannot be written; the last checkpoint stays valid.
     pub fn save(&mut self, state: &FlightState) -> Result<(), IoError> {
         let begun = Instant::now();
+        self.settle()?;
         let (history_bytes, history_sha256) = self.seal()?;
         let header = Header {
             version: self.manifest.version.clone(),
@@ -195,36 +201,51 @@ impl RunWriter {
         let every = self.case.output.frames_every;
         let last = record.step == self.case.setup.time.steps;
         if every > 0 && (record.step.is_multiple_of(every) || last) {
-            self.frame(&snapshot())?;
+            self.frame(snapshot())?;
         }
         self.writing += begun.elapsed();
         Ok(())
     }
 
-    fn frame(&mut self, snapshot: &Snapshot) -> Result<(), IoError> {
+    fn frame(&mut self, snapshot: Snapshot) -> Result<(), IoError> {
         if snapshot.surfaces.is_empty() {
             return Ok(());
         }
-        let folder = self.dir.join("frames");
-        let surfaces = PolyData::surfaces(snapshot);
-        self.manifest.panels = surfaces.quads.len();
-        for (stem, data) in [("surfaces", surfaces), ("wakes", PolyData::wakes(snapshot))] {
-            let path = folder.join(frame_name(stem, snapshot.step));
-            write_whole(&path, data.to_vtp().as_bytes())?;
-        }
+        self.manifest.panels = snapshot.surfaces.iter().map(|s| s.quads.len()).sum();
         self.frames.push((snapshot.time, snapshot.step));
+        let (folder, parts) = (self.dir.join("frames"), self.parts());
+        let framer = self
+            .framer
+            .get_or_insert_with(|| Framer::new(folder, parts));
+        framer.put(snapshot)?;
         if self.frames.len() >= self.indexed + self.indexed.div_ceil(INDEX_GROWTH).max(1) {
             self.index()?;
         }
         Ok(())
     }
 
+    /// What a frame of this flight is made of.
+    fn parts(&self) -> &'static [&'static str] {
+        let parts: &'static [&'static str] = &["surfaces", "wakes", "particles"];
+        match &self.case.setup.air {
+            AirModel::VortexLattice(air) if air.lattice.particles.is_some() => parts,
+            _ => &parts[..2],
+        }
+    }
+
+    /// Waits until the frames taken so far are on the disk.
+    fn settle(&mut self) -> Result<(), IoError> {
+        self.framer.as_mut().map_or(Ok(()), Framer::settle)
+    }
+
     fn index(&mut self) -> Result<(), IoError> {
         if self.frames.is_empty() {
             return Ok(());
         }
+        self.settle()?;
         self.indexed = self.frames.len();
-        self.dir.write("flight.pvd", pvd(&self.frames).as_bytes())
+        self.dir
+            .write("flight.pvd", pvd(&self.frames, self.parts()).as_bytes())
     }
 
     /// Ends a result that cannot be written any more: only the reason is noted, if that still goes.
@@ -258,7 +279,7 @@ impl RunWriter {
         if self.case.output.page && summary.steps > 1 {
             page::write(&self.dir, page::DEFAULT_BYTES)?;
         }
-        if self.manifest.outcome == Outcome::Finished {
+        if self.manifest.outcome == Outcome::Finished && !self.case.output.save.keep {
             saver::forget(self.dir.path())?;
         }
         Ok(summary)

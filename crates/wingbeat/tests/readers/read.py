@@ -41,18 +41,23 @@ def points(data):
 
 
 def corners(data):
-    return vtk_to_numpy(data.GetPolys().GetConnectivityArray())
+    lists = data.GetPolys() if data.GetNumberOfPolys() else data.GetVerts()
+    return vtk_to_numpy(lists.GetConnectivityArray())
+
+
+def numbers(attributes):
+    arrays = [attributes.GetArray(k) for k in range(attributes.GetNumberOfArrays())]
+    return {a.GetName(): vtk_to_numpy(a) for a in arrays}
 
 
 def cells(data):
-    count = data.GetCellData().GetNumberOfArrays()
-    arrays = [data.GetCellData().GetArray(k) for k in range(count)]
-    return {a.GetName(): vtk_to_numpy(a) for a in arrays}
+    # Numbers of panels stand at cells, those of particles at points.
+    return {**numbers(data.GetCellData()), **numbers(data.GetPointData())}
 
 
 def check_hdf5(columns, frames):
     with h5py.File(result / "flight.h5") as file:
-        assert file.attrs["layout_version"] == 1
+        assert file.attrs["layout_version"] == 2
         assert file["case_toml"][()].decode() == (result / "case.toml").read_text()
         summary = json.loads(file["summary_json"][()])
         assert summary["steps"] == len(columns["time_s"]) - 1
@@ -64,11 +69,13 @@ def check_hdf5(columns, frames):
         assert file["history/momentum_n1_kg_m_per_s"].attrs["units"] == b"kg m s-1"
         for stem, series in frames.items():
             group = file["frames"][stem]
-            point, cell = group["point_offsets"][:], group["cell_offsets"][:]
+            point = group["point_offsets"][:]
+            cell = point if stem == "particles" else group["cell_offsets"][:]
             for k, data in enumerate(series):
                 part = slice(cell[k], cell[k + 1])
                 same(group["points_m"][point[k] : point[k + 1]], points(data), stem)
-                same(group["quads"][part].ravel(), corners(data), stem)
+                if stem != "particles":
+                    same(group["quads"][part].ravel(), corners(data), stem)
                 for name, values in cells(data).items():
                     same(group[name][part], values, name)
     table = xarray.open_dataset(result / "flight.h5", group="history", engine="h5netcdf")
@@ -110,11 +117,14 @@ columns = history()
 steps = sorted(int(p.stem.split("_")[1]) for p in (result / "frames").glob("surfaces_*.vtp"))
 frames = {
     stem: [polydata(result / "frames" / f"{stem}_{k:06d}.vtp") for k in steps]
-    for stem in ("surfaces", "wakes")
+    for stem in ("surfaces", "wakes", "particles")
 }
 assert frames["wakes"][-1].GetNumberOfCells() > 0
+last = frames["particles"][-1]
+assert last.GetNumberOfVerts() == last.GetNumberOfPoints() > 0
+assert cells(last)["strength_m3_per_s"].shape == (last.GetNumberOfPoints(), 3)
 pvd = (result / "flight.pvd").read_text()
-assert all(f"frames/wakes_{k:06d}.vtp" in pvd for k in steps)
+assert all(f"frames/{stem}_{k:06d}.vtp" in pvd for k in steps for stem in frames)
 times = [columns["time_s"][k] for k in steps]
 for data, k in zip(frames["surfaces"], steps):
     assert np.isfinite(points(data)).all() and "pressure_jump_pascal" in cells(data)

@@ -27,6 +27,7 @@ pub(crate) fn output(case: &OutputCase) -> Built<OutputSettings> {
         save: SaveSettings {
             every: case.checkpoint_every,
             interval,
+            keep: case.keep_checkpoint,
         },
     })
 }

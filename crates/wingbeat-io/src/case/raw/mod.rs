@@ -182,6 +182,8 @@ pub struct OutputCase {
     pub checkpoint_every: usize,
     /// Save the state after so much wall time; 0: not by time.
     pub checkpoint_interval_s: f64,
+    /// Keep the state after the last step, for `wingbeat velocity`.
+    pub keep_checkpoint: bool,
 }
 
 impl Default for OutputCase {
@@ -192,6 +194,7 @@ impl Default for OutputCase {
             page: true,
             checkpoint_every: 0,
             checkpoint_interval_s: 20.0,
+            keep_checkpoint: false,
         }
     }
 }

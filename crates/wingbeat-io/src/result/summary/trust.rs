@@ -143,7 +143,7 @@ fn air_warnings(
     }
     if summary.wake_particles > 0 {
         list.push(format!(
-            "Part of the wake is vortex particles ({} at the end), which frames and page do not show.",
+            "Part of the wake is vortex particles ({} at the end); their radius is an input, not a result.",
             summary.wake_particles
         ));
     }
