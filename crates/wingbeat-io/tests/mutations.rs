@@ -1,11 +1,11 @@
 //! Readers of cases, checkpoints, frames and histories are fed with damaged input: they may refuse
-//! it, they must not panic. Mutations are made from a counter, so every run is the same; a longer
-//! one, with other seeds, is `WINGBEAT_MUTATIONS=SECONDS cargo test --test mutations -- --ignored`.
+//! it, they must not panic. Mutations are made from a counter, so every run is the same. This is the
+//! quick one; `scripts/fuzz.sh` lets coverage guide the damage, and what it finds stays in its corpus,
+//! which is read and damaged here, too.
 
 use std::path::Path;
-use std::time::{Duration, Instant};
 
-use wingbeat_flight::Simulation;
+use wingbeat_flight::{FlightState, Simulation};
 use wingbeat_io::result::checkpoint::{self, Header};
 use wingbeat_io::result::frames::Mesh;
 use wingbeat_io::result::vtp::PolyData;
@@ -85,8 +85,20 @@ fn damage(input: &[u8], chance: &mut Chance) -> Vec<u8> {
     data
 }
 
+/// What fuzzing keeps of a kind of input.
+fn committed(kind: &str) -> Vec<Vec<u8>> {
+    let root = concat!(env!("CARGO_MANIFEST_DIR"), "/../../fuzz/corpus");
+    let files = std::fs::read_dir(Path::new(root).join(kind)).unwrap();
+    let mut files: Vec<_> = files.map(|f| f.unwrap().path()).collect();
+    files.sort();
+    assert!(!files.is_empty(), "the corpus `{kind}` is empty");
+    files.iter().map(|f| std::fs::read(f).unwrap()).collect()
+}
+
 /// The inputs that are damaged.
 struct Corpus {
+    cases: Vec<Vec<u8>>,
+    kept: Vec<Vec<u8>>,
     checkpoint: Vec<u8>,
     header: Header,
     frame: Vec<u8>,
@@ -112,7 +124,10 @@ fn corpus() -> Corpus {
         history_bytes: 1,
         history_sha256: "1".repeat(64),
     };
+    let presets = PRESETS.iter().map(|p| p.text.as_bytes().to_vec());
     Corpus {
+        cases: presets.chain(committed("case")).collect(),
+        kept: committed("checkpoint"),
         checkpoint: checkpoint::encode(&header, flight.state()),
         header,
         frame: PolyData::wakes(&flight.snapshot()).to_vtp().into_bytes(),
@@ -136,18 +151,36 @@ fn signed_frame(frame: &[u8], chance: &mut Chance) -> String {
     format!("{content}<!-- SHA-256 of the lines above: {sum} -->\n")
 }
 
-/// Feeds every reader once; returns how many of the six accepted.
-fn feed(corpus: &Corpus, chance: &mut Chance, scratch: &Path) -> usize {
-    let preset = PRESETS[chance.below(PRESETS.len())].text;
-    let case = damage(preset.as_bytes(), chance);
-    let case = String::from_utf8_lossy(&case).into_owned();
-    let read = LoadedCase::from_text("damaged.toml", &case, scratch, &[]);
-    let mut accepted = usize::from(read.is_ok());
-    if let Err(e) = read {
+fn read_case(text: &[u8], scratch: &Path) -> bool {
+    let text = String::from_utf8_lossy(text);
+    let read = LoadedCase::from_text("damaged.toml", &text, scratch, &[]);
+    if let Err(e) = &read {
         assert!(!e.to_string().is_empty());
     }
+    read.is_ok()
+}
+
+/// As the target `checkpoint` of fuzzing reads its inputs: the first byte says what follows.
+fn read_kept(bytes: &[u8], case_sha256: &str) {
+    let Some((kind, bytes)) = bytes.split_first() else {
+        return;
+    };
+    let path = Path::new("checkpoint.bin");
+    let _ = checkpoint::decode(path, bytes, case_sha256);
+    let _ = checkpoint::decode(path, &signed(bytes), case_sha256);
+    if *kind != u8::MAX {
+        let _ = postcard::from_bytes::<FlightState>(bytes);
+    }
+}
+
+/// Feeds every reader once; returns how many of the six accepted.
+fn feed(corpus: &Corpus, chance: &mut Chance, scratch: &Path) -> usize {
+    let case = &corpus.cases[chance.below(corpus.cases.len())];
+    let mut accepted = usize::from(read_case(&damage(case, chance), scratch));
     let path = Path::new("checkpoint.bin");
     let case_sha256 = &corpus.header.case_sha256;
+    let kept = &corpus.kept[chance.below(corpus.kept.len())];
+    read_kept(&damage(kept, chance), case_sha256);
     let raw = damage(&corpus.checkpoint, chance);
     accepted += usize::from(checkpoint::decode(path, &raw, case_sha256).is_ok());
     let body = corpus.checkpoint.iter().position(|b| *b == b'\n').unwrap() + 1;
@@ -185,22 +218,18 @@ fn refuses_damaged_input_without_panic() {
     );
 }
 
+/// What fuzzing found once, and what it reached most with.
 #[test]
-#[ignore = "as long as WINGBEAT_MUTATIONS says, in seconds"]
-fn refuses_damaged_input_for_a_long_time() {
-    let seconds = std::env::var("WINGBEAT_MUTATIONS").map_or(60, |s| s.parse().unwrap());
-    let (corpus, folder) = (corpus(), scratch("long-mutations"));
-    let begun = Instant::now();
-    let (mut rounds, mut accepted) = (0_u64, 0);
-    while begun.elapsed() < Duration::from_secs(seconds) {
-        std::fs::write(folder.join("round"), rounds.to_string()).unwrap();
-        let mut chance = Chance(rounds ^ 0x5eed_0000_0000);
-        accepted += feed(&corpus, &mut chance, &folder);
-        rounds += 1;
+fn regress_the_corpus_of_fuzzing_is_read_without_panic() {
+    let folder = scratch("corpus");
+    for text in committed("case") {
+        read_case(&text, &folder);
     }
-    println!(
-        "{rounds} rounds in {seconds} s, {accepted} of {} inputs accepted",
-        6 * rounds
-    );
+    for bytes in committed("checkpoint") {
+        read_kept(&bytes, &"0".repeat(64));
+    }
+    for bytes in committed("frame") {
+        let _ = Mesh::parse(&String::from_utf8_lossy(&bytes));
+    }
     std::fs::remove_dir_all(&folder).unwrap();
 }
