@@ -263,6 +263,17 @@ fn refuses_states_that_do_not_fit() {
         let resumed = Simulation::resume(setup(), state);
         assert!(resumed.is_err(), "damage {k} was not noticed");
     }
+    let mut vacuum = setup();
+    vacuum.air = AirModel::None;
+    let mut state = Simulation::new(vacuum.clone())
+        .expect("a flight")
+        .state()
+        .clone();
+    state.ledger.events = 1;
+    assert!(
+        Simulation::resume(vacuum, state).is_err(),
+        "events without air"
+    );
 }
 
 #[test]
