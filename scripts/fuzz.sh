@@ -5,8 +5,9 @@
 #   scripts/fuzz.sh seeds                           writes seeds anew, when the state's layout changed
 # New inputs are kept in fuzz/target/corpus; the small corpus in the repository is only read.
 set -euo pipefail
-cd "$(dirname "$0")/../fuzz"
 target=${1:?case, checkpoint, frame or seeds} what=${2:-60}
+if [ -f "$what" ]; then what=$(realpath "$what"); fi
+cd "$(dirname "$0")/../fuzz"
 # What cargo-fuzz passes, without the address sanitizer, which needs another toolchain.
 export RUSTFLAGS="--cfg fuzzing -Cpasses=sancov-module -Cllvm-args=-sanitizer-coverage-level=4
   -Cllvm-args=-sanitizer-coverage-inline-8bit-counters -Cllvm-args=-sanitizer-coverage-pc-table
