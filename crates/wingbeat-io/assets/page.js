@@ -149,9 +149,11 @@ function slices() {
 }
 const SLICES = slices();
 const pointOf = (points, slice, k) => [0, 1, 2].map((c) => points[3 * (slice.node + k) + c]);
-function centre(points, slice) {
-  const sum = [0, 0, 0];
-  for (let k = 0; k < slice.nodes; k++) pointOf(points, slice, k).forEach((x, c) => { sum[c] += x / slice.nodes; });
+// Mean node of the surfaces of a body.
+function centre(points, body) {
+  const own = SLICES.filter((_, k) => flight.surfaces[k].body === body), sum = [0, 0, 0];
+  const nodes = own.reduce((n, s) => n + s.nodes, 0);
+  for (const s of own) for (let k = 0; k < s.nodes; k++) pointOf(points, s, k).forEach((x, c) => { sum[c] += x / nodes; });
   return sum;
 }
 // The node of each wing farthest from its first one: the tip.
@@ -200,9 +202,9 @@ function drawScene() {
     tipPaths.forEach((path) => moving.add(line(path.slice(3 * from, 3 * frame + 3), TRAIL)));
     moving.add(line(flight.path.slice(0, 3 * (frame + 1)).map((x) => x * flight.scale), PATH));
   }
-  if (byId("forces").checked) flight.frames[frame].forces.forEach((f, w) => {
-    const size = Math.hypot(...f) / flight.force_scale;
-    if (size > 0.02) moving.add(new THREE.ArrowHelper(new THREE.Vector3(...f).normalize(), new THREE.Vector3(...centre(points, SLICES[w])), size, 0xd55e00, 0.22 * Math.max(size, 0.4), 0.12 * Math.max(size, 0.4)));
+  if (byId("forces").checked) flight.frames[frame].forces.forEach((f, k) => {
+    const size = Math.hypot(...f) / flight.force_scale, body = k + 1;
+    if (size > 0.02 && flight.surfaces.some((s) => s.body === body)) moving.add(new THREE.ArrowHelper(new THREE.Vector3(...f).normalize(), new THREE.Vector3(...centre(points, body)), size, 0xd55e00, 0.22 * Math.max(size, 0.4), 0.12 * Math.max(size, 0.4)));
   });
   const here = flight.path.slice(3 * frame, 3 * frame + 3).map((x) => x * flight.scale);
   if (!target) {

@@ -138,6 +138,26 @@ fn exact_the_page_works_in_a_browser() {
 }
 
 #[test]
+fn exact_the_page_of_an_animal_with_joints_works_in_a_browser() {
+    let Some(browser) = browser() else {
+        required("no browser (chromium, google-chrome) was found");
+        return;
+    };
+    let scratch = Scratch::new("browser-joints");
+    let args = ["run", "fruit-fly-abdomen", "--quiet", "--out", "run"];
+    flown(&scratch.0, &[&args[..], &["--set=time.beats=0.1"]].concat());
+    let page = scratch.0.join("run/flight.html");
+    let shown = open(&browser, &page, 2, &scratch.0.join("profile"));
+    assert_eq!(shown.data("errors"), "0", "{}", shown.dom.len());
+    assert!(!shown.console.contains("rror"), "{}", shown.console);
+    assert_eq!((shown.data("frame"), shown.tips().len()), ("2", 2));
+    // Wings, thorax, head and abdomen: two triangles a panel, and a wake.
+    let frame = Frame::read(&scratch.0.join("run"), 4).unwrap();
+    let triangles: usize = shown.data("triangles").parse().unwrap();
+    assert!(triangles > 2 * frame.surfaces.quads.len());
+}
+
+#[test]
 fn exact_the_page_is_whole_and_stays_within_its_size() {
     let scratch = Scratch::new("page");
     flown(&scratch.0, &CASE);

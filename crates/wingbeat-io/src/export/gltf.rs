@@ -103,7 +103,7 @@ impl Document {
         };
         let bounds = [bound(f32::min), bound(f32::max)];
         let position = self.accessor("VEC3", FLOAT, points.len(), Some(bounds));
-        let material = usize::from(body > 0);
+        let material = usize::from(poses.is_wing(body));
         self.meshes.push(json!({ "primitives": [{
             "attributes": { "POSITION": position }, "indices": indices, "material": material,
         }] }));
@@ -155,23 +155,19 @@ pub(super) fn write(source: &Source, path: &Path) -> Result<(), IoError> {
     let mut rows = source.rows()?;
     let animal = &source.case.setup.animal;
     let poses = source.poses(rows.names())?;
+    let wings = animal.wings.iter().map(|w| w.name.as_str());
+    let segments = animal.segments.iter().map(|s| s.name.as_str());
+    let names: Vec<&str> = ["body"].into_iter().chain(wings).chain(segments).collect();
     let count = source.row_count()?;
     let mut d = Document::default();
-    let meshes: Vec<_> = (0..=animal.wings.len())
-        .map(|b| d.mesh(&poses, b))
-        .collect();
+    let meshes: Vec<_> = (0..poses.bodies()).map(|b| d.mesh(&poses, b)).collect();
     let start = d.room(count, 4);
     let last = (count.max(1) - 1) as f64 * source.case.setup.time.step;
     let bounds = [json!([0.0]), json!([last as f32])];
     let times = d.accessor("SCALAR", FLOAT, count, Some(bounds));
     let mut places = vec![start];
     for (body, mesh) in meshes.iter().enumerate() {
-        let name = if body == 0 {
-            "body"
-        } else {
-            &animal.wings[body - 1].name
-        };
-        let mut node = json!({ "name": name });
+        let mut node = json!({ "name": names[body] });
         if let Some(mesh) = mesh {
             node["mesh"] = json!(mesh);
         }

@@ -155,7 +155,7 @@ fn animal(poses: &Poses, row: &[f64]) -> Vec<([[f64; 3]; 4], bool)> {
     for (k, surface) in poses.surfaces.iter().enumerate() {
         let nodes: Vec<[f64; 3]> = poses.nodes(row, k).map(picture).collect();
         let quads = surface.quads.iter().map(|q| q.map(|n| nodes[n]));
-        list.extend(quads.map(|q| (q, surface.body > 0)));
+        list.extend(quads.map(|q| (q, poses.is_wing(surface.body))));
     }
     list
 }

@@ -248,7 +248,7 @@ impl<'a> Scene<'a> {
             _ => 1.0,
         };
         let surfaces = self.poses.surfaces.iter().map(
-            |s| json!({ "name": s.name, "nodes": s.nodes.len(), "quads": s.quads.as_flattened() }),
+            |s| json!({ "name": s.name, "body": s.body, "nodes": s.nodes.len(), "quads": s.quads.as_flattened() }),
         );
         let size = |f: &[f64; 3]| DVec3::from_array(*f).length();
         let forces = self.shown.iter().flat_map(|f| f.forces.iter().map(size));

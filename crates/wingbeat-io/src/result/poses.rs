@@ -2,7 +2,7 @@
 //! along by their bodies, wings deformed as the case says.
 
 use wingbeat_math::{DMat3, DVec3, EulerSequence};
-use wingbeat_model::{Animal, DeformingMesh, WingMotion};
+use wingbeat_model::{Animal, BodyPart, DeformingMesh, WingMotion};
 
 use super::columns::body_names;
 
@@ -14,7 +14,7 @@ const TIME: usize = 1;
 pub struct Surface {
     /// Name of the wing or body part.
     pub name: String,
-    /// Body: 0, or 1 + number of the wing.
+    /// Body: 0 the central body, then the wings, then the segments.
     pub body: usize,
     /// Nodes in the axes of the body \[m\]; at rest where they are deformed.
     pub nodes: Vec<DVec3>,
@@ -24,11 +24,28 @@ pub struct Surface {
     pub quads: Vec<[usize; 4]>,
 }
 
+impl Surface {
+    /// A part of the central body or of a segment.
+    fn part(part: &BodyPart, body: usize) -> Self {
+        Self {
+            name: part.name.clone(),
+            body,
+            nodes: part.mesh.nodes.clone(),
+            deforming: None,
+            quads: part.mesh.quads.clone(),
+        }
+    }
+}
+
 /// The surfaces of an animal and where its coordinates stand in a row.
 #[derive(Clone, Debug)]
 pub struct Poses {
-    /// Wings first, in the animal's order, then the parts of the body.
+    /// Wings first, in the animal's order, then the parts of the central body, then those of the
+    /// segments, as in the lattice.
     pub surfaces: Vec<Surface>,
+    /// Wings of the animal.
+    wings: usize,
+    /// Per body: where its coordinates begin.
     places: Vec<usize>,
 }
 
@@ -43,27 +60,36 @@ impl Poses {
                 .map(|d| (DeformingMesh::new(&w.mesh, d), w.motion.clone())),
             quads: w.panels(),
         });
-        let parts = animal.parts.iter().map(|p| Surface {
-            name: p.name.clone(),
-            body: 0,
-            nodes: p.mesh.nodes.clone(),
-            deforming: None,
-            quads: p.mesh.quads.clone(),
-        });
+        let own = animal.parts.iter().map(|p| Surface::part(p, 0));
+        let first = animal.wings.len() + 1;
+        let others = animal.segments.iter().enumerate();
+        let others =
+            others.flat_map(|(i, s)| s.parts.iter().map(move |p| Surface::part(p, first + i)));
         let place = |body: &String| names.iter().position(|n| *n == format!("{body}_x_m"));
         let places: Option<Vec<usize>> = body_names(animal).iter().map(place).collect();
         Some(Self {
-            surfaces: wings.chain(parts).collect(),
+            surfaces: wings.chain(own).chain(others).collect(),
+            wings: animal.wings.len(),
             places: places?,
         })
+    }
+
+    /// Bodies of the animal.
+    pub fn bodies(&self) -> usize {
+        self.places.len()
+    }
+
+    /// Whether a body is a wing.
+    pub fn is_wing(&self, body: usize) -> bool {
+        (1..=self.wings).contains(&body)
     }
 
     /// Position of the origin \[m, N\] and rotation to N of a body.
     pub fn pose(&self, row: &[f64], body: usize) -> (DVec3, DMat3) {
         let q = &row[self.places[body]..][..6];
-        let sequence = match body {
-            0 => EulerSequence::BODY_231,
-            _ => EulerSequence::WING_132,
+        let sequence = match self.is_wing(body) {
+            true => EulerSequence::WING_132,
+            false => EulerSequence::BODY_231,
         };
         let angles = DVec3::from_slice(&q[3..]);
         (DVec3::from_slice(q), sequence.rotation(angles))
