@@ -84,7 +84,7 @@ impl Simulation {
     }
 
     /// Goes on from a saved state of the same setup. The next [`Self::step`] makes the first new
-    /// record.
+    /// record; until then [`Self::record`] is that of step 0.
     ///
     /// # Errors
     /// As [`Self::new`]; the state does not fit the setup.
@@ -100,7 +100,21 @@ impl Simulation {
         let first = &flight.stages[flight.state.stage].equations;
         flight.solver = flight.new_solver();
         flight.scratch = Scratch::new(first);
+        flight.lay_out()?;
         Ok(flight)
+    }
+
+    /// Bodies, nodes and circulations as the state has them. What the pressure was it does not tell.
+    fn lay_out(&mut self) -> Result<(), FlightError> {
+        let (t, k) = (self.time(self.state.step), self.newest());
+        let (y, s) = (&self.state.past.y[k], &mut self.scratch);
+        let equations = &self.stages[self.state.stage].equations;
+        equations.place_nodes(t, y, s)?;
+        if let Some(air) = &self.state.air {
+            s.air_loads.gamma.clone_from(&air.gamma);
+            s.air_loads.pressure_jump = vec![f64::NAN; air.gamma.len()];
+        }
+        Ok(())
     }
 
     /// The setup.
@@ -129,7 +143,8 @@ impl Simulation {
         self.release = Some(root);
     }
 
-    /// Surfaces and wakes at the newest step; empty in vacuum.
+    /// Surfaces and wakes at the newest step; empty in vacuum. Pressure jumps are not part of the
+    /// saved state: after [`Self::resume`] they are not numbers until the next step.
     pub fn snapshot(&self) -> Snapshot {
         let (step, time) = (self.state.step, self.time(self.state.step));
         match (&self.equations().air, &self.state.air) {
