@@ -123,7 +123,8 @@ impl Job<'_> {
             for patch in &self.packed.patches {
                 self.look_at_nodes::<S>(p, patch, &mut window);
                 for e in patch.edges.clone() {
-                    let (c, k) = induced::<S, C>(simd, &self.packed.edges[e], STRENGTH, &window);
+                    let edge = &self.packed.edges[e];
+                    let [(c, k)] = induced::<S, C, 1>(simd, [edge], [STRENGTH], &window);
                     let v = c[0] * k * n[0] + c[1] * k * n[1] + c[2] * k * n[2];
                     v.store_slice(&mut out[e * BLOCK + lane..][..S::f64s::LEN]);
                 }
@@ -153,30 +154,65 @@ impl Job<'_> {
         window: &Window<S>,
         v: &mut [S::f64s; 3],
     ) {
-        for edge in &self.packed.edges[patch.edges.clone()] {
-            let (c, k) = induced::<S, C>(simd, edge, edge.strength, window);
-            v[0] += c[0] * k;
-            v[1] += c[1] * k;
-            v[2] += c[2] * k;
+        let (groups, rest) = self.packed.edges[patch.edges.clone()].as_chunks::<SIDE_BY_SIDE>();
+        for edges in groups {
+            add_group::<S, C, SIDE_BY_SIDE>(simd, edges, window, v);
+        }
+        for edge in rest.as_chunks::<1>().0 {
+            add_group::<S, C, 1>(simd, edge, window, v);
         }
     }
 }
 
-/// The velocity of an edge as c k, with c = r1 x r2 and k the rest.
+/// Edges whose operations are interleaved: those of one edge wait for each other, and a processor does
+/// not look far enough ahead to fill the time with the next edges.
+const SIDE_BY_SIDE: usize = 4;
+
+/// Sums edges side by side; their order and bits are those of one after the other.
 #[inline(always)]
-fn induced<S: Simd, C: Core>(
+fn add_group<S: Simd, C: Core, const N: usize>(
     simd: S,
-    edge: &PackedEdge,
-    strength: f64,
+    edges: &[PackedEdge; N],
     window: &Window<S>,
-) -> ([S::f64s; 3], S::f64s) {
-    let [x1, y1, z1, n1] = window[edge.from as usize % WINDOW];
-    let [x2, y2, z2, n2] = window[edge.to as usize % WINDOW];
-    let c = [y1 * z2 - z1 * y2, z1 * x2 - x1 * z2, x1 * y2 - y1 * x2];
-    let d = x1 * x2 + y1 * y2 + z1 * z2;
-    let (num, den) = C::fraction(simd, n1 + n2, n1 * n2, d, c, edge.term);
+    v: &mut [S::f64s; 3],
+) {
+    for (c, k) in induced::<S, C, N>(
+        simd,
+        edges.each_ref(),
+        edges.each_ref().map(|e| e.strength),
+        window,
+    ) {
+        v[0] += c[0] * k;
+        v[1] += c[1] * k;
+        v[2] += c[2] * k;
+    }
+}
+
+/// The velocities of edges as c k, with c = r1 x r2 and k the rest.
+#[inline(always)]
+fn induced<S: Simd, C: Core, const N: usize>(
+    simd: S,
+    edges: [&PackedEdge; N],
+    strengths: [f64; N],
+    window: &Window<S>,
+) -> [([S::f64s; 3], S::f64s); N] {
     let zero = S::f64s::splat(simd, 0.0);
-    (c, den.simd_gt(zero).select(num * strength / den, zero))
+    let (mut c, mut num, mut den, mut x) = ([[zero; 3]; N], [zero; N], [zero; N], [zero; N]);
+    // Loops, not closures: those would leave the vector instructions of the caller.
+    for i in 0..N {
+        let [x1, y1, z1, n1] = window[edges[i].from as usize % WINDOW];
+        let [x2, y2, z2, n2] = window[edges[i].to as usize % WINDOW];
+        c[i] = [y1 * z2 - z1 * y2, z1 * x2 - x1 * z2, x1 * y2 - y1 * x2];
+        let d = x1 * x2 + y1 * y2 + z1 * z2;
+        [num[i], den[i], x[i]] = C::fraction(simd, n1 + n2, n1 * n2, d, c[i], edges[i].term);
+    }
+    C::regularise(simd, &mut num, &mut x);
+    let mut out = [(c[0], zero); N];
+    for i in 0..N {
+        let k = num[i] * strengths[i] / den[i];
+        out[i] = (c[i], den[i].simd_gt(zero).select(k, zero));
+    }
+    out
 }
 
 /// r and abs(r) of the nodes in sight, for the targets in the lanes.
@@ -196,8 +232,10 @@ pub(crate) fn store<S: Simd>([x, y, z]: [S::f64s; 3], block: &mut Block, lane: u
     z.store_slice(&mut block.z[lane..lane + S::f64s::LEN]);
 }
 
-/// Numerator and denominator of K without the circulation, as in [`super::reference`].
+/// A core model, as in [`super::reference`].
 trait Core {
+    /// Numerator and denominator of K without the circulation, and what the core's function, if it has one,
+    /// is a function of.
     fn fraction<S: Simd>(
         simd: S,
         sum: S::f64s,
@@ -205,7 +243,11 @@ trait Core {
         d: S::f64s,
         c: [S::f64s; 3],
         term: f64,
-    ) -> (S::f64s, S::f64s);
+    ) -> [S::f64s; 3];
+
+    /// Multiplies the numerators by the core's function of `x`, which is used up.
+    #[inline(always)]
+    fn regularise<S: Simd, const N: usize>(_: S, _: &mut [S::f64s; N], _: &mut [S::f64s; N]) {}
 }
 
 struct CutOff;
@@ -222,8 +264,8 @@ impl Core for CutOff {
         d: S::f64s,
         _: [S::f64s; 3],
         term: f64,
-    ) -> (S::f64s, S::f64s) {
-        (sum, nn * (nn + d) + term)
+    ) -> [S::f64s; 3] {
+        [sum, nn * (nn + d) + term, d]
     }
 }
 
@@ -236,9 +278,9 @@ impl Core for Scully {
         d: S::f64s,
         c: [S::f64s; 3],
         term: f64,
-    ) -> (S::f64s, S::f64s) {
+    ) -> [S::f64s; 3] {
         let (c2, s, num) = bare(simd, sum, nn, d, c);
-        (num, nn * s * (c2 + term))
+        [num, nn * s * (c2 + term), c2]
     }
 }
 
@@ -251,9 +293,9 @@ impl Core for Vatistas {
         d: S::f64s,
         c: [S::f64s; 3],
         term: f64,
-    ) -> (S::f64s, S::f64s) {
+    ) -> [S::f64s; 3] {
         let (c2, s, num) = bare(simd, sum, nn, d, c);
-        (num, nn * s * (c2 * c2 + term * term).sqrt())
+        [num, nn * s * (c2 * c2 + term * term).sqrt(), c2]
     }
 }
 
@@ -266,9 +308,17 @@ impl Core for LambOseen {
         d: S::f64s,
         c: [S::f64s; 3],
         term: f64,
-    ) -> (S::f64s, S::f64s) {
+    ) -> [S::f64s; 3] {
         let (c2, s, num) = bare(simd, sum, nn, d, c);
-        (num * one_minus_exp(simd, c2 * term), nn * s * c2)
+        [num, nn * s * c2, c2 * term]
+    }
+
+    #[inline(always)]
+    fn regularise<S: Simd, const N: usize>(simd: S, num: &mut [S::f64s; N], x: &mut [S::f64s; N]) {
+        one_minus_exp(simd, x);
+        for i in 0..N {
+            num[i] *= x[i];
+        }
     }
 }
 
@@ -287,19 +337,22 @@ fn bare<S: Simd>(
     (c2, s, sum * ahead.select(c2, s * s))
 }
 
-/// [`super::reference::one_minus_exp`].
+/// [`super::reference::one_minus_exp`] in place, side by side.
 #[inline(always)]
-fn one_minus_exp<S: Simd>(simd: S, x: S::f64s) -> S::f64s {
+fn one_minus_exp<S: Simd, const N: usize>(simd: S, x: &mut [S::f64s; N]) {
     let a = EXP_POLYNOMIAL;
-    let top = S::f64s::splat(simd, 40.0);
-    let y = x.simd_lt(top).select(x, top) * (1.0 / 64.0);
-    let (y2, pair) = (y * y, |i: usize| y * a[i + 1] + a[i]);
-    let y4 = y2 * y2;
-    let (low, middle) = (pair(0) + pair(2) * y2, pair(4) + pair(6) * y2);
-    let mut u = ((low + middle * y4) + pair(8) * (y4 * y4)) * y;
-    let two = S::f64s::splat(simd, 2.0);
-    for _ in 0..6 {
-        u = u * (two - u);
+    let (top, two) = (S::f64s::splat(simd, 40.0), S::f64s::splat(simd, 2.0));
+    for u in x.iter_mut() {
+        let y = u.simd_lt(top).select(*u, top) * (1.0 / 64.0);
+        let y2 = y * y;
+        let y4 = y2 * y2;
+        let low = (y * a[1] + a[0]) + (y * a[3] + a[2]) * y2;
+        let middle = (y * a[5] + a[4]) + (y * a[7] + a[6]) * y2;
+        *u = ((low + middle * y4) + (y * a[9] + a[8]) * (y4 * y4)) * y;
     }
-    u
+    for _ in 0..6 {
+        for u in x.iter_mut() {
+            *u *= two - *u;
+        }
+    }
 }
