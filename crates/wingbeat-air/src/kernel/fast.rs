@@ -6,13 +6,16 @@ use super::groups::Groups;
 use super::instruction_set::InstructionSet;
 use super::lanes::{BLOCK, Block, add_patches};
 use super::model::CoreModel;
+use super::packed::Packed;
 use super::sources::{Network, Points, Segments};
+use fearless_simd::Level;
 use rayon::prelude::*;
 use wingbeat_math::DVec3;
 
-/// Edges and targets from which the tree is the faster one.
+/// Edges and targets from which the tree may be the faster one. Its check alone costs as much as some
+/// hundred targets.
 const AUTO_EDGES: usize = 4000;
-const AUTO_TARGETS: usize = 256;
+const AUTO_TARGETS: usize = 1000;
 
 /// Targets, at most, at which the tree is checked against the direct sum: one of every
 /// [`SAMPLE_EVERY`].
@@ -31,7 +34,7 @@ const LAX: f64 = 10.0;
 
 /// Cost of summing an edge in a leaf, and of evaluating an expansion, in tenths of the cost of an
 /// edge in the direct sum, which looks at fewer nodes per edge; measured.
-const NEAR: u64 = 13;
+const NEAR: u64 = 15;
 const FAR: u64 = 160;
 
 /// Attempts at the tolerance before the direct sum takes over.
@@ -116,6 +119,9 @@ pub struct Report {
 #[derive(Clone, Debug)]
 pub struct FastSum {
     settings: FastSettings,
+    level: Level,
+    /// The sources in the order given, for the direct sum.
+    packed: Packed,
     cells: Cells,
     has_tree: bool,
     groups: Groups,
@@ -135,6 +141,8 @@ impl FastSum {
         let (groups, segments) = (Groups::default(), Network::default());
         Self {
             settings,
+            level,
+            packed: Packed::default(),
             cells,
             has_tree: false,
             groups,
@@ -154,9 +162,9 @@ impl FastSum {
             Method::Direct => false,
             Method::Tree => !network.is_empty(),
         };
-        match self.has_tree {
-            true => self.cells.load(network),
-            false => self.cells.packed.load_network(self.settings.model, network),
+        self.packed.load_network(self.settings.model, network);
+        if self.has_tree {
+            self.cells.load(network);
         }
     }
 
@@ -175,15 +183,13 @@ impl FastSum {
         if !self.has_tree || few || targets.is_empty() {
             return self.add_direct(targets, out, 0);
         }
-        let check = Check::new(&self.cells, targets);
+        let check = Check::new(self, targets);
         self.groups.load(targets);
-        let (share, attempts) = match self.find_share(&check) {
+        let (allowed, attempts, [error_rms, error_max]) = match self.find_allowed(&check) {
             Ok(found) => found,
             Err(attempts) => return self.add_direct(targets, out, attempts),
         };
-        let allowed = share * self.settings.tolerance * check.scale;
         let work = self.groups.evaluate(&self.cells, allowed);
-        let (error_rms, error_max) = check.error(&self.groups);
         self.groups.add_to(out);
         Report {
             method: Method::Tree,
@@ -196,40 +202,36 @@ impl FastSum {
         }
     }
 
-    /// What far cells may leave out so that the error at the sampled targets keeps the tolerance,
-    /// and the attempts it took: begins too lax, for a lax attempt costs little, and tries on the
-    /// groups of the samples only. The error is the attempts made: the tolerance cannot be kept, or
-    /// not cheaper than by the direct sum.
-    fn find_share(&mut self, check: &Check) -> Result<(f64, usize), usize> {
+    /// What a far cell may leave out \[m/s\] so that the error at the sampled targets keeps the
+    /// tolerance, the attempts it took, and that error (root mean square, largest): begins too lax, for
+    /// a lax attempt costs little. Instead the attempts made if the tolerance cannot be kept, or not
+    /// cheaper than by the direct sum.
+    fn find_allowed(&mut self, check: &Check) -> Result<(f64, usize, [f64; 2]), usize> {
         let tolerance = self.settings.tolerance;
         let mut share = LAX * share(self.cells.leaf_patches.len());
+        let mut velocity = [DVec3::ZERO; SAMPLES];
         for attempt in 1..=ATTEMPTS {
             let allowed = share * tolerance * check.scale;
-            let samples = &check.index[..check.count];
-            let work = self.groups.evaluate_around(&self.cells, allowed, samples);
-            let pairs = self.cells.packed.edges.len() as u64 * work.targets;
+            let (samples, velocity) = (&check.index[..check.count], &mut velocity[..check.count]);
+            let work = (self.groups).sample(&self.cells, allowed, samples, velocity);
+            let pairs = self.packed.edges.len() as u64 * work.targets;
             if self.settings.method == Method::Auto
                 && NEAR * work.near + FAR * work.far > 10 * pairs
             {
                 return Err(attempt); // a stricter one costs more still
             }
-            let (error_rms, _) = check.error(&self.groups);
-            if error_rms <= tolerance {
-                return Ok((share, attempt));
+            let error = check.error(velocity);
+            if error[0] <= tolerance {
+                return Ok((allowed, attempt, error));
             }
-            share *= (0.5 * tolerance / error_rms).max(1e-3);
+            share *= (0.5 * tolerance / error[0]).max(1e-3);
         }
         Err(ATTEMPTS)
     }
 
     fn add_direct(&self, targets: &Points, out: &mut Points, attempts: usize) -> Report {
-        let Cells {
-            level,
-            model,
-            packed,
-            ..
-        } = &self.cells;
-        sum_all(*level, *model, packed, targets, out);
+        let packed = &self.packed;
+        sum_all(self.level, self.settings.model, packed, targets, out);
         Report {
             method: Method::Direct,
             error_rms: 0.0,
@@ -263,7 +265,7 @@ struct Check {
 }
 
 impl Check {
-    fn new(cells: &Cells, targets: &Points) -> Self {
+    fn new(sum: &FastSum, targets: &Points) -> Self {
         let few = targets.len().min(LEAST_SAMPLES);
         let count = (targets.len() / SAMPLE_EVERY).clamp(few, SAMPLES);
         let index = std::array::from_fn(|k| {
@@ -276,19 +278,16 @@ impl Check {
             .par_chunks_mut(8)
             .zip(index.par_chunks(8))
             .for_each(|(v, index)| {
-                let (mut block, mut sum) = (Block::ZERO, Block::ZERO);
+                let (mut block, mut velocity) = (Block::ZERO, Block::ZERO);
                 for (lane, &i) in index.iter().enumerate() {
                     (block.x[lane], block.y[lane], block.z[lane]) = targets.get(i).into();
                 }
-                let Cells {
-                    level,
-                    model,
-                    packed,
-                    ..
-                } = cells;
-                let all = 0..packed.patches.len();
-                add_patches(*level, *model, packed, &[all], &block, v.len(), &mut sum);
-                let vector = |lane: usize| DVec3::new(sum.x[lane], sum.y[lane], sum.z[lane]);
+                let FastSum { level, packed, .. } = sum;
+                let (model, all) = (sum.settings.model, 0..packed.patches.len());
+                let (ranges, n) = (std::slice::from_ref(&all), v.len());
+                add_patches(*level, model, packed, ranges, &block, n, &mut velocity);
+                let vector =
+                    |lane: usize| DVec3::new(velocity.x[lane], velocity.y[lane], velocity.z[lane]);
                 v.iter_mut()
                     .enumerate()
                     .for_each(|(lane, v)| *v = vector(lane));
@@ -302,14 +301,14 @@ impl Check {
         }
     }
 
-    /// Root mean square and largest error, relative to the scale; zero where nothing moves.
-    fn error(&self, groups: &Groups) -> (f64, f64) {
-        let exact = self.velocity[..self.count].iter().zip(&self.index);
-        let square = exact.map(|(v, &i)| groups.velocity(i).distance_squared(*v));
+    /// Root mean square and largest error of these velocities, relative to the scale; zero where
+    /// nothing moves.
+    fn error(&self, velocity: &[DVec3]) -> [f64; 2] {
+        let square = (self.velocity.iter().zip(velocity)).map(|(a, b)| a.distance_squared(*b));
         let (sum, max) = square.fold((0.0, 0.0), |(sum, max): (f64, f64), e| {
             (sum + e, max.max(e))
         });
         let scale = if self.scale > 0.0 { self.scale } else { 1.0 };
-        ((sum / self.count as f64).sqrt() / scale, max.sqrt() / scale)
+        [(sum / self.count as f64).sqrt() / scale, max.sqrt() / scale]
     }
 }

@@ -28,8 +28,6 @@ pub(crate) struct Groups {
     sums: Points,
     /// Place of a target among the items.
     place: Vec<u32>,
-    /// Groups that are to be evaluated.
-    wanted: Vec<bool>,
 }
 
 /// Work done for a group.
@@ -74,38 +72,14 @@ impl Groups {
     /// Velocities of all sources at all targets, with a part of about `allowed` \[m/s\] left out for
     /// every far cell.
     pub fn evaluate(&mut self, cells: &Cells, allowed: f64) -> Work {
-        self.evaluate_where(cells, allowed, |_| true)
-    }
-
-    /// The same for the groups of the targets with these numbers only.
-    pub fn evaluate_around(&mut self, cells: &Cells, allowed: f64, targets: &[usize]) -> Work {
-        let mut wanted = std::mem::take(&mut self.wanted);
-        wanted.clear();
-        wanted.resize(self.items.len().div_ceil(GROUP), false);
-        for &i in targets {
-            wanted[self.place[i] as usize / GROUP] = true;
-        }
-        let work = self.evaluate_where(cells, allowed, |group| wanted[group]);
-        self.wanted = wanted;
-        work
-    }
-
-    fn evaluate_where(
-        &mut self,
-        cells: &Cells,
-        allowed: f64,
-        wanted: impl Fn(usize) -> bool + Sync,
-    ) -> Work {
         self.sums.reset(self.items.len());
         let Points { x, y, z } = &mut self.sums;
         x.par_chunks_mut(GROUP)
             .zip(y.par_chunks_mut(GROUP))
             .zip(z.par_chunks_mut(GROUP))
             .zip(self.items.par_chunks(GROUP))
-            .enumerate()
-            .filter(|(group, _)| wanted(*group))
-            .map(|(_, (((x, y), z), items))| {
-                let (sum, work) = Walk::of(cells, items, allowed).done();
+            .map(|(((x, y), z), items)| {
+                let (sum, work) = Walk::of(cells, items, items, allowed).done();
                 let n = items.len();
                 x.copy_from_slice(&sum.x[..n]);
                 y.copy_from_slice(&sum.y[..n]);
@@ -115,9 +89,25 @@ impl Groups {
             .reduce(Work::default, |a, b| a + b)
     }
 
-    /// Velocity at target `i`.
-    pub fn velocity(&self, i: usize) -> DVec3 {
-        self.sums.get(self.place[i] as usize)
+    /// What [`Self::evaluate`] would give at the targets with these numbers, and at no other.
+    pub fn sample(
+        &self,
+        cells: &Cells,
+        allowed: f64,
+        targets: &[usize],
+        out: &mut [DVec3],
+    ) -> Work {
+        (targets.par_iter().zip(out))
+            .map(|(&i, v)| {
+                let place = self.place[i] as usize;
+                let first = place / GROUP * GROUP;
+                let group = &self.items[first..self.items.len().min(first + GROUP)];
+                let walk = Walk::of(cells, group, &self.items[place..=place], allowed);
+                let (sum, work) = walk.done();
+                *v = DVec3::new(sum.x[0], sum.y[0], sum.z[0]);
+                work
+            })
+            .reduce(Work::default, |a, b| a + b)
     }
 
     /// Adds the velocities to `out`.
@@ -175,12 +165,13 @@ impl<T> Notes<T> {
 }
 
 impl<'a> Walk<'a> {
-    fn of(cells: &'a Cells, items: &[Item], allowed: f64) -> Self {
+    /// For some or all `items` of a group.
+    fn of(cells: &'a Cells, group: &[Item], items: &[Item], allowed: f64) -> Self {
         let mut targets = Block::ZERO;
         for (i, item) in items.iter().enumerate() {
             (targets.x[i], targets.y[i], targets.z[i]) = item.place.into();
         }
-        let places = || items.iter().map(|item| item.place);
+        let places = || group.iter().map(|item| item.place);
         Self {
             cells,
             allowed,
