@@ -68,7 +68,7 @@ pub enum FlightError {
     },
     /// The corrector of a step did not converge.
     #[error(
-        "step {step} (t = {time:.6e} s): bodies and air did not agree after {passes} corrector passes: scaled residual {residual:.2e}, allowed {tolerance:.2e}; try a smaller step, more passes, or relaxation below {relaxation} (light bodies with large wings need it)"
+        "step {step} (t = {time:.6e} s): bodies and air did not agree after {passes} corrector passes: scaled residual {residual:.2e}, allowed {tolerance:.2e}; try a smaller step, more passes, or relaxation below {relaxation} (light bodies with large wings need it), and look whether wings cut through each other or the body"
     )]
     NotConverged {
         /// Step that failed.
