@@ -1,7 +1,7 @@
 //! Insects and their robots: one setting for all, nothing fitted.
 //!
 //! The setting: 5 x 10 panels a wing, 40 steps a beat, wakes from all edges but the root, the
-//! accurate scheme, Lamb-Oseen cores that begin at 0.007 mean chords on the wings (well below a
+//! accurate scheme, Lamb-Oseen cores that begin at 0.03 mean chords on the wings (well below a
 //! panel) and at 0.36 in the wakes (about the distance of wake rows) and spread with the medium's viscosity,
 //! wakes kept 0.1 mean chords off the wings. It is that of the fruit-fly presets. Motions start smoothly
 //! over the first beat, after which they lag half a beat.
@@ -122,7 +122,7 @@ impl Choice {
             fluid.stream,
             self.shed,
             self.loads,
-            core(0.007),
+            core(0.03),
             core(0.36),
             0.1 * fluid.chord,
         );
