@@ -2,6 +2,7 @@
 
 use crate::contact::Obstacles;
 use crate::error::AirError;
+use crate::filaments::newest;
 use crate::front;
 use crate::images::{Mirror, Plane};
 use crate::kernel::Points;
@@ -179,12 +180,17 @@ impl Lattice {
     fn shed(&self, k: usize, sheet: &mut WakeSheet, state: &AirState, lengths: &[f64]) {
         let root = &self.sheets()[k];
         self.settle(k, sheet, state, lengths);
+        let delays = self.settings().newest_row == NewestRow::Matched && sheet.rows() > 0;
         for (c, (&panel, &sign)) in root.panels.iter().zip(&root.signs).enumerate() {
             let attached = root.kinds[c] == EdgeKind::Leading && !self.leaves(panel, state);
-            let gamma = if attached {
-                0.0
-            } else {
-                sign * state.gamma[panel]
+            let present = sign * state.gamma[panel];
+            let gamma = match (attached, delays) {
+                (true, _) => 0.0,
+                (false, false) => present,
+                (false, true) => {
+                    let before = newest(sheet, c);
+                    before + front::released(lengths[c]) * (present - before)
+                }
             };
             sheet.gamma.push(gamma);
         }

@@ -196,10 +196,10 @@ fn exact(mode: Mode, k: f64) -> [f64; 2] {
     }
 }
 
-/// The same from the lattice, over the third period.
-fn ours(mode: Mode, k: f64, rows: usize) -> Result<[f64; 2], AirError> {
+/// The same from the lattice, over the third period, with steps of so many panels.
+fn ours(mode: Mode, k: f64, rows: usize, step: f64) -> Result<[f64; 2], AirError> {
     let period = PI / k; // in chords
-    let per_period = (period * rows as f64).round() as usize;
+    let per_period = (period * rows as f64 / step).round() as usize;
     let dt = period / per_period as f64;
     let (w, a) = (TAU / period, 1e-4);
     let lattice = lattice(rows, Wind::default())?;
@@ -245,10 +245,8 @@ fn theodorsen(quick: bool) -> Result<Vec<Row>, Trouble> {
     for (name, mode) in [("plunge", Mode::Plunge), ("pitch", Mode::Pitch)] {
         for &k in ks {
             let fine = if quick || k < 0.3 { 16 } else { 32 };
-            let [a, b] = [ours(mode, k, fine / 2)?, ours(mode, k, fine)?];
-            let want = exact(mode, k);
-            let size = want[0].hypot(want[1]);
-            let off = |x: [f64; 2]| (x[0] - want[0]).hypot(x[1] - want[1]) / size;
+            let [a, b] = [ours(mode, k, fine / 2, 1.0)?, ours(mode, k, fine, 1.0)?];
+            let off = |x| off(mode, k, x);
             let limit = [0, 1].map(|i| extrapolated(a[i], b[i], 1.0));
             rows.push(
                 Row::new(
@@ -262,7 +260,28 @@ fn theodorsen(quick: bool) -> Result<Vec<Row>, Trouble> {
             );
         }
     }
+    for step in [0.25, 0.5, 2.0, 4.0] {
+        let (mode, k, panels) = (Mode::Plunge, 1.0, 16_u8);
+        rows.push(
+            Row::new(
+                format!("plunge, k = {k}, {panels} panels, steps of {step} panels: the same"),
+                "1",
+                off(mode, k, ours(mode, k, panels.into(), step)?),
+            )
+            .against(0.0, "Theodorsen 1935, NACA Rep. 496")
+            .within(
+                0.6 * k / f64::from(panels) + 0.005 + (2.0 * k * step / f64::from(panels)).powi(2) / 3.0,
+                "as with steps of one panel, and the error (omega dt)^2 / 3 of the rate of circulation",
+            ),
+        );
+    }
     Ok(rows)
+}
+
+/// Error of a complex lift over the size of the exact one.
+fn off(mode: Mode, k: f64, lift: [f64; 2]) -> f64 {
+    let want = exact(mode, k);
+    (lift[0] - want[0]).hypot(lift[1] - want[1]) / want[0].hypot(want[1])
 }
 
 #[cfg(test)]
