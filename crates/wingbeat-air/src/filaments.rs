@@ -168,7 +168,7 @@ fn add_sheet(wake: &mut Network, sheet: &WakeSheet, settings: &AirSettings, t: f
         let a = base + r0 * (columns + 1) + c0;
         let b = base + r1 * (columns + 1) + c1;
         let length = (wake.nodes.get(b) - wake.nodes.get(a)).length();
-        let core = settings.wake_core.core(length, 0.5 * (age(r0) + age(r1)));
+        let core = settings.free_core(length, 0.5 * (age(r0) + age(r1)));
         wake.push_edge(a, b, net, core);
     };
     let there = |r: usize, c: usize, along: bool| borders_ring(&sheet.spent, [r, c], along);

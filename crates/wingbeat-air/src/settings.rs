@@ -41,9 +41,9 @@ pub enum NewestRow {
     /// benchmark's.
     #[default]
     Constant,
-    /// Falling from the panel's present circulation to its past one in steps of a panel length, as
-    /// the lattice continued into the wake would: second order, for steps of one to four panels;
-    /// for shorter ones as `Constant`.
+    /// As the lattice continued into the wake would have it: second order. In rows of up to eight
+    /// panel lengths the circulation falls from the panel's present one to its past one in steps of
+    /// a panel length; rows shorter than a panel leave with a delay.
     Matched,
 }
 
@@ -129,6 +129,13 @@ pub struct AirSettings {
     pub bound_core: CoreModel,
     /// Core of the filaments of the wakes.
     pub wake_core: CoreModel,
+    /// Least core radius of a free wake filament over its length; 0: as `wake_core` says. Wakes are
+    /// resolved only while the cores of neighbours overlap. Without this a filament that the flow
+    /// stretches far beyond its core has strains no mesh follows: they stretch it on, and the wake
+    /// around a hovering animal gains energy until it blows up. With 1 no filament moves air on
+    /// scales smaller than its own length. Far off it changes nothing, nor any circulation or
+    /// impulse.
+    pub wake_overlap: f64,
     /// Which edges shed.
     pub shedding: SheddingKinds,
     /// Circulation rate in the loads.
@@ -185,6 +192,7 @@ impl AirSettings {
             free_stream,
             bound_core: core,
             wake_core: core,
+            wake_overlap: 0.0,
             shedding: SheddingKinds::TRAILING,
             rate: CirculationRate::Backward,
             max_rows: None,
@@ -232,6 +240,15 @@ impl AirSettings {
         }
     }
 
+    /// Regularisation number of a filament of the free wake of this length [m] and age [s].
+    pub(crate) fn free_core(&self, length: f64, age: f64) -> f64 {
+        let core = self.wake_core.core(length, age);
+        match self.wake_core {
+            CoreModel::CutOff { .. } => core,
+            _ => core.max((self.wake_overlap * length).powi(2)),
+        }
+    }
+
     /// Checks the numbers.
     ///
     /// # Errors
@@ -257,6 +274,14 @@ impl AirSettings {
             "free_stream",
             self.free_stream.to_string(),
             "three finite numbers in m/s",
+        )?;
+        let has_radius = !matches!(self.wake_core, CoreModel::CutOff { .. });
+        check(
+            self.wake_overlap == 0.0
+                || self.wake_overlap > 0.0 && self.wake_overlap.is_finite() && has_radius,
+            "wake_overlap",
+            self.wake_overlap.to_string(),
+            "a finite number from 0; above 0 only if wake_core has a radius, which a cut-off has not",
         )?;
         check(
             self.max_displacement.is_none_or(positive),

@@ -25,6 +25,7 @@ mode = "tethered"
 leading_edge = "suction"
 leading_edge_threshold = 0.2
 wake_core.scully = { radius_m = 1e-4 }
+wake_overlap = 0
 particles = { after_rows = 2 }
 
 [[air.gust]]

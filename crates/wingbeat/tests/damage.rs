@@ -23,7 +23,7 @@ const CASE: [&str; 14] = [
     "--set=output.page=false",
     "--set=output.figures=false",
     "--set=output.keep_checkpoint=true",
-    "--set=air.particles={after_rows=4}",
+    "--set=air.particles={after_rows=4,radius_m=2.5e-4}",
 ];
 
 /// What opens the result `run`, and whether it needs the frames.

@@ -23,7 +23,7 @@ const CASE: [&str; 15] = [
     "wing.right.mesh.chordwise=3",
     "--set",
     "air.shed=[\"trailing\"]",
-    "--set=air.particles={after_rows=8}",
+    "--set=air.particles={after_rows=8,radius_m=2.5e-4}",
     "--set=output.page=false",
 ];
 

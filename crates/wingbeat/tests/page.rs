@@ -22,7 +22,7 @@ const CASE: [&str; 13] = [
     "--set",
     "wing.right.mesh.chordwise=3",
     "--set=air.shed=[\"trailing\"]",
-    "--set=air.particles={after_rows=8}",
+    "--set=air.particles={after_rows=8,radius_m=2.5e-4}",
 ];
 
 /// What the page says of itself in the browser.

@@ -26,7 +26,7 @@ const CASE: [&str; 16] = [
     "--set",
     "air.shed=[\"trailing\"]",
     "--set",
-    "air.particles={after_rows=8}",
+    "air.particles={after_rows=8,radius_m=2.5e-4}",
     "--set",
     "air.body=false",
     "--set",

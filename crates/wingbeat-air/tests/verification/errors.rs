@@ -53,10 +53,13 @@ fn exact_topology_errors() {
 #[test]
 fn exact_setting_errors_name_the_key() {
     type Spoil = fn(&mut AirSettings);
-    let spoil: [(&str, Spoil); 5] = [
+    let spoil: [(&str, Spoil); 7] = [
         ("density", |s| s.density = -1.0),
         ("free_stream", |s| s.free_stream.y = f64::NAN),
         ("max_displacement", |s| s.max_displacement = Some(0.0)),
+        ("wake_overlap", |s| s.wake_overlap = f64::NAN),
+        // The cut-off has no radius to widen.
+        ("wake_overlap", |s| s.wake_overlap = 1.0),
         ("clearance", |s| s.clearance = -1.0),
         ("max_rows", |s| s.max_rows = Some(0)),
     ];

@@ -1,9 +1,10 @@
 //! Insects and their robots: one setting for all, nothing fitted.
 //!
 //! The setting: 5 x 10 panels a wing, 40 steps a beat, wakes from all edges but the root, the
-//! accurate scheme, Lamb-Oseen cores that begin at 0.03 mean chords on the wings (well below a
-//! panel) and at 0.36 in the wakes (about the distance of wake rows) and spread with the medium's viscosity,
-//! wakes kept 0.1 mean chords off the wings. It is that of the fruit-fly presets. Motions start smoothly
+//! accurate scheme, Lamb-Oseen cores that begin at 0.01 mean chords on the wings (well below a
+//! panel) and at 0.07 in the wakes, spread with the medium's viscosity and are as wide in the wakes as
+//! filaments are long, wakes kept 0.1 mean chords off the wings; particles begin with 0.36 mean chords
+//! (about the distance of wake rows). It is that of the fruit-fly presets. Motions start smoothly
 //! over the first beat, after which they lag half a beat.
 
 use crate::lab::series::{Table, correlation, interpolate, mean, rms};
@@ -60,6 +61,7 @@ pub(super) struct Choice {
     pub shed: &'static str,
     pub loads: &'static str,
     pub core: f64,
+    pub overlap: f64,
     pub steps: usize,
     pub mesh: [usize; 2],
     pub cut: Cut,
@@ -84,6 +86,7 @@ pub(super) const DEFAULT: Choice = Choice {
     shed: r#"["trailing", "tip", "leading"]"#,
     loads: "pressure",
     core: 1.0,
+    overlap: 1.0,
     steps: 40,
     mesh: [5, 10],
     cut: Cut::Nowhere,
@@ -115,15 +118,16 @@ impl Choice {
              [flight]\nmode = \"tethered\"\n\
              [air]\ndensity_kg_m3 = {:e}\nstream_m_s = {:?}\nbody = false\nmirror = true\nscheme = \"accurate\"\nshed = {}\n\
              loads = \"{}\"\n\
-             bound_core.lamb_oseen = {}\nwake_core.lamb_oseen = {}\nclearance_m = {:e}\n",
+             bound_core.lamb_oseen = {}\nwake_core.lamb_oseen = {}\nwake_overlap = {:e}\nclearance_m = {:e}\n",
             self.steps,
             self.beats,
             fluid.density,
             fluid.stream,
             self.shed,
             self.loads,
-            core(0.03),
-            core(0.36),
+            core(0.01),
+            core(0.07),
+            self.overlap,
             0.1 * fluid.chord,
         );
         let _ = match self.cut {
@@ -133,7 +137,11 @@ impl Choice {
             Cut::Lengths(n) => writeln!(text, "max_wake_distance_m = {:e}", n * fluid.length),
         };
         if self.particles {
-            text.push_str("particles = { leading_edge = true }\n");
+            let radius = 0.36 * self.core * fluid.chord;
+            let _ = writeln!(
+                text,
+                "particles = {{ leading_edge = true, radius_m = {radius:e} }}"
+            );
         }
         text
     }
@@ -372,7 +380,14 @@ fn fruit_fly(_quick: bool) -> Result<Vec<Row>, Trouble> {
     let mut rows = Vec::new();
     for (model, base, part) in [
         ("leading-edge sheets", DEFAULT, None),
-        ("no leading-edge sheets", MODELS[2].1, Some(0.03)),
+        (
+            "no leading-edge sheets",
+            Choice {
+                beats: 5,
+                ..MODELS[2].1
+            },
+            Some(0.03),
+        ),
     ] {
         let [lift, spread] = middle(&fly.lifts(base)?);
         rows.push(
@@ -382,11 +397,25 @@ fn fruit_fly(_quick: bool) -> Result<Vec<Row>, Trouble> {
                 lift / weight,
             )
             .uncertain(spread / weight)
-            .because("uncertainty: half the change from the second to the third beat"),
+            .because("mean from the second beat on; uncertainty: half of what the beats span"),
         );
         let changes = [
             ("core x 2", Choice { core: 2.0, ..base }),
             ("core x 0.5", Choice { core: 0.5, ..base }),
+            (
+                "overlap x 2",
+                Choice {
+                    overlap: 2.0,
+                    ..base
+                },
+            ),
+            (
+                "overlap x 0.5",
+                Choice {
+                    overlap: 0.5,
+                    ..base
+                },
+            ),
             ("step x 0.5", Choice { steps: 80, ..base }),
             ("step x 2", Choice { steps: 20, ..base }),
             (

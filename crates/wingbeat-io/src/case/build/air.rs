@@ -28,6 +28,10 @@ pub(super) fn fill_defaults(case: &mut Case, animal: &Animal) {
     if case.air.wake_core.is_none() {
         case.air.wake_core.clone_from(&case.air.bound_core);
     }
+    if case.air.wake_overlap.is_none() {
+        let has_radius = !matches!(case.air.wake_core, Some(CoreCase::CutOff { .. }));
+        case.air.wake_overlap = Some(if has_radius { 1.0 } else { 0.0 });
+    }
 }
 
 /// Square root of the mean area of a wing panel [m]; 1 without wings.
@@ -73,6 +77,10 @@ fn lattice(case: &AirCase, joined: Vec<[usize; 2]>) -> Built<AirOptions> {
     let lattice = AirSettings {
         bound_core: core("air.bound_core", case.bound_core.as_ref())?,
         wake_core: core("air.wake_core", case.wake_core.as_ref())?,
+        wake_overlap: not_negative(
+            "air.wake_overlap",
+            case.wake_overlap.expect("the default was filled in"),
+        )?,
         shedding: SheddingKinds {
             trailing: sheds(EdgeCase::Trailing),
             tip: sheds(EdgeCase::Tip),
@@ -108,7 +116,7 @@ fn lattice(case: &AirCase, joined: Vec<[usize; 2]>) -> Built<AirOptions> {
         max_displacement: limit("air.max_displacement_m", case.max_displacement_m)?,
         clearance: not_negative("air.clearance_m", case.clearance_m)?,
         particles: match &case.particles {
-            Some(p) => Some(particles(p, case.wake_core.as_ref())?),
+            Some(p) => Some(particles(p, case)?),
             None => None,
         },
         section_drag: case.section_drag.map(section_drag).transpose()?,
@@ -193,9 +201,10 @@ fn leading_edge(case: &AirCase) -> Built<LeadingEdge> {
     })
 }
 
-/// Particles; radius and viscosity are those of the wake's filaments where left out.
-fn particles(case: &ParticlesCase, wake: Option<&CoreCase>) -> Built<ParticleSettings> {
-    let (radius, viscosity) = match wake {
+/// Particles; radius and viscosity are those of the wake's filaments where left out, unless these
+/// are as wide as they are long.
+fn particles(case: &ParticlesCase, air: &AirCase) -> Built<ParticleSettings> {
+    let (radius, viscosity) = match &air.wake_core {
         Some(CoreCase::LambOseen {
             radius_m,
             viscosity_m2_s,
@@ -205,10 +214,11 @@ fn particles(case: &ParticlesCase, wake: Option<&CoreCase>) -> Built<ParticleSet
         }
         _ => (None, 0.0),
     };
-    let radius = case.radius_m.or(radius).ok_or_else(|| {
+    let default = radius.filter(|_| air.wake_overlap == Some(0.0));
+    let radius = case.radius_m.or(default).ok_or_else(|| {
         Fault::new(
             "air.particles",
-            "particles need a radius, and wake_core has none",
+            "particles need a radius, and wake_core has none or wake_overlap widens it",
             "radius_m > 0",
             "add radius_m: about the distance between rows of wake",
         )

@@ -39,6 +39,10 @@ pub struct AirCase {
     /// How the rate of change of circulation in the pressure is formed; default by `scheme`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub circulation_rate: Option<CirculationRateCase>,
+    /// Least core radius of a free wake filament over its length: keeps wakes resolved that the flow
+    /// stretches; default 1, or 0 where `wake_core` is a cut-off, which has no radius.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub wake_overlap: Option<f64>,
     /// How wake nodes are moved; default by `scheme`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub convection: Option<ConvectionCase>,
@@ -118,6 +122,7 @@ impl Default for AirCase {
             shed: vec![EdgeCase::Trailing, EdgeCase::Tip, EdgeCase::Leading],
             bound_core: None,
             wake_core: None,
+            wake_overlap: None,
             scheme: SchemeCase::Benchmark,
             circulation_rate: None,
             convection: None,
@@ -156,7 +161,8 @@ pub struct ParticlesCase {
     /// Whether rows that leave leading edges become particles at once.
     #[serde(default)]
     pub leading_edge: bool,
-    /// Radius of new particles; default that of `wake_core`, which is needed if that is a cut-off.
+    /// Radius of new particles; default that of `wake_core` if that has one and
+    /// `wake_overlap` is 0.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub radius_m: Option<f64>,
     /// Effective kinematic viscosity, with which they spread; default that of `wake_core`, or 0.

@@ -108,8 +108,12 @@ fn air_warnings(
         .first()
         .map_or(1.0, |r| r.mean_chord);
     let (kind, size) = core(&lattice.wake_core);
+    let overlap = match lattice.wake_overlap {
+        0.0 => String::new(),
+        part => format!(", at least {part} times a filament's length"),
+    };
     list.push(format!(
-        "The vortex core ({kind}, {size:.1e} m = {:.3} mean chords) is an input, not a result: vary it and see what changes.",
+        "The vortex core ({kind}, {size:.1e} m = {:.3} mean chords{overlap}) is an input, not a result: vary it and see what changes.",
         size / chord
     ));
     if air.mirror {
