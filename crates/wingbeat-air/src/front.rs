@@ -14,7 +14,7 @@
 //! share, 1.27 / (2 pi) less of what a uniform sheet sheds in a panel length if the row is very short.
 //! There part of what is shed waits on the edge ([`released`]).
 
-use crate::filaments::newest;
+use crate::filaments::{Filaments, newest};
 use crate::influence::unknowns;
 use crate::kernel::{BLOCK, Network, Points, UnitEdges};
 use crate::lattice::Lattice;
@@ -243,32 +243,36 @@ pub(crate) fn at_edge(row: &Row, column: usize) -> [f64; 2] {
     [sign * first.past, sign * first.part]
 }
 
-/// Adds to the influence matrix what the row has of the panels' present circulation.
+/// Adds to the influence matrix what the row has of the panels' present circulation; `rates` is room
+/// to work in.
 pub(crate) fn add_influence(
     lattice: &Lattice,
-    front: &Network,
-    shares: &[Share],
+    filaments: &Filaments,
     panels: &Panels,
     edges: &mut UnitEdges,
+    rates: &mut Vec<f64>,
     matrix: &mut [f64],
 ) {
+    let (front, shares) = (&filaments.front, &filaments.shares);
     if lattice.settings().newest_row == NewestRow::Constant || front.is_empty() {
         return;
     }
     let (n, model) = (unknowns(lattice), lattice.settings().wake_core);
     let lead = |i: usize| lattice.halves().map_or(i, |h| h.lead[i]);
     edges.load(model, front);
-    let mut rates = vec![0.0; edges.len() * BLOCK];
+    let size = edges.len() * BLOCK;
+    rates.resize(size.max(rates.len()), 0.0);
+    let rates = &mut rates[..size];
     for (b, rows) in matrix.chunks_mut(BLOCK * n).enumerate() {
         let own = b * BLOCK..n.min((b + 1) * BLOCK);
         let place = |p: usize| [panels.point[p], panels.normal[p]];
         let places = || own.clone().map(|i| place(lead(i)));
-        edges.normal_velocities(model, places(), &mut rates);
-        add_shares(lattice, shares, &rates, rows);
+        edges.normal_velocities(model, places(), rates);
+        add_shares(lattice, shares, rates, rows);
         for mirror in lattice.mirrors() {
             let images = places().map(|[x, n]| [mirror.place(x), mirror.vector(n)]);
-            edges.normal_velocities(model, images, &mut rates);
-            add_shares(lattice, shares, &rates, rows);
+            edges.normal_velocities(model, images, rates);
+            add_shares(lattice, shares, rates, rows);
         }
     }
 }

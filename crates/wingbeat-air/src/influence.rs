@@ -23,7 +23,8 @@ pub(crate) struct Influence {
     matrix: Vec<f64>,
     /// Circulations of the lead panels, where only one half is computed.
     half: Vec<f64>,
-    /// Normal velocity of every edge at a block of control points, for each block.
+    /// Normal velocity of every edge at a block of control points, for each block; then of the newest
+    /// rows' edges at one block.
     rates: Vec<f64>,
     edges: UnitEdges,
     /// Part of the circulation of its panel that each edge keeps, the newest row taking the rest.
@@ -59,9 +60,8 @@ impl Influence {
         let step = state.step;
         self.fit(lattice);
         self.assemble(lattice, state, filaments, panels);
-        let (front, shares) = (&filaments.front, &filaments.shares);
-        let (edges, matrix) = (&mut self.edges, &mut self.matrix);
-        front::add_influence(lattice, front, shares, panels, edges, matrix);
+        let (edges, rates) = (&mut self.edges, &mut self.rates);
+        front::add_influence(lattice, filaments, panels, edges, rates, &mut self.matrix);
         self.augment(lattice);
         self.lu
             .factor(&self.matrix)
@@ -107,7 +107,8 @@ impl Influence {
         let lead = |i: usize| lattice.halves().map_or(i, |h| h.lead[i]);
         self.edges.load(model, &filaments.bound);
         let (edges, size) = (&self.edges, self.edges.len() * BLOCK);
-        self.rates.resize(n.div_ceil(BLOCK) * size, 0.0);
+        let room = n.div_ceil(BLOCK) * size;
+        self.rates.resize(room.max(self.rates.len()), 0.0);
         self.matrix
             .par_chunks_mut(BLOCK * n)
             .zip(self.rates.par_chunks_mut(size))

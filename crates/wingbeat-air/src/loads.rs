@@ -107,6 +107,8 @@ pub struct AirWorkspace {
     pub(crate) obstacles: Obstacles,
     pub(crate) from: Vec<DVec3>,
     pub(crate) to: Vec<DVec3>,
+    /// Impulse per density of what each sheet dropped.
+    pub(crate) dropped: Vec<DVec3>,
     /// Nodes of the wakes that are to be moved.
     pub(crate) movable: Points,
     pub(crate) sums: Sums,

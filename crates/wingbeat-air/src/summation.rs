@@ -29,7 +29,7 @@ impl Summation {
             .insert(kept.unwrap_or_else(|| FastSum::new(settings)));
         if !is_known {
             sum.load_network(sources);
-            self.loaded.clone_from(sources);
+            self.loaded.copy_from(sources);
         }
         !is_known
     }
@@ -147,11 +147,11 @@ impl StillWake {
         let kept = !is_new && self.points.len() == points.len();
         let is_near = |(a, b): (wingbeat_math::DVec3, wingbeat_math::DVec3)| a.distance(b) <= near;
         if !(kept && self.points.iter().zip(points.iter()).all(is_near)) {
-            self.points.clone_from(points);
+            self.points.copy_from(points);
             self.velocity.reset(points.len());
             sums.wake.add(points, mirrors, &mut self.velocity);
             sums.add_particles(points, mirrors, &mut self.velocity);
         }
-        out.clone_from(&self.velocity);
+        out.copy_from(&self.velocity);
     }
 }

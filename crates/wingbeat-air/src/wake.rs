@@ -123,7 +123,9 @@ impl Lattice {
             events: WakeEvents::default(),
         };
         let mut sheets = std::mem::take(&mut state.sheets);
-        let mut dropped = vec![DVec3::ZERO; sheets.len()];
+        let dropped = &mut ws.dropped;
+        dropped.clear();
+        dropped.resize(sheets.len(), DVec3::ZERO);
         for k in 0..sheets.len() {
             if let Some((lead, mirror)) = self.followed(k) {
                 let (first, rest) = sheets.split_at_mut(k);
@@ -164,7 +166,7 @@ impl Lattice {
         seams::tie(self.topology(), &mut sheets);
         state.sheets = sheets;
         let events = mover.events;
-        state.dropped_impulse += dropped.into_iter().sum::<DVec3>();
+        state.dropped_impulse += dropped.iter().sum::<DVec3>();
         Ok(events)
     }
 

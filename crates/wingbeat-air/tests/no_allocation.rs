@@ -1,10 +1,15 @@
-//! The sums allocate nothing after the first call of a size.
+//! Sums and whole steps allocate nothing once they have been through a size, and memory is linear in
+//! the wake.
 
 mod wakes;
 
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
 use wingbeat_air::kernel::{CoreModel, DirectSum, FastSettings, FastSum, Method, Points};
+use wingbeat_air::{
+    AirLoads, AirSettings, AirState, AirWorkspace, Lattice, NodeMotion, Surface, WakeSheet,
+};
+use wingbeat_math::DVec3;
 
 /// The system's allocator, counting.
 struct Counting;
@@ -12,6 +17,8 @@ struct Counting;
 thread_local! {
     /// Of this thread alone: the test's harness allocates when it likes.
     static ALLOCATIONS: Cell<usize> = const { Cell::new(0) };
+    /// Bytes it holds.
+    static HELD: Cell<usize> = const { Cell::new(0) };
 }
 
 #[allow(unsafe_code)]
@@ -19,13 +26,17 @@ thread_local! {
 unsafe impl GlobalAlloc for Counting {
     unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
         ALLOCATIONS.set(ALLOCATIONS.get() + 1);
+        HELD.set(HELD.get().wrapping_add(layout.size()));
         unsafe { System.alloc(layout) }
     }
     unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {
+        HELD.set(HELD.get().wrapping_sub(layout.size()));
         unsafe { System.dealloc(pointer, layout) }
     }
     unsafe fn realloc(&self, pointer: *mut u8, layout: Layout, size: usize) -> *mut u8 {
         ALLOCATIONS.set(ALLOCATIONS.get() + 1);
+        let more = size.wrapping_sub(layout.size());
+        HELD.set(HELD.get().wrapping_add(more));
         unsafe { System.realloc(pointer, layout, size) }
     }
 }
@@ -43,12 +54,7 @@ fn exact_no_allocation_after_warm_up() {
     });
     let mut direct = DirectSum::new(model);
     let mut v = Points::zeros(net.nodes.len());
-    // One thread: what rayon keeps for handing work to others is not ours to count.
-    let pool = rayon::ThreadPoolBuilder::new()
-        .num_threads(1)
-        .build()
-        .unwrap();
-    pool.install(|| {
+    on_one_thread(|| {
         let mut step = || {
             fast.load_network(&net);
             fast.add_velocity(&net.nodes, &mut v);
@@ -59,5 +65,138 @@ fn exact_no_allocation_after_warm_up() {
         let before = ALLOCATIONS.get();
         step();
         assert_eq!(ALLOCATIONS.get() - before, 0);
+    });
+}
+
+/// Calls `f` on one thread: what rayon keeps for handing work to others is not ours to count.
+fn on_one_thread<T: Send>(f: impl FnOnce() -> T + Send) -> T {
+    let pool = rayon::ThreadPoolBuilder::new()
+        .num_threads(1)
+        .build()
+        .unwrap();
+    pool.install(f)
+}
+
+/// A wing of 4 x 20 panels that flies along -x and plunges.
+struct Flight {
+    lattice: Lattice,
+    flat: Vec<DVec3>,
+    motion: NodeMotion,
+    state: AirState,
+    loads: AirLoads,
+    ws: AirWorkspace,
+    time: f64,
+}
+
+const COLUMNS: usize = 20;
+const STEP: f64 = 0.25;
+
+impl Flight {
+    fn new(max_rows: Option<usize>, method: Method) -> Self {
+        let settings = AirSettings {
+            max_rows,
+            clearance: 0.01,
+            summation: method,
+            ..AirSettings::accurate(1.2, DVec3::ZERO)
+        };
+        let lattice = Lattice::new(vec![Surface::grid("wing", 4, COLUMNS)], settings).unwrap();
+        let at = |k: usize| {
+            let (i, j) = (k / (COLUMNS + 1), k % (COLUMNS + 1));
+            DVec3::new(i as f64 / 4.0, j as f64 / 4.0, 0.0)
+        };
+        let flat: Vec<DVec3> = (0..5 * (COLUMNS + 1)).map(at).collect();
+        let velocity = vec![-DVec3::X; flat.len()];
+        let motion = NodeMotion {
+            position: flat.clone(),
+            velocity,
+        };
+        Self {
+            state: lattice.initial_state(&motion),
+            loads: AirLoads::default(),
+            ws: lattice.workspace(),
+            lattice,
+            flat,
+            motion,
+            time: 0.0,
+        }
+    }
+
+    fn step(&mut self) {
+        let (lattice, state, ws) = (&self.lattice, &mut self.state, &mut self.ws);
+        if state.step > 0 {
+            lattice.convect(state, STEP, ws).unwrap();
+            self.time += STEP;
+        }
+        let (sin, cos) = self.time.sin_cos();
+        for (k, x) in self.flat.iter().enumerate() {
+            self.motion.position[k] = *x + DVec3::new(-self.time, 0.0, 0.1 * sin);
+            self.motion.velocity[k] = DVec3::new(-1.0, 0.0, 0.1 * cos);
+        }
+        let (motion, loads) = (&self.motion, &mut self.loads);
+        lattice
+            .loads(state, self.time, STEP, motion, ws, loads)
+            .unwrap();
+        lattice.accept(state, motion, loads).unwrap();
+    }
+}
+
+#[test]
+fn exact_no_allocation_in_steps_of_a_wake_that_keeps_its_size() {
+    on_one_thread(|| {
+        let mut flight = Flight::new(Some(12), Method::Direct);
+        (0..20).for_each(|_| flight.step());
+        let before = ALLOCATIONS.get();
+        (0..5).for_each(|_| flight.step());
+        assert_eq!(ALLOCATIONS.get() - before, 0);
+    });
+}
+
+/// A flat sheet of `rows` rows behind the wing, as if it had left it long ago.
+fn old_wake(rows: usize, looks_back: bool) -> WakeSheet {
+    let mut sheet = WakeSheet {
+        columns: COLUMNS,
+        spent: vec![0; COLUMNS],
+        ..WakeSheet::default()
+    };
+    for r in (0..rows).rev() {
+        for c in 0..=COLUMNS {
+            let x = DVec3::new(1.3 + STEP * r as f64, c as f64 / 4.0, 0.0);
+            sheet.nodes.push(x);
+            if looks_back {
+                sheet.velocity.push(DVec3::ZERO);
+            }
+        }
+        sheet.gamma.extend([1e-3; COLUMNS]);
+        sheet.shed_time.push(-STEP * r as f64);
+    }
+    sheet
+}
+
+/// State and workspace together, for the direct sum and for the tree. Arrays that grow double: up to
+/// half of each is unused.
+#[test]
+fn exact_memory_is_linear_in_the_wake() {
+    on_one_thread(|| {
+        for (method, most) in [(Method::Direct, 800.0), (Method::Tree, 1700.0)] {
+            let held = |rows: usize| {
+                let before = HELD.get();
+                let mut flight = Flight::new(None, method);
+                flight.step();
+                flight.state.sheets[0] = old_wake(rows, true);
+                flight.step();
+                flight.step();
+                (HELD.get().wrapping_sub(before)) as f64
+            };
+            held(1); // what threads keep for themselves
+            let empty = held(1);
+            for rows in [150, 300, 450] {
+                let per_ring = (held(rows) - empty) / (rows * COLUMNS) as f64;
+                println!("{method:?}: {rows} rows, {per_ring:.0} bytes a ring");
+                assert!(
+                    per_ring < most,
+                    "{method:?}, {rows} rows: {per_ring} bytes a ring"
+                );
+            }
+        }
     });
 }

@@ -65,6 +65,13 @@ impl Points {
         }
     }
 
+    /// Takes the points of `other` and keeps the memory, which `clone_from` does not.
+    pub fn copy_from(&mut self, other: &Self) {
+        self.x.clone_from(&other.x);
+        self.y.clone_from(&other.y);
+        self.z.clone_from(&other.z);
+    }
+
     /// The points in order.
     pub fn iter(&self) -> impl Iterator<Item = DVec3> + '_ {
         (0..self.len()).map(|i| self.get(i))
@@ -169,6 +176,14 @@ pub struct Network {
 }
 
 impl Network {
+    /// Takes nodes and edges of `other` and keeps the memory, which `clone_from` does not.
+    pub fn copy_from(&mut self, other: &Self) {
+        self.nodes.copy_from(&other.nodes);
+        self.edges.clone_from(&other.edges);
+        self.gamma.clone_from(&other.gamma);
+        self.core.clone_from(&other.core);
+    }
+
     /// Number of edges.
     pub fn len(&self) -> usize {
         self.edges.len()
