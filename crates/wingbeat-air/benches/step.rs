@@ -1,0 +1,136 @@
+//! The parts of a step of the lattice: circulations and loads, moving the wake, tree and direct sum.
+//!
+//! `cargo bench -p wingbeat-air --bench step`
+
+use divan::{Bencher, counter::ItemsCount};
+use wingbeat_air::kernel::{CoreModel, FastSettings, FastSum, Method, Points};
+use wingbeat_air::{
+    AirLoads, AirSettings, AirState, AirWorkspace, Lattice, NodeMotion, SheddingKinds, Surface,
+};
+use wingbeat_math::DVec3;
+
+#[path = "../tests/wakes/mod.rs"]
+mod wakes;
+
+fn main() {
+    divan::main();
+}
+
+/// Two plunging wings of 5 x 10 panels that shed all around but at the root.
+struct Flight {
+    lattice: Lattice,
+    state: AirState,
+    loads: AirLoads,
+    ws: AirWorkspace,
+    time: f64,
+}
+
+const STEP: f64 = 0.2;
+
+impl Flight {
+    /// After so many steps.
+    fn new(steps: usize) -> Self {
+        let core = CoreModel::LambOseen {
+            radius: 0.05,
+            viscosity: 1e-3,
+        };
+        let settings = AirSettings {
+            bound_core: core,
+            wake_core: core,
+            wake_overlap: 1.0,
+            shedding: SheddingKinds {
+                tip: true,
+                leading: true,
+                ..SheddingKinds::TRAILING
+            },
+            max_rows: Some(steps),
+            summation: Method::Direct,
+            ..AirSettings::accurate(1.2, DVec3::ZERO)
+        };
+        let wings = ["right", "left"].map(|name| Surface::grid(name, 5, 10));
+        let lattice = Lattice::new(wings.to_vec(), settings).expect("two wings");
+        let mut flight = Self {
+            state: lattice.initial_state(&motion(0.0)),
+            loads: AirLoads::default(),
+            ws: lattice.workspace(),
+            lattice,
+            time: 0.0,
+        };
+        flight.load();
+        (0..steps).for_each(|_| flight.step());
+        flight
+    }
+
+    fn load(&mut self) {
+        self.lattice
+            .loads(
+                &self.state,
+                self.time,
+                STEP,
+                &motion(self.time),
+                &mut self.ws,
+                &mut self.loads,
+            )
+            .expect("loads");
+    }
+
+    fn step(&mut self) {
+        let now = motion(self.time);
+        self.lattice
+            .accept(&mut self.state, &now, &self.loads)
+            .expect("computed before");
+        self.lattice
+            .convect(&mut self.state, STEP, &mut self.ws)
+            .expect("accepted");
+        self.time += STEP;
+        self.load();
+    }
+}
+
+fn motion(t: f64) -> NodeMotion {
+    let shift = DVec3::new(-t, 0.0, 0.3 * t.sin());
+    let velocity = DVec3::new(-1.0, 0.0, 0.3 * t.cos());
+    let mut motion = NodeMotion::default();
+    for side in [1.0, -1.0] {
+        for k in 0..6 * 11 {
+            let (x, y) = ((k / 11) as f64 / 5.0, 0.2 + 0.3 * (k % 11) as f64);
+            motion.position.push(DVec3::new(x, side * y, 0.0) + shift);
+            motion.velocity.push(velocity);
+        }
+    }
+    motion
+}
+
+/// Influence matrix, its factors, circulations and loads in a frozen wake whose velocities are known:
+/// what each pass of the corrector costs.
+#[divan::bench]
+fn influence_and_loads(bencher: Bencher) {
+    let mut flight = Flight::new(40);
+    bencher.bench_local(|| flight.load());
+}
+
+/// A whole step with so many rows of wake, of 50 rings each.
+#[divan::bench(args = [20, 40, 80])]
+fn step(bencher: Bencher, rows: usize) {
+    let mut flight = Flight::new(rows);
+    bencher
+        .counter(ItemsCount::new(50 * rows))
+        .bench_local(|| flight.step());
+}
+
+/// Velocities at the nodes of a hover-like wake of so many edges.
+#[divan::bench(args = [10_000, 20_000, 40_000], consts = [true, false], sample_count = 5, sample_size = 1)]
+fn wake_on_itself<const TREE: bool>(bencher: Bencher, edges: usize) {
+    let model = CoreModel::Vatistas { radius: 0.02 };
+    let net = wakes::hover(model, edges);
+    let method = if TREE { Method::Tree } else { Method::Direct };
+    let mut sum = FastSum::new(FastSettings {
+        method,
+        ..FastSettings::new(model)
+    });
+    let mut out = Points::zeros(net.nodes.len());
+    bencher.counter(ItemsCount::new(net.len())).bench_local(|| {
+        sum.load_network(&net);
+        sum.add_velocity(&net.nodes, &mut out)
+    });
+}
