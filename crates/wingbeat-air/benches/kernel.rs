@@ -4,8 +4,11 @@
 
 use divan::{Bencher, counter::ItemsCount};
 use fearless_simd::{Simd, dispatch, prelude::*};
-use wingbeat_air::kernel::{CoreModel, DirectSum, InstructionSet, Network, Points};
+use wingbeat_air::kernel::{CoreModel, DirectSum, InstructionSet, Points};
 use wingbeat_math::DVec3;
+
+#[path = "../tests/wavy/mod.rs"]
+mod wavy;
 
 fn main() {
     divan::main();
@@ -24,32 +27,8 @@ const MODELS: [(&str, CoreModel); 4] = [
     ),
 ];
 
-/// A wavy sheet of 40 x 40 rings.
-fn sheet(model: CoreModel) -> Network {
-    let n = 40;
-    let mut net = Network::default();
-    for i in 0..=n {
-        for j in 0..=n {
-            let (x, y) = (i as f64 / n as f64, j as f64 / n as f64);
-            net.nodes.push(DVec3::new(x, y, 0.1 * (7.0 * x).sin()));
-        }
-    }
-    for i in 0..=n {
-        for j in 0..=n {
-            let a = i * (n + 1) + j;
-            if j < n {
-                net.push_edge(a, a + 1, 1.0, model.core(0.025, 0.0));
-            }
-            if i < n {
-                net.push_edge(a, a + n + 1, 1.0, model.core(0.025, 0.0));
-            }
-        }
-    }
-    net
-}
-
 fn rate(bencher: Bencher, set: &InstructionSet, model: CoreModel, shared: bool) {
-    let net = sheet(model);
+    let net = wavy::sheet(model, 40);
     let targets = Points::from_iter((0..1024).map(|i| DVec3::splat(i as f64 / 1024.0)));
     let mut sum = DirectSum::with_instructions(model, *set).expect("available");
     match shared {

@@ -288,3 +288,28 @@ fn add_shares(lattice: &Lattice, shares: &[Share], rates: &[f64], rows: &mut [f6
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Filaments of a uniform sheet at distances l k from the edge, summed one by one at the collocation
+    /// point half a panel ahead, and what the edge holds back.
+    #[test]
+    fn limit_delay_gives_short_rows_the_share_of_rows_of_a_panel() {
+        let sheet = |l: f64| -> f64 {
+            let rows = (1000.0 / l).round() as usize;
+            (0..rows).map(|k| l / (0.5 + l * k as f64)).sum()
+        };
+        for l in [1.0, 0.7, 0.5, 0.25, 0.1, 0.01] {
+            // In the steady state the edge lags by (1 - a) / a rows of length l.
+            let a = released(l);
+            let held = l * (1.0 - a) / a;
+            let lack = sheet(1.0) - (sheet(l) + held / 0.5);
+            // Twice the 0.004 of the fit, and where a sum of 1000 panels ends.
+            assert!(lack.abs() < 0.009, "{l}: {lack}");
+        }
+        assert_eq!(released(1.0), 1.0);
+        assert_eq!(released(3.0), 1.0);
+    }
+}

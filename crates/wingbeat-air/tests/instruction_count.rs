@@ -4,8 +4,10 @@
 //! is theirs alone. Valgrind knows no AVX-512, so the AVX2 kernel is counted. Where AVX2 or a valgrind that
 //! works is missing, the test says so and passes.
 
+mod wavy;
+
 use std::process::Command;
-use wingbeat_air::kernel::{CoreModel, DirectSum, InstructionSet, Network, Points};
+use wingbeat_air::kernel::{CoreModel, DirectSum, InstructionSet, Points};
 use wingbeat_math::DVec3;
 
 const MODEL: &str = "WINGBEAT_COUNTED_MODEL";
@@ -29,33 +31,10 @@ const N: usize = 12;
 const TARGETS: usize = 64;
 const PAIRS: f64 = (2 * N * (N + 1) * TARGETS) as f64;
 
-/// A wavy sheet of N x N rings.
-fn sheet(model: CoreModel) -> Network {
-    let mut net = Network::default();
-    for i in 0..=N {
-        for j in 0..=N {
-            let (x, y) = (i as f64 / N as f64, j as f64 / N as f64);
-            net.nodes.push(DVec3::new(x, y, 0.1 * (7.0 * x).sin()));
-        }
-    }
-    for i in 0..=N {
-        for j in 0..=N {
-            let a = i * (N + 1) + j;
-            if j < N {
-                net.push_edge(a, a + 1, 1.0, model.core(0.1, 0.0));
-            }
-            if i < N {
-                net.push_edge(a, a + N + 1, 1.0, model.core(0.1, 0.0));
-            }
-        }
-    }
-    net
-}
-
 /// What is counted.
 fn sum(model: CoreModel, times: usize) {
     let mut kernel = DirectSum::new(model);
-    kernel.load_network(&sheet(model));
+    kernel.load_network(&wavy::sheet(model, N));
     let line = |i: usize| DVec3::splat(i as f64 / TARGETS as f64);
     let targets: Points = (0..TARGETS).map(line).collect();
     let mut out = Points::zeros(TARGETS);
