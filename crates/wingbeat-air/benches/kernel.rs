@@ -79,10 +79,10 @@ fn mix<S: Simd>(simd: S, start: f64, edges: usize) -> f64 {
         for [x1, y1, z1, n1] in old {
             let [x2, y2, z2, n2] = new;
             let c = [y1 * z2 - z1 * y2, z1 * x2 - x1 * z2, x1 * y2 - y1 * x2];
-            let d = x1 * x2 + y1 * y2 + z1 * z2;
-            let den = n1 * n2 * (n1 * n2 + d) + 1e-4;
+            let t = n1 + n2;
+            let den = n1 * n2 * (t * t - 0.3) + 1e-4;
             let zero = S::f64s::splat(simd, 0.0);
-            let k = den.simd_gt(zero).select((n1 + n2) * 0.08 / den, zero);
+            let k = den.simd_gt(zero).select(t * 0.08 / den, zero);
             for i in 0..3 {
                 sum[i] += c[i] * k;
             }

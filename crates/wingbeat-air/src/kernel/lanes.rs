@@ -5,7 +5,7 @@
 
 use super::model::CoreModel;
 use super::packed::{Packed, PackedEdge, Patch, WINDOW};
-use super::reference::{EXP_POLYNOMIAL, STRENGTH};
+use super::reference::{EXP2_POLYNOMIAL, EXPONENT, FULL, NEAREST, ONE, STRENGTH};
 use fearless_simd::{Level, dispatch, prelude::*};
 use std::ops::Range;
 
@@ -47,10 +47,14 @@ pub(crate) fn add_patches(
         count,
     };
     match model {
-        CoreModel::CutOff { .. } => dispatch!(level, simd => job.run::<_, CutOff>(simd, sum)),
-        CoreModel::Vatistas { .. } => dispatch!(level, simd => job.run::<_, Vatistas>(simd, sum)),
-        CoreModel::Scully { .. } => dispatch!(level, simd => job.run::<_, Scully>(simd, sum)),
-        CoreModel::LambOseen { .. } => dispatch!(level, simd => job.run::<_, LambOseen>(simd, sum)),
+        CoreModel::CutOff { .. } => dispatch!(level, simd => job.run::<_, CutOff, 2>(simd, sum)),
+        CoreModel::Vatistas { .. } => {
+            dispatch!(level, simd => job.run::<_, Vatistas, 2>(simd, sum))
+        }
+        CoreModel::Scully { .. } => dispatch!(level, simd => job.run::<_, Scully, 2>(simd, sum)),
+        CoreModel::LambOseen { .. } => {
+            dispatch!(level, simd => job.run::<_, LambOseen, 4>(simd, sum))
+        }
     }
 }
 
@@ -98,18 +102,19 @@ struct Job<'a> {
 
 impl Job<'_> {
     #[inline(always)]
-    fn run<S: Simd, C: Core>(&self, simd: S, sum: &mut Block) {
+    fn run<S: Simd, C: Core, const N: usize>(&self, simd: S, sum: &mut Block) {
         let mut window = [[S::f64s::splat(simd, 0.0); 4]; WINDOW];
         for lane in (0..self.count).step_by(S::f64s::LEN) {
             let p = load(simd, self.targets, lane);
             let mut v = load(simd, sum, lane);
-            for patch in self
-                .ranges
-                .iter()
-                .flat_map(|r| &self.packed.patches[r.clone()])
-            {
-                self.look_at_nodes::<S>(p, patch, &mut window);
-                self.add_edges::<S, C>(simd, patch, &window, &mut v);
+            for range in self.ranges {
+                self.sum_patches::<S, C, N>(
+                    simd,
+                    &self.packed.patches[range.clone()],
+                    p,
+                    &mut window,
+                    &mut v,
+                );
             }
             store::<S>(v, sum, lane);
         }
@@ -121,10 +126,11 @@ impl Job<'_> {
         for lane in (0..self.count).step_by(S::f64s::LEN) {
             let (p, n) = (load(simd, self.targets, lane), load(simd, normals, lane));
             for patch in &self.packed.patches {
-                self.look_at_nodes::<S>(p, patch, &mut window);
+                self.look_at::<S>(p, patch.nodes.clone(), &mut window);
                 for e in patch.edges.clone() {
-                    let edge = &self.packed.edges[e];
-                    let [(c, k)] = induced::<S, C, 1>(simd, [edge], [STRENGTH], &window);
+                    let mut edge = self.packed.edges[e];
+                    edge.strength = 2.0 * STRENGTH;
+                    let [(c, k)] = induced::<S, C, 1>(simd, &[edge], &window);
                     let v = c[0] * k * n[0] + c[1] * k * n[1] + c[2] * k * n[2];
                     v.store_slice(&mut out[e * BLOCK + lane..][..S::f64s::LEN]);
                 }
@@ -132,43 +138,52 @@ impl Job<'_> {
         }
     }
 
-    /// r = p - node and abs(r) for the new nodes of the patch.
+    /// Sums the edges of patches that follow each other. The nodes of the next patch are looked at between the
+    /// edges of this one: while the processor takes their roots, it sums. `N` edges go side by side: as many as
+    /// registers and the length of the core's function want, measured.
     #[inline(always)]
-    fn look_at_nodes<S: Simd>(&self, p: [S::f64s; 3], patch: &Patch, window: &mut Window<S>) {
-        for (k, node) in patch
-            .nodes
-            .clone()
-            .zip(&self.packed.nodes[patch.nodes.clone()])
-        {
+    fn sum_patches<S: Simd, C: Core, const N: usize>(
+        &self,
+        simd: S,
+        patches: &[Patch],
+        p: [S::f64s; 3],
+        window: &mut Window<S>,
+        v: &mut [S::f64s; 3],
+    ) {
+        let nodes_of = |i: usize| {
+            patches
+                .get(i)
+                .map_or(0..0, |patch: &Patch| patch.nodes.clone())
+        };
+        self.look_at::<S>(p, nodes_of(0), window);
+        for (i, patch) in patches.iter().enumerate() {
+            let mut next = nodes_of(i + 1);
+            let (groups, rest) = self.packed.edges[patch.edges.clone()].as_chunks::<N>();
+            for edges in groups {
+                let later = (next.start + N / 2).min(next.end);
+                self.look_at::<S>(p, next.start..later, window);
+                next.start = later;
+                add_group::<S, C, N>(simd, edges, window, v);
+            }
+            for edge in rest.as_chunks::<1>().0 {
+                add_group::<S, C, 1>(simd, edge, window, v);
+            }
+            self.look_at::<S>(p, next, window);
+        }
+    }
+
+    /// r = p - node and abs(r) of these nodes.
+    #[inline(always)]
+    fn look_at<S: Simd>(&self, p: [S::f64s; 3], nodes: Range<usize>, window: &mut Window<S>) {
+        for (k, node) in nodes.clone().zip(&self.packed.nodes[nodes]) {
             let (x, y, z) = (p[0] - node.x, p[1] - node.y, p[2] - node.z);
             window[k % WINDOW] = [x, y, z, (x * x + y * y + z * z).sqrt()];
         }
     }
-
-    /// Sums the edges of the patch.
-    #[inline(always)]
-    fn add_edges<S: Simd, C: Core>(
-        &self,
-        simd: S,
-        patch: &Patch,
-        window: &Window<S>,
-        v: &mut [S::f64s; 3],
-    ) {
-        let (groups, rest) = self.packed.edges[patch.edges.clone()].as_chunks::<SIDE_BY_SIDE>();
-        for edges in groups {
-            add_group::<S, C, SIDE_BY_SIDE>(simd, edges, window, v);
-        }
-        for edge in rest.as_chunks::<1>().0 {
-            add_group::<S, C, 1>(simd, edge, window, v);
-        }
-    }
 }
 
-/// Edges whose operations are interleaved: those of one edge wait for each other, and a processor does
-/// not look far enough ahead to fill the time with the next edges.
-const SIDE_BY_SIDE: usize = 4;
-
-/// Sums edges side by side; their order and bits are those of one after the other.
+/// Sums edges side by side, for the operations of one wait for each other and a processor does not look far
+/// enough ahead to fill the time with the next edges. Order and bits are those of one after the other.
 #[inline(always)]
 fn add_group<S: Simd, C: Core, const N: usize>(
     simd: S,
@@ -176,12 +191,7 @@ fn add_group<S: Simd, C: Core, const N: usize>(
     window: &Window<S>,
     v: &mut [S::f64s; 3],
 ) {
-    for (c, k) in induced::<S, C, N>(
-        simd,
-        edges.each_ref(),
-        edges.each_ref().map(|e| e.strength),
-        window,
-    ) {
+    for (c, k) in induced::<S, C, N>(simd, edges, window) {
         v[0] += c[0] * k;
         v[1] += c[1] * k;
         v[2] += c[2] * k;
@@ -192,24 +202,25 @@ fn add_group<S: Simd, C: Core, const N: usize>(
 #[inline(always)]
 fn induced<S: Simd, C: Core, const N: usize>(
     simd: S,
-    edges: [&PackedEdge; N],
-    strengths: [f64; N],
+    edges: &[PackedEdge; N],
     window: &Window<S>,
 ) -> [([S::f64s; 3], S::f64s); N] {
     let zero = S::f64s::splat(simd, 0.0);
-    let (mut c, mut num, mut den, mut x) = ([[zero; 3]; N], [zero; N], [zero; N], [zero; N]);
+    let (mut c, mut num, mut den, mut z) = ([[zero; 3]; N], [zero; N], [zero; N], [zero; N]);
     // Loops, not closures: those would leave the vector instructions of the caller.
     for i in 0..N {
         let [x1, y1, z1, n1] = window[edges[i].from as usize % WINDOW];
         let [x2, y2, z2, n2] = window[edges[i].to as usize % WINDOW];
         c[i] = [y1 * z2 - z1 * y2, z1 * x2 - x1 * z2, x1 * y2 - y1 * x2];
-        let d = x1 * x2 + y1 * y2 + z1 * z2;
-        [num[i], den[i], x[i]] = C::fraction(simd, n1 + n2, n1 * n2, d, c[i], edges[i].term);
+        let sum = n1 + n2;
+        let bare = n1 * n2 * (sum * sum - edges[i].l2);
+        [num[i], den[i], z[i]] =
+            C::fraction::<S>(sum * edges[i].strength, bare, c[i], edges[i].term);
     }
-    C::regularise(simd, &mut num, &mut x);
+    C::regularise(simd, &mut num, &mut z);
     let mut out = [(c[0], zero); N];
     for i in 0..N {
-        let k = num[i] * strengths[i] / den[i];
+        let k = num[i] / den[i];
         out[i] = (c[i], den[i].simd_gt(zero).select(k, zero));
     }
     out
@@ -221,7 +232,12 @@ type Window<S> = [[<S as Simd>::f64s; 4]; WINDOW];
 /// The vectors in the lanes from `lane` on.
 #[inline(always)]
 pub(crate) fn load<S: Simd>(simd: S, block: &Block, lane: usize) -> [S::f64s; 3] {
-    [&block.x, &block.y, &block.z].map(|c| S::f64s::from_slice(simd, &c[lane..lane + S::f64s::LEN]))
+    let lanes = lane..lane + S::f64s::LEN;
+    [
+        S::f64s::from_slice(simd, &block.x[lanes.clone()]),
+        S::f64s::from_slice(simd, &block.y[lanes.clone()]),
+        S::f64s::from_slice(simd, &block.z[lanes]),
+    ]
 }
 
 /// Puts vectors into the lanes from `lane` on.
@@ -234,18 +250,11 @@ pub(crate) fn store<S: Simd>([x, y, z]: [S::f64s; 3], block: &mut Block, lane: u
 
 /// A core model, as in [`super::reference`].
 trait Core {
-    /// Numerator and denominator of K without the circulation, and what the core's function, if it has one,
-    /// is a function of.
-    fn fraction<S: Simd>(
-        simd: S,
-        sum: S::f64s,
-        nn: S::f64s,
-        d: S::f64s,
-        c: [S::f64s; 3],
-        term: f64,
-    ) -> [S::f64s; 3];
+    /// Numerator and denominator of K from those of the bare filament, and what the core's function, if it has
+    /// one, is a function of.
+    fn fraction<S: Simd>(num: S::f64s, bare: S::f64s, c: [S::f64s; 3], term: f64) -> [S::f64s; 3];
 
-    /// Multiplies the numerators by the core's function of `x`, which is used up.
+    /// Multiplies the numerators by the core's function of `z`, which is used up.
     #[inline(always)]
     fn regularise<S: Simd, const N: usize>(_: S, _: &mut [S::f64s; N], _: &mut [S::f64s; N]) {}
 }
@@ -257,102 +266,62 @@ struct LambOseen;
 
 impl Core for CutOff {
     #[inline(always)]
-    fn fraction<S: Simd>(
-        _: S,
-        sum: S::f64s,
-        nn: S::f64s,
-        d: S::f64s,
-        _: [S::f64s; 3],
-        term: f64,
-    ) -> [S::f64s; 3] {
-        [sum, nn * (nn + d) + term, d]
+    fn fraction<S: Simd>(num: S::f64s, bare: S::f64s, _: [S::f64s; 3], term: f64) -> [S::f64s; 3] {
+        [num, bare + term, num]
     }
 }
 
 impl Core for Scully {
     #[inline(always)]
-    fn fraction<S: Simd>(
-        simd: S,
-        sum: S::f64s,
-        nn: S::f64s,
-        d: S::f64s,
-        c: [S::f64s; 3],
-        term: f64,
-    ) -> [S::f64s; 3] {
-        let (c2, s, num) = bare(simd, sum, nn, d, c);
-        [num, nn * s * (c2 + term), c2]
+    fn fraction<S: Simd>(num: S::f64s, bare: S::f64s, c: [S::f64s; 3], term: f64) -> [S::f64s; 3] {
+        let c2 = square::<S>(c);
+        [num * c2, bare * (c2 + term), c2]
     }
 }
 
 impl Core for Vatistas {
     #[inline(always)]
-    fn fraction<S: Simd>(
-        simd: S,
-        sum: S::f64s,
-        nn: S::f64s,
-        d: S::f64s,
-        c: [S::f64s; 3],
-        term: f64,
-    ) -> [S::f64s; 3] {
-        let (c2, s, num) = bare(simd, sum, nn, d, c);
-        [num, nn * s * (c2 * c2 + term * term).sqrt(), c2]
+    fn fraction<S: Simd>(num: S::f64s, bare: S::f64s, c: [S::f64s; 3], term: f64) -> [S::f64s; 3] {
+        let c2 = square::<S>(c);
+        [num * c2, bare * (c2 * c2 + term * term).sqrt(), c2]
     }
 }
 
 impl Core for LambOseen {
     #[inline(always)]
-    fn fraction<S: Simd>(
-        simd: S,
-        sum: S::f64s,
-        nn: S::f64s,
-        d: S::f64s,
-        c: [S::f64s; 3],
-        term: f64,
-    ) -> [S::f64s; 3] {
-        let (c2, s, num) = bare(simd, sum, nn, d, c);
-        [num, nn * s * c2, c2 * term]
+    fn fraction<S: Simd>(num: S::f64s, bare: S::f64s, c: [S::f64s; 3], term: f64) -> [S::f64s; 3] {
+        [num, bare, square::<S>(c) * term]
     }
 
     #[inline(always)]
-    fn regularise<S: Simd, const N: usize>(simd: S, num: &mut [S::f64s; N], x: &mut [S::f64s; N]) {
-        one_minus_exp(simd, x);
+    fn regularise<S: Simd, const N: usize>(simd: S, num: &mut [S::f64s; N], z: &mut [S::f64s; N]) {
+        one_minus_exp2(simd, z);
         for i in 0..N {
-            num[i] *= x[i];
+            num[i] *= z[i];
         }
     }
 }
 
-/// c^2, s = n1 n2 + abs(d), and the numerator of the bare filament over n1 n2 s c^2.
+/// Squared length.
 #[inline(always)]
-fn bare<S: Simd>(
-    simd: S,
-    sum: S::f64s,
-    nn: S::f64s,
-    d: S::f64s,
-    c: [S::f64s; 3],
-) -> (S::f64s, S::f64s, S::f64s) {
-    let c2 = c[0] * c[0] + c[1] * c[1] + c[2] * c[2];
-    let s = nn + d.abs();
-    let ahead = d.simd_gt(S::f64s::splat(simd, 0.0));
-    (c2, s, sum * ahead.select(c2, s * s))
+fn square<S: Simd>([x, y, z]: [S::f64s; 3]) -> S::f64s {
+    x * x + y * y + z * z
 }
 
-/// [`super::reference::one_minus_exp`] in place, side by side.
+/// [`super::reference::one_minus_exp2`] in place, side by side.
 #[inline(always)]
-fn one_minus_exp<S: Simd, const N: usize>(simd: S, x: &mut [S::f64s; N]) {
-    let a = EXP_POLYNOMIAL;
-    let (top, two) = (S::f64s::splat(simd, 40.0), S::f64s::splat(simd, 2.0));
-    for u in x.iter_mut() {
-        let y = u.simd_lt(top).select(*u, top) * (1.0 / 64.0);
-        let y2 = y * y;
-        let y4 = y2 * y2;
-        let low = (y * a[1] + a[0]) + (y * a[3] + a[2]) * y2;
-        let middle = (y * a[5] + a[4]) + (y * a[7] + a[6]) * y2;
-        *u = ((low + middle * y4) + (y * a[9] + a[8]) * (y4 * y4)) * y;
-    }
-    for _ in 0..6 {
-        for u in x.iter_mut() {
-            *u *= two - *u;
-        }
+fn one_minus_exp2<S: Simd, const N: usize>(simd: S, z: &mut [S::f64s; N]) {
+    let a = EXP2_POLYNOMIAL;
+    let (full, one) = (S::f64s::splat(simd, FULL), S::f64s::splat(simd, 1.0));
+    let ones = S::u64s::splat(simd, ONE);
+    for u in z.iter_mut() {
+        let z = u.min(full);
+        let shifted = z + NEAREST;
+        let f = z - (shifted - NEAREST);
+        let f2 = f * f;
+        let even = (((f2 * a[8] + a[6]) * f2 + a[4]) * f2 + a[2]) * f2 + a[0];
+        let odd = (((f2 * a[9] + a[7]) * f2 + a[5]) * f2 + a[3]) * f2 + a[1];
+        let scale: S::f64s = (ones - (shifted.bitcast::<S::u64s>() << EXPONENT)).bitcast();
+        *u = (one - scale) + (odd * f + even) * f * scale;
     }
 }

@@ -1,5 +1,7 @@
 //! How the singularity of a vortex filament is regularised.
 
+use std::f64::consts::LOG2_E;
+
 /// Lamb-Oseen constant: the swirl is largest at r_c when 2 alpha = exp(alpha) - 1
 /// [Lamb 1932, sec. 334a].
 pub(crate) const LAMB_ALPHA: f64 = 1.256_431_208_626_169_7;
@@ -55,15 +57,15 @@ impl CoreModel {
         }
     }
 
-    /// The two numbers the kernel loop wants, from `core` and the squared length l2 \[m^2\].
+    /// What the kernel loop wants of `core`, with the squared length l2 \[m^2\].
     ///
-    /// The cut-off adds `core` as it is. The others compare h^2 with r_c^2, which is
-    /// (r1 x r2)^2 with r_c^2 l2; Lamb-Oseen wants the inverse alpha / (r_c^2 l2).
+    /// The cut-off adds it twice to a denominator that is twice the published one. The others compare h^2 with
+    /// r_c^2, which is (r1 x r2)^2 with r_c^2 l2; Lamb-Oseen wants alpha / (r_c^2 l2) as a power of two.
     pub(crate) fn kernel_term(&self, core: f64, l2: f64) -> f64 {
         match self {
-            Self::CutOff { .. } => core,
+            Self::CutOff { .. } => 2.0 * core,
             Self::Vatistas { .. } | Self::Scully { .. } => core * l2,
-            Self::LambOseen { .. } => LAMB_ALPHA / (core * l2).max(f64::MIN_POSITIVE),
+            Self::LambOseen { .. } => LAMB_ALPHA * LOG2_E / (core * l2).max(f64::MIN_POSITIVE),
         }
     }
 }

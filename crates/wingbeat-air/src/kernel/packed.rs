@@ -13,8 +13,12 @@ use wingbeat_math::DVec3;
 /// Nodes kept in sight; four vectors of eight lanes each make 32 KiB.
 pub(crate) const WINDOW: usize = 128;
 
-/// New nodes after which a patch ends, so that square roots and sums overlap in the processor.
+/// New nodes after which a patch ends; the last edge may add one more.
 const PATCH_NODES: usize = 8;
+
+/// How far back an edge may look: the nodes of the next patch come into the window before the edges of
+/// this one are done.
+const SIGHT: usize = WINDOW - (PATCH_NODES + 1);
 
 /// An edge between two nodes in the window.
 #[derive(Clone, Copy, Debug)]
@@ -23,8 +27,10 @@ pub(crate) struct PackedEdge {
     pub from: u32,
     /// Place of its second node in the window.
     pub to: u32,
-    /// Gamma / (4 pi) [m^2/s].
+    /// Gamma / (2 pi) [m^2/s].
     pub strength: f64,
+    /// Squared length [m^2].
+    pub l2: f64,
     /// [`CoreModel::kernel_term`].
     pub term: f64,
 }
@@ -107,7 +113,7 @@ impl Packed {
     /// Where node `g` of the network is in `nodes` if an edge added now may use it, else the end.
     fn in_sight(&self, g: u32) -> usize {
         let (k, end) = (self.last_seen[g as usize], self.nodes.len());
-        if k < end && k >= self.group && k + WINDOW >= end + 2 {
+        if k < end && k >= self.group && k + SIGHT >= end + 2 {
             k
         } else {
             end
@@ -130,7 +136,7 @@ impl Packed {
         let end = self.nodes.len();
         let patch = self.patches.last_mut().expect("a patch is open");
         patch.oldest = patch.oldest.min(k);
-        if patch.nodes.len() >= PATCH_NODES || patch.oldest + WINDOW < end + 2 {
+        if patch.nodes.len() >= PATCH_NODES || patch.oldest + SIGHT < end + 2 {
             self.open_patch();
             self.patches.last_mut().expect("just opened").oldest = k;
         }
@@ -155,12 +161,13 @@ impl Packed {
     fn add_edge(&mut self, model: CoreModel, [from, to]: [usize; 2], gamma: f64, core: f64) {
         let r0 = self.nodes[to] - self.nodes[from];
         let l2 = r0.x * r0.x + r0.y * r0.y + r0.z * r0.z;
-        let (strength, term) = (gamma * STRENGTH, model.kernel_term(core, l2));
+        let (strength, term) = (gamma * (2.0 * STRENGTH), model.kernel_term(core, l2));
         let [from, to] = [from, to].map(|k| (k % WINDOW) as u32);
         self.edges.push(PackedEdge {
             from,
             to,
             strength,
+            l2,
             term,
         });
         self.patches.last_mut().expect("a patch is open").edges.end = self.edges.len();

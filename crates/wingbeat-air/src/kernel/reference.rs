@@ -10,11 +10,10 @@ use wingbeat_math::DVec3;
 /// Velocity \[m/s\] at `p` induced by the segment a -> b (frame N, m) of circulation `gamma`
 /// \[m^2/s\] and regularisation number `core` ([`CoreModel::core`]).
 ///
-/// With n = abs(r), d = r1.r2, c = r1 x r2, c^2 = (n1 n2 - d)(n1 n2 + d), the bare filament is
-/// c (n1 + n2)(n1 n2 - d) / (n1 n2 c^2). The textbook difference of cosines loses n1 n2 - d near
-/// the extension of the filament; here the small one of n1 n2 -+ d is c^2 over the large one,
-/// s = n1 n2 + abs(d). The core factors change only the last c^2 (h^2 = c^2 / r0^2):
-/// Scully makes it c^2 + e, Vatistas sqrt(c^4 + e^2), e = r_c^2 r0^2.
+/// With n = abs(r), t = n1 + n2, l = abs(b - a), c = r1 x r2, the bare filament is 2 c t / (n1 n2 (t^2 - l^2)),
+/// for t^2 - l^2 = 2 (n1 n2 + r1.r2). Where the textbook difference of cosines cancels, near the extension
+/// of the filament, this sum does not. The cut-off adds to the denominator; the others multiply by a function of
+/// h^2 = c^2 / l^2: c^2 / (c^2 + e) for Scully, c^2 / sqrt(c^4 + e^2) for Vatistas, e = r_c^2 l^2.
 ///
 /// On the line of the filament, its nodes included, the result is zero.
 ///
@@ -37,67 +36,59 @@ pub fn segment_velocity(
 ) -> DVec3 {
     let (r1, r2) = (p - a, p - b);
     let (n1, n2) = (dot(r1, r1).sqrt(), dot(r2, r2).sqrt());
-    let (nn, d, c) = (n1 * n2, dot(r1, r2), cross(r1, r2));
-    let term = model.kernel_term(core, dot(b - a, b - a));
+    let (sum, c, l2) = (n1 + n2, cross(r1, r2), dot(b - a, b - a));
+    let (bare, term) = (n1 * n2 * (sum * sum - l2), model.kernel_term(core, l2));
+    let (c2, num) = (dot(c, c), sum * (gamma * (2.0 * STRENGTH)));
     let (num, den) = match model {
-        CoreModel::CutOff { .. } => (n1 + n2, nn * (nn + d) + term),
-        _ => regularised(model, n1 + n2, nn, d, dot(c, c), term),
+        CoreModel::CutOff { .. } => (num, bare + term),
+        CoreModel::Scully { .. } => (num * c2, bare * (c2 + term)),
+        CoreModel::Vatistas { .. } => (num * c2, bare * (c2 * c2 + term * term).sqrt()),
+        CoreModel::LambOseen { .. } => (num * one_minus_exp2(c2 * term), bare),
     };
-    let k = if den > 0.0 {
-        num * (gamma * STRENGTH) / den
-    } else {
-        0.0
-    };
+    let k = if den > 0.0 { num / den } else { 0.0 };
     c * k
 }
 
 /// 1 / (4 pi).
 pub(crate) const STRENGTH: f64 = 0.25 / PI;
 
-/// Numerator and denominator of K for the models that multiply the bare filament by a function of h.
-fn regularised(model: CoreModel, sum: f64, nn: f64, d: f64, c2: f64, term: f64) -> (f64, f64) {
-    let s = nn + d.abs();
-    let num = sum * if d > 0.0 { c2 } else { s * s };
-    match model {
-        CoreModel::Scully { .. } => (num, nn * s * (c2 + term)),
-        CoreModel::Vatistas { .. } => (num, nn * s * (c2 * c2 + term * term).sqrt()),
-        CoreModel::LambOseen { .. } => (num * one_minus_exp(c2 * term), nn * s * c2),
-        CoreModel::CutOff { .. } => unreachable!("the cut-off is not a function of h"),
-    }
+/// u = 1 - 2^-z, z >= 0, to a few units in the last place, with operations that give the same bits on every
+/// processor. With z = k + f, k the nearest integer: u = (1 - 2^-k) + 2^-k f R(f), a sum that cancels nothing.
+/// Above z = 60 it is 1 to machine accuracy.
+pub fn one_minus_exp2(z: f64) -> f64 {
+    let z = z.min(FULL);
+    let shifted = z + NEAREST;
+    let f = z - (shifted - NEAREST);
+    let (a, f2) = (EXP2_POLYNOMIAL, f * f);
+    let even = (((a[8] * f2 + a[6]) * f2 + a[4]) * f2 + a[2]) * f2 + a[0];
+    let odd = (((a[9] * f2 + a[7]) * f2 + a[5]) * f2 + a[3]) * f2 + a[1];
+    let scale = f64::from_bits(ONE.wrapping_sub(shifted.to_bits() << EXPONENT));
+    (1.0 - scale) + (odd * f + even) * f * scale
 }
 
-/// u = 1 - exp(-x), x >= 0, to a few units in the last place with products and sums only, so that
-/// every processor gives the same bits: a polynomial at x / 64, then six times
-/// u(2x) = u(x) (2 - u(x)), which cancels nothing. Above x = 40 it is 1 to machine accuracy.
-///
-/// The polynomial is summed in pairs (Estrin): its chain of dependent operations is half as long as
-/// Horner's, and the chain is what the processor waits for.
-pub fn one_minus_exp(x: f64) -> f64 {
-    let a = EXP_POLYNOMIAL;
-    let y = x.min(40.0) * (1.0 / 64.0);
-    let (y2, pair) = (y * y, |i: usize| a[i] + a[i + 1] * y);
-    let y4 = y2 * y2;
-    let (low, middle) = (pair(0) + pair(2) * y2, pair(4) + pair(6) * y2);
-    let mut u = ((low + middle * y4) + pair(8) * (y4 * y4)) * y;
-    for _ in 0..6 {
-        u = u * (2.0 - u);
-    }
-    u
-}
+/// Where 1 - 2^-z is 1.
+pub(crate) const FULL: f64 = 60.0;
 
-/// (1 - exp(-y)) / y on \[0, 40/64\], lowest power first: the Chebyshev interpolant at ten points,
-/// relative error 4e-16.
-pub(crate) const EXP_POLYNOMIAL: [f64; 10] = [
-    0.999_999_999_999_999_7,
-    -0.499_999_999_999_892_6,
-    0.166_666_666_660_986_48,
-    -0.041_666_666_550_040_546,
-    0.008_333_332_115_531_883,
-    -0.001_388_881_570_299_966_8,
-    0.000_198_385_840_128_103_94,
-    -2.474_026_104_727_837e-5,
-    2.670_230_005_253_597_6e-6,
-    -2.078_765_350_341_922_4e-7,
+/// Added to a number, leaves the nearest integer in the last bits: 1.5 2^52.
+pub(crate) const NEAREST: f64 = 6_755_399_441_055_744.0;
+
+/// Bits of 1, and the place of the exponent among them.
+pub(crate) const ONE: u64 = 0x3ff0_0000_0000_0000;
+pub(crate) const EXPONENT: u32 = 52;
+
+/// (1 - 2^-f) / f on \[-1/2, 1/2\], lowest power first: the Chebyshev interpolant at ten points,
+/// relative error 1.4e-15.
+pub(crate) const EXP2_POLYNOMIAL: [f64; 10] = [
+    0.6931471805599462,
+    -0.24022650695910075,
+    0.05550410866465167,
+    -0.009618129107618665,
+    0.0013333558200794592,
+    -0.00015403530424776529,
+    1.5252672924850737e-05,
+    -1.3215451633221434e-06,
+    1.0205905413765595e-07,
+    -7.070977866508138e-09,
 ];
 
 /// Adds to `out` the velocities \[m/s\] of all segments at all targets, one after the other.
