@@ -155,7 +155,8 @@ fn stop_flag() -> Arc<AtomicBool> {
 
 fn fly(manner: &Manner, mut run: Run, stop: &AtomicBool) -> ExitCode {
     let mut progress = Progress::new(&run.case.setup, manner, run.flight.state().step);
-    let flown = steps(&mut run, &mut progress, stop);
+    // Within the pool: handing it work from outside wakes a thread for every sum.
+    let flown = rayon::scope(|_| steps(&mut run, &mut progress, stop));
     progress.clear();
     let outcome = match flown {
         Ok(outcome) => outcome,

@@ -4,6 +4,7 @@ use super::harmonics::{Coefficient, Harmonics};
 use super::model::CoreModel;
 use super::packed::Packed;
 use super::reference::STRENGTH;
+use super::single::Single;
 use super::sources::Network;
 use fearless_simd::{Level, dispatch};
 use std::ops::Range;
@@ -49,6 +50,8 @@ pub(crate) struct Cells {
     pub level: Level,
     pub harmonics: Harmonics,
     pub packed: Packed,
+    /// The near field in single precision, if it is summed so.
+    pub single: Option<Single>,
     pub cells: Vec<Cell>,
     /// Patches of each leaf.
     pub leaf_patches: Vec<Range<usize>>,
@@ -59,12 +62,13 @@ pub(crate) struct Cells {
 
 impl Cells {
     /// No sources yet.
-    pub fn new(model: CoreModel, level: Level, order: usize) -> Self {
+    pub fn new(model: CoreModel, level: Level, order: usize, is_single: bool) -> Self {
         Self {
             model,
             level,
             harmonics: Harmonics::new(order),
             packed: Packed::default(),
+            single: is_single.then(Single::default),
             cells: vec![],
             leaf_patches: vec![],
             coefficients: vec![],
@@ -109,6 +113,10 @@ impl Cells {
             let edges = leaf.iter().map(|item| item.index);
             let patches = self.packed.load_group(self.model, network, edges);
             self.leaf_patches.push(patches);
+        }
+        if let Some(single) = &mut self.single {
+            let leaves = self.leaf_patches.iter().cloned();
+            single.load(self.model, &self.packed, leaves);
         }
     }
 

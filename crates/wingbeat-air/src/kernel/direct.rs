@@ -1,7 +1,7 @@
 //! The direct sum: every segment at every target, in blocks over threads.
 
 use super::instruction_set::InstructionSet;
-use super::lanes::{BLOCK, Block, add_patches, edge_normal_velocities};
+use super::lanes::{BLOCK, Block, Targets, add_patches, edge_normal_velocities};
 use super::model::CoreModel;
 use super::packed::Packed;
 use super::sources::{Network, Points, Segments};
@@ -62,21 +62,19 @@ impl DirectSum {
     /// Adds to `out` \[m/s\] the velocity of all sources at the `targets` \[m\]; same bits for any
     /// number of threads of the current rayon pool.
     pub fn add_velocity(&self, targets: &Points, out: &mut Points) {
-        sum_all(self.level, self.model, &self.packed, targets, out);
+        sum_packed(self.level, self.model, &self.packed, targets, out);
     }
 }
 
-/// Adds the velocity of all of `packed` at all targets, block by block.
+/// Adds to `out` what `add` adds at all targets, block by block over threads; it sums so many `edges`.
 pub(crate) fn sum_all(
-    level: Level,
-    model: CoreModel,
-    packed: &Packed,
+    edges: usize,
     targets: &Points,
     out: &mut Points,
+    add: impl Fn(Targets<'_>, &mut Block) + Sync,
 ) {
     assert_eq!(targets.len(), out.len(), "as many velocities as targets");
-    let blocks = TASK_PAIRS.div_ceil((BLOCK * packed.edges.len()).max(1));
-    let all = 0..packed.patches.len();
+    let blocks = TASK_PAIRS.div_ceil((BLOCK * edges).max(1));
     let Points { x, y, z } = out;
     x.par_chunks_mut(BLOCK)
         .zip(y.par_chunks_mut(BLOCK))
@@ -84,20 +82,28 @@ pub(crate) fn sum_all(
         .enumerate()
         .with_min_len(blocks)
         .for_each(|(b, ((x, y), z))| {
-            let (block, mut sum) = (block_at(targets, b * BLOCK, x.len()), Block::ZERO);
-            add_patches(
-                level,
-                model,
-                packed,
-                std::slice::from_ref(&all),
-                &block,
-                x.len(),
-                &mut sum,
-            );
+            let count = x.len();
+            let (block, mut sum) = (block_at(targets, b * BLOCK, count), Block::ZERO);
+            let block = &block;
+            add(Targets { block, count }, &mut sum);
             for (out, sum) in [x, y, z].into_iter().zip([&sum.x, &sum.y, &sum.z]) {
                 out.iter_mut().zip(sum).for_each(|(o, s)| *o += s);
             }
         });
+}
+
+/// Adds the velocities of all of `packed` at all targets.
+pub(crate) fn sum_packed(
+    level: Level,
+    model: CoreModel,
+    packed: &Packed,
+    targets: &Points,
+    out: &mut Points,
+) {
+    let all = || std::iter::once(0..packed.patches.len());
+    sum_all(packed.edges.len(), targets, out, |targets, sum| {
+        add_patches(level, model, packed, all(), targets, sum);
+    });
 }
 
 /// The edges of a network one by one, each with unit circulation.
@@ -146,9 +152,11 @@ impl UnitEdges {
             self.level,
             model,
             &self.packed,
-            &points,
+            Targets {
+                block: &points,
+                count,
+            },
             &normals,
-            count,
             out,
         );
     }

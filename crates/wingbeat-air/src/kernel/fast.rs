@@ -1,12 +1,13 @@
 //! The fast sum: near sources one by one, far ones cell by cell, with a checked error.
 
 use super::cells::Cells;
-use super::direct::sum_all;
+use super::direct::{sum_all, sum_packed};
 use super::groups::Groups;
 use super::instruction_set::InstructionSet;
-use super::lanes::{BLOCK, Block, add_patches};
+use super::lanes::{BLOCK, Block, Targets, add_clusters, add_patches};
 use super::model::CoreModel;
 use super::packed::Packed;
+use super::single::{CLUSTER, SINGLE, Single};
 use super::sources::{Network, Points, Segments};
 use fearless_simd::Level;
 use rayon::prelude::*;
@@ -16,6 +17,10 @@ use wingbeat_math::DVec3;
 /// hundred targets.
 const AUTO_EDGES: usize = 4000;
 const AUTO_TARGETS: usize = 1000;
+
+/// Edges and targets from which single precision gains more than its check costs.
+const SINGLE_EDGES: usize = 500;
+const SINGLE_TARGETS: usize = 500;
 
 /// Targets, at most, at which the tree is checked against the direct sum: one of every
 /// [`SAMPLE_EVERY`].
@@ -37,6 +42,9 @@ const LAX: f64 = 10.0;
 const NEAR: u64 = 15;
 const FAR: u64 = 160;
 
+/// How many times single precision is as fast.
+const SINGLE_GAIN: u64 = 2;
+
 /// Attempts at the tolerance before the direct sum takes over.
 const ATTEMPTS: usize = 6;
 
@@ -46,9 +54,11 @@ pub enum Method {
     /// The one that is faster at this size.
     #[default]
     Auto,
-    /// Every source at every target.
+    /// Every source at every target, in double precision.
     Direct,
-    /// Far sources by cells.
+    /// Every source at every target, in single precision; in double where the tolerance wants that.
+    Single,
+    /// Far sources by cells, near ones in single precision if the tolerance allows it.
     Tree,
 }
 
@@ -81,7 +91,7 @@ impl FastSettings {
 /// What a sum did and how well.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Report {
-    /// Tree or direct, never [`Method::Auto`].
+    /// How it was summed, never [`Method::Auto`].
     pub method: Method,
     /// Root mean square of the error at the sampled targets, relative to that of the velocity there.
     pub error_rms: f64,
@@ -97,10 +107,11 @@ pub struct Report {
     pub near: u64,
 }
 
-/// A sum that is direct for small sets and a tree for large ones, its error measured at every call.
+/// A sum that is direct for small sets, in single precision for larger ones, and a tree where that spares
+/// something; the error of both is measured at every call.
 ///
-/// The tree is a deterministic function of sources, targets and settings: same bits for any number
-/// of threads and any instructions. Its cost is about N log N, its memory linear, and nothing is
+/// It is a deterministic function of sources, targets and settings: same bits for any number
+/// of threads and any instructions. A tree's cost is about N log N, all memory linear, and nothing is
 /// allocated after the first call of a size.
 ///
 /// ```
@@ -120,8 +131,12 @@ pub struct Report {
 pub struct FastSum {
     settings: FastSettings,
     level: Level,
-    /// The sources in the order given, for the direct sum.
+    /// The sources in the order given, for the direct sums.
     packed: Packed,
+    single: Single,
+    has_single: bool,
+    /// Velocities in single precision, before they are checked.
+    velocity: Points,
     cells: Cells,
     has_tree: bool,
     groups: Groups,
@@ -137,12 +152,16 @@ impl FastSum {
                 .expect("the best is always there")
         };
         let level = settings.instructions.level().unwrap_or_else(best);
-        let cells = Cells::new(settings.model, level, order(settings.tolerance));
+        let is_single = settings.tolerance >= SINGLE;
+        let cells = Cells::new(settings.model, level, order(settings.tolerance), is_single);
         let (groups, segments) = (Groups::default(), Network::default());
         Self {
             settings,
             level,
             packed: Packed::default(),
+            single: Single::default(),
+            has_single: false,
+            velocity: Points::default(),
             cells,
             has_tree: false,
             groups,
@@ -157,14 +176,29 @@ impl FastSum {
 
     /// Replaces the sources.
     pub fn load_network(&mut self, network: &Network) {
-        self.has_tree = match self.settings.method {
+        let FastSettings {
+            method,
+            model,
+            tolerance,
+            ..
+        } = self.settings;
+        self.has_tree = match method {
             Method::Auto => network.len() >= AUTO_EDGES,
-            Method::Direct => false,
+            Method::Direct | Method::Single => false,
             Method::Tree => !network.is_empty(),
         };
-        self.packed.load_network(self.settings.model, network);
+        self.has_single = matches!(method, Method::Auto | Method::Single)
+            && network.len() >= SINGLE_EDGES
+            && tolerance >= SINGLE;
+        self.packed.load_network(model, network);
         if self.has_tree {
             self.cells.load(network);
+        }
+        if self.has_single {
+            let patches = self.packed.patches.len();
+            let clusters = (0..patches).step_by(CLUSTER);
+            let clusters = clusters.map(|first| first..patches.min(first + CLUSTER));
+            self.single.load(model, &self.packed, clusters);
         }
     }
 
@@ -180,15 +214,36 @@ impl FastSum {
     pub fn add_velocity(&mut self, targets: &Points, out: &mut Points) -> Report {
         assert_eq!(targets.len(), out.len(), "as many velocities as targets");
         let few = self.settings.method == Method::Auto && targets.len() < AUTO_TARGETS;
-        if !self.has_tree || few || targets.is_empty() {
+        let has_tree = self.has_tree && !few;
+        let has_single = self.has_single && targets.len() >= SINGLE_TARGETS;
+        if targets.is_empty() || !(has_tree || has_single) {
             return self.add_direct(targets, out, 0);
         }
         let check = Check::new(self, targets);
-        self.groups.load(targets);
-        let (allowed, attempts, [error_rms, error_max]) = match self.find_allowed(&check) {
-            Ok(found) => found,
-            Err(attempts) => return self.add_direct(targets, out, attempts),
-        };
+        let mut attempts = 0;
+        if has_tree {
+            self.groups.load(targets);
+            match self.find_allowed(&check) {
+                Ok((allowed, attempts, error)) => {
+                    return self.add_tree(&check, allowed, attempts, error, out);
+                }
+                Err(made) => attempts = made,
+            }
+        }
+        if has_single {
+            return self.add_single(&check, targets, attempts, out);
+        }
+        self.add_direct(targets, out, attempts)
+    }
+
+    fn add_tree(
+        &mut self,
+        check: &Check,
+        allowed: f64,
+        attempts: usize,
+        [error_rms, error_max]: [f64; 2],
+        out: &mut Points,
+    ) -> Report {
         let work = self.groups.evaluate(&self.cells, allowed);
         self.groups.add_to(out);
         Report {
@@ -202,6 +257,44 @@ impl FastSum {
         }
     }
 
+    /// In single precision, or in double if the error at the sampled targets is above the tolerance.
+    fn add_single(
+        &mut self,
+        check: &Check,
+        targets: &Points,
+        attempts: usize,
+        out: &mut Points,
+    ) -> Report {
+        let (level, model, single) = (self.level, self.settings.model, &self.single);
+        self.velocity.reset(targets.len());
+        sum_all(
+            self.packed.edges.len(),
+            targets,
+            &mut self.velocity,
+            |targets, sum| {
+                add_clusters(level, model, single, 0..single.clusters.len(), targets, sum);
+            },
+        );
+        let sampled = check.index.map(|i| self.velocity.get(i));
+        let [error_rms, error_max] = check.error(&sampled[..check.count]);
+        let is_finite = self.velocity.iter().all(|v| v.is_finite());
+        if !is_finite || error_rms > self.settings.tolerance {
+            return self.add_direct(targets, out, attempts + 1);
+        }
+        for (i, v) in self.velocity.iter().enumerate() {
+            out.set(i, out.get(i) + v);
+        }
+        Report {
+            method: Method::Single,
+            error_rms,
+            error_max,
+            samples: check.count,
+            attempts: attempts + 1,
+            far: 0,
+            near: (self.packed.edges.len() * targets.len()) as u64,
+        }
+    }
+
     /// What a far cell may leave out \[m/s\] so that the error at the sampled targets keeps the
     /// tolerance, the attempts it took, and that error (root mean square, largest): begins too lax, for
     /// a lax attempt costs little. Instead the attempts made if the tolerance cannot be kept, or not
@@ -209,6 +302,7 @@ impl FastSum {
     fn find_allowed(&mut self, check: &Check) -> Result<(f64, usize, [f64; 2]), usize> {
         let tolerance = self.settings.tolerance;
         let mut share = LAX * share(self.cells.leaf_patches.len());
+        let gain = if self.has_single { SINGLE_GAIN } else { 1 };
         let mut velocity = [DVec3::ZERO; SAMPLES];
         for attempt in 1..=ATTEMPTS {
             let allowed = share * tolerance * check.scale;
@@ -216,7 +310,7 @@ impl FastSum {
             let work = (self.groups).sample(&self.cells, allowed, samples, velocity);
             let pairs = self.packed.edges.len() as u64 * work.targets;
             if self.settings.method == Method::Auto
-                && NEAR * work.near + FAR * work.far > 10 * pairs
+                && NEAR * work.near + gain * FAR * work.far > 10 * pairs
             {
                 return Err(attempt); // a stricter one costs more still
             }
@@ -231,7 +325,7 @@ impl FastSum {
 
     fn add_direct(&self, targets: &Points, out: &mut Points, attempts: usize) -> Report {
         let packed = &self.packed;
-        sum_all(self.level, self.settings.model, packed, targets, out);
+        sum_packed(self.level, self.settings.model, packed, targets, out);
         Report {
             method: Method::Direct,
             error_rms: 0.0,
@@ -284,8 +378,12 @@ impl Check {
                 }
                 let FastSum { level, packed, .. } = sum;
                 let (model, all) = (sum.settings.model, 0..packed.patches.len());
-                let (ranges, n) = (std::slice::from_ref(&all), v.len());
-                add_patches(*level, model, packed, ranges, &block, n, &mut velocity);
+                let targets = Targets {
+                    block: &block,
+                    count: v.len(),
+                };
+                let all = std::iter::once(all);
+                add_patches(*level, model, packed, all, targets, &mut velocity);
                 let vector =
                     |lane: usize| DVec3::new(velocity.x[lane], velocity.y[lane], velocity.z[lane]);
                 v.iter_mut()

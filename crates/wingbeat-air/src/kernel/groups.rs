@@ -1,11 +1,10 @@
 //! Targets in groups of neighbours, and the walk of a group through the cells.
 
 use super::cells::{Cells, Item, half_fade, split};
-use super::lanes::{Block, add_patches, load, store};
+use super::lanes::{Block, Targets, add_clusters, add_patches, load, store};
 use super::sources::Points;
 use fearless_simd::{Simd, dispatch, prelude::*};
 use rayon::prelude::*;
-use std::ops::Range;
 use wingbeat_math::DVec3;
 
 /// Targets of a group; fewer see fewer cells near, more share the walk.
@@ -146,7 +145,7 @@ struct Walk<'a> {
     count: usize,
     sum: Block,
     far: Notes<usize>,
-    near: Notes<Range<usize>>,
+    near: Notes<usize>,
     work: Work,
 }
 
@@ -185,7 +184,7 @@ impl<'a> Walk<'a> {
                 len: 0,
             },
             near: Notes {
-                list: [const { 0..0 }; NOTES],
+                list: [0; NOTES],
                 len: 0,
             },
             work: Work::default(),
@@ -212,7 +211,7 @@ impl<'a> Walk<'a> {
             self.visit(two);
         } else {
             let leaf = self.cells.cells[c].leaves.start as usize;
-            if self.near.push(self.cells.leaf_patches[leaf].clone()) {
+            if self.near.push(leaf) {
                 self.sum_near();
             }
         }
@@ -233,23 +232,25 @@ impl<'a> Walk<'a> {
 
     fn sum_near(&mut self) {
         let leaves = &self.near.list[..self.near.len];
-        let Cells {
-            level,
-            model,
-            packed,
-            ..
-        } = self.cells;
-        add_patches(
-            *level,
-            *model,
-            packed,
-            leaves,
-            &self.targets,
-            self.count,
-            &mut self.sum,
-        );
-        let patches = leaves.iter().flat_map(|r| &packed.patches[r.clone()]);
-        let edges: usize = patches.map(|p| p.edges.len()).sum();
+        let cells = self.cells;
+        let patches_of = |&leaf: &usize| cells.leaf_patches[leaf].clone();
+        let (level, model) = (cells.level, cells.model);
+        let targets = Targets {
+            block: &self.targets,
+            count: self.count,
+        };
+        match &cells.single {
+            Some(single) => {
+                let clusters = leaves.iter().copied();
+                add_clusters(level, model, single, clusters, targets, &mut self.sum);
+            }
+            None => {
+                let ranges = leaves.iter().map(patches_of);
+                add_patches(level, model, &cells.packed, ranges, targets, &mut self.sum);
+            }
+        }
+        let patches = leaves.iter().map(patches_of).flatten();
+        let edges: usize = patches.map(|p| cells.packed.patches[p].edges.len()).sum();
         self.work.near += (edges * self.count) as u64;
         self.near.len = 0;
     }

@@ -41,6 +41,7 @@ mod moments;
 mod packed;
 mod particles;
 pub mod reference;
+mod single;
 mod sources;
 
 pub(crate) use direct::UnitEdges;

@@ -60,11 +60,13 @@ impl CoreModel {
     /// What the kernel loop wants of `core`, with the squared length l2 \[m^2\].
     ///
     /// The cut-off adds it twice to a denominator that is twice the published one. The others compare h^2 with
-    /// r_c^2, which is (r1 x r2)^2 with r_c^2 l2; Lamb-Oseen wants alpha / (r_c^2 l2) as a power of two.
+    /// r_c^2, which is (r1 x r2)^2 with r_c^2 l2; Vatistas wants its square, Lamb-Oseen alpha / (r_c^2 l2)
+    /// for a power of two.
     pub(crate) fn kernel_term(&self, core: f64, l2: f64) -> f64 {
         match self {
             Self::CutOff { .. } => 2.0 * core,
-            Self::Vatistas { .. } | Self::Scully { .. } => core * l2,
+            Self::Vatistas { .. } => (core * l2).powi(2),
+            Self::Scully { .. } => core * l2,
             Self::LambOseen { .. } => LAMB_ALPHA * LOG2_E / (core * l2).max(f64::MIN_POSITIVE),
         }
     }

@@ -4,6 +4,7 @@
 //! the first-level cache. An edge whose nodes are still there costs no square root, so a sheet given
 //! row by row pays one for two edges.
 
+use super::lanes::Sources;
 use super::model::CoreModel;
 use super::reference::STRENGTH;
 use super::sources::{Network, Points, Segments};
@@ -22,17 +23,17 @@ const SIGHT: usize = WINDOW - (PATCH_NODES + 1);
 
 /// An edge between two nodes in the window.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct PackedEdge {
+pub(crate) struct PackedEdge<E> {
     /// Place of its first node in the window.
     pub from: u32,
     /// Place of its second node in the window.
     pub to: u32,
     /// Gamma / (2 pi) [m^2/s].
-    pub strength: f64,
+    pub strength: E,
     /// Squared length [m^2].
-    pub l2: f64,
+    pub l2: E,
     /// [`CoreModel::kernel_term`].
-    pub term: f64,
+    pub term: E,
 }
 
 /// A run of nodes to look at, then a run of edges to sum. Node k stands at place k mod [`WINDOW`].
@@ -49,8 +50,9 @@ pub(crate) struct Patch {
 /// All sources; edges stay in the order given.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Packed {
-    pub nodes: Vec<DVec3>,
-    pub edges: Vec<PackedEdge>,
+    /// Places of nodes [m].
+    pub nodes: Vec<[f64; 3]>,
+    pub edges: Vec<PackedEdge<f64>>,
     pub patches: Vec<Patch>,
     /// Node of the network -> where in `nodes` it was last put.
     last_seen: Vec<usize>,
@@ -66,6 +68,15 @@ impl Packed {
         self.patches.clear();
         self.last_seen.clear();
         self.last_seen.resize(n, usize::MAX);
+    }
+
+    /// What the loop takes.
+    pub fn sources(&self) -> Sources<'_, f64> {
+        Sources {
+            nodes: &self.nodes,
+            edges: &self.edges,
+            patches: &self.patches,
+        }
     }
 
     /// Takes free segments: two nodes each.
@@ -153,13 +164,13 @@ impl Packed {
 
     /// Puts a node at the end of the stream; returns where.
     fn look_at(&mut self, p: DVec3) -> usize {
-        self.nodes.push(p);
+        self.nodes.push(p.into());
         self.patches.last_mut().expect("a patch is open").nodes.end = self.nodes.len();
         self.nodes.len() - 1
     }
 
     fn add_edge(&mut self, model: CoreModel, [from, to]: [usize; 2], gamma: f64, core: f64) {
-        let r0 = self.nodes[to] - self.nodes[from];
+        let r0 = DVec3::from(self.nodes[to]) - DVec3::from(self.nodes[from]);
         let l2 = r0.x * r0.x + r0.y * r0.y + r0.z * r0.z;
         let (strength, term) = (gamma * (2.0 * STRENGTH), model.kernel_term(core, l2));
         let [from, to] = [from, to].map(|k| (k % WINDOW) as u32);

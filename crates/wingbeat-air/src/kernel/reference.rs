@@ -42,7 +42,7 @@ pub fn segment_velocity(
     let (num, den) = match model {
         CoreModel::CutOff { .. } => (num, bare + term),
         CoreModel::Scully { .. } => (num * c2, bare * (c2 + term)),
-        CoreModel::Vatistas { .. } => (num * c2, bare * (c2 * c2 + term * term).sqrt()),
+        CoreModel::Vatistas { .. } => (num * c2, bare * (c2 * c2 + term).sqrt()),
         CoreModel::LambOseen { .. } => (num * one_minus_exp2(c2 * term), bare),
     };
     let k = if den > 0.0 { num / den } else { 0.0 };

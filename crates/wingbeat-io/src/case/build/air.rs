@@ -123,6 +123,7 @@ fn lattice(case: &AirCase, joined: Vec<[usize; 2]>) -> Built<AirOptions> {
         summation: match case.summation {
             SummationCase::Auto => Method::Auto,
             SummationCase::Direct => Method::Direct,
+            SummationCase::Single => Method::Single,
             SummationCase::Tree => Method::Tree,
         },
         tolerance: positive("air.summation_tolerance", case.summation_tolerance)?,

@@ -92,9 +92,10 @@ pub struct AirCase {
     /// out: none.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub section_drag: Option<SectionDragCase>,
-    /// How the velocities of the wakes are summed: `direct`, `tree`, or whichever is faster.
+    /// How the velocities of the wakes are summed: `direct`, `single`, `tree`, or whichever is fastest.
     pub summation: SummationCase,
-    /// Allowed error of the tree, relative to the velocity; it is checked at every sum.
+    /// Allowed error of tree and single precision, relative to the velocity; it is checked at every sum.
+    /// Below 1e-5 all is in double precision.
     pub summation_tolerance: f64,
     /// Settings of `model = "blade_element"`; the lattice's keys do not matter then.
     #[serde(skip_serializing_if = "is_default")]
@@ -190,11 +191,13 @@ pub enum StretchingCase {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum SummationCase {
-    /// The faster one.
+    /// The fastest one.
     Auto,
-    /// Every filament at every place.
+    /// Every filament at every place, in double precision.
     Direct,
-    /// Far filaments by the expansions of a tree.
+    /// Every filament at every place, in single precision.
+    Single,
+    /// Far filaments by the expansions of a tree, near ones in single precision.
     Tree,
 }
 
