@@ -4,7 +4,9 @@
 
 use divan::{Bencher, counter::ItemsCount};
 use fearless_simd::{Simd, dispatch, prelude::*};
-use wingbeat_air::kernel::{CoreModel, DirectSum, InstructionSet, Points};
+use wingbeat_air::kernel::{
+    CoreModel, DirectSum, FastSettings, FastSum, InstructionSet, Method, Points,
+};
 use wingbeat_math::DVec3;
 
 #[path = "../tests/wavy/mod.rs"]
@@ -48,6 +50,30 @@ fn rate(bencher: Bencher, set: &InstructionSet, model: CoreModel, shared: bool) 
 #[divan::bench(args = InstructionSet::available(), consts = [0, 1, 2, 3], sample_count = 20)]
 fn network<const MODEL: usize>(bencher: Bencher, set: &InstructionSet) {
     rate(bencher, set, MODELS[MODEL].1, true);
+}
+
+/// In single precision, the check against double included.
+#[divan::bench(args = InstructionSet::available(), consts = [0, 1, 2, 3], sample_count = 20)]
+fn single_precision<const MODEL: usize>(bencher: Bencher, set: &InstructionSet) {
+    let model = MODELS[MODEL].1;
+    let net = wavy::sheet(model, 40);
+    let mut sum = FastSum::new(FastSettings {
+        method: Method::Single,
+        instructions: *set,
+        ..FastSettings::new(model)
+    });
+    sum.load_network(&net);
+    let mut out = Points::zeros(net.nodes.len());
+    let pool = rayon::ThreadPoolBuilder::new()
+        .num_threads(1)
+        .build()
+        .expect("one thread");
+    bencher
+        .counter(ItemsCount::new(net.len() * net.nodes.len()))
+        .bench_local(|| {
+            let report = pool.install(|| sum.add_velocity(&net.nodes, &mut out));
+            assert_eq!(report.method, Method::Single);
+        });
 }
 
 #[divan::bench(args = InstructionSet::available(), sample_count = 20)]

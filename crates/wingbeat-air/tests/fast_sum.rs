@@ -229,6 +229,26 @@ fn agrees_in_single_precision_for_every_core_model() {
 }
 
 #[test]
+fn exact_double_precision_takes_over_where_the_range_of_single_ends() {
+    // Places 1e25 edge lengths away: their squares are beyond 3e38.
+    for model in MODELS {
+        let net = wakes::hover(model, 2_000);
+        let mut at = net.nodes.clone();
+        at.x.iter_mut().for_each(|x| *x += 1e24);
+        let exact = direct(model, &net, &at);
+        let mut fast = FastSum::new(FastSettings {
+            method: Method::Single,
+            ..FastSettings::new(model)
+        });
+        fast.load_network(&net);
+        let mut v = Points::zeros(at.len());
+        let report = fast.add_velocity(&at, &mut v);
+        assert_eq!(report.method, Method::Direct, "{model:?} {report:?}");
+        assert_eq!(bits(&v), bits(&exact));
+    }
+}
+
+#[test]
 fn exact_auto_takes_the_sum_that_is_fastest_at_its_size() {
     let model = MODELS[1];
     for (edges, expected) in [

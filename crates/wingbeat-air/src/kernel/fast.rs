@@ -224,8 +224,11 @@ impl FastSum {
         if has_tree {
             self.groups.load(targets);
             match self.find_allowed(&check) {
-                Ok((allowed, attempts, error)) => {
-                    return self.add_tree(&check, allowed, attempts, error, out);
+                Ok((allowed, made, error)) => {
+                    if let Some(report) = self.add_tree(&check, allowed, made, error, out) {
+                        return report;
+                    }
+                    attempts = made;
                 }
                 Err(made) => attempts = made,
             }
@@ -236,6 +239,7 @@ impl FastSum {
         self.add_direct(targets, out, attempts)
     }
 
+    /// By the tree; None, and nothing added, if single precision was too small for the near field.
     fn add_tree(
         &mut self,
         check: &Check,
@@ -243,18 +247,20 @@ impl FastSum {
         attempts: usize,
         [error_rms, error_max]: [f64; 2],
         out: &mut Points,
-    ) -> Report {
+    ) -> Option<Report> {
         let work = self.groups.evaluate(&self.cells, allowed);
-        self.groups.add_to(out);
-        Report {
-            method: Method::Tree,
-            error_rms,
-            error_max,
-            samples: check.count,
-            attempts,
-            far: work.far,
-            near: work.near,
-        }
+        self.groups.is_finite().then(|| {
+            self.groups.add_to(out);
+            Report {
+                method: Method::Tree,
+                error_rms,
+                error_max,
+                samples: check.count,
+                attempts,
+                far: work.far,
+                near: work.near,
+            }
+        })
     }
 
     /// In single precision, or in double if the error at the sampled targets is above the tolerance.

@@ -109,6 +109,11 @@ impl Groups {
             .reduce(Work::default, |a, b| a + b)
     }
 
+    /// Whether all velocities are numbers.
+    pub fn is_finite(&self) -> bool {
+        self.sums.iter().all(|v| v.is_finite())
+    }
+
     /// Adds the velocities to `out`.
     pub fn add_to(&self, out: &mut Points) {
         for (item, v) in self.items.iter().zip(self.sums.iter()) {

@@ -164,7 +164,8 @@ impl Job<'_, f64> {
 
     #[inline(always)]
     fn each<S: Simd, C: Core>(&self, simd: S, normals: &Block, out: &mut [f64]) {
-        let mut window = [[S::f64s::splat(simd, 0.0); 4]; WINDOW];
+        let zero = S::f64s::splat(simd, 0.0);
+        let (mut window, mut room) = ([[zero; 4]; WINDOW], zero);
         for lane in (0..self.targets.count).step_by(S::f64s::LEN) {
             let p = load(simd, self.targets.block, lane);
             let n = load(simd, normals, lane);
@@ -174,7 +175,8 @@ impl Job<'_, f64> {
                 for e in patch.edges.clone() {
                     let mut edge = self.sources.edges[e];
                     edge.strength = 2.0 * STRENGTH;
-                    let [(c, k)] = induced::<S, Double, C, 1>(simd, &[edge], &window);
+                    let [(c, k)] =
+                        induced::<S, Double, C, 1, true>(simd, &[edge], &window, &mut room);
                     let v = c[0] * k * n[0] + c[1] * k * n[1] + c[2] * k * n[2];
                     v.store_slice(&mut out[e * BLOCK + lane..][..S::f64s::LEN]);
                 }
@@ -224,7 +226,7 @@ impl Job<'_, f32> {
     }
 }
 
-impl<E: SimdFloatElement> Sources<'_, E> {
+impl<E: SimdFloatElement + From<f32>> Sources<'_, E> {
     /// Adds the edges of patches that follow each other. The nodes of the next patch are looked at
     /// between the edges of this one: while the processor takes their roots, it sums. `N` edges go side
     /// by side: as many as registers and the length of the core's function want, measured.
@@ -243,18 +245,27 @@ impl<E: SimdFloatElement> Sources<'_, E> {
         };
         self.look_at::<S, P>(p, nodes_of(0), window);
         for (i, patch) in patches.iter().enumerate() {
-            let mut next = nodes_of(i + 1);
-            let (groups, rest) = self.edges[patch.edges.clone()].as_chunks::<N>();
+            let (before, mut next) = (*v, nodes_of(i + 1));
+            let zero = P::Lanes::splat(simd, 0.0_f32.into());
+            let mut room = zero;
+            let edges = &self.edges[patch.edges.clone()];
+            let (groups, rest) = edges.as_chunks::<N>();
             for edges in groups {
                 let later = (next.start + N / 2).min(next.end);
                 self.look_at::<S, P>(p, next.start..later, window);
                 next.start = later;
-                add_group::<S, P, C, N>(simd, edges, window, v);
+                add_group::<S, P, C, N, false>(simd, edges, window, v, &mut room);
             }
             for edge in rest.as_chunks::<1>().0 {
-                add_group::<S, P, C, 1>(simd, edge, window, v);
+                add_group::<S, P, C, 1, false>(simd, edge, window, v, &mut room);
             }
             self.look_at::<S, P>(p, next, window);
+            if room.simd_lt(zero).any_true() {
+                *v = before;
+                for edge in edges.as_chunks::<1>().0 {
+                    add_group::<S, P, C, 1, true>(simd, edge, window, v, &mut room);
+                }
+            }
         }
     }
 
@@ -274,39 +285,60 @@ impl<E: SimdFloatElement> Sources<'_, E> {
 }
 
 /// Sums edges side by side, for the operations of one wait for each other and a processor does not look far
-/// enough ahead to fill the time with the next edges. Order and bits are those of one after the other.
+/// enough ahead to fill the time with the next edges. Order and bits are those of one after the other. As
+/// [`induced`] otherwise.
 #[inline(always)]
-fn add_group<S: Simd, P: Precision<S>, C: Core, const N: usize>(
+fn add_group<S: Simd, P: Precision<S>, C: Core, const N: usize, const CLOSE: bool>(
     simd: S,
     edges: &[PackedEdge<P::Element>; N],
     window: &Window<P::Lanes>,
     v: &mut [P::Lanes; 3],
+    room: &mut P::Lanes,
 ) {
-    for (c, k) in induced::<S, P, C, N>(simd, edges, window) {
+    for (c, k) in induced::<S, P, C, N, CLOSE>(simd, edges, window, room) {
         v[0] += c[0] * k;
         v[1] += c[1] * k;
         v[2] += c[2] * k;
     }
 }
 
-/// The velocities of edges as c k, with c = r1 x r2 and k the rest.
+/// The velocities of edges as c k, with c = r1 x r2: right where no target is close to a filament, if `CLOSE`
+/// everywhere. In lanes where one is, `room` becomes negative.
+///
+/// Beside the filament b = t^2 - l^2 is a small difference of large numbers. There it is taken from
+/// b a = 4 c^2, a = 4 n1 n2 - b: numerator and denominator are both multiplied by a.
 #[inline(always)]
-fn induced<S: Simd, P: Precision<S>, C: Core, const N: usize>(
+fn induced<S: Simd, P: Precision<S>, C: Core, const N: usize, const CLOSE: bool>(
     simd: S,
     edges: &[PackedEdge<P::Element>; N],
     window: &Window<P::Lanes>,
+    room: &mut P::Lanes,
 ) -> [([P::Lanes; 3], P::Lanes); N] {
-    let zero = P::Lanes::splat(simd, 0.0.into());
+    let zero = P::Lanes::splat(simd, 0.0_f32.into());
+    let one = P::Lanes::splat(simd, 1.0_f32.into());
+    let four: P::Element = 4.0_f32.into();
     let (mut c, mut num, mut den, mut z) = ([[zero; 3]; N], [zero; N], [zero; N], [zero; N]);
     // Loops, not closures: those would leave the vector instructions of the caller.
     for i in 0..N {
-        let [x1, y1, z1, n1] = window[edges[i].from as usize % WINDOW];
-        let [x2, y2, z2, n2] = window[edges[i].to as usize % WINDOW];
+        let edge = &edges[i];
+        let [x1, y1, z1, n1] = window[edge.from as usize % WINDOW];
+        let [x2, y2, z2, n2] = window[edge.to as usize % WINDOW];
         c[i] = [y1 * z2 - z1 * y2, z1 * x2 - x1 * z2, x1 * y2 - y1 * x2];
-        let sum = n1 + n2;
-        let [bare, scale] = P::bare(simd, n1 * n2, sum * sum - edges[i].l2, c[i]);
-        let top = sum * edges[i].strength * scale;
-        [num[i], den[i], z[i]] = C::fraction::<S, _>(top, bare, c[i], scale, edges[i].term);
+        let (sum, nn) = (n1 + n2, n1 * n2);
+        let b = sum * sum - edge.l2;
+        let close = P::Lanes::splat(simd, edge.close);
+        let (mut bare, mut scale) = (nn * b, one);
+        if CLOSE && (P::IS_ROUGH || C::IS_EXACT) {
+            let a = nn * four - b;
+            let is_beside = close.simd_gt(b) & a.simd_gt(b);
+            bare = is_beside.select(nn * (square::<S, _>(c[i]) * four), bare);
+            scale = is_beside.select(a, scale);
+        }
+        if P::IS_ROUGH || C::IS_EXACT {
+            *room = room.min(b - close);
+        }
+        let top = sum * edge.strength * scale;
+        [num[i], den[i], z[i]] = C::fraction::<S, _>(top, bare, c[i], scale, edge.term);
     }
     C::regularise::<S, P, N>(simd, &mut num, &mut z);
     let mut out = [(c[0], zero); N];
@@ -350,8 +382,8 @@ trait Precision<S: Simd> {
     type Element: SimdFloatElement + From<f32>;
     type Lanes: SimdFloat<S, Element = Self::Element>;
 
-    /// Denominator of the bare filament, and what it was multiplied by, from n1 n2, t^2 - l^2 and c.
-    fn bare(simd: S, nn: Self::Lanes, b: Self::Lanes, c: [Self::Lanes; 3]) -> [Self::Lanes; 2];
+    /// Whether every core model looks after targets close to a filament.
+    const IS_ROUGH: bool;
 
     /// [`super::reference::one_minus_exp2`] in place, side by side, to a few units in the last place of
     /// this precision.
@@ -367,11 +399,7 @@ struct Float;
 impl<S: Simd> Precision<S> for Double {
     type Element = f64;
     type Lanes = S::f64s;
-
-    #[inline(always)]
-    fn bare(simd: S, nn: S::f64s, b: S::f64s, _: [S::f64s; 3]) -> [S::f64s; 2] {
-        [nn * b, S::f64s::splat(simd, 1.0)]
-    }
+    const IS_ROUGH: bool = false;
 
     #[inline(always)]
     fn one_minus_exp2<const N: usize>(simd: S, z: &mut [S::f64s; N]) {
@@ -394,16 +422,7 @@ impl<S: Simd> Precision<S> for Double {
 impl<S: Simd> Precision<S> for Float {
     type Element = f32;
     type Lanes = S::f32s;
-
-    /// Beside the filament b = t^2 - l^2 is a small difference of large numbers. There its digits come from
-    /// b a = 4 c^2 with a = 4 n1 n2 - b, which is large there.
-    #[inline(always)]
-    fn bare(simd: S, nn: S::f32s, b: S::f32s, c: [S::f32s; 3]) -> [S::f32s; 2] {
-        let a = nn * 4.0 - b;
-        let is_beside = a.simd_gt(b);
-        let b = is_beside.select(square::<S, _>(c) * 4.0, b);
-        [nn * b, is_beside.select(a, S::f32s::splat(simd, 1.0))]
-    }
+    const IS_ROUGH: bool = true;
 
     #[inline(always)]
     fn one_minus_exp2<const N: usize>(simd: S, z: &mut [S::f32s; N]) {
@@ -434,6 +453,9 @@ impl<S: Simd> Precision<S> for Float {
 
 /// A core model, as in [`super::reference`].
 trait Core {
+    /// Whether targets close to a filament are looked after in double precision: the cut-off has no h.
+    const IS_EXACT: bool = true;
+
     /// Numerator and denominator of K from those of the bare filament, both multiplied by `scale`, and what
     /// the core's function, if it has one, is a function of.
     fn fraction<S: Simd, V: SimdFloat<S>>(
@@ -460,6 +482,8 @@ struct Vatistas;
 struct LambOseen;
 
 impl Core for CutOff {
+    const IS_EXACT: bool = false;
+
     #[inline(always)]
     fn fraction<S: Simd, V: SimdFloat<S>>(
         num: V,

@@ -16,8 +16,8 @@
 //!
 //! Vectors are in the inertial frame N.
 //!
-//! Two sums: [`DirectSum`] takes every segment at every target; [`FastSum`] sums far segments by the
-//! expansions of the cells of a tree, to a tolerance that it checks at every call.
+//! Two sums: [`DirectSum`] takes every segment at every target; [`FastSum`] does so in single precision, or
+//! sums far segments by the expansions of the cells of a tree, to a tolerance that it checks at every call.
 //!
 //! [`ParticleSum`] is the direct sum over vortex particles.
 //!

@@ -6,7 +6,7 @@
 
 use super::lanes::Sources;
 use super::model::CoreModel;
-use super::reference::STRENGTH;
+use super::reference::{CLOSE, STRENGTH};
 use super::sources::{Network, Points, Segments};
 use std::ops::Range;
 use wingbeat_math::DVec3;
@@ -32,6 +32,8 @@ pub(crate) struct PackedEdge<E> {
     pub strength: E,
     /// Squared length [m^2].
     pub l2: E,
+    /// t^2 - l^2 below this is too small a difference of large numbers [m^2].
+    pub close: E,
     /// [`CoreModel::kernel_term`].
     pub term: E,
 }
@@ -179,6 +181,7 @@ impl Packed {
             to,
             strength,
             l2,
+            close: l2 * CLOSE,
             term,
         });
         self.patches.last_mut().expect("a patch is open").edges.end = self.edges.len();

@@ -12,8 +12,11 @@ use wingbeat_math::DVec3;
 ///
 /// With n = abs(r), t = n1 + n2, l = abs(b - a), c = r1 x r2, the bare filament is 2 c t / (n1 n2 (t^2 - l^2)),
 /// for t^2 - l^2 = 2 (n1 n2 + r1.r2). Where the textbook difference of cosines cancels, near the extension
-/// of the filament, this sum does not. The cut-off adds to the denominator; the others multiply by a function of
-/// h^2 = c^2 / l^2: c^2 / (c^2 + e) for Scully, c^2 / sqrt(c^4 + e^2) for Vatistas, e = r_c^2 l^2.
+/// of the filament, this sum does not. Beside the filament, where t^2 - l^2 does, it is taken from
+/// (t^2 - l^2) (4 n1 n2 - t^2 + l^2) = 4 c^2, but for the cut-off.
+///
+/// The cut-off adds to the denominator; the others multiply by a function of h^2 = c^2 / l^2: c^2 / (c^2 + e)
+/// for Scully, c^2 / sqrt(c^4 + e^2) for Vatistas, e = r_c^2 l^2.
 ///
 /// On the line of the filament, its nodes included, the result is zero.
 ///
@@ -37,10 +40,20 @@ pub fn segment_velocity(
     let (r1, r2) = (p - a, p - b);
     let (n1, n2) = (dot(r1, r1).sqrt(), dot(r2, r2).sqrt());
     let (sum, c, l2) = (n1 + n2, cross(r1, r2), dot(b - a, b - a));
-    let (bare, term) = (n1 * n2 * (sum * sum - l2), model.kernel_term(core, l2));
-    let (c2, num) = (dot(c, c), sum * (gamma * (2.0 * STRENGTH)));
+    let (nn, c2, rest) = (n1 * n2, dot(c, c), sum * sum - l2);
+    let other = nn * 4.0 - rest;
+    let has_distance = !matches!(model, CoreModel::CutOff { .. });
+    let is_close = has_distance && l2 * CLOSE > rest && other > rest;
+    let (bare, scale) = match is_close {
+        true => (nn * (c2 * 4.0), other),
+        false => (nn * rest, 1.0),
+    };
+    let (num, term) = (
+        sum * (gamma * (2.0 * STRENGTH)) * scale,
+        model.kernel_term(core, l2),
+    );
     let (num, den) = match model {
-        CoreModel::CutOff { .. } => (num, bare + term),
+        CoreModel::CutOff { .. } => (num, bare + scale * term),
         CoreModel::Scully { .. } => (num * c2, bare * (c2 + term)),
         CoreModel::Vatistas { .. } => (num * c2, bare * (c2 * c2 + term).sqrt()),
         CoreModel::LambOseen { .. } => (num * one_minus_exp2(c2 * term), bare),
@@ -48,6 +61,9 @@ pub fn segment_velocity(
     let k = if den > 0.0 { num / den } else { 0.0 };
     c * k
 }
+
+/// The part of l^2 below which t^2 - l^2 is too small a difference: it keeps ten digits.
+pub(crate) const CLOSE: f64 = 1e-6;
 
 /// 1 / (4 pi).
 pub(crate) const STRENGTH: f64 = 0.25 / PI;

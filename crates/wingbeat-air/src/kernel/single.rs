@@ -15,6 +15,9 @@ pub(crate) const SINGLE: f64 = 1e-5;
 /// Patches of a cluster of the direct sum: some 250 edges of a sheet.
 pub(crate) const CLUSTER: usize = 16;
 
+/// The part of l^2 below which t^2 - l^2 loses more than a digit.
+const CLOSE: f32 = 0.1;
+
 /// Largest number passed on: its square root times itself is still a number.
 const LARGEST: f64 = 1e30;
 
@@ -61,12 +64,16 @@ impl Single {
         }
         let unit = self.unit_of_term(model);
         self.edges.clear();
-        self.edges.extend(packed.edges.iter().map(|e| PackedEdge {
-            from: e.from,
-            to: e.to,
-            strength: (e.strength * self.per_unit) as f32,
-            l2: (e.l2 * self.per_unit * self.per_unit) as f32,
-            term: (e.term * unit).min(LARGEST) as f32,
+        self.edges.extend(packed.edges.iter().map(|e| {
+            let l2 = (e.l2 * self.per_unit * self.per_unit) as f32;
+            PackedEdge {
+                from: e.from,
+                to: e.to,
+                strength: (e.strength * self.per_unit) as f32,
+                l2,
+                close: CLOSE * l2,
+                term: (e.term * unit).min(LARGEST) as f32,
+            }
         }));
     }
 
