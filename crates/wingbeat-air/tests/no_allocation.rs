@@ -48,16 +48,20 @@ static COUNTING: Counting = Counting;
 fn exact_no_allocation_after_warm_up() {
     let model = CoreModel::Vatistas { radius: 0.02 };
     let net = wakes::hover(model, 6_000);
-    let mut fast = FastSum::new(FastSettings {
-        method: Method::Tree,
-        ..FastSettings::new(model)
+    let [mut tree, mut single] = [Method::Tree, Method::Single].map(|method| {
+        FastSum::new(FastSettings {
+            method,
+            ..FastSettings::new(model)
+        })
     });
     let mut direct = DirectSum::new(model);
     let mut v = Points::zeros(net.nodes.len());
     on_one_thread(|| {
         let mut step = || {
-            fast.load_network(&net);
-            fast.add_velocity(&net.nodes, &mut v);
+            for fast in [&mut tree, &mut single] {
+                fast.load_network(&net);
+                fast.add_velocity(&net.nodes, &mut v);
+            }
             direct.load_network(&net);
             direct.add_velocity(&net.nodes, &mut v);
         };
@@ -177,7 +181,12 @@ fn old_wake(rows: usize, looks_back: bool) -> WakeSheet {
 #[test]
 fn exact_memory_is_linear_in_the_wake() {
     on_one_thread(|| {
-        for (method, most) in [(Method::Direct, 800.0), (Method::Tree, 1700.0)] {
+        let methods = [
+            (Method::Direct, 850.0),
+            (Method::Single, 1050.0),
+            (Method::Tree, 1950.0),
+        ];
+        for (method, most) in methods {
             let held = |rows: usize| {
                 let before = HELD.get();
                 let mut flight = Flight::new(None, method);

@@ -1,7 +1,7 @@
 //! A small fly with smooth, asymmetric strokes, for coupled tests that must run in seconds.
 #![allow(dead_code)] // every test binary uses its own part
 
-use wingbeat_air::{AirSettings, CoreModel, SheddingKinds};
+use wingbeat_air::{AirSettings, CoreModel, Method, SheddingKinds};
 use wingbeat_flight::*;
 use wingbeat_math::{DMat3, DVec3, MassProperties};
 use wingbeat_model::motion::Fourier;
@@ -117,6 +117,7 @@ impl Fly {
                 tip: true,
                 ..SheddingKinds::TRAILING
             },
+            summation: Method::Direct, // symmetry to more digits than single precision has
             ..AirSettings::benchmark(1.2, DVec3::ZERO)
         };
         let period = 1.0 / FREQUENCY;
