@@ -254,7 +254,7 @@ impl<'a> Walk<'a> {
                 add_patches(level, model, &cells.packed, ranges, targets, &mut self.sum);
             }
         }
-        let patches = leaves.iter().map(patches_of).flatten();
+        let patches = leaves.iter().flat_map(patches_of);
         let edges: usize = patches.map(|p| cells.packed.patches[p].edges.len()).sum();
         self.work.near += (edges * self.count) as u64;
         self.near.len = 0;

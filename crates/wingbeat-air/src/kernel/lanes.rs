@@ -429,7 +429,7 @@ impl<S: Simd> Precision<S> for Float {
         // As in double precision: 1.5 2^23, an interpolant at six points, good to 1.2e-8.
         const NEAREST: f32 = 12_582_912.0;
         const A: [f32; 6] = [
-            0.693_147_2,
+            std::f32::consts::LN_2,
             -0.240_226_5,
             0.055_503_57,
             -0.009_618_083,
