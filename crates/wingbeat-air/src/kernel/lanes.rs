@@ -5,9 +5,10 @@
 //!
 //! The loop is written once for both precisions ([`Precision`]).
 
+use super::cores::{Core, CutOff, Double, Float, LambOseen, Precision, Scully, Vatistas, square};
 use super::model::CoreModel;
 use super::packed::{Packed, PackedEdge, Patch, WINDOW};
-use super::reference::{EXP2_POLYNOMIAL, EXPONENT, FULL, NEAREST, ONE, STRENGTH};
+use super::reference::STRENGTH;
 use super::single::Single;
 use fearless_simd::{Level, SimdFloatElement, dispatch, prelude::*};
 use std::ops::Range;
@@ -39,6 +40,25 @@ pub(crate) struct Targets<'a> {
     pub count: usize,
 }
 
+/// Runs `$run` with the instructions of `$level`, `$C` the core model and `$N` the edges to take side by side: as
+/// many as registers and the length of the core's function want, measured.
+macro_rules! for_core {
+    ($level:expr, $model:expr, $simd:ident, $C:ident, $N:ident => $run:expr) => {
+        match $model {
+            CoreModel::CutOff { .. } => for_core!(@ $level, $simd, $C = CutOff, $N = 2, $run),
+            CoreModel::Vatistas { .. } => for_core!(@ $level, $simd, $C = Vatistas, $N = 2, $run),
+            CoreModel::Scully { .. } => for_core!(@ $level, $simd, $C = Scully, $N = 2, $run),
+            CoreModel::LambOseen { .. } => for_core!(@ $level, $simd, $C = LambOseen, $N = 4, $run),
+        }
+    };
+    (@ $level:expr, $simd:ident, $C:ident = $core:ty, $N:ident = $edges:literal, $run:expr) => {{
+        type $C = $core;
+        #[allow(dead_code, reason = "not all take edges side by side")]
+        const $N: usize = $edges;
+        dispatch!($level, $simd => $run)
+    }};
+}
+
 /// Adds to `sum` the velocities [m/s] of the patches in `ranges` at the targets.
 pub(crate) fn add_patches(
     level: Level,
@@ -52,20 +72,7 @@ pub(crate) fn add_patches(
         sources: packed.sources(),
         targets,
     };
-    match model {
-        CoreModel::CutOff { .. } => {
-            dispatch!(level, simd => job.run::<_, CutOff, 2>(simd, ranges, sum));
-        }
-        CoreModel::Vatistas { .. } => {
-            dispatch!(level, simd => job.run::<_, Vatistas, 2>(simd, ranges, sum));
-        }
-        CoreModel::Scully { .. } => {
-            dispatch!(level, simd => job.run::<_, Scully, 2>(simd, ranges, sum));
-        }
-        CoreModel::LambOseen { .. } => {
-            dispatch!(level, simd => job.run::<_, LambOseen, 4>(simd, ranges, sum));
-        }
-    }
+    for_core!(level, model, simd, C, N => job.run::<_, C, N>(simd, ranges, sum));
 }
 
 /// The same in single precision, of the clusters with these numbers.
@@ -81,20 +88,7 @@ pub(crate) fn add_clusters(
         sources: single.sources(),
         targets,
     };
-    match model {
-        CoreModel::CutOff { .. } => {
-            dispatch!(level, simd => job.run_single::<_, CutOff, 2>(simd, single, clusters, sum));
-        }
-        CoreModel::Vatistas { .. } => {
-            dispatch!(level, simd => job.run_single::<_, Vatistas, 2>(simd, single, clusters, sum));
-        }
-        CoreModel::Scully { .. } => {
-            dispatch!(level, simd => job.run_single::<_, Scully, 2>(simd, single, clusters, sum));
-        }
-        CoreModel::LambOseen { .. } => {
-            dispatch!(level, simd => job.run_single::<_, LambOseen, 4>(simd, single, clusters, sum));
-        }
-    }
+    for_core!(level, model, simd, C, N => job.run_single::<_, C, N>(simd, single, clusters, sum));
 }
 
 /// Normal velocity [m/s] of every edge by itself, with unit circulation, at the targets:
@@ -111,20 +105,7 @@ pub(crate) fn edge_normal_velocities(
         sources: packed.sources(),
         targets,
     };
-    match model {
-        CoreModel::CutOff { .. } => {
-            dispatch!(level, simd => job.each::<_, CutOff>(simd, normals, out));
-        }
-        CoreModel::Vatistas { .. } => {
-            dispatch!(level, simd => job.each::<_, Vatistas>(simd, normals, out));
-        }
-        CoreModel::Scully { .. } => {
-            dispatch!(level, simd => job.each::<_, Scully>(simd, normals, out));
-        }
-        CoreModel::LambOseen { .. } => {
-            dispatch!(level, simd => job.each::<_, LambOseen>(simd, normals, out));
-        }
-    }
+    for_core!(level, model, simd, C, N => job.each::<_, C>(simd, normals, out));
 }
 
 /// Nodes, edges between them, and the order to take them in.
@@ -229,7 +210,7 @@ impl Job<'_, f32> {
 impl<E: SimdFloatElement + From<f32>> Sources<'_, E> {
     /// Adds the edges of patches that follow each other. The nodes of the next patch are looked at
     /// between the edges of this one: while the processor takes their roots, it sums. `N` edges go side
-    /// by side: as many as registers and the length of the core's function want, measured.
+    /// by side.
     #[inline(always)]
     fn add<S: Simd, P: Precision<S, Element = E>, C: Core, const N: usize>(
         &self,
@@ -369,182 +350,4 @@ pub(crate) fn store<S: Simd>([x, y, z]: [S::f64s; 3], block: &mut Block, lane: u
     x.store_slice(&mut block.x[lane..lane + S::f64s::LEN]);
     y.store_slice(&mut block.y[lane..lane + S::f64s::LEN]);
     z.store_slice(&mut block.z[lane..lane + S::f64s::LEN]);
-}
-
-/// Squared length.
-#[inline(always)]
-fn square<S: Simd, V: SimdFloat<S>>([x, y, z]: [V; 3]) -> V {
-    x * x + y * y + z * z
-}
-
-/// The numbers that the loop works with.
-trait Precision<S: Simd> {
-    type Element: SimdFloatElement + From<f32>;
-    type Lanes: SimdFloat<S, Element = Self::Element>;
-
-    /// Whether every core model looks after targets close to a filament.
-    const IS_ROUGH: bool;
-
-    /// [`super::reference::one_minus_exp2`] in place, side by side, to a few units in the last place of
-    /// this precision.
-    fn one_minus_exp2<const N: usize>(simd: S, z: &mut [Self::Lanes; N]);
-}
-
-/// 53 bits.
-struct Double;
-
-/// 24 bits.
-struct Float;
-
-impl<S: Simd> Precision<S> for Double {
-    type Element = f64;
-    type Lanes = S::f64s;
-    const IS_ROUGH: bool = false;
-
-    #[inline(always)]
-    fn one_minus_exp2<const N: usize>(simd: S, z: &mut [S::f64s; N]) {
-        let a = EXP2_POLYNOMIAL;
-        let (full, one) = (S::f64s::splat(simd, FULL), S::f64s::splat(simd, 1.0));
-        let ones = S::u64s::splat(simd, ONE);
-        for u in z.iter_mut() {
-            let z = u.min(full);
-            let shifted = z + NEAREST;
-            let f = z - (shifted - NEAREST);
-            let f2 = f * f;
-            let even = (((f2 * a[8] + a[6]) * f2 + a[4]) * f2 + a[2]) * f2 + a[0];
-            let odd = (((f2 * a[9] + a[7]) * f2 + a[5]) * f2 + a[3]) * f2 + a[1];
-            let scale: S::f64s = (ones - (shifted.bitcast::<S::u64s>() << EXPONENT)).bitcast();
-            *u = (one - scale) + (odd * f + even) * f * scale;
-        }
-    }
-}
-
-impl<S: Simd> Precision<S> for Float {
-    type Element = f32;
-    type Lanes = S::f32s;
-    const IS_ROUGH: bool = true;
-
-    #[inline(always)]
-    fn one_minus_exp2<const N: usize>(simd: S, z: &mut [S::f32s; N]) {
-        // As in double precision: 1.5 2^23, an interpolant at six points, good to 1.2e-8.
-        const NEAREST: f32 = 12_582_912.0;
-        const A: [f32; 6] = [
-            std::f32::consts::LN_2,
-            -0.240_226_5,
-            0.055_503_57,
-            -0.009_618_083,
-            0.001_339_086_3,
-            -0.000_154_531_63,
-        ];
-        let (full, one) = (S::f32s::splat(simd, 30.0), S::f32s::splat(simd, 1.0));
-        let ones = S::u32s::splat(simd, 1.0_f32.to_bits());
-        for u in z.iter_mut() {
-            let z = u.min(full);
-            let shifted = z + NEAREST;
-            let f = z - (shifted - NEAREST);
-            let f2 = f * f;
-            let even = (f2 * A[4] + A[2]) * f2 + A[0];
-            let odd = (f2 * A[5] + A[3]) * f2 + A[1];
-            let scale: S::f32s = (ones - (shifted.bitcast::<S::u32s>() << 23)).bitcast();
-            *u = (one - scale) + (odd * f + even) * f * scale;
-        }
-    }
-}
-
-/// A core model, as in [`super::reference`].
-trait Core {
-    /// Whether targets close to a filament are looked after in double precision: the cut-off has no h.
-    const IS_EXACT: bool = true;
-
-    /// Numerator and denominator of K from those of the bare filament, both multiplied by `scale`, and what
-    /// the core's function, if it has one, is a function of.
-    fn fraction<S: Simd, V: SimdFloat<S>>(
-        num: V,
-        bare: V,
-        c: [V; 3],
-        scale: V,
-        term: V::Element,
-    ) -> [V; 3];
-
-    /// Multiplies the numerators by the core's function of `z`, which is used up.
-    #[inline(always)]
-    fn regularise<S: Simd, P: Precision<S>, const N: usize>(
-        _: S,
-        _: &mut [P::Lanes; N],
-        _: &mut [P::Lanes; N],
-    ) {
-    }
-}
-
-struct CutOff;
-struct Scully;
-struct Vatistas;
-struct LambOseen;
-
-impl Core for CutOff {
-    const IS_EXACT: bool = false;
-
-    #[inline(always)]
-    fn fraction<S: Simd, V: SimdFloat<S>>(
-        num: V,
-        bare: V,
-        _: [V; 3],
-        scale: V,
-        term: V::Element,
-    ) -> [V; 3] {
-        [num, bare + scale * term, num]
-    }
-}
-
-impl Core for Scully {
-    #[inline(always)]
-    fn fraction<S: Simd, V: SimdFloat<S>>(
-        num: V,
-        bare: V,
-        c: [V; 3],
-        _: V,
-        term: V::Element,
-    ) -> [V; 3] {
-        let c2 = square::<S, V>(c);
-        [num * c2, bare * (c2 + term), c2]
-    }
-}
-
-impl Core for Vatistas {
-    #[inline(always)]
-    fn fraction<S: Simd, V: SimdFloat<S>>(
-        num: V,
-        bare: V,
-        c: [V; 3],
-        _: V,
-        term: V::Element,
-    ) -> [V; 3] {
-        let c2 = square::<S, V>(c);
-        [num * c2, bare * (c2 * c2 + term).sqrt(), c2]
-    }
-}
-
-impl Core for LambOseen {
-    #[inline(always)]
-    fn fraction<S: Simd, V: SimdFloat<S>>(
-        num: V,
-        bare: V,
-        c: [V; 3],
-        _: V,
-        term: V::Element,
-    ) -> [V; 3] {
-        [num, bare, square::<S, V>(c) * term]
-    }
-
-    #[inline(always)]
-    fn regularise<S: Simd, P: Precision<S>, const N: usize>(
-        simd: S,
-        num: &mut [P::Lanes; N],
-        z: &mut [P::Lanes; N],
-    ) {
-        P::one_minus_exp2(simd, z);
-        for i in 0..N {
-            num[i] *= z[i];
-        }
-    }
 }

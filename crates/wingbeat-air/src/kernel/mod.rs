@@ -28,6 +28,7 @@
 //! What it does not know: panels, wings, wakes, time.
 
 mod cells;
+mod cores;
 mod direct;
 mod fast;
 mod groups;
