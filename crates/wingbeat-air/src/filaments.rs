@@ -2,7 +2,7 @@
 //! circulation.
 
 use crate::front::{self, Row, Share, add_front, at_edge};
-use crate::kernel::{Network, Particle, Points};
+use crate::kernel::{Blob, Network, Particle, Points};
 use crate::lattice::Lattice;
 use crate::particles::borders_ring;
 use crate::settings::AirSettings;
@@ -27,6 +27,8 @@ pub struct Filaments {
     /// All other edges of the wakes, which do not move within a step. Nodes: sheet after sheet,
     /// oldest row first.
     pub wake: Network,
+    /// What stretched edges of the wakes have given up, see [`AirSettings::wake_blob_length`].
+    pub blobs: Vec<Blob>,
     /// Particles of all sheets.
     pub particles: Vec<Particle>,
 }
@@ -43,11 +45,12 @@ impl Filaments {
     ) {
         self.gather_bound(lattice, position);
         self.wake.clear();
+        self.blobs.clear();
         self.front.clear();
         self.shares.clear();
         self.lengths.resize_with(state.sheets.len(), Vec::new);
         for (s, (sheet, root)) in state.sheets.iter().zip(lattice.sheets()).enumerate() {
-            add_sheet(&mut self.wake, sheet, lattice.settings(), t);
+            self.add_sheet(sheet, lattice.settings(), t);
             let edge = root.nodes.iter().map(|&n| self.bound.nodes.get(n));
             front::lengths(lattice, state, s, &self.bound.nodes, &mut self.lengths[s]);
             let row = Row {
@@ -117,9 +120,54 @@ impl Filaments {
         }
     }
 
+    /// Free nodes of one wake sheet and the edges among them that lie at rings.
+    fn add_sheet(&mut self, sheet: &WakeSheet, settings: &AirSettings, t: f64) {
+        let (wake, blobs) = (&mut self.wake, &mut self.blobs);
+        let base = wake.nodes.len();
+        sheet.nodes.iter().for_each(|x| wake.nodes.push(x));
+        let (rows, columns) = (sheet.rows(), sheet.columns);
+        let age = |r: usize| t - sheet.shed_time[r];
+        let mut push = |[r0, c0]: [usize; 2], [r1, c1]: [usize; 2], net: f64| {
+            let from = base + r0 * (columns + 1) + c0;
+            let to = base + r1 * (columns + 1) + c1;
+            let (a, b) = (wake.nodes.get(from), wake.nodes.get(to));
+            let length = (b - a).length();
+            let core = settings.free_core(length, 0.5 * (age(r0) + age(r1)));
+            let part = settings.blob_part(length);
+            if part > 0.0 {
+                blobs.push(Blob {
+                    position: 0.5 * (a + b),
+                    strength: part * net * (b - a),
+                    variance: settings.blob_variance(core),
+                });
+            }
+            if part < 1.0 {
+                wake.push_edge(from, to, (1.0 - part) * net, core);
+            }
+        };
+        let there = |r: usize, c: usize, along: bool| borders_ring(&sheet.spent, [r, c], along);
+        for r in 0..rows {
+            for c in (0..columns).filter(|&c| there(r, c, true)) {
+                push([r, c], [r, c + 1], across(sheet, r, c));
+            }
+            for c in (0..=columns).filter(|&c| r + 1 < rows && there(r, c, false)) {
+                push([r, c], [r + 1, c], between(sheet, r, c));
+            }
+        }
+    }
+
+    /// Corners of the box around all nodes [m], N.
+    pub(crate) fn bounds(&self) -> [DVec3; 2] {
+        let nets = [&self.bound, &self.front, &self.wake];
+        let nodes = nets.into_iter().flat_map(|net| net.nodes.iter());
+        nodes.fold([DVec3::INFINITY, DVec3::NEG_INFINITY], |[low, high], x| {
+            [low.min(x), high.max(x)]
+        })
+    }
+
     /// Half the sum of circulation x moment of every filament about `origin`, which is the vector
     /// impulse per density [m4/s], N: `1/2 sum Gamma a x b` for filaments from a to b, and
-    /// `1/2 x cross alpha` for particles.
+    /// `1/2 x cross alpha` for blobs and particles.
     pub(crate) fn impulse(&self, origin: DVec3) -> DVec3 {
         let of = |net: &Network| {
             let mut sum = DVec3::ZERO;
@@ -132,7 +180,9 @@ impl Filaments {
         };
         let of_particle = |p: &Particle| 0.5 * (p.position - origin).cross(p.strength);
         let particles: DVec3 = self.particles.iter().map(of_particle).sum();
-        of(&self.bound) + of(&self.front) + of(&self.wake) + particles
+        let of_blob = |b: &Blob| 0.5 * (b.position - origin).cross(b.strength);
+        let blobs: DVec3 = self.blobs.iter().map(of_blob).sum();
+        of(&self.bound) + of(&self.front) + of(&self.wake) + blobs + particles
     }
 }
 
@@ -156,28 +206,4 @@ pub(crate) fn between(sheet: &WakeSheet, r: usize, c: usize) -> f64 {
 pub(crate) fn across(sheet: &WakeSheet, r: usize, c: usize) -> f64 {
     let gamma = |r: usize| sheet.gamma[r * sheet.columns + c];
     gamma(r) - if r > 0 { gamma(r - 1) } else { 0.0 }
-}
-
-/// Free nodes of one wake sheet and the edges among them that lie at rings.
-fn add_sheet(wake: &mut Network, sheet: &WakeSheet, settings: &AirSettings, t: f64) {
-    let base = wake.nodes.len();
-    sheet.nodes.iter().for_each(|x| wake.nodes.push(x));
-    let (rows, columns) = (sheet.rows(), sheet.columns);
-    let age = |r: usize| t - sheet.shed_time[r];
-    let mut push = |[r0, c0]: [usize; 2], [r1, c1]: [usize; 2], net: f64| {
-        let a = base + r0 * (columns + 1) + c0;
-        let b = base + r1 * (columns + 1) + c1;
-        let length = (wake.nodes.get(b) - wake.nodes.get(a)).length();
-        let core = settings.free_core(length, 0.5 * (age(r0) + age(r1)));
-        wake.push_edge(a, b, net, core);
-    };
-    let there = |r: usize, c: usize, along: bool| borders_ring(&sheet.spent, [r, c], along);
-    for r in 0..rows {
-        for c in (0..columns).filter(|&c| there(r, c, true)) {
-            push([r, c], [r, c + 1], across(sheet, r, c));
-        }
-        for c in (0..=columns).filter(|&c| r + 1 < rows && there(r, c, false)) {
-            push([r, c], [r + 1, c], between(sheet, r, c));
-        }
-    }
 }

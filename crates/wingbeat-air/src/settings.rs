@@ -2,7 +2,7 @@
 
 use crate::error::AirError;
 use crate::images::{Plane, mirrors};
-use crate::kernel::{CoreModel, Method};
+use crate::kernel::{CoreModel, LAMB_ALPHA, Method};
 use crate::particles::ParticleSettings;
 use crate::section_drag::SectionDrag;
 use crate::surface::EdgeKind;
@@ -136,6 +136,11 @@ pub struct AirSettings {
     /// scales smaller than its own length. Far off it changes nothing, nor any circulation or
     /// impulse.
     pub wake_overlap: f64,
+    /// Length [m] from which a free wake filament turns into a vortex blob, wholly at twice this length: its strength
+    /// Gamma (b - a) as a Gaussian about its middle, as wide as its core; none: never. Where `wake_overlap` has made
+    /// cores as wide as filaments are long, hardly more than the description changes, but blobs can be summed at
+    /// a cost that grows with their number and not with its square ([`crate::kernel::BlobSum`]).
+    pub wake_blob_length: Option<f64>,
     /// Which edges shed.
     pub shedding: SheddingKinds,
     /// Circulation rate in the loads.
@@ -193,6 +198,7 @@ impl AirSettings {
             bound_core: core,
             wake_core: core,
             wake_overlap: 0.0,
+            wake_blob_length: None,
             shedding: SheddingKinds::TRAILING,
             rate: CirculationRate::Backward,
             max_rows: None,
@@ -249,6 +255,25 @@ impl AirSettings {
         }
     }
 
+    /// The part of a free wake filament of this length [m] that is a blob: rises smoothly from 0 to 1.
+    pub(crate) fn blob_part(&self, length: f64) -> f64 {
+        self.wake_blob_length.map_or(0.0, |from| {
+            let t = (length / from - 1.0).clamp(0.0, 1.0);
+            t * t * (3.0 - 2.0 * t)
+        })
+    }
+
+    /// Variance [m2] of the Gaussian that a Lamb-Oseen core of this squared radius [m2] has across its filament.
+    pub(crate) fn blob_variance(&self, core: f64) -> f64 {
+        core / (2.0 * LAMB_ALPHA)
+    }
+
+    /// The least variance [m2] that a blob can have.
+    pub(crate) fn least_variance(&self) -> f64 {
+        let length = self.wake_blob_length.unwrap_or(1.0);
+        self.blob_variance((self.wake_overlap * length).powi(2))
+    }
+
     /// Checks the numbers.
     ///
     /// # Errors
@@ -282,6 +307,14 @@ impl AirSettings {
             "wake_overlap",
             self.wake_overlap.to_string(),
             "a finite number from 0; above 0 only if wake_core has a radius, which a cut-off has not",
+        )?;
+        check(
+            self.wake_blob_length
+                .is_none_or(|l| positive(l) && self.wake_overlap >= 0.5),
+            "wake_blob_length",
+            format!("{:?}", self.wake_blob_length),
+            "a finite length in m above 0, with wake_overlap 0.5 or more: blobs narrower than their filaments are \
+             long leave gaps; or none",
         )?;
         check(
             self.max_displacement.is_none_or(positive),

@@ -4,7 +4,7 @@
 use crate::filaments::Filaments;
 use crate::images::Mirror;
 use crate::kernel::{
-    CoreModel, FastSettings, FastSum, Method, Network, ParticleSum, Points, Report,
+    BlobSum, CoreModel, FastSettings, FastSum, Method, Network, ParticleSum, Points, Report,
 };
 use crate::settings::AirSettings;
 
@@ -75,6 +75,9 @@ pub(crate) struct Sums {
     pub bound: Summation,
     pub front: Summation,
     pub wake: Summation,
+    pub blobs: BlobSum,
+    /// Allowed error of the sum over blobs.
+    tolerance: f64,
     pub particles: ParticleSum,
 }
 
@@ -91,6 +94,12 @@ impl Sums {
     /// Takes what is frozen within a step: free wakes and particles; says whether they are new.
     pub(crate) fn load_free(&mut self, settings: &AirSettings, filaments: &Filaments) -> bool {
         let is_new = self.wake.load(free(settings), &filaments.wake);
+        let (least, bounds) = (settings.least_variance(), filaments.bounds());
+        let is_new = self.blobs.load(&filaments.blobs, least, bounds) || is_new;
+        self.tolerance = match settings.summation {
+            Method::Direct => 0.0,
+            _ => settings.tolerance,
+        };
         self.particles.load(&filaments.particles) || is_new
     }
 
@@ -105,6 +114,16 @@ impl Sums {
         self.bound.add(targets, mirrors, out);
         self.front.add(targets, mirrors, out);
         self.wake.add(targets, mirrors, out);
+        self.add_blobs(targets, mirrors, out);
+    }
+
+    fn add_blobs(&mut self, targets: &Points, mirrors: &[Mirror], out: &mut Points) {
+        if self.blobs.is_empty() {
+            return;
+        }
+        with_images(targets, mirrors, out, |targets, out| {
+            self.blobs.add_velocity(self.tolerance, targets, out);
+        });
     }
 
     /// The same of particles alone.
@@ -112,14 +131,26 @@ impl Sums {
         if self.particles.is_empty() {
             return;
         }
-        self.particles.add_velocity(targets, out);
-        for mirror in mirrors {
-            let reflected: Points = targets.iter().map(|x| mirror.place(x)).collect();
-            let mut image = Points::zeros(targets.len());
-            self.particles.add_velocity(&reflected, &mut image);
-            for i in 0..targets.len() {
-                out.set(i, out.get(i) + mirror.vector(image.get(i)));
-            }
+        with_images(targets, mirrors, out, |targets, out| {
+            self.particles.add_velocity(targets, out);
+        });
+    }
+}
+
+/// Adds what `add` adds at the targets, and what it adds at their images, reflected.
+fn with_images(
+    targets: &Points,
+    mirrors: &[Mirror],
+    out: &mut Points,
+    mut add: impl FnMut(&Points, &mut Points),
+) {
+    add(targets, out);
+    for mirror in mirrors {
+        let reflected: Points = targets.iter().map(|x| mirror.place(x)).collect();
+        let mut image = Points::zeros(targets.len());
+        add(&reflected, &mut image);
+        for i in 0..targets.len() {
+            out.set(i, out.get(i) + mirror.vector(image.get(i)));
         }
     }
 }
@@ -150,6 +181,7 @@ impl StillWake {
             self.points.copy_from(points);
             self.velocity.reset(points.len());
             sums.wake.add(points, mirrors, &mut self.velocity);
+            sums.add_blobs(points, mirrors, &mut self.velocity);
             sums.add_particles(points, mirrors, &mut self.velocity);
         }
         out.copy_from(&self.velocity);

@@ -27,6 +27,7 @@
 //!
 //! What it does not know: panels, wings, wakes, time.
 
+mod blobs;
 mod cells;
 mod cores;
 mod direct;
@@ -37,6 +38,7 @@ mod harmonics;
 mod harmonics_tests;
 mod instruction_set;
 mod lanes;
+mod mesh;
 mod model;
 mod moments;
 mod packed;
@@ -44,12 +46,15 @@ mod particles;
 pub mod reference;
 mod single;
 mod sources;
+mod spline;
 
+pub use blobs::{Blob, BlobReport, BlobSum};
 pub(crate) use direct::UnitEdges;
 pub use direct::{DirectSum, add_velocity};
 pub use fast::{FastSettings, FastSum, Method, Report};
 pub use instruction_set::InstructionSet;
 pub(crate) use lanes::BLOCK;
 pub use model::CoreModel;
+pub(crate) use model::LAMB_ALPHA;
 pub use particles::{Particle, ParticleSum, Stretching};
 pub use sources::{Network, Points, Segments};

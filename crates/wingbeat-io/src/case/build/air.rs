@@ -81,6 +81,7 @@ fn lattice(case: &AirCase, joined: Vec<[usize; 2]>) -> Built<AirOptions> {
             "air.wake_overlap",
             case.wake_overlap.expect("the default was filled in"),
         )?,
+        wake_blob_length: limit("air.wake_blob_length_m", case.wake_blob_length_m)?,
         shedding: SheddingKinds {
             trailing: sheds(EdgeCase::Trailing),
             tip: sheds(EdgeCase::Tip),

@@ -43,6 +43,11 @@ pub struct AirCase {
     /// stretches; default 1, or 0 where `wake_core` is a cut-off, which has no radius.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub wake_overlap: Option<f64>,
+    /// Length from which a wake filament turns into a vortex blob, wholly at twice this length; left out: never.
+    /// Blobs are summed on a mesh: the cost of long flights then grows with the wake and not with its square.
+    /// Two mean chords are a good length; needs `wake_overlap` of 0.5 or more.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub wake_blob_length_m: Option<f64>,
     /// How wake nodes are moved; default by `scheme`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub convection: Option<ConvectionCase>,
@@ -124,6 +129,7 @@ impl Default for AirCase {
             bound_core: None,
             wake_core: None,
             wake_overlap: None,
+            wake_blob_length_m: None,
             scheme: SchemeCase::Benchmark,
             circulation_rate: None,
             convection: None,

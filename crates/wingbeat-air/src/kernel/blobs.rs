@@ -1,0 +1,396 @@
+//! Velocity of Gaussian vortex blobs: what wake filaments become that the flow has stretched far.
+//!
+//! A blob of strength alpha \[m3/s\] is vorticity alpha spread as a Gaussian of variance s^2 about its place. With
+//! r = x - x_q, t = abs(r) / s it moves the air by \[Winckelmans & Leonard 1993, J. Comput. Phys. 109:247\]
+//!
+//! u(x) = 1/(4 pi s^3) g alpha x r,  g = (erf(t / sqrt 2) - sqrt(2 / pi) t exp(-t^2 / 2)) / t^3.
+//!
+//! Widths stand on the rungs of a ladder, s_j = 2^j s_0; a blob of a width between two of them is a mixture of
+//! both with its own variance. So a rung's blobs differ in place and strength only, and all of a rung are
+//! summed together on a mesh (`mesh.rs`) where they are many; the error is measured at every call.
+
+use super::cores::{Double, Precision};
+use super::direct::sum_all;
+use super::instruction_set::InstructionSet;
+use super::lanes::{BLOCK, Block, load, store};
+use super::mesh::Mesh;
+use super::reference::STRENGTH;
+use super::sources::Points;
+use fearless_simd::{Level, dispatch, prelude::*};
+use rayon::prelude::*;
+use std::f64::consts::LOG2_E;
+use wingbeat_math::DVec3;
+
+/// A vortex blob.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Blob {
+    /// Place \[m\], N.
+    pub position: DVec3,
+    /// Strength alpha, vorticity times volume \[m3/s\], N.
+    pub strength: DVec3,
+    /// Variance s^2 of each component of the place of its vorticity \[m2\], above 0.
+    pub variance: f64,
+}
+
+/// Blobs of one width: places and strengths.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Rung {
+    /// s \[m\].
+    pub width: f64,
+    /// Place \[m\] and strength \[m3/s\].
+    pub sources: Vec<[DVec3; 2]>,
+}
+
+/// Pairs of blob and target from which a mesh may be the faster one.
+const MESH_PAIRS: usize = 300_000;
+
+/// Tolerance from which the mesh may be used: its splines leave out less.
+const MESH_TOLERANCE: f64 = 5e-5;
+
+/// Targets at which the mesh is checked against the sum one by one.
+const SAMPLES: usize = 16;
+
+/// A sum over blobs: one by one where they are few, else on a mesh if the tolerance allows it.
+///
+/// Same bits for every instruction set and any number of threads.
+///
+/// ```
+/// use wingbeat_air::kernel::{Blob, BlobSum, Points};
+/// use wingbeat_math::DVec3;
+/// let blob = Blob { position: DVec3::ZERO, strength: DVec3::Z, variance: 0.01 };
+/// let mut sum = BlobSum::default();
+/// sum.load(&[blob], 0.01, [DVec3::ZERO; 2]);
+/// let mut v = Points::zeros(1);
+/// sum.add_velocity(1e-4, &Points::from_iter([DVec3::X]), &mut v);
+/// assert!((v.y[0] * 4.0 * std::f64::consts::PI - 1.0).abs() < 1e-9); // ten widths away: a point
+/// ```
+#[derive(Clone, Debug)]
+pub struct BlobSum {
+    level: Level,
+    loaded: Vec<Blob>,
+    rungs: Vec<Rung>,
+    mesh: Mesh,
+    has_mesh: bool,
+    /// Corners of the box that the mesh fills \[m\].
+    bounds: [DVec3; 2],
+    velocity: Points,
+}
+
+/// What a sum over blobs did and how well.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BlobReport {
+    /// Whether a mesh was used.
+    pub is_mesh: bool,
+    /// Root mean square of the error at the sampled targets, relative to that of the blobs' velocity there; 0 if summed
+    /// one by one.
+    pub error_rms: f64,
+}
+
+impl Default for BlobSum {
+    fn default() -> Self {
+        let best = InstructionSet::Best.level();
+        Self {
+            level: best.expect("the best set is always there"),
+            loaded: Vec::new(),
+            rungs: Vec::new(),
+            mesh: Mesh::default(),
+            has_mesh: false,
+            bounds: [DVec3::ZERO; 2],
+            velocity: Points::default(),
+        }
+    }
+}
+
+impl BlobSum {
+    /// Replaces the blobs, none of which is narrower than `least_variance` \[m2\]; says whether anything differs from
+    /// before. `bounds` are the corners of a box \[m\] that holds the blobs and most of the targets to come.
+    pub fn load(&mut self, blobs: &[Blob], least_variance: f64, bounds: [DVec3; 2]) -> bool {
+        let base = least_variance.sqrt();
+        let has_base = self.rungs.first().is_none_or(|r| r.width == base);
+        if has_base && self.loaded == blobs && (blobs.is_empty() || self.bounds == bounds) {
+            return false;
+        }
+        self.bounds = bounds;
+        if !has_base {
+            self.rungs.clear();
+        }
+        self.loaded.clear();
+        self.loaded.extend_from_slice(blobs);
+        self.rungs.iter_mut().for_each(|r| r.sources.clear());
+        for blob in blobs {
+            let ratio = (blob.variance / least_variance).max(1.0);
+            let rung = (0.5 * ratio.log2()).floor();
+            let upper = (ratio / 4f64.powf(rung) - 1.0) / 3.0;
+            let rung = rung as usize;
+            for k in self.rungs.len()..rung + 2 {
+                let width = base * 2f64.powi(k as i32);
+                let sources = Vec::new();
+                self.rungs.push(Rung { width, sources });
+            }
+            let mut put = |k: usize, part: f64| {
+                self.rungs[k].sources.push([blob.position, part * blob.strength]);
+            };
+            put(rung, 1.0 - upper);
+            put(rung + 1, upper);
+        }
+        let used = self.rungs.iter().rposition(|r| !r.sources.is_empty());
+        self.rungs.truncate(used.map_or(0, |k| k + 1));
+        self.has_mesh = false;
+        true
+    }
+
+    /// Number of blobs.
+    pub fn len(&self) -> usize {
+        self.loaded.len()
+    }
+
+    /// True when there is none.
+    pub fn is_empty(&self) -> bool {
+        self.loaded.is_empty()
+    }
+
+    /// Adds to `out` \[m/s\] the velocity of all blobs at `targets` \[m\], with an error of at most `tolerance`: root mean
+    /// square, relative to that velocity.
+    pub fn add_velocity(
+        &mut self,
+        tolerance: f64,
+        targets: &Points,
+        out: &mut Points,
+    ) -> BlobReport {
+        assert_eq!(targets.len(), out.len(), "as many velocities as targets");
+        let is_large = self.len() * targets.len() >= MESH_PAIRS;
+        if !is_large || tolerance < MESH_TOLERANCE {
+            return self.add_each(targets, out);
+        }
+        if !self.has_mesh {
+            self.mesh.load(&self.rungs, self.bounds);
+            self.has_mesh = true;
+        }
+        let mut velocity = std::mem::take(&mut self.velocity);
+        velocity.reset(targets.len());
+        self.read_mesh(targets, &mut velocity);
+        let error_rms = self.error(targets, &velocity);
+        let is_mesh = error_rms <= tolerance; // not if it is no number
+        if is_mesh {
+            for (i, v) in velocity.iter().enumerate() {
+                out.set(i, out.get(i) + v);
+            }
+        }
+        self.velocity = velocity;
+        match is_mesh {
+            true => BlobReport { is_mesh, error_rms },
+            false => self.add_each(targets, out),
+        }
+    }
+
+    /// Velocities from the mesh, one by one outside it.
+    fn read_mesh(&self, targets: &Points, out: &mut Points) {
+        let [low, high] = self.bounds;
+        let Points { x, y, z } = out;
+        x.par_chunks_mut(BLOCK)
+            .zip(y.par_chunks_mut(BLOCK))
+            .zip(z.par_chunks_mut(BLOCK))
+            .enumerate()
+            .for_each(|(b, ((x, y), z))| {
+                for i in 0..x.len() {
+                    let p = targets.get(b * BLOCK + i);
+                    let is_inside = p.cmpge(low).all() && p.cmple(high).all();
+                    let v = match is_inside {
+                        true => self.mesh.velocity(p),
+                        false => self.velocity_at(p),
+                    };
+                    (x[i], y[i], z[i]) = v.into();
+                }
+            });
+    }
+
+    /// The sum one by one at one place.
+    fn velocity_at(&self, p: DVec3) -> DVec3 {
+        let (mut block, mut sum) = (Block::ZERO, Block::ZERO);
+        (block.x[0], block.y[0], block.z[0]) = p.into();
+        for rung in &self.rungs {
+            dispatch!(self.level, simd => rung.add(simd, &block, 1, &mut sum));
+        }
+        DVec3::new(sum.x[0], sum.y[0], sum.z[0])
+    }
+
+    /// Root mean square error of these velocities at sampled targets, relative to that of the velocity.
+    fn error(&self, targets: &Points, velocity: &Points) -> f64 {
+        let count = targets.len().min(SAMPLES);
+        let index = |k: usize| (k * targets.len() / count + k * k) % targets.len();
+        let exact: Vec<DVec3> = (0..count)
+            .into_par_iter()
+            .map(|k| self.velocity_at(targets.get(index(k))))
+            .collect();
+        let scale: f64 = exact.iter().map(|v| v.length_squared()).sum();
+        let off = |(k, v): (usize, &DVec3)| v.distance_squared(velocity.get(index(k)));
+        let error: f64 = exact.iter().enumerate().map(off).sum();
+        if error == 0.0 { 0.0 } else { (error / scale).sqrt() }
+    }
+
+    fn add_each(&self, targets: &Points, out: &mut Points) -> BlobReport {
+        for rung in self.rungs.iter().filter(|r| !r.sources.is_empty()) {
+            sum_all(rung.sources.len(), targets, out, |targets, sum| {
+                dispatch!(self.level, simd => rung.add(simd, targets.block, targets.count, sum));
+            });
+        }
+        BlobReport {
+            is_mesh: false,
+            error_rms: 0.0,
+        }
+    }
+}
+
+impl Rung {
+    /// Adds the velocities of all at the first `count` targets of a block.
+    #[inline(always)]
+    fn add<S: Simd>(&self, simd: S, targets: &Block, count: usize, sum: &mut Block) {
+        let inverse = 1.0 / (self.width * self.width);
+        let strength = STRENGTH * inverse / self.width;
+        for lane in (0..count).step_by(S::f64s::LEN) {
+            let [px, py, pz] = load(simd, targets, lane);
+            let mut v = load(simd, sum, lane);
+            for [x, alpha] in &self.sources {
+                let r = [px - x.x, py - x.y, pz - x.z];
+                let a = strength * *alpha;
+                let z = (r[0] * r[0] + r[1] * r[1] + r[2] * r[2]) * inverse;
+                let g = swirl(simd, z);
+                v[0] += g * (r[2] * a.y - r[1] * a.z);
+                v[1] += g * (r[0] * a.z - r[2] * a.x);
+                v[2] += g * (r[1] * a.x - r[0] * a.y);
+            }
+            store::<S>(v, sum, lane);
+        }
+    }
+}
+
+/// g as a function of t^2: nine digits everywhere.
+#[inline(always)]
+fn swirl<S: Simd>(simd: S, z: S::f64s) -> S::f64s {
+    let splat = |x: f64| S::f64s::splat(simd, x);
+    let four = splat(4.0);
+    let near = polynomial(simd, &NEAR, z.min(four) * 0.5 - 1.0);
+    // g t^3 = 1 - t exp(-t^2 / 2) V(1 / t).
+    let far = z.max(four);
+    let y = splat(1.0) / far.sqrt();
+    let v = polynomial(simd, &FAR, y * 4.0 - 1.0);
+    let mut fall = [far * (0.5 * LOG2_E)];
+    <Double as Precision<S>>::one_minus_exp2(simd, &mut fall);
+    let far = splat(1.0) - (splat(1.0) - fall[0]) * (far * y) * v;
+    z.simd_lt(four).select(near, far * (y * y * y))
+}
+
+#[inline(always)]
+fn polynomial<S: Simd>(simd: S, c: &[f64; 12], x: S::f64s) -> S::f64s {
+    let x2 = x * x;
+    let (mut even, mut odd) = (S::f64s::splat(simd, c[10]), S::f64s::splat(simd, c[11]));
+    for k in (0..10).step_by(2).rev() {
+        even = even * x2 + c[k];
+        odd = odd * x2 + c[k + 1];
+    }
+    odd * x + even
+}
+
+/// The same as [`swirl`], one at a time.
+pub(super) fn swirl_of(z: f64) -> f64 {
+    let mut out = [0.0; BLOCK];
+    let level = Level::fallback();
+    dispatch!(level, simd => one(simd, z, &mut out));
+    return out[0];
+
+    #[inline(always)]
+    fn one<S: Simd>(simd: S, z: f64, out: &mut [f64; BLOCK]) {
+        swirl(simd, S::f64s::splat(simd, z)).store_slice(&mut out[..S::f64s::LEN]);
+    }
+}
+
+/// g on t^2 = 2 + 2 x, x in \[-1, 1\], lowest power first: the Chebyshev interpolant at twelve points, to 1.2e-13.
+const NEAR: [f64; 12] = [
+    0.15117705942926009,
+    -0.080002925970167484,
+    0.0266223258767094,
+    -0.0065989363262524038,
+    0.0013086923912579177,
+    -0.00021653944769546336,
+    3.0747413473493327e-5,
+    -3.8240380471941363e-6,
+    4.2300693706496084e-7,
+    -4.2150684174859154e-8,
+    3.8943413837027647e-9,
+    -3.2278272441818225e-10,
+];
+
+/// V = sqrt(2 / pi) + y exp(1 / (2 y^2)) erfc(1 / (y sqrt 2)) on y = (1 + x) / 4, likewise, to 9e-10.
+const FAR: [f64; 12] = [
+    0.84508988192147597,
+    0.089804750799800873,
+    0.036847088495477256,
+    -0.0061681274582897655,
+    0.00016213463338045412,
+    0.00039234942532412629,
+    -0.00017791262072922179,
+    3.3581253792305817e-5,
+    1.2112602401335778e-5,
+    -1.2257906902706595e-5,
+    2.256868946483686e-6,
+    7.0429828850471297e-7,
+];
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// g against the series of its definition about zero, and against 1 / t^3 far off, where it is a point's.
+    #[test]
+    fn closed_form_swirl() {
+        // Integral of the vorticity within t: 3 sqrt(2 / pi) sum (-z / 2)^n / (n! (2 n + 3)) / 3.
+        let series = |z: f64| {
+            let (mut term, mut sum) = (1.0, 0.0);
+            for n in 0..60 {
+                sum += term / (2 * n + 3) as f64;
+                term *= -0.5 * z / (n + 1) as f64;
+            }
+            (2.0 / std::f64::consts::PI).sqrt() * sum
+        };
+        for z in [0.0, 1e-9, 0.3, 1.0, 3.9, 4.1, 6.0, 9.0, 14.0] {
+            let (g, exact) = (swirl_of(z), series(z));
+            // The series cancels some digits at the end; the interpolants keep nine.
+            assert!((g / exact - 1.0).abs() < 3e-9, "{z}: {g} {exact}");
+        }
+        for z in [80.0, 1e4, 1e12, 1e100] {
+            assert!((swirl_of(z) * z * z.sqrt() - 1.0).abs() < 1e-12, "{z}");
+        }
+    }
+
+    fn cloud(n: usize) -> Vec<Blob> {
+        let wave = |k: usize, f: f64| (k as f64 * f).sin();
+        let at = |k: usize| Blob {
+            position: DVec3::new(3.0 * wave(k, 1.3), 2.0 * wave(k, 2.1), wave(k, 0.7)),
+            strength: DVec3::new(wave(k, 0.9), wave(k, 1.7), wave(k, 2.9)),
+            variance: 0.01 * 1000f64.powf(wave(k, 0.4).powi(2)),
+        };
+        (1..=n).map(at).collect()
+    }
+
+    /// The mesh against the sum one by one, at the blobs and between them.
+    #[test]
+    fn second_method_mesh() {
+        let blobs = cloud(3000);
+        let box_ = [DVec3::new(-3.0, -2.0, -1.0), DVec3::new(3.0, 2.0, 1.0)];
+        let targets: Points = blobs.iter().map(|b| 0.99 * b.position).collect();
+        let mut sum = BlobSum::default();
+        sum.load(&blobs, 0.01, box_);
+        let of = |sum: &mut BlobSum, tolerance| {
+            let mut v = Points::zeros(targets.len());
+            (sum.add_velocity(tolerance, &targets, &mut v), v)
+        };
+        let (report, mesh) = of(&mut sum, 1e-4);
+        let (other, each) = of(&mut sum, 0.0);
+        assert!(report.is_mesh && !other.is_mesh);
+        let square = |v: &Points| v.iter().map(|v| v.length_squared()).sum::<f64>();
+        let off: f64 = mesh.iter().zip(each.iter()).map(|(a, b)| a.distance_squared(b)).sum();
+        let error = (off / square(&each)).sqrt();
+        println!("{error:e} {:e}", report.error_rms);
+        assert!(error < 5e-5, "{error:e}");
+    }
+}
