@@ -136,7 +136,7 @@ pub struct AirSettings {
     /// scales smaller than its own length. Far off it changes nothing, nor any circulation or
     /// impulse.
     pub wake_overlap: f64,
-    /// Length [m] from which a free wake filament turns into a vortex blob, wholly at twice this length: its strength
+    /// Length [m] from which a free wake filament turns into a vortex blob, wholly at 1.25 times this length: its strength
     /// Gamma (b - a) as a Gaussian about its middle, as wide as its core; none: never. Where `wake_overlap` has made
     /// cores as wide as filaments are long, hardly more than the description changes, but blobs can be summed at
     /// a cost that grows with their number and not with its square ([`crate::kernel::BlobSum`]).
@@ -258,7 +258,7 @@ impl AirSettings {
     /// The part of a free wake filament of this length [m] that is a blob: rises smoothly from 0 to 1.
     pub(crate) fn blob_part(&self, length: f64) -> f64 {
         self.wake_blob_length.map_or(0.0, |from| {
-            let t = (length / from - 1.0).clamp(0.0, 1.0);
+            let t = ((length / from - 1.0) / 0.25).clamp(0.0, 1.0);
             t * t * (3.0 - 2.0 * t)
         })
     }

@@ -5,7 +5,9 @@ mod wakes;
 
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
-use wingbeat_air::kernel::{CoreModel, DirectSum, FastSettings, FastSum, Method, Points};
+use wingbeat_air::kernel::{
+    Blob, BlobSum, CoreModel, DirectSum, FastSettings, FastSum, Method, Points,
+};
 use wingbeat_air::{
     AirLoads, AirSettings, AirState, AirWorkspace, Lattice, NodeMotion, Surface, WakeSheet,
 };
@@ -68,6 +70,42 @@ fn exact_no_allocation_after_warm_up() {
         step();
         let before = ALLOCATIONS.get();
         step();
+        assert_eq!(ALLOCATIONS.get() - before, 0);
+    });
+}
+
+/// The mesh of blobs that move within the same box.
+#[test]
+fn exact_no_allocation_of_blobs_after_warm_up() {
+    let net = wakes::hover(CoreModel::Vatistas { radius: 0.02 }, 6_000);
+    let [low, high] = net
+        .nodes
+        .iter()
+        .fold([DVec3::INFINITY, DVec3::NEG_INFINITY], |[low, high], x| {
+            [low.min(x), high.max(x)]
+        });
+    let variance = (0.03 * (high - low).max_element()).powi(2);
+    let cloud = |shift: f64| -> Vec<Blob> {
+        let blob = |(i, x): (usize, DVec3)| Blob {
+            position: low + (x - low) * shift,
+            strength: DVec3::new(1.0, (i as f64).sin(), -1.0),
+            variance: variance * (1.0 + (i % 50) as f64),
+        };
+        net.nodes.iter().enumerate().map(blob).collect()
+    };
+    let clouds = [cloud(1.0), cloud(0.9)];
+    let mut v = Points::zeros(net.nodes.len());
+    on_one_thread(|| {
+        let mut sum = BlobSum::default();
+        let mut step = |k: usize| {
+            assert!(sum.load(&clouds[k], variance, [low, high]));
+            assert!(sum.add_velocity(1e-4, &net.nodes, &mut v).is_mesh);
+        };
+        step(0);
+        step(1);
+        let before = ALLOCATIONS.get();
+        step(0);
+        step(1);
         assert_eq!(ALLOCATIONS.get() - before, 0);
     });
 }

@@ -14,14 +14,14 @@
 use super::blobs::{Rung, swirl_of};
 use super::reference::STRENGTH;
 use super::spline::{ORDER, REFINE, transfer, weights};
+use super::transform::{LANES, Lines, Pair, Transform, good_length};
 use rayon::prelude::*;
 use rustfft::num_complex::Complex32;
-use rustfft::{Fft, FftPlannerScalar};
-use std::sync::Arc;
+use std::array::from_fn;
 use wingbeat_math::DVec3;
 
-/// Distance of the nodes over the width of the blobs: wider leaves out more than 5e-5 of the velocity.
-const SPACING: f64 = 0.6;
+/// Distance of the nodes over the width of the blobs: an error of some 2e-5 of the velocity, ten times that at 0.65.
+const SPACING: f64 = 0.55;
 
 /// Nodes around the box that splines at its border reach.
 const MARGIN: usize = 4;
@@ -44,12 +44,16 @@ pub(super) struct Mesh {
 }
 
 impl Mesh {
+    /// Nodes of the finest mesh for blobs of this width \[m\] at least, in a box between two corners \[m\].
+    pub fn nodes(width: f64, [low, high]: [DVec3; 2]) -> usize {
+        let size = cells(width, [low, high]).map(|c| c.saturating_add(1 + 2 * MARGIN));
+        size.into_iter().fold(1, usize::saturating_mul)
+    }
+
     /// Convolves the rungs, the first of them the narrowest, on a box from `low` to `high` \[m\] that holds them all.
     pub fn load(&mut self, rungs: &[Rung], [low, high]: [DVec3; 2]) {
-        let spacing = SPACING * rungs[0].width;
         self.origin = low;
-        let cells = ((high - low) / spacing).to_array();
-        let mut cells = cells.map(|c| (c.ceil() as usize).next_multiple_of(QUANTUM).max(QUANTUM));
+        let mut cells = cells(rungs[0].width, [low, high]);
         self.levels.truncate(rungs.len());
         self.levels.resize_with(rungs.len(), Level::default);
         for (level, rung) in self.levels.iter_mut().zip(rungs) {
@@ -86,6 +90,13 @@ impl Mesh {
     }
 }
 
+/// Cells of the finest mesh along each axis.
+fn cells(width: f64, [low, high]: [DVec3; 2]) -> [usize; 3] {
+    let cells = (high - low) / (SPACING * width);
+    let up = |c: f64| (c.ceil() as usize).clamp(1, usize::MAX / 2);
+    cells.to_array().map(|c| up(c).next_multiple_of(QUANTUM))
+}
+
 /// One mesh.
 #[derive(Clone, Debug, Default)]
 struct Level {
@@ -97,9 +108,12 @@ struct Level {
     nodes: Vec<Node>,
     kernel: Kernel,
     /// Spectra along x and y of two complex fields, w_x + i w_y and w_z: plane by plane of z, in it y runs fastest.
-    planes: Vec<[Complex32; 2]>,
+    planes: Vec<Pair>,
     /// The same turned round: plane by plane of the wave number along x.
-    columns: Vec<[Complex32; 2]>,
+    columns: Vec<Pair>,
+    /// Scratch of each plane, and of each plane of a finer mesh.
+    lines: Vec<Lines>,
+    carried: Vec<Node>,
 }
 
 impl Level {
@@ -165,70 +179,82 @@ impl Level {
         }
         let ([nx, ny, nz], [mx, my, mz]) = (self.size, self.kernel.padded);
         let (kernel, scale) = (&self.kernel, 1.0 / (self.spacing * self.spacing));
-        let zero = [Complex32::default(); 2];
         for buffer in [&mut self.planes, &mut self.columns] {
-            buffer.clear();
-            buffer.resize(nz * mx * my, zero);
+            buffer.resize(nz * mx * my, NOTHING);
         }
+        self.lines.resize_with(nz.max(mx), Lines::default);
         let plane = nx * ny;
-        let planes = self.planes.par_chunks_mut(mx * my);
-        planes.zip(self.nodes.par_chunks(plane)).for_each(|(out, nodes)| {
-            let mut lines = Lines::new(mx.max(my));
-            let mut rows = vec![zero; mx * ny];
-            for (j, row) in nodes.chunks(nx).enumerate() {
-                let [a, b] = lines.clear(mx);
-                for (i, node) in row.iter().enumerate() {
-                    a[i] = Complex32::new(node[0], node[1]);
-                    b[i] = Complex32::new(node[2], 0.0);
+        let planes = self.planes.par_chunks_mut(mx * my).zip(&mut self.lines);
+        planes
+            .zip(self.nodes.par_chunks(plane))
+            .for_each(|((out, lines), nodes)| {
+                for (group, rows) in nodes.chunks(LANES * nx).enumerate() {
+                    let at = |i: usize, l: usize| rows.get(l * nx + i).map_or(NOTHING, fields);
+                    lines.fill(mx, nx, at);
+                    lines.transform(&*kernel.transforms[0].forward);
+                    for (l, j) in (group * LANES..ny).take(LANES).enumerate() {
+                        (0..mx).for_each(|i| out[i * my + j] = lines.at(i, l));
+                    }
                 }
-                lines.transform(&*kernel.forward[0]);
-                (0..mx).for_each(|i| rows[i * ny + j] = lines.at(i));
-            }
-            for i in 0..mx {
-                lines.clear(my);
-                (0..ny).for_each(|j| lines.set(j, rows[i * ny + j]));
-                lines.transform(&*kernel.forward[1]);
-                (0..my).for_each(|j| out[i * my + j] = lines.at(j));
-            }
-        });
-        let planes = &self.planes;
-        self.columns.par_chunks_mut(nz * my).enumerate().for_each(|(i, column)| {
-            let mut lines = Lines::new(mz);
-            for k in 0..nz {
-                let from = (k * mx + i) * my;
-                column[k * my..(k + 1) * my].copy_from_slice(&planes[from..from + my]);
-            }
-            for j in 0..my {
-                lines.clear(mz);
-                (0..nz).for_each(|k| lines.set(k, column[k * my + j]));
-                lines.transform(&*kernel.forward[2]);
-                kernel.multiply([i, j], &mut lines);
-                lines.transform(&*kernel.backward[2]);
-                (0..nz).for_each(|k| column[k * my + j] = lines.at(k));
-            }
-        });
+                for group in out.chunks_mut(LANES * my) {
+                    lines.fill(my, ny, |j, l| {
+                        group.get(l * my + j).copied().unwrap_or(NOTHING)
+                    });
+                    lines.transform(&*kernel.transforms[1].forward);
+                    for (l, line) in group.chunks_mut(my).enumerate() {
+                        (0..my).for_each(|j| line[j] = lines.at(j, l));
+                    }
+                }
+            });
+        let (planes, columns) = (&self.planes, self.columns.par_chunks_mut(nz * my));
+        columns
+            .zip(&mut self.lines)
+            .enumerate()
+            .for_each(|(i, (column, lines))| {
+                for (k, line) in column.chunks_mut(my).enumerate() {
+                    let from = (k * mx + i) * my;
+                    line.copy_from_slice(&planes[from..from + my]);
+                }
+                for first in (0..my).step_by(LANES) {
+                    let own = |l: usize| (first + l).min(my - 1);
+                    lines.fill(mz, nz, |k, l| column[k * my + own(l)]);
+                    lines.transform(&*kernel.transforms[2].forward);
+                    kernel.multiply([i, first], lines);
+                    lines.transform(&*kernel.transforms[2].backward);
+                    for (l, j) in (first..my).take(LANES).enumerate() {
+                        (0..nz).for_each(|k| column[k * my + j] = lines.at(k, l));
+                    }
+                }
+            });
         let columns = &self.columns;
         let scale = scale as f32 / (mx * my * mz) as f32;
-        self.nodes.par_chunks_mut(plane).enumerate().for_each(|(k, nodes)| {
-            let mut lines = Lines::new(mx.max(my));
-            let mut rows = vec![zero; mx * ny];
-            for i in 0..mx {
-                let from = (i * nz + k) * my;
-                lines.clear(my);
-                (0..my).for_each(|j| lines.set(j, columns[from + j]));
-                lines.transform(&*kernel.backward[1]);
-                (0..ny).for_each(|j| rows[j * mx + i] = lines.at(j));
-            }
-            for (j, row) in nodes.chunks_mut(nx).enumerate() {
-                lines.clear(mx);
-                (0..mx).for_each(|i| lines.set(i, rows[j * mx + i]));
-                lines.transform(&*kernel.backward[0]);
-                for (i, node) in row.iter_mut().enumerate() {
-                    let [u, w] = lines.at(i);
-                    *node = [scale * u.re, scale * u.im, scale * w.im, 0.0];
+        let planes = self.planes.par_chunks_mut(mx * my).zip(&mut self.lines);
+        planes
+            .zip(self.nodes.par_chunks_mut(plane))
+            .enumerate()
+            .for_each(|(k, ((rows, lines), nodes))| {
+                for first in (0..mx).step_by(LANES) {
+                    let own = |l: usize| ((first + l).min(mx - 1) * nz + k) * my;
+                    lines.fill(my, my, |j, l| columns[own(l) + j]);
+                    lines.transform(&*kernel.transforms[1].backward);
+                    for (l, i) in (first..mx).take(LANES).enumerate() {
+                        (0..ny).for_each(|j| rows[j * mx + i] = lines.at(j, l));
+                    }
                 }
-            }
-        });
+                let rows = rows[..ny * mx].chunks(LANES * mx);
+                for (rows, nodes) in rows.zip(nodes.chunks_mut(LANES * nx)) {
+                    lines.fill(mx, mx, |i, l| {
+                        rows.get(l * mx + i).copied().unwrap_or(NOTHING)
+                    });
+                    lines.transform(&*kernel.transforms[0].backward);
+                    for (l, line) in nodes.chunks_mut(nx).enumerate() {
+                        for (i, node) in line.iter_mut().enumerate() {
+                            let [u, w] = lines.at(i, l);
+                            *node = [scale * u.re, scale * u.im, scale * w.im, 0.0];
+                        }
+                    }
+                }
+            });
     }
 
     /// Adds the velocities of a mesh of twice the spacing and the same corner.
@@ -244,13 +270,21 @@ impl Level {
             })
         };
         let plane = fx * fy;
-        self.nodes.par_chunks_mut(plane).enumerate().for_each(|(z, nodes)| {
-            let mut sheet = vec![Node::default(); nx * ny];
+        let room = nx * ny + nx;
+        self.carried
+            .resize(self.nodes.len() / plane * room, Node::default());
+        let planes = self
+            .nodes
+            .par_chunks_mut(plane)
+            .zip(self.carried.par_chunks_mut(room));
+        planes.enumerate().for_each(|(z, (nodes, scratch))| {
+            let (sheet, line) = scratch.split_at_mut(nx * ny);
+            let line = &mut line[..nx];
+            sheet.fill(Node::default());
             for (k, w) in reach(z, nz) {
                 let from = &coarse.nodes[k * nx * ny..(k + 1) * nx * ny];
                 sheet.iter_mut().zip(from).for_each(|(s, n)| add(s, w, n));
             }
-            let mut line = vec![Node::default(); nx];
             for (y, row) in nodes.chunks_mut(fx).enumerate() {
                 line.fill(Node::default());
                 for (j, w) in reach(y, ny) {
@@ -267,47 +301,19 @@ impl Level {
     }
 }
 
+const NOTHING: Pair = [Complex32::new(0.0, 0.0); 2];
+
+/// The two complex fields of a node's strength.
+fn fields(node: &Node) -> Pair {
+    [
+        Complex32::new(node[0], node[1]),
+        Complex32::new(node[2], 0.0),
+    ]
+}
+
 fn add(sum: &mut Node, weight: f32, node: &Node) {
     for c in 0..4 {
         sum[c] += weight * node[c];
-    }
-}
-
-/// Lines of two fields that are transformed together.
-struct Lines {
-    fields: [Vec<Complex32>; 2],
-    scratch: Vec<Complex32>,
-}
-
-impl Lines {
-    fn new(longest: usize) -> Self {
-        Self {
-            fields: [Vec::with_capacity(longest), Vec::with_capacity(longest)],
-            scratch: Vec::new(),
-        }
-    }
-
-    fn clear(&mut self, length: usize) -> &mut [Vec<Complex32>; 2] {
-        for field in &mut self.fields {
-            field.clear();
-            field.resize(length, Complex32::default());
-        }
-        &mut self.fields
-    }
-
-    fn at(&self, i: usize) -> [Complex32; 2] {
-        [self.fields[0][i], self.fields[1][i]]
-    }
-
-    fn set(&mut self, i: usize, values: [Complex32; 2]) {
-        [self.fields[0][i], self.fields[1][i]] = values;
-    }
-
-    fn transform(&mut self, by: &dyn Fft<f32>) {
-        self.scratch.resize(by.get_inplace_scratch_len().max(self.scratch.len()), Complex32::default());
-        for field in &mut self.fields {
-            by.process_with_scratch(field, &mut self.scratch);
-        }
     }
 }
 
@@ -317,8 +323,7 @@ struct Kernel {
     size: [usize; 3],
     /// Nodes of the transforms.
     padded: [usize; 3],
-    forward: Vec<Arc<dyn Fft<f32>>>,
-    backward: Vec<Arc<dyn Fft<f32>>>,
+    transforms: Vec<Transform>,
     /// i times the spectra of K_x, K_y, K_z on the wave numbers 0 to padded / 2 along each axis, z fastest: the others
     /// follow by symmetry.
     octant: Vec<[f32; 3]>,
@@ -339,9 +344,7 @@ impl Kernel {
         self.size = size;
         // Twice the nodes, and room for what the splines' inverse smears.
         self.padded = size.map(|n| good_length(2 * n + QUANTUM));
-        let mut planner = FftPlannerScalar::new();
-        self.forward = self.padded.map(|m| planner.plan_fft_forward(m)).into();
-        self.backward = self.padded.map(|m| planner.plan_fft_inverse(m)).into();
+        self.transforms = self.padded.map(Transform::new).into();
         self.tabulate();
     }
 
@@ -351,75 +354,80 @@ impl Kernel {
         let count: usize = half.iter().product();
         let width = 1.0 / SPACING;
         let mut table = vec![[0.0; 3]; count];
-        table.par_chunks_mut(half[1] * half[2]).enumerate().for_each(|(i, plane)| {
-            for (at, value) in plane.iter_mut().enumerate() {
-                let r = [i, at / half[2], at % half[2]].map(|n| n as f64);
-                let z = r.iter().map(|r| r * r).sum::<f64>() / (width * width);
-                let g = swirl_of(z) / width.powi(3);
-                *value = r.map(|r| g * r);
-            }
-        });
+        table
+            .par_chunks_mut(half[1] * half[2])
+            .enumerate()
+            .for_each(|(i, plane)| {
+                for (at, value) in plane.iter_mut().enumerate() {
+                    let r = [i, at / half[2], at % half[2]].map(|n| n as f64);
+                    let z = r.iter().map(|r| r * r).sum::<f64>() / (width * width);
+                    let g = swirl_of(z) / width.powi(3);
+                    *value = r.map(|r| g * r);
+                }
+            });
         // One axis after the other: sines for the component along it, cosines for the others.
         for axis in 0..3 {
             let (m, n) = (self.padded[axis], half[axis]);
             let waves = |q: usize, r: usize| {
                 let phase = std::f64::consts::TAU * ((q * r) % m) as f64 / m as f64;
                 let ends = r == 0 || r == n - 1;
-                [2.0 * phase.sin(), if ends { 1.0 } else { 2.0 } * phase.cos()]
+                [
+                    2.0 * phase.sin(),
+                    if ends { 1.0 } else { 2.0 } * phase.cos(),
+                ]
             };
             let waves: Vec<[f64; 2]> = (0..n * n).map(|k| waves(k / n, k % n)).collect();
             let mut next = vec![[0.0; 3]; count];
             let from = &table;
-            next.par_chunks_mut(half[1] * half[2]).enumerate().for_each(|(i, plane)| {
-                for (at, value) in plane.iter_mut().enumerate() {
-                    let mut place = [i, at / half[2], at % half[2]];
-                    let q = place[axis];
-                    let inverse = 1.0 / transfer(std::f64::consts::TAU * q as f64 / m as f64);
-                    let mut sum = [0.0; 3];
-                    for (r, [sine, cosine]) in waves[q * n..(q + 1) * n].iter().enumerate() {
-                        place[axis] = r;
-                        let x = &from[index(place)];
-                        for c in 0..3 {
-                            sum[c] += x[c] * if c == axis { sine } else { cosine };
+            next.par_chunks_mut(half[1] * half[2])
+                .enumerate()
+                .for_each(|(i, plane)| {
+                    for (at, value) in plane.iter_mut().enumerate() {
+                        let mut place = [i, at / half[2], at % half[2]];
+                        let q = place[axis];
+                        let inverse = 1.0 / transfer(std::f64::consts::TAU * q as f64 / m as f64);
+                        let mut sum = [0.0; 3];
+                        for (r, [sine, cosine]) in waves[q * n..(q + 1) * n].iter().enumerate() {
+                            place[axis] = r;
+                            let x = &from[index(place)];
+                            for c in 0..3 {
+                                sum[c] += x[c] * if c == axis { sine } else { cosine };
+                            }
                         }
+                        *value = sum.map(|s| s * inverse);
                     }
-                    *value = sum.map(|s| s * inverse);
-                }
-            });
+                });
             table = next;
         }
         self.octant.clear();
-        self.octant.extend(table.iter().map(|t| t.map(|t| t as f32)));
+        self.octant
+            .extend(table.iter().map(|t| t.map(|t| t as f32)));
     }
 
-    /// Multiplies the spectra on a line along z by the kernel's.
+    /// Multiplies the spectra on the lines along z from the one at (i, j) on by the kernel's.
     fn multiply(&self, [i, j]: [usize; 2], lines: &mut Lines) {
         let [mx, my, mz] = self.padded;
-        let fold = |i: usize, m: usize| if i <= m / 2 { (i, 1.0_f32) } else { (m - i, -1.0) };
-        let ((i, sx), (j, sy)) = (fold(i, mx), fold(j, my));
-        let half = [my / 2 + 1, mz / 2 + 1];
-        let row = half[1] * (j + half[0] * i);
-        for k in 0..mz {
-            let (l, sz) = fold(k, mz);
-            let [x, y, z] = self.octant[row + l];
-            let across = Complex32::new(sx * x, sy * y);
-            let [a, b] = lines.at(k);
-            let turned = Complex32::new(across.im, across.re);
-            lines.set(k, [across * b - a * (sz * z), a * turned]);
-        }
-    }
-}
-
-/// The next even number without prime factors above five.
-fn good_length(least: usize) -> usize {
-    let is_good = |&n: &usize| {
-        let mut rest = n;
-        for p in [2, 3, 5] {
-            while rest % p == 0 {
-                rest /= p;
+        let fold = |i: usize, m: usize| {
+            if i <= m / 2 {
+                (i, 1.0_f32)
+            } else {
+                (m - i, -1.0)
             }
-        }
-        rest == 1 && n % 2 == 0
-    };
-    (least.max(2)..).find(is_good).expect("powers of two have no end")
+        };
+        let (i, sx) = fold(i, mx);
+        let half = [my / 2 + 1, mz / 2 + 1];
+        let rows: [_; LANES] = from_fn(|l| {
+            let (j, sy) = fold((j + l).min(my - 1), my);
+            (half[1] * (j + half[0] * i), sy)
+        });
+        lines.multiply(|k| {
+            let (k, sz) = fold(k, mz);
+            let mut out = [[0.0; LANES]; 3];
+            for (l, (row, sy)) in rows.iter().enumerate() {
+                let [x, y, z] = self.octant[row + k];
+                (out[0][l], out[1][l], out[2][l]) = (sx * x, sy * y, sz * z);
+            }
+            out
+        });
+    }
 }

@@ -47,6 +47,7 @@ pub mod reference;
 mod single;
 mod sources;
 mod spline;
+mod transform;
 
 pub use blobs::{Blob, BlobReport, BlobSum};
 pub(crate) use direct::UnitEdges;

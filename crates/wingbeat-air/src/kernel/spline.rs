@@ -33,7 +33,11 @@ pub(super) fn weights(f: f64) -> [f32; ORDER] {
         let inverse = 1.0 / (n - 1) as f64;
         for j in (0..n).rev() {
             let x = f + j as f64;
-            let below = if j > 0 { (n as f64 - x) * m[j - 1] } else { 0.0 };
+            let below = if j > 0 {
+                (n as f64 - x) * m[j - 1]
+            } else {
+                0.0
+            };
             m[j] = (x * m[j] + below) * inverse;
         }
     }
@@ -43,7 +47,9 @@ pub(super) fn weights(f: f64) -> [f32; ORDER] {
 /// What spreading and gathering do together to a wave of this phase \[rad\] from node to node.
 pub(super) fn transfer(phase: f64) -> f64 {
     const FACTORIAL: f64 = 39_916_800.0;
-    let sum: f64 = (1..ORDER).map(|j| TWICE[j] * (j as f64 * phase).cos()).sum();
+    let sum: f64 = (1..ORDER)
+        .map(|j| TWICE[j] * (j as f64 * phase).cos())
+        .sum();
     (TWICE[0] + 2.0 * sum) / FACTORIAL
 }
 
@@ -56,7 +62,11 @@ mod tests {
     fn closed_form_partition_of_unity_and_first_moment() {
         for f in [0.0, 0.1, 0.5, 0.93] {
             let w = weights(f).map(f64::from);
-            let moment: f64 = w.iter().enumerate().map(|(k, w)| (k as f64 - 2.0) * w).sum();
+            let moment: f64 = w
+                .iter()
+                .enumerate()
+                .map(|(k, w)| (k as f64 - 2.0) * w)
+                .sum();
             assert!((w.iter().sum::<f64>() - 1.0).abs() < 2e-7);
             assert!((moment - f).abs() < 4e-7);
         }

@@ -53,13 +53,16 @@ fn exact_topology_errors() {
 #[test]
 fn exact_setting_errors_name_the_key() {
     type Spoil = fn(&mut AirSettings);
-    let spoil: [(&str, Spoil); 7] = [
+    let spoil: [(&str, Spoil); 9] = [
         ("density", |s| s.density = -1.0),
         ("free_stream", |s| s.free_stream.y = f64::NAN),
         ("max_displacement", |s| s.max_displacement = Some(0.0)),
         ("wake_overlap", |s| s.wake_overlap = f64::NAN),
         // The cut-off has no radius to widen.
         ("wake_overlap", |s| s.wake_overlap = 1.0),
+        ("wake_blob_length", |s| s.wake_blob_length = Some(f64::NAN)),
+        // Blobs as wide as nothing.
+        ("wake_blob_length", |s| s.wake_blob_length = Some(1.0)),
         ("clearance", |s| s.clearance = -1.0),
         ("max_rows", |s| s.max_rows = Some(0)),
     ];

@@ -248,3 +248,43 @@ fn exact_displacement_limit_counts_what_it_shortens() {
     assert_eq!(free.limited, 0);
     assert!(tight.limited > 0);
 }
+
+/// A filament and the blob it becomes are the same to first order far off, and have the same impulse.
+#[test]
+fn exact_blobs_keep_the_impulse_and_the_far_field() {
+    let (lattice, motion) = growing(ALL);
+    let with = |length: Option<f64>| {
+        let core = CoreModel::LambOseen {
+            radius: 0.1,
+            viscosity: 0.0,
+        };
+        let settings = AirSettings {
+            bound_core: core,
+            wake_core: core,
+            wake_overlap: 1.0,
+            wake_blob_length: length,
+            ..lattice.settings().clone()
+        };
+        Lattice::new(lattice.surfaces().to_vec(), settings).unwrap()
+    };
+    let whole = with(None);
+    let run = fly(&whole, motion, 0.25, 6, |_, _, _, _| {}).unwrap();
+    let far = Points::from_iter([DVec3::new(40.0, 30.0, -20.0), DVec3::new(-9.0, 60.0, 15.0)]);
+    let of = |lattice: &Lattice| {
+        let (mut ws, mut v) = (lattice.workspace(), Points::zeros(2));
+        let impulse = lattice.impulse(&run.state, &mut ws).unwrap();
+        let [filaments, blobs] = [ws.filaments().wake.len(), ws.filaments().blobs.len()];
+        lattice.velocity(&run.state, &far, &mut ws, &mut v).unwrap();
+        (impulse, v, [filaments, blobs])
+    };
+    let (impulse, velocity, [all, none]) = of(&whole);
+    for (length, is_mixed) in [(0.2, false), (0.5, true)] {
+        let (same, alike, [filaments, blobs]) = of(&with(Some(length)));
+        assert!(none == 0 && blobs > 0 && (filaments > 0) == is_mixed && filaments < all);
+        assert!((same - impulse).length() < 1e-14 * impulse.length());
+        for (a, b) in alike.iter().zip(velocity.iter()) {
+            // The quadrupoles differ: the filaments' length over the distance, squared.
+            assert!((a - b).length() < 2e-4 * b.length(), "{a} {b}");
+        }
+    }
+}

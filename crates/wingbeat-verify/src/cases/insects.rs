@@ -62,6 +62,8 @@ pub(super) struct Choice {
     pub loads: &'static str,
     pub core: f64,
     pub overlap: f64,
+    /// Length, in chords, from which wake filaments become blobs.
+    pub blobs: Option<f64>,
     pub steps: usize,
     pub mesh: [usize; 2],
     pub cut: Cut,
@@ -87,6 +89,7 @@ pub(super) const DEFAULT: Choice = Choice {
     loads: "pressure",
     core: 1.0,
     overlap: 1.0,
+    blobs: None,
     steps: 40,
     mesh: [5, 10],
     cut: Cut::Nowhere,
@@ -130,6 +133,10 @@ impl Choice {
             self.overlap,
             0.1 * fluid.chord,
         );
+        if let Some(chords) = self.blobs {
+            let length = chords * fluid.chord;
+            let _ = writeln!(text, "wake_blob_length_m = {length:e}");
+        }
         let _ = match self.cut {
             Cut::Nowhere => Ok(()),
             Cut::Rows(rows) => writeln!(text, "max_wake_rows = {rows}"),
@@ -413,6 +420,20 @@ fn fruit_fly(_quick: bool) -> Result<Vec<Row>, Trouble> {
                 "overlap x 0.5",
                 Choice {
                     overlap: 0.5,
+                    ..base
+                },
+            ),
+            (
+                "blobs from 2 chords",
+                Choice {
+                    blobs: Some(2.0),
+                    ..base
+                },
+            ),
+            (
+                "blobs from 1 chord",
+                Choice {
+                    blobs: Some(1.0),
                     ..base
                 },
             ),

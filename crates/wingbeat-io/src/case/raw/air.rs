@@ -43,7 +43,7 @@ pub struct AirCase {
     /// stretches; default 1, or 0 where `wake_core` is a cut-off, which has no radius.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub wake_overlap: Option<f64>,
-    /// Length from which a wake filament turns into a vortex blob, wholly at twice this length; left out: never.
+    /// Length from which a wake filament turns into a vortex blob, wholly at 1.25 times this length; left out: never.
     /// Blobs are summed on a mesh: the cost of long flights then grows with the wake and not with its square.
     /// Two mean chords are a good length; needs `wake_overlap` of 0.5 or more.
     #[serde(skip_serializing_if = "Option::is_none")]
