@@ -95,7 +95,8 @@ impl Sums {
     pub(crate) fn load_free(&mut self, settings: &AirSettings, filaments: &Filaments) -> bool {
         let is_new = self.wake.load(free(settings), &filaments.wake);
         let (least, bounds) = (settings.least_variance(), filaments.bounds());
-        let is_new = self.blobs.load(&filaments.blobs, least, bounds) || is_new;
+        let nodes = filaments.wake.nodes.len();
+        let is_new = self.blobs.load(&filaments.blobs, least, bounds, nodes) || is_new;
         self.tolerance = match settings.summation {
             Method::Direct => 0.0,
             _ => settings.tolerance,

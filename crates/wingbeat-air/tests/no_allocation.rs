@@ -98,7 +98,7 @@ fn exact_no_allocation_of_blobs_after_warm_up() {
     on_one_thread(|| {
         let mut sum = BlobSum::default();
         let mut step = |k: usize| {
-            assert!(sum.load(&clouds[k], variance, [low, high]));
+            assert!(sum.load(&clouds[k], variance, [low, high], net.nodes.len()));
             assert!(sum.add_velocity(1e-4, &net.nodes, &mut v).is_mesh);
         };
         step(0);

@@ -66,7 +66,7 @@ const SAMPLES_AT_ONCE: usize = 8;
 /// use wingbeat_math::DVec3;
 /// let blob = Blob { position: DVec3::ZERO, strength: DVec3::Z, variance: 0.01 };
 /// let mut sum = BlobSum::default();
-/// sum.load(&[blob], 0.01, [DVec3::ZERO; 2]);
+/// sum.load(&[blob], 0.01, [DVec3::ZERO; 2], 1);
 /// let mut v = Points::zeros(1);
 /// sum.add_velocity(1e-4, &Points::from_iter([DVec3::X]), &mut v);
 /// assert!((v.y[0] * 4.0 * std::f64::consts::PI - 1.0).abs() < 1e-9); // ten widths away: a point
@@ -78,6 +78,8 @@ pub struct BlobSum {
     rungs: Vec<Rung>,
     mesh: Mesh,
     has_mesh: bool,
+    /// Targets expected.
+    expected: usize,
     /// Corners of the box that the mesh fills \[m\].
     bounds: [DVec3; 2],
     velocity: Points,
@@ -102,6 +104,7 @@ impl Default for BlobSum {
             rungs: Vec::new(),
             mesh: Mesh::default(),
             has_mesh: false,
+            expected: 0,
             bounds: [DVec3::ZERO; 2],
             velocity: Points::default(),
         }
@@ -110,14 +113,22 @@ impl Default for BlobSum {
 
 impl BlobSum {
     /// Replaces the blobs, none of which is narrower than `least_variance` \[m2\]; says whether anything differs from
-    /// before. `bounds` are the corners of a box \[m\] that holds the blobs and most of the targets to come.
-    pub fn load(&mut self, blobs: &[Blob], least_variance: f64, bounds: [DVec3; 2]) -> bool {
+    /// before. `bounds` are the corners of a box \[m\] that holds the blobs and most of the targets to come, some
+    /// `expected` of them: so a mesh pays or does not.
+    pub fn load(
+        &mut self,
+        blobs: &[Blob],
+        least_variance: f64,
+        bounds: [DVec3; 2],
+        expected: usize,
+    ) -> bool {
         let base = least_variance.sqrt();
         let has_base = self.rungs.first().is_none_or(|r| r.width == base);
-        if has_base && self.loaded == blobs && (blobs.is_empty() || self.bounds == bounds) {
+        let same = (self.bounds, self.expected) == (bounds, expected);
+        if has_base && self.loaded == blobs && (blobs.is_empty() || same) {
             return false;
         }
-        self.bounds = bounds;
+        (self.bounds, self.expected) = (bounds, expected);
         if !has_base {
             self.rungs.clear();
         }
@@ -168,7 +179,7 @@ impl BlobSum {
         out: &mut Points,
     ) -> BlobReport {
         assert_eq!(targets.len(), out.len(), "as many velocities as targets");
-        if tolerance < MESH_TOLERANCE || !self.gains_by_mesh(targets.len()) {
+        if tolerance < MESH_TOLERANCE || !self.gains_by_mesh() {
             return self.add_each(targets, out);
         }
         if !self.has_mesh {
@@ -192,13 +203,13 @@ impl BlobSum {
         }
     }
 
-    fn gains_by_mesh(&self, targets: usize) -> bool {
+    fn gains_by_mesh(&self) -> bool {
         let Some(narrowest) = self.rungs.first() else {
             return false;
         };
         let nodes = Mesh::nodes(narrowest.width, self.bounds);
-        let points = self.len() + targets;
-        nodes <= MOST_NODES && nodes * NODE + points * POINT < self.len() * targets
+        let (points, pairs) = (self.len() + self.expected, self.len() * self.expected);
+        nodes <= MOST_NODES && nodes * NODE + points * POINT < pairs
     }
 
     /// Velocities from the mesh, one by one outside it.
@@ -422,7 +433,7 @@ mod tests {
         let blobs = cloud(3000);
         let targets: Points = blobs.iter().map(|b| 0.99 * b.position).collect();
         let mut sum = BlobSum::default();
-        sum.load(&blobs, 0.04, BOX);
+        sum.load(&blobs, 0.04, BOX, blobs.len());
         let of = |sum: &mut BlobSum, tolerance| {
             let mut v = Points::zeros(targets.len());
             (sum.add_velocity(tolerance, &targets, &mut v), v)
@@ -448,7 +459,7 @@ mod tests {
         let blobs = cloud(2000);
         let mut targets: Points = blobs.iter().map(|b| 0.99 * b.position).collect();
         let mut sum = BlobSum::default();
-        sum.load(&blobs, 0.04, BOX);
+        sum.load(&blobs, 0.04, BOX, blobs.len());
         let of = |sum: &mut BlobSum, targets: &Points| {
             let mut v = Points::zeros(targets.len());
             assert!(sum.add_velocity(1e-4, targets, &mut v).is_mesh);
@@ -469,7 +480,7 @@ mod tests {
         blobs[0].position = DVec3::splat(1e9);
         let targets: Points = blobs.iter().map(|b| b.position).collect();
         let mut sum = BlobSum::default();
-        sum.load(&blobs, 0.04, [-DVec3::ONE, DVec3::splat(1e9)]);
+        sum.load(&blobs, 0.04, [-DVec3::ONE, DVec3::splat(1e9)], 300);
         let mut v = Points::zeros(300);
         assert!(!sum.add_velocity(1e-4, &targets, &mut v).is_mesh);
         assert!(v.iter().all(|v| v.is_finite()));
@@ -487,7 +498,7 @@ mod tests {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
             let mut out = Points::zeros(targets.len());
             let report = pool.unwrap().install(|| {
-                sum.load(&blobs, 0.04, BOX);
+                sum.load(&blobs, 0.04, BOX, blobs.len());
                 sum.add_velocity(tolerance, &targets, &mut out)
             });
             assert_eq!(report.is_mesh, tolerance > 0.0);

@@ -18,6 +18,14 @@ pub(super) const CASES: &[Case] = &[
         run: twenty,
     },
     Case {
+        name: "hover-20-beats-blobs",
+        about: "The same with wake filaments longer than two chords as vortex blobs: the cost of a step grows with \
+                the wake and not with its square.",
+        part: Part::Sensitivity,
+        quick: false,
+        run: twenty_with_blobs,
+    },
+    Case {
         name: "wake-truncation",
         about: "Tethered hover of the fruit fly without its body: mean lift with the wakes cut by count, \
                 age and distance against nothing cut.",
@@ -28,12 +36,21 @@ pub(super) const CASES: &[Case] = &[
 ];
 
 fn twenty(_quick: bool) -> Result<Vec<Row>, Trouble> {
+    long_hover(&[])
+}
+
+fn twenty_with_blobs(_quick: bool) -> Result<Vec<Row>, Trouble> {
+    long_hover(&["air.wake_blob_length_m=1.4e-3"])
+}
+
+fn long_hover(also: &[&str]) -> Result<Vec<Row>, Trouble> {
     const BEATS: usize = 20;
     let preset = presets::find("fruit-fly-tethered")?;
-    let set = [
+    let mut set = vec![
         format!("time.beats={BEATS}"),
         "output.frames_every=0".to_owned(),
     ];
+    set.extend(also.iter().map(|&s| s.to_owned()));
     let case = LoadedCase::from_text(preset.name, preset.text, Path::new(""), &set)?;
     let weight = case.setup.animal.mass() * case.setup.gravity.length();
     let mut flight = Simulation::new(case.setup)?;
