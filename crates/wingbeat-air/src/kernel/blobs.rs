@@ -13,7 +13,7 @@ use super::cores::{Double, Precision};
 use super::direct::sum_all;
 use super::instruction_set::InstructionSet;
 use super::lanes::{BLOCK, Block, load, store};
-use super::mesh::Mesh;
+use super::mesh::{Mesh, SPACINGS};
 use super::reference::STRENGTH;
 use super::sources::Points;
 use fearless_simd::{Level, dispatch, prelude::*};
@@ -48,8 +48,8 @@ const POINT: usize = 150;
 /// Most nodes of the finest mesh: some 4 GB of memory in all. A few blobs far off must not ask for more.
 const MOST_NODES: usize = 30_000_000;
 
-/// Tolerance from which the mesh may be used: its splines leave out less.
-const MESH_TOLERANCE: f64 = 5e-5;
+/// Tolerance from which a mesh may be used: finer ones are worth a trial.
+const MESH_TOLERANCE: f64 = 5e-6;
 
 /// Targets at which the mesh is checked against the sum one by one.
 const SAMPLES: usize = 16;
@@ -76,8 +76,9 @@ pub struct BlobSum {
     level: Level,
     loaded: Vec<Blob>,
     rungs: Vec<Rung>,
-    mesh: Mesh,
-    has_mesh: bool,
+    /// One for each of [`SPACINGS`], made when wanted.
+    meshes: [Mesh; SPACINGS.len()],
+    has_mesh: [bool; SPACINGS.len()],
     /// Targets expected.
     expected: usize,
     /// Corners of the box that the mesh fills \[m\].
@@ -102,8 +103,8 @@ impl Default for BlobSum {
             level: best.expect("the best set is always there"),
             loaded: Vec::new(),
             rungs: Vec::new(),
-            mesh: Mesh::default(),
-            has_mesh: false,
+            meshes: Default::default(),
+            has_mesh: [false; SPACINGS.len()],
             expected: 0,
             bounds: [DVec3::ZERO; 2],
             velocity: Points::default(),
@@ -156,7 +157,7 @@ impl BlobSum {
         }
         let used = self.rungs.iter().rposition(|r| !r.sources.is_empty());
         self.rungs.truncate(used.map_or(0, |k| k + 1));
-        self.has_mesh = false;
+        self.has_mesh = [false; SPACINGS.len()];
         true
     }
 
@@ -182,25 +183,29 @@ impl BlobSum {
         if tolerance < MESH_TOLERANCE || !self.gains_by_mesh() {
             return self.add_each(targets, out);
         }
-        if !self.has_mesh {
-            self.mesh.load(&self.rungs, self.bounds);
-            self.has_mesh = true;
-        }
         let mut velocity = std::mem::take(&mut self.velocity);
-        velocity.reset(targets.len());
-        self.read_mesh(targets, &mut velocity);
-        let error_rms = self.error(targets, &velocity);
-        let is_mesh = error_rms <= tolerance; // not if it is no number
-        if is_mesh {
+        let mut report = None;
+        for k in 0..SPACINGS.len() {
+            if !self.has_mesh[k] {
+                self.meshes[k].load(&self.rungs, self.bounds, SPACINGS[k]);
+                self.has_mesh[k] = true;
+            }
+            velocity.reset(targets.len());
+            self.read_mesh(&self.meshes[k], targets, &mut velocity);
+            let error_rms = self.error(targets, &velocity);
+            let is_mesh = error_rms <= tolerance; // not if it is no number
+            if is_mesh {
+                report = Some(BlobReport { is_mesh, error_rms });
+                break;
+            }
+        }
+        if report.is_some() {
             for (i, v) in velocity.iter().enumerate() {
                 out.set(i, out.get(i) + v);
             }
         }
         self.velocity = velocity;
-        match is_mesh {
-            true => BlobReport { is_mesh, error_rms },
-            false => self.add_each(targets, out),
-        }
+        report.unwrap_or_else(|| self.add_each(targets, out))
     }
 
     fn gains_by_mesh(&self) -> bool {
@@ -213,7 +218,7 @@ impl BlobSum {
     }
 
     /// Velocities from the mesh, one by one outside it.
-    fn read_mesh(&self, targets: &Points, out: &mut Points) {
+    fn read_mesh(&self, mesh: &Mesh, targets: &Points, out: &mut Points) {
         let [low, high] = self.bounds;
         let Points { x, y, z } = out;
         x.par_chunks_mut(BLOCK)
@@ -225,7 +230,7 @@ impl BlobSum {
                     let p = targets.get(b * BLOCK + i);
                     let is_inside = p.cmpge(low).all() && p.cmple(high).all();
                     let v = match is_inside {
-                        true => self.mesh.velocity(p),
+                        true => mesh.velocity(p),
                         false => self.velocity_at(p),
                     };
                     (x[i], y[i], z[i]) = v.into();
@@ -440,15 +445,20 @@ mod tests {
         };
         let (report, mesh) = of(&mut sum, 1e-4);
         let (other, each) = of(&mut sum, 0.0);
+        let (finer, fine) = of(&mut sum, 1e-5);
         assert!(report.is_mesh && !other.is_mesh);
         let square = |v: &Points| v.iter().map(|v| v.length_squared()).sum::<f64>();
-        let off: f64 = mesh
-            .iter()
-            .zip(each.iter())
-            .map(|(a, b)| a.distance_squared(b))
-            .sum();
-        let error = (off / square(&each)).sqrt();
-        assert!(error < 5e-5, "{error:e}");
+        let error = |v: &Points| {
+            let off = v
+                .iter()
+                .zip(each.iter())
+                .map(|(a, b)| a.distance_squared(b));
+            (off.sum::<f64>() / square(&each)).sqrt()
+        };
+        println!("mesh {:e}, finer {:e}", error(&mesh), error(&fine));
+        assert!(error(&mesh) < 5e-5 && finer.is_mesh && error(&fine) < 1e-5);
+        // Sixteen samples tell the size of the error.
+        assert!((0.3..3.0).contains(&(error(&mesh) / report.error_rms)));
     }
 
     const BOX: [DVec3; 2] = [DVec3::new(-3.0, -2.0, -1.0), DVec3::new(3.0, 2.0, 1.0)];

@@ -1,7 +1,7 @@
 //! The velocity of many blobs by convolution on meshes: particle-mesh, one mesh to a rung of widths.
 //!
 //! 1. Each blob spreads its strength over the nodes around it by splines, on the mesh of its rung, whose spacing
-//!    is [`SPACING`] of the rung's width.
+//!    is a part of the rung's width.
 //! 2. On each mesh the strengths are convolved with the velocity of one blob, by fast Fourier transforms on twice as many
 //!    nodes: so the air is unbounded \[Hockney & Eastwood 1988, Computer Simulation Using Particles, sec. 6-5\]. A blob
 //!    is smooth on the scale of the spacing, so this leaves out little; the splines' own smoothing is divided out.
@@ -20,8 +20,9 @@ use rustfft::num_complex::Complex32;
 use std::array::from_fn;
 use wingbeat_math::DVec3;
 
-/// Distance of the nodes over the width of the blobs: an error of some 2e-5 of the velocity, ten times that at 0.65.
-const SPACING: f64 = 0.55;
+/// Distances of the nodes over the width of the blobs: an error of some 2e-5 of the velocity (three times that at 0.6),
+/// and of some 2e-6.
+pub(super) const SPACINGS: [f64; 2] = [0.55, 0.42];
 
 /// Nodes around the box that splines at its border reach.
 const MARGIN: usize = 4;
@@ -46,18 +47,20 @@ pub(super) struct Mesh {
 impl Mesh {
     /// Nodes of the finest mesh for blobs of this width \[m\] at least, in a box between two corners \[m\].
     pub fn nodes(width: f64, [low, high]: [DVec3; 2]) -> usize {
-        let size = cells(width, [low, high]).map(|c| c.saturating_add(1 + 2 * MARGIN));
+        let size =
+            cells(SPACINGS[0] * width, [low, high]).map(|c| c.saturating_add(1 + 2 * MARGIN));
         size.into_iter().fold(1, usize::saturating_mul)
     }
 
-    /// Convolves the rungs, the first of them the narrowest, on a box from `low` to `high` \[m\] that holds them all.
-    pub fn load(&mut self, rungs: &[Rung], [low, high]: [DVec3; 2]) {
+    /// Convolves the rungs, the first of them the narrowest, on a box from `low` to `high` \[m\] that holds them all;
+    /// `spacing` is the distance of the nodes over the width of the blobs.
+    pub fn load(&mut self, rungs: &[Rung], [low, high]: [DVec3; 2], spacing: f64) {
         self.origin = low;
-        let mut cells = cells(rungs[0].width, [low, high]);
+        let mut cells = cells(spacing * rungs[0].width, [low, high]);
         self.levels.truncate(rungs.len());
         self.levels.resize_with(rungs.len(), Level::default);
         for (level, rung) in self.levels.iter_mut().zip(rungs) {
-            level.fit(SPACING * rung.width, cells);
+            level.fit(spacing, rung.width, cells);
             level.spread(rung, low);
             level.convolve(!rung.sources.is_empty());
             cells = cells.map(|c| c.div_ceil(2));
@@ -91,8 +94,8 @@ impl Mesh {
 }
 
 /// Cells of the finest mesh along each axis.
-fn cells(width: f64, [low, high]: [DVec3; 2]) -> [usize; 3] {
-    let cells = (high - low) / (SPACING * width);
+fn cells(spacing: f64, [low, high]: [DVec3; 2]) -> [usize; 3] {
+    let cells = (high - low) / spacing;
     let up = |c: f64| (c.ceil() as usize).clamp(1, usize::MAX / 2);
     cells.to_array().map(|c| up(c).next_multiple_of(QUANTUM))
 }
@@ -117,10 +120,10 @@ struct Level {
 }
 
 impl Level {
-    fn fit(&mut self, spacing: f64, cells: [usize; 3]) {
-        self.spacing = spacing;
+    fn fit(&mut self, spacing: f64, width: f64, cells: [usize; 3]) {
+        self.spacing = spacing * width;
         self.size = cells.map(|c| c + 1 + 2 * MARGIN);
-        self.kernel.fit(self.size);
+        self.kernel.fit(self.size, 1.0 / spacing);
     }
 
     fn index(&self, [i, j, k]: [usize; 3]) -> usize {
@@ -321,6 +324,8 @@ fn add(sum: &mut Node, weight: f32, node: &Node) {
 #[derive(Clone, Default)]
 struct Kernel {
     size: [usize; 3],
+    /// Width of the blob, in nodes.
+    width: f64,
     /// Nodes of the transforms.
     padded: [usize; 3],
     transforms: Vec<Transform>,
@@ -337,11 +342,11 @@ impl std::fmt::Debug for Kernel {
 
 impl Kernel {
     /// Makes it the one for meshes of this size, if it is not.
-    fn fit(&mut self, size: [usize; 3]) {
-        if self.size == size {
+    fn fit(&mut self, size: [usize; 3], width: f64) {
+        if self.size == size && self.width == width {
             return;
         }
-        self.size = size;
+        (self.size, self.width) = (size, width);
         // Twice the nodes, and room for what the splines' inverse smears.
         self.padded = size.map(|n| good_length(2 * n + QUANTUM));
         self.transforms = self.padded.map(Transform::new).into();
@@ -352,7 +357,7 @@ impl Kernel {
         let half = self.padded.map(|m| m / 2 + 1);
         let index = |[i, j, k]: [usize; 3]| k + half[2] * (j + half[1] * i);
         let count: usize = half.iter().product();
-        let width = 1.0 / SPACING;
+        let width = self.width;
         let mut table = vec![[0.0; 3]; count];
         table
             .par_chunks_mut(half[1] * half[2])

@@ -19,7 +19,8 @@
 //! Two sums: [`DirectSum`] takes every segment at every target; [`FastSum`] does so in single precision, or
 //! sums far segments by the expansions of the cells of a tree, to a tolerance that it checks at every call.
 //!
-//! [`ParticleSum`] is the direct sum over vortex particles.
+//! [`BlobSum`] is the sum over Gaussian vortex blobs, one by one or on a mesh; [`ParticleSum`] the direct sum over
+//! vortex particles.
 //!
 //! Promises: the same bits for every instruction set ([`InstructionSet`]) and any number of threads;
 //! never NaN or infinite for finite input, on a node and on a filament included; nothing is

@@ -112,8 +112,12 @@ fn air_warnings(
         0.0 => String::new(),
         part => format!(", at least {part} times a filament's length"),
     };
+    let blobs = match lattice.wake_blob_length {
+        None => String::new(),
+        Some(length) => format!("; filaments longer than {length:.1e} m are blobs"),
+    };
     list.push(format!(
-        "The vortex core ({kind}, {size:.1e} m = {:.3} mean chords{overlap}) is an input, not a result: vary it and see what changes.",
+        "The vortex core ({kind}, {size:.1e} m = {:.3} mean chords{overlap}{blobs}) is an input, not a result: vary it and see what changes.",
         size / chord
     ));
     if air.mirror {
