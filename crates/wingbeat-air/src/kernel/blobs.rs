@@ -398,6 +398,7 @@ const FAR: [f64; 12] = [
 
 #[cfg(test)]
 mod tests {
+    use super::super::model::LAMB_ALPHA;
     use super::*;
 
     /// g against the series of its definition about zero, and against 1 / t^3 far off, where it is a point's.
@@ -419,6 +420,28 @@ mod tests {
         }
         for z in [80.0, 1e4, 1e12, 1e100] {
             assert!((swirl_of(z) * z * z.sqrt() - 1.0).abs() < 1e-12, "{z}");
+        }
+    }
+
+    /// A long straight line of blobs is the vortex of Lamb and Oseen: strength, width and sense of rotation.
+    #[test]
+    fn closed_form_line_of_blobs() {
+        let (radius, apart) = (0.3_f64, 0.05);
+        let variance = radius * radius / (2.0 * LAMB_ALPHA);
+        let blob = |k: i32| Blob {
+            position: DVec3::Z * (apart * f64::from(k)),
+            strength: DVec3::Z * apart,
+            variance,
+        };
+        let blobs: Vec<Blob> = (-4000..=4000).map(blob).collect();
+        let mut sum = BlobSum::default();
+        sum.load(&blobs, variance, [DVec3::ZERO; 2], 1);
+        for h in [0.05_f64, 0.3, 1.0] {
+            let core = 1.0 - (-LAMB_ALPHA * (h / radius).powi(2)).exp();
+            let exact = DVec3::Y * (core / (std::f64::consts::TAU * h));
+            // The line ends 200 m off: (h / 200)^2 / 2 is missing.
+            let v = sum.velocity_at(DVec3::X * h);
+            assert!((v - exact).length() < 2e-5 * exact.length(), "{v} {exact}");
         }
     }
 
