@@ -16,8 +16,9 @@ fn main() {
     divan::main();
 }
 
-/// Two plunging wings of 5 x 10 panels that shed all around but at the root.
+/// Two plunging wings, of 5 x 10 panels if nothing else is said, that shed all around but at the root.
 struct Flight {
+    panels: [usize; 2],
     lattice: Lattice,
     state: AirState,
     loads: AirLoads,
@@ -30,6 +31,11 @@ const STEP: f64 = 0.2;
 impl Flight {
     /// After so many steps.
     fn new(steps: usize) -> Self {
+        Self::of([5, 10], false, steps)
+    }
+
+    /// With so many panels along chord and span, their shape at rest given or not.
+    fn of(panels: [usize; 2], rest: bool, steps: usize) -> Self {
         let core = CoreModel::LambOseen {
             radius: 0.05,
             viscosity: 1e-3,
@@ -47,10 +53,17 @@ impl Flight {
             summation: Method::Direct,
             ..AirSettings::accurate(1.2, DVec3::ZERO)
         };
-        let wings = ["right", "left"].map(|name| Surface::grid(name, 5, 10));
+        let wings = [("right", 1.0), ("left", -1.0)].map(|(name, side)| {
+            let surface = Surface::grid(name, panels[0], panels[1]);
+            match rest {
+                true => surface.with_rest(wing(panels, side)),
+                false => surface,
+            }
+        });
         let lattice = Lattice::new(wings.to_vec(), settings).expect("two wings");
         let mut flight = Self {
-            state: lattice.initial_state(&motion(0.0)),
+            panels,
+            state: lattice.initial_state(&motion(panels, 0.0)),
             loads: AirLoads::default(),
             ws: lattice.workspace(),
             lattice,
@@ -67,7 +80,7 @@ impl Flight {
                 &self.state,
                 self.time,
                 STEP,
-                &motion(self.time),
+                &motion(self.panels, self.time),
                 &mut self.ws,
                 &mut self.loads,
             )
@@ -75,7 +88,7 @@ impl Flight {
     }
 
     fn step(&mut self) {
-        let now = motion(self.time);
+        let now = motion(self.panels, self.time);
         self.lattice
             .accept(&mut self.state, &now, &self.loads)
             .expect("computed before");
@@ -87,18 +100,26 @@ impl Flight {
     }
 }
 
-fn motion(t: f64) -> NodeMotion {
+fn wing([rows, columns]: [usize; 2], side: f64) -> Vec<DVec3> {
+    let at = |k: usize| [k / (columns + 1), k % (columns + 1)];
+    let place = |[i, j]: [usize; 2]| {
+        let (x, y) = (i as f64 / rows as f64, 3.0 * j as f64 / columns as f64);
+        DVec3::new(x, side * (0.2 + y), 0.0)
+    };
+    (0..(rows + 1) * (columns + 1))
+        .map(|k| place(at(k)))
+        .collect()
+}
+
+fn motion(panels: [usize; 2], t: f64) -> NodeMotion {
     let shift = DVec3::new(-t, 0.0, 0.3 * t.sin());
     let velocity = DVec3::new(-1.0, 0.0, 0.3 * t.cos());
-    let mut motion = NodeMotion::default();
-    for side in [1.0, -1.0] {
-        for k in 0..6 * 11 {
-            let (x, y) = ((k / 11) as f64 / 5.0, 0.2 + 0.3 * (k % 11) as f64);
-            motion.position.push(DVec3::new(x, side * y, 0.0) + shift);
-            motion.velocity.push(velocity);
-        }
+    let nodes = [1.0, -1.0].into_iter().flat_map(|side| wing(panels, side));
+    let position: Vec<DVec3> = nodes.map(|x| x + shift).collect();
+    NodeMotion {
+        velocity: vec![velocity; position.len()],
+        position,
     }
-    motion
 }
 
 /// Influence matrix, its factors, circulations and loads in a frozen wake whose velocities are known:
@@ -106,6 +127,13 @@ fn motion(t: f64) -> NodeMotion {
 #[divan::bench]
 fn influence_and_loads(bencher: Bencher) {
     let mut flight = Flight::new(40);
+    bencher.bench_local(|| flight.load());
+}
+
+/// The same for finer wings, in little wake, with and without the shapes at rest.
+#[divan::bench(args = [[8, 12], [8, 16], [8, 20], [12, 20], [12, 40], [16, 60]], consts = [true, false], sample_count = 10, sample_size = 1)]
+fn influence_of_fine_wings<const REST: bool>(bencher: Bencher, panels: [usize; 2]) {
+    let mut flight = Flight::of(panels, REST, 2);
     bencher.bench_local(|| flight.load());
 }
 

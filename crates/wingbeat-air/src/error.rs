@@ -23,6 +23,18 @@ pub enum AirError {
         /// Number of nodes of the surface.
         count: usize,
     },
+    /// The shape at rest is not that of the surface.
+    #[error(
+        "surface {surface}: its shape at rest has {nodes} nodes where {expected} finite places [m] are needed, one for each of its nodes; give these, or none"
+    )]
+    Rest {
+        /// Name of the surface.
+        surface: String,
+        /// Places given.
+        nodes: usize,
+        /// Number of nodes of the surface.
+        expected: usize,
+    },
     /// Panels do not form an oriented surface.
     #[error(
         "surface {surface}: {count} panels run the edge {from} -> {to} the same way; neighbouring panels must be oriented alike (corner order all clockwise or all anticlockwise seen from one side) and an edge joins at most two"

@@ -14,11 +14,10 @@
 //! share, 1.27 / (2 pi) less of what a uniform sheet sheds in a panel length if the row is very short.
 //! There part of what is shed waits on the edge ([`released`]).
 
-use crate::filaments::{Filaments, newest};
-use crate::influence::unknowns;
-use crate::kernel::{BLOCK, Network, Points, UnitEdges};
+use crate::filaments::newest;
+use crate::influence::{add_part, unknown};
+use crate::kernel::{BLOCK, Network, Points};
 use crate::lattice::Lattice;
-use crate::panels::Panels;
 use crate::rings::opposite;
 use crate::settings::{AirSettings, NewestRow};
 use crate::state::AirState;
@@ -243,48 +242,19 @@ pub(crate) fn at_edge(row: &Row, column: usize) -> [f64; 2] {
     [sign * first.past, sign * first.part]
 }
 
-/// Adds to the influence matrix what the row has of the panels' present circulation; `rates` is room
-/// to work in.
-pub(crate) fn add_influence(
+/// Adds to a block of the influence matrix, from the normal velocities of the row's filaments at its first `count`
+/// places, what the row has of the panels' present circulation.
+pub(crate) fn add_shares(
     lattice: &Lattice,
-    filaments: &Filaments,
-    panels: &Panels,
-    edges: &mut UnitEdges,
-    rates: &mut Vec<f64>,
-    matrix: &mut [f64],
+    shares: &[Share],
+    rates: &[f64],
+    count: usize,
+    block: &mut [f64],
 ) {
-    let (front, shares) = (&filaments.front, &filaments.shares);
-    if lattice.settings().newest_row == NewestRow::Constant || front.is_empty() {
-        return;
-    }
-    let (n, model) = (unknowns(lattice), lattice.settings().wake_core);
-    let lead = |i: usize| lattice.halves().map_or(i, |h| h.lead[i]);
-    edges.load(model, front);
-    let size = edges.len() * BLOCK;
-    rates.resize(size.max(rates.len()), 0.0);
-    let rates = &mut rates[..size];
-    for (b, rows) in matrix.chunks_mut(BLOCK * n).enumerate() {
-        let own = b * BLOCK..n.min((b + 1) * BLOCK);
-        let place = |p: usize| [panels.point[p], panels.normal[p]];
-        let places = || own.clone().map(|i| place(lead(i)));
-        edges.normal_velocities(model, places(), rates);
-        add_shares(lattice, shares, rates, rows);
-        for mirror in lattice.mirrors() {
-            let images = places().map(|[x, n]| [mirror.place(x), mirror.vector(n)]);
-            edges.normal_velocities(model, images, rates);
-            add_shares(lattice, shares, rates, rows);
-        }
-    }
-}
-
-fn add_shares(lattice: &Lattice, shares: &[Share], rates: &[f64], rows: &mut [f64]) {
-    let n = unknowns(lattice);
-    let unknown = |p: usize| lattice.halves().map_or(p, |h| h.unknown[p]);
     for (share, rates) in shares.iter().zip(rates.chunks(BLOCK)) {
-        for (row, u) in rows.chunks_mut(n).zip(rates) {
-            for k in 0..2 {
-                row[unknown(share.panel[k])] += share.part[k] * u;
-            }
+        for (&panel, &part) in share.panel.iter().zip(&share.part) {
+            let to = &mut block[unknown(lattice, panel) * BLOCK..][..count];
+            add_part(to, part, rates);
         }
     }
 }

@@ -4,6 +4,7 @@ use crate::error::AirError;
 use crate::filaments::newest;
 use crate::images::{Mirror, mirrors};
 use crate::loads::AirWorkspace;
+use crate::own::{self, Own};
 use crate::rings::{Rings, rings};
 use crate::seams::Seam;
 use crate::settings::{AirSettings, LeadingEdge};
@@ -13,6 +14,7 @@ use crate::surface::{EdgeKind, Surface};
 use crate::topology::{Edge, Sheet, Topology};
 use crate::twins::{Halves, Twins};
 use std::ops::Range;
+use std::sync::Arc;
 use wingbeat_math::DVec3;
 
 /// Vortex rings on the panels of any number of surfaces, with their wakes' roots.
@@ -25,6 +27,7 @@ pub struct Lattice {
     rings: Rings,
     mirrors: Vec<Mirror>,
     halves: Option<Halves>,
+    own: Arc<Vec<Own>>,
 }
 
 impl Lattice {
@@ -49,7 +52,7 @@ impl Lattice {
         let mut settings = settings;
         settings.shedding.leading &= settings.leading != LeadingEdge::Never;
         let topology = Topology::new(&surfaces, seams, settings.shedding)?;
-        Ok(Self {
+        let lattice = Self {
             strips: strips(&topology, &surfaces),
             rings: rings(&topology, &surfaces, &settings),
             mirrors: mirrors(&settings.images)?,
@@ -57,7 +60,14 @@ impl Lattice {
             settings,
             topology,
             halves: None,
-        })
+            own: Arc::default(),
+        };
+        Ok(lattice.with_own())
+    }
+
+    fn with_own(mut self) -> Self {
+        self.own = Arc::new(own::known(&self));
+        self
     }
 
     /// The same lattice for motions that are mirror-symmetric: computed on one half.
@@ -66,11 +76,16 @@ impl Lattice {
     /// [`AirError::Twins`] names the first node, panel or wake sheet whose twin does not fit.
     pub fn with_twins(mut self, twins: Twins) -> Result<Self, AirError> {
         self.halves = Some(Halves::new(twins, &self.topology)?);
-        Ok(self)
+        Ok(self.with_own())
     }
 
     pub(crate) fn halves(&self) -> Option<&Halves> {
         self.halves.as_ref()
+    }
+
+    /// What is known of surfaces that keep their shape, in the order of their unknowns.
+    pub(crate) fn own(&self) -> &[Own] {
+        &self.own
     }
 
     /// Strips of panels behind the leading edges, in the order of [`AirState::leading`].

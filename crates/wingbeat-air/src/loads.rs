@@ -4,7 +4,7 @@ use crate::closed;
 use crate::contact::Obstacles;
 use crate::error::AirError;
 use crate::filaments::Filaments;
-use crate::influence::Influence;
+use crate::influence::{Influence, Instant};
 use crate::joukowski;
 use crate::kernel::Points;
 use crate::lattice::Lattice;
@@ -151,7 +151,7 @@ impl Lattice {
         }
         ws.filaments.gather(self, state, t, &motion.position);
         self.wake_velocity(state, ws, out);
-        self.solve_circulation(state, ws, out)?;
+        self.solve_circulation(state, motion, ws, out)?;
         self.add_bound_velocity(state, ws, out);
         pressure::velocity_jump(self, state, &ws.filaments, out);
         pressure::circulation_rate(self, state, out);
@@ -216,6 +216,7 @@ impl Lattice {
     fn solve_circulation(
         &self,
         state: &AirState,
+        motion: &NodeMotion,
         ws: &mut AirWorkspace,
         out: &mut AirLoads,
     ) -> Result<(), AirError> {
@@ -226,9 +227,14 @@ impl Lattice {
             let v = stream + ws.velocity.get(i) + ws.shed.get(i);
             out.gamma[i] = (panels.velocity[p] - v).dot(panels.normal[p]);
         }
-        ws.influence.factor(self, state, &ws.filaments, panels)?;
-        ws.influence.solve(self, &mut out.gamma, &mut ws.leak);
-        Ok(())
+        ws.influence.assemble(Instant {
+            lattice: self,
+            state,
+            filaments: &ws.filaments,
+            panels,
+            motion,
+        });
+        (ws.influence).solve(self, state, &mut out.gamma, &mut ws.leak)
     }
 
     /// Adds the velocity of the lattice to that of stream and wakes.

@@ -54,7 +54,7 @@ impl Panels {
             if is_crossed(&x) {
                 return Err(lattice.crossed(panel, step));
             }
-            let vector_area = 0.5 * (x[2] - x[0]).cross(x[3] - x[1]);
+            let vector_area = vector_area(&x);
             let normal = vector_area
                 .try_normalize()
                 .ok_or_else(|| lattice.flat_panel(panel, step))?;
@@ -66,6 +66,18 @@ impl Panels {
         }
         Ok(())
     }
+}
+
+/// Control point and unit normal of a panel with these corners; none without area.
+pub(crate) fn place_and_normal(corners: &[usize; 4], nodes: &[DVec3]) -> Option<[DVec3; 2]> {
+    let x = corners.map(|n| nodes[n]);
+    let normal = vector_area(&x).try_normalize()?;
+    Some([mean_corner(corners, &x), normal])
+}
+
+/// Half the cross product of the diagonals.
+fn vector_area(x: &[DVec3; 4]) -> DVec3 {
+    0.5 * (x[2] - x[0]).cross(x[3] - x[1])
 }
 
 /// Neighbouring corners, not the same node, on one place.

@@ -1,5 +1,7 @@
 //! Surfaces as the caller describes them: panels and the edges that shed, topology only.
 
+use wingbeat_math::DVec3;
+
 /// Which edge of a wing a shedding segment belongs to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum EdgeKind {
@@ -40,6 +42,10 @@ pub struct Surface {
     pub shedding: Vec<Vec<SheddingSegment>>,
     /// Whether the surface encloses a volume.
     pub closed: bool,
+    /// Nodes at rest [m], in any frame that moves with the surface. On large lattices, what a surface does to itself is
+    /// computed once from them, for as long as it has this shape, and when it has another they speed up the solution
+    /// still, if it is not too different. None: everything is computed at every step.
+    pub rest: Option<Vec<DVec3>>,
 }
 
 impl Surface {
@@ -90,6 +96,15 @@ impl Surface {
             panels,
             shedding: vec![leading.chain(tip).chain(trailing).chain(root).collect()],
             closed: false,
+            rest: None,
+        }
+    }
+
+    /// The same surface with its shape at rest, see [`Self::rest`].
+    pub fn with_rest(self, nodes: Vec<DVec3>) -> Self {
+        Self {
+            rest: Some(nodes),
+            ..self
         }
     }
 
@@ -101,6 +116,7 @@ impl Surface {
             panels,
             shedding: Vec::new(),
             closed: true,
+            rest: None,
         }
     }
 }

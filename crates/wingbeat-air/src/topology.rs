@@ -188,6 +188,17 @@ impl Topology {
 
     fn add_panels(&mut self, s: usize, surface: &Surface) -> Result<(), AirError> {
         let offset = self.first_node[s];
+        if let Some(rest) = &surface.rest {
+            let (nodes, expected) = (rest.len(), surface.node_count);
+            if nodes != expected || !rest.iter().all(|x| x.is_finite()) {
+                let surface = surface.name.clone();
+                return Err(AirError::Rest {
+                    surface,
+                    nodes,
+                    expected,
+                });
+            }
+        }
         for (panel, corners) in surface.panels.iter().enumerate() {
             if let Some(&node) = corners.iter().find(|&&n| n >= surface.node_count) {
                 return Err(AirError::NodeOutOfRange {

@@ -74,6 +74,7 @@ impl SurfaceMap {
             map.deforming[i] = wing.deformation.as_ref().map(deforming);
         }
         for &[a, b] in joined {
+            (map.surfaces[a].rest, map.surfaces[b].rest) = (None, None);
             let nodes = [a, b].map(|k| map.nodes[k].clone());
             map.roots.push(roots(animal, [a, b], nodes));
         }
@@ -97,7 +98,7 @@ impl SurfaceMap {
             .push(first_panel..first_panel + surface.panels.len());
         self.local.extend_from_slice(nodes);
         self.body.push(body);
-        self.surfaces.push(surface);
+        self.surfaces.push(surface.with_rest(nodes.to_vec()));
         self.deforming.push(None);
     }
 
@@ -366,6 +367,7 @@ fn part_surface(part: &BodyPart) -> Surface {
         panels: part.mesh.quads.clone(),
         shedding: vec![],
         closed: true,
+        rest: None,
     }
 }
 
@@ -420,5 +422,6 @@ fn wing_surface(name: &str, mesh: &GridMesh, side: Side) -> Surface {
         panels: mesh.panels(side),
         shedding: vec![chain],
         closed: false,
+        rest: None,
     }
 }

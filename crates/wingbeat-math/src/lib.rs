@@ -15,6 +15,7 @@
 #![warn(missing_docs)]
 
 pub mod euler;
+mod iterative;
 pub mod lu;
 pub mod mass;
 pub mod newton;
@@ -24,6 +25,7 @@ mod small_lu;
 
 pub use euler::{EulerMatrices, EulerSequence};
 pub use glam::{DMat3, DQuat, DVec3};
+pub use iterative::{BiCgStab, Product};
 pub use lu::{DenseLu, LuError};
 pub use mass::{MassError, MassProperties};
 pub use rotation::{MovingRotation, RotationLaw, r1, r2, r3, rotation_about, tilde, untilde};

@@ -53,6 +53,13 @@ pub enum LuError {
     },
 }
 
+impl Default for DenseLu {
+    /// No room yet.
+    fn default() -> Self {
+        Self::new(0)
+    }
+}
+
 impl DenseLu {
     /// Room for matrices of order `n`.
     pub fn new(n: usize) -> Self {
@@ -137,6 +144,24 @@ impl DenseLu {
             MemStack::new(&mut self.scratch),
         );
     }
+
+    /// The inverse of the factorised matrix, by columns.
+    pub fn inverse(&self) -> Vec<f64> {
+        let n = self.n;
+        let mut columns = vec![0.0; n * n];
+        columns.iter_mut().step_by(n + 1).for_each(|d| *d = 1.0);
+        let lu = faer::MatRef::from_row_major_slice(&self.factors, n, n);
+        let room = solve::solve_in_place_scratch::<usize, f64>(n, n, Par::Seq);
+        solve::solve_in_place(
+            lu,
+            lu,
+            PermRef::new_checked(&self.perm, &self.perm_inverse, n),
+            MatMut::from_column_major_slice_mut(&mut columns, n, n),
+            Par::Seq,
+            MemStack::new(&mut MemBuffer::new(room)),
+        );
+        columns
+    }
 }
 
 #[cfg(test)]
@@ -168,6 +193,19 @@ mod tests {
                     "{n}"
                 );
             }
+        }
+    }
+
+    #[test]
+    fn exact_product_with_the_inverse_is_the_unit_matrix() {
+        let n = 30;
+        let (mut lu, a) = (DenseLu::new(n), scattered(n));
+        lu.factor(&a).unwrap();
+        let columns = lu.inverse();
+        for (i, j) in (0..n * n).map(|k| (k / n, k % n)) {
+            let product: f64 = (0..n).map(|k| a[i * n + k] * columns[j * n + k]).sum();
+            // As above.
+            assert!((product - f64::from(u8::from(i == j))).abs() < 1e-10);
         }
     }
 

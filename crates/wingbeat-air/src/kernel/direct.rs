@@ -7,6 +7,7 @@ use super::packed::Packed;
 use super::sources::{Network, Points, Segments};
 use fearless_simd::Level;
 use rayon::prelude::*;
+use std::ops::Range;
 use wingbeat_math::DVec3;
 
 /// Pairs of a task below which threads cost more than they give (some 30 microseconds of work).
@@ -106,11 +107,13 @@ pub(crate) fn sum_packed(
     });
 }
 
-/// The edges of a network one by one, each with unit circulation.
+/// The edges of a network one by one, each with unit circulation, in groups.
 #[derive(Clone, Debug)]
 pub(crate) struct UnitEdges {
     level: Level,
     packed: Packed,
+    /// Patches of each group.
+    groups: Vec<Range<usize>>,
 }
 
 impl Default for UnitEdges {
@@ -119,14 +122,32 @@ impl Default for UnitEdges {
         Self {
             level: best.expect("the best set is always there"),
             packed: Packed::default(),
+            groups: Vec::new(),
         }
     }
 }
 
 impl UnitEdges {
-    /// Replaces the edges.
-    pub(crate) fn load(&mut self, model: CoreModel, network: &Network) {
-        self.packed.load_network(model, network);
+    /// Replaces the edges by groups that together are those of the network, in its order.
+    pub(crate) fn load(
+        &mut self,
+        model: CoreModel,
+        network: &Network,
+        groups: impl IntoIterator<Item = Range<usize>>,
+    ) {
+        self.packed.clear(network.nodes.len());
+        self.groups.clear();
+        for edges in groups {
+            let edges = edges.start as u32..edges.end as u32;
+            let patches = self.packed.load_group(model, network, edges);
+            self.groups.push(patches);
+        }
+    }
+
+    /// Forgets all edges.
+    pub(crate) fn clear(&mut self) {
+        self.packed.clear(0);
+        self.groups.clear();
     }
 
     /// Number of edges.
@@ -134,11 +155,17 @@ impl UnitEdges {
         self.packed.edges.len()
     }
 
-    /// Velocity of every edge at up to [`BLOCK`] `places` (point, normal) along the normal [m/s]:
+    /// Whether there is none.
+    pub(crate) fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// Velocity of every edge of a group at up to [`BLOCK`] `places` (point, normal) along the normal [m/s]:
     /// `out[edge * BLOCK + place]`.
     pub(crate) fn normal_velocities(
         &self,
         model: CoreModel,
+        group: usize,
         places: impl Iterator<Item = [DVec3; 2]>,
         out: &mut [f64],
     ) {
@@ -152,6 +179,7 @@ impl UnitEdges {
             self.level,
             model,
             &self.packed,
+            self.groups[group].clone(),
             Targets {
                 block: &points,
                 count,

@@ -91,12 +91,13 @@ pub(crate) fn add_clusters(
     for_core!(level, model, simd, C, N => job.run_single::<_, C, N>(simd, single, clusters, sum));
 }
 
-/// Normal velocity [m/s] of every edge by itself, with unit circulation, at the targets:
-/// `out[e * BLOCK + lane]`. Patches must be those of one network, in its order.
+/// Normal velocity [m/s] of every edge of these patches by itself, with unit circulation, at the targets:
+/// `out[e * BLOCK + lane]`.
 pub(crate) fn edge_normal_velocities(
     level: Level,
     model: CoreModel,
     packed: &Packed,
+    patches: Range<usize>,
     targets: Targets<'_>,
     normals: &Block,
     out: &mut [f64],
@@ -105,7 +106,7 @@ pub(crate) fn edge_normal_velocities(
         sources: packed.sources(),
         targets,
     };
-    for_core!(level, model, simd, C, N => job.each::<_, C>(simd, normals, out));
+    for_core!(level, model, simd, C, N => job.each::<_, C>(simd, patches, normals, out));
 }
 
 /// Nodes, edges between them, and the order to take them in.
@@ -144,13 +145,19 @@ impl Job<'_, f64> {
     }
 
     #[inline(always)]
-    fn each<S: Simd, C: Core>(&self, simd: S, normals: &Block, out: &mut [f64]) {
+    fn each<S: Simd, C: Core>(
+        &self,
+        simd: S,
+        patches: Range<usize>,
+        normals: &Block,
+        out: &mut [f64],
+    ) {
         let zero = S::f64s::splat(simd, 0.0);
         let (mut window, mut room) = ([[zero; 4]; WINDOW], zero);
         for lane in (0..self.targets.count).step_by(S::f64s::LEN) {
             let p = load(simd, self.targets.block, lane);
             let n = load(simd, normals, lane);
-            for patch in self.sources.patches {
+            for patch in &self.sources.patches[patches.clone()] {
                 let nodes = patch.nodes.clone();
                 self.sources.look_at::<S, Double>(p, nodes, &mut window);
                 for e in patch.edges.clone() {

@@ -92,10 +92,12 @@ impl Packed {
         }
     }
 
-    /// Takes a network: nodes in sight are used again.
+    /// Takes a network: nodes in sight are used again, edges without circulation left out.
     pub fn load_network(&mut self, model: CoreModel, network: &Network) {
         self.clear(network.nodes.len());
-        self.load_group(model, network, 0..network.len() as u32);
+        let moves = |&e: &u32| network.gamma[e as usize] != 0.0;
+        let edges = (0..network.len() as u32).filter(moves);
+        self.load_group(model, network, edges);
     }
 
     /// Appends these edges of the network, in this order; returns their patches, which can be summed

@@ -6,6 +6,7 @@ mod common;
 mod errors;
 mod impulse;
 mod invariance;
+mod known_shapes;
 mod particles;
 mod peers;
 mod seams;
