@@ -3,12 +3,13 @@
 //! `cargo bench -p wingbeat-air --bench kernel`
 
 use divan::{Bencher, counter::ItemsCount};
-use fearless_simd::{Simd, dispatch, prelude::*};
+use fearless_simd::dispatch;
 use wingbeat_air::kernel::{
     CoreModel, DirectSum, FastSettings, FastSum, InstructionSet, Method, Points,
 };
 use wingbeat_math::DVec3;
 
+mod mix;
 #[path = "../tests/wavy/mod.rs"]
 mod wavy;
 
@@ -89,31 +90,5 @@ fn instruction_mix(bencher: Bencher, set: &InstructionSet) {
     let level = set.level().expect("available");
     bencher
         .counter(ItemsCount::new(EDGES * 8))
-        .bench_local(|| dispatch!(level, simd => mix(simd, divan::black_box(0.3), EDGES)));
-}
-
-/// `edges` evaluations at eight targets each.
-#[inline(always)]
-fn mix<S: Simd>(simd: S, start: f64, edges: usize) -> f64 {
-    let mut p = [S::f64s::splat(simd, start); 3];
-    let mut sum = [S::f64s::splat(simd, 0.0); 3];
-    let mut old = [[p[0], p[1], p[2], p[0] + 1.0]; 2];
-    for _ in 0..edges * 8 / S::f64s::LEN / 2 {
-        p = [p[0] + 1e-6, p[1] + 2e-6, p[2] - 1e-6];
-        let (x, y, z) = (p[0] - 0.7, p[1] - 0.6, p[2] - 0.5);
-        let new = [x, y, z, (x * x + y * y + z * z).sqrt()];
-        for [x1, y1, z1, n1] in old {
-            let [x2, y2, z2, n2] = new;
-            let c = [y1 * z2 - z1 * y2, z1 * x2 - x1 * z2, x1 * y2 - y1 * x2];
-            let t = n1 + n2;
-            let den = n1 * n2 * (t * t - 0.3) + 1e-4;
-            let zero = S::f64s::splat(simd, 0.0);
-            let k = den.simd_gt(zero).select(t * 0.08 / den, zero);
-            for i in 0..3 {
-                sum[i] += c[i] * k;
-            }
-        }
-        old = [old[1], new];
-    }
-    (sum[0] + sum[1] + sum[2]).as_slice()[0]
+        .bench_local(|| dispatch!(level, simd => mix::mix(simd, divan::black_box(0.3), EDGES)));
 }
