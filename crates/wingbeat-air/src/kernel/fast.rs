@@ -190,7 +190,10 @@ impl FastSum {
         self.has_single = matches!(method, Method::Auto | Method::Single)
             && network.len() >= SINGLE_EDGES
             && tolerance >= SINGLE;
-        self.packed.load_network(model, network);
+        match self.has_tree || self.has_single {
+            true => self.packed.load_network(model, network),
+            false => self.packed.load_moving(model, network),
+        }
         if self.has_tree {
             self.cells.load(network);
         }

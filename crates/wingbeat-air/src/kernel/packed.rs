@@ -92,8 +92,14 @@ impl Packed {
         }
     }
 
-    /// Takes a network: nodes in sight are used again, edges without circulation left out.
+    /// Takes a network: nodes in sight are used again.
     pub fn load_network(&mut self, model: CoreModel, network: &Network) {
+        self.clear(network.nodes.len());
+        self.load_group(model, network, 0..network.len() as u32);
+    }
+
+    /// The same without the edges that have no circulation.
+    pub fn load_moving(&mut self, model: CoreModel, network: &Network) {
         self.clear(network.nodes.len());
         let moves = |&e: &u32| network.gamma[e as usize] != 0.0;
         let edges = (0..network.len() as u32).filter(moves);
