@@ -39,6 +39,7 @@
 //! [`LoadMethod`] says otherwise, so without the suction at edges that do not shed.
 
 pub mod blade;
+mod circulation;
 mod closed;
 mod contact;
 pub mod derivatives;

@@ -290,7 +290,7 @@ mod tests {
         Seen {
             rows,
             at_rest: ws.influence.at_rest().to_vec(),
-            has_factors: ws.influence.has_factors(),
+            has_factors: ws.influence.circulation().has_factors(),
         }
     }
 

@@ -1,0 +1,88 @@
+//! Circulations from the influence equations: by iteration from what surfaces do to themselves, or by factors.
+
+use crate::error::AirError;
+use crate::influence::{is_lead, unknowns};
+use crate::lattice::Lattice;
+use crate::row_blocks::RowBlocks;
+use crate::state::AirState;
+use wingbeat_math::{BiCgStab, DenseLu, LuError};
+
+/// Memory of the solution.
+#[derive(Default)]
+pub(crate) struct Circulation {
+    /// Right-hand side and circulations, of the lead panels where only one half is computed.
+    wanted: Vec<f64>,
+    found: Vec<f64>,
+    iterations: BiCgStab,
+    rows: Vec<f64>,
+    lu: DenseLu,
+}
+
+impl Circulation {
+    /// Solves for the circulations in place of the right-hand side, which stands in the first unknowns.
+    ///
+    /// # Errors
+    /// The matrix is singular.
+    pub(crate) fn solve(
+        &mut self,
+        lattice: &Lattice,
+        state: &AirState,
+        matrix: &RowBlocks,
+        gamma: &mut [f64],
+    ) -> Result<(), AirError> {
+        self.wanted.clear();
+        self.wanted.extend(&gamma[..unknowns(lattice)]);
+        if !self.iterate(lattice, state, matrix) {
+            let singular = |source| AirError::Singular {
+                step: state.step,
+                source,
+            };
+            self.eliminate(matrix).map_err(singular)?;
+        }
+        match lattice.halves() {
+            None => gamma.copy_from_slice(&self.found),
+            Some(halves) => halves.spread(&self.found, gamma),
+        }
+        Ok(())
+    }
+
+    /// Starts from the circulations of the state, which do not depend on what was tried before; false if not all
+    /// surfaces are known, or if it does not get there.
+    fn iterate(&mut self, lattice: &Lattice, state: &AirState, matrix: &RowBlocks) -> bool {
+        let known: usize = lattice.own().iter().map(|own| own.unknowns.len()).sum();
+        if known < unknowns(lattice) {
+            return false;
+        }
+        let leads = (0..state.gamma.len()).filter(|&p| is_lead(lattice, p));
+        self.found.clear();
+        self.found.extend(leads.map(|p| state.gamma[p]));
+        let multiply = |x: &[f64], out: &mut [f64]| matrix.multiply(x, out);
+        let nearly_divide = |x: &[f64], out: &mut [f64]| {
+            for own in lattice.own() {
+                let these = own.unknowns.clone();
+                own.inverse.multiply(&x[these.clone()], &mut out[these]);
+            }
+        };
+        let (wanted, found) = (&self.wanted, &mut self.found);
+        (self.iterations).solve(&multiply, &nearly_divide, wanted, found)
+    }
+
+    /// By factors of the whole matrix.
+    fn eliminate(&mut self, matrix: &RowBlocks) -> Result<(), LuError> {
+        let n = matrix.order();
+        matrix.to_rows(&mut self.rows);
+        if self.lu.order() != n {
+            self.lu = DenseLu::new(n);
+        }
+        self.lu.factor(&self.rows)?;
+        self.found.clone_from(&self.wanted);
+        self.lu.solve_in_place(&mut self.found);
+        Ok(())
+    }
+
+    /// Whether factors were ever needed.
+    #[cfg(test)]
+    pub(crate) fn has_factors(&self) -> bool {
+        self.lu.order() > 0
+    }
+}
