@@ -9,6 +9,10 @@ use crate::settings::AirSettings;
 use crate::state::{AirState, WakeSheet};
 use wingbeat_math::DVec3;
 
+/// Columns of a wake sheet that are taken side by side: so many that the kernel still sees the nodes of one row when it
+/// comes to the next (128 nodes less a few).
+const STRIP: usize = 96;
+
 /// Filaments of lattice and wakes.
 ///
 /// A shedding edge belongs to the bound network, with the circulation of its panel less that of
@@ -146,12 +150,19 @@ impl Filaments {
             }
         };
         let there = |r: usize, c: usize, along: bool| borders_ring(&sheet.spent, [r, c], along);
-        for r in 0..rows {
-            for c in (0..columns).filter(|&c| there(r, c, true)) {
-                push([r, c], [r, c + 1], across(sheet, r, c));
-            }
-            for c in (0..=columns).filter(|&c| r + 1 < rows && there(r, c, false)) {
-                push([r, c], [r + 1, c], between(sheet, r, c));
+        for first in (0..=columns).step_by(STRIP) {
+            let strip = first..first + STRIP;
+            for r in 0..rows {
+                for c in strip.start..strip.end.min(columns) {
+                    if there(r, c, true) {
+                        push([r, c], [r, c + 1], across(sheet, r, c));
+                    }
+                }
+                for c in strip.start..strip.end.min(columns + 1) {
+                    if r + 1 < rows && there(r, c, false) {
+                        push([r, c], [r + 1, c], between(sheet, r, c));
+                    }
+                }
             }
         }
     }
@@ -206,4 +217,48 @@ pub(crate) fn between(sheet: &WakeSheet, r: usize, c: usize) -> f64 {
 pub(crate) fn across(sheet: &WakeSheet, r: usize, c: usize) -> f64 {
     let gamma = |r: usize| sheet.gamma[r * sheet.columns + c];
     gamma(r) - if r > 0 { gamma(r - 1) } else { 0.0 }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The kernel takes the root of a node anew once it has looked at some hundred others.
+    #[test]
+    fn exact_edges_of_wide_sheets_are_there_once_and_find_their_nodes_in_sight() {
+        const SIGHT: usize = 110;
+        let rows = 20;
+        for columns in [1, 40, STRIP - 1, STRIP, STRIP + 1, 250] {
+            let mut sheet = WakeSheet {
+                columns,
+                gamma: (0..rows * columns).map(|k| k as f64).collect(),
+                shed_time: vec![0.0; rows],
+                spent: vec![0; columns],
+                ..WakeSheet::default()
+            };
+            for k in 0..rows * (columns + 1) {
+                let [r, c] = [k / (columns + 1), k % (columns + 1)].map(|i| i as f64);
+                sheet.nodes.push(DVec3::new(r, c, 0.0));
+            }
+            let mut filaments = Filaments::default();
+            filaments.add_sheet(&sheet, &AirSettings::benchmark(1.0, DVec3::X), 1.0);
+            let mut edges = filaments.wake.edges.clone();
+            edges.sort_unstable();
+            edges.dedup();
+            assert_eq!(edges.len(), rows * columns + (rows - 1) * (columns + 1));
+            assert_eq!(edges.len(), filaments.wake.len());
+            let mut last = vec![None; sheet.nodes.len()];
+            let mut looks = 0;
+            for &node in filaments.wake.edges.iter().flatten() {
+                let seen = &mut last[node as usize];
+                if seen.is_none_or(|at: usize| looks - at > SIGHT) {
+                    *seen = Some(looks);
+                    looks += 1;
+                }
+            }
+            // Nodes between two strips twice.
+            let twice = columns / STRIP * rows;
+            assert!(looks <= sheet.nodes.len() + twice, "{columns}: {looks}");
+        }
+    }
 }
