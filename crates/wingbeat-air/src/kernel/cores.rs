@@ -17,6 +17,9 @@ pub(super) trait Precision<S: Simd> {
     /// Whether every core model looks after targets close to a filament.
     const IS_ROUGH: bool;
 
+    /// From here on 1 - 2^-z is 1.
+    const FULL: Self::Element;
+
     /// [`super::reference::one_minus_exp2`] in place, side by side, to a few units in the last place of
     /// this precision.
     fn one_minus_exp2<const N: usize>(simd: S, z: &mut [Self::Lanes; N]);
@@ -32,11 +35,15 @@ impl<S: Simd> Precision<S> for Double {
     type Element = f64;
     type Lanes = S::f64s;
     const IS_ROUGH: bool = false;
+    const FULL: f64 = FULL;
 
     #[inline(always)]
     fn one_minus_exp2<const N: usize>(simd: S, z: &mut [S::f64s; N]) {
         let a = EXP2_POLYNOMIAL;
-        let (full, one) = (S::f64s::splat(simd, FULL), S::f64s::splat(simd, 1.0));
+        let (full, one) = (
+            S::f64s::splat(simd, <Self as Precision<S>>::FULL),
+            S::f64s::splat(simd, 1.0),
+        );
         let ones = S::u64s::splat(simd, ONE);
         for u in z.iter_mut() {
             let z = u.min(full);
@@ -55,6 +62,7 @@ impl<S: Simd> Precision<S> for Float {
     type Element = f32;
     type Lanes = S::f32s;
     const IS_ROUGH: bool = true;
+    const FULL: f32 = 25.0;
 
     #[inline(always)]
     fn one_minus_exp2<const N: usize>(simd: S, z: &mut [S::f32s; N]) {
@@ -68,7 +76,10 @@ impl<S: Simd> Precision<S> for Float {
             0.001_339_086_3,
             -0.000_154_531_63,
         ];
-        let (full, one) = (S::f32s::splat(simd, 30.0), S::f32s::splat(simd, 1.0));
+        let (full, one) = (
+            S::f32s::splat(simd, <Self as Precision<S>>::FULL),
+            S::f32s::splat(simd, 1.0),
+        );
         let ones = S::u32s::splat(simd, 1.0_f32.to_bits());
         for u in z.iter_mut() {
             let z = u.min(full);
@@ -174,9 +185,45 @@ impl Core for LambOseen {
         num: &mut [P::Lanes; N],
         z: &mut [P::Lanes; N],
     ) {
-        P::one_minus_exp2(simd, z);
-        for i in 0..N {
-            num[i] *= z[i];
+        let mut least = z[0];
+        for z in &z[1..] {
+            least = least.min(*z);
         }
+        // Far from all of them the factor is 1 to the last bit.
+        if least.simd_lt(P::Lanes::splat(simd, P::FULL)).any_true() {
+            P::one_minus_exp2(simd, z);
+            for i in 0..N {
+                num[i] *= z[i];
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use fearless_simd::{Level, dispatch};
+
+    /// From `FULL` on, leaving the factor out changes no bit; a little below it would.
+    #[test]
+    fn exact_factor_is_one_where_it_is_left_out() {
+        fn single<S: Simd>(simd: S, z: f32) -> f32 {
+            let mut z = [S::f32s::splat(simd, z)];
+            Float::one_minus_exp2(simd, &mut z);
+            z[0].as_slice()[0]
+        }
+        fn double<S: Simd>(simd: S, z: f64) -> f64 {
+            let mut z = [S::f64s::splat(simd, z)];
+            Double::one_minus_exp2(simd, &mut z);
+            z[0].as_slice()[0]
+        }
+        for more in [0.0, 0.3, 0.5, 0.7, 1.0, 1e3, 1e30] {
+            let z = 25.0 + more as f32;
+            assert_eq!(dispatch!(Level::new(), simd => single(simd, z)), 1.0);
+            let z = FULL + more;
+            assert_eq!(dispatch!(Level::new(), simd => double(simd, z)), 1.0);
+        }
+        assert!(dispatch!(Level::new(), simd => single(simd, 23.9)) < 1.0);
+        assert!(dispatch!(Level::new(), simd => double(simd, 52.9)) < 1.0);
     }
 }
