@@ -267,3 +267,15 @@ fn quoted(cell: &str) -> String {
         false => plain,
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn exact_committed_dossier_is_read_and_written_to_the_last_digit() {
+        let text = include_str!("../../../docs/verification.json");
+        let dossier = Dossier::from_json(text).unwrap();
+        assert!(dossier.json() == text, "a digit was lost");
+    }
+}
