@@ -2,7 +2,7 @@
 //! circulation.
 
 use crate::front::{self, Row, Share, add_front, at_edge};
-use crate::kernel::{Blob, Network, Particle, Points};
+use crate::kernel::{Blob, Network, Particle, Points, WINDOW};
 use crate::lattice::Lattice;
 use crate::particles::borders_ring;
 use crate::settings::AirSettings;
@@ -10,8 +10,8 @@ use crate::state::{AirState, WakeSheet};
 use wingbeat_math::DVec3;
 
 /// Columns of a wake sheet that are taken side by side: so many that the kernel still sees the nodes of one row when it
-/// comes to the next (128 nodes less a few).
-const STRIP: usize = 96;
+/// comes to the next.
+const STRIP: usize = WINDOW * 3 / 4;
 
 /// Filaments of lattice and wakes.
 ///
@@ -151,17 +151,14 @@ impl Filaments {
         };
         let there = |r: usize, c: usize, along: bool| borders_ring(&sheet.spent, [r, c], along);
         for first in (0..=columns).step_by(STRIP) {
-            let strip = first..first + STRIP;
+            let strip = |count: usize| first..count.min(first + STRIP);
             for r in 0..rows {
-                for c in strip.start..strip.end.min(columns) {
-                    if there(r, c, true) {
-                        push([r, c], [r, c + 1], across(sheet, r, c));
-                    }
+                for c in strip(columns).filter(|&c| there(r, c, true)) {
+                    push([r, c], [r, c + 1], across(sheet, r, c));
                 }
-                for c in strip.start..strip.end.min(columns + 1) {
-                    if r + 1 < rows && there(r, c, false) {
-                        push([r, c], [r + 1, c], between(sheet, r, c));
-                    }
+                let inner = |&c: &usize| r + 1 < rows && there(r, c, false);
+                for c in strip(columns + 1).filter(inner) {
+                    push([r, c], [r + 1, c], between(sheet, r, c));
                 }
             }
         }
@@ -226,7 +223,7 @@ mod tests {
     /// The kernel takes the root of a node anew once it has looked at some hundred others.
     #[test]
     fn exact_edges_of_wide_sheets_are_there_once_and_find_their_nodes_in_sight() {
-        const SIGHT: usize = 110;
+        const SIGHT: usize = WINDOW - 18; // two patches of nodes that come and go
         let rows = 20;
         for columns in [1, 40, STRIP - 1, STRIP, STRIP + 1, 250] {
             let mut sheet = WakeSheet {

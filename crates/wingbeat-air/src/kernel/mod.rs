@@ -58,5 +58,6 @@ pub use instruction_set::InstructionSet;
 pub(crate) use lanes::BLOCK;
 pub use model::CoreModel;
 pub(crate) use model::LAMB_ALPHA;
+pub(crate) use packed::WINDOW;
 pub use particles::{Particle, ParticleSum, Stretching};
 pub use sources::{Network, Points, Segments};

@@ -29,6 +29,15 @@ fn exact_topology_errors() {
             ..
         }
     ));
+    let few = wing().with_rest(vec![DVec3::ZERO; 8]);
+    let named = AirError::Rest {
+        surface: "wing".to_owned(),
+        nodes: 8,
+        expected: 9,
+    };
+    assert_eq!(error(few), named);
+    let nowhere = wing().with_rest(vec![DVec3::NAN; 9]);
+    assert!(matches!(error(nowhere), AirError::Rest { nodes: 9, .. }));
     let mut bad = wing();
     bad.panels[1].reverse();
     assert!(matches!(error(bad), AirError::Orientation { .. }));
