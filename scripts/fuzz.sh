@@ -28,7 +28,7 @@ seeds=("corpus/$target")
 options=(-max_total_time="$what" -timeout=20 -rss_limit_mb=4096 -print_final_stats=1
   -artifact_prefix="target/findings/$target/")
 if [ "$target" = case ]; then
-  seeds+=(../crates/wingbeat-io/presets)
+  seeds+=(../crates/wingbeat-case/presets)
   options+=(-dict=case.dict -max_len=6000)
 fi
 exec "$program" "${options[@]}" "target/corpus/$target" "${seeds[@]}"

@@ -6,7 +6,7 @@ use std::path::Path;
 
 use libfuzzer_sys::fuzz_target;
 use wingbeat_flight::{AirModel, Simulation};
-use wingbeat_io::LoadedCase;
+use wingbeat_case::LoadedCase;
 
 /// Panels above which a case is read but no flight is begun.
 const CHEAP: usize = 120;

@@ -10,8 +10,8 @@ use std::sync::LazyLock;
 
 use libfuzzer_sys::fuzz_target;
 use wingbeat_flight::{FlightSetup, FlightState, Simulation};
-use wingbeat_io::result::checkpoint::{self, Header};
-use wingbeat_io::result::manifest::sha256;
+use wingbeat_results::checkpoint::{self, Header};
+use wingbeat_results::manifest::sha256;
 
 static SETUPS: LazyLock<Vec<FlightSetup>> = LazyLock::new(|| {
     let setup = |k| tiny::flight(k).setup().clone();

@@ -2,8 +2,8 @@
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;
-use wingbeat_io::result::frames::Mesh;
-use wingbeat_io::result::manifest::sha256;
+use wingbeat_results::frames::Mesh;
+use wingbeat_results::manifest::sha256;
 
 fuzz_target!(|data: &[u8]| {
     let Ok(text) = std::str::from_utf8(data) else {

@@ -4,8 +4,8 @@ use crate::tiny;
 
 use std::path::Path;
 
-use wingbeat_io::result::checkpoint::{self, Header};
-use wingbeat_io::result::vtp::PolyData;
+use wingbeat_results::checkpoint::{self, Header};
+use wingbeat_results::vtp::PolyData;
 
 /// Writes the seeds into `FOLDER/checkpoint` and `FOLDER/frame`.
 pub fn write(folder: &Path) -> std::io::Result<()> {

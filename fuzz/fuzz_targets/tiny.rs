@@ -1,7 +1,7 @@
 //! Flights of a few panels, whose states are small.
 
 use wingbeat_flight::Simulation;
-use wingbeat_io::LoadedCase;
+use wingbeat_case::LoadedCase;
 
 /// Preset and overrides of each flight.
 const FLIGHTS: [(&str, &[&str]); 5] = [

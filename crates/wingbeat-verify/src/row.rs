@@ -25,7 +25,7 @@ pub enum Trouble {
     Flight(#[from] wingbeat_flight::FlightError),
     /// The case file was refused.
     #[error("{0}")]
-    Case(#[from] wingbeat_io::IoError),
+    Case(#[from] wingbeat_case::IoError),
 }
 
 /// A quantity, its reference and ours.

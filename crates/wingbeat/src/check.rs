@@ -1,7 +1,7 @@
 //! `wingbeat check`: a case is built but not flown.
 
+use wingbeat::case::{IoError, LoadedCase};
 use wingbeat::flight::{AirModel, FlightSetup, MotionMode, Simulation};
-use wingbeat::io::{IoError, LoadedCase};
 
 /// Builds the flight up to step 0 and describes it.
 pub(crate) fn check(name: &str, set: &[String]) -> Result<(), IoError> {

@@ -3,8 +3,9 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use wingbeat::io::export::{self, Format};
-use wingbeat::io::{IoError, ResultDir};
+use wingbeat::case::IoError;
+use wingbeat::results::ResultDir;
+use wingbeat::results::export::{self, Format};
 
 /// What `wingbeat export` is told.
 #[derive(Args)]

@@ -11,14 +11,16 @@
 //! | [`air`] | unsteady vortex lattice with free wakes |
 //! | [`flight`] | the two together |
 //! | [`analysis`] | analysis of flights |
-//! | [`io`] | case files, result directories, figures |
+//! | [`case`] | case files and presets |
+//! | [`results`] | result directories: writer, readers, summary, exports |
+//! | [`draw`] | figures, flight page, animation |
 //! | [`verify`] | the verification suite |
 //!
 //! A flight from a preset, three steps long:
 //!
 //! ```
 //! let overrides = ["time.steps_per_beat=100".to_owned(), "time.beats=0.03".to_owned()];
-//! let case = wingbeat::io::LoadedCase::find("fruit-fly-vacuum", &overrides)?;
+//! let case = wingbeat::case::LoadedCase::find("fruit-fly-vacuum", &overrides)?;
 //! let mut flight = wingbeat::flight::Simulation::new(case.setup)?;
 //! let start = flight.record().mass_centre;
 //! while !flight.finished() {
@@ -33,9 +35,11 @@
 
 pub use wingbeat_air as air;
 pub use wingbeat_analysis as analysis;
+pub use wingbeat_case as case;
+pub use wingbeat_draw as draw;
 pub use wingbeat_dynamics as dynamics;
 pub use wingbeat_flight as flight;
-pub use wingbeat_io as io;
 pub use wingbeat_math as math;
 pub use wingbeat_model as model;
+pub use wingbeat_results as results;
 pub use wingbeat_verify as verify;

@@ -15,7 +15,7 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::{Args, Parser, Subcommand};
-use wingbeat::io::{IoError, case, presets};
+use wingbeat::case::{self, IoError, presets};
 
 /// Simulator of flapping-wing flight.
 ///

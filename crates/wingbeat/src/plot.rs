@@ -3,8 +3,9 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use wingbeat::io::figures::{self, Format, Kind, Order, Style};
-use wingbeat::io::{IoError, ResultDir};
+use wingbeat::case::IoError;
+use wingbeat::draw::figures::{self, Format, Kind, Order, Style};
+use wingbeat::results::ResultDir;
 
 /// What `wingbeat plot` is told.
 #[derive(Args)]

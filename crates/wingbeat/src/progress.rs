@@ -47,7 +47,7 @@ impl Progress {
             steps: setup.time.steps,
             period: setup.time.period,
             weight: setup.animal.mass() * setup.gravity.length(),
-            down: wingbeat::io::result::summary::down(setup),
+            down: wingbeat::results::summary::down(setup),
         }
     }
 

@@ -5,8 +5,10 @@ use std::process::ExitCode;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
+use wingbeat::case::{IoError, LoadedCase};
+use wingbeat::draw::draw_run;
 use wingbeat::flight::{FlightError, Simulation};
-use wingbeat::io::{IoError, LoadedCase, Outcome, ResultDir, RunWriter, result::saver};
+use wingbeat::results::{Outcome, ResultDir, RunWriter, saver};
 
 use crate::progress::Progress;
 use crate::{Manner, ResumeArgs, RunArgs, refuse};
@@ -164,7 +166,7 @@ fn fly(manner: &Manner, mut run: Run, stop: &AtomicBool) -> ExitCode {
         Err(Trouble::Writing(e)) => return unwritten(run.writer, &e),
     };
     let path = run.writer.dir().path().to_owned();
-    match run.writer.finish(outcome.clone()) {
+    match run.writer.finish(outcome.clone(), draw_run) {
         Ok(summary) if manner.json => println!("{}", summary.to_json_line(&path)),
         Ok(summary) if !manner.quiet => {
             println!("\n{}\nResults: {}", summary.to_text(), path.display())

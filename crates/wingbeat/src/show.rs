@@ -3,7 +3,8 @@
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use wingbeat::io::{IoError, Manifest, ResultDir, Summary};
+use wingbeat::case::IoError;
+use wingbeat::results::{Manifest, ResultDir, Summary};
 
 /// What `wingbeat show` is told.
 #[derive(Args)]

@@ -6,9 +6,10 @@ use std::process::ExitCode;
 
 use clap::Args;
 use wingbeat::air::Points;
+use wingbeat::case::IoError;
 use wingbeat::flight::Simulation;
-use wingbeat::io::{IoError, ResultDir, result::saver};
 use wingbeat::math::DVec3;
+use wingbeat::results::{ResultDir, saver};
 
 use crate::refuse;
 

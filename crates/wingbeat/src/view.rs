@@ -4,7 +4,9 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
 use clap::Args;
-use wingbeat::io::{IoError, ResultDir, page};
+use wingbeat::case::IoError;
+use wingbeat::draw::page;
+use wingbeat::results::ResultDir;
 
 /// What `wingbeat view` is told.
 #[derive(Args)]
@@ -22,7 +24,8 @@ pub(crate) struct ViewArgs {
 /// The whole command.
 pub(crate) fn view(args: &ViewArgs) -> Result<(), IoError> {
     let dir = ResultDir::read(&args.dir)?;
-    let page = page::write(&dir, (args.size * 1e6).max(0.0) as usize)?;
+    let outcome = dir.manifest()?.outcome;
+    let page = page::write(&dir, &outcome, (args.size * 1e6).max(0.0) as usize)?;
     println!("wrote {}", page.display());
     if !args.no_open && !open(&page) {
         println!("No browser could be started: open this file in one.");

@@ -11,7 +11,7 @@ use std::path::Path;
 mod support;
 
 use support::{Scratch, array, wingbeat};
-use wingbeat::io::History;
+use wingbeat::results::History;
 
 /// The reference has 13 significant digits of numbers of order one.
 const TOLERANCE: f64 = 1e-10;

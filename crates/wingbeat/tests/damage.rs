@@ -212,7 +212,7 @@ fn agrees_velocity_of_the_air_with_the_flight_and_refuses_damage() {
     let dir = &scratch.0;
     flown(dir, &CASE);
     let case = dir.join("run/case.toml");
-    let case = wingbeat::io::LoadedCase::from_file(&case, &[]).unwrap();
+    let case = wingbeat::case::LoadedCase::from_file(&case, &[]).unwrap();
     let mut flight = wingbeat::flight::Simulation::new(case.setup).unwrap();
     while !flight.finished() {
         flight.step().unwrap();

@@ -149,7 +149,7 @@ fn exact_the_animation_is_where_the_animal_is() {
         &["export", "run", "--format", "gltf", "--out", "elsewhere"],
     );
     let (head, binary) = glb(&scratch.0.join("elsewhere/flight.glb"));
-    let history = wingbeat::io::History::read(&scratch.0.join("run/history.csv")).unwrap();
+    let history = wingbeat::results::History::read(&scratch.0.join("run/history.csv")).unwrap();
     let animation = &head["animations"][0];
     let sampler = animation["channels"][0]["sampler"].as_u64().unwrap() as usize;
     assert_eq!(animation["channels"][0]["target"]["path"], "translation");

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 mod support;
 
 use support::{Scratch, flown, wingbeat};
-use wingbeat::io::figures::Kind;
+use wingbeat::draw::figures::Kind;
 
 const CASE: [&str; 13] = [
     "run",

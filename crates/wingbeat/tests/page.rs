@@ -7,7 +7,7 @@ use std::process::Command;
 mod support;
 
 use support::{Scratch, flown, required, wingbeat};
-use wingbeat::io::result::frames::{self, Frame};
+use wingbeat::results::frames::{self, Frame};
 
 const CASE: [&str; 13] = [
     "run",

@@ -6,11 +6,12 @@ use std::path::Path;
 mod support;
 
 use support::{Scratch, flown};
-use wingbeat::io::presets::PRESETS;
-use wingbeat::io::result::frames::{self, Frame};
-use wingbeat::io::result::poses::{Poses, picture};
-use wingbeat::io::result::rows::Rows;
-use wingbeat::io::{LoadedCase, ResultDir};
+use wingbeat::case::LoadedCase;
+use wingbeat::case::presets::PRESETS;
+use wingbeat::results::ResultDir;
+use wingbeat::results::frames::{self, Frame};
+use wingbeat::results::poses::{Poses, picture};
+use wingbeat::results::rows::Rows;
 
 /// Steps that are flown.
 const STEPS: usize = 4;

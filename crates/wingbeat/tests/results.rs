@@ -7,8 +7,9 @@ use std::process::{Command, Stdio};
 mod support;
 
 use support::{Scratch, array, flown, wingbeat};
+use wingbeat::case::{LoadedCase, presets::PRESETS};
 use wingbeat::flight::Simulation;
-use wingbeat::io::{History, LoadedCase, Manifest, Outcome, presets::PRESETS, result};
+use wingbeat::results::{self, History, Manifest, Outcome};
 
 fn manifest(dir: &Path) -> Manifest {
     serde_json::from_str(&fs::read_to_string(dir.join("manifest.json")).unwrap()).unwrap()
@@ -66,7 +67,7 @@ fn exact_a_result_directory_recreates_its_run_bit_for_bit() {
     assert_eq!((manifest.steps, manifest.threads), (10, 1));
     assert_eq!(
         manifest.case_sha256,
-        result::manifest::sha256(&read("two/case.toml"))
+        results::manifest::sha256(&read("two/case.toml"))
     );
     for figure in [
         "forces",
@@ -118,11 +119,11 @@ fn exact_history_holds_every_number_of_the_last_record() {
         ),
         (18, 18, 12)
     );
-    let bodies = result::columns::body_names(&case.setup.animal);
+    let bodies = results::columns::body_names(&case.setup.animal);
     assert_eq!(bodies, ["body", "wing_left", "wing_right"]);
-    let names = result::columns::names(&bodies, record);
+    let names = results::columns::names(&bodies, record);
     let mut values = vec![];
-    result::columns::values(&bodies, record, &mut values);
+    results::columns::values(&bodies, record, &mut values);
     assert_eq!(names, history.names());
     for (name, value) in names.iter().zip(&values) {
         let read = history.column(name).last().copied().unwrap();

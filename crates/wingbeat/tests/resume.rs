@@ -9,9 +9,10 @@ use std::time::{Duration, Instant};
 mod support;
 
 use support::{Scratch, wingbeat};
+use wingbeat::case::LoadedCase;
 use wingbeat::flight::Simulation;
-use wingbeat::io::result::{checkpoint, saver};
-use wingbeat::io::{History, LoadedCase, Manifest, Outcome, ResultDir, RunWriter};
+use wingbeat::results::{History, Manifest, Outcome, ResultDir, RunWriter};
+use wingbeat::results::{checkpoint, saver};
 
 /// A short flight with wakes of rings and particles: held at first, then free.
 const CASE: [&str; 16] = [

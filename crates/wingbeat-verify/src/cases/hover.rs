@@ -4,8 +4,8 @@ use super::insects::{Choice, Cut, MODELS, fruit_fly_wings, middle};
 use crate::lab::series::mean;
 use crate::{Case, Part, Row, Trouble};
 use std::path::Path;
+use wingbeat_case::{LoadedCase, presets};
 use wingbeat_flight::Simulation;
-use wingbeat_io::{LoadedCase, presets};
 use wingbeat_math::DVec3;
 
 pub(super) const CASES: &[Case] = &[

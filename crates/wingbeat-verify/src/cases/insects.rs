@@ -11,8 +11,8 @@ use crate::lab::series::{Table, correlation, interpolate, mean, rms};
 use crate::{Case, Part, Row, Trouble};
 use std::fmt::Write;
 use std::path::Path;
+use wingbeat_case::LoadedCase;
 use wingbeat_flight::Simulation;
-use wingbeat_io::LoadedCase;
 use wingbeat_math::DVec3;
 
 pub(super) const CASES: &[Case] = &[

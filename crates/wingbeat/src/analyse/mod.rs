@@ -12,8 +12,8 @@ use clap::Args;
 use wingbeat::analysis::trim::{UNKNOWNS, trim as find_trim};
 use wingbeat::analysis::wake::{WakeSettings, WakeTrim, trim_with_wake};
 use wingbeat::analysis::{AnalysisError, Trim, TrimProblem, TrimSettings, Unknown};
+use wingbeat::case::{IoError, LoadedCase};
 use wingbeat::flight::MotionMode;
-use wingbeat::io::{IoError, LoadedCase};
 use wingbeat::math::DVec3;
 use wingbeat::model::motion::Adjustment;
 

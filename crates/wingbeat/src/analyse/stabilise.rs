@@ -8,8 +8,8 @@ use wingbeat::analysis::control::{ControlledFlight, Controller, Free, Sampled};
 use wingbeat::analysis::regulator::{Regulator, Weights};
 use wingbeat::analysis::stabiliser::{ProportionalDerivative, Stiffness};
 use wingbeat::analysis::{AnalysisError, Trim};
-use wingbeat::io::case::write_new;
-use wingbeat::io::figures::stabilised::{BeatRow, stabilised};
+use wingbeat::case::write_new;
+use wingbeat::draw::figures::stabilised::{BeatRow, stabilised};
 use wingbeat::math::DVec3;
 
 use super::{Trimming, Trouble, exit, trimmed};

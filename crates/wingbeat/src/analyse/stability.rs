@@ -7,9 +7,8 @@ use clap::{Args, ValueEnum};
 use wingbeat::analysis::stability::{LOADS, LinearModel};
 use wingbeat::analysis::wake::{WakeMemory, wake_floquet};
 use wingbeat::analysis::{ModeSet, floquet, linear_model, table_model};
+use wingbeat::case::{LoadedCase, derivative_case, write_new};
 use wingbeat::flight::AirModel;
-use wingbeat::io::LoadedCase;
-use wingbeat::io::case::{derivative_case, write_new};
 
 use super::{Trimming, Trouble, exit, trimmed, trimmed_with_wake};
 

@@ -5,8 +5,7 @@ use std::process::ExitCode;
 
 use clap::Args;
 use wingbeat::analysis::{TrimProblem, Unknown};
-use wingbeat::io::LoadedCase;
-use wingbeat::io::case::{trimmed_case, wake_trimmed_case, write_new};
+use wingbeat::case::{LoadedCase, trimmed_case, wake_trimmed_case, write_new};
 
 use super::{Found, Trimming, Trouble, exit, trimmed, trimmed_with_wake};
 

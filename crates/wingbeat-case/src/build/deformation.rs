@@ -1,0 +1,162 @@
+//! `[wing.NAME.deformation]` and `wing.NAME.joined`.
+
+use wingbeat_flight::check_joined;
+use wingbeat_model::deformation::{SpanLaw, Term};
+use wingbeat_model::motion::Fourier;
+use wingbeat_model::{Animal, Deformation, ModelError, Wing};
+
+use super::Built;
+use super::wing::twin_name;
+use crate::error::Fault;
+use crate::raw::{Case, CourseCase, DeformationCase};
+
+/// A term as it is written, whatever it deforms.
+struct Written<'a> {
+    /// Key of the term.
+    path: String,
+    /// Ending of its keys: the unit.
+    unit: &'static str,
+    /// From the unit to SI.
+    scale: f64,
+    linear: Option<[f64; 2]>,
+    table: Option<&'a Vec<[f64; 2]>>,
+    course: Option<&'a CourseCase>,
+}
+
+/// Deforms `wing` as the table `[path]` says.
+pub(super) fn deform(wing: Wing, path: &str, case: &DeformationCase) -> Built<Wing> {
+    check_places(path, case)?;
+    let twist = case.twist.iter().enumerate().map(|(k, t)| Written {
+        path: format!("{path}.twist[{k}]"),
+        unit: "_deg",
+        scale: 1f64.to_radians(),
+        linear: t.linear_deg,
+        table: t.table_deg.as_ref(),
+        course: t.fourier.as_ref(),
+    });
+    let camber = case.camber.iter().enumerate().map(|(k, t)| Written {
+        path: format!("{path}.camber[{k}]"),
+        unit: "",
+        scale: 1.0,
+        linear: t.linear,
+        table: t.table.as_ref(),
+        course: t.fourier.as_ref(),
+    });
+    let bending = case.bending.iter().enumerate().map(|(k, t)| Written {
+        path: format!("{path}.bending[{k}]"),
+        unit: "_m",
+        scale: 1.0,
+        linear: t.linear_m,
+        table: t.table_m.as_ref(),
+        course: t.fourier.as_ref(),
+    });
+    let term = |w: Written<'_>| term(&w, &wing);
+    let deformation = Deformation {
+        axis_fraction: case.axis_fraction,
+        camber_peak: case.camber_peak,
+        twist: twist.map(term).collect::<Built<_>>()?,
+        camber: camber.map(term).collect::<Built<_>>()?,
+        bending: bending.map(term).collect::<Built<_>>()?,
+    };
+    let whole = |e: ModelError| Fault::new(path, e.to_string(), "", "correct this table");
+    wing.deformed_by(deformation).map_err(whole)
+}
+
+fn check_places(path: &str, case: &DeformationCase) -> Built<()> {
+    if case.camber_peak > 0.0 && case.camber_peak < 1.0 {
+        return Ok(());
+    }
+    Err(Fault::new(
+        format!("{path}.camber_peak"),
+        "the highest camber lies between the edges",
+        "above 0 and below 1",
+        "0.5 is the middle of the chord",
+    ))
+}
+
+fn term(w: &Written<'_>, wing: &Wing) -> Built<Term> {
+    let (path, unit) = (&w.path, w.unit);
+    let rows = |rows: &[[f64; 2]]| rows.iter().map(|&[r, v]| (r, v * w.scale)).collect();
+    let span = match (w.linear, w.table) {
+        (Some([root, tip]), None) => SpanLaw::Linear {
+            root: root * w.scale,
+            tip: tip * w.scale,
+        },
+        (None, Some(table)) => SpanLaw::Table(rows(table)),
+        _ => {
+            return Err(Fault::new(
+                path,
+                "the law along the span must be given once",
+                format!("linear{unit} or table{unit}"),
+                format!("linear{unit} = [value at the root, value at the tip]"),
+            ));
+        }
+    };
+    span.check("the table", wing.root()).map_err(|e| {
+        let row = match &e {
+            ModelError::Table { row, .. } if *row > 0 => format!("[{}]", row - 1),
+            _ => String::new(),
+        };
+        Fault::new(
+            format!("{path}.table{unit}{row}"),
+            e.to_string(),
+            "rows [r/R, value], r/R rising from the root (or 0, the hinge) to 1, the tip",
+            "divide distances from the hinge by the wing length",
+        )
+    })?;
+    let term = Term {
+        span,
+        time: w.course.map_or_else(always, course),
+    };
+    if wing.motion.frequency == 0.0 && !term.is_steady() {
+        return Err(Fault::new(
+            format!("{path}.fourier"),
+            "the deformation varies over a beat, but there is no wingbeat frequency",
+            "a frequency > 0, or `mean` alone",
+            "add `frequency_hz = ...` to [motion]",
+        ));
+    }
+    Ok(term)
+}
+
+fn always() -> Fourier {
+    Fourier {
+        mean: 1.0,
+        ..Fourier::default()
+    }
+}
+
+fn course(case: &CourseCase) -> Fourier {
+    Fourier {
+        mean: case.mean,
+        cos: case.cosine.clone(),
+        sin: case.sine.clone(),
+    }
+}
+
+/// Pairs of wings, by their numbers, that share the edge at their roots.
+pub(super) fn joined(case: &Case, animal: &Animal) -> Built<Vec<[usize; 2]>> {
+    let mut pairs: Vec<[usize; 2]> = vec![];
+    for (name, _) in case.wing.iter().filter(|(_, w)| w.joined == Some(true)) {
+        let number = |n: &str| animal.wings.iter().position(|w| w.name == n);
+        let twin = twin_name(name).and_then(|t| number(&t));
+        let fault = |problem: String, remedy: &str| {
+            let allowed = "two wings, left and right, whose roots meet";
+            Fault::new(format!("wing.{name}.joined"), problem, allowed, remedy)
+        };
+        let (Some(a), Some(b)) = (number(name), twin) else {
+            let remedy = "call the wing e.g. `right` and let its mirror image come along";
+            return Err(fault(
+                "there is no twin on the other side to join with".to_owned(),
+                remedy,
+            ));
+        };
+        let pair = [a.min(b), a.max(b)];
+        if !pairs.contains(&pair) {
+            let remedy = "hinges and roots in the plane of symmetry: hinge_m = [..., 0, ...], root_offset_m = 0, the same panels along the chord on both sides";
+            check_joined(animal, pair).map_err(|e| fault(e.to_string(), remedy))?;
+            pairs.push(pair);
+        }
+    }
+    Ok(pairs)
+}

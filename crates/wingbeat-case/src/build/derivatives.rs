@@ -1,0 +1,103 @@
+//! `[air.derivatives]` and `[air.external]`.
+
+use std::sync::Arc;
+
+use wingbeat_air::derivatives::{DerivativeTable, ReferenceSizes};
+use wingbeat_flight::ExternalAir;
+use wingbeat_math::r2;
+use wingbeat_model::Animal;
+
+use super::{Built, positive, vector};
+use crate::error::Fault;
+use crate::external::ProcessAir;
+use crate::raw::{AirCase, Case, DerivativesCase, DimensionlessCase};
+
+/// The table of the case.
+pub(super) fn table(case: &Case, animal: &Animal) -> Built<DerivativeTable> {
+    let Some(d) = &case.air.derivatives else {
+        return Err(Fault::new(
+            "air.derivatives",
+            "this table is missing: air.model = \"derivatives\" needs it",
+            "[air.derivatives] with force_by_velocity_newton_s_m and its fellows",
+            "`wingbeat stability CASE --write FILE` makes one from a case with blade elements",
+        ));
+    };
+    let weight = animal.mass() * vector(case.gravity_m_s2).length();
+    let force = d.force_newton.unwrap_or([0.0, 0.0, -weight]);
+    let [f, m] = [force, d.moment_newton_m];
+    Ok(DerivativeTable {
+        to_body: r2(d.body_pitch_deg.to_radians()).transpose(),
+        point: animal.body.centre(),
+        velocity: vector(d.velocity_m_s),
+        reference: [f[0], f[1], f[2], m[0], m[1], m[2]],
+        derivatives: matrix(case, d)?,
+        stream: vector(case.air.stream_m_s),
+    })
+}
+
+type Block = [[f64; 3]; 3];
+
+fn matrix(case: &Case, d: &DerivativesCase) -> Built<[[f64; 6]; 6]> {
+    let given = [
+        d.force_by_velocity_newton_s_m,
+        d.force_by_rate_newton_s,
+        d.moment_by_velocity_newton_s,
+        d.moment_by_rate_newton_m_s,
+    ];
+    match &d.dimensionless {
+        None => Ok(joined(given.map(Option::unwrap_or_default))),
+        Some(_) if given.iter().any(Option::is_some) => Err(Fault::new(
+            "air.derivatives.dimensionless",
+            "derivatives are given twice",
+            "the four matrices in SI, or [air.derivatives.dimensionless]",
+            "remove one of them",
+        )),
+        Some(plus) => dimensional(case, plus),
+    }
+}
+
+fn dimensional(case: &Case, plus: &DimensionlessCase) -> Built<[[f64; 6]; 6]> {
+    let at = |key: &str, x: f64| positive(&format!("air.derivatives.dimensionless.{key}"), x);
+    let sizes = ReferenceSizes {
+        density: positive("air.density_kg_m3", case.air.density_kg_m3)?,
+        speed: at("speed_m_s", plus.speed_m_s)?,
+        area: at("area_m2", plus.area_m2)?,
+        chord: at("chord_m", plus.chord_m)?,
+        period: at("period_s", plus.period_s)?,
+    };
+    let blocks = [
+        plus.force_by_velocity,
+        plus.force_by_rate,
+        plus.moment_by_velocity,
+        plus.moment_by_rate,
+    ];
+    Ok(sizes.dimensional(&joined(blocks)))
+}
+
+/// Four blocks as one matrix.
+fn joined([fv, fw, mv, mw]: [Block; 4]) -> [[f64; 6]; 6] {
+    let entry = |i: usize, j: usize| match (i < 3, j < 3) {
+        (true, true) => fv[i][j],
+        (true, false) => fw[i][j - 3],
+        (false, true) => mv[i - 3][j],
+        (false, false) => mw[i - 3][j - 3],
+    };
+    std::array::from_fn(|i| std::array::from_fn(|j| entry(i, j)))
+}
+
+/// The program of the case.
+pub(super) fn external(case: &AirCase, _animal: &Animal) -> Built<Arc<dyn ExternalAir>> {
+    let named = case.external.as_ref().filter(|e| !e.command.is_empty());
+    let Some(external) = named else {
+        return Err(Fault::new(
+            "air.external.command",
+            "air.model = \"external\" needs a program to ask",
+            "[\"PROGRAM\", \"ARGUMENT\", ...]",
+            "the protocol is described in docs/external-air.md",
+        ));
+    };
+    Ok(Arc::new(ProcessAir {
+        command: external.command.clone(),
+        timeout: positive("air.external.timeout_s", external.timeout_s)?,
+    }))
+}

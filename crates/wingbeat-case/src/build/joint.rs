@@ -1,0 +1,345 @@
+//! `[joint.NAME]`: who hangs on whom, what is prescribed, what is free.
+
+use std::sync::Arc;
+
+use wingbeat_dynamics::{DynamicsError, Freedom, Joint};
+use wingbeat_flight::joints::{AxisTurn, JointSetup, Path};
+use wingbeat_flight::{DriftingFourier, FlightSetup};
+use wingbeat_math::DVec3;
+use wingbeat_model::Animal;
+
+use super::{Built, element, segment, vector, wing};
+use crate::error::Fault;
+use crate::raw::{Case, JointCase, JointKind, TravelCase, TurnCase};
+
+/// Names of all bodies in the order of the system: body, wings, segments.
+pub(super) fn body_names(animal: &Animal) -> Vec<&str> {
+    let wings = animal.wings.iter().map(|w| w.name.as_str());
+    let segments = animal.segments.iter().map(|s| s.name.as_str());
+    std::iter::once("body")
+        .chain(wings)
+        .chain(segments)
+        .collect()
+}
+
+/// All joints, those mirrored to left wings among them.
+pub(super) fn build_all(case: &Case, animal: &Animal) -> Built<Vec<JointSetup>> {
+    if !case.joint.is_empty() && case.animal.scale != 1.0 {
+        return Err(Fault::new(
+            "animal.scale",
+            "an animal with joints is not scaled: springs have no common law of size",
+            "1 with [joint.*]",
+            "give masses, sizes and springs of the animal in its own size",
+        ));
+    }
+    let mut joints = vec![];
+    for (name, joint) in &case.joint {
+        joints.push(build(case, animal, name, joint)?);
+        if let Some((name, image)) = mirrored(case, animal, name, joint) {
+            joints.push(build(case, animal, &name, &image)?);
+        }
+    }
+    segment::check_carried(animal, &joints)?;
+    Ok(joints)
+}
+
+fn build(case: &Case, animal: &Animal, name: &str, joint: &JointCase) -> Built<JointSetup> {
+    let path = format!("joint.{name}");
+    let parent = find(
+        animal,
+        &path,
+        "parent",
+        joint.parent.as_deref().unwrap_or("body"),
+    )?;
+    let child = find(animal, &path, "child", &joint.child)?;
+    if parent == child || child == 0 {
+        return Err(Fault::new(
+            format!("{path}.child"),
+            if child == 0 {
+                "the central body is carried by nothing"
+            } else {
+                "a body cannot hang on itself"
+            },
+            "a wing or a segment, another body than the parent",
+            "exchange parent and child",
+        ));
+    }
+    let (anchor_parent, anchor_child) = anchors(animal, &path, joint, [parent, child])?;
+    let wing = child <= animal.wings.len();
+    if wing && joint.turn.is_some() {
+        return Err(Fault::new(
+            format!("{path}.turn"),
+            "the rotation of a wing is prescribed by its motion",
+            format!(
+                "no `turn` at the joint of a wing; [wing.{}.motion] instead",
+                joint.child
+            ),
+            "remove it",
+        ));
+    }
+    let frequency = case.motion.frequency_hz.unwrap_or(0.0);
+    let law = match &joint.turn {
+        Some(t) => Some(Arc::new(turn(&path, t, frequency)?) as _),
+        None => None,
+    };
+    let mut freedom = Joint::new(freedom(&path, joint)?);
+    freedom.travel = joint
+        .travel
+        .as_ref()
+        .map(|t| Arc::new(travel(t, frequency)) as _);
+    freedom.elements = element::build_all(&path, joint, frequency)?;
+    [freedom.coordinates, freedom.rates] = start(&path, joint)?;
+    Ok(JointSetup {
+        name: name.to_owned(),
+        parent,
+        child,
+        anchor_parent,
+        anchor_child,
+        law,
+        joint: freedom,
+    })
+}
+
+fn find(animal: &Animal, path: &str, key: &str, name: &str) -> Built<usize> {
+    let names = body_names(animal);
+    names.iter().position(|n| *n == name).ok_or_else(|| {
+        Fault::new(
+            format!("{path}.{key}"),
+            format!("there is no body `{name}`"),
+            names.join(", "),
+            format!("use one of these names, or add [segment.{name}]"),
+        )
+    })
+}
+
+/// Joint point on parent and child. On a wing it is given in wing axes from its hinge.
+fn anchors(
+    animal: &Animal,
+    path: &str,
+    joint: &JointCase,
+    [parent, child]: [usize; 2],
+) -> Built<(DVec3, DVec3)> {
+    let wings = animal.wings.len();
+    let wing = |i: usize| (1..=wings).contains(&i).then(|| &animal.wings[i - 1]);
+    let own = wing(child)
+        .filter(|_| wing(parent).is_none())
+        .map(|w| w.hinge_b);
+    let at = joint.at_m.map(vector).or(own).ok_or_else(|| {
+        Fault::new(
+            format!("{path}.at_m"),
+            "this key is missing",
+            "the joint point in body axes in the posture of reference; on a wing in wing axes",
+            "add `at_m = [..., ..., ...]`",
+        )
+    })?;
+    let origin = |i: usize| match i {
+        0 => DVec3::ZERO,
+        i if i <= wings => DVec3::ZERO,
+        i => animal.segments[i - wings - 1].origin_b,
+    };
+    let on_child = match wing(child) {
+        Some(_) => DVec3::ZERO,
+        None if wing(parent).is_some() => DVec3::ZERO,
+        None => joint.at_child_m.map_or(at, vector) - origin(child),
+    };
+    Ok((at - origin(parent), on_child))
+}
+
+fn unit(key: &str, v: [f64; 3]) -> Built<DVec3> {
+    vector(v).try_normalize().ok_or_else(|| {
+        Fault::new(
+            key,
+            "an axis needs a direction",
+            "three numbers, not all zero",
+            "[0, 1, 0]",
+        )
+    })
+}
+
+fn freedom(path: &str, joint: &JointCase) -> Built<Freedom> {
+    let axis = || {
+        let key = format!("{path}.axis");
+        let given = joint.axis.ok_or_else(|| {
+            Fault::new(
+                &key,
+                "this key is missing",
+                "a direction [x, y, z]",
+                "axis = [0, 1, 0]",
+            )
+        })?;
+        unit(&key, given)
+    };
+    Ok(match joint.kind {
+        JointKind::Weld => Freedom::Weld,
+        JointKind::Spherical => Freedom::Spherical,
+        JointKind::Revolute => Freedom::Revolute { axis: axis()? },
+        JointKind::Prismatic => Freedom::Prismatic { axis: axis()? },
+        JointKind::PointOnLine => Freedom::PointOnLine { axis: axis()? },
+        JointKind::Universal => {
+            let key = format!("{path}.axes");
+            let missing = || {
+                let two = "two perpendicular directions";
+                Fault::new(
+                    &key,
+                    "this key is missing",
+                    two,
+                    "axes = [[0, 1, 0], [0, 0, 1]]",
+                )
+            };
+            let [a, b] = joint.axes.ok_or_else(missing)?;
+            let axes = [unit(&key, a)?, unit(&key, b)?];
+            if axes[0].dot(axes[1]).abs() > 1e-9 {
+                let two = "two perpendicular directions";
+                return Err(Fault::new(
+                    key,
+                    "the axes are not perpendicular",
+                    two,
+                    "turn one",
+                ));
+            }
+            Freedom::Universal { axes }
+        }
+    })
+}
+
+fn turn(path: &str, case: &TurnCase, frequency: f64) -> Built<AxisTurn> {
+    let radians = |list: &[f64]| list.iter().map(|a| a.to_radians()).collect();
+    Ok(AxisTurn {
+        axis: unit(&format!("{path}.turn.axis"), case.axis)?,
+        angle: DriftingFourier {
+            constant: case.mean_deg.to_radians(),
+            rate: 0.0,
+            frequency: case.frequency_hz.unwrap_or(frequency),
+            cosine: radians(&case.cosine_deg),
+            sine: radians(&case.sine_deg),
+        },
+    })
+}
+
+fn travel(case: &TravelCase, frequency: f64) -> Path {
+    Path(std::array::from_fn(|i| DriftingFourier {
+        constant: 0.0,
+        rate: 0.0,
+        frequency: case.frequency_hz.unwrap_or(frequency),
+        cosine: case.cosine_m.iter().map(|v| v[i]).collect(),
+        sine: case.sine_m.iter().map(|v| v[i]).collect(),
+    }))
+}
+
+/// Coordinates and rates at the start.
+fn start(path: &str, joint: &JointCase) -> Built<[Vec<f64>; 2]> {
+    let radians = |list: &Option<Vec<f64>>| -> Vec<f64> {
+        list.iter().flatten().map(|a| a.to_radians()).collect()
+    };
+    let one = |x: Option<f64>| x.into_iter().collect::<Vec<f64>>();
+    if joint.kind == JointKind::Prismatic {
+        return Ok([one(joint.start_m), one(joint.start_m_s)]);
+    }
+    let directions = match joint.kind {
+        JointKind::Revolute => 1,
+        JointKind::Universal => 2,
+        JointKind::Spherical => 3,
+        _ => 0,
+    };
+    let starts = [radians(&joint.start_deg), radians(&joint.start_deg_s)];
+    for (key, list) in ["start_deg", "start_deg_s"].iter().zip(&starts) {
+        if list.len() > directions {
+            return Err(Fault::new(
+                format!("{path}.{key}"),
+                format!("this joint has {directions} free angles"),
+                format!("at most {directions} numbers"),
+                "remove the others",
+            ));
+        }
+    }
+    Ok(starts)
+}
+
+/// The joint of a right wing for a left wing that has none, and the other way round: points are
+/// mirrored, axes of rotation too, so that equal angles are mirror images.
+fn mirrored(
+    case: &Case,
+    animal: &Animal,
+    name: &str,
+    joint: &JointCase,
+) -> Option<(String, JointCase)> {
+    let is_wing = |n: &str| animal.wings.iter().any(|w| w.name == n);
+    let twin = wing::twin_name(&joint.child).filter(|t| is_wing(t) && is_wing(&joint.child))?;
+    let taken = case.joint.values().any(|j| j.child == twin);
+    if taken || joint.kind == JointKind::Spherical {
+        return None;
+    }
+    let point = |[x, y, z]: [f64; 3]| [x, -y, z];
+    let turning = |[x, y, z]: [f64; 3]| [-x, y, -z];
+    let slides = matches!(joint.kind, JointKind::Prismatic | JointKind::PointOnLine);
+    let parent = joint.parent.as_deref().and_then(|p| {
+        let other = wing::twin_name(p).filter(|t| body_names(animal).contains(&t.as_str()));
+        other.or(Some(p.to_owned()))
+    });
+    let image = JointCase {
+        parent,
+        child: twin.clone(),
+        at_m: joint.at_m.map(point),
+        at_child_m: joint.at_child_m.map(point),
+        axis: joint
+            .axis
+            .map(|a| if slides { point(a) } else { turning(a) }),
+        axes: joint.axes.map(|axes| axes.map(turning)),
+        ..joint.clone()
+    };
+    let name = wing::twin_name(name).unwrap_or_else(|| format!("{name}-{twin}"));
+    Some((name, image))
+}
+
+/// The key of what the dynamics finds wrong with the joints.
+pub(super) fn blame(case: &Case, setup: &FlightSetup, error: &DynamicsError) -> Fault {
+    let of_joint = |name: &str| {
+        let known = case.joint.contains_key(name);
+        if known {
+            format!("joint.{name}")
+        } else {
+            "joint".to_owned()
+        }
+    };
+    let first = |names: &str| {
+        let all = names.split('`').skip(1).step_by(2);
+        let known = all.filter(|n| case.joint.contains_key(*n)).last();
+        known.map_or("joint".to_owned(), |n| format!("joint.{n}"))
+    };
+    let of_body = |name: &str| {
+        let segment = setup.animal.segments.iter().any(|s| s.name == name);
+        if segment {
+            format!("segment.{name}")
+        } else {
+            format!("wing.{name}")
+        }
+    };
+    let (key, remedy) = match error {
+        DynamicsError::BadJoint { joint, .. } => (of_joint(joint), "correct this joint"),
+        DynamicsError::NotAssembled { joint, .. } => (
+            of_joint(joint),
+            "check at_m and axes of the joints of the loop: they hold in the posture of reference",
+        ),
+        DynamicsError::Loop { joint, .. } => (
+            of_joint(joint),
+            "remove dynamics.formulation, or set it to \"quaternion\"",
+        ),
+        DynamicsError::NotInEulerForm { .. } => (
+            "dynamics.formulation".to_owned(),
+            "remove dynamics.formulation, or set it to \"momentum\"",
+        ),
+        DynamicsError::Contradiction { joints, .. } => (
+            first(joints),
+            "remove one of these joints, or make them agree",
+        ),
+        DynamicsError::Redundant { joints, .. } => (
+            first(joints),
+            "close planar loops with kind = \"point_on_line\"",
+        ),
+        DynamicsError::NotATree { body, .. } | DynamicsError::Disconnected { body, .. } => {
+            (of_body(body), "let every chain of joints begin at the body")
+        }
+        _ => ("joint".to_owned(), "correct the joints of the animal"),
+    };
+    Fault::new(key, error.to_string(), "", remedy)
+}

@@ -1,0 +1,257 @@
+//! `[motion]` and `[wing.NAME.motion]`: angle laws and shipped data sets.
+
+use wingbeat_model::kinematics::{self, FwuavInsect, PublishedMotion, Timing};
+use wingbeat_model::motion::{
+    Adjustment, Fourier, Oval, PeriodicSpline, SmoothSquare, SmoothTriangle,
+};
+use wingbeat_model::{AngleLaw, AngleLaws, Side, Start, WingMotion};
+
+use super::{Built, at_least, not_negative, positive};
+use crate::decode::nearest;
+use crate::error::Fault;
+use crate::raw::{
+    AngleCase, Case, FourierCase, MotionCase, StartCase, TableCase, WingCase, WingMotionCase,
+};
+
+/// Names of the shipped sets of wing angles with a line about each.
+pub fn data_sets() -> Vec<(&'static str, String)> {
+    NAMES
+        .iter()
+        .map(|&n| (n, data_set(n).map_or(String::new(), |d| d.name)))
+        .collect()
+}
+
+const NAMES: [&str; 15] = [
+    "fry-hover",
+    "robofly-advanced",
+    "robofly-symmetrical",
+    "robofly-delayed",
+    "robofly-sane-advanced",
+    "robofly-sane-symmetrical",
+    "robofly-sane-delayed",
+    "robofly-table-advanced",
+    "robofly-table-symmetrical",
+    "robofly-table-delayed",
+    "berman-wang-fruit-fly",
+    "whitehead-fruit-fly",
+    "fwuav-monarch",
+    "fwuav-hawkmoth",
+    "fwuav-bumblebee",
+];
+
+fn data_set(name: &str) -> Option<PublishedMotion> {
+    // Dickinson's robot: total stroke 160 deg, angle of attack at mid stroke 40 deg.
+    let (stroke, attack) = (160f64.to_radians(), 40f64.to_radians());
+    let timing = match name.rsplit('-').next()? {
+        "advanced" => Timing::Advanced,
+        "delayed" => Timing::Delayed,
+        _ => Timing::Symmetrical,
+    };
+    match name {
+        "fry-hover" => Some(kinematics::fry_hover()),
+        "berman-wang-fruit-fly" => Some(kinematics::berman_wang_fruit_fly()),
+        "whitehead-fruit-fly" => Some(kinematics::whitehead_fruit_fly()),
+        "fwuav-monarch" => Some(kinematics::fwuav_hover(FwuavInsect::Monarch).0),
+        "fwuav-hawkmoth" => Some(kinematics::fwuav_hover(FwuavInsect::Hawkmoth).0),
+        "fwuav-bumblebee" => Some(kinematics::fwuav_hover(FwuavInsect::Bumblebee).0),
+        _ if !NAMES.contains(&name) => None,
+        _ if name.contains("table") => kinematics::robofly_table(timing).ok(),
+        _ if name.contains("sane") => Some(kinematics::robofly_sane_dickinson2001(
+            timing, stroke, attack,
+        )),
+        _ => Some(kinematics::robofly_dickinson1999(timing, stroke, attack)),
+    }
+}
+
+fn find_data(key: &str, name: &str) -> Built<PublishedMotion> {
+    data_set(name).ok_or_else(|| {
+        let remedy = match nearest(name, &NAMES) {
+            Some(near) => format!("did you mean `{near}`?"),
+            None => "give the angles phi, theta, psi of your own".to_owned(),
+        };
+        Fault::new(
+            key,
+            "there is no such set of wing angles",
+            NAMES.join(", "),
+            remedy,
+        )
+    })
+}
+
+/// Frequency and stroke plane of the data set, where the case leaves them open.
+pub(super) fn fill_defaults(case: &mut Case) -> Built<()> {
+    let data = match &case.motion.data {
+        Some(name) => Some(find_data("motion.data", name)?),
+        None => None,
+    };
+    let from_data = |f: fn(&PublishedMotion) -> Option<f64>| data.as_ref().and_then(f);
+    let motion = &mut case.motion;
+    let frequency = motion
+        .frequency_hz
+        .or(from_data(|d| d.frequency))
+        .unwrap_or(0.0);
+    motion.frequency_hz = Some(not_negative("motion.frequency_hz", frequency)?);
+    if motion.stroke_plane_pitch_deg.is_none() {
+        let pitch = from_data(|d| d.stroke_plane_pitch).unwrap_or(0.0);
+        motion.stroke_plane_pitch_deg = Some(pitch.to_degrees());
+    }
+    Ok(())
+}
+
+/// The motion of one wing.
+pub(super) fn law(case: &Case, name: &str, wing: &WingCase, side: Side) -> Built<WingMotion> {
+    let none = WingMotionCase::default();
+    let own = wing.motion.as_ref().unwrap_or(&none);
+    let path = format!("wing.{name}.motion");
+    let frequency = case.motion.frequency_hz.unwrap_or(0.0);
+    let laws = laws(case, &path, own, side)?;
+    let pitch = own
+        .stroke_plane_pitch_deg
+        .or(case.motion.stroke_plane_pitch_deg);
+    let still = |law: &AngleLaw| matches!(law, AngleLaw::Constant(_));
+    if frequency == 0.0 && ![&laws.phi, &laws.theta, &laws.psi].into_iter().all(still) {
+        return Err(Fault::new(
+            "motion.frequency_hz",
+            "the wing angles vary over a beat, but there is no wingbeat frequency",
+            "a finite number > 0",
+            "add `frequency_hz = ...` to [motion]",
+        ));
+    }
+    let motion = WingMotion {
+        angles: laws,
+        frequency,
+        phase: own.phase.unwrap_or(case.motion.phase),
+        stroke_plane_pitch: pitch.unwrap_or(0.0).to_radians(),
+        start: start(case, frequency)?,
+    };
+    Ok(motion.adjusted(side, &adjustment(&case.motion)))
+}
+
+fn adjustment(motion: &MotionCase) -> Adjustment {
+    let case = &motion.adjust;
+    Adjustment {
+        stroke_amplitude: case.stroke_amplitude,
+        stroke_offset: case.stroke_offset_deg.to_radians(),
+        feathering_amplitude: case.feathering_amplitude,
+        feathering_offset: case.feathering_offset_deg.to_radians(),
+        feathering_lead: case.feathering_lead,
+        deviation_offset: case.deviation_offset_deg.to_radians(),
+        stroke_plane: case.stroke_plane_deg.to_radians(),
+        frequency: 0.0,
+    }
+}
+
+fn start(case: &Case, frequency: f64) -> Built<Start> {
+    let beats = positive("motion.start_beats", case.motion.start_beats)?;
+    Ok(match case.motion.start {
+        StartCase::Smooth if frequency > 0.0 => Start::Smooth {
+            duration: beats / frequency,
+        },
+        _ => Start::Impulsive,
+    })
+}
+
+fn laws(case: &Case, path: &str, own: &WingMotionCase, side: Side) -> Built<AngleLaws> {
+    let shared = case
+        .motion
+        .data
+        .as_deref()
+        .map(|n| ("motion.data".to_owned(), n));
+    let data = own
+        .data
+        .as_deref()
+        .map(|n| (format!("{path}.data"), n))
+        .or(shared);
+    let base = match data {
+        Some((key, name)) => {
+            let right = find_data(&key, name)?.right;
+            if side == Side::Right {
+                right
+            } else {
+                right.mirrored()
+            }
+        }
+        None => {
+            let [phi, theta, psi] = [0.0; 3].map(AngleLaw::Constant);
+            AngleLaws { phi, theta, psi }
+        }
+    };
+    let angle = |key: &str, own: &Option<AngleCase>, base: AngleLaw| match own {
+        Some(case) => angle_law(&format!("{path}.{key}"), case),
+        None => Ok(base),
+    };
+    Ok(AngleLaws {
+        phi: angle("phi", &own.phi, base.phi)?,
+        theta: angle("theta", &own.theta, base.theta)?,
+        psi: angle("psi", &own.psi, base.psi)?,
+    })
+}
+
+fn angle_law(path: &str, case: &AngleCase) -> Built<AngleLaw> {
+    Ok(match case {
+        AngleCase::ConstantDeg(q) => AngleLaw::Constant(q.to_radians()),
+        AngleCase::Fourier(f) => AngleLaw::Fourier(fourier(f)),
+        AngleCase::SmoothTriangle(s) => {
+            if !(0.0..1.0).contains(&s.shape) {
+                return Err(Fault::new(
+                    format!("{path}.smooth_triangle.shape"),
+                    "the shape of a smooth triangle is out of range",
+                    "[0, 1): 0 is a sine, towards 1 a triangle wave",
+                    "0.99 is a triangle with rounded corners",
+                ));
+            }
+            AngleLaw::SmoothTriangle(SmoothTriangle {
+                amplitude: s.amplitude_deg.to_radians(),
+                shape: s.shape,
+                shift: s.shift_deg.to_radians(),
+                mean: s.mean_deg.to_radians(),
+            })
+        }
+        AngleCase::SmoothSquare(s) => AngleLaw::SmoothSquare(SmoothSquare {
+            amplitude: s.amplitude_deg.to_radians(),
+            shape: not_negative(&format!("{path}.smooth_square.shape"), s.shape)?,
+            shift: s.shift_deg.to_radians(),
+            mean: s.mean_deg.to_radians(),
+        }),
+        AngleCase::Oval(o) => AngleLaw::Oval(Oval {
+            amplitude: o.amplitude_deg.to_radians(),
+            count: at_least(&format!("{path}.oval.count"), o.count, 1)?,
+            shift: o.shift_deg.to_radians(),
+            mean: o.mean_deg.to_radians(),
+        }),
+        AngleCase::Table(t) => AngleLaw::Table(spline(&format!("{path}.table"), t)?),
+    })
+}
+
+fn fourier(case: &FourierCase) -> Fourier {
+    let radians = |list: &[f64]| list.iter().map(|a| a.to_radians()).collect();
+    Fourier {
+        mean: case.mean_deg.to_radians(),
+        cos: radians(&case.cosine_deg),
+        sin: radians(&case.sine_deg),
+    }
+}
+
+fn spline(path: &str, table: &TableCase) -> Built<PeriodicSpline> {
+    let Some(rows) = &table.rows_deg else {
+        return Err(Fault::new(
+            path,
+            "the table has no rows",
+            "rows_deg = [[phase, angle], ...] or file = \"NAME.csv\"",
+            "add one of them",
+        ));
+    };
+    let radians: Vec<(f64, f64)> = rows.iter().map(|&[x, q]| (x, q.to_radians())).collect();
+    PeriodicSpline::new("the table", &radians).map_err(|e| {
+        let row = match &e {
+            wingbeat_model::ModelError::Table { row, .. } if *row <= rows.len() => format!("[{}]", row - 1),
+            _ => String::new(),
+        };
+        Fault::new(
+            format!("{path}.rows_deg{row}"),
+            e.to_string(),
+            "at least 4 rows [phase, angle], phases rising, the last row one beat after the first with the same angle",
+            "repeat the first angle in a last row whose phase is 1 larger",
+        )
+    })
+}

@@ -1,0 +1,274 @@
+//! `[wing.NAME]`: planform, mesh, mass, hinge; twins by mirror symmetry.
+
+use wingbeat_math::{DVec3, MassProperties};
+use wingbeat_model::planform::{Beta, ChordSize, Planform, Spacing, WingShape};
+use wingbeat_model::{MassInput, Side, Wing};
+
+use super::{
+    Built, at_least, blame, deformation, motion, not_negative, panels, positive, symmetric, vector,
+};
+use crate::error::Fault;
+use crate::raw::{BetaCase, Case, PlanformCase, SideCase, SpacingCase, WingCase, WingMeshCase};
+
+/// All wings in the order of their names, mirrored twins among them.
+pub(super) fn build_all(case: &Case) -> Built<Vec<Wing>> {
+    let mut wings = vec![];
+    for (name, own) in &case.wing {
+        let side = side(name, own)?;
+        let twin = twin_name(name).and_then(|n| case.wing.get_key_value(&n));
+        wings.push(build(case, name, side, own, twin)?);
+        let image = twin_name(name).filter(|_| own.mirror.unwrap_or(true) && twin.is_none());
+        if let Some(other) = image {
+            wings.push(wings[wings.len() - 1].mirrored(&other));
+        }
+    }
+    wings.sort_by(|a, b| a.name.cmp(&b.name));
+    Ok(wings)
+}
+
+/// The wing of the case a wing of the animal was made from.
+pub(super) fn source_of(case: &Case, wing: &str) -> String {
+    match twin_name(wing) {
+        Some(twin) if case.wing.get(wing).is_none_or(|w| w.hinge_m.is_none()) => twin,
+        _ => wing.to_owned(),
+    }
+}
+
+/// The name with `left` and `right` exchanged.
+pub(super) fn twin_name(name: &str) -> Option<String> {
+    if name.contains("right") {
+        Some(name.replace("right", "left"))
+    } else if name.contains("left") {
+        Some(name.replace("left", "right"))
+    } else {
+        None
+    }
+}
+
+fn side(name: &str, own: &WingCase) -> Built<Side> {
+    match own.side {
+        Some(SideCase::Left) => Ok(Side::Left),
+        Some(SideCase::Right) => Ok(Side::Right),
+        None if name.contains("right") => Ok(Side::Right),
+        None if name.contains("left") => Ok(Side::Left),
+        None => Err(Fault::new(
+            format!("wing.{name}.side"),
+            "this key is missing and the name does not tell the side",
+            "left, right",
+            "add `side = \"right\"` or call the wing e.g. `fore-right`",
+        )),
+    }
+}
+
+/// A key's value from the wing itself or, mirrored, from its twin.
+struct Source<'a> {
+    name: &'a str,
+    own: &'a WingCase,
+    twin: Option<(&'a String, &'a WingCase)>,
+}
+
+impl<'a> Source<'a> {
+    /// The wing that has the key, its name, and whether it is the twin.
+    fn of(&self, has: impl Fn(&WingCase) -> bool) -> (&'a str, &'a WingCase, bool) {
+        match self.twin {
+            Some((name, twin)) if !has(self.own) && has(twin) => (name, twin, true),
+            _ => (self.name, self.own, false),
+        }
+    }
+}
+
+fn build(
+    case: &Case,
+    name: &str,
+    side: Side,
+    own: &WingCase,
+    twin: Option<(&String, &WingCase)>,
+) -> Built<Wing> {
+    let source = Source { name, own, twin };
+    let shape = shape(&source)?;
+    let mass = mass(&source)?;
+    let (motion_name, motion_case, mirrored) = source.of(|w| w.motion.is_some());
+    let motion_side = if mirrored { side.other() } else { side };
+    let law = motion::law(case, motion_name, motion_case, motion_side)?;
+    let law = if mirrored { law.mirrored() } else { law };
+    let path = format!("wing.{name}");
+    let wing = Wing::new(name, side, hinge(&source)?, &shape, &mass, law);
+    let wing = wing.map_err(|e| blame_wing(&path, &source, &e))?;
+    let (name, case, _) = source.of(|w| w.deformation.is_some());
+    match &case.deformation {
+        Some(case) => deformation::deform(wing, &format!("wing.{name}.deformation"), case),
+        None => Ok(wing),
+    }
+}
+
+/// Traces a fault of the model into planform, mesh, or the wing.
+fn blame_wing(path: &str, source: &Source<'_>, error: &wingbeat_model::ModelError) -> Fault {
+    let (name, wing, _) = source.of(|w| w.planform.is_some());
+    let text = error.to_string();
+    match &wing.planform {
+        Some(planform) if text.contains("planform") => {
+            let path = format!("wing.{name}.planform");
+            match planform {
+                PlanformCase::Beta(t) => blame(&format!("{path}.beta"), t, error),
+                PlanformCase::Rectangle(t) => blame(&format!("{path}.rectangle"), t, error),
+                PlanformCase::Outline(t) => blame(&format!("{path}.outline"), t, error),
+            }
+        }
+        _ => blame(path, source.own, error),
+    }
+}
+
+fn hinge(source: &Source<'_>) -> Built<DVec3> {
+    let (name, wing, mirrored) = source.of(|w| w.hinge_m.is_some());
+    let missing = || {
+        Fault::new(
+            format!("wing.{name}.hinge_m"),
+            "this key is missing",
+            "the hinge in body axes [forward, right, down] in metres",
+            "add `hinge_m = [..., ..., ...]`",
+        )
+    };
+    let hinge = vector(wing.hinge_m.ok_or_else(missing)?);
+    Ok(if mirrored {
+        wingbeat_model::mesh::mirror(hinge)
+    } else {
+        hinge
+    })
+}
+
+fn shape(source: &Source<'_>) -> Built<WingShape> {
+    let (name, wing, _) = source.of(|w| w.planform.is_some());
+    let path = format!("wing.{name}.planform");
+    let Some(case) = &wing.planform else {
+        return Err(Fault::new(
+            path,
+            "this key is missing",
+            "planform.beta, planform.rectangle or planform.outline",
+            format!("add [wing.{name}.planform.beta] with length_m, mean_chord_m and r2_hat"),
+        ));
+    };
+    let (name, wing, _) = source.of(|w| w.mesh.is_some());
+    let mesh = wing.mesh.clone().unwrap_or_else(WingMeshCase::default);
+    let [chordwise, spanwise] =
+        ["chordwise", "spanwise"].map(|key| format!("wing.{name}.mesh.{key}"));
+    panels([&chordwise, &spanwise], [mesh.chordwise, mesh.spanwise])?;
+    Ok(WingShape {
+        planform: planform(&path, case)?,
+        rows: at_least(&chordwise, mesh.chordwise, 1)?,
+        cols: at_least(&spanwise, mesh.spanwise, 1)?,
+        chordwise: spacing(mesh.chordwise_spacing),
+        spanwise: spacing(mesh.spanwise_spacing),
+    })
+}
+
+fn spacing(case: SpacingCase) -> Spacing {
+    match case {
+        SpacingCase::Uniform => Spacing::Uniform,
+        SpacingCase::Cosine => Spacing::Cosine,
+    }
+}
+
+fn planform(path: &str, case: &PlanformCase) -> Built<Planform> {
+    let points = |list: &[[f64; 2]]| list.iter().map(|&[r, x]| (r, x)).collect();
+    Ok(match case {
+        PlanformCase::Beta(b) => Planform::Beta(Beta {
+            length: positive(&format!("{path}.beta.length_m"), b.length_m)?,
+            size: chord_size(&format!("{path}.beta"), b)?,
+            r2_hat: positive(&format!("{path}.beta.r2_hat"), b.r2_hat)?,
+            root_offset: not_negative(&format!("{path}.beta.root_offset_m"), b.root_offset_m)?,
+            axis_fraction: b.axis_fraction,
+            least_chord: b.least_chord,
+        }),
+        PlanformCase::Rectangle(r) => Planform::Rectangle {
+            chord: positive(&format!("{path}.rectangle.chord_m"), r.chord_m)?,
+            span: positive(&format!("{path}.rectangle.span_m"), r.span_m)?,
+            root_offset: not_negative(&format!("{path}.rectangle.root_offset_m"), r.root_offset_m)?,
+            axis_fraction: r.axis_fraction,
+        },
+        PlanformCase::Outline(o) => Planform::Outline {
+            leading: points(&o.leading_m),
+            trailing: points(&o.trailing_m),
+            least_chord: o.least_chord,
+        },
+    })
+}
+
+fn chord_size(path: &str, b: &BetaCase) -> Built<ChordSize> {
+    match (b.mean_chord_m, b.area_m2, b.max_chord_m) {
+        (Some(c), None, None) => Ok(ChordSize::Mean(positive(
+            &format!("{path}.mean_chord_m"),
+            c,
+        )?)),
+        (None, Some(s), None) => Ok(ChordSize::Area(positive(&format!("{path}.area_m2"), s)?)),
+        (None, None, Some(c)) => Ok(ChordSize::Max(positive(&format!("{path}.max_chord_m"), c)?)),
+        _ => Err(Fault::new(
+            path,
+            "the chord must be given once",
+            "one of mean_chord_m, area_m2, max_chord_m",
+            "keep the one that was measured",
+        )),
+    }
+}
+
+fn mass(source: &Source<'_>) -> Built<MassInput> {
+    let (name, wing, mirrored) = source.of(has_mass);
+    let path = format!("wing.{name}");
+    let given = [
+        wing.mass_kg.is_some(),
+        wing.areal_density_kg_m2.is_some(),
+        wing.areal_density_table_m_kg_m2.is_some(),
+    ];
+    match given.iter().filter(|&&g| g).count() {
+        0 => Err(Fault::new(
+            format!("{path}.mass_kg"),
+            "the wing has no mass",
+            "mass_kg, areal_density_kg_m2 or areal_density_table_m_kg_m2 (0 for a massless wing)",
+            "an insect's wing has 0.5 to 1 % of the body mass",
+        )),
+        1 => mass_input(&path, wing, mirrored),
+        _ => Err(Fault::new(
+            format!("{path}.mass_kg"),
+            "the mass is given more than once",
+            "one of mass_kg, areal_density_kg_m2, areal_density_table_m_kg_m2",
+            "keep the one that was measured",
+        )),
+    }
+}
+
+fn has_mass(w: &WingCase) -> bool {
+    w.mass_kg.is_some()
+        || w.areal_density_kg_m2.is_some()
+        || w.areal_density_table_m_kg_m2.is_some()
+}
+
+fn mass_input(path: &str, wing: &WingCase, mirrored: bool) -> Built<MassInput> {
+    if let Some(d) = wing.areal_density_kg_m2 {
+        let key = format!("{path}.areal_density_kg_m2");
+        return Ok(MassInput::Density(not_negative(&key, d)?));
+    }
+    if let Some(rows) = &wing.areal_density_table_m_kg_m2 {
+        for (k, &[_, d]) in rows.iter().enumerate() {
+            not_negative(&format!("{path}.areal_density_table_m_kg_m2[{k}][1]"), d)?;
+        }
+        return Ok(MassInput::SpanTable(
+            rows.iter().map(|&[r, d]| (r, d)).collect(),
+        ));
+    }
+    let m = not_negative(&format!("{path}.mass_kg"), wing.mass_kg.unwrap_or_default())?;
+    let Some([xx, yy, zz, xy, xz, yz]) = wing.inertia_about_centre_kg_m2 else {
+        return Ok(MassInput::Total(m));
+    };
+    let [x, y, z] = wing.centre_m.unwrap_or_default();
+    let s = if mirrored { -1.0 } else { 1.0 };
+    let inertia = symmetric([xx, yy, zz, s * xy, xz, s * yz]);
+    let given = MassProperties::about_centre(m, DVec3::new(x, s * y, z), inertia);
+    given.validate().map_err(|e| {
+        Fault::new(
+            format!("{path}.inertia_about_centre_kg_m2"),
+            e.to_string(),
+            "moments that some distribution of positive mass has",
+            "check order (xx, yy, zz, xy, xz, yz), signs and unit",
+        )
+    })?;
+    Ok(MassInput::Given(given))
+}

@@ -1,0 +1,131 @@
+//! From the document to raw case types, with serde's messages turned into sentences for users.
+
+use serde::de::DeserializeOwned;
+
+use crate::error::{CaseError, Fault};
+use crate::source::CaseSource;
+
+/// Decodes the document; unknown keys, missing keys and wrong types become located errors.
+pub(crate) fn decode<T: DeserializeOwned>(source: &CaseSource) -> Result<T, Box<CaseError>> {
+    let document = toml::Value::Table(source.table.clone());
+    serde_path_to_error::deserialize(document).map_err(|e| {
+        let path = e.path().to_string();
+        let path = if path == "." { String::new() } else { path };
+        Box::new(source.locate(explain(&path, e.inner().message())))
+    })
+}
+
+/// One of serde's messages as a fault.
+fn explain(path: &str, message: &str) -> Fault {
+    let message = message.trim();
+    let quoted: Vec<&str> = message.split('`').skip(1).step_by(2).collect();
+    if message.starts_with("unknown field") {
+        return unknown(path, quoted[0], &quoted[1..], "key");
+    }
+    if message.starts_with("unknown variant") {
+        return unknown(path, quoted[0], &quoted[1..], "choice");
+    }
+    if message.starts_with("missing field") {
+        let key = inside(path, quoted[0]);
+        return Fault::new(
+            key,
+            "this key is missing",
+            "it has no default",
+            format!("add `{} = ...`", quoted[0]),
+        );
+    }
+    let (problem, expected) = message.split_once(", expected ").unwrap_or((message, ""));
+    Fault::new(
+        path,
+        in_words(problem),
+        in_words(expected),
+        remedy(problem, expected),
+    )
+}
+
+fn inside(path: &str, key: &str) -> String {
+    match path {
+        "" => key.to_owned(),
+        _ if path.ends_with(key) => path.to_owned(),
+        _ => format!("{path}.{key}"),
+    }
+}
+
+fn unknown(path: &str, got: &str, expected: &[&str], what: &str) -> Fault {
+    let key = if what == "key" {
+        inside(path, got)
+    } else {
+        path.to_owned()
+    };
+    let remedy = match (same_quantity(got, expected), nearest(got, expected)) {
+        (Some(near), _) => format!("`{near}`: the unit is part of the key, convert the value"),
+        (None, Some(near)) => format!("did you mean `{near}`?"),
+        (None, None) => format!("remove it or use one of the allowed {what}s"),
+    };
+    Fault::new(
+        key,
+        format!("unknown {what} `{got}`"),
+        expected.join(", "),
+        remedy,
+    )
+}
+
+/// The expected key that differs from `got` only in its unit: `mass_mg` for `mass_kg`.
+fn same_quantity<'a>(got: &str, expected: &[&'a str]) -> Option<&'a str> {
+    const UNITS: [&str; 8] = [
+        "_m", "_kg", "_s", "_deg", "_hz", "_m_s", "_kg_m3", "_newton",
+    ];
+    let stem = |key: &str| {
+        UNITS
+            .iter()
+            .find_map(|u| key.strip_suffix(u).map(str::to_owned))
+    };
+    let is_same = |e: &&&str| {
+        stem(e)
+            .is_some_and(|s| got == s || got.strip_prefix(&s).is_some_and(|r| r.starts_with('_')))
+    };
+    expected
+        .iter()
+        .filter(is_same)
+        .max_by_key(|e| e.len())
+        .copied()
+}
+
+/// The nearest of `names`, if it is near.
+pub(crate) fn nearest<'a>(got: &str, names: &[&'a str]) -> Option<&'a str> {
+    let score = |name: &str| strsim::jaro_winkler(&got.to_lowercase(), name);
+    let best = names.iter().max_by(|a, b| score(a).total_cmp(&score(b)))?;
+    (score(best) > 0.8).then_some(best)
+}
+
+/// Rust's names of types in words.
+fn in_words(text: &str) -> String {
+    let words = [
+        ("invalid type: ", "wrong type: "),
+        ("invalid value: ", "value out of range: "),
+        ("floating point", "the number"),
+        ("a sequence", "a list"),
+        ("sequence", "a list"),
+        ("map", "a table"),
+        ("f64", "a number"),
+        ("usize", "a whole number >= 0"),
+        ("u32", "a whole number >= 0"),
+        ("a boolean", "true or false"),
+        ("boolean", "the truth value"),
+        ("an array of length 3", "a list of three numbers [x, y, z]"),
+        ("tuple variant", "a table"),
+    ];
+    words
+        .iter()
+        .fold(text.to_owned(), |t, (from, to)| t.replace(from, to))
+}
+
+fn remedy(problem: &str, expected: &str) -> &'static str {
+    if problem.contains("string") && expected.contains("f64") {
+        "write the number without quotes and without a unit; the unit is part of the key"
+    } else if expected.contains("length 3") {
+        "vectors have three components, e.g. [0, 0, 9.81]"
+    } else {
+        "give a value of the kind that is allowed"
+    }
+}

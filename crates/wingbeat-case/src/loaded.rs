@@ -1,0 +1,126 @@
+//! A case, read and checked: from text to a validated setup, and back to text with everything
+//! filled in.
+
+use std::path::{Path, PathBuf};
+
+use wingbeat_flight::FlightSetup;
+
+use crate::error::{CaseError, Fault, IoError};
+use crate::output::OutputSettings;
+use crate::source::CaseSource;
+use crate::{build, decode, files, presets, raw};
+
+/// A case, validated and ready to fly.
+#[derive(Clone, Debug)]
+pub struct LoadedCase {
+    /// Name, used for the result directory.
+    pub name: String,
+    /// What flies.
+    pub setup: FlightSetup,
+    /// What is written.
+    pub output: OutputSettings,
+    /// The raw case with files read in and defaults filled in.
+    pub raw: raw::Case,
+    source: CaseSource,
+}
+
+impl LoadedCase {
+    /// Reads a case from text. `origin` names it in messages, `base` is the folder that paths in
+    /// it are relative to, `overrides` are `KEY=VALUE`.
+    ///
+    /// # Errors
+    /// The first thing in the case that cannot be flown.
+    pub fn from_text(
+        origin: &str,
+        text: &str,
+        base: &Path,
+        overrides: &[String],
+    ) -> Result<Self, IoError> {
+        let source = CaseSource::new(origin, text, overrides)?;
+        let mut raw: raw::Case = decode::decode(&source)?;
+        let stem = Path::new(origin)
+            .file_stem()
+            .and_then(|s| s.to_str())
+            .unwrap_or("case");
+        let name = raw.name.get_or_insert_with(|| stem.to_owned()).clone();
+        let built = check_name(&name)
+            .and_then(|()| files::read_in(&mut raw, base))
+            .and_then(|()| build::setup(&mut raw, &name));
+        let built = built.and_then(|setup| Ok((setup, build::output(&raw.output)?)));
+        let (setup, output) = built.map_err(|fault| Box::new(source.locate(fault)))?;
+        Ok(Self {
+            name,
+            setup,
+            output,
+            raw,
+            source,
+        })
+    }
+
+    /// Reads a case file.
+    ///
+    /// # Errors
+    /// A file that cannot be read, or a case that cannot be flown.
+    pub fn from_file(path: &Path, overrides: &[String]) -> Result<Self, IoError> {
+        let text = std::fs::read_to_string(path).map_err(IoError::read(path))?;
+        let base = path.parent().map(Path::to_owned).unwrap_or_default();
+        Self::from_text(&path.display().to_string(), &text, &base, overrides)
+    }
+
+    /// Reads a case file or, where no such file exists, a preset of that name.
+    ///
+    /// # Errors
+    /// As [`Self::from_file`]; [`IoError::NoCase`] for a name that is neither.
+    pub fn find(name: &str, overrides: &[String]) -> Result<Self, IoError> {
+        let path = PathBuf::from(name);
+        if path.is_file() {
+            return Self::from_file(&path, overrides);
+        }
+        let preset = presets::find(name)?;
+        let origin = format!("preset {}", preset.name);
+        Self::from_text(&origin, preset.text, Path::new(""), overrides)
+    }
+
+    /// The text of the case as it was written.
+    pub fn text(&self) -> &str {
+        &self.source.text
+    }
+
+    /// Where the case came from: the file or preset.
+    pub fn origin(&self) -> &str {
+        &self.source.name
+    }
+
+    /// The case with everything filled in, as TOML; it gives the same setup bit for bit.
+    pub fn resolved(&self) -> String {
+        let body = toml::to_string(&self.raw).expect("a case that was read can be written");
+        format!(
+            "# Case `{}` with every default filled in; it reproduces the run.\n{body}",
+            self.name
+        )
+    }
+
+    /// An error about a key that showed up later, traced to its line.
+    pub fn fault(&self, key: &str, problem: String, remedy: &str) -> CaseError {
+        self.source.locate(Fault::new(key, problem, "", remedy))
+    }
+}
+
+fn check_name(name: &str) -> Result<(), Fault> {
+    let plain = |c: char| c.is_alphanumeric() || "-_. ".contains(c);
+    if !name.is_empty() && name.chars().all(plain) && !name.starts_with('.') {
+        return Ok(());
+    }
+    Err(Fault::new(
+        "name",
+        "the name becomes the name of a directory",
+        "letters, digits, -, _, . and spaces, not beginning with a dot",
+        "choose a plain name",
+    ))
+}
+
+/// The JSON schema of case files, for editors.
+pub fn schema() -> String {
+    let schema = schemars::schema_for!(raw::Case);
+    serde_json::to_string_pretty(&schema).expect("a schema is JSON")
+}

@@ -1,0 +1,108 @@
+//! Presets: ordinary case files, embedded, commented, ready to be written out and edited.
+
+use std::path::{Path, PathBuf};
+
+use crate::decode::nearest;
+use crate::error::IoError;
+
+/// An embedded case.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Preset {
+    /// Name on the command line.
+    pub name: &'static str,
+    /// The case file.
+    pub text: &'static str,
+}
+
+impl Preset {
+    /// One line about the case: the first comment of its file.
+    pub fn line(&self) -> &'static str {
+        self.text
+            .lines()
+            .next()
+            .unwrap_or("")
+            .trim_start_matches("# ")
+    }
+}
+
+macro_rules! presets {
+    ($($name:literal),* $(,)?) => {
+        /// All presets, the default first.
+        pub const PRESETS: &[Preset] = &[$(Preset {
+            name: $name,
+            text: include_str!(concat!("../presets/", $name, ".toml")),
+        }),*];
+    };
+}
+
+presets![
+    "fruit-fly-hover",
+    "fruit-fly-tethered",
+    "fruit-fly-vacuum",
+    "fruit-fly-blade",
+    "bumblebee-blade",
+    "hoverfly-blade",
+    "hawkmoth-blade",
+    "locust-blade",
+    "fruit-fly-abdomen",
+    "fruit-fly-abdomen-spring",
+    "robobee",
+    "dragonfly",
+    "bird-cruise",
+    "rectangular-wing",
+    "flapping-rectangles",
+    "robofly-advanced",
+    "robofly-symmetrical",
+    "robofly-delayed",
+    "benchmark-1",
+    "benchmark-2",
+    "table1-taylor-thomas-2003",
+    "table1-sun-xiong-2005",
+    "table1-doman-2009",
+    "table1-deng-2001",
+    "table1-bolender-2009",
+    "table1-sun-2007",
+    "table1-sun-2007-hawkmoth",
+    "table1-buler-2004",
+    "table1-grauer-hubbard-2009",
+    "table1-orlowski-2010",
+    "table1-lasek-sibilski-2002",
+    "table1-dietl-garcia-2008",
+];
+
+/// The preset flown when no case is named.
+pub const DEFAULT: &str = PRESETS[0].name;
+
+/// A preset by name.
+///
+/// # Errors
+/// [`IoError::NoCase`] with the nearest name.
+pub fn find(name: &str) -> Result<Preset, IoError> {
+    let found = PRESETS.iter().find(|p| p.name == name);
+    found.copied().ok_or_else(|| {
+        let names: Vec<&str> = PRESETS.iter().map(|p| p.name).collect();
+        IoError::NoCase {
+            name: name.to_owned(),
+            hint: nearest(name, &names).map_or(String::new(), |n| format!(", did you mean `{n}`?")),
+        }
+    })
+}
+
+/// Writes a preset as a case file, `NAME.toml` if no file is named; never over an existing one.
+///
+/// # Errors
+/// An unknown preset, an existing file, or one that cannot be written.
+pub fn write(name: &str, file: Option<&Path>) -> Result<PathBuf, IoError> {
+    let preset = find(name)?;
+    let path = file.map_or_else(|| PathBuf::from(format!("{name}.toml")), Path::to_owned);
+    let created = std::fs::File::create_new(&path);
+    let mut out = created.map_err(|e| match e.kind() {
+        std::io::ErrorKind::AlreadyExists => IoError::Exists {
+            path: path.clone(),
+            remedy: "name another file",
+        },
+        _ => IoError::write(&path)(e),
+    })?;
+    std::io::Write::write_all(&mut out, preset.text.as_bytes()).map_err(IoError::write(&path))?;
+    Ok(path)
+}

@@ -1,0 +1,55 @@
+//! Cases that ask for more than any machine has are refused while they are read, and do not end
+//! the program for want of memory or time.
+
+use std::path::Path;
+
+use wingbeat_case::{LoadedCase, presets};
+
+/// What is said about the fruit fly with one more override.
+fn refusal(set: &str) -> String {
+    let case = LoadedCase::find("fruit-fly-hover", &[set.to_owned()]);
+    case.expect_err(set).to_string()
+}
+
+#[test]
+fn refuses_absurd_sizes() {
+    for (key, value, allowed) in [
+        ("wing.right.mesh.spanwise", "5000", "10000 panels"),
+        (
+            "wing.right.mesh.chordwise",
+            "9007199254740993",
+            "10000 panels",
+        ),
+        ("body.part.thorax.stations", "1000000000000", "10000 panels"),
+        (
+            "body.part.thorax.meridians",
+            "9000000000000000000",
+            "10000 panels",
+        ),
+        ("time.beats", "1e300", "<= 1000000000"),
+        (
+            "time.steps_per_beat",
+            "9000000000000000000",
+            "<= 1000000000",
+        ),
+        ("corrector.max_passes", "9000000000000000000", "<= 10000"),
+    ] {
+        let said = refusal(&format!("{key}={value}"));
+        assert!(said.contains(allowed) && said.contains("try: "), "{said}");
+        // Too many steps are the fault of the longest flight, whatever made them many.
+        let named = key != "time.steps_per_beat";
+        assert!(!named || said.contains(key), "{said}");
+    }
+}
+
+#[test]
+fn refuses_what_is_no_file() {
+    let text = presets::find("fruit-fly-vacuum").unwrap().text;
+    let text = text.replace("[body.part.thorax]", "[body.part.thorax]\nfile = \"/\"");
+    let said = LoadedCase::from_text("case.toml", &text, Path::new(""), &[]);
+    let said = said.unwrap_err().to_string();
+    assert!(
+        said.contains("body.part.thorax.file") && said.contains("it is not a file"),
+        "{said}"
+    );
+}

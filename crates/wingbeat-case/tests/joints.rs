@@ -1,0 +1,265 @@
+//! Bodies and joints from case files: the presets fly alone and with the vortex lattice, and what
+//! cannot be built is refused at its line.
+
+use std::path::Path;
+
+use wingbeat_case::{LoadedCase, presets};
+use wingbeat_flight::{Record, Simulation};
+
+/// Records of a case with overrides.
+fn fly(name: &str, set: &[&str]) -> Vec<Record> {
+    let set: Vec<String> = set.iter().map(|s| (*s).to_owned()).collect();
+    let case = LoadedCase::find(name, &set).unwrap_or_else(|e| panic!("{e}"));
+    let mut flight = Simulation::new(case.setup.clone()).unwrap_or_else(|e| panic!("{e}"));
+    let mut records = vec![flight.record().clone()];
+    while !flight.finished() {
+        records.push(
+            flight
+                .step()
+                .unwrap_or_else(|e| panic!("{name}: {e}"))
+                .clone(),
+        );
+    }
+    records
+}
+
+/// Largest energy residual over the largest kinetic energy.
+fn balance(records: &[Record]) -> f64 {
+    let most = |f: fn(&Record) -> f64| records.iter().map(f).fold(0.0, |a: f64, x| a.max(x.abs()));
+    let kinetic: f64 = most(|r| r.kinetic_energy);
+    if kinetic == 0.0 {
+        assert_eq!(most(|r| r.energy_residual), 0.0); // nothing moves, nothing works
+        return 0.0;
+    }
+    most(|r| r.energy_residual) / kinetic
+}
+
+const ARTICULATED: [(&str, usize, usize); 4] = [
+    // Preset, bodies, free coordinates.
+    ("fruit-fly-abdomen", 5, 0),
+    ("fruit-fly-abdomen-spring", 5, 1),
+    ("robobee", 3, 2),
+    ("dragonfly", 5, 0),
+];
+
+#[test]
+fn balances_energy_of_every_preset_alone() {
+    for preset in presets::PRESETS {
+        let records = fly(preset.name, &["air.model=none", "output.figures=false"]);
+        let residual = balance(&records);
+        println!(
+            "{}: {residual:.1e} of the largest kinetic energy",
+            preset.name
+        );
+        assert!(residual < 1e-6, "{}: {residual}", preset.name);
+    }
+    for (name, bodies, free) in ARTICULATED {
+        let records = fly(name, &["air.model=none", "time.beats=0.5"]);
+        let last = records.last().unwrap();
+        assert_eq!(last.coordinates.len(), 6 * bodies);
+        assert_eq!(last.joints.len(), free);
+    }
+}
+
+#[test]
+fn balances_coupled_flight_of_articulated_animals() {
+    // Coarse wings, a quarter of a beat: everything takes part in the coupled steps.
+    for (name, coarse) in [
+        ("fruit-fly-abdomen", "wing.right.mesh.spanwise=4"),
+        ("fruit-fly-abdomen-spring", "wing.right.mesh.spanwise=4"),
+        ("robobee", "wing.right.mesh.spanwise=4"),
+        ("dragonfly", "wing.fore-right.mesh.spanwise=4"),
+    ] {
+        let records = fly(name, &[coarse, "time.beats=0.25"]);
+        let (residual, last) = (balance(&records), records.last().unwrap());
+        println!(
+            "{name} with the lattice: {residual:.1e}, joints {:?}",
+            last.joints
+        );
+        // The air is first order in the step, its loads jump where wakes are regularised.
+        assert!(residual < 5e-3, "{name}: {residual}");
+        assert!(last.air_work != 0.0 && last.wake_rings > 0);
+    }
+}
+
+#[test]
+fn agrees_free_and_tethered_passive_hinges_with_a_heavy_body() {
+    // A tethered root is one of infinite mass: a free body a million times as heavy as the robot
+    // leaves the hinges the same motion.
+    let still = [
+        "air.model=none",
+        "gravity_m_s2=[0, 0, 0]",
+        "time.beats=1",
+        "time.steps_per_beat=40",
+    ];
+    let tethered = fly("robobee", &[&still[..], &["flight.mode=tethered"]].concat());
+    let heavy = [
+        "body.mass_kg=80",
+        "body.inertia_about_centre_kg_m2=[1.5e-3, 1.5e-3, 0.5e-3, 0, 0, 0]",
+    ];
+    let free = fly("robobee", &[&still[..], &heavy].concat());
+    let hinge = |r: &[Record]| r.last().unwrap().joints[0][0];
+    let (a, b) = (hinge(&tethered), hinge(&free));
+    println!("hinge angle after a beat: tethered {a:.9} rad, on a heavy body {b:.9} rad");
+    assert!(a.abs() > 1e-3 && (a - b).abs() < 1e-5);
+}
+
+#[test]
+fn agrees_formulations_from_the_case_file() {
+    let common = ["air.model=none", "time.beats=1", "dynamics.tolerance=1e-12"];
+    let fly = |more: &[&str]| {
+        let records = fly("fruit-fly-abdomen-spring", &[&common[..], more].concat());
+        records.last().unwrap().clone()
+    };
+    let momentum = fly(&[]);
+    let quaternion = fly(&["dynamics.formulation=quaternion"]);
+    let projected = fly(&[
+        "dynamics.formulation=quaternion",
+        "dynamics.stabilisation=projection",
+    ]);
+    for other in [&quaternion, &projected] {
+        let angle = (momentum.joints[0][0] - other.joints[0][0]).abs();
+        let way = (momentum.mass_centre - other.mass_centre).length();
+        println!("abdomen {angle:.1e} rad, mass centre {way:.1e} m");
+        assert!(angle < 1e-9 && way < 1e-12);
+    }
+}
+
+/// The report on a preset whose text has `from` replaced by `to`; the line that holds `at` must be
+/// named.
+fn refused(preset: &str, from: &str, to: &str, at: &str) -> String {
+    let text = presets::find(preset).unwrap().text;
+    assert!(text.contains(from), "the test replaces nothing");
+    let text = text.replacen(from, to, 1);
+    let e = LoadedCase::from_text("case.toml", &text, Path::new(""), &[]);
+    let report = e
+        .err()
+        .unwrap_or_else(|| panic!("accepted: {to}"))
+        .to_string();
+    let line = text.lines().position(|l| l.contains(at)).unwrap() + 1;
+    assert!(
+        report.contains(&format!("case.toml:{line}:")),
+        "line {line} not in:\n{report}"
+    );
+    println!("{report}\n");
+    report
+}
+
+const WAIST: &str =
+    "[joint.waist]              # free to nod, held by a spring\nchild = \"abdomen\"";
+
+#[test]
+fn refuses_a_disconnected_body() {
+    let to = "[joint.waist]\nchild = \"head\"";
+    let report = refused("fruit-fly-abdomen-spring", WAIST, to, "[segment.abdomen]");
+    assert!(report.contains("disconnected") && report.contains("child = \"abdomen\""));
+}
+
+#[test]
+fn refuses_a_body_that_does_not_exist() {
+    let to = "[joint.waist]\nchild = \"abdomn\"";
+    let report = refused("fruit-fly-abdomen-spring", WAIST, to, "abdomn");
+    assert!(report.contains("there is no body `abdomn`") && report.contains("abdomen"));
+}
+
+#[test]
+fn refuses_a_loop_that_cannot_close() {
+    // A second bar from the body to the abdomen's end, whose two ends are farther apart than the
+    // nodding abdomen can reach.
+    let stay = "[joint.zstay]\nchild = \"abdomen\"\nat_m = [0, 0, 3e-3]\nat_child_m = [-1.2e-3, 0, 0]\nkind = \"spherical\"\n\n";
+    let report = refused(
+        "fruit-fly-abdomen-spring",
+        WAIST,
+        &format!("{stay}{WAIST}"),
+        "[joint.zstay]",
+    );
+    assert!(
+        report.contains("cannot be closed") || report.contains("contradict"),
+        "{report}"
+    );
+}
+
+#[test]
+fn refuses_two_joints_of_one_pair_that_contradict() {
+    let weld = "[joint.zweld]\nchild = \"abdomen\"\nat_m = [-0.174e-3, 0, 0]\nturn = { axis = [1, 0, 0], mean_deg = 20 }\n\n";
+    let report = refused(
+        "fruit-fly-abdomen-spring",
+        WAIST,
+        &format!("{weld}{WAIST}"),
+        "[joint.zweld]",
+    );
+    assert!(
+        report.contains("`waist`") && report.contains("`zweld`"),
+        "{report}"
+    );
+}
+
+#[test]
+fn refuses_joints_that_ask_for_the_same_twice() {
+    let weld = "[joint.zagain]\nchild = \"abdomen\"\nat_m = [-0.174e-3, 0, 0]\nkind = \"revolute\"\naxis = [0, 1, 0]\n\n";
+    let report = refused(
+        "fruit-fly-abdomen-spring",
+        WAIST,
+        &format!("{weld}{WAIST}"),
+        "[joint.zagain]",
+    );
+    assert!(report.contains("the same thing twice"), "{report}");
+}
+
+#[test]
+fn refuses_inertia_that_no_body_has() {
+    for (inertia, why) in [
+        ("[1e-14, 1e-14, 5e-14, 0, 0, 0]", "triangle"),
+        ("[1e-14, 1e-14, 1e-14, 2e-14, 0, 0]", "inertia"),
+    ] {
+        let to =
+            format!("[segment.abdomen]\nmass_kg = 0.4e-6\ninertia_about_centre_kg_m2 = {inertia}");
+        let report = refused(
+            "fruit-fly-abdomen-spring",
+            "[segment.abdomen]",
+            &to,
+            inertia,
+        );
+        assert!(report.contains(why), "{report}");
+    }
+}
+
+#[test]
+fn refuses_axes_directions_and_units_that_do_not_fit() {
+    let preset = "fruit-fly-abdomen-spring";
+    refused(
+        preset,
+        "axis = [0, 1, 0]",
+        "axis = [0, 0, 0]",
+        "axis = [0, 0, 0]",
+    );
+    refused(
+        preset,
+        "kind = \"revolute\"",
+        "kind = \"prismatic\"",
+        "stiffness_newton_m_per_rad",
+    );
+    let second = "[[joint.waist.element]]\ndirection = 1";
+    refused(preset, "[[joint.waist.element]]", second, "direction = 1");
+    let euler = "[dynamics]\nformulation = \"euler\"\n";
+    let line = "formulation = \"euler\"";
+    refused(preset, "[dynamics]\n", euler, line);
+}
+
+#[test]
+fn exact_a_fly_of_a_kilogram_is_warned_about() {
+    let set = vec!["body.mass_kg=1".to_owned()];
+    let case = LoadedCase::find("fruit-fly-vacuum", &set).unwrap();
+    let warnings = wingbeat_flight::system_of(&case.setup).unwrap().warnings();
+    assert!(
+        warnings.len() == 1 && warnings[0].contains("check the units"),
+        "{warnings:?}"
+    );
+    let none = LoadedCase::find("fruit-fly-vacuum", &[]).unwrap();
+    assert!(
+        wingbeat_flight::system_of(&none.setup)
+            .unwrap()
+            .warnings()
+            .is_empty()
+    );
+}

@@ -1,0 +1,272 @@
+//! Deforming and joined wings, section drag and side edges from case files; what does not fit is
+//! refused at its line.
+
+use std::path::Path;
+
+use wingbeat_case::LoadedCase;
+use wingbeat_flight::{AirModel, FlightSetup, Record, Simulation};
+
+const GOOD: &str = r#"format = 1
+name = "wings"
+[time]
+steps_per_beat = 20
+beats = 0.4
+[motion]
+frequency_hz = 5
+[flight]
+mode = "tethered"
+[air]
+stream_m_s = [-5, 0, 0]
+scheme = "accurate"
+shed = ["trailing"]
+[body]
+mass_kg = 0.1
+inertia_about_centre_kg_m2 = [1e-4, 1e-4, 1e-4, 0, 0, 0]
+[wing.right]
+hinge_m = [0, 0, 0]
+mass_kg = 0.01
+motion.phi.fourier = { sine_deg = [20] }
+[wing.right.planform.rectangle]
+chord_m = 0.1
+span_m = 0.4
+[wing.right.mesh]
+chordwise = 2
+spanwise = 4
+"#;
+
+const TWIST: &str = "
+[[wing.right.deformation.twist]]
+table_deg = [[0, 0], [0.5, 2], [1, 10]]
+fourier = { mean = 0.5, cosine = [1] }
+";
+
+fn load(text: &str, set: &[&str]) -> Result<LoadedCase, String> {
+    let set: Vec<String> = set.iter().map(|s| (*s).to_owned()).collect();
+    LoadedCase::from_text("case.toml", text, Path::new(""), &set).map_err(|e| e.to_string())
+}
+
+fn good(text: &str, set: &[&str]) -> FlightSetup {
+    load(text, set).unwrap_or_else(|e| panic!("{e}")).setup
+}
+
+fn fly(setup: FlightSetup) -> Vec<Record> {
+    let mut flight = Simulation::new(setup).unwrap_or_else(|e| panic!("{e}"));
+    let mut records = vec![flight.record().clone()];
+    while !flight.finished() {
+        records.push(flight.step().unwrap_or_else(|e| panic!("{e}")).clone());
+    }
+    records
+}
+
+/// The case is refused at the line of `at`, and the report has all of `wanted`.
+fn refused(text: &str, at: &str, wanted: &[&str]) {
+    let report = load(text, &[]).expect_err("refused");
+    let line = text.lines().position(|l| l.contains(at)).unwrap() + 1;
+    assert!(
+        report.contains(&format!("case.toml:{line}:")),
+        "line {line} not in:\n{report}"
+    );
+    for part in wanted {
+        assert!(report.contains(part), "`{part}` not in:\n{report}");
+    }
+}
+
+#[test]
+fn exact_deformation_of_a_case_is_that_of_the_model() {
+    let setup = good(&format!("{GOOD}{TWIST}"), &[]);
+    for wing in &setup.animal.wings {
+        let d = wing
+            .deformation
+            .as_ref()
+            .expect("both wings, the image too");
+        let value = d.twist[0].span.at(0.75, 0.0);
+        assert!((value - 6f64.to_radians()).abs() < 1e-15); // roundings
+        assert_eq!((d.twist[0].time.mean, d.twist[0].time.cos[0]), (0.5, 1.0));
+        assert_eq!((d.axis_fraction, d.camber_peak), (0.25, 0.5));
+    }
+    // Bending is a length and grows with the animal, twist does not.
+    let bending = "
+[[wing.right.deformation.bending]]
+linear_m = [0, 0.02]
+";
+    let large = good(&format!("{GOOD}{TWIST}{bending}"), &["animal.scale=2"]);
+    let d = large.animal.wings[0].deformation.as_ref().unwrap();
+    assert!((d.bending[0].span.at(1.0, 0.0) - 0.04).abs() < 1e-15);
+    assert!((d.twist[0].span.at(0.75, 0.0) - 6f64.to_radians()).abs() < 1e-15);
+}
+
+#[test]
+fn agrees_page_poses_with_the_lattice() {
+    // Where no frames are written the page draws wings from history rows; both see one shape.
+    let setup = good(&format!("{GOOD}{TWIST}"), &[]);
+    let wing = &setup.animal.wings[1];
+    let mesh = wingbeat_model::DeformingMesh::new(&wing.mesh, wing.deformation.as_ref().unwrap());
+    let mut flight = Simulation::new(setup.clone()).unwrap();
+    for _ in 0..4 {
+        flight.step().unwrap();
+    }
+    let t = flight.record().time;
+    let motion = wingbeat_math::RotationLaw::at(&wing.motion, t);
+    let places = mesh.places(wing.motion.phase_at(t)[0]);
+    let surface = &flight.snapshot().surfaces[1];
+    assert_eq!(surface.name, "right");
+    for (x, y) in places.iter().zip(&surface.nodes) {
+        assert!((motion.c * *x - *y).length() < 1e-14); // roundings of 0.4 m
+    }
+}
+
+#[test]
+fn exact_joined_wings_of_a_case_share_their_root() {
+    let joined = GOOD.replace("mass_kg = 0.01", "mass_kg = 0.01\njoined = true");
+    let setup = good(&joined, &[]);
+    let AirModel::VortexLattice(air) = &setup.air else {
+        panic!("a lattice")
+    };
+    assert_eq!(air.joined, [[0, 1]]);
+    let [one, two] = [fly(setup), fly(good(GOOD, &[]))].map(|r| r.last().unwrap().air.clone());
+    let lift = |air: &[wingbeat_flight::LoadRecord]| air.iter().map(|l| l.force.z).sum::<f64>();
+    println!(
+        "lift joined {:.4} N, apart {:.4} N",
+        -lift(&one),
+        -lift(&two)
+    );
+    assert!(lift(&one).abs() > 1.02 * lift(&two).abs()); // no root vortices
+    // Half of it computed is the same.
+    let half = fly(good(&joined, &["air.mirror=true"]));
+    let gap = lift(&half.last().unwrap().air) - lift(&one);
+    assert!(gap.abs() < 1e-9 * lift(&one).abs()); // roundings in a free wake
+}
+
+#[test]
+fn exact_side_edges_shed_from_a_case() {
+    let setup = good(GOOD, &["air.shed=[\"trailing\", \"tip\", \"root\"]"]);
+    let lattice = |setup: &FlightSetup| {
+        let mut flight = Simulation::new(setup.clone()).unwrap();
+        flight.step().unwrap();
+        flight.snapshot()
+    };
+    let wakes = lattice(&setup).wakes;
+    assert_eq!(wakes.len(), 2);
+    // Tip 2, trailing edge 4, root 2 panels.
+    assert!(wakes.iter().all(|w| w.cols == 8));
+    // Joined roots are no edge: nothing leaves there.
+    let joined = GOOD.replace("mass_kg = 0.01", "mass_kg = 0.01\njoined = true");
+    let setup = good(&joined, &["air.shed=[\"trailing\", \"tip\", \"root\"]"]);
+    assert!(lattice(&setup).wakes.iter().all(|w| w.cols == 6));
+}
+
+#[test]
+fn exact_section_drag_of_a_case() {
+    let still = GOOD
+        .replace(
+            "steps_per_beat = 20\nbeats = 0.4",
+            "step_s = 0.01\nsteps = 3",
+        )
+        .replace("motion.phi.fourier = { sine_deg = [20] }\n", "")
+        .replace("frequency_hz = 5\n", "");
+    let with = format!("{still}\n[air.section_drag]\nviscosity_m2_s = 1.5e-5\ncd0 = 0.01\n");
+    let drag = |text: &str| fly(good(text, &[])).last().unwrap().air[2].force;
+    assert_eq!(drag(&still).x, 0.0); // off if not asked for
+    let reynolds: f64 = 5.0 * 0.1 / 1.5e-5;
+    let coefficient = 2.656 / reynolds.sqrt() + 0.01;
+    let closed = -0.5 * 1.225 * 25.0 * 0.04 * coefficient;
+    assert!((drag(&with).x / closed - 1.0).abs() < 1e-12); // roundings
+}
+
+#[test]
+fn refuses_deformations_that_do_not_fit() {
+    let with = |from: &str, to: &str| {
+        assert!(TWIST.contains(from));
+        format!("{GOOD}{}", TWIST.replace(from, to))
+    };
+    let span = "table_deg = [[0, 0], [0.5, 2], [1, 10]]";
+    let table = |rows: &str| with(span, &format!("table_deg = {rows}"));
+    let at = "table_deg";
+    refused(
+        &table("[[0.2, 0], [1, 1]]"),
+        at,
+        &["twist[0].table_deg[0]", "cover"],
+    );
+    refused(
+        &table("[[0, 0], [0.8, 1]]"),
+        at,
+        &["twist[0].table_deg[1]", "cover"],
+    );
+    refused(
+        &table("[[0, 0], [0.7, 1], [0.6, 1], [1, 0]]"),
+        at,
+        &["table_deg[2]", "rise"],
+    );
+    refused(&table("[[0, 0], [1, nan]]"), at, &["table_deg"]);
+    refused(&table("[[0, 0]]"), at, &["2 rows"]);
+    refused(&with("mean = 0.5", "mean = inf"), "mean = inf", &["mean"]);
+    refused(
+        &with(span, ""),
+        "[[wing.right.deformation.twist]]",
+        &["linear_deg or table_deg"],
+    );
+    refused(
+        &with("table_deg", "table_m"),
+        "table_m",
+        &["unknown key", "table_deg"],
+    );
+    let peak = format!("{GOOD}[wing.right.deformation]\ncamber_peak = 1.5\n");
+    refused(&peak, "camber_peak", &["above 0 and below 1"]);
+    let unknown = format!("{GOOD}{}", TWIST.replace("right", "rigth"));
+    refused(&unknown, "[[wing.rigth", &["wing.rigth"]);
+    let still = format!("{GOOD}{TWIST}")
+        .replace("frequency_hz = 5\n", "")
+        .replace("motion.phi.fourier = { sine_deg = [20] }\n", "")
+        .replace(
+            "steps_per_beat = 20\nbeats = 0.4",
+            "step_s = 0.01\nsteps = 3",
+        );
+    refused(&still, "mean = 0.5", &["no wingbeat frequency"]);
+}
+
+#[test]
+fn refuses_roots_that_do_not_meet_and_drag_without_sense() {
+    let joined = GOOD.replace("mass_kg = 0.01", "mass_kg = 0.01\njoined = true");
+    let apart = joined.replace("hinge_m = [0, 0, 0]", "hinge_m = [0, 0.1, 0]");
+    refused(
+        &apart,
+        "joined = true",
+        &["right", "left", "2.000e-1 m apart"],
+    );
+    let alone = joined.replace("joined = true", "joined = true\nmirror = false");
+    refused(&alone, "joined = true", &["no twin"]);
+    let drag = |keys: &str| format!("{GOOD}[air.section_drag]\n{keys}\n");
+    refused(
+        &drag("cd0 = 0.1"),
+        "[air.section_drag]",
+        &["viscosity_m2_s", "no default"],
+    );
+    refused(&drag("viscosity_m2_s = -1"), "viscosity", &["negative"]);
+    refused(&drag("friction = \"none\"\ncd0 = -1"), "cd0", &["negative"]);
+    refused(
+        &drag("friction = \"none\"\ncd2_per_rad2 = nan"),
+        "cd2",
+        &["cd2_per_rad2"],
+    );
+    refused(
+        &drag("friction = \"turbulent\""),
+        "friction",
+        &["blasius, none"],
+    );
+    // Wings that part in flight say when.
+    let parting = joined
+        .replace("motion.phi", "motion.psi.constant_deg = 40\nmotion.phi")
+        .replace("sine_deg = [20]", "sine_deg = [60]")
+        .replace("beats = 0.4", "beats = 1");
+    let mut flight = Simulation::new(good(&parting, &[])).unwrap();
+    let error = loop {
+        match flight.step() {
+            Ok(_) => assert!(!flight.finished(), "never refused"),
+            Err(e) => break e.to_string(),
+        }
+    };
+    assert!(
+        error.contains("joined roots") && error.contains("t = "),
+        "{error}"
+    );
+}

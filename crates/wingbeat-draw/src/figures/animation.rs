@@ -1,0 +1,187 @@
+//! The flight as a moving picture (GIF), drawn without a browser: the animal and its wakes from
+//! the right, in front and above, the camera moving with the body.
+
+use std::fs::File;
+use std::io::BufWriter;
+use std::path::Path;
+
+use gif::{Encoder, Frame as GifFrame, Repeat};
+use wingbeat_math::DVec3;
+
+use super::dots::Dots;
+use super::drawing::{Anchor, COLOURS, Drawing, INK, Stroke};
+use super::wake::{Filaments, SKIN, pen};
+use wingbeat_case::IoError;
+use wingbeat_case::LoadedCase;
+use wingbeat_results::frames::{self, Frame};
+use wingbeat_results::poses::{Poses, picture};
+use wingbeat_results::rows::Rows;
+
+/// Width and height \[pixels\].
+const SIZE: [f64; 2] = [560.0, 420.0];
+/// More pictures than this are thinned.
+const MOST_PICTURES: usize = 150;
+/// More rings than this are not drawn: the newest of every sheet are; nor more particles: the
+/// strongest are.
+const MOST_RINGS: usize = 1500;
+/// Time a picture is shown \[1/100 s\].
+const DELAY: u16 = 6;
+/// Width of the picture in wing lengths.
+const WING_LENGTHS: f64 = 4.8;
+
+/// Writes the animation to `path`, picture by picture; returns how many there are.
+///
+/// # Errors
+/// A result that is damaged, a file that cannot be written.
+pub(super) fn write(dir: &Path, case: &LoadedCase, path: &Path) -> Result<usize, IoError> {
+    let fault = |problem: String| IoError::Figure {
+        path: path.to_owned(),
+        problem,
+    };
+    let history = dir.join("history.csv");
+    let written = frames::steps(dir)?;
+    let (steps, framed) = match written.is_empty() {
+        false => (written, true),
+        true => ((0..Rows::count(&history)?).collect(), false),
+    };
+    let stride = steps.len().div_ceil(MOST_PICTURES).max(1);
+    let mut wanted = steps.into_iter().step_by(stride).peekable();
+    let mut rows = Rows::open(&history)?;
+    let poses = Poses::new(&case.setup.animal, rows.names()).ok_or_else(|| IoError::Damaged {
+        path: history.clone(),
+        problem: "this history belongs to another animal than case.toml".to_owned(),
+    })?;
+    let file = File::create(path).map_err(IoError::write(path))?;
+    let [width, height] = SIZE.map(|s| s as u16);
+    let mut encoder =
+        Encoder::new(BufWriter::new(file), width, height, &[]).map_err(|e| fault(e.to_string()))?;
+    encoder
+        .set_repeat(Repeat::Infinite)
+        .map_err(|e| fault(e.to_string()))?;
+    let view = View::of(case);
+    let mut count = 0;
+    while let Some(row) = rows.next_row()? {
+        if wanted.next_if_eq(&(row[0] as usize)).is_none() {
+            continue;
+        }
+        let frame = match framed {
+            true => Some(Frame::read(dir, row[0] as usize)?),
+            false => None,
+        };
+        let drawing = view.draw(case, &poses, row, frame.as_ref());
+        let shown = drawing.to_picture(1.0).map_err(fault)?;
+        let mut picture = GifFrame::from_rgb_speed(width, height, &shown.rgb, 15);
+        picture.delay = DELAY;
+        encoder
+            .write_frame(&picture)
+            .map_err(|e| fault(e.to_string()))?;
+        count += 1;
+    }
+    Ok(count)
+}
+
+/// The camera: unit vectors along, upward and toward the reader, picture axes.
+struct View {
+    along: DVec3,
+    upward: DVec3,
+    toward: DVec3,
+    /// Points per metre.
+    scale: f64,
+}
+
+impl View {
+    fn of(case: &LoadedCase) -> Self {
+        let (azimuth, height) = (-55f64.to_radians(), 18f64.to_radians());
+        let [(s, c), (sin, cos)] = [azimuth.sin_cos(), height.sin_cos()];
+        let toward = DVec3::new(cos * c, cos * s, sin);
+        let along = DVec3::new(-s, c, 0.0);
+        Self {
+            along,
+            upward: toward.cross(along),
+            toward,
+            scale: SIZE[0] / (WING_LENGTHS * size(case)),
+        }
+    }
+
+    fn draw(
+        &self,
+        case: &LoadedCase,
+        poses: &Poses,
+        row: &[f64],
+        frame: Option<&Frame>,
+    ) -> Drawing {
+        let mut to = Drawing::new(SIZE);
+        let centre = DVec3::from_array(picture(poses.pose(row, 0).0));
+        let flat = |p: [f64; 3]| {
+            let p = DVec3::from_array(p) - centre;
+            let [x, y] = [self.along, self.upward].map(|a| self.scale * a.dot(p));
+            [0.5 * SIZE[0] + x, 0.42 * SIZE[1] - y]
+        };
+        let near = |quad: &[[f64; 3]; 4]| {
+            let all = quad.iter().map(|p| self.toward.dot(DVec3::from_array(*p)));
+            all.sum::<f64>()
+        };
+        if let Some(frame) = frame {
+            for (ends, strength) in &Filaments::newest(&frame.wakes, MOST_RINGS).list {
+                to.line(ends.map(flat).to_vec(), pen(*strength, 0.8));
+            }
+            Dots::strongest(&frame.particles, MOST_RINGS).draw(&mut to, flat, 1.6);
+        }
+        let mut quads = animal(poses, row);
+        quads.sort_by(|a, b| near(&a.0).total_cmp(&near(&b.0)));
+        for (quad, wing) in quads {
+            let colour = if wing { COLOURS[5] } else { SKIN };
+            let lit = colour.toward(INK, 0.55 * (1.0 - self.light(&quad)));
+            let points = quad.map(flat).to_vec();
+            to.area(points.clone(), lit, 1.0);
+            to.outline(points, Stroke::solid(lit.toward(INK, 0.35), 0.5));
+        }
+        words(&mut to, case, row[1]);
+        to
+    }
+
+    /// How much light a panel has: 1 where it looks at the camera, a little upward.
+    fn light(&self, quad: &[[f64; 3]; 4]) -> f64 {
+        let p = quad.map(DVec3::from_array);
+        let normal = (p[2] - p[0]).cross(p[3] - p[1]).normalize_or_zero();
+        let lamp = (self.toward + 0.6 * self.upward).normalize_or_zero();
+        normal.dot(lamp).abs()
+    }
+}
+
+/// Panels of the animal in a row of its history, and whether they are wings'.
+fn animal(poses: &Poses, row: &[f64]) -> Vec<([[f64; 3]; 4], bool)> {
+    let mut list = vec![];
+    for (k, surface) in poses.surfaces.iter().enumerate() {
+        let nodes: Vec<[f64; 3]> = poses.nodes(row, k).map(picture).collect();
+        let quads = surface.quads.iter().map(|q| q.map(|n| nodes[n]));
+        list.extend(quads.map(|q| (q, poses.is_wing(surface.body))));
+    }
+    list
+}
+
+/// What lengths are counted in: the longest wing, or the body without one.
+fn size(case: &LoadedCase) -> f64 {
+    let animal = &case.setup.animal;
+    let reports = animal.wing_reports();
+    let longest = reports.iter().map(|r| r.length).fold(0.0, f64::max);
+    let size = longest.max(0.5 * animal.body_length());
+    if size > 0.0 { size } else { 1.0 }
+}
+
+fn words(to: &mut Drawing, case: &LoadedCase, time: f64) {
+    to.text([12.0, 22.0], &case.name, 14.0, Anchor::Start);
+    let when = match case.setup.time.period {
+        Some(period) => format!("{:.2} wingbeats", time / period),
+        None => format!("{:.4} s", time),
+    };
+    to.text([SIZE[0] - 12.0, 22.0], &when, 14.0, Anchor::End);
+    // Three axes would say more than needed: one bar of a wing length says how large it is.
+    let length = size(case);
+    let end = 12.0 + SIZE[0] / WING_LENGTHS;
+    let y = SIZE[1] - 26.0;
+    to.line(vec![[12.0, y], [end, y]], Stroke::solid(INK, 1.5));
+    let (scale, prefix) = super::kinds::prefix(&[length]);
+    let text = format!("{:.1} {prefix}m", length / scale);
+    to.text([12.0, y + 16.0], &text, 12.0, Anchor::Start);
+}

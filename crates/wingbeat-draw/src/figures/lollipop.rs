@@ -1,0 +1,300 @@
+//! The chord of a wing through a beat, with the force of the air: seen along the wing, which is
+//! unrolled from its cylinder about the normal of the stroke plane. The dot is the leading edge.
+
+use wingbeat_flight::FlightSetup;
+use wingbeat_math::{DMat3, DVec3};
+use wingbeat_model::Wing;
+
+use super::drawing::{Anchor, COLOURS, Drawing, INK, Stroke};
+use super::font;
+use super::grid::one_scale;
+use super::kinds::{goes_down, prefix};
+use super::plot::{self, Area, Axes, Plot};
+use super::style::Look;
+use wingbeat_results::History;
+use wingbeat_results::columns::body_names;
+use wingbeat_results::poses::Poses;
+use wingbeat_results::summary::down;
+
+/// Chords drawn per half stroke.
+const CHORDS: usize = 11;
+/// Where along the wing the chord is taken.
+const STATION: f64 = 0.6;
+
+/// One chord: forward and up \[m\]; force forward and up \[N\].
+#[derive(Clone, Copy, Debug)]
+struct Chord {
+    leading: [f64; 2],
+    trailing: [f64; 2],
+    force: [f64; 2],
+}
+
+/// The figure of the last whole beat; none for wings that do not flap.
+pub(super) fn lollipop(setup: &FlightSetup, history: &History, look: &Look) -> Option<Drawing> {
+    let poses = Poses::new(&setup.animal, history.names())?;
+    let [down, up] = halves(setup, history)?;
+    let chords = [down, up].map(|rows| {
+        let chord = |k: &usize| chord(setup, history, &poses, *k);
+        rows.iter().map(chord).collect::<Vec<Chord>>()
+    });
+    Some(draw(setup, &chords, look))
+}
+
+/// Rows of downstroke and upstroke in the last whole beat, thinned.
+fn halves(setup: &FlightSetup, history: &History) -> Option<[Vec<usize>; 2]> {
+    let period = setup.time.period?;
+    let time = history.column("time_s");
+    let end = (time.last()? / period + 1e-6).floor();
+    let inside = |k: &usize| {
+        let x = time[*k] / period;
+        end < 1.0 || (x >= end - 1.0 - 1e-6 && x <= end + 1e-6)
+    };
+    let down = goes_down(setup, history);
+    let rows = |wanted: bool| {
+        let all = (0..time.len() - 1).filter(inside);
+        let all: Vec<usize> = all.filter(|k| down.get(*k) == Some(&wanted)).collect();
+        let stride = all.len().div_ceil(CHORDS).max(1);
+        all.into_iter().step_by(stride).collect::<Vec<usize>>()
+    };
+    let halves = [rows(true), rows(false)];
+    halves.iter().any(|h| h.len() > 1).then_some(halves)
+}
+
+/// The chord of the last wing in a row.
+fn chord(setup: &FlightSetup, history: &History, poses: &Poses, k: usize) -> Chord {
+    let names = history.names().iter();
+    let row: Vec<f64> = names.map(|name| history.column(name)[k]).collect();
+    let number = setup.animal.wings.len();
+    let wing = &setup.animal.wings[number - 1];
+    let stroke = poses.pose(&row, 0).1 * DMat3::from_rotation_y(wing.motion.stroke_plane_pitch);
+    let section = Section::of(wing, stroke.transpose() * poses.pose(&row, number).1);
+    let name = &body_names(&setup.animal)[number];
+    let force = |c: usize| history.column(&format!("air_{name}_force_n{c}_newton"));
+    let force = [1, 2, 3].map(|c| force(c).get(k).copied().unwrap_or(0.0));
+    let force = section.flat(stroke.transpose() * DVec3::from_array(force));
+    let level = level(stroke, down(setup));
+    Chord {
+        leading: turned(section.leading, level),
+        trailing: turned(section.trailing, level),
+        force: turned(force, level),
+    }
+}
+
+/// The chord in the stroke plane, forward and upward of it, unrolled \[m\].
+#[derive(Clone, Copy, Debug)]
+struct Section {
+    leading: [f64; 2],
+    trailing: [f64; 2],
+    /// Directions in the axes of the stroke plane (normal, right, forward).
+    forward: DVec3,
+    upward: DVec3,
+}
+
+impl Section {
+    /// For the rotation of the wing to the axes of the stroke plane.
+    fn of(wing: &Wing, relative: DMat3) -> Self {
+        let side = wing.side.sign();
+        let column = (STATION * wing.mesh.cols as f64).round() as usize;
+        let node = |i: usize| wing.mesh.nodes[wing.mesh.node(i, column)];
+        let [leading, trailing] = [node(0), node(wing.mesh.rows)];
+        let radius = 0.5 * side * (leading.y + trailing.y);
+        // Where the span points: azimuth forward, elevation upward.
+        let span = relative * DVec3::new(0.0, side, 0.0);
+        let azimuth = span.z.atan2(side * span.y);
+        let elevation = span.x.clamp(-1.0, 1.0).asin();
+        let forward = DVec3::new(0.0, -side * azimuth.sin(), azimuth.cos());
+        let upward = side * span.cross(forward);
+        let edge = |p: DVec3| {
+            let p = relative * DVec3::new(p.x, 0.0, p.z);
+            [
+                radius * azimuth + p.dot(forward),
+                radius * elevation + p.dot(upward),
+            ]
+        };
+        Self {
+            leading: edge(leading),
+            trailing: edge(trailing),
+            forward,
+            upward,
+        }
+    }
+
+    fn flat(&self, v: DVec3) -> [f64; 2] {
+        [v.dot(self.forward), v.dot(self.upward)]
+    }
+}
+
+/// Angle by which the stroke plane's normal leans forward from the vertical.
+fn level(stroke: DMat3, down: DVec3) -> f64 {
+    let up = stroke.transpose() * -down;
+    up.z.atan2(up.x)
+}
+
+/// Turns forward and up of the stroke plane so that up is against gravity.
+fn turned([x, y]: [f64; 2], level: f64) -> [f64; 2] {
+    let (s, c) = level.sin_cos();
+    [x * c - y * s, y * c + x * s]
+}
+
+/// Lengths and forces on paper.
+struct Scales {
+    length: f64,
+    unit: &'static str,
+    /// Metres of arrow per newton.
+    arrow: f64,
+}
+
+fn draw(setup: &FlightSetup, chords: &[Vec<Chord>; 2], look: &Look) -> Drawing {
+    let scales = scales(chords);
+    let all = || chords.iter().flatten();
+    let ends = |c: usize| {
+        let all = all().flat_map(move |k| {
+            let tip = 0.5 * (k.leading[c] + k.trailing[c]) + scales.arrow * k.force[c];
+            [k.leading[c], k.trailing[c], tip]
+        });
+        plot::range(all.map(|v| v / scales.length))
+    };
+    let (mut x, mut y) = (ends(0), ends(1));
+    let left = 5.0 * look.font;
+    let width = look.width - left - 1.6 * look.font;
+    let limits = [0.5 * look.panel, 1.5 * look.panel];
+    let height = one_scale(&mut x, &mut y, width, limits);
+    let above = look.row() + 0.6 * look.font;
+    let below = [0.5 * look.font, 3.1 * look.font];
+    let whole = look.head() + 2.0 * (above + height) + below[0] + below[1];
+    let mut drawing = Drawing::new([look.width, whole]);
+    let title = format!(
+        "{}: chord and force of the air in the last wingbeat",
+        setup.name
+    );
+    plot::title(&mut drawing, &title, look);
+    let mut top = look.head();
+    for (half, name) in ["downstroke →", "← upstroke"].iter().enumerate() {
+        top += above;
+        let along = format!("along the stroke, forward [{}m]", scales.unit);
+        let plot = Plot {
+            x_label: if half == 1 { along } else { String::new() },
+            y_label: format!("{name}   up [{}m]", scales.unit),
+            x,
+            y,
+            ..Plot::default()
+        };
+        let area = Area {
+            left,
+            top,
+            width,
+            height,
+        };
+        let axes = plot.draw(&mut drawing, area, look);
+        for chord in &chords[half] {
+            draw_chord(&mut drawing, &axes, chord, &scales, look);
+        }
+        if half == 0 {
+            key(&mut drawing, &axes, setup, &scales, look);
+        }
+        top += height + below[half];
+    }
+    drawing
+}
+
+/// The longest arrow is as long as two chords.
+fn scales(chords: &[Vec<Chord>; 2]) -> Scales {
+    let all = || chords.iter().flatten();
+    let gap = |a: [f64; 2], b: [f64; 2]| (a[0] - b[0]).hypot(a[1] - b[1]);
+    let longest = |f: &dyn Fn(&Chord) -> f64| all().map(f).fold(0.0, f64::max);
+    let chord = longest(&|c| gap(c.leading, c.trailing));
+    let force = longest(&|c| gap(c.force, [0.0; 2]));
+    let way = longest(&|c| gap(c.leading, [0.0; 2]));
+    let (length, unit) = prefix(&[way]);
+    let arrow = if force > 0.0 {
+        2.0 * chord / force
+    } else {
+        0.0
+    };
+    Scales {
+        length,
+        unit,
+        arrow,
+    }
+}
+
+fn draw_chord(to: &mut Drawing, axes: &Axes, chord: &Chord, scales: &Scales, look: &Look) {
+    let at = |p: [f64; 2]| axes.at(p.map(|v| v / scales.length));
+    let [leading, trailing] = [at(chord.leading), at(chord.trailing)];
+    to.line(vec![leading, trailing], Stroke::solid(INK, 1.3 * look.line));
+    to.dot(leading, 1.8 * look.line, INK);
+    let middle = [0, 1].map(|c| 0.5 * (chord.leading[c] + chord.trailing[c]));
+    let tip = [0, 1].map(|c| middle[c] + scales.arrow * chord.force[c]);
+    let stroke = Stroke::solid(COLOURS[1], look.line);
+    to.arrow(at(middle), at(tip), stroke);
+}
+
+/// An arrow of known force above the frame, on the right.
+fn key(to: &mut Drawing, axes: &Axes, setup: &FlightSetup, scales: &Scales, look: &Look) {
+    if scales.arrow == 0.0 {
+        return;
+    }
+    let weight = setup.animal.mass() * setup.gravity.length();
+    let per_newton = scales.arrow / scales.length; // in units of the axis
+    let points = axes.at([1.0, 0.0])[0] - axes.at([0.0, 0.0])[0];
+    let most = 6.0 * look.font / (points * per_newton);
+    let unit = if weight > 0.0 { weight } else { 1.0 };
+    let power = 10f64.powf((most / unit).log10().floor());
+    let nice = [5.0, 2.0, 1.0].map(|m| m * power);
+    let nice = nice.into_iter().find(|n| n * unit <= most).unwrap_or(power);
+    let text = if weight > 0.0 {
+        format!("{nice} × weight")
+    } else {
+        let (scale, prefix) = prefix(&[nice]);
+        format!("{} {prefix}N", nice / scale)
+    };
+    let y = axes.area.top - 0.55 * look.font;
+    let right = axes.area.left + axes.area.width;
+    to.text([right, y], &text, look.font, Anchor::End);
+    let end = right - font::width(&text, look.font) - 0.6 * look.font;
+    let start = end - nice * unit * per_newton * points;
+    let middle = y - 0.35 * look.font;
+    let stroke = Stroke::solid(COLOURS[1], look.line);
+    to.arrow([start, middle], [end, middle], stroke);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use wingbeat_case::LoadedCase;
+    use wingbeat_math::RotationLaw;
+
+    /// Stroke, deviation and feathering angle are seen as they are: place along and upward of the
+    /// stroke plane, and tilt of the chord from the vertical; alike for both wings.
+    #[test]
+    fn exact_chords_stand_at_the_prescribed_angles() {
+        let case = LoadedCase::find("fruit-fly-blade", &[]).unwrap();
+        for (wing, t) in [(0, 1e-3), (1, 1e-3), (1, 3.2e-3), (1, 1.1e-2)] {
+            let wing = &case.setup.animal.wings[wing];
+            let side = wing.side.sign();
+            let [phi, theta, psi] = wing.motion.angles(t).map(|a| a[0]);
+            let eta = DMat3::from_rotation_y(wing.motion.stroke_plane_pitch);
+            let section = Section::of(wing, eta.transpose() * wing.motion.at(t).c);
+            let chord = [0, 1].map(|c| section.leading[c] - section.trailing[c]);
+            let length = chord[0].hypot(chord[1]);
+            assert!((chord[0] + length * psi.sin()).abs() < 1e-12);
+            assert!((chord[1] - length * psi.cos()).abs() < 1e-12);
+            let column = (STATION * wing.mesh.cols as f64).round() as usize;
+            let radius = wing.mesh.nodes[wing.mesh.node(0, column)].y.abs();
+            // The hinge axis lies at a quarter of the chord.
+            let at = [0, 1].map(|c| 0.75 * section.leading[c] + 0.25 * section.trailing[c]);
+            assert!((at[0] - radius * side * phi).abs() < 1e-9, "{at:?}");
+            assert!((at[1] + radius * side * theta).abs() < 1e-9, "{at:?}");
+        }
+    }
+
+    #[test]
+    fn exact_up_is_against_gravity() {
+        // A stroke plane leaning forward by 30 deg: what points along its normal leans forward.
+        let stroke = DMat3::from_rotation_y(60f64.to_radians());
+        let level = level(stroke, DVec3::Z);
+        let normal = turned([0.0, 1.0], level);
+        let n = stroke * DVec3::X; // N: forward, right, down
+        assert!((normal[0] - n.x).abs() < 1e-12 && (normal[1] + n.z).abs() < 1e-12);
+    }
+}

@@ -1,0 +1,142 @@
+//! Phase planes: quantities against their rates.
+
+use wingbeat_flight::FlightSetup;
+
+use super::drawing::{COLOURS, Drawing};
+use super::grid::grid;
+use super::kinds::{from_start, prefix, reference_wing, scaled};
+use super::plot::{self, Plot};
+use super::style::Look;
+use wingbeat_results::History;
+
+/// Two quantities over time, with their names.
+struct Plane {
+    x: (String, Vec<f64>),
+    y: (String, Vec<f64>),
+}
+
+/// The figure; none where nothing moves.
+pub(super) fn phase(setup: &FlightSetup, history: &History, look: &Look) -> Option<Drawing> {
+    let mut planes = body(setup, history);
+    planes.extend(wing(setup, history));
+    if planes.is_empty() {
+        return None;
+    }
+    let starts = starts(setup, history);
+    let plots: Vec<Plot> = planes.iter().map(|p| plot(p, look)).collect();
+    let columns = match plots.len() {
+        1 => 1,
+        2 | 4 => 2,
+        _ => 3,
+    };
+    let title = format!("{}: phase planes (dots: starts of wingbeats)", setup.name);
+    let (mut drawing, axes) = grid(&plots, columns, 1.05 * look.panel, &title, look);
+    for (axes, plane) in axes.iter().zip(&planes) {
+        for &k in &starts {
+            let at = axes.at([plane.x.1[k], plane.y.1[k]]);
+            drawing.dot(at, 1.5 * look.line, COLOURS[1]);
+        }
+    }
+    Some(drawing)
+}
+
+/// Rows nearest to the starts of wingbeats.
+fn starts(setup: &FlightSetup, history: &History) -> Vec<usize> {
+    let Some(period) = setup.time.period else {
+        return vec![0];
+    };
+    let beat = |t: f64| (t / period + 1e-6).floor();
+    let time = history.column("time_s");
+    let first = |k: &usize| *k == 0 || beat(time[*k]) > beat(time[*k - 1]);
+    (0..time.len()).filter(first).collect()
+}
+
+fn plot(plane: &Plane, look: &Look) -> Plot {
+    let points = plane.x.1.iter().zip(&plane.y.1).map(|(x, y)| [*x, *y]);
+    let mut curve = plot::curve("", points.collect(), COLOURS[0], 0, look);
+    curve.stroke.width *= 0.7;
+    Plot {
+        x_label: plane.x.0.clone(),
+        y_label: plane.y.0.clone(),
+        x: plot::range(plane.x.1.iter().copied()),
+        y: plot::range(plane.y.1.iter().copied()),
+        curves: vec![curve],
+        ..Plot::default()
+    }
+}
+
+/// Coordinates of the body that move, against their rates.
+fn body(setup: &FlightSetup, history: &History) -> Vec<Plane> {
+    let length = |name: &'static str, column: &'static str, sign: f64| {
+        let x = from_start(history.column(&format!("body_{column}_m")));
+        let rate = history.column(&format!("body_{column}_rate_m_per_s"));
+        let [(scale, unit), (rate_scale, rate_unit)] = [prefix(&x), prefix(rate)];
+        Plane {
+            x: (format!("{name} [{unit}m]"), scaled(&x, sign / scale)),
+            y: (
+                format!("rate [{rate_unit}m/s]"),
+                scaled(rate, sign / rate_scale),
+            ),
+        }
+    };
+    let angle = |name: &'static str, column: &'static str| {
+        let degrees = |c: String| scaled(history.column(&c), 1f64.to_degrees());
+        Plane {
+            x: (
+                format!("{name} [deg]"),
+                degrees(format!("body_{column}_rad")),
+            ),
+            y: (
+                "rate [deg/s]".to_owned(),
+                degrees(format!("body_{column}_rate_rad_per_s")),
+            ),
+        }
+    };
+    let span = |plane: &Plane| {
+        let ends = plane
+            .x
+            .1
+            .iter()
+            .fold([f64::MAX, f64::MIN], |[a, b], v| [a.min(*v), b.max(*v)]);
+        ends[1] - ends[0]
+    };
+    let way = |name: &str| {
+        let ends = from_start(history.column(name));
+        ends.iter().fold(0.0_f64, |a, v| a.max(v.abs()))
+    };
+    let size = setup.animal.body_length().max(1e-6);
+    let mut list = vec![];
+    for (name, column, sign) in [
+        ("forward", "x", 1.0),
+        ("right", "y", 1.0),
+        ("up", "z", -1.0),
+    ] {
+        if way(&format!("body_{column}_m")) > 1e-6 * size {
+            list.push(length(name, column, sign));
+        }
+    }
+    for (name, column) in [("pitch", "phi"), ("yaw", "theta"), ("roll", "psi")] {
+        let plane = angle(name, column);
+        if span(&plane) > 1e-4 {
+            list.push(plane);
+        }
+    }
+    list
+}
+
+/// Stroke angle of the reference wing against its rate, and against its feathering angle.
+fn wing(setup: &FlightSetup, history: &History) -> Vec<Plane> {
+    let Some((wing, _)) = reference_wing(setup) else {
+        return vec![];
+    };
+    let degrees = |k: &str| {
+        let column = format!("{wing}_prescribed_{k}_rad");
+        scaled(history.column(&column), 1f64.to_degrees())
+    };
+    let [phi, psi] = ["phi", "psi"].map(degrees);
+    let name = wing.replace('_', " ");
+    vec![Plane {
+        x: (format!("{name}: stroke φ [deg]"), phi),
+        y: ("feathering ψ [deg]".to_owned(), psi),
+    }]
+}

@@ -1,0 +1,310 @@
+//! Wings, body, the vortex filaments of the wakes and the vortex particles of one frame, from above and
+//! from the side.
+
+use std::path::Path;
+
+use super::dots::{Dots, dye};
+use super::drawing::{Anchor, COLOURS, Colour, Drawing, INK, Stroke};
+use super::grid::one_scale;
+use super::kinds::prefix;
+use super::plot::{self, Area, Axes, Plot};
+use super::style::Look;
+use wingbeat_case::IoError;
+use wingbeat_case::LoadedCase;
+use wingbeat_results::frames::{self, Frame, Mesh, Sheet};
+
+/// More rings than this are not drawn: the newest of every sheet are.
+pub(super) const MOST_RINGS: usize = 2500;
+/// More particles than this are not drawn: the strongest are.
+const MOST_DOTS: usize = 2500;
+/// Body and wings.
+pub(super) const SKIN: Colour = Colour(222, 217, 203);
+
+/// The figure of the frame nearest to a step, the last one if none is given; none where no frames
+/// were written.
+///
+/// # Errors
+/// A frame that is missing or damaged.
+pub(super) fn wake(
+    dir: &Path,
+    case: &LoadedCase,
+    step: Option<usize>,
+    look: &Look,
+) -> Result<Option<Drawing>, IoError> {
+    let steps = frames::steps(dir)?;
+    let wanted = step.unwrap_or(usize::MAX);
+    let Some(step) = steps.into_iter().min_by_key(|s| s.abs_diff(wanted)) else {
+        return Ok(None);
+    };
+    let frame = Frame::read(dir, step)?;
+    let time = step as f64 * case.setup.time.step;
+    let when = match case.setup.time.period {
+        Some(period) => format!("after {:.2} wingbeats", time / period),
+        None => format!("after {:.4} s", time),
+    };
+    let filaments = Filaments::newest(&frame.wakes, MOST_RINGS);
+    let dots = Dots::strongest(&frame.particles, MOST_DOTS);
+    let note = match filaments.left_out {
+        0 => String::new(),
+        n => format!(", oldest {n} rings left out"),
+    };
+    let weak = match dots.left_out {
+        0 => String::new(),
+        n => format!(", weakest {n} particles left out"),
+    };
+    let title = format!("{}: wakes {when}{note}{weak}", case.name);
+    let wakes = Wakes { filaments, dots };
+    Ok(Some(draw(&frame, &wakes, &title, look)))
+}
+
+/// What is drawn of the wakes.
+struct Wakes {
+    filaments: Filaments,
+    dots: Dots,
+}
+
+/// Weaker filaments and particles, relative to the usual, are not drawn.
+pub(super) const FAINTEST: f64 = 0.06;
+
+/// Vortex filaments between the rings of wakes, weak ones first: two ends, and the difference of the
+/// rings' circulations over that which few filaments exceed.
+pub(super) struct Filaments {
+    pub list: Vec<([[f64; 3]; 2], f64)>,
+    /// The circulation the strengths are counted in \[m2/s\].
+    pub usual: f64,
+    /// Rings that were left out.
+    pub left_out: usize,
+}
+
+impl Filaments {
+    /// Of the newest rows of all sheets, about `most` rings in all.
+    pub fn newest(wakes: &Mesh, most: usize) -> Self {
+        let sheets = wakes.sheets();
+        let per_row: usize = sheets.iter().map(|s| s.cols).sum();
+        let rows = most.div_ceil(per_row.max(1));
+        let mut list = vec![];
+        let mut kept = 0;
+        for sheet in &sheets {
+            kept += rows.min(sheet.rows()) * sheet.cols;
+            edges(wakes, sheet, rows.min(sheet.rows()), &mut list);
+        }
+        list.sort_by(|a, b| a.1.total_cmp(&b.1));
+        let usual = list.get(list.len() * 19 / 20).map_or(0.0, |f| f.1);
+        let usual = if usual > 0.0 { usual } else { 1.0 };
+        list.retain(|f| f.1 > FAINTEST * usual);
+        for filament in &mut list {
+            filament.1 = (filament.1 / usual).min(1.0);
+        }
+        Self {
+            list,
+            usual,
+            left_out: wakes.quads.len() - kept,
+        }
+    }
+}
+
+/// The edges between the rings of a sheet; not the one it leaves the wing by, whose bound ring the
+/// wake does not know, nor the one where older rows are left out.
+fn edges(wakes: &Mesh, sheet: &Sheet, rows: usize, list: &mut Vec<([[f64; 3]; 2], f64)>) {
+    let gamma = wakes.cell("circulation_m2_per_s");
+    let ring = |i: usize, j: usize| {
+        let value = gamma.get(sheet.first_cell + i * sheet.cols + j);
+        value.copied().unwrap_or(0.0)
+    };
+    let node = |i: usize, j: usize| wakes.points[sheet.first_node + i * (sheet.cols + 1) + j];
+    for i in 0..rows {
+        for j in 0..sheet.cols {
+            let older = i + 1;
+            let next = match older {
+                _ if older < rows => Some(ring(older, j)),
+                _ if older == sheet.rows() => Some(0.0),
+                _ => None,
+            };
+            if let Some(next) = next {
+                let ends = [node(older, j), node(older, j + 1)];
+                list.push((ends, (ring(i, j) - next).abs()));
+            }
+        }
+        for j in 0..=sheet.cols {
+            let left = if j > 0 { ring(i, j - 1) } else { 0.0 };
+            let right = if j < sheet.cols { ring(i, j) } else { 0.0 };
+            list.push(([node(i, j), node(i + 1, j)], (left - right).abs()));
+        }
+    }
+}
+
+/// From nearly white to blue, the stronger the darker.
+pub(super) fn pen(strength: f64, width: f64) -> Stroke {
+    let colour = Colour(226, 233, 240).toward(COLOURS[0], strength);
+    Stroke::solid(colour, width * (0.5 + strength))
+}
+
+/// A view: name, axes along and upward, the axis that looks at the reader, all picture axes.
+struct View {
+    name: &'static str,
+    along: &'static str,
+    axes: [usize; 2],
+    toward: (usize, f64),
+}
+
+const VIEWS: [View; 2] = [
+    View {
+        name: "from above: left",
+        along: "forward",
+        axes: [0, 1],
+        toward: (2, 1.0),
+    },
+    View {
+        name: "from the right: up",
+        along: "forward",
+        axes: [0, 2],
+        toward: (1, -1.0),
+    },
+];
+
+fn draw(frame: &Frame, wakes: &Wakes, title: &str, look: &Look) -> Drawing {
+    let ends = wakes.filaments.list.iter().flat_map(|f| f.0);
+    let ends = ends.chain(wakes.dots.list.iter().map(|d| d.0));
+    let points: Vec<[f64; 3]> = frame.surfaces.points.iter().copied().chain(ends).collect();
+    let extent: Vec<f64> = points.iter().flatten().copied().collect();
+    let (scale, unit) = prefix(&extent);
+    let left = 5.0 * look.font;
+    let width = look.width - left - 1.6 * look.font;
+    let range = |axis: usize| plot::range(points.iter().map(|p| p[axis] / scale));
+    let plots = VIEWS.each_ref().map(|view| {
+        let [mut x, mut y] = view.axes.map(range);
+        let limits = [0.8 * look.panel, 2.4 * look.panel];
+        let height = one_scale(&mut x, &mut y, width, limits);
+        let plot = Plot {
+            x_label: format!("{} [{unit}m]", view.along),
+            y_label: format!("{} [{unit}m]", view.name),
+            x,
+            y,
+            ..Plot::default()
+        };
+        (plot, height)
+    });
+    let extra = look.row() + 0.6 * look.font + 3.1 * look.font;
+    let whole: f64 = plots.iter().map(|(_, height)| height + extra).sum();
+    let mut drawing = Drawing::new([look.width, look.head() + whole]);
+    plot::title(&mut drawing, title, look);
+    let mut top = look.head();
+    for (view, (plot, height)) in VIEWS.iter().zip(&plots) {
+        top += look.row() + 0.6 * look.font;
+        let area = Area {
+            left,
+            top,
+            width,
+            height: *height,
+        };
+        let axes = plot.draw(&mut drawing, area, look);
+        scene(&mut drawing, &axes, view, [scale, look.hair], frame, wakes);
+        bar(&mut drawing, &axes, view, wakes, look);
+        top += height + 3.1 * look.font;
+    }
+    drawing
+}
+
+/// Wakes, then body and wings over them, from the farthest panel to the nearest.
+fn scene(
+    to: &mut Drawing,
+    axes: &Axes,
+    view: &View,
+    [scale, hair]: [f64; 2],
+    frame: &Frame,
+    wakes: &Wakes,
+) {
+    let flat = |p: [f64; 3]| axes.at(view.axes.map(|c| p[c] / scale));
+    let (axis, sign) = view.toward;
+    let near = |quad: &[[f64; 3]; 4]| sign * quad.iter().map(|p| p[axis]).sum::<f64>();
+    for (ends, strength) in &wakes.filaments.list {
+        to.line(ends.map(flat).to_vec(), pen(*strength, hair));
+    }
+    wakes.dots.draw(to, flat, 1.6 * hair);
+    let surfaces = &frame.surfaces;
+    let quads = surfaces.quads.iter().map(|q| q.map(|n| surfaces.points[n]));
+    let mut quads: Vec<[[f64; 3]; 4]> = quads.collect();
+    quads.sort_by(|a, b| near(a).total_cmp(&near(b)));
+    for quad in quads {
+        let points = quad.map(flat).to_vec();
+        to.area(points.clone(), SKIN, 1.0);
+        to.outline(points, Stroke::solid(INK, 0.35 * hair));
+    }
+}
+
+/// What the colours mean, above the frame on the right: filaments in the first view, particles in the
+/// second.
+fn bar(to: &mut Drawing, axes: &Axes, view: &View, wakes: &Wakes, look: &Look) {
+    let (what, usual, unit) = match view.axes == VIEWS[0].axes {
+        true => ("filaments", wakes.filaments.usual, "m²/s"),
+        false if wakes.dots.list.is_empty() => return,
+        false => ("particles", wakes.dots.usual, "m³/s"),
+    };
+    let y = axes.area.top - 0.55 * look.font;
+    let right = axes.area.left + axes.area.width;
+    let text = format!("{what}, 0 to {} {unit} and more", short(usual));
+    to.text([right, y], &text, look.font, Anchor::End);
+    let step = 0.4 * look.font;
+    let end = right - super::font::width(&text, look.font) - 0.6 * look.font;
+    for k in 0..15 {
+        let x = end - f64::from(15 - k) * step;
+        let [low, high] = [y, y - 0.75 * look.font];
+        let corners = vec![[x, low], [x + step, low], [x + step, high], [x, high]];
+        let strength = f64::from(k) / 14.0;
+        let colour = match what {
+            "filaments" => pen(strength, 1.0).colour,
+            _ => dye(strength),
+        };
+        to.area(corners, colour, 1.0);
+    }
+}
+
+/// Two digits.
+fn short(value: f64) -> String {
+    super::ticks::scientific(value)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Two rows of two rings, 3 and 3 in the newer row, 3 and 1 in the older.
+    #[test]
+    fn exact_filaments_carry_differences_of_rings() {
+        let node = |k: usize| [(k / 3) as f64, (k % 3) as f64, 0.0];
+        let quad = |n: usize| {
+            let first = (n / 2) * 3 + n % 2;
+            [first, first + 3, first + 4, first + 1]
+        };
+        let mut mesh = Mesh {
+            points: (0..9).map(node).collect(),
+            quads: (0..4).map(quad).collect(),
+            ..Mesh::default()
+        };
+        let gamma = vec![3.0, 3.0, 3.0, 1.0];
+        mesh.cells.insert("circulation_m2_per_s".to_owned(), gamma);
+        mesh.cells.insert("sheet".to_owned(), vec![0.0; 4]);
+        let strength = |filaments: &Filaments, a: [f64; 2], b: [f64; 2]| {
+            let ends = [a, b].map(|p| [p[0], p[1], 0.0]);
+            let found = filaments.list.iter().find(|f| f.0 == ends);
+            found.map_or(0.0, |f| f.1 * filaments.usual)
+        };
+        let all = Filaments::newest(&mesh, 100);
+        assert_eq!((all.left_out, all.usual), (0, 3.0));
+        for (a, b, wanted) in [
+            ([0.0, 0.0], [1.0, 0.0], 3.0),
+            ([0.0, 1.0], [1.0, 1.0], 0.0),
+            ([0.0, 2.0], [1.0, 2.0], 3.0),
+            ([1.0, 1.0], [2.0, 1.0], 2.0),
+            ([1.0, 0.0], [1.0, 1.0], 0.0),
+            ([1.0, 1.0], [1.0, 2.0], 2.0),
+            ([2.0, 0.0], [2.0, 1.0], 3.0),
+            ([2.0, 1.0], [2.0, 2.0], 1.0),
+        ] {
+            assert!((strength(&all, a, b) - wanted).abs() < 1e-12, "{a:?} {b:?}");
+        }
+        let newest = Filaments::newest(&mesh, 2);
+        assert_eq!(newest.left_out, 2);
+        assert_eq!(strength(&newest, [1.0, 1.0], [1.0, 2.0]), 0.0);
+    }
+}

@@ -1,0 +1,29 @@
+//! What a result looks like: [`figures`] for papers and the screen, the animation, and the flight
+//! [`page`] that opens in a browser.
+//!
+//! What it does not know: physics, how results are written.
+#![warn(missing_docs)]
+
+pub mod figures;
+pub mod page;
+
+use wingbeat_case::{IoError, LoadedCase};
+use wingbeat_results::{History, ResultDir, Summary};
+
+/// Draws what the case asks for of a run that has just ended: figures and the flight page.
+///
+/// # Errors
+/// A history that cannot be read or a file that cannot be written.
+pub fn draw_run(dir: &ResultDir, case: &LoadedCase, summary: &Summary) -> Result<(), IoError> {
+    if summary.steps < 2 {
+        return Ok(());
+    }
+    if case.output.figures {
+        let (history, _) = History::thinned(&dir.join("history.csv"), figures::MOST_ROWS)?;
+        figures::draw_all(dir, case, &history, summary)?;
+    }
+    if case.output.page {
+        page::write(dir, &summary.outcome, page::DEFAULT_BYTES)?;
+    }
+    Ok(())
+}

@@ -1,0 +1,136 @@
+//! Results in formats that other programs read. Every export is streamed: it takes the memory of
+//! a block of rows or of one frame, however long the flight.
+//!
+//! | format | what | read by |
+//! |---|---|---|
+//! | `hdf5` | history, frames, case and summary, units and frames as attributes | h5py, xarray, MATLAB |
+//! | `vtkhdf` | surfaces, wakes and vortex particles as time series | ParaView, VTK |
+//! | `parquet` | the history as a table | pandas, polars, DuckDB |
+//! | `gltf` | the moving animal | Blender, browsers |
+//!
+//! The formats are written here and not by libraries: what is needed of each is small, while their
+//! libraries need minutes to build (Arrow) or a C compiler and CMake (HDF5).
+
+mod columns;
+mod gltf;
+pub mod hdf5;
+mod parquet;
+mod tables;
+pub mod units;
+mod vtkhdf;
+
+use std::path::{Path, PathBuf};
+
+use crate::frames::{self, Frame};
+use crate::poses::Poses;
+use crate::rows::Rows;
+use crate::{Manifest, ResultDir};
+use wingbeat_case::IoError;
+use wingbeat_case::LoadedCase;
+
+/// A format to export to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Format {
+    /// HDF5: everything.
+    Hdf5,
+    /// VTKHDF: surfaces and wakes.
+    Vtkhdf,
+    /// Parquet: the history.
+    Parquet,
+    /// glTF: the moving animal.
+    Gltf,
+}
+
+impl Format {
+    /// All formats by the names that the command line knows.
+    pub const ALL: [(&'static str, Self); 4] = [
+        ("hdf5", Self::Hdf5),
+        ("vtkhdf", Self::Vtkhdf),
+        ("parquet", Self::Parquet),
+        ("gltf", Self::Gltf),
+    ];
+
+    /// Files it makes, by their names in the result directory; of a flight with vortex particles
+    /// or without.
+    pub fn files(self, particles: bool) -> &'static [&'static str] {
+        match self {
+            Self::Vtkhdf if particles => &["surfaces.vtkhdf", "wakes.vtkhdf", "particles.vtkhdf"],
+            Self::Hdf5 => &["flight.h5"],
+            Self::Vtkhdf => &["surfaces.vtkhdf", "wakes.vtkhdf"],
+            Self::Parquet => &["history.parquet"],
+            Self::Gltf => &["flight.glb"],
+        }
+    }
+}
+
+/// A result that is exported.
+struct Source<'a> {
+    dir: &'a ResultDir,
+    case: LoadedCase,
+    manifest: Manifest,
+}
+
+impl Source<'_> {
+    fn history(&self) -> PathBuf {
+        self.dir.join("history.csv")
+    }
+
+    fn rows(&self) -> Result<Rows, IoError> {
+        Rows::open(&self.history())
+    }
+
+    /// Rows of the history; none is an error.
+    fn row_count(&self) -> Result<usize, IoError> {
+        match Rows::count(&self.history())? {
+            0 => Err(self.damaged("there is no whole row in this history yet")),
+            count => Ok(count),
+        }
+    }
+
+    fn poses(&self, names: &[String]) -> Result<Poses, IoError> {
+        let poses = Poses::new(&self.case.setup.animal, names);
+        poses.ok_or_else(|| self.damaged("this history belongs to another animal than case.toml"))
+    }
+
+    fn damaged(&self, problem: &str) -> IoError {
+        IoError::Damaged {
+            path: self.history(),
+            problem: problem.to_owned(),
+        }
+    }
+}
+
+/// Exports a result into its own directory or another folder; returns the files.
+///
+/// # Errors
+/// A result that cannot be read; a file that cannot be written.
+pub fn export(dir: &ResultDir, format: Format, into: &Path) -> Result<Vec<PathBuf>, IoError> {
+    let source = Source {
+        case: dir.case()?,
+        manifest: dir.manifest()?,
+        dir,
+    };
+    std::fs::create_dir_all(into).map_err(IoError::write(into))?;
+    let mut made = vec![];
+    let particles = format == Format::Vtkhdf
+        && (frames::steps(dir.path())?.first())
+            .is_some_and(|k| Frame::particles_path(dir.path(), *k).is_file());
+    for name in format.files(particles) {
+        let part = into.join(format!("{name}.part"));
+        let path = into.join(name);
+        let written = match format {
+            Format::Hdf5 => tables::hdf5(&source, &part),
+            Format::Parquet => tables::parquet(&source, &part),
+            Format::Gltf => gltf::write(&source, &part),
+            Format::Vtkhdf => vtkhdf::write(&source, name, &part),
+        };
+        let renamed =
+            written.and_then(|()| std::fs::rename(&part, &path).map_err(IoError::write(&path)));
+        if renamed.is_err() {
+            let _ = std::fs::remove_file(&part); // nothing more can be done about a leftover
+        }
+        renamed?;
+        made.push(path);
+    }
+    Ok(made)
+}

@@ -1,0 +1,328 @@
+//! Frames read back: the `.vtp` files of a result directory, one at a time.
+
+use std::collections::BTreeMap;
+use std::io::Read as _;
+use std::path::{Path, PathBuf};
+
+use base64::Engine as _;
+use base64::engine::general_purpose::STANDARD;
+
+use super::manifest::sha256;
+use super::particles::Cloud;
+use super::vtp::{CHECKSUM, frame_name};
+use wingbeat_case::IoError;
+
+/// One `.vtp` file: points, quadrilaterals and numbers per quadrilateral.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Mesh {
+    /// Points in picture axes (n1, -n2, -n3) \[m\].
+    pub points: Vec<[f64; 3]>,
+    /// Corner points of each cell.
+    pub quads: Vec<[usize; 4]>,
+    /// Numbers per cell by name.
+    pub cells: BTreeMap<String, Vec<f64>>,
+}
+
+/// Surfaces and wakes of one instant.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Frame {
+    /// Step of the flight.
+    pub step: usize,
+    /// Bound surfaces: wings, then body parts.
+    pub surfaces: Mesh,
+    /// Wake sheets.
+    pub wakes: Mesh,
+    /// Vortex particles.
+    pub particles: Cloud,
+}
+
+/// Steps of the frames in a result directory, in order.
+///
+/// # Errors
+/// The index names a frame that is missing.
+pub fn steps(dir: &Path) -> Result<Vec<usize>, IoError> {
+    let folder = dir.join("frames");
+    let mut steps: Vec<usize> = std::fs::read_dir(&folder)
+        .into_iter()
+        .flatten()
+        .flatten()
+        .filter_map(|e| step_of(e.file_name().to_str()?))
+        .filter(|k| folder.join(frame_name("wakes", *k)).is_file())
+        .collect();
+    steps.sort_unstable();
+    let index = std::fs::read_to_string(dir.join("flight.pvd")).unwrap_or_default();
+    for name in index.split("file=\"frames/").skip(1) {
+        let name = name.split('"').next().unwrap_or("");
+        if !folder.join(name).is_file() {
+            return Err(IoError::Damaged {
+                path: folder.join(name),
+                problem: "this frame is missing though flight.pvd names it; put it back, or fly the case again".to_owned(),
+            });
+        }
+    }
+    Ok(steps)
+}
+
+fn step_of(file: &str) -> Option<usize> {
+    let digits = file.strip_prefix("surfaces_")?.strip_suffix(".vtp")?;
+    digits.parse().ok()
+}
+
+impl Frame {
+    /// Files of the frame of a step: surfaces, wakes.
+    pub fn paths(dir: &Path, step: usize) -> [PathBuf; 2] {
+        ["surfaces", "wakes"].map(|stem| dir.join("frames").join(frame_name(stem, step)))
+    }
+
+    /// File of the particles of a step, which most flights have not.
+    pub fn particles_path(dir: &Path, step: usize) -> PathBuf {
+        dir.join("frames").join(frame_name("particles", step))
+    }
+
+    /// Files there are of a step.
+    pub fn files(dir: &Path, step: usize) -> Vec<PathBuf> {
+        let particles = Self::particles_path(dir, step);
+        let particles = particles.is_file().then_some(particles);
+        Self::paths(dir, step)
+            .into_iter()
+            .chain(particles)
+            .collect()
+    }
+
+    /// Reads the particles of a step; none where the flight has none ([`steps`] notices a file that
+    /// is missing).
+    ///
+    /// # Errors
+    /// A file that cannot be read or is damaged.
+    pub fn cloud(dir: &Path, step: usize) -> Result<Cloud, IoError> {
+        let path = Self::particles_path(dir, step);
+        match path.is_file() {
+            true => Cloud::read(&path),
+            false => Ok(Cloud::default()),
+        }
+    }
+
+    /// Reads the frame of a step.
+    ///
+    /// # Errors
+    /// A file that cannot be read or is damaged.
+    pub fn read(dir: &Path, step: usize) -> Result<Self, IoError> {
+        Ok(Self {
+            step,
+            surfaces: Self::part(dir, step, 0)?,
+            wakes: Self::part(dir, step, 1)?,
+            particles: Self::cloud(dir, step)?,
+        })
+    }
+
+    /// Reads the surfaces (0) or the wakes (1) of a step.
+    ///
+    /// # Errors
+    /// A file that cannot be read, is damaged, or holds the other part.
+    pub fn part(dir: &Path, step: usize, part: usize) -> Result<Mesh, IoError> {
+        let path = &Self::paths(dir, step)[part];
+        Mesh::read(path)?.with(path, ["pressure_jump_pascal", "sheet"][part])
+    }
+}
+
+impl Mesh {
+    /// Reads a `.vtp` file of wingbeat.
+    ///
+    /// # Errors
+    /// A file that cannot be read or is damaged.
+    pub fn read(path: &Path) -> Result<Self, IoError> {
+        let text = std::fs::read_to_string(path).map_err(IoError::read(path))?;
+        Self::parse(&text).map_err(|problem| IoError::Damaged {
+            path: path.to_owned(),
+            problem: format!("{problem}; fly the case again with `wingbeat run case.toml`"),
+        })
+    }
+
+    /// The mesh, if it has the array that surfaces or wakes are known by.
+    fn with(self, path: &Path, name: &str) -> Result<Self, IoError> {
+        if self.cells.contains_key(name) && self.cells.contains_key("circulation_m2_per_s") {
+            return Ok(self);
+        }
+        Err(IoError::Damaged {
+            path: path.to_owned(),
+            problem: format!(
+                "this frame has no array `{name}`: another frame stands in its place; fly the case again with `wingbeat run case.toml`"
+            ),
+        })
+    }
+
+    /// Points and cells that the head of a `.vtp` file promises.
+    ///
+    /// # Errors
+    /// A file that cannot be read or is no frame.
+    pub fn count(path: &Path) -> Result<[usize; 2], IoError> {
+        let mut head = vec![];
+        let file = std::fs::File::open(path).map_err(IoError::read(path))?;
+        file.take(1024)
+            .read_to_end(&mut head)
+            .map_err(IoError::read(path))?;
+        let head = String::from_utf8_lossy(&head);
+        let number = |name: &str| {
+            let tag = format!("{name}=\"");
+            head.split(&tag).nth(1)?.split('"').next()?.parse().ok()
+        };
+        match [number("NumberOfPoints"), number("NumberOfPolys")] {
+            [Some(points), Some(quads)] => Ok([points, quads]),
+            _ => Err(IoError::Damaged {
+                path: path.to_owned(),
+                problem: "this is no frame of wingbeat".to_owned(),
+            }),
+        }
+    }
+
+    /// From the text of a `.vtp` file.
+    ///
+    /// # Errors
+    /// What is wrong with it.
+    pub fn parse(text: &str) -> Result<Self, String> {
+        let mut mesh = Self::default();
+        for (name, words) in arrays(text)? {
+            match name {
+                "points" => mesh.points = groups(&words.map_to(f64::from_le_bytes), name)?,
+                "connectivity" => {
+                    let corners = words.map_to(|w| i64::from_le_bytes(w) as usize);
+                    mesh.quads = groups(&corners, name)?;
+                }
+                "offsets" => {}
+                _ => {
+                    let numbers = words.map_to(f64::from_le_bytes);
+                    mesh.cells.insert(name.to_owned(), numbers);
+                }
+            }
+        }
+        mesh.check().map(|()| mesh)
+    }
+
+    fn check(&self) -> Result<(), String> {
+        let (points, quads) = (self.points.len(), self.quads.len());
+        if self.quads.iter().flatten().any(|&n| n >= points) {
+            return Err("a cell names a point that does not exist".to_owned());
+        }
+        match self.cells.iter().find(|c| c.1.len() != quads) {
+            Some((name, values)) => Err(format!(
+                "the array `{name}` has {} numbers for {quads} cells",
+                values.len()
+            )),
+            None => Ok(()),
+        }
+    }
+
+    /// Numbers per cell; none if there is no array of this name.
+    pub fn cell(&self, name: &str) -> &[f64] {
+        self.cells.get(name).map_or(&[], Vec::as_slice)
+    }
+
+    /// The wake sheets in a mesh of wakes.
+    pub fn sheets(&self) -> Vec<Sheet> {
+        let mut sheets: Vec<Sheet> = vec![];
+        for (cell, (id, quad)) in self.cell("sheet").iter().zip(&self.quads).enumerate() {
+            let id = *id as usize;
+            match sheets.last_mut() {
+                Some(sheet) if sheet.id == id => sheet.rings += 1,
+                _ => sheets.push(Sheet {
+                    id,
+                    first_node: quad[0],
+                    first_cell: cell,
+                    cols: quad[1].saturating_sub(quad[0] + 1).max(1),
+                    rings: 1,
+                }),
+            }
+        }
+        sheets.retain(|s| {
+            let nodes = (s.rows() + 1) * (s.cols + 1);
+            s.rings == s.rows() * s.cols && s.first_node + nodes <= self.points.len()
+        });
+        sheets
+    }
+}
+
+/// The arrays of a frame whose checksum is right, by their names.
+pub(super) fn arrays(text: &str) -> Result<Vec<(&str, Words)>, String> {
+    check_sum(text)?;
+    let mut list = vec![];
+    for block in text.split("<DataArray ").skip(1) {
+        let name = block
+            .split("Name=\"")
+            .nth(1)
+            .and_then(|n| n.split('"').next());
+        let name = name.ok_or("a DataArray has no name")?;
+        let data = block.lines().nth(1).ok_or("a DataArray is empty")?;
+        let words = words(data).map_err(|e| format!("the array `{name}` {e}"))?;
+        list.push((name, words));
+    }
+    Ok(list)
+}
+
+/// Whether a frame ends with the hash of what stands before.
+fn check_sum(text: &str) -> Result<(), String> {
+    let end = text.rfind(CHECKSUM);
+    let end = end.ok_or("this frame is cut or no frame of wingbeat")?;
+    let (body, last) = text.split_at(end);
+    let sum = last[CHECKSUM.len()..].strip_suffix(" -->\n");
+    let sum = sum.ok_or("this frame is cut or no frame of wingbeat")?;
+    match sha256(body.as_bytes()) == sum {
+        true => Ok(()),
+        false => Err("this frame is damaged (its checksum is wrong)".to_owned()),
+    }
+}
+
+/// Where a wake sheet stands in its mesh; nodes and rings are in rows, newest first.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Sheet {
+    /// Number of the sheet in the flight.
+    pub id: usize,
+    /// Its first point.
+    pub first_node: usize,
+    /// Its first cell.
+    pub first_cell: usize,
+    /// Rings per row.
+    pub cols: usize,
+    /// Rings.
+    pub rings: usize,
+}
+
+impl Sheet {
+    /// Rows of rings.
+    pub fn rows(&self) -> usize {
+        self.rings / self.cols
+    }
+}
+
+/// Words of eight bytes.
+pub(super) struct Words(Vec<[u8; 8]>);
+
+impl Words {
+    pub fn map_to<T>(&self, f: impl Fn([u8; 8]) -> T) -> Vec<T> {
+        self.0.iter().map(|w| f(*w)).collect()
+    }
+}
+
+/// The content of a DataArray: base64 of the length in bytes followed by the data.
+fn words(data: &str) -> Result<Words, String> {
+    let bytes = STANDARD
+        .decode(data)
+        .map_err(|e| format!("is damaged ({e})"))?;
+    let (words, rest) = bytes.as_chunks::<8>();
+    let length = words.first().map(|w| u64::from_le_bytes(*w));
+    if !rest.is_empty() || length != Some(8 * (words.len().max(1) as u64 - 1)) {
+        return Err("is cut or damaged (its length is not what it says)".to_owned());
+    }
+    Ok(Words(words[1..].to_vec()))
+}
+
+pub(super) fn groups<T: Copy, const N: usize>(
+    values: &[T],
+    name: &str,
+) -> Result<Vec<[T; N]>, String> {
+    let (groups, rest) = values.as_chunks::<N>();
+    if rest.is_empty() {
+        Ok(groups.to_vec())
+    } else {
+        Err(format!("the array `{name}` is cut"))
+    }
+}

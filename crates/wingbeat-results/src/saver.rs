@@ -1,0 +1,203 @@
+//! When checkpoints are due, and going back to one.
+
+use std::fs;
+use std::path::Path;
+use std::time::{Duration, Instant};
+
+use wingbeat_flight::FlightState;
+
+use super::checkpoint::{self, FILE, Header};
+use super::directory::write_safely;
+use super::history::hash_start;
+use super::manifest::{Manifest, hexadecimal, sha256};
+use wingbeat_case::{IoError, SaveSettings};
+
+/// The first checkpoint by time comes sooner; a run that was killed before it is flown from its start.
+const FIRST: Duration = Duration::from_secs(1);
+
+/// Remembers when it last saved.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Schedule {
+    settings: SaveSettings,
+    last: Instant,
+    wait: Duration,
+}
+
+impl Schedule {
+    pub fn new(settings: SaveSettings) -> Self {
+        Self {
+            settings,
+            last: Instant::now(),
+            wait: settings.interval.min(FIRST),
+        }
+    }
+
+    /// Whether a checkpoint is due after this step.
+    pub fn due(&self, step: usize) -> bool {
+        let SaveSettings {
+            every, interval, ..
+        } = self.settings;
+        let by_time = !interval.is_zero() && self.last.elapsed() >= self.wait;
+        by_time || (every > 0 && step.is_multiple_of(every))
+    }
+
+    pub fn done(&mut self) {
+        self.last = Instant::now();
+        self.wait = self.settings.interval;
+    }
+}
+
+/// What a run goes on from.
+#[derive(Debug)]
+pub struct Saved {
+    /// The manifest of the run.
+    pub manifest: Manifest,
+    /// The checkpoint; none if the run was killed before it wrote its first.
+    pub checkpoint: Option<(Header, FlightState)>,
+}
+
+/// Reads what is needed to go on with the run in `dir`, and changes nothing.
+///
+/// # Errors
+/// A directory that holds no run; a checkpoint that is damaged or of another version or case; a
+/// history that is not the one the checkpoint was made beside.
+pub fn read(dir: &Path) -> Result<Saved, IoError> {
+    let manifest = read_manifest(dir)?;
+    let case = dir.join("case.toml");
+    if !case.is_file() {
+        return Err(IoError::Damaged {
+            path: dir.to_owned(),
+            problem: "case.toml is missing: the run was killed before it began, or the file was removed; fly the case again with `wingbeat run CASE --out DIR --overwrite`".to_owned(),
+        });
+    }
+    let case_sha256 = sha256(&fs::read(&case).map_err(IoError::read(&case))?);
+    let path = dir.join(FILE);
+    if !path.exists() {
+        if case_sha256 != manifest.case_sha256 {
+            return Err(IoError::Damaged {
+                path: case,
+                problem: "the case was changed after the run began; fly it with `wingbeat run`"
+                    .to_owned(),
+            });
+        }
+        return Ok(Saved {
+            manifest,
+            checkpoint: None,
+        });
+    }
+    let bytes = fs::read(&path).map_err(IoError::read(&path))?;
+    let (header, state) = checkpoint::decode(&path, &bytes, &case_sha256)?;
+    check_history(&dir.join("history.csv"), &header)?;
+    Ok(Saved {
+        manifest,
+        checkpoint: Some((header, state)),
+    })
+}
+
+/// The manifest of a result directory.
+///
+/// # Errors
+/// A directory that holds no run; a manifest that cannot be read.
+pub fn read_manifest(dir: &Path) -> Result<Manifest, IoError> {
+    let path = dir.join("manifest.json");
+    if !path.is_file() {
+        return Err(IoError::Damaged {
+            path: dir.to_owned(),
+            problem: "this is not a result directory of wingbeat (no manifest.json)".to_owned(),
+        });
+    }
+    let text = fs::read_to_string(&path).map_err(IoError::read(&path))?;
+    serde_json::from_str(&text).map_err(|e| IoError::Damaged {
+        path,
+        problem: format!("the manifest cannot be read: {e}"),
+    })
+}
+
+fn check_history(path: &Path, header: &Header) -> Result<(), IoError> {
+    let wanted = (header.history_bytes, &header.history_sha256[..]);
+    if starts_with(path, wanted)? {
+        return Ok(());
+    }
+    Err(IoError::Damaged {
+        path: path.to_owned(),
+        problem: format!(
+            "this is not the history that the checkpoint of step {} was made beside: it was cut or changed; fly the case again with `wingbeat run case.toml`",
+            header.step
+        ),
+    })
+}
+
+/// Whether a file begins with so many bytes of this hash.
+fn starts_with(path: &Path, (bytes, hash): (u64, &str)) -> Result<bool, IoError> {
+    let file = fs::File::open(path).map_err(IoError::read(path))?;
+    let sum = hash_start(&file, bytes).map(hexadecimal);
+    Ok(sum.is_ok_and(|sum| sum == hash))
+}
+
+/// Whether case and history of a result are the ones that were written.
+///
+/// # Errors
+/// A directory that holds no run; a case or history that is missing or was changed.
+pub(crate) fn check(dir: &Path) -> Result<(), IoError> {
+    let manifest = read_manifest(dir)?;
+    let path = dir.join("case.toml");
+    let case = fs::read(&path).map_err(IoError::read(&path))?;
+    if sha256(&case) != manifest.case_sha256 {
+        return Err(IoError::Damaged {
+            path,
+            problem: "this is not the case that was flown here: it was changed or damaged; put the original back (`wingbeat run` flies a changed case into a directory of its own)".to_owned(),
+        });
+    }
+    let path = dir.join("history.csv");
+    let wanted = (manifest.history_bytes, &manifest.history_sha256[..]);
+    match starts_with(&path, wanted)? {
+        true => Ok(()),
+        false => Err(IoError::Damaged {
+            path,
+            problem: "this is not the history that was written here: it was cut or changed; fly the case again with `wingbeat run case.toml`".to_owned(),
+        }),
+    }
+}
+
+/// Takes the frames back to step `last`: removes later and half-written ones. Returns the steps
+/// of those that are left.
+///
+/// # Errors
+/// A file that cannot be changed.
+pub(crate) fn go_back(dir: &Path, last: usize) -> Result<Vec<usize>, IoError> {
+    let folder = dir.join("frames");
+    let Ok(entries) = fs::read_dir(&folder) else {
+        return Ok(vec![]);
+    };
+    let mut steps = vec![];
+    for entry in entries.flatten() {
+        let path = entry.path();
+        let stem = path.file_stem().and_then(|s| s.to_str()).unwrap_or("");
+        let step = stem.rsplit('_').next().and_then(|s| s.parse().ok());
+        let whole = path.extension().is_some_and(|e| e == "vtp");
+        match step {
+            Some(step) if whole && step <= last => steps.push(step),
+            _ => fs::remove_file(&path).map_err(IoError::write(&path))?,
+        }
+    }
+    steps.sort_unstable();
+    steps.dedup();
+    Ok(steps)
+}
+
+/// Writes a checkpoint, whole or not at all, and sees it onto the disk.
+pub(crate) fn write(dir: &Path, header: &Header, state: &FlightState) -> Result<(), IoError> {
+    write_safely(&dir.join(FILE), &checkpoint::encode(header, state))
+}
+
+/// Removes the checkpoint of a flight that is done.
+///
+/// # Errors
+/// A file that cannot be removed.
+pub fn forget(dir: &Path) -> Result<(), IoError> {
+    let path = dir.join(FILE);
+    match fs::remove_file(&path) {
+        Err(e) if e.kind() != std::io::ErrorKind::NotFound => Err(IoError::write(&path)(e)),
+        _ => Ok(()),
+    }
+}

@@ -1,0 +1,163 @@
+//! The summary in words.
+
+use std::fmt::Write as _;
+
+use super::Summary;
+use crate::Outcome;
+
+impl Summary {
+    /// For people.
+    pub fn to_text(&self) -> String {
+        let mut out = String::new();
+        self.headline(&mut out);
+        self.beat_table(&mut out);
+        self.balances(&mut out);
+        out.push_str("\nHow far to trust it\n");
+        for warning in &self.warnings {
+            out.push_str(&wrapped("  - ", warning));
+        }
+        out
+    }
+
+    fn headline(&self, out: &mut String) {
+        let end = match &self.outcome {
+            Outcome::Finished => "flew to its end".to_owned(),
+            Outcome::Interrupted => "was interrupted; everything up to there is written".to_owned(),
+            Outcome::Unwritten(why) => format!("stopped because {why}"),
+            Outcome::Failed(why) => format!("ended early: {why}"),
+            Outcome::Running => "is running".to_owned(),
+        };
+        let _ = writeln!(
+            out,
+            "{} {end}: {} steps, {:.4} s.",
+            self.case, self.steps, self.time_s
+        );
+        let [x, y, z] = self.displacement_m.map(|d| d * 1e3);
+        let _ = writeln!(
+            out,
+            "The body moved {x:+.3} mm forward (n1), {y:+.3} mm right (n2), {:+.3} mm up;",
+            -z
+        );
+        let [pitch, yaw, roll] = self.turn_deg;
+        let _ = writeln!(
+            out,
+            "it turned {pitch:+.2} deg in pitch, {yaw:+.2} in yaw, {roll:+.2} in roll (Euler 2-3-1)."
+        );
+    }
+
+    fn beat_table(&self, out: &mut String) {
+        let no_air = self.final_lift_newton == 0.0 && self.final_thrust_newton == 0.0;
+        if !no_air {
+            let _ = writeln!(
+                out,
+                "At the end the air pushes up with {} and forward with {}.",
+                engineering(self.final_lift_newton, "N").trim(),
+                engineering(self.final_thrust_newton, "N").trim()
+            );
+        }
+        if self.beats.is_empty() {
+            return;
+        }
+        out.push_str("\n beat   lift/weight      lift       forward      power\n");
+        for b in &self.beats {
+            let ratio = b
+                .lift_over_weight
+                .map_or("-".to_owned(), |r| format!("{r:.3}"));
+            let _ = writeln!(
+                out,
+                "{:5}   {ratio:>11}   {}   {}   {}",
+                b.beat,
+                engineering(b.lift_newton, "N"),
+                engineering(b.thrust_newton, "N"),
+                engineering(b.power_watt, "W")
+            );
+        }
+    }
+
+    fn balances(&self, out: &mut String) {
+        out.push_str("\nBalances (largest over the run)\n");
+        let _ = writeln!(
+            out,
+            "  energy residual over energy turned over   {:.1e}",
+            self.energy_residual_relative
+        );
+        let _ = writeln!(
+            out,
+            "  momentum residual over impulse            {:.1e}",
+            self.momentum_residual_relative
+        );
+        let _ = writeln!(
+            out,
+            "  constraint violation                      {:.1e} m, {:.1e} (orientation)",
+            self.violation_position_m, self.violation_orientation
+        );
+        let _ = writeln!(
+            out,
+            "  corrector passes                          {:.1} mean, {} most",
+            self.corrector_passes_mean, self.corrector_passes_most
+        );
+        let _ = writeln!(
+            out,
+            "  wake rings at the end                     {}",
+            self.wake_rings
+        );
+        let _ = writeln!(
+            out,
+            "  regularised events                        {}",
+            self.regularised
+        );
+    }
+}
+
+/// A number with a prefix that leaves one to three digits before the point.
+fn engineering(x: f64, unit: &str) -> String {
+    const PREFIXES: [(f64, &str); 6] = [
+        (1e3, "k"),
+        (1.0, " "),
+        (1e-3, "m"),
+        (1e-6, "u"),
+        (1e-9, "n"),
+        (1e-12, "p"),
+    ];
+    if x.abs() >= 1e6 {
+        return format!("{x:8.2e}  {unit}");
+    }
+    let x = if x.abs() < 1e-12 { 0.0 } else { x };
+    let fits = |p: &&(f64, &str)| x.abs() >= p.0;
+    let (scale, prefix) = PREFIXES.iter().find(fits).copied().unwrap_or((1.0, " "));
+    format!("{:8.3} {prefix}{unit}", x / scale)
+}
+
+/// Text broken at 92 columns, continued under the first word.
+fn wrapped(bullet: &str, text: &str) -> String {
+    let mut out = bullet.to_owned();
+    let mut column = bullet.len();
+    for word in text.split(' ') {
+        if column + word.len() > 92 {
+            let _ = write!(out, "\n{:width$}", "", width = bullet.len());
+            column = bullet.len();
+        }
+        out.push_str(word);
+        out.push(' ');
+        column += word.len() + 1;
+    }
+    out.truncate(out.trim_end().len());
+    out.push('\n');
+    out.replace(" \n", "\n")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn exact_prefixes_and_line_breaks() {
+        assert_eq!(engineering(9.24e-6, "N").trim(), "9.240 uN");
+        assert_eq!(engineering(0.0, "W").trim(), "0.000  W");
+        assert_eq!(engineering(-2.5e60, "N").trim(), "-2.50e60  N");
+        let text = wrapped("  - ", &"word ".repeat(30));
+        assert!(
+            text.lines().count() == 2 && text.lines().all(|l| l.len() <= 92 && !l.ends_with(' '))
+        );
+    }
+}

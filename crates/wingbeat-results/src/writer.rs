@@ -1,0 +1,284 @@
+//! The sink of a flight: takes every accepted step, keeps the result directory readable.
+
+use std::time::{Duration, Instant};
+
+use wingbeat_flight::{AirModel, FlightState, Record, Snapshot};
+
+use super::checkpoint::Header;
+use super::columns::body_names;
+use super::framer::Framer;
+use super::history::HistoryWriter;
+use super::manifest::{Manifest, Outcome, sha256};
+use super::saver::{self, Schedule};
+use super::vtp::pvd;
+use super::{ResultDir, Summary};
+use wingbeat_case::IoError;
+use wingbeat_case::LoadedCase;
+
+/// The index is rewritten when it has grown by one part in this many, so that writing it stays a
+/// small part however long the run is.
+const INDEX_GROWTH: usize = 4;
+
+/// Writes one run.
+pub struct RunWriter {
+    dir: ResultDir,
+    case: LoadedCase,
+    history: HistoryWriter,
+    /// The thread that writes frames; none before the first.
+    framer: Option<Framer>,
+    frames: Vec<(f64, usize)>,
+    indexed: usize,
+    manifest: Manifest,
+    started: Instant,
+    writing: Duration,
+    flown_before: Duration,
+    schedule: Schedule,
+}
+
+impl RunWriter {
+    /// Starts the result: case and manifest are written at once.
+    ///
+    /// # Errors
+    /// A file that cannot be written.
+    pub fn new(dir: ResultDir, case: &LoadedCase, threads: usize) -> Result<Self, IoError> {
+        let resolved = case.resolved();
+        let manifest = Manifest {
+            version: env!("CARGO_PKG_VERSION").to_owned(),
+            case: case.name.clone(),
+            origin: case.origin().to_owned(),
+            case_sha256: sha256(resolved.as_bytes()),
+            history_bytes: 0,
+            history_sha256: sha256(b""),
+            outcome: Outcome::Running,
+            threads,
+            steps: 0,
+            steps_planned: case.setup.time.steps,
+            frames: 0,
+            panels: 0,
+            wake_rings: 0,
+            wall_time_s: 0.0,
+            writing_time_s: 0.0,
+            warnings: vec![],
+            frame_axes: "n1, -n2, -n3 (x forward, y left, z up)".to_owned(),
+        };
+        dir.write("manifest.json", manifest.to_json().as_bytes())?;
+        dir.write("case.toml", resolved.as_bytes())?;
+        let bodies = body_names(&case.setup.animal);
+        let history = HistoryWriter::create(&dir.join("history.csv"), bodies)?;
+        if case.output.frames_every > 0 {
+            dir.folder("frames")?;
+        }
+        Ok(Self {
+            dir,
+            case: case.clone(),
+            history,
+            framer: None,
+            frames: vec![],
+            indexed: 0,
+            manifest,
+            started: Instant::now(),
+            writing: Duration::ZERO,
+            flown_before: Duration::ZERO,
+            schedule: Schedule::new(case.output.save),
+        })
+    }
+
+    /// Goes on with a run from its checkpoint: what was written later is cut off.
+    ///
+    /// # Errors
+    /// A file that cannot be changed.
+    pub fn resume(
+        dir: ResultDir,
+        case: &LoadedCase,
+        header: &Header,
+        manifest: Manifest,
+        threads: usize,
+    ) -> Result<Self, IoError> {
+        let bodies = body_names(&case.setup.animal);
+        let path = dir.join("history.csv");
+        let mut history = HistoryWriter::reopen(&path, bodies, header.history_bytes)?;
+        let manifest = Manifest {
+            history_bytes: header.history_bytes,
+            history_sha256: header.history_sha256.clone(),
+            outcome: Outcome::Running,
+            threads,
+            steps: header.step,
+            ..manifest
+        };
+        // A manifest never promises more of the history than there is.
+        dir.write("manifest.json", manifest.to_json().as_bytes())?;
+        history.cut()?;
+        let steps = saver::go_back(dir.path(), header.step)?;
+        let step = case.setup.time.step;
+        let writer = Self {
+            case: case.clone(),
+            history,
+            framer: None,
+            frames: steps.iter().map(|k| (*k as f64 * step, *k)).collect(),
+            indexed: 0,
+            started: Instant::now(),
+            writing: Duration::from_secs_f64(manifest.writing_time_s),
+            flown_before: Duration::from_secs_f64(manifest.wall_time_s),
+            schedule: Schedule::new(case.output.save),
+            manifest,
+            dir,
+        };
+        writer.note()?;
+        Ok(writer)
+    }
+
+    /// Saves the state if it is time to; to be called after [`Self::write`] of the same step.
+    ///
+    /// # Errors
+    /// A file that cannot be written; the last checkpoint stays valid.
+    pub fn save_if_due(&mut self, state: &FlightState) -> Result<(), IoError> {
+        let last = state.step == self.case.setup.time.steps && self.case.output.save.keep;
+        if last || self.schedule.due(state.step) {
+            self.save(state)?;
+        }
+        Ok(())
+    }
+
+    /// Saves the state now.
+    ///
+    /// # Errors
+    /// A file that cannot be written; the last checkpoint stays valid.
+    pub fn save(&mut self, state: &FlightState) -> Result<(), IoError> {
+        let begun = Instant::now();
+        self.settle()?;
+        let (history_bytes, history_sha256) = self.seal()?;
+        let header = Header {
+            version: self.manifest.version.clone(),
+            case_sha256: self.manifest.case_sha256.clone(),
+            step: state.step,
+            history_bytes,
+            history_sha256,
+        };
+        saver::write(self.dir.path(), &header, state)?;
+        self.schedule.done();
+        self.writing += begun.elapsed();
+        self.note()
+    }
+
+    /// Sees the history onto the disk; its length and hash.
+    fn seal(&mut self) -> Result<(u64, String), IoError> {
+        let (bytes, hash) = self.history.seal()?;
+        self.manifest.history_bytes = bytes;
+        self.manifest.history_sha256.clone_from(&hash);
+        Ok((bytes, hash))
+    }
+
+    /// Writes the manifest as it is now.
+    fn note(&self) -> Result<(), IoError> {
+        let mut manifest = self.manifest.clone();
+        manifest.frames = self.frames.len();
+        manifest.wall_time_s = (self.flown_before + self.started.elapsed()).as_secs_f64();
+        manifest.writing_time_s = self.writing.as_secs_f64();
+        self.dir
+            .write("manifest.json", manifest.to_json().as_bytes())
+    }
+
+    /// The directory.
+    pub fn dir(&self) -> &ResultDir {
+        &self.dir
+    }
+
+    /// Takes an accepted step; the snapshot is asked for only where a frame is due.
+    ///
+    /// # Errors
+    /// A file that cannot be written.
+    pub fn write(
+        &mut self,
+        record: &Record,
+        snapshot: impl FnOnce() -> Snapshot,
+    ) -> Result<(), IoError> {
+        let begun = Instant::now();
+        self.history.append(record)?;
+        self.manifest.steps = record.step;
+        self.manifest.wake_rings = record.wake_rings;
+        let every = self.case.output.frames_every;
+        let last = record.step == self.case.setup.time.steps;
+        if every > 0 && (record.step.is_multiple_of(every) || last) {
+            self.frame(snapshot())?;
+        }
+        self.writing += begun.elapsed();
+        Ok(())
+    }
+
+    fn frame(&mut self, snapshot: Snapshot) -> Result<(), IoError> {
+        if snapshot.surfaces.is_empty() {
+            return Ok(());
+        }
+        self.manifest.panels = snapshot.surfaces.iter().map(|s| s.quads.len()).sum();
+        self.frames.push((snapshot.time, snapshot.step));
+        let (folder, parts) = (self.dir.join("frames"), self.parts());
+        let framer = self
+            .framer
+            .get_or_insert_with(|| Framer::new(folder, parts));
+        framer.put(snapshot)?;
+        if self.frames.len() >= self.indexed + self.indexed.div_ceil(INDEX_GROWTH).max(1) {
+            self.index()?;
+        }
+        Ok(())
+    }
+
+    /// What a frame of this flight is made of.
+    fn parts(&self) -> &'static [&'static str] {
+        let parts: &'static [&'static str] = &["surfaces", "wakes", "particles"];
+        match &self.case.setup.air {
+            AirModel::VortexLattice(air) if air.lattice.particles.is_some() => parts,
+            _ => &parts[..2],
+        }
+    }
+
+    /// Waits until the frames taken so far are on the disk.
+    fn settle(&mut self) -> Result<(), IoError> {
+        self.framer.as_mut().map_or(Ok(()), Framer::settle)
+    }
+
+    fn index(&mut self) -> Result<(), IoError> {
+        if self.frames.is_empty() {
+            return Ok(());
+        }
+        self.settle()?;
+        self.indexed = self.frames.len();
+        self.dir
+            .write("flight.pvd", pvd(&self.frames, self.parts()).as_bytes())
+    }
+
+    /// Ends a result that cannot be written any more: only the reason is noted, if that still goes.
+    pub fn abandon(mut self, why: String) {
+        self.manifest.outcome = Outcome::Unwritten(why);
+        let _ = self.note(); // on a full disk not even this may go
+    }
+
+    /// Ends the result: index, what `draw` draws (`wingbeat_draw::draw_run`, or nothing), summary,
+    /// manifest.
+    ///
+    /// # Errors
+    /// A file that cannot be written.
+    pub fn finish(
+        mut self,
+        outcome: Outcome,
+        draw: impl FnOnce(&ResultDir, &LoadedCase, &Summary) -> Result<(), IoError>,
+    ) -> Result<Summary, IoError> {
+        let begun = Instant::now();
+        self.index()?;
+        self.seal()?;
+        let path = self.dir.join("history.csv");
+        let summary = Summary::read(&self.case, &path, &outcome)?;
+        draw(&self.dir, &self.case, &summary)?;
+        self.dir
+            .write("summary.txt", summary.to_text().as_bytes())?;
+        self.dir
+            .write("summary.json", summary.to_json().as_bytes())?;
+        self.writing += begun.elapsed();
+        self.manifest.outcome = outcome;
+        self.manifest.warnings.clone_from(&summary.warnings);
+        self.note()?;
+        if self.manifest.outcome == Outcome::Finished && !self.case.output.save.keep {
+            saver::forget(self.dir.path())?;
+        }
+        Ok(summary)
+    }
+}
