@@ -8,6 +8,8 @@
 //! | [`math`] | rotations, Euler sequences, mass properties, integrators |
 //! | [`model`] | the animal: meshes, masses, wing motion |
 //! | [`dynamics`] | constrained multibody dynamics |
+//! | [`vortex`] | Biot-Savart sums over vortex filaments and blobs |
+//! | [`blade`] | quasi-steady air: blade elements, stability derivatives |
 //! | [`air`] | unsteady vortex lattice with free wakes |
 //! | [`flight`] | the two together |
 //! | [`analysis`] | analysis of flights |
@@ -33,9 +35,11 @@
 
 pub use wingbeat_air as air;
 pub use wingbeat_analysis as analysis;
+pub use wingbeat_blade as blade;
 pub use wingbeat_dynamics as dynamics;
 pub use wingbeat_flight as flight;
 pub use wingbeat_io as io;
 pub use wingbeat_math as math;
 pub use wingbeat_model as model;
 pub use wingbeat_verify as verify;
+pub use wingbeat_vortex as vortex;
