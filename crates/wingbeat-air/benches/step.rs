@@ -3,13 +3,13 @@
 //! `cargo bench -p wingbeat-air --bench step`
 
 use divan::{Bencher, counter::ItemsCount};
-use wingbeat_air::kernel::{CoreModel, FastSettings, FastSum, Method, Points};
 use wingbeat_air::{
     AirLoads, AirSettings, AirState, AirWorkspace, Lattice, NodeMotion, SheddingKinds, Surface,
 };
 use wingbeat_math::DVec3;
+use wingbeat_vortex::{CoreModel, FastSettings, FastSum, Method, Points};
 
-#[path = "../tests/wakes/mod.rs"]
+#[path = "../../wingbeat-vortex/tests/wakes/mod.rs"]
 mod wakes;
 
 fn main() {

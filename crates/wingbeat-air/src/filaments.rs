@@ -2,12 +2,12 @@
 //! circulation.
 
 use crate::front::{self, Row, Share, add_front, at_edge};
-use crate::kernel::{Blob, Network, Particle, Points, WINDOW};
 use crate::lattice::Lattice;
 use crate::particles::borders_ring;
 use crate::settings::AirSettings;
 use crate::state::{AirState, WakeSheet};
 use wingbeat_math::DVec3;
+use wingbeat_vortex::{Blob, Network, Particle, Points, WINDOW};
 
 /// Columns of a wake sheet that are taken side by side: so many that the kernel still sees the nodes of one row when it
 /// comes to the next.

@@ -16,12 +16,12 @@
 
 use crate::filaments::newest;
 use crate::influence::{add_part, unknown};
-use crate::kernel::{BLOCK, Network, Points};
 use crate::lattice::Lattice;
 use crate::rings::opposite;
 use crate::settings::{AirSettings, NewestRow};
 use crate::state::AirState;
 use wingbeat_math::DVec3;
+use wingbeat_vortex::{BLOCK, Network, Points};
 
 /// Strips of the newest row where its circulation varies.
 const STRIPS: usize = 8;

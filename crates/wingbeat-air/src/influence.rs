@@ -5,7 +5,6 @@ use crate::error::AirError;
 use crate::filaments::Filaments;
 use crate::front::{self, Row};
 use crate::images::Mirror;
-use crate::kernel::{BLOCK, UnitEdges};
 use crate::lattice::Lattice;
 use crate::own::{Own, augment};
 use crate::panels::Panels;
@@ -16,6 +15,7 @@ use crate::topology::Edge;
 use rayon::prelude::*;
 use std::ops::Range;
 use wingbeat_math::DVec3;
+use wingbeat_vortex::{BLOCK, UnitEdges};
 
 /// Influence equations `A gamma = b`: A the normal velocity at control point i of the ring of
 /// panel j with unit circulation, b the normal velocity that the rings have to make.

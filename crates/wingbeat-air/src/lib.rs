@@ -28,8 +28,6 @@
 //!
 //! Old rows of wake, or those of leading edges at once, can become vortex [`particles`].
 //!
-//! [`blade`] is the other air of this crate: blade elements, quasi-steady and without memory.
-//!
 //! Surfaces may change their shape: their nodes move as the caller says. [`seams`] joins surfaces to
 //! one; [`section_drag`] adds friction and profile drag.
 //!
@@ -38,18 +36,15 @@
 //! separation other than at the edges told to shed. Forces are pressure times normal unless
 //! [`LoadMethod`] says otherwise, so without the suction at edges that do not shed.
 
-pub mod blade;
 mod circulation;
 mod closed;
 mod contact;
-pub mod derivatives;
 pub mod error;
 pub mod filaments;
 mod front;
 pub mod images;
 mod influence;
 mod joukowski;
-pub mod kernel;
 pub mod lattice;
 pub mod loads;
 mod own;
@@ -73,7 +68,6 @@ pub mod wind;
 
 pub use error::AirError;
 pub use images::Plane;
-pub use kernel::{CoreModel, Method, Points, Stretching};
 pub use lattice::Lattice;
 pub use loads::{AirLoads, AirWorkspace, SurfaceLoads};
 pub use panels::Panels;
@@ -87,3 +81,4 @@ pub use state::{AirState, NodeMotion, WakeEvents, WakeSheet};
 pub use surface::{EdgeKind, SheddingSegment, Surface};
 pub use twins::Twins;
 pub use wind::{Gust, GustShape, Wind};
+pub use wingbeat_vortex::{CoreModel, Method, Points, Stretching};

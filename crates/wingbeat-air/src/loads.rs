@@ -6,7 +6,6 @@ use crate::error::AirError;
 use crate::filaments::Filaments;
 use crate::influence::{Influence, Instant};
 use crate::joukowski;
-use crate::kernel::Points;
 use crate::lattice::Lattice;
 use crate::panels::Panels;
 use crate::particle_motion::ParticleFlow;
@@ -17,6 +16,7 @@ use crate::state::{AirState, NodeMotion};
 use crate::strips;
 use crate::summation::{StillWake, Sums, direct};
 use wingbeat_math::DVec3;
+use wingbeat_vortex::Points;
 
 /// What the air does to one surface.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

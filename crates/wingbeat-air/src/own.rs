@@ -6,12 +6,12 @@
 //! themselves; deformed ones too. Where factors of the whole would take long, a few iterations with them do instead.
 
 use crate::influence::{add_part, columns, is_lead, unknown, unknowns};
-use crate::kernel::{BLOCK, Network, UnitEdges};
 use crate::lattice::Lattice;
 use crate::panels;
 use crate::row_blocks::RowBlocks;
 use std::ops::Range;
 use wingbeat_math::{DMat3, DVec3, DenseLu};
+use wingbeat_vortex::{BLOCK, Network, UnitEdges};
 
 /// Unknowns from which it pays: below, factors take less time than iterations.
 const LARGE: usize = 256;

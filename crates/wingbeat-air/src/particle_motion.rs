@@ -7,13 +7,13 @@
 //! gradient over its size rather than that at a point.
 
 use crate::images::Mirror;
-use crate::kernel::{Particle, Points, Stretching};
 use crate::lattice::Lattice;
 use crate::particles::{ParticleSettings, Particles};
 use crate::state::AirState;
 use crate::summation::Sums;
 use crate::wake::Mover;
 use wingbeat_math::DVec3;
+use wingbeat_vortex::{Particle, Points, Stretching};
 
 /// Largest change of a strength in a step, relative to it, and in all, relative to its first size: the
 /// core of a rolled-up sheet turns too fast for the steps of a flight, and would blow strengths up.

@@ -16,12 +16,12 @@
 use crate::error::AirError;
 use crate::filaments::{across, between};
 use crate::images::Mirror;
-use crate::kernel::{Particle, Points, Stretching};
 use crate::lattice::Lattice;
 use crate::settings::AirSettings;
 use crate::state::{AirState, WakeEvents, WakeSheet, is_whole};
 use crate::surface::EdgeKind;
 use wingbeat_math::DVec3;
+use wingbeat_vortex::{Particle, Points, Stretching};
 
 /// Pieces of a segment at most.
 const MOST_PIECES: f64 = 8.0;

@@ -1,7 +1,7 @@
 //! A square matrix in blocks of rows, as the kernel computes it: lanes are rows.
 
-use crate::kernel::BLOCK;
 use rayon::prelude::*;
+use wingbeat_vortex::BLOCK;
 
 /// Columns taken side by side, so that sums are loaded and stored less often.
 const SIDE: usize = 4;

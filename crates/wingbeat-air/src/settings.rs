@@ -2,12 +2,12 @@
 
 use crate::error::AirError;
 use crate::images::{Plane, mirrors};
-use crate::kernel::{CoreModel, LAMB_ALPHA, Method};
 use crate::particles::ParticleSettings;
 use crate::section_drag::SectionDrag;
 use crate::surface::EdgeKind;
 use crate::wind::Wind;
 use wingbeat_math::DVec3;
+use wingbeat_vortex::{CoreModel, LAMB_ALPHA, Method};
 
 /// How the rate of change of circulation in the unsteady Bernoulli equation is formed.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -139,7 +139,7 @@ pub struct AirSettings {
     /// Length [m] from which a free wake filament turns into a vortex blob, wholly at 1.25 times this length: its strength
     /// Gamma (b - a) as a Gaussian about its middle, as wide as its core; none: never. Where `wake_overlap` has made
     /// cores as wide as filaments are long, hardly more than the description changes, but blobs can be summed at
-    /// a cost that grows with their number and not with its square ([`crate::kernel::BlobSum`]).
+    /// a cost that grows with their number and not with its square ([`wingbeat_vortex::BlobSum`]).
     pub wake_blob_length: Option<f64>,
     /// Which edges shed.
     pub shedding: SheddingKinds,

@@ -1,9 +1,9 @@
 //! What the air remembers from step to step: circulations and wakes.
 
 use crate::images::Mirror;
-use crate::kernel::Points;
 use crate::particles::Particles;
 use wingbeat_math::DVec3;
+use wingbeat_vortex::Points;
 
 /// Positions and velocities of the nodes of all surfaces, concatenated in the order of the
 /// surfaces, in the inertial frame N.

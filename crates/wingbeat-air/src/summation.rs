@@ -3,10 +3,10 @@
 
 use crate::filaments::Filaments;
 use crate::images::Mirror;
-use crate::kernel::{
+use crate::settings::AirSettings;
+use wingbeat_vortex::{
     BlobSum, CoreModel, FastSettings, FastSum, Method, Network, ParticleSum, Points, Report,
 };
-use crate::settings::AirSettings;
 
 /// A Biot-Savart sum over one network, its memory kept from call to call.
 #[derive(Clone, Debug, Default)]

@@ -8,10 +8,10 @@
 
 use crate::error::AirError;
 use crate::images::{Mirror, Plane};
-use crate::kernel::Points;
 use crate::state::NodeMotion;
 use crate::topology::Topology;
 use wingbeat_math::DVec3;
+use wingbeat_vortex::Points;
 
 /// Largest distance of a node from the image of its twin, relative to the farthest node's from the
 /// plane: far above round-off, far below anything an asymmetric motion does.

@@ -5,7 +5,6 @@ use crate::error::AirError;
 use crate::filaments::newest;
 use crate::front;
 use crate::images::{Mirror, Plane};
-use crate::kernel::Points;
 use crate::lattice::Lattice;
 use crate::loads::{AirLoads, AirWorkspace};
 use crate::particle_motion::ParticleFlow;
@@ -14,6 +13,7 @@ use crate::settings::{Convection, LeadingEdge, NewestRow};
 use crate::state::{AirState, NodeMotion, WakeEvents, WakeSheet};
 use crate::surface::EdgeKind;
 use wingbeat_math::DVec3;
+use wingbeat_vortex::Points;
 
 impl Lattice {
     /// Makes the circulations of `loads`, computed for `motion`, those of the state.

@@ -1,114 +1,11 @@
-//! Sums and whole steps allocate nothing once they have been through a size, and memory is linear in
-//! the wake.
+//! Whole steps allocate nothing once they have been through a size, and memory is linear in the wake.
 
-mod wakes;
-
-use std::alloc::{GlobalAlloc, Layout, System};
-use std::cell::Cell;
-use wingbeat_air::kernel::{
-    Blob, BlobSum, CoreModel, DirectSum, FastSettings, FastSum, Method, Points,
-};
+use allocation_counter::measure;
 use wingbeat_air::{
     AirLoads, AirSettings, AirState, AirWorkspace, Lattice, NodeMotion, Surface, WakeSheet,
 };
 use wingbeat_math::DVec3;
-
-/// The system's allocator, counting.
-struct Counting;
-
-thread_local! {
-    /// Of this thread alone: the test's harness allocates when it likes.
-    static ALLOCATIONS: Cell<usize> = const { Cell::new(0) };
-    /// Bytes it holds.
-    static HELD: Cell<usize> = const { Cell::new(0) };
-}
-
-#[allow(unsafe_code)]
-// SAFETY: hands everything to the system's allocator unchanged.
-unsafe impl GlobalAlloc for Counting {
-    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
-        ALLOCATIONS.set(ALLOCATIONS.get() + 1);
-        HELD.set(HELD.get().wrapping_add(layout.size()));
-        unsafe { System.alloc(layout) }
-    }
-    unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {
-        HELD.set(HELD.get().wrapping_sub(layout.size()));
-        unsafe { System.dealloc(pointer, layout) }
-    }
-    unsafe fn realloc(&self, pointer: *mut u8, layout: Layout, size: usize) -> *mut u8 {
-        ALLOCATIONS.set(ALLOCATIONS.get() + 1);
-        let more = size.wrapping_sub(layout.size());
-        HELD.set(HELD.get().wrapping_add(more));
-        unsafe { System.realloc(pointer, layout, size) }
-    }
-}
-
-#[global_allocator]
-static COUNTING: Counting = Counting;
-
-#[test]
-fn exact_no_allocation_after_warm_up() {
-    let model = CoreModel::Vatistas { radius: 0.02 };
-    let net = wakes::hover(model, 6_000);
-    let [mut tree, mut single] = [Method::Tree, Method::Single].map(|method| {
-        FastSum::new(FastSettings {
-            method,
-            ..FastSettings::new(model)
-        })
-    });
-    let mut direct = DirectSum::new(model);
-    let mut v = Points::zeros(net.nodes.len());
-    on_one_thread(|| {
-        let mut step = || {
-            for fast in [&mut tree, &mut single] {
-                fast.load_network(&net);
-                fast.add_velocity(&net.nodes, &mut v);
-            }
-            direct.load_network(&net);
-            direct.add_velocity(&net.nodes, &mut v);
-        };
-        step();
-        let before = ALLOCATIONS.get();
-        step();
-        assert_eq!(ALLOCATIONS.get() - before, 0);
-    });
-}
-
-/// The mesh of blobs that move within the same box.
-#[test]
-fn exact_no_allocation_of_blobs_after_warm_up() {
-    let net = wakes::hover(CoreModel::Vatistas { radius: 0.02 }, 6_000);
-    let [low, high] = net
-        .nodes
-        .iter()
-        .fold([DVec3::INFINITY, DVec3::NEG_INFINITY], |[low, high], x| {
-            [low.min(x), high.max(x)]
-        });
-    let variance = (0.03 * (high - low).max_element()).powi(2);
-    let cloud = |shift: f64| -> Vec<Blob> {
-        let blob = |(i, x): (usize, DVec3)| Blob {
-            position: low + (x - low) * shift,
-            strength: DVec3::new(1.0, (i as f64).sin(), -1.0),
-            variance: variance * (1.0 + (i % 50) as f64),
-        };
-        net.nodes.iter().enumerate().map(blob).collect()
-    };
-    let clouds = [cloud(1.0), cloud(0.9)];
-    let mut v = Points::zeros(net.nodes.len());
-    on_one_thread(|| {
-        let mut sum = BlobSum::default();
-        let mut step = |k: usize| {
-            assert!(sum.load(&clouds[k], variance, [low, high], net.nodes.len()));
-            assert!(sum.add_velocity(1e-4, &net.nodes, &mut v).is_mesh);
-        };
-        step(0);
-        step(1);
-        let before = ALLOCATIONS.get();
-        step(0);
-        step(1);
-        assert_eq!(ALLOCATIONS.get() - before, 0);
-    });
-}
+use wingbeat_vortex::Method;
 
 /// Calls `f` on one thread: what rayon keeps for handing work to others is not ours to count.
 fn on_one_thread<T: Send>(f: impl FnOnce() -> T + Send) -> T {
@@ -195,9 +92,8 @@ fn exact_no_allocation_in_steps_of_a_wake_that_keeps_its_size() {
         for panels in [4, 16] {
             let mut flight = Flight::of(panels, Some(12), Method::Direct);
             (0..20).for_each(|_| flight.step());
-            let before = ALLOCATIONS.get();
-            (0..5).for_each(|_| flight.step());
-            assert_eq!(ALLOCATIONS.get() - before, 0, "{panels}");
+            let five = measure(|| (0..5).for_each(|_| flight.step()));
+            assert_eq!(five.count_total, 0, "{panels}");
         }
     });
 }
@@ -235,13 +131,16 @@ fn exact_memory_is_linear_in_the_wake() {
         ];
         for (method, most) in methods {
             let held = |rows: usize| {
-                let before = HELD.get();
-                let mut flight = Flight::new(None, method);
-                flight.step();
-                flight.state.sheets[0] = old_wake(rows, true);
-                flight.step();
-                flight.step();
-                (HELD.get().wrapping_sub(before)) as f64
+                let mut flown = None;
+                let info = measure(|| {
+                    let mut flight = Flight::new(None, method);
+                    flight.step();
+                    flight.state.sheets[0] = old_wake(rows, true);
+                    flight.step();
+                    flight.step();
+                    flown = Some(flight);
+                });
+                info.bytes_current as f64
             };
             held(1); // what threads keep for themselves
             let empty = held(1);

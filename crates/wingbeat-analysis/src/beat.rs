@@ -16,7 +16,7 @@
 
 use std::sync::Arc;
 
-use wingbeat_air::blade::{BladeWing, BodyDrag, FrameAcceleration, FrameMotion};
+use wingbeat_blade::{BladeWing, BodyDrag, FrameAcceleration, FrameMotion};
 use wingbeat_dynamics::inverse::inertia_wrench;
 use wingbeat_dynamics::posture::Posture;
 use wingbeat_dynamics::{BodyAcceleration, BodyMotion, System};

@@ -1,6 +1,6 @@
 //! Loads averaged over a beat while the body moves steadily.
 
-use wingbeat_air::blade::FrameAcceleration;
+use wingbeat_blade::FrameAcceleration;
 use wingbeat_math::{DMat3, DVec3};
 
 use crate::beat::Beat;

@@ -1,8 +1,8 @@
 //! The linear model of an animal whose air is a table of stability derivatives, and such a table
 //! from the cycle means of a flapping one.
 
-use wingbeat_air::blade::FrameMotion;
-use wingbeat_air::derivatives::DerivativeTable;
+use wingbeat_blade::DerivativeTable;
+use wingbeat_blade::FrameMotion;
 use wingbeat_flight::{AirModel, FlightSetup};
 use wingbeat_math::{DMat3, DVec3};
 

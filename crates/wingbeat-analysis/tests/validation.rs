@@ -20,8 +20,7 @@ fn published_fry_strokes_carry_the_fly() {
         let mut setup = fly();
         if let AirModel::BladeElement(options) = &mut setup.air {
             options.blade.rotation = rotation;
-            options.blade.translation =
-                wingbeat_air::blade::find_set("dickinson-1999").unwrap().law;
+            options.blade.translation = wingbeat_blade::find_set("dickinson-1999").unwrap().law;
         }
         let beat = Beat::new(&setup, 100).unwrap();
         let y = beat.state(
@@ -33,7 +32,7 @@ fn published_fry_strokes_carry_the_fly() {
         let level = Level::new(beat.root(&y).r, beat.gravity());
         -beat.mean_load(&level, DVec3::ZERO, DVec3::ZERO).force.z / 9.81 * 1e6
     };
-    use wingbeat_air::blade::Rotation;
+    use wingbeat_blade::Rotation;
     let (without, with) = (lift(Rotation::None), lift(Rotation::SaneDickinson));
     // 5 % on either side for the outline, a beta distribution of the same r2_hat.
     assert!(

@@ -244,7 +244,7 @@ fn agrees_massless_wings_with_a_rigid_body_of_its_own() {
     // axes, under the same strips; added mass left out so that loads need no accelerations.
     let mut setup = fly();
     if let AirModel::BladeElement(options) = &mut setup.air {
-        options.blade.added_mass = wingbeat_air::blade::AddedMass::None;
+        options.blade.added_mass = wingbeat_blade::AddedMass::None;
     }
     for wing in &mut setup.animal.wings {
         wing.mass = wing.mass.scaled(0.0);
@@ -268,7 +268,7 @@ fn rigid_body_beat(
     v0: DVec3,
     w0: DVec3,
 ) -> (DVec3, DVec3) {
-    use wingbeat_air::blade::FrameMotion;
+    use wingbeat_blade::FrameMotion;
     use wingbeat_math::{DQuat, RotationLaw};
     let AirModel::BladeElement(options) = setup.air else {
         unreachable!("blade elements")

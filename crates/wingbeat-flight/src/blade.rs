@@ -4,7 +4,7 @@
 //! Both are solved for together at every evaluation ([`crate::equations`]), so the loads are a
 //! function of state and time alone: quasi-steady air needs no history.
 
-use wingbeat_air::blade::{
+use wingbeat_blade::{
     BladeError, BladeWing, BodyDrag, FrameAcceleration, FrameMotion, Load, SectionMotion, Strip,
 };
 use wingbeat_dynamics::{BodyAcceleration, BodyMotion, Wrench};

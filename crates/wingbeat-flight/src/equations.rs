@@ -4,8 +4,8 @@
 
 use std::sync::Arc;
 
-use wingbeat_air::derivatives::DerivativeTable;
 use wingbeat_air::{AirLoads, AirState, AirWorkspace, Lattice, NodeMotion};
+use wingbeat_blade::DerivativeTable;
 use wingbeat_dynamics::budget::relative_energy;
 use wingbeat_dynamics::{BodyMotion, Mechanism, Solution, Workspace, Wrench};
 use wingbeat_math::DVec3;

@@ -1,7 +1,7 @@
 //! What can go wrong in a flight.
 
 use wingbeat_air::AirError;
-use wingbeat_air::blade::BladeError;
+use wingbeat_blade::BladeError;
 use wingbeat_dynamics::DynamicsError;
 
 /// Why a flight cannot start or go on. Times in seconds.

@@ -3,8 +3,8 @@
 use std::sync::Arc;
 
 use wingbeat_air::AirSettings;
-use wingbeat_air::blade::{BladeSettings, BodyDrag};
-use wingbeat_air::derivatives::DerivativeTable;
+use wingbeat_blade::DerivativeTable;
+use wingbeat_blade::{BladeSettings, BodyDrag};
 use wingbeat_math::{DMat3, DVec3, EulerSequence, MovingRotation};
 use wingbeat_model::Animal;
 

@@ -5,7 +5,7 @@ mod common;
 
 use common::{FREQUENCY, Fly, fly, sine};
 use wingbeat_air::LoadMethod;
-use wingbeat_air::blade::{AddedMass, BladeSettings};
+use wingbeat_blade::{AddedMass, BladeSettings};
 use wingbeat_flight::*;
 use wingbeat_math::{DVec3, MassProperties};
 use wingbeat_model::deformation::{SpanLaw, Term};

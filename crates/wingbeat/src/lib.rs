@@ -8,6 +8,8 @@
 //! | [`math`] | rotations, Euler sequences, mass properties, integrators |
 //! | [`model`] | the animal: meshes, masses, wing motion |
 //! | [`dynamics`] | constrained multibody dynamics |
+//! | [`vortex`] | Biot-Savart sums over vortex filaments and blobs |
+//! | [`blade`] | quasi-steady air: blade elements, stability derivatives |
 //! | [`air`] | unsteady vortex lattice with free wakes |
 //! | [`flight`] | the two together |
 //! | [`analysis`] | analysis of flights |
@@ -35,6 +37,7 @@
 
 pub use wingbeat_air as air;
 pub use wingbeat_analysis as analysis;
+pub use wingbeat_blade as blade;
 pub use wingbeat_case as case;
 pub use wingbeat_draw as draw;
 pub use wingbeat_dynamics as dynamics;
@@ -43,3 +46,4 @@ pub use wingbeat_math as math;
 pub use wingbeat_model as model;
 pub use wingbeat_results as results;
 pub use wingbeat_verify as verify;
+pub use wingbeat_vortex as vortex;

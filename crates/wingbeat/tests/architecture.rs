@@ -38,26 +38,33 @@ fn dependencies(name: &str) -> BTreeSet<String> {
 #[test]
 fn invariant_dependency_graph_is_the_architecture() {
     let expect = [
+        ("wingbeat-vortex", vec![]),
         ("wingbeat-math", vec![]),
         ("wingbeat-model", vec!["math"]),
         ("wingbeat-dynamics", vec!["math"]),
-        ("wingbeat-air", vec!["math"]),
-        ("wingbeat-flight", vec!["math", "model", "dynamics", "air"]),
+        ("wingbeat-blade", vec!["math"]),
+        ("wingbeat-air", vec!["math", "vortex"]),
+        (
+            "wingbeat-flight",
+            vec!["math", "model", "dynamics", "vortex", "blade", "air"],
+        ),
         (
             "wingbeat-analysis",
-            vec!["math", "model", "dynamics", "air", "flight"],
+            vec!["math", "model", "dynamics", "blade", "air", "flight"],
         ),
         (
             "wingbeat-case",
-            vec!["math", "model", "dynamics", "air", "flight", "analysis"],
+            vec![
+                "math", "model", "dynamics", "vortex", "blade", "air", "flight", "analysis",
+            ],
         ),
         (
             "wingbeat-results",
-            vec!["math", "model", "air", "flight", "case"],
+            vec!["math", "model", "vortex", "air", "flight", "case"],
         ),
         (
             "wingbeat-draw",
-            vec!["math", "model", "flight", "case", "results"],
+            vec!["math", "model", "vortex", "flight", "case", "results"],
         ),
     ];
     for (name, allowed) in expect {
@@ -81,7 +88,9 @@ fn invariant_below_cases_nothing_touches_files_clock_environment_or_chance() {
         "rand::",
         "File::",
     ];
-    for name in ["math", "model", "dynamics", "air", "flight", "analysis"] {
+    for name in [
+        "vortex", "math", "model", "dynamics", "blade", "air", "flight", "analysis",
+    ] {
         for file in rust_files(&root().join(format!("crates/wingbeat-{name}/src"))) {
             let text = fs::read_to_string(&file).expect("a source file");
             for (n, line) in text.lines().enumerate() {

@@ -1,8 +1,8 @@
 //! The fruit fly in blade-element air.
 #![allow(dead_code)] // every test binary uses its own part
 
-use wingbeat_air::blade::BladeSettings;
 use wingbeat_analysis::*;
+use wingbeat_blade::BladeSettings;
 use wingbeat_flight::*;
 use wingbeat_math::DVec3;
 use wingbeat_model::species::{FlyOptions, HOVER_BODY_PITCH, drosophila_melanogaster};

@@ -1,6 +1,6 @@
 //! `[air.blade]`: the blade-element model.
 
-use wingbeat_air::blade::{
+use wingbeat_blade::{
     AddedMass, BladeSettings, BodyDrag, CentreOfPressure, Rotation, Translation, ViscousMoment,
     find_set,
 };

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use wingbeat_air::derivatives::{DerivativeTable, ReferenceSizes};
+use wingbeat_blade::{DerivativeTable, ReferenceSizes};
 use wingbeat_flight::ExternalAir;
 use wingbeat_math::r2;
 use wingbeat_model::Animal;

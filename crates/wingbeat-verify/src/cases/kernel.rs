@@ -3,8 +3,8 @@
 use crate::lab::order;
 use crate::{Case, Part, Row, Trouble};
 use std::f64::consts::{PI, TAU};
-use wingbeat_air::kernel::{CoreModel, Points, Segments, add_velocity};
 use wingbeat_math::DVec3;
+use wingbeat_vortex::{CoreModel, Points, Segments, add_velocity};
 
 pub(super) const CASES: &[Case] = &[
     Case {

@@ -1,0 +1,48 @@
+//! Blade elements: quasi-steady air without memory, strip by strip along the span.
+//!
+//! Each strip of a wing is a flat section in the 1-3 plane of the wing frame (axis 1 to the
+//! leading edge, axis 3 the normal). From the velocity of the section through the air follow
+//! 1. the translational lift and drag, `1/2 rho c U^2 C(alpha)` at the centre of pressure
+//!    ([`coefficients`]: published sets by name, or the user's own numbers);
+//! 2. the rotational force of a wing that feathers while it sweeps, `rho U Gamma_rot`
+//!    [Sane & Dickinson 2002], or [Berman & Wang 2007] with its viscous moment;
+//! 3. the added mass, `rho pi/4 c^2` times the rate of the normal velocity at mid chord
+//!    [Sane & Dickinson 2001], linear in the accelerations and kept apart for that reason:
+//!    whoever integrates the motion can put it on the left-hand side.
+//!
+//! Optional: drag of the body ([`BodyDrag`]). [`DerivativeTable`] is simpler still: the loads on a whole animal, linear
+//! about a reference flight.
+//!
+//! | symbol | name in code | meaning | unit |
+//! |---|---|---|---|
+//! | u, w | `u`, `w` | velocity of the section through the air along axis 1 and 3 | m/s |
+//! | U | `speed` | `sqrt(u^2 + w^2)` | m/s |
+//! | alpha | - | angle of attack, `atan2(abs w, abs u)` in [0, 90 deg] | rad |
+//! | q | `w.y` | rate of feathering, angular velocity about axis 2 | rad/s |
+//! | c, dr | `chord`, `width` | chord and width of a strip | m |
+//! | x0 | `x0` | feathering axis behind the leading edge over the chord | 1 |
+//! | Gamma_rot | - | `C_rot c^2 q` | m2/s |
+//!
+//! A section is taken as symmetric fore and aft: air from the trailing edge (u < 0) gives the
+//! mirrored force. Velocities along the span are ignored, as in all the sources. Twist and bending of
+//! a wing place and move its strips ([`SectionMotion`]).
+//!
+//! What this crate does not know: wakes, neighbouring strips, animals, coordinates, time.
+
+mod body_drag;
+pub mod coefficients;
+mod deforming;
+mod derivatives;
+mod error;
+mod settings;
+mod strip;
+mod wing;
+
+pub use body_drag::BodyDrag;
+pub use coefficients::{NamedSet, SETS, Translation, find_set};
+pub use deforming::{DeformingLoad, SectionMotion};
+pub use derivatives::{DerivativeTable, ReferenceSizes};
+pub use error::BladeError;
+pub use settings::{AddedMass, BladeSettings, CentreOfPressure, Rotation, ViscousMoment};
+pub use strip::Strip;
+pub use wing::{BladeWing, FrameAcceleration, FrameMotion, Load};

@@ -1,0 +1,157 @@
+//! What a blade-element model consists of.
+
+use std::f64::consts::PI;
+
+use wingbeat_math::DVec3;
+
+use crate::coefficients::{Translation, find_set};
+use crate::error::{BladeError, require};
+
+/// The blade-element model of a wing.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BladeSettings {
+    /// Density of the air rho [kg/m3].
+    pub density: f64,
+    /// Velocity of the undisturbed air, an induced flow included, N components [m/s].
+    pub free_stream: DVec3,
+    /// Translational lift and drag.
+    pub translation: Translation,
+    /// Where they act.
+    pub centre_of_pressure: CentreOfPressure,
+    /// Force of feathering while sweeping.
+    pub rotation: Rotation,
+    /// Added mass.
+    pub added_mass: AddedMass,
+    /// Viscous moment against feathering.
+    pub viscous: Option<ViscousMoment>,
+}
+
+/// Place of the translational and rotational force along the chord.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum CentreOfPressure {
+    /// At this part of the chord behind the edge that meets the air.
+    Fixed(f64),
+    /// From 1/4 of the chord edge-on to 1/2 square to the air, `(2 - cos alpha)/4` behind the
+    /// leading edge; a smooth interpolation of this program between the two theories.
+    Cosine,
+    /// `0.25 + 0.25/(1 + exp(5 (1 - 4 alpha/pi)))` [Chen 2016 as coded in avikde/robobee3d].
+    Chen2016,
+}
+
+/// The force of a wing that feathers while it sweeps.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Rotation {
+    /// Left out.
+    None,
+    /// `rho U C_rot c^2 q dr` **normal to the wing**, `C_rot = pi (0.75 - x0)`
+    /// [Sane & Dickinson 2002]. U is the speed with the sign of u, so the force jumps where u
+    /// changes sign while w does not vanish.
+    SaneDickinson,
+    /// The same circulation by Kutta and Joukowski: `rho Gamma` across the velocity. Its normal
+    /// part is Sane & Dickinson's force times cos alpha; smooth for every motion.
+    Circulation,
+    /// Kutta-Joukowski with one coefficient for all strips, `Gamma = coefficient c^2 q`:
+    /// `C_R/2` in [Berman & Wang 2007] (C_R = pi is from memory, not read).
+    Coefficient(f64),
+}
+
+/// The added mass `m = rho pi/4 c^2 dr` of a strip.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum AddedMass {
+    /// Left out.
+    None,
+    /// `-m` times the rate of the normal velocity component at mid chord, along the normal
+    /// [Sane & Dickinson 2001]. It stores energy `m w^2/2` and dissipates none.
+    Normal,
+    /// With the force `-m q w` along the chord and the added moment of inertia
+    /// `rho pi/128 c^4 dr` of the section [Berman & Wang 2007; form of the equations from memory].
+    Section,
+}
+
+/// Viscous moment `-(pi/16) rho c^4 (linear + quadratic abs q) q dr` against feathering
+/// [Berman & Wang 2007: linear = mu1 f, quadratic = mu2; mu1 = mu2 = 0.2, form and numbers from
+/// memory, not read].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ViscousMoment {
+    /// mu1 f [1/s].
+    pub linear: f64,
+    /// mu2 \[1\].
+    pub quadratic: f64,
+}
+
+impl BladeSettings {
+    /// The default for small insects in still air: coefficients `dickson-2008`, circulation of
+    /// feathering, normal added mass, `Cosine` centre of pressure.
+    pub fn insect(density: f64) -> Self {
+        Self {
+            density,
+            free_stream: DVec3::ZERO,
+            translation: find_set("dickson-2008").expect("a shipped set").law,
+            centre_of_pressure: CentreOfPressure::Cosine,
+            rotation: Rotation::Circulation,
+            added_mass: AddedMass::Normal,
+            viscous: None,
+        }
+    }
+
+    /// Berman & Wang's model of the fruit fly at the wingbeat frequency `frequency` [Hz]:
+    /// coefficients as read, `C_R = pi`, `mu1 = mu2 = 0.2` and the form of the viscous moment
+    /// from memory.
+    pub fn berman_wang(density: f64, frequency: f64) -> Self {
+        Self {
+            translation: find_set("berman-wang-fruit-fly")
+                .expect("a shipped set")
+                .law,
+            rotation: Rotation::Coefficient(0.5 * PI),
+            added_mass: AddedMass::Section,
+            viscous: Some(ViscousMoment {
+                linear: 0.2 * frequency,
+                quadratic: 0.2,
+            }),
+            ..Self::insect(density)
+        }
+    }
+
+    /// Checks every number.
+    ///
+    /// # Errors
+    /// [`BladeError::Value`] names the first that is not allowed.
+    pub fn check(&self) -> Result<(), BladeError> {
+        let at_least_0 = |x: f64| x.is_finite() && x >= 0.0;
+        let rho = self.density;
+        require(at_least_0(rho), "density", rho, "a finite number >= 0")?;
+        let stream = self.free_stream.length();
+        require(
+            stream.is_finite(),
+            "free_stream",
+            stream,
+            "a finite velocity",
+        )?;
+        if let CentreOfPressure::Fixed(x) = self.centre_of_pressure {
+            require(
+                (0.0..=1.0).contains(&x),
+                "centre_of_pressure",
+                x,
+                "a part of the chord, 0 to 1,",
+            )?;
+        }
+        if let Rotation::Coefficient(c) = self.rotation {
+            require(c.is_finite(), "rotation", c, "a finite number")?;
+        }
+        if let Some(v) = self.viscous {
+            require(
+                at_least_0(v.linear),
+                "viscous.linear",
+                v.linear,
+                "a finite number >= 0",
+            )?;
+            require(
+                at_least_0(v.quadratic),
+                "viscous.quadratic",
+                v.quadratic,
+                "a finite number >= 0",
+            )?;
+        }
+        self.translation.check()
+    }
+}

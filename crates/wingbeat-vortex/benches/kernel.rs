@@ -1,0 +1,94 @@
+//! Rate of the Biot-Savart kernel, in pairs (edge, target) per second on one core.
+//!
+//! `cargo bench -p wingbeat-vortex --bench kernel`
+
+use divan::{Bencher, counter::ItemsCount};
+use fearless_simd::dispatch;
+use wingbeat_vortex::DVec3;
+use wingbeat_vortex::{
+    CoreModel, DirectSum, FastSettings, FastSum, InstructionSet, Method, Points,
+};
+
+mod mix;
+#[path = "../tests/wavy/mod.rs"]
+mod wavy;
+
+fn main() {
+    divan::main();
+}
+
+const MODELS: [(&str, CoreModel); 4] = [
+    ("cut-off", CoreModel::CutOff { delta: 1e-4 }),
+    ("vatistas", CoreModel::Vatistas { radius: 1e-3 }),
+    ("scully", CoreModel::Scully { radius: 1e-3 }),
+    (
+        "lamb-oseen",
+        CoreModel::LambOseen {
+            radius: 1e-3,
+            viscosity: 1.5e-5,
+        },
+    ),
+];
+
+fn rate(bencher: Bencher, set: &InstructionSet, model: CoreModel, shared: bool) {
+    let net = wavy::sheet(model, 40);
+    let targets = Points::from_iter((0..1024).map(|i| DVec3::splat(i as f64 / 1024.0)));
+    let mut sum = DirectSum::with_instructions(model, *set).expect("available");
+    match shared {
+        true => sum.load_network(&net),
+        false => sum.load_segments(&net.to_segments()),
+    }
+    let mut out = Points::zeros(targets.len());
+    let pool = rayon::ThreadPoolBuilder::new()
+        .num_threads(1)
+        .build()
+        .expect("one thread");
+    bencher
+        .counter(ItemsCount::new(net.len() * targets.len()))
+        .bench_local(|| pool.install(|| sum.add_velocity(&targets, &mut out)));
+}
+
+#[divan::bench(args = InstructionSet::available(), consts = [0, 1, 2, 3], sample_count = 20)]
+fn network<const MODEL: usize>(bencher: Bencher, set: &InstructionSet) {
+    rate(bencher, set, MODELS[MODEL].1, true);
+}
+
+/// In single precision, the check against double included.
+#[divan::bench(args = InstructionSet::available(), consts = [0, 1, 2, 3], sample_count = 20)]
+fn single_precision<const MODEL: usize>(bencher: Bencher, set: &InstructionSet) {
+    let model = MODELS[MODEL].1;
+    let net = wavy::sheet(model, 40);
+    let mut sum = FastSum::new(FastSettings {
+        method: Method::Single,
+        instructions: *set,
+        ..FastSettings::new(model)
+    });
+    sum.load_network(&net);
+    let mut out = Points::zeros(net.nodes.len());
+    let pool = rayon::ThreadPoolBuilder::new()
+        .num_threads(1)
+        .build()
+        .expect("one thread");
+    bencher
+        .counter(ItemsCount::new(net.len() * net.nodes.len()))
+        .bench_local(|| {
+            let report = pool.install(|| sum.add_velocity(&net.nodes, &mut out));
+            assert_eq!(report.method, Method::Single);
+        });
+}
+
+#[divan::bench(args = InstructionSet::available(), sample_count = 20)]
+fn free_segments(bencher: Bencher, set: &InstructionSet) {
+    rate(bencher, set, MODELS[0].1, false);
+}
+
+/// The bound: the instructions of the cut-off kernel on a sheet (one new node for two edges) with
+/// all operands in registers.
+#[divan::bench(args = InstructionSet::available(), sample_count = 20)]
+fn instruction_mix(bencher: Bencher, set: &InstructionSet) {
+    const EDGES: usize = 100_000;
+    let level = set.level().expect("available");
+    bencher
+        .counter(ItemsCount::new(EDGES * 8))
+        .bench_local(|| dispatch!(level, simd => mix::mix(simd, divan::black_box(0.3), EDGES)));
+}

@@ -1,0 +1,94 @@
+//! Cost and error of the fast sum against the direct one on hover-like wakes.
+//!
+//! `cargo run --release -p wingbeat-vortex --example fast_sum_table -- [EDGES ...]`
+//!
+//! Seconds are processor seconds of all threads where the system tells them (Linux), so that other
+//! work on the machine disturbs little.
+
+#[path = "../tests/wakes/mod.rs"]
+mod wakes;
+
+use std::time::Instant;
+use wingbeat_vortex::{
+    CoreModel, DirectSum, FastSettings, FastSum, Method, Network, Points, Report,
+};
+
+fn main() {
+    let sizes: Vec<usize> = std::env::args()
+        .skip(1)
+        .map(|a| a.parse().expect("edges"))
+        .collect();
+    let sizes = if sizes.is_empty() {
+        vec![10_000, 20_000, 100_000]
+    } else {
+        sizes
+    };
+    println!(
+        "   edges    nodes   load    sum   wall  direct      rms      max cells edges  (s, of velocity, per target)"
+    );
+    for edges in sizes {
+        let model = CoreModel::Vatistas { radius: 0.02 };
+        let net = wakes::hover(model, edges);
+        let mut fast = FastSum::new(FastSettings {
+            method: Method::Tree,
+            ..FastSettings::new(model)
+        });
+        let (load, _, ()) = timed(|| fast.load_network(&net));
+        let mut v = Points::zeros(net.nodes.len());
+        let (sum, wall, report) = timed(|| fast.add_velocity(&net.nodes, &mut v));
+        print_row(model, &net, &v, [load, sum, wall], report);
+    }
+}
+
+/// One line: the direct sum is done at a part of the targets and its time scaled up.
+fn print_row(
+    model: CoreModel,
+    net: &Network,
+    v: &Points,
+    [load, sum, wall]: [f64; 3],
+    report: Report,
+) {
+    let (n, part) = (net.nodes.len(), net.nodes.len().min(2048));
+    let some: Points = (0..part).map(|i| net.nodes.get(i * n / part)).collect();
+    let mut direct = DirectSum::new(model);
+    direct.load_network(net);
+    let mut exact = Points::zeros(part);
+    let (seconds, _, ()) = timed(|| direct.add_velocity(&some, &mut exact));
+    let all = seconds * n as f64 / part as f64;
+    let error = |i: usize| exact.get(i).distance_squared(v.get(i * n / part));
+    let square = exact.iter().map(|v| v.length_squared()).sum::<f64>() / part as f64;
+    let rms = ((0..part).map(error).sum::<f64>() / part as f64 / square).sqrt();
+    let max = ((0..part).map(error).fold(0.0, f64::max) / square).sqrt();
+    let (far, near) = (report.far / n as u64, report.near / n as u64);
+    println!(
+        "{:>8} {n:>8} {load:>6.2} {sum:>6.2} {wall:>6.2} {all:>7.2} {rms:>8.1e} {max:>8.1e} {far:>5} {near:>5}  sampled {:.1e} {:.1e}, attempts {}",
+        net.len(),
+        report.error_rms,
+        report.error_max,
+        report.attempts
+    );
+}
+
+/// Processor seconds, wall seconds, result.
+fn timed<T>(f: impl FnOnce() -> T) -> (f64, f64, T) {
+    let (start, cpu) = (Instant::now(), processor_seconds());
+    let result = f();
+    let wall = start.elapsed().as_secs_f64();
+    let cpu = processor_seconds()
+        .zip(cpu)
+        .map_or(wall, |(end, start)| end - start);
+    (cpu, wall, result)
+}
+
+/// User time of the process so far, from the kernel's count of ticks of 10 ms.
+fn processor_seconds() -> Option<f64> {
+    let stat = std::fs::read_to_string("/proc/self/stat").ok()?;
+    let ticks: f64 = stat
+        .rsplit(')')
+        .next()?
+        .split_whitespace()
+        .nth(11)?
+        .parse()
+        .ok()?;
+    Some(ticks / 100.0)
+}

@@ -1,0 +1,309 @@
+//! The vector loop: lanes are targets, sources come in fixed order, nothing is fused.
+//!
+//! Every operation is an IEEE sum, product, quotient or square root of one lane, in the order of
+//! [`crate::direct::reference`], so that a target's bits depend neither on the vector width nor on its lane.
+//!
+//! The loop is written once for both precisions ([`Precision`]).
+
+use crate::cores::CoreModel;
+use crate::cores::INV_4PI;
+use crate::cores::vector::{
+    Core, CutOff, Double, Float, LambOseen, Precision, Scully, Vatistas, square,
+};
+use crate::direct::block::{BLOCK, Block, Targets, load, store};
+use crate::direct::packed::{Packed, PackedEdge, Patch, Sources, WINDOW};
+use crate::direct::single::Single;
+use fearless_simd::{Level, SimdFloatElement, dispatch, prelude::*};
+use std::ops::Range;
+
+/// Runs `$run` with the instructions of `$level`, `$C` the core model and `$N` the edges to take side by side: as
+/// many as registers and the length of the core's function want, measured.
+macro_rules! for_core {
+    ($level:expr, $model:expr, $simd:ident, $C:ident, $N:ident => $run:expr) => {
+        match $model {
+            CoreModel::CutOff { .. } => for_core!(@ $level, $simd, $C = CutOff, $N = 2, $run),
+            CoreModel::Vatistas { .. } => for_core!(@ $level, $simd, $C = Vatistas, $N = 2, $run),
+            CoreModel::Scully { .. } => for_core!(@ $level, $simd, $C = Scully, $N = 2, $run),
+            CoreModel::LambOseen { .. } => for_core!(@ $level, $simd, $C = LambOseen, $N = 4, $run),
+        }
+    };
+    (@ $level:expr, $simd:ident, $C:ident = $core:ty, $N:ident = $edges:literal, $run:expr) => {{
+        type $C = $core;
+        #[allow(dead_code, reason = "not all take edges side by side")]
+        const $N: usize = $edges;
+        dispatch!($level, $simd => $run)
+    }};
+}
+
+/// Adds to `sum` the velocities [m/s] of the patches in `ranges` at the targets.
+pub(crate) fn add_patches(
+    level: Level,
+    model: CoreModel,
+    packed: &Packed,
+    ranges: impl Iterator<Item = Range<usize>> + Clone,
+    targets: Targets<'_>,
+    sum: &mut Block,
+) {
+    let job = Job {
+        sources: packed.sources(),
+        targets,
+    };
+    for_core!(level, model, simd, C, N => job.run::<_, C, N>(simd, ranges, sum));
+}
+
+/// The same in single precision, of the clusters with these numbers.
+pub(crate) fn add_clusters(
+    level: Level,
+    model: CoreModel,
+    single: &Single,
+    clusters: impl Iterator<Item = usize> + Clone,
+    targets: Targets<'_>,
+    sum: &mut Block,
+) {
+    let job = Job {
+        sources: single.sources(),
+        targets,
+    };
+    for_core!(level, model, simd, C, N => job.run_single::<_, C, N>(simd, single, clusters, sum));
+}
+
+/// Normal velocity [m/s] of every edge of these patches by itself, with unit circulation, at the targets:
+/// `out[e * BLOCK + lane]`.
+pub(crate) fn edge_normal_velocities(
+    level: Level,
+    model: CoreModel,
+    packed: &Packed,
+    patches: Range<usize>,
+    targets: Targets<'_>,
+    normals: &Block,
+    out: &mut [f64],
+) {
+    let job = Job {
+        sources: packed.sources(),
+        targets,
+    };
+    for_core!(level, model, simd, C, N => job.each::<_, C>(simd, patches, normals, out));
+}
+
+/// What to sum, and where.
+struct Job<'a, E> {
+    sources: Sources<'a, E>,
+    targets: Targets<'a>,
+}
+
+impl Job<'_, f64> {
+    #[inline(always)]
+    fn run<S: Simd, C: Core, const N: usize>(
+        &self,
+        simd: S,
+        ranges: impl Iterator<Item = Range<usize>> + Clone,
+        sum: &mut Block,
+    ) {
+        let mut window = [[S::f64s::splat(simd, 0.0); 4]; WINDOW];
+        for lane in (0..self.targets.count).step_by(S::f64s::LEN) {
+            let p = load(simd, self.targets.block, lane);
+            let mut v = load(simd, sum, lane);
+            for range in ranges.clone() {
+                let patches = &self.sources.patches[range];
+                self.sources
+                    .add::<S, Double, C, N>(simd, patches, p, &mut window, &mut v);
+            }
+            store::<S>(v, sum, lane);
+        }
+    }
+
+    #[inline(always)]
+    fn each<S: Simd, C: Core>(
+        &self,
+        simd: S,
+        patches: Range<usize>,
+        normals: &Block,
+        out: &mut [f64],
+    ) {
+        let zero = S::f64s::splat(simd, 0.0);
+        let (mut window, mut room) = ([[zero; 4]; WINDOW], zero);
+        for lane in (0..self.targets.count).step_by(S::f64s::LEN) {
+            let p = load(simd, self.targets.block, lane);
+            let n = load(simd, normals, lane);
+            for patch in &self.sources.patches[patches.clone()] {
+                let nodes = patch.nodes.clone();
+                self.sources.look_at::<S, Double>(p, nodes, &mut window);
+                for e in patch.edges.clone() {
+                    let mut edge = self.sources.edges[e];
+                    edge.strength = 2.0 * INV_4PI;
+                    let [(c, k)] =
+                        induced::<S, Double, C, 1, true>(simd, &[edge], &window, &mut room);
+                    let v = c[0] * k * n[0] + c[1] * k * n[1] + c[2] * k * n[2];
+                    v.store_slice(&mut out[e * BLOCK + lane..][..S::f64s::LEN]);
+                }
+            }
+        }
+    }
+}
+
+impl Job<'_, f32> {
+    /// Places are taken from the centre of each cluster before they lose digits; the sum of a cluster
+    /// gets them back before it joins the others.
+    #[inline(always)]
+    fn run_single<S: Simd, C: Core, const N: usize>(
+        &self,
+        simd: S,
+        single: &Single,
+        clusters: impl Iterator<Item = usize> + Clone,
+        sum: &mut Block,
+    ) {
+        let zero = S::f32s::splat(simd, 0.0);
+        let mut window = [[zero; 4]; WINDOW];
+        for lane in (0..self.targets.count).step_by(S::f32s::LEN) {
+            let next = lane + S::f64s::LEN;
+            let low = load(simd, self.targets.block, lane);
+            let high = load(simd, self.targets.block, next);
+            let mut sum_low = load(simd, sum, lane);
+            let mut sum_high = load(simd, sum, next);
+            for cluster in clusters.clone() {
+                let (mut p, mut v) = ([zero; 3], [zero; 3]);
+                let centre = single.centres[cluster];
+                for i in 0..3 {
+                    p[i] = ((low[i] - centre[i]) * single.per_unit)
+                        .narrow((high[i] - centre[i]) * single.per_unit);
+                }
+                let patches = &self.sources.patches[single.clusters[cluster].clone()];
+                self.sources
+                    .add::<S, Float, C, N>(simd, patches, p, &mut window, &mut v);
+                for i in 0..3 {
+                    let (low, high) = v[i].widen();
+                    sum_low[i] += low;
+                    sum_high[i] += high;
+                }
+            }
+            store::<S>(sum_low, sum, lane);
+            store::<S>(sum_high, sum, next);
+        }
+    }
+}
+
+impl<E: SimdFloatElement + From<f32>> Sources<'_, E> {
+    /// Adds the edges of patches that follow each other. The nodes of the next patch are looked at
+    /// between the edges of this one: while the processor takes their roots, it sums. `N` edges go side
+    /// by side.
+    #[inline(always)]
+    fn add<S: Simd, P: Precision<S, Element = E>, C: Core, const N: usize>(
+        &self,
+        simd: S,
+        patches: &[Patch],
+        p: [P::Lanes; 3],
+        window: &mut Window<P::Lanes>,
+        v: &mut [P::Lanes; 3],
+    ) {
+        let nodes_of = |i: usize| match patches.get(i) {
+            Some(patch) => patch.nodes.clone(),
+            None => 0..0,
+        };
+        self.look_at::<S, P>(p, nodes_of(0), window);
+        for (i, patch) in patches.iter().enumerate() {
+            let (before, mut next) = (*v, nodes_of(i + 1));
+            let zero = P::Lanes::splat(simd, 0.0_f32.into());
+            let mut room = zero;
+            let edges = &self.edges[patch.edges.clone()];
+            let (groups, rest) = edges.as_chunks::<N>();
+            for edges in groups {
+                let later = (next.start + N / 2).min(next.end);
+                self.look_at::<S, P>(p, next.start..later, window);
+                next.start = later;
+                add_group::<S, P, C, N, false>(simd, edges, window, v, &mut room);
+            }
+            for edge in rest.as_chunks::<1>().0 {
+                add_group::<S, P, C, 1, false>(simd, edge, window, v, &mut room);
+            }
+            self.look_at::<S, P>(p, next, window);
+            if room.simd_lt(zero).any_true() {
+                *v = before;
+                for edge in edges.as_chunks::<1>().0 {
+                    add_group::<S, P, C, 1, true>(simd, edge, window, v, &mut room);
+                }
+            }
+        }
+    }
+
+    /// r = p - node and abs(r) of these nodes.
+    #[inline(always)]
+    fn look_at<S: Simd, P: Precision<S, Element = E>>(
+        &self,
+        p: [P::Lanes; 3],
+        nodes: Range<usize>,
+        window: &mut Window<P::Lanes>,
+    ) {
+        for (k, node) in nodes.clone().zip(&self.nodes[nodes]) {
+            let r = [p[0] - node[0], p[1] - node[1], p[2] - node[2]];
+            window[k % WINDOW] = [r[0], r[1], r[2], square::<S, _>(r).sqrt()];
+        }
+    }
+}
+
+/// Sums edges side by side, for the operations of one wait for each other and a processor does not look far
+/// enough ahead to fill the time with the next edges. Order and bits are those of one after the other. As
+/// [`induced`] otherwise.
+#[inline(always)]
+fn add_group<S: Simd, P: Precision<S>, C: Core, const N: usize, const CLOSE: bool>(
+    simd: S,
+    edges: &[PackedEdge<P::Element>; N],
+    window: &Window<P::Lanes>,
+    v: &mut [P::Lanes; 3],
+    room: &mut P::Lanes,
+) {
+    for (c, k) in induced::<S, P, C, N, CLOSE>(simd, edges, window, room) {
+        v[0] += c[0] * k;
+        v[1] += c[1] * k;
+        v[2] += c[2] * k;
+    }
+}
+
+/// The velocities of edges as c k, with c = r1 x r2: right where no target is close to a filament, if `CLOSE`
+/// everywhere. In lanes where one is, `room` becomes negative.
+///
+/// Beside the filament b = t^2 - l^2 is a small difference of large numbers. There it is taken from
+/// b a = 4 c^2, a = 4 n1 n2 - b: numerator and denominator are both multiplied by a.
+#[inline(always)]
+fn induced<S: Simd, P: Precision<S>, C: Core, const N: usize, const CLOSE: bool>(
+    simd: S,
+    edges: &[PackedEdge<P::Element>; N],
+    window: &Window<P::Lanes>,
+    room: &mut P::Lanes,
+) -> [([P::Lanes; 3], P::Lanes); N] {
+    let zero = P::Lanes::splat(simd, 0.0_f32.into());
+    let one = P::Lanes::splat(simd, 1.0_f32.into());
+    let four: P::Element = 4.0_f32.into();
+    let (mut c, mut num, mut den, mut z) = ([[zero; 3]; N], [zero; N], [zero; N], [zero; N]);
+    // Loops, not closures: those would leave the vector instructions of the caller.
+    for i in 0..N {
+        let edge = &edges[i];
+        let [x1, y1, z1, n1] = window[edge.from as usize % WINDOW];
+        let [x2, y2, z2, n2] = window[edge.to as usize % WINDOW];
+        c[i] = [y1 * z2 - z1 * y2, z1 * x2 - x1 * z2, x1 * y2 - y1 * x2];
+        let (sum, nn) = (n1 + n2, n1 * n2);
+        let b = sum * sum - edge.l2;
+        let close = P::Lanes::splat(simd, edge.close);
+        let (mut bare, mut scale) = (nn * b, one);
+        if CLOSE && (P::IS_ROUGH || C::IS_EXACT) {
+            let a = nn * four - b;
+            let is_beside = close.simd_gt(b) & a.simd_gt(b);
+            bare = is_beside.select(nn * (square::<S, _>(c[i]) * four), bare);
+            scale = is_beside.select(a, scale);
+        }
+        if P::IS_ROUGH || C::IS_EXACT {
+            *room = room.min(b - close);
+        }
+        let top = sum * edge.strength * scale;
+        [num[i], den[i], z[i]] = C::fraction::<S, _>(top, bare, c[i], scale, edge.term);
+    }
+    C::regularise::<S, P, N>(simd, &mut num, &mut z);
+    let mut out = [(c[0], zero); N];
+    for i in 0..N {
+        let k = num[i] / den[i];
+        out[i] = (c[i], den[i].simd_gt(zero).select(k, zero));
+    }
+    out
+}
+
+/// r and abs(r) of the nodes in sight, for the targets in the lanes.
+type Window<V> = [[V; 4]; WINDOW];

@@ -1,0 +1,200 @@
+//! The direct sum: every segment at every target, in blocks over threads.
+
+use crate::cores::CoreModel;
+use crate::direct::block::{BLOCK, Block, Targets, block_at};
+use crate::direct::lanes::{add_patches, edge_normal_velocities};
+use crate::direct::packed::Packed;
+use crate::instruction_set::InstructionSet;
+use crate::sources::{Network, Points, Segments};
+use fearless_simd::Level;
+use glam::DVec3;
+use rayon::prelude::*;
+use std::ops::Range;
+
+/// Pairs of a task below which threads cost more than they give (some 30 microseconds of work).
+const TASK_PAIRS: usize = 10_000;
+
+/// Sources made ready for summing. Loading is linear in their number and allocates only while they
+/// grow; the sum allocates nothing.
+///
+/// ```
+/// use wingbeat_vortex::{CoreModel, DirectSum, Points, Segments};
+/// use glam::DVec3;
+/// let model = CoreModel::Scully { radius: 0.0 };
+/// let mut segments = Segments::default();
+/// segments.push(-DVec3::X, DVec3::X, 1.0, model.core(2.0, 0.0));
+/// let mut sum = DirectSum::new(model);
+/// sum.load_segments(&segments);
+/// let mut v = Points::zeros(1);
+/// sum.add_velocity(&Points::from_iter([DVec3::Z]), &mut v);
+/// assert!((v.y[0] + 2f64.sqrt() / (4.0 * std::f64::consts::PI)).abs() < 1e-16);
+/// ```
+#[derive(Clone, Debug)]
+pub struct DirectSum {
+    model: CoreModel,
+    level: Level,
+    packed: Packed,
+}
+
+impl DirectSum {
+    /// No sources yet; the best instructions of this processor.
+    pub fn new(model: CoreModel) -> Self {
+        Self::with_instructions(model, InstructionSet::Best).expect("the best set is always there")
+    }
+
+    /// As [`DirectSum::new`] with these instructions; None where the processor lacks them.
+    pub fn with_instructions(model: CoreModel, set: InstructionSet) -> Option<Self> {
+        Some(Self {
+            model,
+            level: set.level()?,
+            packed: Packed::default(),
+        })
+    }
+
+    /// Replaces the sources by free segments.
+    pub fn load_segments(&mut self, segments: &Segments) {
+        self.packed.load_segments(self.model, segments);
+    }
+
+    /// Replaces the sources by a network, whose nodes serve all edges that meet there.
+    pub fn load_network(&mut self, network: &Network) {
+        self.packed.load_network(self.model, network);
+    }
+
+    /// Adds to `out` \[m/s\] the velocity of all sources at the `targets` \[m\]; same bits for any
+    /// number of threads of the current rayon pool.
+    pub fn add_velocity(&self, targets: &Points, out: &mut Points) {
+        sum_packed(self.level, self.model, &self.packed, targets, out);
+    }
+}
+
+/// Adds to `out` what `add` adds at all targets, block by block over threads; it sums so many `edges`.
+pub(crate) fn sum_all(
+    edges: usize,
+    targets: &Points,
+    out: &mut Points,
+    add: impl Fn(Targets<'_>, &mut Block) + Sync,
+) {
+    assert_eq!(targets.len(), out.len(), "as many velocities as targets");
+    let blocks = TASK_PAIRS.div_ceil((BLOCK * edges).max(1));
+    let Points { x, y, z } = out;
+    x.par_chunks_mut(BLOCK)
+        .zip(y.par_chunks_mut(BLOCK))
+        .zip(z.par_chunks_mut(BLOCK))
+        .enumerate()
+        .with_min_len(blocks)
+        .for_each(|(b, ((x, y), z))| {
+            let count = x.len();
+            let (block, mut sum) = (block_at(targets, b * BLOCK, count), Block::ZERO);
+            let block = &block;
+            add(Targets { block, count }, &mut sum);
+            for (out, sum) in [x, y, z].into_iter().zip([&sum.x, &sum.y, &sum.z]) {
+                out.iter_mut().zip(sum).for_each(|(o, s)| *o += s);
+            }
+        });
+}
+
+/// Adds the velocities of all of `packed` at all targets.
+pub(crate) fn sum_packed(
+    level: Level,
+    model: CoreModel,
+    packed: &Packed,
+    targets: &Points,
+    out: &mut Points,
+) {
+    let all = || std::iter::once(0..packed.patches.len());
+    sum_all(packed.edges.len(), targets, out, |targets, sum| {
+        add_patches(level, model, packed, all(), targets, sum);
+    });
+}
+
+/// The edges of a network one by one, each with unit circulation, in groups.
+#[derive(Clone, Debug)]
+pub struct UnitEdges {
+    level: Level,
+    packed: Packed,
+    /// Patches of each group.
+    groups: Vec<Range<usize>>,
+}
+
+impl Default for UnitEdges {
+    fn default() -> Self {
+        let best = InstructionSet::Best.level();
+        Self {
+            level: best.expect("the best set is always there"),
+            packed: Packed::default(),
+            groups: Vec::new(),
+        }
+    }
+}
+
+impl UnitEdges {
+    /// Replaces the edges by groups that together are those of the network, in its order.
+    pub fn load(
+        &mut self,
+        model: CoreModel,
+        network: &Network,
+        groups: impl IntoIterator<Item = Range<usize>>,
+    ) {
+        self.packed.clear(network.nodes.len());
+        self.groups.clear();
+        for edges in groups {
+            let edges = edges.start as u32..edges.end as u32;
+            let patches = self.packed.load_group(model, network, edges);
+            self.groups.push(patches);
+        }
+    }
+
+    /// Forgets all edges.
+    pub fn clear(&mut self) {
+        self.packed.clear(0);
+        self.groups.clear();
+    }
+
+    /// Number of edges.
+    pub fn len(&self) -> usize {
+        self.packed.edges.len()
+    }
+
+    /// Whether there is none.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// Velocity of every edge of a group at up to [`BLOCK`] `places` (point, normal) along the normal [m/s]:
+    /// `out[edge * BLOCK + place]`.
+    pub fn normal_velocities(
+        &self,
+        model: CoreModel,
+        group: usize,
+        places: impl Iterator<Item = [DVec3; 2]>,
+        out: &mut [f64],
+    ) {
+        let (mut points, mut normals, mut count) = (Block::ZERO, Block::ZERO, 0);
+        for (k, [x, n]) in places.enumerate() {
+            (points.x[k], points.y[k], points.z[k]) = x.into();
+            (normals.x[k], normals.y[k], normals.z[k]) = n.into();
+            count = k + 1;
+        }
+        edge_normal_velocities(
+            self.level,
+            model,
+            &self.packed,
+            self.groups[group].clone(),
+            Targets {
+                block: &points,
+                count,
+            },
+            &normals,
+            out,
+        );
+    }
+}
+
+/// Adds to `out` \[m/s\] the velocity of `segments` at `targets`: [`DirectSum`] in one call, for
+/// where its memory need not be kept.
+pub fn add_velocity(model: CoreModel, segments: &Segments, targets: &Points, out: &mut Points) {
+    let mut sum = DirectSum::new(model);
+    sum.load_segments(segments);
+    sum.add_velocity(targets, out);
+}

@@ -1,0 +1,422 @@
+//! The fast sum: near sources one by one, far ones cell by cell, with a checked error.
+
+use crate::cores::CoreModel;
+use crate::direct::block::{BLOCK, Block, Targets};
+use crate::direct::lanes::{add_clusters, add_patches};
+use crate::direct::packed::Packed;
+use crate::direct::single::{CLUSTER, SINGLE, Single};
+use crate::direct::sum::{sum_all, sum_packed};
+use crate::instruction_set::InstructionSet;
+use crate::sources::{Network, Points, Segments};
+use crate::tree::cells::Cells;
+use crate::tree::groups::Groups;
+use fearless_simd::Level;
+use glam::DVec3;
+use rayon::prelude::*;
+
+/// Edges and targets from which the tree may be the faster one. Its check alone costs as much as some
+/// hundred targets.
+const AUTO_EDGES: usize = 4000;
+const AUTO_TARGETS: usize = 1000;
+
+/// Edges and targets from which single precision gains more than its check costs.
+const SINGLE_EDGES: usize = 500;
+const SINGLE_TARGETS: usize = 500;
+
+/// Targets, at most, at which the tree is checked against the direct sum: one of every
+/// [`SAMPLE_EVERY`].
+const SAMPLES: usize = BLOCK;
+const SAMPLE_EVERY: usize = 250;
+const LEAST_SAMPLES: usize = 16;
+
+/// What a far cell may leave out, in parts of the tolerance. Many cells add up, with either sign:
+/// fewer may leave out more, as the inverse root of their number.
+fn share(leaves: usize) -> f64 {
+    0.6 * (3000.0 / leaves as f64).sqrt().max(1.0)
+}
+
+/// The first attempt is this much laxer than estimates say it should be.
+const LAX: f64 = 10.0;
+
+/// Cost of summing an edge in a leaf, and of evaluating an expansion, in tenths of the cost of an
+/// edge in the direct sum, which looks at fewer nodes per edge; measured.
+const NEAR: u64 = 15;
+const FAR: u64 = 160;
+
+/// How many times single precision is as fast.
+const SINGLE_GAIN: u64 = 2;
+
+/// Attempts at the tolerance before the direct sum takes over.
+const ATTEMPTS: usize = 6;
+
+/// How to sum.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Method {
+    /// The one that is faster at this size.
+    #[default]
+    Auto,
+    /// Every source at every target, in double precision.
+    Direct,
+    /// Every source at every target, in single precision; in double where the tolerance wants that.
+    Single,
+    /// Far sources by cells, near ones in single precision if the tolerance allows it.
+    Tree,
+}
+
+/// Settings of a [`FastSum`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FastSettings {
+    /// Regularisation.
+    pub model: CoreModel,
+    /// Allowed error: root mean square over targets, relative to that of the velocity.
+    pub tolerance: f64,
+    /// Tree or direct.
+    pub method: Method,
+    /// Vector instructions.
+    pub instructions: InstructionSet,
+}
+
+impl FastSettings {
+    /// Tolerance 1e-4, method and instructions chosen by themselves.
+    pub fn new(model: CoreModel) -> Self {
+        let instructions = InstructionSet::Best;
+        Self {
+            model,
+            tolerance: 1e-4,
+            method: Method::Auto,
+            instructions,
+        }
+    }
+}
+
+/// What a sum did and how well.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Report {
+    /// How it was summed, never [`Method::Auto`].
+    pub method: Method,
+    /// Root mean square of the error at the sampled targets, relative to that of the velocity there.
+    pub error_rms: f64,
+    /// Largest error at a sampled target, relative to the root mean square of the velocity.
+    pub error_max: f64,
+    /// Targets sampled; 0 for the direct sum, which has no error to speak of.
+    pub samples: usize,
+    /// Attempts it took to keep the tolerance.
+    pub attempts: usize,
+    /// Evaluations of an expansion (cell, target).
+    pub far: u64,
+    /// Evaluations of the kernel (edge, target), the check not included.
+    pub near: u64,
+}
+
+/// A sum that is direct for small sets, in single precision for larger ones, and a tree where that spares
+/// something; the error of both is measured at every call.
+///
+/// It is a deterministic function of sources, targets and settings: same bits for any number
+/// of threads and any instructions. A tree's cost is about N log N, all memory linear, and nothing is
+/// allocated after the first call of a size.
+///
+/// ```
+/// use wingbeat_vortex::{CoreModel, FastSettings, FastSum, Network, Points};
+/// use glam::DVec3;
+/// let model = CoreModel::Vatistas { radius: 0.1 };
+/// let mut ring = Network::default();
+/// (0..4).for_each(|k| ring.nodes.push(DVec3::new((k & 1) as f64, (k >> 1) as f64, 0.0)));
+/// [(0, 1), (1, 3), (3, 2), (2, 0)].map(|(a, b)| ring.push_edge(a, b, 1.0, model.core(1.0, 0.0)));
+/// let mut sum = FastSum::new(FastSettings::new(model));
+/// sum.load_network(&ring);
+/// let mut v = Points::zeros(1);
+/// let report = sum.add_velocity(&Points::from_iter([DVec3::new(0.5, 0.5, 0.0)]), &mut v);
+/// assert!(v.z[0] > 0.0 && report.error_rms == 0.0);
+/// ```
+#[derive(Clone, Debug)]
+pub struct FastSum {
+    settings: FastSettings,
+    level: Level,
+    /// The sources in the order given, for the direct sums.
+    packed: Packed,
+    single: Single,
+    has_single: bool,
+    /// Velocities in single precision, before they are checked.
+    velocity: Points,
+    cells: Cells,
+    has_tree: bool,
+    groups: Groups,
+    segments: Network,
+}
+
+impl FastSum {
+    /// No sources yet. Instructions this processor lacks are replaced by the best it has.
+    pub fn new(settings: FastSettings) -> Self {
+        let best = || {
+            InstructionSet::Best
+                .level()
+                .expect("the best is always there")
+        };
+        let level = settings.instructions.level().unwrap_or_else(best);
+        let is_single = settings.tolerance >= SINGLE;
+        let cells = Cells::new(settings.model, level, order(settings.tolerance), is_single);
+        let (groups, segments) = (Groups::default(), Network::default());
+        Self {
+            settings,
+            level,
+            packed: Packed::default(),
+            single: Single::default(),
+            has_single: false,
+            velocity: Points::default(),
+            cells,
+            has_tree: false,
+            groups,
+            segments,
+        }
+    }
+
+    /// The settings.
+    pub fn settings(&self) -> &FastSettings {
+        &self.settings
+    }
+
+    /// Replaces the sources.
+    pub fn load_network(&mut self, network: &Network) {
+        let FastSettings {
+            method,
+            model,
+            tolerance,
+            ..
+        } = self.settings;
+        self.has_tree = match method {
+            Method::Auto => network.len() >= AUTO_EDGES,
+            Method::Direct | Method::Single => false,
+            Method::Tree => !network.is_empty(),
+        };
+        self.has_single = matches!(method, Method::Auto | Method::Single)
+            && network.len() >= SINGLE_EDGES
+            && tolerance >= SINGLE;
+        match self.has_tree || self.has_single {
+            true => self.packed.load_network(model, network),
+            false => self.packed.load_moving(model, network),
+        }
+        if self.has_tree {
+            self.cells.load(network);
+        }
+        if self.has_single {
+            let patches = self.packed.patches.len();
+            let clusters = (0..patches).step_by(CLUSTER);
+            let clusters = clusters.map(|first| first..patches.min(first + CLUSTER));
+            self.single.load(model, &self.packed, clusters);
+        }
+    }
+
+    /// Replaces the sources by free segments; a network is summed twice as fast.
+    pub fn load_segments(&mut self, segments: &Segments) {
+        let mut network = std::mem::take(&mut self.segments);
+        network.set_segments(segments);
+        self.load_network(&network);
+        self.segments = network;
+    }
+
+    /// Adds to `out` \[m/s\] the velocity of all sources at the `targets` \[m\].
+    pub fn add_velocity(&mut self, targets: &Points, out: &mut Points) -> Report {
+        assert_eq!(targets.len(), out.len(), "as many velocities as targets");
+        let few = self.settings.method == Method::Auto && targets.len() < AUTO_TARGETS;
+        let has_tree = self.has_tree && !few;
+        let has_single = self.has_single && targets.len() >= SINGLE_TARGETS;
+        if targets.is_empty() || !(has_tree || has_single) {
+            return self.add_direct(targets, out, 0);
+        }
+        let check = Check::new(self, targets);
+        let mut attempts = 0;
+        if has_tree {
+            self.groups.load(targets);
+            match self.find_allowed(&check) {
+                Ok((allowed, made, error)) => {
+                    if let Some(report) = self.add_tree(&check, allowed, made, error, out) {
+                        return report;
+                    }
+                    attempts = made;
+                }
+                Err(made) => attempts = made,
+            }
+        }
+        if has_single {
+            return self.add_single(&check, targets, attempts, out);
+        }
+        self.add_direct(targets, out, attempts)
+    }
+
+    /// By the tree; None, and nothing added, if single precision was too small for the near field.
+    fn add_tree(
+        &mut self,
+        check: &Check,
+        allowed: f64,
+        attempts: usize,
+        [error_rms, error_max]: [f64; 2],
+        out: &mut Points,
+    ) -> Option<Report> {
+        let work = self.groups.evaluate(&self.cells, allowed);
+        self.groups.is_finite().then(|| {
+            self.groups.add_to(out);
+            Report {
+                method: Method::Tree,
+                error_rms,
+                error_max,
+                samples: check.count,
+                attempts,
+                far: work.far,
+                near: work.near,
+            }
+        })
+    }
+
+    /// In single precision, or in double if the error at the sampled targets is above the tolerance.
+    fn add_single(
+        &mut self,
+        check: &Check,
+        targets: &Points,
+        attempts: usize,
+        out: &mut Points,
+    ) -> Report {
+        let (level, model, single) = (self.level, self.settings.model, &self.single);
+        self.velocity.reset(targets.len());
+        sum_all(
+            self.packed.edges.len(),
+            targets,
+            &mut self.velocity,
+            |targets, sum| {
+                add_clusters(level, model, single, 0..single.clusters.len(), targets, sum);
+            },
+        );
+        let sampled = check.index.map(|i| self.velocity.get(i));
+        let [error_rms, error_max] = check.error(&sampled[..check.count]);
+        let is_finite = self.velocity.iter().all(|v| v.is_finite());
+        if !is_finite || error_rms > self.settings.tolerance {
+            return self.add_direct(targets, out, attempts + 1);
+        }
+        for (i, v) in self.velocity.iter().enumerate() {
+            out.set(i, out.get(i) + v);
+        }
+        Report {
+            method: Method::Single,
+            error_rms,
+            error_max,
+            samples: check.count,
+            attempts: attempts + 1,
+            far: 0,
+            near: (self.packed.edges.len() * targets.len()) as u64,
+        }
+    }
+
+    /// What a far cell may leave out \[m/s\] so that the error at the sampled targets keeps the
+    /// tolerance, the attempts it took, and that error (root mean square, largest): begins too lax, for
+    /// a lax attempt costs little. Instead the attempts made if the tolerance cannot be kept, or not
+    /// cheaper than by the direct sum.
+    fn find_allowed(&mut self, check: &Check) -> Result<(f64, usize, [f64; 2]), usize> {
+        let tolerance = self.settings.tolerance;
+        let mut share = LAX * share(self.cells.leaf_patches.len());
+        let gain = if self.has_single { SINGLE_GAIN } else { 1 };
+        let mut velocity = [DVec3::ZERO; SAMPLES];
+        for attempt in 1..=ATTEMPTS {
+            let allowed = share * tolerance * check.scale;
+            let (samples, velocity) = (&check.index[..check.count], &mut velocity[..check.count]);
+            let work = (self.groups).sample(&self.cells, allowed, samples, velocity);
+            let pairs = self.packed.edges.len() as u64 * work.targets;
+            if self.settings.method == Method::Auto
+                && NEAR * work.near + gain * FAR * work.far > 10 * pairs
+            {
+                return Err(attempt); // a stricter one costs more still
+            }
+            let error = check.error(velocity);
+            if error[0] <= tolerance {
+                return Ok((allowed, attempt, error));
+            }
+            share *= (0.5 * tolerance / error[0]).max(1e-3);
+        }
+        Err(ATTEMPTS)
+    }
+
+    fn add_direct(&self, targets: &Points, out: &mut Points, attempts: usize) -> Report {
+        let packed = &self.packed;
+        sum_packed(self.level, self.settings.model, packed, targets, out);
+        Report {
+            method: Method::Direct,
+            error_rms: 0.0,
+            error_max: 0.0,
+            samples: 0,
+            attempts,
+            far: 0,
+            near: (packed.edges.len() * targets.len()) as u64,
+        }
+    }
+}
+
+/// Order of the expansions that is cheapest at this tolerance.
+fn order(tolerance: f64) -> usize {
+    match tolerance {
+        t if t >= 2e-3 => 4,
+        t if t >= 2e-5 => 6,
+        t if t >= 2e-7 => 8,
+        t if t >= 2e-9 => 10,
+        _ => 12,
+    }
+}
+
+/// The direct sum at targets spread over their numbers.
+struct Check {
+    count: usize,
+    index: [usize; SAMPLES],
+    velocity: [DVec3; SAMPLES],
+    /// Root mean square velocity [m/s].
+    scale: f64,
+}
+
+impl Check {
+    fn new(sum: &FastSum, targets: &Points) -> Self {
+        let few = targets.len().min(LEAST_SAMPLES);
+        let count = (targets.len() / SAMPLE_EVERY).clamp(few, SAMPLES);
+        let index = std::array::from_fn(|k| {
+            // A square more than even steps: no pattern in the numbering is always missed.
+            (k.min(count - 1) * targets.len() / count + k * k) % targets.len()
+        });
+        let mut velocity = [DVec3::ZERO; SAMPLES];
+        // Eight targets to a task: one vector of the widest processors.
+        velocity[..count]
+            .par_chunks_mut(8)
+            .zip(index.par_chunks(8))
+            .for_each(|(v, index)| {
+                let (mut block, mut velocity) = (Block::ZERO, Block::ZERO);
+                for (lane, &i) in index.iter().enumerate() {
+                    (block.x[lane], block.y[lane], block.z[lane]) = targets.get(i).into();
+                }
+                let FastSum { level, packed, .. } = sum;
+                let (model, all) = (sum.settings.model, 0..packed.patches.len());
+                let targets = Targets {
+                    block: &block,
+                    count: v.len(),
+                };
+                let all = std::iter::once(all);
+                add_patches(*level, model, packed, all, targets, &mut velocity);
+                let vector =
+                    |lane: usize| DVec3::new(velocity.x[lane], velocity.y[lane], velocity.z[lane]);
+                v.iter_mut()
+                    .enumerate()
+                    .for_each(|(lane, v)| *v = vector(lane));
+            });
+        let square: f64 = velocity[..count].iter().map(|v| v.length_squared()).sum();
+        Self {
+            count,
+            index,
+            velocity,
+            scale: (square / count as f64).sqrt(),
+        }
+    }
+
+    /// Root mean square and largest error of these velocities, relative to the scale; zero where
+    /// nothing moves.
+    fn error(&self, velocity: &[DVec3]) -> [f64; 2] {
+        let square = (self.velocity.iter().zip(velocity)).map(|(a, b)| a.distance_squared(*b));
+        let (sum, max) = square.fold((0.0, 0.0), |(sum, max): (f64, f64), e| {
+            (sum + e, max.max(e))
+        });
+        let scale = if self.scale > 0.0 { self.scale } else { 1.0 };
+        [(sum / self.count as f64).sqrt() / scale, max.sqrt() / scale]
+    }
+}

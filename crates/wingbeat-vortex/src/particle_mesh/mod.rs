@@ -1,0 +1,5 @@
+//! Many blobs by convolution on meshes.
+
+pub(crate) mod mesh;
+mod spline;
+mod transform;

@@ -1,0 +1,83 @@
+//! Instructions of the kernel, counted by valgrind: a gate that no other work on the machine disturbs.
+//!
+//! The test starts itself again under valgrind's callgrind, with few sums and with many; the difference
+//! is theirs alone. Valgrind knows no AVX-512, so the AVX2 kernel is counted. Where AVX2 or a valgrind that
+//! works is missing, the test says so and passes.
+
+mod wavy;
+
+use std::process::Command;
+use wingbeat_vortex::DVec3;
+use wingbeat_vortex::{CoreModel, DirectSum, InstructionSet, Points};
+
+const MODEL: &str = "WINGBEAT_COUNTED_MODEL";
+const SUMS: &str = "WINGBEAT_COUNTED_SUMS";
+
+/// Core models and the most instructions a pair of edge and target may take: what was counted with
+/// Rust 1.95, and a tenth more, for compilers differ.
+const MODELS: [(CoreModel, f64); 3] = [
+    (CoreModel::CutOff { delta: 1e-4 }, 27.3),
+    (lamb_oseen(1e-2), 33.2), // most targets are far from most cores
+    (lamb_oseen(1.0), 99.0),  // none is
+];
+
+const fn lamb_oseen(radius: f64) -> CoreModel {
+    let viscosity = 1.5e-5;
+    CoreModel::LambOseen { radius, viscosity }
+}
+
+/// Panels along a side of the sheet, and targets.
+const N: usize = 12;
+const TARGETS: usize = 64;
+const PAIRS: f64 = (2 * N * (N + 1) * TARGETS) as f64;
+
+/// What is counted.
+fn sum(model: CoreModel, times: usize) {
+    let mut kernel = DirectSum::new(model);
+    kernel.load_network(&wavy::sheet(model, N));
+    let line = |i: usize| DVec3::splat(i as f64 / TARGETS as f64);
+    let targets: Points = (0..TARGETS).map(line).collect();
+    let mut out = Points::zeros(TARGETS);
+    (0..times).for_each(|_| kernel.add_velocity(&targets, &mut out));
+    assert!(out.iter().all(|v| v.is_finite()));
+}
+
+/// Instructions of this test when it sums so many times; None without a valgrind that works.
+fn instructions(model: usize, times: usize) -> Option<f64> {
+    let output = Command::new("valgrind")
+        .args(["--tool=callgrind", "--callgrind-out-file=/dev/null"])
+        .arg(std::env::current_exe().expect("a path of its own"))
+        .args(["--exact", "regress_instructions_of_a_pair"])
+        .env(MODEL, model.to_string())
+        .env(SUMS, times.to_string())
+        .env("RAYON_NUM_THREADS", "1")
+        .output()
+        .ok()?;
+    let text = String::from_utf8_lossy(&output.stderr);
+    let line = text.lines().find(|line| line.contains("Collected"));
+    line.and_then(|line| line.split_whitespace().last()?.parse().ok())
+}
+
+#[test]
+fn regress_instructions_of_a_pair() {
+    let number = |key: &str| std::env::var(key).ok()?.parse::<usize>().ok();
+    if let (Some(model), Some(times)) = (number(MODEL), number(SUMS)) {
+        return sum(MODELS[model].0, times);
+    }
+    if !InstructionSet::available().contains(&InstructionSet::Avx2) {
+        println!("AVX2 is not here: its instructions are not counted");
+        return;
+    }
+    for (i, (model, most)) in MODELS.into_iter().enumerate() {
+        let Some((few, many)) = instructions(i, 10).zip(instructions(i, 210)) else {
+            println!("no valgrind that works is here: instructions are not counted");
+            return;
+        };
+        let per_pair = (many - few) / (200.0 * PAIRS);
+        println!("{model:?}: {per_pair:.2} instructions a pair");
+        assert!(
+            per_pair < most,
+            "{model:?}: {per_pair} instructions a pair, {most} allowed"
+        );
+    }
+}

@@ -1,0 +1,318 @@
+//! Evidence for the Biot-Savart kernel.
+
+use std::f64::consts::{LN_2, PI};
+use wingbeat_vortex::DVec3;
+use wingbeat_vortex::{CoreModel, DirectSum, InstructionSet, Network, Points, Segments, reference};
+
+const BARE: CoreModel = CoreModel::Scully { radius: 0.0 };
+
+fn models() -> [CoreModel; 4] {
+    [
+        CoreModel::CutOff { delta: 0.01 },
+        CoreModel::Vatistas { radius: 0.05 },
+        CoreModel::Scully { radius: 0.05 },
+        CoreModel::LambOseen {
+            radius: 0.05,
+            viscosity: 1.5e-5,
+        },
+    ]
+}
+
+/// Reproducible numbers in (-1, 1): a linear congruential generator.
+struct Numbers(u64);
+
+impl Numbers {
+    fn next(&mut self) -> f64 {
+        self.0 = self
+            .0
+            .wrapping_mul(6_364_136_223_846_793_005)
+            .wrapping_add(1);
+        (self.0 >> 11) as f64 / (1u64 << 52) as f64 - 1.0
+    }
+
+    fn point(&mut self) -> DVec3 {
+        DVec3::new(self.next(), self.next(), self.next())
+    }
+}
+
+/// A crumpled sheet of rows x cols panels and random circulations.
+fn sheet(model: CoreModel, rows: usize, cols: usize) -> Network {
+    let mut random = Numbers(7);
+    let mut net = Network::default();
+    for i in 0..=rows {
+        for j in 0..=cols {
+            let flat = DVec3::new(i as f64 / rows as f64, j as f64 / cols as f64, 0.0);
+            net.nodes.push(flat + 0.3 / rows as f64 * random.point());
+        }
+    }
+    let id = |i: usize, j: usize| i * (cols + 1) + j;
+    for i in 0..=rows {
+        for j in 0..=cols {
+            let mut add = |to: usize| {
+                let length = net.nodes.get(to).distance(net.nodes.get(id(i, j)));
+                net.push_edge(id(i, j), to, random.next(), model.core(length, 2.0));
+            };
+            if j < cols {
+                add(id(i, j + 1));
+            }
+            if i < rows {
+                add(id(i + 1, j));
+            }
+        }
+    }
+    net
+}
+
+/// Random targets, nodes and midpoints of edges.
+fn targets(net: &Network, n: usize) -> Points {
+    let mut random = Numbers(11);
+    let mut points: Points = (0..n).map(|_| 1.5 * random.point()).collect();
+    net.nodes.iter().step_by(3).for_each(|p| points.push(p));
+    for &[a, b] in net.edges.iter().step_by(5) {
+        points.push(0.5 * (net.nodes.get(a as usize) + net.nodes.get(b as usize)));
+    }
+    points
+}
+
+fn bits(p: &Points) -> Vec<u64> {
+    [&p.x, &p.y, &p.z]
+        .into_iter()
+        .flatten()
+        .map(|v| v.to_bits())
+        .collect()
+}
+
+/// Textbook: Gamma/(4 pi h) (cos 1 - cos 2) about the axis, times the factor of the core.
+fn textbook(model: CoreModel, p: DVec3, a: DVec3, b: DVec3, core: f64) -> DVec3 {
+    let t = (b - a).normalize();
+    let (r1, r2) = (p - a, p - b);
+    let h = t.cross(r1).length();
+    let bare = (t.dot(r1.normalize()) - t.dot(r2.normalize())) / (4.0 * PI * h);
+    let factor = match model {
+        CoreModel::Vatistas { .. } => h * h / (h.powi(4) + core * core).sqrt(),
+        CoreModel::Scully { .. } => h * h / (h * h + core),
+        CoreModel::LambOseen { .. } => -(-1.256_431_208_626_169_7 * h * h / core).exp_m1(),
+        CoreModel::CutOff { .. } => {
+            let x = r1.length() * r2.length() * (r1.length() * r2.length() + r1.dot(r2));
+            x / (x + core)
+        }
+    };
+    t.cross(r1) / h * bare * factor
+}
+
+#[test]
+fn exact_every_core_model_against_the_textbook_form() {
+    let mut random = Numbers(3);
+    for model in models() {
+        for _ in 0..2000 {
+            let (p, a, b) = (random.point(), random.point(), random.point());
+            let core = model.core(a.distance(b), 3.0);
+            let v = reference::segment_velocity(model, p, a, b, 1.0, core);
+            let expected = textbook(model, p, a, b, core);
+            // The textbook form is the weak one: near the line its difference of cosines cancels
+            // like (distance / h)^2, at most some 1e4 here.
+            assert!(
+                (v - expected).length() < 1e-11 * expected.length(),
+                "{model:?} {v} {expected}"
+            );
+        }
+    }
+}
+
+#[test]
+fn exact_bare_filament_keeps_its_digits_beside_its_extension() {
+    // Far ahead of the filament and close to its line, h << x: the exact value from the series
+    // cos 1 - cos 2 = h^2/2 (1/x2^2 - 1/x1^2) + O(h^4/x^4); h/x = 1e-6 leaves 1e-12.
+    let (a, b) = (DVec3::ZERO, DVec3::X);
+    for x in [1.5, 3.0, 10.0, -2.0] {
+        let h = 1e-6 * f64::abs(x);
+        let v = reference::segment_velocity(BARE, DVec3::new(x, h, 0.0), a, b, 1.0, 0.0).z;
+        let (x1, x2) = (x, x - 1.0);
+        let expected = h / 2.0 * (x2.powi(-2) - x1.powi(-2)).abs() / (4.0 * PI);
+        assert!((v / expected - 1.0).abs() < 1e-11, "{x}: {v} {expected}");
+    }
+}
+
+#[test]
+fn exact_axis_of_a_polygonal_ring() {
+    // n sides, circumradius R; at height z on the axis each side subtends equal parts:
+    // v = Gamma n a s / (4 pi q sqrt(q^2... )): h = sqrt(z^2 + r_in^2), half side s,
+    // axial part r_in / h, so v = n Gamma / (4 pi) 2 s r_in / (h^2 sqrt(h^2 + s^2)).
+    let (n, z) = (60, 0.37);
+    let corner = |i: usize| {
+        let angle = 2.0 * PI * i as f64 / n as f64;
+        DVec3::new(angle.cos(), angle.sin(), 0.0)
+    };
+    let mut ring = Segments::default();
+    (0..n).for_each(|i| ring.push(corner(i), corner(i + 1), 1.0, 0.0));
+    let mut v = Points::zeros(1);
+    let axis = Points::from_iter([DVec3::new(0.0, 0.0, z)]);
+    wingbeat_vortex::add_velocity(BARE, &ring, &axis, &mut v);
+    let (half, inner) = ((PI / n as f64).sin(), (PI / n as f64).cos());
+    let h2 = z * z + inner * inner;
+    let expected = n as f64 / (4.0 * PI) * 2.0 * half * inner / (h2 * (h2 + half * half).sqrt());
+    // Sixty terms, each good to a few units in the last place.
+    assert!(
+        (v.z[0] - expected).abs() < 1e-14 && v.x[0].abs() < 1e-15,
+        "{:?} {expected}",
+        v
+    );
+}
+
+#[test]
+fn exact_one_minus_exp2() {
+    for i in 0..4000 {
+        let x = 10f64.powf(-12.0 + 14.0 * i as f64 / 4000.0);
+        let (u, expected) = (reference::one_minus_exp2(x), -(-x * LN_2).exp_m1());
+        // A polynomial good to 1.4e-15 and half a dozen roundings.
+        assert!((u / expected - 1.0).abs() < 3e-15, "{x} {u} {expected}");
+    }
+    assert_eq!(reference::one_minus_exp2(0.0), 0.0);
+}
+
+#[test]
+fn limit_core_models_meet_the_bare_filament_far_away() {
+    let (a, b) = (DVec3::ZERO, DVec3::X);
+    let p = DVec3::new(0.4, 20.0, -7.0);
+    let bare = reference::segment_velocity(BARE, p, a, b, 1.0, 0.0);
+    for model in models() {
+        let v = reference::segment_velocity(model, p, a, b, 1.0, model.core(1.0, 0.0));
+        // Scully is the slowest: r_c^2 / h^2 = 0.0025 / 450.
+        assert!((v - bare).length() < 6e-6 * bare.length(), "{model:?}");
+    }
+}
+
+#[test]
+fn exact_swirl_peaks_at_the_core_radius() {
+    // Of a long filament; Scully and Lamb-Oseen by definition, Vatistas too.
+    for model in &models()[1..] {
+        let model = match *model {
+            CoreModel::LambOseen { radius, .. } => CoreModel::LambOseen {
+                radius,
+                viscosity: 0.0,
+            },
+            other => other,
+        };
+        let swirl = |h: f64| {
+            let (a, b) = (-1e4 * DVec3::X, 1e4 * DVec3::X);
+            reference::segment_velocity(model, h * DVec3::Y, a, b, 1.0, model.core(1.0, 0.0)).z
+        };
+        // A parabola through the top: steps of 1e-4 relative move the swirl by 1e-8.
+        let (left, top, right) = (swirl(0.05 * 0.9999), swirl(0.05), swirl(0.05 * 1.0001));
+        assert!(top > left && top > right, "{model:?} {left} {top} {right}");
+    }
+}
+
+#[test]
+fn agrees_bit_for_bit_with_the_scalar_reference() {
+    for model in models() {
+        let net = sheet(model, 20, 11);
+        let (segments, at) = (net.to_segments(), targets(&net, 100));
+        let mut expected = Points::zeros(at.len());
+        reference::add_velocity(model, &segments, &at, &mut expected);
+        assert!(expected.iter().all(|v| v.is_finite()));
+        for set in InstructionSet::available() {
+            let mut sum = DirectSum::with_instructions(model, set).unwrap();
+            for shared in [false, true] {
+                match shared {
+                    false => sum.load_segments(&segments),
+                    true => sum.load_network(&net),
+                }
+                let mut v = Points::zeros(at.len());
+                sum.add_velocity(&at, &mut v);
+                assert_eq!(
+                    bits(&v),
+                    bits(&expected),
+                    "{model:?} {set:?} shared {shared}"
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn invariant_bits_under_threads() {
+    let model = CoreModel::Vatistas { radius: 0.02 };
+    let net = sheet(model, 40, 30);
+    let at = targets(&net, 1000);
+    let run = |threads: usize| {
+        let pool = rayon::ThreadPoolBuilder::new()
+            .num_threads(threads)
+            .build()
+            .unwrap();
+        pool.install(|| {
+            let mut sum = DirectSum::new(model);
+            sum.load_network(&net);
+            let mut v = Points::zeros(at.len());
+            sum.add_velocity(&at, &mut v);
+            bits(&v)
+        })
+    };
+    let one = run(1);
+    assert_eq!(one, run(2));
+    assert_eq!(one, run(4));
+}
+
+#[test]
+fn invariant_a_target_knows_nothing_of_its_neighbours() {
+    let model = CoreModel::CutOff { delta: 0.01 };
+    let net = sheet(model, 9, 9);
+    let at = targets(&net, 70);
+    let mut sum = DirectSum::new(model);
+    sum.load_network(&net);
+    let mut all = Points::zeros(at.len());
+    sum.add_velocity(&at, &mut all);
+    for i in 0..at.len() {
+        let mut one = Points::zeros(1);
+        sum.add_velocity(&Points::from_iter([at.get(i)]), &mut one);
+        assert_eq!(one.get(0), all.get(i), "{i}");
+    }
+}
+
+#[test]
+fn exact_zero_on_the_filament_and_finite_beside_it() {
+    let mut all = models().to_vec();
+    all.extend([
+        CoreModel::CutOff { delta: 0.0 },
+        CoreModel::Vatistas { radius: 0.0 },
+        CoreModel::Scully { radius: 0.0 },
+        CoreModel::LambOseen {
+            radius: 0.0,
+            viscosity: 0.0,
+        },
+    ]);
+    let (a, b) = (DVec3::new(0.1, 0.2, 0.3), DVec3::new(1.3, -0.7, 0.9));
+    for model in all {
+        let mut segments = Segments::default();
+        segments.push(a, b, 1.0, model.core(a.distance(b), 0.0));
+        segments.push(a, a, 1.0, model.core(0.0, 0.0));
+        let on: Points = [a, b, a.midpoint(b), a + 2.0 * (b - a), a - 1e-9 * (b - a)]
+            .into_iter()
+            .collect();
+        let mut v = Points::zeros(on.len());
+        wingbeat_vortex::add_velocity(model, &segments, &on, &mut v);
+        assert!(v.iter().all(|v| v.is_finite()), "{model:?} {v:?}");
+        assert_eq!(v.get(0), DVec3::ZERO, "{model:?}");
+        assert_eq!(v.get(1), DVec3::ZERO, "{model:?}");
+        let near: Points = (0..300)
+            .map(|i| a.midpoint(b) + 10f64.powi(-i) * DVec3::Y)
+            .collect();
+        let mut v = Points::zeros(near.len());
+        wingbeat_vortex::add_velocity(model, &segments, &near, &mut v);
+        assert!(v.iter().all(|v| v.is_finite()), "{model:?}");
+    }
+}
+
+#[test]
+fn invariant_adds_to_what_is_there() {
+    let mut segments = Segments::default();
+    segments.push(DVec3::ZERO, DVec3::X, 2.0, 0.0);
+    let at = Points::from_iter([DVec3::Y]);
+    let (mut once, mut twice) = (Points::zeros(1), Points::zeros(1));
+    wingbeat_vortex::add_velocity(BARE, &segments, &at, &mut once);
+    for _ in 0..2 {
+        wingbeat_vortex::add_velocity(BARE, &segments, &at, &mut twice);
+    }
+    assert_eq!(twice.get(0), 2.0 * once.get(0));
+    assert!(once.z[0] > 0.0, "right-handed");
+}

@@ -1,0 +1,76 @@
+//! Sums allocate nothing once they have been through a size.
+
+mod wakes;
+
+use allocation_counter::measure;
+use wingbeat_vortex::DVec3;
+use wingbeat_vortex::{Blob, BlobSum, CoreModel, DirectSum, FastSettings, FastSum, Method, Points};
+
+#[test]
+fn exact_no_allocation_after_warm_up() {
+    let model = CoreModel::Vatistas { radius: 0.02 };
+    let net = wakes::hover(model, 6_000);
+    let [mut tree, mut single] = [Method::Tree, Method::Single].map(|method| {
+        FastSum::new(FastSettings {
+            method,
+            ..FastSettings::new(model)
+        })
+    });
+    let mut direct = DirectSum::new(model);
+    let mut v = Points::zeros(net.nodes.len());
+    on_one_thread(|| {
+        let mut step = || {
+            for fast in [&mut tree, &mut single] {
+                fast.load_network(&net);
+                fast.add_velocity(&net.nodes, &mut v);
+            }
+            direct.load_network(&net);
+            direct.add_velocity(&net.nodes, &mut v);
+        };
+        step();
+        assert_eq!(measure(step).count_total, 0);
+    });
+}
+
+/// The mesh of blobs that move within the same box.
+#[test]
+fn exact_no_allocation_of_blobs_after_warm_up() {
+    let net = wakes::hover(CoreModel::Vatistas { radius: 0.02 }, 6_000);
+    let [low, high] = net
+        .nodes
+        .iter()
+        .fold([DVec3::INFINITY, DVec3::NEG_INFINITY], |[low, high], x| {
+            [low.min(x), high.max(x)]
+        });
+    let variance = (0.03 * (high - low).max_element()).powi(2);
+    let cloud = |shift: f64| -> Vec<Blob> {
+        let blob = |(i, x): (usize, DVec3)| Blob {
+            position: low + (x - low) * shift,
+            strength: DVec3::new(1.0, (i as f64).sin(), -1.0),
+            variance: variance * (1.0 + (i % 50) as f64),
+        };
+        net.nodes.iter().enumerate().map(blob).collect()
+    };
+    let clouds = [cloud(1.0), cloud(0.9)];
+    let mut v = Points::zeros(net.nodes.len());
+    on_one_thread(|| {
+        let mut sum = BlobSum::default();
+        let mut step = |k: usize| {
+            assert!(sum.load(&clouds[k], variance, [low, high], net.nodes.len()));
+            assert!(sum.add_velocity(1e-4, &net.nodes, &mut v).is_mesh);
+        };
+        step(0);
+        step(1);
+        let again = measure(|| [0, 1].into_iter().for_each(step));
+        assert_eq!(again.count_total, 0);
+    });
+}
+
+/// Calls `f` on one thread: what rayon keeps for handing work to others is not ours to count.
+fn on_one_thread<T: Send>(f: impl FnOnce() -> T + Send) -> T {
+    let pool = rayon::ThreadPoolBuilder::new()
+        .num_threads(1)
+        .build()
+        .unwrap();
+    pool.install(f)
+}
