@@ -10,7 +10,7 @@ use wingbeat_math::{DMat3, DQuat, DVec3};
 use wingbeat_model::motion::Adjustment;
 
 use crate::AnalysisError;
-use crate::beat::{Beat, State};
+use crate::beat::{Beat, JOINTS, State};
 use crate::level::{Level, Perturbation};
 use crate::trim::Trim;
 
@@ -94,17 +94,26 @@ impl<'a> ControlledFlight<'a> {
     /// From the trimmed flight disturbed by the rotation vector `tilt` \[rad\] (roll, pitch, heading)
     /// and the velocity `velocity` [m/s] (level frame); commands act `latency` beats after they
     /// were sensed.
-    pub fn new(trim: &'a Trim, tilt: DVec3, velocity: DVec3, latency: usize) -> Self {
+    ///
+    /// # Errors
+    /// Numbers that are not finite.
+    pub fn new(
+        trim: &'a Trim,
+        tilt: DVec3,
+        velocity: DVec3,
+        latency: usize,
+    ) -> Result<Self, AnalysisError> {
         let root = trim.beat.root(&trim.state);
         let level = Level::new(root.r, trim.beat.gravity());
         let turned = level.to_n * DMat3::from_quat(DQuat::from_scaled_axis(tilt));
         let v = DVec3::from_slice(&trim.state[7..]) / trim.beat.mass();
         let r = turned * level.to_root.transpose();
-        let state = trim.beat.state(
+        let state = trim.beat.state_with(
             DVec3::ZERO,
             r,
             turned * level.to_n.transpose() * v + level.to_n * velocity,
             root.w,
+            &trim.state[JOINTS..],
         );
         let none = vec![Adjustment::default(); trim.setup.animal.wings.len()];
         let mut flight = Self {
@@ -115,11 +124,11 @@ impl<'a> ControlledFlight<'a> {
             reference: Perturbation::of(&trim.beat, &level, &trim.state),
             sensed: Sensed::default(),
             state,
-            travel: trim.mean_velocity() * trim.beat.period(),
+            travel: trim.mean_velocity()? * trim.beat.period(),
             trim,
         };
         flight.sense(0, &trim.beat);
-        flight
+        Ok(flight)
     }
 
     /// What was sensed last.
@@ -141,14 +150,10 @@ impl<'a> ControlledFlight<'a> {
         self.queue.push_back(command);
         let next = self.queue.pop_front().expect("one was just pushed");
         let beat = Beat::between(&self.trim.setup, self.steps, &self.acting, &next)?;
-        self.state = beat.advance(&self.state);
-        self.acting = next;
         let number = self.sensed.beat + 1;
-        if self.state.iter().any(|x| !x.is_finite()) {
-            return Err(AnalysisError::Numbers(format!(
-                "beat {number}: the flyer is lost"
-            )));
-        }
+        let lost = |e| AnalysisError::Numbers(format!("beat {number}: the flyer is lost ({e})"));
+        self.state = beat.advance(&self.state).map_err(lost)?;
+        self.acting = next;
         // The next beat begins as this one ended.
         self.sense(
             number,

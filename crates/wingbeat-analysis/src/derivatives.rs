@@ -96,7 +96,7 @@ pub fn control_derivatives(
                 }
                 let level = Level::new(rotation, setup.gravity);
                 let beat = Beat::new(&setup, steps)?;
-                Ok(beat.mean_load(&level, velocity, DVec3::ZERO))
+                beat.mean_load(&level, velocity, DVec3::ZERO)
             };
             let (plus, minus) = (at(STEP)?, at(-STEP)?);
             list.push(ControlDerivative {

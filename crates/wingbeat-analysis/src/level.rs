@@ -59,16 +59,16 @@ impl Perturbation {
         }
     }
 
-    /// The state at the start of a beat, mass centre at the origin.
-    pub fn state(&self, beat: &Beat, level: &Level) -> State {
+    /// The state at the start of a beat, mass centre at the origin, free joints at `joints`.
+    pub fn state(&self, beat: &Beat, level: &Level, joints: &[f64]) -> State {
         let turned = level.to_n * DMat3::from_quat(DQuat::from_scaled_axis(self.tilt));
         let r = turned * level.to_root.transpose();
         let rate = level.to_root * self.rate;
-        beat.state(DVec3::ZERO, r, turned * self.velocity, rate)
+        beat.state_with(DVec3::ZERO, r, turned * self.velocity, rate, joints)
     }
 
     /// What the state at the start of a beat looks like.
-    pub fn of(beat: &Beat, level: &Level, y: &State) -> Self {
+    pub fn of(beat: &Beat, level: &Level, y: &[f64]) -> Self {
         let root = beat.root(y);
         let velocity = DVec3::from_slice(&y[7..]) / beat.mass();
         Self::seen(level, root.r, velocity, root.w)

@@ -1,8 +1,9 @@
 //! Loads averaged over a beat while the body moves steadily.
 
-use wingbeat_blade::FrameAcceleration;
+use wingbeat_dynamics::{BodyAcceleration, BodyMotion};
 use wingbeat_math::{DMat3, DVec3};
 
+use crate::AnalysisError;
 use crate::beat::Beat;
 use crate::level::Level;
 
@@ -18,59 +19,73 @@ pub struct MeanLoad {
 impl Beat {
     /// Mean mass centre over the beat, root components [m].
     pub fn mean_centre(&self) -> DVec3 {
-        let sum: DVec3 = self.cycle().iter().map(|at| at.c).sum();
-        sum / self.cycle().len() as f64
+        let sum: DVec3 = self.cycle().map(|(_, whole)| whole.c).sum();
+        sum / (2 * self.steps()) as f64
     }
 
     /// Mean inertia of the whole about the mean mass centre, root components [kg m2].
     pub fn mean_inertia(&self) -> DMat3 {
         let centre = self.mean_centre();
-        let n = self.cycle().len() as f64;
         let mut sum = DMat3::ZERO;
-        for at in self.cycle() {
-            let t = wingbeat_math::tilde(at.c - centre);
-            sum += at.inertia + t.transpose() * t * self.mass;
+        for (_, whole) in self.cycle() {
+            let t = wingbeat_math::tilde(whole.c - centre);
+            sum += whole.inertia + t.transpose() * t * self.mass();
         }
-        sum * (1.0 / n)
+        sum * (1.0 / (2 * self.steps()) as f64)
     }
 
     /// Mean air load when the mean mass centre moves with `velocity` [m/s] and the body turns with
     /// `rate` [rad/s], both steady in the level frame that turns with the body. Equal weights over
     /// the beat: spectrally accurate for a periodic motion.
-    pub fn mean_load(&self, level: &Level, velocity: DVec3, rate: DVec3) -> MeanLoad {
+    ///
+    /// # Errors
+    /// Free joints, whose motion is not known beforehand; what the air reports.
+    pub fn mean_load(
+        &self,
+        level: &Level,
+        velocity: DVec3,
+        rate: DVec3,
+    ) -> Result<MeanLoad, AnalysisError> {
+        let system = self.flight().system();
+        if system.speeds() > 0 {
+            return Err(AnalysisError::not_covered(
+                "the averaged model asks how the wings move while the body moves steadily, and free joints decide on that themselves",
+                "ask for trim and Floquet's modes (`trim`, `stability --floquet`), which carry the joints along",
+            ));
+        }
         let centre = self.mean_centre();
-        let (v, w) = (level.to_root * velocity, level.to_root * rate);
-        let origin = v - w.cross(centre);
-        let stream = |s: DVec3| level.to_root * (level.to_n.transpose() * s);
+        let r = level.to_n * level.to_root.transpose();
+        let (v, w) = (level.to_n * velocity, level.to_root * rate);
+        let root = BodyMotion {
+            p: DVec3::ZERO,
+            r,
+            v: v - r * w.cross(centre),
+            w,
+        };
+        let turning = BodyAcceleration {
+            linear: r * w.cross(r.transpose() * root.v),
+            angular: DVec3::ZERO,
+        };
+        let bodies = system.bodies().len();
+        let mut motions = vec![BodyMotion::REST; bodies];
+        let mut accelerations = vec![BodyAcceleration::default(); bodies];
+        let mut scratch = self.flight().air().scratch();
         let (mut force, mut moment) = (DVec3::ZERO, DVec3::ZERO);
-        for at in self.cycle() {
-            for (wing, p) in self.wings.iter().zip(&at.wings) {
-                let frame = p.frame(origin - stream(self.stream_wings), w);
-                let seen = p.rotation.transpose() * w;
-                let acc = FrameAcceleration {
-                    linear: w.cross(origin)
-                        + w.cross(w.cross(p.d))
-                        + 2.0 * w.cross(p.d_dot)
-                        + p.d_ddot,
-                    angular: p.turn - p.rate.cross(seen),
-                };
-                let load = wing.load(&frame, &acc);
-                let f = p.rotation * load.force;
-                force += f;
-                moment += p.rotation * load.moment + (p.d - centre).cross(f);
+        for (k, (posture, _)) in self.cycle().enumerate() {
+            posture.motions(&root, &mut motions);
+            posture.accelerations(&root, &turning, &mut accelerations);
+            let t = k as f64 * self.half_step();
+            let loads = (self.flight()).air_loads(t, &motions, &accelerations, &mut scratch)?;
+            for (load, m) in loads.iter().zip(&motions) {
+                force += load.force;
+                moment += load.moment + (m.p - r * centre).cross(load.force);
             }
         }
-        let n = self.cycle().len() as f64;
-        (force, moment) = (force / n, moment / n);
-        if let Some((drag, density)) = &self.drag {
-            let f = drag.force(*density, origin - stream(self.stream_body));
-            force += f;
-            moment -= centre.cross(f);
-        }
-        let to_level = level.to_root.transpose();
-        MeanLoad {
+        let n = (2 * self.steps()) as f64;
+        let to_level = level.to_n.transpose() / n;
+        Ok(MeanLoad {
             force: to_level * force,
             moment: to_level * moment,
-        }
+        })
     }
 }

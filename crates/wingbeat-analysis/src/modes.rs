@@ -31,6 +31,8 @@ pub enum Plane {
     Longitudinal,
     /// v, p, r, phi, psi.
     Lateral,
+    /// The free joints.
+    Joints,
 }
 
 /// A mode of flight.
@@ -83,28 +85,31 @@ impl ModeSet {
             let [re, im] = [p.value[0] * scales.period, p.value[1] * scales.period];
             (p.value, [re.exp() * im.cos(), re.exp() * im.sin()])
         };
-        Self::build(&pairs, scales, with)
+        Self::build(&pairs, scales, &[], with)
     }
 
-    /// From eigenpairs of a monodromy matrix.
-    pub fn of_multipliers(pairs: Vec<Eigenpair>, scales: &Scales) -> Self {
+    /// From eigenpairs of a monodromy matrix, `joints` the natural sizes of the components of free
+    /// joints behind the nine of flight. What has decayed to nothing within a beat is left out.
+    pub fn of_multipliers(mut pairs: Vec<Eigenpair>, scales: &Scales, joints: &[f64]) -> Self {
+        pairs.retain(|p| p.value[0].hypot(p.value[1]) > 1e-12);
         let with = |p: &Eigenpair| {
             let [a, b] = p.value;
             let exponent = [a.hypot(b).ln() / scales.period, b.atan2(a) / scales.period];
             (exponent, p.value)
         };
-        Self::build(&pairs, scales, with)
+        Self::build(&pairs, scales, joints, with)
     }
 
     fn build(
         pairs: &[Eigenpair],
         scales: &Scales,
+        joints: &[f64],
         with: impl Fn(&Eigenpair) -> ([f64; 2], [f64; 2]),
     ) -> Self {
         let upper = pairs.iter().filter(|p| p.value[1] >= 0.0);
         let mode = |p: &Eigenpair| {
             let (exponent, multiplier) = with(p);
-            let vector = scaled_vector(p, scales);
+            let vector = scaled_vector(p, scales, joints);
             Mode {
                 name: String::new(),
                 plane: plane(&vector),
@@ -132,20 +137,26 @@ impl ModeSet {
     }
 }
 
+/// Name of the component that stands for all free joints: the root of their squares.
+const JOINTS: &str = "joints";
+
 /// Components over their sizes, the largest 1.
-fn scaled_vector(p: &Eigenpair, scales: &Scales) -> Vec<(&'static str, f64, f64)> {
-    let sizes = scales.array();
-    let scaled = p
-        .vector
-        .iter()
-        .zip(sizes)
-        .map(|(z, s)| [z[0] / s, z[1] / s]);
-    let scaled: Vec<[f64; 2]> = scaled.collect();
-    let largest = scaled.iter().fold(0.0_f64, |m, z| m.max(z[0].hypot(z[1])));
+fn scaled_vector(p: &Eigenpair, scales: &Scales, joints: &[f64]) -> Vec<(&'static str, f64, f64)> {
+    let scaled = |(z, s): (&[f64; 2], &f64)| [z[0] / s, z[1] / s];
+    let (flight, rest) = p.vector.split_at(9);
+    let flight: Vec<[f64; 2]> = flight.iter().zip(&scales.array()).map(scaled).collect();
+    let squares = rest.iter().zip(joints).map(scaled);
+    let of_joints = squares.map(|z| z[0] * z[0] + z[1] * z[1]).sum::<f64>();
+    let largest = flight.iter().map(|z| z[0].hypot(z[1]));
+    let largest = largest.fold(of_joints.sqrt(), f64::max);
     let component = |(z, name): (&[f64; 2], &&'static str)| {
         (*name, z[0].hypot(z[1]) / largest, z[1].atan2(z[0]))
     };
-    scaled.iter().zip(&STATE).map(component).collect()
+    let mut vector: Vec<_> = flight.iter().zip(&STATE).map(component).collect();
+    if !joints.is_empty() {
+        vector.push((JOINTS, of_joints.sqrt() / largest, 0.0));
+    }
+    vector
 }
 
 /// The plane in which most of the eigenvector lies.
@@ -155,7 +166,10 @@ fn plane(vector: &[(&'static str, f64, f64)]) -> Plane {
         of.map(|c| c.1 * c.1).sum()
     };
     let longitudinal = share(&["u", "w", "q", "theta"]);
-    if longitudinal > share(&["v", "p", "r", "phi", "psi"]) {
+    let lateral = share(&["v", "p", "r", "phi", "psi"]);
+    if share(&[JOINTS]) > longitudinal + lateral {
+        Plane::Joints
+    } else if longitudinal > lateral {
         Plane::Longitudinal
     } else {
         Plane::Lateral
@@ -166,7 +180,7 @@ fn plane(vector: &[(&'static str, f64, f64)]) -> Plane {
 /// (the slower) and short period; real ones as divergence or subsidence, the fastest and slowest
 /// subsidence told apart; a neutral lateral one is heading.
 fn name(modes: &mut [Mode]) {
-    for plane in [Plane::Longitudinal, Plane::Lateral] {
+    for plane in [Plane::Longitudinal, Plane::Lateral, Plane::Joints] {
         let real = |m: &Mode| m.plane == plane && m.frequency == 0.0 && !m.is_neutral();
         let decaying: Vec<f64> = modes
             .iter()

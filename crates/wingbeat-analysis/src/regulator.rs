@@ -16,7 +16,7 @@ use wingbeat_math::{DVec3, solve_small};
 use wingbeat_model::motion::Adjustment;
 
 use crate::AnalysisError;
-use crate::beat::Beat;
+use crate::beat::{Beat, JOINTS};
 use crate::control::{Controller, Sensed};
 use crate::level::{Level, Perturbation};
 use crate::monodromy::monodromy;
@@ -192,7 +192,8 @@ impl Plant {
     }
 }
 
-/// Position and state after a beat from position, state, command in force and next command.
+/// Position and state after a beat from position, state, command in force and next command. Free
+/// joints start as on the trimmed orbit: what they remember of the beat before is left to feedback.
 fn fly(trim: &Trim, level: &Level, sides: &[f64], z: &[f64]) -> Result<Vec<f64>, AnalysisError> {
     let command = |from: usize| {
         let u = std::array::from_fn(|c| z[from + c]);
@@ -203,8 +204,8 @@ fn fly(trim: &Trim, level: &Level, sides: &[f64], z: &[f64]) -> Result<Vec<f64>,
     let beat = Beat::between(&trim.setup, steps, &now, &next)?;
     let after = Beat::between(&trim.setup, 1, &next, &next)?;
     let x = std::array::from_fn(|i| z[3 + i]);
-    let y = Perturbation::from_array(x).state(&beat, level);
-    let end = beat.advance(&y);
+    let y = Perturbation::from_array(x).state(&beat, level, &trim.state[JOINTS..]);
+    let end = beat.advance(&y)?;
     let moved = level.to_n.transpose() * DVec3::from_slice(&end);
     let mut out = (moved + DVec3::from_slice(z)).to_array().to_vec();
     out.extend(Perturbation::of(&after, level, &end).to_array());

@@ -79,7 +79,7 @@ impl ProportionalDerivative {
     pub fn new(trim: &Trim, stiffness: &Stiffness) -> Result<Self, AnalysisError> {
         let root = trim.beat.root(&trim.state);
         let level = Level::new(root.r, trim.beat.gravity());
-        let velocity = level.to_n.transpose() * trim.mean_velocity();
+        let velocity = level.to_n.transpose() * trim.mean_velocity()?;
         let list = control_derivatives(&trim.setup, root.r, velocity, trim.beat.steps())?;
         let wings = &trim.setup.animal.wings;
         let j = level.to_root.transpose() * trim.beat.mean_inertia() * level.to_root;

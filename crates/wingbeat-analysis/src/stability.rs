@@ -3,7 +3,7 @@
 use wingbeat_math::{DMat3, DQuat, DVec3};
 
 use crate::AnalysisError;
-use crate::beat::{Beat, State};
+use crate::beat::{Beat, JOINTS, State};
 use crate::eigen::eigen;
 use crate::level::{Level, Perturbation};
 use crate::mean::MeanLoad;
@@ -43,7 +43,7 @@ fn scales(beat: &Beat) -> Scales {
 /// Numbers that are not finite.
 pub fn linear_model(beat: &Beat, state: &State) -> Result<LinearModel, AnalysisError> {
     let level = Level::new(beat.root(state).r, beat.gravity());
-    let end = beat.advance(state);
+    let end = beat.advance(state)?;
     let travelled = DVec3::from_slice(&end) - DVec3::from_slice(state);
     let velocity = level.to_n.transpose() * travelled / beat.period();
     let reference = Perturbation {
@@ -52,7 +52,7 @@ pub fn linear_model(beat: &Beat, state: &State) -> Result<LinearModel, AnalysisE
     };
     let size = scales(beat);
     let f = |x: &[f64]| -> Result<Vec<f64>, AnalysisError> {
-        Ok(averaged_rates(beat, &level, x).to_vec())
+        Ok(averaged_rates(beat, &level, x)?.to_vec())
     };
     // Mean loads are smooth: steps of 1e-3 of the natural sizes, error of the formula 1e-12.
     let steps = size.array().map(|s| 1e-3 * s);
@@ -66,7 +66,7 @@ pub fn linear_model(beat: &Beat, state: &State) -> Result<LinearModel, AnalysisE
 }
 
 /// Newton's and Euler's laws for the mean rigid body in the level frame that turns with it.
-fn averaged_rates(beat: &Beat, level: &Level, x: &[f64]) -> [f64; 9] {
+fn averaged_rates(beat: &Beat, level: &Level, x: &[f64]) -> Result<[f64; 9], AnalysisError> {
     let body = RigidBody {
         mass: beat.mass(),
         inertia: level.to_root.transpose() * beat.mean_inertia() * level.to_root,
@@ -88,18 +88,22 @@ pub(crate) struct RigidBody {
 
 impl RigidBody {
     /// Rates of the nine components of [`Perturbation`] under the air's `load(velocity, rate)`.
-    pub(crate) fn rates(&self, x: &[f64], load: impl Fn(DVec3, DVec3) -> MeanLoad) -> [f64; 9] {
+    pub(crate) fn rates<E>(
+        &self,
+        x: &[f64],
+        load: impl Fn(DVec3, DVec3) -> Result<MeanLoad, E>,
+    ) -> Result<[f64; 9], E> {
         let state = Perturbation::from_array(x.try_into().expect("nine components"));
         let (v, w, j) = (state.velocity, state.rate, self.inertia);
-        let load = load(v, w);
+        let load = load(v, w)?;
         let tilt = DMat3::from_quat(DQuat::from_scaled_axis(state.tilt));
         // To first order in tilt and rate the rotation vector changes at the rate w.
-        Perturbation {
+        let rates = Perturbation {
             velocity: load.force / self.mass + tilt.transpose() * self.gravity - w.cross(v),
             rate: j.inverse() * (load.moment - w.cross(j * w)),
             tilt: w,
-        }
-        .to_array()
+        };
+        Ok(rates.to_array())
     }
 }
 
@@ -111,7 +115,7 @@ fn load_derivatives(
     steps: &[f64; 9],
 ) -> Result<[[f64; 6]; 6], AnalysisError> {
     let f = |x: &[f64]| -> Result<Vec<f64>, AnalysisError> {
-        let load = beat.mean_load(level, DVec3::from_slice(x), DVec3::from_slice(&x[3..]));
+        let load = beat.mean_load(level, DVec3::from_slice(x), DVec3::from_slice(&x[3..]))?;
         let (f, m) = (load.force, load.moment);
         Ok(vec![f.x, f.y, f.z, m.x, m.y, m.z])
     };
@@ -121,21 +125,34 @@ fn load_derivatives(
     }))
 }
 
-/// The monodromy matrix of the periodic orbit through `state` in the nine components of
-/// [`Perturbation`]: position left out, for the flight is the same everywhere.
+/// The monodromy matrix of the periodic orbit through `state`: the nine components of
+/// [`Perturbation`] (position left out, for the flight is the same everywhere), then the coordinates and
+/// speeds of the free joints. A spherical joint's quaternion adds a multiplier of zero: its length is
+/// none of the flight's.
 ///
 /// # Errors
 /// Numbers that are not finite.
 pub fn orbit_monodromy(beat: &Beat, state: &State) -> Result<Vec<f64>, AnalysisError> {
     let level = Level::new(beat.root(state).r, beat.gravity());
-    let x = Perturbation::of(beat, &level, state).to_array();
-    let map = |x: &[f64]| -> Result<Vec<f64>, AnalysisError> {
-        let start = Perturbation::from_array(x.try_into().expect("nine components"));
-        let end = beat.advance(&start.state(beat, &level));
-        Ok(Perturbation::of(beat, &level, &end).to_array().to_vec())
+    let seen = |y: &[f64]| {
+        let mut x = Perturbation::of(beat, &level, y).to_array().to_vec();
+        x.extend_from_slice(&y[JOINTS..]);
+        x
     };
-    let steps = scales(beat).array().map(|s| 1e-4 * s);
+    let map = |x: &[f64]| -> Result<Vec<f64>, AnalysisError> {
+        let start = Perturbation::from_array(x[..9].try_into().expect("nine components"));
+        Ok(seen(&beat.advance(&start.state(beat, &level, &x[9..]))?))
+    };
+    let x = seen(state);
+    let steps: Vec<f64> = orbit_scales(beat).iter().map(|s| 1e-4 * s).collect();
     monodromy(map, &x, &steps)
+}
+
+/// Natural sizes of the components of the orbit's perturbations.
+fn orbit_scales(beat: &Beat) -> Vec<f64> {
+    let mut sizes = scales(beat).array().to_vec();
+    sizes.extend_from_slice(beat.joint_sizes());
+    sizes
 }
 
 /// Floquet's modes of the periodic orbit through `state`: exponents `ln(multiplier) / T` (principal
@@ -145,5 +162,11 @@ pub fn orbit_monodromy(beat: &Beat, state: &State) -> Result<Vec<f64>, AnalysisE
 /// Numbers that are not finite.
 pub fn floquet(beat: &Beat, state: &State) -> Result<ModeSet, AnalysisError> {
     let m = orbit_monodromy(beat, state)?;
-    Ok(ModeSet::of_multipliers(eigen(&m, 9)?, &scales(beat)))
+    let n = 9 + state.len() - JOINTS;
+    let pairs = eigen(&m, n)?;
+    Ok(ModeSet::of_multipliers(
+        pairs,
+        &scales(beat),
+        beat.joint_sizes(),
+    ))
 }

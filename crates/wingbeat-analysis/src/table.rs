@@ -42,7 +42,9 @@ pub fn table_model(setup: &FlightSetup) -> Result<LinearModel, AnalysisError> {
     let mut reference = [0.0; 9];
     table.velocity.write_to_slice(&mut reference);
     let rates = |x: &[f64]| -> Result<Vec<f64>, AnalysisError> {
-        Ok(body.rates(x, |v, w| load(&table, v, w)).to_vec())
+        Ok(body
+            .rates(x, |v, w| Ok::<_, AnalysisError>(load(&table, v, w)))?
+            .to_vec())
     };
     let period = setup.time.period.unwrap_or(1.0);
     let rate = 1.0 / period;
@@ -85,11 +87,17 @@ fn load(table: &DerivativeTable, velocity: DVec3, rate: DVec3) -> MeanLoad {
 
 /// The rigid animal with the mean mass properties of a trimmed flight, and its derivatives: mass
 /// [kg], inertia about the mass centre in body axes [kg m2], table.
-pub fn rigid_animal(trim: &Trim, model: &LinearModel) -> (f64, DMat3, DerivativeTable) {
+///
+/// # Errors
+/// What the air reports.
+pub fn rigid_animal(
+    trim: &Trim,
+    model: &LinearModel,
+) -> Result<(f64, DMat3, DerivativeTable), AnalysisError> {
     let root = trim.beat.root(&trim.state);
     let level = Level::new(root.r, trim.beat.gravity());
-    let velocity = level.to_n.transpose() * trim.mean_velocity();
-    let air = trim.beat.mean_load(&level, velocity, DVec3::ZERO);
+    let velocity = level.to_n.transpose() * trim.mean_velocity()?;
+    let air = trim.beat.mean_load(&level, velocity, DVec3::ZERO)?;
     let (f, m) = (air.force, air.moment);
     let table = DerivativeTable {
         to_body: level.to_root,
@@ -99,5 +107,5 @@ pub fn rigid_animal(trim: &Trim, model: &LinearModel) -> (f64, DMat3, Derivative
         derivatives: model.derivatives,
         stream: DVec3::ZERO,
     };
-    (trim.beat.mass(), trim.beat.mean_inertia(), table)
+    Ok((trim.beat.mass(), trim.beat.mean_inertia(), table))
 }

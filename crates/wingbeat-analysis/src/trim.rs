@@ -10,7 +10,8 @@
 //! ```
 //!
 //! The first three are the mean forces and the mean moment over weight and weight times wing
-//! length. Newton's method with differences for the Jacobian and a line search; a failure keeps
+//! length. Coordinates and speeds of free joints are unknowns too, and come back to where they
+//! were. Newton's method with differences for the Jacobian and a line search; a failure keeps
 //! the best point found.
 
 use wingbeat_flight::{FlightSetup, MotionMode, PrescribedMotion, TimeGrid};
@@ -19,7 +20,7 @@ use wingbeat_model::Start;
 use wingbeat_model::motion::Adjustment;
 
 use crate::AnalysisError;
-use crate::beat::{Beat, State};
+use crate::beat::{Beat, JOINTS, State};
 
 /// A control that trim may choose.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -106,8 +107,8 @@ pub struct Trim {
     pub converged: bool,
     /// The six residuals: horizontal and vertical force over weight, pitch moment over weight
     /// times wing length, pitch per beat \[rad\], horizontal and vertical drift per beat over wing
-    /// length.
-    pub residual: [f64; 6],
+    /// length; then the change of every coordinate and speed of a free joint over its natural size.
+    pub residual: Vec<f64>,
     /// Newton steps made.
     pub iterations: usize,
     /// The adjustment of all wings.
@@ -144,9 +145,12 @@ impl Trim {
     }
 
     /// Mean velocity of the mass centre over the beat, N components [m/s].
-    pub fn mean_velocity(&self) -> DVec3 {
-        let end = self.beat.advance(&self.state);
-        (DVec3::from_slice(&end) - DVec3::from_slice(&self.state)) / self.beat.period()
+    ///
+    /// # Errors
+    /// Numbers that are not finite.
+    pub fn mean_velocity(&self) -> Result<DVec3, AnalysisError> {
+        let end = self.beat.advance(&self.state)?;
+        Ok((DVec3::from_slice(&end) - DVec3::from_slice(&self.state)) / self.beat.period())
     }
 
     /// Largest residual.
@@ -164,12 +168,13 @@ pub fn trim(setup: &FlightSetup, problem: &TrimProblem) -> Result<Trim, Analysis
     let first = Beat::new(setup, problem.settings.steps)?;
     let speed = first.wing_length() / first.period();
     let v = problem.velocity;
-    // Unknowns: velocity over R f, pitch rate times T, pitch, then the controls.
+    // Unknowns: velocity over R f, pitch rate times T, the controls, then the joints.
     let mut x = vec![v.x / speed, v.z / speed, 0.0];
     x.extend(problem.unknowns.map(|u| match u {
         Unknown::BodyPitch => problem.body_pitch,
         _ => 0.0,
     }));
+    x.extend(settled_joints(&first, problem.body_pitch)?);
     let mut residual = evaluate(setup, problem, &x)?.residual;
     let mut iterations = 0;
     while iterations < problem.settings.iterations
@@ -188,20 +193,42 @@ pub fn trim(setup: &FlightSetup, problem: &TrimProblem) -> Result<Trim, Analysis
     Ok(found)
 }
 
+/// Beats after which free joints with any damping have found their periodic motion.
+const SETTLING_BEATS: usize = 5;
+
+/// Coordinates and speeds of the free joints over their natural sizes after some beats of a body
+/// that is put back into its place after each: a start from which Newton's method finds their
+/// periodic motion.
+fn settled_joints(beat: &Beat, pitch: f64) -> Result<Vec<f64>, AnalysisError> {
+    let mut joints = beat.joints_at_start();
+    if joints.is_empty() {
+        return Ok(joints);
+    }
+    let still = DVec3::ZERO;
+    for _ in 0..SETTLING_BEATS {
+        let y = beat.state_with(still, r2(pitch), still, still, &joints);
+        joints = beat.advance(&y)?[JOINTS..].to_vec();
+    }
+    let sizes = beat.joint_sizes();
+    Ok(joints.iter().zip(sizes).map(|(x, s)| x / s).collect())
+}
+
 /// The residual at the point `x`, with everything that belongs to it.
 fn evaluate(setup: &FlightSetup, problem: &TrimProblem, x: &[f64]) -> Result<Trim, AnalysisError> {
-    let (setup, adjustment, mass_centre, pitch) = adjusted(setup, problem, &x[3..]);
+    let (setup, adjustment, mass_centre, pitch) = adjusted(setup, problem, &x[3..6]);
     let beat = Beat::new(&setup, problem.settings.steps)?;
     let (length, period) = (beat.wing_length(), beat.period());
     let speed = length / period;
     let velocity = DVec3::new(x[0] * speed, 0.0, x[1] * speed);
     let rate = DVec3::new(0.0, x[2] / period, 0.0);
-    let state = beat.state(DVec3::ZERO, r2(pitch), velocity, rate);
-    let end = beat.advance(&state);
+    let sizes = beat.joint_sizes();
+    let joints: Vec<f64> = x[6..].iter().zip(sizes).map(|(x, s)| x * s).collect();
+    let state = beat.state_with(DVec3::ZERO, r2(pitch), velocity, rate, &joints);
+    let end = beat.advance(&state)?;
     let weight = beat.mass() * beat.gravity().length();
     let (before, after) = (beat.root(&state), beat.root(&end));
     let turned = before.r.transpose() * after.r;
-    let residual = [
+    let mut residual = vec![
         (end[7] - state[7]) / (weight * period),
         (end[9] - state[9]) / (weight * period),
         (end[11] - state[11]) / (weight * length * period),
@@ -209,6 +236,8 @@ fn evaluate(setup: &FlightSetup, problem: &TrimProblem, x: &[f64]) -> Result<Tri
         (end[0] - problem.velocity.x * period) / length,
         (end[2] - problem.velocity.z * period) / length,
     ];
+    let changes = end[JOINTS..].iter().zip(&state[JOINTS..]).zip(sizes);
+    residual.extend(changes.map(|((end, start), size)| (end - start) / size));
     Ok(Trim {
         converged: false,
         residual,
@@ -278,7 +307,7 @@ fn jacobian(
     Ok(j)
 }
 
-type Point = (Vec<f64>, [f64; 6]);
+type Point = (Vec<f64>, Vec<f64>);
 
 /// A point on Newton's direction that lowers the sum of squares of the residuals; none if there
 /// is none.
@@ -286,14 +315,14 @@ fn line_search(
     setup: &FlightSetup,
     problem: &TrimProblem,
     x: &[f64],
-    residual: &[f64; 6],
+    residual: &[f64],
     mut jacobian: Vec<f64>,
 ) -> Result<Option<Point>, AnalysisError> {
     let mut step = residual.to_vec();
     if solve_small(&mut jacobian, &mut step).is_err() {
         return Ok(None);
     }
-    let squares = |r: &[f64; 6]| r.iter().map(|x| x * x).sum::<f64>();
+    let squares = |r: &[f64]| r.iter().map(|x| x * x).sum::<f64>();
     // No unknown moves by more than 0.5 (radians, relative changes, R f) at once.
     let longest = step.iter().fold(0.0_f64, |m, s| m.max(s.abs()));
     let mut length = (0.5 / longest).min(1.0);
@@ -309,7 +338,7 @@ fn line_search(
     Ok(None)
 }
 
-pub(crate) fn largest(r: &[f64; 6]) -> f64 {
+pub(crate) fn largest(r: &[f64]) -> f64 {
     r.iter().fold(0.0, |m, x| {
         if x.is_nan() {
             f64::INFINITY

@@ -437,5 +437,6 @@ fn scales(setup: &FlightSetup) -> Scales {
 /// As [`wake_monodromy`].
 pub fn wake_floquet(trim: &WakeTrim, memory: WakeMemory) -> Result<ModeSet, AnalysisError> {
     let m = wake_monodromy(trim, memory)?;
-    Ok(ModeSet::of_multipliers(eigen(&m, 9)?, &scales(&trim.setup)))
+    let pairs = eigen(&m, 9)?;
+    Ok(ModeSet::of_multipliers(pairs, &scales(&trim.setup), &[]))
 }

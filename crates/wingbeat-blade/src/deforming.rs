@@ -72,12 +72,14 @@ impl BladeWing {
         &self,
         motion: &FrameMotion,
         section: impl Fn(usize) -> SectionMotion,
+        wind: impl Fn(DVec3) -> DVec3,
     ) -> DeformingLoad {
         let v = self.velocity_through_air(motion);
         let mut sum = DeformingLoad::default();
         for (k, strip) in self.strips().iter().enumerate() {
             let s = section(k);
             let ([e1, e3], [p, p1, _]) = (s.axes(), s.axis);
+            let v = v - wind(p);
             let here = v + motion.rate.cross(p) + p1;
             let here = DVec3::new(here.dot(e1), 0.0, here.dot(e3));
             let rate = DVec3::new(0.0, motion.rate.y + s.twist[1], 0.0);
@@ -99,22 +101,25 @@ impl BladeWing {
         motion: &FrameMotion,
         acc: &FrameAcceleration,
         section: impl Fn(usize) -> SectionMotion,
+        wind: impl Fn(DVec3) -> DVec3,
     ) -> DeformingLoad {
         let mut sum = DeformingLoad::default();
         if self.settings().added_mass == AddedMass::None {
             return sum;
         }
         let hinge = self.velocity_through_air(motion);
-        let through = Through {
-            hinge,
-            hinge_rate: motion.rotation.transpose() * acc.linear - motion.rate.cross(hinge),
-            w: motion.rate,
-            turn: acc.angular,
-        };
+        let linear = motion.rotation.transpose() * acc.linear;
         for (k, strip) in self.strips().iter().enumerate() {
             let s = section(k);
             let ([e1, n], x) = (s.axes(), strip.x_mid());
             let [p, p1, p2] = s.point(x);
+            let hinge = hinge - wind(p);
+            let through = Through {
+                hinge,
+                hinge_rate: linear - motion.rate.cross(hinge),
+                w: motion.rate,
+                turn: acc.angular,
+            };
             let v = through.hinge + through.w.cross(p) + p1;
             let v_rate = through.hinge_rate + through.turn.cross(p) + through.w.cross(p1) + p2;
             // Rate of v . n; the normal turns by tau' towards the leading edge.

@@ -45,4 +45,4 @@ pub use derivatives::{DerivativeTable, ReferenceSizes};
 pub use error::BladeError;
 pub use settings::{AddedMass, BladeSettings, CentreOfPressure, Rotation, ViscousMoment};
 pub use strip::Strip;
-pub use wing::{BladeWing, FrameAcceleration, FrameMotion, Load};
+pub use wing::{BladeWing, FrameAcceleration, FrameMotion, Load, calm};

@@ -82,6 +82,21 @@ impl AddedMoments {
     }
 }
 
+impl AddedMoments {
+    /// Centre of the added mass, wing components [m]; the hinge where there is none.
+    fn centre(&self) -> DVec3 {
+        match self.m > 0.0 {
+            true => DVec3::new(self.mx / self.m, self.my / self.m, 0.0),
+            false => DVec3::ZERO,
+        }
+    }
+}
+
+/// No wind beside the free stream.
+pub fn calm(_point: DVec3) -> DVec3 {
+    DVec3::ZERO
+}
+
 impl BladeWing {
     /// A wing of these strips.
     ///
@@ -111,23 +126,47 @@ impl BladeWing {
         &self.settings
     }
 
+    /// Whether it carries air along.
+    pub fn has_added_mass(&self) -> bool {
+        self.settings.added_mass != AddedMass::None
+    }
+
     /// Everything that depends on velocities alone: translation, rotation, viscous moment, and
     /// the part of the added mass that is no acceleration.
     pub fn velocity_load(&self, motion: &FrameMotion) -> Load {
+        self.velocity_load_in(motion, calm)
+    }
+
+    /// As [`Self::velocity_load`], `wind` being added to the free stream: a velocity [m/s] at a
+    /// point [m] of the wing frame, wing components.
+    pub fn velocity_load_in(&self, motion: &FrameMotion, wind: impl Fn(DVec3) -> DVec3) -> Load {
         let v = self.velocity_through_air(motion);
         let mut sum = Load::default();
         for strip in &self.strips {
-            self.add_strip(strip, v, motion.rate, &mut sum);
+            let through = v - wind(DVec3::new(0.0, strip.y, 0.0));
+            self.add_strip(strip, through, motion.rate, &mut sum);
         }
         if self.settings.added_mass == AddedMass::Section {
-            self.add_chordwise_added_mass(v, motion.rate, &mut sum);
+            let through = v - wind(self.added.centre());
+            self.add_chordwise_added_mass(through, motion.rate, &mut sum);
         }
         sum
     }
 
     /// The added mass: linear in the rates of the velocity components in the wing frame.
     pub fn acceleration_load(&self, motion: &FrameMotion, acc: &FrameAcceleration) -> Load {
-        let v = self.velocity_through_air(motion);
+        self.acceleration_load_in(motion, acc, calm)
+    }
+
+    /// As [`Self::acceleration_load`] in `wind` as for [`Self::velocity_load_in`]: of it the added
+    /// mass sees the velocity at its own centre.
+    pub fn acceleration_load_in(
+        &self,
+        motion: &FrameMotion,
+        acc: &FrameAcceleration,
+        wind: impl Fn(DVec3) -> DVec3,
+    ) -> Load {
+        let v = self.velocity_through_air(motion) - wind(self.added.centre());
         // Rate of the components in the turning frame.
         let rate = motion.rotation.transpose() * acc.linear - motion.rate.cross(v);
         let (a, turn) = (&self.added, acc.angular);
@@ -141,7 +180,7 @@ impl BladeWing {
         }
     }
 
-    /// Both together, for motions whose accelerations are known.
+    /// Both together in uniform air, for motions whose accelerations are known.
     pub fn load(&self, motion: &FrameMotion, acc: &FrameAcceleration) -> Load {
         let (a, b) = (
             self.velocity_load(motion),

@@ -9,11 +9,11 @@ use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
 use std::time::Duration;
 
 use wingbeat_dynamics::{BodyMotion, Wrench};
-use wingbeat_flight::{ExternalAir, ExternalSession};
+use wingbeat_flight::{Announcement, ExternalAir, ExternalSession};
 use wingbeat_math::DVec3;
 
 /// Version of the protocol.
-pub const PROTOCOL: u32 = 1;
+pub const PROTOCOL: u32 = 2;
 
 /// A program to be started for each flight.
 #[derive(Clone, Debug, PartialEq)]
@@ -25,9 +25,9 @@ pub struct ProcessAir {
 }
 
 impl ExternalAir for ProcessAir {
-    fn open(&self, bodies: &[String], step: f64) -> Result<Box<dyn ExternalSession>, String> {
+    fn open(&self, flyer: &Announcement) -> Result<Box<dyn ExternalSession>, String> {
         let mut session = Conversation::start(self)?;
-        session.greet(bodies, step)?;
+        session.greet(flyer)?;
         Ok(Box::new(session))
     }
 }
@@ -70,12 +70,16 @@ impl Conversation {
         })
     }
 
-    fn greet(&mut self, bodies: &[String], step: f64) -> Result<(), String> {
+    fn greet(&mut self, flyer: &Announcement) -> Result<(), String> {
         self.say(&format!("wingbeat-air {PROTOCOL}"))?;
-        self.say(&format!("step_s {step:e}"))?;
-        self.say(&format!("bodies {}", bodies.len()))?;
-        for name in bodies {
+        self.say(&format!("step_s {:e}", flyer.step))?;
+        self.say(&format!("bodies {}", flyer.bodies.len()))?;
+        for name in &flyer.bodies {
             self.say(name)?;
+        }
+        self.say(&format!("joints {}", flyer.joints.len()))?;
+        for (name, parent, child) in &flyer.joints {
+            self.say(&format!("{parent} {child} {name}"))?;
         }
         self.flush()?;
         let answer = self.hear()?;

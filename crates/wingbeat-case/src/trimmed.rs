@@ -5,7 +5,7 @@ use std::path::Path;
 
 use wingbeat_analysis::table::rigid_animal;
 use wingbeat_analysis::wake::WakeTrim;
-use wingbeat_analysis::{LinearModel, Trim};
+use wingbeat_analysis::{AnalysisError, LinearModel, Trim};
 use wingbeat_dynamics::BodyMotion;
 use wingbeat_math::EulerSequence;
 use wingbeat_model::motion::Adjustment;
@@ -89,8 +89,15 @@ fn with_start(
 }
 
 /// The rigid animal of a trimmed flight under the derivatives of its averaged model, as TOML.
-pub fn derivative_case(case: &LoadedCase, trim: &Trim, model: &LinearModel) -> String {
-    let (mass, inertia, table) = rigid_animal(trim, model);
+///
+/// # Errors
+/// What the air reports.
+pub fn derivative_case(
+    case: &LoadedCase,
+    trim: &Trim,
+    model: &LinearModel,
+) -> Result<String, AnalysisError> {
+    let (mass, inertia, table) = rigid_animal(trim, model)?;
     let j = |i: usize, k: usize| inertia.col(k)[i];
     let block = |i: usize, k: usize| -> Option<[[f64; 3]; 3]> {
         let entry = |r: usize, c: usize| table.derivatives[i + r][k + c];
@@ -143,10 +150,10 @@ pub fn derivative_case(case: &LoadedCase, trim: &Trim, model: &LinearModel) -> S
         ..FlightCase::default()
     };
     let body = toml::to_string(&raw).expect("a case that was read can be written");
-    format!(
+    Ok(format!(
         "# `{}`, averaged over the wingbeat: a rigid body under stability derivatives.\n{body}",
         case.name
-    )
+    ))
 }
 
 /// Writes `text` to a file that does not exist yet.

@@ -203,6 +203,14 @@ pub enum DynamicsError {
         /// Body or joint.
         what: String,
     },
+    /// Added masses and accelerations that cannot agree.
+    #[error(
+        "the equations of motion are singular at t = {time:.6e} s: no accelerations agree with the added mass of the air; check masses and sizes, or leave the added mass out"
+    )]
+    SingularAddedMass {
+        /// Time \[s\].
+        time: f64,
+    },
     /// The formulation flies trees only.
     #[error(
         "joint `{joint}` closes a loop, which the {form} form does not have; use the quaternion form (`formulation = \"quaternion\"`)"

@@ -1,6 +1,7 @@
 //! The seam between a mechanical system and a time integrator.
 
-use crate::{BodyMotion, DynamicsError, Solution, System, Workspace, Wrench};
+use crate::added_mass::add_by_response;
+use crate::{AddedMass, BodyMotion, DynamicsError, Solution, System, Workspace, Wrench};
 
 /// A way to write the motion of a [`System`] as `y' = f(t, y)`.
 ///
@@ -71,6 +72,39 @@ pub trait Formulation: Send + Sync {
         ws: &mut Workspace,
         out: &mut Solution,
     ) -> Result<(), DynamicsError>;
+
+    /// Adds to `loads` what the air that bodies carry along exerts under the accelerations that
+    /// follow from all loads together. `out` is scratch.
+    ///
+    /// # Errors
+    /// As [`Self::solve`]; added masses that no accelerations agree with.
+    fn add_mass(
+        &self,
+        (t, y): (f64, &[f64]),
+        added: &[AddedMass],
+        loads: &mut [Wrench],
+        ws: &mut Workspace,
+        out: &mut Solution,
+    ) -> Result<(), DynamicsError> {
+        add_by_response(self, (t, y), added, loads, ws, out)
+    }
+
+    /// [`Self::rates`] under `loads` and the air that bodies carry along. `loads` and `out` are scratch.
+    ///
+    /// # Errors
+    /// As [`Self::add_mass`].
+    fn rates_with(
+        &self,
+        (t, y): (f64, &[f64]),
+        added: &[AddedMass],
+        loads: &mut [Wrench],
+        ws: &mut Workspace,
+        out: &mut Solution,
+        dy: &mut [f64],
+    ) -> Result<(), DynamicsError> {
+        self.add_mass((t, y), added, loads, ws, out)?;
+        self.rates(t, y, loads, ws, dy)
+    }
 
     /// Natural size of every component of y, for norms of differences.
     fn scales(&self) -> Vec<f64>;

@@ -31,13 +31,6 @@ impl Wrench {
     fn with_force(self, force: DVec3) -> Self {
         Self { force, ..self }
     }
-
-    fn minus(self, o: Self) -> Self {
-        Self {
-            force: self.force - o.force,
-            moment: self.moment - o.moment,
-        }
-    }
 }
 
 /// Reactions of all hinges and of the support of the root, from the motions in `ws` and the
@@ -79,9 +72,8 @@ pub(crate) fn demand(
 ) {
     for (i, body) in system.bodies().iter().enumerate() {
         let m = &motions[i];
-        out[i] = inertia_wrench(body, m, &accelerations[i])
-            .minus(loads[i])
-            .minus(weight_wrench(body, m, system.gravity()));
+        let inertia = inertia_wrench(body, m, &accelerations[i]);
+        out[i] = inertia - loads[i] - weight_wrench(body, m, system.gravity());
     }
 }
 

@@ -50,6 +50,7 @@
 //! What this crate does not know: air, panels, animals, files, units other than SI.
 #![warn(missing_docs)]
 
+pub mod added_mass;
 pub mod budget;
 mod error;
 pub mod euler;
@@ -67,6 +68,7 @@ mod system;
 mod tether;
 mod workspace;
 
+pub use added_mass::AddedMass;
 pub use error::DynamicsError;
 pub use euler::{Baumgarte, EulerForm};
 pub use formulation::Formulation;

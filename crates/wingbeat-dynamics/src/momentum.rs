@@ -15,27 +15,31 @@
 //! Free joints add their coordinates and speeds to the state ([`crate::free`]); I and h then
 //! depend on them too.
 
+use std::sync::Arc;
+
 use wingbeat_math::{DMat3, DQuat, DVec3};
 
+use crate::added_mass::{Six, add_by_response, seen, six, solve_symmetric, wrench};
 use crate::budget::{budget, load_power};
 use crate::free::{coordinate_rates, start};
 use crate::inverse::{demand, inertia_wrench, multipliers, reactions};
 use crate::mechanism::Mechanism;
-use crate::posture::{Composite, Posture};
+use crate::posture::{Composite, Placement, Posture, PostureTable};
 use crate::system::check_rotation;
-use crate::workspace::check_finite;
+use crate::workspace::{MOMENTUM_STATE, check_finite};
 use crate::{
-    BodyAcceleration, BodyMotion, DynamicsError, Formulation, Freedom, Solution, System, Violation,
-    Workspace, Wrench,
+    AddedMass, BodyAcceleration, BodyMotion, DynamicsError, Formulation, Freedom, Solution, System,
+    Violation, Workspace, Wrench,
 };
 
 /// Length of the state vector without free joint coordinates.
-const DIM: usize = 13;
+const DIM: usize = MOMENTUM_STATE;
 
 /// The momentum form of a [`System`].
 #[derive(Clone, Debug)]
 pub struct MomentumForm {
     system: System,
+    table: Option<Arc<PostureTable>>,
 }
 
 /// The state vector, taken apart.
@@ -84,7 +88,31 @@ impl State {
 impl MomentumForm {
     /// The momentum form of `system`.
     pub fn new(system: System) -> Self {
-        Self { system }
+        Self {
+            system,
+            table: None,
+        }
+    }
+
+    /// The same with all that depends on time alone known at the times of `table`.
+    pub fn tabulated(self, table: Arc<PostureTable>) -> Self {
+        Self {
+            table: Some(table),
+            ..self
+        }
+    }
+
+    /// Postures and whole at time `t` into `ws`, known already if it was the last time asked for
+    /// and no joint is free.
+    fn lay(&self, t: f64, y: &[f64], ws: &mut Workspace) -> Composite {
+        if let Some((at, whole)) = ws.prescribed
+            && at == t
+        {
+            return whole;
+        }
+        let whole = (ws.posture).lay(&self.system, t, self.free(y), self.table.as_deref());
+        ws.prescribed = (self.system.coordinates() == 0).then_some((t, whole));
+        whole
     }
 
     /// Free joint coordinates and speeds in the state.
@@ -93,9 +121,17 @@ impl MomentumForm {
         y[DIM..].split_at(self.system.coordinates())
     }
 
+    /// The table of postures, if there is one.
+    pub fn table(&self) -> Option<&PostureTable> {
+        self.table.as_deref()
+    }
+
     /// The state in which the root moves like `root` and the free joints stand at `q` and move at
     /// `u`.
-    fn start_at(
+    ///
+    /// # Errors
+    /// As [`Formulation::initial`].
+    pub fn start_at(
         &self,
         t: f64,
         root: &BodyMotion,
@@ -191,10 +227,13 @@ impl MomentumForm {
         ws: &mut Workspace,
     ) -> Result<(State, Composite), DynamicsError> {
         let state = State::read(t, y)?;
-        ws.posture.update_free(&self.system, t, self.free(y));
-        let whole = ws.posture.composite(&self.system);
+        if let Some(whole) = ws.known(t, y) {
+            return Ok((state, whole));
+        }
+        let whole = self.lay(t, y, ws);
         let root = self.root_motion(t, &state, &whole)?;
         ws.posture.motions(&root, &mut ws.motions);
+        ws.note(t, y, whole);
         Ok((state, whole))
     }
 
@@ -248,6 +287,37 @@ impl MomentumForm {
         Ok(())
     }
 
+    /// Acceleration of the mass centre and angular acceleration of the root (root components) under
+    /// `loads` and the added masses, less those at rest; rates of the momenta at rest. Motions as
+    /// [`Self::unfold`] left them; accelerations at rest into `ws.bias`.
+    fn accelerate_with(
+        &self,
+        added: &[AddedMass],
+        loads: &[Wrench],
+        state: &State,
+        whole: &Composite,
+        ws: &mut Workspace,
+    ) -> (Six, Wrench) {
+        let load = self.total_load(loads, &ws.motions, state.centre);
+        let root = ws.motions[0];
+        let still = BodyAcceleration::default();
+        ws.posture.accelerations(&root, &still, &mut ws.bias);
+        let bias = self.momentum_rate(&ws.motions, &ws.bias, state.centre);
+        let back = root.r.transpose();
+        let mut x = six(
+            back * (load.force - bias.force),
+            back * (load.moment - bias.moment),
+        );
+        let mut matrix = inertia_of_whole(whole);
+        for a in added {
+            let at = &ws.posture.placements()[a.body()];
+            let load = a.load(&seen(&ws.motions[a.body()], &ws.bias[a.body()]));
+            put_added(a, at, whole.c, &load, &mut matrix, &mut x);
+        }
+        solve_symmetric(&mut matrix, &mut x);
+        (x, bias)
+    }
+
     /// Rates of linear momentum and of angular momentum about the mass centre.
     fn momentum_rate(
         &self,
@@ -277,6 +347,56 @@ fn turn(time: f64, inertia: DMat3, h: DVec3) -> Result<DVec3, DynamicsError> {
         return Ok(DVec3::new(h.dot(yz), h.dot(zx), h.dot(xy)) / determinant);
     }
     Err(DynamicsError::SingularInertia { time, scale })
+}
+
+/// `diag(m, I)`, root components.
+fn inertia_of_whole(whole: &Composite) -> [Six; 6] {
+    let mut matrix = [[0.0; 6]; 6];
+    for i in 0..3 {
+        matrix[i][i] = whole.mass;
+        for j in 0..3 {
+            matrix[3 + i][3 + j] = whole.inertia.col(j)[i];
+        }
+    }
+    matrix
+}
+
+/// Row k of J: component k of the acceleration of a body (origin, angular; body components) by the
+/// acceleration of the mass centre at `c` and the root's angular acceleration, root components.
+fn row(at: &Placement, c: DVec3, k: usize) -> Six {
+    let axis = at.c.col(k % 3);
+    match k < 3 {
+        true => six(axis, (at.d - c).cross(axis)),
+        false => six(DVec3::ZERO, axis),
+    }
+}
+
+/// Adds `J^T A J` to the lower half of the matrix and `J^T load` to the right-hand side.
+fn put_added(
+    a: &AddedMass,
+    at: &Placement,
+    c: DVec3,
+    load: &Six,
+    matrix: &mut [Six; 6],
+    x: &mut Six,
+) {
+    let mut rows = [[0.0; 6]; 6];
+    a.directions().iter().for_each(|&k| rows[k] = row(at, c, k));
+    for &k in a.directions() {
+        let mut carried = [0.0; 6];
+        for &l in a.directions() {
+            let factor = a.matrix()[k][l];
+            (0..6).for_each(|j| carried[j] += factor * rows[l][j]);
+        }
+        for i in 0..6 {
+            x[i] += rows[k][i] * load[k];
+            (0..=i).for_each(|j| matrix[i][j] += rows[k][i] * carried[j]);
+        }
+    }
+}
+
+fn dot(a: &Six, b: &Six) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
 impl Formulation for MomentumForm {
@@ -335,8 +455,7 @@ impl Formulation for MomentumForm {
             return Ok(());
         }
         let state = State::read(t, y)?;
-        ws.posture.update_free(&self.system, t, self.free(y));
-        let whole = ws.posture.composite(&self.system);
+        let whole = self.lay(t, y, ws);
         let r = state.rotation();
         let w = turn(t, whole.inertia, r.transpose() * state.angular - whole.h)?;
         let load = self.whole_load(loads, &ws.posture, r, whole.c);
@@ -364,6 +483,54 @@ impl Formulation for MomentumForm {
         out.violation = Violation::default(); // constraints hold by construction
         out.budget = budget(&self.system, &ws.motions);
         out.load_power = load_power(loads, &ws.motions);
+        Ok(())
+    }
+
+    fn add_mass(
+        &self,
+        (t, y): (f64, &[f64]),
+        added: &[AddedMass],
+        loads: &mut [Wrench],
+        ws: &mut Workspace,
+        out: &mut Solution,
+    ) -> Result<(), DynamicsError> {
+        if self.system.speeds() > 0 {
+            return add_by_response(self, (t, y), added, loads, ws, out);
+        }
+        let (state, whole) = self.unfold(t, y, ws)?;
+        let (x, _) = self.accelerate_with(added, loads, &state, &whole, ws);
+        for a in added {
+            let mut s = seen(&ws.motions[a.body()], &ws.bias[a.body()]);
+            for &k in a.directions() {
+                s[k] += dot(&row(&ws.posture.placements()[a.body()], whole.c, k), &x);
+            }
+            loads[a.body()] += wrench(ws.motions[a.body()].r, &a.load(&s));
+        }
+        Ok(())
+    }
+
+    fn rates_with(
+        &self,
+        (t, y): (f64, &[f64]),
+        added: &[AddedMass],
+        loads: &mut [Wrench],
+        ws: &mut Workspace,
+        out: &mut Solution,
+        dy: &mut [f64],
+    ) -> Result<(), DynamicsError> {
+        if self.system.speeds() > 0 {
+            add_by_response(self, (t, y), added, loads, ws, out)?;
+            return self.rates(t, y, loads, ws, dy);
+        }
+        let (state, whole) = self.unfold(t, y, ws)?;
+        let (x, bias) = self.accelerate_with(added, loads, &state, &whole, ws);
+        // Accelerations under all loads give the rates of the momenta, added masses included.
+        let r = ws.motions[0].r;
+        let load = Wrench {
+            force: bias.force + r * (whole.mass * DVec3::from_slice(&x)),
+            moment: bias.moment + r * (whole.inertia * DVec3::from_slice(&x[3..])),
+        };
+        state.rates(&whole, ws.motions[0].w, &load).write(dy);
         Ok(())
     }
 

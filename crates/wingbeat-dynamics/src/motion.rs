@@ -82,3 +82,14 @@ impl std::ops::AddAssign for Wrench {
         self.moment += o.moment;
     }
 }
+
+impl std::ops::Sub for Wrench {
+    type Output = Self;
+
+    fn sub(self, o: Self) -> Self {
+        Self {
+            force: self.force - o.force,
+            moment: self.moment - o.moment,
+        }
+    }
+}

@@ -118,6 +118,17 @@ impl Posture {
 
     /// Evaluates the hinge laws at time `t` \[s\] for the free coordinates and speeds `free`.
     pub fn update_free(&mut self, system: &System, t: f64, free: (&[f64], &[f64])) {
+        self.place(system, t, free, |k| system.hinges()[k].law.at(t));
+    }
+
+    /// As [`Self::update_free`], hinge `k` turned by `law(k)`.
+    fn place(
+        &mut self,
+        system: &System,
+        t: f64,
+        free: (&[f64], &[f64]),
+        law: impl Fn(usize) -> MovingRotation,
+    ) {
         for &k in system.outward() {
             let (h, joint, slot) = (&system.hinges()[k], &system.joints()[k], &system.slots()[k]);
             let mut travel = [h.anchor_parent, DVec3::ZERO, DVec3::ZERO];
@@ -125,7 +136,7 @@ impl Posture {
                 let moved = law.at(t);
                 (0..3).for_each(|i| travel[i] += moved[i]);
             }
-            let frame = self.placements[h.parent].slid(travel).turned(&h.law.at(t));
+            let frame = self.placements[h.parent].slid(travel).turned(&law(k));
             let (q, u) = (&free.0[slot.q..], &free.1[slot.u..]);
             let (q, u) = (&q[..slot.coordinates], &u[..slot.speeds]);
             let child = carry(joint.freedom, frame, q, u);
@@ -215,6 +226,73 @@ impl Posture {
                 format!("the law of hinge `{}`", h.name)
             })
         })
+    }
+}
+
+/// What depends on time alone, at equal steps from time zero: rotations of the hinge laws and,
+/// where no joint is free, the posture. Evaluations at these times read it off.
+#[derive(Clone, Debug)]
+pub struct PostureTable {
+    step: f64,
+    entries: Vec<Entry>,
+}
+
+#[derive(Clone, Debug)]
+struct Entry {
+    laws: Vec<MovingRotation>,
+    posture: Posture,
+    whole: Composite,
+}
+
+impl PostureTable {
+    /// The laws of `system` at the times 0, `step`, ..., `count step` \[s\].
+    pub fn new(system: &System, step: f64, count: usize) -> Self {
+        let mut posture = Posture::new(system);
+        let mut entry = |k: usize| {
+            let t = k as f64 * step;
+            posture.update(system, t);
+            Entry {
+                laws: system.hinges().iter().map(|h| h.law.at(t)).collect(),
+                whole: posture.composite(system),
+                posture: posture.clone(),
+            }
+        };
+        let entries = (0..=count).map(&mut entry).collect();
+        Self { step, entries }
+    }
+
+    /// Posture and whole at step number `k`, free joints at their start.
+    pub fn posture(&self, k: usize) -> (&Posture, &Composite) {
+        let entry = &self.entries[k];
+        (&entry.posture, &entry.whole)
+    }
+
+    /// The entry of time `t`, to the last bits of a sum of steps.
+    fn at(&self, t: f64) -> Option<&Entry> {
+        let k = (t / self.step).round();
+        let same = (t - k * self.step).abs() <= 8.0 * f64::EPSILON * t.abs().max(self.step);
+        self.entries.get(k as usize).filter(|_| same && k >= 0.0)
+    }
+}
+
+impl Posture {
+    /// The posture at time `t` \[s\] and its whole; `table` spares the laws where it has them.
+    pub(crate) fn lay(
+        &mut self,
+        system: &System,
+        t: f64,
+        free: (&[f64], &[f64]),
+        table: Option<&PostureTable>,
+    ) -> Composite {
+        match table.and_then(|table| table.at(t)) {
+            Some(known) if system.coordinates() == 0 => {
+                self.placements.copy_from_slice(&known.posture.placements);
+                return known.whole;
+            }
+            Some(known) => self.place(system, t, free, |k| known.laws[k]),
+            None => self.update_free(system, t, free),
+        }
+        self.composite(system)
     }
 }
 

@@ -194,7 +194,7 @@ impl System {
     }
 
     /// Start of the free coordinates and speeds.
-    pub(crate) fn start(&self) -> (Vec<f64>, Vec<f64>) {
+    pub fn start(&self) -> (Vec<f64>, Vec<f64>) {
         let (mut q, mut u) = (vec![0.0; self.coordinates()], vec![0.0; self.speeds()]);
         for (joint, slot) in self.joints.iter().zip(&self.slots) {
             start(joint, slot, &mut q, &mut u);

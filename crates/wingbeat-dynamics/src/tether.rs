@@ -21,6 +21,7 @@ pub fn tethered_motions(
     ws: &mut Workspace,
     out: &mut [BodyMotion],
 ) {
+    ws.forget();
     ws.posture.update(system, t);
     ws.posture.motions(root, out);
 }
@@ -36,6 +37,7 @@ pub fn tethered(
     ws: &mut Workspace,
     out: &mut Solution,
 ) {
+    ws.forget();
     ws.posture.update(system, t);
     ws.posture.motions(&root.motion, &mut ws.motions);
     ws.posture

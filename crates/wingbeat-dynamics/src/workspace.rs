@@ -3,11 +3,11 @@
 use crate::euler::EulerScratch;
 use crate::free::FreeScratch;
 use crate::mechanism::form::AbsoluteScratch;
-use crate::posture::Posture;
+use crate::posture::{Composite, Posture};
 use crate::{BodyAcceleration, BodyMotion, DynamicsError, System, Wrench};
 
 /// Intermediate results, kept between calls so that nothing is allocated. Holds no state: any
-/// workspace of the same system serves any call.
+/// workspace of the same system serves any call of it.
 #[derive(Clone, Debug)]
 pub struct Workspace {
     pub(crate) posture: Posture,
@@ -17,7 +17,14 @@ pub struct Workspace {
     pub(crate) free: FreeScratch,
     pub(crate) bias: Vec<BodyAcceleration>,
     pub(crate) absolute: Option<AbsoluteScratch>,
+    /// Time of `posture` and its whole, where nothing but time decides on them.
+    pub(crate) prescribed: Option<(f64, Composite)>,
+    /// Time, state and whole that `motions` belong to, where no joint is free.
+    pub(crate) unfolded: Option<(f64, [f64; MOMENTUM_STATE], Composite)>,
 }
+
+/// Length of the momentum form's state without free joints.
+pub(crate) const MOMENTUM_STATE: usize = 13;
 
 impl Workspace {
     /// Room for `system`.
@@ -31,7 +38,31 @@ impl Workspace {
             free: FreeScratch::new(system),
             bias: vec![BodyAcceleration::default(); bodies],
             absolute: None,
+            prescribed: None,
+            unfolded: None,
         }
+    }
+
+    /// Forgets what it knows of the last evaluation.
+    pub(crate) fn forget(&mut self) {
+        (self.prescribed, self.unfolded) = (None, None);
+    }
+
+    /// The whole, if `motions` are those of the state `y` at time `t` already.
+    pub(crate) fn known(&self, t: f64, y: &[f64]) -> Option<Composite> {
+        let (at, state, whole) = self.unfolded.as_ref()?;
+        (*at == t && state.as_slice() == y).then_some(*whole)
+    }
+
+    /// Takes note that `motions` are those of the state `y` at time `t`.
+    pub(crate) fn note(&mut self, t: f64, y: &[f64], whole: Composite) {
+        let state = <[f64; MOMENTUM_STATE]>::try_from(y);
+        self.unfolded = state.ok().map(|state| (t, state, whole));
+    }
+
+    /// Motions of all bodies as last evaluated.
+    pub fn motions(&self) -> &[BodyMotion] {
+        &self.motions
     }
 }
 

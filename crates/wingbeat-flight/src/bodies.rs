@@ -8,7 +8,7 @@ use wingbeat_dynamics::{
     Link, MomentumForm, NaturalUnits, QuaternionForm, Stabilization, System,
 };
 use wingbeat_math::{DMat3, DVec3, EulerSequence, RotationLaw};
-use wingbeat_model::Animal;
+use wingbeat_model::{Animal, Wing};
 
 use crate::joints::JointSetup;
 use crate::setup::{FlightSetup, FormulationChoice, MotionMode};
@@ -25,7 +25,15 @@ pub fn system(
     gravity: DVec3,
     units: NaturalUnits,
 ) -> Result<System, DynamicsError> {
-    articulated(animal, &[], gravity, units)
+    articulated(animal, &[], gravity, units, &own_motion)
+}
+
+/// The rotation of a wing's hinge.
+pub type WingLaw<'a> = dyn Fn(usize, &Wing) -> Arc<dyn RotationLaw> + 'a;
+
+/// A wing that moves as its animal says.
+pub(crate) fn own_motion(_index: usize, wing: &Wing) -> Arc<dyn RotationLaw> {
+    Arc::new(wing.motion.clone())
 }
 
 /// The multibody system of a setup: central body, wings, segments, in this order; the first joint
@@ -34,12 +42,16 @@ pub fn system(
 /// # Errors
 /// What the dynamics refuses: see [`System::new`] and [`System::with_joint`].
 pub fn system_of(setup: &FlightSetup) -> Result<System, DynamicsError> {
-    articulated(
-        &setup.animal,
-        &setup.joints,
-        setup.gravity,
-        natural_units(setup),
-    )
+    system_with(setup, &own_motion)
+}
+
+/// As [`system_of`], wings without a law of their joint's own moving by `law`.
+///
+/// # Errors
+/// As [`system_of`].
+pub fn system_with(setup: &FlightSetup, law: &WingLaw<'_>) -> Result<System, DynamicsError> {
+    let units = natural_units(setup);
+    articulated(&setup.animal, &setup.joints, setup.gravity, units, law)
 }
 
 /// Builds the system of a setup and, where joints close loops, closes them at time zero.
@@ -72,6 +84,7 @@ fn articulated(
     joints: &[JointSetup],
     gravity: DVec3,
     units: NaturalUnits,
+    law: &WingLaw<'_>,
 ) -> Result<System, DynamicsError> {
     let bodies = bodies(animal);
     let mut hinges: Vec<(Hinge, Joint)> = vec![];
@@ -80,8 +93,10 @@ fn articulated(
     for child in 1..bodies.len() {
         let wing = animal.wings.get(child - 1);
         match (first(child), wing) {
-            (Some(k), _) => hinges.push(joined(&joints[k], animal)),
-            (None, Some(w)) => hinges.push((wing_hinge(w, child), Joint::new(Freedom::Weld))),
+            (Some(k), _) => hinges.push(joined(&joints[k], animal, law)),
+            (None, Some(w)) => {
+                hinges.push((wing_hinge(w, child, law), Joint::new(Freedom::Weld)));
+            }
             (None, None) => {}
         }
     }
@@ -114,22 +129,23 @@ fn bodies(animal: &Animal) -> Vec<Body> {
     bodies
 }
 
-fn wing_hinge(wing: &wingbeat_model::Wing, child: usize) -> Hinge {
+fn wing_hinge(wing: &Wing, child: usize, law: &WingLaw<'_>) -> Hinge {
     Hinge {
         name: wing.name.clone(),
         parent: 0,
         child,
         anchor_parent: wing.hinge_b,
         anchor_child: DVec3::ZERO,
-        law: Arc::new(wing.motion.clone()),
+        law: law(child - 1, wing),
     }
 }
 
 /// A hinge with its freedom; a wing without a law of its own keeps its motion.
-fn joined(joint: &JointSetup, animal: &Animal) -> (Hinge, Joint) {
-    let wing = animal.wings.get(joint.child.wrapping_sub(1));
+fn joined(joint: &JointSetup, animal: &Animal, law: &WingLaw<'_>) -> (Hinge, Joint) {
+    let index = joint.child.wrapping_sub(1);
     let motion = || -> Arc<dyn RotationLaw> {
-        wing.map_or(Arc::new(DMat3::IDENTITY), |w| Arc::new(w.motion.clone()))
+        let wing = animal.wings.get(index);
+        wing.map_or(Arc::new(DMat3::IDENTITY), |w| law(index, w))
     };
     let hinge = Hinge {
         name: joint.name.clone(),

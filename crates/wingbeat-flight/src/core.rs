@@ -1,8 +1,8 @@
 //! How the root body moves: freely, by one of the formulations, or as a tether prescribes.
 
 use wingbeat_dynamics::{
-    BodyAcceleration, BodyMotion, Formulation, RootMotion, Solution, System, Workspace, Wrench,
-    tethered, tethered_motions,
+    AddedMass, BodyAcceleration, BodyMotion, Formulation, RootMotion, Solution, System, Workspace,
+    Wrench, tethered, tethered_motions,
 };
 
 use crate::error::FlightError;
@@ -131,6 +131,55 @@ impl Core {
     ) -> Result<(), FlightError> {
         if let Self::Free(form) = self {
             form.rates(t, y, loads, ws, dy)?;
+        }
+        Ok(())
+    }
+
+    /// Adds to `loads` what the air that bodies carry along exerts. `out` is scratch.
+    ///
+    /// # Errors
+    /// As [`Self::solve`]; added masses that no accelerations agree with.
+    pub fn add_mass(
+        &self,
+        (t, y): (f64, &[f64]),
+        added: &[AddedMass],
+        loads: &mut [Wrench],
+        ws: &mut Workspace,
+        out: &mut Solution,
+    ) -> Result<(), FlightError> {
+        match self {
+            Self::Free(form) => form.add_mass((t, y), added, loads, ws, out)?,
+            Self::Tethered { system, motion } => {
+                // Accelerations are prescribed: they do not depend on the loads.
+                let root = root_motion(motion, t);
+                tethered(system, t, &root, loads, ws, out);
+                let motions = ws.motions();
+                for a in added {
+                    let (m, acc) = (&motions[a.body()], &out.bodies[a.body()]);
+                    loads[a.body()] += a.wrench(m, acc);
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Rates under `loads` and the air that bodies carry along; `loads` and `out` are scratch.
+    ///
+    /// # Errors
+    /// As [`Self::add_mass`].
+    pub fn rates_with(
+        &self,
+        (t, y): (f64, &[f64]),
+        added: &[AddedMass],
+        loads: &mut [Wrench],
+        ws: &mut Workspace,
+        out: &mut Solution,
+        dy: &mut [f64],
+    ) -> Result<(), FlightError> {
+        match self {
+            Self::Free(form) if added.is_empty() => form.rates(t, y, loads, ws, dy)?,
+            Self::Free(form) => form.rates_with((t, y), added, loads, ws, out, dy)?,
+            Self::Tethered { .. } => {}
         }
         Ok(())
     }

@@ -4,18 +4,15 @@
 
 use std::sync::Arc;
 
-use wingbeat_air::{AirLoads, AirState, AirWorkspace, Lattice, NodeMotion};
-use wingbeat_blade::DerivativeTable;
+use wingbeat_air::AirState;
 use wingbeat_dynamics::budget::relative_energy;
-use wingbeat_dynamics::{BodyMotion, Mechanism, Solution, Workspace, Wrench};
+use wingbeat_dynamics::{AddedMass, BodyMotion, Mechanism, Solution, Workspace, Wrench};
 use wingbeat_math::DVec3;
 
-use crate::blade::{self, BladeSide};
+use crate::air::{Air, AirScratch, Instant};
 use crate::core::Core;
 use crate::error::FlightError;
-use crate::external::Session;
 use crate::setup::AppliedLoad;
-use crate::surfaces::SurfaceMap;
 
 /// Quadratures appended to the state of the core.
 pub const QUADRATURES: usize = 10;
@@ -72,28 +69,13 @@ impl Quadratures {
     }
 }
 
-/// The lattice and its map to the bodies.
-#[derive(Debug)]
-pub struct AirSide {
-    /// The vortex lattice.
-    pub lattice: Lattice,
-    /// Which nodes and panels belong to which body.
-    pub map: SurfaceMap,
-}
-
 /// The model: everything constant that the right-hand side needs.
 #[derive(Debug)]
 pub struct Equations {
     /// The bodies: free or tethered.
     pub core: Core,
-    /// The vortex lattice, if that is the air.
-    pub air: Option<Arc<AirSide>>,
-    /// The blade elements, if they are.
-    pub blade: Option<Arc<BladeSide>>,
-    /// The stability derivatives, if they are.
-    pub table: Option<DerivativeTable>,
-    /// The air computed elsewhere, if that is it.
-    pub external: Option<Session>,
+    /// The air around them.
+    pub air: Arc<dyn Air>,
     /// All joints, for their coordinates.
     pub mechanism: Mechanism,
     /// Extra loads.
@@ -113,10 +95,7 @@ pub struct Scratch {
     pub applied: Vec<Wrench>,
     /// Sum of both.
     total: Vec<Wrench>,
-    velocity_air: Vec<Wrench>,
-    added: Vec<Wrench>,
-    added_next: Vec<Wrench>,
-    gap: Vec<f64>,
+    added: Vec<AddedMass>,
     /// Accelerations, reactions, energies.
     pub solution: Solution,
     /// Kinetic energy relative to the root [J] and its rate [W].
@@ -124,14 +103,8 @@ pub struct Scratch {
     /// Power of what deforms each body against the air [W]; empty where nothing is deformed.
     pub deformation: Vec<f64>,
     dynamics: Workspace,
-    /// Lattice nodes.
-    pub nodes: NodeMotion,
-    /// Circulations, pressure jumps, panel forces.
-    pub air_loads: AirLoads,
-    /// Scratch of the lattice.
-    pub air_workspace: AirWorkspace,
-    nodes_done: NodeMotion,
-    air_is_current: bool,
+    /// Scratch of the air.
+    pub air_scratch: AirScratch,
 }
 
 impl Scratch {
@@ -144,23 +117,13 @@ impl Scratch {
             motions: vec![BodyMotion::REST; bodies],
             air: none.clone(),
             applied: none.clone(),
-            total: none.clone(),
-            velocity_air: none.clone(),
-            added: none.clone(),
-            added_next: none,
-            gap: vec![0.0; 6 * bodies],
+            total: none,
+            added: vec![],
             solution: Solution::new(system),
             relative: [0.0; 2],
-            deformation: vec![0.0; if equations.deforms() { bodies } else { 0 }],
+            deformation: vec![0.0; if equations.air.deforms() { bodies } else { 0 }],
             dynamics: equations.core.workspace(),
-            nodes: NodeMotion::default(),
-            air_loads: AirLoads::default(),
-            air_workspace: equations
-                .air
-                .as_ref()
-                .map_or_else(AirWorkspace::default, |a| a.lattice.workspace()),
-            nodes_done: NodeMotion::default(),
-            air_is_current: false,
+            air_scratch: equations.air.scratch(),
         }
     }
 }
@@ -172,11 +135,6 @@ impl Scratch {
     }
 }
 
-/// Most passes between added mass and accelerations.
-const ADDED_MASS_PASSES: usize = 60;
-/// Largest relative change of the loads that counts as agreement: a thousand roundings.
-const ADDED_MASS_TOLERANCE: f64 = 1e-13;
-
 impl Scratch {
     /// Air and applied loads together.
     fn sum_loads(&mut self) {
@@ -185,66 +143,15 @@ impl Scratch {
             *sum += *b;
         }
     }
-
-    /// Aitken's relaxation factor from the gap `added_next - added` and that of the pass before;
-    /// stores the gap. Forces and moments share one norm: moments of a wing are forces on a
-    /// fixed length, and any norm gives a convergent rule.
-    fn aitken(&mut self, pass: usize, before: f64) -> f64 {
-        let (mut inner, mut square) = (0.0, 0.0);
-        for (k, (a, b)) in self.added_next.iter().zip(&self.added).enumerate() {
-            let gap = components(a, b);
-            for (i, g) in gap.iter().enumerate() {
-                let old = &mut self.gap[6 * k + i];
-                let d = g - *old;
-                inner += *old * d;
-                square += d * d;
-                *old = *g;
-            }
-        }
-        if pass == 0 || square == 0.0 {
-            return 1.0;
-        }
-        -before * inner / square
-    }
-
-    /// Moves the added-mass load towards its next value; the air load follows. Returns the change
-    /// relative to the largest load.
-    fn relax_added(&mut self, relaxation: f64) -> f64 {
-        let (mut change, mut largest) = ([0.0_f64; 2], [0.0_f64; 2]);
-        for k in 0..self.added.len() {
-            let (old, next) = (self.added[k], self.added_next[k]);
-            let step = Wrench {
-                force: relaxation * (next.force - old.force),
-                moment: relaxation * (next.moment - old.moment),
-            };
-            self.added[k] += step;
-            self.air[k] = self.velocity_air[k];
-            self.air[k] += self.added[k];
-            let air = &self.air[k];
-            change = [
-                change[0].max(step.force.length()),
-                change[1].max(step.moment.length()),
-            ];
-            largest = [
-                largest[0].max(air.force.length()),
-                largest[1].max(air.moment.length()),
-            ];
-        }
-        let relative = |i: usize| {
-            if change[i] == 0.0 {
-                0.0
-            } else {
-                change[i] / largest[i]
-            }
-        };
-        relative(0).max(relative(1))
-    }
 }
 
-/// The six components of the difference of two wrenches.
-fn components(a: &Wrench, b: &Wrench) -> [f64; 6] {
-    let (f, m) = (a.force - b.force, a.moment - b.moment);
-    [f.x, f.y, f.z, m.x, m.y, m.z]
+/// The bodies at an instant.
+fn instant(time: f64, step: f64, motions: &[BodyMotion]) -> Instant<'_> {
+    Instant {
+        time,
+        step,
+        motions,
+    }
 }
 
 impl Equations {
@@ -276,21 +183,7 @@ impl Equations {
         dy: &mut [f64],
     ) -> Result<(), FlightError> {
         let n = self.core.dim();
-        self.place_nodes(t, y, s)?;
-        self.air_loads(t, air, s)?;
-        self.applied_loads(t, s);
-        if let Some(strips) = &self.blade {
-            strips.velocity_loads(t, &s.motions, &mut s.air);
-            self.add_mass(strips, t, &y[..n], s)?;
-        }
-        if let Some(table) = &self.table {
-            s.air.fill(Wrench::default());
-            s.air[0] = blade::turned(&table.load(&blade::frame(&s.motions[0])), &s.motions[0]);
-        }
-        if let Some(session) = &self.external {
-            session.loads(t, self.step, &s.motions, &mut s.air)?;
-        }
-        s.sum_loads();
+        self.loads(t, &y[..n], air, s)?;
         self.core
             .rates(t, &y[..n], &s.total, &mut s.dynamics, &mut dy[..n])?;
         self.core
@@ -298,6 +191,61 @@ impl Equations {
         s.relative = relative_energy(self.core.system(), &s.motions, &s.solution.bodies);
         self.deformation_power(t, s);
         self.quadrature_rates(s).write(dy);
+        Ok(())
+    }
+
+    /// Rates of the core's state `y` alone, without records and quadratures.
+    ///
+    /// # Errors
+    /// As [`Self::evaluate`].
+    pub fn rates(
+        &self,
+        t: f64,
+        y: &[f64],
+        air: Option<&AirState>,
+        s: &mut Scratch,
+        dy: &mut [f64],
+    ) -> Result<(), FlightError> {
+        self.known_loads(t, y, air, s)?;
+        let (ws, out) = (&mut s.dynamics, &mut s.solution);
+        (self.core).rates_with((t, y), &s.added, &mut s.total, ws, out, dy)
+    }
+
+    /// All loads on the bodies in the core's state `y` into `s.total`.
+    fn loads(
+        &self,
+        t: f64,
+        y: &[f64],
+        air: Option<&AirState>,
+        s: &mut Scratch,
+    ) -> Result<(), FlightError> {
+        self.known_loads(t, y, air, s)?;
+        if !s.added.is_empty() {
+            let (ws, out) = (&mut s.dynamics, &mut s.solution);
+            (self.core).add_mass((t, y), &s.added, &mut s.total, ws, out)?;
+            for ((air, total), applied) in s.air.iter_mut().zip(&s.total).zip(&s.applied) {
+                *air = *total - *applied;
+            }
+            s.sum_loads();
+        }
+        Ok(())
+    }
+
+    /// All loads but those of the added mass into `s.total`, the added mass into `s.added`.
+    fn known_loads(
+        &self,
+        t: f64,
+        y: &[f64],
+        air: Option<&AirState>,
+        s: &mut Scratch,
+    ) -> Result<(), FlightError> {
+        self.place_nodes(t, y, s)?;
+        self.applied_loads(t, s);
+        let at = instant(t, self.step, &s.motions);
+        (self.air).loads(&at, air, &mut s.air_scratch, &mut s.air)?;
+        s.added.clear();
+        self.air.added_mass(t, &mut s.added);
+        s.sum_loads();
         Ok(())
     }
 
@@ -310,38 +258,6 @@ impl Equations {
         self.core.normalise(t, &mut y[..n], &mut s.dynamics)
     }
 
-    /// Adds the load of the added mass to `s.air`, which holds the load of the velocities. Both
-    /// sides of `load -> acceleration -> load` are affine: fixed-point passes, accelerated by
-    /// Aitken's rule for vectors [Irons & Tuck 1969], end at the exact solution.
-    fn add_mass(
-        &self,
-        blade: &BladeSide,
-        t: f64,
-        y: &[f64],
-        s: &mut Scratch,
-    ) -> Result<(), FlightError> {
-        s.velocity_air.copy_from_slice(&s.air);
-        s.added.fill(Wrench::default());
-        let mut relaxation = 1.0;
-        let mut change = f64::INFINITY;
-        for pass in 0..ADDED_MASS_PASSES {
-            s.sum_loads();
-            self.core
-                .solve(t, y, &s.total, &mut s.dynamics, &mut s.solution)?;
-            blade.acceleration_loads(t, &s.motions, &s.solution.bodies, &mut s.added_next);
-            relaxation = s.aitken(pass, relaxation);
-            change = s.relax_added(relaxation);
-            if change <= ADDED_MASS_TOLERANCE {
-                return Ok(());
-            }
-        }
-        Err(FlightError::AddedMass {
-            time: t,
-            passes: ADDED_MASS_PASSES,
-            change,
-        })
-    }
-
     /// Positions and velocities of the lattice nodes in the state `y` at time `t` [s].
     ///
     /// # Errors
@@ -350,10 +266,21 @@ impl Equations {
         let n = self.core.dim();
         self.core
             .motions(t, &y[..n], &mut s.dynamics, &mut s.motions)?;
-        if let Some(side) = &self.air {
-            side.map.node_motion(t, &s.motions, &mut s.nodes)?;
-        }
-        Ok(())
+        let at = instant(t, self.step, &s.motions);
+        self.air.place(&at, &mut s.air_scratch)
+    }
+
+    /// The air around the bodies in the state `y0` at time zero: no wake yet.
+    ///
+    /// # Errors
+    /// The state is singular.
+    pub fn initial_air(
+        &self,
+        y0: &[f64],
+        s: &mut Scratch,
+    ) -> Result<Option<AirState>, FlightError> {
+        self.place_nodes(0.0, y0, s)?;
+        Ok(self.air.initial(&s.air_scratch))
     }
 
     /// Moves the wake of an accepted `air` by one step.
@@ -365,11 +292,7 @@ impl Equations {
         air: &mut Option<AirState>,
         s: &mut Scratch,
     ) -> Result<(), FlightError> {
-        if let (Some(side), Some(air)) = (&self.air, air) {
-            side.lattice.convect(air, self.step, &mut s.air_workspace)?;
-            s.air_is_current = false;
-        }
-        Ok(())
+        (self.air).advance(air, self.step, &mut s.air_scratch)
     }
 
     /// Accepts the circulations of the state last evaluated.
@@ -377,40 +300,7 @@ impl Equations {
     /// # Errors
     /// The wake has not been moved.
     pub fn accept_air(&self, air: &mut Option<AirState>, s: &Scratch) -> Result<(), FlightError> {
-        if let (Some(side), Some(air)) = (&self.air, air) {
-            side.lattice.accept(air, &s.nodes, &s.air_loads)?;
-        }
-        if let Some(session) = &self.external {
-            session.accept()?;
-        }
-        Ok(())
-    }
-
-    /// Loads of the air on the bodies in their present motion. Unchanged nodes in an unchanged
-    /// wake keep their loads.
-    fn air_loads(
-        &self,
-        t: f64,
-        air: Option<&AirState>,
-        s: &mut Scratch,
-    ) -> Result<(), FlightError> {
-        let (Some(side), Some(state)) = (&self.air, air) else {
-            return Ok(());
-        };
-        if !(s.air_is_current && s.nodes == s.nodes_done) {
-            side.lattice.loads(
-                state,
-                t,
-                self.step,
-                &s.nodes,
-                &mut s.air_workspace,
-                &mut s.air_loads,
-            )?;
-            s.nodes_done.clone_from(&s.nodes);
-            s.air_is_current = true;
-        }
-        side.map.wrenches(&s.air_loads, &s.motions, &mut s.air);
-        Ok(())
+        self.air.accept(air, &s.air_scratch)
     }
 
     /// Wrenches of the applied loads.
@@ -421,23 +311,14 @@ impl Equations {
         }
     }
 
-    /// Whether any wing moves otherwise than its body.
-    pub fn deforms(&self) -> bool {
-        self.air.as_ref().is_some_and(|a| a.map.deforms())
-            || self.blade.as_ref().is_some_and(|b| b.deforms())
-    }
-
     /// What deforming the wings takes at the state last evaluated.
     fn deformation_power(&self, t: f64, s: &mut Scratch) {
         if s.deformation.is_empty() {
             return;
         }
-        if let Some(side) = &self.air {
-            (side.map).deformation_power(&s.air_loads, &s.nodes, &s.motions, &mut s.deformation);
-        }
-        if let Some(blade) = &self.blade {
-            blade.deformation_power(t, &s.motions, &s.solution.bodies, &mut s.deformation);
-        }
+        let at = instant(t, self.step, &s.motions);
+        let accelerations = &s.solution.bodies;
+        (self.air).deformation_power(&at, accelerations, &s.air_scratch, &mut s.deformation);
     }
 
     /// Powers and external forces at the state last evaluated.

@@ -16,18 +16,6 @@ pub enum FlightError {
     /// The blade elements cannot be built.
     #[error(transparent)]
     Blade(#[from] BladeError),
-    /// Added mass and accelerations did not agree.
-    #[error(
-        "t = {time:.6e} s: the added mass of the blade elements and the accelerations of the bodies did not agree after {passes} passes (relative change {change:.1e}): the added mass outweighs the animal; check masses and sizes, or leave the added mass out"
-    )]
-    AddedMass {
-        /// Time [s].
-        time: f64,
-        /// Passes made.
-        passes: usize,
-        /// Relative change of the last pass.
-        change: f64,
-    },
     /// Wings that are joined at their roots moved apart there.
     #[error(
         "t = {time:.6e} s: the joined roots of `{}` and `{}` are {gap:.3e} m apart, allowed {limit:.3e} m (half a panel): bring the hinges and the surfaces' roots together, feather less there (twist the wing instead), or do not join them",
@@ -42,6 +30,14 @@ pub enum FlightError {
         gap: f64,
         /// Allowed distance [m].
         limit: f64,
+    },
+    /// A controller asked for something impossible.
+    #[error("t = {time:.6e} s: the controller's command is refused: {problem}")]
+    Control {
+        /// Time [s].
+        time: f64,
+        /// What is wrong with it.
+        problem: String,
     },
     /// Air computed elsewhere failed.
     #[error("external air: {0}")]

@@ -1,7 +1,8 @@
 //! Coupled flight: multibody dynamics and unsteady air, integrated together.
 //!
-//! The chapter in order: [`setup`] says what a flight is made of; [`joints`], `bodies` and `surfaces` map the
-//! animal to the multibody system and to the lattice; `equations` is the coupled right-hand side;
+//! The chapter in order: [`setup`] says what a flight is made of; [`joints`] and `bodies` map the
+//! animal to the multibody system; [`air`] is the seam behind which all models of the air stand;
+//! `equations` is the coupled right-hand side;
 //! `stages` and `core` choose between free, tethered and held; [`simulation`] integrates all of it
 //! with Hamming's predictor-corrector (or, without a wake, another method of `solver`), the wake frozen during corrector passes (seed sec. 4 and
 //! 5); `recorder` turns every accepted step into a [`Record`].
@@ -20,13 +21,14 @@
 //! SI, or clocks.
 #![warn(missing_docs)]
 
+pub mod air;
 mod applied;
-mod blade;
 mod bodies;
+pub mod control;
 mod core;
 mod equations;
 mod error;
-pub mod external;
+mod free;
 pub mod joints;
 pub mod record;
 mod recorder;
@@ -34,13 +36,14 @@ pub mod setup;
 pub mod simulation;
 mod solver;
 mod stages;
-mod surfaces;
 mod validate;
 
-pub use blade::{BladeSide, strips};
-pub use bodies::{check_assembly, system, system_of};
+pub use air::external::{Announcement, ExternalAir, ExternalSession};
+pub use air::{Air, AirScratch, Instant, check_joined, strips};
+pub use bodies::{WingLaw, check_assembly, system, system_of, system_with};
+pub use control::{ControlModel, Controller, Feedback, Passage, Sensed};
 pub use error::FlightError;
-pub use external::{ExternalAir, ExternalSession};
+pub use free::{FreeFlight, FreeFlightScratch};
 pub use joints::JointSetup;
 pub use record::{
     HingeRecord, LoadRecord, ParticleSnapshot, Record, Snapshot, SurfaceSnapshot, WakeSnapshot,
@@ -49,4 +52,3 @@ pub use recorder::Ledger;
 pub use setup::*;
 pub use simulation::{FlightState, Simulation};
 pub use stages::natural_units;
-pub use surfaces::check_joined;

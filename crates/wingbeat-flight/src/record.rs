@@ -1,6 +1,7 @@
 //! What one accepted step leaves behind: every quantity a reader may ask for, SI and radians.
 
 use wingbeat_math::DVec3;
+use wingbeat_model::motion::Adjustment;
 
 /// The record of one accepted step. Body 0 is the root, wings follow in the animal's order.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -11,6 +12,8 @@ pub struct Record {
     pub time: f64,
     /// Wing angles per wing: phi, theta, psi [rad].
     pub wing_angles: Vec<DVec3>,
+    /// Per wing: the command of feedback at the end of the passage under way; empty without feedback.
+    pub commands: Vec<Adjustment>,
     /// Generalized coordinates q of seed eq. 2: per body x, y, z [m], phi, theta, psi [rad].
     pub coordinates: Vec<f64>,
     /// Time derivatives of the coordinates [m/s, rad/s].

@@ -4,12 +4,10 @@ use wingbeat_air::{AirState, WakeSheet};
 use wingbeat_dynamics::{Body, BodyMotion, Budget, Wrench};
 use wingbeat_math::ode::StepReport;
 use wingbeat_math::{DQuat, DVec3};
-use wingbeat_model::Animal;
+use wingbeat_model::motion::Adjustment;
 
-use crate::equations::{AirSide, Equations, Quadratures, Scratch};
-use crate::record::{
-    HingeRecord, LoadRecord, ParticleSnapshot, Record, Snapshot, SurfaceSnapshot, WakeSnapshot,
-};
+use crate::equations::{Equations, Quadratures, Scratch};
+use crate::record::{HingeRecord, LoadRecord, Record};
 
 /// Below this |cos theta| Euler angles and their rates are not evaluated but kept: they lose
 /// all their digits there.
@@ -51,8 +49,10 @@ impl Ledger {
 
 /// Everything a record is made from.
 pub struct Sources<'a> {
-    /// The animal, for the wing angles.
-    pub animal: &'a Animal,
+    /// Angles of the wings [rad].
+    pub wing_angles: Vec<DVec3>,
+    /// Commands of feedback.
+    pub commands: Vec<Adjustment>,
     /// The equations in force.
     pub equations: &'a Equations,
     /// Intermediate results of the last evaluation.
@@ -78,11 +78,12 @@ impl Sources<'_> {
         ledger.events = events;
         let hinge_work = work.hinge_work + s.relative[0] - ledger.relative_energy;
         let done = hinge_work + work.air_work + work.deformation_work + work.applied_work;
-        let wings = 1..s.deformation.len().min(self.animal.wings.len() + 1);
+        let wings = 1..s.deformation.len().min(self.wing_angles.len() + 1);
         Record {
             step,
             time,
-            wing_angles: self.wing_angles(time),
+            wing_angles: self.wing_angles.clone(),
+            commands: self.commands.clone(),
             coordinates: ledger.coordinates.clone(),
             rates: ledger.rates.clone(),
             root_quaternion: quaternion(&s.motions[0]),
@@ -113,7 +114,7 @@ impl Sources<'_> {
             euler_regularity: regularity,
             corrector_passes: self.report.passes,
             corrector_residual: self.report.residual,
-            vortex_impulse: s.air_loads.impulse,
+            vortex_impulse: s.air_scratch.loads.impulse,
             wake_rings: self
                 .air
                 .map_or(0, |a| a.sheets.iter().map(WakeSheet::ring_count).sum()),
@@ -125,15 +126,6 @@ impl Sources<'_> {
         }
     }
 
-    fn wing_angles(&self, time: f64) -> Vec<DVec3> {
-        let value = |a: [[f64; 3]; 3]| DVec3::new(a[0][0], a[1][0], a[2][0]);
-        self.animal
-            .wings
-            .iter()
-            .map(|w| value(w.motion.angles(time)))
-            .collect()
-    }
-
     /// Coordinates along the free directions of all joints.
     fn joint_coordinates(&self, time: f64) -> Vec<[f64; 2]> {
         let mut out = vec![];
@@ -143,7 +135,7 @@ impl Sources<'_> {
 
     /// Largest leak of a closed surface; the loads of a vacuum are empty.
     fn leak(&self) -> f64 {
-        let surfaces = &self.scratch.air_loads.surfaces;
+        let surfaces = &self.scratch.air_scratch.loads.surfaces;
         surfaces.iter().fold(0.0, |m, s| m.max(s.leak.abs()))
     }
 }
@@ -217,72 +209,4 @@ fn note_coordinates(bodies: &[Body], motions: &[BodyMotion], ledger: &mut Ledger
 fn without_turns(eta: DVec3, before: DVec3) -> DVec3 {
     let turn = 2.0 * std::f64::consts::PI;
     eta + turn * ((before - eta) / turn).round()
-}
-
-/// The geometry of the state last evaluated: surfaces with their loads, wakes as they lie.
-pub fn snapshot(side: &AirSide, air: &AirState, s: &Scratch, step: usize, time: f64) -> Snapshot {
-    let surfaces = side.lattice.surfaces().iter().enumerate();
-    Snapshot {
-        step,
-        time,
-        surfaces: surfaces
-            .map(|(k, _)| surface_snapshot(side, s, k))
-            .collect(),
-        wakes: (0..air.sheets.len())
-            .map(|k| wake_snapshot(side, air, s, k))
-            .collect(),
-    }
-}
-
-fn surface_snapshot(side: &AirSide, s: &Scratch, k: usize) -> SurfaceSnapshot {
-    let surface = &side.lattice.surfaces()[k];
-    let panels = side.lattice.panels_of(k);
-    SurfaceSnapshot {
-        name: surface.name.clone(),
-        nodes: s.nodes.position[side.lattice.nodes_of(k)].to_vec(),
-        quads: surface.panels.clone(),
-        circulation: s.air_loads.gamma[panels.clone()].to_vec(),
-        pressure_jump: s.air_loads.pressure_jump[panels].to_vec(),
-    }
-}
-
-/// A wake sheet, newest row first, the nodes on the shedding edge included.
-fn wake_snapshot(side: &AirSide, air: &AirState, s: &Scratch, k: usize) -> WakeSnapshot {
-    let (sheet, root) = (&air.sheets[k], &side.lattice.sheets()[k]);
-    let (rows, cols) = (sheet.rows(), sheet.columns);
-    let mut nodes: Vec<DVec3> = root.nodes.iter().map(|&n| s.nodes.position[n]).collect();
-    let mut circulation = Vec::with_capacity(rows * cols);
-    for row in (0..rows).rev() {
-        nodes.extend((0..=cols).map(|c| sheet.node(row, c)));
-        // Rings that have become particles are drawn without circulation.
-        let of = |c: usize| match sheet.is_ring(row, c) {
-            true => sheet.gamma[row * cols + c],
-            false => 0.0,
-        };
-        circulation.extend((0..cols).map(of));
-    }
-    let surface = &side.lattice.surfaces()[root.surface].name;
-    WakeSnapshot {
-        name: format!("{surface}-wake-{k}"),
-        rows,
-        cols,
-        nodes,
-        circulation,
-        particles: particle_snapshots(side, air, k),
-    }
-}
-
-fn particle_snapshots(side: &AirSide, air: &AirState, k: usize) -> Vec<ParticleSnapshot> {
-    let Some(settings) = &side.lattice.settings().particles else {
-        return vec![];
-    };
-    let particles = &air.sheets[k].particles;
-    let vectors = particles.position.iter().zip(particles.strength.iter());
-    let all = vectors.zip(&particles.shed_time);
-    let of = |((position, strength), shed): ((DVec3, DVec3), &f64)| ParticleSnapshot {
-        position,
-        strength,
-        radius: settings.core(air.time - shed).sqrt(),
-    };
-    all.map(of).collect()
 }

@@ -2,15 +2,16 @@
 
 use std::sync::Arc;
 
-use wingbeat_air::AirSettings;
-use wingbeat_blade::DerivativeTable;
 use wingbeat_blade::{BladeSettings, BodyDrag};
+use wingbeat_blade::DerivativeTable;
+use wingbeat_air::{AirSettings, Wind};
 use wingbeat_math::{DMat3, DVec3, EulerSequence, MovingRotation};
 use wingbeat_model::Animal;
 
+use crate::air::Air;
+use crate::air::external::ExternalAir;
+use crate::control::Feedback;
 use crate::joints::JointSetup;
-
-use crate::external::ExternalAir;
 
 /// Everything that defines one flight. Constant once built; the state is elsewhere.
 #[derive(Clone, Debug)]
@@ -37,6 +38,36 @@ pub struct FlightSetup {
     pub corrector: CorrectorSettings,
     /// Extra forces and couples.
     pub loads: Vec<AppliedLoad>,
+    /// Feedback on the wings; none flies the motion as it is.
+    pub feedback: Option<Feedback>,
+}
+
+impl FlightSetup {
+    /// A free flight of `animal` in `air` from rest at the origin, five wingbeats of 40 steps under
+    /// the gravity of the earth, momentum form, Hamming's method. What differs is set
+    /// afterwards: all fields are public.
+    pub fn new(name: &str, animal: Animal, air: AirModel) -> Self {
+        let frequency = animal.wings.first().map_or(0.0, |w| w.motion.frequency);
+        let period = (frequency > 0.0).then(|| 1.0 / frequency);
+        Self {
+            name: name.into(),
+            animal,
+            gravity: DVec3::new(0.0, 0.0, 9.81),
+            air,
+            mode: MotionMode::Free(StartState::default()),
+            joints: vec![],
+            formulation: FormulationChoice::Momentum,
+            integrator: IntegratorChoice::Hamming,
+            time: TimeGrid {
+                step: period.unwrap_or(1.0) / 40.0,
+                steps: 200,
+                period,
+            },
+            corrector: CorrectorSettings::default(),
+            loads: vec![],
+            feedback: None,
+        }
+    }
 }
 
 /// The air and its model: from none to the unsteady lattice.
@@ -53,6 +84,8 @@ pub enum AirModel {
     Derivatives(DerivativeTable),
     /// Loads computed by someone else.
     External(Arc<dyn ExternalAir>),
+    /// A model of your own.
+    Own(Arc<dyn Air>),
 }
 
 impl AirModel {
@@ -63,12 +96,16 @@ impl AirModel {
 
     /// Whether the loads depend on the past (a wake).
     pub fn has_memory(&self) -> bool {
-        matches!(self, Self::VortexLattice(_) | Self::External(_))
+        match self {
+            Self::VortexLattice(_) | Self::External(_) => true,
+            Self::None | Self::BladeElement(_) | Self::Derivatives(_) => false,
+            Self::Own(air) => air.has_memory(),
+        }
     }
 }
 
 /// Blade elements and what else the air does to the animal.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct BladeOptions {
     /// Coefficients, rotation, added mass, density and stream.
     pub blade: BladeSettings,
@@ -77,6 +114,8 @@ pub struct BladeOptions {
     /// Induced flow at the wings, added to the stream, N components [m/s]; zero for coefficients
     /// that hold it already.
     pub induced: DVec3,
+    /// Gusts and shear, added to the stream strip by strip.
+    pub wind: Wind,
 }
 
 /// The vortex lattice and which parts of the animal it sees.
@@ -104,7 +143,7 @@ pub enum MotionMode {
 }
 
 /// Position, attitude and velocities of the root body at time zero.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct StartState {
     /// Origin of the root frame, N components [m].
     pub position: DVec3,

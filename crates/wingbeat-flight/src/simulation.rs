@@ -9,15 +9,18 @@ use std::sync::Arc;
 
 use wingbeat_air::{AirState, Points};
 use wingbeat_dynamics::BodyMotion;
+use wingbeat_math::DVec3;
 use wingbeat_math::ode::{Multistep, Replay, StepError, StepReport, block_start};
 
+use crate::bodies::own_motion;
+use crate::control::{CommandedMotion, ControlState, Loop, Sensed};
 use crate::equations::{Equations, QUADRATURES, Scratch};
 use crate::error::FlightError;
 use crate::record::{Record, Snapshot};
-use crate::recorder::{self, Ledger, Sources};
-use crate::setup::{AirModel, CorrectorSettings, FlightSetup};
+use crate::recorder::{Ledger, Sources};
+use crate::setup::{AirModel, CorrectorSettings, FlightSetup, MotionMode};
 use crate::solver::{Solver, convergence};
-use crate::stages::{Stage, air_side, stages};
+use crate::stages::{Stage, stages};
 
 /// Everything that is integrated: plain data, enough to go on bit for bit.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
@@ -37,6 +40,8 @@ pub struct FlightState {
     pub air: Option<AirState>,
     /// What balances are counted from.
     pub ledger: Ledger,
+    /// What feedback remembers; none without.
+    pub control: Option<ControlState>,
 }
 
 /// A flight in progress.
@@ -48,6 +53,7 @@ pub struct Simulation {
     scratch: Scratch,
     record: Record,
     release: Option<BodyMotion>,
+    feedback: Option<Loop>,
 }
 
 impl Simulation {
@@ -58,8 +64,12 @@ impl Simulation {
     /// without consistent coordinates, a start that does not converge.
     pub fn new(setup: FlightSetup) -> Result<Self, FlightError> {
         setup.validate()?;
-        let air = air_side(&setup)?.map(Arc::new);
-        let stages = stages(&setup, air)?;
+        let feedback = feedback(&setup)?;
+        let wings = feedback.as_ref().map(Loop::wings);
+        let stages = stages(&setup, &|k, wing| match wings {
+            Some(wings) => wings[k].clone(),
+            None => own_motion(k, wing),
+        })?;
         let first = &stages[0].equations;
         let state = FlightState {
             step: 0,
@@ -69,12 +79,14 @@ impl Simulation {
             start_report: StepReport::default(),
             air: None,
             ledger: Ledger::default(),
+            control: feedback.as_ref().map(Loop::state),
         };
         let mut flight = Self {
             solver: Solver::new(first, setup.integrator, &setup.corrector),
             scratch: Scratch::new(first),
             record: Record::default(),
             release: None,
+            feedback,
             setup,
             state,
             stages,
@@ -100,6 +112,9 @@ impl Simulation {
         let first = &flight.stages[flight.state.stage].equations;
         flight.solver = flight.new_solver();
         flight.scratch = Scratch::new(first);
+        if let (Some(feedback), Some(state)) = (&mut flight.feedback, &flight.state.control) {
+            feedback.restore(state);
+        }
         flight.lay_out()?;
         Ok(flight)
     }
@@ -111,8 +126,9 @@ impl Simulation {
         let equations = &self.stages[self.state.stage].equations;
         equations.place_nodes(t, y, s)?;
         if let Some(air) = &self.state.air {
-            s.air_loads.gamma.clone_from(&air.gamma);
-            s.air_loads.pressure_jump = vec![f64::NAN; air.gamma.len()];
+            let loads = &mut s.air_scratch.loads;
+            loads.gamma.clone_from(&air.gamma);
+            loads.pressure_jump = vec![f64::NAN; air.gamma.len()];
         }
         Ok(())
     }
@@ -146,24 +162,18 @@ impl Simulation {
     /// Surfaces and wakes at the newest step; empty in vacuum. Pressure jumps are not part of the
     /// saved state: after [`Self::resume`] they are not numbers until the next step.
     pub fn snapshot(&self) -> Snapshot {
-        let (step, time) = (self.state.step, self.time(self.state.step));
-        match (&self.equations().air, &self.state.air) {
-            (Some(side), Some(air)) => recorder::snapshot(side, air, &self.scratch, step, time),
-            _ => Snapshot {
-                step,
-                time,
-                ..Snapshot::default()
-            },
+        let (memory, s) = (self.state.air.as_ref(), &self.scratch.air_scratch);
+        Snapshot {
+            step: self.state.step,
+            time: self.newest_time(),
+            ..self.equations().air.snapshot(memory, s)
         }
     }
 
     /// Velocity of the air [m/s] at `points` [m], N, at the newest step; none where the air is no
     /// vortex lattice.
     pub fn air_velocity(&self, points: &Points) -> Option<Points> {
-        let (side, air) = (self.equations().air.as_ref()?, self.state.air.as_ref()?);
-        let (mut ws, mut velocity) = (side.lattice.workspace(), Points::default());
-        let sampled = side.lattice.velocity(air, points, &mut ws, &mut velocity);
-        sampled.ok().map(|()| velocity)
+        (self.equations().air).velocity(self.state.air.as_ref(), points)
     }
 
     /// Time of the newest step [s].
@@ -222,10 +232,20 @@ impl Simulation {
         let core = &self.stages[0].equations.core;
         let mut y0 = core.initial(0.0, &root)?;
         y0.resize(y0.len() + QUADRATURES, 0.0);
-        self.state.air = self.stages[0].initial_air(&y0, &mut self.scratch)?;
+        self.state.air = (self.stages[0].equations).initial_air(&y0, &mut self.scratch)?;
         self.enter_stage(y0)?;
         self.state.ledger = Ledger::open(&self.scratch);
         self.finish_arrival(StepReport::default(), true)
+    }
+
+    /// Angles phi, theta, psi of the wings at time `t` [s].
+    fn wing_angles(&self, t: f64) -> Vec<DVec3> {
+        if let Some(feedback) = &self.feedback {
+            return feedback.angles(t);
+        }
+        let value = |a: [[f64; 3]; 3]| DVec3::new(a[0][0], a[1][0], a[2][0]);
+        let wings = self.setup.animal.wings.iter();
+        wings.map(|w| value(w.motion.angles(t))).collect()
     }
 
     /// One of the three starting steps, already known: evaluates it again in its place.
@@ -291,9 +311,11 @@ impl Simulation {
 
     /// Record, acceptance of the air, and the start of a stage that begins here.
     fn finish_arrival(&mut self, report: StepReport, starts: bool) -> Result<(), FlightError> {
+        self.control()?;
         let (step, time) = (self.state.step, self.time(self.state.step));
         let sources = Sources {
-            animal: &self.setup.animal,
+            wing_angles: self.wing_angles(time),
+            commands: (self.feedback.as_ref()).map_or(vec![], |f| f.commands().to_vec()),
             equations: &self.stages[self.state.stage].equations,
             scratch: &self.scratch,
             y: &self.state.past.y[self.newest()],
@@ -306,6 +328,32 @@ impl Simulation {
         if starts && !self.finished() && !self.setup.integrator.is_one_step() {
             self.start()?;
         }
+        Ok(())
+    }
+
+    /// Asks the controller, where there is one and it is time; a flyer that is held is not steered.
+    fn control(&mut self) -> Result<(), FlightError> {
+        let Some(feedback) = &mut self.feedback else {
+            return Ok(());
+        };
+        let stage = &self.stages[self.state.stage];
+        let since = self.state.step - stage.from_step;
+        let is_last = self.state.stage + 1 == self.stages.len();
+        if is_last && feedback.looks_at(since) {
+            let budget = &self.scratch.solution.budget;
+            let t = self.state.step as f64 * self.setup.time.step;
+            let sensed = Sensed {
+                look: feedback.look(),
+                time: since as f64 * self.setup.time.step,
+                root: self.scratch.motions[0],
+                centre: budget.centre,
+                velocity: budget.momentum / stage.equations.core.system().total_mass(),
+            };
+            feedback.update(t, &sensed)?;
+            // What the scratch knows of the wings at this instant is that of the passage before.
+            self.scratch.fit(&stage.equations);
+        }
+        self.state.control = Some(feedback.state());
         Ok(())
     }
 
@@ -329,6 +377,24 @@ impl Simulation {
         (state.past, state.start_report) = (past, report);
         Ok(())
     }
+}
+
+/// Feedback of a setup that has it, and the wings it moves.
+fn feedback(setup: &FlightSetup) -> Result<Option<Loop>, FlightError> {
+    let Some(feedback) = &setup.feedback else {
+        return Ok(None);
+    };
+    if matches!(setup.mode, MotionMode::Tethered(_)) {
+        return Err(FlightError::Setup {
+            key: "control",
+            value: "of a tethered flyer".into(),
+            problem: "feedback steers a free flight: set flight.mode = \"free\", or leave it out"
+                .into(),
+        });
+    }
+    let wings = setup.animal.wings.iter();
+    let wings = wings.map(|w| Arc::new(CommandedMotion::new(w))).collect();
+    Ok(Some(Loop::new(setup, feedback, wings)?))
 }
 
 /// The coupled right-hand side over the starting steps: the wake is replayed with them.

@@ -2,25 +2,21 @@
 
 use std::sync::Arc;
 
-use wingbeat_air::{AirState, Lattice};
 use wingbeat_dynamics::{
     Baumgarte, BodyMotion, EulerForm, Formulation, Mechanism, MomentumForm, NaturalUnits,
     QuaternionForm, Stabilization, System,
 };
 use wingbeat_math::DVec3;
 
-use crate::blade::BladeSide;
-use crate::bodies;
+use crate::bodies::{self, WingLaw};
 use crate::core::{Core, root_motion};
-use crate::equations::{AirSide, Equations, Scratch};
+use crate::equations::Equations;
 use crate::error::FlightError;
-use crate::external::Session;
 use crate::joints::Path;
 use crate::setup::{
     AirModel, BaumgarteChoice, DriftingFourier, FlightSetup, FormulationChoice, MotionMode,
     PrescribedMotion, StabilizationChoice, StartState,
 };
-use crate::surfaces::{SurfaceMap, twins};
 
 /// A part of the flight with the same equations.
 #[derive(Debug)]
@@ -31,78 +27,19 @@ pub struct Stage {
     pub equations: Equations,
 }
 
-impl Stage {
-    /// The air around the bodies in the state `y0` at time zero: no wake yet.
-    ///
-    /// # Errors
-    /// The state is singular.
-    pub fn initial_air(
-        &self,
-        y0: &[f64],
-        scratch: &mut Scratch,
-    ) -> Result<Option<AirState>, FlightError> {
-        self.equations.place_nodes(0.0, y0, scratch)?;
-        let side = self.equations.air.as_ref();
-        Ok(side.map(|a| a.lattice.initial_state(&scratch.nodes)))
-    }
-}
-
-/// The lattice of a setup and its map to the bodies, if there is air.
-///
-/// # Errors
-/// Surfaces or settings that the lattice refuses.
-pub fn air_side(setup: &FlightSetup) -> Result<Option<AirSide>, FlightError> {
-    let AirModel::VortexLattice(options) = &setup.air else {
-        return Ok(None);
-    };
-    let map = SurfaceMap::new(&setup.animal, options.body_surfaces, &options.joined);
-    let (surfaces, settings) = (map.surfaces.clone(), options.lattice.clone());
-    let lattice = Lattice::joined(surfaces, &map.seams(), settings)?;
-    if !options.mirror {
-        return Ok(Some(AirSide { lattice, map }));
-    }
-    let root = setup.root_at_start();
-    let twins = twins(&setup.animal, options.body_surfaces, &root).ok_or(FlightError::Setup {
-        key: "air.mirror",
-        value: "true".into(),
-        problem: "the animal is not its own mirror image; compute both halves (false)".into(),
-    })?;
-    let lattice = lattice.with_twins(twins)?;
-    Ok(Some(AirSide { lattice, map }))
-}
-
-/// The blade elements of a setup, if it has any.
-///
-/// # Errors
-/// Settings or strips that are refused.
-pub fn blade_side(setup: &FlightSetup) -> Result<Option<Arc<BladeSide>>, FlightError> {
-    let AirModel::BladeElement(options) = &setup.air else {
-        return Ok(None);
-    };
-    Ok(Some(Arc::new(BladeSide::new(&setup.animal, options)?)))
-}
-
 /// The stages of a setup.
 ///
 /// # Errors
-/// Bodies that the dynamics refuse.
-pub fn stages(setup: &FlightSetup, air: Option<Arc<AirSide>>) -> Result<Vec<Stage>, FlightError> {
-    let blade = blade_side(setup)?;
-    let external = Session::open(setup)?;
-    let table = match &setup.air {
-        AirModel::Derivatives(table) => Some(*table),
-        _ => None,
-    };
-    let system = bodies::system_of(setup)?;
+/// Bodies that the dynamics refuse, air that its model refuses.
+pub fn stages(setup: &FlightSetup, law: &WingLaw<'_>) -> Result<Vec<Stage>, FlightError> {
+    let system = bodies::system_with(setup, law)?;
+    let air = AirModel::build(setup, &system)?;
     let mechanism = Mechanism::of(&system);
     let stage = |from_step: usize, core: Core| Stage {
         from_step,
         equations: Equations {
             core,
             air: air.clone(),
-            blade: blade.clone(),
-            table,
-            external: external.clone(),
             mechanism: mechanism.clone(),
             applied: setup.loads.clone(),
             step: setup.time.step,

@@ -25,13 +25,18 @@ fn talk(coefficient: f64) -> Result<(), Box<dyn std::error::Error>> {
         let line = line?;
         let words: Vec<&str> = line.split_whitespace().collect();
         match words[..] {
-            ["wingbeat-air", "1"] | ["step_s", _] | ["accept", _] => {}
+            ["wingbeat-air", "2"] | ["step_s", _] | ["accept", _] => {}
             ["bodies", count] => {
                 bodies = count.parse()?;
                 for _ in 0..bodies {
                     lines.next().ok_or("a name is missing")??;
                 }
-                println!("ready 1");
+            }
+            ["joints", count] => {
+                for _ in 0..count.parse()? {
+                    lines.next().ok_or("a joint is missing")??;
+                }
+                println!("ready 2");
             }
             ["evaluate", _step, _time] => {
                 for _ in 0..bodies {

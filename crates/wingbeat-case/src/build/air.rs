@@ -250,7 +250,7 @@ fn particles(case: &ParticlesCase, air: &AirCase) -> Built<ParticleSettings> {
     })
 }
 
-fn wind(case: &AirCase) -> Built<Wind> {
+pub(super) fn wind(case: &AirCase) -> Built<Wind> {
     let gusts: Built<Vec<Gust>> = case.gust.iter().enumerate().map(gust).collect();
     let shear = case.shear_1_s.map(|rows| {
         let [a, b, c] = rows.map(DVec3::from_array);

@@ -50,6 +50,7 @@ pub(super) fn options(air: &AirCase) -> Built<BladeOptions> {
         blade,
         body_drag: body_drag(case)?,
         induced: vector(case.induced_m_s),
+        wind: super::air::wind(air)?,
     })
 }
 

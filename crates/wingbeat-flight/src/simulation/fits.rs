@@ -30,11 +30,7 @@ impl Simulation {
         if lengths != [own.coordinates.len(), own.rates.len()] {
             return misfit(format!("{lengths:?} coordinates"), "the case has others");
         }
-        match (&stage.equations.air, &state.air) {
-            (Some(side), Some(air)) => side.lattice.check_state(air)?,
-            (None, None) => {}
-            _ => return misfit("air".into(), "only one of case and state has air"),
-        }
+        stage.equations.air.check(state.air.as_ref())?;
         check_events(state)
     }
 }

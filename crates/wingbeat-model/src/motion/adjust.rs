@@ -53,7 +53,7 @@ impl AngleLaw {
 }
 
 /// Adjustments of a wing's motion. All zero leaves it as it is.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Adjustment {
     /// Relative change of the stroke's swing about its mean \[1\].
     pub stroke_amplitude: f64,
@@ -71,6 +71,27 @@ pub struct Adjustment {
     pub stroke_plane: f64,
     /// Relative change of the frequency \[1\].
     pub frequency: f64,
+}
+
+impl Adjustment {
+    /// The numbers with their names.
+    pub fn numbers(&self) -> [(&'static str, f64); 8] {
+        [
+            ("stroke_amplitude", self.stroke_amplitude),
+            ("stroke_offset", self.stroke_offset),
+            ("feathering_offset", self.feathering_offset),
+            ("feathering_amplitude", self.feathering_amplitude),
+            ("feathering_lead", self.feathering_lead),
+            ("deviation_offset", self.deviation_offset),
+            ("stroke_plane", self.stroke_plane),
+            ("frequency", self.frequency),
+        ]
+    }
+
+    /// Whether all numbers are finite.
+    pub fn is_finite(&self) -> bool {
+        self.numbers().iter().all(|(_, x)| x.is_finite())
+    }
 }
 
 impl WingMotion {

@@ -133,7 +133,7 @@ pub(crate) fn trimmed_with_wake(args: &Trimming) -> Result<(LoadedCase, WakeTrim
 /// What is reported of a trim of either kind.
 pub(crate) struct Found {
     pub(crate) converged: bool,
-    pub(crate) residual: [f64; 6],
+    pub(crate) residual: Vec<f64>,
     pub(crate) iterations: usize,
     pub(crate) adjustment: Adjustment,
     pub(crate) mass_centre: f64,
@@ -144,7 +144,7 @@ impl From<&Trim> for Found {
     fn from(t: &Trim) -> Self {
         Self {
             converged: t.converged,
-            residual: t.residual,
+            residual: t.residual.clone(),
             iterations: t.iterations,
             adjustment: t.adjustment,
             mass_centre: t.mass_centre,
@@ -157,7 +157,7 @@ impl From<&WakeTrim> for Found {
     fn from(t: &WakeTrim) -> Self {
         Self {
             converged: t.converged,
-            residual: t.residual,
+            residual: t.residual.to_vec(),
             iterations: t.iterations,
             adjustment: t.adjustment,
             mass_centre: t.mass_centre,

@@ -60,7 +60,7 @@ fn fly(args: &StabiliseArgs) -> Result<(), Trouble> {
     let (case, trim) = trimmed(&args.trimming)?;
     let mut controller = Sampled::new(controller(args, &trim)?, args.sample);
     let tilt = DVec3::from_slice(&args.tilt).map(f64::to_radians);
-    let mut flight = ControlledFlight::new(&trim, tilt, DVec3::ZERO, args.latency);
+    let mut flight = ControlledFlight::new(&trim, tilt, DVec3::ZERO, args.latency)?;
     let mut rows = vec![row(&flight)];
     let mut lost = None;
     for _ in 0..args.beats {

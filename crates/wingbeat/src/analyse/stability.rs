@@ -60,7 +60,7 @@ fn find(args: &StabilityArgs) -> Result<(), Trouble> {
         1e3 * trim.beat.period()
     );
     if let Some(path) = &args.write {
-        write_new(path, &derivative_case(&case, &trim, &averaged))?;
+        write_new(path, &derivative_case(&case, &trim, &averaged)?)?;
         println!("\nwrote {}", path.display());
     }
     Ok(())

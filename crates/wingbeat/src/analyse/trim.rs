@@ -71,8 +71,15 @@ pub(crate) fn report(case: &LoadedCase, problem: &TrimProblem, t: &Found) {
         "drift forward / R per beat",
         "drift down / R per beat",
     ];
-    for (name, r) in names.iter().zip(t.residual) {
+    for (name, r) in names.iter().zip(&t.residual) {
         println!("  residual of {name:<28}{r:>10.1e}");
+    }
+    if let Some(joints) = t.residual.get(names.len()..).filter(|j| !j.is_empty()) {
+        let largest = joints.iter().fold(0.0_f64, |m, r| m.max(r.abs()));
+        println!(
+            "  residual of {:<28}{largest:>10.1e}",
+            "free joints, largest"
+        );
     }
 }
 

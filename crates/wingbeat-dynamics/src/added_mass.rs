@@ -1,0 +1,199 @@
+//! Loads that follow the accelerations of bodies: the air that a wing carries along.
+//!
+//! The load of body i is `-A_i (a, alpha)` beside what depends on position and velocity alone, so
+//! loads and accelerations follow from each other. Both sides are affine: the unknown loads
+//! `z = -A a(z)` solve a linear system, exactly and whatever the formulation,
+//!
+//! ```text
+//! a(z) = a(0) + S z        (1 + A S) z = -A a(0)
+//! ```
+//!
+//! S holds the accelerations of all bodies under unit loads. Where all joints are prescribed the
+//! momentum form has it closed: the added masses join the inertia of the whole,
+//! `(diag(m, I) + sum J^T A J) (a_c, alpha) = loads - sum J^T A s0` ([`MomentumForm`]).
+//!
+//! [`MomentumForm`]: crate::MomentumForm
+
+use wingbeat_math::{DMat3, DVec3, solve_small};
+
+use crate::{
+    BodyAcceleration, BodyMotion, DynamicsError, Formulation, Solution, Workspace, Wrench,
+};
+
+/// Six numbers: a force and a moment, or two accelerations.
+pub type Six = [f64; 6];
+
+/// Air that a body carries along: force and moment about the body's origin are
+/// `-A (a, alpha)`, all in body components.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct AddedMass {
+    body: usize,
+    matrix: [Six; 6],
+    /// Directions along which it is felt, the first `felt` of them.
+    directions: [usize; 6],
+    felt: usize,
+}
+
+impl AddedMass {
+    /// The symmetric `matrix` A of body number `body`: rows force and moment, columns acceleration
+    /// of the origin and angular acceleration [kg, kg m, kg m2].
+    pub fn new(body: usize, matrix: [Six; 6]) -> Self {
+        let (mut directions, mut felt) = ([0; 6], 0);
+        for (k, row) in matrix.iter().enumerate() {
+            if row.iter().any(|x| *x != 0.0) {
+                directions[felt] = k;
+                felt += 1;
+            }
+        }
+        Self {
+            body,
+            matrix,
+            directions,
+            felt,
+        }
+    }
+
+    /// Index of the body.
+    pub fn body(&self) -> usize {
+        self.body
+    }
+
+    /// A.
+    pub fn matrix(&self) -> &[Six; 6] {
+        &self.matrix
+    }
+
+    /// Force and moment under the acceleration `s` (origin, angular), body components.
+    pub fn load(&self, s: &Six) -> Six {
+        let mut load = [0.0; 6];
+        for &i in self.directions() {
+            for &j in self.directions() {
+                load[i] -= self.matrix[i][j] * s[j];
+            }
+        }
+        load
+    }
+
+    /// The same as a wrench on a body that moves like `m` and accelerates like `a`.
+    pub fn wrench(&self, m: &BodyMotion, a: &BodyAcceleration) -> Wrench {
+        wrench(m.r, &self.load(&seen(m, a)))
+    }
+
+    /// Directions along which the added mass is felt; A is zero along all others.
+    pub(crate) fn directions(&self) -> &[usize] {
+        &self.directions[..self.felt]
+    }
+}
+
+/// Acceleration of the origin and angular acceleration, body components.
+pub(crate) fn seen(m: &BodyMotion, a: &BodyAcceleration) -> Six {
+    let linear = m.r.transpose() * a.linear;
+    six(linear, a.angular)
+}
+
+pub(crate) fn six(a: DVec3, b: DVec3) -> Six {
+    [a.x, a.y, a.z, b.x, b.y, b.z]
+}
+
+/// The load of six body components on a body of the attitude `r`.
+pub(crate) fn wrench(r: DMat3, load: &Six) -> Wrench {
+    Wrench {
+        force: r * DVec3::from_slice(load),
+        moment: r * DVec3::from_slice(&load[3..]),
+    }
+}
+
+/// Adds to `loads` what `added` exerts, by the response of the formulation to unit loads: any
+/// formulation, free joints and loops. `out` is scratch.
+///
+/// # Errors
+/// What the formulation reports; added masses that no accelerations agree with.
+pub fn add_by_response<F: Formulation + ?Sized>(
+    form: &F,
+    (t, y): (f64, &[f64]),
+    added: &[AddedMass],
+    loads: &mut [Wrench],
+    ws: &mut Workspace,
+    out: &mut Solution,
+) -> Result<(), DynamicsError> {
+    let mut motions = vec![BodyMotion::REST; loads.len()];
+    form.motions(t, y, ws, &mut motions)?;
+    let unknowns: Vec<(usize, usize)> = (added.iter().enumerate())
+        .flat_map(|(i, a)| a.directions().iter().map(move |&k| (i, k)))
+        .collect();
+    let n = unknowns.len();
+    // Added loads that the accelerations under `loads` and the trial `z` ask for.
+    let mut answer = |z: &[f64]| -> Result<Vec<f64>, DynamicsError> {
+        let mut trial = loads.to_vec();
+        put(added, &unknowns, z, &motions, &mut trial);
+        form.solve(t, y, &trial, ws, out)?;
+        let load = |&(i, k): &(usize, usize)| {
+            let body = added[i].body;
+            added[i].load(&seen(&motions[body], &out.bodies[body]))[k]
+        };
+        Ok(unknowns.iter().map(load).collect())
+    };
+    let at_rest = answer(&vec![0.0; n])?;
+    // Any size of the trial loads serves a linear map; theirs own keeps the digits.
+    let size = at_rest.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
+    if size == 0.0 {
+        return Ok(());
+    }
+    let mut matrix = vec![0.0; n * n];
+    for j in 0..n {
+        let mut z = vec![0.0; n];
+        z[j] = size;
+        let moved = answer(&z)?;
+        for i in 0..n {
+            matrix[i * n + j] = f64::from(i == j) - (moved[i] - at_rest[i]) / size;
+        }
+    }
+    let mut z = at_rest;
+    let singular = |_| DynamicsError::SingularAddedMass { time: t };
+    solve_small(&mut matrix.clone(), &mut z).map_err(singular)?;
+    // One step of iterative refinement takes the rounding of the differences away.
+    let mut rest: Vec<f64> = answer(&z)?.iter().zip(&z).map(|(a, z)| a - z).collect();
+    solve_small(&mut matrix, &mut rest).map_err(singular)?;
+    z.iter_mut().zip(&rest).for_each(|(z, r)| *z += r);
+    put(added, &unknowns, &z, &motions, loads);
+    Ok(())
+}
+
+/// Adds the components `z` of the added loads to `loads`.
+fn put(
+    added: &[AddedMass],
+    unknowns: &[(usize, usize)],
+    z: &[f64],
+    motions: &[BodyMotion],
+    loads: &mut [Wrench],
+) {
+    for (&(i, k), z) in unknowns.iter().zip(z) {
+        let (body, mut six) = (added[i].body, [0.0; 6]);
+        six[k] = *z;
+        loads[body] += wrench(motions[body].r, &six);
+    }
+}
+
+/// Solves `A x = b` for a symmetric positive definite A by `L D L^T`, without pivoting.
+pub(crate) fn solve_symmetric(a: &mut [Six; 6], x: &mut Six) {
+    for k in 0..6 {
+        let inverse = 1.0 / a[k][k];
+        for i in k + 1..6 {
+            let factor = a[i][k] * inverse;
+            for j in i..6 {
+                a[j][i] -= factor * a[j][k];
+            }
+            x[i] -= factor * x[k];
+        }
+        // Column k of L replaces that of A after all updates that need it.
+        for i in k + 1..6 {
+            a[k][i] = a[i][k] * inverse;
+        }
+    }
+    for k in (0..6).rev() {
+        x[k] /= a[k][k];
+        for i in k + 1..6 {
+            x[k] -= a[k][i] * x[i];
+        }
+    }
+}

@@ -1,0 +1,266 @@
+//! Blade elements as the air of a flight: strips from the wing meshes, loads from the motions.
+//!
+//! Wind beside the free stream (gusts, shear) is seen strip by strip. The added mass stands on
+//! the left-hand side of the equations of motion ([`AddedMass`]); what of it follows from velocities
+//! is among the loads.
+
+use wingbeat_blade::{
+    BladeError, BladeWing, BodyDrag, FrameAcceleration, FrameMotion, Load, SectionMotion, Strip,
+};
+use wingbeat_air::{AirState, Wind};
+use wingbeat_dynamics::{AddedMass, BodyAcceleration, BodyMotion, Wrench};
+use wingbeat_math::DVec3;
+use wingbeat_model::deformation::Stations;
+use wingbeat_model::{Animal, Wing, WingMotion};
+
+use super::{Air, AirScratch, Instant};
+use crate::error::FlightError;
+use crate::setup::BladeOptions;
+
+/// The blade elements of an animal.
+#[derive(Clone, Debug)]
+pub struct BladeAir {
+    /// Wings in the animal's order: body `i + 1`.
+    wings: Vec<BladeWing>,
+    /// How they are deformed.
+    deforming: Vec<Option<DeformingStrips>>,
+    /// Added mass of those that are not.
+    added: Vec<AddedMass>,
+    drag: Option<BodyDrag>,
+    density: f64,
+    stream: DVec3,
+    wind: Wind,
+}
+
+/// Strips of a wing that changes its shape in the phase of its beat.
+#[derive(Clone, Debug)]
+struct DeformingStrips {
+    stations: Stations,
+    motion: WingMotion,
+    /// Span and distance of the feathering axis ahead of the twist axis, strip by strip [m].
+    places: Vec<[f64; 2]>,
+}
+
+impl DeformingStrips {
+    fn new(wing: &Wing) -> Option<Self> {
+        let deformation = wing.deformation.as_ref()?;
+        let strips = strips(wing);
+        let tip = wing.report().length;
+        let r: Vec<f64> = strips.iter().map(|s| s.y.abs() / tip).collect();
+        let ahead = |s: &Strip| deformation.axis_fraction * s.chord - s.x_leading;
+        Some(Self {
+            stations: Stations::new(deformation, &r, wing.root()),
+            motion: wing.motion.clone(),
+            places: strips.iter().map(|s| [s.y, ahead(s)]).collect(),
+        })
+    }
+
+    fn section(&self, k: usize, phase: [f64; 3]) -> SectionMotion {
+        let (s, [y, ahead]) = (self.stations.at(k, phase), self.places[k]);
+        let [d, v, a] = s.displacement(ahead, 0.0, 0.0);
+        SectionMotion {
+            axis: [DVec3::new(0.0, y, 0.0) + d, v, a],
+            twist: s.twist,
+        }
+    }
+}
+
+impl BladeAir {
+    /// One strip per column of each wing's mesh.
+    ///
+    /// # Errors
+    /// A setting out of range; a strip without chord.
+    pub fn new(animal: &Animal, options: &BladeOptions) -> Result<Self, FlightError> {
+        if let Some(drag) = &options.body_drag {
+            drag.check()?;
+        }
+        options.wind.validate()?;
+        let mut settings = options.blade;
+        settings.free_stream += options.induced;
+        let wing = |w: &Wing| BladeWing::new(strips(w), settings);
+        let wings: Result<Vec<BladeWing>, BladeError> = animal.wings.iter().map(wing).collect();
+        let mut air = Self {
+            wings: wings?,
+            deforming: animal.wings.iter().map(DeformingStrips::new).collect(),
+            added: vec![],
+            drag: options.body_drag,
+            density: options.blade.density,
+            stream: options.blade.free_stream,
+            wind: options.wind.clone(),
+        };
+        let rigid = (0..air.wings.len()).filter(|&i| air.deforming[i].is_none());
+        air.added = rigid.filter_map(|i| air.added_to(i, 0.0)).collect();
+        Ok(air)
+    }
+
+    /// The wings, in the animal's order.
+    pub fn wings(&self) -> &[BladeWing] {
+        &self.wings
+    }
+
+    /// Force and moment of the added mass of a wing that moves like `m` and accelerates like `acc`.
+    fn acceleration_load(
+        &self,
+        i: usize,
+        t: f64,
+        m: &BodyMotion,
+        acc: &BodyAcceleration,
+    ) -> (Load, f64) {
+        let (wing, acc) = (&self.wings[i], acceleration(acc));
+        let wind = self.wind_on(m, t);
+        match &self.deforming[i] {
+            None => (wing.acceleration_load_in(&frame(m), &acc, wind), 0.0),
+            Some(d) => {
+                let phase = d.motion.phase_at(t);
+                let section = |k| d.section(k, phase);
+                let sum = wing.deforming_acceleration_load(&frame(m), &acc, section, wind);
+                (sum.load, sum.power)
+            }
+        }
+    }
+
+    /// Force and moment on a wing by its velocities, and the power that deforms it.
+    fn velocity_load(&self, i: usize, t: f64, m: &BodyMotion) -> (Load, f64) {
+        let (wing, wind) = (&self.wings[i], self.wind_on(m, t));
+        match &self.deforming[i] {
+            None if self.wind.is_none() => (wing.velocity_load(&frame(m)), 0.0),
+            None => (wing.velocity_load_in(&frame(m), wind), 0.0),
+            Some(d) => {
+                let phase = d.motion.phase_at(t);
+                let section = |k| d.section(k, phase);
+                let sum = wing.deforming_velocity_load(&frame(m), section, wind);
+                (sum.load, sum.power)
+            }
+        }
+    }
+
+    /// Wind at a point of a wing that moves like `m`, wing components.
+    fn wind_on(&self, m: &BodyMotion, t: f64) -> impl Fn(DVec3) -> DVec3 {
+        let (m, calm) = (*m, self.wind.is_none());
+        move |r| match calm {
+            true => DVec3::ZERO,
+            false => m.r.transpose() * self.wind.at(m.point(r), t),
+        }
+    }
+
+    /// The added mass of wing `i`, read off its loads under unit accelerations; none if it has none.
+    fn added_to(&self, i: usize, t: f64) -> Option<AddedMass> {
+        let load = |linear: DVec3, angular: DVec3| {
+            let acc = BodyAcceleration { linear, angular };
+            let (load, _) = self.acceleration_load(i, t, &BodyMotion::REST, &acc);
+            [load.force.to_array(), load.moment.to_array()].concat()
+        };
+        let still = load(DVec3::ZERO, DVec3::ZERO);
+        let unit = |k: usize| match k {
+            0..3 => load(DVec3::AXES[k], DVec3::ZERO),
+            _ => load(DVec3::ZERO, DVec3::AXES[k - 3]),
+        };
+        let columns: [Vec<f64>; 6] = std::array::from_fn(unit);
+        // Exactly symmetric, as energy asks: the two halves differ by roundings.
+        let entry = |j: usize, k: usize| still[j] - columns[k][j];
+        let mean = |j: usize, k: usize| 0.5 * (entry(j, k) + entry(k, j));
+        let matrix: [[f64; 6]; 6] = std::array::from_fn(|j| std::array::from_fn(|k| mean(j, k)));
+        let felt = matrix.iter().flatten().any(|x| *x != 0.0);
+        felt.then(|| AddedMass::new(i + 1, matrix))
+    }
+}
+
+impl Air for BladeAir {
+    fn loads(
+        &self,
+        at: &Instant<'_>,
+        _memory: Option<&AirState>,
+        _scratch: &mut AirScratch,
+        out: &mut [Wrench],
+    ) -> Result<(), FlightError> {
+        let (t, still) = (at.time, BodyAcceleration::default());
+        out.fill(Wrench::default());
+        if let Some(drag) = &self.drag {
+            let b = &at.motions[0];
+            let wind = self.wind_on(b, t)(DVec3::ZERO);
+            let v = b.r.transpose() * (b.v - self.stream) - wind;
+            out[0].force = b.r * drag.force(self.density, v);
+        }
+        for (i, m) in (0..self.wings.len()).zip(&at.motions[1..]) {
+            out[i + 1] = turned(&self.velocity_load(i, t, m).0, m);
+            if self.wings[i].has_added_mass() {
+                out[i + 1] += turned(&self.acceleration_load(i, t, m, &still).0, m);
+            }
+        }
+        Ok(())
+    }
+
+    fn added_mass(&self, t: f64, out: &mut Vec<AddedMass>) {
+        out.extend_from_slice(&self.added);
+        let deforming = (0..self.wings.len()).filter(|&i| self.deforming[i].is_some());
+        out.extend(deforming.filter_map(|i| self.added_to(i, t)));
+    }
+
+    fn is_uniform(&self) -> bool {
+        self.wind.is_none()
+    }
+
+    fn deforms(&self) -> bool {
+        self.deforming.iter().any(Option::is_some)
+    }
+
+    fn deformation_power(
+        &self,
+        at: &Instant<'_>,
+        accelerations: &[BodyAcceleration],
+        _scratch: &AirScratch,
+        out: &mut [f64],
+    ) {
+        out.fill(0.0);
+        for i in (0..self.wings.len()).filter(|&i| self.deforming[i].is_some()) {
+            let (m, a) = (&at.motions[i + 1], &accelerations[i + 1]);
+            let [by_velocity, by_mass] = [
+                self.velocity_load(i, at.time, m).1,
+                self.acceleration_load(i, at.time, m, a).1,
+            ];
+            out[i + 1] = by_velocity + by_mass;
+        }
+    }
+}
+
+/// One strip per spanwise panel: mean chord and mean place of its leading edge.
+pub fn strips(wing: &Wing) -> Vec<Strip> {
+    let mesh = &wing.mesh;
+    let strip = |j: usize| {
+        let at = |i: usize, j: usize| mesh.nodes[mesh.node(i, j)];
+        let leading = 0.5 * (at(0, j) + at(0, j + 1));
+        let trailing = 0.5 * (at(mesh.rows, j) + at(mesh.rows, j + 1));
+        Strip {
+            y: leading.y,
+            x_leading: leading.x,
+            chord: leading.x - trailing.x,
+            width: (at(0, j + 1).y - at(0, j).y).abs(),
+        }
+    };
+    (0..mesh.cols).map(strip).collect()
+}
+
+/// Accelerations in the words of the blade elements.
+fn acceleration(a: &BodyAcceleration) -> FrameAcceleration {
+    FrameAcceleration {
+        linear: a.linear,
+        angular: a.angular,
+    }
+}
+
+/// A body's motion in the words of the blade elements.
+pub(super) fn frame(m: &BodyMotion) -> FrameMotion {
+    FrameMotion {
+        rotation: m.r,
+        velocity: m.v,
+        rate: m.w,
+    }
+}
+
+/// A load in wing components as a wrench in N components.
+pub(super) fn turned(load: &Load, m: &BodyMotion) -> Wrench {
+    Wrench {
+        force: m.r * load.force,
+        moment: m.r * load.moment,
+    }
+}

@@ -1,0 +1,130 @@
+//! The seam behind which another program's air stands.
+//!
+//! Bodies ask for loads in trial motions, as often as the corrector needs; a step that converged
+//! is accepted once, with the motion asked for last. Steps are numbered; the starting values of
+//! a multistep method replay the first three steps, so a partner with a memory must be able to
+//! go back to the state it had when an earlier step was accepted.
+
+use std::fmt;
+use std::sync::{Mutex, MutexGuard};
+
+use wingbeat_air::AirState;
+use wingbeat_dynamics::{BodyMotion, System, Wrench};
+
+use super::{Air, AirScratch, Instant};
+use crate::error::FlightError;
+use crate::setup::FlightSetup;
+
+/// What a partner is told before the flight.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Announcement {
+    /// Names of all bodies, in the order of their motions: root, wings, segments.
+    pub bodies: Vec<String>,
+    /// All joints: name, parent and child as indices of bodies.
+    pub joints: Vec<(String, usize, usize)>,
+    /// Time step [s].
+    pub step: f64,
+}
+
+/// Air computed by someone else.
+pub trait ExternalAir: fmt::Debug + Send + Sync {
+    /// Begins a flight.
+    ///
+    /// # Errors
+    /// What keeps the partner from answering.
+    fn open(&self, flyer: &Announcement) -> Result<Box<dyn ExternalSession>, String>;
+}
+
+/// A flight in such air.
+pub trait ExternalSession: Send {
+    /// Loads about the origins of the bodies, N components, if they move like `motions` at step
+    /// number `step`, time `time` [s].
+    ///
+    /// # Errors
+    /// What the partner says.
+    fn loads(
+        &mut self,
+        step: usize,
+        time: f64,
+        motions: &[BodyMotion],
+        out: &mut [Wrench],
+    ) -> Result<(), String>;
+
+    /// The motion asked for last is that of step number `step`.
+    ///
+    /// # Errors
+    /// What the partner says.
+    fn accept(&mut self, step: usize) -> Result<(), String>;
+}
+
+/// The session of a flight, shared by its stages, with the step asked for last.
+pub struct Session(Mutex<(Box<dyn ExternalSession>, usize)>);
+
+impl fmt::Debug for Session {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("Session")
+    }
+}
+
+impl Session {
+    /// The session of a flight of `setup` with `program`, whose bodies are `system`.
+    ///
+    /// # Errors
+    /// What keeps the partner from answering.
+    pub fn open(
+        program: &dyn ExternalAir,
+        system: &System,
+        setup: &FlightSetup,
+    ) -> Result<Self, FlightError> {
+        let tree = system.hinges().iter();
+        let joints = tree.map(|h| (h.name.clone(), h.parent, h.child));
+        let loops = system.loops().iter();
+        let loops = loops.map(|l| (l.name.clone(), l.parent.unwrap_or(0), l.child));
+        let session = program.open(&Announcement {
+            bodies: system.bodies().iter().map(|b| b.name.clone()).collect(),
+            joints: joints.chain(loops).collect(),
+            step: setup.time.step,
+        });
+        let session = session.map_err(FlightError::External)?;
+        Ok(Self(Mutex::new((session, 0))))
+    }
+
+    fn lock(&self) -> MutexGuard<'_, (Box<dyn ExternalSession>, usize)> {
+        self.0.lock().expect("no evaluation panicked")
+    }
+}
+
+impl Air for Session {
+    fn loads(
+        &self,
+        at: &Instant<'_>,
+        _memory: Option<&AirState>,
+        _scratch: &mut AirScratch,
+        out: &mut [Wrench],
+    ) -> Result<(), FlightError> {
+        let mut guard = self.lock();
+        let (session, asked) = &mut *guard;
+        *asked = (at.time / at.step).round() as usize;
+        session
+            .loads(*asked, at.time, at.motions, out)
+            .map_err(FlightError::External)?;
+        let finite = |w: &Wrench| w.force.is_finite() && w.moment.is_finite();
+        match out.iter().position(|w| !finite(w)) {
+            None => Ok(()),
+            Some(k) => {
+                let problem = format!("step {asked}: the load on body {k} is not finite");
+                Err(FlightError::External(problem))
+            }
+        }
+    }
+
+    fn has_memory(&self) -> bool {
+        true
+    }
+
+    fn accept(&self, _memory: &mut Option<AirState>, _s: &AirScratch) -> Result<(), FlightError> {
+        let mut guard = self.lock();
+        let (session, asked) = &mut *guard;
+        session.accept(*asked).map_err(FlightError::External)
+    }
+}

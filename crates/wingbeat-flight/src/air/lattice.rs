@@ -1,0 +1,205 @@
+//! The vortex lattice as the air of a flight: surfaces that follow the bodies, wakes as memory.
+
+use wingbeat_air::{AirState, Lattice, Points};
+use wingbeat_dynamics::{BodyAcceleration, Wrench};
+use wingbeat_math::DVec3;
+
+use super::surfaces::{SurfaceMap, twins};
+use super::{Air, AirScratch, Instant, misfit};
+use crate::error::FlightError;
+use crate::record::{ParticleSnapshot, Snapshot, SurfaceSnapshot, WakeSnapshot};
+use crate::setup::{AirOptions, FlightSetup};
+
+/// The lattice and its map to the bodies.
+#[derive(Debug)]
+pub struct LatticeAir {
+    lattice: Lattice,
+    map: SurfaceMap,
+}
+
+impl LatticeAir {
+    /// The lattice of a setup.
+    ///
+    /// # Errors
+    /// Surfaces or settings that the lattice refuses; a mirror for an animal that is not its own
+    /// mirror image.
+    pub fn new(setup: &FlightSetup, options: &AirOptions) -> Result<Self, FlightError> {
+        let map = SurfaceMap::new(&setup.animal, options.body_surfaces, &options.joined);
+        let (surfaces, settings) = (map.surfaces.clone(), options.lattice.clone());
+        let lattice = Lattice::joined(surfaces, &map.seams(), settings)?;
+        if !options.mirror {
+            return Ok(Self { lattice, map });
+        }
+        let root = setup.root_at_start();
+        let twins =
+            twins(&setup.animal, options.body_surfaces, &root).ok_or(FlightError::Setup {
+                key: "air.mirror",
+                value: "true".into(),
+                problem: "the animal is not its own mirror image; compute both halves (false)"
+                    .into(),
+            })?;
+        let lattice = lattice.with_twins(twins)?;
+        Ok(Self { lattice, map })
+    }
+
+    /// The lattice.
+    pub fn lattice(&self) -> &Lattice {
+        &self.lattice
+    }
+
+    fn surface_snapshot(&self, s: &AirScratch, k: usize) -> SurfaceSnapshot {
+        let surface = &self.lattice.surfaces()[k];
+        let panels = self.lattice.panels_of(k);
+        SurfaceSnapshot {
+            name: surface.name.clone(),
+            nodes: s.nodes.position[self.lattice.nodes_of(k)].to_vec(),
+            quads: surface.panels.clone(),
+            circulation: s.loads.gamma[panels.clone()].to_vec(),
+            pressure_jump: s.loads.pressure_jump[panels].to_vec(),
+        }
+    }
+
+    /// A wake sheet, newest row first, the nodes on the shedding edge included.
+    fn wake_snapshot(&self, air: &AirState, s: &AirScratch, k: usize) -> WakeSnapshot {
+        let (sheet, root) = (&air.sheets[k], &self.lattice.sheets()[k]);
+        let (rows, cols) = (sheet.rows(), sheet.columns);
+        let mut nodes: Vec<DVec3> = root.nodes.iter().map(|&n| s.nodes.position[n]).collect();
+        let mut circulation = Vec::with_capacity(rows * cols);
+        for row in (0..rows).rev() {
+            nodes.extend((0..=cols).map(|c| sheet.node(row, c)));
+            // Rings that have become particles are drawn without circulation.
+            let of = |c: usize| match sheet.is_ring(row, c) {
+                true => sheet.gamma[row * cols + c],
+                false => 0.0,
+            };
+            circulation.extend((0..cols).map(of));
+        }
+        let surface = &self.lattice.surfaces()[root.surface].name;
+        WakeSnapshot {
+            name: format!("{surface}-wake-{k}"),
+            rows,
+            cols,
+            nodes,
+            circulation,
+            particles: self.particle_snapshots(air, k),
+        }
+    }
+
+    fn particle_snapshots(&self, air: &AirState, k: usize) -> Vec<ParticleSnapshot> {
+        let Some(settings) = &self.lattice.settings().particles else {
+            return vec![];
+        };
+        let particles = &air.sheets[k].particles;
+        let vectors = particles.position.iter().zip(particles.strength.iter());
+        let all = vectors.zip(&particles.shed_time);
+        let of = |((position, strength), shed): ((DVec3, DVec3), &f64)| ParticleSnapshot {
+            position,
+            strength,
+            radius: settings.core(air.time - shed).sqrt(),
+        };
+        all.map(of).collect()
+    }
+}
+
+impl Air for LatticeAir {
+    /// Unchanged nodes in an unchanged wake keep their loads.
+    fn loads(
+        &self,
+        at: &Instant<'_>,
+        memory: Option<&AirState>,
+        s: &mut AirScratch,
+        out: &mut [Wrench],
+    ) -> Result<(), FlightError> {
+        let state = memory.ok_or_else(|| misfit("a lattice needs its wakes"))?;
+        if !(s.is_current && s.nodes == s.nodes_done) {
+            let (t, h) = (at.time, at.step);
+            (self.lattice).loads(state, t, h, &s.nodes, &mut s.workspace, &mut s.loads)?;
+            s.nodes_done.clone_from(&s.nodes);
+            s.is_current = true;
+        }
+        self.map.wrenches(&s.loads, at.motions, out);
+        Ok(())
+    }
+
+    fn has_memory(&self) -> bool {
+        true
+    }
+
+    fn is_uniform(&self) -> bool {
+        let settings = self.lattice.settings();
+        settings.wind.is_none() && settings.images.is_empty()
+    }
+
+    fn scratch(&self) -> AirScratch {
+        AirScratch {
+            workspace: self.lattice.workspace(),
+            ..AirScratch::default()
+        }
+    }
+
+    fn place(&self, at: &Instant<'_>, s: &mut AirScratch) -> Result<(), FlightError> {
+        self.map.node_motion(at.time, at.motions, &mut s.nodes)
+    }
+
+    fn initial(&self, s: &AirScratch) -> Option<AirState> {
+        Some(self.lattice.initial_state(&s.nodes))
+    }
+
+    fn advance(
+        &self,
+        memory: &mut Option<AirState>,
+        step: f64,
+        s: &mut AirScratch,
+    ) -> Result<(), FlightError> {
+        if let Some(air) = memory {
+            self.lattice.convect(air, step, &mut s.workspace)?;
+            s.is_current = false;
+        }
+        Ok(())
+    }
+
+    fn accept(&self, memory: &mut Option<AirState>, s: &AirScratch) -> Result<(), FlightError> {
+        if let Some(air) = memory {
+            self.lattice.accept(air, &s.nodes, &s.loads)?;
+        }
+        Ok(())
+    }
+
+    fn check(&self, memory: Option<&AirState>) -> Result<(), FlightError> {
+        let air = memory.ok_or_else(|| misfit("the case has wakes, the state has none"))?;
+        Ok(self.lattice.check_state(air)?)
+    }
+
+    fn deforms(&self) -> bool {
+        self.map.deforms()
+    }
+
+    fn deformation_power(
+        &self,
+        at: &Instant<'_>,
+        _accelerations: &[BodyAcceleration],
+        s: &AirScratch,
+        out: &mut [f64],
+    ) {
+        (self.map).deformation_power(&s.loads, &s.nodes, at.motions, out);
+    }
+
+    fn snapshot(&self, memory: Option<&AirState>, s: &AirScratch) -> Snapshot {
+        let Some(air) = memory else {
+            return Snapshot::default();
+        };
+        let surfaces = 0..self.lattice.surfaces().len();
+        let wakes = 0..air.sheets.len();
+        Snapshot {
+            surfaces: surfaces.map(|k| self.surface_snapshot(s, k)).collect(),
+            wakes: wakes.map(|k| self.wake_snapshot(air, s, k)).collect(),
+            ..Snapshot::default()
+        }
+    }
+
+    fn velocity(&self, memory: Option<&AirState>, points: &Points) -> Option<Points> {
+        let (mut ws, mut velocity) = (self.lattice.workspace(), Points::default());
+        let sampled = (self.lattice).velocity(memory?, points, &mut ws, &mut velocity);
+        sampled.ok().map(|()| velocity)
+    }
+}

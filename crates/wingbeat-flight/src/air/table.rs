@@ -1,0 +1,47 @@
+//! Stability derivatives on the root body.
+
+use wingbeat_air::AirState;
+use wingbeat_blade::DerivativeTable;
+use wingbeat_dynamics::Wrench;
+use wingbeat_model::Animal;
+
+use super::blade::{frame, turned};
+use super::{Air, AirScratch, Instant};
+use crate::error::FlightError;
+
+/// A table of derivatives as the air of the whole animal.
+#[derive(Clone, Copy, Debug)]
+pub struct TableAir(DerivativeTable);
+
+impl TableAir {
+    /// # Errors
+    /// Wings that are deformed: the table does not know of it.
+    pub fn new(animal: &Animal, table: DerivativeTable) -> Result<Self, FlightError> {
+        match animal.wings.iter().find(|w| w.deformation.is_some()) {
+            None => Ok(Self(table)),
+            Some(wing) => Err(FlightError::Setup {
+                key: "air.model",
+                value: "derivatives".into(),
+                problem: format!(
+                    "wing `{}` is deformed, of which a table of derivatives knows nothing: leave the deformation out, or take blade elements or the vortex lattice",
+                    wing.name
+                ),
+            }),
+        }
+    }
+}
+
+impl Air for TableAir {
+    fn loads(
+        &self,
+        at: &Instant<'_>,
+        _memory: Option<&AirState>,
+        _scratch: &mut AirScratch,
+        out: &mut [Wrench],
+    ) -> Result<(), FlightError> {
+        out.fill(Wrench::default());
+        let root = &at.motions[0];
+        out[0] = turned(&self.0.load(&frame(root)), root);
+        Ok(())
+    }
+}

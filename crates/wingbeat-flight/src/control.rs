@@ -1,0 +1,322 @@
+//! A controller in the loop of the flight: looks at its own rate, commands adjustments of the
+//! wings' motion.
+//!
+//! From one look to the next the angles of every wing go over smoothly from the command before to
+//! the new one ([`Passage`]), so that wing inertia does its part and nothing jumps. A command acts
+//! some looks after it was formed (the latency).
+
+use std::collections::VecDeque;
+use std::fmt;
+use std::sync::{Arc, RwLock};
+
+use wingbeat_dynamics::BodyMotion;
+use wingbeat_math::{DVec3, MovingRotation, RotationLaw};
+use wingbeat_model::motion::Adjustment;
+use wingbeat_model::{Side, Wing, WingMotion};
+
+use crate::error::FlightError;
+use crate::setup::FlightSetup;
+
+/// What a controller sees.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sensed {
+    /// Number of this look, from 0.
+    pub look: usize,
+    /// Time since the release [s].
+    pub time: f64,
+    /// Motion of the root body.
+    pub root: BodyMotion,
+    /// Mass centre of the whole, N components [m].
+    pub centre: DVec3,
+    /// Velocity of the mass centre, N components [m/s].
+    pub velocity: DVec3,
+}
+
+/// A controller: from what is sensed to one adjustment per wing.
+pub trait Controller: Send {
+    /// Adjustments of the wings, in the animal's order, on top of the motion of the case. Changes of
+    /// frequency are not possible in flight.
+    fn command(&mut self, sensed: &Sensed) -> Vec<Adjustment>;
+
+    /// Everything it remembers, for a flight that is resumed.
+    fn memory(&self) -> Vec<f64> {
+        vec![]
+    }
+
+    /// Goes on from what it remembered.
+    fn restore(&mut self, _memory: &[f64]) {}
+}
+
+/// What makes the controller of a flight.
+pub trait ControlModel: fmt::Debug + Send + Sync {
+    /// The controller at the start of a flight of `setup`.
+    ///
+    /// # Errors
+    /// A flight that it cannot control.
+    fn open(&self, setup: &FlightSetup) -> Result<Box<dyn Controller>, FlightError>;
+}
+
+/// A controller that can be copied controls any flight.
+impl<C: Controller + Clone + fmt::Debug + Sync + 'static> ControlModel for C {
+    fn open(&self, _setup: &FlightSetup) -> Result<Box<dyn Controller>, FlightError> {
+        Ok(Box::new(self.clone()))
+    }
+}
+
+/// Feedback of a flight.
+#[derive(Clone, Debug)]
+pub struct Feedback {
+    /// The controller.
+    pub controller: Arc<dyn ControlModel>,
+    /// Time steps from one look to the next, at least [`MIN_INTERVAL`].
+    pub interval: usize,
+    /// Looks from sensing to the beginning of the passage to the command.
+    pub latency: usize,
+}
+
+/// Shortest interval of looks [time steps]: the starting values of a multistep method must not
+/// see a change of command.
+pub const MIN_INTERVAL: usize = 4;
+
+/// A wing whose angles and stroke plane go over from one motion to another by the smoothstep of
+/// degree seven, three times continuously differentiable.
+#[derive(Clone, Debug)]
+pub struct Passage {
+    /// The motion before.
+    pub from: WingMotion,
+    /// The motion after.
+    pub to: WingMotion,
+    /// When it begins [s].
+    pub start: f64,
+    /// How long it takes [s].
+    pub duration: f64,
+}
+
+impl Passage {
+    /// Pitch of the stroke plane and angles phi, theta, psi at time `t` [s], each value, rate,
+    /// acceleration [rad].
+    pub fn angles(&self, t: f64) -> [[f64; 3]; 4] {
+        let z = ((t - self.start) / self.duration).clamp(0.0, 1.0);
+        let y = z * (1.0 - z);
+        let s = [
+            z.powi(4) * (35.0 + z * (-84.0 + z * (70.0 - 20.0 * z))),
+            140.0 * y * y * y / self.duration,
+            420.0 * y * y * (1.0 - 2.0 * z) / (self.duration * self.duration),
+        ];
+        let blend = |a: [f64; 3], b: [f64; 3]| {
+            let d: [f64; 3] = std::array::from_fn(|i| b[i] - a[i]);
+            [
+                a[0] + s[0] * d[0],
+                a[1] + s[0] * d[1] + s[1] * d[0],
+                a[2] + s[0] * d[2] + 2.0 * s[1] * d[1] + s[2] * d[0],
+            ]
+        };
+        let plane = |m: &WingMotion| [m.stroke_plane_pitch, 0.0, 0.0];
+        let (a, b) = (self.from.angles(t), self.to.angles(t));
+        [
+            blend(plane(&self.from), plane(&self.to)),
+            blend(a[0], b[0]),
+            blend(a[1], b[1]),
+            blend(a[2], b[2]),
+        ]
+    }
+}
+
+impl RotationLaw for Passage {
+    fn at(&self, t: f64) -> MovingRotation {
+        let [plane, phi, theta, psi] = self.angles(t);
+        MovingRotation::about(1, plane)
+            .then(&MovingRotation::about(0, phi))
+            .then(&MovingRotation::about(2, theta))
+            .then(&MovingRotation::about(1, psi))
+    }
+}
+
+/// The motion of a wing under commands.
+#[derive(Debug)]
+pub struct CommandedMotion {
+    motion: WingMotion,
+    side: Side,
+    passage: RwLock<Passage>,
+}
+
+impl CommandedMotion {
+    /// The wing's own motion until the first command.
+    pub fn new(wing: &Wing) -> Self {
+        let own = Passage {
+            from: wing.motion.clone(),
+            to: wing.motion.clone(),
+            start: 0.0,
+            duration: 1.0,
+        };
+        Self {
+            motion: wing.motion.clone(),
+            side: wing.side,
+            passage: RwLock::new(own),
+        }
+    }
+
+    /// From `start` [s] on the wing goes over from one command to another, within `duration` [s].
+    fn pass(&self, from: &Adjustment, to: &Adjustment, start: f64, duration: f64) {
+        let motion = |by: &Adjustment| self.motion.adjusted(self.side, by);
+        let next = Passage {
+            from: motion(from),
+            to: motion(to),
+            start,
+            duration,
+        };
+        *self.passage.write().expect("no writer panicked") = next;
+    }
+
+    /// Angles phi, theta, psi at time `t` [s] [rad].
+    pub fn angles(&self, t: f64) -> DVec3 {
+        let [_, phi, theta, psi] = self.passage.read().expect("no writer panicked").angles(t);
+        DVec3::new(phi[0], theta[0], psi[0])
+    }
+}
+
+impl RotationLaw for CommandedMotion {
+    fn at(&self, t: f64) -> MovingRotation {
+        self.passage.read().expect("no writer panicked").at(t)
+    }
+}
+
+/// What feedback remembers.
+#[derive(Clone, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
+pub struct ControlState {
+    /// Looks so far.
+    pub looks: usize,
+    /// Start of the present passage [s].
+    pub since: f64,
+    /// Command before the present passage, wing by wing.
+    pub from: Vec<Adjustment>,
+    /// Command at its end.
+    pub to: Vec<Adjustment>,
+    /// Commands under way, oldest first.
+    pub queue: VecDeque<Vec<Adjustment>>,
+    /// What the controller remembers.
+    pub memory: Vec<f64>,
+}
+
+/// Feedback in a flight: controller, latency, and the wings it moves.
+pub struct Loop {
+    controller: Box<dyn Controller>,
+    interval: usize,
+    /// An interval [s].
+    duration: f64,
+    wings: Vec<Arc<CommandedMotion>>,
+    state: ControlState,
+}
+
+impl Loop {
+    /// Feedback of a flight of `setup` on `wings`.
+    ///
+    /// # Errors
+    /// An interval that is too short; a flight that the controller refuses.
+    pub fn new(
+        setup: &FlightSetup,
+        feedback: &Feedback,
+        wings: Vec<Arc<CommandedMotion>>,
+    ) -> Result<Self, FlightError> {
+        if feedback.interval < MIN_INTERVAL {
+            return Err(FlightError::Setup {
+                key: "control.interval",
+                value: feedback.interval.to_string(),
+                problem: format!("looks must lie at least {MIN_INTERVAL} time steps apart"),
+            });
+        }
+        let none = vec![Adjustment::default(); wings.len()];
+        Ok(Self {
+            controller: feedback.controller.open(setup)?,
+            interval: feedback.interval,
+            duration: feedback.interval as f64 * setup.time.step,
+            state: ControlState {
+                from: none.clone(),
+                to: none.clone(),
+                queue: vec![none; feedback.latency].into(),
+                ..ControlState::default()
+            },
+            wings,
+        })
+    }
+
+    /// Whether the controller looks `steps` time steps after the release.
+    pub fn looks_at(&self, steps: usize) -> bool {
+        steps.is_multiple_of(self.interval)
+    }
+
+    /// What is remembered.
+    pub fn state(&self) -> ControlState {
+        ControlState {
+            memory: self.controller.memory(),
+            ..self.state.clone()
+        }
+    }
+
+    /// Goes on from what was remembered.
+    pub fn restore(&mut self, state: &ControlState) {
+        self.controller.restore(&state.memory);
+        self.state = state.clone();
+        self.apply();
+    }
+
+    /// The wings.
+    pub fn wings(&self) -> &[Arc<CommandedMotion>] {
+        &self.wings
+    }
+
+    /// Number of this look.
+    pub fn look(&self) -> usize {
+        self.state.looks
+    }
+
+    /// Commands in force at the end of the present passage, wing by wing.
+    pub fn commands(&self) -> &[Adjustment] {
+        &self.state.to
+    }
+
+    /// Angles of the wings at time `t` [s].
+    pub fn angles(&self, t: f64) -> Vec<DVec3> {
+        self.wings.iter().map(|w| w.angles(t)).collect()
+    }
+
+    /// Asks the controller at time `t` [s]; the passage to the command that is due begins.
+    ///
+    /// # Errors
+    /// Commands that are not finite, ask for another frequency, or are not one per wing.
+    pub fn update(&mut self, t: f64, sensed: &Sensed) -> Result<(), FlightError> {
+        let command = self.controller.command(sensed);
+        self.check(&command, t)?;
+        self.state.queue.push_back(command);
+        let due = self.state.queue.pop_front().expect("one was just pushed");
+        self.state.from = std::mem::replace(&mut self.state.to, due);
+        self.state.since = t;
+        self.state.looks += 1;
+        self.apply();
+        Ok(())
+    }
+
+    fn apply(&self) {
+        let commands = self.state.from.iter().zip(&self.state.to);
+        for (wing, (from, to)) in self.wings.iter().zip(commands) {
+            wing.pass(from, to, self.state.since, self.duration);
+        }
+    }
+
+    fn check(&self, command: &[Adjustment], t: f64) -> Result<(), FlightError> {
+        let wrong = |problem: String| Err(FlightError::Control { time: t, problem });
+        if command.len() != self.wings.len() {
+            let wings = self.wings.len();
+            return wrong(format!("{} adjustments for {wings} wings", command.len()));
+        }
+        for (k, a) in command.iter().enumerate() {
+            if !a.is_finite() {
+                return wrong(format!("the adjustment of wing {k} is not finite: {a:?}"));
+            }
+            if a.frequency != 0.0 {
+                return wrong(format!("wing {k}: the frequency cannot change in flight"));
+            }
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,143 @@
+//! Free flight in air without memory as `y' = f(t, y)`: the equations of
+//! [`Simulation`](crate::Simulation) for those who integrate them themselves, over one wingbeat a
+//! million times.
+//!
+//! State: that of the momentum form ([`MomentumForm`]): mass centre, quaternion, linear momentum, angular momentum
+//! about the mass centre (13 numbers, N components), then coordinates and speeds of free joints.
+
+use std::sync::Arc;
+
+use wingbeat_dynamics::posture::PostureTable;
+use wingbeat_dynamics::{
+    AddedMass, BodyAcceleration, BodyMotion, Formulation, Mechanism, MomentumForm, System, Wrench,
+};
+
+use crate::air::{Air, AirScratch, Instant};
+use crate::bodies::{WingLaw, system_with};
+use crate::core::Core;
+use crate::equations::{Equations, Scratch};
+use crate::error::FlightError;
+use crate::setup::{AirModel, FlightSetup};
+
+/// The right-hand side of free flight.
+#[derive(Clone, Debug)]
+pub struct FreeFlight {
+    equations: Arc<Equations>,
+    form: MomentumForm,
+}
+
+/// Intermediate results of [`FreeFlight::rates`].
+pub struct FreeFlightScratch(Scratch);
+
+impl FreeFlight {
+    /// Free flight of `setup` (its mode, formulation and integrator do not matter) with the wings
+    /// moving by `law`. All that depends on time alone is known beforehand at the times
+    /// 0, `step`, ..., `count step` [s].
+    ///
+    /// # Errors
+    /// Bodies or air that are refused; air with a memory; joints that close loops.
+    pub fn new(
+        setup: &FlightSetup,
+        law: &WingLaw<'_>,
+        step: f64,
+        count: usize,
+    ) -> Result<Self, FlightError> {
+        let system = system_with(setup, law)?;
+        let air = AirModel::build(setup, &system)?;
+        if air.has_memory() {
+            return Err(FlightError::Setup {
+                key: "air.model",
+                value: "with a memory".into(),
+                problem: "a map of one wingbeat needs air that depends on the present motion alone (blade_element, none)".into(),
+            });
+        }
+        let table = Arc::new(PostureTable::new(&system, step, count));
+        let form = MomentumForm::new(system).tabulated(table);
+        let equations = Equations {
+            mechanism: Mechanism::of(form.system()),
+            core: Core::Free(Box::new(form.clone())),
+            air,
+            applied: setup.loads.clone(),
+            step,
+        };
+        Ok(Self {
+            equations: Arc::new(equations),
+            form,
+        })
+    }
+
+    /// The bodies.
+    pub fn system(&self) -> &System {
+        self.form.system()
+    }
+
+    /// The momentum form that is integrated.
+    pub fn form(&self) -> &MomentumForm {
+        &self.form
+    }
+
+    /// The air.
+    pub fn air(&self) -> &dyn Air {
+        self.equations.air.as_ref()
+    }
+
+    /// Length of the state.
+    pub fn dim(&self) -> usize {
+        self.form.dim()
+    }
+
+    /// Room for intermediate results.
+    pub fn scratch(&self) -> FreeFlightScratch {
+        FreeFlightScratch(Scratch::new(&self.equations))
+    }
+
+    /// Rates of the state `y` at time `t` [s].
+    ///
+    /// # Errors
+    /// States that are not finite or singular.
+    pub fn rates(
+        &self,
+        t: f64,
+        y: &[f64],
+        s: &mut FreeFlightScratch,
+        dy: &mut [f64],
+    ) -> Result<(), FlightError> {
+        self.equations.rates(t, y, None, &mut s.0, dy)
+    }
+
+    /// Motions of all bodies in the state `y` at time `t` [s].
+    ///
+    /// # Errors
+    /// States that are not finite or singular.
+    pub fn motions(&self, t: f64, y: &[f64]) -> Result<Vec<BodyMotion>, FlightError> {
+        let mut out = vec![BodyMotion::REST; self.system().bodies().len()];
+        (self.form).motions(t, y, &mut self.form.workspace(), &mut out)?;
+        Ok(out)
+    }
+
+    /// Loads of the air on bodies whose motions and accelerations are known, about their origins,
+    /// N components.
+    ///
+    /// # Errors
+    /// What the air reports.
+    pub fn air_loads(
+        &self,
+        t: f64,
+        motions: &[BodyMotion],
+        accelerations: &[BodyAcceleration],
+        s: &mut AirScratch,
+    ) -> Result<Vec<Wrench>, FlightError> {
+        let at = Instant {
+            time: t,
+            step: self.equations.step,
+            motions,
+        };
+        let (mut loads, mut added) = (vec![Wrench::default(); motions.len()], vec![]);
+        self.air().place(&at, s)?;
+        self.air().loads(&at, None, s, &mut loads)?;
+        self.air().added_mass(t, &mut added);
+        let carried = |a: &AddedMass| a.wrench(&motions[a.body()], &accelerations[a.body()]);
+        added.iter().for_each(|a| loads[a.body()] += carried(a));
+        Ok(loads)
+    }
+}
