@@ -89,6 +89,18 @@ pub enum AirModel {
 }
 
 impl AirModel {
+    /// What it is called.
+    pub fn name(&self) -> &'static str {
+        match self {
+            Self::None => "no air",
+            Self::BladeElement(_) => "blade elements",
+            Self::VortexLattice(_) => "vortex lattice",
+            Self::Derivatives(_) => "stability derivatives",
+            Self::External(_) => "external program",
+            Self::Own(_) => "a model of its own",
+        }
+    }
+
     /// Whether there is air.
     pub fn is_some(&self) -> bool {
         !matches!(self, Self::None)

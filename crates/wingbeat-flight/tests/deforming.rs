@@ -52,6 +52,7 @@ fn blade(mut setup: FlightSetup, added_mass: AddedMass) -> FlightSetup {
         },
         body_drag: None,
         induced: DVec3::ZERO,
+        wind: wingbeat_air::Wind::default(),
     });
     setup.integrator = IntegratorChoice::RungeKutta;
     setup

@@ -82,6 +82,7 @@ fn fill(bodies: &[String], record: &Record, mut row: Row<'_>) {
         step,
         time,
         wing_angles,
+        commands,
         coordinates,
         rates,
         root_quaternion,
@@ -178,6 +179,16 @@ fn fill(bodies: &[String], record: &Record, mut row: Row<'_>) {
     row.plain("wake_particles_count", *wake_particles as f64);
     row.plain("regularised_count", *regularised as f64);
     row.plain("leak_velocity_m_per_s", *leak_velocity);
+    for (wing, command) in bodies[1..].iter().zip(commands) {
+        for (name, value) in command.numbers() {
+            let unit = match name {
+                "stroke_amplitude" | "feathering_amplitude" | "frequency" => "dimensionless",
+                "feathering_lead" => "wingbeats",
+                _ => "rad",
+            };
+            row.number(|| format!("command_{wing}_{name}_{unit}"), value);
+        }
+    }
 }
 
 fn prescribed(row: &mut Row<'_>, wings: &[String], angles: &[DVec3]) {

@@ -1,7 +1,7 @@
 //! `wingbeat check`: a case is built but not flown.
 
 use wingbeat::case::{IoError, LoadedCase};
-use wingbeat::flight::{AirModel, FlightSetup, MotionMode, Simulation};
+use wingbeat::flight::{FlightSetup, MotionMode, Simulation};
 
 /// Builds the flight up to step 0 and describes it.
 pub(crate) fn check(name: &str, set: &[String]) -> Result<(), IoError> {
@@ -50,13 +50,7 @@ fn describe(setup: &FlightSetup) {
         MotionMode::Free(_) => "free flight",
         MotionMode::Tethered(_) => "tethered",
     };
-    let air = match setup.air {
-        AirModel::None => "no air",
-        AirModel::BladeElement(_) => "blade elements",
-        AirModel::VortexLattice(_) => "vortex lattice",
-        AirModel::Derivatives(_) => "stability derivatives",
-        AirModel::External(_) => "external program",
-    };
+    let air = setup.air.name();
     println!("{:<10}{mode}, {air}", "flight");
     let time = &setup.time;
     println!("{:<10}{} steps of {:.4e} s", "time", time.steps, time.step);

@@ -54,6 +54,7 @@ pub(crate) fn setup(case: &mut Case, name: &str) -> Built<FlightSetup> {
         integrator: flight::integrator(case)?,
         corrector: corrector(&case.corrector)?,
         loads: flight::loads(case, &animal)?,
+        feedback: None,
         animal,
         time,
     };

@@ -121,33 +121,24 @@ impl Fly {
             ..AirSettings::benchmark(1.2, DVec3::ZERO)
         };
         let period = 1.0 / FREQUENCY;
+        let air = AirModel::VortexLattice(AirOptions {
+            lattice,
+            body_surfaces: false,
+            mirror: false,
+            joined: vec![],
+        });
         FlightSetup {
-            name: "little fly".into(),
-            animal: self.animal(),
-            gravity: DVec3::new(0.0, 0.0, 9.81),
-            air: AirModel::VortexLattice(AirOptions {
-                lattice,
-                body_surfaces: false,
-                mirror: false,
-                joined: vec![],
-            }),
             mode: MotionMode::Free(StartState {
                 position: DVec3::new(0.01, -0.02, 0.03),
                 angles: DVec3::new(0.8, 0.0, 0.0),
-                velocity: DVec3::ZERO,
-                angular_velocity: DVec3::ZERO,
-                held_steps: 0,
+                ..StartState::default()
             }),
-            joints: vec![],
-            formulation: FormulationChoice::Momentum,
-            integrator: IntegratorChoice::Hamming,
             time: TimeGrid {
                 step: period / steps as f64,
                 steps: (beats * steps as f64).round() as usize,
                 period: Some(period),
             },
-            corrector: CorrectorSettings::default(),
-            loads: vec![],
+            ..FlightSetup::new("little fly", self.animal(), air)
         }
     }
 

@@ -19,6 +19,7 @@ pub(super) fn warnings(setup: &FlightSetup, summary: &Summary) -> Vec<String> {
         AirModel::VortexLattice(air) => air_warnings(setup, air, summary, &mut list),
         AirModel::BladeElement(_) => list.push("The air is quasi-steady: blade elements with measured coefficients, no wake, no interaction of the wings with each other or with the air they moved before.".to_owned()),
         AirModel::Derivatives(_) => list.push("The air is a table of stability derivatives: linear about its reference flight, and wrong far from it.".to_owned()),
+        AirModel::Own(_) => list.push("The air is a model of your own: wingbeat vouches for the motion under its loads, not for the loads.".to_owned()),
         AirModel::External(_) => list.push("The air was computed by another program: wingbeat vouches for the motion under its loads, not for the loads.".to_owned()),
     }
     deformation_warnings(setup, &mut list);
