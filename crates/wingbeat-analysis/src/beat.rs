@@ -10,8 +10,9 @@
 
 use std::sync::Arc;
 
+use wingbeat_dynamics::free::Slot;
 use wingbeat_dynamics::posture::{Composite, Posture};
-use wingbeat_dynamics::{BodyMotion, Formulation};
+use wingbeat_dynamics::{BodyMotion, Formulation, Hinge};
 use wingbeat_flight::{FlightSetup, FreeFlight, FreeFlightScratch, Passage};
 use wingbeat_math::ode::Rk4;
 use wingbeat_math::{DMat3, DQuat, DVec3, RotationLaw};
@@ -212,6 +213,28 @@ impl Beat {
             v: r * v,
             w,
         }
+    }
+
+    /// Coordinates and rates of every free joint in the state `y`, by the joint's name; of
+    /// spherical joints the rotation vector [rad or m, per s].
+    pub fn joints(&self, y: &[f64]) -> Vec<(String, Vec<f64>, Vec<f64>)> {
+        let system = self.flight.system();
+        let (q, u) = y[JOINTS..].split_at(system.coordinates());
+        let hinges = system.hinges().iter().zip(system.slots());
+        let free = hinges.filter(|(_, slot)| slot.speeds > 0);
+        let of = |(hinge, s): (&Hinge, &Slot)| {
+            let q = &q[s.q..s.q + s.coordinates];
+            let coordinates = match s.coordinates {
+                4 => DQuat::from_slice(q).to_scaled_axis().to_array().to_vec(),
+                _ => q.to_vec(),
+            };
+            (
+                hinge.name.clone(),
+                coordinates,
+                u[s.u..s.u + s.speeds].to_vec(),
+            )
+        };
+        free.map(of).collect()
     }
 
     /// The state one wingbeat later.

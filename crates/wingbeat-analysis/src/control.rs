@@ -5,7 +5,9 @@
 //! command to the new one, so that wing inertia does its part and nothing jumps.
 
 use std::collections::VecDeque;
+use std::sync::Arc;
 
+use wingbeat_flight::Feedback;
 use wingbeat_math::{DMat3, DQuat, DVec3};
 use wingbeat_model::motion::Adjustment;
 
@@ -29,6 +31,88 @@ pub struct Sensed {
 pub trait Controller {
     /// Adjustments of the wings, in the animal's order, on top of the trimmed motion.
     fn command(&mut self, sensed: &Sensed, wings: usize) -> Vec<Adjustment>;
+
+    /// Everything it remembers, for a flight that is resumed.
+    fn memory(&self) -> Vec<f64> {
+        vec![]
+    }
+
+    /// Goes on from what it remembered.
+    fn restore(&mut self, _memory: &[f64]) {}
+}
+
+/// A controller of departures from a trimmed flight in the loop of any flight, in any air: looks
+/// once per wingbeat (see [`Steering::feedback`]).
+#[derive(Clone, Debug)]
+pub struct Steering<C> {
+    controller: C,
+    level: Level,
+    reference: Perturbation,
+    /// Mean velocity of the trimmed flight, N components [m/s].
+    velocity: DVec3,
+    wings: usize,
+    /// Mass centre at the first look, N components [m].
+    origin: Option<DVec3>,
+}
+
+impl<C: Controller> Steering<C> {
+    /// `controller` about the trimmed flight.
+    ///
+    /// # Errors
+    /// Numbers that are not finite.
+    pub fn new(controller: C, trim: &Trim) -> Result<Self, AnalysisError> {
+        let root = trim.beat.root(&trim.state);
+        let level = Level::new(root.r, trim.beat.gravity());
+        Ok(Self {
+            controller,
+            reference: Perturbation::of(&trim.beat, &level, &trim.state),
+            level,
+            velocity: trim.mean_velocity()?,
+            wings: trim.setup.animal.wings.len(),
+            origin: None,
+        })
+    }
+}
+
+impl<C: Controller + Clone + std::fmt::Debug + Send + Sync + 'static> Steering<C> {
+    /// Feedback that looks every `steps_per_beat` steps and whose commands act `latency` beats later.
+    pub fn feedback(self, steps_per_beat: usize, latency: usize) -> Feedback {
+        Feedback {
+            controller: Arc::new(self),
+            interval: steps_per_beat,
+            latency,
+        }
+    }
+}
+
+impl<C: Controller + Send> wingbeat_flight::Controller for Steering<C> {
+    fn command(&mut self, sensed: &wingbeat_flight::Sensed) -> Vec<Adjustment> {
+        let origin = *self.origin.get_or_insert(sensed.centre);
+        let (root, velocity) = (&sensed.root, sensed.velocity);
+        let seen = Perturbation::seen(&self.level, root.r, velocity, root.w).to_array();
+        let reference = self.reference.to_array();
+        let way = sensed.centre - origin - sensed.time * self.velocity;
+        let sensed = Sensed {
+            beat: sensed.look,
+            position: self.level.to_n.transpose() * way,
+            departure: Perturbation::from_array(std::array::from_fn(|i| seen[i] - reference[i])),
+        };
+        self.controller.command(&sensed, self.wings)
+    }
+
+    fn memory(&self) -> Vec<f64> {
+        let origin = self.origin.map_or(vec![], |o| o.to_array().to_vec());
+        [vec![origin.len() as f64], origin, self.controller.memory()].concat()
+    }
+
+    fn restore(&mut self, memory: &[f64]) {
+        let Some((&known, rest)) = memory.split_first() else {
+            return;
+        };
+        let (origin, rest) = rest.split_at(known as usize);
+        self.origin = (!origin.is_empty()).then(|| DVec3::from_slice(origin));
+        self.controller.restore(rest);
+    }
 }
 
 impl Controller for Box<dyn Controller> {

@@ -115,6 +115,16 @@ impl Controller for Regulator {
         debug_assert_eq!(self.memory.len(), self.latency + 1);
         adjustments(&u, &self.sides)
     }
+
+    fn memory(&self) -> Vec<f64> {
+        self.memory.iter().flatten().copied().collect()
+    }
+
+    fn restore(&mut self, memory: &[f64]) {
+        for (command, saved) in self.memory.iter_mut().zip(memory.chunks_exact(CONTROLS)) {
+            command.copy_from_slice(saved);
+        }
+    }
 }
 
 /// The four controls as adjustments of the wings.

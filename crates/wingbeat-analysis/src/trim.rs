@@ -14,8 +14,11 @@
 //! were. Newton's method with differences for the Jacobian and a line search; a failure keeps
 //! the best point found.
 
-use wingbeat_flight::{FlightSetup, MotionMode, PrescribedMotion, TimeGrid};
-use wingbeat_math::{DVec3, r2, solve_small};
+use wingbeat_flight::{
+    FlightSetup, FormulationChoice, IntegratorChoice, MotionMode, PrescribedMotion, StartState,
+    TimeGrid,
+};
+use wingbeat_math::{DVec3, EulerSequence, r2, solve_small};
 use wingbeat_model::Start;
 use wingbeat_model::motion::Adjustment;
 
@@ -139,6 +142,38 @@ impl Trim {
         setup.time = TimeGrid {
             step: self.beat.period() / steps as f64,
             steps: 2 * steps,
+            period: Some(self.beat.period()),
+        };
+        setup
+    }
+
+    /// The adjusted animal in free flight from the start of its periodic beat, joints and all, for
+    /// one beat of the trim's steps by the trim's method.
+    pub fn free(&self) -> FlightSetup {
+        let mut setup = self.setup.clone();
+        for wing in &mut setup.animal.wings {
+            wing.motion.start = Start::Impulsive;
+        }
+        let joints = self.beat.joints(&self.state);
+        for joint in &mut setup.joints {
+            if let Some((_, q, u)) = joints.iter().find(|j| j.0 == joint.name) {
+                joint.joint = joint.joint.clone().starting(q, u);
+            }
+        }
+        let root = self.beat.root(&self.state);
+        setup.mode = MotionMode::Free(StartState {
+            position: root.p,
+            angles: EulerSequence::BODY_231.angles(root.r),
+            velocity: root.v,
+            angular_velocity: root.w,
+            held_steps: 0,
+        });
+        setup.formulation = FormulationChoice::Momentum;
+        setup.integrator = IntegratorChoice::RungeKutta;
+        let steps = self.beat.steps();
+        setup.time = TimeGrid {
+            step: self.beat.period() / steps as f64,
+            steps,
             period: Some(self.beat.period()),
         };
         setup

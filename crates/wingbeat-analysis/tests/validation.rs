@@ -3,7 +3,7 @@
 mod common;
 
 use common::*;
-use wingbeat_analysis::control::{ControlledFlight, Controller, Free};
+use wingbeat_analysis::control::{ControlledFlight, Controller, Free, Steering};
 use wingbeat_analysis::modes::Plane;
 use wingbeat_analysis::power::power;
 use wingbeat_analysis::regulator::{Regulator, Weights};
@@ -226,4 +226,57 @@ fn balances_loops_hold_attitude_and_altitude() {
         assert!(left < 1.0, "latency {latency}, every {every}: {left} deg");
         assert!(s.position.z.abs() < 0.1 * t.beat.wing_length());
     }
+}
+
+#[test]
+fn agrees_feedback_in_flight_with_feedback_on_the_map_of_beats() {
+    // One regulator, two loops: the map of beats, and a flight that is resumed halfway.
+    let t = trim(&fly(), &hover(100)).unwrap();
+    let regulator = Regulator::new(&t, &Weights::default(), 1).unwrap();
+    let push = DVec3::new(0.05, 0.03, -0.02);
+    let mut on_map = ControlledFlight::new(&t, DVec3::ZERO, push, 1).unwrap();
+    let mut controller = regulator.clone();
+    let mut expect = vec![];
+    for _ in 0..12 {
+        expect.push(on_map.beat(&mut controller).unwrap().position);
+    }
+
+    let level = Level::new(t.beat.root(&t.state).r, t.beat.gravity());
+    let mut y = t.state.clone();
+    let pushed = DVec3::from_slice(&y[7..]) + t.beat.mass() * (level.to_n * push);
+    pushed.write_to_slice(&mut y[7..]);
+    let mut setup = Trim {
+        state: y,
+        ..t.clone()
+    }
+    .free();
+    setup.time.steps = 1200;
+    setup.feedback = Some(Steering::new(regulator, &t).unwrap().feedback(100, 1));
+    let mut flight = Simulation::new(setup.clone()).unwrap();
+    let start = flight.record().mass_centre;
+    for (beat, place) in expect.iter().enumerate() {
+        for _ in 0..100 {
+            flight.step().unwrap();
+        }
+        let way = level.to_n.transpose() * (flight.record().mass_centre - start);
+        let travelled = (beat + 1) as f64 * t.beat.period() * t.mean_velocity().unwrap();
+        let gap = (way - level.to_n.transpose() * travelled - *place).length();
+        // The same equations and method; quaternions are scaled every step here, every beat there.
+        assert!(gap < 1e-9 * t.beat.wing_length(), "beat {beat}: {gap:e} m");
+        if beat == 5 {
+            let saved = flight.state().clone();
+            flight = Simulation::resume(setup.clone(), saved).unwrap();
+        }
+    }
+    let commanded = &flight.record().commands;
+    assert_eq!(commanded.len(), 2);
+    assert!(commanded.iter().any(|c| c.stroke_amplitude != 0.0));
+    // Without feedback the push is not taken back.
+    let lost = expect[11].length();
+    let mut free = ControlledFlight::new(&t, DVec3::ZERO, push, 1).unwrap();
+    let mut drift = 0.0;
+    for _ in 0..12 {
+        drift = free.beat(&mut Free).unwrap().position.length();
+    }
+    assert!(lost < drift, "{lost} {drift}");
 }

@@ -12,14 +12,27 @@ use wingbeat_model::motion::Adjustment;
 
 use super::LoadedCase;
 use super::raw::{
-    AirCase, AirModel, BodyCase, Case, DerivativesCase, FlightCase, Mode, MotionCase, StartCase,
+    AirCase, AirModel, BodyCase, Case, DerivativesCase, FlightCase, JointKind, Mode, MotionCase,
+    StartCase,
 };
 use crate::error::IoError;
 
 /// The case of a trimmed flight as TOML: the given case with the adjusted wing motion, hinges and
-/// the state of the body at the start of the periodic beat, impulsively started.
+/// the state of body and free joints at the start of the periodic beat, impulsively started.
 pub fn trimmed_case(case: &LoadedCase, trim: &Trim) -> String {
-    let raw = adjusted(case, &trim.adjustment, trim.mass_centre);
+    let mut raw = adjusted(case, &trim.adjustment, trim.mass_centre);
+    for (name, coordinates, rates) in trim.beat.joints(&trim.state) {
+        // Joints that are mirror images are not in the file.
+        let Some(joint) = raw.joint.get_mut(&name) else {
+            continue;
+        };
+        if joint.kind == JointKind::Prismatic {
+            (joint.start_m, joint.start_m_s) = (Some(coordinates[0]), Some(rates[0]));
+        } else {
+            let degrees = |x: Vec<f64>| Some(x.into_iter().map(f64::to_degrees).collect());
+            (joint.start_deg, joint.start_deg_s) = (degrees(coordinates), degrees(rates));
+        }
+    }
     with_start(case, raw, &trim.beat.root(&trim.state), 0.0, trim.error())
 }
 

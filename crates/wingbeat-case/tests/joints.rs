@@ -3,8 +3,11 @@
 
 use std::path::Path;
 
+use wingbeat_analysis::{TrimProblem, TrimSettings, Unknown, trim};
 use wingbeat_case::{LoadedCase, presets};
+use wingbeat_dynamics::ElementLaw;
 use wingbeat_flight::{Record, Simulation};
+use wingbeat_math::DVec3;
 
 /// Records of a case with overrides.
 fn fly(name: &str, set: &[&str]) -> Vec<Record> {
@@ -262,4 +265,57 @@ fn exact_a_fly_of_a_kilogram_is_warned_about() {
             .warnings()
             .is_empty()
     );
+}
+
+#[test]
+fn agrees_trim_of_passive_hinges_with_the_flight_it_leads_to() {
+    // The wings of the robot feather by themselves: hinge angles and rates are unknowns of the trim.
+    // Flown from there, body and hinges are back after a beat where they were.
+    let set = ["air.model=\"blade_element\"".to_owned()];
+    let case = LoadedCase::find("robobee", &set).unwrap_or_else(|e| panic!("{e}"));
+    let problem = TrimProblem {
+        unknowns: [
+            Unknown::BodyPitch,
+            Unknown::StrokeAmplitude,
+            Unknown::StrokeOffset,
+        ],
+        velocity: DVec3::ZERO,
+        body_pitch: 0.0,
+        settings: TrimSettings::default(),
+    };
+    let found = trim(&case.setup, &problem).expect("the robot");
+    assert!(found.converged, "{:?}", found.residual);
+    assert_eq!(
+        found.residual.len(),
+        6 + 4,
+        "two hinges, coordinate and speed"
+    );
+    let mut flight = Simulation::new(found.free()).expect("a trimmed flight");
+    let first = flight.record().clone();
+    while !flight.finished() {
+        flight.step().expect("a step");
+    }
+    let last = flight.record();
+    let drift = (last.mass_centre - first.mass_centre).length();
+    assert!(drift < 1e-6 * found.beat.wing_length(), "{drift:e} m");
+    let degrees = |a: f64, b: f64| (a - b).to_degrees().abs();
+    for k in 3..6 {
+        let turned = degrees(first.coordinates[k], last.coordinates[k]);
+        assert!(turned < 1e-3, "angle {k} of the body: {turned:e} deg");
+    }
+    for (a, b) in first.joints.iter().zip(&last.joints) {
+        assert!(degrees(a[0], b[0]) < 1e-3, "hinge: {a:?} {b:?}");
+    }
+    // Another hinge, another trim: the joints are those of the animal.
+    let mut stiff = case.setup.clone();
+    for joint in &mut stiff.joints {
+        for element in &mut joint.joint.elements {
+            if let ElementLaw::Spring { stiffness, .. } = &mut element.law {
+                *stiffness *= 2.0;
+            }
+        }
+    }
+    let other = trim(&stiff, &problem).expect("the robot");
+    let apart = (other.adjustment.stroke_amplitude - found.adjustment.stroke_amplitude).abs();
+    assert!(!other.converged || apart > 1e-3, "{apart}");
 }

@@ -1,0 +1,178 @@
+//! The seam of the air: wind in blade elements, what a partner is told, a model of one's own.
+
+mod common;
+
+use std::sync::{Arc, Mutex};
+
+use common::Fly;
+use wingbeat_air::{AirState, Gust, GustShape, Wind};
+use wingbeat_blade::BladeSettings;
+use wingbeat_dynamics::{BodyMotion, Wrench};
+use wingbeat_flight::*;
+use wingbeat_math::{DMat3, DVec3, MassProperties};
+
+fn blade(stream: DVec3, wind: Wind) -> FlightSetup {
+    let mut setup = Fly::default().setup(40, 1.0);
+    setup.air = AirModel::BladeElement(BladeOptions {
+        blade: BladeSettings {
+            free_stream: stream,
+            ..BladeSettings::insect(1.2)
+        },
+        body_drag: None,
+        induced: DVec3::ZERO,
+        wind,
+    });
+    setup
+}
+
+fn end(setup: FlightSetup) -> Record {
+    let mut flight = Simulation::new(setup).expect("a flight");
+    while !flight.finished() {
+        flight.step().expect("a step");
+    }
+    flight.record().clone()
+}
+
+/// A gust that blows all the time and everywhere.
+fn steady(amplitude: DVec3) -> Wind {
+    Wind {
+        shear: None,
+        gusts: vec![Gust {
+            amplitude,
+            start: -1.0,
+            slowness: DVec3::ZERO,
+            shape: GustShape::Table(vec![(0.0, 1.0), (1e3, 1.0)]),
+        }],
+    }
+}
+
+#[test]
+fn exact_steady_gust_on_blade_elements_is_a_stream() {
+    let u = DVec3::new(-0.6, 0.2, 0.3);
+    let (a, b) = (
+        end(blade(u, Wind::default())),
+        end(blade(DVec3::ZERO, steady(u))),
+    );
+    let still = end(blade(DVec3::ZERO, Wind::default()));
+    let gap = (a.mass_centre - b.mass_centre).length();
+    let drift = (a.mass_centre - still.mass_centre).length();
+    assert!(
+        drift > 1e-6,
+        "the stream carries the fly along: {drift:e} m"
+    );
+    assert!(gap < 1e-10 * drift, "{gap:e} of {drift:e} m");
+}
+
+#[test]
+fn exact_shear_on_blade_elements_is_a_stream_at_the_wings() {
+    // A shear whose velocity is the same at all points of a plane, which the strokes hardly leave:
+    // to first order in the distance the loads differ by the gradient alone. Doubling the gradient
+    // doubles the difference.
+    let with = |rate: f64| {
+        let shear = DMat3::from_cols(DVec3::ZERO, DVec3::ZERO, DVec3::new(rate, 0.0, 0.0));
+        let wind = Wind {
+            shear: Some(shear),
+            gusts: vec![],
+        };
+        end(blade(DVec3::ZERO, wind)).momentum
+    };
+    let still = with(0.0);
+    let (one, two) = (with(1e-3) - still, with(2e-3) - still);
+    assert!(one.length() > 0.0, "a shear must be felt");
+    assert!(
+        (two - 2.0 * one).length() < 1e-4 * one.length(),
+        "{one} {two}"
+    );
+}
+
+/// Remembers what it was told.
+#[derive(Clone, Debug, Default)]
+struct Listener(Arc<Mutex<Vec<String>>>);
+
+impl ExternalAir for Listener {
+    fn open(&self, flyer: &Announcement) -> Result<Box<dyn ExternalSession>, String> {
+        self.0.lock().expect("no panic").clone_from(&flyer.bodies);
+        Ok(Box::new(Still(flyer.bodies.len())))
+    }
+}
+
+struct Still(usize);
+
+impl ExternalSession for Still {
+    fn loads(
+        &mut self,
+        _step: usize,
+        _time: f64,
+        motions: &[BodyMotion],
+        out: &mut [Wrench],
+    ) -> Result<(), String> {
+        assert_eq!(
+            (motions.len(), out.len()),
+            (self.0, self.0),
+            "all bodies announced"
+        );
+        out.fill(Wrench::default());
+        Ok(())
+    }
+
+    fn accept(&mut self, _step: usize) -> Result<(), String> {
+        Ok(())
+    }
+}
+
+#[test]
+fn behaves_external_air_is_told_of_every_body_it_is_asked_for() {
+    let mut setup = Fly::default().setup(40, 0.1);
+    let listener = Listener::default();
+    setup.air = AirModel::External(Arc::new(listener.clone()));
+    end(setup.clone());
+    let told = listener.0.lock().expect("no panic").clone();
+    assert_eq!(
+        told.len(),
+        1 + setup.animal.wings.len() + setup.animal.segments.len()
+    );
+    assert_eq!(told[0], "body");
+}
+
+/// Linear drag on every body.
+#[derive(Debug)]
+struct Syrup(f64);
+
+impl Air for Syrup {
+    fn loads(
+        &self,
+        at: &Instant<'_>,
+        _memory: Option<&AirState>,
+        _scratch: &mut AirScratch,
+        out: &mut [Wrench],
+    ) -> Result<(), FlightError> {
+        for (load, m) in out.iter_mut().zip(at.motions) {
+            *load = Wrench::at(-self.0 * m.v, DVec3::ZERO);
+        }
+        Ok(())
+    }
+}
+
+#[test]
+fn exact_own_air_model_reaches_terminal_velocity() {
+    // A single body in linear drag: v = m g / c (1 - exp(-c t / m)).
+    let mut setup = Fly::default().setup(40, 40.0);
+    setup.animal.wings.clear();
+    // Weight and drag act at one point.
+    setup.animal.body = MassProperties::about_centre(
+        setup.animal.body.mass,
+        DVec3::ZERO,
+        setup.animal.body.inertia_about_centre(),
+    );
+    setup.integrator = IntegratorChoice::RungeKutta;
+    setup.mode = MotionMode::Free(StartState::default());
+    let (m, t) = (
+        setup.animal.mass(),
+        setup.time.step * setup.time.steps as f64,
+    );
+    let c = 3.0 * m / t;
+    setup.air = AirModel::Own(Arc::new(Syrup(c)));
+    let found = end(setup).momentum.z / m;
+    let origin = 9.81 * m / c * (1.0 - (-3.0_f64).exp());
+    assert!((found / origin - 1.0).abs() < 1e-8, "{found} {origin}");
+}
