@@ -1,6 +1,6 @@
 //! What can go wrong in the air.
 
-use crate::surface::EdgeKind;
+use crate::edges::EdgeKind;
 use wingbeat_math::{DVec3, LuError};
 
 /// A lattice that cannot be built, or a step that cannot be made.
@@ -255,11 +255,11 @@ pub enum AirError {
     },
     /// Surfaces that cannot be joined.
     #[error(
-        "seam {seam}: {problem}; a seam lists the nodes of a free edge line of both surfaces, in step"
+        "joined edge {edge}: {problem}; a joined edge lists the nodes of a free edge line of both surfaces, pair by pair"
     )]
-    Seam {
-        /// Number of the seam.
-        seam: usize,
+    JoinedEdge {
+        /// Number of the joined edge.
+        edge: usize,
         /// What does not fit.
         problem: &'static str,
     },
@@ -268,7 +268,7 @@ pub enum AirError {
         "air step {step}: node {} of surface {} and node {} of surface {} are joined but {distance:e} m apart; move joined surfaces so that their shared edge is one",
         nodes[0].1, nodes[0].0, nodes[1].1, nodes[1].0
     )]
-    SeamOpen {
+    JoinOpen {
         /// Accepted steps so far.
         step: u64,
         /// Surface and node, counted in it, on either side.
@@ -284,11 +284,11 @@ pub enum AirError {
         /// What differs.
         what: &'static str,
     },
-    /// Mirror twins that do not pair.
+    /// Nodes, panels or wake sheets that are no mirror images of each other.
     #[error(
-        "{what} {index} has no mirror twin that fits (a twin has the same number in mirror image and names this one back); compute both halves"
+        "{what} {index} has no mirror image that fits (the image of its image is the {what} itself, with its nodes in mirror image); compute both halves"
     )]
-    Twins {
+    MirrorPairs {
         /// Node, panel, wake sheet, or the plane itself.
         what: &'static str,
         /// Its number.
@@ -296,16 +296,36 @@ pub enum AirError {
     },
     /// Motion that is not mirror-symmetric though only one half is computed.
     #[error(
-        "air step {step}: surface node {node} is {distance:e} m away from the mirror image of its twin {twin}; the flight is not mirror-symmetric: compute both halves"
+        "air step {step}: surface node {node} is {distance:e} m away from the mirror image of node {image}; the flight is not mirror-symmetric: compute both halves"
     )]
     Asymmetric {
         /// Accepted steps so far.
         step: u64,
         /// Node of all surfaces.
         node: usize,
-        /// Its twin.
-        twin: usize,
+        /// The node whose mirror image it should be.
+        image: usize,
         /// Distance [m].
         distance: f64,
     },
+}
+
+/// An error that names a setting unless `ok`.
+///
+/// # Errors
+/// [`AirError::Setting`].
+pub(crate) fn require(
+    ok: bool,
+    key: &'static str,
+    value: impl ToString,
+    allowed: &'static str,
+) -> Result<(), AirError> {
+    match ok {
+        true => Ok(()),
+        false => Err(AirError::Setting {
+            key,
+            value: value.to_string(),
+            allowed,
+        }),
+    }
 }

@@ -53,8 +53,8 @@ impl Mirror {
         }
     }
 
-    /// The image of a place.
-    pub(crate) fn place(&self, x: DVec3) -> DVec3 {
+    /// The image of a point.
+    pub(crate) fn point(&self, x: DVec3) -> DVec3 {
         self.turn * x + self.shift
     }
 
@@ -91,7 +91,7 @@ pub(crate) fn mirrors(planes: &[Plane]) -> Result<Vec<Mirror>, AirError> {
             let [one, two] = [one, two].map(Mirror::new);
             let both = Mirror {
                 turn: one.turn * two.turn,
-                shift: one.place(two.shift),
+                shift: one.point(two.shift),
             };
             Ok(vec![one, two, both])
         }

@@ -26,59 +26,47 @@
 //! its axes point. The ring of a panel runs c0 -> c3 -> c2 -> c1, left-handed about the normal: then
 //! positive circulation is lift along the normal.
 //!
-//! Old rows of wake, or those of leading edges at once, can become vortex [`particles`].
+//! Old rows of wake, or those of leading edges at once, can become vortex particles ([`ParticleSettings`]).
 //!
-//! Surfaces may change their shape: their nodes move as the caller says. [`seams`] joins surfaces to
-//! one; [`section_drag`] adds friction and profile drag.
+//! Surfaces may change their shape: their nodes move as the caller says. [`JoinedEdge`] joins surfaces to
+//! one; [`SectionDrag`] adds friction and profile drag.
+//!
+//! The crate reads downward, and each storey knows those below it only: `step` (the recipes), `workspace`, `loads`
+//! (from circulations to forces), `solve` (the circulations), `wake` (filaments, their velocities, their motion),
+//! `state`, `lattice`, `geometry`, `settings`. The sums are those of [`wingbeat_vortex`].
 //!
 //! What this crate does not know: coordinates, joints, animals, gravity, files. What the method
 //! does not know: viscosity (no friction drag of its own, wakes do not decay unless their cores grow),
 //! separation other than at the edges told to shed. Forces are pressure times normal unless
 //! [`LoadMethod`] says otherwise, so without the suction at edges that do not shed.
 
-mod circulation;
-mod closed;
-mod contact;
+mod edges;
 pub mod error;
-pub mod filaments;
-mod front;
-pub mod images;
-mod influence;
-mod joukowski;
-pub mod lattice;
-pub mod loads;
-mod own;
-pub mod panels;
-mod particle_motion;
-pub mod particles;
-mod pressure;
-mod rings;
-mod row_blocks;
-pub mod seams;
-pub mod section_drag;
-pub mod settings;
-pub mod state;
-pub mod strips;
-mod summation;
-pub mod surface;
-pub mod topology;
-pub mod twins;
+mod geometry;
+mod images;
+mod lattice;
+mod loads;
+mod settings;
+mod solve;
+mod state;
+mod step;
 mod wake;
-pub mod wind;
+mod workspace;
 
+pub use edges::{EdgeKind, SheddingKinds};
 pub use error::AirError;
+pub use geometry::{
+    Edge, JoinedColumns, JoinedEdge, MirrorPairs, NodeMotion, PanelEdge, Panels, SheddingSegment,
+    Sheet, Strip, Surface, Topology, WakeColumn,
+};
 pub use images::Plane;
 pub use lattice::Lattice;
-pub use loads::{AirLoads, AirWorkspace, SurfaceLoads};
-pub use panels::Panels;
-pub use particles::{ParticleSettings, Particles};
-pub use seams::Seam;
-pub use section_drag::{Friction, SectionDrag};
+pub use loads::{AirLoads, SurfaceLoads};
 pub use settings::{
-    AirSettings, CirculationRate, Convection, LeadingEdge, LoadMethod, NewestRow, SheddingKinds,
+    AirSettings, CirculationRate, Convection, Friction, Gust, GustShape, LeadingEdge, LoadMethod,
+    NewestRow, ParticleSettings, SectionDrag, Wind,
 };
-pub use state::{AirState, NodeMotion, WakeEvents, WakeSheet};
-pub use surface::{EdgeKind, SheddingSegment, Surface};
-pub use twins::Twins;
-pub use wind::{Gust, GustShape, Wind};
+pub use state::{AirState, Particles, WakeEvents, WakeSheet};
+pub use wake::Filaments;
 pub use wingbeat_vortex::{CoreModel, Method, Points, Stretching};
+pub use workspace::AirWorkspace;

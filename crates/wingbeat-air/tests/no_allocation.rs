@@ -102,7 +102,7 @@ fn exact_no_allocation_in_steps_of_a_wake_that_keeps_its_size() {
 fn old_wake(rows: usize, looks_back: bool) -> WakeSheet {
     let mut sheet = WakeSheet {
         columns: COLUMNS,
-        spent: vec![0; COLUMNS],
+        converted: vec![0; COLUMNS],
         ..WakeSheet::default()
     };
     for r in (0..rows).rev() {

@@ -136,7 +136,9 @@ impl Sources<'_> {
     /// Largest leak of a closed surface; the loads of a vacuum are empty.
     fn leak(&self) -> f64 {
         let surfaces = &self.scratch.air_scratch.loads.surfaces;
-        surfaces.iter().fold(0.0, |m, s| m.max(s.leak.abs()))
+        surfaces
+            .iter()
+            .fold(0.0, |m, s| m.max(s.net_flux_residual.abs()))
     }
 }
 

@@ -27,7 +27,7 @@ const SINGLE_TARGETS: usize = 500;
 /// [`SAMPLE_EVERY`].
 const SAMPLES: usize = BLOCK;
 const SAMPLE_EVERY: usize = 250;
-const LEAST_SAMPLES: usize = 16;
+const MIN_SAMPLES: usize = 16;
 
 /// What a far cell may leave out, in parts of the tolerance. Many cells add up, with either sign:
 /// fewer may leave out more, as the inverse root of their number.
@@ -117,7 +117,7 @@ pub struct Report {
 ///
 /// ```
 /// use wingbeat_vortex::{CoreModel, FastSettings, FastSum, Network, Points};
-/// use glam::DVec3;
+/// use wingbeat_vortex::DVec3;
 /// let model = CoreModel::Vatistas { radius: 0.1 };
 /// let mut ring = Network::default();
 /// (0..4).for_each(|k| ring.nodes.push(DVec3::new((k & 1) as f64, (k >> 1) as f64, 0.0)));
@@ -370,7 +370,7 @@ struct Check {
 
 impl Check {
     fn new(sum: &FastSum, targets: &Points) -> Self {
-        let few = targets.len().min(LEAST_SAMPLES);
+        let few = targets.len().min(MIN_SAMPLES);
         let count = (targets.len() / SAMPLE_EVERY).clamp(few, SAMPLES);
         let index = std::array::from_fn(|k| {
             // A square more than even steps: no pattern in the numbering is always missed.

@@ -19,8 +19,8 @@
 //! Two sums: [`DirectSum`] takes every segment at every target; [`FastSum`] does so in single precision, or
 //! sums far segments by the expansions of the cells of a tree, to a tolerance that it checks at every call.
 //!
-//! [`BlobSum`] is the sum over Gaussian vortex blobs, one by one or on a mesh; [`ParticleSum`] the direct sum over
-//! vortex particles.
+//! Two more sum over vortex blobs: [`GaussianSum`] one by one or on a mesh, [`AlgebraicSum`] one by one, with the rate
+//! at which blobs stretch each other.
 //!
 //! Promises: the same bits for every instruction set ([`InstructionSet`]) and any number of threads;
 //! never NaN or infinite for finite input, on a node and on a filament included; nothing is
@@ -28,22 +28,20 @@
 //!
 //! What it does not know: panels, wings, wakes, time.
 
-mod blobs;
 mod cores;
 mod direct;
 mod fast;
+mod gaussian_sum;
 mod instruction_set;
 mod particle_mesh;
 mod sources;
 mod tree;
 
-pub use blobs::{Blob, BlobReport, BlobSum};
 pub use cores::{CoreModel, LAMB_ALPHA};
 pub use direct::reference;
-pub use direct::{
-    BLOCK, DirectSum, Particle, ParticleSum, Stretching, UnitEdges, WINDOW, add_velocity,
-};
+pub use direct::{AlgebraicSum, BLOCK, DirectSum, Stretching, UnitEdges, WINDOW, add_velocity};
 pub use fast::{FastSettings, FastSum, Method, Report};
+pub use gaussian_sum::{GaussianReport, GaussianSum};
 pub use glam::DVec3;
 pub use instruction_set::InstructionSet;
-pub use sources::{Network, Points, Segments};
+pub use sources::{Blob, Network, Points, Segments};

@@ -4,7 +4,9 @@ mod wakes;
 
 use allocation_counter::measure;
 use wingbeat_vortex::DVec3;
-use wingbeat_vortex::{Blob, BlobSum, CoreModel, DirectSum, FastSettings, FastSum, Method, Points};
+use wingbeat_vortex::{
+    Blob, CoreModel, DirectSum, FastSettings, FastSum, GaussianSum, Method, Points,
+};
 
 #[test]
 fn exact_no_allocation_after_warm_up() {
@@ -47,14 +49,14 @@ fn exact_no_allocation_of_blobs_after_warm_up() {
         let blob = |(i, x): (usize, DVec3)| Blob {
             position: low + (x - low) * shift,
             strength: DVec3::new(1.0, (i as f64).sin(), -1.0),
-            variance: variance * (1.0 + (i % 50) as f64),
+            core: variance * (1.0 + (i % 50) as f64),
         };
         net.nodes.iter().enumerate().map(blob).collect()
     };
     let clouds = [cloud(1.0), cloud(0.9)];
     let mut v = Points::zeros(net.nodes.len());
     on_one_thread(|| {
-        let mut sum = BlobSum::default();
+        let mut sum = GaussianSum::default();
         let mut step = |k: usize| {
             assert!(sum.load(&clouds[k], variance, [low, high], net.nodes.len()));
             assert!(sum.add_velocity(1e-4, &net.nodes, &mut v).is_mesh);

@@ -3,7 +3,8 @@
 
 use crate::common::{Run, fly, rectangle, sphere, total_force};
 use wingbeat_air::{
-    AirLoads, AirSettings, Convection, Lattice, NodeMotion, Plane, SheddingKinds, Surface, Twins,
+    AirLoads, AirSettings, Convection, Lattice, MirrorPairs, NodeMotion, Plane, SheddingKinds,
+    Surface,
 };
 use wingbeat_math::{DMat3, DVec3, r1, r2, r3};
 
@@ -79,7 +80,7 @@ fn invariant_under_the_motion_of_the_observer() {
     assert!((ma - mb).length() < 1e-9 * ma.length());
 }
 
-/// Two wings beside a sphere, with twins; the left wing's panels run the other way round.
+/// Two wings beside a sphere, with mirror pairs; the left wing's panels run the other way round.
 fn halves(motion: &NodeMotion, whole: bool) -> Lattice {
     let right = Surface::grid("right", 3, 4);
     let mut left = Surface::grid("left", 3, 4);
@@ -119,7 +120,9 @@ fn halves(motion: &NodeMotion, whole: bool) -> Lattice {
         point: DVec3::ZERO,
         normal: DVec3::Y,
     };
-    lattice.with_twins(Twins { plane, node, panel }).unwrap()
+    lattice
+        .with_mirror_symmetry(MirrorPairs { plane, node, panel })
+        .unwrap()
 }
 
 fn with_body(t: f64) -> NodeMotion {
@@ -139,9 +142,9 @@ fn agrees_with_both_halves_when_only_one_is_computed() {
     for (a, b) in whole.loads.force.iter().zip(&half.loads.force) {
         assert!((*a - *b).length() < 1e-9 * scale); // roundings in a free wake, as above
     }
-    assert!(half.loads.penetration < 1e-12 && half.state.sheets[0].rows() == 5);
-    let leaks = [&whole, &half].map(|r| r.loads.surfaces[2].leak);
-    assert!((leaks[0] - leaks[1]).abs() < 1e-12);
+    assert!(half.loads.normal_velocity_residual < 1e-12 && half.state.sheets[0].rows() == 5);
+    let residuals = [&whole, &half].map(|r| r.loads.surfaces[2].net_flux_residual);
+    assert!((residuals[0] - residuals[1]).abs() < 1e-12);
     // The wakes are each other's image to the bit.
     let [right, left] = [0, 1].map(|k| &half.state.sheets[k]);
     let flipped: Vec<f64> = right.nodes.y.iter().map(|y| -y).collect();

@@ -3,8 +3,8 @@
 use crate::common::{Run, fly, order, rectangle, total_force, translating};
 use std::f64::consts::{PI, TAU};
 use wingbeat_air::{
-    AirError, AirLoads, AirSettings, AirState, AirWorkspace, CoreModel, Lattice, NodeMotion,
-    ParticleSettings, Plane, SheddingKinds, Stretching, Surface, Twins,
+    AirError, AirLoads, AirSettings, AirState, AirWorkspace, CoreModel, Lattice, MirrorPairs,
+    NodeMotion, ParticleSettings, Plane, SheddingKinds, Stretching, Surface,
 };
 use wingbeat_math::{DMat3, DVec3, r1, r2, r3};
 
@@ -49,7 +49,7 @@ fn sums(lattice: &Lattice, state: &AirState, ws: &mut AirWorkspace) -> ([DVec3; 
     let impulse = lattice.impulse(state, ws).unwrap() / lattice.settings().density;
     let f = ws.filaments();
     let (mut total, mut size) = (DVec3::ZERO, 0.0);
-    for net in [&f.bound, &f.front, &f.wake] {
+    for net in [&f.bound, &f.near_wake, &f.wake] {
         for e in 0..net.len() {
             let (a, b) = net.ends(e);
             total += net.gamma[e] * (b - a);
@@ -330,13 +330,15 @@ fn agrees_hybrid_wakes_of_both_halves_one_half_and_an_image() {
     };
     let whole = run(&flapping(STREAM, 2, vec![]), pair);
     let swap = |n: usize| (0..2 * n).map(|k| (k + n) % (2 * n)).collect();
-    let twins = Twins {
+    let pairs = MirrorPairs {
         plane,
         node: swap(20),
         panel: swap(12),
     };
     let half = run(
-        &flapping(STREAM, 2, vec![]).with_twins(twins).unwrap(),
+        &flapping(STREAM, 2, vec![])
+            .with_mirror_symmetry(pairs)
+            .unwrap(),
         pair,
     );
     let image = run(&flapping(STREAM, 1, vec![plane]), |t| {

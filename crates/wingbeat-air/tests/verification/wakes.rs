@@ -140,11 +140,14 @@ fn exact_truncation_keeps_rings_closed() {
     assert_eq!(run.state.sheets[0].rows(), 3);
     short.impulse(&run.state, &mut run.ws).unwrap();
     let filaments = run.ws.filaments();
-    let (nodes, width) = (filaments.wake.nodes.len(), filaments.front.nodes.len() / 2);
+    let (nodes, width) = (
+        filaments.wake.nodes.len(),
+        filaments.near_wake.nodes.len() / 2,
+    );
     let mut sum = vec![0.0; nodes + filaments.bound.nodes.len()];
     let shed = &short.sheets()[0].nodes;
-    // The front joins the newest free row of the wake to nodes of the lattice.
-    let in_front = |n: usize| match n.checked_sub(width) {
+    // The near wake joins the newest free row of the wake to nodes of the lattice.
+    let in_near_wake = |n: usize| match n.checked_sub(width) {
         Some(c) => nodes + shed[c],
         None => nodes - width + n,
     };
@@ -153,12 +156,12 @@ fn exact_truncation_keeps_rings_closed() {
         sum[b] += g;
     };
     let ends = |[a, b]: [u32; 2]| [a as usize, b as usize];
-    let (wake, front, bound) = (&filaments.wake, &filaments.front, &filaments.bound);
+    let (wake, near_wake, bound) = (&filaments.wake, &filaments.near_wake, &filaments.bound);
     for (&edge, &g) in wake.edges.iter().zip(&wake.gamma) {
         flow(ends(edge), g);
     }
-    for (&edge, &g) in front.edges.iter().zip(&front.gamma) {
-        flow(ends(edge).map(in_front), g);
+    for (&edge, &g) in near_wake.edges.iter().zip(&near_wake.gamma) {
+        flow(ends(edge).map(in_near_wake), g);
     }
     for (&edge, &g) in bound.edges.iter().zip(&bound.gamma) {
         flow(ends(edge).map(|n| nodes + n), g);

@@ -38,7 +38,7 @@ impl LatticeAir {
                 problem: "the animal is not its own mirror image; compute both halves (false)"
                     .into(),
             })?;
-        let lattice = lattice.with_twins(twins)?;
+        let lattice = lattice.with_mirror_symmetry(twins)?;
         Ok(Self { lattice, map })
     }
 

@@ -1,7 +1,9 @@
 //! From bodies to lattice surfaces and back: node positions and velocities for the air, panel
 //! forces gathered into wrenches for the dynamics (seed eq. 9).
 
-use wingbeat_air::{AirLoads, EdgeKind, NodeMotion, Plane, Seam, SheddingSegment, Surface, Twins};
+use wingbeat_air::{
+    AirLoads, EdgeKind, JoinedEdge, MirrorPairs, NodeMotion, Plane, SheddingSegment, Surface,
+};
 use wingbeat_dynamics::{BodyMotion, Wrench};
 use wingbeat_math::{DVec3, RotationLaw};
 use wingbeat_model::mesh::mirror;
@@ -103,11 +105,11 @@ impl SurfaceMap {
     }
 
     /// What is joined to what, in the words of the lattice.
-    pub fn seams(&self) -> Vec<Seam> {
+    pub fn seams(&self) -> Vec<JoinedEdge> {
         let seam = |r: &Roots| {
             let first = r.wings.map(|w| self.nodes[w].start);
             let local = |n: &[usize; 2]| [n[0] - first[0], n[1] - first[1]];
-            Seam {
+            JoinedEdge {
                 surfaces: r.wings,
                 nodes: r.nodes.iter().map(local).collect(),
             }
@@ -288,11 +290,11 @@ fn spin(nodes: &NodeMotion, corners: [usize; 4]) -> DVec3 {
 
 /// The twins of an animal that is its own mirror image in the plane of axes 1 and 3 of the body,
 /// at rest at `root`; none if a wing or a body node has no counterpart.
-pub fn twins(animal: &Animal, body_surfaces: bool, root: &BodyMotion) -> Option<Twins> {
+pub fn twins(animal: &Animal, body_surfaces: bool, root: &BodyMotion) -> Option<MirrorPairs> {
     if !animal.segments.is_empty() {
         return None;
     }
-    let mut twins = Twins {
+    let mut twins = MirrorPairs {
         plane: Plane {
             point: root.p,
             normal: root.r.y_axis,

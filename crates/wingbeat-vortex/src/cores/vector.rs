@@ -185,12 +185,12 @@ impl Core for LambOseen {
         num: &mut [P::Lanes; N],
         z: &mut [P::Lanes; N],
     ) {
-        let mut least = z[0];
+        let mut min = z[0];
         for z in &z[1..] {
-            least = least.min(*z);
+            min = min.min(*z);
         }
         // Far from all of them the factor is 1 to the last bit.
-        if least.simd_lt(P::Lanes::splat(simd, P::FULL)).any_true() {
+        if min.simd_lt(P::Lanes::splat(simd, P::FULL)).any_true() {
             P::one_minus_exp2(simd, z);
             for i in 0..N {
                 num[i] *= z[i];

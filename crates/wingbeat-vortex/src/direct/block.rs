@@ -2,6 +2,9 @@
 
 use crate::sources::Points;
 use fearless_simd::prelude::*;
+use glam::DVec3;
+use rayon::prelude::*;
+use std::ops::Range;
 
 /// Targets worked on together; a multiple of every vector width.
 pub const BLOCK: usize = 64;
@@ -21,6 +24,16 @@ impl Block {
         y: [0.0; BLOCK],
         z: [0.0; BLOCK],
     };
+
+    /// Vector number `lane`.
+    pub fn get(&self, lane: usize) -> DVec3 {
+        DVec3::new(self.x[lane], self.y[lane], self.z[lane])
+    }
+
+    /// Overwrites vector number `lane`.
+    pub fn set(&mut self, lane: usize, v: DVec3) {
+        (self.x[lane], self.y[lane], self.z[lane]) = v.into();
+    }
 }
 
 /// The first `count` places of a block; lanes beyond may hold anything finite.
@@ -30,14 +43,35 @@ pub(crate) struct Targets<'a> {
     pub count: usize,
 }
 
-/// `count` targets from `first` on.
-pub(crate) fn block_at(targets: &Points, first: usize, count: usize) -> Block {
-    let mut block = Block::ZERO;
-    let own = first..first + count;
-    block.x[..count].copy_from_slice(&targets.x[own.clone()]);
-    block.y[..count].copy_from_slice(&targets.y[own.clone()]);
-    block.z[..count].copy_from_slice(&targets.z[own]);
+/// Points in a range of at most [`BLOCK`].
+pub(crate) fn block_at(points: &Points, range: Range<usize>) -> Block {
+    let (mut block, count) = (Block::ZERO, range.len());
+    block.x[..count].copy_from_slice(&points.x[range.clone()]);
+    block.y[..count].copy_from_slice(&points.y[range.clone()]);
+    block.z[..count].copy_from_slice(&points.z[range]);
     block
+}
+
+/// The components of up to [`BLOCK`] points.
+pub(crate) type Chunk<'a> = [&'a mut [f64]; 3];
+
+/// Pieces of [`BLOCK`] points with their numbers, over threads.
+pub(crate) fn par_blocks(
+    points: &mut Points,
+) -> impl IndexedParallelIterator<Item = (usize, Chunk<'_>)> {
+    let Points { x, y, z } = points;
+    x.par_chunks_mut(BLOCK)
+        .zip(y.par_chunks_mut(BLOCK))
+        .zip(z.par_chunks_mut(BLOCK))
+        .map(|((x, y), z)| [x, y, z])
+        .enumerate()
+}
+
+/// Adds the first vectors of a block to points.
+pub(crate) fn add_block(sum: &Block, out: Chunk<'_>) {
+    for (out, sum) in out.into_iter().zip([&sum.x, &sum.y, &sum.z]) {
+        out.iter_mut().zip(sum).for_each(|(o, s)| *o += s);
+    }
 }
 
 /// The vectors in the lanes from `lane` on.

@@ -1,41 +1,54 @@
-//! Velocity of Gaussian blobs of one width, one by one.
+//! Blobs spread as Gaussians.
+//!
+//! With r = x - x_q, t = abs(r) / s a blob of strength alpha and variance s^2 moves the air by
+//! \[Winckelmans & Leonard 1993, J. Comput. Phys. 109:247\]
+//!
+//! u(x) = 1/(4 pi s^3) g alpha x r,  g = (erf(t / sqrt 2) - sqrt(2 / pi) t exp(-t^2 / 2)) / t^3.
 
 use crate::cores::INV_4PI;
 use crate::cores::vector::{Double, Precision};
-use crate::direct::block::{BLOCK, Block, load, store};
+use crate::direct::block::{BLOCK, Block, Targets};
+use crate::direct::smoothing::{Smoothing, add_velocities};
+use crate::sources::Blob;
 use fearless_simd::{Level, dispatch, prelude::*};
-use glam::DVec3;
 use std::f64::consts::LOG2_E;
 
-/// Blobs of one width: places and strengths.
+/// Blobs of one width.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Rung {
+pub(crate) struct WidthLevel {
     /// s \[m\].
     pub width: f64,
-    /// Place \[m\] and strength \[m3/s\].
-    pub sources: Vec<[DVec3; 2]>,
+    pub blobs: Vec<Blob>,
 }
 
-impl Rung {
-    /// Adds the velocities of all at the first `count` targets of a block.
+impl WidthLevel {
+    /// Adds the velocities of all at the targets.
     #[inline(always)]
-    pub fn add<S: Simd>(&self, simd: S, targets: &Block, count: usize, sum: &mut Block) {
+    pub fn add<S: Simd>(&self, simd: S, targets: Targets<'_>, sum: &mut Block) {
         let inverse = 1.0 / (self.width * self.width);
-        let strength = INV_4PI * inverse / self.width;
-        for lane in (0..count).step_by(S::f64s::LEN) {
-            let [px, py, pz] = load(simd, targets, lane);
-            let mut v = load(simd, sum, lane);
-            for [x, alpha] in &self.sources {
-                let r = [px - x.x, py - x.y, pz - x.z];
-                let a = strength * *alpha;
-                let z = (r[0] * r[0] + r[1] * r[1] + r[2] * r[2]) * inverse;
-                let g = swirl(simd, z);
-                v[0] += g * (r[2] * a.y - r[1] * a.z);
-                v[1] += g * (r[0] * a.z - r[2] * a.x);
-                v[2] += g * (r[1] * a.x - r[0] * a.y);
-            }
-            store::<S>(v, sum, lane);
-        }
+        let smoothing = Gaussian {
+            inverse,
+            scale: INV_4PI * inverse / self.width,
+        };
+        add_velocities(simd, &smoothing, &self.blobs, targets, sum);
+    }
+}
+
+/// The smoothing of one width.
+struct Gaussian {
+    /// 1 / s^2 [1/m2].
+    inverse: f64,
+    scale: f64,
+}
+
+impl Smoothing for Gaussian {
+    fn scale(&self) -> f64 {
+        self.scale
+    }
+
+    #[inline(always)]
+    fn factor<S: Simd>(&self, simd: S, rho2: S::f64s, _: f64) -> S::f64s {
+        swirl(simd, rho2 * self.inverse)
     }
 }
 

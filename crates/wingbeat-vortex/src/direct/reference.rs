@@ -22,7 +22,7 @@ use glam::DVec3;
 ///
 /// ```
 /// use wingbeat_vortex::{reference, CoreModel};
-/// use glam::DVec3;
+/// use wingbeat_vortex::DVec3;
 /// // One metre from the middle of two metres of bare filament: Gamma/(4 pi h) 2 cos 45 deg.
 /// let bare = CoreModel::Scully { radius: 0.0 };
 /// let v = reference::segment_velocity(bare, DVec3::Z, -DVec3::X, DVec3::X, 1.0, 0.0);

@@ -1,7 +1,7 @@
 //! The direct sum: every segment at every target, in blocks over threads.
 
 use crate::cores::CoreModel;
-use crate::direct::block::{BLOCK, Block, Targets, block_at};
+use crate::direct::block::{BLOCK, Block, Targets, add_block, block_at, par_blocks};
 use crate::direct::lanes::{add_patches, edge_normal_velocities};
 use crate::direct::packed::Packed;
 use crate::instruction_set::InstructionSet;
@@ -19,7 +19,7 @@ const TASK_PAIRS: usize = 10_000;
 ///
 /// ```
 /// use wingbeat_vortex::{CoreModel, DirectSum, Points, Segments};
-/// use glam::DVec3;
+/// use wingbeat_vortex::DVec3;
 /// let model = CoreModel::Scully { radius: 0.0 };
 /// let mut segments = Segments::default();
 /// segments.push(-DVec3::X, DVec3::X, 1.0, model.core(2.0, 0.0));
@@ -68,30 +68,22 @@ impl DirectSum {
     }
 }
 
-/// Adds to `out` what `add` adds at all targets, block by block over threads; it sums so many `edges`.
+/// Adds to `out` what `add` adds at all targets, block by block over threads; it sums so many `sources`.
 pub(crate) fn sum_all(
-    edges: usize,
+    sources: usize,
     targets: &Points,
     out: &mut Points,
     add: impl Fn(Targets<'_>, &mut Block) + Sync,
 ) {
     assert_eq!(targets.len(), out.len(), "as many velocities as targets");
-    let blocks = TASK_PAIRS.div_ceil((BLOCK * edges).max(1));
-    let Points { x, y, z } = out;
-    x.par_chunks_mut(BLOCK)
-        .zip(y.par_chunks_mut(BLOCK))
-        .zip(z.par_chunks_mut(BLOCK))
-        .enumerate()
-        .with_min_len(blocks)
-        .for_each(|(b, ((x, y), z))| {
-            let count = x.len();
-            let (block, mut sum) = (block_at(targets, b * BLOCK, count), Block::ZERO);
-            let block = &block;
-            add(Targets { block, count }, &mut sum);
-            for (out, sum) in [x, y, z].into_iter().zip([&sum.x, &sum.y, &sum.z]) {
-                out.iter_mut().zip(sum).for_each(|(o, s)| *o += s);
-            }
-        });
+    let blocks = TASK_PAIRS.div_ceil((BLOCK * sources).max(1));
+    par_blocks(out).with_min_len(blocks).for_each(|(b, out)| {
+        let (first, count) = (b * BLOCK, out[0].len());
+        let (block, mut sum) = (block_at(targets, first..first + count), Block::ZERO);
+        let block = &block;
+        add(Targets { block, count }, &mut sum);
+        add_block(&sum, out);
+    });
 }
 
 /// Adds the velocities of all of `packed` at all targets.
@@ -161,19 +153,19 @@ impl UnitEdges {
         self.len() == 0
     }
 
-    /// Velocity of every edge of a group at up to [`BLOCK`] `places` (point, normal) along the normal [m/s]:
-    /// `out[edge * BLOCK + place]`.
+    /// Velocity of every edge of a group at up to [`BLOCK`] `points` along the normals given with them [m/s]:
+    /// `out[edge * BLOCK + point]`.
     pub fn normal_velocities(
         &self,
         model: CoreModel,
         group: usize,
-        places: impl Iterator<Item = [DVec3; 2]>,
+        points: impl Iterator<Item = [DVec3; 2]>,
         out: &mut [f64],
     ) {
-        let (mut points, mut normals, mut count) = (Block::ZERO, Block::ZERO, 0);
-        for (k, [x, n]) in places.enumerate() {
-            (points.x[k], points.y[k], points.z[k]) = x.into();
-            (normals.x[k], normals.y[k], normals.z[k]) = n.into();
+        let (mut block, mut normals, mut count) = (Block::ZERO, Block::ZERO, 0);
+        for (k, [x, n]) in points.enumerate() {
+            block.set(k, x);
+            normals.set(k, n);
             count = k + 1;
         }
         edge_normal_velocities(
@@ -182,7 +174,7 @@ impl UnitEdges {
             &self.packed,
             self.groups[group].clone(),
             Targets {
-                block: &points,
+                block: &block,
                 count,
             },
             &normals,

@@ -1,20 +1,21 @@
-//! The velocity of many blobs by convolution on meshes: particle-mesh, one mesh to a rung of widths.
+//! The velocity of many blobs by convolution on meshes: particle-mesh, one mesh to a level of widths.
 //!
-//! 1. Each blob spreads its strength over the nodes around it by splines, on the mesh of its rung, whose spacing
-//!    is a part of the rung's width.
+//! 1. Each blob spreads its strength over the nodes around it by splines, on the mesh of its level, whose spacing
+//!    is a part of the level's width.
 //! 2. On each mesh the strengths are convolved with the velocity of one blob, by fast Fourier transforms on twice as many
 //!    nodes: so the air is unbounded \[Hockney & Eastwood 1988, Computer Simulation Using Particles, sec. 6-5\]. A blob
 //!    is smooth on the scale of the spacing, so this leaves out little; the splines' own smoothing is divided out.
-//! 3. From the widest rung on, values are carried to the next finer mesh, which splines do exactly, and added up.
+//! 3. From the widest level on, values are carried to the next finer mesh, which splines do exactly, and added up.
 //! 4. Splines give the velocity at the targets.
 //!
 //! The cost is that of blobs, targets and nodes, each taken once. Same bits for any number of threads and any
 //! instructions: every node and every target adds up in a fixed order.
 
 use crate::cores::INV_4PI;
-use crate::direct::gaussian::{Rung, swirl_of};
+use crate::direct::gaussian::{WidthLevel, swirl_of};
 use crate::particle_mesh::spline::{ORDER, REFINE, transfer, weights};
 use crate::particle_mesh::transform::{LANES, Lines, Pair, Transform, good_length};
+use crate::sources::Blob;
 use glam::DVec3;
 use rayon::prelude::*;
 use rustfft::num_complex::Complex32;
@@ -52,17 +53,17 @@ impl Mesh {
         size.into_iter().fold(1, usize::saturating_mul)
     }
 
-    /// Convolves the rungs, the first of them the narrowest, on a box from `low` to `high` \[m\] that holds them all;
+    /// Convolves the levels, the first of them the narrowest, on a box from `low` to `high` \[m\] that holds them all;
     /// `spacing` is the distance of the nodes over the width of the blobs.
-    pub fn load(&mut self, rungs: &[Rung], [low, high]: [DVec3; 2], spacing: f64) {
+    pub fn load(&mut self, widths: &[WidthLevel], [low, high]: [DVec3; 2], spacing: f64) {
         self.origin = low;
-        let mut cells = cells(spacing * rungs[0].width, [low, high]);
-        self.levels.truncate(rungs.len());
-        self.levels.resize_with(rungs.len(), Level::default);
-        for (level, rung) in self.levels.iter_mut().zip(rungs) {
-            level.fit(spacing, rung.width, cells);
-            level.spread(rung, low);
-            level.convolve(!rung.sources.is_empty());
+        let mut cells = cells(spacing * widths[0].width, [low, high]);
+        self.levels.truncate(widths.len());
+        self.levels.resize_with(widths.len(), Level::default);
+        for (level, WidthLevel { width, blobs }) in self.levels.iter_mut().zip(widths) {
+            level.fit(spacing, *width, cells);
+            level.spread(blobs, low);
+            level.convolve(!blobs.is_empty());
             cells = cells.map(|c| c.div_ceil(2));
         }
         for k in (1..self.levels.len()).rev() {
@@ -137,7 +138,7 @@ impl Level {
         (base, u.map(|u| weights(u - u.floor())))
     }
 
-    fn spread(&mut self, rung: &Rung, origin: DVec3) {
+    fn spread(&mut self, blobs: &[Blob], origin: DVec3) {
         let mut nodes = std::mem::take(&mut self.nodes);
         nodes.clear();
         nodes.resize(self.size.iter().product(), Node::default());
@@ -146,7 +147,12 @@ impl Level {
         slabs.for_each(|(slab, nodes)| {
             let first = slab * SLAB;
             let own = first..first + nodes.len() / plane;
-            for &[x, strength] in &rung.sources {
+            for &Blob {
+                position: x,
+                strength,
+                ..
+            } in blobs
+            {
                 let u = (x.z - origin.z) / self.spacing;
                 let lowest = (u.floor() as isize + MARGIN as isize - 2) as usize;
                 if lowest >= own.end || lowest + ORDER <= own.start {

@@ -69,8 +69,8 @@ impl Lines {
     }
 
     pub fn transform(&mut self, by: &dyn Fft<Lanes>) {
-        let least = by.get_inplace_scratch_len().max(self.scratch.len());
-        self.scratch.resize(least, Complex::zero());
+        let length = by.get_inplace_scratch_len().max(self.scratch.len());
+        self.scratch.resize(length, Complex::zero());
         for field in &mut self.fields {
             by.process_with_scratch(field, &mut self.scratch);
         }
@@ -95,7 +95,7 @@ impl Transform {
 }
 
 /// The next even number without prime factors above five.
-pub(crate) fn good_length(least: usize) -> usize {
+pub(crate) fn good_length(min: usize) -> usize {
     let is_good = |&n: &usize| {
         let mut rest = n;
         for p in [2, 3, 5] {
@@ -105,7 +105,7 @@ pub(crate) fn good_length(least: usize) -> usize {
         }
         rest == 1 && n % 2 == 0
     };
-    (least.max(2)..)
+    (min.max(2)..)
         .find(is_good)
         .expect("powers of two have no end")
 }

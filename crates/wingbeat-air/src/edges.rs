@@ -1,0 +1,47 @@
+//! The edges of a wing, and which of them shed wakes.
+
+/// Which edge of a wing a shedding segment belongs to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum EdgeKind {
+    /// Trailing edge.
+    Trailing,
+    /// Wing tip.
+    Tip,
+    /// Leading edge.
+    Leading,
+    /// Wing root.
+    Root,
+}
+
+/// Which kinds of edges shed wakes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct SheddingKinds {
+    /// Trailing edges shed.
+    pub trailing: bool,
+    /// Tips shed.
+    pub tip: bool,
+    /// Leading edges shed.
+    pub leading: bool,
+    /// Roots shed.
+    pub root: bool,
+}
+
+impl SheddingKinds {
+    /// Only the trailing edge, the published benchmark's.
+    pub const TRAILING: Self = Self {
+        trailing: true,
+        tip: false,
+        leading: false,
+        root: false,
+    };
+
+    /// Whether this kind sheds.
+    pub fn sheds(&self, kind: EdgeKind) -> bool {
+        match kind {
+            EdgeKind::Trailing => self.trailing,
+            EdgeKind::Tip => self.tip,
+            EdgeKind::Leading => self.leading,
+            EdgeKind::Root => self.root,
+        }
+    }
+}

@@ -1,0 +1,45 @@
+//! Surfaces joined along an edge: two halves of one lifting surface.
+//!
+//! Joined edges are interior edges like any other: filaments with the difference of the
+//! circulations on either side, so no vortex leaves there and the sheet is continuous. The joined
+//! nodes exist on both surfaces, and so do the wake nodes they leave; both are kept in one place.
+
+use crate::error::AirError;
+use crate::geometry::surface::Surface;
+
+/// An edge line that two open surfaces share. Their normals must agree across it.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct JoinedEdge {
+    /// Numbers of the surfaces.
+    pub surfaces: [usize; 2],
+    /// Nodes along the line, each counted in its surface: one of the first, one of the second.
+    pub nodes: Vec<[usize; 2]>,
+}
+
+/// Checks joined edges against the surfaces.
+///
+/// # Errors
+/// [`AirError::JoinedEdge`] says what does not fit.
+pub(crate) fn check_joined_edges(
+    joined: &[JoinedEdge],
+    surfaces: &[Surface],
+) -> Result<(), AirError> {
+    for (edge, j) in joined.iter().enumerate() {
+        let wrong = |problem: &'static str| Err(AirError::JoinedEdge { edge, problem });
+        let [a, b] = j.surfaces;
+        let (Some(first), Some(second)) = (surfaces.get(a), surfaces.get(b)) else {
+            return wrong("there is no such surface");
+        };
+        if a == b || first.closed || second.closed {
+            return wrong("a joined edge belongs to two different open surfaces");
+        }
+        if j.nodes.len() < 2 {
+            return wrong("a joined edge needs at least two pairs of nodes");
+        }
+        let inside = |n: &[usize; 2]| n[0] < first.node_count && n[1] < second.node_count;
+        if !j.nodes.iter().all(inside) {
+            return wrong("a node does not exist");
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,23 @@
+//! Surfaces and what follows from them alone: edges, panels, rings, strips, pairs of mirror images.
+
+mod assembly;
+mod joined_edge;
+mod node_motion;
+mod panels;
+mod rings;
+mod strips;
+mod surface;
+mod symmetry;
+mod topology;
+
+pub use joined_edge::JoinedEdge;
+pub use node_motion::NodeMotion;
+pub use panels::Panels;
+pub(crate) use panels::point_and_normal;
+pub(crate) use rings::{Rings, opposite, rings};
+pub use strips::Strip;
+pub(crate) use strips::{chord, strips};
+pub use surface::{SheddingSegment, Surface};
+pub use symmetry::MirrorPairs;
+pub(crate) use symmetry::Symmetry;
+pub use topology::{Edge, JoinedColumns, PanelEdge, Sheet, Topology, WakeColumn};

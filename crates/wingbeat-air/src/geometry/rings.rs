@@ -1,0 +1,159 @@
+//! Where the rings lie: on the panels' edges, or a little inside edges that do not shed and aft.
+//!
+//! A lattice represents a sheet a quarter panel larger on every free side than its outermost
+//! filaments [Hough 1973, J. Aircraft 10:314]: rings on the true edges overrate lift slope and added
+//! mass at first order of the panel size, rings inset by a quarter panel are good to second. Control
+//! point, normal and area of a panel are those of its ring.
+
+use crate::edges::EdgeKind;
+use crate::geometry::node_motion::NodeMotion;
+use crate::geometry::strips::strips;
+use crate::geometry::surface::Surface;
+use crate::geometry::topology::Topology;
+use crate::settings::AirSettings;
+use std::collections::{BTreeMap, BTreeSet};
+use wingbeat_math::DVec3;
+
+/// A ring node lies off its surface node, towards the node `to`, by a part of the way (away from it if
+/// negative).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Offset {
+    node: usize,
+    to: usize,
+    part: f64,
+}
+
+/// Where the rings lie.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) struct Rings {
+    offsets: Vec<Offset>,
+}
+
+/// The offsets of all nodes of the open surfaces.
+pub(crate) fn rings(topology: &Topology, surfaces: &[Surface], settings: &AirSettings) -> Rings {
+    let mut rings = Rings::default();
+    if settings.inset > 0.0 {
+        inset(topology, surfaces, settings, &mut rings);
+        if settings.shedding.trailing && !settings.shedding.leading {
+            shift(topology, surfaces, settings, &mut rings);
+        }
+    }
+    rings
+}
+
+/// Side edges that do not shed: rings stay inside.
+fn inset(topology: &Topology, surfaces: &[Surface], settings: &AirSettings, rings: &mut Rings) {
+    let kinds = edge_kinds(topology, surfaces);
+    let mut found = BTreeSet::new();
+    for edge in &topology.edges {
+        let s = topology.panel_surface[edge.plus];
+        let pair = [edge.from.min(edge.to), edge.from.max(edge.to)];
+        let kept = match kinds.get(&pair) {
+            Some(EdgeKind::Leading) => settings.shedding.trailing,
+            _ => false,
+        };
+        if edge.minus.is_some() || edge.wake.is_some() || kept || surfaces[s].closed {
+            continue;
+        }
+        let c = topology.panels[edge.plus];
+        for i in 0..4 {
+            let side = [c[i], c[(i + 1) % 4]];
+            let inward = [c[(i + 3) % 4], c[(i + 2) % 4]];
+            let is_here = [side[0].min(side[1]), side[0].max(side[1])] == pair;
+            // Not where a single panel reaches from edge to edge.
+            if is_here && !is_free(topology, edge.plus, inward) {
+                let ends = side.into_iter().zip(inward);
+                found.extend(ends.filter(|(_, inward)| !side.contains(inward)));
+            }
+        }
+    }
+    let part = settings.inset;
+    (rings.offsets).extend(
+        found
+            .into_iter()
+            .map(|(node, to)| Offset { node, to, part }),
+    );
+}
+
+/// A lifting wing that sheds from its trailing edge: all rings lie aft by the same part of a panel,
+/// vortices at a quarter and control points at three quarters of each panel [Katz & Plotkin, Low-Speed
+/// Aerodynamics, sec. 12.3]. Without it the lattice is that of a wing a quarter panel ahead.
+fn shift(topology: &Topology, surfaces: &[Surface], settings: &AirSettings, rings: &mut Rings) {
+    let part = settings.inset;
+    let mut found = BTreeMap::new();
+    for strip in strips(topology, surfaces) {
+        let mut front = strip.nodes;
+        for &p in &strip.panels {
+            let rear = opposite(topology.panels[p], front);
+            for k in 0..2 {
+                found.insert(front[k], (rear[k], part));
+            }
+            front = rear;
+        }
+        let last = strip.panels[strip.panels.len() - 1];
+        let fore = opposite(topology.panels[last], front);
+        for k in 0..2 {
+            found.insert(front[k], (fore[k], -part));
+        }
+    }
+    let of = |(node, (to, part))| Offset { node, to, part };
+    rings.offsets.extend(found.into_iter().map(of));
+}
+
+/// The nodes across the panel from those of an edge, in their order.
+pub(crate) fn opposite(corners: [usize; 4], edge: [usize; 2]) -> [usize; 2] {
+    edge.map(|n| {
+        let k = corners.iter().position(|&c| c == n).expect("a corner");
+        let sides = [corners[(k + 1) % 4], corners[(k + 3) % 4]];
+        if edge.contains(&sides[0]) {
+            sides[1]
+        } else {
+            sides[0]
+        }
+    })
+}
+
+/// Whether the edge of `panel` between these nodes is its surface's border.
+fn is_free(topology: &Topology, panel: usize, [a, b]: [usize; 2]) -> bool {
+    topology.panel_edges[panel].iter().any(|e| {
+        let edge = &topology.edges[e.edge];
+        let same = [edge.from, edge.to] == [a, b] || [edge.to, edge.from] == [a, b];
+        same && edge.minus.is_none()
+    })
+}
+
+impl Rings {
+    /// What takes positions (or velocities) of nodes from the surfaces to the rings: (node, difference).
+    pub(crate) fn offsets<'a>(
+        &'a self,
+        of: &'a [DVec3],
+    ) -> impl Iterator<Item = (usize, DVec3)> + 'a {
+        let offset = |o: &Offset| (o.node, o.part * (of[o.to] - of[o.node]));
+        self.offsets.iter().map(offset)
+    }
+
+    /// Nodes of the rings from those of the surfaces.
+    pub(crate) fn place(&self, motion: &NodeMotion, rings: &mut NodeMotion) {
+        rings.position.clone_from(&motion.position);
+        rings.velocity.clone_from(&motion.velocity);
+        for (n, d) in self.offsets(&motion.position) {
+            rings.position[n] += d;
+        }
+        for (n, d) in self.offsets(&motion.velocity) {
+            rings.velocity[n] += d;
+        }
+    }
+}
+
+/// What the surfaces call their border edges (global nodes).
+fn edge_kinds(topology: &Topology, surfaces: &[Surface]) -> BTreeMap<[usize; 2], EdgeKind> {
+    let mut kinds = BTreeMap::new();
+    for (s, surface) in surfaces.iter().enumerate() {
+        let offset = topology.first_node[s];
+        for g in surface.shedding.iter().flatten() {
+            let (a, b) = (g.from + offset, g.to + offset);
+            kinds.insert([a.min(b), a.max(b)], g.kind);
+        }
+    }
+    kinds
+}

@@ -1,0 +1,88 @@
+//! Strips of panels behind the leading edge.
+
+use crate::edges::EdgeKind;
+use crate::geometry::surface::Surface;
+use crate::geometry::topology::Topology;
+use std::collections::BTreeMap;
+use wingbeat_math::DVec3;
+
+/// A chordwise row of panels from a segment of the leading edge backward.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Strip {
+    /// The leading-edge segment (global edge).
+    pub edge: usize,
+    /// Panels from the leading edge on (global).
+    pub panels: Vec<usize>,
+    /// Nodes of the segment (global).
+    pub nodes: [usize; 2],
+    /// Nodes of the last panel's rear edge (global).
+    pub rear: [usize; 2],
+}
+
+/// All strips, surface by surface in the order of their leading-edge segments.
+pub(crate) fn strips(topology: &Topology, surfaces: &[Surface]) -> Vec<Strip> {
+    let pair = |a: usize, b: usize| [a.min(b), a.max(b)];
+    let by_nodes: BTreeMap<[usize; 2], usize> = (topology.edges.iter().enumerate())
+        .map(|(e, edge)| (pair(edge.from, edge.to), e))
+        .collect();
+    let mut strips = Vec::new();
+    for (s, surface) in surfaces.iter().enumerate() {
+        let (node, panel) = (topology.first_node[s], topology.first_panel[s]);
+        let leading = surface.shedding.iter().flatten();
+        for g in leading.filter(|g| g.kind == EdgeKind::Leading) {
+            let front = pair(g.from + node, g.to + node);
+            let Some(&edge) = by_nodes.get(&front) else {
+                continue;
+            };
+            let (panels, rear) = walk(topology, &by_nodes, g.panel + panel, front);
+            strips.push(Strip {
+                edge,
+                panels,
+                nodes: front,
+                rear,
+            });
+        }
+    }
+    strips
+}
+
+/// From panel to panel over opposite edges, until the surface ends.
+fn walk(
+    topology: &Topology,
+    by_nodes: &BTreeMap<[usize; 2], usize>,
+    first: usize,
+    front: [usize; 2],
+) -> (Vec<usize>, [usize; 2]) {
+    let (mut panels, mut side) = (vec![first], front);
+    loop {
+        let here = panels[panels.len() - 1];
+        let c = topology.panels[here];
+        let i = (0..4).find(|&i| {
+            let (a, b) = (c[i], c[(i + 1) % 4]);
+            [a.min(b), a.max(b)] == side
+        });
+        let Some(i) = i else {
+            return (panels, side);
+        };
+        let (a, b) = (c[(i + 2) % 4], c[(i + 3) % 4]);
+        side = [a.min(b), a.max(b)];
+        let next = by_nodes.get(&side).and_then(|&e| {
+            let edge = &topology.edges[e];
+            [Some(edge.plus), edge.minus]
+                .into_iter()
+                .flatten()
+                .find(|&p| p != here)
+        });
+        match next {
+            Some(p) if !panels.contains(&p) => panels.push(p),
+            _ => return (panels, side),
+        }
+    }
+}
+
+/// Unit vector from the leading edge backward and the length of the chord [m], N.
+pub(crate) fn chord(strip: &Strip, position: &[DVec3]) -> (DVec3, f64) {
+    let middle = |n: [usize; 2]| 0.5 * (position[n[0]] + position[n[1]]);
+    let chord = middle(strip.rear) - middle(strip.nodes);
+    (chord.normalize_or_zero(), chord.length())
+}

@@ -1,0 +1,98 @@
+//! What is joined to what: edges of the lattice, the panels they bound, the wakes they shed.
+
+use crate::edges::EdgeKind;
+
+/// One edge of the lattice: a straight vortex filament from node `from` to node `to`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Edge {
+    /// First node (global).
+    pub from: usize,
+    /// Second node (global).
+    pub to: usize,
+    /// The panel whose ring runs this edge from `from` to `to` (global).
+    pub plus: usize,
+    /// The panel whose ring runs it the other way, none at a free edge (global).
+    pub minus: Option<usize>,
+    /// The wake ring column it sheds into, if it sheds.
+    pub wake: Option<WakeColumn>,
+}
+
+/// A column of a wake sheet, seen from the edge that sheds it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct WakeColumn {
+    /// Wake sheet.
+    pub sheet: usize,
+    /// Column of rings.
+    pub column: usize,
+    /// Circulation of a shed ring = sign x circulation of the panel.
+    pub sign: f64,
+}
+
+/// An unbroken run of shedding segments: the root of one wake sheet.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Sheet {
+    /// Surface it leaves.
+    pub surface: usize,
+    /// Lattice nodes along the shedding edge (global), one more than columns.
+    pub nodes: Vec<usize>,
+    /// Shedding panel of each column (global).
+    pub panels: Vec<usize>,
+    /// Circulation of a shed ring = sign x circulation of the panel.
+    pub signs: Vec<f64>,
+    /// Kind of edge of each column.
+    pub kinds: Vec<EdgeKind>,
+}
+
+/// One edge as a panel sees it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PanelEdge {
+    /// Edge (global).
+    pub edge: usize,
+    /// +1 if the panel's ring runs the edge forward, -1 if backward.
+    pub sign: f64,
+    /// Weight of the edge in the velocity jump: 1 at free edges, 1/2 at shared ones.
+    pub weight: f64,
+}
+
+/// Two columns of wake nodes that left one place: (sheet, column) of both.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct JoinedColumns(pub [(usize, usize); 2]);
+
+/// Topology of all surfaces with global numbers.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Topology {
+    /// Corners of each panel (global nodes).
+    pub panels: Vec<[usize; 4]>,
+    /// Surface of each panel.
+    pub panel_surface: Vec<usize>,
+    /// First node of each surface, and the total at the end.
+    pub first_node: Vec<usize>,
+    /// First panel of each surface, and the total at the end.
+    pub first_panel: Vec<usize>,
+    /// All edges, each once.
+    pub edges: Vec<Edge>,
+    /// Edges of each panel; a triangle has three.
+    pub panel_edges: Vec<Vec<PanelEdge>>,
+    /// Wake sheets.
+    pub sheets: Vec<Sheet>,
+    /// Names of the surfaces.
+    pub surface_names: Vec<String>,
+    /// Pairs of nodes that are one, on joined surfaces (global).
+    pub joined_nodes: Vec<[usize; 2]>,
+    /// Columns of wake nodes that leave them.
+    pub joined_columns: Vec<JoinedColumns>,
+}
+
+impl Topology {
+    /// Name of the surface of a node, and the node's number there.
+    pub(crate) fn locate_node(&self, node: usize) -> (String, usize) {
+        let s = self.first_node.partition_point(|&f| f <= node) - 1;
+        (self.surface_names[s].clone(), node - self.first_node[s])
+    }
+
+    /// Name of the surface of a panel, and the panel's number there.
+    pub(crate) fn locate_panel(&self, panel: usize) -> (String, usize) {
+        let s = self.panel_surface[panel];
+        (self.surface_names[s].clone(), panel - self.first_panel[s])
+    }
+}

@@ -1,0 +1,62 @@
+//! Closed surfaces: from the jump across the skin to the force of the outer air alone.
+//!
+//! The rings of a closed skin make a flow inside as well. Inside there is no vorticity and the
+//! normal velocity at the skin is the skin's, so the momentum of the inner fluid is exactly
+//! `P = rho surface-integral x (v . n) dA`, which for a rigid body is rho x volume x velocity of the
+//! centroid. The jump of pressure across the skin holds `-dP/dt` of inner fluid, which no real
+//! body feels; it is given back as the pressure field `rho a . x` of a fluid accelerated as a
+//! whole, whose resultant is `dP/dt` and which has no moment about the centroid. What is left out
+//! is the rate of the inner angular momentum about the centroid: zero for a sphere,
+//! `rho Vol (b^2 - c^2)^2 / (5 (b^2 + c^2))` times the angular acceleration about axis a for an
+//! ellipsoid (Lamb, Hydrodynamics, art. 110), so below the body's own by the ratio of the
+//! densities of air and body, 1e-3 for an insect.
+
+use crate::geometry::Panels;
+use crate::lattice::Lattice;
+use crate::loads::values::AirLoads;
+use crate::state::AirState;
+use std::ops::Range;
+use wingbeat_math::DVec3;
+
+/// Adds to the panel forces of every closed surface what the inner fluid took.
+pub(crate) fn outer_forces(lattice: &Lattice, state: &AirState, out: &mut AirLoads) {
+    let rho = lattice.settings().density;
+    out.inner_momentum.clear();
+    for (s, surface) in lattice.surfaces().iter().enumerate() {
+        let panels = lattice.panels_of(s);
+        if !surface.closed {
+            out.inner_momentum.push(DVec3::ZERO);
+            continue;
+        }
+        let (volume, flux) = volume_and_flux(&out.panels, panels.clone());
+        let momentum = rho * flux;
+        out.inner_momentum.push(momentum);
+        if state.step == 0 {
+            continue; // no past, as for dGamma/dt
+        }
+        let gradient = (momentum - state.inner_momentum[s]) / out.dt / volume;
+        let centre = mean_point(&out.panels, panels.clone());
+        for p in panels {
+            let pressure = gradient.dot(out.panels.point[p] - centre);
+            out.force[p] += pressure * out.panels.vector_area[p];
+        }
+    }
+}
+
+/// Volume [m3] and `surface-integral x (v . n) dA` [m4/s] of a closed surface.
+fn volume_and_flux(panels: &Panels, range: Range<usize>) -> (f64, DVec3) {
+    let centre = mean_point(panels, range.clone());
+    let (mut volume, mut flux) = (0.0, DVec3::ZERO);
+    for p in range {
+        let x = panels.point[p] - centre;
+        volume += x.dot(panels.vector_area[p]) / 3.0;
+        flux += x * panels.velocity[p].dot(panels.vector_area[p]);
+    }
+    (volume, flux)
+}
+
+fn mean_point(panels: &Panels, range: Range<usize>) -> DVec3 {
+    let count = range.len() as f64;
+    let sum: DVec3 = range.map(|p| panels.point[p]).sum();
+    sum / count
+}

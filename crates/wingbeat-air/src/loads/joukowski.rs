@@ -1,0 +1,128 @@
+//! Forces on segments: Joukowski's theorem, and Polhamus's analogy built on it.
+//!
+//! A segment l of net circulation G that moves with the surface at U in air of velocity V feels
+//! `rho G (V - U) x l`; the panels feel `rho A dG/dt` along their normals besides. In sum this is the
+//! pressure on the sheet and the suction at its free edges. A segment of an edge that sheds counts
+//! half, as its other half is wake.
+
+use crate::geometry::{NodeMotion, chord};
+use crate::lattice::Lattice;
+use crate::loads::values::AirLoads;
+use crate::settings::LoadMethod;
+use crate::state::AirState;
+use crate::wake::{Filaments, Sums};
+use wingbeat_math::DVec3;
+use wingbeat_vortex::{Network, Points};
+
+/// Velocities and forces of the bound segments.
+#[derive(Default)]
+pub(crate) struct Segments {
+    /// Middles of the segments, and the velocity of the air relative to them.
+    middle: Points,
+    velocity: Points,
+    /// Force and moment of the segments on each panel.
+    panel_force: Vec<[DVec3; 2]>,
+}
+
+/// The flow around the segments: all sources are in the sums, with their circulations.
+pub(crate) struct Flow<'a> {
+    pub filaments: &'a Filaments,
+    pub sums: &'a mut Sums,
+    /// Nodes of the rings.
+    pub rings: &'a NodeMotion,
+}
+
+impl Segments {
+    /// Replaces (or completes) the pressure forces of open surfaces as [`LoadMethod`] says.
+    pub(crate) fn add_forces(
+        &mut self,
+        lattice: &Lattice,
+        state: &AirState,
+        motion: &NodeMotion,
+        flow: Flow,
+        out: &mut AirLoads,
+    ) {
+        out.couple.clear();
+        out.couple.resize(lattice.panel_count(), DVec3::ZERO);
+        let method = lattice.settings().loads;
+        if method == LoadMethod::Pressure {
+            return;
+        }
+        let bound = &flow.filaments.bound;
+        self.take_velocities(lattice, flow, out.time);
+        self.collect(lattice, state, bound, &out.panels.point);
+        match method {
+            LoadMethod::Joukowski => self.joukowski(lattice, out),
+            _ => self.polhamus(lattice, motion, out),
+        }
+    }
+
+    /// Velocity of the air relative to the middle of every bound segment.
+    fn take_velocities(&mut self, lattice: &Lattice, flow: Flow, t: f64) {
+        let bound = &flow.filaments.bound;
+        self.middle.clear();
+        for &[a, b] in &bound.edges {
+            let ends = [a, b].map(|n| bound.nodes.get(n as usize));
+            self.middle.push(0.5 * (ends[0] + ends[1]));
+        }
+        self.velocity.reset(bound.edges.len());
+        let (points, sum) = (&self.middle, &mut self.velocity);
+        flow.sums.add(points, lattice.mirrors(), sum);
+        for (e, &[a, b]) in bound.edges.iter().enumerate() {
+            let [a, b] = [a, b].map(|n| flow.rings.velocity[n as usize]);
+            let surface = 0.5 * (a + b);
+            let v = sum.get(e) + lattice.stream(points.get(e), t) - surface;
+            sum.set(e, v);
+        }
+    }
+
+    /// Force and moment about the control point that the segments give to every panel of an open
+    /// surface; a shared segment gives half to either side.
+    fn collect(&mut self, lattice: &Lattice, state: &AirState, bound: &Network, points: &[DVec3]) {
+        let rho = lattice.settings().density;
+        self.panel_force.clear();
+        self.panel_force
+            .resize(lattice.panel_count(), [DVec3::ZERO; 2]);
+        for (e, edge) in lattice.topology().edges.iter().enumerate() {
+            let l = bound.nodes.get(edge.to) - bound.nodes.get(edge.from);
+            let force = rho * bound.gamma[e] * self.velocity.get(e).cross(l);
+            let shared = edge.minus.is_some();
+            let sheds = edge.wake.is_some() && !lattice.is_attached(state, edge);
+            let share = if shared || sheds { 0.5 } else { 1.0 } * force;
+            for p in [Some(edge.plus), edge.minus].into_iter().flatten() {
+                let arm = self.middle.get(e) - points[p];
+                self.panel_force[p][0] += share;
+                self.panel_force[p][1] += arm.cross(share);
+            }
+        }
+    }
+
+    fn joukowski(&self, lattice: &Lattice, out: &mut AirLoads) {
+        let rho = lattice.settings().density;
+        for p in 0..lattice.panel_count() {
+            let surface = lattice.topology().panel_surface[p];
+            if lattice.surfaces()[surface].closed {
+                continue;
+            }
+            let unsteady = rho * out.gamma_rate[p] * out.panels.area[p] * out.panels.normal[p];
+            let [force, moment] = self.panel_force[p];
+            out.force[p] = force + unsteady;
+            out.couple[p] = moment;
+        }
+    }
+
+    /// The suction of a strip is the part of its segments' forces along the chord, forward; it is added
+    /// to the leading panel along its normal, on the side to which the pressure of the strip pushes.
+    fn polhamus(&self, lattice: &Lattice, motion: &NodeMotion, out: &mut AirLoads) {
+        for strip in lattice.strips() {
+            let (aft, _) = chord(strip, &motion.position);
+            let force = |&p: &usize| self.panel_force[p][0];
+            let forward: DVec3 = strip.panels.iter().map(force).sum();
+            let suction = (-forward.dot(aft)).max(0.0);
+            let first = strip.panels[0];
+            let normal = out.panels.normal[first];
+            let push: DVec3 = strip.panels.iter().map(|&p| out.force[p]).sum();
+            out.force[first] += suction * push.dot(normal).signum() * normal;
+        }
+    }
+}

@@ -1,0 +1,77 @@
+//! Unsteady Bernoulli: from circulation to pressure jump and force.
+
+use crate::lattice::Lattice;
+use crate::loads::values::AirLoads;
+use crate::settings::CirculationRate;
+use crate::state::AirState;
+use crate::wake::Filaments;
+use wingbeat_math::DVec3;
+
+/// Jump of the tangential velocity across each panel [m/s]: the vorticity of the panel's edges
+/// spread over its area, `dV = (sum w Gamma l) x n / A`, an edge shared by two rings giving half
+/// to either side (w = 1/2), a free edge all (w = 1).
+pub(crate) fn velocity_jump(
+    lattice: &Lattice,
+    state: &AirState,
+    filaments: &Filaments,
+    out: &mut AirLoads,
+) {
+    let (topology, bound) = (lattice.topology(), &filaments.bound);
+    out.velocity_jump.clear();
+    for (p, edges) in topology.panel_edges.iter().enumerate() {
+        let mut vorticity = DVec3::ZERO;
+        for e in edges {
+            let edge = &topology.edges[e.edge];
+            let l = bound.nodes.get(edge.to) - bound.nodes.get(edge.from);
+            let attached = lattice.is_attached(state, edge);
+            let weight = if attached { 1.0 } else { e.weight };
+            vorticity += weight * bound.gamma[e.edge] * l;
+        }
+        let jump = vorticity.cross(out.panels.normal[p]) / out.panels.area[p];
+        out.velocity_jump.push(jump);
+    }
+}
+
+/// Rate of change of the circulation on the moving panel [m2/s2]; zero at the very first step,
+/// which has no past.
+pub(crate) fn circulation_rate(lattice: &Lattice, state: &AirState, out: &mut AirLoads) {
+    let (h, h0) = (out.dt, state.dt_before);
+    // Weights of gamma now, one step and two steps before.
+    let [a, b, c] = match lattice.settings().rate {
+        CirculationRate::BackwardSecond if state.step > 1 => [
+            (2.0 * h + h0) / (h * (h + h0)),
+            -(h + h0) / (h * h0),
+            h / (h0 * (h + h0)),
+        ],
+        CirculationRate::Backward | CirculationRate::BackwardSecond if state.step > 0 => {
+            [1.0 / h, -1.0 / h, 0.0]
+        }
+        _ => [0.0; 3],
+    };
+    out.gamma_rate.clear();
+    for p in 0..lattice.panel_count() {
+        let rate = a * out.gamma[p] + b * state.gamma[p] + c * state.gamma_before[p];
+        out.gamma_rate.push(rate);
+    }
+}
+
+/// Unsteady Bernoulli across the sheet in the frame of the moving panel [Pa]:
+/// `dp = rho ((V - V_panel) . dV + dGamma/dt)`.
+pub(crate) fn pressure_jump(lattice: &Lattice, out: &mut AirLoads) {
+    let rho = lattice.settings().density;
+    out.pressure_jump.clear();
+    for p in 0..lattice.panel_count() {
+        let relative = out.velocity[p] - out.panels.velocity[p];
+        let dp = rho * (relative.dot(out.velocity_jump[p]) + out.gamma_rate[p]);
+        out.pressure_jump.push(dp);
+    }
+}
+
+/// Pressure jump times area along the normal [N].
+pub(crate) fn forces(lattice: &Lattice, out: &mut AirLoads) {
+    out.force.clear();
+    for p in 0..lattice.panel_count() {
+        let force = out.pressure_jump[p] * out.panels.area[p] * out.panels.normal[p];
+        out.force.push(force);
+    }
+}

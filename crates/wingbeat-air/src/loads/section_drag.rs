@@ -1,0 +1,65 @@
+//! Drag of the sections of wings at low Reynolds number, which an inviscid lattice lacks.
+//!
+//! Every strip behind the leading edge feels `D = 1/2 rho |U| U A C` along the velocity U of the
+//! undisturbed air past it, A its area, `C = C_f + cd0 + cd2 alpha^2`:
+//!
+//! - C_f is the friction of a laminar flat plate on both sides, `2 x 1.328 / sqrt(Re)`,
+//!   `Re = |U| c / nu` [Blasius 1908; Schlichting, Boundary-Layer Theory, sec. 7.5: plates along the
+//!   stream, Re from about 1e2 to 5e5, attached];
+//! - `cd0 + cd2 alpha^2` is a polar of the user's, alpha the angle between U and the strip.
+//!
+//! U is that of stream and motion at the control points, their mean over the strip by area: what wing
+//! and wakes induce is left out. The lattice has the pressure drag of a wing at incidence already;
+//! the polar is for what it lacks. The force is spread over the panels of the strip by their area.
+
+use crate::geometry::{Strip, chord};
+use crate::lattice::Lattice;
+use crate::loads::values::AirLoads;
+use crate::settings::SectionDrag;
+use wingbeat_math::DVec3;
+
+/// Adds the drag of the sections to the forces of the panels.
+pub(crate) fn add_section_drag(lattice: &Lattice, position: &[DVec3], out: &mut AirLoads) {
+    let Some(drag) = &lattice.settings().section_drag else {
+        return;
+    };
+    for strip in lattice.strips() {
+        let traction = traction(lattice, drag, strip, position, out);
+        for &p in &strip.panels {
+            out.force[p] += area(lattice, p, position) * traction;
+        }
+    }
+}
+
+/// Area of a panel [m2], that of the surface: rings may be smaller.
+fn area(lattice: &Lattice, panel: usize, position: &[DVec3]) -> f64 {
+    let x = lattice.topology().panels[panel].map(|n| position[n]);
+    0.5 * (x[2] - x[0]).cross(x[3] - x[1]).length()
+}
+
+/// Force per area of a strip [Pa], N.
+fn traction(
+    lattice: &Lattice,
+    drag: &SectionDrag,
+    strip: &Strip,
+    position: &[DVec3],
+    out: &AirLoads,
+) -> DVec3 {
+    let panels = &out.panels;
+    let (mut whole, mut flow, mut normal) = (0.0, DVec3::ZERO, DVec3::ZERO);
+    for &p in &strip.panels {
+        let wind = lattice.stream(panels.point[p], out.time) - panels.velocity[p];
+        let part = area(lattice, p, position);
+        whole += part;
+        flow += part * wind;
+        normal += part * panels.normal[p];
+    }
+    let wind = flow / whole;
+    let (speed, (_, chord)) = (wind.length(), chord(strip, position));
+    if speed == 0.0 || chord == 0.0 {
+        return DVec3::ZERO;
+    }
+    let sine = wind.dot(normal.normalize_or_zero()).abs() / speed;
+    let alpha = sine.min(1.0).asin();
+    0.5 * lattice.settings().density * drag.speed_times_coefficient(speed, chord, alpha) * wind
+}

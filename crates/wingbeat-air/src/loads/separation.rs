@@ -1,0 +1,40 @@
+//! What the separation criteria compare with their thresholds.
+
+use crate::geometry::chord;
+use crate::lattice::Lattice;
+use crate::loads::values::AirLoads;
+use crate::settings::LeadingEdge;
+use std::f64::consts::PI;
+use wingbeat_math::DVec3;
+
+/// The number that the criterion compares with its threshold, strip by strip.
+///
+/// - Effective angle of attack [rad], 0 to pi: between chord and the wind that stream and motion
+///   make at the leading panel, in the plane of the section; what the wake induces is left out.
+/// - Leading-edge suction parameter: A0, the coefficient of the suction singularity in thin-airfoil
+///   theory [Ramesh et al. 2014, J. Fluid Mech. 751:500], from the circulation G of the leading
+///   panel of length h on a chord c: `A0 = 2 / sqrt(pi) G / (U c (a + sin a))`,
+///   `cos a = 1 - 2 h / c`. `2 / sqrt(pi) = 1.13` is what a lattice's first vortex falls short of
+///   the exact circulation of its panel [Hirato et al. 2019, AIAA J. 57:4034].
+pub(crate) fn leading_values(lattice: &Lattice, position: &[DVec3], out: &mut AirLoads) {
+    out.leading.clear();
+    for strip in lattice.strips() {
+        let p = strip.panels[0];
+        let (aft, c) = chord(strip, position);
+        let normal = out.panels.normal[p];
+        let wind = lattice.stream(out.panels.point[p], out.time) - out.panels.velocity[p];
+        let (along, across) = (wind.dot(aft), wind.dot(normal));
+        let value = match lattice.settings().leading {
+            LeadingEdge::Always | LeadingEdge::Never => 0.0,
+            LeadingEdge::AngleOfAttack { .. } => across.abs().atan2(along),
+            LeadingEdge::Suction { .. } => {
+                let middle = 0.5 * (position[strip.nodes[0]] + position[strip.nodes[1]]);
+                let h = 2.0 * (out.panels.point[p] - middle).dot(aft);
+                let a = (1.0 - 2.0 * h / c).clamp(-1.0, 1.0).acos();
+                let scale = along.hypot(across) * c * (a + a.sin());
+                2.0 / PI.sqrt() * out.gamma[p].abs() / scale.max(f64::MIN_POSITIVE)
+            }
+        };
+        out.leading.push(value);
+    }
+}

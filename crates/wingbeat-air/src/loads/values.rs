@@ -1,0 +1,66 @@
+//! Loads of one instant.
+
+use crate::geometry::Panels;
+use wingbeat_math::DVec3;
+
+/// What the air does to one surface.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct SurfaceLoads {
+    /// Force of the air [N], N.
+    pub force: DVec3,
+    /// Moment of the air about the origin of N [N m], N.
+    pub moment: DVec3,
+    /// Net-flux residual: uniform normal velocity that the rings of a closed surface cannot make [m/s].
+    pub net_flux_residual: f64,
+}
+
+impl SurfaceLoads {
+    /// Moment about the point `p` [m, N] [N m], N.
+    pub fn moment_about(&self, p: DVec3) -> DVec3 {
+        self.moment - p.cross(self.force)
+    }
+}
+
+/// Loads of one instant, panel by panel, in the inertial frame N.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct AirLoads {
+    /// Time [s].
+    pub time: f64,
+    /// Time since the last accepted step [s]; without meaning at step 0.
+    pub dt: f64,
+    /// Geometry of the panels; forces act at the control points.
+    pub panels: Panels,
+    /// Circulation of the rings, the jump of the potential along the normal [m2/s].
+    pub gamma: Vec<f64>,
+    /// Its rate of change on the moving panel [m2/s2].
+    pub gamma_rate: Vec<f64>,
+    /// Velocity of the air at the control points, the mean of the two sides [m/s].
+    pub velocity: Vec<DVec3>,
+    /// Jump of the tangential velocity along the normal [m/s].
+    pub velocity_jump: Vec<DVec3>,
+    /// Pressure behind the panel less pressure before it, the normal pointing forward [Pa]:
+    /// positive pushes along the normal. On a closed surface inner less outer pressure, the inner
+    /// being that of the fictitious fluid inside.
+    pub pressure_jump: Vec<f64>,
+    /// Force of the air on the panel [N]: as [`crate::LoadMethod`] has it; on a closed surface
+    /// pressure jump x area x normal less what the fictitious fluid inside does.
+    pub force: Vec<DVec3>,
+    /// Moment of the air on the panel about its control point [N m]: of forces on segments, zero
+    /// for pressures.
+    pub couple: Vec<DVec3>,
+    /// What the separation criterion compares with its threshold, for each leading-edge strip
+    /// (angle [rad], suction parameter [1]; zero for the criteria that need none).
+    pub leading: Vec<f64>,
+    /// Resultants of the surfaces.
+    pub surfaces: Vec<SurfaceLoads>,
+    /// Momentum of the fictitious fluid inside each closed surface [kg m/s].
+    pub inner_momentum: Vec<DVec3>,
+    /// Impulse of all vorticity, that of dropped wakes included, less the momentum of the fictitious
+    /// fluid [kg m/s], N. In air that is at rest or in uniform motion far away, without images, its
+    /// rate of decrease is the force on all surfaces together, the suction at attached edges
+    /// included: a method independent of pressures and segments
+    /// [Saffman 1992, Vortex Dynamics, ch. 3].
+    pub impulse: DVec3,
+    /// Largest normal velocity through a control point, the net-flux residual apart [m/s].
+    pub normal_velocity_residual: f64,
+}

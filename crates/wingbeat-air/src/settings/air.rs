@@ -1,0 +1,168 @@
+//! All settings of the air.
+
+use crate::edges::SheddingKinds;
+use crate::images::Plane;
+use crate::settings::choices::{CirculationRate, Convection, LeadingEdge, LoadMethod, NewestRow};
+use crate::settings::particles::ParticleSettings;
+use crate::settings::section_drag::SectionDrag;
+use crate::settings::wind::Wind;
+use wingbeat_math::DVec3;
+use wingbeat_vortex::{CoreModel, LAMB_ALPHA, Method};
+
+/// Settings of the air. [`AirSettings::benchmark`] is the discretisation of the published
+/// benchmark, everything else is stated against it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct AirSettings {
+    /// Density rho [kg/m3].
+    pub density: f64,
+    /// Velocity of the undisturbed air [m/s], N.
+    pub free_stream: DVec3,
+    /// Core of the filaments of the surfaces, the shedding edges among them.
+    pub bound_core: CoreModel,
+    /// Core of the filaments of the wakes.
+    pub wake_core: CoreModel,
+    /// Least core radius of a free wake filament over its length; 0: as `wake_core` says. Wakes are
+    /// resolved only while the cores of neighbours overlap. Without this a filament that the flow
+    /// stretches far beyond its core has strains no mesh follows: they stretch it on, and the wake
+    /// around a hovering animal gains energy until it blows up. With 1 no filament moves air on
+    /// scales smaller than its own length. Far off it changes nothing, nor any circulation or
+    /// impulse.
+    pub wake_overlap: f64,
+    /// Length [m] from which a free wake filament turns into a vortex blob, wholly at 1.25 times this length: its strength
+    /// Gamma (b - a) as a Gaussian about its middle, as wide as its core; none: never. Where `wake_overlap` has made
+    /// cores as wide as filaments are long, hardly more than the description changes, but blobs can be summed at
+    /// a cost that grows with their number and not with its square ([`wingbeat_vortex::GaussianSum`]).
+    pub wake_blob_length: Option<f64>,
+    /// Which edges shed.
+    pub shedding: SheddingKinds,
+    /// Circulation rate in the loads.
+    pub rate: CirculationRate,
+    /// Rows of rings kept in each wake sheet; none keeps all. The oldest row is dropped ring by
+    /// ring, so what is left is closed; its far influence is lost.
+    pub max_rows: Option<usize>,
+    /// Rows older than this [s] are dropped, as above.
+    pub max_age: Option<f64>,
+    /// Rows farther from the middle of their edge than this [m] with all nodes are dropped, as
+    /// above, with all older ones.
+    pub max_distance: Option<f64>,
+    /// Largest displacement of a wake node in a step, relative to the undisturbed air [m]; longer
+    /// ones are shortened and counted.
+    pub max_displacement: Option<f64>,
+    /// Free wake nodes keep this distance [m] from surfaces and do not pass through them; the
+    /// core radius is the natural choice. 0 lets them pass (the published benchmark).
+    pub clearance: f64,
+    /// Convection of the wakes.
+    pub convection: Convection,
+    /// Circulation of the newest row of a wake.
+    pub newest_row: NewestRow,
+    /// Forces of open surfaces; those of closed ones are pressures always.
+    pub loads: LoadMethod,
+    /// Separation from leading edges.
+    pub leading: LeadingEdge,
+    /// Drag of the wings' sections added to the forces; none is the method's own.
+    pub section_drag: Option<SectionDrag>,
+    /// Part of its panel by which a ring stays inside a side edge that does not shed; a quarter
+    /// makes the loads of coarse lattices good to second order, 0 is the published benchmark's.
+    /// Where trailing edges shed and leading edges do not, all rings lie aft by the same part.
+    pub inset: f64,
+    /// What is added to the free stream.
+    pub wind: Wind,
+    /// Planes of symmetry and ground: none, one, or two at right angles.
+    pub images: Vec<Plane>,
+    /// Vortex particles in place of old or leading-edge rows of wake; none: rings only.
+    pub particles: Option<ParticleSettings>,
+    /// How the velocities of the wakes' rings are summed.
+    pub summation: Method,
+    /// Allowed error of tree and single precision: root mean square over the places where velocities are wanted,
+    /// relative to that of the velocity.
+    pub tolerance: f64,
+}
+
+impl AirSettings {
+    /// The discretisation of the published benchmark for a given density [kg/m3] and free
+    /// stream [m/s]: wakes from trailing edges, backward circulation rate and the cut-off 0.01 of
+    /// its panels of unit length; see [`Self::with_cut_off_for`] for panels of any other.
+    pub fn benchmark(density: f64, free_stream: DVec3) -> Self {
+        let core = CoreModel::CutOff { delta: 0.01 };
+        Self {
+            density,
+            free_stream,
+            bound_core: core,
+            wake_core: core,
+            wake_overlap: 0.0,
+            wake_blob_length: None,
+            shedding: SheddingKinds::TRAILING,
+            rate: CirculationRate::Backward,
+            max_rows: None,
+            max_displacement: None,
+            max_age: None,
+            max_distance: None,
+            clearance: 0.0,
+            convection: Convection::Euler,
+            newest_row: NewestRow::Constant,
+            loads: LoadMethod::Pressure,
+            leading: LeadingEdge::Always,
+            section_drag: None,
+            inset: 0.0,
+            wind: Wind::default(),
+            images: Vec::new(),
+            particles: None,
+            summation: Method::Auto,
+            tolerance: 1e-4,
+        }
+    }
+
+    /// The accurate discretisation: as the benchmark, but circulation rate, convection and newest
+    /// row of second order and side edges inset by a quarter panel.
+    pub fn accurate(density: f64, free_stream: DVec3) -> Self {
+        Self {
+            rate: CirculationRate::BackwardSecond,
+            convection: Convection::AdamsBashforth,
+            newest_row: NewestRow::Matched,
+            inset: 0.25,
+            ..Self::benchmark(density, free_stream)
+        }
+    }
+
+    /// The benchmark's cut-off for panels of the given size [m]. The benchmark adds
+    /// `(0.01 length)^2` to a term of fourth power in length, so its 0.01 is a length, a hundredth
+    /// of its panels' size.
+    pub fn with_cut_off_for(self, panel_size: f64) -> Self {
+        let core = CoreModel::CutOff {
+            delta: 0.01 * panel_size,
+        };
+        Self {
+            bound_core: core,
+            wake_core: core,
+            ..self
+        }
+    }
+
+    /// Regularisation number of a filament of the free wake of this length [m] and age [s].
+    pub(crate) fn free_core(&self, length: f64, age: f64) -> f64 {
+        let core = self.wake_core.core(length, age);
+        match self.wake_core {
+            CoreModel::CutOff { .. } => core,
+            _ => core.max((self.wake_overlap * length).powi(2)),
+        }
+    }
+
+    /// The part of a free wake filament of this length [m] that is a blob: rises smoothly from 0 to 1.
+    pub(crate) fn blob_part(&self, length: f64) -> f64 {
+        self.wake_blob_length.map_or(0.0, |from| {
+            let t = ((length / from - 1.0) / 0.25).clamp(0.0, 1.0);
+            t * t * (3.0 - 2.0 * t)
+        })
+    }
+
+    /// Variance [m2] of the Gaussian that a Lamb-Oseen core of this squared radius [m2] has across its filament.
+    pub(crate) fn blob_variance(&self, core: f64) -> f64 {
+        core / (2.0 * LAMB_ALPHA)
+    }
+
+    /// The smallest variance [m2] that a blob can have.
+    pub(crate) fn min_variance(&self) -> f64 {
+        let length = self.wake_blob_length.unwrap_or(1.0);
+        self.blob_variance((self.wake_overlap * length).powi(2))
+    }
+}

@@ -1,0 +1,76 @@
+//! Choices of the method.
+
+/// How the rate of change of circulation in the unsteady Bernoulli equation is formed.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum CirculationRate {
+    /// Backward difference over the step, first order, the published benchmark's.
+    #[default]
+    Backward,
+    /// Backward difference over two steps (of any lengths), second order; the first step that
+    /// has a predecessor falls back to [`Self::Backward`].
+    BackwardSecond,
+    /// Left out: quasi-steady loads.
+    Omitted,
+}
+
+/// How wake nodes are moved with the velocities of the accepted step.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Convection {
+    /// With the velocity of the step: explicit Euler, first order, the published benchmark's.
+    #[default]
+    Euler,
+    /// With the velocity extrapolated to the middle of the step from those of this step and the
+    /// one before (Adams-Bashforth, steps of any lengths): second order. A node that has just left
+    /// its edge has no past and takes one Euler step.
+    AdamsBashforth,
+}
+
+/// How circulation is spread over the newest row of a wake, next to its edge.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum NewestRow {
+    /// One value, that of the panel when the row's far side left: first order, the published
+    /// benchmark's.
+    #[default]
+    Constant,
+    /// As the lattice continued into the wake would have it: second order. In rows of up to eight
+    /// panel lengths the circulation falls from the panel's present one to its past one in steps of
+    /// a panel length; rows shorter than a panel leave with a delay.
+    Matched,
+}
+
+/// How forces follow from circulations. The methods differ in what they do with the suction at
+/// attached leading edges: never mix them in one comparison.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum LoadMethod {
+    /// Unsteady Bernoulli, pressure jump times normal: no suction (the published benchmark's).
+    #[default]
+    Pressure,
+    /// Joukowski's force on every segment and `rho A dGamma/dt` along the normal: with suction at
+    /// the edges that do not shed.
+    Joukowski,
+    /// Pressure, and the suction of the leading edge of each strip turned into a normal force on
+    /// its leading panel: Polhamus's analogy for an attached leading-edge vortex
+    /// [Polhamus 1966, NASA TN D-3767].
+    Polhamus,
+}
+
+/// Where and when the flow leaves leading edges, judged strip by strip at every step. Needs
+/// [`SheddingKinds::leading`]; see [`crate::strips`] for the two numbers.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum LeadingEdge {
+    /// Nowhere.
+    Never,
+    /// Everywhere.
+    #[default]
+    Always,
+    /// Where the effective angle of attack [rad] exceeds the threshold.
+    AngleOfAttack {
+        /// Threshold [rad], 0 to pi.
+        threshold: f64,
+    },
+    /// Where the leading-edge suction parameter exceeds the threshold.
+    Suction {
+        /// Threshold, above 0.
+        threshold: f64,
+    },
+}

@@ -1,0 +1,144 @@
+//! Which numbers make sense.
+
+use crate::error::{AirError, require};
+use crate::images::{Plane, mirrors};
+use crate::settings::air::AirSettings;
+use crate::settings::choices::LeadingEdge;
+use std::f64::consts::PI;
+use wingbeat_vortex::CoreModel;
+
+impl AirSettings {
+    /// Checks the numbers.
+    ///
+    /// # Errors
+    /// [`AirError::Setting`] names the first one that makes no sense.
+    pub fn validate(&self) -> Result<(), AirError> {
+        require(
+            is_positive(self.density),
+            "density",
+            self.density,
+            "a finite number of kg/m3 above 0",
+        )?;
+        require(
+            self.free_stream.is_finite(),
+            "free_stream",
+            self.free_stream,
+            "three finite numbers in m/s",
+        )?;
+        self.check_wake()?;
+        require(
+            (0.0..0.5).contains(&self.inset),
+            "inset",
+            self.inset,
+            "a part of a panel from 0 to below 1/2",
+        )?;
+        require(
+            is_positive(self.tolerance) && self.tolerance <= 0.1,
+            "summation tolerance",
+            self.tolerance,
+            "a number above 0 and up to 0.1",
+        )?;
+        self.check_leading()?;
+        self.check_particles()?;
+        self.section_drag.map_or(Ok(()), |d| d.validate())?;
+        self.wind.validate()?;
+        self.check_images()?;
+        require(
+            self.max_rows != Some(0),
+            "max_rows",
+            0,
+            "at least 1 row, or none to keep all; without any shed row there is no Kutta condition",
+        )
+    }
+
+    fn check_wake(&self) -> Result<(), AirError> {
+        let has_radius = !matches!(self.wake_core, CoreModel::CutOff { .. });
+        require(
+            self.wake_overlap == 0.0 || is_positive(self.wake_overlap) && has_radius,
+            "wake_overlap",
+            self.wake_overlap,
+            "a finite number from 0; above 0 only if wake_core has a radius, which a cut-off has not",
+        )?;
+        require(
+            self.wake_blob_length
+                .is_none_or(|l| is_positive(l) && self.wake_overlap >= 0.5),
+            "wake_blob_length",
+            format!("{:?}", self.wake_blob_length),
+            "a finite length in m above 0, with wake_overlap 0.5 or more: blobs narrower than their filaments are \
+             long leave gaps; or none",
+        )?;
+        require(
+            self.max_displacement.is_none_or(is_positive),
+            "max_displacement",
+            format!("{:?}", self.max_displacement),
+            "a finite length in m above 0, or none for no limit",
+        )?;
+        require(
+            self.clearance.is_finite() && self.clearance >= 0.0,
+            "clearance",
+            self.clearance,
+            "a finite height in m, 0 to count nothing",
+        )?;
+        for (key, value) in [
+            ("max_age", self.max_age),
+            ("max_distance", self.max_distance),
+        ] {
+            let allowed = "a finite number above 0, or none for no limit";
+            require(
+                value.is_none_or(is_positive),
+                key,
+                format!("{value:?}"),
+                allowed,
+            )?;
+        }
+        Ok(())
+    }
+
+    fn check_leading(&self) -> Result<(), AirError> {
+        match self.leading {
+            LeadingEdge::AngleOfAttack { threshold } => require(
+                (0.0..=PI).contains(&threshold),
+                "leading angle-of-attack threshold",
+                threshold,
+                "an angle in rad from 0 to pi",
+            ),
+            LeadingEdge::Suction { threshold } => require(
+                is_positive(threshold),
+                "leading suction threshold",
+                threshold,
+                "a finite number above 0",
+            ),
+            LeadingEdge::Never | LeadingEdge::Always => Ok(()),
+        }
+    }
+
+    fn check_particles(&self) -> Result<(), AirError> {
+        let Some(particles) = &self.particles else {
+            return Ok(());
+        };
+        particles.validate()?;
+        require(
+            self.max_rows.is_none(),
+            "max_rows",
+            format!("{:?}", self.max_rows),
+            "none beside particles, which have no rows: truncate by age or distance",
+        )
+    }
+
+    fn check_images(&self) -> Result<(), AirError> {
+        mirrors(&self.images)?;
+        let through = |p: &&Plane| {
+            let across = self.free_stream.dot(p.normal.normalize()).abs();
+            across > 1e-12 * self.free_stream.length()
+        };
+        let allowed = "planes along the free stream: no air goes through them";
+        let crossed = self.images.iter().find(through);
+        crossed.map_or(Ok(()), |plane| {
+            require(false, "images", format!("{plane:?}"), allowed)
+        })
+    }
+}
+
+fn is_positive(x: f64) -> bool {
+    x.is_finite() && x > 0.0
+}

@@ -1,0 +1,122 @@
+//! The undisturbed air: uniform stream, steady shear, gusts.
+
+use crate::error::{AirError, require};
+use wingbeat_math::{DMat3, DVec3};
+
+/// How a gust rises and falls with its own time tau [s]: the share of its amplitude.
+#[derive(Clone, Debug, PartialEq)]
+pub enum GustShape {
+    /// `(1 - cos(2 pi tau / duration)) / 2` for tau between 0 and `duration` [s].
+    OneMinusCosine {
+        /// From rise to fall [s].
+        duration: f64,
+    },
+    /// Straight lines between (tau [s], share); the first value before, the last one after.
+    Table(Vec<(f64, f64)>),
+}
+
+/// A gust: `amplitude x shape(t - start - slowness . x)`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Gust {
+    /// Velocity at share one [m/s], N.
+    pub amplitude: DVec3,
+    /// When it begins at the origin of N [s].
+    pub start: f64,
+    /// Direction over speed of a front that travels [s/m], N; zero: everywhere at once.
+    pub slowness: DVec3,
+    /// The course.
+    pub shape: GustShape,
+}
+
+impl GustShape {
+    /// Share of the amplitude at the gust's own time `tau` [s].
+    ///
+    /// ```
+    /// let gust = wingbeat_air::GustShape::OneMinusCosine { duration: 2.0 };
+    /// assert_eq!(gust.at(-0.1), 0.0);
+    /// assert!((gust.at(1.0) - 1.0).abs() < 1e-15);
+    /// ```
+    pub fn at(&self, tau: f64) -> f64 {
+        match self {
+            Self::OneMinusCosine { duration } if tau > 0.0 && tau < *duration => {
+                0.5 - 0.5 * (std::f64::consts::TAU * tau / duration).cos()
+            }
+            Self::OneMinusCosine { .. } => 0.0,
+            Self::Table(rows) => table(rows, tau),
+        }
+    }
+}
+
+fn table(rows: &[(f64, f64)], tau: f64) -> f64 {
+    let next = rows.partition_point(|r| r.0 <= tau);
+    match (next.checked_sub(1).map(|k| rows[k]), rows.get(next)) {
+        (Some((t0, y0)), Some((t1, y1))) => y0 + (y1 - y0) * (tau - t0) / (t1 - t0),
+        (Some((_, y)), None) | (None, Some(&(_, y))) => y,
+        (None, None) => 0.0,
+    }
+}
+
+/// What is added to the uniform stream.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Wind {
+    /// Gradient of a steady shear [1/s], if any: the velocity `shear x` is added at the place x, N.
+    pub shear: Option<DMat3>,
+    /// Gusts, added up.
+    pub gusts: Vec<Gust>,
+}
+
+impl Wind {
+    /// Whether there is anything to add.
+    pub fn is_none(&self) -> bool {
+        self.shear.is_none() && self.gusts.is_empty()
+    }
+
+    /// Velocity [m/s] that is added at `x` [m] and time `t` [s], N.
+    pub fn at(&self, x: DVec3, t: f64) -> DVec3 {
+        let gust = |g: &Gust| g.amplitude * g.shape.at(t - g.start - g.slowness.dot(x));
+        let shear = self.shear.map_or(DVec3::ZERO, |s| s * x);
+        shear + self.gusts.iter().map(gust).sum::<DVec3>()
+    }
+
+    /// Checks the numbers.
+    ///
+    /// # Errors
+    /// [`AirError::Setting`] or [`AirError::GustTable`] names the first one that makes no sense.
+    pub fn validate(&self) -> Result<(), AirError> {
+        if let Some(shear) = self.shear {
+            require(shear.is_finite(), "shear", shear, "finite numbers in 1/s")?;
+        }
+        for (gust, g) in self.gusts.iter().enumerate() {
+            require(
+                g.amplitude.is_finite() && g.slowness.is_finite() && g.start.is_finite(),
+                "gust",
+                format!("{g:?}"),
+                "a finite amplitude in m/s, slowness in s/m and start in s",
+            )?;
+            match &g.shape {
+                GustShape::OneMinusCosine { duration } => require(
+                    duration.is_finite() && *duration > 0.0,
+                    "gust duration",
+                    duration,
+                    "a time in s above 0",
+                )?,
+                GustShape::Table(rows) => check_table(gust, rows)?,
+            }
+        }
+        Ok(())
+    }
+}
+
+fn check_table(gust: usize, rows: &[(f64, f64)]) -> Result<(), AirError> {
+    let wrong = |row, problem| Err(AirError::GustTable { gust, row, problem });
+    if rows.len() < 2 {
+        return wrong(rows.len(), "a table needs at least two rows");
+    }
+    if let Some(k) = rows.iter().position(|r| !(r.0 + r.1).is_finite()) {
+        return wrong(k, "is not finite");
+    }
+    match rows.windows(2).position(|w| w[1].0 <= w[0].0) {
+        Some(k) => wrong(k + 1, "its time is not later than the one before"),
+        None => Ok(()),
+    }
+}

@@ -1,0 +1,65 @@
+//! What the air remembers from step to step: circulations and wakes.
+
+use crate::state::wake_sheet::WakeSheet;
+use wingbeat_math::DVec3;
+
+/// How often the motion of the wake had to be limited.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+pub struct WakeEvents {
+    /// Displacements shortened to [`crate::AirSettings::max_displacement`], and strengths
+    /// of particles held to a change of half in a step and twice their first size in all.
+    pub limited: u64,
+    /// Wake nodes and particles kept at [`crate::AirSettings::clearance`] from a surface.
+    pub near_surface: u64,
+    /// Rows of wake that were dropped.
+    pub dropped_rows: u64,
+    /// Particles made of rings.
+    pub new_particles: u64,
+    /// Particles that were dropped.
+    pub dropped_particles: u64,
+}
+
+impl std::ops::AddAssign for WakeEvents {
+    fn add_assign(&mut self, other: Self) {
+        self.limited += other.limited;
+        self.near_surface += other.near_surface;
+        self.dropped_rows += other.dropped_rows;
+        self.new_particles += other.new_particles;
+        self.dropped_particles += other.dropped_particles;
+    }
+}
+
+/// The state of the air: plain data, enough to go on bit for bit.
+#[derive(Clone, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
+pub struct AirState {
+    /// Accepted steps so far.
+    pub step: u64,
+    /// Time of the last accepted step [s].
+    pub time: f64,
+    /// Whether the step was accepted but the wake not yet moved.
+    pub wake_due: bool,
+    /// Circulation of the panels at the last accepted step [m2/s].
+    pub gamma: Vec<f64>,
+    /// Circulation one accepted step earlier [m2/s].
+    pub gamma_before: Vec<f64>,
+    /// Time between these two [s].
+    pub dt_before: f64,
+    /// What the separation criterion compares with its threshold, for each leading-edge strip,
+    /// at the last accepted step.
+    pub leading: Vec<f64>,
+    /// Length of the last step of the wakes [s], zero before it.
+    pub dt_wake: f64,
+    /// Positions of the surface nodes at the last accepted step [m], N.
+    pub position: Vec<DVec3>,
+    /// Their velocities [m/s], N.
+    pub velocity: Vec<DVec3>,
+    /// Momentum of the fictitious fluid inside each surface (zero for open ones) at the last
+    /// accepted step [kg m/s], N.
+    pub inner_momentum: Vec<DVec3>,
+    /// Wake sheets, in the order of [`crate::Lattice::sheets`].
+    pub sheets: Vec<WakeSheet>,
+    /// Regularised events since the start.
+    pub events: WakeEvents,
+    /// Impulse per density of rings and particles when they were dropped [m4/s], N.
+    pub dropped_impulse: DVec3,
+}

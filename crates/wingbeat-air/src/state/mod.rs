@@ -1,0 +1,10 @@
+//! What the air remembers from step to step: circulations and wakes.
+
+mod air_state;
+mod initial;
+mod particles;
+mod wake_sheet;
+
+pub use air_state::{AirState, WakeEvents};
+pub use particles::Particles;
+pub use wake_sheet::WakeSheet;

@@ -1,0 +1,240 @@
+//! The vortex filaments of one instant: every edge of lattice and wakes once, with its net
+//! circulation.
+
+use crate::lattice::Lattice;
+use crate::settings::AirSettings;
+use crate::state::{AirState, WakeSheet};
+use crate::wake::conversion::borders_ring;
+use crate::wake::near_wake::{Row, Share, add_near_wake, at_edge, row_lengths};
+use wingbeat_math::DVec3;
+use wingbeat_vortex::{Blob, Network, Points, WINDOW};
+
+/// Columns of a wake sheet that are taken side by side: so many that the kernel still sees the nodes of one row when it
+/// comes to the next.
+const STRIP: usize = WINDOW * 3 / 4;
+
+/// Filaments of lattice and wakes.
+///
+/// A shedding edge belongs to the bound network, with the circulation of its panel less that of
+/// the newest wake ring, so that both are regularised alike.
+#[derive(Clone, Debug, Default)]
+pub struct Filaments {
+    /// Edges of the lattice, in the order of [`crate::topology::Topology::edges`].
+    pub bound: Network,
+    /// Edges of the newest rings from the shedding edges to the first free nodes: they follow the
+    /// surfaces. Nodes: sheet after sheet, first the free row, last the shedding edge.
+    pub near_wake: Network,
+    /// How their circulations follow from those of the panels.
+    pub(crate) shares: Vec<Share>,
+    /// Length of the newest row in panel lengths, sheet by sheet and column by column.
+    pub(crate) lengths: Vec<Vec<f64>>,
+    /// All other edges of the wakes, which do not move within a step. Nodes: sheet after sheet,
+    /// oldest row first.
+    pub wake: Network,
+    /// What stretched edges of the wakes have given up, see [`AirSettings::wake_blob_length`].
+    pub blobs: Vec<Blob>,
+    /// Particles of all sheets.
+    pub particles: Vec<Blob>,
+}
+
+impl Filaments {
+    /// Takes the nodes from `position` and `state`, the wake circulations from `state` at time
+    /// `t`; bound circulations are left zero.
+    pub(crate) fn gather(
+        &mut self,
+        lattice: &Lattice,
+        state: &AirState,
+        t: f64,
+        position: &[DVec3],
+    ) {
+        self.gather_bound(lattice, position);
+        self.wake.clear();
+        self.blobs.clear();
+        self.near_wake.clear();
+        self.shares.clear();
+        self.lengths.resize_with(state.sheets.len(), Vec::new);
+        for (s, (sheet, root)) in state.sheets.iter().zip(lattice.sheets()).enumerate() {
+            self.add_sheet(sheet, lattice.settings(), t);
+            let edge = root.nodes.iter().map(|&n| self.bound.nodes.get(n));
+            row_lengths(lattice, state, s, &self.bound.nodes, &mut self.lengths[s]);
+            let row = Row {
+                lattice,
+                state,
+                s,
+                lengths: &self.lengths[s],
+            };
+            add_near_wake(&mut self.near_wake, &mut self.shares, &row, t, edge);
+        }
+        self.particles.clear();
+        if let Some(settings) = &lattice.settings().particles {
+            for set in state.sheets.iter().map(|s| &s.particles) {
+                let all = (0..set.len()).map(|i| set.at(i, settings, t));
+                self.particles.extend(all);
+            }
+        }
+    }
+
+    /// All wake nodes that are to be moved (mirror images are reflected later), those on the shedding edges too: sheet after sheet,
+    /// oldest row first, the shedding edge last.
+    pub(crate) fn movable(&self, lattice: &Lattice, state: &AirState, out: &mut Points) {
+        out.clear();
+        for (k, (sheet, root)) in state.sheets.iter().zip(lattice.sheets()).enumerate() {
+            if lattice.reflected_sheet(k).is_some() {
+                continue;
+            }
+            sheet.nodes.iter().for_each(|x| out.push(x));
+            let edge = root.nodes.iter().map(|&n| self.bound.nodes.get(n));
+            edge.for_each(|x| out.push(x));
+        }
+    }
+
+    fn gather_bound(&mut self, lattice: &Lattice, position: &[DVec3]) {
+        let model = lattice.settings().bound_core;
+        self.bound.clear();
+        position.iter().for_each(|&x| self.bound.nodes.push(x));
+        let nodes = &mut self.bound.nodes;
+        for (n, d) in lattice.rings().offsets(position) {
+            nodes.set(n, nodes.get(n) + d);
+        }
+        for edge in &lattice.topology().edges {
+            let length = (self.bound.nodes.get(edge.to) - self.bound.nodes.get(edge.from)).length();
+            let core = model.core(length, 0.0);
+            self.bound.push_edge(edge.from, edge.to, 0.0, core);
+        }
+    }
+
+    /// Net circulation of every lattice edge, its panels' difference, less the newest wake ring's
+    /// at a shedding edge; and of the newest rows.
+    pub(crate) fn set_bound(&mut self, lattice: &Lattice, state: &AirState, gamma: &[f64]) {
+        for (edge, net) in lattice.topology().edges.iter().zip(&mut self.bound.gamma) {
+            let minus = edge.minus.map_or(0.0, |p| gamma[p]);
+            let wake = edge.wake.map_or(0.0, |w| {
+                let (s, lengths) = (w.sheet, &self.lengths[w.sheet]);
+                let row = Row {
+                    lattice,
+                    state,
+                    s,
+                    lengths,
+                };
+                let [fixed, part] = at_edge(&row, w.column);
+                fixed + part * gamma[edge.plus]
+            });
+            *net = gamma[edge.plus] - minus - wake;
+        }
+        for (share, net) in self.shares.iter().zip(&mut self.near_wake.gamma) {
+            *net = share.net(gamma);
+        }
+    }
+
+    /// Free nodes of one wake sheet and the edges among them that lie at rings.
+    fn add_sheet(&mut self, sheet: &WakeSheet, settings: &AirSettings, t: f64) {
+        let (wake, blobs) = (&mut self.wake, &mut self.blobs);
+        let base = wake.nodes.len();
+        sheet.nodes.iter().for_each(|x| wake.nodes.push(x));
+        let (rows, columns) = (sheet.rows(), sheet.columns);
+        let age = |r: usize| t - sheet.shed_time[r];
+        let mut push = |[r0, c0]: [usize; 2], [r1, c1]: [usize; 2], net: f64| {
+            let from = base + r0 * (columns + 1) + c0;
+            let to = base + r1 * (columns + 1) + c1;
+            let (a, b) = (wake.nodes.get(from), wake.nodes.get(to));
+            let length = (b - a).length();
+            let core = settings.free_core(length, 0.5 * (age(r0) + age(r1)));
+            let part = settings.blob_part(length);
+            if part > 0.0 {
+                blobs.push(Blob {
+                    position: 0.5 * (a + b),
+                    strength: part * net * (b - a),
+                    core: settings.blob_variance(core),
+                });
+            }
+            if part < 1.0 {
+                wake.push_edge(from, to, (1.0 - part) * net, core);
+            }
+        };
+        let there = |r: usize, c: usize, along: bool| borders_ring(&sheet.converted, [r, c], along);
+        for first in (0..=columns).step_by(STRIP) {
+            let strip = |count: usize| first..count.min(first + STRIP);
+            for r in 0..rows {
+                for c in strip(columns).filter(|&c| there(r, c, true)) {
+                    push([r, c], [r, c + 1], sheet.between_rows(r, c));
+                }
+                let inner = |&c: &usize| r + 1 < rows && there(r, c, false);
+                for c in strip(columns + 1).filter(inner) {
+                    push([r, c], [r + 1, c], sheet.between_columns(r, c));
+                }
+            }
+        }
+    }
+
+    /// Corners of the box around all nodes [m], N.
+    pub(crate) fn bounds(&self) -> [DVec3; 2] {
+        let nets = [&self.bound, &self.near_wake, &self.wake];
+        let nodes = nets.into_iter().flat_map(|net| net.nodes.iter());
+        nodes.fold([DVec3::INFINITY, DVec3::NEG_INFINITY], |[low, high], x| {
+            [low.min(x), high.max(x)]
+        })
+    }
+
+    /// Half the sum of circulation x moment of every filament about `origin`, which is the vector
+    /// impulse per density [m4/s], N: `1/2 sum Gamma a x b` for filaments from a to b, and
+    /// `1/2 x cross alpha` for blobs and particles.
+    pub(crate) fn impulse(&self, origin: DVec3) -> DVec3 {
+        let of = |net: &Network| {
+            let mut sum = DVec3::ZERO;
+            for (&[a, b], &gamma) in net.edges.iter().zip(&net.gamma) {
+                let a = net.nodes.get(a as usize) - origin;
+                let b = net.nodes.get(b as usize) - origin;
+                sum += 0.5 * gamma * a.cross(b);
+            }
+            sum
+        };
+        let of_blob = |b: &Blob| 0.5 * (b.position - origin).cross(b.strength);
+        let particles: DVec3 = self.particles.iter().map(of_blob).sum();
+        let blobs: DVec3 = self.blobs.iter().map(of_blob).sum();
+        of(&self.bound) + of(&self.near_wake) + of(&self.wake) + blobs + particles
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The kernel takes the root of a node anew once it has looked at some hundred others.
+    #[test]
+    fn exact_edges_of_wide_sheets_are_there_once_and_find_their_nodes_in_sight() {
+        const SIGHT: usize = WINDOW - 18; // two patches of nodes that come and go
+        let rows = 20;
+        for columns in [1, 40, STRIP - 1, STRIP, STRIP + 1, 250] {
+            let mut sheet = WakeSheet {
+                columns,
+                gamma: (0..rows * columns).map(|k| k as f64).collect(),
+                shed_time: vec![0.0; rows],
+                converted: vec![0; columns],
+                ..WakeSheet::default()
+            };
+            for k in 0..rows * (columns + 1) {
+                let [r, c] = [k / (columns + 1), k % (columns + 1)].map(|i| i as f64);
+                sheet.nodes.push(DVec3::new(r, c, 0.0));
+            }
+            let mut filaments = Filaments::default();
+            filaments.add_sheet(&sheet, &AirSettings::benchmark(1.0, DVec3::X), 1.0);
+            let mut edges = filaments.wake.edges.clone();
+            edges.sort_unstable();
+            edges.dedup();
+            assert_eq!(edges.len(), rows * columns + (rows - 1) * (columns + 1));
+            assert_eq!(edges.len(), filaments.wake.len());
+            let mut last = vec![None; sheet.nodes.len()];
+            let mut looks = 0;
+            for &node in filaments.wake.edges.iter().flatten() {
+                let seen = &mut last[node as usize];
+                if seen.is_none_or(|at: usize| looks - at > SIGHT) {
+                    *seen = Some(looks);
+                    looks += 1;
+                }
+            }
+            // Nodes between two strips twice.
+            let twice = columns / STRIP * rows;
+            assert!(looks <= sheet.nodes.len() + twice, "{columns}: {looks}");
+        }
+    }
+}

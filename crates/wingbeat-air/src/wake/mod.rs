@@ -1,0 +1,20 @@
+//! The wakes: their filaments and blobs, the velocity they make, and how they move, shed and are truncated.
+
+mod contact;
+mod convection;
+mod conversion;
+mod filaments;
+mod joined_nodes;
+mod mover;
+mod near_wake;
+mod particle_flow;
+mod particle_motion;
+mod separation;
+mod shedding;
+mod summation;
+mod truncation;
+
+pub(crate) use convection::WakeMotion;
+pub use filaments::Filaments;
+pub(crate) use near_wake::{Row, Share, at_edge};
+pub(crate) use summation::{Sums, WakeVelocityCache};

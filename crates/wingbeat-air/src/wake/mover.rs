@@ -1,0 +1,104 @@
+//! Moves wake nodes with the velocities of the accepted step.
+
+use crate::images::Plane;
+use crate::lattice::Lattice;
+use crate::state::{WakeEvents, WakeSheet};
+use crate::wake::contact::Obstacles;
+use crate::wake::particle_flow::ParticleFlow;
+use wingbeat_math::DVec3;
+use wingbeat_vortex::Points;
+
+/// Walks through the wake nodes and particles of all sheets in order and moves them.
+pub(crate) struct Mover<'a> {
+    pub lattice: &'a Lattice,
+    pub nodes: &'a Points,
+    pub velocity: &'a Points,
+    /// Largest displacement relative to the undisturbed air [m].
+    pub limit: f64,
+    pub time: f64,
+    pub dt: f64,
+    pub looks_back: bool,
+    /// Weight of the change of velocity since the step before.
+    pub change: f64,
+    pub obstacles: &'a Obstacles,
+    /// Next node and particle of all sheets.
+    pub next: usize,
+    pub flow: &'a ParticleFlow,
+    pub next_particle: usize,
+    pub events: WakeEvents,
+    /// Paths of the nodes or particles of a sheet.
+    pub from: Vec<DVec3>,
+    pub to: Vec<DVec3>,
+}
+
+impl Mover<'_> {
+    /// Fills `sheet` with its moved nodes, those that were on the shedding edge being the new last
+    /// row. The error is (row from the newest, column, velocity).
+    pub(crate) fn move_nodes(
+        &mut self,
+        sheet: &mut WakeSheet,
+    ) -> Result<(), (usize, usize, DVec3)> {
+        let (mut from, mut to) = (std::mem::take(&mut self.from), std::mem::take(&mut self.to));
+        let (rows, width) = (sheet.rows() + 1, sheet.columns + 1);
+        let nodes = self.next..self.next + rows * width;
+        self.next = nodes.end;
+        from.clear();
+        from.extend(nodes.clone().map(|k| self.nodes.get(k)));
+        to.clear();
+        for (i, k) in nodes.clone().enumerate() {
+            let (x, v) = (from[i], self.velocity.get(k));
+            let stream = self.lattice.stream(x, self.time);
+            let past = (i < sheet.velocity.len()).then(|| sheet.velocity.get(i));
+            let change = past.map_or(DVec3::ZERO, |past| self.change * (v + stream - past));
+            let end = x + (self.dt * stream + self.displacement(v + change));
+            if !end.is_finite() {
+                return Err((rows - 1 - i / width, i % width, v));
+            }
+            to.push(end);
+        }
+        if self.looks_back {
+            sheet.velocity.clear();
+            for (i, k) in nodes.enumerate() {
+                let stream = self.lattice.stream(from[i], self.time);
+                sheet.velocity.push(self.velocity.get(k) + stream);
+            }
+        }
+        self.keep_clear(&from, &mut to);
+        sheet.nodes.clear();
+        to.iter().for_each(|&x| sheet.nodes.push(x));
+        (self.from, self.to) = (from, to);
+        Ok(())
+    }
+
+    /// Keeps ends of paths off surfaces and on their side of planes.
+    pub(crate) fn keep_clear(&mut self, from: &[DVec3], to: &mut [DVec3]) {
+        self.events.near_surface += self.obstacles.keep_off(from, to);
+        for plane in &self.lattice.settings().images {
+            self.events.near_surface += keep_on_side(plane, from, to);
+        }
+    }
+
+    /// Displacement relative to the undisturbed air, shortened to the limit.
+    pub(crate) fn displacement(&mut self, v: DVec3) -> DVec3 {
+        let d = self.dt * v;
+        let length = d.length();
+        if length > self.limit {
+            self.events.limited += 1;
+            return d * (self.limit / length);
+        }
+        d
+    }
+}
+
+/// Nodes that would go through a plane of symmetry or a ground end on it; returns how many. There
+/// they and their images cancel.
+fn keep_on_side(plane: &Plane, from: &[DVec3], to: &mut [DVec3]) -> u64 {
+    let mut count = 0;
+    for (a, b) in from.iter().zip(to) {
+        if plane.height(*a) * plane.height(*b) < 0.0 {
+            *b = plane.foot(*b);
+            count += 1;
+        }
+    }
+    count
+}

@@ -1,0 +1,88 @@
+//! What is dropped of a wake, and what becomes particles.
+
+use crate::edges::EdgeKind;
+use crate::lattice::Lattice;
+use crate::state::{AirState, WakeEvents, WakeSheet};
+use wingbeat_math::DVec3;
+
+impl Lattice {
+    /// Drops the oldest rows that are too many, too old or too far, or makes particles of them.
+    /// Returns also the impulse per density [m4/s], N, of what was dropped.
+    pub(crate) fn truncate(
+        &self,
+        k: usize,
+        sheet: &mut WakeSheet,
+        state: &AirState,
+    ) -> (WakeEvents, DVec3) {
+        let settings = self.settings();
+        let before = sheet.rows();
+        let mut keep = before.min(settings.max_rows.unwrap_or(usize::MAX));
+        if let Some(age) = settings.max_age {
+            let young = |t: &&f64| state.time - **t <= age;
+            keep = keep.min(sheet.shed_time.iter().filter(young).count());
+        }
+        if let Some(far) = settings.max_distance {
+            let edge = self.edge_middle(k, state);
+            let is_far = |r: usize| {
+                let mut row = (0..=sheet.columns).map(|c| sheet.node(r, c));
+                row.all(|x| x.distance(edge) > far)
+            };
+            let farthest = (0..before).rev().find(|&r| is_far(r));
+            keep = keep.min(farthest.map_or(before, |r| before - 1 - r));
+        }
+        let dropped = before - keep.clamp(1, before.max(1));
+        if settings.particles.is_some() {
+            return self.make_particles(k, sheet, dropped, state);
+        }
+        let impulse = sheet.impulse_of_oldest(dropped);
+        sheet.keep(before - dropped);
+        let events = WakeEvents {
+            dropped_rows: dropped as u64,
+            ..WakeEvents::default()
+        };
+        (events, impulse)
+    }
+
+    /// Middle of the edge that sheet `k` leaves [m], N.
+    fn edge_middle(&self, k: usize, state: &AirState) -> DVec3 {
+        let nodes = &self.sheets()[k].nodes;
+        let sum: DVec3 = nodes.iter().map(|&n| state.position[n]).sum();
+        sum / nodes.len() as f64
+    }
+
+    /// Makes particles of the rows of sheet `k` that are due, and of its oldest `dropped` rows in any
+    /// case; drops particles that are too old or too far. Returns also the impulse per density
+    /// [m4/s], N, of those dropped.
+    fn make_particles(
+        &self,
+        k: usize,
+        sheet: &mut WakeSheet,
+        dropped: usize,
+        state: &AirState,
+    ) -> (WakeEvents, DVec3) {
+        let Some(settings) = &self.settings().particles else {
+            return Default::default();
+        };
+        let (rows, kinds) = (sheet.rows(), &self.sheets()[k].kinds);
+        let due = |c: usize| {
+            let at_once = settings.leading_at_once && kinds[c] == EdgeKind::Leading;
+            let keep = if at_once { Some(1) } else { settings.after };
+            rows.saturating_sub(keep.unwrap_or(rows)).max(dropped)
+        };
+        let new_particles = sheet.convert(settings.radius, due);
+        sheet.drop_converted();
+        let (age, far) = (self.settings().max_age, self.settings().max_distance);
+        let edge = self.edge_middle(k, state);
+        let before = sheet.particles.impulse();
+        let dropped_particles = sheet.particles.retain(|x, shed| {
+            age.is_none_or(|age| state.time - shed <= age)
+                && far.is_none_or(|far| x.distance(edge) <= far)
+        });
+        let events = WakeEvents {
+            new_particles,
+            dropped_particles,
+            ..WakeEvents::default()
+        };
+        (events, before - sheet.particles.impulse())
+    }
+}

@@ -1,0 +1,34 @@
+//! Scratch memory of the air.
+
+use crate::geometry::NodeMotion;
+use crate::lattice::Lattice;
+use crate::loads::Segments;
+use crate::solve::BoundaryCondition;
+use crate::wake::{Filaments, Sums, WakeMotion};
+
+/// Scratch memory of the air, good for any lattice: no result depends on what it held before. What is known of
+/// the shapes of a lattice is computed when it is first used.
+#[derive(Default)]
+pub struct AirWorkspace {
+    pub(crate) filaments: Filaments,
+    /// Nodes of the rings.
+    pub(crate) rings: NodeMotion,
+    pub(crate) sums: Sums,
+    pub(crate) boundary: BoundaryCondition,
+    pub(crate) segments: Segments,
+    pub(crate) wakes: WakeMotion,
+}
+
+impl AirWorkspace {
+    /// The filaments of the last call.
+    pub fn filaments(&self) -> &Filaments {
+        &self.filaments
+    }
+}
+
+impl Lattice {
+    /// Scratch memory for this lattice.
+    pub fn workspace(&self) -> AirWorkspace {
+        AirWorkspace::default()
+    }
+}

@@ -1,0 +1,159 @@
+//! Vortex filaments: free segments, and networks of segments that share nodes.
+
+use crate::sources::points::Points;
+use glam::DVec3;
+
+/// Vortex segments a -> b, each with its own end points.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Segments {
+    /// Start, along n1 \[m\].
+    pub ax: Vec<f64>,
+    /// Start, along n2 \[m\].
+    pub ay: Vec<f64>,
+    /// Start, along n3 \[m\].
+    pub az: Vec<f64>,
+    /// End, along n1 \[m\].
+    pub bx: Vec<f64>,
+    /// End, along n2 \[m\].
+    pub by: Vec<f64>,
+    /// End, along n3 \[m\].
+    pub bz: Vec<f64>,
+    /// Circulation \[m^2/s\].
+    pub gamma: Vec<f64>,
+    /// Regularisation number, [`crate::CoreModel::core`].
+    pub core: Vec<f64>,
+}
+
+impl Segments {
+    /// Number of segments.
+    pub fn len(&self) -> usize {
+        self.gamma.len()
+    }
+
+    /// True when there is no segment.
+    pub fn is_empty(&self) -> bool {
+        self.gamma.is_empty()
+    }
+
+    /// Appends the segment a -> b.
+    pub fn push(&mut self, a: DVec3, b: DVec3, gamma: f64, core: f64) {
+        self.ax.push(a.x);
+        self.ay.push(a.y);
+        self.az.push(a.z);
+        self.bx.push(b.x);
+        self.by.push(b.y);
+        self.bz.push(b.z);
+        self.gamma.push(gamma);
+        self.core.push(core);
+    }
+
+    /// Removes all segments and keeps the memory.
+    pub fn clear(&mut self) {
+        let Self {
+            ax,
+            ay,
+            az,
+            bx,
+            by,
+            bz,
+            gamma,
+            core,
+        } = self;
+        for c in [ax, ay, az, bx, by, bz, gamma, core] {
+            c.clear();
+        }
+    }
+
+    /// Start of segment `i` \[m\].
+    pub fn a(&self, i: usize) -> DVec3 {
+        DVec3::new(self.ax[i], self.ay[i], self.az[i])
+    }
+
+    /// End of segment `i` \[m\].
+    pub fn b(&self, i: usize) -> DVec3 {
+        DVec3::new(self.bx[i], self.by[i], self.bz[i])
+    }
+}
+
+/// Vortex segments between shared nodes, as in a lattice or a wake sheet.
+///
+/// Distances to a node serve every segment that meets there, so a network is summed about twice as
+/// fast as the same [`Segments`], with the same bits if the order is the same. Neighbours in space
+/// should be neighbours in the edge order (row by row of a sheet).
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Network {
+    /// Nodes \[m\].
+    pub nodes: Points,
+    /// Node pairs (from, to).
+    pub edges: Vec<[u32; 2]>,
+    /// Circulation of each edge \[m^2/s\].
+    pub gamma: Vec<f64>,
+    /// Regularisation number of each edge, [`crate::CoreModel::core`].
+    pub core: Vec<f64>,
+}
+
+impl Network {
+    /// Takes nodes and edges of `other` and keeps the memory, which `clone_from` does not.
+    pub fn copy_from(&mut self, other: &Self) {
+        self.nodes.copy_from(&other.nodes);
+        self.edges.clone_from(&other.edges);
+        self.gamma.clone_from(&other.gamma);
+        self.core.clone_from(&other.core);
+    }
+
+    /// Number of edges.
+    pub fn len(&self) -> usize {
+        self.edges.len()
+    }
+
+    /// True when there is no edge.
+    pub fn is_empty(&self) -> bool {
+        self.edges.is_empty()
+    }
+
+    /// Removes all nodes and edges and keeps the memory.
+    pub fn clear(&mut self) {
+        self.nodes.clear();
+        self.edges.clear();
+        self.gamma.clear();
+        self.core.clear();
+    }
+
+    /// Appends an edge between two nodes that exist already.
+    pub fn push_edge(&mut self, from: usize, to: usize, gamma: f64, core: f64) {
+        assert!(
+            from.max(to) < self.nodes.len(),
+            "edge {from}-{to} beyond {} nodes",
+            self.nodes.len()
+        );
+        self.edges.push([from as u32, to as u32]);
+        self.gamma.push(gamma);
+        self.core.push(core);
+    }
+
+    /// Makes it these segments, two nodes each.
+    pub fn set_segments(&mut self, segments: &Segments) {
+        self.clear();
+        for i in 0..segments.len() {
+            self.nodes.push(segments.a(i));
+            self.nodes.push(segments.b(i));
+            self.push_edge(2 * i, 2 * i + 1, segments.gamma[i], segments.core[i]);
+        }
+    }
+
+    /// Start and end of edge `e` \[m\].
+    pub fn ends(&self, e: usize) -> (DVec3, DVec3) {
+        let [i, j] = self.edges[e];
+        (self.nodes.get(i as usize), self.nodes.get(j as usize))
+    }
+
+    /// The same segments with their own end points.
+    pub fn to_segments(&self) -> Segments {
+        let mut out = Segments::default();
+        for (e, &[i, j]) in self.edges.iter().enumerate() {
+            let (a, b) = (self.nodes.get(i as usize), self.nodes.get(j as usize));
+            out.push(a, b, self.gamma[e], self.core[e]);
+        }
+        out
+    }
+}

@@ -1,0 +1,87 @@
+//! Points in space.
+
+use glam::DVec3;
+
+/// Positions \[m\] or velocities \[m/s\], frame N, one array per component.
+#[derive(Clone, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
+pub struct Points {
+    /// Components along n1.
+    pub x: Vec<f64>,
+    /// Components along n2.
+    pub y: Vec<f64>,
+    /// Components along n3.
+    pub z: Vec<f64>,
+}
+
+impl Points {
+    /// `n` points at zero.
+    pub fn zeros(n: usize) -> Self {
+        Self {
+            x: vec![0.0; n],
+            y: vec![0.0; n],
+            z: vec![0.0; n],
+        }
+    }
+
+    /// Number of points.
+    pub fn len(&self) -> usize {
+        self.x.len()
+    }
+
+    /// True when there is no point.
+    pub fn is_empty(&self) -> bool {
+        self.x.is_empty()
+    }
+
+    /// Point `i`.
+    pub fn get(&self, i: usize) -> DVec3 {
+        DVec3::new(self.x[i], self.y[i], self.z[i])
+    }
+
+    /// Overwrites point `i`.
+    pub fn set(&mut self, i: usize, p: DVec3) {
+        (self.x[i], self.y[i], self.z[i]) = (p.x, p.y, p.z);
+    }
+
+    /// Appends a point.
+    pub fn push(&mut self, p: DVec3) {
+        self.x.push(p.x);
+        self.y.push(p.y);
+        self.z.push(p.z);
+    }
+
+    /// Removes all points and keeps the memory.
+    pub fn clear(&mut self) {
+        self.x.clear();
+        self.y.clear();
+        self.z.clear();
+    }
+
+    /// Makes it `n` points, all zero, and keeps the memory.
+    pub fn reset(&mut self, n: usize) {
+        for c in [&mut self.x, &mut self.y, &mut self.z] {
+            c.clear();
+            c.resize(n, 0.0);
+        }
+    }
+
+    /// Takes the points of `other` and keeps the memory, which `clone_from` does not.
+    pub fn copy_from(&mut self, other: &Self) {
+        self.x.clone_from(&other.x);
+        self.y.clone_from(&other.y);
+        self.z.clone_from(&other.z);
+    }
+
+    /// The points in order.
+    pub fn iter(&self) -> impl Iterator<Item = DVec3> + '_ {
+        (0..self.len()).map(|i| self.get(i))
+    }
+}
+
+impl FromIterator<DVec3> for Points {
+    fn from_iter<I: IntoIterator<Item = DVec3>>(iter: I) -> Self {
+        let mut points = Self::default();
+        iter.into_iter().for_each(|p| points.push(p));
+        points
+    }
+}
