@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use wingbeat_air::{AirSettings, Wind};
+use wingbeat_air::{AirSettings, CoreModel, SheddingKinds, Wind};
 use wingbeat_blade::DerivativeTable;
 use wingbeat_blade::{BladeSettings, BodyDrag};
 use wingbeat_math::{DMat3, DVec3, EulerSequence, MovingRotation};
@@ -86,6 +86,46 @@ pub enum AirModel {
     External(Arc<dyn ExternalAir>),
     /// A model of your own.
     Own(Arc<dyn Air>),
+}
+
+impl BladeOptions {
+    /// The coefficients of insects in air at rest of this density [kg/m3].
+    pub fn insect(density: f64) -> Self {
+        Self {
+            blade: BladeSettings::insect(density),
+            body_drag: None,
+            induced: DVec3::ZERO,
+            wind: Wind::default(),
+        }
+    }
+}
+
+impl AirOptions {
+    /// What the presets of insects fly, for wings of this mean chord [m] in air at rest of this
+    /// density [kg/m3] and kinematic viscosity [m2/s]: the accurate scheme, wakes from trailing edges and tips,
+    /// bound cores of 0.01 chords, wake cores from 0.07 chords and never narrower than their filaments are long. The
+    /// body is left out of the air.
+    pub fn insect(density: f64, viscosity: f64, chord: f64) -> Self {
+        let core = |chords: f64| CoreModel::LambOseen {
+            radius: chords * chord,
+            viscosity,
+        };
+        Self {
+            lattice: AirSettings {
+                bound_core: core(0.01),
+                wake_core: core(0.07),
+                wake_overlap: 1.0,
+                shedding: SheddingKinds {
+                    tip: true,
+                    ..SheddingKinds::TRAILING
+                },
+                ..AirSettings::accurate(density, DVec3::ZERO)
+            },
+            body_surfaces: false,
+            mirror: false,
+            joined: vec![],
+        }
+    }
 }
 
 impl AirModel {

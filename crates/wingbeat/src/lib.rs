@@ -33,7 +33,25 @@
 //! assert!((fallen.z - 0.5 * 9.81 * 1.5e-4_f64.powi(2)).abs() < 1e-12);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
+//!
+//! Everyday types are in [`prelude`]; a flight is a [`Flight`].
 #![warn(missing_docs)]
+
+mod value;
+
+pub use value::{Beat, Error, Flight, Run};
+
+/// What a program that flies needs: `use wingbeat::prelude::*;`.
+pub mod prelude {
+    pub use crate::{Beat, Error, Flight, Run};
+    pub use wingbeat_flight::{
+        Air, AirModel, AirOptions, BladeOptions, Controller, Feedback, FlightSetup, MotionMode,
+        Record, Sensed, Simulation, StartState,
+    };
+    pub use wingbeat_math::{DMat3, DVec3};
+    pub use wingbeat_model::motion::Adjustment;
+    pub use wingbeat_model::{Animal, Side, Wing, WingMotion};
+}
 
 pub use wingbeat_air as air;
 pub use wingbeat_analysis as analysis;
