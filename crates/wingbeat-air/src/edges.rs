@@ -1,7 +1,20 @@
 //! The edges of a wing, and which of them shed wakes.
 
 /// Which edge of a wing a shedding segment belongs to.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[derive(
+    Clone,
+    Copy,
+    Debug,
+    PartialEq,
+    Eq,
+    Hash,
+    PartialOrd,
+    Ord,
+    serde::Serialize,
+    serde::Deserialize,
+    schemars::JsonSchema,
+)]
+#[serde(rename_all = "snake_case")]
 pub enum EdgeKind {
     /// Trailing edge.
     Trailing,

@@ -27,10 +27,13 @@ pub struct BladeSettings {
 }
 
 /// Place of the translational and rotational force along the chord.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(
+    Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize, schemars::JsonSchema,
+)]
+#[serde(rename_all = "snake_case")]
 pub enum CentreOfPressure {
     /// At this part of the chord behind the edge that meets the air.
-    Fixed(f64),
+    Fixed(#[schemars(range(min = 0, max = 1))] f64),
     /// From 1/4 of the chord edge-on to 1/2 square to the air, `(2 - cos alpha)/4` behind the
     /// leading edge; a smooth interpolation of this program between the two theories.
     Cosine,
@@ -56,7 +59,10 @@ pub enum Rotation {
 }
 
 /// The added mass `m = rho pi/4 c^2 dr` of a strip.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(
+    Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize, schemars::JsonSchema,
+)]
+#[serde(rename_all = "snake_case")]
 pub enum AddedMass {
     /// Left out.
     None,

@@ -3,6 +3,7 @@
 use serde::de::DeserializeOwned;
 
 use crate::error::{CaseError, Fault};
+use crate::keys::without_unit;
 use crate::source::CaseSource;
 
 /// Decodes the document; unknown keys, missing keys and wrong types become located errors.
@@ -72,17 +73,9 @@ fn unknown(path: &str, got: &str, expected: &[&str], what: &str) -> Fault {
 
 /// The expected key that differs from `got` only in its unit: `mass_mg` for `mass_kg`.
 fn same_quantity<'a>(got: &str, expected: &[&'a str]) -> Option<&'a str> {
-    const UNITS: [&str; 8] = [
-        "_m", "_kg", "_s", "_deg", "_hz", "_m_s", "_kg_m3", "_newton",
-    ];
-    let stem = |key: &str| {
-        UNITS
-            .iter()
-            .find_map(|u| key.strip_suffix(u).map(str::to_owned))
-    };
     let is_same = |e: &&&str| {
-        stem(e)
-            .is_some_and(|s| got == s || got.strip_prefix(&s).is_some_and(|r| r.starts_with('_')))
+        without_unit(e)
+            .is_some_and(|s| got == s || got.strip_prefix(s).is_some_and(|r| r.starts_with('_')))
     };
     expected
         .iter()

@@ -1,9 +1,10 @@
 //! Case files: from text to a validated setup, and back to text with everything filled in.
 //!
 //! The way of a case: text -> `source` (document, positions of keys, overrides) -> `decode`
-//! (raw types of [`raw`], unknown keys refused) -> `files` (meshes and tables read in) ->
-//! `build` (every number checked) -> [`wingbeat_flight::FlightSetup`], or an error that says what is
-//! wrong, where and what to do. [`presets`] are ordinary case files that come with the program.
+//! (raw types of [`raw`], unknown keys refused) -> [`keys`] (every value in its range) -> `files`
+//! (meshes and tables read in) -> `resolve` (keys that follow from others) -> [`keys`] (every key has
+//! an effect) -> `build` -> [`wingbeat_flight::FlightSetup`], or an error that says what is wrong,
+//! where and what to do. [`presets`] are ordinary case files that come with the program.
 //!
 //! Names in cases carry units; numbers are SI and radians on the other side of this border.
 //!
@@ -11,19 +12,23 @@
 #![warn(missing_docs)]
 
 mod build;
+mod data;
 mod decode;
 mod error;
 pub mod external;
 mod files;
+pub mod keys;
 mod loaded;
 mod output;
 pub mod presets;
 pub mod raw;
+mod resolve;
 mod source;
 mod trimmed;
 
-pub use build::data_sets;
+pub use data::data_sets;
 pub use error::{CaseError, IoError};
-pub use loaded::{LoadedCase, schema};
+pub use keys::schema;
+pub use loaded::LoadedCase;
 pub use output::{OutputSettings, SaveSettings};
 pub use trimmed::{derivative_case, trimmed_case, wake_trimmed_case, write_new};

@@ -8,7 +8,7 @@ use wingbeat_flight::FlightSetup;
 use crate::error::{CaseError, Fault, IoError};
 use crate::output::OutputSettings;
 use crate::source::CaseSource;
-use crate::{build, decode, files, presets, raw};
+use crate::{build, decode, files, keys, presets, raw, resolve};
 
 /// A case, validated and ready to fly.
 #[derive(Clone, Debug)]
@@ -19,7 +19,7 @@ pub struct LoadedCase {
     pub setup: FlightSetup,
     /// What is written.
     pub output: OutputSettings,
-    /// The raw case with files read in and defaults filled in.
+    /// The resolved case: files read in, no key left open.
     pub raw: raw::Case,
     source: CaseSource,
 }
@@ -44,10 +44,13 @@ impl LoadedCase {
             .unwrap_or("case");
         let name = raw.name.get_or_insert_with(|| stem.to_owned()).clone();
         let built = check_name(&name)
+            .and_then(|()| keys::alone(&source.table))
             .and_then(|()| files::read_in(&mut raw, base))
-            .and_then(|()| build::setup(&mut raw, &name));
-        let built = built.and_then(|setup| Ok((setup, build::output(&raw.output)?)));
-        let (setup, output) = built.map_err(|fault| Box::new(source.locate(fault)))?;
+            .and_then(|()| resolve::resolve(&mut raw))
+            .and_then(|()| keys::together(&source.table, &table(&raw), source.chooses("air.model")))
+            .and_then(|()| build::setup(&raw, &name));
+        let setup = built.map_err(|fault| Box::new(source.locate(fault)))?;
+        let output = build::output(&raw.output);
         Ok(Self {
             name,
             setup,
@@ -93,10 +96,10 @@ impl LoadedCase {
 
     /// The case with everything filled in, as TOML; it gives the same setup bit for bit.
     pub fn resolved(&self) -> String {
-        let body = toml::to_string(&self.raw).expect("a case that was read can be written");
         format!(
-            "# Case `{}` with every default filled in; it reproduces the run.\n{body}",
-            self.name
+            "# Case `{}` with every default filled in; it reproduces the run.\n{}",
+            self.name,
+            written(&self.raw)
         )
     }
 
@@ -119,8 +122,11 @@ fn check_name(name: &str) -> Result<(), Fault> {
     ))
 }
 
-/// The JSON schema of case files, for editors.
-pub fn schema() -> String {
-    let schema = schemars::schema_for!(raw::Case);
-    serde_json::to_string_pretty(&schema).expect("a schema is JSON")
+fn table(case: &raw::Case) -> toml::Table {
+    toml::Table::try_from(case).expect("a case that was read can be written")
+}
+
+/// The keys of a resolved case that have an effect, as TOML.
+pub(crate) fn written(case: &raw::Case) -> String {
+    toml::to_string(&keys::effective(&table(case))).expect("a table is TOML")
 }

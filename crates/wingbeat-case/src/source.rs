@@ -82,6 +82,11 @@ impl CaseSource {
         error
     }
 
+    /// Whether the command line chooses the value of `key`.
+    pub fn chooses(&self, key: &str) -> bool {
+        self.overrides.iter().any(|(k, _)| k == key)
+    }
+
     /// The bytes of a value (or of its key), or of the key of the nearest table around it.
     fn span(&self, key: &str, on_key: bool) -> Option<Range<usize>> {
         if let Some(place) = self.places.get(key) {
@@ -171,7 +176,8 @@ fn related(a: &str, b: &str) -> bool {
     !b.is_empty() && (inside(a, b) || inside(b, a))
 }
 
-fn join(path: &str, key: &str) -> String {
+/// The path of a key in a table.
+pub(crate) fn join(path: &str, key: &str) -> String {
     if path.is_empty() {
         key.to_owned()
     } else {

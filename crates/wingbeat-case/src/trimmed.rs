@@ -16,6 +16,7 @@ use super::raw::{
     StartCase,
 };
 use crate::error::IoError;
+use crate::loaded::written;
 
 /// The case of a trimmed flight as TOML: the given case with the adjusted wing motion, hinges and
 /// the state of body and free joints at the start of the periodic beat, impulsively started.
@@ -68,7 +69,7 @@ fn adjusted(case: &LoadedCase, a: &Adjustment, mass_centre: f64) -> Case {
     adjust.feathering_lead += a.feathering_lead;
     adjust.deviation_offset_deg += a.deviation_offset.to_degrees();
     adjust.stroke_plane_deg += a.stroke_plane.to_degrees();
-    motion.frequency_hz = motion.frequency_hz.map(|f| f * (1.0 + a.frequency));
+    motion.frequency_hz = (motion.frequency_hz.value() * (1.0 + a.frequency)).into();
     motion.start = StartCase::Impulsive;
     for hinge in raw.wing.values_mut().filter_map(|w| w.hinge_m.as_mut()) {
         hinge[0] -= mass_centre / raw.animal.scale;
@@ -94,7 +95,7 @@ fn with_start(
     flight.roll_deg = angles.z.to_degrees();
     flight.velocity_m_s = root.v.to_array();
     flight.angular_velocity_deg_s = root.w.to_array().map(f64::to_degrees);
-    let body = toml::to_string(&raw).expect("a case that was read can be written");
+    let body = written(&raw);
     format!(
         "# `{}`, trimmed: largest residual {:.1e} of weight, weight times wing length, radian and\n# wing length per beat.\n{body}",
         case.name, error
@@ -136,7 +137,7 @@ pub fn derivative_case(
         ..BodyCase::default()
     };
     raw.motion = MotionCase {
-        frequency_hz: Some(1.0 / trim.beat.period()),
+        frequency_hz: (1.0 / trim.beat.period()).into(),
         ..MotionCase::default()
     };
     let r = table.reference;
@@ -162,7 +163,7 @@ pub fn derivative_case(
         velocity_m_s: table.velocity.to_array(),
         ..FlightCase::default()
     };
-    let body = toml::to_string(&raw).expect("a case that was read can be written");
+    let body = written(&raw);
     Ok(format!(
         "# `{}`, averaged over the wingbeat: a rigid body under stability derivatives.\n{body}",
         case.name

@@ -198,7 +198,7 @@ fn refuses_deformations_that_do_not_fit() {
         &["table_deg[2]", "rise"],
     );
     refused(&table("[[0, 0], [1, nan]]"), at, &["table_deg"]);
-    refused(&table("[[0, 0]]"), at, &["2 rows"]);
+    refused(&table("[[0, 0]]"), at, &["at least 2 elements"]);
     refused(&with("mean = 0.5", "mean = inf"), "mean = inf", &["mean"]);
     refused(
         &with(span, ""),
@@ -211,7 +211,7 @@ fn refuses_deformations_that_do_not_fit() {
         &["unknown key", "table_deg"],
     );
     let peak = format!("{GOOD}[wing.right.deformation]\ncamber_peak = 1.5\n");
-    refused(&peak, "camber_peak", &["above 0 and below 1"]);
+    refused(&peak, "camber_peak", &["> 0 and < 1"]);
     let unknown = format!("{GOOD}{}", TWIST.replace("right", "rigth"));
     refused(&unknown, "[[wing.rigth", &["wing.rigth"]);
     let still = format!("{GOOD}{TWIST}")

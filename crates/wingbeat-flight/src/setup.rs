@@ -415,7 +415,10 @@ impl Default for CorrectorSettings {
 }
 
 /// Frame in which an applied load keeps its direction.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(
+    Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize, schemars::JsonSchema,
+)]
+#[serde(rename_all = "snake_case")]
 pub enum LoadFrame {
     /// Fixed in the body.
     Body,

@@ -5,7 +5,10 @@ use std::collections::BTreeMap;
 use wingbeat_math::DVec3;
 
 /// Left or right wing.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(
+    Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize, schemars::JsonSchema,
+)]
+#[serde(rename_all = "snake_case")]
 pub enum Side {
     /// Spans along -axis 2 of the wing frame.
     Left,

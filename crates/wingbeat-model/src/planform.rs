@@ -139,7 +139,10 @@ impl Edges {
 }
 
 /// Spacing of grid lines between 0 and 1.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(
+    Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize, schemars::JsonSchema,
+)]
+#[serde(rename_all = "snake_case")]
 pub enum Spacing {
     /// Equal.
     Uniform,

@@ -50,9 +50,20 @@ const SINGLE_GAIN: u64 = 2;
 const ATTEMPTS: usize = 6;
 
 /// How to sum.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(
+    Clone,
+    Copy,
+    Debug,
+    Default,
+    PartialEq,
+    Eq,
+    serde::Serialize,
+    serde::Deserialize,
+    schemars::JsonSchema,
+)]
+#[serde(rename_all = "snake_case")]
 pub enum Method {
-    /// The one that is faster at this size.
+    /// The one that is fastest at this size.
     #[default]
     Auto,
     /// Every source at every target, in double precision.

@@ -1,20 +1,42 @@
 //! Choices of the method.
 
 /// How the rate of change of circulation in the unsteady Bernoulli equation is formed.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(
+    Clone,
+    Copy,
+    Debug,
+    Default,
+    PartialEq,
+    Eq,
+    serde::Serialize,
+    serde::Deserialize,
+    schemars::JsonSchema,
+)]
+#[serde(rename_all = "snake_case")]
 pub enum CirculationRate {
     /// Backward difference over the step, first order, the published benchmark's.
     #[default]
     Backward,
     /// Backward difference over two steps (of any lengths), second order; the first step that
-    /// has a predecessor falls back to [`Self::Backward`].
+    /// has a predecessor takes that over one.
     BackwardSecond,
     /// Left out: quasi-steady loads.
     Omitted,
 }
 
 /// How wake nodes are moved with the velocities of the accepted step.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(
+    Clone,
+    Copy,
+    Debug,
+    Default,
+    PartialEq,
+    Eq,
+    serde::Serialize,
+    serde::Deserialize,
+    schemars::JsonSchema,
+)]
+#[serde(rename_all = "snake_case")]
 pub enum Convection {
     /// With the velocity of the step: explicit Euler, first order, the published benchmark's.
     #[default]
@@ -40,7 +62,18 @@ pub enum NewestRow {
 
 /// How forces follow from circulations. The methods differ in what they do with the suction at
 /// attached leading edges: never mix them in one comparison.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(
+    Clone,
+    Copy,
+    Debug,
+    Default,
+    PartialEq,
+    Eq,
+    serde::Serialize,
+    serde::Deserialize,
+    schemars::JsonSchema,
+)]
+#[serde(rename_all = "snake_case")]
 pub enum LoadMethod {
     /// Unsteady Bernoulli, pressure jump times normal: no suction (the published benchmark's).
     #[default]

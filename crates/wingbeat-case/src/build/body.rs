@@ -5,7 +5,7 @@ use wingbeat_model::build::{BodyMass, fit_body_length};
 use wingbeat_model::revolution::{Profile, Revolution};
 use wingbeat_model::{Animal, BodyPart, MassInput, QuadMesh};
 
-use super::{Built, blame, not_negative, panels, positive, symmetric, vector};
+use super::{Built, blame, panels, symmetric, vector};
 use crate::error::Fault;
 use crate::raw::{BodyCase, OriginCase, PartCase, ProfileCase};
 
@@ -37,7 +37,6 @@ fn shapes(case: &BodyCase) -> Built<Vec<(String, Revolution)>> {
     let Some(length) = case.length_m else {
         return Ok(shapes);
     };
-    positive("body.length_m", length)?;
     if shapes.is_empty() || shapes.len() < case.part.len() {
         return Err(Fault::new(
             "body.length_m",
@@ -53,16 +52,15 @@ fn shapes(case: &BodyCase) -> Built<Vec<(String, Revolution)>> {
 
 fn revolution(path: &str, part: &PartCase) -> Built<Revolution> {
     let needed = |key: &str, value: Option<f64>| {
-        let full = format!("{path}.{key}");
         let missing = || {
             Fault::new(
-                full.clone(),
+                format!("{path}.{key}"),
                 "this key is missing",
                 "a surface of revolution has length_m and diameter_m; or give file = \"NAME.obj\"",
                 format!("add `{key} = ...`"),
             )
         };
-        positive(&full, value.ok_or_else(missing)?)
+        value.ok_or_else(missing)
     };
     let [stations, meridians] = [part.stations.unwrap_or(6), part.meridians.unwrap_or(8)];
     let keys = ["stations", "meridians"].map(|key| format!("{path}.{key}"));
@@ -134,14 +132,8 @@ fn given_mesh(path: &str, nodes: &[[f64; 3]], part: &PartCase) -> Built<QuadMesh
 
 fn part_mass(body: &BodyCase, path: &str, part: &PartCase) -> Built<MassInput> {
     match (part.mass_kg, part.density_kg_m3) {
-        (Some(m), None) => Ok(MassInput::Total(not_negative(
-            &format!("{path}.mass_kg"),
-            m,
-        )?)),
-        (None, Some(d)) => Ok(MassInput::Density(not_negative(
-            &format!("{path}.density_kg_m3"),
-            d,
-        )?)),
+        (Some(m), _) => Ok(MassInput::Total(m)),
+        (None, Some(d)) => Ok(MassInput::Density(d)),
         (None, None) if body.inertia_about_centre_kg_m2.is_some() => Ok(MassInput::Density(0.0)),
         (None, None) if body.mass_kg.is_some() => Ok(MassInput::Density(1.0)), // scaled to the total
         (None, None) => Err(Fault::new(
@@ -150,19 +142,10 @@ fn part_mass(body: &BodyCase, path: &str, part: &PartCase) -> Built<MassInput> {
             "mass_kg or density_kg_m3 in every part, or mass_kg in [body]",
             "insect tissue has about density_kg_m3 = 1000",
         )),
-        (Some(_), Some(_)) => Err(Fault::new(
-            format!("{path}.mass_kg"),
-            "mass and density are both given",
-            "one of mass_kg and density_kg_m3",
-            "remove one of them",
-        )),
     }
 }
 
 fn mass(case: &BodyCase, parts: &[BodyPart]) -> Built<BodyMass> {
-    if let Some(m) = case.mass_kg {
-        positive("body.mass_kg", m)?;
-    }
     match (case.mass_kg, case.inertia_about_centre_kg_m2) {
         (None, None) if parts.is_empty() => Err(Fault::new(
             "body.mass_kg",

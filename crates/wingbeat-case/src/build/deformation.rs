@@ -25,7 +25,6 @@ struct Written<'a> {
 
 /// Deforms `wing` as the table `[path]` says.
 pub(super) fn deform(wing: Wing, path: &str, case: &DeformationCase) -> Built<Wing> {
-    check_places(path, case)?;
     let twist = case.twist.iter().enumerate().map(|(k, t)| Written {
         path: format!("{path}.twist[{k}]"),
         unit: "_deg",
@@ -60,18 +59,6 @@ pub(super) fn deform(wing: Wing, path: &str, case: &DeformationCase) -> Built<Wi
     };
     let whole = |e: ModelError| Fault::new(path, e.to_string(), "", "correct this table");
     wing.deformed_by(deformation).map_err(whole)
-}
-
-fn check_places(path: &str, case: &DeformationCase) -> Built<()> {
-    if case.camber_peak > 0.0 && case.camber_peak < 1.0 {
-        return Ok(());
-    }
-    Err(Fault::new(
-        format!("{path}.camber_peak"),
-        "the highest camber lies between the edges",
-        "above 0 and below 1",
-        "0.5 is the middle of the chord",
-    ))
 }
 
 fn term(w: &Written<'_>, wing: &Wing) -> Built<Term> {

@@ -7,7 +7,7 @@ use wingbeat_flight::ExternalAir;
 use wingbeat_math::r2;
 use wingbeat_model::Animal;
 
-use super::{Built, positive, vector};
+use super::{Built, vector};
 use crate::error::Fault;
 use crate::external::ProcessAir;
 use crate::raw::{AirCase, Case, DerivativesCase, DimensionlessCase};
@@ -30,14 +30,14 @@ pub(super) fn table(case: &Case, animal: &Animal) -> Built<DerivativeTable> {
         point: animal.body.centre(),
         velocity: vector(d.velocity_m_s),
         reference: [f[0], f[1], f[2], m[0], m[1], m[2]],
-        derivatives: matrix(case, d)?,
+        derivatives: matrix(case, d),
         stream: vector(case.air.stream_m_s),
     })
 }
 
 type Block = [[f64; 3]; 3];
 
-fn matrix(case: &Case, d: &DerivativesCase) -> Built<[[f64; 6]; 6]> {
+fn matrix(case: &Case, d: &DerivativesCase) -> [[f64; 6]; 6] {
     let given = [
         d.force_by_velocity_newton_s_m,
         d.force_by_rate_newton_s,
@@ -45,25 +45,18 @@ fn matrix(case: &Case, d: &DerivativesCase) -> Built<[[f64; 6]; 6]> {
         d.moment_by_rate_newton_m_s,
     ];
     match &d.dimensionless {
-        None => Ok(joined(given.map(Option::unwrap_or_default))),
-        Some(_) if given.iter().any(Option::is_some) => Err(Fault::new(
-            "air.derivatives.dimensionless",
-            "derivatives are given twice",
-            "the four matrices in SI, or [air.derivatives.dimensionless]",
-            "remove one of them",
-        )),
+        None => joined(given.map(Option::unwrap_or_default)),
         Some(plus) => dimensional(case, plus),
     }
 }
 
-fn dimensional(case: &Case, plus: &DimensionlessCase) -> Built<[[f64; 6]; 6]> {
-    let at = |key: &str, x: f64| positive(&format!("air.derivatives.dimensionless.{key}"), x);
+fn dimensional(case: &Case, plus: &DimensionlessCase) -> [[f64; 6]; 6] {
     let sizes = ReferenceSizes {
-        density: positive("air.density_kg_m3", case.air.density_kg_m3)?,
-        speed: at("speed_m_s", plus.speed_m_s)?,
-        area: at("area_m2", plus.area_m2)?,
-        chord: at("chord_m", plus.chord_m)?,
-        period: at("period_s", plus.period_s)?,
+        density: case.air.density_kg_m3,
+        speed: plus.speed_m_s,
+        area: plus.area_m2,
+        chord: plus.chord_m,
+        period: plus.period_s,
     };
     let blocks = [
         plus.force_by_velocity,
@@ -71,7 +64,7 @@ fn dimensional(case: &Case, plus: &DimensionlessCase) -> Built<[[f64; 6]; 6]> {
         plus.moment_by_velocity,
         plus.moment_by_rate,
     ];
-    Ok(sizes.dimensional(&joined(blocks)))
+    sizes.dimensional(&joined(blocks))
 }
 
 /// Four blocks as one matrix.
@@ -86,9 +79,8 @@ fn joined([fv, fw, mv, mw]: [Block; 4]) -> [[f64; 6]; 6] {
 }
 
 /// The program of the case.
-pub(super) fn external(case: &AirCase, _animal: &Animal) -> Built<Arc<dyn ExternalAir>> {
-    let named = case.external.as_ref().filter(|e| !e.command.is_empty());
-    let Some(external) = named else {
+pub(super) fn external(case: &AirCase) -> Built<Arc<dyn ExternalAir>> {
+    let Some(external) = &case.external else {
         return Err(Fault::new(
             "air.external.command",
             "air.model = \"external\" needs a program to ask",
@@ -98,6 +90,6 @@ pub(super) fn external(case: &AirCase, _animal: &Animal) -> Built<Arc<dyn Extern
     };
     Ok(Arc::new(ProcessAir {
         command: external.command.clone(),
-        timeout: positive("air.external.timeout_s", external.timeout_s)?,
+        timeout: external.timeout_s,
     }))
 }

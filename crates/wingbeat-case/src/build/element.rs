@@ -2,7 +2,7 @@
 
 use wingbeat_dynamics::{Element, ElementLaw, Fourier};
 
-use super::{Built, not_negative};
+use super::Built;
 use crate::error::Fault;
 use crate::raw::{ElementCase, JointCase, JointKind, SeriesCase};
 
@@ -94,32 +94,19 @@ fn check_kind(path: &str, c: &ElementCase, slides: bool) -> Built<()> {
 
 fn laws(path: &str, c: &ElementCase, frequency: f64) -> Built<Vec<ElementLaw>> {
     let mut laws = vec![];
-    let number = |key: &str, x: f64| not_negative(&format!("{path}.{key}"), x);
-    for (key, stiffness, rest) in [
+    let springs = [
         (
-            "stiffness_newton_m_per_rad",
             c.stiffness_newton_m_per_rad,
             c.rest_deg.map(f64::to_radians),
         ),
-        ("stiffness_newton_per_m", c.stiffness_newton_per_m, c.rest_m),
-    ] {
-        if let Some(k) = stiffness {
-            let rest = rest.unwrap_or(0.0);
-            laws.push(ElementLaw::Spring {
-                stiffness: number(key, k)?,
-                rest,
-            });
-        }
+        (c.stiffness_newton_per_m, c.rest_m),
+    ];
+    for (stiffness, rest) in springs {
+        let rest = rest.unwrap_or(0.0);
+        laws.extend(stiffness.map(|stiffness| ElementLaw::Spring { stiffness, rest }));
     }
-    for (key, damping) in [
-        ("damping_newton_m_s_per_rad", c.damping_newton_m_s_per_rad),
-        ("damping_newton_s_per_m", c.damping_newton_s_per_m),
-    ] {
-        if let Some(d) = damping {
-            laws.push(ElementLaw::Damper {
-                coefficient: number(key, d)?,
-            });
-        }
+    for damping in [c.damping_newton_m_s_per_rad, c.damping_newton_s_per_m] {
+        laws.extend(damping.map(|coefficient| ElementLaw::Damper { coefficient }));
     }
     if let Some(s) = &c.stop {
         if s.lower_deg >= s.upper_deg {
@@ -133,11 +120,8 @@ fn laws(path: &str, c: &ElementCase, frequency: f64) -> Built<Vec<ElementLaw>> {
         laws.push(ElementLaw::Stop {
             lower: s.lower_deg.to_radians(),
             upper: s.upper_deg.to_radians(),
-            stiffness: number(
-                "stop.stiffness_newton_m_per_rad",
-                s.stiffness_newton_m_per_rad,
-            )?,
-            damping: number("stop.damping_s_per_rad", s.damping_s_per_rad)?,
+            stiffness: s.stiffness_newton_m_per_rad,
+            damping: s.damping_s_per_rad,
         });
     }
     for effort in c.moment_newton_m.iter().chain(&c.force_newton) {
@@ -146,14 +130,8 @@ fn laws(path: &str, c: &ElementCase, frequency: f64) -> Built<Vec<ElementLaw>> {
     if let Some(f) = &c.follow {
         laws.push(ElementLaw::Follow {
             target: series(&f.angle_deg, frequency, 1f64.to_radians()),
-            stiffness: number(
-                "follow.stiffness_newton_m_per_rad",
-                f.stiffness_newton_m_per_rad,
-            )?,
-            damping: number(
-                "follow.damping_newton_m_s_per_rad",
-                f.damping_newton_m_s_per_rad,
-            )?,
+            stiffness: f.stiffness_newton_m_per_rad,
+            damping: f.damping_newton_m_s_per_rad,
         });
     }
     Ok(laws)

@@ -2,29 +2,28 @@
 
 use wingbeat_flight::{
     AppliedLoad, BaumgarteChoice, DriftingFourier, FlightSetup, FormulationChoice,
-    IntegratorChoice, JointSetup, LoadFrame, MotionMode, PrescribedMotion, StabilizationChoice,
-    StartState, TimeGrid,
+    IntegratorChoice, MotionMode, PrescribedMotion, StabilizationChoice, StartState, TimeGrid,
 };
 use wingbeat_math::{DVec3, EulerSequence, RotationLaw};
 use wingbeat_model::Animal;
 
 use super::joint::body_names;
-use super::{Built, not_negative, positive, vector};
+use super::{Built, vector};
 use crate::error::Fault;
 use crate::raw::{
     AirModel, AngleOscillation, BaumgarteCase, Case, DynamicsCase, FlightCase, Formulation,
-    FrameCase, IntegratorCase, LoadCase, Mode, PathOscillation, StabilisationCase, TetherCase,
+    IntegratorCase, LoadCase, Mode, PathOscillation, StabilisationCase, TetherCase,
 };
 
 /// Least |cos theta| with which the Euler form starts (design: it gives up below this).
-const LEAST_REGULARITY: f64 = 0.05;
+const MIN_REGULARITY: f64 = 0.05;
 
 /// Free or tethered.
-pub(super) fn mode(case: &Case, time: &TimeGrid) -> Built<MotionMode> {
+pub(super) fn mode(case: &Case, time: &TimeGrid) -> MotionMode {
     let flight = &case.flight;
     match flight.mode {
-        Mode::Tethered => tethered(flight),
-        Mode::Free => free(flight, time),
+        Mode::Tethered => MotionMode::Tethered(tethered(flight)),
+        Mode::Free => MotionMode::Free(free(flight, time)),
     }
 }
 
@@ -36,53 +35,28 @@ fn start_angles(flight: &FlightCase) -> DVec3 {
     degrees([flight.pitch_deg, flight.yaw_deg, flight.roll_deg])
 }
 
-fn free(flight: &FlightCase, time: &TimeGrid) -> Built<MotionMode> {
-    if flight.tether.is_some() {
-        return Err(Fault::new(
-            "flight.tether",
-            "a free body has no tether",
-            "[flight.tether] with mode = \"tethered\"",
-            "remove it or set flight.mode = \"tethered\"",
-        ));
-    }
-    let held = not_negative("flight.held_beats", flight.held_beats)?;
-    let held_time = held * time.period.unwrap_or(0.0);
-    Ok(MotionMode::Free(StartState {
+fn free(flight: &FlightCase, time: &TimeGrid) -> StartState {
+    let held_time = flight.held_beats * time.period.unwrap_or(0.0);
+    StartState {
         position: vector(flight.position_m),
         angles: start_angles(flight),
         velocity: vector(flight.velocity_m_s),
         angular_velocity: degrees(flight.angular_velocity_deg_s),
         held_steps: (held_time / time.step).round() as usize,
-    }))
+    }
 }
 
-fn tethered(flight: &FlightCase) -> Built<MotionMode> {
-    if flight.angular_velocity_deg_s != [0.0; 3] {
-        return Err(Fault::new(
-            "flight.angular_velocity_deg_s",
-            "the rotation of a tethered body is prescribed by its angles",
-            "[0, 0, 0] with mode = \"tethered\"",
-            "use [flight.tether.pitch] with rate_deg_s, and yaw and roll likewise",
-        ));
-    }
-    if flight.held_beats != 0.0 {
-        return Err(Fault::new(
-            "flight.held_beats",
-            "a tethered body is held all the time",
-            "0 with mode = \"tethered\"",
-            "remove the key or set flight.mode = \"free\"",
-        ));
-    }
+fn tethered(flight: &FlightCase) -> PrescribedMotion {
     let none = TetherCase::default();
     let tether = flight.tether.as_ref().unwrap_or(&none);
     let paths = [&tether.x, &tether.y, &tether.z];
     let turns = [&tether.pitch, &tether.yaw, &tether.roll];
     let angles = start_angles(flight).to_array();
     let (p, v) = (flight.position_m, flight.velocity_m_s);
-    Ok(MotionMode::Tethered(PrescribedMotion {
+    PrescribedMotion {
         position: std::array::from_fn(|i| path(paths[i].as_ref(), p[i], v[i])),
         angles: std::array::from_fn(|i| turn(turns[i].as_ref(), angles[i])),
-    }))
+    }
 }
 
 fn path(case: Option<&PathOscillation>, constant: f64, rate: f64) -> DriftingFourier {
@@ -110,71 +84,46 @@ fn turn(case: Option<&AngleOscillation>, constant: f64) -> DriftingFourier {
 }
 
 /// Which equations are integrated.
-pub(super) fn formulation(case: &DynamicsCase) -> Built<FormulationChoice> {
-    let key = "dynamics.baumgarte";
+pub(super) fn formulation(case: &DynamicsCase) -> FormulationChoice {
     let choice = match case.baumgarte {
-        BaumgarteCase::StepFactor(a) => {
-            BaumgarteChoice::StepTied(not_negative(&format!("{key}.step_factor"), a)?)
-        }
+        BaumgarteCase::StepFactor(a) => BaumgarteChoice::StepTied(a),
         BaumgarteCase::Fixed {
-            alpha_per_s,
-            beta_per_s,
-        } => BaumgarteChoice::Fixed {
-            alpha: not_negative(&format!("{key}.fixed.alpha_per_s"), alpha_per_s)?,
-            beta: not_negative(&format!("{key}.fixed.beta_per_s"), beta_per_s)?,
-        },
+            alpha_per_s: alpha,
+            beta_per_s: beta,
+        } => BaumgarteChoice::Fixed { alpha, beta },
     };
     let kept = match case.stabilisation {
         StabilisationCase::Baumgarte => StabilizationChoice::Baumgarte(choice),
         StabilisationCase::Projection => StabilizationChoice::Projection,
         StabilisationCase::None => StabilizationChoice::None,
     };
-    Ok(match case.formulation.unwrap_or(Formulation::Momentum) {
+    match case.formulation.value() {
         Formulation::Momentum => FormulationChoice::Momentum,
         Formulation::Euler => FormulationChoice::Euler(choice),
         Formulation::Quaternion => FormulationChoice::Quaternion(kept),
-    })
-}
-
-/// What is not said: the quaternion form where joints close loops, the momentum form else;
-/// Hamming's method with air, order eight without.
-pub(super) fn fill_defaults(case: &mut Case, joints: &[JointSetup]) {
-    let again = |k: usize| joints[..k].iter().any(|j| j.child == joints[k].child);
-    let loops = (0..joints.len()).any(again);
-    let form = if loops {
-        Formulation::Quaternion
-    } else {
-        Formulation::Momentum
-    };
-    case.dynamics.formulation.get_or_insert(form);
-    let method = if case.air.model == AirModel::None {
-        IntegratorCase::OrderEight
-    } else {
-        IntegratorCase::Hamming
-    };
-    case.dynamics.integrator.get_or_insert(method);
+    }
 }
 
 /// By which method.
 pub(super) fn integrator(case: &Case) -> Built<IntegratorChoice> {
-    let (dynamics, key) = (&case.dynamics, "dynamics.integrator");
-    let choice = match dynamics.integrator.unwrap_or(IntegratorCase::Hamming) {
+    let dynamics = &case.dynamics;
+    let choice = match dynamics.integrator.value() {
         IntegratorCase::Hamming => IntegratorChoice::Hamming,
         IntegratorCase::Adams => IntegratorChoice::Adams,
         IntegratorCase::RungeKutta => IntegratorChoice::RungeKutta,
         IntegratorCase::OrderEight => IntegratorChoice::OrderEight {
-            tolerance: positive("dynamics.tolerance", dynamics.tolerance)?,
+            tolerance: dynamics.tolerance,
         },
     };
     if case.air.model == AirModel::VortexLattice && choice != IntegratorChoice::Hamming {
         return Err(Fault::new(
-            key,
+            "dynamics.integrator",
             "a wake is moved once per step: only Hamming's method carries it along",
             "hamming with air.model = \"vortex_lattice\"",
             "remove the key, or set it to \"hamming\"",
         ));
     }
-    let projects = dynamics.formulation == Some(Formulation::Quaternion)
+    let projects = dynamics.formulation.value() == Formulation::Quaternion
         && dynamics.stabilisation == StabilisationCase::Projection;
     if projects && !choice.is_one_step() {
         return Err(Fault::new(
@@ -193,13 +142,13 @@ pub(super) fn check_attitudes(case: &Case, setup: &FlightSetup) -> Built<()> {
         return Ok(());
     }
     let angles = start_angles(&case.flight);
-    if EulerSequence::BODY_231.regularity(angles) < LEAST_REGULARITY {
+    if EulerSequence::BODY_231.regularity(angles) < MIN_REGULARITY {
         return Err(singular("flight.yaw_deg", "yaw of the body"));
     }
     let root = EulerSequence::BODY_231.rotation(angles);
     for wing in &setup.animal.wings {
         let attitude = EulerSequence::WING_132.angles(root * wing.motion.at(0.0).c);
-        if EulerSequence::WING_132.regularity(attitude) < LEAST_REGULARITY {
+        if EulerSequence::WING_132.regularity(attitude) < MIN_REGULARITY {
             let what = format!(
                 "deviation angle of wing `{}` seen from the inertial frame",
                 wing.name
@@ -239,7 +188,7 @@ fn applied(path: &str, load: &LoadCase, animal: &Animal) -> Built<AppliedLoad> {
             "use one of these names",
         )
     })?;
-    let f = not_negative(&format!("{path}.frequency_hz"), load.frequency_hz)?;
+    let f = load.frequency_hz;
     let series = |constant: &[f64; 3], cosine: &[[f64; 3]], sine: &[[f64; 3]]| {
         std::array::from_fn(|i| DriftingFourier {
             constant: constant[i],
@@ -251,10 +200,7 @@ fn applied(path: &str, load: &LoadCase, animal: &Animal) -> Built<AppliedLoad> {
     };
     Ok(AppliedLoad {
         body,
-        frame: match load.frame {
-            FrameCase::Body => LoadFrame::Body,
-            FrameCase::Inertial => LoadFrame::Inertial,
-        },
+        frame: load.frame,
         point: vector(load.point_m),
         force: series(
             &load.force_newton,

@@ -77,7 +77,7 @@ fn build(case: &Case, animal: &Animal, name: &str, joint: &JointCase) -> Built<J
             "remove it",
         ));
     }
-    let frequency = case.motion.frequency_hz.unwrap_or(0.0);
+    let frequency = case.motion.frequency_hz.value();
     let law = match &joint.turn {
         Some(t) => Some(Arc::new(turn(&path, t, frequency)?) as _),
         None => None,
@@ -128,7 +128,7 @@ fn anchors(
         Fault::new(
             format!("{path}.at_m"),
             "this key is missing",
-            "the joint point in body axes in the posture of reference; on a wing in wing axes",
+            "the joint point in body axes in the reference configuration; on a wing in wing axes",
             "add `at_m = [..., ..., ...]`",
         )
     })?;
@@ -318,7 +318,7 @@ pub(super) fn blame(case: &Case, setup: &FlightSetup, error: &DynamicsError) -> 
         DynamicsError::BadJoint { joint, .. } => (of_joint(joint), "correct this joint"),
         DynamicsError::NotAssembled { joint, .. } => (
             of_joint(joint),
-            "check at_m and axes of the joints of the loop: they hold in the posture of reference",
+            "check at_m and axes of the joints of the loop: they hold in the reference configuration",
         ),
         DynamicsError::Loop { joint, .. } => (
             of_joint(joint),

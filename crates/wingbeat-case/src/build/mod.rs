@@ -1,4 +1,4 @@
-//! From the raw case to the validated setup, in one place.
+//! From the resolved case to the validated setup, in one place.
 //!
 //! Every step answers with a [`Fault`] that names the key it is about.
 
@@ -10,13 +10,15 @@ mod derivatives;
 mod element;
 mod flight;
 mod joint;
+mod lattice;
+mod lengths;
 mod motion;
 mod output;
 mod segment;
 mod time;
+mod wind;
 mod wing;
 
-pub use motion::data_sets;
 pub(crate) use output::output;
 
 use serde::Serialize;
@@ -31,28 +33,21 @@ type Built<T> = Result<T, Fault>;
 
 /// Panels of a wing or of a part of the body at most.
 const MOST_PANELS: usize = 10_000;
-/// Passes of the corrector at most.
-const MOST_PASSES: usize = 10_000;
 
-/// The setup of a case whose files are read in. Defaults that depend on other keys (vortex core,
-/// frequency of a data set) are filled into `case` on the way.
-pub(crate) fn setup(case: &mut Case, name: &str) -> Built<FlightSetup> {
-    check_format(case.format)?;
-    motion::fill_defaults(case)?;
+/// The setup of a resolved case.
+pub(crate) fn setup(case: &Case, name: &str) -> Built<FlightSetup> {
     let animal = animal(case, name)?;
     let time = time::grid(case)?;
-    air::fill_defaults(case, &animal);
     let joints = joint::build_all(case, &animal)?;
-    flight::fill_defaults(case, &joints);
     let setup = FlightSetup {
         name: name.to_owned(),
         gravity: case.gravity_m_s2.into(),
-        air: air::options(case, &animal)?,
-        mode: flight::mode(case, &time)?,
+        air: air::model(case, &animal)?,
+        mode: flight::mode(case, &time),
         joints,
-        formulation: flight::formulation(&case.dynamics)?,
+        formulation: flight::formulation(&case.dynamics),
         integrator: flight::integrator(case)?,
-        corrector: corrector(&case.corrector)?,
+        corrector: corrector(&case.corrector),
         loads: flight::loads(case, &animal)?,
         feedback: None,
         animal,
@@ -66,18 +61,6 @@ pub(crate) fn setup(case: &mut Case, name: &str) -> Built<FlightSetup> {
     Ok(setup)
 }
 
-fn check_format(format: u32) -> Built<()> {
-    if format == 1 {
-        return Ok(());
-    }
-    Err(Fault::new(
-        "format",
-        "this version of the case language is unknown",
-        "1",
-        "use the version of wingbeat the case was written for, or port it to format = 1",
-    ))
-}
-
 fn animal(case: &Case, name: &str) -> Built<Animal> {
     let body = body::build(&case.body)?;
     let wings = wing::build_all(case)?;
@@ -88,7 +71,7 @@ fn animal(case: &Case, name: &str) -> Built<Animal> {
     };
     segment::split(case, &mut animal)?;
     animal.check().map_err(|e| blame_animal(case, e))?;
-    let scale = positive("animal.scale", case.animal.scale)?;
+    let scale = case.animal.scale;
     let mut animal = animal
         .scaled(scale)
         .map_err(|e| Fault::new("animal.scale", e.to_string(), "a number > 0", ""))?;
@@ -124,71 +107,12 @@ fn blame_animal(case: &Case, error: ModelError) -> Fault {
     }
 }
 
-fn corrector(case: &CorrectorCase) -> Built<CorrectorSettings> {
-    let relaxation = positive("corrector.relaxation", case.relaxation)?;
-    if relaxation > 1.0 {
-        let problem = "relaxation above 1 makes the corrector overshoot";
-        return Err(Fault::new(
-            "corrector.relaxation",
-            problem,
-            "(0, 1]",
-            "1 for the plain iteration",
-        ));
+fn corrector(case: &CorrectorCase) -> CorrectorSettings {
+    CorrectorSettings {
+        tolerance: case.tolerance,
+        max_passes: case.max_passes,
+        relaxation: case.relaxation,
     }
-    Ok(CorrectorSettings {
-        tolerance: positive("corrector.tolerance", case.tolerance)?,
-        max_passes: at_most(
-            "corrector.max_passes",
-            at_least("corrector.max_passes", case.max_passes, 1)?,
-            MOST_PASSES,
-            "what has not converged after a hundred passes will not: lessen corrector.relaxation",
-        )?,
-        relaxation,
-    })
-}
-
-/// A number > 0 at `key`.
-fn positive(key: &str, value: f64) -> Built<f64> {
-    if value > 0.0 {
-        return Ok(value);
-    }
-    let problem = if value < 0.0 {
-        "this must not be negative"
-    } else {
-        "this must not be zero"
-    };
-    Err(Fault::new(
-        key,
-        problem,
-        "a finite number > 0",
-        "give a measured or estimated value",
-    ))
-}
-
-/// A number >= 0 at `key`.
-fn not_negative(key: &str, value: f64) -> Built<f64> {
-    if value >= 0.0 {
-        return Ok(value);
-    }
-    Err(Fault::new(
-        key,
-        "this must not be negative",
-        "a finite number >= 0",
-        "remove the minus sign",
-    ))
-}
-
-/// A whole number >= `least` at `key`.
-fn at_least(key: &str, value: usize, least: usize) -> Built<usize> {
-    if value >= least {
-        return Ok(value);
-    }
-    Err(Fault::new(
-        key,
-        "this is too small",
-        format!("a whole number >= {least}"),
-        format!("{least} is the least"),
-    ))
 }
 
 /// A number of panels, rows times columns at `keys`, that a lattice can have.

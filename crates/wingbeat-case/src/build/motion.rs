@@ -1,113 +1,27 @@
 //! `[motion]` and `[wing.NAME.motion]`: angle laws and shipped data sets.
 
-use wingbeat_model::kinematics::{self, FwuavInsect, PublishedMotion, Timing};
 use wingbeat_model::motion::{
     Adjustment, Fourier, Oval, PeriodicSpline, SmoothSquare, SmoothTriangle,
 };
 use wingbeat_model::{AngleLaw, AngleLaws, Side, Start, WingMotion};
 
-use super::{Built, at_least, not_negative, positive};
-use crate::decode::nearest;
+use super::Built;
+use crate::data::find_data;
 use crate::error::Fault;
 use crate::raw::{
     AngleCase, Case, FourierCase, MotionCase, StartCase, TableCase, WingCase, WingMotionCase,
 };
-
-/// Names of the shipped sets of wing angles with a line about each.
-pub fn data_sets() -> Vec<(&'static str, String)> {
-    NAMES
-        .iter()
-        .map(|&n| (n, data_set(n).map_or(String::new(), |d| d.name)))
-        .collect()
-}
-
-const NAMES: [&str; 15] = [
-    "fry-hover",
-    "robofly-advanced",
-    "robofly-symmetrical",
-    "robofly-delayed",
-    "robofly-sane-advanced",
-    "robofly-sane-symmetrical",
-    "robofly-sane-delayed",
-    "robofly-table-advanced",
-    "robofly-table-symmetrical",
-    "robofly-table-delayed",
-    "berman-wang-fruit-fly",
-    "whitehead-fruit-fly",
-    "fwuav-monarch",
-    "fwuav-hawkmoth",
-    "fwuav-bumblebee",
-];
-
-fn data_set(name: &str) -> Option<PublishedMotion> {
-    // Dickinson's robot: total stroke 160 deg, angle of attack at mid stroke 40 deg.
-    let (stroke, attack) = (160f64.to_radians(), 40f64.to_radians());
-    let timing = match name.rsplit('-').next()? {
-        "advanced" => Timing::Advanced,
-        "delayed" => Timing::Delayed,
-        _ => Timing::Symmetrical,
-    };
-    match name {
-        "fry-hover" => Some(kinematics::fry_hover()),
-        "berman-wang-fruit-fly" => Some(kinematics::berman_wang_fruit_fly()),
-        "whitehead-fruit-fly" => Some(kinematics::whitehead_fruit_fly()),
-        "fwuav-monarch" => Some(kinematics::fwuav_hover(FwuavInsect::Monarch).0),
-        "fwuav-hawkmoth" => Some(kinematics::fwuav_hover(FwuavInsect::Hawkmoth).0),
-        "fwuav-bumblebee" => Some(kinematics::fwuav_hover(FwuavInsect::Bumblebee).0),
-        _ if !NAMES.contains(&name) => None,
-        _ if name.contains("table") => kinematics::robofly_table(timing).ok(),
-        _ if name.contains("sane") => Some(kinematics::robofly_sane_dickinson2001(
-            timing, stroke, attack,
-        )),
-        _ => Some(kinematics::robofly_dickinson1999(timing, stroke, attack)),
-    }
-}
-
-fn find_data(key: &str, name: &str) -> Built<PublishedMotion> {
-    data_set(name).ok_or_else(|| {
-        let remedy = match nearest(name, &NAMES) {
-            Some(near) => format!("did you mean `{near}`?"),
-            None => "give the angles phi, theta, psi of your own".to_owned(),
-        };
-        Fault::new(
-            key,
-            "there is no such set of wing angles",
-            NAMES.join(", "),
-            remedy,
-        )
-    })
-}
-
-/// Frequency and stroke plane of the data set, where the case leaves them open.
-pub(super) fn fill_defaults(case: &mut Case) -> Built<()> {
-    let data = match &case.motion.data {
-        Some(name) => Some(find_data("motion.data", name)?),
-        None => None,
-    };
-    let from_data = |f: fn(&PublishedMotion) -> Option<f64>| data.as_ref().and_then(f);
-    let motion = &mut case.motion;
-    let frequency = motion
-        .frequency_hz
-        .or(from_data(|d| d.frequency))
-        .unwrap_or(0.0);
-    motion.frequency_hz = Some(not_negative("motion.frequency_hz", frequency)?);
-    if motion.stroke_plane_pitch_deg.is_none() {
-        let pitch = from_data(|d| d.stroke_plane_pitch).unwrap_or(0.0);
-        motion.stroke_plane_pitch_deg = Some(pitch.to_degrees());
-    }
-    Ok(())
-}
 
 /// The motion of one wing.
 pub(super) fn law(case: &Case, name: &str, wing: &WingCase, side: Side) -> Built<WingMotion> {
     let none = WingMotionCase::default();
     let own = wing.motion.as_ref().unwrap_or(&none);
     let path = format!("wing.{name}.motion");
-    let frequency = case.motion.frequency_hz.unwrap_or(0.0);
+    let frequency = case.motion.frequency_hz.value();
     let laws = laws(case, &path, own, side)?;
     let pitch = own
         .stroke_plane_pitch_deg
-        .or(case.motion.stroke_plane_pitch_deg);
+        .unwrap_or(case.motion.stroke_plane_pitch_deg.value());
     let still = |law: &AngleLaw| matches!(law, AngleLaw::Constant(_));
     if frequency == 0.0 && ![&laws.phi, &laws.theta, &laws.psi].into_iter().all(still) {
         return Err(Fault::new(
@@ -121,8 +35,8 @@ pub(super) fn law(case: &Case, name: &str, wing: &WingCase, side: Side) -> Built
         angles: laws,
         frequency,
         phase: own.phase.unwrap_or(case.motion.phase),
-        stroke_plane_pitch: pitch.unwrap_or(0.0).to_radians(),
-        start: start(case, frequency)?,
+        stroke_plane_pitch: pitch.to_radians(),
+        start: start(case, frequency),
     };
     Ok(motion.adjusted(side, &adjustment(&case.motion)))
 }
@@ -141,14 +55,13 @@ fn adjustment(motion: &MotionCase) -> Adjustment {
     }
 }
 
-fn start(case: &Case, frequency: f64) -> Built<Start> {
-    let beats = positive("motion.start_beats", case.motion.start_beats)?;
-    Ok(match case.motion.start {
+fn start(case: &Case, frequency: f64) -> Start {
+    match case.motion.start {
         StartCase::Smooth if frequency > 0.0 => Start::Smooth {
-            duration: beats / frequency,
+            duration: case.motion.start_beats / frequency,
         },
         _ => Start::Impulsive,
-    })
+    }
 }
 
 fn laws(case: &Case, path: &str, own: &WingMotionCase, side: Side) -> Built<AngleLaws> {
@@ -209,13 +122,13 @@ fn angle_law(path: &str, case: &AngleCase) -> Built<AngleLaw> {
         }
         AngleCase::SmoothSquare(s) => AngleLaw::SmoothSquare(SmoothSquare {
             amplitude: s.amplitude_deg.to_radians(),
-            shape: not_negative(&format!("{path}.smooth_square.shape"), s.shape)?,
+            shape: s.shape,
             shift: s.shift_deg.to_radians(),
             mean: s.mean_deg.to_radians(),
         }),
         AngleCase::Oval(o) => AngleLaw::Oval(Oval {
             amplitude: o.amplitude_deg.to_radians(),
-            count: at_least(&format!("{path}.oval.count"), o.count, 1)?,
+            count: o.count,
             shift: o.shift_deg.to_radians(),
             mean: o.mean_deg.to_radians(),
         }),

@@ -4,7 +4,7 @@ use wingbeat_flight::JointSetup;
 use wingbeat_math::{DMat3, DVec3, MassProperties};
 use wingbeat_model::{Animal, BodyPart, Segment};
 
-use super::{Built, positive, symmetric, vector};
+use super::{Built, symmetric, vector};
 use crate::error::Fault;
 use crate::raw::{Case, SegmentCase};
 
@@ -96,7 +96,6 @@ fn mass(path: &str, case: &SegmentCase, parts: &[BodyPart], lumped: bool) -> Bui
             Ok(parts.iter().fold(MassProperties::ZERO, |a, p| a + p.mass))
         }
         (Some(m), Some(j)) => {
-            let m = positive(&format!("{path}.mass_kg"), m)?;
             let given = MassProperties::about_centre(
                 m,
                 vector(case.centre_m.unwrap_or_default()),

@@ -1,14 +1,12 @@
 //! `[wing.NAME]`: planform, mesh, mass, hinge; twins by mirror symmetry.
 
 use wingbeat_math::{DVec3, MassProperties};
-use wingbeat_model::planform::{Beta, ChordSize, Planform, Spacing, WingShape};
+use wingbeat_model::planform::{Beta, ChordSize, Planform, WingShape};
 use wingbeat_model::{MassInput, Side, Wing};
 
-use super::{
-    Built, at_least, blame, deformation, motion, not_negative, panels, positive, symmetric, vector,
-};
+use super::{Built, blame, deformation, motion, panels, symmetric, vector};
 use crate::error::Fault;
-use crate::raw::{BetaCase, Case, PlanformCase, SideCase, SpacingCase, WingCase, WingMeshCase};
+use crate::raw::{BetaCase, Case, PlanformCase, WingCase, WingMeshCase};
 
 /// All wings in the order of their names, mirrored twins among them.
 pub(super) fn build_all(case: &Case) -> Built<Vec<Wing>> {
@@ -47,8 +45,7 @@ pub(super) fn twin_name(name: &str) -> Option<String> {
 
 fn side(name: &str, own: &WingCase) -> Built<Side> {
     match own.side {
-        Some(SideCase::Left) => Ok(Side::Left),
-        Some(SideCase::Right) => Ok(Side::Right),
+        Some(side) => Ok(side),
         None if name.contains("right") => Ok(Side::Right),
         None if name.contains("left") => Ok(Side::Left),
         None => Err(Fault::new(
@@ -154,35 +151,28 @@ fn shape(source: &Source<'_>) -> Built<WingShape> {
     panels([&chordwise, &spanwise], [mesh.chordwise, mesh.spanwise])?;
     Ok(WingShape {
         planform: planform(&path, case)?,
-        rows: at_least(&chordwise, mesh.chordwise, 1)?,
-        cols: at_least(&spanwise, mesh.spanwise, 1)?,
-        chordwise: spacing(mesh.chordwise_spacing),
-        spanwise: spacing(mesh.spanwise_spacing),
+        rows: mesh.chordwise,
+        cols: mesh.spanwise,
+        chordwise: mesh.chordwise_spacing,
+        spanwise: mesh.spanwise_spacing,
     })
-}
-
-fn spacing(case: SpacingCase) -> Spacing {
-    match case {
-        SpacingCase::Uniform => Spacing::Uniform,
-        SpacingCase::Cosine => Spacing::Cosine,
-    }
 }
 
 fn planform(path: &str, case: &PlanformCase) -> Built<Planform> {
     let points = |list: &[[f64; 2]]| list.iter().map(|&[r, x]| (r, x)).collect();
     Ok(match case {
         PlanformCase::Beta(b) => Planform::Beta(Beta {
-            length: positive(&format!("{path}.beta.length_m"), b.length_m)?,
+            length: b.length_m,
             size: chord_size(&format!("{path}.beta"), b)?,
-            r2_hat: positive(&format!("{path}.beta.r2_hat"), b.r2_hat)?,
-            root_offset: not_negative(&format!("{path}.beta.root_offset_m"), b.root_offset_m)?,
+            r2_hat: b.r2_hat,
+            root_offset: b.root_offset_m,
             axis_fraction: b.axis_fraction,
             least_chord: b.least_chord,
         }),
         PlanformCase::Rectangle(r) => Planform::Rectangle {
-            chord: positive(&format!("{path}.rectangle.chord_m"), r.chord_m)?,
-            span: positive(&format!("{path}.rectangle.span_m"), r.span_m)?,
-            root_offset: not_negative(&format!("{path}.rectangle.root_offset_m"), r.root_offset_m)?,
+            chord: r.chord_m,
+            span: r.span_m,
+            root_offset: r.root_offset_m,
             axis_fraction: r.axis_fraction,
         },
         PlanformCase::Outline(o) => Planform::Outline {
@@ -195,17 +185,14 @@ fn planform(path: &str, case: &PlanformCase) -> Built<Planform> {
 
 fn chord_size(path: &str, b: &BetaCase) -> Built<ChordSize> {
     match (b.mean_chord_m, b.area_m2, b.max_chord_m) {
-        (Some(c), None, None) => Ok(ChordSize::Mean(positive(
-            &format!("{path}.mean_chord_m"),
-            c,
-        )?)),
-        (None, Some(s), None) => Ok(ChordSize::Area(positive(&format!("{path}.area_m2"), s)?)),
-        (None, None, Some(c)) => Ok(ChordSize::Max(positive(&format!("{path}.max_chord_m"), c)?)),
-        _ => Err(Fault::new(
+        (Some(c), _, _) => Ok(ChordSize::Mean(c)),
+        (_, Some(s), _) => Ok(ChordSize::Area(s)),
+        (_, _, Some(c)) => Ok(ChordSize::Max(c)),
+        (None, None, None) => Err(Fault::new(
             path,
-            "the chord must be given once",
+            "the chord is missing",
             "one of mean_chord_m, area_m2, max_chord_m",
-            "keep the one that was measured",
+            "give the one that was measured",
         )),
     }
 }
@@ -213,26 +200,15 @@ fn chord_size(path: &str, b: &BetaCase) -> Built<ChordSize> {
 fn mass(source: &Source<'_>) -> Built<MassInput> {
     let (name, wing, mirrored) = source.of(has_mass);
     let path = format!("wing.{name}");
-    let given = [
-        wing.mass_kg.is_some(),
-        wing.areal_density_kg_m2.is_some(),
-        wing.areal_density_table_m_kg_m2.is_some(),
-    ];
-    match given.iter().filter(|&&g| g).count() {
-        0 => Err(Fault::new(
+    if !has_mass(wing) {
+        return Err(Fault::new(
             format!("{path}.mass_kg"),
             "the wing has no mass",
             "mass_kg, areal_density_kg_m2 or areal_density_table_m_kg_m2 (0 for a massless wing)",
             "an insect's wing has 0.5 to 1 % of the body mass",
-        )),
-        1 => mass_input(&path, wing, mirrored),
-        _ => Err(Fault::new(
-            format!("{path}.mass_kg"),
-            "the mass is given more than once",
-            "one of mass_kg, areal_density_kg_m2, areal_density_table_m_kg_m2",
-            "keep the one that was measured",
-        )),
+        ));
     }
+    mass_input(&path, wing, mirrored)
 }
 
 fn has_mass(w: &WingCase) -> bool {
@@ -243,18 +219,14 @@ fn has_mass(w: &WingCase) -> bool {
 
 fn mass_input(path: &str, wing: &WingCase, mirrored: bool) -> Built<MassInput> {
     if let Some(d) = wing.areal_density_kg_m2 {
-        let key = format!("{path}.areal_density_kg_m2");
-        return Ok(MassInput::Density(not_negative(&key, d)?));
+        return Ok(MassInput::Density(d));
     }
     if let Some(rows) = &wing.areal_density_table_m_kg_m2 {
-        for (k, &[_, d]) in rows.iter().enumerate() {
-            not_negative(&format!("{path}.areal_density_table_m_kg_m2[{k}][1]"), d)?;
-        }
         return Ok(MassInput::SpanTable(
             rows.iter().map(|&[r, d]| (r, d)).collect(),
         ));
     }
-    let m = not_negative(&format!("{path}.mass_kg"), wing.mass_kg.unwrap_or_default())?;
+    let m = wing.mass_kg.unwrap_or_default();
     let Some([xx, yy, zz, xy, xz, yz]) = wing.inertia_about_centre_kg_m2 else {
         return Ok(MassInput::Total(m));
     };

@@ -2,279 +2,260 @@
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use smart_default::SmartDefault;
+use wingbeat_air::{CirculationRate, Convection, EdgeKind, LoadMethod, Method};
 
-use super::{BladeCase, DerivativesCase, ExternalCase};
+use super::cores::{CoreCase, LambOseenCase};
+use super::wind::{GroundCase, GustCase};
+use super::{BladeCase, DerivativesCase, ExternalCase, Open, ParticlesCase, SectionDragCase};
+
+/// Keys of the vortex lattice.
+const LATTICE: &str = "air.model = vortex_lattice";
+/// Keys of the air that moves.
+const WIND: &str = "air.model = vortex_lattice | blade_element";
+/// Keys of the undisturbed air.
+const FLUID: &str = "air.model = vortex_lattice | blade_element | derivatives";
+
+/// Kinematic viscosity of air at 20 degrees Celsius \[m2/s\].
+pub(super) const AIR: f64 = 1.5e-5;
 
 /// The air and its model.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, SmartDefault, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct AirCase {
-    /// `vortex_lattice`: non-linear, unsteady, with free wakes; `blade_element`: quasi-steady
-    /// strips, fast; `derivatives`: a table of stability derivatives acting on the body;
-    /// `external`: a program of your own; `none`: vacuum.
+    /// The model of the air.
+    ///
+    /// Change it to `blade_element` for speed, to `none` to see what inertia alone does.
+    #[default(AirModel::VortexLattice)]
     pub model: AirModel,
-    /// Density.
+    /// Density of the air.
+    ///
+    /// Change it for another altitude or fluid.
+    #[default = 1.225]
+    #[schemars(extend("exclusiveMinimum" = 0, "with" = FLUID))]
     pub density_kg_m3: f64,
     /// Velocity of the undisturbed air, inertial axes.
+    ///
+    /// Change it for wind, or for a tunnel: a body at rest in a stream.
+    #[schemars(extend("with" = FLUID))]
     pub stream_m_s: [f64; 3],
     /// Whether head, thorax and abdomen are part of the lattice.
+    ///
+    /// Change it to false where the body hardly moves the air at the wings: the flight is faster.
+    #[default = true]
+    #[schemars(extend("with" = LATTICE))]
     pub body: bool,
     /// The flight is mirror-symmetric: the air is computed on one half. Lateral motion cannot
     /// grow; a motion that is not symmetric is refused.
+    ///
+    /// Change it to true for symmetric flight: it costs half as much.
+    #[schemars(extend("with" = LATTICE))]
     pub mirror: bool,
     /// Edges of the wings that shed wakes.
-    pub shed: Vec<EdgeCase>,
-    /// Core of the vortex filaments on the surfaces; default a cut-off of 0.01 mean panel
-    /// lengths.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub bound_core: Option<CoreCase>,
-    /// Core of the vortex filaments in the wakes: a physical input of hover. Default as
-    /// `bound_core`.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub wake_core: Option<CoreCase>,
-    /// Set of numerical choices: what the keys `circulation_rate`, `convection` and `ring_inset`
-    /// are where they are left out. `benchmark`: the published benchmark's, first order;
-    /// `accurate`: second order, rings at quarter panels, newest wake row matched to the lattice.
-    pub scheme: SchemeCase,
-    /// How the rate of change of circulation in the pressure is formed; default by `scheme`.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub circulation_rate: Option<CirculationRateCase>,
+    ///
+    /// Change it to trailing edges alone where the flow stays attached, as in cruise.
+    #[default(vec![EdgeKind::Trailing, EdgeKind::Tip, EdgeKind::Leading])]
+    #[schemars(extend("with" = LATTICE))]
+    pub shed: Vec<EdgeKind>,
+    /// Core of the vortex filaments on the surfaces. Default: Lamb and Oseen's, 0.01 mean chords.
+    ///
+    /// Change it with care: a core wider than half a panel spoils the Kutta condition.
+    #[default(LambOseenCase::chords(0.01))]
+    #[schemars(extend("with" = LATTICE))]
+    pub bound_core: CoreCase,
+    /// Core of the vortex filaments in the wakes: a physical input of hover. Default: Lamb and
+    /// Oseen's, from 0.07 mean chords on.
+    ///
+    /// Change it by a factor of two both ways to see what hangs on it.
+    #[default(LambOseenCase::chords(0.07))]
+    #[schemars(extend("with" = LATTICE))]
+    pub wake_core: CoreCase,
     /// Least core radius of a free wake filament over its length: keeps wakes resolved that the flow
-    /// stretches; default 1, or 0 where `wake_core` is a cut-off, which has no radius.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub wake_overlap: Option<f64>,
-    /// Length from which a wake filament turns into a vortex blob, wholly at 1.25 times this length; left out: never.
-    /// Blobs are summed on a mesh: the cost of long flights then grows with the wake and not with its square.
-    /// Two mean chords are a good length; needs `wake_overlap` of 0.5 or more.
+    /// stretches. Default: 1, or 0 where `wake_core` is a cut-off, which has no radius.
+    ///
+    /// Change it to 0 to compare with codes whose cores do not widen; long hover then blows up.
+    #[schemars(extend("minimum" = 0, "with" = LATTICE))]
+    #[serde(skip_serializing_if = "Open::is_open")]
+    pub wake_overlap: Open<f64>,
+    /// Length from which a wake filament turns into a vortex blob, wholly at 1.25 times this
+    /// length; left out: never. Blobs are summed on a mesh: the cost of long flights then grows
+    /// with the wake and not with its square. Needs `wake_overlap` of 0.5 or more.
+    ///
+    /// Change it for flights of more than ten beats: two mean chords.
+    #[schemars(extend("exclusiveMinimum" = 0, "with" = LATTICE))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub wake_blob_length_m: Option<f64>,
-    /// How wake nodes are moved; default by `scheme`.
+    /// The length of `wake_blob_length_m` in mean chords of all wings.
+    ///
+    /// Change it for flights of more than ten beats: 2 is a good length.
+    #[schemars(extend("exclusiveMinimum" = 0, "with" = LATTICE, "or" = "wake_blob_length_m"))]
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub convection: Option<ConvectionCase>,
-    /// Part of a panel by which rings stay inside side edges that do not shed, 0 to below 0.5;
-    /// default by `scheme`: 0 or 0.25.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub ring_inset: Option<f64>,
+    pub wake_blob_length_chords: Option<f64>,
+    /// Set of numerical choices: what the keys `circulation_rate`, `convection` and `ring_inset`
+    /// are where they are left out, and how the newest wake row meets its edge.
+    ///
+    /// Change it to `benchmark` to reproduce published first-order results.
+    #[default(SchemeCase::Accurate)]
+    #[schemars(extend("with" = LATTICE))]
+    pub scheme: SchemeCase,
+    /// How the rate of change of circulation in the pressure is formed. Default: by `scheme`.
+    ///
+    /// Change it to `omitted` for quasi-steady loads.
+    #[schemars(extend("with" = LATTICE))]
+    #[serde(skip_serializing_if = "Open::is_open")]
+    pub circulation_rate: Open<CirculationRate>,
+    /// How wake nodes are moved. Default: by `scheme`.
+    ///
+    /// Change it to study the order of the method in the step.
+    #[schemars(extend("with" = LATTICE))]
+    #[serde(skip_serializing_if = "Open::is_open")]
+    pub convection: Open<Convection>,
+    /// Part of a panel by which rings stay inside side edges that do not shed. Default: by `scheme`,
+    /// 0 or 0.25.
+    ///
+    /// Change it to 0 for rings on the panel edges.
+    #[schemars(extend("minimum" = 0, "exclusiveMaximum" = 0.5, "with" = LATTICE))]
+    #[serde(skip_serializing_if = "Open::is_open")]
+    pub ring_inset: Open<f64>,
     /// How forces follow from circulations.
-    pub loads: LoadMethodCase,
+    ///
+    /// Change it to `joukowski` for attached flow, whose leading edges carry suction.
+    #[default(LoadMethod::Pressure)]
+    #[schemars(extend("with" = LATTICE))]
+    pub loads: LoadMethod,
     /// Where the flow leaves leading edges, if `shed` names them.
+    ///
+    /// Change it where measurements tell when a wing of this section stalls.
+    #[default(LeadingEdgeCase::Always)]
+    #[schemars(extend("with" = [LATTICE, "shed = leading"]))]
     pub leading_edge: LeadingEdgeCase,
-    /// Threshold of `leading_edge = "angle_of_attack"`.
+    /// Effective angle of attack above which a strip sheds from its leading edge.
+    ///
+    /// Change it with the section of the wing and its Reynolds number.
+    #[schemars(extend("exclusiveMinimum" = 0, "maximum" = 180, "with" = [LATTICE, "leading_edge = angle_of_attack"]))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub leading_edge_threshold_deg: Option<f64>,
-    /// Threshold of `leading_edge = "suction"`, the leading-edge suction parameter.
+    /// Leading-edge suction parameter above which a strip sheds from its leading edge.
+    ///
+    /// Change it with the section of the wing and its Reynolds number.
+    #[schemars(extend("exclusiveMinimum" = 0, "with" = [LATTICE, "leading_edge = suction"]))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub leading_edge_threshold: Option<f64>,
     /// Gusts, added to the stream.
+    ///
+    /// Change it to meet the animal with one; several add up.
+    #[schemars(extend("with" = WIND, "always" = true))]
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub gust: Vec<GustCase>,
-    /// Gradient of a steady shear in 1/s, three rows: the velocity (gradient x place) is added to
-    /// the stream.
+    /// Gradient of a steady shear, three rows: the velocity (gradient x position) is added to the
+    /// stream; left out: none.
+    ///
+    /// Change it for flight near the ground or in a wake.
+    #[schemars(extend("with" = WIND, "always" = true))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub shear_1_s: Option<[[f64; 3]; 3]>,
-    /// A plane through which no air goes.
+    /// A plane through which no air goes; left out: none.
+    ///
+    /// Change it for take-off, landing and hovering near the ground.
+    #[schemars(extend("with" = LATTICE, "always" = true))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub ground: Option<GroundCase>,
     /// Wake rows older than this are dropped; left out: none.
+    ///
+    /// Change it to make long flights cheaper; what is dropped is missing.
+    #[schemars(extend("exclusiveMinimum" = 0, "with" = LATTICE))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub max_wake_age_s: Option<f64>,
     /// Wake rows farther than this from their edge are dropped; left out: none.
+    ///
+    /// Change it to make long flights cheaper; what is dropped is missing.
+    #[schemars(extend("exclusiveMinimum" = 0, "with" = LATTICE))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub max_wake_distance_m: Option<f64>,
+    /// The distance of `max_wake_distance_m` in mean chords of all wings.
+    ///
+    /// Change it to make long flights cheaper; what is dropped is missing.
+    #[schemars(extend("exclusiveMinimum" = 0, "with" = LATTICE, "or" = "max_wake_distance_m"))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub max_wake_distance_chords: Option<f64>,
     /// Rows kept in each wake sheet; left out: all.
+    ///
+    /// Change it to make long flights cheaper; what is dropped is missing.
+    #[schemars(range(min = 1), extend("with" = LATTICE))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub max_wake_rows: Option<usize>,
-    /// Longest way of a wake node in a step; left out: no limit.
+    /// Longest displacement of a wake node in a step; left out: no limit.
+    ///
+    /// Change it as a last resort against wakes that blow up: it is counted and reported.
+    #[schemars(extend("exclusiveMinimum" = 0, "with" = LATTICE))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub max_displacement_m: Option<f64>,
     /// Wake nodes keep this distance from surfaces and do not pass through them, which is
     /// counted and reported; 0 lets them pass (the published benchmark's).
-    pub clearance_m: f64,
+    ///
+    /// Change it with the cores: a little more than the radius of those in the wake.
+    #[schemars(range(min = 0), extend("with" = LATTICE))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub clearance_m: Option<f64>,
+    /// The distance of `clearance_m` in mean chords of all wings. Default: 0.1, if `clearance_m` is left out.
+    ///
+    /// Change it with the cores: a little more than the radius of those in the wake.
+    #[schemars(range(min = 0), extend("with" = LATTICE, "or" = "clearance_m"))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub clearance_chords: Option<f64>,
     /// Vortex particles in place of old or leading-edge rows of wake; left out: rings only.
+    ///
+    /// Change it where sheets tangle so that rings lose their meaning.
+    #[schemars(extend("with" = LATTICE))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub particles: Option<ParticlesCase>,
     /// Friction and profile drag of the wings' sections, added to the forces of the lattice; left
     /// out: none.
+    ///
+    /// Change it where power matters: the lattice itself has no viscosity.
+    #[schemars(extend("with" = LATTICE))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub section_drag: Option<SectionDragCase>,
-    /// How the velocities of the wakes are summed: `direct`, `single`, `tree`, or whichever is fastest.
-    pub summation: SummationCase,
+    /// How the velocities of the wakes are summed.
+    ///
+    /// Change it to `direct` to see what the approximations change: less than `summation_tolerance`.
+    #[default(Method::Auto)]
+    #[schemars(extend("with" = LATTICE))]
+    pub summation: Method,
     /// Allowed error of tree and single precision, relative to the velocity; it is checked at every sum.
     /// Below 1e-5 all is in double precision.
+    ///
+    /// Change it for studies of convergence.
+    #[default = 1e-4]
+    #[schemars(range(max = 0.1), extend("exclusiveMinimum" = 0, "with" = LATTICE))]
     pub summation_tolerance: f64,
-    /// Settings of `model = "blade_element"`; the lattice's keys do not matter then.
-    #[serde(skip_serializing_if = "is_default")]
+    /// Settings of the blade elements.
+    #[schemars(extend("with" = "air.model = blade_element"))]
     pub blade: BladeCase,
-    /// Settings of `model = "derivatives"`.
+    /// Settings of the stability derivatives.
+    #[schemars(extend("with" = "air.model = derivatives"))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub derivatives: Option<DerivativesCase>,
-    /// Settings of `model = "external"`.
+    /// The program that computes the air.
+    #[schemars(extend("with" = "air.model = external"))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub external: Option<ExternalCase>,
-}
-
-fn is_default(case: &BladeCase) -> bool {
-    *case == BladeCase::default()
-}
-
-impl Default for AirCase {
-    fn default() -> Self {
-        Self {
-            model: AirModel::VortexLattice,
-            density_kg_m3: 1.225,
-            stream_m_s: [0.0; 3],
-            body: true,
-            mirror: false,
-            shed: vec![EdgeCase::Trailing, EdgeCase::Tip, EdgeCase::Leading],
-            bound_core: None,
-            wake_core: None,
-            wake_overlap: None,
-            wake_blob_length_m: None,
-            scheme: SchemeCase::Benchmark,
-            circulation_rate: None,
-            convection: None,
-            ring_inset: None,
-            loads: LoadMethodCase::Pressure,
-            leading_edge: LeadingEdgeCase::Always,
-            leading_edge_threshold_deg: None,
-            leading_edge_threshold: None,
-            gust: Vec::new(),
-            shear_1_s: None,
-            ground: None,
-            max_wake_age_s: None,
-            max_wake_distance_m: None,
-            max_wake_rows: None,
-            max_displacement_m: None,
-            clearance_m: 0.0,
-            particles: None,
-            section_drag: None,
-            summation: SummationCase::Auto,
-            summation_tolerance: 1e-4,
-            blade: BladeCase::default(),
-            derivatives: None,
-            external: None,
-        }
-    }
-}
-
-/// Vortex particles made of the wakes' rings. A strength may change by half in a step and grow to
-/// twice its first size; what would change more is held there, counted and reported.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct ParticlesCase {
-    /// Newest rows of every sheet that stay rings; left out: all.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub after_rows: Option<usize>,
-    /// Whether rows that leave leading edges become particles at once.
-    #[serde(default)]
-    pub leading_edge: bool,
-    /// Radius of new particles; default that of `wake_core` if that has one and
-    /// `wake_overlap` is 0.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub radius_m: Option<f64>,
-    /// Effective kinematic viscosity, with which they spread; default that of `wake_core`, or 0.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub viscosity_m2_s: Option<f64>,
-    /// How their strengths change.
-    #[serde(default)]
-    pub stretching: StretchingCase,
-}
-
-/// How the strengths of particles change.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum StretchingCase {
-    /// Transpose scheme: keeps the total vorticity.
-    #[default]
-    Transpose,
-    /// Classical scheme.
-    Classical,
-    /// They stay.
-    Omitted,
-}
-
-/// How velocities are summed.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum SummationCase {
-    /// The fastest one.
-    Auto,
-    /// Every filament at every place, in double precision.
-    Direct,
-    /// Every filament at every place, in single precision.
-    Single,
-    /// Far filaments by the expansions of a tree, near ones in single precision.
-    Tree,
 }
 
 /// Air model.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum AirModel {
-    /// Non-linear unsteady vortex lattice.
+    /// Non-linear unsteady vortex lattice with free wakes.
     VortexLattice,
-    /// Quasi-steady blade elements.
+    /// Quasi-steady blade elements: fast.
     BladeElement,
-    /// Stability derivatives.
+    /// A table of stability derivatives acting on the body.
     Derivatives,
     /// A program of your own.
     External,
     /// No air.
     None,
-}
-
-/// An edge of a wing.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum EdgeCase {
-    /// Trailing edge.
-    Trailing,
-    /// Wing tip.
-    Tip,
-    /// Leading edge.
-    Leading,
-    /// Root.
-    Root,
-}
-
-/// Regularisation of a vortex filament.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case", deny_unknown_fields)]
-pub enum CoreCase {
-    /// `cut_off = { length_m = ... }`: van Garrel's cut-off (the published benchmark's).
-    CutOff {
-        /// Cut-off length.
-        length_m: f64,
-    },
-    /// `vatistas = { radius_m = ... }`: Vatistas with n = 2.
-    Vatistas {
-        /// Core radius.
-        radius_m: f64,
-    },
-    /// `scully = { radius_m = ... }`.
-    Scully {
-        /// Core radius.
-        radius_m: f64,
-    },
-    /// `lamb_oseen = { radius_m = ..., viscosity_m2_s = ... }`: grows with age.
-    LambOseen {
-        /// Core radius at age zero.
-        radius_m: f64,
-        /// Effective kinematic viscosity.
-        viscosity_m2_s: f64,
-    },
-}
-
-/// How the rate of change of circulation is formed.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum CirculationRateCase {
-    /// Backward difference, first order (the published benchmark's).
-    Backward,
-    /// Backward difference over two steps, second order.
-    BackwardSecond,
-    /// Left out.
-    Omitted,
 }
 
 /// Set of numerical choices.
@@ -283,30 +264,8 @@ pub enum CirculationRateCase {
 pub enum SchemeCase {
     /// The published benchmark's: first order.
     Benchmark,
-    /// Second order, side edges inset.
+    /// Second order, rings at quarter panels, newest wake row matched to the lattice.
     Accurate,
-}
-
-/// How wake nodes are moved.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum ConvectionCase {
-    /// Explicit Euler, first order (the published benchmark's).
-    Euler,
-    /// Adams-Bashforth over two steps, second order.
-    AdamsBashforth,
-}
-
-/// How forces follow from circulations.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum LoadMethodCase {
-    /// Pressure jump times normal: no leading-edge suction (the published benchmark's).
-    Pressure,
-    /// Joukowski's force on every segment: with suction.
-    Joukowski,
-    /// Pressure, and the leading-edge suction turned into normal force (Polhamus's analogy).
-    Polhamus,
 }
 
 /// Where the flow leaves leading edges.
@@ -321,64 +280,4 @@ pub enum LeadingEdgeCase {
     AngleOfAttack,
     /// Strips whose leading-edge suction parameter exceeds `leading_edge_threshold`.
     Suction,
-}
-
-/// A gust: amplitude times a course in time; give `duration_s` or `table`.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct GustCase {
-    /// Velocity at the height of the gust, inertial axes.
-    pub amplitude_m_s: [f64; 3],
-    /// When it begins at the origin.
-    #[serde(default)]
-    pub start_s: f64,
-    /// Velocity with which its front travels; left out: it is everywhere at once.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub front_m_s: Option<[f64; 3]>,
-    /// Length of a 1-cosine gust.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub duration_s: Option<f64>,
-    /// Rows of time since the start in s and share of the amplitude, straight lines between.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub table: Option<Vec<(f64, f64)>>,
-}
-
-/// Drag of the sections of wings: `1/2 rho U^2 A C` against the velocity U of the undisturbed air past
-/// the strip, `C = friction + cd0 + cd2 alpha^2`, alpha the angle between that velocity and the strip.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct SectionDragCase {
-    /// Law of the friction.
-    #[serde(default)]
-    pub friction: FrictionCase,
-    /// Kinematic viscosity of the air; needed by the friction.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub viscosity_m2_s: Option<f64>,
-    /// Profile drag at zero incidence.
-    #[serde(default)]
-    pub cd0: f64,
-    /// Its growth with the square of the incidence.
-    #[serde(default)]
-    pub cd2_per_rad2: f64,
-}
-
-/// Law of the friction of a section.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum FrictionCase {
-    /// Laminar flat plate, both sides: `2.656 / sqrt(Re)` (Blasius).
-    #[default]
-    Blasius,
-    /// None.
-    None,
-}
-
-/// A plane through which no air goes; animal and wake stay on one side.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct GroundCase {
-    /// A point of the plane, inertial axes.
-    pub point_m: [f64; 3],
-    /// Its normal, of any length, inertial axes.
-    pub normal: [f64; 3],
 }

@@ -12,20 +12,34 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct BodyCase {
-    /// Body length; all parts are scaled together to extend this much along b1.
+    /// Body length; all parts are scaled together to extend this much along b1. Left out: parts
+    /// keep their sizes.
+    ///
+    /// Change it to the length that was measured.
+    #[schemars(extend("exclusiveMinimum" = 0))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub length_m: Option<f64>,
-    /// Mass of the body without wings.
+    /// Mass of the body without wings. Left out: the sum of its parts.
+    ///
+    /// Change it to the mass that was measured.
+    #[schemars(extend("exclusiveMinimum" = 0))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub mass_kg: Option<f64>,
-    /// Mass centre in body axes, from the body origin.
+    /// Mass centre in body axes, from the body origin. Left out: the origin.
+    ///
+    /// Change it to what was measured.
+    #[schemars(extend("with" = "inertia_about_centre_kg_m2"))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub centre_m: Option<[f64; 3]>,
     /// Inertia matrix about the mass centre in body axes: xx, yy, zz, xy, xz, yz (elements of
-    /// the matrix: a product carries its minus sign).
+    /// the matrix: a product carries its minus sign). Left out: that of the parts.
+    ///
+    /// Change it to what was measured.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub inertia_about_centre_kg_m2: Option<[f64; 6]>,
     /// Origin of the body frame, from which hinges are measured.
+    ///
+    /// Change it to `mass_centre` where hinges were measured from there.
     pub origin: OriginCase,
     /// Parts by name, e.g. `[body.part.thorax]`.
     pub part: BTreeMap<String, PartCase>,
@@ -42,49 +56,90 @@ pub enum OriginCase {
     MassCentre,
 }
 
+/// Keys of a surface of revolution.
+const REVOLUTION: [&str; 2] = ["no file", "no nodes_m"];
+
 /// One closed part of the body: a surface of revolution, or a mesh from a file.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct PartCase {
-    /// Middle of the part's axis, body axes.
+    /// Middle of the part's axis, body axes. Left out: the origin.
+    ///
+    /// Change it to put the part in its place.
+    #[schemars(extend("with" = REVOLUTION))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub centre_m: Option<[f64; 3]>,
-    /// Direction of the axis towards the front; default forward.
+    /// Direction of the axis towards the front. Left out: forward.
+    ///
+    /// Change it for a part that hangs or stands up.
+    #[schemars(extend("with" = REVOLUTION))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub direction: Option<[f64; 3]>,
     /// Length along the axis.
+    ///
+    /// Change it to what was measured.
+    #[schemars(extend("exclusiveMinimum" = 0, "with" = REVOLUTION))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub length_m: Option<f64>,
     /// Largest diameter.
+    ///
+    /// Change it to what was measured.
+    #[schemars(extend("exclusiveMinimum" = 0, "with" = REVOLUTION))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub diameter_m: Option<f64>,
-    /// Shape of the outline; default ellipsoid.
+    /// Shape of the outline. Left out: an ellipsoid.
+    ///
+    /// Change it for blunt or slender parts.
+    #[schemars(extend("with" = REVOLUTION))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub profile: Option<ProfileCase>,
-    /// Panels from front to rear; default 6.
+    /// Panels from front to rear. Left out: 6.
+    ///
+    /// Change it for finer pressures on the body.
+    #[schemars(range(min = 2), extend("with" = REVOLUTION))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub stations: Option<usize>,
-    /// Panels around, even; default 8.
+    /// Panels around, even. Left out: 8.
+    ///
+    /// Change it for finer pressures on the body.
+    #[schemars(range(min = 4), extend("multipleOf" = 2, "with" = REVOLUTION))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub meridians: Option<usize>,
     /// Mesh file (.obj or .stl) in body axes instead of a surface of revolution; the path is
     /// relative to the case file.
+    ///
+    /// Change it for bodies of any shape.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub file: Option<String>,
-    /// Length of one unit of the mesh file; default 1 (metres).
+    /// Length of one unit of the mesh file. Left out: 1 (metres).
+    ///
+    /// Change it for files in millimetres: 1e-3.
+    #[schemars(extend("exclusiveMinimum" = 0, "with" = "file"))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub file_unit_m: Option<f64>,
     /// Nodes of a mesh given in the case itself (resolved cases carry imported meshes so).
+    ///
+    /// Change it for bodies of any shape.
+    #[schemars(extend("or" = "file"))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub nodes_m: Option<Vec<[f64; 3]>>,
     /// Corner nodes of each panel of a mesh given in the case itself, counted from 0, normals
     /// outward by the right-hand rule.
+    ///
+    /// Change it together with `nodes_m`.
+    #[schemars(extend("with" = "nodes_m"))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub quads: Option<Vec<[usize; 4]>>,
     /// Mass of the part, spread evenly.
+    ///
+    /// Change it to the mass that was measured.
+    #[schemars(range(min = 0))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub mass_kg: Option<f64>,
     /// Density of the part.
+    ///
+    /// Change it where no mass was measured: insect tissue has about 1000.
+    #[schemars(range(min = 0), extend("or" = "mass_kg"))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub density_kg_m3: Option<f64>,
 }
@@ -93,10 +148,10 @@ pub struct PartCase {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum ProfileCase {
-    /// `profile = "ellipsoid"`.
+    /// An ellipsoid.
     Ellipsoid,
-    /// `profile.superellipse = n`: 2 is the ellipsoid, larger is fuller.
-    Superellipse(f64),
-    /// `profile.table = [[station, radius], ...]`, both from 0 to 1, front to rear.
+    /// A superellipse with this exponent: 2 is the ellipsoid, larger is fuller.
+    Superellipse(#[schemars(extend("exclusiveMinimum" = 1))] f64),
+    /// Rows [station, radius], both from 0 to 1, front to rear.
     Table(Vec<[f64; 2]>),
 }

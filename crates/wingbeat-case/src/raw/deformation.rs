@@ -2,38 +2,41 @@
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use smart_default::SmartDefault;
+use wingbeat_model::Deformation;
 
 /// Prescribed deformation of a wing: the sum of its terms, each a law along the span times a series
 /// in time. The air sees it; for its inertia the wing stays rigid.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, SmartDefault, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct DeformationCase {
-    /// Place of the twist axis behind the leading edge over the chord.
+    /// Position of the twist axis behind the leading edge over the chord.
+    ///
+    /// Change it to what was measured.
+    #[schemars(range(min = 0, max = 1))]
+    #[default(Deformation::default().axis_fraction)]
     pub axis_fraction: f64,
-    /// Place of the highest camber behind the leading edge over the chord, between 0 and 1.
+    /// Position of the highest camber behind the leading edge over the chord.
+    ///
+    /// Change it to what was measured.
+    #[schemars(extend("exclusiveMinimum" = 0, "exclusiveMaximum" = 1))]
+    #[default(Deformation::default().camber_peak)]
     pub camber_peak: f64,
     /// Twist of the sections about the axis, positive like feathering: leading edge towards -axis 3.
+    ///
+    /// Change it to what was measured; terms add up.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub twist: Vec<TwistCase>,
     /// Height of the mean line over the local chord, positive towards -axis 3.
+    ///
+    /// Change it to what was measured; terms add up.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub camber: Vec<CamberCase>,
     /// Displacement of the sections towards -axis 3.
+    ///
+    /// Change it to what was measured; terms add up.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub bending: Vec<BendingCase>,
-}
-
-impl Default for DeformationCase {
-    fn default() -> Self {
-        let d = wingbeat_model::Deformation::default();
-        Self {
-            axis_fraction: d.axis_fraction,
-            camber_peak: d.camber_peak,
-            twist: vec![],
-            camber: vec![],
-            bending: vec![],
-        }
-    }
 }
 
 /// A term of the twist: `linear_deg` or `table_deg`, times `fourier`.
@@ -41,12 +44,19 @@ impl Default for DeformationCase {
 #[serde(deny_unknown_fields, default)]
 pub struct TwistCase {
     /// Values at root and tip of the surface, linear between.
+    ///
+    /// Change it to what was measured.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub linear_deg: Option<[f64; 2]>,
     /// Rows [r/R, value] from the root (or the hinge, 0) to the tip (1), straight lines between.
+    ///
+    /// Change it to what was measured.
+    #[schemars(length(min = 2), extend("or" = "linear_deg"))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub table_deg: Option<Vec<[f64; 2]>>,
     /// Course over the beat; left out: always 1.
+    ///
+    /// Change it for shapes that change over the beat.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub fourier: Option<CourseCase>,
 }
@@ -56,12 +66,19 @@ pub struct TwistCase {
 #[serde(deny_unknown_fields, default)]
 pub struct CamberCase {
     /// Heights over the chord at root and tip of the surface, linear between.
+    ///
+    /// Change it to what was measured.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub linear: Option<[f64; 2]>,
     /// Rows [r/R, height over the chord] from the root (or the hinge, 0) to the tip (1).
+    ///
+    /// Change it to what was measured.
+    #[schemars(length(min = 2), extend("or" = "linear"))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub table: Option<Vec<[f64; 2]>>,
     /// Course over the beat; left out: always 1.
+    ///
+    /// Change it for shapes that change over the beat.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub fourier: Option<CourseCase>,
 }
@@ -71,12 +88,19 @@ pub struct CamberCase {
 #[serde(deny_unknown_fields, default)]
 pub struct BendingCase {
     /// Displacements at root and tip of the surface, linear between.
+    ///
+    /// Change it to what was measured.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub linear_m: Option<[f64; 2]>,
     /// Rows [r/R, displacement] from the root (or the hinge, 0) to the tip (1).
+    ///
+    /// Change it to what was measured.
+    #[schemars(length(min = 2), extend("or" = "linear_m"))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub table_m: Option<Vec<[f64; 2]>>,
     /// Course over the beat; left out: always 1.
+    ///
+    /// Change it for shapes that change over the beat.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub fourier: Option<CourseCase>,
 }
@@ -87,9 +111,15 @@ pub struct BendingCase {
 #[serde(deny_unknown_fields, default)]
 pub struct CourseCase {
     /// Mean (not halved).
+    ///
+    /// Change it to what was measured.
     pub mean: f64,
     /// Cosine coefficients of harmonics 1, 2, ...
+    ///
+    /// Change it to what was measured.
     pub cosine: Vec<f64>,
     /// Sine coefficients of harmonics 1, 2, ...
+    ///
+    /// Change it to what was measured.
     pub sine: Vec<f64>,
 }

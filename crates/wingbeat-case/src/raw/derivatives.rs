@@ -11,27 +11,51 @@ use serde::{Deserialize, Serialize};
 pub struct DerivativesCase {
     /// Pitch of the body in the reference flight: the angle about b2 from the table's axes to
     /// the body's.
+    ///
+    /// Change it to the body angle of the flight that was linearised.
     pub body_pitch_deg: f64,
     /// Velocity in the reference flight, axes of the table.
+    ///
+    /// Change it to that of the flight that was linearised.
     pub velocity_m_s: [f64; 3],
-    /// Force in the reference flight; default: it carries the weight.
+    /// Force in the reference flight; left out: it carries the weight.
+    ///
+    /// Change it where the reference flight is not in balance.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub force_newton: Option<[f64; 3]>,
     /// Moment in the reference flight.
+    ///
+    /// Change it where the reference flight is not in balance.
     pub moment_newton_m: [f64; 3],
-    /// Force by velocity.
+    /// Force by velocity; left out: none.
+    ///
+    /// Change it to what was measured or computed.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub force_by_velocity_newton_s_m: Option<[[f64; 3]; 3]>,
-    /// Force by angular velocity.
+    /// Force by angular velocity; left out: none.
+    ///
+    /// Change it to what was measured or computed.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub force_by_rate_newton_s: Option<[[f64; 3]; 3]>,
-    /// Moment by velocity.
+    /// Moment by velocity; left out: none.
+    ///
+    /// Change it to what was measured or computed.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub moment_by_velocity_newton_s: Option<[[f64; 3]; 3]>,
-    /// Moment by angular velocity.
+    /// Moment by angular velocity; left out: none.
+    ///
+    /// Change it to what was measured or computed.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub moment_by_rate_newton_m_s: Option<[[f64; 3]; 3]>,
     /// Dimensionless derivatives instead of the four matrices.
+    ///
+    /// Change it for tables of papers.
+    #[schemars(extend("or" = [
+        "force_by_velocity_newton_s_m",
+        "force_by_rate_newton_s",
+        "moment_by_velocity_newton_s",
+        "moment_by_rate_newton_m_s"
+    ]))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub dimensionless: Option<DimensionlessCase>,
 }
@@ -42,23 +66,43 @@ pub struct DerivativesCase {
 #[serde(deny_unknown_fields)]
 pub struct DimensionlessCase {
     /// Reference speed U.
+    ///
+    /// Change it to that of the table.
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub speed_m_s: f64,
     /// Area S of all wings.
+    ///
+    /// Change it to that of the table.
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub area_m2: f64,
     /// Mean chord c.
+    ///
+    /// Change it to that of the table.
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub chord_m: f64,
     /// Period of the wingbeat.
+    ///
+    /// Change it to that of the table.
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub period_s: f64,
     /// Force by velocity.
+    ///
+    /// Change it to what was measured or computed.
     #[serde(default)]
     pub force_by_velocity: [[f64; 3]; 3],
     /// Force by angular velocity.
+    ///
+    /// Change it to what was measured or computed.
     #[serde(default)]
     pub force_by_rate: [[f64; 3]; 3],
     /// Moment by velocity.
+    ///
+    /// Change it to what was measured or computed.
     #[serde(default)]
     pub moment_by_velocity: [[f64; 3]; 3],
     /// Moment by angular velocity.
+    ///
+    /// Change it to what was measured or computed.
     #[serde(default)]
     pub moment_by_rate: [[f64; 3]; 3],
 }
@@ -69,12 +113,18 @@ pub struct DimensionlessCase {
 #[serde(deny_unknown_fields)]
 pub struct ExternalCase {
     /// The program and its arguments. It runs with your rights.
+    ///
+    /// Change it to a solver of your own.
+    #[schemars(length(min = 1))]
     pub command: Vec<String>,
     /// Longest wait for an answer.
-    #[serde(default = "patience")]
+    ///
+    /// Change it for solvers that think long.
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    #[serde(default = "ten_minutes")]
     pub timeout_s: f64,
 }
 
-fn patience() -> f64 {
+fn ten_minutes() -> f64 {
     600.0
 }

@@ -1,47 +1,58 @@
-//! `[flight]`, `[dynamics]` and `[[load]]`.
+//! `[flight]` and `[dynamics]`.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use smart_default::SmartDefault;
+
+use super::Open;
+
+const FREE: &str = "mode = free";
 
 /// Free or tethered, and the state at t = 0.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, SmartDefault, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct FlightCase {
     /// Free flight, or a body on a tether (held or moved as prescribed).
+    ///
+    /// Change it to `tethered` to measure forces at a known motion.
+    #[default(Mode::Free)]
     pub mode: Mode,
     /// Position of the body origin, inertial axes.
+    ///
+    /// Change it for flight near the ground or in a shear.
     pub position_m: [f64; 3],
     /// Pitch, nose up: the first angle phi of the 2-3-1 sequence.
+    ///
+    /// Change it to the body angle of the flight.
     pub pitch_deg: f64,
     /// Yaw, nose right for an upright body is negative: the second angle theta of 2-3-1.
+    ///
+    /// Change it for sideslip.
     pub yaw_deg: f64,
     /// Roll, right wing down: the third angle psi of 2-3-1.
+    ///
+    /// Change it to start from a bank.
     pub roll_deg: f64,
     /// Velocity of the body origin, inertial axes; a tethered body keeps it.
+    ///
+    /// Change it for forward flight in still air.
     pub velocity_m_s: [f64; 3],
-    /// Angular velocity in body axes (free flight), at the release if the body is held.
+    /// Angular velocity in body axes, at the release if the body is held.
+    ///
+    /// Change it to start from a turn.
+    #[schemars(extend("with" = FREE))]
     pub angular_velocity_deg_s: [f64; 3],
     /// Wingbeats during which a free body is still held while its wake grows.
+    ///
+    /// Change it to 1 or 2 to release the body into a grown wake.
+    #[schemars(range(min = 0), extend("with" = FREE))]
     pub held_beats: f64,
-    /// Motion of the tether on top of the constant velocity.
+    /// Motion of the tether on top of the constant velocity; left out: none.
+    ///
+    /// Change it to move the body as an experiment did.
+    #[schemars(extend("with" = "mode = tethered"))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub tether: Option<TetherCase>,
-}
-
-impl Default for FlightCase {
-    fn default() -> Self {
-        Self {
-            mode: Mode::Free,
-            position_m: [0.0; 3],
-            pitch_deg: 0.0,
-            yaw_deg: 0.0,
-            roll_deg: 0.0,
-            velocity_m_s: [0.0; 3],
-            angular_velocity_deg_s: [0.0; 3],
-            held_beats: 0.0,
-            tether: None,
-        }
-    }
 }
 
 /// How the body moves.
@@ -58,22 +69,34 @@ pub enum Mode {
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct TetherCase {
-    /// Along n1.
+    /// Along n1; left out: none.
+    ///
+    /// Change it to move the body as an experiment did.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub x: Option<PathOscillation>,
-    /// Along n2.
+    /// Along n2; left out: none.
+    ///
+    /// Change it to move the body as an experiment did.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub y: Option<PathOscillation>,
-    /// Along n3 (down).
+    /// Along n3 (down); left out: none.
+    ///
+    /// Change it to move the body as an experiment did.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub z: Option<PathOscillation>,
-    /// In pitch.
+    /// In pitch; left out: none.
+    ///
+    /// Change it to move the body as an experiment did.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub pitch: Option<AngleOscillation>,
-    /// In yaw.
+    /// In yaw; left out: none.
+    ///
+    /// Change it to move the body as an experiment did.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub yaw: Option<AngleOscillation>,
-    /// In roll.
+    /// In roll; left out: none.
+    ///
+    /// Change it to move the body as an experiment did.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub roll: Option<AngleOscillation>,
 }
@@ -83,11 +106,17 @@ pub struct TetherCase {
 #[serde(deny_unknown_fields)]
 pub struct PathOscillation {
     /// Frequency f.
+    ///
+    /// Change it to that of the motion.
     pub frequency_hz: f64,
     /// Cosine coefficients of harmonics 1, 2, ...
+    ///
+    /// Change it to those of the motion.
     #[serde(default)]
     pub cosine_m: Vec<f64>,
     /// Sine coefficients of harmonics 1, 2, ...
+    ///
+    /// Change it to those of the motion.
     #[serde(default)]
     pub sine_m: Vec<f64>,
 }
@@ -97,56 +126,65 @@ pub struct PathOscillation {
 #[serde(deny_unknown_fields)]
 pub struct AngleOscillation {
     /// Steady rate.
+    ///
+    /// Change it for turns.
     #[serde(default)]
     pub rate_deg_s: f64,
     /// Frequency f.
+    ///
+    /// Change it to that of the motion.
     #[serde(default)]
     pub frequency_hz: f64,
     /// Cosine coefficients of harmonics 1, 2, ...
+    ///
+    /// Change it to those of the motion.
     #[serde(default)]
     pub cosine_deg: Vec<f64>,
     /// Sine coefficients of harmonics 1, 2, ...
+    ///
+    /// Change it to those of the motion.
     #[serde(default)]
     pub sine_deg: Vec<f64>,
 }
 
 /// Equations of motion.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, SmartDefault, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct DynamicsCase {
-    /// `momentum`: momenta and a quaternion, cannot drift, no singularity (default where joints
-    /// make a tree). `euler`: Euler coordinates with multipliers as in the paper, all joints
-    /// prescribed. `quaternion`: positions and quaternions of all bodies with multipliers (default
-    /// where joints close loops).
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub formulation: Option<Formulation>,
-    /// Baumgarte's stabilisation of the constraints (Euler and quaternion form).
+    /// Which equations are integrated. Default: `momentum` where joints make a tree, `quaternion`
+    /// where they close loops.
+    ///
+    /// Change it to `euler` for the equations and multipliers of the paper.
+    #[serde(skip_serializing_if = "Open::is_open")]
+    pub formulation: Open<Formulation>,
+    /// Baumgarte's stabilisation of the constraints.
+    ///
+    /// Change it to `fixed` where the order of convergence in the step is measured.
+    #[default(BaumgarteCase::StepFactor(0.1))]
+    #[schemars(extend("with" = ["formulation = euler | quaternion", "stabilisation = baumgarte"]))]
     pub baumgarte: BaumgarteCase,
-    /// `massive`: wings with the masses given; `massless`: wings that carry air loads but no
-    /// inertia, which leaves the standard equations of a rigid aircraft of the body's mass.
+    /// Whether wings have mass.
+    ///
+    /// Change it to `massless` to compare with the standard equations of a rigid aircraft.
+    #[default(WingInertia::Massive)]
     pub wings: WingInertia,
-    /// How the quaternion form keeps its constraints: `baumgarte` (default), `projection` after
-    /// every step of a one-step integrator, or `none`.
+    /// How the quaternion form keeps its constraints.
+    ///
+    /// Change it to `projection` with `order_eight` or `runge_kutta`: constraints hold to rounding.
+    #[default(StabilisationCase::Baumgarte)]
+    #[schemars(extend("with" = "formulation = quaternion"))]
     pub stabilisation: StabilisationCase,
-    /// Integrator: `hamming` (default with air), `adams`, `runge_kutta`, `order_eight` (adaptive,
-    /// default without air). A wake needs `hamming`.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub integrator: Option<IntegratorCase>,
+    /// Integrator. Default: `hamming` with air, `order_eight` without. A wake needs `hamming`.
+    ///
+    /// Change it to see what hangs on the method.
+    #[serde(skip_serializing_if = "Open::is_open")]
+    pub integrator: Open<IntegratorCase>,
     /// Error per step of `order_eight`, relative to natural sizes.
+    ///
+    /// Change it for studies of convergence.
+    #[default = 1e-10]
+    #[schemars(extend("exclusiveMinimum" = 0, "with" = "integrator = order_eight"))]
     pub tolerance: f64,
-}
-
-impl Default for DynamicsCase {
-    fn default() -> Self {
-        Self {
-            formulation: None,
-            baumgarte: BaumgarteCase::StepFactor(0.1),
-            wings: WingInertia::Massive,
-            stabilisation: StabilisationCase::Baumgarte,
-            integrator: None,
-            tolerance: 1e-10,
-        }
-    }
 }
 
 /// Whether wings have mass.
@@ -155,7 +193,7 @@ impl Default for DynamicsCase {
 pub enum WingInertia {
     /// The masses given.
     Massive,
-    /// None.
+    /// None: wings carry air loads but no inertia.
     Massless,
 }
 
@@ -163,9 +201,9 @@ pub enum WingInertia {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Formulation {
-    /// Momentum form.
+    /// Momenta and a quaternion: cannot drift, no singularity.
     Momentum,
-    /// Euler coordinates with multipliers.
+    /// Euler coordinates with multipliers as in the paper, all joints prescribed.
     Euler,
     /// Positions and quaternions of all bodies with multipliers.
     Quaternion,
@@ -177,7 +215,7 @@ pub enum Formulation {
 pub enum StabilisationCase {
     /// By feedback with the constants of `baumgarte`.
     Baumgarte,
-    /// By projection of positions and velocities after every step.
+    /// By projection of positions and velocities after every step of a one-step integrator.
     Projection,
     /// Not at all.
     None,
@@ -201,68 +239,19 @@ pub enum IntegratorCase {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum BaumgarteCase {
-    /// `baumgarte.step_factor = a`: alpha = beta = a / step. Second order in the step.
-    StepFactor(f64),
-    /// `baumgarte.fixed = { alpha_per_s = ..., beta_per_s = ... }`. Fourth order; 0 and 0 leave
-    /// the constraints to drift.
+    /// alpha = beta = a / step with this a. Second order in the step.
+    StepFactor(#[schemars(range(min = 0))] f64),
+    /// Constants of their own. Fourth order; 0 and 0 leave the constraints to drift.
     Fixed {
         /// Damping.
+        ///
+        /// Change it with the time scale of the flight: a tenth of the inverse step.
+        #[schemars(range(min = 0))]
         alpha_per_s: f64,
         /// Stiffness.
+        ///
+        /// Change it with the time scale of the flight: a tenth of the inverse step.
+        #[schemars(range(min = 0))]
         beta_per_s: f64,
     },
-}
-
-/// A force and a couple on one body.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct LoadCase {
-    /// `body` or the name of a wing or segment.
-    #[serde(default = "root")]
-    pub on: String,
-    /// Axes of the components.
-    #[serde(default = "body_frame")]
-    pub frame: FrameCase,
-    /// Point of application in the axes of the loaded body, from its origin.
-    #[serde(default)]
-    pub point_m: [f64; 3],
-    /// Constant part of the force.
-    #[serde(default)]
-    pub force_newton: [f64; 3],
-    /// Constant part of the couple.
-    #[serde(default)]
-    pub couple_newton_m: [f64; 3],
-    /// Frequency f of the oscillating parts.
-    #[serde(default)]
-    pub frequency_hz: f64,
-    /// Cosine parts of the force, one vector per harmonic 1, 2, ...
-    #[serde(default)]
-    pub force_cosine_newton: Vec<[f64; 3]>,
-    /// Sine parts of the force.
-    #[serde(default)]
-    pub force_sine_newton: Vec<[f64; 3]>,
-    /// Cosine parts of the couple.
-    #[serde(default)]
-    pub couple_cosine_newton_m: Vec<[f64; 3]>,
-    /// Sine parts of the couple.
-    #[serde(default)]
-    pub couple_sine_newton_m: Vec<[f64; 3]>,
-}
-
-/// Axes of a load.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum FrameCase {
-    /// Fixed in the loaded body.
-    Body,
-    /// Fixed in the inertial frame.
-    Inertial,
-}
-
-fn root() -> String {
-    "body".to_owned()
-}
-
-fn body_frame() -> FrameCase {
-    FrameCase::Body
 }

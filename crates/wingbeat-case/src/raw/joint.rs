@@ -4,7 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// A rigid body beside the central body and the wings. Its frame is parallel to the body's in the
-/// posture of reference (all joint coordinates and prescribed rotations zero), its origin is the
+/// reference configuration (all joint coordinates and prescribed rotations zero), its origin is the
 /// point of its joint.
 ///
 /// Mass: from its `parts`, which then leave the central body; or `mass_kg`, `centre_m` and
@@ -13,17 +13,27 @@ use serde::{Deserialize, Serialize};
 #[serde(deny_unknown_fields, default)]
 pub struct SegmentCase {
     /// Names of the parts (`[body.part.NAME]`) that move with this segment.
+    ///
+    /// Change it to let parts of the body move.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub parts: Vec<String>,
-    /// Mass.
+    /// Mass. Left out: that of its parts.
+    ///
+    /// Change it to what was measured.
+    #[schemars(extend("exclusiveMinimum" = 0))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub mass_kg: Option<f64>,
-    /// Mass centre in body axes in the posture of reference, from the point the hinges of wings
-    /// are measured from.
+    /// Mass centre in body axes in the reference configuration, from the point the hinges of wings
+    /// are measured from. Left out: that point.
+    ///
+    /// Change it to what was measured.
+    #[schemars(extend("with" = "inertia_about_centre_kg_m2"))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub centre_m: Option<[f64; 3]>,
     /// Inertia matrix about the mass centre: xx, yy, zz, xy, xz, yz (elements of the matrix: a
     /// product carries its minus sign).
+    ///
+    /// Change it to what was measured.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub inertia_about_centre_kg_m2: Option<[f64; 6]>,
 }
@@ -37,45 +47,81 @@ pub struct SegmentCase {
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct JointCase {
-    /// The body it hangs on; default `body`.
+    /// The body it hangs on. Left out: `body`.
+    ///
+    /// Change it for chains of bodies.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub parent: Option<String>,
     /// The body it carries.
+    ///
+    /// Change it to name the body that moves.
     pub child: String,
-    /// Joint point in body axes in the posture of reference; default for a wing: its hinge.
+    /// Joint point in body axes in the reference configuration; left out
+    /// for a wing: its hinge.
+    ///
+    /// Change it to what was measured.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub at_m: Option<[f64; 3]>,
-    /// Joint point on the child, likewise; default `at_m`. Another point opens a gap that only a
+    /// Joint point on the child, likewise. Left out: `at_m`. Another point opens a gap that only a
     /// loop can close.
+    ///
+    /// Change it for links of a loop.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub at_child_m: Option<[f64; 3]>,
-    /// What is free there; default `weld`.
+    /// What is free there.
+    ///
+    /// Change it to let the joint move.
     pub kind: JointKind,
     /// Axis of `revolute`, `prismatic` and `point_on_line`.
+    ///
+    /// Change it to the axis of the joint.
+    #[schemars(extend("with" = "kind = revolute | prismatic | point_on_line"))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub axis: Option<[f64; 3]>,
     /// The two axes of `universal`: the first fixed in the parent, the second in the child.
+    ///
+    /// Change it to the axes of the joint.
+    #[schemars(extend("with" = "kind = universal"))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub axes: Option<[[f64; 3]; 2]>,
-    /// Prescribed rotation of a segment's joint about an axis.
+    /// Prescribed rotation of a segment's joint about an axis; left out: none.
+    ///
+    /// Change it to move the segment as prescribed.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub turn: Option<TurnCase>,
-    /// Prescribed displacement of the joint along body axes of the parent.
+    /// Prescribed displacement of the joint along body axes of the parent; left out:
+    /// none.
+    ///
+    /// Change it to move the joint as prescribed.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub travel: Option<TravelCase>,
     /// Springs, dampers, stops and actuators, one `[[joint.NAME.element]]` each.
+    ///
+    /// Change it for joints with springs, dampers, stops or motors.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub element: Vec<ElementCase>,
-    /// Angles at the start along the free directions.
+    /// Angles at the start along the free directions. Left out: zeros.
+    ///
+    /// Change it to start displaced.
+    #[schemars(extend("with" = "kind = revolute | universal | spherical"))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub start_deg: Option<Vec<f64>>,
-    /// Angular rates at the start.
+    /// Angular rates at the start. Left out: zeros.
+    ///
+    /// Change it to start moving.
+    #[schemars(extend("with" = "kind = revolute | universal | spherical"))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub start_deg_s: Option<Vec<f64>>,
-    /// Displacement of a `prismatic` joint at the start.
+    /// Displacement of a `prismatic` joint at the start. Left out: 0.
+    ///
+    /// Change it to start displaced.
+    #[schemars(extend("with" = "kind = prismatic"))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub start_m: Option<f64>,
-    /// Its rate at the start.
+    /// Its rate at the start. Left out: 0.
+    ///
+    /// Change it to start moving.
+    #[schemars(extend("with" = "kind = prismatic"))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub start_m_s: Option<f64>,
 }
@@ -104,17 +150,28 @@ pub enum JointKind {
 #[serde(deny_unknown_fields)]
 pub struct TurnCase {
     /// The axis.
+    ///
+    /// Change it to the axis of the rotation.
     pub axis: [f64; 3],
-    /// Frequency f; default the wingbeat's.
+    /// Frequency f. Left out: the wingbeat's.
+    ///
+    /// Change it for motions slower or faster than the beat.
+    #[schemars(range(min = 0))]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub frequency_hz: Option<f64>,
     /// Mean angle.
+    ///
+    /// Change it for a constant angle.
     #[serde(default)]
     pub mean_deg: f64,
     /// Cosine coefficients of harmonics 1, 2, ...
+    ///
+    /// Change it to what was measured.
     #[serde(default)]
     pub cosine_deg: Vec<f64>,
     /// Sine coefficients of harmonics 1, 2, ...
+    ///
+    /// Change it to what was measured.
     #[serde(default)]
     pub sine_deg: Vec<f64>,
 }
@@ -123,13 +180,20 @@ pub struct TurnCase {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct TravelCase {
-    /// Frequency f; default the wingbeat's.
+    /// Frequency f. Left out: the wingbeat's.
+    ///
+    /// Change it for motions slower or faster than the beat.
+    #[schemars(range(min = 0))]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub frequency_hz: Option<f64>,
     /// Cosine parts.
+    ///
+    /// Change it to what was measured.
     #[serde(default)]
     pub cosine_m: Vec<[f64; 3]>,
     /// Sine parts.
+    ///
+    /// Change it to what was measured.
     #[serde(default)]
     pub sine_m: Vec<[f64; 3]>,
 }
@@ -140,35 +204,63 @@ pub struct TravelCase {
 #[serde(deny_unknown_fields, default)]
 pub struct ElementCase {
     /// Number of the free direction, from 0.
+    ///
+    /// Change it for joints with two or three free directions.
     pub direction: usize,
-    /// Spring of a rotation.
+    /// Spring of a rotation; left out: none.
+    ///
+    /// Change it to what was measured.
+    #[schemars(range(min = 0))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub stiffness_newton_m_per_rad: Option<f64>,
-    /// Angle at which it is slack.
+    /// Angle at which it is slack. Left out: 0.
+    ///
+    /// Change it to the angle without load.
+    #[schemars(extend("with" = "stiffness_newton_m_per_rad"))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub rest_deg: Option<f64>,
-    /// Spring of a displacement.
+    /// Spring of a displacement; left out: none.
+    ///
+    /// Change it to what was measured.
+    #[schemars(range(min = 0))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub stiffness_newton_per_m: Option<f64>,
-    /// Displacement at which it is slack.
+    /// Displacement at which it is slack. Left out: 0.
+    ///
+    /// Change it to the displacement without load.
+    #[schemars(extend("with" = "stiffness_newton_per_m"))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub rest_m: Option<f64>,
-    /// Damper of a rotation.
+    /// Damper of a rotation; left out: none.
+    ///
+    /// Change it to what was measured.
+    #[schemars(range(min = 0))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub damping_newton_m_s_per_rad: Option<f64>,
-    /// Damper of a displacement.
+    /// Damper of a displacement; left out: none.
+    ///
+    /// Change it to what was measured.
+    #[schemars(range(min = 0))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub damping_newton_s_per_m: Option<f64>,
-    /// Ends of the free range of a rotation.
+    /// Ends of the free range of a rotation; left out: none.
+    ///
+    /// Change it for joints that do not turn all the way.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub stop: Option<StopCase>,
-    /// Moment of an actuator as a function of time.
+    /// Moment of an actuator as a function of time; left out: none.
+    ///
+    /// Change it for muscles and motors.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub moment_newton_m: Option<SeriesCase>,
-    /// Force of an actuator as a function of time.
+    /// Force of an actuator as a function of time; left out: none.
+    ///
+    /// Change it for muscles and motors.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub force_newton: Option<SeriesCase>,
-    /// Actuator of a rotation that follows an angle.
+    /// Actuator of a rotation that follows an angle; left out: none.
+    ///
+    /// Change it for servos.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub follow: Option<FollowCase>,
 }
@@ -178,12 +270,22 @@ pub struct ElementCase {
 #[serde(deny_unknown_fields)]
 pub struct StopCase {
     /// Lower end.
+    ///
+    /// Change it to what was measured.
     pub lower_deg: f64,
     /// Upper end.
+    ///
+    /// Change it to what was measured.
     pub upper_deg: f64,
     /// Stiffness beyond the ends.
+    ///
+    /// Change it to a value at which it gives way by a degree or two.
+    #[schemars(range(min = 0))]
     pub stiffness_newton_m_per_rad: f64,
     /// Damping per rate of depth (Hunt and Crossley); 0 gives all energy back.
+    ///
+    /// Change it for stops that dissipate.
+    #[schemars(range(min = 0))]
     #[serde(default)]
     pub damping_s_per_rad: f64,
 }
@@ -192,14 +294,23 @@ pub struct StopCase {
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct SeriesCase {
-    /// Frequency f; default the wingbeat's.
+    /// Frequency f. Left out: the wingbeat's.
+    ///
+    /// Change it for actuators slower or faster than the beat.
+    #[schemars(range(min = 0))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub frequency_hz: Option<f64>,
     /// Mean.
+    ///
+    /// Change it for a constant part.
     pub mean: f64,
     /// Cosine coefficients of harmonics 1, 2, ...
+    ///
+    /// Change it to what the actuator does.
     pub cosine: Vec<f64>,
     /// Sine coefficients of harmonics 1, 2, ...
+    ///
+    /// Change it to what the actuator does.
     pub sine: Vec<f64>,
 }
 
@@ -208,9 +319,17 @@ pub struct SeriesCase {
 #[serde(deny_unknown_fields)]
 pub struct FollowCase {
     /// The angle aimed at.
+    ///
+    /// Change it to the angle that is wanted.
     pub angle_deg: SeriesCase,
     /// Gain on the angle.
+    ///
+    /// Change it for a servo that gives way less.
+    #[schemars(range(min = 0))]
     pub stiffness_newton_m_per_rad: f64,
     /// Gain on the rate.
+    ///
+    /// Change it for a servo that overshoots less.
+    #[schemars(range(min = 0))]
     pub damping_newton_m_s_per_rad: f64,
 }

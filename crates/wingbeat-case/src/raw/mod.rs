@@ -1,51 +1,63 @@
-//! The case file as it is written: every key, its unit in its name, its default.
+//! The case file as it is written: every key with its unit in its name, its default, its range and
+//! when to change it, all in one place.
 //!
-//! These types are the reference of the case language: their comments are the descriptions of
-//! the JSON schema. They hold what the user wrote, nothing validated;
-//! [`crate::LoadedCase`] holds the validated setup.
+//! These types are the reference of the case language: `crate::keys` makes the JSON schema, the
+//! checks of single keys and the page of all keys from them. What stands where:
+//!
+//! | of a key | where |
+//! |---|---|
+//! | meaning, when to change it | the comment; its last paragraph begins with "Change it" |
+//! | default | `default`; `Option`: none; [`Open`]: follows from other keys |
+//! | range | `range`, `exclusiveMinimum`, `exclusiveMaximum`, `length` |
+//! | when it has an effect | `with`: another key that has one of these values, is given, or is not given (`no`) |
+//! | what it is an alternative to | `or`: of these only one may be given |
+//!
+//! They hold what the user wrote; [`crate::LoadedCase`] holds the validated setup.
 
 mod air;
 mod blade;
 mod body;
+mod cores;
 mod deformation;
 mod derivatives;
 mod flight;
 mod joint;
+mod load;
 mod motion;
+mod open;
+mod wake;
+mod wind;
 mod wing;
 
-pub use air::{
-    AirCase, AirModel, CirculationRateCase, ConvectionCase, CoreCase, EdgeCase, FrictionCase,
-    GroundCase, GustCase, LeadingEdgeCase, LoadMethodCase, ParticlesCase, SchemeCase,
-    SectionDragCase, StretchingCase, SummationCase,
-};
-pub use blade::{
-    AddedMassCase, BladeCase, BodyDragCase, OwnCoefficients, PressureCase, RotationCase,
-    ViscousCase,
-};
+pub use air::{AirCase, AirModel, LeadingEdgeCase, SchemeCase};
+pub use blade::{BladeCase, BodyDragCase, OwnCoefficients, RotationCase, ViscousCase};
 pub use body::{BodyCase, OriginCase, PartCase, ProfileCase};
+pub use cores::{CoreCase, CutOffCase, LambOseenCase, RadiusCase};
 pub use deformation::{BendingCase, CamberCase, CourseCase, DeformationCase, TwistCase};
 pub use derivatives::{DerivativesCase, DimensionlessCase, ExternalCase};
 pub use flight::{
-    AngleOscillation, BaumgarteCase, DynamicsCase, FlightCase, Formulation, FrameCase,
-    IntegratorCase, LoadCase, Mode, PathOscillation, StabilisationCase, TetherCase, WingInertia,
+    AngleOscillation, BaumgarteCase, DynamicsCase, FlightCase, Formulation, IntegratorCase, Mode,
+    PathOscillation, StabilisationCase, TetherCase, WingInertia,
 };
 pub use joint::{
     ElementCase, FollowCase, JointCase, JointKind, SegmentCase, SeriesCase, StopCase, TravelCase,
     TurnCase,
 };
+pub use load::LoadCase;
 pub use motion::{
     AngleCase, FourierCase, MotionCase, OvalCase, ShapedCase, StartCase, TableCase, WingMotionCase,
 };
-pub use wing::{
-    BetaCase, OutlineCase, PlanformCase, RectangleCase, SideCase, SpacingCase, WingCase,
-    WingMeshCase,
-};
+pub use open::Open;
+pub use wake::{FrictionCase, ParticlesCase, SectionDragCase};
+pub use wind::{GroundCase, GustCase};
+pub use wing::{BetaCase, OutlineCase, PlanformCase, RectangleCase, WingCase, WingMeshCase};
 
 use std::collections::BTreeMap;
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use smart_default::SmartDefault;
+use wingbeat_flight::CorrectorSettings;
 
 /// A wingbeat case: an animal or vehicle, its wing motion, the air, the numerics, the output.
 ///
@@ -55,15 +67,24 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Case {
-    /// Version of the case language: 1.
+    /// Version of the case language.
+    ///
+    /// Change it never: this version of wingbeat reads 1.
+    #[schemars(range(min = 1, max = 1))]
     pub format: u32,
     /// Name of the case, used for the result directory. Default: name of the file.
+    ///
+    /// Change it to tell runs apart.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub name: Option<String>,
     /// One line about the case.
+    ///
+    /// Change it to say what the case is for.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub description: String,
     /// Acceleration of gravity, inertial axes (n3 down).
+    ///
+    /// Change it to zeros to see the forces of the air alone.
     #[serde(default = "gravity")]
     pub gravity_m_s2: [f64; 3],
     /// Size of the whole animal.
@@ -113,88 +134,103 @@ fn gravity() -> [f64; 3] {
 }
 
 /// Size of the whole animal.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, SmartDefault, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct AnimalCase {
     /// Every length times this, masses times its cube, inertias times its fifth power: the same
     /// animal in another size.
+    ///
+    /// Change it to study the influence of size.
+    #[default = 1.0]
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub scale: f64,
-}
-
-impl Default for AnimalCase {
-    fn default() -> Self {
-        Self { scale: 1.0 }
-    }
 }
 
 /// Time steps: `steps_per_beat` and `beats`, or `step_s` and `steps`.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct TimeCase {
-    /// Steps per wingbeat.
+    /// Steps per wingbeat. Default: 40, if `step_s` is left out.
+    ///
+    /// Change it to 60 or 80 to see what hangs on the step.
+    #[schemars(range(min = 4))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub steps_per_beat: Option<usize>,
-    /// Wingbeats to fly.
+    /// Wingbeats to fly. Default: 5, if `steps` is left out.
+    ///
+    /// Change it for longer flights; in the lattice the cost grows with the square.
+    #[schemars(extend("exclusiveMinimum" = 0))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub beats: Option<f64>,
     /// Length of a step.
+    ///
+    /// Change it for wings that do not beat.
+    #[schemars(extend("exclusiveMinimum" = 0, "or" = "steps_per_beat"))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub step_s: Option<f64>,
     /// Number of steps.
+    ///
+    /// Change it for wings that do not beat.
+    #[schemars(range(min = 1), extend("or" = "beats"))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub steps: Option<usize>,
 }
 
 /// Corrector iteration: bodies and air are brought to agreement in every step.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, SmartDefault, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct CorrectorCase {
     /// Largest change between two passes, relative to natural sizes, that counts as converged.
+    ///
+    /// Change it for studies of convergence.
+    #[default(CorrectorSettings::default().tolerance)]
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub tolerance: f64,
-    /// Most passes; more is an error.
+    /// Most passes; more is an error. What has not converged after a hundred passes will not.
+    ///
+    /// Change it together with `relaxation`.
+    #[default(CorrectorSettings::default().max_passes)]
+    #[schemars(range(min = 1, max = 10_000))]
     pub max_passes: usize,
-    /// Relaxation in (0, 1]; below 1 for light bodies with large wings.
+    /// Relaxation: 1 is the plain iteration.
+    ///
+    /// Change it to less than 1 for light bodies with large wings.
+    #[default(CorrectorSettings::default().relaxation)]
+    #[schemars(range(max = 1), extend("exclusiveMinimum" = 0))]
     pub relaxation: f64,
 }
 
-impl Default for CorrectorCase {
-    fn default() -> Self {
-        let d = wingbeat_flight::CorrectorSettings::default();
-        Self {
-            tolerance: d.tolerance,
-            max_passes: d.max_passes,
-            relaxation: d.relaxation,
-        }
-    }
-}
-
 /// What is written beside the history.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, SmartDefault, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct OutputCase {
     /// Write surfaces and wakes (.vtp) every so many steps; 0 writes none.
+    ///
+    /// Change it to 0 for long flights whose wakes nobody looks at.
+    #[default = 2]
     pub frames_every: usize,
     /// Draw figures (.svg) at the end.
+    ///
+    /// Change it to false in studies of many flights.
+    #[default = true]
     pub figures: bool,
     /// Write the flight page (flight.html) at the end.
+    ///
+    /// Change it to false in studies of many flights.
+    #[default = true]
     pub page: bool,
     /// Save the state for `wingbeat resume` every so many steps; 0: not by steps.
+    ///
+    /// Change it to have states at known steps.
     pub checkpoint_every: usize,
     /// Save the state after so much wall time; 0: not by time.
+    ///
+    /// Change it to lose less, or write less, of a long flight.
+    #[default = 20.0]
+    #[schemars(range(min = 0, max = 1e15))]
     pub checkpoint_interval_s: f64,
-    /// Keep the state after the last step, for `wingbeat velocity`.
+    /// Keep the state after the last step.
+    ///
+    /// Change it to true for `wingbeat velocity`.
     pub keep_checkpoint: bool,
-}
-
-impl Default for OutputCase {
-    fn default() -> Self {
-        Self {
-            frames_every: 2,
-            figures: true,
-            page: true,
-            checkpoint_every: 0,
-            checkpoint_interval_s: 20.0,
-            keep_checkpoint: false,
-        }
-    }
 }

@@ -2,35 +2,49 @@
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use smart_default::SmartDefault;
+
+use super::Open;
 
 /// What all wings share in their motion.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, SmartDefault, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct MotionCase {
-    /// Wingbeat frequency; default that of the data set, else 0: wings that do not beat.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub frequency_hz: Option<f64>,
+    /// Wingbeat frequency. Default: that of the data set, else 0: wings that do not beat.
+    ///
+    /// Change it to what was measured.
+    #[schemars(extend("minimum" = 0))]
+    #[serde(skip_serializing_if = "Open::is_open")]
+    pub frequency_hz: Open<f64>,
     /// Pitch of the stroke plane in the body: the angle about b2 that carries b1 to the normal
     /// of the stroke plane. Hover with a horizontal stroke plane: body pitch + this = 90.
-    /// Default that of the data set, else 0.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub stroke_plane_pitch_deg: Option<f64>,
-    /// A shipped set of measured wing angles, for wings without angles of their own.
+    /// Default: that of the data set, else 0.
+    ///
+    /// Change it for another posture: for hover to 90 less the pitch of the body.
+    #[serde(skip_serializing_if = "Open::is_open")]
+    pub stroke_plane_pitch_deg: Open<f64>,
+    /// A shipped set of measured wing angles, for wings without angles of their own; left out: none.
+    ///
+    /// Change it for measured angles; `wingbeat presets` lists the sets.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub data: Option<String>,
-    /// Smooth: from rest over `start_beats`; impulsive: at full speed from the first instant.
+    /// How the beat starts.
+    ///
+    /// Change it to `impulsive` to begin inside the periodic beat; loads then jump at the first instant.
+    #[default(StartCase::Smooth)]
     pub start: StartCase,
     /// Length of a smooth start in wingbeats.
+    ///
+    /// Change it to start more gently.
+    #[schemars(extend("exclusiveMinimum" = 0, "with" = "start = smooth"))]
+    #[default = 1.0]
     pub start_beats: f64,
     /// Phase at t = 0 in wingbeats.
+    ///
+    /// Change it to start at another instant of the beat.
     pub phase: f64,
     /// Adjustments of all wings on top of their angles, as trim finds them.
-    #[serde(skip_serializing_if = "is_default")]
     pub adjust: AdjustCase,
-}
-
-fn is_default(case: &AdjustCase) -> bool {
-    *case == AdjustCase::default()
 }
 
 /// Adjustments of the wing angles, the same on both sides by mirror symmetry.
@@ -38,42 +52,42 @@ fn is_default(case: &AdjustCase) -> bool {
 #[serde(deny_unknown_fields, default)]
 pub struct AdjustCase {
     /// Relative change of the stroke's swing about its mean.
+    ///
+    /// Change it to trim or steer.
     pub stroke_amplitude: f64,
     /// Added to the stroke angle, positive forward.
+    ///
+    /// Change it to trim or steer: forward pitches the nose up.
     pub stroke_offset_deg: f64,
     /// Relative change of the feathering's swing about its mean.
+    ///
+    /// Change it to trim or steer.
     pub feathering_amplitude: f64,
     /// Added to the feathering angle.
+    ///
+    /// Change it to trim or steer.
     pub feathering_offset_deg: f64,
     /// Lead of the feathering in wingbeats.
+    ///
+    /// Change it to trim or steer: wings that turn before the stroke reverses.
     pub feathering_lead: f64,
     /// Added to the deviation, in the sense of a right wing.
+    ///
+    /// Change it to trim or steer.
     pub deviation_offset_deg: f64,
     /// Added to the pitch of the stroke plane.
+    ///
+    /// Change it to trim or steer.
     pub stroke_plane_deg: f64,
-}
-
-impl Default for MotionCase {
-    fn default() -> Self {
-        Self {
-            frequency_hz: None,
-            stroke_plane_pitch_deg: None,
-            data: None,
-            start: StartCase::Smooth,
-            start_beats: 1.0,
-            phase: 0.0,
-            adjust: AdjustCase::default(),
-        }
-    }
 }
 
 /// How the beat starts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum StartCase {
-    /// From rest.
+    /// From rest over `start_beats`.
     Smooth,
-    /// At full speed.
+    /// At full speed from the first instant.
     Impulsive,
 }
 
@@ -83,23 +97,35 @@ pub enum StartCase {
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct WingMotionCase {
-    /// A shipped set of measured wing angles.
+    /// A shipped set of measured wing angles. Left out: that of `[motion]`.
+    ///
+    /// Change it for wings that beat differently.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub data: Option<String>,
-    /// Flap (stroke) angle about axis 1.
+    /// Flap (stroke) angle about axis 1. Left out: that of the data set, else 0.
+    ///
+    /// Change it for angles of your own.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub phi: Option<AngleCase>,
-    /// Deviation out of the stroke plane about axis 3.
+    /// Deviation out of the stroke plane about axis 3. Left out: that of the data set, else 0.
+    ///
+    /// Change it for angles of your own.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub theta: Option<AngleCase>,
     /// Feathering about axis 2; in hover 0 is the chord along the normal of the stroke plane
-    /// and +-90 lies in the plane.
+    /// and +-90 lies in the plane. Left out: that of the data set, else 0.
+    ///
+    /// Change it for angles of your own.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub psi: Option<AngleCase>,
-    /// Pitch of this wing's stroke plane.
+    /// Pitch of this wing's stroke plane. Left out: that of `[motion]`.
+    ///
+    /// Change it for wings that beat in planes of their own.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub stroke_plane_pitch_deg: Option<f64>,
-    /// Phase of this wing at t = 0 in wingbeats.
+    /// Phase of this wing at t = 0 in wingbeats. Left out: that of `[motion]`.
+    ///
+    /// Change it for wings that beat out of phase, as those of dragonflies.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub phase: Option<f64>,
 }
@@ -108,19 +134,17 @@ pub struct WingMotionCase {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum AngleCase {
-    /// `phi.constant_deg = 5`: the same angle at all times.
+    /// The same angle at all times.
     ConstantDeg(f64),
-    /// `[...phi.fourier]`: mean and harmonics.
+    /// Mean and harmonics.
     Fourier(FourierCase),
-    /// `[...phi.smooth_triangle]`: Berman & Wang's stroke angle, sine (shape 0) to triangle
-    /// (shape towards 1).
+    /// Berman & Wang's stroke angle, sine (shape 0) to triangle (shape towards 1).
     SmoothTriangle(ShapedCase),
-    /// `[...psi.smooth_square]`: Berman & Wang's feathering angle, sine (shape 0) to square wave
-    /// (large shape).
+    /// Berman & Wang's feathering angle, sine (shape 0) to square wave (large shape).
     SmoothSquare(ShapedCase),
-    /// `[...theta.oval]`: Berman & Wang's deviation, `count` oscillations a beat.
+    /// Berman & Wang's deviation, `count` oscillations a beat.
     Oval(OvalCase),
-    /// `[...phi.table]`: samples over one beat, joined by a periodic cubic spline.
+    /// Samples over one beat, joined by a periodic cubic spline.
     Table(TableCase),
 }
 
@@ -129,10 +153,16 @@ pub enum AngleCase {
 #[serde(deny_unknown_fields, default)]
 pub struct FourierCase {
     /// Mean (not halved).
+    ///
+    /// Change it to what was measured.
     pub mean_deg: f64,
     /// Cosine coefficients of harmonics 1, 2, ...
+    ///
+    /// Change it to what was measured.
     pub cosine_deg: Vec<f64>,
     /// Sine coefficients of harmonics 1, 2, ...
+    ///
+    /// Change it to what was measured.
     pub sine_deg: Vec<f64>,
 }
 
@@ -141,14 +171,23 @@ pub struct FourierCase {
 #[serde(deny_unknown_fields)]
 pub struct ShapedCase {
     /// Amplitude.
+    ///
+    /// Change it to what was measured.
     pub amplitude_deg: f64,
     /// Shape: K in [0, 1) of the triangle, C >= 0 of the square.
+    ///
+    /// Change it to what was measured.
+    #[schemars(range(min = 0))]
     #[serde(default)]
     pub shape: f64,
     /// Phase shift of the sine.
+    ///
+    /// Change it to what was measured.
     #[serde(default)]
     pub shift_deg: f64,
     /// Mean.
+    ///
+    /// Change it to what was measured.
     #[serde(default)]
     pub mean_deg: f64,
 }
@@ -158,13 +197,22 @@ pub struct ShapedCase {
 #[serde(deny_unknown_fields)]
 pub struct OvalCase {
     /// Amplitude.
+    ///
+    /// Change it to what was measured.
     pub amplitude_deg: f64,
     /// Oscillations per beat: 1 an oval, 2 a figure of eight.
+    ///
+    /// Change it to what was measured.
+    #[schemars(range(min = 1))]
     pub count: usize,
     /// Phase shift of the cosine.
+    ///
+    /// Change it to what was measured.
     #[serde(default)]
     pub shift_deg: f64,
     /// Mean.
+    ///
+    /// Change it to what was measured.
     #[serde(default)]
     pub mean_deg: f64,
 }
@@ -174,15 +222,27 @@ pub struct OvalCase {
 #[serde(deny_unknown_fields, default)]
 pub struct TableCase {
     /// Rows [phase in wingbeats, angle in degrees].
+    ///
+    /// Change it to what was measured.
+    #[schemars(length(min = 4))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub rows_deg: Option<Vec<[f64; 2]>>,
     /// CSV file with a header, path relative to the case file; lines from `#` are comments.
+    ///
+    /// Change it for tables of many rows.
+    #[schemars(extend("or" = "rows_deg"))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub file: Option<String>,
-    /// Column of the phase in wingbeats; default the first.
+    /// Column of the phase in wingbeats. Left out: the first.
+    ///
+    /// Change it where the file has other columns first.
+    #[schemars(extend("with" = "file"))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub phase_column: Option<String>,
-    /// Column of the angle in degrees; default the second.
+    /// Column of the angle in degrees. Left out: the second.
+    ///
+    /// Change it where the file has other columns first.
+    #[schemars(extend("with" = "file"))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub angle_column: Option<String>,
 }

@@ -2,6 +2,9 @@
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use smart_default::SmartDefault;
+use wingbeat_model::Side;
+use wingbeat_model::planform::Spacing;
 
 use super::{DeformationCase, WingMotionCase};
 
@@ -10,104 +13,114 @@ use super::{DeformationCase, WingMotionCase};
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct WingCase {
-    /// Side of the body; default from the name.
+    /// Side of the body. Left out: by the name.
+    ///
+    /// Change it for wings whose name does not tell the side.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub side: Option<SideCase>,
-    /// Whether the mirror image on the other side comes along when it is not given; default true.
+    pub side: Option<Side>,
+    /// Whether the mirror image on the other side comes along when it is not given. Left out: true.
+    ///
+    /// Change it to false for a single wing.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub mirror: Option<bool>,
     /// Hinge in body axes.
+    ///
+    /// Change it to what was measured.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub hinge_m: Option<[f64; 3]>,
     /// Outline.
+    ///
+    /// Change it to the wing that was measured.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub planform: Option<PlanformCase>,
     /// Panels.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub mesh: Option<WingMeshCase>,
-    /// Mass of this wing, spread evenly over its area if nothing else is said.
+    /// Mass of this wing, spread evenly over its area if nothing else is said; 0 is allowed.
+    ///
+    /// Change it to the mass that was measured: an insect's wing has 0.5 to 1 % of the body's.
+    #[schemars(range(min = 0))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub mass_kg: Option<f64>,
     /// Mass per area, instead of `mass_kg`.
+    ///
+    /// Change it where the membrane was weighed and not the wing.
+    #[schemars(range(min = 0), extend("or" = "mass_kg"))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub areal_density_kg_m2: Option<f64>,
     /// Mass per area over the span, instead of `mass_kg`: rows [distance from the hinge in m,
     /// areal density in kg/m2].
+    ///
+    /// Change it where wings were cut into strips and weighed.
+    #[schemars(extend("or" = ["mass_kg", "areal_density_kg_m2"]))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub areal_density_table_m_kg_m2: Option<Vec<[f64; 2]>>,
-    /// Mass centre in wing axes from the hinge, with `mass_kg` and the inertia.
+    /// Mass centre in wing axes from the hinge. Left out: the hinge.
+    ///
+    /// Change it to what was measured.
+    #[schemars(extend("with" = "inertia_about_centre_kg_m2"))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub centre_m: Option<[f64; 3]>,
     /// Inertia matrix about the mass centre in wing axes: xx, yy, zz, xy, xz, yz (elements of
-    /// the matrix: a product carries its minus sign).
+    /// the matrix: a product carries its minus sign). Left out: that of the even mass.
+    ///
+    /// Change it to what was measured.
+    #[schemars(extend("with" = "mass_kg"))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub inertia_about_centre_kg_m2: Option<[f64; 6]>,
     /// Motion of this wing.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub motion: Option<WingMotionCase>,
     /// Twist, camber and bending of this wing.
+    #[schemars(extend("with" = "air.model = vortex_lattice | blade_element"))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub deformation: Option<DeformationCase>,
     /// Whether the wing shares the edge at its root with its twin on the other side: one lifting
-    /// surface without a vortex in the middle. The roots must meet. Default false.
+    /// surface without a vortex in the middle. The roots must meet. Left out: false.
+    ///
+    /// Change it to true for wings without a body between them.
+    #[schemars(extend("with" = "air.model = vortex_lattice"))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub joined: Option<bool>,
 }
 
-/// Side of the body.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum SideCase {
-    /// Spans along -axis 2.
-    Left,
-    /// Spans along +axis 2.
-    Right,
-}
-
 /// Panels of a wing.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, SmartDefault, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct WingMeshCase {
     /// Panels along the chord.
+    ///
+    /// Change it to see what hangs on the mesh; the step goes with it.
+    #[default = 4]
+    #[schemars(range(min = 1))]
     pub chordwise: usize,
     /// Panels along the span.
+    ///
+    /// Change it to see what hangs on the mesh.
+    #[default = 10]
+    #[schemars(range(min = 1))]
     pub spanwise: usize,
     /// Spacing along the chord.
-    pub chordwise_spacing: SpacingCase,
+    ///
+    /// Change it to resolve leading and trailing edge.
+    #[default(Spacing::Uniform)]
+    pub chordwise_spacing: Spacing,
     /// Spacing along the span.
-    pub spanwise_spacing: SpacingCase,
-}
-
-impl Default for WingMeshCase {
-    fn default() -> Self {
-        Self {
-            chordwise: 4,
-            spanwise: 10,
-            chordwise_spacing: SpacingCase::Uniform,
-            spanwise_spacing: SpacingCase::Uniform,
-        }
-    }
-}
-
-/// Spacing of panel lines.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum SpacingCase {
-    /// Equal.
-    Uniform,
-    /// Dense at both ends.
-    Cosine,
+    ///
+    /// Change it to resolve root and tip.
+    #[default(Spacing::Uniform)]
+    pub spanwise_spacing: Spacing,
 }
 
 /// Outline of a wing.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum PlanformCase {
-    /// `[wing.right.planform.beta]`: an insect's wing from length, chord and r2_hat.
+    /// An insect's wing from length, chord and r2_hat.
     Beta(BetaCase),
-    /// `[wing.right.planform.rectangle]`: constant chord.
+    /// Constant chord.
     Rectangle(RectangleCase),
-    /// `[wing.right.planform.outline]`: measured edges.
+    /// Measured edges.
     Outline(OutlineCase),
 }
 
@@ -116,25 +129,49 @@ pub enum PlanformCase {
 #[serde(deny_unknown_fields)]
 pub struct BetaCase {
     /// Wing length R, hinge to tip.
+    ///
+    /// Change it to what was measured.
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub length_m: f64,
     /// Mean chord S/R.
+    ///
+    /// Change it to what was measured.
+    #[schemars(extend("exclusiveMinimum" = 0))]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub mean_chord_m: Option<f64>,
     /// Area of this wing.
+    ///
+    /// Change it to what was measured.
+    #[schemars(extend("exclusiveMinimum" = 0, "or" = "mean_chord_m"))]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub area_m2: Option<f64>,
     /// Largest chord.
+    ///
+    /// Change it to what was measured.
+    #[schemars(extend("exclusiveMinimum" = 0, "or" = ["mean_chord_m", "area_m2"]))]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub max_chord_m: Option<f64>,
     /// Radius of the second moment of area about the hinge over R.
+    ///
+    /// Change it to what was measured: 0.5 to 0.6 for insects.
+    #[schemars(extend("exclusiveMinimum" = 0, "exclusiveMaximum" = 1))]
     pub r2_hat: f64,
     /// Distance from the hinge to the root of the surface.
+    ///
+    /// Change it for wings on a stalk.
+    #[schemars(range(min = 0))]
     #[serde(default)]
     pub root_offset_m: f64,
-    /// Part of the chord ahead of the hinge axis, 0 to 1.
+    /// Part of the chord ahead of the hinge axis.
+    ///
+    /// Change it to what was measured.
+    #[schemars(range(min = 0, max = 1))]
     #[serde(default = "quarter")]
     pub axis_fraction: f64,
-    /// Least chord at root and tip relative to the largest.
+    /// Least chord at root and tip relative to the largest: no panel degenerates.
+    ///
+    /// Change it to less for pointed wings of many panels.
+    #[schemars(extend("exclusiveMinimum" = 0, "exclusiveMaximum" = 0.9))]
     #[serde(default = "least_chord")]
     pub least_chord: f64,
 }
@@ -144,13 +181,25 @@ pub struct BetaCase {
 #[serde(deny_unknown_fields)]
 pub struct RectangleCase {
     /// Chord.
+    ///
+    /// Change it to what was measured.
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub chord_m: f64,
     /// Span from root to tip.
+    ///
+    /// Change it to what was measured.
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub span_m: f64,
     /// Distance from the hinge to the root.
+    ///
+    /// Change it for wings on a stalk.
+    #[schemars(range(min = 0))]
     #[serde(default)]
     pub root_offset_m: f64,
-    /// Part of the chord ahead of the hinge axis, 0 to 1.
+    /// Part of the chord ahead of the hinge axis.
+    ///
+    /// Change it to what was measured.
+    #[schemars(range(min = 0, max = 1))]
     #[serde(default = "quarter")]
     pub axis_fraction: f64,
 }
@@ -160,10 +209,19 @@ pub struct RectangleCase {
 #[serde(deny_unknown_fields)]
 pub struct OutlineCase {
     /// Leading edge from root to tip.
+    ///
+    /// Change it to what was measured.
+    #[schemars(length(min = 2))]
     pub leading_m: Vec<[f64; 2]>,
     /// Trailing edge from root to tip.
+    ///
+    /// Change it to what was measured.
+    #[schemars(length(min = 2))]
     pub trailing_m: Vec<[f64; 2]>,
     /// Least chord relative to the largest: narrower places are widened to it.
+    ///
+    /// Change it to less for pointed wings of many panels.
+    #[schemars(extend("exclusiveMinimum" = 0, "exclusiveMaximum" = 1))]
     #[serde(default = "least_chord")]
     pub least_chord: f64,
 }

@@ -25,7 +25,18 @@ use fearless_simd::{Level, dispatch, prelude::*};
 use rayon::prelude::*;
 
 /// How blobs stretch each other.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(
+    Clone,
+    Copy,
+    Debug,
+    Default,
+    PartialEq,
+    Eq,
+    serde::Serialize,
+    serde::Deserialize,
+    schemars::JsonSchema,
+)]
+#[serde(rename_all = "snake_case")]
 pub enum Stretching {
     /// Not at all: strengths stay.
     Omitted,

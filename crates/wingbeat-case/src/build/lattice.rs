@@ -1,0 +1,214 @@
+//! The settings of the vortex lattice.
+
+use wingbeat_air::{
+    AirError, AirSettings, CoreModel, EdgeKind, Friction, LeadingEdge, ParticleSettings,
+    SectionDrag, SheddingKinds,
+};
+use wingbeat_flight::AirOptions;
+use wingbeat_model::Animal;
+
+use super::lengths::Chord;
+use super::{Built, deformation, vector, wind};
+use crate::error::Fault;
+use crate::raw::{
+    AirCase, Case, FrictionCase, LeadingEdgeCase, ParticlesCase, SchemeCase, SectionDragCase,
+};
+
+/// The lattice and what of the animal it sees.
+pub(super) fn options(whole: &Case, animal: &Animal) -> Built<AirOptions> {
+    let (case, chord) = (&whole.air, Chord::of(animal));
+    let settings = settings(case, &chord)?;
+    settings.validate().map_err(|e| refused(case, &e))?;
+    Ok(AirOptions {
+        lattice: settings,
+        body_surfaces: case.body,
+        mirror: case.mirror,
+        joined: deformation::joined(whole, animal)?,
+    })
+}
+
+fn settings(case: &AirCase, chord: &Chord) -> Built<AirSettings> {
+    let length = |name: &str, metres, chords| chord.length(&format!("air.{name}"), metres, chords);
+    let sheds = |edge: EdgeKind| case.shed.contains(&edge);
+    let stream = vector(case.stream_m_s);
+    let scheme = match case.scheme {
+        SchemeCase::Benchmark => AirSettings::benchmark,
+        SchemeCase::Accurate => AirSettings::accurate,
+    };
+    let wake_core = chord.core("air.wake_core", &case.wake_core)?;
+    let ground = case.ground.map(|g| wind::ground(&g, stream)).transpose()?;
+    let particles = |p| particles(p, case, chord, wake_core);
+    Ok(AirSettings {
+        bound_core: chord.core("air.bound_core", &case.bound_core)?,
+        wake_core,
+        wake_overlap: case.wake_overlap.value(),
+        wake_blob_length: length(
+            "wake_blob_length",
+            case.wake_blob_length_m,
+            case.wake_blob_length_chords,
+        )?,
+        shedding: SheddingKinds {
+            trailing: sheds(EdgeKind::Trailing),
+            tip: sheds(EdgeKind::Tip),
+            leading: sheds(EdgeKind::Leading),
+            root: sheds(EdgeKind::Root),
+        },
+        rate: case.circulation_rate.value(),
+        convection: case.convection.value(),
+        inset: case.ring_inset.value(),
+        loads: case.loads,
+        leading: leading_edge(case)?,
+        wind: wind::wind(case)?,
+        images: ground.into_iter().collect(),
+        max_age: case.max_wake_age_s,
+        max_distance: length(
+            "max_wake_distance",
+            case.max_wake_distance_m,
+            case.max_wake_distance_chords,
+        )?,
+        max_rows: case.max_wake_rows,
+        max_displacement: case.max_displacement_m,
+        clearance: length("clearance", case.clearance_m, case.clearance_chords)?.unwrap_or(0.0),
+        particles: case.particles.as_ref().map(particles).transpose()?,
+        section_drag: case.section_drag.map(section_drag).transpose()?,
+        summation: case.summation,
+        tolerance: case.summation_tolerance,
+        ..scheme(case.density_kg_m3, stream)
+    })
+}
+
+/// What the lattice refuses, at the key it is about.
+fn refused(case: &AirCase, error: &AirError) -> Fault {
+    let AirError::Setting {
+        key,
+        value,
+        allowed,
+    } = error
+    else {
+        return Fault::new("air", error.to_string(), "", "correct the air");
+    };
+    let in_chords = case.wake_blob_length_chords.is_some();
+    let key = match key_of(key) {
+        "air.wake_blob_length_m" if in_chords => "air.wake_blob_length_chords",
+        key => key,
+    };
+    Fault::new(
+        key,
+        format!("{value} does not fit the other settings"),
+        *allowed,
+        "change this key or the one it does not fit",
+    )
+}
+
+/// The key of a case that a setting of the lattice comes from.
+pub(super) fn key_of(setting: &str) -> &'static str {
+    match setting {
+        "density" => "air.density_kg_m3",
+        "free_stream" => "air.stream_m_s",
+        "wake_overlap" => "air.wake_overlap",
+        "wake_blob_length" => "air.wake_blob_length_m",
+        "max_displacement" => "air.max_displacement_m",
+        "clearance" => "air.clearance_m",
+        "max_age" => "air.max_wake_age_s",
+        "max_distance" => "air.max_wake_distance_m",
+        "max_rows" => "air.max_wake_rows",
+        "inset" => "air.ring_inset",
+        "summation tolerance" => "air.summation_tolerance",
+        "images" => "air.ground",
+        "shear" => "air.shear_1_s",
+        name if name.starts_with("gust") => "air.gust",
+        name if name.starts_with("particles") => "air.particles",
+        name if name.starts_with("section drag") => "air.section_drag",
+        name if name.starts_with("leading") => "air.leading_edge",
+        _ => "air",
+    }
+}
+
+/// Drag of the sections.
+fn section_drag(case: SectionDragCase) -> Built<SectionDrag> {
+    let friction = match (case.friction, case.viscosity_m2_s) {
+        (FrictionCase::None, _) => Friction::None,
+        (FrictionCase::Blasius, Some(viscosity)) => Friction::Blasius { viscosity },
+        (FrictionCase::Blasius, None) => {
+            return Err(Fault::new(
+                "air.section_drag.viscosity_m2_s",
+                "the friction needs the viscosity of the air, which has no default",
+                "a finite number > 0",
+                "1.5e-5 for air at sea level; friction = \"none\" leaves friction out",
+            ));
+        }
+    };
+    Ok(SectionDrag {
+        friction,
+        cd0: case.cd0,
+        cd2: case.cd2_per_rad2,
+    })
+}
+
+/// The separation criterion with the threshold it needs.
+fn leading_edge(case: &AirCase) -> Built<LeadingEdge> {
+    let need = |key: &str, value: Option<f64>| {
+        value.ok_or_else(|| {
+            Fault::new(
+                key,
+                "air.leading_edge needs this threshold, which has no default",
+                "a finite number > 0",
+                "give a threshold that fits wing section and Reynolds number",
+            )
+        })
+    };
+    Ok(match case.leading_edge {
+        LeadingEdgeCase::Never => LeadingEdge::Never,
+        LeadingEdgeCase::Always => LeadingEdge::Always,
+        LeadingEdgeCase::AngleOfAttack => LeadingEdge::AngleOfAttack {
+            threshold: need(
+                "air.leading_edge_threshold_deg",
+                case.leading_edge_threshold_deg,
+            )?
+            .to_radians(),
+        },
+        LeadingEdgeCase::Suction => LeadingEdge::Suction {
+            threshold: need("air.leading_edge_threshold", case.leading_edge_threshold)?,
+        },
+    })
+}
+
+/// Particles; radius and viscosity are those of the wake's filaments where left out, unless these
+/// are as wide as they are long.
+fn particles(
+    case: &ParticlesCase,
+    air: &AirCase,
+    chord: &Chord,
+    wake_core: CoreModel,
+) -> Built<ParticleSettings> {
+    let (radius, viscosity) = match wake_core {
+        CoreModel::LambOseen { radius, viscosity } => (Some(radius), viscosity),
+        CoreModel::Vatistas { radius } | CoreModel::Scully { radius } => (Some(radius), 0.0),
+        CoreModel::CutOff { .. } => (None, 0.0),
+    };
+    let own = chord.length("air.particles.radius", case.radius_m, case.radius_chords)?;
+    let default = radius.filter(|_| air.wake_overlap.value() == 0.0);
+    let radius = own.or(default).ok_or_else(|| {
+        Fault::new(
+            "air.particles",
+            "particles need a radius, and wake_core has none or wake_overlap widens it",
+            "radius_m or radius_chords, > 0",
+            "add radius_m: about the distance between rows of wake",
+        )
+    })?;
+    if case.after_rows.is_none() && !case.leading_edge {
+        return Err(Fault::new(
+            "air.particles",
+            "nothing becomes a particle",
+            "after_rows, leading_edge = true, or both",
+            "add after_rows = 8",
+        ));
+    }
+    Ok(ParticleSettings {
+        after: case.after_rows,
+        leading_at_once: case.leading_edge,
+        radius,
+        viscosity: case.viscosity_m2_s.unwrap_or(viscosity),
+        stretching: case.stretching,
+    })
+}

@@ -1,0 +1,75 @@
+//! Lengths of the air in metres or in mean chords, and the cores of vortices.
+
+use wingbeat_air::CoreModel;
+use wingbeat_model::Animal;
+
+use super::Built;
+use crate::error::Fault;
+use crate::raw::CoreCase;
+
+/// The mean chord of all wings, where there are any.
+pub(super) struct Chord(Option<f64>);
+
+impl Chord {
+    /// Area over length of all wings \[m\].
+    pub fn of(animal: &Animal) -> Self {
+        let wings = animal.wing_reports();
+        let [area, length] = [
+            wings.iter().map(|w| w.area).sum::<f64>(),
+            wings.iter().map(|w| w.length).sum(),
+        ];
+        Self((!wings.is_empty()).then(|| area / length))
+    }
+
+    /// A length \[m\] that the case gives as `STEM_m` or `STEM_chords`; none where it gives neither.
+    pub fn length(
+        &self,
+        stem: &str,
+        metres: Option<f64>,
+        chords: Option<f64>,
+    ) -> Built<Option<f64>> {
+        match (metres, chords, self.0) {
+            (Some(metres), _, _) => Ok(Some(metres)),
+            (None, Some(chords), Some(chord)) => Ok(Some(chords * chord)),
+            (None, Some(_), None) => Err(Fault::new(
+                format!("{stem}_chords"),
+                "there are no wings whose chord could be meant",
+                format!("{stem}_m"),
+                "give the length in metres",
+            )),
+            (None, None, _) => Ok(None),
+        }
+    }
+
+    /// The core at `path`.
+    pub fn core(&self, path: &str, case: &CoreCase) -> Built<CoreModel> {
+        let needed = |name: &str, metres, chords| {
+            let stem = format!("{path}.{name}");
+            let length = self.length(&stem, metres, chords)?;
+            length.ok_or_else(|| {
+                Fault::new(
+                    path,
+                    "this core has no size",
+                    format!("{stem}_m or {stem}_chords"),
+                    "0.01 chords for a bound core, 0.07 for one in the wake",
+                )
+            })
+        };
+        let radius = |kind: &str, m, chords| needed(&format!("{kind}.radius"), m, chords);
+        Ok(match case {
+            CoreCase::CutOff(c) => CoreModel::CutOff {
+                delta: needed("cut_off.length", c.length_m, c.length_chords)?,
+            },
+            CoreCase::Vatistas(c) => CoreModel::Vatistas {
+                radius: radius("vatistas", c.radius_m, c.radius_chords)?,
+            },
+            CoreCase::Scully(c) => CoreModel::Scully {
+                radius: radius("scully", c.radius_m, c.radius_chords)?,
+            },
+            CoreCase::LambOseen(c) => CoreModel::LambOseen {
+                radius: radius("lamb_oseen", c.radius_m, c.radius_chords)?,
+                viscosity: c.viscosity_m2_s,
+            },
+        })
+    }
+}

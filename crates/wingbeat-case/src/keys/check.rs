@@ -1,0 +1,158 @@
+//! A case walked along its schema: every number within its bounds, every key with an effect.
+
+use toml::{Table, Value};
+
+use super::bounds;
+use super::needs::{self, Need};
+use super::schema::Shape;
+use crate::error::Fault;
+use crate::source::join;
+
+type Checked = Result<(), Fault>;
+
+/// Checks the values of all keys, each by itself.
+pub(crate) fn alone(document: &Table) -> Checked {
+    each(
+        Shape::case(),
+        "",
+        document,
+        &mut |shape, path, value| match bounds::check(shape, value) {
+            None => Ok(()),
+            Some(w) => Err(Fault::new(path, w.problem, w.allowed, w.remedy)),
+        },
+    )
+}
+
+/// Visits all values of a table, lists and tables in it too.
+fn each(
+    shape: Shape,
+    path: &str,
+    table: &Table,
+    visit: &mut impl FnMut(Shape, &str, &Value) -> Checked,
+) -> Checked {
+    for (name, value) in table {
+        if let Some(key) = shape.at(name) {
+            each_in(key, &join(path, name), value, visit)?;
+        }
+    }
+    Ok(())
+}
+
+fn each_in(
+    shape: Shape,
+    path: &str,
+    value: &Value,
+    visit: &mut impl FnMut(Shape, &str, &Value) -> Checked,
+) -> Checked {
+    visit(shape, path, value)?;
+    match value {
+        Value::Table(table) => each(shape, path, table, visit),
+        Value::Array(items) => {
+            for (k, item) in items.iter().enumerate() {
+                if let Some(element) = shape.element(k) {
+                    each_in(element, &format!("{path}[{k}]"), item, visit)?;
+                }
+            }
+            Ok(())
+        }
+        _ => Ok(()),
+    }
+}
+
+/// A case with its defaults filled in beside the document it was read from.
+struct Pair<'a> {
+    /// All keys, with their defaults.
+    whole: &'a Table,
+    /// Whether keys of another air model than the chosen one may stand by.
+    switched: bool,
+}
+
+/// Checks that every key of `document` has an effect beside the others; `whole` is the same case
+/// with its defaults. Where the air's model was chosen on the command line (`switched`), the
+/// settings of the case's own model may stand by.
+pub(crate) fn together(document: &Table, whole: &Table, switched: bool) -> Checked {
+    let pair = Pair { whole, switched };
+    pair.table(Shape::case(), "", document, whole)
+}
+
+impl Pair<'_> {
+    fn table(&self, shape: Shape, path: &str, given: &Table, whole: &Table) -> Checked {
+        for (name, value) in given {
+            let Some(key) = shape.at(name) else { continue };
+            let path = join(path, name);
+            for need in needs::of(key) {
+                if !need.is_met(self.whole, whole, given) && !self.stands_by(key, need) {
+                    let [problem, allowed, remedy] = need.explained(self.whole, whole);
+                    return Err(Fault::new(path, problem, allowed, remedy));
+                }
+            }
+            given_once(key, name, &path, given)?;
+            if let Some(inner) = whole.get(name) {
+                self.inside(key, &path, value, inner)?;
+            }
+        }
+        Ok(())
+    }
+
+    fn inside(&self, shape: Shape, path: &str, given: &Value, whole: &Value) -> Checked {
+        match (given, whole) {
+            (Value::Table(given), Value::Table(whole)) => self.table(shape, path, given, whole),
+            (Value::Array(given), Value::Array(whole)) => {
+                for (k, (given, whole)) in given.iter().zip(whole).enumerate() {
+                    if let Some(element) = shape.element(k) {
+                        self.inside(element, &format!("{path}[{k}]"), given, whole)?;
+                    }
+                }
+                Ok(())
+            }
+            _ => Ok(()),
+        }
+    }
+
+    /// What belongs to a model that was not chosen and is no property of the air itself.
+    fn stands_by(&self, key: Shape, need: Need) -> bool {
+        self.switched && need.is_model() && key.key.get("always").is_none()
+    }
+}
+
+/// Of alternatives only one is given.
+fn given_once(key: Shape, name: &str, path: &str, given: &Table) -> Checked {
+    let others = key.texts("or");
+    match others.iter().find(|o| given.contains_key(**o)) {
+        None => Ok(()),
+        Some(other) => Err(Fault::new(
+            path,
+            format!("this is given twice, also as {other}"),
+            format!("one of {}, {name}", others.join(", ")),
+            "remove one of them",
+        )),
+    }
+}
+
+/// The keys of a case that have an effect; `whole` has all defaults.
+pub(crate) fn effective(whole: &Table) -> Table {
+    kept(Shape::case(), whole, whole)
+}
+
+fn kept(shape: Shape, root: &Table, table: &Table) -> Table {
+    let effective = |key: Shape| needs::of(key).iter().all(|n| n.is_met(root, table, table));
+    let keep = |(name, value): (&String, &Value)| {
+        let key = shape.at(name)?;
+        effective(key).then(|| (name.clone(), kept_in(key, root, value)))
+    };
+    table.iter().filter_map(keep).collect()
+}
+
+fn kept_in(shape: Shape, root: &Table, value: &Value) -> Value {
+    match value {
+        Value::Table(table) => Value::Table(kept(shape, root, table)),
+        Value::Array(items) => {
+            let kept = |(k, item): (usize, &Value)| match shape.element(k) {
+                Some(element) => kept_in(element, root, item),
+                None => item.clone(),
+            };
+            Value::Array(items.iter().enumerate().map(kept).collect())
+        }
+        other => other.clone(),
+    }
+}

@@ -1,0 +1,115 @@
+//! Which keys have an effect beside which others.
+
+use toml::{Table, Value};
+
+use super::schema::Shape;
+
+/// The key that other models' keys depend on; see [`Tables::unmet`].
+const MODEL: &str = "air.model";
+
+/// What a key needs to have an effect.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Need {
+    /// Another key has one of these values, or a list with one of them: `KEY = A | B`.
+    Value {
+        key: &'static str,
+        values: &'static str,
+    },
+    /// Another key is given: `KEY`.
+    Given(&'static str),
+    /// Another key is not given: `no KEY`.
+    NotGiven(&'static str),
+}
+
+/// What the key needs.
+pub(super) fn of(shape: Shape) -> Vec<Need> {
+    shape.texts("with").into_iter().map(Need::parse).collect()
+}
+
+impl Need {
+    fn parse(text: &'static str) -> Self {
+        match (text.split_once(" = "), text.strip_prefix("no ")) {
+            (Some((key, values)), _) => Self::Value { key, values },
+            (None, Some(key)) => Self::NotGiven(key),
+            (None, None) => Self::Given(text),
+        }
+    }
+
+    /// Whether it is fulfilled for a key in the table `around`: `root` is the whole case with its
+    /// defaults, `given` tells the keys of the table that were given.
+    pub fn is_met(self, root: &Table, around: &Table, given: &Table) -> bool {
+        match self {
+            Self::Value { key, .. } => {
+                let value = if key.contains('.') {
+                    find(root, key)
+                } else {
+                    around.get(key)
+                };
+                value.is_none_or(|v| self.allows(v))
+            }
+            Self::Given(key) => given.contains_key(key),
+            Self::NotGiven(key) => !given.contains_key(key),
+        }
+    }
+
+    fn allows(self, value: &Value) -> bool {
+        let Self::Value { values, .. } = self else {
+            return false;
+        };
+        let named = |v: &Value| values.split(" | ").any(|name| v.as_str() == Some(name));
+        named(value) || value.as_array().is_some_and(|list| list.iter().any(named))
+    }
+
+    /// Whether it is the choice of the air's model.
+    pub fn is_model(self) -> bool {
+        matches!(self, Self::Value { key: MODEL, .. })
+    }
+
+    /// What is wrong with a key that needs this, what is allowed, what to try.
+    pub fn explained(self, root: &Table, around: &Table) -> [String; 3] {
+        match self {
+            Self::Value { key, values } => {
+                let value = if key.contains('.') {
+                    find(root, key)
+                } else {
+                    around.get(key)
+                };
+                let value = value.map_or(String::new(), Value::to_string);
+                [
+                    format!("this has no effect with {key} = {value}"),
+                    format!("with {key} = {values}"),
+                    format!("remove it, or change {key}"),
+                ]
+            }
+            Self::Given(key) => [
+                format!("this has no effect without {key}"),
+                format!("together with {key}"),
+                format!("remove it, or give {key}"),
+            ],
+            Self::NotGiven(key) => [
+                format!("this has no effect beside {key}"),
+                format!("without {key}"),
+                format!("remove it, or {key}"),
+            ],
+        }
+    }
+
+    /// In words, for the page of keys.
+    pub fn in_words(self) -> String {
+        match self {
+            Self::Value { key, values } => {
+                let values: Vec<String> = values.split(" | ").map(|v| format!("`{v}`")).collect();
+                format!("with `{key}` = {}", values.join(" or "))
+            }
+            Self::Given(key) => format!("with `{key}`"),
+            Self::NotGiven(key) => format!("without `{key}`"),
+        }
+    }
+}
+
+/// The value at a path of names.
+fn find<'a>(root: &'a Table, path: &str) -> Option<&'a Value> {
+    let (first, rest) = path.split_once('.')?;
+    rest.split('.')
+        .try_fold(root.get(first)?, |value, name| value.get(name))
+}

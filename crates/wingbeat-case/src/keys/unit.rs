@@ -1,0 +1,50 @@
+//! Units of keys, from their names.
+
+/// Endings of names and the units they stand for, longer ones before their own endings.
+const UNITS: [(&str, &str); 29] = [
+    ("table_m_kg_m2", "m, kg/m2"),
+    ("_newton_m_s_per_rad", "N m s/rad"),
+    ("_newton_m_per_rad", "N m/rad"),
+    ("_newton_s_per_m", "N s/m"),
+    ("_newton_per_m", "N/m"),
+    ("_newton_s_m", "N s/m"),
+    ("_newton_m_s", "N m s"),
+    ("_newton_m", "N m"),
+    ("_newton_s", "N s"),
+    ("_newton", "N"),
+    ("_s_per_rad", "s/rad"),
+    ("_per_rad2", "1/rad2"),
+    ("_per_s", "1/s"),
+    ("_1_s", "1/s"),
+    ("_kg_m2", "kg m2"),
+    ("_kg_m3", "kg/m3"),
+    ("_kg", "kg"),
+    ("_deg_s", "deg/s"),
+    ("_deg", "deg"),
+    ("_hz", "Hz"),
+    ("_m_s2", "m/s2"),
+    ("_m2_s", "m2/s"),
+    ("_m_s", "m/s"),
+    ("_m2", "m2"),
+    ("_m", "m"),
+    ("_s", "s"),
+    ("_chords", "mean chords"),
+    ("_beats", "wingbeats"),
+    ("beats", "wingbeats"),
+];
+
+/// Unit of a key; none where it is a pure number or no number.
+pub(super) fn unit(key: &str) -> Option<&'static str> {
+    let areal = key.starts_with("areal_density_kg");
+    let found = UNITS.iter().find(|(end, _)| key.ends_with(end));
+    if areal {
+        Some("kg/m2")
+    } else {
+        found.map(|u| u.1)
+    }
+}
+
+/// The name of a key without its unit; none for names without one.
+pub(crate) fn without_unit(key: &str) -> Option<&str> {
+    UNITS.iter().find_map(|(end, _)| key.strip_suffix(end))
+}

@@ -1,0 +1,70 @@
+//! `[[load]]`: extra forces and couples.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use wingbeat_flight::LoadFrame;
+
+/// A force and a couple on one body.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct LoadCase {
+    /// `body` or the name of a wing or segment.
+    ///
+    /// Change it to load another body.
+    #[serde(default = "root")]
+    pub on: String,
+    /// Axes of the components.
+    ///
+    /// Change it for loads that keep their direction in space.
+    #[serde(default = "body_frame")]
+    pub frame: LoadFrame,
+    /// Point of application in the axes of the loaded body, from its origin.
+    ///
+    /// Change it for forces off the origin.
+    #[serde(default)]
+    pub point_m: [f64; 3],
+    /// Constant part of the force.
+    ///
+    /// Change it to tow or load the animal.
+    #[serde(default)]
+    pub force_newton: [f64; 3],
+    /// Constant part of the couple.
+    ///
+    /// Change it to turn the animal.
+    #[serde(default)]
+    pub couple_newton_m: [f64; 3],
+    /// Frequency f of the oscillating parts.
+    ///
+    /// Change it together with the series below.
+    #[schemars(range(min = 0))]
+    #[serde(default)]
+    pub frequency_hz: f64,
+    /// Cosine parts of the force, one vector per harmonic 1, 2, ...
+    ///
+    /// Change it for forces that oscillate.
+    #[serde(default)]
+    pub force_cosine_newton: Vec<[f64; 3]>,
+    /// Sine parts of the force.
+    ///
+    /// Change it for forces that oscillate.
+    #[serde(default)]
+    pub force_sine_newton: Vec<[f64; 3]>,
+    /// Cosine parts of the couple.
+    ///
+    /// Change it for couples that oscillate.
+    #[serde(default)]
+    pub couple_cosine_newton_m: Vec<[f64; 3]>,
+    /// Sine parts of the couple.
+    ///
+    /// Change it for couples that oscillate.
+    #[serde(default)]
+    pub couple_sine_newton_m: Vec<[f64; 3]>,
+}
+
+fn root() -> String {
+    "body".to_owned()
+}
+
+fn body_frame() -> LoadFrame {
+    LoadFrame::Body
+}

@@ -1,0 +1,86 @@
+//! From the raw case to the resolved one: keys that follow from others where the case leaves them
+//! out get their values, so that what comes after has nothing to decide.
+
+use wingbeat_air::AirSettings;
+use wingbeat_math::DVec3;
+
+use crate::data::find_data;
+use crate::error::Fault;
+use crate::raw::{
+    AirCase, AirModel, Case, CoreCase, Formulation, IntegratorCase, MotionCase, SchemeCase,
+    TimeCase,
+};
+
+/// Steps per wingbeat where the case does not say.
+const STEPS_PER_BEAT: usize = 40;
+/// Wingbeats where the case does not say.
+const BEATS: f64 = 5.0;
+/// Distance that wakes keep from surfaces where the case does not say, mean chords.
+const CLEARANCE: f64 = 0.1;
+
+/// Fills in what the case leaves open.
+pub(crate) fn resolve(case: &mut Case) -> Result<(), Fault> {
+    motion(&mut case.motion)?;
+    let beats = case.motion.frequency_hz.value() > 0.0;
+    time(&mut case.time, beats);
+    air(&mut case.air);
+    dynamics(case);
+    Ok(())
+}
+
+/// Frequency and stroke plane of the data set; without one, wings that do not beat.
+fn motion(case: &mut MotionCase) -> Result<(), Fault> {
+    let data = match &case.data {
+        Some(name) => Some(find_data("motion.data", name)?),
+        None => None,
+    };
+    let frequency = data.as_ref().and_then(|d| d.frequency);
+    let pitch = data.as_ref().and_then(|d| d.stroke_plane_pitch);
+    case.frequency_hz.decide(frequency.unwrap_or(0.0));
+    case.stroke_plane_pitch_deg
+        .decide(pitch.unwrap_or(0.0).to_degrees());
+    Ok(())
+}
+
+/// Time is counted in beats where wings beat, unless seconds and steps are given.
+fn time(case: &mut TimeCase, beats: bool) {
+    if beats && case.step_s.is_none() {
+        case.steps_per_beat.get_or_insert(STEPS_PER_BEAT);
+    }
+    if beats && case.steps.is_none() {
+        case.beats.get_or_insert(BEATS);
+    }
+}
+
+/// What the scheme says; cores that widen where they have a radius; distance of the wake.
+fn air(case: &mut AirCase) {
+    let scheme = match case.scheme {
+        SchemeCase::Benchmark => AirSettings::benchmark,
+        SchemeCase::Accurate => AirSettings::accurate,
+    };
+    let scheme = scheme(case.density_kg_m3, DVec3::ZERO);
+    case.circulation_rate.decide(scheme.rate);
+    case.convection.decide(scheme.convection);
+    case.ring_inset.decide(scheme.inset);
+    let has_radius = !matches!(case.wake_core, CoreCase::CutOff { .. });
+    case.wake_overlap.decide(if has_radius { 1.0 } else { 0.0 });
+    if case.clearance_m.is_none() {
+        case.clearance_chords.get_or_insert(CLEARANCE);
+    }
+}
+
+/// The quaternion form where joints close loops, the momentum form else; Hamming's method with air,
+/// order eight without.
+fn dynamics(case: &mut Case) {
+    let children: Vec<&str> = case.joint.values().map(|j| j.child.as_str()).collect();
+    let again = |k: usize| children[..k].contains(&children[k]);
+    let loops = (0..children.len()).any(again);
+    case.dynamics.formulation.decide(match loops {
+        true => Formulation::Quaternion,
+        false => Formulation::Momentum,
+    });
+    case.dynamics.integrator.decide(match case.air.model {
+        AirModel::None => IntegratorCase::OrderEight,
+        _ => IntegratorCase::Hamming,
+    });
+}
