@@ -85,6 +85,24 @@ pub struct Record {
     pub leak_velocity: f64,
 }
 
+impl Record {
+    /// Force of the air on all bodies, N components [N].
+    pub fn air_force(&self) -> DVec3 {
+        self.air.iter().map(|load| load.force).sum()
+    }
+
+    /// Force of the air against gravity [N], which points along the unit vector `down`.
+    pub fn lift(&self, down: DVec3) -> f64 {
+        -self.air_force().dot(down)
+    }
+
+    /// Power of all actuators and of all prescribed deformation [W].
+    pub fn hinge_power(&self) -> f64 {
+        let hinges: f64 = self.hinges.iter().map(|h| h.power).sum();
+        hinges + self.deformation_power.iter().sum::<f64>()
+    }
+}
+
 /// One hinge: what the parent does to the child there.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct HingeRecord {

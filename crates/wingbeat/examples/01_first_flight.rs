@@ -3,7 +3,7 @@
 
 use wingbeat::prelude::*;
 
-pub fn main() -> Result<(), Error> {
+pub(crate) fn main() -> Result<(), Error> {
     let run = Flight::preset("fruit-fly-blade")?
         .frequency_hz(210.0)
         .beats(5.0)

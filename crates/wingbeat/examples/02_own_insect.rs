@@ -7,7 +7,7 @@ use wingbeat::prelude::*;
 /// Air at sea level: density [kg/m3], kinematic viscosity [m2/s].
 const AIR: [f64; 2] = [1.225, 1.5e-5];
 
-pub fn main() -> Result<(), Box<dyn std::error::Error>> {
+pub(crate) fn main() -> Result<(), Box<dyn std::error::Error>> {
     // A fruit fly half as large again, its wings a third heavier.
     let mut insect = drosophila_melanogaster(&FlyOptions {
         scale: 1.5,
@@ -26,10 +26,16 @@ pub fn main() -> Result<(), Box<dyn std::error::Error>> {
     let quick = AirModel::BladeElement(BladeOptions::insect(AIR[0]));
     let whole = AirModel::VortexLattice(AirOptions::insect(AIR[0], AIR[1], 1.05e-3));
     for air in [quick, whole] {
-        let flight = Flight::new("my insect", insect.clone(), air).start(start).beats(2.0);
+        let flight = Flight::new("my insect", insect.clone(), air)
+            .start(start)
+            .beats(2.0);
         let run = flight.fly()?;
         let last = run.beats()[1];
-        println!("{}: lift {:.2} weights", flight.setup.air.name(), last.lift_over_weight);
+        println!(
+            "{}: lift {:.2} weights",
+            flight.setup.air.name(),
+            last.lift_over_weight
+        );
     }
     Ok(())
 }

@@ -23,7 +23,7 @@ impl Controller for HoldHeight {
     }
 }
 
-pub fn main() -> Result<(), Error> {
+pub(crate) fn main() -> Result<(), Error> {
     let flight = Flight::preset("fruit-fly-blade")?.beats(10.0);
     let free = flight.fly()?;
     let controller = HoldHeight {

@@ -1,11 +1,11 @@
 //! Every numbered example runs to its end.
 
+#[path = "../examples/03_controller.rs"]
+mod controller;
 #[path = "../examples/01_first_flight.rs"]
 mod first_flight;
 #[path = "../examples/02_own_insect.rs"]
 mod own_insect;
-#[path = "../examples/03_controller.rs"]
-mod controller;
 
 #[test]
 fn behaves_first_flight() {
