@@ -344,8 +344,11 @@ pub enum StabilizationChoice {
 /// The time integrator.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum IntegratorChoice {
-    /// Hamming's modified predictor-corrector, order four: the one that carries a wake along.
+    /// Hamming's modified predictor-corrector, order four: carries a wake along where the air that
+    /// moves with the wings weighs less than a third of what carries it.
     Hamming,
+    /// Backward differences of order four: carries a wake along whatever the air weighs.
+    Bdf,
     /// Adams-Bashforth-Moulton, order four.
     Adams,
     /// Runge-Kutta, order four.
@@ -361,6 +364,12 @@ pub enum IntegratorChoice {
 impl IntegratorChoice {
     /// The default without a wake: order eight at 1e-10.
     pub const WITHOUT_WAKE: Self = Self::OrderEight { tolerance: 1e-10 };
+
+    /// Whether the method evaluates loads at the ends of steps only, as a wake demands, which is
+    /// moved once a step.
+    pub fn carries_wake(&self) -> bool {
+        matches!(self, Self::Hamming | Self::Bdf)
+    }
 
     /// Whether the method needs nothing but the present state.
     pub fn is_one_step(&self) -> bool {

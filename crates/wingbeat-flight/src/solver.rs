@@ -2,7 +2,7 @@
 
 use wingbeat_air::AirState;
 use wingbeat_math::ode::{
-    AdamsBashforthMoulton, AdaptiveError, Convergence, Dop853, Hamming, Multistep, Rk4, StepError,
+    AdamsBashforthMoulton, AdaptiveError, Bdf, Convergence, Dop853, Hamming, Multistep, Rk4, StepError,
     StepReport, Tolerance,
 };
 
@@ -18,6 +18,8 @@ const MOST_SUBSTEPS: usize = 10_000;
 pub enum Solver {
     /// Predictor-corrector with memory.
     Hamming(Hamming),
+    /// Backward differences.
+    Bdf(Bdf),
     /// Predictor-corrector with memory.
     Adams(AdamsBashforthMoulton),
     /// One step, order four.
@@ -54,10 +56,7 @@ impl Buffers {
     ) -> Result<(), FlightError> {
         equations.normalise(t, &mut self.y, s)?;
         equations.evaluate(t, &self.y, None, s, &mut self.f)?;
-        past.y.rotate_left(1);
-        past.f.rotate_left(1);
-        past.y[3].copy_from_slice(&self.y);
-        past.f[3].copy_from_slice(&self.f);
+        past.push(&self.y, &self.f);
         Ok(())
     }
 }
@@ -68,6 +67,7 @@ impl Solver {
         let (step, scales) = (equations.step, equations.scales());
         match choice {
             IntegratorChoice::Hamming => Self::Hamming(Hamming::new(step, convergence(c), scales)),
+            IntegratorChoice::Bdf => Self::Bdf(Bdf::new(step, convergence(c), scales)),
             IntegratorChoice::Adams => {
                 Self::Adams(AdamsBashforthMoulton::new(step, equations.dim()))
             }
@@ -105,6 +105,9 @@ impl Solver {
         };
         match self {
             Self::Hamming(method) => {
+                method.advance(past, |y, dy| equations.evaluate(end, y, air, s, dy))
+            }
+            Self::Bdf(method) => {
                 method.advance(past, |y, dy| equations.evaluate(end, y, air, s, dy))
             }
             Self::Adams(method) => method

@@ -45,8 +45,8 @@ impl FlightSetup {
             let allowed = "a finite number above 0";
             check(ok, "dynamics.tolerance", tolerance, allowed)?;
         }
-        let fits = !self.air.has_memory() || self.integrator == IntegratorChoice::Hamming;
-        let wake = "a wake is moved once per step: only Hamming's method carries it along";
+        let fits = !self.air.has_memory() || self.integrator.carries_wake();
+        let wake = "a wake is moved once per step: only hamming and bdf carry it along";
         check(fits, key, &method, wake)?;
         let projects =
             self.formulation == FormulationChoice::Quaternion(StabilizationChoice::Projection);

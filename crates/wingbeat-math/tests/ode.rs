@@ -3,7 +3,7 @@
 use std::convert::Infallible;
 
 use wingbeat_math::ode::{
-    AdamsBashforthMoulton, AdaptiveError, Convergence, Dop853, Hamming, Memoryless, Multistep, Rk4,
+    AdamsBashforthMoulton, AdaptiveError, Bdf, Convergence, Dop853, Hamming, Memoryless, Multistep, Rk4,
     StepError, Tolerance, block_start,
 };
 
@@ -297,5 +297,88 @@ fn limit_of_hammings_stability_on_both_axes() {
     }
     for (found, known) in imaginary.iter().zip([0.28, 0.80, 1.08]) {
         assert!((found - known).abs() < 0.03, "{imaginary:?}"); // growth just beyond is weak
+    }
+}
+
+#[test]
+fn order_bdf_is_four() {
+    let error = |steps: usize| {
+        let h = 2.0 / steps as f64;
+        let mut past = started(h);
+        let mut method = Bdf::new(h, CONVERGENCE, vec![1.0; 2]);
+        for n in 3..steps {
+            let t = (n + 1) as f64 * h;
+            let f = |y: &[f64], dy: &mut [f64]| {
+                rates(t, y, dy);
+                Ok::<(), Infallible>(())
+            };
+            method.advance(&mut past, f).expect("a step");
+        }
+        self::error(past.newest(), 2.0)
+    };
+    let s = slopes(error);
+    println!("BDF: {s:.2?}");
+    assert!(s.iter().all(|s| (3.9..4.3).contains(s)), "{s:?}");
+}
+
+/// A step of either method.
+enum Implicit {
+    Hamming(Hamming),
+    Bdf(Bdf),
+}
+
+/// Growth per step of what alternates from step to step in `y' = -mu D y / h` of step h = 1, D the
+/// backward difference of order `order`: a mass that carries `mu` times itself of air.
+fn growth_under_added_mass(mut method: Implicit, mu: f64, order: usize) -> f64 {
+    let mut past = Multistep::from_start(
+        [1.0, -1.0, 1.0, -1.0].map(|y| vec![y]),
+        std::array::from_fn(|_| vec![0.0]),
+    );
+    let mut size = |steps: usize| {
+        let mut largest = 0.0_f64;
+        for _ in 0..steps {
+            let (y2, y3) = (past.y[2][0], past.y[3][0]);
+            let f = |y: &[f64], dy: &mut [f64]| {
+                dy[0] = match order {
+                    1 => -mu * (y[0] - y3),
+                    _ => -mu * (1.5 * y[0] - 2.0 * y3 + 0.5 * y2),
+                };
+                Ok::<(), Infallible>(())
+            };
+            let done = match &mut method {
+                Implicit::Hamming(m) => m.advance(&mut past, f),
+                Implicit::Bdf(m) => m.advance(&mut past, f),
+            };
+            done.expect("a step");
+            largest = largest.max((past.newest()[0] - y3).abs());
+        }
+        largest
+    };
+    let (early, _, late) = (size(10), size(40), size(10));
+    (late / early).powf(1.0 / 50.0)
+}
+
+#[test]
+fn limit_of_stability_under_added_mass() {
+    // Passes that converge for all added masses here, to a few roundings of the largest value.
+    let convergence = Convergence {
+        tolerance: 1e-12,
+        max_passes: 3000,
+        relaxation: 0.1,
+    };
+    let hamming = |mu, order| {
+        let method = Hamming::new(1.0, convergence, vec![1.0]);
+        growth_under_added_mass(Implicit::Hamming(method), mu, order)
+    };
+    // Roots of the characteristic polynomials: 0.3587 and 0.7010.
+    for (order, limit) in [(2, 0.3587), (1, 0.7010)] {
+        let [below, above] = [0.99, 1.01].map(|part| hamming(part * limit, order));
+        println!("Hamming, order {order}: growth {below:.3} below, {above:.3} above");
+        assert!(below < 1.0 && above > 1.0);
+        for mu in [0.1, 0.5, 1.0, 2.0, 10.0] {
+            let method = Bdf::new(1.0, convergence, vec![1.0]);
+            let growth = growth_under_added_mass(Implicit::Bdf(method), mu, order);
+            assert!(growth < 1.0, "BDF, order {order}, {mu}: {growth}");
+        }
     }
 }

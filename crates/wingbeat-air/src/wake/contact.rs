@@ -2,9 +2,19 @@
 //!
 //! An inviscid sheet would slide along a surface it meets. A discrete one, moved by finite steps,
 //! can jump through: then a filament lies inside a body or on the wrong side of a wing, and the
-//! loads blow up. So a node whose path crosses a wing panel, or ends nearer to a surface than the
+//! loads blow up. So a node whose path crosses a wing, or ends nearer to a surface than the
 //! clearance, ends at the clearance from it, on the side it came from; only the part of its
 //! displacement normal to the surface is changed. Every such event is counted.
+//!
+//! The push is a continuous function of the path. Nodes that have just been shed lie on the edge of
+//! a wing, and between two panels, to the last bit: where the push jumped there, rounding would
+//! decide, on the left wing otherwise than on the right one. So
+//! - within a clearance of the edges of a wing the push falls smoothly to zero;
+//! - between panels it is shared by both;
+//! - it is blocked by the wing where it crosses it, `x(s)` with `s = |h0| / (|h0| + |h1|)` for
+//!   heights h0 at the start and h1 at the end; what is not blocked there, near an edge, is kept
+//!   off on the side where it ends;
+//! - pushes of several surfaces add up, each one computed from the same path.
 //!
 //! The surfaces at the end of the step are not known yet (the wake is moved before the bodies):
 //! they are extrapolated with the velocities of the accepted step, an error of half the
@@ -15,18 +25,30 @@ use crate::state::AirState;
 use rayon::prelude::*;
 use wingbeat_math::DVec3;
 
+/// Height over a surface, in clearances, below which the side of a node is uncertain.
+const THIN: f64 = 1e-3;
+/// Part of the clearance by which a node must be moved to be counted.
+const COUNTED: f64 = 1e-2;
+
 /// A panel at the start and at the end of the step.
 struct Panel {
     corners: [[DVec3; 4]; 2],
     centre: [DVec3; 2],
     normal: [DVec3; 2],
+    /// Which of its sides, from a corner to the next one, no other panel shares.
+    is_border: [bool; 4],
+    /// Largest distance of a corner from the centre.
+    radius: f64,
 }
 
-/// One surface with a sphere that holds it at the start and at the end of the step.
+/// One surface, or several joined ones, with a sphere that holds it at the start and at the end of
+/// the step.
 #[derive(Default)]
 struct Obstacle {
     closed: bool,
     panels: Vec<Panel>,
+    /// The sides no other panel shares: both ends, at the start and at the end of the step.
+    border: Vec<[[DVec3; 2]; 2]>,
     centre: DVec3,
     radius: f64,
 }
@@ -35,6 +57,8 @@ struct Obstacle {
 #[derive(Default)]
 pub(crate) struct Obstacles {
     surfaces: Vec<Obstacle>,
+    /// The first of the surfaces that each one is joined to.
+    first: Vec<usize>,
     clearance: f64,
 }
 
@@ -48,21 +72,30 @@ impl Obstacles {
             0
         };
         let ends = |n: usize| {
-            [
-                state.position[n],
-                state.position[n] + dt * state.velocity[n],
-            ]
+            let x = state.position[n];
+            [x, x + dt * state.velocity[n]]
         };
         self.surfaces.resize_with(count, Obstacle::default);
-        for (s, obstacle) in self.surfaces.iter_mut().enumerate() {
-            let own = lattice.panels_of(s);
-            let panels = own.map(|p| panel(lattice.topology().panels[p].map(ends)));
-            obstacle.panels.clear();
-            obstacle.panels.extend(panels);
-            let nodes = || lattice.nodes_of(s).flat_map(ends);
-            obstacle.closed = lattice.surfaces()[s].closed;
-            obstacle.centre = nodes().sum::<DVec3>() / nodes().count() as f64;
-            obstacle.radius = nodes().fold(0.0_f64, |r, x| r.max(x.distance(obstacle.centre)));
+        self.surfaces.iter_mut().for_each(Obstacle::clear);
+        self.join(lattice);
+        for s in 0..count {
+            self.surfaces[self.first[s]].add(lattice, s, ends);
+        }
+        self.surfaces.iter_mut().for_each(Obstacle::enclose);
+    }
+
+    /// Finds which surfaces are joined.
+    fn join(&mut self, lattice: &Lattice) {
+        let (topology, first) = (lattice.topology(), &mut self.first);
+        first.clear();
+        first.extend(0..lattice.surfaces().len());
+        for edge in &topology.edges {
+            let Some(minus) = edge.minus else { continue };
+            let [a, b] = [edge.plus, minus].map(|p| first[topology.panel_surface[p]]);
+            if a != b {
+                let (low, high) = (a.min(b), a.max(b));
+                first.iter_mut().filter(|f| **f == high).for_each(|f| *f = low);
+            }
         }
     }
 
@@ -74,90 +107,202 @@ impl Obstacles {
         }
         to.par_iter_mut()
             .zip(from)
-            .map(|(to, &from)| u64::from(self.keep_one_off(from, to)))
+            .map(|(to, &from)| {
+                let push = self.push(from, *to);
+                *to += push;
+                u64::from(push.length() > COUNTED * self.clearance)
+            })
             .sum()
     }
 
-    fn keep_one_off(&self, from: DVec3, to: &mut DVec3) -> bool {
-        let mut changed = false;
-        for s in &self.surfaces {
+    /// What is to be added to the end of a path [m].
+    fn push(&self, from: DVec3, to: DVec3) -> DVec3 {
+        let near = |s: &&Obstacle| {
             let reach = s.radius + self.clearance;
-            if distance_to_segment(s.centre, from, *to) > reach {
-                continue;
-            }
-            changed |= if s.closed {
-                s.push_out(to, self.clearance)
-            } else {
-                s.hold_back(from, to, self.clearance)
-            };
-        }
-        changed
+            distance_to_segment(s.centre, from, to) <= reach
+        };
+        let of = |s: &Obstacle| match s.closed {
+            true => s.push_out(to, self.clearance),
+            false => s.hold_back(from, to, self.clearance),
+        };
+        self.surfaces.iter().filter(near).map(of).sum()
     }
 }
 
 impl Obstacle {
-    /// A convex body: out to the clearance from the plane of the nearest panel.
-    fn push_out(&self, to: &mut DVec3, clearance: f64) -> bool {
-        let distance = |p: &&Panel| p.centre[1].distance_squared(*to);
-        let nearest = self
-            .panels
-            .iter()
-            .min_by(|a, b| distance(a).total_cmp(&distance(b)));
-        let Some(panel) = nearest else {
-            return false;
-        };
-        let lack = clearance - (*to - panel.centre[1]).dot(panel.normal[1]);
-        if lack > 0.0 {
-            *to += lack * panel.normal[1];
-        }
-        lack > 0.0
+    fn clear(&mut self) {
+        self.panels.clear();
+        self.border.clear();
     }
 
-    /// A thin surface: a node that crosses a panel or ends too near goes back to its own side.
-    fn hold_back(&self, from: DVec3, to: &mut DVec3, clearance: f64) -> bool {
-        let mut changed = false;
+    /// Adds the panels of surface `s`, whose nodes are at `ends` when the step starts and ends.
+    fn add(&mut self, lattice: &Lattice, s: usize, ends: impl Fn(usize) -> [DVec3; 2]) {
+        let topology = lattice.topology();
+        self.closed = lattice.surfaces()[s].closed;
+        for p in lattice.panels_of(s) {
+            let nodes = topology.panels[p];
+            let is_border = std::array::from_fn(|k| {
+                let side = [nodes[k], nodes[(k + 1) % 4]];
+                topology.panel_edges[p].iter().any(|e| {
+                    let edge = &topology.edges[e.edge];
+                    let ends = [edge.from, edge.to];
+                    edge.minus.is_none() && (ends == side || ends == [side[1], side[0]])
+                })
+            });
+            let panel = Panel::new(nodes.map(&ends), is_border);
+            let sides = (0..4).filter(|&k| is_border[k]);
+            self.border
+                .extend(sides.map(|k| [0, 1].map(|end| panel.side(end, k))));
+            self.panels.push(panel);
+        }
+    }
+
+    /// Finds the sphere.
+    fn enclose(&mut self) {
+        let corners = || self.panels.iter().flat_map(|p| p.corners.iter().flatten());
+        let count = corners().count().max(1);
+        let centre = corners().sum::<DVec3>() / count as f64;
+        self.radius = corners().fold(0.0_f64, |r, x| r.max(x.distance(centre)));
+        self.centre = centre;
+    }
+
+    /// A convex body: out to the clearance from the plane of the nearest panel, of several where
+    /// their distances differ by less than a clearance.
+    fn push_out(&self, to: DVec3, clearance: f64) -> DVec3 {
+        let distance = |p: &Panel| p.centre[1].distance(to);
+        let nearest = self.panels.iter().map(distance).fold(f64::INFINITY, f64::min);
+        let (mut push, mut shares) = (DVec3::ZERO, 0.0);
+        for panel in &self.panels {
+            let share = smooth(1.0 - (distance(panel) - nearest) / clearance);
+            let lack = clearance - (to - panel.centre[1]).dot(panel.normal[1]);
+            push += share * lack.max(0.0) * panel.normal[1];
+            shares += share;
+        }
+        push / shares.max(1.0)
+    }
+
+    /// A thin surface: a node that crosses it or ends too near goes back to its own side.
+    fn hold_back(&self, from: DVec3, to: DVec3, clearance: f64) -> DVec3 {
+        let crossing = self.mean(from, to, clearance, |start, end| {
+            let (a, b) = (start.abs(), end.abs());
+            (if a > 0.0 { a / (a + b) } else { 0.0 }, start)
+        });
+        let ending = self.mean(from, to, clearance, |_, end| (1.0, end));
+        crossing.push + (1.0 - crossing.weight) * ending.push
+    }
+
+    /// What the panels do together to a path. `at` tells from the heights over a panel at its start
+    /// and end where on the path the panel is looked for, and the height whose side counts.
+    fn mean(
+        &self,
+        from: DVec3,
+        to: DVec3,
+        clearance: f64,
+        at: impl Fn(f64, f64) -> (f64, f64),
+    ) -> Answer {
+        let (mut sum, mut shares) = (Answer::default(), 0.0);
         for panel in &self.panels {
             let start = (from - panel.centre[0]).dot(panel.normal[0]);
-            let end = (*to - panel.centre[1]).dot(panel.normal[1]);
-            // A node just shed lies in the surface: its side is the one it goes to.
-            let in_surface = start.abs() < 1e-6 * clearance;
-            let side = if in_surface {
-                end.signum()
-            } else {
-                start.signum()
-            };
-            let lack = clearance - side * end;
-            if lack <= 0.0 || !panel.is_under(from, *to, start, end) {
+            let end = (to - panel.centre[1]).dot(panel.normal[1]);
+            let (s, height) = at(start, end);
+            let share = panel.share(from.lerp(to, s), s, clearance);
+            if share == 0.0 {
                 continue;
             }
-            *to += side * lack * panel.normal[1];
-            changed = true;
+            let depth = self.depth(panel, from.lerp(to, s), s);
+            let weight = share * smooth(depth / clearance);
+            let side = (height / (THIN * clearance)).clamp(-1.0, 1.0);
+            let lack = (clearance - side * end).max(0.0);
+            sum.push += weight * side * lack * panel.normal[1];
+            sum.weight += weight;
+            shares += share;
         }
-        changed
+        if shares == 0.0 {
+            return sum;
+        }
+        Answer {
+            push: sum.push / shares,
+            weight: sum.weight / shares,
+        }
     }
+
+    /// Distance of `x` from the edges of the surface, seen along the normal of `panel`; zero
+    /// outside.
+    fn depth(&self, panel: &Panel, x: DVec3, s: f64) -> f64 {
+        let outside = |k: usize| panel.is_border[k] && panel.inside(x, s, k) <= 0.0;
+        if (0..4).any(outside) {
+            return 0.0;
+        }
+        let normal = panel.normal(s);
+        let flat = |y: DVec3| y - (y - x).dot(normal) * normal;
+        let distance = |side: &[[DVec3; 2]; 2]| {
+            let [a, b] = [0, 1].map(|i| flat(side[0][i].lerp(side[1][i], s)));
+            distance_to_segment(x, a, b)
+        };
+        self.border.iter().map(distance).fold(f64::INFINITY, f64::min)
+    }
+}
+
+/// What a thin surface does to a path: its push [m], and the part of the path it blocks.
+#[derive(Clone, Copy, Default)]
+struct Answer {
+    push: DVec3,
+    weight: f64,
 }
 
 impl Panel {
-    /// Whether the path meets the panel: where it crosses the panel's plane, or else at its end.
-    fn is_under(&self, from: DVec3, to: DVec3, start: f64, end: f64) -> bool {
-        let crosses = start * end < 0.0;
-        let s = if crosses { start / (start - end) } else { 1.0 };
-        let at = |i: usize| self.corners[0][i].lerp(self.corners[1][i], s);
-        let (x, normal) = (from.lerp(to, s), self.normal[0].lerp(self.normal[1], s));
-        (0..4).all(|k| {
-            let (a, b) = (at(k), at((k + 1) % 4));
-            (b - a).cross(x - a).dot(normal) >= 0.0
-        })
+    fn new(ends: [[DVec3; 2]; 4], is_border: [bool; 4]) -> Self {
+        let corners = [0, 1].map(|e| ends.map(|c| c[e]));
+        let centre = corners.map(|c| 0.25 * ((c[0] + c[1]) + (c[2] + c[3])));
+        let far = |e: usize| corners[e].map(|c| c.distance(centre[e]));
+        let distances = [far(0), far(1)];
+        Self {
+            centre,
+            normal: corners.map(|c| (c[2] - c[0]).cross(c[3] - c[1]).normalize_or_zero()),
+            radius: distances.iter().flatten().fold(0.0, |r, d| d.max(r)),
+            corners,
+            is_border,
+        }
+    }
+
+    fn side(&self, end: usize, k: usize) -> [DVec3; 2] {
+        [self.corners[end][k], self.corners[end][(k + 1) % 4]]
+    }
+
+    /// Unit normal at the part `s` of the step.
+    fn normal(&self, s: f64) -> DVec3 {
+        self.normal[0].lerp(self.normal[1], s).normalize_or_zero()
+    }
+
+    /// How far `x` is inside of side `k` at the part `s` of the step [m]; infinite for a side
+    /// without length.
+    fn inside(&self, x: DVec3, s: f64, k: usize) -> f64 {
+        let [[a0, b0], [a1, b1]] = [0, 1].map(|end| self.side(end, k));
+        let (a, b) = (a0.lerp(a1, s), b0.lerp(b1, s));
+        let length = a.distance(b);
+        if length > 0.0 {
+            (b - a).cross(x - a).dot(self.normal(s)) / length
+        } else {
+            f64::INFINITY
+        }
+    }
+
+    /// The part that the panel has in what is done at `x`: 1 inside, 1/2 on its sides, 0 from half
+    /// a clearance outside.
+    fn share(&self, x: DVec3, s: f64, clearance: f64) -> f64 {
+        let centre = self.centre[0].lerp(self.centre[1], s);
+        if x.distance(centre) > self.radius + 2.0 * clearance {
+            return 0.0;
+        }
+        let inside = (0..4).map(|k| self.inside(x, s, k));
+        smooth(0.5 + inside.fold(f64::INFINITY, f64::min) / clearance)
     }
 }
 
-fn panel(ends: [[DVec3; 2]; 4]) -> Panel {
-    let corners = [0, 1].map(|e| ends.map(|c| c[e]));
-    Panel {
-        centre: corners.map(|c| 0.25 * ((c[0] + c[1]) + (c[2] + c[3]))),
-        normal: corners.map(|c| (c[2] - c[0]).cross(c[3] - c[1]).normalize_or_zero()),
-        corners,
-    }
+/// Rises smoothly from 0 at 0 to 1 at 1.
+fn smooth(t: f64) -> f64 {
+    let t = t.clamp(0.0, 1.0);
+    t * t * (3.0 - 2.0 * t)
 }
 
 fn distance_to_segment(p: DVec3, a: DVec3, b: DVec3) -> f64 {
@@ -175,23 +320,27 @@ fn distance_to_segment(p: DVec3, a: DVec3, b: DVec3) -> f64 {
 mod tests {
     use super::*;
 
-    /// A unit square in the plane z = 0 that rises with speed `w` during a step of one second.
-    fn square(w: f64, closed: bool) -> Obstacles {
-        let corner = |x, y| [DVec3::new(x, y, 0.0), DVec3::new(x, y, w)];
-        let ends = [
-            corner(0.0, 0.0),
-            corner(1.0, 0.0),
-            corner(1.0, 1.0),
-            corner(0.0, 1.0),
-        ];
-        let surface = Obstacle {
-            closed,
-            panels: vec![panel(ends)],
-            centre: DVec3::splat(0.5),
-            radius: 2.0,
+    /// A sheet of 2 x 3 unit squares from the origin in the plane z = 0, folded by `fold` [1] along
+    /// the middle row, that rises with speed `w` during a step of one second; mirrored in y if
+    /// `left`.
+    fn sheet(w: f64, fold: f64, left: bool) -> Obstacles {
+        let side = if left { -1.0 } else { 1.0 };
+        let corner = |i: usize, j: usize| {
+            let z = -fold * (i as f64 - 1.0).abs();
+            [0.0, w].map(|rise| DVec3::new(i as f64, side * j as f64, z + rise))
         };
+        let mut wing = Obstacle::default();
+        for (i, j) in (0..6).map(|k| (k / 3, k % 3)) {
+            let ends = [(i, j), (i + 1, j), (i + 1, j + 1), (i, j + 1)].map(|(i, j)| corner(i, j));
+            let panel = Panel::new(ends, [j == 0, i == 1, j == 2, i == 0]);
+            let sides = (0..4).filter(|&k| panel.is_border[k]);
+            (wing.border).extend(sides.map(|k| [0, 1].map(|end| panel.side(end, k))));
+            wing.panels.push(panel);
+        }
+        wing.enclose();
         Obstacles {
-            surfaces: vec![surface],
+            surfaces: vec![wing],
+            first: vec![0],
             clearance: 0.1,
         }
     }
@@ -204,25 +353,81 @@ mod tests {
 
     #[test]
     fn exact_node_that_would_cross_a_wing_stays_on_its_side() {
-        let o = square(0.0, false);
+        let o = sheet(0.0, 0.0, false);
         let stopped = end(&o, [0.5, 0.5, 0.3], [0.6, 0.5, -0.4]);
         assert!((stopped - DVec3::new(0.6, 0.5, 0.1)).length() < 1e-15);
-        let beside = end(&o, [1.5, 0.5, 0.3], [1.6, 0.5, -0.4]);
-        assert_eq!(beside, DVec3::new(1.6, 0.5, -0.4), "passes beside the wing");
-        // The path crosses the plane over the panel though it ends beyond the edge.
-        assert!(end(&o, [0.9, 0.5, 0.05], [1.3, 0.5, -0.4]).z > 0.0);
+        let beside = end(&o, [2.5, 0.5, 0.3], [2.6, 0.5, -0.4]);
+        assert_eq!(beside, DVec3::new(2.6, 0.5, -0.4), "passes beside the wing");
+        // The path crosses the wing more than a clearance from its edge, though it ends beyond it.
+        assert!((end(&o, [1.8, 0.5, 0.01], [2.3, 0.5, -0.4]).z - 0.1).abs() < 1e-15);
+        // Within a clearance of the edge the wing blocks a part only: half of it at half of that.
+        let near = end(&o, [1.95, 0.5, 0.2], [1.95, 0.5, -0.2]);
+        assert!((near.z - (0.5 * 0.1 + 0.5 * -0.2)).abs() < 1e-15);
     }
 
     #[test]
     fn exact_wing_that_overtakes_a_resting_node_takes_it_along() {
-        let o = square(0.5, false);
+        let o = sheet(0.5, 0.0, false);
         let swept = end(&o, [0.5, 0.5, 0.2], [0.5, 0.5, 0.2]);
         assert!((swept - DVec3::new(0.5, 0.5, 0.6)).length() < 1e-15);
     }
 
     #[test]
     fn exact_node_inside_a_body_comes_out_to_the_clearance() {
-        let o = square(0.0, true);
+        let mut o = sheet(0.0, 0.0, false);
+        o.surfaces[0].closed = true;
         assert!((end(&o, [0.5, 0.5, 0.3], [0.5, 0.4, -0.2]).z - 0.1).abs() < 1e-15);
+    }
+
+    /// Paths from and to places of every kind: on edges, corners and sides between panels, on the
+    /// surface, in the clearance and beyond.
+    fn paths() -> Vec<[[f64; 3]; 2]> {
+        let (x, z) = ([-0.1, 0.0, 0.03, 1.0, 1.6, 2.0], [-0.2, -0.05, 0.0, 0.07]);
+        let places = || {
+            x.into_iter().flat_map(move |x| {
+                let y = [-0.02, 0.0, 0.4, 1.0, 3.0];
+                y.into_iter().flat_map(move |y| z.map(|z| [x, y, z]))
+            })
+        };
+        places().flat_map(|a| places().map(move |b| [a, b])).collect()
+    }
+
+    /// Rounding decides nothing: places moved by some roundings give ends that are moved by no more
+    /// than their heights over the surface are uncertain, 1e-15 over a thousandth of a clearance.
+    #[test]
+    fn invariant_push_is_continuous_on_edges_and_between_panels() {
+        let mut largest = 0.0_f64;
+        for o in [sheet(0.0, 0.0, false), sheet(0.1, 0.2, false)] {
+            for [from, to] in paths() {
+                let place = end(&o, from, to);
+                for k in [0, 11, 22, 37, 42, 63] {
+                    let moved = |p: [f64; 3], bits: usize| -> [f64; 3] {
+                        std::array::from_fn(|i| {
+                            let sign = if bits >> i & 1 == 0 { 1.0 } else { -1.0 };
+                            p[i] + sign * 1e-15
+                        })
+                    };
+                    let other = end(&o, moved(from, k), moved(to, k >> 3));
+                    largest = largest.max(place.distance(other));
+                }
+            }
+        }
+        println!("largest change {largest:.1e}");
+        assert!(largest < 1e-10);
+    }
+
+    #[test]
+    fn invariant_mirrored_path_ends_at_the_mirrored_place() {
+        let mut largest = 0.0_f64;
+        for (w, fold) in [(0.0, 0.0), (0.1, 0.2)] {
+            let [right, left] = [false, true].map(|left| sheet(w, fold, left));
+            for [from, to] in paths() {
+                let mirrored = |p: [f64; 3]| [p[0], -p[1], p[2]];
+                let b = end(&left, mirrored(from), mirrored(to));
+                let a = end(&right, from, to);
+                largest = largest.max(a.distance(DVec3::new(b.x, -b.y, b.z)));
+            }
+        }
+        assert!(largest < 1e-14, "{largest:.1e}");
     }
 }

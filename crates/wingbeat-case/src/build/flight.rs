@@ -109,18 +109,19 @@ pub(super) fn integrator(case: &Case) -> Built<IntegratorChoice> {
     let dynamics = &case.dynamics;
     let choice = match dynamics.integrator.value() {
         IntegratorCase::Hamming => IntegratorChoice::Hamming,
+        IntegratorCase::Bdf => IntegratorChoice::Bdf,
         IntegratorCase::Adams => IntegratorChoice::Adams,
         IntegratorCase::RungeKutta => IntegratorChoice::RungeKutta,
         IntegratorCase::OrderEight => IntegratorChoice::OrderEight {
             tolerance: dynamics.tolerance,
         },
     };
-    if case.air.model == AirModel::VortexLattice && choice != IntegratorChoice::Hamming {
+    if case.air.model == AirModel::VortexLattice && !choice.carries_wake() {
         return Err(Fault::new(
             "dynamics.integrator",
-            "a wake is moved once per step: only Hamming's method carries it along",
-            "hamming with air.model = \"vortex_lattice\"",
-            "remove the key, or set it to \"hamming\"",
+            "a wake is moved once per step: only hamming and bdf carry it along",
+            "hamming or bdf with air.model = \"vortex_lattice\"",
+            "remove the key, or set it to \"bdf\"",
         ));
     }
     let projects = dynamics.formulation.value() == Formulation::Quaternion
@@ -129,7 +130,7 @@ pub(super) fn integrator(case: &Case) -> Built<IntegratorChoice> {
         return Err(Fault::new(
             "dynamics.stabilisation",
             "projection changes the newest state, multistep methods use older ones too",
-            "baumgarte or none with hamming and adams",
+            "baumgarte or none with hamming, bdf and adams",
             "integrator = \"order_eight\" or \"runge_kutta\", or stabilisation = \"baumgarte\"",
         ));
     }

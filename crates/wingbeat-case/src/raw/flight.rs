@@ -227,6 +227,9 @@ pub enum StabilisationCase {
 pub enum IntegratorCase {
     /// Hamming's predictor-corrector, order 4.
     Hamming,
+    /// Backward differences, order 4: with a wake, where the air that moves with the wings weighs
+    /// much beside the animal.
+    Bdf,
     /// Adams-Bashforth-Moulton, order 4.
     Adams,
     /// Runge-Kutta, order 4.

@@ -46,10 +46,7 @@ impl AdamsBashforthMoulton {
             *s = y[i] + h * (9.0 * self.rates[i] + 19.0 * f3[i] - 5.0 * f2[i] + f1[i]);
         }
         rates(&self.state, &mut self.rates)?;
-        past.y.rotate_left(1);
-        past.f.rotate_left(1);
-        past.y[3].copy_from_slice(&self.state);
-        past.f[3].copy_from_slice(&self.rates);
+        past.push(&self.state, &self.rates);
         Ok(())
     }
 }

@@ -11,7 +11,7 @@
 //! With one, two, three corrector passes the limits of stability on the real axis are
 //! |lambda h| = 0.88, 0.72, 1.46, on the imaginary axis 0.28, 0.80, 1.08.
 
-use super::{StepError, scaled_difference};
+use super::{StepError, agree};
 
 /// When the corrector is done.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -59,6 +59,14 @@ impl Multistep {
     /// The newest state.
     pub fn newest(&self) -> &[f64] {
         &self.y[3]
+    }
+
+    /// Makes `y` with the rates `f` the newest state; the oldest is forgotten.
+    pub fn push(&mut self, y: &[f64], f: &[f64]) {
+        self.y.rotate_left(1);
+        self.f.rotate_left(1);
+        self.y[3].copy_from_slice(y);
+        self.f[3].copy_from_slice(f);
     }
 }
 
@@ -126,33 +134,18 @@ impl Hamming {
         past: &Multistep,
         rates: &mut impl FnMut(&[f64], &mut [f64]) -> Result<(), E>,
     ) -> Result<StepReport, StepError<E>> {
-        let Convergence {
-            tolerance,
-            max_passes,
-            relaxation,
-        } = self.convergence;
-        let [_, y1, _, y3] = &past.y;
-        let [_, _, f2, f3] = &past.f;
-        let mut report = StepReport::default();
-        while report.passes < max_passes {
-            rates(&self.trial, &mut self.rates).map_err(StepError::Rates)?;
-            for i in 0..self.trial.len() {
-                let sum = self.rates[i] + 2.0 * f3[i] - f2[i];
-                self.corrected[i] = (9.0 * y3[i] - y1[i] + 3.0 * self.step * sum) / 8.0;
+        let ([_, y1, _, y3], [_, _, f2, f3]) = (&past.y, &past.f);
+        let (dy, h) = (&mut self.rates, self.step);
+        let pass = |trial: &[f64], corrected: &mut [f64]| {
+            rates(trial, dy)?;
+            for (i, c) in corrected.iter_mut().enumerate() {
+                let sum = dy[i] + 2.0 * f3[i] - f2[i];
+                *c = (9.0 * y3[i] - y1[i] + 3.0 * h * sum) / 8.0;
             }
-            report.passes += 1;
-            report.residual = scaled_difference(&self.corrected, &self.trial, &self.scales);
-            if report.residual <= tolerance {
-                return Ok(report);
-            }
-            for (x, c) in self.trial.iter_mut().zip(&self.corrected) {
-                *x += relaxation * (c - *x);
-            }
-        }
-        if tolerance > 0.0 || !report.residual.is_finite() {
-            return Err(StepError::NotConverged(report));
-        }
-        Ok(report)
+            Ok(())
+        };
+        let (trial, corrected) = (&mut self.trial, &mut self.corrected);
+        agree(self.convergence, trial, corrected, &self.scales, pass)
     }
 
     /// The final modifier: the accepted state in `trial`.
@@ -165,10 +158,7 @@ impl Hamming {
 
     /// Makes the accepted state the newest of `past`.
     fn shift(&mut self, past: &mut Multistep) {
-        past.y.rotate_left(1);
-        past.f.rotate_left(1);
-        past.y[3].copy_from_slice(&self.trial);
-        past.f[3].copy_from_slice(&self.rates);
+        past.push(&self.trial, &self.rates);
         for i in 0..self.trial.len() {
             past.predicted_minus_corrected[i] = self.predicted[i] - self.corrected[i];
         }

@@ -2,11 +2,13 @@
 //!
 //! [`hamming`] is the predictor-corrector of coupled flight (seed sec. 5 announces one): a
 //! right-hand side is evaluated only at the ends of steps, so that it may carry its own history,
-//! as a vortex wake does. [`start`] finds its first values at the same order. [`runge_kutta`] is
-//! for right-hand sides without history, as are [`adams`] (multistep, order four) and [`dop853`]
-//! (order eight, its own steps, dense output).
+//! as a vortex wake does; so does [`bdf`], for those that hold a difference quotient of the state.
+//! [`start`] finds their first values at the same order. [`runge_kutta`] is for right-hand sides
+//! without history, as are [`adams`] (multistep, order four) and [`dop853`] (order eight, its own
+//! steps, dense output).
 
 pub mod adams;
+pub mod bdf;
 pub mod dop853;
 mod dop853_table;
 pub mod hamming;
@@ -14,6 +16,7 @@ pub mod runge_kutta;
 pub mod start;
 
 pub use adams::AdamsBashforthMoulton;
+pub use bdf::Bdf;
 pub use dop853::{AdaptiveError, AdaptiveReport, Dense, Dop853, Tolerance};
 pub use hamming::{Convergence, Hamming, Multistep, StepReport};
 pub use runge_kutta::Rk4;
@@ -42,4 +45,34 @@ pub fn scaled_difference(a: &[f64], b: &[f64], scales: &[f64]) -> f64 {
         }
     }
     largest
+}
+
+/// Corrector passes from `trial` until two in succession agree; the last one is in `corrected`.
+/// `pass(trial, corrected)` makes one.
+///
+/// # Errors
+/// The right-hand side fails; the passes do not converge.
+fn agree<E>(
+    convergence: Convergence,
+    trial: &mut [f64],
+    corrected: &mut [f64],
+    scales: &[f64],
+    mut pass: impl FnMut(&[f64], &mut [f64]) -> Result<(), E>,
+) -> Result<StepReport, StepError<E>> {
+    let mut report = StepReport::default();
+    while report.passes < convergence.max_passes {
+        pass(trial, corrected).map_err(StepError::Rates)?;
+        report.passes += 1;
+        report.residual = scaled_difference(corrected, trial, scales);
+        if report.residual <= convergence.tolerance {
+            return Ok(report);
+        }
+        for (x, c) in trial.iter_mut().zip(corrected.iter()) {
+            *x += convergence.relaxation * (c - *x);
+        }
+    }
+    if convergence.tolerance > 0.0 || !report.residual.is_finite() {
+        return Err(StepError::NotConverged(report));
+    }
+    Ok(report)
 }
