@@ -22,7 +22,7 @@ pub mod raw;
 mod source;
 mod trimmed;
 
-pub use build::data_sets;
+pub use build::{column_name, data_sets};
 pub use error::{CaseError, IoError};
 pub use loaded::{LoadedCase, schema};
 pub use output::{OutputSettings, SaveSettings};

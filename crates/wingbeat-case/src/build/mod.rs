@@ -11,12 +11,14 @@ mod element;
 mod flight;
 mod joint;
 mod motion;
+mod names;
 mod output;
 mod segment;
 mod time;
 mod wing;
 
 pub use motion::data_sets;
+pub use names::column_name;
 pub(crate) use output::output;
 
 use serde::Serialize;
@@ -42,6 +44,7 @@ pub(crate) fn setup(case: &mut Case, name: &str) -> Built<FlightSetup> {
     let animal = animal(case, name)?;
     let time = time::grid(case)?;
     air::fill_defaults(case, &animal);
+    names::check(&animal)?;
     let joints = joint::build_all(case, &animal)?;
     flight::fill_defaults(case, &joints);
     let setup = FlightSetup {
