@@ -26,6 +26,7 @@ mod resolve;
 mod source;
 mod trimmed;
 
+pub use build::column_name;
 pub use data::data_sets;
 pub use error::{CaseError, IoError};
 pub use keys::schema;

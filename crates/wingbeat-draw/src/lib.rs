@@ -8,7 +8,7 @@ pub mod figures;
 pub mod page;
 
 use wingbeat_case::{IoError, LoadedCase};
-use wingbeat_results::{History, ResultDir, Summary};
+use wingbeat_results::{ResultDir, Summary};
 
 /// Draws what the case asks for of a run that has just ended: figures and the flight page.
 ///
@@ -19,8 +19,7 @@ pub fn draw_run(dir: &ResultDir, case: &LoadedCase, summary: &Summary) -> Result
         return Ok(());
     }
     if case.output.figures {
-        let (history, _) = History::thinned(&dir.join("history.csv"), figures::MOST_ROWS)?;
-        figures::draw_all(dir, case, &history, summary)?;
+        figures::draw_all(dir, case, summary)?;
     }
     if case.output.page {
         page::write(dir, &summary.outcome, page::DEFAULT_BYTES)?;

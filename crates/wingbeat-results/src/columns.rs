@@ -1,5 +1,6 @@
 //! The columns of history.csv: every field of a record, with its unit spelled out in its name.
 
+use wingbeat_case::column_name;
 use wingbeat_flight::{HingeRecord, LoadRecord, Record};
 use wingbeat_math::DVec3;
 use wingbeat_model::Animal;
@@ -37,19 +38,12 @@ impl Row<'_> {
 
 /// Names of the bodies in column names: `body`, then `wing_NAME`, then `segment_NAME`.
 pub fn body_names(animal: &Animal) -> Vec<String> {
-    let wing = |w: &wingbeat_model::Wing| format!("wing_{}", plain(&w.name));
+    let wing = |w: &wingbeat_model::Wing| format!("wing_{}", column_name(&w.name));
     let wings = animal.wings.iter().map(wing);
-    let segment = |s: &wingbeat_model::Segment| format!("segment_{}", plain(&s.name));
+    let segment = |s: &wingbeat_model::Segment| format!("segment_{}", column_name(&s.name));
     let segments = animal.segments.iter().map(segment);
     let body = std::iter::once("body".to_owned());
     body.chain(wings).chain(segments).collect()
-}
-
-/// A name with everything but letters and digits replaced by underscores.
-fn plain(name: &str) -> String {
-    name.chars()
-        .map(|c| if c.is_ascii_alphanumeric() { c } else { '_' })
-        .collect()
 }
 
 /// Column names for records of this animal, as filled by a first record.

@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 use std::fs::{File, OpenOptions, TryLockError};
 use std::io::{Read, Write};
+use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 use sha2::{Digest, Sha256};
@@ -177,38 +178,33 @@ impl History {
     /// # Errors
     /// A file that cannot be read or is not a history.
     pub fn read(path: &Path) -> Result<Self, IoError> {
-        Self::every(path, 1)
+        Self::next(&mut Rows::open(path)?, usize::MAX)
     }
 
-    /// Reads about `most` rows of a history, evenly spaced, the first and the last among them:
-    /// memory does not grow with the run. Returns the spacing, too.
+    /// Reads some rows of a history.
     ///
     /// # Errors
     /// As [`Self::read`].
-    pub fn thinned(path: &Path, most: usize) -> Result<(Self, usize), IoError> {
-        let stride = Rows::count(path)?.div_ceil(most.max(1)).max(1);
-        Ok((Self::every(path, stride)?, stride))
+    pub fn of_rows(path: &Path, rows: Range<usize>) -> Result<Self, IoError> {
+        let mut source = Rows::open(path)?;
+        source.skip(rows.start)?;
+        Self::next(&mut source, rows.len())
     }
 
-    /// Every `stride`-th row and the last.
-    fn every(path: &Path, stride: usize) -> Result<Self, IoError> {
-        let mut rows = Rows::open(path)?;
+    /// The next rows of an open history, at most `most`.
+    ///
+    /// # Errors
+    /// A row that is damaged.
+    pub fn next(rows: &mut Rows, most: usize) -> Result<Self, IoError> {
         let names = rows.names().to_vec();
         let mut columns = vec![vec![]; names.len()];
-        let mut last: Vec<f64> = vec![];
         let mut count = 0;
-        while let Some(row) = rows.next_row()? {
-            if count % stride == 0 {
-                push(&mut columns, row);
-                last.clear();
-            } else {
-                last.clear();
-                last.extend_from_slice(row);
+        while count < most {
+            let Some(row) = rows.next_row()? else { break };
+            for (column, value) in columns.iter_mut().zip(row) {
+                column.push(*value);
             }
             count += 1;
-        }
-        if !last.is_empty() {
-            push(&mut columns, &last);
         }
         let columns = names.iter().cloned().zip(columns).collect();
         Ok(Self { names, columns })
@@ -238,11 +234,5 @@ impl History {
             }
         }
         sum
-    }
-}
-
-fn push(columns: &mut [Vec<f64>], row: &[f64]) {
-    for (column, value) in columns.iter_mut().zip(row) {
-        column.push(*value);
     }
 }

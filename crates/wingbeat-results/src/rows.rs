@@ -86,6 +86,36 @@ impl Rows {
         }
     }
 
+    /// Passes over the next `count` rows.
+    ///
+    /// # Errors
+    /// A file that cannot be read.
+    pub fn skip(&mut self, count: usize) -> Result<(), IoError> {
+        for _ in 0..count {
+            if !self.next_line()? {
+                break;
+            }
+            self.read += 1;
+        }
+        Ok(())
+    }
+
+    /// Times of all whole rows \[s\].
+    ///
+    /// # Errors
+    /// A file that cannot be read or is not a history.
+    pub fn times(path: &Path) -> Result<Vec<f64>, IoError> {
+        let mut rows = Self::open(path)?;
+        let mut times = vec![];
+        while rows.next_line()? {
+            rows.read += 1;
+            let field = rows.line.split(',').nth(1).unwrap_or("").trim_end();
+            let problem = || format!("row {}: `{field}` is not a time", rows.read);
+            times.push(field.parse().map_err(|_| rows.damaged(problem()))?);
+        }
+        Ok(times)
+    }
+
     /// Number of whole rows in a history.
     ///
     /// # Errors

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 use wingbeat::case::IoError;
-use wingbeat::draw::figures::{self, Format, Kind, Order, Style};
+use wingbeat::draw::figures::{self, Format, Kind, Order, Style, Window};
 use wingbeat::results::ResultDir;
 
 /// What `wingbeat plot` is told.
@@ -12,19 +12,28 @@ use wingbeat::results::ResultDir;
 pub(crate) struct PlotArgs {
     /// Result directory of the run.
     dir: PathBuf,
-    /// Figures: angles, forces, lollipop, beats, trajectory, phase, balances, wake, animation;
-    /// default all but the animation.
+    /// Figures: angles, forces, lollipop, beats, trajectory, path, phase, balances, wake,
+    /// animation; default all but the animation.
     #[arg(value_name = "KIND", value_parser = kind)]
     kinds: Vec<Kind>,
     /// For a paper (180 mm wide, no title) or for the screen.
     #[arg(long, default_value = "screen", value_parser = style)]
     style: Style,
-    /// File format: svg or png; the animation is a gif.
-    #[arg(long, default_value = "svg", value_parser = format)]
-    format: Format,
+    /// File format: svg (default), png or pdf; of the animation gif (default) or mp4 (needs ffmpeg).
+    #[arg(long, value_parser = format)]
+    format: Option<Format>,
     /// Step whose wakes are drawn (the nearest frame); default the last.
     #[arg(long, value_name = "STEP")]
     step: Option<usize>,
+    /// Draw the flight from this time on: wingbeats, or seconds where there are none.
+    #[arg(long, value_name = "TIME", allow_negative_numbers = true)]
+    from: Option<f64>,
+    /// Draw the flight up to this time.
+    #[arg(long, value_name = "TIME", allow_negative_numbers = true)]
+    to: Option<f64>,
+    /// Draw so many wingbeats: from --from on, or up to --to, or the last ones.
+    #[arg(long, value_name = "COUNT", allow_negative_numbers = true)]
+    beats: Option<f64>,
     /// Folder for the files; default DIR/figures, DIR/figures/paper for papers.
     #[arg(long, value_name = "FOLDER")]
     out: Option<PathBuf>,
@@ -67,6 +76,11 @@ pub(crate) fn plot(args: &PlotArgs) -> Result<(), IoError> {
         style: args.style,
         format: args.format,
         step: args.step,
+        window: Window {
+            from: args.from,
+            to: args.to,
+            beats: args.beats,
+        },
         folder,
         overwrite: args.overwrite,
     };

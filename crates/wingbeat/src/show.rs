@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use wingbeat::case::IoError;
+use wingbeat::draw::page;
 use wingbeat::results::{Manifest, ResultDir, Summary};
 
 /// What `wingbeat show` is told.
@@ -26,6 +27,12 @@ pub(crate) struct CompareArgs {
     /// As JSON.
     #[arg(long)]
     json: bool,
+    /// Write both flights, side by side and in step, as a page (HTML) into this file.
+    #[arg(long, value_name = "FILE", conflicts_with = "json")]
+    page: Option<PathBuf>,
+    /// Replace the page if it is there already.
+    #[arg(long, requires = "page")]
+    overwrite: bool,
 }
 
 fn read(dir: &Path) -> Result<(Summary, Manifest), IoError> {
@@ -60,6 +67,9 @@ pub(crate) fn show(args: &ShowArgs) -> Result<(), IoError> {
 /// `wingbeat compare`: the same numbers of two runs side by side.
 pub(crate) fn compare(args: &CompareArgs) -> Result<(), IoError> {
     let [first, second] = [read(&args.first)?, read(&args.second)?];
+    if let Some(file) = &args.page {
+        return write_pair(args, file);
+    }
     let rows = first.0.beside(&second.0);
     if args.json {
         let list: Vec<_> = rows
@@ -92,5 +102,23 @@ pub(crate) fn compare(args: &CompareArgs) -> Result<(), IoError> {
             100.0 * relative
         );
     }
+    Ok(())
+}
+
+/// Both flights as one page.
+fn write_pair(args: &CompareArgs, file: &Path) -> Result<(), IoError> {
+    if file.exists() && !args.overwrite {
+        return Err(IoError::Exists {
+            path: file.to_owned(),
+            remedy: "replace it with --overwrite, or choose another name",
+        });
+    }
+    let [first, second] = [
+        ResultDir::read(&args.first)?,
+        ResultDir::read(&args.second)?,
+    ];
+    let page = page::pair([&first, &second], 2 * page::DEFAULT_BYTES)?;
+    wingbeat::results::directory::write_whole(file, page.as_bytes())?;
+    println!("wrote {}", file.display());
     Ok(())
 }

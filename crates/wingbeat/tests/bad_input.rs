@@ -112,6 +112,31 @@ fn exact_unknown_key() {
     );
 }
 
+/// Columns are named after wings: `a,b` and `a;b` would give the same ones twice.
+#[test]
+fn refuses_wings_whose_columns_would_have_the_same_names() {
+    let second = GOOD.split("[wing.right]").nth(1).unwrap();
+    for (first, other) in [
+        ("a,b right", "a;b right"),
+        ("x-right", "x-right_prescribed"),
+    ] {
+        let both = second.replace("[wing.right", &format!("[wing.\"{other}\""));
+        let text = GOOD.replace("[wing.right", &format!("[wing.\"{first}\""));
+        let text = format!("{text}\n[wing.\"{other}\"]{both}");
+        let scratch = Scratch::new(&format!("alike-{}", first.len()));
+        case_in(&scratch, &text);
+        let out = wingbeat(&scratch.0, &["check", "case.toml"]);
+        let said = String::from_utf8_lossy(&out.stderr);
+        assert_eq!(out.status.code(), Some(2), "{said}");
+        for part in [
+            "its columns in the history could not be told from those of `wing.",
+            "give one of the two another name",
+        ] {
+            assert!(said.contains(part), "{said}\ndoes not say: {part}");
+        }
+    }
+}
+
 #[test]
 fn exact_wrong_unit() {
     refused(

@@ -163,6 +163,28 @@ fn exact_the_animation_is_where_the_animal_is() {
         let expected = [of("body_x_m"), -of("body_z_m"), of("body_y_m")];
         assert_eq!([0, 1, 2].map(|k| number(3 * row + k)), expected);
     }
+    // A wingbeat takes a second; the whole is magnified by a node over all others.
+    let input = animation["samplers"][sampler]["input"].as_u64().unwrap() as usize;
+    let end = head["accessors"][input]["max"][0].as_f64().unwrap();
+    let flight = *history.column("time_s").last().unwrap();
+    let slower = head["extras"]["times_slower"].as_f64().unwrap();
+    assert!((end - flight * slower).abs() < 1e-6 * end, "{end}");
+    let root = head["scenes"][0]["nodes"][0].as_u64().unwrap() as usize;
+    assert_eq!(
+        head["nodes"][root]["scale"][0],
+        head["extras"]["times_larger"]
+    );
+    let attributes = &head["meshes"][0]["primitives"][0]["attributes"];
+    let normal = attributes["NORMAL"].as_u64().unwrap() as usize;
+    let view = head["accessors"][normal]["bufferView"].as_u64().unwrap() as usize;
+    let at = head["bufferViews"][view]["byteOffset"].as_u64().unwrap() as usize;
+    let count = head["accessors"][normal]["count"].as_u64().unwrap() as usize;
+    for k in 0..count {
+        let c =
+            |c: usize| f32::from_le_bytes(binary[at + 12 * k + 4 * c..][..4].try_into().unwrap());
+        let size = (c(0) * c(0) + c(1) * c(1) + c(2) * c(2)).sqrt();
+        assert!((size - 1.0).abs() < 1e-6, "a normal of length {size}");
+    }
 }
 
 #[test]

@@ -174,3 +174,51 @@ fn exact_the_animation_moves() {
         assert!(n > all / 1000 && n < all / 2, "{n} of {all} pixels changed");
     }
 }
+
+/// The part of the flight that is asked for, and no other.
+#[test]
+fn exact_a_window_of_the_flight_is_drawn() {
+    let scratch = Scratch::new("figures-window");
+    let args = ["--set", "time.beats=3", "--set=air.model=none"];
+    flown(&scratch.0, &[&CASE[..5], &args].concat());
+    let curve = |args: &[&str]| {
+        let files = plotted(
+            &scratch.0,
+            &[args, &["--out", "window", "--overwrite"]].concat(),
+        );
+        let svg = fs::read_to_string(&files[0]).unwrap();
+        let longest = svg
+            .split("d=\"M")
+            .map(|p| p.split('"').next().unwrap().matches('L').count());
+        longest.max().unwrap() + 1
+    };
+    let all = curve(&["angles"]);
+    assert_eq!(all % 3, 1, "{all} points"); // three beats and the last step
+    let beat = all / 3;
+    assert_eq!(
+        curve(&["angles", "--from", "1", "--to", "2.5"]),
+        beat * 3 / 2 + 1
+    );
+    assert_eq!(curve(&["angles", "--beats", "1"]), beat + 1);
+    assert_eq!(
+        curve(&["angles", "--to", "2", "--beats", "0.5"]),
+        beat / 2 + 1
+    );
+    for (args, reason) in [
+        (
+            &["--from", "3.5"][..],
+            "which lasts from 0 to 3.0000 wingbeats",
+        ),
+        (
+            &["--from", "0", "--to", "1", "--beats", "1"],
+            "leave one of them out",
+        ),
+        (&["--beats", "-1"], "choose another --from, --to or --beats"),
+    ] {
+        refused(
+            &scratch.0,
+            &[&["plot", "run", "angles"], args].concat(),
+            reason,
+        );
+    }
+}

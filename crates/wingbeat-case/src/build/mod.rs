@@ -13,12 +13,14 @@ mod joint;
 mod lattice;
 mod lengths;
 mod motion;
+mod names;
 mod output;
 mod segment;
 mod time;
 mod wind;
 mod wing;
 
+pub use names::column_name;
 pub(crate) use output::output;
 
 use serde::Serialize;
@@ -38,6 +40,7 @@ const MOST_PANELS: usize = 10_000;
 pub(crate) fn setup(case: &Case, name: &str) -> Built<FlightSetup> {
     let animal = animal(case, name)?;
     let time = time::grid(case)?;
+    names::check(&animal)?;
     let joints = joint::build_all(case, &animal)?;
     let setup = FlightSetup {
         name: name.to_owned(),

@@ -1,15 +1,14 @@
-//! The flight as a moving picture (GIF), drawn without a browser: the animal and its wakes from
+//! The flight as a moving picture (GIF or MP4), drawn without a browser: the animal and its wakes from
 //! the right, in front and above, the camera moving with the body.
 
-use std::fs::File;
-use std::io::BufWriter;
 use std::path::Path;
 
-use gif::{Encoder, Frame as GifFrame, Repeat};
 use wingbeat_math::DVec3;
 
+use super::Source;
 use super::dots::Dots;
 use super::drawing::{Anchor, COLOURS, Drawing, INK, Stroke};
+use super::reel::{Film, Gif, Reel};
 use super::wake::{Filaments, SKIN, pen};
 use wingbeat_case::IoError;
 use wingbeat_case::LoadedCase;
@@ -17,47 +16,54 @@ use wingbeat_results::frames::{self, Frame};
 use wingbeat_results::poses::{Poses, picture};
 use wingbeat_results::rows::Rows;
 
-/// Width and height \[pixels\].
-const SIZE: [f64; 2] = [560.0, 420.0];
+/// Width and height \[points\].
+pub(super) const SIZE: [f64; 2] = [560.0, 420.0];
 /// More pictures than this are thinned.
 const MOST_PICTURES: usize = 150;
+/// The same for a film.
+const MOST_FILMED: usize = 900;
 /// More rings than this are not drawn: the newest of every sheet are; nor more particles: the
 /// strongest are.
 const MOST_RINGS: usize = 1500;
-/// Time a picture is shown \[1/100 s\].
-const DELAY: u16 = 6;
 /// Width of the picture in wing lengths.
 const WING_LENGTHS: f64 = 4.8;
 
 /// Writes the animation to `path`, picture by picture; returns how many there are.
 ///
 /// # Errors
-/// A result that is damaged, a file that cannot be written.
-pub(super) fn write(dir: &Path, case: &LoadedCase, path: &Path) -> Result<usize, IoError> {
+/// A result that is damaged, a file that cannot be written, a film without ffmpeg.
+pub(super) fn write(source: &Source<'_>, path: &Path, film: bool) -> Result<usize, IoError> {
+    let (dir, case) = (source.dir, source.case);
     let fault = |problem: String| IoError::Figure {
         path: path.to_owned(),
         problem,
     };
     let history = dir.join("history.csv");
     let written = frames::steps(dir)?;
-    let (steps, framed) = match written.is_empty() {
-        false => (written, true),
-        true => ((0..Rows::count(&history)?).collect(), false),
+    let framed = !written.is_empty();
+    let all = match framed {
+        true => written,
+        false => (0..Rows::count(&history)?).collect(),
     };
-    let stride = steps.len().div_ceil(MOST_PICTURES).max(1);
+    let steps: Vec<usize> = all
+        .into_iter()
+        .filter(|k| source.rows.contains(k))
+        .collect();
+    let most = if film { MOST_FILMED } else { MOST_PICTURES };
+    let stride = steps.len().div_ceil(most).max(1);
     let mut wanted = steps.into_iter().step_by(stride).peekable();
+    if wanted.peek().is_none() {
+        return Ok(0);
+    }
     let mut rows = Rows::open(&history)?;
     let poses = Poses::new(&case.setup.animal, rows.names()).ok_or_else(|| IoError::Damaged {
         path: history.clone(),
         problem: "this history belongs to another animal than case.toml".to_owned(),
     })?;
-    let file = File::create(path).map_err(IoError::write(path))?;
-    let [width, height] = SIZE.map(|s| s as u16);
-    let mut encoder =
-        Encoder::new(BufWriter::new(file), width, height, &[]).map_err(|e| fault(e.to_string()))?;
-    encoder
-        .set_repeat(Repeat::Infinite)
-        .map_err(|e| fault(e.to_string()))?;
+    let mut reel: Box<dyn Reel> = match film {
+        true => Box::new(Film::begin(path).map_err(fault)?),
+        false => Box::new(Gif::begin(path).map_err(fault)?),
+    };
     let view = View::of(case);
     let mut count = 0;
     while let Some(row) = rows.next_row()? {
@@ -69,14 +75,11 @@ pub(super) fn write(dir: &Path, case: &LoadedCase, path: &Path) -> Result<usize,
             false => None,
         };
         let drawing = view.draw(case, &poses, row, frame.as_ref());
-        let shown = drawing.to_picture(1.0).map_err(fault)?;
-        let mut picture = GifFrame::from_rgb_speed(width, height, &shown.rgb, 15);
-        picture.delay = DELAY;
-        encoder
-            .write_frame(&picture)
-            .map_err(|e| fault(e.to_string()))?;
+        let shown = drawing.to_picture(reel.scale()).map_err(fault)?;
+        reel.add(&shown.rgb).map_err(fault)?;
         count += 1;
     }
+    reel.end().map_err(fault)?;
     Ok(count)
 }
 

@@ -2,34 +2,31 @@
 
 use wingbeat_flight::FlightSetup;
 
-use super::drawing::{COLOURS, Colour, Drawing};
+use super::drawing::{COLOURS, Drawing};
 use super::grid::grid;
-use super::kinds::{downstrokes, force_unit, prefix, scaled};
-use super::plot::{self, Curve, Plot};
+use super::kinds::{downstrokes, force_unit, prefix, scaled, stroke};
+use super::plot::{self, Band, Curve, Plot};
 use super::style::Look;
+use wingbeat_results::History;
 use wingbeat_results::summary::{BeatMeans, air_force, down, hinge_power};
-use wingbeat_results::{History, Summary};
 
-/// More beats than this are not told apart by their shade.
-const MOST_CURVES: usize = 6;
+/// What is drawn: name of the axis, over time, number and mean of every beat.
+type Quantity = (String, Vec<f64>, Vec<[f64; 2]>);
 
-/// What is drawn: name of the axis, over time, per beat.
-type Quantity = (String, Vec<f64>, Vec<f64>);
-
-/// The figure; none without a whole wingbeat.
+/// The figure of these whole wingbeats; none without any.
 pub(super) fn beats(
     setup: &FlightSetup,
     history: &History,
-    summary: &Summary,
+    beats: &[BeatMeans],
     look: &Look,
 ) -> Option<Drawing> {
     let period = setup.time.period?;
-    if summary.beats.is_empty() {
+    if beats.is_empty() {
         return None;
     }
     let time = history.column("time_s");
     let x: Vec<f64> = time.iter().map(|t| t / period).collect();
-    let quantities = quantities(setup, history, &summary.beats);
+    let quantities = quantities(setup, history, beats);
     let mut plots: Vec<Plot> = quantities
         .iter()
         .map(|q| over_phase(setup, history, &x, q, look))
@@ -42,7 +39,10 @@ pub(super) fn beats(
 
 fn quantities(setup: &FlightSetup, history: &History, beats: &[BeatMeans]) -> Vec<Quantity> {
     let mut list = vec![];
-    let mean = |f: &dyn Fn(&BeatMeans) -> f64| beats.iter().map(f).collect::<Vec<f64>>();
+    let mean = |f: &dyn Fn(&BeatMeans) -> f64| {
+        let means = beats.iter().map(|b| [b.beat as f64, f(b)]);
+        means.collect::<Vec<[f64; 2]>>()
+    };
     if setup.air.is_some() {
         let up = air_force(history, -down(setup));
         let (unit, factor) = force_unit(setup, &up);
@@ -61,7 +61,8 @@ fn quantities(setup: &FlightSetup, history: &History, beats: &[BeatMeans]) -> Ve
     list
 }
 
-/// The last beats above each other, from light to dark; dashed: the mean of the last.
+/// The phase mean of the wingbeats with its spread, and the last wingbeat; of fewer than three
+/// wingbeats, each. Dashed: the mean of the last.
 fn over_phase(
     setup: &FlightSetup,
     history: &History,
@@ -69,62 +70,138 @@ fn over_phase(
     (label, values, means): &Quantity,
     look: &Look,
 ) -> Plot {
-    let shown = means.len().min(MOST_CURVES);
-    let mut curves = vec![];
-    for n in 0..shown {
-        let beat = means.len() - shown + n;
-        let from = beat as f64;
-        let age = 0.75 * (1.0 - (n + 1) as f64 / shown as f64);
-        let colour = COLOURS[0].toward(Colour(255, 255, 255), age);
-        let name = match n {
-            _ if n + 1 == shown => format!("beat {}", beat + 1),
-            0 => format!("{}", beat + 1),
-            _ => String::new(),
-        };
-        let points = x.iter().zip(values).map(|(x, y)| [x - from, *y]);
-        let points = points.filter(|p| (-1e-9..=1.0 + 1e-9).contains(&p[0]));
-        curves.push(plot::curve(&name, points.collect(), colour, 0, look));
+    let beats: Vec<(f64, Vec<[f64; 2]>)> = (means.iter())
+        .map(|m| (m[0], beat(x, values, m[0])))
+        .filter(|b| b.1.len() > 2)
+        .collect();
+    // The first wingbeat of a flight starts from rest.
+    let settled: Vec<&(f64, Vec<[f64; 2]>)> = beats.iter().filter(|b| b.0 > 1.0).collect();
+    let (mut curves, mut bands) = (vec![], vec![]);
+    if settled.len() > 2 {
+        let spread = spread(&settled);
+        let ends = [settled[0].0, settled[settled.len() - 1].0];
+        let name = format!("mean of {} to {}, ± spread", ends[0], ends[1]);
+        let mean = spread.iter().map(|[x, m, _]| [*x, *m]).collect();
+        curves.push(plot::curve(&name, mean, COLOURS[0], 0, look));
+        bands.push(Band {
+            points: spread.iter().map(|[x, m, s]| [*x, m - s, m + s]).collect(),
+            colour: COLOURS[4],
+        });
     }
-    let last = means[means.len() - 1];
+    let own = if settled.len() > 2 { 1 } else { 2 };
+    for (n, (number, points)) in beats.iter().rev().take(own).rev().enumerate() {
+        let colour = if settled.len() > 2 {
+            COLOURS[1]
+        } else {
+            COLOURS[[4, 0][n]]
+        };
+        curves.push(plot::curve(
+            &format!("beat {number}"),
+            points.clone(),
+            colour,
+            n + 1,
+            look,
+        ));
+    }
+    let [number, last] = means[means.len() - 1];
     let ends = vec![[0.0, last], [1.0, last]];
-    let mut mean = plot::curve("mean", ends, COLOURS[1], 1, look);
+    let mut mean = plot::curve("its mean", ends, COLOURS[1], 1, look);
     mean.stroke.dash = &[5.0, 2.0];
-    let y = plot::range(curves.iter().flat_map(|c| &c.points).map(|p| p[1]));
+    let inside = curves.iter().flat_map(|c| &c.points).map(|p| p[1]);
+    let edges = bands
+        .iter()
+        .flat_map(|b| &b.points)
+        .flat_map(|p| [p[1], p[2]]);
+    let y = plot::range(inside.chain(edges));
     curves.push(mean);
     Plot {
         x_label: "time in the wingbeat".to_owned(),
         y_label: label.clone(),
         x: [0.0, 1.0],
         y,
-        shaded: shaded(setup, history, x, (means.len() - 1) as f64),
+        shaded: shaded(setup, history, x, number - 1.0),
         curves,
+        bands,
         ..Plot::default()
     }
 }
 
+/// Points of a wingbeat over its phase.
+fn beat(x: &[f64], values: &[f64], number: f64) -> Vec<[f64; 2]> {
+    let points = x.iter().zip(values).map(|(x, y)| [x - (number - 1.0), *y]);
+    let inside = points.filter(|p| (-1e-9..=1.0 + 1e-9).contains(&p[0]));
+    inside.collect()
+}
+
+/// Phase, mean over the wingbeats and standard deviation about it, at the phases of the last one.
+fn spread(beats: &[&(f64, Vec<[f64; 2]>)]) -> Vec<[f64; 3]> {
+    let count = beats.len() as f64;
+    let phases = beats[beats.len() - 1].1.iter().map(|p| p[0]);
+    let one = |x: f64| {
+        let values: Vec<f64> = beats.iter().map(|b| at_phase(&b.1, x)).collect();
+        let mean = values.iter().sum::<f64>() / count;
+        let square = values.iter().map(|v| (v - mean).powi(2)).sum::<f64>() / (count - 1.0);
+        [x, mean, square.sqrt()]
+    };
+    phases.map(one).collect()
+}
+
+/// Value at a phase, straight between the points.
+fn at_phase(points: &[[f64; 2]], x: f64) -> f64 {
+    let k = points
+        .partition_point(|p| p[0] < x)
+        .clamp(1, points.len() - 1);
+    let [[x0, y0], [x1, y1]] = [points[k - 1], points[k]];
+    y0 + (y1 - y0) * ((x - x0) / (x1 - x0)).clamp(0.0, 1.0)
+}
+
 /// Downstroke intervals of the beat that begins at `from`.
 fn shaded(setup: &FlightSetup, history: &History, x: &[f64], from: f64) -> Vec<[f64; 2]> {
-    let parts = downstrokes(setup, history, x).into_iter();
+    let parts = downstrokes(&stroke(setup, history), x).into_iter();
     let inside = parts.map(|p| p.map(|x| (x - from).clamp(0.0, 1.0)));
     inside.filter(|p| p[1] > p[0]).collect()
 }
 
 /// The mean of every beat.
 fn over_beats((label, _, means): &Quantity, look: &Look) -> Plot {
-    let points = means.iter().enumerate().map(|(k, m)| [k as f64 + 1.0, *m]);
-    let points: Vec<[f64; 2]> = points.collect();
+    let points = means.clone();
+    let ends = [points[0][0] - 0.5, points[points.len() - 1][0] + 0.5];
     let values = points.iter().map(|p| p[1]);
     let y = plot::range(values.chain([0.0]));
     let curve = plot::curve("", points, COLOURS[1], 0, look);
     Plot {
         x_label: "number of the wingbeat".to_owned(),
         y_label: format!("mean {label}"),
-        x: [0.5, means.len() as f64 + 0.5],
+        x: ends,
         y,
         curves: vec![Curve {
             dotted: true,
             ..curve
         }],
         ..Plot::default()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Three beats of a ramp, one higher, one lower than the middle one by 1: spread 1 at every phase.
+    #[test]
+    fn exact_mean_and_spread_over_the_phase() {
+        let x: Vec<f64> = (0..=40).map(|k| f64::from(k) * 0.1).collect();
+        let values: Vec<f64> = x.iter().map(|x| x % 1.0 + (x + 1e-9).floor()).collect();
+        let all: Vec<(f64, Vec<[f64; 2]>)> = [2.0, 3.0, 4.0]
+            .map(|n| (n, beat(&x, &values, n)[..10].to_vec()))
+            .to_vec();
+        let spread = spread(&all.iter().collect::<Vec<_>>());
+        assert_eq!(spread.len(), 10);
+        for (k, [phase, mean, deviation]) in spread.into_iter().enumerate() {
+            assert!((phase - 0.1 * k as f64).abs() < 1e-9);
+            assert!(
+                (mean - phase - 2.0).abs() < 1e-6 && (deviation - 1.0).abs() < 1e-9,
+                "{mean}"
+            );
+        }
     }
 }

@@ -90,6 +90,7 @@ impl Chart {
             logarithmic: panel.logarithmic,
             shaded: self.shaded.clone(),
             curves: curves.collect(),
+            bands: vec![],
         }
     }
 

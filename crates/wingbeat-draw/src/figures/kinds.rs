@@ -3,41 +3,23 @@
 use wingbeat_flight::FlightSetup;
 use wingbeat_math::DVec3;
 
-use super::chart::{Chart, Panel};
-use super::time_axis;
+use super::measure::{Kept, Line, Measure, Measured, Unit};
 use wingbeat_results::History;
 use wingbeat_results::columns::body_names;
 use wingbeat_results::summary::{air_force, down, hinge_power};
 
-/// The charts over time that make sense for a run, by kind.
-pub(super) fn all(setup: &FlightSetup, history: &History) -> Vec<(&'static str, Chart)> {
+/// The figures over time that make sense for a run, row by row in SI units.
+pub(super) fn measured(setup: &FlightSetup, history: &History) -> Vec<Measured> {
     let mut list = vec![];
     if setup.air.is_some() {
-        list.push(("forces", forces(setup, history)));
+        list.push(forces(setup, history));
     }
-    list.push(("trajectory", trajectory(setup, history)));
+    list.push(trajectory(history));
     if setup.time.period.is_some() {
-        list.push(("angles", angles(setup, history)));
+        list.push(angles(setup, history));
     }
-    list.push(("balances", balances(setup, history)));
+    list.push(balances(history));
     list
-}
-
-fn chart(setup: &FlightSetup, history: &History, title: &str, panels: Vec<Panel>) -> Chart {
-    let (x_label, x) = time_axis(setup, history);
-    let shaded = downstrokes(setup, history, &x);
-    let note = if shaded.is_empty() {
-        ""
-    } else {
-        " (downstroke shaded)"
-    };
-    Chart {
-        title: format!("{}: {title}{note}", setup.name),
-        x_label,
-        x,
-        shaded,
-        panels,
-    }
 }
 
 pub(super) fn scaled(values: &[f64], factor: f64) -> Vec<f64> {
@@ -53,20 +35,24 @@ pub(super) fn reference_wing(setup: &FlightSetup) -> Option<(String, f64)> {
     Some((name, wing.side.sign()))
 }
 
-/// Whether the reference wing goes down (or forward: its stroke angle phi rises) from each row to
-/// the next.
-pub(super) fn goes_down(setup: &FlightSetup, history: &History) -> Vec<bool> {
-    let Some((wing, sign)) = reference_wing(setup) else {
-        return vec![];
-    };
-    let phi = history.column(&format!("{wing}_prescribed_phi_rad"));
-    phi.windows(2).map(|p| sign * (p[1] - p[0]) > 0.0).collect()
+/// Stroke angle of the reference wing, row by row, with the sign by which it rises in the downstroke;
+/// nothing without one \[rad\].
+pub(super) fn stroke(setup: &FlightSetup, history: &History) -> Vec<f64> {
+    reference_wing(setup).map_or(vec![], |(wing, sign)| {
+        scaled(history.column(&format!("{wing}_prescribed_phi_rad")), sign)
+    })
+}
+
+/// Whether the reference wing goes down (or forward: its stroke angle rises) from each row to the
+/// next.
+pub(super) fn goes_down(stroke: &[f64]) -> Vec<bool> {
+    stroke.windows(2).map(|p| p[1] > p[0]).collect()
 }
 
 /// Intervals of the downstroke.
-pub(super) fn downstrokes(setup: &FlightSetup, history: &History, x: &[f64]) -> Vec<[f64; 2]> {
+pub(super) fn downstrokes(stroke: &[f64], x: &[f64]) -> Vec<[f64; 2]> {
     let mut list: Vec<[f64; 2]> = vec![];
-    for (ends, down) in x.windows(2).zip(goes_down(setup, history)) {
+    for (ends, down) in x.windows(2).zip(goes_down(stroke)) {
         match list.last_mut() {
             _ if !down => {}
             Some(last) if last[1] == ends[0] => last[1] = ends[1],
@@ -86,33 +72,22 @@ pub(super) fn force_unit(setup: &FlightSetup, values: &[f64]) -> (String, f64) {
     (format!("{prefix}N"), 1.0 / scale)
 }
 
-fn forces(setup: &FlightSetup, history: &History) -> Chart {
-    let up = air_force(history, -down(setup));
-    let forward = air_force(history, DVec3::X);
-    let right = air_force(history, DVec3::Y);
-    let (unit, factor) = force_unit(setup, &up);
-    let size = |f: &[f64]| f.iter().fold(0.0_f64, |a, v| a.max(v.abs()));
-    let mut series = vec![
-        ("up", scaled(&up, factor)),
-        ("forward", scaled(&forward, factor)),
+fn forces(setup: &FlightSetup, history: &History) -> Measured {
+    let lines = vec![
+        Line::new("up", air_force(history, -down(setup))),
+        Line::new("forward", air_force(history, DVec3::X)),
+        Line::new("right", air_force(history, DVec3::Y)).kept(Kept::Felt),
     ];
-    if size(&right) > 1e-9 * size(&up).max(size(&forward)) {
-        series.push(("right", scaled(&right, factor)));
+    let power = vec![Line::new("power", hinge_power(history))];
+    Measured {
+        name: "forces",
+        title: "forces and power",
+        shaded: true,
+        panels: vec![
+            Measure::new("force of the air", Unit::Weight, lines),
+            Measure::new("power of the hinges", Unit::Prefixed("W"), power),
+        ],
     }
-    let label = match &unit[..] {
-        "weight" => "force of the air / weight".to_owned(),
-        _ => format!("force of the air [{unit}]"),
-    };
-    let power = hinge_power(history);
-    let (scale, prefix) = prefix(&power);
-    let panels = vec![
-        Panel::new(&label, series),
-        Panel::new(
-            &format!("power of the hinges [{prefix}W]"),
-            vec![("power", scaled(&power, 1.0 / scale))],
-        ),
-    ];
-    chart(setup, history, "forces and power", panels)
 }
 
 /// A decimal prefix that suits the largest magnitude, and its factor.
@@ -125,32 +100,27 @@ pub(super) fn prefix(values: &[f64]) -> (f64, &'static str) {
     all.into_iter().find(fits).unwrap_or(smallest)
 }
 
-fn trajectory(setup: &FlightSetup, history: &History) -> Chart {
-    let path: Vec<Vec<f64>> = ["body_x_m", "body_y_m", "body_z_m"]
-        .iter()
-        .map(|name| from_start(history.column(name)))
-        .collect();
-    let all: Vec<f64> = path.iter().flatten().copied().collect();
-    let (scale, unit) = prefix(&all);
-    let position = Panel::new(
-        &format!("position from the start [{unit}m]"),
-        vec![
-            ("forward n1", scaled(&path[0], 1.0 / scale)),
-            ("right n2", scaled(&path[1], 1.0 / scale)),
-            ("up −n3", scaled(&path[2], -1.0 / scale)),
+fn trajectory(history: &History) -> Measured {
+    let column = |name: &str| history.column(name).to_vec();
+    let place = vec![
+        Line::new("forward n1", column("body_x_m")).from_start(),
+        Line::new("right n2", column("body_y_m")).from_start(),
+        Line::new("up −n3", scaled(history.column("body_z_m"), -1.0)).from_start(),
+    ];
+    let attitude = vec![
+        Line::new("pitch", column("body_phi_rad")),
+        Line::new("yaw", column("body_theta_rad")),
+        Line::new("roll", column("body_psi_rad")),
+    ];
+    Measured {
+        name: "trajectory",
+        title: "path of the body and attitude",
+        shaded: true,
+        panels: vec![
+            Measure::new("position from the start", Unit::Prefixed("m"), place),
+            Measure::new("attitude", Unit::Degrees, attitude),
         ],
-    );
-    let angle = |name: &str| scaled(history.column(name), 1f64.to_degrees());
-    let attitude = Panel::new(
-        "attitude [deg]",
-        vec![
-            ("pitch", angle("body_phi_rad")),
-            ("yaw", angle("body_theta_rad")),
-            ("roll", angle("body_psi_rad")),
-        ],
-    );
-    let panels = vec![position, attitude];
-    chart(setup, history, "path of the body and attitude", panels)
+    }
 }
 
 /// Differences to the first number.
@@ -159,76 +129,63 @@ pub(super) fn from_start(values: &[f64]) -> Vec<f64> {
     values.iter().map(|v| v - first).collect()
 }
 
-fn angles(setup: &FlightSetup, history: &History) -> Chart {
+fn angles(setup: &FlightSetup, history: &History) -> Measured {
     let names = body_names(&setup.animal);
     let panels = names[1..][..setup.animal.wings.len()].iter().map(|wing| {
-        let angle = |k: &str| {
+        let angle = |label: &str, k: &str| {
             let column = format!("{wing}_prescribed_{k}_rad");
-            scaled(history.column(&column), 1f64.to_degrees())
+            Line::new(label, history.column(&column).to_vec())
         };
-        let series = vec![
-            ("stroke φ", angle("phi")),
-            ("deviation θ", angle("theta")),
-            ("feathering ψ", angle("psi")),
+        let lines = vec![
+            angle("stroke φ", "phi"),
+            angle("deviation θ", "theta"),
+            angle("feathering ψ", "psi"),
         ];
-        Panel::new(&format!("{} [deg]", wing.replace('_', " ")), series)
+        Measure::new(&wing.replace('_', " "), Unit::Degrees, lines)
     });
-    chart(setup, history, "prescribed wing angles", panels.collect())
+    Measured {
+        name: "angles",
+        title: "prescribed wing angles",
+        shaded: true,
+        panels: panels.collect(),
+    }
 }
 
-fn balances(setup: &FlightSetup, history: &History) -> Chart {
-    let column = |name: &str| history.column(name).to_vec();
-    let names = [
-        ("kinetic", "kinetic_energy_joule"),
-        ("potential", "potential_energy_joule"),
-        ("work of hinges", "hinge_work_joule"),
-        ("work of air", "air_work_joule"),
-        ("work of deformation", "deformation_work_joule"),
-        ("work of loads", "applied_work_joule"),
-        ("residual", "energy_residual_joule"),
+fn balances(history: &History) -> Measured {
+    let line = |label: &str, name: &str| Line::new(label, history.column(name).to_vec());
+    let work = |label: &str, name: &str| line(label, name).kept(Kept::NotZero);
+    let energies = vec![
+        work("kinetic", "kinetic_energy_joule"),
+        work("potential", "potential_energy_joule").from_start(),
+        work("work of hinges", "hinge_work_joule"),
+        work("work of air", "air_work_joule"),
+        work("work of deformation", "deformation_work_joule"),
+        work("work of loads", "applied_work_joule"),
+        line("residual", "energy_residual_joule"),
     ];
-    let mut energies: Vec<(&str, Vec<f64>)> =
-        names.map(|(label, name)| (label, column(name))).into();
-    energies[1].1 = from_start(&energies[1].1);
-    energies.retain(|(label, values)| *label == "residual" || values.iter().any(|v| *v != 0.0));
-    let all: Vec<f64> = energies.iter().flat_map(|e| &e.1).copied().collect();
-    let (scale, prefix) = prefix(&all);
-    let residual = energies.last().map_or(vec![], |e| e.1.clone());
-    let shown = energies
-        .into_iter()
-        .map(|(label, values)| (label, scaled(&values, 1.0 / scale)));
-    let momentum = vec![
-        ("momentum", magnitude(history, "momentum", "kg_m_per_s")),
-        (
-            "residual",
-            magnitude(history, "momentum_residual", "kg_m_per_s"),
-        ),
-    ];
+    let momentum =
+        |label: &str, stem: &str| Line::new(label, magnitude(history, stem, "kg_m_per_s"));
     let constraints = vec![
-        ("position [m]", column("violation_position_m")),
-        (
-            "orientation [1]",
-            column("violation_orientation_dimensionless"),
-        ),
+        work("position [m]", "violation_position_m"),
+        work("orientation [1]", "violation_orientation_dimensionless"),
     ];
-    let mut panels = vec![
-        Panel::new(&format!("energy [{prefix}J]"), shown.collect()),
-        Panel::new("energy residual [J]", vec![("residual", residual)]).logarithmic(),
-        Panel::new("momentum [kg m/s]", momentum).logarithmic(),
+    let residual = vec![line("residual", "energy_residual_joule")];
+    let momenta = vec![
+        momentum("momentum", "momentum"),
+        momentum("residual", "momentum_residual"),
     ];
-    // Forms that cannot violate a constraint have nothing to show.
-    if constraints.iter().flat_map(|c| &c.1).any(|v| *v != 0.0) {
-        panels.push(Panel::new("violation of constraints", constraints).logarithmic());
+    let given = |label: &str, lines| Measure::new(label, Unit::Given, lines).logarithmic();
+    Measured {
+        name: "balances",
+        title: "balances (magnitudes on logarithmic axes)",
+        shaded: false,
+        panels: vec![
+            Measure::new("energy", Unit::Prefixed("J"), energies),
+            given("energy residual [J]", residual),
+            given("momentum [kg m/s]", momenta),
+            given("violation of constraints", constraints),
+        ],
     }
-    let mut chart = chart(
-        setup,
-        history,
-        "balances (magnitudes on logarithmic axes)",
-        panels,
-    );
-    chart.shaded.clear();
-    chart.title = format!("{}: balances (magnitudes on logarithmic axes)", setup.name);
-    chart
 }
 
 /// Length of a vector, row by row.

@@ -8,7 +8,7 @@ use wingbeat_model::Wing;
 use super::drawing::{Anchor, COLOURS, Drawing, INK, Stroke};
 use super::font;
 use super::grid::one_scale;
-use super::kinds::{goes_down, prefix};
+use super::kinds::{goes_down, prefix, stroke};
 use super::plot::{self, Area, Axes, Plot};
 use super::style::Look;
 use wingbeat_results::History;
@@ -49,7 +49,7 @@ fn halves(setup: &FlightSetup, history: &History) -> Option<[Vec<usize>; 2]> {
         let x = time[*k] / period;
         end < 1.0 || (x >= end - 1.0 - 1e-6 && x <= end + 1e-6)
     };
-    let down = goes_down(setup, history);
+    let down = goes_down(&stroke(setup, history));
     let rows = |wanted: bool| {
         let all = (0..time.len() - 1).filter(inside);
         let all: Vec<usize> = all.filter(|k| down.get(*k) == Some(&wanted)).collect();

@@ -15,15 +15,21 @@ mod font;
 mod grid;
 mod kinds;
 mod lollipop;
+mod measure;
+mod path;
+mod pdf;
 mod phase;
 mod plot;
 mod raster;
+mod reel;
 pub mod stabilised;
 mod style;
 mod svg;
 mod ticks;
 mod wake;
+mod window;
 
+use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 use wingbeat_flight::FlightSetup;
@@ -31,12 +37,18 @@ use wingbeat_flight::FlightSetup;
 pub use chart::{Chart, Panel, Series};
 use drawing::Drawing;
 pub use style::Style;
+pub use window::Window;
+pub(crate) use window::charts;
 use wingbeat_case::IoError;
 use wingbeat_case::LoadedCase;
+use wingbeat_results::rows::Rows;
+use wingbeat_results::summary::BeatMeans;
 use wingbeat_results::{History, ResultDir, Summary};
 
-/// More rows of a history than this do not make a figure better.
-pub(crate) const MOST_ROWS: usize = 4000;
+/// More abscissas than this do not make a figure better: of longer flights, extremes are drawn.
+const MOST_POINTS: usize = 4000;
+/// Rows, the last ones, from which phase planes and single wingbeats are drawn.
+const MOST_ROWS: usize = 8000;
 
 /// What a figure shows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -51,6 +63,8 @@ pub enum Kind {
     Beats,
     /// Path and attitude of the body over time.
     Trajectory,
+    /// Path of the body in space, in three views.
+    Path,
     /// Phase planes of body and wing.
     Phase,
     /// Energy, momentum and constraints.
@@ -63,7 +77,7 @@ pub enum Kind {
 
 impl Kind {
     /// All kinds by name, with what they show.
-    pub const ALL: [(&'static str, Self, &'static str); 9] = [
+    pub const ALL: [(&'static str, Self, &'static str); 10] = [
         ("angles", Self::Angles, "wing angles over time"),
         (
             "forces",
@@ -84,6 +98,11 @@ impl Kind {
             "trajectory",
             Self::Trajectory,
             "path and attitude of the body",
+        ),
+        (
+            "path",
+            Self::Path,
+            "path of the body in space, three views to one scale",
         ),
         ("phase", Self::Phase, "phase planes of body and wing"),
         ("balances", Self::Balances, "energy, momentum, constraints"),
@@ -107,6 +126,7 @@ impl Kind {
             Self::Forces => "this flight has no air",
             Self::Angles | Self::Lollipop => "no wing of this flight flaps",
             Self::Beats => "this flight has no whole wingbeat",
+            Self::Path => "the body does not move in this flight",
             Self::Phase => "nothing moves in this flight",
             Self::Wake => "no frames were written (output.frames_every = 0, or air without wakes)",
             Self::Trajectory | Self::Balances | Self::Animation => "the history is empty",
@@ -115,23 +135,56 @@ impl Kind {
 }
 
 /// What a figure is written as.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Format {
     /// Lines and words, for papers and for editing.
-    #[default]
     Svg,
     /// Pixels: 300 per inch for a paper, 144 for the screen.
     Png,
+    /// One page of lines, for papers.
+    Pdf,
+    /// The animation as a GIF.
+    Gif,
+    /// The animation as a film, made by ffmpeg.
+    Mp4,
 }
 
 impl Format {
     /// All formats by name, which is the ending of the file, too.
-    pub const ALL: [(&'static str, Self); 2] = [("svg", Self::Svg), ("png", Self::Png)];
+    pub const ALL: [(&'static str, Self); 5] = [
+        ("svg", Self::Svg),
+        ("png", Self::Png),
+        ("pdf", Self::Pdf),
+        ("gif", Self::Gif),
+        ("mp4", Self::Mp4),
+    ];
 
     fn ending(self) -> &'static str {
-        match self {
-            Self::Svg => "svg",
-            Self::Png => "png",
+        let known = Self::ALL.iter().find(|f| f.1 == self);
+        known.expect("every format has a name").0
+    }
+
+    fn moves(self) -> bool {
+        matches!(self, Self::Gif | Self::Mp4)
+    }
+
+    /// The format of a kind of figure, or why it has not the one that was asked for.
+    fn of(asked: Option<Self>, kind: Kind) -> Result<Self, String> {
+        let moves = kind == Kind::Animation;
+        match asked {
+            None if moves => Ok(Self::Gif),
+            None => Ok(Self::Svg),
+            Some(format) if format.moves() == moves => Ok(format),
+            Some(format) => Err(format!(
+                "--format {}: {} is written as {}; draw it by a command of its own",
+                format.ending(),
+                kind.name(),
+                if moves {
+                    "gif or mp4"
+                } else {
+                    "svg, png or pdf"
+                },
+            )),
         }
     }
 }
@@ -143,10 +196,12 @@ pub struct Order {
     pub kinds: Vec<Kind>,
     /// Style.
     pub style: Style,
-    /// File format of figures that do not move.
-    pub format: Format,
+    /// File format; none: SVG, of the animation GIF.
+    pub format: Option<Format>,
     /// Step of the frame whose wakes are drawn; the last one if none.
     pub step: Option<usize>,
+    /// Part of the flight that is drawn.
+    pub window: Window,
     /// Folder for the files.
     pub folder: PathBuf,
     /// Whether files that are there already and differ are replaced.
@@ -157,12 +212,71 @@ pub struct Order {
 struct Source<'a> {
     dir: &'a Path,
     case: &'a LoadedCase,
-    history: &'a History,
-    summary: &'a Summary,
+    /// Rows of the history that are drawn.
+    rows: Range<usize>,
+    /// The last of these rows, at most [`MOST_ROWS`].
+    history: History,
+    charts: Vec<(&'static str, Chart)>,
+    /// Whole wingbeats in these rows.
+    beats: Vec<BeatMeans>,
+    /// Frame whose wake is drawn.
     step: Option<usize>,
 }
 
-impl Source<'_> {
+impl<'a> Source<'a> {
+    fn new(
+        dir: &'a Path,
+        case: &'a LoadedCase,
+        summary: &Summary,
+        (window, step): (Window, Option<usize>),
+    ) -> Result<Self, IoError> {
+        let path = dir.join("history.csv");
+        let rows = window.rows(&case.setup, &path)?;
+        let last = rows.end.saturating_sub(MOST_ROWS).max(rows.start)..rows.end;
+        let history = History::of_rows(&path, last)?;
+        let (charts, _) = window::charts(&case.setup, &path, rows.clone(), MOST_POINTS)?;
+        let whole = Window::beats(&case.setup, &path, &rows)?;
+        let inside = |b: &&BeatMeans| whole.contains(&b.beat);
+        Ok(Self {
+            dir,
+            case,
+            history,
+            charts,
+            beats: summary.beats.iter().filter(inside).cloned().collect(),
+            step: step.or_else(|| rows.end.checked_sub(1)),
+            rows,
+        })
+    }
+
+    /// Places of the body in all rows, at most [`MOST_POINTS`] of them \[m, N\].
+    fn path(&self) -> Result<path::Path, IoError> {
+        let mut rows = Rows::open(&self.dir.join("history.csv"))?;
+        let names = ["body_x_m", "body_y_m", "body_z_m"];
+        let column = |name: &str| rows.names().iter().position(|n| n == name);
+        let Some(columns) = names
+            .iter()
+            .map(|n| column(n))
+            .collect::<Option<Vec<usize>>>()
+        else {
+            return Ok(path::Path::default());
+        };
+        rows.skip(self.rows.start)?;
+        let mut path = path::Path::new(self.rows.len().div_ceil(MOST_POINTS));
+        for k in 0..self.rows.len() {
+            let Some(row) = rows.next_row()? else { break };
+            path.add(k, row[1], [0, 1, 2].map(|c| row[columns[c]]));
+        }
+        Ok(path)
+    }
+
+    /// What phase planes show, where it is not everything.
+    fn note(&self) -> String {
+        match self.rows.len() - self.history.rows() {
+            0 => String::new(),
+            _ => format!(", last {} steps", self.history.rows()),
+        }
+    }
+
     /// The drawing of a kind; none where the run has no such thing.
     fn draw(&self, kind: Kind, style: Style) -> Result<Option<Drawing>, IoError> {
         let (look, setup) = (style.look(), &self.case.setup);
@@ -170,14 +284,14 @@ impl Source<'_> {
             return Ok(None);
         }
         let chart = || {
-            let all = kinds::all(setup, self.history);
-            let found = all.into_iter().find(|c| c.0 == kind.name());
+            let found = self.charts.iter().find(|c| c.0 == kind.name());
             found.map(|c| c.1.drawing(&look))
         };
         Ok(match kind {
-            Kind::Lollipop => lollipop::lollipop(setup, self.history, &look),
-            Kind::Beats => beats::beats(setup, self.history, self.summary, &look),
-            Kind::Phase => phase::phase(setup, self.history, &look),
+            Kind::Lollipop => lollipop::lollipop(setup, &self.history, &look),
+            Kind::Beats => beats::beats(setup, &self.history, &self.beats, &look),
+            Kind::Path => path::path(setup, &self.path()?, &look),
+            Kind::Phase => phase::phase(setup, &self.history, &self.note(), &look),
             Kind::Wake => wake::wake(self.dir, self.case, self.step, &look)?,
             Kind::Animation => None,
             Kind::Angles | Kind::Forces | Kind::Trajectory | Kind::Balances => chart(),
@@ -193,15 +307,8 @@ impl Source<'_> {
 pub fn plot(dir: &ResultDir, order: &Order) -> Result<Vec<PathBuf>, IoError> {
     let case = dir.case()?;
     let path = dir.join("history.csv");
-    let (history, _) = History::thinned(&path, MOST_ROWS)?;
     let summary = Summary::read(&case, &path, &dir.manifest()?.outcome)?;
-    let source = Source {
-        dir: dir.path(),
-        case: &case,
-        history: &history,
-        summary: &summary,
-        step: order.step,
-    };
+    let source = Source::new(dir.path(), &case, &summary, (order.window, order.step))?;
     let still = Kind::ALL
         .iter()
         .map(|k| k.1)
@@ -213,15 +320,17 @@ pub fn plot(dir: &ResultDir, order: &Order) -> Result<Vec<PathBuf>, IoError> {
     std::fs::create_dir_all(&order.folder).map_err(IoError::write(&order.folder))?;
     let mut files = vec![];
     for kind in kinds {
+        let format = Format::of(order.format, kind).map_err(fault(&order.folder))?;
+        let file = format!("{}.{}", kind.name(), format.ending());
+        let file = order.folder.join(file);
         if kind == Kind::Animation {
-            files.push(animate(dir, &case, order)?);
+            animate(&source, &file, format == Format::Mp4, order.overwrite)?;
+            files.push(file);
             continue;
         }
-        let file = format!("{}.{}", kind.name(), order.format.ending());
-        let file = order.folder.join(file);
         match source.draw(kind, order.style)? {
             Some(drawing) => {
-                let bytes = encoded(&drawing, order).map_err(fault(&file))?;
+                let bytes = encoded(&drawing, order.style, format).map_err(fault(&file))?;
                 place(&file, &bytes, order.overwrite)?;
                 files.push(file);
             }
@@ -239,11 +348,12 @@ fn fault(path: &Path) -> impl FnOnce(String) -> IoError + '_ {
     }
 }
 
-fn encoded(drawing: &Drawing, order: &Order) -> Result<Vec<u8>, String> {
-    let scale = order.style.look().pixels_per_point;
-    match order.format {
+fn encoded(drawing: &Drawing, style: Style, format: Format) -> Result<Vec<u8>, String> {
+    let scale = style.look().pixels_per_point;
+    match format {
         Format::Svg => Ok(drawing.to_svg().into_bytes()),
-        Format::Png => drawing.to_picture(scale)?.to_png(scale),
+        Format::Pdf => Ok(drawing.to_pdf()),
+        _ => drawing.to_picture(scale)?.to_png(scale),
     }
 }
 
@@ -265,42 +375,30 @@ fn exists(path: &Path) -> IoError {
 }
 
 /// The animation is written beside its place and moved there when it is whole.
-fn animate(dir: &ResultDir, case: &LoadedCase, order: &Order) -> Result<PathBuf, IoError> {
-    let file = order.folder.join("animation.gif");
-    if file.exists() && !order.overwrite {
-        return Err(exists(&file));
+fn animate(source: &Source<'_>, file: &Path, film: bool, overwrite: bool) -> Result<(), IoError> {
+    if file.exists() && !overwrite {
+        return Err(exists(file));
     }
-    let part = order.folder.join("animation.gif.part");
-    let written = animation::write(dir.path(), case, &part);
-    if written.is_err() {
+    let mut part = file.as_os_str().to_owned();
+    part.push(".part");
+    let part = PathBuf::from(part);
+    let written = animation::write(source, &part, film);
+    if !matches!(written, Ok(1..)) {
         let _ = std::fs::remove_file(&part); // nothing more can be done about a leftover
     }
     match written? {
-        0 => Err(fault(&file)(Kind::Animation.needs().to_owned())),
-        _ => std::fs::rename(&part, &file)
-            .map_err(IoError::write(&file))
-            .map(|()| file),
+        0 => Err(fault(file)(Kind::Animation.needs().to_owned())),
+        _ => std::fs::rename(&part, file).map_err(IoError::write(file)),
     }
 }
 
 /// Draws every figure of the history that makes sense for the case into `figures/`.
 ///
 /// # Errors
-/// A file that cannot be written.
-pub fn draw_all(
-    dir: &ResultDir,
-    case: &LoadedCase,
-    history: &History,
-    summary: &Summary,
-) -> Result<(), IoError> {
+/// A history that cannot be read, a file that cannot be written.
+pub fn draw_all(dir: &ResultDir, case: &LoadedCase, summary: &Summary) -> Result<(), IoError> {
     dir.folder("figures")?;
-    let source = Source {
-        dir: dir.path(),
-        case,
-        history,
-        summary,
-        step: None,
-    };
+    let source = Source::new(dir.path(), case, summary, (Window::default(), None))?;
     for (name, kind, _) in Kind::ALL {
         if matches!(kind, Kind::Wake | Kind::Animation) {
             continue; // large or slow: `wingbeat plot` draws them
@@ -313,12 +411,12 @@ pub fn draw_all(
     Ok(())
 }
 
-/// The charts of a run over time.
-pub(crate) fn charts(setup: &FlightSetup, history: &History) -> Vec<Chart> {
-    kinds::all(setup, history)
-        .into_iter()
-        .map(|c| c.1)
-        .collect()
+/// Where the stroke angle of the reference wing stands in a row, and the sign by which it rises in
+/// the downstroke.
+pub(crate) fn stroke_column(setup: &FlightSetup, names: &[String]) -> Option<(usize, f64)> {
+    let (wing, sign) = kinds::reference_wing(setup)?;
+    let name = format!("{wing}_prescribed_phi_rad");
+    Some((names.iter().position(|n| *n == name)?, sign))
 }
 
 /// Time axis: wingbeats where there are any, else seconds.

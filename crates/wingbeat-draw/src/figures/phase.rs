@@ -15,8 +15,13 @@ struct Plane {
     y: (String, Vec<f64>),
 }
 
-/// The figure; none where nothing moves.
-pub(super) fn phase(setup: &FlightSetup, history: &History, look: &Look) -> Option<Drawing> {
+/// The figure; none where nothing moves. `note` says which part of the flight it is.
+pub(super) fn phase(
+    setup: &FlightSetup,
+    history: &History,
+    note: &str,
+    look: &Look,
+) -> Option<Drawing> {
     let mut planes = body(setup, history);
     planes.extend(wing(setup, history));
     if planes.is_empty() {
@@ -29,7 +34,10 @@ pub(super) fn phase(setup: &FlightSetup, history: &History, look: &Look) -> Opti
         2 | 4 => 2,
         _ => 3,
     };
-    let title = format!("{}: phase planes (dots: starts of wingbeats)", setup.name);
+    let title = format!(
+        "{}: phase planes (dots: starts of wingbeats){note}",
+        setup.name
+    );
     let (mut drawing, axes) = grid(&plots, columns, 1.05 * look.panel, &title, look);
     for (axes, plane) in axes.iter().zip(&planes) {
         for &k in &starts {

@@ -39,6 +39,16 @@ pub(super) struct Plot {
     /// Shaded intervals of x.
     pub shaded: Vec<[f64; 2]>,
     pub curves: Vec<Curve>,
+    /// Filled between a lower and an upper line, under the curves.
+    pub bands: Vec<Band>,
+}
+
+/// What lies between two lines with the same abscissas.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Band {
+    /// Abscissa, lower and upper value.
+    pub points: Vec<[f64; 3]>,
+    pub colour: Colour,
 }
 
 /// From quantities to points.
@@ -94,6 +104,10 @@ impl Plot {
             y: self.y,
         };
         self.background(to, &axes, look);
+        for band in &self.bands {
+            let line = |k: usize| band.points.iter().map(move |p| axes.at([p[0], p[k]]));
+            to.area(line(1).chain(line(2).rev()).collect(), band.colour, 0.35);
+        }
         for curve in &self.curves {
             draw_curve(to, &axes, curve, self.logarithmic);
         }

@@ -171,9 +171,20 @@ fn draw(frame: &Frame, wakes: &Wakes, title: &str, look: &Look) -> Drawing {
     let left = 5.0 * look.font;
     let width = look.width - left - 1.6 * look.font;
     let range = |axis: usize| plot::range(points.iter().map(|p| p[axis] / scale));
+    let ranges = [0, 1, 2].map(range);
+    let extent = |axis: usize| ranges[axis][1] - ranges[axis][0];
+    // Both views have one scale: the higher of them is not too high.
+    let highest = extent(1).max(extent(2));
+    let mut along = ranges[0];
+    one_scale(
+        &mut along,
+        &mut [0.0, highest],
+        width,
+        [0.0, 2.4 * look.panel],
+    );
     let plots = VIEWS.each_ref().map(|view| {
-        let [mut x, mut y] = view.axes.map(range);
-        let limits = [0.8 * look.panel, 2.4 * look.panel];
+        let (mut x, mut y) = (along, ranges[view.axes[1]]);
+        let limits = [0.8 * look.panel, f64::INFINITY];
         let height = one_scale(&mut x, &mut y, width, limits);
         let plot = Plot {
             x_label: format!("{} [{unit}m]", view.along),

@@ -1,13 +1,16 @@
 //! The flight page: one HTML file that holds the flight, the program that shows it, and three.js.
 //!
 //! The chapter in order: [`plan`] says which frames are shown and what is thinned; [`pack`] turns
-//! frames into 16-bit numbers; `data` gathers everything the page knows; the assets show it.
+//! frames into 16-bit numbers; `solid` gives bodies a shape; `scene` reads the frames, `data` gathers
+//! everything the page knows; the assets, one file for each thing the page does, show it.
 //!
 //! Memory is bounded by the size of the page, not by the length of the flight.
 
 mod data;
 pub mod pack;
 pub mod plan;
+mod scene;
+mod solid;
 
 use std::path::PathBuf;
 
@@ -19,32 +22,100 @@ pub const FILE: &str = "flight.html";
 /// Size of a page unless told otherwise \[bytes\].
 pub const DEFAULT_BYTES: usize = 20_000_000;
 
-const TEMPLATE: &str = include_str!("../../assets/page.html");
-const SCRIPT: &str = include_str!("../../assets/page.js");
+const TEMPLATE: &str = include_str!("../../assets/page/page.html");
+const STYLE: &str = include_str!("../../assets/page/page.css");
 const THREE: &str = include_str!("../../assets/three.bundle.min.js");
+/// Surfaces of vorticity: run by the page and by its worker.
+const VORTICES: &str = include_str!("../../assets/page/vortices.js");
+const WORKER: &str = include_str!("../../assets/page/worker.js");
+/// The program of the page, each part using those before it.
+const SCRIPT: &str = concat!(
+    include_str!("../../assets/page/flight.js"),
+    include_str!("../../assets/page/words.js"),
+    include_str!("../../assets/page/theme.js"),
+    include_str!("../../assets/page/state.js"),
+    include_str!("../../assets/page/stage.js"),
+    include_str!("../../assets/page/animal.js"),
+    include_str!("../../assets/page/wake.js"),
+    include_str!("../../assets/page/scenery.js"),
+    include_str!("../../assets/page/flat.js"),
+    include_str!("../../assets/page/plots.js"),
+    include_str!("../../assets/page/timebar.js"),
+    include_str!("../../assets/page/record.js"),
+    include_str!("../../assets/page/main.js"),
+);
 
-/// Writes the page of a result directory whose run ended so, no larger than `most_bytes` (but never without its
-/// program and plots).
+/// The page around two flights.
+const PAIR: &str = include_str!("../../assets/page/pair.html");
+/// Stands for the data while the rest of the page is put together.
+const GAP: char = '\0';
+
+/// Writes the page of a result directory whose run ended so, no larger than `most_bytes` (but never
+/// without its program and plots).
 ///
 /// # Errors
 /// A result that cannot be read or a page that cannot be written.
 pub fn write(dir: &ResultDir, outcome: &Outcome, most_bytes: usize) -> Result<PathBuf, IoError> {
-    let fixed = TEMPLATE.len() + SCRIPT.len() + THREE.len();
-    let (title, data) = data::gather(dir, outcome, most_bytes.saturating_sub(fixed))?;
-    let page = fill(&[
-        ("title", &escaped(&title)),
-        ("three", THREE),
-        ("data", &data),
-        ("script", SCRIPT),
-    ]);
+    let (title, data) = data::gather(dir, outcome, most_bytes.saturating_sub(program_bytes()))?;
+    let [before, after] = program(&title);
+    let page = [before, data, after].concat();
     dir.write(FILE, page.as_bytes())?;
     Ok(dir.join(FILE))
 }
 
-/// The template with its places filled, each once and in order.
-fn fill(parts: &[(&str, &str)]) -> String {
+/// Two flights beside each other as one page of at most `most_bytes`, which keeps their times and
+/// views together.
+///
+/// # Errors
+/// A result that cannot be read.
+pub fn pair(dirs: [&ResultDir; 2], most_bytes: usize) -> Result<String, IoError> {
+    let room = most_bytes.saturating_sub(program_bytes()) / 2;
+    let [first, second] = dirs.map(|dir| {
+        let outcome = dir.manifest()?.outcome;
+        data::gather(dir, &outcome, room)
+    });
+    let [(a, first), (b, second)] = [first?, second?];
+    let title = format!("{a} and {b}");
+    let json = |parts: [String; 2]| data::inert(&serde_json::json!(parts).to_string());
+    Ok(fill(
+        PAIR,
+        &[
+            ("title", &escaped(&title)),
+            ("heading", &escaped(&title)),
+            ("page", &json(program(&title))),
+            ("data", &json([first, second])),
+        ],
+    ))
+}
+
+/// Size of everything but the data.
+fn program_bytes() -> usize {
+    let program = [TEMPLATE, STYLE, THREE, VORTICES, WORKER, SCRIPT];
+    program.iter().map(|p| p.len()).sum()
+}
+
+/// The page before and after its data.
+fn program(title: &str) -> [String; 2] {
+    let page = fill(
+        TEMPLATE,
+        &[
+            ("title", &escaped(title)),
+            ("style", STYLE),
+            ("three", THREE),
+            ("data", &GAP.to_string()),
+            ("vortices", VORTICES),
+            ("worker", WORKER),
+            ("script", SCRIPT),
+        ],
+    );
+    let (before, after) = page.split_once(GAP).expect("the gap was put there");
+    [before, after].map(str::to_owned)
+}
+
+/// A template with its places filled, each once and in order.
+fn fill(template: &str, parts: &[(&str, &str)]) -> String {
     let mut page = String::new();
-    let mut rest = TEMPLATE;
+    let mut rest = template;
     for (name, text) in parts {
         let place = format!("{{{{{name}}}}}");
         let (before, after) = rest.split_once(&place).expect("the template has the place");

@@ -1,8 +1,7 @@
 //! Numbers of the frames as 16-bit whole numbers, for the page to unpack.
 //!
-//! A frame is: points of the surfaces (3 each), circulation and pressure jump of their panels,
-//! points of the wake sheets, circulation of their rings, points of the vortex particles, sizes of
-//! their strengths. Points are counted in steps from the
+//! A frame is: points of the wings (3 each), pressure jumps of all panels, points of the wake sheets,
+//! circulation of their rings, points of the vortex particles, their strengths (3 each). Points are counted in steps from the
 //! lowest corner of the frame's box; signed numbers in 1/32767 of the largest of the frame.
 
 use serde::Serialize;
@@ -11,7 +10,7 @@ use wingbeat_results::frames::{Mesh, Sheet};
 use wingbeat_results::particles::Cloud;
 
 /// Bytes of a particle.
-const PARTICLE: usize = 8;
+const PARTICLE: usize = 12;
 
 /// What the page needs to unpack a frame.
 #[derive(Clone, Debug, Serialize)]
@@ -26,11 +25,11 @@ pub struct Packed {
     pub rows: Vec<usize>,
     /// Vortex particles.
     pub particles: usize,
-    /// Largest strength of a particle \[m3/s\].
+    /// Largest component of a particle's strength \[m3/s\].
     pub strength: f64,
     /// The strength nineteen in twenty do not exceed \[m3/s\].
     pub usual_strength: f64,
-    /// Largest circulation \[m2/s\].
+    /// Largest circulation of a wake ring \[m2/s\].
     pub circulation: f64,
     /// Largest pressure jump \[Pa\].
     pub pressure: f64,
@@ -39,18 +38,16 @@ pub struct Packed {
 /// Surfaces of one frame.
 #[derive(Clone, Debug, Default)]
 pub struct Surfaces {
-    /// Points, picture axes \[m\].
+    /// Points of the wings, picture axes \[m\].
     pub points: Vec<[f64; 3]>,
-    /// Ring circulation per panel \[m2/s\].
-    pub circulation: Vec<f64>,
-    /// Pressure jump per panel \[Pa\].
+    /// Pressure jump per panel of wings and body \[Pa\].
     pub pressure: Vec<f64>,
 }
 
 impl Surfaces {
     /// Bytes they take.
     pub fn bytes(points: usize, panels: usize) -> usize {
-        6 * points + 4 * panels
+        6 * points + 2 * panels
     }
 }
 
@@ -61,18 +58,31 @@ pub struct Blob {
     pub bytes: Vec<u8>,
     /// Rings per row of each sheet met so far.
     pub columns: Vec<usize>,
-    /// Frames whose older wake rows were left out.
+    /// Most rows of a wake that are kept.
+    pub most_rows: usize,
+    /// Frames with more rows than that.
+    pub aged: usize,
+    /// Frames whose older wake rows were left out for their size.
     pub shortened: usize,
     /// Frames whose weaker particles were left out.
     pub weakened: usize,
 }
 
 impl Blob {
+    /// Nothing yet; of wakes, at most this many rows are kept.
+    pub fn with_rows(most_rows: usize) -> Self {
+        Self {
+            most_rows,
+            ..Self::default()
+        }
+    }
+
     /// Adds a frame that may take `most` bytes; beyond that the weakest particles are left out until
     /// they take half of what wakes may take, then the oldest wake rows.
     pub fn add(&mut self, surfaces: &Surfaces, wakes: &Mesh, cloud: &Cloud, most: usize) -> Packed {
-        let own = Surfaces::bytes(surfaces.points.len(), surfaces.circulation.len());
-        let all = wakes.sheets();
+        let own = Surfaces::bytes(surfaces.points.len(), surfaces.pressure.len());
+        let (all, aged) = newest(&wakes.sheets(), self.most_rows);
+        self.aged += usize::from(aged);
         let room = most.saturating_sub(own);
         let longest = all.iter().map(Sheet::rows).max().unwrap_or(0);
         let share = room.saturating_sub(cost(&all, longest)).max(room / 2);
@@ -84,19 +94,20 @@ impl Blob {
         let places: Vec<[f64; 3]> = strongest.iter().map(|&k| cloud.points[k]).collect();
         let sizes: Vec<f64> = cloud.sizes().collect();
         let sizes: Vec<f64> = strongest.iter().map(|&k| sizes[k]).collect();
+        let vectors = strongest.iter().flat_map(|&k| cloud.strength[k]);
+        let vectors: Vec<f64> = vectors.collect();
         let (low, step_m) = grid(surfaces.points.iter().chain(&nodes).chain(&places));
         let largest = |v: &[f64]| v.iter().fold(0.0_f64, |a, x| a.max(x.abs()));
-        let circulation = largest(&surfaces.circulation).max(largest(&rings));
+        let circulation = largest(&rings);
         let pressure = largest(&surfaces.pressure);
-        let strength = largest(&sizes);
+        let strength = largest(&vectors);
         let at = self.bytes.len();
         self.points(&surfaces.points, low, step_m);
-        self.signed(&surfaces.circulation, circulation);
         self.signed(&surfaces.pressure, pressure);
         self.points(&nodes, low, step_m);
         self.signed(&rings, circulation);
         self.points(&places, low, step_m);
-        self.signed(&sizes, strength);
+        self.signed(&vectors, strength);
         let rows = self.note(&sheets);
         Packed {
             at,
@@ -169,12 +180,22 @@ fn fitting(sheets: &[Sheet], bytes: usize) -> (Vec<Sheet>, bool) {
     let rows = all
         .partition_point(|r| cost(sheets, *r) <= bytes)
         .saturating_sub(1);
+    newest(sheets, rows)
+}
+
+/// So many of the newest rows of all sheets, and whether rows were left out.
+fn newest(sheets: &[Sheet], rows: usize) -> (Vec<Sheet>, bool) {
     let short = |s: &Sheet| Sheet {
         rings: rows.min(s.rows()) * s.cols,
         ..*s
     };
     let list: Vec<Sheet> = sheets.iter().map(short).filter(|s| s.rings > 0).collect();
-    (list, rows < longest)
+    (list, sheets.iter().any(|s| s.rows() > rows))
+}
+
+/// Bytes of a frame's wakes with at most so many rows.
+pub(super) fn wake_bytes(wakes: &Mesh, rows: usize) -> usize {
+    cost(&wakes.sheets(), rows)
 }
 
 /// Nodes and circulations of these sheets.
@@ -236,10 +257,9 @@ mod tests {
     fn exact_numbers_come_back_within_half_a_step() {
         let surfaces = Surfaces {
             points: vec![[-0.3, 0.2, 1.7], [5.0, 0.1, 0.0]],
-            circulation: vec![-4.0],
-            pressure: vec![0.0],
+            pressure: vec![-4.0],
         };
-        let mut blob = Blob::default();
+        let mut blob = Blob::with_rows(usize::MAX);
         let packed = blob.add(&surfaces, &wake(4), &Cloud::default(), usize::MAX);
         assert_eq!((packed.rows, &blob.columns[..]), (vec![0, 4], &[0, 2][..]));
         let word = |k: usize| u16::from_le_bytes([blob.bytes[2 * k], blob.bytes[2 * k + 1]]);
@@ -247,18 +267,22 @@ mod tests {
             let back = packed.low[k % 3] + f64::from(word(k)) * packed.step_m;
             assert!((back - p).abs() <= 0.5001 * packed.step_m, "{back} {p}");
         }
-        assert_eq!(packed.circulation, 4.0);
+        assert_eq!((packed.circulation, packed.pressure), (4.0, 4.0));
         assert_eq!(word(6) as i16, -32767);
         assert_eq!(blob.bytes.len(), Surfaces::bytes(2, 1) + 6 * 15 + 2 * 8);
     }
 
     #[test]
     fn exact_old_wake_rows_give_way() {
-        let mut blob = Blob::default();
+        let mut blob = Blob::with_rows(usize::MAX);
         let most = 6 * 9 + 2 * 4 + 5; // two of the four rows
         let packed = blob.add(&Surfaces::default(), &wake(4), &Cloud::default(), most);
         assert_eq!((packed.rows, blob.shortened), (vec![0, 2], 1));
-        assert!(blob.bytes.len() <= most);
+        assert!(blob.bytes.len() <= most && blob.aged == 0);
+        let mut blob = Blob::with_rows(3);
+        let all = usize::MAX;
+        let packed = blob.add(&Surfaces::default(), &wake(4), &Cloud::default(), all);
+        assert_eq!((packed.rows, blob.aged, blob.shortened), (vec![0, 3], 1, 0));
     }
 
     #[test]
@@ -268,18 +292,18 @@ mod tests {
             strength: (0..10).map(|k| [0.0, 0.0, -k as f64]).collect(),
             ..Cloud::default()
         };
-        let mut blob = Blob::default();
+        let mut blob = Blob::with_rows(usize::MAX);
         let none = Surfaces::default();
         let all = blob.add(&none, &wake(4), &cloud, usize::MAX);
         assert_eq!((all.particles, all.strength, blob.weakened), (10, 9.0, 0));
         let first = blob.bytes.len();
-        assert_eq!(first, 6 * 15 + 2 * 8 + 80);
+        assert_eq!(first, 6 * 15 + 2 * 8 + 120);
         let half = blob.add(&none, &wake(4), &cloud, 100);
-        assert_eq!((half.particles, blob.weakened, blob.shortened), (6, 1, 1));
+        assert_eq!((half.particles, blob.weakened, blob.shortened), (4, 1, 1));
         assert!(blob.bytes.len() - first <= 100);
-        // Sizes stand last: the sixth strongest is the first one kept.
-        let size = &blob.bytes[blob.bytes.len() - 12..][..2];
-        let share = f64::from(i16::from_le_bytes([size[0], size[1]])) / 32767.0;
-        assert!((share - 4.0 / 9.0).abs() < 1e-4, "{share}");
+        // Strengths stand last, three numbers each: the fourth strongest is the first one kept.
+        let third = &blob.bytes[blob.bytes.len() - 4 * 6..][4..6];
+        let share = f64::from(i16::from_le_bytes([third[0], third[1]])) / 32767.0;
+        assert!((share + 6.0 / 9.0).abs() < 1e-4, "{share}");
     }
 }

@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use super::pack::wake_bytes;
 use wingbeat_case::IoError;
 use wingbeat_results::frames::Frame;
 
@@ -47,16 +48,21 @@ impl Plan {
         }
     }
 
-    /// For the frames of a result directory, by the sizes of their files.
+    /// For the frames of a result directory, by the sizes of their files; `fixed` bytes are in every
+    /// frame, of wakes at most `most_rows` rows.
     ///
     /// # Errors
     /// A frame that cannot be read.
     pub fn of_directory(
         dir: &Path,
         steps: &[usize],
-        fixed: usize,
+        (fixed, most_rows): (usize, usize),
         budget: usize,
     ) -> Result<Self, IoError> {
+        let most = match steps.last() {
+            Some(last) => most_bytes(dir, *last, (fixed, most_rows))?,
+            None => fixed,
+        };
         let mut sizes = Vec::with_capacity(steps.len());
         for &step in steps {
             let mut size = 0;
@@ -65,9 +71,22 @@ impl Plan {
                     .map_err(IoError::read(&path))?
                     .len();
             }
-            sizes.push(((size as f64 * PAGE_PER_FILE) as usize).max(fixed));
+            sizes.push(((size as f64 * PAGE_PER_FILE) as usize).clamp(fixed, most));
         }
         Ok(Self::new(steps, &sizes, fixed, budget))
+    }
+}
+
+/// What a frame with the wake of the last one, but at most so many rows, takes \[bytes\].
+fn most_bytes(
+    dir: &Path,
+    last: usize,
+    (fixed, most_rows): (usize, usize),
+) -> Result<usize, IoError> {
+    let frame = Frame::read(dir, last)?;
+    match frame.particles.is_empty() {
+        true => Ok(fixed + wake_bytes(&frame.wakes, most_rows)),
+        false => Ok(usize::MAX),
     }
 }
 

@@ -1,5 +1,9 @@
 //! The moving animal as glTF 2.0 in one binary file (.glb): a rigid mesh per body, its way and
 //! turning as an animation. Numbers are those of the Khronos specification.
+//!
+//! Viewers show metres and seconds, and an insect as a speck that trembles: a node over all others
+//! magnifies the animal to about the size of a hand, and the time runs slower, one second per wingbeat. Both
+//! factors are powers of ten, or noted in `extras`.
 
 use std::fs::File;
 use std::io::{Seek as _, SeekFrom, Write as _};
@@ -103,9 +107,15 @@ impl Document {
         };
         let bounds = [bound(f32::min), bound(f32::max)];
         let position = self.accessor("VEC3", FLOAT, points.len(), Some(bounds));
+        self.room(points.len(), 12);
+        self.aim(VERTICES);
+        let normals = normals(&points, &corners);
+        self.fixed
+            .extend(normals.as_flattened().iter().flat_map(|x| x.to_le_bytes()));
+        let normal = self.accessor("VEC3", FLOAT, points.len(), None);
         let material = usize::from(poses.is_wing(body));
         self.meshes.push(json!({ "primitives": [{
-            "attributes": { "POSITION": position }, "indices": indices, "material": material,
+            "attributes": { "POSITION": position, "NORMAL": normal }, "indices": indices, "material": material,
         }] }));
         Some(self.meshes.len() - 1)
     }
@@ -124,8 +134,13 @@ impl Document {
         })
     }
 
-    fn json(&self, case: &str) -> Value {
-        let nodes: Vec<usize> = (0..self.nodes.len()).collect();
+    fn json(&self, case: &str, shown: &Shown) -> Value {
+        let children: Vec<usize> = (0..self.nodes.len()).collect();
+        let mut nodes = self.nodes.clone();
+        let [slower, larger] = [shown.slower, shown.larger];
+        nodes.push(json!({
+            "name": format!("{larger} times larger"), "children": children, "scale": [larger, larger, larger],
+        }));
         let paint = |rgb: [f64; 3]| {
             json!({ "doubleSided": true, "pbrMetallicRoughness": {
                 "baseColorFactor": [rgb[0], rgb[1], rgb[2], 1.0], "metallicFactor": 0.0, "roughnessFactor": 0.8,
@@ -133,18 +148,64 @@ impl Document {
         };
         json!({
             "asset": { "version": "2.0", "generator": concat!("wingbeat ", env!("CARGO_PKG_VERSION")) },
-            "extras": { "case": case, "axes": "x = n1 (forward), y = -n3 (up), z = n2 (right), metres" },
+            "extras": {
+                "case": case, "axes": "x = n1 (forward), y = -n3 (up), z = n2 (right), metres",
+                "times_slower": slower, "times_larger": larger,
+            },
             "scene": 0,
-            "scenes": [{ "nodes": nodes }],
-            "nodes": self.nodes,
+            "scenes": [{ "nodes": [nodes.len() - 1] }],
+            "nodes": nodes,
             "meshes": self.meshes,
             "materials": [paint([0.55, 0.42, 0.28]), paint([0.35, 0.60, 0.80])],
-            "animations": [{ "name": "flight", "samplers": self.samplers, "channels": self.channels }],
+            "animations": [{ "name": format!("flight, {slower:.4} times slower"), "samplers": self.samplers, "channels": self.channels }],
             "accessors": self.accessors,
             "bufferViews": self.views,
             "buffers": [{ "byteLength": self.length }],
         })
     }
+}
+
+/// How the flight is shown.
+struct Shown {
+    /// Seconds of the animation per second of the flight.
+    slower: f64,
+    /// Lengths of the scene per length of the animal.
+    larger: f64,
+}
+
+impl Shown {
+    /// A wingbeat takes a second; the longest wing, or the body, is 1 to 10 decimetres long.
+    fn of(source: &Source) -> Self {
+        let setup = &source.case.setup;
+        let reports = setup.animal.wing_reports();
+        let wing = reports.iter().map(|r| r.length).fold(0.0, f64::max);
+        let length = wing.max(setup.animal.body_length());
+        let larger = match length > 0.0 {
+            true => 10f64.powf((0.0999 / length).log10().ceil()),
+            false => 1.0,
+        };
+        Self {
+            slower: setup.time.period.map_or(1.0, |p| 1.0 / p),
+            larger,
+        }
+    }
+}
+
+/// Unit normals of the nodes: means over the triangles around them, by their areas.
+fn normals(points: &[[f32; 3]], corners: &[u32]) -> Vec<[f32; 3]> {
+    let mut sums = vec![DVec3::ZERO; points.len()];
+    for triangle in corners.chunks_exact(3) {
+        let [a, b, c] = [0, 1, 2].map(|k| triangle[k] as usize);
+        let [p, q, r] = [a, b, c].map(|n| DVec3::from_array(points[n].map(f64::from)));
+        let area = (q - p).cross(r - p);
+        for n in [a, b, c] {
+            sums[n] += area;
+        }
+    }
+    let unit = |n: DVec3| n.try_normalize().unwrap_or(DVec3::Z); // of a node without triangles, any
+    sums.into_iter()
+        .map(|n| unit(n).to_array().map(|x| x as f32))
+        .collect()
 }
 
 /// Writes the animation.
@@ -162,7 +223,8 @@ pub(super) fn write(source: &Source, path: &Path) -> Result<(), IoError> {
     let mut d = Document::default();
     let meshes: Vec<_> = (0..poses.bodies()).map(|b| d.mesh(&poses, b)).collect();
     let start = d.room(count, 4);
-    let last = (count.max(1) - 1) as f64 * source.case.setup.time.step;
+    let shown = Shown::of(source);
+    let last = (count.max(1) - 1) as f64 * source.case.setup.time.step * shown.slower;
     let bounds = [json!([0.0]), json!([last as f32])];
     let times = d.accessor("SCALAR", FLOAT, count, Some(bounds));
     let mut places = vec![start];
@@ -175,7 +237,7 @@ pub(super) fn write(source: &Source, path: &Path) -> Result<(), IoError> {
         places.extend(d.channel(body, times, count));
     }
     let wrote = IoError::write(path);
-    let (mut file, binary) = begin(&d, &source.case.name, path).map_err(wrote)?;
+    let (mut file, binary) = begin(&d, &source.case.name, &shown, path).map_err(wrote)?;
     let size = |k: usize| if k == 0 { 4 } else { [16, 12][k % 2] };
     let mut put = |k: usize, first: usize, items: &[Vec<f32>]| {
         let bytes: Vec<u8> = items
@@ -191,15 +253,15 @@ pub(super) fn write(source: &Source, path: &Path) -> Result<(), IoError> {
     let mut block = Block::new(places.len());
     let mut before = vec![DQuat::IDENTITY; meshes.len()];
     while let Some(row) = rows.next_row()? {
-        let items = keys(&poses, row, &mut before);
+        let items = keys(&poses, row, shown.slower, &mut before);
         block.row(items, &mut put).map_err(IoError::write(path))?;
     }
     block.flush(&mut put).map_err(IoError::write(path))
 }
 
 /// Time, then place and attitude of every body; quaternions take the short way.
-fn keys(poses: &Poses, row: &[f64], before: &mut [DQuat]) -> Vec<Vec<f32>> {
-    let mut items = vec![vec![row[1] as f32]];
+fn keys(poses: &Poses, row: &[f64], slower: f64, before: &mut [DQuat]) -> Vec<Vec<f32>> {
+    let mut items = vec![vec![(row[1] * slower) as f32]];
     for (body, before) in before.iter_mut().enumerate() {
         let (p, r) = poses.pose(row, body);
         let q = DQuat::from_mat3(&(AXES * r)).normalize();
@@ -211,8 +273,8 @@ fn keys(poses: &Poses, row: &[f64], before: &mut [DQuat]) -> Vec<Vec<f32>> {
 }
 
 /// Head, JSON and meshes of the file, and where its binary part begins.
-fn begin(d: &Document, case: &str, path: &Path) -> std::io::Result<(File, usize)> {
-    let mut text = d.json(case).to_string().into_bytes();
+fn begin(d: &Document, case: &str, shown: &Shown, path: &Path) -> std::io::Result<(File, usize)> {
+    let mut text = d.json(case, shown).to_string().into_bytes();
     text.resize(text.len().next_multiple_of(4), b' ');
     let length = d.length.next_multiple_of(4);
     let total = 12 + 8 + text.len() + 8 + length;

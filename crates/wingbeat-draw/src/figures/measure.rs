@@ -1,0 +1,233 @@
+//! What a figure over time shows before its units are chosen: SI numbers, row by row. Units, and what
+//! is worth a line, depend on the whole flight; the rows may come piece by piece.
+
+use wingbeat_flight::FlightSetup;
+
+use super::chart::{Chart, Panel, Series};
+use super::kinds::{force_unit, prefix, scaled};
+
+/// A figure.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Measured {
+    /// Name of its kind.
+    pub name: &'static str,
+    /// Title without the name of the flight.
+    pub title: &'static str,
+    /// Whether downstrokes are shaded.
+    pub shaded: bool,
+    pub panels: Vec<Measure>,
+}
+
+/// One pair of axes.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Measure {
+    label: String,
+    unit: Unit,
+    pub lines: Vec<Line>,
+    logarithmic: bool,
+}
+
+/// What the numbers are shown in.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Unit {
+    /// Newtons over the weight, where there is any.
+    Weight,
+    /// This unit with a decimal prefix that suits the numbers.
+    Prefixed(&'static str),
+    /// Radians as degrees.
+    Degrees,
+    /// As the label says.
+    Given,
+}
+
+/// When a line is shown.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Kept {
+    Always,
+    NotZero,
+    /// Beside the other lines of its panel: more than 1e-9 of the largest.
+    Felt,
+}
+
+/// A quantity over time.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Line {
+    label: String,
+    pub values: Vec<f64>,
+    /// Its value in the first row of all.
+    first: f64,
+    kept: Kept,
+    from_start: bool,
+}
+
+impl Line {
+    pub fn new(label: &str, values: Vec<f64>) -> Self {
+        Self {
+            label: label.to_owned(),
+            first: values.first().copied().unwrap_or(0.0),
+            values,
+            kept: Kept::Always,
+            from_start: false,
+        }
+    }
+
+    pub fn kept(self, kept: Kept) -> Self {
+        Self { kept, ..self }
+    }
+
+    /// The same counted from its first value.
+    pub fn from_start(self) -> Self {
+        Self {
+            from_start: true,
+            ..self
+        }
+    }
+
+    fn offset(&self) -> f64 {
+        if self.from_start { self.first } else { 0.0 }
+    }
+
+    fn most(&self) -> f64 {
+        self.values.iter().fold(0.0, |a, v| a.max(v.abs()))
+    }
+}
+
+impl Measure {
+    pub fn new(label: &str, unit: Unit, lines: Vec<Line>) -> Self {
+        Self {
+            label: label.to_owned(),
+            unit,
+            lines,
+            logarithmic: false,
+        }
+    }
+
+    /// The same with a logarithmic axis of magnitudes.
+    pub fn logarithmic(self) -> Self {
+        Self {
+            logarithmic: true,
+            ..self
+        }
+    }
+
+    /// The panel; none where no line is worth showing.
+    fn panel(&self, setup: &FlightSetup) -> Option<Panel> {
+        let most = self.lines.iter().map(Line::most).fold(0.0, f64::max);
+        let kept = |line: &&Line| match line.kept {
+            Kept::Always => true,
+            Kept::NotZero => line.values.iter().any(|v| *v != 0.0),
+            Kept::Felt => line.most() > 1e-9 * most,
+        };
+        let lines = self.lines.iter().filter(kept);
+        let lines: Vec<(&str, Vec<f64>)> = lines
+            .map(|l| {
+                let values = l.values.iter().map(|v| v - l.offset());
+                (&l.label[..], values.collect())
+            })
+            .collect();
+        if lines.is_empty() {
+            return None;
+        }
+        let (label, factor) = self.axis(setup, &lines);
+        let series = lines.iter().map(|(label, values)| Series {
+            label: (*label).to_owned(),
+            values: scaled(values, factor),
+        });
+        Some(Panel {
+            label,
+            series: series.collect(),
+            logarithmic: self.logarithmic,
+        })
+    }
+
+    /// Name of the axis with its unit, and the factor from SI.
+    fn axis(&self, setup: &FlightSetup, lines: &[(&str, Vec<f64>)]) -> (String, f64) {
+        let label = &self.label;
+        match self.unit {
+            Unit::Given => (label.clone(), 1.0),
+            Unit::Degrees => (format!("{label} [deg]"), 1f64.to_degrees()),
+            Unit::Prefixed(unit) => {
+                let all: Vec<f64> = lines.iter().flat_map(|l| &l.1).copied().collect();
+                let (scale, prefix) = prefix(&all);
+                (format!("{label} [{prefix}{unit}]"), 1.0 / scale)
+            }
+            Unit::Weight => match force_unit(setup, &lines[0].1) {
+                (unit, factor) if unit == "weight" => (format!("{label} / weight"), factor),
+                (unit, factor) => (format!("{label} [{unit}]"), factor),
+            },
+        }
+    }
+}
+
+impl Measured {
+    /// Appends what the next rows show.
+    pub fn extend(&mut self, next: Self) {
+        for (panel, more) in self.panels.iter_mut().zip(next.panels) {
+            for (line, more) in panel.lines.iter_mut().zip(more.lines) {
+                line.values.extend(more.values);
+            }
+        }
+    }
+
+    /// The smallest and the largest value of every line, in the order they come: two rows.
+    pub fn extremes(mut self) -> Self {
+        for line in self.panels.iter_mut().flat_map(|p| &mut p.lines) {
+            line.values = extremes(&line.values).to_vec();
+        }
+        self
+    }
+
+    /// The chart in its units.
+    pub fn chart(
+        &self,
+        setup: &FlightSetup,
+        (x_label, x): (&str, &[f64]),
+        shaded: &[[f64; 2]],
+        note: &str,
+    ) -> Chart {
+        let shaded = if self.shaded { shaded } else { &[] };
+        let words = match shaded.is_empty() {
+            true => "",
+            false => " (downstroke shaded)",
+        };
+        Chart {
+            title: format!("{}: {}{words}{note}", setup.name, self.title),
+            x_label: x_label.to_owned(),
+            x: x.to_vec(),
+            shaded: shaded.to_vec(),
+            panels: self.panels.iter().filter_map(|p| p.panel(setup)).collect(),
+        }
+    }
+}
+
+/// Smallest and largest number, the one that comes first first; what is not a number counts only
+/// where there is nothing else.
+fn extremes(values: &[f64]) -> [f64; 2] {
+    let finite = || {
+        values
+            .iter()
+            .copied()
+            .enumerate()
+            .filter(|v| v.1.is_finite())
+    };
+    let least = finite().min_by(|a, b| a.1.total_cmp(&b.1));
+    let most = finite().max_by(|a, b| a.1.total_cmp(&b.1));
+    match (least, most) {
+        (Some(a), Some(b)) if a.0 <= b.0 => [a.1, b.1],
+        (Some(a), Some(b)) => [b.1, a.1],
+        _ => [f64::NAN; 2],
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn exact_extremes_come_in_their_order() {
+        assert_eq!(extremes(&[1.0, -2.0, 3.0, f64::NAN]), [-2.0, 3.0]);
+        assert_eq!(extremes(&[1.0, 4.0, -3.0]), [4.0, -3.0]);
+        assert_eq!(extremes(&[5.0]), [5.0; 2]);
+        assert!(extremes(&[f64::NAN]).iter().all(|v| v.is_nan()));
+    }
+}

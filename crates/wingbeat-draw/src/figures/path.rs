@@ -1,0 +1,167 @@
+//! The way of the body in space: from above, from the right and from behind, to one scale.
+
+use wingbeat_flight::FlightSetup;
+
+use super::drawing::{Anchor, COLOURS, Drawing, INK};
+use super::kinds::prefix;
+use super::plot::{self, Area, Plot};
+use super::style::Look;
+
+/// Places of the body, thinned: a way has no oscillation finer than its steps are long.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Path {
+    stride: usize,
+    /// Times \[s\] and places, picture axes from the first one \[m\].
+    points: Vec<(f64, [f64; 3])>,
+    first: [f64; 3],
+}
+
+impl Path {
+    /// A path of every `stride`-th place.
+    pub fn new(stride: usize) -> Self {
+        Self {
+            stride: stride.max(1),
+            ..Self::default()
+        }
+    }
+
+    /// Adds the place of row `k`, N components \[m\].
+    pub fn add(&mut self, k: usize, time: f64, [x, y, z]: [f64; 3]) {
+        let place = [x, -y, -z];
+        if k == 0 {
+            self.first = place;
+        }
+        if k.is_multiple_of(self.stride) {
+            let moved = [0, 1, 2].map(|c| place[c] - self.first[c]);
+            self.points.push((time, moved));
+        }
+    }
+
+    /// Where the path is nearest to the starts of wingbeats.
+    fn beats(&self, period: f64) -> Vec<[f64; 3]> {
+        let beat = |t: f64| (t / period + 1e-6).floor();
+        let pairs = self.points.windows(2);
+        let turned = pairs.filter(|p| beat(p[1].0) > beat(p[0].0));
+        turned.map(|p| p[1].1).collect()
+    }
+}
+
+/// Name, axis along, axis upward (0 forward, 1 left, 2 up), names of both.
+const VIEWS: [(&str, [usize; 2], [&str; 2]); 3] = [
+    ("from above", [0, 1], ["forward", "left"]),
+    ("from the right", [0, 2], ["forward", "up"]),
+    ("from behind", [1, 2], ["left", "up"]),
+];
+/// More starts of wingbeats than this are not marked.
+const MOST_DOTS: usize = 60;
+
+/// The figure; none where the body stays.
+pub(super) fn path(setup: &FlightSetup, path: &Path, look: &Look) -> Option<Drawing> {
+    let all = || path.points.iter().map(|p| p.1);
+    let ends = [0, 1, 2].map(|c| {
+        all().fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], p| {
+            [a.min(p[c]), b.max(p[c])]
+        })
+    });
+    let longest = ends.iter().map(|[a, b]| b - a).fold(0.0, f64::max);
+    if longest.is_nan() || longest <= 1e-6 * setup.animal.body_length().max(1e-6) {
+        return None;
+    }
+    let (scale, unit) = prefix(&[longest]);
+    // A way that is nearly straight gets a frame that is not too flat.
+    let range = |c: usize| {
+        let [a, b] = ends[c];
+        let half = 0.5 * (b - a).max(0.3 * longest) * 1.12;
+        [0.5 * (a + b) - half, 0.5 * (a + b) + half].map(|v| v / scale)
+    };
+    let ranges = [0, 1, 2].map(range);
+    let left = 5.0 * look.font;
+    let width = look.width - left - 1.6 * look.font;
+    let extent = |c: usize| ranges[c][1] - ranges[c][0];
+    // Points per unit: the widest view fills the width, and none is much higher.
+    let per_unit = width / extent(0).max(extent(1)).max(0.8 * extent(2));
+    let head = look.row() + 0.6 * look.font;
+    let foot = 3.1 * look.font;
+    let high: f64 = VIEWS
+        .iter()
+        .map(|v| per_unit * extent(v.1[1]) + head + foot)
+        .sum();
+    let mut drawing = Drawing::new([look.width, look.head() + high]);
+    let title = format!(
+        "{}: path of the body (dots: starts of wingbeats)",
+        setup.name
+    );
+    plot::title(&mut drawing, &title, look);
+    let dots = setup.time.period.map_or(vec![], |p| path.beats(p));
+    let mut top = look.head();
+    for (name, axes, words) in VIEWS {
+        top += head;
+        let [x, y] = axes.map(|c| ranges[c]);
+        let [wide, height] = axes.map(|c| per_unit * extent(c));
+        let flat = |p: &[f64; 3]| axes.map(|c| p[c] / scale);
+        let points: Vec<[f64; 2]> = path.points.iter().map(|p| flat(&p.1)).collect();
+        let plot = Plot {
+            x_label: format!("{} [{unit}m]", words[0]),
+            y_label: format!("{name}: {} [{unit}m]", words[1]),
+            x,
+            y,
+            curves: vec![plot::curve("", points.clone(), COLOURS[0], 0, look)],
+            ..Plot::default()
+        };
+        let area = Area {
+            left,
+            top,
+            width: wide,
+            height,
+        };
+        let placed = plot.draw(&mut drawing, area, look);
+        if dots.len() <= MOST_DOTS {
+            dots.iter()
+                .for_each(|p| drawing.dot(placed.at(flat(p)), 1.3 * look.line, COLOURS[1]));
+        }
+        let start = placed.at([0.0, 0.0]);
+        drawing.dot(start, 1.8 * look.line, INK);
+        let at = [start[0] + 0.6 * look.font, start[1] - 0.4 * look.font];
+        drawing.text(at, "start", look.font, Anchor::Start);
+        top += height + foot;
+    }
+    Some(drawing)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::figures::Style;
+    use crate::figures::drawing::Mark;
+    use wingbeat_case::LoadedCase;
+
+    /// A helix seen from behind is a circle: as wide as high on paper.
+    #[test]
+    fn exact_views_have_one_scale() {
+        let case = LoadedCase::find("fruit-fly-vacuum", &[]).unwrap();
+        let mut helix = Path::new(1);
+        for k in 0..=720 {
+            let a = f64::from(k).to_radians();
+            helix.add(
+                k as usize,
+                f64::from(k) * 1e-4,
+                [2e-4 * a, a.sin(), a.cos()],
+            );
+        }
+        let drawing = path(&case.setup, &helix, &Style::Paper.look()).unwrap();
+        let lines = drawing.marks.iter().filter_map(|m| match m {
+            Mark::Line { points, .. } if points.len() > 700 => Some(points),
+            _ => None,
+        });
+        let curves: Vec<&Vec<[f64; 2]>> = lines.collect();
+        assert_eq!(curves.len(), 3);
+        let extent = |k: usize, c: usize| {
+            let of = curves[k].iter().map(|p| p[c]);
+            of.fold([f64::MAX, f64::MIN], |[a, b], x| [a.min(x), b.max(x)])
+        };
+        let size = |k: usize, c: usize| extent(k, c)[1] - extent(k, c)[0];
+        assert!((size(2, 0) - size(2, 1)).abs() < 1e-9 * size(2, 0));
+        assert!((size(0, 1) - size(2, 0)).abs() < 1e-9 * size(2, 0)); // left, in two views
+        assert!((size(1, 0) - size(0, 0)).abs() < 1e-9 * size(0, 0)); // forward, in two views
+    }
+}

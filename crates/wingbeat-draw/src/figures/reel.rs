@@ -1,0 +1,136 @@
+//! Where the pictures of an animation go: a GIF, or a film (MP4) that ffmpeg makes of them.
+
+use std::fs::File;
+use std::io::{BufWriter, Write as _};
+use std::path::Path;
+use std::process::{Child, Command, Stdio};
+
+use gif::{Encoder, Frame, Repeat};
+
+use super::animation::SIZE;
+
+/// Takes pictures one after the other.
+pub(super) trait Reel {
+    /// Pixels per point of its pictures.
+    fn scale(&self) -> f64;
+
+    /// Adds a picture.
+    fn add(&mut self, rgb: &[u8]) -> Result<(), String>;
+
+    /// Ends it.
+    fn end(&mut self) -> Result<(), String>;
+}
+
+fn pixels(scale: f64) -> [u32; 2] {
+    SIZE.map(|s| (s * scale) as u32)
+}
+
+/// An endless GIF.
+pub(super) struct Gif(Encoder<BufWriter<File>>);
+
+impl Gif {
+    /// Time a picture is shown \[1/100 s\].
+    const DELAY: u16 = 6;
+
+    /// Begins a file.
+    pub fn begin(path: &Path) -> Result<Self, String> {
+        let file = File::create(path).map_err(|e| e.to_string())?;
+        let [width, height] = pixels(1.0).map(|x| x as u16);
+        let encoder = Encoder::new(BufWriter::new(file), width, height, &[]);
+        let mut encoder = encoder.map_err(|e| e.to_string())?;
+        encoder
+            .set_repeat(Repeat::Infinite)
+            .map_err(|e| e.to_string())?;
+        Ok(Self(encoder))
+    }
+}
+
+impl Reel for Gif {
+    fn scale(&self) -> f64 {
+        1.0
+    }
+
+    fn add(&mut self, rgb: &[u8]) -> Result<(), String> {
+        let [width, height] = pixels(1.0).map(|x| x as u16);
+        let mut picture = Frame::from_rgb_speed(width, height, rgb, 15);
+        picture.delay = Self::DELAY;
+        self.0.write_frame(&picture).map_err(|e| e.to_string())
+    }
+
+    fn end(&mut self) -> Result<(), String> {
+        Ok(()) // the file ends when the encoder is dropped
+    }
+}
+
+/// A film made by ffmpeg (H.264, 25 pictures a second).
+pub(super) struct Film(Child);
+
+impl Film {
+    const SCALE: f64 = 2.0;
+
+    /// Starts ffmpeg.
+    pub fn begin(path: &Path) -> Result<Self, String> {
+        let [width, height] = pixels(Self::SCALE);
+        let before = [
+            "-y",
+            "-loglevel",
+            "error",
+            "-f",
+            "rawvideo",
+            "-pix_fmt",
+            "rgb24",
+        ];
+        let after = [
+            "-c:v", "libx264", "-crf", "18", "-pix_fmt", "yuv420p", "-f", "mp4",
+        ];
+        let child = Command::new("ffmpeg")
+            .args(before)
+            .args(["-s", &format!("{width}x{height}"), "-r", "25", "-i", "-"])
+            .args(after)
+            .args(["-movflags", "+faststart"])
+            .arg(path)
+            .stdin(Stdio::piped())
+            .stdout(Stdio::null())
+            .stderr(Stdio::piped())
+            .spawn();
+        child.map(Self).map_err(|e| {
+            format!("ffmpeg, which makes films, cannot be started ({e}); install it, or use --format gif")
+        })
+    }
+}
+
+impl Reel for Film {
+    fn scale(&self) -> f64 {
+        Self::SCALE
+    }
+
+    fn add(&mut self, rgb: &[u8]) -> Result<(), String> {
+        let Some(inbox) = &mut self.0.stdin else {
+            return Err("ffmpeg takes no pictures".to_owned());
+        };
+        if inbox.write_all(rgb).is_err() {
+            return self.end().and(Err("ffmpeg ended early".to_owned()));
+        }
+        Ok(())
+    }
+
+    fn end(&mut self) -> Result<(), String> {
+        drop(self.0.stdin.take());
+        let mut said = String::new();
+        if let Some(words) = &mut self.0.stderr {
+            let _ = std::io::Read::read_to_string(words, &mut said); // words are no condition
+        }
+        match self.0.wait() {
+            Ok(status) if status.success() => Ok(()),
+            Ok(status) => Err(format!("ffmpeg failed ({status}): {}", said.trim())),
+            Err(e) => Err(format!("ffmpeg: {e}")),
+        }
+    }
+}
+
+impl Drop for Film {
+    fn drop(&mut self) {
+        let _ = self.0.kill(); // of one that has ended this does nothing
+        let _ = self.0.wait();
+    }
+}

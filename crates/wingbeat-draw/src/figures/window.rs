@@ -1,0 +1,245 @@
+//! Which part of a flight is drawn, and how: every row, or the extremes of so many rows each. Rows
+//! are never left out in between, which would show oscillations that are not there.
+
+use std::ops::Range;
+use std::path::Path;
+
+use wingbeat_flight::FlightSetup;
+
+use super::Chart;
+use super::kinds::{downstrokes, measured, stroke};
+use super::measure::Measured;
+use super::time_axis;
+use wingbeat_case::IoError;
+use wingbeat_results::History;
+use wingbeat_results::rows::Rows;
+
+/// More downstrokes than this are not shaded: they could not be told apart.
+const MOST_SHADED: usize = 80;
+
+/// A part of a flight, on its time axis: wingbeats where there are any, else seconds.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Window {
+    /// Where it begins; the start if none.
+    pub from: Option<f64>,
+    /// Where it ends; the end if none.
+    pub to: Option<f64>,
+    /// Wingbeats from `from` on, or up to `to`, or the last ones.
+    pub beats: Option<f64>,
+}
+
+impl Window {
+    /// The rows of a history that lie in it.
+    ///
+    /// # Errors
+    /// A history that cannot be read; a window without two rows; wingbeats of a flight that has
+    /// none.
+    pub(crate) fn rows(self, setup: &FlightSetup, path: &Path) -> Result<Range<usize>, IoError> {
+        let unit = setup.time.period.unwrap_or(1.0);
+        let times = Rows::times(path)?;
+        let all = 0..times.len();
+        if self == Self::default() {
+            return Ok(all);
+        }
+        let refused = |problem: String| IoError::Figure {
+            path: path.to_owned(),
+            problem,
+        };
+        let end = times.last().copied().unwrap_or(0.0) / unit;
+        let [from, to] = self.ends(setup, end).map_err(refused)?;
+        let slack = 1e-6; // of a wingbeat: steps are counted in seconds
+        let inside = |t: &f64| (from - slack..=to + slack).contains(&(t / unit));
+        let first = times.iter().position(inside).unwrap_or(0);
+        let count = times.iter().filter(|t| inside(t)).count();
+        if count < 2 {
+            let name = if setup.time.period.is_some() {
+                "wingbeats"
+            } else {
+                "seconds"
+            };
+            return Err(refused(format!(
+                "from {from} to {to} there are {count} steps of this flight, which lasts from 0 to \
+                 {end:.4} {name}; choose another --from, --to or --beats"
+            )));
+        }
+        Ok(first..first + count)
+    }
+
+    /// Numbers, from 1, of the whole wingbeats in these rows.
+    ///
+    /// # Errors
+    /// A history that cannot be read.
+    pub(crate) fn beats(
+        setup: &FlightSetup,
+        path: &Path,
+        rows: &Range<usize>,
+    ) -> Result<Range<usize>, IoError> {
+        let times = Rows::times(path)?;
+        let (Some(period), false) = (setup.time.period, rows.is_empty()) else {
+            return Ok(0..0);
+        };
+        let [first, last] = [times[rows.start], times[rows.end - 1]].map(|t| t / period);
+        Ok((first - 1e-6).ceil() as usize + 1..(last + 1e-6).floor() as usize + 1)
+    }
+
+    /// Start and end on the time axis of a flight that lasts until `end`.
+    fn ends(self, setup: &FlightSetup, end: f64) -> Result<[f64; 2], String> {
+        if self.beats.is_some() && setup.time.period.is_none() {
+            return Err(
+                "--beats: this flight has no wingbeats; use --from and --to, seconds".into(),
+            );
+        }
+        match self {
+            Self {
+                from: Some(_),
+                to: Some(_),
+                beats: Some(_),
+            } => Err(
+                "--beats says too much beside both --from and --to; leave one of them out".into(),
+            ),
+            Self {
+                from: Some(from),
+                to,
+                beats,
+            } => Ok([from, to.or(beats.map(|b| from + b)).unwrap_or(end)]),
+            Self {
+                from: None,
+                to,
+                beats,
+            } => {
+                let to = to.unwrap_or(end);
+                Ok([beats.map_or(0.0, |b| to - b), to])
+            }
+        }
+    }
+}
+
+/// The charts over time of some rows, by name of their kind, with at most about `most` abscissas;
+/// and how many rows stand behind two of them (1: each row has its own).
+///
+/// # Errors
+/// A history that cannot be read.
+pub(crate) fn charts(
+    setup: &FlightSetup,
+    path: &Path,
+    rows: Range<usize>,
+    most: usize,
+) -> Result<(Vec<(&'static str, Chart)>, usize), IoError> {
+    let group = match rows.len() <= most {
+        true => 1,
+        false => rows.len().div_ceil((most / 2).max(1)),
+    };
+    let piece = if group == 1 { rows.len() } else { group };
+    let mut source = Rows::open(path)?;
+    source.skip(rows.start)?;
+    let mut drawn = Drawn::default();
+    let mut left = rows.len();
+    while left > 0 {
+        let part = History::next(&mut source, piece.min(left))?;
+        left = left.saturating_sub(part.rows().max(1));
+        if part.rows() > 0 {
+            drawn.add(setup, &part, group > 1);
+        }
+    }
+    Ok((drawn.charts(setup, group), group))
+}
+
+/// What has been read of a history for its charts.
+#[derive(Default)]
+struct Drawn {
+    label: String,
+    /// Abscissas of the charts.
+    x: Vec<f64>,
+    figures: Vec<Measured>,
+    /// Abscissa and stroke angle of every row.
+    times: Vec<f64>,
+    stroke: Vec<f64>,
+}
+
+impl Drawn {
+    /// Adds rows, each or their extremes.
+    fn add(&mut self, setup: &FlightSetup, part: &History, extremes: bool) {
+        let (label, times) = time_axis(setup, part);
+        self.label = label;
+        self.stroke.extend(stroke(setup, part));
+        match extremes {
+            true => self.x.extend([times[0], times[times.len() - 1]]),
+            false => self.x.extend(&times),
+        }
+        self.times.extend(times);
+        let next = measured(setup, part).into_iter();
+        let next = next.map(|m| if extremes { m.extremes() } else { m });
+        match self.figures.is_empty() {
+            true => self.figures = next.collect(),
+            false => (self.figures.iter_mut().zip(next)).for_each(|(all, n)| all.extend(n)),
+        }
+    }
+
+    fn charts(&self, setup: &FlightSetup, group: usize) -> Vec<(&'static str, Chart)> {
+        let mut shaded = downstrokes(&self.stroke, &self.times);
+        if shaded.len() > MOST_SHADED {
+            shaded.clear();
+        }
+        let note = match group {
+            1 => String::new(),
+            n => format!(", extremes of every {n} steps"),
+        };
+        let axis = (&self.label[..], &self.x[..]);
+        let chart = |m: &Measured| (m.name, m.chart(setup, axis, &shaded, &note));
+        self.figures.iter().map(chart).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use wingbeat_case::LoadedCase;
+
+    /// 1500 wingbeats of 40 steps in 1500 abscissas: every 40th row alone would be a straight line.
+    #[test]
+    fn exact_long_flights_keep_their_amplitude() {
+        let case = LoadedCase::find("fruit-fly-vacuum", &[]).unwrap();
+        let period = case.setup.time.period.unwrap();
+        let path = std::env::temp_dir().join(format!("wingbeat-window-{}.csv", std::process::id()));
+        let mut text = "step_count,time_s,wing_right_prescribed_phi_rad\n".to_owned();
+        for k in 0..=60_000 {
+            let beats = f64::from(k) / 40.0;
+            let phi = (std::f64::consts::TAU * beats).sin();
+            text += &format!("{k},{},{phi}\n", beats * period);
+        }
+        std::fs::write(&path, text).unwrap();
+        let drawn = |rows| charts(&case.setup, &path, rows, 1500).unwrap();
+        let (all, group) = drawn(0..60_001);
+        let angles = |list: &[(&'static str, Chart)]| {
+            let chart = &list.iter().find(|c| c.0 == "angles").unwrap().1;
+            let right = chart
+                .panels
+                .iter()
+                .find(|p| p.label.contains("right"))
+                .unwrap();
+            (
+                chart.x.clone(),
+                right.series[0].values.clone(),
+                chart.shaded.len(),
+            )
+        };
+        let (x, phi, shaded) = angles(&all);
+        assert_eq!((group, shaded), (81, 0));
+        assert!(x.len() <= 1500 && x.len() == phi.len() && x[x.len() - 1] == 1500.0);
+        assert!(all[0].1.title.contains("extremes of every 81 steps"));
+        for pair in phi[..phi.len() - 2].chunks(2) {
+            let [a, b] = [pair[0].min(pair[1]), pair[0].max(pair[1])];
+            assert!((a + 57.29577951308232).abs() < 1e-9 && (b - 57.29577951308232).abs() < 1e-9);
+        }
+        let (part, group) = drawn(400..801);
+        let (x, _, shaded) = angles(&part);
+        assert_eq!((group, x.len(), x[0], shaded), (1, 401, 10.0, 11));
+        let window = Window {
+            to: Some(20.0),
+            beats: Some(10.0),
+            from: None,
+        };
+        assert_eq!(window.rows(&case.setup, &path).unwrap(), 400..801);
+        std::fs::remove_file(&path).unwrap();
+    }
+}

@@ -1,0 +1,323 @@
+//! The 3-D part of the page: where everything is in the frames that are shown.
+
+use base64::Engine as _;
+use base64::engine::general_purpose::STANDARD;
+use serde::Serialize;
+use serde_json::{Value, json};
+use wingbeat_math::{DMat3, DQuat, DVec3};
+
+use super::pack::{Blob, Packed, Surfaces};
+use super::plan::Plan;
+use super::solid::{Solid, solids};
+use crate::figures;
+use wingbeat_case::IoError;
+use wingbeat_case::LoadedCase;
+use wingbeat_results::ResultDir;
+use wingbeat_results::columns::body_names;
+use wingbeat_results::frames::{self, Frame, Mesh};
+use wingbeat_results::particles::Cloud;
+use wingbeat_results::poses::{Poses, picture};
+use wingbeat_results::rows::Rows;
+use wingbeat_results::summary::down;
+
+/// Frames drawn from the history where no frames were written.
+const MOST_POSES: usize = 1000;
+/// Room for what JSON says of a frame \[bytes before base64\].
+const ENTRY: usize = 600;
+/// Wake older than this is not shown: it is not resolved \[wingbeats\].
+const WAKE_BEATS: f64 = 3.0;
+
+/// A frame as the page knows it.
+#[derive(Serialize)]
+struct Shown {
+    #[serde(flatten)]
+    packed: Packed,
+    step: usize,
+    time: f64,
+    x: f64,
+    /// Place \[m\] and quaternion (x, y, z, w), picture axes, of every body that carries solids.
+    poses: Vec<[f64; 7]>,
+    /// Force of the air on every body, picture axes \[N\].
+    forces: Vec<[f64; 3]>,
+}
+
+/// The frames while they are gathered.
+pub(super) struct Scene<'a> {
+    dir: &'a ResultDir,
+    poses: Poses,
+    solids: Vec<Solid>,
+    plan: Plan,
+    framed: bool,
+    blob: Blob,
+    shown: Vec<Shown>,
+    /// Steps at which downstroke and upstroke change places; the flight begins with an upstroke.
+    turns: Vec<usize>,
+}
+
+impl<'a> Scene<'a> {
+    pub fn new(
+        dir: &'a ResultDir,
+        case: &LoadedCase,
+        names: &[String],
+        budget: usize,
+    ) -> Result<Self, IoError> {
+        let poses = Poses::new(&case.setup.animal, names).ok_or_else(|| IoError::Damaged {
+            path: dir.join("history.csv"),
+            problem: "this history belongs to another animal than case.toml".to_owned(),
+        })?;
+        let written = frames::steps(dir.path())?;
+        let framed = !written.is_empty();
+        let wings = poses.surfaces.iter().filter(|s| poses.is_wing(s.body));
+        let nodes = wings.map(|s| s.nodes.len()).sum();
+        let panels = match framed {
+            true => poses.surfaces.iter().map(|s| s.quads.len()).sum(),
+            false => 0,
+        };
+        let own = Surfaces::bytes(nodes, panels) + ENTRY;
+        let solids = solids(&case.setup.animal, &poses);
+        let list = solids.iter().map(|s| 24 * s.quads.len()).sum::<usize>() + 1000; // their JSON
+        let room = budget.saturating_sub(list) / 4 * 3;
+        let period = case.setup.time.period.map(|p| p / case.setup.time.step);
+        let blob = Blob::with_rows(period.map_or(usize::MAX, |n| (WAKE_BEATS * n).ceil() as usize));
+        let plan = if framed {
+            Plan::of_directory(dir.path(), &written, (own, blob.most_rows), room)?
+        } else {
+            let rows = Rows::count(&dir.join("history.csv"))?;
+            let stride = rows.div_ceil(MOST_POSES).max(1);
+            let steps: Vec<usize> = (0..rows).step_by(stride).collect();
+            Plan::new(&steps, &vec![own; steps.len()], own, room)
+        };
+        Ok(Self {
+            dir,
+            poses,
+            solids,
+            plan,
+            framed,
+            blob,
+            shown: vec![],
+            turns: vec![],
+        })
+    }
+
+    /// Reads the history once, stopping at the frames that are shown.
+    pub fn read(mut self, case: &LoadedCase) -> Result<Self, IoError> {
+        let mut rows = Rows::open(&self.dir.join("history.csv"))?;
+        let forces = force_columns(case, rows.names());
+        let mut stroke = Stroke::new(figures::stroke_column(&case.setup, rows.names()));
+        let unit = case.setup.time.period.unwrap_or(1.0);
+        let posed = self.posed();
+        let steps = self.plan.steps.clone();
+        let mut wanted = steps.into_iter().peekable();
+        while let Some(row) = rows.next_row()? {
+            let step = row[0] as usize;
+            if stroke.turns(row) {
+                self.turns.push(step.saturating_sub(1));
+            }
+            if wanted.next_if_eq(&step).is_none() {
+                continue;
+            }
+            let (surfaces, wakes, cloud) = self.frame(row)?;
+            let most = self.plan.frame_bytes.saturating_sub(ENTRY);
+            let packed = self.blob.add(&surfaces, &wakes, &cloud, most);
+            let vector =
+                |k: &Option<usize>| k.map_or(DVec3::ZERO, |k| DVec3::from_slice(&row[k..]));
+            self.shown.push(Shown {
+                packed,
+                step,
+                time: row[1],
+                x: row[1] / unit,
+                poses: posed
+                    .iter()
+                    .map(|b| pose(self.poses.pose(row, *b)))
+                    .collect(),
+                forces: forces
+                    .iter()
+                    .map(|k| picture(vector(k)).map(digits))
+                    .collect(),
+            });
+        }
+        Ok(self)
+    }
+
+    /// Bodies that carry solids.
+    fn posed(&self) -> Vec<usize> {
+        let mut list: Vec<usize> = self.solids.iter().map(|s| s.body).chain([0]).collect();
+        list.sort_unstable();
+        list.dedup();
+        list
+    }
+
+    /// Wings, pressures, wakes and particles at a row: as they were written; wings that were not are
+    /// carried by their bodies.
+    fn frame(&self, row: &[f64]) -> Result<(Surfaces, Mesh, Cloud), IoError> {
+        let step = row[0] as usize;
+        let wings = self.poses.surfaces.iter().enumerate();
+        let wings = wings.filter(|(_, s)| self.poses.is_wing(s.body));
+        if !self.framed {
+            let nodes = wings.flat_map(|(k, _)| self.poses.nodes(row, k).map(picture));
+            let surfaces = Surfaces {
+                points: nodes.collect(),
+                pressure: vec![],
+            };
+            return Ok((surfaces, Mesh::default(), Cloud::default()));
+        }
+        let frame = Frame::read(self.dir.path(), step)?;
+        let mut points = frame.surfaces.points.clone();
+        let count: usize = wings.map(|(_, s)| s.nodes.len()).sum();
+        let total = |part: &dyn Fn(&wingbeat_results::poses::Surface) -> usize| -> Vec<usize> {
+            let mut sums = vec![0];
+            for s in &self.poses.surfaces {
+                sums.push(sums[sums.len() - 1] + part(s));
+            }
+            sums
+        };
+        // Air without a lattice on the body writes the wings alone.
+        let known = total(&|s| s.nodes.len())
+            .into_iter()
+            .zip(total(&|s| s.quads.len()));
+        let found = (points.len(), frame.surfaces.quads.len());
+        if !known.into_iter().any(|k| k == found) || points.len() < count {
+            return Err(IoError::Damaged {
+                path: Frame::paths(self.dir.path(), step)[0].clone(),
+                problem: "this frame belongs to another animal than case.toml".to_owned(),
+            });
+        }
+        points.truncate(count);
+        let panels = self.poses.surfaces.iter().map(|s| s.quads.len()).sum();
+        let mut pressure = frame.surfaces.cell("pressure_jump_pascal").to_vec();
+        pressure.resize(panels, 0.0);
+        Ok((Surfaces { points, pressure }, frame.wakes, frame.particles))
+    }
+
+    /// Writes the scene into the data of the page.
+    pub fn describe(&self, head: &mut Value, case: &LoadedCase) {
+        let (animal, setup) = (&case.setup.animal, &case.setup);
+        let weight = animal.mass() * setup.gravity.length();
+        let wings = self
+            .poses
+            .surfaces
+            .iter()
+            .filter(|s| self.poses.is_wing(s.body));
+        let wings = wings.zip(&animal.wings).map(|(s, w)| {
+            json!({
+                "name": s.name, "body": s.body, "rows": w.mesh.rows, "cols": w.mesh.cols,
+                "left": w.side.sign() < 0.0,
+            })
+        });
+        head["wings"] = wings.collect();
+        head["solids"] = json!(self.solids);
+        head["posed"] = json!(self.posed());
+        head["lattice"] = json!(self.framed);
+        head["sheets"] = json!(self.blob.columns);
+        head["length_m"] = json!(self.length(case));
+        head["down"] = json!(picture(down(setup)));
+        head["weight_newton"] = json!(weight);
+        head["turns"] = json!(self.turns);
+        head["most"] = json!({
+            "circulation": usual(self.shown.iter().map(|f| f.packed.circulation)),
+            "pressure": usual(self.shown.iter().map(|f| f.packed.pressure)),
+            "strength": usual(self.shown.iter().map(|f| f.packed.usual_strength)),
+            "force": usual(self.shown.iter().map(|f| total(&f.forces))),
+        });
+        head["blob"] = json!(STANDARD.encode(&self.blob.bytes));
+        head["frames"] = json!(self.shown);
+    }
+
+    /// What lengths are counted in: the longest wing, else the largest solid \[m\].
+    fn length(&self, case: &LoadedCase) -> f64 {
+        let reports = case.setup.animal.wing_reports();
+        let longest = reports.iter().map(|r| r.length).fold(0.0, f64::max);
+        let size = self.solids.iter().map(Solid::size).fold(0.0, f64::max);
+        let length = if longest > 0.0 { longest } else { size };
+        if length > 0.0 { length } else { 1.0 }
+    }
+
+    /// What was left out, in words.
+    pub fn thinned(&self) -> String {
+        let (shown, of) = (self.shown.len(), self.plan.of);
+        let source = match self.framed {
+            true => "frames that were written",
+            false => "steps, drawn from the history (no wakes)",
+        };
+        let mut text = format!("Shown here: {shown} of {of} {source}");
+        if self.blob.aged > 0 {
+            text += &format!(", wakes younger than {WAKE_BEATS} wingbeats");
+        }
+        for (count, what) in [
+            (self.blob.shortened, "oldest wake rows"),
+            (self.blob.weakened, "weakest particles"),
+        ] {
+            if count > 0 {
+                text += &format!(", {count} of them without their {what}");
+            }
+        }
+        text
+    }
+}
+
+/// Where the forces of the air stand in a row, per body.
+fn force_columns(case: &LoadedCase, names: &[String]) -> Vec<Option<usize>> {
+    let column = |b: &String| {
+        let name = format!("air_{b}_force_n1_newton");
+        names.iter().position(|n| *n == name)
+    };
+    let list: Vec<Option<usize>> = body_names(&case.setup.animal).iter().map(column).collect();
+    match case.setup.air.is_some() {
+        true => list,
+        false => vec![],
+    }
+}
+
+/// Finds the steps between which the stroke turns.
+struct Stroke {
+    column: Option<(usize, f64)>,
+    before: f64,
+    down: bool,
+}
+
+impl Stroke {
+    fn new(column: Option<(usize, f64)>) -> Self {
+        Self {
+            column,
+            before: f64::INFINITY,
+            down: false,
+        }
+    }
+
+    /// Whether the wing has begun to go the other way since the row before.
+    fn turns(&mut self, row: &[f64]) -> bool {
+        let Some((column, sign)) = self.column else {
+            return false;
+        };
+        let angle = sign * row[column];
+        let down = angle > self.before;
+        self.before = angle;
+        std::mem::replace(&mut self.down, down) != down
+    }
+}
+
+/// Place and quaternion in picture axes, which are N turned by half a turn about n1.
+fn pose((place, rotation): (DVec3, DMat3)) -> [f64; 7] {
+    let q = DQuat::from_mat3(&rotation);
+    let [x, y, z] = picture(place);
+    [x, y, z, q.x, -q.y, -q.z, q.w].map(digits)
+}
+
+/// Eight digits, as many as single precision has.
+fn digits(x: f64) -> f64 {
+    format!("{x:.7e}").parse().unwrap_or(0.0)
+}
+
+/// Size of the sum.
+fn total(forces: &[[f64; 3]]) -> f64 {
+    let sum: DVec3 = forces.iter().map(|f| DVec3::from_array(*f)).sum();
+    sum.length()
+}
+
+/// What is large without being the rarest of all: nineteen in twenty are smaller.
+fn usual(values: impl Iterator<Item = f64>) -> f64 {
+    let mut list: Vec<f64> = values.filter(|v| v.is_finite() && *v > 0.0).collect();
+    list.sort_by(f64::total_cmp);
+    let at = (list.len() * 19 / 20).min(list.len().saturating_sub(1));
+    list.get(at).copied().unwrap_or(0.0)
+}
