@@ -30,9 +30,11 @@ pub mod history;
 pub mod manifest;
 pub mod particles;
 pub mod poses;
+mod quantity;
 pub mod rows;
 pub mod saver;
 pub mod summary;
+mod table;
 pub mod vtp;
 pub mod writer;
 
