@@ -13,11 +13,11 @@
 //! The limits of [`Estimate::doubts`] are wide: they catch slips of unit, sign and scale, not
 //! unusual animals. Nothing here is used by a flight.
 
-use wingbeat_air::{CoreModel, Friction};
+use wingbeat_air::{CoreModel, Friction, Wind};
 use wingbeat_blade::BladeSettings;
 use wingbeat_flight::{
-    AirModel, AirOptions, BladeOptions, DriftingFourier, FlightSetup, MotionMode,
-    PrescribedMotion, Simulation, StartState, TimeGrid,
+    AirModel, AirOptions, BladeOptions, DriftingFourier, FlightSetup, MotionMode, PrescribedMotion,
+    Simulation, StartState, TimeGrid,
 };
 use wingbeat_math::DVec3;
 use wingbeat_model::{Start, Wing, WingReport};
@@ -110,8 +110,7 @@ impl Estimate {
             tip_speed,
             speed,
             reynolds: (self.viscosity).map(|nu| speed * report.mean_chord / nu),
-            reduced_frequency: flaps
-                .then(|| std::f64::consts::PI * f * report.mean_chord / speed),
+            reduced_frequency: flaps.then(|| std::f64::consts::PI * f * report.mean_chord / speed),
             report,
         }
     }
@@ -121,10 +120,11 @@ impl Estimate {
 fn stroke_amplitude(wing: &Wing) -> f64 {
     const SAMPLES: usize = 200;
     let phi = |k: usize| wing.motion.angles.phi.at(k as f64 / SAMPLES as f64)[0];
-    let ends = (0..SAMPLES).map(phi).fold(
-        [f64::INFINITY, f64::NEG_INFINITY],
-        |[lo, hi], x| [lo.min(x), hi.max(x)],
-    );
+    let ends = (0..SAMPLES)
+        .map(phi)
+        .fold([f64::INFINITY, f64::NEG_INFINITY], |[lo, hi], x| {
+            [lo.min(x), hi.max(x)]
+        });
     ends[1] - ends[0]
 }
 
@@ -144,7 +144,9 @@ fn stream(air: &AirModel) -> DVec3 {
     match air {
         AirModel::VortexLattice(air) => air.lattice.free_stream,
         AirModel::BladeElement(air) => air.blade.free_stream,
-        AirModel::None | AirModel::Derivatives(_) | AirModel::External(_) => DVec3::ZERO,
+        AirModel::None | AirModel::Derivatives(_) | AirModel::External(_) | AirModel::Own(_) => {
+            DVec3::ZERO
+        }
     }
 }
 
@@ -153,7 +155,9 @@ fn density(air: &AirModel) -> Option<f64> {
     match air {
         AirModel::VortexLattice(air) => Some(air.lattice.density),
         AirModel::BladeElement(air) => Some(air.blade.density),
-        AirModel::None | AirModel::Derivatives(_) | AirModel::External(_) => None,
+        AirModel::None | AirModel::Derivatives(_) | AirModel::External(_) | AirModel::Own(_) => {
+            None
+        }
     }
 }
 
@@ -187,6 +191,10 @@ fn lift_over_weight(setup: &FlightSetup) -> Result<Option<f64>, AnalysisError> {
         },
         body_drag: None,
         induced: DVec3::ZERO,
+        wind: match &setup.air {
+            AirModel::VortexLattice(air) => air.lattice.wind.clone(),
+            _ => Wind::default(),
+        },
     };
     let mut tethered = setup.clone();
     for wing in &mut tethered.animal.wings {
@@ -302,7 +310,10 @@ const REYNOLDS: Limit = Limit {
 const REDUCED_FREQUENCY: Limit = Limit {
     low: 0.0,
     high: 3.0,
-    hints: ["", "the wing hardly moves by its own chord in a beat; is the stroke in degrees?"],
+    hints: [
+        "",
+        "the wing hardly moves by its own chord in a beat; is the stroke in degrees?",
+    ],
 };
 const STROKE: Limit = Limit {
     low: 0.0,
@@ -320,7 +331,10 @@ const GYRATION: Limit = Limit {
 const WING_MASS: Limit = Limit {
     low: 0.0,
     high: 0.4,
-    hints: ["", "wings of animals are at most a fifth of the mass; is wing.mass_kg that of one wing?"],
+    hints: [
+        "",
+        "wings of animals are at most a fifth of the mass; is wing.mass_kg that of one wing?",
+    ],
 };
 const LIFT: Limit = Limit {
     low: 0.5,
@@ -341,12 +355,18 @@ const WAKE_CORE: Limit = Limit {
 const BOUND_CORE: Limit = Limit {
     low: 0.0,
     high: 0.5,
-    hints: ["", "it spoils the flow at the trailing edge: air.bound_core"],
+    hints: [
+        "",
+        "it spoils the flow at the trailing edge: air.bound_core",
+    ],
 };
 const CLEARANCE: Limit = Limit {
     low: 0.0,
     high: 0.5,
-    hints: ["", "wakes are pushed far off the wings; 0.1 chords are usual: air.clearance_m"],
+    hints: [
+        "",
+        "wakes are pushed far off the wings; 0.1 chords are usual: air.clearance_m",
+    ],
 };
 const TIP_STEP: Limit = Limit {
     low: 0.0,
@@ -367,12 +387,22 @@ fn doubts(setup: &FlightSetup, e: &Estimate) -> Vec<String> {
     see(&LIFT, "mean lift over weight by blade elements", lift, "");
     let wings: f64 = e.wings.iter().map(|w| w.report.mass).sum();
     let part = (is_free && e.mass > 0.0).then(|| wings / e.mass);
-    see(&WING_MASS, "mass of the wings over that of the animal", part, "");
+    see(
+        &WING_MASS,
+        "mass of the wings over that of the animal",
+        part,
+        "",
+    );
     let body = setup.animal.body.mass;
     let length = e.wings.iter().map(|w| w.report.length).fold(0.0, f64::max);
     let gyration = (e.inertia.max_element() / body).sqrt() / length;
     let gyration = Some(gyration).filter(|g| is_free && g.is_finite() && *g > 0.0);
-    see(&GYRATION, "radius of gyration of the body over the wing length", gyration, "");
+    see(
+        &GYRATION,
+        "radius of gyration of the body over the wing length",
+        gyration,
+        "",
+    );
     let mut said = std::collections::BTreeSet::new();
     for (wing, w) in setup.animal.wings.iter().zip(&e.wings) {
         let mut own = wing_doubts(setup, wing, w);
@@ -390,16 +420,36 @@ fn wing_doubts(setup: &FlightSetup, wing: &Wing, w: &WingEstimate) -> Vec<String
     };
     let flaps = Some(w.tip_speed).filter(|u| *u > 0.0);
     see(&TIP_SPEED, "mean tip speed", flaps, " m/s");
-    see(&STROKE, "stroke amplitude", Some(w.stroke_amplitude.to_degrees()), " deg");
-    see(&REYNOLDS, "Reynolds number", w.reynolds.filter(|_| w.speed > 0.0), "");
-    see(&REDUCED_FREQUENCY, "reduced frequency", w.reduced_frequency, "");
+    see(
+        &STROKE,
+        "stroke amplitude",
+        Some(w.stroke_amplitude.to_degrees()),
+        " deg",
+    );
+    see(
+        &REYNOLDS,
+        "Reynolds number",
+        w.reynolds.filter(|_| w.speed > 0.0),
+        "",
+    );
+    see(
+        &REDUCED_FREQUENCY,
+        "reduced frequency",
+        w.reduced_frequency,
+        "",
+    );
     if let AirModel::VortexLattice(air) = &setup.air {
         let chord = w.report.mean_chord;
         let step = flaps.map(|u| u * setup.time.step / chord);
         see(&TIP_STEP, "way of the tip in a step", step, " chords");
         let [wake, bound, clearance] = lattice_sizes(air, wing, chord);
         see(&WAKE_CORE, "vortex core of the wake", wake, " mean chords");
-        see(&BOUND_CORE, "vortex core of the wing", bound, " panel lengths");
+        see(
+            &BOUND_CORE,
+            "vortex core of the wing",
+            bound,
+            " panel lengths",
+        );
         see(&CLEARANCE, "clearance", clearance, " mean chords");
     }
     let outward = wing.side.sign() * wing.hinge_b.y;

@@ -217,7 +217,11 @@ pub fn trim(setup: &FlightSetup, problem: &TrimProblem) -> Result<Trim, Analysis
         && largest(&residual) > problem.settings.tolerance
     {
         let error = largest(&residual);
-        progress::task(&format!("Newton step {iterations}, residual {error:.1e}"), 0, 0);
+        progress::task(
+            &format!("Newton step {iterations}, residual {error:.1e}"),
+            0,
+            0,
+        );
         let jacobian = jacobian(setup, problem, &x)?;
         let Some((better, r)) = line_search(setup, problem, &x, &residual, jacobian)? else {
             break;

@@ -198,7 +198,11 @@ impl Search<'_> {
     /// Residual and flight at the point (velocity over R f, pitch rate times T, three controls).
     fn fly(&mut self, x: &[f64; 6]) -> Result<([f64; 6], WakeTrim), AnalysisError> {
         self.flights += 1;
-        progress::task(&format!("flight {}, residual {:.1e}", self.flights, self.best), 0, 0);
+        progress::task(
+            &format!("flight {}, residual {:.1e}", self.flights, self.best),
+            0,
+            0,
+        );
         let (mut setup, adjustment, mass_centre, pitch) =
             adjusted(self.setup, self.problem, &x[3..]);
         let frequency = setup

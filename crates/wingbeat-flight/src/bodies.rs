@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use wingbeat_dynamics::{
     Baumgarte, Body, BodyMotion, DynamicsError, EulerForm, Formulation, Freedom, Hinge, Joint,
-    Link, MomentumForm, NaturalUnits, QuaternionForm, Stabilization, System,
+    Link, Mechanism, MomentumForm, NaturalUnits, QuaternionForm, Stabilization, System,
 };
 use wingbeat_math::{DMat3, DVec3, EulerSequence, RotationLaw};
 use wingbeat_model::{Animal, Wing};

@@ -49,7 +49,8 @@ pub use error::FlightError;
 pub use free::{FreeFlight, FreeFlightScratch};
 pub use joints::JointSetup;
 pub use record::{
-    AccelerationRecord, HingeRecord, LoadRecord, ParticleSnapshot, Record, Snapshot, SurfaceSnapshot, WakeSnapshot,
+    AccelerationRecord, HingeRecord, LoadRecord, ParticleSnapshot, Record, Snapshot,
+    SurfaceSnapshot, WakeSnapshot,
 };
 pub use recorder::Ledger;
 pub use setup::*;

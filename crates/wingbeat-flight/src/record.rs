@@ -124,6 +124,25 @@ impl Record {
     }
 }
 
+/// The impulse of a force, counted step by step with the trapezoidal rule: exact to the last digit
+/// over the beats of a periodic force.
+#[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
+pub struct AirImpulse {
+    time: f64,
+    force: DVec3,
+    sum: DVec3,
+}
+
+impl AirImpulse {
+    /// Counts on to `time` [s], where the force is `force` [N]; returns the impulse up to there
+    /// [N s]. The first call sets the start.
+    pub fn count(&mut self, time: f64, force: DVec3) -> DVec3 {
+        self.sum += 0.5 * (time - self.time) * (self.force + force);
+        (self.time, self.force) = (time, force);
+        self.sum
+    }
+}
+
 /// Accelerations of one body.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct AccelerationRecord {

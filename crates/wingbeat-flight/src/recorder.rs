@@ -7,7 +7,7 @@ use wingbeat_math::{DQuat, DVec3};
 use wingbeat_model::motion::Adjustment;
 
 use crate::equations::{Equations, Quadratures, Scratch};
-use crate::record::{AccelerationRecord, HingeRecord, LoadRecord, Record};
+use crate::record::{AccelerationRecord, AirImpulse, HingeRecord, LoadRecord, Record};
 
 /// Below this |cos theta| Euler angles and their rates are not evaluated but kept: they lose
 /// all their digits there.
@@ -31,22 +31,11 @@ pub struct Ledger {
     pub rates: Vec<f64>,
     /// Regularised events of the air up to the last record.
     pub events: u64,
-    /// Time of the last record [s].
-    pub time: f64,
-    /// Force of the air on all bodies in the last record, N components [N].
-    pub air_force: DVec3,
-    /// Its impulse up to there [N s].
-    pub air_impulse: DVec3,
+    /// Impulse of the air on all bodies up to the last record.
+    pub air_impulse: AirImpulse,
 }
 
 impl Ledger {
-    /// Counts the impulse of the air on to `time` [s], where its force is `force` [N].
-    fn count_air(&mut self, time: f64, force: DVec3) -> DVec3 {
-        self.air_impulse += 0.5 * (time - self.time) * (self.air_force + force);
-        (self.time, self.air_force) = (time, force);
-        self.air_impulse
-    }
-
     /// Opens the books at the state last evaluated.
     pub fn open(s: &Scratch) -> Self {
         let budget = &s.solution.budget;
@@ -131,7 +120,7 @@ impl Sources<'_> {
             corrector_passes: self.report.passes,
             corrector_residual: self.report.residual,
             vortex_impulse: s.air_scratch.loads.impulse,
-            air_impulse: ledger.count_air(time, air_force),
+            air_impulse: ledger.air_impulse.count(time, air_force),
             wake_rings: self
                 .air
                 .map_or(0, |a| a.sheets.iter().map(WakeSheet::ring_count).sum()),

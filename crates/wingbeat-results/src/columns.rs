@@ -5,6 +5,8 @@
 //! record read back from a row, units and frames of the exports, and docs/columns.md. Nobody else
 //! knows names of columns, and nobody takes them apart.
 
+use std::path::Path;
+
 use wingbeat_dynamics::{DynamicsError, Freedom};
 use wingbeat_flight::{FlightSetup, JointCoordinate, Record, joint_coordinates, loop_names};
 use wingbeat_model::Animal;
@@ -12,6 +14,11 @@ use wingbeat_model::Animal;
 use crate::quantity::{Fold, Group, Kind, Of, Quantity, Slot, Unit};
 use crate::table::GROUPS;
 use wingbeat_case::IoError;
+
+/// Number of the column of the step.
+pub const STEP: usize = 0;
+/// Number of the column of the time.
+pub const TIME: usize = 1;
 
 /// One column of a history.
 #[derive(Clone, Debug)]
@@ -34,6 +41,7 @@ pub struct Column {
     pub is_count: bool,
     /// Whether results of older versions lack it.
     pub is_new: bool,
+    of: Of,
     quantity: &'static Quantity,
     subject: usize,
     component: usize,
@@ -142,10 +150,9 @@ impl Columns {
     ///
     /// # Errors
     /// Joints that cannot be assembled.
-    pub fn new(setup: &FlightSetup, deforms: bool) -> Result<Self, IoError> {
-        let refuse = |e: DynamicsError| IoError::Mechanism(e.to_string());
-        let coordinates = joint_coordinates(setup).map_err(refuse)?;
-        let loops = loop_names(setup).map_err(refuse)?;
+    pub fn new(setup: &FlightSetup, deforms: bool) -> Result<Self, DynamicsError> {
+        let coordinates = joint_coordinates(setup)?;
+        let loops = loop_names(setup)?;
         let bodies = bodies(&setup.animal);
         let wings = setup.animal.wings.len();
         let shape = Shape {
@@ -170,11 +177,32 @@ impl Columns {
         Ok(Self { list, shape })
     }
 
+    /// The columns of the history in a file with this header.
+    ///
+    /// # Errors
+    /// As [`Self::new`], of the case beside it.
+    pub(crate) fn in_file(
+        path: &Path,
+        setup: &FlightSetup,
+        header: &[String],
+    ) -> Result<Self, IoError> {
+        let columns = |deforms| {
+            Self::new(setup, deforms).map_err(|e| IoError::Damaged {
+                path: path.with_file_name("case.toml"),
+                problem: format!("the joints of this case do not fit together: {e}"),
+            })
+        };
+        let all = columns(true)?;
+        let is_there = |c: &Column| c.of == Of::Deforming && header.contains(&c.name);
+        let deforms = all.iter().any(is_there);
+        if deforms { Ok(all) } else { columns(false) }
+    }
+
     /// The columns of the history that this record begins.
     ///
     /// # Errors
     /// As [`Self::new`].
-    pub fn of(setup: &FlightSetup, record: &Record) -> Result<Self, IoError> {
+    pub fn of(setup: &FlightSetup, record: &Record) -> Result<Self, DynamicsError> {
         Self::new(setup, !record.deformation_power.is_empty())
     }
 
@@ -238,7 +266,8 @@ struct Subjects {
 impl Subjects {
     fn of(&self, of: Of, shape: &Shape) -> Vec<Subject> {
         let numbered = |range: std::ops::Range<usize>| {
-            let one = |k| Subject::new(format!("{}", k + 1), &format!("{}", k + 1), Kind::Flight, k);
+            let one =
+                |k| Subject::new(format!("{}", k + 1), &format!("{}", k + 1), Kind::Flight, k);
             range.map(one).collect()
         };
         let half = 3 * (shape.bodies - 1);
@@ -285,12 +314,12 @@ impl Subject {
         for quantity in group.quantities {
             let letters = quantity.components.names(self.kind);
             for (component, letter) in letters.iter().enumerate() {
-                list.push(self.column(quantity, component, letter));
+                list.push(self.column(group.of, quantity, component, letter));
             }
         }
     }
 
-    fn column(&self, q: &'static Quantity, component: usize, letter: &str) -> Column {
+    fn column(&self, of: Of, q: &'static Quantity, component: usize, letter: &str) -> Column {
         let unit = q.unit.of(self.kind);
         let name = |pattern: &str, subject: &str, unit: &str| {
             pattern.replace("{s}", subject).replace("{c}", letter) + "_" + unit
@@ -306,6 +335,7 @@ impl Subject {
             fold: q.fold,
             is_count: unit == Unit::Count,
             is_new: q.is_new,
+            of,
             quantity: q,
             subject: self.index,
             component,

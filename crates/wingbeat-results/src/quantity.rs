@@ -167,7 +167,9 @@ impl Frame {
             (Self::Scalar, _) => "none: scalar",
             (Self::Inertial, _) => "N: inertial, n3 along gravity",
             (Self::Own, Kind::Wing) => "W: wing, leading edge, span to the right, normal",
-            (Self::Own, Kind::Segment) => "S: segment, parallel to the body's in the posture of reference",
+            (Self::Own, Kind::Segment) => {
+                "S: segment, parallel to the body's in the posture of reference"
+            }
             (Self::Own, _) => "B: body, forward, right, down",
             (Self::Attitude, Kind::Wing) => "wing against N, Euler 1-3-2",
             (Self::Attitude, _) => "body against N, Euler 2-3-1",

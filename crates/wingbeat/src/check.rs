@@ -16,7 +16,9 @@ pub(crate) fn check(name: &str, set: &[String], trial: bool) -> Result<(), IoErr
     let unknowns = expectation::unknowns(&case.setup);
     let cost = match trial || unknowns <= expectation::MOST_UNKNOWNS {
         true => {
-            let _watch = Watch::new(&format!("first steps on trial, {unknowns} unknown circulations"));
+            let _watch = Watch::new(&format!(
+                "first steps on trial, {unknowns} unknown circulations"
+            ));
             let flight = Simulation::new(case.setup.clone());
             let cost = flight.and_then(|mut flight| expectation::cost(&mut flight));
             cost.map_err(|e| fault(e.to_string()))?
@@ -30,7 +32,9 @@ pub(crate) fn check(name: &str, set: &[String], trial: bool) -> Result<(), IoErr
     describe(&case.setup);
     let panels = expectation::panels(&case.setup);
     println!("{:<10}{panels} panels", "lattice");
-    expectation::lines(&estimate).iter().for_each(|line| println!("{line}"));
+    expectation::lines(&estimate)
+        .iter()
+        .for_each(|line| println!("{line}"));
     println!("{:<10}{cost}", "cost");
     for doubt in &estimate.doubts {
         eprintln!("warning: {doubt}");

@@ -43,11 +43,20 @@ pub(crate) fn lines(e: &Estimate) -> Vec<String> {
         let mut parts = vec![];
         if w.tip_speed > 0.0 {
             let stroke = w.stroke_amplitude.to_degrees();
-            parts.push(format!("stroke {stroke:.1} deg, mean tip speed {:.3} m/s", w.tip_speed));
+            parts.push(format!(
+                "stroke {stroke:.1} deg, mean tip speed {:.3} m/s",
+                w.tip_speed
+            ));
         }
         parts.extend(w.reynolds.map(|re| format!("Reynolds number {re:.0}")));
-        parts.extend(w.reduced_frequency.map(|k| format!("reduced frequency {k:.3}")));
-        say("motion", format!("`{}`: {}", w.report.name, parts.join(", ")));
+        parts.extend(
+            w.reduced_frequency
+                .map(|k| format!("reduced frequency {k:.3}")),
+        );
+        say(
+            "motion",
+            format!("`{}`: {}", w.report.name, parts.join(", ")),
+        );
     }
     if let Some(f) = e.frequency {
         let speed = e.flight_speed;
@@ -59,7 +68,9 @@ pub(crate) fn lines(e: &Estimate) -> Vec<String> {
     let [x, y, z] = e.inertia.to_array();
     say(
         "inertia",
-        format!("of the body about its mass centre: roll {x:.3e}, pitch {y:.3e}, yaw {z:.3e} kg m2"),
+        format!(
+            "of the body about its mass centre: roll {x:.3e}, pitch {y:.3e}, yaw {z:.3e} kg m2"
+        ),
     );
     if let Some(lift) = e.lift_over_weight {
         say(

@@ -79,7 +79,9 @@ fn blobs(setup: &FlightSetup) -> bool {
 /// Steps after which the oldest row of a wake is dropped.
 fn kept_steps(setup: &FlightSetup) -> Option<usize> {
     let air = &lattice(setup)?.lattice;
-    let by_age = air.max_age.map(|age| (age / setup.time.step).ceil() as usize);
+    let by_age = air
+        .max_age
+        .map(|age| (age / setup.time.step).ceil() as usize);
     air.max_rows.into_iter().chain(by_age).min()
 }
 
@@ -98,7 +100,12 @@ fn trial(flight: &Simulation) -> Option<f64> {
     if nodes.is_empty() {
         return None;
     }
-    let points: Points = nodes.iter().cycle().take(TRIAL_POINTS).map(|x| **x).collect();
+    let points: Points = nodes
+        .iter()
+        .cycle()
+        .take(TRIAL_POINTS)
+        .map(|x| **x)
+        .collect();
     let start = Instant::now();
     flight.air_velocity(&points)?;
     let per_point = start.elapsed().as_secs_f64() / TRIAL_POINTS as f64;

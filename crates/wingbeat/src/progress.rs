@@ -13,9 +13,6 @@ use crate::pace::Pace;
 const PAUSE: Duration = Duration::from_millis(500);
 /// Time between two pictures of the bar.
 const FLICKER: Duration = Duration::from_millis(50);
-/// Columns a terminal needs for the bar beside the words.
-const BAR_COLUMNS: u16 = 64;
-
 /// Shows the newest step.
 pub(crate) struct Progress {
     bar: ProgressBar,
@@ -96,7 +93,8 @@ impl Progress {
         let beat = self
             .period
             .map_or(String::new(), |p| format!("beat {:.1}, ", record.time / p));
-        let left = Duration::from_secs_f64(self.pace.seconds_left(record.step).clamp(0.0, 1e9).ceil());
+        let left =
+            Duration::from_secs_f64(self.pace.seconds_left(record.step).clamp(0.0, 1e9).ceil());
         format!(
             "step {}/{}, {} left, {beat}{lift}, {} wake rings, {} passes",
             record.step,
@@ -134,14 +132,30 @@ impl Progress {
 
 /// A bar with words beside it that never takes more than one line.
 pub(crate) fn bar(target: ProgressDrawTarget, length: u64) -> ProgressBar {
-    let narrow = target.width().is_some_and(|w| w < BAR_COLUMNS);
-    let template = if narrow {
-        "{wide_msg}"
-    } else {
-        "{bar:20} {wide_msg}"
-    };
-    let style = ProgressStyle::with_template(template).expect("the template is well formed");
+    let style =
+        ProgressStyle::with_template("{bar:16} {wide_msg}").expect("the template is well formed");
     let bar = ProgressBar::with_draw_target(Some(length), target);
     bar.set_style(style);
     bar
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use indicatif::InMemoryTerm;
+
+    #[test]
+    fn behaves_the_bar_takes_one_line_however_narrow_the_terminal() {
+        for columns in [40, 80, 200] {
+            let terminal = InMemoryTerm::new(10, columns);
+            let target = ProgressDrawTarget::term_like(Box::new(terminal.clone()));
+            let bar = bar(target, 200);
+            bar.set_position(120);
+            bar.set_message("step 120/200, 12 seconds left, beat 3.0, lift/weight +0.98, 123456 wake rings, 5 passes");
+            bar.tick();
+            let shown = terminal.contents();
+            assert_eq!(shown.lines().count(), 1, "{columns}: {shown}");
+            assert!(shown.contains("step 120/200"), "{shown}");
+        }
+    }
 }

@@ -136,7 +136,9 @@ fn solved(
     is_free: impl Fn(usize) -> bool,
 ) -> Option<[f64; 3]> {
     let chosen: Vec<usize> = (0..3).filter(|i| is_free(*i)).collect();
-    let pairs = chosen.iter().flat_map(|i| chosen.iter().map(move |j| (*i, *j)));
+    let pairs = chosen
+        .iter()
+        .flat_map(|i| chosen.iter().map(move |j| (*i, *j)));
     let mut m: Vec<f64> = pairs.map(|(i, j)| matrix[i][j]).collect();
     let mut x: Vec<f64> = chosen.iter().map(|i| right[*i]).collect();
     wingbeat::math::solve_small(&mut m, &mut x).ok()?;

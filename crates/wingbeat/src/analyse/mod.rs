@@ -124,7 +124,9 @@ pub(crate) fn trimmed_with_wake(args: &Trimming) -> Result<(LoadedCase, WakeTrim
         case.name,
         settings.held_beats + 1
     );
-    let found = watched("trimming", || trim_with_wake(&case.setup, &problem, &settings))?;
+    let found = watched("trimming", || {
+        trim_with_wake(&case.setup, &problem, &settings)
+    })?;
     trim::report(&case, &problem, &Found::from(&found));
     println!(
         "  {} flights of {} wingbeats",
