@@ -242,6 +242,7 @@ impl Beat {
     /// # Errors
     /// Numbers that are not finite, equations that are singular.
     pub fn advance(&self, y: &[f64]) -> Result<State, AnalysisError> {
+        crate::progress::beat();
         let mut integration = Integration::new(self);
         let mut y = y.to_vec();
         for step in 0..self.steps {

@@ -8,6 +8,7 @@ use crate::AnalysisError;
 use crate::beat::Beat;
 use crate::level::Level;
 use crate::mean::MeanLoad;
+use crate::progress;
 
 /// A means of steering.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -82,7 +83,8 @@ pub fn control_derivatives(
     const STEP: f64 = 1e-4;
     let wings = setup.animal.wings.len();
     let mut list = vec![];
-    for (control, name) in CONTROLS {
+    for (k, (control, name)) in CONTROLS.into_iter().enumerate() {
+        progress::task(&format!("derivatives by {name}"), k, CONTROLS.len());
         let single = (0..wings)
             .map(Some)
             .filter(|_| control != Control::Frequency);

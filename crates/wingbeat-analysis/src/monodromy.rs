@@ -1,5 +1,7 @@
 //! Derivative of a map at a point, and what can be checked of it.
 
+use crate::progress;
+
 /// Derivative of `map` at `x` by fourth-order central differences with steps `step[k]`, by rows:
 /// entry (i, j) is the derivative of component i by component j.
 ///
@@ -17,6 +19,7 @@ pub fn monodromy<E>(
     let rows = map(x)?.len();
     let mut m = vec![0.0; rows * n];
     for j in 0..n {
+        progress::task("slopes of the map", j, n);
         let at = |s: f64| {
             let mut x = x.to_vec();
             x[j] += s * step[j];

@@ -3,6 +3,7 @@
 use wingbeat_flight::{AirModel, FlightSetup, Simulation};
 
 use crate::AnalysisError;
+use crate::progress;
 
 /// Mean mechanical powers over one wingbeat [W] and over masses [W/kg].
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -50,7 +51,9 @@ pub fn power(setup: &FlightSetup) -> Result<Power, AnalysisError> {
             "tether the animal at its trimmed attitude",
         ));
     }
+    progress::task("power with air", 0, 2);
     let with = hinge_powers(setup.clone(), per_beat)?;
+    progress::task("power without air", 1, 2);
     let without = hinge_powers(
         FlightSetup {
             air: AirModel::None,

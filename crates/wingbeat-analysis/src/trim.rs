@@ -24,6 +24,7 @@ use wingbeat_model::motion::Adjustment;
 
 use crate::AnalysisError;
 use crate::beat::{Beat, JOINTS, State};
+use crate::progress;
 
 /// A control that trim may choose.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -215,6 +216,12 @@ pub fn trim(setup: &FlightSetup, problem: &TrimProblem) -> Result<Trim, Analysis
     while iterations < problem.settings.iterations
         && largest(&residual) > problem.settings.tolerance
     {
+        let error = largest(&residual);
+        progress::task(
+            &format!("Newton step {iterations}, residual {error:.1e}"),
+            0,
+            0,
+        );
         let jacobian = jacobian(setup, problem, &x)?;
         let Some((better, r)) = line_search(setup, problem, &x, &residual, jacobian)? else {
             break;

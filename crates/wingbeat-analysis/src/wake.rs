@@ -23,6 +23,7 @@ use crate::AnalysisError;
 use crate::eigen::eigen;
 use crate::level::{Level, Perturbation};
 use crate::modes::{ModeSet, Scales};
+use crate::progress;
 use crate::trim::{TrimProblem, adjusted, largest};
 
 /// What is held fixed when the state of the body is disturbed.
@@ -125,6 +126,7 @@ pub fn trim_with_wake(
         settings,
         steps: steps_per_beat(setup)?,
         flights: 0,
+        best: f64::INFINITY,
     };
     let mut x = [0.0; 6];
     for (k, unknown) in problem.unknowns.iter().enumerate() {
@@ -182,6 +184,8 @@ struct Search<'a> {
     settings: &'a WakeSettings,
     steps: usize,
     flights: usize,
+    /// Smallest of the largest residuals so far.
+    best: f64,
 }
 
 impl Search<'_> {
@@ -194,6 +198,11 @@ impl Search<'_> {
     /// Residual and flight at the point (velocity over R f, pitch rate times T, three controls).
     fn fly(&mut self, x: &[f64; 6]) -> Result<([f64; 6], WakeTrim), AnalysisError> {
         self.flights += 1;
+        progress::task(
+            &format!("flight {}, residual {:.1e}", self.flights, self.best),
+            0,
+            0,
+        );
         let (mut setup, adjustment, mass_centre, pitch) =
             adjusted(self.setup, self.problem, &x[3..]);
         let frequency = setup
@@ -226,6 +235,7 @@ impl Search<'_> {
             (travelled.x - v.x * period) / length,
             (travelled.z - v.z * period) / length,
         ];
+        self.best = self.best.min(largest(&residual));
         let found = WakeTrim {
             converged: false,
             residual,
@@ -352,6 +362,7 @@ pub fn wake_monodromy(trim: &WakeTrim, memory: WakeMemory) -> Result<Vec<f64>, A
     for k in 0..9 {
         let h = 1e-3 * scales[k];
         let fly = |s: f64| -> Result<[[f64; 9]; 2], AnalysisError> {
+            progress::task("disturbed flights", 2 * k + usize::from(s < 0.0), 18);
             let mut x = [0.0; 9];
             x[k] = s * h;
             let [a, b] = disturbed(trim, &level, &Perturbation::from_array(x), memory, steps)?;

@@ -5,6 +5,8 @@ use std::time::Duration;
 /// What is written beside the history.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct OutputSettings {
+    /// Steps between rows of the history, 1 for every step.
+    pub history_every: usize,
     /// Steps between frames of surfaces and wakes; 0 writes none.
     pub frames_every: usize,
     /// Whether figures are drawn.

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use wingbeat_dynamics::{
     Baumgarte, Body, BodyMotion, DynamicsError, EulerForm, Formulation, Freedom, Hinge, Joint,
-    Link, MomentumForm, NaturalUnits, QuaternionForm, Stabilization, System,
+    Link, Mechanism, MomentumForm, NaturalUnits, QuaternionForm, Stabilization, System,
 };
 use wingbeat_math::{DMat3, DVec3, EulerSequence, RotationLaw};
 use wingbeat_model::{Animal, Wing};
@@ -171,4 +171,46 @@ fn link(joint: &JointSetup) -> Link {
             .unwrap_or_else(|| Arc::new(DMat3::IDENTITY)),
         joint: joint.joint.clone(),
     }
+}
+
+/// A coordinate along a free direction of a joint, as [`crate::Record::joints`] lists them.
+#[derive(Clone, Debug, PartialEq)]
+pub struct JointCoordinate {
+    /// Name of the joint.
+    pub joint: String,
+    /// What the joint leaves free.
+    pub freedom: Freedom,
+    /// Number of the direction, from 0.
+    pub direction: usize,
+    /// Directions of the joint.
+    pub of: usize,
+}
+
+/// The coordinates along the free directions of all joints of a setup, in the order of
+/// [`crate::Record::joints`].
+///
+/// # Errors
+/// Bodies or joints that the dynamics refuse.
+pub fn joint_coordinates(setup: &FlightSetup) -> Result<Vec<JointCoordinate>, DynamicsError> {
+    let mechanism = Mechanism::of(&system_of(setup)?);
+    let of = |link: &Link| {
+        let (name, freedom) = (link.name.clone(), link.joint.freedom);
+        let of = freedom.directions().min(3);
+        (0..of).map(move |direction| JointCoordinate {
+            joint: name.clone(),
+            freedom,
+            direction,
+            of,
+        })
+    };
+    Ok(mechanism.links().iter().flat_map(of).collect())
+}
+
+/// Names of the joints that close loops, in the order of [`crate::Record::loops`].
+///
+/// # Errors
+/// Bodies or joints that the dynamics refuse.
+pub fn loop_names(setup: &FlightSetup) -> Result<Vec<String>, DynamicsError> {
+    let system = system_of(setup)?;
+    Ok(system.loops().iter().map(|l| l.name.clone()).collect())
 }

@@ -40,13 +40,17 @@ mod validate;
 
 pub use air::external::{Announcement, ExternalAir, ExternalSession};
 pub use air::{Air, AirScratch, Instant, check_joined, strips};
-pub use bodies::{WingLaw, check_assembly, system, system_of, system_with};
+pub use bodies::{
+    JointCoordinate, WingLaw, check_assembly, joint_coordinates, loop_names, system, system_of,
+    system_with,
+};
 pub use control::{ControlModel, Controller, Feedback, Passage, Sensed};
 pub use error::FlightError;
 pub use free::{FreeFlight, FreeFlightScratch};
 pub use joints::JointSetup;
 pub use record::{
-    HingeRecord, LoadRecord, ParticleSnapshot, Record, Snapshot, SurfaceSnapshot, WakeSnapshot,
+    AccelerationRecord, HingeRecord, LoadRecord, ParticleSnapshot, Record, Snapshot,
+    SurfaceSnapshot, WakeSnapshot,
 };
 pub use recorder::Ledger;
 pub use setup::*;

@@ -24,10 +24,14 @@ pub struct Record {
     pub root_angular_velocity: DVec3,
     /// Mass centre of the whole animal, N components [m].
     pub mass_centre: DVec3,
+    /// Per body: accelerations.
+    pub accelerations: Vec<AccelerationRecord>,
     /// Lagrange multipliers in the seed's order [N, N m].
     pub multipliers: Vec<f64>,
     /// Per hinge (wing): what the body does to the wing.
     pub hinges: Vec<HingeRecord>,
+    /// Per joint that closes a loop: what the parent does to the child.
+    pub loops: Vec<HingeRecord>,
     /// Coordinate and rate along every free direction of every joint, in the order of the joints
     /// [rad or m, per s].
     pub joints: Vec<[f64; 2]>,
@@ -75,6 +79,9 @@ pub struct Record {
     /// surfaces; zero without a lattice. In air at rest far away its rate of decrease is the force
     /// of the air on all bodies, see [`wingbeat_air::AirLoads::impulse`].
     pub vortex_impulse: DVec3,
+    /// Impulse of the air's force on all bodies since the start, N components [N s], by the
+    /// trapezoidal rule over the steps.
+    pub air_impulse: DVec3,
     /// Wake rings.
     pub wake_rings: usize,
     /// Vortex particles of the wakes.
@@ -96,11 +103,53 @@ impl Record {
         -self.air_force().dot(down)
     }
 
+    /// Power that drives each hinge [W]: its actuators and, for wings, what deforms them against
+    /// the air. Wings first, then segments.
+    pub fn hinge_powers(&self) -> impl Iterator<Item = f64> {
+        let deforming = self.deformation_power.iter().copied();
+        let deforming = deforming.chain(std::iter::repeat(0.0));
+        self.hinges.iter().zip(deforming).map(|(h, d)| h.power + d)
+    }
+
     /// Power of all actuators and of all prescribed deformation [W].
     pub fn hinge_power(&self) -> f64 {
-        let hinges: f64 = self.hinges.iter().map(|h| h.power).sum();
-        hinges + self.deformation_power.iter().sum::<f64>()
+        let loops: f64 = self.loops.iter().map(|l| l.power).sum();
+        self.hinge_powers().sum::<f64>() + loops
     }
+
+    /// Work of all actuators and of all prescribed deformation since the start [J], the integral
+    /// of [`Self::hinge_power`].
+    pub fn power_work(&self) -> f64 {
+        self.hinge_work + self.deformation_work
+    }
+}
+
+/// The impulse of a force, counted step by step with the trapezoidal rule: exact to the last digit
+/// over the beats of a periodic force.
+#[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
+pub struct AirImpulse {
+    time: f64,
+    force: DVec3,
+    sum: DVec3,
+}
+
+impl AirImpulse {
+    /// Counts on to `time` [s], where the force is `force` [N]; returns the impulse up to there
+    /// [N s]. The first call sets the start.
+    pub fn count(&mut self, time: f64, force: DVec3) -> DVec3 {
+        self.sum += 0.5 * (time - self.time) * (self.force + force);
+        (self.time, self.force) = (time, force);
+        self.sum
+    }
+}
+
+/// Accelerations of one body.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct AccelerationRecord {
+    /// Acceleration of the body's origin, N components [m/s2].
+    pub linear: DVec3,
+    /// Angular acceleration, body components [rad/s2].
+    pub angular: DVec3,
 }
 
 /// One hinge: what the parent does to the child there.

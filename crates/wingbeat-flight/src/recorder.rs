@@ -7,7 +7,7 @@ use wingbeat_math::{DQuat, DVec3};
 use wingbeat_model::motion::Adjustment;
 
 use crate::equations::{Equations, Quadratures, Scratch};
-use crate::record::{HingeRecord, LoadRecord, Record};
+use crate::record::{AccelerationRecord, AirImpulse, HingeRecord, LoadRecord, Record};
 
 /// Below this |cos theta| Euler angles and their rates are not evaluated but kept: they lose
 /// all their digits there.
@@ -31,6 +31,8 @@ pub struct Ledger {
     pub rates: Vec<f64>,
     /// Regularised events of the air up to the last record.
     pub events: u64,
+    /// Impulse of the air on all bodies up to the last record.
+    pub air_impulse: AirImpulse,
 }
 
 impl Ledger {
@@ -78,6 +80,7 @@ impl Sources<'_> {
         ledger.events = events;
         let hinge_work = work.hinge_work + s.relative[0] - ledger.relative_energy;
         let done = hinge_work + work.air_work + work.deformation_work + work.applied_work;
+        let air_force = s.air.iter().map(|w| w.force).sum();
         let wings = 1..s.deformation.len().min(self.wing_angles.len() + 1);
         Record {
             step,
@@ -89,8 +92,10 @@ impl Sources<'_> {
             root_quaternion: quaternion(&s.motions[0]),
             root_angular_velocity: s.motions[0].w,
             mass_centre: budget.centre,
+            accelerations: solution.bodies.iter().map(acceleration).collect(),
             multipliers: solution.multipliers.clone(),
             hinges: solution.hinges.iter().map(hinge).collect(),
+            loops: solution.loops.iter().map(hinge).collect(),
             joints: self.joint_coordinates(time),
             deformation_power: s.deformation.get(wings).unwrap_or(&[]).to_vec(),
             air: s.air.iter().map(load).collect(),
@@ -115,6 +120,7 @@ impl Sources<'_> {
             corrector_passes: self.report.passes,
             corrector_residual: self.report.residual,
             vortex_impulse: s.air_scratch.loads.impulse,
+            air_impulse: ledger.air_impulse.count(time, air_force),
             wake_rings: self
                 .air
                 .map_or(0, |a| a.sheets.iter().map(WakeSheet::ring_count).sum()),
@@ -156,6 +162,13 @@ fn load(w: &Wrench) -> LoadRecord {
     LoadRecord {
         force: w.force,
         moment: w.moment,
+    }
+}
+
+fn acceleration(a: &wingbeat_dynamics::BodyAcceleration) -> AccelerationRecord {
+    AccelerationRecord {
+        linear: a.linear,
+        angular: a.angular,
     }
 }
 

@@ -22,6 +22,9 @@ use crate::setup::{AirModel, CorrectorSettings, FlightSetup, MotionMode};
 use crate::solver::{Solver, convergence};
 use crate::stages::{Stage, stages};
 
+/// Target of the `log` events that say that a step begins; fields `step`, `steps`.
+pub const STEP_EVENT: &str = "wingbeat::step";
+
 /// Everything that is integrated: plain data, enough to go on bit for bit.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct FlightState {
@@ -192,6 +195,8 @@ impl Simulation {
     /// Bodies and air do not agree; an attitude is singular; numbers are not finite. The flight
     /// cannot go on after an error.
     pub fn step(&mut self) -> Result<&Record, FlightError> {
+        let (step, steps) = (self.state.step, self.setup.time.steps);
+        log::trace!(target: STEP_EVENT, step, steps; "");
         let equations = &self.stages[self.state.stage].equations;
         equations.advance_air(&mut self.state.air, &mut self.scratch)?;
         self.state.step += 1;

@@ -35,6 +35,9 @@ pub struct Header {
     pub history_bytes: u64,
     /// SHA-256 of that part of history.csv.
     pub history_sha256: String,
+    /// Of a thinned history: the next row as far as it is known, the bits of its numbers.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub pending: Vec<u64>,
 }
 
 /// The file.

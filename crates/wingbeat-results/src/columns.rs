@@ -1,242 +1,337 @@
-//! The columns of history.csv: every field of a record, with its unit spelled out in its name.
+//! The registry of the columns of history.csv: the one place that says what each column holds, how
+//! it is named, in which unit and frame, and where it stands in a [`Record`].
+//!
+//! `table` holds the quantities; everything else follows from it: the header, the numbers of a row, the
+//! record read back from a row, units and frames of the exports, and docs/columns.md. Nobody else
+//! knows names of columns, and nobody takes them apart.
 
-use wingbeat_case::column_name;
-use wingbeat_flight::{HingeRecord, LoadRecord, Record};
-use wingbeat_math::DVec3;
+use std::path::Path;
+
+use wingbeat_dynamics::{DynamicsError, Freedom};
+use wingbeat_flight::{FlightSetup, JointCoordinate, Record, joint_coordinates, loop_names};
 use wingbeat_model::Animal;
 
-/// Names and numbers of one row, in step.
-struct Row<'a> {
-    names: Option<&'a mut Vec<String>>,
-    values: &'a mut Vec<f64>,
+use crate::quantity::{Fold, Group, Kind, Of, Quantity, Slot, Unit};
+use crate::table::GROUPS;
+use wingbeat_case::{IoError, column_name};
+
+/// Number of the column of the step.
+pub const STEP: usize = 0;
+/// Number of the column of the time.
+pub const TIME: usize = 1;
+
+/// One column of a history.
+#[derive(Clone, Debug)]
+pub struct Column {
+    /// Name, with the unit at its end.
+    pub name: String,
+    /// Name in results of older versions, where it was another.
+    pub former: Option<String>,
+    /// Unit, as units are written: `m s-1`.
+    pub unit: &'static str,
+    /// Frame, in words.
+    pub frame: &'static str,
+    /// Symbol in NOTATION.md, if it has one.
+    pub symbol: &'static str,
+    /// What it holds, in words.
+    pub about: String,
+    /// How a row stands for the steps since the row before it.
+    pub fold: Fold,
+    /// Whether it holds whole numbers.
+    pub is_count: bool,
+    /// Whether results of older versions lack it.
+    pub is_new: bool,
+    of: Of,
+    quantity: &'static Quantity,
+    subject: usize,
+    component: usize,
 }
 
-impl Row<'_> {
-    fn number(&mut self, name: impl FnOnce() -> String, value: f64) {
-        if let Some(names) = &mut self.names {
-            names.push(name());
-        }
-        self.values.push(value);
+impl Column {
+    /// Where the number of this column stands in a record of its flight.
+    fn slot<'a>(&self, record: &'a mut Record) -> Slot<'a> {
+        (self.quantity.slot)(record, self.subject, self.component)
     }
+}
 
-    fn plain(&mut self, name: &str, value: f64) {
-        self.number(|| name.to_owned(), value);
-    }
+/// A body, joint or other thing that has quantities.
+#[derive(Clone, Debug)]
+struct Subject {
+    /// Name in names of columns.
+    name: String,
+    /// Name in words.
+    words: String,
+    /// What it was called in older results.
+    former: Option<String>,
+    kind: Kind,
+    /// Its number in the record.
+    index: usize,
+}
 
-    /// Three components on axes called `axis`1 to `axis`3.
-    fn vector(&mut self, stem: &str, axis: &str, unit: &str, v: DVec3) {
-        for k in 0..3 {
-            self.number(|| format!("{stem}_{axis}{}_{unit}", k + 1), v[k]);
-        }
-    }
+/// The columns of a flight, in their order.
+#[derive(Clone, Debug)]
+pub struct Columns {
+    list: Vec<Column>,
+    shape: Shape,
+}
 
-    fn load(&mut self, stem: &str, load: &LoadRecord) {
-        self.vector(&format!("{stem}_force"), "n", "newton", load.force);
-        self.vector(&format!("{stem}_moment"), "n", "newton_m", load.moment);
-    }
+/// How many of each there are in a record of the flight.
+#[derive(Clone, Copy, Debug)]
+struct Shape {
+    bodies: usize,
+    wings: usize,
+    joints: usize,
+    loops: usize,
+    deforming: usize,
+    commanded: usize,
 }
 
 /// Names of the bodies in column names: `body`, then `wing_NAME`, then `segment_NAME`.
 pub fn body_names(animal: &Animal) -> Vec<String> {
-    let wing = |w: &wingbeat_model::Wing| format!("wing_{}", column_name(&w.name));
-    let wings = animal.wings.iter().map(wing);
-    let segment = |s: &wingbeat_model::Segment| format!("segment_{}", column_name(&s.name));
-    let segments = animal.segments.iter().map(segment);
-    let body = std::iter::once("body".to_owned());
-    body.chain(wings).chain(segments).collect()
+    bodies(animal).into_iter().map(|s| s.name).collect()
 }
 
-/// Column names for records of this animal, as filled by a first record.
-pub fn names(bodies: &[String], record: &Record) -> Vec<String> {
-    let mut names = vec![];
-    let row = Row {
-        names: Some(&mut names),
-        values: &mut vec![],
-    };
-    fill(bodies, record, row);
-    names
+fn bodies(animal: &Animal) -> Vec<Subject> {
+    let wings = animal.wings.iter().map(|w| (Kind::Wing, "wing", &w.name));
+    let segments = animal.segments.iter();
+    let segments = segments.map(|s| (Kind::Segment, "segment", &s.name));
+    let mut list = vec![Subject::new("body".to_owned(), "the body", Kind::Body, 0)];
+    for (kind, what, name) in wings.chain(segments) {
+        let index = list.len();
+        let column = format!("{what}_{}", column_name(name));
+        list.push(Subject::new(column, &format!("{what} {name}"), kind, index));
+    }
+    list
 }
 
-/// The numbers of a record in the order of [`names`].
-pub fn values(bodies: &[String], record: &Record, values: &mut Vec<f64>) {
-    values.clear();
-    fill(
-        bodies,
-        record,
-        Row {
-            names: None,
-            values,
-        },
-    );
-}
-
-/// Takes the record apart without `..`: a field that is added cannot be forgotten here.
-fn fill(bodies: &[String], record: &Record, mut row: Row<'_>) {
-    let Record {
-        step,
-        time,
-        wing_angles,
-        commands,
-        coordinates,
-        rates,
-        root_quaternion,
-        root_angular_velocity,
-        mass_centre,
-        multipliers,
-        hinges,
-        joints,
-        air,
-        applied,
-        tether,
-        kinetic_energy,
-        potential_energy,
-        hinge_work,
-        air_work,
-        deformation_power,
-        deformation_work,
-        applied_work,
-        energy_residual,
-        momentum,
-        angular_momentum,
-        momentum_residual,
-        angular_momentum_residual,
-        violation_position,
-        violation_orientation,
-        euler_regularity,
-        corrector_passes,
-        corrector_residual,
-        vortex_impulse,
-        wake_rings,
-        wake_particles,
-        regularised,
-        leak_velocity,
-    } = record;
-    row.plain("step_count", *step as f64);
-    row.plain("time_s", *time);
-    prescribed(&mut row, &bodies[1..], wing_angles);
-    motion(&mut row, bodies, [coordinates, rates]);
-    for (name, value) in ["w", "x", "y", "z"].iter().zip(root_quaternion) {
-        row.number(|| format!("body_quaternion_{name}_dimensionless"), *value);
-    }
-    row.vector(
-        "body_angular_velocity",
-        "b",
-        "rad_per_s",
-        *root_angular_velocity,
-    );
-    row.vector("mass_centre", "n", "m", *mass_centre);
-    forces(&mut row, bodies, [multipliers], hinges);
-    for (k, [value, rate]) in joints.iter().enumerate() {
-        row.number(|| format!("joint_coordinate_{}_rad_or_m", k + 1), *value);
-        row.number(|| format!("joint_rate_{}_rad_or_m_per_s", k + 1), *rate);
-    }
-    for (wing, power) in bodies[1..].iter().zip(deformation_power) {
-        row.number(|| format!("deformation_{wing}_power_watt"), *power);
-    }
-    for (what, loads) in [("air", air), ("applied", applied)] {
-        for (body, load) in bodies.iter().zip(loads) {
-            row.load(&format!("{what}_{body}"), load);
+impl Subject {
+    fn new(name: String, words: &str, kind: Kind, index: usize) -> Self {
+        Self {
+            name,
+            words: words.to_owned(),
+            former: None,
+            kind,
+            index,
         }
     }
-    row.load("tether", tether);
-    for (name, value) in [
-        ("kinetic_energy_joule", kinetic_energy),
-        ("potential_energy_joule", potential_energy),
-        ("hinge_work_joule", hinge_work),
-        ("air_work_joule", air_work),
-        ("deformation_work_joule", deformation_work),
-        ("applied_work_joule", applied_work),
-        ("energy_residual_joule", energy_residual),
-    ] {
-        row.plain(name, *value);
-    }
-    let (linear, angular) = ("kg_m_per_s", "kg_m2_per_s");
-    row.vector("momentum", "n", linear, *momentum);
-    row.vector("angular_momentum", "n", angular, *angular_momentum);
-    row.vector("momentum_residual", "n", linear, *momentum_residual);
-    row.vector(
-        "angular_momentum_residual",
-        "n",
-        angular,
-        *angular_momentum_residual,
-    );
-    row.plain("violation_position_m", *violation_position);
-    row.plain(
-        "violation_orientation_dimensionless",
-        *violation_orientation,
-    );
-    row.plain("euler_regularity_dimensionless", *euler_regularity);
-    row.plain("corrector_passes_count", *corrector_passes as f64);
-    row.plain("corrector_residual_dimensionless", *corrector_residual);
-    row.vector("vortex_impulse", "n", linear, *vortex_impulse);
-    row.plain("wake_rings_count", *wake_rings as f64);
-    row.plain("wake_particles_count", *wake_particles as f64);
-    row.plain("regularised_count", *regularised as f64);
-    row.plain("leak_velocity_m_per_s", *leak_velocity);
-    for (wing, command) in bodies[1..].iter().zip(commands) {
-        for (name, value) in command.numbers() {
-            let unit = match name {
-                "stroke_amplitude" | "feathering_amplitude" | "frequency" => "dimensionless",
-                "feathering_lead" => "wingbeats",
-                _ => "rad",
-            };
-            row.number(|| format!("command_{wing}_{name}_{unit}"), value);
-        }
-    }
-}
 
-fn prescribed(row: &mut Row<'_>, wings: &[String], angles: &[DVec3]) {
-    for (wing, angle) in wings.iter().zip(angles) {
-        for (k, name) in ["phi", "theta", "psi"].iter().enumerate() {
-            row.number(|| format!("{wing}_prescribed_{name}_rad"), angle[k]);
-        }
-    }
-}
-
-fn motion(row: &mut Row<'_>, bodies: &[String], [coordinates, rates]: [&[f64]; 2]) {
-    const NAMES: [(&str, &str); 6] = [
-        ("x", "m"),
-        ("y", "m"),
-        ("z", "m"),
-        ("phi", "rad"),
-        ("theta", "rad"),
-        ("psi", "rad"),
-    ];
-    for (body, q) in bodies.iter().zip(coordinates.chunks(6)) {
-        for ((name, unit), value) in NAMES.iter().zip(q) {
-            row.number(|| format!("{body}_{name}_{unit}"), *value);
-        }
-    }
-    for (body, q) in bodies.iter().zip(rates.chunks(6)) {
-        for ((name, unit), value) in NAMES.iter().zip(q) {
-            row.number(|| format!("{body}_{name}_rate_{unit}_per_s"), *value);
-        }
-    }
-}
-
-fn forces(
-    row: &mut Row<'_>,
-    bodies: &[String],
-    [multipliers]: [&[f64]; 1],
-    hinges: &[HingeRecord],
-) {
-    let connections = multipliers.len() / 2;
-    for (k, value) in multipliers.iter().enumerate() {
-        let unit = if k < connections {
-            "newton"
-        } else {
-            "newton_m"
+    /// The coordinate number `index` among all joints' coordinates.
+    fn coordinate(c: &JointCoordinate, index: usize) -> Self {
+        let kind = match c.freedom {
+            Freedom::Prismatic { .. } => Kind::Displacement,
+            _ => Kind::Rotation,
         };
-        row.number(|| format!("multiplier_{}_{unit}", k + 1), *value);
+        let what = match kind {
+            Kind::Displacement => "displacement",
+            _ => "rotation",
+        };
+        let number = match c.of {
+            1 => String::new(),
+            _ => format!("_{}", c.direction + 1),
+        };
+        let name = format!("{}_{what}{number}", column_name(&c.joint));
+        let words = format!("{what}{} of joint {}", number.replace('_', " "), c.joint);
+        Self {
+            former: Some(format!("{}", index + 1)),
+            ..Self::new(name, &words, kind, index)
+        }
     }
-    for (wing, hinge) in bodies[1..].iter().zip(hinges) {
-        let HingeRecord {
-            force,
-            moment,
-            power,
-        } = hinge;
-        row.vector(&format!("hinge_{wing}_force"), "n", "newton", *force);
-        row.vector(&format!("hinge_{wing}_moment"), "w", "newton_m", *moment);
-        row.number(|| format!("hinge_{wing}_power_watt"), *power);
+}
+
+impl Columns {
+    /// The columns of a flight; those of deforming wings only if `deforms`.
+    ///
+    /// # Errors
+    /// Joints that cannot be assembled.
+    pub fn new(setup: &FlightSetup, deforms: bool) -> Result<Self, DynamicsError> {
+        let coordinates = joint_coordinates(setup)?;
+        let loops = loop_names(setup)?;
+        let bodies = bodies(&setup.animal);
+        let wings = setup.animal.wings.len();
+        let shape = Shape {
+            bodies: bodies.len(),
+            wings,
+            joints: coordinates.len(),
+            loops: loops.len(),
+            deforming: if deforms { wings } else { 0 },
+            commanded: setup.feedback.as_ref().map_or(0, |_| wings),
+        };
+        let subjects = Subjects {
+            bodies,
+            coordinates,
+            loops,
+        };
+        let mut list = vec![];
+        for group in GROUPS {
+            for subject in subjects.of(group.of, &shape) {
+                subject.columns(group, &mut list);
+            }
+        }
+        Ok(Self { list, shape })
+    }
+
+    /// The columns of the history in a file with this header.
+    ///
+    /// # Errors
+    /// As [`Self::new`], of the case beside it.
+    pub(crate) fn in_file(
+        path: &Path,
+        setup: &FlightSetup,
+        header: &[String],
+    ) -> Result<Self, IoError> {
+        let columns = |deforms| {
+            Self::new(setup, deforms).map_err(|e| IoError::Damaged {
+                path: path.with_file_name("case.toml"),
+                problem: format!("the joints of this case do not fit together: {e}"),
+            })
+        };
+        let all = columns(true)?;
+        let is_there = |c: &Column| c.of == Of::Deforming && header.contains(&c.name);
+        let deforms = all.iter().any(is_there);
+        if deforms { Ok(all) } else { columns(false) }
+    }
+
+    /// The columns of the history that this record begins.
+    ///
+    /// # Errors
+    /// As [`Self::new`].
+    pub fn of(setup: &FlightSetup, record: &Record) -> Result<Self, DynamicsError> {
+        Self::new(setup, !record.deformation_power.is_empty())
+    }
+
+    /// The columns.
+    pub fn iter(&self) -> impl Iterator<Item = &Column> {
+        self.list.iter()
+    }
+
+    /// The names of all columns.
+    pub fn names(&self) -> Vec<String> {
+        self.iter().map(|c| c.name.clone()).collect()
+    }
+
+    /// The column of this name, be it the present one or that of older results.
+    pub fn find(&self, name: &str) -> Option<&Column> {
+        let is = |c: &&Column| c.name == name || c.former.as_deref() == Some(name);
+        self.list.iter().find(is)
+    }
+
+    /// A record of the right shape, every number zero.
+    pub fn blank(&self) -> Record {
+        let s = self.shape;
+        let children = s.bodies - 1;
+        Record {
+            wing_angles: vec![Default::default(); s.wings],
+            commands: vec![Default::default(); s.commanded],
+            coordinates: vec![0.0; 6 * s.bodies],
+            rates: vec![0.0; 6 * s.bodies],
+            accelerations: vec![Default::default(); s.bodies],
+            multipliers: vec![0.0; 6 * children],
+            hinges: vec![Default::default(); children],
+            loops: vec![Default::default(); s.loops],
+            joints: vec![[0.0; 2]; s.joints],
+            deformation_power: vec![0.0; s.deforming],
+            air: vec![Default::default(); s.bodies],
+            applied: vec![Default::default(); s.bodies],
+            ..Record::default()
+        }
+    }
+
+    /// The numbers of a record in the order of the columns; `scratch` is room for a copy.
+    pub fn values(&self, record: &Record, scratch: &mut Record, values: &mut Vec<f64>) {
+        scratch.clone_from(record);
+        values.clear();
+        values.extend(self.list.iter().map(|c| c.slot(scratch).get()));
+    }
+
+    /// Puts the number of column `k` into a record of [`Self::blank`]'s shape.
+    pub(crate) fn put(&self, k: usize, value: f64, record: &mut Record) {
+        self.list[k].slot(record).set(value);
+    }
+}
+
+/// Everything that has quantities.
+struct Subjects {
+    bodies: Vec<Subject>,
+    coordinates: Vec<JointCoordinate>,
+    loops: Vec<String>,
+}
+
+impl Subjects {
+    fn of(&self, of: Of, shape: &Shape) -> Vec<Subject> {
+        let numbered = |range: std::ops::Range<usize>| {
+            let one =
+                |k| Subject::new(format!("{}", k + 1), &format!("{}", k + 1), Kind::Flight, k);
+            range.map(one).collect()
+        };
+        let half = 3 * (shape.bodies - 1);
+        match of {
+            Of::Flight => vec![Subject::new(String::new(), "", Kind::Flight, 0)],
+            Of::Bodies => self.bodies.clone(),
+            Of::Wings => self.wings(shape.wings),
+            Of::Deforming => self.wings(shape.deforming),
+            Of::Commanded => self.wings(shape.commanded),
+            Of::Children => {
+                let shifted = |s: &Subject| Subject {
+                    index: s.index - 1,
+                    ..s.clone()
+                };
+                self.bodies[1..].iter().map(shifted).collect()
+            }
+            Of::Connections => numbered(0..half),
+            Of::Orientations => numbered(half..2 * half),
+            Of::Coordinates => {
+                let all = self.coordinates.iter().enumerate();
+                all.map(|(k, c)| Subject::coordinate(c, k)).collect()
+            }
+            Of::Loops => {
+                let one = |(k, name): (usize, &String)| {
+                    Subject::new(column_name(name), &format!("joint {name}"), Kind::Segment, k)
+                };
+                self.loops.iter().enumerate().map(one).collect()
+            }
+        }
+    }
+
+    fn wings(&self, count: usize) -> Vec<Subject> {
+        let wing = |s: &Subject| Subject {
+            index: s.index - 1,
+            ..s.clone()
+        };
+        self.bodies[1..=count].iter().map(wing).collect()
+    }
+}
+
+impl Subject {
+    /// Adds the columns of its quantities in a group.
+    fn columns(&self, group: &'static Group, list: &mut Vec<Column>) {
+        for quantity in group.quantities {
+            let letters = quantity.components.names(self.kind);
+            for (component, letter) in letters.iter().enumerate() {
+                list.push(self.column(group.of, quantity, component, letter));
+            }
+        }
+    }
+
+    fn column(&self, of: Of, q: &'static Quantity, component: usize, letter: &str) -> Column {
+        let unit = q.unit.of(self.kind);
+        let name = |pattern: &str, subject: &str, unit: &str| {
+            pattern.replace("{s}", subject).replace("{c}", letter) + "_" + unit
+        };
+        let former = q.former.zip(self.former.as_deref());
+        Column {
+            name: name(q.name, &self.name, unit.suffix()),
+            former: former.map(|((pattern, unit), subject)| name(pattern, subject, unit)),
+            unit: unit.symbol(),
+            frame: q.frame.words(self.kind),
+            symbol: q.symbol,
+            about: q.about.replace("{s}", &self.words).replace("{c}", letter),
+            fold: q.fold,
+            is_count: unit == Unit::Count,
+            is_new: q.is_new,
+            of,
+            quantity: q,
+            subject: self.index,
+            component,
+        }
     }
 }

@@ -7,9 +7,8 @@ use std::path::{Path, PathBuf};
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
 
-use super::manifest::sha256;
 use super::particles::Cloud;
-use super::vtp::{CHECKSUM, frame_name};
+use super::vtp::{check_sum, frame_name, indexed};
 use wingbeat_case::IoError;
 
 /// One `.vtp` file: points, quadrilaterals and numbers per quadrilateral.
@@ -39,7 +38,7 @@ pub struct Frame {
 /// Steps of the frames in a result directory, in order.
 ///
 /// # Errors
-/// The index names a frame that is missing.
+/// The index is damaged, or names a frame that is missing.
 pub fn steps(dir: &Path) -> Result<Vec<usize>, IoError> {
     let folder = dir.join("frames");
     let mut steps: Vec<usize> = std::fs::read_dir(&folder)
@@ -50,9 +49,16 @@ pub fn steps(dir: &Path) -> Result<Vec<usize>, IoError> {
         .filter(|k| folder.join(frame_name("wakes", *k)).is_file())
         .collect();
     steps.sort_unstable();
-    let index = std::fs::read_to_string(dir.join("flight.pvd")).unwrap_or_default();
-    for name in index.split("file=\"frames/").skip(1) {
-        let name = name.split('"').next().unwrap_or("");
+    let path = dir.join("flight.pvd");
+    if !path.exists() {
+        return Ok(steps); // killed at its first frame
+    }
+    let index = std::fs::read_to_string(&path).map_err(IoError::read(&path))?;
+    let names = indexed(&index).map_err(|problem| IoError::Damaged {
+        path,
+        problem: format!("{problem}; fly the case again with `wingbeat run case.toml`"),
+    })?;
+    for name in names {
         if !folder.join(name).is_file() {
             return Err(IoError::Damaged {
                 path: folder.join(name),
@@ -243,7 +249,7 @@ impl Mesh {
 
 /// The arrays of a frame whose checksum is right, by their names.
 pub(super) fn arrays(text: &str) -> Result<Vec<(&str, Words)>, String> {
-    check_sum(text)?;
+    check_sum(text, "frame")?;
     let mut list = vec![];
     for block in text.split("<DataArray ").skip(1) {
         let name = block
@@ -256,19 +262,6 @@ pub(super) fn arrays(text: &str) -> Result<Vec<(&str, Words)>, String> {
         list.push((name, words));
     }
     Ok(list)
-}
-
-/// Whether a frame ends with the hash of what stands before.
-fn check_sum(text: &str) -> Result<(), String> {
-    let end = text.rfind(CHECKSUM);
-    let end = end.ok_or("this frame is cut or no frame of wingbeat")?;
-    let (body, last) = text.split_at(end);
-    let sum = last[CHECKSUM.len()..].strip_suffix(" -->\n");
-    let sum = sum.ok_or("this frame is cut or no frame of wingbeat")?;
-    match sha256(body.as_bytes()) == sum {
-        true => Ok(()),
-        false => Err("this frame is damaged (its checksum is wrong)".to_owned()),
-    }
 }
 
 /// Where a wake sheet stands in its mesh; nodes and rings are in rows, newest first.

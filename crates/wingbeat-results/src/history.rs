@@ -7,68 +7,74 @@ use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 use sha2::{Digest, Sha256};
-use wingbeat_flight::Record;
+use wingbeat_flight::{FlightSetup, Record};
 
-use super::columns;
+use super::checkpoint::Header;
+use super::columns::Columns;
 use super::manifest::hexadecimal;
 use super::rows::Rows;
 use wingbeat_case::IoError;
 
-/// Appends one row per record; every row is on disk before the next step begins.
+/// Appends rows, a record after the other; every row is on disk before the next step begins.
 pub struct HistoryWriter {
     path: PathBuf,
     file: File,
-    bodies: Vec<String>,
+    setup: FlightSetup,
+    /// None before the first record.
+    columns: Option<Columns>,
+    scratch: Record,
     values: Vec<f64>,
+    /// The next row as the steps since the last one make it; empty right after a row.
+    pending: Vec<f64>,
     line: String,
-    started: bool,
     bytes: u64,
     hash: Sha256,
 }
 
 impl HistoryWriter {
-    /// A new history for bodies with these names (see [`columns::body_names`]).
+    /// A new history of the flight of `setup`.
     ///
     /// # Errors
     /// A file that cannot be created.
-    pub fn create(path: &Path, bodies: Vec<String>) -> Result<Self, IoError> {
+    pub fn create(path: &Path, setup: &FlightSetup) -> Result<Self, IoError> {
         let mut options = OpenOptions::new();
         let file = options.write(true).create(true).truncate(false).open(path);
         let file = file.map_err(IoError::write(path))?;
         lock(&file, path)?;
         file.set_len(0).map_err(IoError::write(path))?;
-        Ok(Self {
-            path: path.to_owned(),
-            file,
-            bodies,
-            values: vec![],
-            line: String::new(),
-            started: false,
-            bytes: 0,
-            hash: Sha256::new(),
-        })
+        Ok(Self::on(file, path, setup, Sha256::new()))
     }
 
-    /// Goes on after the first `bytes` bytes of an existing history; [`Self::cut`] drops what
-    /// follows, before anything is appended.
+    fn on(file: File, path: &Path, setup: &FlightSetup, hash: Sha256) -> Self {
+        Self {
+            path: path.to_owned(),
+            file,
+            setup: setup.clone(),
+            columns: None,
+            scratch: Record::default(),
+            values: vec![],
+            pending: vec![],
+            line: String::new(),
+            bytes: 0,
+            hash,
+        }
+    }
+
+    /// Goes on after the part of an existing history that a checkpoint was made beside;
+    /// [`Self::cut`] drops what follows, before anything is appended.
     ///
     /// # Errors
     /// A file that cannot be read and changed, or that another wingbeat is writing.
-    pub fn reopen(path: &Path, bodies: Vec<String>, bytes: u64) -> Result<Self, IoError> {
+    pub fn reopen(path: &Path, setup: &FlightSetup, header: &Header) -> Result<Self, IoError> {
         let mut options = OpenOptions::new();
         let file = options.read(true).append(true).open(path);
         let file = file.map_err(IoError::write(path))?;
         lock(&file, path)?;
-        let hash = hash_start(&file, bytes).map_err(IoError::read(path))?;
+        let hash = hash_start(&file, header.history_bytes).map_err(IoError::read(path))?;
         Ok(Self {
-            path: path.to_owned(),
-            file,
-            bodies,
-            values: vec![],
-            line: String::new(),
-            started: true,
-            bytes,
-            hash,
+            bytes: header.history_bytes,
+            pending: header.pending.iter().map(|b| f64::from_bits(*b)).collect(),
+            ..Self::on(file, path, setup, hash)
         })
     }
 
@@ -90,22 +96,65 @@ impl HistoryWriter {
         Ok((self.bytes, hexadecimal(self.hash.clone())))
     }
 
-    /// Appends a record in one write; numbers carry the digits that tell them from all others.
+    /// The bits of the row that is not written yet; none right after a row.
+    pub fn pending(&self) -> Vec<u64> {
+        self.pending.iter().map(|x| x.to_bits()).collect()
+    }
+
+    /// Takes a record; writes a row if one is due.
+    ///
+    /// # Errors
+    /// A file that cannot be written, e.g. on a full disk; joints that do not fit together.
+    pub fn append(&mut self, record: &Record, is_due: bool) -> Result<(), IoError> {
+        let columns = match self.columns.take() {
+            Some(columns) => columns,
+            None => self.begin(record)?,
+        };
+        columns.values(record, &mut self.scratch, &mut self.values);
+        let folds = columns.iter().map(|c| c.fold);
+        for ((value, so_far), fold) in self.values.iter_mut().zip(&self.pending).zip(folds) {
+            *value = fold.join(*so_far, *value);
+        }
+        self.pending.clone_from(&self.values);
+        self.columns = Some(columns);
+        match is_due {
+            true => self.flush(),
+            false => Ok(()),
+        }
+    }
+
+    /// The columns; a new file begins with their names.
+    fn begin(&mut self, record: &Record) -> Result<Columns, IoError> {
+        let columns = Columns::of(&self.setup, record).map_err(|e| IoError::Damaged {
+            path: self.path.clone(),
+            problem: format!("the joints of the flight do not fit together: {e}"),
+        })?;
+        if self.bytes == 0 {
+            self.line = columns.names().join(",") + "\n";
+            self.write_line()?;
+        }
+        Ok(columns)
+    }
+
+    /// Writes the row that is not written yet, if there is one.
     ///
     /// # Errors
     /// A file that cannot be written, e.g. on a full disk.
-    pub fn append(&mut self, record: &Record) -> Result<(), IoError> {
+    pub fn flush(&mut self) -> Result<(), IoError> {
+        let Some(columns) = self.columns.as_ref().filter(|_| !self.pending.is_empty()) else {
+            return Ok(());
+        };
         self.line.clear();
-        if !self.started {
-            self.line = columns::names(&self.bodies, record).join(",") + "\n";
-            self.started = true;
-        }
-        columns::values(&self.bodies, record, &mut self.values);
-        for (k, value) in self.values.iter().enumerate() {
-            let comma = if k == 0 { "" } else { "," };
-            write_number(&mut self.line, comma, *value);
+        for (k, (value, column)) in self.pending.iter().zip(columns.iter()).enumerate() {
+            self.line.push_str(if k == 0 { "" } else { "," });
+            write_number(&mut self.line, *value, column.is_count);
         }
         self.line.push('\n');
+        self.pending.clear();
+        self.write_line()
+    }
+
+    fn write_line(&mut self) -> Result<(), IoError> {
         if let Err(e) = self.file.write_all(self.line.as_bytes()) {
             let _ = self.file.set_len(self.bytes); // a cut row is left out by readers, too
             return Err(IoError::write(&self.path)(e));
@@ -153,16 +202,13 @@ pub(crate) fn hash_start(file: &File, bytes: u64) -> std::io::Result<Sha256> {
     Ok(hash)
 }
 
-/// Whole numbers plainly, others with the fewest digits that read back bit for bit.
-fn write_number(line: &mut String, comma: &str, value: f64) {
-    line.push_str(comma);
+/// Counts as whole numbers; others as floating-point numbers, which a reader of the first rows must
+/// not take for counts, with the fewest digits that read back bit for bit.
+fn write_number(line: &mut String, value: f64, is_count: bool) {
     let mut buffer = zmij::Buffer::new();
     let text = buffer.format(value);
-    let whole = text.strip_suffix(".0").filter(|_| value.abs() < 1e15);
-    line.push_str(match whole {
-        Some("-0") | None => text,
-        Some(whole) => whole,
-    });
+    let whole = text.strip_suffix(".0").filter(|_| is_count);
+    line.push_str(whole.unwrap_or(text));
 }
 
 /// A history read back: columns of numbers by name.

@@ -30,14 +30,18 @@ pub mod history;
 pub mod manifest;
 pub mod particles;
 pub mod poses;
+mod quantity;
+pub mod records;
 pub mod rows;
 pub mod saver;
 pub mod summary;
+mod table;
 pub mod vtp;
 pub mod writer;
 
 pub use directory::ResultDir;
 pub use history::History;
 pub use manifest::{Manifest, Outcome};
+pub use records::Records;
 pub use summary::Summary;
 pub use writer::RunWriter;

@@ -20,6 +20,14 @@ pub enum Outcome {
     Failed(String),
 }
 
+impl Outcome {
+    /// Whether the run ended in order, so that its history holds what the manifest says and no
+    /// more. A run that was killed, or could not be written, may have appended rows since.
+    pub fn is_sealed(&self) -> bool {
+        !matches!(self, Self::Running | Self::Unwritten(_))
+    }
+}
+
 /// What a result directory says about itself.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Manifest {

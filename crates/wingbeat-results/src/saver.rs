@@ -9,7 +9,7 @@ use wingbeat_flight::FlightState;
 use super::checkpoint::{self, FILE, Header};
 use super::directory::write_safely;
 use super::history::hash_start;
-use super::manifest::{Manifest, hexadecimal, sha256};
+use super::manifest::{Manifest, Outcome, hexadecimal, sha256};
 use wingbeat_case::{IoError, SaveSettings};
 
 /// The first checkpoint by time comes sooner; a run that was killed before it is flown from its start.
@@ -71,6 +71,9 @@ pub fn read(dir: &Path) -> Result<Saved, IoError> {
         });
     }
     let case_sha256 = sha256(&fs::read(&case).map_err(IoError::read(&case))?);
+    if manifest.outcome == Outcome::Finished {
+        check_history(dir, &manifest)?; // nothing will be cut off and written anew
+    }
     let path = dir.join(FILE);
     if !path.exists() {
         if case_sha256 != manifest.case_sha256 {
@@ -87,7 +90,7 @@ pub fn read(dir: &Path) -> Result<Saved, IoError> {
     }
     let bytes = fs::read(&path).map_err(IoError::read(&path))?;
     let (header, state) = checkpoint::decode(&path, &bytes, &case_sha256)?;
-    check_history(&dir.join("history.csv"), &header)?;
+    check_start(&dir.join("history.csv"), &header)?;
     Ok(Saved {
         manifest,
         checkpoint: Some((header, state)),
@@ -113,7 +116,7 @@ pub fn read_manifest(dir: &Path) -> Result<Manifest, IoError> {
     })
 }
 
-fn check_history(path: &Path, header: &Header) -> Result<(), IoError> {
+fn check_start(path: &Path, header: &Header) -> Result<(), IoError> {
     let wanted = (header.history_bytes, &header.history_sha256[..]);
     if starts_with(path, wanted)? {
         return Ok(());
@@ -148,15 +151,39 @@ pub(crate) fn check(dir: &Path) -> Result<(), IoError> {
             problem: "this is not the case that was flown here: it was changed or damaged; put the original back (`wingbeat run` flies a changed case into a directory of its own)".to_owned(),
         });
     }
+    check_history(dir, &manifest)
+}
+
+/// Whether the history is the one that was written: all of it where the run has ended, else as far
+/// as the manifest knows it.
+///
+/// # Errors
+/// A history that is missing, was changed, or holds more than the run wrote.
+pub(crate) fn check_history(dir: &Path, manifest: &Manifest) -> Result<(), IoError> {
     let path = dir.join("history.csv");
+    let damaged = |path, problem: &str| {
+        let problem = problem.to_owned();
+        Err(IoError::Damaged { path, problem })
+    };
     let wanted = (manifest.history_bytes, &manifest.history_sha256[..]);
-    match starts_with(&path, wanted)? {
-        true => Ok(()),
-        false => Err(IoError::Damaged {
+    if !starts_with(&path, wanted)? {
+        return damaged(
             path,
-            problem: "this is not the history that was written here: it was cut or changed; fly the case again with `wingbeat run case.toml`".to_owned(),
-        }),
+            "this is not the history that was written here: it was cut or changed; fly the case again with `wingbeat run case.toml`",
+        );
     }
+    let length = fs::metadata(&path).map_err(IoError::read(&path))?.len();
+    if manifest.outcome.is_sealed() && length > manifest.history_bytes {
+        return damaged(
+            path,
+            &format!(
+                "this history holds {} bytes more than the run wrote: something was appended to it; cut it back to {} bytes, or fly the case again with `wingbeat run case.toml`",
+                length - manifest.history_bytes,
+                manifest.history_bytes
+            ),
+        );
+    }
+    Ok(())
 }
 
 /// Takes the frames back to step `last`: removes later and half-written ones. Returns the steps

@@ -1,5 +1,6 @@
 //! What happened, in words and numbers, and how far it can be trusted.
 
+pub mod beats;
 mod statistics;
 mod trust;
 mod words;
@@ -8,31 +9,12 @@ use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 use wingbeat_flight::FlightSetup;
-use wingbeat_math::DVec3;
 
-use super::{History, Outcome};
-use statistics::Statistics;
+use super::Outcome;
+pub use beats::{BeatMeans, down, over_weight, steps_per_beat};
+use statistics::{Extent, Statistics};
 use wingbeat_case::IoError;
 use wingbeat_case::LoadedCase;
-
-/// Means over one wingbeat.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct BeatMeans {
-    /// Number of the beat, from 1.
-    pub beat: usize,
-    /// Mean air force against gravity \[N\].
-    pub lift_newton: f64,
-    /// The same over the weight; none without gravity.
-    pub lift_over_weight: Option<f64>,
-    /// Mean air force along n1 (forward) \[N\].
-    pub thrust_newton: f64,
-    /// Mean power that hinge actuators and prescribed deformation give \[W\].
-    pub power_watt: f64,
-    /// Mean air force against gravity by another way, the rate of the vortex impulse \[N\]; zero
-    /// without a lattice.
-    #[serde(default)]
-    pub lift_by_impulse_newton: f64,
-}
 
 /// Numbers of a run.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -84,30 +66,6 @@ pub struct Summary {
     pub warnings: Vec<String>,
 }
 
-/// Unit vector along gravity; n3 without gravity.
-pub fn down(setup: &FlightSetup) -> DVec3 {
-    setup.gravity.try_normalize().unwrap_or(DVec3::Z)
-}
-
-/// Total air force along a direction, row by row \[N\].
-pub fn air_force(history: &History, direction: DVec3) -> Vec<f64> {
-    let mut total = vec![0.0; history.rows()];
-    for k in 0..3 {
-        let suffix = format!("_force_n{}_newton", k + 1);
-        let part = history.sum(|n| n.starts_with("air_") && n.ends_with(&suffix));
-        for (t, x) in total.iter_mut().zip(part) {
-            *t += direction[k] * x;
-        }
-    }
-    total
-}
-
-/// Total power of hinge actuators and prescribed deformation, row by row \[W\].
-pub fn hinge_power(history: &History) -> Vec<f64> {
-    let gives = |n: &str| n.starts_with("hinge_") || n.starts_with("deformation_");
-    history.sum(|n| gives(n) && n.ends_with("_power_watt"))
-}
-
 impl Summary {
     /// From the history of a run, read row by row.
     ///
@@ -116,30 +74,27 @@ impl Summary {
     pub fn read(case: &LoadedCase, history: &Path, outcome: &Outcome) -> Result<Self, IoError> {
         let setup = &case.setup;
         let s = Statistics::read(history, setup)?;
-        let passes = s.of("corrector_passes_count");
-        let [lift, thrust] = s.last_force;
         let mut summary = Self {
             case: case.name.clone(),
             outcome: outcome.clone(),
-            steps: s.rows.saturating_sub(1),
-            time_s: s.of("time_s").last,
+            steps: s.last.step,
+            time_s: s.last.time,
             mass_kg: setup.animal.mass(),
-            final_lift_newton: lift,
-            final_thrust_newton: thrust,
-            displacement_m: ["x", "y", "z"].map(|k| s.of(&format!("body_{k}_m")).change()),
-            turn_deg: ["phi", "theta", "psi"]
-                .map(|k| s.of(&format!("body_{k}_rad")).change().to_degrees()),
+            final_lift_newton: s.last.lift(down(setup)),
+            final_thrust_newton: s.last.air_force().x,
+            displacement_m: [0, 1, 2].map(|k| s.change(k)),
+            turn_deg: [3, 4, 5].map(|k| s.change(k).to_degrees()),
             energy_residual_relative: energy_residual(&s),
             momentum_residual_relative: momentum_residual(setup, &s),
-            violation_position_m: s.of("violation_position_m").most,
-            violation_orientation: s.of("violation_orientation_dimensionless").most,
-            euler_regularity: s.of("euler_regularity_dimensionless").least.min(1.0),
-            corrector_passes_most: passes.most as usize,
-            corrector_passes_mean: passes.sum / s.rows.max(1) as f64,
-            regularised: s.of("regularised_count").sum as usize,
-            wake_rings: s.of("wake_rings_count").last as usize,
-            wake_particles: s.of("wake_particles_count").last as usize,
-            leak_velocity_m_s: s.of("leak_velocity_m_per_s").most,
+            violation_position_m: s.violation_position.most,
+            violation_orientation: s.violation_orientation.most,
+            euler_regularity: s.euler_regularity.least.min(1.0),
+            corrector_passes_most: s.corrector_passes.most as usize,
+            corrector_passes_mean: s.passes_sum as f64 / s.rows.max(1) as f64,
+            regularised: s.regularised,
+            wake_rings: s.last.wake_rings,
+            wake_particles: s.last.wake_particles,
+            leak_velocity_m_s: s.leak_velocity.most,
             warnings: vec![],
             beats: s.beats,
         };
@@ -213,25 +168,42 @@ impl Summary {
 
 /// Largest residual over the largest of the energies and works.
 fn energy_residual(s: &Statistics) -> f64 {
-    let names = [
-        "kinetic_energy_joule",
-        "hinge_work_joule",
-        "air_work_joule",
-        "deformation_work_joule",
-        "potential_energy_joule",
+    let energies = [
+        s.kinetic_energy,
+        s.hinge_work,
+        s.air_work,
+        s.deformation_work,
+        s.potential_energy,
     ];
-    let range = |name: &str| (s.of(name).highest - s.of(name).least).max(0.0);
-    let scale = names.map(range).into_iter().fold(0.0, f64::max);
-    ratio(s.of("energy_residual_joule").most, scale)
+    let scale = energies.iter().map(Extent::range).fold(0.0, f64::max);
+    ratio(s.energy_residual.most, scale)
 }
 
 /// Largest residual over the impulse of weight and the largest momentum.
 fn momentum_residual(setup: &FlightSetup, s: &Statistics) -> f64 {
-    let impulse = setup.animal.mass() * setup.gravity.length() * s.of("time_s").last;
-    let [momentum, residual] = s.largest_momentum;
-    ratio(residual, impulse.max(momentum))
+    let impulse = setup.animal.mass() * setup.gravity.length() * s.last.time;
+    ratio(s.momentum_residual.most, impulse.max(s.momentum.most))
 }
 
 fn ratio(x: f64, scale: f64) -> f64 {
     if scale > 0.0 { x / scale } else { x }
+}
+
+/// Total air force along a direction, row by row \[N\].
+pub fn air_force(history: &super::History, direction: wingbeat_math::DVec3) -> Vec<f64> {
+    let mut total = vec![0.0; history.rows()];
+    for k in 0..3 {
+        let suffix = format!("_force_n{}_newton", k + 1);
+        let part = history.sum(|n| n.starts_with("air_") && n.ends_with(&suffix));
+        for (t, x) in total.iter_mut().zip(part) {
+            *t += direction[k] * x;
+        }
+    }
+    total
+}
+
+/// Total power of hinge actuators and prescribed deformation, row by row \[W\].
+pub fn hinge_power(history: &super::History) -> Vec<f64> {
+    let gives = |n: &str| n.starts_with("hinge_") || n.starts_with("deformation_");
+    history.sum(|n| gives(n) && n.ends_with("_power_watt"))
 }

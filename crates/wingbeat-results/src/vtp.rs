@@ -16,7 +16,7 @@ use super::manifest::sha256;
 use super::poses::picture;
 
 /// Begins the last line of a frame, which holds the hash of everything before it.
-pub(super) const CHECKSUM: &str = "<!-- SHA-256 of the lines above: ";
+const CHECKSUM: &str = "<!-- SHA-256 of the lines above: ";
 
 /// Points, quadrilaterals and numbers per quadrilateral.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -137,6 +137,11 @@ pub(super) fn begin(points: usize, [verts, polys]: [usize; 2]) -> String {
 /// The file that begins so, with its checksum.
 pub(super) fn end(mut out: String) -> String {
     out.push_str("</Piece>\n</PolyData>\n</VTKFile>\n");
+    summed(out)
+}
+
+/// The text with its checksum as the last line.
+fn summed(mut out: String) -> String {
     let sum = sha256(out.as_bytes());
     let _ = writeln!(out, "{CHECKSUM}{sum} -->");
     out
@@ -178,8 +183,40 @@ pub fn pvd(frames: &[(f64, usize)], parts: &[&str]) -> String {
             );
         }
     }
-    out.push_str("</Collection>\n</VTKFile>\n");
-    out
+    out.push_str(INDEX_END);
+    summed(out)
+}
+
+/// Last lines of an index before its checksum.
+const INDEX_END: &str = "</Collection>\n</VTKFile>\n";
+
+/// File names of the frames in an index.
+///
+/// # Errors
+/// What is wrong with the index: it is cut, or its checksum is wrong. An index without a checksum,
+/// as older versions wrote it, must be whole.
+pub fn indexed(text: &str) -> Result<Vec<&str>, String> {
+    match text.contains(CHECKSUM) {
+        true => check_sum(text, "index")?,
+        false if text.ends_with(INDEX_END) => {}
+        false => return Err("this index is cut or no index of wingbeat".to_owned()),
+    }
+    let names = text.split("file=\"frames/").skip(1);
+    Ok(names.filter_map(|rest| rest.split('"').next()).collect())
+}
+
+/// Whether a text ends with the hash of what stands before; `what` it is, for the error.
+///
+/// # Errors
+/// It is cut, or the hash is another.
+pub(super) fn check_sum(text: &str, what: &str) -> Result<(), String> {
+    let cut = || format!("this {what} is cut or no {what} of wingbeat");
+    let (body, last) = text.split_at(text.rfind(CHECKSUM).ok_or_else(cut)?);
+    let sum = last[CHECKSUM.len()..].strip_suffix(" -->\n");
+    match sha256(body.as_bytes()) == sum.ok_or_else(cut)? {
+        true => Ok(()),
+        false => Err(format!("this {what} is damaged (its checksum is wrong)")),
+    }
 }
 
 /// File name of a frame.

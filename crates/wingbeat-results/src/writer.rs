@@ -5,11 +5,11 @@ use std::time::{Duration, Instant};
 use wingbeat_flight::{AirModel, FlightState, Record, Snapshot};
 
 use super::checkpoint::Header;
-use super::columns::body_names;
 use super::framer::Framer;
 use super::history::HistoryWriter;
 use super::manifest::{Manifest, Outcome, sha256};
 use super::saver::{self, Schedule};
+use super::summary::steps_per_beat;
 use super::vtp::pvd;
 use super::{ResultDir, Summary};
 use wingbeat_case::IoError;
@@ -63,8 +63,7 @@ impl RunWriter {
         };
         dir.write("manifest.json", manifest.to_json().as_bytes())?;
         dir.write("case.toml", resolved.as_bytes())?;
-        let bodies = body_names(&case.setup.animal);
-        let history = HistoryWriter::create(&dir.join("history.csv"), bodies)?;
+        let history = HistoryWriter::create(&dir.join("history.csv"), &case.setup)?;
         if case.output.frames_every > 0 {
             dir.folder("frames")?;
         }
@@ -94,9 +93,8 @@ impl RunWriter {
         manifest: Manifest,
         threads: usize,
     ) -> Result<Self, IoError> {
-        let bodies = body_names(&case.setup.animal);
         let path = dir.join("history.csv");
-        let mut history = HistoryWriter::reopen(&path, bodies, header.history_bytes)?;
+        let mut history = HistoryWriter::reopen(&path, &case.setup, header)?;
         let manifest = Manifest {
             history_bytes: header.history_bytes,
             history_sha256: header.history_sha256.clone(),
@@ -153,6 +151,7 @@ impl RunWriter {
             step: state.step,
             history_bytes,
             history_sha256,
+            pending: self.history.pending(),
         };
         saver::write(self.dir.path(), &header, state)?;
         self.schedule.done();
@@ -193,12 +192,17 @@ impl RunWriter {
         snapshot: impl FnOnce() -> Snapshot,
     ) -> Result<(), IoError> {
         let begun = Instant::now();
-        self.history.append(record)?;
+        let output = &self.case.output;
+        let (every, time) = (output.frames_every, &self.case.setup.time);
+        let last = record.step == time.steps;
+        let framed = every > 0 && (record.step.is_multiple_of(every) || last);
+        let due = record.step.is_multiple_of(output.history_every);
+        let beat_ends = steps_per_beat(time).is_some_and(|n| record.step.is_multiple_of(n));
+        self.history
+            .append(record, due || beat_ends || framed || last)?;
         self.manifest.steps = record.step;
         self.manifest.wake_rings = record.wake_rings;
-        let every = self.case.output.frames_every;
-        let last = record.step == self.case.setup.time.steps;
-        if every > 0 && (record.step.is_multiple_of(every) || last) {
+        if framed {
             self.frame(snapshot())?;
         }
         self.writing += begun.elapsed();
@@ -264,6 +268,7 @@ impl RunWriter {
     ) -> Result<Summary, IoError> {
         let begun = Instant::now();
         self.index()?;
+        self.history.flush()?; // of a thinned history, the step where the flight stopped
         self.seal()?;
         let path = self.dir.join("history.csv");
         let summary = Summary::read(&self.case, &path, &outcome)?;

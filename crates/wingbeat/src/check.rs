@@ -1,27 +1,45 @@
-//! `wingbeat check`: a case is built but not flown.
+//! `wingbeat check`: what a case holds, what its flight will be like, and whether it can be flown.
 
+use wingbeat::analysis::estimate;
 use wingbeat::case::{IoError, LoadedCase};
 use wingbeat::flight::{FlightSetup, MotionMode, Simulation};
 
-/// Builds the flight up to step 0 and describes it.
-pub(crate) fn check(name: &str, set: &[String]) -> Result<(), IoError> {
+use crate::expectation;
+use crate::watch::Watch;
+
+/// Describes the case, builds its flight and makes some steps on trial. Lattices that would take
+/// long to build are built only if `trial` says so.
+pub(crate) fn check(name: &str, set: &[String], trial: bool) -> Result<(), IoError> {
     let case = LoadedCase::find(name, set)?;
-    let flight = Simulation::new(case.setup.clone());
-    let flight =
-        flight.map_err(|e| case.fault("", e.to_string(), "correct the case and check it again"))?;
+    let fault = |e: String| case.fault("", e, "correct the case and check it again");
+    let estimate = estimate(&case.setup).map_err(|e| fault(e.to_string()))?;
+    let unknowns = expectation::unknowns(&case.setup);
+    let cost = match trial || unknowns <= expectation::MOST_UNKNOWNS {
+        true => {
+            let _watch = Watch::new(&format!(
+                "first steps on trial, {unknowns} unknown circulations"
+            ));
+            let flight = Simulation::new(case.setup.clone());
+            let cost = flight.and_then(|mut flight| expectation::cost(&mut flight));
+            cost.map_err(|e| fault(e.to_string()))?
+        }
+        false => format!(
+            "not tried: {unknowns} unknown circulations take long and {:.1} GB to solve for; `wingbeat check --trial` does",
+            8e-9 * (unknowns as f64).powi(2)
+        ),
+    };
     println!("{}: this case can be flown.\n", case.origin());
     describe(&case.setup);
-    println!("{:<10}{} panels", "lattice", panels(&flight));
-    Ok(())
-}
-
-fn panels(flight: &Simulation) -> usize {
-    flight
-        .snapshot()
-        .surfaces
+    let panels = expectation::panels(&case.setup);
+    println!("{:<10}{panels} panels", "lattice");
+    expectation::lines(&estimate)
         .iter()
-        .map(|s| s.quads.len())
-        .sum()
+        .for_each(|line| println!("{line}"));
+    println!("{:<10}{cost}", "cost");
+    for doubt in &estimate.doubts {
+        eprintln!("warning: {doubt}");
+    }
+    Ok(())
 }
 
 fn describe(setup: &FlightSetup) {

@@ -2,14 +2,18 @@
 
 mod analyse;
 mod check;
+mod expectation;
 mod export;
+mod pace;
 mod plot;
 mod progress;
+mod remaining;
 mod run;
 mod show;
 mod velocity;
 mod verify;
 mod view;
+mod watch;
 
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -52,6 +56,9 @@ enum Command {
         /// Set a key of the case, e.g. time.beats=3 (may be repeated).
         #[arg(long = "set", value_name = "KEY=VALUE")]
         set: Vec<String>,
+        /// Build and try lattices, too, that take long to build.
+        #[arg(long)]
+        trial: bool,
     },
     /// Find the wing motion and attitude that hold a steady flight: a periodic orbit of the full
     /// model.
@@ -142,7 +149,7 @@ fn main() -> ExitCode {
         Command::Export(args) => export::export(&args),
         Command::Show(args) => show::show(&args),
         Command::Compare(args) => show::compare(&args),
-        Command::Check { case, set } => check::check(&case, &set),
+        Command::Check { case, set, trial } => check::check(&case, &set, trial),
         Command::Trim(args) => return analyse::trim::run(&args),
         Command::Stability(args) => return analyse::stability::run(&args),
         Command::Derivatives(args) => return analyse::derivatives::run(&args),

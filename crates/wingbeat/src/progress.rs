@@ -1,15 +1,18 @@
-//! Progress on the terminal: a bar with live figures, or a line of JSON now and then for scripts.
+//! Progress of a flight on the terminal: a bar with live figures, or a line of JSON now and then
+//! for scripts.
 
 use std::time::{Duration, Instant};
 
-use indicatif::{ProgressBar, ProgressStyle};
-use wingbeat::flight::{FlightSetup, Record};
+use indicatif::{HumanDuration, ProgressBar, ProgressDrawTarget, ProgressStyle};
+use wingbeat::flight::{FlightSetup, Record, Simulation};
 
 use crate::Manner;
+use crate::pace::Pace;
 
 /// Time between two lines of JSON.
 const PAUSE: Duration = Duration::from_millis(500);
-
+/// Time between two pictures of the bar.
+const FLICKER: Duration = Duration::from_millis(50);
 /// Shows the newest step.
 pub(crate) struct Progress {
     bar: ProgressBar,
@@ -21,23 +24,19 @@ pub(crate) struct Progress {
     period: Option<f64>,
     weight: f64,
     down: wingbeat::math::DVec3,
+    pace: Pace,
 }
 
 impl Progress {
     /// For a flight that goes on from step `from`; the bar is hidden when told so or not on a
     /// terminal.
     pub(crate) fn new(setup: &FlightSetup, manner: &Manner, from: usize) -> Self {
-        let bar = if manner.silent() {
-            ProgressBar::hidden()
-        } else {
-            ProgressBar::new(setup.time.steps as u64)
+        let target = match manner.silent() {
+            true => ProgressDrawTarget::hidden(),
+            false => ProgressDrawTarget::stderr(),
         };
-        let style = ProgressStyle::with_template(
-            "{bar:24} step {pos}/{len}, {per_sec}, {eta_precise} left, {msg}",
-        );
-        bar.set_style(style.expect("the template is well formed"));
+        let bar = bar(target, setup.time.steps as u64);
         bar.set_position(from as u64);
-        bar.reset_eta();
         Self {
             bar,
             json: manner.json,
@@ -48,19 +47,32 @@ impl Progress {
             period: setup.time.period,
             weight: setup.animal.mass() * setup.gravity.length(),
             down: wingbeat::results::summary::down(setup),
+            pace: Pace::new(setup),
         }
     }
 
-    /// The newest step.
-    pub(crate) fn show(&mut self, record: &Record) {
+    /// The newest step of the flight.
+    pub(crate) fn show(&mut self, flight: &Simulation) {
+        let record = flight.record();
+        if self.bar.is_hidden() && !self.json {
+            return;
+        }
+        self.pace.note(flight);
+        let pause = if self.json { PAUSE } else { FLICKER };
         let last = record.step == self.steps;
-        if self.json && (last || self.said.is_none_or(|t| t.elapsed() >= PAUSE)) {
+        if last || self.said.is_none_or(|t| t.elapsed() >= pause) {
             self.said = Some(Instant::now());
+            self.say(record);
+        }
+    }
+
+    fn say(&self, record: &Record) {
+        if self.json {
             println!("{}", self.line(record));
         }
-        self.bar.set_position(record.step as u64);
         if !self.bar.is_hidden() {
             self.bar.set_message(self.message(record));
+            self.bar.set_position(record.step as u64);
         }
     }
 
@@ -70,6 +82,7 @@ impl Progress {
         -force.dot(self.down)
     }
 
+    /// The most wanted first: narrow terminals show only the beginning.
     fn message(&self, record: &Record) -> String {
         let lift = self.lift(record);
         let lift = if self.weight > 0.0 {
@@ -80,9 +93,15 @@ impl Progress {
         let beat = self
             .period
             .map_or(String::new(), |p| format!("beat {:.1}, ", record.time / p));
+        let left =
+            Duration::from_secs_f64(self.pace.seconds_left(record.step).clamp(0.0, 1e9).ceil());
         format!(
-            "{beat}{lift}, {} wake rings, {} passes",
-            record.wake_rings, record.corrector_passes
+            "step {}/{}, {} left, {beat}{lift}, {} wake rings, {} passes",
+            record.step,
+            self.steps,
+            HumanDuration(left),
+            record.wake_rings,
+            record.corrector_passes
         )
     }
 
@@ -96,7 +115,7 @@ impl Progress {
             "time_s": record.time,
             "wingbeat": self.period.map(|p| record.time / p),
             "steps_per_second": rate,
-            "seconds_left": (self.steps - record.step) as f64 / rate.max(1e-9),
+            "seconds_left": self.pace.seconds_left(record.step),
             "wake_rings": record.wake_rings,
             "lift_newton": lift,
             "lift_over_weight": (self.weight > 0.0).then(|| lift / self.weight),
@@ -108,5 +127,35 @@ impl Progress {
     /// Takes the bar away.
     pub(crate) fn clear(&self) {
         self.bar.finish_and_clear();
+    }
+}
+
+/// A bar with words beside it that never takes more than one line.
+pub(crate) fn bar(target: ProgressDrawTarget, length: u64) -> ProgressBar {
+    let style =
+        ProgressStyle::with_template("{bar:16} {wide_msg}").expect("the template is well formed");
+    let bar = ProgressBar::with_draw_target(Some(length), target);
+    bar.set_style(style);
+    bar
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use indicatif::InMemoryTerm;
+
+    #[test]
+    fn behaves_the_bar_takes_one_line_however_narrow_the_terminal() {
+        for columns in [40, 80, 200] {
+            let terminal = InMemoryTerm::new(10, columns);
+            let target = ProgressDrawTarget::term_like(Box::new(terminal.clone()));
+            let bar = bar(target, 200);
+            bar.set_position(120);
+            bar.set_message("step 120/200, 12 seconds left, beat 3.0, lift/weight +0.98, 123456 wake rings, 5 passes");
+            bar.tick();
+            let shown = terminal.contents();
+            assert_eq!(shown.lines().count(), 1, "{columns}: {shown}");
+            assert!(shown.contains("step 120/200"), "{shown}");
+        }
     }
 }

@@ -236,6 +236,6 @@ fn steps(run: &mut Run, progress: &mut Progress, stop: &AtomicBool) -> Result<Ou
         writer
             .write(flight.record(), || flight.snapshot())
             .map_err(Trouble::Writing)?;
-        progress.show(flight.record());
+        progress.show(flight);
     }
 }

@@ -8,7 +8,6 @@ use wingbeat_flight::{
 };
 use wingbeat_math::DVec3;
 use wingbeat_model::Animal;
-use wingbeat_results::columns::body_names;
 use wingbeat_results::history::HistoryWriter;
 
 /// A flight to be flown. What has no method of its own is set in [`Flight::setup`].
@@ -169,8 +168,7 @@ impl Run {
     pub fn write(&self, dir: impl AsRef<Path>) -> Result<(), Error> {
         let dir = dir.as_ref();
         std::fs::create_dir(dir).map_err(IoError::write(dir))?;
-        let bodies = body_names(&self.setup.animal);
-        let mut history = HistoryWriter::create(&dir.join("history.csv"), bodies)?;
+        let mut history = HistoryWriter::create(&dir.join("history.csv"), &self.setup)?;
         for record in &self.records {
             history.append(record)?;
         }

@@ -8,6 +8,8 @@ use std::time::Instant;
 use clap::Args;
 use wingbeat::verify::{Case, Dossier, Entry};
 
+use crate::watch::Watch;
+
 /// What `wingbeat verify` is told.
 #[derive(Args)]
 pub(crate) struct VerifyArgs {
@@ -50,10 +52,12 @@ pub(crate) fn run(args: &VerifyArgs) -> ExitCode {
     let is_left = |c: &Case| !args.only.is_empty() || known.iter().all(|e| e.case != c.name);
     let left: Vec<Case> = cases.into_iter().filter(is_left).collect();
     let so_far = Mutex::new(known);
+    let watch = Watch::of("verifying", left.len() as u64);
     wingbeat::verify::run(&left, args.quick, |e| {
-        tell(e, start);
+        watch.part(|| tell(e, start));
         keep(&so_far, e, args);
     });
+    drop(watch);
     let dossier = Dossier {
         quick: args.quick,
         entries: so_far.into_inner().expect("no case panicked while writing"),

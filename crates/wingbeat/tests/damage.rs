@@ -86,6 +86,12 @@ fn refused(dir: &Path, args: &[&str], file: &str) {
     assert!(part.is_none(), "{args:?} left {part:?}");
 }
 
+/// The last line of a text.
+fn last_row(text: &[u8]) -> Vec<u8> {
+    let lines = text.split_inclusive(|b| *b == b'\n');
+    lines.last().unwrap_or_default().to_vec()
+}
+
 fn files(dir: &Path) -> Vec<PathBuf> {
     let entries = fs::read_dir(dir).into_iter().flatten();
     let mut list: Vec<PathBuf> = entries
@@ -146,6 +152,22 @@ fn refuses_damaged_results_in_every_command() {
     with_damage(dir, "history.csv", b"a,b\n1,2\n", false, "history.csv");
     let letter = flipped("history.csv", history - 40, b'x');
     with_damage(dir, "history.csv", &letter, false, "history.csv");
+    // A row that the finished flight did not write; half of one, too.
+    for extra in [last_row(&read("history.csv")), b"41,".to_vec()] {
+        let longer = [read("history.csv"), extra].concat();
+        with_damage(dir, "history.csv", &longer, false, "history.csv");
+        let path = dir.join("run/history.csv");
+        let whole = read("history.csv");
+        fs::write(&path, longer).unwrap();
+        refused(dir, &["resume", "run"], "history.csv");
+        fs::write(&path, whole).unwrap();
+    }
+    // A damaged index is blamed itself, not the frames it names wrongly.
+    let index = "flight.pvd";
+    with_damage(dir, index, &cut(index), true, "flight.pvd: ");
+    let at = read(index).len() / 2;
+    let digit = flipped(index, at, b'7');
+    with_damage(dir, index, &digit, true, "flight.pvd: ");
     let wakes = "frames/wakes_000004.vtp";
     with_damage(dir, wakes, &cut(wakes), true, "wakes_000004.vtp");
     with_damage(

@@ -8,6 +8,7 @@ use crate::raw::OutputCase;
 /// What is written and when the state is saved.
 pub(crate) fn output(case: &OutputCase) -> OutputSettings {
     OutputSettings {
+        history_every: case.history_every,
         frames_every: case.frames_every,
         figures: case.figures,
         page: case.page,

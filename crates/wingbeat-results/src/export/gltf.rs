@@ -13,7 +13,7 @@ use serde_json::{Value, json};
 use wingbeat_math::{DMat3, DQuat, DVec3};
 
 use super::Source;
-use super::columns::Block;
+use super::block::Block;
 use crate::poses::Poses;
 use wingbeat_case::IoError;
 

@@ -11,16 +11,16 @@
 //! The formats are written here and not by libraries: what is needed of each is small, while their
 //! libraries need minutes to build (Arrow) or a C compiler and CMake (HDF5).
 
-mod columns;
+mod block;
 mod gltf;
 pub mod hdf5;
 mod parquet;
 mod tables;
-pub mod units;
 mod vtkhdf;
 
 use std::path::{Path, PathBuf};
 
+use crate::columns::{Column, Columns};
 use crate::frames::{self, Frame};
 use crate::poses::Poses;
 use crate::rows::Rows;
@@ -77,6 +77,23 @@ impl Source<'_> {
 
     fn rows(&self) -> Result<Rows, IoError> {
         Rows::open(&self.history())
+    }
+
+    /// What the columns of the history hold, in their order there.
+    ///
+    /// # Errors
+    /// A history that cannot be read; a column of another flight.
+    fn columns(&self) -> Result<Vec<Column>, IoError> {
+        let rows = self.rows()?;
+        let all = Columns::in_file(&self.history(), &self.case.setup, rows.names())?;
+        let known = |name: &String| {
+            let problem = || format!("the column `{name}` is none of this flight");
+            let found = all.find(name).cloned();
+            let mut column = found.ok_or_else(|| self.damaged(&problem()))?;
+            column.name.clone_from(name);
+            Ok(column)
+        };
+        rows.names().iter().map(known).collect()
     }
 
     /// Rows of the history; none is an error.

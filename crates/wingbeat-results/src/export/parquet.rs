@@ -1,4 +1,5 @@
-//! A table of numbers as Apache Parquet: uncompressed columns of doubles in groups of rows.
+//! A table of numbers as Apache Parquet: uncompressed columns of doubles and, for counts, whole
+//! numbers, in groups of rows.
 //!
 //! Numbers of fields are those of `parquet.thrift` (Apache Parquet format 2.x), written in
 //! Thrift's compact protocol.
@@ -7,9 +8,12 @@ use std::fs::File;
 use std::io::{BufWriter, Write};
 use std::path::Path;
 
+use crate::columns::Column;
+
 /// Rows that are gathered before they are written: the memory the writer takes.
 const GROUP: usize = 4096;
 const MAGIC: &[u8] = b"PAR1";
+const INT64: i64 = 2;
 const DOUBLE: i64 = 5;
 const REQUIRED: i64 = 0;
 const PLAIN: i64 = 0;
@@ -20,6 +24,8 @@ pub struct ParquetWriter {
     file: BufWriter<File>,
     at: u64,
     names: Vec<String>,
+    /// INT64 or DOUBLE.
+    kinds: Vec<i64>,
     columns: Vec<Vec<f64>>,
     groups: Vec<Group>,
 }
@@ -35,14 +41,15 @@ impl ParquetWriter {
     ///
     /// # Errors
     /// A file that cannot be written.
-    pub fn create(path: &Path, names: &[String]) -> std::io::Result<Self> {
+    pub fn create(path: &Path, columns: &[Column]) -> std::io::Result<Self> {
         let mut file = BufWriter::new(File::create(path)?);
         file.write_all(MAGIC)?;
         Ok(Self {
             file,
             at: MAGIC.len() as u64,
-            names: names.to_vec(),
-            columns: vec![Vec::with_capacity(GROUP); names.len()],
+            names: columns.iter().map(|c| c.name.clone()).collect(),
+            kinds: columns.iter().map(kind).collect(),
+            columns: vec![Vec::with_capacity(GROUP); columns.len()],
             groups: vec![],
         })
     }
@@ -68,8 +75,12 @@ impl ParquetWriter {
             return Ok(());
         }
         let mut pages = vec![];
-        for column in &mut self.columns {
-            let data: Vec<u8> = column.iter().flat_map(|v| v.to_le_bytes()).collect();
+        for (column, kind) in self.columns.iter_mut().zip(&self.kinds) {
+            let bytes = |v: &f64| match *kind {
+                INT64 => (*v as i64).to_le_bytes(),
+                _ => v.to_le_bytes(),
+            };
+            let data: Vec<u8> = column.iter().flat_map(bytes).collect();
             let head = page_header(rows, data.len());
             self.file.write_all(&head)?;
             self.file.write_all(&data)?;
@@ -104,9 +115,9 @@ impl ParquetWriter {
             t.text(4, "history");
             t.integer(5, self.names.len() as i64);
         });
-        for name in &self.names {
+        for (name, kind) in self.names.iter().zip(&self.kinds) {
             t.element(|t| {
-                t.integer(1, DOUBLE);
+                t.integer(1, *kind);
                 t.integer(3, REQUIRED);
                 t.text(4, name);
             });
@@ -131,11 +142,12 @@ impl ParquetWriter {
     /// RowGroup with its ColumnChunks and ColumnMetaData.
     fn group(&self, t: &mut Thrift, group: &Group) {
         t.list(1, 12, self.names.len());
-        for (name, [at, length]) in self.names.iter().zip(&group.pages) {
+        let pages = self.kinds.iter().zip(&group.pages);
+        for (name, (kind, [at, length])) in self.names.iter().zip(pages) {
             t.element(|t| {
                 t.long(2, *at as i64);
                 t.structure(3, |t| {
-                    t.integer(1, DOUBLE);
+                    t.integer(1, *kind);
                     t.list(2, 5, 2);
                     t.zigzag(PLAIN);
                     t.zigzag(RLE);
@@ -152,6 +164,11 @@ impl ParquetWriter {
         t.long(2, group.pages.iter().map(|p| p[1] as i64).sum());
         t.long(3, group.rows as i64);
     }
+}
+
+/// What the numbers of a column are written as.
+fn kind(column: &Column) -> i64 {
+    if column.is_count { INT64 } else { DOUBLE }
 }
 
 /// PageHeader with its DataPageHeader.

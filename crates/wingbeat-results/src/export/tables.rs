@@ -1,38 +1,40 @@
 //! The history as Parquet; history, frames, case and summary as HDF5.
 //!
-//! Layout of the HDF5 file, version 2: see docs/exports.md.
+//! Layout of the HDF5 file, version 3: see docs/exports.md.
 
 use std::path::Path;
 
 use super::Source;
-use super::columns::Block;
+use super::block::Block;
 use super::hdf5::{Attribute, Hdf5File, Kind, Layout};
 use super::parquet::ParquetWriter;
-use super::units::{frame, unit};
 use crate::Summary;
+use crate::columns::{Column, TIME};
 use crate::frames::{self, Frame, Mesh};
 use crate::particles::{Cloud, NUMBERS};
 use wingbeat_case::IoError;
 
 /// Version of the layout of the HDF5 file.
-const LAYOUT: i64 = 2;
+const LAYOUT: i64 = 3;
 
 /// The history as a table.
 pub(super) fn parquet(source: &Source, path: &Path) -> Result<(), IoError> {
     let mut rows = source.rows()?;
-    let names = rows.names().to_vec();
-    let mut table = ParquetWriter::create(path, &names).map_err(IoError::write(path))?;
+    let columns = source.columns()?;
+    let mut table = ParquetWriter::create(path, &columns).map_err(IoError::write(path))?;
     while let Some(row) = rows.next_row()? {
         table.row(row).map_err(IoError::write(path))?;
     }
-    let units: serde_json::Map<_, _> = names.iter().map(|n| (n.clone(), unit(n).into())).collect();
-    let frames: serde_json::Map<_, _> =
-        names.iter().map(|n| (n.clone(), frame(n).into())).collect();
+    let note = |of: &dyn Fn(&Column) -> String| {
+        let all = columns.iter().map(|c| (c.name.clone(), of(c).into()));
+        serde_json::Value::Object(all.collect()).to_string()
+    };
     let notes = [
         ("wingbeat_version", source.manifest.version.as_str()),
         ("case_toml", source.case.text()),
-        ("units", &serde_json::Value::Object(units).to_string()),
-        ("frames", &serde_json::Value::Object(frames).to_string()),
+        ("units", &note(&|c| c.unit.to_owned())),
+        ("frames", &note(&|c| c.frame.to_owned())),
+        ("meanings", &note(&|c| c.about.clone())),
     ];
     table.finish(&notes).map_err(IoError::write(path))
 }
@@ -78,37 +80,49 @@ fn texts(source: &Source, layout: &mut Layout) -> Result<Vec<(usize, String)>, I
     Ok(list.map(add).into())
 }
 
-/// A dataset per column, `time_s` being the scale of the others.
-fn history_layout(source: &Source, layout: &mut Layout) -> Result<Vec<usize>, IoError> {
+/// A dataset per column, the time being the scale of the others; each with whether it counts.
+fn history_layout(source: &Source, layout: &mut Layout) -> Result<Vec<(usize, bool)>, IoError> {
     let rows = source.row_count()?;
-    let names = source.rows()?.names().to_vec();
+    let columns = source.columns()?;
     let first = layout.datasets.len();
-    let time = first + names.iter().position(|n| n == "time_s").unwrap_or(0);
-    for name in &names {
-        let dataset = layout.dataset(&format!("history/{name}"), Kind::Float, &[rows]);
-        layout.text(dataset, "units", unit(name));
-        layout.text(dataset, "frame", frame(name));
-        layout.text(dataset, "long_name", &name.replace('_', " "));
+    let time = first + TIME;
+    for c in &columns {
+        let kind = if c.is_count {
+            Kind::Integer
+        } else {
+            Kind::Float
+        };
+        let dataset = layout.dataset(&format!("history/{}", c.name), kind, &[rows]);
+        layout.text(dataset, "units", c.unit);
+        layout.text(dataset, "frame", c.frame);
+        layout.text(dataset, "long_name", &c.about);
         if dataset == time {
             layout.text(dataset, "CLASS", "DIMENSION_SCALE");
-            layout.text(dataset, "NAME", name);
+            layout.text(dataset, "NAME", &c.name);
         } else {
             layout.note(dataset, "DIMENSION_LIST", Attribute::Scale(time));
         }
     }
-    Ok((first..first + names.len()).collect())
+    let all = columns.iter().enumerate();
+    Ok(all.map(|(k, c)| (first + k, c.is_count)).collect())
 }
 
 fn history(
     source: &Source,
-    datasets: &[usize],
+    datasets: &[(usize, bool)],
     file: &mut Hdf5File,
     path: &Path,
 ) -> Result<(), IoError> {
     let mut rows = source.rows()?;
     let mut block = Block::new(datasets.len());
     let mut put = |k: usize, first: usize, values: &[f64]| {
-        let written = file.floats(datasets[k], first, values);
+        let written = match datasets[k] {
+            (dataset, true) => {
+                let counts: Vec<i64> = values.iter().map(|n| *n as i64).collect();
+                file.integers(dataset, first, &counts)
+            }
+            (dataset, false) => file.floats(dataset, first, values),
+        };
         written.map_err(IoError::write(path))
     };
     while let Some(row) = rows.next_row()? {

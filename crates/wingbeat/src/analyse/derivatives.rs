@@ -6,7 +6,7 @@ use wingbeat::analysis::derivatives::control_derivatives;
 use wingbeat::analysis::{AnalysisError, Level};
 use wingbeat::math::DVec3;
 
-use super::{Trimming, Trouble, exit, trimmed};
+use super::{Trimming, Trouble, exit, trimmed, watched};
 
 /// The whole command.
 pub(crate) fn run(args: &Trimming) -> ExitCode {
@@ -18,8 +18,9 @@ fn find(args: &Trimming) -> Result<(), Trouble> {
     let r = trim.beat.root(&trim.state).r;
     let level = Level::new(r, trim.setup.gravity);
     let velocity = level.to_n.transpose() * DVec3::new(args.forward, 0.0, -args.climb);
-    let list: Result<_, AnalysisError> =
-        control_derivatives(&trim.setup, r, velocity, trim.beat.steps());
+    let list: Result<_, AnalysisError> = watched("derivatives", || {
+        control_derivatives(&trim.setup, r, velocity, trim.beat.steps())
+    });
     println!("\nControl derivatives of the mean loads, N and N m per unit (1, rad, wingbeat):");
     println!(
         "  {:<20}{:<8}{:>12}{:>12}{:>12}{:>12}{:>12}{:>12}",

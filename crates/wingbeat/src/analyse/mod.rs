@@ -17,6 +17,8 @@ use wingbeat::flight::MotionMode;
 use wingbeat::math::DVec3;
 use wingbeat::model::motion::Adjustment;
 
+use crate::watch::Watch;
+
 /// What is trimmed and how.
 #[derive(Args)]
 pub(crate) struct Trimming {
@@ -86,11 +88,17 @@ impl Trimming {
     }
 }
 
+/// Does something while its progress is shown.
+pub(crate) fn watched<T>(what: &str, work: impl FnOnce() -> T) -> T {
+    let _watch = Watch::new(what);
+    work()
+}
+
 /// Loads the case and trims it; reports the trim.
 pub(crate) fn trimmed(args: &Trimming) -> Result<(LoadedCase, Trim), Trouble> {
     let case = args.load()?;
     let problem = args.problem(&case);
-    let found = find_trim(&case.setup, &problem)?;
+    let found = watched("trimming", || find_trim(&case.setup, &problem))?;
     trim::report(&case, &problem, &Found::from(&found));
     if found.converged {
         Ok((case, found))
@@ -116,7 +124,9 @@ pub(crate) fn trimmed_with_wake(args: &Trimming) -> Result<(LoadedCase, WakeTrim
         case.name,
         settings.held_beats + 1
     );
-    let found = trim_with_wake(&case.setup, &problem, &settings)?;
+    let found = watched("trimming", || {
+        trim_with_wake(&case.setup, &problem, &settings)
+    })?;
     trim::report(&case, &problem, &Found::from(&found));
     println!(
         "  {} flights of {} wingbeats",

@@ -5,7 +5,7 @@ use std::process::ExitCode;
 use clap::Args;
 use wingbeat::analysis::power::power;
 
-use super::{Trimming, Trouble, exit, trimmed};
+use super::{Trimming, Trouble, exit, trimmed, watched};
 
 /// What `wingbeat power` is told.
 #[derive(Args)]
@@ -24,7 +24,7 @@ pub(crate) fn run(args: &PowerArgs) -> ExitCode {
 
 fn find(args: &PowerArgs) -> Result<(), Trouble> {
     let (_, trim) = trimmed(&args.trimming)?;
-    let p = power(&trim.tethered())?;
+    let p = watched("power", || power(&trim.tethered()))?;
     println!("\nMean mechanical power over a wingbeat, body tethered in the trimmed attitude:");
     println!(
         "  {:<44}{:>10}{:>12}{:>14}",

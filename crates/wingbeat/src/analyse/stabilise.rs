@@ -12,7 +12,8 @@ use wingbeat::case::write_new;
 use wingbeat::draw::figures::stabilised::{BeatRow, stabilised};
 use wingbeat::math::DVec3;
 
-use super::{Trimming, Trouble, exit, trimmed};
+use super::{Trimming, Trouble, exit, trimmed, watched};
+use crate::watch::Watch;
 
 /// What `wingbeat stabilise` is told.
 #[derive(Args)]
@@ -58,11 +59,13 @@ pub(crate) fn run(args: &StabiliseArgs) -> ExitCode {
 
 fn fly(args: &StabiliseArgs) -> Result<(), Trouble> {
     let (case, trim) = trimmed(&args.trimming)?;
-    let mut controller = Sampled::new(controller(args, &trim)?, args.sample);
+    let controller = watched("feedback", || controller(args, &trim))?;
+    let mut controller = Sampled::new(controller, args.sample);
     let tilt = DVec3::from_slice(&args.tilt).map(f64::to_radians);
     let mut flight = ControlledFlight::new(&trim, tilt, DVec3::ZERO, args.latency)?;
     let mut rows = vec![row(&flight)];
     let mut lost = None;
+    let watch = Watch::of("flying under feedback", args.beats as u64);
     for _ in 0..args.beats {
         match flight.beat(&mut controller) {
             Ok(_) => rows.push(row(&flight)),
@@ -71,7 +74,9 @@ fn fly(args: &StabiliseArgs) -> Result<(), Trouble> {
                 break;
             }
         }
+        watch.part(|| {});
     }
+    drop(watch);
     print(&rows);
     if let Some(path) = &args.figure {
         let svg = stabilised(&case.name, trim.beat.wing_length(), &rows);

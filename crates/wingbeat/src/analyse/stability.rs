@@ -10,7 +10,7 @@ use wingbeat::analysis::{ModeSet, floquet, linear_model, table_model};
 use wingbeat::case::{LoadedCase, derivative_case, write_new};
 use wingbeat::flight::AirModel;
 
-use super::{Trimming, Trouble, exit, trimmed, trimmed_with_wake};
+use super::{Trimming, Trouble, exit, trimmed, trimmed_with_wake, watched};
 
 /// What `wingbeat stability` is told.
 #[derive(Args)]
@@ -49,12 +49,13 @@ fn find(args: &StabilityArgs) -> Result<(), Trouble> {
         return with_wake(args);
     }
     let (case, trim) = trimmed(&args.trimming)?;
-    let averaged = linear_model(&trim.beat, &trim.state)?;
+    let averaged = watched("averaged model", || linear_model(&trim.beat, &trim.state))?;
+    let orbit = watched("Floquet's modes", || floquet(&trim.beat, &trim.state))?;
     derivatives(&averaged);
     println!("\nModes of the rigid body under mean loads (averaged over the beat):");
     modes(&averaged.modes);
     println!("\nModes of the full periodic orbit (Floquet):");
-    modes(&floquet(&trim.beat, &trim.state)?);
+    modes(&orbit);
     println!(
         "\nAxes: level frame of the trimmed attitude, forward, right, down, about the mass centre. The air has no\nmemory; times in wingbeats of {:.3} ms.",
         1e3 * trim.beat.period()
@@ -73,8 +74,9 @@ fn with_wake(args: &StabilityArgs) -> Result<(), Trouble> {
         Wake::Given => (WakeMemory::Given, "the wake of the trimmed flight"),
         Wake::Carried => (WakeMemory::Carried, "the disturbance during the hold"),
     };
+    let found = watched("Floquet's modes", || wake_floquet(&trim, memory))?;
     println!("\nModes of the free wingbeat after the hold (Floquet); held fixed: {held}:");
-    modes(&wake_floquet(&trim, memory)?);
+    modes(&found);
     Ok(())
 }
 

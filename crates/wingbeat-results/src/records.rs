@@ -1,0 +1,100 @@
+//! A history read back as the records that were written, one after the other.
+
+use std::path::Path;
+
+use wingbeat_flight::record::AirImpulse;
+use wingbeat_flight::{FlightSetup, Record};
+
+use crate::columns::{Column, Columns};
+use crate::rows::Rows;
+use wingbeat_case::IoError;
+
+/// The records of an open history.
+pub struct Records {
+    rows: Rows,
+    columns: Columns,
+    /// Where each column stands in a row; none where an older result lacks it.
+    places: Vec<Option<usize>>,
+    record: Record,
+    /// Counted anew where an older result lacks it.
+    air_impulse: Option<AirImpulse>,
+}
+
+impl Records {
+    /// Opens the history of a flight. Numbers that results of older versions lack are not numbers
+    /// (NaN), but the impulse of the air, which is counted from the rows.
+    ///
+    /// # Errors
+    /// A file that cannot be read or is not a history; a column that is missing or belongs to
+    /// another flight.
+    pub fn open(path: &Path, setup: &FlightSetup) -> Result<Self, IoError> {
+        let rows = Rows::open(path)?;
+        let columns = Columns::in_file(path, setup, rows.names())?;
+        let damaged = |problem: String| IoError::Damaged {
+            path: path.to_owned(),
+            problem,
+        };
+        let names = rows.names();
+        let at = |name: &str| names.iter().position(|n| n == name);
+        let place = |c: &Column| at(&c.name).or_else(|| at(c.former.as_deref()?));
+        let places: Vec<Option<usize>> = columns.iter().map(place).collect();
+        let missing = columns.iter().zip(&places);
+        if let Some((c, _)) = missing.into_iter().find(|(c, p)| p.is_none() && !c.is_new) {
+            return Err(damaged(format!(
+                "the column `{}` ({}) is missing: this history belongs to another animal than case.toml, or was changed",
+                c.name, c.about
+            )));
+        }
+        if let Some(name) = names.iter().find(|n| columns.find(n).is_none()) {
+            return Err(damaged(format!(
+                "the column `{name}` is none of this flight: this history belongs to another animal than case.toml, or a newer wingbeat wrote it"
+            )));
+        }
+        let mut record = columns.blank();
+        for (k, place) in places.iter().enumerate() {
+            if place.is_none() {
+                columns.put(k, f64::NAN, &mut record);
+            }
+        }
+        let counts = record.air_impulse.x.is_nan();
+        Ok(Self {
+            rows,
+            columns,
+            places,
+            record,
+            air_impulse: counts.then(AirImpulse::default),
+        })
+    }
+
+    /// The next record; none at the end. A last row that was cut by a kill is left out.
+    ///
+    /// # Errors
+    /// A row that is damaged.
+    pub fn next_record(&mut self) -> Result<Option<&Record>, IoError> {
+        let Some(row) = self.rows.next_row()? else {
+            return Ok(None);
+        };
+        for (k, place) in self.places.iter().enumerate() {
+            if let Some(at) = place {
+                self.columns.put(k, row[*at], &mut self.record);
+            }
+        }
+        if let Some(impulse) = &mut self.air_impulse {
+            self.record.air_impulse = impulse.count(self.record.time, self.record.air_force());
+        }
+        Ok(Some(&self.record))
+    }
+
+    /// Passes over the next `count` records.
+    ///
+    /// # Errors
+    /// A row that is damaged.
+    pub fn skip(&mut self, count: usize) -> Result<(), IoError> {
+        for _ in 0..count {
+            if self.next_record()?.is_none() {
+                break;
+            }
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,147 @@
+//! Means over wingbeats: the one definition that summary, figures, page and comparison use.
+//!
+//! A mean is the change of an integral over the beat, divided by its length: the impulse of the air
+//! for forces, the work of actuators and deformation for power, the impulse of the vortices for the
+//! lift by impulse. The integrals are in every record, so a thinned history has the same means.
+
+use serde::{Deserialize, Serialize};
+use wingbeat_flight::{FlightSetup, Record, TimeGrid};
+use wingbeat_math::DVec3;
+
+/// Means over one wingbeat.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct BeatMeans {
+    /// Number of the beat, from 1.
+    pub beat: usize,
+    /// Mean air force against gravity \[N\].
+    pub lift_newton: f64,
+    /// The same over the weight; none without gravity.
+    pub lift_over_weight: Option<f64>,
+    /// Mean air force along n1 (forward) \[N\].
+    pub thrust_newton: f64,
+    /// Mean power that hinge actuators and prescribed deformation give \[W\].
+    pub power_watt: f64,
+    /// Mean air force against gravity by another way, the rate of the vortex impulse \[N\]; zero
+    /// without a lattice.
+    #[serde(default)]
+    pub lift_by_impulse_newton: f64,
+}
+
+impl BeatMeans {
+    /// The means from one record to another; `beat` is their number.
+    pub fn between(setup: &FlightSetup, beat: usize, from: &Record, to: &Record) -> Self {
+        let period = to.time - from.time;
+        let mean = |impulse: DVec3| impulse / period;
+        let force = mean(to.air_impulse - from.air_impulse);
+        let lift_newton = -force.dot(down(setup));
+        Self {
+            beat,
+            lift_newton,
+            lift_over_weight: over_weight(setup, lift_newton),
+            thrust_newton: force.x,
+            power_watt: (to.power_work() - from.power_work()) / period,
+            lift_by_impulse_newton: mean(to.vortex_impulse - from.vortex_impulse).dot(down(setup)),
+        }
+    }
+}
+
+/// Unit vector along gravity; n3 without gravity.
+pub fn down(setup: &FlightSetup) -> DVec3 {
+    setup.gravity.try_normalize().unwrap_or(DVec3::Z)
+}
+
+/// A force over the weight of the animal; none without gravity.
+pub fn over_weight(setup: &FlightSetup, force: f64) -> Option<f64> {
+    let weight = setup.animal.mass() * setup.gravity.length();
+    (weight > 0.0).then(|| force / weight)
+}
+
+/// Steps of a wingbeat; none of motions without one.
+pub fn steps_per_beat(time: &TimeGrid) -> Option<usize> {
+    let steps = (time.period? / time.step).round() as usize;
+    (steps > 0).then_some(steps)
+}
+
+/// Gathers whole wingbeats, record by record.
+pub struct Beats<'a> {
+    setup: &'a FlightSetup,
+    steps: Option<usize>,
+    start: Option<Record>,
+}
+
+impl<'a> Beats<'a> {
+    /// For the flight of `setup`.
+    pub fn new(setup: &'a FlightSetup) -> Self {
+        Self {
+            setup,
+            steps: steps_per_beat(&setup.time),
+            start: None,
+        }
+    }
+
+    /// Takes the next record; the means of the beat that ends with it.
+    pub fn take(&mut self, record: &Record) -> Option<BeatMeans> {
+        let steps = self.steps?;
+        if !record.step.is_multiple_of(steps) {
+            return None;
+        }
+        let start = self.start.replace(record.clone())?;
+        let beat = record.step / steps;
+        Some(BeatMeans::between(self.setup, beat, &start, record))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use wingbeat_case::LoadedCase;
+    use wingbeat_flight::LoadRecord;
+    use wingbeat_flight::record::AirImpulse;
+
+    /// Lift m g cos^2 x has the mean m g / 2, to which the trapezoidal rule is exact; work that grows
+    /// by 3 J a step and an impulse that falls by 3 N s a step are 3 W and 3 N over steps of 1 s.
+    #[test]
+    fn exact_means_of_a_period_from_all_rows_and_from_few() {
+        let case = LoadedCase::find("fruit-fly-blade", &[]).unwrap();
+        let mut setup = case.setup;
+        setup.time = TimeGrid {
+            step: 1.0,
+            steps: 20,
+            period: Some(8.0),
+        };
+        let weight = setup.animal.mass() * setup.gravity.length();
+        let mut impulse = AirImpulse::default();
+        let record = |k: usize| {
+            let x = k as f64 * std::f64::consts::FRAC_PI_4;
+            let force = DVec3::new(1.0, 0.0, -weight * x.cos().powi(2));
+            Record {
+                step: k,
+                time: k as f64,
+                hinge_work: 3.0 * k as f64,
+                vortex_impulse: DVec3::new(0.0, 0.0, 3.0 * k as f64),
+                air: vec![LoadRecord {
+                    force,
+                    moment: DVec3::ZERO,
+                }],
+                ..Record::default()
+            }
+        };
+        let mut records: Vec<Record> = (0..=20).map(record).collect();
+        for r in &mut records {
+            r.air_impulse = impulse.count(r.time, r.air_force());
+        }
+        let means = |every: usize| -> Vec<BeatMeans> {
+            let mut beats = Beats::new(&setup);
+            let rows = records.iter().filter(|r| r.step % every == 0);
+            rows.filter_map(|r| beats.take(r)).collect()
+        };
+        assert_eq!(means(1).len(), 2);
+        assert_eq!(means(1), means(4));
+        for beat in means(1) {
+            let lift = beat.lift_over_weight.unwrap();
+            assert!((lift - 0.5).abs() < 1e-14, "{lift}"); // some roundings
+            assert!((beat.thrust_newton - 1.0).abs() < 1e-14);
+            assert_eq!([beat.power_watt, beat.lift_by_impulse_newton], [3.0, 3.0]);
+        }
+    }
+}
