@@ -2,8 +2,8 @@
 
 use wingbeat_air::AirState;
 use wingbeat_math::ode::{
-    AdamsBashforthMoulton, AdaptiveError, Bdf, Convergence, Dop853, Hamming, Multistep, Rk4, StepError,
-    StepReport, Tolerance,
+    AdamsBashforthMoulton, AdaptiveError, Bdf, Convergence, Dop853, Hamming, Multistep, Rk4,
+    StepError, StepReport, Tolerance,
 };
 
 use crate::equations::{Equations, Scratch};

@@ -3,8 +3,8 @@
 use std::convert::Infallible;
 
 use wingbeat_math::ode::{
-    AdamsBashforthMoulton, AdaptiveError, Bdf, Convergence, Dop853, Hamming, Memoryless, Multistep, Rk4,
-    StepError, Tolerance, block_start,
+    AdamsBashforthMoulton, AdaptiveError, Bdf, Convergence, Dop853, Hamming, Memoryless, Multistep,
+    Rk4, StepError, Tolerance, block_start,
 };
 
 const CONVERGENCE: Convergence = Convergence {

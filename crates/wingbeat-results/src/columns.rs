@@ -285,7 +285,12 @@ impl Subjects {
             }
             Of::Loops => {
                 let one = |(k, name): (usize, &String)| {
-                    Subject::new(column_name(name), &format!("joint {name}"), Kind::Segment, k)
+                    Subject::new(
+                        column_name(name),
+                        &format!("joint {name}"),
+                        Kind::Segment,
+                        k,
+                    )
                 };
                 self.loops.iter().enumerate().map(one).collect()
             }

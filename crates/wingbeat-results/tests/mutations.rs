@@ -124,6 +124,7 @@ fn corpus() -> Corpus {
         step: flight.state().step,
         history_bytes: 1,
         history_sha256: "1".repeat(64),
+        pending: vec![],
     };
     let presets = PRESETS.iter().map(|p| p.text.as_bytes().to_vec());
     Corpus {

@@ -170,7 +170,7 @@ impl Run {
         std::fs::create_dir(dir).map_err(IoError::write(dir))?;
         let mut history = HistoryWriter::create(&dir.join("history.csv"), &self.setup)?;
         for record in &self.records {
-            history.append(record)?;
+            history.append(record, true)?;
         }
         Ok(())
     }

@@ -94,7 +94,10 @@ impl Obstacles {
             let [a, b] = [edge.plus, minus].map(|p| first[topology.panel_surface[p]]);
             if a != b {
                 let (low, high) = (a.min(b), a.max(b));
-                first.iter_mut().filter(|f| **f == high).for_each(|f| *f = low);
+                first
+                    .iter_mut()
+                    .filter(|f| **f == high)
+                    .for_each(|f| *f = low);
             }
         }
     }
@@ -170,7 +173,11 @@ impl Obstacle {
     /// their distances differ by less than a clearance.
     fn push_out(&self, to: DVec3, clearance: f64) -> DVec3 {
         let distance = |p: &Panel| p.centre[1].distance(to);
-        let nearest = self.panels.iter().map(distance).fold(f64::INFINITY, f64::min);
+        let nearest = self
+            .panels
+            .iter()
+            .map(distance)
+            .fold(f64::INFINITY, f64::min);
         let (mut push, mut shares) = (DVec3::ZERO, 0.0);
         for panel in &self.panels {
             let share = smooth(1.0 - (distance(panel) - nearest) / clearance);
@@ -239,7 +246,10 @@ impl Obstacle {
             let [a, b] = [0, 1].map(|i| flat(side[0][i].lerp(side[1][i], s)));
             distance_to_segment(x, a, b)
         };
-        self.border.iter().map(distance).fold(f64::INFINITY, f64::min)
+        self.border
+            .iter()
+            .map(distance)
+            .fold(f64::INFINITY, f64::min)
     }
 }
 
@@ -389,7 +399,9 @@ mod tests {
                 y.into_iter().flat_map(move |y| z.map(|z| [x, y, z]))
             })
         };
-        places().flat_map(|a| places().map(move |b| [a, b])).collect()
+        places()
+            .flat_map(|a| places().map(move |b| [a, b]))
+            .collect()
     }
 
     /// Rounding decides nothing: places moved by some roundings give ends that are moved by no more
