@@ -48,6 +48,7 @@ fn read_state(flight: usize, bytes: &[u8]) {
         step: state.step,
         history_bytes: 0,
         history_sha256: CASE.to_owned(),
+            pending: vec![],
     };
     let file = checkpoint::encode(&header, &state);
     let (_, state) = read(&file).expect("a checkpoint that was just written is read");

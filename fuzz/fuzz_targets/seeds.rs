@@ -28,6 +28,7 @@ pub fn write(folder: &Path) -> std::io::Result<()> {
             step: flight.state().step,
             history_bytes: 1,
             history_sha256: "1".repeat(64),
+            pending: vec![],
         };
         let file = checkpoint::encode(&header, flight.state());
         let first = file.iter().position(|b| *b == b'\n').expect("a line") + 1;

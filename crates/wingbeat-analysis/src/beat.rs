@@ -113,7 +113,7 @@ impl Beat {
 
     /// Posture and whole at all half steps of one period, the end left out; free joints at their
     /// start.
-    pub(crate) fn cycle(&self) -> impl Iterator<Item = (&Posture, &Composite)> {
+    pub(crate) fn postures(&self) -> impl Iterator<Item = (&Posture, &Composite)> {
         let table = self.flight.form().table().expect("made with one");
         (0..2 * self.steps).map(|k| table.posture(k))
     }

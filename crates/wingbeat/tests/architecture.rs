@@ -103,7 +103,7 @@ fn tangled(crate_name: &str) -> BTreeSet<String> {
     let graph = modules::graph(&src, &rust_files(&src));
     assert!(graph.len() > 1, "{crate_name} has modules");
     let folders = modules::folders(&graph);
-    let within = folders.values().flat_map(|f| modules::cycles(f));
+    let within = folders.values().flat_map(modules::cycles);
     let all = modules::cycles(&graph).into_iter().chain(within);
     all.map(|m| format!("crate::{}", m.join("::"))).collect()
 }

@@ -89,7 +89,7 @@ fn refused(dir: &Path, args: &[&str], file: &str) {
 /// The last line of a text.
 fn last_row(text: &[u8]) -> Vec<u8> {
     let lines = text.split_inclusive(|b| *b == b'\n');
-    lines.last().unwrap_or_default().to_vec()
+    lines.next_back().unwrap_or_default().to_vec()
 }
 
 fn files(dir: &Path) -> Vec<PathBuf> {

@@ -121,9 +121,10 @@ fn exact_history_holds_every_number_of_the_last_record() {
     );
     let bodies = results::columns::body_names(&case.setup.animal);
     assert_eq!(bodies, ["body", "wing_left", "wing_right"]);
-    let names = results::columns::names(&bodies, record);
+    let columns = results::columns::Columns::of(&case.setup, record).unwrap();
+    let names: Vec<String> = columns.iter().map(|c| c.name.clone()).collect();
     let mut values = vec![];
-    results::columns::values(&bodies, record, &mut values);
+    columns.values(record, &mut columns.blank(), &mut values);
     assert_eq!(names, history.names());
     for (name, value) in names.iter().zip(&values) {
         let read = history.column(name).last().copied().unwrap();
@@ -133,8 +134,11 @@ fn exact_history_holds_every_number_of_the_last_record() {
             "{name}: {read} is not {value}"
         );
     }
-    const UNITS: [&str; 17] = [
+    const UNITS: [&str; 20] = [
         "_m",
+        "_m_per_s2",
+        "_rad_per_s2",
+        "_newton_s",
         "_s",
         "_rad",
         "_m_per_s",

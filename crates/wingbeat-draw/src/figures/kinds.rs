@@ -103,9 +103,9 @@ pub(super) fn prefix(values: &[f64]) -> (f64, &'static str) {
 fn trajectory(history: &History) -> Measured {
     let column = |name: &str| history.column(name).to_vec();
     let place = vec![
-        Line::new("forward n1", column("body_x_m")).from_start(),
-        Line::new("right n2", column("body_y_m")).from_start(),
-        Line::new("up −n3", scaled(history.column("body_z_m"), -1.0)).from_start(),
+        Line::new("forward n1", column("body_x_m")).since_start(),
+        Line::new("right n2", column("body_y_m")).since_start(),
+        Line::new("up −n3", scaled(history.column("body_z_m"), -1.0)).since_start(),
     ];
     let attitude = vec![
         Line::new("pitch", column("body_phi_rad")),
@@ -156,7 +156,7 @@ fn balances(history: &History) -> Measured {
     let work = |label: &str, name: &str| line(label, name).kept(Kept::NotZero);
     let energies = vec![
         work("kinetic", "kinetic_energy_joule"),
-        work("potential", "potential_energy_joule").from_start(),
+        work("potential", "potential_energy_joule").since_start(),
         work("work of hinges", "hinge_work_joule"),
         work("work of air", "air_work_joule"),
         work("work of deformation", "deformation_work_joule"),

@@ -76,7 +76,7 @@ impl Line {
     }
 
     /// The same counted from its first value.
-    pub fn from_start(self) -> Self {
+    pub fn since_start(self) -> Self {
         Self {
             from_start: true,
             ..self

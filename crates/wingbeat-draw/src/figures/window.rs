@@ -114,6 +114,9 @@ impl Window {
     }
 }
 
+/// Charts with the names of their kinds.
+type NamedCharts = Vec<(&'static str, Chart)>;
+
 /// The charts over time of some rows, by name of their kind, with at most about `most` abscissas;
 /// and how many rows stand behind two of them (1: each row has its own).
 ///
@@ -124,7 +127,7 @@ pub(crate) fn charts(
     path: &Path,
     rows: Range<usize>,
     most: usize,
-) -> Result<(Vec<(&'static str, Chart)>, usize), IoError> {
+) -> Result<(NamedCharts, usize), IoError> {
     let group = match rows.len() <= most {
         true => 1,
         false => rows.len().div_ceil((most / 2).max(1)),
