@@ -7,8 +7,7 @@ use wingbeat::flight::{FlightSetup, MotionMode, Simulation};
 pub(crate) fn check(name: &str, set: &[String]) -> Result<(), IoError> {
     let case = LoadedCase::find(name, set)?;
     let flight = Simulation::new(case.setup.clone());
-    let flight =
-        flight.map_err(|e| case.fault("", e.to_string(), "correct the case and check it again"))?;
+    let flight = flight.map_err(|e| case.refused(&e))?;
     println!("{}: this case can be flown.\n", case.origin());
     describe(&case.setup);
     println!("{:<10}{} panels", "lattice", panels(&flight));

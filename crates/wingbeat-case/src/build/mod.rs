@@ -14,12 +14,14 @@ mod lattice;
 mod lengths;
 mod motion;
 mod output;
+mod refused;
 mod segment;
 mod time;
 mod wind;
 mod wing;
 
 pub(crate) use output::output;
+pub(crate) use refused::refused;
 
 use serde::Serialize;
 use wingbeat_flight::{CorrectorSettings, FlightSetup};
