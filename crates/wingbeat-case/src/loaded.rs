@@ -3,7 +3,7 @@
 
 use std::path::{Path, PathBuf};
 
-use wingbeat_flight::FlightSetup;
+use wingbeat_flight::{FlightError, FlightSetup};
 
 use crate::error::{CaseError, Fault, IoError};
 use crate::output::OutputSettings;
@@ -101,6 +101,12 @@ impl LoadedCase {
             self.name,
             written(&self.raw)
         )
+    }
+
+    /// What a flight of this case refused, at the key it is about.
+    pub fn refused(&self, error: &FlightError) -> CaseError {
+        self.source
+            .locate(build::refused(&self.raw, &self.setup, error))
     }
 
     /// An error about a key that showed up later, traced to its line.

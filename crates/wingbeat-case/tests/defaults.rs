@@ -361,3 +361,28 @@ fn behaves_a_case_with_animal_and_motion_alone_flies() {
         flight.step().unwrap();
     }
 }
+
+#[test]
+fn refuses_at_its_key_what_only_the_flight_finds() {
+    let hover = presets::find("fruit-fly-hover").unwrap().text;
+    let blade = presets::find("fruit-fly-blade").unwrap().text;
+    let (before, after) = blade.split_once("[air]").unwrap();
+    let rest = &after[after.find("\n[output]").unwrap()..];
+    let external = "[air]\nmodel = \"external\"\n[air.external]\ncommand = [\"/nowhere\"]\n";
+    for (text, at) in [
+        // A yawed body is not its own mirror image.
+        (
+            hover.replace("[flight]\n", "[flight]\nyaw_deg = 20\n"),
+            "mirror",
+        ),
+        (format!("{before}{external}{rest}"), "command"),
+    ] {
+        let case = load(&text, &[]).unwrap();
+        let error = Simulation::new(case.setup.clone())
+            .map(|_| ())
+            .expect_err(at);
+        let report = case.refused(&error).to_string();
+        let line = text.lines().position(|l| l.starts_with(at)).unwrap() + 1;
+        assert!(report.contains(&format!("case.toml:{line}:")), "{report}");
+    }
+}

@@ -2,7 +2,7 @@
 
 use wingbeat::analysis::estimate;
 use wingbeat::case::{IoError, LoadedCase};
-use wingbeat::flight::{FlightSetup, MotionMode, Simulation};
+use wingbeat::flight::{AirModel, FlightSetup, MotionMode, Simulation};
 
 use crate::expectation;
 use crate::watch::Watch;
@@ -13,21 +13,7 @@ pub(crate) fn check(name: &str, set: &[String], trial: bool) -> Result<(), IoErr
     let case = LoadedCase::find(name, set)?;
     let fault = |e: String| case.fault("", e, "correct the case and check it again");
     let estimate = estimate(&case.setup).map_err(|e| fault(e.to_string()))?;
-    let unknowns = expectation::unknowns(&case.setup);
-    let cost = match trial || unknowns <= expectation::MOST_UNKNOWNS {
-        true => {
-            let _watch = Watch::new(&format!(
-                "first steps on trial, {unknowns} unknown circulations"
-            ));
-            let flight = Simulation::new(case.setup.clone());
-            let cost = flight.and_then(|mut flight| expectation::cost(&mut flight));
-            cost.map_err(|e| fault(e.to_string()))?
-        }
-        false => format!(
-            "not tried: {unknowns} unknown circulations take long and {:.1} GB to solve for; `wingbeat check --trial` does",
-            8e-9 * (unknowns as f64).powi(2)
-        ),
-    };
+    let cost = trial_cost(&case, trial)?;
     println!("{}: this case can be flown.\n", case.origin());
     describe(&case.setup);
     let panels = expectation::panels(&case.setup);
@@ -40,6 +26,26 @@ pub(crate) fn check(name: &str, set: &[String], trial: bool) -> Result<(), IoErr
         eprintln!("warning: {doubt}");
     }
     Ok(())
+}
+
+/// What the first steps cost, flown on trial where that is quick. A check starts no other program.
+fn trial_cost(case: &LoadedCase, trial: bool) -> Result<String, IoError> {
+    if matches!(case.setup.air, AirModel::External(_)) {
+        return Ok("not tried: a check does not start the external program".into());
+    }
+    let unknowns = expectation::unknowns(&case.setup);
+    if !trial && unknowns > expectation::MOST_UNKNOWNS {
+        return Ok(format!(
+            "not tried: {unknowns} unknown circulations take long and {:.1} GB to solve for; `wingbeat check --trial` does",
+            8e-9 * (unknowns as f64).powi(2)
+        ));
+    }
+    let _watch = Watch::new(&format!(
+        "first steps on trial, {unknowns} unknown circulations"
+    ));
+    let flight = Simulation::new(case.setup.clone());
+    let cost = flight.and_then(|mut flight| expectation::cost(&mut flight));
+    Ok(cost.map_err(|e| case.refused(&e))?)
 }
 
 fn describe(setup: &FlightSetup) {

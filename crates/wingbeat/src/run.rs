@@ -86,9 +86,8 @@ fn prepare(args: &RunArgs, threads: usize) -> Result<Run, IoError> {
 }
 
 fn build(case: &LoadedCase) -> Result<Simulation, IoError> {
-    let remedy = "correct the case; `wingbeat check` tells whether it can be flown";
     let flight = Simulation::new(case.setup.clone());
-    Ok(flight.map_err(|e| case.fault("", e.to_string(), remedy))?)
+    Ok(flight.map_err(|e| case.refused(&e))?)
 }
 
 /// Writes what there is before the first step.

@@ -88,7 +88,7 @@ fn refused(dir: &Path, args: &[&str], file: &str) {
 
 /// The last line of a text.
 fn last_row(text: &[u8]) -> Vec<u8> {
-    let lines = text.split_inclusive(|b| *b == b'\n');
+    let mut lines = text.split_inclusive(|b| *b == b'\n');
     lines.next_back().unwrap_or_default().to_vec()
 }
 

@@ -15,6 +15,7 @@ mod lengths;
 mod motion;
 mod names;
 mod output;
+mod refused;
 mod segment;
 mod time;
 mod wind;
@@ -22,6 +23,7 @@ mod wing;
 
 pub use names::column_name;
 pub(crate) use output::output;
+pub(crate) use refused::refused;
 
 use serde::Serialize;
 use wingbeat_flight::{CorrectorSettings, FlightSetup};

@@ -1,0 +1,58 @@
+//! What a flight refuses when it is built or flown, at the key of the case it is about.
+
+use wingbeat_air::AirError;
+use wingbeat_flight::{FlightError, FlightSetup};
+
+use super::{joint, lattice};
+use crate::error::Fault;
+use crate::raw::Case;
+
+/// The error of a flight of `setup`, which `case` made, as a fault of the case.
+pub(crate) fn refused(case: &Case, setup: &FlightSetup, error: &FlightError) -> Fault {
+    let (key, remedy) = match error {
+        FlightError::Dynamics(e) => return joint::blame(case, setup, e),
+        FlightError::Air(e) => of_lattice(e),
+        FlightError::Blade(_) => ("air.blade".to_owned(), "change this number"),
+        FlightError::External(_) => (
+            "air.external.command".to_owned(),
+            "run the program by itself; docs/external-air.md says what it is asked",
+        ),
+        FlightError::RootsApart { wings, .. } => (
+            format!("wing.{}.joined", wings[1]),
+            "bring the roots together, or do not join them",
+        ),
+        FlightError::Setup { key, .. } => (of_setup(key).to_owned(), "change this key"),
+        _ => (String::new(), "the message says what to try"),
+    };
+    Fault::new(key, error.to_string(), "", remedy)
+}
+
+fn of_lattice(error: &AirError) -> (String, &'static str) {
+    match error {
+        AirError::Setting { key, .. } => (lattice::key_of(key).to_owned(), "change this key"),
+        AirError::GustTable { gust, .. } => (
+            format!("air.gust[{gust}].table"),
+            "put the rows in the order of their times",
+        ),
+        AirError::MirrorPairs { .. } | AirError::Asymmetric { .. } => (
+            "air.mirror".to_owned(),
+            "set it to false: both halves are computed",
+        ),
+        AirError::Empty => (
+            "air.model".to_owned(),
+            "add a wing, set air.body = true, or fly without air",
+        ),
+        _ => ("air".to_owned(), "the message says what to try"),
+    }
+}
+
+/// The key of a case for a key of the setup.
+fn of_setup(key: &str) -> &str {
+    match key {
+        "time.step" => "time.step_s",
+        "time.period" => "motion.frequency_hz",
+        "flight.start" => "flight",
+        "load.body" => "load",
+        key => key,
+    }
+}
