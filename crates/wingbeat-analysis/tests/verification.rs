@@ -3,10 +3,10 @@
 mod common;
 
 use common::*;
+use wingbeat_analysis::beat::Integration;
 use wingbeat_analysis::eigen::eigen;
 use wingbeat_analysis::monodromy::{determinant, monodromy};
 use wingbeat_analysis::stability::orbit_monodromy;
-use wingbeat_analysis::beat::Integration;
 use wingbeat_analysis::*;
 use wingbeat_flight::air::BladeAir;
 use wingbeat_flight::*;
@@ -156,9 +156,7 @@ fn agrees_monodromy_with_long_flights_and_its_determinant_with_the_trace() {
     let trimmed = trim(&fly(), &hover(100)).unwrap();
     let (beat, y) = (&trimmed.beat, trimmed.state.clone());
     // In all thirteen numbers of the state.
-    let map = |x: &[f64]| -> Result<Vec<f64>, AnalysisError> {
-        beat.advance(x)
-    };
+    let map = |x: &[f64]| -> Result<Vec<f64>, AnalysisError> { beat.advance(x) };
     let steps: Vec<f64> = (0..13).map(|i| 1e-4 * scale(i)).collect();
     let m = monodromy(map, &y, &steps).unwrap();
     // Ten beats of a slightly disturbed flight against the tenth power on the disturbance.
@@ -198,9 +196,7 @@ fn agrees_monodromy_with_long_flights_and_its_determinant_with_the_trace() {
     let mut integration = Integration::new(beat);
     let n = beat.steps();
     for k in 0..n {
-        let f = |x: &[f64]| -> Result<Vec<f64>, AnalysisError> {
-            beat.rates(2 * k, x)
-        };
+        let f = |x: &[f64]| -> Result<Vec<f64>, AnalysisError> { beat.rates(2 * k, x) };
         let a = monodromy(f, &s, &steps).unwrap();
         sum += (0..13).map(|i| a[14 * i]).sum::<f64>() * beat.period() / n as f64;
         integration.step(beat, k, &mut s).unwrap();

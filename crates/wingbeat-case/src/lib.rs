@@ -12,6 +12,7 @@
 
 mod build;
 mod decode;
+mod differences;
 mod error;
 pub mod external;
 mod files;
@@ -23,7 +24,9 @@ mod source;
 mod trimmed;
 
 pub use build::data_sets;
+pub use decode::nearest;
+pub use differences::{Difference, differences};
 pub use error::{CaseError, IoError};
 pub use loaded::{LoadedCase, schema};
 pub use output::{OutputSettings, SaveSettings};
-pub use trimmed::{derivative_case, trimmed_case, wake_trimmed_case, write_new};
+pub use trimmed::{derivative_case, trimmed_case, wake_trimmed_case};

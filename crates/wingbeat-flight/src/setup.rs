@@ -2,9 +2,9 @@
 
 use std::sync::Arc;
 
-use wingbeat_blade::{BladeSettings, BodyDrag};
-use wingbeat_blade::DerivativeTable;
 use wingbeat_air::{AirSettings, Wind};
+use wingbeat_blade::DerivativeTable;
+use wingbeat_blade::{BladeSettings, BodyDrag};
 use wingbeat_math::{DMat3, DVec3, EulerSequence, MovingRotation};
 use wingbeat_model::Animal;
 

@@ -1,17 +1,36 @@
 //! `wingbeat check`: a case is built but not flown.
 
-use wingbeat::case::{IoError, LoadedCase};
-use wingbeat::flight::{FlightSetup, MotionMode, Simulation};
+use std::sync::Arc;
 
-/// Builds the flight up to step 0 and describes it.
-pub(crate) fn check(name: &str, set: &[String]) -> Result<(), IoError> {
+use wingbeat::case::external::Unasked;
+use wingbeat::case::{IoError, LoadedCase};
+use wingbeat::flight::{AirModel, FlightSetup, MotionMode, Simulation};
+use wingbeat::results::fixed::fixed;
+
+use crate::failure::Failure;
+use crate::terminal::say;
+
+/// Builds the flight up to step 0 and describes it. Nothing of the case is executed: a program
+/// that computes the air is not started.
+pub(crate) fn check(name: &str, set: &[String]) -> Result<(), Failure> {
     let case = LoadedCase::find(name, set)?;
-    let flight = Simulation::new(case.setup.clone());
-    let flight =
-        flight.map_err(|e| case.fault("", e.to_string(), "correct the case and check it again"))?;
-    println!("{}: this case can be flown.\n", case.origin());
+    let mut setup = case.setup.clone();
+    if let AirModel::External(air) = &mut setup.air {
+        *air = Arc::new(Unasked);
+    }
+    let flight = Simulation::new(setup).map_err(|e| {
+        let fault = case.fault("", e.to_string(), "correct the case and check it again");
+        IoError::from(fault)
+    })?;
+    say!("{}: this case can be flown.\n", case.origin());
     describe(&case.setup);
-    println!("{:<10}{} panels", "lattice", panels(&flight));
+    say!("{:<10}{} panels", "lattice", panels(&flight));
+    if let Some(program) = case.program() {
+        say!(
+            "{:<10}`wingbeat run` will start this one with your rights: {program}",
+            "program"
+        );
+    }
     Ok(())
 }
 
@@ -26,16 +45,20 @@ fn panels(flight: &Simulation) -> usize {
 
 fn describe(setup: &FlightSetup) {
     let animal = &setup.animal;
-    println!(
+    say!(
         "{:<10}{:.4e} kg, of it body {:.4e} kg",
         "mass",
         animal.mass(),
         animal.body.mass
     );
-    let centre = animal.body.centre() * 1e3;
-    println!("{:<10}mass centre of the body at {centre:.3} mm", "body");
+    let centre = animal.body.centre().to_array().map(|x| fixed(1e3 * x, 3));
+    say!(
+        "{:<10}mass centre of the body at [{}] mm",
+        "body",
+        centre.join(", ")
+    );
     for w in animal.wing_reports() {
-        println!(
+        say!(
             "{:<10}`{}`: length {:.3} mm, area {:.3} mm2, mean chord {:.3} mm, r2_hat {:.3}, mass {:.3e} kg",
             "wing",
             w.name,
@@ -51,7 +74,7 @@ fn describe(setup: &FlightSetup) {
         MotionMode::Tethered(_) => "tethered",
     };
     let air = setup.air.name();
-    println!("{:<10}{mode}, {air}", "flight");
+    say!("{:<10}{mode}, {air}", "flight");
     let time = &setup.time;
-    println!("{:<10}{} steps of {:.4e} s", "time", time.steps, time.step);
+    say!("{:<10}{} steps of {:.4e} s", "time", time.steps, time.step);
 }

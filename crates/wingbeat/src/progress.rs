@@ -4,8 +4,10 @@ use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressStyle};
 use wingbeat::flight::{FlightSetup, Record};
+use wingbeat::results::fixed::signed;
 
 use crate::Manner;
+use crate::terminal::say;
 
 /// Time between two lines of JSON.
 const PAUSE: Duration = Duration::from_millis(500);
@@ -56,7 +58,7 @@ impl Progress {
         let last = record.step == self.steps;
         if self.json && (last || self.said.is_none_or(|t| t.elapsed() >= PAUSE)) {
             self.said = Some(Instant::now());
-            println!("{}", self.line(record));
+            say!("{}", self.line(record));
         }
         self.bar.set_position(record.step as u64);
         if !self.bar.is_hidden() {
@@ -73,7 +75,7 @@ impl Progress {
     fn message(&self, record: &Record) -> String {
         let lift = self.lift(record);
         let lift = if self.weight > 0.0 {
-            format!("lift/weight {:+.2}", lift / self.weight)
+            format!("lift/weight {}", signed(lift / self.weight, 2))
         } else {
             format!("lift {lift:+.2e} N")
         };

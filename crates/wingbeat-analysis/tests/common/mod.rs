@@ -2,8 +2,8 @@
 #![allow(dead_code)] // every test binary uses its own part
 
 use wingbeat_air::Wind;
-use wingbeat_blade::BladeSettings;
 use wingbeat_analysis::*;
+use wingbeat_blade::BladeSettings;
 use wingbeat_flight::*;
 use wingbeat_math::DVec3;
 use wingbeat_model::species::{FlyOptions, HOVER_BODY_PITCH, drosophila_melanogaster};

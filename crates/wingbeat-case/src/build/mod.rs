@@ -13,6 +13,7 @@ mod joint;
 mod motion;
 mod output;
 mod segment;
+mod size;
 mod time;
 mod wing;
 
@@ -38,6 +39,7 @@ const MOST_PASSES: usize = 10_000;
 /// frequency of a data set) are filled into `case` on the way.
 pub(crate) fn setup(case: &mut Case, name: &str) -> Built<FlightSetup> {
     check_format(case.format)?;
+    size::check(case)?;
     motion::fill_defaults(case)?;
     let animal = animal(case, name)?;
     let time = time::grid(case)?;

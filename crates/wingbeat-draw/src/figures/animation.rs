@@ -2,7 +2,7 @@
 //! the right, in front and above, the camera moving with the body.
 
 use std::fs::File;
-use std::io::BufWriter;
+use std::io::{BufWriter, Write as _};
 use std::path::Path;
 
 use gif::{Encoder, Frame as GifFrame, Repeat};
@@ -77,6 +77,9 @@ pub(super) fn write(dir: &Path, case: &LoadedCase, path: &Path) -> Result<usize,
             .map_err(|e| fault(e.to_string()))?;
         count += 1;
     }
+    // To be told of a disk that is full: what is dropped tells nothing.
+    let mut file = encoder.into_inner().map_err(|e| fault(e.to_string()))?;
+    file.flush().map_err(IoError::write(path))?;
     Ok(count)
 }
 

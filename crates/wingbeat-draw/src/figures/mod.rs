@@ -33,6 +33,7 @@ use drawing::Drawing;
 pub use style::Style;
 use wingbeat_case::IoError;
 use wingbeat_case::LoadedCase;
+use wingbeat_results::file::{NewFile, make_folder, write_file};
 use wingbeat_results::{History, ResultDir, Summary};
 
 /// More rows of a history than this do not make a figure better.
@@ -210,7 +211,8 @@ pub fn plot(dir: &ResultDir, order: &Order) -> Result<Vec<PathBuf>, IoError> {
         true => still.collect(),
         false => order.kinds.clone(),
     };
-    std::fs::create_dir_all(&order.folder).map_err(IoError::write(&order.folder))?;
+    dir.check_folder(&order.folder)?;
+    make_folder(&order.folder)?;
     let mut files = vec![];
     for kind in kinds {
         if kind == Kind::Animation {
@@ -222,7 +224,7 @@ pub fn plot(dir: &ResultDir, order: &Order) -> Result<Vec<PathBuf>, IoError> {
         match source.draw(kind, order.style)? {
             Some(drawing) => {
                 let bytes = encoded(&drawing, order).map_err(fault(&file))?;
-                place(&file, &bytes, order.overwrite)?;
+                write_file(&file, &bytes, order.overwrite)?;
                 files.push(file);
             }
             None if order.kinds.is_empty() => {}
@@ -247,40 +249,15 @@ fn encoded(drawing: &Drawing, order: &Order) -> Result<Vec<u8>, String> {
     }
 }
 
-/// Writes a file, but never over another one unasked.
-fn place(path: &Path, bytes: &[u8], overwrite: bool) -> Result<(), IoError> {
-    let there = std::fs::read(path).ok();
-    match there {
-        Some(old) if old == bytes => Ok(()),
-        Some(_) if !overwrite => Err(exists(path)),
-        _ => wingbeat_results::directory::write_whole(path, bytes),
-    }
-}
-
-fn exists(path: &Path) -> IoError {
-    IoError::Exists {
-        path: path.to_owned(),
-        remedy: "replace it with --overwrite, or choose another folder with --out",
-    }
-}
-
 /// The animation is written beside its place and moved there when it is whole.
 fn animate(dir: &ResultDir, case: &LoadedCase, order: &Order) -> Result<PathBuf, IoError> {
-    let file = order.folder.join("animation.gif");
-    if file.exists() && !order.overwrite {
-        return Err(exists(&file));
-    }
-    let part = order.folder.join("animation.gif.part");
-    let written = animation::write(dir.path(), case, &part);
-    if written.is_err() {
-        let _ = std::fs::remove_file(&part); // nothing more can be done about a leftover
-    }
-    match written? {
-        0 => Err(fault(&file)(Kind::Animation.needs().to_owned())),
-        _ => std::fs::rename(&part, &file)
-            .map_err(IoError::write(&file))
-            .map(|()| file),
-    }
+    let path = order.folder.join("animation.gif");
+    let file = NewFile::claim_own(&path, order.overwrite)?;
+    file.make(|part| match animation::write(dir.path(), case, part)? {
+        0 => Err(fault(&path)(Kind::Animation.needs().to_owned())),
+        _ => Ok(()),
+    })?;
+    Ok(path)
 }
 
 /// Draws every figure of the history that makes sense for the case into `figures/`.
@@ -330,5 +307,16 @@ pub(crate) fn time_axis(setup: &FlightSetup, history: &History) -> (String, Vec<
             time.iter().map(|t| t / period).collect(),
         ),
         None => ("time [s]".to_owned(), time.to_vec()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn behaves_a_result_directory_knows_its_figures() {
+        let names = Kind::ALL.map(|(name, _, _)| name);
+        assert_eq!(names, wingbeat_results::directory::FIGURE_NAMES);
     }
 }

@@ -4,10 +4,10 @@
 //! the left-hand side of the equations of motion ([`AddedMass`]); what of it follows from velocities
 //! is among the loads.
 
+use wingbeat_air::{AirState, Wind};
 use wingbeat_blade::{
     BladeError, BladeWing, BodyDrag, FrameAcceleration, FrameMotion, Load, SectionMotion, Strip,
 };
-use wingbeat_air::{AirState, Wind};
 use wingbeat_dynamics::{AddedMass, BodyAcceleration, BodyMotion, Wrench};
 use wingbeat_math::DVec3;
 use wingbeat_model::deformation::Stations;
