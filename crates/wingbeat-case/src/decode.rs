@@ -38,8 +38,8 @@ fn explain(path: &str, message: &str) -> Fault {
     let (problem, expected) = message.split_once(", expected ").unwrap_or((message, ""));
     Fault::new(
         path,
-        in_words(problem),
-        in_words(expected),
+        found_in_words(problem),
+        expected_in_words(expected),
         remedy(problem, expected),
     )
 }
@@ -85,17 +85,39 @@ fn same_quantity<'a>(got: &str, expected: &[&'a str]) -> Option<&'a str> {
 }
 
 /// The nearest of `names`, if it is near.
-pub(crate) fn nearest<'a>(got: &str, names: &[&'a str]) -> Option<&'a str> {
+pub fn nearest<'a>(got: &str, names: &[&'a str]) -> Option<&'a str> {
     let score = |name: &str| strsim::jaro_winkler(&got.to_lowercase(), name);
     let best = names.iter().max_by(|a, b| score(a).total_cmp(&score(b)))?;
     (score(best) > 0.8).then_some(best)
 }
 
-/// Rust's names of types in words.
-fn in_words(text: &str) -> String {
+/// What serde found, in words; the value itself stands beside the key.
+fn found_in_words(problem: &str) -> String {
+    let kind = |text: &str| text.split([' ', '`', '"']).next().unwrap_or("").to_owned();
+    let (what, found) = match problem.split_once(": ") {
+        Some(("invalid type", rest)) if rest.starts_with("floating point") => {
+            return "wrong type: a number with a fraction".to_owned();
+        }
+        Some(("invalid type", rest)) => ("wrong type: ", kind(rest)),
+        Some(("invalid value", rest)) => ("value out of range: ", kind(rest)),
+        _ => return expected_in_words(problem),
+    };
+    let words = match found.as_str() {
+        "integer" => "a whole number",
+        "boolean" => "true or false",
+        "string" => "a text",
+        "sequence" => "a list",
+        "map" => "a table",
+        "unit" => "a choice by its name alone",
+        "newtype" | "tuple" | "struct" => "a choice with settings",
+        other => other,
+    };
+    format!("{what}{words}")
+}
+
+/// What serde wants, in words: Rust's names of types say nothing to a user.
+fn expected_in_words(text: &str) -> String {
     let words = [
-        ("invalid type: ", "wrong type: "),
-        ("invalid value: ", "value out of range: "),
         ("floating point", "the number"),
         ("a sequence", "a list"),
         ("sequence", "a list"),
@@ -106,11 +128,37 @@ fn in_words(text: &str) -> String {
         ("a boolean", "true or false"),
         ("boolean", "the truth value"),
         ("an array of length 3", "a list of three numbers [x, y, z]"),
-        ("tuple variant", "a table"),
+        ("an array of length", "a list of length"),
+        ("a tuple of size", "a list of length"),
     ];
-    words
+    let plain = words
         .iter()
-        .fold(text.to_owned(), |t, (from, to)| t.replace(from, to))
+        .fold(text.to_owned(), |t, (from, to)| t.replace(from, to));
+    // `struct TimeCase`, `tuple variant ProfileCase::Table`, ...
+    [
+        ("tuple struct ", "a list"),
+        ("newtype struct ", "a value"),
+        ("unit struct ", "a table"),
+        ("struct variant ", "a table"),
+        ("newtype variant ", "a value"),
+        ("tuple variant ", "a list"),
+        ("unit variant ", "a name alone"),
+        ("struct ", "a table"),
+        ("enum ", "a choice"),
+    ]
+    .iter()
+    .fold(plain, |t, (kind, word)| without_name(&t, kind, word))
+}
+
+/// `text` with every `kind` and the name after it replaced by `word`.
+fn without_name(text: &str, kind: &str, word: &str) -> String {
+    let mut parts = text.split(kind);
+    let mut out = parts.next().unwrap_or("").to_owned();
+    for part in parts {
+        out.push_str(word);
+        out.push_str(part.trim_start_matches(|c: char| c.is_alphanumeric() || "_:".contains(c)));
+    }
+    out
 }
 
 fn remedy(problem: &str, expected: &str) -> &'static str {

@@ -124,6 +124,12 @@ pub enum IoError {
         /// What to do.
         remedy: &'static str,
     },
+    /// A name that belongs to a file of a result directory.
+    #[error("`{}` is the place of a file of a run and is left untouched; name a file outside the result directory", path.display())]
+    Reserved {
+        /// The path.
+        path: PathBuf,
+    },
     /// A file that cannot be read or written.
     #[error("cannot {action} `{}`: {source}; {remedy}", path.display())]
     File {

@@ -3,14 +3,17 @@
 //! The protocol is that of `docs/external-air.md`: words and numbers separated by blanks, SI units,
 //! N components unless said.
 
-use std::io::{BufRead, BufReader, BufWriter, Write};
-use std::process::{Child, ChildStdin, Command, Stdio};
-use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
+mod partner;
+
+use std::fmt::Write as _;
 use std::time::Duration;
 
 use wingbeat_dynamics::{BodyMotion, Wrench};
 use wingbeat_flight::{Announcement, ExternalAir, ExternalSession};
 use wingbeat_math::DVec3;
+
+use partner::Partner;
+pub use partner::end_all;
 
 /// Version of the protocol.
 pub const PROTOCOL: u32 = 2;
@@ -20,115 +23,82 @@ pub const PROTOCOL: u32 = 2;
 pub struct ProcessAir {
     /// The program and its arguments.
     pub command: Vec<String>,
-    /// Longest wait for an answer [s].
-    pub timeout: f64,
+    /// Longest wait for an answer.
+    pub timeout: Duration,
 }
 
 impl ExternalAir for ProcessAir {
     fn open(&self, flyer: &Announcement) -> Result<Box<dyn ExternalSession>, String> {
-        let mut session = Conversation::start(self)?;
+        let mut session = Conversation {
+            partner: Partner::start(&self.command, self.timeout)?,
+        };
         session.greet(flyer)?;
         Ok(Box::new(session))
     }
 }
 
-/// A running partner.
+/// Stands in for a program where nothing may be started; the air does not move and does nothing.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Unasked;
+
+impl ExternalAir for Unasked {
+    fn open(&self, _flyer: &Announcement) -> Result<Box<dyn ExternalSession>, String> {
+        Ok(Box::new(Self))
+    }
+}
+
+impl ExternalSession for Unasked {
+    fn loads(
+        &mut self,
+        _step: usize,
+        _time: f64,
+        _motions: &[BodyMotion],
+        out: &mut [Wrench],
+    ) -> Result<(), String> {
+        out.fill(Wrench::default());
+        Ok(())
+    }
+
+    fn accept(&mut self, _step: usize) -> Result<(), String> {
+        Ok(())
+    }
+}
+
+/// The protocol with a running partner.
 struct Conversation {
-    name: String,
-    child: Child,
-    input: Option<BufWriter<ChildStdin>>,
-    lines: Receiver<String>,
-    timeout: Duration,
+    partner: Partner,
 }
 
 impl Conversation {
-    fn start(air: &ProcessAir) -> Result<Self, String> {
-        let name = air.command.join(" ");
-        let mut child = Command::new(&air.command[0])
-            .args(&air.command[1..])
-            .stdin(Stdio::piped())
-            .stdout(Stdio::piped())
-            .spawn()
-            .map_err(|e| format!("`{name}` cannot be started: {e}"))?;
-        let input = child.stdin.take().map(BufWriter::new);
-        let output = child.stdout.take().expect("a piped output");
-        // A thread of its own reads, so that a silent partner can be given up.
-        let (send, lines) = channel();
-        std::thread::spawn(move || {
-            for line in BufReader::new(output).lines().map_while(Result::ok) {
-                if send.send(line).is_err() {
-                    break;
-                }
-            }
-        });
-        Ok(Self {
-            name,
-            child,
-            input,
-            lines,
-            timeout: Duration::from_secs_f64(air.timeout),
-        })
-    }
-
     fn greet(&mut self, flyer: &Announcement) -> Result<(), String> {
-        self.say(&format!("wingbeat-air {PROTOCOL}"))?;
-        self.say(&format!("step_s {:e}", flyer.step))?;
-        self.say(&format!("bodies {}", flyer.bodies.len()))?;
-        for name in &flyer.bodies {
-            self.say(name)?;
-        }
-        self.say(&format!("joints {}", flyer.joints.len()))?;
-        for (name, parent, child) in &flyer.joints {
-            self.say(&format!("{parent} {child} {name}"))?;
-        }
-        self.flush()?;
+        let bodies = flyer.bodies.iter().map(|name| format!("{name}\n"));
+        let joints = flyer.joints.iter();
+        let joints = joints.map(|(name, parent, child)| format!("{parent} {child} {name}\n"));
+        self.partner.say(format!(
+            "wingbeat-air {PROTOCOL}\nstep_s {:e}\nbodies {}\n{}joints {}\n{}",
+            flyer.step,
+            flyer.bodies.len(),
+            bodies.collect::<String>(),
+            flyer.joints.len(),
+            joints.collect::<String>()
+        ))?;
         let answer = self.hear()?;
         let ready = format!("ready {PROTOCOL}");
         if answer.trim() == ready {
             return Ok(());
         }
-        Err(self.complain(&format!("expected `{ready}`, got `{answer}`")))
+        Err(self
+            .partner
+            .complain(&format!("expected `{ready}`, got `{answer}`")))
     }
 
-    fn say(&mut self, line: &str) -> Result<(), String> {
-        let input = self.input.as_mut().expect("open while the flight lasts");
-        let said = writeln!(input, "{line}");
-        said.map_err(|e| self.last_words(&e))
-    }
-
-    fn flush(&mut self) -> Result<(), String> {
-        let input = self.input.as_mut().expect("open while the flight lasts");
-        let done = input.flush();
-        done.map_err(|e| self.last_words(&e))
-    }
-
-    /// Why a partner no longer listens: what it said before it went, if anything.
-    fn last_words(&mut self, e: &std::io::Error) -> String {
-        let said = self.lines.recv_timeout(Duration::from_secs(1));
-        let problem = said.ok().and_then(|line| {
-            let problem = line.trim().strip_prefix("error")?;
-            Some(problem.trim().to_owned())
-        });
-        self.complain(&problem.unwrap_or_else(|| format!("it does not listen: {e}")))
-    }
-
-    /// The next line of the partner.
+    /// The next line, unless it is a complaint.
     fn hear(&mut self) -> Result<String, String> {
-        match self.lines.recv_timeout(self.timeout) {
-            Ok(line) => match line.trim().strip_prefix("error") {
-                Some(problem) => Err(self.complain(problem.trim())),
-                None => Ok(line),
-            },
-            Err(RecvTimeoutError::Timeout) => Err(self.complain(&format!(
-                "no answer within {} s; allow more with air.external.timeout_s",
-                self.timeout.as_secs_f64()
-            ))),
-            Err(RecvTimeoutError::Disconnected) => Err(self.complain("it ended its output")),
+        let line = self.partner.hear()?;
+        match line.trim().strip_prefix("error") {
+            Some(problem) => Err(self.partner.complain(problem.trim())),
+            None => Ok(line),
         }
-    }
-
-    fn complain(&self, problem: &str) -> String {
-        format!("`{}`: {problem}", self.name)
     }
 
     fn wrench(&mut self) -> Result<Wrench, String> {
@@ -139,7 +109,9 @@ impl Conversation {
                 force: DVec3::from_slice(&n),
                 moment: DVec3::from_slice(&n[3..]),
             }),
-            _ => Err(self.complain(&format!("expected six numbers, got `{line}`"))),
+            _ => Err(self
+                .partner
+                .complain(&format!("expected six numbers, got `{line}`"))),
         }
     }
 }
@@ -166,11 +138,11 @@ impl ExternalSession for Conversation {
         motions: &[BodyMotion],
         out: &mut [Wrench],
     ) -> Result<(), String> {
-        self.say(&format!("evaluate {step} {time:e}"))?;
+        let mut question = format!("evaluate {step} {time:e}\n");
         for m in motions {
-            self.say(&numbers(m))?;
+            let _ = writeln!(question, "{}", numbers(m)); // a string takes everything
         }
-        self.flush()?;
+        self.partner.say(question)?;
         for w in out {
             *w = self.wrench()?;
         }
@@ -178,23 +150,6 @@ impl ExternalSession for Conversation {
     }
 
     fn accept(&mut self, step: usize) -> Result<(), String> {
-        self.say(&format!("accept {step}"))?;
-        self.flush()
-    }
-}
-
-impl Drop for Conversation {
-    fn drop(&mut self) {
-        // A partner that listens ends on `end` or on the end of its input.
-        let _ = self.say("end").and_then(|()| self.flush());
-        self.input = None;
-        for _ in 0..100 {
-            if !matches!(self.child.try_wait(), Ok(None)) {
-                return;
-            }
-            std::thread::sleep(Duration::from_millis(10));
-        }
-        let _ = self.child.kill();
-        let _ = self.child.wait();
+        self.partner.say(format!("accept {step}\n"))
     }
 }

@@ -1,11 +1,49 @@
-//! Files a case refers to are read in, so that the case stands alone afterwards.
+//! The case file, and the files it refers to: they are read in, so that the case stands alone
+//! afterwards.
 
 use std::path::Path;
 
 use wingbeat_model::import;
 
 use super::raw::{AngleCase, Case, PartCase, TableCase};
-use crate::error::Fault;
+use crate::error::{Fault, IoError};
+
+/// Bytes of a file at most: a mesh of some million panels.
+const MOST_BYTES: u64 = 200_000_000;
+
+/// The text of a case file.
+///
+/// # Errors
+/// A file that cannot be read or is none.
+pub(crate) fn text_of(path: &Path) -> Result<String, IoError> {
+    let refused = |source, remedy| IoError::File {
+        action: "read",
+        path: path.to_owned(),
+        source,
+        remedy,
+    };
+    if path.is_dir() {
+        return Err(refused(
+            std::io::ErrorKind::IsADirectory.into(),
+            "name the case file in it; a result directory holds its case as case.toml",
+        ));
+    }
+    check_file(path).map_err(|e| refused(e, "name an ordinary file"))?;
+    std::fs::read_to_string(path).map_err(IoError::read(path))
+}
+
+/// Devices and pipes, which may never end, are not read; nor is what would fill the memory.
+fn check_file(path: &Path) -> std::io::Result<()> {
+    let data = std::fs::metadata(path)?;
+    if !data.is_file() {
+        return Err(std::io::Error::other("it is not a file"));
+    }
+    if data.len() > MOST_BYTES {
+        let problem = format!("it is larger than {} MB", MOST_BYTES / 1_000_000);
+        return Err(std::io::Error::other(problem));
+    }
+    Ok(())
+}
 
 /// Reads mesh and table files; paths are relative to `base`.
 pub(crate) fn read_in(case: &mut Case, base: &Path) -> Result<(), Fault> {
@@ -40,13 +78,9 @@ fn unreadable(key: String, file: &Path, e: &std::io::Error) -> Fault {
     )
 }
 
-/// The bytes of a file; devices and pipes, which may never end, are none.
+/// The bytes of a file.
 fn bytes_of(key: &str, file: &Path) -> Result<Vec<u8>, Fault> {
-    let read = match std::fs::metadata(file) {
-        Ok(data) if !data.is_file() => Err(std::io::Error::other("it is not a file")),
-        Ok(_) => std::fs::read(file),
-        Err(e) => Err(e),
-    };
+    let read = check_file(file).and_then(|()| std::fs::read(file));
     read.map_err(|e| unreadable(key.to_owned(), file, &e))
 }
 
@@ -131,6 +165,9 @@ fn read_table(path: &str, table: &mut TableCase, base: &Path) -> Result<(), Faul
             value.ok_or_else(|| bad(format!("line {line}: `{text}` is not a finite number")))
         };
         rows.push([number(columns[0])?, number(columns[1])?]);
+    }
+    if rows.is_empty() {
+        return Err(bad("there are no rows below the header".to_owned()));
     }
     table.rows_deg = Some(rows);
     (table.phase_column, table.angle_column) = (None, None);

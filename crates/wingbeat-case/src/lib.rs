@@ -14,6 +14,7 @@
 mod build;
 mod data;
 mod decode;
+mod differences;
 mod error;
 pub mod external;
 mod files;
@@ -28,8 +29,10 @@ mod trimmed;
 
 pub use build::column_name;
 pub use data::data_sets;
+pub use decode::nearest;
+pub use differences::{Difference, differences};
 pub use error::{CaseError, IoError};
 pub use keys::schema;
 pub use loaded::LoadedCase;
 pub use output::{OutputSettings, SaveSettings};
-pub use trimmed::{derivative_case, trimmed_case, wake_trimmed_case, write_new};
+pub use trimmed::{derivative_case, trimmed_case, wake_trimmed_case};

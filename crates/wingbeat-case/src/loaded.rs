@@ -65,7 +65,7 @@ impl LoadedCase {
     /// # Errors
     /// A file that cannot be read, or a case that cannot be flown.
     pub fn from_file(path: &Path, overrides: &[String]) -> Result<Self, IoError> {
-        let text = std::fs::read_to_string(path).map_err(IoError::read(path))?;
+        let text = files::text_of(path)?;
         let base = path.parent().map(Path::to_owned).unwrap_or_default();
         Self::from_text(&path.display().to_string(), &text, &base, overrides)
     }
@@ -79,9 +79,21 @@ impl LoadedCase {
         if path.is_file() {
             return Self::from_file(&path, overrides);
         }
-        let preset = presets::find(name)?;
-        let origin = format!("preset {}", preset.name);
-        Self::from_text(&origin, preset.text, Path::new(""), overrides)
+        match presets::find(name) {
+            Ok(preset) => {
+                let origin = format!("preset {}", preset.name);
+                Self::from_text(&origin, preset.text, Path::new(""), overrides)
+            }
+            Err(_) if path.exists() => Self::from_file(&path, overrides), // says what it is
+            Err(e) => Err(e),
+        }
+    }
+
+    /// The program that computes the air, with its arguments, if the case names one.
+    pub fn program(&self) -> Option<String> {
+        let external = self.raw.air.external.as_ref()?;
+        let starts = self.raw.air.model == raw::AirModel::External;
+        starts.then(|| external.command.join(" "))
     }
 
     /// The text of the case as it was written.

@@ -1,7 +1,5 @@
 //! Presets: ordinary case files, embedded, commented, ready to be written out and edited.
 
-use std::path::{Path, PathBuf};
-
 use crate::decode::nearest;
 use crate::error::IoError;
 
@@ -86,23 +84,4 @@ pub fn find(name: &str) -> Result<Preset, IoError> {
             hint: nearest(name, &names).map_or(String::new(), |n| format!(", did you mean `{n}`?")),
         }
     })
-}
-
-/// Writes a preset as a case file, `NAME.toml` if no file is named; never over an existing one.
-///
-/// # Errors
-/// An unknown preset, an existing file, or one that cannot be written.
-pub fn write(name: &str, file: Option<&Path>) -> Result<PathBuf, IoError> {
-    let preset = find(name)?;
-    let path = file.map_or_else(|| PathBuf::from(format!("{name}.toml")), Path::to_owned);
-    let created = std::fs::File::create_new(&path);
-    let mut out = created.map_err(|e| match e.kind() {
-        std::io::ErrorKind::AlreadyExists => IoError::Exists {
-            path: path.clone(),
-            remedy: "name another file",
-        },
-        _ => IoError::write(&path)(e),
-    })?;
-    std::io::Write::write_all(&mut out, preset.text.as_bytes()).map_err(IoError::write(&path))?;
-    Ok(path)
 }

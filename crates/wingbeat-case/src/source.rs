@@ -8,6 +8,9 @@ use toml::{Spanned, Table, Value};
 
 use crate::error::{CaseError, Fault};
 
+/// Parts of a key at most; `wing.right.deformation.twist[0].course.fourier.cosine_deg[0]` has ten.
+const MOST_PARTS: usize = 32;
+
 /// A case as written: text, key positions, overrides, and the document with overrides applied.
 #[derive(Clone, Debug)]
 pub(crate) struct CaseSource {
@@ -57,7 +60,7 @@ impl CaseSource {
 
     /// Traces a fault to its line, or to the override that caused it.
     pub fn locate(&self, fault: Fault) -> CaseError {
-        let value = find(&self.table, &fault.key).and_then(short);
+        let value = find(&self.table, &fault.key).and_then(in_one_line);
         let overridden = self
             .overrides
             .iter()
@@ -138,7 +141,7 @@ impl CaseSource {
     fn apply(&mut self, item: &str) -> Result<(), Box<CaseError>> {
         let wrong = |problem: String| {
             Box::new(CaseError {
-                origin: format!("--set {item}"),
+                origin: format!("--set {}", shortened(item)),
                 line: None,
                 column: None,
                 key: String::new(),
@@ -152,7 +155,7 @@ impl CaseSource {
         };
         let (key, typed) = item
             .split_once('=')
-            .ok_or_else(|| wrong(format!("`{item}` has no `=`")))?;
+            .ok_or_else(|| wrong(format!("`{}` has no `=`", shortened(item))))?;
         let (key, typed) = (key.trim(), typed.trim());
         let document = format!("value = {typed}").parse::<Table>();
         let value = match document {
@@ -163,6 +166,15 @@ impl CaseSource {
         set(&mut self.table, key, value).map_err(wrong)?;
         self.overrides.push((key.to_owned(), typed.to_owned()));
         Ok(())
+    }
+}
+
+/// The start of a long text.
+fn shortened(text: &str) -> String {
+    const MOST: usize = 120;
+    match text.char_indices().nth(MOST) {
+        Some((end, _)) => format!("{}...", &text[..end]),
+        None => text.to_owned(),
     }
 }
 
@@ -243,6 +255,12 @@ fn find<'a>(table: &'a Table, path: &str) -> Option<&'a Value> {
 /// Puts a value at a path, making tables on the way.
 fn set(table: &mut Table, path: &str, value: Value) -> Result<(), String> {
     let steps: Vec<Part<'_>> = parts(path).collect();
+    if steps.len() > MOST_PARTS {
+        return Err(format!(
+            "a key of {} parts: no case has one that deep",
+            steps.len()
+        ));
+    }
     let Some((Part::Name(first), rest)) = steps.split_first() else {
         return Err("the key is empty".to_owned());
     };
@@ -270,7 +288,7 @@ fn set(table: &mut Table, path: &str, value: Value) -> Result<(), String> {
 }
 
 /// A value in one line, shortened.
-fn short(value: &Value) -> Option<String> {
+pub(crate) fn in_one_line(value: &Value) -> Option<String> {
     match value {
         Value::Table(_) => None,
         Value::Float(x) => Some(format!("{x:?}")),

@@ -1,8 +1,5 @@
 //! A trimmed flight as a case file.
 
-use std::io::Write;
-use std::path::Path;
-
 use wingbeat_analysis::table::rigid_animal;
 use wingbeat_analysis::wake::WakeTrim;
 use wingbeat_analysis::{AnalysisError, LinearModel, Trim};
@@ -15,7 +12,6 @@ use super::raw::{
     AirCase, AirModel, BodyCase, Case, DerivativesCase, FlightCase, JointKind, Mode, MotionCase,
     StartCase,
 };
-use crate::error::IoError;
 use crate::loaded::written;
 
 /// The case of a trimmed flight as TOML: the given case with the adjusted wing motion, hinges and
@@ -168,20 +164,4 @@ pub fn derivative_case(
         "# `{}`, averaged over the wingbeat: a rigid body under stability derivatives.\n{body}",
         case.name
     ))
-}
-
-/// Writes `text` to a file that does not exist yet.
-///
-/// # Errors
-/// An existing file, or one that cannot be written.
-pub fn write_new(path: &Path, text: &str) -> Result<(), IoError> {
-    let created = std::fs::File::create_new(path);
-    let mut out = created.map_err(|e| match e.kind() {
-        std::io::ErrorKind::AlreadyExists => IoError::Exists {
-            path: path.to_owned(),
-            remedy: "name another file",
-        },
-        _ => IoError::write(path)(e),
-    })?;
-    out.write_all(text.as_bytes()).map_err(IoError::write(path))
 }

@@ -6,9 +6,9 @@ use std::path::{Path, PathBuf};
 
 use wingbeat_case::IoError;
 
-/// Everything a run may write; `--overwrite` removes these and nothing else. The manifest comes
-/// first and goes last: where it is, there is a run.
-const ENTRIES: [&str; 13] = [
+/// Files a run and its exports may have; `--overwrite` removes these, the frames and the figures, and
+/// nothing else. The manifest comes first and goes last: where it is, there is a run.
+const ENTRIES: [&str; 14] = [
     "history.csv",
     "flight.pvd",
     "summary.txt",
@@ -20,10 +20,29 @@ const ENTRIES: [&str; 13] = [
     "history.parquet",
     "surfaces.vtkhdf",
     "wakes.vtkhdf",
+    "particles.vtkhdf",
     "case.toml",
     "manifest.json",
 ];
-const FOLDERS: [&str; 2] = ["frames", "figures"];
+const FRAMES: &str = "frames";
+const FIGURES: &str = "figures";
+/// Figures for papers, within the folder of figures.
+const PAPER: &str = "figures/paper";
+/// Figures by their names, the endings left out.
+pub const FIGURE_NAMES: [&str; 10] = [
+    "angles",
+    "forces",
+    "lollipop",
+    "beats",
+    "trajectory",
+    "path",
+    "phase",
+    "balances",
+    "wake",
+    "animation",
+];
+/// Folders this far around a file are searched for a run.
+const DEPTH: usize = 4;
 
 /// A directory that belongs to one run.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -79,10 +98,10 @@ impl ResultDir {
         if !path.exists() {
             return Self::create(path);
         }
-        if !empty && !path.join("manifest.json").is_file() {
+        if !empty && !holds_run(path) {
             return Err(IoError::Exists {
                 path: path.to_owned(),
-                remedy: "it holds no earlier run (no manifest.json), so --overwrite leaves it alone: choose another directory",
+                remedy: "it holds no earlier run (no manifest.json of ours), so --overwrite leaves it alone: choose another directory",
             });
         }
         if super::history::is_locked(&path.join("history.csv")) {
@@ -91,9 +110,9 @@ impl ResultDir {
                 remedy: "another wingbeat is writing it right now: wait for it, or choose another directory",
             });
         }
-        for folder in FOLDERS {
-            absent(fs::remove_dir_all(path.join(folder))).map_err(make(path))?;
-        }
+        clear(&path.join(FRAMES), is_frame).map_err(make(path))?;
+        clear(&path.join(PAPER), is_figure).map_err(make(path))?;
+        clear(&path.join(FIGURES), is_figure).map_err(make(path))?;
         for entry in ENTRIES {
             absent(fs::remove_file(path.join(entry))).map_err(make(path))?;
         }
@@ -150,6 +169,28 @@ impl ResultDir {
         super::saver::read_manifest(&self.path)
     }
 
+    /// Whether files drawn or exported from this result may be written to `folder`: not among the
+    /// frames, and not among the files of another result.
+    ///
+    /// # Errors
+    /// [`IoError::Reserved`] if not.
+    pub fn check_folder(&self, folder: &Path) -> Result<(), IoError> {
+        let reserved = match run_around(folder) {
+            Some((run, inside)) if run == resolved(&self.path) => inside.starts_with(FRAMES),
+            Some((_, inside)) => {
+                let own = [FRAMES, FIGURES].iter().any(|f| inside.starts_with(f));
+                own || inside.as_os_str().is_empty()
+            }
+            None => false,
+        };
+        match reserved {
+            true => Err(IoError::Reserved {
+                path: folder.to_owned(),
+            }),
+            false => Ok(()),
+        }
+    }
+
     /// Where it is.
     pub fn path(&self) -> &Path {
         &self.path
@@ -176,6 +217,77 @@ impl ResultDir {
     /// A file that cannot be written.
     pub fn write(&self, name: &str, content: &[u8]) -> Result<(), IoError> {
         write_whole(&self.join(name), content)
+    }
+}
+
+/// Whether this is the place of a file that a run writes or has written.
+pub(crate) fn belongs_to_run(path: &Path) -> bool {
+    run_around(path).is_some_and(|(_, inside)| {
+        let folder = [FRAMES, FIGURES].iter().any(|f| inside.starts_with(f));
+        folder || ENTRIES.iter().any(|entry| inside == Path::new(entry))
+    })
+}
+
+/// Whether a run was written here: other programs have files called manifest.json, too.
+fn holds_run(path: &Path) -> bool {
+    let beside = || path.join("manifest.json").is_file() && path.join("history.csv").is_file();
+    super::saver::read_manifest(path).is_ok() || beside()
+}
+
+/// The run that a path lies in, and the path within it.
+fn run_around(path: &Path) -> Option<(PathBuf, PathBuf)> {
+    let path = resolved(path);
+    let run = path.ancestors().take(DEPTH);
+    let run = run.into_iter().find(|p| holds_run(p))?;
+    let inside = path.strip_prefix(run).ok()?;
+    Some((run.to_owned(), inside.to_owned()))
+}
+
+/// The path without links and dots, as far as it exists.
+fn resolved(path: &Path) -> PathBuf {
+    let whole = fs::canonicalize(path);
+    whole.unwrap_or_else(|_| match (path.parent(), path.file_name()) {
+        (Some(parent), Some(name)) if !parent.as_os_str().is_empty() => resolved(parent).join(name),
+        _ => std::path::absolute(path).unwrap_or_else(|_| path.to_owned()),
+    })
+}
+
+/// Name of a frame, whole or half-written: `wakes_000012.vtp`.
+pub(crate) fn is_frame(name: &str) -> bool {
+    let stem = |n: &str| n.strip_suffix(".vtp").map(str::to_owned);
+    let number = stem(name.trim_end_matches(".part")).and_then(|stem| {
+        let (what, number) = stem.split_once('_')?;
+        ["surfaces", "wakes", "particles"]
+            .contains(&what)
+            .then(|| number.to_owned())
+    });
+    number.is_some_and(|n| !n.is_empty() && n.bytes().all(|b| b.is_ascii_digit()))
+}
+
+/// Name of a figure, whole or half-written: `forces.svg`.
+fn is_figure(name: &str) -> bool {
+    let known = |stem: &str| FIGURE_NAMES.contains(&stem);
+    let name = name.trim_end_matches(".part").rsplit_once('.');
+    name.is_some_and(|(stem, end)| {
+        known(stem) && ["svg", "png", "pdf", "gif", "mp4"].contains(&end)
+    })
+}
+
+/// Removes the files of a folder whose names are `ours`, then the folder if it is empty.
+fn clear(folder: &Path, ours: impl Fn(&str) -> bool) -> std::io::Result<()> {
+    if folder.is_symlink() || !folder.is_dir() {
+        return Ok(());
+    }
+    for entry in fs::read_dir(folder)? {
+        let entry = entry?;
+        let own = entry.file_name().to_str().is_some_and(&ours);
+        if own && !entry.file_type()?.is_dir() {
+            absent(fs::remove_file(entry.path()))?;
+        }
+    }
+    match fs::remove_dir(folder) {
+        Err(e) if e.kind() == ErrorKind::DirectoryNotEmpty => Ok(()),
+        removed => absent(removed),
     }
 }
 

@@ -182,6 +182,11 @@ pub(crate) fn is_locked(path: &Path) -> bool {
     matches!(file, Ok(Err(TryLockError::WouldBlock)))
 }
 
+/// Whether nobody is writing this history; false, too, where the file system has no locks to tell.
+pub(crate) fn is_abandoned(path: &Path) -> bool {
+    File::open(path).is_ok_and(|file| file.try_lock_shared().is_ok())
+}
+
 /// SHA-256 of the first `bytes` bytes, read in pieces.
 ///
 /// # Errors

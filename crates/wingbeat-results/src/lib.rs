@@ -24,6 +24,8 @@ pub mod checkpoint;
 pub mod columns;
 pub mod directory;
 pub mod export;
+pub mod file;
+pub mod fixed;
 mod framer;
 pub mod frames;
 pub mod history;

@@ -7,11 +7,12 @@ use sha2::{Digest, Sha256};
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Outcome {
-    /// Still running, or killed.
+    /// Still running; of a killed run only the file says so, whoever reads it finds
+    /// [`Self::Interrupted`].
     Running,
     /// All steps were made.
     Finished,
-    /// Stopped by Ctrl-C or SIGTERM; everything up to there is written.
+    /// Stopped by Ctrl-C or SIGTERM, or killed; everything up to there is written.
     Interrupted,
     /// A file could not be written, e.g. on a full disk; `wingbeat resume` goes on from the last
     /// checkpoint.

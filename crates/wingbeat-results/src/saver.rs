@@ -7,8 +7,8 @@ use std::time::{Duration, Instant};
 use wingbeat_flight::FlightState;
 
 use super::checkpoint::{self, FILE, Header};
-use super::directory::write_safely;
-use super::history::hash_start;
+use super::directory::{is_frame, write_safely};
+use super::history::{hash_start, is_abandoned};
 use super::manifest::{Manifest, Outcome, hexadecimal, sha256};
 use wingbeat_case::{IoError, SaveSettings};
 
@@ -97,7 +97,7 @@ pub fn read(dir: &Path) -> Result<Saved, IoError> {
     })
 }
 
-/// The manifest of a result directory.
+/// The manifest of a result directory; a run that was killed counts as interrupted.
 ///
 /// # Errors
 /// A directory that holds no run; a manifest that cannot be read.
@@ -110,10 +110,14 @@ pub fn read_manifest(dir: &Path) -> Result<Manifest, IoError> {
         });
     }
     let text = fs::read_to_string(&path).map_err(IoError::read(&path))?;
-    serde_json::from_str(&text).map_err(|e| IoError::Damaged {
+    let mut manifest: Manifest = serde_json::from_str(&text).map_err(|e| IoError::Damaged {
         path,
         problem: format!("the manifest cannot be read: {e}"),
-    })
+    })?;
+    if manifest.outcome == Outcome::Running && is_abandoned(&dir.join("history.csv")) {
+        manifest.outcome = Outcome::Interrupted;
+    }
+    Ok(manifest)
 }
 
 fn check_start(path: &Path, header: &Header) -> Result<(), IoError> {
@@ -186,8 +190,8 @@ pub(crate) fn check_history(dir: &Path, manifest: &Manifest) -> Result<(), IoErr
     Ok(())
 }
 
-/// Takes the frames back to step `last`: removes later and half-written ones. Returns the steps
-/// of those that are left.
+/// Takes the frames back to step `last`: removes later and half-written ones, and nothing that is
+/// no frame. Returns the steps of those that are left.
 ///
 /// # Errors
 /// A file that cannot be changed.
@@ -199,6 +203,9 @@ pub(crate) fn go_back(dir: &Path, last: usize) -> Result<Vec<usize>, IoError> {
     let mut steps = vec![];
     for entry in entries.flatten() {
         let path = entry.path();
+        if !entry.file_name().to_str().is_some_and(is_frame) {
+            continue; // not ours
+        }
         let stem = path.file_stem().and_then(|s| s.to_str()).unwrap_or("");
         let step = stem.rsplit('_').next().and_then(|s| s.parse().ok());
         let whole = path.extension().is_some_and(|e| e == "vtp");

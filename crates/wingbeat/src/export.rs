@@ -3,9 +3,12 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use wingbeat::case::IoError;
 use wingbeat::results::ResultDir;
 use wingbeat::results::export::{self, Format};
+
+use crate::failure::Failure;
+use crate::options::choose;
+use crate::terminal::say;
 
 /// What `wingbeat export` is told.
 #[derive(Args)]
@@ -18,22 +21,21 @@ pub(crate) struct ExportArgs {
     /// Folder for the files; default the result directory.
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
+    /// Replace files that exist already.
+    #[arg(long)]
+    overwrite: bool,
 }
 
 fn format(name: &str) -> Result<Format, String> {
-    let known = Format::ALL.iter().find(|f| f.0 == name);
-    known.map(|f| f.1).ok_or_else(|| {
-        let names: Vec<&str> = Format::ALL.iter().map(|f| f.0).collect();
-        format!("choose one of {}", names.join(", "))
-    })
+    choose(name, &Format::ALL)
 }
 
 /// The whole command.
-pub(crate) fn export(args: &ExportArgs) -> Result<(), IoError> {
+pub(crate) fn export(args: &ExportArgs) -> Result<(), Failure> {
     let dir = ResultDir::read(&args.dir)?;
     let into = args.out.as_ref().unwrap_or(&args.dir);
-    for file in export::export(&dir, args.format, into)? {
-        println!("wrote {}", file.display());
+    for file in export::export(&dir, args.format, into, args.overwrite)? {
+        say!("wrote {}", file.display());
     }
     Ok(())
 }

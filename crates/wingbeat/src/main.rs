@@ -4,12 +4,18 @@ mod analyse;
 mod check;
 mod expectation;
 mod export;
+mod failure;
+mod help;
+mod options;
 mod pace;
 mod plot;
 mod progress;
 mod remaining;
+mod report;
 mod run;
 mod show;
+mod signals;
+mod terminal;
 mod velocity;
 mod verify;
 mod view;
@@ -18,16 +24,24 @@ mod watch;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-use clap::{Args, Parser, Subcommand};
-use wingbeat::case::{self, IoError, presets};
+use clap::{Args, FromArgMatches, Parser, Subcommand};
+use clap_complete::Shell;
+use wingbeat::case::{self, presets};
+use wingbeat::results::file::NewFile;
+
+use failure::Failure;
+use terminal::say;
+
+/// Threads at most.
+const MOST_THREADS: usize = 1024;
 
 /// Simulator of flapping-wing flight.
 ///
-/// Exit codes: 0 done; 1 the flight or the writing failed midway (what was flown is kept);
+/// Exit codes: 0 done; 1 the flight, the writing or a print failed midway (what was flown is kept);
 /// 2 nothing was run: command line, case or output directory cannot be used; 130 interrupted by
 /// Ctrl-C or SIGTERM (what was flown is kept).
 #[derive(Parser)]
-#[command(version, max_term_width = 100)]
+#[command(version, max_term_width = 100, styles = help::STYLES)]
 struct Cli {
     #[command(subcommand)]
     command: Command,
@@ -78,15 +92,17 @@ enum Command {
     Verify(verify::VerifyArgs),
     /// List the presets and the shipped sets of wing angles.
     Presets,
-    /// Write a preset as a commented case file to start from; never over an existing file.
-    New {
-        /// Name of the preset.
-        preset: String,
-        /// File to write; default PRESET.toml.
-        file: Option<PathBuf>,
-    },
+    /// Write a preset as a commented case file to start from.
+    New(NewArgs),
     /// Print the JSON schema of case files, for editors.
     Schema,
+    /// Print the completions of a shell.
+    Completions {
+        /// Which shell.
+        shell: Shell,
+    },
+    /// Write manual pages: one of the program, one of each command.
+    Man(help::ManArgs),
 }
 
 /// What `wingbeat run` is told.
@@ -117,11 +133,23 @@ struct ResumeArgs {
     manner: Manner,
 }
 
+/// What `wingbeat new` is told.
+#[derive(Args)]
+struct NewArgs {
+    /// Name of the preset.
+    preset: String,
+    /// File to write; default PRESET.toml.
+    file: Option<PathBuf>,
+    /// Replace the file if there is one.
+    #[arg(long)]
+    overwrite: bool,
+}
+
 /// How a flight is computed and shown.
 #[derive(Args)]
 struct Manner {
     /// Threads to use; default all. Results do not depend on it.
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", value_parser = options::count::<1, MOST_THREADS>)]
     threads: Option<usize>,
     /// No progress and no summary on the terminal.
     #[arg(long)]
@@ -139,70 +167,67 @@ impl Manner {
 }
 
 fn main() -> ExitCode {
-    end_quietly_when_nobody_reads();
-    let cli = Cli::parse();
-    let outcome = match cli.command {
-        Command::Run(args) => return run::run(&args),
-        Command::Resume(args) => return run::resume(&args),
+    let matches = help::command().try_get_matches();
+    let code = match matches.and_then(|found| Cli::from_arg_matches(&found)) {
+        Ok(cli) => run(cli.command).map_or_else(|failure| failure.tell(), |()| 0),
+        Err(message) => terminal::usage(&help::advised(message)),
+    };
+    ExitCode::from(terminal::close(code))
+}
+
+fn run(command: Command) -> Result<(), Failure> {
+    match command {
+        Command::Run(args) => run::run(&args),
+        Command::Resume(args) => run::resume(&args),
         Command::View(args) => view::view(&args),
         Command::Plot(args) => plot::plot(&args),
         Command::Export(args) => export::export(&args),
         Command::Show(args) => show::show(&args),
         Command::Compare(args) => show::compare(&args),
         Command::Check { case, set, trial } => check::check(&case, &set, trial),
-        Command::Trim(args) => return analyse::trim::run(&args),
-        Command::Stability(args) => return analyse::stability::run(&args),
-        Command::Derivatives(args) => return analyse::derivatives::run(&args),
-        Command::Power(args) => return analyse::power::run(&args),
-        Command::Stabilise(args) => return analyse::stabilise::run(&args),
-        Command::Velocity(args) => return velocity::run(&args),
-        Command::Verify(args) => return verify::run(&args),
+        Command::Trim(args) => analyse::trim::run(&args),
+        Command::Stability(args) => analyse::stability::run(&args),
+        Command::Derivatives(args) => analyse::derivatives::run(&args),
+        Command::Power(args) => analyse::power::run(&args),
+        Command::Stabilise(args) => analyse::stabilise::run(&args),
+        Command::Velocity(args) => velocity::run(&args),
+        Command::Verify(args) => verify::run(&args),
         Command::Presets => {
             list();
             Ok(())
         }
-        Command::New { preset, file } => presets::write(&preset, file.as_deref()).map(|path| {
-            println!("wrote {0}; fly it with `wingbeat run {0}`", path.display());
-        }),
+        Command::New(args) => new(&args),
         Command::Schema => {
-            println!("{}", case::schema());
+            say!("{}", case::schema());
             Ok(())
         }
-    };
-    match outcome {
-        Ok(()) => ExitCode::SUCCESS,
-        Err(e) => refuse(&e),
-    }
-}
-
-/// `wingbeat ... | head` is no failure: a reader who has seen enough ends the program.
-fn end_quietly_when_nobody_reads() {
-    let report = std::panic::take_hook();
-    std::panic::set_hook(Box::new(move |info| {
-        let text = info.payload().downcast_ref::<String>();
-        if text.is_some_and(|t| t.starts_with("failed printing to stdout")) {
-            std::process::exit(0);
+        Command::Completions { shell } => {
+            help::completions(shell);
+            Ok(())
         }
-        report(info);
-    }));
+        Command::Man(args) => help::man(&args),
+    }
 }
 
-/// Reports an error that kept anything from being run.
-fn refuse(e: &IoError) -> ExitCode {
-    match e {
-        IoError::Case(report) => eprintln!("{report}"), // begins with `error:` itself
-        other => eprintln!("error: {other}"),
-    }
-    ExitCode::from(2)
+fn new(args: &NewArgs) -> Result<(), Failure> {
+    let preset = presets::find(&args.preset)?;
+    let named = || PathBuf::from(format!("{}.toml", preset.name));
+    let file = NewFile::claim(&args.file.clone().unwrap_or_else(named), args.overwrite)?;
+    file.write(preset.text.as_bytes())?;
+    say!(
+        "wrote {0}; fly it with `wingbeat run {0}`",
+        file.path().display()
+    );
+    Ok(())
 }
 
 fn list() {
-    println!("Presets (wingbeat run NAME, wingbeat new NAME):");
+    say!("Presets (wingbeat run NAME, wingbeat new NAME):");
     for preset in presets::PRESETS {
-        println!("  {:<27}{}", preset.name, preset.line());
+        say!("  {:<27}{}", preset.name, preset.line());
     }
-    println!("\nSets of wing angles (motion.data):");
+    say!("\nSets of wing angles (motion.data):");
     for (name, line) in case::data_sets() {
-        println!("  {name:<28}{line}");
+        say!("  {name:<28}{line}");
     }
 }

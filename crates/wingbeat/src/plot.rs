@@ -3,9 +3,12 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use wingbeat::case::IoError;
 use wingbeat::draw::figures::{self, Format, Kind, Order, Style, Window};
 use wingbeat::results::ResultDir;
+
+use crate::failure::Failure;
+use crate::options::choose;
+use crate::terminal::say;
 
 /// What `wingbeat plot` is told.
 #[derive(Args)]
@@ -42,30 +45,20 @@ pub(crate) struct PlotArgs {
     overwrite: bool,
 }
 
-fn choose<T>(name: &str, mut known: impl Iterator<Item = (&'static str, T)>) -> Result<T, String> {
-    let mut names = vec![];
-    known
-        .find_map(|(n, value)| {
-            names.push(n);
-            (n == name).then_some(value)
-        })
-        .ok_or_else(|| format!("choose one of {}", names.join(", ")))
-}
-
 fn kind(name: &str) -> Result<Kind, String> {
-    choose(name, Kind::ALL.into_iter().map(|(n, k, _)| (n, k)))
+    choose(name, &Kind::ALL.map(|(name, kind, _)| (name, kind)))
 }
 
 fn style(name: &str) -> Result<Style, String> {
-    choose(name, Style::ALL.into_iter())
+    choose(name, &Style::ALL)
 }
 
 fn format(name: &str) -> Result<Format, String> {
-    choose(name, Format::ALL.into_iter())
+    choose(name, &Format::ALL)
 }
 
 /// The whole command.
-pub(crate) fn plot(args: &PlotArgs) -> Result<(), IoError> {
+pub(crate) fn plot(args: &PlotArgs) -> Result<(), Failure> {
     let dir = ResultDir::read(&args.dir)?;
     let folder = args.out.clone().unwrap_or_else(|| match args.style {
         Style::Screen => args.dir.join("figures"),
@@ -85,7 +78,7 @@ pub(crate) fn plot(args: &PlotArgs) -> Result<(), IoError> {
         overwrite: args.overwrite,
     };
     for file in figures::plot(&dir, &order)? {
-        println!("{}", file.display());
+        say!("{}", file.display());
     }
     Ok(())
 }

@@ -5,9 +5,11 @@ use std::time::{Duration, Instant};
 
 use indicatif::{HumanDuration, ProgressBar, ProgressDrawTarget, ProgressStyle};
 use wingbeat::flight::{FlightSetup, Record, Simulation};
+use wingbeat::results::fixed::signed;
 
 use crate::Manner;
 use crate::pace::Pace;
+use crate::terminal::say;
 
 /// Time between two lines of JSON.
 const PAUSE: Duration = Duration::from_millis(500);
@@ -68,7 +70,7 @@ impl Progress {
 
     fn say(&self, record: &Record) {
         if self.json {
-            println!("{}", self.line(record));
+            say!("{}", self.line(record));
         }
         if !self.bar.is_hidden() {
             self.bar.set_message(self.message(record));
@@ -86,7 +88,7 @@ impl Progress {
     fn message(&self, record: &Record) -> String {
         let lift = self.lift(record);
         let lift = if self.weight > 0.0 {
-            format!("lift/weight {:+.2}", lift / self.weight)
+            format!("lift/weight {}", signed(lift / self.weight, 2))
         } else {
             format!("lift {lift:+.2e} N")
         };

@@ -1,8 +1,6 @@
 //! `wingbeat run` and `wingbeat resume`: fly a case, write its results, say what happened.
 
 use std::path::Path;
-use std::process::ExitCode;
-use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use wingbeat::case::{IoError, LoadedCase};
@@ -10,10 +8,11 @@ use wingbeat::draw::draw_run;
 use wingbeat::flight::{FlightError, Simulation};
 use wingbeat::results::{Outcome, ResultDir, RunWriter, saver};
 
+use crate::failure::{FAILED, Failure, INTERRUPTED};
 use crate::progress::Progress;
-use crate::{Manner, ResumeArgs, RunArgs, refuse};
-
-const INTERRUPTED: u8 = 130;
+use crate::signals::stop_flag;
+use crate::terminal::{say, tell};
+use crate::{Manner, ResumeArgs, RunArgs};
 
 /// A flight and where it is written to; the newest record is written already.
 struct Run {
@@ -23,47 +22,44 @@ struct Run {
 }
 
 /// `wingbeat run`.
-pub(crate) fn run(args: &RunArgs) -> ExitCode {
-    start(&args.manner, |threads| prepare(args, threads).map(Some))
+pub(crate) fn run(args: &RunArgs) -> Result<(), Failure> {
+    let threads = set_threads(args.manner.threads)?;
+    start(&args.manner, prepare(args, threads)?)
 }
 
 /// `wingbeat resume`.
-pub(crate) fn resume(args: &ResumeArgs) -> ExitCode {
-    start(&args.manner, |threads| go_back(&args.dir, threads))
+pub(crate) fn resume(args: &ResumeArgs) -> Result<(), Failure> {
+    let threads = set_threads(args.manner.threads)?;
+    match go_back(&args.dir, threads)? {
+        Some(run) => start(&args.manner, run),
+        None => Ok(()),
+    }
 }
 
-fn start(manner: &Manner, prepare: impl FnOnce(usize) -> Result<Option<Run>, IoError>) -> ExitCode {
-    let threads = match set_threads(manner.threads) {
-        Ok(n) => n,
-        Err(problem) => {
-            eprintln!("error: {problem}");
-            return ExitCode::from(2);
-        }
-    };
-    match prepare(threads) {
-        Err(e) => refuse(&e),
-        Ok(None) => ExitCode::SUCCESS,
-        Ok(Some(run)) => {
-            let dir = run.writer.dir().path().display();
-            if !manner.silent() {
-                eprintln!("{}: results go to {dir}", run.case.name);
-            }
-            fly(manner, run, &stop_flag())
-        }
+fn start(manner: &Manner, run: Run) -> Result<(), Failure> {
+    if !manner.silent() {
+        let dir = run.writer.dir().path().display();
+        tell!("{}: results go to {dir}", run.case.name);
     }
+    fly(manner, run, &stop_flag())
 }
 
 /// The number of threads in use.
-fn set_threads(wanted: Option<usize>) -> Result<usize, String> {
-    if wanted == Some(0) {
-        return Err(
-            "--threads 0: give a whole number >= 1, or leave the option out to use all".to_owned(),
+fn set_threads(wanted: Option<usize>) -> Result<usize, Failure> {
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(wanted.unwrap_or(0));
+    let built = pool.build_global();
+    built.map_err(|e| Failure::Option(format!("cannot start threads: {e}")))?;
+    Ok(rayon::current_num_threads())
+}
+
+/// Says which program of the case is going to run, before it does: it runs with the user's rights.
+pub(crate) fn name_program(case: &LoadedCase) {
+    if let Some(program) = case.program() {
+        tell!(
+            "{}: the air is computed by another program, which runs with your rights: {program}",
+            case.name
         );
     }
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(wanted.unwrap_or(0));
-    pool.build_global()
-        .map_err(|e| format!("cannot start threads: {e}"))?;
-    Ok(rayon::current_num_threads())
 }
 
 /// Everything that can be refused before a step is made; the directory is made last.
@@ -86,6 +82,7 @@ fn prepare(args: &RunArgs, threads: usize) -> Result<Run, IoError> {
 }
 
 fn build(case: &LoadedCase) -> Result<Simulation, IoError> {
+    name_program(case);
     let flight = Simulation::new(case.setup.clone());
     Ok(flight.map_err(|e| case.refused(&e))?)
 }
@@ -115,7 +112,7 @@ fn go_back(dir: &Path, threads: usize) -> Result<Option<Run>, IoError> {
         if !dir.case()?.output.save.keep {
             saver::forget(dir.path())?; // a kill at the very end may have left it
         }
-        println!("{} is flown to its end already.", dir.path().display());
+        say!("{} is flown to its end already.", dir.path().display());
         return Ok(None);
     }
     let case = dir.case()?;
@@ -127,9 +124,11 @@ fn go_back(dir: &Path, threads: usize) -> Result<Option<Run>, IoError> {
         path: dir.join("checkpoint.bin"),
         problem: format!("the flight cannot go on from it: {e}"),
     })?;
-    eprintln!(
+    tell!(
         "{}: goes on after step {} of {}",
-        case.name, header.step, case.setup.time.steps
+        case.name,
+        header.step,
+        case.setup.time.steps
     );
     let writer = RunWriter::resume(dir, &case, &header, saved.manifest, threads)?;
     Ok(Some(Run {
@@ -139,22 +138,7 @@ fn go_back(dir: &Path, threads: usize) -> Result<Option<Run>, IoError> {
     }))
 }
 
-/// Set by Ctrl-C or SIGTERM; a second one ends the program at once.
-fn stop_flag() -> Arc<AtomicBool> {
-    let stop = Arc::new(AtomicBool::new(false));
-    let flag = Arc::clone(&stop);
-    let handler = move || {
-        if flag.swap(true, Ordering::SeqCst) {
-            std::process::exit(i32::from(INTERRUPTED));
-        }
-    };
-    if let Err(e) = ctrlc::set_handler(handler) {
-        eprintln!("warning: Ctrl-C will not end the run cleanly ({e})");
-    }
-    stop
-}
-
-fn fly(manner: &Manner, mut run: Run, stop: &AtomicBool) -> ExitCode {
+fn fly(manner: &Manner, mut run: Run, stop: &AtomicBool) -> Result<(), Failure> {
     let mut progress = Progress::new(&run.case.setup, manner, run.flight.state().step);
     // Within the pool: handing it work from outside wakes a thread for every sum.
     let flown = rayon::scope(|_| steps(&mut run, &mut progress, stop));
@@ -162,50 +146,50 @@ fn fly(manner: &Manner, mut run: Run, stop: &AtomicBool) -> ExitCode {
     let outcome = match flown {
         Ok(outcome) => outcome,
         Err(Trouble::Flight(e)) => Outcome::Failed(e.to_string()),
-        Err(Trouble::Writing(e)) => return unwritten(run.writer, &e),
+        Err(Trouble::Writing(e)) => return Err(unwritten(run.writer, &e)),
     };
     let path = run.writer.dir().path().to_owned();
     match run.writer.finish(outcome.clone(), draw_run) {
-        Ok(summary) if manner.json => println!("{}", summary.to_json_line(&path)),
+        Ok(summary) if manner.json => say!("{}", summary.to_json_line(&path)),
         Ok(summary) if !manner.quiet => {
-            println!("\n{}\nResults: {}", summary.to_text(), path.display())
+            say!("\n{}\nResults: {}", summary.to_text(), path.display());
         }
         Ok(_) => {}
         Err(e) => {
-            eprintln!(
+            tell!(
                 "error: {e}\nThe flight itself is kept: `wingbeat resume {0}` goes on from its last checkpoint.",
                 path.display()
             );
-            return ExitCode::from(1);
+            return Err(Failure::Told(FAILED));
         }
     }
     report(&outcome, &path)
 }
 
 /// A result that cannot be written any more, e.g. on a full disk.
-fn unwritten(writer: RunWriter, e: &IoError) -> ExitCode {
+fn unwritten(writer: RunWriter, e: &IoError) -> Failure {
     let path = writer.dir().path().to_owned();
     writer.abandon(e.to_string());
-    eprintln!(
+    tell!(
         "error: {e}\nThe run stopped. What was written up to there is kept; when there is space again, `wingbeat resume {}` goes on from the last checkpoint, bit for bit.",
         path.display()
     );
-    ExitCode::from(1)
+    Failure::Told(FAILED)
 }
 
-fn report(outcome: &Outcome, path: &Path) -> ExitCode {
+fn report(outcome: &Outcome, path: &Path) -> Result<(), Failure> {
     let dir = path.display();
     match outcome {
-        Outcome::Finished | Outcome::Running => ExitCode::SUCCESS,
+        Outcome::Finished | Outcome::Running => Ok(()),
         Outcome::Interrupted => {
-            eprintln!(
+            tell!(
                 "interrupted: everything up to here is written to {dir}; `wingbeat resume {dir}` goes on"
             );
-            ExitCode::from(INTERRUPTED)
+            Err(Failure::Told(INTERRUPTED))
         }
         Outcome::Unwritten(why) | Outcome::Failed(why) => {
-            eprintln!("error: {why}\nEverything up to there is written to {dir}");
-            ExitCode::from(1)
+            tell!("error: {why}\nEverything up to there is written to {dir}");
+            Err(Failure::Told(FAILED))
         }
     }
 }

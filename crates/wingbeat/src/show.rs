@@ -4,8 +4,13 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use wingbeat::case::IoError;
+use wingbeat::case::differences;
 use wingbeat::draw::page;
+use wingbeat::results::fixed::fixed;
 use wingbeat::results::{Manifest, ResultDir, Summary};
+
+use crate::failure::Failure;
+use crate::terminal::say;
 
 /// What `wingbeat show` is told.
 #[derive(Args)]
@@ -43,17 +48,17 @@ fn read(dir: &Path) -> Result<(Summary, Manifest), IoError> {
 }
 
 /// `wingbeat show`: the summary made anew from the history, whatever state the run is in.
-pub(crate) fn show(args: &ShowArgs) -> Result<(), IoError> {
+pub(crate) fn show(args: &ShowArgs) -> Result<(), Failure> {
     let (summary, manifest) = read(&args.dir)?;
     if args.json {
-        println!(
+        say!(
             "{}",
             serde_json::json!({ "summary": summary, "manifest": manifest })
         );
         return Ok(());
     }
-    print!("{}", summary.to_text());
-    println!(
+    say!("{}", summary.to_text().trim_end_matches('\n'));
+    say!(
         "\nwingbeat {}, {} threads, {:.1} s of which {:.2} s writing, {} frames",
         manifest.version,
         manifest.threads,
@@ -64,42 +69,58 @@ pub(crate) fn show(args: &ShowArgs) -> Result<(), IoError> {
     Ok(())
 }
 
-/// `wingbeat compare`: the same numbers of two runs side by side.
-pub(crate) fn compare(args: &CompareArgs) -> Result<(), IoError> {
+/// `wingbeat compare`: keys in which the cases differ, and the same numbers side by side.
+pub(crate) fn compare(args: &CompareArgs) -> Result<(), Failure> {
     let [first, second] = [read(&args.first)?, read(&args.second)?];
     if let Some(file) = &args.page {
-        return write_pair(args, file);
+        return Ok(write_pair(args, file)?);
     }
+    let case = |dir: &Path| ResultDir::open(dir)?.case();
+    let keys = differences(&case(&args.first)?, &case(&args.second)?);
     let rows = first.0.beside(&second.0);
     if args.json {
-        let list: Vec<_> = rows
+        let numbers: Vec<_> = rows
             .iter()
             .map(|(what, a, b)| serde_json::json!({ "what": what, "first": a, "second": b }))
             .collect();
-        println!("{}", serde_json::json!(list));
+        say!(
+            "{}",
+            serde_json::json!({ "keys": keys, "numbers": numbers })
+        );
         return Ok(());
     }
-    let same = if first.1.case_sha256 == second.1.case_sha256 {
-        "the same case"
-    } else {
-        "different cases"
-    };
-    println!(
-        "{} and {}: {same}\n",
-        args.first.display(),
-        args.second.display()
-    );
-    println!(
-        "{:<38}{:>14}{:>14}{:>14}{:>11}",
-        "", "first", "second", "difference", "relative"
+    let (first, second) = (args.first.display(), args.second.display());
+    match keys.is_empty() {
+        true => say!("{first} and {second}: the same case\n"),
+        false => say!("{first} and {second}: cases that differ in\n"),
+    }
+    for d in &keys {
+        let or_none = |value: &Option<String>| value.clone().unwrap_or_else(|| "-".to_owned());
+        say!(
+            "  {:<36}{:>14}  {:>14}",
+            d.key,
+            or_none(&d.first),
+            or_none(&d.second)
+        );
+    }
+    say!(
+        "{}{:<38}{:>14}{:>14}{:>14}{:>11}",
+        if keys.is_empty() { "" } else { "\n" },
+        "",
+        "first",
+        "second",
+        "difference",
+        "relative"
     );
     for (what, a, b) in rows {
         let scale = a.abs().max(b.abs());
         let relative = if scale > 0.0 { (b - a) / scale } else { 0.0 };
-        println!(
-            "{what:<38}{a:>14.5e}{b:>14.5e}{:>14.5e}{:>10.2}%",
-            b - a,
-            100.0 * relative
+        say!(
+            "{what:<38}{:>14.5e}{:>14.5e}{:>14.5e}{:>10}%",
+            a + 0.0,
+            b + 0.0,
+            b - a + 0.0,
+            fixed(100.0 * relative, 2)
         );
     }
     Ok(())

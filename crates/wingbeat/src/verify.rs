@@ -1,13 +1,16 @@
 //! `wingbeat verify`: run the verification suite and write its dossier.
 
-use std::path::{Path, PathBuf};
-use std::process::ExitCode;
+use std::path::PathBuf;
 use std::sync::Mutex;
 use std::time::Instant;
 
 use clap::Args;
+use wingbeat::case::IoError;
+use wingbeat::results::file::NewFile;
 use wingbeat::verify::{Case, Dossier, Entry};
 
+use crate::failure::{FAILED, Failure};
+use crate::terminal::{say, tell};
 use crate::watch::Watch;
 
 /// What `wingbeat verify` is told.
@@ -19,77 +22,99 @@ pub(crate) struct VerifyArgs {
     /// Only cases whose name holds this.
     #[arg(long, value_name = "TEXT", default_value = "")]
     only: String,
-    /// Folder for verification.md, .csv and .json, which are replaced.
+    /// Folder for verification.md, .csv and .json.
     #[arg(long, value_name = "DIR", default_value = "verification")]
     out: PathBuf,
     /// Go on where an earlier run into the same folder ended: its cases are taken as they are,
     /// those named by `--only` run anew.
-    #[arg(long)]
+    #[arg(long, conflicts_with = "overwrite")]
     resume: bool,
+    /// Replace a dossier that is there already.
+    #[arg(long)]
+    overwrite: bool,
     /// Names and contents of the cases; nothing is run.
     #[arg(long)]
     list: bool,
 }
 
-/// The whole command: exit code 0 if nothing missed, 1 otherwise.
-pub(crate) fn run(args: &VerifyArgs) -> ExitCode {
+/// The whole command: a failure if a row misses.
+pub(crate) fn run(args: &VerifyArgs) -> Result<(), Failure> {
     let cases = wingbeat::verify::select(args.quick, &args.only);
     if cases.is_empty() {
-        eprintln!(
-            "error: no case holds `{}`; see `wingbeat verify --list`",
+        return Err(Failure::Option(format!(
+            "no case holds `{}`; see `wingbeat verify --list`",
             args.only
-        );
-        return ExitCode::from(2);
+        )));
     }
     if args.list {
-        cases
-            .iter()
-            .for_each(|c| println!("{:<28}{}", c.name, c.about));
-        return ExitCode::SUCCESS;
+        cases.iter().for_each(|c| say!("{:<28}{}", c.name, c.about));
+        return Ok(());
     }
+    let files = claim(args)?;
     let start = Instant::now();
-    let known = if args.resume { earlier(args) } else { vec![] };
+    let known = if args.resume { earlier(args)? } else { vec![] };
     let is_left = |c: &Case| !args.only.is_empty() || known.iter().all(|e| e.case != c.name);
     let left: Vec<Case> = cases.into_iter().filter(is_left).collect();
     let so_far = Mutex::new(known);
     let watch = Watch::of("verifying", left.len() as u64);
     wingbeat::verify::run(&left, args.quick, |e| {
-        watch.part(|| tell(e, start));
-        keep(&so_far, e, args);
+        watch.part(|| note(e, start));
+        keep(&so_far, e, args, &files);
     });
     drop(watch);
     let dossier = Dossier {
         quick: args.quick,
         entries: so_far.into_inner().expect("no case panicked while writing"),
     };
-    if let Err(e) = write(&dossier, &args.out) {
-        eprintln!(
-            "error: {}: {e}; name a folder that can be written",
-            args.out.display()
-        );
-        return ExitCode::from(2);
-    }
+    write(&dossier, &files)?;
     let [pass, miss, report] = dossier.counts();
-    println!(
+    say!(
         "{pass} rows pass, {miss} miss, {report} are reported; {:.0} s; see {}",
         start.elapsed().as_secs_f64(),
-        args.out.join("verification.md").display()
+        files[0].path().display()
     );
-    ExitCode::from(u8::from(miss > 0))
+    match miss {
+        0 => Ok(()),
+        _ => Err(Failure::Told(FAILED)),
+    }
+}
+
+/// The files of the dossier, page, table and data.
+fn claim(args: &VerifyArgs) -> Result<[NewFile; 3], IoError> {
+    wingbeat::results::file::make_folder(&args.out)?;
+    let overwrite = args.overwrite || args.resume;
+    let file = |name: &str| NewFile::claim(&args.out.join(name), overwrite);
+    Ok([
+        file("verification.md")?,
+        file("verification.csv")?,
+        file("verification.json")?,
+    ])
 }
 
 /// What an earlier run of the same set left; failures are tried again.
-fn earlier(args: &VerifyArgs) -> Vec<Entry> {
-    let text = std::fs::read_to_string(args.out.join("verification.json")).unwrap_or_default();
-    let same = Dossier::from_json(&text).ok();
-    let same = same.filter(|d| d.quick == args.quick);
-    let mut entries = same.map_or(vec![], |d| d.entries);
+fn earlier(args: &VerifyArgs) -> Result<Vec<Entry>, Failure> {
+    let path = args.out.join("verification.json");
+    let foreign = |problem: &str| {
+        Failure::Option(format!(
+            "--resume: `{}` {problem}; leave --resume out, or name another folder",
+            path.display()
+        ))
+    };
+    let text = match std::fs::read_to_string(&path) {
+        Err(e) if e.kind() == std::io::ErrorKind::NotFound => return Ok(vec![]),
+        text => text.map_err(|e| foreign(&format!("cannot be read: {e}")))?,
+    };
+    let dossier = Dossier::from_json(&text).map_err(|_| foreign("is no dossier"))?;
+    if dossier.quick != args.quick {
+        return Err(foreign("is of the other set (--quick)"));
+    }
+    let mut entries = dossier.entries;
     entries.retain(|e| e.failure.is_none());
-    entries
+    Ok(entries)
 }
 
 /// Writes what is done so far: a long run that is ended early is not lost.
-fn keep(so_far: &Mutex<Vec<Entry>>, entry: &Entry, args: &VerifyArgs) {
+fn keep(so_far: &Mutex<Vec<Entry>>, entry: &Entry, args: &VerifyArgs, files: &[NewFile; 3]) {
     let all = wingbeat::verify::select(args.quick, "");
     let mut entries = so_far.lock().expect("no case panicked while writing");
     entries.retain(|e| e.case != entry.case);
@@ -100,26 +125,21 @@ fn keep(so_far: &Mutex<Vec<Entry>>, entry: &Entry, args: &VerifyArgs) {
         entries: entries.clone(),
     };
     // The whole dossier is written at the end, and trouble told then.
-    let _ = write(&dossier, &args.out);
+    let _ = write(&dossier, files);
 }
 
-fn tell(entry: &Entry, start: Instant) {
+fn note(entry: &Entry, start: Instant) {
     let [pass, miss, report] = entry.counts();
     let seconds = start.elapsed().as_secs_f64();
-    eprintln!(
+    tell!(
         "{seconds:>7.1} s  {:<28} {pass} pass, {miss} miss, {report} reported",
         entry.case
     );
 }
 
-fn write(dossier: &Dossier, folder: &Path) -> std::io::Result<()> {
-    std::fs::create_dir_all(folder)?;
-    for (name, text) in [
-        ("verification.md", dossier.page(env!("CARGO_PKG_VERSION"))),
-        ("verification.csv", dossier.csv()),
-        ("verification.json", dossier.json()),
-    ] {
-        std::fs::write(folder.join(name), text)?;
-    }
-    Ok(())
+fn write(dossier: &Dossier, files: &[NewFile; 3]) -> Result<(), IoError> {
+    let page = dossier.page(env!("CARGO_PKG_VERSION"));
+    let texts = [page, dossier.csv(), dossier.json()];
+    let mut written = files.iter().zip(&texts);
+    written.try_for_each(|(file, text)| file.replace(text.as_bytes()))
 }

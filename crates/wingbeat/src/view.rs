@@ -4,9 +4,12 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
 use clap::Args;
-use wingbeat::case::IoError;
 use wingbeat::draw::page;
 use wingbeat::results::ResultDir;
+
+use crate::failure::Failure;
+use crate::options;
+use crate::terminal::say;
 
 /// What `wingbeat view` is told.
 #[derive(Args)]
@@ -17,18 +20,19 @@ pub(crate) struct ViewArgs {
     #[arg(long)]
     no_open: bool,
     /// Largest size of the page, MB; the flight is thinned to fit.
-    #[arg(long, value_name = "MB", default_value_t = page::DEFAULT_BYTES as f64 / 1e6)]
+    #[arg(long, value_name = "MB", default_value_t = page::DEFAULT_BYTES as f64 / 1e6,
+          value_parser = options::megabytes)]
     size: f64,
 }
 
 /// The whole command.
-pub(crate) fn view(args: &ViewArgs) -> Result<(), IoError> {
+pub(crate) fn view(args: &ViewArgs) -> Result<(), Failure> {
     let dir = ResultDir::read(&args.dir)?;
     let outcome = dir.manifest()?.outcome;
-    let page = page::write(&dir, &outcome, (args.size * 1e6).max(0.0) as usize)?;
-    println!("wrote {}", page.display());
+    let page = page::write(&dir, &outcome, (args.size * 1e6) as usize)?;
+    say!("wrote {}", page.display());
     if !args.no_open && !open(&page) {
-        println!("No browser could be started: open this file in one.");
+        say!("No browser could be started: open this file in one.");
     }
     Ok(())
 }

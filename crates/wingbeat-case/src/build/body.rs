@@ -62,7 +62,7 @@ fn revolution(path: &str, part: &PartCase) -> Built<Revolution> {
         };
         value.ok_or_else(missing)
     };
-    let [stations, meridians] = [part.stations.unwrap_or(6), part.meridians.unwrap_or(8)];
+    let [stations, meridians] = resolution(part);
     let keys = ["stations", "meridians"].map(|key| format!("{path}.{key}"));
     panels([&keys[0], &keys[1]], [stations, meridians])?;
     Ok(Revolution {
@@ -74,6 +74,11 @@ fn revolution(path: &str, part: &PartCase) -> Built<Revolution> {
         stations,
         meridians,
     })
+}
+
+/// Panels along and around a surface of revolution.
+pub(super) fn resolution(part: &PartCase) -> [usize; 2] {
+    [part.stations.unwrap_or(6), part.meridians.unwrap_or(8)]
 }
 
 fn profile(case: Option<&ProfileCase>) -> Profile {

@@ -1,6 +1,7 @@
 //! `[air.derivatives]` and `[air.external]`.
 
 use std::sync::Arc;
+use std::time::Duration;
 
 use wingbeat_blade::{DerivativeTable, ReferenceSizes};
 use wingbeat_flight::ExternalAir;
@@ -11,6 +12,9 @@ use super::{Built, vector};
 use crate::error::Fault;
 use crate::external::ProcessAir;
 use crate::raw::{AirCase, Case, DerivativesCase, DimensionlessCase};
+
+/// Longest wait for an answer [s]: a month or so.
+const MOST_TIMEOUT: f64 = 3e6;
 
 /// The table of the case.
 pub(super) fn table(case: &Case, animal: &Animal) -> Built<DerivativeTable> {
@@ -88,8 +92,18 @@ pub(super) fn external(case: &AirCase) -> Built<Arc<dyn ExternalAir>> {
             "the protocol is described in docs/external-air.md",
         ));
     };
+    let key = "air.external.timeout_s";
+    let seconds = external.timeout_s;
+    if seconds > MOST_TIMEOUT {
+        return Err(Fault::new(
+            key,
+            "this is longer than any program is waited for",
+            format!("a number > 0, at most {MOST_TIMEOUT:e}"),
+            "600 is the default",
+        ));
+    }
     Ok(Arc::new(ProcessAir {
         command: external.command.clone(),
-        timeout: external.timeout_s,
+        timeout: Duration::from_secs_f64(external.timeout_s),
     }))
 }

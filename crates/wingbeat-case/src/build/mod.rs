@@ -17,6 +17,7 @@ mod names;
 mod output;
 mod refused;
 mod segment;
+mod size;
 mod time;
 mod wind;
 mod wing;
@@ -40,6 +41,7 @@ const MOST_PANELS: usize = 10_000;
 
 /// The setup of a resolved case.
 pub(crate) fn setup(case: &Case, name: &str) -> Built<FlightSetup> {
+    size::check(case)?;
     let animal = animal(case, name)?;
     let time = time::grid(case)?;
     names::check(&animal)?;

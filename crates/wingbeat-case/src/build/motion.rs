@@ -157,7 +157,7 @@ fn spline(path: &str, table: &TableCase) -> Built<PeriodicSpline> {
     let radians: Vec<(f64, f64)> = rows.iter().map(|&[x, q]| (x, q.to_radians())).collect();
     PeriodicSpline::new("the table", &radians).map_err(|e| {
         let row = match &e {
-            wingbeat_model::ModelError::Table { row, .. } if *row <= rows.len() => format!("[{}]", row - 1),
+            wingbeat_model::ModelError::Table { row, .. } if (1..=rows.len()).contains(row) => format!("[{}]", row - 1),
             _ => String::new(),
         };
         Fault::new(

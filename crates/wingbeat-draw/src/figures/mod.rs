@@ -41,6 +41,7 @@ pub use window::Window;
 pub(crate) use window::charts;
 use wingbeat_case::IoError;
 use wingbeat_case::LoadedCase;
+use wingbeat_results::file::{NewFile, make_folder, write_file};
 use wingbeat_results::rows::Rows;
 use wingbeat_results::summary::BeatMeans;
 use wingbeat_results::{History, ResultDir, Summary};
@@ -317,7 +318,8 @@ pub fn plot(dir: &ResultDir, order: &Order) -> Result<Vec<PathBuf>, IoError> {
         true => still.collect(),
         false => order.kinds.clone(),
     };
-    std::fs::create_dir_all(&order.folder).map_err(IoError::write(&order.folder))?;
+    dir.check_folder(&order.folder)?;
+    make_folder(&order.folder)?;
     let mut files = vec![];
     for kind in kinds {
         let format = Format::of(order.format, kind).map_err(fault(&order.folder))?;
@@ -331,7 +333,7 @@ pub fn plot(dir: &ResultDir, order: &Order) -> Result<Vec<PathBuf>, IoError> {
         match source.draw(kind, order.style)? {
             Some(drawing) => {
                 let bytes = encoded(&drawing, order.style, format).map_err(fault(&file))?;
-                place(&file, &bytes, order.overwrite)?;
+                write_file(&file, &bytes, order.overwrite)?;
                 files.push(file);
             }
             None if order.kinds.is_empty() => {}
@@ -357,39 +359,14 @@ fn encoded(drawing: &Drawing, style: Style, format: Format) -> Result<Vec<u8>, S
     }
 }
 
-/// Writes a file, but never over another one unasked.
-fn place(path: &Path, bytes: &[u8], overwrite: bool) -> Result<(), IoError> {
-    let there = std::fs::read(path).ok();
-    match there {
-        Some(old) if old == bytes => Ok(()),
-        Some(_) if !overwrite => Err(exists(path)),
-        _ => wingbeat_results::directory::write_whole(path, bytes),
-    }
-}
-
-fn exists(path: &Path) -> IoError {
-    IoError::Exists {
-        path: path.to_owned(),
-        remedy: "replace it with --overwrite, or choose another folder with --out",
-    }
-}
-
 /// The animation is written beside its place and moved there when it is whole.
-fn animate(source: &Source<'_>, file: &Path, film: bool, overwrite: bool) -> Result<(), IoError> {
-    if file.exists() && !overwrite {
-        return Err(exists(file));
-    }
-    let mut part = file.as_os_str().to_owned();
-    part.push(".part");
-    let part = PathBuf::from(part);
-    let written = animation::write(source, &part, film);
-    if !matches!(written, Ok(1..)) {
-        let _ = std::fs::remove_file(&part); // nothing more can be done about a leftover
-    }
-    match written? {
-        0 => Err(fault(file)(Kind::Animation.needs().to_owned())),
-        _ => std::fs::rename(&part, file).map_err(IoError::write(file)),
-    }
+fn animate(source: &Source<'_>, path: &Path, film: bool, overwrite: bool) -> Result<(), IoError> {
+    let file = NewFile::claim_own(path, overwrite)?;
+    file.make(|part| match animation::write(source, part, film)? {
+        0 => Err(fault(path)(Kind::Animation.needs().to_owned())),
+        _ => Ok(()),
+    })?;
+    Ok(())
 }
 
 /// Draws every figure of the history that makes sense for the case into `figures/`.
@@ -428,5 +405,16 @@ pub(crate) fn time_axis(setup: &FlightSetup, history: &History) -> (String, Vec<
             time.iter().map(|t| t / period).collect(),
         ),
         None => ("time [s]".to_owned(), time.to_vec()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn behaves_a_result_directory_knows_its_figures() {
+        let names = Kind::ALL.map(|(name, _, _)| name);
+        assert_eq!(names, wingbeat_results::directory::FIGURE_NAMES);
     }
 }

@@ -65,7 +65,7 @@ pub(super) fn inert(json: &str) -> String {
 fn words(outcome: &Outcome) -> &'static str {
     match outcome {
         Outcome::Finished => "flown to its end",
-        Outcome::Running => "still running, or killed",
+        Outcome::Running => "still running",
         Outcome::Interrupted => "interrupted",
         Outcome::Unwritten(_) => "stopped because it could not be written",
         Outcome::Failed(_) => "ended early by an error",

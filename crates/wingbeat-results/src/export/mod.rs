@@ -21,6 +21,7 @@ mod vtkhdf;
 use std::path::{Path, PathBuf};
 
 use crate::columns::{Column, Columns};
+use crate::file::{NewFile, make_folder};
 use crate::frames::{self, Frame};
 use crate::poses::Poses;
 use crate::rows::Rows;
@@ -120,34 +121,38 @@ impl Source<'_> {
 /// Exports a result into its own directory or another folder; returns the files.
 ///
 /// # Errors
-/// A result that cannot be read; a file that cannot be written.
-pub fn export(dir: &ResultDir, format: Format, into: &Path) -> Result<Vec<PathBuf>, IoError> {
+/// A result that cannot be read; a file that cannot be written, or exists already where
+/// `overwrite` does not allow to replace it.
+pub fn export(
+    dir: &ResultDir,
+    format: Format,
+    into: &Path,
+    overwrite: bool,
+) -> Result<Vec<PathBuf>, IoError> {
     let source = Source {
         case: dir.case()?,
         manifest: dir.manifest()?,
         dir,
     };
-    std::fs::create_dir_all(into).map_err(IoError::write(into))?;
-    let mut made = vec![];
+    dir.check_folder(into)?;
+    make_folder(into)?;
     let particles = format == Format::Vtkhdf
         && (frames::steps(dir.path())?.first())
             .is_some_and(|k| Frame::particles_path(dir.path(), *k).is_file());
-    for name in format.files(particles) {
-        let part = into.join(format!("{name}.part"));
-        let path = into.join(name);
-        let written = match format {
-            Format::Hdf5 => tables::hdf5(&source, &part),
-            Format::Parquet => tables::parquet(&source, &part),
-            Format::Gltf => gltf::write(&source, &part),
-            Format::Vtkhdf => vtkhdf::write(&source, name, &part),
-        };
-        let renamed =
-            written.and_then(|()| std::fs::rename(&part, &path).map_err(IoError::write(&path)));
-        if renamed.is_err() {
-            let _ = std::fs::remove_file(&part); // nothing more can be done about a leftover
-        }
-        renamed?;
-        made.push(path);
+    let claim = |name: &&'static str| {
+        let file = NewFile::claim_own(&into.join(name), overwrite)?;
+        Ok((*name, file))
+    };
+    let files: Result<Vec<_>, IoError> = format.files(particles).iter().map(claim).collect();
+    let mut made = vec![];
+    for (name, file) in files? {
+        file.make(|part| match format {
+            Format::Hdf5 => tables::hdf5(&source, part),
+            Format::Parquet => tables::parquet(&source, part),
+            Format::Gltf => gltf::write(&source, part),
+            Format::Vtkhdf => vtkhdf::write(&source, name, part),
+        })?;
+        made.push(file.path().to_owned());
     }
     Ok(made)
 }

@@ -4,6 +4,7 @@ use std::fmt::Write as _;
 
 use super::Summary;
 use crate::Outcome;
+use crate::fixed::{fixed, signed};
 
 impl Summary {
     /// For people.
@@ -22,7 +23,10 @@ impl Summary {
     fn headline(&self, out: &mut String) {
         let end = match &self.outcome {
             Outcome::Finished => "flew to its end".to_owned(),
-            Outcome::Interrupted => "was interrupted; everything up to there is written".to_owned(),
+            Outcome::Interrupted => {
+                "was interrupted; everything up to there is written, and `wingbeat resume` goes on"
+                    .to_owned()
+            }
             Outcome::Unwritten(why) => format!("stopped because {why}"),
             Outcome::Failed(why) => format!("ended early: {why}"),
             Outcome::Running => "is running".to_owned(),
@@ -35,13 +39,18 @@ impl Summary {
         let [x, y, z] = self.displacement_m.map(|d| d * 1e3);
         let _ = writeln!(
             out,
-            "The body moved {x:+.3} mm forward (n1), {y:+.3} mm right (n2), {:+.3} mm up;",
-            -z
+            "The body moved {} mm forward (n1), {} mm right (n2), {} mm up;",
+            signed(x, 3),
+            signed(y, 3),
+            signed(-z, 3)
         );
         let [pitch, yaw, roll] = self.turn_deg;
         let _ = writeln!(
             out,
-            "it turned {pitch:+.2} deg in pitch, {yaw:+.2} in yaw, {roll:+.2} in roll (Euler 2-3-1)."
+            "it turned {} deg in pitch, {} in yaw, {} in roll (Euler 2-3-1).",
+            signed(pitch, 2),
+            signed(yaw, 2),
+            signed(roll, 2)
         );
     }
 
@@ -60,9 +69,7 @@ impl Summary {
         }
         out.push_str("\n beat   lift/weight      lift       forward      power\n");
         for b in &self.beats {
-            let ratio = b
-                .lift_over_weight
-                .map_or("-".to_owned(), |r| format!("{r:.3}"));
+            let ratio = b.lift_over_weight.map_or("-".to_owned(), |r| fixed(r, 3));
             let _ = writeln!(
                 out,
                 "{:5}   {ratio:>11}   {}   {}   {}",
@@ -125,7 +132,7 @@ fn engineering(x: f64, unit: &str) -> String {
     let x = if x.abs() < 1e-12 { 0.0 } else { x };
     let fits = |p: &&(f64, &str)| x.abs() >= p.0;
     let (scale, prefix) = PREFIXES.iter().find(fits).copied().unwrap_or((1.0, " "));
-    format!("{:8.3} {prefix}{unit}", x / scale)
+    format!("{:>8} {prefix}{unit}", fixed(x / scale, 3))
 }
 
 /// Text broken at 92 columns, continued under the first word.

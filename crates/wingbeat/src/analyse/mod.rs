@@ -6,18 +6,39 @@ pub(crate) mod stabilise;
 pub(crate) mod stability;
 pub(crate) mod trim;
 
-use std::process::ExitCode;
-
 use clap::Args;
 use wingbeat::analysis::trim::{UNKNOWNS, trim as find_trim};
 use wingbeat::analysis::wake::{WakeSettings, WakeTrim, trim_with_wake};
-use wingbeat::analysis::{AnalysisError, Trim, TrimProblem, TrimSettings, Unknown};
+use wingbeat::analysis::{Trim, TrimProblem, TrimSettings, Unknown};
 use wingbeat::case::{IoError, LoadedCase};
 use wingbeat::flight::MotionMode;
 use wingbeat::math::DVec3;
 use wingbeat::model::motion::Adjustment;
 
+use crate::failure::{FAILED, Failure};
+use crate::options;
+use crate::report::{Report, ReportArgs, line};
+use crate::run::name_program;
+use crate::terminal::tell;
 use crate::watch::Watch;
+
+/// Steps per wingbeat at least and at most; RK4 with 10,000 is at the last bits.
+const STEPS: [usize; 2] = [4, 10_000];
+/// Steps per wingbeat unless told otherwise.
+const DEFAULT_STEPS: usize = 100;
+/// Wingbeats of the hold at most.
+const MOST_HELD: usize = 100;
+/// Wingbeats of the hold unless told otherwise.
+const DEFAULT_HELD: usize = 2;
+/// The unknowns unless told otherwise.
+const DEFAULT_UNKNOWNS: [Unknown; 3] = [
+    Unknown::BodyPitch,
+    Unknown::StrokeAmplitude,
+    Unknown::StrokeOffset,
+];
+
+/// Heading of these options in the help.
+const HEADING: &str = "Trim";
 
 /// What is trimmed and how.
 #[derive(Args)]
@@ -28,63 +49,85 @@ pub(crate) struct Trimming {
     /// Set a key of the case, e.g. time.beats=3 (may be repeated).
     #[arg(long = "set", value_name = "KEY=VALUE")]
     set: Vec<String>,
-    /// The three things trim may choose.
-    #[arg(long, num_args = 3, value_names = ["A", "B", "C"], value_parser = unknown,
-          default_values = ["body_pitch", "stroke_amplitude", "stroke_offset"])]
-    unknowns: Vec<Unknown>,
-    /// Mean velocity forward (n1), m/s.
-    #[arg(long, default_value_t = 0.0, allow_negative_numbers = true)]
-    forward: f64,
-    /// Mean velocity upward (-n3), m/s.
-    #[arg(long, default_value_t = 0.0, allow_negative_numbers = true)]
-    climb: f64,
+    /// The three things trim may choose [default: body_pitch stroke_amplitude stroke_offset].
+    #[arg(long, num_args = 3, value_names = ["A", "B", "C"], value_parser = unknown, help_heading = HEADING)]
+    unknowns: Option<Vec<Unknown>>,
+    /// Mean velocity forward (n1), m/s [default: 0].
+    #[arg(long, value_name = "SPEED", allow_negative_numbers = true,
+          value_parser = options::speed, help_heading = HEADING)]
+    forward: Option<f64>,
+    /// Mean velocity upward (-n3), m/s [default: 0].
+    #[arg(long, value_name = "SPEED", allow_negative_numbers = true,
+          value_parser = options::speed, help_heading = HEADING)]
+    climb: Option<f64>,
     /// Steps per wingbeat; default 100, in a vortex lattice those of the case.
-    #[arg(long)]
+    #[arg(long, value_name = "N", help_heading = HEADING,
+          value_parser = options::count::<{ STEPS[0] }, { STEPS[1] }>)]
     steps: Option<usize>,
-    /// In a vortex lattice: wingbeats during which the body is held while its wake grows.
-    #[arg(long, default_value_t = 2)]
-    hold: usize,
+    /// In a vortex lattice: wingbeats during which the body is held while its wake grows
+    /// [default: 2].
+    #[arg(long, value_name = "BEATS", help_heading = HEADING,
+          value_parser = options::count::<1, MOST_HELD>)]
+    hold: Option<usize>,
+    #[command(flatten)]
+    report: ReportArgs,
 }
 
-/// What kept an analysis from being made.
-pub(crate) enum Trouble {
-    /// The case.
-    Case(IoError),
-    /// The analysis.
-    Analysis(AnalysisError),
-    /// No trim: the best point found was reported.
-    NotTrimmed,
+/// Trimming failed; the best point found was reported.
+fn not_trimmed() -> Failure {
+    Failure::Told(FAILED)
 }
 
-impl From<IoError> for Trouble {
-    fn from(e: IoError) -> Self {
-        Self::Case(e)
-    }
-}
-
-impl From<AnalysisError> for Trouble {
-    fn from(e: AnalysisError) -> Self {
-        Self::Analysis(e)
-    }
-}
-
-/// Says what happened and turns it into the exit code.
-pub(crate) fn exit(outcome: Result<(), Trouble>) -> ExitCode {
-    match outcome {
-        Ok(()) => ExitCode::SUCCESS,
-        Err(Trouble::Case(e)) => crate::refuse(&e),
-        Err(Trouble::Analysis(e)) => {
-            eprintln!("error: {e}");
-            ExitCode::from(2)
-        }
-        Err(Trouble::NotTrimmed) => ExitCode::from(1),
-    }
+/// An option that does nothing here.
+fn unused(option: &str, why: &str) -> Failure {
+    Failure::Option(format!(
+        "--{option} has no effect here: {why}; leave it out"
+    ))
 }
 
 impl Trimming {
     /// The case.
     pub(crate) fn load(&self) -> Result<LoadedCase, IoError> {
         LoadedCase::find(&self.case, &self.set)
+    }
+
+    /// Refuses the options that only a trim has.
+    fn without_trim(&self) -> Result<(), Failure> {
+        let given = [
+            ("unknowns", self.unknowns.is_some()),
+            ("forward", self.forward.is_some()),
+            ("climb", self.climb.is_some()),
+            ("steps", self.steps.is_some()),
+            ("hold", self.hold.is_some()),
+        ];
+        match given.iter().find(|g| g.1) {
+            Some((option, _)) => Err(unused(
+                option,
+                "a table of derivatives is linear about its own reference flight, nothing is trimmed",
+            )),
+            None => Ok(()),
+        }
+    }
+
+    /// What is asked of the trim.
+    fn problem(&self, case: &LoadedCase) -> TrimProblem {
+        let body_pitch = match &case.setup.mode {
+            MotionMode::Free(start) => start.angles.x,
+            MotionMode::Tethered(motion) => motion.angles[0].constant,
+        };
+        let unknowns = match self.unknowns.as_deref() {
+            Some(&[a, b, c]) => [a, b, c],
+            _ => DEFAULT_UNKNOWNS,
+        };
+        TrimProblem {
+            unknowns,
+            velocity: DVec3::new(self.forward.unwrap_or(0.0), 0.0, -self.climb.unwrap_or(0.0)),
+            body_pitch,
+            settings: TrimSettings {
+                steps: self.steps.unwrap_or(DEFAULT_STEPS),
+                ..TrimSettings::default()
+            },
+        }
     }
 }
 
@@ -95,48 +138,53 @@ pub(crate) fn watched<T>(what: &str, work: impl FnOnce() -> T) -> T {
 }
 
 /// Loads the case and trims it; reports the trim.
-pub(crate) fn trimmed(args: &Trimming) -> Result<(LoadedCase, Trim), Trouble> {
+pub(crate) fn trimmed(args: &Trimming, report: &mut Report) -> Result<(LoadedCase, Trim), Failure> {
     let case = args.load()?;
+    if args.hold.is_some() {
+        return Err(unused(
+            "hold",
+            "this air has no memory, so no wake has to grow",
+        ));
+    }
     let problem = args.problem(&case);
     let found = watched("trimming", || find_trim(&case.setup, &problem))?;
-    trim::report(&case, &problem, &Found::from(&found));
-    if found.converged {
-        Ok((case, found))
-    } else {
-        Err(Trouble::NotTrimmed)
+    trim::tell(report, &case, &problem, &Found::from(&found));
+    match found.converged {
+        true => Ok((case, found)),
+        false => Err(not_trimmed()),
     }
 }
 
 /// The same in air with memory.
-pub(crate) fn trimmed_with_wake(args: &Trimming) -> Result<(LoadedCase, WakeTrim), Trouble> {
+pub(crate) fn trimmed_with_wake(
+    args: &Trimming,
+    report: &mut Report,
+) -> Result<(LoadedCase, WakeTrim), Failure> {
     let mut case = args.load()?;
     if let (Some(steps), Some(period)) = (args.steps, case.setup.time.period) {
-        case.setup.time.step = period / steps.max(4) as f64;
-        case.raw.time.steps_per_beat = Some(steps.max(4));
+        case.setup.time.step = period / steps as f64;
+        case.raw.time.steps_per_beat = Some(steps);
     }
     let problem = args.problem(&case);
     let settings = WakeSettings {
-        held_beats: args.hold.max(1),
+        held_beats: args.hold.unwrap_or(DEFAULT_HELD),
         ..WakeSettings::default()
     };
-    eprintln!(
-        "{}: trimming in air with memory, some 20 to 60 flights of {} wingbeats; this takes minutes",
+    let beats = settings.held_beats + 1;
+    name_program(&case);
+    tell!(
+        "{}: trimming in air with memory, some 20 to 60 flights of {beats} wingbeats; this takes minutes",
         case.name,
-        settings.held_beats + 1
     );
     let found = watched("trimming", || {
         trim_with_wake(&case.setup, &problem, &settings)
     })?;
-    trim::report(&case, &problem, &Found::from(&found));
-    println!(
-        "  {} flights of {} wingbeats",
-        found.flights,
-        settings.held_beats + 1
-    );
-    if found.converged {
-        Ok((case, found))
-    } else {
-        Err(Trouble::NotTrimmed)
+    trim::tell(report, &case, &problem, &Found::from(&found));
+    line!(report, "  {} flights of {beats} wingbeats", found.flights);
+    report.value("flights", found.flights);
+    match found.converged {
+        true => Ok((case, found)),
+        false => Err(not_trimmed()),
     }
 }
 
@@ -176,30 +224,6 @@ impl From<&WakeTrim> for Found {
     }
 }
 
-impl Trimming {
-    /// What is asked of the trim.
-    fn problem(&self, case: &LoadedCase) -> TrimProblem {
-        let args = self;
-        let body_pitch = match &case.setup.mode {
-            MotionMode::Free(start) => start.angles.x,
-            MotionMode::Tethered(motion) => motion.angles[0].constant,
-        };
-        TrimProblem {
-            unknowns: [args.unknowns[0], args.unknowns[1], args.unknowns[2]],
-            velocity: DVec3::new(args.forward, 0.0, -args.climb),
-            body_pitch,
-            settings: TrimSettings {
-                steps: args.steps.unwrap_or(100).max(1),
-                ..TrimSettings::default()
-            },
-        }
-    }
-}
-
 fn unknown(name: &str) -> Result<Unknown, String> {
-    let found = UNKNOWNS.iter().find(|u| u.1 == name);
-    found.map(|u| u.0).ok_or_else(|| {
-        let names: Vec<_> = UNKNOWNS.iter().map(|u| u.1).collect();
-        format!("choose from {}", names.join(", "))
-    })
+    options::choose(name, &UNKNOWNS.map(|(unknown, name)| (name, unknown)))
 }

@@ -1,11 +1,13 @@
 //! `wingbeat power`.
 
-use std::process::ExitCode;
-
 use clap::Args;
-use wingbeat::analysis::power::power;
+use serde_json::{Map, json};
+use wingbeat::analysis::power::{Power, power};
 
-use super::{Trimming, Trouble, exit, trimmed, watched};
+use super::{Trimming, trimmed, watched};
+use crate::failure::Failure;
+use crate::options;
+use crate::report::{Report, line};
 
 /// What `wingbeat power` is told.
 #[derive(Args)]
@@ -13,38 +15,61 @@ pub(crate) struct PowerArgs {
     #[command(flatten)]
     trimming: Trimming,
     /// Flight muscle as a part of the body mass.
-    #[arg(long, default_value_t = 0.3)]
+    #[arg(long, value_name = "SHARE", default_value_t = 0.3, value_parser = options::share)]
     muscle: f64,
 }
 
 /// The whole command.
-pub(crate) fn run(args: &PowerArgs) -> ExitCode {
-    exit(find(args))
+pub(crate) fn run(args: &PowerArgs) -> Result<(), Failure> {
+    let trimming = &args.trimming;
+    trimming.report.deliver([], |report, []| {
+        let (_, trim) = trimmed(trimming, report)?;
+        let found = watched("power", || power(&trim.tethered()))?;
+        tell(report, &found, args.muscle);
+        Ok(())
+    })
 }
 
-fn find(args: &PowerArgs) -> Result<(), Trouble> {
-    let (_, trim) = trimmed(&args.trimming)?;
-    let p = watched("power", || power(&trim.tethered()))?;
-    println!("\nMean mechanical power over a wingbeat, body tethered in the trimmed attitude:");
-    println!(
+fn tell(report: &mut Report, p: &Power, muscle: f64) {
+    line!(
+        report,
+        "\nMean mechanical power over a wingbeat, body tethered in the trimmed attitude:"
+    );
+    line!(
+        report,
         "  {:<44}{:>10}{:>12}{:>14}",
-        "", "uW", "W/kg body", "W/kg muscle"
+        "",
+        "uW",
+        "W/kg body",
+        "W/kg muscle"
     );
     let rows = [
-        ("against the air", p.aerodynamic),
-        ("inertial, positive part", p.inertial_positive),
-        ("muscles, perfect elastic storage", p.perfect_storage),
-        ("muscles, no elastic storage", p.no_storage),
-        ("peak of all wings", p.peak),
+        ("against the air", "aerodynamic", p.aerodynamic),
+        (
+            "inertial, positive part",
+            "inertial_positive",
+            p.inertial_positive,
+        ),
+        (
+            "muscles, perfect elastic storage",
+            "perfect_storage",
+            p.perfect_storage,
+        ),
+        ("muscles, no elastic storage", "no_storage", p.no_storage),
+        ("peak of all wings", "peak", p.peak),
     ];
-    for (name, x) in rows {
-        println!(
-            "  {name:<44}{:>10.3}{:>12.2}{:>14.2}",
-            1e6 * x,
-            p.body_specific(x),
-            p.muscle_specific(x, args.muscle)
+    let mut values = Map::new();
+    for (name, key, x) in rows {
+        let (body, muscle) = (p.body_specific(x), p.muscle_specific(x, muscle));
+        line!(
+            report,
+            "  {name:<44}{:>10.3}{body:>12.2}{muscle:>14.2}",
+            1e6 * x
         );
+        let value = json!({ "watt": x, "watt_per_kg_body": body, "watt_per_kg_muscle": muscle });
+        values.insert(key.to_owned(), value);
     }
-    println!("  muscle counted as {} of the body mass", args.muscle);
-    Ok(())
+    line!(report, "  muscle counted as {muscle} of the body mass");
+    report.value("power", values);
+    report.value("muscle_share", muscle);
 }

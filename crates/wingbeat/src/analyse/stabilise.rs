@@ -1,19 +1,30 @@
 //! `wingbeat stabilise`.
 
 use std::path::PathBuf;
-use std::process::ExitCode;
 
 use clap::{Args, ValueEnum};
+use serde_json::{Value, json};
 use wingbeat::analysis::control::{ControlledFlight, Controller, Free, Sampled};
 use wingbeat::analysis::regulator::{Regulator, Weights};
 use wingbeat::analysis::stabiliser::{ProportionalDerivative, Stiffness};
 use wingbeat::analysis::{AnalysisError, Trim};
-use wingbeat::case::write_new;
 use wingbeat::draw::figures::stabilised::{BeatRow, stabilised};
 use wingbeat::math::DVec3;
+use wingbeat::results::file::NewFile;
+use wingbeat::results::fixed::fixed;
 
-use super::{Trimming, Trouble, exit, trimmed, watched};
+use super::{Trimming, trimmed, unused, watched};
+use crate::failure::Failure;
+use crate::options;
+use crate::report::{Report, line};
 use crate::watch::Watch;
+
+/// Wingbeats of a flight at most.
+const MOST_BEATS: usize = 100_000;
+/// Wingbeats between sensing and acting at most: the regulator remembers them all.
+const MOST_LATENCY: usize = 50;
+/// Wingbeats between sensing and acting unless told otherwise.
+const DEFAULT_LATENCY: usize = 2;
 
 /// What `wingbeat stabilise` is told.
 #[derive(Args)]
@@ -21,22 +32,24 @@ pub(crate) struct StabiliseArgs {
     #[command(flatten)]
     trimming: Trimming,
     /// Wingbeats to fly.
-    #[arg(long, default_value_t = 100)]
+    #[arg(long, value_name = "N", default_value_t = 100,
+          value_parser = options::count::<1, MOST_BEATS>)]
     beats: usize,
     /// Disturbance of roll, pitch and heading at the start, degrees.
     #[arg(long, num_args = 3, value_names = ["ROLL", "PITCH", "HEADING"],
-          default_values_t = [0.0, 10.0, 0.0], allow_negative_numbers = true)]
+          default_values_t = [0.0, 10.0, 0.0], allow_negative_numbers = true,
+          value_parser = options::degrees)]
     tilt: Vec<f64>,
-    /// Wingbeats between sensing and acting.
-    #[arg(long, default_value_t = 2)]
-    latency: usize,
-    /// Wingbeats from one look to the next.
-    #[arg(long, default_value_t = 1)]
-    sample: usize,
+    /// Wingbeats between sensing and acting [default: 2].
+    #[arg(long, value_name = "BEATS", value_parser = options::count::<0, MOST_LATENCY>)]
+    latency: Option<usize>,
+    /// Wingbeats from one look to the next [default: 1].
+    #[arg(long, value_name = "BEATS", value_parser = options::count::<1, MOST_BEATS>)]
+    sample: Option<usize>,
     /// Which feedback.
     #[arg(long, value_enum, default_value_t = Feedback::Regulator)]
     controller: Feedback,
-    /// Draw the flight as SVG; never over an existing file.
+    /// Draw the flight as SVG.
     #[arg(long, value_name = "FILE")]
     figure: Option<PathBuf>,
 }
@@ -53,16 +66,24 @@ enum Feedback {
 }
 
 /// The whole command: beat by beat as CSV on the standard output.
-pub(crate) fn run(args: &StabiliseArgs) -> ExitCode {
-    exit(fly(args))
+pub(crate) fn run(args: &StabiliseArgs) -> Result<(), Failure> {
+    let free = args.controller == Feedback::Free;
+    for (option, given) in [("latency", args.latency), ("sample", args.sample)] {
+        if free && given.is_some() {
+            return Err(unused(option, "without feedback nothing is sensed"));
+        }
+    }
+    let report = &args.trimming.report;
+    report.deliver([&args.figure], |report, [figure]| fly(args, report, figure))
 }
 
-fn fly(args: &StabiliseArgs) -> Result<(), Trouble> {
-    let (case, trim) = trimmed(&args.trimming)?;
-    let controller = watched("feedback", || controller(args, &trim))?;
-    let mut controller = Sampled::new(controller, args.sample);
+fn fly(args: &StabiliseArgs, report: &mut Report, figure: Option<NewFile>) -> Result<(), Failure> {
+    let (case, trim) = trimmed(&args.trimming, report)?;
+    let latency = args.latency.unwrap_or(DEFAULT_LATENCY);
+    let controller = watched("feedback", || controller(args.controller, &trim, latency))?;
+    let mut controller = Sampled::new(controller, args.sample.unwrap_or(1));
     let tilt = DVec3::from_slice(&args.tilt).map(f64::to_radians);
-    let mut flight = ControlledFlight::new(&trim, tilt, DVec3::ZERO, args.latency)?;
+    let mut flight = ControlledFlight::new(&trim, tilt, DVec3::ZERO, latency)?;
     let mut rows = vec![row(&flight)];
     let mut lost = None;
     let watch = Watch::of("flying under feedback", args.beats as u64);
@@ -77,19 +98,23 @@ fn fly(args: &StabiliseArgs) -> Result<(), Trouble> {
         watch.part(|| {});
     }
     drop(watch);
-    print(&rows);
-    if let Some(path) = &args.figure {
+    tell(report, &rows);
+    if let Some(file) = figure {
         let svg = stabilised(&case.name, trim.beat.wing_length(), &rows);
-        write_new(path, &svg)?;
+        file.write(svg.as_bytes())?;
     }
     lost.map_or(Ok(()), |e| Err(e.into()))
 }
 
-fn controller(args: &StabiliseArgs, trim: &Trim) -> Result<Box<dyn Controller>, AnalysisError> {
-    Ok(match args.controller {
+fn controller(
+    feedback: Feedback,
+    trim: &Trim,
+    latency: usize,
+) -> Result<Box<dyn Controller>, AnalysisError> {
+    Ok(match feedback {
         Feedback::Free => Box::new(Free),
         Feedback::Pd => Box::new(ProportionalDerivative::new(trim, &Stiffness::default())?),
-        Feedback::Regulator => Box::new(Regulator::new(trim, &Weights::default(), args.latency)?),
+        Feedback::Regulator => Box::new(Regulator::new(trim, &Weights::default(), latency)?),
     })
 }
 
@@ -106,24 +131,33 @@ fn row(flight: &ControlledFlight) -> BeatRow {
     }
 }
 
-fn print(rows: &[BeatRow]) {
-    println!(
+fn tell(report: &mut Report, rows: &[BeatRow]) {
+    line!(
+        report,
         "\nbeat,forward_mm,right_mm,down_mm,roll_deg,pitch_deg,heading_deg,stroke_amplitude_left,stroke_amplitude_right,stroke_offset_deg"
     );
     for r in rows {
-        let (x, a) = (r.position * 1e3, r.tilt.map(f64::to_degrees));
-        println!(
-            "{},{:.5},{:.5},{:.5},{:.4},{:.4},{:.4},{:.5},{:.5},{:.4}",
-            r.beat,
-            x.x,
-            x.y,
-            x.z,
-            a.x,
-            a.y,
-            a.z,
-            r.amplitude[0],
-            r.amplitude[1],
-            r.offset.to_degrees()
-        );
+        let cells = [
+            r.position.to_array().map(|x| fixed(1e3 * x, 5)),
+            r.tilt.to_array().map(|x| fixed(x.to_degrees(), 4)),
+            [
+                fixed(r.amplitude[0], 5),
+                fixed(r.amplitude[1], 5),
+                fixed(r.offset.to_degrees(), 4),
+            ],
+        ];
+        line!(report, "{},{}", r.beat, cells.concat().join(","));
     }
+    let values: Vec<Value> = rows.iter().map(value).collect();
+    report.value("beats", values);
+}
+
+fn value(r: &BeatRow) -> Value {
+    json!({
+        "beat": r.beat,
+        "position_forward_right_down_m": r.position.to_array(),
+        "tilt_roll_pitch_heading_rad": r.tilt.to_array(),
+        "stroke_amplitude_change_left_right": r.amplitude,
+        "stroke_offset_rad": r.offset,
+    })
 }

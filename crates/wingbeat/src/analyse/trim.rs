@@ -1,101 +1,141 @@
 //! `wingbeat trim`.
 
 use std::path::PathBuf;
-use std::process::ExitCode;
 
 use clap::Args;
+use serde_json::{Map, Value, json};
 use wingbeat::analysis::{TrimProblem, Unknown};
-use wingbeat::case::{LoadedCase, trimmed_case, wake_trimmed_case, write_new};
+use wingbeat::case::LoadedCase;
+use wingbeat::case::{trimmed_case, wake_trimmed_case};
+use wingbeat::results::fixed::signed;
 
-use super::{Found, Trimming, Trouble, exit, trimmed, trimmed_with_wake};
+use super::{Found, Trimming, trimmed, trimmed_with_wake};
+use crate::failure::Failure;
+use crate::report::{Report, line};
 
 /// What `wingbeat trim` is told.
 #[derive(Args)]
 pub(crate) struct TrimArgs {
     #[command(flatten)]
     trimming: Trimming,
-    /// Write the trimmed flight as a case file; never over an existing file.
+    /// Write the trimmed flight as a case file.
     #[arg(long, value_name = "FILE")]
     write: Option<PathBuf>,
 }
 
 /// The whole command.
-pub(crate) fn run(args: &TrimArgs) -> ExitCode {
-    exit(find(args))
+pub(crate) fn run(args: &TrimArgs) -> Result<(), Failure> {
+    let trimming = &args.trimming;
+    trimming.report.deliver([&args.write], |report, [file]| {
+        let text = if trimming.load()?.setup.air.has_memory() {
+            let (case, trim) = trimmed_with_wake(trimming, report)?;
+            wake_trimmed_case(&case, &trim)
+        } else {
+            let (case, trim) = trimmed(trimming, report)?;
+            trimmed_case(&case, &trim)
+        };
+        if let Some(file) = file {
+            file.write(text.as_bytes())?;
+            let path = file.path().display();
+            line!(report, "\nwrote {path}; fly it with `wingbeat run {path}`");
+        }
+        Ok(())
+    })
 }
 
-fn find(args: &TrimArgs) -> Result<(), Trouble> {
-    let with_memory = args.trimming.load()?.setup.air.has_memory();
-    let text = if with_memory {
-        let (case, trim) = trimmed_with_wake(&args.trimming)?;
-        wake_trimmed_case(&case, &trim)
-    } else {
-        let (case, trim) = trimmed(&args.trimming)?;
-        trimmed_case(&case, &trim)
-    };
-    if let Some(path) = &args.write {
-        write_new(path, &text)?;
-        println!(
-            "\nwrote {0}; fly it with `wingbeat run {0}`",
-            path.display()
-        );
-    }
-    Ok(())
-}
+/// Names of the residuals: in words, and for programs.
+const RESIDUALS: [[&str; 2]; 6] = [
+    ["force forward / weight", "force_forward_over_weight"],
+    ["force down / weight", "force_down_over_weight"],
+    [
+        "pitch moment / (weight R)",
+        "pitch_moment_over_weight_and_length",
+    ],
+    ["pitch per beat [rad]", "pitch_per_beat_rad"],
+    [
+        "drift forward / R per beat",
+        "drift_forward_over_length_per_beat",
+    ],
+    ["drift down / R per beat", "drift_down_over_length_per_beat"],
+];
 
-/// The trim on the terminal.
-pub(crate) fn report(case: &LoadedCase, problem: &TrimProblem, t: &Found) {
-    let v = problem.velocity;
-    println!(
-        "{}: trim to {:.3} m/s forward, {:.3} m/s up",
-        case.name, v.x, -v.z
+/// The trim.
+pub(super) fn tell(report: &mut Report, case: &LoadedCase, problem: &TrimProblem, t: &Found) {
+    let (forward, up) = (problem.velocity.x, 0.0 - problem.velocity.z);
+    line!(
+        report,
+        "{}: trim to {forward:.3} m/s forward, {up:.3} m/s up",
+        case.name
     );
     let verdict = if t.converged {
         "trimmed"
     } else {
         "NOT trimmed; the best point found"
     };
-    println!(
-        "{verdict} after {} Newton steps, largest residual {:.1e}",
-        t.iterations,
-        t.residual.iter().fold(0.0_f64, |m, r| m.max(r.abs()))
+    let largest = t.residual.iter().fold(0.0_f64, |m, r| m.max(r.abs()));
+    line!(
+        report,
+        "{verdict} after {} Newton steps, largest residual {largest:.1e}",
+        t.iterations
     );
+    let mut found = Map::new();
     for u in problem.unknowns {
-        println!("  {:<18}{}", u.name(), value(u, t));
+        let (words, unit, value) = value(u, t);
+        line!(report, "  {:<18}{words}", u.name());
+        found.insert(format!("{}{unit}", u.name()), json!(value));
     }
-    let names = [
-        "force forward / weight",
-        "force down / weight",
-        "pitch moment / (weight R)",
-        "pitch per beat [rad]",
-        "drift forward / R per beat",
-        "drift down / R per beat",
-    ];
-    for (name, r) in names.iter().zip(&t.residual) {
-        println!("  residual of {name:<28}{r:>10.1e}");
+    for ([name, _], r) in RESIDUALS.iter().zip(&t.residual) {
+        line!(report, "  residual of {name:<28}{r:>10.1e}");
     }
-    if let Some(joints) = t.residual.get(names.len()..).filter(|j| !j.is_empty()) {
+    let residuals = RESIDUALS.iter().zip(&t.residual);
+    let mut residuals: Map<String, Value> = residuals
+        .map(|([_, key], r)| ((*key).to_owned(), json!(r)))
+        .collect();
+    if let Some(joints) = t.residual.get(RESIDUALS.len()..).filter(|j| !j.is_empty()) {
         let largest = joints.iter().fold(0.0_f64, |m, r| m.max(r.abs()));
-        println!(
+        line!(
+            report,
             "  residual of {:<28}{largest:>10.1e}",
             "free joints, largest"
         );
+        residuals.insert("free_joints_largest".to_owned(), json!(largest));
     }
+    report.value("case", case.name.as_str());
+    report.value("forward_m_s", forward);
+    report.value("climb_m_s", up);
+    report.value("converged", t.converged);
+    report.value("newton_steps", t.iterations);
+    report.value("unknowns", found);
+    report.value("residuals", residuals);
 }
 
-fn value(u: Unknown, t: &Found) -> String {
+/// An unknown in words; the unit its name ends with for programs, and the value in it.
+fn value(u: Unknown, t: &Found) -> (String, &'static str, f64) {
     let a = &t.adjustment;
-    let degrees = |x: f64| format!("{:+.4} deg", x.to_degrees());
-    let percent = |x: f64| format!("{:+.3} %", 100.0 * x);
+    let degrees = |x: f64| {
+        let x = x.to_degrees();
+        (format!("{} deg", signed(x, 4)), "_deg", x)
+    };
+    let part = |x: f64| (format!("{} %", signed(100.0 * x, 3)), "_change_relative", x);
     match u {
-        Unknown::StrokeAmplitude => percent(a.stroke_amplitude),
+        Unknown::StrokeAmplitude => part(a.stroke_amplitude),
         Unknown::StrokeOffset => degrees(a.stroke_offset),
-        Unknown::Frequency => percent(a.frequency),
+        Unknown::Frequency => part(a.frequency),
         Unknown::StrokePlane => degrees(a.stroke_plane),
         Unknown::FeatheringOffset => degrees(a.feathering_offset),
-        Unknown::FeatheringLead => format!("{:+.5} wingbeats", a.feathering_lead),
+        Unknown::FeatheringLead => {
+            let x = a.feathering_lead;
+            (format!("{} wingbeats", signed(x, 5)), "_wingbeats", x)
+        }
         Unknown::DeviationOffset => degrees(a.deviation_offset),
         Unknown::BodyPitch => degrees(t.body_pitch),
-        Unknown::MassCentre => format!("{:+.4} mm forward", 1e3 * t.mass_centre),
+        Unknown::MassCentre => {
+            let x = t.mass_centre;
+            (
+                format!("{} mm forward", signed(1e3 * x, 4)),
+                "_forward_m",
+                x,
+            )
+        }
     }
 }

@@ -1,6 +1,7 @@
 //! What the tests of the program share.
 #![allow(dead_code, reason = "not every test file uses everything")]
 
+use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
@@ -35,6 +36,57 @@ pub fn flown(dir: &Path, args: &[&str]) {
     let out = wingbeat(dir, args);
     let said = String::from_utf8_lossy(&out.stderr);
     assert!(out.status.success(), "{args:?}: {said}");
+}
+
+/// A case without air, 8 steps long, as `case.toml`; its name is `good`.
+pub const QUICK: &str = r#"format = 1
+name = "good"
+[time]
+steps_per_beat = 40
+beats = 0.2
+[motion]
+frequency_hz = 100.0
+[air]
+model = "none"
+[body.part.thorax]
+length_m = 1e-3
+diameter_m = 1e-3
+mass_kg = 1e-6
+[wing.right]
+hinge_m = [0, 0.5e-3, 0]
+mass_kg = 1e-8
+[wing.right.planform.rectangle]
+chord_m = 1e-3
+span_m = 2e-3
+[wing.right.mesh]
+chordwise = 2
+spanwise = 3
+[wing.right.motion.phi.fourier]
+cosine_deg = [60.0]
+"#;
+
+/// Writes [`QUICK`] into a folder.
+pub fn quick_case(dir: &Path) {
+    fs::write(dir.join("case.toml"), QUICK).unwrap();
+}
+
+/// Every file of a folder, with what it holds.
+pub fn contents(dir: &Path) -> BTreeMap<PathBuf, Vec<u8>> {
+    let mut all = BTreeMap::new();
+    let mut folders = vec![dir.to_owned()];
+    while let Some(folder) = folders.pop() {
+        for entry in fs::read_dir(folder).unwrap() {
+            let entry = entry.unwrap();
+            match entry.file_type().unwrap() {
+                t if t.is_dir() => folders.push(entry.path()),
+                t if t.is_file() => {
+                    all.insert(entry.path(), fs::read(entry.path()).unwrap());
+                }
+                _ => {}
+            }
+        }
+    }
+    all
 }
 
 /// Says that a test is skipped, and why; where WINGBEAT_SKIPS=no (as in CI) that is a failure.

@@ -1,0 +1,80 @@
+//! In which keys two cases differ.
+
+use std::collections::BTreeMap;
+
+use serde::Serialize;
+use toml::{Table, Value};
+
+use crate::LoadedCase;
+use crate::source::in_one_line;
+
+/// A key that two cases do not have alike.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Difference {
+    /// Path of the key, e.g. `wing.right.mass_kg`.
+    pub key: String,
+    /// Its value in the first case, shortened; none if it is not there.
+    pub first: Option<String>,
+    /// Its value in the second case.
+    pub second: Option<String>,
+}
+
+/// All keys in which two cases differ, defaults filled in, in alphabetical order.
+pub fn differences(first: &LoadedCase, second: &LoadedCase) -> Vec<Difference> {
+    let [a, b] = [first, second].map(keys);
+    let all: BTreeMap<&String, ()> = a.keys().chain(b.keys()).map(|k| (k, ())).collect();
+    let differ = all.into_keys().filter(|key| a.get(*key) != b.get(*key));
+    let shown = |value: Option<&Value>| value.and_then(in_one_line);
+    differ
+        .map(|key| Difference {
+            key: key.clone(),
+            first: shown(a.get(key)),
+            second: shown(b.get(key)),
+        })
+        .collect()
+}
+
+fn keys(case: &LoadedCase) -> BTreeMap<String, Value> {
+    let mut keys = BTreeMap::new();
+    let table = Table::try_from(&case.raw).unwrap_or_default(); // what was read can be written
+    gather("", table, &mut keys);
+    keys
+}
+
+fn gather(path: &str, table: Table, keys: &mut BTreeMap<String, Value>) {
+    for (key, value) in table {
+        let here = match path {
+            "" => key,
+            _ => format!("{path}.{key}"),
+        };
+        match value {
+            Value::Table(inner) => gather(&here, inner, keys),
+            value => {
+                keys.insert(here, value);
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn exact_keys_that_differ() {
+        let case = |set: &[&str]| {
+            let set: Vec<String> = set.iter().map(|s| (*s).to_owned()).collect();
+            LoadedCase::find("rectangular-wing", &set).unwrap()
+        };
+        let plain = case(&[]);
+        assert_eq!(differences(&plain, &plain), []);
+        let other = case(&["air.density_kg_m3=2.5", "air.max_wake_rows=7"]);
+        let found = differences(&plain, &other);
+        let keys: Vec<&str> = found.iter().map(|d| d.key.as_str()).collect();
+        assert_eq!(keys, ["air.density_kg_m3", "air.max_wake_rows"]);
+        assert_eq!(
+            (found[0].second.as_deref(), &found[1].first),
+            (Some("2.5"), &None)
+        );
+    }
+}

@@ -1,0 +1,203 @@
+//! A program that runs beside ours: started in a process group of its own, spoken to and heard with
+//! a time limit, ended with everything it started.
+
+use std::io::{self, BufRead, BufReader, Read, Write};
+use std::process::{Child, ChildStdin, ChildStdout, Command, Stdio};
+use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, SyncSender, channel, sync_channel};
+use std::sync::{Mutex, PoisonError};
+use std::time::{Duration, Instant};
+
+/// Bytes of a line at most; an answer has six numbers.
+const MOST_BYTES: usize = 4096;
+/// Lines that wait to be heard at most; a program that says more waits itself.
+const MOST_LINES: usize = 64;
+/// Time to end of its own accord.
+const GRACE: Duration = Duration::from_secs(1);
+
+/// Process groups that are running.
+static RUNNING: Mutex<Vec<u32>> = Mutex::new(Vec::new());
+
+/// Ends all partners at once, for a program that is about to end itself.
+pub fn end_all() {
+    let running = RUNNING.lock().unwrap_or_else(PoisonError::into_inner);
+    running.iter().for_each(|group| kill_group(*group));
+}
+
+/// A running program.
+pub(super) struct Partner {
+    name: String,
+    child: Child,
+    /// To the thread that writes; none once it is to end.
+    words: Option<Sender<String>>,
+    written: Receiver<io::Result<()>>,
+    lines: Receiver<Result<String, String>>,
+    timeout: Duration,
+}
+
+impl Partner {
+    /// Starts `command`, a program and its arguments.
+    ///
+    /// # Errors
+    /// A program that cannot be started.
+    pub fn start(command: &[String], timeout: Duration) -> Result<Self, String> {
+        let name = command.join(" ");
+        let mut program = Command::new(&command[0]);
+        program.args(&command[1..]);
+        program.stdin(Stdio::piped()).stdout(Stdio::piped());
+        #[cfg(unix)]
+        std::os::unix::process::CommandExt::process_group(&mut program, 0);
+        let mut child = program
+            .spawn()
+            .map_err(|e| format!("`{name}` cannot be started: {e}"))?;
+        RUNNING
+            .lock()
+            .unwrap_or_else(PoisonError::into_inner)
+            .push(child.id());
+        let input = child.stdin.take().expect("a piped input");
+        let output = child.stdout.take().expect("a piped output");
+        let ((words, inbox), (outbox, written)) = (channel(), channel());
+        std::thread::spawn(move || write(input, &inbox, &outbox));
+        let (send, lines) = sync_channel(MOST_LINES);
+        std::thread::spawn(move || read(output, &send));
+        Ok(Self {
+            name,
+            child,
+            words: Some(words),
+            written,
+            lines,
+            timeout,
+        })
+    }
+
+    /// Says whole lines.
+    ///
+    /// # Errors
+    /// A program that does not listen; what it said before it went, if anything.
+    pub fn say(&mut self, lines: String) -> Result<(), String> {
+        let words = self.words.as_ref().expect("open while the flight lasts");
+        let sent = words.send(lines);
+        let written = sent.map_or(Err(RecvTimeoutError::Disconnected), |()| {
+            self.written.recv_timeout(self.timeout)
+        });
+        match written {
+            Ok(Ok(())) => Ok(()),
+            Ok(Err(e)) => Err(self.last_words(&e.to_string())),
+            Err(RecvTimeoutError::Timeout) => Err(self.too_late("it does not read its input")),
+            Err(RecvTimeoutError::Disconnected) => Err(self.last_words("it ended")),
+        }
+    }
+
+    /// The next line.
+    ///
+    /// # Errors
+    /// A program that is silent too long, has ended, or says what is no line.
+    pub fn hear(&mut self) -> Result<String, String> {
+        match self.lines.recv_timeout(self.timeout) {
+            Ok(line) => line.map_err(|problem| self.complain(&problem)),
+            Err(RecvTimeoutError::Timeout) => Err(self.too_late("no answer")),
+            Err(RecvTimeoutError::Disconnected) => Err(self.complain("it ended its output")),
+        }
+    }
+
+    /// A complaint about it.
+    pub fn complain(&self, problem: &str) -> String {
+        format!("`{}`: {problem}", self.name)
+    }
+
+    fn too_late(&self, problem: &str) -> String {
+        self.complain(&format!(
+            "{problem} within {} s; allow more with air.external.timeout_s",
+            self.timeout.as_secs_f64()
+        ))
+    }
+
+    /// Why it no longer listens: what it said before it went, if anything.
+    fn last_words(&mut self, problem: &str) -> String {
+        let said = self.lines.recv_timeout(GRACE).ok().and_then(Result::ok);
+        let reason = said.and_then(|line| {
+            let reason = line.trim().strip_prefix("error")?;
+            Some(reason.trim().to_owned())
+        });
+        self.complain(&reason.unwrap_or_else(|| format!("it does not listen: {problem}")))
+    }
+}
+
+impl Drop for Partner {
+    /// A program that listens ends on `end` or on the end of its input; whatever is left of its
+    /// group a second later is killed.
+    fn drop(&mut self) {
+        if let Some(words) = self.words.take() {
+            let _ = words.send("end\n".to_owned()); // it may have gone already
+        }
+        let began = Instant::now();
+        while began.elapsed() < GRACE && !has_ended(&mut self.child) {
+            std::thread::sleep(Duration::from_millis(5));
+        }
+        // Not yet waited for, so that its number is still its own.
+        kill_group(self.child.id());
+        let _ = self.child.kill();
+        let _ = self.child.wait();
+        let mut running = RUNNING.lock().unwrap_or_else(PoisonError::into_inner);
+        running.retain(|group| *group != self.child.id());
+    }
+}
+
+/// Writes what comes, and says of each how it went.
+fn write(mut input: ChildStdin, inbox: &Receiver<String>, outbox: &Sender<io::Result<()>>) {
+    for words in inbox {
+        let written = input.write_all(words.as_bytes());
+        if outbox.send(written).is_err() {
+            break; // nobody waits any more
+        }
+    }
+}
+
+/// Reads line by line; the last thing sent of a line that does not end is the complaint.
+fn read(output: ChildStdout, send: &SyncSender<Result<String, String>>) {
+    let mut output = BufReader::new(output);
+    loop {
+        let mut line = vec![];
+        let mut start = output.by_ref().take(MOST_BYTES as u64);
+        let line = match start.read_until(b'\n', &mut line) {
+            Ok(1..) if line.len() < MOST_BYTES || line.ends_with(b"\n") => {
+                String::from_utf8(line).map_err(|_| "a line is not UTF-8".to_owned())
+            }
+            Ok(1..) => Err(format!("a line is longer than {MOST_BYTES} bytes")),
+            Ok(0) | Err(_) => return,
+        };
+        let last = line.is_err();
+        let line = line.map(|l| l.trim_end_matches(['\n', '\r']).to_owned());
+        if send.send(line).is_err() || last {
+            return;
+        }
+    }
+}
+
+#[cfg(unix)]
+fn has_ended(child: &mut Child) -> bool {
+    use rustix::process::{Pid, WaitId, WaitIdOptions, waitid};
+    let options = WaitIdOptions::EXITED | WaitIdOptions::NOHANG | WaitIdOptions::NOWAIT;
+    // A failure is that of a child waited for already.
+    !matches!(
+        waitid(WaitId::Pid(Pid::from_child(child)), options),
+        Ok(None)
+    )
+}
+
+#[cfg(not(unix))]
+fn has_ended(child: &mut Child) -> bool {
+    !matches!(child.try_wait(), Ok(None))
+}
+
+/// Kills a process and all it started, unless they left its group.
+#[cfg(unix)]
+fn kill_group(leader: u32) {
+    use rustix::process::{Pid, Signal, kill_process_group};
+    let pid = i32::try_from(leader).ok().and_then(Pid::from_raw);
+    if let Some(pid) = pid {
+        let _ = kill_process_group(pid, Signal::KILL); // it may be empty already
+    }
+}
+
+#[cfg(not(unix))]
+fn kill_group(_leader: u32) {}

@@ -1,0 +1,179 @@
+//! Files that users name: whole or not at all, never over another one unasked, and never in the
+//! place of what a run writes.
+
+use std::fs;
+use std::io::ErrorKind;
+use std::path::{Path, PathBuf};
+
+use tempfile::NamedTempFile;
+
+use wingbeat_case::IoError;
+
+use crate::directory::belongs_to_run;
+
+/// Permissions of new files before the user's mask.
+#[cfg(unix)]
+const PERMISSIONS: u32 = 0o666;
+
+/// A file that is going to be written; claimed before the work begins, so that nobody waits for
+/// results that have no place.
+#[derive(Clone, Debug)]
+pub struct NewFile {
+    path: PathBuf,
+    overwrite: bool,
+}
+
+impl NewFile {
+    /// Claims a path that a user gave.
+    ///
+    /// # Errors
+    /// A file that exists already, unless `overwrite`; a directory or device; a missing folder; the
+    /// place of a file of a run.
+    pub fn claim(path: &Path, overwrite: bool) -> Result<Self, IoError> {
+        match belongs_to_run(path) {
+            true => Err(IoError::Reserved {
+                path: path.to_owned(),
+            }),
+            false => Self::claim_own(path, overwrite),
+        }
+    }
+
+    /// Claims a path whose name we chose, in a folder that [`crate::ResultDir::check_folder`]
+    /// lets us write to.
+    ///
+    /// # Errors
+    /// As [`Self::claim`], but for the places of files of a run.
+    pub fn claim_own(path: &Path, overwrite: bool) -> Result<Self, IoError> {
+        let exists = |remedy| {
+            Err(IoError::Exists {
+                path: path.to_owned(),
+                remedy,
+            })
+        };
+        let cannot = |kind: ErrorKind| Err(IoError::write(path)(kind.into()));
+        match fs::symlink_metadata(path) {
+            Err(e) if e.kind() != ErrorKind::NotFound => return Err(IoError::write(path)(e)),
+            Err(_) if path.file_name().is_none() => return cannot(ErrorKind::InvalidFilename),
+            Err(_) if !folder_of(path).is_dir() => return cannot(ErrorKind::NotFound),
+            Ok(data) if data.is_dir() => return exists("it is a directory: name a file"),
+            Ok(_) if !overwrite => {
+                return exists("name another file, or replace this one with --overwrite");
+            }
+            Ok(data) if !data.is_file() && !data.is_symlink() => {
+                return exists("it is no ordinary file, which --overwrite does not replace");
+            }
+            _ => {}
+        }
+        Ok(Self {
+            path: path.to_owned(),
+            overwrite,
+        })
+    }
+
+    /// Where it is going to be.
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// Writes it.
+    ///
+    /// # Errors
+    /// A file that cannot be written, e.g. on a full disk: nothing is left behind; a file that has
+    /// come into being since it was claimed.
+    pub fn write(&self, content: &[u8]) -> Result<(), IoError> {
+        self.make(|part| fs::write(part, content).map_err(IoError::write(part)))
+    }
+
+    /// Writes it over what this claim wrote before.
+    ///
+    /// # Errors
+    /// A file that cannot be written.
+    pub fn replace(&self, content: &[u8]) -> Result<(), IoError> {
+        let again = Self {
+            path: self.path.clone(),
+            overwrite: true,
+        };
+        again.write(content)
+    }
+
+    /// Has `write` write it to the path it is given, then moves it to its place.
+    ///
+    /// # Errors
+    /// What `write` says: nothing is left behind; as [`Self::write`].
+    pub fn make(&self, write: impl FnOnce(&Path) -> Result<(), IoError>) -> Result<(), IoError> {
+        let part = self.part()?;
+        write(part.path()).map_err(|e| match e {
+            IoError::File {
+                action,
+                path,
+                source,
+                remedy,
+            } if path == part.path() => IoError::File {
+                action,
+                path: self.path.clone(),
+                source,
+                remedy,
+            },
+            other => other,
+        })?;
+        self.place(part)
+    }
+
+    /// An empty file beside it, gone if it is not placed.
+    fn part(&self) -> Result<NamedTempFile, IoError> {
+        let mut builder = tempfile::Builder::new();
+        builder.prefix(".wingbeat-").suffix(".part");
+        #[cfg(unix)]
+        builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(PERMISSIONS));
+        let part = builder.tempfile_in(folder_of(&self.path));
+        part.map_err(IoError::write(&self.path))
+    }
+
+    fn place(&self, part: NamedTempFile) -> Result<(), IoError> {
+        let placed = match self.overwrite {
+            true => part.persist(&self.path),
+            false => part.persist_noclobber(&self.path),
+        };
+        placed.map(drop).map_err(|e| match e.error.kind() {
+            ErrorKind::AlreadyExists => IoError::Exists {
+                path: self.path.clone(),
+                remedy: "another program has just written it: name another file",
+            },
+            _ => IoError::write(&self.path)(e.error),
+        })
+    }
+}
+
+/// Writes a file whose name we chose in one go; one that holds the same already is left as it is.
+///
+/// # Errors
+/// As [`NewFile::claim_own`] and [`NewFile::write`].
+pub fn write_file(path: &Path, content: &[u8], overwrite: bool) -> Result<(), IoError> {
+    let same = fs::symlink_metadata(path).is_ok_and(|data| {
+        data.is_file() && data.len() == content.len() as u64 && holds(path, content)
+    });
+    match same {
+        true => Ok(()),
+        false => NewFile::claim_own(path, overwrite)?.write(content),
+    }
+}
+
+fn holds(path: &Path, content: &[u8]) -> bool {
+    fs::read(path).is_ok_and(|old| old == content)
+}
+
+/// Makes a folder for files of a user, and those around it.
+///
+/// # Errors
+/// A folder that cannot be made.
+pub fn make_folder(path: &Path) -> Result<(), IoError> {
+    fs::create_dir_all(path).map_err(IoError::write(path))
+}
+
+/// The folder a file is in.
+fn folder_of(path: &Path) -> &Path {
+    match path.parent() {
+        Some(folder) if !folder.as_os_str().is_empty() => folder,
+        _ => Path::new("."),
+    }
+}

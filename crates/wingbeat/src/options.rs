@@ -1,0 +1,86 @@
+//! Numbers and names on the command line, each with the range it may have.
+
+/// The air is incompressible: speeds stay below that of sound [m/s].
+const SOUND: f64 = 340.0;
+
+/// A finite number for which `allowed` holds; `range` says so in words.
+fn number(text: &str, allowed: impl Fn(f64) -> bool, range: &str) -> Result<f64, String> {
+    let value = text.trim().parse().ok();
+    let value = value.filter(|x: &f64| x.is_finite() && allowed(*x));
+    value.ok_or_else(|| format!("give {range}"))
+}
+
+/// A speed with sign [m/s].
+pub(crate) fn speed(text: &str) -> Result<f64, String> {
+    let range = "a speed in m/s below that of sound (-340 to 340): the air is incompressible";
+    number(text, |x| x.abs() < SOUND, range)
+}
+
+/// An angle from -180 to 180 \[deg\].
+pub(crate) fn degrees(text: &str) -> Result<f64, String> {
+    number(
+        text,
+        |x| x.abs() <= 180.0,
+        "an angle from -180 to 180 degrees",
+    )
+}
+
+/// A part of a whole, above 0 and up to 1.
+pub(crate) fn share(text: &str) -> Result<f64, String> {
+    number(text, |x| x > 0.0 && x <= 1.0, "a share above 0 and up to 1")
+}
+
+/// Megabytes of a page.
+pub(crate) fn megabytes(text: &str) -> Result<f64, String> {
+    number(
+        text,
+        |x| x > 0.0 && x <= 1e4,
+        "a size above 0 and up to 10000 MB",
+    )
+}
+
+/// A whole number from `LEAST` to `MOST`.
+pub(crate) fn count<const LEAST: usize, const MOST: usize>(text: &str) -> Result<usize, String> {
+    let value = text.trim().parse().ok();
+    let value = value.filter(|n| (LEAST..=MOST).contains(n));
+    value.ok_or_else(|| format!("give a whole number from {LEAST} to {MOST}"))
+}
+
+/// One of the `known` names.
+pub(crate) fn choose<T: Copy>(name: &str, known: &[(&'static str, T)]) -> Result<T, String> {
+    let found = known.iter().find(|k| k.0 == name);
+    found.map(|k| k.1).ok_or_else(|| {
+        let names: Vec<&str> = known.iter().map(|k| k.0).collect();
+        let all = names.join(", ");
+        match wingbeat::case::nearest(name, &names) {
+            Some(near) => format!("did you mean `{near}`? Choose from {all}"),
+            None => format!("choose from {all}"),
+        }
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn refuses_numbers_out_of_range() {
+        for text in ["nan", "inf", "-inf", "1e999", "", "x", "340", "-340"] {
+            assert!(speed(text).is_err(), "{text}");
+        }
+        for text in ["nan", "0", "-1", "inf", "10001", "1e308", "-0"] {
+            assert!(megabytes(text).is_err(), "{text}");
+        }
+        for text in ["0", "-0.1", "1.0001", "nan"] {
+            assert!(share(text).is_err(), "{text}");
+        }
+        for text in ["0", "-1", "11", "1.5", "18446744073709551616", "0x4", ""] {
+            assert!(count::<1, 10>(text).is_err(), "{text}");
+        }
+        assert_eq!(
+            (speed("-0.4"), share("1"), degrees("-180")),
+            (Ok(-0.4), Ok(1.0), Ok(-180.0))
+        );
+        assert_eq!(count::<1, 10>("10"), Ok(10));
+    }
+}
