@@ -2,7 +2,7 @@
 //! it is named, in which unit and frame, and where it stands in a [`Record`].
 //!
 //! `table` holds the quantities; everything else follows from it: the header, the numbers of a row, the
-//! record read back from a row, units and frames of the exports, and docs/columns.md. Nobody else
+//! record read back from a row and units and frames of the exports. Nobody else
 //! knows names of columns, and nobody takes them apart.
 
 use std::path::Path;
