@@ -84,16 +84,24 @@ fn same_quantity<'a>(got: &str, expected: &[&'a str]) -> Option<&'a str> {
         .copied()
 }
 
-/// The nearest of `names`, if it is near.
+/// The nearest of `names`, if it is near: alike as a whole, or a slip of the finger away.
 pub fn nearest<'a>(got: &str, names: &[&'a str]) -> Option<&'a str> {
-    let score = |name: &str| strsim::jaro_winkler(&got.to_lowercase(), name);
+    let got = got.to_lowercase();
+    let slips = |name: &str| strsim::damerau_levenshtein(&got, name);
+    let score = |name: &str| match slips(name) {
+        0 | 1 => 1.0,
+        _ => strsim::jaro_winkler(&got, name),
+    };
     let best = names.iter().max_by(|a, b| score(a).total_cmp(&score(b)))?;
-    (score(best) > 0.8).then_some(best)
+    (got.chars().count() > 1 && score(best) > 0.8).then_some(best)
 }
 
 /// What serde found, in words; the value itself stands beside the key.
 fn found_in_words(problem: &str) -> String {
     let kind = |text: &str| text.split([' ', '`', '"']).next().unwrap_or("").to_owned();
+    if problem.ends_with("unit variant") {
+        return "wrong type: this is no choice".to_owned();
+    }
     let (what, found) = match problem.split_once(": ") {
         Some(("invalid type", rest)) if rest.starts_with("floating point") => {
             return "wrong type: a number with a fraction".to_owned();
@@ -118,6 +126,10 @@ fn found_in_words(problem: &str) -> String {
 /// What serde wants, in words: Rust's names of types say nothing to a user.
 fn expected_in_words(text: &str) -> String {
     let words = [
+        (
+            "string only",
+            "the name of a choice, or a table with its settings",
+        ),
         ("floating point", "the number"),
         ("a sequence", "a list"),
         ("sequence", "a list"),

@@ -89,11 +89,22 @@ impl LoadedCase {
         }
     }
 
-    /// The program that computes the air, with its arguments, if the case names one.
+    /// The program that computes the air, with its arguments, if the case names one; words that
+    /// could be mistaken on a terminal in quotes.
     pub fn program(&self) -> Option<String> {
         let external = self.raw.air.external.as_ref()?;
         let starts = self.raw.air.model == raw::AirModel::External;
-        starts.then(|| external.command.join(" "))
+        let plain = |c: char| c.is_alphanumeric() || "-_./=+,:@%".contains(c);
+        let quoted =
+            external
+                .command
+                .iter()
+                .map(|word| match !word.is_empty() && word.chars().all(plain) {
+                    true => word.clone(),
+                    false => format!("{word:?}"),
+                });
+        let words: Vec<String> = quoted.collect();
+        starts.then(|| words.join(" "))
     }
 
     /// The text of the case as it was written.

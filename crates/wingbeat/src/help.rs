@@ -8,7 +8,7 @@ use clap::builder::styling::{AnsiColor, Styles};
 use clap::error::{ContextKind, ContextValue};
 use clap::{Args, Command, CommandFactory, Error};
 use clap_complete::Shell;
-use wingbeat::case::presets;
+use wingbeat::case::{nearest, presets};
 use wingbeat::results::file::{NewFile, make_folder};
 
 use crate::Cli;
@@ -65,12 +65,20 @@ pub(crate) fn advised(mut mistake: Error) -> Error {
     let Some(ContextValue::String(name)) = mistake.get(ContextKind::InvalidSubcommand) else {
         return mistake;
     };
-    if presets::find(name).is_ok() || Path::new(name).is_file() {
-        let (literal, name) = (STYLES.get_literal(), name.clone());
+    let name = name.clone();
+    if presets::find(&name).is_ok() || Path::new(&name).is_file() {
+        let literal = STYLES.get_literal();
         let tip = format!("to fly this case: {literal}{PROGRAM} run {name}{literal:#}");
         let tips = ContextValue::StyledStrs(vec![StyledStr::from(tip)]);
         mistake.insert(ContextKind::Suggested, tips);
         mistake.remove(ContextKind::SuggestedSubcommand);
+    }
+    if mistake.get(ContextKind::SuggestedSubcommand).is_none() {
+        let names: Vec<&str> = GROUPS.iter().flat_map(|g| g.1).copied().collect();
+        if let Some(near) = nearest(&name, &names) {
+            let near = ContextValue::String(near.to_owned());
+            mistake.insert(ContextKind::SuggestedSubcommand, near);
+        }
     }
     mistake
 }

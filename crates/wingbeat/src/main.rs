@@ -1,5 +1,7 @@
 //! The wingbeat command line.
 
+#![deny(clippy::print_stdout, clippy::print_stderr)] // they panic where nobody reads; see `terminal`
+
 mod analyse;
 mod check;
 mod expectation;

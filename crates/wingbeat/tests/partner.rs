@@ -33,24 +33,24 @@ fn behaves_a_check_starts_nothing_and_a_run_says_what_it_starts() {
     assert!(out.status.success(), "{}", complaint(&out));
     let said = String::from_utf8(out.stdout).unwrap();
     assert!(
-        said.contains("will start this one with your rights: sh -c touch started"),
+        said.contains("will start this one with your rights: sh -c \"touch started"),
         "{said}"
     );
     assert!(!dir.join("started").exists());
     for extra in [&[][..], &["--quiet"], &["--json"]] {
         let args = [&["run", "case.toml", "--out", "r"][..], extra].concat();
         let said = complaint(&wingbeat(dir, &args));
-        let named = said.find("which runs with your rights: sh -c touch started");
-        let failed = said.find("expected `ready 1`, got `nonsense`");
+        let named = said.find("which runs with your rights: sh -c \"touch started");
+        let failed = said.find("expected `ready 2`, got `nonsense`");
         assert!(named.is_some() && named < failed, "{said}");
         assert!(dir.join("started").exists() && !dir.join("r").exists());
         fs::remove_file(dir.join("started")).unwrap();
     }
 }
 
-/// Says `ready 1`, then answers 6 zeros for each of the three bodies, as long as it is asked.
+/// Says `ready 2`, then answers 6 zeros for each of the three bodies, as long as it is asked.
 const CALM: &str = r#"while read a b c; do case $a in
-bodies) echo ready 1;; evaluate) echo 0 0 0 0 0 0; echo 0 0 0 0 0 0; echo 0 0 0 0 0 0;; esac; done"#;
+bodies) echo ready 2;; evaluate) echo 0 0 0 0 0 0; echo 0 0 0 0 0 0; echo 0 0 0 0 0 0;; esac; done"#;
 
 #[test]
 fn behaves_looking_at_a_result_starts_nothing() {
@@ -126,12 +126,12 @@ fn refuses_programs_that_talk_without_end_or_do_not_listen() {
     let zeros = "yes '0 0 0 0 0 0'";
     let talks = [
         ("yes | tr -d '\\n'", "a line is longer than 4096 bytes"),
-        ("yes", "expected `ready 1`, got `y`"),
+        ("yes", "expected `ready 2`, got `y`"),
         ("cat /dev/zero", "a line is longer than 4096 bytes"),
-        ("echo ready 1; printf '\\377\\n'", "a line is not UTF-8"),
-        ("echo ready 1; echo 0 0 0 0 0 nan; sleep 9", "not finite"),
+        ("echo ready 2; printf '\\377\\n'", "a line is not UTF-8"),
+        ("echo ready 2; echo 0 0 0 0 0 nan; sleep 9", "not finite"),
         (
-            "echo ready 1; echo 0 0 0 0 0; sleep 9",
+            "echo ready 2; echo 0 0 0 0 0; sleep 9",
             "expected six numbers",
         ),
         (
@@ -141,7 +141,7 @@ fn refuses_programs_that_talk_without_end_or_do_not_listen() {
         ("true", "it ended its output"),
         // Never reads: sooner or later there is no room for another question.
         (
-            &format!("echo ready 1; {zeros}"),
+            &format!("echo ready 2; {zeros}"),
             "it does not read its input within 1 s",
         ),
     ];

@@ -100,7 +100,7 @@ fn air_warnings(
         }
     };
     list.push(match &lattice.section_drag {
-        None => format!("The air is inviscid: no friction, so at insect Reynolds numbers (100 to 1000) drag and power come out low. {suction}"),
+        None => format!("The air is inviscid: without friction, drag and power come out low, the more so the smaller the Reynolds number. {suction}"),
         Some(drag) => format!("The air is inviscid; drag of the sections was added to its forces (air.section_drag: {}, cd0 = {}, cd2 = {} per rad2), from the undisturbed air past each strip. {suction}", friction(drag), drag.cd0, drag.cd2),
     });
     let chord = setup

@@ -22,8 +22,8 @@ use crate::run::name_program;
 use crate::terminal::tell;
 use crate::watch::Watch;
 
-/// Steps per wingbeat at least and at most; RK4 with 10,000 is at the last bits.
-const STEPS: [usize; 2] = [4, 10_000];
+/// Steps per wingbeat at least and at most; of order four, 2,000 are at the last bits.
+const STEPS: [usize; 2] = [4, 2_000];
 /// Steps per wingbeat unless told otherwise.
 const DEFAULT_STEPS: usize = 100;
 /// Wingbeats of the hold at most.
@@ -110,7 +110,7 @@ impl Trimming {
     }
 
     /// What is asked of the trim.
-    fn problem(&self, case: &LoadedCase) -> TrimProblem {
+    fn problem(&self, case: &LoadedCase) -> Result<TrimProblem, Failure> {
         let body_pitch = match &case.setup.mode {
             MotionMode::Free(start) => start.angles.x,
             MotionMode::Tethered(motion) => motion.angles[0].constant,
@@ -119,7 +119,12 @@ impl Trimming {
             Some(&[a, b, c]) => [a, b, c],
             _ => DEFAULT_UNKNOWNS,
         };
-        TrimProblem {
+        let [a, b, c] = unknowns;
+        if a == b || b == c || c == a {
+            let problem = "--unknowns: one is named twice; name three that differ";
+            return Err(Failure::Option(problem.to_owned()));
+        }
+        Ok(TrimProblem {
             unknowns,
             velocity: DVec3::new(self.forward.unwrap_or(0.0), 0.0, -self.climb.unwrap_or(0.0)),
             body_pitch,
@@ -127,7 +132,7 @@ impl Trimming {
                 steps: self.steps.unwrap_or(DEFAULT_STEPS),
                 ..TrimSettings::default()
             },
-        }
+        })
     }
 }
 
@@ -146,7 +151,7 @@ pub(crate) fn trimmed(args: &Trimming, report: &mut Report) -> Result<(LoadedCas
             "this air has no memory, so no wake has to grow",
         ));
     }
-    let problem = args.problem(&case);
+    let problem = args.problem(&case)?;
     let found = watched("trimming", || find_trim(&case.setup, &problem))?;
     trim::tell(report, &case, &problem, &Found::from(&found));
     match found.converged {
@@ -165,7 +170,7 @@ pub(crate) fn trimmed_with_wake(
         case.setup.time.step = period / steps as f64;
         case.raw.time.steps_per_beat = Some(steps);
     }
-    let problem = args.problem(&case);
+    let problem = args.problem(&case)?;
     let settings = WakeSettings {
         held_beats: args.hold.unwrap_or(DEFAULT_HELD),
         ..WakeSettings::default()

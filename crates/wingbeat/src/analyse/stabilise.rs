@@ -22,7 +22,7 @@ use crate::watch::Watch;
 /// Wingbeats of a flight at most.
 const MOST_BEATS: usize = 100_000;
 /// Wingbeats between sensing and acting at most: the regulator remembers them all.
-const MOST_LATENCY: usize = 50;
+const MOST_LATENCY: usize = 20;
 /// Wingbeats between sensing and acting unless told otherwise.
 const DEFAULT_LATENCY: usize = 2;
 
