@@ -10,7 +10,7 @@ use wingbeat::results::fixed::fixed;
 
 use crate::expectation;
 use crate::failure::Failure;
-use crate::terminal::say;
+use crate::terminal::{say, tell};
 use crate::watch::Watch;
 
 /// Describes the case, builds its flight and makes some steps on trial. Lattices that would take
@@ -39,7 +39,7 @@ pub(crate) fn check(name: &str, set: &[String], trial: bool) -> Result<(), Failu
     }
     say!("{:<10}{cost}", "cost");
     for doubt in &estimate.doubts {
-        eprintln!("warning: {doubt}");
+        tell!("warning: {doubt}");
     }
     Ok(())
 }

@@ -140,6 +140,6 @@ fn write_pair(args: &CompareArgs, file: &Path) -> Result<(), IoError> {
     ];
     let page = page::pair([&first, &second], 2 * page::DEFAULT_BYTES)?;
     wingbeat::results::directory::write_whole(file, page.as_bytes())?;
-    println!("wrote {}", file.display());
+    say!("wrote {}", file.display());
     Ok(())
 }
