@@ -6,6 +6,9 @@ use std::path::{Path, PathBuf};
 
 use wingbeat_case::IoError;
 
+use crate::Outcome;
+use crate::history::is_abandoned;
+
 /// Files a run and its exports may have; `--overwrite` removes these, the frames and the figures, and
 /// nothing else. The manifest comes first and goes last: where it is, there is a run.
 const ENTRIES: [&str; 14] = [
@@ -161,12 +164,16 @@ impl ResultDir {
         super::History::read(&self.join("history.csv"))
     }
 
-    /// The manifest.
+    /// The manifest; a run that was killed counts as interrupted.
     ///
     /// # Errors
     /// A manifest.json that is missing or was damaged.
     pub fn manifest(&self) -> Result<super::Manifest, IoError> {
-        super::saver::read_manifest(&self.path)
+        let mut manifest = super::saver::read_manifest(&self.path)?;
+        if manifest.outcome == Outcome::Running && is_abandoned(&self.join("history.csv")) {
+            manifest.outcome = Outcome::Interrupted;
+        }
+        Ok(manifest)
     }
 
     /// Whether files drawn or exported from this result may be written to `folder`: not among the

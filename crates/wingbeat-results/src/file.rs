@@ -114,6 +114,10 @@ impl NewFile {
                 source,
                 remedy,
             },
+            IoError::Figure { path, problem } if path == part.path() => IoError::Figure {
+                path: self.path.clone(),
+                problem,
+            },
             other => other,
         })?;
         self.place(part)

@@ -8,7 +8,7 @@ use wingbeat_flight::FlightState;
 
 use super::checkpoint::{self, FILE, Header};
 use super::directory::{is_frame, write_safely};
-use super::history::{hash_start, is_abandoned};
+use super::history::hash_start;
 use super::manifest::{Manifest, Outcome, hexadecimal, sha256};
 use wingbeat_case::{IoError, SaveSettings};
 
@@ -97,7 +97,7 @@ pub fn read(dir: &Path) -> Result<Saved, IoError> {
     })
 }
 
-/// The manifest of a result directory; a run that was killed counts as interrupted.
+/// The manifest of a result directory as it was written.
 ///
 /// # Errors
 /// A directory that holds no run; a manifest that cannot be read.
@@ -110,14 +110,10 @@ pub fn read_manifest(dir: &Path) -> Result<Manifest, IoError> {
         });
     }
     let text = fs::read_to_string(&path).map_err(IoError::read(&path))?;
-    let mut manifest: Manifest = serde_json::from_str(&text).map_err(|e| IoError::Damaged {
+    serde_json::from_str(&text).map_err(|e| IoError::Damaged {
         path,
         problem: format!("the manifest cannot be read: {e}"),
-    })?;
-    if manifest.outcome == Outcome::Running && is_abandoned(&dir.join("history.csv")) {
-        manifest.outcome = Outcome::Interrupted;
-    }
-    Ok(manifest)
+    })
 }
 
 fn check_start(path: &Path, header: &Header) -> Result<(), IoError> {
