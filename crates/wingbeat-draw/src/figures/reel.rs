@@ -26,7 +26,7 @@ fn pixels(scale: f64) -> [u32; 2] {
 }
 
 /// An endless GIF.
-pub(super) struct Gif(Encoder<BufWriter<File>>);
+pub(super) struct Gif(Option<Encoder<BufWriter<File>>>);
 
 impl Gif {
     /// Time a picture is shown \[1/100 s\].
@@ -41,7 +41,7 @@ impl Gif {
         encoder
             .set_repeat(Repeat::Infinite)
             .map_err(|e| e.to_string())?;
-        Ok(Self(encoder))
+        Ok(Self(Some(encoder)))
     }
 }
 
@@ -54,11 +54,19 @@ impl Reel for Gif {
         let [width, height] = pixels(1.0).map(|x| x as u16);
         let mut picture = Frame::from_rgb_speed(width, height, rgb, 15);
         picture.delay = Self::DELAY;
-        self.0.write_frame(&picture).map_err(|e| e.to_string())
+        match &mut self.0 {
+            Some(encoder) => encoder.write_frame(&picture).map_err(|e| e.to_string()),
+            None => Err("the animation has ended".to_owned()),
+        }
     }
 
     fn end(&mut self) -> Result<(), String> {
-        Ok(()) // the file ends when the encoder is dropped
+        // To be told of a disk that is full: what is dropped tells nothing.
+        let Some(encoder) = self.0.take() else {
+            return Ok(());
+        };
+        let mut file = encoder.into_inner().map_err(|e| e.to_string())?;
+        file.flush().map_err(|e| e.to_string())
     }
 }
 
