@@ -10,6 +10,16 @@ fn number(text: &str, allowed: impl Fn(f64) -> bool, range: &str) -> Result<f64,
     value.ok_or_else(|| format!("give {range}"))
 }
 
+/// A finite number.
+pub(crate) fn finite(text: &str) -> Result<f64, String> {
+    number(text, |_| true, "a finite number")
+}
+
+/// A finite number above 0.
+pub(crate) fn positive(text: &str) -> Result<f64, String> {
+    number(text, |x| x > 0.0, "a finite number above 0")
+}
+
 /// A speed with sign [m/s].
 pub(crate) fn speed(text: &str) -> Result<f64, String> {
     let range = "a speed in m/s below that of sound (-340 to 340): the air is incompressible";

@@ -7,7 +7,7 @@ use wingbeat::draw::figures::{self, Format, Kind, Order, Style, Window};
 use wingbeat::results::ResultDir;
 
 use crate::failure::Failure;
-use crate::options::choose;
+use crate::options::{self, choose};
 use crate::terminal::say;
 
 /// What `wingbeat plot` is told.
@@ -29,13 +29,16 @@ pub(crate) struct PlotArgs {
     #[arg(long, value_name = "STEP")]
     step: Option<usize>,
     /// Draw the flight from this time on: wingbeats, or seconds where there are none.
-    #[arg(long, value_name = "TIME", allow_negative_numbers = true)]
+    #[arg(long, value_name = "TIME", allow_negative_numbers = true,
+          value_parser = options::finite)]
     from: Option<f64>,
     /// Draw the flight up to this time.
-    #[arg(long, value_name = "TIME", allow_negative_numbers = true)]
+    #[arg(long, value_name = "TIME", allow_negative_numbers = true,
+          value_parser = options::finite)]
     to: Option<f64>,
     /// Draw so many wingbeats: from --from on, or up to --to, or the last ones.
-    #[arg(long, value_name = "COUNT", allow_negative_numbers = true)]
+    #[arg(long, value_name = "COUNT", allow_negative_numbers = true,
+          value_parser = options::positive)]
     beats: Option<f64>,
     /// Folder for the files; default DIR/figures, DIR/figures/paper for papers.
     #[arg(long, value_name = "FOLDER")]

@@ -6,6 +6,7 @@ use clap::Args;
 use wingbeat::case::IoError;
 use wingbeat::case::differences;
 use wingbeat::draw::page;
+use wingbeat::results::file::NewFile;
 use wingbeat::results::fixed::fixed;
 use wingbeat::results::{Manifest, ResultDir, Summary};
 
@@ -71,10 +72,10 @@ pub(crate) fn show(args: &ShowArgs) -> Result<(), Failure> {
 
 /// `wingbeat compare`: keys in which the cases differ, and the same numbers side by side.
 pub(crate) fn compare(args: &CompareArgs) -> Result<(), Failure> {
-    let [first, second] = [read(&args.first)?, read(&args.second)?];
     if let Some(file) = &args.page {
-        return Ok(write_pair(args, file)?);
+        return write_pair(args, &NewFile::claim(file, args.overwrite)?);
     }
+    let [first, second] = [read(&args.first)?, read(&args.second)?];
     let case = |dir: &Path| ResultDir::open(dir)?.case();
     let keys = differences(&case(&args.first)?, &case(&args.second)?);
     let rows = first.0.beside(&second.0);
@@ -127,19 +128,13 @@ pub(crate) fn compare(args: &CompareArgs) -> Result<(), Failure> {
 }
 
 /// Both flights as one page.
-fn write_pair(args: &CompareArgs, file: &Path) -> Result<(), IoError> {
-    if file.exists() && !args.overwrite {
-        return Err(IoError::Exists {
-            path: file.to_owned(),
-            remedy: "replace it with --overwrite, or choose another name",
-        });
-    }
+fn write_pair(args: &CompareArgs, file: &NewFile) -> Result<(), Failure> {
     let [first, second] = [
         ResultDir::read(&args.first)?,
         ResultDir::read(&args.second)?,
     ];
     let page = page::pair([&first, &second], 2 * page::DEFAULT_BYTES)?;
-    wingbeat::results::directory::write_whole(file, page.as_bytes())?;
-    say!("wrote {}", file.display());
+    file.write(page.as_bytes())?;
+    say!("wrote {}", file.path().display());
     Ok(())
 }

@@ -196,7 +196,10 @@ fn refuses_bad_numbers_in_every_option() {
             );
         }
     }
-    let numbers: [(&[&str], &str, &[&str]); 5] = [
+    let numbers: [(&[&str], &str, &[&str]); 8] = [
+        (&["plot", "r"], "--from", &[]),
+        (&["plot", "r"], "--to", &[]),
+        (&["plot", "r"], "--beats", &["0", "-1"]),
         (&["trim"], "--forward", &["340", "-1e308", "1e308"]),
         (&["stability"], "--climb", &["340", "-1e308", "1e308"]),
         (&["power"], "--muscle", &["0", "-0.3", "1.01", "1e308"]),
