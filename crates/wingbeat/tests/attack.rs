@@ -418,7 +418,7 @@ fn refuses_bad_values_in_cases() {
         }
     }
     let deep = |n: usize| vec!["a"; n].join(".") + "=1";
-    let lists = |n: usize| format!("description={}{}", "[".repeat(n), "]".repeat(n));
+    let lists = |n: usize| format!("gravity_m_s2={}{}", "[".repeat(n), "]".repeat(n));
     let sets = [
         deep(33),
         deep(30_000),
