@@ -107,11 +107,17 @@ impl CostModel {
     }
 }
 
+/// Which of the three are free, in bits, fewer first.
+const CHOICES: [usize; 7] = [0b001, 0b010, 0b100, 0b011, 0b101, 0b110, 0b111];
+/// A further term must lower the sum by this part of it: below lie roundings, which would be carried far
+/// ahead.
+const WORTH: f64 = 1e-6;
+
 /// The least of `x.Mx - 2 x.r` over x >= 0: of all choices which of the three are zero, the best
 /// whose others come out positive.
 fn not_negative(matrix: &[[f64; 3]; 3], right: &[f64; 3]) -> [f64; 3] {
-    let mut best = (0.0, [0.0; 3]);
-    for free in 1..8_usize {
+    let mut best = (-f64::MIN_POSITIVE, [0.0; 3]);
+    for free in CHOICES {
         let is_free = |i: usize| free >> i & 1 == 1;
         let Some(x) = solved(matrix, right, is_free) else {
             continue;
@@ -122,7 +128,7 @@ fn not_negative(matrix: &[[f64; 3]; 3], right: &[f64; 3]) -> [f64; 3] {
                 x[i] * (row - 2.0 * right[i])
             })
             .sum();
-        if x.iter().all(|x| *x >= 0.0) && value < best.0 {
+        if x.iter().all(|x| *x >= 0.0) && value < best.0 * (1.0 + WORTH) {
             best = (value, x);
         }
     }
