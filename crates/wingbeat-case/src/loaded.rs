@@ -138,15 +138,21 @@ impl LoadedCase {
     }
 }
 
+/// Names longer than this many bytes are no names of directories everywhere.
+const LONGEST_NAME: usize = 100;
+
 fn check_name(name: &str) -> Result<(), Fault> {
     let plain = |c: char| c.is_alphanumeric() || "-_. ".contains(c);
-    if !name.is_empty() && name.chars().all(plain) && !name.starts_with('.') {
+    let fits = (1..=LONGEST_NAME).contains(&name.len());
+    if fits && name.chars().all(plain) && !name.starts_with('.') {
         return Ok(());
     }
     Err(Fault::new(
         "name",
         "the name becomes the name of a directory",
-        "letters, digits, -, _, . and spaces, not beginning with a dot",
+        format!(
+            "letters, digits, -, _, . and spaces, not beginning with a dot, at most {LONGEST_NAME} bytes"
+        ),
         "choose a plain name",
     ))
 }

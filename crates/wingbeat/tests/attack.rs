@@ -154,6 +154,7 @@ fn rust_words(said: &str) -> Option<&'static str> {
 const NO_NUMBERS: [&str; 8] = ["nan", "inf", "-inf", "1e999", "", "two", "1,5", "0x10"];
 
 #[test]
+#[ignore = "minutes: see CONTRIBUTING.md"]
 fn refuses_bad_numbers_in_every_option() {
     let mut field = Field::new("attack-options");
     let counts: [(&[&str], &str); 9] = [
@@ -243,6 +244,7 @@ fn refuses_bad_numbers_in_every_option() {
 }
 
 #[test]
+#[ignore = "minutes: see CONTRIBUTING.md"]
 fn refuses_bad_words_on_the_command_line() {
     let mut field = Field::new("attack-words");
     let long = "x".repeat(100_000);
@@ -388,6 +390,7 @@ const NUMBERS: [&str; 24] = [
 ];
 
 #[test]
+#[ignore = "minutes: see CONTRIBUTING.md"]
 fn refuses_bad_values_in_cases() {
     let mut field = Field::new("attack-values");
     for key in NUMBERS {
@@ -451,6 +454,7 @@ fn refuses_bad_values_in_cases() {
 }
 
 #[test]
+#[ignore = "minutes: see CONTRIBUTING.md"]
 fn refuses_cases_beyond_all_size() {
     let mut field = Field::new("attack-size");
     let parts: String = (0..3000)
@@ -491,6 +495,7 @@ fn refuses_cases_beyond_all_size() {
 }
 
 #[test]
+#[ignore = "minutes: see CONTRIBUTING.md"]
 fn refuses_files_that_are_no_cases() {
     let mut field = Field::new("attack-files");
     let table = |rows: &str| {
@@ -568,6 +573,7 @@ fn refuses_files_that_are_no_cases() {
 }
 
 #[test]
+#[ignore = "minutes: see CONTRIBUTING.md"]
 fn survives_flights_of_impossible_numbers() {
     let mut field = Field::new("attack-flights");
     let keys = [

@@ -164,10 +164,10 @@ fn refuses_damaged_results_in_every_command() {
     }
     // A damaged index is blamed itself, not the frames it names wrongly.
     let index = "flight.pvd";
-    with_damage(dir, index, &cut(index), true, "flight.pvd: ");
+    with_damage(dir, index, &cut(index), true, "flight.pvd`: ");
     let at = read(index).len() / 2;
     let digit = flipped(index, at, b'7');
-    with_damage(dir, index, &digit, true, "flight.pvd: ");
+    with_damage(dir, index, &digit, true, "flight.pvd`: ");
     let wakes = "frames/wakes_000004.vtp";
     with_damage(dir, wakes, &cut(wakes), true, "wakes_000004.vtp");
     with_damage(

@@ -136,7 +136,7 @@ fn refuses_to_replace_figures_unasked() {
         ("forces", "this flight has no air"),
         ("wake", "no frames were written"),
         ("beats", "no whole wingbeat"),
-        ("nonsense", "choose one of angles, forces"),
+        ("nonsense", "choose from angles, forces"),
     ] {
         refused(&scratch.0, &["plot", "run", kind], reason);
     }
@@ -151,7 +151,7 @@ fn exact_the_animation_moves() {
         "time.beats=0.3",
         "--set=air.shed=[\"trailing\"]",
         "--set=air.body=false",
-        "--set=motion.start=impulsive",
+        "--set=motion.start_beats=0.1",
     ];
     flown(&scratch.0, &[&CASE[..5], &args].concat());
     let files = plotted(&scratch.0, &["animation"]);
