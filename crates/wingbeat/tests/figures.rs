@@ -213,7 +213,7 @@ fn exact_a_window_of_the_flight_is_drawn() {
             &["--from", "0", "--to", "1", "--beats", "1"],
             "leave one of them out",
         ),
-        (&["--beats", "-1"], "choose another --from, --to or --beats"),
+        (&["--beats", "-1"], "give a finite number above 0"),
     ] {
         refused(
             &scratch.0,
