@@ -69,6 +69,11 @@ pub(crate) fn read_in(case: &mut Case, base: &Path) -> Result<(), Fault> {
     Ok(())
 }
 
+fn twice(key: String, what: &str, allowed: &str) -> Fault {
+    let problem = format!("{what} is given twice");
+    Fault::new(key, problem, allowed, "remove one of them")
+}
+
 fn unreadable(key: String, file: &Path, e: &std::io::Error) -> Fault {
     Fault::new(
         key,
@@ -89,6 +94,9 @@ fn read_mesh(path: &str, part: &mut PartCase, base: &Path) -> Result<(), Fault> 
         return Ok(());
     };
     let key = format!("{path}.file");
+    if part.nodes_m.is_some() || part.quads.is_some() {
+        return Err(twice(key, "the mesh", "file, or nodes_m with quads"));
+    }
     let file = base.join(&name);
     let bytes = bytes_of(&key, &file)?;
     let unit = part.file_unit_m.take().unwrap_or(1.0);
@@ -127,6 +135,9 @@ fn read_table(path: &str, table: &mut TableCase, base: &Path) -> Result<(), Faul
         return Ok(());
     };
     let key = format!("{path}.file");
+    if table.rows_deg.is_some() {
+        return Err(twice(key, "the table", "file or rows_deg"));
+    }
     let file = base.join(&name);
     let text = bytes_of(&key, &file)?;
     let mut reader = csv::ReaderBuilder::new()

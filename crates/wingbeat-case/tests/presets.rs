@@ -3,6 +3,9 @@
 use std::path::Path;
 
 use wingbeat_case::{LoadedCase, presets::PRESETS};
+use wingbeat_flight::{FlightSetup, Simulation};
+use wingbeat_math::{DMat3, DVec3};
+use wingbeat_model::Wing;
 
 #[test]
 fn agrees_every_preset_with_its_resolved_case() {
@@ -64,4 +67,196 @@ fn exact_schema_describes_every_key_of_the_resolved_default() {
         );
     }
     assert_eq!(schema["additionalProperties"], false);
+}
+
+fn simulation(preset: &str, set: &[&str]) -> Simulation {
+    let set: Vec<String> = set.iter().map(|&s| s.to_owned()).collect();
+    let case = LoadedCase::find(preset, &set).unwrap_or_else(|e| panic!("{e}"));
+    Simulation::new(case.setup).unwrap_or_else(|e| panic!("{preset}: {e}"))
+}
+
+/// Mirror image about the plane of symmetry.
+fn mirrored(v: DVec3) -> DVec3 {
+    DVec3::new(v.x, -v.y, v.z)
+}
+
+/// Largest difference between the air's force on a wing and the mirror image of that on its twin over
+/// `steps` steps, relative to the largest force.
+fn asymmetry(flight: &mut Simulation, steps: usize) -> f64 {
+    let names: Vec<String> = (flight.setup().animal.wings.iter())
+        .map(|w| w.name.clone())
+        .collect();
+    let twin = |k: usize| {
+        let twin = names[k].replace("left", "right");
+        names.iter().position(|n| *n == twin).filter(|&t| t != k)
+    };
+    let pairs: Vec<[usize; 2]> = (0..names.len())
+        .filter_map(|k| twin(k).map(|t| [k, t]))
+        .collect();
+    assert!(!pairs.is_empty());
+    let (mut apart, mut largest) = (0.0_f64, 0.0_f64);
+    for _ in 0..steps {
+        let air = &flight.step().unwrap_or_else(|e| panic!("{e}")).air;
+        for [a, b] in pairs.iter().map(|p| p.map(|w| air[1 + w].force)) {
+            apart = apart.max(a.distance(mirrored(b)));
+            largest = largest.max(a.length());
+        }
+    }
+    apart / largest
+}
+
+/// Without `air.mirror` both halves are computed, and rounding is all that may part them: it decides
+/// nothing, not even where wakes meet wings.
+#[test]
+fn invariant_left_equals_right_with_a_clearance() {
+    let both = ["air.mirror=false", "time.beats=1"];
+    let attached = "air.shed=[\"trailing\",\"tip\"]";
+    let mut flight = simulation("fruit-fly-tethered", &[&both[..], &[attached]].concat());
+    let attached = asymmetry(&mut flight, 40);
+    let mut flight = simulation("fruit-fly-tethered", &both);
+    let separated = asymmetry(&mut flight, 40);
+    let met = flight.state().air.as_ref().unwrap().events.near_surface;
+    println!(
+        "left and right differ by {attached:.1e} attached, {separated:.1e} separated, {met} contacts"
+    );
+    assert!(met > 100, "the wakes must meet the wings: {met}");
+    // Roundings; between separated sheets they grow.
+    assert!(attached < 1e-10 && separated < 1e-6);
+}
+
+/// Whether a segment meets a triangle.
+fn meets([p, q]: [DVec3; 2], [a, b, c]: [DVec3; 3]) -> bool {
+    let (way, u, v) = (q - p, b - a, c - a);
+    let system = DMat3::from_cols(u, v, -way);
+    if system.determinant().abs() < 1e-12 * u.length() * v.length() * way.length() {
+        return false;
+    }
+    let s = system.inverse() * (p - a);
+    s.x >= 0.0 && s.y >= 0.0 && s.x + s.y <= 1.0 && (0.0..=1.0).contains(&s.z)
+}
+
+/// Panels of a wing in the body's axes at time `t`.
+fn panels(wing: &Wing, t: f64) -> Vec<[DVec3; 4]> {
+    let turn = wing.motion.at(t).c;
+    let node = |n: usize| wing.hinge_b + turn * wing.mesh.nodes[n];
+    let all = wing.mesh.panels(wing.side);
+    all.into_iter().map(|c| c.map(node)).collect()
+}
+
+/// Whether the wings `a` and `b` cut through each other.
+fn cut(a: &[[DVec3; 4]], b: &[[DVec3; 4]]) -> bool {
+    let edges = |w: &[[DVec3; 4]]| -> Vec<[DVec3; 2]> {
+        w.iter()
+            .flat_map(|c| [0, 1, 2, 3].map(|k| [c[k], c[(k + 1) % 4]]))
+            .collect()
+    };
+    let halves = |c: &[DVec3; 4]| [[c[0], c[1], c[2]], [c[0], c[2], c[3]]];
+    let one_way = |a: &[[DVec3; 4]], b: &[[DVec3; 4]]| {
+        let edges = edges(a);
+        let mut triangles = b.iter().flat_map(halves);
+        triangles.any(|t| edges.iter().any(|e| meets(*e, t)))
+    };
+    one_way(a, b) || one_way(b, a)
+}
+
+/// Stiff wings that pass through each other see each other's vortices without end. Wings that hang on
+/// joints of their own move otherwise than prescribed and are left out.
+#[test]
+fn exact_wings_of_presets_do_not_cut_each_other() {
+    for preset in PRESETS {
+        let setup = LoadedCase::find(preset.name, &[]).unwrap().setup;
+        if !setup.joints.is_empty() {
+            continue;
+        }
+        let Some(period) = setup.time.period else {
+            continue;
+        };
+        let wings = &setup.animal.wings;
+        for k in 0..120 {
+            let t = k as f64 / 40.0 * period;
+            let now: Vec<_> = wings.iter().map(|w| panels(w, t)).collect();
+            for i in 0..now.len() {
+                for j in 0..i {
+                    let [a, b] = [i, j].map(|w| &wings[w].name);
+                    assert!(
+                        !cut(&now[i], &now[j]),
+                        "{}: `{a}` and `{b}`, beat {:.3}",
+                        preset.name,
+                        k as f64 / 40.0
+                    );
+                }
+            }
+        }
+    }
+}
+
+/// Distance from the plane of symmetry over the length of the longest wing, and turn out of it.
+fn out_of_symmetry(flight: &Simulation) -> f64 {
+    let length = |w: &Wing| w.mesh.nodes.iter().map(|x| x.length()).fold(0.0, f64::max);
+    let longest = flight
+        .setup()
+        .animal
+        .wings
+        .iter()
+        .map(length)
+        .fold(0.0, f64::max);
+    let root = flight.root();
+    (root.p.y.abs() / longest).max((root.r.y_axis - DVec3::Y).length())
+}
+
+/// Whether nothing in the setup tells left from right.
+fn is_symmetric(setup: &FlightSetup) -> bool {
+    let animal = &setup.animal;
+    let twin = |w: &Wing| {
+        let image = w.mirrored(&w.name.replace("left", "right"));
+        animal
+            .wings
+            .iter()
+            .any(|v| v.name == image.name && format!("{v:?}") == format!("{image:?}"))
+    };
+    let mut left = animal.wings.iter().filter(|w| w.name.contains("left"));
+    let pairs = animal.wings.len() == 2 * left.clone().count();
+    let root = setup.root_at_start();
+    pairs
+        && left.all(twin)
+        && setup.loads.is_empty()
+        && root.p.y == 0.0
+        && root.w.x == 0.0
+        && root.w.z == 0.0
+        && root.v.y == 0.0
+        && (root.r.y_axis - DVec3::Y).length() < 1e-15
+}
+
+/// Every preset is flown to its end; those that do not tell left from right stay in their plane of
+/// symmetry.
+#[test]
+#[ignore = "minutes; see CONTRIBUTING.md"]
+fn invariant_every_preset_flies_to_its_end_symmetric_ones_symmetrically() {
+    let mut symmetric = 0;
+    for preset in PRESETS {
+        let begun = std::time::Instant::now();
+        let mut flight = simulation(preset.name, &[]);
+        let tells_no_side = is_symmetric(flight.setup());
+        let mut worst = 0.0_f64;
+        while !flight.finished() {
+            let step = flight.state().step;
+            (flight.step()).unwrap_or_else(|e| panic!("{}, step {step}: {e}", preset.name));
+            worst = worst.max(out_of_symmetry(&flight));
+        }
+        let state = flight.state();
+        println!(
+            "{}: {} steps, {:.1} s, out of symmetry {worst:.1e}{}",
+            preset.name,
+            state.step,
+            begun.elapsed().as_secs_f64(),
+            if tells_no_side { "" } else { " (asymmetric)" }
+        );
+        assert_eq!(state.step, flight.setup().time.steps);
+        if tells_no_side {
+            symmetric += 1;
+            // Roundings, grown among the wakes.
+            assert!(worst < 1e-3, "{}: {worst:.1e}", preset.name);
+        }
+    }
+    assert!(symmetric > 20, "{symmetric}");
 }

@@ -6,7 +6,9 @@ use std::sync::Arc;
 
 use wingbeat_air::AirState;
 use wingbeat_dynamics::budget::relative_energy;
-use wingbeat_dynamics::{AddedMass, BodyMotion, Mechanism, Solution, Workspace, Wrench};
+use wingbeat_dynamics::{
+    AbsoluteForm, AddedMass, BodyMotion, Mechanism, Solution, Stabilization, Workspace, Wrench,
+};
 use wingbeat_math::DVec3;
 
 use crate::air::{Air, AirScratch, Instant};
@@ -256,6 +258,17 @@ impl Equations {
     pub fn normalise(&self, t: f64, y: &mut [f64], s: &mut Scratch) -> Result<(), FlightError> {
         let n = self.core.dim();
         self.core.normalise(t, &mut y[..n], &mut s.dynamics)
+    }
+
+    /// Names of joints that close loops and nearly ask for the same thing twice in the state `y` at
+    /// time `t` [s]; none if the state has no such.
+    pub fn nearly_redundant_joints(&self, t: f64, y: &[f64], s: &mut Scratch) -> Option<String> {
+        let y = &y[..self.core.dim()];
+        let moved = self.core.motions(t, y, &mut s.dynamics, &mut s.motions);
+        let form = AbsoluteForm::new(self.mechanism.clone(), Stabilization::None);
+        moved
+            .ok()
+            .and_then(|()| form.nearly_redundant(t, &s.motions))
     }
 
     /// Positions and velocities of the lattice nodes in the state `y` at time `t` [s].

@@ -52,9 +52,19 @@ pub enum FlightError {
         /// Step [s].
         step: f64,
     },
+    /// A loop has come to a position where its motion is not determined.
+    #[error(
+        "t = {time:.6e} s: the joints {joints} come to a position in which they ask for the same thing twice (links in line): the motion of their loop is not determined there; change lengths or start so that it is not reached, limit the motion by a stop, or free one of the joints"
+    )]
+    SingularPosition {
+        /// Time reached [s].
+        time: f64,
+        /// Names of the joints.
+        joints: String,
+    },
     /// The adaptive integrator made too many steps.
     #[error(
-        "t = {time:.6e} s: {most} adaptive steps inside one step of the time grid: something oscillates fast (a stiff spring or stop); make it softer, or shorten the step"
+        "t = {time:.6e} s: {most} adaptive steps inside one step of the time grid: something changes fast there (a stiff spring or stop, a law of a short period); make it softer or slower, or shorten the step"
     )]
     TooManySteps {
         /// Time reached [s].
@@ -64,7 +74,9 @@ pub enum FlightError {
     },
     /// The corrector of a step did not converge.
     #[error(
-        "step {step} (t = {time:.6e} s): bodies and air did not agree after {passes} corrector passes: scaled residual {residual:.2e}, allowed {tolerance:.2e}; try a smaller step, more passes, or relaxation below {relaxation} (light bodies with large wings need it), and look whether wings cut through each other or the body"
+        "step {step} (t = {time:.6e} s): {} after {passes} corrector passes: scaled residual {residual:.2e}, allowed {tolerance:.2e}; try a smaller step, more passes, or relaxation below {relaxation}{}",
+        if *in_air { "bodies and air did not agree" } else { "the motion of the bodies did not converge" },
+        if *in_air { " (light bodies with large wings need it), and look whether wings cut through each other or the body" } else { "; integrator = \"order_eight\" chooses its steps itself" }
     )]
     NotConverged {
         /// Step that failed.
@@ -79,6 +91,8 @@ pub enum FlightError {
         tolerance: f64,
         /// Relaxation in use.
         relaxation: f64,
+        /// Whether there is air.
+        in_air: bool,
     },
     /// The setup contradicts itself.
     #[error("{key} = {value}: {problem}")]

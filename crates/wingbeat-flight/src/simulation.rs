@@ -18,7 +18,7 @@ use crate::equations::{Equations, QUADRATURES, Scratch};
 use crate::error::FlightError;
 use crate::record::{Record, Snapshot};
 use crate::recorder::{Ledger, Sources};
-use crate::setup::{AirModel, CorrectorSettings, FlightSetup, MotionMode};
+use crate::setup::{AirModel, FlightSetup, MotionMode};
 use crate::solver::{Solver, convergence};
 use crate::stages::{Stage, stages};
 
@@ -271,7 +271,7 @@ impl Simulation {
         let past = &mut self.state.past;
         self.solver
             .advance((before, t), past, equations, air, scratch)
-            .map_err(|e| failure(e, self.state.step, t, &self.setup.corrector))
+            .map_err(|e| failure(e, self.state.step, t, &self.setup))
     }
 
     /// Goes over into the next stage where one starts, records, accepts, starts.
@@ -376,9 +376,8 @@ impl Simulation {
         };
         let (y0, f0) = (&state.past.y[0], &state.past.f[0]);
         let convergence = convergence(&self.setup.corrector);
-        let (past, report) =
-            block_start(y0, f0, h, convergence, &equations.scales(), &mut start)
-                .map_err(|e| failure(e, first + 1, start.time(1), &self.setup.corrector))?;
+        let (past, report) = block_start(y0, f0, h, convergence, &equations.scales(), &mut start)
+            .map_err(|e| failure(e, first + 1, start.time(1), &self.setup))?;
         (state.past, state.start_report) = (past, report);
         Ok(())
     }
@@ -458,12 +457,8 @@ fn carry(motions: &mut [BodyMotion], root: &BodyMotion) {
 }
 
 /// The error of a failed step.
-fn failure(
-    e: StepError<FlightError>,
-    step: usize,
-    time: f64,
-    settings: &CorrectorSettings,
-) -> FlightError {
+fn failure(e: StepError<FlightError>, step: usize, time: f64, setup: &FlightSetup) -> FlightError {
+    let settings = &setup.corrector;
     match e {
         StepError::Rates(e) => e,
         StepError::NotConverged(StepReport { passes, residual }) => FlightError::NotConverged {
@@ -473,6 +468,7 @@ fn failure(
             residual,
             tolerance: settings.tolerance,
             relaxation: settings.relaxation,
+            in_air: !matches!(setup.air, AirModel::None),
         },
     }
 }

@@ -130,7 +130,7 @@ impl Solver {
                     |t: f64, y: &[f64], dy: &mut [f64]| equations.evaluate(t, y, None, s, dy);
                 let report = method
                     .integrate((t, end), &mut b.y, rates, |_| {})
-                    .map_err(|e| StepError::Rates(adaptive(e)))?;
+                    .map_err(|e| StepError::Rates(adaptive(e, equations, &b.y, s)))?;
                 b.accept(end, past, equations, s)
                     .map_err(StepError::Rates)?;
                 Ok(StepReport {
@@ -142,15 +142,28 @@ impl Solver {
     }
 }
 
-fn adaptive(e: AdaptiveError<FlightError>) -> FlightError {
-    match e {
-        AdaptiveError::Rates(e) => e,
-        AdaptiveError::StepTooSmall { time, step } => FlightError::StepTooSmall { time, step },
-        AdaptiveError::TooManySteps { time } => FlightError::TooManySteps {
-            time,
-            most: MOST_SUBSTEPS,
-        },
-    }
+/// Why the adaptive method ended at the state `y`.
+fn adaptive(
+    e: AdaptiveError<FlightError>,
+    equations: &Equations,
+    y: &[f64],
+    s: &mut Scratch,
+) -> FlightError {
+    let (time, otherwise) = match e {
+        AdaptiveError::Rates(e) => return e,
+        AdaptiveError::StepTooSmall { time, step } => {
+            (time, FlightError::StepTooSmall { time, step })
+        }
+        AdaptiveError::TooManySteps { time } => {
+            let most = MOST_SUBSTEPS;
+            (time, FlightError::TooManySteps { time, most })
+        }
+    };
+    let joints = equations.nearly_redundant_joints(time, y, s);
+    joints.map_or(otherwise, |joints| FlightError::SingularPosition {
+        time,
+        joints,
+    })
 }
 
 /// The corrector's settings in the integrator's words.

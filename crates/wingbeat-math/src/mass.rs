@@ -105,8 +105,8 @@ impl MassProperties {
     ///
     /// # Errors
     /// [`MassError`] names the first condition that fails. Round-off of 1e-9 of the largest
-    /// principal moment is forgiven (published inertias carry three digits at best, meshes of
-    /// flat plates meet the triangle inequality with equality).
+    /// principal moment is forgiven (meshes of flat plates meet the triangle inequality with
+    /// equality); for numbers that were rounded see [`Self::within_rounding`].
     pub fn validate(&self) -> Result<(), MassError> {
         if !(self.mass.is_finite() && self.mass >= 0.0) {
             return Err(MassError::Mass(self.mass));
@@ -135,6 +135,31 @@ impl MassProperties {
     }
 }
 
+impl MassProperties {
+    /// These properties, if the largest principal moment exceeds the sum of the two others by no more
+    /// than the part `rounding` [1] of itself: it is then lowered to that sum. Published inertias of
+    /// flat wings need this, whose moments fulfil `c = a + b` and have been rounded each for itself.
+    ///
+    /// # Errors
+    /// As [`Self::validate`] for anything else.
+    pub fn within_rounding(self, rounding: f64) -> Result<Self, MassError> {
+        match self.validate() {
+            Err(MassError::Triangle(a, b, c)) if c - (a + b) <= rounding * c => {
+                let j = self.inertia_about_centre();
+                let (_, axes) = symmetric_eigen(j);
+                let excess = (c - (a + b)) * outer(axes.z_axis);
+                Ok(Self::about_centre(self.mass, self.centre(), j - excess))
+            }
+            other => other.map(|()| self),
+        }
+    }
+}
+
+/// `v v^T`.
+fn outer(v: DVec3) -> DMat3 {
+    DMat3::from_cols(v.x * v, v.y * v, v.z * v)
+}
+
 impl std::ops::Add for MassProperties {
     type Output = Self;
     /// Two bodies rigidly joined, both about the same frame.
@@ -147,20 +172,28 @@ impl std::ops::Add for MassProperties {
     }
 }
 
-/// Eigenvalues of a symmetric 3 x 3 matrix, ascending, by Jacobi's rotations: a double root is as
-/// good as a single one, where the closed form by the cubic keeps only half the digits.
+/// Eigenvalues of a symmetric 3 x 3 matrix, ascending.
 fn symmetric_eigenvalues(m: DMat3) -> [f64; 3] {
-    let mut a = m;
+    symmetric_eigen(m).0
+}
+
+/// Eigenvalues of a symmetric 3 x 3 matrix, ascending, and unit eigenvectors as columns, by Jacobi's
+/// rotations: a double root is as good as a single one, where the closed form by the cubic keeps only
+/// half the digits.
+fn symmetric_eigen(m: DMat3) -> ([f64; 3], DMat3) {
+    let (mut a, mut axes) = (m, DMat3::IDENTITY);
     for _ in 0..SWEEPS {
         for (i, j) in [(0, 1), (0, 2), (1, 2)] {
             let (off, gap) = (a.col(j)[i], a.col(i)[i] - a.col(j)[j]);
             let r = rotation_about(3 - i - j, turn(i, j) * 0.5 * (2.0 * off).atan2(gap));
             a = r.transpose() * a * r;
+            axes *= r;
         }
     }
-    let mut e = [a.x_axis.x, a.y_axis.y, a.z_axis.z];
-    e.sort_by(f64::total_cmp);
-    e
+    let mut order = [0, 1, 2];
+    order.sort_by(|&i, &j| a.col(i)[i].total_cmp(&a.col(j)[j]));
+    let [x, y, z] = order.map(|i| axes.col(i));
+    (order.map(|i| a.col(i)[i]), DMat3::from_cols(x, y, z))
 }
 
 /// Sweeps of Jacobi's rotations; they converge quadratically, five reach round-off.
@@ -191,6 +224,27 @@ mod tests {
             let body = MassProperties::about_centre(1.0, DVec3::ZERO, j);
             assert_eq!(body.validate(), Ok(()));
         }
+    }
+
+    /// A flat wing whose moments were rounded to three digits, in some attitude.
+    #[test]
+    fn exact_rounded_flat_wings_become_flat() {
+        let r = r1(0.3) * r2(-1.2) * r3(2.0);
+        // 0.0234 + 0.456 = 0.4794: the largest is 4.2e-4 of itself too large.
+        let rounded = DVec3::new(0.0234, 0.456, 0.4796);
+        let j = r * DMat3::from_diagonal(rounded) * r.transpose();
+        let centre = DVec3::new(0.1, -0.2, 0.3);
+        let body = MassProperties::about_centre(2.0, centre, j);
+        assert!(matches!(body.validate(), Err(MassError::Triangle(..))));
+        let mended = body.within_rounding(1e-3).unwrap();
+        let flat = DMat3::from_diagonal(DVec3::new(0.0234, 0.456, 0.0234 + 0.456));
+        let gap = mended.inertia_about_centre() - r * flat * r.transpose();
+        assert!(gap.to_cols_array().iter().all(|e| e.abs() < 1e-15)); // roundings
+        assert!((mended.centre() - centre).length() < 1e-15 && mended.mass == 2.0);
+        assert!(body.within_rounding(1e-4).is_err());
+        // What needs no mending keeps its bits.
+        let sound = MassProperties::about_centre(2.0, centre, flat);
+        assert_eq!(sound.within_rounding(1e-3), Ok(sound));
     }
 
     #[test]

@@ -232,6 +232,38 @@ fn exact_adaptive_steps_stop_at_a_pole_and_at_the_limit_of_steps() {
     }
 }
 
+/// `y' = -sqrt(y)` from 1 has the solution `(1 - t/2)^2`, which never falls below zero; trial states
+/// of long steps do, and there the right-hand side has no value.
+#[test]
+fn exact_order_eight_shortens_steps_whose_trial_states_have_no_rate() {
+    let root = |_: f64, y: &[f64], dy: &mut [f64]| {
+        dy[0] = -y[0].sqrt();
+        if y[0] < 0.0 {
+            Err("below zero")
+        } else {
+            Ok(())
+        }
+    };
+    let tolerance = Tolerance {
+        relative: 1e-10,
+        absolute: 1e-10,
+        max_steps: 1000,
+    };
+    let method = || Dop853::new(tolerance, vec![1.0]).starting_with(1.0);
+    let (mut y, end) = ([1.0], 1.9);
+    let report = method().integrate((0.0, end), &mut y, root, |_| {});
+    let error = (y[0] - (1.0 - 0.5 * end).powi(2)).abs();
+    println!("{report:?}, error {error:.1e}");
+    assert!(report.is_ok_and(|r| r.rejected > 0) && error < 1e-9);
+    // Beyond the end of the solution there is nothing; the error is the right-hand side's own.
+    let beyond = |t: f64, _: &[f64], dy: &mut [f64]| {
+        dy[0] = 1.0;
+        if t > 1.0 { Err("too late") } else { Ok(()) }
+    };
+    let failed = method().integrate((0.0, 2.0), &mut [0.0], beyond, |_| {});
+    assert_eq!(failed, Err(AdaptiveError::Rates("too late")));
+}
+
 /// Largest growth factor per step of Hamming's method with `passes` passes on `y' = z y / h`, from
 /// a long run: the method is linear, so the ratio of late values is the dominant root.
 fn growth(z: [f64; 2], passes: usize) -> f64 {

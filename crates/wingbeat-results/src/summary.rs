@@ -39,9 +39,9 @@ pub struct Summary {
     pub displacement_m: [f64; 3],
     /// Change of pitch, yaw, roll from start to end \[deg\].
     pub turn_deg: [f64; 3],
-    /// Largest energy residual over the energy that was turned over \[1\].
+    /// Largest energy residual over the largest energy or work in play \[1\].
     pub energy_residual_relative: f64,
-    /// Largest momentum residual over the largest impulse or momentum \[1\].
+    /// Largest momentum residual over the largest impulse or momentum in play \[1\].
     pub momentum_residual_relative: f64,
     /// Largest violation of a connection constraint \[m\].
     pub violation_position_m: f64,
@@ -166,23 +166,32 @@ impl Summary {
     }
 }
 
-/// Largest residual over the largest of the energies and works.
+/// Part of the largest potential energy, which has no natural zero, that always counts as turned
+/// over: far above its round-off.
+const POTENTIAL_FLOOR: f64 = 1e-6;
+
+/// Largest residual over the largest of what is in play: kinetic energy, change of potential energy,
+/// works.
 fn energy_residual(s: &Statistics) -> f64 {
+    let works = [s.hinge_work, s.air_work, s.deformation_work, s.applied_work];
     let energies = [
-        s.kinetic_energy,
-        s.hinge_work,
-        s.air_work,
-        s.deformation_work,
-        s.potential_energy,
+        s.kinetic_energy.most,
+        s.potential_energy.range(),
+        POTENTIAL_FLOOR * s.potential_energy.most,
     ];
-    let scale = energies.iter().map(Extent::range).fold(0.0, f64::max);
+    let works = works.map(|w| w.most);
+    let scale = energies.into_iter().chain(works).fold(0.0, f64::max);
     ratio(s.energy_residual.most, scale)
 }
 
-/// Largest residual over the impulse of weight and the largest momentum.
+/// Largest residual over the largest of what is in play: the momentum, the impulse of the weight, and
+/// the momentum that the kinetic energy stands for where that of the parts cancels.
 fn momentum_residual(setup: &FlightSetup, s: &Statistics) -> f64 {
-    let impulse = setup.animal.mass() * setup.gravity.length() * s.last.time;
-    ratio(s.momentum_residual.most, impulse.max(s.momentum.most))
+    let mass = setup.animal.mass();
+    let impulse = mass * setup.gravity.length() * s.last.time;
+    let of_parts = (2.0 * mass * s.kinetic_energy.most).sqrt();
+    let scale = impulse.max(s.momentum.most).max(of_parts);
+    ratio(s.momentum_residual.most, scale)
 }
 
 fn ratio(x: f64, scale: f64) -> f64 {

@@ -11,7 +11,8 @@ pub enum GustShape {
         /// From rise to fall [s].
         duration: f64,
     },
-    /// Straight lines between (tau [s], share); the first value before, the last one after.
+    /// Straight lines between (tau [s], share); nothing before the first row, the last value after
+    /// the last one.
     Table(Vec<(f64, f64)>),
 }
 
@@ -51,8 +52,8 @@ fn table(rows: &[(f64, f64)], tau: f64) -> f64 {
     let next = rows.partition_point(|r| r.0 <= tau);
     match (next.checked_sub(1).map(|k| rows[k]), rows.get(next)) {
         (Some((t0, y0)), Some((t1, y1))) => y0 + (y1 - y0) * (tau - t0) / (t1 - t0),
-        (Some((_, y)), None) | (None, Some(&(_, y))) => y,
-        (None, None) => 0.0,
+        (Some((_, y)), None) => y,
+        (None, _) => 0.0,
     }
 }
 
@@ -118,5 +119,31 @@ fn check_table(gust: usize, rows: &[(f64, f64)]) -> Result<(), AirError> {
     match rows.windows(2).position(|w| w[1].0 <= w[0].0) {
         Some(k) => wrong(k + 1, "its time is not later than the one before"),
         None => Ok(()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn exact_sharp_gust_is_not_felt_before_it_comes() {
+        let gust = Gust {
+            amplitude: DVec3::Z,
+            start: 2.0,
+            slowness: DVec3::X / 4.0,
+            shape: GustShape::Table(vec![(0.0, 1.0), (1.0, 0.5)]),
+        };
+        let wind = Wind {
+            shear: None,
+            gusts: vec![gust],
+        };
+        let share = |x: f64, t: f64| wind.at(x * DVec3::X, t).z;
+        assert_eq!(share(0.0, 1.99), 0.0);
+        assert_eq!(share(0.0, 2.0), 1.0);
+        assert_eq!(share(0.0, 2.5), 0.75);
+        assert_eq!(share(0.0, 9.0), 0.5);
+        // Its front takes a second for 4 m.
+        assert_eq!([share(4.0, 2.9), share(4.0, 3.0)], [0.0, 1.0]);
     }
 }

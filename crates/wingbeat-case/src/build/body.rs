@@ -1,11 +1,11 @@
 //! `[body]`: parts and mass.
 
-use wingbeat_math::{DVec3, MassProperties};
+use wingbeat_math::DVec3;
 use wingbeat_model::build::{BodyMass, fit_body_length};
 use wingbeat_model::revolution::{Profile, Revolution};
 use wingbeat_model::{Animal, BodyPart, MassInput, QuadMesh};
 
-use super::{Built, blame, panels, symmetric, vector};
+use super::{Built, blame, given_mass, panels, symmetric, vector};
 use crate::error::Fault;
 use crate::raw::{BodyCase, OriginCase, PartCase, ProfileCase};
 
@@ -174,15 +174,7 @@ fn mass(case: &BodyCase, parts: &[BodyPart]) -> Built<BodyMass> {
         )),
         (Some(m), Some(j)) => {
             let centre = vector(case.centre_m.unwrap_or_default());
-            let given = MassProperties::about_centre(m, centre, symmetric(j));
-            given.validate().map_err(|e| {
-                Fault::new(
-                    "body.inertia_about_centre_kg_m2",
-                    e.to_string(),
-                    "moments that some distribution of positive mass has",
-                    "check order (xx, yy, zz, xy, xz, yz), signs and unit",
-                )
-            })?;
+            let given = given_mass("body", m, centre, symmetric(j))?;
             Ok(BodyMass::Given(given))
         }
     }

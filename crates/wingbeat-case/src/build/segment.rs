@@ -4,7 +4,7 @@ use wingbeat_flight::JointSetup;
 use wingbeat_math::{DMat3, DVec3, MassProperties};
 use wingbeat_model::{Animal, BodyPart, Segment};
 
-use super::{Built, symmetric, vector};
+use super::{Built, given_mass, symmetric, vector};
 use crate::error::Fault;
 use crate::raw::{Case, SegmentCase};
 
@@ -96,20 +96,8 @@ fn mass(path: &str, case: &SegmentCase, parts: &[BodyPart], lumped: bool) -> Bui
             Ok(parts.iter().fold(MassProperties::ZERO, |a, p| a + p.mass))
         }
         (Some(m), Some(j)) => {
-            let given = MassProperties::about_centre(
-                m,
-                vector(case.centre_m.unwrap_or_default()),
-                symmetric(j),
-            );
-            given.validate().map_err(|e| {
-                Fault::new(
-                    format!("{path}.inertia_about_centre_kg_m2"),
-                    e.to_string(),
-                    "moments that some distribution of positive mass has",
-                    "check order (xx, yy, zz, xy, xz, yz), signs and unit",
-                )
-            })?;
-            Ok(given)
+            let centre = vector(case.centre_m.unwrap_or_default());
+            given_mass(path, m, centre, symmetric(j))
         }
         (None, _) => Err(Fault::new(
             format!("{path}.mass_kg"),

@@ -1,10 +1,10 @@
 //! `[wing.NAME]`: planform, mesh, mass, hinge; twins by mirror symmetry.
 
-use wingbeat_math::{DVec3, MassProperties};
+use wingbeat_math::DVec3;
 use wingbeat_model::planform::{Beta, ChordSize, Planform, WingShape};
 use wingbeat_model::{MassInput, Side, Wing};
 
-use super::{Built, blame, deformation, motion, panels, symmetric, vector};
+use super::{Built, blame, deformation, given_mass, motion, panels, symmetric, vector};
 use crate::error::Fault;
 use crate::raw::{BetaCase, Case, PlanformCase, WingCase, WingMeshCase};
 
@@ -233,14 +233,6 @@ fn mass_input(path: &str, wing: &WingCase, mirrored: bool) -> Built<MassInput> {
     let [x, y, z] = wing.centre_m.unwrap_or_default();
     let s = if mirrored { -1.0 } else { 1.0 };
     let inertia = symmetric([xx, yy, zz, s * xy, xz, s * yz]);
-    let given = MassProperties::about_centre(m, DVec3::new(x, s * y, z), inertia);
-    given.validate().map_err(|e| {
-        Fault::new(
-            format!("{path}.inertia_about_centre_kg_m2"),
-            e.to_string(),
-            "moments that some distribution of positive mass has",
-            "check order (xx, yy, zz, xy, xz, yz), signs and unit",
-        )
-    })?;
+    let given = given_mass(path, m, DVec3::new(x, s * y, z), inertia)?;
     Ok(MassInput::Given(given))
 }

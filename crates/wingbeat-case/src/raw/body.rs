@@ -33,6 +33,8 @@ pub struct BodyCase {
     pub centre_m: Option<[f64; 3]>,
     /// Inertia matrix about the mass centre in body axes: xx, yy, zz, xy, xz, yz (elements of
     /// the matrix: a product carries its minus sign). Left out: that of the parts.
+    /// Moments rounded to three digits are accepted: a largest one that exceeds the sum of the two
+    /// others by up to 0.5 % is lowered to it.
     ///
     /// Change it to what was measured.
     #[serde(skip_serializing_if = "Option::is_none")]

@@ -63,6 +63,8 @@ pub struct WingCase {
     pub centre_m: Option<[f64; 3]>,
     /// Inertia matrix about the mass centre in wing axes: xx, yy, zz, xy, xz, yz (elements of
     /// the matrix: a product carries its minus sign). Left out: that of the even mass.
+    /// Moments rounded to three digits are accepted: a largest one that exceeds the sum of the two
+    /// others by up to 0.5 % is lowered to it.
     ///
     /// Change it to what was measured.
     #[schemars(extend("with" = "mass_kg"))]

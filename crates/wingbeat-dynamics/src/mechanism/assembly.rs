@@ -4,13 +4,16 @@
 use wingbeat_math::{DMat3, DQuat, DVec3};
 
 use super::form::{AbsoluteForm, AbsoluteScratch};
-use super::partition::{Dependent, Partition, partition};
+use super::partition::{Dependent, Partition, RANK_TOLERANCE, partition};
 use crate::{BodyMotion, DynamicsError};
 
 /// Scaled constraint values allowed at the start.
 const TOLERANCE: f64 = 1e-13;
 /// Iterations of Newton's method allowed.
 const ITERATIONS: usize = 60;
+/// Below this part of the largest entry a pivot of the Jacobian means a singular position is near:
+/// reactions and accelerations are there a thousand times what they are elsewhere.
+const NEARLY: f64 = 1e-3;
 /// A combination of dependent rows whose right-hand sides leave more than this contradicts itself.
 const CONTRADICTION: f64 = 1e-8;
 
@@ -37,6 +40,16 @@ impl AbsoluteForm {
         let mut y = vec![0.0; self.dim()];
         self.pack(&s.motions, &mut y);
         Ok(y)
+    }
+
+    /// Names of joints that nearly ask for the same thing twice where the bodies are like `motions` at
+    /// time `t` \[s\]: a loop near a singular position. None if there are none.
+    pub fn nearly_redundant(&self, t: f64, motions: &[BodyMotion]) -> Option<String> {
+        let mut s = self.scratch();
+        s.motions.copy_from_slice(motions);
+        self.find_rows(t, &mut s);
+        let p = self.eliminated_to(NEARLY, &s, &self.free_columns(&[]), |_| 0.0);
+        p.dependent.first().map(|d| self.names(&s, &d.combination))
     }
 
     fn free_columns(&self, held: &[usize]) -> Vec<bool> {
@@ -111,6 +124,17 @@ impl AbsoluteForm {
         free: &[bool],
         what: impl Fn(&super::link::Row) -> f64,
     ) -> Partition {
+        self.eliminated_to(RANK_TOLERANCE, s, free, what)
+    }
+
+    /// The same with pivots below `zero` taken for zero.
+    fn eliminated_to(
+        &self,
+        zero: f64,
+        s: &AbsoluteScratch,
+        free: &[bool],
+        what: impl Fn(&super::link::Row) -> f64,
+    ) -> Partition {
         let length = self.mechanism().units().length;
         let (mut a, mut b) = (vec![], vec![]);
         for (link, r) in Self::rows(s) {
@@ -129,7 +153,7 @@ impl AbsoluteForm {
             a.push(row);
             b.push(what(r) * unit);
         }
-        partition(a, b, free)
+        partition(a, b, free, zero)
     }
 
     /// Velocities that fulfil the constraints, and the check for what is asked twice.

@@ -6,7 +6,7 @@
 
 /// Below this part of the largest entry a pivot counts as zero: scaled Jacobians have entries of
 /// order one, and constraints hold to 1e-12 when ranks are asked for.
-const RANK_TOLERANCE: f64 = 1e-9;
+pub const RANK_TOLERANCE: f64 = 1e-9;
 
 /// A row that follows from others.
 #[derive(Clone, Debug, PartialEq)]
@@ -29,8 +29,8 @@ pub struct Partition {
 }
 
 /// Solves the rows `a x = b` for as many unknowns as there are independent rows; columns not
-/// `allowed` stay zero.
-pub fn partition(mut a: Vec<Vec<f64>>, mut b: Vec<f64>, allowed: &[bool]) -> Partition {
+/// `allowed` stay zero. Pivots below `zero` times the largest entry count as zero.
+pub fn partition(mut a: Vec<Vec<f64>>, mut b: Vec<f64>, allowed: &[bool], zero: f64) -> Partition {
     let (m, n) = (a.len(), allowed.len());
     let largest = a.iter().flatten().fold(0.0_f64, |s, x| s.max(x.abs()));
     let mut combos: Vec<Vec<f64>> = (0..m)
@@ -39,7 +39,7 @@ pub fn partition(mut a: Vec<Vec<f64>>, mut b: Vec<f64>, allowed: &[bool]) -> Par
     let mut rows: Vec<usize> = (0..m).collect();
     let (mut step, mut pivots) = (vec![0.0; n], vec![]);
     let mut pairs = vec![];
-    while let Some((r, c)) = largest_entry(&a, &rows, allowed, RANK_TOLERANCE * largest) {
+    while let Some((r, c)) = largest_entry(&a, &rows, allowed, zero * largest) {
         rows.retain(|&i| i != r);
         let (row, combo, right) = (a[r].clone(), combos[r].clone(), b[r]);
         for i in (0..m).filter(|&i| i != r) {

@@ -20,7 +20,7 @@ pub struct Tolerance {
 /// Why the integration ended early.
 #[derive(Clone, Debug, PartialEq)]
 pub enum AdaptiveError<E> {
-    /// The right-hand side failed.
+    /// The right-hand side failed, at the start or in the smallest step there is.
     Rates(E),
     /// The steps became too small to move the time: a singularity or a jump.
     StepTooSmall {
@@ -102,7 +102,8 @@ impl Dop853 {
         }
     }
 
-    /// From `t0` to `t1` \[s\]; `y` moves on; `each` sees every accepted step.
+    /// From `t0` to `t1` \[s\]; `y` moves on; `each` sees every accepted step. Where the right-hand
+    /// side fails in a trial state the step is made shorter.
     ///
     /// # Errors
     /// [`AdaptiveError`]; `y` then holds the last accepted state.
@@ -115,41 +116,60 @@ impl Dop853 {
     ) -> Result<AdaptiveReport, AdaptiveError<E>> {
         let mut report = AdaptiveReport::default();
         let (mut t, mut h) = (t0, self.first * (t1 - t0));
+        let mut failure = None;
         f(t, y, &mut self.k[0]).map_err(AdaptiveError::Rates)?;
         while (t1 - t) * (t1 - t0) > 0.0 {
             if report.accepted + report.rejected >= self.tolerance.max_steps {
                 return Err(AdaptiveError::TooManySteps { time: t });
             }
             if t + 0.1 * h == t {
-                return Err(AdaptiveError::StepTooSmall { time: t, step: h });
+                let too_small = AdaptiveError::StepTooSmall { time: t, step: h };
+                return Err(failure.map_or(too_small, AdaptiveError::Rates));
             }
             let last = ((t + h) - t1) * (t1 - t0) >= 0.0;
             h = if last { t1 - t } else { h };
-            self.stages(t, h, y, &mut f).map_err(AdaptiveError::Rates)?;
-            let error = self.error(h, y);
-            let factor = (0.9 * error.max(1e-12).powf(-0.125)).clamp(0.333, 6.0);
-            if error <= 1.0 {
-                let end = if last { t1 } else { t + h };
-                self.finish(t, h, y, &mut f).map_err(AdaptiveError::Rates)?;
-                each(Dense {
-                    t,
-                    h,
-                    coefficients: &self.dense,
-                });
-                y.copy_from_slice(&self.next);
-                self.k.swap(0, 12);
-                (t, report.accepted) = (end, report.accepted + 1);
-                h *= factor;
-            } else {
-                report.rejected += 1;
-                h *= if error.is_finite() {
-                    factor.min(1.0)
-                } else {
-                    0.1
-                };
+            match self.attempt(t, h, y, &mut f) {
+                Ok(error) if error <= 1.0 => {
+                    each(Dense {
+                        t,
+                        h,
+                        coefficients: &self.dense,
+                    });
+                    y.copy_from_slice(&self.next);
+                    self.k.swap(0, 12);
+                    (t, report.accepted) = (if last { t1 } else { t + h }, report.accepted + 1);
+                    h *= factor(error);
+                    failure = None;
+                    continue;
+                }
+                Ok(error) if error.is_finite() => h *= factor(error).min(1.0),
+                Ok(_) => h *= 0.1,
+                // A trial state may lie where the right-hand side has no value although the
+                // solution does not: come less near.
+                Err(e) => {
+                    failure = Some(e);
+                    h *= 0.1;
+                }
             }
+            report.rejected += 1;
         }
         Ok(report)
+    }
+
+    /// Tries a step of length `h`, and finishes it where its error, which is returned, is at most 1.
+    fn attempt<E>(
+        &mut self,
+        t: f64,
+        h: f64,
+        y: &[f64],
+        f: &mut impl FnMut(f64, &[f64], &mut [f64]) -> Result<(), E>,
+    ) -> Result<f64, E> {
+        self.stages(t, h, y, f)?;
+        let error = self.error(h, y);
+        if error <= 1.0 {
+            self.finish(t, h, y, f)?;
+        }
+        Ok(error)
     }
 
     /// One step of length `h` without control.
@@ -230,6 +250,11 @@ impl Dop853 {
             sum
         }
     }
+}
+
+/// Factor for the length of the next step after one of this error.
+fn factor(error: f64) -> f64 {
+    (0.9 * error.max(1e-12).powf(-0.125)).clamp(0.333, 6.0)
 }
 
 /// `sum of w_j k_j[i]`.

@@ -50,6 +50,7 @@ pub(super) struct Statistics {
     pub hinge_work: Extent,
     pub air_work: Extent,
     pub deformation_work: Extent,
+    pub applied_work: Extent,
     pub energy_residual: Extent,
     pub momentum: Extent,
     pub momentum_residual: Extent,
@@ -88,6 +89,7 @@ impl Statistics {
         self.hinge_work.take(r.hinge_work);
         self.air_work.take(r.air_work);
         self.deformation_work.take(r.deformation_work);
+        self.applied_work.take(r.applied_work);
         self.energy_residual.take(r.energy_residual);
         self.momentum.take(r.momentum.length());
         self.momentum_residual.take(r.momentum_residual.length());

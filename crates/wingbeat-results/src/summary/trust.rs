@@ -1,6 +1,8 @@
 //! How far the results can be trusted.
 
-use wingbeat_air::{Convection, CoreModel, Friction, LoadMethod, SectionDrag};
+use wingbeat_air::{
+    AirSettings, Convection, CoreModel, Friction, LeadingEdge, LoadMethod, SectionDrag,
+};
 use wingbeat_flight::{AirModel, FlightSetup, FormulationChoice, MotionMode};
 
 use super::{BeatMeans, Summary};
@@ -69,14 +71,17 @@ fn deformation_warnings(setup: &FlightSetup, list: &mut Vec<String>) {
 }
 
 /// A balance worse than it should be. Without a wake the motion is smooth and integrated to many
-/// digits; a wake's loads jump where it starts and where it is regularised.
+/// digits; a wake's loads jump where it starts and where it is regularised. The momentum of a tethered
+/// animal follows from its prescribed motion and the support's reaction from that: nothing can be open.
 fn balance_warnings(setup: &FlightSetup, summary: &Summary, list: &mut Vec<String>) {
     let energy = if setup.air.has_memory() { 1e-2 } else { 1e-6 };
     let balances = [
         ("energy", summary.energy_residual_relative, energy),
         ("momentum", summary.momentum_residual_relative, 1e-6),
     ];
-    for (what, residual, tolerance) in balances {
+    let is_tethered = matches!(setup.mode, MotionMode::Tethered(_));
+    let counted = if is_tethered { 1 } else { 2 };
+    for (what, residual, tolerance) in balances.into_iter().take(counted) {
         if residual > tolerance || residual.is_nan() {
             list.insert(0, format!(
                 "The balance of {what} is open by {residual:.1e} (tolerance {tolerance:.0e}): take smaller steps before trusting the motion."
@@ -138,17 +143,8 @@ fn air_warnings(
         ));
     }
     let still = lattice.images.is_empty() && lattice.wind.is_none();
-    if let Some(b) = summary.beats.last().filter(|_| still) {
-        let (other, lift) = (b.lift_by_impulse_newton, b.lift_newton);
-        // A fifth: thirty times what the two differ by for a plunging wing, whose wake is resolved.
-        let meaning = if (other - lift).abs() > 0.2 * lift.abs() {
-            " They are apart: the wake does not keep its impulse (steps too long for its rolled-up parts, nodes held off surfaces), so its shape is not to be trusted."
-        } else {
-            ""
-        };
-        list.push(format!(
-            "Mean lift of the last beat by the rate of the vortex impulse, another way to the same force: {other:.3e} N; by the pressures {lift:.3e} N.{meaning}"
-        ));
+    if let Some(beat) = summary.beats.last().filter(|_| still) {
+        list.push(two_ways_to_the_lift(lattice, beat));
     }
     if summary.wake_particles > 0 {
         list.push(format!(
@@ -168,6 +164,31 @@ fn air_warnings(
             summary.leak_velocity_m_s
         ));
     }
+}
+
+/// The lift of a beat by the loads and by the impulse of the vortices, and what it means if they
+/// differ.
+fn two_ways_to_the_lift(lattice: &AirSettings, beat: &BeatMeans) -> String {
+    let (other, lift) = (beat.lift_by_impulse_newton, beat.lift_newton);
+    let is_shed = lattice.shedding.leading && lattice.leading == LeadingEdge::Always;
+    let (loads, lacks_suction) = match lattice.loads {
+        LoadMethod::Pressure => ("pressures", !is_shed),
+        LoadMethod::Polhamus => ("pressures and Polhamus's normal force", !is_shed),
+        LoadMethod::Joukowski => ("Joukowski's forces", false),
+    };
+    // A fifth: thirty times what the two differ by for a plunging wing, whose wake is resolved.
+    let meaning = match ((other - lift).abs() > 0.2 * lift.abs(), lacks_suction) {
+        (false, _) => "",
+        (true, true) => {
+            " They are apart: the impulse holds the suction of attached leading edges, these loads do not. Set air.loads = \"joukowski\" to compare like with like; what is left then is an error of the wake."
+        }
+        (true, false) => {
+            " They are apart: the wake does not keep its impulse (steps too long for its rolled-up parts, nodes held off surfaces), so its shape is not to be trusted."
+        }
+    };
+    format!(
+        "Mean lift of the last beat by the rate of the vortex impulse, another way to the same force: {other:.3e} N; by {loads} {lift:.3e} N.{meaning}"
+    )
 }
 
 fn friction(drag: &SectionDrag) -> String {
