@@ -4,7 +4,7 @@ use std::path::Path;
 
 use wingbeat_case::{LoadedCase, presets::PRESETS};
 use wingbeat_flight::{FlightSetup, Simulation};
-use wingbeat_math::{DMat3, DVec3};
+use wingbeat_math::{DMat3, DVec3, RotationLaw};
 use wingbeat_model::Wing;
 
 #[test]

@@ -12,7 +12,7 @@ use wingbeat_flight::FlightSetup;
 
 use super::Outcome;
 pub use beats::{BeatMeans, down, over_weight, steps_per_beat};
-use statistics::{Extent, Statistics};
+use statistics::Statistics;
 use wingbeat_case::IoError;
 use wingbeat_case::LoadedCase;
 
