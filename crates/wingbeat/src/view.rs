@@ -31,6 +31,14 @@ pub(crate) fn view(args: &ViewArgs) -> Result<(), Failure> {
     let outcome = dir.manifest()?.outcome;
     let page = page::write(&dir, &outcome, (args.size * 1e6) as usize)?;
     say!("wrote {}", page.display());
+    let bytes = std::fs::metadata(&page).map_or(0, |m| m.len()) as f64;
+    if bytes > args.size * 1e6 {
+        say!(
+            "It has {:.3} MB, larger than the {} MB asked for: its program and plots are never left out.",
+            bytes / 1e6,
+            args.size
+        );
+    }
     if !args.no_open && !open(&page) {
         say!("No browser could be started: open this file in one.");
     }

@@ -176,7 +176,6 @@ fn refuses_a_gust_table_that_goes_backwards() {
 }
 
 #[test]
-#[ignore = "to be rewritten: its case sets a key that is now refused first"]
 fn refuses_a_criterion_without_its_threshold() {
     refused(
         "air-threshold",
@@ -191,8 +190,8 @@ fn refuses_a_criterion_without_its_threshold() {
     );
     refused(
         "air-threshold-deg",
-        "leading_edge = \"suction\"",
-        "leading_edge = \"angle_of_attack\"",
+        "leading_edge = \"suction\"\nleading_edge_threshold = 0.2\n",
+        "leading_edge = \"angle_of_attack\"\n",
         "[air]",
         &[
             "air.leading_edge_threshold_deg",
@@ -203,12 +202,11 @@ fn refuses_a_criterion_without_its_threshold() {
 }
 
 #[test]
-#[ignore = "to be rewritten: the default wake core now has a radius"]
 fn refuses_particles_without_a_radius_or_rows() {
     refused(
         "air-radius",
         "wake_core.scully = { radius_m = 1e-4 }\n",
-        "",
+        "wake_core.cut_off = { length_m = 1e-4 }\n",
         "particles",
         &["air.particles", "need a radius"],
     );

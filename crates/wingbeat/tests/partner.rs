@@ -120,7 +120,6 @@ fn behaves_a_silent_program_ends_with_its_children() {
 }
 
 #[test]
-#[ignore = "one of its programs ends before it is told of the bodies"]
 fn refuses_programs_that_talk_without_end_or_do_not_listen() {
     let scratch = Scratch::new("talk");
     let dir = &scratch.0;

@@ -336,7 +336,6 @@ fn exact_ctrl_c_and_sigterm_end_a_run_with_everything_written() {
 }
 
 #[test]
-#[ignore = "to be rewritten: compare now names the keys that differ"]
 fn exact_show_and_compare_say_what_the_summary_says() {
     let scratch = Scratch::new("show");
     for (out, steps) in [("one", "time.steps=4"), ("two", "time.steps=6")] {
@@ -367,11 +366,18 @@ fn exact_show_and_compare_say_what_the_summary_says() {
     let written: serde_json::Value = serde_json::from_str(&written).unwrap();
     assert_eq!(json["summary"], written);
     assert_eq!(json["manifest"]["steps"], 4);
-    assert!(said(&["compare", "one", "two"]).contains("different cases"));
+    let compared = said(&["compare", "one", "two"]);
+    let differ: Vec<&str> = compared.lines().take_while(|l| !l.is_empty()).collect();
+    assert_eq!(differ[0], "one and two: cases that differ in");
+    let words: Vec<&str> = differ[1].split_whitespace().collect();
+    assert_eq!(words, ["time.steps", "4", "6"]);
+    assert_eq!(differ.len(), 2, "only that key differs");
     assert!(said(&["compare", "one", "one"]).contains("the same case"));
-    let rows: serde_json::Value =
+    let compared: serde_json::Value =
         serde_json::from_str(&said(&["compare", "one", "two", "--json"])).unwrap();
-    let steps = rows
+    let key = serde_json::json!({ "key": "time.steps", "first": "4", "second": "6" });
+    assert_eq!(compared["keys"], serde_json::json!([key]));
+    let steps = compared["numbers"]
         .as_array()
         .unwrap()
         .iter()

@@ -175,7 +175,6 @@ fn behaves_ignored_signals_stay_ignored_and_others_end_the_flight() {
 }
 
 #[test]
-#[ignore = "not yet passed after killed runs were told from finished ones"]
 fn behaves_a_killed_run_is_interrupted_and_a_living_one_is_running() {
     let scratch = Scratch::new("killed");
     let dir = &scratch.0;

@@ -5,7 +5,7 @@ use wingbeat_model::build::{BodyMass, fit_body_length};
 use wingbeat_model::revolution::{Profile, Revolution};
 use wingbeat_model::{Animal, BodyPart, MassInput, QuadMesh};
 
-use super::{Built, blame, given_mass, panels, symmetric, vector};
+use super::{Built, blame, given_mass, symmetric, vector};
 use crate::error::Fault;
 use crate::raw::{BodyCase, OriginCase, PartCase, ProfileCase};
 
@@ -63,8 +63,6 @@ fn revolution(path: &str, part: &PartCase) -> Built<Revolution> {
         value.ok_or_else(missing)
     };
     let [stations, meridians] = resolution(part);
-    let keys = ["stations", "meridians"].map(|key| format!("{path}.{key}"));
-    panels([&keys[0], &keys[1]], [stations, meridians])?;
     Ok(Revolution {
         centre: vector(part.centre_m.unwrap_or_default()),
         direction: vector(part.direction.unwrap_or([1.0, 0.0, 0.0])),

@@ -36,9 +36,6 @@ use crate::error::Fault;
 
 type Built<T> = Result<T, Fault>;
 
-/// Panels of a wing or of a part of the body at most.
-const MOST_PANELS: usize = 10_000;
-
 /// The setup of a resolved case.
 pub(crate) fn setup(case: &Case, name: &str) -> Built<FlightSetup> {
     size::check(case)?;
@@ -120,19 +117,6 @@ fn corrector(case: &CorrectorCase) -> CorrectorSettings {
         max_passes: case.max_passes,
         relaxation: case.relaxation,
     }
-}
-
-/// A number of panels, rows times columns at `keys`, that a lattice can have.
-fn panels(keys: [&str; 2], [rows, cols]: [usize; 2]) -> Built<()> {
-    if rows.checked_mul(cols).is_some_and(|n| n <= MOST_PANELS) {
-        return Ok(());
-    }
-    Err(Fault::new(
-        keys[usize::from(cols > rows)],
-        "this makes too many panels: every panel acts on every other, memory grows with their square",
-        format!("at most {MOST_PANELS} panels on a surface"),
-        "a few hundred panels resolve a wing",
-    ))
 }
 
 /// A whole number <= `most` at `key`.

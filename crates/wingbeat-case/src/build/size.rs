@@ -1,11 +1,14 @@
-//! Size of the whole case: what many small parts add up to is refused before anything is built.
+//! Size of the case: a surface of too many panels, and what many small parts add up to, are refused
+//! before anything is built.
 
 use super::Built;
 use super::body::resolution;
 use super::wing::twin_name;
 use crate::error::Fault;
-use crate::raw::{AirModel, Case, PartCase, WingCase};
+use crate::raw::{AirModel, Case, PartCase, WingCase, WingMeshCase};
 
+/// Panels of a wing or of a part of the body at most.
+const MOST_ON_A_SURFACE: usize = 10_000;
 /// Panels of all surfaces at most.
 const MOST_PANELS: usize = 1_000_000;
 /// Panels of a vortex lattice at most: every panel acts on every other, which takes 8 bytes for
@@ -16,12 +19,12 @@ const MOST_BODIES: usize = 200;
 
 /// The limits of the whole case.
 pub(super) fn check(case: &Case) -> Built<()> {
-    let wings: usize = case
-        .wing
-        .iter()
-        .map(|(name, wing)| panels_of_wing(case, name, wing))
-        .sum();
-    let parts: usize = case.body.part.values().map(panels_of_part).sum();
+    let wings = case.wing.iter();
+    let wings = wings.map(|(name, wing)| panels_of_wing(case, name, wing));
+    let wings = wings.sum::<Built<usize>>()?;
+    let parts = case.body.part.iter();
+    let parts = parts.map(|(name, part)| panels_of_part(name, part));
+    let parts = parts.sum::<Built<usize>>()?;
     let lattice = case.air.model == AirModel::VortexLattice;
     let seen = wings + if case.air.body { parts } else { 0 };
     if lattice && seen > MOST_IN_LATTICE {
@@ -58,29 +61,39 @@ pub(super) fn check(case: &Case) -> Built<()> {
     Ok(())
 }
 
-fn panels_of_wing(case: &Case, name: &str, wing: &WingCase) -> usize {
+fn panels_of_wing(case: &Case, name: &str, wing: &WingCase) -> Built<usize> {
     let twin = twin_name(name);
-    let twin = twin.as_ref().and_then(|n| case.wing.get(n));
-    let mesh = wing
-        .mesh
-        .clone()
-        .or_else(|| twin.and_then(|w| w.mesh.clone()));
-    let mesh = mesh.unwrap_or_default();
+    let twin = twin.as_ref().and_then(|n| Some((n, case.wing.get(n)?)));
+    let own = wing.mesh.as_ref().map(|mesh| (name, mesh));
+    let of_twin = || twin.and_then(|(name, wing)| Some((name.as_str(), wing.mesh.as_ref()?)));
+    let (named, mesh) = match own.or_else(of_twin) {
+        Some((named, mesh)) => (named, mesh.clone()),
+        None => (name, WingMeshCase::default()),
+    };
+    let keys = ["chordwise", "spanwise"].map(|key| format!("wing.{named}.mesh.{key}"));
     let mirrored = twin.is_none() && wing.mirror.unwrap_or(true);
     let images = if mirrored { 2 } else { 1 };
-    images
-        * mesh
-            .chordwise
-            .saturating_mul(mesh.spanwise)
-            .min(MOST_PANELS)
+    Ok(images * panels(keys, [mesh.chordwise, mesh.spanwise])?)
 }
 
-fn panels_of_part(part: &PartCase) -> usize {
-    match &part.quads {
-        Some(quads) => quads.len(),
-        None => {
-            let [stations, meridians] = resolution(part);
-            stations.saturating_mul(meridians).min(MOST_PANELS)
-        }
+fn panels_of_part(name: &str, part: &PartCase) -> Built<usize> {
+    if let Some(quads) = &part.quads {
+        return Ok(quads.len());
     }
+    let keys = ["stations", "meridians"].map(|key| format!("body.part.{name}.{key}"));
+    panels(keys, resolution(part))
+}
+
+/// Panels of a surface, rows times columns at `keys`.
+fn panels(keys: [String; 2], [rows, cols]: [usize; 2]) -> Built<usize> {
+    let count = rows.checked_mul(cols).filter(|n| *n <= MOST_ON_A_SURFACE);
+    count.ok_or_else(|| {
+        let [of_rows, of_cols] = keys;
+        Fault::new(
+            if cols > rows { of_cols } else { of_rows },
+            "this makes too many panels: every panel acts on every other, memory grows with their square",
+            format!("at most {MOST_ON_A_SURFACE} panels on a surface"),
+            "a few hundred panels resolve a wing",
+        )
+    })
 }

@@ -4,7 +4,7 @@ use wingbeat_math::DVec3;
 use wingbeat_model::planform::{Beta, ChordSize, Planform, WingShape};
 use wingbeat_model::{MassInput, Side, Wing};
 
-use super::{Built, blame, deformation, given_mass, motion, panels, symmetric, vector};
+use super::{Built, blame, deformation, given_mass, motion, symmetric, vector};
 use crate::error::Fault;
 use crate::raw::{BetaCase, Case, PlanformCase, WingCase, WingMeshCase};
 
@@ -144,11 +144,8 @@ fn shape(source: &Source<'_>) -> Built<WingShape> {
             format!("add [wing.{name}.planform.beta] with length_m, mean_chord_m and r2_hat"),
         ));
     };
-    let (name, wing, _) = source.of(|w| w.mesh.is_some());
+    let (_, wing, _) = source.of(|w| w.mesh.is_some());
     let mesh = wing.mesh.clone().unwrap_or_else(WingMeshCase::default);
-    let [chordwise, spanwise] =
-        ["chordwise", "spanwise"].map(|key| format!("wing.{name}.mesh.{key}"));
-    panels([&chordwise, &spanwise], [mesh.chordwise, mesh.spanwise])?;
     Ok(WingShape {
         planform: planform(&path, case)?,
         rows: mesh.chordwise,

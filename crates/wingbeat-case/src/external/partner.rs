@@ -14,6 +14,9 @@ const MOST_LINES: usize = 64;
 /// Time to end of its own accord.
 const GRACE: Duration = Duration::from_secs(1);
 
+/// What is said of a program that is gone.
+const ENDED: &str = "it ended its output";
+
 /// Process groups that are running.
 static RUNNING: Mutex<Vec<u32>> = Mutex::new(Vec::new());
 
@@ -95,7 +98,7 @@ impl Partner {
         match self.lines.recv_timeout(self.timeout) {
             Ok(line) => line.map_err(|problem| self.complain(&problem)),
             Err(RecvTimeoutError::Timeout) => Err(self.too_late("no answer")),
-            Err(RecvTimeoutError::Disconnected) => Err(self.complain("it ended its output")),
+            Err(RecvTimeoutError::Disconnected) => Err(self.complain(ENDED)),
         }
     }
 
@@ -111,14 +114,22 @@ impl Partner {
         ))
     }
 
-    /// Why it no longer listens: what it said before it went, if anything.
+    /// Why it no longer listens: what it complained of before it went, if anything.
     fn last_words(&mut self, problem: &str) -> String {
-        let said = self.lines.recv_timeout(GRACE).ok().and_then(Result::ok);
-        let reason = said.and_then(|line| {
-            let reason = line.trim().strip_prefix("error")?;
-            Some(reason.trim().to_owned())
-        });
-        self.complain(&reason.unwrap_or_else(|| format!("it does not listen: {problem}")))
+        let until = Instant::now() + GRACE;
+        loop {
+            let left = until.saturating_duration_since(Instant::now());
+            let reason = match self.lines.recv_timeout(left) {
+                Ok(Ok(line)) => match line.trim().strip_prefix("error") {
+                    Some(reason) => reason.trim().to_owned(),
+                    None => continue,
+                },
+                Ok(Err(reason)) => reason,
+                Err(RecvTimeoutError::Timeout) => format!("it does not listen: {problem}"),
+                Err(RecvTimeoutError::Disconnected) => ENDED.to_owned(),
+            };
+            return self.complain(&reason);
+        }
     }
 }
 

@@ -36,7 +36,7 @@ function drawAll() {
   slider.value = k;
   slider.setAttribute("aria-valuetext", whenWords(k));
   if (!state.playing && byId("values-box").open) valueTable(k);
-  if (recording()) compose();
+  if (recording()) { compose(); recorder.filmed(); }
   tell(k);
   Object.assign(data, { frame: k, puffs, surface: vertices, particles: flight.frames[k].particles, tip: tipsOf(k).map((p) => p.map((x) => (x * flight.length_m).toExponential(5)).join(" ")).join(" | ") });
 }

@@ -43,19 +43,29 @@ const canRecord = typeof MediaRecorder !== "undefined" && typeof film.captureStr
 function startRecording() {
   drawAll();
   compose();
+  const stream = film.captureStream(0), [track] = stream.getVideoTracks();
   const kind = ["video/webm;codecs=vp9", "video/webm;codecs=vp8", "video/webm"].find((t) => MediaRecorder.isTypeSupported(t)), parts = [];
-  recorder = new MediaRecorder(film.captureStream(30), { mimeType: kind, videoBitsPerSecond: 12e6 });
-  recorder.ondataavailable = (e) => parts.push(e.data);
+  recorder = new MediaRecorder(stream, { mimeType: kind, videoBitsPerSecond: 12e6 });
+  recorder.ondataavailable = (e) => { if (e.data.size) parts.push(e.data); };
+  recorder.filmed = () => track.requestFrame();
+  recorder.hasPictures = () => parts.length > 0;
   recorder.onstop = () => { const blob = new Blob(parts, { type: "video/webm" }); byId("state").dataset.film = blob.size; recorder = null; showRecording(); save(blob, "webm"); };
   recorder.start(250);
   if (state.at >= LAST) state.at = 0;
   setPlaying(true);
   showRecording();
 }
-// The last picture stays for half a second.
+// The last picture stays for half a second, and until a slow browser has begun to hand out the film.
 function recordingEnds() {
-  const ending = recorder;
-  if (ending) setTimeout(() => { if (ending.state !== "inactive") ending.stop(); }, 500);
+  const ending = recorder, began = performance.now();
+  const end = () => {
+    if (ending.state === "inactive") return;
+    const waited = performance.now() - began;
+    if (waited > 500 && (ending.hasPictures() || waited > 30000)) { ending.stop(); return; }
+    ending.filmed();
+    setTimeout(end, 100);
+  };
+  if (ending) end();
 }
 function showRecording() {
   byId("record").setAttribute("aria-pressed", recording());
