@@ -105,6 +105,9 @@ impl Conversation {
         let line = self.hear()?;
         let numbers: Result<Vec<f64>, _> = line.split_whitespace().map(str::parse).collect();
         match numbers {
+            Ok(n) if n.iter().any(|x| !x.is_finite()) => Err(self
+                .partner
+                .complain(&format!("a number is not finite: `{line}`"))),
             Ok(n) if n.len() == 6 => Ok(Wrench {
                 force: DVec3::from_slice(&n),
                 moment: DVec3::from_slice(&n[3..]),

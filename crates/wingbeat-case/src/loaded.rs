@@ -47,8 +47,9 @@ impl LoadedCase {
             .and_then(|()| keys::alone(&source.table))
             .and_then(|()| files::read_in(&mut raw, base))
             .and_then(|()| resolve::resolve(&mut raw))
-            .and_then(|()| keys::together(&source.table, &table(&raw), source.chooses("air.model")))
-            .and_then(|()| build::setup(&raw, &name));
+            .and_then(|()| keys::together(&source, &table(&raw)))
+            .and_then(|()| build::setup(&raw, &name))
+            .and_then(|setup| build::check_effects(&raw, &setup, &source).map(|()| setup));
         let setup = built.map_err(|fault| Box::new(source.locate(fault)))?;
         let output = build::output(&raw.output);
         Ok(Self {

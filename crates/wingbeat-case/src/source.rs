@@ -85,9 +85,18 @@ impl CaseSource {
         error
     }
 
-    /// Whether the command line chooses the value of `key`.
+    /// Whether the command line chooses the value of `key`, by itself or with a table around it.
     pub fn chooses(&self, key: &str) -> bool {
-        self.overrides.iter().any(|(k, _)| k == key)
+        let around = |outer: &str| {
+            let rest = key.strip_prefix(outer);
+            rest.is_some_and(|r| r.is_empty() || r.starts_with(['.', '[']))
+        };
+        self.overrides.iter().any(|(k, _)| around(k))
+    }
+
+    /// Whether the document has a value at `key`.
+    pub fn gives(&self, key: &str) -> bool {
+        find(&self.table, key).is_some()
     }
 
     /// The bytes of a value (or of its key), or of the key of the nearest table around it.

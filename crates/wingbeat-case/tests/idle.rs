@@ -47,7 +47,7 @@ const SEGMENT: &str = "segment.tail.parts=[\"tail\"]";
 const MASS: &str = "body.mass_kg=2e-6";
 const INERTIA: &str = "body.inertia_about_centre_kg_m2=[1e-12, 2e-12, 2e-12, 0, 0, 0]";
 const WING: &str = "wing.right.inertia_about_centre_kg_m2=[1e-15, 1e-16, 1e-15, 0, 0, 0]";
-const STILL: &str = "wing.right.motion.phi.constant_deg=5";
+const STILL: &str = "wing.right.motion.phi={ constant_deg = 5 }";
 
 /// (what makes a key idle, the idle key's setting, the key if the setting does not begin with it).
 const TABLE: &[(&[&str], &str, &str)] = &[
@@ -73,7 +73,7 @@ const TABLE: &[(&[&str], &str, &str)] = &[
     ),
     (
         &[VACUUM],
-        "wing.fin={ side = \"right\", mirror = true }",
+        "wing.fin={ side = \"right\", mirror = true, hinge_m = [0, 0, 0], mass_kg = 1e-9, planform = { rectangle = { chord_m = 1e-3, span_m = 3e-3 } } }",
         "wing.fin.mirror",
     ),
     (&[VACUUM], "wing.right.deformation.axis_fraction=0.3", ""),
@@ -204,7 +204,7 @@ const TABLE: &[(&[&str], &str, &str)] = &[
         "joint.tail.element[0].rest_m",
     ),
     (
-        &[VACUUM, SEGMENT, JOINT],
+        &[VACUUM, SEGMENT, JOINT, "joint.tail.kind=revolute"],
         "joint.tail.element=[{ moment_newton_m = { mean = 1, frequency_hz = 3 } }]",
         "joint.tail.element[0].moment_newton_m.frequency_hz",
     ),

@@ -7,6 +7,7 @@ mod blade;
 mod body;
 mod deformation;
 mod derivatives;
+mod effects;
 mod element;
 mod flight;
 mod joint;
@@ -22,6 +23,7 @@ mod time;
 mod wind;
 mod wing;
 
+pub(crate) use effects::check as check_effects;
 pub use names::column_name;
 pub(crate) use output::output;
 pub(crate) use refused::refused;

@@ -6,7 +6,12 @@ use super::bounds;
 use super::needs::{self, Need};
 use super::schema::Shape;
 use crate::error::Fault;
-use crate::source::join;
+use crate::source::{CaseSource, join};
+
+/// Where the air's model is chosen.
+const MODEL: &str = "air.model";
+/// Where the integrator is chosen.
+const INTEGRATOR: &str = "dynamics.integrator";
 
 type Checked = Result<(), Fault>;
 
@@ -63,25 +68,25 @@ fn each_in(
 struct Pair<'a> {
     /// All keys, with their defaults.
     whole: &'a Table,
-    /// Whether keys of another air model than the chosen one may stand by.
-    switched: bool,
+    source: &'a CaseSource,
 }
 
-/// Checks that every key of `document` has an effect beside the others; `whole` is the same case
-/// with its defaults. Where the air's model was chosen on the command line (`switched`), the
-/// settings of the case's own model may stand by.
-pub(crate) fn together(document: &Table, whole: &Table, switched: bool) -> Checked {
-    let pair = Pair { whole, switched };
-    pair.table(Shape::case(), "", document, whole)
+/// Checks that every key of the document has an effect beside the others; `whole` is the same case
+/// with its defaults. Where the command line chose what a key of the file depends on, it may stand by.
+pub(crate) fn together(source: &CaseSource, whole: &Table) -> Checked {
+    let pair = Pair { whole, source };
+    pair.table(Shape::case(), "", &source.table, whole)
 }
 
 impl Pair<'_> {
     fn table(&self, shape: Shape, path: &str, given: &Table, whole: &Table) -> Checked {
         for (name, value) in given {
             let Some(key) = shape.at(name) else { continue };
-            let path = join(path, name);
+            let around = path;
+            let path = join(around, name);
             for need in needs::of(key) {
-                if !need.is_met(self.whole, whole, given) && !self.stands_by(key, need) {
+                let idle = !need.is_met(self.whole, whole, given);
+                if idle && !self.stands_by(key, need, around, &path) {
                     let [problem, allowed, remedy] = need.explained(self.whole, whole);
                     return Err(Fault::new(path, problem, allowed, remedy));
                 }
@@ -109,9 +114,16 @@ impl Pair<'_> {
         }
     }
 
-    /// What belongs to a model that was not chosen and is no property of the air itself.
-    fn stands_by(&self, key: Shape, need: Need) -> bool {
-        self.switched && need.is_model() && key.key.get("always").is_none()
+    /// What the file says for a choice that the command line took otherwise, but for properties of the
+    /// air itself. The integrator follows from the air's model unless it is given.
+    fn stands_by(&self, key: Shape, need: Need, around: &str, path: &str) -> bool {
+        let Some(decided_by) = need.decided_by(around) else {
+            return false;
+        };
+        let open = decided_by == INTEGRATOR && !self.source.gives(INTEGRATOR);
+        let decided_by = if open { MODEL } else { &decided_by };
+        let switched = self.source.chooses(decided_by) && !self.source.chooses(path);
+        switched && key.key.get("always").is_none()
     }
 }
 

@@ -3,9 +3,7 @@
 use toml::{Table, Value};
 
 use super::schema::Shape;
-
-/// The key that other models' keys depend on; see [`Tables::unmet`].
-const MODEL: &str = "air.model";
+use crate::source::join;
 
 /// What a key needs to have an effect.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -15,7 +13,7 @@ pub(super) enum Need {
         key: &'static str,
         values: &'static str,
     },
-    /// Another key is given: `KEY`.
+    /// One of other keys is given, and no empty list: `KEY | KEY`.
     Given(&'static str),
     /// Another key is not given: `no KEY`.
     NotGiven(&'static str),
@@ -47,7 +45,11 @@ impl Need {
                 };
                 value.is_none_or(|v| self.allows(v))
             }
-            Self::Given(key) => given.contains_key(key),
+            Self::Given(keys) => {
+                let is_empty = |v: &Value| v.as_array().is_some_and(Vec::is_empty);
+                let given = |key| given.get(key).is_some_and(|v| !is_empty(v));
+                keys.split(" | ").any(given)
+            }
             Self::NotGiven(key) => !given.contains_key(key),
         }
     }
@@ -60,9 +62,13 @@ impl Need {
         named(value) || value.as_array().is_some_and(|list| list.iter().any(named))
     }
 
-    /// Whether it is the choice of the air's model.
-    pub fn is_model(self) -> bool {
-        matches!(self, Self::Value { key: MODEL, .. })
+    /// The path of the key whose value decides, for a key in the table at `around`.
+    pub fn decided_by(self, around: &str) -> Option<String> {
+        match self {
+            Self::Value { key, .. } if key.contains('.') => Some(key.to_owned()),
+            Self::Value { key, .. } => Some(join(around, key)),
+            _ => None,
+        }
     }
 
     /// What is wrong with a key that needs this, what is allowed, what to try.
@@ -81,11 +87,14 @@ impl Need {
                     format!("remove it, or change {key}"),
                 ]
             }
-            Self::Given(key) => [
-                format!("this has no effect without {key}"),
-                format!("together with {key}"),
-                format!("remove it, or give {key}"),
-            ],
+            Self::Given(keys) => {
+                let keys = keys.replace(" | ", " or ");
+                [
+                    format!("this has no effect without {keys}"),
+                    format!("together with {keys}"),
+                    format!("remove it, or give {keys}"),
+                ]
+            }
             Self::NotGiven(key) => [
                 format!("this has no effect beside {key}"),
                 format!("without {key}"),
@@ -101,7 +110,10 @@ impl Need {
                 let values: Vec<String> = values.split(" | ").map(|v| format!("`{v}`")).collect();
                 format!("with `{key}` = {}", values.join(" or "))
             }
-            Self::Given(key) => format!("with `{key}`"),
+            Self::Given(keys) => {
+                let keys: Vec<String> = keys.split(" | ").map(|k| format!("`{k}`")).collect();
+                format!("with {}", keys.join(" or "))
+            }
             Self::NotGiven(key) => format!("without `{key}`"),
         }
     }

@@ -11,6 +11,8 @@ use super::{BladeCase, DerivativesCase, ExternalCase, Open, ParticlesCase, Secti
 
 /// Keys of the vortex lattice.
 const LATTICE: &str = "air.model = vortex_lattice";
+/// Keys of wakes.
+const SHEDDING: &str = "shed = trailing | tip | leading";
 /// Keys of the air that moves.
 const WIND: &str = "air.model = vortex_lattice | blade_element";
 /// Keys of the undisturbed air.
@@ -163,44 +165,44 @@ pub struct AirCase {
     /// Wake rows older than this are dropped; left out: none.
     ///
     /// Change it to make long flights cheaper; what is dropped is missing.
-    #[schemars(extend("exclusiveMinimum" = 0, "with" = LATTICE))]
+    #[schemars(extend("exclusiveMinimum" = 0, "with" = [LATTICE, SHEDDING]))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub max_wake_age_s: Option<f64>,
     /// Wake rows farther than this from their edge are dropped; left out: none.
     ///
     /// Change it to make long flights cheaper; what is dropped is missing.
-    #[schemars(extend("exclusiveMinimum" = 0, "with" = LATTICE))]
+    #[schemars(extend("exclusiveMinimum" = 0, "with" = [LATTICE, SHEDDING]))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub max_wake_distance_m: Option<f64>,
     /// The distance of `max_wake_distance_m` in mean chords of all wings.
     ///
     /// Change it to make long flights cheaper; what is dropped is missing.
-    #[schemars(extend("exclusiveMinimum" = 0, "with" = LATTICE, "or" = "max_wake_distance_m"))]
+    #[schemars(extend("exclusiveMinimum" = 0, "with" = [LATTICE, SHEDDING], "or" = "max_wake_distance_m"))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub max_wake_distance_chords: Option<f64>,
     /// Rows kept in each wake sheet; left out: all.
     ///
     /// Change it to make long flights cheaper; what is dropped is missing.
-    #[schemars(range(min = 1), extend("with" = LATTICE))]
+    #[schemars(range(min = 1), extend("with" = [LATTICE, SHEDDING]))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub max_wake_rows: Option<usize>,
     /// Longest displacement of a wake node in a step; left out: no limit.
     ///
     /// Change it as a last resort against wakes that blow up: it is counted and reported.
-    #[schemars(extend("exclusiveMinimum" = 0, "with" = LATTICE))]
+    #[schemars(extend("exclusiveMinimum" = 0, "with" = [LATTICE, SHEDDING]))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub max_displacement_m: Option<f64>,
     /// Wake nodes keep this distance from surfaces and do not pass through them, which is
     /// counted and reported; 0 lets them pass (the published benchmark's).
     ///
     /// Change it with the cores: a little more than the radius of those in the wake.
-    #[schemars(range(min = 0), extend("with" = LATTICE))]
+    #[schemars(range(min = 0), extend("with" = [LATTICE, SHEDDING]))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub clearance_m: Option<f64>,
     /// The distance of `clearance_m` in mean chords of all wings. Default: 0.1, if `clearance_m` is left out.
     ///
     /// Change it with the cores: a little more than the radius of those in the wake.
-    #[schemars(range(min = 0), extend("with" = LATTICE, "or" = "clearance_m"))]
+    #[schemars(range(min = 0), extend("with" = [LATTICE, SHEDDING], "or" = "clearance_m"))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub clearance_chords: Option<f64>,
     /// Vortex particles in place of old or leading-edge rows of wake; left out: rings only.
@@ -227,7 +229,7 @@ pub struct AirCase {
     ///
     /// Change it for studies of convergence.
     #[default = 1e-4]
-    #[schemars(range(max = 0.1), extend("exclusiveMinimum" = 0, "with" = LATTICE))]
+    #[schemars(range(max = 0.1), extend("exclusiveMinimum" = 0, "with" = [LATTICE, "summation = auto | single | tree"]))]
     pub summation_tolerance: f64,
     /// Settings of the blade elements.
     #[schemars(extend("with" = "air.model = blade_element"))]

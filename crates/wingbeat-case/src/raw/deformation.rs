@@ -13,13 +13,13 @@ pub struct DeformationCase {
     /// Position of the twist axis behind the leading edge over the chord.
     ///
     /// Change it to what was measured.
-    #[schemars(range(min = 0, max = 1))]
+    #[schemars(range(min = 0, max = 1), extend("with" = "twist"))]
     #[default(Deformation::default().axis_fraction)]
     pub axis_fraction: f64,
     /// Position of the highest camber behind the leading edge over the chord.
     ///
     /// Change it to what was measured.
-    #[schemars(extend("exclusiveMinimum" = 0, "exclusiveMaximum" = 1))]
+    #[schemars(extend("exclusiveMinimum" = 0, "exclusiveMaximum" = 1, "with" = "camber"))]
     #[default(Deformation::default().camber_peak)]
     pub camber_peak: f64,
     /// Twist of the sections about the axis, positive like feathering: leading edge towards -axis 3.

@@ -108,6 +108,7 @@ pub struct PathOscillation {
     /// Frequency f.
     ///
     /// Change it to that of the motion.
+    #[schemars(extend("with" = "cosine_m | sine_m"))]
     pub frequency_hz: f64,
     /// Cosine coefficients of harmonics 1, 2, ...
     ///
@@ -133,6 +134,7 @@ pub struct AngleOscillation {
     /// Frequency f.
     ///
     /// Change it to that of the motion.
+    #[schemars(extend("with" = "cosine_deg | sine_deg"))]
     #[serde(default)]
     pub frequency_hz: f64,
     /// Cosine coefficients of harmonics 1, 2, ...
@@ -143,6 +145,7 @@ pub struct AngleOscillation {
     /// Sine coefficients of harmonics 1, 2, ...
     ///
     /// Change it to those of the motion.
+    #[schemars(extend("with" = "frequency_hz"))]
     #[serde(default)]
     pub sine_deg: Vec<f64>,
 }

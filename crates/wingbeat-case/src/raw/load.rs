@@ -4,6 +4,10 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use wingbeat_flight::LoadFrame;
 
+/// What oscillates.
+const SERIES: &str =
+    "force_cosine_newton | force_sine_newton | couple_cosine_newton_m | couple_sine_newton_m";
+
 /// A force and a couple on one body.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -21,6 +25,7 @@ pub struct LoadCase {
     /// Point of application in the axes of the loaded body, from its origin.
     ///
     /// Change it for forces off the origin.
+    #[schemars(extend("with" = "force_newton | force_cosine_newton | force_sine_newton"))]
     #[serde(default)]
     pub point_m: [f64; 3],
     /// Constant part of the force.
@@ -36,7 +41,7 @@ pub struct LoadCase {
     /// Frequency f of the oscillating parts.
     ///
     /// Change it together with the series below.
-    #[schemars(range(min = 0))]
+    #[schemars(range(min = 0), extend("with" = SERIES))]
     #[serde(default)]
     pub frequency_hz: f64,
     /// Cosine parts of the force, one vector per harmonic 1, 2, ...
@@ -47,6 +52,7 @@ pub struct LoadCase {
     /// Sine parts of the force.
     ///
     /// Change it for forces that oscillate.
+    #[schemars(extend("with" = "frequency_hz"))]
     #[serde(default)]
     pub force_sine_newton: Vec<[f64; 3]>,
     /// Cosine parts of the couple.
@@ -57,6 +63,7 @@ pub struct LoadCase {
     /// Sine parts of the couple.
     ///
     /// Change it for couples that oscillate.
+    #[schemars(extend("with" = "frequency_hz"))]
     #[serde(default)]
     pub couple_sine_newton_m: Vec<[f64; 3]>,
 }

@@ -176,6 +176,9 @@ pub struct TimeCase {
     pub steps: Option<usize>,
 }
 
+/// Integrators whose steps are solved by iteration.
+const ITERATED: &str = "dynamics.integrator = hamming | bdf";
+
 /// Corrector iteration: bodies and air are brought to agreement in every step.
 #[derive(Clone, Debug, PartialEq, SmartDefault, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
@@ -184,19 +187,19 @@ pub struct CorrectorCase {
     ///
     /// Change it for studies of convergence.
     #[default(CorrectorSettings::default().tolerance)]
-    #[schemars(extend("exclusiveMinimum" = 0))]
+    #[schemars(extend("exclusiveMinimum" = 0, "with" = ITERATED))]
     pub tolerance: f64,
     /// Most passes; more is an error. What has not converged after a hundred passes will not.
     ///
     /// Change it together with `relaxation`.
     #[default(CorrectorSettings::default().max_passes)]
-    #[schemars(range(min = 1, max = 10_000))]
+    #[schemars(range(min = 1, max = 10_000), extend("with" = ITERATED))]
     pub max_passes: usize,
     /// Relaxation: 1 is the plain iteration.
     ///
     /// Change it to less than 1 for light bodies with large wings.
     #[default(CorrectorSettings::default().relaxation)]
-    #[schemars(range(max = 1), extend("exclusiveMinimum" = 0))]
+    #[schemars(range(max = 1), extend("exclusiveMinimum" = 0, "with" = ITERATED))]
     pub relaxation: f64,
 }
 

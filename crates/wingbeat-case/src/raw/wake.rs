@@ -18,6 +18,7 @@ pub struct ParticlesCase {
     /// Whether rows that leave leading edges become particles at once.
     ///
     /// Change it to true where leading-edge sheets roll up within a few steps.
+    #[schemars(extend("with" = "air.shed = leading"))]
     #[serde(default)]
     pub leading_edge: bool,
     /// Radius of new particles; if left out that of `wake_core`, where `wake_overlap` is 0.

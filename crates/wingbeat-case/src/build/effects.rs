@@ -1,0 +1,153 @@
+//! Keys that others make idle in ways no single key tells: each is refused by name.
+
+use wingbeat_flight::FlightSetup;
+use wingbeat_model::{AngleLaw, Wing};
+
+use super::Built;
+use super::wing::twin_name;
+use crate::error::Fault;
+use crate::raw::{Case, Formulation, JointCase, Mode, WingCase};
+use crate::source::CaseSource;
+
+/// Checks what takes more than one look: `setup` was made of `case`, which was read from `source`.
+pub(crate) fn check(case: &Case, setup: &FlightSetup, source: &CaseSource) -> Built<()> {
+    bodies(case)?;
+    motion(case, source)?;
+    adjustments(case, setup)?;
+    joints(case)?;
+    if case.flight.held_beats > 0.0 && setup.time.period.is_none() {
+        return Err(idle("flight.held_beats", "where nothing beats"));
+    }
+    let has_joints = setup.joints.iter().any(|j| j.joint.freedom.directions() > 0);
+    let default = case.dynamics.formulation.value() == Formulation::Momentum;
+    if case.flight.mode == Mode::Tethered && !has_joints && !default {
+        let why = "with flight.mode = \"tethered\": all motion is prescribed";
+        return Err(idle("dynamics.formulation", why));
+    }
+    Ok(())
+}
+
+/// A key without effect, and why.
+fn idle(key: impl Into<String>, why: &str) -> Fault {
+    Fault::new(
+        key,
+        format!("this has no effect {why}"),
+        "no such key here",
+        "remove it",
+    )
+}
+
+/// Masses that a total replaces, masses without inertia, mirror images nobody can name.
+fn bodies(case: &Case) -> Built<()> {
+    let body = &case.body;
+    if body.mass_kg.is_some() && body.inertia_about_centre_kg_m2.is_some() {
+        for (name, part) in &body.part {
+            let path = |key: &str| format!("body.part.{name}.{key}");
+            let why = "beside body.mass_kg and body.inertia_about_centre_kg_m2";
+            if part.density_kg_m3.is_some() {
+                return Err(idle(path("density_kg_m3"), why));
+            }
+            if part.mass_kg.is_some() {
+                return Err(idle(path("mass_kg"), why));
+            }
+        }
+    }
+    for (name, wing) in &case.wing {
+        if wing.mirror.is_some() && twin_name(name).is_none() {
+            let why = "for a wing whose name has neither left nor right";
+            return Err(idle(format!("wing.{name}.mirror"), why));
+        }
+        if wing.mass_kg == Some(0.0) && wing.inertia_about_centre_kg_m2.is_some() {
+            let key = format!("wing.{name}.inertia_about_centre_kg_m2");
+            return Err(idle(key, "for a wing of mass_kg = 0"));
+        }
+    }
+    Ok(())
+}
+
+/// Motions for all wings that every wing replaces.
+fn motion(case: &Case, source: &CaseSource) -> Built<()> {
+    let own = |wing: &WingCase| wing.motion.clone().unwrap_or_default();
+    let all_angles = |wing: &WingCase| {
+        let motion = own(wing);
+        motion.phi.is_some() && motion.theta.is_some() && motion.psi.is_some()
+    };
+    for (name, wing) in &case.wing {
+        if own(wing).data.is_some() && all_angles(wing) {
+            let key = format!("wing.{name}.motion.data");
+            return Err(idle(key, "beside phi, theta and psi"));
+        }
+    }
+    // A left wing that is a mirror image has no motion of its own.
+    let all = |has: &dyn Fn(&WingCase) -> bool| {
+        let mut moved = case.wing.values().filter(|w| w.motion.is_some());
+        !case.wing.is_empty() && moved.clone().count() > 0 && moved.all(has)
+    };
+    let every = "beside that of every wing";
+    if case.motion.phase != 0.0 && all(&|w| own(w).phase.is_some()) {
+        return Err(idle("motion.phase", every));
+    }
+    let pitch = case.motion.stroke_plane_pitch_deg.value();
+    if pitch != 0.0
+        && source.gives("motion.stroke_plane_pitch_deg")
+        && all(&|w| own(w).stroke_plane_pitch_deg.is_some())
+    {
+        return Err(idle("motion.stroke_plane_pitch_deg", every));
+    }
+    let given = ["motion.frequency_hz", "motion.stroke_plane_pitch_deg"].map(|k| source.gives(k));
+    let angles = |w: &WingCase| own(w).data.is_some() || all_angles(w);
+    if case.motion.data.is_some() && given == [true; 2] && all(&angles) {
+        return Err(idle(
+            "motion.data",
+            "beside frequency, stroke plane and angles of every wing",
+        ));
+    }
+    Ok(())
+}
+
+/// Changes of what does not vary.
+fn adjustments(case: &Case, setup: &FlightSetup) -> Built<()> {
+    let varies = |angle: fn(&Wing) -> &AngleLaw| {
+        let constant = |w: &Wing| matches!(angle(w), AngleLaw::Constant(_));
+        !setup.animal.wings.iter().all(constant)
+    };
+    let adjust = &case.motion.adjust;
+    let strokes = varies(|w| &w.motion.angles.phi);
+    let feathers = varies(|w| &w.motion.angles.psi);
+    for (key, value, varies) in [
+        ("stroke_amplitude", adjust.stroke_amplitude, strokes),
+        (
+            "feathering_amplitude",
+            adjust.feathering_amplitude,
+            feathers,
+        ),
+        ("feathering_lead", adjust.feathering_lead, feathers),
+    ] {
+        if value != 0.0 && !varies {
+            let key = format!("motion.adjust.{key}");
+            return Err(idle(key, "on wings whose angle is constant"));
+        }
+    }
+    Ok(())
+}
+
+/// What joints are told and cannot do.
+fn joints(case: &Case) -> Built<()> {
+    let is_wing = |name: &str| case.wing.contains_key(name);
+    for (name, joint) in &case.joint {
+        let path = |key: &str| format!("joint.{name}.{key}");
+        let JointCase { child, travel, .. } = joint;
+        let on_wing = is_wing(child) || joint.parent.as_deref().is_some_and(is_wing);
+        if joint.at_child_m.is_some() && on_wing {
+            return Err(idle(
+                path("at_child_m"),
+                "at a wing, which turns about its hinge",
+            ));
+        }
+        let moves = |t: &crate::raw::TravelCase| !t.cosine_m.is_empty() || !t.sine_m.is_empty();
+        if travel.as_ref().is_some_and(|t| !moves(t)) {
+            return Err(idle(path("travel"), "without cosine_m or sine_m"));
+        }
+    }
+    Ok(())
+}
