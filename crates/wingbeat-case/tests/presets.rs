@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use wingbeat_case::{LoadedCase, presets::PRESETS};
-use wingbeat_flight::{FlightSetup, Simulation};
+use wingbeat_flight::{AirModel, FlightSetup, Simulation};
 use wingbeat_math::{DMat3, DVec3, RotationLaw};
 use wingbeat_model::Wing;
 
@@ -109,7 +109,7 @@ fn asymmetry(flight: &mut Simulation, steps: usize) -> f64 {
 /// nothing, not even where wakes meet wings.
 #[test]
 fn invariant_left_equals_right_with_a_clearance() {
-    let both = ["air.mirror=false", "time.beats=1"];
+    let both = ["air.mirror=false", "time.beats=1", "air.summation=direct"];
     let attached = "air.shed=[\"trailing\",\"tip\"]";
     let mut flight = simulation("fruit-fly-tethered", &[&both[..], &[attached]].concat());
     let attached = asymmetry(&mut flight, 40);
@@ -120,8 +120,8 @@ fn invariant_left_equals_right_with_a_clearance() {
         "left and right differ by {attached:.1e} attached, {separated:.1e} separated, {met} contacts"
     );
     assert!(met > 100, "the wakes must meet the wings: {met}");
-    // Roundings; between separated sheets they grow.
-    assert!(attached < 1e-10 && separated < 1e-6);
+    // Roundings, a hundred of them; 1e-8 where the sums are in single precision.
+    assert!(attached < 1e-13 && separated < 1e-12);
 }
 
 /// Whether a segment meets a triangle.
@@ -159,15 +159,22 @@ fn cut(a: &[[DVec3; 4]], b: &[[DVec3; 4]]) -> bool {
     one_way(a, b) || one_way(b, a)
 }
 
-/// Stiff wings that pass through each other see each other's vortices without end. Wings that hang on
-/// joints of their own move otherwise than prescribed and are left out.
+/// Stiff wings of a lattice that pass through each other see each other's vortices without end. Left
+/// out: wings on joints of their own, which move otherwise than prescribed, wings joined at an edge they
+/// share, and strips of blade elements, which do not see each other (of measured motions with stiff
+/// wings some cut a little: those of the hawkmoth at their roots, of the locust fore in hind wings).
 #[test]
-fn exact_wings_of_presets_do_not_cut_each_other() {
+fn exact_lattice_wings_of_presets_do_not_cut_each_other() {
+    let mut seen = 0;
     for preset in PRESETS {
         let setup = LoadedCase::find(preset.name, &[]).unwrap().setup;
-        if !setup.joints.is_empty() {
+        let AirModel::VortexLattice(air) = &setup.air else {
+            continue;
+        };
+        if !setup.joints.is_empty() || !air.joined.is_empty() {
             continue;
         }
+        seen += 1;
         let Some(period) = setup.time.period else {
             continue;
         };
@@ -188,6 +195,7 @@ fn exact_wings_of_presets_do_not_cut_each_other() {
             }
         }
     }
+    assert!(seen > 5, "{seen} presets fly in a lattice");
 }
 
 /// Distance from the plane of symmetry over the length of the longest wing, and turn out of it.

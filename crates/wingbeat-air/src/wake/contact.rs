@@ -12,7 +12,7 @@
 //! - within a clearance of the edges of a wing the push falls smoothly to zero;
 //! - between panels it is shared by both;
 //! - it is blocked by the wing where it crosses it, `x(s)` with `s = |h0| / (|h0| + |h1|)` for
-//!   heights h0 at the start and h1 at the end; what is not blocked there, near an edge, is kept
+//!   heights h0 at the start and h1 at the end (both raised by half of what is no height); what is not blocked there, near an edge, is kept
 //!   off on the side where it ends;
 //! - pushes of several surfaces add up, each one computed from the same path.
 //!
@@ -190,9 +190,10 @@ impl Obstacle {
 
     /// A thin surface: a node that crosses it or ends too near goes back to its own side.
     fn hold_back(&self, from: DVec3, to: DVec3, clearance: f64) -> DVec3 {
+        let thin = THIN * clearance;
         let crossing = self.mean(from, to, clearance, |start, end| {
             let (a, b) = (start.abs(), end.abs());
-            (if a > 0.0 { a / (a + b) } else { 0.0 }, start)
+            ((a + 0.5 * thin) / (a + b + thin), start) // the middle of a path within the surface
         });
         let ending = self.mean(from, to, clearance, |_, end| (1.0, end));
         crossing.push + (1.0 - crossing.weight) * ending.push
