@@ -93,8 +93,6 @@ const TANGLED: &[(&str, usize)] = &[
     ("wingbeat-draw", 12),
     ("wingbeat-dynamics", 19),
     ("wingbeat-flight", 12),
-    ("wingbeat-math", 9),
-    ("wingbeat-model", 10),
     ("wingbeat-results", 11),
     ("wingbeat-verify", 18),
 ];
