@@ -91,7 +91,6 @@ const TANGLED: &[(&str, usize)] = &[
     ("wingbeat-analysis", 2),
     ("wingbeat-case", 23),
     ("wingbeat-draw", 12),
-    ("wingbeat-dynamics", 19),
     ("wingbeat-flight", 12),
     ("wingbeat-results", 11),
     ("wingbeat-verify", 18),
