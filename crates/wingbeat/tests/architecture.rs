@@ -90,7 +90,6 @@ const TANGLED: &[(&str, usize)] = &[
     ("wingbeat", 13),
     ("wingbeat-case", 23),
     ("wingbeat-draw", 12),
-    ("wingbeat-flight", 12),
     ("wingbeat-results", 11),
     ("wingbeat-verify", 18),
 ];
