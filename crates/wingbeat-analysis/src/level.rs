@@ -31,6 +31,9 @@ impl Level {
     }
 }
 
+/// Names of the nine state components.
+pub const STATE: [&str; 9] = ["u", "v", "w", "p", "q", "r", "phi", "theta", "psi"];
+
 /// A state of flight seen from a level frame that turns with the body: nine numbers, position
 /// left out (the air is the same everywhere).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

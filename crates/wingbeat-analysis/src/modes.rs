@@ -3,7 +3,7 @@
 use std::f64::consts::{LN_2, TAU};
 
 use crate::eigen::Eigenpair;
-use crate::stability::STATE;
+use crate::level::STATE;
 
 /// Natural sizes by which components of eigenvectors are compared.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -9,9 +9,6 @@ use crate::level::{Level, Perturbation};
 use crate::mean::MeanLoad;
 use crate::modes::{ModeSet, Scales};
 use crate::monodromy::monodromy;
-
-/// Names of the nine state components.
-pub const STATE: [&str; 9] = ["u", "v", "w", "p", "q", "r", "phi", "theta", "psi"];
 /// Names of the six loads.
 pub const LOADS: [&str; 6] = ["X", "Y", "Z", "L", "M", "N"];
 

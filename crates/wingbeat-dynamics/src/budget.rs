@@ -2,16 +2,9 @@
 
 use wingbeat_math::DVec3;
 
-use crate::inverse::inertia_wrench;
+use crate::body::inertia_wrench;
+pub use crate::body::kinetic_energy;
 use crate::{Body, BodyAcceleration, BodyMotion, Budget, System, Wrench};
-
-/// Kinetic energy of a body \[J\]: `m v.v / 2 + v . R (w x s) + w . J w / 2` (seed eq. 13, 23).
-pub fn kinetic_energy(body: &Body, m: &BodyMotion) -> f64 {
-    let (s, j) = (body.mass.first_moment, body.mass.inertia);
-    0.5 * body.mass.mass * m.v.length_squared()
-        + m.v.dot(m.r * m.w.cross(s))
-        + 0.5 * m.w.dot(j * m.w)
-}
 
 /// Energies, mass centre and momenta of the system.
 pub fn budget(system: &System, motions: &[BodyMotion]) -> Budget {

@@ -16,69 +16,10 @@
 use wingbeat_math::{DMat3, DQuat, DVec3, SingularMatrix, solve_small};
 
 use crate::mechanism::link::rotation_vector;
-use crate::posture::{Composite, Placement};
-use crate::{Freedom, Joint, System, Wrench};
-
-/// Where a hinge's coordinates and speeds lie among those of all hinges.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Slot {
-    /// First coordinate.
-    pub q: usize,
-    /// Number of coordinates: 4 (a quaternion) for a spherical joint.
-    pub coordinates: usize,
-    /// First speed.
-    pub u: usize,
-    /// Number of speeds.
-    pub speeds: usize,
-}
-
-impl Slot {
-    /// The slot of a joint behind `before`.
-    pub(crate) fn after(before: &Self, freedom: Freedom) -> Self {
-        let (coordinates, speeds) = match freedom {
-            Freedom::Weld | Freedom::PointOnLine { .. } => (0, 0),
-            Freedom::Revolute { .. } | Freedom::Prismatic { .. } => (1, 1),
-            Freedom::Universal { .. } => (2, 2),
-            Freedom::Spherical => (4, 3),
-        };
-        Self {
-            q: before.q + before.coordinates,
-            coordinates,
-            u: before.u + before.speeds,
-            speeds,
-        }
-    }
-}
-
-/// Start of a joint's coordinates and speeds.
-pub(crate) fn start(joint: &Joint, slot: &Slot, q: &mut [f64], u: &mut [f64]) {
-    let get = |x: &[f64], k: usize| x.get(k).copied().unwrap_or(0.0);
-    if joint.freedom == Freedom::Spherical {
-        let turn = DVec3::from_array([0, 1, 2].map(|k| get(&joint.coordinates, k)));
-        DQuat::from_scaled_axis(turn).write_to_slice(&mut q[slot.q..]);
-    } else {
-        (0..slot.coordinates).for_each(|k| q[slot.q + k] = get(&joint.coordinates, k));
-    }
-    (0..slot.speeds).for_each(|k| u[slot.u + k] = get(&joint.rates, k));
-}
-
-/// The child's frame at the joint point, from the joint's frame `k`.
-pub(crate) fn carry(freedom: Freedom, k: Placement, q: &[f64], u: &[f64]) -> Placement {
-    let zero = DVec3::ZERO;
-    let about = |k: Placement, a: DVec3, i: usize| {
-        k.turned_by(DMat3::from_axis_angle(a, q[i]), a * u[i], zero)
-    };
-    match freedom {
-        Freedom::Weld | Freedom::PointOnLine { .. } => k,
-        Freedom::Revolute { axis } => about(k, axis, 0),
-        Freedom::Universal { axes: [a, b] } => about(about(k, a, 0), b, 1),
-        Freedom::Spherical => {
-            let turn = DMat3::from_quat(DQuat::from_slice(q).normalize());
-            k.turned_by(turn, DVec3::from_slice(u), zero)
-        }
-        Freedom::Prismatic { axis } => k.slid([axis * q[0], axis * u[0], zero]),
-    }
-}
+use crate::placement::Placement;
+use crate::posture::Composite;
+pub use crate::slot::Slot;
+use crate::{Freedom, System, Wrench};
 
 /// Rates of a joint's coordinates.
 pub(crate) fn coordinate_rates(freedom: Freedom, q: &[f64], u: &[f64], out: &mut [f64]) {

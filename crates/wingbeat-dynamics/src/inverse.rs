@@ -1,37 +1,11 @@
 //! Inverse dynamics: what the hinges (and a support of the root) must do so that the bodies
 //! accelerate as they do. Newton and Euler for every body, summed from the tips to the root.
 
-use wingbeat_math::DVec3;
-
+use crate::body::inertia_wrench;
+pub use crate::body::weight_wrench;
 use crate::solution::{HingeReaction, Solution};
 use crate::workspace::Workspace;
-use crate::{Body, BodyAcceleration, BodyMotion, System, Wrench};
-
-/// Rate of change of the momentum of a body: force \[N\] in N components and moment about its
-/// frame origin [N m] in N components,
-/// `f = m a + R (w' x s + w x (w x s))`, `n = R (J w' + w x J w + s x R^T a)`.
-pub fn inertia_wrench(body: &Body, m: &BodyMotion, acc: &BodyAcceleration) -> Wrench {
-    let (s, j, w) = (body.mass.first_moment, body.mass.inertia, m.w);
-    let turning = acc.angular.cross(s) + w.cross(w.cross(s));
-    let spin = j * acc.angular + w.cross(j * w) + s.cross(m.r.transpose() * acc.linear);
-    Wrench {
-        force: body.mass.mass * acc.linear + m.r * turning,
-        moment: m.r * spin,
-    }
-}
-
-/// Weight of a body and its moment about the body's frame origin (seed eq. 10, with the moment
-/// for every body).
-pub fn weight_wrench(body: &Body, m: &BodyMotion, gravity: DVec3) -> Wrench {
-    Wrench::at(gravity, m.r * body.mass.first_moment).with_force(body.mass.mass * gravity)
-}
-
-impl Wrench {
-    /// The same moment with another force: a weight's moment is that of the first moment of mass.
-    fn with_force(self, force: DVec3) -> Self {
-        Self { force, ..self }
-    }
-}
+use crate::{BodyAcceleration, BodyMotion, System, Wrench};
 
 /// Reactions of all hinges and of the support of the root, from the motions in `ws` and the
 /// accelerations in `out`.

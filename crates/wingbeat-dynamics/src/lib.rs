@@ -51,34 +51,44 @@
 #![warn(missing_docs)]
 
 pub mod added_mass;
+mod baumgarte;
+mod body;
 pub mod budget;
+mod check;
 mod error;
 pub mod euler;
+mod euler_form;
 mod formulation;
 pub mod free;
 pub mod inverse;
 mod joint;
+mod link;
 pub mod mechanism;
 mod momentum;
 mod motion;
+mod placement;
 pub mod posture;
 mod quaternion;
+mod slot;
 mod solution;
 mod system;
 mod tether;
 mod workspace;
 
 pub use added_mass::AddedMass;
+pub use baumgarte::Baumgarte;
+pub use body::{Body, NaturalUnits};
 pub use error::DynamicsError;
-pub use euler::{Baumgarte, EulerForm};
-pub use formulation::Formulation;
+pub use euler_form::EulerForm;
+pub use formulation::{Formulation, add_by_response};
 pub use joint::{Element, ElementLaw, Fourier, Freedom, Joint, TravelLaw};
+pub use link::Link;
+pub use mechanism::Mechanism;
 pub use mechanism::form::{AbsoluteForm, AbsoluteScratch, Stabilization};
-pub use mechanism::{Link, Mechanism};
 pub use momentum::MomentumForm;
 pub use motion::{BodyAcceleration, BodyMotion, Wrench};
 pub use quaternion::QuaternionForm;
 pub use solution::{Budget, HingeReaction, Solution, Violation};
-pub use system::{Body, Hinge, NaturalUnits, System};
+pub use system::{Hinge, System};
 pub use tether::{RootMotion, tethered, tethered_motions};
 pub use workspace::Workspace;

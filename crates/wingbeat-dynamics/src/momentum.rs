@@ -19,14 +19,18 @@ use std::sync::Arc;
 
 use wingbeat_math::{DMat3, DQuat, DVec3};
 
-use crate::added_mass::{Six, add_by_response, seen, six, solve_symmetric, wrench};
+use crate::added_mass::{Six, seen, six, solve_symmetric, wrench};
+use crate::body::inertia_wrench;
 use crate::budget::{budget, load_power};
-use crate::free::{coordinate_rates, start};
-use crate::inverse::{demand, inertia_wrench, multipliers, reactions};
+use crate::check::{check_rotation, check_state};
+use crate::formulation::add_by_response;
+use crate::free::coordinate_rates;
+use crate::inverse::{demand, multipliers, reactions};
 use crate::mechanism::Mechanism;
-use crate::posture::{Composite, Placement, Posture, PostureTable};
-use crate::system::check_rotation;
-use crate::workspace::{MOMENTUM_STATE, check_finite};
+use crate::placement::Placement;
+use crate::posture::{Composite, Posture, PostureTable};
+use crate::slot::start;
+use crate::workspace::MOMENTUM_STATE;
 use crate::{
     AddedMass, BodyAcceleration, BodyMotion, DynamicsError, Formulation, Freedom, Solution, System,
     Violation, Workspace, Wrench,
@@ -52,7 +56,7 @@ struct State {
 
 impl State {
     fn read(t: f64, y: &[f64]) -> Result<Self, DynamicsError> {
-        check_finite(t, y)?;
+        check_state(t, y)?;
         let v = |i: usize| DVec3::new(y[i], y[i + 1], y[i + 2]);
         Ok(Self {
             centre: v(0),
@@ -154,7 +158,7 @@ impl MomentumForm {
         state.write(&mut y);
         y.extend(q);
         y.extend(u);
-        check_finite(t, &y)?;
+        check_state(t, &y)?;
         Ok(y)
     }
 

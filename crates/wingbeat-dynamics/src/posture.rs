@@ -2,80 +2,10 @@
 
 use wingbeat_math::{DMat3, DVec3, MovingRotation};
 
-use crate::free::carry;
-use crate::system::check_rotation;
+use crate::check::check_rotation;
+pub use crate::placement::Placement;
+use crate::placement::carry;
 use crate::{BodyAcceleration, BodyMotion, DynamicsError, System};
-
-/// Placement of a body's frame relative to the root's frame, with two time derivatives as seen
-/// from the root.
-#[derive(Clone, Copy, Debug)]
-pub struct Placement {
-    /// Rotation A: body components to root components.
-    pub c: DMat3,
-    /// Angular velocity relative to the root [rad/s], body components.
-    pub w: DVec3,
-    /// Its time derivative [rad/s2], body components.
-    pub w_dot: DVec3,
-    /// Position d of the body's origin \[m\], root components.
-    pub d: DVec3,
-    /// First derivative of `d` [m/s].
-    pub d_dot: DVec3,
-    /// Second derivative of `d` [m/s2].
-    pub d_ddot: DVec3,
-}
-
-impl Placement {
-    /// The root itself.
-    pub(crate) const ROOT: Self = Self {
-        c: DMat3::IDENTITY,
-        w: DVec3::ZERO,
-        w_dot: DVec3::ZERO,
-        d: DVec3::ZERO,
-        d_dot: DVec3::ZERO,
-        d_ddot: DVec3::ZERO,
-    };
-
-    /// A frame at the same origin, turned by `law`.
-    pub(crate) fn turned(&self, law: &MovingRotation) -> Self {
-        self.turned_by(law.c, law.angular_velocity(), law.angular_acceleration())
-    }
-
-    /// A frame at the same origin, turned by `c` with the relative angular velocity `w` and its
-    /// derivative `w_dot`, components of the turned frame.
-    pub(crate) fn turned_by(&self, c: DMat3, w: DVec3, w_dot: DVec3) -> Self {
-        let back = c.transpose();
-        let seen = back * self.w;
-        Self {
-            c: self.c * c,
-            w: seen + w,
-            w_dot: back * self.w_dot - w.cross(seen) + w_dot,
-            ..*self
-        }
-    }
-
-    /// A frame with the same axes whose origin is a point that moves in this one: position \[m\],
-    /// velocity [m/s] and acceleration [m/s2] as seen from this frame.
-    pub(crate) fn slid(&self, [r, v, a]: [DVec3; 3]) -> Self {
-        let w = self.w;
-        let still = self.shifted(r);
-        Self {
-            d_dot: still.d_dot + self.c * v,
-            d_ddot: still.d_ddot + self.c * (2.0 * w.cross(v) + a),
-            ..still
-        }
-    }
-
-    /// A frame with the same axes whose origin is the point `r` \[m\] fixed in this one.
-    pub(crate) fn shifted(&self, r: DVec3) -> Self {
-        let (spin, w) = (self.w.cross(r), self.w);
-        Self {
-            d: self.d + self.c * r,
-            d_dot: self.d_dot + self.c * spin,
-            d_ddot: self.d_ddot + self.c * (self.w_dot.cross(r) + w.cross(spin)),
-            ..*self
-        }
-    }
-}
 
 /// Mass properties of the whole system and the momentum of its parts relative to the root.
 #[derive(Clone, Copy, Debug)]

@@ -6,12 +6,12 @@ use std::sync::Arc;
 use wingbeat_math::RotationLaw;
 
 use crate::budget::{budget, load_power};
+use crate::check::{check_rotation, check_state};
 use crate::inverse::multipliers;
+use crate::link::Link;
+use crate::mechanism::Mechanism;
 use crate::mechanism::form::{AbsoluteForm, AbsoluteScratch, Stabilization};
-use crate::mechanism::{Link, Mechanism};
 use crate::posture::Posture;
-use crate::system::check_rotation;
-use crate::workspace::check_finite;
 use crate::{
     BodyMotion, DynamicsError, Formulation, Freedom, Solution, System, TravelLaw, Violation,
     Workspace, Wrench,
@@ -99,7 +99,7 @@ impl Formulation for QuaternionForm {
     fn initial_from(&self, t: f64, motions: &[BodyMotion]) -> Result<Vec<f64>, DynamicsError> {
         let mut y = vec![0.0; self.dim()];
         self.form.pack(motions, &mut y);
-        check_finite(t, &y)?;
+        check_state(t, &y)?;
         Ok(y)
     }
 

@@ -2,22 +2,14 @@
 
 use std::sync::Arc;
 
-use wingbeat_math::{DMat3, DVec3, EulerSequence, MassProperties, RotationLaw};
+use wingbeat_math::{DVec3, RotationLaw};
 
-use crate::free::{Slot, start};
-use crate::mechanism::{Link, check_link};
-use crate::{DynamicsError, Freedom, Joint};
-
-/// A rigid body.
-#[derive(Clone, Debug)]
-pub struct Body {
-    /// Name, for messages and results.
-    pub name: String,
-    /// Mass properties about the body's frame origin, body components.
-    pub mass: MassProperties,
-    /// Euler sequence of its three angles in the Euler form (seed: 2-3-1 body, 1-3-2 wings).
-    pub sequence: EulerSequence,
-}
+use crate::body::{Body, NaturalUnits};
+use crate::check::{check_finite, check_positive};
+use crate::error::DynamicsError;
+use crate::joint::{Freedom, Joint};
+use crate::link::{Link, check_link};
+use crate::slot::{Slot, start};
 
 /// A spherical joint whose rotation is prescribed in time: the child hangs at a point of the
 /// parent and is turned against it by the law C(t) (seed eq. 4).
@@ -35,15 +27,6 @@ pub struct Hinge {
     pub anchor_child: DVec3,
     /// Prescribed rotation C(t): child components to parent components.
     pub law: Arc<dyn RotationLaw>,
-}
-
-/// Natural units of the problem: tolerances and scales are relative to them.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct NaturalUnits {
-    /// Length \[m\], for an insect its wing length.
-    pub length: f64,
-    /// Time \[s\], for an insect 1/f, the period of a wingbeat.
-    pub time: f64,
 }
 
 /// Bodies joined by hinges to a tree; body 0 is the root, which moves freely.
@@ -263,31 +246,6 @@ impl System {
     }
 }
 
-/// Largest deviation of `r^T r` from the identity.
-pub(crate) fn orthogonality_error(r: DMat3) -> f64 {
-    let e = r.transpose() * r - DMat3::IDENTITY;
-    e.to_cols_array().iter().fold(0.0, |a, x| a.max(x.abs()))
-}
-
-/// An error if `r` is not a rotation to 1e-9 (round-off of a long chain of products is below
-/// 1e-12; a matrix typed with six digits is off by 1e-6).
-pub(crate) fn check_rotation(
-    r: DMat3,
-    time: f64,
-    what: impl FnOnce() -> String,
-) -> Result<(), DynamicsError> {
-    let (deviation, determinant) = (orthogonality_error(r), r.determinant());
-    if deviation <= 1e-9 && determinant > 0.0 {
-        return Ok(());
-    }
-    Err(DynamicsError::NotARotation {
-        what: what(),
-        time,
-        deviation,
-        determinant,
-    })
-}
-
 fn check_numbers(
     bodies: &[Body],
     hinges: &[Hinge],
@@ -316,28 +274,6 @@ fn check_numbers(
     }
     check_positive("natural unit of length [m]", units.length)?;
     check_positive("natural unit of time [s]", units.time)
-}
-
-pub(crate) fn check_finite(what: &str, v: DVec3) -> Result<(), DynamicsError> {
-    match v.to_array().into_iter().find(|x| !x.is_finite()) {
-        None => Ok(()),
-        Some(value) => Err(bad_number(what, value, "")),
-    }
-}
-
-pub(crate) fn check_positive(what: &str, value: f64) -> Result<(), DynamicsError> {
-    if value.is_finite() && value > 0.0 {
-        return Ok(());
-    }
-    Err(bad_number(what, value, " > 0"))
-}
-
-fn bad_number(what: &str, value: f64, bound: &'static str) -> DynamicsError {
-    DynamicsError::BadNumber {
-        what: what.to_owned(),
-        value,
-        bound,
-    }
 }
 
 /// For every hinge, which bodies hang behind it.

@@ -1,10 +1,10 @@
 //! Scratch room of the equations of motion.
 
-use crate::euler::EulerScratch;
+use crate::euler::scratch::EulerScratch;
 use crate::free::FreeScratch;
 use crate::mechanism::form::AbsoluteScratch;
 use crate::posture::{Composite, Posture};
-use crate::{BodyAcceleration, BodyMotion, DynamicsError, System, Wrench};
+use crate::{BodyAcceleration, BodyMotion, System, Wrench};
 
 /// Intermediate results, kept between calls so that nothing is allocated. Holds no state: any
 /// workspace of the same system serves any call of it.
@@ -63,17 +63,5 @@ impl Workspace {
     /// Motions of all bodies as last evaluated.
     pub fn motions(&self) -> &[BodyMotion] {
         &self.motions
-    }
-}
-
-/// An error if a component of the state is not finite.
-pub(crate) fn check_finite(time: f64, y: &[f64]) -> Result<(), DynamicsError> {
-    match y.iter().position(|x| !x.is_finite()) {
-        None => Ok(()),
-        Some(component) => Err(DynamicsError::NotFinite {
-            time,
-            component,
-            value: y[component],
-        }),
     }
 }

@@ -4,7 +4,7 @@ mod common;
 
 use std::sync::Arc;
 
-use wingbeat_dynamics::added_mass::add_by_response;
+use wingbeat_dynamics::add_by_response;
 use wingbeat_dynamics::{
     AddedMass, Baumgarte, Body, BodyMotion, EulerForm, Formulation, Freedom, Hinge, Joint,
     MomentumForm, NaturalUnits, QuaternionForm, Solution, Stabilization, System, Wrench,

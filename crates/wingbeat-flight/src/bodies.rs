@@ -12,7 +12,6 @@ use wingbeat_model::{Animal, Wing};
 
 use crate::joints::JointSetup;
 use crate::setup::{FlightSetup, FormulationChoice, MotionMode};
-use crate::stages::natural_units;
 
 /// The multibody system of an animal of body and wings: body 0 is the central body (2-3-1
 /// angles), then its wings (1-3-2 angles), each on a hinge whose rotation is prescribed (seed
@@ -213,4 +212,20 @@ pub fn joint_coordinates(setup: &FlightSetup) -> Result<Vec<JointCoordinate>, Dy
 pub fn loop_names(setup: &FlightSetup) -> Result<Vec<String>, DynamicsError> {
     let system = system_of(setup)?;
     Ok(system.loops().iter().map(|l| l.name.clone()).collect())
+}
+
+/// Natural units: the farthest wing node from its hinge (else the body, else a metre) and the
+/// period of a wingbeat (else ten steps).
+pub fn natural_units(setup: &FlightSetup) -> NaturalUnits {
+    let farthest = |nodes: &[DVec3]| nodes.iter().fold(0.0_f64, |m, r| m.max(r.length()));
+    let wings = setup.animal.wings.iter().map(|w| farthest(&w.mesh.nodes));
+    let body = setup.animal.parts.iter().map(|p| farthest(&p.mesh.nodes));
+    let length = [wings.fold(0.0, f64::max), body.fold(0.0, f64::max), 1.0];
+    NaturalUnits {
+        length: length
+            .into_iter()
+            .find(|l| *l > 0.0)
+            .expect("1 is positive"),
+        time: setup.time.period.unwrap_or(10.0 * setup.time.step),
+    }
 }

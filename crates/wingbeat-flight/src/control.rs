@@ -6,73 +6,16 @@
 //! some looks after it was formed (the latency).
 
 use std::collections::VecDeque;
-use std::fmt;
 use std::sync::{Arc, RwLock};
 
-use wingbeat_dynamics::BodyMotion;
 use wingbeat_math::{DVec3, MovingRotation, RotationLaw};
 use wingbeat_model::motion::Adjustment;
 use wingbeat_model::{Side, Wing, WingMotion};
 
+pub use crate::controller::{Controller, Sensed};
 use crate::error::FlightError;
 use crate::setup::FlightSetup;
-
-/// What a controller sees.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Sensed {
-    /// Number of this look, from 0.
-    pub look: usize,
-    /// Time since the release [s].
-    pub time: f64,
-    /// Motion of the root body.
-    pub root: BodyMotion,
-    /// Mass centre of the whole, N components [m].
-    pub centre: DVec3,
-    /// Velocity of the mass centre, N components [m/s].
-    pub velocity: DVec3,
-}
-
-/// A controller: from what is sensed to one adjustment per wing.
-pub trait Controller: Send {
-    /// Adjustments of the wings, in the animal's order, on top of the motion of the case. Changes of
-    /// frequency are not possible in flight.
-    fn command(&mut self, sensed: &Sensed) -> Vec<Adjustment>;
-
-    /// Everything it remembers, for a flight that is resumed.
-    fn memory(&self) -> Vec<f64> {
-        vec![]
-    }
-
-    /// Goes on from what it remembered.
-    fn restore(&mut self, _memory: &[f64]) {}
-}
-
-/// What makes the controller of a flight.
-pub trait ControlModel: fmt::Debug + Send + Sync {
-    /// The controller at the start of a flight of `setup`.
-    ///
-    /// # Errors
-    /// A flight that it cannot control.
-    fn open(&self, setup: &FlightSetup) -> Result<Box<dyn Controller>, FlightError>;
-}
-
-/// A controller that can be copied controls any flight.
-impl<C: Controller + Clone + fmt::Debug + Sync + 'static> ControlModel for C {
-    fn open(&self, _setup: &FlightSetup) -> Result<Box<dyn Controller>, FlightError> {
-        Ok(Box::new(self.clone()))
-    }
-}
-
-/// Feedback of a flight.
-#[derive(Clone, Debug)]
-pub struct Feedback {
-    /// The controller.
-    pub controller: Arc<dyn ControlModel>,
-    /// Time steps from one look to the next, at least [`MIN_INTERVAL`].
-    pub interval: usize,
-    /// Looks from sensing to the beginning of the passage to the command.
-    pub latency: usize,
-}
+pub use crate::setup::{ControlModel, Feedback};
 
 /// Shortest interval of looks [time steps]: the starting values of a multistep method must not
 /// see a change of command.

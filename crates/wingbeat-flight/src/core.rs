@@ -6,7 +6,8 @@ use wingbeat_dynamics::{
 };
 
 use crate::error::FlightError;
-use crate::setup::PrescribedMotion;
+use crate::prescribed::PrescribedMotion;
+use crate::setup::{FlightSetup, MotionMode};
 
 /// The bodies' equations of motion, free or tethered.
 #[expect(clippy::large_enum_variant, reason = "there are one or two per flight")]
@@ -220,5 +221,20 @@ pub fn root_motion(motion: &PrescribedMotion, t: f64) -> RootMotion {
             linear: root.acceleration,
             angular: root.angular_acceleration,
         },
+    }
+}
+
+impl FlightSetup {
+    /// Motion of the root at time zero.
+    pub fn root_at_start(&self) -> BodyMotion {
+        match &self.mode {
+            MotionMode::Tethered(motion) => root_motion(motion, 0.0).motion,
+            MotionMode::Free(start) => BodyMotion {
+                p: start.position,
+                r: start.rotation(),
+                v: start.velocity,
+                w: start.angular_velocity,
+            },
+        }
     }
 }

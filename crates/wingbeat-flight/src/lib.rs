@@ -25,26 +25,29 @@ pub mod air;
 mod applied;
 mod bodies;
 pub mod control;
+mod controller;
 mod core;
 mod equations;
 mod error;
 mod free;
 pub mod joints;
+mod prescribed;
 pub mod record;
 mod recorder;
+mod seam;
 pub mod setup;
 pub mod simulation;
 mod solver;
 mod stages;
 mod validate;
 
-pub use air::external::{Announcement, ExternalAir, ExternalSession};
-pub use air::{Air, AirScratch, Instant, check_joined, strips};
+pub use air::{check_joined, strips};
 pub use bodies::{
-    JointCoordinate, WingLaw, check_assembly, joint_coordinates, loop_names, system, system_of,
-    system_with,
+    JointCoordinate, WingLaw, check_assembly, joint_coordinates, loop_names, natural_units, system,
+    system_of, system_with,
 };
-pub use control::{ControlModel, Controller, Feedback, Passage, Sensed};
+pub use control::Passage;
+pub use controller::{Controller, Sensed};
 pub use error::FlightError;
 pub use free::{FreeFlight, FreeFlightScratch};
 pub use joints::JointSetup;
@@ -53,6 +56,6 @@ pub use record::{
     SurfaceSnapshot, WakeSnapshot,
 };
 pub use recorder::Ledger;
+pub use seam::{Air, AirScratch, Announcement, ExternalAir, ExternalSession, Instant};
 pub use setup::*;
 pub use simulation::{FlightState, Simulation};
-pub use stages::natural_units;

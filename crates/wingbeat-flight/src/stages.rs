@@ -3,13 +3,12 @@
 use std::sync::Arc;
 
 use wingbeat_dynamics::{
-    Baumgarte, BodyMotion, EulerForm, Formulation, Mechanism, MomentumForm, NaturalUnits,
-    QuaternionForm, Stabilization, System,
+    Baumgarte, EulerForm, Formulation, Mechanism, MomentumForm, QuaternionForm, Stabilization,
+    System,
 };
-use wingbeat_math::DVec3;
 
 use crate::bodies::{self, WingLaw};
-use crate::core::{Core, root_motion};
+use crate::core::Core;
 use crate::equations::Equations;
 use crate::error::FlightError;
 use crate::joints::Path;
@@ -90,21 +89,6 @@ fn stabilization(choice: StabilizationChoice, step: f64) -> Stabilization {
     }
 }
 
-impl FlightSetup {
-    /// Motion of the root at time zero.
-    pub fn root_at_start(&self) -> BodyMotion {
-        match &self.mode {
-            MotionMode::Tethered(motion) => root_motion(motion, 0.0).motion,
-            MotionMode::Free(start) => BodyMotion {
-                p: start.position,
-                r: start.rotation(),
-                v: start.velocity,
-                w: start.angular_velocity,
-            },
-        }
-    }
-}
-
 /// The chosen formulation of `system`.
 fn formulation(setup: &FlightSetup, system: System) -> Result<Box<dyn Formulation>, FlightError> {
     Ok(match setup.formulation {
@@ -128,21 +112,5 @@ fn held_motion(start: &StartState) -> PrescribedMotion {
             ..DriftingFourier::constant(x[i])
         }),
         angles: start.angles.to_array().map(DriftingFourier::constant),
-    }
-}
-
-/// Natural units: the farthest wing node from its hinge (else the body, else a metre) and the
-/// period of a wingbeat (else ten steps).
-pub fn natural_units(setup: &FlightSetup) -> NaturalUnits {
-    let farthest = |nodes: &[DVec3]| nodes.iter().fold(0.0_f64, |m, r| m.max(r.length()));
-    let wings = setup.animal.wings.iter().map(|w| farthest(&w.mesh.nodes));
-    let body = setup.animal.parts.iter().map(|p| farthest(&p.mesh.nodes));
-    let length = [wings.fold(0.0, f64::max), body.fold(0.0, f64::max), 1.0];
-    NaturalUnits {
-        length: length
-            .into_iter()
-            .find(|l| *l > 0.0)
-            .expect("1 is positive"),
-        time: setup.time.period.unwrap_or(10.0 * setup.time.step),
     }
 }

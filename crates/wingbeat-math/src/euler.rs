@@ -1,7 +1,7 @@
 //! Euler-angle sequences: rotation, the matrix G of seed eq. 15, its time derivative, inverse.
 
 use crate::rotation::rotation_about;
-use crate::{DMat3, DVec3};
+use glam::{DMat3, DVec3};
 
 /// Three successive rotations about body axes, `R = R_i(eta_0) R_j(eta_1) R_k(eta_2)`.
 ///

@@ -1,7 +1,7 @@
 //! Mass properties of rigid bodies about a frame origin and their algebra (seed eq. 19).
 
 use crate::rotation::{rotation_about, tilde};
-use crate::{DMat3, DVec3};
+use glam::{DMat3, DVec3};
 
 /// Mass, first and second moment of mass of a rigid body about its frame origin, in body
 /// components. The mass centre may be anywhere.

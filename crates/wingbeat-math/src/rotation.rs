@@ -1,6 +1,6 @@
 //! Elementary rotations (active, right-handed) and rotations that move in time.
 
-use crate::{DMat3, DVec3};
+use glam::{DMat3, DVec3};
 
 /// Active rotation about axis 1 by `a` [rad]: `[[1,0,0],[0,c,-s],[0,s,c]]`.
 pub fn r1(a: f64) -> DMat3 {

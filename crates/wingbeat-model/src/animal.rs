@@ -1,6 +1,6 @@
 //! The animal as the solver sees it: meshes, masses, hinges, motions; checks and scaling.
 
-use crate::deformation::Deformation;
+use crate::deformation::{Deformation, span};
 use crate::error::ModelError;
 use crate::integrate::scaled_properties;
 use crate::mesh::{GridMesh, QuadMesh, Side};
@@ -48,6 +48,24 @@ impl Wing {
     /// Corner nodes of all panels, normal +axis 3.
     pub fn panels(&self) -> Vec<[usize; 4]> {
         self.mesh.panels(self.side)
+    }
+
+    /// The same wing with a prescribed deformation.
+    ///
+    /// # Errors
+    /// As [`Deformation::check`]; a panel that loses its area at rest is found by the air.
+    pub fn deformed_by(self, deformation: Deformation) -> Result<Self, ModelError> {
+        deformation.check(&self.name, self.root(), &self.motion)?;
+        Ok(Self {
+            deformation: Some(deformation),
+            ..self
+        })
+    }
+
+    /// Least distance of the surface from the hinge along the span over the largest.
+    pub fn root(&self) -> f64 {
+        let [root, tip] = span(&self.mesh);
+        root / tip
     }
 }
 

@@ -137,6 +137,16 @@ pub(crate) fn positive(key: &str, value: f64) -> Result<f64, ModelError> {
     require(key, value, value > 0.0, "a finite number > 0")
 }
 
+/// A finite number, zero or greater.
+pub(crate) fn not_negative(key: &str, value: f64) -> Result<f64, ModelError> {
+    require(key, value, value >= 0.0, "a finite number >= 0")
+}
+
+/// A part of a whole.
+pub(crate) fn fraction(key: &str, value: f64) -> Result<f64, ModelError> {
+    require(key, value, (0.0..=1.0).contains(&value), "in [0, 1]")
+}
+
 /// A finite number.
 pub(crate) fn finite(key: &str, value: f64) -> Result<f64, ModelError> {
     require(key, value, true, "a finite number")

@@ -7,8 +7,8 @@
 //! The integrands are polynomials of at most fourth degree in u and v: three Gauss points each
 //! way are exact.
 
-use crate::mesh::{QuadMesh, Side};
-use crate::{GridMesh, ModelError, error::positive};
+use crate::error::{ModelError, not_negative, positive};
+use crate::mesh::{GridMesh, QuadMesh, Side};
 use wingbeat_math::{DMat3, DVec3, MassProperties};
 
 /// Abscissas on [0, 1] and weights of the three-point Gauss rule (exact to degree five).
@@ -183,10 +183,6 @@ fn validated(name: &str, p: MassProperties) -> Result<MassProperties, ModelError
         source,
     })?;
     Ok(p)
-}
-
-fn not_negative(key: &str, value: f64) -> Result<f64, ModelError> {
-    crate::error::require(key, value, value >= 0.0, "a finite number >= 0")
 }
 
 fn check_span_table(key: &str, rows: &[(f64, f64)]) -> Result<(), ModelError> {

@@ -26,6 +26,7 @@
 pub mod animal;
 pub mod build;
 pub mod check;
+mod closed;
 pub mod deformation;
 pub mod error;
 pub mod import;

@@ -168,27 +168,6 @@ impl QuadMesh {
         self.nodes.len() as i64 - undirected.count() as i64 + self.quads.len() as i64
     }
 
-    /// Panels, finite nodes, each edge shared by exactly two panels in opposite directions, one
-    /// piece, normals outward.
-    ///
-    /// # Errors
-    /// The first condition that fails.
-    pub fn check_closed(&self, name: &str) -> Result<(), ModelError> {
-        let key = format!("{name}.panels");
-        require_count(&key, self.quads.len(), !self.quads.is_empty(), ">= 1")?;
-        self.check_panels(name)?;
-        self.check_edges(name)?;
-        self.check_one_piece(name)?;
-        let volume = crate::integrate::volume(self);
-        if volume > 0.0 {
-            return Ok(());
-        }
-        Err(ModelError::Inward {
-            part: name.to_owned(),
-            volume,
-        })
-    }
-
     /// Finite nodes and panels with area.
     pub(crate) fn check_panels(&self, name: &str) -> Result<(), ModelError> {
         if let Some(row) = self.nodes.iter().position(|x| !x.is_finite()) {
@@ -212,7 +191,8 @@ impl QuadMesh {
         }
     }
 
-    fn check_edges(&self, name: &str) -> Result<(), ModelError> {
+    /// Each edge is shared by exactly two panels in opposite directions.
+    pub(crate) fn check_edges(&self, name: &str) -> Result<(), ModelError> {
         let edges = self.directed_edges();
         for (&(a, b), &panels) in &edges {
             let opposite = edges.get(&(b, a)).copied().unwrap_or(0);
@@ -228,7 +208,8 @@ impl QuadMesh {
         Ok(())
     }
 
-    fn check_one_piece(&self, name: &str) -> Result<(), ModelError> {
+    /// All nodes hang together.
+    pub(crate) fn check_one_piece(&self, name: &str) -> Result<(), ModelError> {
         let pieces = self.pieces();
         if pieces == 1 {
             return Ok(());

@@ -9,10 +9,10 @@
 
 use wingbeat_math::{DMat3, DVec3};
 
-use super::Baumgarte;
 use super::constraint::HingeKinematics;
 use super::coordinates::{BodyKinematics, PER_BODY, write};
 use super::inertia::{MassBlocks, equations};
+use crate::baumgarte::Baumgarte;
 use crate::{System, Wrench};
 
 /// Position part and angle part of six numbers that belong to a body.

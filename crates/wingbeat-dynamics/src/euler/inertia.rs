@@ -5,8 +5,8 @@ use wingbeat_math::{DMat3, DVec3, tilde};
 
 use super::coordinates::BodyKinematics;
 use super::forces::generalized_wrench;
-use crate::inverse::weight_wrench;
-use crate::{Body, Wrench};
+use crate::body::{Body, weight_wrench};
+use crate::motion::Wrench;
 
 /// Blocks of the symmetric mass matrix of one body (seed eq. 18), or of its rate.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

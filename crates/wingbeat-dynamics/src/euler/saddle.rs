@@ -7,10 +7,10 @@
 
 use wingbeat_math::{DMat3, DVec3, SingularMatrix, solve_small};
 
-use super::Baumgarte;
 use super::constraint::{AngleJacobian, HingeKinematics};
 use super::coordinates::{BodyKinematics, PER_BODY};
 use super::inertia::equations;
+use crate::baumgarte::Baumgarte;
 use crate::{System, Wrench};
 
 /// Share of the total mass that sets the scale of a body without mass.

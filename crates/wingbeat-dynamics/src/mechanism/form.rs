@@ -11,10 +11,11 @@
 
 use wingbeat_math::{DMat3, DQuat, DVec3, solve_small, tilde};
 
-use super::link::{LinkKinematics, Row};
-use super::{Link, Mechanism};
-use crate::budget::kinetic_energy;
-use crate::workspace::check_finite;
+use super::link::{LinkKinematics, Row, kinematics};
+use super::structure::Mechanism;
+use crate::body::kinetic_energy;
+use crate::check::check_state;
+use crate::link::Link;
 use crate::{Baumgarte, BodyAcceleration, BodyMotion, DynamicsError, HingeReaction, Wrench};
 
 /// Numbers per body in the state.
@@ -124,7 +125,7 @@ impl AbsoluteForm {
     /// The state is not finite.
     pub fn motions(&self, t: f64, y: &[f64], out: &mut [BodyMotion]) -> Result<(), DynamicsError> {
         assert_eq!(y.len(), self.dim(), "13 components for every body");
-        check_finite(t, y)?;
+        check_state(t, y)?;
         for (m, y) in out.iter_mut().zip(y.chunks_exact(PER_BODY)) {
             let v = |i: usize| DVec3::from_slice(&y[i..]);
             *m = BodyMotion {
@@ -449,12 +450,6 @@ fn put(matrix: &mut [f64], n: usize, row: usize, col: usize, block: DMat3) {
         let at = (row + i) * n + col;
         block.row(i).write_to_slice(&mut matrix[at..at + 3]);
     }
-}
-
-/// A link with its bodies.
-pub(crate) fn kinematics(link: &Link, t: f64, motions: &[BodyMotion]) -> LinkKinematics {
-    let parent = link.parent.map_or(&BodyMotion::REST, |p| &motions[p]);
-    LinkKinematics::new(link, t, parent, &motions[link.child])
 }
 
 fn link_kinematics(links: &[Link], t: f64, motions: &[BodyMotion]) -> Vec<LinkKinematics> {

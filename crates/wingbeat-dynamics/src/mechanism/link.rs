@@ -9,8 +9,9 @@
 
 use wingbeat_math::{DMat3, DQuat, DVec3, untilde};
 
-use super::Link;
-use crate::{BodyMotion, Freedom};
+use crate::joint::Freedom;
+use crate::link::Link;
+use crate::motion::BodyMotion;
 
 /// One scalar constraint.
 #[derive(Clone, Copy, Debug)]
@@ -228,6 +229,12 @@ impl LinkKinematics {
             _ => false,
         }
     }
+}
+
+/// A link with its bodies.
+pub(crate) fn kinematics(link: &Link, t: f64, motions: &[BodyMotion]) -> LinkKinematics {
+    let parent = link.parent.map_or(&BodyMotion::REST, |p| &motions[p]);
+    LinkKinematics::new(link, t, parent, &motions[link.child])
 }
 
 /// Two unit vectors that make a right-handed frame with the unit vector `axis`.

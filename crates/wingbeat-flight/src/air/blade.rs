@@ -13,8 +13,8 @@ use wingbeat_math::DVec3;
 use wingbeat_model::deformation::Stations;
 use wingbeat_model::{Animal, Wing, WingMotion};
 
-use super::{Air, AirScratch, Instant};
 use crate::error::FlightError;
+use crate::seam::{Air, AirScratch, Instant};
 use crate::setup::BladeOptions;
 
 /// The blade elements of an animal.

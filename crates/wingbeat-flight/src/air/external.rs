@@ -1,4 +1,4 @@
-//! The seam behind which another program's air stands.
+//! Another program's air.
 //!
 //! Bodies ask for loads in trial motions, as often as the corrector needs; a step that converged
 //! is accepted once, with the motion asked for last. Steps are numbered; the starting values of
@@ -9,53 +9,11 @@ use std::fmt;
 use std::sync::{Mutex, MutexGuard};
 
 use wingbeat_air::AirState;
-use wingbeat_dynamics::{BodyMotion, System, Wrench};
+use wingbeat_dynamics::{System, Wrench};
 
-use super::{Air, AirScratch, Instant};
 use crate::error::FlightError;
+use crate::seam::{Air, AirScratch, Announcement, ExternalAir, ExternalSession, Instant};
 use crate::setup::FlightSetup;
-
-/// What a partner is told before the flight.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Announcement {
-    /// Names of all bodies, in the order of their motions: root, wings, segments.
-    pub bodies: Vec<String>,
-    /// All joints: name, parent and child as indices of bodies.
-    pub joints: Vec<(String, usize, usize)>,
-    /// Time step [s].
-    pub step: f64,
-}
-
-/// Air computed by someone else.
-pub trait ExternalAir: fmt::Debug + Send + Sync {
-    /// Begins a flight.
-    ///
-    /// # Errors
-    /// What keeps the partner from answering.
-    fn open(&self, flyer: &Announcement) -> Result<Box<dyn ExternalSession>, String>;
-}
-
-/// A flight in such air.
-pub trait ExternalSession: Send {
-    /// Loads about the origins of the bodies, N components, if they move like `motions` at step
-    /// number `step`, time `time` [s].
-    ///
-    /// # Errors
-    /// What the partner says.
-    fn loads(
-        &mut self,
-        step: usize,
-        time: f64,
-        motions: &[BodyMotion],
-        out: &mut [Wrench],
-    ) -> Result<(), String>;
-
-    /// The motion asked for last is that of step number `step`.
-    ///
-    /// # Errors
-    /// What the partner says.
-    fn accept(&mut self, step: usize) -> Result<(), String>;
-}
 
 /// The session of a flight, shared by its stages, with the step asked for last.
 pub struct Session(Mutex<(Box<dyn ExternalSession>, usize)>);

@@ -5,9 +5,9 @@ use wingbeat_dynamics::{BodyAcceleration, Wrench};
 use wingbeat_math::DVec3;
 
 use super::surfaces::{SurfaceMap, twins};
-use super::{Air, AirScratch, Instant, misfit};
 use crate::error::FlightError;
 use crate::record::{ParticleSnapshot, Snapshot, SurfaceSnapshot, WakeSnapshot};
+use crate::seam::{Air, AirScratch, Instant, misfit};
 use crate::setup::{AirOptions, FlightSetup};
 
 /// The lattice and its map to the bodies.

@@ -1,9 +1,4 @@
-//! The seam of the air: what the equations of motion ask of it, and the models behind it.
-//!
-//! An air answers with two things: loads that follow from positions, velocities and its own memory
-//! (a wake), and masses that bodies carry along ([`AddedMass`]), which join the inertia of the
-//! bodies. Within a step the memory is frozen; it moves on once per step and is accepted with the
-//! motion that the corrector found.
+//! The models of the air behind the seam ([`Air`]).
 //!
 //! | model | module | memory |
 //! |---|---|---|
@@ -21,159 +16,18 @@ mod lattice;
 mod surfaces;
 mod table;
 
-use std::fmt;
 use std::sync::Arc;
 
-use wingbeat_air::{AirLoads, AirState, AirWorkspace, NodeMotion, Points};
-use wingbeat_dynamics::{AddedMass, BodyAcceleration, BodyMotion, System, Wrench};
+use wingbeat_air::AirState;
+use wingbeat_dynamics::{System, Wrench};
 
 use crate::error::FlightError;
-use crate::record::Snapshot;
 use crate::setup::{AirModel, FlightSetup};
 
+pub use crate::seam::{Air, AirScratch, Instant};
 pub use blade::{BladeAir, strips};
 pub use lattice::LatticeAir;
 pub use surfaces::check_joined;
-
-/// The bodies at one instant, as the air sees them.
-#[derive(Clone, Copy, Debug)]
-pub struct Instant<'a> {
-    /// Time [s].
-    pub time: f64,
-    /// Time step of the flight [s].
-    pub step: f64,
-    /// Motions of all bodies: root, wings, segments.
-    pub motions: &'a [BodyMotion],
-}
-
-/// Room for intermediate results of the air; what it holds belongs to the instant last asked for.
-#[derive(Default)]
-pub struct AirScratch {
-    /// Nodes of the lattice.
-    pub nodes: NodeMotion,
-    /// Circulations, pressure jumps, panel forces.
-    pub loads: AirLoads,
-    workspace: AirWorkspace,
-    nodes_done: NodeMotion,
-    is_current: bool,
-}
-
-/// Air around bodies that move. See the [module](self) for what is asked when.
-pub trait Air: fmt::Debug + Send + Sync {
-    /// Loads about the origins of all bodies, N components, but for those of the added mass.
-    ///
-    /// # Errors
-    /// What the model reports.
-    fn loads(
-        &self,
-        at: &Instant<'_>,
-        memory: Option<&AirState>,
-        scratch: &mut AirScratch,
-        out: &mut [Wrench],
-    ) -> Result<(), FlightError>;
-
-    /// Masses that the bodies carry along at time `t` [s], into `out`, which is empty.
-    fn added_mass(&self, _t: f64, _out: &mut Vec<AddedMass>) {}
-
-    /// Whether loads depend on the past.
-    fn has_memory(&self) -> bool {
-        false
-    }
-
-    /// Whether the loads depend on time or place beside the motion of the bodies: gusts, shear,
-    /// ground. A wingbeat is then not like the next.
-    fn is_uniform(&self) -> bool {
-        true
-    }
-
-    /// Room for intermediate results.
-    fn scratch(&self) -> AirScratch {
-        AirScratch::default()
-    }
-
-    /// Puts the surfaces where the bodies are.
-    ///
-    /// # Errors
-    /// Surfaces that do not fit together.
-    fn place(&self, _at: &Instant<'_>, _scratch: &mut AirScratch) -> Result<(), FlightError> {
-        Ok(())
-    }
-
-    /// The memory before the first step, the surfaces placed.
-    fn initial(&self, _scratch: &AirScratch) -> Option<AirState> {
-        None
-    }
-
-    /// Moves the memory on by one `step` [s].
-    ///
-    /// # Errors
-    /// Velocities that are not finite.
-    fn advance(
-        &self,
-        _memory: &mut Option<AirState>,
-        _step: f64,
-        _scratch: &mut AirScratch,
-    ) -> Result<(), FlightError> {
-        Ok(())
-    }
-
-    /// Accepts the instant last asked for.
-    ///
-    /// # Errors
-    /// The memory has not been moved on.
-    fn accept(
-        &self,
-        _memory: &mut Option<AirState>,
-        _scratch: &AirScratch,
-    ) -> Result<(), FlightError> {
-        Ok(())
-    }
-
-    /// Checks that a saved memory is one of this air.
-    ///
-    /// # Errors
-    /// What does not fit.
-    fn check(&self, memory: Option<&AirState>) -> Result<(), FlightError> {
-        match memory {
-            None => Ok(()),
-            Some(_) => Err(misfit("the case has no air with a memory")),
-        }
-    }
-
-    /// Whether any wing moves otherwise than its body.
-    fn deforms(&self) -> bool {
-        false
-    }
-
-    /// Power that is needed to deform the wings against the air [W], body by body.
-    fn deformation_power(
-        &self,
-        _at: &Instant<'_>,
-        _accelerations: &[BodyAcceleration],
-        _scratch: &AirScratch,
-        _out: &mut [f64],
-    ) {
-    }
-
-    /// Surfaces and wakes at the instant last asked for; none where there are none.
-    fn snapshot(&self, _memory: Option<&AirState>, _scratch: &AirScratch) -> Snapshot {
-        Snapshot::default()
-    }
-
-    /// Velocity of the air [m/s] at `points` [m], N; none where the model has none.
-    fn velocity(&self, _memory: Option<&AirState>, _points: &Points) -> Option<Points> {
-        None
-    }
-}
-
-/// A memory that belongs to another case.
-fn misfit(problem: &str) -> FlightError {
-    FlightError::Setup {
-        key: "state",
-        value: "air".into(),
-        problem: problem.into(),
-    }
-}
 
 /// No air at all.
 #[derive(Clone, Copy, Debug)]

@@ -6,8 +6,8 @@ use wingbeat_dynamics::Wrench;
 use wingbeat_model::Animal;
 
 use super::blade::{frame, turned};
-use super::{Air, AirScratch, Instant};
 use crate::error::FlightError;
+use crate::seam::{Air, AirScratch, Instant};
 
 /// A table of derivatives as the air of the whole animal.
 #[derive(Clone, Copy, Debug)]

@@ -14,7 +14,8 @@
 //! difference of order two up to mu = 0.359, with that of order one up to 0.701; beyond, y alternates
 //! from step to step and grows, whatever the step.
 
-use super::{Convergence, Multistep, StepError, StepReport, agree};
+use super::corrector::{Convergence, StepError, StepReport, agree};
+use super::hamming::Multistep;
 
 /// The method: step, convergence and scratch.
 #[derive(Clone, Debug)]

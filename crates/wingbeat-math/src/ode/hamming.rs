@@ -11,28 +11,7 @@
 //! With one, two, three corrector passes the limits of stability on the real axis are
 //! |lambda h| = 0.88, 0.72, 1.46, on the imaginary axis 0.28, 0.80, 1.08.
 
-use super::{StepError, agree};
-
-/// When the corrector is done.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Convergence {
-    /// Largest scaled change of the last pass [1]; 0 always makes `max_passes` passes and never
-    /// fails.
-    pub tolerance: f64,
-    /// Most passes.
-    pub max_passes: usize,
-    /// Relaxation factor of a pass in (0, 1].
-    pub relaxation: f64,
-}
-
-/// What happened in a step.
-#[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
-pub struct StepReport {
-    /// Corrector passes made.
-    pub passes: usize,
-    /// Scaled change of the last pass.
-    pub residual: f64,
-}
+use super::corrector::{Convergence, StepError, StepReport, agree};
 
 /// The past that a multistep method needs: plain data, enough to go on bit for bit.
 #[derive(Clone, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]

@@ -13,8 +13,8 @@
 //! iterated until they agree. A right-hand side with a history (a wake) is replayed from the
 //! start in every sweep and frozen within a step, as it will be later on.
 
-use super::hamming::{Convergence, Multistep, StepReport};
-use super::{StepError, scaled_difference};
+use super::corrector::{Convergence, StepError, StepReport, scaled_difference};
+use super::hamming::Multistep;
 
 /// Most sweeps over the three starting steps. Smooth right-hand sides converge in six or so; a
 /// history that reacts to the smallest change (a wake that passes a wing on this or on that side)

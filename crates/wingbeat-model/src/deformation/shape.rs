@@ -1,6 +1,7 @@
 //! From the laws to places, velocities and accelerations of points in the wing frame.
 
-use super::{Deformation, Section, Term};
+use crate::deformation::law::{Section, Term};
+use crate::deformation::prescribed::Deformation;
 use crate::mesh::GridMesh;
 use wingbeat_math::DVec3;
 

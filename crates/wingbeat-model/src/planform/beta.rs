@@ -6,9 +6,7 @@
 //! is kept there so that no panel degenerates, and the parameter is solved for so that the wing
 //! as built has the wanted r2_hat about the hinge.
 
-use super::{Curve, Edges, fraction, not_negative};
-use crate::ModelError;
-use crate::error::{positive, require};
+use crate::error::{ModelError, fraction, not_negative, positive, require};
 use std::f64::consts::PI;
 
 /// How the size of the chord is given.
@@ -123,14 +121,6 @@ impl Beta {
             ChordSize::Max(c) => positive("planform.max_chord", c)?,
         };
         Ok(BetaChord { max, ..unit })
-    }
-
-    pub(super) fn edges(&self) -> Result<Edges, ModelError> {
-        Ok(Edges {
-            root: self.root_offset,
-            tip: self.length,
-            curve: Curve::Beta(self.fit()?, self.axis_fraction),
-        })
     }
 
     /// Bisection: r2_hat rises with r1.

@@ -1,29 +1,6 @@
-//! Prescribed deformation of a wing: twist, camber and spanwise bending as laws along the span
-//! times Fourier series in time.
-//!
-//! In the wing frame, at the distance r from the hinge, chord c, twist axis at the part `a` of the
-//! chord behind the leading edge (x = x_a):
-//!
-//! 1. camber lifts the mean line by `h(r, t) c g(s)` towards -axis 3, `g` a mean line of height 1
-//!    and s the part of the chord behind the leading edge;
-//! 2. twist turns the section by `tau(r, t)` about the parallel to axis 2 through x_a, in the sense
-//!    of the feathering angle psi: positive raises the leading edge towards -axis 3;
-//! 3. bending moves the section by `w(r, t)` towards -axis 3. It stays parallel to itself and at its
-//!    place along axis 2, so the surface is stretched at second order of the slope dw/dr.
-//!
-//! Towards -axis 3 is up for a wing at zero angles. Time enters through the phase of the wing's own
-//! beat, so a smooth start of the motion is one of the deformation too. Positions, velocities and
-//! accelerations are analytic. Both wings of a mirrored pair have the same laws.
-//!
-//! The mass of the wing does not follow: for its inertia the wing stays the rigid body it was.
+//! Which laws a wing has.
 
-mod law;
-mod shape;
-
-pub use law::{Section, SpanLaw, Term};
-pub use shape::{DeformingMesh, Stations};
-
-use crate::animal::Wing;
+use crate::deformation::law::Term;
 use crate::error::{ModelError, finite, require};
 use crate::motion::WingMotion;
 
@@ -104,24 +81,4 @@ impl Deformation {
 fn named<'a>(name: &'static str, terms: &'a [Term]) -> impl Iterator<Item = (String, &'a Term)> {
     let of = move |(k, term)| (format!("{name}[{k}]"), term);
     terms.iter().enumerate().map(of)
-}
-
-impl Wing {
-    /// The same wing with a prescribed deformation.
-    ///
-    /// # Errors
-    /// As [`Deformation::check`]; a panel that loses its area at rest is found by the air.
-    pub fn deformed_by(self, deformation: Deformation) -> Result<Self, ModelError> {
-        deformation.check(&self.name, self.root(), &self.motion)?;
-        Ok(Self {
-            deformation: Some(deformation),
-            ..self
-        })
-    }
-
-    /// Least distance of the surface from the hinge along the span over the largest.
-    pub fn root(&self) -> f64 {
-        let [root, tip] = shape::span(&self.mesh);
-        root / tip
-    }
 }

@@ -1,23 +1,10 @@
-//! Wing motion: three prescribed angles per wing, `C(t) = R2(eta) R1(phi) R3(theta) R2(psi)`.
-//!
-//! `eta` is the constant stroke-plane pitch. Angles are laws of the phase x \[wingbeats\]; the
-//! phase runs as `x(t) = f tau(t) + x0` with a time warp tau that lets the motion rise from
-//! rest. Derivatives are analytic: `q' = q_x x'`, `q'' = q_xx x'^2 + q_x x''`.
+//! The angles of a wing, and the rotation that they make.
 
-pub mod adjust;
-pub mod berman_wang;
-pub mod fourier;
-pub mod spline;
-pub mod start;
-
-pub use adjust::Adjustment;
-pub use berman_wang::{Oval, SmoothSquare, SmoothTriangle};
-pub use fourier::Fourier;
-pub use spline::PeriodicSpline;
-pub use start::Start;
-
-use crate::ModelError;
-use crate::error::{finite, require};
+use crate::error::{ModelError, finite, require};
+use crate::motion::berman_wang::{Oval, SmoothSquare, SmoothTriangle};
+use crate::motion::fourier::Fourier;
+use crate::motion::spline::PeriodicSpline;
+use crate::motion::start::Start;
 use wingbeat_math::{MovingRotation, RotationLaw};
 
 /// An angle as a function of the phase x \[wingbeats\], period 1 \[rad\].

@@ -1,18 +1,9 @@
-//! Wing planforms: leading and trailing edge over the span, and the grid between them.
-//!
-//! r is the distance from the hinge along the span, x runs towards the leading edge; the hinge
-//! (feathering) axis is x = 0.
+//! Outlines of wings.
 
-pub mod beta;
-
-pub use beta::{Beta, BetaChord, ChordSize};
-
-use crate::ModelError;
-use crate::error::{finite, positive, require, require_count};
+use crate::error::{ModelError, finite, fraction, not_negative, positive, require, require_count};
 use crate::integrate::interpolate;
-use crate::mesh::{GridMesh, Side};
-use std::f64::consts::PI;
-use wingbeat_math::DVec3;
+use crate::planform::beta::Beta;
+use crate::planform::edges::{Curve, Edges};
 
 /// The outline of a wing.
 #[derive(Clone, Debug, PartialEq)]
@@ -93,7 +84,11 @@ impl Planform {
                     curve: Curve::Straight(lead, lead - chord),
                 })
             }
-            Planform::Beta(beta) => beta.edges(),
+            Planform::Beta(beta) => Ok(Edges {
+                root: beta.root_offset,
+                tip: beta.length,
+                curve: Curve::Beta(beta.fit()?, beta.axis_fraction),
+            }),
             Planform::Outline {
                 leading,
                 trailing,
@@ -101,124 +96,6 @@ impl Planform {
             } => outline_edges(leading, trailing, *least_chord),
         }
     }
-}
-
-/// Leading and trailing edge of a planform as functions of r.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Edges {
-    /// Distance from the hinge to the root \[m\].
-    pub root: f64,
-    /// Distance from the hinge to the tip: the wing length R \[m\].
-    pub tip: f64,
-    pub(crate) curve: Curve,
-}
-
-#[derive(Clone, Debug, PartialEq)]
-pub(crate) enum Curve {
-    Straight(f64, f64),
-    Beta(BetaChord, f64),
-    Points(Vec<(f64, f64)>, Vec<(f64, f64)>, f64),
-}
-
-impl Edges {
-    /// Leading and trailing edge x at the distance `r` from the hinge \[m\].
-    pub fn at(&self, r: f64) -> [f64; 2] {
-        match &self.curve {
-            &Curve::Straight(lead, trail) => [lead, trail],
-            Curve::Beta(chord, ahead) => {
-                let c = chord.at((r - self.root) / (self.tip - self.root));
-                [ahead * c, (ahead - 1.0) * c]
-            }
-            Curve::Points(leading, trailing, least) => {
-                let [a, b] = [interpolate(leading, r), interpolate(trailing, r)];
-                let widen = 0.5 * (least - (a - b)).max(0.0);
-                [a + widen, b - widen]
-            }
-        }
-    }
-}
-
-/// Spacing of grid lines between 0 and 1.
-#[derive(
-    Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize, schemars::JsonSchema,
-)]
-#[serde(rename_all = "snake_case")]
-pub enum Spacing {
-    /// Equal.
-    Uniform,
-    /// `(1 - cos(pi k / n)) / 2`: dense at both ends.
-    Cosine,
-}
-
-impl Spacing {
-    /// Line `k` of `n`.
-    pub fn at(self, k: usize, n: usize) -> f64 {
-        match self {
-            Spacing::Uniform => k as f64 / n as f64,
-            Spacing::Cosine if k == n => 1.0,
-            Spacing::Cosine => 0.5 * (1.0 - (PI * k as f64 / n as f64).cos()),
-        }
-    }
-}
-
-/// A flat wing: planform and mesh density.
-#[derive(Clone, Debug, PartialEq)]
-pub struct WingShape {
-    /// Outline.
-    pub planform: Planform,
-    /// Panels along the chord.
-    pub rows: usize,
-    /// Panels along the span.
-    pub cols: usize,
-    /// Spacing along the chord.
-    pub chordwise: Spacing,
-    /// Spacing along the span.
-    pub spanwise: Spacing,
-}
-
-impl WingShape {
-    /// With uniform spacing both ways.
-    pub fn uniform(planform: Planform, rows: usize, cols: usize) -> Self {
-        Self {
-            planform,
-            rows,
-            cols,
-            chordwise: Spacing::Uniform,
-            spanwise: Spacing::Uniform,
-        }
-    }
-
-    /// The mesh in the wing frame. The left wing is the mirror image of the right bit for bit.
-    ///
-    /// # Errors
-    /// No panels, or a planform that is not allowed; `name` names the wing.
-    pub fn mesh(&self, name: &str, side: Side) -> Result<GridMesh, ModelError> {
-        let (rows, cols) = (self.rows, self.cols);
-        require_count(&format!("{name}.rows"), rows, rows > 0, ">= 1")?;
-        require_count(&format!("{name}.cols"), cols, cols > 0, ">= 1")?;
-        let edges = self.planform.edges()?;
-        let mut nodes = Vec::with_capacity((rows + 1) * (cols + 1));
-        for i in 0..=rows {
-            let s = self.chordwise.at(i, rows);
-            for j in 0..=cols {
-                let r = edges.root + (edges.tip - edges.root) * self.spanwise.at(j, cols);
-                let [lead, trail] = edges.at(r);
-                let x = lead + (trail - lead) * s;
-                nodes.push(DVec3::new(x, side.sign() * r, 0.0));
-            }
-        }
-        let mesh = GridMesh { rows, cols, nodes };
-        mesh.check(name)?;
-        Ok(mesh)
-    }
-}
-
-pub(crate) fn not_negative(key: &str, value: f64) -> Result<f64, ModelError> {
-    require(key, value, value >= 0.0, "a finite number >= 0")
-}
-
-pub(crate) fn fraction(key: &str, value: f64) -> Result<f64, ModelError> {
-    require(key, value, (0.0..=1.0).contains(&value), "in [0, 1]")
 }
 
 /// Drops points of the root and tip edges (same r as the end point) but the innermost one of

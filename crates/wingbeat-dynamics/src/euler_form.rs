@@ -1,0 +1,227 @@
+//! The seed's form of a [`System`]: six absolute coordinates per body, multipliers, Baumgarte stabilization.
+//!
+//! State: q, then q', both in the seed's order (eq. 2). For three bodies that is 18 + 18.
+//!
+//! The constraints hold only as far as integration and stabilization keep them: `alpha = beta =
+//! a / h` with a = 0.1 drifts least at 80 steps per beat; constants of a few tens per second do
+//! nothing at 200 Hz; a > 2.7 makes Runge-Kutta unstable. A stabilization tied to the step lowers a
+//! fourth-order integrator to second order, a fixed one keeps its order. Projection
+//! ([`EulerForm::with_projection`]) removes the drift between steps of a one-step integrator.
+
+use wingbeat_math::DVec3;
+
+use crate::baumgarte::Baumgarte;
+use crate::budget::{budget, load_power};
+use crate::check::{check_rotation, check_state};
+use crate::euler::assembly::{consistent_coordinates, consistent_rates};
+use crate::euler::constraint::HingeKinematics;
+use crate::euler::coordinates::{BodyKinematics, PER_BODY, write};
+use crate::euler::scratch::EulerScratch;
+use crate::posture::Posture;
+use crate::{
+    BodyAcceleration, BodyMotion, DynamicsError, Formulation, HingeReaction, Solution, System,
+    Violation, Workspace, Wrench,
+};
+
+/// The seed's form of a [`System`].
+#[derive(Clone, Debug)]
+pub struct EulerForm {
+    system: System,
+    baumgarte: Baumgarte,
+    projection: bool,
+}
+
+impl EulerForm {
+    /// The Euler form of `system` with stabilization `baumgarte`.
+    pub fn new(system: System, baumgarte: Baumgarte) -> Self {
+        Self {
+            system,
+            baumgarte,
+            projection: false,
+        }
+    }
+
+    /// Projects coordinates and rates onto the constraints in [`Formulation::normalise`].
+    pub fn with_projection(self) -> Self {
+        Self {
+            projection: true,
+            ..self
+        }
+    }
+
+    /// Number of coordinates, six per body.
+    pub fn coordinates(&self) -> usize {
+        PER_BODY * self.system.bodies().len()
+    }
+
+    /// The state with the given motions of all bodies.
+    fn pack(&self, motions: &[BodyMotion]) -> Vec<f64> {
+        let n = self.coordinates();
+        let mut y = vec![0.0; 2 * n];
+        for (i, (b, m)) in self.system.bodies().iter().zip(motions).enumerate() {
+            let eta = b.sequence.angles(m.r);
+            write(&mut y[..n], i, m.p, eta);
+            let eta_dot = b.sequence.g(eta).inverse() * m.w;
+            write(&mut y[n..], i, m.v, eta_dot);
+        }
+        y
+    }
+
+    /// Kinematics of all bodies, checked.
+    fn unfold(&self, t: f64, y: &[f64], ws: &mut Workspace) -> Result<(), DynamicsError> {
+        let n = self.coordinates();
+        assert_eq!(y.len(), 2 * n, "the Euler form has {} components", 2 * n);
+        check_state(t, y)?;
+        for (i, body) in self.system.bodies().iter().enumerate() {
+            let (q, qd) = (&y[PER_BODY * i..n], &y[n + PER_BODY * i..]);
+            let k = BodyKinematics::new(body, q, qd);
+            k.check(body, t)?;
+            ws.euler.bodies[i] = k;
+            ws.motions[i] = k.motion;
+        }
+        Ok(())
+    }
+
+    /// Accelerations and multipliers of seed eq. 30 into the scratch.
+    fn accelerate(
+        &self,
+        t: f64,
+        y: &[f64],
+        loads: &[Wrench],
+        ws: &mut Workspace,
+    ) -> Result<(), DynamicsError> {
+        self.unfold(t, y, ws)?;
+        let s = &mut ws.euler;
+        for (k, h) in self.system.hinges().iter().enumerate() {
+            let (parent, child) = (&s.bodies[h.parent], &s.bodies[h.child]);
+            s.hinges[k] = HingeKinematics::new(h, &h.law.at(t), parent, child);
+        }
+        s.condensed
+            .solve(&self.system, &s.bodies, &s.hinges, loads, self.baumgarte)
+            .ok_or(DynamicsError::SingularSaddle { time: t })
+    }
+
+    /// Accelerations of bodies and reactions of hinges from the solved equations.
+    fn read_solved(&self, s: &EulerScratch, out: &mut Solution) {
+        for (i, k) in s.bodies.iter().enumerate() {
+            let a = &s.condensed.accelerations()[PER_BODY * i..];
+            out.bodies[i] = BodyAcceleration {
+                linear: DVec3::from_slice(a),
+                angular: k.g * DVec3::from_slice(&a[3..]) + k.g_dot * k.eta_dot,
+            };
+        }
+        let lambda = s.condensed.multipliers();
+        let (connection, orientation) = lambda.split_at(3 * s.hinges.len());
+        for (k, h) in s.hinges.iter().enumerate() {
+            let moment = h.reaction_moment(DVec3::from_slice(&orientation[3 * k..]));
+            out.hinges[k] = HingeReaction {
+                force: h.reaction_force(DVec3::from_slice(&connection[3 * k..])),
+                moment,
+                power: moment.dot(h.prescribed_rate()),
+            };
+        }
+        out.multipliers.copy_from_slice(lambda);
+        out.violation = violation(&s.hinges);
+    }
+}
+
+/// Largest constraint of each kind.
+fn violation(hinges: &[HingeKinematics]) -> Violation {
+    let mut v = Violation::default();
+    for h in hinges {
+        v.position = v.position.max(h.connection().abs().max_element());
+        v.orientation = v.orientation.max(h.orientation().abs().max_element());
+    }
+    v
+}
+
+impl Formulation for EulerForm {
+    fn system(&self) -> &System {
+        &self.system
+    }
+
+    fn dim(&self) -> usize {
+        2 * self.coordinates()
+    }
+
+    fn initial(&self, t: f64, root: &BodyMotion) -> Result<Vec<f64>, DynamicsError> {
+        self.system.refuse_loops("Euler")?;
+        if let Some(hinge) = self.system.first_free_hinge() {
+            return Err(DynamicsError::NotInEulerForm {
+                hinge: hinge.into(),
+            });
+        }
+        check_rotation(root.r, t, || "the root's attitude".into())?;
+        Posture::check(&self.system, t)?;
+        let mut ws = self.workspace();
+        ws.posture.update(&self.system, t);
+        ws.posture.motions(root, &mut ws.motions);
+        let mut y = self.pack(&ws.motions);
+        check_state(t, &y)?;
+        let (q, qd) = y.split_at_mut(self.coordinates());
+        consistent_coordinates(&self.system, t, q)?;
+        consistent_rates(&self.system, t, q, qd)?;
+        self.unfold(t, &y, &mut ws)?;
+        Ok(y)
+    }
+
+    fn motions(
+        &self,
+        t: f64,
+        y: &[f64],
+        ws: &mut Workspace,
+        out: &mut [BodyMotion],
+    ) -> Result<(), DynamicsError> {
+        self.unfold(t, y, ws)?;
+        out.copy_from_slice(&ws.motions);
+        Ok(())
+    }
+
+    fn rates(
+        &self,
+        t: f64,
+        y: &[f64],
+        loads: &[Wrench],
+        ws: &mut Workspace,
+        dy: &mut [f64],
+    ) -> Result<(), DynamicsError> {
+        self.accelerate(t, y, loads, ws)?;
+        let n = self.coordinates();
+        dy[..n].copy_from_slice(&y[n..]);
+        dy[n..].copy_from_slice(ws.euler.condensed.accelerations());
+        Ok(())
+    }
+
+    fn solve(
+        &self,
+        t: f64,
+        y: &[f64],
+        loads: &[Wrench],
+        ws: &mut Workspace,
+        out: &mut Solution,
+    ) -> Result<(), DynamicsError> {
+        self.accelerate(t, y, loads, ws)?;
+        self.read_solved(&ws.euler, out);
+        out.tether = Wrench::default();
+        out.budget = budget(&self.system, &ws.motions);
+        out.load_power = load_power(loads, &ws.motions);
+        Ok(())
+    }
+
+    fn scales(&self) -> Vec<f64> {
+        let u = self.system.units();
+        let coordinate = |i: usize| if i % PER_BODY < 3 { u.length } else { 1.0 };
+        let n = self.coordinates();
+        let rates = (0..n).map(|i| coordinate(i) / u.time);
+        (0..n).map(coordinate).chain(rates).collect()
+    }
+
+    fn normalise(&self, t: f64, y: &mut [f64], _ws: &mut Workspace) -> Result<(), DynamicsError> {
+        if !self.projection {
+            return Ok(());
+        }
+        let (q, qd) = y.split_at_mut(self.coordinates());
+        consistent_coordinates(&self.system, t, q)?;
+        consistent_rates(&self.system, t, q, qd)
+    }
+}

@@ -1,0 +1,84 @@
+//! A joint between two bodies, or between the ground and a body.
+
+use std::sync::Arc;
+
+use wingbeat_math::{DMat3, DVec3, RotationLaw};
+
+use crate::check::check_finite;
+use crate::error::DynamicsError;
+use crate::joint::{Freedom, Joint};
+
+/// A joint between two bodies, or between the ground and a body.
+#[derive(Clone, Debug)]
+pub struct Link {
+    /// Name, for messages and results.
+    pub name: String,
+    /// Index of the parent body; the ground (frame N) if none.
+    pub parent: Option<usize>,
+    /// Index of the child body.
+    pub child: usize,
+    /// Joint point in the parent's frame \[m\].
+    pub anchor_parent: DVec3,
+    /// Joint point in the child's frame \[m\].
+    pub anchor_child: DVec3,
+    /// Rotation of the joint's frame K: K components to parent components.
+    pub law: Arc<dyn RotationLaw>,
+    /// What is free, and what acts.
+    pub joint: Joint,
+}
+
+impl Link {
+    /// A joint between `parent` and `child` with frames parallel at zero coordinates.
+    pub fn new(name: &str, parent: Option<usize>, child: usize, freedom: Freedom) -> Self {
+        Self {
+            name: name.into(),
+            parent,
+            child,
+            anchor_parent: DVec3::ZERO,
+            anchor_child: DVec3::ZERO,
+            law: Arc::new(DMat3::IDENTITY),
+            joint: Joint::new(freedom),
+        }
+    }
+
+    /// The same at the point `parent` \[m\] of the parent and `child` \[m\] of the child.
+    pub fn at(self, parent: DVec3, child: DVec3) -> Self {
+        Self {
+            anchor_parent: parent,
+            anchor_child: child,
+            ..self
+        }
+    }
+}
+
+pub(crate) fn check_link(l: &Link, bodies: usize) -> Result<(), DynamicsError> {
+    for index in l.parent.into_iter().chain([l.child]) {
+        if index >= bodies {
+            return Err(DynamicsError::NoSuchBody {
+                hinge: l.name.clone(),
+                index,
+                last: bodies - 1,
+            });
+        }
+    }
+    let fault = if l.parent == Some(l.child) {
+        Some(("child is its own parent: body".into(), l.child as f64))
+    } else {
+        l.joint.fault()
+    };
+    if let Some((what, value)) = fault {
+        return Err(DynamicsError::BadJoint {
+            joint: l.name.clone(),
+            what,
+            value,
+        });
+    }
+    check_finite(
+        &format!("joint `{}`: anchor on the parent [m]", l.name),
+        l.anchor_parent,
+    )?;
+    check_finite(
+        &format!("joint `{}`: anchor on the child [m]", l.name),
+        l.anchor_child,
+    )
+}

@@ -1,0 +1,35 @@
+//! A controller in the loop of the flight: what it sees, and what it answers.
+
+use wingbeat_dynamics::BodyMotion;
+use wingbeat_math::DVec3;
+use wingbeat_model::motion::Adjustment;
+
+/// What a controller sees.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sensed {
+    /// Number of this look, from 0.
+    pub look: usize,
+    /// Time since the release [s].
+    pub time: f64,
+    /// Motion of the root body.
+    pub root: BodyMotion,
+    /// Mass centre of the whole, N components [m].
+    pub centre: DVec3,
+    /// Velocity of the mass centre, N components [m/s].
+    pub velocity: DVec3,
+}
+
+/// A controller: from what is sensed to one adjustment per wing.
+pub trait Controller: Send {
+    /// Adjustments of the wings, in the animal's order, on top of the motion of the case. Changes of
+    /// frequency are not possible in flight.
+    fn command(&mut self, sensed: &Sensed) -> Vec<Adjustment>;
+
+    /// Everything it remembers, for a flight that is resumed.
+    fn memory(&self) -> Vec<f64> {
+        vec![]
+    }
+
+    /// Goes on from what it remembered.
+    fn restore(&mut self, _memory: &[f64]) {}
+}

@@ -1,0 +1,27 @@
+//! Prescribed deformation of a wing: twist, camber and spanwise bending as laws along the span
+//! times Fourier series in time.
+//!
+//! In the wing frame, at the distance r from the hinge, chord c, twist axis at the part `a` of the
+//! chord behind the leading edge (x = x_a):
+//!
+//! 1. camber lifts the mean line by `h(r, t) c g(s)` towards -axis 3, `g` a mean line of height 1
+//!    and s the part of the chord behind the leading edge;
+//! 2. twist turns the section by `tau(r, t)` about the parallel to axis 2 through x_a, in the sense
+//!    of the feathering angle psi: positive raises the leading edge towards -axis 3;
+//! 3. bending moves the section by `w(r, t)` towards -axis 3. It stays parallel to itself and at its
+//!    place along axis 2, so the surface is stretched at second order of the slope dw/dr.
+//!
+//! Towards -axis 3 is up for a wing at zero angles. Time enters through the phase of the wing's own
+//! beat, so a smooth start of the motion is one of the deformation too. Positions, velocities and
+//! accelerations are analytic. Both wings of a mirrored pair have the same laws.
+//!
+//! The mass of the wing does not follow: for its inertia the wing stays the rigid body it was.
+
+mod law;
+mod prescribed;
+mod shape;
+
+pub use law::{Section, SpanLaw, Term};
+pub use prescribed::Deformation;
+pub(crate) use shape::span;
+pub use shape::{DeformingMesh, Stations};

@@ -1,0 +1,82 @@
+//! The grid of panels between the edges.
+
+use crate::error::{ModelError, require_count};
+use crate::mesh::{GridMesh, Side};
+use crate::planform::outline::Planform;
+use std::f64::consts::PI;
+use wingbeat_math::DVec3;
+
+/// Spacing of grid lines between 0 and 1.
+#[derive(
+    Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize, schemars::JsonSchema,
+)]
+#[serde(rename_all = "snake_case")]
+pub enum Spacing {
+    /// Equal.
+    Uniform,
+    /// `(1 - cos(pi k / n)) / 2`: dense at both ends.
+    Cosine,
+}
+
+impl Spacing {
+    /// Line `k` of `n`.
+    pub fn at(self, k: usize, n: usize) -> f64 {
+        match self {
+            Spacing::Uniform => k as f64 / n as f64,
+            Spacing::Cosine if k == n => 1.0,
+            Spacing::Cosine => 0.5 * (1.0 - (PI * k as f64 / n as f64).cos()),
+        }
+    }
+}
+
+/// A flat wing: planform and mesh density.
+#[derive(Clone, Debug, PartialEq)]
+pub struct WingShape {
+    /// Outline.
+    pub planform: Planform,
+    /// Panels along the chord.
+    pub rows: usize,
+    /// Panels along the span.
+    pub cols: usize,
+    /// Spacing along the chord.
+    pub chordwise: Spacing,
+    /// Spacing along the span.
+    pub spanwise: Spacing,
+}
+
+impl WingShape {
+    /// With uniform spacing both ways.
+    pub fn uniform(planform: Planform, rows: usize, cols: usize) -> Self {
+        Self {
+            planform,
+            rows,
+            cols,
+            chordwise: Spacing::Uniform,
+            spanwise: Spacing::Uniform,
+        }
+    }
+
+    /// The mesh in the wing frame. The left wing is the mirror image of the right bit for bit.
+    ///
+    /// # Errors
+    /// No panels, or a planform that is not allowed; `name` names the wing.
+    pub fn mesh(&self, name: &str, side: Side) -> Result<GridMesh, ModelError> {
+        let (rows, cols) = (self.rows, self.cols);
+        require_count(&format!("{name}.rows"), rows, rows > 0, ">= 1")?;
+        require_count(&format!("{name}.cols"), cols, cols > 0, ">= 1")?;
+        let edges = self.planform.edges()?;
+        let mut nodes = Vec::with_capacity((rows + 1) * (cols + 1));
+        for i in 0..=rows {
+            let s = self.chordwise.at(i, rows);
+            for j in 0..=cols {
+                let r = edges.root + (edges.tip - edges.root) * self.spanwise.at(j, cols);
+                let [lead, trail] = edges.at(r);
+                let x = lead + (trail - lead) * s;
+                nodes.push(DVec3::new(x, side.sign() * r, 0.0));
+            }
+        }
+        let mesh = GridMesh { rows, cols, nodes };
+        mesh.check(name)?;
+        Ok(mesh)
+    }
+}

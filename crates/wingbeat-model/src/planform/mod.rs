@@ -1,0 +1,14 @@
+//! Wing planforms: leading and trailing edge over the span, and the grid between them.
+//!
+//! r is the distance from the hinge along the span, x runs towards the leading edge; the hinge
+//! (feathering) axis is x = 0.
+
+pub mod beta;
+mod edges;
+mod grid;
+mod outline;
+
+pub use beta::{Beta, BetaChord, ChordSize};
+pub use edges::Edges;
+pub use grid::{Spacing, WingShape};
+pub use outline::Planform;
