@@ -121,9 +121,9 @@ fn exact_history_holds_every_number_of_the_last_record() {
     );
     let bodies = results::columns::body_names(&case.setup.animal);
     assert_eq!(bodies, ["body", "wing_left", "wing_right"]);
-    let names = results::columns::names(&bodies, record);
-    let mut values = vec![];
-    results::columns::values(&bodies, record, &mut values);
+    let columns = results::columns::Columns::of(&case.setup, record).unwrap();
+    let (names, mut values) = (columns.names(), vec![]);
+    columns.values(record, &mut record.clone(), &mut values);
     assert_eq!(names, history.names());
     for (name, value) in names.iter().zip(&values) {
         let read = history.column(name).last().copied().unwrap();
@@ -133,7 +133,7 @@ fn exact_history_holds_every_number_of_the_last_record() {
             "{name}: {read} is not {value}"
         );
     }
-    const UNITS: [&str; 17] = [
+    const UNITS: [&str; 20] = [
         "_m",
         "_s",
         "_rad",
@@ -147,6 +147,9 @@ fn exact_history_holds_every_number_of_the_last_record() {
         "_kg_m2_per_s",
         "_dimensionless",
         "_count",
+        "_m_per_s2",
+        "_rad_per_s2",
+        "_newton_s",
         "_x_m",
         "_y_m",
         "_z_m",
