@@ -32,7 +32,7 @@ pub mod history;
 pub mod manifest;
 pub mod particles;
 pub mod poses;
-mod quantity;
+pub mod quantity;
 pub mod records;
 pub mod rows;
 pub mod saver;

@@ -58,6 +58,16 @@ pub enum Fold {
 }
 
 impl Fold {
+    /// In words.
+    pub(crate) fn words(self) -> &'static str {
+        match self {
+            Self::Last => "",
+            Self::Sum => "sum",
+            Self::Largest => "largest",
+            Self::Smallest => "smallest",
+        }
+    }
+
     /// The number for the steps so far and one more.
     pub(crate) fn join(self, so_far: f64, value: f64) -> f64 {
         match self {
@@ -161,6 +171,15 @@ pub(crate) enum Frame {
 }
 
 impl Frame {
+    /// In words, of any subject.
+    pub fn words_of_all(self) -> &'static str {
+        match self {
+            Self::Own => "own axes",
+            Self::Attitude => "against N, body and segments Euler 2-3-1, wings Euler 1-3-2",
+            other => other.words(Kind::Flight),
+        }
+    }
+
     /// In words.
     pub fn words(self, kind: Kind) -> &'static str {
         match (self, kind) {
@@ -200,6 +219,19 @@ pub(crate) enum Components {
 }
 
 impl Components {
+    /// What stands for any component.
+    pub fn placeholder(self) -> &'static str {
+        match self {
+            Self::Scalar => "",
+            Self::Place => "x,y,z",
+            Self::Angles => "phi,theta,psi",
+            Self::Inertial => "n1,n2,n3",
+            Self::Own => "b,w,s 1,2,3",
+            Self::Child => "w1,w2,w3",
+            Self::Quaternion => "w,x,y,z",
+        }
+    }
+
     pub fn names(self, kind: Kind) -> &'static [&'static str] {
         match (self, kind) {
             (Self::Scalar, _) => &[""],

@@ -99,6 +99,7 @@ impl Summary {
             beats: s.beats,
         };
         summary.warnings = trust::warnings(setup, &summary);
+        summary.warnings.extend(thinning(case));
         Ok(summary)
     }
 
@@ -192,6 +193,12 @@ fn momentum_residual(setup: &FlightSetup, s: &Statistics) -> f64 {
     let of_parts = (2.0 * mass * s.kinetic_energy.most).sqrt();
     let scale = impulse.max(s.momentum.most).max(of_parts);
     ratio(s.momentum_residual.most, scale)
+}
+
+/// What a thinned history leaves out.
+fn thinning(case: &LoadedCase) -> Option<String> {
+    let every = case.output.history_every;
+    (every > 1).then(|| format!("The history holds every {every}th step and the ends of wingbeats: means of wingbeats, sums and extremes are those of all steps, residuals of balances those of its rows."))
 }
 
 fn ratio(x: f64, scale: f64) -> f64 {

@@ -10,6 +10,7 @@ from pathlib import Path
 
 import h5py
 import numpy as np
+import polars
 import pyarrow.parquet as parquet
 import vtk
 import xarray
@@ -64,6 +65,7 @@ def check_hdf5(columns, frames):
         assert sorted(file["history"]) == sorted(columns)
         for name, values in columns.items():
             same(file["history"][name][:], values, name)
+            assert file["history"][name].dtype.kind == ("i" if name.endswith("_count") else "f"), name
             assert file["history"][name].attrs["units"] and file["history"][name].attrs["frame"]
         assert file["history/body_x_m"].attrs["units"] == b"m"
         assert file["history/momentum_n1_kg_m_per_s"].attrs["units"] == b"kg m s-1"
@@ -91,7 +93,18 @@ def check_parquet(columns):
     assert table.column_names == list(columns)
     for name, values in columns.items():
         same(table[name].to_numpy(), values, name)
+        assert str(table[name].type) == ("int64" if name.endswith("_count") else "double"), name
     assert json.loads(table.schema.metadata[b"units"])["time_s"] == "s"
+
+
+def check_csv(columns):
+    # Types are inferred from the first rows, which are full of zeros.
+    table = polars.read_csv(result / "history.csv", infer_schema_length=2)
+    assert table.columns == list(columns)
+    for name, values in columns.items():
+        same(table[name].to_numpy(), values, name)
+        wanted = polars.Int64 if name.endswith("_count") else polars.Float64
+        assert table[name].dtype == wanted, (name, table[name].dtype)
 
 
 def check_vtkhdf(times, frames):
@@ -130,5 +143,6 @@ for data, k in zip(frames["surfaces"], steps):
     assert np.isfinite(points(data)).all() and "pressure_jump_pascal" in cells(data)
 check_hdf5(columns, frames)
 check_parquet(columns)
+check_csv(columns)
 check_vtkhdf(times, frames)
 print(f"{len(columns)} columns, {len(columns['time_s'])} rows, {len(steps)} frames: all equal")

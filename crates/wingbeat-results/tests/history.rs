@@ -1,0 +1,327 @@
+//! The history: every number of a record has its column, rows are read back bit for bit, results of
+//! older versions are read, thinned ones say the same of wingbeats.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use wingbeat_case::LoadedCase;
+use wingbeat_flight::{Record, Simulation};
+use wingbeat_results::columns::Columns;
+use wingbeat_results::history::HistoryWriter;
+use wingbeat_results::quantity::Fold;
+use wingbeat_results::{Outcome, Records, ResultDir, RunWriter, Summary, rows::Rows};
+
+/// A folder of its own, removed at the end.
+struct Scratch(PathBuf);
+
+impl Scratch {
+    fn new(name: &str) -> Self {
+        let name = format!("wingbeat-history-{name}-{}", std::process::id());
+        let path = std::env::temp_dir().join(name);
+        let _ = fs::remove_dir_all(&path);
+        fs::create_dir_all(&path).unwrap();
+        Self(path)
+    }
+}
+
+impl Drop for Scratch {
+    fn drop(&mut self) {
+        let _ = fs::remove_dir_all(&self.0);
+    }
+}
+
+fn case(name: &str, set: &[&str]) -> LoadedCase {
+    let set: Vec<String> = set.iter().map(|s| (*s).to_owned()).collect();
+    LoadedCase::find(name, &set).unwrap()
+}
+
+/// The records of a flight, its start among them.
+fn records(case: &LoadedCase) -> Vec<Record> {
+    let mut flight = Simulation::new(case.setup.clone()).unwrap();
+    let mut list = vec![flight.record().clone()];
+    while !flight.finished() {
+        list.push(flight.step().unwrap().clone());
+    }
+    list
+}
+
+fn written(case: &LoadedCase, records: &[Record], path: &Path) {
+    let mut writer = HistoryWriter::create(path, &case.setup).unwrap();
+    records.iter().for_each(|r| writer.append(r, true).unwrap());
+}
+
+fn read(path: &Path, case: &LoadedCase) -> Vec<Record> {
+    let mut records = Records::open(path, &case.setup).unwrap();
+    let mut list = vec![];
+    while let Some(record) = records.next_record().unwrap() {
+        list.push(record.clone());
+    }
+    list
+}
+
+/// Numbers in a record. Taken apart without `..`: a field that is added cannot be forgotten.
+fn numbers(record: &Record) -> usize {
+    let Record {
+        step: _,
+        time: _,
+        wing_angles,
+        commands,
+        coordinates,
+        rates,
+        root_quaternion,
+        root_angular_velocity: _,
+        mass_centre: _,
+        accelerations,
+        multipliers,
+        hinges,
+        loops,
+        joints,
+        deformation_power,
+        air,
+        applied,
+        tether: _,
+        kinetic_energy: _,
+        potential_energy: _,
+        hinge_work: _,
+        air_work: _,
+        deformation_work: _,
+        applied_work: _,
+        energy_residual: _,
+        momentum: _,
+        angular_momentum: _,
+        momentum_residual: _,
+        angular_momentum_residual: _,
+        violation_position: _,
+        violation_orientation: _,
+        euler_regularity: _,
+        corrector_passes: _,
+        corrector_residual: _,
+        vortex_impulse: _,
+        air_impulse: _,
+        wake_rings: _,
+        wake_particles: _,
+        regularised: _,
+        leak_velocity: _,
+    } = record;
+    let lists = coordinates.len() + rates.len() + multipliers.len() + deformation_power.len();
+    let vectors = 3 * wing_angles.len() + 8 * commands.len() + 6 * accelerations.len();
+    let reactions = 7 * (hinges.len() + loops.len()) + 2 * joints.len();
+    let loads = 6 * (air.len() + applied.len() + 1);
+    let (scalars, own_vectors) = (18, 8);
+    lists + vectors + reactions + loads + root_quaternion.len() + scalars + 3 * own_vectors
+}
+
+const FLIGHTS: [(&str, &[&str]); 4] = [
+    ("fruit-fly-abdomen-spring", &["time.beats=0.1", "air.model=\"none\""]),
+    ("robobee", &["time.beats=0.1", "air.model=\"blade_element\""]),
+    ("bird-cruise", &["time.beats=0.1"]),
+    ("fruit-fly-blade", &["time.beats=0.1"]),
+];
+
+#[test]
+fn exact_every_number_has_one_column_and_is_read_back_bit_for_bit() {
+    let scratch = Scratch::new("bits");
+    for (name, set) in FLIGHTS {
+        let case = case(name, set);
+        let records = records(&case);
+        let columns = Columns::of(&case.setup, &records[0]).unwrap();
+        assert_eq!(columns.iter().count(), numbers(&records[0]), "{name}");
+        let names: std::collections::BTreeSet<String> = columns.names().into_iter().collect();
+        assert_eq!(names.len(), numbers(&records[0]), "{name}: names are not distinct");
+        let path = scratch.0.join(format!("{name}.csv"));
+        written(&case, &records, &path);
+        let back = read(&path, &case);
+        assert_eq!(back.len(), records.len());
+        let bits = |r: &Record| -> Vec<u64> {
+            let mut values = vec![];
+            columns.values(r, &mut Record::default(), &mut values);
+            values.iter().map(|x| x.to_bits()).collect()
+        };
+        for (a, b) in records.iter().zip(&back) {
+            assert_eq!(bits(a), bits(b), "{name}, step {}", a.step);
+        }
+    }
+}
+
+/// Whatever reads types from the first rows sees counts as whole numbers and all else as
+/// floating-point numbers, zeros too.
+#[test]
+fn behaves_counts_look_like_counts_and_numbers_like_numbers() {
+    let scratch = Scratch::new("types");
+    let case = case("fruit-fly-vacuum", &["time.beats=0.1"]);
+    let records = records(&case);
+    let path = scratch.0.join("history.csv");
+    written(&case, &records, &path);
+    let columns = Columns::of(&case.setup, &records[0]).unwrap();
+    let text = fs::read_to_string(&path).unwrap();
+    let mut zeros = 0;
+    for line in text.lines().skip(1) {
+        for (field, column) in line.split(',').zip(columns.iter()) {
+            let is_real = field.contains(['.', 'e', 'N', 'i']);
+            assert_eq!(is_real, !column.is_count, "{}: {field}", column.name);
+            zeros += usize::from(field == "0.0");
+        }
+    }
+    assert!(zeros > 100, "the test is void");
+}
+
+#[test]
+fn behaves_columns_say_what_they_hold() {
+    let case = case("fruit-fly-abdomen-spring", &[]);
+    let columns = Columns::new(&case.setup, false).unwrap();
+    for (name, unit, frame) in [
+        ("step_count", "1", "none"),
+        ("time_s", "s", "none"),
+        ("body_x_m", "m", "N:"),
+        ("body_x_rate_m_per_s", "m s-1", "N:"),
+        ("body_phi_rad", "rad", "body against N"),
+        ("wing_left_phi_rate_rad_per_s", "rad s-1", "wing against N"),
+        ("wing_left_prescribed_phi_rad", "rad", "wing against the stroke"),
+        ("hinge_wing_left_moment_w2_newton_m", "N m", "W:"),
+        ("body_angular_velocity_b1_rad_per_s", "rad s-1", "B:"),
+        ("body_acceleration_n3_m_per_s2", "m s-2", "N:"),
+        ("wing_left_angular_acceleration_w1_rad_per_s2", "rad s-2", "W:"),
+        ("segment_abdomen_angular_acceleration_s2_rad_per_s2", "rad s-2", "S:"),
+        ("joint_waist_rotation_rad", "rad", "K:"),
+        ("joint_waist_rotation_rate_rad_per_s", "rad s-1", "K:"),
+        ("angular_momentum_n3_kg_m2_per_s", "kg m2 s-1", "N:"),
+        ("air_impulse_n1_newton_s", "N s", "N:"),
+        ("body_quaternion_w_dimensionless", "1", "body to N"),
+    ] {
+        let column = columns.find(name).unwrap_or_else(|| panic!("no column `{name}`"));
+        assert_eq!(column.unit, unit, "{name}");
+        assert!(column.frame.starts_with(frame), "{name}: {}", column.frame);
+        assert!(!column.about.contains('{') && column.about.len() > 3, "{name}");
+    }
+}
+
+/// Second differences of the recorded places are the recorded accelerations.
+#[test]
+fn agrees_accelerations_with_second_differences_of_places() {
+    let case = case("fruit-fly-blade", &["time.beats=0.5", "time.steps_per_beat=400"]);
+    let records = records(&case);
+    let h = case.setup.time.step;
+    for body in 0..case.setup.animal.wings.len() + 1 {
+        let place = |r: &Record| wingbeat_math::DVec3::from_slice(&r.coordinates[6 * body..]);
+        let (mut error, mut largest) = (0.0_f64, 0.0_f64);
+        for w in records.windows(3).skip(8) {
+            let second = (place(&w[2]) - 2.0 * place(&w[1]) + place(&w[0])) / (h * h);
+            error = error.max((second - w[1].accelerations[body].linear).length());
+            largest = largest.max(second.length());
+        }
+        // The difference is of second order: (2 pi n / 400)^2 / 12 of harmonic n, to the eighth.
+        assert!(error < 0.02 * largest, "body {body}: {error} of {largest}");
+    }
+}
+
+/// The header as versions before named columns wrote it, without the columns they had not.
+fn older(text: &str, columns: &Columns) -> String {
+    let kept: Vec<_> = columns.iter().enumerate().filter(|(_, c)| !c.is_new).collect();
+    let name = |c: &wingbeat_results::columns::Column| c.former.clone().unwrap_or(c.name.clone());
+    let header: Vec<String> = kept.iter().map(|(_, c)| name(c)).collect();
+    let row = |line: &str| {
+        let fields: Vec<&str> = line.split(',').collect();
+        let fields: Vec<&str> = kept.iter().map(|(k, _)| fields[*k]).collect();
+        let plain = |f: &&str| f.strip_suffix(".0").unwrap_or(f).to_owned();
+        fields.iter().map(plain).collect::<Vec<String>>().join(",")
+    };
+    let rows: Vec<String> = text.lines().skip(1).map(row).collect();
+    format!("{}\n{}\n", header.join(","), rows.join("\n"))
+}
+
+#[test]
+fn behaves_histories_of_older_versions_are_read() {
+    let scratch = Scratch::new("older");
+    let case = case(
+        "fruit-fly-abdomen-spring",
+        &["time.beats=1", "air.model=\"blade_element\""],
+    );
+    let records = records(&case);
+    let path = scratch.0.join("history.csv");
+    written(&case, &records, &path);
+    let whole = Summary::read(&case, &path, &Outcome::Finished).unwrap();
+    let columns = Columns::of(&case.setup, &records[0]).unwrap();
+    let text = fs::read_to_string(&path).unwrap();
+    fs::write(&path, older(&text, &columns)).unwrap();
+    assert!(fs::read_to_string(&path).unwrap().contains("joint_coordinate_1_rad_or_m"));
+    let back = read(&path, &case);
+    for (a, b) in records.iter().zip(&back) {
+        assert_eq!(a.joints, b.joints);
+        // Counted anew from the forces by the rule they were counted with.
+        assert_eq!(a.air_impulse, b.air_impulse);
+        assert!(b.accelerations.iter().all(|x| x.linear.is_nan()));
+    }
+    assert_eq!(Summary::read(&case, &path, &Outcome::Finished).unwrap(), whole);
+}
+
+#[test]
+fn refuses_histories_with_columns_missing_or_of_another_flight() {
+    let scratch = Scratch::new("foreign");
+    let case = case("fruit-fly-blade", &["time.beats=0.05"]);
+    let path = scratch.0.join("history.csv");
+    written(&case, &records(&case), &path);
+    let text = fs::read_to_string(&path).unwrap();
+    for (old, new, named) in [
+        ("hinge_work_joule", "hinge_work_calorie", "`hinge_work_joule`"),
+        ("leak_velocity_m_per_s\n", "leak_velocity_m_per_s,mood\n", "`mood`"),
+    ] {
+        let mut changed = text.replacen(old, new, 1);
+        if new.contains(",mood") {
+            changed = changed.replace("\n", ",0.0\n").replacen("mood,0.0", "mood", 1);
+        }
+        fs::write(&path, changed).unwrap();
+        let problem = Records::open(&path, &case.setup).err().unwrap().to_string();
+        assert!(problem.contains(named) && problem.contains("history.csv"), "{problem}");
+        let problem = Summary::read(&case, &path, &Outcome::Finished).unwrap_err();
+        assert!(problem.to_string().contains(named), "{problem}");
+    }
+}
+
+/// Flies a case into a directory; its summary.
+fn flown(case: &LoadedCase, dir: &Path) -> Summary {
+    let mut writer = RunWriter::new(ResultDir::create(dir).unwrap(), case, 1).unwrap();
+    let mut flight = Simulation::new(case.setup.clone()).unwrap();
+    loop {
+        writer.write(flight.record(), || flight.snapshot()).unwrap();
+        if flight.finished() {
+            break;
+        }
+        flight.step().unwrap();
+    }
+    writer.finish(Outcome::Finished, |_, _, _| Ok(())).unwrap()
+}
+
+#[test]
+fn agrees_thinned_histories_with_whole_ones() {
+    let scratch = Scratch::new("thinned");
+    let set = |every: &str| {
+        let own = format!("output.history_every={every}");
+        let set = ["time.beats=2", "air.shed=[\"trailing\"]", "air.body=false",
+            "wing.right.mesh.spanwise=4", "wing.right.mesh.chordwise=2", "output.frames_every=0", &own];
+        case("fruit-fly-hover", &set)
+    };
+    let (all, few) = (scratch.0.join("all"), scratch.0.join("few"));
+    let (whole, case) = (flown(&set("1"), &all), set("7"));
+    let thinned = flown(&case, &few);
+    let [all, few] = [all, few].map(|d| d.join("history.csv"));
+    assert_eq!(Rows::count(&all).unwrap(), 81);
+    // 0, 7, ..., 77, and the beats at 40 and 80.
+    assert_eq!(Rows::count(&few).unwrap(), 14);
+    assert_eq!(thinned.beats, whole.beats);
+    assert_eq!(thinned.steps, whole.steps);
+    assert_eq!(thinned.regularised, whole.regularised);
+    assert_eq!(thinned.euler_regularity, whole.euler_regularity);
+    assert_eq!(thinned.corrector_passes_most, whole.corrector_passes_most);
+    assert_eq!(thinned.violation_position_m, whole.violation_position_m);
+    assert!(thinned.warnings.iter().any(|w| w.contains("every 7th step")), "{:?}", thinned.warnings);
+    // Rows are those of the whole history but for sums and extremes.
+    let [all, few] = [read(&all, &set("1")), read(&few, &case)];
+    for row in &few {
+        let same = &all[row.step];
+        assert_eq!((row.time, &row.coordinates), (same.time, &same.coordinates));
+        assert_eq!((&row.air, row.hinge_work), (&same.air, same.hinge_work));
+    }
+    let columns = Columns::of(&case.setup, &few[0]).unwrap();
+    let folded = |c: &&wingbeat_results::columns::Column| c.fold != Fold::Last;
+    assert_eq!(columns.iter().filter(folded).count(), 7);
+}
