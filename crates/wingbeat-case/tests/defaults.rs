@@ -264,7 +264,7 @@ fn refuses_keys_without_effect() {
         ),
     ];
     for (name, set, key, why) in cases {
-        let report = preset(name, set).expect_err(key);
+        let report = preset(name, set).map(|_| ()).expect_err(key);
         assert!(
             report.contains(key) && report.contains(why),
             "{key}: {report}"

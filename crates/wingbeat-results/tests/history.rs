@@ -112,8 +112,14 @@ fn numbers(record: &Record) -> usize {
 }
 
 const FLIGHTS: [(&str, &[&str]); 4] = [
-    ("fruit-fly-abdomen-spring", &["time.beats=0.1", "air.model=\"none\""]),
-    ("robobee", &["time.beats=0.1", "air.model=\"blade_element\""]),
+    (
+        "fruit-fly-abdomen-spring",
+        &["time.beats=0.1", "air.model=\"none\""],
+    ),
+    (
+        "robobee",
+        &["time.beats=0.1", "air.model=\"blade_element\""],
+    ),
     ("bird-cruise", &["time.beats=0.1"]),
     ("fruit-fly-blade", &["time.beats=0.1"]),
 ];
@@ -127,7 +133,11 @@ fn exact_every_number_has_one_column_and_is_read_back_bit_for_bit() {
         let columns = Columns::of(&case.setup, &records[0]).unwrap();
         assert_eq!(columns.iter().count(), numbers(&records[0]), "{name}");
         let names: std::collections::BTreeSet<String> = columns.names().into_iter().collect();
-        assert_eq!(names.len(), numbers(&records[0]), "{name}: names are not distinct");
+        assert_eq!(
+            names.len(),
+            numbers(&records[0]),
+            "{name}: names are not distinct"
+        );
         let path = scratch.0.join(format!("{name}.csv"));
         written(&case, &records, &path);
         let back = read(&path, &case);
@@ -176,29 +186,49 @@ fn behaves_columns_say_what_they_hold() {
         ("body_x_rate_m_per_s", "m s-1", "N:"),
         ("body_phi_rad", "rad", "body against N"),
         ("wing_left_phi_rate_rad_per_s", "rad s-1", "wing against N"),
-        ("wing_left_prescribed_phi_rad", "rad", "wing against the stroke"),
+        (
+            "wing_left_prescribed_phi_rad",
+            "rad",
+            "wing against the stroke",
+        ),
         ("hinge_wing_left_moment_w2_newton_m", "N m", "W:"),
         ("body_angular_velocity_b1_rad_per_s", "rad s-1", "B:"),
         ("body_acceleration_n3_m_per_s2", "m s-2", "N:"),
-        ("wing_left_angular_acceleration_w1_rad_per_s2", "rad s-2", "W:"),
-        ("segment_abdomen_angular_acceleration_s2_rad_per_s2", "rad s-2", "S:"),
+        (
+            "wing_left_angular_acceleration_w1_rad_per_s2",
+            "rad s-2",
+            "W:",
+        ),
+        (
+            "segment_abdomen_angular_acceleration_s2_rad_per_s2",
+            "rad s-2",
+            "S:",
+        ),
         ("joint_waist_rotation_rad", "rad", "K:"),
         ("joint_waist_rotation_rate_rad_per_s", "rad s-1", "K:"),
         ("angular_momentum_n3_kg_m2_per_s", "kg m2 s-1", "N:"),
         ("air_impulse_n1_newton_s", "N s", "N:"),
         ("body_quaternion_w_dimensionless", "1", "body to N"),
     ] {
-        let column = columns.find(name).unwrap_or_else(|| panic!("no column `{name}`"));
+        let column = columns
+            .find(name)
+            .unwrap_or_else(|| panic!("no column `{name}`"));
         assert_eq!(column.unit, unit, "{name}");
         assert!(column.frame.starts_with(frame), "{name}: {}", column.frame);
-        assert!(!column.about.contains('{') && column.about.len() > 3, "{name}");
+        assert!(
+            !column.about.contains('{') && column.about.len() > 3,
+            "{name}"
+        );
     }
 }
 
 /// Second differences of the recorded places are the recorded accelerations.
 #[test]
 fn agrees_accelerations_with_second_differences_of_places() {
-    let case = case("fruit-fly-blade", &["time.beats=0.5", "time.steps_per_beat=400"]);
+    let case = case(
+        "fruit-fly-blade",
+        &["time.beats=0.5", "time.steps_per_beat=400"],
+    );
     let records = records(&case);
     let h = case.setup.time.step;
     for body in 0..case.setup.animal.wings.len() + 1 {
@@ -216,7 +246,11 @@ fn agrees_accelerations_with_second_differences_of_places() {
 
 /// The header as versions before named columns wrote it, without the columns they had not.
 fn older(text: &str, columns: &Columns) -> String {
-    let kept: Vec<_> = columns.iter().enumerate().filter(|(_, c)| !c.is_new).collect();
+    let kept: Vec<_> = columns
+        .iter()
+        .enumerate()
+        .filter(|(_, c)| !c.is_new)
+        .collect();
     let name = |c: &wingbeat_results::columns::Column| c.former.clone().unwrap_or(c.name.clone());
     let header: Vec<String> = kept.iter().map(|(_, c)| name(c)).collect();
     let row = |line: &str| {
@@ -243,7 +277,11 @@ fn behaves_histories_of_older_versions_are_read() {
     let columns = Columns::of(&case.setup, &records[0]).unwrap();
     let text = fs::read_to_string(&path).unwrap();
     fs::write(&path, older(&text, &columns)).unwrap();
-    assert!(fs::read_to_string(&path).unwrap().contains("joint_coordinate_1_rad_or_m"));
+    assert!(
+        fs::read_to_string(&path)
+            .unwrap()
+            .contains("joint_coordinate_1_rad_or_m")
+    );
     let back = read(&path, &case);
     for (a, b) in records.iter().zip(&back) {
         assert_eq!(a.joints, b.joints);
@@ -251,7 +289,10 @@ fn behaves_histories_of_older_versions_are_read() {
         assert_eq!(a.air_impulse, b.air_impulse);
         assert!(b.accelerations.iter().all(|x| x.linear.is_nan()));
     }
-    assert_eq!(Summary::read(&case, &path, &Outcome::Finished).unwrap(), whole);
+    assert_eq!(
+        Summary::read(&case, &path, &Outcome::Finished).unwrap(),
+        whole
+    );
 }
 
 #[test]
@@ -262,16 +303,29 @@ fn refuses_histories_with_columns_missing_or_of_another_flight() {
     written(&case, &records(&case), &path);
     let text = fs::read_to_string(&path).unwrap();
     for (old, new, named) in [
-        ("hinge_work_joule", "hinge_work_calorie", "`hinge_work_joule`"),
-        ("leak_velocity_m_per_s\n", "leak_velocity_m_per_s,mood\n", "`mood`"),
+        (
+            "hinge_work_joule",
+            "hinge_work_calorie",
+            "`hinge_work_joule`",
+        ),
+        (
+            "leak_velocity_m_per_s\n",
+            "leak_velocity_m_per_s,mood\n",
+            "`mood`",
+        ),
     ] {
         let mut changed = text.replacen(old, new, 1);
         if new.contains(",mood") {
-            changed = changed.replace("\n", ",0.0\n").replacen("mood,0.0", "mood", 1);
+            changed = changed
+                .replace("\n", ",0.0\n")
+                .replacen("mood,0.0", "mood", 1);
         }
         fs::write(&path, changed).unwrap();
         let problem = Records::open(&path, &case.setup).err().unwrap().to_string();
-        assert!(problem.contains(named) && problem.contains("history.csv"), "{problem}");
+        assert!(
+            problem.contains(named) && problem.contains("history.csv"),
+            "{problem}"
+        );
         let problem = Summary::read(&case, &path, &Outcome::Finished).unwrap_err();
         assert!(problem.to_string().contains(named), "{problem}");
     }
@@ -296,8 +350,15 @@ fn agrees_thinned_histories_with_whole_ones() {
     let scratch = Scratch::new("thinned");
     let set = |every: &str| {
         let own = format!("output.history_every={every}");
-        let set = ["time.beats=2", "air.shed=[\"trailing\"]", "air.body=false",
-            "wing.right.mesh.spanwise=4", "wing.right.mesh.chordwise=2", "output.frames_every=0", &own];
+        let set = [
+            "time.beats=2",
+            "air.shed=[\"trailing\"]",
+            "air.body=false",
+            "wing.right.mesh.spanwise=4",
+            "wing.right.mesh.chordwise=2",
+            "output.frames_every=0",
+            &own,
+        ];
         case("fruit-fly-hover", &set)
     };
     let (all, few) = (scratch.0.join("all"), scratch.0.join("few"));
@@ -313,7 +374,14 @@ fn agrees_thinned_histories_with_whole_ones() {
     assert_eq!(thinned.euler_regularity, whole.euler_regularity);
     assert_eq!(thinned.corrector_passes_most, whole.corrector_passes_most);
     assert_eq!(thinned.violation_position_m, whole.violation_position_m);
-    assert!(thinned.warnings.iter().any(|w| w.contains("every 7th step")), "{:?}", thinned.warnings);
+    assert!(
+        thinned
+            .warnings
+            .iter()
+            .any(|w| w.contains("every 7th step")),
+        "{:?}",
+        thinned.warnings
+    );
     // Rows are those of the whole history but for sums and extremes.
     let [all, few] = [read(&all, &set("1")), read(&few, &case)];
     for row in &few {

@@ -72,7 +72,8 @@ struct Pair<'a> {
 }
 
 /// Checks that every key of the document has an effect beside the others; `whole` is the same case
-/// with its defaults. Where the command line chose what a key of the file depends on, it may stand by.
+/// with its defaults. Where the command line chose the air's model, settings of the file for its own
+/// model may stand by.
 pub(crate) fn together(source: &CaseSource, whole: &Table) -> Checked {
     let pair = Pair { whole, source };
     pair.table(Shape::case(), "", &source.table, whole)
@@ -82,11 +83,10 @@ impl Pair<'_> {
     fn table(&self, shape: Shape, path: &str, given: &Table, whole: &Table) -> Checked {
         for (name, value) in given {
             let Some(key) = shape.at(name) else { continue };
-            let around = path;
-            let path = join(around, name);
+            let path = join(path, name);
             for need in needs::of(key) {
                 let idle = !need.is_met(self.whole, whole, given);
-                if idle && !self.stands_by(key, need, around, &path) {
+                if idle && !self.stands_by(key, need, &path) {
                     let [problem, allowed, remedy] = need.explained(self.whole, whole);
                     return Err(Fault::new(path, problem, allowed, remedy));
                 }
@@ -114,16 +114,13 @@ impl Pair<'_> {
         }
     }
 
-    /// What the file says for a choice that the command line took otherwise, but for properties of the
-    /// air itself. The integrator follows from the air's model unless it is given.
-    fn stands_by(&self, key: Shape, need: Need, around: &str, path: &str) -> bool {
-        let Some(decided_by) = need.decided_by(around) else {
-            return false;
-        };
-        let open = decided_by == INTEGRATOR && !self.source.gives(INTEGRATOR);
-        let decided_by = if open { MODEL } else { &decided_by };
-        let switched = self.source.chooses(decided_by) && !self.source.chooses(path);
-        switched && key.key.get("always").is_none()
+    /// What the file says for another air model than the command line chose, but for properties of
+    /// the air itself. The integrator follows from the model unless it is given.
+    fn stands_by(&self, key: Shape, need: Need, path: &str) -> bool {
+        let by_model = need.is_value_of(MODEL)
+            || need.is_value_of(INTEGRATOR) && !self.source.gives(INTEGRATOR);
+        let switched = self.source.chooses(MODEL) && !self.source.chooses(path);
+        by_model && switched && key.key.get("always").is_none()
     }
 }
 

@@ -3,7 +3,6 @@
 use toml::{Table, Value};
 
 use super::schema::Shape;
-use crate::source::join;
 
 /// What a key needs to have an effect.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -62,13 +61,9 @@ impl Need {
         named(value) || value.as_array().is_some_and(|list| list.iter().any(named))
     }
 
-    /// The path of the key whose value decides, for a key in the table at `around`.
-    pub fn decided_by(self, around: &str) -> Option<String> {
-        match self {
-            Self::Value { key, .. } if key.contains('.') => Some(key.to_owned()),
-            Self::Value { key, .. } => Some(join(around, key)),
-            _ => None,
-        }
+    /// Whether it is a value of this key.
+    pub fn is_value_of(self, path: &str) -> bool {
+        matches!(self, Self::Value { key, .. } if key == path)
     }
 
     /// What is wrong with a key that needs this, what is allowed, what to try.
