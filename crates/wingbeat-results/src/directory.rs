@@ -1,13 +1,15 @@
 //! Making result directories without ever overwriting one unasked, and whole-file writes.
 
 use std::fs;
-use std::io::{ErrorKind, Write as _};
+use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
 use wingbeat_case::IoError;
 
 use crate::Outcome;
 use crate::history::is_abandoned;
+use crate::vtp::is_frame;
+pub use crate::whole::write_whole;
 
 /// Files a run and its exports may have; `--overwrite` removes these, the frames and the figures, and
 /// nothing else. The manifest comes first and goes last: where it is, there is a run.
@@ -259,18 +261,6 @@ fn resolved(path: &Path) -> PathBuf {
     })
 }
 
-/// Name of a frame, whole or half-written: `wakes_000012.vtp`.
-pub(crate) fn is_frame(name: &str) -> bool {
-    let stem = |n: &str| n.strip_suffix(".vtp").map(str::to_owned);
-    let number = stem(name.trim_end_matches(".part")).and_then(|stem| {
-        let (what, number) = stem.split_once('_')?;
-        ["surfaces", "wakes", "particles"]
-            .contains(&what)
-            .then(|| number.to_owned())
-    });
-    number.is_some_and(|n| !n.is_empty() && n.bytes().all(|b| b.is_ascii_digit()))
-}
-
 /// Name of a figure, whole or half-written: `forces.svg`.
 fn is_figure(name: &str) -> bool {
     let known = |stem: &str| FIGURE_NAMES.contains(&stem);
@@ -312,35 +302,4 @@ fn make(path: &Path) -> impl FnOnce(std::io::Error) -> IoError + '_ {
         source,
         remedy: "choose a place you may write to with --out DIR",
     }
-}
-
-/// Writes beside the target and renames: readers see the old file or the whole new one.
-///
-/// # Errors
-/// A file that cannot be written; the target is then as it was.
-pub fn write_whole(path: &Path, content: &[u8]) -> Result<(), IoError> {
-    whole(path, content, false)
-}
-
-/// The same, and the system is asked to put it onto the disk before the old file goes.
-///
-/// # Errors
-/// A file that cannot be written; the target is then as it was.
-pub(crate) fn write_safely(path: &Path, content: &[u8]) -> Result<(), IoError> {
-    whole(path, content, true)
-}
-
-fn whole(path: &Path, content: &[u8], sync: bool) -> Result<(), IoError> {
-    let mut part = path.as_os_str().to_owned();
-    part.push(".part");
-    let part = PathBuf::from(part);
-    let written = fs::File::create(&part).and_then(|mut file| {
-        file.write_all(content)?;
-        if sync { file.sync_data() } else { Ok(()) }
-    });
-    let result = written.and_then(|()| fs::rename(&part, path));
-    result.map_err(|e| {
-        let _ = fs::remove_file(&part); // nothing more can be done about a leftover
-        IoError::write(path)(e)
-    })
 }

@@ -20,6 +20,7 @@
 //! over a wingbeat.
 #![warn(missing_docs)]
 
+mod arrays;
 pub mod checkpoint;
 pub mod columns;
 pub mod directory;
@@ -39,6 +40,7 @@ pub mod saver;
 pub mod summary;
 mod table;
 pub mod vtp;
+mod whole;
 pub mod writer;
 
 pub use directory::ResultDir;

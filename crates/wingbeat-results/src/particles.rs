@@ -6,7 +6,7 @@ use std::path::Path;
 use wingbeat_flight::Snapshot;
 use wingbeat_math::DVec3;
 
-use super::frames::{arrays, groups};
+use super::arrays::{arrays, groups};
 use super::poses::picture;
 use super::vtp::{array, begin, end};
 use wingbeat_case::IoError;

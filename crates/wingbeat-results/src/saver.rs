@@ -7,9 +7,10 @@ use std::time::{Duration, Instant};
 use wingbeat_flight::FlightState;
 
 use super::checkpoint::{self, FILE, Header};
-use super::directory::{is_frame, write_safely};
 use super::history::hash_start;
 use super::manifest::{Manifest, Outcome, hexadecimal, sha256};
+use super::vtp::is_frame;
+use super::whole::write_safely;
 use wingbeat_case::{IoError, SaveSettings};
 
 /// The first checkpoint by time comes sooner; a run that was killed before it is flown from its start.

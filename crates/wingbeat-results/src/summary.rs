@@ -1,70 +1,21 @@
 //! What happened, in words and numbers, and how far it can be trusted.
 
 pub mod beats;
+mod numbers;
 mod statistics;
 mod trust;
 mod words;
 
 use std::path::Path;
 
-use serde::{Deserialize, Serialize};
 use wingbeat_flight::FlightSetup;
 
 use super::Outcome;
 pub use beats::{BeatMeans, down, over_weight, steps_per_beat};
+pub use numbers::Summary;
 use statistics::Statistics;
 use wingbeat_case::IoError;
 use wingbeat_case::LoadedCase;
-
-/// Numbers of a run.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Summary {
-    /// Case name.
-    pub case: String,
-    /// How the run ended.
-    pub outcome: Outcome,
-    /// Steps made.
-    pub steps: usize,
-    /// Time flown \[s\].
-    pub time_s: f64,
-    /// Mass of the animal \[kg\].
-    pub mass_kg: f64,
-    /// Means of each whole wingbeat.
-    pub beats: Vec<BeatMeans>,
-    /// Air force against gravity at the end \[N\].
-    pub final_lift_newton: f64,
-    /// Air force along n1 (forward) at the end \[N\].
-    pub final_thrust_newton: f64,
-    /// Way of the body origin from start to end, N components \[m\].
-    pub displacement_m: [f64; 3],
-    /// Change of pitch, yaw, roll from start to end \[deg\].
-    pub turn_deg: [f64; 3],
-    /// Largest energy residual over the largest energy or work in play \[1\].
-    pub energy_residual_relative: f64,
-    /// Largest momentum residual over the largest impulse or momentum in play \[1\].
-    pub momentum_residual_relative: f64,
-    /// Largest violation of a connection constraint \[m\].
-    pub violation_position_m: f64,
-    /// Largest violation of an orientation constraint \[1\].
-    pub violation_orientation: f64,
-    /// Smallest |cos theta| of all bodies \[1\].
-    pub euler_regularity: f64,
-    /// Most corrector passes in a step.
-    pub corrector_passes_most: usize,
-    /// Mean corrector passes.
-    pub corrector_passes_mean: f64,
-    /// Near-singular velocities that were regularised, all steps.
-    pub regularised: usize,
-    /// Wake rings at the end.
-    pub wake_rings: usize,
-    /// Vortex particles at the end.
-    #[serde(default)]
-    pub wake_particles: usize,
-    /// Largest uniform leak velocity of closed surfaces \[m/s\].
-    pub leak_velocity_m_s: f64,
-    /// What a reader should know before using the numbers.
-    pub warnings: Vec<String>,
-}
 
 impl Summary {
     /// From the history of a run, read row by row.
@@ -101,69 +52,6 @@ impl Summary {
         summary.warnings = trust::warnings(setup, &summary);
         summary.warnings.extend(thinning(case));
         Ok(summary)
-    }
-
-    /// The numbers of two runs beside each other: what, this, the other; wingbeats as far as both
-    /// have them.
-    pub fn beside(&self, other: &Self) -> Vec<(String, f64, f64)> {
-        let mut rows = vec![];
-        for (k, (a, b)) in self.beats.iter().zip(&other.beats).enumerate() {
-            let of = |what: &str| format!("{what}, beat {}", k + 1);
-            if let (Some(x), Some(y)) = (a.lift_over_weight, b.lift_over_weight) {
-                rows.push((of("lift over weight"), x, y));
-            }
-            rows.push((of("lift [N]"), a.lift_newton, b.lift_newton));
-            rows.push((of("forward force [N]"), a.thrust_newton, b.thrust_newton));
-            rows.push((of("power [W]"), a.power_watt, b.power_watt));
-        }
-        let [a, b] = [self.numbers(), other.numbers()];
-        rows.extend(
-            a.into_iter()
-                .zip(b)
-                .map(|((what, x), (_, y))| (what.to_owned(), x, y)),
-        );
-        rows
-    }
-
-    fn numbers(&self) -> [(&'static str, f64); 18] {
-        let [x, y, z] = self.displacement_m;
-        let [pitch, yaw, roll] = self.turn_deg;
-        [
-            ("steps", self.steps as f64),
-            ("time [s]", self.time_s),
-            ("mass [kg]", self.mass_kg),
-            ("moved forward n1 [m]", x),
-            ("moved right n2 [m]", y),
-            ("moved down n3 [m]", z),
-            ("turned in pitch [deg]", pitch),
-            ("turned in yaw [deg]", yaw),
-            ("turned in roll [deg]", roll),
-            ("lift at the end [N]", self.final_lift_newton),
-            ("forward force at the end [N]", self.final_thrust_newton),
-            ("energy residual, relative", self.energy_residual_relative),
-            (
-                "momentum residual, relative",
-                self.momentum_residual_relative,
-            ),
-            ("constraint violation [m]", self.violation_position_m),
-            (
-                "constraint violation, orientation",
-                self.violation_orientation,
-            ),
-            ("corrector passes, mean", self.corrector_passes_mean),
-            ("wake rings", self.wake_rings as f64),
-            ("regularised events", self.regularised as f64),
-        ]
-    }
-
-    /// As JSON in one line, with the directory it belongs to.
-    pub fn to_json_line(&self, dir: &std::path::Path) -> String {
-        serde_json::json!({ "directory": dir, "summary": self }).to_string()
-    }
-
-    /// As JSON.
-    pub fn to_json(&self) -> String {
-        serde_json::to_string_pretty(self).expect("a summary is JSON") + "\n"
     }
 }
 

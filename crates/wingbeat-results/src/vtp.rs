@@ -223,3 +223,15 @@ pub(super) fn check_sum(text: &str, what: &str) -> Result<(), String> {
 pub fn frame_name(stem: &str, step: usize) -> String {
     format!("{stem}_{step:06}.vtp")
 }
+
+/// Name of a frame, whole or half-written: `wakes_000012.vtp`.
+pub(crate) fn is_frame(name: &str) -> bool {
+    let stem = |n: &str| n.strip_suffix(".vtp").map(str::to_owned);
+    let number = stem(name.trim_end_matches(".part")).and_then(|stem| {
+        let (what, number) = stem.split_once('_')?;
+        ["surfaces", "wakes", "particles"]
+            .contains(&what)
+            .then(|| number.to_owned())
+    });
+    number.is_some_and(|n| !n.is_empty() && n.bytes().all(|b| b.is_ascii_digit()))
+}

@@ -3,7 +3,8 @@
 use wingbeat_flight::AirModel;
 use wingbeat_model::Animal;
 
-use super::{Built, blade, derivatives, lattice};
+use super::fault::Built;
+use super::{blade, derivatives, lattice};
 use crate::raw::{AirModel as Model, Case};
 
 /// The air of the flight.

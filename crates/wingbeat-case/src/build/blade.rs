@@ -3,8 +3,9 @@
 use wingbeat_blade::{BladeSettings, BodyDrag, Rotation, Translation, ViscousMoment, find_set};
 use wingbeat_flight::BladeOptions;
 
+use super::fault::Built;
+use super::numbers::vector;
 use super::wind::wind;
-use super::{Built, vector};
 use crate::error::Fault;
 use crate::raw::{AirCase, BladeCase, BodyDragCase, RotationCase};
 

@@ -5,7 +5,8 @@ use wingbeat_model::build::{BodyMass, fit_body_length};
 use wingbeat_model::revolution::{Profile, Revolution};
 use wingbeat_model::{Animal, BodyPart, MassInput, QuadMesh};
 
-use super::{Built, blame, given_mass, symmetric, vector};
+use super::fault::{Built, blame};
+use super::numbers::{given_mass, symmetric, vector};
 use crate::error::Fault;
 use crate::raw::{BodyCase, OriginCase, PartCase, ProfileCase};
 

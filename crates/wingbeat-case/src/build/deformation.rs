@@ -5,8 +5,8 @@ use wingbeat_model::deformation::{SpanLaw, Term};
 use wingbeat_model::motion::Fourier;
 use wingbeat_model::{Animal, Deformation, ModelError, Wing};
 
-use super::Built;
-use super::wing::twin_name;
+use super::fault::Built;
+use super::sides::twin_name;
 use crate::error::Fault;
 use crate::raw::{Case, CourseCase, DeformationCase};
 

@@ -8,7 +8,8 @@ use wingbeat_flight::ExternalAir;
 use wingbeat_math::r2;
 use wingbeat_model::Animal;
 
-use super::{Built, vector};
+use super::fault::Built;
+use super::numbers::vector;
 use crate::error::Fault;
 use crate::external::ProcessAir;
 use crate::raw::{AirCase, Case, DerivativesCase, DimensionlessCase};

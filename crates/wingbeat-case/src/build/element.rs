@@ -2,7 +2,7 @@
 
 use wingbeat_dynamics::{Element, ElementLaw, Fourier};
 
-use super::Built;
+use super::fault::Built;
 use crate::error::Fault;
 use crate::raw::{ElementCase, JointCase, JointKind, SeriesCase};
 

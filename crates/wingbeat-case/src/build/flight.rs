@@ -7,8 +7,9 @@ use wingbeat_flight::{
 use wingbeat_math::{DVec3, EulerSequence, RotationLaw};
 use wingbeat_model::Animal;
 
+use super::fault::Built;
 use super::joint::body_names;
-use super::{Built, vector};
+use super::numbers::vector;
 use crate::error::Fault;
 use crate::raw::{
     AirModel, AngleOscillation, BaumgarteCase, Case, DynamicsCase, FlightCase, Formulation,

@@ -8,7 +8,10 @@ use wingbeat_flight::{DriftingFourier, FlightSetup};
 use wingbeat_math::DVec3;
 use wingbeat_model::Animal;
 
-use super::{Built, element, segment, vector, wing};
+use super::fault::Built;
+use super::numbers::vector;
+use super::sides::twin_name;
+use super::{element, segment};
 use crate::error::Fault;
 use crate::raw::{Case, JointCase, JointKind, TravelCase, TurnCase};
 
@@ -264,7 +267,7 @@ fn mirrored(
     joint: &JointCase,
 ) -> Option<(String, JointCase)> {
     let is_wing = |n: &str| animal.wings.iter().any(|w| w.name == n);
-    let twin = wing::twin_name(&joint.child).filter(|t| is_wing(t) && is_wing(&joint.child))?;
+    let twin = twin_name(&joint.child).filter(|t| is_wing(t) && is_wing(&joint.child))?;
     let taken = case.joint.values().any(|j| j.child == twin);
     if taken || joint.kind == JointKind::Spherical {
         return None;
@@ -273,7 +276,7 @@ fn mirrored(
     let turning = |[x, y, z]: [f64; 3]| [-x, y, -z];
     let slides = matches!(joint.kind, JointKind::Prismatic | JointKind::PointOnLine);
     let parent = joint.parent.as_deref().and_then(|p| {
-        let other = wing::twin_name(p).filter(|t| body_names(animal).contains(&t.as_str()));
+        let other = twin_name(p).filter(|t| body_names(animal).contains(&t.as_str()));
         other.or(Some(p.to_owned()))
     });
     let image = JointCase {
@@ -287,7 +290,7 @@ fn mirrored(
         axes: joint.axes.map(|axes| axes.map(turning)),
         ..joint.clone()
     };
-    let name = wing::twin_name(name).unwrap_or_else(|| format!("{name}-{twin}"));
+    let name = twin_name(name).unwrap_or_else(|| format!("{name}-{twin}"));
     Some((name, image))
 }
 

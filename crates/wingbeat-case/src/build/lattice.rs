@@ -7,8 +7,10 @@ use wingbeat_air::{
 use wingbeat_flight::AirOptions;
 use wingbeat_model::Animal;
 
+use super::fault::Built;
 use super::lengths::Chord;
-use super::{Built, deformation, vector, wind};
+use super::numbers::vector;
+use super::{deformation, wind};
 use crate::error::Fault;
 use crate::raw::{
     AirCase, Case, FrictionCase, LeadingEdgeCase, ParticlesCase, SchemeCase, SectionDragCase,

@@ -3,7 +3,7 @@
 use wingbeat_air::CoreModel;
 use wingbeat_model::Animal;
 
-use super::Built;
+use super::fault::Built;
 use crate::error::Fault;
 use crate::raw::CoreCase;
 

@@ -5,7 +5,7 @@ use wingbeat_model::motion::{
 };
 use wingbeat_model::{AngleLaw, AngleLaws, Side, Start, WingMotion};
 
-use super::Built;
+use super::fault::Built;
 use crate::data::find_data;
 use crate::error::Fault;
 use crate::raw::{

@@ -2,7 +2,7 @@
 
 use wingbeat_model::Animal;
 
-use super::Built;
+use super::fault::Built;
 use crate::error::Fault;
 
 /// A name as it stands in names of columns: everything but letters and digits is an underscore.

@@ -4,7 +4,8 @@ use wingbeat_flight::JointSetup;
 use wingbeat_math::{DMat3, DVec3, MassProperties};
 use wingbeat_model::{Animal, BodyPart, Segment};
 
-use super::{Built, given_mass, symmetric, vector};
+use super::fault::Built;
+use super::numbers::{given_mass, symmetric, vector};
 use crate::error::Fault;
 use crate::raw::{Case, SegmentCase};
 

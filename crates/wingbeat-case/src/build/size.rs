@@ -1,9 +1,9 @@
 //! Size of the case: a surface of too many panels, and what many small parts add up to, are refused
 //! before anything is built.
 
-use super::Built;
 use super::body::resolution;
-use super::wing::twin_name;
+use super::fault::Built;
+use super::sides::twin_name;
 use crate::error::Fault;
 use crate::raw::{AirModel, Case, PartCase, WingCase, WingMeshCase};
 

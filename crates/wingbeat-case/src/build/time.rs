@@ -2,7 +2,7 @@
 
 use wingbeat_flight::TimeGrid;
 
-use super::{Built, at_most};
+use super::fault::{Built, at_most};
 use crate::error::Fault;
 use crate::raw::Case;
 

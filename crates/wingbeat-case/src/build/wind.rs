@@ -3,7 +3,8 @@
 use wingbeat_air::{Gust, GustShape, Plane, Wind};
 use wingbeat_math::{DMat3, DVec3};
 
-use super::{Built, vector};
+use super::fault::Built;
+use super::numbers::vector;
 use crate::error::Fault;
 use crate::raw::{AirCase, GroundCase, GustCase};
 

@@ -4,7 +4,10 @@ use wingbeat_math::DVec3;
 use wingbeat_model::planform::{Beta, ChordSize, Planform, WingShape};
 use wingbeat_model::{MassInput, Side, Wing};
 
-use super::{Built, blame, deformation, given_mass, motion, symmetric, vector};
+use super::fault::{Built, blame};
+use super::numbers::{given_mass, symmetric, vector};
+use super::sides::twin_name;
+use super::{deformation, motion};
 use crate::error::Fault;
 use crate::raw::{BetaCase, Case, PlanformCase, WingCase, WingMeshCase};
 
@@ -29,17 +32,6 @@ pub(super) fn source_of(case: &Case, wing: &str) -> String {
     match twin_name(wing) {
         Some(twin) if case.wing.get(wing).is_none_or(|w| w.hinge_m.is_none()) => twin,
         _ => wing.to_owned(),
-    }
-}
-
-/// The name with `left` and `right` exchanged.
-pub(super) fn twin_name(name: &str) -> Option<String> {
-    if name.contains("right") {
-        Some(name.replace("right", "left"))
-    } else if name.contains("left") {
-        Some(name.replace("left", "right"))
-    } else {
-        None
     }
 }
 

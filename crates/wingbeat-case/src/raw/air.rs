@@ -18,9 +18,6 @@ const WIND: &str = "air.model = vortex_lattice | blade_element";
 /// Keys of the undisturbed air.
 const FLUID: &str = "air.model = vortex_lattice | blade_element | derivatives";
 
-/// Kinematic viscosity of air at 20 degrees Celsius \[m2/s\].
-pub(super) const AIR: f64 = 1.5e-5;
-
 /// The air and its model.
 #[derive(Clone, Debug, PartialEq, SmartDefault, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]

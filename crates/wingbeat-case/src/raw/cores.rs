@@ -4,7 +4,8 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use smart_default::SmartDefault;
 
-use super::air::AIR;
+/// Kinematic viscosity of air at 20 degrees Celsius \[m2/s\].
+const AIR: f64 = 1.5e-5;
 
 /// Regularisation of a vortex filament.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]

@@ -5,19 +5,16 @@ use std::path::Path;
 
 use wingbeat_math::DVec3;
 
-use super::Source;
 use super::dots::Dots;
 use super::drawing::{Anchor, COLOURS, Drawing, INK, Stroke};
-use super::reel::{Film, Gif, Reel};
+use super::reel::{Film, Gif, Reel, SIZE};
+use super::source::Source;
 use super::wake::{Filaments, SKIN, pen};
 use wingbeat_case::IoError;
 use wingbeat_case::LoadedCase;
 use wingbeat_results::frames::{self, Frame};
 use wingbeat_results::poses::{Poses, picture};
 use wingbeat_results::rows::Rows;
-
-/// Width and height \[points\].
-pub(super) const SIZE: [f64; 2] = [560.0, 420.0];
 /// More pictures than this are thinned.
 const MOST_PICTURES: usize = 150;
 /// The same for a film.
@@ -184,7 +181,7 @@ fn words(to: &mut Drawing, case: &LoadedCase, time: f64) {
     let end = 12.0 + SIZE[0] / WING_LENGTHS;
     let y = SIZE[1] - 26.0;
     to.line(vec![[12.0, y], [end, y]], Stroke::solid(INK, 1.5));
-    let (scale, prefix) = super::kinds::prefix(&[length]);
+    let (scale, prefix) = super::units::prefix(&[length]);
     let text = format!("{:.1} {prefix}m", length / scale);
     to.text([12.0, y + 16.0], &text, 12.0, Anchor::Start);
 }

@@ -4,9 +4,10 @@ use wingbeat_flight::FlightSetup;
 
 use super::drawing::{COLOURS, Drawing};
 use super::grid::grid;
-use super::kinds::{downstrokes, force_unit, prefix, scaled, stroke};
+use super::kinds::{downstrokes, stroke};
 use super::plot::{self, Band, Curve, Plot};
 use super::style::Look;
+use super::units::{force_unit, prefix, scaled};
 use wingbeat_results::History;
 use wingbeat_results::summary::{BeatMeans, air_force, down, hinge_power};
 

@@ -1,11 +1,13 @@
 //! Vortex particles as dots.
 
 use super::drawing::{COLOURS, Colour, Drawing};
-use super::wake::FAINTEST;
 use wingbeat_results::particles::Cloud;
 
 /// Corners of a dot: there are many, and they are small.
 const CORNERS: usize = 8;
+
+/// Weaker filaments and particles, relative to the usual, are not drawn.
+pub(super) const FAINTEST: f64 = 0.06;
 
 /// Vortex particles, weak ones first: places, and strengths over that which few particles exceed.
 pub(super) struct Dots {

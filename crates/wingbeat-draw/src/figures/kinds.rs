@@ -4,6 +4,7 @@ use wingbeat_flight::FlightSetup;
 use wingbeat_math::DVec3;
 
 use super::measure::{Kept, Line, Measure, Measured, Unit};
+use super::units::scaled;
 use wingbeat_results::History;
 use wingbeat_results::columns::body_names;
 use wingbeat_results::summary::{air_force, down, hinge_power};
@@ -22,10 +23,6 @@ pub(super) fn measured(setup: &FlightSetup, history: &History) -> Vec<Measured> 
     list
 }
 
-pub(super) fn scaled(values: &[f64], factor: f64) -> Vec<f64> {
-    values.iter().map(|v| v * factor).collect()
-}
-
 /// Name in column names of the wing that stands for all, the last one, and the sign that makes its
 /// stroke angle rise in the downstroke; none for a motion without a period.
 pub(super) fn reference_wing(setup: &FlightSetup) -> Option<(String, f64)> {
@@ -33,6 +30,26 @@ pub(super) fn reference_wing(setup: &FlightSetup) -> Option<(String, f64)> {
     let wing = setup.animal.wings.last()?;
     let name = body_names(&setup.animal).swap_remove(setup.animal.wings.len());
     Some((name, wing.side.sign()))
+}
+
+/// Where the stroke angle of the reference wing stands in a row, and the sign by which it rises in
+/// the downstroke.
+pub(crate) fn stroke_column(setup: &FlightSetup, names: &[String]) -> Option<(usize, f64)> {
+    let (wing, sign) = reference_wing(setup)?;
+    let name = format!("{wing}_prescribed_phi_rad");
+    Some((names.iter().position(|n| *n == name)?, sign))
+}
+
+/// Time axis: wingbeats where there are any, else seconds.
+pub(crate) fn time_axis(setup: &FlightSetup, history: &History) -> (String, Vec<f64>) {
+    let time = history.column("time_s");
+    match setup.time.period {
+        Some(period) => (
+            "wingbeats".to_owned(),
+            time.iter().map(|t| t / period).collect(),
+        ),
+        None => ("time [s]".to_owned(), time.to_vec()),
+    }
 }
 
 /// Stroke angle of the reference wing, row by row, with the sign by which it rises in the downstroke;
@@ -62,16 +79,6 @@ pub(super) fn downstrokes(stroke: &[f64], x: &[f64]) -> Vec<[f64; 2]> {
     list
 }
 
-/// What forces are given in: unit as a label, and the factor from newtons.
-pub(super) fn force_unit(setup: &FlightSetup, values: &[f64]) -> (String, f64) {
-    let weight = setup.animal.mass() * setup.gravity.length();
-    if weight > 0.0 {
-        return ("weight".to_owned(), 1.0 / weight);
-    }
-    let (scale, prefix) = prefix(values);
-    (format!("{prefix}N"), 1.0 / scale)
-}
-
 fn forces(setup: &FlightSetup, history: &History) -> Measured {
     let lines = vec![
         Line::new("up", air_force(history, -down(setup))),
@@ -88,16 +95,6 @@ fn forces(setup: &FlightSetup, history: &History) -> Measured {
             Measure::new("power of the hinges", Unit::Prefixed("W"), power),
         ],
     }
-}
-
-/// A decimal prefix that suits the largest magnitude, and its factor.
-pub(super) fn prefix(values: &[f64]) -> (f64, &'static str) {
-    let finite = values.iter().filter(|v| v.is_finite());
-    let top = finite.fold(0.0_f64, |a, v| a.max(v.abs()));
-    let all = [(1e3, "k"), (1.0, ""), (1e-3, "m"), (1e-6, "µ"), (1e-9, "n")];
-    let fits = |(scale, _): &(f64, &str)| top >= 0.99 * scale;
-    let smallest = if top > 0.0 { all[4] } else { all[1] };
-    all.into_iter().find(fits).unwrap_or(smallest)
 }
 
 fn trajectory(history: &History) -> Measured {

@@ -4,7 +4,7 @@
 use wingbeat_flight::FlightSetup;
 
 use super::chart::{Chart, Panel, Series};
-use super::kinds::{force_unit, prefix, scaled};
+use super::units::{force_unit, prefix, scaled};
 
 /// A figure.
 #[derive(Clone, Debug, PartialEq)]

@@ -3,9 +3,9 @@
 use wingbeat_flight::FlightSetup;
 
 use super::drawing::{Anchor, COLOURS, Drawing, INK};
-use super::kinds::prefix;
 use super::plot::{self, Area, Plot};
 use super::style::Look;
+use super::units::prefix;
 
 /// Places of the body, thinned: a way has no oscillation finer than its steps are long.
 #[derive(Clone, Debug, Default)]

@@ -4,9 +4,10 @@ use wingbeat_flight::FlightSetup;
 
 use super::drawing::{COLOURS, Drawing};
 use super::grid::grid;
-use super::kinds::{from_start, prefix, reference_wing, scaled};
+use super::kinds::{from_start, reference_wing};
 use super::plot::{self, Plot};
 use super::style::Look;
+use super::units::{prefix, scaled};
 use wingbeat_results::History;
 
 /// Two quantities over time, with their names.

@@ -7,7 +7,8 @@ use std::process::{Child, Command, Stdio};
 
 use gif::{Encoder, Frame, Repeat};
 
-use super::animation::SIZE;
+/// Width and height \[points\].
+pub(super) const SIZE: [f64; 2] = [560.0, 420.0];
 
 /// Takes pictures one after the other.
 pub(super) trait Reel {

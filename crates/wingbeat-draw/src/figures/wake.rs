@@ -3,12 +3,12 @@
 
 use std::path::Path;
 
-use super::dots::{Dots, dye};
+use super::dots::{Dots, FAINTEST, dye};
 use super::drawing::{Anchor, COLOURS, Colour, Drawing, INK, Stroke};
 use super::grid::one_scale;
-use super::kinds::prefix;
 use super::plot::{self, Area, Axes, Plot};
 use super::style::Look;
+use super::units::prefix;
 use wingbeat_case::IoError;
 use wingbeat_case::LoadedCase;
 use wingbeat_results::frames::{self, Frame, Mesh, Sheet};
@@ -62,9 +62,6 @@ struct Wakes {
     filaments: Filaments,
     dots: Dots,
 }
-
-/// Weaker filaments and particles, relative to the usual, are not drawn.
-pub(super) const FAINTEST: f64 = 0.06;
 
 /// Vortex filaments between the rings of wakes, weak ones first: two ends, and the difference of the
 /// rings' circulations over that which few filaments exceed.

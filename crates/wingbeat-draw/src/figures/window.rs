@@ -6,10 +6,9 @@ use std::path::Path;
 
 use wingbeat_flight::FlightSetup;
 
-use super::Chart;
-use super::kinds::{downstrokes, measured, stroke};
+use super::chart::Chart;
+use super::kinds::{downstrokes, measured, stroke, time_axis};
 use super::measure::Measured;
-use super::time_axis;
 use wingbeat_case::IoError;
 use wingbeat_results::History;
 use wingbeat_results::rows::Rows;

@@ -12,8 +12,8 @@ use std::path::Path;
 use serde_json::{Value, json};
 use wingbeat_math::{DMat3, DQuat, DVec3};
 
-use super::Source;
 use super::block::Block;
+use super::source::Source;
 use crate::poses::Poses;
 use wingbeat_case::IoError;
 

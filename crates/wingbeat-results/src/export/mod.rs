@@ -15,19 +15,18 @@ mod block;
 mod gltf;
 pub mod hdf5;
 mod parquet;
+mod source;
 mod tables;
 mod vtkhdf;
 
 use std::path::{Path, PathBuf};
 
-use crate::columns::{Column, Columns};
+use crate::ResultDir;
 use crate::file::{NewFile, make_folder};
 use crate::frames::{self, Frame};
-use crate::poses::Poses;
-use crate::rows::Rows;
-use crate::{Manifest, ResultDir};
 use wingbeat_case::IoError;
-use wingbeat_case::LoadedCase;
+
+use source::Source;
 
 /// A format to export to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -60,60 +59,6 @@ impl Format {
             Self::Vtkhdf => &["surfaces.vtkhdf", "wakes.vtkhdf"],
             Self::Parquet => &["history.parquet"],
             Self::Gltf => &["flight.glb"],
-        }
-    }
-}
-
-/// A result that is exported.
-struct Source<'a> {
-    dir: &'a ResultDir,
-    case: LoadedCase,
-    manifest: Manifest,
-}
-
-impl Source<'_> {
-    fn history(&self) -> PathBuf {
-        self.dir.join("history.csv")
-    }
-
-    fn rows(&self) -> Result<Rows, IoError> {
-        Rows::open(&self.history())
-    }
-
-    /// What the columns of the history hold, in their order there.
-    ///
-    /// # Errors
-    /// A history that cannot be read; a column of another flight.
-    fn columns(&self) -> Result<Vec<Column>, IoError> {
-        let rows = self.rows()?;
-        let all = Columns::in_file(&self.history(), &self.case.setup, rows.names())?;
-        let known = |name: &String| {
-            let problem = || format!("the column `{name}` is none of this flight");
-            let found = all.find(name).cloned();
-            let mut column = found.ok_or_else(|| self.damaged(&problem()))?;
-            column.name.clone_from(name);
-            Ok(column)
-        };
-        rows.names().iter().map(known).collect()
-    }
-
-    /// Rows of the history; none is an error.
-    fn row_count(&self) -> Result<usize, IoError> {
-        match Rows::count(&self.history())? {
-            0 => Err(self.damaged("there is no whole row in this history yet")),
-            count => Ok(count),
-        }
-    }
-
-    fn poses(&self, names: &[String]) -> Result<Poses, IoError> {
-        let poses = Poses::new(&self.case.setup.animal, names);
-        poses.ok_or_else(|| self.damaged("this history belongs to another animal than case.toml"))
-    }
-
-    fn damaged(&self, problem: &str) -> IoError {
-        IoError::Damaged {
-            path: self.history(),
-            problem: problem.to_owned(),
         }
     }
 }

@@ -4,10 +4,10 @@
 
 use std::path::Path;
 
-use super::Source;
 use super::block::Block;
 use super::hdf5::{Attribute, Hdf5File, Kind, Layout};
 use super::parquet::ParquetWriter;
+use super::source::Source;
 use crate::Summary;
 use crate::columns::{Column, TIME};
 use crate::frames::{self, Frame, Mesh};

@@ -3,8 +3,8 @@
 
 use std::path::Path;
 
-use super::Source;
 use super::hdf5::{Attribute, Hdf5File, Kind, Layout};
+use super::source::Source;
 use super::tables::particle_counts;
 use crate::frames::{self, Frame, Mesh};
 use crate::particles::NUMBERS;

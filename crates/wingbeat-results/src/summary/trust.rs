@@ -5,7 +5,8 @@ use wingbeat_air::{
 };
 use wingbeat_flight::{AirModel, FlightSetup, FormulationChoice, MotionMode};
 
-use super::{BeatMeans, Summary};
+use super::beats::BeatMeans;
+use super::numbers::Summary;
 
 /// No animal carries this many of its weights over a whole wingbeat.
 const IMPLAUSIBLE_LIFT: f64 = 10.0;

@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use super::Summary;
+use super::numbers::Summary;
 use crate::Outcome;
 use crate::fixed::{fixed, signed};
 

@@ -1,0 +1,43 @@
+//! Faults that name the key they are about.
+
+use serde::Serialize;
+use wingbeat_model::ModelError;
+
+use crate::error::Fault;
+
+pub(super) type Built<T> = Result<T, Fault>;
+
+/// A whole number <= `most` at `key`.
+pub(super) fn at_most(key: &str, value: usize, most: usize, remedy: &str) -> Built<usize> {
+    if value <= most {
+        return Ok(value);
+    }
+    Err(Fault::new(
+        key,
+        "this is too large",
+        format!("a whole number <= {most}"),
+        remedy,
+    ))
+}
+
+/// A fault of the model traced to the key of the raw table `raw` at `path` it is about.
+pub(super) fn blame(path: &str, raw: &impl Serialize, error: &ModelError) -> Fault {
+    let (named, allowed) = match error {
+        ModelError::Value { key, allowed, .. } | ModelError::Count { key, allowed, .. } => {
+            (key.as_str(), *allowed)
+        }
+        _ => ("", ""),
+    };
+    let stem = named.rsplit('.').next().unwrap_or("");
+    let stem = stem.split('[').next().unwrap_or("");
+    let matching = |key: &&String| {
+        let rest = key.strip_prefix(stem);
+        !stem.is_empty() && rest.is_some_and(|r| r.is_empty() || r.starts_with('_'))
+    };
+    let table = toml::Table::try_from(raw).unwrap_or_default();
+    let key = match table.keys().find(matching) {
+        Some(key) => format!("{path}.{key}"),
+        None => path.to_owned(),
+    };
+    Fault::new(key, error.to_string(), allowed, "change this value")
+}

@@ -1,0 +1,112 @@
+//! What figures are drawn from, and the drawing of every kind.
+
+use std::ops::Range;
+use std::path::Path;
+
+use super::chart::Chart;
+use super::drawing::Drawing;
+use super::order::Kind;
+use super::style::Style;
+use super::window::{Window, charts};
+use super::{beats, lollipop, path, phase, wake};
+use wingbeat_case::{IoError, LoadedCase};
+use wingbeat_results::rows::Rows;
+use wingbeat_results::summary::BeatMeans;
+use wingbeat_results::{History, Summary};
+
+/// More abscissas than this do not make a figure better: of longer flights, extremes are drawn.
+const MOST_POINTS: usize = 4000;
+
+/// Rows, the last ones, from which phase planes and single wingbeats are drawn.
+const MOST_ROWS: usize = 8000;
+
+/// What figures are drawn from.
+pub(super) struct Source<'a> {
+    pub dir: &'a Path,
+    pub case: &'a LoadedCase,
+    /// Rows of the history that are drawn.
+    pub rows: Range<usize>,
+    /// The last of these rows, at most [`MOST_ROWS`].
+    history: History,
+    charts: Vec<(&'static str, Chart)>,
+    /// Whole wingbeats in these rows.
+    beats: Vec<BeatMeans>,
+    /// Frame whose wake is drawn.
+    step: Option<usize>,
+}
+
+impl<'a> Source<'a> {
+    pub fn new(
+        dir: &'a Path,
+        case: &'a LoadedCase,
+        summary: &Summary,
+        (window, step): (Window, Option<usize>),
+    ) -> Result<Self, IoError> {
+        let path = dir.join("history.csv");
+        let rows = window.rows(&case.setup, &path)?;
+        let last = rows.end.saturating_sub(MOST_ROWS).max(rows.start)..rows.end;
+        let history = History::of_rows(&path, last)?;
+        let (charts, _) = charts(&case.setup, &path, rows.clone(), MOST_POINTS)?;
+        let whole = Window::beats(&case.setup, &path, &rows)?;
+        let inside = |b: &&BeatMeans| whole.contains(&b.beat);
+        Ok(Self {
+            dir,
+            case,
+            history,
+            charts,
+            beats: summary.beats.iter().filter(inside).cloned().collect(),
+            step: step.or_else(|| rows.end.checked_sub(1)),
+            rows,
+        })
+    }
+
+    /// Places of the body in all rows, at most [`MOST_POINTS`] of them \[m, N\].
+    fn path(&self) -> Result<path::Path, IoError> {
+        let mut rows = Rows::open(&self.dir.join("history.csv"))?;
+        let names = ["body_x_m", "body_y_m", "body_z_m"];
+        let column = |name: &str| rows.names().iter().position(|n| n == name);
+        let Some(columns) = names
+            .iter()
+            .map(|n| column(n))
+            .collect::<Option<Vec<usize>>>()
+        else {
+            return Ok(path::Path::default());
+        };
+        rows.skip(self.rows.start)?;
+        let mut path = path::Path::new(self.rows.len().div_ceil(MOST_POINTS));
+        for k in 0..self.rows.len() {
+            let Some(row) = rows.next_row()? else { break };
+            path.add(k, row[1], [0, 1, 2].map(|c| row[columns[c]]));
+        }
+        Ok(path)
+    }
+
+    /// What phase planes show, where it is not everything.
+    fn note(&self) -> String {
+        match self.rows.len() - self.history.rows() {
+            0 => String::new(),
+            _ => format!(", last {} steps", self.history.rows()),
+        }
+    }
+
+    /// The drawing of a kind; none where the run has no such thing.
+    pub fn draw(&self, kind: Kind, style: Style) -> Result<Option<Drawing>, IoError> {
+        let (look, setup) = (style.look(), &self.case.setup);
+        if self.history.rows() < 2 {
+            return Ok(None);
+        }
+        let chart = || {
+            let found = self.charts.iter().find(|c| c.0 == kind.name());
+            found.map(|c| c.1.drawing(&look))
+        };
+        Ok(match kind {
+            Kind::Lollipop => lollipop::lollipop(setup, &self.history, &look),
+            Kind::Beats => beats::beats(setup, &self.history, &self.beats, &look),
+            Kind::Path => path::path(setup, &self.path()?, &look),
+            Kind::Phase => phase::phase(setup, &self.history, &self.note(), &look),
+            Kind::Wake => wake::wake(self.dir, self.case, self.step, &look)?,
+            Kind::Animation => None,
+            Kind::Angles | Kind::Forces | Kind::Trajectory | Kind::Balances => chart(),
+        })
+    }
+}

@@ -1,0 +1,64 @@
+//! The result that is exported.
+
+use std::path::PathBuf;
+
+use wingbeat_case::{IoError, LoadedCase};
+
+use crate::columns::{Column, Columns};
+use crate::poses::Poses;
+use crate::rows::Rows;
+use crate::{Manifest, ResultDir};
+
+/// A result that is exported.
+pub(super) struct Source<'a> {
+    pub dir: &'a ResultDir,
+    pub case: LoadedCase,
+    pub manifest: Manifest,
+}
+
+impl Source<'_> {
+    pub fn history(&self) -> PathBuf {
+        self.dir.join("history.csv")
+    }
+
+    pub fn rows(&self) -> Result<Rows, IoError> {
+        Rows::open(&self.history())
+    }
+
+    /// What the columns of the history hold, in their order there.
+    ///
+    /// # Errors
+    /// A history that cannot be read; a column of another flight.
+    pub fn columns(&self) -> Result<Vec<Column>, IoError> {
+        let rows = self.rows()?;
+        let all = Columns::in_file(&self.history(), &self.case.setup, rows.names())?;
+        let known = |name: &String| {
+            let problem = || format!("the column `{name}` is none of this flight");
+            let found = all.find(name).cloned();
+            let mut column = found.ok_or_else(|| self.damaged(&problem()))?;
+            column.name.clone_from(name);
+            Ok(column)
+        };
+        rows.names().iter().map(known).collect()
+    }
+
+    /// Rows of the history; none is an error.
+    pub fn row_count(&self) -> Result<usize, IoError> {
+        match Rows::count(&self.history())? {
+            0 => Err(self.damaged("there is no whole row in this history yet")),
+            count => Ok(count),
+        }
+    }
+
+    pub fn poses(&self, names: &[String]) -> Result<Poses, IoError> {
+        let poses = Poses::new(&self.case.setup.animal, names);
+        poses.ok_or_else(|| self.damaged("this history belongs to another animal than case.toml"))
+    }
+
+    pub fn damaged(&self, problem: &str) -> IoError {
+        IoError::Damaged {
+            path: self.history(),
+            problem: problem.to_owned(),
+        }
+    }
+}
