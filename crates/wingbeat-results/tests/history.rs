@@ -393,3 +393,13 @@ fn agrees_thinned_histories_with_whole_ones() {
     let folded = |c: &&wingbeat_results::columns::Column| c.fold != Fold::Last;
     assert_eq!(columns.iter().filter(folded).count(), 7);
 }
+
+#[test]
+fn regress_the_page_of_columns_is_that_of_the_program() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/columns.md");
+    let page = fs::read_to_string(path).unwrap();
+    assert!(
+        page == wingbeat_results::columns::page(),
+        "docs/columns.md is old: cargo run -p wingbeat-results --example columns > docs/columns.md"
+    );
+}

@@ -4,7 +4,7 @@ use wingbeat_flight::FlightSetup;
 use wingbeat_model::{AngleLaw, Wing};
 
 use super::Built;
-use super::wing::twin_name;
+use super::sides::twin_name;
 use crate::error::Fault;
 use crate::raw::{Case, Formulation, JointCase, Mode, WingCase};
 use crate::source::CaseSource;
