@@ -4,6 +4,7 @@
 //! failure is kept, nothing more is printed there, and [`close`] turns it into the exit code. Only
 //! a reader who has seen enough (`wingbeat show DIR | head -1`) is no failure.
 
+use std::borrow::Cow;
 use std::fmt::Arguments;
 use std::io::{self, ErrorKind, Write};
 use std::sync::{Mutex, PoisonError};
@@ -56,7 +57,31 @@ pub(crate) fn output(text: Arguments<'_>) {
 
 /// Prints on the standard error.
 pub(crate) fn errors(text: Arguments<'_>) {
-    ERRORS.print(|| io::stderr().write_fmt(text));
+    let text = text.to_string();
+    ERRORS.print(|| io::stderr().write_all(abridged(&text).as_bytes()));
+}
+
+/// Words longer than this many characters are not said in full.
+const LONGEST_WORD: usize = 1000;
+
+/// The text with the middle of very long words left out: what was typed is said again in messages.
+fn abridged(text: &str) -> Cow<'_, str> {
+    let is_long = |word: &&str| word.len() > LONGEST_WORD;
+    if !text.split_whitespace().any(|w| is_long(&w)) {
+        return Cow::Borrowed(text);
+    }
+    let short = |word: &str| {
+        let count = word.chars().count();
+        let start: String = word.chars().take(LONGEST_WORD / 10).collect();
+        let end: String = word.chars().skip(count - LONGEST_WORD / 10).collect();
+        format!("{start}[... {count} characters ...]{end}")
+    };
+    let pieces = text.split_inclusive(char::is_whitespace);
+    let pieces = pieces.map(|piece| match is_long(&piece) {
+        true => short(piece),
+        false => piece.to_owned(),
+    });
+    Cow::Owned(pieces.collect())
 }
 
 /// Help, version, or what is wrong with the command line; its exit code.
@@ -66,7 +91,11 @@ pub(crate) fn usage(message: &clap::Error) -> u8 {
     } else {
         &OUTPUT
     };
-    stream.print(|| message.print());
+    let plain = message.render().to_string();
+    stream.print(|| match abridged(&plain) {
+        Cow::Borrowed(_) => message.print(), // in colours
+        Cow::Owned(short) => io::stderr().write_all(short.as_bytes()),
+    });
     u8::try_from(message.exit_code()).unwrap_or(2)
 }
 
@@ -83,5 +112,21 @@ pub(crate) fn close(code: u8) -> u8 {
             code.max(UNSAID)
         }
         None => code,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn behaves_only_very_long_words_are_abridged() {
+        let plain = format!("error: no {} here\n", "x".repeat(LONGEST_WORD));
+        assert_eq!(abridged(&plain), plain);
+        let long = "ab".repeat(50_000);
+        let said = abridged(&format!("error: no\n`{long}` here\n")).into_owned();
+        assert!(said.len() < 400, "{}", said.len());
+        assert!(said.starts_with("error: no\n`abab") && said.ends_with("abab` here\n"));
+        assert!(said.contains("[... 100003 characters ...]"), "{said}");
     }
 }

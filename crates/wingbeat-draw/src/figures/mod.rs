@@ -67,28 +67,36 @@ pub fn plot(dir: &ResultDir, order: &Order) -> Result<Vec<PathBuf>, IoError> {
         false => order.kinds.clone(),
     };
     dir.check_folder(&order.folder)?;
-    make_folder(&order.folder)?;
-    let mut files = vec![];
+    // Everything that can be refused is, before anything is written.
+    let (mut stills, mut films) = (vec![], vec![]);
     for kind in kinds {
         let format = Format::of(order.format, kind).map_err(fault(&order.folder))?;
         let file = format!("{}.{}", kind.name(), format.ending());
         let file = order.folder.join(file);
         if kind == Kind::Animation {
-            animate(&source, &file, format == Format::Mp4, order.overwrite)?;
-            files.push(file);
+            films.push((file, format == Format::Mp4));
             continue;
         }
         match source.draw(kind, order.style)? {
             Some(drawing) => {
                 let bytes = encoded(&drawing, order.style, format).map_err(fault(&file))?;
-                write_file(&file, &bytes, order.overwrite)?;
-                files.push(file);
+                stills.push((file, bytes));
             }
             None if order.kinds.is_empty() => {}
             None => return Err(fault(&file)(kind.needs().to_owned())),
         }
     }
-    Ok(files)
+    make_folder(&order.folder)?;
+    for (file, bytes) in &stills {
+        write_file(file, bytes, order.overwrite)?;
+    }
+    for (file, film) in &films {
+        animate(&source, file, *film, order.overwrite)?;
+    }
+    let stills = stills.into_iter().map(|(file, _)| file);
+    Ok(stills
+        .chain(films.into_iter().map(|(file, _)| file))
+        .collect())
 }
 
 fn fault(path: &Path) -> impl FnOnce(String) -> IoError + '_ {
