@@ -86,10 +86,7 @@ fn invariant_dependency_graph_is_the_architecture() {
 }
 
 /// Crates whose modules still import each other in circles, with the number of modules that do: only ever fewer.
-const TANGLED: &[(&str, usize)] = &[
-    ("wingbeat", 13),
-    ("wingbeat-verify", 18),
-];
+const TANGLED: &[(&str, usize)] = &[("wingbeat", 13), ("wingbeat-verify", 18)];
 
 /// Modules of a crate that lie in import cycles: among files, and among the files and folders of a folder.
 fn tangled(crate_name: &str) -> BTreeSet<String> {
