@@ -16,7 +16,7 @@ mod steady;
 mod unsteady;
 mod yeo;
 
-use crate::Case;
+use crate::case::Case;
 
 /// All cases.
 pub fn suite() -> Vec<Case> {
@@ -38,4 +38,10 @@ pub fn suite() -> Vec<Case> {
         hover::CASES,
     ]
     .concat()
+}
+
+/// The cases of the short or the whole suite whose name holds `only`.
+pub fn select(quick: bool, only: &str) -> Vec<Case> {
+    let wanted = |c: &Case| (c.quick || !quick) && c.name.contains(only);
+    suite().into_iter().filter(wanted).collect()
 }

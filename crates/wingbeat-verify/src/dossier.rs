@@ -3,8 +3,9 @@
 use std::borrow::Cow;
 use std::fmt::Write;
 
+use crate::case::{Case, Part};
+use crate::cases::select;
 use crate::row::{Row, Trouble, Verdict};
-use crate::{Case, Part};
 
 /// What one case gave.
 #[derive(Clone, Debug, serde::Serialize, serde::Deserialize)]
@@ -108,7 +109,7 @@ impl Dossier {
 
     /// Cases of the set that were not run, so that a short dossier does not look whole.
     fn page_left_out(&self, text: &mut String) {
-        let all = crate::select(self.quick, "");
+        let all = select(self.quick, "");
         let missing = all
             .iter()
             .filter(|c| self.entries.iter().all(|e| e.case != c.name));

@@ -1,29 +1,21 @@
 //! The program about itself: commands in groups, completions of shells, manual pages.
 
 use std::fmt::Write as _;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use clap::builder::StyledStr;
-use clap::builder::styling::{AnsiColor, Styles};
 use clap::error::{ContextKind, ContextValue};
-use clap::{Args, Command, CommandFactory, Error};
+use clap::{Command, CommandFactory, Error};
 use clap_complete::Shell;
 use wingbeat::case::{nearest, presets};
 use wingbeat::results::file::{NewFile, make_folder};
 
-use crate::Cli;
+use crate::cli::{Cli, ManArgs, STYLES};
 use crate::failure::Failure;
 use crate::terminal::{self, say};
 
 /// Name of the program.
 const PROGRAM: &str = "wingbeat";
-
-/// Colours of help and errors, as cargo has them.
-pub(crate) const STYLES: Styles = Styles::styled()
-    .header(AnsiColor::Green.on_default().bold())
-    .usage(AnsiColor::Green.on_default().bold())
-    .literal(AnsiColor::Cyan.on_default().bold())
-    .placeholder(AnsiColor::Cyan.on_default());
 
 /// The commands by what they are for.
 const GROUPS: [(&str, &[&str]); 5] = [
@@ -39,16 +31,6 @@ const GROUPS: [(&str, &[&str]); 5] = [
     ),
     ("The program", &["verify", "completions", "man", "help"]),
 ];
-
-/// What `wingbeat man` is told.
-#[derive(Args)]
-pub(crate) struct ManArgs {
-    /// Folder for the pages.
-    dir: PathBuf,
-    /// Replace files that exist already.
-    #[arg(long)]
-    overwrite: bool,
-}
 
 /// The command line, its commands listed in groups.
 pub(crate) fn command() -> Command {

@@ -1,5 +1,7 @@
 //! Numbers and names on the command line, each with the range it may have.
 
+use clap::Args;
+
 /// The air is incompressible: speeds stay below that of sound [m/s].
 const SOUND: f64 = 340.0;
 
@@ -67,6 +69,30 @@ pub(crate) fn choose<T: Copy>(name: &str, known: &[(&'static str, T)]) -> Result
             None => format!("choose from {all}"),
         }
     })
+}
+
+/// Threads at most.
+const MOST_THREADS: usize = 1024;
+
+/// How a flight is computed and shown.
+#[derive(Args)]
+pub(crate) struct Manner {
+    /// Threads to use; default all. Results do not depend on it.
+    #[arg(long, value_name = "N", value_parser = count::<1, MOST_THREADS>)]
+    pub(crate) threads: Option<usize>,
+    /// No progress and no summary on the terminal.
+    #[arg(long)]
+    pub(crate) quiet: bool,
+    /// Progress and summary as JSON, one object per line.
+    #[arg(long, conflicts_with = "quiet")]
+    pub(crate) json: bool,
+}
+
+impl Manner {
+    /// Whether nothing is said in words.
+    pub(crate) fn silent(&self) -> bool {
+        self.quiet || self.json
+    }
 }
 
 #[cfg(test)]

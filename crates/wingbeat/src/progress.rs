@@ -7,7 +7,7 @@ use indicatif::{HumanDuration, ProgressBar, ProgressDrawTarget, ProgressStyle};
 use wingbeat::flight::{FlightSetup, Record, Simulation};
 use wingbeat::results::fixed::signed;
 
-use crate::Manner;
+use crate::options::Manner;
 use crate::pace::Pace;
 use crate::terminal::say;
 

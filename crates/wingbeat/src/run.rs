@@ -1,18 +1,47 @@
 //! `wingbeat run` and `wingbeat resume`: fly a case, write its results, say what happened.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use wingbeat::case::{IoError, LoadedCase};
+use clap::Args;
+use wingbeat::case::{IoError, LoadedCase, presets};
 use wingbeat::draw::draw_run;
 use wingbeat::flight::{FlightError, Simulation};
 use wingbeat::results::{Outcome, ResultDir, RunWriter, saver};
 
 use crate::failure::{FAILED, Failure, INTERRUPTED};
+use crate::options::Manner;
 use crate::progress::Progress;
 use crate::signals::stop_flag;
 use crate::terminal::{say, tell};
-use crate::{Manner, ResumeArgs, RunArgs};
+
+/// What `wingbeat run` is told.
+#[derive(Args)]
+pub(crate) struct RunArgs {
+    /// Case file or preset.
+    #[arg(default_value = presets::DEFAULT)]
+    case: String,
+    /// Result directory; default results/NAME, with a number appended if that exists.
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// Replace an earlier run in the result directory.
+    #[arg(long, requires = "out")]
+    overwrite: bool,
+    /// Set a key of the case, e.g. time.beats=3 (may be repeated).
+    #[arg(long = "set", value_name = "KEY=VALUE")]
+    set: Vec<String>,
+    #[command(flatten)]
+    manner: Manner,
+}
+
+/// What `wingbeat resume` is told.
+#[derive(Args)]
+pub(crate) struct ResumeArgs {
+    /// Result directory of the run.
+    dir: PathBuf,
+    #[command(flatten)]
+    manner: Manner,
+}
 
 /// A flight and where it is written to; the newest record is written already.
 struct Run {

@@ -5,7 +5,7 @@ use wingbeat::analysis::derivatives::control_derivatives;
 use wingbeat::analysis::{AnalysisError, Level};
 use wingbeat::math::DVec3;
 
-use super::{Trimming, trimmed, watched};
+use super::trimming::{Trimming, trimmed, watched};
 use crate::failure::Failure;
 use crate::report::{Report, line};
 

@@ -4,7 +4,7 @@ use clap::Args;
 use serde_json::{Map, json};
 use wingbeat::analysis::power::{Power, power};
 
-use super::{Trimming, trimmed, watched};
+use super::trimming::{Trimming, trimmed, watched};
 use crate::failure::Failure;
 use crate::options;
 use crate::report::{Report, line};

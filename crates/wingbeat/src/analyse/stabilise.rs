@@ -13,7 +13,7 @@ use wingbeat::math::DVec3;
 use wingbeat::results::file::NewFile;
 use wingbeat::results::fixed::fixed;
 
-use super::{Trimming, trimmed, unused, watched};
+use super::trimming::{Trimming, trimmed, unused, watched};
 use crate::failure::Failure;
 use crate::options;
 use crate::report::{Report, line};

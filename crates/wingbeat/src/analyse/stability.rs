@@ -13,7 +13,7 @@ use wingbeat::flight::AirModel;
 use wingbeat::results::file::NewFile;
 use wingbeat::results::fixed::{fixed, signed};
 
-use super::{Trimming, trimmed, trimmed_with_wake, unused, watched};
+use super::trimming::{Trimming, trimmed, trimmed_with_wake, unused, watched};
 use crate::failure::Failure;
 use crate::report::{Report, line};
 
