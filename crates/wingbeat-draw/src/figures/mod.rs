@@ -44,7 +44,7 @@ pub(crate) use window::charts;
 use wingbeat_case::IoError;
 use wingbeat_case::LoadedCase;
 use wingbeat_results::file::{NewFile, make_folder, write_file};
-use wingbeat_results::{ResultDir, Summary};
+use wingbeat_results::{ResultDir, Summary, frames};
 
 use source::Source;
 
@@ -56,7 +56,20 @@ use source::Source;
 pub fn plot(dir: &ResultDir, order: &Order) -> Result<Vec<PathBuf>, IoError> {
     let case = dir.case()?;
     let path = dir.join("history.csv");
-    let summary = Summary::read(&case, &path, &dir.manifest()?.outcome)?;
+    let manifest = dir.manifest()?;
+    if let Some(step) = order.step {
+        let frames = frames::steps(dir.path())?;
+        let problem = match frames.is_empty() {
+            true => Some("it has no frames, so there is no wake to draw at a step".to_owned()),
+            false if step > manifest.steps => Some(format!(
+                "there is no step {step}: its steps are 0 to {}",
+                manifest.steps
+            )),
+            false => None,
+        };
+        problem.map_or(Ok(()), |p| Err(fault(dir.path())(p)))?;
+    }
+    let summary = Summary::read(&case, &path, &manifest.outcome)?;
     let source = Source::new(dir.path(), &case, &summary, (order.window, order.step))?;
     let still = Kind::ALL
         .iter()
