@@ -104,7 +104,9 @@ fn invariant_no_import_cycle_among_the_modules_of_a_crate() {
         let name = name.to_str().expect("a name");
         let found = tangled(name);
         if !found.is_empty() {
-            problems.push(format!("{name}: modules import each other in circles: {found:#?}"));
+            problems.push(format!(
+                "{name}: modules import each other in circles: {found:#?}"
+            ));
         }
     }
     assert!(problems.is_empty(), "{}", problems.join("\n"));
