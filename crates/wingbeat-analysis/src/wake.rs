@@ -128,19 +128,7 @@ pub fn trim_with_wake(
         flights: 0,
         best: f64::INFINITY,
     };
-    let mut x = [0.0; 6];
-    for (k, unknown) in problem.unknowns.iter().enumerate() {
-        if unknown.name() == "body_pitch" {
-            x[3 + k] = problem.body_pitch;
-        }
-    }
-    let (length, period) = search.scales();
-    let (v, w) = match &setup.mode {
-        // A case that was trimmed before: its motion at the release.
-        MotionMode::Free(s) if s.held_steps > 0 => (s.velocity, s.angular_velocity),
-        _ => (problem.velocity, DVec3::ZERO),
-    };
-    x[..3].copy_from_slice(&[v.x * period / length, v.z * period / length, w.y * period]);
+    let mut x = search.start();
     let mut r = search.fly(&x)?.0;
     let mut iterations = 0;
     let mut jacobian = [[0.0; 6]; 6];
@@ -193,6 +181,25 @@ impl Search<'_> {
         let nodes = self.setup.animal.wings.iter().flat_map(|w| &w.mesh.nodes);
         let length = nodes.fold(0.0_f64, |m, r| m.max(r.length()));
         (length, self.setup.time.period.unwrap_or(1.0))
+    }
+
+    /// The point at which the search begins.
+    fn start(&self) -> [f64; 6] {
+        let problem = self.problem;
+        let mut x = [0.0; 6];
+        for (k, unknown) in problem.unknowns.iter().enumerate() {
+            if unknown.name() == "body_pitch" {
+                x[3 + k] = problem.body_pitch;
+            }
+        }
+        let (length, period) = self.scales();
+        let (v, w) = match &self.setup.mode {
+            // A case that was trimmed before: its motion at the release.
+            MotionMode::Free(s) if s.held_steps > 0 => (s.velocity, s.angular_velocity),
+            _ => (problem.velocity, DVec3::ZERO),
+        };
+        x[..3].copy_from_slice(&[v.x * period / length, v.z * period / length, w.y * period]);
+        x
     }
 
     /// Residual and flight at the point (velocity over R f, pitch rate times T, three controls).

@@ -3,6 +3,7 @@
 use wingbeat_analysis::table::rigid_animal;
 use wingbeat_analysis::wake::WakeTrim;
 use wingbeat_analysis::{AnalysisError, LinearModel, Trim};
+use wingbeat_blade::DerivativeTable;
 use wingbeat_dynamics::BodyMotion;
 use wingbeat_math::EulerSequence;
 use wingbeat_model::motion::Adjustment;
@@ -109,12 +110,6 @@ pub fn derivative_case(
 ) -> Result<String, AnalysisError> {
     let (mass, inertia, table) = rigid_animal(trim, model)?;
     let j = |i: usize, k: usize| inertia.col(k)[i];
-    let block = |i: usize, k: usize| -> Option<[[f64; 3]; 3]> {
-        let entry = |r: usize, c: usize| table.derivatives[i + r][k + c];
-        Some(std::array::from_fn(|r| {
-            std::array::from_fn(|c| entry(r, c))
-        }))
-    };
     // The table's axes are level: the body is pitched by the angle of its first axis.
     let pitch = table
         .to_body
@@ -136,24 +131,13 @@ pub fn derivative_case(
         frequency_hz: (1.0 / trim.beat.period()).into(),
         ..MotionCase::default()
     };
-    let r = table.reference;
     raw.air = AirCase {
         model: AirModel::Derivatives,
         density_kg_m3: case.raw.air.density_kg_m3,
         stream_m_s: case.raw.air.stream_m_s,
         ..AirCase::default()
     };
-    raw.air.derivatives = Some(DerivativesCase {
-        body_pitch_deg: pitch,
-        velocity_m_s: table.velocity.to_array(),
-        force_newton: Some([r[0], r[1], r[2]]),
-        moment_newton_m: [r[3], r[4], r[5]],
-        force_by_velocity_newton_s_m: block(0, 0),
-        force_by_rate_newton_s: block(0, 3),
-        moment_by_velocity_newton_s: block(3, 0),
-        moment_by_rate_newton_m_s: block(3, 3),
-        dimensionless: None,
-    });
+    raw.air.derivatives = Some(derivatives(&table, pitch));
     raw.flight = FlightCase {
         pitch_deg: pitch,
         velocity_m_s: table.velocity.to_array(),
@@ -164,4 +148,26 @@ pub fn derivative_case(
         "# `{}`, averaged over the wingbeat: a rigid body under stability derivatives.\n{body}",
         case.name
     ))
+}
+
+/// The table as a case file has it; `body_pitch_deg` is that of its axes.
+fn derivatives(table: &DerivativeTable, body_pitch_deg: f64) -> DerivativesCase {
+    let block = |i: usize, k: usize| -> Option<[[f64; 3]; 3]> {
+        let entry = |r: usize, c: usize| table.derivatives[i + r][k + c];
+        Some(std::array::from_fn(|r| {
+            std::array::from_fn(|c| entry(r, c))
+        }))
+    };
+    let r = table.reference;
+    DerivativesCase {
+        body_pitch_deg,
+        velocity_m_s: table.velocity.to_array(),
+        force_newton: Some([r[0], r[1], r[2]]),
+        moment_newton_m: [r[3], r[4], r[5]],
+        force_by_velocity_newton_s_m: block(0, 0),
+        force_by_rate_newton_s: block(0, 3),
+        moment_by_velocity_newton_s: block(3, 0),
+        moment_by_rate_newton_m_s: block(3, 3),
+        dimensionless: None,
+    }
 }

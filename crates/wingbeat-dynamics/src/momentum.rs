@@ -13,21 +13,26 @@
 //! nothing can drift; a body without mass is as good as any.
 //!
 //! Free joints add their coordinates and speeds to the state ([`crate::free`]); I and h then
-//! depend on them too.
+//! depend on them too. Added masses join the inertia of the whole (`added`).
+
+mod added;
+mod joints;
+mod state;
+mod whole;
 
 use std::sync::Arc;
 
-use wingbeat_math::{DMat3, DQuat, DVec3};
+use wingbeat_math::{DQuat, DVec3};
 
-use crate::added_mass::{Six, seen, six, solve_symmetric, wrench};
-use crate::body::inertia_wrench;
+use self::joints::{move_joints, write_joint_rates};
+use self::state::{State, turn};
+use self::whole::{momentum_rate, total_load, whole_load};
+use crate::added_mass::{Six, six};
 use crate::budget::{budget, load_power};
 use crate::check::{check_rotation, check_state};
 use crate::formulation::add_by_response;
-use crate::free::coordinate_rates;
-use crate::inverse::{demand, multipliers, reactions};
+use crate::inverse::{multipliers, reactions};
 use crate::mechanism::Mechanism;
-use crate::placement::Placement;
 use crate::posture::{Composite, Posture, PostureTable};
 use crate::slot::start;
 use crate::workspace::MOMENTUM_STATE;
@@ -44,49 +49,6 @@ const DIM: usize = MOMENTUM_STATE;
 pub struct MomentumForm {
     system: System,
     table: Option<Arc<PostureTable>>,
-}
-
-/// The state vector, taken apart.
-struct State {
-    centre: DVec3,
-    attitude: DQuat,
-    momentum: DVec3,
-    angular: DVec3,
-}
-
-impl State {
-    fn read(t: f64, y: &[f64]) -> Result<Self, DynamicsError> {
-        check_state(t, y)?;
-        let v = |i: usize| DVec3::new(y[i], y[i + 1], y[i + 2]);
-        Ok(Self {
-            centre: v(0),
-            attitude: DQuat::from_xyzw(y[3], y[4], y[5], y[6]),
-            momentum: v(7),
-            angular: v(10),
-        })
-    }
-
-    fn write(&self, y: &mut [f64]) {
-        self.centre.write_to_slice(&mut y[0..]);
-        self.attitude.write_to_slice(&mut y[3..]);
-        self.momentum.write_to_slice(&mut y[7..]);
-        self.angular.write_to_slice(&mut y[10..]);
-    }
-
-    /// Rates of the state when the root turns at `w` under the total `load`.
-    fn rates(&self, whole: &Composite, w: DVec3, load: &Wrench) -> Self {
-        Self {
-            centre: self.momentum / whole.mass,
-            attitude: self.attitude * DQuat::from_xyzw(w.x, w.y, w.z, 0.0) * 0.5,
-            momentum: load.force,
-            angular: load.moment,
-        }
-    }
-
-    /// Rotation of the root; the length of the quaternion does not matter.
-    fn rotation(&self) -> DMat3 {
-        DMat3::from_quat(self.attitude.normalize())
-    }
 }
 
 impl MomentumForm {
@@ -162,44 +124,6 @@ impl MomentumForm {
         Ok(y)
     }
 
-    /// Accelerations of the free joint speeds into `ws.free` and into the placements; motions and
-    /// placements as [`Self::unfold`] left them.
-    fn move_joints(
-        &self,
-        t: f64,
-        y: &[f64],
-        loads: &[Wrench],
-        whole: &Composite,
-        ws: &mut Workspace,
-    ) -> Result<(), DynamicsError> {
-        let root = ws.motions[0];
-        let still = BodyAcceleration::default();
-        ws.posture.accelerations(&root, &still, &mut ws.bias);
-        demand(&self.system, loads, &ws.motions, &ws.bias, &mut ws.demand);
-        let (q, u) = self.free(y);
-        let posture = (ws.posture.placements(), whole, root.r);
-        (ws.free)
-            .solve(&self.system, (t, q, u), posture, &ws.demand)
-            .map_err(|e| DynamicsError::SingularMechanism {
-                time: t,
-                what: format!("hinge `{}`", ws.free.hinge(&self.system, e.column)),
-            })?;
-        ws.free
-            .accelerate(&self.system, ws.posture.placements_mut());
-        Ok(())
-    }
-
-    /// Rates of the free joint coordinates and speeds.
-    fn write_joint_rates(&self, y: &[f64], ws: &Workspace, dy: &mut [f64]) {
-        let (q, u) = self.free(y);
-        let (dq, du) = dy[DIM..].split_at_mut(q.len());
-        for (joint, s) in self.system.joints().iter().zip(self.system.slots()) {
-            let (q, u) = (&q[s.q..s.q + s.coordinates], &u[s.u..s.u + s.speeds]);
-            coordinate_rates(joint.freedom, q, u, &mut dq[s.q..s.q + s.coordinates]);
-        }
-        du.copy_from_slice(&ws.free.u_dot);
-    }
-
     /// Coordinates (angles, displacements, quaternion) and speeds of hinge `index` in the state.
     pub fn joint_state<'a>(&self, y: &'a [f64], index: usize) -> (&'a [f64], &'a [f64]) {
         let ((q, u), s) = (self.free(y), self.system.slots()[index]);
@@ -241,33 +165,6 @@ impl MomentumForm {
         Ok((state, whole))
     }
 
-    /// Sum of all external forces and of their moments about the mass centre `x_c`, N components.
-    fn total_load(&self, loads: &[Wrench], motions: &[BodyMotion], x_c: DVec3) -> Wrench {
-        let mut sum = Wrench {
-            force: self.system.total_mass() * self.system.gravity(),
-            moment: DVec3::ZERO,
-        };
-        for (l, m) in loads.iter().zip(motions) {
-            sum.force += l.force;
-            sum.moment += l.moment + (m.p - x_c).cross(l.force);
-        }
-        sum
-    }
-
-    /// As [`Self::total_load`], from the placements: `r` is the root's rotation, `c` the mass centre
-    /// in root components.
-    fn whole_load(&self, loads: &[Wrench], posture: &Posture, r: DMat3, c: DVec3) -> Wrench {
-        let mut sum = Wrench {
-            force: self.system.total_mass() * self.system.gravity(),
-            moment: DVec3::ZERO,
-        };
-        for (l, at) in loads.iter().zip(posture.placements()) {
-            sum.force += l.force;
-            sum.moment += l.moment + (r * (at.d - c)).cross(l.force);
-        }
-        sum
-    }
-
     /// Accelerations of all bodies from Newton's and Euler's laws for the whole system.
     fn accelerate(
         &self,
@@ -282,7 +179,7 @@ impl MomentumForm {
         // With the root's accelerations zero, the momenta change at the rate of the bias.
         ws.posture
             .accelerations(&root, &BodyAcceleration::default(), out);
-        let bias = self.momentum_rate(&ws.motions, out, x_c);
+        let bias = momentum_rate(&self.system, &ws.motions, out, x_c);
         let moment = root.r.transpose() * (load.moment - bias.moment);
         let angular = turn(t, whole.inertia, moment)?;
         let linear = (load.force - bias.force) / whole.mass - root.r * angular.cross(whole.c);
@@ -302,105 +199,19 @@ impl MomentumForm {
         whole: &Composite,
         ws: &mut Workspace,
     ) -> (Six, Wrench) {
-        let load = self.total_load(loads, &ws.motions, state.centre);
+        let load = total_load(&self.system, loads, &ws.motions, state.centre);
         let root = ws.motions[0];
         let still = BodyAcceleration::default();
         ws.posture.accelerations(&root, &still, &mut ws.bias);
-        let bias = self.momentum_rate(&ws.motions, &ws.bias, state.centre);
+        let bias = momentum_rate(&self.system, &ws.motions, &ws.bias, state.centre);
         let back = root.r.transpose();
         let mut x = six(
             back * (load.force - bias.force),
             back * (load.moment - bias.moment),
         );
-        let mut matrix = inertia_of_whole(whole);
-        for a in added {
-            let at = &ws.posture.placements()[a.body()];
-            let load = a.load(&seen(&ws.motions[a.body()], &ws.bias[a.body()]));
-            put_added(a, at, whole.c, &load, &mut matrix, &mut x);
-        }
-        solve_symmetric(&mut matrix, &mut x);
+        added::accelerate(added, whole, ws, &mut x);
         (x, bias)
     }
-
-    /// Rates of linear momentum and of angular momentum about the mass centre.
-    fn momentum_rate(
-        &self,
-        motions: &[BodyMotion],
-        acc: &[BodyAcceleration],
-        x_c: DVec3,
-    ) -> Wrench {
-        let mut sum = Wrench::default();
-        for ((b, m), a) in self.system.bodies().iter().zip(motions).zip(acc) {
-            let w = inertia_wrench(b, m, a);
-            sum += Wrench {
-                force: w.force,
-                moment: w.moment + (m.p - x_c).cross(w.force),
-            };
-        }
-        sum
-    }
-}
-
-/// Solves `inertia x = h` by Cramer's rule.
-fn turn(time: f64, inertia: DMat3, h: DVec3) -> Result<DVec3, DynamicsError> {
-    let (x, y, z) = (inertia.x_axis, inertia.y_axis, inertia.z_axis);
-    let (yz, zx, xy) = (y.cross(z), z.cross(x), x.cross(y));
-    let (determinant, scale) = (x.dot(yz), (x.x + y.y + z.z) / 3.0);
-    // 1e-12 of the mean moment cubed: a rod a million times longer than thick.
-    if determinant > 1e-12 * scale.powi(3) {
-        return Ok(DVec3::new(h.dot(yz), h.dot(zx), h.dot(xy)) / determinant);
-    }
-    Err(DynamicsError::SingularInertia { time, scale })
-}
-
-/// `diag(m, I)`, root components.
-fn inertia_of_whole(whole: &Composite) -> [Six; 6] {
-    let mut matrix = [[0.0; 6]; 6];
-    for i in 0..3 {
-        matrix[i][i] = whole.mass;
-        for j in 0..3 {
-            matrix[3 + i][3 + j] = whole.inertia.col(j)[i];
-        }
-    }
-    matrix
-}
-
-/// Row k of J: component k of the acceleration of a body (origin, angular; body components) by the
-/// acceleration of the mass centre at `c` and the root's angular acceleration, root components.
-fn row(at: &Placement, c: DVec3, k: usize) -> Six {
-    let axis = at.c.col(k % 3);
-    match k < 3 {
-        true => six(axis, (at.d - c).cross(axis)),
-        false => six(DVec3::ZERO, axis),
-    }
-}
-
-/// Adds `J^T A J` to the lower half of the matrix and `J^T load` to the right-hand side.
-fn put_added(
-    a: &AddedMass,
-    at: &Placement,
-    c: DVec3,
-    load: &Six,
-    matrix: &mut [Six; 6],
-    x: &mut Six,
-) {
-    let mut rows = [[0.0; 6]; 6];
-    a.directions().iter().for_each(|&k| rows[k] = row(at, c, k));
-    for &k in a.directions() {
-        let mut carried = [0.0; 6];
-        for &l in a.directions() {
-            let factor = a.matrix()[k][l];
-            (0..6).for_each(|j| carried[j] += factor * rows[l][j]);
-        }
-        for i in 0..6 {
-            x[i] += rows[k][i] * load[k];
-            (0..=i).for_each(|j| matrix[i][j] += rows[k][i] * carried[j]);
-        }
-    }
-}
-
-fn dot(a: &Six, b: &Six) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
 impl Formulation for MomentumForm {
@@ -452,17 +263,18 @@ impl Formulation for MomentumForm {
     ) -> Result<(), DynamicsError> {
         if self.system.speeds() > 0 {
             let (state, whole) = self.unfold(t, y, ws)?;
-            let load = self.total_load(loads, &ws.motions, state.centre);
-            self.move_joints(t, y, loads, &whole, ws)?;
+            let load = total_load(&self.system, loads, &ws.motions, state.centre);
+            let (q, u) = self.free(y);
+            move_joints(&self.system, (t, q, u), loads, &whole, ws)?;
             state.rates(&whole, ws.motions[0].w, &load).write(dy);
-            self.write_joint_rates(y, ws, dy);
+            write_joint_rates(&self.system, (q, u), ws, &mut dy[DIM..]);
             return Ok(());
         }
         let state = State::read(t, y)?;
         let whole = self.lay(t, y, ws);
         let r = state.rotation();
         let w = turn(t, whole.inertia, r.transpose() * state.angular - whole.h)?;
-        let load = self.whole_load(loads, &ws.posture, r, whole.c);
+        let load = whole_load(&self.system, loads, &ws.posture, r, whole.c);
         state.rates(&whole, w, &load).write(dy);
         Ok(())
     }
@@ -476,9 +288,10 @@ impl Formulation for MomentumForm {
         out: &mut Solution,
     ) -> Result<(), DynamicsError> {
         let (state, whole) = self.unfold(t, y, ws)?;
-        let load = self.total_load(loads, &ws.motions, state.centre);
+        let load = total_load(&self.system, loads, &ws.motions, state.centre);
         if self.system.speeds() > 0 {
-            self.move_joints(t, y, loads, &whole, ws)?;
+            let (q, u) = self.free(y);
+            move_joints(&self.system, (t, q, u), loads, &whole, ws)?;
         }
         self.accelerate(t, state.centre, &whole, &load, ws, &mut out.bodies)?;
         reactions(&self.system, loads, ws, out);
@@ -503,13 +316,7 @@ impl Formulation for MomentumForm {
         }
         let (state, whole) = self.unfold(t, y, ws)?;
         let (x, _) = self.accelerate_with(added, loads, &state, &whole, ws);
-        for a in added {
-            let mut s = seen(&ws.motions[a.body()], &ws.bias[a.body()]);
-            for &k in a.directions() {
-                s[k] += dot(&row(&ws.posture.placements()[a.body()], whole.c, k), &x);
-            }
-            loads[a.body()] += wrench(ws.motions[a.body()].r, &a.load(&s));
-        }
+        added::add(added, &x, &whole, ws, loads);
         Ok(())
     }
 

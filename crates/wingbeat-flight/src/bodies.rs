@@ -229,3 +229,22 @@ pub fn natural_units(setup: &FlightSetup) -> NaturalUnits {
         time: setup.time.period.unwrap_or(10.0 * setup.time.step),
     }
 }
+
+/// Moves all bodies rigidly with the root so that it moves like `root`; what they do relative to it
+/// stays.
+pub(crate) fn carry(motions: &mut [BodyMotion], root: &BodyMotion) {
+    let old = motions[0];
+    motions[0] = *root;
+    for m in &mut motions[1..] {
+        let back = old.r.transpose();
+        let (p, c) = (back * (m.p - old.p), back * m.r);
+        let v = back * (m.v - old.v) - old.w.cross(p);
+        let w = m.w - c.transpose() * old.w;
+        *m = BodyMotion {
+            p: root.p + root.r * p,
+            r: root.r * c,
+            v: root.v + root.r * (root.w.cross(p) + v),
+            w: c.transpose() * root.w + w,
+        };
+    }
+}

@@ -14,8 +14,8 @@ use wingbeat_model::{Side, Wing, WingMotion};
 
 pub use crate::controller::{Controller, Sensed};
 use crate::error::FlightError;
-use crate::setup::FlightSetup;
 pub use crate::setup::{ControlModel, Feedback};
+use crate::setup::{FlightSetup, MotionMode};
 
 /// Shortest interval of looks [time steps]: the starting values of a multistep method must not
 /// see a change of command.
@@ -262,4 +262,22 @@ impl Loop {
         }
         Ok(())
     }
+}
+
+/// Feedback of a setup that has it, and the wings it moves.
+pub(crate) fn feedback(setup: &FlightSetup) -> Result<Option<Loop>, FlightError> {
+    let Some(feedback) = &setup.feedback else {
+        return Ok(None);
+    };
+    if matches!(setup.mode, MotionMode::Tethered(_)) {
+        return Err(FlightError::Setup {
+            key: "control",
+            value: "of a tethered flyer".into(),
+            problem: "feedback steers a free flight: set flight.mode = \"free\", or leave it out"
+                .into(),
+        });
+    }
+    let wings = setup.animal.wings.iter();
+    let wings = wings.map(|w| Arc::new(CommandedMotion::new(w))).collect();
+    Ok(Some(Loop::new(setup, feedback, wings)?))
 }

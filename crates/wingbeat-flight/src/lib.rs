@@ -1,7 +1,7 @@
 //! Coupled flight: multibody dynamics and unsteady air, integrated together.
 //!
 //! The chapter in order: [`setup`] says what a flight is made of; [`joints`] and `bodies` map the
-//! animal to the multibody system; [`air`] is the seam behind which all models of the air stand;
+//! animal to the multibody system; `seam` is what is asked of the air, whose models stand in [`air`];
 //! `equations` is the coupled right-hand side;
 //! `stages` and `core` choose between free, tethered and held; [`simulation`] integrates all of it
 //! with Hamming's predictor-corrector (or, without a wake, another method of `solver`), the wake frozen during corrector passes (seed sec. 4 and

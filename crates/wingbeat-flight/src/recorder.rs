@@ -121,12 +121,8 @@ impl Sources<'_> {
             corrector_residual: self.report.residual,
             vortex_impulse: s.air_scratch.loads.impulse,
             air_impulse: ledger.air_impulse.count(time, air_force),
-            wake_rings: self
-                .air
-                .map_or(0, |a| a.sheets.iter().map(WakeSheet::ring_count).sum()),
-            wake_particles: self
-                .air
-                .map_or(0, |a| a.sheets.iter().map(|w| w.particles.len()).sum()),
+            wake_rings: self.in_wake(WakeSheet::ring_count),
+            wake_particles: self.in_wake(|w| w.particles.len()),
             regularised: new_events as usize,
             leak_velocity: self.leak(),
         }
@@ -137,6 +133,12 @@ impl Sources<'_> {
         let mut out = vec![];
         (self.equations.mechanism).coordinates(time, &self.scratch.motions, &mut out);
         out
+    }
+
+    /// Sum over all wake sheets.
+    fn in_wake(&self, count: impl Fn(&WakeSheet) -> usize) -> usize {
+        let sheets = self.air.map_or(&[][..], |a| &a.sheets);
+        sheets.iter().map(count).sum()
     }
 
     /// Largest leak of a closed surface; the loads of a vacuum are empty.

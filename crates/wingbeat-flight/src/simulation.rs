@@ -4,48 +4,30 @@
 //! it; predict; correct bodies and air together until they agree; accept both; record.
 
 mod fits;
+mod start;
+mod state;
 
-use std::sync::Arc;
+pub use state::FlightState;
 
-use wingbeat_air::{AirState, Points};
+use wingbeat_air::Points;
 use wingbeat_dynamics::BodyMotion;
 use wingbeat_math::DVec3;
-use wingbeat_math::ode::{Multistep, Replay, StepError, StepReport, block_start};
+use wingbeat_math::ode::{Multistep, StepError, StepReport, block_start};
 
-use crate::bodies::own_motion;
-use crate::control::{CommandedMotion, ControlState, Loop, Sensed};
+use self::fits::check_fits;
+use self::start::Start;
+use crate::bodies::{carry, own_motion};
+use crate::control::{Loop, Sensed, feedback};
 use crate::equations::{Equations, QUADRATURES, Scratch};
 use crate::error::FlightError;
 use crate::record::{Record, Snapshot};
 use crate::recorder::{Ledger, Sources};
-use crate::setup::{AirModel, FlightSetup, MotionMode};
+use crate::setup::{AirModel, FlightSetup};
 use crate::solver::{Solver, convergence};
 use crate::stages::{Stage, stages};
 
 /// Target of the `log` events that say that a step begins; fields `step`, `steps`.
 pub const STEP_EVENT: &str = "wingbeat::step";
-
-/// Everything that is integrated: plain data, enough to go on bit for bit.
-#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
-pub struct FlightState {
-    /// Accepted steps.
-    pub step: usize,
-    /// Stage of the flight: held or released.
-    pub stage: usize,
-    /// Step at which the stage, and with it the past, was started.
-    pub started_at: usize,
-    /// States and rates of bodies and quadratures. During the first three steps of a stage it
-    /// holds that whole start; after that the newest four steps.
-    pub past: Multistep,
-    /// What the starter did.
-    pub start_report: StepReport,
-    /// The air after the newest step, its wake not yet moved on; none in vacuum.
-    pub air: Option<AirState>,
-    /// What balances are counted from.
-    pub ledger: Ledger,
-    /// What feedback remembers; none without.
-    pub control: Option<ControlState>,
-}
 
 /// A flight in progress.
 pub struct Simulation {
@@ -110,7 +92,7 @@ impl Simulation {
             ));
         }
         let mut flight = Self::new(setup)?;
-        flight.check_fits(&state)?;
+        check_fits(&state, &flight.stages, &flight.state.ledger)?;
         flight.state = state;
         let first = &flight.stages[flight.state.stage].equations;
         flight.solver = flight.new_solver();
@@ -380,79 +362,6 @@ impl Simulation {
             .map_err(|e| failure(e, first + 1, start.time(1), &self.setup))?;
         (state.past, state.start_report) = (past, report);
         Ok(())
-    }
-}
-
-/// Feedback of a setup that has it, and the wings it moves.
-fn feedback(setup: &FlightSetup) -> Result<Option<Loop>, FlightError> {
-    let Some(feedback) = &setup.feedback else {
-        return Ok(None);
-    };
-    if matches!(setup.mode, MotionMode::Tethered(_)) {
-        return Err(FlightError::Setup {
-            key: "control",
-            value: "of a tethered flyer".into(),
-            problem: "feedback steers a free flight: set flight.mode = \"free\", or leave it out"
-                .into(),
-        });
-    }
-    let wings = setup.animal.wings.iter();
-    let wings = wings.map(|w| Arc::new(CommandedMotion::new(w))).collect();
-    Ok(Some(Loop::new(setup, feedback, wings)?))
-}
-
-/// The coupled right-hand side over the starting steps: the wake is replayed with them.
-struct Start<'a> {
-    equations: &'a Equations,
-    scratch: Scratch,
-    first: usize,
-    at_start: &'a Option<AirState>,
-    air: Option<AirState>,
-}
-
-impl Start<'_> {
-    fn time(&self, k: usize) -> f64 {
-        (self.first + k) as f64 * self.equations.step
-    }
-}
-
-impl Replay for Start<'_> {
-    type Error = FlightError;
-
-    fn enter(&mut self, k: usize) -> Result<(), FlightError> {
-        if k == 1 {
-            self.air.clone_from(self.at_start);
-        }
-        self.equations.advance_air(&mut self.air, &mut self.scratch)
-    }
-
-    fn rates(&mut self, k: usize, y: &[f64], f: &mut [f64]) -> Result<(), FlightError> {
-        let t = self.time(k);
-        self.equations
-            .evaluate(t, y, self.air.as_ref(), &mut self.scratch, f)
-    }
-
-    fn leave(&mut self, _k: usize) -> Result<(), FlightError> {
-        self.equations.accept_air(&mut self.air, &self.scratch)
-    }
-}
-
-/// Moves all bodies rigidly with the root so that it moves like `root`; what they do relative to it
-/// stays.
-fn carry(motions: &mut [BodyMotion], root: &BodyMotion) {
-    let old = motions[0];
-    motions[0] = *root;
-    for m in &mut motions[1..] {
-        let back = old.r.transpose();
-        let (p, c) = (back * (m.p - old.p), back * m.r);
-        let v = back * (m.v - old.v) - old.w.cross(p);
-        let w = m.w - c.transpose() * old.w;
-        *m = BodyMotion {
-            p: root.p + root.r * p,
-            r: root.r * c,
-            v: root.v + root.r * (root.w.cross(p) + v),
-            w: c.transpose() * root.w + w,
-        };
     }
 }
 

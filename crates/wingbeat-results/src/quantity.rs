@@ -361,3 +361,13 @@ impl Quantity {
         }
     }
 }
+
+/// A number for each subject.
+pub(crate) const fn scalar(
+    name: &'static str,
+    unit: Unit,
+    about: &'static str,
+    slot: fn(&mut Record, usize, usize) -> Slot<'_>,
+) -> Quantity {
+    Quantity::scalar(name, unit, about, slot)
+}

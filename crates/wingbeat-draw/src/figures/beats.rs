@@ -89,21 +89,7 @@ fn over_phase(
             colour: COLOURS[4],
         });
     }
-    let own = if settled.len() > 2 { 1 } else { 2 };
-    for (n, (number, points)) in beats.iter().rev().take(own).rev().enumerate() {
-        let colour = if settled.len() > 2 {
-            COLOURS[1]
-        } else {
-            COLOURS[[4, 0][n]]
-        };
-        curves.push(plot::curve(
-            &format!("beat {number}"),
-            points.clone(),
-            colour,
-            n + 1,
-            look,
-        ));
-    }
+    curves.extend(last_beats(&beats, settled.len() > 2, look));
     let [number, last] = means[means.len() - 1];
     let ends = vec![[0.0, last], [1.0, last]];
     let mut mean = plot::curve("its mean", ends, COLOURS[1], 1, look);
@@ -125,6 +111,23 @@ fn over_phase(
         bands,
         ..Plot::default()
     }
+}
+
+/// The last wingbeat beside the mean of many, else the last two.
+fn last_beats(beats: &[(f64, Vec<[f64; 2]>)], many: bool, look: &Look) -> Vec<Curve> {
+    let mut curves = vec![];
+    let own = if many { 1 } else { 2 };
+    for (n, (number, points)) in beats.iter().rev().take(own).rev().enumerate() {
+        let colour = if many { COLOURS[1] } else { COLOURS[[4, 0][n]] };
+        curves.push(plot::curve(
+            &format!("beat {number}"),
+            points.clone(),
+            colour,
+            n + 1,
+            look,
+        ));
+    }
+    curves
 }
 
 /// Points of a wingbeat over its phase.

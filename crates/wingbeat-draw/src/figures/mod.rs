@@ -4,7 +4,7 @@
 //! The chapter in order: a drawing is a list of marks (`drawing`), which become SVG (`svg`) or
 //! pixels (`raster`, `font`); `style` says how large and thick; `ticks`, `plot`, `grid` and
 //! [`Chart`] make axes; the kinds of figures stand in `kinds`, `beats`, `lollipop`, `phase`,
-//! `wake` and `animation`.
+//! `wake` and `animation`; `order` is what is asked for, `source` what it is drawn from.
 
 mod animation;
 mod beats;

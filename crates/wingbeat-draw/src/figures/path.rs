@@ -57,12 +57,7 @@ const MOST_DOTS: usize = 60;
 
 /// The figure; none where the body stays.
 pub(super) fn path(setup: &FlightSetup, path: &Path, look: &Look) -> Option<Drawing> {
-    let all = || path.points.iter().map(|p| p.1);
-    let ends = [0, 1, 2].map(|c| {
-        all().fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], p| {
-            [a.min(p[c]), b.max(p[c])]
-        })
-    });
+    let ends = ends(path);
     let longest = ends.iter().map(|[a, b]| b - a).fold(0.0, f64::max);
     if longest.is_nan() || longest <= 1e-6 * setup.animal.body_length().max(1e-6) {
         return None;
@@ -100,14 +95,11 @@ pub(super) fn path(setup: &FlightSetup, path: &Path, look: &Look) -> Option<Draw
         let [wide, height] = axes.map(|c| per_unit * extent(c));
         let flat = |p: &[f64; 3]| axes.map(|c| p[c] / scale);
         let points: Vec<[f64; 2]> = path.points.iter().map(|p| flat(&p.1)).collect();
-        let plot = Plot {
-            x_label: format!("{} [{unit}m]", words[0]),
-            y_label: format!("{name}: {} [{unit}m]", words[1]),
-            x,
-            y,
-            curves: vec![plot::curve("", points.clone(), COLOURS[0], 0, look)],
-            ..Plot::default()
-        };
+        let labels = [
+            format!("{} [{unit}m]", words[0]),
+            format!("{name}: {} [{unit}m]", words[1]),
+        ];
+        let plot = view(labels, [x, y], points, look);
         let area = Area {
             left,
             top,
@@ -119,13 +111,44 @@ pub(super) fn path(setup: &FlightSetup, path: &Path, look: &Look) -> Option<Draw
             dots.iter()
                 .for_each(|p| drawing.dot(placed.at(flat(p)), 1.3 * look.line, COLOURS[1]));
         }
-        let start = placed.at([0.0, 0.0]);
-        drawing.dot(start, 1.8 * look.line, INK);
-        let at = [start[0] + 0.6 * look.font, start[1] - 0.4 * look.font];
-        drawing.text(at, "start", look.font, Anchor::Start);
+        start_mark(&mut drawing, placed.at([0.0, 0.0]), look);
         top += height + foot;
     }
     Some(drawing)
+}
+
+/// Least and largest coordinate along each axis.
+fn ends(path: &Path) -> [[f64; 2]; 3] {
+    let all = || path.points.iter().map(|p| p.1);
+    [0, 1, 2].map(|c| {
+        all().fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], p| {
+            [a.min(p[c]), b.max(p[c])]
+        })
+    })
+}
+
+/// The plot of one view.
+fn view(
+    [x_label, y_label]: [String; 2],
+    [x, y]: [[f64; 2]; 2],
+    points: Vec<[f64; 2]>,
+    look: &Look,
+) -> Plot {
+    Plot {
+        x_label,
+        y_label,
+        x,
+        y,
+        curves: vec![plot::curve("", points, COLOURS[0], 0, look)],
+        ..Plot::default()
+    }
+}
+
+/// Marks where the path starts.
+fn start_mark(drawing: &mut Drawing, start: [f64; 2], look: &Look) {
+    drawing.dot(start, 1.8 * look.line, INK);
+    let at = [start[0] + 0.6 * look.font, start[1] - 0.4 * look.font];
+    drawing.text(at, "start", look.font, Anchor::Start);
 }
 
 #[cfg(test)]

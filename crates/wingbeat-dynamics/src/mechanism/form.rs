@@ -9,8 +9,10 @@
 //! Velocities are taken in N components, angular velocities in body components, so that M is
 //! `[[m I, -R tilde(S)], [tilde(S) R^T, J]]`. Scaled as [`crate::euler::saddle`].
 
-use wingbeat_math::{DMat3, DQuat, DVec3, solve_small, tilde};
+use wingbeat_math::{DMat3, DQuat, DVec3};
 
+pub use super::equations::AbsoluteScratch;
+use super::equations::{eliminate, put_bodies, put_constraints, put_efforts, read, step};
 use super::link::{LinkKinematics, Row, kinematics};
 use super::structure::Mechanism;
 use crate::body::kinetic_energy;
@@ -38,25 +40,6 @@ pub enum Stabilization {
 pub struct AbsoluteForm {
     mechanism: Mechanism,
     stabilization: Stabilization,
-}
-
-/// Intermediate results, and what was solved for last.
-#[derive(Clone, Debug)]
-pub struct AbsoluteScratch {
-    /// Motions of the bodies.
-    pub motions: Vec<BodyMotion>,
-    /// Accelerations of the bodies.
-    pub accelerations: Vec<BodyAcceleration>,
-    /// Load of every link on its child at its anchor, efforts included.
-    pub reactions: Vec<HingeReaction>,
-    /// Largest constraint values: lengths \[m\], angles \[rad\].
-    pub violation: [f64; 2],
-    links: Vec<LinkKinematics>,
-    rows: Vec<(usize, Row)>,
-    matrix: Vec<f64>,
-    rhs: Vec<f64>,
-    scale: Vec<f64>,
-    loads: Vec<Wrench>,
 }
 
 impl AbsoluteForm {
@@ -152,8 +135,8 @@ impl AbsoluteForm {
         self.motions(t, y, &mut s.motions)?;
         self.find_rows(t, s);
         s.loads.copy_from_slice(loads);
-        self.put_efforts(t, s);
-        self.put_bodies(s);
+        put_efforts(&self.mechanism, t, s);
+        put_bodies(&self.mechanism, s);
         let b = match self.stabilization {
             Stabilization::Baumgarte(b) => b,
             _ => Baumgarte::OFF,
@@ -162,9 +145,9 @@ impl AbsoluteForm {
         for (k, (_, r)) in s.rows.iter().enumerate() {
             s.rhs[first + k] = -r.bias - 2.0 * b.alpha * r.rate - b.beta * b.beta * r.value;
         }
-        self.put_constraints(s);
-        self.eliminate(t, s)?;
-        self.read(t, s);
+        put_constraints(&self.mechanism, s);
+        eliminate(&self.mechanism, t, s)?;
+        read(&self.mechanism, t, s);
         Ok(())
     }
 
@@ -234,14 +217,14 @@ impl AbsoluteForm {
         what: impl Fn(&Row) -> f64,
     ) -> Result<(), DynamicsError> {
         self.find_rows(t, s);
-        self.put_bodies(s);
+        put_bodies(&self.mechanism, s);
         let first = 6 * s.motions.len();
         s.rhs[..first].fill(0.0);
         for (k, (_, r)) in s.rows.iter().enumerate() {
             s.rhs[first + k] = -what(r);
         }
-        self.put_constraints(s);
-        self.eliminate(t, s)
+        put_constraints(&self.mechanism, s);
+        eliminate(&self.mechanism, t, s)
     }
 
     /// Constraints of all links for the motions in `s`.
@@ -266,133 +249,6 @@ impl AbsoluteForm {
     /// Links as last found.
     pub(crate) fn links(s: &AbsoluteScratch) -> &[LinkKinematics] {
         &s.links
-    }
-
-    /// Adds the efforts of springs, dampers, stops and actuators to the loads.
-    fn put_efforts(&self, t: f64, s: &mut AbsoluteScratch) {
-        for (link, l) in self.mechanism.links().iter().zip(&s.links) {
-            let [force, moment] = effort(link, l, t);
-            if link.joint.elements.is_empty() {
-                continue;
-            }
-            let child = &s.motions[link.child];
-            let (anchor, moment) = (child.r * link.anchor_child, child.r * moment);
-            s.loads[link.child] += Wrench {
-                force,
-                moment: moment + anchor.cross(force),
-            };
-            if let Some(p) = link.parent {
-                let arm = child.p + anchor - s.motions[p].p;
-                s.loads[p] += Wrench {
-                    force: -force,
-                    moment: -moment - arm.cross(force),
-                };
-            }
-        }
-    }
-
-    /// Mass matrix and forces of all bodies; clears the matrix.
-    fn put_bodies(&self, s: &mut AbsoluteScratch) {
-        s.matrix.fill(0.0);
-        let (n, gravity) = (s.rhs.len(), self.mechanism.gravity());
-        let length = self.mechanism.units().length;
-        let total: f64 = self.mechanism.bodies().iter().map(|b| b.mass.mass).sum();
-        for (i, body) in self.mechanism.bodies().iter().enumerate() {
-            let (m, load) = (&s.motions[i], &s.loads[i]);
-            let (mass, first, j) = (body.mass.mass, body.mass.first_moment, body.mass.inertia);
-            let lever = -(m.r * tilde(first));
-            let at = 6 * i;
-            let diagonal = DMat3::from_diagonal(DVec3::splat(mass));
-            put(&mut s.matrix, n, at, at, diagonal);
-            put(&mut s.matrix, n, at, at + 3, lever);
-            put(&mut s.matrix, n, at + 3, at, lever.transpose());
-            put(&mut s.matrix, n, at + 3, at + 3, j);
-            let spun = m.r * m.w.cross(m.w.cross(first));
-            let back = m.r.transpose();
-            let force = load.force + mass * gravity - spun;
-            let moment = back * load.moment + first.cross(back * gravity) - m.w.cross(j * m.w);
-            force.write_to_slice(&mut s.rhs[at..]);
-            moment.write_to_slice(&mut s.rhs[at + 3..]);
-            let floor = 1e-6 * total;
-            let spin = (j.x_axis.x + j.y_axis.y + j.z_axis.z) / 3.0;
-            s.scale[at..at + 3].fill(1.0 / mass.max(floor).sqrt());
-            s.scale[at + 3..at + 6].fill(1.0 / spin.max(floor * length * length).sqrt());
-        }
-    }
-
-    /// Jacobian of all constraints, and scales of the multipliers.
-    fn put_constraints(&self, s: &mut AbsoluteScratch) {
-        let (n, first) = (s.rhs.len(), 6 * s.motions.len());
-        for (k, (link, r)) in s.rows.iter().enumerate() {
-            let link = &self.mechanism.links()[*link];
-            let (at, mut size) = (first + k, 0.0);
-            let ends = [(link.parent, &r.parent), (Some(link.child), &r.child)];
-            for (body, factors) in ends {
-                let Some(body) = body else { continue };
-                for (part, v) in factors.iter().enumerate() {
-                    for c in 0..3 {
-                        let col = 6 * body + 3 * part + c;
-                        s.matrix[at * n + col] += v[c];
-                        s.matrix[col * n + at] += v[c];
-                        size += (v[c] * s.scale[col]).powi(2);
-                    }
-                }
-            }
-            s.scale[at] = 1.0 / size.sqrt();
-        }
-    }
-
-    /// Scales, solves, scales back.
-    fn eliminate(&self, t: f64, s: &mut AbsoluteScratch) -> Result<(), DynamicsError> {
-        let n = s.rhs.len();
-        for (i, row) in s.matrix.chunks_exact_mut(n).enumerate() {
-            let si = s.scale[i];
-            row.iter_mut()
-                .zip(&s.scale)
-                .for_each(|(x, sj)| *x *= si * sj);
-            s.rhs[i] *= si;
-        }
-        solve_small(&mut s.matrix, &mut s.rhs).map_err(|e| self.singular(t, e.column, s))?;
-        s.rhs.iter_mut().zip(&s.scale).for_each(|(x, s)| *x *= s);
-        Ok(())
-    }
-
-    /// What a vanishing pivot means.
-    fn singular(&self, time: f64, column: usize, s: &AbsoluteScratch) -> DynamicsError {
-        let first = 6 * s.motions.len();
-        let what = match column.checked_sub(first) {
-            Some(k) => format!("joint `{}`", self.mechanism.links()[s.rows[k].0].name),
-            None => format!("body `{}`", self.mechanism.bodies()[column / 6].name),
-        };
-        DynamicsError::SingularMechanism { time, what }
-    }
-
-    /// Accelerations and reactions from the solution.
-    fn read(&self, t: f64, s: &mut AbsoluteScratch) {
-        for i in 0..s.motions.len() {
-            let [linear, angular] = step(&s.rhs, i);
-            s.accelerations[i] = BodyAcceleration { linear, angular };
-        }
-        for (k, link) in self.mechanism.links().iter().enumerate() {
-            let [force, moment] = effort(link, &s.links[k], t);
-            s.reactions[k] = HingeReaction {
-                force,
-                moment,
-                power: 0.0,
-            };
-        }
-        let first = 6 * s.motions.len();
-        for (k, (link, r)) in s.rows.iter().enumerate() {
-            let (l, at) = (&self.mechanism.links()[*link], s.rhs[first + k]);
-            let back = s.motions[l.child].r.transpose();
-            let out = &mut s.reactions[*link];
-            let force = -at * r.child[0];
-            out.force += force;
-            out.moment += -at * r.child[1] - l.anchor_child.cross(back * force);
-        }
-        for (out, l) in s.reactions.iter_mut().zip(&s.links) {
-            out.power = l.power(out.force, out.moment);
-        }
     }
 
     /// Kinetic energy, potential energy in the field of gravity, energy stored in springs \[J\].
@@ -424,33 +280,6 @@ impl AbsoluteForm {
 
 /// Steps of Newton's iteration in a projection: a step's drift is small, two reach round-off.
 const NEWTON_STEPS: usize = 2;
-
-/// Force (N components) and moment (child components) of all elements on the child at its anchor.
-fn effort(link: &Link, l: &LinkKinematics, t: f64) -> [DVec3; 2] {
-    let mut sum = [DVec3::ZERO; 2];
-    if link.joint.elements.is_empty() {
-        return sum;
-    }
-    let q = l.coordinates();
-    for e in &link.joint.elements {
-        let [value, rate] = q[e.direction];
-        let (size, d) = (e.law.effort(t, value, rate), l.direction(e.direction));
-        (0..2).for_each(|k| sum[k] += size * d[k]);
-    }
-    sum
-}
-
-/// The six numbers of body `i`.
-fn step(x: &[f64], i: usize) -> [DVec3; 2] {
-    [0, 3].map(|part| DVec3::from_slice(&x[6 * i + part..]))
-}
-
-fn put(matrix: &mut [f64], n: usize, row: usize, col: usize, block: DMat3) {
-    for i in 0..3 {
-        let at = (row + i) * n + col;
-        block.row(i).write_to_slice(&mut matrix[at..at + 3]);
-    }
-}
 
 fn link_kinematics(links: &[Link], t: f64, motions: &[BodyMotion]) -> Vec<LinkKinematics> {
     links.iter().map(|l| kinematics(l, t, motions)).collect()

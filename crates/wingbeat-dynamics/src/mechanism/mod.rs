@@ -4,9 +4,11 @@
 //! several links may hold one body. [`AbsoluteForm`] writes its motion in absolute coordinates
 //! (position and unit quaternion of every body) with multipliers, which are singular nowhere.
 //! Reading order: [`link`] (what a joint asks of two bodies), [`partition`] (which coordinates
-//! follow from which, and what is asked twice), [`assembly`] (consistent starts), [`form`].
+//! follow from which, and what is asked twice), `equations` (matrix and right-hand side), [`form`], [`assembly`]
+//! (consistent starts).
 
 pub mod assembly;
+mod equations;
 pub mod form;
 pub mod link;
 pub mod partition;

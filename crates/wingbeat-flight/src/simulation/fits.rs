@@ -1,38 +1,44 @@
 //! Whether a saved state, perhaps read from a file, fits the flight that is to go on from it.
 
-use super::{FlightState, Simulation};
+use super::state::FlightState;
 use crate::error::FlightError;
+use crate::recorder::Ledger;
+use crate::stages::Stage;
 
 /// No flight counts so many steps or events.
 const MOST: u64 = 1 << 60;
 
-impl Simulation {
-    /// # Errors
-    /// What does not fit.
-    pub(super) fn check_fits(&self, state: &FlightState) -> Result<(), FlightError> {
-        let Some(stage) = self.stages.get(state.stage) else {
-            let value = format!("stage {}", state.stage);
-            return misfit(value, "the flight has no such stage");
-        };
-        check_steps(state)?;
-        let dim = stage.equations.dim();
-        let past = &state.past;
-        let vectors = past.y.iter().chain(&past.f);
-        let mut vectors = vectors.chain([&past.predicted_minus_corrected]);
-        if vectors.any(|v| v.len() != dim) {
-            return misfit(
-                format!("{} components", past.newest().len()),
-                &format!("the case has {dim}; resume with the case that was saved with it"),
-            );
-        }
-        let (ledger, own) = (&state.ledger, &self.state.ledger);
-        let lengths = [ledger.coordinates.len(), ledger.rates.len()];
-        if lengths != [own.coordinates.len(), own.rates.len()] {
-            return misfit(format!("{lengths:?} coordinates"), "the case has others");
-        }
-        stage.equations.air.check(state.air.as_ref())?;
-        check_events(state)
+/// Whether `state` fits a flight of these `stages` that begins with the ledger `own`.
+///
+/// # Errors
+/// What does not fit.
+pub(super) fn check_fits(
+    state: &FlightState,
+    stages: &[Stage],
+    own: &Ledger,
+) -> Result<(), FlightError> {
+    let Some(stage) = stages.get(state.stage) else {
+        let value = format!("stage {}", state.stage);
+        return misfit(value, "the flight has no such stage");
+    };
+    check_steps(state)?;
+    let dim = stage.equations.dim();
+    let past = &state.past;
+    let vectors = past.y.iter().chain(&past.f);
+    let mut vectors = vectors.chain([&past.predicted_minus_corrected]);
+    if vectors.any(|v| v.len() != dim) {
+        return misfit(
+            format!("{} components", past.newest().len()),
+            &format!("the case has {dim}; resume with the case that was saved with it"),
+        );
     }
+    let ledger = &state.ledger;
+    let lengths = [ledger.coordinates.len(), ledger.rates.len()];
+    if lengths != [own.coordinates.len(), own.rates.len()] {
+        return misfit(format!("{lengths:?} coordinates"), "the case has others");
+    }
+    stage.equations.air.check(state.air.as_ref())?;
+    check_events(state)
 }
 
 fn check_steps(state: &FlightState) -> Result<(), FlightError> {

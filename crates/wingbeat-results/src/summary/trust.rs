@@ -109,24 +109,7 @@ fn air_warnings(
         None => format!("The air is inviscid: without friction, drag and power come out low, the more so the smaller the Reynolds number. {suction}"),
         Some(drag) => format!("The air is inviscid; drag of the sections was added to its forces (air.section_drag: {}, cd0 = {}, cd2 = {} per rad2), from the undisturbed air past each strip. {suction}", friction(drag), drag.cd0, drag.cd2),
     });
-    let chord = setup
-        .animal
-        .wing_reports()
-        .first()
-        .map_or(1.0, |r| r.mean_chord);
-    let (kind, size) = core(&lattice.wake_core);
-    let overlap = match lattice.wake_overlap {
-        0.0 => String::new(),
-        part => format!(", at least {part} times a filament's length"),
-    };
-    let blobs = match lattice.wake_blob_length {
-        None => String::new(),
-        Some(length) => format!("; filaments longer than {length:.1e} m are blobs"),
-    };
-    list.push(format!(
-        "The vortex core ({kind}, {size:.1e} m = {:.3} mean chords{overlap}{blobs}) is an input, not a result: vary it and see what changes.",
-        size / chord
-    ));
+    list.push(core_is_an_input(setup, lattice));
     if air.mirror {
         list.push("Mirror symmetry was assumed (air.mirror): a real flow of this kind loses it, and with it roll, yaw and sideways drift would come.".to_owned());
     }
@@ -165,6 +148,28 @@ fn air_warnings(
             summary.leak_velocity_m_s
         ));
     }
+}
+
+/// What is said of the vortex core of the wakes.
+fn core_is_an_input(setup: &FlightSetup, lattice: &AirSettings) -> String {
+    let chord = setup
+        .animal
+        .wing_reports()
+        .first()
+        .map_or(1.0, |r| r.mean_chord);
+    let (kind, size) = core(&lattice.wake_core);
+    let overlap = match lattice.wake_overlap {
+        0.0 => String::new(),
+        part => format!(", at least {part} times a filament's length"),
+    };
+    let blobs = match lattice.wake_blob_length {
+        None => String::new(),
+        Some(length) => format!("; filaments longer than {length:.1e} m are blobs"),
+    };
+    format!(
+        "The vortex core ({kind}, {size:.1e} m = {:.3} mean chords{overlap}{blobs}) is an input, not a result: vary it and see what changes.",
+        size / chord
+    )
 }
 
 /// The lift of a beat by the loads and by the impulse of the vortices, and what it means if they

@@ -4,7 +4,7 @@
 //! psi, chord normal to the stroke plane at zero, leading edge up positive; a cone angle to the fore.
 //! Here: stroke-plane pitch 90 deg - gamma, flap -phi, deviation - cone, feathering psi.
 
-use super::insects::{Choice, Fluid, MODELS, forces, middle};
+use crate::lab::insect::{Choice, Fluid, MODELS, forces, middle};
 use crate::lab::series::{Table, correlation, interpolate, mean, rms};
 use crate::{Case, Part, Row, Trouble};
 use std::fmt::Write;
@@ -199,68 +199,70 @@ fn azuma(_quick: bool) -> Result<Vec<Row>, Trouble> {
     compare(&animal, &theirs, words, 1e-3)
 }
 
+/// Wings and motion of Wang & Russell 2007.
+const WANG_RUSSELL: Dragonfly = Dragonfly {
+    body: 0.051,
+    frequency: 33.4,
+    flight: [0.0, 0.0],
+    pairs: [
+        Pair {
+            name: "fore",
+            length: 0.046,
+            area: 3.8e-4,
+            gamma: 53.0,
+            place: 0.06,
+            cone: Series(
+                10.0,
+                &[
+                    [0.997, 146.0],
+                    [1.077, 33.0],
+                    [1.611, -103.8],
+                    [0.968, 116.8],
+                    [0.042, -33.3],
+                ],
+            ),
+            phi: Series(0.282, &[[40.453, -69.006], [4.372, -90.413]]),
+            psi: Series(
+                33.645,
+                &[
+                    [43.276, 13.484],
+                    [1.061, -96.766],
+                    [9.051, -166.51],
+                    [2.067, -23.795],
+                ],
+            ),
+        },
+        Pair {
+            name: "hind",
+            length: 0.043,
+            area: 4.4e-4,
+            gamma: 44.0,
+            place: -0.06,
+            cone: Series(
+                -5.0,
+                &[
+                    [0.484, 41.0],
+                    [0.368, -43.6],
+                    [1.164, -130.4],
+                    [1.218, -92.1],
+                    [0.326, 144.6],
+                ],
+            ),
+            phi: Series(2.414, &[[45.019, -46.817], [6.604, -51.487]]),
+            psi: Series(
+                23.935,
+                &[
+                    [44.018, 34.582],
+                    [13.653, 22.773],
+                    [4.771, -73.0],
+                    [1.768, -143.739],
+                ],
+            ),
+        },
+    ],
+};
+
 fn wang_russell(_quick: bool) -> Result<Vec<Row>, Trouble> {
-    let animal = Dragonfly {
-        body: 0.051,
-        frequency: 33.4,
-        flight: [0.0, 0.0],
-        pairs: [
-            Pair {
-                name: "fore",
-                length: 0.046,
-                area: 3.8e-4,
-                gamma: 53.0,
-                place: 0.06,
-                cone: Series(
-                    10.0,
-                    &[
-                        [0.997, 146.0],
-                        [1.077, 33.0],
-                        [1.611, -103.8],
-                        [0.968, 116.8],
-                        [0.042, -33.3],
-                    ],
-                ),
-                phi: Series(0.282, &[[40.453, -69.006], [4.372, -90.413]]),
-                psi: Series(
-                    33.645,
-                    &[
-                        [43.276, 13.484],
-                        [1.061, -96.766],
-                        [9.051, -166.51],
-                        [2.067, -23.795],
-                    ],
-                ),
-            },
-            Pair {
-                name: "hind",
-                length: 0.043,
-                area: 4.4e-4,
-                gamma: 44.0,
-                place: -0.06,
-                cone: Series(
-                    -5.0,
-                    &[
-                        [0.484, 41.0],
-                        [0.368, -43.6],
-                        [1.164, -130.4],
-                        [1.218, -92.1],
-                        [0.326, 144.6],
-                    ],
-                ),
-                phi: Series(2.414, &[[45.019, -46.817], [6.604, -51.487]]),
-                psi: Series(
-                    23.935,
-                    &[
-                        [44.018, 34.582],
-                        [13.653, 22.773],
-                        [4.771, -73.0],
-                        [1.768, -143.739],
-                    ],
-                ),
-            },
-        ],
-    };
     let table = Table::new(include_str!(
         "../../data/dragonfly_wang_russell2007_vertical_force.csv"
     ));
@@ -279,5 +281,5 @@ fn wang_russell(_quick: bool) -> Result<Vec<Row>, Trouble> {
          distance of the pairs and body are estimates; uncertainty: half the change from the second to the \
          third beat",
     ];
-    compare(&animal, &theirs, words, 0.62e-3 * 9.81)
+    compare(&WANG_RUSSELL, &theirs, words, 0.62e-3 * 9.81)
 }

@@ -1,6 +1,6 @@
 //! Hover for long, and with wakes cut short.
 
-use super::insects::{Choice, Cut, MODELS, fruit_fly_wings, middle};
+use crate::lab::insect::{Choice, Cut, MODELS, fruit_fly_wings, middle};
 use crate::lab::series::mean;
 use crate::{Case, Part, Row, Trouble};
 use std::path::Path;

@@ -186,12 +186,20 @@ impl Level {
         if !has_any {
             return; // the nodes are zero
         }
-        let ([nx, ny, nz], [mx, my, mz]) = (self.size, self.kernel.padded);
-        let (kernel, scale) = (&self.kernel, 1.0 / (self.spacing * self.spacing));
+        let ([_, _, nz], [mx, my, _]) = (self.size, self.kernel.padded);
         for buffer in [&mut self.planes, &mut self.columns] {
             buffer.resize(nz * mx * my, NOTHING);
         }
         self.lines.resize_with(nz.max(mx), Lines::default);
+        self.forward_in_planes();
+        self.multiply_in_columns();
+        self.backward_in_planes();
+    }
+
+    /// Transforms of the strengths along x and y, plane after plane.
+    fn forward_in_planes(&mut self) {
+        let ([nx, ny, _], [mx, my, _]) = (self.size, self.kernel.padded);
+        let kernel = &self.kernel;
         let plane = nx * ny;
         let planes = self.planes.par_chunks_mut(mx * my).zip(&mut self.lines);
         planes
@@ -215,6 +223,12 @@ impl Level {
                     }
                 }
             });
+    }
+
+    /// Along z, column after column: transformed, multiplied by the kernel, transformed back.
+    fn multiply_in_columns(&mut self) {
+        let ([_, _, nz], [mx, my, mz]) = (self.size, self.kernel.padded);
+        let kernel = &self.kernel;
         let (planes, columns) = (&self.planes, self.columns.par_chunks_mut(nz * my));
         columns
             .zip(&mut self.lines)
@@ -235,6 +249,13 @@ impl Level {
                     }
                 }
             });
+    }
+
+    /// Transforms back along y and x, plane after plane: velocities at the nodes.
+    fn backward_in_planes(&mut self) {
+        let ([nx, ny, nz], [mx, my, mz]) = (self.size, self.kernel.padded);
+        let (kernel, scale) = (&self.kernel, 1.0 / (self.spacing * self.spacing));
+        let plane = nx * ny;
         let columns = &self.columns;
         let scale = scale as f32 / (mx * my * mz) as f32;
         let planes = self.planes.par_chunks_mut(mx * my).zip(&mut self.lines);

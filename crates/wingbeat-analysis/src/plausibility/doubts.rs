@@ -1,0 +1,260 @@
+//! What of an estimate is implausible: a number outside wide limits.
+
+use wingbeat_air::CoreModel;
+use wingbeat_flight::{AirModel, AirOptions, FlightSetup, MotionMode};
+use wingbeat_model::Wing;
+
+use super::numbers::{Estimate, WingEstimate};
+
+/// A number outside these limits is doubted.
+struct Limit {
+    low: f64,
+    high: f64,
+    /// What may have gone wrong where it is lower, and where it is higher.
+    hints: [&'static str; 2],
+}
+
+impl Limit {
+    fn doubt(&self, what: &str, x: f64, unit: &str) -> Option<String> {
+        let [low, high] = self.hints;
+        let (side, hint) = match x {
+            x if x < self.low => ("below", low),
+            x if x > self.high => ("above", high),
+            _ => return None,
+        };
+        let limit = if side == "below" { self.low } else { self.high };
+        Some(format!(
+            "{what} {}{unit} is {side} {limit}{unit}: {hint}",
+            rounded(x)
+        ))
+    }
+}
+
+/// Three digits, as people write them.
+fn rounded(x: f64) -> String {
+    if x != 0.0 && !(1e-2..1e5).contains(&x.abs()) {
+        return format!("{x:.2e}");
+    }
+    let digits = (2 - x.abs().max(1e-9).log10().floor() as i32).clamp(0, 4);
+    format!("{x:.*}", digits as usize)
+}
+
+const FREQUENCY: Limit = Limit {
+    low: 0.05,
+    high: 1100.0,
+    hints: [
+        "slower than the largest birds and robots; is it a period?",
+        "the fastest known wings, those of midges, beat at about 1000 Hz; is it in rad/s?",
+    ],
+};
+
+const WING_LOADING: Limit = Limit {
+    low: 0.02,
+    high: 500.0,
+    hints: [
+        "lighter than the smallest insects; is the mass in kg and the wing in m?",
+        "heavier than any bird or insect on its wings; is the mass in kg and the wing in m?",
+    ],
+};
+
+const TIP_SPEED: Limit = Limit {
+    low: 0.02,
+    high: 60.0,
+    hints: [
+        "slower than any wing that carries an animal",
+        "faster than any animal's; are wing length and frequency right?",
+    ],
+};
+
+const REYNOLDS: Limit = Limit {
+    low: 3.0,
+    high: 2e6,
+    hints: [
+        "friction rules there, and wingbeat's air has little or none",
+        "larger than any animal's; are chord, speed and viscosity right?",
+    ],
+};
+
+const REDUCED_FREQUENCY: Limit = Limit {
+    low: 0.0,
+    high: 3.0,
+    hints: [
+        "",
+        "the wing hardly moves by its own chord in a beat; is the stroke in degrees?",
+    ],
+};
+
+const STROKE: Limit = Limit {
+    low: 0.0,
+    high: 190.0,
+    hints: ["", "left and right wing pass through each other"],
+};
+
+const GYRATION: Limit = Limit {
+    low: 0.03,
+    high: 3.0,
+    hints: [
+        "a body this small for its wings; is the inertia in kg m2?",
+        "a body this large for its wings; is the inertia in kg m2?",
+    ],
+};
+
+const WING_MASS: Limit = Limit {
+    low: 0.0,
+    high: 0.4,
+    hints: [
+        "",
+        "wings of animals are at most a fifth of the mass; is wing.mass_kg that of one wing?",
+    ],
+};
+
+const LIFT: Limit = Limit {
+    low: 0.5,
+    high: 2.0,
+    hints: [
+        "it will fall; raise stroke or frequency, or let `wingbeat trim` find them",
+        "it will rise; lower stroke or frequency, or let `wingbeat trim` find them",
+    ],
+};
+
+const WAKE_CORE: Limit = Limit {
+    low: 0.02,
+    high: 0.4,
+    hints: [
+        "finer than the lattice can resolve; 0.07 chords are usual: air.wake_core, after the size of the animal",
+        "it blurs the wake over the wing; 0.07 chords are usual: air.wake_core, after the size of the animal",
+    ],
+};
+
+const BOUND_CORE: Limit = Limit {
+    low: 0.0,
+    high: 0.5,
+    hints: [
+        "",
+        "it spoils the flow at the trailing edge: air.bound_core",
+    ],
+};
+
+const CLEARANCE: Limit = Limit {
+    low: 0.0,
+    high: 0.5,
+    hints: [
+        "",
+        "wakes are pushed far off the wings; 0.1 chords are usual: air.clearance_m",
+    ],
+};
+
+const TIP_STEP: Limit = Limit {
+    low: 0.0,
+    high: 1.5,
+    hints: ["", "take more steps: time.steps_per_beat"],
+};
+
+pub(super) fn doubts(setup: &FlightSetup, e: &Estimate) -> Vec<String> {
+    let mut list: Vec<String> = vec![];
+    let mut see = |limit: &Limit, what: &str, x: Option<f64>, unit: &str| {
+        list.extend(x.and_then(|x| limit.doubt(what, x, unit)));
+    };
+    let is_free = matches!(setup.mode, MotionMode::Free(_));
+    see(&FREQUENCY, "wingbeat frequency", e.frequency, " Hz");
+    let loading = e.wing_loading.filter(|_| is_free);
+    see(&WING_LOADING, "wing loading", loading, " N/m2");
+    let lift = e.lift_over_weight.filter(|_| is_free);
+    see(&LIFT, "mean lift over weight by blade elements", lift, "");
+    let wings: f64 = e.wings.iter().map(|w| w.report.mass).sum();
+    let part = (is_free && e.mass > 0.0).then(|| wings / e.mass);
+    see(
+        &WING_MASS,
+        "mass of the wings over that of the animal",
+        part,
+        "",
+    );
+    let body = setup.animal.body.mass;
+    let length = e.wings.iter().map(|w| w.report.length).fold(0.0, f64::max);
+    let gyration = (e.inertia.max_element() / body).sqrt() / length;
+    let gyration = Some(gyration).filter(|g| is_free && g.is_finite() && *g > 0.0);
+    see(
+        &GYRATION,
+        "radius of gyration of the body over the wing length",
+        gyration,
+        "",
+    );
+    let mut said = std::collections::BTreeSet::new();
+    for (wing, w) in setup.animal.wings.iter().zip(&e.wings) {
+        let mut own = wing_doubts(setup, wing, w);
+        own.retain(|d| said.insert(d.clone())); // mirrored wings share their doubts
+        let name = |d| format!("wing `{}`: {d}", wing.name);
+        list.extend(own.into_iter().map(name));
+    }
+    list
+}
+
+fn wing_doubts(setup: &FlightSetup, wing: &Wing, w: &WingEstimate) -> Vec<String> {
+    let mut list = vec![];
+    let mut see = |limit: &Limit, what: &str, x: Option<f64>, unit: &str| {
+        list.extend(x.and_then(|x| limit.doubt(what, x, unit)));
+    };
+    let flaps = Some(w.tip_speed).filter(|u| *u > 0.0);
+    see(&TIP_SPEED, "mean tip speed", flaps, " m/s");
+    see(
+        &STROKE,
+        "stroke amplitude",
+        Some(w.stroke_amplitude.to_degrees()),
+        " deg",
+    );
+    see(
+        &REYNOLDS,
+        "Reynolds number",
+        w.reynolds.filter(|_| w.speed > 0.0),
+        "",
+    );
+    see(
+        &REDUCED_FREQUENCY,
+        "reduced frequency",
+        w.reduced_frequency,
+        "",
+    );
+    if let AirModel::VortexLattice(air) = &setup.air {
+        let chord = w.report.mean_chord;
+        let step = flaps.map(|u| u * setup.time.step / chord);
+        see(&TIP_STEP, "way of the tip in a step", step, " chords");
+        let [wake, bound, clearance] = lattice_sizes(air, wing, chord);
+        see(&WAKE_CORE, "vortex core of the wake", wake, " mean chords");
+        see(
+            &BOUND_CORE,
+            "vortex core of the wing",
+            bound,
+            " panel lengths",
+        );
+        see(&CLEARANCE, "clearance", clearance, " mean chords");
+    }
+    let outward = wing.side.sign() * wing.hinge_b.y;
+    if outward < -1e-3 * w.report.length {
+        list.push(format!(
+            "its hinge lies {:.3} mm on the other side of the body: the sign of hinge_m[1]",
+            -1e3 * outward
+        ));
+    }
+    list
+}
+
+/// Wake core and clearance over the mean chord, bound core over the mean panel length.
+fn lattice_sizes(air: &AirOptions, wing: &Wing, chord: f64) -> [Option<f64>; 3] {
+    let s = &air.lattice;
+    let panel = chord / wing.mesh.rows as f64;
+    [
+        radius(&s.wake_core).map(|r| r / chord),
+        radius(&s.bound_core).map(|r| r / panel),
+        Some(s.clearance / chord),
+    ]
+}
+
+/// Radius of a core \[m\]; a cut-off has none.
+fn radius(core: &CoreModel) -> Option<f64> {
+    match *core {
+        CoreModel::CutOff { .. } => None,
+        CoreModel::Vatistas { radius }
+        | CoreModel::Scully { radius }
+        | CoreModel::LambOseen { radius, .. } => Some(radius),
+    }
+}

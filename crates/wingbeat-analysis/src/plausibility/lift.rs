@@ -1,0 +1,83 @@
+//! The lift that blade elements expect of a flight.
+
+use wingbeat_air::Wind;
+use wingbeat_blade::BladeSettings;
+use wingbeat_flight::{
+    AirModel, BladeOptions, DriftingFourier, FlightSetup, MotionMode, PrescribedMotion, Simulation,
+    StartState, TimeGrid,
+};
+use wingbeat_math::DVec3;
+use wingbeat_model::Start;
+
+use super::air::{density, stream};
+use crate::error::AnalysisError;
+
+/// Steps per wingbeat with which the blade elements are flown.
+const STEPS: usize = 60;
+
+/// Mean lift over weight of the second wingbeat of a tethered flight in blade elements.
+pub(super) fn lift_over_weight(setup: &FlightSetup) -> Result<Option<f64>, AnalysisError> {
+    let weight = setup.animal.mass() * setup.gravity.length();
+    let (Some(period), Some(density)) = (setup.time.period, density(&setup.air)) else {
+        return Ok(None);
+    };
+    if weight == 0.0 || setup.animal.wings.is_empty() {
+        return Ok(None);
+    }
+    let blades = BladeOptions {
+        blade: BladeSettings {
+            free_stream: stream(&setup.air),
+            ..BladeSettings::insect(density)
+        },
+        body_drag: None,
+        induced: DVec3::ZERO,
+        wind: match &setup.air {
+            AirModel::VortexLattice(air) => air.lattice.wind.clone(),
+            _ => Wind::default(),
+        },
+    };
+    let mut tethered = setup.clone();
+    for wing in &mut tethered.animal.wings {
+        wing.motion.start = Start::Impulsive;
+    }
+    if !matches!(setup.air, AirModel::BladeElement(_)) {
+        tethered.air = AirModel::BladeElement(blades);
+    }
+    tethered.mode = MotionMode::Tethered(held(setup));
+    tethered.time = TimeGrid {
+        step: period / STEPS as f64,
+        steps: 2 * STEPS,
+        period: Some(period),
+    };
+    let mut flight = Simulation::new(tethered)?;
+    let (down, mut lift) = (setup.gravity / setup.gravity.length(), 0.0);
+    while !flight.finished() {
+        let record = flight.step()?;
+        if record.step > STEPS {
+            lift -= record.air.iter().map(|a| a.force.dot(down)).sum::<f64>();
+        }
+    }
+    Ok(Some(lift / STEPS as f64 / weight))
+}
+
+/// The root as it starts, attitude and velocity kept.
+fn held(setup: &FlightSetup) -> PrescribedMotion {
+    match &setup.mode {
+        MotionMode::Tethered(motion) => motion.clone(),
+        MotionMode::Free(StartState {
+            position,
+            angles,
+            velocity,
+            ..
+        }) => {
+            let (x, v) = (position.to_array(), velocity.to_array());
+            PrescribedMotion {
+                position: std::array::from_fn(|i| DriftingFourier {
+                    rate: v[i],
+                    ..DriftingFourier::constant(x[i])
+                }),
+                angles: angles.to_array().map(DriftingFourier::constant),
+            }
+        }
+    }
+}

@@ -1,0 +1,75 @@
+//! The numbers of an estimate.
+
+use wingbeat_math::DVec3;
+use wingbeat_model::{Wing, WingReport};
+
+/// What is expected of one wing.
+#[derive(Clone, Debug, PartialEq)]
+pub struct WingEstimate {
+    /// Sizes of the wing.
+    pub report: WingReport,
+    /// Stroke angle from end to end \[rad\]; 0 for a wing that does not flap.
+    pub stroke_amplitude: f64,
+    /// Mean speed of the tip from flapping [m/s].
+    pub tip_speed: f64,
+    /// The larger of tip speed and flight speed [m/s].
+    pub speed: f64,
+    /// Reynolds number of the mean chord; none where the viscosity is not known.
+    pub reynolds: Option<f64>,
+    /// Reduced frequency of the mean chord; none where nothing flaps or moves.
+    pub reduced_frequency: Option<f64>,
+}
+
+/// What is expected of a flight.
+#[derive(Clone, Debug)]
+pub struct Estimate {
+    /// Mass \[kg\].
+    pub mass: f64,
+    /// Wingbeats per second \[Hz\]; none for motions without a period.
+    pub frequency: Option<f64>,
+    /// Speed through the undisturbed air at the start [m/s].
+    pub flight_speed: f64,
+    /// Weight over the area of all wings [N/m2]; none without weight or wings.
+    pub wing_loading: Option<f64>,
+    /// Moments of inertia of the central body about its mass centre, body axes [kg m2].
+    pub inertia: DVec3,
+    /// Kinematic viscosity [m2/s]: that of the case, or of air where the density is that of air.
+    pub viscosity: Option<f64>,
+    /// The wings, in the animal's order.
+    pub wings: Vec<WingEstimate>,
+    /// Mean lift over weight in the attitude and at the velocity of the start, by blade elements;
+    /// none without weight, air or wingbeats.
+    pub lift_over_weight: Option<f64>,
+    /// What is implausible, in whole sentences; empty where nothing is.
+    pub doubts: Vec<String>,
+}
+
+impl Estimate {
+    pub(super) fn wing(&self, wing: &Wing, report: WingReport) -> WingEstimate {
+        let stroke_amplitude = stroke_amplitude(wing);
+        let f = wing.motion.frequency;
+        let tip_speed = 2.0 * stroke_amplitude * report.length * f;
+        let speed = tip_speed.max(self.flight_speed);
+        let flaps = tip_speed > 0.0;
+        WingEstimate {
+            stroke_amplitude,
+            tip_speed,
+            speed,
+            reynolds: (self.viscosity).map(|nu| speed * report.mean_chord / nu),
+            reduced_frequency: flaps.then(|| std::f64::consts::PI * f * report.mean_chord / speed),
+            report,
+        }
+    }
+}
+
+/// Largest less smallest stroke angle of a beat \[rad\].
+fn stroke_amplitude(wing: &Wing) -> f64 {
+    const SAMPLES: usize = 200;
+    let phi = |k: usize| wing.motion.angles.phi.at(k as f64 / SAMPLES as f64)[0];
+    let ends = (0..SAMPLES)
+        .map(phi)
+        .fold([f64::INFINITY, f64::NEG_INFINITY], |[lo, hi], x| {
+            [lo.min(x), hi.max(x)]
+        });
+    ends[1] - ends[0]
+}

@@ -1,0 +1,48 @@
+//! Rates of the free joint coordinates and speeds in the momentum form.
+
+use crate::error::DynamicsError;
+use crate::free::coordinate_rates;
+use crate::inverse::demand;
+use crate::motion::{BodyAcceleration, Wrench};
+use crate::posture::Composite;
+use crate::system::System;
+use crate::workspace::Workspace;
+
+/// Accelerations of the free joint speeds into `ws.free` and into the placements; motions and
+/// placements are those of the state.
+pub(super) fn move_joints(
+    system: &System,
+    (t, q, u): (f64, &[f64], &[f64]),
+    loads: &[Wrench],
+    whole: &Composite,
+    ws: &mut Workspace,
+) -> Result<(), DynamicsError> {
+    let root = ws.motions[0];
+    let still = BodyAcceleration::default();
+    ws.posture.accelerations(&root, &still, &mut ws.bias);
+    demand(system, loads, &ws.motions, &ws.bias, &mut ws.demand);
+    let posture = (ws.posture.placements(), whole, root.r);
+    (ws.free)
+        .solve(system, (t, q, u), posture, &ws.demand)
+        .map_err(|e| DynamicsError::SingularMechanism {
+            time: t,
+            what: format!("hinge `{}`", ws.free.hinge(system, e.column)),
+        })?;
+    ws.free.accelerate(system, ws.posture.placements_mut());
+    Ok(())
+}
+
+/// Rates of the free joint coordinates and speeds.
+pub(super) fn write_joint_rates(
+    system: &System,
+    (q, u): (&[f64], &[f64]),
+    ws: &Workspace,
+    dy: &mut [f64],
+) {
+    let (dq, du) = dy.split_at_mut(q.len());
+    for (joint, s) in system.joints().iter().zip(system.slots()) {
+        let (q, u) = (&q[s.q..s.q + s.coordinates], &u[s.u..s.u + s.speeds]);
+        coordinate_rates(joint.freedom, q, u, &mut dq[s.q..s.q + s.coordinates]);
+    }
+    du.copy_from_slice(&ws.free.u_dot);
+}

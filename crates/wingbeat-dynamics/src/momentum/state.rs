@@ -1,0 +1,63 @@
+//! The state vector of the momentum form, taken apart.
+
+use wingbeat_math::{DMat3, DQuat, DVec3};
+
+use crate::check::check_state;
+use crate::error::DynamicsError;
+use crate::motion::Wrench;
+use crate::posture::Composite;
+
+/// The state vector, taken apart.
+pub(super) struct State {
+    pub centre: DVec3,
+    pub attitude: DQuat,
+    pub momentum: DVec3,
+    pub angular: DVec3,
+}
+
+impl State {
+    pub fn read(t: f64, y: &[f64]) -> Result<Self, DynamicsError> {
+        check_state(t, y)?;
+        let v = |i: usize| DVec3::new(y[i], y[i + 1], y[i + 2]);
+        Ok(Self {
+            centre: v(0),
+            attitude: DQuat::from_xyzw(y[3], y[4], y[5], y[6]),
+            momentum: v(7),
+            angular: v(10),
+        })
+    }
+
+    pub fn write(&self, y: &mut [f64]) {
+        self.centre.write_to_slice(&mut y[0..]);
+        self.attitude.write_to_slice(&mut y[3..]);
+        self.momentum.write_to_slice(&mut y[7..]);
+        self.angular.write_to_slice(&mut y[10..]);
+    }
+
+    /// Rates of the state when the root turns at `w` under the total `load`.
+    pub fn rates(&self, whole: &Composite, w: DVec3, load: &Wrench) -> Self {
+        Self {
+            centre: self.momentum / whole.mass,
+            attitude: self.attitude * DQuat::from_xyzw(w.x, w.y, w.z, 0.0) * 0.5,
+            momentum: load.force,
+            angular: load.moment,
+        }
+    }
+
+    /// Rotation of the root; the length of the quaternion does not matter.
+    pub fn rotation(&self) -> DMat3 {
+        DMat3::from_quat(self.attitude.normalize())
+    }
+}
+
+/// Solves `inertia x = h` by Cramer's rule.
+pub(super) fn turn(time: f64, inertia: DMat3, h: DVec3) -> Result<DVec3, DynamicsError> {
+    let (x, y, z) = (inertia.x_axis, inertia.y_axis, inertia.z_axis);
+    let (yz, zx, xy) = (y.cross(z), z.cross(x), x.cross(y));
+    let (determinant, scale) = (x.dot(yz), (x.x + y.y + z.z) / 3.0);
+    // 1e-12 of the mean moment cubed: a rod a million times longer than thick.
+    if determinant > 1e-12 * scale.powi(3) {
+        return Ok(DVec3::new(h.dot(yz), h.dot(zx), h.dot(xy)) / determinant);
+    }
+    Err(DynamicsError::SingularInertia { time, scale })
+}

@@ -1,0 +1,64 @@
+//! Loads on the whole system, and the rates of its momenta.
+
+use wingbeat_math::{DMat3, DVec3};
+
+use crate::body::inertia_wrench;
+use crate::motion::{BodyAcceleration, BodyMotion, Wrench};
+use crate::posture::Posture;
+use crate::system::System;
+
+/// Sum of all external forces and of their moments about the mass centre `x_c`, N components.
+pub(super) fn total_load(
+    system: &System,
+    loads: &[Wrench],
+    motions: &[BodyMotion],
+    x_c: DVec3,
+) -> Wrench {
+    let mut sum = Wrench {
+        force: system.total_mass() * system.gravity(),
+        moment: DVec3::ZERO,
+    };
+    for (l, m) in loads.iter().zip(motions) {
+        sum.force += l.force;
+        sum.moment += l.moment + (m.p - x_c).cross(l.force);
+    }
+    sum
+}
+
+/// As [`total_load`], from the placements: `r` is the root's rotation, `c` the mass centre
+/// in root components.
+pub(super) fn whole_load(
+    system: &System,
+    loads: &[Wrench],
+    posture: &Posture,
+    r: DMat3,
+    c: DVec3,
+) -> Wrench {
+    let mut sum = Wrench {
+        force: system.total_mass() * system.gravity(),
+        moment: DVec3::ZERO,
+    };
+    for (l, at) in loads.iter().zip(posture.placements()) {
+        sum.force += l.force;
+        sum.moment += l.moment + (r * (at.d - c)).cross(l.force);
+    }
+    sum
+}
+
+/// Rates of linear momentum and of angular momentum about the mass centre.
+pub(super) fn momentum_rate(
+    system: &System,
+    motions: &[BodyMotion],
+    acc: &[BodyAcceleration],
+    x_c: DVec3,
+) -> Wrench {
+    let mut sum = Wrench::default();
+    for ((b, m), a) in system.bodies().iter().zip(motions).zip(acc) {
+        let w = inertia_wrench(b, m, a);
+        sum += Wrench {
+            force: w.force,
+            moment: w.moment + (m.p - x_c).cross(w.force),
+        };
+    }
+    sum
+}

@@ -1,0 +1,43 @@
+//! The coupled right-hand side over the starting steps of a multistep method.
+
+use wingbeat_air::AirState;
+use wingbeat_math::ode::Replay;
+
+use crate::equations::{Equations, Scratch};
+use crate::error::FlightError;
+
+/// The coupled right-hand side over the starting steps: the wake is replayed with them.
+pub(super) struct Start<'a> {
+    pub equations: &'a Equations,
+    pub scratch: Scratch,
+    pub first: usize,
+    pub at_start: &'a Option<AirState>,
+    pub air: Option<AirState>,
+}
+
+impl Start<'_> {
+    pub fn time(&self, k: usize) -> f64 {
+        (self.first + k) as f64 * self.equations.step
+    }
+}
+
+impl Replay for Start<'_> {
+    type Error = FlightError;
+
+    fn enter(&mut self, k: usize) -> Result<(), FlightError> {
+        if k == 1 {
+            self.air.clone_from(self.at_start);
+        }
+        self.equations.advance_air(&mut self.air, &mut self.scratch)
+    }
+
+    fn rates(&mut self, k: usize, y: &[f64], f: &mut [f64]) -> Result<(), FlightError> {
+        let t = self.time(k);
+        self.equations
+            .evaluate(t, y, self.air.as_ref(), &mut self.scratch, f)
+    }
+
+    fn leave(&mut self, _k: usize) -> Result<(), FlightError> {
+        self.equations.accept_air(&mut self.air, &self.scratch)
+    }
+}

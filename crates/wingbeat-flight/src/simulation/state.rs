@@ -1,0 +1,29 @@
+//! What is integrated.
+
+use wingbeat_air::AirState;
+use wingbeat_math::ode::{Multistep, StepReport};
+
+use crate::control::ControlState;
+use crate::recorder::Ledger;
+
+/// Everything that is integrated: plain data, enough to go on bit for bit.
+#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+pub struct FlightState {
+    /// Accepted steps.
+    pub step: usize,
+    /// Stage of the flight: held or released.
+    pub stage: usize,
+    /// Step at which the stage, and with it the past, was started.
+    pub started_at: usize,
+    /// States and rates of bodies and quadratures. During the first three steps of a stage it
+    /// holds that whole start; after that the newest four steps.
+    pub past: Multistep,
+    /// What the starter did.
+    pub start_report: StepReport,
+    /// The air after the newest step, its wake not yet moved on; none in vacuum.
+    pub air: Option<AirState>,
+    /// What balances are counted from.
+    pub ledger: Ledger,
+    /// What feedback remembers; none without.
+    pub control: Option<ControlState>,
+}

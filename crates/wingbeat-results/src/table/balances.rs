@@ -1,0 +1,216 @@
+//! Columns of balances, quality, wakes and commands.
+
+use crate::quantity::Components::Inertial;
+use crate::quantity::Fold::{Largest, Smallest, Sum};
+use crate::quantity::Slot::{Count, Real};
+use crate::quantity::{Frame, Quantity, Unit, scalar};
+
+pub(super) const ENERGIES: &[Quantity] = &[
+    scalar(
+        "kinetic_energy",
+        Unit::Joule,
+        "kinetic energy",
+        |r, _, _| Real(&mut r.kinetic_energy),
+    ),
+    scalar(
+        "potential_energy",
+        Unit::Joule,
+        "energy of weight, zero at the inertial origin",
+        |r, _, _| Real(&mut r.potential_energy),
+    ),
+    scalar(
+        "hinge_work",
+        Unit::Joule,
+        "work of the actuators of all joints so far",
+        |r, _, _| Real(&mut r.hinge_work),
+    ),
+    scalar(
+        "air_work",
+        Unit::Joule,
+        "work of the air so far, on deformation too",
+        |r, _, _| Real(&mut r.air_work),
+    ),
+    scalar(
+        "deformation_work",
+        Unit::Joule,
+        "work so far of what deforms the wings against the air",
+        |r, _, _| Real(&mut r.deformation_work),
+    ),
+    scalar(
+        "applied_work",
+        Unit::Joule,
+        "work of applied loads and tether so far",
+        |r, _, _| Real(&mut r.applied_work),
+    ),
+    scalar(
+        "energy_residual",
+        Unit::Joule,
+        "energy less that of the start less all work",
+        |r, _, _| Real(&mut r.energy_residual),
+    ),
+];
+
+pub(super) const MOMENTA: &[Quantity] = &[
+    scalar(
+        "momentum_{c}",
+        Unit::Momentum,
+        "linear momentum",
+        |r, _, c| Real(&mut r.momentum[c]),
+    )
+    .along(Inertial, Frame::Inertial),
+    scalar(
+        "angular_momentum_{c}",
+        Unit::AngularMomentum,
+        "angular momentum about the inertial origin",
+        |r, _, c| Real(&mut r.angular_momentum[c]),
+    )
+    .along(Inertial, Frame::Inertial),
+    scalar(
+        "momentum_residual_{c}",
+        Unit::Momentum,
+        "momentum less that of the start less the impulse of all external forces",
+        |r, _, c| Real(&mut r.momentum_residual[c]),
+    )
+    .along(Inertial, Frame::Inertial),
+    scalar(
+        "angular_momentum_residual_{c}",
+        Unit::AngularMomentum,
+        "the same for angular momentum",
+        |r, _, c| Real(&mut r.angular_momentum_residual[c]),
+    )
+    .along(Inertial, Frame::Inertial),
+];
+
+pub(super) const QUALITY: &[Quantity] = &[
+    scalar(
+        "violation_position",
+        Unit::Metre,
+        "largest violation of a connection constraint",
+        |r, _, _| Real(&mut r.violation_position),
+    )
+    .fold(Largest),
+    scalar(
+        "violation_orientation",
+        Unit::One,
+        "largest violation of an orientation constraint",
+        |r, _, _| Real(&mut r.violation_orientation),
+    )
+    .fold(Largest),
+    scalar(
+        "euler_regularity",
+        Unit::One,
+        "smallest |cos theta| of all bodies",
+        |r, _, _| Real(&mut r.euler_regularity),
+    )
+    .fold(Smallest),
+    scalar(
+        "corrector_passes",
+        Unit::Count,
+        "corrector passes of the step",
+        |r, _, _| Count(&mut r.corrector_passes),
+    )
+    .fold(Largest),
+    scalar(
+        "corrector_residual",
+        Unit::One,
+        "scaled residual of the last corrector pass",
+        |r, _, _| Real(&mut r.corrector_residual),
+    )
+    .fold(Largest),
+];
+
+pub(super) const WAKE: &[Quantity] = &[
+    scalar(
+        "vortex_impulse_{c}",
+        Unit::Momentum,
+        "impulse of all vorticity",
+        |r, _, c| Real(&mut r.vortex_impulse[c]),
+    )
+    .along(Inertial, Frame::Inertial),
+    scalar(
+        "air_impulse_{c}",
+        Unit::NewtonSecond,
+        "impulse of the air's force on all bodies so far, by the trapezoidal rule over the steps",
+        |r, _, c| Real(&mut r.air_impulse[c]),
+    )
+    .along(Inertial, Frame::Inertial)
+    .new_here(),
+    scalar(
+        "wake_rings",
+        Unit::Count,
+        "rings of the wakes",
+        |r, _, _| Count(&mut r.wake_rings),
+    ),
+    scalar(
+        "wake_particles",
+        Unit::Count,
+        "vortex particles of the wakes",
+        |r, _, _| Count(&mut r.wake_particles),
+    ),
+    scalar(
+        "regularised",
+        Unit::Count,
+        "times a near-singular velocity was regularised",
+        |r, _, _| Count(&mut r.regularised),
+    )
+    .fold(Sum),
+    scalar(
+        "leak_velocity",
+        Unit::MetrePerSecond,
+        "largest uniform leak velocity of closed surfaces",
+        |r, _, _| Real(&mut r.leak_velocity),
+    )
+    .fold(Largest),
+];
+
+/// What feedback commands.
+pub(super) const COMMANDS: &[Quantity] = &[
+    scalar(
+        "command_{s}_stroke_amplitude",
+        Unit::One,
+        "relative change of the stroke of {s}",
+        |r, s, _| Real(&mut r.commands[s].stroke_amplitude),
+    ),
+    scalar(
+        "command_{s}_stroke_offset",
+        Unit::Radian,
+        "added to the stroke angle of {s}, positive forward",
+        |r, s, _| Real(&mut r.commands[s].stroke_offset),
+    ),
+    scalar(
+        "command_{s}_feathering_offset",
+        Unit::Radian,
+        "added to the feathering angle of {s}",
+        |r, s, _| Real(&mut r.commands[s].feathering_offset),
+    ),
+    scalar(
+        "command_{s}_feathering_amplitude",
+        Unit::One,
+        "relative change of the feathering of {s}",
+        |r, s, _| Real(&mut r.commands[s].feathering_amplitude),
+    ),
+    scalar(
+        "command_{s}_feathering_lead",
+        Unit::Wingbeat,
+        "lead of the feathering of {s}",
+        |r, s, _| Real(&mut r.commands[s].feathering_lead),
+    ),
+    scalar(
+        "command_{s}_deviation_offset",
+        Unit::Radian,
+        "added to the deviation of {s}, in the sense of a right wing",
+        |r, s, _| Real(&mut r.commands[s].deviation_offset),
+    ),
+    scalar(
+        "command_{s}_stroke_plane",
+        Unit::Radian,
+        "added to the pitch of the stroke plane of {s}",
+        |r, s, _| Real(&mut r.commands[s].stroke_plane),
+    ),
+    scalar(
+        "command_{s}_frequency",
+        Unit::One,
+        "relative change of the frequency of {s}",
+        |r, s, _| Real(&mut r.commands[s].frequency),
+    ),
+];

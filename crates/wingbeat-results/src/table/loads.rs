@@ -1,0 +1,144 @@
+//! Columns of joints and loads.
+
+use crate::quantity::Components::{Child, Inertial};
+use crate::quantity::Slot::Real;
+use crate::quantity::{Frame, Quantity, Unit, scalar};
+
+pub(super) const CONNECTIONS: &[Quantity] = &[scalar(
+    "multiplier_{s}",
+    Unit::Newton,
+    "Lagrange multiplier of connection {s}, seed eq. 11",
+    |r, s, _| Real(&mut r.multipliers[s]),
+)
+.symbol("lambda")];
+
+pub(super) const ORIENTATIONS: &[Quantity] = &[scalar(
+    "multiplier_{s}",
+    Unit::NewtonMetre,
+    "Lagrange multiplier of orientation {s}, seed eq. 11",
+    |r, s, _| Real(&mut r.multipliers[s]),
+)
+.symbol("lambda")];
+
+pub(super) const HINGES: &[Quantity] = &[
+    scalar(
+        "hinge_{s}_force_{c}",
+        Unit::Newton,
+        "force on {s} at its hinge",
+        |r, s, c| Real(&mut r.hinges[s].force[c]),
+    )
+    .along(Inertial, Frame::Inertial),
+    scalar(
+        "hinge_{s}_moment_{c}",
+        Unit::NewtonMetre,
+        "moment on {s} about its hinge",
+        |r, s, c| Real(&mut r.hinges[s].moment[c]),
+    )
+    .along(Child, Frame::Own),
+    scalar(
+        "hinge_{s}_power",
+        Unit::Watt,
+        "power of the actuators at the hinge of {s}, positive when they feed it",
+        |r, s, _| Real(&mut r.hinges[s].power),
+    ),
+];
+
+pub(super) const LOOPS: &[Quantity] = &[
+    scalar(
+        "loop_{s}_force_{c}",
+        Unit::Newton,
+        "force on the child of {s}, which closes a loop",
+        |r, s, c| Real(&mut r.loops[s].force[c]),
+    )
+    .along(Inertial, Frame::Inertial)
+    .new_here(),
+    scalar(
+        "loop_{s}_moment_{c}",
+        Unit::NewtonMetre,
+        "moment on the child of {s}",
+        |r, s, c| Real(&mut r.loops[s].moment[c]),
+    )
+    .along(Child, Frame::Own)
+    .new_here(),
+    scalar(
+        "loop_{s}_power",
+        Unit::Watt,
+        "power of the actuators of {s}",
+        |r, s, _| Real(&mut r.loops[s].power),
+    )
+    .new_here(),
+];
+
+pub(super) const COORDINATES: &[Quantity] = &[
+    scalar("joint_{s}", Unit::Coordinate, "{s}", |r, s, _| {
+        Real(&mut r.joints[s][0])
+    })
+    .in_frame(Frame::Joint)
+    .formerly("joint_coordinate_{s}", "rad_or_m"),
+    scalar(
+        "joint_{s}_rate",
+        Unit::CoordinateRate,
+        "rate of the {s}",
+        |r, s, _| Real(&mut r.joints[s][1]),
+    )
+    .in_frame(Frame::Joint)
+    .formerly("joint_rate_{s}", "rad_or_m_per_s"),
+];
+
+pub(super) const DEFORMATION: &[Quantity] = &[scalar(
+    "deformation_{s}_power",
+    Unit::Watt,
+    "power of what deforms {s} against the air",
+    |r, s, _| Real(&mut r.deformation_power[s]),
+)];
+
+pub(super) const AIR: &[Quantity] = &[
+    scalar(
+        "air_{s}_force_{c}",
+        Unit::Newton,
+        "force of the air on {s}",
+        |r, s, c| Real(&mut r.air[s].force[c]),
+    )
+    .along(Inertial, Frame::Inertial),
+    scalar(
+        "air_{s}_moment_{c}",
+        Unit::NewtonMetre,
+        "moment of the air on {s} about its origin",
+        |r, s, c| Real(&mut r.air[s].moment[c]),
+    )
+    .along(Inertial, Frame::Inertial),
+];
+
+pub(super) const APPLIED: &[Quantity] = &[
+    scalar(
+        "applied_{s}_force_{c}",
+        Unit::Newton,
+        "applied force on {s}",
+        |r, s, c| Real(&mut r.applied[s].force[c]),
+    )
+    .along(Inertial, Frame::Inertial),
+    scalar(
+        "applied_{s}_moment_{c}",
+        Unit::NewtonMetre,
+        "applied moment on {s} about its origin",
+        |r, s, c| Real(&mut r.applied[s].moment[c]),
+    )
+    .along(Inertial, Frame::Inertial),
+];
+
+pub(super) const TETHER: &[Quantity] = &[
+    scalar(
+        "tether_force_{c}",
+        Unit::Newton,
+        "force of the tether on the body",
+        |r, _, c| Real(&mut r.tether.force[c]),
+    )
+    .along(Inertial, Frame::Inertial),
+    scalar(
+        "tether_moment_{c}",
+        Unit::NewtonMetre,
+        "moment of the tether on the body about its origin",
+        |r, _, c| Real(&mut r.tether.moment[c]),
+    )
+    .along(Inertial, Frame::Inertial),
+];
