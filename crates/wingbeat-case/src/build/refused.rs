@@ -24,7 +24,12 @@ pub(crate) fn refused(case: &Case, setup: &FlightSetup, error: &FlightError) -> 
         FlightError::Setup { key, .. } => (of_setup(key).to_owned(), "change this key"),
         _ => (String::new(), "the message says what to try"),
     };
-    Fault::new(key, error.to_string(), "", remedy)
+    // Key and value stand before the message already.
+    let problem = match error {
+        FlightError::Setup { problem, .. } => problem.to_string(),
+        other => other.to_string(),
+    };
+    Fault::new(key, problem, "", remedy)
 }
 
 fn of_lattice(error: &AirError) -> (String, &'static str) {

@@ -4,7 +4,8 @@ use wingbeat_air::{AirState, Lattice, Points};
 use wingbeat_dynamics::{BodyAcceleration, Wrench};
 use wingbeat_math::DVec3;
 
-use super::surfaces::{SurfaceMap, twins};
+use super::mirror::mirror_pairs;
+use super::surfaces::SurfaceMap;
 use crate::error::FlightError;
 use crate::record::{ParticleSnapshot, Snapshot, SurfaceSnapshot, WakeSnapshot};
 use crate::seam::{Air, AirScratch, Instant, misfit};
@@ -31,14 +32,15 @@ impl LatticeAir {
             return Ok(Self { lattice, map });
         }
         let root = setup.root_at_start();
-        let twins =
-            twins(&setup.animal, options.body_surfaces, &root).ok_or(FlightError::Setup {
+        let pairs = mirror_pairs(&setup.animal, options.body_surfaces, &root).ok_or(
+            FlightError::Setup {
                 key: "air.mirror",
                 value: "true".into(),
                 problem: "the animal is not its own mirror image; compute both halves (false)"
                     .into(),
-            })?;
-        let lattice = lattice.with_mirror_symmetry(twins)?;
+            },
+        )?;
+        let lattice = lattice.with_mirror_symmetry(pairs)?;
         Ok(Self { lattice, map })
     }
 

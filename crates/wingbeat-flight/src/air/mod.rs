@@ -13,6 +13,7 @@
 mod blade;
 pub mod external;
 mod lattice;
+mod mirror;
 mod surfaces;
 mod table;
 

@@ -1,12 +1,9 @@
 //! From bodies to lattice surfaces and back: node positions and velocities for the air, panel
 //! forces gathered into wrenches for the dynamics (seed eq. 9).
 
-use wingbeat_air::{
-    AirLoads, EdgeKind, JoinedEdge, MirrorPairs, NodeMotion, Plane, SheddingSegment, Surface,
-};
+use wingbeat_air::{AirLoads, EdgeKind, JoinedEdge, NodeMotion, SheddingSegment, Surface};
 use wingbeat_dynamics::{BodyMotion, Wrench};
 use wingbeat_math::{DVec3, RotationLaw};
-use wingbeat_model::mesh::mirror;
 use wingbeat_model::{Animal, BodyPart, DeformingMesh, GridMesh, Side, Wing, WingMotion};
 
 use crate::error::FlightError;
@@ -286,79 +283,6 @@ fn spin(nodes: &NodeMotion, corners: [usize; 4]) -> DVec3 {
     let area_rate = d1.cross(e) + d.cross(e1);
     let about = |d: DVec3, d1: DVec3| n.cross(d).dot(d1) / d.length_squared();
     n.cross(area_rate) / area.length() + 0.5 * (about(d, d1) + about(e, e1)) * n
-}
-
-/// The twins of an animal that is its own mirror image in the plane of axes 1 and 3 of the body,
-/// at rest at `root`; none if a wing or a body node has no counterpart.
-pub fn twins(animal: &Animal, body_surfaces: bool, root: &BodyMotion) -> Option<MirrorPairs> {
-    if !animal.segments.is_empty() {
-        return None;
-    }
-    let mut twins = MirrorPairs {
-        plane: Plane {
-            point: root.p,
-            normal: root.r.y_axis,
-        },
-        node: vec![],
-        panel: vec![],
-    };
-    let wing_nodes = first_of(animal.wings.iter().map(|w| w.mesh.nodes.len()));
-    let wing_panels = first_of(animal.wings.iter().map(|w| w.mesh.rows * w.mesh.cols));
-    for wing in &animal.wings {
-        let other = animal.wings.iter().position(|o| is_image(wing, o))?;
-        let nodes = wing.mesh.nodes.len();
-        twins.node.extend((0..nodes).map(|k| wing_nodes[other] + k));
-        let panels = wing.mesh.rows * wing.mesh.cols;
-        twins
-            .panel
-            .extend((0..panels).map(|k| wing_panels[other] + k));
-    }
-    for part in animal.parts.iter().filter(|_| body_surfaces) {
-        let (node, panel) = (twins.node.len(), twins.panel.len());
-        let own = mirror_nodes(&part.mesh.nodes)?;
-        for quad in &part.mesh.quads {
-            let mut image = quad.map(|n| own[n]);
-            image.sort_unstable();
-            let is_twin = |q: &[usize; 4]| {
-                let mut q = *q;
-                q.sort_unstable();
-                q == image
-            };
-            twins
-                .panel
-                .push(panel + part.mesh.quads.iter().position(is_twin)?);
-        }
-        twins.node.extend(own.iter().map(|k| node + k));
-    }
-    Some(twins)
-}
-
-/// Number of the first item of each of these lists laid end to end.
-fn first_of(counts: impl Iterator<Item = usize>) -> Vec<usize> {
-    counts
-        .scan(0, |next, n| Some(std::mem::replace(next, *next + n)))
-        .collect()
-}
-
-/// Whether `other` has the mesh and the hinge of `wing` in mirror image.
-fn is_image(wing: &Wing, other: &Wing) -> bool {
-    let same = |a: DVec3, b: DVec3| a.distance(mirror(b)) <= 1e-9 * (a.length() + b.length());
-    let nodes = wing.mesh.nodes.iter().zip(&other.mesh.nodes);
-    wing.side != other.side
-        && wing.deformation == other.deformation
-        && (wing.mesh.rows, wing.mesh.cols) == (other.mesh.rows, other.mesh.cols)
-        && same(wing.hinge_b, other.hinge_b)
-        && nodes.into_iter().all(|(&a, &b)| same(a, b))
-}
-
-/// The mirror image of every node among the nodes.
-fn mirror_nodes(nodes: &[DVec3]) -> Option<Vec<usize>> {
-    let size = nodes.iter().map(|x| x.length()).fold(0.0, f64::max);
-    let image = |x: &DVec3| {
-        let near = |y: &DVec3| y.distance(mirror(*x)) <= 1e-9 * size;
-        nodes.iter().position(near)
-    };
-    nodes.iter().map(image).collect()
 }
 
 /// A closed part as a lattice surface.
