@@ -1,10 +1,5 @@
 //! The seam of the air: what the equations of motion ask of it, and what is asked of another
 //! program that stands behind it.
-//!
-//! An air answers with two things: loads that follow from positions, velocities and its own memory
-//! (a wake), and masses that bodies carry along ([`AddedMass`]), which join the inertia of the
-//! bodies. Within a step the memory is frozen; it moves on once per step and is accepted with the
-//! motion that the corrector found.
 
 use std::fmt;
 
@@ -37,7 +32,12 @@ pub struct AirScratch {
     pub(crate) is_current: bool,
 }
 
-/// Air around bodies that move. See the [module](self) for what is asked when.
+/// Air around bodies that move.
+///
+/// An air answers with two things: loads that follow from positions, velocities and its own memory
+/// (a wake), and masses that bodies carry along ([`AddedMass`]), which join the inertia of the
+/// bodies. Within a step the memory is frozen; it moves on once per step and is accepted with the
+/// motion that the corrector found.
 pub trait Air: fmt::Debug + Send + Sync {
     /// Loads about the origins of all bodies, N components, but for those of the added mass.
     ///
