@@ -1,9 +1,12 @@
 //! How fast a flight goes: the cost of its steps, measured as it is flown.
 
+use std::path::Path;
 use std::time::Instant;
 
 use wingbeat::air::Points;
+use wingbeat::case::OutputSettings;
 use wingbeat::flight::{AirModel, AirOptions, FlightSetup, Record, Simulation};
+use wingbeat::results::rows::Rows;
 
 use crate::remaining::{CostModel, Growth};
 
@@ -20,7 +23,19 @@ pub(crate) struct Pace {
     growth: Growth,
     /// Elements of the wake at which the next trial is due; none where a trial says nothing.
     next_trial: Option<f64>,
+    /// Seconds that summary, figures and page take of the whole history, once they can be told.
+    ending: Option<f64>,
 }
+
+/// How often the history is read for the summary, for the figures and for the page, and what is done
+/// with its rows, in times of one reading (measured on 150,000 rows).
+const SUMMARY: f64 = 1.4;
+const FIGURES: f64 = 1.9;
+const PAGE: f64 = 3.7;
+/// Part of the steps after which a reading is tried.
+const READ_AFTER: f64 = 0.05;
+/// Rows that are read in a trial.
+const TRIAL_ROWS: usize = 300;
 
 impl Pace {
     /// For a flight about to make a step.
@@ -32,6 +47,7 @@ impl Pace {
             cost: CostModel::new(if blobs { 1.5 } else { 2.0 }),
             growth: Growth::new(kept_steps(setup)),
             next_trial: (!blobs).then_some(TRIAL_WAKE),
+            ending: None,
         }
     }
 
@@ -49,9 +65,24 @@ impl Pace {
         self.newest = Instant::now();
     }
 
-    /// Seconds from step `step` until the last is made.
+    /// Seconds from step `step` until everything is written.
     pub(crate) fn seconds_left(&self, step: usize) -> f64 {
-        self.cost.cost(self.growth.ahead(self.steps - step))
+        self.cost.cost(self.growth.ahead(self.steps - step)) + self.ending.unwrap_or(0.0)
+    }
+
+    /// Learns what summary, figures and page will take from the first rows of the history at `path`,
+    /// as soon as there are some.
+    pub(crate) fn note_history(&mut self, path: &Path, output: &OutputSettings, step: usize) {
+        let early = (step as f64) < READ_AFTER * self.steps as f64;
+        if early || self.ending.is_some() {
+            return;
+        }
+        let per_row = reading(path).unwrap_or(0.0);
+        let rows = self.steps as f64 / output.history_every as f64;
+        let readings = SUMMARY
+            + if output.figures { FIGURES } else { 0.0 }
+            + if output.page { PAGE } else { 0.0 };
+        self.ending = Some(readings * rows * per_row);
     }
 
     /// Elements of the largest wake from step `step` on.
@@ -83,6 +114,16 @@ fn kept_steps(setup: &FlightSetup) -> Option<usize> {
         .max_age
         .map(|age| (age / setup.time.step).ceil() as usize);
     air.max_rows.into_iter().chain(by_age).min()
+}
+
+/// Seconds to read a row of a history, measured on its first rows; none without rows.
+fn reading(path: &Path) -> Option<f64> {
+    let mut rows = Rows::open(path).ok()?;
+    let (begun, mut read) = (Instant::now(), 0);
+    while read < TRIAL_ROWS && rows.next_row().ok()?.is_some() {
+        read += 1;
+    }
+    (read > 0).then(|| begun.elapsed().as_secs_f64() / read as f64)
 }
 
 /// Rings and particles of the wake.

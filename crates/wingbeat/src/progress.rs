@@ -1,9 +1,11 @@
 //! Progress of a flight on the terminal: a bar with live figures, or a line of JSON now and then
 //! for scripts.
 
+use std::path::Path;
 use std::time::{Duration, Instant};
 
 use indicatif::{HumanDuration, ProgressBar, ProgressDrawTarget, ProgressStyle};
+use wingbeat::case::OutputSettings;
 use wingbeat::flight::{FlightSetup, Record, Simulation};
 use wingbeat::results::fixed::signed;
 
@@ -53,12 +55,13 @@ impl Progress {
         }
     }
 
-    /// The newest step of the flight.
-    pub(crate) fn show(&mut self, flight: &Simulation) {
+    /// The newest step of the flight, whose history is written at `history`.
+    pub(crate) fn show(&mut self, flight: &Simulation, history: &Path, output: &OutputSettings) {
         let record = flight.record();
         if self.bar.is_hidden() && !self.json {
             return;
         }
+        self.pace.note_history(history, output, record.step);
         self.pace.note(flight);
         let pause = if self.json { PAUSE } else { FLICKER };
         let last = record.step == self.steps;

@@ -230,7 +230,12 @@ enum Trouble {
 
 /// The loop of the flight: the newest step is written; save, step, write.
 fn steps(run: &mut Run, progress: &mut Progress, stop: &AtomicBool) -> Result<Outcome, Trouble> {
-    let Run { flight, writer, .. } = run;
+    let Run {
+        case,
+        flight,
+        writer,
+    } = run;
+    let history = writer.dir().join("history.csv");
     loop {
         let stopped = stop.load(Ordering::SeqCst);
         let saved = match stopped {
@@ -248,6 +253,6 @@ fn steps(run: &mut Run, progress: &mut Progress, stop: &AtomicBool) -> Result<Ou
         writer
             .write(flight.record(), || flight.snapshot())
             .map_err(Trouble::Writing)?;
-        progress.show(flight);
+        progress.show(flight, &history, &case.output);
     }
 }
