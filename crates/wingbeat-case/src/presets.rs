@@ -54,6 +54,8 @@ presets![
     "robofly-delayed",
     "benchmark-1",
     "benchmark-2",
+    "roccia-2011",
+    "roccia-2011-five-bodies",
     "table1-taylor-thomas-2003",
     "table1-sun-xiong-2005",
     "table1-doman-2009",
