@@ -1,7 +1,5 @@
-//! An air of one's own: wings of the smallest insects, falling, as discs in creeping flow.
+//! An air of one's own: the wings of the smallest insects, falling, as discs in creeping flow.
 //! `cargo run --release --example 08_own_air`
-
-use std::f64::consts::PI;
 
 use wingbeat::model::species::{FlyOptions, drosophila_melanogaster};
 use wingbeat::prelude::*;
@@ -9,32 +7,26 @@ use wingbeat::prelude::*;
 /// Viscosity of air [Pa s].
 const VISCOSITY: f64 = 1.8e-5;
 
-/// Every wing a thin disc of its area at rest in its own flow at vanishing Reynolds number, the body
-/// without drag: force `-mu a (32/3 v + 16/3 n (n . v))` at its centre, moment `-32/3 mu a^3 w`
-/// [Happel & Brenner 1983, sec. 5-11].
+/// Thin discs at vanishing Reynolds number, each alone in its flow: force `-mu a (32/3 v + 16/3 n (n . v))`
+/// at the centre, moment `-32/3 mu a^3 w` [Happel & Brenner 1983, sec. 5-11]. The body has no drag.
 #[derive(Debug)]
 struct CreepingFlow(Vec<Disc>);
 
+/// In place of a wing.
 #[derive(Debug)]
 struct Disc {
-    /// Radius a [m].
+    /// Radius a [m]: the disc has the area of the wing.
     radius: f64,
-    /// Centre, wing frame [m]; the normal n is axis 3.
+    /// Centre of the wing, wing frame [m]; the normal n is axis 3.
     centre: DVec3,
 }
 
 impl Disc {
     fn of(wing: &Wing) -> Self {
-        let (mut area, mut moment) = (0.0, DVec3::ZERO);
-        for panel in wing.panels() {
-            let [a, b, c, d] = panel.map(|node| wing.mesh.nodes[node]);
-            let size = 0.5 * (c - a).cross(d - b).length();
-            area += size;
-            moment += size * (a + b + c + d) / 4.0;
-        }
+        let area = wingbeat::model::integrate::area(&wing.mesh.to_quads(wing.side));
         Self {
-            radius: (area / PI).sqrt(),
-            centre: moment / area,
+            radius: (area / std::f64::consts::PI).sqrt(),
+            centre: wing.mass.centre(), // the mass is spread evenly
         }
     }
 
@@ -67,7 +59,7 @@ impl Air for CreepingFlow {
 /// `16 mu a` of the wings, broadside on.
 pub(crate) fn fall() -> Result<[f64; 2], Box<dyn std::error::Error>> {
     let mut insect = drosophila_melanogaster(&FlyOptions {
-        scale: 0.05, // wings of 0.1 mm
+        scale: 0.05, // wings of 0.13 mm
         ..FlyOptions::default()
     })?;
     for wing in &mut insect.wings {
@@ -79,19 +71,14 @@ pub(crate) fn fall() -> Result<[f64; 2], Box<dyn std::error::Error>> {
     let closed = insect.mass() * 9.81 / drag;
     let air = AirModel::Own(std::sync::Arc::new(CreepingFlow(discs)));
     let mut flight = Flight::new("falling", insect, air);
-    flight.setup.time.step = 1e-4; // s
-    flight.setup.time.steps = 2000;
+    (flight.setup.time.step, flight.setup.time.steps) = (1e-4, 2000); // s
     let run = flight.fly()?;
     let end = run.records.last().expect("a start at least");
     Ok([end.momentum.z / run.setup.animal.mass(), closed])
 }
 
 pub(crate) fn main() -> Result<(), Box<dyn std::error::Error>> {
-    let [flown, closed] = fall()?;
-    println!(
-        "falls at {:.4} mm/s, closed form {:.4} mm/s",
-        1e3 * flown,
-        1e3 * closed
-    );
+    let [flown, closed] = fall()?.map(|speed| 1e3 * speed);
+    println!("falls at {flown:.6} mm/s, closed form {closed:.6} mm/s");
     Ok(())
 }
