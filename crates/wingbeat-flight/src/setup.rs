@@ -175,6 +175,15 @@ impl AirModel {
         !matches!(self, Self::None)
     }
 
+    /// Shear and gusts that are added to the stream; none where the model has no wind.
+    pub fn wind_mut(&mut self) -> Option<&mut Wind> {
+        match self {
+            Self::BladeElement(options) => Some(&mut options.wind),
+            Self::VortexLattice(options) => Some(&mut options.lattice.wind),
+            Self::None | Self::Derivatives(_) | Self::External(_) | Self::Own(_) => None,
+        }
+    }
+
     /// Whether the loads depend on the past (a wake).
     pub fn has_memory(&self) -> bool {
         match self {

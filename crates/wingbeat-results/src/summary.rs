@@ -8,10 +8,10 @@ mod words;
 
 use std::path::Path;
 
-use wingbeat_flight::FlightSetup;
+use wingbeat_flight::{FlightSetup, Record};
 
 use super::Outcome;
-pub use beats::{BeatMeans, down, over_weight, steps_per_beat};
+pub use beats::{BeatMeans, Beats, down, over_weight, steps_per_beat};
 pub use numbers::Summary;
 use statistics::Statistics;
 use wingbeat_case::IoError;
@@ -23,10 +23,20 @@ impl Summary {
     /// # Errors
     /// A history that cannot be read.
     pub fn read(case: &LoadedCase, history: &Path, outcome: &Outcome) -> Result<Self, IoError> {
-        let setup = &case.setup;
-        let s = Statistics::read(history, setup)?;
+        let statistics = Statistics::read(history, &case.setup)?;
+        let mut summary = Self::from_statistics(&case.setup, statistics, outcome);
+        summary.warnings.extend(thinning(case));
+        Ok(summary)
+    }
+
+    /// From the records of a flight in memory, one per step, the start first.
+    pub fn of(setup: &FlightSetup, records: &[Record], outcome: &Outcome) -> Self {
+        Self::from_statistics(setup, Statistics::of(records, setup), outcome)
+    }
+
+    fn from_statistics(setup: &FlightSetup, s: Statistics, outcome: &Outcome) -> Self {
         let mut summary = Self {
-            case: case.name.clone(),
+            case: setup.name.clone(),
             outcome: outcome.clone(),
             steps: s.last.step,
             time_s: s.last.time,
@@ -50,8 +60,7 @@ impl Summary {
             beats: s.beats,
         };
         summary.warnings = trust::warnings(setup, &summary);
-        summary.warnings.extend(thinning(case));
-        Ok(summary)
+        summary
     }
 }
 

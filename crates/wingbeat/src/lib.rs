@@ -34,19 +34,35 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! Everyday types are in [`prelude`]; a flight is a [`Flight`].
+//! Everyday types are in [`prelude`]; a flight is a [`Flight`], a flight that was flown a [`Run`].
 #![warn(missing_docs)]
 
+mod flown;
+mod refusal;
 mod value;
 
-pub use value::{Beat, Error, Flight, Run};
+pub use flown::{Beat, Run};
+pub use refusal::Error;
+pub use value::Flight;
 
 /// What a program that flies needs: `use wingbeat::prelude::*;`.
+///
+/// ```
+/// use wingbeat::prelude::*;
+/// let vacuum = Flight::preset("fruit-fly-vacuum")?; // starts to flap smoothly, from rest
+/// let run = vacuum.start(StartState::default()).beats(0.2).fly()?;
+/// let [start, end] = [&run.records[0], run.records.last().expect("a start at least")];
+/// let fallen: DVec3 = end.mass_centre - start.mass_centre; // m; n3 points down
+/// assert!((fallen.z - 0.5 * 9.81 * end.time.powi(2)).abs() < 1e-12);
+/// # Ok::<(), Error>(())
+/// ```
 pub mod prelude {
     pub use crate::{Beat, Error, Flight, Run};
+    pub use wingbeat_air::{AirState, Gust, GustShape};
+    pub use wingbeat_dynamics::{BodyMotion, Wrench};
     pub use wingbeat_flight::{
-        Air, AirModel, AirOptions, BladeOptions, Controller, Feedback, FlightSetup, MotionMode,
-        Record, Sensed, Simulation, StartState,
+        Air, AirModel, AirOptions, AirScratch, BladeOptions, Controller, Feedback, FlightError,
+        FlightSetup, Instant, MotionMode, Record, Sensed, Simulation, StartState,
     };
     pub use wingbeat_math::{DMat3, DVec3};
     pub use wingbeat_model::motion::Adjustment;
@@ -65,3 +81,8 @@ pub use wingbeat_model as model;
 pub use wingbeat_results as results;
 pub use wingbeat_verify as verify;
 pub use wingbeat_vortex as vortex;
+
+/// The program of the page for programmers compiles.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

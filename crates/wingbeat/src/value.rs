@@ -1,14 +1,17 @@
-//! A flight as a value: built, flown and read without case files or result directories.
+//! A flight as a value: built and flown without case files or result directories.
 
 use std::path::Path;
 
+use wingbeat_analysis::{Trim, TrimProblem, TrimSettings, Unknown};
 use wingbeat_case::{IoError, LoadedCase};
-use wingbeat_flight::{
-    AirModel, Feedback, FlightError, FlightSetup, Record, Simulation, StartState,
-};
+use wingbeat_draw::draw_run;
+use wingbeat_flight::{AirModel, Feedback, FlightSetup, MotionMode, Simulation, StartState};
 use wingbeat_math::DVec3;
 use wingbeat_model::Animal;
-use wingbeat_results::history::HistoryWriter;
+use wingbeat_results::{Outcome, RunWriter};
+
+use crate::flown::{Run, new_dir};
+use crate::refusal::Error;
 
 /// A flight to be flown. What has no method of its own is set in [`Flight::setup`].
 ///
@@ -24,24 +27,39 @@ use wingbeat_results::history::HistoryWriter;
 pub struct Flight {
     /// All of it: animal, air, mode, joints, formulation, integrator, time grid, feedback.
     pub setup: FlightSetup,
+    /// The case it came from.
+    case: Option<Box<LoadedCase>>,
 }
 
-/// Why a flight could not be built, flown or written.
-#[derive(Debug, thiserror::Error)]
-pub enum Error {
-    /// The case or a file.
-    #[error(transparent)]
-    Io(#[from] IoError),
-    /// The flight.
-    #[error(transparent)]
-    Flight(#[from] FlightError),
+impl From<FlightSetup> for Flight {
+    fn from(setup: FlightSetup) -> Self {
+        Self { setup, case: None }
+    }
+}
+
+impl From<LoadedCase> for Flight {
+    fn from(case: LoadedCase) -> Self {
+        Self {
+            setup: case.setup.clone(),
+            case: Some(Box::new(case)),
+        }
+    }
 }
 
 impl Flight {
     /// A free flight of `animal` in `air`, see [`FlightSetup::new`].
+    ///
+    /// ```
+    /// use wingbeat::model::species::{FlyOptions, drosophila_melanogaster};
+    /// use wingbeat::prelude::*;
+    /// let fly = drosophila_melanogaster(&FlyOptions { frequency: 200.0, ..Default::default() })?;
+    /// let flight = Flight::new("fly", fly, AirModel::None).beats(1.0);
+    /// assert_eq!(flight.setup.time.period, Some(1.0 / 200.0)); // s
+    /// assert_eq!(flight.fly()?.records.len(), 41); // 40 steps a beat
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn new(name: &str, animal: Animal, air: AirModel) -> Self {
-        let setup = FlightSetup::new(name, animal, air);
-        Self { setup }
+        FlightSetup::new(name, animal, air).into()
     }
 
     /// An embedded preset, or a case file.
@@ -49,8 +67,23 @@ impl Flight {
     /// # Errors
     /// No such preset or file; a case that is refused.
     pub fn preset(name: &str) -> Result<Self, Error> {
-        let setup = LoadedCase::find(name, &[])?.setup;
-        Ok(Self { setup })
+        Self::preset_with(name, &[])
+    }
+
+    /// The same with some keys of the case at other values, each written as `KEY=VALUE`.
+    ///
+    /// ```
+    /// use wingbeat::Flight;
+    /// let flight = Flight::preset_with("fruit-fly-blade", &["motion.frequency_hz=220"])?;
+    /// assert_eq!(flight.setup.animal.wings[0].motion.frequency, 220.0); // Hz
+    /// # Ok::<(), wingbeat::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// As [`Self::preset`]; a key that there is not, or a value that is not allowed.
+    pub fn preset_with(name: &str, keys: &[&str]) -> Result<Self, Error> {
+        let keys: Vec<String> = keys.iter().map(|&key| key.to_owned()).collect();
+        Ok(LoadedCase::find(name, &keys)?.into())
     }
 
     /// Steps per wingbeat; of a second, for motions without a beat.
@@ -89,9 +122,33 @@ impl Flight {
         self
     }
 
+    /// With one more gust.
+    ///
+    /// ```
+    /// use wingbeat::prelude::*;
+    /// let gust = Gust {
+    ///     amplitude: DVec3::new(-0.5, 0.0, 0.0), // m/s, N: from ahead
+    ///     start: 0.01, // s
+    ///     slowness: DVec3::ZERO, // everywhere at once
+    ///     shape: GustShape::OneMinusCosine { duration: 0.01 }, // s
+    /// };
+    /// let flight = Flight::preset("fruit-fly-blade")?.gust(gust.clone())?;
+    /// assert!(matches!(flight.air(AirModel::None).gust(gust), Err(Error::NoWind { .. })));
+    /// # Ok::<(), Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// Air that has no wind: only blade elements and the vortex lattice do.
+    pub fn gust(mut self, gust: wingbeat_air::Gust) -> Result<Self, Error> {
+        let air = self.setup.air.name();
+        let wind = self.setup.air.wind_mut().ok_or(Error::NoWind { air })?;
+        wind.gusts.push(gust);
+        Ok(self)
+    }
+
     /// Free flight from this start.
     pub fn start(mut self, start: StartState) -> Self {
-        self.setup.mode = wingbeat_flight::MotionMode::Free(start);
+        self.setup.mode = MotionMode::Free(start);
         self
     }
 
@@ -101,77 +158,113 @@ impl Flight {
         self
     }
 
+    /// Hover as a question for [`Self::trim`]: no mean velocity; body pitch, stroke amplitude and mean
+    /// stroke angle are found, the search begins at the present pitch.
+    pub fn hover(&self) -> TrimProblem {
+        TrimProblem {
+            unknowns: [
+                Unknown::BodyPitch,
+                Unknown::StrokeAmplitude,
+                Unknown::StrokeOffset,
+            ],
+            velocity: DVec3::ZERO,
+            body_pitch: match &self.setup.mode {
+                MotionMode::Free(start) => start.angles.x,
+                MotionMode::Tethered(motion) => motion.angles[0].constant,
+            },
+            settings: TrimSettings::default(),
+        }
+    }
+
+    /// Steady flight as a periodic orbit, see [`wingbeat_analysis::trim()`]. The trimmed animal flies
+    /// on as `Flight::from(trim.free())`. Whether it was found says [`Trim::converged`].
+    ///
+    /// ```
+    /// use wingbeat::Flight;
+    /// let flight = Flight::preset("fruit-fly-blade")?;
+    /// let mut hover = flight.hover();
+    /// hover.settings.steps = 40; // per wingbeat
+    /// let trim = flight.trim(&hover)?;
+    /// assert!(trim.converged && trim.error() < 1e-9);
+    /// assert!(trim.mean_velocity()?.length() < 1e-6); // m/s
+    /// # Ok::<(), wingbeat::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// Air with a memory, wind, applied loads, loops; numbers that stop being finite at once.
+    pub fn trim(&self, problem: &TrimProblem) -> Result<Trim, Error> {
+        Ok(wingbeat_analysis::trim(&self.setup, problem)?)
+    }
+
     /// Flies it to its end.
     ///
     /// # Errors
     /// A setup that is refused; a flight that cannot go on.
     pub fn fly(&self) -> Result<Run, Error> {
-        let mut flight = Simulation::new(self.setup.clone())?;
+        self.steps(Simulation::new(self.setup.clone())?, |_| Ok(()))
+    }
+
+    /// Flies it to its end and writes the whole result directory while it does: case, manifest,
+    /// history, frames, summary, and the figures and the page that the case asks for.
+    ///
+    /// ```
+    /// use wingbeat::{Error, Flight};
+    /// let dir = std::env::temp_dir().join(format!("wingbeat-fly-to-{}", std::process::id()));
+    /// Flight::preset_with("fruit-fly-blade", &["time.beats=0.1"])?.fly_to(&dir)?;
+    /// assert!(dir.join("case.toml").is_file() && dir.join("manifest.json").is_file());
+    /// // A change in Rust is in no case file.
+    /// let changed = Flight::preset("fruit-fly-blade")?.beats(0.1);
+    /// assert!(matches!(changed.fly_to("nowhere"), Err(Error::NoCase { .. })));
+    /// # std::fs::remove_dir_all(&dir).expect("it was just written");
+    /// # Ok::<(), Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::NoCase`] for a flight that was built in Rust or changed since it was loaded;
+    /// otherwise as [`Self::fly`] and [`Run::write`].
+    pub fn fly_to(&self, dir: impl AsRef<Path>) -> Result<Run, Error> {
+        let case = self.unchanged_case()?;
+        let flight = Simulation::new(self.setup.clone())?;
+        let threads = rayon::current_num_threads();
+        let mut writer = RunWriter::new(new_dir(dir.as_ref())?, case, threads)?;
+        let flown = self.steps(flight, |flight| {
+            writer.write(flight.record(), || flight.snapshot())?;
+            writer.save_if_due(flight.state())
+        });
+        match &flown {
+            Ok(_) => _ = writer.finish(Outcome::Finished, draw_run)?,
+            Err(Error::Flight(e)) => _ = writer.finish(Outcome::Failed(e.to_string()), draw_run)?,
+            Err(e) => writer.abandon(e.to_string()),
+        }
+        flown
+    }
+
+    /// The case, if it still gives this flight. Setups hold laws of any kind, so they are compared
+    /// in their written form, which holds every number to the last bit.
+    fn unchanged_case(&self) -> Result<&LoadedCase, Error> {
+        let case = self.case.as_deref();
+        let written = format!("{:?}", self.setup);
+        case.filter(|case| format!("{:?}", case.setup) == written)
+            .ok_or_else(|| Error::NoCase {
+                name: self.setup.name.clone(),
+            })
+    }
+
+    /// From step to step; `each` sees the start and every step.
+    fn steps(
+        &self,
+        mut flight: Simulation,
+        mut each: impl FnMut(&Simulation) -> Result<(), IoError>,
+    ) -> Result<Run, Error> {
         let mut records = vec![flight.record().clone()];
+        each(&flight)?;
         while !flight.finished() {
             records.push(flight.step()?.clone());
+            each(&flight)?;
         }
         Ok(Run {
             setup: self.setup.clone(),
             records,
         })
-    }
-}
-
-/// A flight that was flown.
-#[derive(Clone, Debug)]
-pub struct Run {
-    /// What was flown.
-    pub setup: FlightSetup,
-    /// One record per step, the start first.
-    pub records: Vec<Record>,
-}
-
-/// Means over one wingbeat.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Beat {
-    /// Number of the beat, from 1.
-    pub beat: usize,
-    /// Force of the air against gravity over the weight [1].
-    pub lift_over_weight: f64,
-    /// Force of the air along n1 (forward) [N].
-    pub thrust_newton: f64,
-    /// Power of all actuators and of prescribed deformation [W].
-    pub power_watt: f64,
-}
-
-impl Run {
-    /// Means over every whole wingbeat, each over the steps that end in it.
-    pub fn beats(&self) -> Vec<Beat> {
-        let time = &self.setup.time;
-        let steps = (time.period.unwrap_or(f64::INFINITY) / time.step).round() as usize;
-        let down = self.setup.gravity.try_normalize().unwrap_or(DVec3::Z);
-        let weight = self.setup.animal.mass() * self.setup.gravity.length();
-        let whole = self.records[1..].chunks_exact(steps.max(1)).enumerate();
-        let mean = |records: &[Record], of: &dyn Fn(&Record) -> f64| {
-            records.iter().map(of).sum::<f64>() / records.len() as f64
-        };
-        whole
-            .map(|(k, records)| Beat {
-                beat: k + 1,
-                lift_over_weight: mean(records, &|r| r.lift(down)) / weight,
-                thrust_newton: mean(records, &|r| r.air_force().x),
-                power_watt: mean(records, &|r| r.hinge_power()),
-            })
-            .collect()
-    }
-
-    /// Writes `history.csv` (see docs/results.md) into the new folder `dir`.
-    ///
-    /// # Errors
-    /// The folder exists already or cannot be written.
-    pub fn write(&self, dir: impl AsRef<Path>) -> Result<(), Error> {
-        let dir = dir.as_ref();
-        std::fs::create_dir(dir).map_err(IoError::write(dir))?;
-        let mut history = HistoryWriter::create(&dir.join("history.csv"), &self.setup)?;
-        for record in &self.records {
-            history.append(record, true)?;
-        }
-        Ok(())
     }
 }

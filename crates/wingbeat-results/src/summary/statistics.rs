@@ -72,13 +72,22 @@ impl Statistics {
         let mut records = Records::open(path, setup)?;
         let (mut s, mut beats) = (Self::default(), Beats::new(setup));
         while let Some(record) = records.next_record()? {
-            s.take(record);
-            s.beats.extend(beats.take(record));
+            s.take(record, &mut beats);
         }
         Ok(s)
     }
 
-    fn take(&mut self, r: &Record) {
+    /// Of records in memory.
+    pub fn of(records: &[Record], setup: &FlightSetup) -> Self {
+        let (mut s, mut beats) = (Self::default(), Beats::new(setup));
+        for record in records {
+            s.take(record, &mut beats);
+        }
+        s
+    }
+
+    fn take(&mut self, r: &Record, beats: &mut Beats<'_>) {
+        self.beats.extend(beats.take(r));
         if self.rows == 0 {
             self.first.clone_from(r);
         }

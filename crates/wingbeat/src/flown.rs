@@ -1,0 +1,148 @@
+//! A flight that was flown: its records, means over wingbeats, summary.
+
+use std::path::Path;
+
+use wingbeat_case::IoError;
+use wingbeat_flight::{FlightSetup, Record, joint_coordinates};
+use wingbeat_results::history::HistoryWriter;
+use wingbeat_results::summary::{BeatMeans, Beats};
+use wingbeat_results::{Outcome, ResultDir, Summary};
+
+use crate::refusal::Error;
+
+/// A flight that was flown.
+///
+/// ```
+/// let run = wingbeat::Flight::preset("fruit-fly-blade")?.beats(0.1).fly()?;
+/// assert_eq!(run.records.len(), 1 + run.setup.time.steps); // the start first
+/// assert_eq!(run.records[0].time, 0.0); // s
+/// assert!(run.beats().is_empty()); // no whole wingbeat
+/// # Ok::<(), wingbeat::Error>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct Run {
+    /// What was flown.
+    pub setup: FlightSetup,
+    /// One record per step, the start first.
+    pub records: Vec<Record>,
+}
+
+/// Means over one wingbeat, those of `history.csv`, summary and figures.
+///
+/// ```
+/// let run = wingbeat::Flight::preset("fruit-fly-blade")?.beats(1.0).fly()?;
+/// let beat = run.beats()[0];
+/// assert_eq!(beat.beat, 1);
+/// let specific = beat.power_watt / run.setup.animal.mass(); // W/kg
+/// assert!(specific > 1.0 && specific < 1000.0);
+/// # Ok::<(), wingbeat::Error>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Beat {
+    /// Number of the beat, from 1.
+    pub beat: usize,
+    /// Force of the air against gravity over the weight [1]; not a number without gravity.
+    pub lift_over_weight: f64,
+    /// Force of the air along n1 (forward) [N].
+    pub thrust_newton: f64,
+    /// Power of all actuators and of prescribed deformation [W].
+    pub power_watt: f64,
+}
+
+impl From<&BeatMeans> for Beat {
+    fn from(means: &BeatMeans) -> Self {
+        Self {
+            beat: means.beat,
+            lift_over_weight: means.lift_over_weight.unwrap_or(f64::NAN),
+            thrust_newton: means.thrust_newton,
+            power_watt: means.power_watt,
+        }
+    }
+}
+
+impl Run {
+    /// Means over every whole wingbeat.
+    pub fn beats(&self) -> Vec<Beat> {
+        let mut beats = Beats::new(&self.setup);
+        let means = self.records.iter().filter_map(|r| beats.take(r));
+        means.map(|m| Beat::from(&m)).collect()
+    }
+
+    /// Coordinate along free direction `direction` (from 0) of the joint `name`, record by record
+    /// [rad or m]; none where there is no such direction.
+    ///
+    /// ```
+    /// let run = wingbeat::Flight::preset("fruit-fly-abdomen-spring")?
+    ///     .air(wingbeat::flight::AirModel::None)
+    ///     .beats(0.1)
+    ///     .fly()?;
+    /// let angle = run.joint("waist", 0).expect("a free direction"); // rad
+    /// assert_eq!(angle.len(), run.records.len());
+    /// assert!(run.joint("knee", 0).is_none());
+    /// # Ok::<(), wingbeat::Error>(())
+    /// ```
+    pub fn joint(&self, name: &str, direction: usize) -> Option<Vec<f64>> {
+        let all = joint_coordinates(&self.setup).ok()?;
+        let at = all
+            .iter()
+            .position(|c| c.joint == name && c.direction == direction)?;
+        let of = |r: &Record| r.joints.get(at).map(|[coordinate, _rate]| *coordinate);
+        self.records.iter().map(of).collect()
+    }
+
+    /// What happened, in words ([`Summary::to_text`]) and numbers, and how far to trust it.
+    ///
+    /// ```
+    /// let run = wingbeat::Flight::preset("fruit-fly-blade")?.beats(1.0).fly()?;
+    /// let summary = run.summary();
+    /// assert_eq!(summary.beats.len(), 1);
+    /// assert!(summary.energy_residual_relative < 1e-3);
+    /// assert!(summary.to_text().contains("flew to its end"));
+    /// # Ok::<(), wingbeat::Error>(())
+    /// ```
+    pub fn summary(&self) -> Summary {
+        Summary::of(&self.setup, &self.records, &Outcome::Finished)
+    }
+
+    /// Writes `history.csv`, `summary.txt` and `summary.json` (see docs/results.md) into the new
+    /// folder `dir`. What needs a case file is left out: case, manifest, frames, figures, page;
+    /// [`crate::Flight::fly_to`] writes them too.
+    ///
+    /// ```
+    /// use wingbeat::{Flight, results::History};
+    /// let dir = std::env::temp_dir().join(format!("wingbeat-write-{}", std::process::id()));
+    /// let run = Flight::preset("fruit-fly-blade")?.beats(0.1).fly()?;
+    /// run.write(&dir)?;
+    /// let history = History::read(&dir.join("history.csv"))?;
+    /// assert_eq!(history.rows(), run.records.len());
+    /// assert!(run.write(&dir).is_err()); // nothing is overwritten
+    /// # std::fs::remove_dir_all(&dir).expect("it was just written");
+    /// # Ok::<(), wingbeat::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// The folder exists already or cannot be written.
+    pub fn write(&self, dir: impl AsRef<Path>) -> Result<(), Error> {
+        let dir = new_dir(dir.as_ref())?;
+        let mut history = HistoryWriter::create(&dir.join("history.csv"), &self.setup)?;
+        for record in &self.records {
+            history.append(record, true)?;
+        }
+        history.flush()?;
+        let summary = self.summary();
+        dir.write("summary.txt", summary.to_text().as_bytes())?;
+        dir.write("summary.json", summary.to_json().as_bytes())?;
+        Ok(())
+    }
+}
+
+/// A new directory, its parents with it.
+pub(crate) fn new_dir(path: &Path) -> Result<ResultDir, IoError> {
+    if path.exists() {
+        return Err(IoError::Exists {
+            path: path.to_owned(),
+            remedy: "choose another directory, or remove this one first",
+        });
+    }
+    ResultDir::create(path)
+}

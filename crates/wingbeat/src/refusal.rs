@@ -1,0 +1,42 @@
+//! Why a flight as a value could not be built, flown, trimmed or written.
+
+use wingbeat_analysis::AnalysisError;
+use wingbeat_case::IoError;
+use wingbeat_flight::FlightError;
+
+/// Why a flight could not be built, flown, trimmed or written.
+///
+/// ```
+/// use wingbeat::{Error, Flight};
+/// let error = Flight::preset("fruit-fli-blade").expect_err("no such preset");
+/// assert!(matches!(error, Error::Io(_)));
+/// assert!(error.to_string().contains("fruit-fly-blade")); // the nearest name
+/// ```
+#[derive(Debug, thiserror::Error)]
+pub enum Error {
+    /// The case or a file.
+    #[error(transparent)]
+    Io(#[from] IoError),
+    /// The flight.
+    #[error(transparent)]
+    Flight(#[from] FlightError),
+    /// The trim.
+    #[error(transparent)]
+    Analysis(#[from] AnalysisError),
+    /// A gust in air that has no wind.
+    #[error(
+        "a gust cannot blow in this air ({air}): fly in blade elements or in the vortex lattice"
+    )]
+    NoWind {
+        /// What the air is called.
+        air: &'static str,
+    },
+    /// A whole result directory was asked for, but no case file gives this flight.
+    #[error(
+        "`{name}` was built or changed in Rust, so there is no case file that reproduces it, and no whole result directory: change a preset or case by its keys (`Flight::preset_with`), or write history and summary with `Run::write`"
+    )]
+    NoCase {
+        /// Name of the flight.
+        name: String,
+    },
+}
