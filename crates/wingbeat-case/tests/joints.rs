@@ -66,6 +66,64 @@ fn balances_energy_of_every_preset_alone() {
     }
 }
 
+/// A tail on a slider: a spring of the joint, and a spring between points on the line of the slider.
+#[test]
+fn agrees_spring_between_points_with_the_spring_of_a_slider() {
+    let fly = |spring: &[&str]| {
+        let slider = [
+            "air.model=none",
+            "segment.abdomen.parts=[\"abdomen\"]",
+            "joint.tail={ child = \"abdomen\", at_m = [-0.4e-3, 0, 0], kind = \"prismatic\", axis = [1, 0, 0], start_m = 5e-5 }",
+            "time.beats=3",
+        ];
+        fly("fruit-fly-vacuum", &[&slider[..], spring].concat())
+    };
+    let joint = fly(&[
+        "joint.tail.element=[{ stiffness_newton_per_m = 2.0, damping_newton_s_per_m = 1e-4 }]",
+    ]);
+    // 1 mm long where the slider is at zero: its tension is stiffness times displacement.
+    let points = fly(&[
+        "spring.tendon={ between = [\"body\", \"abdomen\"], at_m = [[0.6e-3, 0, 0], [0, 0, 0]], rest_m = 1e-3, stiffness_newton_per_m = 2.0, damping_newton_s_per_m = 1e-4 }",
+    ]);
+    let (mut apart, mut reach) = (0.0_f64, 0.0_f64);
+    for (a, b) in joint.iter().zip(&points) {
+        apart = apart.max((a.joints[0][0] - b.joints[0][0]).abs());
+        reach = reach.max(a.joints[0][0].abs());
+    }
+    println!("apart by {apart:.1e} m of {reach:.1e} m");
+    assert!(reach > 4e-5, "it moves");
+    assert!(apart < 1e-9 * reach, "{apart:.1e}"); // tolerance of the integrator
+    let [a, b] = [&joint, &points].map(|r| balance(r));
+    assert!(a < 1e-8 && b < 1e-8, "{a:.1e} {b:.1e}");
+}
+
+#[test]
+fn refuses_springs_that_span_nothing() {
+    let said = |spring: &str| {
+        let set = ["air.model=none", "spring.tendon="].map(str::to_owned);
+        let set = [set[0].clone(), format!("{}{spring}", set[1])];
+        LoadedCase::find("fruit-fly-vacuum", &set)
+            .map(|_| ())
+            .unwrap_err()
+            .to_string()
+    };
+    let one = said("{ between = [\"body\", \"body\"], at_m = [[0, 0, 0], [1e-3, 0, 0]] }");
+    assert!(
+        one.contains("spring.tendon.between") && one.contains("two bodies"),
+        "{one}"
+    );
+    let none = said("{ between = [\"body\", \"tail\"], at_m = [[0, 0, 0], [1e-3, 0, 0]] }");
+    assert!(
+        none.contains("spring.tendon.between[1]") && none.contains("right"),
+        "{none}"
+    );
+    let idle = said("{ between = [\"body\", \"right\"], at_m = [[0, 0, 0], [1e-3, 0, 0]] }");
+    assert!(
+        idle.contains("spring.tendon") && idle.contains("no effect"),
+        "{idle}"
+    );
+}
+
 /// Four prescribed wings that shake the body: the energy that is left over falls with the fourth power
 /// of the step (measured 3e-5 at 40 steps a beat).
 #[test]

@@ -125,6 +125,7 @@ const SITES: &[Site] = &[
     site("JointCase", "joint.waist", &["joint.waist.child=right"]),
     site("TurnCase", "joint.waist.turn", SERVO),
     site("TravelCase", "joint.waist.travel", SERVO),
+    site("SpringCase", "spring.tendon", &[]),
 ];
 
 /// Tables in lists: they are written out.

@@ -1,9 +1,10 @@
-//! Extra forces and couples on bodies, fixed in the body or in space, Fourier-modulated.
+//! Forces and couples on bodies beside those of joints and air: loads fixed in a body or in space,
+//! Fourier-modulated, and springs between points of two bodies.
 
 use wingbeat_dynamics::{BodyMotion, Wrench};
 use wingbeat_math::DVec3;
 
-use crate::setup::{AppliedLoad, DriftingFourier, LoadFrame};
+use crate::setup::{AppliedLoad, DriftingFourier, LoadFrame, PointSpring};
 
 impl AppliedLoad {
     /// The wrench of this load at time `t` [s] about the origin of its body, N components.
@@ -18,6 +19,33 @@ impl AppliedLoad {
             force,
             moment: to_n(vector(&self.couple, t)) + arm.cross(force),
         }
+    }
+}
+
+impl PointSpring {
+    /// The wrenches on its two bodies, moving so, about their origins, N components: equal and opposite
+    /// forces. Nothing where its ends meet, for it has no direction there.
+    pub fn wrenches(&self, motions: [&BodyMotion; 2]) -> [Wrench; 2] {
+        let arms = [0, 1].map(|k| motions[k].r * self.points[k]);
+        let velocity = |k: usize| {
+            let m = motions[k];
+            m.v + m.r * m.w.cross(self.points[k])
+        };
+        let apart = motions[1].p + arms[1] - (motions[0].p + arms[0]);
+        let length = apart.length();
+        let tension = match length > 0.0 {
+            true => {
+                let rate = apart.dot(velocity(1) - velocity(0)) / length;
+                self.stiffness * (length - self.rest) + self.damping * rate
+            }
+            false => 0.0,
+        };
+        let force = tension * apart.normalize_or_zero();
+        let on = |arm: DVec3, force: DVec3| Wrench {
+            force,
+            moment: arm.cross(force),
+        };
+        [on(arms[0], force), on(arms[1], -force)]
     }
 }
 

@@ -14,7 +14,7 @@ use wingbeat_math::DVec3;
 use crate::air::{Air, AirScratch, Instant};
 use crate::core::Core;
 use crate::error::FlightError;
-use crate::setup::AppliedLoad;
+use crate::setup::{AppliedLoad, PointSpring};
 
 /// Quadratures appended to the state of the core.
 pub const QUADRATURES: usize = 10;
@@ -82,6 +82,8 @@ pub struct Equations {
     pub mechanism: Mechanism,
     /// Extra loads.
     pub applied: Vec<AppliedLoad>,
+    /// Springs between points.
+    pub springs: Vec<PointSpring>,
     /// Time step h [s].
     pub step: f64,
 }
@@ -316,11 +318,17 @@ impl Equations {
         self.air.accept(air, &s.air_scratch)
     }
 
-    /// Wrenches of the applied loads.
+    /// Wrenches of the applied loads and springs.
     fn applied_loads(&self, t: f64, s: &mut Scratch) {
         s.applied.fill(Wrench::default());
         for load in &self.applied {
             s.applied[load.body] += load.wrench(t, &s.motions[load.body]);
+        }
+        for spring in &self.springs {
+            let wrenches = spring.wrenches(spring.bodies.map(|b| &s.motions[b]));
+            for (body, wrench) in spring.bodies.into_iter().zip(wrenches) {
+                s.applied[body] += wrench;
+            }
         }
     }
 

@@ -58,6 +58,7 @@ impl FreeFlight {
             core: Core::Free(Box::new(form.clone())),
             air,
             applied: setup.loads.clone(),
+            springs: setup.springs.clone(),
             step,
         };
         Ok(Self {

@@ -40,6 +40,8 @@ pub struct FlightSetup {
     pub corrector: CorrectorSettings,
     /// Extra forces and couples.
     pub loads: Vec<AppliedLoad>,
+    /// Springs and dampers between points of two bodies.
+    pub springs: Vec<PointSpring>,
     /// Feedback on the wings; none flies the motion as it is.
     pub feedback: Option<Feedback>,
 }
@@ -67,6 +69,7 @@ impl FlightSetup {
             },
             corrector: CorrectorSettings::default(),
             loads: vec![],
+            springs: vec![],
             feedback: None,
         }
     }
@@ -371,6 +374,24 @@ pub enum LoadFrame {
     Body,
     /// Fixed in the inertial frame N.
     Inertial,
+}
+
+/// A spring and a damper along the line between two points of two bodies:
+/// tension = stiffness (length - rest length) + damping x rate of the length.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PointSpring {
+    /// Name, unique in the flight.
+    pub name: String,
+    /// Indices of the bodies: 0 the root, then wings and segments in their order.
+    pub bodies: [usize; 2],
+    /// Its ends, each in the axes of its body from the body's origin \[m\].
+    pub points: [DVec3; 2],
+    /// Stiffness \[N/m\].
+    pub stiffness: f64,
+    /// Length without tension \[m\].
+    pub rest: f64,
+    /// Damping \[N s/m\].
+    pub damping: f64,
 }
 
 /// A force and a couple on one body.

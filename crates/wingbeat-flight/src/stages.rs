@@ -41,6 +41,7 @@ pub fn stages(setup: &FlightSetup, law: &WingLaw<'_>) -> Result<Vec<Stage>, Flig
             air: air.clone(),
             mechanism: mechanism.clone(),
             applied: setup.loads.clone(),
+            springs: setup.springs.clone(),
             step: setup.time.step,
         },
     };

@@ -35,6 +35,19 @@ impl FlightSetup {
             let problem = "no such body: 0 is the root, wings follow in their order, then segments";
             check(load.body <= last, "load.body", load.body, problem)?;
         }
+        for spring in &self.springs {
+            let [a, b] = spring.bodies;
+            let problem = "two bodies: 0 is the root, wings follow in their order, then segments";
+            let two = a <= last && b <= last && a != b;
+            check(two, "spring.between", format!("{a} and {b}"), problem)?;
+            for (key, v) in [
+                ("spring.stiffness", spring.stiffness),
+                ("spring.rest", spring.rest),
+                ("spring.damping", spring.damping),
+            ] {
+                check(v.is_finite() && v >= 0.0, key, v, "a finite number >= 0")?;
+            }
+        }
         Ok(())
     }
 

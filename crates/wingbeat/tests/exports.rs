@@ -53,9 +53,10 @@ fn works(command: &mut Command) -> Result<String, String> {
 fn python() -> Result<PathBuf, String> {
     let store = store("python");
     let python = store.join("bin/python");
-    if !store.join("ready").is_file() {
+    let list = readers().join("requirements.txt");
+    let wanted = fs::read_to_string(&list).map_err(|e| e.to_string())?;
+    if fs::read_to_string(store.join("ready")).ok().as_ref() != Some(&wanted) {
         works(Command::new("python3").args(["-m", "venv"]).arg(&store))?;
-        let list = readers().join("requirements.txt");
         let install = [
             "-m",
             "pip",
@@ -65,7 +66,7 @@ fn python() -> Result<PathBuf, String> {
             "-r",
         ];
         works(Command::new(&python).args(install).arg(list))?;
-        fs::write(store.join("ready"), "").map_err(|e| e.to_string())?;
+        fs::write(store.join("ready"), &wanted).map_err(|e| e.to_string())?;
     }
     Ok(python)
 }

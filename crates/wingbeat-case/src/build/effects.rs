@@ -15,6 +15,12 @@ pub(crate) fn check(case: &Case, setup: &FlightSetup, source: &CaseSource) -> Bu
     motion(case, source)?;
     adjustments(case, setup)?;
     joints(case)?;
+    for (name, spring) in &case.spring {
+        if spring.stiffness_newton_per_m == 0.0 && spring.damping_newton_s_per_m == 0.0 {
+            let why = "without stiffness_newton_per_m or damping_newton_s_per_m";
+            return Err(idle(format!("spring.{name}"), why));
+        }
+    }
     if case.flight.held_beats > 0.0 && setup.time.period.is_none() {
         return Err(idle("flight.held_beats", "where nothing beats"));
     }

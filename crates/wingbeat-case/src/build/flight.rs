@@ -1,8 +1,9 @@
-//! `[flight]`, `[dynamics]` and `[[load]]`.
+//! `[flight]`, `[dynamics]`, `[[load]]` and `[spring.NAME]`.
 
 use wingbeat_flight::{
     AppliedLoad, BaumgarteChoice, DriftingFourier, FlightSetup, FormulationChoice,
-    IntegratorChoice, MotionMode, PrescribedMotion, StabilizationChoice, StartState, TimeGrid,
+    IntegratorChoice, MotionMode, PointSpring, PrescribedMotion, StabilizationChoice, StartState,
+    TimeGrid,
 };
 use wingbeat_math::{DVec3, EulerSequence, RotationLaw};
 use wingbeat_model::Animal;
@@ -179,17 +180,48 @@ pub(super) fn loads(case: &Case, animal: &Animal) -> Built<Vec<AppliedLoad>> {
         .collect()
 }
 
-fn applied(path: &str, load: &LoadCase, animal: &Animal) -> Built<AppliedLoad> {
+/// Index of the body that `key` names.
+fn body(key: String, name: &str, animal: &Animal) -> Built<usize> {
     let names = body_names(animal);
-    let body = names.iter().position(|n| *n == load.on);
-    let body = body.ok_or_else(|| {
+    let body = names.iter().position(|n| *n == name);
+    body.ok_or_else(|| {
         Fault::new(
-            format!("{path}.on"),
+            key,
             "there is no such body",
             names.join(", "),
             "use one of these names",
         )
-    })?;
+    })
+}
+
+/// Springs between points.
+pub(super) fn springs(case: &Case, animal: &Animal) -> Built<Vec<PointSpring>> {
+    let built = case.spring.iter().map(|(name, spring)| {
+        let path = format!("spring.{name}");
+        let [a, b] = &spring.between;
+        if a == b {
+            return Err(Fault::new(
+                format!("{path}.between"),
+                "both ends are on one body",
+                "two bodies",
+                "remove the spring, or name another body",
+            ));
+        }
+        let key = |k: usize| format!("{path}.between[{k}]");
+        Ok(PointSpring {
+            name: name.clone(),
+            bodies: [body(key(0), a, animal)?, body(key(1), b, animal)?],
+            points: spring.at_m.map(vector),
+            stiffness: spring.stiffness_newton_per_m,
+            rest: spring.rest_m,
+            damping: spring.damping_newton_s_per_m,
+        })
+    });
+    built.collect()
+}
+
+fn applied(path: &str, load: &LoadCase, animal: &Animal) -> Built<AppliedLoad> {
+    let body = body(format!("{path}.on"), &load.on, animal)?;
     let f = load.frequency_hz;
     let series = |constant: &[f64; 3], cosine: &[[f64; 3]], sine: &[[f64; 3]]| {
         std::array::from_fn(|i| DriftingFourier {

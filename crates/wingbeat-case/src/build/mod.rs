@@ -56,6 +56,7 @@ pub(crate) fn setup(case: &Case, name: &str) -> Built<FlightSetup> {
         integrator: flight::integrator(case)?,
         corrector: corrector(&case.corrector),
         loads: flight::loads(case, &animal)?,
+        springs: flight::springs(case, &animal)?,
         feedback: None,
         animal,
         time,

@@ -58,6 +58,7 @@ fn of_setup(key: &str) -> &str {
         "time.period" => "motion.frequency_hz",
         "flight.start" => "flight",
         "load.body" => "load",
+        "spring.between" | "spring.stiffness" | "spring.rest" | "spring.damping" => "spring",
         key => key,
     }
 }

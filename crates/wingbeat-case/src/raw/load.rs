@@ -1,4 +1,4 @@
-//! `[[load]]`: extra forces and couples.
+//! `[[load]]` and `[spring.NAME]`: forces and couples beside those of joints and air.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -74,4 +74,37 @@ fn root() -> String {
 
 fn body_frame() -> LoadFrame {
     LoadFrame::Body
+}
+
+/// A spring and a damper along the line between points of two bodies: a tendon, a thread, an elastic
+/// stop. Its work counts among that of applied loads.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct SpringCase {
+    /// Its two bodies: `body` or names of wings and segments.
+    ///
+    /// Change it to span other bodies.
+    pub between: [String; 2],
+    /// Its ends, each in the axes of its body from that body's origin: the point of its joint or hinge.
+    ///
+    /// Change it to where it is attached.
+    pub at_m: [[f64; 3]; 2],
+    /// Stiffness.
+    ///
+    /// Change it to what was measured.
+    #[schemars(range(min = 0))]
+    #[serde(default)]
+    pub stiffness_newton_per_m: f64,
+    /// Length without tension; shorter, it pushes.
+    ///
+    /// Change it to what was measured.
+    #[schemars(range(min = 0), extend("with" = "stiffness_newton_per_m"))]
+    #[serde(default)]
+    pub rest_m: f64,
+    /// Damping of the rate of its length.
+    ///
+    /// Change it to what was measured.
+    #[schemars(range(min = 0))]
+    #[serde(default)]
+    pub damping_newton_s_per_m: f64,
 }

@@ -43,7 +43,7 @@ pub use joint::{
     ElementCase, FollowCase, JointCase, JointKind, SegmentCase, SeriesCase, StopCase, TravelCase,
     TurnCase,
 };
-pub use load::LoadCase;
+pub use load::{LoadCase, SpringCase};
 pub use motion::{
     AngleCase, FourierCase, MotionCase, OvalCase, ShapedCase, StartCase, TableCase, WingMotionCase,
 };
@@ -124,6 +124,9 @@ pub struct Case {
     /// prescribed.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub joint: BTreeMap<String, JointCase>,
+    /// Springs and dampers between points of two bodies, by name, e.g. `[spring.tendon]`.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub spring: BTreeMap<String, SpringCase>,
     /// Extra forces and couples, one `[[load]]` each.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub load: Vec<LoadCase>,
