@@ -12,9 +12,9 @@ use wingbeat_dynamics::{
 use wingbeat_math::DVec3;
 
 use crate::air::{Air, AirScratch, Instant};
+use crate::applied::{AppliedLoad, PointSpring};
 use crate::core::Core;
 use crate::error::FlightError;
-use crate::setup::{AppliedLoad, PointSpring};
 
 /// Quadratures appended to the state of the core.
 pub const QUADRATURES: usize = 10;

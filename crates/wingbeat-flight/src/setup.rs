@@ -9,6 +9,7 @@ use wingbeat_blade::{BladeSettings, BodyDrag};
 use wingbeat_math::{DMat3, DVec3, EulerSequence};
 use wingbeat_model::Animal;
 
+pub use crate::applied::{AppliedLoad, LoadFrame, PointSpring};
 use crate::controller::Controller;
 use crate::error::FlightError;
 use crate::joints::JointSetup;
@@ -362,49 +363,4 @@ impl Default for CorrectorSettings {
             relaxation: 1.0,
         }
     }
-}
-
-/// Frame in which an applied load keeps its direction.
-#[derive(
-    Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize, schemars::JsonSchema,
-)]
-#[serde(rename_all = "snake_case")]
-pub enum LoadFrame {
-    /// Fixed in the body.
-    Body,
-    /// Fixed in the inertial frame N.
-    Inertial,
-}
-
-/// A spring and a damper along the line between two points of two bodies:
-/// tension = stiffness (length - rest length) + damping x rate of the length.
-#[derive(Clone, Debug, PartialEq)]
-pub struct PointSpring {
-    /// Name, unique in the flight.
-    pub name: String,
-    /// Indices of the bodies: 0 the root, then wings and segments in their order.
-    pub bodies: [usize; 2],
-    /// Its ends, each in the axes of its body from the body's origin \[m\].
-    pub points: [DVec3; 2],
-    /// Stiffness \[N/m\].
-    pub stiffness: f64,
-    /// Length without tension \[m\].
-    pub rest: f64,
-    /// Damping \[N s/m\].
-    pub damping: f64,
-}
-
-/// A force and a couple on one body.
-#[derive(Clone, Debug, PartialEq)]
-pub struct AppliedLoad {
-    /// Index of the body: 0 the root, then the wings in their order.
-    pub body: usize,
-    /// Frame that carries the directions of force and couple.
-    pub frame: LoadFrame,
-    /// Point of application, body components [m].
-    pub point: DVec3,
-    /// Force components [N] as functions of time.
-    pub force: [DriftingFourier; 3],
-    /// Couple components [N m] as functions of time.
-    pub couple: [DriftingFourier; 3],
 }

@@ -2,5 +2,5 @@
 //! docs/columns.md`.
 
 fn main() {
-    print!("{}", wingbeat_results::columns::page());
+    print!("{}", wingbeat_results::columns_page());
 }

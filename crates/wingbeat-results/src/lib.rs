@@ -23,6 +23,7 @@
 mod arrays;
 pub mod checkpoint;
 pub mod columns;
+mod columns_page;
 pub mod directory;
 pub mod export;
 pub mod file;
@@ -43,6 +44,7 @@ pub mod vtp;
 mod whole;
 pub mod writer;
 
+pub use columns_page::columns_page;
 pub use directory::ResultDir;
 pub use history::History;
 pub use manifest::{Manifest, Outcome};

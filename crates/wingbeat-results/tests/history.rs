@@ -399,7 +399,7 @@ fn regress_the_page_of_columns_is_that_of_the_program() {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/columns.md");
     let page = fs::read_to_string(path).unwrap();
     assert!(
-        page == wingbeat_results::columns::page(),
+        page == wingbeat_results::columns_page(),
         "docs/columns.md is old: cargo run -p wingbeat-results --example columns > docs/columns.md"
     );
 }
