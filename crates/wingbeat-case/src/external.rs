@@ -74,7 +74,7 @@ impl Conversation {
         let bodies = flyer.bodies.iter().map(|name| format!("{name}\n"));
         let joints = flyer.joints.iter();
         let joints = joints.map(|(name, parent, child)| format!("{parent} {child} {name}\n"));
-        self.partner.say(format!(
+        let answer = self.partner.greet(format!(
             "wingbeat-air {PROTOCOL}\nstep_s {:e}\nbodies {}\n{}joints {}\n{}",
             flyer.step,
             flyer.bodies.len(),
@@ -82,7 +82,7 @@ impl Conversation {
             flyer.joints.len(),
             joints.collect::<String>()
         ))?;
-        let answer = self.hear()?;
+        let answer = self.unless_error(answer)?;
         let ready = format!("ready {PROTOCOL}");
         if answer.trim() == ready {
             return Ok(());
@@ -95,6 +95,10 @@ impl Conversation {
     /// The next line, unless it is a complaint.
     fn hear(&mut self) -> Result<String, String> {
         let line = self.partner.hear()?;
+        self.unless_error(line)
+    }
+
+    fn unless_error(&self, line: String) -> Result<String, String> {
         match line.trim().strip_prefix("error") {
             Some(problem) => Err(self.partner.complain(problem.trim())),
             None => Ok(line),

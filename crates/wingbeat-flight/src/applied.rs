@@ -98,3 +98,63 @@ impl PointSpring {
 fn vector(x: &[DriftingFourier; 3], t: f64) -> DVec3 {
     DVec3::new(x[0].at(t)[0], x[1].at(t)[0], x[2].at(t)[0])
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use wingbeat_math::DMat3;
+
+    /// Where a body is a time `dt` later.
+    fn later(m: &BodyMotion, dt: f64) -> BodyMotion {
+        let turn = DMat3::from_axis_angle(m.w.normalize(), m.w.length() * dt);
+        BodyMotion {
+            p: m.p + dt * m.v,
+            r: m.r * turn,
+            ..*m
+        }
+    }
+
+    /// A spring between points off the origins of two bodies that move and turn: its wrenches have
+    /// neither a sum nor a moment, and their power is what its energy loses and its damper takes.
+    #[test]
+    fn conserves_momentum_and_energy_of_a_spring_between_points() {
+        let motion = |x: f64| BodyMotion {
+            p: DVec3::new(0.3 * x, -0.2, 0.7 - x),
+            r: DMat3::from_axis_angle(DVec3::new(1.0, x, -0.4).normalize(), 0.8 + x),
+            v: DVec3::new(0.5, x, -0.3),
+            w: DVec3::new(-0.7, 1.1 * x, 0.9),
+        };
+        let bodies = [motion(1.0), motion(-0.6)];
+        let spring = PointSpring {
+            name: "tendon".to_owned(),
+            bodies: [0, 1],
+            points: [DVec3::new(0.1, 0.4, -0.2), DVec3::new(-0.3, 0.2, 0.5)],
+            stiffness: 3.0,
+            rest: 0.4,
+            damping: 0.7,
+        };
+        let wrenches = spring.wrenches([&bodies[0], &bodies[1]]);
+        let force: DVec3 = wrenches.iter().map(|w| w.force).sum();
+        let about = |(w, m): (&Wrench, &BodyMotion)| w.moment + m.p.cross(w.force);
+        let moment: DVec3 = wrenches.iter().zip(&bodies).map(about).sum();
+        assert!(wrenches[0].force.length() > 0.1);
+        assert!(force.length() < 1e-15 && moment.length() < 1e-15);
+        let length = |dt: f64| {
+            let end = |k: usize| {
+                let m = later(&bodies[k], dt);
+                m.p + m.r * spring.points[k]
+            };
+            end(0).distance(end(1))
+        };
+        let energy = |dt: f64| 0.5 * spring.stiffness * (length(dt) - spring.rest).powi(2);
+        let rate = |f: &dyn Fn(f64) -> f64| (f(1e-5) - f(-1e-5)) / 2e-5;
+        let lost = -rate(&energy) - spring.damping * rate(&length).powi(2);
+        let power = |(w, m): (&Wrench, &BodyMotion)| w.power(m);
+        let power: f64 = wrenches.iter().zip(&bodies).map(power).sum();
+        // Central differences: the square of the step, and roundings over it.
+        assert!(
+            power.abs() > 0.1 && (power - lost).abs() < 1e-9,
+            "{power} {lost}"
+        );
+    }
+}

@@ -17,6 +17,17 @@ const GRACE: Duration = Duration::from_secs(1);
 /// What is said of a program that is gone.
 const ENDED: &str = "it ended its output";
 
+/// What is said of a program whose input is full.
+const UNREAD: &str = "it does not read its input";
+
+/// Why a program was not told.
+enum Deaf {
+    /// It has not read in time.
+    Late,
+    /// It has closed its input.
+    Gone(String),
+}
+
 /// Process groups that are running.
 static RUNNING: Mutex<Vec<u32>> = Mutex::new(Vec::new());
 
@@ -77,6 +88,25 @@ impl Partner {
     /// # Errors
     /// A program that does not listen; what it said before it went, if anything.
     pub fn say(&mut self, lines: String) -> Result<(), String> {
+        self.send(lines).map_err(|deaf| match deaf {
+            Deaf::Late => self.too_late(UNREAD),
+            Deaf::Gone(problem) => self.last_words(&problem),
+        })
+    }
+
+    /// Says the first lines and hears the answer; a program that has gone may have answered before.
+    ///
+    /// # Errors
+    /// As [`Self::say`] and [`Self::hear`].
+    pub fn greet(&mut self, lines: String) -> Result<String, String> {
+        match self.send(lines) {
+            Ok(()) => self.hear(),
+            Err(Deaf::Late) => Err(self.too_late(UNREAD)),
+            Err(Deaf::Gone(_)) => self.hear_within(self.timeout + GRACE),
+        }
+    }
+
+    fn send(&self, lines: String) -> Result<(), Deaf> {
         let words = self.words.as_ref().expect("open while the flight lasts");
         let sent = words.send(lines);
         let written = sent.map_or(Err(RecvTimeoutError::Disconnected), |()| {
@@ -84,9 +114,9 @@ impl Partner {
         });
         match written {
             Ok(Ok(())) => Ok(()),
-            Ok(Err(e)) => Err(self.last_words(&e.to_string())),
-            Err(RecvTimeoutError::Timeout) => Err(self.too_late("it does not read its input")),
-            Err(RecvTimeoutError::Disconnected) => Err(self.last_words("it ended")),
+            Ok(Err(e)) => Err(Deaf::Gone(e.to_string())),
+            Err(RecvTimeoutError::Timeout) => Err(Deaf::Late),
+            Err(RecvTimeoutError::Disconnected) => Err(Deaf::Gone("it ended".to_owned())),
         }
     }
 
@@ -95,7 +125,11 @@ impl Partner {
     /// # Errors
     /// A program that is silent too long, has ended, or says what is no line.
     pub fn hear(&mut self) -> Result<String, String> {
-        match self.lines.recv_timeout(self.timeout) {
+        self.hear_within(self.timeout)
+    }
+
+    fn hear_within(&self, time: Duration) -> Result<String, String> {
+        match self.lines.recv_timeout(time) {
             Ok(line) => line.map_err(|problem| self.complain(&problem)),
             Err(RecvTimeoutError::Timeout) => Err(self.too_late("no answer")),
             Err(RecvTimeoutError::Disconnected) => Err(self.complain(ENDED)),
