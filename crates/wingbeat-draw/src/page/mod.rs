@@ -90,26 +90,33 @@ pub fn pair(dirs: [&ResultDir; 2], most_bytes: usize) -> Result<String, IoError>
 
 /// Size of everything but the data.
 fn program_bytes() -> usize {
-    let program = [TEMPLATE, STYLE, THREE, VORTICES, WORKER, SCRIPT];
-    program.iter().map(|p| p.len()).sum()
+    program("").iter().map(String::len).sum()
 }
 
 /// The page before and after its data.
 fn program(title: &str) -> [String; 2] {
+    let [style, vortices, worker, script] = [STYLE, VORTICES, WORKER, SCRIPT].map(bare);
     let page = fill(
         TEMPLATE,
         &[
             ("title", &escaped(title)),
-            ("style", STYLE),
+            ("style", &style),
             ("three", THREE),
             ("data", &GAP.to_string()),
-            ("vortices", VORTICES),
-            ("worker", WORKER),
-            ("script", SCRIPT),
+            ("vortices", &vortices),
+            ("worker", &worker),
+            ("script", &script),
         ],
     );
     let (before, after) = page.split_once(GAP).expect("the gap was put there");
     [before, after].map(str::to_owned)
+}
+
+/// A program without indentation and lines of comment: every page carries it.
+fn bare(program: &str) -> String {
+    let lines = program.lines().map(str::trim_start);
+    let lines = lines.filter(|l| !l.is_empty() && !l.starts_with("//"));
+    lines.flat_map(|l| [l, "\n"]).collect()
 }
 
 /// A template with its places filled, each once and in order.
