@@ -39,6 +39,8 @@ impl Lattice {
         circulation_rate(self, state, out);
         pressure_jump(self, out);
         forces(self, out);
+        ws.filaments.soften(self.settings(), state);
+        ws.sums.load_attached(self.settings(), &ws.filaments);
         let flow = Flow {
             filaments: &ws.filaments,
             sums: &mut ws.sums,
@@ -181,6 +183,7 @@ impl Lattice {
         ws.filaments
             .gather(self, state, state.time, &state.position);
         ws.filaments.set_bound(self, state, &state.gamma);
+        ws.filaments.soften(self.settings(), state);
     }
 
     /// Velocity of the air [m/s] at `points` [m], N, in the accepted step; `out` is resized. At a

@@ -37,6 +37,7 @@ fn size(core: CoreModel) -> f64 {
         CoreModel::CutOff { delta } => delta,
         CoreModel::Vatistas { radius }
         | CoreModel::Scully { radius }
+        | CoreModel::Algebraic { radius, .. }
         | CoreModel::LambOseen { radius, .. } => radius,
     }
 }

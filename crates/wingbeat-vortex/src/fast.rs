@@ -395,7 +395,8 @@ impl Check {
             .for_each(|(v, index)| {
                 let (mut block, mut velocity) = (Block::ZERO, Block::ZERO);
                 for (lane, &i) in index.iter().enumerate() {
-                    (block.x[lane], block.y[lane], block.z[lane]) = targets.get(i).into();
+                    block.set(lane, targets.get(i));
+                    block.softening[lane] = targets.core.get(i).map_or(0.0, |core| 0.5 * core);
                 }
                 let FastSum { level, packed, .. } = sum;
                 let (model, all) = (sum.settings.model, 0..packed.patches.len());

@@ -14,11 +14,21 @@ use crate::wake::{Filaments, Sums};
 use wingbeat_math::DVec3;
 use wingbeat_vortex::{Network, Points};
 
+/// Where on a segment the velocity is taken, from 0 to 1: in the middle; at Gauss's two points where the force is to be
+/// what the segment does to the rest of the flow, reversed.
+fn places(lattice: &Lattice) -> &'static [f64] {
+    const GAUSS: [f64; 2] = [0.211_324_865_405_187_1, 0.788_675_134_594_812_9];
+    match lattice.settings().is_symmetric() {
+        true => &GAUSS,
+        false => &[0.5],
+    }
+}
+
 /// Velocities and forces of the bound segments.
 #[derive(Default)]
 pub(crate) struct Segments {
-    /// Middles of the segments, and the velocity of the air relative to them.
-    middle: Points,
+    /// Places on the segments, as many on each, and the velocity of the air relative to them.
+    place: Points,
     velocity: Points,
     /// Force and moment of the segments on each panel.
     panel_force: Vec<[DVec3; 2]>,
@@ -60,39 +70,51 @@ impl Segments {
     /// Velocity of the air relative to the middle of every bound segment.
     fn take_velocities(&mut self, lattice: &Lattice, flow: Flow, t: f64) {
         let bound = &flow.filaments.bound;
-        self.middle.clear();
+        let (places, settings) = (places(lattice), lattice.settings());
+        self.place.clear();
         for &[a, b] in &bound.edges {
             let ends = [a, b].map(|n| bound.nodes.get(n as usize));
-            self.middle.push(0.5 * (ends[0] + ends[1]));
+            for s in places {
+                self.place.push(ends[0].lerp(ends[1], *s));
+            }
         }
-        self.velocity.reset(bound.edges.len());
-        let (points, sum) = (&self.middle, &mut self.velocity);
+        if settings.is_symmetric() {
+            let core = bound.nodes.core[0];
+            self.place.core.resize(self.place.len(), core);
+        }
+        self.velocity.reset(self.place.len());
+        let (points, sum) = (&self.place, &mut self.velocity);
         flow.sums.add(points, lattice.mirrors(), sum);
         for (e, &[a, b]) in bound.edges.iter().enumerate() {
             let [a, b] = [a, b].map(|n| flow.rings.velocity[n as usize]);
-            let surface = 0.5 * (a + b);
-            let v = sum.get(e) + lattice.stream(points.get(e), t) - surface;
-            sum.set(e, v);
+            for (i, s) in places.iter().enumerate() {
+                let k = e * places.len() + i;
+                let v = sum.get(k) + lattice.stream(points.get(k), t) - a.lerp(b, *s);
+                sum.set(k, v);
+            }
         }
     }
 
     /// Force and moment about the control point that the segments give to every panel of an open
     /// surface; a shared segment gives half to either side.
     fn collect(&mut self, lattice: &Lattice, state: &AirState, bound: &Network, points: &[DVec3]) {
-        let rho = lattice.settings().density;
+        let (rho, count) = (lattice.settings().density, places(lattice).len());
         self.panel_force.clear();
         self.panel_force
             .resize(lattice.panel_count(), [DVec3::ZERO; 2]);
         for (e, edge) in lattice.topology().edges.iter().enumerate() {
             let l = bound.nodes.get(edge.to) - bound.nodes.get(edge.from);
-            let force = rho * bound.gamma[e] * self.velocity.get(e).cross(l);
+            let circulation = rho * bound.gamma[e] / count as f64;
             let shared = edge.minus.is_some();
             let sheds = edge.wake.is_some() && !lattice.is_attached(state, edge);
-            let share = if shared || sheds { 0.5 } else { 1.0 } * force;
-            for p in [Some(edge.plus), edge.minus].into_iter().flatten() {
-                let arm = self.middle.get(e) - points[p];
-                self.panel_force[p][0] += share;
-                self.panel_force[p][1] += arm.cross(share);
+            let part = if shared || sheds { 0.5 } else { 1.0 };
+            for k in e * count..(e + 1) * count {
+                let share = part * (circulation * self.velocity.get(k).cross(l));
+                for p in [Some(edge.plus), edge.minus].into_iter().flatten() {
+                    let arm = self.place.get(k) - points[p];
+                    self.panel_force[p][0] += share;
+                    self.panel_force[p][1] += arm.cross(share);
+                }
             }
         }
     }

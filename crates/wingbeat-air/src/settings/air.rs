@@ -138,6 +138,11 @@ impl AirSettings {
         }
     }
 
+    /// Whether filaments act on each other as the others act on them, see [`CoreModel::Algebraic`].
+    pub fn is_symmetric(&self) -> bool {
+        matches!(self.wake_core, CoreModel::Algebraic { .. })
+    }
+
     /// Regularisation number of a filament of the free wake of this length [m] and age [s].
     pub(crate) fn free_core(&self, length: f64, age: f64) -> f64 {
         let core = self.wake_core.core(length, age);

@@ -52,6 +52,7 @@ impl AirSettings {
     }
 
     fn check_wake(&self) -> Result<(), AirError> {
+        self.check_symmetric()?;
         let has_radius = !matches!(self.wake_core, CoreModel::CutOff { .. });
         require(
             self.wake_overlap == 0.0 || is_positive(self.wake_overlap) && has_radius,
@@ -92,6 +93,30 @@ impl AirSettings {
             )?;
         }
         Ok(())
+    }
+
+    /// Algebraic cores are for all filaments or none.
+    fn check_symmetric(&self) -> Result<(), AirError> {
+        let is_algebraic = |core: CoreModel| matches!(core, CoreModel::Algebraic { .. });
+        require(
+            is_algebraic(self.bound_core) == self.is_symmetric(),
+            "bound_core",
+            format!("{:?}", self.bound_core),
+            "algebraic where wake_core is, and no other where it is not: action equals reaction only if all \
+             filaments have cores of one kind",
+        )?;
+        require(
+            !(self.is_symmetric() && self.wake_blob_length.is_some()),
+            "wake_blob_length",
+            format!("{:?}", self.wake_blob_length),
+            "none with algebraic cores, whose filaments stay filaments",
+        )?;
+        require(
+            !(self.is_symmetric() && self.particles.is_some()),
+            "particles",
+            "with algebraic cores",
+            "none with algebraic cores; particles go with lamb_oseen",
+        )
     }
 
     fn check_leading(&self) -> Result<(), AirError> {

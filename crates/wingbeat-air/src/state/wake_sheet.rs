@@ -76,10 +76,16 @@ impl WakeSheet {
 
     /// Impulse per density [m4/s], N, of the rings of the oldest `rows` rows.
     pub(crate) fn impulse_of_oldest(&self, rows: usize) -> DVec3 {
+        self.impulse_with(rows.min(self.rows().saturating_sub(1)), |r, c| {
+            self.node(r, c)
+        })
+    }
+
+    /// The same of the oldest `rows` rows with the nodes elsewhere: `at` (row, column).
+    pub(crate) fn impulse_with(&self, rows: usize, at: impl Fn(usize, usize) -> DVec3) -> DVec3 {
         let mut sum = DVec3::ZERO;
-        for r in 0..rows.min(self.rows().saturating_sub(1)) {
-            for c in 0..self.columns {
-                let at = |r: usize, c: usize| self.node(r, c);
+        for r in 0..rows {
+            for c in (0..self.columns).filter(|&c| self.is_ring(r, c)) {
                 let ring = [at(r + 1, c + 1), at(r + 1, c), at(r, c), at(r, c + 1)];
                 let area = (ring[2] - ring[0]).cross(ring[3] - ring[1]);
                 sum += 0.5 * self.gamma[r * self.columns + c] * area;

@@ -6,6 +6,7 @@ use crate::settings::Convection;
 use crate::state::{AirState, WakeEvents, WakeSheet};
 use crate::wake::contact::Obstacles;
 use crate::wake::filaments::Filaments;
+use crate::wake::force_free::ForceFree;
 use crate::wake::joined_nodes::merge_joined_nodes;
 use crate::wake::mover::Mover;
 use crate::wake::particle_flow::ParticleFlow;
@@ -20,12 +21,14 @@ pub(crate) struct WakeMotion {
     nodes: Points,
     velocity: Points,
     flow: ParticleFlow,
+    force_free: ForceFree,
     /// Surfaces in the way.
     obstacles: Obstacles,
     /// Paths of the nodes of a sheet.
     from: Vec<DVec3>,
     to: Vec<DVec3>,
-    /// Impulse per density of what each sheet dropped.
+    unhindered: Vec<DVec3>,
+    /// Impulse per density of what each sheet dropped and of what contact took from it.
     dropped: Vec<DVec3>,
 }
 
@@ -42,6 +45,10 @@ impl WakeMotion {
         self.velocity.reset(self.nodes.len());
         sums.load(lattice.settings(), filaments);
         sums.add(&self.nodes, lattice.mirrors(), &mut self.velocity);
+        if lattice.settings().is_symmetric() {
+            let velocity = &mut self.velocity;
+            (self.force_free).correct(lattice, state, filaments, sums, velocity);
+        }
         self.flow.take(lattice, state, sums);
     }
 
@@ -79,11 +86,12 @@ impl WakeMotion {
             events: WakeEvents::default(),
             from: std::mem::take(&mut self.from),
             to: std::mem::take(&mut self.to),
+            unhindered: std::mem::take(&mut self.unhindered),
         };
         let mut sheets = std::mem::take(&mut state.sheets);
         self.dropped.clear();
         let moved = move_each(&mut mover, state, &mut sheets, lengths, &mut self.dropped);
-        (self.from, self.to) = (mover.from, mover.to);
+        (self.from, self.to, self.unhindered) = (mover.from, mover.to, mover.unhindered);
         if moved.is_ok() {
             merge_joined_nodes(lattice.topology(), &mut sheets);
         }
@@ -94,7 +102,7 @@ impl WakeMotion {
     }
 }
 
-/// Moves sheet after sheet; `dropped` gets the impulse per density of what each has dropped.
+/// Moves sheet after sheet; `dropped` gets the impulse per density of what each has dropped or contact took from it.
 fn move_each(
     mover: &mut Mover,
     state: &AirState,
@@ -109,9 +117,10 @@ fn move_each(
         let Some((source, mirror)) = lattice.reflected_sheet(k) else {
             move_sheet(mover, (k, state.step), sheet)?;
             lattice.shed(k, sheet, state, lengths);
+            let taken = mover.taken_by_contact(sheet);
             let (events, impulse) = lattice.truncate(k, sheet, state);
             mover.events += events;
-            dropped.push(impulse);
+            dropped.push(impulse + taken);
             continue;
         };
         lattice.shed(k, sheet, state, lengths);

@@ -5,7 +5,7 @@ use crate::lattice::Lattice;
 use crate::settings::AirSettings;
 use crate::state::{AirState, WakeSheet};
 use crate::wake::conversion::borders_ring;
-use crate::wake::near_wake::{Row, Share, add_near_wake, at_edge, row_lengths};
+use crate::wake::near_wake::{Row, Share, add_near_wake, at_edge, row_lengths, strips};
 use wingbeat_math::DVec3;
 use wingbeat_vortex::{Blob, Network, Points, WINDOW};
 
@@ -26,6 +26,8 @@ pub struct Filaments {
     pub near_wake: Network,
     /// How their circulations follow from those of the panels.
     pub(crate) shares: Vec<Share>,
+    /// Rows of nodes of the newest row of a sheet.
+    levels: usize,
     /// Length of the newest row in panel lengths, sheet by sheet and column by column.
     pub(crate) lengths: Vec<Vec<f64>>,
     /// All other edges of the wakes, which do not move within a step. Nodes: sheet after sheet,
@@ -48,12 +50,18 @@ impl Filaments {
         position: &[DVec3],
     ) {
         self.gather_bound(lattice, position);
+        self.levels = strips(lattice.settings()) + 1;
         self.wake.clear();
         self.blobs.clear();
         self.near_wake.clear();
         self.shares.clear();
         self.lengths.resize_with(state.sheets.len(), Vec::new);
         for (s, (sheet, root)) in state.sheets.iter().zip(lattice.sheets()).enumerate() {
+            let edge = root.nodes.iter().map(|&n| self.bound.nodes.get(n));
+            if lattice.settings().is_symmetric() {
+                let cores = &mut self.wake.nodes.core;
+                add_cores(cores, sheet, lattice.settings(), t, edge.clone());
+            }
             self.add_sheet(sheet, lattice.settings(), t);
             let edge = root.nodes.iter().map(|&n| self.bound.nodes.get(n));
             row_lengths(lattice, state, s, &self.bound.nodes, &mut self.lengths[s]);
@@ -86,6 +94,64 @@ impl Filaments {
             let edge = root.nodes.iter().map(|&n| self.bound.nodes.get(n));
             edge.for_each(|x| out.push(x));
         }
+        if lattice.settings().is_symmetric() {
+            self.add_cores(lattice, state, &mut out.core);
+        }
+    }
+
+    /// Gives lattice and newest rows the cores with which they act on other filaments and are acted on, where action is to
+    /// be reaction: those of the lattice as wide as the newest free nodes have them in the mean, those of a newest
+    /// row in between. One width for a whole lattice, for where it varies along a filament, action is not quite
+    /// reaction. Control points, which carry no vorticity, go on to see the cores of the settings.
+    pub(crate) fn soften(&mut self, settings: &AirSettings, state: &AirState) {
+        if !settings.is_symmetric() {
+            return;
+        }
+        let free = &self.wake.nodes.core;
+        let ends = state.sheets.iter().scan(0, |end, sheet| {
+            *end += sheet.nodes.len();
+            Some((sheet, *end))
+        });
+        let newest = ends.filter(|(sheet, _)| sheet.rows() > 0);
+        let newest = newest.map(|(sheet, end)| (sheet, &free[end - sheet.columns - 1..end]));
+        let (sum, count) = newest.clone().fold((0.0, 0), |(sum, count), (_, cores)| {
+            (sum + cores.iter().sum::<f64>(), count + cores.len())
+        });
+        let attached = match count {
+            0 => settings.wake_core.core(0.0, 0.0),
+            _ => sum / count as f64,
+        };
+        self.bound.nodes.core.clear();
+        self.bound
+            .nodes
+            .core
+            .resize(self.bound.nodes.len(), attached);
+        self.near_wake.nodes.core.clear();
+        for (_, cores) in newest {
+            for level in (0..self.levels).rev() {
+                let part = level as f64 / (self.levels - 1) as f64; // 1 at the free row
+                let between = cores.iter().map(|free| attached + part * (free - attached));
+                self.near_wake.nodes.core.extend(between);
+            }
+        }
+    }
+
+    /// Squared core radii of the movable nodes.
+    fn add_cores(&self, lattice: &Lattice, state: &AirState, out: &mut Vec<f64>) {
+        let mut first = 0;
+        for (k, (sheet, root)) in state.sheets.iter().zip(lattice.sheets()).enumerate() {
+            let nodes = first..first + sheet.nodes.len();
+            first = nodes.end;
+            if lattice.reflected_sheet(k).is_none() {
+                out.extend_from_slice(&self.wake.nodes.core[nodes]);
+                out.extend(root.nodes.iter().map(|&n| self.bound.nodes.core[n]));
+            }
+        }
+    }
+
+    /// Rows of nodes that the newest row of this sheet has in [`Self::near_wake`].
+    pub(crate) fn near_levels(&self, sheet: &WakeSheet) -> usize {
+        if sheet.rows() > 0 { self.levels } else { 0 }
     }
 
     fn gather_bound(&mut self, lattice: &Lattice, position: &[DVec3]) {
@@ -192,6 +258,42 @@ impl Filaments {
         let particles: DVec3 = self.particles.iter().map(of_blob).sum();
         let blobs: DVec3 = self.blobs.iter().map(of_blob).sum();
         of(&self.bound) + of(&self.near_wake) + of(&self.wake) + blobs + particles
+    }
+}
+
+/// Appends the squared core radii \[m2\] of the free nodes of a sheet, whose shedding edge is `edge`: as wide with age as
+/// viscosity makes them, and at least as wide as the longest filament there is long, times the overlap.
+fn add_cores(
+    cores: &mut Vec<f64>,
+    sheet: &WakeSheet,
+    settings: &AirSettings,
+    t: f64,
+    edge: impl Iterator<Item = DVec3> + Clone,
+) {
+    let (rows, width) = (sheet.rows(), sheet.columns + 1);
+    let at = |r: usize, c: usize| sheet.node(r, c);
+    for r in 0..rows {
+        for c in 0..width {
+            let x = at(r, c);
+            let mut longest: f64 = 0.0;
+            let mut see = |y: DVec3| longest = longest.max(x.distance_squared(y));
+            if r > 0 {
+                see(at(r - 1, c));
+            }
+            if r + 1 < rows {
+                see(at(r + 1, c));
+            } else if let Some(y) = edge.clone().nth(c) {
+                see(y);
+            }
+            if c > 0 {
+                see(at(r, c - 1));
+            }
+            if c + 1 < width {
+                see(at(r, c + 1));
+            }
+            let age = t - sheet.shed_time[r];
+            cores.push(settings.free_core(longest.sqrt(), age));
+        }
     }
 }
 

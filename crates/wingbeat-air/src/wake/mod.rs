@@ -4,6 +4,7 @@ mod contact;
 mod convection;
 mod conversion;
 mod filaments;
+mod force_free;
 mod joined_nodes;
 mod mover;
 mod near_wake;

@@ -29,6 +29,9 @@ pub(crate) struct Mover<'a> {
     /// Paths of the nodes or particles of a sheet.
     pub from: Vec<DVec3>,
     pub to: Vec<DVec3>,
+    /// Where the nodes of the sheet would be without surfaces in the way, its shedding edge last; empty if none was held
+    /// back.
+    pub unhindered: Vec<DVec3>,
 }
 
 impl Mover<'_> {
@@ -63,7 +66,14 @@ impl Mover<'_> {
                 sheet.velocity.push(self.velocity.get(k) + stream);
             }
         }
+        let held_back = self.events.near_surface;
+        self.unhindered.clear();
+        self.unhindered.extend_from_slice(&to);
         self.keep_clear(&from, &mut to);
+        match self.events.near_surface == held_back {
+            true => self.unhindered.clear(),
+            false => (self.unhindered).extend_from_slice(&from[from.len() - width..]),
+        }
         sheet.nodes.clear();
         to.iter().for_each(|&x| sheet.nodes.push(x));
         (self.from, self.to) = (from, to);
@@ -76,6 +86,22 @@ impl Mover<'_> {
         for plane in &self.lattice.settings().images {
             self.events.near_surface += keep_on_side(plane, from, to);
         }
+    }
+
+    /// Impulse per density [m4/s], N, that surfaces in the way took from the rings of the `sheet` moved last, its new
+    /// row shed.
+    pub(crate) fn taken_by_contact(&self, sheet: &WakeSheet) -> DVec3 {
+        if self.unhindered.is_empty() {
+            return DVec3::ZERO;
+        }
+        let width = sheet.columns + 1;
+        let unhindered = |r: usize, c: usize| self.unhindered[r * width + c];
+        let present = |r: usize, c: usize| match r < sheet.rows() {
+            true => sheet.node(r, c),
+            false => unhindered(r, c),
+        };
+        let rows = sheet.rows();
+        sheet.impulse_with(rows, unhindered) - sheet.impulse_with(rows, present)
     }
 
     /// Displacement relative to the undisturbed air, shortened to the limit.

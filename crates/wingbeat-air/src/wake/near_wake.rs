@@ -88,7 +88,7 @@ pub(crate) fn row_lengths(
     }
 }
 
-fn strips(settings: &AirSettings) -> usize {
+pub(crate) fn strips(settings: &AirSettings) -> usize {
     match settings.newest_row {
         NewestRow::Constant => 1,
         NewestRow::Matched => STRIPS,

@@ -75,6 +75,7 @@ impl Images {
             self.reflected.clear();
             let images = targets.iter().map(|x| mirror.point(x));
             images.for_each(|x| self.reflected.push(x));
+            self.reflected.core.clone_from(&targets.core);
             self.velocity.reset(targets.len());
             add(&self.reflected, &mut self.velocity);
             for (i, v) in self.velocity.iter().enumerate() {

@@ -11,5 +11,6 @@ mod known_shapes;
 mod particles;
 mod peers;
 mod section_drag;
+mod separated;
 mod wakes;
 mod wings;

@@ -7,7 +7,7 @@ use wingbeat_air::{
 };
 use wingbeat_math::{DVec3, r1, r2};
 
-const ALL: SheddingKinds = SheddingKinds {
+pub(crate) const ALL: SheddingKinds = SheddingKinds {
     trailing: true,
     tip: true,
     leading: true,
@@ -188,30 +188,38 @@ fn hover(
     };
     let wings = ["right", "left"].map(|name| Surface::grid(name, 4, 6));
     let lattice = Lattice::new(wings.to_vec(), settings).unwrap();
-    let motion = |t: f64| {
-        let w = std::f64::consts::TAU;
-        let (stroke, rate) = (1.0 * (w * t).sin(), w * (w * t).cos());
-        let mut motion = NodeMotion::default();
-        for side in [1.0, -1.0] {
-            let turn = r1(side * stroke) * r2(0.8 * (w * t).cos());
-            for x in rectangle(4, 6, DVec3::X, side * 3.0 * DVec3::Y) {
-                let x = turn * (x - 0.25 * DVec3::X) + side * 0.2 * DVec3::Y;
-                motion.position.push(x);
-                // Feathering turns about the wing's own span axis.
-                let feather = -0.8 * w * (w * t).sin() * (r1(side * stroke) * DVec3::Y);
-                let arm = x - side * 0.2 * DVec3::Y;
-                let v = (side * rate * DVec3::X + feather).cross(arm);
-                motion.velocity.push(v);
-            }
-        }
-        motion
-    };
     let mut largest = 0.0_f64;
-    let run = fly(&lattice, motion, 0.025, 80, |_, _, loads: &AirLoads, _| {
-        largest = largest.max(total_force(loads).length());
-    })
+    let run = fly(
+        &lattice,
+        hover_motion,
+        0.025,
+        80,
+        |_, _, loads: &AirLoads, _| {
+            largest = largest.max(total_force(loads).length());
+        },
+    )
     .unwrap();
     (largest, run.state.events)
+}
+
+/// Two wings of 4 x 6 panels that beat once a second.
+fn hover_motion(t: f64) -> NodeMotion {
+    let w = std::f64::consts::TAU;
+    let (stroke, rate) = (1.0 * (w * t).sin(), w * (w * t).cos());
+    let mut motion = NodeMotion::default();
+    for side in [1.0, -1.0] {
+        let turn = r1(side * stroke) * r2(0.8 * (w * t).cos());
+        for x in rectangle(4, 6, DVec3::X, side * 3.0 * DVec3::Y) {
+            let x = turn * (x - 0.25 * DVec3::X) + side * 0.2 * DVec3::Y;
+            motion.position.push(x);
+            // Feathering turns about the wing's own span axis.
+            let feather = -0.8 * w * (w * t).sin() * (r1(side * stroke) * DVec3::Y);
+            let arm = x - side * 0.2 * DVec3::Y;
+            let v = (side * rate * DVec3::X + feather).cross(arm);
+            motion.velocity.push(v);
+        }
+    }
+    motion
 }
 
 #[test]

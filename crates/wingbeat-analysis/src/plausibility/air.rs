@@ -35,7 +35,9 @@ pub(super) fn viscosity(air: &AirModel) -> Option<f64> {
         if let Some(Friction::Blasius { viscosity }) = drag.map(|d| &d.friction) {
             return Some(*viscosity);
         }
-        if let CoreModel::LambOseen { viscosity, .. } = air.lattice.wake_core {
+        if let CoreModel::LambOseen { viscosity, .. } | CoreModel::Algebraic { viscosity, .. } =
+            air.lattice.wake_core
+        {
             return Some(viscosity);
         }
     }

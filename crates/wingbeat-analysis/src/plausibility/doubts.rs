@@ -255,6 +255,7 @@ fn radius(core: &CoreModel) -> Option<f64> {
         CoreModel::CutOff { .. } => None,
         CoreModel::Vatistas { radius }
         | CoreModel::Scully { radius }
+        | CoreModel::Algebraic { radius, .. }
         | CoreModel::LambOseen { radius, .. } => Some(radius),
     }
 }

@@ -184,7 +184,9 @@ fn particles(
     wake_core: CoreModel,
 ) -> Built<ParticleSettings> {
     let (radius, viscosity) = match wake_core {
-        CoreModel::LambOseen { radius, viscosity } => (Some(radius), viscosity),
+        CoreModel::LambOseen { radius, viscosity } | CoreModel::Algebraic { radius, viscosity } => {
+            (Some(radius), viscosity)
+        }
         CoreModel::Vatistas { radius } | CoreModel::Scully { radius } => (Some(radius), 0.0),
         CoreModel::CutOff { .. } => (None, 0.0),
     };

@@ -66,6 +66,10 @@ impl Chord {
             CoreCase::Scully(c) => CoreModel::Scully {
                 radius: radius("scully", c.radius_m, c.radius_chords)?,
             },
+            CoreCase::Algebraic(c) => CoreModel::Algebraic {
+                radius: radius("algebraic", c.radius_m, c.radius_chords)?,
+                viscosity: c.viscosity_m2_s,
+            },
             CoreCase::LambOseen(c) => CoreModel::LambOseen {
                 radius: radius("lamb_oseen", c.radius_m, c.radius_chords)?,
                 viscosity: c.viscosity_m2_s,

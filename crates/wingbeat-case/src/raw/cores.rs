@@ -19,6 +19,9 @@ pub enum CoreCase {
     Scully(RadiusCase),
     /// Lamb and Oseen: grows with age.
     LambOseen(LambOseenCase),
+    /// Algebraic, of Rosenhead and Moore: the same between any two filaments, so that action is reaction;
+    /// grows with age. For both cores or none.
+    Algebraic(LambOseenCase),
 }
 
 /// A cut-off.

@@ -212,5 +212,6 @@ fn core(model: &CoreModel) -> (&'static str, f64) {
         CoreModel::Vatistas { radius } => ("Vatistas", radius),
         CoreModel::Scully { radius } => ("Scully", radius),
         CoreModel::LambOseen { radius, .. } => ("Lamb-Oseen", radius),
+        CoreModel::Algebraic { radius, .. } => ("algebraic", radius),
     }
 }

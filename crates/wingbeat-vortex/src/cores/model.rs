@@ -36,11 +36,22 @@ pub enum CoreModel {
         /// Effective (eddy included) kinematic viscosity \[m^2/s\].
         viscosity: f64,
     },
+    /// Algebraic: vorticity of the filament and of what is there spread alike, so that what a filament does
+    /// to another one is what the other one does to it, reversed. The bare kernel `r / abs(r)^3` becomes
+    /// `r / (r^2 + sigma^2)^(3/2)` with `sigma^2` the mean of the squared core radii here and there
+    /// [Rosenhead 1930, Proc. R. Soc. A 127:590; Moore 1972, Aeronaut. Q. 23:307]. Core radii belong to nodes and are
+    /// squared and linear in between; those of places where velocities are wanted to [`crate::Points::core`].
+    Algebraic {
+        /// Core radius at age zero \[m\].
+        radius: f64,
+        /// Effective (eddy included) kinematic viscosity \[m^2/s\]; cores spread as with Lamb-Oseen.
+        viscosity: f64,
+    },
 }
 
 impl CoreModel {
     /// Regularisation number of a segment of this `length` \[m\] and `age` \[s\]:
-    /// (delta length)^2 for the cut-off, r_c^2 \[m^2\] for the others; only Lamb-Oseen ages.
+    /// (delta length)^2 for the cut-off, r_c^2 \[m^2\] for the others; only Lamb-Oseen and algebraic cores age.
     ///
     /// ```
     /// use wingbeat_vortex::CoreModel;
@@ -51,9 +62,17 @@ impl CoreModel {
         match *self {
             Self::CutOff { delta } => (delta * length).powi(2),
             Self::Vatistas { radius } | Self::Scully { radius } => radius * radius,
-            Self::LambOseen { radius, viscosity } => {
+            Self::LambOseen { radius, viscosity } | Self::Algebraic { radius, viscosity } => {
                 radius * radius + 4.0 * LAMB_ALPHA * viscosity * age
             }
+        }
+    }
+
+    /// What is added to the squared distance from a node with this squared core radius \[m^2\].
+    pub(crate) fn softening(&self, core: f64) -> f64 {
+        match self {
+            Self::Algebraic { .. } => 0.5 * core,
+            _ => 0.0,
         }
     }
 
@@ -67,6 +86,7 @@ impl CoreModel {
             Self::CutOff { .. } => 2.0 * core,
             Self::Vatistas { .. } => (core * l2).powi(2),
             Self::Scully { .. } => core * l2,
+            Self::Algebraic { .. } => 0.0,
             Self::LambOseen { .. } => LAMB_ALPHA * LOG2_E / (core * l2).max(f64::MIN_POSITIVE),
         }
     }

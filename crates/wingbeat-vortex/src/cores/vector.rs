@@ -99,6 +99,9 @@ pub(crate) trait Core {
     /// Whether targets close to a filament are looked after in double precision: the cut-off has no h.
     const IS_EXACT: bool = true;
 
+    /// Whether distances are softened: then nothing is ever close.
+    const IS_SOFT: bool = false;
+
     /// Numerator and denominator of K from those of the bare filament, both multiplied by `scale`, and what
     /// the core's function, if it has one, is a function of.
     fn fraction<S: Simd, V: SimdFloat<S>>(
@@ -123,6 +126,7 @@ pub(crate) struct CutOff;
 pub(crate) struct Scully;
 pub(crate) struct Vatistas;
 pub(crate) struct LambOseen;
+pub(crate) struct Algebraic;
 
 impl Core for CutOff {
     const IS_EXACT: bool = false;
@@ -136,6 +140,22 @@ impl Core for CutOff {
         term: V::Element,
     ) -> [V; 3] {
         [num, bare + scale * term, num]
+    }
+}
+
+impl Core for Algebraic {
+    const IS_EXACT: bool = false;
+    const IS_SOFT: bool = true;
+
+    #[inline(always)]
+    fn fraction<S: Simd, V: SimdFloat<S>>(
+        num: V,
+        bare: V,
+        _: [V; 3],
+        _: V,
+        _: V::Element,
+    ) -> [V; 3] {
+        [num, bare, num]
     }
 }
 

@@ -15,6 +15,8 @@ pub(crate) struct Block {
     pub x: [f64; BLOCK],
     pub y: [f64; BLOCK],
     pub z: [f64; BLOCK],
+    /// Half the squared core radius \[m2\] of targets that have one.
+    pub softening: [f64; BLOCK],
 }
 
 impl Block {
@@ -23,6 +25,7 @@ impl Block {
         x: [0.0; BLOCK],
         y: [0.0; BLOCK],
         z: [0.0; BLOCK],
+        softening: [0.0; BLOCK],
     };
 
     /// Vector number `lane`.
@@ -48,7 +51,12 @@ pub(crate) fn block_at(points: &Points, range: Range<usize>) -> Block {
     let (mut block, count) = (Block::ZERO, range.len());
     block.x[..count].copy_from_slice(&points.x[range.clone()]);
     block.y[..count].copy_from_slice(&points.y[range.clone()]);
-    block.z[..count].copy_from_slice(&points.z[range]);
+    block.z[..count].copy_from_slice(&points.z[range.clone()]);
+    if let Some(core) = points.core.get(range) {
+        for (soft, core) in block.softening.iter_mut().zip(core) {
+            *soft = 0.5 * core;
+        }
+    }
     block
 }
 
@@ -59,7 +67,7 @@ pub(crate) type Chunk<'a> = [&'a mut [f64]; 3];
 pub(crate) fn par_blocks(
     points: &mut Points,
 ) -> impl IndexedParallelIterator<Item = (usize, Chunk<'_>)> {
-    let Points { x, y, z } = points;
+    let Points { x, y, z, .. } = points;
     x.par_chunks_mut(BLOCK)
         .zip(y.par_chunks_mut(BLOCK))
         .zip(z.par_chunks_mut(BLOCK))
@@ -83,6 +91,12 @@ pub(crate) fn load<S: Simd>(simd: S, block: &Block, lane: usize) -> [S::f64s; 3]
         S::f64s::from_slice(simd, &block.y[lanes.clone()]),
         S::f64s::from_slice(simd, &block.z[lanes]),
     ]
+}
+
+/// What softens the targets in the lanes from `lane` on.
+#[inline(always)]
+pub(crate) fn load_softening<S: Simd>(simd: S, block: &Block, lane: usize) -> S::f64s {
+    S::f64s::from_slice(simd, &block.softening[lane..lane + S::f64s::LEN])
 }
 
 /// Puts vectors into the lanes from `lane` on.

@@ -8,9 +8,9 @@
 use crate::cores::CoreModel;
 use crate::cores::INV_4PI;
 use crate::cores::vector::{
-    Core, CutOff, Double, Float, LambOseen, Precision, Scully, Vatistas, square,
+    Algebraic, Core, CutOff, Double, Float, LambOseen, Precision, Scully, Vatistas, square,
 };
-use crate::direct::block::{BLOCK, Block, Targets, load, store};
+use crate::direct::block::{BLOCK, Block, Targets, load, load_softening, store};
 use crate::direct::packed::{Packed, PackedEdge, Patch, Sources, WINDOW};
 use crate::direct::single::Single;
 use fearless_simd::{Level, SimdFloatElement, dispatch, prelude::*};
@@ -25,6 +25,7 @@ macro_rules! for_core {
             CoreModel::Vatistas { .. } => for_core!(@ $level, $simd, $C = Vatistas, $N = 2, $run),
             CoreModel::Scully { .. } => for_core!(@ $level, $simd, $C = Scully, $N = 2, $run),
             CoreModel::LambOseen { .. } => for_core!(@ $level, $simd, $C = LambOseen, $N = 4, $run),
+            CoreModel::Algebraic { .. } => for_core!(@ $level, $simd, $C = Algebraic, $N = 2, $run),
         }
     };
     (@ $level:expr, $simd:ident, $C:ident = $core:ty, $N:ident = $edges:literal, $run:expr) => {{
@@ -101,7 +102,7 @@ impl Job<'_, f64> {
     ) {
         let mut window = [[S::f64s::splat(simd, 0.0); 4]; WINDOW];
         for lane in (0..self.targets.count).step_by(S::f64s::LEN) {
-            let p = load(simd, self.targets.block, lane);
+            let p = place(simd, self.targets.block, lane);
             let mut v = load(simd, sum, lane);
             for range in ranges.clone() {
                 let patches = &self.sources.patches[range];
@@ -123,7 +124,7 @@ impl Job<'_, f64> {
         let zero = S::f64s::splat(simd, 0.0);
         let (mut window, mut room) = ([[zero; 4]; WINDOW], zero);
         for lane in (0..self.targets.count).step_by(S::f64s::LEN) {
-            let p = load(simd, self.targets.block, lane);
+            let p = place(simd, self.targets.block, lane);
             let n = load(simd, normals, lane);
             for patch in &self.sources.patches[patches.clone()] {
                 let nodes = patch.nodes.clone();
@@ -158,10 +159,13 @@ impl Job<'_, f32> {
             let next = lane + S::f64s::LEN;
             let low = load(simd, self.targets.block, lane);
             let high = load(simd, self.targets.block, next);
+            let soft = [lane, next].map(|lane| load_softening(simd, self.targets.block, lane));
+            let soft = (soft[0] * single.per_unit * single.per_unit)
+                .narrow(soft[1] * single.per_unit * single.per_unit);
             let mut sum_low = load(simd, sum, lane);
             let mut sum_high = load(simd, sum, next);
             for cluster in clusters.clone() {
-                let (mut p, mut v) = ([zero; 3], [zero; 3]);
+                let (mut p, mut v) = ([zero, zero, zero, soft], [zero; 3]);
                 let centre = single.centres[cluster];
                 for i in 0..3 {
                     p[i] = ((low[i] - centre[i]) * single.per_unit)
@@ -191,7 +195,7 @@ impl<E: SimdFloatElement + From<f32>> Sources<'_, E> {
         &self,
         simd: S,
         patches: &[Patch],
-        p: [P::Lanes; 3],
+        p: [P::Lanes; 4],
         window: &mut Window<P::Lanes>,
         v: &mut [P::Lanes; 3],
     ) {
@@ -225,17 +229,18 @@ impl<E: SimdFloatElement + From<f32>> Sources<'_, E> {
         }
     }
 
-    /// r = p - node and abs(r) of these nodes.
+    /// r = p - node and abs(r), softened, of these nodes.
     #[inline(always)]
     fn look_at<S: Simd, P: Precision<S, Element = E>>(
         &self,
-        p: [P::Lanes; 3],
+        p: [P::Lanes; 4],
         nodes: Range<usize>,
         window: &mut Window<P::Lanes>,
     ) {
         for (k, node) in nodes.clone().zip(&self.nodes[nodes]) {
             let r = [p[0] - node[0], p[1] - node[1], p[2] - node[2]];
-            window[k % WINDOW] = [r[0], r[1], r[2], square::<S, _>(r).sqrt()];
+            let r2 = square::<S, _>(r) + (p[3] + node[3]);
+            window[k % WINDOW] = [r[0], r[1], r[2], r2.sqrt()];
         }
     }
 }
@@ -284,13 +289,14 @@ fn induced<S: Simd, P: Precision<S>, C: Core, const N: usize, const CLOSE: bool>
         let b = sum * sum - edge.l2;
         let close = P::Lanes::splat(simd, edge.close);
         let (mut bare, mut scale) = (nn * b, one);
-        if CLOSE && (P::IS_ROUGH || C::IS_EXACT) {
+        let is_bare = (P::IS_ROUGH || C::IS_EXACT) && !C::IS_SOFT;
+        if CLOSE && is_bare {
             let a = nn * four - b;
             let is_beside = close.simd_gt(b) & a.simd_gt(b);
             bare = is_beside.select(nn * (square::<S, _>(c[i]) * four), bare);
             scale = is_beside.select(a, scale);
         }
-        if P::IS_ROUGH || C::IS_EXACT {
+        if is_bare {
             *room = room.min(b - close);
         }
         let top = sum * edge.strength * scale;
@@ -303,6 +309,13 @@ fn induced<S: Simd, P: Precision<S>, C: Core, const N: usize, const CLOSE: bool>
         out[i] = (c[i], den[i].simd_gt(zero).select(k, zero));
     }
     out
+}
+
+/// Targets in the lanes from `lane` on: places, and what softens them.
+#[inline(always)]
+fn place<S: Simd>(simd: S, block: &Block, lane: usize) -> [S::f64s; 4] {
+    let [x, y, z] = load(simd, block, lane);
+    [x, y, z, load_softening(simd, block, lane)]
 }
 
 /// r and abs(r) of the nodes in sight, for the targets in the lanes.

@@ -7,7 +7,7 @@
 use crate::cores::CoreModel;
 use crate::cores::INV_4PI;
 use crate::direct::reference::CLOSE;
-use crate::sources::{Network, Points, Segments};
+use crate::sources::{Network, Segments};
 use glam::DVec3;
 use std::ops::Range;
 
@@ -52,7 +52,7 @@ pub(crate) struct Patch {
 /// Nodes, edges between them, and the order to take them in.
 #[derive(Clone, Copy)]
 pub(crate) struct Sources<'a, E> {
-    pub nodes: &'a [[E; 3]],
+    pub nodes: &'a [[E; 4]],
     pub edges: &'a [PackedEdge<E>],
     pub patches: &'a [Patch],
 }
@@ -60,8 +60,8 @@ pub(crate) struct Sources<'a, E> {
 /// All sources; edges stay in the order given.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Packed {
-    /// Places of nodes [m].
-    pub nodes: Vec<[f64; 3]>,
+    /// Places of nodes [m], and what softens them [m2], [`CoreModel::softening`].
+    pub nodes: Vec<[f64; 4]>,
     pub edges: Vec<PackedEdge<f64>>,
     pub patches: Vec<Patch>,
     /// Node of the network -> where in `nodes` it was last put.
@@ -95,7 +95,8 @@ impl Packed {
         self.open_patch();
         for i in 0..s.len() {
             self.make_room(self.nodes.len());
-            let (from, to) = (self.look_at(s.a(i)), self.look_at(s.b(i)));
+            let soft = model.softening(s.core[i]);
+            let (from, to) = (self.look_at(s.a(i), soft), self.look_at(s.b(i), soft));
             self.add_edge(model, [from, to], s.gamma[i], s.core[i]);
         }
     }
@@ -133,7 +134,7 @@ impl Packed {
                     .min()
                     .expect("two ends"),
             );
-            let places = ends.map(|g| self.place(&network.nodes, g));
+            let places = ends.map(|g| self.place(model, network, (e, g)));
             self.add_edge(model, places, network.gamma[e], network.core[e]);
         }
         first..self.patches.len()
@@ -149,14 +150,16 @@ impl Packed {
         }
     }
 
-    /// Where node `g` is, which is looked at now if it is not in sight.
-    fn place(&mut self, nodes: &Points, g: u32) -> usize {
+    /// Where node `g` of edge `e` is, which is looked at now if it is not in sight.
+    fn place(&mut self, model: CoreModel, network: &Network, (e, g): (usize, u32)) -> usize {
         let k = self.in_sight(g);
         if k < self.nodes.len() {
             return k;
         }
         self.last_seen[g as usize] = k;
-        self.look_at(nodes.get(g as usize))
+        let cores = &network.nodes.core;
+        let core = cores.get(g as usize).unwrap_or(&network.core[e]);
+        self.look_at(network.nodes.get(g as usize), model.softening(*core))
     }
 
     /// Ends the patch if it is full, or if two more nodes would hide one that its edges, or an edge
@@ -181,14 +184,15 @@ impl Packed {
     }
 
     /// Puts a node at the end of the stream; returns where.
-    fn look_at(&mut self, p: DVec3) -> usize {
-        self.nodes.push(p.into());
+    fn look_at(&mut self, p: DVec3, softening: f64) -> usize {
+        self.nodes.push([p.x, p.y, p.z, softening]);
         self.patches.last_mut().expect("a patch is open").nodes.end = self.nodes.len();
         self.nodes.len() - 1
     }
 
     fn add_edge(&mut self, model: CoreModel, [from, to]: [usize; 2], gamma: f64, core: f64) {
-        let r0 = DVec3::from(self.nodes[to]) - DVec3::from(self.nodes[from]);
+        let at = |k: usize| DVec3::from_slice(&self.nodes[k]);
+        let r0 = at(to) - at(from);
         let l2 = r0.x * r0.x + r0.y * r0.y + r0.z * r0.z;
         let (strength, term) = (gamma * (2.0 * INV_4PI), model.kernel_term(core, l2));
         let [from, to] = [from, to].map(|k| (k % WINDOW) as u32);

@@ -16,7 +16,9 @@ use glam::DVec3;
 /// (t^2 - l^2) (4 n1 n2 - t^2 + l^2) = 4 c^2, but for the cut-off.
 ///
 /// The cut-off adds to the denominator; the others multiply by a function of h^2 = c^2 / l^2: c^2 / (c^2 + e)
-/// for Scully, c^2 / sqrt(c^4 + e^2) for Vatistas, e = r_c^2 l^2.
+/// for Scully, c^2 / sqrt(c^4 + e^2) for Vatistas, e = r_c^2 l^2. The algebraic one adds to n1^2 and n2^2 half of
+/// the squared core radius, here of a filament seen from a point: that is the integral along the filament of its kernel,
+/// for the squared distance stays a quadratic along it.
 ///
 /// On the line of the filament, its nodes included, the result is zero.
 ///
@@ -37,12 +39,15 @@ pub fn segment_velocity(
     gamma: f64,
     core: f64,
 ) -> DVec3 {
-    let (r1, r2) = (p - a, p - b);
-    let (n1, n2) = (dot(r1, r1).sqrt(), dot(r2, r2).sqrt());
+    let (r1, r2, soft) = (p - a, p - b, model.softening(core));
+    let [n1, n2] = [r1, r2].map(|r| (dot(r, r) + soft).sqrt());
     let (sum, c, l2) = (n1 + n2, cross(r1, r2), dot(b - a, b - a));
     let (nn, c2, rest) = (n1 * n2, dot(c, c), sum * sum - l2);
     let other = nn * 4.0 - rest;
-    let has_distance = !matches!(model, CoreModel::CutOff { .. });
+    let has_distance = !matches!(
+        model,
+        CoreModel::CutOff { .. } | CoreModel::Algebraic { .. }
+    );
     let is_close = has_distance && l2 * CLOSE > rest && other > rest;
     let (bare, scale) = match is_close {
         true => (nn * (c2 * 4.0), other),
@@ -54,6 +59,7 @@ pub fn segment_velocity(
     );
     let (num, den) = match model {
         CoreModel::CutOff { .. } => (num, bare + scale * term),
+        CoreModel::Algebraic { .. } => (num, bare),
         CoreModel::Scully { .. } => (num * c2, bare * (c2 + term)),
         CoreModel::Vatistas { .. } => (num * c2, bare * (c2 * c2 + term).sqrt()),
         CoreModel::LambOseen { .. } => (num * one_minus_exp2(c2 * term), bare),

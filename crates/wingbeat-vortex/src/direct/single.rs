@@ -24,7 +24,7 @@ const LARGEST: f64 = 1e30;
 /// All sources, the patches those of a [`Packed`].
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Single {
-    nodes: Vec<[f32; 3]>,
+    nodes: Vec<[f32; 4]>,
     edges: Vec<PackedEdge<f32>>,
     patches: Vec<crate::direct::packed::Patch>,
     /// Patches of each cluster.
@@ -57,8 +57,10 @@ impl Single {
             let ends = first.zip(last).map(|(a, b)| a.nodes.start..b.nodes.end);
             let nodes = &packed.nodes[ends.unwrap_or_default()];
             let centre = middle(nodes);
-            let place =
-                |p: &[f64; 3]| [0, 1, 2].map(|i| ((p[i] - centre[i]) * self.per_unit) as f32);
+            let place = |p: &[f64; 4]| {
+                let [x, y, z] = [0, 1, 2].map(|i| ((p[i] - centre[i]) * self.per_unit) as f32);
+                [x, y, z, (p[3] * self.per_unit * self.per_unit) as f32]
+            };
             self.centres.push(centre);
             self.nodes.extend(nodes.iter().map(place));
         }
@@ -82,6 +84,7 @@ impl Single {
         let unit4 = self.per_unit.powi(4);
         match model {
             CoreModel::CutOff { .. } | CoreModel::Scully { .. } => unit4,
+            CoreModel::Algebraic { .. } => 1.0,
             CoreModel::Vatistas { .. } => unit4 * unit4,
             CoreModel::LambOseen { .. } => unit4.recip(),
         }
@@ -98,7 +101,7 @@ impl Single {
 }
 
 /// Middle of the box around the nodes.
-fn middle(nodes: &[[f64; 3]]) -> [f64; 3] {
+fn middle(nodes: &[[f64; 4]]) -> [f64; 3] {
     let ends = |i: usize| {
         let ends = (f64::INFINITY, f64::NEG_INFINITY);
         let (low, high) =

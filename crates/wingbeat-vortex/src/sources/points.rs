@@ -11,6 +11,10 @@ pub struct Points {
     pub y: Vec<f64>,
     /// Components along n3.
     pub z: Vec<f64>,
+    /// Squared core radius \[m2\] of places where velocities are wanted for vorticity of that core
+    /// ([`crate::CoreModel::Algebraic`]); empty: all are points.
+    #[serde(skip)]
+    pub core: Vec<f64>,
 }
 
 impl Points {
@@ -20,6 +24,7 @@ impl Points {
             x: vec![0.0; n],
             y: vec![0.0; n],
             z: vec![0.0; n],
+            core: Vec::new(),
         }
     }
 
@@ -50,11 +55,19 @@ impl Points {
         self.z.push(p.z);
     }
 
+    /// Appends a place of this squared core radius \[m2\]; all of them have one, or none.
+    pub fn push_with_core(&mut self, p: DVec3, core: f64) {
+        debug_assert_eq!(self.core.len(), self.len());
+        self.push(p);
+        self.core.push(core);
+    }
+
     /// Removes all points and keeps the memory.
     pub fn clear(&mut self) {
         self.x.clear();
         self.y.clear();
         self.z.clear();
+        self.core.clear();
     }
 
     /// Makes it `n` points, all zero, and keeps the memory.
@@ -63,6 +76,7 @@ impl Points {
             c.clear();
             c.resize(n, 0.0);
         }
+        self.core.clear();
     }
 
     /// Takes the points of `other` and keeps the memory, which `clone_from` does not.
@@ -70,6 +84,7 @@ impl Points {
         self.x.clone_from(&other.x);
         self.y.clone_from(&other.y);
         self.z.clone_from(&other.z);
+        self.core.clone_from(&other.core);
     }
 
     /// The points in order.

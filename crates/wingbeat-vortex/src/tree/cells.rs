@@ -234,7 +234,7 @@ impl Grower<'_> {
         let change = match self.model {
             CoreModel::CutOff { .. } => 5.0,
             CoreModel::Vatistas { .. } | CoreModel::LambOseen { .. } => 4.00,
-            CoreModel::Scully { .. } => 5.0,
+            CoreModel::Scully { .. } | CoreModel::Algebraic { .. } => 5.0,
         };
         strength * self.network.core[e] * change
     }

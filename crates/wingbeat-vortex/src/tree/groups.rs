@@ -28,6 +28,8 @@ pub(crate) struct Groups {
     sums: Points,
     /// Place of a target among the items.
     place: Vec<u32>,
+    /// Half the squared core radius of each target \[m2\]; empty: all are points.
+    softening: Vec<f64>,
 }
 
 /// Work done for a group.
@@ -62,6 +64,8 @@ impl Groups {
         };
         self.items.extend(targets.iter().enumerate().map(item));
         gather(&mut self.items);
+        self.softening.clear();
+        self.softening.extend(targets.core.iter().map(|c| 0.5 * c));
         self.place.clear();
         self.place.resize(targets.len(), 0);
         for (k, item) in self.items.iter().enumerate() {
@@ -73,13 +77,14 @@ impl Groups {
     /// every far cell.
     pub fn evaluate(&mut self, cells: &Cells, allowed: f64) -> Work {
         self.sums.reset(self.items.len());
-        let Points { x, y, z } = &mut self.sums;
+        let softening = &self.softening;
+        let Points { x, y, z, .. } = &mut self.sums;
         x.par_chunks_mut(GROUP)
             .zip(y.par_chunks_mut(GROUP))
             .zip(z.par_chunks_mut(GROUP))
             .zip(self.items.par_chunks(GROUP))
             .map(|(((x, y), z), items)| {
-                let (sum, work) = Walk::of(cells, items, items, allowed).done();
+                let (sum, work) = Walk::of(cells, items, items, (allowed, softening)).done();
                 let n = items.len();
                 x.copy_from_slice(&sum.x[..n]);
                 y.copy_from_slice(&sum.y[..n]);
@@ -102,7 +107,12 @@ impl Groups {
                 let place = self.place[i] as usize;
                 let first = place / GROUP * GROUP;
                 let group = &self.items[first..self.items.len().min(first + GROUP)];
-                let walk = Walk::of(cells, group, &self.items[place..=place], allowed);
+                let walk = Walk::of(
+                    cells,
+                    group,
+                    &self.items[place..=place],
+                    (allowed, &self.softening),
+                );
                 let (sum, work) = walk.done();
                 *v = DVec3::new(sum.x[0], sum.y[0], sum.z[0]);
                 work
@@ -171,10 +181,16 @@ impl<T> Notes<T> {
 
 impl<'a> Walk<'a> {
     /// For some or all `items` of a group.
-    fn of(cells: &'a Cells, group: &[Item], items: &[Item], allowed: f64) -> Self {
+    fn of(
+        cells: &'a Cells,
+        group: &[Item],
+        items: &[Item],
+        (allowed, softening): (f64, &[f64]),
+    ) -> Self {
         let mut targets = Block::ZERO;
         for (i, item) in items.iter().enumerate() {
-            (targets.x[i], targets.y[i], targets.z[i]) = item.place.into();
+            targets.set(i, item.place);
+            targets.softening[i] = softening.get(item.index as usize).copied().unwrap_or(0.0);
         }
         let places = || group.iter().map(|item| item.place);
         Self {

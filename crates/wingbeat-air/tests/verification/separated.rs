@@ -1,0 +1,104 @@
+//! Separated hover: two ways to one force, and what it hangs on.
+
+use crate::common::{fly, rectangle, total_force};
+use crate::wakes::ALL;
+use wingbeat_air::{AirSettings, CoreModel, Lattice, LoadMethod, NodeMotion, Surface};
+use wingbeat_math::{DVec3, r2, r3};
+
+/// Two wings of 4 x 6 panels that sweep horizontally once a second, at 45 degrees in the middle of each half stroke and
+/// upright where it turns: normal hovering.
+fn normal_hover(t: f64) -> NodeMotion {
+    let w = std::f64::consts::TAU;
+    let (stroke, stroke_rate) = ((w * t).sin(), w * (w * t).cos());
+    let quarter = std::f64::consts::FRAC_PI_4;
+    let (feather, feather_rate) = (
+        2.0 * quarter - quarter * (w * t).cos(),
+        quarter * w * (w * t).sin(),
+    );
+    let mut motion = NodeMotion::default();
+    for side in [1.0, -1.0] {
+        let (hinge, sweep) = (0.2 * side * DVec3::Y, r3(side * stroke));
+        let omega = side * stroke_rate * DVec3::Z + feather_rate * (sweep * DVec3::Y);
+        for x in rectangle(4, 6, DVec3::X, side * 3.0 * DVec3::Y) {
+            let arm = sweep * (r2(feather) * (x - 0.25 * DVec3::X));
+            motion.position.push(hinge + arm);
+            motion.velocity.push(omega.cross(arm));
+        }
+    }
+    motion
+}
+
+/// Vertical force and its rate by impulse, means of each of three beats, all edges shedding; `settings` may change
+/// the settings.
+fn separated_hover(change: impl Fn(&mut AirSettings)) -> [[f64; 2]; 3] {
+    let mut settings = AirSettings {
+        wake_overlap: 1.0,
+        shedding: ALL,
+        loads: LoadMethod::Joukowski,
+        clearance: 0.1,
+        ..AirSettings::accurate(1.2, DVec3::ZERO)
+    };
+    change(&mut settings);
+    let wings = ["right", "left"].map(|name| Surface::grid(name, 4, 6));
+    let lattice = Lattice::new(wings.to_vec(), settings).unwrap();
+    let (mut forces, mut impulses) = (Vec::new(), Vec::new());
+    fly(&lattice, normal_hover, 0.025, 121, |_, _, loads, _| {
+        forces.push(total_force(loads).z);
+        impulses.push(loads.impulse.z);
+    })
+    .unwrap();
+    std::array::from_fn(|beat| {
+        let (first, last) = (40 * beat, 40 * (beat + 1));
+        // The force between two instants is the mean of both.
+        let inner: f64 = forces[first + 1..last].iter().sum();
+        let force = (inner + 0.5 * (forces[first] + forces[last])) / 40.0;
+        [force, impulses[first] - impulses[last]]
+    })
+}
+
+fn core_of(radius: f64) -> [CoreModel; 2] {
+    let viscosity = 0.01;
+    [
+        CoreModel::Algebraic { radius, viscosity },
+        CoreModel::LambOseen { radius, viscosity },
+    ]
+}
+
+#[test]
+fn agrees_second_method_impulse_in_separated_hover() {
+    let with = |k: usize| {
+        separated_hover(|s| {
+            (s.bound_core, s.wake_core) = (core_of(0.01)[k], core_of(0.07)[k]);
+        })
+    };
+    let gap = |[force, impulse]: [f64; 2]| (impulse / force - 1.0).abs();
+    let [symmetric, other] = [0, 1].map(with);
+    println!("force, rate of impulse: algebraic {symmetric:?}, Lamb-Oseen {other:?}");
+    assert!(
+        symmetric.iter().all(|&both| gap(both) < 0.2),
+        "{symmetric:?}"
+    );
+    // Where action is not reaction.
+    assert!(other.iter().any(|&both| gap(both) > 0.4), "{other:?}");
+}
+
+/// The mean force of later beats with half and twice the core of the wake and the clearance.
+#[test]
+fn behaves_separated_lift_hangs_little_on_cores_and_clearance() {
+    let of = |wake: f64, clearance: f64| {
+        let beats = separated_hover(|s| {
+            (s.bound_core, s.wake_core) = (core_of(0.01)[0], core_of(wake)[0]);
+            s.clearance = clearance;
+        });
+        0.5 * (beats[1][0] + beats[2][0])
+    };
+    let nominal = of(0.07, 0.1);
+    for (wake, clearance) in [(0.035, 0.1), (0.14, 0.1), (0.07, 0.05), (0.07, 0.2)] {
+        let change = of(wake, clearance) / nominal - 1.0;
+        println!(
+            "wake core {wake}, clearance {clearance}: {:+.1} %",
+            100.0 * change
+        );
+        assert!(change.abs() < 0.05, "{wake} {clearance}: {change}");
+    }
+}
