@@ -178,7 +178,8 @@ impl BladeWing {
     }
 
     /// What changes the impulse `m w n` of the air at mid chord, and the angular momentum `J q` about
-    /// the span, while w and q stay: force `-m w n'`, couple `-v x m w n - J q (w x e2)`.
+    /// the span, while w and q stay: force `-m w n'`, couple `-v x m w n - J q (w x e2)`, but for its part
+    /// about the span (as for a wing that is not deformed).
     fn add_turning_strip(
         &self,
         strip: &Strip,
@@ -193,9 +194,9 @@ impl BladeWing {
         let impulse = strip.added_mass(rho) * here.dot(n);
         let force = -impulse * (w.cross(n) + twist_rate * e1);
         let spin = strip.added_inertia(rho) * (w.y + twist_rate);
-        let couple = -impulse * here.cross(n) - spin * w.cross(DVec3::Y);
+        let couple = -impulse * here.cross(n).with_y(0.0) - spin * w.cross(DVec3::Y);
         sum.load.force += force;
         sum.load.moment += p.cross(force) + couple;
-        sum.power -= force.dot(p1) + couple.y * twist_rate;
+        sum.power -= force.dot(p1);
     }
 }

@@ -68,7 +68,8 @@ pub enum AddedMass {
     None,
     /// The rate of the momentum `m w` along the normal that the strip gives the air at mid chord,
     /// and of its angular momentum with the added moment of inertia `rho pi/128 c^4 dr` of the
-    /// section (Kirchhoff's equations): loads of a periodic motion have no mean.
+    /// section (Kirchhoff's equations): no mean force over a periodic motion. Munk's couple `m w u`
+    /// is left to the centre of pressure, which it moves from mid chord to a quarter in thin-airfoil theory.
     Impulse,
     /// `-m` times the rate of the normal velocity component at mid chord, along the normal
     /// [Sane & Dickinson 2001]. It stores energy `m w^2/2` and dissipates none, but a wing that turns

@@ -244,14 +244,16 @@ impl BladeWing {
 
     /// What changes the impulse of the air while its components in the wing frame stay: force
     /// `-w x P`, moment `-w x L - v x P` about the hinge, P and L the air's momentum and angular
-    /// momentum about the hinge (Kirchhoff's equations).
+    /// momentum about the hinge (Kirchhoff's equations). About the span that is Munk's couple alone,
+    /// `sum m w u`, and left out: the law of the centre of pressure has it ([`AddedMass::Impulse`]).
     fn add_turning_impulse(&self, v: DVec3, rate: DVec3, sum: &mut Load) {
         let a = &self.added;
         let p = DVec3::new(0.0, 0.0, a.m * v.z + a.my * rate.x - a.mx * rate.y);
         let about_1 = a.my * v.z + a.myy * rate.x - a.mxy * rate.y;
         let about_2 = (a.mxx + a.inertia) * rate.y - a.mx * v.z - a.mxy * rate.x;
         sum.force -= rate.cross(p);
-        sum.moment -= rate.cross(DVec3::new(about_1, about_2, 0.0)) + v.cross(p);
+        let moment = rate.cross(DVec3::new(about_1, about_2, 0.0)) + v.cross(p);
+        sum.moment -= moment.with_y(0.0);
     }
 
     /// Force `-m q w` along the chord, w at mid chord, with its moment.

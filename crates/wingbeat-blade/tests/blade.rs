@@ -155,7 +155,10 @@ fn returns_its_energy(form: AddedMass) {
         };
         let v = m.rotation.transpose() * m.velocity;
         let power_of = |load: Load| load.force.dot(v) + load.moment.dot(m.rate);
-        let power = power_of(wing.load(&m, &acc)) - power_of(without.load(&m, &acc));
+        let mut power = power_of(wing.load(&m, &acc)) - power_of(without.load(&m, &acc));
+        if form == AddedMass::Impulse {
+            power += munk(&wing, &m) * m.rate.y;
+        }
         // E is quadratic in the velocity components: its central difference is exact.
         let rate = m.rotation.transpose() * acc.linear - m.rate.cross(v);
         let h = 1e-3;
@@ -168,6 +171,16 @@ fn returns_its_energy(form: AddedMass) {
         // Only round-off of the difference over h remains.
         assert!((power + slope).abs() < 1e-10 * (1.0 + power.abs()));
     }
+}
+
+/// Munk's couple about the span, `sum m w u`, which the centre of pressure has in it.
+fn munk(wing: &BladeWing, m: &FrameMotion) -> f64 {
+    let v = m.rotation.transpose() * m.velocity;
+    let couple = |s: &Strip| {
+        let at_mid = v + m.rate.cross(DVec3::new(s.x_mid(), s.y, 0.0));
+        PI / 4.0 * RHO * s.chord * s.chord * s.width * at_mid.z * at_mid.x
+    };
+    wing.strips().iter().map(couple).sum()
 }
 
 /// A wing on a moving hinge at the phase x of its beat: where the hinge is, motion, acceleration.
@@ -200,7 +213,8 @@ fn beating(x: f64) -> (DVec3, FrameMotion, FrameAcceleration) {
 
 #[test]
 fn balances_added_mass_by_impulse_has_no_mean_load_over_a_beat() {
-    // Force and moment about a fixed point are rates of a momentum that is periodic. The equidistant
+    // Force and moment about a fixed point are rates of a momentum that is periodic, the moment with
+    // Munk's couple, which the centre of pressure has. The equidistant
     // sum over a smooth periodic function converges faster than any power; 200 points reach round-off.
     let with = |added_mass| {
         wing(
@@ -219,7 +233,8 @@ fn balances_added_mass_by_impulse_has_no_mean_load_over_a_beat() {
             let (p, m, acc) = beating(f64::from(k) / 200.0);
             let (a, b) = (wing.load(&m, &acc), without.load(&m, &acc));
             let force = m.rotation * (a.force - b.force);
-            let moment = m.rotation * (a.moment - b.moment) + p.cross(force);
+            let couple = DVec3::Y * munk(&wing, &m);
+            let moment = m.rotation * (a.moment - b.moment + couple) + p.cross(force);
             for (i, load) in [force, moment].into_iter().enumerate() {
                 sums[i] += load / 200.0;
                 size[i] = size[i].max(load.length());
