@@ -287,7 +287,7 @@ fn rigid_body_beat(
             let load = strips.velocity_load(&FrameMotion {
                 rotation: law.c,
                 velocity: v + w.cross(wing.hinge_b),
-                rate: law.c.transpose() * w + law.angular_velocity(),
+                rate: law.c.transpose() * w + law.w,
             });
             let push = law.c * load.force;
             force += push;

@@ -4,12 +4,12 @@
 //! feathering axis and the rate at which the section itself turns, `q = w2 + tau'`. Sections stay in
 //! planes of axes 1 and 3; camber is left to the coefficients.
 
-use wingbeat_math::DVec3;
+use wingbeat_math::{DVec2, DVec3};
 
+use crate::pair::{self, PairMotion, StripPair};
 use crate::settings::AddedMass;
 use crate::strip::Strip;
 use crate::wing::{BladeWing, FrameAcceleration, FrameMotion, Load};
-use std::f64::consts::PI;
 
 /// How a section lies and moves in the wing frame, wing components.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -75,23 +75,49 @@ impl BladeWing {
         wind: impl Fn(DVec3) -> DVec3,
     ) -> DeformingLoad {
         let v = self.velocity_through_air(motion);
+        let last = self.strips().len().saturating_sub(1);
+        // Velocities along chord and normal and rate of feathering of a section.
+        let moves = |k: usize| {
+            let s = section(k.min(last));
+            let ([e1, e3], [p, p1, _]) = (s.axes(), s.axis);
+            let here = v - wind(p) + motion.rate.cross(p) + p1;
+            [here.dot(e1), here.dot(e3), motion.rate.y + s.twist[1]]
+        };
+        let pair_moves = |k: usize, _: &StripPair| {
+            let (a, b) = (moves(2 * k), moves(2 * k + 1));
+            let [u, w, q] = [0, 1, 2].map(|i| DVec2::new(a[i], b[i]));
+            PairMotion { u, w, q }
+        };
         let mut sum = DeformingLoad::default();
+        pair::forces(self.pairs(), self.settings(), pair_moves, |k, f| {
+            for lane in 0..2.min(self.strips().len() - 2 * k) {
+                let s = section(2 * k + lane);
+                let [e1, e3] = s.axes();
+                sum.add(&s, f.along[lane] * e1 + f.normal[lane] * e3, f.about[lane]);
+            }
+        });
+        self.add_turning(motion, section, |p| v - wind(p), &mut sum);
+        sum
+    }
+
+    /// The part of the added mass that follows from velocities alone; `through(p)` is the velocity
+    /// of the hinge through the air that is at `p`.
+    fn add_turning(
+        &self,
+        motion: &FrameMotion,
+        section: impl Fn(usize) -> SectionMotion,
+        through: impl Fn(DVec3) -> DVec3,
+        sum: &mut DeformingLoad,
+    ) {
+        let add = match self.settings().added_mass {
+            AddedMass::None | AddedMass::Normal => return,
+            AddedMass::Section => Self::add_chordwise,
+            AddedMass::Impulse => Self::add_turning_strip,
+        };
         for (k, strip) in self.strips().iter().enumerate() {
             let s = section(k);
-            let ([e1, e3], [p, p1, _]) = (s.axes(), s.axis);
-            let v = v - wind(p);
-            let here = v + motion.rate.cross(p) + p1;
-            let here = DVec3::new(here.dot(e1), 0.0, here.dot(e3));
-            let rate = DVec3::new(0.0, motion.rate.y + s.twist[1], 0.0);
-            let mut own = Load::default();
-            self.add_strip(&Strip { y: 0.0, ..*strip }, here, rate, &mut own);
-            let force = own.force.x * e1 + own.force.z * e3;
-            sum.add(&s, force, own.moment.y);
-            if self.settings().added_mass == AddedMass::Section {
-                self.add_chordwise(strip, &s, motion, v, &mut sum);
-            }
+            add(self, strip, &s, motion, through(s.axis[0]), sum);
         }
-        sum
     }
 
     /// As [`BladeWing::acceleration_load`], strip `k` lying and moving like `section(k)`; its own
@@ -124,12 +150,10 @@ impl BladeWing {
             let v_rate = through.hinge_rate + through.turn.cross(p) + through.w.cross(p1) + p2;
             // Rate of v . n; the normal turns by tau' towards the leading edge.
             let rate = v_rate.dot(n) + s.twist[1] * v.dot(e1);
-            let force = -self.strip_mass(strip) * rate;
-            let inertia = match self.settings().added_mass {
-                AddedMass::Section => {
-                    PI / 128.0 * self.settings().density * strip.chord.powi(4) * strip.width
-                }
-                _ => 0.0,
+            let force = -strip.added_mass(self.settings().density) * rate;
+            let inertia = match self.settings().added_mass.has_inertia() {
+                true => strip.added_inertia(self.settings().density),
+                false => 0.0,
             };
             let turn = through.turn.y + s.twist[2];
             sum.add(&s, force * n, -x * force - inertia * turn);
@@ -149,11 +173,30 @@ impl BladeWing {
         let ([e1, n], [p, p1, _]) = (s.axes(), s.point(strip.x_mid()));
         let normal = (v + motion.rate.cross(p) + p1).dot(n);
         let q = motion.rate.y + s.twist[1];
-        sum.add(s, -self.strip_mass(strip) * q * normal * e1, 0.0);
+        let mass = strip.added_mass(self.settings().density);
+        sum.add(s, -mass * q * normal * e1, 0.0);
     }
 
-    /// Added mass of a strip [kg].
-    fn strip_mass(&self, s: &Strip) -> f64 {
-        0.25 * PI * self.settings().density * s.chord * s.chord * s.width
+    /// What changes the impulse `m w n` of the air at mid chord, and the angular momentum `J q` about
+    /// the span, while w and q stay: force `-m w n'`, couple `-v x m w n - J q (w x e2)`, but for its part
+    /// about the span (as for a wing that is not deformed).
+    fn add_turning_strip(
+        &self,
+        strip: &Strip,
+        s: &SectionMotion,
+        motion: &FrameMotion,
+        v: DVec3,
+        sum: &mut DeformingLoad,
+    ) {
+        let ([e1, n], [p, p1, _]) = (s.axes(), s.point(strip.x_mid()));
+        let (w, rho, twist_rate) = (motion.rate, self.settings().density, s.twist[1]);
+        let here = v + w.cross(p) + p1;
+        let impulse = strip.added_mass(rho) * here.dot(n);
+        let force = -impulse * (w.cross(n) + twist_rate * e1);
+        let spin = strip.added_inertia(rho) * (w.y + twist_rate);
+        let couple = -impulse * here.cross(n).with_y(0.0) - spin * w.cross(DVec3::Y);
+        sum.load.force += force;
+        sum.load.moment += p.cross(force) + couple;
+        sum.power -= force.dot(p1);
     }
 }

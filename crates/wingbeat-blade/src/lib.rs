@@ -6,9 +6,9 @@
 //!    ([`coefficients`]: published sets by name, or the user's own numbers);
 //! 2. the rotational force of a wing that feathers while it sweeps, `rho U Gamma_rot`
 //!    [Sane & Dickinson 2002], or [Berman & Wang 2007] with its viscous moment;
-//! 3. the added mass, `rho pi/4 c^2` times the rate of the normal velocity at mid chord
-//!    [Sane & Dickinson 2001], linear in the accelerations and kept apart for that reason:
-//!    whoever integrates the motion can put it on the left-hand side.
+//! 3. the added mass, the rate of the momentum `rho pi/4 c^2 w` that the strip gives the air at mid
+//!    chord, or other published forms ([`AddedMass`]). What is linear in the accelerations is kept
+//!    apart: whoever integrates the motion can put it on the left-hand side.
 //!
 //! Optional: drag of the body ([`BodyDrag`]). [`DerivativeTable`] is simpler still: the loads on a whole animal, linear
 //! about a reference flight.
@@ -24,7 +24,8 @@
 //! | Gamma_rot | - | `C_rot c^2 q` | m2/s |
 //!
 //! A section is taken as symmetric fore and aft: air from the trailing edge (u < 0) gives the
-//! mirrored force. Velocities along the span are ignored, as in all the sources. Twist and bending of
+//! mirrored force. Velocities along the span are ignored, as in all the sources, but by the moment of
+//! the added momentum. Twist and bending of
 //! a wing place and move its strips ([`SectionMotion`]).
 //!
 //! What this crate does not know: wakes, neighbouring strips, animals, coordinates, time.
@@ -34,6 +35,7 @@ pub mod coefficients;
 mod deforming;
 mod derivatives;
 mod error;
+mod pair;
 mod settings;
 mod strip;
 mod wing;

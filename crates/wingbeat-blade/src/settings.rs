@@ -66,8 +66,14 @@ pub enum Rotation {
 pub enum AddedMass {
     /// Left out.
     None,
+    /// The rate of the momentum `m w` along the normal that the strip gives the air at mid chord,
+    /// and of its angular momentum with the added moment of inertia `rho pi/128 c^4 dr` of the
+    /// section (Kirchhoff's equations): no mean force over a periodic motion. Munk's couple `m w u`
+    /// is left to the centre of pressure, which it moves from mid chord to a quarter in thin-airfoil theory.
+    Impulse,
     /// `-m` times the rate of the normal velocity component at mid chord, along the normal
-    /// [Sane & Dickinson 2001]. It stores energy `m w^2/2` and dissipates none.
+    /// [Sane & Dickinson 2001]. It stores energy `m w^2/2` and dissipates none, but a wing that turns
+    /// feels a mean force of it.
     Normal,
     /// With the force `-m q w` along the chord and the added moment of inertia
     /// `rho pi/128 c^4 dr` of the section [Berman & Wang 2007; form of the equations from memory].
@@ -85,9 +91,16 @@ pub struct ViscousMoment {
     pub quadratic: f64,
 }
 
+impl AddedMass {
+    /// Whether the section's added moment of inertia belongs to it.
+    pub(crate) fn has_inertia(self) -> bool {
+        matches!(self, Self::Impulse | Self::Section)
+    }
+}
+
 impl BladeSettings {
     /// The default for small insects in still air: coefficients `dickson-2008`, circulation of
-    /// feathering, normal added mass, `Cosine` centre of pressure.
+    /// feathering, added mass by impulse, `Cosine` centre of pressure.
     pub fn insect(density: f64) -> Self {
         Self {
             density,
@@ -95,7 +108,7 @@ impl BladeSettings {
             translation: find_set("dickson-2008").expect("a shipped set").law,
             centre_of_pressure: CentreOfPressure::Cosine,
             rotation: Rotation::Circulation,
-            added_mass: AddedMass::Normal,
+            added_mass: AddedMass::Impulse,
             viscous: None,
         }
     }

@@ -1,5 +1,7 @@
 //! A strip of a wing.
 
+use std::f64::consts::PI;
+
 use crate::error::BladeError;
 
 /// A strip of a flat wing across its span, in the wing frame (origin at the hinge, axis 1 to
@@ -25,6 +27,16 @@ impl Strip {
     /// Feathering axis behind the leading edge over the chord, x0 \[1\].
     pub fn x0(&self) -> f64 {
         self.x_leading / self.chord
+    }
+
+    /// Added mass m = rho pi/4 c^2 dr in air of the density `rho` \[kg\].
+    pub(crate) fn added_mass(&self, rho: f64) -> f64 {
+        0.25 * PI * rho * self.chord * self.chord * self.width
+    }
+
+    /// Added moment of inertia about mid chord, rho pi/128 c^4 dr [kg m2].
+    pub(crate) fn added_inertia(&self, rho: f64) -> f64 {
+        PI / 128.0 * rho * self.chord.powi(4) * self.width
     }
 
     /// Strips of equal width of a rectangular wing whose surface runs from `root` to `tip` \[m\]

@@ -1,12 +1,10 @@
 //! Loads on one wing from the motion of its frame.
 
-use std::f64::consts::PI;
+use wingbeat_math::{DMat3, DVec2, DVec3};
 
-use wingbeat_math::{DMat3, DVec3};
-
-use crate::coefficients::Translation;
 use crate::error::BladeError;
-use crate::settings::{AddedMass, BladeSettings, CentreOfPressure, Rotation};
+use crate::pair::{self, PairMotion, StripPair};
+use crate::settings::{AddedMass, BladeSettings};
 use crate::strip::Strip;
 
 /// How the frame of a wing moves.
@@ -42,6 +40,7 @@ pub struct Load {
 #[derive(Clone, Debug, PartialEq)]
 pub struct BladeWing {
     strips: Vec<Strip>,
+    pairs: Vec<StripPair>,
     settings: BladeSettings,
     added: AddedMoments,
 }
@@ -67,15 +66,15 @@ impl AddedMoments {
         }
         for s in strips {
             let (x, y) = (s.x_mid(), s.y);
-            let m = 0.25 * PI * settings.density * s.chord * s.chord * s.width;
+            let m = s.added_mass(settings.density);
             a.m += m;
             a.mx += m * x;
             a.my += m * y;
             a.mxx += m * x * x;
             a.mxy += m * x * y;
             a.myy += m * y * y;
-            if settings.added_mass == AddedMass::Section {
-                a.inertia += PI / 128.0 * settings.density * s.chord.powi(4) * s.width;
+            if settings.added_mass.has_inertia() {
+                a.inertia += s.added_inertia(settings.density);
             }
         }
         a
@@ -110,6 +109,7 @@ impl BladeWing {
             .try_for_each(|(k, s)| s.check(k))?;
         let added = AddedMoments::of(&strips, &settings);
         Ok(Self {
+            pairs: StripPair::all(&strips, &settings),
             strips,
             settings,
             added,
@@ -141,14 +141,17 @@ impl BladeWing {
     /// point [m] of the wing frame, wing components.
     pub fn velocity_load_in(&self, motion: &FrameMotion, wind: impl Fn(DVec3) -> DVec3) -> Load {
         let v = self.velocity_through_air(motion);
-        let mut sum = Load::default();
-        for strip in &self.strips {
-            let through = v - wind(DVec3::new(0.0, strip.y, 0.0));
-            self.add_strip(strip, through, motion.rate, &mut sum);
-        }
-        if self.settings.added_mass == AddedMass::Section {
-            let through = v - wind(self.added.centre());
-            self.add_chordwise_added_mass(through, motion.rate, &mut sum);
+        let mut sum = self.strip_load(v, motion.rate, &wind);
+        match self.settings.added_mass {
+            AddedMass::None | AddedMass::Normal => {}
+            AddedMass::Section => {
+                let through = v - wind(self.added.centre());
+                self.add_chordwise_added_mass(through, motion.rate, &mut sum);
+            }
+            AddedMass::Impulse => {
+                let through = v - wind(self.added.centre());
+                self.add_turning_impulse(through, motion.rate, &mut sum);
+            }
         }
         sum
     }
@@ -206,63 +209,51 @@ impl BladeWing {
         motion.rotation.transpose() * (motion.velocity - self.settings.free_stream)
     }
 
-    /// Translation, rotation and viscous moment of one strip.
-    pub(crate) fn add_strip(&self, s: &Strip, v: DVec3, rate: DVec3, sum: &mut Load) {
-        // Velocity of the strip's point on the feathering axis, v + rate x (0, y, 0).
-        let (u, w) = (v.x - rate.z * s.y, v.z + rate.x * s.y);
-        let speed = (u * u + w * w).sqrt();
-        let rho = self.settings.density;
-        let (mut f1, mut f3) = (0.0, 0.0);
-        let mut x_cp = s.x_mid();
-        if speed > 0.0 {
-            let (cos, sin) = (u / speed, w / speed);
-            let [lift, drag] = section_force(&self.settings.translation, sin, cos);
-            let pressure = 0.5 * rho * s.chord * s.width * speed * speed;
-            // Lift across the velocity and against w; drag against the velocity.
-            f1 = pressure * (lift * sin.abs() * cos.signum() - drag * cos);
-            f3 = -pressure * (lift * cos.abs() * sin.signum() + drag * sin);
-            let [r1, r3] = self.rotation_force(s, u, w, speed, rate.y);
-            (f1, f3) = (f1 + r1, f3 + r3);
-            x_cp = s.x_leading - s.chord * self.centre_of_pressure(sin, cos);
-        }
-        let viscous = self.settings.viscous.map_or(0.0, |m| {
-            let c4 = s.chord.powi(4) * s.width;
-            -PI / 16.0 * rho * c4 * (m.linear + m.quadratic * rate.y.abs()) * rate.y
-        });
-        sum.force += DVec3::new(f1, 0.0, f3);
-        // (x, y, 0) x (f1, 0, f3)
-        sum.moment += DVec3::new(s.y * f3, viscous - x_cp * f3, -s.y * f1);
-    }
-
-    /// Force along axes 1 and 3 of feathering at the rate `q`: `rho Gamma` across the velocity.
-    fn rotation_force(&self, s: &Strip, u: f64, w: f64, speed: f64, q: f64) -> [f64; 2] {
-        let coefficient = match self.settings.rotation {
-            Rotation::None => return [0.0; 2],
-            Rotation::SaneDickinson | Rotation::Circulation => PI * (0.75 - s.x0()),
-            Rotation::Coefficient(c) => c,
-        };
-        let strength = self.settings.density * coefficient * s.chord * s.chord * q * s.width;
-        match self.settings.rotation {
-            Rotation::SaneDickinson => [0.0, -strength * speed * u.signum()],
-            _ => [strength * w, -strength * u],
-        }
-    }
-
-    /// Centre of pressure behind the leading edge over the chord.
-    fn centre_of_pressure(&self, sin: f64, cos: f64) -> f64 {
-        let from_edge_met = match self.settings.centre_of_pressure {
-            CentreOfPressure::Cosine => return 0.5 - 0.25 * cos,
-            CentreOfPressure::Fixed(x) => x,
-            CentreOfPressure::Chen2016 => {
-                let alpha = sin.abs().atan2(cos.abs());
-                0.25 + 0.25 / (1.0 + (5.0 * (1.0 - 4.0 * alpha / PI)).exp())
+    /// Translation, rotation and viscous moment of all strips; the hinge moves with `v` through air
+    /// without wind.
+    fn strip_load(&self, v: DVec3, rate: DVec3, wind: &impl Fn(DVec3) -> DVec3) -> Load {
+        let motion = |_: usize, pair: &StripPair| {
+            let [a, b] = [pair.y.x, pair.y.y].map(|y| v - wind(DVec3::new(0.0, y, 0.0)));
+            // Velocity of the points on the feathering axis, v + rate x (0, y, 0).
+            PairMotion {
+                u: DVec2::new(a.x, b.x) - rate.z * pair.y,
+                w: DVec2::new(a.z, b.z) + rate.x * pair.y,
+                q: DVec2::splat(rate.y),
             }
         };
-        if cos < 0.0 {
-            1.0 - from_edge_met
-        } else {
-            from_edge_met
+        let mut sums = [DVec2::ZERO; 5];
+        pair::forces(&self.pairs, &self.settings, motion, |k, f| {
+            let y = self.pairs[k].y;
+            sums[0] += f.along;
+            sums[1] += f.normal;
+            sums[2] += y * f.normal;
+            sums[3] += f.about;
+            sums[4] -= y * f.along;
+        });
+        let [along, normal, about_1, about_2, about_3] = sums.map(|s| s.x + s.y);
+        Load {
+            force: DVec3::new(along, 0.0, normal),
+            moment: DVec3::new(about_1, about_2, about_3),
         }
+    }
+
+    /// The strips, two by two.
+    pub(crate) fn pairs(&self) -> &[StripPair] {
+        &self.pairs
+    }
+
+    /// What changes the impulse of the air while its components in the wing frame stay: force
+    /// `-w x P`, moment `-w x L - v x P` about the hinge, P and L the air's momentum and angular
+    /// momentum about the hinge (Kirchhoff's equations). About the span that is Munk's couple alone,
+    /// `sum m w u`, and left out: the law of the centre of pressure has it ([`AddedMass::Impulse`]).
+    fn add_turning_impulse(&self, v: DVec3, rate: DVec3, sum: &mut Load) {
+        let a = &self.added;
+        let p = DVec3::new(0.0, 0.0, a.m * v.z + a.my * rate.x - a.mx * rate.y);
+        let about_1 = a.my * v.z + a.myy * rate.x - a.mxy * rate.y;
+        let about_2 = (a.mxx + a.inertia) * rate.y - a.mx * v.z - a.mxy * rate.x;
+        sum.force -= rate.cross(p);
+        let moment = rate.cross(DVec3::new(about_1, about_2, 0.0)) + v.cross(p);
+        sum.moment -= moment.with_y(0.0);
     }
 
     /// Force `-m q w` along the chord, w at mid chord, with its moment.
@@ -273,9 +264,4 @@ impl BladeWing {
         sum.force.x -= rate.y * momentum;
         sum.moment.z += rate.y * moment;
     }
-}
-
-/// Lift and drag coefficient of a section in air from the direction (cos, sin), of either sign.
-fn section_force(law: &Translation, sin: f64, cos: f64) -> [f64; 2] {
-    law.of_direction(sin.abs(), cos.abs())
 }

@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use wingbeat_blade::*;
-use wingbeat_math::{DMat3, DVec3, r1, r2, r3};
+use wingbeat_math::{DMat3, DVec3, MovingRotation, r1, r2, r3};
 
 const RHO: f64 = 1.2;
 
@@ -105,7 +105,7 @@ fn exact_added_mass_of_a_plate() {
     // A plate accelerated along its normal: pi/4 rho c^2 per unit span; spun up about mid chord:
     // no force, and the moment pi/128 rho c^4 of the section alone.
     let settings = BladeSettings {
-        added_mass: AddedMass::Section,
+        added_mass: AddedMass::Impulse,
         ..BladeSettings::insect(RHO)
     };
     let plate = BladeWing::new(Strip::rectangle(1, [-0.5, 0.5], 0.4, 0.2, 1.0), settings).unwrap();
@@ -134,19 +134,31 @@ fn exact_added_mass_of_a_plate() {
 #[test]
 fn balances_added_mass_returns_its_energy() {
     // Power of the added-mass load = -dE/dt of the air it moves, in any motion.
-    let settings = BladeSettings {
-        rotation: Rotation::None,
+    for form in [AddedMass::Normal, AddedMass::Impulse] {
+        returns_its_energy(form);
+    }
+}
+
+fn returns_its_energy(form: AddedMass) {
+    let with = |added_mass| BladeSettings {
+        added_mass,
         ..BladeSettings::insect(RHO)
     };
-    let wing = wing(settings, 7, 1.0);
+    let (without, wing) = (
+        wing(with(AddedMass::None), 7, 1.0),
+        wing(with(form), 7, 1.0),
+    );
     for (k, m) in motions().enumerate() {
         let acc = FrameAcceleration {
             linear: DVec3::new(1.0, -2.0, 0.1 * k as f64),
             angular: DVec3::new(-1.5, 0.3, 2.0),
         };
-        let load = wing.acceleration_load(&m, &acc);
         let v = m.rotation.transpose() * m.velocity;
-        let power = load.force.dot(v) + load.moment.dot(m.rate);
+        let power_of = |load: Load| load.force.dot(v) + load.moment.dot(m.rate);
+        let mut power = power_of(wing.load(&m, &acc)) - power_of(without.load(&m, &acc));
+        if form == AddedMass::Impulse {
+            power += munk(&wing, &m) * m.rate.y;
+        }
         // E is quadratic in the velocity components: its central difference is exact.
         let rate = m.rotation.transpose() * acc.linear - m.rate.cross(v);
         let h = 1e-3;
@@ -159,6 +171,82 @@ fn balances_added_mass_returns_its_energy() {
         // Only round-off of the difference over h remains.
         assert!((power + slope).abs() < 1e-10 * (1.0 + power.abs()));
     }
+}
+
+/// Munk's couple about the span, `sum m w u`, which the centre of pressure has in it.
+fn munk(wing: &BladeWing, m: &FrameMotion) -> f64 {
+    let v = m.rotation.transpose() * m.velocity;
+    let couple = |s: &Strip| {
+        let at_mid = v + m.rate.cross(DVec3::new(s.x_mid(), s.y, 0.0));
+        PI / 4.0 * RHO * s.chord * s.chord * s.width * at_mid.z * at_mid.x
+    };
+    wing.strips().iter().map(couple).sum()
+}
+
+/// A wing on a moving hinge at the phase x of its beat: where the hinge is, motion, acceleration.
+fn beating(x: f64) -> (DVec3, FrameMotion, FrameAcceleration) {
+    let wave = |k: f64, a: f64, shift: f64| {
+        let (s, c) = (2.0 * PI * k * x + shift).sin_cos();
+        [a * s, 2.0 * PI * k * a * c, -4.0 * PI * PI * k * k * a * s]
+    };
+    let turned = MovingRotation::about(1, [0.4, 0.0, 0.0])
+        .then(&MovingRotation::about(0, wave(1.0, 1.1, 0.3)))
+        .then(&MovingRotation::about(2, wave(2.0, 0.2, 0.9)))
+        .then(&MovingRotation::about(1, wave(1.0, 0.8, 1.7)));
+    let place = [
+        wave(1.0, 0.3, 0.2),
+        wave(2.0, 0.1, 0.5),
+        wave(1.0, 0.2, 1.0),
+    ];
+    let at = |k: usize| DVec3::new(place[0][k], place[1][k], place[2][k]);
+    let motion = FrameMotion {
+        rotation: turned.c,
+        velocity: at(1),
+        rate: turned.w,
+    };
+    let acc = FrameAcceleration {
+        linear: at(2),
+        angular: turned.w_dot,
+    };
+    (at(0), motion, acc)
+}
+
+#[test]
+fn balances_added_mass_by_impulse_has_no_mean_load_over_a_beat() {
+    // Force and moment about a fixed point are rates of a momentum that is periodic, the moment with
+    // Munk's couple, which the centre of pressure has. The equidistant
+    // sum over a smooth periodic function converges faster than any power; 200 points reach round-off.
+    let with = |added_mass| {
+        wing(
+            BladeSettings {
+                added_mass,
+                ..BladeSettings::insect(RHO)
+            },
+            9,
+            -1.0,
+        )
+    };
+    let without = with(AddedMass::None);
+    let mean = |form: AddedMass| {
+        let (wing, mut sums, mut size) = (with(form), [DVec3::ZERO; 2], [0.0_f64; 2]);
+        for k in 0..200 {
+            let (p, m, acc) = beating(f64::from(k) / 200.0);
+            let (a, b) = (wing.load(&m, &acc), without.load(&m, &acc));
+            let force = m.rotation * (a.force - b.force);
+            let couple = DVec3::Y * munk(&wing, &m);
+            let moment = m.rotation * (a.moment - b.moment + couple) + p.cross(force);
+            for (i, load) in [force, moment].into_iter().enumerate() {
+                sums[i] += load / 200.0;
+                size[i] = size[i].max(load.length());
+            }
+        }
+        [0, 1].map(|i| sums[i].length() / size[i])
+    };
+    let [force, moment] = mean(AddedMass::Impulse);
+    println!("means over largest: force {force:.1e}, moment {moment:.1e}");
+    assert!(force < 1e-15 && moment < 1e-15); // roundings of 200 terms
+    // The form that looks at the normal alone does push: that is what the impulse is for.
+    assert!(mean(AddedMass::Normal)[0] > 1e-2);
 }
 
 #[test]

@@ -10,15 +10,30 @@ use wingbeat_model::motion::Adjustment;
 
 use super::LoadedCase;
 use super::raw::{
-    AirCase, AirModel, BodyCase, Case, DerivativesCase, FlightCase, JointKind, Mode, MotionCase,
-    StartCase,
+    AirCase, AirModel, BodyCase, Case, CorrectorCase, DerivativesCase, DynamicsCase, FlightCase,
+    Formulation, IntegratorCase, JointKind, Mode, MotionCase, StartCase, TimeCase,
 };
 use crate::loaded::written;
 
 /// The case of a trimmed flight as TOML: the given case with the adjusted wing motion, hinges and
-/// the state of body and free joints at the start of the periodic beat, impulsively started.
+/// the state of body and free joints at the start of the periodic beat, impulsively started, in the
+/// trim's steps by the trim's method: what was trimmed is what flies.
 pub fn trimmed_case(case: &LoadedCase, trim: &Trim) -> String {
     let mut raw = adjusted(case, &trim.adjustment, trim.mass_centre);
+    let time = &case.setup.time;
+    let flown = time.steps as f64 * time.step / trim.beat.period();
+    raw.time = TimeCase {
+        steps_per_beat: Some(trim.beat.steps()),
+        beats: raw.time.beats.or(Some(flown)),
+        ..TimeCase::default()
+    };
+    raw.dynamics = DynamicsCase {
+        formulation: Formulation::Momentum.into(),
+        wings: raw.dynamics.wings,
+        integrator: IntegratorCase::RungeKutta.into(),
+        ..DynamicsCase::default()
+    };
+    raw.corrector = CorrectorCase::default(); // of integrators that iterate
     for (name, coordinates, rates) in trim.beat.joints(&trim.state) {
         // Joints that are mirror images are not in the file.
         let Some(joint) = raw.joint.get_mut(&name) else {

@@ -14,7 +14,7 @@ use wingbeat_dynamics::{
 #[path = "../tests/common/mod.rs"]
 mod common;
 use common::*;
-use wingbeat_math::{DMat3, DVec3, MovingRotation, RotationLaw, tilde};
+use wingbeat_math::{DMat3, DVec3, MovingRotation, RotationLaw};
 
 fn main() {
     divan::main();
@@ -39,11 +39,10 @@ impl RotationLaw for Simple {
         );
         let v = DVec3::new(cb * da, db, sb * da);
         let v_dot = DVec3::new(cb * dda - sb * db * da, ddb, sb * dda + cb * db * da);
-        let turn = tilde(v);
         MovingRotation {
             c: r,
-            c_dot: r * turn,
-            c_ddot: r * (tilde(v_dot) + turn * turn),
+            w: v,
+            w_dot: v_dot,
         }
     }
 }

@@ -101,24 +101,26 @@ pub(crate) fn wrench(r: DMat3, load: &Six) -> Wrench {
     }
 }
 
-/// Solves `A x = b` for a symmetric positive definite A by `L D L^T`, without pivoting.
+/// Solves `A x = b` for a symmetric positive definite A by `L D L^T`, without pivoting; only the
+/// lower half of A is read.
 pub(crate) fn solve_symmetric(a: &mut [Six; 6], x: &mut Six) {
+    let mut inverse = [0.0; 6];
     for k in 0..6 {
-        let inverse = 1.0 / a[k][k];
+        inverse[k] = 1.0 / a[k][k];
+        // Column k of L goes where row k of the upper half is.
         for i in k + 1..6 {
-            let factor = a[i][k] * inverse;
-            for j in i..6 {
-                a[j][i] -= factor * a[j][k];
-            }
-            x[i] -= factor * x[k];
+            a[k][i] = a[i][k] * inverse[k];
+            x[i] -= a[k][i] * x[k];
         }
-        // Column k of L replaces that of A after all updates that need it.
         for i in k + 1..6 {
-            a[k][i] = a[i][k] * inverse;
+            let entry = a[i][k];
+            for j in k + 1..=i {
+                a[i][j] -= entry * a[k][j];
+            }
         }
     }
     for k in (0..6).rev() {
-        x[k] /= a[k][k];
+        x[k] *= inverse[k];
         for i in k + 1..6 {
             x[k] -= a[k][i] * x[i];
         }

@@ -6,6 +6,13 @@ use crate::body::inertia_wrench;
 pub use crate::body::kinetic_energy;
 use crate::{Body, BodyAcceleration, BodyMotion, Budget, System, Wrench};
 
+/// Mass centre of the system \[m\], N components.
+pub fn mass_centre(system: &System, motions: &[BodyMotion]) -> DVec3 {
+    let parts = system.bodies().iter().zip(motions);
+    let moments = parts.map(|(b, m)| b.mass.mass * m.p + m.r * b.mass.first_moment);
+    moments.sum::<DVec3>() / system.total_mass()
+}
+
 /// Energies, mass centre and momenta of the system.
 pub fn budget(system: &System, motions: &[BodyMotion]) -> Budget {
     let mass = system.total_mass();

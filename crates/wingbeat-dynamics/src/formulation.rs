@@ -16,6 +16,11 @@ pub trait Formulation: Send + Sync {
     /// Length of the state vector y.
     fn dim(&self) -> usize;
 
+    /// Whether a support carries the root.
+    fn is_supported(&self) -> bool {
+        false
+    }
+
     /// Room for intermediate results.
     fn workspace(&self) -> Workspace {
         Workspace::new(self.system())

@@ -27,7 +27,6 @@ use wingbeat_math::{DQuat, DVec3};
 use self::joints::{move_joints, write_joint_rates};
 use self::state::{State, turn};
 use self::whole::{momentum_rate, total_load, whole_load};
-use crate::added_mass::{Six, six};
 use crate::budget::{budget, load_power};
 use crate::check::{check_rotation, check_state};
 use crate::formulation::add_by_response;
@@ -70,15 +69,12 @@ impl MomentumForm {
 
     /// Postures and whole at time `t` into `ws`, known already if it was the last time asked for
     /// and no joint is free.
-    fn lay(&self, t: f64, y: &[f64], ws: &mut Workspace) -> Composite {
-        if let Some((at, whole)) = ws.prescribed
-            && at == t
-        {
-            return whole;
+    fn lay(&self, t: f64, y: &[f64], ws: &mut Workspace) {
+        if ws.prescribed != Some(t) {
+            (ws.whole, ws.whole_rates) =
+                (ws.posture).lay(&self.system, t, self.free(y), self.table.as_deref());
+            ws.prescribed = (self.system.coordinates() == 0).then_some(t);
         }
-        let whole = (ws.posture).lay(&self.system, t, self.free(y), self.table.as_deref());
-        ws.prescribed = (self.system.coordinates() == 0).then_some((t, whole));
-        whole
     }
 
     /// Free joint coordinates and speeds in the state.
@@ -147,22 +143,16 @@ impl MomentumForm {
         })
     }
 
-    /// Motions of all bodies into `ws.motions`; returns the state and the whole.
-    fn unfold(
-        &self,
-        t: f64,
-        y: &[f64],
-        ws: &mut Workspace,
-    ) -> Result<(State, Composite), DynamicsError> {
+    /// Motions of all bodies into `ws.motions`, the whole into `ws.whole`; returns the state.
+    fn unfold(&self, t: f64, y: &[f64], ws: &mut Workspace) -> Result<State, DynamicsError> {
         let state = State::read(t, y)?;
-        if let Some(whole) = ws.known(t, y) {
-            return Ok((state, whole));
+        if !ws.knows(t, y) {
+            self.lay(t, y, ws);
+            let root = self.root_motion(t, &state, &ws.whole)?;
+            ws.posture.motions(&root, &mut ws.motions);
+            ws.note(t, y);
         }
-        let whole = self.lay(t, y, ws);
-        let root = self.root_motion(t, &state, &whole)?;
-        ws.posture.motions(&root, &mut ws.motions);
-        ws.note(t, y, whole);
-        Ok((state, whole))
+        Ok(state)
     }
 
     /// Accelerations of all bodies from Newton's and Euler's laws for the whole system.
@@ -170,12 +160,11 @@ impl MomentumForm {
         &self,
         t: f64,
         x_c: DVec3,
-        whole: &Composite,
         load: &Wrench,
         ws: &Workspace,
         out: &mut [BodyAcceleration],
     ) -> Result<(), DynamicsError> {
-        let root = ws.motions[0];
+        let (root, whole) = (ws.motions[0], &ws.whole);
         // With the root's accelerations zero, the momenta change at the rate of the bias.
         ws.posture
             .accelerations(&root, &BodyAcceleration::default(), out);
@@ -186,31 +175,6 @@ impl MomentumForm {
         let acc = BodyAcceleration { linear, angular };
         ws.posture.accelerations(&root, &acc, out);
         Ok(())
-    }
-
-    /// Acceleration of the mass centre and angular acceleration of the root (root components) under
-    /// `loads` and the added masses, less those at rest; rates of the momenta at rest. Motions as
-    /// [`Self::unfold`] left them; accelerations at rest into `ws.bias`.
-    fn accelerate_with(
-        &self,
-        added: &[AddedMass],
-        loads: &[Wrench],
-        state: &State,
-        whole: &Composite,
-        ws: &mut Workspace,
-    ) -> (Six, Wrench) {
-        let load = total_load(&self.system, loads, &ws.motions, state.centre);
-        let root = ws.motions[0];
-        let still = BodyAcceleration::default();
-        ws.posture.accelerations(&root, &still, &mut ws.bias);
-        let bias = momentum_rate(&self.system, &ws.motions, &ws.bias, state.centre);
-        let back = root.r.transpose();
-        let mut x = six(
-            back * (load.force - bias.force),
-            back * (load.moment - bias.moment),
-        );
-        added::accelerate(added, whole, ws, &mut x);
-        (x, bias)
     }
 }
 
@@ -262,20 +226,20 @@ impl Formulation for MomentumForm {
         dy: &mut [f64],
     ) -> Result<(), DynamicsError> {
         if self.system.speeds() > 0 {
-            let (state, whole) = self.unfold(t, y, ws)?;
+            let state = self.unfold(t, y, ws)?;
             let load = total_load(&self.system, loads, &ws.motions, state.centre);
             let (q, u) = self.free(y);
-            move_joints(&self.system, (t, q, u), loads, &whole, ws)?;
-            state.rates(&whole, ws.motions[0].w, &load).write(dy);
+            move_joints(&self.system, (t, q, u), loads, ws)?;
+            state.rates(&ws.whole, ws.motions[0].w, &load).write(dy);
             write_joint_rates(&self.system, (q, u), ws, &mut dy[DIM..]);
             return Ok(());
         }
         let state = State::read(t, y)?;
-        let whole = self.lay(t, y, ws);
-        let r = state.rotation();
+        self.lay(t, y, ws);
+        let (r, whole) = (state.rotation(), &ws.whole);
         let w = turn(t, whole.inertia, r.transpose() * state.angular - whole.h)?;
         let load = whole_load(&self.system, loads, &ws.posture, r, whole.c);
-        state.rates(&whole, w, &load).write(dy);
+        state.rates(whole, w, &load).write(dy);
         Ok(())
     }
 
@@ -287,13 +251,13 @@ impl Formulation for MomentumForm {
         ws: &mut Workspace,
         out: &mut Solution,
     ) -> Result<(), DynamicsError> {
-        let (state, whole) = self.unfold(t, y, ws)?;
+        let state = self.unfold(t, y, ws)?;
         let load = total_load(&self.system, loads, &ws.motions, state.centre);
         if self.system.speeds() > 0 {
             let (q, u) = self.free(y);
-            move_joints(&self.system, (t, q, u), loads, &whole, ws)?;
+            move_joints(&self.system, (t, q, u), loads, ws)?;
         }
-        self.accelerate(t, state.centre, &whole, &load, ws, &mut out.bodies)?;
+        self.accelerate(t, state.centre, &load, ws, &mut out.bodies)?;
         reactions(&self.system, loads, ws, out);
         out.tether = Wrench::default(); // free: what `reactions` leaves there is rounding
         multipliers(&out.hinges, &mut out.multipliers);
@@ -314,9 +278,9 @@ impl Formulation for MomentumForm {
         if self.system.speeds() > 0 {
             return add_by_response(self, (t, y), added, loads, ws, out);
         }
-        let (state, whole) = self.unfold(t, y, ws)?;
-        let (x, _) = self.accelerate_with(added, loads, &state, &whole, ws);
-        added::add(added, &x, &whole, ws, loads);
+        self.unfold(t, y, ws)?;
+        let moving = added::accelerate(&self.system, added, loads, ws);
+        added::add(added, &moving, ws, loads);
         Ok(())
     }
 
@@ -333,15 +297,9 @@ impl Formulation for MomentumForm {
             add_by_response(self, (t, y), added, loads, ws, out)?;
             return self.rates(t, y, loads, ws, dy);
         }
-        let (state, whole) = self.unfold(t, y, ws)?;
-        let (x, bias) = self.accelerate_with(added, loads, &state, &whole, ws);
-        // Accelerations under all loads give the rates of the momenta, added masses included.
-        let r = ws.motions[0].r;
-        let load = Wrench {
-            force: bias.force + r * (whole.mass * DVec3::from_slice(&x)),
-            moment: bias.moment + r * (whole.inertia * DVec3::from_slice(&x[3..])),
-        };
-        state.rates(&whole, ws.motions[0].w, &load).write(dy);
+        let state = self.unfold(t, y, ws)?;
+        let load = added::accelerate(&self.system, added, loads, ws).momentum_rates(ws);
+        state.rates(&ws.whole, ws.motions[0].w, &load).write(dy);
         Ok(())
     }
 

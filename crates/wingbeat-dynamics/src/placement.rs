@@ -35,7 +35,7 @@ impl Placement {
 
     /// A frame at the same origin, turned by `law`.
     pub(crate) fn turned(&self, law: &MovingRotation) -> Self {
-        self.turned_by(law.c, law.angular_velocity(), law.angular_acceleration())
+        self.turned_by(law.c, law.w, law.w_dot)
     }
 
     /// A frame at the same origin, turned by `c` with the relative angular velocity `w` and its

@@ -1,6 +1,6 @@
 //! The bodies as seen from the root: a function of time and of the free joint coordinates.
 
-use wingbeat_math::{DMat3, DVec3, MovingRotation};
+use wingbeat_math::{DMat3, DVec3, MovingRotation, tilde};
 
 use crate::check::check_rotation;
 pub use crate::placement::Placement;
@@ -8,7 +8,7 @@ use crate::placement::carry;
 use crate::{BodyAcceleration, BodyMotion, DynamicsError, System};
 
 /// Mass properties of the whole system and the momentum of its parts relative to the root.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub struct Composite {
     /// Total mass m \[kg\].
     pub mass: f64,
@@ -19,6 +19,17 @@ pub struct Composite {
     /// Inertia about the mass centre [kg m2], root components.
     pub inertia: DMat3,
     /// Angular momentum about the mass centre of the motion seen from the root [kg m2/s].
+    pub h: DVec3,
+}
+
+/// What a [`Composite`] changes at, free joints moving at the speeds they have.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct CompositeRates {
+    /// Acceleration of the mass centre as seen from the root [m/s2].
+    pub c_ddot: DVec3,
+    /// Rate of the inertia about the mass centre [kg m2/s].
+    pub inertia: DMat3,
+    /// Rate of the relative angular momentum [kg m2/s2].
     pub h: DVec3,
 }
 
@@ -146,6 +157,29 @@ impl Posture {
         }
     }
 
+    /// Rates of the mass properties `whole` of this posture.
+    pub(crate) fn composite_rates(&self, system: &System, whole: &Composite) -> CompositeRates {
+        let (mut s_ddot, mut inertia, mut h) = (DVec3::ZERO, DMat3::ZERO, DVec3::ZERO);
+        for (b, at) in system.bodies().iter().zip(&self.placements) {
+            let (m, j) = (b.mass.mass, at.c * b.mass.inertia * at.c.transpose());
+            let (first, w, w_dot) = (at.c * b.mass.first_moment, at.c * at.w, at.c * at.w_dot);
+            let spun = w.cross(first);
+            let turned = w_dot.cross(first) + w.cross(spun);
+            s_ddot += m * at.d_ddot + turned;
+            let turn = tilde(w) * j;
+            inertia += turn + turn.transpose();
+            inertia += symmetric(spun, at.d) + symmetric(first + m * at.d, at.d_dot);
+            h += (first + m * at.d).cross(at.d_ddot) + at.d.cross(turned);
+            h += j * w_dot + w.cross(j * w);
+        }
+        let c_ddot = s_ddot / whole.mass;
+        CompositeRates {
+            c_ddot,
+            inertia: inertia - symmetric(whole.mass * whole.c, whole.c_dot),
+            h: h - whole.mass * whole.c.cross(c_ddot),
+        }
+    }
+
     /// Checks that every hinge law gives a rotation at time `t`.
     ///
     /// # Errors
@@ -171,30 +205,32 @@ pub struct PostureTable {
 struct Entry {
     laws: Vec<MovingRotation>,
     posture: Posture,
-    whole: Composite,
+    whole: (Composite, CompositeRates),
 }
 
 impl PostureTable {
     /// The laws of `system` at the times 0, `step`, ..., `count step` \[s\].
     pub fn new(system: &System, step: f64, count: usize) -> Self {
-        let mut posture = Posture::new(system);
-        let mut entry = |k: usize| {
+        let (q, u) = system.start();
+        let entry = |k: usize| {
             let t = k as f64 * step;
-            posture.update(system, t);
+            let laws: Vec<MovingRotation> = system.hinges().iter().map(|h| h.law.at(t)).collect();
+            let mut posture = Posture::new(system);
+            posture.place(system, t, (&q, &u), |k| laws[k]);
             Entry {
-                laws: system.hinges().iter().map(|h| h.law.at(t)).collect(),
-                whole: posture.composite(system),
-                posture: posture.clone(),
+                whole: posture.whole(system),
+                laws,
+                posture,
             }
         };
-        let entries = (0..=count).map(&mut entry).collect();
+        let entries = (0..=count).map(entry).collect();
         Self { step, entries }
     }
 
     /// Posture and whole at step number `k`, free joints at their start.
     pub fn posture(&self, k: usize) -> (&Posture, &Composite) {
         let entry = &self.entries[k];
-        (&entry.posture, &entry.whole)
+        (&entry.posture, &entry.whole.0)
     }
 
     /// The entry of time `t`, to the last bits of a sum of steps.
@@ -213,7 +249,7 @@ impl Posture {
         t: f64,
         free: (&[f64], &[f64]),
         table: Option<&PostureTable>,
-    ) -> Composite {
+    ) -> (Composite, CompositeRates) {
         match table.and_then(|table| table.at(t)) {
             Some(known) if system.coordinates() == 0 => {
                 self.placements.copy_from_slice(&known.posture.placements);
@@ -222,8 +258,26 @@ impl Posture {
             Some(known) => self.place(system, t, free, |k| known.laws[k]),
             None => self.update_free(system, t, free),
         }
-        self.composite(system)
+        self.whole(system)
     }
+
+    /// Mass properties of the whole, and their rates where no joint is free: who has free joints
+    /// asks for accelerations one by one.
+    fn whole(&self, system: &System) -> (Composite, CompositeRates) {
+        let whole = self.composite(system);
+        let rates = match system.coordinates() {
+            0 => self.composite_rates(system, &whole),
+            _ => CompositeRates::default(),
+        };
+        (whole, rates)
+    }
+}
+
+/// `2 s.d I - s d^T - d s^T`.
+fn symmetric(s: DVec3, d: DVec3) -> DMat3 {
+    let trace = 2.0 * s.dot(d);
+    let col = |k: usize| trace * DVec3::AXES[k] - s * d[k] - d * s[k];
+    DMat3::from_cols(col(0), col(1), col(2))
 }
 
 fn trace(m: DMat3) -> f64 {

@@ -76,6 +76,11 @@ impl Formulation for QuaternionForm {
         self.form.dim()
     }
 
+    fn is_supported(&self) -> bool {
+        let joints = self.system.hinges().len() + self.system.loops().len();
+        self.form.mechanism().links().len() > joints
+    }
+
     fn workspace(&self) -> Workspace {
         Workspace {
             absolute: Some(self.form.scratch()),

@@ -3,7 +3,7 @@
 use crate::euler::scratch::EulerScratch;
 use crate::free::FreeScratch;
 use crate::mechanism::form::AbsoluteScratch;
-use crate::posture::{Composite, Posture};
+use crate::posture::{Composite, CompositeRates, Posture};
 use crate::{BodyAcceleration, BodyMotion, System, Wrench};
 
 /// Intermediate results, kept between calls so that nothing is allocated. Holds no state: any
@@ -17,10 +17,13 @@ pub struct Workspace {
     pub(crate) free: FreeScratch,
     pub(crate) bias: Vec<BodyAcceleration>,
     pub(crate) absolute: Option<AbsoluteScratch>,
+    /// The whole of `posture`, and its rates where no joint is free.
+    pub(crate) whole: Composite,
+    pub(crate) whole_rates: CompositeRates,
     /// Time of `posture` and its whole, where nothing but time decides on them.
-    pub(crate) prescribed: Option<(f64, Composite)>,
-    /// Time, state and whole that `motions` belong to, where no joint is free.
-    pub(crate) unfolded: Option<(f64, [f64; MOMENTUM_STATE], Composite)>,
+    pub(crate) prescribed: Option<f64>,
+    /// Time and state that `motions` belong to, where no joint is free.
+    pub(crate) unfolded: Option<(f64, [f64; MOMENTUM_STATE])>,
 }
 
 /// Length of the momentum form's state without free joints.
@@ -31,6 +34,8 @@ impl Workspace {
     pub fn new(system: &System) -> Self {
         let bodies = system.bodies().len();
         Self {
+            whole: Composite::default(),
+            whole_rates: CompositeRates::default(),
             posture: Posture::new(system),
             motions: vec![BodyMotion::REST; bodies],
             demand: vec![Wrench::default(); bodies],
@@ -48,16 +53,16 @@ impl Workspace {
         (self.prescribed, self.unfolded) = (None, None);
     }
 
-    /// The whole, if `motions` are those of the state `y` at time `t` already.
-    pub(crate) fn known(&self, t: f64, y: &[f64]) -> Option<Composite> {
-        let (at, state, whole) = self.unfolded.as_ref()?;
-        (*at == t && state.as_slice() == y).then_some(*whole)
+    /// Whether `motions` are those of the state `y` at time `t` already.
+    pub(crate) fn knows(&self, t: f64, y: &[f64]) -> bool {
+        let same = |(at, state): &(f64, [f64; MOMENTUM_STATE])| *at == t && state.as_slice() == y;
+        self.unfolded.as_ref().is_some_and(same)
     }
 
     /// Takes note that `motions` are those of the state `y` at time `t`.
-    pub(crate) fn note(&mut self, t: f64, y: &[f64], whole: Composite) {
+    pub(crate) fn note(&mut self, t: f64, y: &[f64]) {
         let state = <[f64; MOMENTUM_STATE]>::try_from(y);
-        self.unfolded = state.ok().map(|state| (t, state, whole));
+        self.unfolded = state.ok().map(|state| (t, state));
     }
 
     /// Motions of all bodies as last evaluated.

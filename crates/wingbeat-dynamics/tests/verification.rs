@@ -191,8 +191,8 @@ fn test_hinge() -> Hinge {
             let m = self.0.at(t * BEAT);
             wingbeat_math::MovingRotation {
                 c: m.c,
-                c_dot: m.c_dot * BEAT,
-                c_ddot: m.c_ddot * (BEAT * BEAT),
+                w: m.w * BEAT,
+                w_dot: m.w_dot * (BEAT * BEAT),
             }
         }
     }

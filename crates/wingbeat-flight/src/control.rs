@@ -9,7 +9,7 @@ use std::collections::VecDeque;
 use std::sync::{Arc, RwLock};
 
 use wingbeat_math::{DVec3, MovingRotation, RotationLaw};
-use wingbeat_model::motion::Adjustment;
+use wingbeat_model::motion::{Adjustment, wing_rotation};
 use wingbeat_model::{Side, Wing, WingMotion};
 
 pub use crate::controller::{Controller, Sensed};
@@ -68,10 +68,7 @@ impl Passage {
 impl RotationLaw for Passage {
     fn at(&self, t: f64) -> MovingRotation {
         let [plane, phi, theta, psi] = self.angles(t);
-        MovingRotation::about(1, plane)
-            .then(&MovingRotation::about(0, phi))
-            .then(&MovingRotation::about(2, theta))
-            .then(&MovingRotation::about(1, psi))
+        wing_rotation(plane, [phi, theta, psi])
     }
 }
 

@@ -41,6 +41,14 @@ impl Core {
         }
     }
 
+    /// Whether a support holds the root.
+    pub fn is_held(&self) -> bool {
+        match self {
+            Self::Free(form) => form.is_supported(),
+            Self::Tethered { .. } => true,
+        }
+    }
+
     /// Length of the state vector; 0 when tethered.
     pub fn dim(&self) -> usize {
         match self {

@@ -5,7 +5,7 @@
 use std::sync::Arc;
 
 use wingbeat_air::AirState;
-use wingbeat_dynamics::budget::relative_energy;
+use wingbeat_dynamics::budget::{mass_centre, relative_energy};
 use wingbeat_dynamics::{
     AbsoluteForm, AddedMass, BodyMotion, Mechanism, Solution, Stabilization, Workspace, Wrench,
 };
@@ -15,61 +15,7 @@ use crate::air::{Air, AirScratch, Instant};
 use crate::applied::{AppliedLoad, PointSpring};
 use crate::core::Core;
 use crate::error::FlightError;
-
-/// Quadratures appended to the state of the core.
-pub const QUADRATURES: usize = 10;
-
-/// Works and impulses since the start.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Quadratures {
-    /// Work of the hinges less the change of the energy relative to the root [J]. What wings on
-    /// a fixed root would take up and give back is known in closed form and left out, so that
-    /// the quadrature has only the rest to integrate.
-    pub hinge_work: f64,
-    /// Work of the air on the bodies [J], on their deformation too.
-    pub air_work: f64,
-    /// Work of applied loads and tether [J].
-    pub applied_work: f64,
-    /// Impulse of all external forces, weight included, N components [N s].
-    pub impulse: DVec3,
-    /// Impulse of all external moments about the inertial origin, N components [N m s].
-    pub angular_impulse: DVec3,
-    /// Work of what deforms the wings against the air [J].
-    pub deformation_work: f64,
-}
-
-impl Quadratures {
-    /// Reads the tail of a state vector.
-    pub fn from_state(y: &[f64]) -> Self {
-        let q = &y[y.len() - QUADRATURES..];
-        Self {
-            hinge_work: q[0],
-            air_work: q[1],
-            applied_work: q[2],
-            impulse: DVec3::new(q[3], q[4], q[5]),
-            angular_impulse: DVec3::new(q[6], q[7], q[8]),
-            deformation_work: q[9],
-        }
-    }
-
-    /// Writes the tail of a state vector.
-    fn write(&self, y: &mut [f64]) {
-        let n = y.len() - QUADRATURES;
-        let (f, m) = (self.impulse, self.angular_impulse);
-        y[n..].copy_from_slice(&[
-            self.hinge_work,
-            self.air_work,
-            self.applied_work,
-            f.x,
-            f.y,
-            f.z,
-            m.x,
-            m.y,
-            m.z,
-            self.deformation_work,
-        ]);
-    }
-}
+use crate::quadratures::{QUADRATURES, Quadratures, WORKS};
 
 /// The model: everything constant that the right-hand side needs.
 #[derive(Debug)]
@@ -187,15 +133,74 @@ impl Equations {
         dy: &mut [f64],
     ) -> Result<(), FlightError> {
         let n = self.core.dim();
-        self.loads(t, &y[..n], air, s)?;
-        self.core
-            .rates(t, &y[..n], &s.total, &mut s.dynamics, &mut dy[..n])?;
+        self.loaded_rates(t, y, air, s, dy)?;
         self.core
             .solve(t, &y[..n], &s.total, &mut s.dynamics, &mut s.solution)?;
         s.relative = relative_energy(self.core.system(), &s.motions, &s.solution.bodies);
         self.deformation_power(t, s);
         self.quadrature_rates(s).write(dy);
         Ok(())
+    }
+
+    /// Components of the state that nothing depends on and that a [`Self::pass`] leaves out.
+    pub fn followers(&self) -> Vec<usize> {
+        let works = if self.core.is_held() { &[][..] } else { &WORKS };
+        works.iter().map(|k| self.core.dim() + k).collect()
+    }
+
+    /// Rates of the state `y` without those of the [`Self::followers`].
+    ///
+    /// # Errors
+    /// As [`Self::evaluate`].
+    pub fn pass(
+        &self,
+        t: f64,
+        y: &[f64],
+        air: Option<&AirState>,
+        s: &mut Scratch,
+        dy: &mut [f64],
+    ) -> Result<(), FlightError> {
+        if self.core.is_held() {
+            return self.evaluate(t, y, air, s, dy); // impulses ask for the force of the support
+        }
+        self.loaded_rates(t, y, air, s, dy)?;
+        let centre = mass_centre(self.core.system(), &s.motions);
+        let [impulse, angular_impulse] = self.external(s, centre, &Wrench::default());
+        let quadratures = Quadratures {
+            impulse,
+            angular_impulse,
+            ..Quadratures::default()
+        };
+        quadratures.write(dy);
+        Ok(())
+    }
+
+    /// Rates of the core's part of the state `y` under all loads, which stay in `s`.
+    fn loaded_rates(
+        &self,
+        t: f64,
+        y: &[f64],
+        air: Option<&AirState>,
+        s: &mut Scratch,
+        dy: &mut [f64],
+    ) -> Result<(), FlightError> {
+        let n = self.core.dim();
+        self.loads(t, &y[..n], air, s)?;
+        (self.core).rates(t, &y[..n], &s.total, &mut s.dynamics, &mut dy[..n])
+    }
+
+    /// External force and its moment about the inertial origin, N components, with the mass centre at
+    /// `centre` and the load `tether` of a support on the root.
+    fn external(&self, s: &Scratch, centre: DVec3, tether: &Wrench) -> [DVec3; 2] {
+        let system = self.core.system();
+        let weight = system.total_mass() * system.gravity();
+        let mut force = weight + tether.force;
+        let mut moment = centre.cross(weight) + tether.moment + s.motions[0].p.cross(tether.force);
+        for (l, m) in s.total.iter().zip(&s.motions) {
+            force += l.force;
+            moment += l.moment + m.p.cross(l.force);
+        }
+        [force, moment]
     }
 
     /// Rates of the core's state `y` alone, without records and quadratures.
@@ -347,24 +352,15 @@ impl Equations {
         let power = |loads: &[Wrench]| -> f64 {
             loads.iter().zip(&s.motions).map(|(l, m)| l.power(m)).sum()
         };
-        let system = self.core.system();
-        let weight = system.total_mass() * system.gravity();
         let tether = s.solution.tether;
-        let mut impulse = weight + tether.force;
-        let mut angular = s.solution.budget.centre.cross(weight)
-            + tether.moment
-            + s.motions[0].p.cross(tether.force);
-        for (l, m) in s.total.iter().zip(&s.motions) {
-            impulse += l.force;
-            angular += l.moment + m.p.cross(l.force);
-        }
+        let [impulse, angular_impulse] = self.external(s, s.solution.budget.centre, &tether);
         let deformation: f64 = s.deformation.iter().sum();
         Quadratures {
             hinge_work: s.solution.hinge_power() - s.relative[1],
             air_work: power(&s.air) - deformation,
             applied_work: power(&s.applied) + tether.power(&s.motions[0]),
             impulse,
-            angular_impulse: angular,
+            angular_impulse,
             deformation_work: deformation,
         }
     }

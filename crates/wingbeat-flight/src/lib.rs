@@ -32,6 +32,7 @@ mod error;
 mod free;
 pub mod joints;
 mod prescribed;
+mod quadratures;
 pub mod record;
 mod recorder;
 mod seam;

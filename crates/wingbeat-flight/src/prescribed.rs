@@ -96,8 +96,8 @@ impl PrescribedMotion {
             velocity: derivative(1),
             acceleration: derivative(2),
             rotation: r.c,
-            angular_velocity: r.angular_velocity(),
-            angular_acceleration: r.angular_acceleration(),
+            angular_velocity: r.w,
+            angular_acceleration: r.w_dot,
         }
     }
 }

@@ -6,7 +6,8 @@ use wingbeat_math::ode::StepReport;
 use wingbeat_math::{DQuat, DVec3};
 use wingbeat_model::motion::Adjustment;
 
-use crate::equations::{Equations, Quadratures, Scratch};
+use crate::equations::{Equations, Scratch};
+use crate::quadratures::Quadratures;
 use crate::record::{AccelerationRecord, AirImpulse, HingeRecord, LoadRecord, Record};
 
 /// Below this |cos theta| Euler angles and their rates are not evaluated but kept: they lose
@@ -131,6 +132,10 @@ impl Sources<'_> {
     /// Coordinates along the free directions of all joints.
     fn joint_coordinates(&self, time: f64) -> Vec<[f64; 2]> {
         let mut out = vec![];
+        let system = self.equations.core.system();
+        if system.speeds() == 0 && system.loops().is_empty() {
+            return out;
+        }
         (self.equations.mechanism).coordinates(time, &self.scratch.motions, &mut out);
         out
     }

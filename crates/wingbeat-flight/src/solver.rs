@@ -2,7 +2,7 @@
 
 use wingbeat_air::AirState;
 use wingbeat_math::ode::{
-    AdamsBashforthMoulton, AdaptiveError, Bdf, Convergence, Dop853, Hamming, Multistep, Rk4,
+    AdamsBashforthMoulton, AdaptiveError, Asked, Bdf, Convergence, Dop853, Hamming, Multistep, Rk4,
     StepError, StepReport, Tolerance,
 };
 
@@ -66,7 +66,10 @@ impl Solver {
     pub fn new(equations: &Equations, choice: IntegratorChoice, c: &CorrectorSettings) -> Self {
         let (step, scales) = (equations.step, equations.scales());
         match choice {
-            IntegratorChoice::Hamming => Self::Hamming(Hamming::new(step, convergence(c), scales)),
+            IntegratorChoice::Hamming => {
+                let method = Hamming::new(step, convergence(c), scales);
+                Self::Hamming(method.followed_by(equations.followers()))
+            }
             IntegratorChoice::Bdf => Self::Bdf(Bdf::new(step, convergence(c), scales)),
             IntegratorChoice::Adams => {
                 Self::Adams(AdamsBashforthMoulton::new(step, equations.dim()))
@@ -104,9 +107,10 @@ impl Solver {
             residual: 0.0,
         };
         match self {
-            Self::Hamming(method) => {
-                method.advance(past, |y, dy| equations.evaluate(end, y, air, s, dy))
-            }
+            Self::Hamming(method) => method.advance_asking(past, |asked, y, dy| match asked {
+                Asked::Pass => equations.pass(end, y, air, s, dy),
+                Asked::Accepted => equations.evaluate(end, y, air, s, dy),
+            }),
             Self::Bdf(method) => {
                 method.advance(past, |y, dy| equations.evaluate(end, y, air, s, dy))
             }

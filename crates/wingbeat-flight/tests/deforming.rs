@@ -194,7 +194,13 @@ fn agrees_uniform_twist_with_feathering_in_the_lattice() {
 
 #[test]
 fn agrees_uniform_twist_with_feathering_in_blade_elements() {
-    for added in [AddedMass::None, AddedMass::Normal, AddedMass::Section] {
+    let all = [
+        AddedMass::None,
+        AddedMass::Normal,
+        AddedMass::Section,
+        AddedMass::Impulse,
+    ];
+    for added in all {
         twist_is_feathering(blade(Fly::default().setup(40, 0.5), added));
     }
 }
@@ -246,7 +252,7 @@ fn bending_is_plunging(setup: FlightSetup) {
 #[test]
 fn agrees_uniform_bending_with_plunging() {
     bending_is_plunging(Fly::default().setup(40, 0.5));
-    for added in [AddedMass::None, AddedMass::Section] {
+    for added in [AddedMass::None, AddedMass::Section, AddedMass::Impulse] {
         bending_is_plunging(blade(Fly::default().setup(40, 0.5), added));
     }
 }
@@ -254,7 +260,7 @@ fn agrees_uniform_bending_with_plunging() {
 #[test]
 fn balances_free_flight_with_deforming_wings() {
     let lattice = deformed(Fly::default().setup(40, 1.0), &everything());
-    let strips = blade(lattice.clone(), AddedMass::Section);
+    let strips = blade(lattice.clone(), AddedMass::Impulse);
     for (setup, tolerance) in [(lattice, 1e-3), (strips, 1e-5)] {
         let weight = setup.animal.mass() * 9.81;
         let records = fly(setup);

@@ -24,7 +24,7 @@ pub mod rotation;
 mod small_lu;
 
 pub use euler::{EulerMatrices, EulerSequence};
-pub use glam::{DMat3, DQuat, DVec3};
+pub use glam::{DMat3, DQuat, DVec2, DVec3};
 pub use iterative::{BiCgStab, Product};
 pub use lu::{DenseLu, LuError};
 pub use mass::{MassError, MassProperties};

@@ -53,17 +53,17 @@ pub fn untilde(m: DMat3) -> DVec3 {
     )
 }
 
-/// A rotation matrix and its first two time derivatives at one instant.
+/// A rotation matrix with its angular velocity and acceleration at one instant.
 ///
 /// `c` maps components in the moving frame W to components in the reference frame B.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MovingRotation {
     /// Rotation C_BW: W components to B components \[1\].
     pub c: DMat3,
-    /// First time derivative of `c`, seen from B [1/s].
-    pub c_dot: DMat3,
-    /// Second time derivative of `c`, seen from B [1/s2].
-    pub c_ddot: DMat3,
+    /// Angular velocity of W relative to B, W components [rad/s]: `tilde(w) = C^T C'`.
+    pub w: DVec3,
+    /// Angular acceleration, the time derivative of `w`, W components [rad/s2].
+    pub w_dot: DVec3,
 }
 
 impl MovingRotation {
@@ -71,41 +71,42 @@ impl MovingRotation {
     pub fn fixed(c: DMat3) -> Self {
         Self {
             c,
-            c_dot: DMat3::ZERO,
-            c_ddot: DMat3::ZERO,
+            w: DVec3::ZERO,
+            w_dot: DVec3::ZERO,
         }
     }
 
     /// Rotation about a coordinate axis by an angle with its derivatives
     /// `[angle, rate, acceleration]` [rad, rad/s, rad/s2].
     pub fn about(axis: usize, angle: [f64; 3]) -> Self {
-        let c = rotation_about(axis, angle[0]);
-        let e = tilde(DVec3::AXES[axis]);
+        let e = DVec3::AXES[axis];
         Self {
-            c,
-            c_dot: c * e * angle[1],
-            c_ddot: c * (e * angle[2] + e * e * (angle[1] * angle[1])),
+            c: rotation_about(axis, angle[0]),
+            w: e * angle[1],
+            w_dot: e * angle[2],
         }
     }
 
-    /// The composition `self * inner` (inner acts first), by the product rule.
+    /// The composition `self * inner` (inner acts first): angular velocities add.
     pub fn then(&self, inner: &Self) -> Self {
+        let back = inner.c.transpose();
+        let seen = back * self.w;
         Self {
             c: self.c * inner.c,
-            c_dot: self.c_dot * inner.c + self.c * inner.c_dot,
-            c_ddot: self.c_ddot * inner.c + self.c_dot * inner.c_dot * 2.0 + self.c * inner.c_ddot,
+            w: seen + inner.w,
+            w_dot: back * self.w_dot - inner.w.cross(seen) + inner.w_dot,
         }
     }
 
-    /// Angular velocity of W relative to B in W components [rad/s]: `tilde(w) = C^T C'`.
-    pub fn angular_velocity(&self) -> DVec3 {
-        untilde(self.c.transpose() * self.c_dot)
+    /// First time derivative of `c`, seen from B [1/s]: `C' = C tilde(w)`.
+    pub fn c_dot(&self) -> DMat3 {
+        self.c * tilde(self.w)
     }
 
-    /// Angular acceleration (time derivative of [`Self::angular_velocity`]) in W components
-    /// [rad/s2]: `tilde(w') = C^T C'' - tilde(w)^2`.
-    pub fn angular_acceleration(&self) -> DVec3 {
-        untilde(self.c.transpose() * self.c_ddot)
+    /// Second time derivative of `c`, seen from B [1/s2]: `C'' = C (tilde(w') + tilde(w)^2)`.
+    pub fn c_ddot(&self) -> DMat3 {
+        let turn = tilde(self.w);
+        self.c * (tilde(self.w_dot) + turn * turn)
     }
 }
 
@@ -143,11 +144,11 @@ mod tests {
         let (t, h) = (0.7, 1e-5);
         let (m, c, p) = (at(t - h), at(t), at(t + h));
         // Central differences are second order: h^2 = 1e-10, times derivatives of order one.
-        let dc = (p.c - m.c) * (0.5 / h) - c.c_dot;
-        let ddc = (p.c_dot - m.c_dot) * (0.5 / h) - c.c_ddot;
+        let dc = (p.c - m.c) * (0.5 / h) - c.c_dot();
+        let ddc = (p.c_dot() - m.c_dot()) * (0.5 / h) - c.c_ddot();
         assert!(dc.to_cols_array().iter().all(|e| e.abs() < 1e-9));
         assert!(ddc.to_cols_array().iter().all(|e| e.abs() < 1e-9));
-        let dw = (p.angular_velocity() - m.angular_velocity()) * (0.5 / h);
-        assert!((dw - c.angular_acceleration()).length() < 1e-9);
+        let dw = (p.w - m.w) * (0.5 / h);
+        assert!((dw - c.w_dot).length() < 1e-9);
     }
 }

@@ -3,8 +3,8 @@
 use std::convert::Infallible;
 
 use wingbeat_math::ode::{
-    AdamsBashforthMoulton, AdaptiveError, Bdf, Convergence, Dop853, Hamming, Memoryless, Multistep,
-    Rk4, StepError, Tolerance, block_start,
+    AdamsBashforthMoulton, AdaptiveError, Asked, Bdf, Convergence, Dop853, Hamming, Memoryless,
+    Multistep, Rk4, StepError, Tolerance, block_start,
 };
 
 const CONVERGENCE: Convergence = Convergence {
@@ -121,6 +121,37 @@ fn invariant_restart_from_the_saved_past_goes_on_bit_for_bit() {
     let mut saved = part.clone();
     fly(&mut saved, &mut method(), 17, 40);
     assert_eq!(saved, whole);
+}
+
+#[test]
+fn order_quadrature_that_rides_along_is_as_accurate_as_the_state() {
+    // y' = cos t with the quadrature z' = y: z = 1 - cos t. In corrector passes the rate of z is asked
+    // for by nobody; what stands there must not matter.
+    let slope = slopes(|steps| {
+        let h = 2.0 / steps as f64;
+        let start = [0, 1, 2, 3].map(|k| f64::from(k) * h);
+        let mut past = Multistep::from_start(
+            start.map(|t| vec![t.sin(), 1.0 - t.cos()]),
+            start.map(|t| vec![t.cos(), t.sin()]),
+        );
+        let mut method =
+            Hamming::new(h, CONVERGENCE, vec![1.0, f64::INFINITY]).followed_by(vec![1]);
+        for n in 4..=steps {
+            let t = n as f64 * h;
+            let rates = |asked, y: &[f64], dy: &mut [f64]| {
+                dy[0] = t.cos();
+                dy[1] = match asked {
+                    Asked::Accepted => y[0],
+                    Asked::Pass => 1e9,
+                };
+                Ok::<(), Infallible>(())
+            };
+            method.advance_asking(&mut past, rates).expect("a step");
+        }
+        (past.newest()[1] - (1.0 - 2.0_f64.cos())).abs()
+    });
+    // The modifiers cancel the leading error term.
+    assert!(slope.iter().all(|s| (3.8..5.5).contains(s)), "{slope:?}");
 }
 
 #[test]

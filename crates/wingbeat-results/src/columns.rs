@@ -72,6 +72,8 @@ pub(crate) struct Subject {
 #[derive(Clone, Debug)]
 pub struct Columns {
     list: Vec<Column>,
+    /// Numbers of those that hold more than their own step.
+    folded: Vec<usize>,
     shape: Shape,
 }
 
@@ -167,7 +169,13 @@ impl Columns {
                 subject.columns(group, &mut list);
             }
         }
-        Ok(Self { list, shape })
+        let folded = list.iter().enumerate();
+        let folded = folded.filter(|(_, c)| c.fold != Fold::Last);
+        Ok(Self {
+            folded: folded.map(|(k, _)| k).collect(),
+            list,
+            shape,
+        })
     }
 
     /// The columns of the history in a file with this header.
@@ -200,7 +208,7 @@ impl Columns {
     }
 
     /// The columns.
-    pub fn iter(&self) -> impl Iterator<Item = &Column> {
+    pub fn iter(&self) -> impl ExactSizeIterator<Item = &Column> {
         self.list.iter()
     }
 
@@ -241,6 +249,27 @@ impl Columns {
         scratch.clone_from(record);
         values.clear();
         values.extend(self.list.iter().map(|c| c.slot(scratch).get()));
+    }
+
+    /// Joins the numbers of `record` to those of the steps since the last row, `row`, in the columns
+    /// that hold more than their own step; `is_first` of these steps.
+    pub(crate) fn fold(&self, record: &mut Record, is_first: bool, row: &mut [f64]) {
+        for &k in &self.folded {
+            let column = &self.list[k];
+            let value = column.slot(record).get();
+            row[k] = match is_first {
+                true => value,
+                false => column.fold.join(row[k], value),
+            };
+        }
+    }
+
+    /// Puts the numbers of `record` into the columns of `row` that hold their own step.
+    pub(crate) fn hold(&self, record: &mut Record, row: &mut [f64]) {
+        let own = self.list.iter().zip(row);
+        for (column, value) in own.filter(|(c, _)| c.fold == Fold::Last) {
+            *value = column.slot(record).get();
+        }
     }
 
     /// Puts the number of column `k` into a record of [`Self::blank`]'s shape.

@@ -22,9 +22,10 @@ pub struct HistoryWriter {
     setup: FlightSetup,
     /// None before the first record.
     columns: Option<Columns>,
-    scratch: Record,
-    values: Vec<f64>,
-    /// The next row as the steps since the last one make it; empty right after a row.
+    /// The newest record.
+    newest: Record,
+    /// The next row as the steps since the last one make it, but for columns that hold their own
+    /// step, which follow from the newest record; empty right after a row.
     pending: Vec<f64>,
     line: String,
     bytes: u64,
@@ -51,8 +52,7 @@ impl HistoryWriter {
             file,
             setup: setup.clone(),
             columns: None,
-            scratch: Record::default(),
-            values: vec![],
+            newest: Record::default(),
             pending: vec![],
             line: String::new(),
             bytes: 0,
@@ -97,8 +97,16 @@ impl HistoryWriter {
     }
 
     /// The bits of the row that is not written yet; none right after a row.
-    pub fn pending(&self) -> Vec<u64> {
+    pub fn pending(&mut self) -> Vec<u64> {
+        self.complete();
         self.pending.iter().map(|x| x.to_bits()).collect()
+    }
+
+    /// Makes the next row whole.
+    fn complete(&mut self) {
+        if let Some(columns) = self.columns.as_ref().filter(|_| !self.pending.is_empty()) {
+            columns.hold(&mut self.newest, &mut self.pending);
+        }
     }
 
     /// Takes a record; writes a row if one is due.
@@ -110,12 +118,10 @@ impl HistoryWriter {
             Some(columns) => columns,
             None => self.begin(record)?,
         };
-        columns.values(record, &mut self.scratch, &mut self.values);
-        let folds = columns.iter().map(|c| c.fold);
-        for ((value, so_far), fold) in self.values.iter_mut().zip(&self.pending).zip(folds) {
-            *value = fold.join(*so_far, *value);
-        }
-        self.pending.clone_from(&self.values);
+        self.newest.clone_from(record);
+        let is_first = self.pending.is_empty();
+        self.pending.resize(columns.iter().len(), 0.0);
+        columns.fold(&mut self.newest, is_first, &mut self.pending);
         self.columns = Some(columns);
         match is_due {
             true => self.flush(),
@@ -141,6 +147,7 @@ impl HistoryWriter {
     /// # Errors
     /// A file that cannot be written, e.g. on a full disk.
     pub fn flush(&mut self) -> Result<(), IoError> {
+        self.complete();
         let Some(columns) = self.columns.as_ref().filter(|_| !self.pending.is_empty()) else {
             return Ok(());
         };

@@ -59,16 +59,7 @@ fn balances_a_trimmed_case_flies_where_it_is() {
         ],
     );
     let run = dir.join("r");
-    // Within 1 % of the wing length (2.5 mm) and 0.1 degree after the first wingbeat.
-    for axis in ["x", "y", "z"] {
-        let x = column(&run, &format!("body_{axis}_m"));
-        let gone = x[x.len() - 1] - x[0];
-        assert!(gone.abs() < 0.01 * 2.5e-3, "{axis}: {gone}");
-    }
-    for angle in ["phi", "theta", "psi"] {
-        let q = column(&run, &format!("body_{angle}_rad"));
-        assert!((q[q.len() - 1] - q[0]).abs() < 0.1_f64.to_radians());
-    }
+    assert_returns(&run, 2.5e-3, &["body_phi", "body_theta", "body_psi"]);
     // The file is not written over; it is trimmed already.
     let again = refused(dir, 2, &["trim", "--write", "hover.toml"]);
     assert!(again.contains("hover.toml"), "{again}");
@@ -78,6 +69,36 @@ fn balances_a_trimmed_case_flies_where_it_is() {
         .parse()
         .unwrap();
     assert!(left.abs() < 0.001, "{text}");
+}
+
+/// A run of one trimmed beat ends where it began: the body to 1e-6 wing lengths (`length` \[m\]),
+/// these angles to 1e-3 degrees. Trims close to 1e-9; the file holds all digits.
+fn assert_returns(run: &Path, length: f64, angles: &[&str]) {
+    for axis in ["x", "y", "z"] {
+        let x = column(run, &format!("body_{axis}_m"));
+        let gone = x[x.len() - 1] - x[0];
+        assert!(gone.abs() < 1e-6 * length, "{axis}: {gone}");
+    }
+    for angle in angles {
+        let q = column(run, &format!("{angle}_rad"));
+        let turned = q[q.len() - 1] - q[0];
+        assert!(turned.abs() < 1e-3_f64.to_radians(), "{angle}: {turned}");
+    }
+}
+
+#[test]
+fn balances_a_robot_with_passive_hinges_returns_to_its_place() {
+    let scratch = Scratch::new("trimmed-robot");
+    let dir = &scratch.0;
+    let blade = ["--set", "air.model=\"blade_element\""];
+    let trim = ["trim", "robobee", "--steps", "60", "--write", "hover.toml"];
+    let text = said(dir, &[&trim[..], &blade].concat());
+    assert!(text.contains("trimmed after"), "{text}");
+    let run = ["run", "hover.toml", "--quiet", "--out", "r"];
+    said(dir, &[&run[..], &["--set", "time.beats=1"]].concat());
+    let joints = ["left", "right"].map(|side| format!("joint_hinge_{side}_rotation"));
+    let angles = ["body_phi", "body_theta", "body_psi", &joints[0], &joints[1]];
+    assert_returns(&dir.join("r"), 15e-3, &angles);
 }
 
 #[test]

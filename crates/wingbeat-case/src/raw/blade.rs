@@ -36,7 +36,7 @@ pub struct BladeCase {
     /// Added mass.
     ///
     /// Change it to reproduce a published model.
-    #[default(AddedMass::Normal)]
+    #[default(AddedMass::Impulse)]
     pub added_mass: AddedMass,
     /// Where the force acts.
     ///

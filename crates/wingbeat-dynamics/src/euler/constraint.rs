@@ -56,8 +56,8 @@ impl HingeKinematics {
             anchor_child: hinge.anchor_child,
             d,
             c: law.c,
-            rate: law.angular_velocity(),
-            acceleration: law.angular_acceleration(),
+            rate: law.w,
+            acceleration: law.w_dot,
             normals: DMat3::from_cols(row(0), row(1), row(2)).transpose(),
         }
     }

@@ -62,7 +62,7 @@ impl LinkKinematics {
         let (a, c) = (parent, child);
         let frame = a.r * law.c;
         let d = c.r.transpose() * frame;
-        let (turning, turning_rate) = (law.angular_velocity(), law.angular_acceleration());
+        let (turning, turning_rate) = (law.w, law.w_dot);
         let seen = law.c.transpose() * a.w;
         let carried = d * (seen + turning);
         let lever = link.anchor_parent + travel;

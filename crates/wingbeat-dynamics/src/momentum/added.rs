@@ -1,41 +1,91 @@
 //! Added masses in the momentum form: they join the inertia of the whole,
-//! `(diag(m, I) + sum J^T A J) (a_c, alpha) = loads - sum J^T A s0`.
+//! `(diag(m, I) + sum J^T A J) (a_c, alpha) = (F, M - g) - sum J^T A s0`.
 //!
 //! a_c is the acceleration of the mass centre, alpha the angular acceleration of the root, s0 what a
-//! body's origin and axes accelerate at while both are zero.
+//! body's origin and axes accelerate at while both are zero, `g = I' w + h' + w x (I w + h)` the rate
+//! of the angular momentum meanwhile. All in root components, J to body components.
 
 use wingbeat_math::DVec3;
 
-use crate::added_mass::{AddedMass, Six, seen, six, solve_symmetric, wrench};
+use super::whole::whole_load;
+use crate::added_mass::{AddedMass, Six, six, solve_symmetric, wrench};
 use crate::motion::Wrench;
 use crate::placement::Placement;
 use crate::posture::Composite;
+use crate::system::System;
 use crate::workspace::Workspace;
 
-/// Solves for (a_c, alpha), root components; `x` is the right-hand side without the added masses.
-/// Motions, placements and `ws.bias`, the accelerations s0, are those of the state.
-pub(super) fn accelerate(added: &[AddedMass], whole: &Composite, ws: &Workspace, x: &mut Six) {
+/// How the whole accelerates, root components.
+pub(super) struct Moving {
+    /// a_c and alpha.
+    x: Six,
+    /// Angular velocity of the root [rad/s].
+    w: DVec3,
+    /// Acceleration of the mass centre while root's origin and axes do not accelerate [m/s2].
+    rest: DVec3,
+    /// g [N m].
+    gyroscopic: DVec3,
+}
+
+impl Moving {
+    /// Rates of linear momentum and of angular momentum about the mass centre, N components.
+    pub fn momentum_rates(&self, ws: &Workspace) -> Wrench {
+        let (r, turn) = (ws.motions[0].r, DVec3::from_slice(&self.x[3..]));
+        Wrench {
+            force: r * (ws.whole.mass * DVec3::from_slice(&self.x)),
+            moment: r * (ws.whole.inertia * turn + self.gyroscopic),
+        }
+    }
+
+    /// s0 of a body, body components.
+    fn at_rest(&self, at: &Placement) -> Six {
+        let back = at.c.transpose();
+        let linear = apparent(self.w, at.d, at.d_dot, at.d_ddot) - self.rest;
+        six(back * linear, at.w_dot - at.w.cross(back * self.w))
+    }
+}
+
+/// Acceleration of a point that moves in a frame which turns at the constant `w`.
+fn apparent(w: DVec3, x: DVec3, x_dot: DVec3, x_ddot: DVec3) -> DVec3 {
+    w.cross(w.cross(x) + 2.0 * x_dot) + x_ddot
+}
+
+/// Accelerations under `loads`, weight and added masses. Motions, placements and whole in `ws` are
+/// those of the state; no joint is free.
+pub(super) fn accelerate(
+    system: &System,
+    added: &[AddedMass],
+    loads: &[Wrench],
+    ws: &Workspace,
+) -> Moving {
+    let (root, whole, rates) = (&ws.motions[0], &ws.whole, &ws.whole_rates);
+    let load = whole_load(system, loads, &ws.posture, root.r, whole.c);
+    let (back, w) = (root.r.transpose(), root.w);
+    let spin = whole.inertia * w + whole.h;
+    let gyroscopic = rates.inertia * w + rates.h + w.cross(spin);
+    let mut moving = Moving {
+        x: six(back * load.force, back * load.moment - gyroscopic),
+        w,
+        rest: apparent(w, whole.c, whole.c_dot, rates.c_ddot),
+        gyroscopic,
+    };
     let mut matrix = inertia_of_whole(whole);
     for a in added {
         let at = &ws.posture.placements()[a.body()];
-        let load = a.load(&seen(&ws.motions[a.body()], &ws.bias[a.body()]));
-        put_added(a, at, whole.c, &load, &mut matrix, x);
+        let load = a.load(&moving.at_rest(at));
+        put_added(a, at, whole.c, &load, &mut matrix, &mut moving.x);
     }
-    solve_symmetric(&mut matrix, x);
+    solve_symmetric(&mut matrix, &mut moving.x);
+    moving
 }
 
-/// Adds to `loads` what the added masses exert under the accelerations `x` of [`accelerate`].
-pub(super) fn add(
-    added: &[AddedMass],
-    x: &Six,
-    whole: &Composite,
-    ws: &Workspace,
-    loads: &mut [Wrench],
-) {
+/// Adds to `loads` what the added masses exert while the whole accelerates as [`accelerate`] says.
+pub(super) fn add(added: &[AddedMass], moving: &Moving, ws: &Workspace, loads: &mut [Wrench]) {
     for a in added {
-        let mut s = seen(&ws.motions[a.body()], &ws.bias[a.body()]);
+        let at = &ws.posture.placements()[a.body()];
+        let mut s = moving.at_rest(at);
         for &k in a.directions() {
-            s[k] += dot(&row(&ws.posture.placements()[a.body()], whole.c, k), x);
+            s[k] += dot(&row(at, ws.whole.c, k), &moving.x);
         }
         loads[a.body()] += wrench(ws.motions[a.body()].r, &a.load(&s));
     }

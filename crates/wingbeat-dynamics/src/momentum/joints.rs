@@ -4,7 +4,6 @@ use crate::error::DynamicsError;
 use crate::free::coordinate_rates;
 use crate::inverse::demand;
 use crate::motion::{BodyAcceleration, Wrench};
-use crate::posture::Composite;
 use crate::system::System;
 use crate::workspace::Workspace;
 
@@ -14,14 +13,13 @@ pub(super) fn move_joints(
     system: &System,
     (t, q, u): (f64, &[f64], &[f64]),
     loads: &[Wrench],
-    whole: &Composite,
     ws: &mut Workspace,
 ) -> Result<(), DynamicsError> {
     let root = ws.motions[0];
     let still = BodyAcceleration::default();
     ws.posture.accelerations(&root, &still, &mut ws.bias);
     demand(system, loads, &ws.motions, &ws.bias, &mut ws.demand);
-    let posture = (ws.posture.placements(), whole, root.r);
+    let posture = (ws.posture.placements(), &ws.whole, root.r);
     (ws.free)
         .solve(system, (t, q, u), posture, &ws.demand)
         .map_err(|e| DynamicsError::SingularMechanism {

@@ -136,7 +136,7 @@ impl BladeAir {
 
     /// Wind at a point of a wing that moves like `m`, wing components.
     fn wind_on(&self, m: &BodyMotion, t: f64) -> impl Fn(DVec3) -> DVec3 {
-        let (m, calm) = (*m, self.wind.is_none());
+        let calm = self.wind.is_none();
         move |r| match calm {
             true => DVec3::ZERO,
             false => m.r.transpose() * self.wind.at(m.point(r), t),

@@ -30,6 +30,15 @@ pub enum StepError<E> {
     NotConverged(StepReport),
 }
 
+/// What the rates of a state are asked for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Asked {
+    /// A pass of the corrector: those of followers are not needed.
+    Pass,
+    /// The accepted state: all rates.
+    Accepted,
+}
+
 /// Largest difference of two states in units of the natural sizes `scales` of their components;
 /// an infinite scale takes a component out of the norm. Not a number counts as infinite.
 pub fn scaled_difference(a: &[f64], b: &[f64], scales: &[f64]) -> f64 {

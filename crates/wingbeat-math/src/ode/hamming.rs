@@ -11,7 +11,7 @@
 //! With one, two, three corrector passes the limits of stability on the real axis are
 //! |lambda h| = 0.88, 0.72, 1.46, on the imaginary axis 0.28, 0.80, 1.08.
 
-use super::corrector::{Convergence, StepError, StepReport, agree};
+use super::corrector::{Asked, Convergence, StepError, StepReport, agree};
 
 /// The past that a multistep method needs: plain data, enough to go on bit for bit.
 #[derive(Clone, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
@@ -58,6 +58,7 @@ pub struct Hamming {
     pub convergence: Convergence,
     /// Natural sizes of the components of y.
     pub scales: Vec<f64>,
+    followers: Vec<usize>,
     predicted: Vec<f64>,
     trial: Vec<f64>,
     corrected: Vec<f64>,
@@ -72,6 +73,7 @@ impl Hamming {
             step,
             convergence,
             scales,
+            followers: vec![],
             predicted: zero.clone(),
             trial: zero.clone(),
             corrected: zero.clone(),
@@ -79,8 +81,14 @@ impl Hamming {
         }
     }
 
-    /// One step: `past` moves on by h. `rates(y, dy)` is called at the new time only; its last
-    /// call is made with the accepted state.
+    /// The same with these components as followers: nothing depends on them, and they are corrected
+    /// once, with their rates in the accepted state. Their scales are infinite.
+    pub fn followed_by(self, followers: Vec<usize>) -> Self {
+        Self { followers, ..self }
+    }
+
+    /// One step: `past` moves on by h. `rates(y, dy)` is called at the new time only; its last call is
+    /// made with the accepted state.
     ///
     /// # Errors
     /// The right-hand side fails; the corrector does not converge. `past` is then unchanged.
@@ -89,10 +97,28 @@ impl Hamming {
         past: &mut Multistep,
         mut rates: impl FnMut(&[f64], &mut [f64]) -> Result<(), E>,
     ) -> Result<StepReport, StepError<E>> {
+        self.advance_asking(past, |_, y, dy| rates(y, dy))
+    }
+
+    /// As [`Self::advance`] with rates that know what they are asked for. `rates(asked, y, dy)` is called at the new time only; its last
+    /// call is made with the accepted state.
+    ///
+    /// # Errors
+    /// The right-hand side fails; the corrector does not converge. `past` is then unchanged.
+    pub fn advance_asking<E>(
+        &mut self,
+        past: &mut Multistep,
+        mut rates: impl FnMut(Asked, &[f64], &mut [f64]) -> Result<(), E>,
+    ) -> Result<StepReport, StepError<E>> {
         self.predict(past);
         let report = self.correct(past, &mut rates)?;
-        self.finish();
-        rates(&self.trial, &mut self.rates).map_err(StepError::Rates)?;
+        (0..self.trial.len()).for_each(|i| self.finish(i));
+        rates(Asked::Accepted, &self.trial, &mut self.rates).map_err(StepError::Rates)?;
+        for k in 0..self.followers.len() {
+            let i = self.followers[k];
+            self.corrected[i] = corrected(past, i, self.rates[i], self.step);
+            self.finish(i);
+        }
         self.shift(past);
         Ok(report)
     }
@@ -111,28 +137,24 @@ impl Hamming {
     fn correct<E>(
         &mut self,
         past: &Multistep,
-        rates: &mut impl FnMut(&[f64], &mut [f64]) -> Result<(), E>,
+        rates: &mut impl FnMut(Asked, &[f64], &mut [f64]) -> Result<(), E>,
     ) -> Result<StepReport, StepError<E>> {
-        let ([_, y1, _, y3], [_, _, f2, f3]) = (&past.y, &past.f);
         let (dy, h) = (&mut self.rates, self.step);
-        let pass = |trial: &[f64], corrected: &mut [f64]| {
-            rates(trial, dy)?;
-            for (i, c) in corrected.iter_mut().enumerate() {
-                let sum = dy[i] + 2.0 * f3[i] - f2[i];
-                *c = (9.0 * y3[i] - y1[i] + 3.0 * h * sum) / 8.0;
+        let pass = |trial: &[f64], result: &mut [f64]| {
+            rates(Asked::Pass, trial, dy)?;
+            for (i, c) in result.iter_mut().enumerate() {
+                *c = corrected(past, i, dy[i], h);
             }
             Ok(())
         };
-        let (trial, corrected) = (&mut self.trial, &mut self.corrected);
-        agree(self.convergence, trial, corrected, &self.scales, pass)
+        let (trial, result) = (&mut self.trial, &mut self.corrected);
+        agree(self.convergence, trial, result, &self.scales, pass)
     }
 
-    /// The final modifier: the accepted state in `trial`.
-    fn finish(&mut self) {
-        for i in 0..self.trial.len() {
-            let gap = self.predicted[i] - self.corrected[i];
-            self.trial[i] = self.corrected[i] + 9.0 / 121.0 * gap;
-        }
+    /// The final modifier: component `i` of the accepted state into `trial`.
+    fn finish(&mut self, i: usize) {
+        let gap = self.predicted[i] - self.corrected[i];
+        self.trial[i] = self.corrected[i] + 9.0 / 121.0 * gap;
     }
 
     /// Makes the accepted state the newest of `past`.
@@ -142,4 +164,10 @@ impl Hamming {
             past.predicted_minus_corrected[i] = self.predicted[i] - self.corrected[i];
         }
     }
+}
+
+/// Component `i` of the new state by the corrector, `rate` being the rate there.
+fn corrected(past: &Multistep, i: usize, rate: f64, h: f64) -> f64 {
+    let ([_, y1, _, y3], [_, _, f2, f3]) = (&past.y, &past.f);
+    (9.0 * y3[i] - y1[i] + 3.0 * h * (rate + 2.0 * f3[i] - f2[i])) / 8.0
 }

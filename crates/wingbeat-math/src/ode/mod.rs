@@ -18,7 +18,7 @@ pub mod start;
 
 pub use adams::AdamsBashforthMoulton;
 pub use bdf::Bdf;
-pub use corrector::{Convergence, StepError, StepReport, scaled_difference};
+pub use corrector::{Asked, Convergence, StepError, StepReport, scaled_difference};
 pub use dop853::{AdaptiveError, AdaptiveReport, Dense, Dop853, Tolerance};
 pub use hamming::{Hamming, Multistep};
 pub use runge_kutta::Rk4;

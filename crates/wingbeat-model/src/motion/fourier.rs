@@ -19,10 +19,17 @@ pub struct Fourier {
 impl Fourier {
     /// Value and first two derivatives with respect to `x`.
     pub fn at(&self, x: f64) -> [f64; 3] {
+        self.at_turn((TAU * x).sin_cos())
+    }
+
+    /// As [`Self::at`], from sine and cosine of 2 pi x; those of the harmonics follow by addition
+    /// of angles, each with a rounding more.
+    pub(crate) fn at_turn(&self, (s1, c1): (f64, f64)) -> [f64; 3] {
         let mut q = [self.mean, 0.0, 0.0];
+        let (mut s, mut c) = (0.0, 1.0);
         for k in 0..self.cos.len().max(self.sin.len()) {
             let w = TAU * (k + 1) as f64;
-            let (s, c) = (w * x).sin_cos();
+            (s, c) = (s * c1 + c * s1, c * c1 - s * s1);
             let a = self.cos.get(k).copied().unwrap_or(0.0);
             let b = self.sin.get(k).copied().unwrap_or(0.0);
             let harmonic = a * c + b * s;

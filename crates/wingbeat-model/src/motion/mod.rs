@@ -16,4 +16,4 @@ pub use berman_wang::{Oval, SmoothSquare, SmoothTriangle};
 pub use fourier::Fourier;
 pub use spline::PeriodicSpline;
 pub use start::Start;
-pub use wing_motion::{AngleLaw, AngleLaws, WingMotion};
+pub use wing_motion::{AngleLaw, AngleLaws, WingMotion, wing_rotation};

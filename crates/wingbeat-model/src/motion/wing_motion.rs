@@ -5,6 +5,7 @@ use crate::motion::berman_wang::{Oval, SmoothSquare, SmoothTriangle};
 use crate::motion::fourier::Fourier;
 use crate::motion::spline::PeriodicSpline;
 use crate::motion::start::Start;
+use std::f64::consts::TAU;
 use wingbeat_math::{MovingRotation, RotationLaw};
 
 /// An angle as a function of the phase x \[wingbeats\], period 1 \[rad\].
@@ -27,9 +28,14 @@ pub enum AngleLaw {
 impl AngleLaw {
     /// Value and first two derivatives with respect to the phase `x` \[rad per wingbeat^k\].
     pub fn at(&self, x: f64) -> [f64; 3] {
+        self.at_turn(x, (TAU * x).sin_cos())
+    }
+
+    /// As [`Self::at`], sine and cosine of 2 pi x being known.
+    fn at_turn(&self, x: f64, turn: (f64, f64)) -> [f64; 3] {
         match self {
             AngleLaw::Constant(q) => [*q, 0.0, 0.0],
-            AngleLaw::Fourier(law) => law.at(x),
+            AngleLaw::Fourier(law) => law.at_turn(turn),
             AngleLaw::SmoothTriangle(law) => law.at(x),
             AngleLaw::SmoothSquare(law) => law.at(x),
             AngleLaw::Oval(law) => law.at(x),
@@ -133,9 +139,10 @@ impl WingMotion {
     pub fn angles(&self, t: f64) -> [[f64; 3]; 3] {
         let [x, x1, x2] = self.phase_at(t);
         let x = x - x.floor(); // laws have period 1; a small argument keeps digits
+        let turn = (TAU * x).sin_cos();
         let AngleLaws { phi, theta, psi } = &self.angles;
         [phi, theta, psi].map(|law| {
-            let [q, q1, q2] = law.at(x);
+            let [q, q1, q2] = law.at_turn(x, turn);
             [q, q1 * x1, q2 * x1 * x1 + q1 * x2]
         })
     }
@@ -159,10 +166,15 @@ impl WingMotion {
 
 impl RotationLaw for WingMotion {
     fn at(&self, t: f64) -> MovingRotation {
-        let [phi, theta, psi] = self.angles(t);
-        MovingRotation::about(1, [self.stroke_plane_pitch, 0.0, 0.0])
-            .then(&MovingRotation::about(0, phi))
-            .then(&MovingRotation::about(2, theta))
-            .then(&MovingRotation::about(1, psi))
+        wing_rotation([self.stroke_plane_pitch, 0.0, 0.0], self.angles(t))
     }
+}
+
+/// C = R2(eta) R1(phi) R3(theta) R2(psi) of the pitch `plane` of the stroke plane and of the angles
+/// phi, theta, psi, each `[value, rate, acceleration]` \[rad, rad/s, rad/s2\].
+pub fn wing_rotation(plane: [f64; 3], [phi, theta, psi]: [[f64; 3]; 3]) -> MovingRotation {
+    MovingRotation::about(1, plane)
+        .then(&MovingRotation::about(0, phi))
+        .then(&MovingRotation::about(2, theta))
+        .then(&MovingRotation::about(1, psi))
 }

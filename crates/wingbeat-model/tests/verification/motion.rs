@@ -41,6 +41,32 @@ fn laws() -> Vec<AngleLaw> {
 }
 
 #[test]
+fn exact_fourier_series_is_the_sum_of_its_harmonics() {
+    let term = |k: i32| f64::from((7 * k + 3) % 11 - 5) / f64::from(k);
+    let series = Fourier {
+        mean: 0.3,
+        cos: (1..=30).map(term).collect(),
+        sin: (1..=28).map(|k| term(k + 4)).collect(),
+    };
+    for x in [0.0, 0.013, 0.25, 0.511, 0.999] {
+        let mut sum = [0.3, 0.0, 0.0];
+        for k in 1..=30 {
+            let w = TAU * f64::from(k);
+            let (s, c) = (w * x).sin_cos();
+            let (a, b) = (term(k), if k <= 28 { term(k + 4) } else { 0.0 });
+            sum[0] += a * c + b * s;
+            sum[1] += w * (b * c - a * s);
+            sum[2] -= w * w * (a * c + b * s);
+        }
+        // Harmonic k by k additions of angles: k roundings of terms of size 5/k.
+        let size = [1.0, TAU, TAU * TAU * 30.0];
+        for ((a, b), size) in series.at(x).into_iter().zip(sum).zip(size) {
+            assert!((a - b).abs() < 1e-13 * size * 30.0, "{x}: {a} and {b}");
+        }
+    }
+}
+
+#[test]
 fn order_analytic_derivatives_are_the_limit_of_central_differences() {
     for law in laws() {
         for x in [0.013, 0.27, 0.511, 0.88] {
@@ -192,8 +218,8 @@ fn agrees_rotation_and_its_derivatives_with_central_differences_during_start_and
     for t in [0.9e-3, 2.6e-3, 8.1e-3] {
         let h = 1e-4 / f;
         let (p, m, c) = (motion.at(t + h), motion.at(t - h), motion.at(t));
-        let d1 = (p.c - m.c) * (0.5 / h) - c.c_dot;
-        let d2 = (p.c_dot - m.c_dot) * (0.5 / h) - c.c_ddot;
+        let d1 = (p.c - m.c) * (0.5 / h) - c.c_dot();
+        let d2 = (p.c_dot() - m.c_dot()) * (0.5 / h) - c.c_ddot();
         // h = 1e-4 beats: (2 pi 8 h)^2 / 6 = 4e-6 of the rate for the 8th harmonic, less below.
         assert!(gap(d1 * (1.0 / f), DMat3::ZERO) < 1e-4);
         assert!(gap(d2 * (1.0 / (f * f)), DMat3::ZERO) < 1e-2);
@@ -206,7 +232,7 @@ fn exact_rotation_is_the_1_3_2_sequence_after_the_stroke_plane() {
     let motion = WingMotion::fixed(0.3, [0.5, -0.2, 1.1]);
     let expected = r2(0.3) * r1(0.5) * r3(-0.2) * r2(1.1);
     assert!(gap(motion.at(1.7).c, expected) < 1e-15);
-    assert_eq!(motion.at(1.7).c_dot, DMat3::ZERO);
+    assert_eq!(motion.at(1.7).c_dot(), DMat3::ZERO);
     // Body pitch + stroke-plane pitch = 90 deg: axis 1 of the stroke plane points up (-n3).
     let up = r2(FRAC_PI_2 - 0.3) * r2(0.3) * DVec3::X;
     assert!((up + DVec3::Z).length() < 1e-15);
@@ -220,7 +246,7 @@ fn invariant_mirrored_motion_mirrors_the_rotation() {
     for t in [0.0, 1.1e-3, 9.7e-3] {
         let (r, l) = (right.at(t), right.mirrored().at(t));
         assert_eq!(flip * r.c * flip, l.c); // sign changes only: bit for bit
-        assert_eq!(flip * r.c_ddot * flip, l.c_ddot);
+        assert_eq!(flip * r.c_ddot() * flip, l.c_ddot());
     }
 }
 
@@ -324,7 +350,7 @@ fn invariant_in_every_published_motion_the_leading_edge_leads_both_half_strokes(
         for t in [middle(1.0), middle(-1.0)] {
             let m = motion.at(t);
             let leading_edge = m.c * DVec3::X;
-            let velocity = (m.c_dot * DVec3::Y).normalize(); // of a point on the span axis
+            let velocity = (m.c_dot() * DVec3::Y).normalize(); // of a point on the span axis
             let lead = leading_edge.dot(velocity);
             let up = leading_edge.x;
             assert!(lead > 0.2, "{}: at {t} leads by {lead}", published.name);

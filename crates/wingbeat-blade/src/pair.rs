@@ -1,0 +1,180 @@
+//! Forces of strips by their velocities, two strips at a time: a vector register holds two numbers.
+
+use std::f64::consts::PI;
+
+use wingbeat_math::DVec2;
+
+use crate::coefficients::Translation;
+use crate::settings::{BladeSettings, CentreOfPressure, Rotation};
+use crate::strip::Strip;
+
+/// Two strips and what their forces need; the second may be one that feels nothing.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct StripPair {
+    /// Place along axis 2 \[m\].
+    pub y: DVec2,
+    x_leading: DVec2,
+    chord: DVec2,
+    /// `rho/2 c dr` [kg/m].
+    pressure: DVec2,
+    /// `rho C_rot c^2 dr` \[kg\].
+    circulation: DVec2,
+    /// `pi/16 rho c^4 dr` [kg m].
+    viscous: DVec2,
+}
+
+/// How the points of two strips on the feathering axis move through the air.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct PairMotion {
+    /// Velocity along the chord, forward [m/s].
+    pub u: DVec2,
+    /// Velocity along the normal [m/s].
+    pub w: DVec2,
+    /// Rate of feathering [rad/s].
+    pub q: DVec2,
+}
+
+/// Force along chord and normal \[N\], moment about the point on the feathering axis [N m].
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct PairForce {
+    pub along: DVec2,
+    pub normal: DVec2,
+    pub about: DVec2,
+}
+
+impl StripPair {
+    /// All `strips`, two by two.
+    pub fn all(strips: &[Strip], settings: &BladeSettings) -> Vec<Self> {
+        let pairs = strips.chunks(2);
+        pairs.map(|pair| Self::new(pair, settings)).collect()
+    }
+
+    fn new(pair: &[Strip], settings: &BladeSettings) -> Self {
+        let rho = settings.density;
+        let lanes =
+            |f: &dyn Fn(&Strip) -> f64| DVec2::from_array([0, 1].map(|k| f(&strip(pair, k))));
+        Self {
+            y: lanes(&|s| s.y),
+            x_leading: lanes(&|s| s.x_leading),
+            chord: lanes(&|s| s.chord),
+            pressure: lanes(&|s| 0.5 * rho * s.chord * s.width),
+            circulation: lanes(&|s| {
+                rho * circulation(settings.rotation, s) * s.chord * s.chord * s.width
+            }),
+            viscous: lanes(&|s| PI / 16.0 * rho * s.chord.powi(4) * s.width),
+        }
+    }
+}
+
+/// Strip `k` of a pair; where there is none, the first without width.
+fn strip(pair: &[Strip], k: usize) -> Strip {
+    let none = Strip {
+        width: 0.0,
+        ..pair[0]
+    };
+    pair.get(k).copied().unwrap_or(none)
+}
+
+/// Circulation of feathering over `c^2 q`.
+fn circulation(rotation: Rotation, s: &Strip) -> f64 {
+    match rotation {
+        Rotation::None => 0.0,
+        Rotation::SaneDickinson | Rotation::Circulation => PI * (0.75 - s.x0()),
+        Rotation::Coefficient(c) => c,
+    }
+}
+
+/// Translation, rotation and viscous moment of all `pairs`: `motion(k)` says how pair k moves,
+/// `put(k, force)` takes its force.
+#[inline]
+pub(crate) fn forces(
+    pairs: &[StripPair],
+    settings: &BladeSettings,
+    motion: impl Fn(usize, &StripPair) -> PairMotion,
+    put: impl FnMut(usize, PairForce),
+) {
+    match settings.translation {
+        Translation::DoubleAngle {
+            lift,
+            drag_0,
+            drag_90,
+        } => {
+            let law = |sin: DVec2, cos: DVec2| {
+                let lift = 2.0 * lift * sin * cos;
+                [lift, drag_0 * cos * cos + drag_90 * sin * sin]
+            };
+            with_law(pairs, settings, motion, put, law);
+        }
+        law => with_law(pairs, settings, motion, put, |sin, cos| {
+            let [a, b] = [0, 1].map(|k| law.of_direction(sin[k], cos[k]));
+            [DVec2::new(a[0], b[0]), DVec2::new(a[1], b[1])]
+        }),
+    }
+}
+
+/// As [`forces`] with the lift and drag coefficients `law` of sine and cosine (both >= 0) of the
+/// angle of attack.
+#[inline]
+fn with_law(
+    pairs: &[StripPair],
+    settings: &BladeSettings,
+    motion: impl Fn(usize, &StripPair) -> PairMotion,
+    mut put: impl FnMut(usize, PairForce),
+    law: impl Fn(DVec2, DVec2) -> [DVec2; 2],
+) {
+    let across = settings.rotation == Rotation::SaneDickinson;
+    let viscous = settings
+        .viscous
+        .map_or([0.0; 2], |m| [m.linear, m.quadratic]);
+    for (k, pair) in pairs.iter().enumerate() {
+        let PairMotion { u, w, q } = motion(k, pair);
+        let speed = (u * u + w * w).map(f64::sqrt);
+        // At rest both are zero, and so is every force.
+        let inverse = speed.max(DVec2::splat(f64::MIN_POSITIVE)).recip();
+        let (cos, sin) = (u * inverse, w * inverse);
+        let [lift, drag] = law(sin.abs(), cos.abs());
+        let pressure = pair.pressure * (speed * speed);
+        // Lift across the velocity and against w; drag against the velocity.
+        let along = pressure * (lift * sin.abs() * cos.signum() - drag * cos);
+        let normal = -pressure * (lift * cos.abs() * sin.signum() + drag * sin);
+        let strength = pair.circulation * q;
+        let [r1, r3] = match across {
+            true => [DVec2::ZERO, -strength * speed * u.signum()],
+            false => [strength * w, -strength * u],
+        };
+        let normal = normal + r3;
+        let behind = centre_of_pressure(settings.centre_of_pressure, sin, cos);
+        let x_cp = pair.x_leading - pair.chord * behind;
+        let damping = pair.viscous * (viscous[0] + viscous[1] * q.abs()) * q;
+        put(
+            k,
+            PairForce {
+                along: along + r1,
+                normal,
+                about: -damping - x_cp * normal,
+            },
+        );
+    }
+}
+
+/// Centre of pressure behind the leading edge over the chord.
+#[inline]
+fn centre_of_pressure(law: CentreOfPressure, sin: DVec2, cos: DVec2) -> DVec2 {
+    let from_edge_met = match law {
+        CentreOfPressure::Cosine => return 0.5 - 0.25 * cos,
+        CentreOfPressure::Fixed(x) => DVec2::splat(x),
+        CentreOfPressure::Chen2016 => {
+            let of = |k: usize| {
+                let alpha = sin[k].abs().atan2(cos[k].abs());
+                0.25 + 0.25 / (1.0 + (5.0 * (1.0 - 4.0 * alpha / PI)).exp())
+            };
+            DVec2::new(of(0), of(1))
+        }
+    };
+    // Air from behind meets the trailing edge.
+    let part = |k: usize| match cos[k] < 0.0 {
+        true => 1.0 - from_edge_met[k],
+        false => from_edge_met[k],
+    };
+    DVec2::new(part(0), part(1))
+}
