@@ -17,7 +17,8 @@ use super::fault::Built;
 use super::numbers::vector;
 use crate::error::Fault;
 use crate::raw::{
-    Case, ControlCase, ControllerCase, SensorsCase, StiffnessCase, TargetCase, WeightsCase,
+    AirModel, Case, ControlCase, ControllerCase, Mode, SensorsCase, StiffnessCase, TargetCase,
+    WeightsCase,
 };
 
 /// Where the controller is chosen.
@@ -63,6 +64,22 @@ fn check(case: &Case) -> Built<()> {
     let refused = |key: &str, problem: &str, allowed: &str, remedy: &str| {
         Err(Fault::new(key, problem, allowed, remedy))
     };
+    if matches!(case.air.model, AirModel::None | AirModel::Derivatives) {
+        return refused(
+            KEY,
+            "no stroke steers without air, or in air that follows from a table of derivatives",
+            "none, or another air.model: vortex_lattice, blade_element, external",
+            "set it to \"none\", or change air.model",
+        );
+    }
+    if case.flight.mode == Mode::Tethered {
+        return refused(
+            KEY,
+            "a tethered body is not steered",
+            "none, or flight.mode = \"free\"",
+            "set it to \"none\", or change flight.mode",
+        );
+    }
     if case.motion.frequency_hz.value() <= 0.0 || case.wing.is_empty() {
         return refused(
             KEY,

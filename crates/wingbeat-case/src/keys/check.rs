@@ -117,7 +117,7 @@ impl Pair<'_> {
     }
 
     /// What the file says for another air model, integrator or controller than the command line
-    /// chose, but for properties of the air itself and for feedback. The integrator follows from the model unless it is given.
+    /// chose, but for properties of the air itself. The integrator follows from the model unless it is given.
     fn stands_by(&self, key: Shape, need: Need, path: &str) -> bool {
         let source = self.source;
         let follows =

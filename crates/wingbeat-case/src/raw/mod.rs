@@ -113,10 +113,6 @@ pub struct Case {
     #[serde(default)]
     pub air: AirCase,
     /// Feedback in the loop of the flight; left out: none.
-    #[schemars(extend(
-        "with" = ["flight.mode = free", "air.model = vortex_lattice | blade_element | external"],
-        "always" = true
-    ))]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub control: Option<ControlCase>,
     /// What is written.
