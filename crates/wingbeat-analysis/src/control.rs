@@ -1,4 +1,4 @@
-//! Feedback: a controller in the loop of the wingbeat.
+//! Feedback of departures from a reference flight: a law in the loop of any flight, in any air.
 //!
 //! Once per wingbeat the flyer is sensed; the command formed from it acts some beats later (the
 //! latency). Over the beat in which it acts the angles of the wings go over smoothly from the old
@@ -7,75 +7,104 @@
 use std::collections::VecDeque;
 use std::sync::Arc;
 
-use wingbeat_flight::Feedback;
+use wingbeat_flight::{Controller, Feedback, FlightSetup, Sensed};
 use wingbeat_math::{DMat3, DQuat, DVec3};
 use wingbeat_model::motion::Adjustment;
 
 use crate::AnalysisError;
 use crate::beat::{Beat, JOINTS, State};
-use crate::level::{Level, Perturbation};
+use crate::departure::{CONTROLS, Controls, Departure, Limits, Reference, adjustments};
+use crate::level::Level;
+use crate::regulator::Regulator;
+use crate::sensors::Sensors;
+use crate::stabiliser::ProportionalDerivative;
 use crate::trim::Trim;
 
-/// What a controller sees at the start of a beat.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Sensed {
-    /// Number of the beat.
-    pub beat: usize,
-    /// Mass centre relative to where the trimmed flight would be, level frame [m].
-    pub position: DVec3,
-    /// Velocity, angular velocity and tilt at this instant, less those of the trimmed flight.
-    pub departure: Perturbation,
-}
-
-/// A controller: from what is sensed to one adjustment per wing.
-pub trait Controller {
-    /// Adjustments of the wings, in the animal's order, on top of the trimmed motion.
-    fn command(&mut self, sensed: &Sensed, wings: usize) -> Vec<Adjustment>;
-
-    /// Everything it remembers, for a flight that is resumed.
-    fn memory(&self) -> Vec<f64> {
-        vec![]
-    }
-
-    /// Goes on from what it remembered.
-    fn restore(&mut self, _memory: &[f64]) {}
-}
-
-/// A controller of departures from a trimmed flight in the loop of any flight, in any air: looks
-/// once per wingbeat (see [`Steering::feedback`]).
+/// From departures to controls.
 #[derive(Clone, Debug)]
-pub struct Steering<C> {
-    controller: C,
-    level: Level,
-    reference: Perturbation,
-    /// Mean velocity of the trimmed flight, N components [m/s].
-    velocity: DVec3,
-    wings: usize,
-    /// Mass centre at the first look, N components [m].
-    origin: Option<DVec3>,
+pub enum Law {
+    /// Proportional-derivative loops.
+    Stabiliser(ProportionalDerivative),
+    /// Discrete linear-quadratic regulator.
+    Regulator(Regulator),
 }
 
-impl<C: Controller> Steering<C> {
-    /// `controller` about the trimmed flight.
-    ///
-    /// # Errors
-    /// Numbers that are not finite.
-    pub fn new(controller: C, trim: &Trim) -> Result<Self, AnalysisError> {
-        let root = trim.beat.root(&trim.state);
-        let level = Level::new(root.r, trim.beat.gravity());
-        Ok(Self {
-            controller,
-            reference: Perturbation::of(&trim.beat, &level, &trim.state),
-            level,
-            velocity: trim.mean_velocity()?,
-            wings: trim.setup.animal.wings.len(),
-            origin: None,
-        })
+impl Law {
+    fn controls(&self, d: &Departure) -> Controls {
+        match self {
+            Self::Stabiliser(loops) => loops.controls(d),
+            Self::Regulator(regulator) => regulator.controls(d),
+        }
+    }
+
+    /// A beat goes by with the command `u`, which reaches a limit or not.
+    fn remember(&mut self, d: &Departure, u: Controls, limited: bool) {
+        if let Self::Regulator(regulator) = self {
+            regulator.remember(d, u, limited);
+        }
     }
 }
 
-impl<C: Controller + Clone + std::fmt::Debug + Send + Sync + 'static> Steering<C> {
-    /// Feedback that looks every `steps_per_beat` steps and whose commands act `latency` beats later.
+/// What is held.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Held {
+    /// A flight that is known.
+    Known(Reference),
+    /// The flight as it begins, under gravity and with this mean velocity, N components.
+    Begun {
+        /// Acceleration of gravity [m/s2].
+        gravity: DVec3,
+        /// Mean velocity [m/s].
+        velocity: DVec3,
+    },
+}
+
+/// The controller of a flight: a law about a reference flight.
+#[derive(Clone, Debug)]
+pub struct Steering {
+    law: Law,
+    held: Held,
+    /// Side of every wing, right +1, left -1.
+    sides: Vec<f64>,
+    /// Commands of the reference flight: amplitude \[1\], mean stroke angle \[rad\].
+    base: [f64; 2],
+    /// Largest departures of commands from those of the reference flight.
+    pub limits: Limits,
+    /// Wingbeats from one look to the next; the command is kept between them.
+    pub every: usize,
+    /// Noise and bias of what is seen; none: the truth.
+    pub sensors: Option<Sensors>,
+    /// Reference flight and place of its mass centre at the first look, N components [m].
+    first: Option<(Reference, DVec3)>,
+    command: Controls,
+}
+
+impl Steering {
+    /// `law` in the loop of the flight `setup` that holds `held`.
+    pub fn new(law: Law, held: Held, setup: &FlightSetup) -> Self {
+        let wings = &setup.animal.wings;
+        Self {
+            law,
+            held,
+            sides: wings.iter().map(|w| w.side.sign()).collect(),
+            base: [0.0; 2],
+            limits: Limits::default(),
+            every: 1,
+            sensors: None,
+            first: None,
+            command: [0.0; CONTROLS],
+        }
+    }
+
+    /// The reference flight has the motion of the setup with this adjustment of stroke amplitude
+    /// and mean stroke angle, which is commanded too.
+    pub fn adjusted(mut self, by: &Adjustment) -> Self {
+        self.base = [by.stroke_amplitude, by.stroke_offset];
+        self
+    }
+
+    /// Feedback of a flight of `steps_per_beat` steps per wingbeat whose commands act `latency`
+    /// beats later.
     pub fn feedback(self, steps_per_beat: usize, latency: usize) -> Feedback {
         Feedback {
             controller: Arc::new(self),
@@ -83,141 +112,128 @@ impl<C: Controller + Clone + std::fmt::Debug + Send + Sync + 'static> Steering<C
             latency,
         }
     }
+
+    /// The reference flight and the place where it began; known from the first look on.
+    fn begin(&mut self, sensed: &Sensed) -> (Reference, DVec3) {
+        *self.first.get_or_insert_with(|| {
+            let reference = match self.held {
+                Held::Known(reference) => reference,
+                Held::Begun { gravity, velocity } => Reference::begun(sensed, gravity, velocity),
+            };
+            (reference, sensed.centre)
+        })
+    }
 }
 
-impl<C: Controller + Send> wingbeat_flight::Controller for Steering<C> {
-    fn command(&mut self, sensed: &wingbeat_flight::Sensed) -> Vec<Adjustment> {
-        let origin = *self.origin.get_or_insert(sensed.centre);
-        let (root, velocity) = (&sensed.root, sensed.velocity);
-        let seen = Perturbation::seen(&self.level, root.r, velocity, root.w).to_array();
-        let reference = self.reference.to_array();
-        let way = sensed.centre - origin - sensed.time * self.velocity;
-        let sensed = Sensed {
-            beat: sensed.look,
-            position: self.level.to_n.transpose() * way,
-            departure: Perturbation::from_array(std::array::from_fn(|i| seen[i] - reference[i])),
-        };
-        self.controller.command(&sensed, self.wings)
+impl Controller for Steering {
+    fn command(&mut self, sensed: &Sensed) -> Vec<Adjustment> {
+        let sensed = self.sensors.map_or(*sensed, |s| s.seen(sensed));
+        let (reference, origin) = self.begin(&sensed);
+        let d = reference.departure(&sensed, origin);
+        if d.beat.is_multiple_of(self.every) {
+            self.command = self.limits.applied(self.law.controls(&d));
+        }
+        let limited = self.limits.reached(&self.command);
+        self.law.remember(&d, self.command, limited);
+        let [amplitude, offset] = self.base;
+        let mut list = adjustments(&self.command, &self.sides);
+        for a in &mut list {
+            a.stroke_amplitude = (1.0 + amplitude) * (1.0 + a.stroke_amplitude) - 1.0;
+            a.stroke_offset += offset;
+        }
+        list
     }
 
     fn memory(&self) -> Vec<f64> {
-        let origin = self.origin.map_or(vec![], |o| o.to_array().to_vec());
-        [vec![origin.len() as f64], origin, self.controller.memory()].concat()
+        let first = self.first.map_or(vec![], |(reference, origin)| {
+            [reference.to_vec(), origin.to_array().to_vec()].concat()
+        });
+        let law = match &self.law {
+            Law::Stabiliser(_) => vec![],
+            Law::Regulator(regulator) => regulator.memory(),
+        };
+        [vec![first.len() as f64], first, self.command.to_vec(), law].concat()
     }
 
     fn restore(&mut self, memory: &[f64]) {
-        let Some((&known, rest)) = memory.split_first() else {
+        let numbers = memory.first().map_or(0, |n| *n as usize);
+        let parts = memory.get(1..).and_then(|m| m.split_at_checked(numbers));
+        let Some((first, (command, law))) =
+            parts.and_then(|(first, rest)| Some((first, rest.split_at_checked(CONTROLS)?)))
+        else {
             return;
         };
-        let (origin, rest) = rest.split_at(known as usize);
-        self.origin = (!origin.is_empty()).then(|| DVec3::from_slice(origin));
-        self.controller.restore(rest);
-    }
-}
-
-impl Controller for Box<dyn Controller> {
-    fn command(&mut self, sensed: &Sensed, wings: usize) -> Vec<Adjustment> {
-        (**self).command(sensed, wings)
-    }
-}
-
-/// No feedback.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct Free;
-
-impl Controller for Free {
-    fn command(&mut self, _sensed: &Sensed, wings: usize) -> Vec<Adjustment> {
-        vec![Adjustment::default(); wings]
-    }
-}
-
-/// A controller that looks only every so many beats and holds its command in between.
-#[derive(Clone, Debug)]
-pub struct Sampled<C> {
-    controller: C,
-    every: usize,
-    held: Vec<Adjustment>,
-}
-
-impl<C: Controller> Sampled<C> {
-    /// `controller`, asked every `every` beats (at least 1).
-    pub fn new(controller: C, every: usize) -> Self {
-        Self {
-            controller,
-            every: every.max(1),
-            held: vec![],
+        self.first = first
+            .split_last_chunk::<3>()
+            .and_then(|(reference, origin)| {
+                Some((
+                    Reference::from_slice(reference)?,
+                    DVec3::from_array(*origin),
+                ))
+            });
+        self.command.copy_from_slice(command);
+        if let Law::Regulator(regulator) = &mut self.law {
+            regulator.restore(law);
         }
     }
 }
 
-impl<C: Controller> Controller for Sampled<C> {
-    fn command(&mut self, sensed: &Sensed, wings: usize) -> Vec<Adjustment> {
-        if sensed.beat.is_multiple_of(self.every) || self.held.is_empty() {
-            self.held = self.controller.command(sensed, wings);
-        }
-        self.held.clone()
-    }
+/// The state of the trimmed flight at the start of a beat, disturbed by the rotation vector `tilt`
+/// \[rad\] (roll, pitch, heading) and the velocity `velocity` [m/s] (level frame).
+pub fn disturbed(trim: &Trim, tilt: DVec3, velocity: DVec3) -> State {
+    let root = trim.beat.root(&trim.state);
+    let level = Level::new(root.r, trim.beat.gravity());
+    let turned = level.to_n * DMat3::from_quat(DQuat::from_scaled_axis(tilt));
+    let v = DVec3::from_slice(&trim.state[7..]) / trim.beat.mass();
+    trim.beat.state_with(
+        DVec3::ZERO,
+        turned * level.to_root.transpose(),
+        turned * level.to_n.transpose() * v + level.to_n * velocity,
+        root.w,
+        &trim.state[JOINTS..],
+    )
 }
 
-/// A flight under control, beat by beat.
-pub struct ControlledFlight<'a> {
+/// A flight under feedback on the map of wingbeats: as a flight of the trimmed setup with a look at
+/// the start of each beat, at two thirds of its cost.
+pub struct SteeredBeats<'a> {
     trim: &'a Trim,
-    level: Level,
-    steps: usize,
+    controller: Option<Steering>,
+    reference: Reference,
     /// Commands under way: the latency.
     queue: VecDeque<Vec<Adjustment>>,
     acting: Vec<Adjustment>,
     state: State,
-    /// Way of the trimmed flight in a beat, N components [m].
-    travel: DVec3,
-    reference: Perturbation,
     sensed: Sensed,
 }
 
-impl<'a> ControlledFlight<'a> {
-    /// From the trimmed flight disturbed by the rotation vector `tilt` \[rad\] (roll, pitch, heading)
-    /// and the velocity `velocity` [m/s] (level frame); commands act `latency` beats after they
-    /// were sensed.
+impl<'a> SteeredBeats<'a> {
+    /// From the state `state` at the start of a beat of `trim`; commands act `latency` beats after
+    /// they were formed.
     ///
     /// # Errors
     /// Numbers that are not finite.
     pub fn new(
         trim: &'a Trim,
-        tilt: DVec3,
-        velocity: DVec3,
+        state: State,
+        controller: Option<Steering>,
         latency: usize,
     ) -> Result<Self, AnalysisError> {
-        let root = trim.beat.root(&trim.state);
-        let level = Level::new(root.r, trim.beat.gravity());
-        let turned = level.to_n * DMat3::from_quat(DQuat::from_scaled_axis(tilt));
-        let v = DVec3::from_slice(&trim.state[7..]) / trim.beat.mass();
-        let r = turned * level.to_root.transpose();
-        let state = trim.beat.state_with(
-            DVec3::ZERO,
-            r,
-            turned * level.to_n.transpose() * v + level.to_n * velocity,
-            root.w,
-            &trim.state[JOINTS..],
-        );
         let none = vec![Adjustment::default(); trim.setup.animal.wings.len()];
-        let mut flight = Self {
-            level,
-            steps: trim.beat.steps(),
+        Ok(Self {
+            trim,
+            controller,
+            reference: Reference::trimmed(trim)?,
             queue: VecDeque::from(vec![none.clone(); latency]),
             acting: none,
-            reference: Perturbation::of(&trim.beat, &level, &trim.state),
-            sensed: Sensed::default(),
+            sensed: seen(&trim.beat, &state, 0),
             state,
-            travel: trim.mean_velocity()? * trim.beat.period(),
-            trim,
-        };
-        flight.sense(0, &trim.beat);
-        Ok(flight)
+        })
     }
 
-    /// What was sensed last.
-    pub fn sensed(&self) -> &Sensed {
-        &self.sensed
+    /// What the flight departs by from the trimmed one at the start of this beat.
+    pub fn departure(&self) -> Departure {
+        self.reference.departure(&self.sensed, DVec3::ZERO)
     }
 
     /// The commands in force.
@@ -229,33 +245,31 @@ impl<'a> ControlledFlight<'a> {
     ///
     /// # Errors
     /// Numbers that are not finite: the flyer is lost.
-    pub fn beat(&mut self, controller: &mut dyn Controller) -> Result<&Sensed, AnalysisError> {
-        let command = controller.command(&self.sensed, self.acting.len());
-        self.queue.push_back(command);
-        let next = self.queue.pop_front().expect("one was just pushed");
-        let beat = Beat::between(&self.trim.setup, self.steps, &self.acting, &next)?;
-        let number = self.sensed.beat + 1;
+    pub fn beat(&mut self) -> Result<(), AnalysisError> {
+        if let Some(controller) = &mut self.controller {
+            self.queue.push_back(controller.command(&self.sensed));
+        }
+        let due = self.controller.as_ref().and(self.queue.pop_front());
+        let next = due.unwrap_or_else(|| self.acting.clone());
+        let (setup, number) = (&self.trim.setup, self.sensed.look + 1);
+        let beat = Beat::between(setup, self.trim.beat.steps(), &self.acting, &next)?;
         let lost = |e| AnalysisError::Numbers(format!("beat {number}: the flyer is lost ({e})"));
         self.state = beat.advance(&self.state).map_err(lost)?;
         self.acting = next;
         // The next beat begins as this one ended.
-        self.sense(
-            number,
-            &Beat::between(&self.trim.setup, 1, &self.acting, &self.acting)?,
-        );
-        Ok(&self.sensed)
+        let held = Beat::between(setup, 1, &self.acting, &self.acting)?;
+        self.sensed = seen(&held, &self.state, number);
+        Ok(())
     }
+}
 
-    /// Looks at the state at the start of the wingbeat `beat`.
-    fn sense(&mut self, number: usize, beat: &Beat) {
-        let seen = Perturbation::of(beat, &self.level, &self.state).to_array();
-        let reference = self.reference.to_array();
-        let departure = std::array::from_fn(|i| seen[i] - reference[i]);
-        self.sensed = Sensed {
-            beat: number,
-            position: self.level.to_n.transpose()
-                * (DVec3::from_slice(&self.state) - number as f64 * self.travel),
-            departure: Perturbation::from_array(departure),
-        };
+/// What is seen of the state `y` at the start of the wingbeat `look`.
+fn seen(beat: &Beat, y: &[f64], look: usize) -> Sensed {
+    Sensed {
+        look,
+        time: look as f64 * beat.period(),
+        root: beat.root(y),
+        centre: DVec3::from_slice(y),
+        velocity: DVec3::from_slice(&y[7..]) / beat.mass(),
     }
 }

@@ -5,7 +5,8 @@
 //! [`mean`] averages loads over a beat of steadily moving body; [`stability`] linearises: the
 //! cycle-averaged rigid-body model with its derivatives, and Floquet's multipliers of the
 //! periodic orbit from the [`monodromy`] matrix; [`modes`] names what comes out; [`derivatives`]
-//! are the controls; [`power`] is the price; [`control`] holds a flyer on its orbit by feedback.
+//! are the controls; [`power`] is the price; [`control`] holds a flyer on its orbit by feedback, laid out by
+//! [`stabiliser`] or [`regulator`] when a flight is built ([`design`]).
 //!
 //! | symbol | name in code | meaning | unit |
 //! |---|---|---|---|
@@ -27,7 +28,9 @@
 
 pub mod beat;
 pub mod control;
+pub mod departure;
 pub mod derivatives;
+pub mod design;
 pub mod eigen;
 mod error;
 pub mod level;
@@ -38,6 +41,7 @@ pub mod plausibility;
 pub mod power;
 pub mod progress;
 pub mod regulator;
+pub mod sensors;
 pub mod stabiliser;
 pub mod stability;
 pub mod table;

@@ -8,24 +8,26 @@
 //! ```
 //!
 //! Controls: amplitude of all wings, mean stroke angle of all wings, right-left differences of
-//! amplitude and of stroke plane.
+//! amplitude and of stroke plane. With a weight of their sums, position and heading are summed from
+//! beat to beat and fed back too (integral action): what steadily pulls the flyer away, a load or an
+//! air that differs from that of the layout, is then found and taken back wholly.
 
 use std::collections::VecDeque;
 
 use wingbeat_math::{DVec3, solve_small};
-use wingbeat_model::motion::Adjustment;
 
 use crate::AnalysisError;
 use crate::beat::{Beat, JOINTS};
-use crate::control::{Controller, Sensed};
+use crate::departure::{CONTROLS, Controls, Departure, adjustments};
 use crate::level::{Level, Perturbation};
 use crate::monodromy::monodromy;
 use crate::trim::Trim;
 
-/// Number of controls.
-const CONTROLS: usize = 4;
 /// Position, velocity, angular velocity, tilt.
 const STATES: usize = 12;
+/// Of the states, those that are summed over the beats: position and heading, as many as there are
+/// controls.
+const SUMMED: [usize; CONTROLS] = [0, 1, 2, 11];
 
 /// Departures that weigh alike in the cost.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -40,6 +42,8 @@ pub struct Weights {
     pub rate: f64,
     /// Command \[1, rad\].
     pub command: f64,
+    /// Sums over the beats of position, in wing lengths, and heading \[rad\]; none: no integral action.
+    pub sum: Option<f64>,
 }
 
 impl Default for Weights {
@@ -50,6 +54,7 @@ impl Default for Weights {
             tilt: 0.2,
             rate: 0.2,
             command: 0.05,
+            sum: None,
         }
     }
 }
@@ -58,12 +63,10 @@ impl Default for Weights {
 #[derive(Clone, Debug)]
 pub struct Regulator {
     gain: Vec<f64>,
+    /// Sums of position [m] and heading \[rad\]; empty without integral action.
+    sums: Vec<f64>,
     /// Commands in force and under way, oldest first.
-    memory: VecDeque<[f64; CONTROLS]>,
-    latency: usize,
-    sides: Vec<f64>,
-    /// Largest command of any kind \[1, rad\].
-    pub limit: f64,
+    commands: VecDeque<Controls>,
 }
 
 impl Regulator {
@@ -72,70 +75,65 @@ impl Regulator {
     /// # Errors
     /// A flight that the strokes cannot stabilise: Riccati's iteration does not settle.
     pub fn new(trim: &Trim, weights: &Weights, latency: usize) -> Result<Self, AnalysisError> {
-        let sides: Vec<f64> = trim
-            .setup
-            .animal
-            .wings
-            .iter()
-            .map(|w| w.side.sign())
-            .collect();
+        let wings = &trim.setup.animal.wings;
+        let sides: Vec<f64> = wings.iter().map(|w| w.side.sign()).collect();
         let plant = Plant::new(trim, &sides)?;
-        let (a, b, n) = plant.augmented(latency);
+        let sums = if weights.sum.is_some() { CONTROLS } else { 0 };
+        let (a, b, n) = plant.augmented(sums, latency);
         let (q, r) = cost(trim, weights, n);
         let gain = riccati(&a, &b, &q, &r, n)?;
         Ok(Self {
             gain,
-            memory: VecDeque::from(vec![[0.0; CONTROLS]; latency + 1]),
-            latency,
-            sides,
-            limit: 0.2,
+            sums: vec![0.0; sums],
+            commands: VecDeque::from(vec![[0.0; CONTROLS]; latency + 1]),
         })
     }
 
-    /// Feedback gains, `CONTROLS` rows; columns: position, velocity, rate, tilt (SI), then
+    /// Feedback gains, `CONTROLS` rows; columns: position, velocity, rate, tilt (SI), sums, then
     /// commands in force and under way.
     pub fn gain(&self) -> &[f64] {
         &self.gain
     }
-}
 
-impl Controller for Regulator {
-    fn command(&mut self, sensed: &Sensed, _wings: usize) -> Vec<Adjustment> {
-        let mut z = sensed.position.to_array().to_vec();
-        z.extend(sensed.departure.to_array());
-        z.extend(self.memory.iter().flatten());
+    /// The controls against a departure, without limits.
+    pub fn controls(&self, departure: &Departure) -> Controls {
+        let mut z = states(departure).to_vec();
+        z.extend(&self.sums);
+        z.extend(self.commands.iter().flatten());
         let n = z.len();
-        let row = |i: usize| -> f64 {
-            let sum: f64 = (0..n).map(|j| self.gain[i * n + j] * z[j]).sum();
-            (-sum).clamp(-self.limit, self.limit)
-        };
-        let u: [f64; CONTROLS] = std::array::from_fn(row);
-        self.memory.push_back(u);
-        self.memory.pop_front();
-        debug_assert_eq!(self.memory.len(), self.latency + 1);
-        adjustments(&u, &self.sides)
+        std::array::from_fn(|i| -(0..n).map(|j| self.gain[i * n + j] * z[j]).sum::<f64>())
     }
 
-    fn memory(&self) -> Vec<f64> {
-        self.memory.iter().flatten().copied().collect()
-    }
-
-    fn restore(&mut self, memory: &[f64]) {
-        for (command, saved) in self.memory.iter_mut().zip(memory.chunks_exact(CONTROLS)) {
-            command.copy_from_slice(saved);
+    /// A beat goes by: the command `u` joins those under way, the departure the sums, unless the
+    /// command is `limited`.
+    pub fn remember(&mut self, departure: &Departure, u: Controls, limited: bool) {
+        self.commands.push_back(u);
+        self.commands.pop_front();
+        if !limited {
+            let states = states(departure);
+            let summed = self.sums.iter_mut().zip(SUMMED);
+            summed.for_each(|(sum, k)| *sum += states[k]);
         }
     }
+
+    /// Sums and commands, for a flight that is resumed.
+    pub fn memory(&self) -> Vec<f64> {
+        let commands = self.commands.iter().flatten();
+        self.sums.iter().chain(commands).copied().collect()
+    }
+
+    /// Goes on from what it remembered.
+    pub fn restore(&mut self, memory: &[f64]) {
+        let commands = self.commands.iter_mut().flatten();
+        let numbers = self.sums.iter_mut().chain(commands);
+        numbers.zip(memory).for_each(|(x, saved)| *x = *saved);
+    }
 }
 
-/// The four controls as adjustments of the wings.
-fn adjustments(u: &[f64; CONTROLS], sides: &[f64]) -> Vec<Adjustment> {
-    let wing = |s: &f64| Adjustment {
-        stroke_amplitude: u[0] + 0.5 * s * u[2],
-        stroke_offset: u[1],
-        stroke_plane: 0.5 * s * u[3],
-        ..Adjustment::default()
-    };
-    sides.iter().map(wing).collect()
+/// Position, velocity, angular velocity, tilt.
+fn states(departure: &Departure) -> [f64; STATES] {
+    let (position, rest) = (departure.position, departure.state.to_array());
+    std::array::from_fn(|k| if k < 3 { position[k] } else { rest[k - 3] })
 }
 
 /// The linear map over one beat about the trimmed flight.
@@ -171,31 +169,36 @@ impl Plant {
         })
     }
 
-    /// The map of states, command in force and commands under way; its effect of a new command;
-    /// its order.
-    fn augmented(&self, latency: usize) -> (Vec<f64>, Vec<f64>, usize) {
-        let n = STATES + CONTROLS * (latency + 1);
+    /// The map of states, sums, command in force and commands under way; its effect of a new
+    /// command; its order.
+    fn augmented(&self, sums: usize, latency: usize) -> (Vec<f64>, Vec<f64>, usize) {
+        let first = STATES + sums;
+        let n = first + CONTROLS * (latency + 1);
         let (mut a, mut b) = (vec![0.0; n * n], vec![0.0; n * CONTROLS]);
         for i in 0..STATES {
             for j in 0..STATES {
                 a[i * n + j] = self.m[i * STATES + j];
             }
             for c in 0..CONTROLS {
-                a[i * n + STATES + c] = self.b[0][i * CONTROLS + c];
+                a[i * n + first + c] = self.b[0][i * CONTROLS + c];
                 let next = self.b[1][i * CONTROLS + c];
                 if latency == 0 {
                     b[i * CONTROLS + c] = next;
                 } else {
-                    a[i * n + STATES + CONTROLS + c] = next;
+                    a[i * n + first + CONTROLS + c] = next;
                 }
             }
         }
+        for (k, state) in SUMMED.into_iter().enumerate().take(sums) {
+            let i = STATES + k;
+            (a[i * n + i], a[i * n + state]) = (1.0, 1.0);
+        }
         // The queue moves up; the new command joins at its end.
-        for i in STATES..n {
+        for i in first..n {
             if i + CONTROLS < n {
                 a[i * n + i + CONTROLS] = 1.0;
             } else {
-                b[i * CONTROLS + (i - STATES) % CONTROLS] = 1.0;
+                b[i * CONTROLS + (i - first) % CONTROLS] = 1.0;
             }
         }
         (a, b, n)
@@ -234,6 +237,12 @@ fn cost(trim: &Trim, w: &Weights, n: usize) -> (Vec<f64>, [f64; CONTROLS]) {
     let mut q = vec![0.0; n];
     for k in 0..STATES {
         q[k] = sizes[k / 3].powi(-2);
+    }
+    if let Some(sum) = w.sum {
+        for (k, state) in SUMMED.into_iter().enumerate() {
+            let size = if state < 3 { sum * length } else { sum };
+            q[STATES + k] = size.powi(-2);
+        }
     }
     (q, [w.command.powi(-2); CONTROLS])
 }

@@ -14,10 +14,9 @@
 
 use wingbeat_math::DVec3;
 use wingbeat_model::Wing;
-use wingbeat_model::motion::Adjustment;
 
 use crate::AnalysisError;
-use crate::control::{Controller, Sensed};
+use crate::departure::{Controls, Departure};
 use crate::derivatives::{ControlDerivative, control_derivatives};
 use crate::level::Level;
 use crate::trim::Trim;
@@ -66,9 +65,6 @@ pub struct ProportionalDerivative {
     lean: f64,
     /// Damping ratio \[1\].
     damping: f64,
-    sides: Vec<f64>,
-    /// Largest command of any kind \[1, rad\].
-    pub limit: f64,
 }
 
 impl ProportionalDerivative {
@@ -105,9 +101,21 @@ impl ProportionalDerivative {
             omega: [k.lateral, k.pitch, k.lateral, k.altitude].map(|x| x / period),
             lean: k.drift / period / trim.beat.gravity().length(),
             damping: k.damping,
-            sides: wings.iter().map(|w| w.side.sign()).collect(),
-            limit: 0.2,
         })
+    }
+
+    /// The controls against a departure, without limits.
+    pub fn controls(&self, departure: &Departure) -> Controls {
+        let d = &departure.state;
+        let wanted =
+            |omega: f64, x: f64, rate: f64| -omega * omega * x - 2.0 * self.damping * omega * rate;
+        // Nose up accelerates backwards, right wing down accelerates to the right.
+        let lean = self.lean * DVec3::new(d.velocity.y, -d.velocity.x, 0.0);
+        let turn = |k: usize| wanted(self.omega[k], d.tilt[k] + lean[k], d.rate[k]);
+        let [roll, heading] = [turn(0), turn(2)];
+        let amplitude = wanted(self.omega[3], departure.position.z, d.velocity.z) / self.lift;
+        let [bank, yaw] = self.lateral.map(|row| row[0] * roll + row[1] * heading);
+        [amplitude, turn(1) / self.nod, bank, yaw]
     }
 }
 
@@ -115,29 +123,4 @@ impl ProportionalDerivative {
 fn find(list: &[ControlDerivative], control: &str, wing: &str) -> crate::mean::MeanLoad {
     let found = list.iter().find(|d| d.control == control && d.wing == wing);
     found.map(|d| d.derivative).unwrap_or_default()
-}
-
-impl Controller for ProportionalDerivative {
-    fn command(&mut self, sensed: &Sensed, _wings: usize) -> Vec<Adjustment> {
-        let d = &sensed.departure;
-        let wanted =
-            |omega: f64, x: f64, rate: f64| -omega * omega * x - 2.0 * self.damping * omega * rate;
-        // Nose up accelerates backwards, right wing down accelerates to the right.
-        let lean = self.lean * DVec3::new(d.velocity.y, -d.velocity.x, 0.0);
-        let turn = |k: usize| wanted(self.omega[k], d.tilt[k] + lean[k], d.rate[k]);
-        let [roll, heading] = [turn(0), turn(2)];
-        let limited = |u: f64| u.clamp(-self.limit, self.limit);
-        let amplitude = limited(wanted(self.omega[3], sensed.position.z, d.velocity.z) / self.lift);
-        let pitch = limited(turn(1) / self.nod);
-        let [bank, yaw] = self
-            .lateral
-            .map(|row| limited(row[0] * roll + row[1] * heading));
-        let wing = |s: &f64| Adjustment {
-            stroke_amplitude: amplitude + 0.5 * s * bank,
-            stroke_offset: pitch,
-            stroke_plane: 0.5 * s * yaw,
-            ..Adjustment::default()
-        };
-        self.sides.iter().map(wing).collect()
-    }
 }

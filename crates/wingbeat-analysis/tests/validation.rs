@@ -3,10 +3,12 @@
 mod common;
 
 use common::*;
-use wingbeat_analysis::control::{ControlledFlight, Controller, Free, Steering};
+use wingbeat_analysis::control::{Held, Law, SteeredBeats, Steering, disturbed};
+use wingbeat_analysis::departure::{Departure, Reference};
 use wingbeat_analysis::modes::Plane;
 use wingbeat_analysis::power::power;
 use wingbeat_analysis::regulator::{Regulator, Weights};
+use wingbeat_analysis::stabiliser::{ProportionalDerivative, Stiffness};
 use wingbeat_analysis::*;
 use wingbeat_flight::*;
 use wingbeat_math::{DMat3, DQuat, DVec3};
@@ -159,27 +161,66 @@ fn balances_power_of_hover() {
     assert!((10.0..60.0).contains(&specific), "{specific} W/kg");
 }
 
-/// Largest and last distance from the start in wing lengths, last tilt in degrees.
-fn hundred_beats(t: &Trim, controller: &mut dyn Controller, latency: usize) -> [f64; 3] {
-    let tilt = DVec3::new(0.0, 10.0_f64.to_radians(), 0.0);
-    let mut flight = ControlledFlight::new(t, tilt, DVec3::ZERO, latency).unwrap();
-    let mut far = 0.0_f64;
-    for _ in 0..100 {
-        let s = flight.beat(controller).unwrap();
-        far = far.max(s.position.length());
+/// The trimmed flight disturbed by a tilt [rad] and a velocity [m/s].
+struct Disturbed<'a> {
+    trim: &'a Trim,
+    tilt: DVec3,
+    velocity: DVec3,
+}
+
+impl Disturbed<'_> {
+    fn steering(&self, law: Law) -> Steering {
+        let held = Held::Known(Reference::trimmed(self.trim).unwrap());
+        Steering::new(law, held, &self.trim.setup)
     }
-    let s = flight.sensed();
-    let r = t.beat.wing_length();
-    let last = s.departure.tilt.length().to_degrees();
-    [far / r, s.position.length() / r, last]
+
+    /// The same in free flight, for `beats` wingbeats.
+    fn setup(&self, feedback: Option<Feedback>, beats: usize) -> FlightSetup {
+        let trim = Trim {
+            state: disturbed(self.trim, self.tilt, self.velocity),
+            ..self.trim.clone()
+        };
+        let mut setup = trim.free();
+        setup.time.steps *= beats;
+        setup.feedback = feedback;
+        setup
+    }
+
+    /// Departures at the ends of the first `beats` wingbeats.
+    fn flown(&self, controller: Option<Steering>, latency: usize, beats: usize) -> Vec<Departure> {
+        let start = disturbed(self.trim, self.tilt, self.velocity);
+        let mut flight = SteeredBeats::new(self.trim, start, controller, latency).unwrap();
+        let beat = |_| {
+            flight.beat().unwrap();
+            flight.departure()
+        };
+        (0..beats).map(beat).collect()
+    }
+}
+
+/// Largest and last distance from the start in wing lengths, last tilt in degrees.
+fn hundred_beats(t: &Trim, law: Option<Law>, latency: usize) -> [f64; 3] {
+    let case = Disturbed {
+        trim: t,
+        tilt: DVec3::new(0.0, 10.0_f64.to_radians(), 0.0),
+        velocity: DVec3::ZERO,
+    };
+    let flown = case.flown(law.map(|law| case.steering(law)), latency, 100);
+    let far = flown
+        .iter()
+        .map(|d| d.position.length())
+        .fold(0.0, f64::max);
+    let (last, r) = (flown[99], t.beat.wing_length());
+    let tilt = last.state.tilt.length().to_degrees();
+    [far / r, last.position.length() / r, tilt]
 }
 
 #[test]
 fn balances_stabilised_hover_recovers_from_ten_degrees_of_pitch() {
     let t = trim(&fly(), &hover(60)).unwrap();
     for latency in [0, 2] {
-        let mut regulator = Regulator::new(&t, &Weights::default(), latency).unwrap();
-        let [far, end, tilt] = hundred_beats(&t, &mut regulator, latency);
+        let regulator = Regulator::new(&t, &Weights::default(), latency).unwrap();
+        let [far, end, tilt] = hundred_beats(&t, Some(Law::Regulator(regulator)), latency);
         assert!(far < 1.0, "latency {latency}: {far} R");
         assert!(
             end < 0.02 && tilt < 0.1,
@@ -187,8 +228,46 @@ fn balances_stabilised_hover_recovers_from_ten_degrees_of_pitch() {
         );
     }
     // Without feedback the same disturbance is lost: hover is unstable.
-    let [far, ..] = hundred_beats(&t, &mut Free, 0);
+    let [far, ..] = hundred_beats(&t, None, 0);
     assert!(far > 5.0, "{far}");
+}
+
+#[test]
+fn balances_integral_action_takes_back_a_steady_load() {
+    // A force of 5 % of the weight to each side: the regulator alone leans against it out of place,
+    // with sums it comes back. After 200 beats 1e-8 is left.
+    let t = trim(&fly(), &hover(60)).unwrap();
+    let steps = t.beat.steps();
+    let away = |sum: Option<f64>| {
+        let weights = Weights {
+            sum,
+            ..Weights::default()
+        };
+        let law = Law::Regulator(Regulator::new(&t, &weights, 1).unwrap());
+        let case = Disturbed {
+            trim: &t,
+            tilt: DVec3::ZERO,
+            velocity: DVec3::ZERO,
+        };
+        let mut setup = case.setup(Some(case.steering(law).feedback(steps, 1)), 200);
+        let force = 0.05 * t.beat.mass() * 9.81;
+        setup.loads.push(AppliedLoad {
+            body: 0,
+            frame: LoadFrame::Inertial,
+            point: DVec3::ZERO,
+            force: [force, -force, force].map(DriftingFourier::constant),
+            couple: [0.0; 3].map(DriftingFourier::constant),
+        });
+        let mut flight = Simulation::new(setup).unwrap();
+        let origin = flight.record().mass_centre;
+        while !flight.finished() {
+            flight.step().unwrap();
+        }
+        (flight.record().mass_centre - origin).length() / t.beat.wing_length()
+    };
+    let (without, with) = (away(None), away(Some(2.0)));
+    assert!(without > 0.05, "{without} R");
+    assert!(with < 1e-7, "{with} R");
 }
 
 #[test]
@@ -210,57 +289,49 @@ fn invariant_results_do_not_depend_on_heading() {
 
 #[test]
 fn balances_loops_hold_attitude_and_altitude() {
-    use wingbeat_analysis::control::Sampled;
-    use wingbeat_analysis::stabiliser::{ProportionalDerivative, Stiffness};
     let t = trim(&fly(), &hover(60)).unwrap();
     let loops = ProportionalDerivative::new(&t, &Stiffness::default()).unwrap();
-    let tilt = DVec3::new(3.0, 10.0, 3.0).map(f64::to_radians);
+    let case = Disturbed {
+        trim: &t,
+        tilt: DVec3::new(3.0, 10.0, 3.0).map(f64::to_radians),
+        velocity: DVec3::ZERO,
+    };
     for (latency, every) in [(0, 1), (1, 1), (0, 2)] {
-        let mut flight = ControlledFlight::new(&t, tilt, DVec3::ZERO, latency).unwrap();
-        let mut controller = Sampled::new(loops.clone(), every);
-        for _ in 0..150 {
-            flight.beat(&mut controller).unwrap();
-        }
-        let s = flight.sensed();
-        let left = s.departure.tilt.length().to_degrees();
+        let mut steering = case.steering(Law::Stabiliser(loops.clone()));
+        steering.every = every;
+        let flown = case.flown(Some(steering), latency, 150);
+        let left = flown[149].state.tilt.length().to_degrees();
         assert!(left < 1.0, "latency {latency}, every {every}: {left} deg");
-        assert!(s.position.z.abs() < 0.1 * t.beat.wing_length());
+        assert!(flown[149].position.z.abs() < 0.1 * t.beat.wing_length());
     }
 }
 
 #[test]
 fn agrees_feedback_in_flight_with_feedback_on_the_map_of_beats() {
-    // One regulator, two loops: the map of beats, and a flight that is resumed halfway.
+    // One regulator, two loops: the map of beats, and a flight that is resumed halfway. The trimmed
+    // level frame is the inertial one.
     let t = trim(&fly(), &hover(100)).unwrap();
-    let regulator = Regulator::new(&t, &Weights::default(), 1).unwrap();
-    let push = DVec3::new(0.05, 0.03, -0.02);
-    let mut on_map = ControlledFlight::new(&t, DVec3::ZERO, push, 1).unwrap();
-    let mut controller = regulator.clone();
-    let mut expect = vec![];
-    for _ in 0..12 {
-        expect.push(on_map.beat(&mut controller).unwrap().position);
-    }
-
-    let level = Level::new(t.beat.root(&t.state).r, t.beat.gravity());
-    let mut y = t.state.clone();
-    let pushed = DVec3::from_slice(&y[7..]) + t.beat.mass() * (level.to_n * push);
-    pushed.write_to_slice(&mut y[7..]);
-    let mut setup = Trim {
-        state: y,
-        ..t.clone()
-    }
-    .free();
-    setup.time.steps = 1200;
-    setup.feedback = Some(Steering::new(regulator, &t).unwrap().feedback(100, 1));
+    let weights = Weights {
+        sum: Some(2.0),
+        ..Weights::default()
+    };
+    let regulator = Regulator::new(&t, &weights, 1).unwrap();
+    let case = Disturbed {
+        trim: &t,
+        tilt: DVec3::ZERO,
+        velocity: DVec3::new(0.05, 0.03, -0.02),
+    };
+    let steering = case.steering(Law::Regulator(regulator));
+    let expect = case.flown(Some(steering.clone()), 1, 12);
+    let expect: Vec<DVec3> = expect.iter().map(|d| d.position).collect();
+    let setup = case.setup(Some(steering.feedback(100, 1)), 12);
     let mut flight = Simulation::new(setup.clone()).unwrap();
     let start = flight.record().mass_centre;
     for (beat, place) in expect.iter().enumerate() {
         for _ in 0..100 {
             flight.step().unwrap();
         }
-        let way = level.to_n.transpose() * (flight.record().mass_centre - start);
-        let travelled = (beat + 1) as f64 * t.beat.period() * t.mean_velocity().unwrap();
-        let gap = (way - level.to_n.transpose() * travelled - *place).length();
+        let gap = (flight.record().mass_centre - start - *place).length();
         // The same equations and method; quaternions are scaled every step here, every beat there.
         assert!(gap < 1e-9 * t.beat.wing_length(), "beat {beat}: {gap:e} m");
         if beat == 5 {
@@ -272,11 +343,7 @@ fn agrees_feedback_in_flight_with_feedback_on_the_map_of_beats() {
     assert_eq!(commanded.len(), 2);
     assert!(commanded.iter().any(|c| c.stroke_amplitude != 0.0));
     // Without feedback the push is not taken back.
-    let lost = expect[11].length();
-    let mut free = ControlledFlight::new(&t, DVec3::ZERO, push, 1).unwrap();
-    let mut drift = 0.0;
-    for _ in 0..12 {
-        drift = free.beat(&mut Free).unwrap().position.length();
-    }
-    assert!(lost < drift, "{lost} {drift}");
+    let free = case.flown(None, 0, 12);
+    let (held, lost) = (expect[11].length(), free[11].position.length());
+    assert!(held < lost, "{held} {lost}");
 }

@@ -38,6 +38,7 @@ presets![
     "fruit-fly-tethered",
     "fruit-fly-vacuum",
     "fruit-fly-blade",
+    "fruit-fly-controlled",
     "bumblebee-blade",
     "hoverfly-blade",
     "hawkmoth-blade",

@@ -134,6 +134,7 @@ pub fn derivative_case(
         .to_degrees();
     let mut raw = case.raw.clone();
     raw.name = Some(format!("{}-averaged", case.name));
+    raw.control = None; // nothing steers a table of derivatives
     raw.wing.clear();
     raw.animal.scale = 1.0;
     raw.body = BodyCase {

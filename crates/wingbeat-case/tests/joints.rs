@@ -49,7 +49,11 @@ const ARTICULATED: [(&str, usize, usize); 4] = [
 fn balances_energy_of_every_preset_alone() {
     for preset in presets::PRESETS {
         // The integrator that a case without air has of its own.
-        let alone = ["air.model=none", "dynamics.integrator=order_eight"];
+        let alone = [
+            "air.model=none",
+            "dynamics.integrator=order_eight",
+            "control.controller=none",
+        ];
         let records = fly(preset.name, &alone);
         let residual = balance(&records);
         println!(

@@ -55,6 +55,14 @@ const SITES: &[Site] = &[
     site("MotionCase", "motion", &[]),
     site("AdjustCase", "motion.adjust", &[]),
     site("FlightCase", "flight", &[]),
+    site("ControlCase", "control", &[]),
+    site("WeightsCase", "control.weights", &[]),
+    site(
+        "StiffnessCase",
+        "control.stiffness",
+        &["control.controller=stabiliser"],
+    ),
+    site("SensorsCase", "control.sensors", &[]),
     site("TetherCase", "flight.tether", &["flight.mode=tethered"]),
     site(
         "PathOscillation",

@@ -34,12 +34,13 @@ const FIGURES: &str = "figures";
 /// Figures for papers, within the folder of figures.
 const PAPER: &str = "figures/paper";
 /// Figures by their names, the endings left out.
-pub const FIGURE_NAMES: [&str; 10] = [
+pub const FIGURE_NAMES: [&str; 11] = [
     "angles",
     "forces",
     "lollipop",
     "beats",
     "trajectory",
+    "commands",
     "path",
     "phase",
     "balances",

@@ -26,6 +26,13 @@ pub(crate) fn check(name: &str, set: &[String], trial: bool) -> Result<(), Failu
     let cost = trial_cost(&case, trial)?;
     say!("{}: this case can be flown.\n", case.origin());
     describe(&case.setup);
+    if let Some(feedback) = &case.setup.feedback {
+        let [every, late] = [feedback.interval, feedback.latency];
+        say!(
+            "{:<10}a look every {every} steps, acting {late} looks later",
+            "feedback"
+        );
+    }
     let panels = expectation::panels(&case.setup);
     say!("{:<10}{panels} panels", "lattice");
     if let Some(program) = case.program() {

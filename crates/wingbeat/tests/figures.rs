@@ -9,7 +9,7 @@ mod support;
 use support::{Scratch, flown, wingbeat};
 use wingbeat::draw::figures::Kind;
 
-const CASE: [&str; 13] = [
+const CASE: [&str; 15] = [
     "run",
     "fruit-fly-hover",
     "--quiet",
@@ -23,6 +23,8 @@ const CASE: [&str; 13] = [
     "wing.right.mesh.chordwise=3",
     "--set=air.shed=[\"trailing\"]",
     "--set=air.body=false",
+    "--set=air.mirror=false",
+    "--set=control={}",
 ];
 
 /// Draws, and returns the files the program names.

@@ -43,6 +43,7 @@ pub(super) fn lift_over_weight(setup: &FlightSetup) -> Result<Option<f64>, Analy
     if !matches!(setup.air, AirModel::BladeElement(_)) {
         tethered.air = AirModel::BladeElement(blades);
     }
+    tethered.feedback = None;
     tethered.mode = MotionMode::Tethered(held(setup));
     tethered.time = TimeGrid {
         step: period / STEPS as f64,

@@ -5,6 +5,7 @@
 mod air;
 mod blade;
 mod body;
+mod control;
 mod deformation;
 mod derivatives;
 mod effects;
@@ -57,7 +58,7 @@ pub(crate) fn setup(case: &Case, name: &str) -> Built<FlightSetup> {
         corrector: corrector(&case.corrector),
         loads: flight::loads(case, &animal)?,
         springs: flight::springs(case, &animal)?,
-        feedback: None,
+        feedback: control::feedback(case)?,
         animal,
         time,
     };

@@ -21,6 +21,10 @@ pub(crate) fn refused(case: &Case, setup: &FlightSetup, error: &FlightError) -> 
             format!("wing.{}.joined", wings[1]),
             "bring the roots together, or do not join them",
         ),
+        FlightError::Setup { key: "control", .. } => (
+            "control.controller".to_owned(),
+            "change what the message names, or fly without: control.controller = \"none\"",
+        ),
         FlightError::Setup { key, .. } => (of_setup(key).to_owned(), "change this key"),
         _ => (String::new(), "the message says what to try"),
     };

@@ -10,6 +10,8 @@ use crate::source::{CaseSource, join};
 
 /// Where the air's model is chosen.
 const MODEL: &str = "air.model";
+/// Where the controller is chosen.
+const CONTROLLER: &str = "control.controller";
 /// Where the integrator is chosen.
 const INTEGRATOR: &str = "dynamics.integrator";
 
@@ -72,8 +74,8 @@ struct Pair<'a> {
 }
 
 /// Checks that every key of the document has an effect beside the others; `whole` is the same case
-/// with its defaults. Where the command line chose the air's model or the integrator, settings of
-/// the file for its own may stand by.
+/// with its defaults. Where the command line chose the air's model, the integrator or the controller,
+/// settings of the file for its own may stand by.
 pub(crate) fn together(source: &CaseSource, whole: &Table) -> Checked {
     let pair = Pair { whole, source };
     pair.table(Shape::case(), "", &source.table, whole)
@@ -114,14 +116,15 @@ impl Pair<'_> {
         }
     }
 
-    /// What the file says for another air model or integrator than the command line chose, but for
-    /// properties of the air itself. The integrator follows from the model unless it is given.
+    /// What the file says for another air model, integrator or controller than the command line
+    /// chose, but for properties of the air itself. The integrator follows from the model unless it is given.
     fn stands_by(&self, key: Shape, need: Need, path: &str) -> bool {
         let source = self.source;
         let follows =
             source.chooses(INTEGRATOR) || !source.gives(INTEGRATOR) && source.chooses(MODEL);
-        let switched = need.is_value_of(MODEL) && source.chooses(MODEL)
-            || need.is_value_of(INTEGRATOR) && follows;
+        let chosen = |key: &str| need.is_value_of(key) && source.chooses(key);
+        let switched =
+            chosen(MODEL) || chosen(CONTROLLER) || need.is_value_of(INTEGRATOR) && follows;
         switched && !source.chooses(path) && key.key.get("always").is_none()
     }
 }

@@ -17,6 +17,7 @@
 mod air;
 mod blade;
 mod body;
+mod control;
 mod cores;
 mod deformation;
 mod derivatives;
@@ -32,6 +33,9 @@ mod wing;
 pub use air::{AirCase, AirModel, LeadingEdgeCase, SchemeCase};
 pub use blade::{BladeCase, BodyDragCase, OwnCoefficients, RotationCase, ViscousCase};
 pub use body::{BodyCase, OriginCase, PartCase, ProfileCase};
+pub use control::{
+    ControlCase, ControllerCase, SensorsCase, StiffnessCase, TargetCase, WeightsCase,
+};
 pub use cores::{CoreCase, CutOffCase, LambOseenCase, RadiusCase};
 pub use deformation::{BendingCase, CamberCase, CourseCase, DeformationCase, TwistCase};
 pub use derivatives::{DerivativesCase, DimensionlessCase, ExternalCase};
@@ -108,6 +112,9 @@ pub struct Case {
     /// The air.
     #[serde(default)]
     pub air: AirCase,
+    /// Feedback in the loop of the flight; left out: none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub control: Option<ControlCase>,
     /// What is written.
     #[serde(default)]
     pub output: OutputCase,

@@ -19,6 +19,9 @@ pub(super) fn measured(setup: &FlightSetup, history: &History) -> Vec<Measured> 
     if setup.time.period.is_some() {
         list.push(angles(setup, history));
     }
+    if setup.feedback.is_some() {
+        list.push(commands(setup, history));
+    }
     list.push(balances(history));
     list
 }
@@ -145,6 +148,31 @@ fn angles(setup: &FlightSetup, history: &History) -> Measured {
         title: "prescribed wing angles",
         shaded: true,
         panels: panels.collect(),
+    }
+}
+
+/// Commands of amplitude, mean stroke angle and stroke plane, wing by wing.
+fn commands(setup: &FlightSetup, history: &History) -> Measured {
+    let names = body_names(&setup.animal);
+    let wings = &names[1..][..setup.animal.wings.len()];
+    let lines = |what: &str| {
+        let line = |wing: &String| {
+            let column = format!("command_{wing}_{what}");
+            Line::new(&wing.replace('_', " "), history.column(&column).to_vec())
+        };
+        wings.iter().map(line).collect()
+    };
+    let amplitude = lines("stroke_amplitude_dimensionless");
+    let [offset, plane] = ["stroke_offset_rad", "stroke_plane_rad"].map(lines);
+    Measured {
+        name: "commands",
+        title: "commands of feedback",
+        shaded: false,
+        panels: vec![
+            Measure::new("stroke amplitude, relative change", Unit::Given, amplitude),
+            Measure::new("mean stroke angle, forward", Unit::Degrees, offset),
+            Measure::new("pitch of the stroke plane", Unit::Degrees, plane),
+        ],
     }
 }
 

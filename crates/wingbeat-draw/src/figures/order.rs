@@ -18,6 +18,8 @@ pub enum Kind {
     Beats,
     /// Path and attitude of the body over time.
     Trajectory,
+    /// What feedback commands.
+    Commands,
     /// Path of the body in space, in three views.
     Path,
     /// Phase planes of body and wing.
@@ -32,7 +34,7 @@ pub enum Kind {
 
 impl Kind {
     /// All kinds by name, with what they show.
-    pub const ALL: [(&'static str, Self, &'static str); 10] = [
+    pub const ALL: [(&'static str, Self, &'static str); 11] = [
         ("angles", Self::Angles, "wing angles over time"),
         (
             "forces",
@@ -54,6 +56,7 @@ impl Kind {
             Self::Trajectory,
             "path and attitude of the body",
         ),
+        ("commands", Self::Commands, "what feedback commands"),
         (
             "path",
             Self::Path,
@@ -81,6 +84,7 @@ impl Kind {
             Self::Forces => "this flight has no air",
             Self::Angles | Self::Lollipop => "no wing of this flight flaps",
             Self::Beats => "this flight has no whole wingbeat",
+            Self::Commands => "this flight has no feedback",
             Self::Path => "the body does not move in this flight",
             Self::Phase => "nothing moves in this flight",
             Self::Wake => "no frames were written (output.frames_every = 0, or air without wakes)",

@@ -69,6 +69,11 @@ pub(super) fn tell(report: &mut Report, case: &LoadedCase, problem: &TrimProblem
         "{}: trim to {forward:.3} m/s forward, {up:.3} m/s up",
         case.name
     );
+    let has_control = case.raw.control.is_some();
+    if has_control {
+        line!(report, "of the open loop: [control] is left out");
+    }
+    report.value("control_left_out", has_control);
     let verdict = if t.converged {
         "trimmed"
     } else {

@@ -4,7 +4,8 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 use serde_json::{Value, json};
-use wingbeat::analysis::control::{ControlledFlight, Controller, Free, Sampled};
+use wingbeat::analysis::control::{Held, Law, SteeredBeats, Steering, disturbed};
+use wingbeat::analysis::departure::Reference;
 use wingbeat::analysis::regulator::{Regulator, Weights};
 use wingbeat::analysis::stabiliser::{ProportionalDerivative, Stiffness};
 use wingbeat::analysis::{AnalysisError, Trim};
@@ -79,17 +80,17 @@ pub(crate) fn run(args: &StabiliseArgs) -> Result<(), Failure> {
 
 fn fly(args: &StabiliseArgs, report: &mut Report, figure: Option<NewFile>) -> Result<(), Failure> {
     let (case, trim) = trimmed(&args.trimming, report)?;
-    let latency = args.latency.unwrap_or(DEFAULT_LATENCY);
-    let controller = watched("feedback", || controller(args.controller, &trim, latency))?;
-    let mut controller = Sampled::new(controller, args.sample.unwrap_or(1));
     let tilt = DVec3::from_slice(&args.tilt).map(f64::to_radians);
-    let mut flight = ControlledFlight::new(&trim, tilt, DVec3::ZERO, latency)?;
+    let latency = args.latency.unwrap_or(DEFAULT_LATENCY);
+    let controller = watched("feedback", || controller(args, &trim, latency))?;
+    let start = disturbed(&trim, tilt, DVec3::ZERO);
+    let mut flight = SteeredBeats::new(&trim, start, controller, latency)?;
     let mut rows = vec![row(&flight)];
     let mut lost = None;
     let watch = Watch::of("flying under feedback", args.beats as u64);
     for _ in 0..args.beats {
-        match flight.beat(&mut controller) {
-            Ok(_) => rows.push(row(&flight)),
+        match flight.beat() {
+            Ok(()) => rows.push(row(&flight)),
             Err(e) => {
                 lost = Some(e);
                 break;
@@ -106,26 +107,31 @@ fn fly(args: &StabiliseArgs, report: &mut Report, figure: Option<NewFile>) -> Re
     lost.map_or(Ok(()), |e| Err(e.into()))
 }
 
+/// The feedback asked for.
 fn controller(
-    feedback: Feedback,
+    args: &StabiliseArgs,
     trim: &Trim,
     latency: usize,
-) -> Result<Box<dyn Controller>, AnalysisError> {
-    Ok(match feedback {
-        Feedback::Free => Box::new(Free),
-        Feedback::Pd => Box::new(ProportionalDerivative::new(trim, &Stiffness::default())?),
-        Feedback::Regulator => Box::new(Regulator::new(trim, &Weights::default(), latency)?),
-    })
+) -> Result<Option<Steering>, AnalysisError> {
+    let law = match args.controller {
+        Feedback::Free => return Ok(None),
+        Feedback::Pd => Law::Stabiliser(ProportionalDerivative::new(trim, &Stiffness::default())?),
+        Feedback::Regulator => Law::Regulator(Regulator::new(trim, &Weights::default(), latency)?),
+    };
+    let held = Held::Known(Reference::trimmed(trim)?);
+    let mut steering = Steering::new(law, held, &trim.setup);
+    steering.every = args.sample.unwrap_or(1);
+    Ok(Some(steering))
 }
 
 /// What is seen at this beat.
-fn row(flight: &ControlledFlight) -> BeatRow {
-    let (s, acting) = (flight.sensed(), flight.acting());
+fn row(flight: &SteeredBeats) -> BeatRow {
+    let (d, acting) = (flight.departure(), flight.acting());
     let (first, last) = (&acting[0], &acting[acting.len() - 1]);
     BeatRow {
-        beat: s.beat,
-        position: s.position,
-        tilt: s.departure.tilt,
+        beat: d.beat,
+        position: d.position,
+        tilt: d.state.tilt,
         amplitude: [first.stroke_amplitude, last.stroke_amplitude],
         offset: last.stroke_offset,
     }

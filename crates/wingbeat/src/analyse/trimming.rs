@@ -84,9 +84,11 @@ pub(super) fn unused(option: &str, why: &str) -> Failure {
 }
 
 impl Trimming {
-    /// The case.
+    /// The case, its feedback left out: the open loop is analysed.
     pub(crate) fn load(&self) -> Result<LoadedCase, IoError> {
-        LoadedCase::find(&self.case, &self.set)
+        let mut case = LoadedCase::find(&self.case, &self.set)?;
+        case.setup.feedback = None;
+        Ok(case)
     }
 
     /// Refuses the options that only a trim has.

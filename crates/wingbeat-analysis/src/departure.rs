@@ -1,0 +1,142 @@
+//! What a controller makes of what it sees: the departure from a reference flight, and what it
+//! answers, four controls of the strokes.
+
+use wingbeat_flight::Sensed;
+use wingbeat_math::{DMat3, DVec3};
+use wingbeat_model::motion::Adjustment;
+
+use crate::AnalysisError;
+use crate::level::{Level, Perturbation};
+use crate::trim::Trim;
+
+/// Number of controls.
+pub const CONTROLS: usize = 4;
+
+/// Relative amplitude of all wings \[1\], mean stroke angle of all wings \[rad\], right-left
+/// differences of relative amplitude \[1\] and of stroke plane \[rad\].
+pub type Controls = [f64; CONTROLS];
+
+/// The departure from the reference flight at the start of a wingbeat.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Departure {
+    /// Number of the beat.
+    pub beat: usize,
+    /// Mass centre relative to where the reference flight would be, level frame [m].
+    pub position: DVec3,
+    /// Velocity, angular velocity and tilt at this instant, less those of the reference flight.
+    pub state: Perturbation,
+}
+
+/// The flight that is held.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Reference {
+    level: Level,
+    /// What is seen at the start of a beat of the reference flight.
+    state: Perturbation,
+    /// Mean velocity, N components [m/s].
+    velocity: DVec3,
+}
+
+impl Reference {
+    /// The trimmed flight.
+    ///
+    /// # Errors
+    /// Numbers that are not finite.
+    pub fn trimmed(trim: &Trim) -> Result<Self, AnalysisError> {
+        let level = Level::new(trim.beat.root(&trim.state).r, trim.beat.gravity());
+        Ok(Self {
+            state: Perturbation::of(&trim.beat, &level, &trim.state),
+            level,
+            velocity: trim.mean_velocity()?,
+        })
+    }
+
+    /// The flight that begins as `sensed` shows, under `gravity` [m/s2], and goes on with the mean
+    /// velocity `velocity` [m/s], both N components.
+    pub fn begun(sensed: &Sensed, gravity: DVec3, velocity: DVec3) -> Self {
+        let level = Level::new(sensed.root.r, gravity);
+        Self {
+            state: Perturbation::seen(&level, sensed.root.r, sensed.velocity, sensed.root.w),
+            level,
+            velocity,
+        }
+    }
+
+    /// What `sensed` departs by from the reference flight, whose mass centre was at `origin` [m],
+    /// N components, at the release.
+    pub fn departure(&self, sensed: &Sensed, origin: DVec3) -> Departure {
+        let root = &sensed.root;
+        let seen = Perturbation::seen(&self.level, root.r, sensed.velocity, root.w).to_array();
+        let state = self.state.to_array();
+        let way = sensed.centre - origin - sensed.time * self.velocity;
+        Departure {
+            beat: sensed.look,
+            position: self.level.to_n.transpose() * way,
+            state: Perturbation::from_array(std::array::from_fn(|i| seen[i] - state[i])),
+        }
+    }
+
+    /// As plain numbers.
+    pub fn to_vec(self) -> Vec<f64> {
+        let frames = [self.level.to_n, self.level.to_root].map(|m| m.to_cols_array());
+        let (state, velocity) = (self.state.to_array(), self.velocity.to_array());
+        [&frames.concat()[..], &state, &velocity].concat()
+    }
+
+    /// From plain numbers; none where they are not as many as [`Self::to_vec`] gives.
+    pub fn from_slice(numbers: &[f64]) -> Option<Self> {
+        let numbers: &[f64; 30] = numbers.try_into().ok()?;
+        let frame = |k: usize| DMat3::from_cols_slice(&numbers[k..k + 9]);
+        Some(Self {
+            level: Level {
+                to_n: frame(0),
+                to_root: frame(9),
+            },
+            state: Perturbation::from_array(std::array::from_fn(|i| numbers[18 + i])),
+            velocity: DVec3::from_slice(&numbers[27..]),
+        })
+    }
+}
+
+/// Largest commands.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Limits {
+    /// Of relative amplitude and its difference \[1\].
+    pub amplitude: f64,
+    /// Of mean stroke angle and difference of stroke planes \[rad\].
+    pub angle: f64,
+}
+
+impl Default for Limits {
+    fn default() -> Self {
+        Self {
+            amplitude: 0.2,
+            angle: 0.2,
+        }
+    }
+}
+
+impl Limits {
+    /// The controls within the limits.
+    pub fn applied(&self, u: Controls) -> Controls {
+        let most = [self.amplitude, self.angle, self.amplitude, self.angle];
+        std::array::from_fn(|i| u[i].clamp(-most[i], most[i]))
+    }
+
+    /// Whether any control is at its limit.
+    pub fn reached(&self, u: &Controls) -> bool {
+        let most = [self.amplitude, self.angle, self.amplitude, self.angle];
+        u.iter().zip(most).any(|(u, most)| u.abs() >= most)
+    }
+}
+
+/// The controls as adjustments of wings on these sides (right +1, left -1).
+pub fn adjustments(u: &Controls, sides: &[f64]) -> Vec<Adjustment> {
+    let wing = |s: &f64| Adjustment {
+        stroke_amplitude: u[0] + 0.5 * s * u[2],
+        stroke_offset: u[1],
+        stroke_plane: 0.5 * s * u[3],
+        ..Adjustment::default()
+    };
+    sides.iter().map(wing).collect()
+}

@@ -1,0 +1,139 @@
+//! A controller that is laid out when its flight is built: about the trimmed flight of the same
+//! animal in blade elements, whatever the air it then flies in.
+//!
+//! Blade elements are smooth and have no memory, so gains follow from the map of one wingbeat. What
+//! disturbs a flight (applied loads, gusts) has no part in the layout.
+
+use wingbeat_flight::{
+    AirModel, BladeOptions, ControlModel, Controller, FlightError, FlightSetup, MotionMode,
+};
+use wingbeat_math::DVec3;
+
+use crate::AnalysisError;
+use crate::control::{Held, Law, Steering};
+use crate::departure::{Limits, Reference};
+use crate::regulator::{Regulator, Weights};
+use crate::sensors::Sensors;
+use crate::stabiliser::{ProportionalDerivative, Stiffness};
+use crate::trim::{Trim, TrimProblem, TrimSettings, Unknown, trim};
+
+/// Which law, and how it is laid out.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum LawDesign {
+    /// Proportional-derivative loops.
+    Stabiliser(Stiffness),
+    /// Linear-quadratic regulator.
+    Regulator(Weights),
+}
+
+/// Which flight is held.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Target {
+    /// The trimmed flight: its attitude, and its stroke amplitude and mean stroke angle are commanded.
+    Trimmed,
+    /// The flight as it begins, with the strokes of the setup.
+    Begun,
+}
+
+/// What a controller is laid out by.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Design {
+    /// The law.
+    pub law: LawDesign,
+    /// What is held.
+    pub target: Target,
+    /// Blade elements in which the flight is trimmed.
+    pub air: BladeOptions,
+    /// Mean velocity to fly with, N components, in the plane n1-n3 [m/s].
+    pub velocity: DVec3,
+    /// Wingbeats from sensing to acting.
+    pub latency: usize,
+    /// Wingbeats from one look to the next.
+    pub every: usize,
+    /// Largest commands.
+    pub limits: Limits,
+    /// Noise and bias of what is seen.
+    pub sensors: Option<Sensors>,
+}
+
+impl Design {
+    /// The trimmed flight about which the controller of a flight of `setup` is laid out.
+    ///
+    /// # Errors
+    /// A flight that has none, or that [`trim()`] does not cover.
+    pub fn trim(&self, setup: &FlightSetup) -> Result<Trim, AnalysisError> {
+        let body_pitch = match &setup.mode {
+            MotionMode::Free(start) => start.angles.x,
+            MotionMode::Tethered(motion) => motion.angles[0].constant,
+        };
+        let problem = TrimProblem {
+            unknowns: [
+                Unknown::BodyPitch,
+                Unknown::StrokeAmplitude,
+                Unknown::StrokeOffset,
+            ],
+            velocity: self.velocity,
+            body_pitch,
+            settings: TrimSettings::default(),
+        };
+        let plain = FlightSetup {
+            air: AirModel::BladeElement(self.air.clone()),
+            loads: vec![],
+            feedback: None,
+            ..setup.clone()
+        };
+        let found = trim(&plain, &problem)?;
+        if found.converged {
+            return Ok(found);
+        }
+        Err(AnalysisError::not_covered(
+            format!(
+                "no trimmed flight in blade elements was found to lay the controller out about: largest residual {:.1e} of weight, weight times wing length, radian and wing length per beat",
+                found.error()
+            ),
+            "see what `wingbeat trim` says with air.model = \"blade_element\"; start nearer to it (flight.pitch_deg, motion.stroke_plane_pitch_deg), or change motion.frequency_hz, control.forward_m_s or the weight",
+        ))
+    }
+
+    /// The controller of a flight of `setup`.
+    ///
+    /// # Errors
+    /// As [`Self::trim`]; a flight that the strokes cannot steer.
+    pub fn steering(&self, setup: &FlightSetup) -> Result<Steering, AnalysisError> {
+        let trim = self.trim(setup)?;
+        let law = match &self.law {
+            LawDesign::Stabiliser(stiffness) => {
+                Law::Stabiliser(ProportionalDerivative::new(&trim, stiffness)?)
+            }
+            LawDesign::Regulator(weights) => {
+                Law::Regulator(Regulator::new(&trim, weights, self.latency)?)
+            }
+        };
+        let mut steering = match self.target {
+            Target::Trimmed => Steering::new(law, Held::Known(Reference::trimmed(&trim)?), setup)
+                .adjusted(&trim.adjustment),
+            Target::Begun => {
+                let (gravity, velocity) = (setup.gravity, self.velocity);
+                Steering::new(law, Held::Begun { gravity, velocity }, setup)
+            }
+        };
+        steering.limits = self.limits;
+        steering.every = self.every;
+        steering.sensors = self.sensors;
+        Ok(steering)
+    }
+}
+
+impl ControlModel for Design {
+    fn open(&self, setup: &FlightSetup) -> Result<Box<dyn Controller>, FlightError> {
+        let refused = |e: AnalysisError| FlightError::Setup {
+            key: "control",
+            value: match self.law {
+                LawDesign::Stabiliser(_) => "stabiliser".into(),
+                LawDesign::Regulator(_) => "regulator".into(),
+            },
+            problem: e.to_string(),
+        };
+        Ok(Box::new(self.steering(setup).map_err(refused)?))
+    }
+}

@@ -1,0 +1,101 @@
+//! Sensors that are not perfect: noise and bias of what a controller sees.
+//!
+//! The noise of a look is a function of seed, number of the look and channel alone (a hash, made
+//! normal by Box and Muller's transform): the same case gives the same bits, and a flight that is
+//! resumed needs no memory of it.
+
+use std::f64::consts::TAU;
+
+use wingbeat_flight::Sensed;
+use wingbeat_math::{DMat3, DQuat, DVec3};
+
+/// One number for each thing that is sensed.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Channels<T> {
+    /// Of the mass centre, N components [m].
+    pub position: T,
+    /// Of its velocity, N components [m/s].
+    pub velocity: T,
+    /// Rotation vector of the attitude, root components \[rad\].
+    pub tilt: T,
+    /// Of the angular velocity, root components [rad/s].
+    pub rate: T,
+}
+
+/// Noise and bias.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Sensors {
+    /// Which noise.
+    pub seed: u64,
+    /// Standard deviations of every component, anew at each look.
+    pub noise: Channels<f64>,
+    /// What is always added.
+    pub bias: Channels<DVec3>,
+}
+
+impl Sensors {
+    /// What they make of the truth.
+    pub fn seen(&self, truth: &Sensed) -> Sensed {
+        let error = |channel: u64, noise: f64, bias: DVec3| {
+            let number = |axis: u64| self.normal(truth.look as u64, 3 * channel + axis);
+            bias + noise * DVec3::new(number(0), number(1), number(2))
+        };
+        let (noise, bias) = (&self.noise, &self.bias);
+        let mut seen = *truth;
+        seen.centre += error(0, noise.position, bias.position);
+        seen.velocity += error(1, noise.velocity, bias.velocity);
+        let turn = DQuat::from_scaled_axis(error(2, noise.tilt, bias.tilt));
+        seen.root.r *= DMat3::from_quat(turn);
+        seen.root.w += error(3, noise.rate, bias.rate);
+        seen
+    }
+
+    /// A normal number of mean 0 and deviation 1.
+    fn normal(&self, look: u64, channel: u64) -> f64 {
+        let bits = scrambled(scrambled(scrambled(self.seed) ^ look) ^ channel);
+        // Two numbers in (0, 1) of 32 bits each.
+        let share = |bits: u64| (bits as f64 + 0.5) / 4_294_967_296.0;
+        let [u, v] = [share(bits >> 32), share(bits & 0xffff_ffff)];
+        (-2.0 * u.ln()).sqrt() * (TAU * v).cos()
+    }
+}
+
+/// The mixing function of SplitMix64 [Steele, Lea & Flood 2014, fig. 16].
+fn scrambled(x: u64) -> u64 {
+    let x = x.wrapping_add(0x9e37_79b9_7f4a_7c15);
+    let x = (x ^ (x >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+    let x = (x ^ (x >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+    x ^ (x >> 31)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn agrees_noise_with_the_moments_of_the_normal_distribution() {
+        let sensors = Sensors::default();
+        let n = 40_000;
+        let numbers: Vec<f64> = (0..n).map(|k| sensors.normal(k / 12, k % 12)).collect();
+        let mean = |power: i32| numbers.iter().map(|x| x.powi(power)).sum::<f64>() / n as f64;
+        // Five standard errors: sqrt(var(x^p) / n) with variances 1, 2, 15, 96.
+        for (power, expect, variance) in [
+            (1, 0.0, 1.0),
+            (2, 1.0, 2.0),
+            (3, 0.0, 15.0),
+            (4, 3.0, 96.0_f64),
+        ] {
+            let error = 5.0 * (variance / n as f64).sqrt();
+            assert!(
+                (mean(power) - expect).abs() < error,
+                "{power}: {}",
+                mean(power)
+            );
+        }
+        let other = Sensors { seed: 1, ..sensors };
+        let product: f64 = (0..n)
+            .map(|k| sensors.normal(k, 0) * other.normal(k, 0))
+            .sum();
+        assert!((product / n as f64).abs() < 5.0 / (n as f64).sqrt());
+    }
+}

@@ -1,0 +1,175 @@
+//! `[control]`.
+
+use std::sync::Arc;
+
+use wingbeat_air::Wind;
+use wingbeat_analysis::departure::Limits;
+use wingbeat_analysis::design::{Design, LawDesign, Target};
+use wingbeat_analysis::regulator::Weights;
+use wingbeat_analysis::sensors::{Channels, Sensors};
+use wingbeat_analysis::stabiliser::Stiffness;
+use wingbeat_flight::control::MIN_INTERVAL;
+use wingbeat_flight::{BladeOptions, Feedback};
+use wingbeat_math::DVec3;
+
+use super::blade;
+use super::fault::Built;
+use super::numbers::vector;
+use crate::error::Fault;
+use crate::raw::{
+    AirModel, Case, ControlCase, ControllerCase, Mode, SensorsCase, StiffnessCase, TargetCase,
+    WeightsCase,
+};
+
+/// Where the controller is chosen.
+const KEY: &str = "control.controller";
+
+/// Feedback of the case; none without, or with `controller = "none"`.
+pub(super) fn feedback(case: &Case) -> Built<Option<Feedback>> {
+    let Some(control) = &case.control else {
+        return Ok(None);
+    };
+    let Some(law) = law(control) else {
+        return Ok(None);
+    };
+    check(case)?;
+    let design = Design {
+        law,
+        target: match control.hold {
+            TargetCase::Trim => Target::Trimmed,
+            TargetCase::Start => Target::Begun,
+        },
+        air: BladeOptions {
+            wind: Wind::default(),
+            ..blade::options(&case.air)?
+        },
+        velocity: DVec3::new(control.forward_m_s, 0.0, -control.climb_m_s),
+        latency: control.latency_beats,
+        every: control.every_beats,
+        limits: Limits {
+            amplitude: control.amplitude_limit,
+            angle: control.angle_limit_deg.to_radians(),
+        },
+        sensors: control.sensors.as_ref().map(sensors),
+    };
+    Ok(Some(Feedback {
+        controller: Arc::new(design),
+        interval: interval(case)?,
+        latency: control.latency_beats,
+    }))
+}
+
+/// What stands against any feedback.
+fn check(case: &Case) -> Built<()> {
+    let refused = |key: &str, problem: &str, allowed: &str, remedy: &str| {
+        Err(Fault::new(key, problem, allowed, remedy))
+    };
+    if matches!(case.air.model, AirModel::None | AirModel::Derivatives) {
+        return refused(
+            KEY,
+            "no stroke steers without air, or in air that follows from a table of derivatives",
+            "none, or another air.model: vortex_lattice, blade_element, external",
+            "set it to \"none\", or change air.model",
+        );
+    }
+    if case.flight.mode == Mode::Tethered {
+        return refused(
+            KEY,
+            "a tethered body is not steered",
+            "none, or flight.mode = \"free\"",
+            "set it to \"none\", or change flight.mode",
+        );
+    }
+    if case.motion.frequency_hz.value() <= 0.0 || case.wing.is_empty() {
+        return refused(
+            KEY,
+            "a controller steers by the strokes, and no wing beats here",
+            "none where nothing beats",
+            "give wings and motion.frequency_hz, or remove [control]",
+        );
+    }
+    if case.air.mirror {
+        return refused(
+            "air.mirror",
+            "a controller commands each side by itself, the mirror holds both alike",
+            "false with [control]",
+            "set it to false: both halves are computed",
+        );
+    }
+    if case.flight.held_beats.fract() != 0.0 {
+        return refused(
+            "flight.held_beats",
+            "a controller looks at the start of wingbeats, so the release must be at one",
+            "a whole number with [control]",
+            "round it",
+        );
+    }
+    Ok(())
+}
+
+/// Time steps in a wingbeat.
+fn interval(case: &Case) -> Built<usize> {
+    let time = &case.time;
+    let steps = match (time.steps_per_beat, time.step_s) {
+        (Some(steps), _) => steps as f64,
+        (None, step) => 1.0 / (case.motion.frequency_hz.value() * step.unwrap_or(1.0)),
+    };
+    let whole = steps.round();
+    if (steps - whole).abs() <= 1e-9 * steps && whole >= MIN_INTERVAL as f64 {
+        return Ok(whole as usize);
+    }
+    Err(Fault::new(
+        "time.step_s",
+        format!("a controller looks at the start of wingbeats, and a wingbeat has {steps} steps"),
+        format!("a whole number of steps per wingbeat, at least {MIN_INTERVAL}, with [control]"),
+        "give time.steps_per_beat in its place",
+    ))
+}
+
+fn law(case: &ControlCase) -> Option<LawDesign> {
+    match case.controller {
+        ControllerCase::None => None,
+        ControllerCase::Regulator => Some(LawDesign::Regulator(weights(&case.weights))),
+        ControllerCase::Stabiliser => Some(LawDesign::Stabiliser(stiffness(&case.stiffness))),
+    }
+}
+
+fn weights(case: &WeightsCase) -> Weights {
+    Weights {
+        position: case.position,
+        velocity: case.velocity,
+        tilt: case.tilt,
+        rate: case.rate,
+        command: case.command,
+        sum: case.sum,
+    }
+}
+
+fn stiffness(case: &StiffnessCase) -> Stiffness {
+    Stiffness {
+        pitch: case.pitch,
+        lateral: case.lateral,
+        altitude: case.altitude,
+        drift: case.drift,
+        damping: case.damping,
+    }
+}
+
+fn sensors(case: &SensorsCase) -> Sensors {
+    let degrees = |v: [f64; 3]| vector(v.map(f64::to_radians));
+    Sensors {
+        seed: case.seed.into(),
+        noise: Channels {
+            position: case.position_noise_m,
+            velocity: case.velocity_noise_m_s,
+            tilt: case.tilt_noise_deg.to_radians(),
+            rate: case.rate_noise_deg_s.to_radians(),
+        },
+        bias: Channels {
+            position: DVec3::ZERO,
+            velocity: vector(case.velocity_bias_m_s),
+            tilt: degrees(case.tilt_bias_deg),
+            rate: degrees(case.rate_bias_deg_s),
+        },
+    }
+}

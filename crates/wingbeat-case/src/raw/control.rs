@@ -1,0 +1,218 @@
+//! `[control]`: feedback in the loop of the flight.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use smart_default::SmartDefault;
+use wingbeat_analysis::regulator::Weights;
+use wingbeat_analysis::stabiliser::Stiffness;
+
+/// Keys of any controller.
+const ANY: &str = "control.controller = regulator | stabiliser";
+
+/// Feedback: once per wingbeat a controller sees the flyer and commands changes of the strokes. It is
+/// laid out about the trimmed flight of the animal in blade elements when the flight is built, and
+/// acts from the release on; see docs/control.md.
+#[derive(Clone, Debug, PartialEq, SmartDefault, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct ControlCase {
+    /// Which law. `regulator` holds attitude and place, `stabiliser` attitude and altitude.
+    ///
+    /// Change it to `none` to see the flight without feedback.
+    #[default(ControllerCase::Regulator)]
+    pub controller: ControllerCase,
+    /// Which flight is held: the trimmed one, or the one that begins at the release.
+    ///
+    /// Change it to `start` where the case is trimmed already, by `wingbeat trim` in its own air.
+    #[default(TargetCase::Trim)]
+    #[schemars(extend("with" = ANY))]
+    pub hold: TargetCase,
+    /// Mean velocity to fly with along n1.
+    ///
+    /// Change it for forward flight.
+    #[schemars(extend("with" = ANY))]
+    pub forward_m_s: f64,
+    /// Mean velocity to fly with upwards, along -n3.
+    ///
+    /// Change it to climb or to sink.
+    #[schemars(extend("with" = ANY))]
+    pub climb_m_s: f64,
+    /// Wingbeats from sensing to acting; the regulator counts with them, the stabiliser bears one.
+    ///
+    /// Change it to see what delay of senses and muscles costs.
+    #[schemars(range(max = 20), extend("with" = ANY))]
+    pub latency_beats: usize,
+    /// Wingbeats from one look to the next; between them the command is kept. Gains are laid out for
+    /// a look every wingbeat.
+    ///
+    /// Change it to see how rarely a flyer may look.
+    #[default = 1]
+    #[schemars(range(min = 1), extend("with" = ANY))]
+    pub every_beats: usize,
+    /// Largest change of the relative stroke amplitude, and of its difference between the sides.
+    ///
+    /// Change it to what the muscles can do.
+    #[default = 0.2]
+    #[schemars(extend("exclusiveMinimum" = 0, "exclusiveMaximum" = 1, "with" = ANY))]
+    pub amplitude_limit: f64,
+    /// Largest change of the mean stroke angle, and largest difference of the stroke planes.
+    ///
+    /// Change it to what the joints of the wings can do.
+    #[default = 12.0]
+    #[schemars(extend("exclusiveMinimum" = 0, "maximum" = 90, "with" = ANY))]
+    pub angle_limit_deg: f64,
+    /// Weights of the regulator.
+    #[schemars(extend("with" = "control.controller = regulator"))]
+    pub weights: WeightsCase,
+    /// Stiffness of the loops of the stabiliser.
+    #[schemars(extend("with" = "control.controller = stabiliser"))]
+    pub stiffness: StiffnessCase,
+    /// Noise and bias of what is sensed; left out: none.
+    #[schemars(extend("with" = ANY))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub sensors: Option<SensorsCase>,
+}
+
+/// Laws of control.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum ControllerCase {
+    /// Discrete linear-quadratic regulator on the map of a wingbeat, latency included.
+    Regulator,
+    /// Proportional-derivative loops of pitch, roll, heading and altitude.
+    Stabiliser,
+    /// No feedback.
+    None,
+}
+
+/// Which flight is held.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum TargetCase {
+    /// The trimmed flight in blade elements: its attitude, heading along n1; what trim adds to stroke
+    /// amplitude and mean stroke angle is commanded too.
+    Trim,
+    /// Attitude and velocity as they are seen at the release, strokes as the case has them.
+    Start,
+}
+
+/// Departures and commands that weigh alike: smaller ones are held more tightly.
+#[derive(Clone, Debug, PartialEq, SmartDefault, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct WeightsCase {
+    /// Position, in wing lengths.
+    ///
+    /// Change it to less to hold the place more tightly.
+    #[default(Weights::default().position)]
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub position: f64,
+    /// Velocity, in wing lengths per wingbeat.
+    ///
+    /// Change it to less for a slower return.
+    #[default(Weights::default().velocity)]
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub velocity: f64,
+    /// Tilt and heading, in radians.
+    ///
+    /// Change it to less to hold the attitude more tightly.
+    #[default(Weights::default().tilt)]
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub tilt: f64,
+    /// Angular velocity, in radians per wingbeat.
+    ///
+    /// Change it to less for more damping.
+    #[default(Weights::default().rate)]
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub rate: f64,
+    /// Commands: relative amplitudes and radians.
+    ///
+    /// Change it to less for stronger commands.
+    #[default(Weights::default().command)]
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub command: f64,
+    /// Sums over the wingbeats of position (wing lengths) and heading (radians): integral action;
+    /// left out: none.
+    ///
+    /// Change it to 2 where a load or an air other than blade elements pulls the flyer away.
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub sum: Option<f64>,
+}
+
+/// Natural frequencies of the loops, each alone and without latency.
+#[derive(Clone, Debug, PartialEq, SmartDefault, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct StiffnessCase {
+    /// Of pitch, in radians per wingbeat.
+    ///
+    /// Change it to less for longer latencies.
+    #[default(Stiffness::default().pitch)]
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub pitch: f64,
+    /// Of roll and heading, in radians per wingbeat.
+    ///
+    /// Change it with care: the lateral divergence wants stiff loops.
+    #[default(Stiffness::default().lateral)]
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub lateral: f64,
+    /// Of altitude, in radians per wingbeat.
+    ///
+    /// Change it to hold the altitude more tightly.
+    #[default(Stiffness::default().altitude)]
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub altitude: f64,
+    /// Rate at which drift is braked, per wingbeat.
+    ///
+    /// Change it to 0 to let the flyer drift.
+    #[default(Stiffness::default().drift)]
+    #[schemars(range(min = 0))]
+    pub drift: f64,
+    /// Damping ratio of all loops.
+    ///
+    /// Change it to less for a quicker, less steady return.
+    #[default(Stiffness::default().damping)]
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub damping: f64,
+}
+
+/// Noise (standard deviation of every component, anew at each look) and bias of what is sensed. The
+/// same seed gives the same noise, to the bit.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct SensorsCase {
+    /// Which noise.
+    ///
+    /// Change it for another flight of the same kind.
+    pub seed: u32,
+    /// Noise of the place.
+    ///
+    /// Change it to that of the sensors.
+    #[schemars(range(min = 0))]
+    pub position_noise_m: f64,
+    /// Noise of the velocity.
+    ///
+    /// Change it to that of the sensors.
+    #[schemars(range(min = 0))]
+    pub velocity_noise_m_s: f64,
+    /// Noise of the attitude.
+    ///
+    /// Change it to that of the sensors.
+    #[schemars(range(min = 0))]
+    pub tilt_noise_deg: f64,
+    /// Noise of the angular velocity.
+    ///
+    /// Change it to that of the sensors.
+    #[schemars(range(min = 0))]
+    pub rate_noise_deg_s: f64,
+    /// Bias of the velocity, inertial axes.
+    ///
+    /// Change it to that of the sensors.
+    pub velocity_bias_m_s: [f64; 3],
+    /// Bias of the attitude, a rotation about the body axes.
+    ///
+    /// Change it to that of the sensors.
+    pub tilt_bias_deg: [f64; 3],
+    /// Bias of the angular velocity, body axes.
+    ///
+    /// Change it to that of the sensors.
+    pub rate_bias_deg_s: [f64; 3],
+}

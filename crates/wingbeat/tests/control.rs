@@ -1,0 +1,261 @@
+//! Feedback in the loop, from a case file: what is flown, what is refused, what goes on after a
+//! break.
+
+use std::path::Path;
+use std::sync::Arc;
+
+mod support;
+
+use support::{Scratch, wingbeat as program};
+use wingbeat::Flight;
+use wingbeat::analysis::control::{Held, Law, Steering};
+use wingbeat::analysis::departure::{Limits, Reference};
+use wingbeat::analysis::regulator::{Regulator, Weights};
+use wingbeat::case::LoadedCase;
+use wingbeat::flight::{AirModel, ControlModel, FlightSetup, FlightState, Simulation};
+
+const PRESET: &str = "fruit-fly-controlled";
+
+fn case(set: &[&str]) -> LoadedCase {
+    let set: Vec<String> = set.iter().map(|s| (*s).to_owned()).collect();
+    LoadedCase::find(PRESET, &set).unwrap_or_else(|e| panic!("{e}"))
+}
+
+/// The preset's fly in blade elements, where flights are smooth and cheap, from its measured strokes.
+const BLADES: [&str; 7] = [
+    "air.model=blade_element",
+    "control.hold=trim",
+    "motion.adjust={}",
+    "flight={pitch_deg=47.5}",
+    "time.steps_per_beat=40",
+    "wing.right.mesh={chordwise=5,spanwise=10}",
+    "output.page=false",
+];
+
+fn in_blades(set: &[&str]) -> FlightSetup {
+    case(&[&BLADES[..], set].concat()).setup
+}
+
+/// Place of the mass centre [m] and tilt of the body from the start [deg] after every wingbeat.
+fn beats(setup: FlightSetup) -> Vec<(f64, f64)> {
+    let steps = (setup.time.period.unwrap() / setup.time.step).round() as usize;
+    let mut flight = Simulation::new(setup).unwrap();
+    let (place, attitude) = (flight.record().mass_centre, flight.root().r);
+    let mut out = vec![];
+    while !flight.finished() {
+        (0..steps).for_each(|_| _ = flight.step().unwrap());
+        let turn = attitude.transpose() * flight.root().r;
+        let cosine = 0.5 * (turn.x_axis.x + turn.y_axis.y + turn.z_axis.z - 1.0);
+        let way = flight.record().mass_centre - place;
+        out.push((way.length(), cosine.clamp(-1.0, 1.0).acos().to_degrees()));
+    }
+    out
+}
+
+#[test]
+fn exact_control_of_a_case_is_the_controller_built_in_rust() {
+    let setup = in_blades(&["time.beats=6"]);
+    let mut plain = setup.clone();
+    plain.feedback = None;
+    let flight = Flight::from(plain.clone());
+    let trim = flight.trim(&flight.hover()).unwrap();
+    let weights = Weights {
+        position: 0.2,
+        velocity: 0.1,
+        sum: Some(1.0),
+        ..Weights::default()
+    };
+    let regulator = Regulator::new(&trim, &weights, 1).unwrap();
+    let held = Held::Known(Reference::trimmed(&trim).unwrap());
+    let mut steering =
+        Steering::new(Law::Regulator(regulator), held, &plain).adjusted(&trim.adjustment);
+    steering.limits = Limits {
+        amplitude: 0.2,
+        angle: 12.0_f64.to_radians(),
+    };
+    plain.feedback = Some(steering.feedback(40, 1));
+    let [of_case, of_rust] = [setup, plain].map(|s| Flight::from(s).fly().unwrap().records);
+    assert_eq!(of_case, of_rust);
+    assert!(of_case[200].commands[0].stroke_amplitude != 0.0);
+}
+
+#[test]
+fn balances_hover_recovers_from_twenty_degrees_and_open_loop_does_not() {
+    // From 20 degrees of pitch beyond the trimmed 51.03.
+    let tilted = ["flight.pitch_deg=71.03", "time.beats=80"];
+    // The loops do not hold the place, and lean against what drift is left, by half a degree.
+    let regulator = ["control.controller=regulator", "control.weights={}"];
+    let loops = ["control.controller=stabiliser", "control.latency_beats=0"];
+    for (keys, near, lean) in [(regulator, 0.005, 0.03), (loops, f64::INFINITY, 1.0)] {
+        let flown = beats(in_blades(&[&tilted[..], &keys].concat()));
+        let (way, turned) = flown[79];
+        // It has turned back by those 20 degrees.
+        println!("{keys:?}: {turned} deg, {way:e} m");
+        assert!((turned - 20.0).abs() < lean, "{keys:?}: {turned} deg");
+        assert!(way < near * 2.5e-3, "{keys:?}: {way} m");
+    }
+    let mut open = in_blades(&tilted);
+    open.feedback = None;
+    let open = beats(open);
+    assert!(open[79].0 > 10.0 * 2.5e-3, "{} m", open[79].0);
+}
+
+#[test]
+fn balances_hover_in_the_lattice_for_twenty_beats() {
+    // Two beats are held. The wakes are chaotic: the preset is within 0.2 mm and 7 degrees, others
+    // like it within twice that.
+    let preset = case(&["output.page=false"]).setup;
+    let mut open = preset.clone();
+    let flown = beats(preset);
+    assert_eq!(flown.len(), 22);
+    for (beat, (way, turned)) in flown.into_iter().enumerate() {
+        assert!(
+            way < 0.5e-3 && turned < 10.0,
+            "{beat}: {way:e} m, {turned} deg"
+        );
+    }
+    open.feedback = None;
+    let (way, _) = beats(open)[21];
+    assert!(way > 1e-3, "{way:e} m");
+}
+
+#[test]
+fn exact_flight_under_feedback_goes_on_bit_for_bit() {
+    let keys = [
+        "time.beats=4",
+        "control.every_beats=2",
+        "control.latency_beats=2",
+        "control.weights.sum=2",
+        "control.sensors={seed=7,position_noise_m=1e-5,tilt_noise_deg=0.5,rate_noise_deg_s=50,velocity_bias_m_s=[0.01,0,0]}",
+    ];
+    for more in [["control.hold=start"], ["control.controller=stabiliser"]] {
+        let keys: Vec<&str> = [&keys[..], &more]
+            .concat()
+            .into_iter()
+            .filter(|k| more[0] != "control.controller=stabiliser" || !k.contains("weights.sum"))
+            .collect();
+        let setup = in_blades(&keys);
+        let whole = Flight::from(setup.clone()).fly().unwrap().records;
+        // Broken off within a passage, through the bytes of a checkpoint.
+        let mut flight = Simulation::new(setup.clone()).unwrap();
+        (0..75).for_each(|_| _ = flight.step().unwrap());
+        let text = serde_json::to_string(flight.state()).unwrap();
+        let state: FlightState = serde_json::from_str(&text).unwrap();
+        let mut flight = Simulation::resume(setup, state).unwrap();
+        for expect in &whole[76..] {
+            assert_eq!(flight.step().unwrap(), expect);
+        }
+    }
+}
+
+#[test]
+fn exact_noise_is_that_of_its_seed() {
+    let noisy = |seed: u32| {
+        let sensors = format!("control.sensors={{seed={seed},tilt_noise_deg=1}}");
+        let setup = in_blades(&["time.beats=3", &sensors]);
+        Flight::from(setup).fly().unwrap().records.pop().unwrap()
+    };
+    assert_eq!(noisy(1), noisy(1));
+    assert_ne!(noisy(1).mass_centre, noisy(2).mass_centre);
+}
+
+#[test]
+fn refuses_what_control_cannot_do_by_name() {
+    let wrong: [(&[&str], &str); 12] = [
+        (&["control.controller=\"pid\""], "control.controller"),
+        (&["control.latency_beats=-1"], "control.latency_beats"),
+        (&["control.latency_beats=21"], "control.latency_beats"),
+        (&["control.every_beats=0"], "control.every_beats"),
+        (&["control.amplitude_limit=0"], "control.amplitude_limit"),
+        (&["control.angle_limit_deg=120"], "control.angle_limit_deg"),
+        (&["control.weights.place=1"], "control.weights.place"),
+        (&["control.stiffness.pitch=0.3"], "control.stiffness"),
+        (
+            &["control.sensors.tilt_noise_deg=-1"],
+            "control.sensors.tilt_noise_deg",
+        ),
+        (&["air.model=none"], "control"),
+        (&["flight.mode=tethered"], "control"),
+        (
+            &["air.model=blade_element", "flight.held_beats=0.5"],
+            "flight.held_beats",
+        ),
+    ];
+    for (set, key) in wrong {
+        let set: Vec<String> = set.iter().map(|s| (*s).to_owned()).collect();
+        let error = LoadedCase::find(PRESET, &set).unwrap_err().to_string();
+        assert!(error.contains(key), "{set:?}: {error}");
+        assert!(
+            error.contains("try") || error.contains("did you mean"),
+            "{set:?}: {error}"
+        );
+    }
+    let mirror = ["air.model=vortex_lattice", "air.mirror=true"].map(str::to_owned);
+    let error = LoadedCase::find(PRESET, &mirror).unwrap_err().to_string();
+    assert!(error.contains("air.mirror"), "{error}");
+}
+
+#[test]
+fn refuses_a_flyer_that_cannot_be_trimmed_when_it_is_built() {
+    // Ten times the weight that the strokes carry.
+    let case = case(&[&BLADES[..], &["body.mass_kg=1e-5"]].concat());
+    let error = Simulation::new(case.setup.clone())
+        .err()
+        .expect("too heavy");
+    let told = case.refused(&error).to_string();
+    assert!(
+        told.contains("control.controller") && told.contains("trim"),
+        "{told}"
+    );
+}
+
+#[test]
+fn behaves_feedback_steers_in_air_of_another_kind() {
+    // Air of one's own, which has no memory: that of the blade elements itself.
+    let mut setup = in_blades(&["time.beats=3"]);
+    let blades = setup.air.clone();
+    let expect = Flight::from(setup.clone()).fly().unwrap();
+    // The controller is laid out in blade elements, also where the flight has no air at all.
+    setup.air = AirModel::None;
+    let vacuum = Flight::from(setup.clone()).fly().unwrap();
+    let commands = |run: &wingbeat::Run| run.records.last().unwrap().commands.clone();
+    assert_ne!(commands(&expect), commands(&vacuum));
+    let model: Arc<dyn ControlModel> = setup.feedback.clone().unwrap().controller;
+    setup.air = blades;
+    assert!(model.open(&setup).is_ok());
+}
+
+#[test]
+fn behaves_commands_take_a_case_with_control() {
+    let scratch = Scratch::new("control");
+    let dir: &Path = &scratch.0;
+    let ok = |args: &[&str]| {
+        let done = program(dir, args);
+        let told = String::from_utf8_lossy(&done.stderr).into_owned();
+        assert!(done.status.success(), "{args:?}: {told}");
+        String::from_utf8_lossy(&done.stdout).into_owned()
+    };
+    let blades = [
+        "--set",
+        "air.model=blade_element",
+        "--set",
+        "control.hold=trim",
+    ];
+    let with = |args: &[&'static str]| [args, &blades[..]].concat();
+    assert!(ok(&with(&["check", PRESET])).contains("feedback"));
+    assert!(ok(&with(&["trim", PRESET])).contains("open loop"));
+    ok(&with(&[
+        "run",
+        PRESET,
+        "--quiet",
+        "--out",
+        "run",
+        "--set",
+        "time.beats=3",
+    ]));
+    ok(&["show", "run"]);
+    ok(&["plot", "run", "commands", "--overwrite"]);
+    ok(&["export", "run", "--format", "parquet"]);
+    assert!(dir.join("run/figures/commands.svg").is_file());
+    assert!(dir.join("run/flight.html").is_file());
+}
