@@ -81,8 +81,8 @@ fn exact_lengths_in_chords_are_those_in_metres() {
         )
     };
     let both = [
-        "wake_core.scully = { radius_chords = 0.5 }\nwake_blob_length_chords = 2\nclearance_chords = 0.25\nmax_wake_distance_chords = 4",
-        "wake_core.scully = { radius_m = 0.01 }\nwake_blob_length_m = 0.04\nclearance_m = 0.005\nmax_wake_distance_m = 0.08",
+        "bound_core.scully = { radius_m = 1e-4 }\nwake_core.scully = { radius_chords = 0.5 }\nwake_blob_length_chords = 2\nclearance_chords = 0.25\nmax_wake_distance_chords = 4",
+        "bound_core.scully = { radius_m = 1e-4 }\nwake_core.scully = { radius_m = 0.01 }\nwake_blob_length_m = 0.04\nclearance_m = 0.005\nmax_wake_distance_m = 0.08",
     ];
     let [chords, metres] = both.map(|air| lattice(load(&wing(air), &[]).unwrap()));
     let of = |s: &AirSettings| {

@@ -330,8 +330,11 @@ fn invariant_every_preset_flies_to_its_end_symmetric_ones_symmetrically() {
         assert_eq!(state.step, flight.setup().time.steps);
         if tells_no_side {
             symmetric += 1;
-            // Roundings, grown among the wakes (measured 1e-14 at most).
-            assert!(worst < 1e-13, "{}: {worst:.1e}", preset.name);
+            // Roundings (measured 1e-14 at most); where both halves of a lattice are computed, grown among the wakes
+            // (measured 4e-10).
+            let both = matches!(&flight.setup().air, AirModel::VortexLattice(air) if !air.mirror);
+            let allowed = if both { 1e-8 } else { 1e-13 };
+            assert!(worst < allowed, "{}: {worst:.1e}", preset.name);
         }
     }
     assert!(symmetric > 20, "{symmetric}");

@@ -3,7 +3,7 @@
 use std::fmt;
 use std::sync::Arc;
 
-use wingbeat_air::{AirSettings, CoreModel, SheddingKinds, Wind};
+use wingbeat_air::{AirSettings, CoreModel, LoadMethod, SheddingKinds, Wind};
 use wingbeat_blade::DerivativeTable;
 use wingbeat_blade::{BladeSettings, BodyDrag};
 use wingbeat_math::{DMat3, DVec3, EulerSequence};
@@ -136,10 +136,10 @@ impl BladeOptions {
 impl AirOptions {
     /// What the presets of insects fly, for wings of this mean chord [m] in air at rest of this
     /// density [kg/m3] and kinematic viscosity [m2/s]: the accurate scheme, wakes from trailing edges and tips,
-    /// bound cores of 0.01 chords, wake cores from 0.07 chords and never narrower than their filaments are long. The
+    /// forces on segments, algebraic cores: bound ones of 0.01 chords, those of wakes from 0.07 chords and never narrower than their filaments are long. The
     /// body is left out of the air.
     pub fn insect(density: f64, viscosity: f64, chord: f64) -> Self {
-        let core = |chords: f64| CoreModel::LambOseen {
+        let core = |chords: f64| CoreModel::Algebraic {
             radius: chords * chord,
             viscosity,
         };
@@ -148,6 +148,7 @@ impl AirOptions {
                 bound_core: core(0.01),
                 wake_core: core(0.07),
                 wake_overlap: 1.0,
+                loads: LoadMethod::Joukowski,
                 shedding: SheddingKinds {
                     tip: true,
                     ..SheddingKinds::TRAILING

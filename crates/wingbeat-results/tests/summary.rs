@@ -97,6 +97,7 @@ fn behaves_tethered_flights_are_not_told_that_their_momentum_is_open() {
 fn behaves_missing_suction_is_not_blamed_on_the_wake() {
     let attached = [
         "air.shed=[\"trailing\",\"tip\"]",
+        "air.loads=pressure",
         "air.body=false",
         "time.beats=2",
     ];

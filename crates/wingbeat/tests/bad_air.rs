@@ -24,6 +24,7 @@ mode = "tethered"
 [air]
 leading_edge = "suction"
 leading_edge_threshold = 0.2
+bound_core.scully = { radius_m = 1e-5 }
 wake_core.scully = { radius_m = 1e-4 }
 wake_overlap = 0
 particles = { after_rows = 2 }

@@ -5,10 +5,11 @@
 //! pressure on the sheet and the suction at its free edges. A segment of an edge that sheds counts
 //! half, as its other half is wake.
 
-use crate::geometry::{NodeMotion, chord};
+use crate::geometry::{Edge, NodeMotion, chord};
 use crate::lattice::Lattice;
 use crate::loads::values::AirLoads;
 use crate::settings::LoadMethod;
+use crate::solve::is_computed;
 use crate::state::AirState;
 use crate::wake::{Filaments, Sums};
 use wingbeat_math::DVec3;
@@ -24,9 +25,20 @@ fn places(lattice: &Lattice) -> &'static [f64] {
     }
 }
 
+/// Whether an edge bounds a panel of an open surface that is computed: the others' forces are not needed.
+fn is_wanted(lattice: &Lattice, edge: &Edge) -> bool {
+    let is_open = |p: usize| !lattice.surfaces()[lattice.topology().panel_surface[p]].closed;
+    let panels = [Some(edge.plus), edge.minus].into_iter().flatten();
+    panels
+        .into_iter()
+        .any(|p| is_open(p) && is_computed(lattice, p))
+}
+
 /// Velocities and forces of the bound segments.
 #[derive(Default)]
 pub(crate) struct Segments {
+    /// Edges of open surfaces on the half that is computed.
+    edges: Vec<usize>,
     /// Places on the segments, as many on each, and the velocity of the air relative to them.
     place: Points,
     velocity: Points,
@@ -72,10 +84,14 @@ impl Segments {
         let bound = &flow.filaments.bound;
         let (places, settings) = (places(lattice), lattice.settings());
         self.place.clear();
-        for &[a, b] in &bound.edges {
-            let ends = [a, b].map(|n| bound.nodes.get(n as usize));
+        self.edges.clear();
+        let all = lattice.topology().edges.iter().enumerate();
+        let wanted = all.filter(|(_, edge)| is_wanted(lattice, edge));
+        self.edges.extend(wanted.map(|(e, _)| e));
+        for &e in &self.edges {
+            let (a, b) = bound.ends(e);
             for s in places {
-                self.place.push(ends[0].lerp(ends[1], *s));
+                self.place.push(a.lerp(b, *s));
             }
         }
         if settings.is_symmetric() {
@@ -85,10 +101,10 @@ impl Segments {
         self.velocity.reset(self.place.len());
         let (points, sum) = (&self.place, &mut self.velocity);
         flow.sums.add(points, lattice.mirrors(), sum);
-        for (e, &[a, b]) in bound.edges.iter().enumerate() {
-            let [a, b] = [a, b].map(|n| flow.rings.velocity[n as usize]);
+        for (at, &e) in self.edges.iter().enumerate() {
+            let [a, b] = bound.edges[e].map(|n| flow.rings.velocity[n as usize]);
             for (i, s) in places.iter().enumerate() {
-                let k = e * places.len() + i;
+                let k = at * places.len() + i;
                 let v = sum.get(k) + lattice.stream(points.get(k), t) - a.lerp(b, *s);
                 sum.set(k, v);
             }
@@ -102,19 +118,31 @@ impl Segments {
         self.panel_force.clear();
         self.panel_force
             .resize(lattice.panel_count(), [DVec3::ZERO; 2]);
-        for (e, edge) in lattice.topology().edges.iter().enumerate() {
+        for (at, &e) in self.edges.iter().enumerate() {
+            let edge = &lattice.topology().edges[e];
             let l = bound.nodes.get(edge.to) - bound.nodes.get(edge.from);
             let circulation = rho * bound.gamma[e] / count as f64;
             let shared = edge.minus.is_some();
             let sheds = edge.wake.is_some() && !lattice.is_attached(state, edge);
             let part = if shared || sheds { 0.5 } else { 1.0 };
-            for k in e * count..(e + 1) * count {
+            for k in at * count..(at + 1) * count {
                 let share = part * (circulation * self.velocity.get(k).cross(l));
                 for p in [Some(edge.plus), edge.minus].into_iter().flatten() {
                     let arm = self.place.get(k) - points[p];
                     self.panel_force[p][0] += share;
                     self.panel_force[p][1] += arm.cross(share);
                 }
+            }
+        }
+        let Some(symmetry) = lattice.symmetry() else {
+            return;
+        };
+        for &p in &symmetry.computed {
+            let [force, moment] = self.panel_force[p];
+            let image = symmetry.panel[p];
+            if image != p {
+                let vector = |v| symmetry.mirror.vector(v);
+                self.panel_force[image] = [vector(force), -vector(moment)];
             }
         }
     }

@@ -102,20 +102,14 @@ impl AirSettings {
             is_algebraic(self.bound_core) == self.is_symmetric(),
             "bound_core",
             format!("{:?}", self.bound_core),
-            "algebraic where wake_core is, and no other where it is not: action equals reaction only if all \
-             filaments have cores of one kind",
+            "algebraic if and only if wake_core is: action equals reaction only if all filaments have cores of one kind; \
+             set both",
         )?;
         require(
             !(self.is_symmetric() && self.wake_blob_length.is_some()),
             "wake_blob_length",
             format!("{:?}", self.wake_blob_length),
             "none with algebraic cores, whose filaments stay filaments",
-        )?;
-        require(
-            !(self.is_symmetric() && self.particles.is_some()),
-            "particles",
-            "with algebraic cores",
-            "none with algebraic cores; particles go with lamb_oseen",
         )
     }
 

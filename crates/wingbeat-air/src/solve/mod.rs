@@ -9,3 +9,4 @@ mod unknowns;
 
 pub(crate) use boundary_condition::BoundaryCondition;
 pub(crate) use influence::Instant;
+pub(crate) use unknowns::is_computed;

@@ -107,6 +107,7 @@ pub(super) fn key_of(setting: &str) -> &'static str {
     match setting {
         "density" => "air.density_kg_m3",
         "free_stream" => "air.stream_m_s",
+        "bound_core" => "air.bound_core",
         "wake_overlap" => "air.wake_overlap",
         "wake_blob_length" => "air.wake_blob_length_m",
         "max_displacement" => "air.max_displacement_m",

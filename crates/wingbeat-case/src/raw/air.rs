@@ -56,14 +56,14 @@ pub struct AirCase {
     #[default(vec![EdgeKind::Trailing, EdgeKind::Tip, EdgeKind::Leading])]
     #[schemars(extend("with" = LATTICE))]
     pub shed: Vec<EdgeKind>,
-    /// Core of the vortex filaments on the surfaces. Default: Lamb and Oseen's, 0.01 mean chords.
+    /// Core of the vortex filaments on the surfaces. Default: algebraic, 0.01 mean chords.
     ///
     /// Change it with care: a core wider than half a panel spoils the Kutta condition.
     #[default(LambOseenCase::chords(0.01))]
     #[schemars(extend("with" = LATTICE))]
     pub bound_core: CoreCase,
-    /// Core of the vortex filaments in the wakes: a physical input of hover. Default: Lamb and
-    /// Oseen's, from 0.07 mean chords on.
+    /// Core of the vortex filaments in the wakes: a physical input of hover. Default:
+    /// algebraic, from 0.07 mean chords on.
     ///
     /// Change it by a factor of two both ways to see what hangs on it.
     #[default(LambOseenCase::chords(0.07))]
@@ -118,8 +118,8 @@ pub struct AirCase {
     pub ring_inset: Open<f64>,
     /// How forces follow from circulations.
     ///
-    /// Change it to `joukowski` for attached flow, whose leading edges carry suction.
-    #[default(LoadMethod::Pressure)]
+    /// Change it to `pressure` for the published benchmark's, without the suction of attached leading edges.
+    #[default(LoadMethod::Joukowski)]
     #[schemars(extend("with" = LATTICE))]
     pub loads: LoadMethod,
     /// Where the flow leaves leading edges, if `shed` names them.

@@ -85,9 +85,9 @@ pub struct LambOseenCase {
 }
 
 impl LambOseenCase {
-    /// In air, with this radius in mean chords.
+    /// Algebraic, in air, with this radius in mean chords.
     pub(super) fn chords(radius: f64) -> CoreCase {
-        CoreCase::LambOseen(Self {
+        CoreCase::Algebraic(Self {
             radius_chords: Some(radius),
             ..Self::default()
         })

@@ -73,15 +73,19 @@ fn deformation_warnings(setup: &FlightSetup, list: &mut Vec<String>) {
 
 /// A balance worse than it should be. Without a wake the motion is smooth and integrated to many
 /// digits; a wake's loads jump where it starts and where it is regularised. The momentum of a tethered
-/// animal follows from its prescribed motion and the support's reaction from that: nothing can be open.
+/// animal, or of one held at first, follows from its prescribed motion and the support's reaction from that: it is as
+/// open as the quadrature of that reaction, which says nothing of the motion.
 fn balance_warnings(setup: &FlightSetup, summary: &Summary, list: &mut Vec<String>) {
     let energy = if setup.air.has_memory() { 1e-2 } else { 1e-6 };
     let balances = [
         ("energy", summary.energy_residual_relative, energy),
         ("momentum", summary.momentum_residual_relative, 1e-6),
     ];
-    let is_tethered = matches!(setup.mode, MotionMode::Tethered(_));
-    let counted = if is_tethered { 1 } else { 2 };
+    let is_held = match &setup.mode {
+        MotionMode::Tethered(_) => true,
+        MotionMode::Free(start) => start.held_steps > 0,
+    };
+    let counted = if is_held { 1 } else { 2 };
     for (what, residual, tolerance) in balances.into_iter().take(counted) {
         if residual > tolerance || residual.is_nan() {
             list.insert(0, format!(
