@@ -40,7 +40,11 @@ fn twenty(_quick: bool) -> Result<Vec<Row>, Trouble> {
 }
 
 fn twenty_with_blobs(_quick: bool) -> Result<Vec<Row>, Trouble> {
-    long_hover(&["air.wake_blob_length_m=1.4e-3"])
+    long_hover(&[
+        "air.wake_blob_length_m=1.4e-3",
+        "air.bound_core={lamb_oseen={radius_m=7e-6}}",
+        "air.wake_core={lamb_oseen={radius_m=5e-5}}",
+    ])
 }
 
 fn long_hover(also: &[&str]) -> Result<Vec<Row>, Trouble> {

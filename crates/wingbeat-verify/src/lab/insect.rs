@@ -1,7 +1,7 @@
 //! Insects and their robots: one setting for all, nothing fitted.
 //!
 //! The setting: 5 x 10 panels a wing, 40 steps a beat, wakes from all edges but the root, the
-//! accurate scheme, Lamb-Oseen cores that begin at 0.01 mean chords on the wings (well below a
+//! accurate scheme, forces on segments, algebraic cores (Lamb-Oseen ones beside blobs and particles) that begin at 0.01 mean chords on the wings (well below a
 //! panel) and at 0.07 in the wakes, spread with the medium's viscosity and are as wide in the wakes as
 //! filaments are long, wakes kept 0.1 mean chords off the wings; particles begin with 0.36 mean chords
 //! (about the distance of wake rows). It is that of the fruit-fly presets. Motions start smoothly
@@ -61,7 +61,7 @@ pub(crate) enum Cut {
 
 pub(crate) const DEFAULT: Choice = Choice {
     shed: r#"["trailing", "tip", "leading"]"#,
-    loads: "pressure",
+    loads: "joukowski",
     core: 1.0,
     overlap: 1.0,
     blobs: None,
@@ -90,13 +90,18 @@ impl Choice {
             let nu = fluid.viscosity;
             format!("{{ radius_m = {radius:e}, viscosity_m2_s = {nu:e} }}")
         };
+        // Blobs and particles want their own kind.
+        let kind = match self.blobs.is_some() || self.particles {
+            true => "lamb_oseen",
+            false => "algebraic",
+        };
         let mut text = format!(
             "format = 1\ngravity_m_s2 = [0, 0, 0]\n\
              [time]\nsteps_per_beat = {}\nbeats = {}\n\
              [flight]\nmode = \"tethered\"\n\
              [air]\ndensity_kg_m3 = {:e}\nstream_m_s = {:?}\nbody = false\nmirror = true\nscheme = \"accurate\"\nshed = {}\n\
              loads = \"{}\"\n\
-             bound_core.lamb_oseen = {}\nwake_core.lamb_oseen = {}\nwake_overlap = {:e}\nclearance_m = {:e}\n",
+             bound_core.{kind} = {}\nwake_core.{kind} = {}\nwake_overlap = {:e}\nclearance_m = {:e}\n",
             self.steps,
             self.beats,
             fluid.density,
@@ -195,6 +200,7 @@ pub(crate) const MODELS: [(&str, Choice); 5] = [
         "leading-edge particles",
         Choice {
             particles: true,
+            loads: "pressure",
             ..DEFAULT
         },
     ),
@@ -202,6 +208,7 @@ pub(crate) const MODELS: [(&str, Choice); 5] = [
         "attached, pressure",
         Choice {
             shed: r#"["trailing", "tip"]"#,
+            loads: "pressure",
             ..DEFAULT
         },
     ),
