@@ -11,6 +11,9 @@ use wingbeat_results::{Outcome, ResultDir, Summary};
 /// More points than this do not make a plot on a page better: of longer flights, extremes are shown.
 const MOST_POINTS: usize = 3000;
 
+/// Room for what describes the scene beside its frames \[bytes\].
+const DESCRIPTION: usize = 5000;
+
 /// Title and data of the page in at most about `budget` bytes.
 pub(super) fn gather(
     dir: &ResultDir,
@@ -34,7 +37,7 @@ pub(super) fn gather(
         "step_s": case.setup.time.step,
         "charts": charts.iter().map(|(name, c)| chart(name, c)).collect::<Vec<Value>>(),
     });
-    let left = budget.saturating_sub(head.to_string().len());
+    let left = budget.saturating_sub(inert(&head.to_string()).len() + DESCRIPTION);
     let names = Rows::open(&path)?.names().to_vec();
     let scene = Scene::new(dir, &case, &names, left)?;
     let scene = scene.read(&case)?;
