@@ -39,8 +39,10 @@ impl Lattice {
         circulation_rate(self, state, out);
         pressure_jump(self, out);
         forces(self, out);
-        ws.filaments.soften(self.settings(), state);
-        ws.sums.load_attached(self.settings(), &ws.filaments);
+        if self.settings().is_symmetric() {
+            ws.filaments.soften(self.settings(), state);
+            ws.sums.load_attached(self.settings(), &ws.filaments);
+        }
         let flow = Flow {
             filaments: &ws.filaments,
             sums: &mut ws.sums,

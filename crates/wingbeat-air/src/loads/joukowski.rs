@@ -28,10 +28,8 @@ fn places(lattice: &Lattice) -> &'static [f64] {
 /// Whether an edge bounds a panel of an open surface that is computed: the others' forces are not needed.
 fn is_wanted(lattice: &Lattice, edge: &Edge) -> bool {
     let is_open = |p: usize| !lattice.surfaces()[lattice.topology().panel_surface[p]].closed;
-    let panels = [Some(edge.plus), edge.minus].into_iter().flatten();
-    panels
-        .into_iter()
-        .any(|p| is_open(p) && is_computed(lattice, p))
+    let mut panels = [Some(edge.plus), edge.minus].into_iter().flatten();
+    panels.any(|p| is_open(p) && is_computed(lattice, p))
 }
 
 /// Velocities and forces of the bound segments.
@@ -79,7 +77,7 @@ impl Segments {
         }
     }
 
-    /// Velocity of the air relative to the middle of every bound segment.
+    /// Velocity of the air relative to the places on the segments that are wanted.
     fn take_velocities(&mut self, lattice: &Lattice, flow: Flow, t: f64) {
         let bound = &flow.filaments.bound;
         let (places, settings) = (places(lattice), lattice.settings());

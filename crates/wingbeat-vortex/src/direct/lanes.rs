@@ -102,7 +102,7 @@ impl Job<'_, f64> {
     ) {
         let mut window = [[S::f64s::splat(simd, 0.0); 4]; WINDOW];
         for lane in (0..self.targets.count).step_by(S::f64s::LEN) {
-            let p = place(simd, self.targets.block, lane);
+            let p = place::<S, C>(simd, self.targets.block, lane);
             let mut v = load(simd, sum, lane);
             for range in ranges.clone() {
                 let patches = &self.sources.patches[range];
@@ -124,7 +124,7 @@ impl Job<'_, f64> {
         let zero = S::f64s::splat(simd, 0.0);
         let (mut window, mut room) = ([[zero; 4]; WINDOW], zero);
         for lane in (0..self.targets.count).step_by(S::f64s::LEN) {
-            let p = place(simd, self.targets.block, lane);
+            let p = place::<S, C>(simd, self.targets.block, lane);
             let n = load(simd, normals, lane);
             for patch in &self.sources.patches[patches.clone()] {
                 let nodes = patch.nodes.clone();
@@ -159,9 +159,10 @@ impl Job<'_, f32> {
             let next = lane + S::f64s::LEN;
             let low = load(simd, self.targets.block, lane);
             let high = load(simd, self.targets.block, next);
-            let soft = [lane, next].map(|lane| load_softening(simd, self.targets.block, lane));
-            let soft = (soft[0] * single.per_unit * single.per_unit)
-                .narrow(soft[1] * single.per_unit * single.per_unit);
+            let [_, _, _, soft_low] = place::<S, C>(simd, self.targets.block, lane);
+            let [_, _, _, soft_high] = place::<S, C>(simd, self.targets.block, next);
+            let per_unit2 = single.per_unit * single.per_unit;
+            let soft = (soft_low * per_unit2).narrow(soft_high * per_unit2);
             let mut sum_low = load(simd, sum, lane);
             let mut sum_high = load(simd, sum, next);
             for cluster in clusters.clone() {
@@ -311,11 +312,15 @@ fn induced<S: Simd, P: Precision<S>, C: Core, const N: usize, const CLOSE: bool>
     out
 }
 
-/// Targets in the lanes from `lane` on: places, and what softens them.
+/// Targets in the lanes from `lane` on: places, and what softens them, nothing but in a core model that does.
 #[inline(always)]
-fn place<S: Simd>(simd: S, block: &Block, lane: usize) -> [S::f64s; 4] {
+fn place<S: Simd, C: Core>(simd: S, block: &Block, lane: usize) -> [S::f64s; 4] {
     let [x, y, z] = load(simd, block, lane);
-    [x, y, z, load_softening(simd, block, lane)]
+    let softening = match C::IS_SOFT {
+        true => load_softening(simd, block, lane),
+        false => S::f64s::splat(simd, 0.0),
+    };
+    [x, y, z, softening]
 }
 
 /// r and abs(r) of the nodes in sight, for the targets in the lanes.
