@@ -74,11 +74,12 @@ fn agrees_second_method_impulse_in_separated_hover() {
     let gap = |[force, impulse]: [f64; 2]| (impulse / force - 1.0).abs();
     let [symmetric, other] = [0, 1].map(with);
     println!("force, rate of impulse: algebraic {symmetric:?}, Lamb-Oseen {other:?}");
+    // Measured 10 %, 7 % and 2 %: what cores that vary along filaments leave open.
     assert!(
         symmetric.iter().all(|&both| gap(both) < 0.2),
         "{symmetric:?}"
     );
-    // Where action is not reaction.
+    // Where action is not reaction: measured 79 %, 59 % and 109 %.
     assert!(other.iter().any(|&both| gap(both) > 0.4), "{other:?}");
 }
 
@@ -99,6 +100,7 @@ fn behaves_separated_lift_hangs_little_on_cores_and_clearance() {
             "wake core {wake}, clearance {clearance}: {:+.1} %",
             100.0 * change
         );
+        // Measured 1.6 % at most.
         assert!(change.abs() < 0.05, "{wake} {clearance}: {change}");
     }
 }
