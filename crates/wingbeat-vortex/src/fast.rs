@@ -2,10 +2,12 @@
 
 use crate::cores::CoreModel;
 use crate::direct::block::{BLOCK, Block, Targets};
-use crate::direct::lanes::{add_clusters, add_patches};
+use crate::direct::lanes::{
+    add_clusters, add_clusters_with_vorticity, add_patches, add_patches_with_vorticity,
+};
 use crate::direct::packed::Packed;
 use crate::direct::single::{CLUSTER, SINGLE, Single};
-use crate::direct::sum::{sum_all, sum_packed};
+use crate::direct::sum::{sum_all, sum_both, sum_packed};
 use crate::instruction_set::InstructionSet;
 use crate::sources::{Network, Points, Segments};
 use crate::tree::cells::Cells;
@@ -147,8 +149,9 @@ pub struct FastSum {
     packed: Packed,
     single: Single,
     has_single: bool,
-    /// Velocities in single precision, before they are checked.
+    /// Velocities and vorticities in single precision, before they are checked.
     velocity: Points,
+    vorticity: Points,
     cells: Cells,
     has_tree: bool,
     groups: Groups,
@@ -174,6 +177,7 @@ impl FastSum {
             single: Single::default(),
             has_single: false,
             velocity: Points::default(),
+            vorticity: Points::default(),
             cells,
             has_tree: false,
             groups,
@@ -254,6 +258,53 @@ impl FastSum {
         self.add_direct(targets, out, attempts)
     }
 
+    /// As [`Self::add_velocity`], of algebraic cores ([`CoreModel::Algebraic`]), without the tree; and adds to
+    /// `vorticity` \[1/s\] the sum of `Gamma / (4 pi)` times the integral along the filaments of `dl` over the cube of
+    /// the softened distance. Where squared core radii change along a filament, closed filaments act on each other with
+    /// no force in sum if a piece with a change `d(sigma^2)` is given `-Gamma d(sigma^2) / 4` times this beside
+    /// `Gamma u x dl`.
+    pub fn add_velocity_and_vorticity(
+        &mut self,
+        targets: &Points,
+        velocity: &mut Points,
+        vorticity: &mut Points,
+    ) {
+        let (model, packed, single) = (self.settings.model, &self.packed, &self.single);
+        assert!(
+            matches!(model, CoreModel::Algebraic { .. }),
+            "algebraic cores"
+        );
+        let (edges, level) = (packed.edges.len(), self.level);
+        if self.has_single && targets.len() >= SINGLE_TARGETS {
+            let check = Check::new(self, targets);
+            self.velocity.reset(targets.len());
+            self.vorticity.reset(targets.len());
+            let out = [&mut self.velocity, &mut self.vorticity];
+            sum_both(edges, targets, out, |targets, sums| {
+                let all = 0..single.clusters.len();
+                add_clusters_with_vorticity(level, single, all, targets, sums);
+            });
+            if self.error_of_single(&check).is_some() {
+                add_to(velocity, &self.velocity);
+                add_to(vorticity, &self.vorticity);
+                return;
+            }
+        }
+        let all = || std::iter::once(0..packed.patches.len());
+        sum_both(edges, targets, [velocity, vorticity], |targets, sums| {
+            add_patches_with_vorticity(level, packed, all(), targets, sums);
+        });
+    }
+
+    /// Error of the velocities in single precision at the sampled targets, root mean square and largest; None if it is
+    /// above the tolerance.
+    fn error_of_single(&self, check: &Check) -> Option<[f64; 2]> {
+        let sampled = check.index.map(|i| self.velocity.get(i));
+        let error = check.error(&sampled[..check.count]);
+        let is_finite = self.velocity.iter().all(|v| v.is_finite());
+        (is_finite && error[0] <= self.settings.tolerance).then_some(error)
+    }
+
     /// By the tree; None, and nothing added, if single precision was too small for the near field.
     fn add_tree(
         &mut self,
@@ -296,15 +347,10 @@ impl FastSum {
                 add_clusters(level, model, single, 0..single.clusters.len(), targets, sum);
             },
         );
-        let sampled = check.index.map(|i| self.velocity.get(i));
-        let [error_rms, error_max] = check.error(&sampled[..check.count]);
-        let is_finite = self.velocity.iter().all(|v| v.is_finite());
-        if !is_finite || error_rms > self.settings.tolerance {
+        let Some([error_rms, error_max]) = self.error_of_single(check) else {
             return self.add_direct(targets, out, attempts + 1);
-        }
-        for (i, v) in self.velocity.iter().enumerate() {
-            out.set(i, out.get(i) + v);
-        }
+        };
+        add_to(out, &self.velocity);
         Report {
             method: Method::Single,
             error_rms,
@@ -356,6 +402,12 @@ impl FastSum {
             far: 0,
             near: (packed.edges.len() * targets.len()) as u64,
         }
+    }
+}
+
+fn add_to(out: &mut Points, more: &Points) {
+    for (i, v) in more.iter().enumerate() {
+        out.set(i, out.get(i) + v);
     }
 }
 

@@ -5,6 +5,7 @@ use crate::lattice::Lattice;
 use crate::settings::AirSettings;
 use crate::state::{AirState, WakeSheet};
 use crate::wake::conversion::borders_ring;
+use crate::wake::cores::{add_cores, add_seen_cores};
 use crate::wake::near_wake::{Row, Share, add_near_wake, at_edge, row_lengths, strips};
 use wingbeat_math::DVec3;
 use wingbeat_vortex::{Blob, Network, Points, WINDOW};
@@ -33,6 +34,8 @@ pub struct Filaments {
     /// All other edges of the wakes, which do not move within a step. Nodes: sheet after sheet,
     /// oldest row first.
     pub wake: Network,
+    /// The same with the cores that control points see, where action is to be reaction; empty elsewhere.
+    pub(crate) seen_wake: Network,
     /// What stretched edges of the wakes have given up, see [`AirSettings::wake_blob_length`].
     pub blobs: Vec<Blob>,
     /// Particles of all sheets.
@@ -52,6 +55,7 @@ impl Filaments {
         self.gather_bound(lattice, position);
         self.levels = strips(lattice.settings()) + 1;
         self.wake.clear();
+        self.seen_wake.clear();
         self.blobs.clear();
         self.near_wake.clear();
         self.shares.clear();
@@ -61,6 +65,8 @@ impl Filaments {
             if lattice.settings().is_symmetric() {
                 let cores = &mut self.wake.nodes.core;
                 add_cores(cores, sheet, lattice.settings(), t, edge.clone());
+                let cores = &mut self.seen_wake.nodes.core;
+                add_seen_cores(cores, sheet, lattice.settings(), t, edge.clone());
             }
             self.add_sheet(sheet, lattice.settings(), t);
             let edge = root.nodes.iter().map(|&n| self.bound.nodes.get(n));
@@ -73,6 +79,7 @@ impl Filaments {
             };
             add_near_wake(&mut self.near_wake, &mut self.shares, &row, t, edge);
         }
+        self.gather_seen();
         self.particles.clear();
         if let Some(settings) = &lattice.settings().particles {
             for set in state.sheets.iter().map(|s| &s.particles) {
@@ -80,6 +87,18 @@ impl Filaments {
                 self.particles.extend(all);
             }
         }
+    }
+
+    /// Takes the wakes as control points see them; its cores are those that limit the others.
+    fn gather_seen(&mut self) {
+        let mut cores = std::mem::take(&mut self.seen_wake.nodes.core);
+        if !cores.is_empty() {
+            self.seen_wake.copy_from(&self.wake);
+            for (seen, core) in cores.iter_mut().zip(&self.wake.nodes.core) {
+                *seen = seen.min(*core);
+            }
+        }
+        self.seen_wake.nodes.core = cores;
     }
 
     /// All wake nodes that are to be moved (mirror images are reflected later), those on the shedding edges too: sheet after sheet,
@@ -258,42 +277,6 @@ impl Filaments {
         let particles: DVec3 = self.particles.iter().map(of_blob).sum();
         let blobs: DVec3 = self.blobs.iter().map(of_blob).sum();
         of(&self.bound) + of(&self.near_wake) + of(&self.wake) + blobs + particles
-    }
-}
-
-/// Appends the squared core radii \[m2\] of the free nodes of a sheet, whose shedding edge is `edge`: as wide with age as
-/// viscosity makes them, and at least as wide as the longest filament there is long, times the overlap.
-fn add_cores(
-    cores: &mut Vec<f64>,
-    sheet: &WakeSheet,
-    settings: &AirSettings,
-    t: f64,
-    edge: impl Iterator<Item = DVec3> + Clone,
-) {
-    let (rows, width) = (sheet.rows(), sheet.columns + 1);
-    let at = |r: usize, c: usize| sheet.node(r, c);
-    for r in 0..rows {
-        for c in 0..width {
-            let x = at(r, c);
-            let mut longest: f64 = 0.0;
-            let mut see = |y: DVec3| longest = longest.max(x.distance_squared(y));
-            if r > 0 {
-                see(at(r - 1, c));
-            }
-            if r + 1 < rows {
-                see(at(r + 1, c));
-            } else if let Some(y) = edge.clone().nth(c) {
-                see(y);
-            }
-            if c > 0 {
-                see(at(r, c - 1));
-            }
-            if c + 1 < width {
-                see(at(r, c + 1));
-            }
-            let age = t - sheet.shed_time[r];
-            cores.push(settings.free_core(longest.sqrt(), age));
-        }
     }
 }
 

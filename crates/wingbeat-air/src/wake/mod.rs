@@ -3,6 +3,7 @@
 mod contact;
 mod convection;
 mod conversion;
+mod cores;
 mod filaments;
 mod force_free;
 mod joined_nodes;

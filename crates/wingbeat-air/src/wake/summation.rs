@@ -35,6 +35,11 @@ impl Summation {
         let sum = self.sum.as_mut().expect("sources are loaded");
         sum.add_velocity(targets, out);
     }
+
+    fn add_with_vorticity(&mut self, targets: &Points, [velocity, vorticity]: [&mut Points; 2]) {
+        let sum = self.sum.as_mut().expect("sources are loaded");
+        sum.add_velocity_and_vorticity(targets, velocity, vorticity);
+    }
 }
 
 /// How filaments of this core are summed: those on and near surfaces one by one.
@@ -59,6 +64,7 @@ fn free(settings: &AirSettings) -> FastSettings {
 struct Images {
     reflected: Points,
     velocity: Points,
+    vorticity: Points,
 }
 
 impl Images {
@@ -72,16 +78,43 @@ impl Images {
     ) {
         add(targets, out);
         for mirror in mirrors {
-            self.reflected.clear();
-            let images = targets.iter().map(|x| mirror.point(x));
-            images.for_each(|x| self.reflected.push(x));
-            self.reflected.core.clone_from(&targets.core);
+            self.reflect(targets, mirror);
             self.velocity.reset(targets.len());
             add(&self.reflected, &mut self.velocity);
             for (i, v) in self.velocity.iter().enumerate() {
                 out.set(i, out.get(i) + mirror.vector(v));
             }
         }
+    }
+
+    /// The same of velocity and vorticity, whose mirror image has the opposite sign.
+    fn add_with_vorticity(
+        &mut self,
+        targets: &Points,
+        mirrors: &[Mirror],
+        [velocity, vorticity]: [&mut Points; 2],
+        sum: &mut Summation,
+    ) {
+        sum.add_with_vorticity(targets, [velocity, vorticity]);
+        for mirror in mirrors {
+            self.reflect(targets, mirror);
+            self.velocity.reset(targets.len());
+            self.vorticity.reset(targets.len());
+            let at_images = [&mut self.velocity, &mut self.vorticity];
+            sum.add_with_vorticity(&self.reflected, at_images);
+            let sums = self.velocity.iter().zip(self.vorticity.iter());
+            for (i, (v, w)) in sums.enumerate() {
+                velocity.set(i, velocity.get(i) + mirror.vector(v));
+                vorticity.set(i, vorticity.get(i) - mirror.vector(w));
+            }
+        }
+    }
+
+    fn reflect(&mut self, targets: &Points, mirror: &Mirror) {
+        self.reflected.clear();
+        let images = targets.iter().map(|x| mirror.point(x));
+        images.for_each(|x| self.reflected.push(x));
+        self.reflected.core.clone_from(&targets.core);
     }
 }
 
@@ -91,6 +124,8 @@ pub(crate) struct Sums {
     bound: Summation,
     near_wake: Summation,
     wake: Summation,
+    /// The free wakes as control points see them, if otherwise.
+    seen_wake: Summation,
     blobs: GaussianSum,
     /// Allowed error of the sum over blobs.
     tolerance: f64,
@@ -116,6 +151,7 @@ impl Sums {
     /// Takes what is frozen within a step: free wakes and particles; says whether they are new.
     pub(crate) fn load_free(&mut self, settings: &AirSettings, filaments: &Filaments) -> bool {
         let is_new = self.wake.load(free(settings), &filaments.wake);
+        self.seen_wake.load(free(settings), &filaments.seen_wake);
         let (min, bounds) = (settings.min_variance(), filaments.bounds());
         let nodes = filaments.wake.nodes.len();
         let is_new = self.blobs.load(&filaments.blobs, min, bounds, nodes) || is_new;
@@ -135,6 +171,26 @@ impl Sums {
     pub(crate) fn add(&mut self, targets: &Points, mirrors: &[Mirror], out: &mut Points) {
         self.add_filaments(targets, mirrors, out);
         self.add_particles(targets, mirrors, out);
+    }
+
+    /// The same, and the vorticity of [`FastSum::add_velocity_and_vorticity`] of all filaments of algebraic cores.
+    pub(crate) fn add_with_vorticity(
+        &mut self,
+        targets: &Points,
+        mirrors: &[Mirror],
+        [velocity, vorticity]: [&mut Points; 2],
+    ) {
+        let Self {
+            bound,
+            near_wake,
+            wake,
+            images,
+            ..
+        } = self;
+        for sum in [bound, near_wake, wake] {
+            images.add_with_vorticity(targets, mirrors, [velocity, vorticity], sum);
+        }
+        self.add_particles(targets, mirrors, velocity);
     }
 
     /// The same of all but particles.
@@ -165,9 +221,12 @@ impl Sums {
         }
     }
 
-    /// The same of free wakes, blobs and particles.
+    /// The same of free wakes, blobs and particles as control points see them.
     fn add_free(&mut self, targets: &Points, mirrors: &[Mirror], out: &mut Points) {
-        let (images, sum) = (&mut self.images, &mut self.wake);
+        let (images, sum) = match self.seen_wake.loaded.is_empty() {
+            true => (&mut self.images, &mut self.wake),
+            false => (&mut self.images, &mut self.seen_wake),
+        };
         images.add(targets, mirrors, out, |x, v| sum.add(x, v));
         self.add_blobs(targets, mirrors, out);
         self.add_particles(targets, mirrors, out);

@@ -49,7 +49,23 @@ pub(crate) fn add_patches(
         sources: packed.sources(),
         targets,
     };
-    for_core!(level, model, simd, C, N => job.run::<_, C, N>(simd, ranges, sum));
+    for_core!(level, model, simd, C, N => job.run::<_, C, N, 1>(simd, ranges, [sum]));
+}
+
+/// The same of algebraic cores, and to `vorticity` the sum [1/s] of Gamma / (4 pi) times the integral of dl over the
+/// cube of the softened distance.
+pub(crate) fn add_patches_with_vorticity(
+    level: Level,
+    packed: &Packed,
+    ranges: impl Iterator<Item = Range<usize>> + Clone,
+    targets: Targets<'_>,
+    sums: [&mut Block; 2],
+) {
+    let job = Job {
+        sources: packed.sources(),
+        targets,
+    };
+    dispatch!(level, simd => job.run::<_, Algebraic, 2, 2>(simd, ranges, sums));
 }
 
 /// The same in single precision, of the clusters with these numbers.
@@ -65,7 +81,22 @@ pub(crate) fn add_clusters(
         sources: single.sources(),
         targets,
     };
-    for_core!(level, model, simd, C, N => job.run_single::<_, C, N>(simd, single, clusters, sum));
+    for_core!(level, model, simd, C, N => job.run_single::<_, C, N, 1>(simd, single, clusters, [sum]));
+}
+
+/// [`add_patches_with_vorticity`] in single precision.
+pub(crate) fn add_clusters_with_vorticity(
+    level: Level,
+    single: &Single,
+    clusters: impl Iterator<Item = usize> + Clone,
+    targets: Targets<'_>,
+    sums: [&mut Block; 2],
+) {
+    let job = Job {
+        sources: single.sources(),
+        targets,
+    };
+    dispatch!(level, simd => job.run_single::<_, Algebraic, 2, 2>(simd, single, clusters, sums));
 }
 
 /// Normal velocity [m/s] of every edge of these patches by itself, with unit circulation, at the targets:
@@ -94,22 +125,27 @@ struct Job<'a, E> {
 
 impl Job<'_, f64> {
     #[inline(always)]
-    fn run<S: Simd, C: Core, const N: usize>(
+    fn run<S: Simd, C: Core, const N: usize, const K: usize>(
         &self,
         simd: S,
         ranges: impl Iterator<Item = Range<usize>> + Clone,
-        sum: &mut Block,
+        sums: [&mut Block; K],
     ) {
         let mut window = [[S::f64s::splat(simd, 0.0); 4]; WINDOW];
         for lane in (0..self.targets.count).step_by(S::f64s::LEN) {
             let p = place::<S, C>(simd, self.targets.block, lane);
-            let mut v = load(simd, sum, lane);
+            let mut v = [[S::f64s::splat(simd, 0.0); 3]; K];
+            for i in 0..K {
+                v[i] = load(simd, sums[i], lane);
+            }
             for range in ranges.clone() {
                 let patches = &self.sources.patches[range];
                 self.sources
-                    .add::<S, Double, C, N>(simd, patches, p, &mut window, &mut v);
+                    .add::<S, Double, C, N, K>(simd, patches, p, &mut window, &mut v);
             }
-            store::<S>(v, sum, lane);
+            for i in 0..K {
+                store::<S>(v[i], sums[i], lane);
+            }
         }
     }
 
@@ -146,12 +182,12 @@ impl Job<'_, f32> {
     /// Places are taken from the centre of each cluster before they lose digits; the sum of a cluster
     /// gets them back before it joins the others.
     #[inline(always)]
-    fn run_single<S: Simd, C: Core, const N: usize>(
+    fn run_single<S: Simd, C: Core, const N: usize, const K: usize>(
         &self,
         simd: S,
         single: &Single,
         clusters: impl Iterator<Item = usize> + Clone,
-        sum: &mut Block,
+        sums: [&mut Block; K],
     ) {
         let zero = S::f32s::splat(simd, 0.0);
         let mut window = [[zero; 4]; WINDOW];
@@ -163,10 +199,12 @@ impl Job<'_, f32> {
             let [_, _, _, soft_high] = place::<S, C>(simd, self.targets.block, next);
             let per_unit2 = single.per_unit * single.per_unit;
             let soft = (soft_low * per_unit2).narrow(soft_high * per_unit2);
-            let mut sum_low = load(simd, sum, lane);
-            let mut sum_high = load(simd, sum, next);
+            let mut total = [[[S::f64s::splat(simd, 0.0); 3]; 2]; K];
+            for k in 0..K {
+                total[k] = [load(simd, sums[k], lane), load(simd, sums[k], next)];
+            }
             for cluster in clusters.clone() {
-                let (mut p, mut v) = ([zero, zero, zero, soft], [zero; 3]);
+                let (mut p, mut v) = ([zero, zero, zero, soft], [[zero; 3]; K]);
                 let centre = single.centres[cluster];
                 for i in 0..3 {
                     p[i] = ((low[i] - centre[i]) * single.per_unit)
@@ -174,15 +212,22 @@ impl Job<'_, f32> {
                 }
                 let patches = &self.sources.patches[single.clusters[cluster].clone()];
                 self.sources
-                    .add::<S, Float, C, N>(simd, patches, p, &mut window, &mut v);
+                    .add::<S, Float, C, N, K>(simd, patches, p, &mut window, &mut v);
                 for i in 0..3 {
-                    let (low, high) = v[i].widen();
-                    sum_low[i] += low;
-                    sum_high[i] += high;
+                    let (low, high) = v[0][i].widen();
+                    total[0][0][i] += low;
+                    total[0][1][i] += high;
+                    if K > 1 {
+                        let (low, high) = v[K - 1][i].widen();
+                        total[K - 1][0][i] += low * single.per_unit;
+                        total[K - 1][1][i] += high * single.per_unit;
+                    }
                 }
             }
-            store::<S>(sum_low, sum, lane);
-            store::<S>(sum_high, sum, next);
+            for k in 0..K {
+                store::<S>(total[k][0], sums[k], lane);
+                store::<S>(total[k][1], sums[k], next);
+            }
         }
     }
 }
@@ -192,13 +237,13 @@ impl<E: SimdFloatElement + From<f32>> Sources<'_, E> {
     /// between the edges of this one: while the processor takes their roots, it sums. `N` edges go side
     /// by side.
     #[inline(always)]
-    fn add<S: Simd, P: Precision<S, Element = E>, C: Core, const N: usize>(
+    fn add<S: Simd, P: Precision<S, Element = E>, C: Core, const N: usize, const K: usize>(
         &self,
         simd: S,
         patches: &[Patch],
         p: [P::Lanes; 4],
         window: &mut Window<P::Lanes>,
-        v: &mut [P::Lanes; 3],
+        v: &mut [[P::Lanes; 3]; K],
     ) {
         let nodes_of = |i: usize| match patches.get(i) {
             Some(patch) => patch.nodes.clone(),
@@ -215,16 +260,16 @@ impl<E: SimdFloatElement + From<f32>> Sources<'_, E> {
                 let later = (next.start + N / 2).min(next.end);
                 self.look_at::<S, P>(p, next.start..later, window);
                 next.start = later;
-                add_group::<S, P, C, N, false>(simd, edges, window, v, &mut room);
+                add_group::<S, P, C, N, K, false>(simd, edges, window, v, &mut room);
             }
             for edge in rest.as_chunks::<1>().0 {
-                add_group::<S, P, C, 1, false>(simd, edge, window, v, &mut room);
+                add_group::<S, P, C, 1, K, false>(simd, edge, window, v, &mut room);
             }
             self.look_at::<S, P>(p, next, window);
             if room.simd_lt(zero).any_true() {
                 *v = before;
                 for edge in edges.as_chunks::<1>().0 {
-                    add_group::<S, P, C, 1, true>(simd, edge, window, v, &mut room);
+                    add_group::<S, P, C, 1, K, true>(simd, edge, window, v, &mut room);
                 }
             }
         }
@@ -250,17 +295,34 @@ impl<E: SimdFloatElement + From<f32>> Sources<'_, E> {
 /// enough ahead to fill the time with the next edges. Order and bits are those of one after the other. As
 /// [`induced`] otherwise.
 #[inline(always)]
-fn add_group<S: Simd, P: Precision<S>, C: Core, const N: usize, const CLOSE: bool>(
+fn add_group<
+    S: Simd,
+    P: Precision<S>,
+    C: Core,
+    const N: usize,
+    const K: usize,
+    const CLOSE: bool,
+>(
     simd: S,
     edges: &[PackedEdge<P::Element>; N],
     window: &Window<P::Lanes>,
-    v: &mut [P::Lanes; 3],
+    v: &mut [[P::Lanes; 3]; K],
     room: &mut P::Lanes,
 ) {
-    for (c, k) in induced::<S, P, C, N, CLOSE>(simd, edges, window, room) {
-        v[0] += c[0] * k;
-        v[1] += c[1] * k;
-        v[2] += c[2] * k;
+    let factors = induced::<S, P, C, N, CLOSE>(simd, edges, window, room);
+    for (edge, (c, k)) in edges.iter().zip(factors) {
+        for i in 0..3 {
+            v[0][i] += c[i] * k;
+        }
+        if K > 1 {
+            let (a, b) = (
+                &window[edge.from as usize % WINDOW],
+                &window[edge.to as usize % WINDOW],
+            );
+            for i in 0..3 {
+                v[K - 1][i] += (a[i] - b[i]) * k; // r1 - r2 is the filament
+            }
+        }
     }
 }
 

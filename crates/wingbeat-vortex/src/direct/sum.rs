@@ -86,6 +86,27 @@ pub(crate) fn sum_all(
     });
 }
 
+/// [`sum_all`] of two quantities at once.
+pub(crate) fn sum_both(
+    sources: usize,
+    targets: &Points,
+    [one, two]: [&mut Points; 2],
+    add: impl Fn(Targets<'_>, [&mut Block; 2]) + Sync,
+) {
+    let is_long = [&*one, &*two].iter().all(|out| out.len() == targets.len());
+    assert!(is_long, "as many sums as targets");
+    let blocks = TASK_PAIRS.div_ceil((BLOCK * sources).max(1));
+    let both = par_blocks(one).zip(par_blocks(two)).with_min_len(blocks);
+    both.for_each(|((b, one), (_, two))| {
+        let (first, count) = (b * BLOCK, one[0].len());
+        let block = &block_at(targets, first..first + count);
+        let (mut sum_one, mut sum_two) = (Block::ZERO, Block::ZERO);
+        add(Targets { block, count }, [&mut sum_one, &mut sum_two]);
+        add_block(&sum_one, one);
+        add_block(&sum_two, two);
+    });
+}
+
 /// Adds the velocities of all of `packed` at all targets.
 pub(crate) fn sum_packed(
     level: Level,
