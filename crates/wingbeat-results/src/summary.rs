@@ -1,6 +1,7 @@
 //! What happened, in words and numbers, and how far it can be trusted.
 
 pub mod beats;
+mod means;
 mod numbers;
 mod statistics;
 mod trust;
@@ -12,6 +13,7 @@ use wingbeat_flight::{FlightSetup, Record};
 
 use super::Outcome;
 pub use beats::{BeatMeans, Beats, down, over_weight, steps_per_beat};
+pub use means::{Estimate, ManyBeats};
 pub use numbers::Summary;
 use statistics::Statistics;
 use wingbeat_case::IoError;
@@ -57,6 +59,7 @@ impl Summary {
             wake_particles: s.last.wake_particles,
             leak_velocity_m_s: s.leak_velocity.most,
             warnings: vec![],
+            means: ManyBeats::of(&s.beats),
             beats: s.beats,
         };
         summary.warnings = trust::warnings(setup, &summary);

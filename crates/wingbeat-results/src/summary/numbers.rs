@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::beats::BeatMeans;
+use super::means::ManyBeats;
 use crate::Outcome;
 
 /// Numbers of a run.
@@ -20,6 +21,9 @@ pub struct Summary {
     pub mass_kg: f64,
     /// Means of each whole wingbeat.
     pub beats: Vec<BeatMeans>,
+    /// Means over all but the first two of them, with standard errors; none of fewer than five.
+    #[serde(default)]
+    pub means: Option<ManyBeats>,
     /// Air force against gravity at the end \[N\].
     pub final_lift_newton: f64,
     /// Air force along n1 (forward) at the end \[N\].

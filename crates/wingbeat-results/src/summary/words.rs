@@ -2,6 +2,7 @@
 
 use std::fmt::Write as _;
 
+use super::means::{Estimate, ManyBeats};
 use super::numbers::Summary;
 use crate::Outcome;
 use crate::fixed::{fixed, signed};
@@ -79,6 +80,9 @@ impl Summary {
                 engineering(b.power_watt, "W")
             );
         }
+        if let Some(means) = &self.means {
+            mean_rows(means, out);
+        }
     }
 
     fn balances(&self, out: &mut String) {
@@ -114,6 +118,33 @@ impl Summary {
             self.regularised
         );
     }
+}
+
+/// Means over many wingbeats, below the table of all.
+fn mean_rows(means: &ManyBeats, out: &mut String) {
+    let rows: [(&str, fn(&Estimate) -> f64); 2] =
+        [(" mean", |e| e.mean), ("   +-", |e| e.standard_error)];
+    for (name, of) in rows {
+        let ratio = means.lift_over_weight;
+        let ratio = ratio.map_or("-".to_owned(), |r| fixed(of(&r), 3));
+        let _ = writeln!(
+            out,
+            "{name}   {ratio:>11}   {}   {}   {}",
+            engineering(of(&means.lift_newton), "N"),
+            engineering(of(&means.thrust_newton), "N"),
+            engineering(of(&means.power_watt), "W")
+        );
+    }
+    let [first, last] = means.beats;
+    let change = signed(100.0 * means.change_of_lift, 1);
+    let verdict = match means.is_steady {
+        true => "steady",
+        false => "NOT steady",
+    };
+    let text = format!(
+        "Mean and standard error of beats {first} to {last}, which are {verdict}: from the first half of them to the second, lift changes by {change} %."
+    );
+    out.push_str(&wrapped("       ", &text));
 }
 
 /// A number with a prefix that leaves one to three digits before the point.
