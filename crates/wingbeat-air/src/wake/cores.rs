@@ -1,56 +1,22 @@
-//! How wide the filaments of the free wakes are.
+//! How wide the filaments of the free wakes are where action is to be reaction.
 
 use crate::settings::AirSettings;
 use crate::state::WakeSheet;
 use wingbeat_math::DVec3;
 
-/// Core radius with which control points see a node of a wake, at most, over the way along the sheet from its edge.
+/// Core radius of a node over its way along the sheet from the edge, at most (or as wide as vorticity of its age is).
 ///
-/// Cores as wide as filaments are long blunt what a sheet does to control points that are nearer than that. A row loses
+/// Cores as wide as filaments are long blunt what a sheet does to anything nearer than that. Without this limit a row loses
 /// its effect on the panels at its edge the moment it leaves it, later if steps are longer: the lift of a hovering fly
-/// went up by a seventh from 40 to 160 steps a beat. With this share of the way the velocity of a sheet is right to
-/// 3 parts in a hundred at any distance, and what has gone a chord or two and comes back is as wide as it is for others.
-const SEEN: f64 = 0.25;
+/// went up by a seventh from 40 to 160 steps a beat, and by a seventh with half the overlap. With this share of the
+/// way the velocity of a sheet is right to 3 parts in a hundred at any distance, and where filaments stretch, a
+/// chord or two from the edge, cores are as wide as they are long.
+const SHARE_OF_WAY: f64 = 0.25;
 
 /// Appends the squared core radii \[m2\] of the free nodes of a sheet, whose shedding edge is `edge`: as wide with age as
-/// viscosity makes them, and at least as wide as the longest filament there is long, times the overlap.
+/// viscosity makes them, and at least as wide as the longest filament there is long, times the overlap, but no wider than
+/// [`SHARE_OF_WAY`] for that.
 pub(super) fn add_cores(
-    cores: &mut Vec<f64>,
-    sheet: &WakeSheet,
-    settings: &AirSettings,
-    t: f64,
-    edge: impl Iterator<Item = DVec3> + Clone,
-) {
-    let (rows, width) = (sheet.rows(), sheet.columns + 1);
-    let at = |r: usize, c: usize| sheet.node(r, c);
-    for r in 0..rows {
-        for c in 0..width {
-            let x = at(r, c);
-            let mut longest: f64 = 0.0;
-            let mut see = |y: DVec3| longest = longest.max(x.distance_squared(y));
-            if r > 0 {
-                see(at(r - 1, c));
-            }
-            if r + 1 < rows {
-                see(at(r + 1, c));
-            } else if let Some(y) = edge.clone().nth(c) {
-                see(y);
-            }
-            if c > 0 {
-                see(at(r, c - 1));
-            }
-            if c + 1 < width {
-                see(at(r, c + 1));
-            }
-            let age = t - sheet.shed_time[r];
-            cores.push(settings.free_core(longest.sqrt(), age));
-        }
-    }
-}
-
-/// Appends the squared core radii [m2] with which control points see the free nodes of a sheet, where those of [`add_cores`]
-/// are wider.
-pub(super) fn add_seen_cores(
     cores: &mut Vec<f64>,
     sheet: &WakeSheet,
     settings: &AirSettings,
@@ -63,10 +29,24 @@ pub(super) fn add_seen_cores(
         let (mut way, mut newer) = (0.0, edge);
         for r in (0..rows).rev() {
             let x = sheet.node(r, c);
-            way += x.distance(newer);
+            let step = x.distance(newer);
+            way += step;
+            let age = t - sheet.shed_time[r];
+            let wide = settings.free_core(longest(sheet, [r, c], x).max(step), age);
+            let aged = settings.wake_core.core(0.0, age);
+            cores[first + r * width + c] = wide.min(aged.max((SHARE_OF_WAY * way).powi(2)));
             newer = x;
-            let least = settings.wake_core.core(0.0, t - sheet.shed_time[r]);
-            cores[first + r * width + c] = least.max((SEEN * way).powi(2));
         }
     }
+}
+
+/// Length \[m\] of the longest filament from node (row, column), which is at `x`, to its neighbours in the same and the
+/// older row.
+fn longest(sheet: &WakeSheet, [r, c]: [usize; 2], x: DVec3) -> f64 {
+    let older = (r > 0).then(|| [r - 1, c]);
+    let left = (c > 0).then(|| [r, c - 1]);
+    let right = (c < sheet.columns).then_some([r, c + 1]);
+    let others = [older, left, right].into_iter().flatten();
+    let lengths = others.map(|[r, c]| x.distance(sheet.node(r, c)));
+    lengths.fold(0.0, f64::max)
 }

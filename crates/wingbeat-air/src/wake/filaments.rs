@@ -5,7 +5,7 @@ use crate::lattice::Lattice;
 use crate::settings::AirSettings;
 use crate::state::{AirState, WakeSheet};
 use crate::wake::conversion::borders_ring;
-use crate::wake::cores::{add_cores, add_seen_cores};
+use crate::wake::cores::add_cores;
 use crate::wake::near_wake::{Row, Share, add_near_wake, at_edge, row_lengths, strips};
 use wingbeat_math::DVec3;
 use wingbeat_vortex::{Blob, Network, Points, WINDOW};
@@ -34,8 +34,6 @@ pub struct Filaments {
     /// All other edges of the wakes, which do not move within a step. Nodes: sheet after sheet,
     /// oldest row first.
     pub wake: Network,
-    /// The same with the cores that control points see, where action is to be reaction; empty elsewhere.
-    pub(crate) seen_wake: Network,
     /// What stretched edges of the wakes have given up, see [`AirSettings::wake_blob_length`].
     pub blobs: Vec<Blob>,
     /// Particles of all sheets.
@@ -55,7 +53,6 @@ impl Filaments {
         self.gather_bound(lattice, position);
         self.levels = strips(lattice.settings()) + 1;
         self.wake.clear();
-        self.seen_wake.clear();
         self.blobs.clear();
         self.near_wake.clear();
         self.shares.clear();
@@ -65,8 +62,6 @@ impl Filaments {
             if lattice.settings().is_symmetric() {
                 let cores = &mut self.wake.nodes.core;
                 add_cores(cores, sheet, lattice.settings(), t, edge.clone());
-                let cores = &mut self.seen_wake.nodes.core;
-                add_seen_cores(cores, sheet, lattice.settings(), t, edge.clone());
             }
             self.add_sheet(sheet, lattice.settings(), t);
             let edge = root.nodes.iter().map(|&n| self.bound.nodes.get(n));
@@ -79,7 +74,6 @@ impl Filaments {
             };
             add_near_wake(&mut self.near_wake, &mut self.shares, &row, t, edge);
         }
-        self.gather_seen();
         self.particles.clear();
         if let Some(settings) = &lattice.settings().particles {
             for set in state.sheets.iter().map(|s| &s.particles) {
@@ -87,18 +81,6 @@ impl Filaments {
                 self.particles.extend(all);
             }
         }
-    }
-
-    /// Takes the wakes as control points see them; its cores are those that limit the others.
-    fn gather_seen(&mut self) {
-        let mut cores = std::mem::take(&mut self.seen_wake.nodes.core);
-        if !cores.is_empty() {
-            self.seen_wake.copy_from(&self.wake);
-            for (seen, core) in cores.iter_mut().zip(&self.wake.nodes.core) {
-                *seen = seen.min(*core);
-            }
-        }
-        self.seen_wake.nodes.core = cores;
     }
 
     /// All wake nodes that are to be moved (mirror images are reflected later), those on the shedding edges too: sheet after sheet,

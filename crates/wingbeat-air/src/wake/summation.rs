@@ -124,8 +124,6 @@ pub(crate) struct Sums {
     bound: Summation,
     near_wake: Summation,
     wake: Summation,
-    /// The free wakes as control points see them, if otherwise.
-    seen_wake: Summation,
     blobs: GaussianSum,
     /// Allowed error of the sum over blobs.
     tolerance: f64,
@@ -151,7 +149,6 @@ impl Sums {
     /// Takes what is frozen within a step: free wakes and particles; says whether they are new.
     pub(crate) fn load_free(&mut self, settings: &AirSettings, filaments: &Filaments) -> bool {
         let is_new = self.wake.load(free(settings), &filaments.wake);
-        self.seen_wake.load(free(settings), &filaments.seen_wake);
         let (min, bounds) = (settings.min_variance(), filaments.bounds());
         let nodes = filaments.wake.nodes.len();
         let is_new = self.blobs.load(&filaments.blobs, min, bounds, nodes) || is_new;
@@ -221,12 +218,9 @@ impl Sums {
         }
     }
 
-    /// The same of free wakes, blobs and particles as control points see them.
+    /// The same of free wakes, blobs and particles.
     fn add_free(&mut self, targets: &Points, mirrors: &[Mirror], out: &mut Points) {
-        let (images, sum) = match self.seen_wake.loaded.is_empty() {
-            true => (&mut self.images, &mut self.wake),
-            false => (&mut self.images, &mut self.seen_wake),
-        };
+        let (images, sum) = (&mut self.images, &mut self.wake);
         images.add(targets, mirrors, out, |x, v| sum.add(x, v));
         self.add_blobs(targets, mirrors, out);
         self.add_particles(targets, mirrors, out);
