@@ -190,9 +190,12 @@ impl ElementLaw {
         }
     }
 
-    /// Whether the element is an actuator: its power comes from outside.
-    pub fn is_actuator(&self) -> bool {
-        matches!(self, Self::Effort(_) | Self::Follow { .. })
+    /// The function of time that drives an actuator, whose power comes from outside; none: passive.
+    pub fn drive(&self) -> Option<&Fourier> {
+        match self {
+            Self::Effort(series) | Self::Follow { target: series, .. } => Some(series),
+            _ => None,
+        }
     }
 
     /// The numbers of the law with their names.

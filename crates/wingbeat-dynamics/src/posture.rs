@@ -80,7 +80,7 @@ impl Posture {
             let frame = self.placements[h.parent].slid(travel).turned(&law(k));
             let (q, u) = (&free.0[slot.q..], &free.1[slot.u..]);
             let (q, u) = (&q[..slot.coordinates], &u[..slot.speeds]);
-            let child = carry(joint.freedom, frame, q, u);
+            let child = carry(joint.freedom, frame, q, u, None);
             self.placements[h.child] = child.shifted(-h.anchor_child);
         }
     }

@@ -10,7 +10,7 @@ use wingbeat_dynamics::{
 use wingbeat_math::{DMat3, DVec3, EulerSequence, RotationLaw};
 use wingbeat_model::{Animal, Wing};
 
-use crate::joints::JointSetup;
+use crate::joints::{JointSetup, closes_loop};
 use crate::setup::{FlightSetup, FormulationChoice, MotionMode};
 
 /// The multibody system of an animal of body and wings: body 0 is the central body (2-3-1
@@ -100,7 +100,7 @@ fn articulated(
         }
     }
     for (k, joint) in joints.iter().enumerate() {
-        if first(joint.child) != Some(k) || joint.child == 0 {
+        if closes_loop(joints, k) {
             loops.push(link(joint));
         }
     }

@@ -3,7 +3,7 @@
 
 use std::sync::Arc;
 
-use wingbeat_dynamics::{Joint, TravelLaw};
+use wingbeat_dynamics::{ElementLaw, Joint, TravelLaw};
 use wingbeat_math::{DMat3, DVec3, MovingRotation, RotationLaw};
 
 use crate::prescribed::{DriftingFourier, PrescribedMotion};
@@ -28,6 +28,59 @@ pub struct JointSetup {
     pub law: Option<Arc<dyn RotationLaw>>,
     /// What is free there, prescribed travel, springs, dampers, stops, actuators.
     pub joint: Joint,
+}
+
+/// Whether joint `k` closes a loop: its child is the central body or hangs on an earlier joint.
+pub fn closes_loop(joints: &[JointSetup], k: usize) -> bool {
+    let child = joints[k].child;
+    child == 0 || joints[..k].iter().any(|j| j.child == child)
+}
+
+impl JointSetup {
+    /// The same joint with everything that is prescribed there `factor` times as fast: rotation, travel and
+    /// actuators.
+    pub fn faster(&self, factor: f64) -> Self {
+        let mut faster = self.clone();
+        if let Some(law) = faster.law.take() {
+            faster.law = Some(Arc::new(Faster { law, factor }));
+        }
+        if let Some(law) = faster.joint.travel.take() {
+            faster.joint.travel = Some(Arc::new(Faster { law, factor }));
+        }
+        for element in &mut faster.joint.elements {
+            if let ElementLaw::Effort(series) | ElementLaw::Follow { target: series, .. } =
+                &mut element.law
+            {
+                series.frequency *= factor;
+            }
+        }
+        faster
+    }
+}
+
+/// A law whose time runs `factor` times as fast.
+#[derive(Clone, Debug)]
+struct Faster<L> {
+    law: L,
+    factor: f64,
+}
+
+impl RotationLaw for Faster<Arc<dyn RotationLaw>> {
+    fn at(&self, t: f64) -> MovingRotation {
+        let (k, m) = (self.factor, self.law.at(self.factor * t));
+        MovingRotation {
+            c: m.c,
+            w: k * m.w,
+            w_dot: k * k * m.w_dot,
+        }
+    }
+}
+
+impl TravelLaw for Faster<Arc<dyn TravelLaw>> {
+    fn at(&self, t: f64) -> [DVec3; 3] {
+        let (k, [x, v, a]) = (self.factor, self.law.at(self.factor * t));
+        [x, k * v, k * k * a]
+    }
 }
 
 /// Rotation about a fixed axis by an angle that is a Fourier series.
