@@ -12,7 +12,7 @@ use std::sync::Arc;
 
 use wingbeat_dynamics::free::Slot;
 use wingbeat_dynamics::posture::{Composite, Posture};
-use wingbeat_dynamics::{BodyMotion, Formulation, Hinge, System};
+use wingbeat_dynamics::{BodyMotion, Formulation, Link, System};
 use wingbeat_flight::{FlightSetup, FreeFlight, FreeFlightScratch, Passage};
 use wingbeat_math::ode::Rk4;
 use wingbeat_math::{DMat3, DQuat, DVec3, RotationLaw};
@@ -219,7 +219,7 @@ impl Beat {
         let (q, u) = y[JOINTS..].split_at(system.coordinates());
         let hinges = system.hinges().iter().zip(system.slots());
         let free = hinges.filter(|(_, slot)| slot.speeds > 0);
-        let of = |(hinge, s): (&Hinge, &Slot)| {
+        let of = |(hinge, s): (&Link, &Slot)| {
             let q = &q[s.q..s.q + s.coordinates];
             let coordinates = match s.coordinates {
                 4 => DQuat::from_slice(q).to_scaled_axis().to_array().to_vec(),
@@ -325,8 +325,9 @@ fn check_periodic(system: &System, period: f64) -> Result<(), AnalysisError> {
     const CLOSE: f64 = 1e-9;
     let differs = |a: DVec3, b: DVec3, size: f64| (a - b).length() > CLOSE * size;
     let length = system.units().length;
-    for (hinge, joint) in system.hinges().iter().zip(system.joints()) {
-        let (a, b) = (hinge.law.at(0.0), hinge.law.at(period));
+    for hinge in system.hinges() {
+        let joint = &hinge.joint;
+        let (a, b) = (hinge.rotation(0.0), hinge.rotation(period));
         let turned = (0..3).any(|k| differs(a.c.col(k), b.c.col(k), 1.0));
         let spun = differs(a.w * period, b.w * period, 1.0 + a.w.length() * period);
         let travelled = joint.travel.as_ref().is_some_and(|law| {

@@ -1,6 +1,6 @@
 //! Control derivatives: mean loads by the means of steering, wing by wing.
 
-use wingbeat_flight::FlightSetup;
+use wingbeat_flight::{FlightSetup, faster};
 use wingbeat_math::{DMat3, DVec3};
 use wingbeat_model::motion::Adjustment;
 
@@ -98,7 +98,7 @@ pub fn control_derivatives(
                 }
                 if control == Control::Frequency {
                     for joint in &mut setup.joints {
-                        *joint = joint.faster(1.0 + x);
+                        *joint = faster(joint, 1.0 + x);
                     }
                 }
                 let level = Level::new(rotation, setup.gravity);

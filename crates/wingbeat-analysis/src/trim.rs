@@ -16,7 +16,7 @@
 
 use wingbeat_flight::{
     FlightSetup, FormulationChoice, IntegratorChoice, MotionMode, PrescribedMotion,
-    StabilizationChoice, StartState, TimeGrid, closes_loop,
+    StabilizationChoice, StartState, TimeGrid, closes_loop, faster,
 };
 use wingbeat_math::{DVec3, EulerSequence, r2, solve_small};
 use wingbeat_model::Start;
@@ -373,7 +373,7 @@ pub(crate) fn adjusted(
     }
     if a.frequency != 0.0 {
         for joint in &mut setup.joints {
-            *joint = joint.faster(1.0 + a.frequency);
+            *joint = faster(joint, 1.0 + a.frequency);
         }
     }
     (setup, a, shift, pitch)

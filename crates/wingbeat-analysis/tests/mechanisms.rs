@@ -8,7 +8,7 @@ use common::*;
 use wingbeat_analysis::derivatives::control_derivatives;
 use wingbeat_analysis::power::power;
 use wingbeat_analysis::*;
-use wingbeat_dynamics::{ElementLaw, Fourier, Freedom, Joint};
+use wingbeat_dynamics::{ElementLaw, Fourier, Freedom, Joint, Link};
 use wingbeat_flight::joints::AxisTurn;
 use wingbeat_flight::*;
 use wingbeat_math::{DMat3, DVec3, MassProperties, RotationLaw, r2};
@@ -79,14 +79,9 @@ fn driven(by: Drive) -> FlightSetup {
         ]);
         let f = wing.motion.frequency;
         let linkage = by == Drive::Linkage;
-        let joint = |what: &str, parent, child, anchors: [DVec3; 2]| JointSetup {
-            name: format!("{what} {name}"),
-            parent,
-            child,
-            anchor_parent: anchors[0],
-            anchor_child: anchors[1],
-            law: None,
-            joint: Joint::new(Freedom::Weld),
+        let joint = |what: &str, parent, child, [at, from]: [DVec3; 2]| {
+            let name = format!("{what} {name}");
+            Link::new(&name, Some(parent), child, Freedom::Weld).at(at, from)
         };
         let zero = DVec3::ZERO;
         let mut rocker = joint("rocker", 0, first, [hinge, zero]);
@@ -264,15 +259,9 @@ fn refuses_by_name_what_a_map_of_beats_cannot_be_asked() {
 }
 
 /// Passive feathering hinges for all wings of `setup` with a spring, a damper and `law`.
-fn hinged(setup: &FlightSetup, law: ElementLaw) -> Vec<JointSetup> {
+fn hinged(setup: &FlightSetup, law: ElementLaw) -> Vec<Link> {
     let wings = setup.animal.wings.iter().enumerate();
-    let joint = |(k, wing): (usize, &Wing)| JointSetup {
-        name: format!("hinge {}", wing.name),
-        parent: 0,
-        child: 1 + k,
-        anchor_parent: wing.hinge_b,
-        anchor_child: DVec3::ZERO,
-        law: None,
+    let joint = |(k, wing): (usize, &Wing)| Link {
         // Three times as fast as the wings beat, half of critical damping.
         joint: Joint::new(Freedom::Revolute { axis: DVec3::Y })
             .with(
@@ -289,6 +278,13 @@ fn hinged(setup: &FlightSetup, law: ElementLaw) -> Vec<JointSetup> {
                 },
             )
             .with(0, law.clone()),
+        ..Link::new(
+            &format!("hinge {}", wing.name),
+            Some(0),
+            1 + k,
+            Freedom::Weld,
+        )
+        .at(wing.hinge_b, DVec3::ZERO)
     };
     wings.map(joint).collect()
 }

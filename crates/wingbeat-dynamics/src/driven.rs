@@ -12,7 +12,8 @@ use wingbeat_math::{DVec3, MovingRotation, RotationLaw};
 
 use self::closing::{Closing, Relative};
 use crate::joint::{Freedom, Joint, TravelLaw};
-use crate::{DynamicsError, Hinge, System};
+use crate::link::Link;
+use crate::{DynamicsError, System};
 
 /// Times at which loops are closed over the whole table at least, so that each is near the last.
 const MIN_TIMES: usize = 128;
@@ -65,48 +66,38 @@ pub fn driven(system: System, step: f64, count: usize) -> Result<System, Dynamic
     }
     let on_loops = on_loops(&system);
     let laws = closed_positions(&system, &on_loops, (step, count))?;
-    let mut tree = System::new(
+    let joint = |(h, laws): (&Link, &Vec<Relative>)| match laws.is_empty() {
+        true => h.clone(),
+        false => prescribed(h, laws, step),
+    };
+    System::new(
         system.bodies().to_vec(),
-        hinges(&system, &laws, step),
+        system.hinges().iter().zip(&laws).map(joint).collect(),
         system.gravity(),
         system.units(),
-    )?;
-    for (k, joint) in system.joints().iter().enumerate() {
-        tree = match laws[k].is_empty() {
-            true => tree.with_joint(k, joint.clone())?,
-            false => tree.with_joint(k, prescribed(joint, &laws[k], step))?,
-        };
-    }
-    Ok(tree)
-}
-
-/// The hinges with the laws that were found.
-fn hinges(system: &System, laws: &[Vec<Relative>], step: f64) -> Vec<Hinge> {
-    let one = |(h, laws): (&Hinge, &Vec<Relative>)| match laws.is_empty() {
-        true => h.clone(),
-        false => Hinge {
-            law: Arc::new(Table {
-                step,
-                values: laws.iter().map(|l| l.0).collect(),
-            }),
-            ..h.clone()
-        },
-    };
-    system.hinges().iter().zip(laws).map(one).collect()
+    )
 }
 
 /// A joint whose motion is a law: springs and actuators along it decide on nothing any more.
-fn prescribed(joint: &Joint, laws: &[Relative], step: f64) -> Joint {
+fn prescribed(joint: &Link, laws: &[Relative], step: f64) -> Link {
     let travel: Arc<dyn TravelLaw> = Arc::new(Table {
         step,
         values: laws.iter().map(|l| l.1).collect(),
     });
-    Joint {
-        travel: match joint.freedom {
-            Freedom::Prismatic { .. } => Some(travel),
-            _ => joint.travel.clone(),
+    let travel = match joint.joint.freedom {
+        Freedom::Prismatic { .. } => Some(travel),
+        _ => joint.joint.travel.clone(),
+    };
+    Link {
+        law: Some(Arc::new(Table {
+            step,
+            values: laws.iter().map(|l| l.0).collect(),
+        })),
+        joint: Joint {
+            travel,
+            ..Joint::new(Freedom::Weld)
         },
-        ..Joint::new(Freedom::Weld)
+        ..joint.clone()
     }
 }
 
@@ -151,7 +142,7 @@ fn closed_positions(
 /// The system with the joints off the loops welded and nothing acting at the others.
 fn held(system: &System, on_loops: &[bool]) -> Result<System, DynamicsError> {
     let mut held = system.clone();
-    for (k, joint) in system.joints().iter().enumerate() {
+    for (k, joint) in system.joints().enumerate() {
         let freedom = match on_loops[k] {
             true => joint.freedom,
             false => Freedom::Weld,

@@ -300,7 +300,7 @@ impl Formulation for MomentumForm {
         s.extend([1.0; 4]);
         s.extend([p; 3]);
         s.extend([p * u.length; 3]);
-        let joints = || self.system.joints().iter().zip(self.system.slots());
+        let joints = || self.system.joints().zip(self.system.slots());
         let size = |freedom| match freedom {
             Freedom::Prismatic { .. } => u.length,
             _ => 1.0,
@@ -318,7 +318,7 @@ impl Formulation for MomentumForm {
         let mut state = State::read(t, y)?;
         state.attitude = state.attitude.normalize();
         state.write(y);
-        for (joint, slot) in self.system.joints().iter().zip(self.system.slots()) {
+        for (joint, slot) in self.system.joints().zip(self.system.slots()) {
             if joint.freedom == Freedom::Spherical {
                 let q = &mut y[DIM + slot.q..];
                 DQuat::from_slice(q).normalize().write_to_slice(q);

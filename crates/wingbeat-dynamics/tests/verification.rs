@@ -14,7 +14,7 @@ use wingbeat_dynamics::euler::{forces, inertia};
 use wingbeat_dynamics::inverse::weight_wrench;
 use wingbeat_dynamics::posture::Posture;
 use wingbeat_dynamics::{
-    Baumgarte, Body, BodyAcceleration, BodyMotion, EulerForm, Formulation, Hinge, MomentumForm,
+    Baumgarte, Body, BodyAcceleration, BodyMotion, EulerForm, Formulation, Link, MomentumForm,
     RootMotion, Solution, System, Workspace, Wrench, tethered,
 };
 use wingbeat_math::{DVec3, EulerSequence, MassProperties, RotationLaw, solve_small};
@@ -183,7 +183,7 @@ fn exact_weight_is_the_sum_over_points() {
 }
 
 /// A hinge with both anchors off the origins, whose law moves on the time scale one.
-fn test_hinge() -> Hinge {
+fn test_hinge() -> Link {
     #[derive(Debug)]
     struct Slow(Flapping);
     impl RotationLaw for Slow {
@@ -196,20 +196,20 @@ fn test_hinge() -> Hinge {
             }
         }
     }
-    Hinge {
+    Link {
         anchor_child: DVec3::new(0.1, 0.4, -0.2),
         ..hinge("h", 1, DVec3::new(0.3, -0.5, 0.7), Slow(Flapping::left()))
     }
 }
 
 /// The hinge between two bodies that move on their own, constraints not fulfilled.
-fn hinge_at(h: &Hinge, q: [&[f64]; 2], qd: [&[f64]; 2], t: f64) -> HingeKinematics {
+fn hinge_at(h: &Link, q: [&[f64]; 2], qd: [&[f64]; 2], t: f64) -> HingeKinematics {
     let parent = BodyKinematics::new(&cloud_body(SEQUENCES[0]), q[0], qd[0]);
     let child = BodyKinematics::new(&cloud_body(SEQUENCES[1]), q[1], qd[1]);
-    HingeKinematics::new(h, &h.law.at(t), &parent, &child)
+    HingeKinematics::new(h, &h.rotation(t), &parent, &child)
 }
 
-fn hinge_along(h: &Hinge, t: f64) -> HingeKinematics {
+fn hinge_along(h: &Link, t: f64) -> HingeKinematics {
     let ([qa, da, _], [qb, db, _]) = (motion(0.4, t), motion(2.6, t));
     hinge_at(h, [&qa, &qb], [&da, &db], t)
 }

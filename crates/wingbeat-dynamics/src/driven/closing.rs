@@ -70,7 +70,7 @@ impl<'a> Closing<'a> {
         }
         let (q, u) = form.mechanism().free_coordinates(system, 0.0, &motions);
         let mut sizes = vec![1.0; u.len()];
-        for (joint, slot) in system.joints().iter().zip(system.slots()) {
+        for (joint, slot) in system.joints().zip(system.slots()) {
             if let Freedom::Prismatic { .. } = joint.freedom {
                 sizes[slot.u] = system.units().length;
             }
@@ -197,10 +197,11 @@ impl<'a> Closing<'a> {
 
     /// How the child of hinge `k` moves against its parent in the position closed last, at time `t` \[s\].
     pub fn relative(&self, t: f64, k: usize) -> Relative {
-        let (h, joint) = (&self.system.hinges()[k], &self.system.joints()[k]);
+        let h = &self.system.hinges()[k];
+        let joint = &h.joint;
         let slot = self.system.slots()[k];
         let travel = (joint.travel.as_ref()).map_or([DVec3::ZERO; 3], |law| law.at(t));
-        let frame = Placement::ROOT.slid(travel).turned(&h.law.at(t));
+        let frame = Placement::ROOT.slid(travel).turned(&h.rotation(t));
         let [u, u_dot] = [&self.u, &self.u_dot].map(|x| &x[slot.u..slot.u + slot.speeds]);
         let child = carry(joint.freedom, frame, &self.q[slot.q..], u, Some(u_dot));
         let turned = MovingRotation {

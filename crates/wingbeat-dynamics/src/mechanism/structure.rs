@@ -58,19 +58,10 @@ impl Mechanism {
     /// The mechanism of a [`System`]: its hinges as links, in their order, then those that close
     /// loops.
     pub fn of(system: &System) -> Self {
-        let hinges = system.hinges().iter().zip(system.joints());
-        let tree = hinges.map(|(h, joint)| Link {
-            name: h.name.clone(),
-            parent: Some(h.parent),
-            child: h.child,
-            anchor_parent: h.anchor_parent,
-            anchor_child: h.anchor_child,
-            law: h.law.clone(),
-            joint: joint.clone(),
-        });
+        let links = system.hinges().iter().chain(system.loops());
         Self {
             bodies: system.bodies().to_vec(),
-            links: tree.chain(system.loops().iter().cloned()).collect(),
+            links: links.cloned().collect(),
             gravity: system.gravity(),
             units: system.units(),
         }
@@ -104,7 +95,7 @@ impl Mechanism {
         self.coordinates(t, motions, &mut free);
         let (mut q, mut u) = system.start();
         let mut rest = free.as_slice();
-        for (joint, slot) in system.joints().iter().zip(system.slots()) {
+        for (joint, slot) in system.joints().zip(system.slots()) {
             let (own, others) = rest.split_at(slot.speeds);
             let [x, v] = [0, 1].map(|k| own.iter().map(|c| c[k]).collect::<Vec<f64>>());
             start(&joint.clone().starting(&x, &v), slot, &mut q, &mut u);

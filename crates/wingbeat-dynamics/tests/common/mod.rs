@@ -5,8 +5,8 @@ use std::f64::consts::{FRAC_PI_2, TAU};
 use std::sync::Arc;
 
 use wingbeat_dynamics::{
-    Body, BodyMotion, DynamicsError, Formulation, Hinge, NaturalUnits, Solution, System, Workspace,
-    Wrench,
+    Body, BodyMotion, DynamicsError, Formulation, Freedom, Link, NaturalUnits, Solution, System,
+    Workspace, Wrench,
 };
 use wingbeat_math::ode::Rk4;
 use wingbeat_math::{
@@ -132,14 +132,10 @@ pub fn body(name: &str, mass: MassProperties, sequence: EulerSequence) -> Body {
     }
 }
 
-pub fn hinge(name: &str, child: usize, anchor: DVec3, law: impl RotationLaw + 'static) -> Hinge {
-    Hinge {
-        name: name.into(),
-        parent: 0,
-        child,
-        anchor_parent: anchor,
-        anchor_child: DVec3::ZERO,
-        law: Arc::new(law),
+pub fn hinge(name: &str, child: usize, anchor: DVec3, law: impl RotationLaw + 'static) -> Link {
+    Link {
+        law: Some(Arc::new(law)),
+        ..Link::new(name, Some(0), child, Freedom::Weld).at(anchor, DVec3::ZERO)
     }
 }
 
@@ -191,7 +187,7 @@ pub fn chain(gravity: DVec3) -> System {
     hinges[1].anchor_child = DVec3::new(-1e-4, 2e-4, 2e-4);
     let law = Flapping::new([0.0, 20.0, 0.4], [3.0, 15.0, 1.0], [-85.0, 10.0, 2.0]);
     let mut tip = hinge("flap hinge", 3, DVec3::new(0.0, 0.8 * LENGTH, 0.0), law);
-    tip.parent = 2;
+    tip.parent = Some(2);
     tip.anchor_child = DVec3::new(-2e-4, 1e-4, 3e-4);
     hinges.insert(0, tip);
     System::new(bodies, hinges, gravity, UNITS).unwrap()
