@@ -1,6 +1,8 @@
 //! A fruit fly with smooth, asymmetric wing motions, and small helpers.
 #![allow(dead_code, unused_imports)] // every test binary uses its own part
 
+pub mod mechanism;
+
 use std::f64::consts::{FRAC_PI_2, TAU};
 use std::sync::Arc;
 
@@ -44,6 +46,16 @@ impl Harmonic {
         let a = self.amplitude;
         [self.mean + a * c, -a * w * s, -a * w * w * c]
     }
+}
+
+/// Coordinates of order one that move as polynomials: q, q', q'' at time t, different for
+/// different `seed`s.
+pub fn motion(seed: f64, t: f64) -> [[f64; 6]; 3] {
+    let c = |i: usize, k: f64| 0.4 * (seed + 1.7 * i as f64 + 2.3 * k).sin();
+    let q = std::array::from_fn(|i| c(i, 0.0) + c(i, 1.0) * t + c(i, 2.0) * t * t);
+    let qd = std::array::from_fn(|i| c(i, 1.0) + 2.0 * c(i, 2.0) * t);
+    let qdd = std::array::from_fn(|i| 2.0 * c(i, 2.0));
+    [q, qd, qdd]
 }
 
 /// A flapping law: stroke plane horizontal at zero attitude, then the angles 1-3-2.
