@@ -1,7 +1,7 @@
 //! One wingbeat of free flight in air without memory, as a map of the state.
 //!
-//! The equations are those of a flight ([`FreeFlight`]): any bodies and joints, any air that depends
-//! on the present motion alone. As the wings' motion is prescribed and periodic, everything that
+//! The equations are those of a flight ([`FreeFlight`]): any bodies and joints, loops among them whose motion
+//! is driven, any air that depends on the present motion alone. As the wings' motion is prescribed and periodic, everything that
 //! depends on time alone is known beforehand at the half steps of the classical Runge-Kutta
 //! method.
 //!
@@ -12,7 +12,7 @@ use std::sync::Arc;
 
 use wingbeat_dynamics::free::Slot;
 use wingbeat_dynamics::posture::{Composite, Posture};
-use wingbeat_dynamics::{BodyMotion, Formulation, Hinge};
+use wingbeat_dynamics::{BodyMotion, Formulation, Link, System};
 use wingbeat_flight::{FlightSetup, FreeFlight, FreeFlightScratch, Passage};
 use wingbeat_math::ode::Rk4;
 use wingbeat_math::{DMat3, DQuat, DVec3, RotationLaw};
@@ -45,9 +45,12 @@ impl Beat {
     ///
     /// # Errors
     /// Air with a memory or that changes with time or place; applied loads; wings that do not beat or
-    /// beat at different frequencies; joints that close loops; what bodies and air refuse.
+    /// beat at different frequencies; joints that are not back after a wingbeat; loops whose motion
+    /// the laws of joints do not determine; what bodies and air refuse.
     pub fn new(setup: &FlightSetup, steps: usize) -> Result<Self, AnalysisError> {
-        Self::with_law(setup, steps, |_, wing| Arc::new(steady(&wing.motion)))
+        let beat = Self::with_law(setup, steps, |_, wing| Arc::new(steady(&wing.motion)))?;
+        check_periodic(beat.flight.system(), beat.period)?;
+        Ok(beat)
     }
 
     /// A wingbeat in which the motion of every wing goes over smoothly from one adjustment to
@@ -86,12 +89,6 @@ impl Beat {
             return Err(AnalysisError::not_covered(
                 "the air changes with time or place (gust, shear, ground): no wingbeat is like the next",
                 "leave [air.gust], shear and ground out, or fly it with `run`",
-            ));
-        }
-        if let Some(joint) = flight.system().loops().first() {
-            return Err(AnalysisError::not_covered(
-                format!("joint `{}` closes a loop", joint.name),
-                "model the mechanism as a tree, or fly it with `run`",
             ));
         }
         let tips = setup.animal.wings.iter().flat_map(|w| &w.mesh.nodes);
@@ -222,7 +219,7 @@ impl Beat {
         let (q, u) = y[JOINTS..].split_at(system.coordinates());
         let hinges = system.hinges().iter().zip(system.slots());
         let free = hinges.filter(|(_, slot)| slot.speeds > 0);
-        let of = |(hinge, s): (&Hinge, &Slot)| {
+        let of = |(hinge, s): (&Link, &Slot)| {
             let q = &q[s.q..s.q + s.coordinates];
             let coordinates = match s.coordinates {
                 4 => DQuat::from_slice(q).to_scaled_axis().to_array().to_vec(),
@@ -317,6 +314,41 @@ fn check_steady(setup: &FlightSetup) -> Result<(), AnalysisError> {
             "the setup has feedback, which has a memory of its own",
             "analyse the flight without [control]",
         ));
+    }
+    Ok(())
+}
+
+/// An error if a joint of the system is not back after a wingbeat of `period` [s] or is driven at another
+/// frequency.
+fn check_periodic(system: &System, period: f64) -> Result<(), AnalysisError> {
+    // Roundings of a phase, some thousands of them.
+    const CLOSE: f64 = 1e-9;
+    let differs = |a: DVec3, b: DVec3, size: f64| (a - b).length() > CLOSE * size;
+    let length = system.units().length;
+    for hinge in system.hinges() {
+        let joint = &hinge.joint;
+        let (a, b) = (hinge.rotation(0.0), hinge.rotation(period));
+        let turned = (0..3).any(|k| differs(a.c.col(k), b.c.col(k), 1.0));
+        let spun = differs(a.w * period, b.w * period, 1.0 + a.w.length() * period);
+        let travelled = joint.travel.as_ref().is_some_and(|law| {
+            let ([x, v, _], [y, u, _]) = (law.at(0.0), law.at(period));
+            let size = length + v.length() * period;
+            differs(x, y, size) || differs(v * period, u * period, size)
+        });
+        let driven = joint.elements.iter().filter_map(|e| e.law.drive());
+        let varying =
+            driven.filter(|series| series.cos.iter().chain(&series.sin).any(|x| *x != 0.0));
+        let mut phases = varying.map(|series| series.frequency * period);
+        let off = phases.any(|x| (x - x.round()).abs() > CLOSE * x.abs());
+        if turned || spun || travelled || off {
+            return Err(AnalysisError::not_covered(
+                format!(
+                    "joint `{}` is not back after a wingbeat of {period:.4e} s",
+                    hinge.name
+                ),
+                "drive it at the wings' frequency (motion.frequency_hz) or a multiple of it, or fly it with `run`",
+            ));
+        }
     }
     Ok(())
 }

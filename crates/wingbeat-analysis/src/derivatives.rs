@@ -1,6 +1,6 @@
 //! Control derivatives: mean loads by the means of steering, wing by wing.
 
-use wingbeat_flight::FlightSetup;
+use wingbeat_flight::{FlightSetup, faster};
 use wingbeat_math::{DMat3, DVec3};
 use wingbeat_model::motion::Adjustment;
 
@@ -17,7 +17,7 @@ pub enum Control {
     StrokeAmplitude,
     /// Mean stroke angle, positive forward \[rad\].
     StrokeOffset,
-    /// Relative change of the frequency \[1\] (of all wings only).
+    /// Relative change of the frequency \[1\] (of all wings, and of the joints that are driven, only).
     Frequency,
     /// Stroke-plane pitch \[rad\].
     StrokePlane,
@@ -94,6 +94,11 @@ pub fn control_derivatives(
                 for (k, wing) in setup.animal.wings.iter_mut().enumerate() {
                     if chosen.is_none_or(|c| c == k) {
                         wing.motion = wing.motion.adjusted(wing.side, &control.adjustment(x));
+                    }
+                }
+                if control == Control::Frequency {
+                    for joint in &mut setup.joints {
+                        *joint = faster(joint, 1.0 + x);
                     }
                 }
                 let level = Level::new(rotation, setup.gravity);

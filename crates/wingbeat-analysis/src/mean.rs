@@ -34,6 +34,26 @@ impl Beat {
         sum * (1.0 / (2 * self.steps()) as f64)
     }
 
+    /// An error if loads cannot be averaged over this beat.
+    ///
+    /// # Errors
+    /// Names the first joint that moves freely: how bodies move while the root moves steadily is then not known
+    /// beforehand.
+    pub fn check_averaged(&self) -> Result<(), AnalysisError> {
+        let system = self.flight().system();
+        let mut hinges = system.hinges().iter().zip(system.slots());
+        match hinges.find(|(_, slot)| slot.speeds > 0) {
+            None => Ok(()),
+            Some((hinge, _)) => Err(AnalysisError::not_covered(
+                format!(
+                    "joint `{}` moves freely, and loads averaged over a wingbeat need motions that are known beforehand",
+                    hinge.name
+                ),
+                "Floquet's modes carry free joints along (`wingbeat stability` gives them); or prescribe the joint's motion",
+            )),
+        }
+    }
+
     /// Mean air load when the mean mass centre moves with `velocity` [m/s] and the body turns with
     /// `rate` [rad/s], both steady in the level frame that turns with the body. Equal weights over
     /// the beat: spectrally accurate for a periodic motion.
@@ -46,13 +66,8 @@ impl Beat {
         velocity: DVec3,
         rate: DVec3,
     ) -> Result<MeanLoad, AnalysisError> {
+        self.check_averaged()?;
         let system = self.flight().system();
-        if system.speeds() > 0 {
-            return Err(AnalysisError::not_covered(
-                "the averaged model asks how the wings move while the body moves steadily, and free joints decide on that themselves",
-                "ask for trim and Floquet's modes (`trim`, `stability --floquet`), which carry the joints along",
-            ));
-        }
         let centre = self.mean_centre();
         let r = level.to_n * level.to_root.transpose();
         let (v, w) = (level.to_n * velocity, level.to_root * rate);

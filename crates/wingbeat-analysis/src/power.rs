@@ -1,22 +1,27 @@
 //! Mechanical power of flapping: aerodynamic, inertial, and what the muscles pay.
 
-use wingbeat_flight::{AirModel, FlightSetup, Simulation};
+use wingbeat_dynamics::{Body, BodyMotion, Element, Link, Mechanism};
+use wingbeat_flight::{FlightSetup, Record, Simulation, system_of};
+use wingbeat_math::DVec3;
 
 use crate::AnalysisError;
 use crate::progress;
 
+/// Part of the peak by which powers of successive beats may differ for the motion to count as periodic.
+const SETTLED: f64 = 1e-7;
+
 /// Mean mechanical powers over one wingbeat [W] and over masses [W/kg].
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Power {
-    /// Mean of the power against the air, `sum over wings of the hinge power with air less that
-    /// without`.
+    /// Mean of the power against the air, in the motion relative to the root.
     pub aerodynamic: f64,
-    /// Mean over the beat of the positive part of the inertial power.
+    /// Mean over the beat of the positive part of the inertial power, limb by limb (a wing, or all that hangs
+    /// on the body together).
     pub inertial_positive: f64,
-    /// What muscles pay if springs return all negative power: the mean of the total, not less
+    /// What actuators pay if springs return all negative power: the mean of the total, not less
     /// than 0.
     pub perfect_storage: f64,
-    /// What they pay if negative power is lost: mean of the positive part, wing by wing.
+    /// What they pay if negative power is lost: mean of the positive part, joint by joint.
     pub no_storage: f64,
     /// Largest total power of a step.
     pub peak: f64,
@@ -36,11 +41,16 @@ impl Power {
     }
 }
 
-/// Powers over the last full wingbeat of the setup, which must be tethered: the same motion is
-/// flown with and without air, and hinge moments of inertia, weight and air add up.
+/// Powers over the last full wingbeat of the setup, which must be tethered, or over the first that is like the one
+/// before.
+///
+/// What joints exert is what actuators and the springs and dampers along free directions exert; the power of
+/// the latter is not the muscles'. Against the air goes what the air takes from the motion relative to the root;
+/// what is left of the joints' power moves masses: the inertial power.
 ///
 /// # Errors
-/// A setup in free flight or shorter than a beat; what the flight reports.
+/// A setup in free flight or shorter than a beat; free joints that have not found a periodic motion at its end;
+/// what the flight reports.
 pub fn power(setup: &FlightSetup) -> Result<Power, AnalysisError> {
     let period = setup.time.period.unwrap_or(0.0);
     let per_beat = (period / setup.time.step).round() as usize;
@@ -51,45 +61,152 @@ pub fn power(setup: &FlightSetup) -> Result<Power, AnalysisError> {
             "tether the animal at its trimmed attitude",
         ));
     }
-    progress::task("power with air", 0, 2);
-    let with = hinge_powers(setup.clone(), per_beat)?;
-    progress::task("power without air", 1, 2);
-    let without = hinge_powers(
-        FlightSetup {
-            air: AirModel::None,
-            ..setup.clone()
-        },
-        per_beat,
-    )?;
-    let n = with.len() as f64;
-    let total = |p: &Vec<f64>| p.iter().sum::<f64>();
-    let positive = |p: &Vec<f64>| p.iter().map(|x| x.max(0.0)).sum::<f64>();
-    let mean =
-        |list: &[Vec<f64>], f: &dyn Fn(&Vec<f64>) -> f64| list.iter().map(f).sum::<f64>() / n;
+    let mechanism = Mechanism::of(&system_of(setup)?);
+    let mut flight = Simulation::new(setup.clone())?;
+    let beats = setup.time.steps / per_beat;
+    for _ in 0..setup.time.steps - beats * per_beat {
+        flight.step()?;
+    }
+    let mut last = Power::default();
+    for beat in 0..beats {
+        progress::task("power", beat, beats);
+        let now = over_beat(&mechanism, &mut flight, per_beat)?;
+        let is_settled = now.is_near(&last);
+        last = now;
+        if is_settled {
+            break;
+        }
+        if beat + 1 == beats && beat > 0 && !flight.record().joints.is_empty() {
+            return Err(AnalysisError::not_covered(
+                format!(
+                    "the free joints find no periodic motion within {beats} wingbeats while the body is held"
+                ),
+                "give them damping (joint.NAME.element), or fly longer with `run` and read the powers of the history",
+            ));
+        }
+    }
+    last.mass = setup.animal.mass();
+    Ok(last)
+}
+
+impl Power {
+    /// Whether it is that of the next beat of a motion that has become periodic.
+    fn is_near(&self, other: &Self) -> bool {
+        let near = |a: f64, b: f64| (a - b).abs() <= SETTLED * self.peak;
+        near(self.perfect_storage, other.perfect_storage) && near(self.peak, other.peak)
+    }
+}
+
+/// Powers over the next `steps` steps of a flight.
+fn over_beat(
+    mechanism: &Mechanism,
+    flight: &mut Simulation,
+    steps: usize,
+) -> Result<Power, AnalysisError> {
+    let limbs = limbs(mechanism);
+    let mut sums = Power::default();
+    for _ in 0..steps {
+        let record = flight.step()?;
+        let joints = joint_powers(record);
+        let air = air_powers(mechanism, record);
+        let passive = passive_powers(mechanism, record);
+        let muscles: Vec<f64> = joints.iter().zip(&passive).map(|(a, b)| a - b).collect();
+        let mut inertial = vec![0.0; mechanism.bodies().len()];
+        for (link, p) in mechanism.links().iter().zip(&joints) {
+            inertial[limbs[link.child]] += p;
+        }
+        (1..air.len()).for_each(|body| inertial[limbs[body]] -= air[body]);
+        let total: f64 = muscles.iter().sum();
+        sums.aerodynamic += air.iter().sum::<f64>();
+        sums.inertial_positive += positive(&inertial);
+        sums.perfect_storage += total;
+        sums.no_storage += positive(&muscles);
+        sums.peak = sums.peak.max(total);
+    }
+    let n = steps as f64;
     Ok(Power {
-        aerodynamic: mean(&with, &total) - mean(&without, &total),
-        inertial_positive: mean(&without, &positive),
-        perfect_storage: mean(&with, &total).max(0.0),
-        no_storage: mean(&with, &positive),
-        peak: with.iter().map(total).fold(0.0, f64::max),
-        mass: setup.animal.mass(),
+        aerodynamic: sums.aerodynamic / n,
+        inertial_positive: sums.inertial_positive / n,
+        perfect_storage: (sums.perfect_storage / n).max(0.0),
+        no_storage: sums.no_storage / n,
+        peak: sums.peak,
+        mass: 0.0,
     })
 }
 
-/// Powers of hinge and deformation of every wing at every step of the last beat.
-fn hinge_powers(setup: FlightSetup, per_beat: usize) -> Result<Vec<Vec<f64>>, AnalysisError> {
-    let first = setup.time.steps - per_beat;
-    let mut flight = Simulation::new(setup)?;
-    let mut list = Vec::with_capacity(per_beat);
-    while !flight.finished() {
-        let record = flight.step()?;
-        if record.step > first {
-            let mut powers: Vec<f64> = record.hinges.iter().map(|h| h.power).collect();
-            for (power, deforming) in powers.iter_mut().zip(&record.deformation_power) {
-                *power += deforming;
-            }
-            list.push(powers);
-        }
+fn positive(powers: &[f64]) -> f64 {
+    powers.iter().map(|p| p.max(0.0)).sum()
+}
+
+/// The number of the limb that each body belongs to, that of one of its bodies: bodies that joints join without
+/// the root between them.
+fn limbs(mechanism: &Mechanism) -> Vec<usize> {
+    let mut limbs: Vec<usize> = (0..mechanism.bodies().len()).collect();
+    for link in mechanism.links() {
+        let Some(parent) = link.parent.filter(|p| *p != 0 && link.child != 0) else {
+            continue;
+        };
+        let (one, other) = (limbs[parent], limbs[link.child]);
+        let joined = limbs.iter_mut().filter(|l| **l == other);
+        joined.for_each(|l| *l = one);
     }
-    Ok(list)
+    limbs
+}
+
+/// Power of what every joint exerts, and of what deforms the wing on it [W], in the order of the mechanism.
+fn joint_powers(record: &Record) -> Vec<f64> {
+    let loops = record.loops.iter().map(|l| l.power);
+    record.hinge_powers().chain(loops).collect()
+}
+
+/// Power of springs, dampers and stops along the free directions of every joint [W].
+fn passive_powers(mechanism: &Mechanism, record: &Record) -> Vec<f64> {
+    let mut coordinates = record.joints.as_slice();
+    let of = |link: &Link| {
+        let n = link
+            .joint
+            .freedom
+            .directions()
+            .min(3)
+            .min(coordinates.len());
+        let (own, rest) = coordinates.split_at(n);
+        coordinates = rest;
+        let passive = link
+            .joint
+            .elements
+            .iter()
+            .filter(|e| e.law.drive().is_none());
+        let power = |e: &Element| {
+            let [q, u] = own[e.direction];
+            e.law.effort(record.time, q, u) * u
+        };
+        passive.map(power).sum()
+    };
+    mechanism.links().iter().map(of).collect()
+}
+
+/// Power that every body gives to the air by its motion relative to the root, deformation included [W].
+fn air_powers(mechanism: &Mechanism, record: &Record) -> Vec<f64> {
+    let motion = |(i, body): (usize, &Body)| {
+        let [q, rates] = [&record.coordinates, &record.rates].map(|x| &x[6 * i..6 * i + 6]);
+        let (eta, sequence) = (DVec3::from_slice(&q[3..]), body.sequence);
+        BodyMotion {
+            p: DVec3::from_slice(q),
+            r: sequence.rotation(eta),
+            v: DVec3::from_slice(rates),
+            w: sequence.g(eta) * DVec3::from_slice(&rates[3..]),
+        }
+    };
+    let motions: Vec<BodyMotion> = mechanism.bodies().iter().enumerate().map(motion).collect();
+    let root = &motions[0];
+    let spin = root.r * root.w;
+    let mut powers: Vec<f64> = (motions.iter().zip(&record.air))
+        .map(|(m, load)| {
+            let v = m.v - root.v - spin.cross(m.p - root.p);
+            -(load.force.dot(v) + load.moment.dot(m.r * m.w - spin))
+        })
+        .collect();
+    let wings = powers[1..].iter_mut().zip(&record.deformation_power);
+    wings.for_each(|(p, deforming)| *p += deforming);
+    powers
 }

@@ -15,8 +15,8 @@
 //! the best point found.
 
 use wingbeat_flight::{
-    FlightSetup, FormulationChoice, IntegratorChoice, MotionMode, PrescribedMotion, StartState,
-    TimeGrid,
+    FlightSetup, FormulationChoice, IntegratorChoice, MotionMode, PrescribedMotion,
+    StabilizationChoice, StartState, TimeGrid, closes_loop, faster,
 };
 use wingbeat_math::{DVec3, EulerSequence, r2, solve_small};
 use wingbeat_model::Start;
@@ -130,27 +130,36 @@ pub struct Trim {
 }
 
 impl Trim {
-    /// The adjusted animal tethered in its trimmed attitude at rest, for two beats of the trim's
-    /// steps.
-    pub fn tethered(&self) -> FlightSetup {
-        let mut setup = self.setup.clone();
-        for wing in &mut setup.animal.wings {
-            wing.motion.start = Start::Impulsive;
-        }
+    /// The adjusted animal carried in its trimmed attitude with the mean velocity of the trimmed flight, for
+    /// two beats of the trim's steps; with free joints, which begin as on the trimmed orbit and find the one of
+    /// a body that is held, for many.
+    ///
+    /// # Errors
+    /// Numbers that are not finite.
+    pub fn tethered(&self) -> Result<FlightSetup, AnalysisError> {
+        let mut setup = self.impulsive();
         let angles = DVec3::new(self.body_pitch, 0.0, 0.0);
-        setup.mode = MotionMode::Tethered(PrescribedMotion::at_rest(DVec3::ZERO, angles));
-        let steps = self.beat.steps();
-        setup.time = TimeGrid {
-            step: self.beat.period() / steps as f64,
-            steps: 2 * steps,
-            period: Some(self.beat.period()),
+        let mut motion = PrescribedMotion::at_rest(DVec3::ZERO, angles);
+        for (x, v) in motion
+            .position
+            .iter_mut()
+            .zip(self.mean_velocity()?.to_array())
+        {
+            x.rate = v;
+        }
+        setup.mode = MotionMode::Tethered(motion);
+        let beats = if self.beat.joint_sizes().is_empty() {
+            2
+        } else {
+            MAX_HELD_BEATS
         };
-        setup
+        self.in_its_steps(&mut setup, beats);
+        Ok(setup)
     }
 
-    /// The adjusted animal in free flight from the start of its periodic beat, joints and all, for
-    /// one beat of the trim's steps by the trim's method.
-    pub fn free(&self) -> FlightSetup {
+    /// The adjusted setup with wings that beat from the first instant and free joints that begin as on the
+    /// trimmed orbit.
+    fn impulsive(&self) -> FlightSetup {
         let mut setup = self.setup.clone();
         for wing in &mut setup.animal.wings {
             wing.motion.start = Start::Impulsive;
@@ -161,6 +170,30 @@ impl Trim {
                 joint.joint = joint.joint.clone().starting(q, u);
             }
         }
+        setup
+    }
+
+    /// Flies `setup` for `beats` wingbeats in the trim's steps by the trim's method; joints that close loops by
+    /// the form that has them.
+    fn in_its_steps(&self, setup: &mut FlightSetup, beats: usize) {
+        let mut joints = 0..setup.joints.len();
+        setup.formulation = match joints.any(|k| closes_loop(&setup.joints, k)) {
+            true => FormulationChoice::Quaternion(StabilizationChoice::Projection),
+            false => FormulationChoice::Momentum,
+        };
+        setup.integrator = IntegratorChoice::RungeKutta;
+        let steps = self.beat.steps();
+        setup.time = TimeGrid {
+            step: self.beat.period() / steps as f64,
+            steps: beats * steps,
+            period: Some(self.beat.period()),
+        };
+    }
+
+    /// The adjusted animal in free flight from the start of its periodic beat, joints and all, for
+    /// one beat of the trim's steps by the trim's method.
+    pub fn free(&self) -> FlightSetup {
+        let mut setup = self.impulsive();
         let root = self.beat.root(&self.state);
         setup.mode = MotionMode::Free(StartState {
             position: root.p,
@@ -169,14 +202,7 @@ impl Trim {
             angular_velocity: root.w,
             held_steps: 0,
         });
-        setup.formulation = FormulationChoice::Momentum;
-        setup.integrator = IntegratorChoice::RungeKutta;
-        let steps = self.beat.steps();
-        setup.time = TimeGrid {
-            step: self.beat.period() / steps as f64,
-            steps,
-            period: Some(self.beat.period()),
-        };
+        self.in_its_steps(&mut setup, 1);
         setup
     }
 
@@ -201,6 +227,7 @@ impl Trim {
 /// A setup that [`Beat`] does not cover; numbers that stop being finite at the very start. A
 /// trim that does not converge is no error: see [`Trim::converged`].
 pub fn trim(setup: &FlightSetup, problem: &TrimProblem) -> Result<Trim, AnalysisError> {
+    check_unknowns(setup, problem)?;
     let first = Beat::new(setup, problem.settings.steps)?;
     let speed = first.wing_length() / first.period();
     let v = problem.velocity;
@@ -234,6 +261,28 @@ pub fn trim(setup: &FlightSetup, problem: &TrimProblem) -> Result<Trim, Analysis
     found.converged = found.error() <= problem.settings.tolerance;
     Ok(found)
 }
+
+/// An error if an unknown is not what it says for the joints of `setup`.
+pub(crate) fn check_unknowns(
+    setup: &FlightSetup,
+    problem: &TrimProblem,
+) -> Result<(), AnalysisError> {
+    match setup.joints.first() {
+        Some(joint) if problem.unknowns.contains(&Unknown::MassCentre) => {
+            Err(AnalysisError::not_covered(
+                format!(
+                    "mass_centre shifts the hinges of wings against the body, and joint `{}` has a place of its own",
+                    joint.name
+                ),
+                "choose other unknowns, or shift at_m of the joints in the case",
+            ))
+        }
+        _ => Ok(()),
+    }
+}
+
+/// Beats within which free joints find their periodic motion while the body is held.
+const MAX_HELD_BEATS: usize = 400;
 
 /// Beats after which free joints with any damping have found their periodic motion.
 const SETTLING_BEATS: usize = 5;
@@ -322,6 +371,11 @@ pub(crate) fn adjusted(
         wing.motion = wing.motion.adjusted(wing.side, &a);
         wing.hinge_b.x -= shift;
     }
+    if a.frequency != 0.0 {
+        for joint in &mut setup.joints {
+            *joint = faster(joint, 1.0 + a.frequency);
+        }
+    }
     (setup, a, shift, pitch)
 }
 
@@ -345,8 +399,27 @@ fn jacobian(
         for i in 0..n {
             j[i * n + k] = (plus[i] - minus[i]) / (2.0 * STEP);
         }
+        let column: Vec<f64> = (0..n).map(|i| j[i * n + k]).collect();
+        check_effect(problem, k, &column)?;
     }
     Ok(j)
+}
+
+/// An error if the control that unknown `k` is changes nothing.
+fn check_effect(problem: &TrimProblem, k: usize, column: &[f64]) -> Result<(), AnalysisError> {
+    // Differences of residuals that are known to 1e-13 over steps of 1e-5.
+    const NOTHING: f64 = 1e-7;
+    let control = k.checked_sub(3).and_then(|c| problem.unknowns.get(c));
+    match control {
+        Some(unknown) if largest(column) < NOTHING => Err(AnalysisError::not_covered(
+            format!(
+                "{} changes nothing in this flight: what it adjusts is not what moves the wings, or they do not move",
+                unknown.name()
+            ),
+            "choose other unknowns; wings that joints drive answer to frequency and body_pitch, and to what their own motion still does",
+        )),
+        _ => Ok(()),
+    }
 }
 
 type Point = (Vec<f64>, Vec<f64>);

@@ -24,7 +24,7 @@ use crate::eigen::eigen;
 use crate::level::{Level, Perturbation};
 use crate::modes::{ModeSet, Scales};
 use crate::progress;
-use crate::trim::{TrimProblem, adjusted, largest};
+use crate::trim::{TrimProblem, adjusted, check_unknowns, largest};
 
 /// What is held fixed when the state of the body is disturbed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -120,6 +120,7 @@ pub fn trim_with_wake(
     problem: &TrimProblem,
     settings: &WakeSettings,
 ) -> Result<WakeTrim, AnalysisError> {
+    check_unknowns(setup, problem)?;
     let mut search = Search {
         setup,
         problem,

@@ -5,13 +5,15 @@ use wingbeat_analysis::wake::WakeTrim;
 use wingbeat_analysis::{AnalysisError, LinearModel, Trim};
 use wingbeat_blade::DerivativeTable;
 use wingbeat_dynamics::BodyMotion;
+use wingbeat_flight::closes_loop;
 use wingbeat_math::EulerSequence;
 use wingbeat_model::motion::Adjustment;
 
 use super::LoadedCase;
 use super::raw::{
     AirCase, AirModel, BodyCase, Case, CorrectorCase, DerivativesCase, DynamicsCase, FlightCase,
-    Formulation, IntegratorCase, JointKind, Mode, MotionCase, StartCase, TimeCase,
+    Formulation, IntegratorCase, JointCase, JointKind, Mode, MotionCase, StabilisationCase,
+    StartCase, TimeCase,
 };
 use crate::loaded::written;
 
@@ -27,8 +29,14 @@ pub fn trimmed_case(case: &LoadedCase, trim: &Trim) -> String {
         beats: raw.time.beats.or(Some(flown)),
         ..TimeCase::default()
     };
+    let joints = &case.setup.joints;
+    let (formulation, stabilisation) = match (0..joints.len()).any(|k| closes_loop(joints, k)) {
+        true => (Formulation::Quaternion, StabilisationCase::Projection),
+        false => (Formulation::Momentum, StabilisationCase::Baumgarte),
+    };
     raw.dynamics = DynamicsCase {
-        formulation: Formulation::Momentum.into(),
+        formulation: formulation.into(),
+        stabilisation,
         wings: raw.dynamics.wings,
         integrator: IntegratorCase::RungeKutta.into(),
         ..DynamicsCase::default()
@@ -83,10 +91,31 @@ fn adjusted(case: &LoadedCase, a: &Adjustment, mass_centre: f64) -> Case {
     adjust.stroke_plane_deg += a.stroke_plane.to_degrees();
     motion.frequency_hz = (motion.frequency_hz.value() * (1.0 + a.frequency)).into();
     motion.start = StartCase::Impulsive;
+    let given = raw.joint.values_mut().flat_map(frequencies);
+    given.for_each(|f| *f *= 1.0 + a.frequency);
     for hinge in raw.wing.values_mut().filter_map(|w| w.hinge_m.as_mut()) {
         hinge[0] -= mass_centre / raw.animal.scale;
     }
     raw
+}
+
+/// The frequencies of their own at which a joint is driven.
+fn frequencies(joint: &mut JointCase) -> Vec<&mut f64> {
+    let turn = joint
+        .turn
+        .iter_mut()
+        .filter_map(|t| t.frequency_hz.as_mut());
+    let travel = joint
+        .travel
+        .iter_mut()
+        .filter_map(|t| t.frequency_hz.as_mut());
+    let series = joint.element.iter_mut().flat_map(|e| {
+        let efforts = [e.moment_newton_m.as_mut(), e.force_newton.as_mut()];
+        let target = e.follow.as_mut().map(|f| &mut f.angle_deg);
+        let all = efforts.into_iter().chain([target]).flatten();
+        all.filter_map(|s| s.frequency_hz.as_mut())
+    });
+    turn.chain(travel).chain(series).collect()
 }
 
 /// The case as text with this start of its free flight.
@@ -135,7 +164,11 @@ pub fn derivative_case(
     let mut raw = case.raw.clone();
     raw.name = Some(format!("{}-averaged", case.name));
     raw.control = None; // nothing steers a table of derivatives
+    // Bodies, joints and what acts between them have become one rigid body.
     raw.wing.clear();
+    raw.segment.clear();
+    raw.joint.clear();
+    raw.spring.clear();
     raw.animal.scale = 1.0;
     raw.body = BodyCase {
         mass_kg: Some(mass),

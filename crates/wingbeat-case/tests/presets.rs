@@ -303,6 +303,36 @@ fn is_symmetric(setup: &FlightSetup) -> bool {
         && (root.r.y_axis - DVec3::Y).length() < 1e-15
 }
 
+/// Without air nothing tells left from right, to the last bit: bodies, wing motions and the equations of both
+/// forms round alike on both sides.
+#[test]
+fn exact_symmetric_presets_fly_straight_without_air() {
+    let mut symmetric = 0;
+    for preset in PRESETS {
+        let mut setup = LoadedCase::find(preset.name, &[]).unwrap().setup;
+        if !is_symmetric(&setup) {
+            continue;
+        }
+        setup.air = AirModel::None;
+        let mut flight = Simulation::new(setup).unwrap_or_else(|e| panic!("{}: {e}", preset.name));
+        for _ in 0..40 {
+            flight
+                .step()
+                .unwrap_or_else(|e| panic!("{}: {e}", preset.name));
+        }
+        // Free joints are eliminated one side after the other: a few roundings (measured 2.3e-19).
+        let allowed = if flight.setup().joints.is_empty() {
+            0.0
+        } else {
+            2e-18
+        };
+        let apart = out_of_symmetry(&flight);
+        assert!(apart <= allowed, "{}: {apart:.1e}", preset.name);
+        symmetric += 1;
+    }
+    assert!(symmetric > 20, "{symmetric}");
+}
+
 /// Every preset is flown to its end; those that do not tell left from right stay in their plane of
 /// symmetry.
 #[test]
@@ -330,10 +360,12 @@ fn invariant_every_preset_flies_to_its_end_symmetric_ones_symmetrically() {
         assert_eq!(state.step, flight.setup().time.steps);
         if tells_no_side {
             symmetric += 1;
-            // Roundings (measured 1e-14 at most); where both halves of a lattice are computed, grown among the wakes
-            // (measured 4e-10).
+            // Roundings (measured 1e-14 at most). Where both halves of a lattice are computed, each sums the
+            // vortices of its own side first or last, and the separated wake makes what the roundings differ by
+            // grow: 1e-12 m/s of lateral speed at the start end as 80 pm and 6e-7 rad of roll. Measured 4e-11 and
+            // 4e-10 with flights that differ by roundings alone.
             let both = matches!(&flight.setup().air, AirModel::VortexLattice(air) if !air.mirror);
-            let allowed = if both { 1e-8 } else { 1e-13 };
+            let allowed = if both { 4e-9 } else { 1e-13 };
             assert!(worst < allowed, "{}: {worst:.1e}", preset.name);
         }
     }

@@ -211,6 +211,26 @@ pub enum DynamicsError {
         /// Time \[s\].
         time: f64,
     },
+    /// A loop near a position in which its motion is not determined.
+    #[error(
+        "at t = {time:.6e} s the loop of the joints {joints} is near a position in which it may go on in several ways; change lengths or amplitudes so that it stays away from it"
+    )]
+    SingularPosition {
+        /// Time \[s\].
+        time: f64,
+        /// Names of the joints.
+        joints: String,
+    },
+    /// A loop whose motion is not prescribed.
+    #[error(
+        "joint `{joint}` closes a loop that leaves {free} of its coordinates free: prescribe as many of them (`turn`, `travel`)"
+    )]
+    LooseLoop {
+        /// Name of the joint.
+        joint: String,
+        /// Coordinates left free.
+        free: usize,
+    },
     /// The formulation flies trees only.
     #[error(
         "joint `{joint}` closes a loop, which the {form} form does not have; use the quaternion form (`formulation = \"quaternion\"`)"

@@ -93,8 +93,8 @@ impl EulerForm {
         self.unfold(t, y, ws)?;
         let s = &mut ws.euler;
         for (k, h) in self.system.hinges().iter().enumerate() {
-            let (parent, child) = (&s.bodies[h.parent], &s.bodies[h.child]);
-            s.hinges[k] = HingeKinematics::new(h, &h.law.at(t), parent, child);
+            let (parent, child) = (&s.bodies[h.tree_parent()], &s.bodies[h.child]);
+            s.hinges[k] = HingeKinematics::new(h, &h.rotation(t), parent, child);
         }
         s.condensed
             .solve(&self.system, &s.bodies, &s.hinges, loads, self.baumgarte)

@@ -107,7 +107,7 @@ impl FreeScratch {
             let point = child.d + child.c * h.anchor_child;
             for k in 0..slot.speeds {
                 let (mut slide, mut spin) = (DVec3::ZERO, DVec3::ZERO);
-                match system.joints()[hinge].freedom {
+                match system.hinges()[hinge].joint.freedom {
                     Freedom::Revolute { axis } => spin = axis,
                     Freedom::Universal { axes: [a, b] } if k == 0 => {
                         spin = DMat3::from_axis_angle(b, -q[slot.q + 1]) * a;
@@ -206,7 +206,7 @@ impl FreeScratch {
     /// Q_j, the effort of the joint's elements.
     fn effort(&self, system: &System, j: usize, t: f64, q: &[f64], u: &[f64]) -> f64 {
         let hinge = self.directions[j].hinge;
-        let (joint, slot) = (&system.joints()[hinge], system.slots()[hinge]);
+        let (joint, slot) = (&system.hinges()[hinge].joint, system.slots()[hinge]);
         if joint.elements.is_empty() {
             return 0.0;
         }

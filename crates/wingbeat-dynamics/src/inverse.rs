@@ -13,12 +13,12 @@ pub(crate) fn reactions(system: &System, loads: &[Wrench], ws: &mut Workspace, o
     demand(system, loads, &ws.motions, &out.bodies, &mut ws.demand);
     for &k in system.outward().iter().rev() {
         let h = &system.hinges()[k];
-        let (parent, child) = (&ws.motions[h.parent], &ws.motions[h.child]);
+        let (parent, child) = (&ws.motions[h.tree_parent()], &ws.motions[h.child]);
         let arm_child = child.r * h.anchor_child;
         let arm_parent = child.p + arm_child - parent.p;
         let at_origin = ws.demand[h.child];
         let at_hinge = at_origin.moment - arm_child.cross(at_origin.force);
-        ws.demand[h.parent] += Wrench {
+        ws.demand[h.tree_parent()] += Wrench {
             force: at_origin.force,
             moment: at_hinge + arm_parent.cross(at_origin.force),
         };

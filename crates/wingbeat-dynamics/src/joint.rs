@@ -1,7 +1,7 @@
 //! What a joint leaves free, and what acts along its free directions.
 //!
 //! A joint sits on a frame K of the parent: at the anchor on the parent, moved by a prescribed
-//! travel and turned by a prescribed law (see [`crate::Hinge::law`]). The child's frame L coincides
+//! travel and turned by a prescribed law (see [`crate::Link::law`]). The child's frame L coincides
 //! with K in axes, and the anchor on the child with K's origin, when all free coordinates are zero.
 
 use std::f64::consts::TAU;
@@ -190,9 +190,12 @@ impl ElementLaw {
         }
     }
 
-    /// Whether the element is an actuator: its power comes from outside.
-    pub fn is_actuator(&self) -> bool {
-        matches!(self, Self::Effort(_) | Self::Follow { .. })
+    /// The function of time that drives an actuator, whose power comes from outside; none: passive.
+    pub fn drive(&self) -> Option<&Fourier> {
+        match self {
+            Self::Effort(series) | Self::Follow { target: series, .. } => Some(series),
+            _ => None,
+        }
     }
 
     /// The numbers of the law with their names.

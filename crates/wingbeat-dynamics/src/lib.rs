@@ -30,7 +30,7 @@
 //! | T_i^{NB} | [`BodyMotion::r`] | rotation, body components to N components | 1 | | eq. 3 |
 //! | omega_i | [`BodyMotion::w`] | angular velocity relative to N | rad/s | body | eq. 15 |
 //! | eta_i | `eta` | Euler angles phi, theta, psi | rad | | eq. 2 |
-//! | C(t) | [`Hinge::law`] | prescribed rotation, child to parent components | 1 | | eq. 4 |
+//! | C(t) | [`Link::law`] | prescribed rotation, child to parent components | 1 | | eq. 4 |
 //! | D | `HingeKinematics::d` | prescribed orientation seen from the child | 1 | child | eq. 4 |
 //! | Phi | `connection`, `orientation` | constraints | m, 1 | N, child | eq. 4, 5 |
 //! | B_q | `connection_jacobian`, `orientation_jacobian` | constraint Jacobian | | | eq. 11 |
@@ -55,6 +55,7 @@ mod baumgarte;
 mod body;
 pub mod budget;
 mod check;
+mod driven;
 mod error;
 pub mod euler;
 mod euler_form;
@@ -78,6 +79,7 @@ mod workspace;
 pub use added_mass::AddedMass;
 pub use baumgarte::Baumgarte;
 pub use body::{Body, NaturalUnits};
+pub use driven::driven;
 pub use error::DynamicsError;
 pub use euler_form::EulerForm;
 pub use formulation::{Formulation, add_by_response};
@@ -89,6 +91,6 @@ pub use momentum::MomentumForm;
 pub use motion::{BodyAcceleration, BodyMotion, Wrench};
 pub use quaternion::QuaternionForm;
 pub use solution::{Budget, HingeReaction, Solution, Violation};
-pub use system::{Hinge, System};
+pub use system::System;
 pub use tether::{RootMotion, tethered, tethered_motions};
 pub use workspace::Workspace;

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use wingbeat_math::{DMat3, DVec3, RotationLaw};
+use wingbeat_math::{DMat3, DVec3, MovingRotation, RotationLaw};
 
 use crate::check::check_finite;
 use crate::error::DynamicsError;
@@ -21,13 +21,25 @@ pub struct Link {
     pub anchor_parent: DVec3,
     /// Joint point in the child's frame \[m\].
     pub anchor_child: DVec3,
-    /// Rotation of the joint's frame K: K components to parent components.
-    pub law: Arc<dyn RotationLaw>,
+    /// Prescribed rotation C(t) of the joint's frame K: K components to parent components (seed eq. 4); none: no
+    /// rotation.
+    pub law: Option<Arc<dyn RotationLaw>>,
     /// What is free, and what acts.
     pub joint: Joint,
 }
 
 impl Link {
+    /// The prescribed rotation of the joint's frame at time `t` \[s\].
+    pub fn rotation(&self, t: f64) -> MovingRotation {
+        let still = || MovingRotation::fixed(DMat3::IDENTITY);
+        self.law.as_ref().map_or_else(still, |law| law.at(t))
+    }
+
+    /// The parent of a joint of a tree.
+    pub(crate) fn tree_parent(&self) -> usize {
+        self.parent.expect("joints of a tree hang on bodies")
+    }
+
     /// A joint between `parent` and `child` with frames parallel at zero coordinates.
     pub fn new(name: &str, parent: Option<usize>, child: usize, freedom: Freedom) -> Self {
         Self {
@@ -36,7 +48,7 @@ impl Link {
             child,
             anchor_parent: DVec3::ZERO,
             anchor_child: DVec3::ZERO,
-            law: Arc::new(DMat3::IDENTITY),
+            law: None,
             joint: Joint::new(freedom),
         }
     }
@@ -61,12 +73,19 @@ pub(crate) fn check_link(l: &Link, bodies: usize) -> Result<(), DynamicsError> {
             });
         }
     }
-    let fault = if l.parent == Some(l.child) {
-        Some(("child is its own parent: body".into(), l.child as f64))
-    } else {
-        l.joint.fault()
-    };
-    if let Some((what, value)) = fault {
+    if l.parent == Some(l.child) {
+        return Err(DynamicsError::BadJoint {
+            joint: l.name.clone(),
+            what: "child is its own parent: body".into(),
+            value: l.child as f64,
+        });
+    }
+    check_numbers_of(l)
+}
+
+/// Checks the numbers of a joint.
+pub(crate) fn check_numbers_of(l: &Link) -> Result<(), DynamicsError> {
+    if let Some((what, value)) = l.joint.fault() {
         return Err(DynamicsError::BadJoint {
             joint: l.name.clone(),
             what,

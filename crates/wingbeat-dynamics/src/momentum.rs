@@ -33,7 +33,6 @@ use crate::formulation::add_by_response;
 use crate::inverse::{multipliers, reactions};
 use crate::mechanism::Mechanism;
 use crate::posture::{Composite, Posture, PostureTable};
-use crate::slot::start;
 use crate::workspace::MOMENTUM_STATE;
 use crate::{
     AddedMass, BodyAcceleration, BodyMotion, DynamicsError, Formulation, Freedom, Solution, System,
@@ -192,17 +191,8 @@ impl Formulation for MomentumForm {
     }
 
     fn initial_from(&self, t: f64, motions: &[BodyMotion]) -> Result<Vec<f64>, DynamicsError> {
-        let mut free = vec![];
-        Mechanism::of(&self.system).coordinates(t, motions, &mut free);
-        let (mut q, mut u) = self.system.start();
-        let mut rest = free.as_slice();
-        for (joint, slot) in self.system.joints().iter().zip(self.system.slots()) {
-            let (own, others) = rest.split_at(slot.speeds);
-            let [x, v] = [0, 1].map(|k| own.iter().map(|c| c[k]).collect::<Vec<f64>>());
-            start(&joint.clone().starting(&x, &v), slot, &mut q, &mut u);
-            rest = others;
-        }
-        self.start_at(t, &motions[0], (q, u))
+        let free = Mechanism::of(&self.system).free_coordinates(&self.system, t, motions);
+        self.start_at(t, &motions[0], free)
     }
 
     fn motions(
@@ -310,7 +300,7 @@ impl Formulation for MomentumForm {
         s.extend([1.0; 4]);
         s.extend([p; 3]);
         s.extend([p * u.length; 3]);
-        let joints = || self.system.joints().iter().zip(self.system.slots());
+        let joints = || self.system.joints().zip(self.system.slots());
         let size = |freedom| match freedom {
             Freedom::Prismatic { .. } => u.length,
             _ => 1.0,
@@ -328,7 +318,7 @@ impl Formulation for MomentumForm {
         let mut state = State::read(t, y)?;
         state.attitude = state.attitude.normalize();
         state.write(y);
-        for (joint, slot) in self.system.joints().iter().zip(self.system.slots()) {
+        for (joint, slot) in self.system.joints().zip(self.system.slots()) {
             if joint.freedom == Freedom::Spherical {
                 let q = &mut y[DIM + slot.q..];
                 DQuat::from_slice(q).normalize().write_to_slice(q);

@@ -75,11 +75,18 @@ impl Placement {
     }
 }
 
-/// The child's frame at the joint point, from the joint's frame `k`.
-pub(crate) fn carry(freedom: Freedom, k: Placement, q: &[f64], u: &[f64]) -> Placement {
-    let zero = DVec3::ZERO;
+/// The child's frame at the joint point, from the joint's frame `k`, for coordinates `q`, speeds `u` and their
+/// rates; none: constant speeds.
+pub(crate) fn carry(
+    freedom: Freedom,
+    k: Placement,
+    q: &[f64],
+    u: &[f64],
+    u_dot: Option<&[f64]>,
+) -> Placement {
+    let rate = |a: DVec3, i: usize| u_dot.map_or(DVec3::ZERO, |u_dot| a * u_dot[i]);
     let about = |k: Placement, a: DVec3, i: usize| {
-        k.turned_by(DMat3::from_axis_angle(a, q[i]), a * u[i], zero)
+        k.turned_by(DMat3::from_axis_angle(a, q[i]), a * u[i], rate(a, i))
     };
     match freedom {
         Freedom::Weld | Freedom::PointOnLine { .. } => k,
@@ -87,8 +94,12 @@ pub(crate) fn carry(freedom: Freedom, k: Placement, q: &[f64], u: &[f64]) -> Pla
         Freedom::Universal { axes: [a, b] } => about(about(k, a, 0), b, 1),
         Freedom::Spherical => {
             let turn = DMat3::from_quat(DQuat::from_slice(q).normalize());
-            k.turned_by(turn, DVec3::from_slice(u), zero)
+            k.turned_by(
+                turn,
+                DVec3::from_slice(u),
+                u_dot.map_or(DVec3::ZERO, DVec3::from_slice),
+            )
         }
-        Freedom::Prismatic { axis } => k.slid([axis * q[0], axis * u[0], zero]),
+        Freedom::Prismatic { axis } => k.slid([axis * q[0], axis * u[0], rate(axis, 0)]),
     }
 }

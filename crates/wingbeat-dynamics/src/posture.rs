@@ -59,7 +59,7 @@ impl Posture {
 
     /// Evaluates the hinge laws at time `t` \[s\] for the free coordinates and speeds `free`.
     pub fn update_free(&mut self, system: &System, t: f64, free: (&[f64], &[f64])) {
-        self.place(system, t, free, |k| system.hinges()[k].law.at(t));
+        self.place(system, t, free, |k| system.hinges()[k].rotation(t));
     }
 
     /// As [`Self::update_free`], hinge `k` turned by `law(k)`.
@@ -71,16 +71,22 @@ impl Posture {
         law: impl Fn(usize) -> MovingRotation,
     ) {
         for &k in system.outward() {
-            let (h, joint, slot) = (&system.hinges()[k], &system.joints()[k], &system.slots()[k]);
+            let (h, joint, slot) = (
+                &system.hinges()[k],
+                &system.hinges()[k].joint,
+                &system.slots()[k],
+            );
             let mut travel = [h.anchor_parent, DVec3::ZERO, DVec3::ZERO];
             if let Some(law) = &joint.travel {
                 let moved = law.at(t);
                 (0..3).for_each(|i| travel[i] += moved[i]);
             }
-            let frame = self.placements[h.parent].slid(travel).turned(&law(k));
+            let frame = self.placements[h.tree_parent()]
+                .slid(travel)
+                .turned(&law(k));
             let (q, u) = (&free.0[slot.q..], &free.1[slot.u..]);
             let (q, u) = (&q[..slot.coordinates], &u[..slot.speeds]);
-            let child = carry(joint.freedom, frame, q, u);
+            let child = carry(joint.freedom, frame, q, u, None);
             self.placements[h.child] = child.shifted(-h.anchor_child);
         }
     }
@@ -186,7 +192,7 @@ impl Posture {
     /// [`DynamicsError::NotARotation`] names the first hinge that does not.
     pub fn check(system: &System, t: f64) -> Result<(), DynamicsError> {
         system.hinges().iter().try_for_each(|h| {
-            check_rotation(h.law.at(t).c, t, || {
+            check_rotation(h.rotation(t).c, t, || {
                 format!("the law of hinge `{}`", h.name)
             })
         })
@@ -214,7 +220,7 @@ impl PostureTable {
         let (q, u) = system.start();
         let entry = |k: usize| {
             let t = k as f64 * step;
-            let laws: Vec<MovingRotation> = system.hinges().iter().map(|h| h.law.at(t)).collect();
+            let laws: Vec<MovingRotation> = system.hinges().iter().map(|h| h.rotation(t)).collect();
             let mut posture = Posture::new(system);
             posture.place(system, t, (&q, &u), |k| laws[k]);
             Entry {

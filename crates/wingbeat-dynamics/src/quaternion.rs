@@ -35,7 +35,7 @@ impl QuaternionForm {
     /// along `path`; [`Solution::tether`] is what the support does to the root.
     pub fn supported(self, law: Arc<dyn RotationLaw>, path: Arc<dyn TravelLaw>) -> Self {
         let mut link = Link {
-            law,
+            law: Some(law),
             ..Link::new("support of the root", None, 0, Freedom::Weld)
         };
         link.joint.travel = Some(path);

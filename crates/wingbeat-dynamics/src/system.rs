@@ -1,33 +1,13 @@
 //! The mechanical system: rigid bodies, hinges with prescribed rotation, gravity.
 
-use std::sync::Arc;
-
-use wingbeat_math::{DVec3, RotationLaw};
+use wingbeat_math::DVec3;
 
 use crate::body::{Body, NaturalUnits};
 use crate::check::{check_finite, check_positive};
 use crate::error::DynamicsError;
 use crate::joint::{Freedom, Joint};
-use crate::link::{Link, check_link};
+use crate::link::{Link, check_link, check_numbers_of};
 use crate::slot::{Slot, start};
-
-/// A spherical joint whose rotation is prescribed in time: the child hangs at a point of the
-/// parent and is turned against it by the law C(t) (seed eq. 4).
-#[derive(Clone, Debug)]
-pub struct Hinge {
-    /// Name, for messages and results.
-    pub name: String,
-    /// Index of the parent body.
-    pub parent: usize,
-    /// Index of the child body.
-    pub child: usize,
-    /// Hinge point in the parent's frame \[m\].
-    pub anchor_parent: DVec3,
-    /// Hinge point in the child's frame \[m\]; zero for wings, whose origin is the hinge.
-    pub anchor_child: DVec3,
-    /// Prescribed rotation C(t): child components to parent components.
-    pub law: Arc<dyn RotationLaw>,
-}
 
 /// Bodies joined by hinges to a tree; body 0 is the root, which moves freely.
 ///
@@ -43,11 +23,10 @@ pub struct Hinge {
 #[derive(Clone, Debug)]
 pub struct System {
     bodies: Vec<Body>,
-    hinges: Vec<Hinge>,
+    hinges: Vec<Link>,
     gravity: DVec3,
     units: NaturalUnits,
     outward: Vec<usize>,
-    joints: Vec<Joint>,
     slots: Vec<Slot>,
     behind: Vec<Vec<bool>>,
     loops: Vec<Link>,
@@ -61,16 +40,16 @@ impl System {
     /// not join the bodies to a tree rooted at body 0.
     pub fn new(
         bodies: Vec<Body>,
-        hinges: Vec<Hinge>,
+        hinges: Vec<Link>,
         gravity: DVec3,
         units: NaturalUnits,
     ) -> Result<Self, DynamicsError> {
-        check_numbers(&bodies, &hinges, gravity, units)?;
+        check_numbers(&bodies, gravity, units)?;
         let outward = outward_order(&bodies, &hinges)?;
+        hinges.iter().try_for_each(check_carrying)?;
         let behind = bodies_behind(bodies.len(), &hinges, &outward);
         Ok(Self {
-            joints: vec![Joint::new(Freedom::Weld); hinges.len()],
-            slots: vec![Slot::default(); hinges.len()],
+            slots: slots(&hinges),
             bodies,
             hinges,
             gravity,
@@ -88,33 +67,16 @@ impl System {
     /// No such hinge; axes that are no unit vectors, numbers that are not finite, elements along
     /// directions that are not free; a joint that only closes loops.
     pub fn with_joint(mut self, index: usize, joint: Joint) -> Result<Self, DynamicsError> {
-        let name = match self.hinges.get(index) {
-            Some(h) => h.name.clone(),
-            None => format!("number {index}"),
-        };
-        let fault = if index >= self.hinges.len() {
-            Some(("hinge that does not exist: number".into(), index as f64))
-        } else if matches!(joint.freedom, Freedom::PointOnLine { .. }) {
-            Some((
-                "free directions of a point on a line, which only closes loops:".into(),
-                4.0,
-            ))
-        } else {
-            joint.fault()
-        };
-        if let Some((what, value)) = fault {
+        let Some(hinge) = self.hinges.get_mut(index) else {
             return Err(DynamicsError::BadJoint {
-                joint: name,
-                what,
-                value,
+                joint: format!("number {index}"),
+                what: "hinge that does not exist: number".into(),
+                value: index as f64,
             });
-        }
-        self.joints[index] = joint;
-        let mut before = Slot::default();
-        for (slot, joint) in self.slots.iter_mut().zip(&self.joints) {
-            *slot = Slot::after(&before, joint.freedom);
-            before = *slot;
-        }
+        };
+        hinge.joint = joint;
+        check_carrying(hinge)?;
+        self.slots = slots(&self.hinges);
         Ok(self)
     }
 
@@ -144,9 +106,9 @@ impl System {
         })
     }
 
-    /// The joints of the hinges, in their order.
-    pub fn joints(&self) -> &[Joint] {
-        &self.joints
+    /// What the hinges leave free, in their order.
+    pub fn joints(&self) -> impl ExactSizeIterator<Item = &Joint> {
+        self.hinges.iter().map(|h| &h.joint)
     }
 
     /// Where the free coordinates of the hinges lie.
@@ -166,9 +128,9 @@ impl System {
 
     /// The first hinge whose motion is not all prescribed by its rotation law.
     pub fn first_free_hinge(&self) -> Option<&str> {
-        let moves = |j: &&Joint| j.freedom != Freedom::Weld || j.travel.is_some();
-        let k = self.joints.iter().position(|j| moves(&j))?;
-        Some(&self.hinges[k].name)
+        let moves = |j: &Joint| j.freedom != Freedom::Weld || j.travel.is_some();
+        let found = self.hinges.iter().find(|h| moves(&h.joint))?;
+        Some(&found.name)
     }
 
     /// Which bodies hang behind hinge `index`.
@@ -179,7 +141,7 @@ impl System {
     /// Start of the free coordinates and speeds.
     pub fn start(&self) -> (Vec<f64>, Vec<f64>) {
         let (mut q, mut u) = (vec![0.0; self.coordinates()], vec![0.0; self.speeds()]);
-        for (joint, slot) in self.joints.iter().zip(&self.slots) {
+        for (joint, slot) in self.joints().zip(&self.slots) {
             start(joint, slot, &mut q, &mut u);
         }
         (q, u)
@@ -221,7 +183,7 @@ impl System {
     }
 
     /// The hinges, in the order in which reactions and multipliers are given.
-    pub fn hinges(&self) -> &[Hinge] {
+    pub fn hinges(&self) -> &[Link] {
         &self.hinges
     }
 
@@ -248,7 +210,6 @@ impl System {
 
 fn check_numbers(
     bodies: &[Body],
-    hinges: &[Hinge],
     gravity: DVec3,
     units: NaturalUnits,
 ) -> Result<(), DynamicsError> {
@@ -262,25 +223,36 @@ fn check_numbers(
         return Err(DynamicsError::NoMass);
     }
     check_finite("gravity [m/s2]", gravity)?;
-    for h in hinges {
-        check_finite(
-            &format!("hinge `{}`: anchor on the parent [m]", h.name),
-            h.anchor_parent,
-        )?;
-        check_finite(
-            &format!("hinge `{}`: anchor on the child [m]", h.name),
-            h.anchor_child,
-        )?;
-    }
     check_positive("natural unit of length [m]", units.length)?;
     check_positive("natural unit of time [s]", units.time)
 }
 
+/// An error if a joint cannot carry its child.
+fn check_carrying(hinge: &Link) -> Result<(), DynamicsError> {
+    if let Freedom::PointOnLine { .. } = hinge.joint.freedom {
+        return Err(DynamicsError::BadJoint {
+            joint: hinge.name.clone(),
+            what: "free directions of a point on a line, which only closes loops:".into(),
+            value: 4.0,
+        });
+    }
+    check_numbers_of(hinge)
+}
+
+/// Where the coordinates of the hinges lie.
+fn slots(hinges: &[Link]) -> Vec<Slot> {
+    let next = |before: &mut Slot, h: &Link| {
+        *before = Slot::after(before, h.joint.freedom);
+        Some(*before)
+    };
+    hinges.iter().scan(Slot::default(), next).collect()
+}
+
 /// For every hinge, which bodies hang behind it.
-fn bodies_behind(bodies: usize, hinges: &[Hinge], outward: &[usize]) -> Vec<Vec<bool>> {
+fn bodies_behind(bodies: usize, hinges: &[Link], outward: &[usize]) -> Vec<Vec<bool>> {
     let mut behind = vec![vec![false; bodies]; hinges.len()];
     for &k in outward {
-        let (parent, child) = (hinges[k].parent, hinges[k].child);
+        let (parent, child) = (hinges[k].tree_parent(), hinges[k].child);
         behind[k][child] = true;
         for other in &mut behind {
             if other[parent] {
@@ -292,7 +264,7 @@ fn bodies_behind(bodies: usize, hinges: &[Hinge], outward: &[usize]) -> Vec<Vec<
 }
 
 /// Orders the hinges from the root outward.
-fn outward_order(bodies: &[Body], hinges: &[Hinge]) -> Result<Vec<usize>, DynamicsError> {
+fn outward_order(bodies: &[Body], hinges: &[Link]) -> Result<Vec<usize>, DynamicsError> {
     if bodies.is_empty() {
         return Err(DynamicsError::NoBodies);
     }
@@ -300,8 +272,8 @@ fn outward_order(bodies: &[Body], hinges: &[Hinge]) -> Result<Vec<usize>, Dynami
     let mut reached = vec![false; bodies.len()];
     reached[0] = true;
     let mut order = Vec::with_capacity(hinges.len());
-    while let Some(k) =
-        (0..hinges.len()).find(|&k| reached[hinges[k].parent] && !reached[hinges[k].child])
+    while let Some(k) = (0..hinges.len())
+        .find(|&k| hinges[k].parent.is_some_and(|p| reached[p]) && !reached[hinges[k].child])
     {
         reached[hinges[k].child] = true;
         order.push(k);
@@ -310,9 +282,9 @@ fn outward_order(bodies: &[Body], hinges: &[Hinge]) -> Result<Vec<usize>, Dynami
     Ok(order)
 }
 
-fn check_ends(bodies: &[Body], hinges: &[Hinge]) -> Result<(), DynamicsError> {
+fn check_ends(bodies: &[Body], hinges: &[Link]) -> Result<(), DynamicsError> {
     for h in hinges {
-        for index in [h.parent, h.child] {
+        for index in h.parent.into_iter().chain([h.child]) {
             if index >= bodies.len() {
                 return Err(DynamicsError::NoSuchBody {
                     hinge: h.name.clone(),
@@ -325,7 +297,7 @@ fn check_ends(bodies: &[Body], hinges: &[Hinge]) -> Result<(), DynamicsError> {
     Ok(())
 }
 
-fn check_tree(bodies: &[Body], hinges: &[Hinge], reached: &[bool]) -> Result<(), DynamicsError> {
+fn check_tree(bodies: &[Body], hinges: &[Link], reached: &[bool]) -> Result<(), DynamicsError> {
     for (i, body) in bodies.iter().enumerate() {
         let count = hinges.iter().filter(|h| h.child == i).count();
         if count != usize::from(i > 0) || !reached[i] {

@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use wingbeat_dynamics::add_by_response;
 use wingbeat_dynamics::{
-    AddedMass, Baumgarte, Body, BodyMotion, EulerForm, Formulation, Freedom, Hinge, Joint,
+    AddedMass, Baumgarte, Body, BodyMotion, EulerForm, Formulation, Freedom, Joint, Link,
     MomentumForm, NaturalUnits, QuaternionForm, Solution, Stabilization, System, Wrench,
 };
 use wingbeat_math::{DMat3, DVec3, EulerSequence, MassProperties, MovingRotation, RotationLaw};
@@ -46,13 +46,10 @@ fn flyer() -> System {
             DVec3::new(0.03, 0.01, 0.04),
         ),
     ];
-    let hinge = Hinge {
-        name: "wing".into(),
-        parent: 0,
-        child: 1,
-        anchor_parent: DVec3::new(0.2, 0.1, -0.1),
-        anchor_child: DVec3::ZERO,
-        law: Arc::new(Nod),
+    let at = DVec3::new(0.2, 0.1, -0.1);
+    let hinge = Link {
+        law: Some(Arc::new(Nod)),
+        ..Link::new("wing", Some(0), 1, Freedom::Weld).at(at, DVec3::ZERO)
     };
     let units = NaturalUnits {
         length: 1.0,

@@ -39,7 +39,7 @@ fn menagerie() -> System {
     let mut add = |name: &str, parent: usize, share: f64, at: DVec3| {
         bodies.push(body(name, part(share), EulerSequence::BODY_231));
         let mut h = hinge(name, bodies.len() - 1, at, DMat3::IDENTITY);
-        h.parent = parent;
+        h.parent = Some(parent);
         hinges.push(h);
     };
     add("abdomen", 0, 0.4, DVec3::new(-5e-4, 0.0, 1e-4));

@@ -5,14 +5,14 @@ mod common;
 use common::*;
 use wingbeat_dynamics::euler::assembly::{consistent_coordinates, consistent_rates, kinematics};
 use wingbeat_dynamics::{
-    Baumgarte, Body, BodyMotion, DynamicsError, EulerForm, Formulation, Hinge, MomentumForm,
+    Baumgarte, Body, BodyMotion, DynamicsError, EulerForm, Formulation, Link, MomentumForm,
     NaturalUnits, System,
 };
 use wingbeat_math::{DMat3, DVec3, EulerSequence, MassProperties};
 
 /// A fly's parts, changed by `change`, as a system.
 fn changed(
-    change: impl FnOnce(&mut Vec<Body>, &mut Vec<Hinge>, &mut DVec3, &mut NaturalUnits),
+    change: impl FnOnce(&mut Vec<Body>, &mut Vec<Link>, &mut DVec3, &mut NaturalUnits),
 ) -> Result<System, DynamicsError> {
     let good = fly(GRAVITY);
     let (mut b, mut h) = (good.bodies().to_vec(), good.hinges().to_vec());
@@ -62,9 +62,9 @@ fn exact_hinges_must_make_a_tree() {
     ));
     let twice = changed(|_, h, _, _| h[1].child = 1).unwrap_err();
     assert!(matches!(twice, DynamicsError::NotATree { .. }));
-    let cycle = changed(|_, h, _, _| (h[0].parent, h[1].parent) = (2, 1)).unwrap_err();
+    let cycle = changed(|_, h, _, _| (h[0].parent, h[1].parent) = (Some(2), Some(1))).unwrap_err();
     assert!(matches!(cycle, DynamicsError::NotATree { .. }));
-    let root = changed(|_, h, _, _| (h[0].parent, h[0].child) = (1, 0)).unwrap_err();
+    let root = changed(|_, h, _, _| (h[0].parent, h[0].child) = (Some(1), 0)).unwrap_err();
     assert!(matches!(root, DynamicsError::NotATree { .. }));
     let unhinged = changed(|_, h, _, _| drop(h.pop())).unwrap_err();
     assert!(matches!(unhinged, DynamicsError::NotATree { body, .. } if body == "right wing"));

@@ -4,13 +4,13 @@
 use std::sync::Arc;
 
 use wingbeat_dynamics::{
-    Baumgarte, Body, BodyMotion, DynamicsError, EulerForm, Formulation, Freedom, Hinge, Joint,
-    Link, Mechanism, MomentumForm, NaturalUnits, QuaternionForm, Stabilization, System,
+    Baumgarte, Body, BodyMotion, DynamicsError, EulerForm, Formulation, Freedom, Link, Mechanism,
+    MomentumForm, NaturalUnits, QuaternionForm, Stabilization, System,
 };
-use wingbeat_math::{DMat3, DVec3, EulerSequence, RotationLaw};
+use wingbeat_math::{DVec3, EulerSequence, RotationLaw};
 use wingbeat_model::{Animal, Wing};
 
-use crate::joints::JointSetup;
+use crate::joints::closes_loop;
 use crate::setup::{FlightSetup, FormulationChoice, MotionMode};
 
 /// The multibody system of an animal of body and wings: body 0 is the central body (2-3-1
@@ -80,36 +80,29 @@ fn quaternion(system: System, root: &BodyMotion) -> Result<Vec<f64>, DynamicsErr
 
 fn articulated(
     animal: &Animal,
-    joints: &[JointSetup],
+    joints: &[Link],
     gravity: DVec3,
     units: NaturalUnits,
     law: &WingLaw<'_>,
 ) -> Result<System, DynamicsError> {
     let bodies = bodies(animal);
-    let mut hinges: Vec<(Hinge, Joint)> = vec![];
+    let mut hinges: Vec<Link> = vec![];
     let mut loops = vec![];
     let first = |child: usize| joints.iter().position(|j| j.child == child);
     for child in 1..bodies.len() {
         let wing = animal.wings.get(child - 1);
         match (first(child), wing) {
-            (Some(k), _) => hinges.push(joined(&joints[k], animal, law)),
-            (None, Some(w)) => {
-                hinges.push((wing_hinge(w, child, law), Joint::new(Freedom::Weld)));
-            }
+            (Some(k), _) => hinges.push(carrying(&joints[k], animal, law)),
+            (None, Some(w)) => hinges.push(wing_hinge(w, child, law)),
             (None, None) => {}
         }
     }
     for (k, joint) in joints.iter().enumerate() {
-        if first(joint.child) != Some(k) || joint.child == 0 {
-            loops.push(link(joint));
+        if closes_loop(joints, k) {
+            loops.push(joint.clone());
         }
     }
-    let (hinges, freedoms): (Vec<_>, Vec<_>) = hinges.into_iter().unzip();
-    let mut system = System::new(bodies, hinges, gravity, units)?;
-    for (k, joint) in freedoms.into_iter().enumerate() {
-        system = system.with_joint(k, joint)?;
-    }
-    system.with_loops(loops)
+    System::new(bodies, hinges, gravity, units)?.with_loops(loops)
 }
 
 fn bodies(animal: &Animal) -> Vec<Body> {
@@ -128,47 +121,20 @@ fn bodies(animal: &Animal) -> Vec<Body> {
     bodies
 }
 
-fn wing_hinge(wing: &Wing, child: usize, law: &WingLaw<'_>) -> Hinge {
-    Hinge {
-        name: wing.name.clone(),
-        parent: 0,
-        child,
-        anchor_parent: wing.hinge_b,
-        anchor_child: DVec3::ZERO,
-        law: law(child - 1, wing),
+fn wing_hinge(wing: &Wing, child: usize, law: &WingLaw<'_>) -> Link {
+    Link {
+        law: Some(law(child - 1, wing)),
+        ..Link::new(&wing.name, Some(0), child, Freedom::Weld).at(wing.hinge_b, DVec3::ZERO)
     }
 }
 
-/// A hinge with its freedom; a wing without a law of its own keeps its motion.
-fn joined(joint: &JointSetup, animal: &Animal, law: &WingLaw<'_>) -> (Hinge, Joint) {
+/// The joint that carries a body; a wing without a law of its own keeps its motion.
+fn carrying(joint: &Link, animal: &Animal, law: &WingLaw<'_>) -> Link {
     let index = joint.child.wrapping_sub(1);
-    let motion = || -> Arc<dyn RotationLaw> {
-        let wing = animal.wings.get(index);
-        wing.map_or(Arc::new(DMat3::IDENTITY), |w| law(index, w))
-    };
-    let hinge = Hinge {
-        name: joint.name.clone(),
-        parent: joint.parent,
-        child: joint.child,
-        anchor_parent: joint.anchor_parent,
-        anchor_child: joint.anchor_child,
-        law: joint.law.clone().unwrap_or_else(motion),
-    };
-    (hinge, joint.joint.clone())
-}
-
-fn link(joint: &JointSetup) -> Link {
+    let motion = || animal.wings.get(index).map(|w| law(index, w));
     Link {
-        name: joint.name.clone(),
-        parent: Some(joint.parent),
-        child: joint.child,
-        anchor_parent: joint.anchor_parent,
-        anchor_child: joint.anchor_child,
-        law: joint
-            .law
-            .clone()
-            .unwrap_or_else(|| Arc::new(DMat3::IDENTITY)),
-        joint: joint.joint.clone(),
+        law: joint.law.clone().or_else(motion),
+        ..joint.clone()
     }
 }
 

@@ -10,6 +10,7 @@ use std::sync::Arc;
 use wingbeat_dynamics::posture::PostureTable;
 use wingbeat_dynamics::{
     AddedMass, BodyAcceleration, BodyMotion, Formulation, Mechanism, MomentumForm, System, Wrench,
+    driven,
 };
 
 use crate::air::{Air, AirScratch, Instant};
@@ -32,17 +33,18 @@ pub struct FreeFlightScratch(Scratch);
 impl FreeFlight {
     /// Free flight of `setup` (its mode, formulation and integrator do not matter) with the wings
     /// moving by `law`. All that depends on time alone is known beforehand at the times
-    /// 0, `step`, ..., `count step` [s].
+    /// 0, `step`, ..., `count step` [s]; with joints that close loops it can be asked at these times only.
     ///
     /// # Errors
-    /// Bodies or air that are refused; air with a memory; joints that close loops.
+    /// Bodies or air that are refused; air with a memory; loops whose motion the laws of joints do not
+    /// determine.
     pub fn new(
         setup: &FlightSetup,
         law: &WingLaw<'_>,
         step: f64,
         count: usize,
     ) -> Result<Self, FlightError> {
-        let system = system_with(setup, law)?;
+        let system = driven(system_with(setup, law)?, step, count)?;
         let air = AirModel::build(setup, &system)?;
         if air.has_memory() {
             return Err(FlightError::Setup {

@@ -3,31 +3,60 @@
 
 use std::sync::Arc;
 
-use wingbeat_dynamics::{Joint, TravelLaw};
+use wingbeat_dynamics::{ElementLaw, Link, TravelLaw};
 use wingbeat_math::{DMat3, DVec3, MovingRotation, RotationLaw};
 
 use crate::prescribed::{DriftingFourier, PrescribedMotion};
 
-/// A joint between two bodies. Bodies are counted as in the system: 0 the central body, then the
-/// wings, then the segments. The first joint that has a body as its child carries it; others
-/// close loops. A wing without a joint hangs on the central body with its whole motion
-/// prescribed.
+/// Whether joint `k` closes a loop: its child is the central body or hangs on an earlier joint.
+pub fn closes_loop(joints: &[Link], k: usize) -> bool {
+    let child = joints[k].child;
+    child == 0 || joints[..k].iter().any(|j| j.child == child)
+}
+
+/// The same joint with everything that is prescribed there `factor` times as fast: rotation, travel and
+/// actuators.
+pub fn faster(joint: &Link, factor: f64) -> Link {
+    let mut faster = joint.clone();
+    if let Some(law) = faster.law.take() {
+        faster.law = Some(Arc::new(Faster { law, factor }));
+    }
+    if let Some(law) = faster.joint.travel.take() {
+        faster.joint.travel = Some(Arc::new(Faster { law, factor }));
+    }
+    for element in &mut faster.joint.elements {
+        if let ElementLaw::Effort(series) | ElementLaw::Follow { target: series, .. } =
+            &mut element.law
+        {
+            series.frequency *= factor;
+        }
+    }
+    faster
+}
+
+/// A law whose time runs `factor` times as fast.
 #[derive(Clone, Debug)]
-pub struct JointSetup {
-    /// Name, unique in the flight.
-    pub name: String,
-    /// Index of the parent body.
-    pub parent: usize,
-    /// Index of the child body.
-    pub child: usize,
-    /// Joint point in the parent's frame [m].
-    pub anchor_parent: DVec3,
-    /// Joint point in the child's frame [m].
-    pub anchor_child: DVec3,
-    /// Prescribed rotation; none: a wing's motion, or no rotation for a segment.
-    pub law: Option<Arc<dyn RotationLaw>>,
-    /// What is free there, prescribed travel, springs, dampers, stops, actuators.
-    pub joint: Joint,
+struct Faster<L> {
+    law: L,
+    factor: f64,
+}
+
+impl RotationLaw for Faster<Arc<dyn RotationLaw>> {
+    fn at(&self, t: f64) -> MovingRotation {
+        let (k, m) = (self.factor, self.law.at(self.factor * t));
+        MovingRotation {
+            c: m.c,
+            w: k * m.w,
+            w_dot: k * k * m.w_dot,
+        }
+    }
+}
+
+impl TravelLaw for Faster<Arc<dyn TravelLaw>> {
+    fn at(&self, t: f64) -> [DVec3; 3] {
+        let (k, [x, v, a]) = (self.factor, self.law.at(self.factor * t));
+        [x, k * v, k * k * a]
+    }
 }
 
 /// Rotation about a fixed axis by an angle that is a Fourier series.

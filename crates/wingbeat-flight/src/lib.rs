@@ -51,7 +51,7 @@ pub use control::Passage;
 pub use controller::{Controller, Sensed};
 pub use error::FlightError;
 pub use free::{FreeFlight, FreeFlightScratch};
-pub use joints::JointSetup;
+pub use joints::{closes_loop, faster};
 pub use record::{
     AccelerationRecord, HingeRecord, LoadRecord, ParticleSnapshot, Record, Snapshot,
     SurfaceSnapshot, WakeSnapshot,

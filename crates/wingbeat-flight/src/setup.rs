@@ -6,13 +6,13 @@ use std::sync::Arc;
 use wingbeat_air::{AirSettings, CoreModel, LoadMethod, SheddingKinds, Wind};
 use wingbeat_blade::DerivativeTable;
 use wingbeat_blade::{BladeSettings, BodyDrag};
+use wingbeat_dynamics::Link;
 use wingbeat_math::{DMat3, DVec3, EulerSequence};
 use wingbeat_model::Animal;
 
 pub use crate::applied::{AppliedLoad, LoadFrame, PointSpring};
 use crate::controller::Controller;
 use crate::error::FlightError;
-use crate::joints::JointSetup;
 pub use crate::prescribed::{DriftingFourier, PrescribedMotion, PrescribedRoot};
 use crate::seam::{Air, ExternalAir};
 
@@ -29,8 +29,11 @@ pub struct FlightSetup {
     pub air: AirModel,
     /// How the root body moves.
     pub mode: MotionMode,
-    /// Joints of segments, and of wings that are not simply driven; mostly empty.
-    pub joints: Vec<JointSetup>,
+    /// Joints of segments, and of wings that are not simply driven; mostly empty. Bodies are counted as in the
+    /// system: 0 the central body, then the wings, then the segments. The first joint that has a body as its child
+    /// carries it, with a wing's motion where the joint of a wing has no law of its own; others close loops. A
+    /// wing without a joint hangs on the central body.
+    pub joints: Vec<Link>,
     /// Which equations are integrated.
     pub formulation: FormulationChoice,
     /// By which method.

@@ -206,12 +206,47 @@ fn equation_index() -> Vec<(usize, Vec<String>, Vec<String>)> {
         .collect()
 }
 
+/// All sources without comments, imports and tests inside of them.
+fn code_in_use() -> String {
+    let crates = fs::read_dir(root().join("crates")).expect("crates");
+    let folders = crates.map(|c| c.expect("a crate").path().join("src"));
+    let files: Vec<_> = folders.flat_map(|src| rust_files(&src)).collect();
+    let code = |file: &PathBuf| -> String {
+        let text = fs::read_to_string(file).expect("a source file");
+        let code = text.split("#[cfg(test)]").next().unwrap_or_default();
+        let lines = code.lines().filter(|l| {
+            let l = l.trim_start();
+            !["//", "use ", "pub use "].iter().any(|s| l.starts_with(s))
+        });
+        lines.map(|l| format!("{l}\n")).collect()
+    };
+    files.iter().map(code).collect()
+}
+
+/// Whether `name` is in the code otherwise than where it is declared.
+fn is_used(code: &str, name: &str) -> bool {
+    code.match_indices(name).any(|(at, _)| {
+        let (before, after) = (&code[..at], &code[at + name.len()..]);
+        let is_word = |c: char| c.is_alphanumeric() || c == '_';
+        let is_whole = !before.ends_with(is_word) && !after.starts_with(is_word);
+        let kinds = ["fn ", "struct ", "const ", "trait ", "impl "];
+        is_whole && !kinds.iter().any(|kind| before.ends_with(kind))
+    })
+}
+
+#[test]
+fn exact_a_function_that_is_only_declared_is_not_in_use() {
+    let code = "pub fn lift(x: f64) { drag(x) }\nfn drag(x: f64) {}\nfn airlift() { airlifted() }";
+    assert!(is_used(code, "drag") && !is_used(code, "lift"));
+}
+
 #[test]
 fn invariant_every_seed_equation_has_a_function_and_a_test_that_exist() {
     let sources: String = rust_files(&root().join("crates"))
         .iter()
         .map(|f| fs::read_to_string(f).expect("a source file"))
         .collect();
+    let flown = code_in_use();
     let index = equation_index();
     let numbers: Vec<_> = index.iter().map(|row| row.0).collect();
     assert_eq!(
@@ -230,6 +265,10 @@ fn invariant_every_seed_equation_has_a_function_and_a_test_that_exist() {
                 .iter()
                 .any(|kind| sources.contains(&format!("{kind}{name}")));
             assert!(declared, "eq. {number}: {function} is not in the sources");
+            assert!(
+                is_used(&flown, name),
+                "eq. {number}: {function} is only tested"
+            );
         }
         for test in &tests {
             assert!(

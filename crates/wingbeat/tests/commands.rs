@@ -101,6 +101,54 @@ fn balances_a_robot_with_passive_hinges_returns_to_its_place() {
     assert_returns(&dir.join("r"), 15e-3, &angles);
 }
 
+/// Averages over a beat need motions that are known beforehand: what cannot be had is named before the work is
+/// done, and what can be had is given.
+#[test]
+fn refuses_averages_of_free_joints_and_gives_their_modes() {
+    let scratch = Scratch::new("averages");
+    let dir = &scratch.0;
+    let robot = [
+        "robobee",
+        "--steps",
+        "40",
+        "--set",
+        "air.model=\"blade_element\"",
+    ];
+    let text = said(dir, &[&["stability"][..], &robot].concat());
+    assert!(
+        text.contains("No averaged model: joint `hinge-left`"),
+        "{text}"
+    );
+    assert!(
+        text.contains("(Floquet)") && text.contains("joints 1.00"),
+        "{text}"
+    );
+    for command in [&["derivatives"][..], &["stability", "--write", "x.toml"]] {
+        let out = wingbeat(dir, &[command, &robot].concat());
+        let (told, error) = (out.stdout, String::from_utf8_lossy(&out.stderr));
+        assert!(!out.status.success() && told.is_empty(), "{command:?}");
+        assert!(
+            error.contains("hinge-left") && error.contains("Floquet"),
+            "{error}"
+        );
+    }
+    assert!(!dir.join("x.toml").exists());
+    // Segments that move as prescribed become part of the rigid body.
+    let fly = [
+        "fruit-fly-abdomen",
+        "--steps",
+        "40",
+        "--set",
+        "air.model=\"blade_element\"",
+    ];
+    said(
+        dir,
+        &[&["stability", "--write", "fly.toml"][..], &fly].concat(),
+    );
+    let text = said(dir, &["stability", "fly.toml"]);
+    assert!(text.contains("unstable oscillation"), "{text}");
+}
+
 #[test]
 fn balances_trim_reaches_forward_flight_and_says_when_it_fails() {
     let scratch = Scratch::new("trim-forward");

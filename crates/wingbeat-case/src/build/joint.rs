@@ -2,8 +2,8 @@
 
 use std::sync::Arc;
 
-use wingbeat_dynamics::{DynamicsError, Freedom, Joint};
-use wingbeat_flight::joints::{AxisTurn, JointSetup, Path};
+use wingbeat_dynamics::{DynamicsError, Freedom, Joint, Link};
+use wingbeat_flight::joints::{AxisTurn, Path};
 use wingbeat_flight::{DriftingFourier, FlightSetup};
 use wingbeat_math::DVec3;
 use wingbeat_model::Animal;
@@ -26,7 +26,7 @@ pub(super) fn body_names(animal: &Animal) -> Vec<&str> {
 }
 
 /// All joints, those mirrored to left wings among them.
-pub(super) fn build_all(case: &Case, animal: &Animal) -> Built<Vec<JointSetup>> {
+pub(super) fn build_all(case: &Case, animal: &Animal) -> Built<Vec<Link>> {
     if !case.joint.is_empty() && case.animal.scale != 1.0 {
         return Err(Fault::new(
             "animal.scale",
@@ -46,7 +46,7 @@ pub(super) fn build_all(case: &Case, animal: &Animal) -> Built<Vec<JointSetup>> 
     Ok(joints)
 }
 
-fn build(case: &Case, animal: &Animal, name: &str, joint: &JointCase) -> Built<JointSetup> {
+fn build(case: &Case, animal: &Animal, name: &str, joint: &JointCase) -> Built<Link> {
     let path = format!("joint.{name}");
     let parent = find(
         animal,
@@ -92,9 +92,9 @@ fn build(case: &Case, animal: &Animal, name: &str, joint: &JointCase) -> Built<J
         .map(|t| Arc::new(travel(t, frequency)) as _);
     freedom.elements = element::build_all(&path, joint, frequency)?;
     [freedom.coordinates, freedom.rates] = start(&path, joint)?;
-    Ok(JointSetup {
+    Ok(Link {
         name: name.to_owned(),
-        parent,
+        parent: Some(parent),
         child,
         anchor_parent,
         anchor_child,

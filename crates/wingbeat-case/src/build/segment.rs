@@ -1,6 +1,6 @@
 //! `[segment.NAME]`: bodies beside the central one and the wings.
 
-use wingbeat_flight::JointSetup;
+use wingbeat_dynamics::Link;
 use wingbeat_math::{DMat3, DVec3, MassProperties};
 use wingbeat_model::{Animal, BodyPart, Segment};
 
@@ -116,7 +116,7 @@ fn mass(path: &str, case: &SegmentCase, parts: &[BodyPart], lumped: bool) -> Bui
 }
 
 /// Every segment hangs on a joint, and over joints on the central body.
-pub(super) fn check_carried(animal: &Animal, joints: &[JointSetup]) -> Built<()> {
+pub(super) fn check_carried(animal: &Animal, joints: &[Link]) -> Built<()> {
     let first = animal.wings.len() + 1;
     for (i, segment) in animal.segments.iter().enumerate() {
         let mut at = first + i;
@@ -125,7 +125,7 @@ pub(super) fn check_carried(animal: &Animal, joints: &[JointSetup]) -> Built<()>
             let Some(joint) = joints.iter().find(|j| j.child == at) else {
                 return Err(loose(&segment.name, "no joint carries this segment"));
             };
-            at = joint.parent;
+            at = joint.parent.unwrap_or(0);
             steps += 1;
             if steps > animal.segments.len() {
                 let ring = "the joints of this segment lead round in a ring and not to the body";

@@ -26,7 +26,14 @@ pub fn kinematics(
         })
         .collect();
     let hinges = (system.hinges().iter())
-        .map(|h| HingeKinematics::new(h, &h.law.at(t), &bodies[h.parent], &bodies[h.child]))
+        .map(|h| {
+            HingeKinematics::new(
+                h,
+                &h.rotation(t),
+                &bodies[h.tree_parent()],
+                &bodies[h.child],
+            )
+        })
         .collect();
     (bodies, hinges)
 }
@@ -108,11 +115,16 @@ fn fill_jacobian(system: &System, hinges: &[HingeKinematics], jacobian: &mut [f6
     };
     for (k, (hinge, h)) in system.hinges().iter().zip(hinges).enumerate() {
         let (connection, orientation) = (h.connection_jacobian(), h.orientation_jacobian());
-        put(6 * k, hinge.parent, 0, -DMat3::IDENTITY);
+        put(6 * k, hinge.tree_parent(), 0, -DMat3::IDENTITY);
         put(6 * k, hinge.child, 0, DMat3::IDENTITY);
-        put(6 * k, hinge.parent, 1, connection.parent * (1.0 / length));
+        put(
+            6 * k,
+            hinge.tree_parent(),
+            1,
+            connection.parent * (1.0 / length),
+        );
         put(6 * k, hinge.child, 1, connection.child * (1.0 / length));
-        put(6 * k + 3, hinge.parent, 1, orientation.parent);
+        put(6 * k + 3, hinge.tree_parent(), 1, orientation.parent);
         put(6 * k + 3, hinge.child, 1, orientation.child);
     }
 }

@@ -69,12 +69,12 @@ impl Condensed {
         for &k in system.outward().iter().rev() {
             let h = &system.hinges()[k];
             self.transfer[k] = Transfer::new(&hinges[k], baumgarte);
-            self.condense(k, h.parent, h.child);
+            self.condense(k, h.tree_parent(), h.child);
         }
         self.solve_root()?;
         for &k in system.outward() {
             let h = &system.hinges()[k];
-            self.expand(k, h.parent, h.child);
+            self.expand(k, h.tree_parent(), h.child);
         }
         Some(())
     }

@@ -87,7 +87,7 @@ impl Saddle {
         let hinge = &system.hinges()[k];
         let connection = self.coordinates + 3 * k;
         let orientation = connection + 3 * system.hinges().len();
-        let (a, c) = (PER_BODY * hinge.parent, PER_BODY * hinge.child);
+        let (a, c) = (PER_BODY * hinge.tree_parent(), PER_BODY * hinge.child);
         self.put_twice(connection, a, -DMat3::IDENTITY);
         self.put_twice(connection, c, DMat3::IDENTITY);
         self.put_angles(connection, a, c, &h.connection_jacobian());

@@ -52,6 +52,16 @@ impl AbsoluteForm {
         p.dependent.first().map(|d| self.names(&s, &d.combination))
     }
 
+    /// Number of coordinates of the bodies that the constraints leave free where they are like `motions` at
+    /// time `t` \[s\].
+    pub(crate) fn freedoms(&self, t: f64, motions: &[BodyMotion]) -> usize {
+        let mut s = self.scratch();
+        s.motions.copy_from_slice(motions);
+        self.find_rows(t, &mut s);
+        let columns = self.free_columns(&[]);
+        columns.len() - self.eliminated(&s, &columns, |_| 0.0).pivots.len()
+    }
+
     fn free_columns(&self, held: &[usize]) -> Vec<bool> {
         let n = 6 * self.mechanism().bodies().len();
         (0..n).map(|c| !held.contains(&(c / 6))).collect()

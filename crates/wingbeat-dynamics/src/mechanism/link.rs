@@ -56,7 +56,7 @@ pub struct LinkKinematics {
 impl LinkKinematics {
     /// `parent` is [`BodyMotion::REST`] for the ground.
     pub fn new(link: &Link, t: f64, parent: &BodyMotion, child: &BodyMotion) -> Self {
-        let law = link.law.at(t);
+        let law = link.rotation(t);
         let [travel, travel_rate, travel_bias] =
             (link.joint.travel.as_ref()).map_or([DVec3::ZERO; 3], |s| s.at(t));
         let (a, c) = (parent, child);

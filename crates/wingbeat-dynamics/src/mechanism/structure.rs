@@ -8,6 +8,7 @@ use crate::check::{check_finite, check_positive};
 use crate::error::DynamicsError;
 use crate::link::{Link, check_link};
 use crate::motion::BodyMotion;
+use crate::slot::start;
 use crate::system::System;
 
 /// Bodies and links.
@@ -57,19 +58,10 @@ impl Mechanism {
     /// The mechanism of a [`System`]: its hinges as links, in their order, then those that close
     /// loops.
     pub fn of(system: &System) -> Self {
-        let hinges = system.hinges().iter().zip(system.joints());
-        let tree = hinges.map(|(h, joint)| Link {
-            name: h.name.clone(),
-            parent: Some(h.parent),
-            child: h.child,
-            anchor_parent: h.anchor_parent,
-            anchor_child: h.anchor_child,
-            law: h.law.clone(),
-            joint: joint.clone(),
-        });
+        let links = system.hinges().iter().chain(system.loops());
         Self {
             bodies: system.bodies().to_vec(),
-            links: tree.chain(system.loops().iter().cloned()).collect(),
+            links: links.cloned().collect(),
             gravity: system.gravity(),
             units: system.units(),
         }
@@ -89,6 +81,27 @@ impl Mechanism {
             let n = link.joint.freedom.directions().min(3);
             out.extend(&kinematics(link, t, motions).coordinates()[..n]);
         }
+    }
+
+    /// Coordinates and speeds of the free joints of `system`, whose mechanism this is, where its bodies move
+    /// like `motions`.
+    pub(crate) fn free_coordinates(
+        &self,
+        system: &System,
+        t: f64,
+        motions: &[BodyMotion],
+    ) -> (Vec<f64>, Vec<f64>) {
+        let mut free = vec![];
+        self.coordinates(t, motions, &mut free);
+        let (mut q, mut u) = system.start();
+        let mut rest = free.as_slice();
+        for (joint, slot) in system.joints().zip(system.slots()) {
+            let (own, others) = rest.split_at(slot.speeds);
+            let [x, v] = [0, 1].map(|k| own.iter().map(|c| c[k]).collect::<Vec<f64>>());
+            start(&joint.clone().starting(&x, &v), slot, &mut q, &mut u);
+            rest = others;
+        }
+        (q, u)
     }
 
     /// The bodies.

@@ -38,7 +38,7 @@ pub(super) fn write_joint_rates(
     dy: &mut [f64],
 ) {
     let (dq, du) = dy.split_at_mut(q.len());
-    for (joint, s) in system.joints().iter().zip(system.slots()) {
+    for (joint, s) in system.joints().zip(system.slots()) {
         let (q, u) = (&q[s.q..s.q + s.coordinates], &u[s.u..s.u + s.speeds]);
         coordinate_rates(joint.freedom, q, u, &mut dq[s.q..s.q + s.coordinates]);
     }

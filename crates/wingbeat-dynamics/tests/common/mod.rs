@@ -1,12 +1,14 @@
 //! A fruit fly with smooth, asymmetric wing motions, and small helpers.
 #![allow(dead_code, unused_imports)] // every test binary uses its own part
 
+pub mod mechanism;
+
 use std::f64::consts::{FRAC_PI_2, TAU};
 use std::sync::Arc;
 
 use wingbeat_dynamics::{
-    Body, BodyMotion, DynamicsError, Formulation, Hinge, NaturalUnits, Solution, System, Workspace,
-    Wrench,
+    Body, BodyMotion, DynamicsError, Formulation, Freedom, Link, NaturalUnits, Solution, System,
+    Workspace, Wrench,
 };
 use wingbeat_math::ode::Rk4;
 use wingbeat_math::{
@@ -44,6 +46,16 @@ impl Harmonic {
         let a = self.amplitude;
         [self.mean + a * c, -a * w * s, -a * w * w * c]
     }
+}
+
+/// Coordinates of order one that move as polynomials: q, q', q'' at time t, different for
+/// different `seed`s.
+pub fn motion(seed: f64, t: f64) -> [[f64; 6]; 3] {
+    let c = |i: usize, k: f64| 0.4 * (seed + 1.7 * i as f64 + 2.3 * k).sin();
+    let q = std::array::from_fn(|i| c(i, 0.0) + c(i, 1.0) * t + c(i, 2.0) * t * t);
+    let qd = std::array::from_fn(|i| c(i, 1.0) + 2.0 * c(i, 2.0) * t);
+    let qdd = std::array::from_fn(|i| 2.0 * c(i, 2.0));
+    [q, qd, qdd]
 }
 
 /// A flapping law: stroke plane horizontal at zero attitude, then the angles 1-3-2.
@@ -132,14 +144,10 @@ pub fn body(name: &str, mass: MassProperties, sequence: EulerSequence) -> Body {
     }
 }
 
-pub fn hinge(name: &str, child: usize, anchor: DVec3, law: impl RotationLaw + 'static) -> Hinge {
-    Hinge {
-        name: name.into(),
-        parent: 0,
-        child,
-        anchor_parent: anchor,
-        anchor_child: DVec3::ZERO,
-        law: Arc::new(law),
+pub fn hinge(name: &str, child: usize, anchor: DVec3, law: impl RotationLaw + 'static) -> Link {
+    Link {
+        law: Some(Arc::new(law)),
+        ..Link::new(name, Some(0), child, Freedom::Weld).at(anchor, DVec3::ZERO)
     }
 }
 
@@ -191,7 +199,7 @@ pub fn chain(gravity: DVec3) -> System {
     hinges[1].anchor_child = DVec3::new(-1e-4, 2e-4, 2e-4);
     let law = Flapping::new([0.0, 20.0, 0.4], [3.0, 15.0, 1.0], [-85.0, 10.0, 2.0]);
     let mut tip = hinge("flap hinge", 3, DVec3::new(0.0, 0.8 * LENGTH, 0.0), law);
-    tip.parent = 2;
+    tip.parent = Some(2);
     tip.anchor_child = DVec3::new(-2e-4, 1e-4, 3e-4);
     hinges.insert(0, tip);
     System::new(bodies, hinges, gravity, UNITS).unwrap()

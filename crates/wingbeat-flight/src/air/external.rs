@@ -34,13 +34,11 @@ impl Session {
         system: &System,
         setup: &FlightSetup,
     ) -> Result<Self, FlightError> {
-        let tree = system.hinges().iter();
-        let joints = tree.map(|h| (h.name.clone(), h.parent, h.child));
-        let loops = system.loops().iter();
-        let loops = loops.map(|l| (l.name.clone(), l.parent.unwrap_or(0), l.child));
+        let joints = system.hinges().iter().chain(system.loops());
+        let joints = joints.map(|l| (l.name.clone(), l.parent.unwrap_or(0), l.child));
         let session = program.open(&Announcement {
             bodies: system.bodies().iter().map(|b| b.name.clone()).collect(),
-            joints: joints.chain(loops).collect(),
+            joints: joints.collect(),
             step: setup.time.step,
         });
         let session = session.map_err(FlightError::External)?;

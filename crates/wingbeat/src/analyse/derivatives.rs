@@ -15,6 +15,7 @@ pub(crate) fn run(args: &Trimming) -> Result<(), Failure> {
 }
 
 fn find(args: &Trimming, report: &mut Report) -> Result<(), Failure> {
+    args.check_averaged()?;
     let (_, trim) = trimmed(args, report)?;
     let r = trim.beat.root(&trim.state).r;
     let level = Level::new(r, trim.setup.gravity);

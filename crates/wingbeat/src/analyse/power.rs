@@ -24,7 +24,7 @@ pub(crate) fn run(args: &PowerArgs) -> Result<(), Failure> {
     let trimming = &args.trimming;
     trimming.report.deliver([], |report, []| {
         let (_, trim) = trimmed(trimming, report)?;
-        let found = watched("power", || power(&trim.tethered()))?;
+        let found = watched("power", || power(&trim.tethered()?))?;
         tell(report, &found, args.muscle);
         Ok(())
     })
@@ -33,7 +33,7 @@ pub(crate) fn run(args: &PowerArgs) -> Result<(), Failure> {
 fn tell(report: &mut Report, p: &Power, muscle: f64) {
     line!(
         report,
-        "\nMean mechanical power over a wingbeat, body tethered in the trimmed attitude:"
+        "\nMean mechanical power over a wingbeat, body carried in the trimmed attitude at the trimmed velocity:"
     );
     line!(
         report,

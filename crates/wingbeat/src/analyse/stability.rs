@@ -63,15 +63,30 @@ pub(crate) fn run(args: &StabilityArgs) -> Result<(), Failure> {
 
 /// Averaged model and orbit of a flight in air without memory.
 fn of_trim(args: &Trimming, report: &mut Report, file: Option<NewFile>) -> Result<(), Failure> {
+    if file.is_some() {
+        args.check_averaged()?; // before the trim, which takes its time
+    }
     let (case, trim) = trimmed(args, report)?;
-    let averaged = watched("averaged model", || linear_model(&trim.beat, &trim.state))?;
+    let averaged = match trim.beat.check_averaged() {
+        Err(e) => {
+            line!(report, "\nNo averaged model: {e}");
+            report.value("no_averaged_model", e.to_string());
+            None
+        }
+        Ok(()) => {
+            let found = watched("averaged model", || linear_model(&trim.beat, &trim.state));
+            Some(found?)
+        }
+    };
     let orbit = watched("Floquet's modes", || floquet(&trim.beat, &trim.state))?;
-    derivatives(report, &averaged);
-    line!(
-        report,
-        "\nModes of the rigid body under mean loads (averaged over the beat):"
-    );
-    modes(report, "averaged_modes", &averaged.modes);
+    if let Some(averaged) = &averaged {
+        derivatives(report, averaged);
+        line!(
+            report,
+            "\nModes of the rigid body under mean loads (averaged over the beat):"
+        );
+        modes(report, "averaged_modes", &averaged.modes);
+    }
     line!(report, "\nModes of the full periodic orbit (Floquet):");
     modes(report, "floquet_modes", &orbit);
     line!(
@@ -80,7 +95,7 @@ fn of_trim(args: &Trimming, report: &mut Report, file: Option<NewFile>) -> Resul
         1e3 * trim.beat.period()
     );
     report.value("wingbeat_s", trim.beat.period());
-    if let Some(file) = file {
+    if let (Some(file), Some(averaged)) = (file, averaged) {
         file.write(derivative_case(&case, &trim, &averaged)?.as_bytes())?;
         line!(report, "\nwrote {}", file.path().display());
     }

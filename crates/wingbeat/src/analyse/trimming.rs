@@ -3,7 +3,7 @@
 use clap::Args;
 use wingbeat::analysis::trim::{UNKNOWNS, trim as find_trim};
 use wingbeat::analysis::wake::{WakeSettings, WakeTrim, trim_with_wake};
-use wingbeat::analysis::{Trim, TrimProblem, TrimSettings, Unknown};
+use wingbeat::analysis::{Beat, Trim, TrimProblem, TrimSettings, Unknown};
 use wingbeat::case::{IoError, LoadedCase};
 use wingbeat::flight::MotionMode;
 use wingbeat::math::DVec3;
@@ -107,6 +107,12 @@ impl Trimming {
             )),
             None => Ok(()),
         }
+    }
+
+    /// Refuses a case whose loads cannot be averaged over a wingbeat.
+    pub(super) fn check_averaged(&self) -> Result<(), Failure> {
+        let steps = self.steps.unwrap_or(DEFAULT_STEPS);
+        Ok(Beat::new(&self.load()?.setup, steps)?.check_averaged()?)
     }
 
     /// What is asked of the trim.
