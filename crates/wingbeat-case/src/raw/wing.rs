@@ -127,7 +127,7 @@ pub enum PlanformCase {
 }
 
 /// Ellington's beta distribution of the chord. One of `mean_chord_m`, `area_m2`, `max_chord_m`.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, SmartDefault, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct BetaCase {
     /// Wing length R, hinge to tip.
@@ -168,12 +168,14 @@ pub struct BetaCase {
     ///
     /// Change it to what was measured.
     #[schemars(range(min = 0, max = 1))]
+    #[default(quarter())]
     #[serde(default = "quarter")]
     pub axis_fraction: f64,
     /// Least chord at root and tip relative to the largest: no panel degenerates.
     ///
     /// Change it to less for pointed wings of many panels.
     #[schemars(extend("exclusiveMinimum" = 0, "exclusiveMaximum" = 0.9))]
+    #[default(least_chord())]
     #[serde(default = "least_chord")]
     pub least_chord: f64,
 }
