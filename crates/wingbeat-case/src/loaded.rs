@@ -88,7 +88,12 @@ impl LoadedCase {
         given.insert("format".to_owned(), format.into());
         let body = || toml::Table::new().into();
         given.entry("body".to_owned()).or_insert_with(body);
-        let text = toml::to_string(&given).expect("a table is TOML");
+        // Keys in tables without defaults are all there: those that have no effect are left out if
+        // they say nothing, and refused if they do.
+        let lean = keys::effective(&table(&case), &given);
+        let says_all = lean.clone().try_into::<raw::Case>().as_ref() == Ok(&case);
+        let text = toml::to_string(if says_all { &lean } else { &given });
+        let text = text.expect("a table is TOML");
         Self::from_text(name.as_deref().unwrap_or("case"), &text, Path::new(""), &[])
     }
 
@@ -158,6 +163,13 @@ impl LoadedCase {
         )
     }
 
+    /// The keys of the resolved case that have an effect; all others at their defaults.
+    pub(crate) fn effective(&self) -> raw::Case {
+        let table = table(&self.raw);
+        let lean = keys::effective(&table, &table);
+        lean.try_into().expect("a case without idle keys is a case")
+    }
+
     /// What a flight of this case refused, at the key it is about.
     pub fn refused(&self, error: &FlightError) -> CaseError {
         self.source
@@ -207,5 +219,6 @@ fn changed(given: toml::Table, default: &toml::Table) -> toml::Table {
 
 /// The keys of a resolved case that have an effect, as TOML.
 pub(crate) fn written(case: &raw::Case) -> String {
-    toml::to_string(&keys::effective(&table(case))).expect("a table is TOML")
+    let table = table(case);
+    toml::to_string(&keys::effective(&table, &table)).expect("a table is TOML")
 }

@@ -6,8 +6,10 @@ use wingbeat::results::{Records, ResultDir, Summary};
 
 pub(crate) fn main() -> Result<(), Box<dyn std::error::Error>> {
     let dir = std::env::temp_dir().join(format!("wingbeat-results-{}", std::process::id()));
-    // Changed by keys of its case, so that the case that is written reproduces the flight.
-    let flight = Flight::preset_with("fruit-fly-blade", &["time.beats=2"])?;
+    // The case that is written is that of the flight, changed in Rust or not.
+    let flight = Flight::preset("fruit-fly-blade")?
+        .frequency_hz(210.0)
+        .beats(2.0);
     let run = flight.fly_to(&dir)?;
 
     let read = ResultDir::read(&dir)?; // checks the hashes of case and history

@@ -6,9 +6,9 @@ use wingbeat_model::motion::Fourier;
 use wingbeat_model::{Animal, Deformation, ModelError, Wing};
 
 use super::fault::Built;
-use super::sides::twin_name;
 use crate::error::Fault;
 use crate::raw::{Case, CourseCase, DeformationCase};
+use crate::sides::twin_name;
 
 /// A term as it is written, whatever it deforms.
 struct Written<'a> {

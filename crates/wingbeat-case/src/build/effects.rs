@@ -4,9 +4,9 @@ use wingbeat_flight::FlightSetup;
 use wingbeat_model::{AngleLaw, Wing};
 
 use super::Built;
-use super::sides::twin_name;
 use crate::error::Fault;
 use crate::raw::{Case, Formulation, JointCase, Mode, WingCase};
+use crate::sides::twin_name;
 use crate::source::CaseSource;
 
 /// Checks what takes more than one look: `setup` was made of `case`, which was read from `source`.

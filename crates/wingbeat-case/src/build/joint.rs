@@ -10,10 +10,10 @@ use wingbeat_model::Animal;
 
 use super::fault::Built;
 use super::numbers::vector;
-use super::sides::twin_name;
 use super::{element, segment};
 use crate::error::Fault;
 use crate::raw::{Case, JointCase, JointKind, TravelCase, TurnCase};
+use crate::sides::twin_name;
 
 /// Names of all bodies in the order of the system: body, wings, segments.
 pub(super) fn body_names(animal: &Animal) -> Vec<&str> {

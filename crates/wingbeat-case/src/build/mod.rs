@@ -21,7 +21,6 @@ mod numbers;
 mod output;
 mod refused;
 mod segment;
-mod sides;
 mod size;
 mod time;
 mod wind;

@@ -3,9 +3,9 @@
 
 use super::body::resolution;
 use super::fault::Built;
-use super::sides::twin_name;
 use crate::error::Fault;
-use crate::raw::{AirModel, Case, PartCase, WingCase, WingMeshCase};
+use crate::raw::{AirModel, Case, PartCase, PlanformCase, WingCase, WingMeshCase};
+use crate::sides::twin_name;
 
 /// Panels of a wing or of a part of the body at most.
 const MOST_ON_A_SURFACE: usize = 10_000;
@@ -71,9 +71,22 @@ fn panels_of_wing(case: &Case, name: &str, wing: &WingCase) -> Built<usize> {
         None => (name, WingMeshCase::default()),
     };
     let keys = ["chordwise", "spanwise"].map(|key| format!("wing.{named}.mesh.{key}"));
+    let given = [Some(wing), twin.map(|(_, wing)| wing)];
+    let given = given
+        .into_iter()
+        .flatten()
+        .find_map(|w| w.planform.as_ref());
+    let (keys, mesh) = match given {
+        Some(PlanformCase::NodesM(rows)) => {
+            let count = [rows.len(), rows.first().map_or(0, Vec::len)];
+            let key = format!("wing.{name}.planform.nodes_m");
+            ([key.clone(), key], count.map(|n| n.saturating_sub(1)))
+        }
+        _ => (keys, [mesh.chordwise, mesh.spanwise]),
+    };
     let mirrored = twin.is_none() && wing.mirror.unwrap_or(true);
     let images = if mirrored { 2 } else { 1 };
-    Ok(images * panels(keys, [mesh.chordwise, mesh.spanwise])?)
+    Ok(images * panels(keys, mesh)?)
 }
 
 fn panels_of_part(name: &str, part: &PartCase) -> Built<usize> {

@@ -2,14 +2,16 @@
 
 use wingbeat_math::DVec3;
 use wingbeat_model::planform::{Beta, ChordSize, Planform, WingShape};
-use wingbeat_model::{MassInput, Side, Wing};
+use wingbeat_model::{GridMesh, MassInput, Side, Wing};
 
 use super::fault::{Built, blame};
 use super::numbers::{given_mass, symmetric, vector};
-use super::sides::twin_name;
 use super::{deformation, motion};
 use crate::error::Fault;
-use crate::raw::{BetaCase, Case, PlanformCase, WingCase, WingMeshCase};
+use crate::raw::{
+    BetaCase, Case, OutlineCase, PlanformCase, RectangleCase, WingCase, WingMeshCase,
+};
+use crate::sides::twin_name;
 
 /// All wings in the order of their names, mirrored twins among them.
 pub(super) fn build_all(case: &Case) -> Built<Vec<Wing>> {
@@ -74,14 +76,14 @@ fn build(
     twin: Option<(&String, &WingCase)>,
 ) -> Built<Wing> {
     let source = Source { name, own, twin };
-    let shape = shape(&source)?;
+    let mesh = mesh(&source, side)?;
     let mass = mass(&source)?;
     let (motion_name, motion_case, mirrored) = source.of(|w| w.motion.is_some());
     let motion_side = if mirrored { side.other() } else { side };
     let law = motion::law(case, motion_name, motion_case, motion_side)?;
     let law = if mirrored { law.mirrored() } else { law };
     let path = format!("wing.{name}");
-    let wing = Wing::new(name, side, hinge(&source)?, &shape, &mass, law);
+    let wing = Wing::with_mesh(name, side, hinge(&source)?, mesh, &mass, law);
     let wing = wing.map_err(|e| blame_wing(&path, &source, &e))?;
     let (name, case, _) = source.of(|w| w.deformation.is_some());
     match &case.deformation {
@@ -101,6 +103,7 @@ fn blame_wing(path: &str, source: &Source<'_>, error: &wingbeat_model::ModelErro
                 PlanformCase::Beta(t) => blame(&format!("{path}.beta"), t, error),
                 PlanformCase::Rectangle(t) => blame(&format!("{path}.rectangle"), t, error),
                 PlanformCase::Outline(t) => blame(&format!("{path}.outline"), t, error),
+                PlanformCase::NodesM(_) => blame(&path, planform, error),
             }
         }
         _ => blame(path, source.own, error),
@@ -125,51 +128,101 @@ fn hinge(source: &Source<'_>) -> Built<DVec3> {
     })
 }
 
-fn shape(source: &Source<'_>) -> Built<WingShape> {
-    let (name, wing, _) = source.of(|w| w.planform.is_some());
+fn mesh(source: &Source<'_>, side: Side) -> Built<GridMesh> {
+    let (name, wing, mirrored) = source.of(|w| w.planform.is_some());
     let path = format!("wing.{name}.planform");
     let Some(case) = &wing.planform else {
         return Err(Fault::new(
             path,
             "this key is missing",
-            "planform.beta, planform.rectangle or planform.outline",
+            "planform.beta, planform.rectangle, planform.outline or planform.nodes_m",
             format!("add [wing.{name}.planform.beta] with length_m, mean_chord_m and r2_hat"),
         ));
     };
-    let (_, wing, _) = source.of(|w| w.mesh.is_some());
+    let (named, wing, _) = source.of(|w| w.mesh.is_some());
+    let planform = match case {
+        PlanformCase::NodesM(rows) if wing.mesh.is_none() => {
+            let mesh = given_mesh(name, rows)?;
+            return Ok(if mirrored { mesh.mirrored() } else { mesh });
+        }
+        PlanformCase::NodesM(_) => {
+            return Err(Fault::new(
+                format!("wing.{named}.mesh"),
+                format!("this has no effect beside {path}.nodes_m, which is the mesh"),
+                "no such key here",
+                "remove it",
+            ));
+        }
+        PlanformCase::Beta(b) => beta(&format!("{path}.beta"), b)?,
+        PlanformCase::Rectangle(r) => rectangle(r),
+        PlanformCase::Outline(o) => outline(o),
+    };
     let mesh = wing.mesh.clone().unwrap_or_else(WingMeshCase::default);
-    Ok(WingShape {
-        planform: planform(&path, case)?,
+    let shape = WingShape {
+        planform,
         rows: mesh.chordwise,
         cols: mesh.spanwise,
         chordwise: mesh.chordwise_spacing,
         spanwise: mesh.spanwise_spacing,
-    })
+    };
+    let path = format!("wing.{}", source.name);
+    shape
+        .mesh(source.name, side)
+        .map_err(|e| blame_wing(&path, source, &e))
 }
 
-fn planform(path: &str, case: &PlanformCase) -> Built<Planform> {
+/// A mesh by its nodes.
+fn given_mesh(name: &str, rows: &[Vec<[f64; 3]>]) -> Built<GridMesh> {
+    let key = format!("wing.{name}.planform.nodes_m");
+    let in_row = rows.first().map_or(0, Vec::len);
+    let fault = |problem: String| {
+        let allowed = "at least two rows of at least two nodes [x, y, z], all rows alike, no panel without area";
+        let remedy = "from the leading to the trailing edge, each row from the root to the tip";
+        Fault::new(&key, problem, allowed, remedy)
+    };
+    if let Some(row) = rows.iter().position(|row| row.len() != in_row) {
+        let problem = format!(
+            "row {row}, counted from 0, has {} nodes and the first {in_row}",
+            rows[row].len()
+        );
+        return Err(fault(problem));
+    }
+    let mesh = GridMesh {
+        rows: rows.len().saturating_sub(1),
+        cols: in_row.saturating_sub(1),
+        nodes: rows.iter().flatten().map(|&x| vector(x)).collect(),
+    };
+    mesh.check(name).map_err(|e| fault(e.to_string()))?;
+    Ok(mesh)
+}
+
+fn beta(path: &str, b: &BetaCase) -> Built<Planform> {
+    Ok(Planform::Beta(Beta {
+        length: b.length_m,
+        size: chord_size(path, b)?,
+        r2_hat: b.r2_hat,
+        root_offset: b.root_offset_m,
+        axis_fraction: b.axis_fraction,
+        least_chord: b.least_chord,
+    }))
+}
+
+fn rectangle(r: &RectangleCase) -> Planform {
+    Planform::Rectangle {
+        chord: r.chord_m,
+        span: r.span_m,
+        root_offset: r.root_offset_m,
+        axis_fraction: r.axis_fraction,
+    }
+}
+
+fn outline(o: &OutlineCase) -> Planform {
     let points = |list: &[[f64; 2]]| list.iter().map(|&[r, x]| (r, x)).collect();
-    Ok(match case {
-        PlanformCase::Beta(b) => Planform::Beta(Beta {
-            length: b.length_m,
-            size: chord_size(&format!("{path}.beta"), b)?,
-            r2_hat: b.r2_hat,
-            root_offset: b.root_offset_m,
-            axis_fraction: b.axis_fraction,
-            least_chord: b.least_chord,
-        }),
-        PlanformCase::Rectangle(r) => Planform::Rectangle {
-            chord: r.chord_m,
-            span: r.span_m,
-            root_offset: r.root_offset_m,
-            axis_fraction: r.axis_fraction,
-        },
-        PlanformCase::Outline(o) => Planform::Outline {
-            leading: points(&o.leading_m),
-            trailing: points(&o.trailing_m),
-            least_chord: o.least_chord,
-        },
-    })
+    Planform::Outline {
+        leading: points(&o.leading_m),
+        trailing: points(&o.trailing_m),
+        least_chord: o.least_chord,
+    }
 }
 
 fn chord_size(path: &str, b: &BetaCase) -> Built<ChordSize> {

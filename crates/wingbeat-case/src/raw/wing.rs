@@ -124,6 +124,9 @@ pub enum PlanformCase {
     Rectangle(RectangleCase),
     /// Measured edges.
     Outline(OutlineCase),
+    /// The mesh itself, flat or not, in wing axes from the hinge: rows of nodes from the leading edge to the
+    /// trailing edge, each from the root to the tip; without `mesh`.
+    NodesM(Vec<Vec<[f64; 3]>>),
 }
 
 /// Ellington's beta distribution of the chord. One of `mean_chord_m`, `area_m2`, `max_chord_m`.
