@@ -19,6 +19,7 @@ pub(super) fn write(case: &mut Case, animal: &Animal, old: Option<&FlightSetup>)
         segments,
     } = animal;
     check_order(wings)?;
+    check_scale(case)?;
     if segments.is_empty() {
         case.segment.clear();
         case.body = body_case(body, parts);
@@ -27,8 +28,8 @@ pub(super) fn write(case: &mut Case, animal: &Animal, old: Option<&FlightSetup>)
             let before = &old.animal;
             same(&before.segments, segments) && same(&before.parts, parts) && before.body == *body
         });
-        if !kept || case.animal.scale != 1.0 {
-            let problem = "they or the body were made, changed or scaled in Rust, and only those of a case are written";
+        if !kept {
+            let problem = "they or the body were made or changed in Rust, and only those of a case are written";
             return Err(no_keys("segments", problem, "give them in the case"));
         }
     }
@@ -40,6 +41,16 @@ pub(super) fn write(case: &mut Case, animal: &Animal, old: Option<&FlightSetup>)
         .map(|w| (w.name.clone(), wing_case(w, wings)))
         .collect();
     Ok(())
+}
+
+/// What stands beside the animal is scaled with it.
+fn check_scale(case: &Case) -> Written<()> {
+    let beside = case.segment.len() + case.joint.len() + case.spring.len() + case.load.len();
+    if case.animal.scale == 1.0 || beside == 0 {
+        return Ok(());
+    }
+    let problem = "segments, joints, springs and loads of the case are scaled by animal.scale";
+    Err(no_keys("animal", problem, "begin with a case of scale 1"))
 }
 
 /// Wings are counted in the order of their names.
