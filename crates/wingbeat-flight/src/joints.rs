@@ -4,9 +4,9 @@
 use std::sync::Arc;
 
 use wingbeat_dynamics::{Joint, TravelLaw};
-use wingbeat_math::{DMat3, DVec3, MovingRotation, RotationLaw};
+use wingbeat_math::{DMat3, DVec3, DriftingFourier, MovingRotation, RotationLaw};
 
-use crate::prescribed::{DriftingFourier, PrescribedMotion};
+use crate::prescribed::PrescribedMotion;
 
 /// A joint between two bodies. Bodies are counted as in the system: 0 the central body, then the
 /// wings, then the segments. The first joint that has a body as its child carries it; others

@@ -13,8 +13,9 @@ pub use crate::applied::{AppliedLoad, LoadFrame, PointSpring};
 use crate::controller::Controller;
 use crate::error::FlightError;
 use crate::joints::JointSetup;
-pub use crate::prescribed::{DriftingFourier, PrescribedMotion, PrescribedRoot};
+pub use crate::prescribed::{PrescribedMotion, PrescribedRoot};
 use crate::seam::{Air, ExternalAir};
+pub use wingbeat_math::DriftingFourier;
 
 /// Everything that defines one flight. Constant once built; the state is elsewhere.
 #[derive(Clone, Debug)]

@@ -152,11 +152,7 @@ fn spread(beats: &[&(f64, Vec<[f64; 2]>)]) -> Vec<[f64; 3]> {
 
 /// Value at a phase, straight between the points.
 fn at_phase(points: &[[f64; 2]], x: f64) -> f64 {
-    let k = points
-        .partition_point(|p| p[0] < x)
-        .clamp(1, points.len() - 1);
-    let [[x0, y0], [x1, y1]] = [points[k - 1], points[k]];
-    y0 + (y1 - y0) * ((x - x0) / (x1 - x0)).clamp(0.0, 1.0)
+    wingbeat_math::interpolate(points.len(), |k| points[k].into(), x)
 }
 
 /// Downstroke intervals of the beat that begins at `from`.
