@@ -12,9 +12,9 @@ use wingbeat_model::Animal;
 pub use crate::applied::{AppliedLoad, LoadFrame, PointSpring};
 use crate::controller::Controller;
 use crate::error::FlightError;
+use crate::interface::{Air, ExternalAir};
 use crate::joints::JointSetup;
 pub use crate::prescribed::{PrescribedMotion, PrescribedRoot};
-use crate::seam::{Air, ExternalAir};
 pub use wingbeat_math::DriftingFourier;
 
 /// Everything that defines one flight. Constant once built; the state is elsewhere.

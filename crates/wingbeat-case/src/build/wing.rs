@@ -1,26 +1,27 @@
-//! `[wing.NAME]`: planform, mesh, mass, hinge; twins by mirror symmetry.
+//! `[wing.NAME]`: planform, mesh, mass, hinge; pairs by mirror symmetry.
 
 use wingbeat_math::DVec3;
 use wingbeat_model::planform::{Beta, ChordSize, Planform, WingShape};
 use wingbeat_model::{GridMesh, MassInput, Side, Wing};
 
-use super::fault::{Built, blame};
+use super::fault::{Built, fault_at};
 use super::numbers::{given_mass, symmetric, vector};
 use super::{deformation, motion};
 use crate::error::Fault;
 use crate::raw::{
     BetaCase, Case, OutlineCase, PlanformCase, RectangleCase, WingCase, WingMeshCase,
 };
-use crate::sides::twin_name;
+use crate::sides::mirror_name;
 
-/// All wings in the order of their names, mirrored twins among them.
+/// All wings in the order of their names, mirror images among them.
 pub(super) fn build_all(case: &Case) -> Built<Vec<Wing>> {
     let mut wings = vec![];
     for (name, own) in &case.wing {
         let side = side(name, own)?;
-        let twin = twin_name(name).and_then(|n| case.wing.get_key_value(&n));
-        wings.push(build(case, name, side, own, twin)?);
-        let image = twin_name(name).filter(|_| own.mirror.unwrap_or(true) && twin.is_none());
+        let counterpart = mirror_name(name).and_then(|n| case.wing.get_key_value(&n));
+        wings.push(build(case, name, side, own, counterpart)?);
+        let image =
+            mirror_name(name).filter(|_| own.mirror.unwrap_or(true) && counterpart.is_none());
         if let Some(other) = image {
             wings.push(wings[wings.len() - 1].mirrored(&other));
         }
@@ -31,8 +32,8 @@ pub(super) fn build_all(case: &Case) -> Built<Vec<Wing>> {
 
 /// The wing of the case a wing of the animal was made from.
 pub(super) fn source_of(case: &Case, wing: &str) -> String {
-    match twin_name(wing) {
-        Some(twin) if case.wing.get(wing).is_none_or(|w| w.hinge_m.is_none()) => twin,
+    match mirror_name(wing) {
+        Some(counterpart) if case.wing.get(wing).is_none_or(|w| w.hinge_m.is_none()) => counterpart,
         _ => wing.to_owned(),
     }
 }
@@ -51,18 +52,20 @@ fn side(name: &str, own: &WingCase) -> Built<Side> {
     }
 }
 
-/// A key's value from the wing itself or, mirrored, from its twin.
+/// A key's value from the wing itself or, mirrored, from its counterpart.
 struct Source<'a> {
     name: &'a str,
     own: &'a WingCase,
-    twin: Option<(&'a String, &'a WingCase)>,
+    counterpart: Option<(&'a String, &'a WingCase)>,
 }
 
 impl<'a> Source<'a> {
-    /// The wing that has the key, its name, and whether it is the twin.
+    /// The wing that has the key, its name, and whether it is the counterpart.
     fn of(&self, has: impl Fn(&WingCase) -> bool) -> (&'a str, &'a WingCase, bool) {
-        match self.twin {
-            Some((name, twin)) if !has(self.own) && has(twin) => (name, twin, true),
+        match self.counterpart {
+            Some((name, counterpart)) if !has(self.own) && has(counterpart) => {
+                (name, counterpart, true)
+            }
             _ => (self.name, self.own, false),
         }
     }
@@ -73,9 +76,13 @@ fn build(
     name: &str,
     side: Side,
     own: &WingCase,
-    twin: Option<(&String, &WingCase)>,
+    counterpart: Option<(&String, &WingCase)>,
 ) -> Built<Wing> {
-    let source = Source { name, own, twin };
+    let source = Source {
+        name,
+        own,
+        counterpart,
+    };
     let mesh = mesh(&source, side)?;
     let mass = mass(&source)?;
     let (motion_name, motion_case, mirrored) = source.of(|w| w.motion.is_some());
@@ -84,7 +91,7 @@ fn build(
     let law = if mirrored { law.mirrored() } else { law };
     let path = format!("wing.{name}");
     let wing = Wing::with_mesh(name, side, hinge(&source)?, mesh, &mass, law);
-    let wing = wing.map_err(|e| blame_wing(&path, &source, &e))?;
+    let wing = wing.map_err(|e| fault_of_wing(&path, &source, &e))?;
     let (name, case, _) = source.of(|w| w.deformation.is_some());
     match &case.deformation {
         Some(case) => deformation::deform(wing, &format!("wing.{name}.deformation"), case),
@@ -93,20 +100,20 @@ fn build(
 }
 
 /// Traces a fault of the model into planform, mesh, or the wing.
-fn blame_wing(path: &str, source: &Source<'_>, error: &wingbeat_model::ModelError) -> Fault {
+fn fault_of_wing(path: &str, source: &Source<'_>, error: &wingbeat_model::ModelError) -> Fault {
     let (name, wing, _) = source.of(|w| w.planform.is_some());
     let text = error.to_string();
     match &wing.planform {
         Some(planform) if text.contains("planform") => {
             let path = format!("wing.{name}.planform");
             match planform {
-                PlanformCase::Beta(t) => blame(&format!("{path}.beta"), t, error),
-                PlanformCase::Rectangle(t) => blame(&format!("{path}.rectangle"), t, error),
-                PlanformCase::Outline(t) => blame(&format!("{path}.outline"), t, error),
-                PlanformCase::NodesM(_) => blame(&path, planform, error),
+                PlanformCase::Beta(t) => fault_at(&format!("{path}.beta"), t, error),
+                PlanformCase::Rectangle(t) => fault_at(&format!("{path}.rectangle"), t, error),
+                PlanformCase::Outline(t) => fault_at(&format!("{path}.outline"), t, error),
+                PlanformCase::NodesM(_) => fault_at(&path, planform, error),
             }
         }
-        _ => blame(path, source.own, error),
+        _ => fault_at(path, source.own, error),
     }
 }
 
@@ -168,7 +175,7 @@ fn mesh(source: &Source<'_>, side: Side) -> Built<GridMesh> {
     let path = format!("wing.{}", source.name);
     shape
         .mesh(source.name, side)
-        .map_err(|e| blame_wing(&path, source, &e))
+        .map_err(|e| fault_of_wing(&path, source, &e))
 }
 
 /// A mesh by its nodes.

@@ -8,8 +8,8 @@ use wingbeat_model::planform::Spacing;
 
 use super::{DeformationCase, WingMotionCase};
 
-/// One wing. What a left wing leaves out it takes from the mirror image of its right twin, and
-/// the other way round (`left` and `right` in the names make twins).
+/// One wing. What a left wing leaves out it takes from the mirror image of its right counterpart, and
+/// the other way round (`left` and `right` in the names make pairs).
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct WingCase {
@@ -77,7 +77,7 @@ pub struct WingCase {
     #[schemars(extend("with" = "air.model = vortex_lattice | blade_element"))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub deformation: Option<DeformationCase>,
-    /// Whether the wing shares the edge at its root with its twin on the other side: one lifting
+    /// Whether the wing shares the edge at its root with its counterpart on the other side: one lifting
     /// surface without a vortex in the middle. The roots must meet. Left out: false.
     ///
     /// Change it to true for wings without a body between them.

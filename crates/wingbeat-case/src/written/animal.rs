@@ -7,7 +7,7 @@ use wingbeat_model::{Animal, BodyPart, Wing};
 use super::motion;
 use super::refusal::{Written, no_keys, same};
 use crate::raw::{AnimalCase, BodyCase, Case, PartCase, PlanformCase, WingCase, WingInertia};
-use crate::sides::twin_name;
+use crate::sides::mirror_name;
 
 /// The animal by its meshes and masses. Segments and the body they are parts of stay what they are in the case.
 pub(super) fn write(case: &mut Case, animal: &Animal, old: Option<&FlightSetup>) -> Written<()> {
@@ -109,8 +109,8 @@ fn wing_case(wing: &Wing, all: &[Wing]) -> WingCase {
     let (mass_kg, centre_m, inertia_about_centre_kg_m2) = mass(properties);
     let nodes = mesh.nodes.chunks(mesh.cols + 1);
     let row = |row: &[wingbeat_math::DVec3]| row.iter().map(|x| x.to_array()).collect();
-    let twin = twin_name(name);
-    let alone = twin.is_some_and(|twin| all.iter().all(|w| w.name != twin));
+    let counterpart = mirror_name(name);
+    let alone = counterpart.is_some_and(|counterpart| all.iter().all(|w| w.name != counterpart));
     WingCase {
         side: Some(*side),
         mirror: alone.then_some(false),

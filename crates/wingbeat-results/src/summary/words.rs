@@ -59,7 +59,7 @@ impl Summary {
         if !no_air {
             let _ = writeln!(
                 out,
-                "At the end the air pushes up with {} and forward with {}.",
+                "At the end lift is {} and thrust {}.",
                 engineering(self.final_lift_newton, "N").trim(),
                 engineering(self.final_thrust_newton, "N").trim()
             );

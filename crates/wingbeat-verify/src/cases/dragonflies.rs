@@ -6,7 +6,7 @@
 
 use crate::lab::insect::{Choice, Fluid, MODELS, forces, middle};
 use crate::lab::series::{Table, correlation, interpolate, mean, rms};
-use crate::{Case, Part, Row, Trouble};
+use crate::{Case, Part, Row, VerifyError};
 use wingbeat_case::raw;
 use wingbeat_case::raw::{
     AngleCase, BetaCase, FourierCase, PlanformCase, WingCase, WingMotionCase,
@@ -122,7 +122,7 @@ fn compare(
     theirs: &[f64],
     [unit, source, note]: [&'static str; 3],
     newton: f64,
-) -> Result<Vec<Row>, Trouble> {
+) -> Result<Vec<Row>, VerifyError> {
     let mut rows = Vec::new();
     for (name, choice) in [MODELS[0], MODELS[2], MODELS[3]] {
         let lift = forces(animal.case(choice))?;
@@ -152,7 +152,7 @@ fn compare(
     Ok(rows)
 }
 
-fn azuma(_quick: bool) -> Result<Vec<Row>, Trouble> {
+fn azuma(_quick: bool) -> Result<Vec<Row>, VerifyError> {
     let animal = Dragonfly {
         body: 0.04,
         frequency: 41.5,
@@ -260,7 +260,7 @@ const WANG_RUSSELL: Dragonfly = Dragonfly {
     ],
 };
 
-fn wang_russell(_quick: bool) -> Result<Vec<Row>, Trouble> {
+fn wang_russell(_quick: bool) -> Result<Vec<Row>, VerifyError> {
     let table = Table::new(include_str!(
         "../../data/dragonfly_wang_russell2007_vertical_force.csv"
     ));

@@ -2,7 +2,7 @@
 
 use crate::lab::insect::{Choice, DEFAULT, Insect, MODELS, data, forces, fruit_fly_wings, middle};
 use crate::lab::series::{Table, correlation, interpolate, mean, rms};
-use crate::{Case, Part, Row, Trouble};
+use crate::{Case, Part, Row, VerifyError};
 use wingbeat_case::raw::{AngleCase, FourierCase, WingMotionCase};
 
 pub(super) const CASES: &[Case] = &[
@@ -32,7 +32,7 @@ pub(super) const CASES: &[Case] = &[
     },
 ];
 
-fn hydei(_quick: bool) -> Result<Vec<Row>, Trouble> {
+fn hydei(_quick: bool) -> Result<Vec<Row>, VerifyError> {
     let fly = Insect {
         length: 3.333e-3,
         area: 2.66e-6,
@@ -115,7 +115,7 @@ fn hydei_motion() -> WingMotionCase {
     }
 }
 
-fn robofly(_quick: bool) -> Result<Vec<Row>, Trouble> {
+fn robofly(_quick: bool) -> Result<Vec<Row>, VerifyError> {
     let mut rows = Vec::new();
     for timing in ["advanced", "symmetrical", "delayed"] {
         let robot = Insect {
@@ -139,7 +139,7 @@ fn robofly(_quick: bool) -> Result<Vec<Row>, Trouble> {
 }
 
 /// Mean lift coefficient, and as its uncertainty half of what beats, core, step and mesh span.
-fn robofly_row(robot: &Insect, q: f64, name: String, base: Choice) -> Result<Row, Trouble> {
+fn robofly_row(robot: &Insect, q: f64, name: String, base: Choice) -> Result<Row, VerifyError> {
     let beats = robot.lifts(base)?;
     let [lift, _] = middle(&beats);
     let mut all = beats;
@@ -168,7 +168,7 @@ fn robofly_row(robot: &Insect, q: f64, name: String, base: Choice) -> Result<Row
     )
 }
 
-fn fruit_fly(_quick: bool) -> Result<Vec<Row>, Trouble> {
+fn fruit_fly(_quick: bool) -> Result<Vec<Row>, VerifyError> {
     let (fly, weight) = fruit_fly_wings();
     let mut rows = Vec::new();
     for (model, base, part) in [

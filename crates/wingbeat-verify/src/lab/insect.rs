@@ -17,7 +17,7 @@ use wingbeat_flight::Simulation;
 use wingbeat_math::DVec3;
 
 use super::series::mean;
-use crate::row::Trouble;
+use crate::row::VerifyError;
 
 /// A pair of wings on a fixed mount.
 pub(crate) struct Insect {
@@ -173,7 +173,7 @@ impl Choice {
 }
 
 /// Force of the air on all wings [N], N, step by step, of a case without a body in the air.
-pub(crate) fn forces(case: Case) -> Result<Vec<DVec3>, Trouble> {
+pub(crate) fn forces(case: Case) -> Result<Vec<DVec3>, VerifyError> {
     let mut flight = Simulation::new(LoadedCase::new(case)?.setup)?;
     let force = |f: &Simulation| f.record().air[1..].iter().map(|a| a.force).sum();
     let mut forces = vec![force(&flight)];
@@ -215,7 +215,7 @@ impl Insect {
     }
 
     /// Mean upward force of each beat from the second on [N].
-    pub fn lifts(&self, with: Choice) -> Result<Vec<f64>, Trouble> {
+    pub fn lifts(&self, with: Choice) -> Result<Vec<f64>, VerifyError> {
         let lift: Vec<f64> = forces(self.case(with))?.iter().map(|f| -f.z).collect();
         let beat = |b: usize| mean(&lift[b * with.steps..=(b + 1) * with.steps]);
         Ok((1..with.beats).map(beat).collect())
