@@ -163,8 +163,9 @@ impl LoadedCase {
         )
     }
 
-    /// The keys of the resolved case that have an effect; all others at their defaults.
-    pub(crate) fn effective(&self) -> raw::Case {
+    /// The keys of the resolved case that have an effect, all others at their defaults: where another
+    /// case for [`Self::new`] begins.
+    pub fn effective(&self) -> raw::Case {
         let table = table(&self.raw);
         let lean = keys::effective(&table, &table);
         lean.try_into().expect("a case without idle keys is a case")

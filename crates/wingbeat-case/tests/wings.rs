@@ -271,7 +271,11 @@ fn refuses_roots_that_do_not_meet_and_drag_without_sense() {
         &["right", "left", "2.000e-1 m apart"],
     );
     let alone = joined.replace("joined = true", "joined = true\nmirror = false");
-    refused(&alone, "joined = true", &["no twin"]);
+    refused(
+        &alone,
+        "joined = true",
+        &["no mirror image on the other side"],
+    );
     let drag = |keys: &str| format!("{GOOD}[air.section_drag]\n{keys}\n");
     refused(
         &drag("cd0 = 0.1"),

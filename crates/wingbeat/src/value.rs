@@ -90,7 +90,7 @@ impl Flight {
     ///
     /// ```
     /// use wingbeat::{Flight, case::LoadedCase};
-    /// let mut case = LoadedCase::find("fruit-fly-blade", &[])?.raw;
+    /// let mut case = LoadedCase::find("fruit-fly-blade", &[])?.effective();
     /// case.motion.adjust.stroke_amplitude = 0.05; // 5 % more
     /// let flight = Flight::of_case(case)?.beats(0.1);
     /// assert_eq!(flight.fly()?.records.len(), 1 + flight.setup.time.steps);
