@@ -154,11 +154,6 @@ impl ElementLaw {
         }
     }
 
-    /// Whether the element is an actuator: its power comes from outside.
-    pub fn is_actuator(&self) -> bool {
-        matches!(self, Self::Effort(_) | Self::Follow { .. })
-    }
-
     /// The numbers of the law with their names.
     fn numbers(&self) -> Vec<(&'static str, f64)> {
         let series = |f: &DriftingFourier| {

@@ -307,9 +307,6 @@ pub enum IntegratorChoice {
 }
 
 impl IntegratorChoice {
-    /// The default without a wake: order eight at 1e-10.
-    pub const WITHOUT_WAKE: Self = Self::OrderEight { tolerance: 1e-10 };
-
     /// Whether the method evaluates loads at the ends of steps only, as a wake demands, which is
     /// moved once a step.
     pub fn carries_wake(&self) -> bool {
