@@ -336,11 +336,12 @@ fn check_periodic(system: &System, period: f64) -> Result<(), AnalysisError> {
             differs(x, y, size) || differs(v * period, u * period, size)
         });
         let driven = joint.elements.iter().filter_map(|e| e.law.drive());
+        let drifts = driven.clone().any(|series| series.rate != 0.0);
         let varying =
-            driven.filter(|series| series.cos.iter().chain(&series.sin).any(|x| *x != 0.0));
+            driven.filter(|series| series.cosine.iter().chain(&series.sine).any(|x| *x != 0.0));
         let mut phases = varying.map(|series| series.frequency * period);
         let off = phases.any(|x| (x - x.round()).abs() > CLOSE * x.abs());
-        if turned || spun || travelled || off {
+        if turned || spun || travelled || drifts || off {
             return Err(AnalysisError::not_covered(
                 format!(
                     "joint `{}` is not back after a wingbeat of {period:.4e} s",

@@ -5,7 +5,7 @@
 //! [`mean`] averages loads over a beat of steadily moving body; [`stability`] linearises: the
 //! cycle-averaged rigid-body model with its derivatives, and Floquet's multipliers of the
 //! periodic orbit from the [`monodromy`] matrix; [`modes`] names what comes out; [`derivatives`]
-//! are the controls; [`power`] is the price; [`control`] holds a flyer on its orbit by feedback, laid out by
+//! are the controls; [`power`] is what it takes; [`control`] holds a flyer on its orbit by feedback, laid out by
 //! [`stabiliser`] or [`regulator`] when a flight is built ([`design`]).
 //!
 //! | symbol | name in code | meaning | unit |

@@ -73,7 +73,7 @@ impl Regulator {
     /// Gains for the trimmed flight and commands that act `latency` beats after sensing.
     ///
     /// # Errors
-    /// A flight that the strokes cannot stabilise: Riccati's iteration does not settle.
+    /// A flight that the strokes cannot stabilise: Riccati's iteration does not converge.
     pub fn new(trim: &Trim, weights: &Weights, latency: usize) -> Result<Self, AnalysisError> {
         let wings = &trim.setup.animal.wings;
         let sides: Vec<f64> = wings.iter().map(|w| w.side.sign()).collect();
@@ -287,7 +287,7 @@ fn riccati(
         }
     }
     Err(AnalysisError::Numbers(
-        "Riccati's iteration did not settle: the strokes cannot stabilise this flight".into(),
+        "Riccati's iteration did not converge: the strokes cannot stabilise this flight".into(),
     ))
 }
 

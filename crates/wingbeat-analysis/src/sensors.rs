@@ -27,7 +27,7 @@ pub struct Channels<T> {
 pub struct Sensors {
     /// Which noise.
     pub seed: u64,
-    /// Standard deviations of every component, anew at each look.
+    /// Standard deviations of every component, drawn again at each look.
     pub noise: Channels<f64>,
     /// What is always added.
     pub bias: Channels<DVec3>,

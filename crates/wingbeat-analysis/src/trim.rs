@@ -237,7 +237,7 @@ pub fn trim(setup: &FlightSetup, problem: &TrimProblem) -> Result<Trim, Analysis
         Unknown::BodyPitch => problem.body_pitch,
         _ => 0.0,
     }));
-    x.extend(settled_joints(&first, problem.body_pitch)?);
+    x.extend(periodic_joints(&first, problem.body_pitch)?);
     let mut residual = evaluate(setup, problem, &x)?.residual;
     let mut iterations = 0;
     while iterations < problem.settings.iterations
@@ -290,7 +290,7 @@ const SETTLING_BEATS: usize = 5;
 /// Coordinates and speeds of the free joints over their natural sizes after some beats of a body
 /// that is put back into its place after each: a start from which Newton's method finds their
 /// periodic motion.
-fn settled_joints(beat: &Beat, pitch: f64) -> Result<Vec<f64>, AnalysisError> {
+fn periodic_joints(beat: &Beat, pitch: f64) -> Result<Vec<f64>, AnalysisError> {
     let mut joints = beat.joints_at_start();
     if joints.is_empty() {
         return Ok(joints);

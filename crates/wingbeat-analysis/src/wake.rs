@@ -410,7 +410,7 @@ fn disturbed(
     let trimmed = start(&trim.setup);
     let mut setup = trim.setup.clone();
     if let AirModel::VortexLattice(air) = &mut setup.air {
-        air.mirror = false; // lateral disturbances need both halves
+        air.mirror = false; // lateral disturbances need both sides
     }
     match memory {
         WakeMemory::Carried => {

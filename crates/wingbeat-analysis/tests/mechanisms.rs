@@ -8,10 +8,10 @@ use common::*;
 use wingbeat_analysis::derivatives::control_derivatives;
 use wingbeat_analysis::power::power;
 use wingbeat_analysis::*;
-use wingbeat_dynamics::{ElementLaw, Fourier, Freedom, Joint, Link};
+use wingbeat_dynamics::{ElementLaw, Freedom, Joint, Link};
 use wingbeat_flight::joints::AxisTurn;
 use wingbeat_flight::*;
-use wingbeat_math::{DMat3, DVec3, MassProperties, RotationLaw, r2};
+use wingbeat_math::{DMat3, DVec3, DriftingFourier, MassProperties, RotationLaw, r2};
 use wingbeat_model::motion::{Adjustment, AngleLaw};
 use wingbeat_model::{Segment, Side, Wing};
 
@@ -229,18 +229,24 @@ fn refuses_by_name_what_a_map_of_beats_cannot_be_asked() {
     let said = refused(Beat::new(&other, 20));
     assert!(said.contains(&name) && said.contains("frequency"), "{said}");
 
-    let mut motor = fly();
-    let series = Fourier {
+    let faster = DriftingFourier {
         frequency: 150.0,
-        cos: vec![1e-9],
-        ..Fourier::default()
+        cosine: vec![1e-9],
+        ..DriftingFourier::default()
     };
-    motor.joints = hinged(&motor, ElementLaw::Effort(series));
-    let said = refused(Beat::new(&motor, 20));
-    assert!(
-        said.contains("hinge") && said.contains("frequency"),
-        "{said}"
-    );
+    let drifting = DriftingFourier {
+        rate: 1e-9,
+        ..DriftingFourier::default()
+    };
+    for series in [faster, drifting] {
+        let mut motor = fly();
+        motor.joints = hinged(&motor, ElementLaw::Effort(series));
+        let said = refused(Beat::new(&motor, 20));
+        assert!(
+            said.contains("hinge") && said.contains("frequency"),
+            "{said}"
+        );
+    }
 
     for (unknown, what) in [
         (Unknown::StrokeAmplitude, "stroke_amplitude changes nothing"),

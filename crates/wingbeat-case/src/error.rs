@@ -106,6 +106,16 @@ pub enum IoError {
     /// The case cannot be flown.
     #[error("{0}")]
     Case(#[from] Box<CaseError>),
+    /// Something made in Rust that no key of a case says.
+    #[error("no case gives this flight, as it has no keys for its {part}: {problem}; {remedy}")]
+    NoKeys {
+        /// Which part of the flight.
+        part: String,
+        /// Why it has no keys.
+        problem: String,
+        /// What to try.
+        remedy: &'static str,
+    },
     /// A preset that does not exist.
     #[error(
         "there is no case file and no preset called `{name}`{hint}; `wingbeat presets` lists the presets"

@@ -9,7 +9,7 @@ use super::raw::{AngleCase, Case, PartCase, TableCase};
 use crate::error::{Fault, IoError};
 
 /// Bytes of a file at most: a mesh of some million panels.
-const MOST_BYTES: u64 = 200_000_000;
+const MAX_BYTES: u64 = 200_000_000;
 
 /// The text of a case file.
 ///
@@ -38,8 +38,8 @@ fn check_file(path: &Path) -> std::io::Result<()> {
     if !data.is_file() {
         return Err(std::io::Error::other("it is not a file"));
     }
-    if data.len() > MOST_BYTES {
-        let problem = format!("it is larger than {} MB", MOST_BYTES / 1_000_000);
+    if data.len() > MAX_BYTES {
+        let problem = format!("it is larger than {} MB", MAX_BYTES / 1_000_000);
         return Err(std::io::Error::other(problem));
     }
     Ok(())

@@ -24,8 +24,10 @@ mod output;
 pub mod presets;
 pub mod raw;
 mod resolve;
+mod sides;
 mod source;
 mod trimmed;
+mod written;
 
 pub use build::column_name;
 pub use data::data_sets;
@@ -36,3 +38,4 @@ pub use keys::schema;
 pub use loaded::LoadedCase;
 pub use output::{OutputSettings, SaveSettings};
 pub use trimmed::{derivative_case, trimmed_case, wake_trimmed_case};
+pub use written::case_of;

@@ -61,6 +61,42 @@ impl LoadedCase {
         })
     }
 
+    /// A case put together in Rust, checked like a file of the same keys.
+    ///
+    /// ```
+    /// use wingbeat_case::LoadedCase;
+    /// use wingbeat_case::raw::{AirCase, AirModel, BodyCase, Case, TimeCase};
+    /// let mut case = Case {
+    ///     time: TimeCase { step_s: Some(0.01), steps: Some(50), ..TimeCase::default() },
+    ///     air: AirCase { model: AirModel::None, ..AirCase::default() },
+    ///     ..Case::default()
+    /// };
+    /// let error = LoadedCase::new(case.clone()).expect_err("a body without mass");
+    /// assert!(error.to_string().contains("body.mass_kg"));
+    /// let j = [1e-4, 1e-4, 1e-4, 0.0, 0.0, 0.0]; // kg m2
+    /// case.body = BodyCase { mass_kg: Some(0.1), inertia_about_centre_kg_m2: Some(j), ..BodyCase::default() };
+    /// assert_eq!(LoadedCase::new(case)?.setup.time.steps, 50);
+    /// # Ok::<(), wingbeat_case::IoError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// As [`Self::from_text`].
+    pub fn new(case: raw::Case) -> Result<Self, IoError> {
+        let name = case.name.clone();
+        let mut given = changed(table(&case), &table(&raw::Case::default()));
+        let format = i64::from(case.format);
+        given.insert("format".to_owned(), format.into());
+        let body = || toml::Table::new().into();
+        given.entry("body".to_owned()).or_insert_with(body);
+        // Keys in tables without defaults are all there: those that have no effect are left out if
+        // they say nothing, and refused if they do.
+        let lean = keys::effective(&table(&case), &given);
+        let says_all = lean.clone().try_into::<raw::Case>().as_ref() == Ok(&case);
+        let text = toml::to_string(if says_all { &lean } else { &given });
+        let text = text.expect("a table is TOML");
+        Self::from_text(name.as_deref().unwrap_or("case"), &text, Path::new(""), &[])
+    }
+
     /// Reads a case file.
     ///
     /// # Errors
@@ -127,6 +163,14 @@ impl LoadedCase {
         )
     }
 
+    /// The keys of the resolved case that have an effect, all others at their defaults: where another
+    /// case for [`Self::new`] begins.
+    pub fn effective(&self) -> raw::Case {
+        let table = table(&self.raw);
+        let lean = keys::effective(&table, &table);
+        lean.try_into().expect("a case without idle keys is a case")
+    }
+
     /// What a flight of this case refused, at the key it is about.
     pub fn refused(&self, error: &FlightError) -> CaseError {
         self.source
@@ -162,7 +206,20 @@ fn table(case: &raw::Case) -> toml::Table {
     toml::Table::try_from(case).expect("a case that was read can be written")
 }
 
+/// The keys of `given` that are not as in `default`. A table of one key is a choice, taken as a whole.
+fn changed(given: toml::Table, default: &toml::Table) -> toml::Table {
+    let differ = |(name, value): (String, toml::Value)| match (value, default.get(&name)) {
+        (toml::Value::Table(inner), Some(toml::Value::Table(usual))) if usual.len() > 1 => {
+            let inner = changed(inner, usual);
+            (!inner.is_empty()).then(|| (name, inner.into()))
+        }
+        (value, usual) => (usual != Some(&value)).then_some((name, value)),
+    };
+    given.into_iter().filter_map(differ).collect()
+}
+
 /// The keys of a resolved case that have an effect, as TOML.
 pub(crate) fn written(case: &raw::Case) -> String {
-    toml::to_string(&keys::effective(&table(case))).expect("a table is TOML")
+    let table = table(case);
+    toml::to_string(&keys::effective(&table, &table)).expect("a table is TOML")
 }

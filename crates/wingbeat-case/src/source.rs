@@ -9,7 +9,7 @@ use toml::{Spanned, Table, Value};
 use crate::error::{CaseError, Fault};
 
 /// Parts of a key at most; `wing.right.deformation.twist[0].course.fourier.cosine_deg[0]` has ten.
-const MOST_PARTS: usize = 32;
+const MAX_PARTS: usize = 32;
 
 /// A case as written: text, key positions, overrides, and the document with overrides applied.
 #[derive(Clone, Debug)]
@@ -264,7 +264,7 @@ fn find<'a>(table: &'a Table, path: &str) -> Option<&'a Value> {
 /// Puts a value at a path, making tables on the way.
 fn set(table: &mut Table, path: &str, value: Value) -> Result<(), String> {
     let steps: Vec<Part<'_>> = parts(path).collect();
-    if steps.len() > MOST_PARTS {
+    if steps.len() > MAX_PARTS {
         return Err(format!(
             "a key of {} parts: no case has one that deep",
             steps.len()

@@ -72,6 +72,43 @@ fn refused(text: &str, at: &str, wanted: &[&str]) {
 }
 
 #[test]
+fn exact_wing_by_its_nodes_is_that_of_its_planform() {
+    let by_planform = good(GOOD, &[]);
+    let right = &by_planform.animal.wings[1];
+    let rows: Vec<Vec<[f64; 3]>> = right
+        .mesh
+        .nodes
+        .chunks(5)
+        .map(|row| row.iter().map(|x| x.to_array()).collect())
+        .collect();
+    let planform = "[wing.right.planform.rectangle]\nchord_m = 0.1\nspan_m = 0.4\n";
+    let mesh = "[wing.right.mesh]\nchordwise = 2\nspanwise = 4\n";
+    let with =
+        |rows: &[Vec<[f64; 3]>]| GOOD.replace(planform, &format!("planform.nodes_m = {rows:?}\n"));
+    let by_nodes = good(&with(&rows).replace(mesh, ""), &[]);
+    assert_eq!(by_nodes.animal, by_planform.animal); // its mirror image, too
+    refused(
+        &with(&rows),
+        "[wing.right.mesh]",
+        &["no effect beside wing.right.planform.nodes_m"],
+    );
+    let mut ragged = rows.clone();
+    ragged[1].pop();
+    refused(
+        &with(&ragged).replace(mesh, ""),
+        "nodes_m",
+        &["row 1", "4 nodes", "the first 5"],
+    );
+    let flat = vec![rows[0].clone(), rows[0].clone()];
+    refused(&with(&flat).replace(mesh, ""), "nodes_m", &["area"]);
+    refused(
+        &with(&rows[..1]).replace(mesh, ""),
+        "nodes_m",
+        &["at least two rows"],
+    );
+}
+
+#[test]
 fn exact_deformation_of_a_case_is_that_of_the_model() {
     let setup = good(&format!("{GOOD}{TWIST}"), &[]);
     for wing in &setup.animal.wings {
@@ -234,7 +271,11 @@ fn refuses_roots_that_do_not_meet_and_drag_without_sense() {
         &["right", "left", "2.000e-1 m apart"],
     );
     let alone = joined.replace("joined = true", "joined = true\nmirror = false");
-    refused(&alone, "joined = true", &["no twin"]);
+    refused(
+        &alone,
+        "joined = true",
+        &["no mirror image on the other side"],
+    );
     let drag = |keys: &str| format!("{GOOD}[air.section_drag]\n{keys}\n");
     refused(
         &drag("cd0 = 0.1"),

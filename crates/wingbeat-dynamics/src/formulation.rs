@@ -1,4 +1,4 @@
-//! The seam between a mechanical system and a time integrator.
+//! The interface between a mechanical system and a time integrator.
 
 use wingbeat_math::solve_small;
 

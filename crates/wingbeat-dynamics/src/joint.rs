@@ -4,10 +4,9 @@
 //! travel and turned by a prescribed law (see [`crate::Link::law`]). The child's frame L coincides
 //! with K in axes, and the anchor on the child with K's origin, when all free coordinates are zero.
 
-use std::f64::consts::TAU;
 use std::sync::Arc;
 
-use wingbeat_math::DVec3;
+use wingbeat_math::{DVec3, DriftingFourier};
 
 /// A displacement prescribed as a function of time, twice continuously differentiable.
 pub trait TravelLaw: Send + Sync + std::fmt::Debug {
@@ -71,41 +70,6 @@ impl Freedom {
     }
 }
 
-/// A number as a function of time: mean and harmonics.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Fourier {
-    /// Base frequency \[Hz\].
-    pub frequency: f64,
-    /// Mean value.
-    pub mean: f64,
-    /// Cosine coefficients of harmonics 1, 2, ...
-    pub cos: Vec<f64>,
-    /// Sine coefficients of harmonics 1, 2, ...
-    pub sin: Vec<f64>,
-}
-
-impl Fourier {
-    /// Value and rate at time `t` \[s\].
-    ///
-    /// ```
-    /// use wingbeat_dynamics::Fourier;
-    /// let f = Fourier { frequency: 1.0, mean: 2.0, cos: vec![0.5], sin: vec![] };
-    /// assert_eq!(f.at(0.0), [2.5, 0.0]);
-    /// ```
-    pub fn at(&self, t: f64) -> [f64; 2] {
-        let mut sum = [self.mean, 0.0];
-        for k in 0..self.cos.len().max(self.sin.len()) {
-            let w = TAU * self.frequency * (k + 1) as f64;
-            let (s, c) = (w * t).sin_cos();
-            let a = self.cos.get(k).copied().unwrap_or(0.0);
-            let b = self.sin.get(k).copied().unwrap_or(0.0);
-            sum[0] += a * c + b * s;
-            sum[1] += w * (b * c - a * s);
-        }
-        sum
-    }
-}
-
 /// What acts along a free direction. An effort is a moment [N m] for rotations and a force \[N\]
 /// for displacements, positive where it increases the coordinate; coordinates in rad or m.
 #[derive(Clone, Debug, PartialEq)]
@@ -135,11 +99,11 @@ pub enum ElementLaw {
         damping: f64,
     },
     /// An actuator's effort as a function of time.
-    Effort(Fourier),
+    Effort(DriftingFourier),
     /// Proportional-derivative actuator towards a motion.
     Follow {
         /// The coordinate aimed at [rad or m].
-        target: Fourier,
+        target: DriftingFourier,
         /// Gain on the coordinate [N m/rad or N/m].
         stiffness: f64,
         /// Gain on the rate [N m s or N s/m].
@@ -170,7 +134,7 @@ impl ElementLaw {
                 stiffness,
                 damping,
             } => {
-                let [aim, rate] = target.at(t);
+                let [aim, rate, _] = target.at(t);
                 stiffness * (aim - q) + damping * (rate - u)
             }
         }
@@ -191,7 +155,7 @@ impl ElementLaw {
     }
 
     /// The function of time that drives an actuator, whose power comes from outside; none: passive.
-    pub fn drive(&self) -> Option<&Fourier> {
+    pub fn drive(&self) -> Option<&DriftingFourier> {
         match self {
             Self::Effort(series) | Self::Follow { target: series, .. } => Some(series),
             _ => None,
@@ -200,11 +164,12 @@ impl ElementLaw {
 
     /// The numbers of the law with their names.
     fn numbers(&self) -> Vec<(&'static str, f64)> {
-        let series = |f: &Fourier| {
-            let harmonics = f.cos.iter().chain(&f.sin).sum::<f64>();
+        let series = |f: &DriftingFourier| {
+            let harmonics = f.cosine.iter().chain(&f.sine).sum::<f64>();
             vec![
                 ("frequency [Hz]", f.frequency),
-                ("mean", f.mean),
+                ("mean", f.constant),
+                ("rate [1/s]", f.rate),
                 ("sum of harmonics", harmonics),
             ]
         };

@@ -83,7 +83,7 @@ pub use driven::driven;
 pub use error::DynamicsError;
 pub use euler_form::EulerForm;
 pub use formulation::{Formulation, add_by_response};
-pub use joint::{Element, ElementLaw, Fourier, Freedom, Joint, TravelLaw};
+pub use joint::{Element, ElementLaw, Freedom, Joint, TravelLaw};
 pub use link::Link;
 pub use mechanism::Mechanism;
 pub use mechanism::form::{AbsoluteForm, AbsoluteScratch, Stabilization};

@@ -119,12 +119,6 @@ impl MomentumForm {
         Ok(y)
     }
 
-    /// Coordinates (angles, displacements, quaternion) and speeds of hinge `index` in the state.
-    pub fn joint_state<'a>(&self, y: &'a [f64], index: usize) -> (&'a [f64], &'a [f64]) {
-        let ((q, u), s) = (self.free(y), self.system.slots()[index]);
-        (&q[s.q..s.q + s.coordinates], &u[s.u..s.u + s.speeds])
-    }
-
     /// Angular velocity of the root from the angular momentum, `w = I^-1 (R^T H - h)` [rad/s].
     fn root_motion(
         &self,

@@ -1,4 +1,4 @@
-//! A [`System`] in absolute coordinates with multipliers: [`AbsoluteForm`] behind the seam of the
+//! A [`System`] in absolute coordinates with multipliers: [`AbsoluteForm`] behind the interface of the
 //! formulations, with prescribed and free joints, singular at no attitude.
 
 use std::sync::Arc;

@@ -7,11 +7,11 @@ use common::*;
 use std::sync::Arc;
 use wingbeat_dynamics::budget::{budget, relative_energy};
 use wingbeat_dynamics::{
-    BodyAcceleration, BodyMotion, ElementLaw, Formulation, Fourier, Freedom, Joint, MomentumForm,
+    BodyAcceleration, BodyMotion, ElementLaw, Formulation, Freedom, Joint, MomentumForm,
     QuaternionForm, Stabilization, System, TravelLaw, tethered_motions,
 };
 use wingbeat_math::ode::{Dop853, Tolerance};
-use wingbeat_math::{DMat3, DVec3, EulerSequence, MassProperties};
+use wingbeat_math::{DMat3, DVec3, DriftingFourier, EulerSequence, MassProperties};
 
 /// A slide along axis 3 of the parent and back.
 #[derive(Debug)]
@@ -62,10 +62,10 @@ fn menagerie() -> System {
     .with(
         1,
         ElementLaw::Follow {
-            target: Fourier {
+            target: DriftingFourier {
                 frequency: 1.0 / BEAT,
-                sin: vec![0.3],
-                ..Fourier::default()
+                sine: vec![0.3],
+                ..DriftingFourier::default()
             },
             stiffness: 2e-8,
             damping: 2e-12,
@@ -82,10 +82,10 @@ fn menagerie() -> System {
         )
         .with(
             0,
-            ElementLaw::Effort(Fourier {
+            ElementLaw::Effort(DriftingFourier {
                 frequency: 150.0,
-                cos: vec![1e-6],
-                ..Fourier::default()
+                cosine: vec![1e-6],
+                ..DriftingFourier::default()
             }),
         )
         .starting(&[5e-5], &[]);

@@ -5,10 +5,10 @@ mod common;
 use common::body;
 use common::mechanism::*;
 use wingbeat_dynamics::{
-    AbsoluteForm, Body, BodyMotion, DynamicsError, ElementLaw, Fourier, Freedom, Joint, Link,
-    Mechanism, NaturalUnits, Stabilization, Wrench,
+    AbsoluteForm, Body, BodyMotion, DynamicsError, ElementLaw, Freedom, Joint, Link, Mechanism,
+    NaturalUnits, Stabilization, Wrench,
 };
-use wingbeat_math::{DMat3, DVec3, EulerSequence, MassProperties, r3};
+use wingbeat_math::{DMat3, DVec3, DriftingFourier, EulerSequence, MassProperties, r3};
 
 /// Numbers of a reference table, comment lines and header skipped.
 fn table(text: &str) -> Vec<Vec<f64>> {
@@ -179,9 +179,9 @@ fn squeezer() -> Mechanism {
         joint("K2-K4", Some(3), 1, -0.02 * y, end),
         joint("K2-K6", Some(5), 1, 0.02 * x, end),
     ];
-    let drive = Fourier {
-        mean: 0.033,
-        ..Fourier::default()
+    let drive = DriftingFourier {
+        constant: 0.033,
+        ..DriftingFourier::default()
     };
     links[0].joint = Joint::new(REVOLUTE).with(0, ElementLaw::Effort(drive));
     let units = NaturalUnits {

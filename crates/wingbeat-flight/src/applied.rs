@@ -2,9 +2,7 @@
 //! Fourier-modulated, and springs between points of two bodies.
 
 use wingbeat_dynamics::{BodyMotion, Wrench};
-use wingbeat_math::DVec3;
-
-use crate::prescribed::DriftingFourier;
+use wingbeat_math::{DVec3, DriftingFourier};
 
 /// Frame in which an applied load keeps its direction.
 #[derive(

@@ -4,9 +4,9 @@
 use std::sync::Arc;
 
 use wingbeat_dynamics::{ElementLaw, Link, TravelLaw};
-use wingbeat_math::{DMat3, DVec3, MovingRotation, RotationLaw};
+use wingbeat_math::{DMat3, DVec3, DriftingFourier, MovingRotation, RotationLaw};
 
-use crate::prescribed::{DriftingFourier, PrescribedMotion};
+use crate::prescribed::PrescribedMotion;
 
 /// Whether joint `k` closes a loop: its child is the central body or hangs on an earlier joint.
 pub fn closes_loop(joints: &[Link], k: usize) -> bool {
@@ -29,6 +29,7 @@ pub fn faster(joint: &Link, factor: f64) -> Link {
             &mut element.law
         {
             series.frequency *= factor;
+            series.rate *= factor;
         }
     }
     faster

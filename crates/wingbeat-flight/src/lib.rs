@@ -1,7 +1,7 @@
 //! Coupled flight: multibody dynamics and unsteady air, integrated together.
 //!
 //! The chapter in order: [`setup`] says what a flight is made of; [`joints`] and `bodies` map the
-//! animal to the multibody system; `seam` is what is asked of the air, whose models stand in [`air`];
+//! animal to the multibody system; `interface` is what is asked of the air, whose models stand in [`air`];
 //! `equations` is the coupled right-hand side;
 //! `stages` and `core` choose between free, tethered and held; [`simulation`] integrates all of it
 //! with Hamming's predictor-corrector (or, without a wake, another method of `solver`), the wake frozen during corrector passes (seed sec. 4 and
@@ -30,12 +30,12 @@ mod core;
 mod equations;
 mod error;
 mod free;
+mod interface;
 pub mod joints;
 mod prescribed;
 mod quadratures;
 pub mod record;
 mod recorder;
-mod seam;
 pub mod setup;
 pub mod simulation;
 mod solver;
@@ -51,12 +51,12 @@ pub use control::Passage;
 pub use controller::{Controller, Sensed};
 pub use error::FlightError;
 pub use free::{FreeFlight, FreeFlightScratch};
+pub use interface::{Air, AirScratch, Announcement, ExternalAir, ExternalSession, Instant};
 pub use joints::{closes_loop, faster};
 pub use record::{
     AccelerationRecord, HingeRecord, LoadRecord, ParticleSnapshot, Record, Snapshot,
     SurfaceSnapshot, WakeSnapshot,
 };
 pub use recorder::Ledger;
-pub use seam::{Air, AirScratch, Announcement, ExternalAir, ExternalSession, Instant};
 pub use setup::*;
 pub use simulation::{FlightState, Simulation};

@@ -1,48 +1,6 @@
 //! Motions prescribed as Fourier series in time.
 
-use wingbeat_math::{DMat3, DVec3, MovingRotation};
-
-/// A truncated Fourier series with a drift:
-/// `x(t) = x0 + rate t + sum_k a_k cos(2 pi k f t) + b_k sin(2 pi k f t)`, k = 1, 2, ...
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct DriftingFourier {
-    /// Value without the oscillation at t = 0.
-    pub constant: f64,
-    /// Steady rate of change [1/s].
-    pub rate: f64,
-    /// Fundamental frequency f [Hz].
-    pub frequency: f64,
-    /// Cosine coefficients a_1, a_2, ...
-    pub cosine: Vec<f64>,
-    /// Sine coefficients b_1, b_2, ...
-    pub sine: Vec<f64>,
-}
-
-impl DriftingFourier {
-    /// A constant.
-    pub fn constant(value: f64) -> Self {
-        Self {
-            constant: value,
-            ..Self::default()
-        }
-    }
-
-    /// Value and first two time derivatives at `t` [s].
-    pub fn at(&self, t: f64) -> [f64; 3] {
-        let mut x = [self.constant + self.rate * t, self.rate, 0.0];
-        let base = 2.0 * std::f64::consts::PI * self.frequency;
-        for k in 1..=self.cosine.len().max(self.sine.len()) {
-            let a = self.cosine.get(k - 1).copied().unwrap_or(0.0);
-            let b = self.sine.get(k - 1).copied().unwrap_or(0.0);
-            let w = base * k as f64;
-            let (s, c) = (w * t).sin_cos();
-            x[0] += a * c + b * s;
-            x[1] += w * (b * c - a * s);
-            x[2] -= w * w * (a * c + b * s);
-        }
-        x
-    }
-}
+use wingbeat_math::{DMat3, DVec3, DriftingFourier, MovingRotation};
 
 /// A prescribed motion of the root body.
 #[derive(Clone, Debug, PartialEq)]

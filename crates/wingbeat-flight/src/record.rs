@@ -88,8 +88,8 @@ pub struct Record {
     pub wake_particles: usize,
     /// Events in which a near-singular velocity was regularised in this step.
     pub regularised: usize,
-    /// Largest uniform leak velocity of the closed surfaces [m/s].
-    pub leak_velocity: f64,
+    /// Largest net-flux residual of the closed surfaces: a uniform normal velocity [m/s].
+    pub net_flux_residual: f64,
 }
 
 impl Record {

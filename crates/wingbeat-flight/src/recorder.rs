@@ -125,7 +125,7 @@ impl Sources<'_> {
             wake_rings: self.in_wake(WakeSheet::ring_count),
             wake_particles: self.in_wake(|w| w.particles.len()),
             regularised: new_events as usize,
-            leak_velocity: self.leak(),
+            net_flux_residual: self.net_flux_residual(),
         }
     }
 
@@ -146,8 +146,8 @@ impl Sources<'_> {
         sheets.iter().map(count).sum()
     }
 
-    /// Largest leak of a closed surface; the loads of a vacuum are empty.
-    fn leak(&self) -> f64 {
+    /// Largest net-flux residual of a closed surface; the loads of a vacuum are empty.
+    fn net_flux_residual(&self) -> f64 {
         let surfaces = &self.scratch.air_scratch.loads.surfaces;
         surfaces
             .iter()

@@ -13,8 +13,9 @@ use wingbeat_model::Animal;
 pub use crate::applied::{AppliedLoad, LoadFrame, PointSpring};
 use crate::controller::Controller;
 use crate::error::FlightError;
-pub use crate::prescribed::{DriftingFourier, PrescribedMotion, PrescribedRoot};
-use crate::seam::{Air, ExternalAir};
+use crate::interface::{Air, ExternalAir};
+pub use crate::prescribed::{PrescribedMotion, PrescribedRoot};
+pub use wingbeat_math::DriftingFourier;
 
 /// Everything that defines one flight. Constant once built; the state is elsewhere.
 #[derive(Clone, Debug)]
@@ -309,9 +310,6 @@ pub enum IntegratorChoice {
 }
 
 impl IntegratorChoice {
-    /// The default without a wake: order eight at 1e-10.
-    pub const WITHOUT_WAKE: Self = Self::OrderEight { tolerance: 1e-10 };
-
     /// Whether the method evaluates loads at the ends of steps only, as a wake demands, which is
     /// moved once a step.
     pub fn carries_wake(&self) -> bool {

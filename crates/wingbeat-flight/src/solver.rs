@@ -11,7 +11,7 @@ use crate::error::FlightError;
 use crate::setup::{CorrectorSettings, IntegratorChoice};
 
 /// Most steps inside one step of the time grid.
-const MOST_SUBSTEPS: usize = 10_000;
+const MAX_SUBSTEPS: usize = 10_000;
 
 /// An integrator with its scratch.
 #[derive(Debug)]
@@ -81,7 +81,7 @@ impl Solver {
                 let tolerance = Tolerance {
                     relative: tolerance,
                     absolute: tolerance,
-                    max_steps: MOST_SUBSTEPS,
+                    max_steps: MAX_SUBSTEPS,
                 };
                 let method = Dop853::new(tolerance, scales).starting_with(1.0);
                 Self::OrderEight(method, Buffers::new(equations))
@@ -159,7 +159,7 @@ fn adaptive(
             (time, FlightError::StepTooSmall { time, step })
         }
         AdaptiveError::TooManySteps { time } => {
-            let most = MOST_SUBSTEPS;
+            let most = MAX_SUBSTEPS;
             (time, FlightError::TooManySteps { time, most })
         }
     };

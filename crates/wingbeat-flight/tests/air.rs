@@ -1,4 +1,4 @@
-//! The seam of the air: wind in blade elements, what a partner is told, a model of one's own.
+//! The interface of the air: wind in blade elements, what a partner gets, a model of one's own.
 
 mod common;
 

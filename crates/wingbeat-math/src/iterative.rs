@@ -32,7 +32,7 @@ pub struct BiCgStab {
 /// Norm of `b - A x` over that of `b` that is small enough.
 const RESIDUAL: f64 = 1e-13;
 
-/// How much larger the residual may be when it is computed anew: some roundings of a matrix with some hundred
+/// How much larger the residual may be when it is computed again: some roundings of a matrix with some hundred
 /// columns.
 const DRIFT: f64 = 4.0;
 

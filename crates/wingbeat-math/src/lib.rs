@@ -21,6 +21,7 @@ pub mod mass;
 pub mod newton;
 pub mod ode;
 pub mod rotation;
+pub mod series;
 mod small_lu;
 
 pub use euler::{EulerMatrices, EulerSequence};
@@ -29,4 +30,5 @@ pub use iterative::{BiCgStab, Product};
 pub use lu::{DenseLu, LuError};
 pub use mass::{MassError, MassProperties};
 pub use rotation::{MovingRotation, RotationLaw, r1, r2, r3, rotation_about, tilde, untilde};
+pub use series::{DriftingFourier, interpolate};
 pub use small_lu::{SingularMatrix, solve_small};

@@ -3,7 +3,7 @@
 use crate::animal::{Animal, BodyPart, Wing};
 use crate::error::{ModelError, positive};
 use crate::integrate::MassInput;
-use crate::mesh::{QuadMesh, Side};
+use crate::mesh::{GridMesh, QuadMesh, Side};
 use crate::motion::WingMotion;
 use crate::planform::WingShape;
 use crate::revolution::Revolution;
@@ -51,6 +51,22 @@ impl Wing {
         motion: WingMotion,
     ) -> Result<Self, ModelError> {
         let mesh = shape.mesh(name, side)?;
+        Self::with_mesh(name, side, hinge_b, mesh, mass, motion)
+    }
+
+    /// A wing of any shape.
+    ///
+    /// # Errors
+    /// A mesh, mass or motion that is not allowed.
+    pub fn with_mesh(
+        name: &str,
+        side: Side,
+        hinge_b: DVec3,
+        mesh: GridMesh,
+        mass: &MassInput,
+        motion: WingMotion,
+    ) -> Result<Self, ModelError> {
+        mesh.check(name)?;
         let mass = mass.of_wing(name, &mesh)?;
         motion.check(name)?;
         Ok(Self {

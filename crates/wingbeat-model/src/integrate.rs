@@ -227,13 +227,5 @@ fn check_span_table(key: &str, rows: &[(f64, f64)]) -> Result<(), ModelError> {
 
 /// Piecewise linear interpolation, constant beyond the ends.
 pub(crate) fn interpolate(rows: &[(f64, f64)], x: f64) -> f64 {
-    let k = rows.partition_point(|r| r.0 <= x);
-    if k == 0 {
-        return rows[0].1;
-    }
-    if k == rows.len() {
-        return rows[k - 1].1;
-    }
-    let ((x0, y0), (x1, y1)) = (rows[k - 1], rows[k]);
-    y0 + (y1 - y0) * ((x - x0) / (x1 - x0))
+    wingbeat_math::interpolate(rows.len(), |k| rows[k], x)
 }

@@ -62,7 +62,7 @@ pub(crate) struct Subject {
     /// Name in words.
     words: String,
     /// What it was called in older results.
-    former: Option<String>,
+    former: String,
     kind: Kind,
     /// Its number in the record.
     index: usize,
@@ -109,9 +109,9 @@ fn bodies(animal: &Animal) -> Vec<Subject> {
 impl Subject {
     pub(crate) fn new(name: String, words: &str, kind: Kind, index: usize) -> Self {
         Self {
+            former: name.clone(),
             name,
             words: words.to_owned(),
-            former: None,
             kind,
             index,
         }
@@ -134,7 +134,7 @@ impl Subject {
         let name = format!("{}_{what}{number}", column_name(&c.joint));
         let words = format!("{what}{} of joint {}", number.replace('_', " "), c.joint);
         Self {
-            former: Some(format!("{}", index + 1)),
+            former: format!("{}", index + 1),
             ..Self::new(name, &words, kind, index)
         }
     }
@@ -358,10 +358,9 @@ impl Subject {
         let name = |pattern: &str, subject: &str, unit: &str| {
             pattern.replace("{s}", subject).replace("{c}", letter) + "_" + unit
         };
-        let former = q.former.zip(self.former.as_deref());
         Column {
             name: name(q.name, &self.name, unit.suffix()),
-            former: former.map(|((pattern, unit), subject)| name(pattern, subject, unit)),
+            former: (q.former).map(|(pattern, unit)| name(pattern, &self.former, unit)),
             unit: unit.symbol(),
             frame: q.frame.words(self.kind),
             symbol: q.symbol,

@@ -2,7 +2,7 @@
 //! flown.
 //!
 //! At most one frame waits: memory does not grow, and a slow disk slows the flight down. Whoever
-//! needs all frames to be there (a checkpoint, the index) waits for them with [`Framer::settle`].
+//! needs all frames to be there (a checkpoint, the index) waits for them with [`Framer::wait`].
 
 use std::path::PathBuf;
 use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
@@ -53,7 +53,7 @@ impl Framer {
     /// # Errors
     /// The frame before could not be written.
     pub fn put(&mut self, snapshot: Snapshot) -> Result<(), IoError> {
-        self.settle()?;
+        self.wait()?;
         let thread = self.snapshots.as_ref().expect("it has not ended");
         thread.send(snapshot).expect("the thread lives");
         self.waiting = true;
@@ -64,7 +64,7 @@ impl Framer {
     ///
     /// # Errors
     /// A frame could not be written.
-    pub fn settle(&mut self) -> Result<(), IoError> {
+    pub fn wait(&mut self) -> Result<(), IoError> {
         match std::mem::take(&mut self.waiting) {
             true => self.results.recv().expect("the thread lives"),
             false => Ok(()),

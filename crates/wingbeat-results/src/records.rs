@@ -16,7 +16,7 @@ pub struct Records {
     /// Where each column stands in a row; none where an older result lacks it.
     places: Vec<Option<usize>>,
     record: Record,
-    /// Counted anew where an older result lacks it.
+    /// Counted again where an older result lacks it.
     air_impulse: Option<AirImpulse>,
 }
 

@@ -73,7 +73,7 @@ pub fn read(dir: &Path) -> Result<Saved, IoError> {
     }
     let case_sha256 = sha256(&fs::read(&case).map_err(IoError::read(&case))?);
     if manifest.outcome == Outcome::Finished {
-        check_history(dir, &manifest)?; // nothing will be cut off and written anew
+        check_history(dir, &manifest)?; // nothing will be cut off and written again
     }
     let path = dir.join(FILE);
     if !path.exists() {

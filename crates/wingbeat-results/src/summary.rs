@@ -57,7 +57,7 @@ impl Summary {
             regularised: s.regularised,
             wake_rings: s.last.wake_rings,
             wake_particles: s.last.wake_particles,
-            leak_velocity_m_s: s.leak_velocity.most,
+            net_flux_residual_m_s: s.net_flux_residual.most,
             warnings: vec![],
             means: ManyBeats::of(&s.beats),
             beats: s.beats,

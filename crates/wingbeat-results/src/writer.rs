@@ -143,7 +143,7 @@ impl RunWriter {
     /// A file that cannot be written; the last checkpoint stays valid.
     pub fn save(&mut self, state: &FlightState) -> Result<(), IoError> {
         let begun = Instant::now();
-        self.settle()?;
+        self.finish_frames()?;
         let (history_bytes, history_sha256) = self.seal()?;
         let header = Header {
             version: self.manifest.version.clone(),
@@ -236,15 +236,15 @@ impl RunWriter {
     }
 
     /// Waits until the frames taken so far are on the disk.
-    fn settle(&mut self) -> Result<(), IoError> {
-        self.framer.as_mut().map_or(Ok(()), Framer::settle)
+    fn finish_frames(&mut self) -> Result<(), IoError> {
+        self.framer.as_mut().map_or(Ok(()), Framer::wait)
     }
 
     fn index(&mut self) -> Result<(), IoError> {
         if self.frames.is_empty() {
             return Ok(());
         }
-        self.settle()?;
+        self.finish_frames()?;
         self.indexed = self.frames.len();
         self.dir
             .write("flight.pvd", pvd(&self.frames, self.parts()).as_bytes())

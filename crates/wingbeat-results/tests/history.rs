@@ -101,7 +101,7 @@ fn numbers(record: &Record) -> usize {
         wake_rings: _,
         wake_particles: _,
         regularised: _,
-        leak_velocity: _,
+        net_flux_residual: _,
     } = record;
     let lists = coordinates.len() + rates.len() + multipliers.len() + deformation_power.len();
     let vectors = 3 * wing_angles.len() + 8 * commands.len() + 6 * accelerations.len();
@@ -282,10 +282,15 @@ fn behaves_histories_of_older_versions_are_read() {
             .unwrap()
             .contains("joint_coordinate_1_rad_or_m")
     );
+    assert!(
+        fs::read_to_string(&path)
+            .unwrap()
+            .contains("leak_velocity_m_per_s")
+    );
     let back = read(&path, &case);
     for (a, b) in records.iter().zip(&back) {
         assert_eq!(a.joints, b.joints);
-        // Counted anew from the forces by the rule they were counted with.
+        // Counted again from the forces by the rule they were counted with.
         assert_eq!(a.air_impulse, b.air_impulse);
         assert!(b.accelerations.iter().all(|x| x.linear.is_nan()));
     }
@@ -309,8 +314,8 @@ fn refuses_histories_with_columns_missing_or_of_another_flight() {
             "`hinge_work_joule`",
         ),
         (
-            "leak_velocity_m_per_s\n",
-            "leak_velocity_m_per_s,mood\n",
+            "net_flux_residual_m_per_s\n",
+            "net_flux_residual_m_per_s,mood\n",
             "`mood`",
         ),
     ] {

@@ -1,8 +1,7 @@
 //! The summary's judgement: alarms where something is wrong, none where nothing is.
 
-use std::path::Path;
-
 use wingbeat_case::LoadedCase;
+use wingbeat_case::raw::{AirCase, AirModel, BodyCase, Case, FlightCase, OutputCase, TimeCase};
 use wingbeat_flight::Simulation;
 use wingbeat_results::{Outcome, ResultDir, RunWriter, Summary};
 
@@ -27,14 +26,34 @@ fn flown(case: &LoadedCase) -> Summary {
 
 /// A body alone, without weight, turning at `rate` [deg/s].
 fn rigid(name: &str, rate: [f64; 3]) -> LoadedCase {
-    let text = format!(
-        "format = 1\nname = \"{name}\"\ngravity_m_s2 = [0, 0, 0]\n\
-         [time]\nstep_s = 0.01\nsteps = 50\n\
-         [flight]\nmode = \"free\"\nangular_velocity_deg_s = {rate:?}\n\
-         [air]\nmodel = \"none\"\n[output]\nframes_every = 0\n\
-         [body]\nmass_kg = 1.0\ninertia_about_centre_kg_m2 = [1.0, 2.0, 2.5, 0, 0, 0]\n"
-    );
-    LoadedCase::from_text(name, &text, Path::new(""), &[]).unwrap()
+    let case = Case {
+        name: Some(name.to_owned()),
+        gravity_m_s2: [0.0; 3],
+        time: TimeCase {
+            step_s: Some(0.01),
+            steps: Some(50),
+            ..TimeCase::default()
+        },
+        flight: FlightCase {
+            angular_velocity_deg_s: rate,
+            ..FlightCase::default()
+        },
+        air: AirCase {
+            model: AirModel::None,
+            ..AirCase::default()
+        },
+        output: OutputCase {
+            frames_every: 0,
+            ..OutputCase::default()
+        },
+        body: BodyCase {
+            mass_kg: Some(1.0),
+            inertia_about_centre_kg_m2: Some([1.0, 2.0, 2.5, 0.0, 0.0, 0.0]),
+            ..BodyCase::default()
+        },
+        ..Case::default()
+    };
+    LoadedCase::new(case).unwrap()
 }
 
 fn preset(name: &str, set: &[&str]) -> LoadedCase {

@@ -1,8 +1,8 @@
 //! A case of the suite.
 
-use crate::row::{Row, Trouble};
+use crate::row::{Row, VerifyError};
 
-/// Which part of the dossier a case belongs to.
+/// Which part of the report a case belongs to.
 #[derive(
     Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, serde::Serialize, serde::Deserialize,
 )]
@@ -25,10 +25,10 @@ pub struct Case {
     pub name: &'static str,
     /// One sentence: what is computed and compared.
     pub about: &'static str,
-    /// Where it stands in the dossier.
+    /// Where it stands in the report.
     pub part: Part,
     /// Whether it is in the short set.
     pub quick: bool,
     /// Runs it; `true` asks for the short form.
-    pub run: fn(bool) -> Result<Vec<Row>, Trouble>,
+    pub run: fn(bool) -> Result<Vec<Row>, VerifyError>,
 }

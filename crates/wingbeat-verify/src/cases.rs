@@ -1,4 +1,4 @@
-//! The suite, in the order of the dossier.
+//! The suite, in the order of the report.
 
 mod benchmark;
 mod bodies;

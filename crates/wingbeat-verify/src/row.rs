@@ -1,4 +1,4 @@
-//! One line of the dossier.
+//! One line of the report.
 
 use std::borrow::Cow;
 
@@ -9,14 +9,14 @@ pub enum Verdict {
     /// Within the tolerance.
     Pass,
     /// Outside it.
-    Miss,
+    Fail,
     /// Stated, not judged.
-    Report,
+    Unjudged,
 }
 
 /// Why a case could not be run to its end.
 #[derive(Debug, thiserror::Error)]
-pub enum Trouble {
+pub enum VerifyError {
     /// The air refused.
     #[error("{0}")]
     Air(#[from] wingbeat_air::AirError),
@@ -28,7 +28,7 @@ pub enum Trouble {
     Case(#[from] wingbeat_case::IoError),
 }
 
-/// A quantity, its reference and ours.
+/// A quantity, its reference and the computed value.
 #[derive(Clone, Debug, serde::Serialize, serde::Deserialize)]
 pub struct Row {
     /// What is compared.
@@ -40,7 +40,8 @@ pub struct Row {
     /// Where the reference comes from.
     pub source: Cow<'static, str>,
     /// Ours.
-    pub ours: f64,
+    #[serde(alias = "ours")]
+    pub computed: f64,
     /// Half-width of our own uncertainty, from refinement; none for exact statements.
     pub uncertainty: Option<f64>,
     /// Largest error that passes, in the unit; none: a report.
@@ -51,13 +52,13 @@ pub struct Row {
 
 impl Row {
     /// Ours against a reference, as a report until [`Self::within`] judges it.
-    pub fn new(quantity: impl Into<String>, unit: &'static str, ours: f64) -> Self {
+    pub fn new(quantity: impl Into<String>, unit: &'static str, computed: f64) -> Self {
         Self {
             quantity: quantity.into(),
             unit: unit.into(),
             reference: None,
             source: "".into(),
-            ours,
+            computed,
             uncertainty: None,
             tolerance: None,
             reason: "".into(),
@@ -96,17 +97,17 @@ impl Row {
         self
     }
 
-    /// Ours less the reference; ours where there is none.
+    /// Computed value less the reference; the computed value where there is none.
     pub fn error(&self) -> f64 {
-        self.ours - self.reference.unwrap_or(0.0)
+        self.computed - self.reference.unwrap_or(0.0)
     }
 
     /// The judgement.
     pub fn verdict(&self) -> Verdict {
         match self.tolerance {
-            None => Verdict::Report,
+            None => Verdict::Unjudged,
             Some(tolerance) if self.error().abs() <= tolerance => Verdict::Pass,
-            Some(_) => Verdict::Miss,
+            Some(_) => Verdict::Fail,
         }
     }
 }
@@ -118,10 +119,10 @@ mod tests {
     #[test]
     fn exact_verdicts_follow_the_tolerance() {
         let row = Row::new("x", "1", 1.02).against(1.0, "by hand");
-        assert_eq!(row.verdict(), Verdict::Report);
+        assert_eq!(row.verdict(), Verdict::Unjudged);
         assert_eq!(row.clone().within(0.03, "").verdict(), Verdict::Pass);
-        assert_eq!(row.within_part(0.01, "").verdict(), Verdict::Miss);
+        assert_eq!(row.within_part(0.01, "").verdict(), Verdict::Fail);
         let lost = Row::new("x", "1", f64::NAN).within(1.0, "");
-        assert_eq!(lost.verdict(), Verdict::Miss, "not a number never passes");
+        assert_eq!(lost.verdict(), Verdict::Fail, "not a number never passes");
     }
 }

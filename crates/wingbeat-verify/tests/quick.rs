@@ -1,21 +1,21 @@
-//! The short set of the dossier: what `wingbeat verify --quick` runs, here as a gate.
+//! The short set of the report: what `wingbeat verify --quick` runs, here as a gate.
 
-/// No analytic case and no benchmark may miss; experiments are only reported.
+/// No analytic case and no benchmark may fail; experiments are only reported.
 #[test]
-fn agrees_short_set_of_the_dossier_has_no_misses() {
+fn agrees_short_set_of_the_report_has_no_failure() {
     let cases = wingbeat_verify::select(true, "");
     assert!(cases.len() > 10);
-    let dossier = wingbeat_verify::run(&cases, true, |e| {
+    let report = wingbeat_verify::run(&cases, true, |e| {
         println!("{} {:?}", e.case, e.counts());
     });
-    let page = dossier.page("test");
-    let [passed, missed, _] = dossier.counts();
-    assert!(missed == 0 && passed > 50, "{page}");
+    let page = report.page("test");
+    let [passed, failed, _] = report.counts();
+    assert!(failed == 0 && passed > 50, "{page}");
     assert_eq!(
-        dossier.csv().lines().count(),
-        1 + dossier.counts().iter().sum::<usize>()
+        report.csv().lines().count(),
+        1 + report.counts().iter().sum::<usize>()
     );
-    assert!(serde_json::from_str::<serde_json::Value>(&dossier.json()).is_ok());
+    assert!(serde_json::from_str::<serde_json::Value>(&report.json()).is_ok());
 }
 
 #[test]

@@ -6,17 +6,19 @@ use wingbeat::results::{Records, ResultDir, Summary};
 
 pub(crate) fn main() -> Result<(), Box<dyn std::error::Error>> {
     let dir = std::env::temp_dir().join(format!("wingbeat-results-{}", std::process::id()));
-    // Changed by keys of its case, so that the case that is written reproduces the flight.
-    let flight = Flight::preset_with("fruit-fly-blade", &["time.beats=2"])?;
+    // The case that is written is that of the flight, changed in Rust or not.
+    let flight = Flight::preset("fruit-fly-blade")?
+        .frequency_hz(210.0)
+        .beats(2.0);
     let run = flight.fly_to(&dir)?;
 
     let read = ResultDir::read(&dir)?; // checks the hashes of case and history
     let (case, history) = (read.case()?, read.join("history.csv"));
     let mut rows = Records::open(&history, &case.setup)?;
     let mut furthest = 0.0_f64;
-    for ours in &run.records {
+    for record in &run.records {
         let theirs = rows.next_record()?.ok_or("a row is missing")?;
-        let gap = theirs.mass_centre - ours.mass_centre;
+        let gap = theirs.mass_centre - record.mass_centre;
         furthest = furthest.max(gap.length());
     }
     println!(
@@ -24,13 +26,13 @@ pub(crate) fn main() -> Result<(), Box<dyn std::error::Error>> {
         run.records.len()
     );
     let summary = Summary::read(&case, &history, &read.manifest()?.outcome)?;
-    for (ours, theirs) in run.beats().iter().zip(&summary.beats) {
+    for (computed, theirs) in run.beats().iter().zip(&summary.beats) {
         let lift = theirs.lift_over_weight.ok_or("no weight")?;
         println!(
             "beat {}: {:.6} weights in memory, {lift:.6} on disk",
-            ours.beat, ours.lift_over_weight
+            computed.beat, computed.lift_over_weight
         );
-        assert_eq!(*ours, Beat::from(theirs), "the last bit is written");
+        assert_eq!(*computed, Beat::from(theirs), "the last bit is written");
     }
     assert_eq!((furthest, summary), (0.0, run.summary()));
     let files = std::fs::read_dir(&dir)?.map(|f| Ok(f?.file_name()));

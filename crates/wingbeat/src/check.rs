@@ -60,7 +60,7 @@ fn trial_cost(case: &LoadedCase, trial: bool) -> Result<String, IoError> {
         return Ok("not tried: a check does not start the external program".into());
     }
     let unknowns = expectation::unknowns(&case.setup);
-    if !trial && unknowns > expectation::MOST_UNKNOWNS {
+    if !trial && unknowns > expectation::MAX_UNKNOWNS {
         return Ok(format!(
             "not tried: {unknowns} unknown circulations take long and {:.1} GB to solve for; `wingbeat check --trial` does",
             8e-9 * (unknowns as f64).powi(2)

@@ -1,4 +1,4 @@
-//! The command line: every command with what it is told.
+//! The command line: every command with its arguments.
 
 use std::path::PathBuf;
 
@@ -67,7 +67,7 @@ pub(crate) enum Command {
     Stabilise(analyse::stabilise::StabiliseArgs),
     /// The velocity of the air at points, on a line or on a plane, from a run.
     Velocity(velocity::VelocityArgs),
-    /// Run the verification suite and write its dossier: what is claimed of the air, against what,
+    /// Run the verification suite and write its report: what is claimed of the air, against what,
     /// how far off.
     Verify(verify::VerifyArgs),
     /// List the presets and the shipped sets of wing angles.
@@ -85,7 +85,7 @@ pub(crate) enum Command {
     Man(ManArgs),
 }
 
-/// What `wingbeat man` is told.
+/// Arguments of `wingbeat man`.
 #[derive(Args)]
 pub(crate) struct ManArgs {
     /// Folder for the pages.

@@ -10,7 +10,7 @@ use crate::pace::Pace;
 
 /// Unknown circulations beyond which the trial is left out: their matrix takes some seconds and
 /// 0.1 GB, and eight times the one and four times the other with every doubling.
-pub(crate) const MOST_UNKNOWNS: usize = 4000;
+pub(crate) const MAX_UNKNOWNS: usize = 4000;
 /// Time for steps on trial.
 const TRIAL: Duration = Duration::from_millis(1500);
 

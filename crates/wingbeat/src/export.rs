@@ -10,7 +10,7 @@ use crate::failure::Failure;
 use crate::options::choose;
 use crate::terminal::say;
 
-/// What `wingbeat export` is told.
+/// Arguments of `wingbeat export`.
 #[derive(Args)]
 pub(crate) struct ExportArgs {
     /// Result directory of the run.

@@ -105,8 +105,7 @@ impl Run {
     }
 
     /// Writes `history.csv`, `summary.txt` and `summary.json` (see docs/results.md) into the new
-    /// folder `dir`. What needs a case file is left out: case, manifest, frames, figures, page;
-    /// [`crate::Flight::fly_to`] writes them too.
+    /// folder `dir`. [`crate::Flight::fly_to`] writes case, manifest, frames, figures and page, too.
     ///
     /// ```
     /// use wingbeat::{Flight, results::History};

@@ -9,7 +9,7 @@ use wingbeat::results::file::NewFile;
 use crate::failure::Failure;
 use crate::terminal::say;
 
-/// What `wingbeat new` is told.
+/// Arguments of `wingbeat new`.
 #[derive(Args)]
 pub(crate) struct NewArgs {
     /// Name of the preset.

@@ -72,13 +72,13 @@ pub(crate) fn choose<T: Copy>(name: &str, known: &[(&'static str, T)]) -> Result
 }
 
 /// Threads at most.
-const MOST_THREADS: usize = 1024;
+const MAX_THREADS: usize = 1024;
 
 /// How a flight is computed and shown.
 #[derive(Args)]
-pub(crate) struct Manner {
+pub(crate) struct RunOptions {
     /// Threads to use; default all. Results do not depend on it.
-    #[arg(long, value_name = "N", value_parser = count::<1, MOST_THREADS>)]
+    #[arg(long, value_name = "N", value_parser = count::<1, MAX_THREADS>)]
     pub(crate) threads: Option<usize>,
     /// No progress and no summary on the terminal.
     #[arg(long)]
@@ -88,7 +88,7 @@ pub(crate) struct Manner {
     pub(crate) json: bool,
 }
 
-impl Manner {
+impl RunOptions {
     /// Whether nothing is said in words.
     pub(crate) fn silent(&self) -> bool {
         self.quiet || self.json

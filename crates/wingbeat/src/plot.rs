@@ -10,7 +10,7 @@ use crate::failure::Failure;
 use crate::options::{self, choose};
 use crate::terminal::say;
 
-/// What `wingbeat plot` is told.
+/// Arguments of `wingbeat plot`.
 #[derive(Args)]
 pub(crate) struct PlotArgs {
     /// Result directory of the run.

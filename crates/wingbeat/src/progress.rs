@@ -9,7 +9,7 @@ use wingbeat::case::OutputSettings;
 use wingbeat::flight::{FlightSetup, Record, Simulation};
 use wingbeat::results::fixed::signed;
 
-use crate::options::Manner;
+use crate::options::RunOptions;
 use crate::pace::Pace;
 use crate::terminal::say;
 
@@ -34,8 +34,8 @@ pub(crate) struct Progress {
 impl Progress {
     /// For a flight that goes on from step `from`; the bar is hidden when told so or not on a
     /// terminal.
-    pub(crate) fn new(setup: &FlightSetup, manner: &Manner, from: usize) -> Self {
-        let target = match manner.silent() {
+    pub(crate) fn new(setup: &FlightSetup, options: &RunOptions, from: usize) -> Self {
+        let target = match options.silent() {
             true => ProgressDrawTarget::hidden(),
             false => ProgressDrawTarget::stderr(),
         };
@@ -43,7 +43,7 @@ impl Progress {
         bar.set_position(from as u64);
         Self {
             bar,
-            json: manner.json,
+            json: options.json,
             began: Instant::now(),
             from,
             said: None,

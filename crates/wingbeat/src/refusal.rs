@@ -31,12 +31,4 @@ pub enum Error {
         /// What the air is called.
         air: &'static str,
     },
-    /// A whole result directory was asked for, but no case file gives this flight.
-    #[error(
-        "`{name}` was built or changed in Rust, so there is no case file that reproduces it, and no whole result directory: change a preset or case by its keys (`Flight::preset_with`), or write history and summary with `Run::write`"
-    )]
-    NoCase {
-        /// Name of the flight.
-        name: String,
-    },
 }

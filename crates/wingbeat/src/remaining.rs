@@ -118,7 +118,7 @@ impl CostModel {
 /// Which of the three are free, in bits, fewer first.
 const CHOICES: [usize; 7] = [0b001, 0b010, 0b100, 0b011, 0b101, 0b110, 0b111];
 /// Scatter of steps that follow a law exactly, relative: rounding.
-const LEAST_SCATTER: f64 = 1e-7;
+const MIN_SCATTER: f64 = 1e-7;
 
 /// The terms of the law and their factors: of all choices which of the three are zero and whose others
 /// come out positive, the one with the least Bayesian information criterion (Schwarz 1978),
@@ -137,7 +137,7 @@ fn terms(matrix: &[[f64; 3]; 3], right: &[f64; 3], square: f64, steps: f64) -> [
         }
     }
     let least = fits.iter().map(|f| f.0).fold(f64::INFINITY, f64::min);
-    let scatter = (least / steps).max(LEAST_SCATTER * LEAST_SCATTER * square / steps);
+    let scatter = (least / steps).max(MIN_SCATTER * MIN_SCATTER * square / steps);
     let criterion = |(sum, terms, _): &(f64, f64, _)| sum / scatter + terms * steps.ln();
     let best = fits
         .iter()

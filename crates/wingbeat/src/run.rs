@@ -10,12 +10,12 @@ use wingbeat::flight::{FlightError, Simulation};
 use wingbeat::results::{Outcome, ResultDir, RunWriter, saver};
 
 use crate::failure::{FAILED, Failure, INTERRUPTED};
-use crate::options::Manner;
+use crate::options::RunOptions;
 use crate::progress::Progress;
 use crate::signals::stop_flag;
 use crate::terminal::{say, tell};
 
-/// What `wingbeat run` is told.
+/// Arguments of `wingbeat run`.
 #[derive(Args)]
 pub(crate) struct RunArgs {
     /// Case file or preset.
@@ -31,16 +31,16 @@ pub(crate) struct RunArgs {
     #[arg(long = "set", value_name = "KEY=VALUE")]
     set: Vec<String>,
     #[command(flatten)]
-    manner: Manner,
+    options: RunOptions,
 }
 
-/// What `wingbeat resume` is told.
+/// Arguments of `wingbeat resume`.
 #[derive(Args)]
 pub(crate) struct ResumeArgs {
     /// Result directory of the run.
     dir: PathBuf,
     #[command(flatten)]
-    manner: Manner,
+    options: RunOptions,
 }
 
 /// A flight and where it is written to; the newest record is written already.
@@ -52,25 +52,25 @@ struct Run {
 
 /// `wingbeat run`.
 pub(crate) fn run(args: &RunArgs) -> Result<(), Failure> {
-    let threads = set_threads(args.manner.threads)?;
-    start(&args.manner, prepare(args, threads)?)
+    let threads = set_threads(args.options.threads)?;
+    start(&args.options, prepare(args, threads)?)
 }
 
 /// `wingbeat resume`.
 pub(crate) fn resume(args: &ResumeArgs) -> Result<(), Failure> {
-    let threads = set_threads(args.manner.threads)?;
+    let threads = set_threads(args.options.threads)?;
     match go_back(&args.dir, threads)? {
-        Some(run) => start(&args.manner, run),
+        Some(run) => start(&args.options, run),
         None => Ok(()),
     }
 }
 
-fn start(manner: &Manner, run: Run) -> Result<(), Failure> {
-    if !manner.silent() {
+fn start(options: &RunOptions, run: Run) -> Result<(), Failure> {
+    if !options.silent() {
         let dir = run.writer.dir().path().display();
         tell!("{}: results go to {dir}", run.case.name);
     }
-    fly(manner, run, &stop_flag())
+    fly(options, run, &stop_flag())
 }
 
 /// The number of threads in use.
@@ -141,7 +141,7 @@ fn go_back(dir: &Path, threads: usize) -> Result<Option<Run>, IoError> {
         if !dir.case()?.output.save.keep {
             saver::forget(dir.path())?; // a kill at the very end may have left it
         }
-        say!("{} is flown to its end already.", dir.path().display());
+        say!("{} has already finished.", dir.path().display());
         return Ok(None);
     }
     let case = dir.case()?;
@@ -167,20 +167,20 @@ fn go_back(dir: &Path, threads: usize) -> Result<Option<Run>, IoError> {
     }))
 }
 
-fn fly(manner: &Manner, mut run: Run, stop: &AtomicBool) -> Result<(), Failure> {
-    let mut progress = Progress::new(&run.case.setup, manner, run.flight.state().step);
+fn fly(options: &RunOptions, mut run: Run, stop: &AtomicBool) -> Result<(), Failure> {
+    let mut progress = Progress::new(&run.case.setup, options, run.flight.state().step);
     // Within the pool: handing it work from outside wakes a thread for every sum.
     let flown = rayon::scope(|_| steps(&mut run, &mut progress, stop));
     progress.clear();
     let outcome = match flown {
         Ok(outcome) => outcome,
-        Err(Trouble::Flight(e)) => Outcome::Failed(e.to_string()),
-        Err(Trouble::Writing(e)) => return Err(unwritten(run.writer, &e)),
+        Err(StepError::Flight(e)) => Outcome::Failed(e.to_string()),
+        Err(StepError::Writing(e)) => return Err(unwritten(run.writer, &e)),
     };
     let path = run.writer.dir().path().to_owned();
     match run.writer.finish(outcome.clone(), draw_run) {
-        Ok(summary) if manner.json => say!("{}", summary.to_json_line(&path)),
-        Ok(summary) if !manner.quiet => {
+        Ok(summary) if options.json => say!("{}", summary.to_json_line(&path)),
+        Ok(summary) if !options.quiet => {
             say!("\n{}\nResults: {}", summary.to_text(), path.display());
         }
         Ok(_) => {}
@@ -223,13 +223,13 @@ fn report(outcome: &Outcome, path: &Path) -> Result<(), Failure> {
     }
 }
 
-enum Trouble {
+enum StepError {
     Flight(FlightError),
     Writing(IoError),
 }
 
 /// The loop of the flight: the newest step is written; save, step, write.
-fn steps(run: &mut Run, progress: &mut Progress, stop: &AtomicBool) -> Result<Outcome, Trouble> {
+fn steps(run: &mut Run, progress: &mut Progress, stop: &AtomicBool) -> Result<Outcome, StepError> {
     let Run {
         case,
         flight,
@@ -242,17 +242,17 @@ fn steps(run: &mut Run, progress: &mut Progress, stop: &AtomicBool) -> Result<Ou
             true => writer.save(flight.state()),
             false => writer.save_if_due(flight.state()),
         };
-        saved.map_err(Trouble::Writing)?;
+        saved.map_err(StepError::Writing)?;
         if flight.finished() {
             return Ok(Outcome::Finished);
         }
         if stopped {
             return Ok(Outcome::Interrupted);
         }
-        flight.step().map_err(Trouble::Flight)?;
+        flight.step().map_err(StepError::Flight)?;
         writer
             .write(flight.record(), || flight.snapshot())
-            .map_err(Trouble::Writing)?;
+            .map_err(StepError::Writing)?;
         progress.show(flight, &history, &case.output);
     }
 }

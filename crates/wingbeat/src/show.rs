@@ -13,7 +13,7 @@ use wingbeat::results::{Manifest, ResultDir, Summary};
 use crate::failure::Failure;
 use crate::terminal::say;
 
-/// What `wingbeat show` is told.
+/// Arguments of `wingbeat show`.
 #[derive(Args)]
 pub(crate) struct ShowArgs {
     /// Result directory of the run.
@@ -23,7 +23,7 @@ pub(crate) struct ShowArgs {
     json: bool,
 }
 
-/// What `wingbeat compare` is told.
+/// Arguments of `wingbeat compare`.
 #[derive(Args)]
 pub(crate) struct CompareArgs {
     /// Result directory of a run.
@@ -48,7 +48,7 @@ fn read(dir: &Path) -> Result<(Summary, Manifest), IoError> {
     Ok((summary, manifest))
 }
 
-/// `wingbeat show`: the summary made anew from the history, whatever state the run is in.
+/// `wingbeat show`: the summary made again from the history, whatever state the run is in.
 pub(crate) fn show(args: &ShowArgs) -> Result<(), Failure> {
     let (summary, manifest) = read(&args.dir)?;
     if args.json {

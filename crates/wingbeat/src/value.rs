@@ -86,6 +86,23 @@ impl Flight {
         Ok(LoadedCase::find(name, &keys)?.into())
     }
 
+    /// A case put together in Rust, key by key.
+    ///
+    /// ```
+    /// use wingbeat::{Flight, case::LoadedCase};
+    /// let mut case = LoadedCase::find("fruit-fly-blade", &[])?.effective();
+    /// case.motion.adjust.stroke_amplitude = 0.05; // 5 % more
+    /// let flight = Flight::of_case(case)?.beats(0.1);
+    /// assert_eq!(flight.fly()?.records.len(), 1 + flight.setup.time.steps);
+    /// # Ok::<(), wingbeat::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// A case that is refused.
+    pub fn of_case(case: wingbeat_case::raw::Case) -> Result<Self, Error> {
+        Ok(LoadedCase::new(case)?.into())
+    }
+
     /// Steps per wingbeat; of a second, for motions without a beat.
     fn steps_per_beat(&self) -> f64 {
         let time = &self.setup.time;
@@ -201,33 +218,31 @@ impl Flight {
     /// # Errors
     /// A setup that is refused; a flight that cannot go on.
     pub fn fly(&self) -> Result<Run, Error> {
-        self.steps(Simulation::new(self.setup.clone())?, |_| Ok(()))
+        let flight = Simulation::new(self.setup.clone())?;
+        steps(&self.setup, flight, |_| Ok(()))
     }
 
     /// Flies it to its end and writes the whole result directory while it does: case, manifest,
-    /// history, frames, summary, and the figures and the page that the case asks for.
+    /// history, frames, summary, and the figures and the page that the case asks for. What flies is the
+    /// case that is written ([`Self::to_case`]), so that `wingbeat run DIR/case.toml` repeats it to the last bit.
     ///
     /// ```
     /// use wingbeat::{Error, Flight};
     /// let dir = std::env::temp_dir().join(format!("wingbeat-fly-to-{}", std::process::id()));
     /// Flight::preset_with("fruit-fly-blade", &["time.beats=0.1"])?.fly_to(&dir)?;
     /// assert!(dir.join("case.toml").is_file() && dir.join("manifest.json").is_file());
-    /// // A change in Rust is in no case file.
-    /// let changed = Flight::preset("fruit-fly-blade")?.beats(0.1);
-    /// assert!(matches!(changed.fly_to("nowhere"), Err(Error::NoCase { .. })));
     /// # std::fs::remove_dir_all(&dir).expect("it was just written");
     /// # Ok::<(), Error>(())
     /// ```
     ///
     /// # Errors
-    /// [`Error::NoCase`] for a flight that was built in Rust or changed since it was loaded;
-    /// otherwise as [`Self::fly`] and [`Run::write`].
+    /// As [`Self::to_case`], [`Self::fly`] and [`Run::write`].
     pub fn fly_to(&self, dir: impl AsRef<Path>) -> Result<Run, Error> {
-        let case = self.unchanged_case()?;
-        let flight = Simulation::new(self.setup.clone())?;
+        let case = self.to_case()?;
+        let flight = Simulation::new(case.setup.clone())?;
         let threads = rayon::current_num_threads();
-        let mut writer = RunWriter::new(new_dir(dir.as_ref())?, case, threads)?;
-        let flown = self.steps(flight, |flight| {
+        let mut writer = RunWriter::new(new_dir(dir.as_ref())?, &case, threads)?;
+        let flown = steps(&case.setup, flight, |flight| {
             writer.write(flight.record(), || flight.snapshot())?;
             writer.save_if_due(flight.state())
         });
@@ -239,32 +254,37 @@ impl Flight {
         flown
     }
 
-    /// The case, if it still gives this flight. Setups hold laws of any kind, so they are compared
-    /// in their written form, which holds every number to the last bit.
-    fn unchanged_case(&self) -> Result<&LoadedCase, Error> {
+    /// The case that gives this flight; for one built or changed in Rust, a case whose setup is this one to
+    /// rounding.
+    ///
+    /// # Errors
+    /// [`IoError::NoKeys`] for what a case cannot say: an air or controller of one's own, joints, loads or
+    /// segments that were made or changed in Rust.
+    pub fn to_case(&self) -> Result<LoadedCase, Error> {
         let case = self.case.as_deref();
+        // Setups hold laws of any kind, so they are compared in the form that holds every number.
         let written = format!("{:?}", self.setup);
-        case.filter(|case| format!("{:?}", case.setup) == written)
-            .ok_or_else(|| Error::NoCase {
-                name: self.setup.name.clone(),
-            })
-    }
-
-    /// From step to step; `each` sees the start and every step.
-    fn steps(
-        &self,
-        mut flight: Simulation,
-        mut each: impl FnMut(&Simulation) -> Result<(), IoError>,
-    ) -> Result<Run, Error> {
-        let mut records = vec![flight.record().clone()];
-        each(&flight)?;
-        while !flight.finished() {
-            records.push(flight.step()?.clone());
-            each(&flight)?;
+        match case.filter(|case| format!("{:?}", case.setup) == written) {
+            Some(case) => Ok(case.clone()),
+            None => Ok(wingbeat_case::case_of(&self.setup, case)?),
         }
-        Ok(Run {
-            setup: self.setup.clone(),
-            records,
-        })
     }
+}
+
+/// From step to step; `each` sees the start and every step.
+fn steps(
+    setup: &FlightSetup,
+    mut flight: Simulation,
+    mut each: impl FnMut(&Simulation) -> Result<(), IoError>,
+) -> Result<Run, Error> {
+    let mut records = vec![flight.record().clone()];
+    each(&flight)?;
+    while !flight.finished() {
+        records.push(flight.step()?.clone());
+        each(&flight)?;
+    }
+    Ok(Run {
+        setup: setup.clone(),
+        records,
+    })
 }

@@ -17,13 +17,13 @@ use crate::report::{Report, ReportArgs, line};
 use crate::terminal::tell;
 
 /// Points at most.
-const MOST_POINTS: usize = 1_000_000;
+const MAX_POINTS: usize = 1_000_000;
 /// Points that are computed at once: a second or so in a long wake.
 const BLOCK: usize = 4096;
 /// Nothing is farther from the origin [m]; squares and cubes of it are still numbers.
 const FARTHEST: f64 = 1e9;
 
-/// What `wingbeat velocity` is told. Places are in inertial axes (n3 down), in metres.
+/// Arguments of `wingbeat velocity`. Places are in inertial axes (n3 down), in metres.
 #[derive(Args)]
 pub(crate) struct VelocityArgs {
     /// Result directory of a run; its checkpoint is taken (a finished run has one with
@@ -34,7 +34,7 @@ pub(crate) struct VelocityArgs {
     point: Vec<DVec3>,
     /// Points on the line from the first to the second `--corner`, this many.
     #[arg(long, value_name = "N", conflicts_with = "plane",
-          value_parser = options::count::<2, MOST_POINTS>)]
+          value_parser = options::count::<2, MAX_POINTS>)]
     line: Option<usize>,
     /// Points on the parallelogram with the first `--corner` between the second and third one,
     /// this many along either side: MxN.
@@ -60,9 +60,9 @@ fn place(text: &str) -> Result<DVec3, String> {
 fn counts(text: &str) -> Result<[usize; 2], String> {
     let numbers: Option<Vec<usize>> = text.split('x').map(|w| w.parse().ok()).collect();
     match numbers.as_deref() {
-        Some(&[m, n]) if m > 1 && n > 1 && m.saturating_mul(n) <= MOST_POINTS => Ok([m, n]),
+        Some(&[m, n]) if m > 1 && n > 1 && m.saturating_mul(n) <= MAX_POINTS => Ok([m, n]),
         _ => Err(format!(
-            "give two whole numbers above 1, at most {MOST_POINTS} points in all, e.g. 40x30"
+            "give two whole numbers above 1, at most {MAX_POINTS} points in all, e.g. 40x30"
         )),
     }
 }

@@ -1,4 +1,4 @@
-//! `wingbeat verify`: run the verification suite and write its dossier.
+//! `wingbeat verify`: run the verification suite and write its report.
 
 use std::path::PathBuf;
 use std::sync::Mutex;
@@ -7,13 +7,13 @@ use std::time::Instant;
 use clap::Args;
 use wingbeat::case::IoError;
 use wingbeat::results::file::NewFile;
-use wingbeat::verify::{Case, Dossier, Entry};
+use wingbeat::verify::{Case, Entry, Report};
 
 use crate::failure::{FAILED, Failure};
 use crate::terminal::{say, tell};
 use crate::watch::Watch;
 
-/// What `wingbeat verify` is told.
+/// Arguments of `wingbeat verify`.
 #[derive(Args)]
 pub(crate) struct VerifyArgs {
     /// Only the short set, some two minutes on two cores.
@@ -26,10 +26,10 @@ pub(crate) struct VerifyArgs {
     #[arg(long, value_name = "DIR", default_value = "verification")]
     out: PathBuf,
     /// Go on where an earlier run into the same folder ended: its cases are taken as they are,
-    /// those named by `--only` run anew.
+    /// those named by `--only` run again.
     #[arg(long, conflicts_with = "overwrite")]
     resume: bool,
-    /// Replace a dossier that is there already.
+    /// Replace a report that is there already.
     #[arg(long)]
     overwrite: bool,
     /// Names and contents of the cases; nothing is run.
@@ -37,7 +37,7 @@ pub(crate) struct VerifyArgs {
     list: bool,
 }
 
-/// The whole command: a failure if a row misses.
+/// The whole command: a failure if a row fails.
 pub(crate) fn run(args: &VerifyArgs) -> Result<(), Failure> {
     let cases = wingbeat::verify::select(args.quick, &args.only);
     if cases.is_empty() {
@@ -62,24 +62,24 @@ pub(crate) fn run(args: &VerifyArgs) -> Result<(), Failure> {
         keep(&so_far, e, args, &files);
     });
     drop(watch);
-    let dossier = Dossier {
+    let report = Report {
         quick: args.quick,
         entries: so_far.into_inner().expect("no case panicked while writing"),
     };
-    write(&dossier, &files)?;
-    let [pass, miss, report] = dossier.counts();
+    write(&report, &files)?;
+    let [pass, fail, unjudged] = report.counts();
     say!(
-        "{pass} rows pass, {miss} miss, {report} are reported; {:.0} s; see {}",
+        "{pass} rows pass, {fail} fail, {unjudged} are reported; {:.0} s; see {}",
         start.elapsed().as_secs_f64(),
         files[0].path().display()
     );
-    match miss {
+    match fail {
         0 => Ok(()),
         _ => Err(Failure::Told(FAILED)),
     }
 }
 
-/// The files of the dossier, page, table and data.
+/// The files of the report, page, table and data.
 fn claim(args: &VerifyArgs) -> Result<[NewFile; 3], IoError> {
     wingbeat::results::file::make_folder(&args.out)?;
     let overwrite = args.overwrite || args.resume;
@@ -104,11 +104,11 @@ fn earlier(args: &VerifyArgs) -> Result<Vec<Entry>, Failure> {
         Err(e) if e.kind() == std::io::ErrorKind::NotFound => return Ok(vec![]),
         text => text.map_err(|e| foreign(&format!("cannot be read: {e}")))?,
     };
-    let dossier = Dossier::from_json(&text).map_err(|_| foreign("is no dossier"))?;
-    if dossier.quick != args.quick {
+    let report = Report::from_json(&text).map_err(|_| foreign("is no verification report"))?;
+    if report.quick != args.quick {
         return Err(foreign("is of the other set (--quick)"));
     }
-    let mut entries = dossier.entries;
+    let mut entries = report.entries;
     entries.retain(|e| e.failure.is_none());
     Ok(entries)
 }
@@ -120,26 +120,26 @@ fn keep(so_far: &Mutex<Vec<Entry>>, entry: &Entry, args: &VerifyArgs, files: &[N
     entries.retain(|e| e.case != entry.case);
     entries.push(entry.clone());
     entries.sort_by_key(|e| all.iter().position(|c| c.name == e.case));
-    let dossier = Dossier {
+    let report = Report {
         quick: args.quick,
         entries: entries.clone(),
     };
-    // The whole dossier is written at the end, and trouble told then.
-    let _ = write(&dossier, files);
+    // The whole report is written at the end, and what goes wrong is reported then.
+    let _ = write(&report, files);
 }
 
 fn note(entry: &Entry, start: Instant) {
-    let [pass, miss, report] = entry.counts();
+    let [pass, fail, unjudged] = entry.counts();
     let seconds = start.elapsed().as_secs_f64();
     tell!(
-        "{seconds:>7.1} s  {:<28} {pass} pass, {miss} miss, {report} reported",
+        "{seconds:>7.1} s  {:<28} {pass} pass, {fail} fail, {unjudged} reported",
         entry.case
     );
 }
 
-fn write(dossier: &Dossier, files: &[NewFile; 3]) -> Result<(), IoError> {
-    let page = dossier.page(env!("CARGO_PKG_VERSION"));
-    let texts = [page, dossier.csv(), dossier.json()];
+fn write(report: &Report, files: &[NewFile; 3]) -> Result<(), IoError> {
+    let page = report.page(env!("CARGO_PKG_VERSION"));
+    let texts = [page, report.csv(), report.json()];
     let mut written = files.iter().zip(&texts);
     written.try_for_each(|(file, text)| file.replace(text.as_bytes()))
 }

@@ -11,7 +11,7 @@ use crate::failure::Failure;
 use crate::options;
 use crate::terminal::say;
 
-/// What `wingbeat view` is told.
+/// Arguments of `wingbeat view`.
 #[derive(Args)]
 pub(crate) struct ViewArgs {
     /// Result directory of the run.

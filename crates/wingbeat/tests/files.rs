@@ -202,15 +202,19 @@ fn behaves_overwriting_a_run_takes_only_what_is_its_own() {
 }
 
 #[test]
-fn behaves_a_dossier_is_replaced_only_when_asked() {
-    let scratch = Scratch::new("dossier");
+fn behaves_a_report_is_replaced_only_when_asked() {
+    let scratch = Scratch::new("report");
     let dir = &scratch.0;
     fs::create_dir(dir.join("v")).unwrap();
     fs::write(dir.join("v/verification.csv"), "mine").unwrap();
     let verify = ["verify", "--only", "benchmark", "--out", "v"];
     refused(dir, &verify, "exists already and is left untouched");
     fs::write(dir.join("v/verification.json"), "{}").unwrap();
-    refused(dir, &[&verify[..], &["--resume"]].concat(), "is no dossier");
+    refused(
+        dir,
+        &[&verify[..], &["--resume"]].concat(),
+        "is no verification report",
+    );
 }
 
 /// Runs where no file may grow beyond `blocks` of 512 bytes, as on a full disk.

@@ -321,7 +321,7 @@ fn refuses_a_second_writer() {
     let done = wingbeat(&dir, &["resume", ".", "--quiet"]);
     assert!(done.status.success());
     let done = wingbeat(&dir, &["resume", "."]);
-    assert!(String::from_utf8_lossy(&done.stdout).contains("flown to its end already"));
+    assert!(String::from_utf8_lossy(&done.stdout).contains("has already finished"));
 }
 
 /// No file may grow beyond `blocks` of 512 bytes: the system then answers as on a full disk.

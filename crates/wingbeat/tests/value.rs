@@ -31,17 +31,126 @@ fn behaves_written_case_flies_the_same() {
     std::fs::remove_dir_all(&dir).expect("it was just written");
 }
 
+/// What a flight writes is flown by the command line to the last bit.
+fn repeats(name: &str, flight: &Flight) -> Run {
+    let dir = place(name);
+    let run = flight.fly_to(dir.join("rust")).expect("a flight");
+    let out = std::process::Command::new(env!("CARGO_BIN_EXE_wingbeat"))
+        .current_dir(&dir)
+        .args(["run", "rust/case.toml", "--out", "again", "--quiet"])
+        .output()
+        .expect("the program");
+    let said = String::from_utf8_lossy(&out.stderr);
+    assert!(out.status.success(), "{name}: {said}");
+    let history = |of: &str| std::fs::read(dir.join(of).join("history.csv")).expect("a history");
+    assert!(history("rust") == history("again"), "{name}: same bytes");
+    std::fs::remove_dir_all(&dir).expect("it was just written");
+    run
+}
+
+/// The flight as it was set up and as its case has it: the same path and the same loads to round-off.
+fn agrees_with_itself(name: &str, flight: &Flight) {
+    let [set_up, written] = [flight.fly().expect("a flight"), repeats(name, flight)];
+    let weight = set_up.setup.animal.mass() * 9.81;
+    let both = set_up.records.iter().zip(&written.records);
+    let mut apart = [0.0_f64; 2];
+    for (a, b) in both {
+        let fall = 9.81 * a.time.max(1e-4).powi(2);
+        apart[0] = apart[0].max((a.mass_centre - b.mass_centre).length() / fall);
+        let loads = a.air.iter().zip(&b.air);
+        let largest = loads.map(|(a, b)| (a.force - b.force).length());
+        apart[1] = largest.fold(apart[1], |m, gap| m.max(gap / weight));
+    }
+    println!("{name}: {apart:?}");
+    let close = apart[0] < PATH && apart[1] < LOADS;
+    assert!(close, "{name}: {apart:?}");
+}
+
+/// Rounding of positions over a fall of some micrometres: 2e-12 of it for a bird.
+const PATH: f64 = 1e-11;
+/// Rounding of angles and inertias, 1e-16 of each.
+const LOADS: f64 = 1e-15;
+
 #[test]
-fn refuses_whole_results_of_what_no_case_gives() {
-    let dir = place("changed");
+fn agrees_case_of_changed_presets() {
     let mut lighter = short();
     lighter.setup.gravity.z *= 0.5;
-    let mut own = short();
-    own.setup.animal.wings[0].motion.phase += f64::EPSILON;
-    let built = Flight::from(short().setup);
-    for flight in [lighter, own, built] {
+    agrees_with_itself("lighter", &lighter);
+    let faster = short().frequency_hz(233.0);
+    agrees_with_itself("faster", &faster);
+    let gust = Gust {
+        amplitude: DVec3::new(0.0, 0.3, 0.1),
+        start: 1e-4,
+        slowness: DVec3::new(0.5, 0.0, 0.0),
+        shape: GustShape::Table(vec![(0.0, 0.0), (1e-3, 1.0)]),
+    };
+    let gusty = short().gust(gust).expect("air with wind");
+    agrees_with_itself("gusty", &gusty);
+    let keys = [
+        "time.beats=0.1",
+        "output.figures=false",
+        "output.page=false",
+    ];
+    for (preset, factor) in [("bird-cruise", 0.9), ("fruit-fly-tethered", 1.0)] {
+        let mut flight = Flight::preset_with(preset, &keys).expect("a preset");
+        for wing in &mut flight.setup.animal.wings {
+            wing.mass = wing.mass.scaled(factor);
+            wing.motion.phase += 0.01;
+        }
+        agrees_with_itself(preset, &flight);
+    }
+}
+
+#[test]
+fn agrees_case_of_flights_built_in_rust() {
+    use wingbeat::model::species::{FlyOptions, drosophila_melanogaster};
+    let options = FlyOptions {
+        scale: 1.5,
+        frequency: 150.0,
+        wing_rows: 2,
+        wing_cols: 4,
+        ..FlyOptions::default()
+    };
+    let insect = drosophila_melanogaster(&options).expect("an insect");
+    let start = StartState {
+        angles: DVec3::new(0.8, 0.1, -0.2),
+        velocity: DVec3::new(0.1, 0.0, 0.0),
+        angular_velocity: DVec3::new(0.0, 3.0, 0.0),
+        ..StartState::default()
+    };
+    let airs = [
+        AirModel::None,
+        AirModel::BladeElement(BladeOptions::insect(1.225)),
+        AirModel::VortexLattice(AirOptions::insect(1.225, 1.5e-5, 1.05e-3)),
+    ];
+    for air in airs {
+        let name = air.name().replace(' ', "-");
+        let flight = Flight::new("insect", insect.clone(), air);
+        agrees_with_itself(&name, &flight.start(start).beats(0.2));
+    }
+}
+
+#[test]
+fn refuses_whole_results_of_what_no_case_says() {
+    let dir = place("refused");
+    let mut swapped = short();
+    swapped.setup.animal.wings.reverse();
+    let mut robot = Flight::preset("robobee").expect("a preset");
+    robot.setup.joints[0].joint.elements.clear();
+    let mut uneven = short();
+    uneven.setup.animal.wings[0].motion.frequency *= 1.1;
+    let refused = [
+        (swapped, "order of the wings"),
+        (robot, "joints"),
+        (uneven, "motion of the wings"),
+    ];
+    for (flight, part) in refused {
         let refused = flight.fly_to(&dir).expect_err("no case gives it");
-        assert!(matches!(refused, Error::NoCase { .. }), "{refused}");
+        let said = refused.to_string();
+        assert!(
+            said.contains(&format!("no keys for its {part}: ")),
+            "{said}"
+        );
         assert!(!dir.exists(), "nothing is written");
     }
 }

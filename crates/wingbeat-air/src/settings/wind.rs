@@ -1,7 +1,7 @@
 //! The undisturbed air: uniform stream, steady shear, gusts.
 
 use crate::error::{AirError, require};
-use wingbeat_math::{DMat3, DVec3};
+use wingbeat_math::{DMat3, DVec3, interpolate};
 
 /// How a gust rises and falls with its own time tau [s]: the share of its amplitude.
 #[derive(Clone, Debug, PartialEq)]
@@ -49,11 +49,9 @@ impl GustShape {
 }
 
 fn table(rows: &[(f64, f64)], tau: f64) -> f64 {
-    let next = rows.partition_point(|r| r.0 <= tau);
-    match (next.checked_sub(1).map(|k| rows[k]), rows.get(next)) {
-        (Some((t0, y0)), Some((t1, y1))) => y0 + (y1 - y0) * (tau - t0) / (t1 - t0),
-        (Some((_, y)), None) => y,
-        (None, _) => 0.0,
+    match rows.first() {
+        Some(first) if tau >= first.0 => interpolate(rows.len(), |k| rows[k], tau),
+        _ => 0.0,
     }
 }
 

@@ -5,7 +5,7 @@ use wingbeat_model::build::{BodyMass, fit_body_length};
 use wingbeat_model::revolution::{Profile, Revolution};
 use wingbeat_model::{Animal, BodyPart, MassInput, QuadMesh};
 
-use super::fault::{Built, blame};
+use super::fault::{Built, fault_at};
 use super::numbers::{given_mass, symmetric, vector};
 use crate::error::Fault;
 use crate::raw::{BodyCase, OriginCase, PartCase, ProfileCase};
@@ -19,7 +19,7 @@ pub(super) fn build(case: &BodyCase) -> Built<Animal> {
         parts.push(build_part(case, name, part, shape)?);
     }
     let mass = mass(case, &parts)?;
-    let body = Animal::new("body", mass, parts, vec![]).map_err(|e| blame("body", case, &e))?;
+    let body = Animal::new("body", mass, parts, vec![]).map_err(|e| fault_at("body", case, &e))?;
     Ok(match case.origin {
         OriginCase::AsGiven => body,
         OriginCase::MassCentre => body.with_origin(body.body.centre()),
@@ -47,7 +47,7 @@ fn shapes(case: &BodyCase) -> Built<Vec<(String, Revolution)>> {
         ));
     }
     let plain: Vec<Revolution> = shapes.iter().map(|(_, s)| s.clone()).collect();
-    let fitted = fit_body_length(&plain, length).map_err(|e| blame("body", case, &e))?;
+    let fitted = fit_body_length(&plain, length).map_err(|e| fault_at("body", case, &e))?;
     Ok(shapes.into_iter().map(|(n, _)| n).zip(fitted).collect())
 }
 
@@ -103,7 +103,7 @@ fn build_part(
         (None, Some(shape)) => BodyPart::revolution(name, shape, &mass),
         (None, None) => unreachable!("every part without nodes has a shape"),
     };
-    found.map_err(|e| blame(&path, part, &e))
+    found.map_err(|e| fault_at(&path, part, &e))
 }
 
 fn given_mesh(path: &str, nodes: &[[f64; 3]], part: &PartCase) -> Built<QuadMesh> {

@@ -93,7 +93,7 @@ fn check(case: &Case) -> Built<()> {
             "air.mirror",
             "a controller commands each side by itself, the mirror holds both alike",
             "false with [control]",
-            "set it to false: both halves are computed",
+            "set it to false: both sides are computed",
         );
     }
     if case.flight.held_beats.fract() != 0.0 {

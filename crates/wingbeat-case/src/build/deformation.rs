@@ -6,9 +6,9 @@ use wingbeat_model::motion::Fourier;
 use wingbeat_model::{Animal, Deformation, ModelError, Wing};
 
 use super::fault::Built;
-use super::sides::twin_name;
 use crate::error::Fault;
 use crate::raw::{Case, CourseCase, DeformationCase};
+use crate::sides::mirror_name;
 
 /// A term as it is written, whatever it deforms.
 struct Written<'a> {
@@ -126,15 +126,15 @@ pub(super) fn joined(case: &Case, animal: &Animal) -> Built<Vec<[usize; 2]>> {
     let mut pairs: Vec<[usize; 2]> = vec![];
     for (name, _) in case.wing.iter().filter(|(_, w)| w.joined == Some(true)) {
         let number = |n: &str| animal.wings.iter().position(|w| w.name == n);
-        let twin = twin_name(name).and_then(|t| number(&t));
+        let counterpart = mirror_name(name).and_then(|t| number(&t));
         let fault = |problem: String, remedy: &str| {
             let allowed = "two wings, left and right, whose roots meet";
             Fault::new(format!("wing.{name}.joined"), problem, allowed, remedy)
         };
-        let (Some(a), Some(b)) = (number(name), twin) else {
+        let (Some(a), Some(b)) = (number(name), counterpart) else {
             let remedy = "call the wing e.g. `right` and let its mirror image come along";
             return Err(fault(
-                "there is no twin on the other side to join with".to_owned(),
+                "there is no mirror image on the other side to join with".to_owned(),
                 remedy,
             ));
         };

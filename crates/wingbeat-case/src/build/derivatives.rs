@@ -15,7 +15,7 @@ use crate::external::ProcessAir;
 use crate::raw::{AirCase, Case, DerivativesCase, DimensionlessCase};
 
 /// Longest wait for an answer [s]: a month or so.
-const MOST_TIMEOUT: f64 = 3e6;
+const MAX_TIMEOUT: f64 = 3e6;
 
 /// The table of the case.
 pub(super) fn table(case: &Case, animal: &Animal) -> Built<DerivativeTable> {
@@ -95,11 +95,11 @@ pub(super) fn external(case: &AirCase) -> Built<Arc<dyn ExternalAir>> {
     };
     let key = "air.external.timeout_s";
     let seconds = external.timeout_s;
-    if seconds > MOST_TIMEOUT {
+    if seconds > MAX_TIMEOUT {
         return Err(Fault::new(
             key,
             "this is longer than any program is waited for",
-            format!("a number > 0, at most {MOST_TIMEOUT:e}"),
+            format!("a number > 0, at most {MAX_TIMEOUT:e}"),
             "600 is the default",
         ));
     }

@@ -4,9 +4,9 @@ use wingbeat_flight::FlightSetup;
 use wingbeat_model::{AngleLaw, Wing};
 
 use super::Built;
-use super::sides::twin_name;
 use crate::error::Fault;
 use crate::raw::{Case, Formulation, JointCase, Mode, WingCase};
+use crate::sides::mirror_name;
 use crate::source::CaseSource;
 
 /// Checks what takes more than one look: `setup` was made of `case`, which was read from `source`.
@@ -62,7 +62,7 @@ fn bodies(case: &Case) -> Built<()> {
         }
     }
     for (name, wing) in &case.wing {
-        if wing.mirror.is_some() && twin_name(name).is_none() {
+        if wing.mirror.is_some() && mirror_name(name).is_none() {
             let why = "for a wing whose name has neither left nor right";
             return Err(idle(format!("wing.{name}.mirror"), why));
         }

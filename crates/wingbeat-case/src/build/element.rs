@@ -1,6 +1,7 @@
 //! `[[joint.NAME.element]]`: springs, dampers, stops, actuators.
 
-use wingbeat_dynamics::{Element, ElementLaw, Fourier};
+use wingbeat_dynamics::{Element, ElementLaw};
+use wingbeat_math::DriftingFourier;
 
 use super::fault::Built;
 use crate::error::Fault;
@@ -137,12 +138,13 @@ fn laws(path: &str, c: &ElementCase, frequency: f64) -> Built<Vec<ElementLaw>> {
     Ok(laws)
 }
 
-fn series(case: &SeriesCase, frequency: f64, unit: f64) -> Fourier {
+fn series(case: &SeriesCase, frequency: f64, unit: f64) -> DriftingFourier {
     let scaled = |list: &[f64]| list.iter().map(|x| x * unit).collect();
-    Fourier {
+    DriftingFourier {
+        constant: case.mean * unit,
+        rate: 0.0,
         frequency: case.frequency_hz.unwrap_or(frequency),
-        mean: case.mean * unit,
-        cos: scaled(&case.cosine),
-        sin: scaled(&case.sine),
+        cosine: scaled(&case.cosine),
+        sine: scaled(&case.sine),
     }
 }

@@ -21,7 +21,7 @@ pub(super) fn at_most(key: &str, value: usize, most: usize, remedy: &str) -> Bui
 }
 
 /// A fault of the model traced to the key of the raw table `raw` at `path` it is about.
-pub(super) fn blame(path: &str, raw: &impl Serialize, error: &ModelError) -> Fault {
+pub(super) fn fault_at(path: &str, raw: &impl Serialize, error: &ModelError) -> Fault {
     let (named, allowed) = match error {
         ModelError::Value { key, allowed, .. } | ModelError::Count { key, allowed, .. } => {
             (key.as_str(), *allowed)

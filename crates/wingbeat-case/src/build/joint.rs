@@ -10,10 +10,10 @@ use wingbeat_model::Animal;
 
 use super::fault::Built;
 use super::numbers::vector;
-use super::sides::twin_name;
 use super::{element, segment};
 use crate::error::Fault;
 use crate::raw::{Case, JointCase, JointKind, TravelCase, TurnCase};
+use crate::sides::mirror_name;
 
 /// Names of all bodies in the order of the system: body, wings, segments.
 pub(super) fn body_names(animal: &Animal) -> Vec<&str> {
@@ -267,8 +267,8 @@ fn mirrored(
     joint: &JointCase,
 ) -> Option<(String, JointCase)> {
     let is_wing = |n: &str| animal.wings.iter().any(|w| w.name == n);
-    let twin = twin_name(&joint.child).filter(|t| is_wing(t) && is_wing(&joint.child))?;
-    let taken = case.joint.values().any(|j| j.child == twin);
+    let counterpart = mirror_name(&joint.child).filter(|t| is_wing(t) && is_wing(&joint.child))?;
+    let taken = case.joint.values().any(|j| j.child == counterpart);
     if taken || joint.kind == JointKind::Spherical {
         return None;
     }
@@ -276,12 +276,12 @@ fn mirrored(
     let turning = |[x, y, z]: [f64; 3]| [-x, y, -z];
     let slides = matches!(joint.kind, JointKind::Prismatic | JointKind::PointOnLine);
     let parent = joint.parent.as_deref().and_then(|p| {
-        let other = twin_name(p).filter(|t| body_names(animal).contains(&t.as_str()));
+        let other = mirror_name(p).filter(|t| body_names(animal).contains(&t.as_str()));
         other.or(Some(p.to_owned()))
     });
     let image = JointCase {
         parent,
-        child: twin.clone(),
+        child: counterpart.clone(),
         at_m: joint.at_m.map(point),
         at_child_m: joint.at_child_m.map(point),
         axis: joint
@@ -290,12 +290,12 @@ fn mirrored(
         axes: joint.axes.map(|axes| axes.map(turning)),
         ..joint.clone()
     };
-    let name = twin_name(name).unwrap_or_else(|| format!("{name}-{twin}"));
+    let name = mirror_name(name).unwrap_or_else(|| format!("{name}-{counterpart}"));
     Some((name, image))
 }
 
 /// The key of what the dynamics finds wrong with the joints.
-pub(super) fn blame(case: &Case, setup: &FlightSetup, error: &DynamicsError) -> Fault {
+pub(super) fn fault_of(case: &Case, setup: &FlightSetup, error: &DynamicsError) -> Fault {
     let of_joint = |name: &str| {
         let known = case.joint.contains_key(name);
         if known {

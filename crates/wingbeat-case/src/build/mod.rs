@@ -21,7 +21,6 @@ mod numbers;
 mod output;
 mod refused;
 mod segment;
-mod sides;
 mod size;
 mod time;
 mod wind;
@@ -65,7 +64,7 @@ pub(crate) fn setup(case: &Case, name: &str) -> Built<FlightSetup> {
     flight::check_attitudes(case, &setup)?;
     if !setup.joints.is_empty() {
         let assembled = wingbeat_flight::check_assembly(&setup);
-        assembled.map_err(|e| joint::blame(case, &setup, &e))?;
+        assembled.map_err(|e| joint::fault_of(case, &setup, &e))?;
     }
     Ok(setup)
 }
@@ -79,7 +78,7 @@ fn animal(case: &Case, name: &str) -> Built<Animal> {
         ..body
     };
     segment::split(case, &mut animal)?;
-    animal.check().map_err(|e| blame_animal(case, e))?;
+    animal.check().map_err(|e| fault_of_animal(case, e))?;
     let scale = case.animal.scale;
     let mut animal = animal
         .scaled(scale)
@@ -93,7 +92,7 @@ fn animal(case: &Case, name: &str) -> Built<Animal> {
 }
 
 /// The key of a fault the finished animal shows.
-fn blame_animal(case: &Case, error: ModelError) -> Fault {
+fn fault_of_animal(case: &Case, error: ModelError) -> Fault {
     match &error {
         ModelError::FarHinge { wing, .. } => Fault::new(
             format!("wing.{}.hinge_m", wing::source_of(case, wing)),

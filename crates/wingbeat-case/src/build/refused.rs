@@ -10,7 +10,7 @@ use crate::raw::Case;
 /// The error of a flight of `setup`, which `case` made, as a fault of the case.
 pub(crate) fn refused(case: &Case, setup: &FlightSetup, error: &FlightError) -> Fault {
     let (key, remedy) = match error {
-        FlightError::Dynamics(e) => return joint::blame(case, setup, e),
+        FlightError::Dynamics(e) => return joint::fault_of(case, setup, e),
         FlightError::Air(e) => of_lattice(e),
         FlightError::Blade(_) => ("air.blade".to_owned(), "change this number"),
         FlightError::External(_) => (
@@ -45,7 +45,7 @@ fn of_lattice(error: &AirError) -> (String, &'static str) {
         ),
         AirError::MirrorPairs { .. } | AirError::Asymmetric { .. } => (
             "air.mirror".to_owned(),
-            "set it to false: both halves are computed",
+            "set it to false: both sides are computed",
         ),
         AirError::Empty => (
             "air.model".to_owned(),

@@ -1,24 +1,27 @@
-//! `[wing.NAME]`: planform, mesh, mass, hinge; twins by mirror symmetry.
+//! `[wing.NAME]`: planform, mesh, mass, hinge; pairs by mirror symmetry.
 
 use wingbeat_math::DVec3;
 use wingbeat_model::planform::{Beta, ChordSize, Planform, WingShape};
-use wingbeat_model::{MassInput, Side, Wing};
+use wingbeat_model::{GridMesh, MassInput, Side, Wing};
 
-use super::fault::{Built, blame};
+use super::fault::{Built, fault_at};
 use super::numbers::{given_mass, symmetric, vector};
-use super::sides::twin_name;
 use super::{deformation, motion};
 use crate::error::Fault;
-use crate::raw::{BetaCase, Case, PlanformCase, WingCase, WingMeshCase};
+use crate::raw::{
+    BetaCase, Case, OutlineCase, PlanformCase, RectangleCase, WingCase, WingMeshCase,
+};
+use crate::sides::mirror_name;
 
-/// All wings in the order of their names, mirrored twins among them.
+/// All wings in the order of their names, mirror images among them.
 pub(super) fn build_all(case: &Case) -> Built<Vec<Wing>> {
     let mut wings = vec![];
     for (name, own) in &case.wing {
         let side = side(name, own)?;
-        let twin = twin_name(name).and_then(|n| case.wing.get_key_value(&n));
-        wings.push(build(case, name, side, own, twin)?);
-        let image = twin_name(name).filter(|_| own.mirror.unwrap_or(true) && twin.is_none());
+        let counterpart = mirror_name(name).and_then(|n| case.wing.get_key_value(&n));
+        wings.push(build(case, name, side, own, counterpart)?);
+        let image =
+            mirror_name(name).filter(|_| own.mirror.unwrap_or(true) && counterpart.is_none());
         if let Some(other) = image {
             wings.push(wings[wings.len() - 1].mirrored(&other));
         }
@@ -29,8 +32,8 @@ pub(super) fn build_all(case: &Case) -> Built<Vec<Wing>> {
 
 /// The wing of the case a wing of the animal was made from.
 pub(super) fn source_of(case: &Case, wing: &str) -> String {
-    match twin_name(wing) {
-        Some(twin) if case.wing.get(wing).is_none_or(|w| w.hinge_m.is_none()) => twin,
+    match mirror_name(wing) {
+        Some(counterpart) if case.wing.get(wing).is_none_or(|w| w.hinge_m.is_none()) => counterpart,
         _ => wing.to_owned(),
     }
 }
@@ -49,18 +52,20 @@ fn side(name: &str, own: &WingCase) -> Built<Side> {
     }
 }
 
-/// A key's value from the wing itself or, mirrored, from its twin.
+/// A key's value from the wing itself or, mirrored, from its counterpart.
 struct Source<'a> {
     name: &'a str,
     own: &'a WingCase,
-    twin: Option<(&'a String, &'a WingCase)>,
+    counterpart: Option<(&'a String, &'a WingCase)>,
 }
 
 impl<'a> Source<'a> {
-    /// The wing that has the key, its name, and whether it is the twin.
+    /// The wing that has the key, its name, and whether it is the counterpart.
     fn of(&self, has: impl Fn(&WingCase) -> bool) -> (&'a str, &'a WingCase, bool) {
-        match self.twin {
-            Some((name, twin)) if !has(self.own) && has(twin) => (name, twin, true),
+        match self.counterpart {
+            Some((name, counterpart)) if !has(self.own) && has(counterpart) => {
+                (name, counterpart, true)
+            }
             _ => (self.name, self.own, false),
         }
     }
@@ -71,18 +76,22 @@ fn build(
     name: &str,
     side: Side,
     own: &WingCase,
-    twin: Option<(&String, &WingCase)>,
+    counterpart: Option<(&String, &WingCase)>,
 ) -> Built<Wing> {
-    let source = Source { name, own, twin };
-    let shape = shape(&source)?;
+    let source = Source {
+        name,
+        own,
+        counterpart,
+    };
+    let mesh = mesh(&source, side)?;
     let mass = mass(&source)?;
     let (motion_name, motion_case, mirrored) = source.of(|w| w.motion.is_some());
     let motion_side = if mirrored { side.other() } else { side };
     let law = motion::law(case, motion_name, motion_case, motion_side)?;
     let law = if mirrored { law.mirrored() } else { law };
     let path = format!("wing.{name}");
-    let wing = Wing::new(name, side, hinge(&source)?, &shape, &mass, law);
-    let wing = wing.map_err(|e| blame_wing(&path, &source, &e))?;
+    let wing = Wing::with_mesh(name, side, hinge(&source)?, mesh, &mass, law);
+    let wing = wing.map_err(|e| fault_of_wing(&path, &source, &e))?;
     let (name, case, _) = source.of(|w| w.deformation.is_some());
     match &case.deformation {
         Some(case) => deformation::deform(wing, &format!("wing.{name}.deformation"), case),
@@ -91,19 +100,20 @@ fn build(
 }
 
 /// Traces a fault of the model into planform, mesh, or the wing.
-fn blame_wing(path: &str, source: &Source<'_>, error: &wingbeat_model::ModelError) -> Fault {
+fn fault_of_wing(path: &str, source: &Source<'_>, error: &wingbeat_model::ModelError) -> Fault {
     let (name, wing, _) = source.of(|w| w.planform.is_some());
     let text = error.to_string();
     match &wing.planform {
         Some(planform) if text.contains("planform") => {
             let path = format!("wing.{name}.planform");
             match planform {
-                PlanformCase::Beta(t) => blame(&format!("{path}.beta"), t, error),
-                PlanformCase::Rectangle(t) => blame(&format!("{path}.rectangle"), t, error),
-                PlanformCase::Outline(t) => blame(&format!("{path}.outline"), t, error),
+                PlanformCase::Beta(t) => fault_at(&format!("{path}.beta"), t, error),
+                PlanformCase::Rectangle(t) => fault_at(&format!("{path}.rectangle"), t, error),
+                PlanformCase::Outline(t) => fault_at(&format!("{path}.outline"), t, error),
+                PlanformCase::NodesM(_) => fault_at(&path, planform, error),
             }
         }
-        _ => blame(path, source.own, error),
+        _ => fault_at(path, source.own, error),
     }
 }
 
@@ -125,51 +135,101 @@ fn hinge(source: &Source<'_>) -> Built<DVec3> {
     })
 }
 
-fn shape(source: &Source<'_>) -> Built<WingShape> {
-    let (name, wing, _) = source.of(|w| w.planform.is_some());
+fn mesh(source: &Source<'_>, side: Side) -> Built<GridMesh> {
+    let (name, wing, mirrored) = source.of(|w| w.planform.is_some());
     let path = format!("wing.{name}.planform");
     let Some(case) = &wing.planform else {
         return Err(Fault::new(
             path,
             "this key is missing",
-            "planform.beta, planform.rectangle or planform.outline",
+            "planform.beta, planform.rectangle, planform.outline or planform.nodes_m",
             format!("add [wing.{name}.planform.beta] with length_m, mean_chord_m and r2_hat"),
         ));
     };
-    let (_, wing, _) = source.of(|w| w.mesh.is_some());
+    let (named, wing, _) = source.of(|w| w.mesh.is_some());
+    let planform = match case {
+        PlanformCase::NodesM(rows) if wing.mesh.is_none() => {
+            let mesh = given_mesh(name, rows)?;
+            return Ok(if mirrored { mesh.mirrored() } else { mesh });
+        }
+        PlanformCase::NodesM(_) => {
+            return Err(Fault::new(
+                format!("wing.{named}.mesh"),
+                format!("this has no effect beside {path}.nodes_m, which is the mesh"),
+                "no such key here",
+                "remove it",
+            ));
+        }
+        PlanformCase::Beta(b) => beta(&format!("{path}.beta"), b)?,
+        PlanformCase::Rectangle(r) => rectangle(r),
+        PlanformCase::Outline(o) => outline(o),
+    };
     let mesh = wing.mesh.clone().unwrap_or_else(WingMeshCase::default);
-    Ok(WingShape {
-        planform: planform(&path, case)?,
+    let shape = WingShape {
+        planform,
         rows: mesh.chordwise,
         cols: mesh.spanwise,
         chordwise: mesh.chordwise_spacing,
         spanwise: mesh.spanwise_spacing,
-    })
+    };
+    let path = format!("wing.{}", source.name);
+    shape
+        .mesh(source.name, side)
+        .map_err(|e| fault_of_wing(&path, source, &e))
 }
 
-fn planform(path: &str, case: &PlanformCase) -> Built<Planform> {
+/// A mesh by its nodes.
+fn given_mesh(name: &str, rows: &[Vec<[f64; 3]>]) -> Built<GridMesh> {
+    let key = format!("wing.{name}.planform.nodes_m");
+    let in_row = rows.first().map_or(0, Vec::len);
+    let fault = |problem: String| {
+        let allowed = "at least two rows of at least two nodes [x, y, z], all rows alike, no panel without area";
+        let remedy = "from the leading to the trailing edge, each row from the root to the tip";
+        Fault::new(&key, problem, allowed, remedy)
+    };
+    if let Some(row) = rows.iter().position(|row| row.len() != in_row) {
+        let problem = format!(
+            "row {row}, counted from 0, has {} nodes and the first {in_row}",
+            rows[row].len()
+        );
+        return Err(fault(problem));
+    }
+    let mesh = GridMesh {
+        rows: rows.len().saturating_sub(1),
+        cols: in_row.saturating_sub(1),
+        nodes: rows.iter().flatten().map(|&x| vector(x)).collect(),
+    };
+    mesh.check(name).map_err(|e| fault(e.to_string()))?;
+    Ok(mesh)
+}
+
+fn beta(path: &str, b: &BetaCase) -> Built<Planform> {
+    Ok(Planform::Beta(Beta {
+        length: b.length_m,
+        size: chord_size(path, b)?,
+        r2_hat: b.r2_hat,
+        root_offset: b.root_offset_m,
+        axis_fraction: b.axis_fraction,
+        least_chord: b.least_chord,
+    }))
+}
+
+fn rectangle(r: &RectangleCase) -> Planform {
+    Planform::Rectangle {
+        chord: r.chord_m,
+        span: r.span_m,
+        root_offset: r.root_offset_m,
+        axis_fraction: r.axis_fraction,
+    }
+}
+
+fn outline(o: &OutlineCase) -> Planform {
     let points = |list: &[[f64; 2]]| list.iter().map(|&[r, x]| (r, x)).collect();
-    Ok(match case {
-        PlanformCase::Beta(b) => Planform::Beta(Beta {
-            length: b.length_m,
-            size: chord_size(&format!("{path}.beta"), b)?,
-            r2_hat: b.r2_hat,
-            root_offset: b.root_offset_m,
-            axis_fraction: b.axis_fraction,
-            least_chord: b.least_chord,
-        }),
-        PlanformCase::Rectangle(r) => Planform::Rectangle {
-            chord: r.chord_m,
-            span: r.span_m,
-            root_offset: r.root_offset_m,
-            axis_fraction: r.axis_fraction,
-        },
-        PlanformCase::Outline(o) => Planform::Outline {
-            leading: points(&o.leading_m),
-            trailing: points(&o.trailing_m),
-            least_chord: o.least_chord,
-        },
-    })
+    Planform::Outline {
+        leading: points(&o.leading_m),
+        trailing: points(&o.trailing_m),
+        least_chord: o.least_chord,
+    }
 }
 
 fn chord_size(path: &str, b: &BetaCase) -> Built<ChordSize> {

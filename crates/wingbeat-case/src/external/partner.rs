@@ -8,9 +8,9 @@ use std::sync::{Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
 /// Bytes of a line at most; an answer has six numbers.
-const MOST_BYTES: usize = 4096;
+const MAX_BYTES: usize = 4096;
 /// Lines that wait to be heard at most; a program that says more waits itself.
-const MOST_LINES: usize = 64;
+const MAX_LINES: usize = 64;
 /// Time to end of its own accord.
 const GRACE: Duration = Duration::from_secs(1);
 
@@ -71,7 +71,7 @@ impl Partner {
         let output = child.stdout.take().expect("a piped output");
         let ((words, inbox), (outbox, written)) = (channel(), channel());
         std::thread::spawn(move || write(input, &inbox, &outbox));
-        let (send, lines) = sync_channel(MOST_LINES);
+        let (send, lines) = sync_channel(MAX_LINES);
         std::thread::spawn(move || read(output, &send));
         Ok(Self {
             name,
@@ -202,12 +202,12 @@ fn read(output: ChildStdout, send: &SyncSender<Result<String, String>>) {
     let mut output = BufReader::new(output);
     loop {
         let mut line = vec![];
-        let mut start = output.by_ref().take(MOST_BYTES as u64);
+        let mut start = output.by_ref().take(MAX_BYTES as u64);
         let line = match start.read_until(b'\n', &mut line) {
-            Ok(1..) if line.len() < MOST_BYTES || line.ends_with(b"\n") => {
+            Ok(1..) if line.len() < MAX_BYTES || line.ends_with(b"\n") => {
                 String::from_utf8(line).map_err(|_| "a line is not UTF-8".to_owned())
             }
-            Ok(1..) => Err(format!("a line is longer than {MOST_BYTES} bytes")),
+            Ok(1..) => Err(format!("a line is longer than {MAX_BYTES} bytes")),
             Ok(0) | Err(_) => return,
         };
         let last = line.is_err();

@@ -143,9 +143,9 @@ fn given_once(key: Shape, name: &str, path: &str, given: &Table) -> Checked {
     }
 }
 
-/// The keys of a case that have an effect; `whole` has all defaults.
-pub(crate) fn effective(whole: &Table) -> Table {
-    kept(Shape::case(), whole, whole)
+/// The keys of `given` that have an effect; `whole` is the same case with all defaults.
+pub(crate) fn effective(whole: &Table, given: &Table) -> Table {
+    kept(Shape::case(), whole, given)
 }
 
 fn kept(shape: Shape, root: &Table, table: &Table) -> Table {

@@ -174,7 +174,7 @@ pub struct StiffnessCase {
     pub damping: f64,
 }
 
-/// Noise (standard deviation of every component, anew at each look) and bias of what is sensed. The
+/// Noise (standard deviation of every component, drawn again at each look) and bias of what is sensed. The
 /// same seed gives the same noise, to the bit.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]

@@ -49,7 +49,8 @@ pub use joint::{
 };
 pub use load::{LoadCase, SpringCase};
 pub use motion::{
-    AngleCase, FourierCase, MotionCase, OvalCase, ShapedCase, StartCase, TableCase, WingMotionCase,
+    AdjustCase, AngleCase, FourierCase, MotionCase, OvalCase, ShapedCase, StartCase, TableCase,
+    WingMotionCase,
 };
 pub use open::Open;
 pub use wake::{FrictionCase, ParticlesCase, SectionDragCase};
@@ -68,12 +69,13 @@ use wingbeat_flight::CorrectorSettings;
 /// Units are part of the key (`_m`, `_kg`, `_s`, `_deg`, `_hz`, ...). Axes: inertial n3 down;
 /// body b1 forward, b2 right, b3 down; wing axis 1 towards the leading edge, axis 2 to the right
 /// (span of a right wing), axis 3 the normal.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, SmartDefault, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Case {
     /// Version of the case language.
     ///
     /// Change it never: this version of wingbeat reads 1.
+    #[default = 1]
     #[schemars(range(min = 1, max = 1))]
     pub format: u32,
     /// Name of the case, used for the result directory. Default: name of the file.
@@ -89,6 +91,7 @@ pub struct Case {
     /// Acceleration of gravity, inertial axes (n3 down).
     ///
     /// Change it to zeros to see the forces of the air alone.
+    #[default(gravity())]
     #[serde(default = "gravity")]
     pub gravity_m_s2: [f64; 3],
     /// Size of the whole animal.

@@ -6,7 +6,7 @@ use wingbeat_air::Stretching;
 
 /// Vortex particles made of the wakes' rings. A strength may change by half in a step and grow to
 /// twice its first size; what would change more is held there, counted and reported.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ParticlesCase {
     /// Newest rows of every sheet that stay rings; left out: all.

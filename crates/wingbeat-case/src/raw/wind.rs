@@ -13,7 +13,7 @@ pub struct GustCase {
     pub amplitude_m_s: [f64; 3],
     /// Time at which it begins at the origin.
     ///
-    /// Change it to let the flight settle before the gust comes.
+    /// Change it to let the flight become periodic before the gust comes.
     #[serde(default)]
     pub start_s: f64,
     /// Velocity with which its front travels; left out: it is everywhere at once.

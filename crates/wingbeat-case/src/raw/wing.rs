@@ -8,8 +8,8 @@ use wingbeat_model::planform::Spacing;
 
 use super::{DeformationCase, WingMotionCase};
 
-/// One wing. What a left wing leaves out it takes from the mirror image of its right twin, and
-/// the other way round (`left` and `right` in the names make twins).
+/// One wing. What a left wing leaves out it takes from the mirror image of its right counterpart, and
+/// the other way round (`left` and `right` in the names make pairs).
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct WingCase {
@@ -77,7 +77,7 @@ pub struct WingCase {
     #[schemars(extend("with" = "air.model = vortex_lattice | blade_element"))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub deformation: Option<DeformationCase>,
-    /// Whether the wing shares the edge at its root with its twin on the other side: one lifting
+    /// Whether the wing shares the edge at its root with its counterpart on the other side: one lifting
     /// surface without a vortex in the middle. The roots must meet. Left out: false.
     ///
     /// Change it to true for wings without a body between them.
@@ -124,10 +124,13 @@ pub enum PlanformCase {
     Rectangle(RectangleCase),
     /// Measured edges.
     Outline(OutlineCase),
+    /// The mesh itself, flat or not, in wing axes from the hinge: rows of nodes from the leading edge to the
+    /// trailing edge, each from the root to the tip; without `mesh`.
+    NodesM(Vec<Vec<[f64; 3]>>),
 }
 
 /// Ellington's beta distribution of the chord. One of `mean_chord_m`, `area_m2`, `max_chord_m`.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, SmartDefault, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct BetaCase {
     /// Wing length R, hinge to tip.
@@ -168,12 +171,14 @@ pub struct BetaCase {
     ///
     /// Change it to what was measured.
     #[schemars(range(min = 0, max = 1))]
+    #[default(quarter())]
     #[serde(default = "quarter")]
     pub axis_fraction: f64,
     /// Least chord at root and tip relative to the largest: no panel degenerates.
     ///
     /// Change it to less for pointed wings of many panels.
     #[schemars(extend("exclusiveMinimum" = 0, "exclusiveMaximum" = 0.9))]
+    #[default(least_chord())]
     #[serde(default = "least_chord")]
     pub least_chord: f64,
 }

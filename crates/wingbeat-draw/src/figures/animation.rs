@@ -16,12 +16,12 @@ use wingbeat_results::frames::{self, Frame};
 use wingbeat_results::poses::{Poses, picture};
 use wingbeat_results::rows::Rows;
 /// More pictures than this are thinned.
-const MOST_PICTURES: usize = 150;
+const MAX_PICTURES: usize = 150;
 /// The same for a film.
-const MOST_FILMED: usize = 900;
+const MAX_FILMED: usize = 900;
 /// More rings than this are not drawn: the newest of every sheet are; nor more particles: the
 /// strongest are.
-const MOST_RINGS: usize = 1500;
+const MAX_RINGS: usize = 1500;
 /// Width of the picture in wing lengths.
 const WING_LENGTHS: f64 = 4.8;
 
@@ -46,7 +46,7 @@ pub(super) fn write(source: &Source<'_>, path: &Path, film: bool) -> Result<usiz
         .into_iter()
         .filter(|k| source.rows.contains(k))
         .collect();
-    let most = if film { MOST_FILMED } else { MOST_PICTURES };
+    let most = if film { MAX_FILMED } else { MAX_PICTURES };
     let stride = steps.len().div_ceil(most).max(1);
     let mut wanted = steps.into_iter().step_by(stride).peekable();
     if wanted.peek().is_none() {
@@ -122,10 +122,10 @@ impl View {
             all.sum::<f64>()
         };
         if let Some(frame) = frame {
-            for (ends, strength) in &Filaments::newest(&frame.wakes, MOST_RINGS).list {
+            for (ends, strength) in &Filaments::newest(&frame.wakes, MAX_RINGS).list {
                 to.line(ends.map(flat).to_vec(), pen(*strength, 0.8));
             }
-            Dots::strongest(&frame.particles, MOST_RINGS).draw(&mut to, flat, 1.6);
+            Dots::strongest(&frame.particles, MAX_RINGS).draw(&mut to, flat, 1.6);
         }
         let mut quads = animal(poses, row);
         quads.sort_by(|a, b| near(&a.0).total_cmp(&near(&b.0)));

@@ -76,11 +76,11 @@ fn over_phase(
         .filter(|b| b.1.len() > 2)
         .collect();
     // The first wingbeat of a flight starts from rest.
-    let settled: Vec<&(f64, Vec<[f64; 2]>)> = beats.iter().filter(|b| b.0 > 1.0).collect();
+    let later: Vec<&(f64, Vec<[f64; 2]>)> = beats.iter().filter(|b| b.0 > 1.0).collect();
     let (mut curves, mut bands) = (vec![], vec![]);
-    if settled.len() > 2 {
-        let spread = spread(&settled);
-        let ends = [settled[0].0, settled[settled.len() - 1].0];
+    if later.len() > 2 {
+        let spread = spread(&later);
+        let ends = [later[0].0, later[later.len() - 1].0];
         let name = format!("mean of {} to {}, ± spread", ends[0], ends[1]);
         let mean = spread.iter().map(|[x, m, _]| [*x, *m]).collect();
         curves.push(plot::curve(&name, mean, COLOURS[0], 0, look));
@@ -89,7 +89,7 @@ fn over_phase(
             colour: COLOURS[4],
         });
     }
-    curves.extend(last_beats(&beats, settled.len() > 2, look));
+    curves.extend(last_beats(&beats, later.len() > 2, look));
     let [number, last] = means[means.len() - 1];
     let ends = vec![[0.0, last], [1.0, last]];
     let mut mean = plot::curve("its mean", ends, COLOURS[1], 1, look);
@@ -152,11 +152,7 @@ fn spread(beats: &[&(f64, Vec<[f64; 2]>)]) -> Vec<[f64; 3]> {
 
 /// Value at a phase, straight between the points.
 fn at_phase(points: &[[f64; 2]], x: f64) -> f64 {
-    let k = points
-        .partition_point(|p| p[0] < x)
-        .clamp(1, points.len() - 1);
-    let [[x0, y0], [x1, y1]] = [points[k - 1], points[k]];
-    y0 + (y1 - y0) * ((x - x0) / (x1 - x0)).clamp(0.0, 1.0)
+    wingbeat_math::interpolate(points.len(), |k| points[k].into(), x)
 }
 
 /// Downstroke intervals of the beat that begins at `from`.

@@ -33,7 +33,7 @@ struct Chord {
 /// The figure of the last whole beat; none for wings that do not flap.
 pub(super) fn lollipop(setup: &FlightSetup, history: &History, look: &Look) -> Option<Drawing> {
     let poses = Poses::new(&setup.animal, history.names())?;
-    let [down, up] = halves(setup, history)?;
+    let [down, up] = half_strokes(setup, history)?;
     let chords = [down, up].map(|rows| {
         let chord = |k: &usize| chord(setup, history, &poses, *k);
         rows.iter().map(chord).collect::<Vec<Chord>>()
@@ -42,7 +42,7 @@ pub(super) fn lollipop(setup: &FlightSetup, history: &History, look: &Look) -> O
 }
 
 /// Rows of downstroke and upstroke in the last whole beat, thinned.
-fn halves(setup: &FlightSetup, history: &History) -> Option<[Vec<usize>; 2]> {
+fn half_strokes(setup: &FlightSetup, history: &History) -> Option<[Vec<usize>; 2]> {
     let period = setup.time.period?;
     let time = history.column("time_s");
     let end = (time.last()? / period + 1e-6).floor();
@@ -57,8 +57,11 @@ fn halves(setup: &FlightSetup, history: &History) -> Option<[Vec<usize>; 2]> {
         let stride = all.len().div_ceil(CHORDS).max(1);
         all.into_iter().step_by(stride).collect::<Vec<usize>>()
     };
-    let halves = [rows(true), rows(false)];
-    halves.iter().any(|h| h.len() > 1).then_some(halves)
+    let half_strokes = [rows(true), rows(false)];
+    half_strokes
+        .iter()
+        .any(|h| h.len() > 1)
+        .then_some(half_strokes)
 }
 
 /// The chord of the last wing in a row.

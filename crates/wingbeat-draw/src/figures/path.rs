@@ -53,7 +53,7 @@ const VIEWS: [(&str, [usize; 2], [&str; 2]); 3] = [
     ("from behind", [1, 2], ["left", "up"]),
 ];
 /// More starts of wingbeats than this are not marked.
-const MOST_DOTS: usize = 60;
+const MAX_DOTS: usize = 60;
 
 /// The figure; none where the body stays.
 pub(super) fn path(setup: &FlightSetup, path: &Path, look: &Look) -> Option<Drawing> {
@@ -107,7 +107,7 @@ pub(super) fn path(setup: &FlightSetup, path: &Path, look: &Look) -> Option<Draw
             height,
         };
         let placed = plot.draw(&mut drawing, area, look);
-        if dots.len() <= MOST_DOTS {
+        if dots.len() <= MAX_DOTS {
             dots.iter()
                 .for_each(|p| drawing.dot(placed.at(flat(p)), 1.3 * look.line, COLOURS[1]));
         }

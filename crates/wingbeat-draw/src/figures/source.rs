@@ -15,10 +15,10 @@ use wingbeat_results::summary::BeatMeans;
 use wingbeat_results::{History, Summary};
 
 /// More abscissas than this do not make a figure better: of longer flights, extremes are drawn.
-const MOST_POINTS: usize = 4000;
+const MAX_POINTS: usize = 4000;
 
 /// Rows, the last ones, from which phase planes and single wingbeats are drawn.
-const MOST_ROWS: usize = 8000;
+const MAX_ROWS: usize = 8000;
 
 /// What figures are drawn from.
 pub(super) struct Source<'a> {
@@ -26,7 +26,7 @@ pub(super) struct Source<'a> {
     pub case: &'a LoadedCase,
     /// Rows of the history that are drawn.
     pub rows: Range<usize>,
-    /// The last of these rows, at most [`MOST_ROWS`].
+    /// The last of these rows, at most [`MAX_ROWS`].
     history: History,
     charts: Vec<(&'static str, Chart)>,
     /// Whole wingbeats in these rows.
@@ -44,9 +44,9 @@ impl<'a> Source<'a> {
     ) -> Result<Self, IoError> {
         let path = dir.join("history.csv");
         let rows = window.rows(&case.setup, &path)?;
-        let last = rows.end.saturating_sub(MOST_ROWS).max(rows.start)..rows.end;
+        let last = rows.end.saturating_sub(MAX_ROWS).max(rows.start)..rows.end;
         let history = History::of_rows(&path, last)?;
-        let (charts, _) = charts(&case.setup, &path, rows.clone(), MOST_POINTS)?;
+        let (charts, _) = charts(&case.setup, &path, rows.clone(), MAX_POINTS)?;
         let whole = Window::beats(&case.setup, &path, &rows)?;
         let inside = |b: &&BeatMeans| whole.contains(&b.beat);
         Ok(Self {
@@ -60,7 +60,7 @@ impl<'a> Source<'a> {
         })
     }
 
-    /// Places of the body in all rows, at most [`MOST_POINTS`] of them \[m, N\].
+    /// Places of the body in all rows, at most [`MAX_POINTS`] of them \[m, N\].
     fn path(&self) -> Result<path::Path, IoError> {
         let mut rows = Rows::open(&self.dir.join("history.csv"))?;
         let names = ["body_x_m", "body_y_m", "body_z_m"];
@@ -73,7 +73,7 @@ impl<'a> Source<'a> {
             return Ok(path::Path::default());
         };
         rows.skip(self.rows.start)?;
-        let mut path = path::Path::new(self.rows.len().div_ceil(MOST_POINTS));
+        let mut path = path::Path::new(self.rows.len().div_ceil(MAX_POINTS));
         for k in 0..self.rows.len() {
             let Some(row) = rows.next_row()? else { break };
             path.add(k, row[1], [0, 1, 2].map(|c| row[columns[c]]));

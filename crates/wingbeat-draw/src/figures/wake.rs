@@ -14,9 +14,9 @@ use wingbeat_case::LoadedCase;
 use wingbeat_results::frames::{self, Frame, Mesh, Sheet};
 
 /// More rings than this are not drawn: the newest of every sheet are.
-pub(super) const MOST_RINGS: usize = 2500;
+pub(super) const MAX_RINGS: usize = 2500;
 /// More particles than this are not drawn: the strongest are.
-const MOST_DOTS: usize = 2500;
+const MAX_DOTS: usize = 2500;
 /// Body and wings.
 pub(super) const SKIN: Colour = Colour(222, 217, 203);
 
@@ -42,8 +42,8 @@ pub(super) fn wake(
         Some(period) => format!("after {:.2} wingbeats", time / period),
         None => format!("after {:.4} s", time),
     };
-    let filaments = Filaments::newest(&frame.wakes, MOST_RINGS);
-    let dots = Dots::strongest(&frame.particles, MOST_DOTS);
+    let filaments = Filaments::newest(&frame.wakes, MAX_RINGS);
+    let dots = Dots::strongest(&frame.particles, MAX_DOTS);
     let note = match filaments.left_out {
         0 => String::new(),
         n => format!(", oldest {n} rings left out"),

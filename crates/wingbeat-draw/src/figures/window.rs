@@ -14,7 +14,7 @@ use wingbeat_results::History;
 use wingbeat_results::rows::Rows;
 
 /// More downstrokes than this are not shaded: they could not be told apart.
-const MOST_SHADED: usize = 80;
+const MAX_SHADED: usize = 80;
 
 /// A part of a flight, on its time axis: wingbeats where there are any, else seconds.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -179,7 +179,7 @@ impl Drawn {
 
     fn charts(&self, setup: &FlightSetup, group: usize) -> Vec<(&'static str, Chart)> {
         let mut shaded = downstrokes(&self.stroke, &self.times);
-        if shaded.len() > MOST_SHADED {
+        if shaded.len() > MAX_SHADED {
             shaded.clear();
         }
         let note = match group {

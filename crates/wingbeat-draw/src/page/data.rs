@@ -9,7 +9,7 @@ use wingbeat_results::rows::Rows;
 use wingbeat_results::{Outcome, ResultDir, Summary};
 
 /// More points than this do not make a plot on a page better: of longer flights, extremes are shown.
-const MOST_POINTS: usize = 3000;
+const MAX_POINTS: usize = 3000;
 
 /// Room for what describes the scene beside its frames \[bytes\].
 const DESCRIPTION: usize = 5000;
@@ -23,7 +23,7 @@ pub(super) fn gather(
     let case = dir.case()?;
     let path = dir.join("history.csv");
     let rows = 0..Rows::count(&path)?;
-    let (charts, group) = figures::charts(&case.setup, &path, rows, MOST_POINTS)?;
+    let (charts, group) = figures::charts(&case.setup, &path, rows, MAX_POINTS)?;
     let summary = Summary::read(&case, &path, outcome)?;
     let mut head = json!({
         "name": case.name,

@@ -21,7 +21,7 @@ use wingbeat_results::rows::Rows;
 use wingbeat_results::summary::down;
 
 /// Frames drawn from the history where no frames were written.
-const MOST_POSES: usize = 1000;
+const MAX_POSES: usize = 1000;
 /// Room for what JSON says of a frame \[bytes before base64\].
 const ENTRY: usize = 600;
 /// Wake older than this is not shown: it is not resolved \[wingbeats\].
@@ -83,7 +83,7 @@ impl<'a> Scene<'a> {
             Plan::of_directory(dir.path(), &written, (own, blob.most_rows), room)?
         } else {
             let rows = Rows::count(&dir.join("history.csv"))?;
-            let stride = rows.div_ceil(MOST_POSES).max(1);
+            let stride = rows.div_ceil(MAX_POSES).max(1);
             let steps: Vec<usize> = (0..rows).step_by(stride).collect();
             Plan::new(&steps, &vec![own; steps.len()], own, room)
         };

@@ -14,7 +14,7 @@ use wingbeat_model::deformation::Stations;
 use wingbeat_model::{Animal, Wing, WingMotion};
 
 use crate::error::FlightError;
-use crate::seam::{Air, AirScratch, Instant};
+use crate::interface::{Air, AirScratch, Instant};
 use crate::setup::BladeOptions;
 
 /// The blade elements of an animal.

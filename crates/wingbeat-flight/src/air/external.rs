@@ -12,7 +12,7 @@ use wingbeat_air::AirState;
 use wingbeat_dynamics::{System, Wrench};
 
 use crate::error::FlightError;
-use crate::seam::{Air, AirScratch, Announcement, ExternalAir, ExternalSession, Instant};
+use crate::interface::{Air, AirScratch, Announcement, ExternalAir, ExternalSession, Instant};
 use crate::setup::FlightSetup;
 
 /// The session of a flight, shared by its stages, with the step asked for last.

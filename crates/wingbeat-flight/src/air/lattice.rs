@@ -7,8 +7,8 @@ use wingbeat_math::DVec3;
 use super::mirror::mirror_pairs;
 use super::surfaces::SurfaceMap;
 use crate::error::FlightError;
+use crate::interface::{Air, AirScratch, Instant, misfit};
 use crate::record::{ParticleSnapshot, Snapshot, SurfaceSnapshot, WakeSnapshot};
-use crate::seam::{Air, AirScratch, Instant, misfit};
 use crate::setup::{AirOptions, FlightSetup};
 
 /// The lattice and its map to the bodies.
@@ -27,7 +27,7 @@ impl LatticeAir {
     pub fn new(setup: &FlightSetup, options: &AirOptions) -> Result<Self, FlightError> {
         let map = SurfaceMap::new(&setup.animal, options.body_surfaces, &options.joined);
         let (surfaces, settings) = (map.surfaces.clone(), options.lattice.clone());
-        let lattice = Lattice::joined(surfaces, &map.seams(), settings)?;
+        let lattice = Lattice::joined(surfaces, &map.joined_edges(), settings)?;
         if !options.mirror {
             return Ok(Self { lattice, map });
         }
@@ -36,7 +36,7 @@ impl LatticeAir {
             FlightError::Setup {
                 key: "air.mirror",
                 value: "true".into(),
-                problem: "the animal is not its own mirror image; compute both halves (false)"
+                problem: "the animal is not its own mirror image; compute both sides (false)"
                     .into(),
             },
         )?;

@@ -1,4 +1,4 @@
-//! The models of the air behind the seam ([`Air`]).
+//! The models of the air behind the interface ([`Air`]).
 //!
 //! | model | module | memory |
 //! |---|---|---|
@@ -25,7 +25,7 @@ use wingbeat_dynamics::{System, Wrench};
 use crate::error::FlightError;
 use crate::setup::{AirModel, FlightSetup};
 
-pub use crate::seam::{Air, AirScratch, Instant};
+pub use crate::interface::{Air, AirScratch, Instant};
 pub use blade::{BladeAir, strips};
 pub use lattice::LatticeAir;
 pub use surfaces::check_joined;

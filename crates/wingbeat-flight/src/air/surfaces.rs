@@ -102,8 +102,8 @@ impl SurfaceMap {
     }
 
     /// What is joined to what, in the words of the lattice.
-    pub fn seams(&self) -> Vec<JoinedEdge> {
-        let seam = |r: &Roots| {
+    pub fn joined_edges(&self) -> Vec<JoinedEdge> {
+        let edge = |r: &Roots| {
             let first = r.wings.map(|w| self.nodes[w].start);
             let local = |n: &[usize; 2]| [n[0] - first[0], n[1] - first[1]];
             JoinedEdge {
@@ -111,7 +111,7 @@ impl SurfaceMap {
                 nodes: r.nodes.iter().map(local).collect(),
             }
         };
-        self.roots.iter().map(seam).collect()
+        self.roots.iter().map(edge).collect()
     }
 
     /// Positions and velocities of all lattice nodes in N at time `t` [s], from the motions of the

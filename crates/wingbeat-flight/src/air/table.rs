@@ -7,7 +7,7 @@ use wingbeat_model::Animal;
 
 use super::blade::{frame, turned};
 use crate::error::FlightError;
-use crate::seam::{Air, AirScratch, Instant};
+use crate::interface::{Air, AirScratch, Instant};
 
 /// A table of derivatives as the air of the whole animal.
 #[derive(Clone, Copy, Debug)]

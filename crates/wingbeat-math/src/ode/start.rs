@@ -18,7 +18,7 @@ use super::hamming::Multistep;
 
 /// Most sweeps over the three starting steps. Smooth right-hand sides converge in six or so; a
 /// history that reacts to the smallest change (a wake that passes a wing on this or on that side)
-/// may not settle below its own jumps, which the report then shows.
+/// may not fall below its own jumps, which the report then shows.
 const MAX_SWEEPS: usize = 12;
 
 /// A right-hand side that is replayed over the starting steps.
@@ -27,7 +27,7 @@ pub trait Replay {
     type Error;
 
     /// Enters starting step `k` (1 to 3), at the time t0 + k h: moves the history there and
-    /// freezes it. Entering step 1 begins anew from the start.
+    /// freezes it. Entering step 1 begins again from the start.
     ///
     /// # Errors
     /// The history cannot be moved.

@@ -55,6 +55,11 @@ impl PeriodicSpline {
         ]
     }
 
+    /// Samples: phase \[wingbeats\] and angle \[rad\], the last one that of the first a period later.
+    pub fn rows(&self) -> impl Iterator<Item = (f64, f64)> + '_ {
+        self.x.iter().copied().zip(self.q.iter().copied())
+    }
+
     /// Mean over the period, exact for the cubic pieces.
     pub(crate) fn mean(&self) -> f64 {
         let piece = |k: usize| {

@@ -53,8 +53,8 @@ pub struct Summary {
     /// Vortex particles at the end.
     #[serde(default)]
     pub wake_particles: usize,
-    /// Largest uniform leak velocity of closed surfaces \[m/s\].
-    pub leak_velocity_m_s: f64,
+    /// Largest net-flux residual of closed surfaces: a uniform normal velocity \[m/s\].
+    pub net_flux_residual_m_s: f64,
     /// What a reader should know before using the numbers.
     pub warnings: Vec<String>,
 }

@@ -58,7 +58,7 @@ pub(super) struct Statistics {
     pub violation_orientation: Extent,
     pub euler_regularity: Extent,
     pub corrector_passes: Extent,
-    pub leak_velocity: Extent,
+    pub net_flux_residual: Extent,
     /// Sums over all steps.
     pub passes_sum: usize,
     pub regularised: usize,
@@ -106,7 +106,7 @@ impl Statistics {
         self.violation_orientation.take(r.violation_orientation);
         self.euler_regularity.take(r.euler_regularity);
         self.corrector_passes.take(r.corrector_passes as f64);
-        self.leak_velocity.take(r.leak_velocity);
+        self.net_flux_residual.take(r.net_flux_residual);
         self.passes_sum += r.corrector_passes;
         self.regularised += r.regularised;
     }

@@ -89,7 +89,7 @@ fn balance_warnings(setup: &FlightSetup, summary: &Summary, list: &mut Vec<Strin
     for (what, residual, tolerance) in balances.into_iter().take(counted) {
         if residual > tolerance || residual.is_nan() {
             list.insert(0, format!(
-                "The balance of {what} is open by {residual:.1e} (tolerance {tolerance:.0e}): take smaller steps before trusting the motion."
+                "The {what} balance does not close: residual {residual:.1e} (tolerance {tolerance:.0e}); take smaller steps before trusting the motion."
             ));
         }
     }
@@ -146,10 +146,10 @@ fn air_warnings(
             summary.regularised
         ));
     }
-    if summary.leak_velocity_m_s > 0.0 {
+    if summary.net_flux_residual_m_s > 0.0 {
         list.push(format!(
-            "Closed body surfaces leak at most {:.1e} m/s (the price of their one-dimensional null space).",
-            summary.leak_velocity_m_s
+            "Net flux through closed body surfaces: a normal velocity of at most {:.1e} m/s is left (their influence matrix has a null space of one dimension).",
+            summary.net_flux_residual_m_s
         ));
     }
 }

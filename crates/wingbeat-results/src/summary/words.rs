@@ -60,7 +60,7 @@ impl Summary {
         if !no_air {
             let _ = writeln!(
                 out,
-                "At the end the air pushes up with {} and forward with {}.",
+                "At the end lift is {} and thrust {}.",
                 engineering(self.final_lift_newton, "N").trim(),
                 engineering(self.final_thrust_newton, "N").trim()
             );
@@ -122,9 +122,7 @@ impl Summary {
 
 /// Means over many wingbeats, below the table of all.
 fn mean_rows(means: &ManyBeats, out: &mut String) {
-    let rows: [(&str, fn(&Estimate) -> f64); 2] =
-        [(" mean", |e| e.mean), ("   +-", |e| e.standard_error)];
-    for (name, of) in rows {
+    let mut row = |name: &str, of: fn(&Estimate) -> f64| {
         let ratio = means.lift_over_weight;
         let ratio = ratio.map_or("-".to_owned(), |r| fixed(of(&r), 3));
         let _ = writeln!(
@@ -134,7 +132,9 @@ fn mean_rows(means: &ManyBeats, out: &mut String) {
             engineering(of(&means.thrust_newton), "N"),
             engineering(of(&means.power_watt), "W")
         );
-    }
+    };
+    row(" mean", |e| e.mean);
+    row("   +-", |e| e.standard_error);
     let [first, last] = means.beats;
     let change = signed(100.0 * means.change_of_lift, 1);
     let verdict = match means.is_steady {

@@ -155,11 +155,12 @@ pub(super) const WAKE: &[Quantity] = &[
     )
     .fold(Sum),
     scalar(
-        "leak_velocity",
+        "net_flux_residual",
         Unit::MetrePerSecond,
-        "largest uniform leak velocity of closed surfaces",
-        |r, _, _| Real(&mut r.leak_velocity),
+        "largest net-flux residual of closed surfaces, a uniform normal velocity",
+        |r, _, _| Real(&mut r.net_flux_residual),
     )
+    .formerly("leak_velocity", "m_per_s")
     .fold(Largest),
 ];
 

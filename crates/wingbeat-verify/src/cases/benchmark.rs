@@ -2,7 +2,7 @@
 
 use crate::lab::series::Table;
 use crate::lab::{fly, rectangle, total_force};
-use crate::{Case, Part, Row, Trouble};
+use crate::{Case, Part, Row, VerifyError};
 use std::f64::consts::TAU;
 use wingbeat_air::{AirSettings, Lattice, NodeMotion, Surface};
 use wingbeat_math::DVec3;
@@ -69,7 +69,7 @@ fn compare(
     stream: DVec3,
     pitch: impl Fn(f64) -> [f64; 2],
     reference: &Reference,
-) -> Result<Vec<Row>, Trouble> {
+) -> Result<Vec<Row>, VerifyError> {
     let lattice = Lattice::new(
         vec![Surface::grid("wing", 4, 4)],
         AirSettings::benchmark(1.0, stream),
@@ -108,7 +108,7 @@ fn compare(
     Ok(what.into_iter().zip(worst).map(row).collect())
 }
 
-fn run(_quick: bool) -> Result<Vec<Row>, Trouble> {
+fn run(_quick: bool) -> Result<Vec<Row>, VerifyError> {
     let (s, c) = 10_f64.to_radians().sin_cos();
     let one = reference(
         include_str!("../../data/bench1_alpha10_loads.csv"),

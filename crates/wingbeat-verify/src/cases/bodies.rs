@@ -1,7 +1,7 @@
 //! Closed bodies: sphere and ellipsoids in potential flow.
 
 use crate::lab::{extrapolated, fly, order, sphere, total_force, translating};
-use crate::{Case, Part, Row, Trouble};
+use crate::{Case, Part, Row, VerifyError};
 use wingbeat_air::{AirError, AirSettings, Lattice, Surface};
 use wingbeat_math::DVec3;
 
@@ -94,7 +94,7 @@ const THIN: &str =
     "first order of 1/n: the cube's mesh stretched to 3 : 2 : 1 has steep panels at the ends";
 const LAST: &str = "no more than the last refinement, from n to 2 n panels a side, still changes";
 
-fn ball(quick: bool) -> Result<Vec<Row>, Trouble> {
+fn ball(quick: bool) -> Result<Vec<Row>, VerifyError> {
     let n = if quick { [4, 8] } else { [8, 16] };
     let speed = [
         speed_error(n[0], DVec3::ONE, DVec3::X, 0.5)?,
@@ -133,19 +133,23 @@ fn ball(quick: bool) -> Result<Vec<Row>, Trouble> {
     ])
 }
 
-fn ellipsoid(quick: bool) -> Result<Vec<Row>, Trouble> {
+fn ellipsoid(quick: bool) -> Result<Vec<Row>, VerifyError> {
     let n = if quick { [4, 8] } else { [8, 16] };
     let axes = DVec3::new(3.0, 2.0, 1.0);
     let k = factors(axes);
     let mut rows = Vec::new();
     for (i, name) in ["long", "middle", "short"].into_iter().enumerate() {
         let e = DVec3::AXES[i];
-        let ours = [added_mass(n[0], axes, e)?, added_mass(n[1], axes, e)?];
+        let computed = [added_mass(n[0], axes, e)?, added_mass(n[1], axes, e)?];
         rows.push(
-            Row::new(format!("added mass along the {name} axis"), "1", ours[1])
-                .against(k[i], LAMB)
-                .uncertain(ours[1] - ours[0])
-                .within(0.9 / n[1] as f64, THIN),
+            Row::new(
+                format!("added mass along the {name} axis"),
+                "1",
+                computed[1],
+            )
+            .against(k[i], LAMB)
+            .uncertain(computed[1] - computed[0])
+            .within(0.9 / n[1] as f64, THIN),
         );
         let speed = [
             speed_error(n[0], axes, e, k[i])?,
@@ -167,22 +171,22 @@ fn ellipsoid(quick: bool) -> Result<Vec<Row>, Trouble> {
 }
 
 /// Moment on the ellipsoid in a stream at 0.4 rad to its long axis in the plane of long and short.
-fn munk(n: [usize; 2], axes: DVec3, k: [f64; 3]) -> Result<Row, Trouble> {
+fn munk(n: [usize; 2], axes: DVec3, k: [f64; 3]) -> Result<Row, VerifyError> {
     let alpha = 0.4_f64;
     let stream = DVec3::new(alpha.cos(), 0.0, alpha.sin());
-    let mut ours = [0.0; 2];
-    for (n, ours) in n.into_iter().zip(&mut ours) {
+    let mut computed = [0.0; 2];
+    for (n, computed) in n.into_iter().zip(&mut computed) {
         let (lattice, nodes) = body(n, axes, stream)?;
         let motion = |_| translating(nodes.clone(), DVec3::ZERO);
         let run = fly(&lattice, motion, 1.0, 1, |_, _, _, _| {})?;
-        *ours = run.loads.surfaces[0].moment.y / (RHO * volume(axes));
+        *computed = run.loads.surfaces[0].moment.y / (RHO * volume(axes));
     }
     let exact = 0.5 * (k[2] - k[0]) * (2.0 * alpha).sin();
-    let limit = extrapolated(ours[0], ours[1], 1.0);
+    let limit = extrapolated(computed[0], computed[1], 1.0);
     Ok(
         Row::new("Munk's moment over rho U^2 Vol, extrapolated", "1", limit)
             .against(exact, LAMB)
-            .uncertain(limit - ours[1])
+            .uncertain(limit - computed[1])
             .within_part(0.04, "second-order remainder; thin ends"),
     )
 }

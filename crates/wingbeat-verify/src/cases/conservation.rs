@@ -1,7 +1,7 @@
 //! Kelvin's theorem, impulse, three ways to the force.
 
 use crate::lab::{fly, order, rectangle, total_force, translating};
-use crate::{Case, Part, Row, Trouble};
+use crate::{Case, Part, Row, VerifyError};
 use wingbeat_air::{
     AirError, AirSettings, AirState, AirWorkspace, CoreModel, Lattice, LoadMethod, NodeMotion,
     Points, SheddingKinds, Surface,
@@ -67,7 +67,7 @@ fn circulation(
     Ok(sum)
 }
 
-fn kelvin(_quick: bool) -> Result<Vec<Row>, Trouble> {
+fn kelvin(_quick: bool) -> Result<Vec<Row>, VerifyError> {
     let all = SheddingKinds {
         trailing: true,
         tip: true,
@@ -143,7 +143,7 @@ fn heaving(k: usize, loads: LoadMethod) -> Result<[f64; 2], AirError> {
     Ok([total_force(&run.loads).z, -rate.z])
 }
 
-fn impulse(quick: bool) -> Result<Vec<Row>, Trouble> {
+fn impulse(quick: bool) -> Result<Vec<Row>, VerifyError> {
     let k = if quick { [1, 2, 4] } else { [2, 4, 8] };
     let mut rows = Vec::new();
     for (name, method) in [
@@ -232,7 +232,7 @@ fn plunging(k: usize, loads: LoadMethod) -> Result<f64, AirError> {
     Ok(apart(&both_ways(&lattice, motion, dt, 2 * steps)?, steps))
 }
 
-fn impulse_force(quick: bool) -> Result<Vec<Row>, Trouble> {
+fn impulse_force(quick: bool) -> Result<Vec<Row>, VerifyError> {
     let mut rows = vec![plate()?, ball()?];
     let k = if quick { [1, 2] } else { [2, 4] };
     for (name, method) in [
@@ -261,7 +261,7 @@ fn impulse_force(quick: bool) -> Result<Vec<Row>, Trouble> {
 }
 
 /// Without wake and sliding, pressure is rho dGamma/dt alone and the two ways are one sum.
-fn plate() -> Result<Row, Trouble> {
+fn plate() -> Result<Row, VerifyError> {
     let none = SheddingKinds {
         trailing: false,
         ..SheddingKinds::TRAILING
@@ -287,7 +287,7 @@ fn plate() -> Result<Row, Trouble> {
 }
 
 /// A sphere that accelerates: the fictitious fluid inside is taken out of both.
-fn ball() -> Result<Row, Trouble> {
+fn ball() -> Result<Row, VerifyError> {
     let (nodes, quads) = crate::lab::sphere(4);
     let surface = Surface::closed("ball", nodes.len(), quads);
     let settings = AirSettings {

@@ -6,8 +6,11 @@
 
 use crate::lab::insect::{Choice, Fluid, MODELS, forces, middle};
 use crate::lab::series::{Table, correlation, interpolate, mean, rms};
-use crate::{Case, Part, Row, Trouble};
-use std::fmt::Write;
+use crate::{Case, Part, Row, VerifyError};
+use wingbeat_case::raw;
+use wingbeat_case::raw::{
+    AngleCase, BetaCase, FourierCase, PlanformCase, WingCase, WingMotionCase,
+};
 
 pub(super) const CASES: &[Case] = &[
     Case {
@@ -51,26 +54,25 @@ struct Dragonfly {
 }
 
 impl Series {
-    /// As in a case file, `sign` times the series.
-    fn text(&self, key: &str, sign: f64) -> String {
+    /// `sign` times the series as cosines and sines.
+    fn times(&self, sign: f64) -> AngleCase {
         let amplitude = |f: fn(f64) -> f64, s: f64| -> Vec<f64> {
             let of = |h: &[f64; 2]| sign * s * h[0] * f(h[1].to_radians());
             self.1.iter().map(of).collect()
         };
-        format!(
-            "{key}.fourier = {{ mean_deg = {:?}, cosine_deg = {:?}, sine_deg = {:?} }}\n",
-            sign * self.0,
-            amplitude(f64::cos, 1.0),
-            amplitude(f64::sin, -1.0)
-        )
+        AngleCase::Fourier(FourierCase {
+            mean_deg: sign * self.0,
+            cosine_deg: amplitude(f64::cos, 1.0),
+            sine_deg: amplitude(f64::sin, -1.0),
+        })
     }
 }
 
 impl Dragonfly {
-    fn case(&self, with: Choice) -> String {
+    fn case(&self, with: Choice) -> raw::Case {
         let [fore, hind] = &self.pairs;
         let (s, c) = self.flight[1].to_radians().sin_cos();
-        let mut text = with.air(Fluid {
+        let mut case = with.case(Fluid {
             density: 1.225,
             viscosity: 1.5e-5,
             // The air comes against the flight; n3 is down.
@@ -79,41 +81,37 @@ impl Dragonfly {
             length: fore.length,
             frequency: self.frequency,
         });
-        let _ = write!(
-            text,
-            "[output]\nframes_every = 0\nfigures = false\n\
-             [body]\nmass_kg = 1.0\ninertia_about_centre_kg_m2 = [1e-2, 1e-2, 1e-2, 0, 0, 0]\n\
-             [motion]\nfrequency_hz = {:?}\nstart = \"smooth\"\n",
-            self.frequency
-        );
         for pair in [fore, hind] {
-            pair.write(self.body, with.mesh, &mut text);
+            let name = format!("{}-right", pair.name);
+            case.wing.insert(name, pair.right(self.body, with));
         }
-        text
+        case
     }
 }
 
 impl Pair {
-    fn write(&self, body: f64, mesh: [usize; 2], text: &mut String) {
-        let name = self.name;
-        let _ = write!(
-            text,
-            "[wing.{name}-right]\nhinge_m = [{:e}, {:e}, 0]\nmass_kg = 1e-9\n\
-             [wing.{name}-right.planform.beta]\nlength_m = {:e}\nmean_chord_m = {:e}\nr2_hat = 0.55\n\
-             axis_fraction = 0.25\nleast_chord = 0.3\n\
-             [wing.{name}-right.mesh]\nchordwise = {}\nspanwise = {}\n\
-             [wing.{name}-right.motion]\nstroke_plane_pitch_deg = {:?}\n",
-            self.place * body,
-            0.06 * body,
-            self.length,
-            self.area / self.length,
-            mesh[0],
-            mesh[1],
-            90.0 - self.gamma,
-        );
-        text.push_str(&self.phi.text("phi", -1.0));
-        text.push_str(&self.cone.text("theta", -1.0));
-        text.push_str(&self.psi.text("psi", 1.0));
+    fn right(&self, body: f64, with: Choice) -> WingCase {
+        let planform = BetaCase {
+            length_m: self.length,
+            mean_chord_m: Some(self.area / self.length),
+            r2_hat: 0.55,
+            least_chord: 0.3,
+            ..BetaCase::default()
+        };
+        WingCase {
+            hinge_m: Some([self.place * body, 0.06 * body, 0.0]),
+            mass_kg: Some(1e-9),
+            planform: Some(PlanformCase::Beta(planform)),
+            mesh: Some(with.mesh()),
+            motion: Some(WingMotionCase {
+                stroke_plane_pitch_deg: Some(90.0 - self.gamma),
+                phi: Some(self.phi.times(-1.0)),
+                theta: Some(self.cone.times(-1.0)),
+                psi: Some(self.psi.times(1.0)),
+                ..WingMotionCase::default()
+            }),
+            ..WingCase::default()
+        }
     }
 }
 
@@ -124,10 +122,10 @@ fn compare(
     theirs: &[f64],
     [unit, source, note]: [&'static str; 3],
     newton: f64,
-) -> Result<Vec<Row>, Trouble> {
+) -> Result<Vec<Row>, VerifyError> {
     let mut rows = Vec::new();
     for (name, choice) in [MODELS[0], MODELS[2], MODELS[3]] {
-        let lift = forces(&animal.case(choice))?;
+        let lift = forces(animal.case(choice))?;
         let lift: Vec<f64> = lift.iter().map(|f| -f.z / newton).collect();
         let beats = [1, 2].map(|b| mean(&lift[40 * b..=40 * (b + 1)]));
         let [_, spread] = middle(&beats);
@@ -154,7 +152,7 @@ fn compare(
     Ok(rows)
 }
 
-fn azuma(_quick: bool) -> Result<Vec<Row>, Trouble> {
+fn azuma(_quick: bool) -> Result<Vec<Row>, VerifyError> {
     let animal = Dragonfly {
         body: 0.04,
         frequency: 41.5,
@@ -262,7 +260,7 @@ const WANG_RUSSELL: Dragonfly = Dragonfly {
     ],
 };
 
-fn wang_russell(_quick: bool) -> Result<Vec<Row>, Trouble> {
+fn wang_russell(_quick: bool) -> Result<Vec<Row>, VerifyError> {
     let table = Table::new(include_str!(
         "../../data/dragonfly_wang_russell2007_vertical_force.csv"
     ));

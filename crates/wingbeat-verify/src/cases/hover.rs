@@ -2,7 +2,7 @@
 
 use crate::lab::insect::{Choice, Cut, MODELS, fruit_fly_wings, middle};
 use crate::lab::series::mean;
-use crate::{Case, Part, Row, Trouble};
+use crate::{Case, Part, Row, VerifyError};
 use std::path::Path;
 use wingbeat_case::{LoadedCase, presets};
 use wingbeat_flight::Simulation;
@@ -35,11 +35,11 @@ pub(super) const CASES: &[Case] = &[
     },
 ];
 
-fn twenty(_quick: bool) -> Result<Vec<Row>, Trouble> {
+fn twenty(_quick: bool) -> Result<Vec<Row>, VerifyError> {
     long_hover(&[])
 }
 
-fn twenty_with_blobs(_quick: bool) -> Result<Vec<Row>, Trouble> {
+fn twenty_with_blobs(_quick: bool) -> Result<Vec<Row>, VerifyError> {
     long_hover(&[
         "air.wake_blob_length_m=1.4e-3",
         "air.bound_core={lamb_oseen={radius_m=7e-6}}",
@@ -47,7 +47,7 @@ fn twenty_with_blobs(_quick: bool) -> Result<Vec<Row>, Trouble> {
     ])
 }
 
-fn long_hover(also: &[&str]) -> Result<Vec<Row>, Trouble> {
+fn long_hover(also: &[&str]) -> Result<Vec<Row>, VerifyError> {
     const BEATS: usize = 20;
     let preset = presets::find("fruit-fly-tethered")?;
     let mut set = vec![
@@ -87,7 +87,7 @@ fn long_hover(also: &[&str]) -> Result<Vec<Row>, Trouble> {
     ])
 }
 
-fn truncation(_quick: bool) -> Result<Vec<Row>, Trouble> {
+fn truncation(_quick: bool) -> Result<Vec<Row>, VerifyError> {
     let (fly, weight) = fruit_fly_wings();
     let mut rows = Vec::new();
     for (model, base) in [MODELS[0], MODELS[2]] {

@@ -1,8 +1,9 @@
 //! Insects and their robots, in the one setting of [`crate::lab::insect`].
 
-use crate::lab::insect::{Choice, DEFAULT, Insect, MODELS, forces, fruit_fly_wings, middle};
+use crate::lab::insect::{Choice, DEFAULT, Insect, MODELS, data, forces, fruit_fly_wings, middle};
 use crate::lab::series::{Table, correlation, interpolate, mean, rms};
-use crate::{Case, Part, Row, Trouble};
+use crate::{Case, Part, Row, VerifyError};
+use wingbeat_case::raw::{AngleCase, FourierCase, WingMotionCase};
 
 pub(super) const CASES: &[Case] = &[
     Case {
@@ -31,7 +32,7 @@ pub(super) const CASES: &[Case] = &[
     },
 ];
 
-fn hydei(_quick: bool) -> Result<Vec<Row>, Trouble> {
+fn hydei(_quick: bool) -> Result<Vec<Row>, VerifyError> {
     let fly = Insect {
         length: 3.333e-3,
         area: 2.66e-6,
@@ -40,7 +41,7 @@ fn hydei(_quick: bool) -> Result<Vec<Row>, Trouble> {
         frequency: 188.7,
         density: 1.225,
         viscosity: 1.5e-5,
-        motion: HYDEI.to_owned(),
+        motion: hydei_motion(),
     };
     let weight = 1.8e-6 * 9.81;
     let table = Table::new(include_str!(
@@ -56,7 +57,7 @@ fn hydei(_quick: bool) -> Result<Vec<Row>, Trouble> {
     let source = "Muijres et al. 2014 (robot), table in xijunke/aerodynamic_moment_model";
     let mut rows = Vec::new();
     for (name, choice) in MODELS {
-        let lift = forces(&fly.case(choice))?;
+        let lift = forces(fly.case(choice))?;
         let lift: Vec<f64> = lift.iter().map(|f| -f.z / weight).collect();
         let beats = [1, 2].map(|b| mean(&lift[40 * b..=40 * (b + 1)]));
         let [_, spread] = middle(&beats);
@@ -87,17 +88,34 @@ fn hydei(_quick: bool) -> Result<Vec<Row>, Trouble> {
 
 /// Stroke and feathering of the steady wingbeat (Muijres et al. 2014), mean and eight harmonics; the
 /// stroke angle is positive forward, feathering turns the leading edge into the motion.
-const HYDEI: &str = "
-[wing.right.motion.phi.fourier]
-mean_deg = 3.9008
-cosine_deg = [65.0445, 3.5806, 0.1319, 0.7844]
-sine_deg = [4.2642, -2.9492, 0.3639, 0.2098]
-[wing.right.motion.psi.fourier]
-mean_deg = 4.2936
-cosine_deg = [1.8536, 5.1852, -8.4569, 3.9562, -3.0337, -2.8771, 0.8649, 0.0771]
-sine_deg = [59.6529, 1.6095, 9.8057, 5.8064, -2.8749, 0.6686, -0.6137, -1.0007]";
+fn hydei_motion() -> WingMotionCase {
+    let fourier = |mean_deg, cosine_deg: &[f64], sine_deg: &[f64]| {
+        Some(AngleCase::Fourier(FourierCase {
+            mean_deg,
+            cosine_deg: cosine_deg.to_vec(),
+            sine_deg: sine_deg.to_vec(),
+        }))
+    };
+    WingMotionCase {
+        phi: fourier(
+            3.9008,
+            &[65.0445, 3.5806, 0.1319, 0.7844],
+            &[4.2642, -2.9492, 0.3639, 0.2098],
+        ),
+        psi: fourier(
+            4.2936,
+            &[
+                1.8536, 5.1852, -8.4569, 3.9562, -3.0337, -2.8771, 0.8649, 0.0771,
+            ],
+            &[
+                59.6529, 1.6095, 9.8057, 5.8064, -2.8749, 0.6686, -0.6137, -1.0007,
+            ],
+        ),
+        ..WingMotionCase::default()
+    }
+}
 
-fn robofly(_quick: bool) -> Result<Vec<Row>, Trouble> {
+fn robofly(_quick: bool) -> Result<Vec<Row>, VerifyError> {
     let mut rows = Vec::new();
     for timing in ["advanced", "symmetrical", "delayed"] {
         let robot = Insect {
@@ -108,7 +126,7 @@ fn robofly(_quick: bool) -> Result<Vec<Row>, Trouble> {
             frequency: 0.17,
             density: 880.0,
             viscosity: 1.15e-4,
-            motion: format!("data = \"robofly-{timing}\""),
+            motion: data(&format!("robofly-{timing}")),
         };
         // Mean stroke rate 2 Phi f at the radius of the second moment, stroke of 160 deg.
         let speed = 2.0 * 160_f64.to_radians() * robot.frequency * robot.r2_hat * robot.length;
@@ -121,7 +139,7 @@ fn robofly(_quick: bool) -> Result<Vec<Row>, Trouble> {
 }
 
 /// Mean lift coefficient, and as its uncertainty half of what beats, core, step and mesh span.
-fn robofly_row(robot: &Insect, q: f64, name: String, base: Choice) -> Result<Row, Trouble> {
+fn robofly_row(robot: &Insect, q: f64, name: String, base: Choice) -> Result<Row, VerifyError> {
     let beats = robot.lifts(base)?;
     let [lift, _] = middle(&beats);
     let mut all = beats;
@@ -150,7 +168,7 @@ fn robofly_row(robot: &Insect, q: f64, name: String, base: Choice) -> Result<Row
     )
 }
 
-fn fruit_fly(_quick: bool) -> Result<Vec<Row>, Trouble> {
+fn fruit_fly(_quick: bool) -> Result<Vec<Row>, VerifyError> {
     let (fly, weight) = fruit_fly_wings();
     let mut rows = Vec::new();
     for (model, base, part) in [

@@ -1,7 +1,7 @@
 //! What may not change the answer: place, direction, handedness, the observer, threads.
 
 use crate::lab::{Run, fly, rectangle, total_force};
-use crate::{Case, Part, Row, Trouble};
+use crate::{Case, Part, Row, VerifyError};
 use wingbeat_air::{AirError, AirSettings, Lattice, NodeMotion, Plane, SheddingKinds, Surface};
 use wingbeat_math::{DMat3, DVec3, r1, r2, r3};
 
@@ -66,7 +66,7 @@ fn turned(motion: NodeMotion, r: DMat3, shift: DVec3, velocity: DVec3) -> NodeMo
 const BOTH: &[f64] = &[1.0, -1.0];
 const ROUNDING: &str = "roundings, amplified by eight steps of a free wake near its own filaments";
 
-fn run(_quick: bool) -> Result<Vec<Row>, Trouble> {
+fn run(_quick: bool) -> Result<Vec<Row>, VerifyError> {
     let plain = flight(&lattice(2, STREAM, vec![])?, |t| wings(BOTH, t))?;
     let force = total_force(&plain.loads);
     let r = r1(0.7) * r3(-1.2) * r2(2.0);
@@ -101,7 +101,7 @@ fn run(_quick: bool) -> Result<Vec<Row>, Trouble> {
 }
 
 /// A right wing alone and its mirror image alone: nothing may differ but the sign of y.
-fn mirror_bits() -> Result<Row, Trouble> {
+fn mirror_bits() -> Result<Row, VerifyError> {
     let alone = lattice(1, STREAM, vec![])?;
     let [right, left] = [
         flight(&alone, |t| wings(&[1.0], t))?,
@@ -120,7 +120,7 @@ fn mirror_bits() -> Result<Row, Trouble> {
 }
 
 /// One wing and a plane of symmetry against two wings.
-fn mirror_plane(two: &Run) -> Result<Row, Trouble> {
+fn mirror_plane(two: &Run) -> Result<Row, VerifyError> {
     let plane = Plane {
         point: DVec3::ZERO,
         normal: DVec3::Y,
@@ -137,7 +137,7 @@ fn mirror_plane(two: &Run) -> Result<Row, Trouble> {
 }
 
 /// A wing over a ground against the wing and its image flown together.
-fn ground() -> Result<Row, Trouble> {
+fn ground() -> Result<Row, VerifyError> {
     let plane = Plane {
         point: -2.0 * DVec3::Z,
         normal: DVec3::Z,
@@ -163,7 +163,7 @@ fn ground() -> Result<Row, Trouble> {
     .within(1e-9, ROUNDING))
 }
 
-fn threads() -> Result<Row, Trouble> {
+fn threads() -> Result<Row, VerifyError> {
     let on = |threads: usize| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
         let lattice = lattice(2, STREAM, vec![])?;

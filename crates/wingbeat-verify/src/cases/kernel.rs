@@ -1,7 +1,7 @@
 //! Biot-Savart sums against closed forms.
 
 use crate::lab::order;
-use crate::{Case, Part, Row, Trouble};
+use crate::{Case, Part, Row, VerifyError};
 use std::f64::consts::{PI, TAU};
 use wingbeat_math::DVec3;
 use wingbeat_vortex::{CoreModel, Points, Segments, add_velocity};
@@ -46,9 +46,9 @@ fn filament() -> Vec<Row> {
         let p = DVec3::new(x, 0.6 * h, 0.8 * h);
         let cosine = |end: DVec3| (p - end).x / (p - end).length();
         let exact = 2.0 / (4.0 * PI * h) * (cosine(a) - cosine(b));
-        let ours = velocity(BARE, &one, p);
+        let computed = velocity(BARE, &one, p);
         let direction = DVec3::X.cross(p).normalize();
-        worst = worst.max((ours - exact * direction).length() / exact.abs());
+        worst = worst.max((computed - exact * direction).length() / exact.abs());
     }
     let mut pair = Segments::default();
     let half = 1e5 * DVec3::X;
@@ -97,7 +97,7 @@ fn scully_ring_speed(rc: f64) -> f64 {
     (0..n).map(term).sum::<f64>() * (TAU / n as f64) / (16.0 * PI)
 }
 
-fn ring(_quick: bool) -> Result<Vec<Row>, Trouble> {
+fn ring(_quick: bool) -> Result<Vec<Row>, VerifyError> {
     let axis = |n: usize, z: f64| {
         let mut s = Segments::default();
         polygon(&mut s, BARE, n, 1.0, 0.0, 1.0);

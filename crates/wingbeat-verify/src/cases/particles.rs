@@ -2,7 +2,7 @@
 
 use crate::lab::series::rms;
 use crate::lab::{fly, order, rectangle, total_force, translating};
-use crate::{Case, Part, Row, Trouble};
+use crate::{Case, Part, Row, VerifyError};
 use std::f64::consts::{PI, TAU};
 use wingbeat_air::{
     AirError, AirLoads, AirSettings, AirState, CoreModel, Lattice, NodeMotion, ParticleSettings,
@@ -114,7 +114,7 @@ fn two_rings(n: usize, sigma: f64, stretching: Stretching) -> Result<[f64; 2], A
     Ok([set.strength.iter().sum::<DVec3>().length(), drift])
 }
 
-fn alone(_quick: bool) -> Result<Vec<Row>, Trouble> {
+fn alone(_quick: bool) -> Result<Vec<Row>, VerifyError> {
     let [coarse, fine] = [ring_speed(75)?, ring_speed(150)?];
     let term = |k: usize| {
         let r2 = 4.0 * (PI * (k as f64 + 0.5) / 2e4).sin().powi(2);
@@ -184,7 +184,7 @@ fn plunging(particles: Option<ParticleSettings>) -> Result<Vec<f64>, AirError> {
     Ok(force)
 }
 
-fn hybrid(_quick: bool) -> Result<Vec<Row>, Trouble> {
+fn hybrid(_quick: bool) -> Result<Vec<Row>, VerifyError> {
     let rings = plunging(None)?;
     let mut rows = Vec::new();
     for (after, bound) in [(1, 0.03), (4, 0.003), (12, 0.001)] {

@@ -2,7 +2,7 @@
 
 use crate::lab::series::{Table, mean, rms};
 use crate::lab::{forces, rectangle};
-use crate::{Case, Part, Row, Trouble};
+use crate::{Case, Part, Row, VerifyError};
 use std::f64::consts::TAU;
 use wingbeat_air::{AirError, AirSettings, CoreModel, Lattice, NodeMotion, Plane, Surface};
 use wingbeat_math::{DVec3, r1};
@@ -81,8 +81,8 @@ fn difference(a: &[f64], per_a: usize, b: &[f64], per_b: usize) -> f64 {
     rms(&apart) / rms(&b)
 }
 
-fn run(_quick: bool) -> Result<Vec<Row>, Trouble> {
-    let ours = lift([8, 20], 40, 2, true, small_core(8))?;
+fn run(_quick: bool) -> Result<Vec<Row>, VerifyError> {
+    let computed = lift([8, 20], 40, 2, true, small_core(8))?;
     let benchmark = lift([8, 20], 40, 2, false, small_core(8))?;
     let their_core = lift([8, 20], 40, 2, true, CORE)?;
     let middle = lift([12, 30], 80, 2, true, small_core(12))?;
@@ -93,7 +93,7 @@ fn run(_quick: bool) -> Result<Vec<Row>, Trouble> {
         Row::new(
             "accurate scheme, 40 steps: rms difference of lift from converged over the second beat",
             "1",
-            difference(&ours, 40, &fine, 160),
+            difference(&computed, 40, &fine, 160),
         )
         .against(0.0, "our own run with 16 x 40 panels and 160 steps")
         .uncertain(bound)
@@ -112,7 +112,7 @@ fn run(_quick: bool) -> Result<Vec<Row>, Trouble> {
         Row::new(
             "mean lift of the second beat, accurate scheme",
             "N",
-            whole(&ours, 40),
+            whole(&computed, 40),
         )
         .against(
             whole(&fine, 160),

@@ -2,7 +2,7 @@
 
 use crate::lab::outline::{self, Spread};
 use crate::lab::{extrapolated, fly, order, rectangle, total_force, translating};
-use crate::{Case, Part, Row, Trouble};
+use crate::{Case, Part, Row, VerifyError};
 use std::f64::consts::PI;
 use wingbeat_air::{AirError, AirSettings, CoreModel, Lattice, SheddingKinds, Surface};
 use wingbeat_math::DVec3;
@@ -49,7 +49,7 @@ fn added_mass(nodes: &[DVec3], [rows, cols]: [usize; 2], accurate: bool) -> Resu
 const TABLE: &str = "rectangular plates: pi/4 rho c^2 b times 0.579, 0.757, 0.872, 0.934 for b/c = 1, 2, 4, 8 \
      (table of DNV-RP-H103, after Meyerhoff 1970)";
 
-fn plates(_quick: bool) -> Result<Vec<Row>, Trouble> {
+fn plates(_quick: bool) -> Result<Vec<Row>, VerifyError> {
     let mut rows = Vec::new();
     for (aspect, k) in [(1.0, 0.579), (2.0, 0.757), (4.0, 0.872), (8.0, 0.934)] {
         let exact = 0.25 * PI * aspect * k;
@@ -87,7 +87,7 @@ fn plates(_quick: bool) -> Result<Vec<Row>, Trouble> {
 }
 
 /// A circular disc: 8/3 rho a^3 [Lamb art. 102].
-fn disc() -> Result<Vec<Row>, Trouble> {
+fn disc() -> Result<Vec<Row>, VerifyError> {
     let of = |n: usize| {
         let mesh = [n, n];
         let nodes = outline::nodes(outline::circle, [-0.9992, 0.9992], mesh, Spread::Cosine);
@@ -102,7 +102,7 @@ fn disc() -> Result<Vec<Row>, Trouble> {
     ])
 }
 
-fn long_plate() -> Result<Row, Trouble> {
+fn long_plate() -> Result<Row, VerifyError> {
     let of = |rows: usize| {
         let nodes = rectangle(rows, 1, DVec3::X, 1e4 * DVec3::Y);
         added_mass(&nodes, [rows, 1], true).map(|m| m / (0.25 * PI * 1e4))

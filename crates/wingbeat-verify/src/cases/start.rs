@@ -2,7 +2,7 @@
 
 use crate::lab::series::{Table, interpolate};
 use crate::lab::{extrapolated, forces, rectangle, translating};
-use crate::{Case, Part, Row, Trouble};
+use crate::{Case, Part, Row, VerifyError};
 use wingbeat_air::{AirError, AirSettings, CoreModel, Lattice, Surface};
 use wingbeat_math::DVec3;
 
@@ -85,7 +85,7 @@ fn published() -> [Published; 2] {
     ]
 }
 
-fn run(quick: bool) -> Result<Vec<Row>, Trouble> {
+fn run(quick: bool) -> Result<Vec<Row>, VerifyError> {
     let mut rows = Vec::new();
     // The short form leaves out the longer wing and the converged history.
     for case in published().into_iter().take(if quick { 1 } else { 2 }) {
@@ -98,9 +98,9 @@ fn run(quick: bool) -> Result<Vec<Row>, Trouble> {
         let [coarse, fine] = runs;
         let (coarse, fine) = (coarse?, fine?);
         for chords in [0.5_f64, 1.0, 2.0, 5.0, 10.0] {
-            let ours = same[(chords * 16.0) as usize];
+            let computed = same[(chords * 16.0) as usize];
             rows.push(
-                Row::new(format!("AR {}, {chords} chords, their setting: C_L", case.aspect), "1", ours)
+                Row::new(format!("AR {}, {chords} chords, their setting: C_L", case.aspect), "1", computed)
                     .against(theirs(chords), case.source)
                     .within_part(0.05, "rings as theirs, but control points of the last row 0.02 chords ahead of theirs"),
             );

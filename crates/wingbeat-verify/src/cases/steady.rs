@@ -2,7 +2,7 @@
 
 use crate::lab::outline::{self, Spread};
 use crate::lab::{extrapolated, fly, total_force, total_moment, translating};
-use crate::{Case, Part, Row, Trouble};
+use crate::{Case, Part, Row, VerifyError};
 use std::f64::consts::{PI, TAU};
 use wingbeat_air::{AirError, AirSettings, CoreModel, Lattice, Surface};
 use wingbeat_math::DVec3;
@@ -120,7 +120,7 @@ fn van_dyke(aspect: f64) -> f64 {
     TAU / (1.0 + 2.0 / aspect + third)
 }
 
-fn rectangular(_quick: bool) -> Result<Vec<Row>, Trouble> {
+fn rectangular(_quick: bool) -> Result<Vec<Row>, VerifyError> {
     let [one, _] = refined(|k| rectangle(1.0, k))?;
     let mut rows = vec![
         one.row("lift slope, aspect ratio 1")
@@ -145,7 +145,7 @@ fn rectangular(_quick: bool) -> Result<Vec<Row>, Trouble> {
     Ok(rows)
 }
 
-fn elliptic(_quick: bool) -> Result<Vec<Row>, Trouble> {
+fn elliptic(_quick: bool) -> Result<Vec<Row>, VerifyError> {
     // The tip is cut where the chord is 4 % of the root's: a node without chord is no panel.
     let cut = 0.9992;
     let ellipse = |stretch: f64, k: usize| {
@@ -173,7 +173,7 @@ fn elliptic(_quick: bool) -> Result<Vec<Row>, Trouble> {
     ])
 }
 
-fn warren(_quick: bool) -> Result<Vec<Row>, Trouble> {
+fn warren(_quick: bool) -> Result<Vec<Row>, VerifyError> {
     let wing = |k: usize| {
         let mesh = [3 * k, 12 * k];
         let half = std::f64::consts::SQRT_2;

@@ -2,7 +2,7 @@
 
 use crate::lab::series::harmonic;
 use crate::lab::{extrapolated, fly, forces, rectangle, translating};
-use crate::{Case, Part, Row, Trouble};
+use crate::{Case, Part, Row, VerifyError};
 use std::f64::consts::{PI, TAU};
 use wingbeat_air::{
     AirError, AirSettings, CoreModel, Gust, GustShape, Lattice, NodeMotion, Surface, Wind,
@@ -77,7 +77,7 @@ fn jones(s: f64) -> f64 {
     1.0 - 0.165 * (-0.0455 * s).exp() - 0.335 * (-0.3 * s).exp()
 }
 
-fn wagner(quick: bool) -> Result<Vec<Row>, Trouble> {
+fn wagner(quick: bool) -> Result<Vec<Row>, VerifyError> {
     let rows = if quick { [8, 16] } else { [16, 32] };
     let runs = [indicial(rows[0], 10.0)?, indicial(rows[1], 10.0)?];
     let at = |chords: f64| {
@@ -105,7 +105,7 @@ fn wagner(quick: bool) -> Result<Vec<Row>, Trouble> {
     Ok(out)
 }
 
-fn kuessner(quick: bool) -> Result<Vec<Row>, Trouble> {
+fn kuessner(quick: bool) -> Result<Vec<Row>, VerifyError> {
     let rows = if quick { [8, 16] } else { [16, 32] };
     let mut runs = Vec::new();
     let (w, chords) = (1e-3, 6.0);
@@ -197,7 +197,7 @@ fn exact(mode: Mode, k: f64) -> [f64; 2] {
 }
 
 /// The same from the lattice, over the third period, with steps of so many panels.
-fn ours(mode: Mode, k: f64, rows: usize, step: f64) -> Result<[f64; 2], AirError> {
+fn computed(mode: Mode, k: f64, rows: usize, step: f64) -> Result<[f64; 2], AirError> {
     let period = PI / k; // in chords
     let per_period = (period * rows as f64 / step).round() as usize;
     let dt = period / per_period as f64;
@@ -235,7 +235,7 @@ fn ours(mode: Mode, k: f64, rows: usize, step: f64) -> Result<[f64; 2], AirError
     Ok([c / scale, -s / scale])
 }
 
-fn theodorsen(quick: bool) -> Result<Vec<Row>, Trouble> {
+fn theodorsen(quick: bool) -> Result<Vec<Row>, VerifyError> {
     let ks: &[f64] = if quick {
         &[0.5, 1.0, 2.0]
     } else {
@@ -245,7 +245,10 @@ fn theodorsen(quick: bool) -> Result<Vec<Row>, Trouble> {
     for (name, mode) in [("plunge", Mode::Plunge), ("pitch", Mode::Pitch)] {
         for &k in ks {
             let fine = if quick || k < 0.3 { 16 } else { 32 };
-            let [a, b] = [ours(mode, k, fine / 2, 1.0)?, ours(mode, k, fine, 1.0)?];
+            let [a, b] = [
+                computed(mode, k, fine / 2, 1.0)?,
+                computed(mode, k, fine, 1.0)?,
+            ];
             let off = |x| off(mode, k, x);
             let limit = [0, 1].map(|i| extrapolated(a[i], b[i], 1.0));
             rows.push(
@@ -266,7 +269,7 @@ fn theodorsen(quick: bool) -> Result<Vec<Row>, Trouble> {
             Row::new(
                 format!("plunge, k = {k}, {panels} panels, steps of {step} panels: the same"),
                 "1",
-                off(mode, k, ours(mode, k, panels.into(), step)?),
+                off(mode, k, computed(mode, k, panels.into(), step)?),
             )
             .against(0.0, "Theodorsen 1935, NACA Rep. 496")
             .within(

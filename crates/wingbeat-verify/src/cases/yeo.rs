@@ -2,7 +2,7 @@
 
 use crate::lab::fly;
 use crate::lab::series::{Table, interpolate, rms};
-use crate::{Case, Part, Row, Trouble};
+use crate::{Case, Part, Row, VerifyError};
 use std::f64::consts::TAU;
 use wingbeat_air::{AirError, AirSettings, CoreModel, Lattice, NodeMotion, Plane, Surface};
 use wingbeat_math::{DVec3, r1};
@@ -183,7 +183,7 @@ fn lift(mesh: [usize; 2]) -> Result<[Vec<f64>; 2], AirError> {
     Ok(lift.map(third))
 }
 
-fn run(quick: bool) -> Result<Vec<Row>, Trouble> {
+fn run(quick: bool) -> Result<Vec<Row>, VerifyError> {
     let mesh = if quick {
         [[2, 7], [3, 11]]
     } else {
@@ -200,12 +200,12 @@ fn run(quick: bool) -> Result<Vec<Row>, Trouble> {
     for (kind, name, note) in [
         (
             0,
-            "all of ours",
+            "whole wings",
             "nine ports stand for the whole pressure of the wing measured",
         ),
         (
             1,
-            "ours at the ports",
+            "at the ports",
             "our pressures at the nine ports with the same areas: like for like",
         ),
     ] {

@@ -7,15 +7,17 @@
 //! (about the distance of wake rows). It is that of the fruit-fly presets. Motions start smoothly
 //! over the first beat, after which they lag half a beat.
 
-use std::fmt::Write;
-use std::path::Path;
-
+use wingbeat_air::{EdgeKind, LoadMethod};
 use wingbeat_case::LoadedCase;
+use wingbeat_case::raw::{
+    AirCase, BetaCase, BodyCase, Case, CoreCase, FlightCase, LambOseenCase, Mode, MotionCase,
+    ParticlesCase, PlanformCase, TimeCase, WingCase, WingMeshCase, WingMotionCase,
+};
 use wingbeat_flight::Simulation;
 use wingbeat_math::DVec3;
 
 use super::series::mean;
-use crate::row::Trouble;
+use crate::row::VerifyError;
 
 /// A pair of wings on a fixed mount.
 pub(crate) struct Insect {
@@ -26,15 +28,15 @@ pub(crate) struct Insect {
     pub frequency: f64,
     pub density: f64,
     pub viscosity: f64,
-    /// `data = ...` or angles of the right wing, as in a case file.
-    pub motion: String,
+    /// Motion of the right wing.
+    pub motion: WingMotionCase,
 }
 
 /// Numerical choices, relative to the setting of all insects.
 #[derive(Clone, Copy)]
 pub(crate) struct Choice {
-    pub shed: &'static str,
-    pub loads: &'static str,
+    pub shed: &'static [EdgeKind],
+    pub loads: LoadMethod,
     pub core: f64,
     pub overlap: f64,
     /// Length, in chords, from which wake filaments become blobs.
@@ -60,8 +62,8 @@ pub(crate) enum Cut {
 }
 
 pub(crate) const DEFAULT: Choice = Choice {
-    shed: r#"["trailing", "tip", "leading"]"#,
-    loads: "joukowski",
+    shed: &[EdgeKind::Trailing, EdgeKind::Tip, EdgeKind::Leading],
+    loads: LoadMethod::Joukowski,
     core: 1.0,
     overlap: 1.0,
     blobs: None,
@@ -83,61 +85,96 @@ pub(crate) struct Fluid {
 }
 
 impl Choice {
-    /// A case file as far as the air.
-    pub(crate) fn air(&self, fluid: Fluid) -> String {
-        let core = |part: f64| {
-            let radius = part * self.core * fluid.chord;
-            let nu = fluid.viscosity;
-            format!("{{ radius_m = {radius:e}, viscosity_m2_s = {nu:e} }}")
-        };
-        // Blobs and particles want their own kind.
-        let kind = match self.blobs.is_some() || self.particles {
-            true => "lamb_oseen",
-            false => "algebraic",
-        };
-        let mut text = format!(
-            "format = 1\ngravity_m_s2 = [0, 0, 0]\n\
-             [time]\nsteps_per_beat = {}\nbeats = {}\n\
-             [flight]\nmode = \"tethered\"\n\
-             [air]\ndensity_kg_m3 = {:e}\nstream_m_s = {:?}\nbody = false\nmirror = true\nscheme = \"accurate\"\nshed = {}\n\
-             loads = \"{}\"\n\
-             bound_core.{kind} = {}\nwake_core.{kind} = {}\nwake_overlap = {:e}\nclearance_m = {:e}\n",
-            self.steps,
-            self.beats,
-            fluid.density,
-            fluid.stream,
-            self.shed,
-            self.loads,
-            core(0.01),
-            core(0.07),
-            self.overlap,
-            0.1 * fluid.chord,
-        );
-        if let Some(chords) = self.blobs {
-            let length = chords * fluid.chord;
-            let _ = writeln!(text, "wake_blob_length_m = {length:e}");
+    /// A case of a tethered body without weight as far as the air.
+    pub(crate) fn case(&self, fluid: Fluid) -> Case {
+        Case {
+            gravity_m_s2: [0.0; 3],
+            time: TimeCase {
+                steps_per_beat: Some(self.steps),
+                beats: Some(self.beats as f64),
+                ..TimeCase::default()
+            },
+            motion: MotionCase {
+                frequency_hz: fluid.frequency.into(),
+                ..MotionCase::default()
+            },
+            flight: FlightCase {
+                mode: Mode::Tethered,
+                ..FlightCase::default()
+            },
+            air: self.air(fluid),
+            body: BodyCase {
+                mass_kg: Some(1.0),
+                inertia_about_centre_kg_m2: Some([1e-2, 1e-2, 1e-2, 0.0, 0.0, 0.0]),
+                ..BodyCase::default()
+            },
+            ..Case::default()
         }
-        let _ = match self.cut {
-            Cut::Nowhere => Ok(()),
-            Cut::Rows(rows) => writeln!(text, "max_wake_rows = {rows}"),
-            Cut::Beats(n) => writeln!(text, "max_wake_age_s = {:e}", n / fluid.frequency),
-            Cut::Lengths(n) => writeln!(text, "max_wake_distance_m = {:e}", n * fluid.length),
+    }
+
+    fn air(&self, fluid: Fluid) -> AirCase {
+        let particles = ParticlesCase {
+            leading_edge: true,
+            radius_m: Some(0.36 * self.core * fluid.chord),
+            ..ParticlesCase::default()
         };
-        if self.particles {
-            let radius = 0.36 * self.core * fluid.chord;
-            let _ = writeln!(
-                text,
-                "particles = {{ leading_edge = true, radius_m = {radius:e} }}"
-            );
+        let air = AirCase {
+            density_kg_m3: fluid.density,
+            stream_m_s: fluid.stream,
+            body: false,
+            mirror: true,
+            shed: self.shed.to_vec(),
+            loads: self.loads,
+            bound_core: self.core(0.01, &fluid),
+            wake_core: self.core(0.07, &fluid),
+            wake_overlap: self.overlap.into(),
+            clearance_m: Some(0.1 * fluid.chord),
+            wake_blob_length_m: self.blobs.map(|chords| chords * fluid.chord),
+            particles: self.particles.then_some(particles),
+            ..AirCase::default()
+        };
+        match self.cut {
+            Cut::Nowhere => air,
+            Cut::Rows(rows) => AirCase {
+                max_wake_rows: Some(rows),
+                ..air
+            },
+            Cut::Beats(n) => AirCase {
+                max_wake_age_s: Some(n / fluid.frequency),
+                ..air
+            },
+            Cut::Lengths(n) => AirCase {
+                max_wake_distance_m: Some(n * fluid.length),
+                ..air
+            },
         }
-        text
+    }
+
+    /// Cores that begin with this part of the chord; blobs and particles need their own kind.
+    fn core(&self, part: f64, fluid: &Fluid) -> CoreCase {
+        let core = LambOseenCase {
+            radius_m: Some(part * self.core * fluid.chord),
+            viscosity_m2_s: fluid.viscosity,
+            ..LambOseenCase::default()
+        };
+        match self.blobs.is_some() || self.particles {
+            true => CoreCase::LambOseen(core),
+            false => CoreCase::Algebraic(core),
+        }
+    }
+
+    pub(crate) fn mesh(&self) -> WingMeshCase {
+        WingMeshCase {
+            chordwise: self.mesh[0],
+            spanwise: self.mesh[1],
+            ..WingMeshCase::default()
+        }
     }
 }
 
 /// Force of the air on all wings [N], N, step by step, of a case without a body in the air.
-pub(crate) fn forces(case: &str) -> Result<Vec<DVec3>, Trouble> {
-    let case = LoadedCase::from_text("insect", case, Path::new(""), &[])?;
-    let mut flight = Simulation::new(case.setup)?;
+pub(crate) fn forces(case: Case) -> Result<Vec<DVec3>, VerifyError> {
+    let mut flight = Simulation::new(LoadedCase::new(case)?.setup)?;
     let force = |f: &Simulation| f.record().air[1..].iter().map(|a| a.force).sum();
     let mut forces = vec![force(&flight)];
     while !flight.finished() {
@@ -148,8 +185,8 @@ pub(crate) fn forces(case: &str) -> Result<Vec<DVec3>, Trouble> {
 }
 
 impl Insect {
-    pub fn case(&self, with: Choice) -> String {
-        let mut text = with.air(Fluid {
+    pub fn case(&self, with: Choice) -> Case {
+        let mut case = with.case(Fluid {
             density: self.density,
             viscosity: self.viscosity,
             stream: [0.0; 3],
@@ -157,31 +194,29 @@ impl Insect {
             length: self.length,
             frequency: self.frequency,
         });
-        let _ = write!(
-            text,
-            "[output]\nframes_every = 0\nfigures = false\n\
-             [body]\nmass_kg = 1.0\ninertia_about_centre_kg_m2 = [1e-2, 1e-2, 1e-2, 0, 0, 0]\n\
-             [motion]\nfrequency_hz = {:e}\nstroke_plane_pitch_deg = 90.0\nstart = \"smooth\"\n{}\n\
-             [wing.right]\nhinge_m = [0, {:e}, 0]\nmass_kg = 1e-9\n\
-             [wing.right.planform.beta]\nlength_m = {:e}\narea_m2 = {:e}\nr2_hat = {:e}\n\
-             root_offset_m = {:e}\naxis_fraction = 0.25\n\
-             [wing.right.mesh]\nchordwise = {}\nspanwise = {}\n",
-            self.frequency,
-            self.motion,
-            0.2 * self.length,
-            self.length,
-            self.area,
-            self.r2_hat,
-            self.root,
-            with.mesh[0],
-            with.mesh[1],
-        );
-        text
+        case.motion.stroke_plane_pitch_deg = 90.0.into();
+        let planform = BetaCase {
+            length_m: self.length,
+            area_m2: Some(self.area),
+            r2_hat: self.r2_hat,
+            root_offset_m: self.root,
+            ..BetaCase::default()
+        };
+        let wing = WingCase {
+            hinge_m: Some([0.0, 0.2 * self.length, 0.0]),
+            mass_kg: Some(1e-9),
+            planform: Some(PlanformCase::Beta(planform)),
+            mesh: Some(with.mesh()),
+            motion: Some(self.motion.clone()),
+            ..WingCase::default()
+        };
+        case.wing.insert("right".into(), wing);
+        case
     }
 
     /// Mean upward force of each beat from the second on [N].
-    pub fn lifts(&self, with: Choice) -> Result<Vec<f64>, Trouble> {
-        let lift: Vec<f64> = forces(&self.case(with))?.iter().map(|f| -f.z).collect();
+    pub fn lifts(&self, with: Choice) -> Result<Vec<f64>, VerifyError> {
+        let lift: Vec<f64> = forces(self.case(with))?.iter().map(|f| -f.z).collect();
         let beat = |b: usize| mean(&lift[b * with.steps..=(b + 1) * with.steps]);
         Ok((1..with.beats).map(beat).collect())
     }
@@ -194,37 +229,47 @@ pub(crate) fn middle(x: &[f64]) -> [f64; 2] {
     [x.iter().sum::<f64>() / x.len() as f64, 0.5 * (hi - lo)]
 }
 
+const ATTACHED: &[EdgeKind] = &[EdgeKind::Trailing, EdgeKind::Tip];
+
+/// The published motion of this name.
+pub(crate) fn data(name: &str) -> WingMotionCase {
+    WingMotionCase {
+        data: Some(name.to_owned()),
+        ..WingMotionCase::default()
+    }
+}
+
 pub(crate) const MODELS: [(&str, Choice); 5] = [
     ("leading-edge sheets", DEFAULT),
     (
         "leading-edge particles",
         Choice {
             particles: true,
-            loads: "pressure",
+            loads: LoadMethod::Pressure,
             ..DEFAULT
         },
     ),
     (
         "attached, pressure",
         Choice {
-            shed: r#"["trailing", "tip"]"#,
-            loads: "pressure",
+            shed: ATTACHED,
+            loads: LoadMethod::Pressure,
             ..DEFAULT
         },
     ),
     (
         "attached, Polhamus",
         Choice {
-            shed: r#"["trailing", "tip"]"#,
-            loads: "polhamus",
+            shed: ATTACHED,
+            loads: LoadMethod::Polhamus,
             ..DEFAULT
         },
     ),
     (
         "attached, Joukowski",
         Choice {
-            shed: r#"["trailing", "tip"]"#,
-            loads: "joukowski",
+            shed: ATTACHED,
+            loads: LoadMethod::Joukowski,
             ..DEFAULT
         },
     ),
@@ -240,7 +285,7 @@ pub(crate) fn fruit_fly_wings() -> (Insect, f64) {
         frequency: 200.0,
         density: 1.225,
         viscosity: 1.5e-5,
-        motion: "data = \"fry-hover\"".to_owned(),
+        motion: data("fry-hover"),
     };
     (fly, (0.9315e-6 + 2.0 * 5.35e-9) * 9.81)
 }

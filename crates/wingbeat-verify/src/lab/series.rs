@@ -58,15 +58,7 @@ pub fn harmonic(x: &[f64], per_period: usize, k: usize) -> [f64; 2] {
 
 /// Value at `x` of a table with rising abscissae, straight lines between, held beyond the ends.
 pub fn interpolate(xs: &[f64], ys: &[f64], x: f64) -> f64 {
-    let k = xs.partition_point(|&v| v <= x);
-    if k == 0 {
-        return ys[0];
-    }
-    if k == xs.len() {
-        return ys[k - 1];
-    }
-    let s = (x - xs[k - 1]) / (xs[k] - xs[k - 1]);
-    ys[k - 1] + s * (ys[k] - ys[k - 1])
+    wingbeat_math::interpolate(xs.len(), |k| (xs[k], ys[k]), x)
 }
 
 /// Largest correlation is not asked here: the plain linear correlation of two histories.

@@ -9,7 +9,7 @@ use crate::failure::Failure;
 use crate::options;
 use crate::report::{Report, line};
 
-/// What `wingbeat power` is told.
+/// Arguments of `wingbeat power`.
 #[derive(Args)]
 pub(crate) struct PowerArgs {
     #[command(flatten)]

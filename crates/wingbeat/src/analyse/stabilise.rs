@@ -21,20 +21,20 @@ use crate::report::{Report, line};
 use crate::watch::Watch;
 
 /// Wingbeats of a flight at most.
-const MOST_BEATS: usize = 100_000;
+const MAX_BEATS: usize = 100_000;
 /// Wingbeats between sensing and acting at most: the regulator remembers them all.
-const MOST_LATENCY: usize = 20;
+const MAX_LATENCY: usize = 20;
 /// Wingbeats between sensing and acting unless told otherwise.
 const DEFAULT_LATENCY: usize = 2;
 
-/// What `wingbeat stabilise` is told.
+/// Arguments of `wingbeat stabilise`.
 #[derive(Args)]
 pub(crate) struct StabiliseArgs {
     #[command(flatten)]
     trimming: Trimming,
     /// Wingbeats to fly.
     #[arg(long, value_name = "N", default_value_t = 100,
-          value_parser = options::count::<1, MOST_BEATS>)]
+          value_parser = options::count::<1, MAX_BEATS>)]
     beats: usize,
     /// Disturbance of roll, pitch and heading at the start, degrees.
     #[arg(long, num_args = 3, value_names = ["ROLL", "PITCH", "HEADING"],
@@ -42,10 +42,10 @@ pub(crate) struct StabiliseArgs {
           value_parser = options::degrees)]
     tilt: Vec<f64>,
     /// Wingbeats between sensing and acting [default: 2].
-    #[arg(long, value_name = "BEATS", value_parser = options::count::<0, MOST_LATENCY>)]
+    #[arg(long, value_name = "BEATS", value_parser = options::count::<0, MAX_LATENCY>)]
     latency: Option<usize>,
     /// Wingbeats from one look to the next [default: 1].
-    #[arg(long, value_name = "BEATS", value_parser = options::count::<1, MOST_BEATS>)]
+    #[arg(long, value_name = "BEATS", value_parser = options::count::<1, MAX_BEATS>)]
     sample: Option<usize>,
     /// Which feedback.
     #[arg(long, value_enum, default_value_t = Feedback::Regulator)]

@@ -17,7 +17,7 @@ use super::trimming::{Trimming, trimmed, trimmed_with_wake, unused, watched};
 use crate::failure::Failure;
 use crate::report::{Report, line};
 
-/// What `wingbeat stability` is told.
+/// Arguments of `wingbeat stability`.
 #[derive(Args)]
 pub(crate) struct StabilityArgs {
     #[command(flatten)]

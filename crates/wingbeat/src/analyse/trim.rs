@@ -9,7 +9,7 @@ use super::trimming::{Trimming, trimmed, trimmed_with_wake};
 use crate::failure::Failure;
 use crate::report::line;
 
-/// What `wingbeat trim` is told.
+/// Arguments of `wingbeat trim`.
 #[derive(Args)]
 pub(crate) struct TrimArgs {
     #[command(flatten)]

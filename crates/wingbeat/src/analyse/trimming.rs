@@ -23,7 +23,7 @@ const STEPS: [usize; 2] = [4, 2_000];
 const DEFAULT_STEPS: usize = 100;
 
 /// Wingbeats of the hold at most.
-const MOST_HELD: usize = 100;
+const MAX_HELD: usize = 100;
 
 /// Wingbeats of the hold unless told otherwise.
 const DEFAULT_HELD: usize = 2;
@@ -65,7 +65,7 @@ pub(crate) struct Trimming {
     /// In a vortex lattice: wingbeats during which the body is held while its wake grows
     /// [default: 2].
     #[arg(long, value_name = "BEATS", help_heading = HEADING,
-          value_parser = options::count::<1, MOST_HELD>)]
+          value_parser = options::count::<1, MAX_HELD>)]
     hold: Option<usize>,
     #[command(flatten)]
     pub(super) report: ReportArgs,

@@ -1,11 +1,11 @@
-//! The dossier: all rows of all cases, as a page and as tables for machines.
+//! The report: all rows of all cases, as a page and as tables for machines.
 
 use std::borrow::Cow;
 use std::fmt::Write;
 
 use crate::case::{Case, Part};
 use crate::cases::select;
-use crate::row::{Row, Trouble, Verdict};
+use crate::row::{Row, Verdict, VerifyError};
 
 /// What one case gave.
 #[derive(Clone, Debug, serde::Serialize, serde::Deserialize)]
@@ -14,17 +14,17 @@ pub struct Entry {
     pub case: Cow<'static, str>,
     /// What it is about.
     pub about: Cow<'static, str>,
-    /// Part of the dossier.
+    /// Part of the report.
     pub part: Part,
     /// Its rows.
     pub rows: Vec<Row>,
-    /// Why it could not be run, if so: counts as a miss.
+    /// Why it could not be run, if so: counts as a failed row.
     pub failure: Option<String>,
 }
 
 impl Entry {
     /// From the outcome of a case.
-    pub fn of(case: &Case, outcome: Result<Vec<Row>, Trouble>) -> Self {
+    pub fn of(case: &Case, outcome: Result<Vec<Row>, VerifyError>) -> Self {
         let (rows, failure) = match outcome {
             Ok(rows) => (rows, None),
             Err(e) => (Vec::new(), Some(e.to_string())),
@@ -38,21 +38,21 @@ impl Entry {
         }
     }
 
-    /// Rows that passed, missed, were only reported; a failure is a miss.
+    /// Rows that pass, fail, have no verdict; a case that could not be run is a failed row.
     pub fn counts(&self) -> [usize; 3] {
         let of = |v| self.rows.iter().filter(|r| r.verdict() == v).count();
         let failed = usize::from(self.failure.is_some());
         [
             of(Verdict::Pass),
-            of(Verdict::Miss) + failed,
-            of(Verdict::Report),
+            of(Verdict::Fail) + failed,
+            of(Verdict::Unjudged),
         ]
     }
 }
 
 /// All entries of one run of the suite.
 #[derive(Clone, Debug, serde::Serialize, serde::Deserialize)]
-pub struct Dossier {
+pub struct Report {
     /// Whether this is the short set.
     pub quick: bool,
     /// One entry a case.
@@ -69,8 +69,8 @@ const PARTS: [(Part, &str); 4] = [
     (Part::Sensitivity, "Sensitivity to our own choices"),
 ];
 
-impl Dossier {
-    /// Rows that passed, missed, were only reported.
+impl Report {
+    /// Rows that pass, fail, have no verdict.
     pub fn counts(&self) -> [usize; 3] {
         let add = |a: [usize; 3], e: &Entry| {
             let b = e.counts();
@@ -81,7 +81,7 @@ impl Dossier {
 
     /// The page, in Markdown; `version` is that of the program.
     pub fn page(&self, version: &str) -> String {
-        let [pass, miss, report] = self.counts();
+        let [pass, fail, unjudged] = self.counts();
         let (set, command) = if self.quick {
             ("short set", "wingbeat verify --quick --out docs")
         } else {
@@ -89,14 +89,14 @@ impl Dossier {
         };
         let mut text = format!(
             "# Verification\n\nMade by `{command}` of wingbeat {version} ({set}); do not edit. \
-             {pass} rows pass, {miss} miss, {report} are reported without a verdict.\n\n\
-             The error is ours less the reference. The uncertainty is ours, from refinement of mesh \
+             {pass} rows pass, {fail} fail, {unjudged} are reported without a verdict.\n\n\
+             The error is the computed value less the reference. The uncertainty is our own, from refinement of mesh \
              and step, or from the spread over wingbeats where it says so. A report compares \
              without judging: experiments are not fitted, all insects fly with one setting. The \
              same rows are in `verification.csv` and `verification.json`.\n"
         );
         self.page_left_out(&mut text);
-        self.page_misses(&mut text);
+        self.page_failures(&mut text);
         for (part, title) in PARTS {
             let entries = self.entries.iter().filter(|e| e.part == part);
             let body: String = entries.map(section).collect();
@@ -107,7 +107,7 @@ impl Dossier {
         text
     }
 
-    /// Cases of the set that were not run, so that a short dossier does not look whole.
+    /// Cases of the set that were not run, so that a short report does not look whole.
     fn page_left_out(&self, text: &mut String) {
         let all = select(self.quick, "");
         let missing = all
@@ -119,18 +119,18 @@ impl Dossier {
         }
     }
 
-    fn page_misses(&self, text: &mut String) {
-        let missed = |e: &&Entry| e.counts()[1] > 0;
-        if !self.entries.iter().any(|e| missed(&e)) {
-            text.push_str("\nNo row misses.\n");
+    fn page_failures(&self, text: &mut String) {
+        let has_failed = |e: &&Entry| e.counts()[1] > 0;
+        if !self.entries.iter().any(|e| has_failed(&e)) {
+            text.push_str("\nNo row fails.\n");
             return;
         }
-        text.push_str("\n## Misses\n\n");
-        for entry in self.entries.iter().filter(missed) {
+        text.push_str("\n## Failed rows\n\n");
+        for entry in self.entries.iter().filter(has_failed) {
             if let Some(failure) = &entry.failure {
                 let _ = writeln!(text, "- {}: did not run: {failure}", entry.case);
             }
-            let rows = entry.rows.iter().filter(|r| r.verdict() == Verdict::Miss);
+            let rows = entry.rows.iter().filter(|r| r.verdict() == Verdict::Fail);
             for r in rows {
                 let (error, may) = (number(r.error()), number(r.tolerance.unwrap_or(0.0)));
                 let _ = writeln!(
@@ -145,7 +145,7 @@ impl Dossier {
     /// One row a line, comma separated, with a header.
     pub fn csv(&self) -> String {
         let mut text = String::from(
-            "case,quantity,unit,reference,source,ours,error,uncertainty,tolerance,verdict,reason\n",
+            "case,quantity,unit,reference,source,computed,error,uncertainty,tolerance,verdict,reason\n",
         );
         for e in &self.entries {
             for r in &e.rows {
@@ -155,7 +155,7 @@ impl Dossier {
                     r.unit.to_string(),
                     exact(r.reference),
                     r.source.to_string(),
-                    exact(Some(r.ours)),
+                    exact(Some(r.computed)),
                     exact(Some(r.error())),
                     exact(r.uncertainty),
                     exact(r.tolerance),
@@ -166,7 +166,7 @@ impl Dossier {
                 let _ = writeln!(text, "{}", cells.join(","));
             }
             if let Some(failure) = &e.failure {
-                let _ = writeln!(text, "{},,,,,,,,,miss,{}", e.case, quoted(failure));
+                let _ = writeln!(text, "{},,,,,,,,,fail,{}", e.case, quoted(failure));
             }
         }
         text
@@ -175,7 +175,7 @@ impl Dossier {
     /// From JSON that [`Self::json`] wrote.
     ///
     /// # Errors
-    /// Text that is no dossier.
+    /// Text that is no verification report.
     pub fn from_json(text: &str) -> Result<Self, serde_json::Error> {
         serde_json::from_str(text)
     }
@@ -194,7 +194,9 @@ fn section(entry: &Entry) -> String {
         let _ = writeln!(text, "**Did not run:** {failure}");
         return text;
     }
-    text.push_str("| quantity | reference | ours | error | uncertainty | tolerance | verdict |\n");
+    text.push_str(
+        "| quantity | reference | computed | error | uncertainty | tolerance | verdict |\n",
+    );
     text.push_str("|---|---|---|---|---|---|---|\n");
     for r in &entry.rows {
         let or_dash = |x: Option<f64>| x.map_or("-".to_owned(), number);
@@ -204,7 +206,7 @@ fn section(entry: &Entry) -> String {
             r.quantity,
             r.unit,
             or_dash(r.reference),
-            number(r.ours),
+            number(r.computed),
             r.reference.map_or("-".to_owned(), |_| number(r.error())),
             or_dash(r.uncertainty),
             or_dash(r.tolerance),
@@ -240,8 +242,8 @@ fn notes(entry: &Entry, text: &mut String) {
 fn word(verdict: Verdict) -> &'static str {
     match verdict {
         Verdict::Pass => "pass",
-        Verdict::Miss => "**miss**",
-        Verdict::Report => "report",
+        Verdict::Fail => "**fail**",
+        Verdict::Unjudged => "report",
     }
 }
 
@@ -274,9 +276,9 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_committed_dossier_is_read_and_written_to_the_last_digit() {
+    fn exact_committed_report_is_read_and_written_to_the_last_digit() {
         let text = include_str!("../../../docs/verification.json");
-        let dossier = Dossier::from_json(text).unwrap();
-        assert!(dossier.json() == text, "a digit was lost");
+        let report = Report::from_json(text).unwrap();
+        assert!(report.json() == text, "a digit was lost");
     }
 }

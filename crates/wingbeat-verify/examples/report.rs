@@ -1,4 +1,4 @@
-//! Prints the dossier: `cargo run --release -p wingbeat-verify --example dossier -- [quick] [only]`.
+//! Prints the report: `cargo run --release -p wingbeat-verify --example report -- [quick] [only]`.
 
 fn main() {
     let args: Vec<String> = std::env::args().skip(1).collect();
@@ -9,7 +9,7 @@ fn main() {
         .map_or("", String::as_str);
     let start = std::time::Instant::now();
     let cases = wingbeat_verify::select(quick, only);
-    let dossier = wingbeat_verify::run(&cases, quick, |e| {
+    let report = wingbeat_verify::run(&cases, quick, |e| {
         eprintln!(
             "{:>7.1} s {} {:?}",
             start.elapsed().as_secs_f64(),
@@ -17,5 +17,5 @@ fn main() {
             e.counts()
         );
     });
-    println!("{}", dossier.page("example"));
+    println!("{}", report.page("example"));
 }

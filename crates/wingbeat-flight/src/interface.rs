@@ -1,4 +1,4 @@
-//! The seam of the air: what the equations of motion ask of it, and what is asked of another
+//! The interface of the air: what the equations of motion ask of it, and what is asked of another
 //! program that stands behind it.
 
 use std::fmt;
@@ -154,7 +154,7 @@ pub(crate) fn misfit(problem: &str) -> FlightError {
     }
 }
 
-/// What a partner is told before the flight.
+/// What a partner gets before the flight.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Announcement {
     /// Names of all bodies, in the order of their motions: root, wings, segments.

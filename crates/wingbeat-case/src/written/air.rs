@@ -1,0 +1,316 @@
+//! `[air]`.
+
+use wingbeat_air::{
+    AirSettings, CoreModel, EdgeKind, Friction, Gust, GustShape, LeadingEdge, Method, NewestRow,
+    ParticleSettings, Plane, SectionDrag, Wind,
+};
+use wingbeat_blade::{BladeSettings, Rotation, SETS, Translation};
+use wingbeat_flight::{AirModel, AirOptions, BladeOptions};
+use wingbeat_math::DVec3;
+
+use super::refusal::{Written, no_keys};
+use crate::raw::{
+    AirCase, AirModel as Model, BladeCase, BodyDragCase, CoreCase, CutOffCase, FrictionCase,
+    GroundCase, GustCase, LambOseenCase, LeadingEdgeCase, OwnCoefficients, ParticlesCase,
+    RadiusCase, RotationCase, SchemeCase, SectionDragCase, ViscousCase,
+};
+
+/// The air of the flight, lengths in metres.
+pub(super) fn write(air: &AirModel) -> Written<AirCase> {
+    match air {
+        AirModel::None => Ok(AirCase {
+            model: Model::None,
+            ..AirCase::default()
+        }),
+        AirModel::BladeElement(options) => blade(options),
+        AirModel::VortexLattice(options) => lattice(options),
+        AirModel::Derivatives(_) | AirModel::External(_) | AirModel::Own(_) => Err(no_keys(
+            format!("air ({})", air.name()),
+            "it was made or changed in Rust, or the animal was",
+            "write history and summary with `Run::write`",
+        )),
+    }
+}
+
+fn with_wind(case: AirCase, wind: &Wind) -> AirCase {
+    let Wind { shear, gusts } = wind;
+    AirCase {
+        shear_1_s: shear.map(|s| [0, 1, 2].map(|k| s.row(k).to_array())),
+        gust: gusts.iter().map(gust).collect(),
+        ..case
+    }
+}
+
+fn gust(gust: &Gust) -> GustCase {
+    let Gust {
+        amplitude,
+        start,
+        slowness,
+        shape,
+    } = gust;
+    let (duration_s, table) = match shape {
+        GustShape::OneMinusCosine { duration } => (Some(*duration), None),
+        GustShape::Table(rows) => (None, Some(rows.clone())),
+    };
+    let front = (*slowness != DVec3::ZERO).then(|| *slowness / slowness.length_squared());
+    GustCase {
+        amplitude_m_s: amplitude.to_array(),
+        start_s: *start,
+        front_m_s: front.map(|u| u.to_array()),
+        duration_s,
+        table,
+    }
+}
+
+fn blade(options: &BladeOptions) -> Written<AirCase> {
+    let BladeOptions {
+        blade,
+        body_drag,
+        induced,
+        wind,
+    } = options;
+    let BladeSettings {
+        density,
+        free_stream,
+        translation,
+        centre_of_pressure,
+        rotation,
+        added_mass,
+        viscous,
+    } = *blade;
+    let (rotation, rotation_coefficient) = match rotation {
+        Rotation::None => (RotationCase::None, None),
+        Rotation::Circulation => (RotationCase::Circulation, None),
+        Rotation::SaneDickinson => (RotationCase::SaneDickinson, None),
+        Rotation::Coefficient(c) => (RotationCase::Circulation, Some(c)),
+    };
+    let case = BladeCase {
+        rotation,
+        rotation_coefficient,
+        added_mass,
+        centre_of_pressure,
+        viscous: viscous.map(|v| ViscousCase {
+            linear_hz: v.linear,
+            quadratic: v.quadratic,
+        }),
+        body_drag: body_drag.map(|d| BodyDragCase {
+            area_m2: d.area,
+            along: d.along,
+            across: d.across,
+        }),
+        induced_m_s: induced.to_array(),
+        ..coefficients(translation)?
+    };
+    let air = AirCase {
+        model: Model::BladeElement,
+        density_kg_m3: density,
+        stream_m_s: free_stream.to_array(),
+        blade: case,
+        ..AirCase::default()
+    };
+    Ok(with_wind(air, wind))
+}
+
+fn coefficients(law: Translation) -> Written<BladeCase> {
+    if let Some(set) = SETS.iter().find(|set| set.law == law) {
+        return Ok(BladeCase {
+            coefficients: set.name.to_owned(),
+            ..BladeCase::default()
+        });
+    }
+    match law {
+        Translation::DoubleAngle {
+            lift,
+            drag_0,
+            drag_90,
+        } => Ok(BladeCase {
+            own: Some(OwnCoefficients {
+                lift,
+                drag_0,
+                drag_90,
+            }),
+            ..BladeCase::default()
+        }),
+        Translation::Harmonic { .. } | Translation::NormalTangential { .. } => Err(no_keys(
+            "coefficients of the blade elements",
+            "a law of this kind is written by the name of a shipped set, and none is this one",
+            "take a shipped set, or `Translation::DoubleAngle`",
+        )),
+    }
+}
+
+fn lattice(options: &AirOptions) -> Written<AirCase> {
+    let AirOptions {
+        lattice,
+        body_surfaces,
+        mirror,
+        joined: _, // keys of the wings
+    } = options;
+    let (leading_edge, threshold) = leading_edge(lattice.leading);
+    let air = AirCase {
+        model: Model::VortexLattice,
+        body: *body_surfaces,
+        mirror: *mirror,
+        loads: lattice.loads,
+        leading_edge,
+        leading_edge_threshold_deg: threshold[0],
+        leading_edge_threshold: threshold[1],
+        ground: ground(&lattice.images)?,
+        particles: lattice.particles.map(particles),
+        section_drag: lattice.section_drag.map(section_drag),
+        ..settings(lattice)
+    };
+    Ok(with_wind(air, &lattice.wind))
+}
+
+fn settings(lattice: &AirSettings) -> AirCase {
+    let AirSettings {
+        density,
+        free_stream,
+        bound_core,
+        wake_core,
+        wake_overlap,
+        wake_blob_length,
+        shedding,
+        rate,
+        max_rows,
+        max_age,
+        max_distance,
+        max_displacement,
+        clearance,
+        convection,
+        newest_row,
+        inset,
+        summation,
+        tolerance,
+        // Keys of their own, see `lattice`.
+        loads: _,
+        leading: _,
+        section_drag: _,
+        wind: _,
+        images: _,
+        particles: _,
+    } = *lattice;
+    let shed = [
+        (shedding.trailing, EdgeKind::Trailing),
+        (shedding.tip, EdgeKind::Tip),
+        (shedding.leading, EdgeKind::Leading),
+        (shedding.root, EdgeKind::Root),
+    ];
+    let default = AirCase::default();
+    AirCase {
+        density_kg_m3: density,
+        stream_m_s: free_stream.to_array(),
+        shed: shed
+            .iter()
+            .filter(|(sheds, _)| *sheds)
+            .map(|(_, e)| *e)
+            .collect(),
+        bound_core: core(bound_core),
+        wake_core: core(wake_core),
+        wake_overlap: wake_overlap.into(),
+        wake_blob_length_m: wake_blob_length,
+        scheme: match newest_row {
+            NewestRow::Constant => SchemeCase::Benchmark,
+            NewestRow::Matched => SchemeCase::Accurate,
+        },
+        circulation_rate: rate.into(),
+        convection: convection.into(),
+        ring_inset: inset.into(),
+        max_wake_age_s: max_age,
+        max_wake_distance_m: max_distance,
+        max_wake_rows: max_rows,
+        max_displacement_m: max_displacement,
+        clearance_m: Some(clearance),
+        summation,
+        summation_tolerance: match summation {
+            Method::Direct => default.summation_tolerance, // without effect
+            Method::Auto | Method::Single | Method::Tree => tolerance,
+        },
+        ..default
+    }
+}
+
+fn core(model: CoreModel) -> CoreCase {
+    let plain = |radius| RadiusCase {
+        radius_m: Some(radius),
+        ..RadiusCase::default()
+    };
+    let spreading = |radius, viscosity| LambOseenCase {
+        radius_m: Some(radius),
+        viscosity_m2_s: viscosity,
+        ..LambOseenCase::default()
+    };
+    match model {
+        CoreModel::CutOff { delta } => CoreCase::CutOff(CutOffCase {
+            length_m: Some(delta),
+            ..CutOffCase::default()
+        }),
+        CoreModel::Vatistas { radius } => CoreCase::Vatistas(plain(radius)),
+        CoreModel::Scully { radius } => CoreCase::Scully(plain(radius)),
+        CoreModel::LambOseen { radius, viscosity } => {
+            CoreCase::LambOseen(spreading(radius, viscosity))
+        }
+        CoreModel::Algebraic { radius, viscosity } => {
+            CoreCase::Algebraic(spreading(radius, viscosity))
+        }
+    }
+}
+
+fn leading_edge(criterion: LeadingEdge) -> (LeadingEdgeCase, [Option<f64>; 2]) {
+    match criterion {
+        LeadingEdge::Never => (LeadingEdgeCase::Never, [None, None]),
+        LeadingEdge::Always => (LeadingEdgeCase::Always, [None, None]),
+        LeadingEdge::AngleOfAttack { threshold } => {
+            let degrees = Some(threshold.to_degrees());
+            (LeadingEdgeCase::AngleOfAttack, [degrees, None])
+        }
+        LeadingEdge::Suction { threshold } => (LeadingEdgeCase::Suction, [None, Some(threshold)]),
+    }
+}
+
+fn ground(images: &[Plane]) -> Written<Option<GroundCase>> {
+    match images {
+        [] => Ok(None),
+        [Plane { point, normal }] => Ok(Some(GroundCase {
+            point_m: point.to_array(),
+            normal: normal.to_array(),
+        })),
+        _ => Err(no_keys(
+            "planes of the air",
+            format!("there are {}, and a case has one", images.len()),
+            "leave one plane; mirror symmetry is `AirOptions::mirror`",
+        )),
+    }
+}
+
+fn particles(settings: ParticleSettings) -> ParticlesCase {
+    let ParticleSettings {
+        after,
+        leading_at_once,
+        radius,
+        viscosity,
+        stretching,
+    } = settings;
+    ParticlesCase {
+        after_rows: after,
+        leading_edge: leading_at_once,
+        radius_m: Some(radius),
+        radius_chords: None,
+        viscosity_m2_s: Some(viscosity),
+        stretching,
+    }
+}
+
+fn section_drag(drag: SectionDrag) -> SectionDragCase {
+    let (friction, viscosity_m2_s) = match drag.friction {
+        Friction::None => (FrictionCase::None, None),
+        Friction::Blasius { viscosity } => (FrictionCase::Blasius, Some(viscosity)),
+    };
+    SectionDragCase {
+        friction,
+        viscosity_m2_s,
+        cd0: drag.cd0,
+        cd2_per_rad2: drag.cd2,
+    }
+}

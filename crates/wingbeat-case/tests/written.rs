@@ -1,0 +1,75 @@
+//! Setups written as cases: read back they are what they were, to rounding; what no key says is refused.
+
+use wingbeat_case::{LoadedCase, case_of, presets};
+use wingbeat_math::MassProperties;
+
+/// The words of a text and, apart, its numbers.
+fn words_and_numbers(text: &str) -> (Vec<&str>, Vec<f64>) {
+    let all = text.split([' ', ',', '(', ')', '[', ']', '{', '}']);
+    let (numbers, words): (Vec<&str>, Vec<&str>) = all
+        .filter(|word| !word.is_empty())
+        .partition(|word| word.parse::<f64>().is_ok());
+    let numbers = numbers.iter().map(|x| x.parse().unwrap()).collect();
+    (words, numbers)
+}
+
+/// Largest difference of numbers, over the largest number among them and their eight neighbours on
+/// either side: a product of inertia is round-off of moments.
+fn apart(a: &[f64], b: &[f64]) -> f64 {
+    let size = |k: usize| {
+        let around = k.saturating_sub(8)..(k + 9).min(a.len());
+        a[around].iter().fold(0.0_f64, |m, x| m.max(x.abs()))
+    };
+    let gap = |k: usize| match (a[k] - b[k]).abs() {
+        0.0 => 0.0,
+        gap => gap / size(k),
+    };
+    (0..a.len()).map(gap).fold(0.0, f64::max)
+}
+
+/// What no case can say without the case it came from.
+const REFUSED: [&str; 5] = ["joints", "loads", "segments", "feedback", "air ("];
+
+#[test]
+fn agrees_every_preset_with_the_case_of_its_setup() {
+    let (mut same, mut refused) = (0, 0);
+    for preset in presets::PRESETS {
+        let mut setup = LoadedCase::find(preset.name, &[]).unwrap().setup;
+        // What mass a part has of the body's is not asked for any more.
+        for part in &mut setup.animal.parts {
+            part.mass = MassProperties::ZERO;
+        }
+        let again = match case_of(&setup, None) {
+            Ok(case) => case.setup,
+            Err(e) => {
+                let said = e.to_string();
+                let part = said.split("no keys for its ").nth(1).unwrap_or(&said);
+                assert!(REFUSED.iter().any(|p| part.starts_with(p)), "{said}");
+                refused += 1;
+                continue;
+            }
+        };
+        let written = [&setup, &again].map(|s| format!("{s:?}"));
+        let [a, b] = written.each_ref().map(|s| words_and_numbers(s));
+        assert!(a.0 == b.0 && a.1.len() == b.1.len(), "{}", preset.name);
+        // Some roundings of angles, moments of inertia and fronts of gusts, 1e-16 each.
+        let apart = apart(&a.1, &b.1);
+        assert!(apart < 2e-14, "{}: {apart:e}", preset.name);
+        same += 1;
+    }
+    println!("{same} written, {refused} refused");
+    assert!(same > 20 && refused > 3);
+}
+
+#[test]
+fn exact_setup_that_is_unchanged_keeps_its_case() {
+    for preset in presets::PRESETS {
+        let case = LoadedCase::find(preset.name, &[]).unwrap();
+        let mut longer = case.setup.clone();
+        longer.time.steps += 1;
+        let again =
+            case_of(&longer, Some(&case)).unwrap_or_else(|e| panic!("{}: {e}", preset.name));
+        let [a, b] = [&longer, &again.setup].map(|s| format!("{s:?}"));
+        assert!(a == b, "{}", preset.name);
+    }
+}

@@ -1,0 +1,73 @@
+//! Functions of time: Fourier series with a drift; tables with straight lines between the rows.
+
+/// A truncated Fourier series with a drift:
+/// `x(t) = x0 + rate t + sum_k a_k cos(2 pi k f t) + b_k sin(2 pi k f t)`, k = 1, 2, ...
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct DriftingFourier {
+    /// Value without the oscillation at t = 0.
+    pub constant: f64,
+    /// Steady rate of change [1/s].
+    pub rate: f64,
+    /// Fundamental frequency f [Hz].
+    pub frequency: f64,
+    /// Cosine coefficients a_1, a_2, ...
+    pub cosine: Vec<f64>,
+    /// Sine coefficients b_1, b_2, ...
+    pub sine: Vec<f64>,
+}
+
+impl DriftingFourier {
+    /// A constant.
+    pub fn constant(value: f64) -> Self {
+        Self {
+            constant: value,
+            ..Self::default()
+        }
+    }
+
+    /// Value and first two time derivatives at `t` [s].
+    ///
+    /// ```
+    /// use wingbeat_math::DriftingFourier;
+    /// let f = DriftingFourier { frequency: 1.0, cosine: vec![0.5], ..DriftingFourier::constant(2.0) };
+    /// assert_eq!(f.at(0.0)[..2], [2.5, 0.0]);
+    /// ```
+    pub fn at(&self, t: f64) -> [f64; 3] {
+        let mut x = [self.constant + self.rate * t, self.rate, 0.0];
+        let base = 2.0 * std::f64::consts::PI * self.frequency;
+        for k in 1..=self.cosine.len().max(self.sine.len()) {
+            let a = self.cosine.get(k - 1).copied().unwrap_or(0.0);
+            let b = self.sine.get(k - 1).copied().unwrap_or(0.0);
+            let w = base * k as f64;
+            let (s, c) = (w * t).sin_cos();
+            x[0] += a * c + b * s;
+            x[1] += w * (b * c - a * s);
+            x[2] -= w * w * (a * c + b * s);
+        }
+        x
+    }
+}
+
+/// Value at `x` of a table of `rows` whose abscissae rise, straight lines between, constant beyond the
+/// ends; `row` gives abscissa and value of a row.
+///
+/// ```
+/// let rows = [(0.0, 1.0), (2.0, 5.0)];
+/// let at = |x| wingbeat_math::interpolate(rows.len(), |k| rows[k], x);
+/// assert_eq!([-1.0, 0.5, 3.0].map(at), [1.0, 2.0, 5.0]);
+/// ```
+pub fn interpolate(rows: usize, row: impl Fn(usize) -> (f64, f64), x: f64) -> f64 {
+    let (mut below, mut next) = (0, rows); // rows before `below` are at or below x, from `next` on above
+    while below < next {
+        let middle = (below + next) / 2;
+        match row(middle).0 <= x {
+            true => below = middle + 1,
+            false => next = middle,
+        }
+    }
+    if next == 0 || next == rows {
+        return row(next.max(1) - 1).1;
+    }
+    let ((x0, y0), (x1, y1)) = (row(next - 1), row(next));
+    y0 + (y1 - y0) * ((x - x0) / (x1 - x0))
+}

@@ -1,0 +1,10 @@
+//! Bad input by the hundred. Whatever is asked: no panic, no abort, no silence of more than ten
+//! seconds, no file changed, and never an exit code of success.
+#![cfg(target_os = "linux")]
+
+mod cases;
+mod command_line;
+mod field;
+mod files;
+#[path = "../support/mod.rs"]
+mod support;
