@@ -8,7 +8,7 @@ use crate::AnalysisError;
 use crate::progress;
 
 /// Part of the peak by which powers of successive beats may differ for the motion to count as periodic.
-const SETTLED: f64 = 1e-7;
+const PERIODIC: f64 = 1e-7;
 
 /// Mean mechanical powers over one wingbeat [W] and over masses [W/kg].
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -71,9 +71,9 @@ pub fn power(setup: &FlightSetup) -> Result<Power, AnalysisError> {
     for beat in 0..beats {
         progress::task("power", beat, beats);
         let now = over_beat(&mechanism, &mut flight, per_beat)?;
-        let is_settled = now.is_near(&last);
+        let is_periodic = now.is_near(&last);
         last = now;
-        if is_settled {
+        if is_periodic {
             break;
         }
         if beat + 1 == beats && beat > 0 && !flight.record().joints.is_empty() {
@@ -92,7 +92,7 @@ pub fn power(setup: &FlightSetup) -> Result<Power, AnalysisError> {
 impl Power {
     /// Whether it is that of the next beat of a motion that has become periodic.
     fn is_near(&self, other: &Self) -> bool {
-        let near = |a: f64, b: f64| (a - b).abs() <= SETTLED * self.peak;
+        let near = |a: f64, b: f64| (a - b).abs() <= PERIODIC * self.peak;
         near(self.perfect_storage, other.perfect_storage) && near(self.peak, other.peak)
     }
 }

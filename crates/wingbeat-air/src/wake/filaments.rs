@@ -266,7 +266,7 @@ impl Filaments {
 mod tests {
     use super::*;
 
-    /// The kernel takes the root of a node anew once it has looked at some hundred others.
+    /// The kernel takes the root of a node again once it has looked at some hundred others.
     #[test]
     fn exact_edges_of_wide_sheets_are_there_once_and_find_their_nodes_in_sight() {
         const SIGHT: usize = WINDOW - 18; // two patches of nodes that come and go
