@@ -26,7 +26,7 @@ pub struct AirSettings {
     /// stretches far beyond its core has strains no mesh follows: they stretch it on, and the wake
     /// around a hovering animal gains energy until it blows up. With 1 no filament moves air on
     /// scales smaller than its own length. Far off it changes nothing, nor any circulation or
-    /// impulse.
+    /// impulse. Algebraic cores are no wider for it than a quarter of the way along the sheet from its edge.
     pub wake_overlap: f64,
     /// Length [m] from which a free wake filament turns into a vortex blob, wholly at 1.25 times this length: its strength
     /// Gamma (b - a) as a Gaussian about its middle, as wide as its core; none: never. Where `wake_overlap` has made

@@ -70,7 +70,8 @@ pub struct AirCase {
     #[schemars(extend("with" = LATTICE))]
     pub wake_core: CoreCase,
     /// Least core radius of a free wake filament over its length: keeps wakes resolved that the flow
-    /// stretches. Default: 1, or 0 where `wake_core` is a cut-off, which has no radius.
+    /// stretches. Default: 1, or 0 where `wake_core` is a cut-off, which has no radius. Algebraic cores are no wider for
+    /// it than a quarter of the way along the sheet from its edge.
     ///
     /// Change it to 0 to compare with codes whose cores do not widen; long hover then blows up.
     #[schemars(extend("minimum" = 0, "with" = LATTICE))]

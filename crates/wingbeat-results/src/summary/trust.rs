@@ -164,6 +164,9 @@ fn core_is_an_input(setup: &FlightSetup, lattice: &AirSettings) -> String {
     let (kind, size) = core(&lattice.wake_core);
     let overlap = match lattice.wake_overlap {
         0.0 => String::new(),
+        part if lattice.is_symmetric() => format!(
+            ", at least {part} times a filament's length or a quarter of the way from its edge"
+        ),
         part => format!(", at least {part} times a filament's length"),
     };
     let blobs = match lattice.wake_blob_length {
