@@ -284,7 +284,8 @@ impl FastSum {
                 let all = 0..single.clusters.len();
                 add_clusters_with_vorticity(level, single, all, targets, sums);
             });
-            if self.error_of_single(&check).is_some() {
+            let is_finite = self.vorticity.iter().all(|w| w.is_finite());
+            if is_finite && self.error_of_single(&check).is_some() {
                 add_to(velocity, &self.velocity);
                 add_to(vorticity, &self.vorticity);
                 return;

@@ -331,20 +331,22 @@ fn invariant_adds_to_what_is_there() {
     assert!(once.z[0] > 0.0, "right-handed");
 }
 
+/// Corners of two loops, one bent.
+const LOOPS: [[DVec3; 4]; 2] = [
+    [DVec3::ZERO, DVec3::X, DVec3::new(1.0, 0.8, 0.1), DVec3::Y],
+    [
+        DVec3::new(0.3, 0.2, 0.15),
+        DVec3::new(1.2, 0.3, 0.4),
+        DVec3::new(1.0, 1.1, 0.3),
+        DVec3::new(0.2, 0.9, 0.5),
+    ],
+];
+
 /// Force `integral of omega x u` of two loops on each other and themselves, over the largest part of it.
 fn sum_of_forces(model: impl Fn(f64) -> CoreModel) -> f64 {
     let radii = [0.05, 0.3];
-    let loops = [
-        [DVec3::ZERO, DVec3::X, DVec3::new(1.0, 0.8, 0.1), DVec3::Y],
-        [
-            DVec3::new(0.3, 0.2, 0.15),
-            DVec3::new(1.2, 0.3, 0.4),
-            DVec3::new(1.0, 1.1, 0.3),
-            DVec3::new(0.2, 0.9, 0.5),
-        ],
-    ];
     let (mut forces, pieces) = (Vec::new(), 400_u32);
-    for (k, corners) in loops.iter().enumerate() {
+    for (k, corners) in LOOPS.iter().enumerate() {
         let mut targets = Points::default();
         for i in 0..4 {
             for s in 0..pieces {
@@ -354,7 +356,7 @@ fn sum_of_forces(model: impl Fn(f64) -> CoreModel) -> f64 {
             }
         }
         let mut v = Points::zeros(targets.len());
-        for (source, radius) in loops.iter().zip(radii) {
+        for (source, radius) in LOOPS.iter().zip(radii) {
             let (model, mut net) = (model(radius), Network::default());
             source.iter().for_each(|&x| net.nodes.push(x));
             (0..4).for_each(|i| net.push_edge(i, (i + 1) % 4, 1.0, model.core(1.0, 0.0)));
@@ -384,18 +386,9 @@ fn conserves_impulse_between_loops_of_unequal_cores() {
 /// Two loops whose cores change along them, as one network with its targets: pieces of all its edges, their circulation
 /// being 1. Returns the network, the targets, and for each its piece and the change of sigma^2 along it.
 fn loops_of_changing_cores(pieces: u32) -> (Network, Points, Vec<(DVec3, f64)>) {
-    let loops = [
-        [DVec3::ZERO, DVec3::X, DVec3::new(1.0, 0.8, 0.1), DVec3::Y],
-        [
-            DVec3::new(0.3, 0.2, 0.15),
-            DVec3::new(1.2, 0.3, 0.4),
-            DVec3::new(1.0, 1.1, 0.3),
-            DVec3::new(0.2, 0.9, 0.5),
-        ],
-    ];
     let radii = [[0.05, 0.3, 0.1, 0.2], [0.4, 0.1, 0.3, 0.05]].map(|r| r.map(|r: f64| r * r));
     let (mut net, mut targets, mut changes) = (Network::default(), Points::default(), vec![]);
-    for (k, corners) in loops.iter().enumerate() {
+    for (k, corners) in LOOPS.iter().enumerate() {
         (0..4).for_each(|i| net.nodes.push_with_core(corners[i], radii[k][i]));
         for (i, next) in (0..4).map(|i| (i, (i + 1) % 4)) {
             net.push_edge(4 * k + i, 4 * k + next, 1.0, 0.0);
