@@ -186,6 +186,7 @@ pub(super) fn doubts(setup: &FlightSetup, e: &Estimate) -> Vec<String> {
         let name = |d| format!("wing `{}`: {d}", wing.name);
         list.extend(own.into_iter().map(name));
     }
+    list.extend(setup.crossing_wings());
     list
 }
 

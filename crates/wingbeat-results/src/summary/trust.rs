@@ -113,6 +113,12 @@ fn air_warnings(
         None => format!("The air is inviscid: without friction, drag and power come out low, the more so the smaller the Reynolds number. {suction}"),
         Some(drag) => format!("The air is inviscid; drag of the sections was added to its forces (air.section_drag: {}, cd0 = {}, cd2 = {} per rad2), from the undisturbed air past each strip. {suction}", friction(drag), drag.cd0, drag.cd2),
     });
+    let no_meaning = |crossing| {
+        format!(
+            "The prescribed motion is impossible: {crossing}. The forces of those instants have no meaning."
+        )
+    };
+    list.extend(setup.crossing_wings().into_iter().map(no_meaning));
     list.push(core_is_an_input(setup, lattice));
     if air.mirror {
         list.push("Mirror symmetry was assumed (air.mirror): a real flow of this kind loses it, and with it roll, yaw and sideways drift would come.".to_owned());

@@ -31,6 +31,10 @@ pub(super) const CASES: &[Case] = &[
     },
 ];
 
+/// Largest chord of the wings over their mean chord. So far apart are the hinges of the pairs: "about a wing's width"
+/// [Z. J. Wang, Physics Today 61(9), 2008]; flat wings nearer than a mean chord pass through each other in these motions.
+const WIDEST: f64 = 1.25;
+
 /// Mean and harmonics (amplitude, phase) [deg]: mean + sum A cos(2 pi k t + phase).
 struct Series(f64, &'static [[f64; 2]]);
 
@@ -39,7 +43,6 @@ struct Pair {
     length: f64,
     area: f64,
     gamma: f64,
-    place: f64,
     cone: Series,
     phi: Series,
     psi: Series,
@@ -81,16 +84,18 @@ impl Dragonfly {
             length: fore.length,
             frequency: self.frequency,
         });
-        for pair in [fore, hind] {
+        let apart = WIDEST * hind.area / hind.length;
+        for (pair, place) in [(fore, 0.5), (hind, -0.5)] {
             let name = format!("{}-right", pair.name);
-            case.wing.insert(name, pair.right(self.body, with));
+            let hinge = [place * apart, 0.06 * self.body, 0.0];
+            case.wing.insert(name, pair.right(hinge, with));
         }
         case
     }
 }
 
 impl Pair {
-    fn right(&self, body: f64, with: Choice) -> WingCase {
+    fn right(&self, hinge: [f64; 3], with: Choice) -> WingCase {
         let planform = BetaCase {
             length_m: self.length,
             mean_chord_m: Some(self.area / self.length),
@@ -99,7 +104,7 @@ impl Pair {
             ..BetaCase::default()
         };
         WingCase {
-            hinge_m: Some([self.place * body, 0.06 * body, 0.0]),
+            hinge_m: Some(hinge),
             mass_kg: Some(1e-9),
             planform: Some(PlanformCase::Beta(planform)),
             mesh: Some(with.mesh()),
@@ -163,7 +168,6 @@ fn azuma(_quick: bool) -> Result<Vec<Row>, VerifyError> {
                 length: 0.0335,
                 area: 2.21e-4,
                 gamma: 37.0,
-                place: 0.06,
                 cone: Series(8.0, &[]),
                 phi: Series(3.0, &[[43.0, 0.0]]),
                 psi: Series(8.0, &[[-77.0, -49.0], [-3.0, 67.0], [-8.0, 29.0]]),
@@ -173,7 +177,6 @@ fn azuma(_quick: bool) -> Result<Vec<Row>, VerifyError> {
                 length: 0.0325,
                 area: 2.72e-4,
                 gamma: 40.0,
-                place: -0.06,
                 cone: Series(-2.0, &[]),
                 phi: Series(-2.0, &[[47.0, 77.0]]),
                 psi: Series(3.0, &[[-65.0, 18.0], [8.0, 74.0], [8.0, 28.0]]),
@@ -208,7 +211,6 @@ const WANG_RUSSELL: Dragonfly = Dragonfly {
             length: 0.046,
             area: 3.8e-4,
             gamma: 53.0,
-            place: 0.06,
             cone: Series(
                 10.0,
                 &[
@@ -235,7 +237,6 @@ const WANG_RUSSELL: Dragonfly = Dragonfly {
             length: 0.043,
             area: 4.4e-4,
             gamma: 44.0,
-            place: -0.06,
             cone: Series(
                 -5.0,
                 &[

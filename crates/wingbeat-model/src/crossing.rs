@@ -1,0 +1,234 @@
+//! Wings that pass through each other: no animal's do, and no vortex lattice says what the air does then.
+
+use crate::animal::{Animal, Wing};
+use crate::motion::{Start, WingMotion};
+use wingbeat_math::{DVec3, RotationLaw};
+
+/// Instants of a beat at which wings are compared.
+const INSTANTS: usize = 100;
+/// Beats that are looked at of the faster wing that are looked at where two beat at different frequencies.
+const BEATS: usize = 10;
+/// Lines of nodes along chord and span that are compared at most.
+const LINES: [usize; 2] = [9, 17];
+/// What is no crossing but a touch, over the longest way across a wing.
+const TOUCH: f64 = 1e-6;
+
+/// Two wings that pass through each other in their prescribed motion.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Crossing {
+    /// The two, among the wings of the animal.
+    pub wings: [usize; 2],
+    /// Part of the time in which they do.
+    pub part: f64,
+}
+
+/// Which of `wings` of the animal pass through each other once their motion has started: at 100 instants of a beat, in ten
+/// beats where frequencies differ, shapes at rest, on at most 8 x 16 panels.
+pub fn crossings(animal: &Animal, wings: &[usize]) -> Vec<Crossing> {
+    let pairs = |(k, &a)| wings[k + 1..].iter().map(move |&b| [a, b]);
+    let pairs = wings.iter().enumerate().flat_map(pairs);
+    let crossing = |wings: [usize; 2]| {
+        let part = part_of_time(wings.map(|w| &animal.wings[w]));
+        (part > 0.0).then_some(Crossing { wings, part })
+    };
+    pairs.filter_map(crossing).collect()
+}
+
+fn part_of_time(wings: [&Wing; 2]) -> f64 {
+    let [a, b] = wings.map(|w| w.motion.frequency);
+    let beats = if a == b || a * b == 0.0 { 1 } else { BEATS };
+    let faster = [a, b].into_iter().filter(|f| *f > 0.0).reduce(f64::max);
+    let (instants, beat) = match faster {
+        Some(f) => (INSTANTS * beats, 1.0 / f),
+        None => (1, 0.0),
+    };
+    let sheets = wings.map(Sheet::new);
+    let met = (0..instants).filter(|&k| {
+        let t = beat * k as f64 / INSTANTS as f64;
+        let [a, b] = [0, 1].map(|w| sheets[w].at(t));
+        a.iter()
+            .any(|x| x.distance(b[0]) < sheets[0].size + sheets[1].size)
+            && (sheets[0].passes(&a, &sheets[1], &b) || sheets[1].passes(&b, &sheets[0], &a))
+    });
+    met.count() as f64 / instants as f64
+}
+
+/// Nodes of a wing at rest, and what moves them.
+struct Sheet {
+    motion: WingMotion,
+    hinge: DVec3,
+    rows: usize,
+    columns: usize,
+    nodes: Vec<DVec3>,
+    /// Longest way across it [m].
+    size: f64,
+}
+
+impl Sheet {
+    fn new(wing: &Wing) -> Self {
+        let mesh = &wing.mesh;
+        let rows = lines(mesh.rows, LINES[0]);
+        let columns = lines(mesh.cols, LINES[1]);
+        let row = |&i: &usize| columns.iter().map(move |&j| mesh.nodes[mesh.node(i, j)]);
+        let nodes: Vec<DVec3> = rows.iter().flat_map(row).collect();
+        let motion = WingMotion {
+            start: Start::Impulsive,
+            ..wing.motion.clone()
+        };
+        let far = |x: &DVec3| x.distance(nodes[0]);
+        Self {
+            motion,
+            hinge: wing.hinge_b,
+            rows: rows.len(),
+            columns: columns.len(),
+            size: 2.0 * nodes.iter().map(far).fold(0.0, f64::max),
+            nodes,
+        }
+    }
+
+    /// Its nodes at time `t` \[s\], body components \[m\].
+    fn at(&self, t: f64) -> Vec<DVec3> {
+        let r = self.motion.at(t).c;
+        self.nodes.iter().map(|x| self.hinge + r * *x).collect()
+    }
+
+    /// Whether a line of this sheet, whose nodes are at `a`, passes through the other, whose are at `b`.
+    fn passes(&self, a: &[DVec3], other: &Self, b: &[DVec3]) -> bool {
+        let touch = TOUCH * (self.size + other.size);
+        let lines = self.lines();
+        let low = b.iter().copied().fold(DVec3::INFINITY, DVec3::min);
+        let high = b.iter().copied().fold(DVec3::NEG_INFINITY, DVec3::max);
+        let near = |x: DVec3, y: DVec3| x.min(y).cmple(high).all() && x.max(y).cmpge(low).all();
+        let mut near = lines.map(|l| l.map(|n| a[n])).filter(|[x, y]| near(*x, *y));
+        near.any(|line| {
+            let mut triangles = other.triangles();
+            triangles.any(|t| pierces(line, t.map(|n| b[n]), touch))
+        })
+    }
+
+    /// Nodes at the ends of the lines between neighbours.
+    fn lines(&self) -> impl Iterator<Item = [usize; 2]> + '_ {
+        let (rows, columns) = (self.rows, self.columns);
+        let along = (0..rows * columns).filter(move |n| n % columns + 1 < columns);
+        let across = 0..(rows - 1) * columns;
+        along
+            .map(|n| [n, n + 1])
+            .chain(across.map(move |n| [n, n + columns]))
+    }
+
+    fn triangles(&self) -> impl Iterator<Item = [usize; 3]> + '_ {
+        let columns = self.columns;
+        let corners = (0..(self.rows - 1) * columns).filter(move |n| n % columns + 1 < columns);
+        corners.flat_map(move |n| {
+            let m = n + columns;
+            [[n, m, m + 1], [n, m + 1, n + 1]]
+        })
+    }
+}
+
+/// Indices of at most `most` of the lines of nodes of `panels`, the first and the last among them.
+fn lines(panels: usize, most: usize) -> Vec<usize> {
+    let count = panels.min(most - 1);
+    (0..=count).map(|k| k * panels / count).collect()
+}
+
+/// Whether the line passes through the triangle, and does not only `touch` \[m\] it.
+fn pierces([x, y]: [DVec3; 2], [a, b, c]: [DVec3; 3], touch: f64) -> bool {
+    let normal = (b - a).cross(c - a);
+    let area = normal.length();
+    if area <= touch * touch {
+        return false;
+    }
+    let n = normal / area;
+    let [over, under] = [x, y].map(|p| (p - a).dot(n));
+    if over * under >= 0.0 || over.abs().min(under.abs()) <= touch {
+        return false;
+    }
+    let p = x.lerp(y, over / (over - under));
+    let inside = |[u, v]: [DVec3; 2]| (v - u).cross(p - u).dot(n) >= 0.0;
+    [[a, b], [b, c], [c, a]].into_iter().all(inside)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::motion::{AngleLaw, Fourier};
+    use crate::{MassInput, Planform, Side, WingShape};
+
+    /// A wing of length 1 that flaps by 60 deg about the axis of its chord, hinged `below` \[m\] the body's origin.
+    fn wing(below: f64, amplitude: f64, frequency: f64) -> Wing {
+        let planform = Planform::Outline {
+            leading: vec![(0.0, 0.2), (1.0, 0.2)],
+            trailing: vec![(0.0, -0.3), (1.0, -0.3)],
+            least_chord: 0.1,
+        };
+        let shape = WingShape::uniform(planform, 3, 30);
+        let mut motion = WingMotion::fixed(0.0, [0.0; 3]);
+        let (mean, cos, sin) = (0.0, vec![], vec![amplitude]);
+        motion.angles.phi = AngleLaw::Fourier(Fourier { mean, cos, sin });
+        motion.frequency = frequency;
+        motion.start = Start::Smooth { duration: 1.0 };
+        let hinge = DVec3::new(0.0, 0.0, below);
+        Wing::new(
+            "wing",
+            Side::Right,
+            hinge,
+            &shape,
+            &MassInput::Total(0.1),
+            motion,
+        )
+        .unwrap()
+    }
+
+    fn animal(wings: Vec<Wing>) -> Animal {
+        Animal {
+            name: "crossing".into(),
+            body: wings[0].mass,
+            parts: vec![],
+            wings,
+            segments: vec![],
+        }
+    }
+
+    /// The tip is more than half a length below the hinge, where the other wing is, for a third of the beat.
+    #[test]
+    fn exact_time_for_which_a_wing_is_through_another() {
+        let flapping = || wing(0.0, 60f64.to_radians(), 7.0);
+        for (still, frequency) in [
+            (wing(0.5, 0.0, 7.0), "the same"),
+            (wing(0.5, 0.0, 0.0), "none"),
+        ] {
+            let found = crossings(&animal(vec![flapping(), still]), &[0, 1]);
+            assert_eq!(found.len(), 1, "{frequency}");
+            assert_eq!(found[0].wings, [0, 1]);
+            // Instants are a hundredth apart, and there are two ends.
+            assert!(
+                (found[0].part - 1.0 / 3.0).abs() < 0.02,
+                "{}",
+                found[0].part
+            );
+        }
+        let slow = animal(vec![flapping(), wing(0.5, 0.0, 0.7)]);
+        assert!((crossings(&slow, &[0, 1])[0].part - 1.0 / 3.0).abs() < 0.02);
+        let far = animal(vec![flapping(), wing(0.9, 0.0, 7.0)]);
+        assert_eq!(crossings(&far, &[0, 1]), []);
+    }
+
+    /// Wings that share the line of their roots touch there and do not pass; nor does a wing with itself.
+    #[test]
+    fn behaves_touching_wings_do_not_cross() {
+        let right = wing(0.0, 1.0, 7.0);
+        let left = right.mirrored("left");
+        let two = animal(vec![right, left]);
+        assert_eq!(crossings(&two, &[0, 1]), []);
+        assert_eq!(crossings(&two, &[0, 0]), []);
+        assert_eq!(crossings(&two, &[]), []);
+    }
+
+    #[test]
+    fn behaves_fine_meshes_are_looked_at_on_few_lines() {
+        assert_eq!(lines(3, 9), [0, 1, 2, 3]);
+        assert_eq!(lines(80, 9), [0, 10, 20, 30, 40, 50, 60, 70, 80]);
+        assert_eq!(lines(300, LINES[1]).len(), LINES[1]);
+    }
+}
