@@ -11,6 +11,7 @@ mod kernel;
 mod particles;
 mod peer;
 mod plates;
+mod scherer;
 mod start;
 mod steady;
 mod unsteady;
@@ -33,6 +34,7 @@ pub fn suite() -> Vec<Case> {
         start::CASES,
         peer::CASES,
         yeo::CASES,
+        scherer::CASES,
         insects::CASES,
         dragonflies::CASES,
         hover::CASES,
