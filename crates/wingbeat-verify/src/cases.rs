@@ -11,6 +11,7 @@ mod kernel;
 mod particles;
 mod peer;
 mod plates;
+mod ramp;
 mod scherer;
 mod start;
 mod steady;
@@ -35,6 +36,7 @@ pub fn suite() -> Vec<Case> {
         peer::CASES,
         yeo::CASES,
         scherer::CASES,
+        ramp::CASES,
         insects::CASES,
         dragonflies::CASES,
         hover::CASES,
