@@ -1,5 +1,6 @@
 //! The suite, in the order of the report.
 
+mod baik;
 mod benchmark;
 mod bodies;
 mod conservation;
@@ -37,6 +38,7 @@ pub fn suite() -> Vec<Case> {
         yeo::CASES,
         scherer::CASES,
         ramp::CASES,
+        baik::CASES,
         insects::CASES,
         dragonflies::CASES,
         hover::CASES,
