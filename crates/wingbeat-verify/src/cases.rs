@@ -17,6 +17,7 @@ mod scherer;
 mod start;
 mod steady;
 mod unsteady;
+mod yang;
 mod yeo;
 
 use crate::case::Case;
@@ -39,6 +40,7 @@ pub fn suite() -> Vec<Case> {
         scherer::CASES,
         ramp::CASES,
         baik::CASES,
+        yang::CASES,
         insects::CASES,
         dragonflies::CASES,
         hover::CASES,
