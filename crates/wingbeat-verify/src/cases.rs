@@ -13,6 +13,7 @@ mod particles;
 mod peer;
 mod plates;
 mod ramp;
+mod revolving;
 mod scherer;
 mod start;
 mod steady;
@@ -41,6 +42,7 @@ pub fn suite() -> Vec<Case> {
         ramp::CASES,
         baik::CASES,
         yang::CASES,
+        revolving::CASES,
         insects::CASES,
         dragonflies::CASES,
         hover::CASES,
