@@ -1,5 +1,6 @@
 //! The suite, in the order of the report.
 
+mod baik;
 mod benchmark;
 mod bodies;
 mod conservation;
@@ -11,9 +12,13 @@ mod kernel;
 mod particles;
 mod peer;
 mod plates;
+mod ramp;
+mod revolving;
+mod scherer;
 mod start;
 mod steady;
 mod unsteady;
+mod yang;
 mod yeo;
 
 use crate::case::Case;
@@ -33,6 +38,11 @@ pub fn suite() -> Vec<Case> {
         start::CASES,
         peer::CASES,
         yeo::CASES,
+        scherer::CASES,
+        ramp::CASES,
+        baik::CASES,
+        yang::CASES,
+        revolving::CASES,
         insects::CASES,
         dragonflies::CASES,
         hover::CASES,

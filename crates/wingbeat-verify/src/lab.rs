@@ -2,6 +2,7 @@
 
 pub(crate) mod insect;
 pub mod outline;
+pub(crate) mod rig;
 pub mod series;
 
 use wingbeat_air::{AirError, AirLoads, AirState, AirWorkspace, Lattice, NodeMotion};

@@ -1,10 +1,10 @@
-//! Two dragonflies with four wings each, in the setting of all insects.
+//! Dragonflies with four wings, in the setting of all insects.
 //!
 //! Angles of the source: gamma, inclination of the stroke plane to the horizontal; phi, positive up;
 //! psi, chord normal to the stroke plane at zero, leading edge up positive; a cone angle to the fore.
 //! Here: stroke-plane pitch 90 deg - gamma, flap -phi, deviation - cone, feathering psi.
 
-use crate::lab::insect::{Choice, Fluid, MODELS, forces, middle};
+use crate::lab::insect::{Choice, DEFAULT, Fluid, MODELS, forces, middle};
 use crate::lab::series::{Table, correlation, interpolate, mean, rms};
 use crate::{Case, Part, Row, VerifyError};
 use wingbeat_case::raw;
@@ -28,6 +28,14 @@ pub(super) const CASES: &[Case] = &[
         part: Part::Experiments,
         quick: false,
         run: wang_russell,
+    },
+    Case {
+        name: "dragonfly-azuma-1988",
+        about: "Anax parthenope in slow and in faster forward flight: mean vertical force of all wings in the \
+                measured motion against weight times load factor.",
+        part: Part::Experiments,
+        quick: false,
+        run: azuma_1988,
     },
 ];
 
@@ -281,4 +289,112 @@ fn wang_russell(_quick: bool) -> Result<Vec<Row>, VerifyError> {
          third beat",
     ];
     compare(&WANG_RUSSELL, &theirs, words, 0.62e-3 * 9.81)
+}
+
+/// A flight of Anax: wingbeats a second, speed and direction, load factor; fore and hind wings with the inclination
+/// of their stroke plane, flap and feathering.
+struct Anax(f64, [f64; 2], f64, [(f64, Series, Series); 2]);
+
+const AZUMA_1988: [Anax; 2] = [
+    Anax(
+        26.5,
+        [0.7, -12.0],
+        1.1,
+        [
+            (
+                40.0,
+                Series(0.0, &[[36.0, 0.0]]),
+                Series(10.0, FEATHERING[0]),
+            ),
+            (
+                38.0,
+                Series(0.0, &[[26.0, 51.0]]),
+                Series(17.0, FEATHERING[1]),
+            ),
+        ],
+    ),
+    Anax(
+        28.1,
+        [1.5, -1.1],
+        0.97,
+        [
+            (
+                55.0,
+                Series(0.0, &[[25.0, 0.0]]),
+                Series(-2.0, FEATHERING[2]),
+            ),
+            (
+                48.0,
+                Series(0.0, &[[26.0, 61.0]]),
+                Series(-9.0, FEATHERING[3]),
+            ),
+        ],
+    ),
+];
+
+const FEATHERING: [&[[f64; 2]]; 4] = [
+    &[[54.0, 89.0], [2.0, -88.0], [7.0, 52.0], [1.0, -7.0]],
+    &[[38.0, -178.0], [6.0, -112.0], [2.0, -37.0], [1.0, -216.0]],
+    &[[54.0, 93.0], [4.0, 135.0], [4.0, -68.0], [5.0, 113.0]],
+    &[[30.0, 154.0], [6.0, -69.0], [2.0, -52.0], [2.0, 83.0]],
+];
+
+impl Anax {
+    /// Areas are those of one wing, as their mean chords, 0.20 and 0.26 of the length, show.
+    fn animal(self) -> Dragonfly {
+        let Self(frequency, flight, _, [fore, hind]) = self;
+        let pair = |name, [length, area, place, cone]: [f64; 4], (gamma, phi, psi)| Pair {
+            name,
+            length,
+            area,
+            gamma,
+            place,
+            cone: Series(cone, &[]),
+            phi,
+            psi,
+        };
+        Dragonfly {
+            body: 0.075,
+            frequency,
+            flight,
+            pairs: [
+                pair("fore", [0.050, 5.0e-4, 0.06, 8.0], fore),
+                pair("hind", [0.0485, 6.0e-4, -0.06, -2.0], hind),
+            ],
+        }
+    }
+}
+
+fn azuma_1988(_quick: bool) -> Result<Vec<Row>, VerifyError> {
+    const SOURCE: &str = "Azuma & Watanabe 1988, J. Exp. Biol. 137:221, table 2";
+    const BAND: &str = "wing shape and distance of the pairs are estimates, twist is left out, the load \
+                        factor follows from the path; uncertainty: half the change from the second to \
+                        the third beat";
+    let weight = 0.79e-3 * 9.81;
+    let mut rows = Vec::new();
+    for (flight, number) in AZUMA_1988.into_iter().zip(1..) {
+        let load = flight.2;
+        let animal = flight.animal();
+        for model in [None, Some(MODELS[0]), Some(MODELS[2]), Some(MODELS[3])] {
+            let (name, choice) = model.unwrap_or(("blade elements", DEFAULT));
+            let mut case = animal.case(choice);
+            if model.is_none() {
+                case.air = raw::AirCase {
+                    model: raw::AirModel::BladeElement,
+                    stream_m_s: case.air.stream_m_s,
+                    ..raw::AirCase::default()
+                };
+            }
+            let lift: Vec<f64> = forces(case)?.iter().map(|f| -f.z / weight).collect();
+            let [lift, spread] = middle(&[1, 2].map(|b| mean(&lift[40 * b..=40 * (b + 1)])));
+            let quantity = format!("experiment {number}, {name}: mean vertical force");
+            let row = Row::new(quantity, "weights", lift).against(load, SOURCE);
+            let row = row.uncertain(spread);
+            rows.push(match model.is_none_or(|m| m.0 == MODELS[0].0) {
+                true => row.within_part(0.25, BAND),
+                false => row,
+            });
+        }
+    }
+    Ok(rows)
 }

@@ -1,0 +1,101 @@
+//! A plate that pitches up to 45 deg within one chord of travel.
+
+use crate::lab::rig::{ATTACHED, Fluid, Pose, SEPARATED, Wing, forces};
+use crate::lab::series::{Table, interpolate, rms};
+use crate::{Case, Part, Row, VerifyError};
+use std::f64::consts::FRAC_PI_4;
+use wingbeat_math::{DVec3, r2};
+
+pub(super) const CASES: &[Case] = &[Case {
+    name: "stevens-babinsky-2017",
+    about: "A flat plate of aspect ratio 4 at a Reynolds number of 1e4 pitches from 0 to 45 deg within \
+            a chord of travel, about its leading edge or its mid chord, and stays there: lift \
+            coefficient against travel.",
+    part: Part::Experiments,
+    quick: false,
+    run,
+}];
+
+/// Smoothing of the ramp's corners [1/chord].
+const SMOOTHING: f64 = 11.0;
+/// Travel before the ramp [chords]: the smoothed corner is below 1e-3 of its peak there.
+const BEFORE: f64 = 0.4;
+const HALF_SPAN: f64 = 2.0;
+
+const SOURCE: &str = "Stevens & Babinsky 2017, Exp. Fluids 58:7, fig. 21";
+const BAND: &str = "a fifth of the mean lift coefficient of the ramp; no uncertainty of the measurement is \
+                    given, the rig's vibration shows as 0.2";
+const CHANGE: &str = "from 0.05 chords of travel on; the plate stalls from about 20 deg on; uncertainty: \
+                      change by 9 x 18 panels and 30 steps a chord for 6 x 12 and 20";
+
+/// Incidence [rad] and its rate after `s` chords of travel [Eldredge, Wang, Ol 2009, AIAA 2009-3687].
+fn ramp(s: f64) -> [f64; 2] {
+    let a = SMOOTHING;
+    let [rise, hold] = [a * s, a * (s - 1.0)];
+    [
+        0.5 * FRAC_PI_4 * (1.0 + (rise.cosh() / hold.cosh()).ln() / a),
+        0.5 * FRAC_PI_4 * (rise.tanh() - hold.tanh()),
+    ]
+}
+
+/// Travel [chords] and lift coefficient, smoothed as the measurement: mean over 100 ms, 0.07 chords.
+fn lift(
+    axis: f64,
+    leading: bool,
+    [rows, cols, per_chord]: [usize; 3],
+) -> Result<[Vec<f64>; 2], VerifyError> {
+    let stations: Vec<f64> = (0..=cols)
+        .map(|j| HALF_SPAN * j as f64 / cols as f64)
+        .collect();
+    let wing = Wing::rectangle(rows, &stations, axis, true);
+    let pose = |s: f64| {
+        let [angle, rate] = ramp(s);
+        Pose {
+            turn: r2(angle),
+            spin: rate * DVec3::Y,
+            shift: DVec3::ZERO,
+            velocity: DVec3::ZERO,
+        }
+    };
+    let (dt, last) = (1.0 / per_chord as f64, (5.44 * per_chord as f64) as usize);
+    let force = forces(&Fluid::unit(1e4), &wing, leading, pose, [-BEFORE, dt], last)?;
+    let s: Vec<f64> = (0..=last).map(|k| k as f64 * dt - BEFORE).collect();
+    let raw: Vec<f64> = force.iter().map(|f| 2.0 * f.z / HALF_SPAN).collect();
+    let window = (-3..=3).map(|k| f64::from(k) * 0.01);
+    let smooth = |s0: &f64| {
+        let near = window.clone().map(|w| interpolate(&s, &raw, s0 + w));
+        near.sum::<f64>() / 7.0
+    };
+    let smoothed = s.iter().map(smooth).collect();
+    Ok([s, smoothed])
+}
+
+fn run(_quick: bool) -> Result<Vec<Row>, VerifyError> {
+    let table = Table::new(include_str!("../../data/stevens_babinsky2017_lift.csv"));
+    let travel = table.numbers("s_over_c");
+    let first = travel.iter().take_while(|s| **s < 0.05).count();
+    let mut rows = Vec::new();
+    for (name, leading) in [ATTACHED, SEPARATED] {
+        for (about, axis, column) in [
+            ("leading edge", 0.0, "CL_leading_edge_axis"),
+            ("mid chord", 0.5, "CL_mid_chord_axis"),
+        ] {
+            let measured = &table.numbers(column)[first..];
+            let apart = |mesh| -> Result<f64, VerifyError> {
+                let [s, lift] = lift(axis, leading, mesh)?;
+                let ours = travel[first..].iter().map(|x| interpolate(&s, &lift, *x));
+                let apart: Vec<f64> = ours.zip(measured).map(|(a, b)| a - b).collect();
+                Ok(rms(&apart))
+            };
+            let [value, finer] = [apart([6, 6, 20])?, apart([9, 9, 30])?];
+            let quantity = format!("{name}, about the {about}: rms error of lift coefficient");
+            let row = Row::new(quantity, "1", value).against(0.0, SOURCE);
+            let row = row.uncertain(finer - value);
+            rows.push(match leading {
+                true => row.within(0.6, BAND),
+                false => row.because(CHANGE),
+            });
+        }
+    }
+    Ok(rows)
+}

@@ -1,0 +1,172 @@
+//! Flat wings that a rig moves in a stream: x along it, y to the right, z up.
+//!
+//! The setting is that of all insects ([`AirOptions::insect`], wakes kept 0.1 chords off the wings) and the same for
+//! all experiments: forces on segments, algebraic cores, wakes from trailing edges and tips, so with the suction of
+//! attached leading edges; with leading-edge vorticity these shed, too.
+
+use wingbeat_air::{
+    AirError, AirSettings, Friction, JoinedEdge, Lattice, MirrorPairs, NodeMotion, Plane,
+    SectionDrag, SheddingKinds, Surface,
+};
+use wingbeat_flight::AirOptions;
+use wingbeat_math::{DMat3, DVec3};
+
+use super::fly;
+
+/// What becomes of leading edges: name, and whether they shed.
+pub(crate) const ATTACHED: (&str, bool) = ("attached", false);
+/// Vorticity from the whole leading edge at all times, as the insect presets have it.
+pub(crate) const SEPARATED: (&str, bool) = ("leading-edge vorticity", true);
+
+/// The fluid and the size of what it meets.
+pub(crate) struct Fluid {
+    pub density: f64,
+    pub viscosity: f64,
+    pub stream: DVec3,
+    pub chord: f64,
+    /// Profile drag beside the friction.
+    pub drag: SectionDrag,
+}
+
+impl Fluid {
+    /// Chord, speed of the stream and density 1; friction of a laminar plate.
+    pub fn unit(reynolds: f64) -> Self {
+        Self {
+            density: 1.0,
+            viscosity: 1.0 / reynolds,
+            stream: DVec3::X,
+            chord: 1.0,
+            drag: laminar(1.0 / reynolds),
+        }
+    }
+
+    fn settings(&self, leading: bool, root: bool) -> AirSettings {
+        let insect = AirOptions::insect(self.density, self.viscosity, self.chord).lattice;
+        AirSettings {
+            free_stream: self.stream,
+            shedding: SheddingKinds {
+                leading,
+                root,
+                ..insect.shedding
+            },
+            clearance: 0.1 * self.chord,
+            section_drag: Some(self.drag),
+            ..insect
+        }
+    }
+}
+
+/// Friction of a laminar plate in a fluid of this viscosity [m2/s], no profile drag.
+pub(crate) fn laminar(viscosity: f64) -> SectionDrag {
+    SectionDrag {
+        friction: Friction::Blasius { viscosity },
+        cd0: 0.0,
+        cd2: 0.0,
+    }
+}
+
+/// A wing in the frame of the rig.
+pub(crate) struct Wing {
+    /// Rows from the leading edge, each from the root to the tip.
+    pub nodes: Vec<DVec3>,
+    pub mesh: [usize; 2],
+    /// Whether its mirror image follows beyond the plane y = 0, where its root lies.
+    pub joined: bool,
+    /// Whether the root is an edge that sheds.
+    pub free_root: bool,
+    /// Columns from the root on whose force is measured.
+    pub measured: usize,
+}
+
+impl Wing {
+    /// A rectangle of chord 1 between these span positions, its axis of pitch this part of the chord behind the
+    /// leading edge; all of it is measured. A root that is not joined is free.
+    pub fn rectangle(rows: usize, stations: &[f64], axis: f64, joined: bool) -> Self {
+        let cols = stations.len() - 1;
+        let row = |i: usize| {
+            let x = i as f64 / rows as f64 - axis;
+            stations.iter().map(move |y| DVec3::new(x, *y, 0.0))
+        };
+        Self {
+            nodes: (0..=rows).flat_map(row).collect(),
+            mesh: [rows, cols],
+            joined,
+            free_root: !joined,
+            measured: cols,
+        }
+    }
+
+    fn lattice(&self, fluid: &Fluid, leading: bool) -> Result<Lattice, AirError> {
+        let [rows, cols] = self.mesh;
+        let settings = fluid.settings(leading, self.free_root);
+        let wing = Surface::grid("right", rows, cols);
+        if !self.joined {
+            return Lattice::new(vec![wing], settings);
+        }
+        let mut left = Surface::grid("left", rows, cols);
+        left.panels.iter_mut().for_each(|c| c.reverse()); // both normals point up
+        let joined = JoinedEdge {
+            surfaces: [0, 1],
+            nodes: (0..=rows).map(|i| [i * (cols + 1); 2]).collect(),
+        };
+        let other = |n: usize| (0..2 * n).map(|k| (k + n) % (2 * n)).collect();
+        let pairs = MirrorPairs {
+            plane: Plane {
+                point: DVec3::ZERO,
+                normal: DVec3::Y,
+            },
+            node: other(self.nodes.len()),
+            panel: other(rows * cols),
+        };
+        Lattice::joined(vec![wing, left], &[joined], settings)?.with_mirror_symmetry(pairs)
+    }
+
+    fn moved(&self, pose: &Pose) -> NodeMotion {
+        let arm = |x: &DVec3| pose.turn * *x;
+        let mut motion = NodeMotion {
+            position: self.nodes.iter().map(|x| pose.shift + arm(x)).collect(),
+            velocity: (self.nodes.iter())
+                .map(|x| pose.velocity + pose.spin.cross(arm(x)))
+                .collect(),
+        };
+        if self.joined {
+            for list in [&mut motion.position, &mut motion.velocity] {
+                let image: Vec<DVec3> = list.iter().map(|v| DVec3::new(v.x, -v.y, v.z)).collect();
+                list.extend(image);
+            }
+        }
+        motion
+    }
+}
+
+/// Place and motion of the rig's frame.
+#[derive(Clone, Copy)]
+pub(crate) struct Pose {
+    pub turn: DMat3,
+    /// Angular velocity [rad/s].
+    pub spin: DVec3,
+    pub shift: DVec3,
+    pub velocity: DVec3,
+}
+
+/// Force on the measured columns of the right wing [N], step by step from time `start` on.
+pub(crate) fn forces(
+    fluid: &Fluid,
+    wing: &Wing,
+    leading: bool,
+    pose: impl Fn(f64) -> Pose,
+    [start, dt]: [f64; 2],
+    last: usize,
+) -> Result<Vec<DVec3>, AirError> {
+    let lattice = wing.lattice(fluid, leading)?;
+    let [rows, cols] = wing.mesh;
+    let measured: Vec<usize> = (0..rows * cols)
+        .filter(|p| p % cols < wing.measured)
+        .collect();
+    let mut force = Vec::with_capacity(last + 1);
+    let motion = |t: f64| wing.moved(&pose(start + t));
+    fly(&lattice, motion, dt, last, |_, _, loads, _| {
+        force.push(measured.iter().map(|&p| loads.force[p]).sum());
+    })?;
+    Ok(force)
+}
