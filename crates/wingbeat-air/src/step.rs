@@ -38,7 +38,7 @@ impl Lattice {
         velocity_jump(self, state, &ws.filaments, out);
         circulation_rate(self, state, out);
         pressure_jump(self, out);
-        forces(self, out);
+        forces(self, state, &ws.filaments, &motion.position, out);
         if self.settings().is_symmetric() {
             ws.filaments.soften(self.settings(), state);
             ws.sums.load_attached(self.settings(), &ws.filaments);

@@ -28,7 +28,7 @@ pub struct AirLoads {
     pub time: f64,
     /// Time since the last accepted step [s]; without meaning at step 0.
     pub dt: f64,
-    /// Geometry of the panels; forces act at the control points.
+    /// Geometry of the panels; forces act at the control points, with the couples besides.
     pub panels: Panels,
     /// Circulation of the rings, the jump of the potential along the normal [m2/s].
     pub gamma: Vec<f64>,
@@ -45,8 +45,8 @@ pub struct AirLoads {
     /// Force of the air on the panel [N]: as [`crate::LoadMethod`] has it; on a closed surface
     /// pressure jump x area x normal less what the fictitious fluid inside does.
     pub force: Vec<DVec3>,
-    /// Moment of the air on the panel about its control point [N m]: of forces on segments, zero
-    /// for pressures.
+    /// Moment of the air on the panel about its control point [N m]: forces act where the vorticity lies that feels
+    /// them. Zero on closed surfaces.
     pub couple: Vec<DVec3>,
     /// What the separation criterion compares with its threshold, for each leading-edge strip
     /// (angle [rad], suction parameter [1]; zero for the criteria that need none).
