@@ -54,7 +54,8 @@ pub(crate) struct Flow<'a> {
 }
 
 impl Segments {
-    /// Replaces (or completes) the pressure forces of open surfaces as [`LoadMethod`] says.
+    /// Replaces (or completes) the pressure forces of open surfaces as [`LoadMethod`] says, and takes the inviscid force of
+    /// all surfaces.
     pub(crate) fn add_forces(
         &mut self,
         lattice: &Lattice,
@@ -63,17 +64,30 @@ impl Segments {
         flow: Flow,
         out: &mut AirLoads,
     ) {
-        let method = lattice.settings().loads;
-        if method == LoadMethod::Pressure {
-            return;
-        }
         let bound = &flow.filaments.bound;
         self.take_velocities(lattice, flow, out.time);
         self.collect(lattice, state, bound, &out.panels.point);
-        match method {
-            LoadMethod::Joukowski => self.joukowski(lattice, state, &motion.position, out),
-            _ => self.polhamus(lattice, motion, out),
+        let method = lattice.settings().loads;
+        let suction = match method {
+            LoadMethod::Joukowski => {
+                self.joukowski(lattice, state, &motion.position, out);
+                DVec3::ZERO
+            }
+            LoadMethod::Pressure | LoadMethod::Polhamus => self.suction(&out.panels.normal),
+        };
+        out.inviscid_force = out.force.iter().sum::<DVec3>() + suction;
+        if method == LoadMethod::Polhamus {
+            self.polhamus(lattice, motion, out);
         }
+    }
+
+    /// What pressures lack: the parts of the segments' forces along the panels. In their sum those of segments inside a
+    /// surface are the pressure's on curved ones, what is left pulls at the edges.
+    fn suction(&self, normals: &[DVec3]) -> DVec3 {
+        let forces = self.panel_force.iter().zip(normals);
+        forces
+            .map(|([force, _], n)| *force - force.dot(*n) * *n)
+            .sum()
     }
 
     /// Velocity of the air relative to the places on the segments that are wanted.

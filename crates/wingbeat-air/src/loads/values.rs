@@ -55,10 +55,13 @@ pub struct AirLoads {
     pub surfaces: Vec<SurfaceLoads>,
     /// Momentum of the fictitious fluid inside each closed surface [kg m/s].
     pub inner_momentum: Vec<DVec3>,
+    /// Force on all surfaces of the inviscid air alone [N], N, with the suction of the edges that do not shed, whatever the
+    /// forces of the panels make of it: without friction and profile drag, and without Polhamus's normal force. It is
+    /// what the impulse is to be compared with.
+    pub inviscid_force: DVec3,
     /// Impulse of all vorticity, that of dropped wakes included, less the momentum of the fictitious
     /// fluid [kg m/s], N. In air that is at rest or in uniform motion far away, without images, its
-    /// rate of decrease is the force on all surfaces together, the suction at attached edges
-    /// included: a method independent of pressures and segments
+    /// rate of decrease is the inviscid force on all surfaces together: a method independent of pressures and segments
     /// [Saffman 1992, Vortex Dynamics, ch. 3].
     pub impulse: DVec3,
     /// Largest normal velocity through a control point, the net-flux residual apart [m/s].
