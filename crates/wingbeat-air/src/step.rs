@@ -38,7 +38,8 @@ impl Lattice {
         velocity_jump(self, state, &ws.filaments, out);
         circulation_rate(self, state, out);
         pressure_jump(self, out);
-        forces(self, out);
+        forces(self, state, &ws.filaments, &motion.position, out);
+        outer_forces(self, state, out);
         if self.settings().is_symmetric() {
             ws.filaments.soften(self.settings(), state);
             ws.sums.load_attached(self.settings(), &ws.filaments);
@@ -49,7 +50,6 @@ impl Lattice {
             rings: &ws.rings,
         };
         ws.segments.add_forces(self, state, motion, flow, out);
-        outer_forces(self, state, out);
         add_section_drag(self, &motion.position, out);
         leading_values(self, &motion.position, out);
         impulse(self, state, &ws.filaments, out);

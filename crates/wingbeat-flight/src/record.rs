@@ -76,12 +76,15 @@ pub struct Record {
     /// Scaled residual of the last corrector pass [1].
     pub corrector_residual: f64,
     /// Impulse of all vorticity [kg m/s], N, less the momentum of the fictitious fluid in closed
-    /// surfaces; zero without a lattice. In air at rest far away its rate of decrease is the force
-    /// of the air on all bodies, see [`wingbeat_air::AirLoads::impulse`].
+    /// surfaces; zero without a lattice. In air at rest far away its rate of decrease is the inviscid
+    /// force of the air on all bodies, see [`wingbeat_air::AirLoads::impulse`].
     pub vortex_impulse: DVec3,
     /// Impulse of the air's force on all bodies since the start, N components [N s], by the
     /// trapezoidal rule over the steps.
     pub air_impulse: DVec3,
+    /// The same of the inviscid force alone, with the suction that pressures lack, without friction;
+    /// zero without a lattice. See [`wingbeat_air::AirLoads::inviscid_force`].
+    pub inviscid_impulse: DVec3,
     /// Wake rings.
     pub wake_rings: usize,
     /// Vortex particles of the wakes.

@@ -34,6 +34,8 @@ pub struct Ledger {
     pub events: u64,
     /// Impulse of the air on all bodies up to the last record.
     pub air_impulse: AirImpulse,
+    /// The same of the inviscid force alone.
+    pub inviscid_impulse: AirImpulse,
 }
 
 impl Ledger {
@@ -122,6 +124,8 @@ impl Sources<'_> {
             corrector_residual: self.report.residual,
             vortex_impulse: s.air_scratch.loads.impulse,
             air_impulse: ledger.air_impulse.count(time, air_force),
+            inviscid_impulse: (ledger.inviscid_impulse)
+                .count(time, s.air_scratch.loads.inviscid_force),
             wake_rings: self.in_wake(WakeSheet::ring_count),
             wake_particles: self.in_wake(|w| w.particles.len()),
             regularised: new_events as usize,

@@ -3,7 +3,8 @@
 use std::path::Path;
 
 use wingbeat_flight::record::AirImpulse;
-use wingbeat_flight::{FlightSetup, Record};
+use wingbeat_flight::{AirModel, FlightSetup, Record};
+use wingbeat_math::DVec3;
 
 use crate::columns::{Column, Columns};
 use crate::rows::Rows;
@@ -18,11 +19,14 @@ pub struct Records {
     record: Record,
     /// Counted again where an older result lacks it.
     air_impulse: Option<AirImpulse>,
+    /// Where an older result of a lattice does not tell the inviscid force from the whole one.
+    takes_whole_for_inviscid: bool,
 }
 
 impl Records {
     /// Opens the history of a flight. Numbers that results of older versions lack are not numbers
-    /// (NaN), but the impulse of the air, which is counted from the rows.
+    /// (NaN), but the impulse of the air, which is counted from the rows, and that of its inviscid force, which is taken
+    /// for the same.
     ///
     /// # Errors
     /// A file that cannot be read or is not a history; a column that is missing or belongs to
@@ -57,12 +61,18 @@ impl Records {
             }
         }
         let counts = record.air_impulse.x.is_nan();
+        let lacks_inviscid = record.inviscid_impulse.x.is_nan();
+        if lacks_inviscid {
+            record.inviscid_impulse = DVec3::ZERO; // as without a lattice
+        }
+        let is_lattice = matches!(setup.air, AirModel::VortexLattice(_));
         Ok(Self {
             rows,
             columns,
             places,
             record,
             air_impulse: counts.then(AirImpulse::default),
+            takes_whole_for_inviscid: lacks_inviscid && is_lattice,
         })
     }
 
@@ -81,6 +91,9 @@ impl Records {
         }
         if let Some(impulse) = &mut self.air_impulse {
             self.record.air_impulse = impulse.count(self.record.time, self.record.air_force());
+        }
+        if self.takes_whole_for_inviscid {
+            self.record.inviscid_impulse = self.record.air_impulse;
         }
         Ok(Some(&self.record))
     }

@@ -98,6 +98,7 @@ fn numbers(record: &Record) -> usize {
         corrector_residual: _,
         vortex_impulse: _,
         air_impulse: _,
+        inviscid_impulse: _,
         wake_rings: _,
         wake_particles: _,
         regularised: _,
@@ -107,7 +108,7 @@ fn numbers(record: &Record) -> usize {
     let vectors = 3 * wing_angles.len() + 8 * commands.len() + 6 * accelerations.len();
     let reactions = 7 * (hinges.len() + loops.len()) + 2 * joints.len();
     let loads = 6 * (air.len() + applied.len() + 1);
-    let (scalars, own_vectors) = (18, 8);
+    let (scalars, own_vectors) = (18, 9);
     lists + vectors + reactions + loads + root_quaternion.len() + scalars + 3 * own_vectors
 }
 
@@ -292,6 +293,7 @@ fn behaves_histories_of_older_versions_are_read() {
         assert_eq!(a.joints, b.joints);
         // Counted again from the forces by the rule they were counted with.
         assert_eq!(a.air_impulse, b.air_impulse);
+        assert_eq!(a.inviscid_impulse, b.inviscid_impulse);
         assert!(b.accelerations.iter().all(|x| x.linear.is_nan()));
     }
     assert_eq!(

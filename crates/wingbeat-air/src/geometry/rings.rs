@@ -34,7 +34,7 @@ pub(crate) fn rings(topology: &Topology, surfaces: &[Surface], settings: &AirSet
     let mut rings = Rings::default();
     if settings.inset > 0.0 {
         inset(topology, surfaces, settings, &mut rings);
-        if settings.shedding.trailing && !settings.shedding.leading {
+        if settings.ring_shift() > 0.0 {
             shift(topology, surfaces, settings, &mut rings);
         }
     }
@@ -79,7 +79,7 @@ fn inset(topology: &Topology, surfaces: &[Surface], settings: &AirSettings, ring
 /// vortices at a quarter and control points at three quarters of each panel [Katz & Plotkin, Low-Speed
 /// Aerodynamics, sec. 12.3]. Without it the lattice is that of a wing a quarter panel ahead.
 fn shift(topology: &Topology, surfaces: &[Surface], settings: &AirSettings, rings: &mut Rings) {
-    let part = settings.inset;
+    let part = settings.ring_shift();
     let mut found = BTreeMap::new();
     for strip in strips(topology, surfaces) {
         let mut front = strip.nodes;

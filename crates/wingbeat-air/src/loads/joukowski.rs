@@ -7,6 +7,7 @@
 
 use crate::geometry::{Edge, NodeMotion, chord};
 use crate::lattice::Lattice;
+use crate::loads::lag::add_lag;
 use crate::loads::values::AirLoads;
 use crate::settings::LoadMethod;
 use crate::solve::is_computed;
@@ -53,7 +54,8 @@ pub(crate) struct Flow<'a> {
 }
 
 impl Segments {
-    /// Replaces (or completes) the pressure forces of open surfaces as [`LoadMethod`] says.
+    /// Replaces (or completes) the pressure forces of open surfaces as [`LoadMethod`] says, and takes the inviscid force of
+    /// all surfaces.
     pub(crate) fn add_forces(
         &mut self,
         lattice: &Lattice,
@@ -62,19 +64,30 @@ impl Segments {
         flow: Flow,
         out: &mut AirLoads,
     ) {
-        out.couple.clear();
-        out.couple.resize(lattice.panel_count(), DVec3::ZERO);
-        let method = lattice.settings().loads;
-        if method == LoadMethod::Pressure {
-            return;
-        }
         let bound = &flow.filaments.bound;
         self.take_velocities(lattice, flow, out.time);
         self.collect(lattice, state, bound, &out.panels.point);
-        match method {
-            LoadMethod::Joukowski => self.joukowski(lattice, out),
-            _ => self.polhamus(lattice, motion, out),
+        let method = lattice.settings().loads;
+        let suction = match method {
+            LoadMethod::Joukowski => {
+                self.joukowski(lattice, state, &motion.position, out);
+                DVec3::ZERO
+            }
+            LoadMethod::Pressure | LoadMethod::Polhamus => self.suction(&out.panels.normal),
+        };
+        out.inviscid_force = out.force.iter().sum::<DVec3>() + suction;
+        if method == LoadMethod::Polhamus {
+            self.polhamus(lattice, motion, out);
         }
+    }
+
+    /// What pressures lack: the parts of the segments' forces along the panels. In their sum those of segments inside a
+    /// surface are the pressure's on curved ones, what is left pulls at the edges.
+    fn suction(&self, normals: &[DVec3]) -> DVec3 {
+        let forces = self.panel_force.iter().zip(normals);
+        forces
+            .map(|([force, _], n)| *force - force.dot(*n) * *n)
+            .sum()
     }
 
     /// Velocity of the air relative to the places on the segments that are wanted.
@@ -145,7 +158,13 @@ impl Segments {
         }
     }
 
-    fn joukowski(&self, lattice: &Lattice, out: &mut AirLoads) {
+    fn joukowski(
+        &self,
+        lattice: &Lattice,
+        state: &AirState,
+        position: &[DVec3],
+        out: &mut AirLoads,
+    ) {
         let rho = lattice.settings().density;
         for p in 0..lattice.panel_count() {
             let surface = lattice.topology().panel_surface[p];
@@ -157,10 +176,12 @@ impl Segments {
             out.force[p] = force + unsteady;
             out.couple[p] = moment;
         }
+        add_lag(lattice, state, position, out);
     }
 
     /// The suction of a strip is the part of its segments' forces along the chord, forward; it is added
-    /// to the leading panel along its normal, on the side to which the pressure of the strip pushes.
+    /// to the leading panel along its normal, on the side to which the pressure of the strip pushes. It acts where suction
+    /// does, at the leading edge.
     fn polhamus(&self, lattice: &Lattice, motion: &NodeMotion, out: &mut AirLoads) {
         for strip in lattice.strips() {
             let (aft, _) = chord(strip, &motion.position);
@@ -170,7 +191,10 @@ impl Segments {
             let first = strip.panels[0];
             let normal = out.panels.normal[first];
             let push: DVec3 = strip.panels.iter().map(|&p| out.force[p]).sum();
-            out.force[first] += suction * push.dot(normal).signum() * normal;
+            let force = suction * push.dot(normal).signum() * normal;
+            let edge = motion.position[strip.nodes[0]].midpoint(motion.position[strip.nodes[1]]);
+            out.force[first] += force;
+            out.couple[first] += (edge - out.panels.point[first]).cross(force);
         }
     }
 }

@@ -2,6 +2,7 @@
 
 mod closed;
 mod joukowski;
+mod lag;
 mod pressure;
 mod resultants;
 mod section_drag;

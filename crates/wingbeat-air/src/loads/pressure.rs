@@ -1,31 +1,44 @@
 //! Unsteady Bernoulli: from circulation to pressure jump and force.
 
 use crate::lattice::Lattice;
+use crate::loads::lag::add_lag;
 use crate::loads::values::AirLoads;
 use crate::settings::CirculationRate;
 use crate::state::AirState;
 use crate::wake::Filaments;
 use wingbeat_math::DVec3;
 
+/// Vorticity `w Gamma l` [m3/s] that each edge of a panel lends it, an edge shared by two rings giving half to either
+/// side (w = 1/2), a free edge all (w = 1); and the middle of the edge [m].
+fn shares<'a>(
+    lattice: &'a Lattice,
+    state: &'a AirState,
+    filaments: &'a Filaments,
+    panel: usize,
+) -> impl Iterator<Item = [DVec3; 2]> + 'a {
+    let (topology, bound) = (lattice.topology(), &filaments.bound);
+    topology.panel_edges[panel].iter().map(move |e| {
+        let edge = &topology.edges[e.edge];
+        let [a, b] = [edge.from, edge.to].map(|n| bound.nodes.get(n));
+        let attached = lattice.is_attached(state, edge);
+        let weight = if attached { 1.0 } else { e.weight };
+        [weight * bound.gamma[e.edge] * (b - a), a.midpoint(b)]
+    })
+}
+
 /// Jump of the tangential velocity across each panel [m/s]: the vorticity of the panel's edges
-/// spread over its area, `dV = (sum w Gamma l) x n / A`, an edge shared by two rings giving half
-/// to either side (w = 1/2), a free edge all (w = 1).
+/// spread over its area, `dV = (sum w Gamma l) x n / A`.
 pub(crate) fn velocity_jump(
     lattice: &Lattice,
     state: &AirState,
     filaments: &Filaments,
     out: &mut AirLoads,
 ) {
-    let (topology, bound) = (lattice.topology(), &filaments.bound);
     out.velocity_jump.clear();
-    for (p, edges) in topology.panel_edges.iter().enumerate() {
+    for p in 0..lattice.panel_count() {
         let mut vorticity = DVec3::ZERO;
-        for e in edges {
-            let edge = &topology.edges[e.edge];
-            let l = bound.nodes.get(edge.to) - bound.nodes.get(edge.from);
-            let attached = lattice.is_attached(state, edge);
-            let weight = if attached { 1.0 } else { e.weight };
-            vorticity += weight * bound.gamma[e.edge] * l;
+        for [share, _] in shares(lattice, state, filaments, p) {
+            vorticity += share;
         }
         let jump = vorticity.cross(out.panels.normal[p]) / out.panels.area[p];
         out.velocity_jump.push(jump);
@@ -67,11 +80,32 @@ pub(crate) fn pressure_jump(lattice: &Lattice, out: &mut AirLoads) {
     }
 }
 
-/// Pressure jump times area along the normal [N].
-pub(crate) fn forces(lattice: &Lattice, out: &mut AirLoads) {
+/// Pressure jump times area along the normal [N]. On an open surface the part of `dGamma/dt` acts at the control point,
+/// the middle of the ring; the part of the vorticity where that lies: half a panel ahead of the control point where it
+/// is that of the leading edge, which on eight panels is two fifths of the lift.
+pub(crate) fn forces(
+    lattice: &Lattice,
+    state: &AirState,
+    filaments: &Filaments,
+    position: &[DVec3],
+    out: &mut AirLoads,
+) {
+    let rho = lattice.settings().density;
     out.force.clear();
+    out.couple.clear();
     for p in 0..lattice.panel_count() {
-        let force = out.pressure_jump[p] * out.panels.area[p] * out.panels.normal[p];
+        let (x, normal) = (out.panels.point[p], out.panels.normal[p]);
+        let force = out.pressure_jump[p] * out.panels.area[p] * normal;
+        let mut couple = DVec3::ZERO;
+        if !lattice.surfaces()[lattice.topology().panel_surface[p]].closed {
+            let relative = out.velocity[p] - out.panels.velocity[p];
+            for [share, middle] in shares(lattice, state, filaments, p) {
+                let part = rho * relative.dot(share.cross(normal)) * normal;
+                couple += (middle - x).cross(part);
+            }
+        }
         out.force.push(force);
+        out.couple.push(couple);
     }
+    add_lag(lattice, state, position, out);
 }

@@ -28,7 +28,7 @@ pub struct AirLoads {
     pub time: f64,
     /// Time since the last accepted step [s]; without meaning at step 0.
     pub dt: f64,
-    /// Geometry of the panels; forces act at the control points.
+    /// Geometry of the panels; forces act at the control points, with the couples besides.
     pub panels: Panels,
     /// Circulation of the rings, the jump of the potential along the normal [m2/s].
     pub gamma: Vec<f64>,
@@ -45,8 +45,8 @@ pub struct AirLoads {
     /// Force of the air on the panel [N]: as [`crate::LoadMethod`] has it; on a closed surface
     /// pressure jump x area x normal less what the fictitious fluid inside does.
     pub force: Vec<DVec3>,
-    /// Moment of the air on the panel about its control point [N m]: of forces on segments, zero
-    /// for pressures.
+    /// Moment of the air on the panel about its control point [N m]: forces act where the vorticity lies that feels
+    /// them. Zero on closed surfaces.
     pub couple: Vec<DVec3>,
     /// What the separation criterion compares with its threshold, for each leading-edge strip
     /// (angle [rad], suction parameter [1]; zero for the criteria that need none).
@@ -55,10 +55,13 @@ pub struct AirLoads {
     pub surfaces: Vec<SurfaceLoads>,
     /// Momentum of the fictitious fluid inside each closed surface [kg m/s].
     pub inner_momentum: Vec<DVec3>,
+    /// Force on all surfaces of the inviscid air alone [N], N, with the suction of the edges that do not shed, whatever the
+    /// forces of the panels make of it: without friction and profile drag, and without Polhamus's normal force. It is
+    /// what the impulse is to be compared with.
+    pub inviscid_force: DVec3,
     /// Impulse of all vorticity, that of dropped wakes included, less the momentum of the fictitious
     /// fluid [kg m/s], N. In air that is at rest or in uniform motion far away, without images, its
-    /// rate of decrease is the force on all surfaces together, the suction at attached edges
-    /// included: a method independent of pressures and segments
+    /// rate of decrease is the inviscid force on all surfaces together: a method independent of pressures and segments
     /// [Saffman 1992, Vortex Dynamics, ch. 3].
     pub impulse: DVec3,
     /// Largest normal velocity through a control point, the net-flux residual apart [m/s].

@@ -138,6 +138,14 @@ impl AirSettings {
         }
     }
 
+    /// Part of its panel by which all rings of a wing lie aft, see [`Self::inset`].
+    pub(crate) fn ring_shift(&self) -> f64 {
+        match self.shedding.trailing && !self.shedding.leading {
+            true => self.inset,
+            false => 0.0,
+        }
+    }
+
     /// Whether filaments act on each other as the others act on them, see [`CoreModel::Algebraic`].
     pub fn is_symmetric(&self) -> bool {
         matches!(self.wake_core, CoreModel::Algebraic { .. })

@@ -2,6 +2,7 @@
 
 mod benchmark;
 mod bodies;
+mod centre_of_pressure;
 mod common;
 mod errors;
 mod impulse;

@@ -21,8 +21,11 @@ pub struct BeatMeans {
     pub thrust_newton: f64,
     /// Mean power that hinge actuators and prescribed deformation give \[W\].
     pub power_watt: f64,
-    /// Mean air force against gravity by another way, the rate of the vortex impulse \[N\]; zero
+    /// Mean inviscid air force against gravity, with the suction that pressures lack, without friction \[N\]; zero
     /// without a lattice.
+    #[serde(default)]
+    pub inviscid_lift_newton: f64,
+    /// The same by another way, the rate of the vortex impulse \[N\].
     #[serde(default)]
     pub lift_by_impulse_newton: f64,
 }
@@ -40,6 +43,8 @@ impl BeatMeans {
             lift_over_weight: over_weight(setup, lift_newton),
             thrust_newton: force.x,
             power_watt: (to.power_work() - from.power_work()) / period,
+            inviscid_lift_newton: -mean(to.inviscid_impulse - from.inviscid_impulse)
+                .dot(down(setup)),
             lift_by_impulse_newton: mean(to.vortex_impulse - from.vortex_impulse).dot(down(setup)),
         }
     }
@@ -99,7 +104,7 @@ mod tests {
     use wingbeat_flight::record::AirImpulse;
 
     /// Lift m g cos^2 x has the mean m g / 2, to which the trapezoidal rule is exact; work that grows
-    /// by 3 J a step and an impulse that falls by 3 N s a step are 3 W and 3 N over steps of 1 s.
+    /// by 3 J a step and impulses that change by 3 N s and 4 N s a step are 3 W, 3 N and 4 N over steps of 1 s.
     #[test]
     fn exact_means_of_a_period_from_all_rows_and_from_few() {
         let case = LoadedCase::find("fruit-fly-blade", &[]).unwrap();
@@ -119,6 +124,7 @@ mod tests {
                 time: k as f64,
                 hinge_work: 3.0 * k as f64,
                 vortex_impulse: DVec3::new(0.0, 0.0, 3.0 * k as f64),
+                inviscid_impulse: DVec3::new(0.0, 0.0, -4.0 * k as f64),
                 air: vec![LoadRecord {
                     force,
                     moment: DVec3::ZERO,
@@ -142,6 +148,7 @@ mod tests {
             assert!((lift - 0.5).abs() < 1e-14, "{lift}"); // some roundings
             assert!((beat.thrust_newton - 1.0).abs() < 1e-14);
             assert_eq!([beat.power_watt, beat.lift_by_impulse_newton], [3.0, 3.0]);
+            assert_eq!(beat.inviscid_lift_newton, 4.0);
         }
     }
 }

@@ -39,7 +39,10 @@ pub struct ManyBeats {
     pub thrust_newton: Estimate,
     /// Power of hinge actuators and prescribed deformation \[W\].
     pub power_watt: Estimate,
-    /// Air force against gravity by the rate of the vortex impulse \[N\]; zero without a lattice.
+    /// Inviscid air force against gravity, with the suction that pressures lack, without friction \[N\]; zero without a
+    /// lattice.
+    pub inviscid_lift_newton: Estimate,
+    /// The same by the rate of the vortex impulse \[N\].
     pub lift_by_impulse_newton: Estimate,
     /// Change of lift from the first half of these beats to the second, over their mean.
     pub change_of_lift: f64,
@@ -77,6 +80,7 @@ impl ManyBeats {
             lift_over_weight: ratios.map(|r| Estimate::of(&r)),
             thrust_newton: of(|b| b.thrust_newton),
             power_watt: of(|b| b.power_watt),
+            inviscid_lift_newton: of(|b| b.inviscid_lift_newton),
             lift_by_impulse_newton: of(|b| b.lift_by_impulse_newton),
             change_of_lift: change / size,
             is_steady: change.abs() <= uncertain.max(NO_CHANGE * size),
@@ -148,6 +152,7 @@ mod tests {
             lift_over_weight: Some(lift(k) / 2.0),
             thrust_newton: 0.0,
             power_watt: 3.0,
+            inviscid_lift_newton: lift(k),
             lift_by_impulse_newton: lift(k),
         };
         ManyBeats::of(&(1..=10).map(beat).collect::<Vec<_>>())

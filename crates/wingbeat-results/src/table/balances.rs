@@ -136,6 +136,14 @@ pub(super) const WAKE: &[Quantity] = &[
     .along(Inertial, Frame::Inertial)
     .new_here(),
     scalar(
+        "inviscid_impulse_{c}",
+        Unit::NewtonSecond,
+        "impulse of the air's inviscid force on all bodies so far: with the suction that pressures lack, without friction",
+        |r, _, c| Real(&mut r.inviscid_impulse[c]),
+    )
+    .along(Inertial, Frame::Inertial)
+    .new_here(),
+    scalar(
         "wake_rings",
         Unit::Count,
         "rings of the wakes",
