@@ -343,12 +343,11 @@ impl Anax {
     /// Areas are those of one wing, as their mean chords, 0.20 and 0.26 of the length, show.
     fn animal(self) -> Dragonfly {
         let Self(frequency, flight, _, [fore, hind]) = self;
-        let pair = |name, [length, area, place, cone]: [f64; 4], (gamma, phi, psi)| Pair {
+        let pair = |name, [length, area, cone]: [f64; 3], (gamma, phi, psi)| Pair {
             name,
             length,
             area,
             gamma,
-            place,
             cone: Series(cone, &[]),
             phi,
             psi,
@@ -358,8 +357,8 @@ impl Anax {
             frequency,
             flight,
             pairs: [
-                pair("fore", [0.050, 5.0e-4, 0.06, 8.0], fore),
-                pair("hind", [0.0485, 6.0e-4, -0.06, -2.0], hind),
+                pair("fore", [0.050, 5.0e-4, 8.0], fore),
+                pair("hind", [0.0485, 6.0e-4, -2.0], hind),
             ],
         }
     }
