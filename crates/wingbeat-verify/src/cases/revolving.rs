@@ -101,9 +101,9 @@ fn run(_quick: bool) -> Result<Vec<Row>, VerifyError> {
     let table = Table::new(include_str!("../../data/robofly_revolving_cfd.csv"));
     let theirs = ["CL", "CD"].map(|name| table.numbers(name));
     let angles = table.numbers("alpha_deg");
-    let mut ours = Vec::new();
+    let mut computed = Vec::new();
     for angle in &angles {
-        ours.push(coefficients(angle.to_radians(), [5, 10], 25)?);
+        computed.push(coefficients(angle.to_radians(), [5, 10], 25)?);
     }
     let finer = coefficients(FRAC_PI_4, [10, 20], 50)?;
     let base = coefficients(FRAC_PI_4, [5, 10], 25)?;
@@ -111,7 +111,7 @@ fn run(_quick: bool) -> Result<Vec<Row>, VerifyError> {
     for (i, what) in [(0, "lift"), (1, "drag")] {
         for (k, angle) in angles.iter().enumerate() {
             let quantity = format!("{what} coefficient at {angle} deg");
-            let row = Row::new(quantity, "1", ours[k][i])
+            let row = Row::new(quantity, "1", computed[k][i])
                 .against(theirs[i][k], SOURCE)
                 .uncertain(finer[i] - base[i]);
             rows.push(match is_judged(*angle) {
@@ -124,7 +124,7 @@ fn run(_quick: bool) -> Result<Vec<Row>, VerifyError> {
         for (k, angle) in angles.iter().enumerate().filter(|(_, a)| is_judged(**a)) {
             let quantity = format!("{what} coefficient at {angle} deg, and the robot's");
             rows.push(
-                Row::new(quantity, "1", ours[k][i])
+                Row::new(quantity, "1", computed[k][i])
                     .against(robot(*angle)[i], ROBOT)
                     .uncertain(finer[i] - base[i]),
             );
