@@ -131,10 +131,10 @@ fn errors(motion: &Motion, leading: bool, mesh: [usize; 3]) -> Result<[f64; 2], 
         let column = table.numbers(name);
         own.iter().map(|&k| column[k]).collect::<Vec<f64>>()
     });
-    let ours = coefficients(motion, leading, mesh)?;
+    let computed = coefficients(motion, leading, mesh)?;
     Ok([0, 1].map(|i| {
-        let ours = filtered(&ours[i], motion.3, &phase);
-        let apart = ours.iter().zip(&[&drag, &lift][i][..]);
+        let computed = filtered(&computed[i], motion.3, &phase);
+        let apart = computed.iter().zip(&[&drag, &lift][i][..]);
         rms(&apart.map(|(a, b)| a - b).collect::<Vec<f64>>())
     }))
 }

@@ -23,7 +23,7 @@ const BEFORE: f64 = 0.4;
 const HALF_SPAN: f64 = 2.0;
 
 const SOURCE: &str = "Stevens & Babinsky 2017, Exp. Fluids 58:7, fig. 21";
-const BAND: &str = "a fifth of the mean lift coefficient of the ramp; no uncertainty of the measurement is \
+const BAND: &str = "about a sixth of the mean lift coefficient during the ramp; no uncertainty of the measurement is \
                     given, the rig's vibration shows as 0.2";
 const CHANGE: &str = "from 0.05 chords of travel on; the plate stalls from about 20 deg on; uncertainty: \
                       change by 9 x 18 panels and 30 steps a chord for 6 x 12 and 20";
@@ -83,8 +83,8 @@ fn run(_quick: bool) -> Result<Vec<Row>, VerifyError> {
             let measured = &table.numbers(column)[first..];
             let apart = |mesh| -> Result<f64, VerifyError> {
                 let [s, lift] = lift(axis, leading, mesh)?;
-                let ours = travel[first..].iter().map(|x| interpolate(&s, &lift, *x));
-                let apart: Vec<f64> = ours.zip(measured).map(|(a, b)| a - b).collect();
+                let computed = travel[first..].iter().map(|x| interpolate(&s, &lift, *x));
+                let apart: Vec<f64> = computed.zip(measured).map(|(a, b)| a - b).collect();
                 Ok(rms(&apart))
             };
             let [value, finer] = [apart([6, 6, 20])?, apart([9, 9, 30])?];

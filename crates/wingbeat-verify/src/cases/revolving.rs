@@ -32,7 +32,7 @@ const BAND: &str = "the computation lies up to a fifth below the robot's polar o
                     and 50 steps a second for 5 x 10 and 25";
 
 /// The wing of so many panels: x aft, y outboard from the axis of rotation. The outline ends in points, which
-/// are cut off: 2 % of the length each.
+/// are cut off: 3.6 mm each.
 fn wing([rows, cols]: [usize; 2]) -> Wing {
     let table = Table::new(include_str!("../../data/robofly_planform.csv"));
     let [r, lead, trail] = ["r_m", "z_leading_m", "z_trailing_m"].map(|name| table.numbers(name));
@@ -101,9 +101,9 @@ fn run(_quick: bool) -> Result<Vec<Row>, VerifyError> {
     let table = Table::new(include_str!("../../data/robofly_revolving_cfd.csv"));
     let theirs = ["CL", "CD"].map(|name| table.numbers(name));
     let angles = table.numbers("alpha_deg");
-    let mut ours = Vec::new();
+    let mut computed = Vec::new();
     for angle in &angles {
-        ours.push(coefficients(angle.to_radians(), [5, 10], 25)?);
+        computed.push(coefficients(angle.to_radians(), [5, 10], 25)?);
     }
     let finer = coefficients(FRAC_PI_4, [10, 20], 50)?;
     let base = coefficients(FRAC_PI_4, [5, 10], 25)?;
@@ -111,7 +111,7 @@ fn run(_quick: bool) -> Result<Vec<Row>, VerifyError> {
     for (i, what) in [(0, "lift"), (1, "drag")] {
         for (k, angle) in angles.iter().enumerate() {
             let quantity = format!("{what} coefficient at {angle} deg");
-            let row = Row::new(quantity, "1", ours[k][i])
+            let row = Row::new(quantity, "1", computed[k][i])
                 .against(theirs[i][k], SOURCE)
                 .uncertain(finer[i] - base[i]);
             rows.push(match is_judged(*angle) {
@@ -124,7 +124,7 @@ fn run(_quick: bool) -> Result<Vec<Row>, VerifyError> {
         for (k, angle) in angles.iter().enumerate().filter(|(_, a)| is_judged(**a)) {
             let quantity = format!("{what} coefficient at {angle} deg, and the robot's");
             rows.push(
-                Row::new(quantity, "1", ours[k][i])
+                Row::new(quantity, "1", computed[k][i])
                     .against(robot(*angle)[i], ROBOT)
                     .uncertain(finer[i] - base[i]),
             );
@@ -165,7 +165,7 @@ mod tests {
         let sum: f64 = (0..100)
             .map(|j| 0.5 * (chord(j) + chord(j + 1)) * (nodes[j].y + 0.5 * dr).powi(2) * dr)
             .sum();
-        // The points cut off at the ends, and straight lines between 100 stations.
-        assert!((sum / SECOND_MOMENT - 1.0).abs() < 5e-3, "{sum}");
+        // The points cut off at the ends hold 0.8 %, and the table itself gives 0.3 % less than is stated.
+        assert!((sum / SECOND_MOMENT - 1.0).abs() < 1.2e-2, "{sum}");
     }
 }

@@ -88,24 +88,24 @@ fn run(_quick: bool) -> Result<Vec<Row>, VerifyError> {
     let measured = ["lift_test_gf", "thrust_test_gf"].map(|name| table.numbers(name));
     let mut rows = Vec::new();
     for (name, leading) in [ATTACHED, SEPARATED] {
-        let mut ours = Vec::new();
+        let mut computed = Vec::new();
         for &angle in &angles {
-            ours.push(means(angle, leading, [6, 8, 80, 2])?);
+            computed.push(means(angle, leading, [6, 8, 80, 2])?);
         }
         let finer = means(angles[LAST], leading, [8, 10, 100, 2])?;
         for (i, what, band) in [(0, "lift", 4.5), (1, "thrust", 2.0)] {
-            let pairs = ours.iter().zip(&measured[i]);
+            let pairs = computed.iter().zip(&measured[i]);
             let apart: f64 = pairs.clone().map(|(a, b)| (a[i] - b).abs()).sum();
             let quantity = format!("{name}: mean absolute error of mean {what}");
             let row = Row::new(quantity, "gf", apart / angles.len() as f64).against(0.0, SOURCE);
-            let row = row.uncertain(finer[i] - ours[LAST][i]);
+            let row = row.uncertain(finer[i] - computed[LAST][i]);
             rows.push(match leading {
                 true => row.within(band, BAND),
                 false => row.because(CHANGE),
             });
-            for (angle, (ours, measured)) in angles.iter().zip(pairs) {
+            for (angle, (computed, measured)) in angles.iter().zip(pairs) {
                 let quantity = format!("{name}: mean {what} at {angle} deg");
-                rows.push(Row::new(quantity, "gf", ours[i]).against(*measured, SOURCE));
+                rows.push(Row::new(quantity, "gf", computed[i]).against(*measured, SOURCE));
             }
         }
     }
