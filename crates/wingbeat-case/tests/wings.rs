@@ -201,13 +201,27 @@ fn exact_section_drag_of_a_case() {
         )
         .replace("motion.phi.fourier = { sine_deg = [20] }\n", "")
         .replace("frequency_hz = 5\n", "");
-    let with = format!("{still}\n[air.section_drag]\nviscosity_m2_s = 1.5e-5\ncd0 = 0.01\n");
-    let drag = |text: &str| fly(good(text, &[])).last().unwrap().air[2].force;
-    assert_eq!(drag(&still).x, 0.0); // off if not asked for
-    let reynolds: f64 = 5.0 * 0.1 / 1.5e-5;
-    let coefficient = 2.656 / reynolds.sqrt() + 0.01;
-    let closed = -0.5 * 1.225 * 25.0 * 0.04 * coefficient;
-    assert!((drag(&with).x / closed - 1.0).abs() < 1e-12); // roundings
+    let with = |keys: &str| format!("{still}\n[air.section_drag]\n{keys}\n");
+    let drag = |text: &str| fly(good(text, &[])).last().unwrap().air[2].force.x;
+    let closed = |viscosity: f64, cd0: f64| {
+        let reynolds: f64 = 5.0 * 0.1 / viscosity;
+        let friction = 2.656 / reynolds.sqrt() + 5.34 / reynolds.powf(0.875);
+        -0.5 * 1.225 * 25.0 * 0.04 * (friction + cd0)
+    };
+    let is = |text: &str, closed: f64| {
+        let drag = drag(text);
+        assert!((drag / closed - 1.0).abs() < 1e-12, "{drag} {closed}"); // roundings
+    };
+    is(
+        &with("viscosity_m2_s = 3e-5\ncd0 = 0.01"),
+        closed(3e-5, 0.01),
+    );
+    // Friction in the air that wake_core spreads in, if nothing else is said; none where it has no viscosity.
+    is(&still, closed(1.5e-5, 0.0));
+    is(&with("cd0 = 0.01"), closed(1.5e-5, 0.01));
+    assert_eq!(drag(&with("friction = \"none\"")), 0.0);
+    let cores = "scheme = \"accurate\"\nbound_core.scully = { radius_chords = 0.01 }\nwake_core.scully = { radius_chords = 0.07 }";
+    assert_eq!(drag(&still.replace("scheme = \"accurate\"", cores)), 0.0);
 }
 
 #[test]
@@ -278,9 +292,12 @@ fn refuses_roots_that_do_not_meet_and_drag_without_sense() {
     );
     let drag = |keys: &str| format!("{GOOD}[air.section_drag]\n{keys}\n");
     refused(
-        &drag("cd0 = 0.1"),
+        &drag("cd0 = 0.1").replace(
+            "scheme = \"accurate\"",
+            "bound_core.scully = { radius_chords = 0.01 }\nwake_core.scully = { radius_chords = 0.07 }",
+        ),
         "[air.section_drag]",
-        &["viscosity_m2_s", "no default"],
+        &["viscosity_m2_s", "wake_core has none"],
     );
     refused(&drag("viscosity_m2_s = -1"), "viscosity", &["negative"]);
     refused(&drag("friction = \"none\"\ncd0 = -1"), "cd0", &["negative"]);

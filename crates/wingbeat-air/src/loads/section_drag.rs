@@ -1,11 +1,10 @@
 //! Drag of the sections of wings at low Reynolds number, which an inviscid lattice lacks.
 //!
-//! Every strip behind the leading edge feels `D = 1/2 rho |U| U A C` along the velocity U of the
-//! undisturbed air past it, A its area, `C = C_f + cd0 + cd2 alpha^2`:
+//! Every strip behind the leading edge feels `D = 1/2 rho A (|U_t| U_t C_f + |U| U (cd0 + cd2 alpha^2))`, A its area, U the
+//! velocity of the undisturbed air past it and U_t the part of U along the strip:
 //!
-//! - C_f is the friction of a laminar flat plate on both sides, `2 x 1.328 / sqrt(Re)`,
-//!   `Re = |U| c / nu` [Blasius 1908; Schlichting, Boundary-Layer Theory, sec. 7.5: plates along the
-//!   stream, Re from about 1e2 to 5e5, attached];
+//! - C_f is the friction of a laminar flat plate, see [`SectionDrag::speed_times_friction`]: attached boundary layers in
+//!   steady flow, Re from 10 to about 5e5;
 //! - `cd0 + cd2 alpha^2` is a polar of the user's, alpha the angle between U and the strip.
 //!
 //! U is that of stream and motion at the control points, their mean over the strip by area: what wing
@@ -54,12 +53,14 @@ fn traction(
         flow += part * wind;
         normal += part * panels.normal[p];
     }
-    let wind = flow / whole;
+    let (wind, normal) = (flow / whole, normal.normalize_or_zero());
     let (speed, (_, chord)) = (wind.length(), chord(strip, position));
     if speed == 0.0 || chord == 0.0 {
         return DVec3::ZERO;
     }
-    let sine = wind.dot(normal.normalize_or_zero()).abs() / speed;
-    let alpha = sine.min(1.0).asin();
-    0.5 * lattice.settings().density * drag.speed_times_coefficient(speed, chord, alpha) * wind
+    let through = wind.dot(normal);
+    let along = wind - through * normal;
+    let alpha = (through.abs() / speed).min(1.0).asin();
+    let friction = drag.speed_times_friction(along.length(), chord) * along;
+    0.5 * lattice.settings().density * (friction + speed * drag.profile(alpha) * wind)
 }

@@ -72,7 +72,7 @@ fn settings(case: &AirCase, chord: &Chord) -> Built<AirSettings> {
         max_displacement: case.max_displacement_m,
         clearance: length("clearance", case.clearance_m, case.clearance_chords)?.unwrap_or(0.0),
         particles: case.particles.as_ref().map(particles).transpose()?,
-        section_drag: case.section_drag.map(section_drag).transpose()?,
+        section_drag: section_drag(case.section_drag, viscosity(wake_core))?,
         summation: case.summation,
         tolerance: case.summation_tolerance,
         ..scheme(case.density_kg_m3, stream)
@@ -127,25 +127,45 @@ pub(super) fn key_of(setting: &str) -> &'static str {
     }
 }
 
-/// Drag of the sections.
-fn section_drag(case: SectionDragCase) -> Built<SectionDrag> {
-    let friction = match (case.friction, case.viscosity_m2_s) {
+/// Viscosity [m2/s] of the air in which these cores spread, if they do.
+fn viscosity(core: CoreModel) -> Option<f64> {
+    match core {
+        CoreModel::LambOseen { viscosity, .. } | CoreModel::Algebraic { viscosity, .. } => {
+            Some(viscosity).filter(|v| *v > 0.0)
+        }
+        CoreModel::CutOff { .. } | CoreModel::Vatistas { .. } | CoreModel::Scully { .. } => None,
+    }
+}
+
+/// Drag of the sections in air of this viscosity; friction if nothing is said.
+fn section_drag(
+    case: Option<SectionDragCase>,
+    viscosity: Option<f64>,
+) -> Built<Option<SectionDrag>> {
+    let Some(case) = case else {
+        return Ok(viscosity.map(|viscosity| SectionDrag {
+            friction: Friction::Blasius { viscosity },
+            ..SectionDrag::NONE
+        }));
+    };
+    let friction = match (case.friction, case.viscosity_m2_s.or(viscosity)) {
         (FrictionCase::None, _) => Friction::None,
         (FrictionCase::Blasius, Some(viscosity)) => Friction::Blasius { viscosity },
         (FrictionCase::Blasius, None) => {
             return Err(Fault::new(
                 "air.section_drag.viscosity_m2_s",
-                "the friction needs the viscosity of the air, which has no default",
+                "the friction needs the viscosity of the air, and air.wake_core has none",
                 "a finite number > 0",
                 "1.5e-5 for air at sea level; friction = \"none\" leaves friction out",
             ));
         }
     };
-    Ok(SectionDrag {
+    let drag = SectionDrag {
         friction,
         cd0: case.cd0,
         cd2: case.cd2_per_rad2,
-    })
+    };
+    Ok(Some(drag).filter(|d| *d != SectionDrag::NONE))
 }
 
 /// The separation criterion with the threshold it needs.

@@ -209,10 +209,10 @@ pub struct AirCase {
     #[schemars(extend("with" = LATTICE))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub particles: Option<ParticlesCase>,
-    /// Friction and profile drag of the wings' sections, added to the forces of the lattice; left
-    /// out: none.
+    /// Friction and profile drag of the wings' sections, added to the forces of the lattice, which itself has no
+    /// viscosity. Default: friction in air of the viscosity of `wake_core`; none where that has none.
     ///
-    /// Change it where power matters: the lattice itself has no viscosity.
+    /// Change it to `{ friction = "none" }` for inviscid air, or to add what the sections' polar has.
     #[schemars(extend("with" = LATTICE))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub section_drag: Option<SectionDragCase>,

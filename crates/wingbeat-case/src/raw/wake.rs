@@ -46,8 +46,8 @@ pub struct ParticlesCase {
     pub stretching: Stretching,
 }
 
-/// Drag of the sections of wings: `1/2 rho U^2 A C` against the velocity U of the undisturbed air past
-/// the strip, `C = friction + cd0 + cd2 alpha^2`, alpha the angle between that velocity and the strip.
+/// Drag of the sections of wings: friction along the strip and `1/2 rho U^2 A (cd0 + cd2 alpha^2)` along the velocity U
+/// of the undisturbed air past it, alpha the angle between that velocity and the strip.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SectionDragCase {
@@ -56,7 +56,7 @@ pub struct SectionDragCase {
     /// Change it to `none` where cd0 holds the friction already.
     #[serde(default)]
     pub friction: FrictionCase,
-    /// Kinematic viscosity of the air; needed by the friction.
+    /// Kinematic viscosity of the air, needed by the friction. Default: that of `wake_core`, if it has one.
     ///
     /// Change it for another fluid: 1.5e-5 is air at 20 degrees Celsius.
     #[schemars(extend("exclusiveMinimum" = 0, "with" = "friction = blasius"))]
@@ -80,7 +80,8 @@ pub struct SectionDragCase {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum FrictionCase {
-    /// Laminar flat plate, both sides: `2.656 / sqrt(Re)` (Blasius).
+    /// Laminar flat plate, both sides: `2.656 / sqrt(Re) + 5.34 / Re^(7/8)` (Blasius, and what the trailing edge adds), Re
+    /// that of the velocity along the strip.
     #[default]
     Blasius,
     /// None.

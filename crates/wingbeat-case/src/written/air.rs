@@ -157,7 +157,9 @@ fn lattice(options: &AirOptions) -> Written<AirCase> {
         leading_edge_threshold: threshold[1],
         ground: ground(&lattice.images)?,
         particles: lattice.particles.map(particles),
-        section_drag: lattice.section_drag.map(section_drag),
+        section_drag: Some(section_drag(
+            lattice.section_drag.unwrap_or(SectionDrag::NONE),
+        )),
         ..settings(lattice)
     };
     Ok(with_wind(air, &lattice.wind))
