@@ -57,12 +57,11 @@ fn thrust(
         .map(|j| HALF_SPAN * (0.5 * std::f64::consts::PI * j as f64 / cols as f64).sin())
         .collect();
     let wing = Wing::rectangle(rows, &stations, AXIS, true);
-    let unit = SectionDrag {
+    let none = SectionDrag {
         friction: Friction::None,
-        cd0: 1.0,
+        cd0: 0.0,
         cd2: 0.0,
     };
-    let none = SectionDrag { cd0: 0.0, ..unit };
     let fluid = Fluid {
         drag: none,
         ..Fluid::unit(3.1e5)
@@ -75,7 +74,7 @@ fn thrust(
         let p = pose(k as f64 * dt);
         let middle = p.turn * ((0.5 - AXIS) * DVec3::X);
         let wind = fluid.stream - p.velocity - p.spin.cross(middle);
-        unit.speed_times_coefficient(wind.length(), 1.0, 0.0) * wind.x
+        wind.length() * wind.x
     };
     let lost: Vec<f64> = (0..=steps).map(lost).collect();
     Ok([mean(&ahead[(periods - 1) * steps..]), mean(&lost)])
