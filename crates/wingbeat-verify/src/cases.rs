@@ -9,6 +9,7 @@ mod hover;
 mod insects;
 mod invariance;
 mod kernel;
+mod onset;
 mod particles;
 mod peer;
 mod plates;
@@ -38,6 +39,7 @@ pub fn suite() -> Vec<Case> {
         start::CASES,
         peer::CASES,
         yeo::CASES,
+        onset::CASES,
         scherer::CASES,
         ramp::CASES,
         baik::CASES,

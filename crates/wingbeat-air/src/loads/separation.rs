@@ -1,6 +1,6 @@
 //! What the separation criteria compare with their thresholds.
 
-use crate::geometry::chord;
+use crate::geometry::{Strip, chord};
 use crate::lattice::Lattice;
 use crate::loads::values::AirLoads;
 use crate::settings::LeadingEdge;
@@ -14,7 +14,7 @@ use wingbeat_math::DVec3;
 /// - Leading-edge suction parameter: A0, the coefficient of the suction singularity in thin-airfoil
 ///   theory [Ramesh et al. 2014, J. Fluid Mech. 751:500], from the circulation G of the leading
 ///   panel of length h on a chord c: `A0 = 2 / sqrt(pi) G / (U c (a + sin a))`,
-///   `cos a = 1 - 2 h / c`. `2 / sqrt(pi) = 1.13` is what a lattice's first vortex falls short of
+///   `cos a = 1 - 2 h / c`; U is the speed of stream and motion at the quarter chord, in the plane of the section. `2 / sqrt(pi) = 1.13` is what a lattice's first vortex falls short of
 ///   the exact circulation of its panel [Hirato et al. 2019, AIAA J. 57:4034].
 pub(crate) fn leading_values(lattice: &Lattice, position: &[DVec3], out: &mut AirLoads) {
     out.leading.clear();
@@ -31,10 +31,30 @@ pub(crate) fn leading_values(lattice: &Lattice, position: &[DVec3], out: &mut Ai
                 let middle = 0.5 * (position[strip.nodes[0]] + position[strip.nodes[1]]);
                 let h = 2.0 * (out.panels.point[p] - middle).dot(aft);
                 let a = (1.0 - 2.0 * h / c).clamp(-1.0, 1.0).acos();
-                let scale = along.hypot(across) * c * (a + a.sin());
+                let wind = quarter_chord_wind(lattice, strip, (middle, aft, c), out);
+                let speed = wind.dot(aft).hypot(wind.dot(normal));
+                let scale = speed * c * (a + a.sin());
                 2.0 / PI.sqrt() * out.gamma[p].abs() / scale.max(f64::MIN_POSITIVE)
             }
         };
         out.leading.push(value);
+    }
+}
+
+/// The wind that stream and motion make at the quarter chord of a strip, whose leading edge is at `middle` [m, m/s]: that of
+/// its control points, which is linear along a rigid section.
+fn quarter_chord_wind(
+    lattice: &Lattice,
+    strip: &Strip,
+    (middle, aft, c): (DVec3, DVec3, f64),
+    out: &AirLoads,
+) -> DVec3 {
+    let ends = [strip.panels[0], strip.panels[strip.panels.len() - 1]];
+    let place = ends.map(|p| (out.panels.point[p] - middle).dot(aft));
+    let wind = ends.map(|p| lattice.stream(out.panels.point[p], out.time) - out.panels.velocity[p]);
+    let way = place[1] - place[0];
+    match way > 0.0 {
+        true => wind[0].lerp(wind[1], (0.25 * c - place[0]) / way),
+        false => wind[0],
     }
 }

@@ -96,9 +96,10 @@ impl Wing {
         }
     }
 
-    fn lattice(&self, fluid: &Fluid, leading: bool) -> Result<Lattice, AirError> {
+    /// # Errors
+    /// As the lattice's.
+    pub fn lattice(&self, settings: AirSettings) -> Result<Lattice, AirError> {
         let [rows, cols] = self.mesh;
-        let settings = fluid.settings(leading, self.free_root);
         let wing = Surface::grid("right", rows, cols);
         if !self.joined {
             return Lattice::new(vec![wing], settings);
@@ -121,7 +122,8 @@ impl Wing {
         Lattice::joined(vec![wing, left], &[joined], settings)?.with_mirror_symmetry(pairs)
     }
 
-    fn moved(&self, pose: &Pose) -> NodeMotion {
+    /// Its nodes in this pose, its mirror image last.
+    pub fn moved(&self, pose: &Pose) -> NodeMotion {
         let arm = |x: &DVec3| pose.turn * *x;
         let mut motion = NodeMotion {
             position: self.nodes.iter().map(|x| pose.shift + arm(x)).collect(),
@@ -158,7 +160,7 @@ pub(crate) fn forces(
     [start, dt]: [f64; 2],
     last: usize,
 ) -> Result<Vec<DVec3>, AirError> {
-    let lattice = wing.lattice(fluid, leading)?;
+    let lattice = wing.lattice(fluid.settings(leading, wing.free_root))?;
     let [rows, cols] = wing.mesh;
     let measured: Vec<usize> = (0..rows * cols)
         .filter(|p| p % cols < wing.measured)
