@@ -69,6 +69,7 @@ mod momentum;
 mod motion;
 mod placement;
 pub mod posture;
+mod prescribed;
 mod quaternion;
 mod slot;
 mod solution;

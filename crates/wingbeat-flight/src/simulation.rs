@@ -226,14 +226,19 @@ impl Simulation {
         self.finish_arrival(StepReport::default(), true)
     }
 
-    /// Angles phi, theta, psi of the wings at time `t` [s].
-    fn wing_angles(&self, t: f64) -> Vec<DVec3> {
+    /// Puts angles phi, theta, psi of the wings at time `t` [s] and their commands into the record.
+    fn note_wings(&mut self, t: f64) {
+        let (angles, commands) = (&mut self.record.wing_angles, &mut self.record.commands);
+        angles.clear();
+        commands.clear();
         if let Some(feedback) = &self.feedback {
-            return feedback.angles(t);
+            angles.extend(feedback.angles(t));
+            commands.extend_from_slice(feedback.commands());
+            return;
         }
         let value = |a: [[f64; 3]; 3]| DVec3::new(a[0][0], a[1][0], a[2][0]);
         let wings = self.setup.animal.wings.iter();
-        wings.map(|w| value(w.motion.angles(t))).collect()
+        angles.extend(wings.map(|w| value(w.motion.angles(t))));
     }
 
     /// One of the three starting steps, already known: evaluates it again in its place.
@@ -301,16 +306,15 @@ impl Simulation {
     fn finish_arrival(&mut self, report: StepReport, starts: bool) -> Result<(), FlightError> {
         self.control()?;
         let (step, time) = (self.state.step, self.time(self.state.step));
+        self.note_wings(time);
         let sources = Sources {
-            wing_angles: self.wing_angles(time),
-            commands: (self.feedback.as_ref()).map_or(vec![], |f| f.commands().to_vec()),
             equations: &self.stages[self.state.stage].equations,
             scratch: &self.scratch,
             y: &self.state.past.y[self.newest()],
             air: self.state.air.as_ref(),
             report,
         };
-        self.record = sources.record(step, time, &mut self.state.ledger);
+        sources.write(step, time, &mut self.state.ledger, &mut self.record);
         let equations = &self.stages[self.state.stage].equations;
         equations.accept_air(&mut self.state.air, &self.scratch)?;
         if starts && !self.finished() && !self.setup.integrator.is_one_step() {
@@ -340,8 +344,8 @@ impl Simulation {
             feedback.update(t, &sensed)?;
             // What the scratch knows of the wings at this instant is that of the passage before.
             self.scratch.fit(&stage.equations);
+            self.state.control = Some(feedback.state());
         }
-        self.state.control = Some(feedback.state());
         Ok(())
     }
 
