@@ -14,14 +14,14 @@ use wingbeat_flight::{FlightSetup, Simulation};
 mod common;
 
 /// Wingbeats of a burst.
-const BEATS: usize = 10;
+const BEATS: usize = 50;
 
 fn main() {
     let setup = common::fly();
     let beat = Beat::new(&setup, 100).expect("the fruit fly");
     let trimmed = wingbeat_analysis::trim(&setup, &common::hover(100)).expect("the fruit fly");
     let (mut map, mut flight) = (f64::INFINITY, f64::INFINITY);
-    for _ in 0..100 {
+    for _ in 0..40 {
         map = map.min(seconds(|| {
             let mut y = trimmed.state.clone();
             for _ in 0..BEATS {

@@ -6,16 +6,17 @@
 mod fits;
 mod start;
 mod state;
+mod wings;
 
 pub use state::FlightState;
 
 use wingbeat_air::Points;
 use wingbeat_dynamics::BodyMotion;
-use wingbeat_math::DVec3;
 use wingbeat_math::ode::{Multistep, StepError, StepReport, block_start};
 
 use self::fits::check_fits;
 use self::start::Start;
+use self::wings::WingAngles;
 use crate::bodies::{carry, own_motion};
 use crate::control::{Loop, Sensed, feedback};
 use crate::equations::{Equations, Scratch};
@@ -38,6 +39,7 @@ pub struct Simulation {
     solver: Solver,
     scratch: Scratch,
     record: Record,
+    wings: WingAngles,
     release: Option<BodyMotion>,
     feedback: Option<Loop>,
 }
@@ -71,6 +73,7 @@ impl Simulation {
             solver: Solver::new(first, setup.integrator, &setup.corrector),
             scratch: Scratch::new(first),
             record: Record::default(),
+            wings: WingAngles::new(&setup, stages[0].equations.core.system()),
             release: None,
             feedback,
             setup,
@@ -226,21 +229,6 @@ impl Simulation {
         self.finish_arrival(StepReport::default(), true)
     }
 
-    /// Puts angles phi, theta, psi of the wings at time `t` [s] and their commands into the record.
-    fn note_wings(&mut self, t: f64) {
-        let (angles, commands) = (&mut self.record.wing_angles, &mut self.record.commands);
-        angles.clear();
-        commands.clear();
-        if let Some(feedback) = &self.feedback {
-            angles.extend(feedback.angles(t));
-            commands.extend_from_slice(feedback.commands());
-            return;
-        }
-        let value = |a: [[f64; 3]; 3]| DVec3::new(a[0][0], a[1][0], a[2][0]);
-        let wings = self.setup.animal.wings.iter();
-        angles.extend(wings.map(|w| value(w.motion.angles(t))));
-    }
-
     /// One of the three starting steps, already known: evaluates it again in its place.
     fn replay_start(&mut self) -> Result<StepReport, FlightError> {
         let (t, k) = (self.time(self.state.step), self.newest());
@@ -306,7 +294,8 @@ impl Simulation {
     fn finish_arrival(&mut self, report: StepReport, starts: bool) -> Result<(), FlightError> {
         self.control()?;
         let (step, time) = (self.state.step, self.time(self.state.step));
-        self.note_wings(time);
+        let (wings, feedback) = (&self.wings, self.feedback.as_ref());
+        wings.write(&self.setup, feedback, step, &mut self.record);
         let sources = Sources {
             equations: &self.stages[self.state.stage].equations,
             scratch: &self.scratch,
