@@ -105,27 +105,24 @@ fn formulation(setup: &FlightSetup, system: System) -> Result<Box<dyn Formulatio
     })
 }
 
-/// How a free flight of `system` repeats itself from step to step, if it is known beforehand: in air without a memory,
-/// whose flights are many beats long and cost little else.
+/// How a free flight of `system` repeats itself from step to step, if that is known beforehand: in the momentum form, in air
+/// without a memory, whose flights are many beats long and cost little else, by a method that keeps to the time grid.
 pub fn cycle(setup: &FlightSetup, system: &System) -> Option<Cycle> {
-    match setup.air.has_memory() || matches!(setup.mode, MotionMode::Tethered(_)) {
-        true => None,
-        false => system.cycle(setup.time.step),
-    }
+    let known = setup.formulation == FormulationChoice::Momentum
+        && matches!(setup.mode, MotionMode::Free(_))
+        && !setup.air.has_memory()
+        && !matches!(setup.integrator, IntegratorChoice::OrderEight { .. });
+    known.then(|| system.cycle(setup.time.step)).flatten()
 }
 
 /// The momentum form, with postures from a table where the motion repeats itself in whole steps.
 fn momentum(setup: &FlightSetup, system: System) -> MomentumForm {
     let step = setup.time.step;
-    let table = cycle(setup, &system).and_then(|cycle| match setup.integrator {
-        IntegratorChoice::Hamming | IntegratorChoice::Bdf | IntegratorChoice::Adams => {
-            Some(PostureTable::repeating(&system, step, cycle))
-        }
+    let table = cycle(setup, &system).map(|cycle| match setup.integrator {
         IntegratorChoice::RungeKutta => {
-            let halves = cycle.halved();
-            Some(PostureTable::repeating(&system, 0.5 * step, halves))
+            PostureTable::repeating(&system, 0.5 * step, cycle.halved())
         }
-        IntegratorChoice::OrderEight { .. } => None, // chooses its own times
+        _ => PostureTable::repeating(&system, step, cycle),
     });
     let form = MomentumForm::new(system);
     match table {
