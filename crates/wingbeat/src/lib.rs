@@ -1,7 +1,7 @@
 //! **wingbeat**, a simulator of flapping-wing flight: one multibody system, one unsteady vortex
 //! lattice, integrated together.
 //!
-//! This crate re-exports the library crates under one roof; the command line lives beside it.
+//! This crate re-exports the library crates under one roof; [`command`] is the command line.
 //!
 //! | module | what it holds |
 //! |---|---|
@@ -37,6 +37,9 @@
 //! Everyday types are in [`prelude`]; a flight is a [`Flight`], a flight that was flown a [`Run`].
 #![warn(missing_docs)]
 
+extern crate self as wingbeat; // the command line is written as any other user of the library
+
+pub mod command;
 mod flown;
 mod refusal;
 mod value;

@@ -5,9 +5,9 @@ use serde_json::{Map, json};
 use wingbeat::analysis::power::{Power, power};
 
 use super::trimming::{Trimming, trimmed, watched};
-use crate::failure::Failure;
-use crate::options;
-use crate::report::{Report, line};
+use crate::command::failure::Failure;
+use crate::command::options;
+use crate::command::report::{Report, line};
 
 /// Arguments of `wingbeat power`.
 #[derive(Args)]

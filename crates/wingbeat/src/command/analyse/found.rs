@@ -7,7 +7,7 @@ use wingbeat::case::LoadedCase;
 use wingbeat::model::motion::Adjustment;
 use wingbeat::results::fixed::signed;
 
-use crate::report::{Report, line};
+use crate::command::report::{Report, line};
 
 /// What is reported of a trim of either kind.
 pub(crate) struct Found {

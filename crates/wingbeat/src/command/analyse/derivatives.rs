@@ -6,8 +6,8 @@ use wingbeat::analysis::{AnalysisError, Level};
 use wingbeat::math::DVec3;
 
 use super::trimming::{Trimming, trimmed, watched};
-use crate::failure::Failure;
-use crate::report::{Report, line};
+use crate::command::failure::Failure;
+use crate::command::report::{Report, line};
 
 /// The whole command.
 pub(crate) fn run(args: &Trimming) -> Result<(), Failure> {

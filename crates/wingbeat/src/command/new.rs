@@ -6,8 +6,8 @@ use clap::Args;
 use wingbeat::case::{self, presets};
 use wingbeat::results::file::NewFile;
 
-use crate::failure::Failure;
-use crate::terminal::say;
+use crate::command::failure::Failure;
+use crate::command::terminal::say;
 
 /// Arguments of `wingbeat new`.
 #[derive(Args)]

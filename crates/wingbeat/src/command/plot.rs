@@ -6,9 +6,9 @@ use clap::Args;
 use wingbeat::draw::figures::{self, Format, Kind, Order, Style, Window};
 use wingbeat::results::ResultDir;
 
-use crate::failure::Failure;
-use crate::options::{self, choose};
-use crate::terminal::say;
+use crate::command::failure::Failure;
+use crate::command::options::{self, choose};
+use crate::command::terminal::say;
 
 /// Arguments of `wingbeat plot`.
 #[derive(Args)]

@@ -7,9 +7,9 @@ use clap::Args;
 use wingbeat::draw::page;
 use wingbeat::results::ResultDir;
 
-use crate::failure::Failure;
-use crate::options;
-use crate::terminal::say;
+use crate::command::failure::Failure;
+use crate::command::options;
+use crate::command::terminal::say;
 
 /// Arguments of `wingbeat view`.
 #[derive(Args)]

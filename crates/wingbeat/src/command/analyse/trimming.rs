@@ -9,12 +9,12 @@ use wingbeat::flight::MotionMode;
 use wingbeat::math::DVec3;
 
 use super::found::{self, Found};
-use crate::failure::{FAILED, Failure};
-use crate::options;
-use crate::report::{Report, ReportArgs, line};
-use crate::run::name_program;
-use crate::terminal::tell;
-use crate::watch::Watch;
+use crate::command::failure::{FAILED, Failure};
+use crate::command::options;
+use crate::command::report::{Report, ReportArgs, line};
+use crate::command::run::name_program;
+use crate::command::terminal::tell;
+use crate::command::watch::Watch;
 
 /// Steps per wingbeat at least and at most; of order four, 2,000 are at the last bits.
 const STEPS: [usize; 2] = [4, 2_000];

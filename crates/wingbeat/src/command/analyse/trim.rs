@@ -6,8 +6,8 @@ use clap::Args;
 use wingbeat::case::{trimmed_case, wake_trimmed_case};
 
 use super::trimming::{Trimming, trimmed, trimmed_with_wake};
-use crate::failure::Failure;
-use crate::report::line;
+use crate::command::failure::Failure;
+use crate::command::report::line;
 
 /// Arguments of `wingbeat trim`.
 #[derive(Args)]

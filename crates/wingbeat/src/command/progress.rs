@@ -9,9 +9,9 @@ use wingbeat::case::OutputSettings;
 use wingbeat::flight::{FlightSetup, Record, Simulation};
 use wingbeat::results::fixed::signed;
 
-use crate::options::RunOptions;
-use crate::pace::Pace;
-use crate::terminal::say;
+use crate::command::options::RunOptions;
+use crate::command::pace::Pace;
+use crate::command::terminal::say;
 
 /// Time between two lines of JSON.
 const PAUSE: Duration = Duration::from_millis(500);

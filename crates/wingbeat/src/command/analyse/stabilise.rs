@@ -15,10 +15,10 @@ use wingbeat::results::file::NewFile;
 use wingbeat::results::fixed::fixed;
 
 use super::trimming::{Trimming, trimmed, unused, watched};
-use crate::failure::Failure;
-use crate::options;
-use crate::report::{Report, line};
-use crate::watch::Watch;
+use crate::command::failure::Failure;
+use crate::command::options;
+use crate::command::report::{Report, line};
+use crate::command::watch::Watch;
 
 /// Wingbeats of a flight at most.
 const MAX_BEATS: usize = 100_000;

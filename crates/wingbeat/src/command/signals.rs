@@ -5,8 +5,8 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use signal_hook::consts::{SIGINT, SIGTERM};
 
-use crate::failure::INTERRUPTED;
-use crate::terminal::tell;
+use crate::command::failure::INTERRUPTED;
+use crate::command::terminal::tell;
 
 /// Set by the first signal. Signals that are ignored when the program starts stay ignored:
 /// `nohup wingbeat run` outlives its terminal, `wingbeat run &` in a script the Ctrl-C meant for

@@ -10,9 +10,9 @@ use clap_complete::Shell;
 use wingbeat::case::{nearest, presets};
 use wingbeat::results::file::{NewFile, make_folder};
 
-use crate::cli::{Cli, ManArgs, STYLES};
-use crate::failure::Failure;
-use crate::terminal::{self, say};
+use crate::command::cli::{Cli, ManArgs, STYLES};
+use crate::command::failure::Failure;
+use crate::command::terminal::{self, say};
 
 /// Name of the program.
 const PROGRAM: &str = "wingbeat";

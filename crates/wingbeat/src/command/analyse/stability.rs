@@ -14,8 +14,8 @@ use wingbeat::results::file::NewFile;
 use wingbeat::results::fixed::{fixed, signed};
 
 use super::trimming::{Trimming, trimmed, trimmed_with_wake, unused, watched};
-use crate::failure::Failure;
-use crate::report::{Report, line};
+use crate::command::failure::Failure;
+use crate::command::report::{Report, line};
 
 /// Arguments of `wingbeat stability`.
 #[derive(Args)]

@@ -27,7 +27,7 @@ impl Watch {
 
     /// For a command of so many parts that [`Self::part`] counts.
     pub(crate) fn of(what: &str, parts: u64) -> Self {
-        let bar = crate::progress::bar(ProgressDrawTarget::stderr(), parts.max(1));
+        let bar = crate::command::progress::bar(ProgressDrawTarget::stderr(), parts.max(1));
         if !bar.is_hidden() {
             bar.set_message(what.to_owned());
             bar.enable_steady_tick(TICK);

@@ -3,7 +3,7 @@
 use wingbeat::analysis::AnalysisError;
 use wingbeat::case::IoError;
 
-use crate::terminal::tell;
+use crate::command::terminal::tell;
 
 /// Nothing was run.
 pub(crate) const REFUSED: u8 = 2;

@@ -37,14 +37,14 @@ impl Stream {
 /// A line on the standard output, as `println!` but without its panic.
 macro_rules! say {
     ($($text:tt)*) => {
-        $crate::terminal::output(format_args!("{}\n", format_args!($($text)*)))
+        $crate::command::terminal::output(format_args!("{}\n", format_args!($($text)*)))
     };
 }
 
 /// A line on the standard error, as `eprintln!` but without its panic.
 macro_rules! tell {
     ($($text:tt)*) => {
-        $crate::terminal::errors(format_args!("{}\n", format_args!($($text)*)))
+        $crate::command::terminal::errors(format_args!("{}\n", format_args!($($text)*)))
     };
 }
 

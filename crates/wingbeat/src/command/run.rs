@@ -9,11 +9,11 @@ use wingbeat::draw::draw_run;
 use wingbeat::flight::{FlightError, Simulation};
 use wingbeat::results::{Outcome, ResultDir, RunWriter, saver};
 
-use crate::failure::{FAILED, Failure, INTERRUPTED};
-use crate::options::RunOptions;
-use crate::progress::Progress;
-use crate::signals::stop_flag;
-use crate::terminal::{say, tell};
+use crate::command::failure::{FAILED, Failure, INTERRUPTED};
+use crate::command::options::RunOptions;
+use crate::command::progress::Progress;
+use crate::command::signals::stop_flag;
+use crate::command::terminal::{say, tell};
 
 /// Arguments of `wingbeat run`.
 #[derive(Args)]

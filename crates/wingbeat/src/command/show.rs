@@ -10,8 +10,8 @@ use wingbeat::results::file::NewFile;
 use wingbeat::results::fixed::fixed;
 use wingbeat::results::{Manifest, ResultDir, Summary};
 
-use crate::failure::Failure;
-use crate::terminal::say;
+use crate::command::failure::Failure;
+use crate::command::terminal::say;
 
 /// Arguments of `wingbeat show`.
 #[derive(Args)]

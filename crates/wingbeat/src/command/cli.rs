@@ -6,7 +6,7 @@ use clap::builder::styling::{AnsiColor, Styles};
 use clap::{Args, Parser, Subcommand};
 use clap_complete::Shell;
 
-use crate::{analyse, export, new, plot, run, show, velocity, verify, view};
+use super::{analyse, export, new, plot, run, show, velocity, verify, view};
 
 /// Colours of help and errors, as cargo has them.
 pub(crate) const STYLES: Styles = Styles::styled()

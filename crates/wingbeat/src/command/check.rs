@@ -8,10 +8,10 @@ use wingbeat::case::{IoError, LoadedCase};
 use wingbeat::flight::{AirModel, FlightSetup, MotionMode, Simulation};
 use wingbeat::results::fixed::fixed;
 
-use crate::expectation;
-use crate::failure::Failure;
-use crate::terminal::{say, tell};
-use crate::watch::Watch;
+use crate::command::expectation;
+use crate::command::failure::Failure;
+use crate::command::terminal::{say, tell};
+use crate::command::watch::Watch;
 
 /// Describes the case, builds its flight and makes some steps on trial. Lattices that would take
 /// long to build are built only if `trial` says so. Nothing of the case is executed: a program

@@ -8,7 +8,7 @@ use wingbeat::case::OutputSettings;
 use wingbeat::flight::{AirModel, AirOptions, FlightSetup, Record, Simulation};
 use wingbeat::results::rows::Rows;
 
-use crate::remaining::{CostModel, Growth};
+use crate::command::remaining::{CostModel, Growth};
 
 /// Points of a trial sum over the wake.
 const TRIAL_POINTS: usize = 2048;

@@ -6,9 +6,9 @@ use clap::Args;
 use wingbeat::results::ResultDir;
 use wingbeat::results::export::{self, Format};
 
-use crate::failure::Failure;
-use crate::options::choose;
-use crate::terminal::say;
+use crate::command::failure::Failure;
+use crate::command::options::choose;
+use crate::command::terminal::say;
 
 /// Arguments of `wingbeat export`.
 #[derive(Args)]

@@ -9,9 +9,9 @@ use wingbeat::case::IoError;
 use wingbeat::results::file::NewFile;
 use wingbeat::verify::{Case, Entry, Report};
 
-use crate::failure::{FAILED, Failure};
-use crate::terminal::{say, tell};
-use crate::watch::Watch;
+use crate::command::failure::{FAILED, Failure};
+use crate::command::terminal::{say, tell};
+use crate::command::watch::Watch;
 
 /// Arguments of `wingbeat verify`.
 #[derive(Args)]

@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 use wingbeat::analysis::Estimate;
 use wingbeat::flight::{AirModel, FlightError, FlightSetup, Simulation};
 
-use crate::pace::Pace;
+use crate::command::pace::Pace;
 
 /// Unknown circulations beyond which the trial is left out: their matrix takes some seconds and
 /// 0.1 GB, and eight times the one and four times the other with every doubling.

@@ -9,8 +9,8 @@ use serde_json::{Map, Value};
 use wingbeat::case::IoError;
 use wingbeat::results::file::NewFile;
 
-use crate::failure::Failure;
-use crate::terminal;
+use crate::command::failure::Failure;
+use crate::command::terminal;
 
 /// Heading of these options in the help.
 const HEADING: &str = "Report";

@@ -11,10 +11,10 @@ use wingbeat::flight::{AirModel, Simulation};
 use wingbeat::math::DVec3;
 use wingbeat::results::{ResultDir, saver};
 
-use crate::failure::Failure;
-use crate::options;
-use crate::report::{Report, ReportArgs, line};
-use crate::terminal::tell;
+use crate::command::failure::Failure;
+use crate::command::options;
+use crate::command::report::{Report, ReportArgs, line};
+use crate::command::terminal::tell;
 
 /// Points at most.
 const MAX_POINTS: usize = 1_000_000;
