@@ -4,6 +4,7 @@ use wingbeat_math::{DMat3, DQuat, DVec3};
 
 use crate::AnalysisError;
 use crate::beat::{Beat, JOINTS, State};
+use crate::derivatives::ControlDerivative;
 use crate::eigen::eigen;
 use crate::level::{Level, Perturbation};
 use crate::mean::MeanLoad;
@@ -102,6 +103,29 @@ impl RigidBody {
         };
         Ok(rates.to_array())
     }
+}
+
+/// How the averaged model about the flight through `state` answers controls: derivatives of the rates of (u, v, w, p,
+/// q, r, phi, theta, psi) by each of `controls`, by rows, 9 x their number.
+///
+/// `d(u, v, w)' = dF / m`, `d(p, q, r)' = J^-1 dM`, J the mean inertia about the mean mass centre, level frame: the
+/// input matrix B beside [`LinearModel::matrix`].
+pub fn input_matrix(beat: &Beat, state: &State, controls: &[ControlDerivative]) -> Vec<f64> {
+    let level = Level::new(beat.root(state).r, beat.gravity());
+    let inertia = level.to_root.transpose() * beat.mean_inertia() * level.to_root;
+    let n = controls.len();
+    let mut b = vec![0.0; 9 * n];
+    for (k, control) in controls.iter().enumerate() {
+        let load = &control.derivative;
+        let rates = Perturbation {
+            velocity: load.force / beat.mass(),
+            rate: inertia.inverse() * load.moment,
+            tilt: DVec3::ZERO,
+        };
+        let column = rates.to_array();
+        (0..9).for_each(|i| b[i * n + k] = column[i]);
+    }
+    b
 }
 
 /// Derivatives of the mean loads by velocities and rates.

@@ -268,6 +268,25 @@ impl History {
         Ok(Self { names, columns })
     }
 
+    /// The history of records in memory, a row of each.
+    pub fn of(columns: &Columns, records: &[Record]) -> Self {
+        let mut lists = vec![Vec::with_capacity(records.len()); columns.iter().len()];
+        let (mut scratch, mut values) = (Record::default(), vec![]);
+        for record in records {
+            columns.values(record, &mut scratch, &mut values);
+            let row = lists.iter_mut().zip(&values);
+            row.for_each(|(list, value)| list.push(*value));
+        }
+        let names = columns.names();
+        let columns = names.iter().cloned().zip(lists).collect();
+        Self { names, columns }
+    }
+
+    /// Its columns by name.
+    pub fn into_columns(self) -> BTreeMap<String, Vec<f64>> {
+        self.columns
+    }
+
     /// Column names in their order.
     pub fn names(&self) -> &[String] {
         &self.names

@@ -3,10 +3,11 @@
 use std::path::Path;
 
 use wingbeat_case::IoError;
-use wingbeat_flight::{FlightSetup, Record, joint_coordinates};
+use wingbeat_flight::{FlightError, FlightSetup, Record, joint_coordinates};
+use wingbeat_results::columns::Columns;
 use wingbeat_results::history::HistoryWriter;
 use wingbeat_results::summary::{BeatMeans, Beats};
-use wingbeat_results::{Outcome, ResultDir, Summary};
+use wingbeat_results::{History, Outcome, Records, ResultDir, Summary};
 
 use crate::refusal::Error;
 
@@ -25,6 +26,8 @@ pub struct Run {
     pub setup: FlightSetup,
     /// One record per step, the start first.
     pub records: Vec<Record>,
+    /// How it ended.
+    pub outcome: Outcome,
 }
 
 /// Means over one wingbeat, those of `history.csv`, summary and figures.
@@ -61,6 +64,59 @@ impl From<&BeatMeans> for Beat {
 }
 
 impl Run {
+    /// Reads back a result directory, finished or not: a record for each row of its history.
+    ///
+    /// ```
+    /// use wingbeat::{Flight, Run};
+    /// let dir = std::env::temp_dir().join(format!("wingbeat-read-{}", std::process::id()));
+    /// let flown = Flight::preset_with("fruit-fly-blade", &["time.beats=0.1"])?.fly_to(&dir)?;
+    /// assert_eq!(Run::read(&dir)?.records, flown.records); // bit for bit
+    /// # std::fs::remove_dir_all(&dir).expect("it was just written");
+    /// # Ok::<(), wingbeat::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// A directory that holds no run, or files in it that are damaged.
+    pub fn read(dir: impl AsRef<Path>) -> Result<Self, Error> {
+        let dir = ResultDir::read(dir.as_ref())?;
+        let setup = dir.case()?.setup;
+        let mut rows = Records::open(&dir.join("history.csv"), &setup)?;
+        let mut records = vec![];
+        while let Some(record) = rows.next_record()? {
+            records.push(record.clone());
+        }
+        Ok(Self {
+            setup,
+            records,
+            outcome: dir.manifest()?.outcome,
+        })
+    }
+
+    /// The columns of its history: names, units, frames, meanings.
+    ///
+    /// # Errors
+    /// Joints that cannot be assembled.
+    pub fn columns(&self) -> Result<Columns, Error> {
+        let blank = Record::default();
+        let first = self.records.first().unwrap_or(&blank);
+        Ok(Columns::of(&self.setup, first).map_err(FlightError::from)?)
+    }
+
+    /// Its history as `history.csv` has it.
+    ///
+    /// ```
+    /// let run = wingbeat::Flight::preset("fruit-fly-blade")?.beats(0.1).fly()?;
+    /// let history = run.history()?;
+    /// assert_eq!(history.column("mass_centre_n3_m")[5], run.records[5].mass_centre.z);
+    /// # Ok::<(), wingbeat::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// As [`Self::columns`].
+    pub fn history(&self) -> Result<History, Error> {
+        Ok(History::of(&self.columns()?, &self.records))
+    }
+
     /// Means over every whole wingbeat.
     pub fn beats(&self) -> Vec<Beat> {
         let mut beats = Beats::new(&self.setup);
@@ -101,7 +157,7 @@ impl Run {
     /// # Ok::<(), wingbeat::Error>(())
     /// ```
     pub fn summary(&self) -> Summary {
-        Summary::of(&self.setup, &self.records, &Outcome::Finished)
+        Summary::of(&self.setup, &self.records, &self.outcome)
     }
 
     /// Writes `history.csv`, `summary.txt` and `summary.json` (see docs/results.md) into the new

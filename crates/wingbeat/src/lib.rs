@@ -1,7 +1,7 @@
 //! **wingbeat**, a simulator of flapping-wing flight: one multibody system, one unsteady vortex
 //! lattice, integrated together.
 //!
-//! This crate re-exports the library crates under one roof; the command line lives beside it.
+//! This crate re-exports the library crates under one roof; [`command`] is the command line.
 //!
 //! | module | what it holds |
 //! |---|---|
@@ -38,7 +38,10 @@
 //! [`fly_all`] flies many over the processor's threads.
 #![warn(missing_docs)]
 
+extern crate self as wingbeat; // the command line is written as any other user of the library
+
 mod batch;
+pub mod command;
 mod flown;
 mod refusal;
 mod value;

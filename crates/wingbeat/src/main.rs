@@ -1,78 +1,7 @@
 //! The wingbeat command line.
 
-#![deny(clippy::print_stdout, clippy::print_stderr)] // they panic where nobody reads; see `terminal`
-
-mod analyse;
-mod check;
-mod cli;
-mod expectation;
-mod export;
-mod failure;
-mod help;
-mod new;
-mod options;
-mod pace;
-mod plot;
-mod progress;
-mod remaining;
-mod report;
-mod run;
-mod show;
-mod signals;
-mod terminal;
-mod velocity;
-mod verify;
-mod view;
-mod watch;
-
 use std::process::ExitCode;
 
-use clap::FromArgMatches;
-use wingbeat::case;
-
-use cli::{Cli, Command};
-use failure::Failure;
-use terminal::say;
-
 fn main() -> ExitCode {
-    let matches = help::command().try_get_matches();
-    let code = match matches.and_then(|found| Cli::from_arg_matches(&found)) {
-        Ok(cli) => run(cli.command).map_or_else(|failure| failure.tell(), |()| 0),
-        Err(message) => terminal::usage(&help::advised(message)),
-    };
-    ExitCode::from(terminal::close(code))
-}
-
-fn run(command: Command) -> Result<(), Failure> {
-    match command {
-        Command::Run(args) => run::run(&args),
-        Command::Resume(args) => run::resume(&args),
-        Command::View(args) => view::view(&args),
-        Command::Plot(args) => plot::plot(&args),
-        Command::Export(args) => export::export(&args),
-        Command::Show(args) => show::show(&args),
-        Command::Compare(args) => show::compare(&args),
-        Command::Check { case, set, trial } => check::check(&case, &set, trial),
-        Command::Trim(args) => analyse::trim::run(&args),
-        Command::Stability(args) => analyse::stability::run(&args),
-        Command::Derivatives(args) => analyse::derivatives::run(&args),
-        Command::Power(args) => analyse::power::run(&args),
-        Command::Stabilise(args) => analyse::stabilise::run(&args),
-        Command::Velocity(args) => velocity::run(&args),
-        Command::Verify(args) => verify::run(&args),
-        Command::Presets => {
-            new::list();
-            Ok(())
-        }
-        Command::New(args) => new::new(&args),
-        Command::Schema => {
-            say!("{}", case::schema());
-            Ok(())
-        }
-        Command::Completions { shell } => {
-            help::completions(shell);
-            Ok(())
-        }
-        Command::Man(args) => help::man(&args),
-    }
+    ExitCode::from(wingbeat::command::main(std::env::args_os()))
 }

@@ -1,5 +1,6 @@
 //! A flight as a value: built and flown without case files or result directories.
 
+use std::ops::ControlFlow;
 use std::path::Path;
 
 use wingbeat_analysis::{Trim, TrimProblem, TrimSettings, Unknown};
@@ -218,8 +219,19 @@ impl Flight {
     /// # Errors
     /// A setup that is refused; a flight that cannot go on.
     pub fn fly(&self) -> Result<Run, Error> {
-        let flight = Simulation::new(self.setup.clone())?;
-        steps(&self.setup, flight, |_| Ok(()))
+        let (run, error) = self.fly_watched(None, |_| ControlFlow::Continue(()))?;
+        error.map_or(Ok(run), Err)
+    }
+
+    /// Before the first step.
+    ///
+    /// # Errors
+    /// A setup that is refused; of a case as it was read, with its key and line.
+    pub fn begin(&self) -> Result<Simulation, Error> {
+        Simulation::new(self.setup.clone()).map_err(|e| match self.unchanged_case() {
+            Some(case) => IoError::from(case.refused(&e)).into(),
+            None => e.into(),
+        })
     }
 
     /// Flies it to its end and writes the whole result directory while it does: case, manifest,
@@ -238,20 +250,59 @@ impl Flight {
     /// # Errors
     /// As [`Self::to_case`], [`Self::fly`] and [`Run::write`].
     pub fn fly_to(&self, dir: impl AsRef<Path>) -> Result<Run, Error> {
+        let dir = Some(dir.as_ref());
+        let (run, error) = self.fly_watched(dir, |_| ControlFlow::Continue(()))?;
+        error.map_or(Ok(run), Err)
+    }
+
+    /// Flies it while `watch`, which sees the start and every step, lets it; into a result directory if `dir`
+    /// names one, as [`Self::fly_to`], from which `wingbeat resume` goes on if it was stopped. What was flown
+    /// is kept, also where an error ended it.
+    ///
+    /// ```
+    /// use std::ops::ControlFlow::{Break, Continue};
+    /// let flight = wingbeat::Flight::preset("fruit-fly-blade")?;
+    /// let three = |f: &wingbeat::flight::Simulation| if f.state().step < 3 { Continue(()) } else { Break(()) };
+    /// let (run, error) = flight.fly_watched(None, three)?;
+    /// assert_eq!((run.records.len(), error.is_none()), (4, true));
+    /// # Ok::<(), wingbeat::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// What keeps it from beginning: as [`Self::begin`] and, with `dir`, as [`Self::to_case`] and [`Run::write`].
+    pub fn fly_watched(
+        &self,
+        dir: Option<&Path>,
+        mut watch: impl FnMut(&Simulation) -> ControlFlow<()>,
+    ) -> Result<(Run, Option<Error>), Error> {
+        let Some(dir) = dir else {
+            return Ok(steps(self.begin()?, |flight| Ok(watch(flight))));
+        };
         let case = self.to_case()?;
-        let flight = Simulation::new(case.setup.clone())?;
+        let flight = Self::from(case.clone()).begin()?;
         let threads = rayon::current_num_threads();
-        let mut writer = RunWriter::new(new_dir(dir.as_ref())?, &case, threads)?;
-        let flown = steps(&case.setup, flight, |flight| {
+        let mut writer = RunWriter::new(new_dir(dir)?, &case, threads)?;
+        let (run, error) = steps(flight, |flight| {
             writer.write(flight.record(), || flight.snapshot())?;
-            writer.save_if_due(flight.state())
+            let next = watch(flight);
+            match next.is_break() {
+                true => writer.save(flight.state())?,
+                false => writer.save_if_due(flight.state())?,
+            }
+            Ok(next)
         });
-        match &flown {
-            Ok(_) => _ = writer.finish(Outcome::Finished, draw_run)?,
-            Err(Error::Flight(e)) => _ = writer.finish(Outcome::Failed(e.to_string()), draw_run)?,
-            Err(e) => writer.abandon(e.to_string()),
+        match &error {
+            Some(Error::Io(e)) => writer.abandon(e.to_string()),
+            _ => _ = writer.finish(run.outcome.clone(), draw_run)?,
         }
-        flown
+        Ok((run, error))
+    }
+
+    /// The case it came from, if nothing was changed since.
+    fn unchanged_case(&self) -> Option<&LoadedCase> {
+        // Setups hold laws of any kind, so they are compared in the form that holds every number.
+        let same = |case: &&LoadedCase| format!("{:?}", case.setup) == format!("{:?}", self.setup);
+        self.case.as_deref().filter(same)
     }
 
     /// The case that gives this flight; for one built or changed in Rust, a case whose setup is this one to
@@ -261,30 +312,40 @@ impl Flight {
     /// [`IoError::NoKeys`] for what a case cannot say: an air or controller of one's own, joints, loads or
     /// segments that were made or changed in Rust.
     pub fn to_case(&self) -> Result<LoadedCase, Error> {
-        let case = self.case.as_deref();
-        // Setups hold laws of any kind, so they are compared in the form that holds every number.
-        let written = format!("{:?}", self.setup);
-        match case.filter(|case| format!("{:?}", case.setup) == written) {
+        match self.unchanged_case() {
             Some(case) => Ok(case.clone()),
-            None => Ok(wingbeat_case::case_of(&self.setup, case)?),
+            None => Ok(wingbeat_case::case_of(&self.setup, self.case.as_deref())?),
         }
     }
 }
 
-/// From step to step; `each` sees the start and every step.
+/// From step to step, to the end or as long as `each`, which sees the start and every step, says; what was
+/// flown, and the error that ended it.
 fn steps(
-    setup: &FlightSetup,
     mut flight: Simulation,
-    mut each: impl FnMut(&Simulation) -> Result<(), IoError>,
-) -> Result<Run, Error> {
+    mut each: impl FnMut(&Simulation) -> Result<ControlFlow<()>, Error>,
+) -> (Run, Option<Error>) {
     let mut records = vec![flight.record().clone()];
-    each(&flight)?;
-    while !flight.finished() {
+    let mut fly = || loop {
+        let stops = each(&flight)?.is_break();
+        if flight.finished() {
+            return Ok(Outcome::Finished);
+        }
+        if stops {
+            return Ok(Outcome::Interrupted);
+        }
         records.push(flight.step()?.clone());
-        each(&flight)?;
-    }
-    Ok(Run {
-        setup: setup.clone(),
+    };
+    let (outcome, error) = match fly() {
+        Ok(outcome) => (outcome, None),
+        Err(e @ Error::Io(_)) => (Outcome::Unwritten(e.to_string()), Some(e)),
+        Err(e) => (Outcome::Failed(e.to_string()), Some(e)),
+    };
+    let setup = flight.setup().clone();
+    let run = Run {
+        setup,
         records,
-    })
+        outcome,
+    };
+    (run, error)
 }

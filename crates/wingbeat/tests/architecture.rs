@@ -85,6 +85,22 @@ fn invariant_dependency_graph_is_the_architecture() {
     }
 }
 
+/// Only the package for Python knows Python.
+#[test]
+fn invariant_library_crates_know_nothing_of_python() {
+    for entry in fs::read_dir(root().join("crates")).expect("crates") {
+        let path = entry.expect("a crate").path();
+        let text = fs::read_to_string(path.join("Cargo.toml")).expect("a manifest");
+        let knows = ["pyo3", "numpy"].iter().any(|word| text.contains(word));
+        assert_eq!(
+            knows,
+            path.ends_with("wingbeat-python"),
+            "{}",
+            path.display()
+        );
+    }
+}
+
 /// Modules of a crate that lie in import cycles: among files, and among the files and folders of a folder.
 fn tangled(crate_name: &str) -> BTreeSet<String> {
     let src = root().join("crates").join(crate_name).join("src");

@@ -114,7 +114,7 @@ impl Window {
 }
 
 /// Charts with the names of their kinds.
-type NamedCharts = Vec<(&'static str, Chart)>;
+pub type NamedCharts = Vec<(&'static str, Chart)>;
 
 /// The charts over time of some rows, by name of their kind, with at most about `most` abscissas;
 /// and how many rows stand behind two of them (1: each row has its own).
@@ -144,6 +144,13 @@ pub(crate) fn charts(
         }
     }
     Ok((drawn.charts(setup, group), group))
+}
+
+/// The figures over time of a history in memory, every row of it: name and chart.
+pub fn charts_of(setup: &FlightSetup, history: &History) -> NamedCharts {
+    let mut drawn = Drawn::default();
+    drawn.add(setup, history, false);
+    drawn.charts(setup, 1)
 }
 
 /// What has been read of a history for its charts.

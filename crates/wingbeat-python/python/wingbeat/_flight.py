@@ -1,0 +1,329 @@
+"""Flights, to be flown at once or step by step."""
+
+from __future__ import annotations
+
+import os
+import sys
+from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from wingbeat import _core, _toml
+from wingbeat._frame import Frame
+from wingbeat._mechanics import Derivatives, LinearModel, Power, Trim
+from wingbeat._own import Air, Controller, Loads, Steering
+from wingbeat._run import Run
+from wingbeat.errors import CaseError
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike, NDArray
+
+Progress = Callable[[int, int], object]
+"""Called with the steps done and all steps some 25 times a second; an exception in it stops the flight."""
+
+_UNSET: Any = object()
+_HOVER = ("body_pitch", "stroke_amplitude", "stroke_offset")
+
+
+class Flight:
+    """A flight to be flown: a case, keys set on top of it, and parts written in Python. It never changes: methods
+    return new ones.
+    """
+
+    def __init__(self, core: _core.Flight) -> None:
+        self._core = core
+
+    @staticmethod
+    def preset(name: str) -> Flight:
+        """An embedded preset (:func:`wingbeat.presets`), or a case file by its path."""
+        return Flight(_core.Flight.find(name, []))
+
+    @staticmethod
+    def from_case(case: str | os.PathLike[str] | Mapping[str, Any]) -> Flight:
+        """A case: the text of one (TOML), the path of a file, or a dict of the same keys."""
+        if isinstance(case, Mapping):
+            return Flight(_core.Flight.from_text("case", _toml.document(case), "", []))
+        if isinstance(case, str) and ("\n" in case or "=" in case):
+            return Flight(_core.Flight.from_text("case", case, "", []))
+        path = Path(case)
+        if not path.is_file():
+            raise CaseError(
+                f"there is no case file `{path}`",
+                key=str(path),
+                remedy="the path of a file, the text of a case, a dict, or Flight.preset(NAME)",
+            )
+        return Flight(_core.Flight.find(os.fspath(path), []))
+
+    def __repr__(self) -> str:
+        return f"<wingbeat.Flight {self.name}: {self.steps} steps of {self.step_s:.4g} s>"
+
+    def set(self, key: str | Mapping[str, Any], value: Any = _UNSET) -> Flight:
+        """A new flight with a key of the case at another value, e.g. ``set("motion.frequency_hz", 210)``, or several
+        by a dict. All keys: docs/case-keys.md.
+        """
+        items: Mapping[str, Any] = key if isinstance(key, Mapping) else {key: value}
+        sets = []
+        for name, item in items.items():
+            if not isinstance(name, str) or not name or "=" in name or "\n" in name:
+                raise CaseError(f"{name!r} is no key of a case", key=str(name) or "case", remedy="a path as motion.frequency_hz")
+            if item is _UNSET:
+                raise CaseError(f"{name}: no value is given", key=name, remedy="set(key, value)")
+            sets.append(f"{name}={_toml.value(item, name)}")
+        return Flight(self._core.set(sets))
+
+    def with_motion(
+        self,
+        *,
+        phi_deg: ArrayLike | Callable[[float], float] | None = None,
+        theta_deg: ArrayLike | Callable[[float], float] | None = None,
+        psi_deg: ArrayLike | Callable[[float], float] | None = None,
+        wing: str | None = None,
+        samples: int = 64,
+    ) -> Flight:
+        """A new flight with angles of your own over the wingbeat: stroke phi, deviation theta, feathering psi [deg].
+
+        Each is an array of equally spaced values over one wingbeat, the end left out, or a function of the phase in
+        wingbeats, from 0 to 1, which is sampled ``samples`` times now and never called again. They hold for ``wing``,
+        or for all right wings; left ones are their mirror images. The flight joins them by a periodic cubic spline.
+        """
+        angles = {"phi": phi_deg, "theta": theta_deg, "psi": psi_deg}
+        given = {name: _rows(name, angle, samples) for name, angle in angles.items() if angle is not None}
+        if not given:
+            raise CaseError("with_motion: no angle is given", key="motion", remedy="phi_deg, theta_deg or psi_deg")
+        wings = [name for name, side in self._core.wings if side > 0] if wing is None else [wing]
+        keys = {
+            f"wing.{name}.motion.{angle}": {"table": {"rows_deg": rows}}
+            for name in wings
+            for angle, rows in given.items()
+        }
+        return self.set(keys)
+
+    def with_controller(
+        self, controller: Controller, *, every_steps: int | None = None, latency_looks: int = 0
+    ) -> Flight:
+        """A new flight under ``controller``, called with what is sensed (:class:`wingbeat.Sensed`) at the release and
+        every ``every_steps`` steps after it (a wingbeat if left out), never inside a step; it answers with one
+        :class:`wingbeat.Adjustment` for all wings or one for each. Commands act ``latency_looks`` looks later, and the
+        wings go over to them smoothly until the next look. A controller with a method ``reset`` is reset when a
+        flight begins. An exception in it stops the flight; ``error.run`` is what was flown.
+        """
+        if not callable(controller):
+            raise CaseError("control: the controller cannot be called", key="control", remedy="a function of Sensed")
+        steps = self._interval() if every_steps is None else every_steps
+        for key, number, least in (("every_steps", steps, 4), ("latency_looks", latency_looks, 0)):
+            if isinstance(number, bool) or not isinstance(number, int) or not least <= number < 2**31:
+                raise CaseError(f"{key} = {number!r}: no number of them", key=key, remedy=f"a whole number >= {least}")
+        steering = Steering(controller, len(self._core.wings))
+        return Flight(self._core.with_controller(steering, steps, latency_looks))
+
+    def with_air(self, air: Air) -> Flight:
+        """A new flight in the air that ``air`` computes: called with :class:`wingbeat.Motions`, it answers with forces [N]
+        and moments about the origins of all bodies [N m], N components, shape (bodies, 6). It is called several times a
+        step. Air with a memory has a method ``accept(step)``, told which step holds (docs/external-air.md), and may
+        have ``open(names, step_s)``.
+        """
+        if not callable(air):
+            raise CaseError("air: the model of the air cannot be called", key="air", remedy="a function of Motions")
+        has_memory = callable(getattr(air, "accept", None))
+        return Flight(self._core.with_air(Loads(air, self._core.body_count), has_memory))
+
+    def _interval(self) -> int:
+        if self.period_s is None:
+            raise CaseError("every_steps: this motion has no wingbeat", key="every_steps", remedy="give every_steps")
+        return round(self.period_s / self.step_s)
+
+    @property
+    def name(self) -> str:
+        """Name of the case."""
+        return self._core.name
+
+    @property
+    def case_text(self) -> str:
+        """The case with everything filled in, as TOML; parts written in Python are not in it."""
+        return self._core.case_text
+
+    @property
+    def case(self) -> dict[str, Any]:
+        """The same as a dict: change it and give it to :meth:`from_case`."""
+        import tomllib
+
+        return tomllib.loads(self.case_text)
+
+    @property
+    def steps(self) -> int:
+        """Number of steps."""
+        return self._core.steps
+
+    @property
+    def step_s(self) -> float:
+        """Time step [s]."""
+        return self._core.step_s
+
+    @property
+    def period_s(self) -> float | None:
+        """Period of the wingbeat [s]; None of motions without one."""
+        return self._core.period_s
+
+    @property
+    def mass_kg(self) -> float:
+        """Mass of the animal [kg]."""
+        return self._core.mass_kg
+
+    @property
+    def wings(self) -> list[str]:
+        """Names of the wings, in the order of adjustments."""
+        return [name for name, _ in self._core.wings]
+
+    def fly(
+        self,
+        *,
+        out: str | os.PathLike[str] | None = None,
+        progress: bool | Progress | None = None,
+        frames: bool = True,
+    ) -> Run:
+        """Flies it to its end, in memory or into the new result directory ``out``.
+
+        ``progress`` is called with steps done and all steps; True shows a bar (tqdm where there is one). ``frames=False``
+        keeps no surfaces and wakes in memory. Other threads run meanwhile. Ctrl-C stops the flight: with ``out`` its
+        state is saved, and ``wingbeat resume`` goes on from it. Whatever exception ends a flight, what was flown is its
+        ``run``.
+        """
+        bar = _bar(self.name) if progress is True else progress or None
+        folder = None if out is None else os.fspath(out)
+        run, error = self._core.fly(folder, bar, frames)
+        if error is not None:
+            error.run = None if run is None else Run(run)  # type: ignore[attr-defined]
+            raise error
+        assert run is not None
+        return Run(run)
+
+    def start(self) -> Stepper:
+        """The flight before its first step, to be flown step by step."""
+        return Stepper(self._core.start())
+
+    def trim(
+        self,
+        *,
+        forward_m_per_s: float = 0.0,
+        climb_m_per_s: float = 0.0,
+        unknowns: Sequence[str] = _HOVER,
+        steps: int = 100,
+    ) -> Trim:
+        """Steady flight with this mean velocity as a periodic orbit, in air without memory, feedback left out; three
+        ``unknowns`` are chosen by it. See docs/flight-mechanics.md.
+        """
+        if isinstance(unknowns, str) or len(unknowns) != 3:
+            raise CaseError(f"unknowns = {unknowns!r}: not three", key="unknowns", remedy=f"three, as {_HOVER}")
+        a, b, c = unknowns
+        velocity = (float(forward_m_per_s), float(climb_m_per_s))
+        return Trim(self._core.trim(velocity, (a, b, c), steps))
+
+    def stability(self, **trim: Any) -> LinearModel:
+        """Linear model about the trimmed flight; arguments are those of :meth:`trim`."""
+        return self._trimmed(trim).stability()
+
+    def derivatives(self, **trim: Any) -> Derivatives:
+        """Control derivatives about the trimmed flight; arguments are those of :meth:`trim`."""
+        return self._trimmed(trim).derivatives()
+
+    def power(self, **trim: Any) -> Power:
+        """Mechanical power of the trimmed flight; arguments are those of :meth:`trim`."""
+        return self._trimmed(trim).power()
+
+    def _trimmed(self, arguments: dict[str, Any]) -> Trim:
+        from wingbeat.errors import AnalysisError
+
+        trim = self.trim(**arguments)
+        if not trim.converged:
+            raise AnalysisError(
+                f"the flight is not trimmed: largest residual {abs(trim.residual).max():.1e}",
+                remedy="start nearer to it (flight.pitch_deg, motion), or choose other unknowns",
+            )
+        return trim
+
+
+class Stepper:
+    """A flight in progress."""
+
+    def __init__(self, core: _core.Stepper) -> None:
+        self._core = core
+
+    def __repr__(self) -> str:
+        return f"<wingbeat.Stepper after step {self.steps_done}>"
+
+    def step(self, count: int = 1) -> int:
+        """Makes up to ``count`` steps; how many were made before the end."""
+        if isinstance(count, bool) or not isinstance(count, int) or count < 0:
+            raise CaseError(f"count = {count!r}: no number of steps", key="count", remedy="a whole number >= 0")
+        return self._core.step(count)
+
+    @property
+    def steps_done(self) -> int:
+        """Steps made."""
+        return self._core.steps_done
+
+    @property
+    def time_s(self) -> float:
+        """Time [s]."""
+        return self._core.time_s
+
+    @property
+    def is_finished(self) -> bool:
+        """Whether it is at its end."""
+        return self._core.is_finished
+
+    @property
+    def frame(self) -> Frame:
+        """Surfaces and wakes now."""
+        return Frame(self._core.frame())
+
+    def air_velocity(self, points_m: ArrayLike) -> NDArray[Any]:
+        """Velocity of the air at points, both N components of shape (n, 3) [m, m/s]: vortex lattice only."""
+        velocity = self._core.air_velocity(points_m)
+        if velocity is None:
+            raise CaseError(
+                "the air of this flight is no vortex lattice", key="air.model", remedy='air.model = "vortex_lattice"'
+            )
+        return velocity
+
+    @property
+    def run(self) -> Run:
+        """What was flown so far."""
+        return Run(self._core.run())
+
+
+def _rows(name: str, angle: ArrayLike | Callable[[float], float], samples: int) -> list[list[float]]:
+    """Rows of phase and angle over a wingbeat, its end the same as its start."""
+    import numpy as np
+
+    if callable(angle):
+        if not isinstance(samples, int) or not 4 <= samples <= 100_000:
+            raise CaseError(f"samples = {samples!r}: out of range", key="samples", remedy="4 to 100000")
+        angle = [float(angle(k / samples)) for k in range(samples)]
+    values = np.asarray(angle, dtype=np.float64)
+    if values.ndim != 1 or values.size < 4:
+        raise CaseError(
+            f"{name}_deg: an array of shape {values.shape}",
+            key=f"{name}_deg",
+            remedy="at least four equally spaced values over one wingbeat, the end left out",
+        )
+    phases = np.linspace(0.0, 1.0, values.size + 1)
+    angles = np.append(values, values[0])
+    return [[float(phase), float(x)] for phase, x in zip(phases, angles, strict=True)]
+
+
+def _bar(name: str) -> Progress:
+    """A bar of tqdm, or a line on the standard error."""
+    try:
+        from tqdm.auto import tqdm
+    except ImportError:
+        return lambda done, of: print(f"\r{name}: {done}/{of}", end="\n" if done == of else "", file=sys.stderr)
+    bar: Any = tqdm(total=None, desc=name, unit="step")
+
+    def show(done: int, of: int) -> None:
+        bar.total = of
+        bar.update(done - bar.n)
+        if done == of:
+            bar.close()
+
+    return show

@@ -1,0 +1,217 @@
+"""Trim, stability, controls, power."""
+
+from __future__ import annotations
+
+import os
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING, Any
+
+from wingbeat import _core
+from wingbeat._own import Adjustment
+from wingbeat.errors import AnalysisError
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from wingbeat._flight import Flight
+
+STATES = tuple(_core.Trim.names()[0])
+"""Velocity of the mass centre u, v, w, angular velocity p, q, r, rotation vector phi (roll), theta, psi."""
+STATE_UNITS = ("m s-1",) * 3 + ("rad s-1",) * 3 + ("rad",) * 3
+_INPUT_UNITS = {"stroke_amplitude": "1", "frequency": "1", "feathering_lead": "wingbeat"}
+
+
+@dataclass(frozen=True, slots=True)
+class Mode:
+    """A mode of flight."""
+
+    name: str
+    """As "unstable oscillation", "fast subsidence"."""
+    plane: str
+    """``longitudinal``, ``lateral`` or ``joints``."""
+    growth_per_s: float
+    """Real part of the exponent."""
+    frequency_rad_per_s: float
+    """Imaginary part of the exponent; one mode stands for the conjugate pair."""
+    multiplier: complex
+    """Floquet's multiplier."""
+    vector: dict[str, tuple[float, float]]
+    """Components of the eigenvector over their natural sizes: size and phase [rad]."""
+
+
+def _modes(parts: list[Any]) -> tuple[Mode, ...]:
+    def mode(name: str, plane: str, growth: float, frequency: float, at: list[float], vector: list[Any]) -> Mode:
+        components = {component: (size, phase) for component, size, phase in vector}
+        return Mode(name, plane, growth, frequency, complex(*at), components)
+
+    return tuple(mode(*part) for part in parts)
+
+
+@dataclass(frozen=True)
+class LinearModel:
+    """The averaged linear model about a trimmed flight, ``x' = A x + B u``, ``y = C x + D u``.
+
+    Level axes of the trimmed attitude (forward, right, down) about the mass centre, SI. ``scipy.signal.StateSpace(*m)``,
+    ``control.ss(*m)`` and ``scipy.io.savemat(file, m.to_dict())`` take it as it is.
+    """
+
+    A: NDArray[Any]
+    """Shape (9, 9)."""
+    B: NDArray[Any]
+    """Shape (9, inputs)."""
+    C: NDArray[Any]
+    """All states are seen, shape (9, 9)."""
+    D: NDArray[Any]
+    """Zero, shape (9, inputs)."""
+    states: tuple[str, ...]
+    state_units: tuple[str, ...]
+    inputs: tuple[str, ...]
+    """Control and wing, as ``stroke_amplitude right``."""
+    input_units: tuple[str, ...]
+    derivatives: NDArray[Any]
+    """Of the mean loads X, Y, Z, L, M, N by u, v, w, p, q, r, shape (6, 6)."""
+    averaged_modes: tuple[Mode, ...]
+    """Modes of A."""
+    floquet_modes: tuple[Mode, ...]
+    """Modes of the full periodic orbit."""
+
+    def __iter__(self) -> Any:
+        return iter((self.A, self.B, self.C, self.D))
+
+    def to_dict(self) -> dict[str, Any]:
+        """Matrices, names and units, as MATLAB takes them."""
+        names = ("states", "state_units", "inputs", "input_units")
+        return {k: getattr(self, k) for k in "ABCD"} | {k: list(getattr(self, k)) for k in names}
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Writes a ``.mat`` file for MATLAB. Needs scipy."""
+        import numpy as np
+        from scipy.io import savemat
+
+        texts = {k: np.array(v, dtype=object) for k, v in self.to_dict().items() if isinstance(v, list)}
+        savemat(os.fspath(path), self.to_dict() | texts)
+
+
+@dataclass(frozen=True)
+class Derivatives:
+    """Control derivatives of the mean loads."""
+
+    controls: tuple[str, ...]
+    wings: tuple[str, ...]
+    """The wing that is moved, or ``all``."""
+    units: tuple[str, ...]
+    """Of the controls."""
+    loads: NDArray[Any]
+    """Force [N] and moment about the mean mass centre [N m], level axes, per unit of the control: shape (controls, 6)."""
+
+
+@dataclass(frozen=True, slots=True)
+class Power:
+    """Mean mechanical power over a wingbeat."""
+
+    aerodynamic_watt: float
+    """Against the air."""
+    inertial_positive_watt: float
+    """Positive part of the inertial power."""
+    perfect_storage_watt: float
+    """Of the muscles, if springs return all negative power."""
+    no_storage_watt: float
+    """Of the muscles, if negative power is lost."""
+    peak_watt: float
+    """Of all wings."""
+    mass_kg: float
+    """Of the animal."""
+
+
+class Trim:
+    """Steady flight as a periodic orbit of the full model: the point found, converged or not."""
+
+    def __init__(self, core: _core.Trim) -> None:
+        self._core = core
+
+    def __repr__(self) -> str:
+        found = "converged" if self.converged else "NOT converged"
+        return f"<wingbeat.Trim {found}: largest residual {abs(self.residual).max():.1e}>"
+
+    @property
+    def converged(self) -> bool:
+        """Whether it was found."""
+        return self._core.converged
+
+    @property
+    def residual(self) -> NDArray[Any]:
+        """Horizontal and vertical force over weight, pitch moment over weight times wing length, pitch per beat [rad],
+        horizontal and vertical drift per beat over wing length; then those of free joints.
+        """
+        return self._core.residual
+
+    @property
+    def iterations(self) -> int:
+        """Newton steps made."""
+        return self._core.iterations
+
+    @property
+    def adjustment(self) -> Adjustment:
+        """What trim adds to the motion of all wings."""
+        return Adjustment(*self._core.adjustment)
+
+    @property
+    def body_pitch_rad(self) -> float:
+        """Pitch of the body at the start of the wingbeat [rad]."""
+        return self._core.body_pitch_rad
+
+    @property
+    def period_s(self) -> float:
+        """Period of the wingbeat [s]."""
+        return self._core.period_s
+
+    def flight(self) -> Flight:
+        """The trimmed flight, to be flown on."""
+        from wingbeat._flight import Flight
+
+        text = self._core.case_text
+        if text is None:
+            raise AnalysisError(
+                "no case gives this trimmed flight: it has parts written in Python",
+                remedy="read adjustment and body_pitch_rad, and set them by hand",
+            )
+        return Flight.from_case(text)
+
+    @cached_property
+    def _controls(self) -> tuple[list[tuple[str, str]], NDArray[Any], NDArray[Any]]:
+        return self._core.derivatives()
+
+    def derivatives(self) -> Derivatives:
+        """Control derivatives, wing by wing and of all wings together."""
+        names, loads, _ = self._controls
+        controls = tuple(control for control, _ in names)
+        return Derivatives(controls, tuple(wing for _, wing in names), tuple(map(_input_unit, controls)), loads)
+
+    def stability(self) -> LinearModel:
+        """The averaged linear model with its inputs, its modes, and Floquet's modes of the periodic orbit."""
+        import numpy as np
+
+        a, derivatives, averaged, orbit = self._core.stability()
+        names, _, b = self._controls
+        return LinearModel(
+            A=a,
+            B=b,
+            C=np.eye(a.shape[0]),
+            D=np.zeros(b.shape),
+            states=STATES,
+            state_units=STATE_UNITS,
+            inputs=tuple(f"{control} {wing}" for control, wing in names),
+            input_units=tuple(_input_unit(control) for control, _ in names),
+            derivatives=derivatives,
+            averaged_modes=_modes(averaged),
+            floquet_modes=_modes(orbit),
+        )
+
+    def power(self) -> Power:
+        """Mean mechanical power, body carried in the trimmed attitude at the trimmed velocity."""
+        return Power(*self._core.power())
+
+
+def _input_unit(control: str) -> str:
+    return _INPUT_UNITS.get(control, "rad")

@@ -1,0 +1,143 @@
+//! Errors as exceptions of `wingbeat.errors`, each with the key it is about, the line, and what to try.
+
+use pyo3::exceptions::PyRuntimeError;
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+use wingbeat::Error;
+use wingbeat::analysis::AnalysisError;
+use wingbeat::case::{CaseError, IoError};
+use wingbeat::flight::FlightError;
+
+/// What an exception carries beside its message.
+#[derive(Default)]
+struct Parts {
+    key: String,
+    line: Option<usize>,
+    remedy: String,
+}
+
+/// The exception of this class.
+fn exception(py: Python<'_>, class: &str, message: &str, parts: Parts) -> PyErr {
+    let build = || -> PyResult<PyErr> {
+        let fields = PyDict::new(py);
+        fields.set_item("key", parts.key)?;
+        fields.set_item("line", parts.line)?;
+        fields.set_item("remedy", parts.remedy)?;
+        let class = py.import("wingbeat.errors")?.getattr(class)?;
+        let value = class.call((message,), Some(&fields))?;
+        Ok(PyErr::from_value(value))
+    };
+    build().unwrap_or_else(|e| e)
+}
+
+/// A value that is refused before any case is made of it.
+pub fn refused(py: Python<'_>, key: &str, problem: &str, remedy: &str) -> PyErr {
+    let message = format!("{key}: {problem}; try: {remedy}");
+    let parts = Parts {
+        key: key.to_owned(),
+        line: None,
+        remedy: remedy.to_owned(),
+    };
+    exception(py, "CaseError", &message, parts)
+}
+
+/// What went wrong, as an exception.
+pub fn raised(py: Python<'_>, error: &Error) -> PyErr {
+    let (class, parts) = match error {
+        Error::Io(e) => file(e),
+        Error::Flight(e) => flight(e),
+        Error::Analysis(e) => analysis(e),
+        Error::NoWind { .. } => {
+            let remedy = "fly in blade elements or in the vortex lattice";
+            ("CaseError", about("air.model", remedy))
+        }
+    };
+    exception(py, class, &error.to_string(), parts)
+}
+
+/// Of a command that is not done because its work ended in a panic.
+pub fn broken() -> PyErr {
+    PyRuntimeError::new_err("wingbeat failed within itself; please report the case")
+}
+
+fn about(key: impl Into<String>, remedy: impl Into<String>) -> Parts {
+    Parts {
+        key: key.into(),
+        line: None,
+        remedy: remedy.into(),
+    }
+}
+
+fn file(error: &IoError) -> (&'static str, Parts) {
+    match error {
+        IoError::Case(e) => ("CaseError", of_case(e)),
+        IoError::NoCase { name, hint } => {
+            let remedy = format!("wingbeat.presets() lists the presets{hint}");
+            ("CaseError", about(or_case(name), remedy))
+        }
+        IoError::NoKeys { part, remedy, .. } => ("CaseError", about(part.as_str(), *remedy)),
+        IoError::Exists { path, remedy } | IoError::File { path, remedy, .. } => {
+            ("ResultError", about(path.display().to_string(), *remedy))
+        }
+        IoError::Reserved { path } => {
+            let remedy = "name a file outside the result directory";
+            ("ResultError", about(path.display().to_string(), remedy))
+        }
+        IoError::Figure { path, .. } => {
+            let remedy = "choose another figure, or another folder";
+            ("ResultError", about(path.display().to_string(), remedy))
+        }
+        IoError::Damaged { path, .. } => {
+            let remedy =
+                "give the directory of a run, whole as it was written; or fly the case again";
+            ("ResultError", about(path.display().to_string(), remedy))
+        }
+    }
+}
+
+/// What is wrong with a case as a whole is wrong with `case`.
+fn or_case(key: &str) -> String {
+    match key {
+        "" => "case".to_owned(),
+        key => key.to_owned(),
+    }
+}
+
+fn of_case(error: &CaseError) -> Parts {
+    let remedy = match &error.remedy[..] {
+        "" => &error.allowed,
+        remedy => remedy,
+    };
+    Parts {
+        key: or_case(&error.key),
+        line: error.line,
+        remedy: remedy.to_owned(),
+    }
+}
+
+fn flight(error: &FlightError) -> (&'static str, Parts) {
+    match error {
+        FlightError::Setup { key, problem, .. } => ("CaseError", about(*key, problem.as_str())),
+        FlightError::NotConverged { .. } => {
+            let remedy = "more steps (time.steps_per_beat), more passes (corrector.max_passes), or corrector.relaxation below 1";
+            ("FlightError", about("time.steps_per_beat", remedy))
+        }
+        FlightError::Control { .. } => {
+            let remedy = "answer with one adjustment per wing, its numbers finite, frequency 0";
+            ("FlightError", about("control", remedy))
+        }
+        FlightError::External(_) => ("FlightError", about("air", "see what the air says")),
+        _ => ("FlightError", about("", "see the message")),
+    }
+}
+
+fn analysis(error: &AnalysisError) -> (&'static str, Parts) {
+    match error {
+        AnalysisError::Flight(e) => flight(e),
+        AnalysisError::NotCovered { remedy, .. } => ("AnalysisError", about("", *remedy)),
+        _ => {
+            let remedy = "start nearer to the flight that is looked for";
+            ("AnalysisError", about("", remedy))
+        }
+    }
+}

@@ -1,0 +1,239 @@
+//! Flights.
+
+use std::ops::ControlFlow;
+use std::path::{Path, PathBuf};
+
+use pyo3::prelude::*;
+use wingbeat::case::LoadedCase;
+use wingbeat::flight::Snapshot;
+
+use crate::errors::{raised, refused};
+use crate::frame::is_framed;
+use crate::mechanics::{self, Trim};
+use crate::own::{Slot, air, feedback};
+use crate::run::Run;
+use crate::stepping::Stepper;
+use crate::worker::{Worked, work};
+
+/// A flight: a case, keys set on top of it, and parts written in Python.
+#[pyclass(frozen, module = "wingbeat._core")]
+pub struct Flight {
+    flight: wingbeat::Flight,
+    case: LoadedCase,
+    /// Folder that paths in the case are relative to.
+    base: PathBuf,
+    sets: Vec<String>,
+    /// Exceptions of parts written in Python.
+    slot: Slot,
+    /// Whether it has such parts.
+    is_own: bool,
+}
+
+impl Flight {
+    fn of(case: LoadedCase, base: PathBuf, sets: Vec<String>) -> Self {
+        Self {
+            flight: case.clone().into(),
+            case,
+            base,
+            sets,
+            slot: Slot::default(),
+            is_own: false,
+        }
+    }
+
+    /// The same with another part.
+    fn with(&self, change: impl FnOnce(&mut wingbeat::Flight)) -> Self {
+        let mut flight = self.flight.clone();
+        change(&mut flight);
+        Self {
+            flight,
+            case: self.case.clone(),
+            base: self.base.clone(),
+            sets: self.sets.clone(),
+            slot: self.slot.clone(),
+            is_own: true,
+        }
+    }
+}
+
+#[pymethods]
+impl Flight {
+    /// A preset or case file with keys set to other values, each as `KEY=VALUE`.
+    #[staticmethod]
+    fn find(py: Python<'_>, name: &str, sets: Vec<String>) -> PyResult<Self> {
+        let case = LoadedCase::find(name, &sets).map_err(|e| raised(py, &e.into()))?;
+        let path = Path::new(name);
+        let parent = path.is_file().then(|| path.parent()).flatten();
+        Ok(Self::of(
+            case,
+            parent.map(Path::to_owned).unwrap_or_default(),
+            sets,
+        ))
+    }
+
+    /// The case of this text; `origin` names it in messages, paths in it are relative to `base`.
+    #[staticmethod]
+    fn from_text(
+        py: Python<'_>,
+        origin: &str,
+        text: &str,
+        base: PathBuf,
+        sets: Vec<String>,
+    ) -> PyResult<Self> {
+        let case = LoadedCase::from_text(origin, text, &base, &sets);
+        let case = case.map_err(|e| raised(py, &e.into()))?;
+        Ok(Self::of(case, base, sets))
+    }
+
+    /// The same with further keys set to other values.
+    fn set(&self, py: Python<'_>, sets: Vec<String>) -> PyResult<Self> {
+        if self.is_own {
+            let problem = "this flight has parts written in Python";
+            let remedy = "set keys first, then with_controller and with_air";
+            return Err(refused(py, "set", problem, remedy));
+        }
+        let sets = [&self.sets[..], &sets].concat();
+        Self::from_text(
+            py,
+            self.case.origin(),
+            self.case.text(),
+            self.base.clone(),
+            sets,
+        )
+    }
+
+    /// Under the controller `function`, which looks every `interval` steps; commands act `latency` looks later.
+    fn with_controller(&self, function: Py<PyAny>, interval: usize, latency: usize) -> Self {
+        let feedback = feedback(function, &self.slot, interval, latency);
+        self.with(|flight| flight.setup.feedback = Some(feedback))
+    }
+
+    /// In air that `function` computes.
+    fn with_air(&self, function: Py<PyAny>, has_memory: bool) -> Self {
+        let air = air(function, &self.slot, has_memory);
+        self.with(|flight| flight.setup.air = air)
+    }
+
+    /// Name of the case.
+    #[getter]
+    fn name(&self) -> &str {
+        &self.case.name
+    }
+
+    /// The case with everything filled in, as TOML.
+    #[getter]
+    fn case_text(&self) -> String {
+        self.case.resolved()
+    }
+
+    /// Whether it has parts written in Python.
+    #[getter]
+    fn is_own(&self) -> bool {
+        self.is_own
+    }
+
+    /// Number of steps.
+    #[getter]
+    fn steps(&self) -> usize {
+        self.flight.setup.time.steps
+    }
+
+    /// Time step [s].
+    #[getter]
+    fn step_s(&self) -> f64 {
+        self.flight.setup.time.step
+    }
+
+    /// Period of the wingbeat [s]; none of motions without one.
+    #[getter]
+    fn period_s(&self) -> Option<f64> {
+        self.flight.setup.time.period
+    }
+
+    /// Mass of the animal [kg].
+    #[getter]
+    fn mass_kg(&self) -> f64 {
+        self.flight.setup.animal.mass()
+    }
+
+    /// Names of the wings and their sides: right 1, left -1.
+    #[getter]
+    fn wings(&self) -> Vec<(String, f64)> {
+        let wings = self.flight.setup.animal.wings.iter();
+        wings.map(|w| (w.name.clone(), w.side.sign())).collect()
+    }
+
+    /// Number of bodies: the central one, wings, segments.
+    #[getter]
+    fn body_count(&self) -> usize {
+        let animal = &self.flight.setup.animal;
+        1 + animal.wings.len() + animal.segments.len()
+    }
+
+    /// Flies it to its end: what was flown, and the exception that ended it early, if any.
+    fn fly(
+        &self,
+        py: Python<'_>,
+        out: Option<PathBuf>,
+        progress: Option<Py<PyAny>>,
+        frames: bool,
+    ) -> PyResult<(Option<Run>, Option<PyErr>)> {
+        let (flight, output) = (self.flight.clone(), self.case.output);
+        let (dir, patient) = (out.clone(), out.is_some());
+        let keeps = frames && !patient;
+        let fly = move |watch: &crate::worker::Watch| {
+            let mut snapshots: Vec<Snapshot> = vec![];
+            let flown = flight.fly_watched(dir.as_deref(), |flight| {
+                if keeps && is_framed(&output, flight) {
+                    snapshots.push(flight.snapshot());
+                }
+                match watch.reached(flight.state().step) {
+                    true => ControlFlow::Break(()),
+                    false => ControlFlow::Continue(()),
+                }
+            });
+            flown.map(|(run, error)| (run, error, snapshots))
+        };
+        let told = progress.as_ref().map(|callback| (callback, self.steps()));
+        let Worked {
+            result,
+            interrupted,
+        } = work(py, told, patient, fly)?;
+        let own = self.slot.take();
+        match result {
+            None => Ok((None, interrupted)),
+            Some(Err(e)) => Err(own.unwrap_or_else(|| raised(py, &e))),
+            Some(Ok((run, error, snapshots))) => {
+                let error = own.or_else(|| error.map(|e| raised(py, &e)));
+                let run = Run::flown(run, snapshots, out, self.case_text());
+                Ok((Some(run), interrupted.or(error)))
+            }
+        }
+    }
+
+    /// The flight before its first step.
+    fn start(&self, py: Python<'_>) -> PyResult<Stepper> {
+        let flight = py.detach(|| self.flight.begin());
+        let flight = flight.map_err(|e| self.slot.take().unwrap_or_else(|| raised(py, &e)))?;
+        Ok(Stepper::new(
+            flight,
+            self.case.output,
+            self.case_text(),
+            self.slot.clone(),
+        ))
+    }
+
+    /// Steady flight: mean velocity forward and up [m/s], names of the unknowns, steps per wingbeat.
+    fn trim(
+        &self,
+        py: Python<'_>,
+        velocity_m_s: [f64; 2],
+        unknowns: [String; 3],
+        steps: usize,
+    ) -> PyResult<Trim> {
+        let problem = mechanics::problem(py, &self.flight, velocity_m_s, &unknowns, steps)?;
+        let case = (!self.is_own).then(|| self.case.clone());
+        let found = mechanics::trim(py, &self.flight, problem, case);
+        found.map_err(|e| self.slot.take().unwrap_or(e))
+    }
+}

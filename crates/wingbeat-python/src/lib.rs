@@ -1,0 +1,49 @@
+//! wingbeat for Python: the module `wingbeat._core`, on which the Python sources in `python/wingbeat` are written.
+//!
+//! It holds no formula: flights, results and analyses are those of the library, their numbers handed over as
+//! numpy arrays that own what Rust computed. Python is left to itself (the interpreter is released) wherever
+//! something is flown or analysed.
+//!
+//! | module | what it holds |
+//! |---|---|
+//! | `command` | the command line |
+//! | `errors` | errors as exceptions of `wingbeat.errors` |
+//! | `arrays` | numpy arrays that cannot be written to |
+//! | `own` | controllers and models of the air written in Python |
+//! | `worker` | work beside the interpreter: progress, signals |
+//! | `flight` | flights |
+//! | `stepping` | flights step by step |
+//! | `run` | flights that were flown |
+//! | `frame` | surfaces and wakes of one instant |
+//! | `mechanics` | trim, stability, controls, power |
+#![warn(missing_docs)]
+
+mod arrays;
+mod command;
+mod errors;
+mod flight;
+mod frame;
+mod mechanics;
+mod own;
+mod run;
+mod stepping;
+mod worker;
+
+/// What `wingbeat` (Python) is written on.
+#[pyo3::pymodule]
+mod _core {
+    #[pymodule_export]
+    use crate::command::{main, presets, schema, version};
+    #[pymodule_export]
+    use crate::flight::Flight;
+    #[pymodule_export]
+    use crate::frame::Frame;
+    #[pymodule_export]
+    use crate::mechanics::Trim;
+    #[pymodule_export]
+    use crate::own::Sensed;
+    #[pymodule_export]
+    use crate::run::Run;
+    #[pymodule_export]
+    use crate::stepping::Stepper;
+}

@@ -1,0 +1,245 @@
+//! Trim, stability, controls, power.
+
+use pyo3::prelude::*;
+use wingbeat::analysis::derivatives::{CONTROLS, ControlDerivative, control_derivatives};
+use wingbeat::analysis::level::{Level, STATE};
+use wingbeat::analysis::power::{Power, power};
+use wingbeat::analysis::stability::{LinearModel, input_matrix};
+use wingbeat::analysis::trim::UNKNOWNS;
+use wingbeat::analysis::{AnalysisError, Mode, ModeSet, TrimProblem, floquet, linear_model};
+use wingbeat::case::{LoadedCase, trimmed_case};
+use wingbeat::math::DVec3;
+
+use crate::arrays::array;
+use crate::errors::{raised, refused};
+use crate::worker::analyse;
+
+/// What is asked of a trim.
+pub fn problem(
+    py: Python<'_>,
+    flight: &wingbeat::Flight,
+    [forward, climb]: [f64; 2],
+    unknowns: &[String; 3],
+    steps: usize,
+) -> PyResult<TrimProblem> {
+    let names = UNKNOWNS.map(|u| u.1).join(", ");
+    let known = |name: &String| UNKNOWNS.iter().find(|u| u.1 == name).map(|u| u.0);
+    let mut problem = flight.hover();
+    for (k, name) in unknowns.iter().enumerate() {
+        let problem_of = |what| refused(py, "unknowns", &format!("`{name}` {what}"), &names);
+        problem.unknowns[k] = known(name).ok_or_else(|| problem_of("is not known"))?;
+        if unknowns[..k].contains(name) {
+            return Err(problem_of("is named twice"));
+        }
+    }
+    if !forward.is_finite() || !climb.is_finite() {
+        return Err(refused(
+            py,
+            "velocity_m_s",
+            "it is not finite",
+            "finite numbers",
+        ));
+    }
+    if !(4..=2000).contains(&steps) {
+        return Err(refused(
+            py,
+            "steps",
+            "out of range",
+            "4 to 2000 steps per wingbeat",
+        ));
+    }
+    problem.velocity = DVec3::new(forward, 0.0, -climb);
+    problem.settings.steps = steps;
+    Ok(problem)
+}
+
+/// Trims the flight, its feedback left out.
+pub fn trim(
+    py: Python<'_>,
+    flight: &wingbeat::Flight,
+    problem: TrimProblem,
+    case: Option<LoadedCase>,
+) -> PyResult<Trim> {
+    let mut open = flight.clone();
+    open.setup.feedback = None;
+    let velocity = problem.velocity;
+    let found = analyse(py, move || open.trim(&problem))?;
+    let trim = found.map_err(|e| raised(py, &e))?;
+    Ok(Trim {
+        trim,
+        velocity,
+        case,
+    })
+}
+
+/// A trimmed flight, or the best point that was found.
+#[pyclass(frozen, module = "wingbeat._core")]
+pub struct Trim {
+    trim: wingbeat::analysis::Trim,
+    /// Mean velocity that was asked for, N components [m/s].
+    velocity: DVec3,
+    /// None where parts written in Python fly, which no case says.
+    case: Option<LoadedCase>,
+}
+
+/// Name, plane, growth [1/s], frequency [rad/s], multiplier, eigenvector: component, size, phase [rad].
+type ModeParts = (
+    String,
+    String,
+    f64,
+    f64,
+    [f64; 2],
+    Vec<(&'static str, f64, f64)>,
+);
+
+fn modes(set: &ModeSet) -> Vec<ModeParts> {
+    let parts = |m: &Mode| {
+        let plane = format!("{:?}", m.plane).to_lowercase();
+        (
+            m.name.clone(),
+            plane,
+            m.growth,
+            m.frequency,
+            m.multiplier,
+            m.vector.clone(),
+        )
+    };
+    set.modes.iter().map(parts).collect()
+}
+
+impl Trim {
+    /// Does `work` on the trim beside the interpreter.
+    fn analyse<T: Send + 'static>(
+        &self,
+        py: Python<'_>,
+        work: impl FnOnce(&wingbeat::analysis::Trim) -> Result<T, AnalysisError> + Send + 'static,
+    ) -> PyResult<T> {
+        let trim = self.trim.clone();
+        let found = analyse(py, move || work(&trim))?;
+        found.map_err(|e| raised(py, &e.into()))
+    }
+
+    fn controls(&self, py: Python<'_>) -> PyResult<Vec<ControlDerivative>> {
+        let velocity = self.velocity;
+        self.analyse(py, move |trim| {
+            let r = trim.beat.root(&trim.state).r;
+            let velocity = Level::new(r, trim.setup.gravity).to_n.transpose() * velocity;
+            control_derivatives(&trim.setup, r, velocity, trim.beat.steps())
+        })
+    }
+}
+
+#[pymethods]
+impl Trim {
+    /// Whether the residual is within the tolerance.
+    #[getter]
+    fn converged(&self) -> bool {
+        self.trim.converged
+    }
+
+    /// The residuals; see `wingbeat.Trim`.
+    #[getter]
+    fn residual<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        array(py, self.trim.residual.clone(), &[self.trim.residual.len()])
+    }
+
+    /// Newton steps made.
+    #[getter]
+    fn iterations(&self) -> usize {
+        self.trim.iterations
+    }
+
+    /// The adjustment of all wings, in the order of `wingbeat.Adjustment`.
+    #[getter]
+    fn adjustment(&self) -> [f64; 8] {
+        self.trim.adjustment.numbers().map(|(_, x)| x)
+    }
+
+    /// Pitch of the body at the start of the beat [rad].
+    #[getter]
+    fn body_pitch_rad(&self) -> f64 {
+        self.trim.body_pitch
+    }
+
+    /// Period of the wingbeat [s].
+    #[getter]
+    fn period_s(&self) -> f64 {
+        self.trim.beat.period()
+    }
+
+    /// The trimmed flight as the text of a case; none where no case says it.
+    #[getter]
+    fn case_text(&self) -> Option<String> {
+        let case = self.case.as_ref()?;
+        Some(trimmed_case(case, &self.trim))
+    }
+
+    /// The averaged model: A by rows, derivatives of loads by rows, its modes; Floquet's modes.
+    #[allow(clippy::type_complexity)]
+    fn stability<'py>(
+        &self,
+        py: Python<'py>,
+    ) -> PyResult<(
+        Bound<'py, PyAny>,
+        Bound<'py, PyAny>,
+        Vec<ModeParts>,
+        Vec<ModeParts>,
+    )> {
+        let (model, orbit): (LinearModel, ModeSet) = self.analyse(py, |trim| {
+            let model = linear_model(&trim.beat, &trim.state)?;
+            Ok((model, floquet(&trim.beat, &trim.state)?))
+        })?;
+        let derivatives = model.derivatives.concat();
+        Ok((
+            array(py, model.matrix, &[9, 9])?,
+            array(py, derivatives, &[6, 6])?,
+            modes(&model.modes),
+            modes(&orbit),
+        ))
+    }
+
+    /// Control derivatives: control, wing, force and moment by it; and the inputs of the averaged model, B of
+    /// shape (9, controls).
+    #[allow(clippy::type_complexity)]
+    fn derivatives<'py>(
+        &self,
+        py: Python<'py>,
+    ) -> PyResult<(
+        Vec<(&'static str, String)>,
+        Bound<'py, PyAny>,
+        Bound<'py, PyAny>,
+    )> {
+        let found = self.controls(py)?;
+        let names = found.iter().map(|d| (d.control, d.wing.clone())).collect();
+        let loads = |d: &ControlDerivative| [d.derivative.force, d.derivative.moment];
+        let rows = found.iter().flat_map(loads).flat_map(|v| v.to_array());
+        let rows: Vec<f64> = rows.collect();
+        let count = found.len();
+        let b = input_matrix(&self.trim.beat, &self.trim.state, &found);
+        Ok((
+            names,
+            array(py, rows, &[count, 6])?,
+            array(py, b, &[9, count])?,
+        ))
+    }
+
+    /// Mean powers over a wingbeat [W]: aerodynamic, positive inertial, with perfect elastic storage, without
+    /// storage, peak; mass [kg].
+    fn power(&self, py: Python<'_>) -> PyResult<[f64; 6]> {
+        let p: Power = self.analyse(py, |trim| power(&trim.tethered()?))?;
+        Ok([
+            p.aerodynamic,
+            p.inertial_positive,
+            p.perfect_storage,
+            p.no_storage,
+            p.peak,
+            p.mass,
+        ])
+    }
+
+    /// Names of the state of the averaged model, and of the controls.
+    #[staticmethod]
+    fn names() -> (Vec<&'static str>, Vec<&'static str>) {
+        (STATE.to_vec(), CONTROLS.iter().map(|c| c.1).collect())
+    }
+}

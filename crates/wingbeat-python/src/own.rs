@@ -1,0 +1,259 @@
+//! Parts of a flight that are written in Python: controllers, models of the air.
+//!
+//! An exception in one of them ends the flight; it is kept in its [`Slot`] and raised when the flight has stopped.
+
+use std::fmt;
+use std::sync::{Arc, Mutex, PoisonError};
+
+use numpy::{PyArray2, PyArrayMethods};
+use pyo3::prelude::*;
+use wingbeat::air::AirState;
+use wingbeat::dynamics::{BodyMotion, Wrench};
+use wingbeat::flight::{
+    Air, AirModel, AirScratch, Announcement, ControlModel, Controller, ExternalAir,
+    ExternalSession, Feedback, FlightError, FlightSetup, Instant,
+};
+use wingbeat::math::DVec3;
+use wingbeat::model::motion::Adjustment;
+
+use crate::arrays::{array, vector};
+
+/// The exception of a part that failed.
+#[derive(Clone, Default)]
+pub struct Slot(Arc<Mutex<Option<PyErr>>>);
+
+impl Slot {
+    /// The exception, if there was one.
+    pub fn take(&self) -> Option<PyErr> {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner).take()
+    }
+
+    /// What Python answered; keeps its exception.
+    fn keep<T>(&self, answer: PyResult<T>) -> Result<T, String> {
+        answer.map_err(|e| {
+            let words = e.to_string();
+            *self.0.lock().unwrap_or_else(PoisonError::into_inner) = Some(e);
+            words
+        })
+    }
+}
+
+/// What a controller sees.
+#[pyclass(frozen, module = "wingbeat._core")]
+pub struct Sensed(wingbeat::flight::Sensed);
+
+#[pymethods]
+impl Sensed {
+    /// Number of this look, from 0.
+    #[getter]
+    fn look(&self) -> usize {
+        self.0.look
+    }
+
+    /// Time since the release [s].
+    #[getter]
+    fn time_s(&self) -> f64 {
+        self.0.time
+    }
+
+    /// Origin of the body, N components, shape (3,) [m].
+    #[getter]
+    fn position_m<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        vector(py, self.0.root.p)
+    }
+
+    /// Velocity of that origin, N components, shape (3,) [m/s].
+    #[getter]
+    fn velocity_m_per_s<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        vector(py, self.0.root.v)
+    }
+
+    /// Attitude R_NB, from body to N components, shape (3, 3).
+    #[getter]
+    fn rotation<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        let rows = self.0.root.r.transpose().to_cols_array();
+        array(py, rows.to_vec(), &[3, 3])
+    }
+
+    /// Angular velocity, body components, shape (3,) [rad/s].
+    #[getter]
+    fn angular_velocity_rad_per_s<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        vector(py, self.0.root.w)
+    }
+
+    /// Mass centre of the whole, N components, shape (3,) [m].
+    #[getter]
+    fn mass_centre_m<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        vector(py, self.0.centre)
+    }
+
+    /// Velocity of the mass centre, N components, shape (3,) [m/s].
+    #[getter]
+    fn mass_centre_velocity_m_per_s<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        vector(py, self.0.velocity)
+    }
+}
+
+/// A function of Python in a part of the flight.
+#[derive(Clone)]
+struct Function {
+    function: Arc<Py<PyAny>>,
+    slot: Slot,
+}
+
+impl fmt::Debug for Function {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "Python({:p})", self.function)
+    }
+}
+
+/// A controller: a function from [`Sensed`] to eight numbers per wing.
+#[derive(Clone, Debug)]
+struct PythonController(Function);
+
+/// Feedback by `function` every `interval` steps, acting `latency` looks later.
+pub fn feedback(function: Py<PyAny>, slot: &Slot, interval: usize, latency: usize) -> Feedback {
+    let function = Function {
+        function: Arc::new(function),
+        slot: slot.clone(),
+    };
+    Feedback {
+        controller: Arc::new(PythonController(function)),
+        interval,
+        latency,
+    }
+}
+
+impl ControlModel for PythonController {
+    fn open(&self, _setup: &FlightSetup) -> Result<Box<dyn Controller>, FlightError> {
+        let reset = Python::attach(|py| self.0.function.call_method0(py, "reset").map(drop));
+        let refused = |problem| FlightError::Control { time: 0.0, problem };
+        self.0.slot.keep(reset).map_err(refused)?;
+        Ok(Box::new(Steered(self.0.clone())))
+    }
+}
+
+/// The controller of a flight.
+struct Steered(Function);
+
+impl Controller for Steered {
+    fn command(&mut self, sensed: &wingbeat::flight::Sensed) -> Vec<Adjustment> {
+        let answer = Python::attach(|py| -> PyResult<Vec<[f64; 8]>> {
+            let seen = Bound::new(py, Sensed(*sensed))?;
+            self.0.function.call1(py, (seen,))?.extract(py)
+        });
+        // No adjustments end the flight.
+        let numbers = self.0.slot.keep(answer).unwrap_or_default();
+        numbers.into_iter().map(adjustment).collect()
+    }
+}
+
+/// From the numbers of `wingbeat.Adjustment`, in its order.
+fn adjustment(x: [f64; 8]) -> Adjustment {
+    Adjustment {
+        stroke_amplitude: x[0],
+        stroke_offset: x[1],
+        feathering_offset: x[2],
+        feathering_amplitude: x[3],
+        feathering_lead: x[4],
+        deviation_offset: x[5],
+        stroke_plane: x[6],
+        frequency: x[7],
+    }
+}
+
+/// Air that Python computes.
+#[derive(Clone, Debug)]
+struct PythonAir(Function);
+
+/// The air of `function`, called with time [s] and the motions of all bodies, shape (bodies, 18): origin,
+/// rotation to N by rows, velocity, angular velocity in body components; it answers forces and moments about
+/// the origins, N components, shape (bodies, 6). An air with a memory hears which steps are accepted
+/// (`function.accept(step)`), and is called with the number of the step as well.
+pub fn air(function: Py<PyAny>, slot: &Slot, has_memory: bool) -> AirModel {
+    let air = PythonAir(Function {
+        function: Arc::new(function),
+        slot: slot.clone(),
+    });
+    match has_memory {
+        true => AirModel::External(Arc::new(air)),
+        false => AirModel::Own(Arc::new(air)),
+    }
+}
+
+impl PythonAir {
+    fn call(
+        &self,
+        step: Option<usize>,
+        time: f64,
+        motions: &[BodyMotion],
+        out: &mut [Wrench],
+    ) -> Result<(), String> {
+        let answer = Python::attach(|py| {
+            let numbers = motions.iter().flat_map(numbers).collect();
+            let motions = array(py, numbers, &[motions.len(), 18])?;
+            let answer = self.0.function.call1(py, (step, time, motions))?;
+            let loads = answer.bind(py).cast::<PyArray2<f64>>()?.readonly();
+            for (load, row) in out.iter_mut().zip(loads.as_slice()?.as_chunks::<6>().0) {
+                load.force = DVec3::from_slice(row);
+                load.moment = DVec3::from_slice(&row[3..]);
+            }
+            Ok(())
+        });
+        self.0.slot.keep(answer)
+    }
+}
+
+fn numbers(motion: &BodyMotion) -> Vec<f64> {
+    let rows = motion.r.transpose().to_cols_array();
+    let [p, v, w] = [motion.p, motion.v, motion.w].map(|x| x.to_array());
+    [&p[..], &rows, &v, &w].concat()
+}
+
+impl Air for PythonAir {
+    fn loads(
+        &self,
+        at: &Instant<'_>,
+        _memory: Option<&AirState>,
+        _scratch: &mut AirScratch,
+        out: &mut [Wrench],
+    ) -> Result<(), FlightError> {
+        self.call(None, at.time, at.motions, out)
+            .map_err(FlightError::External)
+    }
+}
+
+impl ExternalAir for PythonAir {
+    fn open(&self, flyer: &Announcement) -> Result<Box<dyn ExternalSession>, String> {
+        let opened = Python::attach(|py| {
+            let bodies = flyer.bodies.clone();
+            let open = self
+                .0
+                .function
+                .call_method1(py, "open", (bodies, flyer.step));
+            open.map(drop)
+        });
+        self.0.slot.keep(opened)?;
+        Ok(Box::new(self.clone()))
+    }
+}
+
+impl ExternalSession for PythonAir {
+    fn loads(
+        &mut self,
+        step: usize,
+        time: f64,
+        motions: &[BodyMotion],
+        out: &mut [Wrench],
+    ) -> Result<(), String> {
+        self.call(Some(step), time, motions, out)
+    }
+
+    fn accept(&mut self, step: usize) -> Result<(), String> {
+        let accepted = Python::attach(|py| {
+            let accept = self.0.function.call_method1(py, "accept", (step,));
+            accept.map(drop)
+        });
+        self.0.slot.keep(accepted)
+    }
+}

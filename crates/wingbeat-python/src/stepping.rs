@@ -1,0 +1,155 @@
+//! Flights step by step.
+
+use std::sync::Mutex;
+
+use pyo3::prelude::*;
+use wingbeat::case::OutputSettings;
+use wingbeat::flight::{Record, Simulation, Snapshot};
+use wingbeat::results::Outcome;
+
+use crate::arrays::{points, vectors};
+use crate::errors::{broken, raised};
+use crate::frame::{Frame, is_framed};
+use crate::own::Slot;
+use crate::run::Run;
+
+/// A flight and what it has flown.
+struct Course {
+    flight: Simulation,
+    records: Vec<Record>,
+    snapshots: Vec<Snapshot>,
+    outcome: Outcome,
+}
+
+/// A flight in progress.
+#[pyclass(frozen, module = "wingbeat._core")]
+pub struct Stepper {
+    course: Mutex<Course>,
+    output: OutputSettings,
+    case: String,
+    slot: Slot,
+}
+
+impl Stepper {
+    /// Before the first step of `flight`.
+    pub fn new(flight: Simulation, output: OutputSettings, case: String, slot: Slot) -> Self {
+        let course = Course {
+            records: vec![flight.record().clone()],
+            snapshots: match is_framed(&output, &flight) {
+                true => vec![flight.snapshot()],
+                false => vec![],
+            },
+            flight,
+            outcome: Outcome::Running,
+        };
+        Self {
+            course: Mutex::new(course),
+            output,
+            case,
+            slot,
+        }
+    }
+
+    /// Does `work` beside the interpreter, once no other thread has the flight.
+    fn with<T: Send>(
+        &self,
+        py: Python<'_>,
+        work: impl FnOnce(&mut Course) -> T + Send,
+    ) -> PyResult<T> {
+        let done = py.detach(|| self.course.lock().ok().map(|mut course| work(&mut course)));
+        done.ok_or_else(broken)
+    }
+}
+
+#[pymethods]
+impl Stepper {
+    /// Makes up to `count` steps; how many were made before the end.
+    fn step(&self, py: Python<'_>, count: usize) -> PyResult<usize> {
+        for made in 0..count {
+            py.check_signals()?;
+            match self.with(py, |course| course.step(&self.output))? {
+                Ok(true) => {}
+                Ok(false) => return Ok(made),
+                Err(e) => return Err(self.slot.take().unwrap_or_else(|| raised(py, &e))),
+            }
+        }
+        Ok(count)
+    }
+
+    /// Steps made.
+    #[getter]
+    fn steps_done(&self, py: Python<'_>) -> PyResult<usize> {
+        self.with(py, |course| course.flight.state().step)
+    }
+
+    /// Time [s].
+    #[getter]
+    fn time_s(&self, py: Python<'_>) -> PyResult<f64> {
+        self.with(py, |course| course.flight.newest_time())
+    }
+
+    /// Whether it is at its end: the last step was made, or an error ended it.
+    #[getter]
+    fn is_finished(&self, py: Python<'_>) -> PyResult<bool> {
+        self.with(py, |course| course.outcome != Outcome::Running)
+    }
+
+    /// Surfaces and wakes now.
+    fn frame(&self, py: Python<'_>) -> PyResult<Frame> {
+        self.with(py, |course| Frame::from(&course.flight.snapshot()))
+    }
+
+    /// Velocity of the air at points, shape (n, 3), N components [m, m/s]; none where the air is no vortex
+    /// lattice.
+    fn air_velocity<'py>(
+        &self,
+        py: Python<'py>,
+        at: &Bound<'py, PyAny>,
+    ) -> PyResult<Option<Bound<'py, PyAny>>> {
+        let at = points(at)?;
+        let velocity = self.with(py, |course| {
+            let at = at.iter().map(|p| wingbeat::math::DVec3::from_array(*p));
+            course.flight.air_velocity(&at.collect())
+        })?;
+        let list = |v: wingbeat::air::Points| {
+            let rows = v.len();
+            vectors(py, (0..rows).map(|k| v.get(k).to_array()), &[rows])
+        };
+        velocity.map(list).transpose()
+    }
+
+    /// What was flown so far.
+    fn run(&self, py: Python<'_>) -> PyResult<Run> {
+        self.with(py, |course| {
+            let run = wingbeat::Run {
+                setup: course.flight.setup().clone(),
+                records: course.records.clone(),
+                outcome: course.outcome.clone(),
+            };
+            Run::flown(run, course.snapshots.clone(), None, self.case.clone())
+        })
+    }
+}
+
+impl Course {
+    /// One step; false at the end.
+    fn step(&mut self, output: &OutputSettings) -> Result<bool, wingbeat::Error> {
+        if self.outcome != Outcome::Running {
+            return Ok(false);
+        }
+        match self.flight.step() {
+            Ok(record) => self.records.push(record.clone()),
+            Err(e) => {
+                self.outcome = Outcome::Failed(e.to_string());
+                return Err(e.into());
+            }
+        }
+        if is_framed(output, &self.flight) {
+            self.snapshots.push(self.flight.snapshot());
+        }
+        if self.flight.finished() {
+            self.outcome = Outcome::Finished;
+        }
+        Ok(true)
+    }
+}

@@ -1,0 +1,128 @@
+"""Bad input: an exception with key and remedy each, never an abort or a panic."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+import wingbeat
+from wingbeat import Adjustment, Flight
+
+Bad = Callable[[Flight, Path], Any]
+
+
+def controlled(answer: Any) -> Bad:
+    return lambda blade, _: blade.with_controller(lambda _: answer).fly()
+
+
+def blown(answer: Any) -> Bad:
+    return lambda blade, _: blade.with_air(lambda _: answer).fly()
+
+
+BAD: dict[str, Bad] = {
+    "unknown preset": lambda *_: Flight.preset("fruit-fli"),
+    "empty preset": lambda *_: Flight.preset(""),
+    "no such file": lambda *_: Flight.from_case("nowhere.toml"),
+    "a directory": lambda _, tmp: Flight.from_case(tmp),
+    "no TOML": lambda *_: Flight.from_case("[time\nbeats = "),
+    "empty case": lambda *_: Flight.from_case("\n"),
+    "empty dict": lambda *_: Flight.from_case({}),
+    "key that is no text": lambda *_: Flight.from_case({3: 1}),
+    "value that is no value": lambda *_: Flight.from_case({"time": {"beats": object()}}),
+    "bytes": lambda blade, _: blade.set("name", b"fly"),
+    "None": lambda blade, _: blade.set("time.beats", None),
+    "no value": lambda blade, _: blade.set("time.beats"),
+    "unknown key": lambda blade, _: blade.set("motion.frequenzy_hz", 200),
+    "unit of another kind": lambda blade, _: blade.set("body.mass_mg", 1.0),
+    "empty key": lambda blade, _: blade.set("", 1),
+    "key with an equals sign": lambda blade, _: blade.set("time.beats=3", 1),
+    "key with a line end": lambda blade, _: blade.set("time\nbeats", 1),
+    "wrong type": lambda blade, _: blade.set("time.beats", "two"),
+    "wrong choice": lambda blade, _: blade.set("air.model", "aether"),
+    "not a number": lambda blade, _: blade.set("motion.frequency_hz", float("nan")),
+    "infinite": lambda blade, _: blade.set("air.density_kg_m3", float("inf")),
+    "negative": lambda blade, _: blade.set("motion.frequency_hz", -1.0),
+    "a number beyond 64 bits": lambda blade, _: blade.set("time.beats", 10**30),
+    "vector of two": lambda blade, _: blade.set("air.stream_m_s", [1.0, 2.0]),
+    "key without effect": lambda blade, _: blade.set("air.wake_core.algebraic.radius_m", 1.0),
+    "too many steps": lambda blade, _: blade.set("time.beats", 1e300),
+    "line break in a name": lambda blade, _: blade.set("name", "a\nb"),
+    "result that exists": lambda blade, tmp: blade.fly(out=tmp),
+    "result below a file": lambda blade, tmp: blade.fly(out=tmp / "file" / "run"),
+    "no result": lambda _, tmp: wingbeat.read(tmp),
+    "result that is a file": lambda _, tmp: wingbeat.read(tmp / "file"),
+    "write over a result": lambda blade, tmp: blade.fly().write(tmp),
+    "export from memory": lambda blade, _: blade.fly().export("hdf5"),
+    "unknown format": lambda blade, tmp: blade.fly(out=tmp / "run").export("xls"),
+    "unknown figure": lambda blade, _: blade.fly().plot("wake"),
+    "frame that is not there": lambda blade, _: blade.fly().frame(7),
+    "last frame of none": lambda blade, _: blade.fly().frame(-1),
+    "negative steps": lambda blade, _: blade.start().step(-1),
+    "half a step": lambda blade, _: blade.start().step(0.5),
+    "velocity without a lattice": lambda blade, _: blade.start().air_velocity([[0.0, 0.0, 0.0]]),
+    "controller that is none": lambda blade, _: blade.with_controller(3),
+    "controller too often": lambda blade, _: blade.with_controller(lambda _: Adjustment(), every_steps=1),
+    "negative latency": lambda blade, _: blade.with_controller(lambda _: Adjustment(), latency_looks=-1),
+    "too few adjustments": controlled([Adjustment()]),
+    "adjustments that are none": controlled([1.0, 2.0]),
+    "infinite adjustment": controlled(Adjustment(stroke_amplitude=float("inf"))),
+    "frequency in flight": controlled(Adjustment(frequency=0.1)),
+    "air that is none": lambda blade, _: blade.with_air("air"),
+    "loads of two bodies": blown(np.zeros((2, 6))),
+    "loads that are not finite": blown(np.full((3, 6), np.nan)),
+    "keys under a controller": lambda blade, _: blade.with_controller(lambda _: Adjustment()).set("time.beats", 1),
+    "controller in a result": lambda blade, tmp: blade.with_controller(lambda _: Adjustment()).fly(out=tmp / "run"),
+    "tethered under a controller": lambda blade, _: Flight.preset("fruit-fly-tethered")
+    .with_controller(lambda _: Adjustment())
+    .start(),
+    "motion of nothing": lambda blade, _: blade.with_motion(),
+    "motion of two samples": lambda blade, _: blade.with_motion(phi_deg=[1.0, 2.0]),
+    "motion that is not finite": lambda blade, _: blade.with_motion(phi_deg=[0.0, np.nan, 0.0, 1.0]),
+    "motion of a wing that is not there": lambda blade, _: blade.with_motion(phi_deg=np.zeros(8), wing="third"),
+    "two unknowns": lambda blade, _: blade.trim(unknowns=("body_pitch", "stroke_amplitude")),
+    "one unknown twice": lambda blade, _: blade.trim(unknowns=("body_pitch", "body_pitch", "frequency")),
+    "unknown unknown": lambda blade, _: blade.trim(unknowns=("body_pitch", "courage", "frequency")),
+    "trim at infinite speed": lambda blade, _: blade.trim(forward_m_per_s=float("inf")),
+    "trim in one step": lambda blade, _: blade.trim(steps=1),
+    "trim under a load": lambda blade, _: Flight.preset("fruit-fly-hover").trim(),
+}
+
+
+@pytest.mark.parametrize("name", BAD)
+def test_refuses(name, blade, tmp_path, capfd):
+    (tmp_path / "file").write_text("no run")
+    with pytest.raises(wingbeat.Error) as caught:
+        BAD[name](blade.set("time.beats", 1), tmp_path)
+    error = caught.value
+    assert error.remedy, f"no remedy: {error}"
+    assert error.key or isinstance(error, wingbeat.AnalysisError), f"no key: {error}"
+    assert "panic" not in str(error) and "panicked" not in capfd.readouterr().err
+
+
+def test_behaves_errors_name_the_line_of_a_case(blade):
+    text = blade.case_text.replace("frequency_hz = 200.0", "frequency_hz = -3.0")
+    line = 1 + text[: text.index("frequency_hz = -3.0")].count("\n")
+    with pytest.raises(wingbeat.CaseError) as caught:
+        Flight.from_case(text)
+    assert (caught.value.key, caught.value.line) == ("motion.frequency_hz", line)
+    assert isinstance(caught.value, ValueError)
+
+
+def test_behaves_a_flight_that_cannot_go_on_keeps_what_was_flown(blade):
+    """Loads that grow with the acceleration they make: bodies and air do not agree."""
+
+    def wild(motions: wingbeat.Motions) -> np.ndarray:
+        loads = np.zeros((3, 6))
+        if motions.time_s > 2e-3:
+            loads[0, :3] = 1e3 * motions.velocity_m_per_s[0]
+        return loads
+
+    with pytest.raises(wingbeat.FlightError) as caught:
+        blade.set("dynamics.integrator", "hamming").with_air(wild).fly()
+    run = caught.value.run
+    assert run.outcome == "failed" and caught.value.remedy
+    assert 30 < len(run.arrays["time_s"]) < 50 and run.why in str(caught.value)

@@ -1,0 +1,76 @@
+"""Trim, stability, controls, power."""
+
+from __future__ import annotations
+
+import json
+
+import numpy as np
+import pytest
+import scipy.io
+import scipy.signal
+
+import wingbeat
+
+LAWFUL = {"forward_m_per_s": 0.0, "steps": 40}
+
+
+@pytest.fixture(scope="module")
+def trim(blade) -> wingbeat.Trim:
+    return blade.trim(**LAWFUL)
+
+
+def test_behaves_the_trimmed_flight_stays_where_it_is(trim):
+    assert trim.converged and abs(trim.residual).max() < 1e-9
+    run = trim.flight().set("time.beats", 3).fly()
+    drift = [np.ptp(run.arrays[f"mass_centre_n{axis}_m"][::40]) for axis in (1, 2, 3)]
+    assert max(drift) < 1e-8
+
+
+def test_agrees_with_the_command_line(trim, program):
+    done = program("stability", "fruit-fly-blade", "--steps", 40, "--json")
+    assert done.returncode == 0, done.stderr
+    told = json.loads(done.stdout)
+    model = trim.stability()
+    np.testing.assert_array_equal(model.derivatives, told["derivatives_si_by_u_v_w_p_q_r"])
+    assert [m.growth_per_s for m in model.floquet_modes] == [m["growth_per_s"] for m in told["floquet_modes"]]
+    done = program("power", "fruit-fly-blade", "--steps", 40, "--json")
+    assert trim.power().no_storage_watt == json.loads(done.stdout)["power"]["no_storage"]["watt"]
+
+
+def test_exact_modes_are_the_eigenvalues_of_a(trim):
+    model = trim.stability()
+    values = np.linalg.eigvals(model.A)
+    for mode in model.averaged_modes:
+        value = complex(mode.growth_per_s, mode.frequency_rad_per_s)
+        assert abs(values - value).min() < 1e-6 * abs(values).max()
+
+
+def test_balances_inputs_are_loads_over_mass(trim, blade):
+    """The first three rows of B are forces over the mass; a mirror image turns the lateral ones round."""
+    model, controls = trim.stability(), trim.derivatives()
+    np.testing.assert_allclose(model.B[:3], controls.loads[:, :3].T / blade.mass_kg, rtol=1e-12)
+    np.testing.assert_array_equal(model.B[6:], 0.0)
+    assert model.inputs == tuple(f"{c} {w}" for c, w in zip(controls.controls, controls.wings, strict=True))
+    left, right, both = (model.B[:, model.inputs.index(f"stroke_amplitude {w}")] for w in ("left", "right", "all"))
+    np.testing.assert_allclose(left + right, both, atol=1e-6 * abs(both).max())
+    # By the moment of inertia about the mean mass centre, which a step of the map of a beat sees as well.
+    longitudinal, lateral = [0, 2, 4], [1, 3, 5]
+    size = abs(right).max()
+    np.testing.assert_allclose(left[longitudinal], right[longitudinal], atol=1e-6 * size)
+    np.testing.assert_allclose(left[lateral], -right[lateral], atol=1e-6 * size)
+
+
+def test_behaves_scipy_and_matlab_take_the_model(trim, tmp_path):
+    model = trim.stability()
+    system = scipy.signal.StateSpace(*model)
+    assert system.A.shape == (9, 9) and system.B.shape == (9, len(model.inputs))
+    assert len(model.states) == len(model.state_units) == 9
+    model.save(tmp_path / "model.mat")
+    read = scipy.io.loadmat(tmp_path / "model.mat", simplify_cells=True)
+    np.testing.assert_array_equal(read["A"], model.A)
+    assert list(read["inputs"]) == list(model.inputs) and list(read["state_units"]) == list(model.state_units)
+
+
+def test_behaves_vacuum_cannot_be_trimmed():
+    with pytest.raises(wingbeat.Error):
+        wingbeat.Flight.preset("fruit-fly-vacuum").power()

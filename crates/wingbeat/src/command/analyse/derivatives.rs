@@ -1,0 +1,66 @@
+//! `wingbeat derivatives`.
+
+use serde_json::{Value, json};
+use wingbeat::analysis::derivatives::control_derivatives;
+use wingbeat::analysis::{AnalysisError, Level};
+use wingbeat::math::DVec3;
+
+use super::trimming::{Trimming, trimmed, watched};
+use crate::command::failure::Failure;
+use crate::command::report::{Report, line};
+
+/// The whole command.
+pub(crate) fn run(args: &Trimming) -> Result<(), Failure> {
+    args.report.deliver([], |report, []| find(args, report))
+}
+
+fn find(args: &Trimming, report: &mut Report) -> Result<(), Failure> {
+    args.check_averaged()?;
+    let (_, trim) = trimmed(args, report)?;
+    let r = trim.beat.root(&trim.state).r;
+    let level = Level::new(r, trim.setup.gravity);
+    let velocity = level.to_n.transpose() * trim_velocity(args);
+    let list: Result<Vec<_>, AnalysisError> = watched("derivatives", || {
+        control_derivatives(&trim.setup, r, velocity, trim.beat.steps())
+    });
+    line!(
+        report,
+        "\nControl derivatives of the mean loads, N and N m per unit (1, rad, wingbeat):"
+    );
+    line!(
+        report,
+        "  {:<20}{:<8}{:>12}{:>12}{:>12}{:>12}{:>12}{:>12}",
+        "control",
+        "wing",
+        "X",
+        "Y",
+        "Z",
+        "L",
+        "M",
+        "N"
+    );
+    let mut values: Vec<Value> = vec![];
+    for d in list? {
+        let (f, m) = (d.derivative.force, d.derivative.moment);
+        let cells = [f.x, f.y, f.z, m.x, m.y, m.z].map(|x| format!("{x:>12.3e}"));
+        line!(report, "  {:<20}{:<8}{}", d.control, d.wing, cells.concat());
+        values.push(json!({
+            "control": d.control,
+            "wing": d.wing,
+            "force_newton_per_unit": f.to_array(),
+            "moment_newton_m_per_unit": m.to_array(),
+        }));
+    }
+    line!(
+        report,
+        "\nAxes: level frame, forward, right, down; moments about the mean mass centre."
+    );
+    report.value("control_derivatives", values);
+    Ok(())
+}
+
+/// The velocity trimmed to, N components [m/s].
+fn trim_velocity(args: &Trimming) -> DVec3 {
+    let [forward, climb] = [args.forward, args.climb].map(|v| v.unwrap_or(0.0));
+    DVec3::new(forward, 0.0, -climb)
+}

@@ -1,0 +1,75 @@
+//! `wingbeat power`.
+
+use clap::Args;
+use serde_json::{Map, json};
+use wingbeat::analysis::power::{Power, power};
+
+use super::trimming::{Trimming, trimmed, watched};
+use crate::command::failure::Failure;
+use crate::command::options;
+use crate::command::report::{Report, line};
+
+/// Arguments of `wingbeat power`.
+#[derive(Args)]
+pub(crate) struct PowerArgs {
+    #[command(flatten)]
+    trimming: Trimming,
+    /// Flight muscle as a part of the body mass.
+    #[arg(long, value_name = "SHARE", default_value_t = 0.3, value_parser = options::share)]
+    muscle: f64,
+}
+
+/// The whole command.
+pub(crate) fn run(args: &PowerArgs) -> Result<(), Failure> {
+    let trimming = &args.trimming;
+    trimming.report.deliver([], |report, []| {
+        let (_, trim) = trimmed(trimming, report)?;
+        let found = watched("power", || power(&trim.tethered()?))?;
+        tell(report, &found, args.muscle);
+        Ok(())
+    })
+}
+
+fn tell(report: &mut Report, p: &Power, muscle: f64) {
+    line!(
+        report,
+        "\nMean mechanical power over a wingbeat, body carried in the trimmed attitude at the trimmed velocity:"
+    );
+    line!(
+        report,
+        "  {:<44}{:>10}{:>12}{:>14}",
+        "",
+        "uW",
+        "W/kg body",
+        "W/kg muscle"
+    );
+    let rows = [
+        ("against the air", "aerodynamic", p.aerodynamic),
+        (
+            "inertial, positive part",
+            "inertial_positive",
+            p.inertial_positive,
+        ),
+        (
+            "muscles, perfect elastic storage",
+            "perfect_storage",
+            p.perfect_storage,
+        ),
+        ("muscles, no elastic storage", "no_storage", p.no_storage),
+        ("peak of all wings", "peak", p.peak),
+    ];
+    let mut values = Map::new();
+    for (name, key, x) in rows {
+        let (body, muscle) = (p.body_specific(x), p.muscle_specific(x, muscle));
+        line!(
+            report,
+            "  {name:<44}{:>10.3}{body:>12.2}{muscle:>14.2}",
+            1e6 * x
+        );
+        let value = json!({ "watt": x, "watt_per_kg_body": body, "watt_per_kg_muscle": muscle });
+        values.insert(key.to_owned(), value);
+    }
+    line!(report, "  muscle counted as {muscle} of the body mass");
+    report.value("power", values);
+    report.value("muscle_share", muscle);
+}

@@ -1,0 +1,169 @@
+//! `wingbeat stabilise`.
+
+use std::path::PathBuf;
+
+use clap::{Args, ValueEnum};
+use serde_json::{Value, json};
+use wingbeat::analysis::control::{Held, Law, SteeredBeats, Steering, disturbed};
+use wingbeat::analysis::departure::Reference;
+use wingbeat::analysis::regulator::{Regulator, Weights};
+use wingbeat::analysis::stabiliser::{ProportionalDerivative, Stiffness};
+use wingbeat::analysis::{AnalysisError, Trim};
+use wingbeat::draw::figures::stabilised::{BeatRow, stabilised};
+use wingbeat::math::DVec3;
+use wingbeat::results::file::NewFile;
+use wingbeat::results::fixed::fixed;
+
+use super::trimming::{Trimming, trimmed, unused, watched};
+use crate::command::failure::Failure;
+use crate::command::options;
+use crate::command::report::{Report, line};
+use crate::command::watch::Watch;
+
+/// Wingbeats of a flight at most.
+const MAX_BEATS: usize = 100_000;
+/// Wingbeats between sensing and acting at most: the regulator remembers them all.
+const MAX_LATENCY: usize = 20;
+/// Wingbeats between sensing and acting unless told otherwise.
+const DEFAULT_LATENCY: usize = 2;
+
+/// Arguments of `wingbeat stabilise`.
+#[derive(Args)]
+pub(crate) struct StabiliseArgs {
+    #[command(flatten)]
+    trimming: Trimming,
+    /// Wingbeats to fly.
+    #[arg(long, value_name = "N", default_value_t = 100,
+          value_parser = options::count::<1, MAX_BEATS>)]
+    beats: usize,
+    /// Disturbance of roll, pitch and heading at the start, degrees.
+    #[arg(long, num_args = 3, value_names = ["ROLL", "PITCH", "HEADING"],
+          default_values_t = [0.0, 10.0, 0.0], allow_negative_numbers = true,
+          value_parser = options::degrees)]
+    tilt: Vec<f64>,
+    /// Wingbeats between sensing and acting [default: 2].
+    #[arg(long, value_name = "BEATS", value_parser = options::count::<0, MAX_LATENCY>)]
+    latency: Option<usize>,
+    /// Wingbeats from one look to the next [default: 1].
+    #[arg(long, value_name = "BEATS", value_parser = options::count::<1, MAX_BEATS>)]
+    sample: Option<usize>,
+    /// Which feedback.
+    #[arg(long, value_enum, default_value_t = Feedback::Regulator)]
+    controller: Feedback,
+    /// Draw the flight as SVG.
+    #[arg(long, value_name = "FILE")]
+    figure: Option<PathBuf>,
+}
+
+/// Which feedback.
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Feedback {
+    /// Discrete linear-quadratic regulator: holds attitude and place.
+    Regulator,
+    /// Proportional-derivative loops: pitch, roll, heading and altitude; for latencies up to 1.
+    Pd,
+    /// None.
+    Free,
+}
+
+/// The whole command: beat by beat as CSV on the standard output.
+pub(crate) fn run(args: &StabiliseArgs) -> Result<(), Failure> {
+    let free = args.controller == Feedback::Free;
+    for (option, given) in [("latency", args.latency), ("sample", args.sample)] {
+        if free && given.is_some() {
+            return Err(unused(option, "without feedback nothing is sensed"));
+        }
+    }
+    let report = &args.trimming.report;
+    report.deliver([&args.figure], |report, [figure]| fly(args, report, figure))
+}
+
+fn fly(args: &StabiliseArgs, report: &mut Report, figure: Option<NewFile>) -> Result<(), Failure> {
+    let (case, trim) = trimmed(&args.trimming, report)?;
+    let tilt = DVec3::from_slice(&args.tilt).map(f64::to_radians);
+    let latency = args.latency.unwrap_or(DEFAULT_LATENCY);
+    let controller = watched("feedback", || controller(args, &trim, latency))?;
+    let start = disturbed(&trim, tilt, DVec3::ZERO);
+    let mut flight = SteeredBeats::new(&trim, start, controller, latency)?;
+    let mut rows = vec![row(&flight)];
+    let mut lost = None;
+    let watch = Watch::of("flying under feedback", args.beats as u64);
+    for _ in 0..args.beats {
+        match flight.beat() {
+            Ok(()) => rows.push(row(&flight)),
+            Err(e) => {
+                lost = Some(e);
+                break;
+            }
+        }
+        watch.part(|| {});
+    }
+    drop(watch);
+    tell(report, &rows);
+    if let Some(file) = figure {
+        let svg = stabilised(&case.name, trim.beat.wing_length(), &rows);
+        file.write(svg.as_bytes())?;
+    }
+    lost.map_or(Ok(()), |e| Err(e.into()))
+}
+
+/// The feedback asked for.
+fn controller(
+    args: &StabiliseArgs,
+    trim: &Trim,
+    latency: usize,
+) -> Result<Option<Steering>, AnalysisError> {
+    let law = match args.controller {
+        Feedback::Free => return Ok(None),
+        Feedback::Pd => Law::Stabiliser(ProportionalDerivative::new(trim, &Stiffness::default())?),
+        Feedback::Regulator => Law::Regulator(Regulator::new(trim, &Weights::default(), latency)?),
+    };
+    let held = Held::Known(Reference::trimmed(trim)?);
+    let mut steering = Steering::new(law, held, &trim.setup);
+    steering.every = args.sample.unwrap_or(1);
+    Ok(Some(steering))
+}
+
+/// What is seen at this beat.
+fn row(flight: &SteeredBeats) -> BeatRow {
+    let (d, acting) = (flight.departure(), flight.acting());
+    let (first, last) = (&acting[0], &acting[acting.len() - 1]);
+    BeatRow {
+        beat: d.beat,
+        position: d.position,
+        tilt: d.state.tilt,
+        amplitude: [first.stroke_amplitude, last.stroke_amplitude],
+        offset: last.stroke_offset,
+    }
+}
+
+fn tell(report: &mut Report, rows: &[BeatRow]) {
+    line!(
+        report,
+        "\nbeat,forward_mm,right_mm,down_mm,roll_deg,pitch_deg,heading_deg,stroke_amplitude_left,stroke_amplitude_right,stroke_offset_deg"
+    );
+    for r in rows {
+        let cells = [
+            r.position.to_array().map(|x| fixed(1e3 * x, 5)),
+            r.tilt.to_array().map(|x| fixed(x.to_degrees(), 4)),
+            [
+                fixed(r.amplitude[0], 5),
+                fixed(r.amplitude[1], 5),
+                fixed(r.offset.to_degrees(), 4),
+            ],
+        ];
+        line!(report, "{},{}", r.beat, cells.concat().join(","));
+    }
+    let values: Vec<Value> = rows.iter().map(value).collect();
+    report.value("beats", values);
+}
+
+fn value(r: &BeatRow) -> Value {
+    json!({
+        "beat": r.beat,
+        "position_forward_right_down_m": r.position.to_array(),
+        "tilt_roll_pitch_heading_rad": r.tilt.to_array(),
+        "stroke_amplitude_change_left_right": r.amplitude,
+        "stroke_offset_rad": r.offset,
+    })
+}

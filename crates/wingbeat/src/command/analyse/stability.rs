@@ -1,0 +1,220 @@
+//! `wingbeat stability`.
+
+use std::path::PathBuf;
+
+use clap::{Args, ValueEnum};
+use serde_json::{Value, json};
+use wingbeat::analysis::stability::{LOADS, LinearModel};
+use wingbeat::analysis::wake::{WakeMemory, wake_floquet};
+use wingbeat::analysis::{ModeSet, floquet, linear_model, table_model};
+use wingbeat::case::LoadedCase;
+use wingbeat::case::derivative_case;
+use wingbeat::flight::AirModel;
+use wingbeat::results::file::NewFile;
+use wingbeat::results::fixed::{fixed, signed};
+
+use super::trimming::{Trimming, trimmed, trimmed_with_wake, unused, watched};
+use crate::command::failure::Failure;
+use crate::command::report::{Report, line};
+
+/// Arguments of `wingbeat stability`.
+#[derive(Args)]
+pub(crate) struct StabilityArgs {
+    #[command(flatten)]
+    trimming: Trimming,
+    /// Write the averaged model as a case file with stability derivatives.
+    #[arg(long, value_name = "FILE")]
+    write: Option<PathBuf>,
+    /// In a vortex lattice: what is held fixed when the body is disturbed [default: carried].
+    #[arg(long, value_enum)]
+    wake: Option<Wake>,
+}
+
+/// What is held fixed.
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Wake {
+    /// The wake of the trimmed flight; the body jumps at its release.
+    Given,
+    /// The disturbance during the hold: the wake goes with it.
+    Carried,
+}
+
+/// The whole command.
+pub(crate) fn run(args: &StabilityArgs) -> Result<(), Failure> {
+    let deliver = |report: &mut Report, [file]: [Option<NewFile>; 1]| {
+        let case = args.trimming.load()?;
+        let table = matches!(case.setup.air, AirModel::Derivatives(_));
+        let memory = case.setup.air.has_memory();
+        if args.write.is_some() && (table || memory) {
+            let why = "only a trim in air without memory gives an averaged model to write";
+            return Err(unused("write", why));
+        }
+        if args.wake.is_some() && !memory {
+            return Err(unused("wake", "this air has no wake"));
+        }
+        match (table, memory) {
+            (true, _) => of_table(&args.trimming, &case, report),
+            (_, true) => with_wake(args, report),
+            _ => of_trim(&args.trimming, report, file),
+        }
+    };
+    args.trimming.report.deliver([&args.write], deliver)
+}
+
+/// Averaged model and orbit of a flight in air without memory.
+fn of_trim(args: &Trimming, report: &mut Report, file: Option<NewFile>) -> Result<(), Failure> {
+    if file.is_some() {
+        args.check_averaged()?; // before the trim, which takes its time
+    }
+    let (case, trim) = trimmed(args, report)?;
+    let averaged = match trim.beat.check_averaged() {
+        Err(e) => {
+            line!(report, "\nNo averaged model: {e}");
+            report.value("no_averaged_model", e.to_string());
+            None
+        }
+        Ok(()) => {
+            let found = watched("averaged model", || linear_model(&trim.beat, &trim.state));
+            Some(found?)
+        }
+    };
+    let orbit = watched("Floquet's modes", || floquet(&trim.beat, &trim.state))?;
+    if let Some(averaged) = &averaged {
+        derivatives(report, averaged);
+        line!(
+            report,
+            "\nModes of the rigid body under mean loads (averaged over the beat):"
+        );
+        modes(report, "averaged_modes", &averaged.modes);
+    }
+    line!(report, "\nModes of the full periodic orbit (Floquet):");
+    modes(report, "floquet_modes", &orbit);
+    line!(
+        report,
+        "\nAxes: level frame of the trimmed attitude, forward, right, down, about the mass centre. The air has no\nmemory; times in wingbeats of {:.3} ms.",
+        1e3 * trim.beat.period()
+    );
+    report.value("wingbeat_s", trim.beat.period());
+    if let (Some(file), Some(averaged)) = (file, averaged) {
+        file.write(derivative_case(&case, &trim, &averaged)?.as_bytes())?;
+        line!(report, "\nwrote {}", file.path().display());
+    }
+    Ok(())
+}
+
+/// Floquet's modes of the free wingbeat after a hold.
+fn with_wake(args: &StabilityArgs, report: &mut Report) -> Result<(), Failure> {
+    let (_, trim) = trimmed_with_wake(&args.trimming, report)?;
+    let (memory, held) = match args.wake.unwrap_or(Wake::Carried) {
+        Wake::Given => (WakeMemory::Given, "the wake of the trimmed flight"),
+        Wake::Carried => (WakeMemory::Carried, "the disturbance during the hold"),
+    };
+    let found = watched("Floquet's modes", || wake_floquet(&trim, memory))?;
+    line!(
+        report,
+        "\nModes of the free wingbeat after the hold (Floquet); held fixed: {held}:"
+    );
+    modes(report, "floquet_modes", &found);
+    Ok(())
+}
+
+/// The modes of a case that is linear already.
+fn of_table(args: &Trimming, case: &LoadedCase, report: &mut Report) -> Result<(), Failure> {
+    args.without_trim()?;
+    let model = table_model(&case.setup)?;
+    line!(
+        report,
+        "{}: rigid body under its table of derivatives",
+        case.name
+    );
+    report.value("case", case.name.as_str());
+    derivatives(report, &model);
+    line!(report, "\nModes:");
+    modes(report, "modes", &model.modes);
+    let beat = case.setup.time.period.unwrap_or(1.0);
+    line!(
+        report,
+        "\nAxes: those of the table, about the mass centre; times in beats of {:.3} ms.",
+        1e3 * beat
+    );
+    report.value("wingbeat_s", beat);
+    Ok(())
+}
+
+fn derivatives(report: &mut Report, model: &LinearModel) {
+    line!(
+        report,
+        "\nDerivatives of the mean loads, SI (N and N m per m/s and rad/s):"
+    );
+    line!(
+        report,
+        "  {:<4}{:>12}{:>12}{:>12}{:>12}{:>12}{:>12}",
+        "",
+        "u",
+        "v",
+        "w",
+        "p",
+        "q",
+        "r"
+    );
+    for (name, row) in LOADS.iter().zip(&model.derivatives) {
+        let cells = row.map(|x| format!("{x:>12.3e}"));
+        line!(report, "  {name:<4}{}", cells.concat());
+    }
+    report.value("derivatives_si_by_u_v_w_p_q_r", json!(model.derivatives));
+}
+
+/// The modes as a table.
+fn modes(report: &mut Report, key: &str, set: &ModeSet) {
+    line!(
+        report,
+        "  {:<13}{:<22}{:>11}{:>11}{:>11}{:>12}{:>10}{:>22}  moves",
+        "plane",
+        "mode",
+        "growth 1/s",
+        "rad/s",
+        "period s",
+        "x2 or /2 s",
+        "beats",
+        "multiplier"
+    );
+    let mut values: Vec<Value> = vec![];
+    for m in &set.modes {
+        let or_dash = |x: Option<f64>, digits: usize| {
+            x.map_or_else(|| "-".to_owned(), |x| format!("{x:.digits$}"))
+        };
+        let beats = m.doubling().map(|t| t / m.wingbeat);
+        let multiplier = format!(
+            "{}{}i",
+            fixed(m.multiplier[0], 5),
+            signed(m.multiplier[1], 5)
+        );
+        let largest = m.vector.iter().filter(|c| c.1 > 0.3);
+        let moves: Vec<String> = largest.map(|c| format!("{} {:.2}", c.0, c.1)).collect();
+        let plane = format!("{:?}", m.plane).to_lowercase();
+        line!(
+            report,
+            "  {plane:<13}{:<22}{:>11}{:>11}{:>11}{:>12}{:>10}{multiplier:>22}  {}",
+            m.name,
+            fixed(m.growth, 4),
+            fixed(m.frequency, 4),
+            or_dash(m.period(), 4),
+            or_dash(m.doubling(), 4),
+            or_dash(beats, 2),
+            moves.join(", ")
+        );
+        let vector = m.vector.iter();
+        let vector: Vec<Value> = vector
+            .map(|(name, size, phase)| json!({ "component": name, "size": size, "phase_rad": phase }))
+            .collect();
+        values.push(json!({
+            "plane": plane,
+            "name": m.name,
+            "growth_per_s": m.growth,
+            "frequency_rad_per_s": m.frequency,
+            "multiplier": m.multiplier,
+            "vector": vector,
+        }));
+    }
+    report.value(key, values);
+}

@@ -1,0 +1,204 @@
+//! What is trimmed and how, for all analysing commands.
+
+use clap::Args;
+use wingbeat::analysis::trim::{UNKNOWNS, trim as find_trim};
+use wingbeat::analysis::wake::{WakeSettings, WakeTrim, trim_with_wake};
+use wingbeat::analysis::{Beat, Trim, TrimProblem, TrimSettings, Unknown};
+use wingbeat::case::{IoError, LoadedCase};
+use wingbeat::flight::MotionMode;
+use wingbeat::math::DVec3;
+
+use super::found::{self, Found};
+use crate::command::failure::{FAILED, Failure};
+use crate::command::options;
+use crate::command::report::{Report, ReportArgs, line};
+use crate::command::run::name_program;
+use crate::command::terminal::tell;
+use crate::command::watch::Watch;
+
+/// Steps per wingbeat at least and at most; of order four, 2,000 are at the last bits.
+const STEPS: [usize; 2] = [4, 2_000];
+
+/// Steps per wingbeat unless told otherwise.
+const DEFAULT_STEPS: usize = 100;
+
+/// Wingbeats of the hold at most.
+const MAX_HELD: usize = 100;
+
+/// Wingbeats of the hold unless told otherwise.
+const DEFAULT_HELD: usize = 2;
+
+/// The unknowns unless told otherwise.
+const DEFAULT_UNKNOWNS: [Unknown; 3] = [
+    Unknown::BodyPitch,
+    Unknown::StrokeAmplitude,
+    Unknown::StrokeOffset,
+];
+
+/// Heading of these options in the help.
+const HEADING: &str = "Trim";
+
+/// What is trimmed and how.
+#[derive(Args)]
+pub(crate) struct Trimming {
+    /// Case file or preset with blade-element air.
+    #[arg(default_value = "fruit-fly-blade")]
+    case: String,
+    /// Set a key of the case, e.g. time.beats=3 (may be repeated).
+    #[arg(long = "set", value_name = "KEY=VALUE")]
+    set: Vec<String>,
+    /// The three things trim may choose [default: body_pitch stroke_amplitude stroke_offset].
+    #[arg(long, num_args = 3, value_names = ["A", "B", "C"], value_parser = unknown, help_heading = HEADING)]
+    unknowns: Option<Vec<Unknown>>,
+    /// Mean velocity forward (n1), m/s [default: 0].
+    #[arg(long, value_name = "SPEED", allow_negative_numbers = true,
+          value_parser = options::speed, help_heading = HEADING)]
+    pub(super) forward: Option<f64>,
+    /// Mean velocity upward (-n3), m/s [default: 0].
+    #[arg(long, value_name = "SPEED", allow_negative_numbers = true,
+          value_parser = options::speed, help_heading = HEADING)]
+    pub(super) climb: Option<f64>,
+    /// Steps per wingbeat; default 100, in a vortex lattice those of the case.
+    #[arg(long, value_name = "N", help_heading = HEADING,
+          value_parser = options::count::<{ STEPS[0] }, { STEPS[1] }>)]
+    steps: Option<usize>,
+    /// In a vortex lattice: wingbeats during which the body is held while its wake grows
+    /// [default: 2].
+    #[arg(long, value_name = "BEATS", help_heading = HEADING,
+          value_parser = options::count::<1, MAX_HELD>)]
+    hold: Option<usize>,
+    #[command(flatten)]
+    pub(super) report: ReportArgs,
+}
+
+/// Trimming failed; the best point found was reported.
+fn not_trimmed() -> Failure {
+    Failure::Told(FAILED)
+}
+
+/// An option that does nothing here.
+pub(super) fn unused(option: &str, why: &str) -> Failure {
+    Failure::Option(format!(
+        "--{option} has no effect here: {why}; leave it out"
+    ))
+}
+
+impl Trimming {
+    /// The case, its feedback left out: the open loop is analysed.
+    pub(crate) fn load(&self) -> Result<LoadedCase, IoError> {
+        let mut case = LoadedCase::find(&self.case, &self.set)?;
+        case.setup.feedback = None;
+        Ok(case)
+    }
+
+    /// Refuses the options that only a trim has.
+    pub(super) fn without_trim(&self) -> Result<(), Failure> {
+        let given = [
+            ("unknowns", self.unknowns.is_some()),
+            ("forward", self.forward.is_some()),
+            ("climb", self.climb.is_some()),
+            ("steps", self.steps.is_some()),
+            ("hold", self.hold.is_some()),
+        ];
+        match given.iter().find(|g| g.1) {
+            Some((option, _)) => Err(unused(
+                option,
+                "a table of derivatives is linear about its own reference flight, nothing is trimmed",
+            )),
+            None => Ok(()),
+        }
+    }
+
+    /// Refuses a case whose loads cannot be averaged over a wingbeat.
+    pub(super) fn check_averaged(&self) -> Result<(), Failure> {
+        let steps = self.steps.unwrap_or(DEFAULT_STEPS);
+        Ok(Beat::new(&self.load()?.setup, steps)?.check_averaged()?)
+    }
+
+    /// What is asked of the trim.
+    fn problem(&self, case: &LoadedCase) -> Result<TrimProblem, Failure> {
+        let body_pitch = match &case.setup.mode {
+            MotionMode::Free(start) => start.angles.x,
+            MotionMode::Tethered(motion) => motion.angles[0].constant,
+        };
+        let unknowns = match self.unknowns.as_deref() {
+            Some(&[a, b, c]) => [a, b, c],
+            _ => DEFAULT_UNKNOWNS,
+        };
+        let [a, b, c] = unknowns;
+        if a == b || b == c || c == a {
+            let problem = "--unknowns: one is named twice; name three that differ";
+            return Err(Failure::Option(problem.to_owned()));
+        }
+        Ok(TrimProblem {
+            unknowns,
+            velocity: DVec3::new(self.forward.unwrap_or(0.0), 0.0, -self.climb.unwrap_or(0.0)),
+            body_pitch,
+            settings: TrimSettings {
+                steps: self.steps.unwrap_or(DEFAULT_STEPS),
+                ..TrimSettings::default()
+            },
+        })
+    }
+}
+
+/// Does something while its progress is shown.
+pub(crate) fn watched<T>(what: &str, work: impl FnOnce() -> T) -> T {
+    let _watch = Watch::new(what);
+    work()
+}
+
+/// Loads the case and trims it; reports the trim.
+pub(crate) fn trimmed(args: &Trimming, report: &mut Report) -> Result<(LoadedCase, Trim), Failure> {
+    let case = args.load()?;
+    if args.hold.is_some() {
+        return Err(unused(
+            "hold",
+            "this air has no memory, so no wake has to grow",
+        ));
+    }
+    let problem = args.problem(&case)?;
+    let found = watched("trimming", || find_trim(&case.setup, &problem))?;
+    found::tell(report, &case, &problem, &Found::from(&found));
+    match found.converged {
+        true => Ok((case, found)),
+        false => Err(not_trimmed()),
+    }
+}
+
+/// The same in air with memory.
+pub(crate) fn trimmed_with_wake(
+    args: &Trimming,
+    report: &mut Report,
+) -> Result<(LoadedCase, WakeTrim), Failure> {
+    let mut case = args.load()?;
+    if let (Some(steps), Some(period)) = (args.steps, case.setup.time.period) {
+        case.setup.time.step = period / steps as f64;
+        case.raw.time.steps_per_beat = Some(steps);
+    }
+    let problem = args.problem(&case)?;
+    let settings = WakeSettings {
+        held_beats: args.hold.unwrap_or(DEFAULT_HELD),
+        ..WakeSettings::default()
+    };
+    let beats = settings.held_beats + 1;
+    name_program(&case);
+    tell!(
+        "{}: trimming in air with memory, some 20 to 60 flights of {beats} wingbeats; this takes minutes",
+        case.name,
+    );
+    let found = watched("trimming", || {
+        trim_with_wake(&case.setup, &problem, &settings)
+    })?;
+    found::tell(report, &case, &problem, &Found::from(&found));
+    line!(report, "  {} flights of {beats} wingbeats", found.flights);
+    report.value("flights", found.flights);
+    match found.converged {
+        true => Ok((case, found)),
+        false => Err(not_trimmed()),
+    }
+}
+
+fn unknown(name: &str) -> Result<Unknown, String> {
+    options::choose(name, &UNKNOWNS.map(|(unknown, name)| (name, unknown)))
+}

@@ -1,0 +1,111 @@
+//! `wingbeat check`: what a case holds, what its flight will be like, and whether it can be flown.
+
+use std::sync::Arc;
+
+use wingbeat::analysis::estimate;
+use wingbeat::case::external::Unasked;
+use wingbeat::case::{IoError, LoadedCase};
+use wingbeat::flight::{AirModel, FlightSetup, MotionMode, Simulation};
+use wingbeat::results::fixed::fixed;
+
+use crate::command::expectation;
+use crate::command::failure::Failure;
+use crate::command::terminal::{say, tell};
+use crate::command::watch::Watch;
+
+/// Describes the case, builds its flight and makes some steps on trial. Lattices that would take
+/// long to build are built only if `trial` says so. Nothing of the case is executed: a program
+/// that computes the air is not started.
+pub(crate) fn check(name: &str, set: &[String], trial: bool) -> Result<(), Failure> {
+    let case = LoadedCase::find(name, set)?;
+    let fault = |e: String| {
+        let fault = case.fault("", e, "correct the case and check it again");
+        IoError::from(fault)
+    };
+    let estimate = estimate(&case.setup).map_err(|e| fault(e.to_string()))?;
+    let cost = trial_cost(&case, trial)?;
+    say!("{}: this case can be flown.\n", case.origin());
+    describe(&case.setup);
+    if let Some(feedback) = &case.setup.feedback {
+        let [every, late] = [feedback.interval, feedback.latency];
+        say!(
+            "{:<10}a look every {every} steps, acting {late} looks later",
+            "feedback"
+        );
+    }
+    let panels = expectation::panels(&case.setup);
+    say!("{:<10}{panels} panels", "lattice");
+    if let Some(program) = case.program() {
+        say!(
+            "{:<10}`wingbeat run` will start this one with your rights: {program}",
+            "program"
+        );
+    }
+    for line in expectation::lines(&estimate) {
+        say!("{line}");
+    }
+    say!("{:<10}{cost}", "cost");
+    for doubt in &estimate.doubts {
+        tell!("warning: {doubt}");
+    }
+    Ok(())
+}
+
+/// What the first steps cost, flown on trial where that is quick. A check starts no other program.
+fn trial_cost(case: &LoadedCase, trial: bool) -> Result<String, IoError> {
+    let mut setup = case.setup.clone();
+    if let AirModel::External(air) = &mut setup.air {
+        *air = Arc::new(Unasked);
+        Simulation::new(setup).map_err(|e| IoError::from(case.refused(&e)))?;
+        return Ok("not tried: a check does not start the external program".into());
+    }
+    let unknowns = expectation::unknowns(&case.setup);
+    if !trial && unknowns > expectation::MAX_UNKNOWNS {
+        return Ok(format!(
+            "not tried: {unknowns} unknown circulations take long and {:.1} GB to solve for; `wingbeat check --trial` does",
+            8e-9 * (unknowns as f64).powi(2)
+        ));
+    }
+    let _watch = Watch::new(&format!(
+        "first steps on trial, {unknowns} unknown circulations"
+    ));
+    let flight = Simulation::new(setup);
+    let cost = flight.and_then(|mut flight| expectation::cost(&mut flight));
+    Ok(cost.map_err(|e| case.refused(&e))?)
+}
+
+fn describe(setup: &FlightSetup) {
+    let animal = &setup.animal;
+    say!(
+        "{:<10}{:.4e} kg, of it body {:.4e} kg",
+        "mass",
+        animal.mass(),
+        animal.body.mass
+    );
+    let centre = animal.body.centre().to_array().map(|x| fixed(1e3 * x, 3));
+    say!(
+        "{:<10}mass centre of the body at [{}] mm",
+        "body",
+        centre.join(", ")
+    );
+    for w in animal.wing_reports() {
+        say!(
+            "{:<10}`{}`: length {:.3} mm, area {:.3} mm2, mean chord {:.3} mm, r2_hat {:.3}, mass {:.3e} kg",
+            "wing",
+            w.name,
+            w.length * 1e3,
+            w.area * 1e6,
+            w.mean_chord * 1e3,
+            w.r2_hat,
+            w.mass
+        );
+    }
+    let mode = match setup.mode {
+        MotionMode::Free(_) => "free flight",
+        MotionMode::Tethered(_) => "tethered",
+    };
+    let air = setup.air.name();
+    say!("{:<10}{mode}, {air}", "flight");
+    let time = &setup.time;
+    say!("{:<10}{} steps of {:.4e} s", "time", time.steps, time.step);
+}

@@ -1,0 +1,96 @@
+//! The command line: every command with its arguments.
+
+use std::path::PathBuf;
+
+use clap::builder::styling::{AnsiColor, Styles};
+use clap::{Args, Parser, Subcommand};
+use clap_complete::Shell;
+
+use super::{analyse, export, new, plot, run, show, velocity, verify, view};
+
+/// Colours of help and errors, as cargo has them.
+pub(crate) const STYLES: Styles = Styles::styled()
+    .header(AnsiColor::Green.on_default().bold())
+    .usage(AnsiColor::Green.on_default().bold())
+    .literal(AnsiColor::Cyan.on_default().bold())
+    .placeholder(AnsiColor::Cyan.on_default());
+
+/// Simulator of flapping-wing flight.
+///
+/// Exit codes: 0 done; 1 the flight, the writing or a print failed midway (what was flown is kept);
+/// 2 nothing was run: command line, case or output directory cannot be used; 130 interrupted by
+/// Ctrl-C or SIGTERM (what was flown is kept).
+#[derive(Parser)]
+#[command(version, max_term_width = 100, styles = STYLES)]
+pub(crate) struct Cli {
+    #[command(subcommand)]
+    pub(crate) command: Command,
+}
+
+#[derive(Subcommand)]
+pub(crate) enum Command {
+    /// Fly a case file or a preset; without one, the fruit fly in free hovering flight.
+    Run(run::RunArgs),
+    /// Go on with a run that was interrupted, killed or ran out of disk, bit for bit.
+    Resume(run::ResumeArgs),
+    /// Write the flight page of a run, one HTML file, and open it in the browser.
+    View(view::ViewArgs),
+    /// Draw figures of a run: SVG or PNG for papers and screens, or an animation.
+    Plot(plot::PlotArgs),
+    /// Write a run in a format of other programs: hdf5, vtkhdf, parquet or gltf.
+    Export(export::ExportArgs),
+    /// Say what happened in a run, finished or not.
+    Show(show::ShowArgs),
+    /// Set the numbers of two runs side by side.
+    Compare(show::CompareArgs),
+    /// Check a case file or preset without flying it, and say what it holds.
+    Check {
+        /// Case file or preset.
+        case: String,
+        /// Set a key of the case, e.g. time.beats=3 (may be repeated).
+        #[arg(long = "set", value_name = "KEY=VALUE")]
+        set: Vec<String>,
+        /// Build and try lattices, too, that take long to build.
+        #[arg(long)]
+        trial: bool,
+    },
+    /// Find the wing motion and attitude that hold a steady flight: a periodic orbit of the full
+    /// model.
+    Trim(analyse::trim::TrimArgs),
+    /// Trim, then give derivatives, modes averaged over the beat, and Floquet's modes.
+    Stability(analyse::stability::StabilityArgs),
+    /// Trim, then give the control derivatives of every wing.
+    Derivatives(analyse::trimming::Trimming),
+    /// Trim, then give the mechanical power of flapping.
+    Power(analyse::power::PowerArgs),
+    /// Trim, disturb, and fly under feedback.
+    Stabilise(analyse::stabilise::StabiliseArgs),
+    /// The velocity of the air at points, on a line or on a plane, from a run.
+    Velocity(velocity::VelocityArgs),
+    /// Run the verification suite and write its report: what is claimed of the air, against what,
+    /// how far off.
+    Verify(verify::VerifyArgs),
+    /// List the presets and the shipped sets of wing angles.
+    Presets,
+    /// Write a preset as a commented case file to start from.
+    New(new::NewArgs),
+    /// Print the JSON schema of case files, for editors.
+    Schema,
+    /// Print the completions of a shell.
+    Completions {
+        /// Which shell.
+        shell: Shell,
+    },
+    /// Write manual pages: one of the program, one of each command.
+    Man(ManArgs),
+}
+
+/// Arguments of `wingbeat man`.
+#[derive(Args)]
+pub(crate) struct ManArgs {
+    /// Folder for the pages.
+    pub(crate) dir: PathBuf,
+    /// Replace files that exist already.
+    #[arg(long)]
+    pub(crate) overwrite: bool,
+}

@@ -1,0 +1,117 @@
+//! What `wingbeat check` says beforehand: the numbers of the flight, what is implausible about them,
+//! and what flying it will cost, from a few steps on trial.
+
+use std::time::{Duration, Instant};
+
+use wingbeat::analysis::Estimate;
+use wingbeat::flight::{AirModel, FlightError, FlightSetup, Simulation};
+
+use crate::command::pace::Pace;
+
+/// Unknown circulations beyond which the trial is left out: their matrix takes some seconds and
+/// 0.1 GB, and eight times the one and four times the other with every doubling.
+pub(crate) const MAX_UNKNOWNS: usize = 4000;
+/// Time for steps on trial.
+const TRIAL: Duration = Duration::from_millis(1500);
+
+/// Panels of the lattice, all surfaces together; 0 where the air is no lattice.
+pub(crate) fn panels(setup: &FlightSetup) -> usize {
+    let AirModel::VortexLattice(air) = &setup.air else {
+        return 0;
+    };
+    let animal = &setup.animal;
+    let wings = animal.wings.iter().map(|w| w.panels().len());
+    let own = animal.parts.iter();
+    let others = animal.segments.iter().flat_map(|s| &s.parts);
+    let body = own.chain(others).map(|p| p.mesh.quads.len());
+    wings.sum::<usize>() + if air.body_surfaces { body.sum() } else { 0 }
+}
+
+/// Circulations that are solved for at every step.
+pub(crate) fn unknowns(setup: &FlightSetup) -> usize {
+    match &setup.air {
+        AirModel::VortexLattice(air) if air.mirror => panels(setup).div_ceil(2),
+        _ => panels(setup),
+    }
+}
+
+/// The numbers of a flight, a line each.
+pub(crate) fn lines(e: &Estimate) -> Vec<String> {
+    let mut list = vec![];
+    let mut say = |name: &str, text: String| list.push(format!("{name:<10}{text}"));
+    for w in &e.wings {
+        let mut parts = vec![];
+        if w.tip_speed > 0.0 {
+            let stroke = w.stroke_amplitude.to_degrees();
+            parts.push(format!(
+                "stroke {stroke:.1} deg, mean tip speed {:.3} m/s",
+                w.tip_speed
+            ));
+        }
+        parts.extend(w.reynolds.map(|re| format!("Reynolds number {re:.0}")));
+        parts.extend(
+            w.reduced_frequency
+                .map(|k| format!("reduced frequency {k:.3}")),
+        );
+        say(
+            "motion",
+            format!("`{}`: {}", w.report.name, parts.join(", ")),
+        );
+    }
+    if let Some(f) = e.frequency {
+        let speed = e.flight_speed;
+        say("beat", format!("{f:.4} Hz, flight speed {speed:.3} m/s"));
+    }
+    if let Some(loading) = e.wing_loading {
+        say("loading", format!("{loading:.3} N per m2 of wing"));
+    }
+    let [x, y, z] = e.inertia.to_array();
+    say(
+        "inertia",
+        format!(
+            "of the body about its mass centre: roll {x:.3e}, pitch {y:.3e}, yaw {z:.3e} kg m2"
+        ),
+    );
+    if let Some(lift) = e.lift_over_weight {
+        say(
+            "lift",
+            format!("{lift:.2} weights on average as it starts, by blade elements"),
+        );
+    }
+    list
+}
+
+/// Seconds that the whole flight will take and the largest wake, from some steps on trial.
+///
+/// # Errors
+/// A step that fails.
+pub(crate) fn cost(flight: &mut Simulation) -> Result<String, FlightError> {
+    let mut pace = Pace::new(flight.setup());
+    let begun = Instant::now();
+    while !flight.finished() && begun.elapsed() < TRIAL {
+        flight.step()?;
+        pace.note(flight);
+    }
+    let steps = flight.state().step;
+    let seconds = begun.elapsed().as_secs_f64() + pace.seconds_left(steps);
+    let wake = match pace.largest_wake(steps) {
+        0.0 => String::new(),
+        wake => format!(", {wake:.0} wake rings and particles at the end"),
+    };
+    Ok(format!(
+        "about {} on {} threads, from {steps} steps on trial{wake}",
+        time(seconds),
+        rayon::current_num_threads()
+    ))
+}
+
+/// A time as people say it.
+pub(crate) fn time(seconds: f64) -> String {
+    match seconds {
+        s if s < 1.0 => "a second".to_owned(),
+        s if s < 100.0 => format!("{s:.0} s"),
+        s if s < 100.0 * 60.0 => format!("{:.0} min", s / 60.0),
+        s if s < 100.0 * 3600.0 => format!("{:.0} h", s / 3600.0),
+        s => format!("{:.0} days", s / 86400.0),
+    }
+}

@@ -1,0 +1,41 @@
+//! `wingbeat export`: a run in a format of other programs.
+
+use std::path::PathBuf;
+
+use clap::Args;
+use wingbeat::results::ResultDir;
+use wingbeat::results::export::{self, Format};
+
+use crate::command::failure::Failure;
+use crate::command::options::choose;
+use crate::command::terminal::say;
+
+/// Arguments of `wingbeat export`.
+#[derive(Args)]
+pub(crate) struct ExportArgs {
+    /// Result directory of the run.
+    dir: PathBuf,
+    /// Format: hdf5, vtkhdf, parquet or gltf.
+    #[arg(long, value_parser = format)]
+    format: Format,
+    /// Folder for the files; default the result directory.
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// Replace files that exist already.
+    #[arg(long)]
+    overwrite: bool,
+}
+
+fn format(name: &str) -> Result<Format, String> {
+    choose(name, &Format::ALL)
+}
+
+/// The whole command.
+pub(crate) fn export(args: &ExportArgs) -> Result<(), Failure> {
+    let dir = ResultDir::read(&args.dir)?;
+    let into = args.out.as_ref().unwrap_or(&args.dir);
+    for file in export::export(&dir, args.format, into, args.overwrite)? {
+        say!("wrote {}", file.display());
+    }
+    Ok(())
+}

@@ -1,0 +1,56 @@
+//! Why a command did not do what it was asked, and its exit code.
+
+use wingbeat::analysis::AnalysisError;
+use wingbeat::case::IoError;
+
+use crate::command::terminal::tell;
+
+/// Nothing was run.
+pub(crate) const REFUSED: u8 = 2;
+/// It failed midway.
+pub(crate) const FAILED: u8 = 1;
+/// Ended by a signal.
+pub(crate) const INTERRUPTED: u8 = 130;
+
+/// Why a command did not do what it was asked.
+pub(crate) enum Failure {
+    /// An option that cannot be used, or not here.
+    Option(String),
+    /// Case, result or file.
+    Io(IoError),
+    /// The analysis.
+    Analysis(AnalysisError),
+    /// What happened was told already; the exit code.
+    Told(u8),
+}
+
+impl From<IoError> for Failure {
+    fn from(e: IoError) -> Self {
+        Self::Io(e)
+    }
+}
+
+impl From<AnalysisError> for Failure {
+    fn from(e: AnalysisError) -> Self {
+        Self::Analysis(e)
+    }
+}
+
+impl Failure {
+    /// Tells it; the exit code.
+    pub(crate) fn tell(&self) -> u8 {
+        match self {
+            Self::Io(IoError::Case(report)) => tell!("{report}"), // begins with `error:` itself
+            Self::Io(e) => tell!("error: {e}"),
+            Self::Option(problem) => tell!("error: {problem}"),
+            Self::Analysis(e) => tell!("error: {e}"),
+            Self::Told(_) => {}
+        }
+        match self {
+            Self::Told(code) => *code,
+            Self::Analysis(AnalysisError::NotCovered { .. }) => REFUSED,
+            Self::Analysis(_) => FAILED,
+            Self::Option(_) | Self::Io(_) => REFUSED,
+        }
+    }
+}

@@ -1,0 +1,84 @@
+//! The command line of `wingbeat`, for the program and for whoever carries it along.
+
+#![deny(clippy::print_stdout, clippy::print_stderr)] // they panic where nobody reads; see `terminal`
+
+mod analyse;
+mod check;
+mod cli;
+mod expectation;
+mod export;
+mod failure;
+mod help;
+mod new;
+mod options;
+mod pace;
+mod plot;
+mod progress;
+mod remaining;
+mod report;
+mod run;
+mod show;
+mod signals;
+mod terminal;
+mod velocity;
+mod verify;
+mod view;
+mod watch;
+
+use std::ffi::OsString;
+
+use clap::FromArgMatches;
+use wingbeat::case;
+
+use cli::{Cli, Command};
+use failure::Failure;
+use terminal::say;
+
+/// Does what the command line `args` says, the name of the program first; the exit code. It is made
+/// to be called once, at the start of a process: threads and signals are set up for all of it.
+///
+/// ```
+/// assert_eq!(wingbeat::command::main(["wingbeat", "check", "fruit-fly-blade"].map(Into::into)), 0);
+/// ```
+pub fn main(args: impl IntoIterator<Item = OsString>) -> u8 {
+    let matches = help::command().try_get_matches_from(args);
+    let code = match matches.and_then(|found| Cli::from_arg_matches(&found)) {
+        Ok(cli) => run(cli.command).map_or_else(|failure| failure.tell(), |()| 0),
+        Err(message) => terminal::usage(&help::advised(message)),
+    };
+    terminal::close(code)
+}
+
+fn run(command: Command) -> Result<(), Failure> {
+    match command {
+        Command::Run(args) => run::run(&args),
+        Command::Resume(args) => run::resume(&args),
+        Command::View(args) => view::view(&args),
+        Command::Plot(args) => plot::plot(&args),
+        Command::Export(args) => export::export(&args),
+        Command::Show(args) => show::show(&args),
+        Command::Compare(args) => show::compare(&args),
+        Command::Check { case, set, trial } => check::check(&case, &set, trial),
+        Command::Trim(args) => analyse::trim::run(&args),
+        Command::Stability(args) => analyse::stability::run(&args),
+        Command::Derivatives(args) => analyse::derivatives::run(&args),
+        Command::Power(args) => analyse::power::run(&args),
+        Command::Stabilise(args) => analyse::stabilise::run(&args),
+        Command::Velocity(args) => velocity::run(&args),
+        Command::Verify(args) => verify::run(&args),
+        Command::Presets => {
+            new::list();
+            Ok(())
+        }
+        Command::New(args) => new::new(&args),
+        Command::Schema => {
+            say!("{}", case::schema());
+            Ok(())
+        }
+        Command::Completions { shell } => {
+            help::completions(shell);
+            Ok(())
+        }
+        Command::Man(args) => help::man(&args),
+    }
+}

@@ -1,0 +1,87 @@
+//! `wingbeat plot`: figures of a run for papers and screens, and an animation.
+
+use std::path::PathBuf;
+
+use clap::Args;
+use wingbeat::draw::figures::{self, Format, Kind, Order, Style, Window};
+use wingbeat::results::ResultDir;
+
+use crate::command::failure::Failure;
+use crate::command::options::{self, choose};
+use crate::command::terminal::say;
+
+/// Arguments of `wingbeat plot`.
+#[derive(Args)]
+pub(crate) struct PlotArgs {
+    /// Result directory of the run.
+    dir: PathBuf,
+    /// Figures: angles, forces, lollipop, beats, trajectory, path, phase, balances, wake,
+    /// animation; default all but the animation.
+    #[arg(value_name = "KIND", value_parser = kind)]
+    kinds: Vec<Kind>,
+    /// For a paper (180 mm wide, no title) or for the screen.
+    #[arg(long, default_value = "screen", value_parser = style)]
+    style: Style,
+    /// File format: svg (default), png or pdf; of the animation gif (default) or mp4 (needs ffmpeg).
+    #[arg(long, value_parser = format)]
+    format: Option<Format>,
+    /// Step whose wakes are drawn (the nearest frame); default the last.
+    #[arg(long, value_name = "STEP")]
+    step: Option<usize>,
+    /// Draw the flight from this time on: wingbeats, or seconds where there are none.
+    #[arg(long, value_name = "TIME", allow_negative_numbers = true,
+          value_parser = options::finite)]
+    from: Option<f64>,
+    /// Draw the flight up to this time.
+    #[arg(long, value_name = "TIME", allow_negative_numbers = true,
+          value_parser = options::finite)]
+    to: Option<f64>,
+    /// Draw so many wingbeats: from --from on, or up to --to, or the last ones.
+    #[arg(long, value_name = "COUNT", allow_negative_numbers = true,
+          value_parser = options::positive)]
+    beats: Option<f64>,
+    /// Folder for the files; default DIR/figures, DIR/figures/paper for papers.
+    #[arg(long, value_name = "FOLDER")]
+    out: Option<PathBuf>,
+    /// Replace figures that are there already.
+    #[arg(long)]
+    overwrite: bool,
+}
+
+fn kind(name: &str) -> Result<Kind, String> {
+    choose(name, &Kind::ALL.map(|(name, kind, _)| (name, kind)))
+}
+
+fn style(name: &str) -> Result<Style, String> {
+    choose(name, &Style::ALL)
+}
+
+fn format(name: &str) -> Result<Format, String> {
+    choose(name, &Format::ALL)
+}
+
+/// The whole command.
+pub(crate) fn plot(args: &PlotArgs) -> Result<(), Failure> {
+    let dir = ResultDir::read(&args.dir)?;
+    let folder = args.out.clone().unwrap_or_else(|| match args.style {
+        Style::Screen => args.dir.join("figures"),
+        Style::Paper => args.dir.join("figures/paper"),
+    });
+    let order = Order {
+        kinds: args.kinds.clone(),
+        style: args.style,
+        format: args.format,
+        step: args.step,
+        window: Window {
+            from: args.from,
+            to: args.to,
+            beats: args.beats,
+        },
+        folder,
+        overwrite: args.overwrite,
+    };
+    for file in figures::plot(&dir, &order)? {
+        say!("{}", file.display());
+    }
+    Ok(())
+}

@@ -1,0 +1,258 @@
+//! `wingbeat run` and `wingbeat resume`: fly a case, write its results, say what happened.
+
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use clap::Args;
+use wingbeat::case::{IoError, LoadedCase, presets};
+use wingbeat::draw::draw_run;
+use wingbeat::flight::{FlightError, Simulation};
+use wingbeat::results::{Outcome, ResultDir, RunWriter, saver};
+
+use crate::command::failure::{FAILED, Failure, INTERRUPTED};
+use crate::command::options::RunOptions;
+use crate::command::progress::Progress;
+use crate::command::signals::stop_flag;
+use crate::command::terminal::{say, tell};
+
+/// Arguments of `wingbeat run`.
+#[derive(Args)]
+pub(crate) struct RunArgs {
+    /// Case file or preset.
+    #[arg(default_value = presets::DEFAULT)]
+    case: String,
+    /// Result directory; default results/NAME, with a number appended if that exists.
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// Replace an earlier run in the result directory.
+    #[arg(long, requires = "out")]
+    overwrite: bool,
+    /// Set a key of the case, e.g. time.beats=3 (may be repeated).
+    #[arg(long = "set", value_name = "KEY=VALUE")]
+    set: Vec<String>,
+    #[command(flatten)]
+    options: RunOptions,
+}
+
+/// Arguments of `wingbeat resume`.
+#[derive(Args)]
+pub(crate) struct ResumeArgs {
+    /// Result directory of the run.
+    dir: PathBuf,
+    #[command(flatten)]
+    options: RunOptions,
+}
+
+/// A flight and where it is written to; the newest record is written already.
+struct Run {
+    case: LoadedCase,
+    flight: Simulation,
+    writer: RunWriter,
+}
+
+/// `wingbeat run`.
+pub(crate) fn run(args: &RunArgs) -> Result<(), Failure> {
+    let threads = set_threads(args.options.threads)?;
+    start(&args.options, prepare(args, threads)?)
+}
+
+/// `wingbeat resume`.
+pub(crate) fn resume(args: &ResumeArgs) -> Result<(), Failure> {
+    let threads = set_threads(args.options.threads)?;
+    match go_back(&args.dir, threads)? {
+        Some(run) => start(&args.options, run),
+        None => Ok(()),
+    }
+}
+
+fn start(options: &RunOptions, run: Run) -> Result<(), Failure> {
+    if !options.silent() {
+        let dir = run.writer.dir().path().display();
+        tell!("{}: results go to {dir}", run.case.name);
+    }
+    fly(options, run, &stop_flag())
+}
+
+/// The number of threads in use.
+fn set_threads(wanted: Option<usize>) -> Result<usize, Failure> {
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(wanted.unwrap_or(0));
+    let built = pool.build_global();
+    built.map_err(|e| Failure::Option(format!("cannot start threads: {e}")))?;
+    Ok(rayon::current_num_threads())
+}
+
+/// Says which program of the case is going to run, before it does: it runs with the user's rights.
+pub(crate) fn name_program(case: &LoadedCase) {
+    if let Some(program) = case.program() {
+        tell!(
+            "{}: the air is computed by another program, which runs with your rights: {program}",
+            case.name
+        );
+    }
+}
+
+/// Everything that can be refused before a step is made; the directory is made last.
+fn prepare(args: &RunArgs, threads: usize) -> Result<Run, IoError> {
+    let case = LoadedCase::find(&args.case, &args.set)?;
+    if let Some(out) = args
+        .out
+        .as_deref()
+        .filter(|out| out.exists() && !args.overwrite)
+    {
+        ResultDir::create(out)?; // refuses before the flight is built
+    }
+    let flight = build(&case)?;
+    let dir = match &args.out {
+        Some(out) if args.overwrite => ResultDir::overwrite(out)?,
+        Some(out) => ResultDir::create(out)?,
+        None => ResultDir::next_free(Path::new("results"), &case.name)?,
+    };
+    begin(dir, case, flight, threads)
+}
+
+fn build(case: &LoadedCase) -> Result<Simulation, IoError> {
+    name_program(case);
+    let flight = Simulation::new(case.setup.clone());
+    Ok(flight.map_err(|e| case.refused(&e))?)
+}
+
+/// Writes what there is before the first step.
+fn begin(
+    dir: ResultDir,
+    case: LoadedCase,
+    flight: Simulation,
+    threads: usize,
+) -> Result<Run, IoError> {
+    let mut writer = RunWriter::new(dir, &case, threads)?;
+    writer.write(flight.record(), || flight.snapshot())?;
+    Ok(Run {
+        case,
+        flight,
+        writer,
+    })
+}
+
+/// Goes back to the last checkpoint; to the start, where a run was killed before its first one;
+/// nowhere, where it flew to its end.
+fn go_back(dir: &Path, threads: usize) -> Result<Option<Run>, IoError> {
+    let dir = ResultDir::open(dir)?;
+    let saved = saver::read(dir.path())?;
+    if saved.manifest.outcome == Outcome::Finished {
+        if !dir.case()?.output.save.keep {
+            saver::forget(dir.path())?; // a kill at the very end may have left it
+        }
+        say!("{} has already finished.", dir.path().display());
+        return Ok(None);
+    }
+    let case = dir.case()?;
+    let Some((header, state)) = saved.checkpoint else {
+        let flight = build(&case)?;
+        return begin(dir, case, flight, threads).map(Some);
+    };
+    let flight = Simulation::resume(case.setup.clone(), state).map_err(|e| IoError::Damaged {
+        path: dir.join("checkpoint.bin"),
+        problem: format!("the flight cannot go on from it: {e}"),
+    })?;
+    tell!(
+        "{}: goes on after step {} of {}",
+        case.name,
+        header.step,
+        case.setup.time.steps
+    );
+    let writer = RunWriter::resume(dir, &case, &header, saved.manifest, threads)?;
+    Ok(Some(Run {
+        case,
+        flight,
+        writer,
+    }))
+}
+
+fn fly(options: &RunOptions, mut run: Run, stop: &AtomicBool) -> Result<(), Failure> {
+    let mut progress = Progress::new(&run.case.setup, options, run.flight.state().step);
+    // Within the pool: handing it work from outside wakes a thread for every sum.
+    let flown = rayon::scope(|_| steps(&mut run, &mut progress, stop));
+    progress.clear();
+    let outcome = match flown {
+        Ok(outcome) => outcome,
+        Err(StepError::Flight(e)) => Outcome::Failed(e.to_string()),
+        Err(StepError::Writing(e)) => return Err(unwritten(run.writer, &e)),
+    };
+    let path = run.writer.dir().path().to_owned();
+    match run.writer.finish(outcome.clone(), draw_run) {
+        Ok(summary) if options.json => say!("{}", summary.to_json_line(&path)),
+        Ok(summary) if !options.quiet => {
+            say!("\n{}\nResults: {}", summary.to_text(), path.display());
+        }
+        Ok(_) => {}
+        Err(e) => {
+            tell!(
+                "error: {e}\nThe flight itself is kept: `wingbeat resume {0}` goes on from its last checkpoint.",
+                path.display()
+            );
+            return Err(Failure::Told(FAILED));
+        }
+    }
+    report(&outcome, &path)
+}
+
+/// A result that cannot be written any more, e.g. on a full disk.
+fn unwritten(writer: RunWriter, e: &IoError) -> Failure {
+    let path = writer.dir().path().to_owned();
+    writer.abandon(e.to_string());
+    tell!(
+        "error: {e}\nThe run stopped. What was written up to there is kept; when there is space again, `wingbeat resume {}` goes on from the last checkpoint, bit for bit.",
+        path.display()
+    );
+    Failure::Told(FAILED)
+}
+
+fn report(outcome: &Outcome, path: &Path) -> Result<(), Failure> {
+    let dir = path.display();
+    match outcome {
+        Outcome::Finished | Outcome::Running => Ok(()),
+        Outcome::Interrupted => {
+            tell!(
+                "interrupted: everything up to here is written to {dir}; `wingbeat resume {dir}` goes on"
+            );
+            Err(Failure::Told(INTERRUPTED))
+        }
+        Outcome::Unwritten(why) | Outcome::Failed(why) => {
+            tell!("error: {why}\nEverything up to there is written to {dir}");
+            Err(Failure::Told(FAILED))
+        }
+    }
+}
+
+enum StepError {
+    Flight(FlightError),
+    Writing(IoError),
+}
+
+/// The loop of the flight: the newest step is written; save, step, write.
+fn steps(run: &mut Run, progress: &mut Progress, stop: &AtomicBool) -> Result<Outcome, StepError> {
+    let Run {
+        case,
+        flight,
+        writer,
+    } = run;
+    let history = writer.dir().join("history.csv");
+    loop {
+        let stopped = stop.load(Ordering::SeqCst);
+        let saved = match stopped {
+            true => writer.save(flight.state()),
+            false => writer.save_if_due(flight.state()),
+        };
+        saved.map_err(StepError::Writing)?;
+        if flight.finished() {
+            return Ok(Outcome::Finished);
+        }
+        if stopped {
+            return Ok(Outcome::Interrupted);
+        }
+        flight.step().map_err(StepError::Flight)?;
+        writer
+            .write(flight.record(), || flight.snapshot())
+            .map_err(StepError::Writing)?;
+        progress.show(flight, &history, &case.output);
+    }
+}

@@ -1,0 +1,145 @@
+//! `wingbeat verify`: run the verification suite and write its report.
+
+use std::path::PathBuf;
+use std::sync::Mutex;
+use std::time::Instant;
+
+use clap::Args;
+use wingbeat::case::IoError;
+use wingbeat::results::file::NewFile;
+use wingbeat::verify::{Case, Entry, Report};
+
+use crate::command::failure::{FAILED, Failure};
+use crate::command::terminal::{say, tell};
+use crate::command::watch::Watch;
+
+/// Arguments of `wingbeat verify`.
+#[derive(Args)]
+pub(crate) struct VerifyArgs {
+    /// Only the short set, some two minutes on two cores.
+    #[arg(long)]
+    quick: bool,
+    /// Only cases whose name holds this.
+    #[arg(long, value_name = "TEXT", default_value = "")]
+    only: String,
+    /// Folder for verification.md, .csv and .json.
+    #[arg(long, value_name = "DIR", default_value = "verification")]
+    out: PathBuf,
+    /// Go on where an earlier run into the same folder ended: its cases are taken as they are,
+    /// those named by `--only` run again.
+    #[arg(long, conflicts_with = "overwrite")]
+    resume: bool,
+    /// Replace a report that is there already.
+    #[arg(long)]
+    overwrite: bool,
+    /// Names and contents of the cases; nothing is run.
+    #[arg(long)]
+    list: bool,
+}
+
+/// The whole command: a failure if a row fails.
+pub(crate) fn run(args: &VerifyArgs) -> Result<(), Failure> {
+    let cases = wingbeat::verify::select(args.quick, &args.only);
+    if cases.is_empty() {
+        return Err(Failure::Option(format!(
+            "no case holds `{}`; see `wingbeat verify --list`",
+            args.only
+        )));
+    }
+    if args.list {
+        cases.iter().for_each(|c| say!("{:<28}{}", c.name, c.about));
+        return Ok(());
+    }
+    let files = claim(args)?;
+    let start = Instant::now();
+    let known = if args.resume { earlier(args)? } else { vec![] };
+    let is_left = |c: &Case| !args.only.is_empty() || known.iter().all(|e| e.case != c.name);
+    let left: Vec<Case> = cases.into_iter().filter(is_left).collect();
+    let so_far = Mutex::new(known);
+    let watch = Watch::of("verifying", left.len() as u64);
+    wingbeat::verify::run(&left, args.quick, |e| {
+        watch.part(|| note(e, start));
+        keep(&so_far, e, args, &files);
+    });
+    drop(watch);
+    let report = Report {
+        quick: args.quick,
+        entries: so_far.into_inner().expect("no case panicked while writing"),
+    };
+    write(&report, &files)?;
+    let [pass, fail, unjudged] = report.counts();
+    say!(
+        "{pass} rows pass, {fail} fail, {unjudged} are reported; {:.0} s; see {}",
+        start.elapsed().as_secs_f64(),
+        files[0].path().display()
+    );
+    match fail {
+        0 => Ok(()),
+        _ => Err(Failure::Told(FAILED)),
+    }
+}
+
+/// The files of the report, page, table and data.
+fn claim(args: &VerifyArgs) -> Result<[NewFile; 3], IoError> {
+    wingbeat::results::file::make_folder(&args.out)?;
+    let overwrite = args.overwrite || args.resume;
+    let file = |name: &str| NewFile::claim(&args.out.join(name), overwrite);
+    Ok([
+        file("verification.md")?,
+        file("verification.csv")?,
+        file("verification.json")?,
+    ])
+}
+
+/// What an earlier run of the same set left; failures are tried again.
+fn earlier(args: &VerifyArgs) -> Result<Vec<Entry>, Failure> {
+    let path = args.out.join("verification.json");
+    let foreign = |problem: &str| {
+        Failure::Option(format!(
+            "--resume: `{}` {problem}; leave --resume out, or name another folder",
+            path.display()
+        ))
+    };
+    let text = match std::fs::read_to_string(&path) {
+        Err(e) if e.kind() == std::io::ErrorKind::NotFound => return Ok(vec![]),
+        text => text.map_err(|e| foreign(&format!("cannot be read: {e}")))?,
+    };
+    let report = Report::from_json(&text).map_err(|_| foreign("is no verification report"))?;
+    if report.quick != args.quick {
+        return Err(foreign("is of the other set (--quick)"));
+    }
+    let mut entries = report.entries;
+    entries.retain(|e| e.failure.is_none());
+    Ok(entries)
+}
+
+/// Writes what is done so far: a long run that is ended early is not lost.
+fn keep(so_far: &Mutex<Vec<Entry>>, entry: &Entry, args: &VerifyArgs, files: &[NewFile; 3]) {
+    let all = wingbeat::verify::select(args.quick, "");
+    let mut entries = so_far.lock().expect("no case panicked while writing");
+    entries.retain(|e| e.case != entry.case);
+    entries.push(entry.clone());
+    entries.sort_by_key(|e| all.iter().position(|c| c.name == e.case));
+    let report = Report {
+        quick: args.quick,
+        entries: entries.clone(),
+    };
+    // The whole report is written at the end, and what goes wrong is reported then.
+    let _ = write(&report, files);
+}
+
+fn note(entry: &Entry, start: Instant) {
+    let [pass, fail, unjudged] = entry.counts();
+    let seconds = start.elapsed().as_secs_f64();
+    tell!(
+        "{seconds:>7.1} s  {:<28} {pass} pass, {fail} fail, {unjudged} reported",
+        entry.case
+    );
+}
+
+fn write(report: &Report, files: &[NewFile; 3]) -> Result<(), IoError> {
+    let page = report.page(env!("CARGO_PKG_VERSION"));
+    let texts = [page, report.csv(), report.json()];
+    let mut written = files.iter().zip(&texts);
+    written.try_for_each(|(file, text)| file.replace(text.as_bytes()))
+}
