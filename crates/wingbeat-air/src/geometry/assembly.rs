@@ -313,7 +313,13 @@ fn joined_columns(joined: &[[usize; 2]], sheets: &[Sheet]) -> Vec<JoinedColumns>
             .flat_map(move |x| columns_at(b).map(move |y| JoinedColumns([x, y])))
             .collect::<Vec<_>>()
     };
-    joined.iter().flat_map(pairs).collect()
+    // A sheet that leaves a surface all around ends where it begins.
+    let around = |(s, sheet): (usize, &Sheet)| {
+        let closed = sheet.panels.len() > 2 && sheet.nodes.first() == sheet.nodes.last();
+        closed.then(|| JoinedColumns([(s, 0), (s, sheet.panels.len())]))
+    };
+    let closed = sheets.iter().enumerate().filter_map(around);
+    joined.iter().flat_map(pairs).chain(closed).collect()
 }
 
 /// Directed edges of the ring of a panel, `c0 -> c3 -> c2 -> c1 -> c0`: left-handed about the

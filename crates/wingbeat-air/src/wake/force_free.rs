@@ -18,6 +18,7 @@
 //! nodes at the other ends of the filaments, in proportion to their vorticity, who annul of it what they can, and so on:
 //! the wake keeps its impulse to some hundredths of the lift, with no correction farther than a few filaments from its cause.
 
+use crate::geometry::JoinedColumns;
 use crate::lattice::Lattice;
 use crate::state::AirState;
 use crate::wake::filaments::Filaments;
@@ -58,6 +59,8 @@ pub(crate) struct ForceFree {
     /// Nodes that are moved, by their number in the network of the wakes, and in that of the newest rows with their
     /// weights.
     wake: Vec<Option<usize>>,
+    /// The node that each one is: another one where columns are joined.
+    same: Vec<usize>,
     near: Vec<[(Option<usize>, f64); 2]>,
     /// Nodes at two ends of a filament.
     links: Vec<[usize; 2]>,
@@ -91,6 +94,9 @@ impl ForceFree {
         let both = [&mut self.velocity, &mut self.vorticity];
         sums.add_with_vorticity(&self.middles, lattice.mirrors(), both);
         self.annul(velocity);
+        for (i, &one) in self.same.iter().enumerate().filter(|(i, one)| i != *one) {
+            velocity.set(i, velocity.get(one));
+        }
     }
 
     /// Which nodes are moved.
@@ -114,6 +120,35 @@ impl ForceFree {
             }
             next += if is_moved { free + width } else { 0 };
         }
+        self.same.clear();
+        self.same.extend(0..next);
+        self.join(lattice, state);
+    }
+
+    /// Nodes of joined columns are one node: what their filaments have in common cancels there.
+    fn join(&mut self, lattice: &Lattice, state: &AirState) {
+        let nodes = |s: usize| match lattice.reflected_sheet(s) {
+            Some(_) => 0,
+            None => state.sheets[s].nodes.len() + state.sheets[s].columns + 1,
+        };
+        for JoinedColumns([(s, c), (t, d)]) in &lattice.topology().joined_columns {
+            let first = |k: usize| (0..k).map(nodes).sum::<usize>();
+            let place = |k: usize, column: usize, back: usize| {
+                let width = state.sheets[k].columns + 1;
+                (nodes(k) >= (back + 1) * width)
+                    .then(|| first(k) + nodes(k) - (back + 1) * width + column)
+            };
+            for back in 0.. {
+                let (Some(one), Some(other)) = (place(*s, *c, back), place(*t, *d, back)) else {
+                    break;
+                };
+                self.same[other] = self.same[one];
+            }
+        }
+        let same = |node: &mut Option<usize>| *node = node.map(|n| self.same[n]);
+        self.wake.iter_mut().for_each(same);
+        let ends = self.near.iter_mut().flatten().map(|(node, _)| node);
+        ends.for_each(same);
     }
 
     fn add_wake(&mut self, wake: &Network) {
