@@ -142,7 +142,7 @@ fn regress_presets_fly_in_the_air_they_flew_in() {
 
 #[test]
 fn refuses_keys_without_effect() {
-    let cases: [(&str, &[&str], &str, &str); 20] = [
+    let cases: [(&str, &[&str], &str, &str); 21] = [
         (
             "fruit-fly-blade",
             &["air.ground={point_m=[0,0,1],normal=[0,0,1]}"],
@@ -193,9 +193,18 @@ fn refuses_keys_without_effect() {
         ),
         (
             "fruit-fly-hover",
-            &["air.leading_edge_threshold=0.2"],
+            &["air.leading_edge=always", "air.leading_edge_threshold=0.2"],
             "air.leading_edge_threshold",
             "suction",
+        ),
+        (
+            "fruit-fly-hover",
+            &[
+                "air.loads=pressure",
+                "air.leading_edge_suction_efficiency=1",
+            ],
+            "air.leading_edge_suction_efficiency",
+            "joukowski",
         ),
         (
             "fruit-fly-hover",
@@ -307,6 +316,11 @@ fn refuses_settings_of_the_lattice_that_do_not_fit_each_other_at_their_keys() {
             "stream",
         ),
         ("ring_inset = 0.5", "ring_inset", "< 0.5"),
+        (
+            "shed = [\"leading\"]\nleading_edge_suction_efficiency = 1.1",
+            "leading_edge_suction_efficiency",
+            "<= 1",
+        ),
         ("summation_tolerance = 0.2", "summation_tolerance", "<= 0.1"),
         (
             "shed = [\"leading\"]\nleading_edge = \"angle_of_attack\"\nleading_edge_threshold_deg = 200",

@@ -240,7 +240,16 @@ const TABLE: &[(&[&str], &str, &str)] = &[
     ),
     (&["air.shed=[\"trailing\"]"], "air.leading_edge=suction", ""),
     (&[], "air.leading_edge_threshold_deg=20", ""),
-    (&[], "air.leading_edge_threshold=0.2", ""),
+    (
+        &["air.leading_edge=always"],
+        "air.leading_edge_threshold=0.2",
+        "",
+    ),
+    (
+        &["air.loads=polhamus"],
+        "air.leading_edge_suction_efficiency=0.5",
+        "",
+    ),
     (
         &["air.shed=[\"trailing\"]"],
         "air.particles={ leading_edge = true, radius_m = 1e-4 }",

@@ -3,7 +3,7 @@
 use std::fmt;
 use std::sync::Arc;
 
-use wingbeat_air::{AirSettings, CoreModel, LoadMethod, SheddingKinds, Wind};
+use wingbeat_air::{AirSettings, CoreModel, LeadingEdge, LoadMethod, SheddingKinds, Wind};
 use wingbeat_blade::DerivativeTable;
 use wingbeat_blade::{BladeSettings, BodyDrag};
 use wingbeat_dynamics::Link;
@@ -177,6 +177,10 @@ impl AirOptions {
                 shedding: SheddingKinds {
                     tip: true,
                     ..SheddingKinds::TRAILING
+                },
+                leading: LeadingEdge::Suction {
+                    threshold: 0.15,
+                    efficiency: 0.0,
                 },
                 ..AirSettings::accurate(density, DVec3::ZERO)
             },

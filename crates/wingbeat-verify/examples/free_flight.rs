@@ -16,8 +16,10 @@ use wingbeat_air::{AirError, AirSettings, Lattice, NodeMotion, SheddingKinds, Su
 use wingbeat_blade::{BladeSettings, BladeWing, FrameAcceleration, FrameMotion, Strip};
 use wingbeat_flight::AirOptions;
 use wingbeat_math::{DMat3, DVec3, r2};
+use wingbeat_model::planform::{Beta, ChordSize};
+use wingbeat_verify::lab::forces;
+use wingbeat_verify::lab::outline::{Spread, nodes};
 use wingbeat_verify::lab::series::{Table, correlation, rms};
-use wingbeat_verify::lab::{forces, rectangle};
 
 /// Frames a second.
 pub const RATE: f64 = 7500.0;
@@ -29,8 +31,10 @@ const WING: [f64; 2] = [2.99e-3, 0.874e-3];
 const AXIS: f64 = 0.25;
 /// Panels of the lattice along chord and span.
 const MESH: [usize; 2] = [5, 8];
-/// Where the lattice begins over the length: 0.2 % of the second moment of area lies inside.
-const ROOT: f64 = 0.12;
+/// Where the lattice begins over the length.
+const ROOT: f64 = 0.05;
+/// Radius of gyration over the length.
+const R2_HAT: f64 = 0.579;
 const SIDES: [f64; 2] = [-1.0, 1.0];
 /// Of the air [kg/m3].
 const DENSITY: f64 = 1.225;
@@ -132,7 +136,7 @@ impl Track {
 
     /// The same by the lattice of the insect presets with leading-edge vorticity, its wakes a beat long.
     fn lattice_forces(&self) -> Result<Vec<DVec3>, AirError> {
-        let [length, chord] = WING;
+        let [_, chord] = WING;
         let insect = AirOptions::insect(DENSITY, 1.5e-5, chord).lattice;
         let settings = AirSettings {
             shedding: SheddingKinds {
@@ -146,12 +150,7 @@ impl Track {
         let surfaces = ["left", "right"].map(|name| Surface::grid(name, MESH[0], MESH[1]));
         let lattice = Lattice::new(surfaces.to_vec(), settings)?;
         let frames = [0, 1].map(|side| self.frames(side));
-        let flat = SIDES.map(|side| {
-            let span = side * (1.0 - ROOT) * length * DVec3::Y;
-            let corner = AXIS * chord * DVec3::X + side * ROOT * length * DVec3::Y;
-            let nodes = rectangle(MESH[0], MESH[1], -chord * DVec3::X, span);
-            nodes.iter().map(|x| *x + corner).collect::<Vec<_>>()
-        });
+        let flat = SIDES.map(wing);
         let motion = |t: f64| {
             let k = (t * RATE).round() as usize;
             let mut motion = NodeMotion::default();
@@ -170,6 +169,30 @@ impl Track {
         let forces = forces(&lattice, motion, 1.0 / RATE, self.place.len() - 1)?;
         Ok(forces.iter().map(|f| *f / WEIGHT).collect())
     }
+}
+
+/// Nodes of a flat wing, x forward, y right: as broad as Ellington's beta distribution. The roots of rectangular wings pass
+/// through each other where the strokes end.
+fn wing(side: f64) -> Vec<DVec3> {
+    let [length, mean] = WING;
+    let beta = Beta {
+        length,
+        size: ChordSize::Mean(mean),
+        r2_hat: R2_HAT,
+        root_offset: ROOT * length,
+        axis_fraction: AXIS,
+        least_chord: 0.15,
+    };
+    let chord = beta.fit().expect("a wing");
+    let outline = |y: f64| {
+        let c = chord.at((y / length - ROOT) / (1.0 - ROOT));
+        [AXIS * c, -c]
+    };
+    let nodes = nodes(outline, [ROOT * length, length], MESH, Spread::Uniform);
+    nodes
+        .iter()
+        .map(|x| DVec3::new(x.x, side * x.y, 0.0))
+        .collect()
 }
 
 /// How the frame of a wing moves.

@@ -179,17 +179,6 @@ fn refuses_a_gust_table_that_goes_backwards() {
 #[test]
 fn refuses_a_criterion_without_its_threshold() {
     refused(
-        "air-threshold",
-        "leading_edge_threshold = 0.2\n",
-        "",
-        "[air]",
-        &[
-            "air.leading_edge_threshold",
-            "needs this threshold",
-            "try: ",
-        ],
-    );
-    refused(
         "air-threshold-deg",
         "leading_edge = \"suction\"\nleading_edge_threshold = 0.2\n",
         "leading_edge = \"angle_of_attack\"\n",

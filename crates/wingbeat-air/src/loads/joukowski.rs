@@ -5,11 +5,11 @@
 //! pressure on the sheet and the suction at its free edges. A segment of an edge that sheds counts
 //! half, as its other half is wake.
 
-use crate::geometry::{Edge, NodeMotion, chord};
+use crate::geometry::{Edge, NodeMotion, Strip, chord};
 use crate::lattice::Lattice;
 use crate::loads::lag::add_lag;
 use crate::loads::values::AirLoads;
-use crate::settings::LoadMethod;
+use crate::settings::{LeadingEdge, LoadMethod};
 use crate::solve::is_computed;
 use crate::state::AirState;
 use crate::wake::{Filaments, Sums};
@@ -77,18 +77,23 @@ impl Segments {
             LoadMethod::Pressure | LoadMethod::Polhamus => self.suction(&out.panels.normal),
         };
         out.inviscid_force = out.force.iter().sum::<DVec3>() + suction;
-        if method == LoadMethod::Polhamus {
-            self.polhamus(lattice, motion, out);
+        match method {
+            LoadMethod::Joukowski => self.lose_suction(lattice, motion, out),
+            LoadMethod::Polhamus => self.polhamus(lattice, motion, out),
+            LoadMethod::Pressure => {}
         }
     }
 
     /// What pressures lack: the parts of the segments' forces along the panels. In their sum those of segments inside a
     /// surface are the pressure's on curved ones, what is left pulls at the edges.
     fn suction(&self, normals: &[DVec3]) -> DVec3 {
-        let forces = self.panel_force.iter().zip(normals);
-        forces
-            .map(|([force, _], n)| *force - force.dot(*n) * *n)
-            .sum()
+        (0..normals.len()).map(|p| self.along(p, normals)).sum()
+    }
+
+    /// Part of the segments' force on a panel along it.
+    fn along(&self, p: usize, normals: &[DVec3]) -> DVec3 {
+        let ([force, _], n) = (self.panel_force[p], normals[p]);
+        force - force.dot(n) * n
     }
 
     /// Velocity of the air relative to the places on the segments that are wanted.
@@ -182,6 +187,22 @@ impl Segments {
         add_lag(lattice, filaments, position, out);
     }
 
+    /// Takes from leading edges that may shed what their suction lacks of the force it would have on round ones.
+    fn lose_suction(&self, lattice: &Lattice, motion: &NodeMotion, out: &mut AirLoads) {
+        let LeadingEdge::Suction { efficiency, .. } = lattice.settings().leading else {
+            return;
+        };
+        let edges = &lattice.topology().edges;
+        let strips = lattice.strips().iter();
+        for strip in strips.filter(|s| efficiency < 1.0 && edges[s.edge].wake.is_some()) {
+            let (aft, _) = chord(strip, &motion.position);
+            let along = |&p: &usize| self.along(p, &out.panels.normal);
+            let pull: DVec3 = strip.panels.iter().map(along).sum();
+            let lost = (1.0 - efficiency) * (-pull.dot(aft)).max(0.0) * aft;
+            add_at_edge(strip, motion, lost, out);
+        }
+    }
+
     /// The suction of a strip is the part of its segments' forces along the chord, forward; it is added
     /// to the leading panel along its normal, on the side to which the pressure of the strip pushes. It acts where suction
     /// does, at the leading edge.
@@ -195,9 +216,15 @@ impl Segments {
             let normal = out.panels.normal[first];
             let push: DVec3 = strip.panels.iter().map(|&p| out.force[p]).sum();
             let force = suction * push.dot(normal).signum() * normal;
-            let edge = motion.position[strip.nodes[0]].midpoint(motion.position[strip.nodes[1]]);
-            out.force[first] += force;
-            out.couple[first] += (edge - out.panels.point[first]).cross(force);
+            add_at_edge(strip, motion, force, out);
         }
     }
+}
+
+/// Adds a force on the leading panel of a strip that acts at the leading edge.
+fn add_at_edge(strip: &Strip, motion: &NodeMotion, force: DVec3, out: &mut AirLoads) {
+    let first = strip.panels[0];
+    let edge = motion.position[strip.nodes[0]].midpoint(motion.position[strip.nodes[1]]);
+    out.force[first] += force;
+    out.couple[first] += (edge - out.panels.point[first]).cross(force);
 }

@@ -41,7 +41,7 @@ pub(crate) fn leading_values(
                 let angle = across.abs().atan2(along);
                 [angle, all_or_none(angle > threshold)]
             }
-            LeadingEdge::Suction { threshold } => {
+            LeadingEdge::Suction { threshold, .. } => {
                 let middle = 0.5 * (position[strip.nodes[0]] + position[strip.nodes[1]]);
                 let h = 2.0 * (out.panels.point[p] - middle).dot(aft);
                 let a = (1.0 - 2.0 * h / c).clamp(-1.0, 1.0).acos();

@@ -121,12 +121,23 @@ impl AirSettings {
                 threshold,
                 "an angle in rad from 0 to pi",
             ),
-            LeadingEdge::Suction { threshold } => require(
-                is_positive(threshold),
-                "leading suction threshold",
+            LeadingEdge::Suction {
                 threshold,
-                "a finite number above 0",
-            ),
+                efficiency,
+            } => {
+                require(
+                    is_positive(threshold),
+                    "leading suction threshold",
+                    threshold,
+                    "a finite number above 0",
+                )?;
+                require(
+                    (0.0..=1.0).contains(&efficiency),
+                    "leading suction efficiency",
+                    efficiency,
+                    "a number from 0 to 1",
+                )
+            }
             LeadingEdge::Never | LeadingEdge::Always => Ok(()),
         }
     }

@@ -68,7 +68,10 @@ fn exact_quarter_chord_of_a_flat_plate_in_plane_flow() {
             let settings = AirSettings {
                 loads,
                 shedding,
-                leading: LeadingEdge::Suction { threshold: 9.0 },
+                leading: LeadingEdge::Suction {
+                    threshold: 9.0,
+                    efficiency: 1.0,
+                },
                 ..settings.clone()
             };
             let found = centre(settings, LONG, [rows, 1], (0.1 * LONG, 150));

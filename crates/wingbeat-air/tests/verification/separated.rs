@@ -3,7 +3,8 @@
 use crate::common::{fly, rectangle, total_force};
 use crate::wakes::ALL;
 use wingbeat_air::{
-    AirSettings, CoreModel, Lattice, LeadingEdge, LoadMethod, NodeMotion, SheddingKinds, Surface,
+    AirLoads, AirSettings, CoreModel, Lattice, LeadingEdge, LoadMethod, NodeMotion, SheddingKinds,
+    Surface,
 };
 use wingbeat_math::{DVec3, r2, r3};
 
@@ -45,7 +46,7 @@ fn separated_hover(change: impl Fn(&mut AirSettings)) -> [[f64; 2]; 3] {
     let lattice = Lattice::new(wings.to_vec(), settings).unwrap();
     let (mut forces, mut impulses) = (Vec::new(), Vec::new());
     fly(&lattice, normal_hover, 0.025, 121, |_, _, loads, _| {
-        forces.push(total_force(loads).z);
+        forces.push(loads.inviscid_force.z);
         impulses.push(loads.impulse.z);
     })
     .unwrap();
@@ -164,7 +165,24 @@ fn turning(
     [dt, last]: [f64; 2],
     mut see: impl FnMut(f64, [f64; 3]),
 ) {
-    let (rows, cols) = (6, 8);
+    turning_wing(leading, angle, [dt, last], |t, newest, loads| {
+        let suction = loads.leading[COLS / 2];
+        see(t, [suction, newest, total_force(loads).z]);
+    });
+}
+
+/// Panels along chord and span of the wing that turns.
+const ROWS: usize = 6;
+const COLS: usize = 8;
+
+/// The same, which shows time, newest circulation and loads.
+fn turning_wing(
+    leading: LeadingEdge,
+    angle: impl Fn(f64) -> [f64; 2],
+    [dt, last]: [f64; 2],
+    mut see: impl FnMut(f64, f64, &AirLoads),
+) {
+    let (rows, cols) = (ROWS, COLS);
     let settings = AirSettings {
         shedding: SheddingKinds {
             leading: true,
@@ -197,10 +215,17 @@ fn turning(
             0 => 0.0,
             n => sheet.gamma[n - sheet.columns / 2],
         };
-        let now = [loads.leading[cols / 2], newest, total_force(loads).z];
-        see(step as f64 * dt, now);
+        see(step as f64 * dt, newest, loads);
     })
     .unwrap();
+}
+
+/// An edge that holds suction up to this parameter, and this part of its force.
+fn held(threshold: f64, efficiency: f64) -> LeadingEdge {
+    LeadingEdge::Suction {
+        threshold,
+        efficiency,
+    }
 }
 
 /// Up by 0.6 rad within a chord of travel, and down again after `hold` chords.
@@ -247,14 +272,9 @@ fn behaves_suction_of_a_shedding_edge_stays_near_what_it_holds() {
     let most = |threshold: f64, dt: f64| {
         let mut most = 0.0_f64;
         let ramp = |t: f64| pulse(t, 9.0);
-        turning(
-            LeadingEdge::Suction { threshold },
-            ramp,
-            [dt, 2.0],
-            |_, now| {
-                most = most.max(now[0]);
-            },
-        );
+        turning(held(threshold, 1.0), ramp, [dt, 2.0], |_, now| {
+            most = most.max(now[0]);
+        });
         most
     };
     let [coarse, fine] = [0.05, 0.025].map(|dt| most(0.2, dt));
@@ -263,6 +283,46 @@ fn behaves_suction_of_a_shedding_edge_stays_near_what_it_holds() {
     // Measured 0.335, 0.331 and 0.450.
     assert!(coarse > 0.2 && coarse < 0.4 && (fine / coarse - 1.0).abs() < 0.05);
     assert!(attached > 1.2 * coarse);
+}
+
+/// Thin-airfoil theory: the suction of a strip pulls with `pi rho c U^2 A0^2` per span, and edges with half the efficiency
+/// have half of it, none with none; nothing else changes.
+#[test]
+fn exact_suction_force_follows_from_its_parameter_and_goes_with_the_efficiency() {
+    let pull = |threshold: f64, efficiency: f64| {
+        let mut last = [0.0; 3];
+        let small = |t: f64| [0.1 * t.min(1.0), if t < 1.0 { 0.1 } else { 0.0 }];
+        turning_wing(
+            held(threshold, efficiency),
+            small,
+            [0.1, 3.0],
+            |t, _, loads| {
+                let (aft, up) = (r2(small(t)[0]) * DVec3::X, r2(small(t)[0]) * DVec3::Z);
+                let strip = (0..ROWS).map(|i| loads.force[i * COLS + COLS / 2]);
+                let force: DVec3 = strip.sum();
+                last = [
+                    -force.dot(aft) / (6.0 / COLS as f64),
+                    force.dot(up),
+                    loads.leading[COLS / 2],
+                ];
+            },
+        );
+        last
+    };
+    for threshold in [9.0, 0.03] {
+        let [whole, half, none] = [1.0, 0.5, 0.0].map(|e| pull(threshold, e));
+        let exact = std::f64::consts::PI * whole[2].powi(2);
+        println!(
+            "held {threshold}: pull {}, by the parameter {exact}",
+            whole[0]
+        );
+        println!("{half:?} {none:?}");
+        // Six panels along the chord.
+        assert!(threshold < 9.0 || (whole[0] / exact - 1.0).abs() < 0.1);
+        assert!(whole[0] > 0.0 && none[0].abs() < 1e-12 * none[1]);
+        assert!((half[0] / whole[0] - 0.5).abs() < 1e-9);
+        assert!((half[1] / whole[1] - 1.0).abs() < 1e-12 && half[2] == whole[2]);
+    }
 }
 
 /// An edge that holds next to nothing is one that holds nothing.
@@ -278,11 +338,7 @@ fn limit_an_edge_that_holds_nothing_sheds_always() {
         );
         lift
     };
-    let [all, some] = [
-        LeadingEdge::Always,
-        LeadingEdge::Suction { threshold: 1e-9 },
-    ]
-    .map(lift);
+    let [all, some] = [LeadingEdge::Always, held(1e-9, 1.0)].map(lift);
     let most = all.iter().fold(0.0_f64, |m, l| m.max(l.abs()));
     // Nothing has left yet at the first step, which counts as attached where an edge may hold.
     let apart = all.iter().zip(&some).skip(1).map(|(a, b)| (a - b).abs());
@@ -294,11 +350,54 @@ fn limit_an_edge_that_holds_nothing_sheds_always() {
 #[test]
 fn agrees_second_method_impulse_in_hover_with_suction_held() {
     let beats = separated_hover(|s| {
-        s.leading = LeadingEdge::Suction { threshold: 0.15 };
+        s.leading = held(0.15, 0.0);
         (s.bound_core, s.wake_core) = (core_of(0.01)[0], core_of(0.07)[0]);
     });
     println!("force, rate of impulse: {beats:?}");
     for [force, impulse] in beats {
         assert!((impulse / force - 1.0).abs() < 0.1, "{beats:?}");
     }
+}
+
+/// The first and the last column of a sheet that leaves a wing all around are one line, though as much circulation runs along
+/// either, in opposite directions, as the whole edge has shed.
+#[test]
+fn conserves_closed_sheets_stay_closed() {
+    let settings = AirSettings {
+        shedding: SheddingKinds {
+            tip: true,
+            leading: true,
+            root: true,
+            ..SheddingKinds::TRAILING
+        },
+        leading: held(0.15, 0.0),
+        loads: LoadMethod::Joukowski,
+        wake_overlap: 1.0,
+        bound_core: core_of(0.01)[0],
+        wake_core: core_of(0.07)[0],
+        clearance: 0.1,
+        ..AirSettings::accurate(1.0, DVec3::X)
+    };
+    let lattice = Lattice::new(vec![Surface::grid("wing", 3, 5)], settings).unwrap();
+    assert_eq!(lattice.sheets().len(), 1);
+    let motion = |_: f64| {
+        let mut motion = NodeMotion::default();
+        for x in rectangle(3, 5, DVec3::X, 3.0 * DVec3::Y) {
+            motion.position.push(r2(0.4) * x);
+            motion.velocity.push(DVec3::ZERO);
+        }
+        motion
+    };
+    let mut shed = 0.0_f64;
+    fly(&lattice, motion, 0.3, 40, |_, state, loads, _| {
+        let sheet = &state.sheets[0];
+        for row in 0..sheet.rows() {
+            assert_eq!(sheet.node(row, 0), sheet.node(row, sheet.columns));
+        }
+        shed = loads.gamma.iter().fold(shed, |m, g| m.max(g.abs()));
+        // Attached flow of this incidence has 0.9 of the dynamic pressure times the area.
+        assert!(total_force(loads).length() < 10.0, "{}", total_force(loads));
+    })
+    .unwrap();
+    assert!(shed > 2.0, "{shed}");
 }

@@ -170,28 +170,26 @@ fn section_drag(
 
 /// The separation criterion with the threshold it needs.
 fn leading_edge(case: &AirCase) -> Built<LeadingEdge> {
-    let need = |key: &str, value: Option<f64>| {
-        value.ok_or_else(|| {
-            Fault::new(
-                key,
-                "air.leading_edge needs this threshold, which has no default",
-                "a finite number > 0",
-                "give a threshold that fits wing section and Reynolds number",
-            )
-        })
-    };
     Ok(match case.leading_edge {
+        _ if !case.shed.contains(&EdgeKind::Leading) => LeadingEdge::default(),
         LeadingEdgeCase::Never => LeadingEdge::Never,
         LeadingEdgeCase::Always => LeadingEdge::Always,
-        LeadingEdgeCase::AngleOfAttack => LeadingEdge::AngleOfAttack {
-            threshold: need(
-                "air.leading_edge_threshold_deg",
-                case.leading_edge_threshold_deg,
-            )?
-            .to_radians(),
-        },
+        LeadingEdgeCase::AngleOfAttack => {
+            let threshold = case.leading_edge_threshold_deg.ok_or_else(|| {
+                Fault::new(
+                    "air.leading_edge_threshold_deg",
+                    "air.leading_edge needs this threshold, which has no default",
+                    "a finite number > 0",
+                    "give a threshold that fits wing section and Reynolds number",
+                )
+            })?;
+            LeadingEdge::AngleOfAttack {
+                threshold: threshold.to_radians(),
+            }
+        }
         LeadingEdgeCase::Suction => LeadingEdge::Suction {
-            threshold: need("air.leading_edge_threshold", case.leading_edge_threshold)?,
+            threshold: case.leading_edge_threshold,
+            efficiency: case.leading_edge_suction_efficiency,
         },
     })
 }

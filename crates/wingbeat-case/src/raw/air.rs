@@ -126,7 +126,7 @@ pub struct AirCase {
     /// Where the flow leaves leading edges, if `shed` names them.
     ///
     /// Change it where measurements tell when a wing of this section stalls.
-    #[default(LeadingEdgeCase::Always)]
+    #[default(LeadingEdgeCase::Suction)]
     #[schemars(extend("with" = [LATTICE, "shed = leading"]))]
     pub leading_edge: LeadingEdgeCase,
     /// Effective angle of attack above which a strip sheds from its leading edge.
@@ -138,9 +138,15 @@ pub struct AirCase {
     /// Leading-edge suction parameter that the leading edge of a strip holds: what is beyond it sheds.
     ///
     /// Change it with the section of the wing and its Reynolds number.
+    #[default(0.15)]
     #[schemars(extend("exclusiveMinimum" = 0, "with" = [LATTICE, "leading_edge = suction"]))]
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub leading_edge_threshold: Option<f64>,
+    pub leading_edge_threshold: f64,
+    /// Part of the force of that suction which acts: none on the thin edges of insects.
+    ///
+    /// Change it to 1 for round leading edges.
+    #[default(0.0)]
+    #[schemars(extend("minimum" = 0, "maximum" = 1, "with" = [LATTICE, "leading_edge = suction", "loads = joukowski"]))]
+    pub leading_edge_suction_efficiency: f64,
     /// Gusts, added to the stream.
     ///
     /// Change it to meet the animal with one; several add up.

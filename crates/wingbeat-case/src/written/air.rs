@@ -146,15 +146,11 @@ fn lattice(options: &AirOptions) -> Written<AirCase> {
         mirror,
         joined: _, // keys of the wings
     } = options;
-    let (leading_edge, threshold) = leading_edge(lattice.leading);
     let air = AirCase {
         model: Model::VortexLattice,
         body: *body_surfaces,
         mirror: *mirror,
         loads: lattice.loads,
-        leading_edge,
-        leading_edge_threshold_deg: threshold[0],
-        leading_edge_threshold: threshold[1],
         ground: ground(&lattice.images)?,
         particles: lattice.particles.map(particles),
         section_drag: Some(section_drag(
@@ -162,7 +158,7 @@ fn lattice(options: &AirOptions) -> Written<AirCase> {
         )),
         ..settings(lattice)
     };
-    Ok(with_wind(air, &lattice.wind))
+    Ok(with_wind(with_leading_edge(air, lattice), &lattice.wind))
 }
 
 fn settings(lattice: &AirSettings) -> AirCase {
@@ -259,15 +255,27 @@ fn core(model: CoreModel) -> CoreCase {
     }
 }
 
-fn leading_edge(criterion: LeadingEdge) -> (LeadingEdgeCase, [Option<f64>; 2]) {
-    match criterion {
-        LeadingEdge::Never => (LeadingEdgeCase::Never, [None, None]),
-        LeadingEdge::Always => (LeadingEdgeCase::Always, [None, None]),
-        LeadingEdge::AngleOfAttack { threshold } => {
-            let degrees = Some(threshold.to_degrees());
-            (LeadingEdgeCase::AngleOfAttack, [degrees, None])
-        }
-        LeadingEdge::Suction { threshold } => (LeadingEdgeCase::Suction, [None, Some(threshold)]),
+fn with_leading_edge(air: AirCase, lattice: &AirSettings) -> AirCase {
+    let of = |leading_edge| AirCase {
+        leading_edge,
+        ..air.clone()
+    };
+    match lattice.leading {
+        _ if !lattice.shedding.leading => air,
+        LeadingEdge::Never => of(LeadingEdgeCase::Never),
+        LeadingEdge::Always => of(LeadingEdgeCase::Always),
+        LeadingEdge::AngleOfAttack { threshold } => AirCase {
+            leading_edge_threshold_deg: Some(threshold.to_degrees()),
+            ..of(LeadingEdgeCase::AngleOfAttack)
+        },
+        LeadingEdge::Suction {
+            threshold,
+            efficiency,
+        } => AirCase {
+            leading_edge_threshold: threshold,
+            leading_edge_suction_efficiency: efficiency,
+            ..of(LeadingEdgeCase::Suction)
+        },
     }
 }
 

@@ -1,6 +1,8 @@
 //! How far the results can be trusted.
 
-use wingbeat_air::{AirSettings, Convection, CoreModel, Friction, LoadMethod, SectionDrag};
+use wingbeat_air::{
+    AirSettings, Convection, CoreModel, Friction, LeadingEdge, LoadMethod, SectionDrag,
+};
 use wingbeat_flight::{AirModel, FlightSetup, FormulationChoice, MotionMode};
 
 use super::beats::BeatMeans;
@@ -100,13 +102,7 @@ fn air_warnings(
     list: &mut Vec<String>,
 ) {
     let lattice = &air.lattice;
-    let suction = match lattice.loads {
-        LoadMethod::Pressure => "Forces are pressure times normal, without leading-edge suction.",
-        LoadMethod::Joukowski => "Forces hold the full suction of the edges that do not shed.",
-        LoadMethod::Polhamus => {
-            "The suction of attached leading edges is turned into a normal force (Polhamus)."
-        }
-    };
+    let suction = suction(lattice);
     list.push(match &lattice.section_drag {
         None => format!("The air is inviscid: without friction, drag and power come out low, the more so the smaller the Reynolds number. {suction}"),
         Some(drag) => format!("The air is inviscid; drag of the sections was added to its forces (air.section_drag: {}, cd0 = {}, cd2 = {} per rad2), from the undisturbed air past each strip. {suction}", friction(drag), drag.cd0, drag.cd2),
@@ -158,6 +154,37 @@ fn air_warnings(
     }
 }
 
+/// What is said of the suction of leading edges.
+fn suction(lattice: &AirSettings) -> String {
+    match (lattice.loads, held(lattice)) {
+        (LoadMethod::Pressure, _) => {
+            "Forces are pressure times normal, without leading-edge suction.".to_owned()
+        }
+        (LoadMethod::Joukowski, None) => {
+            "Forces hold the full suction of the edges that do not shed.".to_owned()
+        }
+        (LoadMethod::Joukowski, Some([threshold, efficiency])) => format!(
+            "Leading edges hold a suction parameter of {threshold} and have {efficiency} of its force (air.leading_edge_threshold, \
+             air.leading_edge_suction_efficiency)."
+        ),
+        (LoadMethod::Polhamus, _) => {
+            "The suction of attached leading edges is turned into a normal force (Polhamus)."
+                .to_owned()
+        }
+    }
+}
+
+/// Suction parameter that leading edges hold and part of its force that acts, where they may shed by this criterion.
+fn held(lattice: &AirSettings) -> Option<[f64; 2]> {
+    match lattice.leading {
+        LeadingEdge::Suction {
+            threshold,
+            efficiency,
+        } if lattice.shedding.leading => Some([threshold, efficiency]),
+        _ => None,
+    }
+}
+
 /// What is said of the vortex core of the wakes.
 fn core_is_an_input(setup: &FlightSetup, lattice: &AirSettings) -> String {
     let chord = setup
@@ -196,8 +223,13 @@ fn two_ways_to_the_lift(lattice: &AirSettings, beat: &BeatMeans) -> String {
             "pressures and the suction of edges that do not shed"
         }
     };
+    let is_lost = held(lattice).is_some_and(|[_, efficiency]| efficiency < 1.0);
     let differs = match (lattice.loads, lattice.section_drag) {
+        (LoadMethod::Joukowski, None) if is_lost => Some("without the suction that is lost"),
         (LoadMethod::Joukowski, None) => None,
+        (LoadMethod::Joukowski, Some(_)) if is_lost => {
+            Some("with section drag, without the suction that is lost")
+        }
         (LoadMethod::Joukowski, Some(_)) => Some("with section drag"),
         (LoadMethod::Pressure, None) => Some("without the suction"),
         (LoadMethod::Pressure, Some(_)) => Some("with section drag, without the suction"),

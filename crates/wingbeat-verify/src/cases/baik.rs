@@ -8,7 +8,7 @@ use wingbeat_math::{DVec3, r2};
 
 pub(super) const CASES: &[Case] = &[Case {
     name: "baik-2011",
-    about: "A flat plate from wall to wall of a channel at a Reynolds number of 5000 pitches and \
+    about: "A flat plate with round edges from wall to wall of a channel at a Reynolds number of 5000 pitches and \
             plunges, effective incidence 8 + 14 sin deg, at the reduced frequencies 0.5 (W1) \
             and 1 (W3): histories of lift and drag coefficient. Computed: the middle strip, two \
             chords wide, of a wing of aspect ratio 32.",
@@ -87,6 +87,7 @@ fn coefficients(
     };
     let wing = Wing {
         measured: 1,
+        round: true,
         ..Wing::rectangle(rows, &STATIONS, AXIS, true)
     };
     let dt = period / steps as f64;

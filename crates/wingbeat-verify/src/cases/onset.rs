@@ -74,6 +74,7 @@ fn onset(twist: f64, [rows, cols, steps]: [usize; 3]) -> Result<[f64; 2], Verify
         },
         leading: LeadingEdge::Suction {
             threshold: CRITICAL,
+            efficiency: 1.0,
         },
         ..accurate
     };

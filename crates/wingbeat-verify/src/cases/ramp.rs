@@ -8,7 +8,7 @@ use wingbeat_math::{DVec3, r2};
 
 pub(super) const CASES: &[Case] = &[Case {
     name: "stevens-babinsky-2017",
-    about: "A flat plate of aspect ratio 4 at a Reynolds number of 1e4 pitches from 0 to 45 deg within \
+    about: "A flat plate of aspect ratio 4 with a round leading edge at a Reynolds number of 1e4 pitches from 0 to 45 deg within \
             a chord of travel, about its leading edge or its mid chord, and stays there: lift \
             coefficient against travel.",
     part: Part::Experiments,
@@ -47,7 +47,10 @@ fn lift(
     let stations: Vec<f64> = (0..=cols)
         .map(|j| HALF_SPAN * j as f64 / cols as f64)
         .collect();
-    let wing = Wing::rectangle(rows, &stations, axis, true);
+    let wing = Wing {
+        round: true,
+        ..Wing::rectangle(rows, &stations, axis, true)
+    };
     let pose = |s: f64| {
         let [angle, rate] = ramp(s);
         Pose {

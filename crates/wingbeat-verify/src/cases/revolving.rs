@@ -48,6 +48,7 @@ fn wing([rows, cols]: [usize; 2]) -> Wing {
         mesh: [rows, cols],
         joined: false,
         free_root: false,
+        round: false,
         measured: cols,
     }
 }

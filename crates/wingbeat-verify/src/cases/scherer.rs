@@ -9,7 +9,7 @@ use wingbeat_math::{DVec3, r2};
 
 pub(super) const CASES: &[Case] = &[Case {
     name: "scherer-1968",
-    about: "A wing of aspect ratio 3 that heaves by 0.6 chords and pitches about three quarters of its \
+    about: "A wing of aspect ratio 3 with a round leading edge that heaves by 0.6 chords and pitches about three quarters of its \
             chord at a Strouhal number of 0.2: mean thrust coefficient of 12 motions, attached flow with \
             leading-edge suction and the profile drag of the section; with leading-edge vorticity \
             beside it.",
@@ -56,7 +56,10 @@ fn thrust(
     let stations: Vec<f64> = (0..=cols)
         .map(|j| HALF_SPAN * (0.5 * std::f64::consts::PI * j as f64 / cols as f64).sin())
         .collect();
-    let wing = Wing::rectangle(rows, &stations, AXIS, true);
+    let wing = Wing {
+        round: true,
+        ..Wing::rectangle(rows, &stations, AXIS, true)
+    };
     let none = SectionDrag {
         friction: Friction::None,
         cd0: 0.0,

@@ -45,7 +45,7 @@ fn means(
     let stations: Vec<f64> = (0..=cols)
         .map(|j| ENDS[0] + (ENDS[1] - ENDS[0]) * j as f64 / cols as f64)
         .collect();
-    let wing = Wing::rectangle(rows, &stations, 0.5, false);
+    let wing = Wing::rectangle(rows, &stations, 0.5, false); // 1 mm thick
     let terms = flap();
     let pose = |t: f64| {
         let (mut angle, mut rate) = (0.0, 0.0);
@@ -76,9 +76,9 @@ fn means(
 const SOURCE: &str = "Yang, Lee, Lee & Han 2025, J. Fluids Struct. 133:104263, fig. 11, type A";
 const BAND: &str = "lattices of others with leading-edge vortices reach 3.4 and 4.1 gf in lift, 1.9 and 1.5 gf \
                     in drag; an attached one 6.3 gf in lift";
-const CHANGE: &str = "uncertainty: change at 25 deg by 8 x 10 panels and 100 steps a beat for 6 x 8 and 80: with \
-                      leading-edge vorticity single steps have hundreds of times the mean force there, where \
-                      the young wake meets the wing; with 6 x 6 panels, too";
+const CHANGE: &str = "uncertainty: change at 25 deg by 8 x 10 panels and 200 steps a beat for 6 x 8 and 160: with longer \
+                      steps the newest rows at the leading edge are longer than a panel, fold back over the panels that \
+                      shed them, and single steps have hundreds of times the mean force";
 /// The largest angle.
 const LAST: usize = 5;
 

@@ -2,11 +2,12 @@
 //!
 //! The setting is that of all insects ([`AirOptions::insect`], wakes kept 0.1 chords off the wings) and the same for
 //! all experiments: forces on segments, algebraic cores, wakes from trailing edges and tips, so with the suction of
-//! attached leading edges; with leading-edge vorticity these shed, too.
+//! attached leading edges; with leading-edge vorticity these hold some suction and shed what is beyond it. Its force acts on
+//! round leading edges, which the experiments' descriptions say, and not on thin ones.
 
 use wingbeat_air::{
-    AirError, AirSettings, Friction, JoinedEdge, Lattice, MirrorPairs, NodeMotion, Plane,
-    SectionDrag, SheddingKinds, Surface,
+    AirError, AirSettings, Friction, JoinedEdge, Lattice, LeadingEdge, MirrorPairs, NodeMotion,
+    Plane, SectionDrag, SheddingKinds, Surface,
 };
 use wingbeat_flight::AirOptions;
 use wingbeat_math::{DMat3, DVec3};
@@ -15,7 +16,7 @@ use super::fly;
 
 /// What becomes of leading edges: name, and whether they shed.
 pub(crate) const ATTACHED: (&str, bool) = ("attached", false);
-/// Vorticity from the whole leading edge at all times, as the insect presets have it.
+/// Vorticity from the leading edge, as the insect presets have it.
 pub(crate) const SEPARATED: (&str, bool) = ("leading-edge vorticity", true);
 
 /// The fluid and the size of what it meets.
@@ -40,14 +41,21 @@ impl Fluid {
         }
     }
 
-    fn settings(&self, leading: bool, root: bool) -> AirSettings {
+    fn settings(&self, leading: bool, wing: &Wing) -> AirSettings {
         let insect = AirOptions::insect(self.density, self.viscosity, self.chord).lattice;
         AirSettings {
             free_stream: self.stream,
             shedding: SheddingKinds {
                 leading,
-                root,
+                root: wing.free_root,
                 ..insect.shedding
+            },
+            leading: match insect.leading {
+                LeadingEdge::Suction { threshold, .. } if wing.round => LeadingEdge::Suction {
+                    threshold,
+                    efficiency: 1.0,
+                },
+                thin => thin,
             },
             clearance: 0.1 * self.chord,
             section_drag: Some(self.drag),
@@ -74,13 +82,15 @@ pub(crate) struct Wing {
     pub joined: bool,
     /// Whether the root is an edge that sheds.
     pub free_root: bool,
+    /// Whether its leading edge is round, and not thin.
+    pub round: bool,
     /// Columns from the root on whose force is measured.
     pub measured: usize,
 }
 
 impl Wing {
     /// A rectangle of chord 1 between these span positions, its axis of pitch this part of the chord behind the
-    /// leading edge; all of it is measured. A root that is not joined is free.
+    /// leading edge, which is thin; all of it is measured. A root that is not joined is free.
     pub fn rectangle(rows: usize, stations: &[f64], axis: f64, joined: bool) -> Self {
         let cols = stations.len() - 1;
         let row = |i: usize| {
@@ -92,6 +102,7 @@ impl Wing {
             mesh: [rows, cols],
             joined,
             free_root: !joined,
+            round: false,
             measured: cols,
         }
     }
@@ -160,7 +171,7 @@ pub(crate) fn forces(
     [start, dt]: [f64; 2],
     last: usize,
 ) -> Result<Vec<DVec3>, AirError> {
-    let lattice = wing.lattice(fluid.settings(leading, wing.free_root))?;
+    let lattice = wing.lattice(fluid.settings(leading, wing))?;
     let [rows, cols] = wing.mesh;
     let measured: Vec<usize> = (0..rows * cols)
         .filter(|p| p % cols < wing.measured)
