@@ -316,7 +316,7 @@ fn joined_columns(joined: &[[usize; 2]], sheets: &[Sheet]) -> Vec<JoinedColumns>
     // A sheet that leaves a surface all around ends where it begins.
     let around = |(s, sheet): (usize, &Sheet)| {
         let closed = sheet.panels.len() > 2 && sheet.nodes.first() == sheet.nodes.last();
-        closed.then(|| JoinedColumns([(s, 0), (s, sheet.panels.len())]))
+        closed.then_some(JoinedColumns([(s, 0), (s, sheet.panels.len())]))
     };
     let closed = sheets.iter().enumerate().filter_map(around);
     joined.iter().flat_map(pairs).chain(closed).collect()
