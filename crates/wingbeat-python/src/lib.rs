@@ -15,12 +15,14 @@
 //! | `stepping` | flights step by step |
 //! | `run` | flights that were flown |
 //! | `frame` | surfaces and wakes of one instant |
+//! | `fleet` | many episodes at once, for who learns |
 //! | `mechanics` | trim, stability, controls, power |
 #![warn(missing_docs)]
 
 mod arrays;
 mod command;
 mod errors;
+mod fleet;
 mod flight;
 mod frame;
 mod mechanics;
@@ -34,6 +36,8 @@ mod worker;
 mod _core {
     #[pymodule_export]
     use crate::command::{main, presets, schema, version};
+    #[pymodule_export]
+    use crate::fleet::Fleet;
     #[pymodule_export]
     use crate::flight::Flight;
     #[pymodule_export]

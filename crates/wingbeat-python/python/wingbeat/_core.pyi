@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from wingbeat._flight import Progress
 
-__all__ = ["Flight", "Frame", "Run", "Sensed", "Stepper", "Trim", "main", "presets", "schema", "version"]
+__all__ = ["Fleet", "Flight", "Frame", "Run", "Sensed", "Stepper", "Trim", "main", "presets", "schema", "version"]
 
 _Array = NDArray[Any]
 _Mode = tuple[str, str, float, float, list[float], list[tuple[str, float, float]]]
@@ -140,5 +140,25 @@ class Trim:
     def stability(self, /) -> tuple[_Array, _Array, list[_Mode], list[_Mode]]: ...
     def derivatives(self, /) -> tuple[list[tuple[str, str]], _Array, _Array]: ...
     def power(self, /) -> list[float]: ...
+    def fleet(
+        self, /, settings: tuple[str, int, int, tuple[float, float], int, Sequence[float], str], seeds: Sequence[int]
+    ) -> Fleet: ...
     @staticmethod
     def names() -> tuple[list[str], list[str]]: ...
+
+@final
+class Fleet:
+    def reset(self, /, seeds: Sequence[int | None], mask: Sequence[bool], observed: _Array) -> None: ...
+    def step(
+        self,
+        /,
+        actions: _Array,
+        observed: _Array,
+        last: _Array,
+        rewards: _Array,
+        terminated: _Array,
+        truncated: _Array,
+    ) -> bool: ...
+    def regulate(self, /, actions: _Array) -> bool: ...
+    def core_seconds(self, /, count: int) -> float: ...
+    def distances(self, /) -> list[float]: ...

@@ -1,0 +1,175 @@
+//! Strokes that are steered: amplitude, mean angle and plane go over from one command to the next, on top of a steady beat
+//! whose angles are known beforehand at the half steps of the integration.
+//!
+//! As adjustments go over linearly ([`Passage`](wingbeat_flight::Passage)), the stroke angle is
+//! `mean + (1 + a(t)) (phi - mean) + s o(t)` with the commanded relative amplitude a and offset o, s = 1 on the right and -1 on the left.
+
+use std::sync::{Arc, RwLock};
+
+use wingbeat_flight::control::smoothstep;
+use wingbeat_math::{MovingRotation, RotationLaw};
+use wingbeat_model::motion::{Adjustment, wing_rotation};
+use wingbeat_model::{Start, Wing, WingMotion};
+
+/// The angles of a wing over a steady beat.
+#[derive(Debug)]
+pub struct SteadyStroke {
+    /// phi, theta, psi at the half steps, each value, rate, acceleration [rad].
+    angles: Vec<[[f64; 3]; 3]>,
+    /// Half a step [s].
+    half: f64,
+    /// Mean stroke angle [rad].
+    mean: f64,
+    /// Pitch of the stroke plane [rad].
+    plane: f64,
+    /// Right +1, left -1.
+    side: f64,
+}
+
+impl SteadyStroke {
+    /// Of a wing that beats in `steps` steps a beat of `period` [s].
+    pub fn new(wing: &Wing, period: f64, steps: usize) -> Self {
+        let motion = WingMotion {
+            start: Start::Impulsive,
+            ..wing.motion.clone()
+        };
+        let half = period / (2 * steps) as f64;
+        Self {
+            angles: (0..2 * steps)
+                .map(|k| motion.angles(k as f64 * half))
+                .collect(),
+            half,
+            mean: motion.angles.phi.mean(),
+            plane: motion.stroke_plane_pitch,
+            side: wing.side.sign(),
+        }
+    }
+}
+
+/// A command in force: relative amplitude, offset [rad], plane [rad].
+type Command = [f64; 3];
+
+/// The stroke of a wing under commands, to be asked at multiples of half a step.
+#[derive(Debug)]
+pub struct SteeredStroke {
+    steady: Arc<SteadyStroke>,
+    passage: RwLock<Passage>,
+}
+
+/// From one command to another.
+#[derive(Clone, Copy, Debug, Default)]
+struct Passage {
+    from: Command,
+    to: Command,
+    start: f64,
+    duration: f64,
+}
+
+impl SteeredStroke {
+    /// Without a command.
+    pub fn new(steady: Arc<SteadyStroke>) -> Self {
+        let passage = Passage {
+            duration: 1.0,
+            ..Passage::default()
+        };
+        Self {
+            steady,
+            passage: RwLock::new(passage),
+        }
+    }
+
+    /// Forgets commands.
+    pub fn reset(&self) {
+        self.put(Passage {
+            duration: 1.0,
+            ..Passage::default()
+        });
+    }
+
+    /// From `start` [s] on the stroke goes over to a command within `duration` [s].
+    pub fn pass(&self, to: &Adjustment, start: f64, duration: f64) {
+        let from = self.passage.read().expect("no writer panicked").to;
+        self.put(Passage {
+            from,
+            to: [to.stroke_amplitude, to.stroke_offset, to.stroke_plane],
+            start,
+            duration,
+        });
+    }
+
+    fn put(&self, passage: Passage) {
+        *self.passage.write().expect("no writer panicked") = passage;
+    }
+}
+
+impl RotationLaw for SteeredStroke {
+    fn at(&self, t: f64) -> MovingRotation {
+        let steady = &*self.steady;
+        let k = (t / steady.half).round() as usize % steady.angles.len();
+        let [phi, theta, psi] = steady.angles[k];
+        let passage = *self.passage.read().expect("no writer panicked");
+        let s = smoothstep(t, passage.start, passage.duration);
+        let now = |i: usize| {
+            let change = passage.to[i] - passage.from[i];
+            [
+                passage.from[i] + s[0] * change,
+                s[1] * change,
+                s[2] * change,
+            ]
+        };
+        let (a, o, plane) = (now(0), now(1), now(2));
+        let swing = phi[0] - steady.mean;
+        let phi = [
+            steady.mean + (1.0 + a[0]) * swing + steady.side * o[0],
+            (1.0 + a[0]) * phi[1] + a[1] * swing + steady.side * o[1],
+            (1.0 + a[0]) * phi[2] + 2.0 * a[1] * phi[1] + a[2] * swing + steady.side * o[2],
+        ];
+        wing_rotation(
+            [steady.plane + plane[0], plane[1], plane[2]],
+            [phi, theta, psi],
+        )
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use wingbeat_flight::Passage as Blend;
+
+    /// Both ways of going over from a command to another, at all half steps of two beats.
+    #[test]
+    fn agrees_with_the_passage_of_a_flight() {
+        let options = wingbeat_model::species::FlyOptions::default();
+        let fly = wingbeat_model::species::drosophila_melanogaster(&options).expect("a fly");
+        let (steps, command) = (20, |x: f64| Adjustment {
+            stroke_amplitude: 0.1 * x,
+            stroke_offset: -0.2 * x,
+            stroke_plane: 0.15 * x,
+            ..Adjustment::default()
+        });
+        for wing in &fly.wings {
+            let period = 1.0 / wing.motion.frequency;
+            let steered = SteeredStroke::new(Arc::new(SteadyStroke::new(wing, period, steps)));
+            steered.pass(&command(1.0), -period, period);
+            steered.pass(&command(-0.5), 0.3 * period, 0.5 * period);
+            let steady = WingMotion {
+                start: Start::Impulsive,
+                ..wing.motion.clone()
+            };
+            let blend = Blend {
+                from: steady.adjusted(wing.side, &command(1.0)),
+                to: steady.adjusted(wing.side, &command(-0.5)),
+                start: 0.3 * period,
+                duration: 0.5 * period,
+            };
+            for k in 0..4 * steps {
+                let t = k as f64 * period / (2 * steps) as f64;
+                let (a, b) = (steered.at(t), blend.at(t));
+                let size = b.w.length().max(1.0 / period);
+                assert!((0..3).all(|i| (a.c.col(i) - b.c.col(i)).length() < 1e-12));
+                assert!((a.w - b.w).length() < 1e-11 * size);
+                assert!((a.w_dot - b.w_dot).length() < 1e-10 * size / period);
+            }
+        }
+    }
+}
