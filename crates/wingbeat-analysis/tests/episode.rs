@@ -5,11 +5,15 @@ mod common;
 use std::sync::Arc;
 
 use wingbeat_analysis::departure::adjustments;
+use wingbeat_analysis::episode::strokes::{SteadyStroke, SteeredStroke};
 use wingbeat_analysis::episode::{Course, Episode, Flyer, OBSERVED, Start, Task};
 use wingbeat_analysis::regulator::{Regulator, Weights};
 use wingbeat_analysis::{Beat, Trim, trim};
-use wingbeat_math::DVec3;
+use wingbeat_dynamics::Formulation;
+use wingbeat_flight::Passage;
+use wingbeat_math::{DVec3, RotationLaw};
 use wingbeat_model::motion::Adjustment;
+use wingbeat_model::{Start as Beginning, WingMotion};
 
 const STEPS: usize = 40;
 
@@ -47,6 +51,43 @@ fn agrees_a_steered_flyer_with_the_map_of_a_beat() {
         for (k, (a, b)) in flyer.state().iter().zip(&y).enumerate() {
             let size = trim.beat.flight().form().scales()[k];
             assert!((a - b).abs() < 1e-11 * size, "{k}: {a} {b}");
+        }
+    }
+}
+
+/// Both ways of going over from a command to another, at all half steps of two beats.
+#[test]
+fn agrees_steered_strokes_with_the_passage_of_a_flight() {
+    let options = wingbeat_model::species::FlyOptions::default();
+    let fly = wingbeat_model::species::drosophila_melanogaster(&options).expect("a fly");
+    let (steps, command) = (20, |x: f64| Adjustment {
+        stroke_amplitude: 0.1 * x,
+        stroke_offset: -0.2 * x,
+        stroke_plane: 0.15 * x,
+        ..Adjustment::default()
+    });
+    for wing in &fly.wings {
+        let period = 1.0 / wing.motion.frequency;
+        let steered = SteeredStroke::new(Arc::new(SteadyStroke::new(wing, period, steps)));
+        steered.pass(&command(1.0), -period, period);
+        steered.pass(&command(-0.5), 0.3 * period, 0.5 * period);
+        let steady = WingMotion {
+            start: Beginning::Impulsive,
+            ..wing.motion.clone()
+        };
+        let blend = Passage {
+            from: steady.adjusted(wing.side, &command(1.0)),
+            to: steady.adjusted(wing.side, &command(-0.5)),
+            start: 0.3 * period,
+            duration: 0.5 * period,
+        };
+        for k in 0..4 * steps {
+            let t = k as f64 * period / (2 * steps) as f64;
+            let (a, b) = (steered.at(t), blend.at(t));
+            let size = b.w.length().max(1.0 / period);
+            assert!((0..3).all(|i| (a.c.col(i) - b.c.col(i)).length() < 1e-12));
+            assert!((a.w - b.w).length() < 1e-11 * size);
+            assert!((a.w_dot - b.w_dot).length() < 1e-10 * size / period);
         }
     }
 }

@@ -85,13 +85,13 @@ impl Draw {
     }
 
     /// Between -1 and 1.
-    pub fn next(&mut self) -> f64 {
+    pub fn number(&mut self) -> f64 {
         self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
         (scrambled(self.0) >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
     }
 
     fn vector(&mut self) -> DVec3 {
-        DVec3::new(self.next(), self.next(), self.next())
+        DVec3::new(self.number(), self.number(), self.number())
     }
 }
 
@@ -139,11 +139,11 @@ impl Start {
 
 /// A horizontal gust of up to half a wing length a beat, over four wingbeats, that begins within the first twenty.
 fn gust(speed: f64, period: f64, draw: &mut Draw) -> Gust {
-    let (sin, cos) = (0.5 * TAU * draw.next()).sin_cos();
-    let size = (0.35 + 0.15 * draw.next()) * speed;
+    let (sin, cos) = (0.5 * TAU * draw.number()).sin_cos();
+    let size = (0.35 + 0.15 * draw.number()) * speed;
     Gust {
         amplitude: size * DVec3::new(cos, sin, 0.0),
-        start: (11.0 + 9.0 * draw.next()) * period,
+        start: (11.0 + 9.0 * draw.number()) * period,
         slowness: DVec3::ZERO,
         shape: GustShape::OneMinusCosine {
             duration: 4.0 * period,
