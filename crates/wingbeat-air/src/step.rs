@@ -51,7 +51,7 @@ impl Lattice {
         };
         ws.segments.add_forces(self, state, motion, flow, out);
         add_section_drag(self, &motion.position, out);
-        leading_values(self, &motion.position, out);
+        leading_values(self, &ws.filaments, &motion.position, out);
         impulse(self, state, &ws.filaments, out);
         resultants(self, &ws.boundary.net_flux_residual, out);
         check_finite(self, state, out)
@@ -126,7 +126,7 @@ impl Lattice {
             let step = state.step;
             return Err(AirError::Order { step, what });
         }
-        if loads.gamma.len() != self.panel_count() || loads.leading.len() != self.strips().len() {
+        if loads.gamma.len() != self.panel_count() || loads.hold.len() != self.strips().len() {
             let what = "number of panels of the loads";
             return Err(AirError::StateMismatch { what });
         }
@@ -136,7 +136,7 @@ impl Lattice {
         state.position.copy_from_slice(&motion.position);
         state.velocity.copy_from_slice(&motion.velocity);
         state.inner_momentum.copy_from_slice(&loads.inner_momentum);
-        state.leading.copy_from_slice(&loads.leading);
+        state.hold.copy_from_slice(&loads.hold);
         state.time = loads.time;
         state.step += 1;
         state.wake_due = true;

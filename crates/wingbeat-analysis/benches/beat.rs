@@ -1,38 +1,67 @@
 //! Wingbeats of the free fruit fly per core-second: three bodies, ten strips a wing, added mass
-//! and rotation, momentum form, 100 Runge-Kutta steps a beat.
+//! and rotation, momentum form, 100 steps a beat; as the map of a beat (Runge-Kutta) and as a flight with its
+//! records (Hamming's method), which take turns, so that other work on the machine meets both alike.
+//!
+//! `cargo bench -p wingbeat-analysis --bench beat`
 
 use std::hint::black_box;
 use std::sync::Arc;
 use std::time::Instant;
 
+use wingbeat_analysis::Beat;
 use wingbeat_analysis::episode::{Course, Episode, OBSERVED, Task};
+use wingbeat_flight::{FlightSetup, Simulation};
 
 #[path = "../tests/common/mod.rs"]
 mod common;
 
+/// Wingbeats of a burst.
+const BEATS: usize = 50;
+
 fn main() {
     let setup = common::fly();
-    let beat = wingbeat_analysis::Beat::new(&setup, 100).expect("the fruit fly");
+    let beat = Beat::new(&setup, 100).expect("the fruit fly");
     let trimmed = wingbeat_analysis::trim(&setup, &common::hover(100)).expect("the fruit fly");
-    let mut best = f64::INFINITY;
-    for _ in 0..20 {
-        let start = Instant::now();
-        let mut y = trimmed.state.clone();
-        for _ in 0..100 {
-            y = black_box(beat.advance(black_box(&y)).expect("the fruit fly"));
-        }
-        best = best.min(start.elapsed().as_secs_f64() / 100.0);
+    let (mut map, mut flight) = (f64::INFINITY, f64::INFINITY);
+    for _ in 0..40 {
+        map = map.min(seconds(|| {
+            let mut y = trimmed.state.clone();
+            for _ in 0..BEATS {
+                y = black_box(beat.advance(black_box(&y)).expect("the fruit fly"));
+            }
+        }));
+        flight = flight.min(seconds(|| fly(&setup)));
     }
-    println!("free flight: {:.0} wingbeats per core-second", 1.0 / best);
+    let per_second = |time: f64| BEATS as f64 / time;
+    println!(
+        "wingbeats per core-second: map of a beat {:.0}, flight {:.0}",
+        per_second(map),
+        per_second(flight)
+    );
+    let trim = seconds(|| {
+        black_box(wingbeat_analysis::trim(&setup, &common::hover(100)).expect("the fruit fly"));
+    });
+    println!("trim of hover: {:.0} ms", 1e3 * trim);
     for interval in [40, 1] {
         episode(interval);
     }
+}
+
+/// Flies [`BEATS`] wingbeats.
+fn fly(setup: &FlightSetup) {
+    let mut setup = setup.clone();
+    setup.time.steps = 100 * BEATS;
+    let mut flight = Simulation::new(setup).expect("the fruit fly");
+    while !flight.finished() {
+        black_box(flight.step().expect("the fruit fly"));
+    }
+}
+
+/// How long `work` takes \[s\].
+fn seconds(work: impl FnOnce()) -> f64 {
     let start = Instant::now();
-    black_box(wingbeat_analysis::trim(&setup, &common::hover(100)).expect("the fruit fly"));
-    println!(
-        "trim of hover: {:.0} ms",
-        1e3 * start.elapsed().as_secs_f64()
-    );
+    work();
+    start.elapsed().as_secs_f64()
 }
 
 /// Control steps of an episode of hover, 40 Runge-Kutta steps a beat, one control every `interval` steps.
@@ -44,12 +73,13 @@ fn episode(interval: usize) {
     let (mut best, mut seen, count) = (f64::INFINITY, [0.0; OBSERVED], 4000 / interval);
     for seed in 0..20 {
         episode.reset(Some(seed)).expect("the fruit fly");
-        let start = Instant::now();
-        for _ in 0..count {
-            black_box(episode.step(black_box(&[0.01; 4])));
-            episode.observe(black_box(&mut seen));
-        }
-        best = best.min(start.elapsed().as_secs_f64() / count as f64);
+        let time = seconds(|| {
+            for _ in 0..count {
+                black_box(episode.step(black_box(&[0.01; 4])));
+                episode.observe(black_box(&mut seen));
+            }
+        });
+        best = best.min(time / count as f64);
     }
     println!(
         "episode: {:.0} control steps, {:.0} wingbeats per core-second",

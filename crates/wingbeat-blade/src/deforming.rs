@@ -89,7 +89,7 @@ impl BladeWing {
             PairMotion { u, w, q }
         };
         let mut sum = DeformingLoad::default();
-        pair::forces(self.pairs(), self.settings(), pair_moves, |k, f| {
+        pair::forces(self.pairs(), self.settings(), pair_moves, |k, _, f| {
             for lane in 0..2.min(self.strips().len() - 2 * k) {
                 let s = section(2 * k + lane);
                 let [e1, e3] = s.axes();

@@ -84,14 +84,14 @@ fn circulation(rotation: Rotation, s: &Strip) -> f64 {
     }
 }
 
-/// Translation, rotation and viscous moment of all `pairs`: `motion(k)` says how pair k moves,
-/// `put(k, force)` takes its force.
+/// Translation, rotation and viscous moment of all `pairs`: `motion(k, pair)` says how pair k moves,
+/// `put(k, pair, force)` takes its force.
 #[inline]
 pub(crate) fn forces(
     pairs: &[StripPair],
     settings: &BladeSettings,
     motion: impl Fn(usize, &StripPair) -> PairMotion,
-    put: impl FnMut(usize, PairForce),
+    put: impl FnMut(usize, &StripPair, PairForce),
 ) {
     match settings.translation {
         Translation::DoubleAngle {
@@ -119,7 +119,7 @@ fn with_law(
     pairs: &[StripPair],
     settings: &BladeSettings,
     motion: impl Fn(usize, &StripPair) -> PairMotion,
-    mut put: impl FnMut(usize, PairForce),
+    mut put: impl FnMut(usize, &StripPair, PairForce),
     law: impl Fn(DVec2, DVec2) -> [DVec2; 2],
 ) {
     let across = settings.rotation == Rotation::SaneDickinson;
@@ -146,14 +146,12 @@ fn with_law(
         let behind = centre_of_pressure(settings.centre_of_pressure, sin, cos);
         let x_cp = pair.x_leading - pair.chord * behind;
         let damping = pair.viscous * (viscous[0] + viscous[1] * q.abs()) * q;
-        put(
-            k,
-            PairForce {
-                along: along + r1,
-                normal,
-                about: -damping - x_cp * normal,
-            },
-        );
+        let force = PairForce {
+            along: along + r1,
+            normal,
+            about: -damping - x_cp * normal,
+        };
+        put(k, pair, force);
     }
 }
 

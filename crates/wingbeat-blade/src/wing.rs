@@ -222,8 +222,8 @@ impl BladeWing {
             }
         };
         let mut sums = [DVec2::ZERO; 5];
-        pair::forces(&self.pairs, &self.settings, motion, |k, f| {
-            let y = self.pairs[k].y;
+        pair::forces(&self.pairs, &self.settings, motion, |_, pair, f| {
+            let y = pair.y;
             sums[0] += f.along;
             sums[1] += f.normal;
             sums[2] += y * f.normal;

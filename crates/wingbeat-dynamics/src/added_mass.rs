@@ -101,28 +101,50 @@ pub(crate) fn wrench(r: DMat3, load: &Six) -> Wrench {
     }
 }
 
-/// Solves `A x = b` for a symmetric positive definite A by `L D L^T`, without pivoting; only the
-/// lower half of A is read.
-pub(crate) fn solve_symmetric(a: &mut [Six; 6], x: &mut Six) {
-    let mut inverse = [0.0; 6];
-    for k in 0..6 {
-        inverse[k] = 1.0 / a[k][k];
-        // Column k of L goes where row k of the upper half is.
-        for i in k + 1..6 {
-            a[k][i] = a[i][k] * inverse[k];
-            x[i] -= a[k][i] * x[k];
-        }
-        for i in k + 1..6 {
-            let entry = a[i][k];
-            for j in k + 1..=i {
-                a[i][j] -= entry * a[k][j];
+/// A symmetric positive definite matrix as `L D L^T`, without pivoting.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Factors {
+    /// Row k of the upper half: column k of L.
+    columns: [Six; 6],
+    /// 1 / D.
+    inverse: Six,
+}
+
+impl Factors {
+    /// Of the matrix `a`, of which only the lower half is read.
+    pub fn of(mut a: [Six; 6]) -> Self {
+        let mut inverse = [0.0; 6];
+        for k in 0..6 {
+            inverse[k] = 1.0 / a[k][k];
+            for i in k + 1..6 {
+                a[k][i] = a[i][k] * inverse[k];
+            }
+            for i in k + 1..6 {
+                let entry = a[i][k];
+                for j in k + 1..=i {
+                    a[i][j] -= entry * a[k][j];
+                }
             }
         }
+        Self {
+            columns: a,
+            inverse,
+        }
     }
-    for k in (0..6).rev() {
-        x[k] *= inverse[k];
-        for i in k + 1..6 {
-            x[k] -= a[k][i] * x[i];
+
+    /// Solves for the right-hand side `x`, in its place.
+    pub fn solve(&self, x: &mut Six) {
+        let l = &self.columns;
+        for k in 0..6 {
+            for i in k + 1..6 {
+                x[i] -= l[k][i] * x[k];
+            }
+        }
+        for k in (0..6).rev() {
+            x[k] *= self.inverse[k];
+            for i in k + 1..6 {
+                x[k] -= l[k][i] * x[i];
+            }
         }
     }
 }

@@ -22,17 +22,18 @@ mod whole;
 
 use std::sync::Arc;
 
-use wingbeat_math::{DQuat, DVec3};
+use wingbeat_math::{DMat3, DQuat, DVec3};
 
 use self::joints::{move_joints, write_joint_rates};
-use self::state::{State, turn};
+use self::state::State;
 use self::whole::{momentum_rate, total_load, whole_load};
 use crate::budget::{budget, load_power};
 use crate::check::{check_rotation, check_state};
 use crate::formulation::add_by_response;
 use crate::inverse::{multipliers, reactions};
 use crate::mechanism::Mechanism;
-use crate::posture::{Composite, Posture, PostureTable};
+use crate::posture::{Posture, PostureTable};
+use crate::prescribed::Turning;
 use crate::workspace::MOMENTUM_STATE;
 use crate::{
     AddedMass, BodyAcceleration, BodyMotion, DynamicsError, Formulation, Freedom, Solution, System,
@@ -72,6 +73,7 @@ impl MomentumForm {
         if ws.prescribed != Some(t) {
             (ws.whole, ws.whole_rates) =
                 (ws.posture).lay(&self.system, t, self.free(y), self.table.as_deref());
+            ws.turning = Turning::of(ws.whole.inertia);
             ws.prescribed = (self.system.coordinates() == 0).then_some(t);
         }
     }
@@ -104,7 +106,7 @@ impl MomentumForm {
         let mut posture = Posture::new(&self.system);
         posture.update_free(&self.system, t, (&q, &u));
         let whole = posture.composite(&self.system);
-        turn(t, whole.inertia, DVec3::ZERO)?;
+        Turning::of(whole.inertia).solve(t, DVec3::ZERO)?;
         let state = State {
             centre: root.p + root.r * whole.c,
             attitude: DQuat::from_mat3(&root.r).normalize(),
@@ -119,15 +121,17 @@ impl MomentumForm {
         Ok(y)
     }
 
-    /// Angular velocity of the root from the angular momentum, `w = I^-1 (R^T H - h)` [rad/s].
-    fn root_motion(
-        &self,
-        t: f64,
-        state: &State,
-        whole: &Composite,
-    ) -> Result<BodyMotion, DynamicsError> {
+    /// Rotation of the root, and its angular velocity from the angular momentum, `w = I^-1 (R^T H - h)` [rad/s].
+    fn root_turn(t: f64, state: &State, ws: &Workspace) -> Result<(DMat3, DVec3), DynamicsError> {
         let r = state.rotation();
-        let w = turn(t, whole.inertia, r.transpose() * state.angular - whole.h)?;
+        let w = (ws.turning).solve(t, r.transpose() * state.angular - ws.whole.h)?;
+        Ok((r, w))
+    }
+
+    /// Motion of the root in the whole of `ws`.
+    fn root_motion(t: f64, state: &State, ws: &Workspace) -> Result<BodyMotion, DynamicsError> {
+        let (r, w) = Self::root_turn(t, state, ws)?;
+        let whole = &ws.whole;
         Ok(BodyMotion {
             p: state.centre - r * whole.c,
             r,
@@ -138,13 +142,14 @@ impl MomentumForm {
 
     /// Motions of all bodies into `ws.motions`, the whole into `ws.whole`; returns the state.
     fn unfold(&self, t: f64, y: &[f64], ws: &mut Workspace) -> Result<State, DynamicsError> {
-        let state = State::read(t, y)?;
-        if !ws.knows(t, y) {
-            self.lay(t, y, ws);
-            let root = self.root_motion(t, &state, &ws.whole)?;
-            ws.posture.motions(&root, &mut ws.motions);
-            ws.note(t, y);
+        if ws.knows(t, y) {
+            return Ok(State::of(y));
         }
+        let state = State::read(t, y)?;
+        self.lay(t, y, ws);
+        let root = Self::root_motion(t, &state, ws)?;
+        ws.posture.motions(&root, &mut ws.motions);
+        ws.note(t, y);
         Ok(state)
     }
 
@@ -163,7 +168,7 @@ impl MomentumForm {
             .accelerations(&root, &BodyAcceleration::default(), out);
         let bias = momentum_rate(&self.system, &ws.motions, out, x_c);
         let moment = root.r.transpose() * (load.moment - bias.moment);
-        let angular = turn(t, whole.inertia, moment)?;
+        let angular = ws.turning.solve(t, moment)?;
         let linear = (load.force - bias.force) / whole.mass - root.r * angular.cross(whole.c);
         let acc = BodyAcceleration { linear, angular };
         ws.posture.accelerations(&root, &acc, out);
@@ -218,12 +223,17 @@ impl Formulation for MomentumForm {
             write_joint_rates(&self.system, (q, u), ws, &mut dy[DIM..]);
             return Ok(());
         }
-        let state = State::read(t, y)?;
-        self.lay(t, y, ws);
-        let (r, whole) = (state.rotation(), &ws.whole);
-        let w = turn(t, whole.inertia, r.transpose() * state.angular - whole.h)?;
-        let load = whole_load(&self.system, loads, &ws.posture, r, whole.c);
-        state.rates(whole, w, &load).write(dy);
+        let (state, (r, w)) = match ws.knows(t, y) {
+            true => (State::of(y), (ws.motions[0].r, ws.motions[0].w)),
+            false => {
+                let state = State::read(t, y)?;
+                self.lay(t, y, ws);
+                let turn = Self::root_turn(t, &state, ws)?;
+                (state, turn)
+            }
+        };
+        let load = whole_load(&self.system, loads, &ws.posture, r, ws.whole.c);
+        state.rates(&ws.whole, w, &load).write(dy);
         Ok(())
     }
 
@@ -263,8 +273,8 @@ impl Formulation for MomentumForm {
             return add_by_response(self, (t, y), added, loads, ws, out);
         }
         self.unfold(t, y, ws)?;
-        let moving = added::accelerate(&self.system, added, loads, ws);
-        added::add(added, &moving, ws, loads);
+        let moving = added::accelerate(&self.system, (t, added), loads, ws);
+        added::add(&moving, ws, loads);
         Ok(())
     }
 
@@ -282,7 +292,7 @@ impl Formulation for MomentumForm {
             return self.rates(t, y, loads, ws, dy);
         }
         let state = self.unfold(t, y, ws)?;
-        let load = added::accelerate(&self.system, added, loads, ws).momentum_rates(ws);
+        let load = added::accelerate(&self.system, (t, added), loads, ws).momentum_rates(ws);
         state.rates(&ws.whole, ws.motions[0].w, &load).write(dy);
         Ok(())
     }

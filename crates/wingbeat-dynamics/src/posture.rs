@@ -3,6 +3,7 @@
 use wingbeat_math::{DMat3, DVec3, MovingRotation, tilde};
 
 use crate::check::check_rotation;
+use crate::cycle::Cycle;
 pub use crate::placement::Placement;
 use crate::placement::carry;
 use crate::{BodyAcceleration, BodyMotion, DynamicsError, System};
@@ -205,6 +206,7 @@ impl Posture {
 pub struct PostureTable {
     step: f64,
     entries: Vec<Entry>,
+    cycle: Option<Cycle>,
 }
 
 #[derive(Clone, Debug)]
@@ -230,7 +232,20 @@ impl PostureTable {
             }
         };
         let entries = (0..=count).map(entry).collect();
-        Self { step, entries }
+        Self {
+            step,
+            entries,
+            cycle: None,
+        }
+    }
+
+    /// The laws of `system` at all multiples of `step` \[s\]: they go through `cycle` in such steps
+    /// ([`System::cycle`]).
+    pub fn repeating(system: &System, step: f64, cycle: Cycle) -> Self {
+        Self {
+            cycle: Some(cycle),
+            ..Self::new(system, step, cycle.last())
+        }
     }
 
     /// Posture and whole at step number `k`, free joints at their start.
@@ -243,7 +258,10 @@ impl PostureTable {
     fn at(&self, t: f64) -> Option<&Entry> {
         let k = (t / self.step).round();
         let same = (t - k * self.step).abs() <= 8.0 * f64::EPSILON * t.abs().max(self.step);
-        self.entries.get(k as usize).filter(|_| same && k >= 0.0)
+        let entry = self
+            .cycle
+            .map_or(k as usize, |cycle| cycle.fold(k as usize));
+        self.entries.get(entry).filter(|_| same && k >= 0.0)
     }
 }
 

@@ -4,6 +4,7 @@ use crate::euler::scratch::EulerScratch;
 use crate::free::FreeScratch;
 use crate::mechanism::form::AbsoluteScratch;
 use crate::posture::{Composite, CompositeRates, Posture};
+use crate::prescribed::{Carried, Turning};
 use crate::{BodyAcceleration, BodyMotion, System, Wrench};
 
 /// Intermediate results, kept between calls so that nothing is allocated. Holds no state: any
@@ -20,6 +21,10 @@ pub struct Workspace {
     /// The whole of `posture`, and its rates where no joint is free.
     pub(crate) whole: Composite,
     pub(crate) whole_rates: CompositeRates,
+    /// The inverse of its inertia.
+    pub(crate) turning: Turning,
+    /// Added masses last met, where no joint is free.
+    pub(crate) carried: Carried,
     /// Time of `posture` and its whole, where nothing but time decides on them.
     pub(crate) prescribed: Option<f64>,
     /// Time and state that `motions` belong to, where no joint is free.
@@ -36,6 +41,8 @@ impl Workspace {
         Self {
             whole: Composite::default(),
             whole_rates: CompositeRates::default(),
+            turning: Turning::default(),
+            carried: Carried::default(),
             posture: Posture::new(system),
             motions: vec![BodyMotion::REST; bodies],
             demand: vec![Wrench::default(); bodies],
@@ -50,7 +57,7 @@ impl Workspace {
 
     /// Forgets what it knows of the last evaluation.
     pub(crate) fn forget(&mut self) {
-        (self.prescribed, self.unfolded) = (None, None);
+        (self.prescribed, self.unfolded, self.carried.at) = (None, None, None);
     }
 
     /// Whether `motions` are those of the state `y` at time `t` already.

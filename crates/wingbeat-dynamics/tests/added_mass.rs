@@ -185,3 +185,28 @@ fn agrees_added_mass_on_a_free_joint() {
         "{gap:?}"
     );
 }
+
+/// A workspace keeps what added masses are at a time; it must notice another time and other added masses.
+#[test]
+fn exact_a_workspace_that_was_used_before_answers_as_a_new_one() {
+    let form = MomentumForm::new(flyer());
+    let y = form.initial(0.3, &root()).expect("a state");
+    let added_load = |t: f64, added: &[AddedMass], ws: &mut _| {
+        let mut loads = vec![Wrench::default(); 2];
+        let mut out = Solution::new(form.system());
+        form.add_mass((t, &y), added, &mut loads, ws, &mut out)
+            .expect("an inertia that is not singular");
+        loads
+    };
+    let mut used = form.workspace();
+    let mut seen: Vec<Vec<Wrench>> = vec![];
+    for (t, size) in [(0.3, 1.0), (0.3, 2.0), (0.4, 2.0), (0.3, 2.0)] {
+        let added = [plate(0, size), plate(1, size)];
+        let load = added_load(t, &added, &mut used);
+        assert_eq!(load, added_load(t, &added, &mut form.workspace()));
+        seen.push(load);
+    }
+    assert_ne!(seen[0], seen[1]);
+    assert_ne!(seen[1], seen[2]);
+    assert_eq!(seen[1], seen[3]);
+}

@@ -221,8 +221,8 @@ impl Loop {
     }
 
     /// Angles of the wings at time `t` [s].
-    pub fn angles(&self, t: f64) -> Vec<DVec3> {
-        self.wings.iter().map(|w| w.angles(t)).collect()
+    pub fn angles(&self, t: f64) -> impl Iterator<Item = DVec3> {
+        self.wings.iter().map(move |w| w.angles(t))
     }
 
     /// Asks the controller at time `t` [s]; the passage to the command that is due begins.

@@ -45,7 +45,9 @@ pub struct Scratch {
     pub applied: Vec<Wrench>,
     /// Sum of both.
     total: Vec<Wrench>,
+    /// Masses carried along, and the time that they belong to.
     added: Vec<AddedMass>,
+    added_at: Option<f64>,
     /// Accelerations, reactions, energies.
     pub solution: Solution,
     /// Kinetic energy relative to the root [J] and its rate [W].
@@ -69,6 +71,7 @@ impl Scratch {
             applied: none.clone(),
             total: none,
             added: vec![],
+            added_at: None,
             solution: Solution::new(system),
             relative: [0.0; 2],
             deformation: vec![0.0; if equations.air.deforms() { bodies } else { 0 }],
@@ -82,6 +85,7 @@ impl Scratch {
     /// Makes room for the dynamics of other equations of the same bodies.
     pub fn fit(&mut self, equations: &Equations) {
         self.dynamics = equations.core.workspace();
+        self.added_at = None;
     }
 }
 
@@ -252,8 +256,11 @@ impl Equations {
         self.applied_loads(t, s);
         let at = instant(t, self.step, &s.motions);
         (self.air).loads(&at, air, &mut s.air_scratch, &mut s.air)?;
-        s.added.clear();
-        self.air.added_mass(t, &mut s.added);
+        if s.added_at != Some(t) {
+            s.added.clear();
+            self.air.added_mass(t, &mut s.added);
+            s.added_at = Some(t);
+        }
         s.sum_loads();
         Ok(())
     }

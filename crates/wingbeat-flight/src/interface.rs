@@ -51,7 +51,8 @@ pub trait Air: fmt::Debug + Send + Sync {
         out: &mut [Wrench],
     ) -> Result<(), FlightError>;
 
-    /// Masses that the bodies carry along at time `t` [s], into `out`, which is empty.
+    /// Masses that the bodies carry along at time `t` [s], into `out`, which is empty: a function of time alone, asked
+    /// once for all states at that time.
     fn added_mass(&self, _t: f64, _out: &mut Vec<AddedMass>) {}
 
     /// Whether loads depend on the past.

@@ -4,7 +4,7 @@ use wingbeat_math::DVec3;
 use wingbeat_model::motion::Adjustment;
 
 /// The record of one accepted step. Body 0 is the root, wings follow in the animal's order.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Debug, Default, PartialEq)]
 pub struct Record {
     /// Step number, 0 is the start.
     pub step: usize,
@@ -93,6 +93,41 @@ pub struct Record {
     pub regularised: usize,
     /// Largest net-flux residual of the closed surfaces: a uniform normal velocity [m/s].
     pub net_flux_residual: f64,
+}
+
+/// A copy into the room of another record allocates nothing.
+impl Clone for Record {
+    fn clone(&self) -> Self {
+        let mut copy = Self::default();
+        copy.clone_from(self);
+        copy
+    }
+
+    fn clone_from(&mut self, other: &Self) {
+        *self = Self {
+            wing_angles: over(&mut self.wing_angles, &other.wing_angles),
+            commands: over(&mut self.commands, &other.commands),
+            coordinates: over(&mut self.coordinates, &other.coordinates),
+            rates: over(&mut self.rates, &other.rates),
+            accelerations: over(&mut self.accelerations, &other.accelerations),
+            multipliers: over(&mut self.multipliers, &other.multipliers),
+            hinges: over(&mut self.hinges, &other.hinges),
+            loops: over(&mut self.loops, &other.loops),
+            joints: over(&mut self.joints, &other.joints),
+            deformation_power: over(&mut self.deformation_power, &other.deformation_power),
+            air: over(&mut self.air, &other.air),
+            applied: over(&mut self.applied, &other.applied),
+            ..*other
+        };
+    }
+}
+
+/// A copy of `list` in the room of `old`.
+fn over<T: Copy>(old: &mut Vec<T>, list: &[T]) -> Vec<T> {
+    let mut copy = std::mem::take(old);
+    copy.clear();
+    copy.extend_from_slice(list);
+    copy
 }
 
 impl Record {

@@ -4,7 +4,6 @@ use wingbeat_air::{AirState, WakeSheet};
 use wingbeat_dynamics::{Body, BodyMotion, Budget, Wrench};
 use wingbeat_math::ode::StepReport;
 use wingbeat_math::{DQuat, DVec3};
-use wingbeat_model::motion::Adjustment;
 
 use crate::equations::{Equations, Scratch};
 use crate::quadratures::Quadratures;
@@ -52,12 +51,8 @@ impl Ledger {
     }
 }
 
-/// Everything a record is made from.
+/// Everything a record is made from, but for angles and commands of the wings.
 pub struct Sources<'a> {
-    /// Angles of the wings [rad].
-    pub wing_angles: Vec<DVec3>,
-    /// Commands of feedback.
-    pub commands: Vec<Adjustment>,
     /// The equations in force.
     pub equations: &'a Equations,
     /// Intermediate results of the last evaluation.
@@ -71,77 +66,89 @@ pub struct Sources<'a> {
 }
 
 impl Sources<'_> {
-    /// The record of step `step` at time `time` [s]; the ledger takes note of the angles.
-    pub fn record(&self, step: usize, time: f64, ledger: &mut Ledger) -> Record {
+    /// Makes `r` the record of step `step` at time `time` [s], in the room that it has; the ledger takes note of the
+    /// angles.
+    pub fn write(&self, step: usize, time: f64, ledger: &mut Ledger, r: &mut Record) {
+        (r.step, r.time) = (step, time);
+        self.write_motion(time, ledger, r);
+        self.write_loads(r);
+        self.write_balances(ledger, r);
+        self.write_air(time, ledger, r);
+    }
+
+    /// Coordinates, attitudes, accelerations, and how well they are determined.
+    fn write_motion(&self, time: f64, ledger: &mut Ledger, r: &mut Record) {
+        let (s, solution) = (self.scratch, &self.scratch.solution);
+        let bodies = self.equations.core.system().bodies();
+        r.euler_regularity = note_coordinates(bodies, &s.motions, ledger);
+        r.coordinates.clone_from(&ledger.coordinates);
+        r.rates.clone_from(&ledger.rates);
+        r.root_quaternion = quaternion(&s.motions[0]);
+        r.root_angular_velocity = s.motions[0].w;
+        r.mass_centre = solution.budget.centre;
+        refill(&mut r.accelerations, &solution.bodies, acceleration);
+        self.write_joints(time, r);
+        r.violation_position = solution.violation.position;
+        r.violation_orientation = solution.violation.orientation;
+        r.corrector_passes = self.report.passes;
+        r.corrector_residual = self.report.residual;
+    }
+
+    /// Loads on bodies, reactions of joints.
+    fn write_loads(&self, r: &mut Record) {
+        let (s, solution) = (self.scratch, &self.scratch.solution);
+        r.multipliers.clone_from(&solution.multipliers);
+        refill(&mut r.hinges, &solution.hinges, hinge);
+        refill(&mut r.loops, &solution.loops, hinge);
+        let wings = 1..s.deformation.len().min(r.wing_angles.len() + 1);
+        r.deformation_power.clear();
+        (r.deformation_power).extend_from_slice(s.deformation.get(wings).unwrap_or(&[]));
+        refill(&mut r.air, &s.air, load);
+        refill(&mut r.applied, &s.applied, load);
+        r.tether = load(&solution.tether);
+    }
+
+    /// Energies, momenta, and what is missing in them.
+    fn write_balances(&self, ledger: &Ledger, r: &mut Record) {
         let (s, work) = (self.scratch, Quadratures::from_state(self.y));
-        let system = self.equations.core.system();
-        let regularity = note_coordinates(system.bodies(), &s.motions, ledger);
         let (solution, budget) = (&s.solution, &s.solution.budget);
-        let angular_momentum = about_origin(budget);
+        r.kinetic_energy = budget.kinetic;
+        r.potential_energy = budget.potential;
+        r.hinge_work = work.hinge_work + s.relative[0] - ledger.relative_energy;
+        r.air_work = work.air_work;
+        r.deformation_work = work.deformation_work;
+        r.applied_work = work.applied_work;
+        let done = r.hinge_work + work.air_work + work.deformation_work + work.applied_work;
+        r.energy_residual = solution.energy() - ledger.energy - done;
+        r.momentum = budget.momentum;
+        r.angular_momentum = about_origin(budget);
+        r.momentum_residual = budget.momentum - ledger.momentum - work.impulse;
+        r.angular_momentum_residual =
+            r.angular_momentum - ledger.angular_momentum - work.angular_impulse;
+    }
+
+    /// Impulses of the air and the state of its wakes.
+    fn write_air(&self, time: f64, ledger: &mut Ledger, r: &mut Record) {
+        let (s, loads) = (self.scratch, &self.scratch.air_scratch.loads);
         let events = self.air.map_or(0, total_events);
-        let new_events = events - ledger.events;
+        r.regularised = (events - ledger.events) as usize;
         ledger.events = events;
-        let hinge_work = work.hinge_work + s.relative[0] - ledger.relative_energy;
-        let done = hinge_work + work.air_work + work.deformation_work + work.applied_work;
+        r.vortex_impulse = loads.impulse;
         let air_force = s.air.iter().map(|w| w.force).sum();
-        let wings = 1..s.deformation.len().min(self.wing_angles.len() + 1);
-        Record {
-            step,
-            time,
-            wing_angles: self.wing_angles.clone(),
-            commands: self.commands.clone(),
-            coordinates: ledger.coordinates.clone(),
-            rates: ledger.rates.clone(),
-            root_quaternion: quaternion(&s.motions[0]),
-            root_angular_velocity: s.motions[0].w,
-            mass_centre: budget.centre,
-            accelerations: solution.bodies.iter().map(acceleration).collect(),
-            multipliers: solution.multipliers.clone(),
-            hinges: solution.hinges.iter().map(hinge).collect(),
-            loops: solution.loops.iter().map(hinge).collect(),
-            joints: self.joint_coordinates(time),
-            deformation_power: s.deformation.get(wings).unwrap_or(&[]).to_vec(),
-            air: s.air.iter().map(load).collect(),
-            applied: s.applied.iter().map(load).collect(),
-            tether: load(&solution.tether),
-            kinetic_energy: budget.kinetic,
-            potential_energy: budget.potential,
-            hinge_work,
-            air_work: work.air_work,
-            deformation_work: work.deformation_work,
-            applied_work: work.applied_work,
-            energy_residual: solution.energy() - ledger.energy - done,
-            momentum: budget.momentum,
-            angular_momentum,
-            momentum_residual: budget.momentum - ledger.momentum - work.impulse,
-            angular_momentum_residual: angular_momentum
-                - ledger.angular_momentum
-                - work.angular_impulse,
-            violation_position: solution.violation.position,
-            violation_orientation: solution.violation.orientation,
-            euler_regularity: regularity,
-            corrector_passes: self.report.passes,
-            corrector_residual: self.report.residual,
-            vortex_impulse: s.air_scratch.loads.impulse,
-            air_impulse: ledger.air_impulse.count(time, air_force),
-            inviscid_impulse: (ledger.inviscid_impulse)
-                .count(time, s.air_scratch.loads.inviscid_force),
-            wake_rings: self.in_wake(WakeSheet::ring_count),
-            wake_particles: self.in_wake(|w| w.particles.len()),
-            regularised: new_events as usize,
-            net_flux_residual: self.net_flux_residual(),
-        }
+        r.air_impulse = ledger.air_impulse.count(time, air_force);
+        r.inviscid_impulse = ledger.inviscid_impulse.count(time, loads.inviscid_force);
+        r.wake_rings = self.in_wake(WakeSheet::ring_count);
+        r.wake_particles = self.in_wake(|w| w.particles.len());
+        r.net_flux_residual = self.net_flux_residual();
     }
 
     /// Coordinates along the free directions of all joints.
-    fn joint_coordinates(&self, time: f64) -> Vec<[f64; 2]> {
-        let mut out = vec![];
+    fn write_joints(&self, time: f64, r: &mut Record) {
+        r.joints.clear();
         let system = self.equations.core.system();
-        if system.speeds() == 0 && system.loops().is_empty() {
-            return out;
+        if system.speeds() > 0 || !system.loops().is_empty() {
+            (self.equations.mechanism).coordinates(time, &self.scratch.motions, &mut r.joints);
         }
-        (self.equations.mechanism).coordinates(time, &self.scratch.motions, &mut out);
-        out
     }
 
     /// Sum over all wake sheets.
@@ -157,6 +164,12 @@ impl Sources<'_> {
             .iter()
             .fold(0.0, |m, s| m.max(s.net_flux_residual.abs()))
     }
+}
+
+/// Makes `list` what `of` makes of `items`.
+fn refill<T, U>(list: &mut Vec<T>, items: &[U], of: impl Fn(&U) -> T) {
+    list.clear();
+    list.extend(items.iter().map(of));
 }
 
 /// All regularised events of the air so far.

@@ -6,16 +6,17 @@
 mod fits;
 mod start;
 mod state;
+mod wings;
 
 pub use state::FlightState;
 
 use wingbeat_air::Points;
 use wingbeat_dynamics::BodyMotion;
-use wingbeat_math::DVec3;
 use wingbeat_math::ode::{Multistep, StepError, StepReport, block_start};
 
 use self::fits::check_fits;
 use self::start::Start;
+use self::wings::WingAngles;
 use crate::bodies::{carry, own_motion};
 use crate::control::{Loop, Sensed, feedback};
 use crate::equations::{Equations, Scratch};
@@ -38,6 +39,7 @@ pub struct Simulation {
     solver: Solver,
     scratch: Scratch,
     record: Record,
+    wings: WingAngles,
     release: Option<BodyMotion>,
     feedback: Option<Loop>,
 }
@@ -71,6 +73,7 @@ impl Simulation {
             solver: Solver::new(first, setup.integrator, &setup.corrector),
             scratch: Scratch::new(first),
             record: Record::default(),
+            wings: WingAngles::new(&setup, stages[0].equations.core.system()),
             release: None,
             feedback,
             setup,
@@ -226,16 +229,6 @@ impl Simulation {
         self.finish_arrival(StepReport::default(), true)
     }
 
-    /// Angles phi, theta, psi of the wings at time `t` [s].
-    fn wing_angles(&self, t: f64) -> Vec<DVec3> {
-        if let Some(feedback) = &self.feedback {
-            return feedback.angles(t);
-        }
-        let value = |a: [[f64; 3]; 3]| DVec3::new(a[0][0], a[1][0], a[2][0]);
-        let wings = self.setup.animal.wings.iter();
-        wings.map(|w| value(w.motion.angles(t))).collect()
-    }
-
     /// One of the three starting steps, already known: evaluates it again in its place.
     fn replay_start(&mut self) -> Result<StepReport, FlightError> {
         let (t, k) = (self.time(self.state.step), self.newest());
@@ -301,16 +294,16 @@ impl Simulation {
     fn finish_arrival(&mut self, report: StepReport, starts: bool) -> Result<(), FlightError> {
         self.control()?;
         let (step, time) = (self.state.step, self.time(self.state.step));
+        let (wings, feedback) = (&self.wings, self.feedback.as_ref());
+        wings.write(&self.setup, feedback, step, &mut self.record);
         let sources = Sources {
-            wing_angles: self.wing_angles(time),
-            commands: (self.feedback.as_ref()).map_or(vec![], |f| f.commands().to_vec()),
             equations: &self.stages[self.state.stage].equations,
             scratch: &self.scratch,
             y: &self.state.past.y[self.newest()],
             air: self.state.air.as_ref(),
             report,
         };
-        self.record = sources.record(step, time, &mut self.state.ledger);
+        sources.write(step, time, &mut self.state.ledger, &mut self.record);
         let equations = &self.stages[self.state.stage].equations;
         equations.accept_air(&mut self.state.air, &self.scratch)?;
         if starts && !self.finished() && !self.setup.integrator.is_one_step() {
@@ -340,8 +333,8 @@ impl Simulation {
             feedback.update(t, &sensed)?;
             // What the scratch knows of the wings at this instant is that of the passage before.
             self.scratch.fit(&stage.equations);
+            self.state.control = Some(feedback.state());
         }
-        self.state.control = Some(feedback.state());
         Ok(())
     }
 

@@ -2,9 +2,10 @@
 
 use std::sync::Arc;
 
+use wingbeat_dynamics::posture::PostureTable;
 use wingbeat_dynamics::{
-    Baumgarte, EulerForm, Formulation, Mechanism, MomentumForm, QuaternionForm, Stabilization,
-    System,
+    Baumgarte, Cycle, EulerForm, Formulation, Mechanism, MomentumForm, QuaternionForm,
+    Stabilization, System,
 };
 
 use crate::bodies::{self, WingLaw};
@@ -13,8 +14,8 @@ use crate::equations::Equations;
 use crate::error::FlightError;
 use crate::joints::Path;
 use crate::setup::{
-    AirModel, BaumgarteChoice, DriftingFourier, FlightSetup, FormulationChoice, MotionMode,
-    PrescribedMotion, StabilizationChoice, StartState,
+    AirModel, BaumgarteChoice, DriftingFourier, FlightSetup, FormulationChoice, IntegratorChoice,
+    MotionMode, PrescribedMotion, StabilizationChoice, StartState,
 };
 
 /// A part of the flight with the same equations.
@@ -93,7 +94,7 @@ fn stabilization(choice: StabilizationChoice, step: f64) -> Stabilization {
 /// The chosen formulation of `system`.
 fn formulation(setup: &FlightSetup, system: System) -> Result<Box<dyn Formulation>, FlightError> {
     Ok(match setup.formulation {
-        FormulationChoice::Momentum => Box::new(MomentumForm::new(system)),
+        FormulationChoice::Momentum => Box::new(momentum(setup, system)),
         FormulationChoice::Euler(choice) => {
             Box::new(EulerForm::new(system, baumgarte(choice, setup.time.step)))
         }
@@ -102,6 +103,32 @@ fn formulation(setup: &FlightSetup, system: System) -> Result<Box<dyn Formulatio
             Box::new(QuaternionForm::new(system, stabilization))
         }
     })
+}
+
+/// How a free flight of `system` repeats itself from step to step, if that is known beforehand: in the momentum form, in air
+/// without a memory, whose flights are many beats long and cost little else, by a method that keeps to the time grid.
+pub fn cycle(setup: &FlightSetup, system: &System) -> Option<Cycle> {
+    let known = setup.formulation == FormulationChoice::Momentum
+        && matches!(setup.mode, MotionMode::Free(_))
+        && !setup.air.has_memory()
+        && !matches!(setup.integrator, IntegratorChoice::OrderEight { .. });
+    known.then(|| system.cycle(setup.time.step)).flatten()
+}
+
+/// The momentum form, with postures from a table where the motion repeats itself in whole steps.
+fn momentum(setup: &FlightSetup, system: System) -> MomentumForm {
+    let step = setup.time.step;
+    let table = cycle(setup, &system).map(|cycle| match setup.integrator {
+        IntegratorChoice::RungeKutta => {
+            PostureTable::repeating(&system, 0.5 * step, cycle.halved())
+        }
+        _ => PostureTable::repeating(&system, step, cycle),
+    });
+    let form = MomentumForm::new(system);
+    match table {
+        Some(table) => form.tabulated(Arc::new(table)),
+        None => form,
+    }
 }
 
 /// The hold before the release: constant attitude, constant velocity.

@@ -114,12 +114,22 @@ impl MovingRotation {
 pub trait RotationLaw: Send + Sync + std::fmt::Debug {
     /// The rotation and its first two derivatives at time `t` [s].
     fn at(&self, t: f64) -> MovingRotation;
+
+    /// The time from which on it repeats itself, and its period [s], 0 if it stands still; none if it does not, or
+    /// does not say.
+    fn cycle(&self) -> Option<[f64; 2]> {
+        None
+    }
 }
 
 /// A constant rotation is a law too.
 impl RotationLaw for DMat3 {
     fn at(&self, _t: f64) -> MovingRotation {
         MovingRotation::fixed(*self)
+    }
+
+    fn cycle(&self) -> Option<[f64; 2]> {
+        Some([0.0; 2])
     }
 }
 

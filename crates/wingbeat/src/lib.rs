@@ -34,16 +34,19 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! Everyday types are in [`prelude`]; a flight is a [`Flight`], a flight that was flown a [`Run`].
+//! Everyday types are in [`prelude`]; a flight is a [`Flight`], a flight that was flown a [`Run`];
+//! [`fly_all`] flies many over the processor's threads.
 #![warn(missing_docs)]
 
 extern crate self as wingbeat; // the command line is written as any other user of the library
 
+mod batch;
 pub mod command;
 mod flown;
 mod refusal;
 mod value;
 
+pub use batch::fly_all;
 pub use flown::{Beat, Run};
 pub use refusal::Error;
 pub use value::Flight;
@@ -60,7 +63,7 @@ pub use value::Flight;
 /// # Ok::<(), Error>(())
 /// ```
 pub mod prelude {
-    pub use crate::{Beat, Error, Flight, Run};
+    pub use crate::{Beat, Error, Flight, Run, fly_all};
     pub use wingbeat_air::{AirState, Gust, GustShape};
     pub use wingbeat_dynamics::{BodyMotion, Wrench};
     pub use wingbeat_flight::{

@@ -23,6 +23,9 @@ pub enum Error {
     /// The trim.
     #[error(transparent)]
     Analysis(#[from] AnalysisError),
+    /// The system gives no threads.
+    #[error("cannot start threads: {0}; fly on fewer")]
+    Threads(#[from] rayon::ThreadPoolBuildError),
     /// A gust in air that has no wind.
     #[error(
         "a gust cannot blow in this air ({air}): fly in blade elements or in the vortex lattice"

@@ -64,13 +64,14 @@ impl Segments {
         flow: Flow,
         out: &mut AirLoads,
     ) {
-        let bound = &flow.filaments.bound;
+        let filaments = flow.filaments;
+        let bound = &filaments.bound;
         self.take_velocities(lattice, flow, out.time);
         self.collect(lattice, state, bound, &out.panels.point);
         let method = lattice.settings().loads;
         let suction = match method {
             LoadMethod::Joukowski => {
-                self.joukowski(lattice, state, &motion.position, out);
+                self.joukowski(lattice, filaments, &motion.position, out);
                 DVec3::ZERO
             }
             LoadMethod::Pressure | LoadMethod::Polhamus => self.suction(&out.panels.normal),
@@ -134,8 +135,10 @@ impl Segments {
             let l = bound.nodes.get(edge.to) - bound.nodes.get(edge.from);
             let circulation = rho * bound.gamma[e] / count as f64;
             let shared = edge.minus.is_some();
-            let sheds = edge.wake.is_some() && !lattice.is_attached(state, edge);
-            let part = if shared || sheds { 0.5 } else { 1.0 };
+            let part = match shared || edge.wake.is_some() {
+                true => 0.5 + 0.5 * lattice.held_part(state, edge, bound.gamma[e]),
+                false => 1.0,
+            };
             for k in at * count..(at + 1) * count {
                 let share = part * (circulation * self.velocity.get(k).cross(l));
                 for p in [Some(edge.plus), edge.minus].into_iter().flatten() {
@@ -161,7 +164,7 @@ impl Segments {
     fn joukowski(
         &self,
         lattice: &Lattice,
-        state: &AirState,
+        filaments: &Filaments,
         position: &[DVec3],
         out: &mut AirLoads,
     ) {
@@ -176,7 +179,7 @@ impl Segments {
             out.force[p] = force + unsteady;
             out.couple[p] = moment;
         }
-        add_lag(lattice, state, position, out);
+        add_lag(lattice, filaments, position, out);
     }
 
     /// The suction of a strip is the part of its segments' forces along the chord, forward; it is added

@@ -10,7 +10,8 @@
 use crate::geometry::opposite;
 use crate::lattice::Lattice;
 use crate::loads::values::AirLoads;
-use crate::state::AirState;
+use crate::settings::LeadingEdge;
+use crate::wake::Filaments;
 use wingbeat_math::DVec3;
 
 /// Vortices lie so far behind the front of the panel they stand for, in panels.
@@ -18,13 +19,29 @@ const VORTEX: f64 = 0.25;
 
 /// Moves the forces of all strips from the rings to where they act: by [`VORTEX`] towards the edge that the flow leaves,
 /// less what the rings are moved already.
-pub(crate) fn add_lag(lattice: &Lattice, state: &AirState, position: &[DVec3], out: &mut AirLoads) {
+pub(crate) fn add_lag(
+    lattice: &Lattice,
+    filaments: &Filaments,
+    position: &[DVec3],
+    out: &mut AirLoads,
+) {
     let (topology, settings) = (lattice.topology(), lattice.settings());
     let middle = |n: [usize; 2]| position[n[0]].midpoint(position[n[1]]);
     for strip in lattice.strips() {
         let leading = &topology.edges[strip.edge];
         let aft = f64::from(settings.shedding.trailing);
-        let forward = f64::from(leading.wake.is_some() && !lattice.is_attached(state, leading));
+        let forward = match (leading.wake, settings.leading) {
+            (None, _) => 0.0,
+            (_, LeadingEdge::Always) => 1.0,
+            // As much as is gone of what the edge would have if none had left.
+            _ => {
+                let [net, all] = [
+                    filaments.bound.gamma[strip.edge],
+                    out.gamma[strip.panels[0]],
+                ];
+                1.0 - (net.abs() / all.abs().max(f64::MIN_POSITIVE)).min(1.0)
+            }
+        };
         let part = VORTEX * (aft - forward) - settings.ring_shift();
         if part == 0.0 {
             continue;

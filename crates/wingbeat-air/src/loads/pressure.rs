@@ -20,8 +20,9 @@ fn shares<'a>(
     topology.panel_edges[panel].iter().map(move |e| {
         let edge = &topology.edges[e.edge];
         let [a, b] = [edge.from, edge.to].map(|n| bound.nodes.get(n));
-        let attached = lattice.is_attached(state, edge);
-        let weight = if attached { 1.0 } else { e.weight };
+        // Half of what leaves is the wake's.
+        let held = lattice.held_part(state, edge, bound.gamma[e.edge]);
+        let weight = held + (1.0 - held) * e.weight;
         [weight * bound.gamma[e.edge] * (b - a), a.midpoint(b)]
     })
 }
@@ -107,5 +108,5 @@ pub(crate) fn forces(
         out.force.push(force);
         out.couple.push(couple);
     }
-    add_lag(lattice, state, position, out);
+    add_lag(lattice, filaments, position, out);
 }

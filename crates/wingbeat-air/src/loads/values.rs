@@ -51,6 +51,8 @@ pub struct AirLoads {
     /// What the separation criterion compares with its threshold, for each leading-edge strip
     /// (angle [rad], suction parameter [1]; zero for the criteria that need none).
     pub leading: Vec<f64>,
+    /// Circulation that the leading edge of each strip holds before flow leaves it, 0 where all leaves [m2/s].
+    pub hold: Vec<f64>,
     /// Resultants of the surfaces.
     pub surfaces: Vec<SurfaceLoads>,
     /// Momentum of the fictitious fluid inside each closed surface [kg m/s].

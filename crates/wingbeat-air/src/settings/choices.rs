@@ -101,7 +101,8 @@ pub enum LeadingEdge {
         /// Threshold [rad], 0 to pi.
         threshold: f64,
     },
-    /// Where the leading-edge suction parameter exceeds the threshold.
+    /// Where the leading-edge suction parameter exceeds the threshold, and only as much as keeps it there
+    /// [Ramesh et al. 2014, J. Fluid Mech. 751:500].
     Suction {
         /// Threshold, above 0.
         threshold: f64,

@@ -44,9 +44,9 @@ pub struct AirState {
     pub gamma_before: Vec<f64>,
     /// Time between these two [s].
     pub dt_before: f64,
-    /// What the separation criterion compares with its threshold, for each leading-edge strip,
-    /// at the last accepted step.
-    pub leading: Vec<f64>,
+    /// Circulation that the leading edge of each strip holds before flow leaves it, at the last accepted step [m2/s];
+    /// what any edge may have before there was one.
+    pub hold: Vec<f64>,
     /// Length of the last step of the wakes [s], zero before it.
     pub dt_wake: f64,
     /// Positions of the surface nodes at the last accepted step [m], N.

@@ -22,7 +22,7 @@ impl Lattice {
             position: motion.position.clone(),
             velocity: motion.velocity.clone(),
             inner_momentum: vec![DVec3::ZERO; self.surfaces().len()],
-            leading: vec![0.0; self.strips().len()],
+            hold: vec![f64::MAX; self.strips().len()],
             sheets: self.sheets().iter().map(sheet).collect(),
             ..AirState::default()
         }
@@ -44,7 +44,7 @@ impl Lattice {
         {
             return mismatch("number of nodes");
         }
-        if state.leading.len() != self.strips().len() {
+        if state.hold.len() != self.strips().len() {
             return mismatch("number of leading-edge strips");
         }
         if state.inner_momentum.len() != self.surfaces().len() {

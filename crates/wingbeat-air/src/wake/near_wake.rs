@@ -144,12 +144,15 @@ fn strip(row: &Row, column: usize, k: usize) -> Strip {
         lengths,
     } = *row;
     let (root, old) = (&lattice.sheets()[s], state.sheets[s].newest(column));
-    let part = match lattice.keeps_attached(state, s, column) {
-        true => 0.0,
-        false => present(lattice.settings(), lengths[column], k),
+    let part = match lattice.feeds(s, &state.sheets[s], column) {
+        true => present(lattice.settings(), lengths[column], k),
+        false => 0.0,
     };
+    // What the edge held at the last step it holds on.
+    let present = root.signs[column] * state.gamma[root.panels[column]];
+    let held = present - lattice.to_shed(state, (s, column), present, old);
     Strip {
-        past: (1.0 - part) * old,
+        past: (1.0 - part) * old - part * held,
         part: part * root.signs[column],
         panel: root.panels[column],
     }

@@ -1,41 +1,67 @@
-//! Whether the flow leaves the leading edge, strip by strip, by what the state has kept.
+//! How much circulation the leading edge of a strip holds before flow leaves it, by what the state has kept.
+//!
+//! The net circulation at the edge, that of the leading panel less what has left so far, is the strength of the suction there.
+//! As long as the edge can hold it nothing leaves and the suction acts; what is beyond that leaves with the next row, so
+//! that the suction stays at what the edge holds [Ramesh et al. 2014, J. Fluid Mech. 751:500]. What has left does not come
+//! back: an edge that ceases to shed keeps the circulation of its newest ring (Kelvin's theorem of the strip).
 
 use crate::edges::EdgeKind;
 use crate::geometry::Edge;
 use crate::lattice::Lattice;
 use crate::settings::LeadingEdge;
-use crate::state::AirState;
+use crate::state::{AirState, WakeSheet};
 
 impl Lattice {
-    /// Whether the flow leaves the leading edge of a strip, by the value kept in the state.
-    pub fn is_separated(&self, strip: usize, state: &AirState) -> bool {
-        let value = state.leading.get(strip).copied().unwrap_or(0.0);
-        match self.settings().leading {
-            LeadingEdge::Always => true,
-            LeadingEdge::Never => false,
-            LeadingEdge::AngleOfAttack { threshold } | LeadingEdge::Suction { threshold } => {
-                value > threshold
-            }
+    /// Circulation [m2/s] that the edge of a column of a wake sheet holds: none but at leading edges with a criterion.
+    pub(crate) fn hold(&self, state: &AirState, sheet: usize, column: usize) -> f64 {
+        let root = &self.sheets()[sheet];
+        if root.kinds[column] != EdgeKind::Leading || self.settings().leading == LeadingEdge::Always
+        {
+            return 0.0;
         }
+        let leads = |panels: &[usize]| panels[0] == root.panels[column];
+        let strip = self.strips().iter().position(|s| leads(&s.panels));
+        strip.map_or(0.0, |s| state.hold[s])
     }
 
-    /// Whether the flow leaves the leading edge at this leading panel.
-    pub(crate) fn leaves(&self, panel: usize, state: &AirState) -> bool {
-        let strip = self.strips().iter().position(|s| s.panels[0] == panel);
-        strip.is_none_or(|s| self.is_separated(s, state))
+    /// What the row that leaves the edge of a column is to have, where the panel's circulation is `present`, counted as that of
+    /// rings, and that of the newest ring `past` [m2/s].
+    pub(crate) fn to_shed(
+        &self,
+        state: &AirState,
+        (sheet, column): (usize, usize),
+        present: f64,
+        past: f64,
+    ) -> f64 {
+        let hold = self.hold(state, sheet, column);
+        if hold == 0.0 {
+            return present;
+        }
+        let net = present - past;
+        past + (net - net.clamp(-hold, hold))
     }
 
-    /// Whether the flow stays attached at an edge that could shed: its newest ring was left
-    /// without circulation by the separation criterion.
-    pub(crate) fn is_attached(&self, state: &AirState, edge: &Edge) -> bool {
-        edge.wake
-            .is_some_and(|w| self.keeps_attached(state, w.sheet, w.column))
+    /// Whether the flow leaves the edge of a column of wake sheet `k`, which is `sheet`: the newest ring differs from the
+    /// one before.
+    pub(crate) fn feeds(&self, k: usize, sheet: &WakeSheet, column: usize) -> bool {
+        if self.sheets()[k].kinds[column] != EdgeKind::Leading
+            || self.settings().leading == LeadingEdge::Always
+        {
+            return true;
+        }
+        let before = match sheet.rows() {
+            0 | 1 => 0.0,
+            rows => sheet.gamma[(rows - 2) * sheet.columns + column],
+        };
+        sheet.newest(column) != before
     }
 
-    /// The same of a column of a wake sheet.
-    pub(crate) fn keeps_attached(&self, state: &AirState, sheet: usize, column: usize) -> bool {
-        self.sheets()[sheet].kinds[column] == EdgeKind::Leading
-            && self.settings().leading != LeadingEdge::Always
-            && state.sheets[sheet].newest(column) == 0.0
+    /// Part of the net circulation `net` [m2/s] of an edge that it holds, 0 to 1: what is beyond it is about to leave.
+    pub(crate) fn held_part(&self, state: &AirState, edge: &Edge, net: f64) -> f64 {
+        let hold = (edge.wake).map_or(0.0, |w| self.hold(state, w.sheet, w.column));
+        if hold >= net.abs() && hold > 0.0 {
+            return 1.0;
+        }
+        hold / net.abs().max(f64::MIN_POSITIVE)
     }
 }

@@ -1,28 +1,23 @@
 //! The row that leaves an edge: unsteady Kutta condition.
 
-use crate::edges::EdgeKind;
 use crate::lattice::Lattice;
-use crate::settings::{LeadingEdge, NewestRow};
+use crate::settings::NewestRow;
 use crate::state::{AirState, WakeSheet};
 use crate::wake::near_wake::{kept, released};
 
 impl Lattice {
-    /// Unsteady Kutta condition: the row that leaves carries the circulation of its panels; none
-    /// where the flow stays attached to a leading edge.
+    /// Unsteady Kutta condition: the row that leaves carries the circulation of its panels, at leading edges less what
+    /// these hold.
     pub(crate) fn shed(&self, k: usize, sheet: &mut WakeSheet, state: &AirState, lengths: &[f64]) {
         let root = &self.sheets()[k];
         self.finalise_newest(k, sheet, state, lengths);
         let delays = self.settings().newest_row == NewestRow::Matched && sheet.rows() > 0;
         for (c, (&panel, &sign)) in root.panels.iter().zip(&root.signs).enumerate() {
-            let attached = root.kinds[c] == EdgeKind::Leading && !self.leaves(panel, state);
-            let present = sign * state.gamma[panel];
-            let gamma = match (attached, delays) {
-                (true, _) => 0.0,
-                (false, false) => present,
-                (false, true) => {
-                    let before = sheet.newest(c);
-                    before + released(lengths[c]) * (present - before)
-                }
+            let before = sheet.newest(c);
+            let wanted = self.to_shed(state, (k, c), sign * state.gamma[panel], before);
+            let gamma = match delays {
+                false => wanted,
+                true => before + released(lengths[c]) * (wanted - before),
             };
             sheet.gamma.push(gamma);
         }
@@ -39,13 +34,11 @@ impl Lattice {
         }
         let root = &self.sheets()[k];
         for c in 0..sheet.columns {
-            let ring = &mut sheet.gamma[newest * sheet.columns + c];
-            let stays_attached = root.kinds[c] == EdgeKind::Leading
-                && self.settings().leading != LeadingEdge::Always
-                && *ring == 0.0;
-            if !stays_attached {
-                let change = root.signs[c] * state.gamma[root.panels[c]] - *ring;
-                *ring += kept(lengths[c]) * change;
+            if self.feeds(k, sheet, c) {
+                let ring = &mut sheet.gamma[newest * sheet.columns + c];
+                let present = root.signs[c] * state.gamma[root.panels[c]];
+                let wanted = self.to_shed(state, (k, c), present, *ring);
+                *ring += kept(lengths[c]) * (wanted - *ring);
             }
         }
     }

@@ -135,7 +135,7 @@ pub struct AirCase {
     #[schemars(extend("exclusiveMinimum" = 0, "maximum" = 180, "with" = [LATTICE, "leading_edge = angle_of_attack"]))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub leading_edge_threshold_deg: Option<f64>,
-    /// Leading-edge suction parameter above which a strip sheds from its leading edge.
+    /// Leading-edge suction parameter that the leading edge of a strip holds: what is beyond it sheds.
     ///
     /// Change it with the section of the wing and its Reynolds number.
     #[schemars(extend("exclusiveMinimum" = 0, "with" = [LATTICE, "leading_edge = suction"]))]
@@ -278,6 +278,7 @@ pub enum LeadingEdgeCase {
     Always,
     /// Strips whose effective angle of attack exceeds `leading_edge_threshold_deg`.
     AngleOfAttack,
-    /// Strips whose leading-edge suction parameter exceeds `leading_edge_threshold`.
+    /// What is beyond the leading-edge suction parameter `leading_edge_threshold`, so that the suction stays there [Ramesh et al.
+    /// 2014, J. Fluid Mech. 751:500].
     Suction,
 }

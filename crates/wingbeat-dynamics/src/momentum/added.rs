@@ -8,10 +8,11 @@
 use wingbeat_math::DVec3;
 
 use super::whole::whole_load;
-use crate::added_mass::{AddedMass, Six, six, solve_symmetric, wrench};
+use crate::added_mass::{AddedMass, Factors, Six, six, wrench};
 use crate::motion::Wrench;
 use crate::placement::Placement;
 use crate::posture::Composite;
+use crate::prescribed::Carried;
 use crate::system::System;
 use crate::workspace::Workspace;
 
@@ -50,14 +51,22 @@ fn apparent(w: DVec3, x: DVec3, x_dot: DVec3, x_ddot: DVec3) -> DVec3 {
     w.cross(w.cross(x) + 2.0 * x_dot) + x_ddot
 }
 
-/// Accelerations under `loads`, weight and added masses. Motions, placements and whole in `ws` are
+/// Accelerations under `loads`, weight and added masses at time `t` \[s\]. Motions, placements and whole in `ws` are
 /// those of the state; no joint is free.
 pub(super) fn accelerate(
     system: &System,
-    added: &[AddedMass],
+    (t, added): (f64, &[AddedMass]),
     loads: &[Wrench],
-    ws: &Workspace,
+    ws: &mut Workspace,
 ) -> Moving {
+    if ws.carried.at != Some(t) || ws.carried.added != added {
+        carry(
+            (t, added),
+            ws.posture.placements(),
+            &ws.whole,
+            &mut ws.carried,
+        );
+    }
     let (root, whole, rates) = (&ws.motions[0], &ws.whole, &ws.whole_rates);
     let load = whole_load(system, loads, &ws.posture, root.r, whole.c);
     let (back, w) = (root.r.transpose(), root.w);
@@ -69,26 +78,51 @@ pub(super) fn accelerate(
         rest: apparent(w, whole.c, whole.c_dot, rates.c_ddot),
         gyroscopic,
     };
-    let mut matrix = inertia_of_whole(whole);
-    for a in added {
-        let at = &ws.posture.placements()[a.body()];
-        let load = a.load(&moving.at_rest(at));
-        put_added(a, at, whole.c, &load, &mut matrix, &mut moving.x);
+    let carried = &mut ws.carried;
+    for (k, a) in carried.added.iter().enumerate() {
+        let at_rest = moving.at_rest(&ws.posture.placements()[a.body()]);
+        let load = a.load(&at_rest);
+        for &d in a.directions() {
+            (0..6).for_each(|i| moving.x[i] += carried.rows[k][d][i] * load[d]);
+        }
+        carried.at_rest[k] = at_rest;
     }
-    solve_symmetric(&mut matrix, &mut moving.x);
+    carried.inertia.solve(&mut moving.x);
     moving
 }
 
-/// Adds to `loads` what the added masses exert while the whole accelerates as [`accelerate`] says.
-pub(super) fn add(added: &[AddedMass], moving: &Moving, ws: &Workspace, loads: &mut [Wrench]) {
-    for a in added {
-        let at = &ws.posture.placements()[a.body()];
-        let mut s = moving.at_rest(at);
-        for &k in a.directions() {
-            s[k] += dot(&row(at, ws.whole.c, k), &moving.x);
+/// Adds to `loads` what the added masses exert while the whole accelerates as [`accelerate`] just said.
+pub(super) fn add(moving: &Moving, ws: &Workspace, loads: &mut [Wrench]) {
+    let carried = &ws.carried;
+    for (k, a) in carried.added.iter().enumerate() {
+        let mut s = carried.at_rest[k];
+        for &d in a.directions() {
+            s[d] += dot(&carried.rows[k][d], &moving.x);
         }
         loads[a.body()] += wrench(ws.motions[a.body()].r, &a.load(&s));
     }
+}
+
+/// The added masses in a posture, with the whole.
+fn carry(
+    (t, added): (f64, &[AddedMass]),
+    placements: &[Placement],
+    whole: &Composite,
+    out: &mut Carried,
+) {
+    out.at = Some(t);
+    out.added.clear();
+    out.added.extend_from_slice(added);
+    out.at_rest.resize(added.len(), [0.0; 6]);
+    out.rows.clear();
+    let mut matrix = inertia_of_whole(whole);
+    for a in added {
+        let (at, mut rows) = (&placements[a.body()], [[0.0; 6]; 6]);
+        (a.directions().iter()).for_each(|&k| rows[k] = row(at, whole.c, k));
+        put_added(a, &rows, &mut matrix);
+        out.rows.push(rows);
+    }
+    out.inertia = Factors::of(matrix);
 }
 
 /// `diag(m, I)`, root components.
@@ -113,17 +147,8 @@ fn row(at: &Placement, c: DVec3, k: usize) -> Six {
     }
 }
 
-/// Adds `J^T A J` to the lower half of the matrix and `J^T load` to the right-hand side.
-fn put_added(
-    a: &AddedMass,
-    at: &Placement,
-    c: DVec3,
-    load: &Six,
-    matrix: &mut [Six; 6],
-    x: &mut Six,
-) {
-    let mut rows = [[0.0; 6]; 6];
-    a.directions().iter().for_each(|&k| rows[k] = row(at, c, k));
+/// Adds `J^T A J` to the lower half of the matrix.
+fn put_added(a: &AddedMass, rows: &[Six; 6], matrix: &mut [Six; 6]) {
     for &k in a.directions() {
         let mut carried = [0.0; 6];
         for &l in a.directions() {
@@ -131,7 +156,6 @@ fn put_added(
             (0..6).for_each(|j| carried[j] += factor * rows[l][j]);
         }
         for i in 0..6 {
-            x[i] += rows[k][i] * load[k];
             (0..=i).for_each(|j| matrix[i][j] += rows[k][i] * carried[j]);
         }
     }

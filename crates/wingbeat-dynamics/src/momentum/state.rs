@@ -16,15 +16,24 @@ pub(super) struct State {
 }
 
 impl State {
+    /// Of the state vector `y` at time `t` \[s\].
+    ///
+    /// # Errors
+    /// Numbers that are not finite.
     pub fn read(t: f64, y: &[f64]) -> Result<Self, DynamicsError> {
         check_state(t, y)?;
+        Ok(Self::of(y))
+    }
+
+    /// Of a state vector whose numbers are known to be finite.
+    pub fn of(y: &[f64]) -> Self {
         let v = |i: usize| DVec3::new(y[i], y[i + 1], y[i + 2]);
-        Ok(Self {
+        Self {
             centre: v(0),
             attitude: DQuat::from_xyzw(y[3], y[4], y[5], y[6]),
             momentum: v(7),
             angular: v(10),
-        })
+        }
     }
 
     pub fn write(&self, y: &mut [f64]) {
@@ -48,16 +57,4 @@ impl State {
     pub fn rotation(&self) -> DMat3 {
         DMat3::from_quat(self.attitude.normalize())
     }
-}
-
-/// Solves `inertia x = h` by Cramer's rule.
-pub(super) fn turn(time: f64, inertia: DMat3, h: DVec3) -> Result<DVec3, DynamicsError> {
-    let (x, y, z) = (inertia.x_axis, inertia.y_axis, inertia.z_axis);
-    let (yz, zx, xy) = (y.cross(z), z.cross(x), x.cross(y));
-    let (determinant, scale) = (x.dot(yz), (x.x + y.y + z.z) / 3.0);
-    // 1e-12 of the mean moment cubed: a rod a million times longer than thick.
-    if determinant > 1e-12 * scale.powi(3) {
-        return Ok(DVec3::new(h.dot(yz), h.dot(zx), h.dot(xy)) / determinant);
-    }
-    Err(DynamicsError::SingularInertia { time, scale })
 }

@@ -60,6 +60,8 @@ pub struct Hamming {
     pub scales: Vec<f64>,
     followers: Vec<usize>,
     predicted: Vec<f64>,
+    /// What the past contributes to the corrector: `9 y[n] - y[n-2]`, `2 f[n]`, `f[n-1]`.
+    known: Vec<[f64; 3]>,
     trial: Vec<f64>,
     corrected: Vec<f64>,
     rates: Vec<f64>,
@@ -75,6 +77,7 @@ impl Hamming {
             scales,
             followers: vec![],
             predicted: zero.clone(),
+            known: vec![[0.0; 3]; zero.len()],
             trial: zero.clone(),
             corrected: zero.clone(),
             rates: zero,
@@ -111,39 +114,53 @@ impl Hamming {
         mut rates: impl FnMut(Asked, &[f64], &mut [f64]) -> Result<(), E>,
     ) -> Result<StepReport, StepError<E>> {
         self.predict(past);
-        let report = self.correct(past, &mut rates)?;
-        (0..self.trial.len()).for_each(|i| self.finish(i));
+        let report = self.correct(&mut rates)?;
+        let ends = self.corrected.iter().zip(&self.predicted);
+        for (y, (c, p)) in self.trial.iter_mut().zip(ends) {
+            *y = finished(*p, *c);
+        }
         rates(Asked::Accepted, &self.trial, &mut self.rates).map_err(StepError::Rates)?;
         for k in 0..self.followers.len() {
             let i = self.followers[k];
-            self.corrected[i] = corrected(past, i, self.rates[i], self.step);
-            self.finish(i);
+            self.corrected[i] = corrected(&self.known[i], self.rates[i], self.step);
+            self.trial[i] = finished(self.predicted[i], self.corrected[i]);
         }
         self.shift(past);
         Ok(report)
     }
 
-    /// Predictor and modifier: `predicted` and the first `trial`.
+    /// Predictor and modifier: `predicted` and the first `trial`; what the corrector knows beforehand.
     fn predict(&mut self, past: &Multistep) {
-        let [y0, _, _, _] = &past.y;
-        let [_, f1, f2, f3] = &past.f;
-        for i in 0..self.trial.len() {
-            self.predicted[i] = y0[i] + 4.0 * self.step / 3.0 * (2.0 * f3[i] - f2[i] + 2.0 * f1[i]);
-            self.trial[i] = self.predicted[i] - 112.0 / 121.0 * past.predicted_minus_corrected[i];
+        let ([y0, y1, _, y3], [_, f1, f2, f3]) = (&past.y, &past.f);
+        let ahead = 4.0 * self.step / 3.0;
+        let past_y = y0
+            .iter()
+            .zip(y1)
+            .zip(y3)
+            .zip(&past.predicted_minus_corrected);
+        let past_f = f1.iter().zip(f2).zip(f3);
+        let own = (self.predicted.iter_mut())
+            .zip(&mut self.trial)
+            .zip(&mut self.known);
+        for (((p, m), known), ((((y0, y1), y3), gap), ((f1, f2), f3))) in
+            own.zip(past_y.zip(past_f))
+        {
+            *p = y0 + ahead * (2.0 * f3 - f2 + 2.0 * f1);
+            *m = *p - 112.0 / 121.0 * gap;
+            *known = [9.0 * y3 - y1, 2.0 * f3, *f2];
         }
     }
 
     /// Corrector passes until convergence; leaves the result in `corrected`.
     fn correct<E>(
         &mut self,
-        past: &Multistep,
         rates: &mut impl FnMut(Asked, &[f64], &mut [f64]) -> Result<(), E>,
     ) -> Result<StepReport, StepError<E>> {
-        let (dy, h) = (&mut self.rates, self.step);
+        let (dy, h, known) = (&mut self.rates, self.step, &self.known);
         let pass = |trial: &[f64], result: &mut [f64]| {
             rates(Asked::Pass, trial, dy)?;
-            for (i, c) in result.iter_mut().enumerate() {
-                *c = corrected(past, i, dy[i], h);
+            for ((c, known), rate) in result.iter_mut().zip(known).zip(dy.iter()) {
+                *c = corrected(known, *rate, h);
             }
             Ok(())
         };
@@ -151,23 +168,22 @@ impl Hamming {
         agree(self.convergence, trial, result, &self.scales, pass)
     }
 
-    /// The final modifier: component `i` of the accepted state into `trial`.
-    fn finish(&mut self, i: usize) {
-        let gap = self.predicted[i] - self.corrected[i];
-        self.trial[i] = self.corrected[i] + 9.0 / 121.0 * gap;
-    }
-
     /// Makes the accepted state the newest of `past`.
     fn shift(&mut self, past: &mut Multistep) {
         past.push(&self.trial, &self.rates);
-        for i in 0..self.trial.len() {
-            past.predicted_minus_corrected[i] = self.predicted[i] - self.corrected[i];
+        let gaps = self.predicted.iter().zip(&self.corrected);
+        for (gap, (p, c)) in past.predicted_minus_corrected.iter_mut().zip(gaps) {
+            *gap = p - c;
         }
     }
 }
 
-/// Component `i` of the new state by the corrector, `rate` being the rate there.
-fn corrected(past: &Multistep, i: usize, rate: f64, h: f64) -> f64 {
-    let ([_, y1, _, y3], [_, _, f2, f3]) = (&past.y, &past.f);
-    (9.0 * y3[i] - y1[i] + 3.0 * h * (rate + 2.0 * f3[i] - f2[i])) / 8.0
+/// A component of the new state by the corrector, from what is known beforehand and the `rate` there.
+fn corrected(&[y, f3, f2]: &[f64; 3], rate: f64, h: f64) -> f64 {
+    (y + 3.0 * h * (rate + f3 - f2)) / 8.0
+}
+
+/// The final modifier: a component of the accepted state.
+fn finished(predicted: f64, corrected: f64) -> f64 {
+    corrected + 9.0 / 121.0 * (predicted - corrected)
 }

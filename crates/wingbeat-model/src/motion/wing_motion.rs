@@ -168,6 +168,17 @@ impl RotationLaw for WingMotion {
     fn at(&self, t: f64) -> MovingRotation {
         wing_rotation([self.stroke_plane_pitch, 0.0, 0.0], self.angles(t))
     }
+
+    fn cycle(&self) -> Option<[f64; 2]> {
+        let from = match self.start {
+            Start::Impulsive => 0.0,
+            Start::Smooth { duration } => duration,
+        };
+        Some(match self.frequency > 0.0 {
+            true => [from, 1.0 / self.frequency],
+            false => [0.0; 2],
+        })
+    }
 }
 
 /// C = R2(eta) R1(phi) R3(theta) R2(psi) of the pitch `plane` of the stroke plane and of the angles
