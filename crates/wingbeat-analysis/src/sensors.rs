@@ -37,6 +37,9 @@ impl Sensors {
     /// What they make of the truth.
     pub fn seen(&self, truth: &Sensed) -> Sensed {
         let error = |channel: u64, noise: f64, bias: DVec3| {
+            if noise == 0.0 {
+                return bias;
+            }
             let number = |axis: u64| self.normal(truth.look as u64, 3 * channel + axis);
             bias + noise * DVec3::new(number(0), number(1), number(2))
         };

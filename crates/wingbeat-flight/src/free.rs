@@ -132,6 +132,19 @@ impl FreeFlight {
         self.equations.rates(t, y, None, &mut s.0, dy)
     }
 
+    /// Motion of the root in the state `y` at time `t` [s]: as [`Self::motions`], with room that is there already.
+    ///
+    /// # Errors
+    /// States that are not finite or singular.
+    pub fn root(
+        &self,
+        t: f64,
+        y: &[f64],
+        s: &mut FreeFlightScratch,
+    ) -> Result<BodyMotion, FlightError> {
+        self.equations.root(t, y, &mut s.0)
+    }
+
     /// Motions of all bodies in the state `y` at time `t` [s].
     ///
     /// # Errors

@@ -291,13 +291,13 @@ impl Fleet {
     /// Distances of the mass centres from their targets [m].
     fn distances(&self, py: Python<'_>) -> Vec<f64> {
         py.detach(|| {
-            let cells = self.cells.lock().unwrap_or_else(PoisonError::into_inner);
-            let of = |cell: &Cell| {
+            let mut cells = self.cells.lock().unwrap_or_else(PoisonError::into_inner);
+            let of = |cell: &mut Cell| {
                 cell.episode
                     .truth()
                     .map_or(f64::NAN, |d| d.position.length())
             };
-            cells.iter().map(of).collect()
+            cells.iter_mut().map(of).collect()
         })
     }
 }

@@ -110,12 +110,12 @@ impl Flyer {
     ///
     /// # Errors
     /// States that are not finite or singular.
-    pub fn sensed(&self, trim: &Trim, look: usize) -> Result<Sensed, AnalysisError> {
+    pub fn sensed(&mut self, trim: &Trim, look: usize) -> Result<Sensed, AnalysisError> {
         let time = self.time(trim);
         Ok(Sensed {
             look,
             time,
-            root: self.flight.motions(time, &self.y)?[0],
+            root: self.flight.root(time, &self.y, &mut self.scratch)?,
             centre: DVec3::from_slice(&self.y),
             velocity: DVec3::from_slice(&self.y[7..]) / trim.beat.mass(),
         })

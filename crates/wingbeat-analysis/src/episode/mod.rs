@@ -141,7 +141,8 @@ impl Episode {
 
     fn begin(&mut self) -> Result<(), AnalysisError> {
         self.looks = 0;
-        let first = self.departure(&self.sensed()?);
+        let truth = self.sensed()?;
+        let first = self.departure(&truth);
         self.seen = vec![first; self.course.delay + 1].into();
         Ok(())
     }
@@ -209,8 +210,9 @@ impl Episode {
     ///
     /// # Errors
     /// Numbers that are not finite.
-    pub fn truth(&self) -> Result<Departure, AnalysisError> {
-        Ok(self.departure(&self.sensed()?))
+    pub fn truth(&mut self) -> Result<Departure, AnalysisError> {
+        let truth = self.sensed()?;
+        Ok(self.departure(&truth))
     }
 
     /// Time since the start [s].
@@ -218,7 +220,7 @@ impl Episode {
         self.flyer.time(&self.course.trim)
     }
 
-    fn sensed(&self) -> Result<Sensed, AnalysisError> {
+    fn sensed(&mut self) -> Result<Sensed, AnalysisError> {
         let sensed = self.flyer.sensed(&self.course.trim, self.looks)?;
         match sensed.centre.is_finite() && sensed.root.w.is_finite() {
             true => Ok(sensed),
