@@ -17,6 +17,7 @@
 //! | `frame` | surfaces and wakes of one instant |
 //! | `fleet` | many episodes at once, for who learns |
 //! | `mechanics` | trim, stability, controls, power |
+//! | `wake` | trim in air with a memory |
 #![warn(missing_docs)]
 
 mod arrays;
@@ -29,6 +30,7 @@ mod mechanics;
 mod own;
 mod run;
 mod stepping;
+mod wake;
 mod worker;
 
 /// What `wingbeat` (Python) is written on.
@@ -50,4 +52,6 @@ mod _core {
     use crate::run::Run;
     #[pymodule_export]
     use crate::stepping::Stepper;
+    #[pymodule_export]
+    use crate::wake::WakeTrim;
 }

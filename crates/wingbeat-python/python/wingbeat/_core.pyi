@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from wingbeat._flight import Progress
 
-__all__ = ["Fleet", "Flight", "Frame", "Run", "Sensed", "Stepper", "Trim", "main", "presets", "schema", "version"]
+__all__ = ["Fleet", "Flight", "Frame", "Run", "Sensed", "Stepper", "Trim", "WakeTrim", "main", "presets", "schema", "version"]
 
 _Array = NDArray[Any]
 _Mode = tuple[str, str, float, float, list[float], list[tuple[str, float, float]]]
@@ -50,6 +50,9 @@ class Flight:
     ) -> tuple[Run | None, BaseException | None]: ...
     def start(self, /) -> Stepper: ...
     def trim(self, /, velocity_m_s: tuple[float, float], unknowns: tuple[str, str, str], steps: int) -> Trim: ...
+    def trim_with_wake(
+        self, /, velocity_m_s: tuple[float, float], unknowns: tuple[str, str, str], held_beats: int
+    ) -> WakeTrim: ...
 
 @final
 class Stepper:
@@ -145,6 +148,21 @@ class Trim:
     ) -> Fleet: ...
     @staticmethod
     def names() -> tuple[list[str], list[str]]: ...
+
+@final
+class WakeTrim:
+    @property
+    def converged(self) -> bool: ...
+    @property
+    def residual(self) -> _Array: ...
+    @property
+    def effort(self) -> tuple[int, int]: ...
+    @property
+    def adjustment(self) -> list[float]: ...
+    @property
+    def body_pitch_rad(self) -> float: ...
+    @property
+    def case_text(self) -> str | None: ...
 
 @final
 class Fleet:
