@@ -195,6 +195,10 @@ impl Fleet {
         mut truncated: PyReadwriteArray1<'_, bool>,
     ) -> PyResult<bool> {
         let actions = actions.as_slice()?;
+        if !actions.iter().all(|x| x.is_finite()) {
+            let remedy = "finite numbers, fractions of the limits";
+            return Err(refused(py, "actions", "one is not finite", remedy));
+        }
         let (observed, last) = (observed.as_slice_mut()?, last.as_slice_mut()?);
         let (rewards, terminated) = (rewards.as_slice_mut()?, terminated.as_slice_mut()?);
         let truncated = truncated.as_slice_mut()?;

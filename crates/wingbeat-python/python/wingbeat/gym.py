@@ -107,12 +107,9 @@ class _Fleet:
     def step(self, actions: Any) -> bool:
         """Whether any episode has ended."""
         plain = np.ascontiguousarray(actions, np.float32)
-        if plain.shape != (self.count, _CONTROLS) or not np.isfinite(plain).all():
-            raise CaseError(
-                f"actions: an array of shape {plain.shape}, or not finite",
-                key="actions",
-                remedy=f"finite numbers, shape ({self.count}, {_CONTROLS})",
-            )
+        if plain.shape != (self.count, _CONTROLS):
+            remedy = f"shape ({self.count}, {_CONTROLS})"
+            raise CaseError(f"actions: an array of shape {plain.shape}", key="actions", remedy=remedy)
         return self.core.step(plain, self.observed, self.last, self.rewards, self.terminated, self.truncated)
 
     def regulated(self) -> NDArray[np.float32]:
@@ -193,9 +190,6 @@ class VectorEnvironment(gymnasium.vector.VectorEnv[Any, Any, Any]):
         self.observation_space = batch_space(self.single_observation_space, num_envs)
         self.action_space = batch_space(self.single_action_space, num_envs)
 
-    def _kept(self, array: NDArray[Any]) -> NDArray[Any]:
-        return array.copy() if self._copy else array
-
     def reset(
         self, *, seed: int | Sequence[int | None] | None = None, options: dict[str, Any] | None = None
     ) -> tuple[Any, dict[str, Any]]:
@@ -209,7 +203,8 @@ class VectorEnvironment(gymnasium.vector.VectorEnv[Any, Any, Any]):
         if len(seeds) != count or np.shape(mask) != (count,):
             raise CaseError("seed: not one for each", key="seed", remedy=f"{count} seeds, a mask of {count}")
         self._fleet.reset(seeds, [bool(x) for x in mask])
-        return self._kept(self._fleet.observed), {}
+        observed = self._fleet.observed
+        return (observed.copy() if self._copy else observed), {}
 
     def step(self, actions: Any) -> tuple[Any, Any, Any, Any, dict[str, Any]]:
         """One control step of all."""
@@ -222,9 +217,10 @@ class VectorEnvironment(gymnasium.vector.VectorEnv[Any, Any, Any]):
             for k in np.flatnonzero(done):
                 final[k] = fleet.last[k].copy()
             info = {"final_obs": final, "_final_obs": done, "final_info": {}, "_final_info": done.copy()}
-        kept = (self._kept(x) for x in (fleet.observed, fleet.rewards, fleet.terminated, fleet.truncated))
-        observed, rewards, terminated, truncated = kept
-        return observed, rewards, terminated, truncated, info
+        if self._copy:
+            ends = fleet.terminated.copy(), fleet.truncated.copy()
+            return fleet.observed.copy(), fleet.rewards.copy(), *ends, info
+        return fleet.observed, fleet.rewards, fleet.terminated, fleet.truncated, info
 
     def regulated(self) -> NDArray[np.float32]:
         """What the linear-quadratic regulator would do now, shape (num_envs, 4): a baseline. It remembers: once per step."""
