@@ -5,9 +5,11 @@
 //! `cargo bench -p wingbeat-analysis --bench beat`
 
 use std::hint::black_box;
+use std::sync::Arc;
 use std::time::Instant;
 
 use wingbeat_analysis::Beat;
+use wingbeat_analysis::episode::{Course, Episode, OBSERVED, Task};
 use wingbeat_flight::{FlightSetup, Simulation};
 
 #[path = "../tests/common/mod.rs"]
@@ -40,6 +42,9 @@ fn main() {
         black_box(wingbeat_analysis::trim(&setup, &common::hover(100)).expect("the fruit fly"));
     });
     println!("trim of hover: {:.0} ms", 1e3 * trim);
+    for interval in [40, 1] {
+        episode(interval);
+    }
 }
 
 /// Flies [`BEATS`] wingbeats.
@@ -57,4 +62,28 @@ fn seconds(work: impl FnOnce()) -> f64 {
     let start = Instant::now();
     work();
     start.elapsed().as_secs_f64()
+}
+
+/// Control steps of an episode of hover, 40 Runge-Kutta steps a beat, one control every `interval` steps.
+fn episode(interval: usize) {
+    let trim = wingbeat_analysis::trim(&common::fly(), &common::hover(40)).expect("the fruit fly");
+    let mut course = Course::new(Task::Hover, trim).expect("the fruit fly");
+    (course.interval, course.beats) = (interval, usize::MAX);
+    let mut episode = Episode::new(Arc::new(course), 1).expect("the fruit fly");
+    let (mut best, mut seen, count) = (f64::INFINITY, [0.0; OBSERVED], 4000 / interval);
+    for seed in 0..20 {
+        episode.reset(Some(seed)).expect("the fruit fly");
+        let time = seconds(|| {
+            for _ in 0..count {
+                black_box(episode.step(black_box(&[0.01; 4])));
+                episode.observe(black_box(&mut seen));
+            }
+        });
+        best = best.min(time / count as f64);
+    }
+    println!(
+        "episode: {:.0} control steps, {:.0} wingbeats per core-second",
+        1.0 / best,
+        interval as f64 / 40.0 / best
+    );
 }

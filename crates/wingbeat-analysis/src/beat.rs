@@ -250,7 +250,7 @@ impl Beat {
     }
 
     /// Quaternions to unit length.
-    fn normalise(&self, y: &mut [f64]) {
+    pub(crate) fn normalise(&self, y: &mut [f64]) {
         let form = self.flight.form();
         let unit = |q: &mut [f64]| {
             let turned = DQuat::from_slice(q).normalize();

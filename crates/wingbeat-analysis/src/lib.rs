@@ -6,7 +6,7 @@
 //! cycle-averaged rigid-body model with its derivatives, and Floquet's multipliers of the
 //! periodic orbit from the [`monodromy`] matrix; [`modes`] names what comes out; [`derivatives`]
 //! are the controls; [`power`] is what it takes; [`control`] holds a flyer on its orbit by feedback, laid out by
-//! [`stabiliser`] or [`regulator`] when a flight is built ([`design`]).
+//! [`stabiliser`] or [`regulator`] when a flight is built ([`design`]); an [`episode`] is steered from outside, for who learns.
 //!
 //! | symbol | name in code | meaning | unit |
 //! |---|---|---|---|
@@ -32,6 +32,7 @@ pub mod departure;
 pub mod derivatives;
 pub mod design;
 pub mod eigen;
+pub mod episode;
 mod error;
 pub mod level;
 pub mod mean;

@@ -37,6 +37,9 @@ impl Sensors {
     /// What they make of the truth.
     pub fn seen(&self, truth: &Sensed) -> Sensed {
         let error = |channel: u64, noise: f64, bias: DVec3| {
+            if noise == 0.0 {
+                return bias;
+            }
             let number = |axis: u64| self.normal(truth.look as u64, 3 * channel + axis);
             bias + noise * DVec3::new(number(0), number(1), number(2))
         };
@@ -61,7 +64,7 @@ impl Sensors {
 }
 
 /// The mixing function of SplitMix64 [Steele, Lea & Flood 2014, fig. 16].
-fn scrambled(x: u64) -> u64 {
+pub(crate) fn scrambled(x: u64) -> u64 {
     let x = x.wrapping_add(0x9e37_79b9_7f4a_7c15);
     let x = (x ^ (x >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
     let x = (x ^ (x >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);

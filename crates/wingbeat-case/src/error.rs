@@ -42,7 +42,7 @@ impl Fault {
 /// allowed and what to try.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CaseError {
-    /// The case file (or preset), or `--set KEY=VALUE` when the value came from there.
+    /// The case file (or preset), or the key that was set on top of it when the value came from there.
     pub origin: String,
     /// Line in the file, counted from 1; `None` when the value came from the command line or a
     /// key is missing from the whole file.

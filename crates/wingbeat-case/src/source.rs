@@ -78,7 +78,7 @@ impl CaseSource {
             excerpt: None,
         };
         if let Some((key, typed)) = overridden {
-            error.origin = format!("--set {key}={typed} (on top of {})", self.name);
+            error.origin = format!("{key}={typed} (set on top of {})", self.name);
         } else if let Some(span) = self.span(&fault.key, error.problem.starts_with("unknown key")) {
             self.mark(&mut error, span);
         }
@@ -148,23 +148,23 @@ impl CaseSource {
     }
 
     fn apply(&mut self, item: &str) -> Result<(), Box<CaseError>> {
-        let wrong = |problem: String| {
+        let wrong = |key: &str, problem: String| {
             Box::new(CaseError {
-                origin: format!("--set {}", shortened(item)),
+                origin: format!("{} (set on top of {})", shortened(item), self.name),
                 line: None,
                 column: None,
-                key: String::new(),
+                key: key.to_owned(),
                 value: None,
                 problem,
-                allowed: "KEY=VALUE with the key as in a case file".to_owned(),
-                remedy: "--set motion.frequency_hz=200 or --set 'air.stream_m_s=[1, 0, 0]'"
+                allowed: "a key as in a case file, and its value".to_owned(),
+                remedy: "motion.frequency_hz=200 or 'air.stream_m_s=[1, 0, 0]', for instance"
                     .to_owned(),
                 excerpt: None,
             })
         };
         let (key, typed) = item
             .split_once('=')
-            .ok_or_else(|| wrong(format!("`{}` has no `=`", shortened(item))))?;
+            .ok_or_else(|| wrong("", format!("`{}` has no `=`", shortened(item))))?;
         let (key, typed) = (key.trim(), typed.trim());
         let document = format!("value = {typed}").parse::<Table>();
         let value = match document {
@@ -172,7 +172,7 @@ impl CaseSource {
             _ => None,
         };
         let value = value.unwrap_or_else(|| Value::String(typed.to_owned()));
-        set(&mut self.table, key, value).map_err(wrong)?;
+        set(&mut self.table, key, value).map_err(|problem| wrong(key, problem))?;
         self.overrides.push((key.to_owned(), typed.to_owned()));
         Ok(())
     }

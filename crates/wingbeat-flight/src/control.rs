@@ -21,8 +21,19 @@ use crate::setup::{FlightSetup, MotionMode};
 /// see a change of command.
 pub const MIN_INTERVAL: usize = 4;
 
-/// A wing whose angles and stroke plane go over from one motion to another by the smoothstep of
-/// degree seven, three times continuously differentiable.
+/// The smoothstep of degree seven from 0 at `start` to 1 `duration` later \[s\], three times continuously
+/// differentiable: value, rate, acceleration at time `t`.
+pub fn smoothstep(t: f64, start: f64, duration: f64) -> [f64; 3] {
+    let z = ((t - start) / duration).clamp(0.0, 1.0);
+    let y = z * (1.0 - z);
+    [
+        z.powi(4) * (35.0 + z * (-84.0 + z * (70.0 - 20.0 * z))),
+        140.0 * y * y * y / duration,
+        420.0 * y * y * (1.0 - 2.0 * z) / (duration * duration),
+    ]
+}
+
+/// A wing whose angles and stroke plane go over from one motion to another by [`smoothstep`].
 #[derive(Clone, Debug)]
 pub struct Passage {
     /// The motion before.
@@ -39,13 +50,7 @@ impl Passage {
     /// Pitch of the stroke plane and angles phi, theta, psi at time `t` [s], each value, rate,
     /// acceleration [rad].
     pub fn angles(&self, t: f64) -> [[f64; 3]; 4] {
-        let z = ((t - self.start) / self.duration).clamp(0.0, 1.0);
-        let y = z * (1.0 - z);
-        let s = [
-            z.powi(4) * (35.0 + z * (-84.0 + z * (70.0 - 20.0 * z))),
-            140.0 * y * y * y / self.duration,
-            420.0 * y * y * (1.0 - 2.0 * z) / (self.duration * self.duration),
-        ];
+        let s = smoothstep(t, self.start, self.duration);
         let blend = |a: [f64; 3], b: [f64; 3]| {
             let d: [f64; 3] = std::array::from_fn(|i| b[i] - a[i]);
             [

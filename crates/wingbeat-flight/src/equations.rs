@@ -109,6 +109,15 @@ fn instant(time: f64, step: f64, motions: &[BodyMotion]) -> Instant<'_> {
 }
 
 impl Equations {
+    /// Motion of the root in the state `y` of the core at time `t` [s].
+    ///
+    /// # Errors
+    /// Singular attitude, numbers that are not finite.
+    pub fn root(&self, t: f64, y: &[f64], s: &mut Scratch) -> Result<BodyMotion, FlightError> {
+        let moved = self.core.motions(t, y, &mut s.dynamics, &mut s.motions);
+        moved.map(|()| s.motions[0])
+    }
+
     /// Length of the state vector: core and quadratures.
     pub fn dim(&self) -> usize {
         self.core.dim() + QUADRATURES

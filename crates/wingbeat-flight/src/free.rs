@@ -45,7 +45,33 @@ impl FreeFlight {
         count: usize,
     ) -> Result<Self, FlightError> {
         let system = driven(system_with(setup, law)?, step, count)?;
-        let air = AirModel::build(setup, &system)?;
+        let table = Arc::new(PostureTable::new(&system, step, count));
+        Self::of(setup, MomentumForm::new(system).tabulated(table), step)
+    }
+
+    /// The same to be asked at any time, nothing known beforehand, in steps of `step` [s]: for laws that change on the
+    /// way.
+    ///
+    /// # Errors
+    /// As [`Self::new`]; joints that close loops.
+    pub fn at_any_time(
+        setup: &FlightSetup,
+        law: &WingLaw<'_>,
+        step: f64,
+    ) -> Result<Self, FlightError> {
+        let system = system_with(setup, law)?;
+        if let Some(joint) = system.loops().first() {
+            return Err(FlightError::Setup {
+                key: "joint",
+                value: joint.name.clone(),
+                problem: "it closes a loop, which is solved for motions that are known beforehand only: leave it out".into(),
+            });
+        }
+        Self::of(setup, MomentumForm::new(system), step)
+    }
+
+    fn of(setup: &FlightSetup, form: MomentumForm, step: f64) -> Result<Self, FlightError> {
+        let air = AirModel::build(setup, form.system())?;
         if air.has_memory() {
             return Err(FlightError::Setup {
                 key: "air.model",
@@ -53,8 +79,6 @@ impl FreeFlight {
                 problem: "a map of one wingbeat needs air that depends on the present motion alone (blade_element, none)".into(),
             });
         }
-        let table = Arc::new(PostureTable::new(&system, step, count));
-        let form = MomentumForm::new(system).tabulated(table);
         let equations = Equations {
             mechanism: Mechanism::of(form.system()),
             core: Core::Free(Box::new(form.clone())),
@@ -106,6 +130,19 @@ impl FreeFlight {
         dy: &mut [f64],
     ) -> Result<(), FlightError> {
         self.equations.rates(t, y, None, &mut s.0, dy)
+    }
+
+    /// Motion of the root in the state `y` at time `t` [s]: as [`Self::motions`], with room that is there already.
+    ///
+    /// # Errors
+    /// States that are not finite or singular.
+    pub fn root(
+        &self,
+        t: f64,
+        y: &[f64],
+        s: &mut FreeFlightScratch,
+    ) -> Result<BodyMotion, FlightError> {
+        self.equations.root(t, y, &mut s.0)
     }
 
     /// Motions of all bodies in the state `y` at time `t` [s].

@@ -4,6 +4,7 @@ use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 
 use pyo3::prelude::*;
+use wingbeat::analysis::TrimSettings;
 use wingbeat::case::LoadedCase;
 use wingbeat::flight::Snapshot;
 
@@ -13,6 +14,7 @@ use crate::mechanics::{self, Trim};
 use crate::own::{Slot, air, feedback};
 use crate::run::Run;
 use crate::stepping::Stepper;
+use crate::wake::{self, WakeTrim};
 use crate::worker::{Worked, work};
 
 /// A flight: a case, keys set on top of it, and parts written in Python.
@@ -234,6 +236,26 @@ impl Flight {
         let problem = mechanics::problem(py, &self.flight, velocity_m_s, &unknowns, steps)?;
         let case = (!self.is_own).then(|| self.case.clone());
         let found = mechanics::trim(py, &self.flight, problem, case);
+        found.map_err(|e| self.slot.take().unwrap_or(e))
+    }
+    /// The same in air with a memory, its steps those of the case: the body is held for `held_beats` wingbeats while its
+    /// wake grows.
+    fn trim_with_wake(
+        &self,
+        py: Python<'_>,
+        velocity_m_s: [f64; 2],
+        unknowns: [String; 3],
+        held_beats: usize,
+    ) -> PyResult<WakeTrim> {
+        const MOST: usize = 100;
+        if !(1..=MOST).contains(&held_beats) {
+            let remedy = format!("a whole number from 1 to {MOST}");
+            return Err(refused(py, "held_beats", "out of range", &remedy));
+        }
+        let steps = TrimSettings::default().steps;
+        let problem = mechanics::problem(py, &self.flight, velocity_m_s, &unknowns, steps)?;
+        let case = (!self.is_own).then(|| self.case.clone());
+        let found = wake::trim(py, &self.flight, problem, held_beats, case);
         found.map_err(|e| self.slot.take().unwrap_or(e))
     }
 }

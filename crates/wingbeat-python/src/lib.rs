@@ -15,18 +15,22 @@
 //! | `stepping` | flights step by step |
 //! | `run` | flights that were flown |
 //! | `frame` | surfaces and wakes of one instant |
+//! | `fleet` | many episodes at once, for who learns |
 //! | `mechanics` | trim, stability, controls, power |
+//! | `wake` | trim in air with a memory |
 #![warn(missing_docs)]
 
 mod arrays;
 mod command;
 mod errors;
+mod fleet;
 mod flight;
 mod frame;
 mod mechanics;
 mod own;
 mod run;
 mod stepping;
+mod wake;
 mod worker;
 
 /// What `wingbeat` (Python) is written on.
@@ -34,6 +38,8 @@ mod worker;
 mod _core {
     #[pymodule_export]
     use crate::command::{main, presets, schema, version};
+    #[pymodule_export]
+    use crate::fleet::Fleet;
     #[pymodule_export]
     use crate::flight::Flight;
     #[pymodule_export]
@@ -46,4 +52,6 @@ mod _core {
     use crate::run::Run;
     #[pymodule_export]
     use crate::stepping::Stepper;
+    #[pymodule_export]
+    use crate::wake::WakeTrim;
 }

@@ -12,6 +12,7 @@ use wingbeat::math::DVec3;
 
 use crate::arrays::array;
 use crate::errors::{raised, refused};
+use crate::fleet::{Fleet, Settings};
 use crate::worker::analyse;
 
 /// What is asked of a trim.
@@ -235,6 +236,12 @@ impl Trim {
             p.peak,
             p.mass,
         ])
+    }
+
+    /// Episodes about it, one for each seed; settings: task, steps from one control to the next, wingbeats, limits, delay, noise,
+    /// autoreset mode.
+    fn fleet(&self, py: Python<'_>, settings: Settings, seeds: Vec<u64>) -> PyResult<Fleet> {
+        Fleet::of(py, self.trim.clone(), settings, seeds)
     }
 
     /// Names of the state of the averaged model, and of the controls.

@@ -44,6 +44,9 @@ BAD: dict[str, Bad] = {
     "wrong type": lambda blade, _: blade.set("time.beats", "two"),
     "wrong choice": lambda blade, _: blade.set("air.model", "aether"),
     "not a number": lambda blade, _: blade.set("motion.frequency_hz", float("nan")),
+    "attribute that is no key": lambda blade, _: setattr(blade.case.motion, "frequenzy_hz", 200),
+    "attribute that is not given": lambda blade, _: blade.case.wing.right.motion.phi,
+    "key below a number": lambda blade, _: blade.set("time.beats.x", 1),
     "infinite": lambda blade, _: blade.set("air.density_kg_m3", float("inf")),
     "negative": lambda blade, _: blade.set("motion.frequency_hz", -1.0),
     "a number beyond 64 bits": lambda blade, _: blade.set("time.beats", 10**30),
@@ -88,6 +91,7 @@ BAD: dict[str, Bad] = {
     "unknown unknown": lambda blade, _: blade.trim(unknowns=("body_pitch", "courage", "frequency")),
     "trim at infinite speed": lambda blade, _: blade.trim(forward_m_per_s=float("inf")),
     "trim in one step": lambda blade, _: blade.trim(steps=1),
+    "trim with a wake, held for nothing": lambda *_: Flight.preset("fruit-fly-hover").trim_with_wake(held_beats=0),
     "trim under a load": lambda blade, _: Flight.preset("fruit-fly-hover").trim(),
 }
 
@@ -100,7 +104,15 @@ def test_refuses(name, blade, tmp_path, capfd):
     error = caught.value
     assert error.remedy, f"no remedy: {error}"
     assert error.key or isinstance(error, wingbeat.AnalysisError), f"no key: {error}"
+    assert "--set" not in str(error) + error.remedy
     assert "panic" not in str(error) and "panicked" not in capfd.readouterr().err
+
+
+def test_behaves_errors_of_keys_that_were_set_name_them(blade):
+    with pytest.raises(wingbeat.CaseError) as caught:
+        blade.set("motion.frequency_hz", -3)
+    assert caught.value.key == "motion.frequency_hz"
+    assert "motion.frequency_hz=-3 (set on top of preset fruit-fly-blade)" in str(caught.value)
 
 
 def test_behaves_errors_name_the_line_of_a_case(blade):

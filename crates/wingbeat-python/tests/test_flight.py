@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import copy
 import gc
 import hashlib
+import pickle
 import threading
 import tomllib
 import weakref
@@ -53,6 +55,32 @@ def test_behaves_cases_come_from_texts_paths_and_dicts(blade, tmp_path):
     wind = blade.set({"air.stream_m_s": np.array([1.0, 0.0, 0.0]), "name": 'a "fly"'.replace('"', "")})
     assert wind.case["air"]["stream_m_s"] == [1.0, 0.0, 0.0]
     assert tomllib.loads(wind.case_text)["name"] == "a fly"
+
+
+def test_behaves_keys_of_a_case_are_attributes(blade):
+    case = blade.case
+    case.motion.frequency_hz = 210.0
+    case.wing.right.planform.beta.length_m = 2.6e-3
+    changed = wingbeat.Flight.from_case(case)
+    keys = {"motion.frequency_hz": 210.0, "wing.right.planform.beta.length_m": 2.6e-3}
+    assert changed.case == blade.set(keys).case and changed.case != blade.case
+    assert copy.deepcopy(case) == case == pickle.loads(pickle.dumps(case))
+    assert isinstance(copy.deepcopy(case).motion, wingbeat.Part)
+    assert {"frequency_hz", "stroke_plane_pitch_deg"} <= set(dir(case.motion))
+    del case.motion.frequency_hz
+    assert "frequency_hz" not in case.motion and not hasattr(case.motion, "frequency_hz")
+
+
+def test_agrees_what_a_case_says_of_its_keys_with_the_page_of_keys(blade):
+    """Of every number that is given: the page of all keys has the same words."""
+    page = " ".join((Path(__file__).parents[3] / "docs" / "case-keys.md").read_text().split())
+    told = 0
+    for part in (blade.case.motion, blade.case.time, blade.case.air, blade.case.wing.right):
+        for name in part:
+            first = " ".join(part.describe(name).split("keys:")[0].split("default:")[0].split())
+            told += first.split(". ")[0].rstrip(".") in page
+            assert first, name
+    assert told > 10
 
 
 def test_behaves_history_has_dims_units_and_the_case(blade):

@@ -74,3 +74,19 @@ def test_behaves_scipy_and_matlab_take_the_model(trim, tmp_path):
 def test_behaves_vacuum_cannot_be_trimmed():
     with pytest.raises(wingbeat.Error):
         wingbeat.Flight.preset("fruit-fly-vacuum").power()
+
+
+def test_agrees_trim_with_a_wake_with_the_command_line(program):
+    """A coarse lattice without friction or sheets of leading edges; what was trimmed flies on as a case."""
+    keys = {
+        "time.steps_per_beat": 20, "wing.right.mesh.chordwise": 2, "wing.right.mesh.spanwise": 3, "air.body": False,
+        "air.shed": ["trailing"], "output.page": False,
+    }  # fmt: skip
+    flight = wingbeat.Flight.preset("fruit-fly-hover").set(keys)
+    trim = flight.trim_with_wake(held_beats=1)
+    sets = [x for key, value in keys.items() for x in ("--set", f"{key}={json.dumps(value)}")]
+    done = program("trim", "fruit-fly-hover", "--hold", 1, "--json", *sets)
+    told = json.loads(done.stdout)
+    assert (trim.converged, trim.flights) == (done.returncode == 0, told["flights"])
+    assert sorted(trim.residual) == sorted(told["residuals"].values())
+    assert trim.flight().fly().outcome == "finished"

@@ -311,7 +311,7 @@ fn exact_bad_override_says_where_it_came_from() {
         "{report}"
     );
     assert!(
-        report.contains("--set wing.right.mass_kg=-1 (on top of case.toml)"),
+        report.contains("wing.right.mass_kg=-1 (set on top of case.toml)"),
         "{report}"
     );
     let out = wingbeat(&scratch.0, &["check", "case.toml", "--set", "nonsense"]);

@@ -14,9 +14,10 @@ from __future__ import annotations
 
 from wingbeat._core import presets as _presets
 from wingbeat._core import version as _version
+from wingbeat._case import Part
 from wingbeat._flight import Flight, Stepper
 from wingbeat._frame import Frame, Particles, Surface, Wake
-from wingbeat._mechanics import Derivatives, LinearModel, Mode, Power, Trim
+from wingbeat._mechanics import Derivatives, LinearModel, Mode, Power, Trim, WakeTrim
 from wingbeat._own import Adjustment, Motions, Sensed
 from wingbeat._run import Beats, Estimate, Run, read
 from wingbeat.errors import AnalysisError, CaseError, Error, FlightError, ResultError
@@ -37,6 +38,7 @@ __all__ = [
     "LinearModel",
     "Mode",
     "Motions",
+    "Part",
     "Particles",
     "Power",
     "ResultError",
@@ -46,6 +48,7 @@ __all__ = [
     "Surface",
     "Trim",
     "Wake",
+    "WakeTrim",
     "presets",
     "read",
 ]

@@ -9,8 +9,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from wingbeat import _core, _toml
+from wingbeat._case import Part
 from wingbeat._frame import Frame
-from wingbeat._mechanics import Derivatives, LinearModel, Power, Trim
+from wingbeat._mechanics import Derivatives, LinearModel, Power, Trim, WakeTrim
 from wingbeat._own import Air, Controller, Loads, Steering
 from wingbeat._run import Run
 from wingbeat.errors import CaseError
@@ -143,11 +144,11 @@ class Flight:
         return self._core.case_text
 
     @property
-    def case(self) -> dict[str, Any]:
-        """The same as a dict: change it and give it to :meth:`from_case`."""
+    def case(self) -> Part:
+        """The same as a dict whose keys are attributes: change it and give it to :meth:`from_case`."""
         import tomllib
 
-        return tomllib.loads(self.case_text)
+        return Part(tomllib.loads(self.case_text))
 
     @property
     def steps(self) -> int:
@@ -212,11 +213,22 @@ class Flight:
         """Steady flight with this mean velocity as a periodic orbit, in air without memory, feedback left out; three
         ``unknowns`` are chosen by it. See docs/flight-mechanics.md.
         """
-        if isinstance(unknowns, str) or len(unknowns) != 3:
-            raise CaseError(f"unknowns = {unknowns!r}: not three", key="unknowns", remedy=f"three, as {_HOVER}")
-        a, b, c = unknowns
         velocity = (float(forward_m_per_s), float(climb_m_per_s))
-        return Trim(self._core.trim(velocity, (a, b, c), steps))
+        return Trim(self._core.trim(velocity, _three(unknowns), steps))
+
+    def trim_with_wake(
+        self,
+        *,
+        forward_m_per_s: float = 0.0,
+        climb_m_per_s: float = 0.0,
+        unknowns: Sequence[str] = _HOVER,
+        held_beats: int = 2,
+    ) -> WakeTrim:
+        """The same in the vortex lattice, in the steps of the case: the body is held for ``held_beats`` wingbeats while its
+        wake grows, and the free wingbeat after them is the one that is trimmed. Some 20 to 60 such flights: minutes.
+        """
+        velocity = (float(forward_m_per_s), float(climb_m_per_s))
+        return WakeTrim(self._core.trim_with_wake(velocity, _three(unknowns), held_beats))
 
     def stability(self, **trim: Any) -> LinearModel:
         """Linear model about the trimmed flight; arguments are those of :meth:`trim`."""
@@ -290,6 +302,13 @@ class Stepper:
     def run(self) -> Run:
         """What was flown so far."""
         return Run(self._core.run())
+
+
+def _three(unknowns: Sequence[str]) -> tuple[str, str, str]:
+    if isinstance(unknowns, str) or len(unknowns) != 3:
+        raise CaseError(f"unknowns = {unknowns!r}: not three", key="unknowns", remedy=f"three, as {_HOVER}")
+    a, b, c = unknowns
+    return a, b, c
 
 
 def _rows(name: str, angle: ArrayLike | Callable[[float], float], samples: int) -> list[list[float]]:

@@ -168,15 +168,7 @@ class Trim:
 
     def flight(self) -> Flight:
         """The trimmed flight, to be flown on."""
-        from wingbeat._flight import Flight
-
-        text = self._core.case_text
-        if text is None:
-            raise AnalysisError(
-                "no case gives this trimmed flight: it has parts written in Python",
-                remedy="read adjustment and body_pitch_rad, and set them by hand",
-            )
-        return Flight.from_case(text)
+        return _flight(self._core.case_text)
 
     @cached_property
     def _controls(self) -> tuple[list[tuple[str, str]], NDArray[Any], NDArray[Any]]:
@@ -211,6 +203,64 @@ class Trim:
     def power(self) -> Power:
         """Mean mechanical power, body carried in the trimmed attitude at the trimmed velocity."""
         return Power(*self._core.power())
+
+
+class WakeTrim:
+    """Steady flight in air with a memory: a wingbeat that changes nothing but the place, after wingbeats in which the body was
+    held while its wake grew; the point found, converged or not.
+    """
+
+    def __init__(self, core: _core.WakeTrim) -> None:
+        self._core = core
+
+    def __repr__(self) -> str:
+        found = "converged" if self.converged else "NOT converged"
+        return f"<wingbeat.WakeTrim {found}: largest residual {abs(self.residual).max():.1e}>"
+
+    @property
+    def converged(self) -> bool:
+        """Whether it was found."""
+        return self._core.converged
+
+    @property
+    def residual(self) -> NDArray[Any]:
+        """As :attr:`Trim.residual`, shape (6,)."""
+        return self._core.residual
+
+    @property
+    def iterations(self) -> int:
+        """Quasi-Newton steps made."""
+        return self._core.effort[0]
+
+    @property
+    def flights(self) -> int:
+        """Flights flown."""
+        return self._core.effort[1]
+
+    @property
+    def adjustment(self) -> Adjustment:
+        """What trim adds to the motion of all wings."""
+        return Adjustment(*self._core.adjustment)
+
+    @property
+    def body_pitch_rad(self) -> float:
+        """Pitch of the body at its release [rad]."""
+        return self._core.body_pitch_rad
+
+    def flight(self) -> Flight:
+        """The trimmed flight: held, released, and the free wingbeat."""
+        return _flight(self._core.case_text)
+
+
+def _flight(case_text: str | None) -> Flight:
+    from wingbeat._flight import Flight
+
+    if case_text is None:
+        raise AnalysisError(
+            "no case gives this trimmed flight: it has parts written in Python",
+            remedy="read adjustment and body_pitch_rad, and set them by hand",
+        )
+    return Flight.from_case(case_text)
 
 
 def _input_unit(control: str) -> str:

@@ -13,6 +13,7 @@ from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
 from wingbeat import _core
+from wingbeat._case import Part
 from wingbeat._frame import Frame
 from wingbeat.errors import CaseError
 
@@ -108,11 +109,11 @@ class Run:
         return self._core.case_text
 
     @property
-    def case(self) -> dict[str, Any]:
-        """The same as a dict."""
+    def case(self) -> Part:
+        """The same as a dict whose keys are attributes."""
         import tomllib
 
-        return tomllib.loads(self.case_text)
+        return Part(tomllib.loads(self.case_text))
 
     @property
     def outcome(self) -> str:

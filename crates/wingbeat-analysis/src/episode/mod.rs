@@ -1,0 +1,237 @@
+//! Episodes of flight that are steered from outside, step by step: what those need who learn to fly.
+//!
+//! An [`Episode`] begins near the trimmed flight, disturbed as its [`Task`] says and its seed draws. Controls
+//! ([`Controls`], as fractions of their limits) come once per control step, a wingbeat or less; the strokes go over to them smoothly
+//! until the next one ([`strokes`]). The equations are those of a flight ([`FreeFlight`](wingbeat_flight::FreeFlight)), by
+//! the classical Runge-Kutta method; air without memory.
+//!
+//! | number | observed | unit |
+//! |---|---|---|
+//! | 0-2 | place of the mass centre less the target's: forward, right, down | R |
+//! | 3-5 | velocity u, v, w less that of the trimmed flight at the start of a beat | R / T |
+//! | 6-8 | angular velocity p, q, r, likewise | 1 / T |
+//! | 9-11 | tilt: rotation vector roll, pitch, heading | rad |
+//! | 12-14 | velocity of the target: forward, right, down | R / T |
+//! | 15-16 | sine and cosine of the phase of the wingbeat | 1 |
+//!
+//! R: wing length, T: period of the wingbeat.
+
+mod flyer;
+pub mod strokes;
+mod task;
+
+use std::collections::VecDeque;
+use std::f64::consts::TAU;
+use std::sync::Arc;
+
+use wingbeat_flight::Sensed;
+use wingbeat_math::DVec3;
+
+use crate::AnalysisError;
+use crate::departure::{CONTROLS, Controls, Departure, Limits, Reference};
+use crate::sensors::Sensors;
+use crate::trim::Trim;
+
+pub use flyer::Flyer;
+pub use task::{Draw, Start, Task};
+
+/// How many numbers are observed.
+pub const OBSERVED: usize = 17;
+
+/// What all episodes of a kind share.
+#[derive(Clone, Debug)]
+pub struct Course {
+    /// What is to be done.
+    pub task: Task,
+    /// The trimmed flight.
+    pub trim: Arc<Trim>,
+    /// Integration steps from one control to the next; the steps of a wingbeat are the trim's.
+    pub interval: usize,
+    /// Wingbeats after which an episode is cut off.
+    pub beats: usize,
+    /// Controls of size 1.
+    pub limits: Limits,
+    /// Noise and bias of what is observed.
+    pub sensors: Sensors,
+    /// Control steps from sensing to observing.
+    pub delay: usize,
+    reference: Reference,
+}
+
+impl Course {
+    /// Perfect sensors, default limits, one control per wingbeat, 100 wingbeats.
+    ///
+    /// # Errors
+    /// Numbers that are not finite.
+    pub fn new(task: Task, trim: Trim) -> Result<Self, AnalysisError> {
+        Ok(Self {
+            task,
+            interval: trim.beat.steps(),
+            beats: 100,
+            limits: Limits::default(),
+            sensors: Sensors::default(),
+            delay: 0,
+            reference: Reference::trimmed(&trim)?,
+            trim: Arc::new(trim),
+        })
+    }
+
+    /// Control steps of a wingbeat.
+    pub fn controls_per_beat(&self) -> f64 {
+        self.trim.beat.steps() as f64 / self.interval as f64
+    }
+}
+
+/// What came of a control step.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Outcome {
+    /// Reward, between 0 and the length of the step in wingbeats.
+    pub reward: f64,
+    /// The flyer is lost: too far away, or turned over.
+    pub is_lost: bool,
+    /// The time is over.
+    pub is_over: bool,
+}
+
+/// An episode.
+pub struct Episode {
+    course: Arc<Course>,
+    flyer: Flyer,
+    seed: u64,
+    /// Episodes begun with this seed.
+    number: u64,
+    looks: usize,
+    /// Departures under way: the delay.
+    seen: VecDeque<Departure>,
+}
+
+impl Episode {
+    /// The first episode of `seed`.
+    ///
+    /// # Errors
+    /// What bodies and air refuse.
+    pub fn new(course: Arc<Course>, seed: u64) -> Result<Self, AnalysisError> {
+        let start = Start::drawn(course.task, &course.trim.beat, &mut Draw::new(seed, 0));
+        let mut episode = Self {
+            flyer: Flyer::new(&course.trim, &start)?,
+            course,
+            seed,
+            number: 0,
+            looks: 0,
+            seen: VecDeque::new(),
+        };
+        episode.begin()?;
+        Ok(episode)
+    }
+
+    /// The next episode: the first of `seed` if one is given.
+    ///
+    /// # Errors
+    /// As [`Self::new`].
+    pub fn reset(&mut self, seed: Option<u64>) -> Result<(), AnalysisError> {
+        match seed {
+            Some(seed) => (self.seed, self.number) = (seed, 0),
+            None => self.number += 1,
+        }
+        let mut draw = Draw::new(self.seed, self.number);
+        let start = Start::drawn(self.course.task, &self.course.trim.beat, &mut draw);
+        self.flyer.restart(&self.course.trim, &start)?;
+        self.begin()
+    }
+
+    fn begin(&mut self) -> Result<(), AnalysisError> {
+        self.looks = 0;
+        let truth = self.sensed()?;
+        let first = self.departure(&truth);
+        self.seen = vec![first; self.course.delay + 1].into();
+        Ok(())
+    }
+
+    /// One control step under `controls`, fractions of their limits.
+    pub fn step(&mut self, controls: &[f64; CONTROLS]) -> Outcome {
+        let course = Arc::clone(&self.course);
+        let limits = &course.limits;
+        let sizes = [
+            limits.amplitude,
+            limits.angle,
+            limits.amplitude,
+            limits.angle,
+        ];
+        let command: Controls = std::array::from_fn(|i| sizes[i] * controls[i].clamp(-1.0, 1.0));
+        self.looks += 1;
+        let over = self.looks as f64 >= course.beats as f64 * course.controls_per_beat();
+        let flown = self.flyer.fly(&course.trim, &command, course.interval);
+        let Ok(truth) = flown.and_then(|()| self.sensed()) else {
+            return Outcome {
+                reward: 0.0,
+                is_lost: true,
+                is_over: over,
+            };
+        };
+        let (beat, departure) = (&course.trim.beat, self.departure(&truth));
+        let sensed = self.departure(&course.sensors.seen(&truth));
+        self.seen.pop_front();
+        self.seen.push_back(sensed);
+        let is_lost = course.task.is_lost(beat, &departure);
+        let reward = course.task.reward(beat, &departure, controls) / course.controls_per_beat();
+        Outcome {
+            reward: if is_lost { 0.0 } else { reward },
+            is_lost,
+            is_over: over,
+        }
+    }
+
+    /// What is observed, [`OBSERVED`] numbers.
+    pub fn observe(&self, out: &mut [f64]) {
+        let beat = &self.course.trim.beat;
+        let (length, period) = (beat.wing_length(), beat.period());
+        let d = self.seen();
+        let (_, target) = self.course.task.target(beat, self.time());
+        let phase = TAU * self.flyer.phase(&self.course.trim);
+        let parts = [
+            d.position / length,
+            d.state.velocity * period / length,
+            d.state.rate * period,
+            d.state.tilt,
+            target * period / length,
+        ];
+        for (numbers, part) in out.chunks_mut(3).zip(parts) {
+            part.write_to_slice(numbers);
+        }
+        [out[15], out[16]] = [phase.sin(), phase.cos()];
+    }
+
+    /// What is seen to depart from the target.
+    pub fn seen(&self) -> Departure {
+        *self.seen.front().expect("one at least")
+    }
+
+    /// What departs from the target, in truth.
+    ///
+    /// # Errors
+    /// Numbers that are not finite.
+    pub fn truth(&mut self) -> Result<Departure, AnalysisError> {
+        let truth = self.sensed()?;
+        Ok(self.departure(&truth))
+    }
+
+    /// Time since the start [s].
+    pub fn time(&self) -> f64 {
+        self.flyer.time(&self.course.trim)
+    }
+
+    fn sensed(&mut self) -> Result<Sensed, AnalysisError> {
+        let sensed = self.flyer.sensed(&self.course.trim, self.looks)?;
+        match sensed.centre.is_finite() && sensed.root.w.is_finite() {
+            true => Ok(sensed),
+            false => Err(AnalysisError::Numbers("the flyer is lost".into())),
+        }
+    }
+
+    fn departure(&self, sensed: &Sensed) -> Departure {
+        let mut departure = self.course.reference.departure(sensed, DVec3::ZERO);
+        let beat = &self.course.trim.beat;
+        departure.position -= self.course.task.target(beat, sensed.time).0;
+        departure
+    }
+}

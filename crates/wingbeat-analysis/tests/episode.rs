@@ -1,0 +1,159 @@
+//! Episodes that are steered from outside.
+
+mod common;
+
+use std::sync::Arc;
+
+use wingbeat_analysis::departure::adjustments;
+use wingbeat_analysis::episode::strokes::{SteadyStroke, SteeredStroke};
+use wingbeat_analysis::episode::{Course, Episode, Flyer, OBSERVED, Start, Task};
+use wingbeat_analysis::regulator::{Regulator, Weights};
+use wingbeat_analysis::{Beat, Trim, trim};
+use wingbeat_dynamics::Formulation;
+use wingbeat_flight::Passage;
+use wingbeat_math::{DVec3, RotationLaw};
+use wingbeat_model::motion::Adjustment;
+use wingbeat_model::{Start as Beginning, WingMotion};
+
+const STEPS: usize = 40;
+
+fn hovering() -> Trim {
+    trim(&common::fly(), &common::hover(STEPS)).expect("the fruit fly")
+}
+
+/// The map of a beat has the wings' motions themselves blended and tabulated; the flyer blends commands. The same method
+/// in the same steps, so they differ by rounding, which grows over unstable beats.
+#[test]
+fn agrees_a_steered_flyer_with_the_map_of_a_beat() {
+    let trim = hovering();
+    let start = Start {
+        tilt: DVec3::new(0.1, -0.05, 0.2),
+        velocity: DVec3::new(0.02, 0.01, -0.03),
+        rate: DVec3::new(5.0, -3.0, 2.0),
+        gust: None,
+    };
+    let mut flyer = Flyer::new(&trim, &start).expect("a flyer");
+    let mut y = flyer.state().clone();
+    let sides: Vec<f64> = trim
+        .setup
+        .animal
+        .wings
+        .iter()
+        .map(|w| w.side.sign())
+        .collect();
+    let mut from = vec![Adjustment::default(); sides.len()];
+    for command in [[0.1, 0.05, -0.1, 0.08], [-0.05, 0.1, 0.15, 0.0], [0.0; 4]] {
+        flyer.fly(&trim, &command, STEPS).expect("a beat");
+        let to = adjustments(&command, &sides);
+        let beat = Beat::between(&trim.setup, STEPS, &from, &to).expect("a beat");
+        y = beat.advance(&y).expect("a beat");
+        from = to;
+        for (k, (a, b)) in flyer.state().iter().zip(&y).enumerate() {
+            let size = trim.beat.flight().form().scales()[k];
+            assert!((a - b).abs() < 1e-11 * size, "{k}: {a} {b}");
+        }
+    }
+}
+
+/// Both ways of going over from a command to another, at all half steps of two beats.
+#[test]
+fn agrees_steered_strokes_with_the_passage_of_a_flight() {
+    let options = wingbeat_model::species::FlyOptions::default();
+    let fly = wingbeat_model::species::drosophila_melanogaster(&options).expect("a fly");
+    let (steps, command) = (20, |x: f64| Adjustment {
+        stroke_amplitude: 0.1 * x,
+        stroke_offset: -0.2 * x,
+        stroke_plane: 0.15 * x,
+        ..Adjustment::default()
+    });
+    for wing in &fly.wings {
+        let period = 1.0 / wing.motion.frequency;
+        let steered = SteeredStroke::new(Arc::new(SteadyStroke::new(wing, period, steps)));
+        steered.pass(&command(1.0), -period, period);
+        steered.pass(&command(-0.5), 0.3 * period, 0.5 * period);
+        let steady = WingMotion {
+            start: Beginning::Impulsive,
+            ..wing.motion.clone()
+        };
+        let blend = Passage {
+            from: steady.adjusted(wing.side, &command(1.0)),
+            to: steady.adjusted(wing.side, &command(-0.5)),
+            start: 0.3 * period,
+            duration: 0.5 * period,
+        };
+        for k in 0..4 * steps {
+            let t = k as f64 * period / (2 * steps) as f64;
+            let (a, b) = (steered.at(t), blend.at(t));
+            let size = b.w.length().max(1.0 / period);
+            assert!((0..3).all(|i| (a.c.col(i) - b.c.col(i)).length() < 1e-12));
+            assert!((a.w - b.w).length() < 1e-11 * size);
+            assert!((a.w_dot - b.w_dot).length() < 1e-10 * size / period);
+        }
+    }
+}
+
+/// Rewards and observations of `steps` steps under a command that varies.
+fn course_of(episode: &mut Episode, steps: usize) -> Vec<f64> {
+    let (mut list, mut seen) = (vec![], [0.0; OBSERVED]);
+    for k in 0..steps {
+        let outcome = episode.step(&[0.1 * (k as f64).sin(), 0.0, 0.05, -0.05]);
+        episode.observe(&mut seen);
+        list.push(outcome.reward);
+        list.extend(seen);
+    }
+    list
+}
+
+#[test]
+fn behaves_an_episode_follows_from_its_seed_alone() {
+    for (_, task) in Task::ALL {
+        let mut course = Course::new(task, hovering()).expect("a course");
+        course.sensors.noise.tilt = 0.01;
+        course.delay = 1;
+        let course = Arc::new(course);
+        let mut one = Episode::new(course.clone(), 7).expect("an episode");
+        let mut other = Episode::new(course, 8).expect("an episode");
+        let [first, second] = [&mut one, &mut other].map(|e| course_of(e, 5));
+        assert_ne!(first, second, "{task:?}");
+        other.reset(Some(7)).expect("an episode");
+        assert_eq!(course_of(&mut other, 5), first, "{task:?}");
+        let again = [&mut one, &mut other].map(|e| {
+            e.reset(None).expect("an episode");
+            course_of(e, 5)
+        });
+        assert_eq!(again[0], again[1], "{task:?}");
+        assert_ne!(again[0], first, "{task:?}: the next episode is another");
+    }
+}
+
+/// The regulator holds a disturbed hover; without it the flyer is lost.
+#[test]
+fn behaves_the_regulator_masters_hover_and_nothing_does_not() {
+    let course = Course::new(Task::Hover, hovering()).expect("a course");
+    let limits = course.limits;
+    let sizes = [
+        limits.amplitude,
+        limits.angle,
+        limits.amplitude,
+        limits.angle,
+    ];
+    let mut regulator = Regulator::new(&course.trim, &Weights::default(), 0).expect("gains");
+    let course = Arc::new(course);
+    let mut rewards = [0.0; 2];
+    for (steered, total) in [true, false].into_iter().zip(&mut rewards) {
+        let mut episode = Episode::new(course.clone(), 3).expect("an episode");
+        for k in 1..=course.beats {
+            let d = episode.seen();
+            let u = limits.applied(regulator.controls(&d));
+            regulator.remember(&d, u, limits.reached(&u));
+            let controls = std::array::from_fn(|i| if steered { u[i] / sizes[i] } else { 0.0 });
+            let outcome = episode.step(&controls);
+            *total += outcome.reward;
+            assert_eq!(outcome.is_over, k == course.beats);
+            if outcome.is_lost {
+                break;
+            }
+        }
+    }
+    assert!(rewards[0] > 90.0 && rewards[1] < 60.0, "{rewards:?}");
+}

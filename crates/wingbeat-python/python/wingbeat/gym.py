@@ -1,0 +1,246 @@
+"""Environments for gymnasium: a flyer that is steered near its trimmed flight, in blade elements.
+
+>>> import wingbeat.gym
+>>> envs = wingbeat.gym.VectorEnvironment(64, "hover")
+>>> observations, _ = envs.reset(seed=1)
+
+or ``gymnasium.make("wingbeat/Hover-v0")``, ``gymnasium.make_vec(..., vectorization_mode="vector_entry_point")``; tasks
+hover, recover (from a tumble), path (follow a target), gust. Needs gymnasium.
+
+Actions are four numbers in [-1, 1], fractions of their limits: relative stroke amplitude, mean stroke angle, right-left
+differences of amplitude and of stroke plane, once per wingbeat or ``controls_per_beat`` times; the strokes go over to them smoothly.
+Observations are 17 numbers in natural units (wing length R, wingbeat T): place less the target's, velocity, angular velocity,
+tilt, velocity of the target, sine and cosine of the phase of the wingbeat. Rewards are at most one per wingbeat.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
+
+import gymnasium
+import numpy as np
+from gymnasium.vector import AutoresetMode
+from gymnasium.vector.utils import batch_space
+
+from wingbeat import _core
+from wingbeat._flight import Flight
+from wingbeat.errors import AnalysisError, CaseError
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+__all__ = ["TASKS", "Environment", "VectorEnvironment"]
+
+TASKS = ("hover", "recover", "path", "gust")
+_OBSERVED, _CONTROLS = 17, 4
+
+
+def _whole(key: str, number: int, least: int, most: int) -> int:
+    if isinstance(number, bool) or not isinstance(number, int | np.integer) or not least <= number <= most:
+        raise CaseError(f"{key} = {number!r}: out of range", key=key, remedy=f"a whole number from {least} to {most}")
+    return int(number)
+
+
+def _size(key: str, number: float, most: float) -> float:
+    if not 0.0 <= number <= most:
+        raise CaseError(f"{key} = {number!r}: out of range", key=key, remedy=f"a number from 0 to {most}")
+    return float(number)
+
+
+class _Fleet:
+    """Environments in the core, and their arrays."""
+
+    def __init__(
+        self,
+        count: int,
+        task: str,
+        autoreset: str,
+        *,
+        flight: Flight | None = None,
+        steps_per_beat: int = 40,
+        controls_per_beat: int = 1,
+        beats: int = 100,
+        amplitude_limit: float = 0.2,
+        angle_limit_rad: float = 0.2,
+        delay: int = 0,
+        position_noise_m: float = 0.0,
+        velocity_noise_m_per_s: float = 0.0,
+        tilt_noise_rad: float = 0.0,
+        rate_noise_rad_per_s: float = 0.0,
+    ) -> None:
+        steps = _whole("steps_per_beat", steps_per_beat, 20, 2000)
+        controls = _whole("controls_per_beat", controls_per_beat, 1, steps)
+        if steps % controls:
+            raise CaseError(
+                f"controls_per_beat = {controls}: {steps} steps are no whole number for each",
+                key="controls_per_beat",
+                remedy="a divisor of steps_per_beat",
+            )
+        beats = _whole("beats", beats, 1, 1_000_000)
+        limits = (_size("amplitude_limit", amplitude_limit, 0.5), _size("angle_limit_rad", angle_limit_rad, 0.5))
+        noise = [
+            _size("position_noise_m", position_noise_m, 1e3),
+            _size("velocity_noise_m_per_s", velocity_noise_m_per_s, 1e3),
+            _size("tilt_noise_rad", tilt_noise_rad, 3.0),
+            _size("rate_noise_rad_per_s", rate_noise_rad_per_s, 1e5),
+        ]
+        trim = (flight or Flight.preset("fruit-fly-blade")).trim(steps=steps)
+        if not trim.converged:
+            raise AnalysisError("the flight is not trimmed", remedy="another flight; see what flight.trim() says")
+        delay = _whole("delay", delay, 0, 10_000)
+        settings = (task, steps // controls, beats, limits, delay, noise, autoreset)
+        self.count = _whole("num_envs", count, 1, 1_000_000)
+        self.period_s = trim.period_s
+        self.core = trim._core.fleet(settings, list(range(self.count)))
+        self.observed = np.zeros((self.count, _OBSERVED), np.float32)
+        self.last = np.zeros((self.count, _OBSERVED), np.float32)
+        self.rewards = np.zeros(self.count)
+        self.terminated = np.zeros(self.count, np.bool_)
+        self.truncated = np.zeros(self.count, np.bool_)
+        self.observation_space = gymnasium.spaces.Box(-np.inf, np.inf, (_OBSERVED,), np.float32)
+        self.action_space = gymnasium.spaces.Box(-1.0, 1.0, (_CONTROLS,), np.float32)
+
+    def reset(self, seeds: Sequence[int | None], mask: Sequence[bool]) -> None:
+        self.core.reset(list(seeds), list(mask), self.observed)
+
+    def step(self, actions: Any) -> bool:
+        """Whether any episode has ended."""
+        plain = np.ascontiguousarray(actions, np.float32)
+        if plain.shape != (self.count, _CONTROLS):
+            remedy = f"shape ({self.count}, {_CONTROLS})"
+            raise CaseError(f"actions: an array of shape {plain.shape}", key="actions", remedy=remedy)
+        return self.core.step(plain, self.observed, self.last, self.rewards, self.terminated, self.truncated)
+
+    def regulated(self) -> NDArray[np.float32]:
+        actions = np.zeros((self.count, _CONTROLS), np.float32)
+        if not self.core.regulate(actions):
+            raise AnalysisError(
+                "the regulator looks once per wingbeat, at once", remedy="controls_per_beat = 1 and delay = 0"
+            )
+        return actions
+
+
+class Environment(gymnasium.Env[Any, Any]):
+    """One flyer. Keywords: ``flight`` (the fruit fly in blade elements if left out), ``steps_per_beat``, ``controls_per_beat``,
+    ``beats`` of an episode, ``amplitude_limit``, ``angle_limit_rad``, ``delay`` in control steps and standard deviations of the
+    sensors (``position_noise_m``, ``velocity_noise_m_per_s``, ``tilt_noise_rad``, ``rate_noise_rad_per_s``).
+    """
+
+    metadata = {"render_modes": []}  # noqa: RUF012
+
+    def __init__(self, task: str = "hover", *, render_mode: None = None, **settings: Any) -> None:
+        if render_mode is not None:
+            raise CaseError("render_mode: there is none", key="render_mode", remedy="leave it out")
+        self._fleet = _Fleet(1, task, "disabled", **settings)
+        self.observation_space = self._fleet.observation_space
+        self.action_space = self._fleet.action_space
+
+    def reset(self, *, seed: int | None = None, options: dict[str, Any] | None = None) -> tuple[Any, dict[str, Any]]:
+        """A new episode; the first of ``seed``, else the next one."""
+        super().reset(seed=seed)
+        self._fleet.reset([seed], [True])
+        return self._fleet.observed[0].copy(), {}
+
+    def step(self, action: Any) -> tuple[Any, float, bool, bool, dict[str, Any]]:
+        """One control step."""
+        fleet = self._fleet
+        fleet.step(np.asarray(action)[np.newaxis])
+        ended = bool(fleet.terminated[0]), bool(fleet.truncated[0])
+        return fleet.observed[0].copy(), float(fleet.rewards[0]), *ended, {}
+
+    def regulated(self) -> NDArray[np.float32]:
+        """What the linear-quadratic regulator would do now, shape (4,): a baseline. It remembers: once per step."""
+        actions: NDArray[np.float32] = self._fleet.regulated()[0]
+        return actions
+
+
+class VectorEnvironment(gymnasium.vector.VectorEnv[Any, Any, Any]):
+    """Many flyers, stepped by one call on all threads. Keywords as those of :class:`Environment`.
+
+    Observations, rewards and ends are arrays that the next step writes again: copy what is kept (``copy=True`` does it).
+    ``autoreset_mode`` is ``NextStep``, ``SameStep`` (``info["final_obs"]``) or ``Disabled`` (``reset(options={"reset_mask": ...})``), as
+    gymnasium has them.
+    """
+
+    def __init__(
+        self,
+        num_envs: int = 1,
+        task: str = "hover",
+        *,
+        autoreset_mode: AutoresetMode | str = AutoresetMode.NEXT_STEP,
+        copy: bool = True,
+        render_mode: None = None,
+        **settings: Any,
+    ) -> None:
+        try:
+            mode = AutoresetMode(autoreset_mode)
+        except ValueError:
+            names = ", ".join(m.value for m in AutoresetMode)
+            raise CaseError(f"autoreset_mode = {autoreset_mode!r}", key="autoreset_mode", remedy=names) from None
+        if render_mode is not None:
+            raise CaseError("render_mode: there is none", key="render_mode", remedy="leave it out")
+        self._fleet = _Fleet(num_envs, task, mode.name.lower(), **settings)
+        self._mode, self._copy = mode, copy
+        self.num_envs = num_envs
+        self.metadata = {"render_modes": [], "autoreset_mode": mode}
+        self.render_mode = None
+        self.single_observation_space = self._fleet.observation_space
+        self.single_action_space = self._fleet.action_space
+        self.observation_space = batch_space(self.single_observation_space, num_envs)
+        self.action_space = batch_space(self.single_action_space, num_envs)
+
+    def reset(
+        self, *, seed: int | Sequence[int | None] | None = None, options: dict[str, Any] | None = None
+    ) -> tuple[Any, dict[str, Any]]:
+        """New episodes, of the seeds ``seed + k`` or those of a list; where ``options["reset_mask"]`` says, if given."""
+        count = self.num_envs
+        if seed is None or isinstance(seed, int | np.integer):
+            seeds: list[int | None] = [None if seed is None else int(seed) + k for k in range(count)]
+        else:
+            seeds = list(seed)
+        mask = np.ones(count, np.bool_) if options is None else options.get("reset_mask", np.ones(count, np.bool_))
+        if len(seeds) != count or np.shape(mask) != (count,):
+            raise CaseError("seed: not one for each", key="seed", remedy=f"{count} seeds, a mask of {count}")
+        self._fleet.reset(seeds, [bool(x) for x in mask])
+        observed = self._fleet.observed
+        return (observed.copy() if self._copy else observed), {}
+
+    def step(self, actions: Any) -> tuple[Any, Any, Any, Any, dict[str, Any]]:
+        """One control step of all."""
+        fleet = self._fleet
+        ended = fleet.step(actions)
+        info: dict[str, Any] = {}
+        if ended and self._mode is AutoresetMode.SAME_STEP:
+            done = fleet.terminated | fleet.truncated
+            final = np.empty(self.num_envs, dtype=object)
+            for k in np.flatnonzero(done):
+                final[k] = fleet.last[k].copy()
+            info = {"final_obs": final, "_final_obs": done, "final_info": {}, "_final_info": done.copy()}
+        if self._copy:
+            ends = fleet.terminated.copy(), fleet.truncated.copy()
+            return fleet.observed.copy(), fleet.rewards.copy(), *ends, info
+        return fleet.observed, fleet.rewards, fleet.terminated, fleet.truncated, info
+
+    def regulated(self) -> NDArray[np.float32]:
+        """What the linear-quadratic regulator would do now, shape (num_envs, 4): a baseline. It remembers: once per step."""
+        return self._fleet.regulated()
+
+    def distances_m(self) -> NDArray[np.float64]:
+        """Distances of the mass centres from their targets, without noise, shape (num_envs,) [m]."""
+        return np.array(self._fleet.core.distances())
+
+    def core_seconds(self, count: int) -> float:
+        """Seconds that ``count`` control steps of all take within Rust: what Python adds is seen beside it."""
+        return self._fleet.core.core_seconds(_whole("count", count, 0, 10**9))
+
+
+for _task in TASKS:
+    gymnasium.register(
+        id=f"wingbeat/{_task.capitalize()}-v0",
+        entry_point="wingbeat.gym:Environment",
+        vector_entry_point="wingbeat.gym:VectorEnvironment",
+        kwargs={"task": _task},
+        order_enforce=False,
+        disable_env_checker=True,
+    )

@@ -1,0 +1,307 @@
+//! Many episodes at once, for who learns: one call steps all of them on threads, into arrays that are there already.
+
+use std::sync::{Arc, Mutex, PoisonError};
+
+use numpy::{PyReadonlyArray2, PyReadwriteArray1, PyReadwriteArray2};
+use pyo3::prelude::*;
+use rayon::prelude::*;
+use wingbeat::analysis::episode::{Course, Episode, OBSERVED, Task};
+use wingbeat::analysis::regulator::{Regulator, Weights};
+use wingbeat::analysis::{AnalysisError, Trim};
+
+use crate::errors::{broken, raised, refused};
+
+/// Controls of a flyer.
+const CONTROLS: usize = 4;
+
+/// An episode that is stepped over and over.
+struct Cell {
+    episode: Episode,
+    /// The last step ended it.
+    is_done: bool,
+    /// Gains and memory of the regulator; none where it does not fit.
+    regulator: Option<Regulator>,
+}
+
+/// When an episode that has ended begins again.
+#[derive(Clone, Copy, PartialEq)]
+enum Autoreset {
+    NextStep,
+    SameStep,
+    Disabled,
+}
+
+/// A vector of episodes of one task.
+#[pyclass(frozen, module = "wingbeat._core")]
+pub struct Fleet {
+    course: Arc<Course>,
+    cells: Mutex<Vec<Cell>>,
+    autoreset: Autoreset,
+    /// At the start of an episode.
+    regulator: Option<Regulator>,
+}
+
+/// Settings of a fleet as Python gives them: task, steps from one control to the next, wingbeats of an episode, limits
+/// of relative amplitudes and of angles [rad], delay in control steps, noise of place [m], velocity [m/s], tilt [rad] and angular
+/// velocity [rad/s], autoreset mode.
+pub type Settings = (String, usize, usize, [f64; 2], usize, [f64; 4], String);
+
+impl Fleet {
+    /// Episodes about the trimmed flight `trim`, of these seeds.
+    pub fn of(py: Python<'_>, trim: Trim, settings: Settings, seeds: Vec<u64>) -> PyResult<Self> {
+        let (task, interval, beats, limits, delay, noise, autoreset) = settings;
+        let autoreset = match &autoreset[..] {
+            "next_step" => Autoreset::NextStep,
+            "same_step" => Autoreset::SameStep,
+            _ => Autoreset::Disabled,
+        };
+        let names = Task::ALL.map(|t| t.0).join(", ");
+        let task = Task::ALL.iter().find(|t| t.0 == task);
+        let (_, task) =
+            task.ok_or_else(|| refused(py, "task", "there is none of this name", &names))?;
+        let built = py.detach(move || {
+            let mut course = Course::new(*task, trim)?;
+            (course.interval, course.beats, course.delay) = (interval, beats, delay);
+            [course.limits.amplitude, course.limits.angle] = limits;
+            let to = &mut course.sensors.noise;
+            [to.position, to.velocity, to.tilt, to.rate] = noise;
+            let is_per_beat = interval == course.trim.beat.steps() && delay == 0;
+            let regulator =
+                is_per_beat.then(|| Regulator::new(&course.trim, &Weights::default(), 0).ok());
+            let (course, regulator) = (Arc::new(course), regulator.flatten());
+            let cell = |seed: u64| {
+                Ok(Cell {
+                    episode: Episode::new(Arc::clone(&course), seed)?,
+                    is_done: false,
+                    regulator: regulator.clone(),
+                })
+            };
+            let cells: Result<Vec<Cell>, AnalysisError> = seeds.into_par_iter().map(cell).collect();
+            Ok(Self {
+                cells: Mutex::new(cells?),
+                course,
+                autoreset,
+                regulator,
+            })
+        });
+        built.map_err(|e: AnalysisError| raised(py, &e.into()))
+    }
+}
+
+impl Cell {
+    fn reset(
+        &mut self,
+        seed: Option<u64>,
+        regulator: &Option<Regulator>,
+    ) -> Result<(), AnalysisError> {
+        self.regulator.clone_from(regulator);
+        self.is_done = false;
+        self.episode.reset(seed)
+    }
+
+    fn observe(&self, out: &mut [f32]) {
+        let mut seen = [0.0; OBSERVED];
+        self.episode.observe(&mut seen);
+        for (to, x) in out.iter_mut().zip(seen) {
+            *to = x as f32;
+        }
+    }
+}
+
+/// What an environment of the fleet is stepped by and into.
+struct Row<'a> {
+    cell: &'a mut Cell,
+    action: &'a [f32],
+    observed: &'a mut [f32],
+    last: &'a mut [f32],
+    reward: &'a mut f64,
+    terminated: &'a mut bool,
+    truncated: &'a mut bool,
+}
+
+impl Row<'_> {
+    fn step(
+        self,
+        autoreset: Autoreset,
+        regulator: &Option<Regulator>,
+    ) -> Result<(), AnalysisError> {
+        let cell = self.cell;
+        if cell.is_done && autoreset == Autoreset::NextStep {
+            cell.reset(None, regulator)?;
+            (*self.reward, *self.terminated, *self.truncated) = (0.0, false, false);
+            cell.observe(self.observed);
+            return Ok(());
+        }
+        let action = std::array::from_fn(|i| f64::from(self.action[i]));
+        let outcome = cell.episode.step(&action);
+        (*self.reward, *self.terminated) = (outcome.reward, outcome.is_lost);
+        *self.truncated = outcome.is_over && !outcome.is_lost;
+        cell.is_done = outcome.is_lost || outcome.is_over;
+        cell.observe(self.observed);
+        if cell.is_done && autoreset == Autoreset::SameStep {
+            self.last.copy_from_slice(self.observed);
+            cell.reset(None, regulator)?;
+            cell.observe(self.observed);
+        }
+        Ok(())
+    }
+}
+
+#[pymethods]
+impl Fleet {
+    /// Begins new episodes where `mask` says, of these seeds where there are any; observations into `observed`, shape
+    /// (environments, 17).
+    fn reset(
+        &self,
+        py: Python<'_>,
+        seeds: Vec<Option<u64>>,
+        mask: Vec<bool>,
+        mut observed: PyReadwriteArray2<'_, f32>,
+    ) -> PyResult<()> {
+        let observed = observed.as_slice_mut()?;
+        let done = py.detach(|| {
+            let mut cells = self.cells.lock().unwrap_or_else(PoisonError::into_inner);
+            if seeds.len() != cells.len()
+                || mask.len() != cells.len()
+                || observed.len() != OBSERVED * cells.len()
+            {
+                return None;
+            }
+            let rows = cells.par_iter_mut().zip(observed.par_chunks_mut(OBSERVED));
+            let rows = rows.zip(&seeds).zip(&mask);
+            Some(rows.try_for_each(|(((cell, out), seed), chosen)| {
+                if *chosen {
+                    cell.reset(*seed, &self.regulator)?;
+                }
+                cell.observe(out);
+                Ok::<(), AnalysisError>(())
+            }))
+        });
+        done.ok_or_else(broken)?.map_err(|e| raised(py, &e.into()))
+    }
+
+    /// Steps all environments by `actions`, shape (environments, 4), fractions of the limits, into the other arrays:
+    /// observations and, where an episode ended and began again in this step, its last ones, shape (environments, 17);
+    /// rewards; whether the flyer is lost; whether the time is over. Whether any episode has ended.
+    #[allow(clippy::too_many_arguments)]
+    fn step(
+        &self,
+        py: Python<'_>,
+        actions: PyReadonlyArray2<'_, f32>,
+        mut observed: PyReadwriteArray2<'_, f32>,
+        mut last: PyReadwriteArray2<'_, f32>,
+        mut rewards: PyReadwriteArray1<'_, f64>,
+        mut terminated: PyReadwriteArray1<'_, bool>,
+        mut truncated: PyReadwriteArray1<'_, bool>,
+    ) -> PyResult<bool> {
+        let actions = actions.as_slice()?;
+        if !actions.iter().all(|x| x.is_finite()) {
+            let remedy = "finite numbers, fractions of the limits";
+            return Err(refused(py, "actions", "one is not finite", remedy));
+        }
+        let (observed, last) = (observed.as_slice_mut()?, last.as_slice_mut()?);
+        let (rewards, terminated) = (rewards.as_slice_mut()?, terminated.as_slice_mut()?);
+        let truncated = truncated.as_slice_mut()?;
+        let stepped = py.detach(|| {
+            let mut cells = self.cells.lock().unwrap_or_else(PoisonError::into_inner);
+            let n = cells.len();
+            let sizes = [
+                actions.len() / CONTROLS,
+                observed.len() / OBSERVED,
+                last.len() / OBSERVED,
+            ];
+            let flat = [rewards.len(), terminated.len(), truncated.len()];
+            if sizes != [n; 3] || flat != [n; 3] {
+                return None;
+            }
+            let arrays = actions
+                .par_chunks(CONTROLS)
+                .zip(observed.par_chunks_mut(OBSERVED));
+            let arrays = arrays
+                .zip(last.par_chunks_mut(OBSERVED))
+                .zip(rewards.par_iter_mut());
+            let arrays = arrays.zip(terminated.par_iter_mut().zip(truncated.par_iter_mut()));
+            let rows = cells.par_iter_mut().zip(arrays);
+            let done = rows.try_for_each(
+                |(cell, ((((action, observed), last), reward), (terminated, truncated)))| {
+                    let row = Row {
+                        cell,
+                        action,
+                        observed,
+                        last,
+                        reward,
+                        terminated,
+                        truncated,
+                    };
+                    row.step(self.autoreset, &self.regulator)
+                },
+            );
+            Some(done)
+        });
+        stepped
+            .ok_or_else(broken)?
+            .map_err(|e| raised(py, &e.into()))?;
+        Ok(terminated.iter().chain(truncated.iter()).any(|x| *x))
+    }
+
+    /// What the linear-quadratic regulator would do now, into `actions`; it remembers, so once per step. False where it does not
+    /// fit: controls within a wingbeat, a delay.
+    fn regulate(&self, mut actions: PyReadwriteArray2<'_, f32>) -> PyResult<bool> {
+        let limits = &self.course.limits;
+        let sizes = [
+            limits.amplitude,
+            limits.angle,
+            limits.amplitude,
+            limits.angle,
+        ];
+        let mut cells = self.cells.lock().unwrap_or_else(PoisonError::into_inner);
+        let rows = actions.as_slice_mut()?.as_chunks_mut::<CONTROLS>().0;
+        for (cell, row) in cells.iter_mut().zip(rows) {
+            let Some(regulator) = &mut cell.regulator else {
+                return Ok(false);
+            };
+            let d = cell.episode.seen();
+            let u = limits.applied(regulator.controls(&d));
+            regulator.remember(&d, u, limits.reached(&u));
+            *row = std::array::from_fn(|i| (u[i] / sizes[i]) as f32);
+        }
+        Ok(true)
+    }
+
+    /// Seconds that `count` control steps take within Rust, all environments one step on threads, then the next: what Python
+    /// adds to it is seen beside it. Episodes that end begin again.
+    fn core_seconds(&self, py: Python<'_>, count: usize) -> PyResult<f64> {
+        let timed = py.detach(|| {
+            let mut cells = self.cells.lock().unwrap_or_else(PoisonError::into_inner);
+            let mut observed = vec![0.0; OBSERVED * cells.len()];
+            let begun = std::time::Instant::now();
+            let fly = |(cell, seen): (&mut Cell, &mut [f64])| {
+                let outcome = cell.episode.step(&[0.0; CONTROLS]);
+                cell.episode.observe(seen);
+                match outcome.is_lost || outcome.is_over {
+                    true => cell.reset(None, &self.regulator),
+                    false => Ok(()),
+                }
+            };
+            for _ in 0..count {
+                let rows = cells.par_iter_mut().zip(observed.par_chunks_mut(OBSERVED));
+                rows.try_for_each(fly)?;
+            }
+            Ok(begun.elapsed().as_secs_f64())
+        });
+        timed.map_err(|e: AnalysisError| raised(py, &e.into()))
+    }
+
+    /// Distances of the mass centres from their targets [m].
+    fn distances(&self, py: Python<'_>) -> Vec<f64> {
+        py.detach(|| {
+            let mut cells = self.cells.lock().unwrap_or_else(PoisonError::into_inner);
+            let of = |cell: &mut Cell| {
+                cell.episode
+                    .truth()
+                    .map_or(f64::NAN, |d| d.position.length())
+            };
+            cells.iter_mut().map(of).collect()
+        })
+    }
+}

@@ -1,0 +1,77 @@
+//! Trim in air with a memory: the vortex lattice.
+
+use pyo3::prelude::*;
+use wingbeat::analysis::TrimProblem;
+use wingbeat::analysis::wake::{WakeSettings, trim_with_wake};
+use wingbeat::case::{LoadedCase, wake_trimmed_case};
+
+use crate::arrays::array;
+use crate::errors::raised;
+use crate::worker::analyse;
+
+/// Trims the flight, its feedback left out, the body held for `held_beats` wingbeats first.
+pub fn trim(
+    py: Python<'_>,
+    flight: &wingbeat::Flight,
+    problem: TrimProblem,
+    held_beats: usize,
+    case: Option<LoadedCase>,
+) -> PyResult<WakeTrim> {
+    let mut setup = flight.setup.clone();
+    setup.feedback = None;
+    let settings = WakeSettings {
+        held_beats,
+        ..WakeSettings::default()
+    };
+    let found = analyse(py, move || trim_with_wake(&setup, &problem, &settings))?;
+    let trim = found.map_err(|e| raised(py, &e.into()))?;
+    Ok(WakeTrim { trim, case })
+}
+
+/// A trimmed flight in air with a memory, or the best point that was found.
+#[pyclass(frozen, module = "wingbeat._core")]
+pub struct WakeTrim {
+    trim: wingbeat::analysis::wake::WakeTrim,
+    /// None where parts written in Python fly, which no case says.
+    case: Option<LoadedCase>,
+}
+
+#[pymethods]
+impl WakeTrim {
+    /// Whether the residual is within the tolerance.
+    #[getter]
+    fn converged(&self) -> bool {
+        self.trim.converged
+    }
+
+    /// The residuals; see `wingbeat.WakeTrim`.
+    #[getter]
+    fn residual<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        array(py, self.trim.residual.to_vec(), &[6])
+    }
+
+    /// Quasi-Newton steps made, and flights flown.
+    #[getter]
+    fn effort(&self) -> (usize, usize) {
+        (self.trim.iterations, self.trim.flights)
+    }
+
+    /// The adjustment of all wings, in the order of `wingbeat.Adjustment`.
+    #[getter]
+    fn adjustment(&self) -> [f64; 8] {
+        self.trim.adjustment.numbers().map(|(_, x)| x)
+    }
+
+    /// Pitch of the body at its release [rad].
+    #[getter]
+    fn body_pitch_rad(&self) -> f64 {
+        self.trim.body_pitch
+    }
+
+    /// The trimmed flight as the text of a case; none where no case says it.
+    #[getter]
+    fn case_text(&self) -> Option<String> {
+        let case = self.case.as_ref()?;
+        Some(wake_trimmed_case(case, &self.trim))
+    }
+}

@@ -1,0 +1,180 @@
+"""Environments for gymnasium."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+import time
+import warnings
+
+import gymnasium
+import numpy as np
+import pytest
+from gymnasium.utils.env_checker import check_env
+from gymnasium.vector import AutoresetMode
+
+import wingbeat
+import wingbeat.gym
+from wingbeat.gym import TASKS, Environment, VectorEnvironment
+
+
+@pytest.mark.parametrize("task", TASKS)
+@pytest.mark.parametrize("controls_per_beat", [1, 10])
+def test_behaves_check_env_is_clean(task, controls_per_beat):
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        # Observations have no bounds: the checker would have them bounded or normalised.
+        warnings.filterwarnings("ignore", message=".*Box observation space.*infinity.*")
+        check_env(Environment(task, controls_per_beat=controls_per_beat), skip_render_check=True)
+
+
+def flown(envs: VectorEnvironment, steps: int, seed: int = 5) -> list[np.ndarray]:
+    envs.reset(seed=seed)
+    draw = np.random.default_rng(1)
+    actions = draw.uniform(-0.5, 0.5, (steps, 1, 4)).repeat(envs.num_envs, axis=1)
+    return [np.concatenate([x.ravel() for x in envs.step(a)[:4]]) for a in actions]
+
+
+def test_agrees_one_environment_with_that_of_a_vector():
+    vector = VectorEnvironment(8, "recover", beats=4, autoreset_mode="Disabled")
+    single = Environment("recover", beats=4)
+    draw = np.random.default_rng(1)
+    seen, _ = vector.reset(seed=10)
+    alone, _ = single.reset(seed=13)
+    np.testing.assert_array_equal(seen[3], alone)
+    for _ in range(4):
+        actions = draw.uniform(-1.0, 1.0, (8, 4))
+        seen, rewards, terminated, truncated, _ = vector.step(actions)
+        alone, reward, *ended, _ = single.step(actions[3])
+        np.testing.assert_array_equal(seen[3], alone)
+        assert [rewards[3], terminated[3], truncated[3]] == [reward, *ended]
+
+
+def test_behaves_any_number_of_threads_gives_the_same_bits():
+    code = (
+        "import hashlib, numpy, wingbeat.gym as g; e = g.VectorEnvironment(13, 'gust', controls_per_beat=4)\n"
+        "e.reset(seed=1); h = hashlib.sha256()\n"
+        "for k in range(40): [h.update(x.tobytes()) for x in e.step(numpy.full((13, 4), 0.1 * numpy.sin(k)))[:4]]\n"
+        "print(h.hexdigest())"
+    )
+
+    def bits(threads: str) -> str:
+        environment = os.environ | {"RAYON_NUM_THREADS": threads}
+        done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, env=environment)
+        assert done.returncode == 0, done.stderr
+        return done.stdout
+
+    assert bits("1") == bits("2") == bits("3")
+
+
+def test_behaves_autoreset_modes_are_those_of_gymnasium():
+    modes = {mode: VectorEnvironment(3, "hover", beats=2, autoreset_mode=mode) for mode in AutoresetMode}
+    first = {mode: envs.reset(seed=4)[0] for mode, envs in modes.items()}
+    still = np.zeros((3, 4), np.float32)
+    for envs in modes.values():
+        assert not envs.step(still)[3].any()
+    ends = {mode: envs.step(still) for mode, envs in modes.items()}
+    assert all(end[3].all() and not end[2].any() for end in ends.values())
+    last = ends[AutoresetMode.DISABLED][0]
+    np.testing.assert_array_equal(ends[AutoresetMode.NEXT_STEP][0], last)
+    info = ends[AutoresetMode.SAME_STEP][4]
+    np.testing.assert_array_equal(np.stack(list(info["final_obs"])), last)
+    assert info["_final_obs"].all()
+    begun, rewards, _, truncated, _ = modes[AutoresetMode.NEXT_STEP].step(still)
+    assert not rewards.any() and not truncated.any()
+    np.testing.assert_array_equal(begun, ends[AutoresetMode.SAME_STEP][0])
+    masked, _ = modes[AutoresetMode.DISABLED].reset(options={"reset_mask": np.array([False, True, False])})
+    np.testing.assert_array_equal(masked, np.where([[False], [True], [False]], begun, last))
+    assert not np.array_equal(begun, first[AutoresetMode.NEXT_STEP]), "the next episode is another"
+
+
+def test_behaves_seeds_are_for_each_environment():
+    envs = VectorEnvironment(3, "hover")
+    seen = envs.reset(seed=[7, 9, 7])[0]
+    np.testing.assert_array_equal(seen[0], seen[2])
+    assert not np.array_equal(seen[0], seen[1])
+    np.testing.assert_array_equal(envs.reset(seed=7)[0][0], seen[0])
+
+
+def test_behaves_the_regulator_holds_what_falls_without_it():
+    envs = VectorEnvironment(16, "hover", autoreset_mode="Disabled", beats=60)
+    total = {}
+    for name in ("regulated", "still"):
+        envs.reset(seed=1)
+        total[name] = np.zeros(16)
+        for _ in range(60):
+            actions = envs.regulated() if name == "regulated" else np.zeros((16, 4))
+            total[name] += envs.step(actions)[1]
+    assert total["regulated"].min() > 50.0 > total["still"].max()
+
+
+def test_behaves_gymnasium_makes_them():
+    env = gymnasium.make("wingbeat/Path-v0", beats=3)
+    env.reset(seed=1)
+    assert env.unwrapped.step(np.zeros(4, np.float32))[0].shape == (17,)
+    envs = gymnasium.make_vec("wingbeat/Gust-v0", num_envs=4, vectorization_mode="vector_entry_point")
+    assert isinstance(envs, VectorEnvironment) and envs.reset()[0].shape == (4, 17)
+
+
+def test_behaves_sensors_have_noise_and_delay():
+    plain, late, noisy = (
+        VectorEnvironment(2, "hover", **s) for s in ({}, {"delay": 2}, {"tilt_noise_rad": 0.1})
+    )
+    still = np.zeros((2, 4), np.float32)
+    starts = [envs.reset(seed=3)[0] for envs in (plain, late, noisy)]
+    np.testing.assert_array_equal(starts[0], starts[1])
+    seen = [[envs.step(still)[0] for _ in range(4)] for envs in (plain, late, noisy)]
+    for k in range(2, 4):
+        np.testing.assert_array_equal(seen[1][k][:, :12], seen[0][k - 2][:, :12])
+    difference = seen[2][0][:, 9:12] - seen[0][0][:, 9:12]
+    assert 0.001 < np.abs(difference).max() < 1.0
+    np.testing.assert_array_equal(seen[2][0][:, :3], seen[0][0][:, :3])
+
+
+@pytest.mark.parametrize(
+    "settings",
+    [
+        {"task": "dance"},
+        {"num_envs": 0},
+        {"steps_per_beat": 3},
+        {"controls_per_beat": 3},
+        {"beats": 0},
+        {"amplitude_limit": float("nan")},
+        {"delay": -1},
+        {"tilt_noise_rad": -1.0},
+        {"autoreset_mode": "sometimes"},
+        {"render_mode": "human"},
+        {"flight": wingbeat.Flight.preset("fruit-fly-hover")},
+    ],
+)
+def test_refuses_settings(settings):
+    with pytest.raises(wingbeat.Error) as caught:
+        VectorEnvironment(**{"num_envs": 2, **settings})
+    assert caught.value.remedy
+
+
+def test_refuses_actions():
+    envs = VectorEnvironment(2)
+    for actions in (np.zeros((3, 4)), np.zeros(4), np.full((2, 4), np.nan)):
+        with pytest.raises(wingbeat.CaseError):
+            envs.step(actions)
+    with pytest.raises(wingbeat.AnalysisError):
+        VectorEnvironment(2, controls_per_beat=2).regulated()
+
+
+@pytest.mark.parametrize("controls_per_beat", [1, 40])
+def test_behaves_python_adds_little_to_the_rust_core(controls_per_beat):
+    """Of release builds docs/python.md has the figures; here the part that Python adds, on a machine that is not quiet."""
+    envs = VectorEnvironment(64, "hover", controls_per_beat=controls_per_beat, copy=False)
+    envs.reset(seed=1)
+    count, still = 20 * controls_per_beat, np.zeros((64, 4), np.float32)
+    best = [np.inf, np.inf]
+    for _ in range(5):
+        begun = time.perf_counter()
+        for _ in range(count):
+            envs.step(still)
+        best[0] = min(best[0], time.perf_counter() - begun)
+        best[1] = min(best[1], envs.core_seconds(count))
+    print(f"{64 * count / best[0]:.0f} control steps per second, {64 * count / best[1]:.0f} in Rust")
+    assert best[0] < 1.25 * best[1]
