@@ -9,7 +9,10 @@ use super::surfaces::SurfaceMap;
 use crate::error::FlightError;
 use crate::interface::{Air, AirScratch, Instant, misfit};
 use crate::record::{ParticleSnapshot, Snapshot, SurfaceSnapshot, WakeSnapshot};
-use crate::setup::{AirOptions, FlightSetup};
+use crate::setup::{AirOptions, FlightSetup, MotionMode};
+
+/// Gravity across the plane of symmetry that is still the rounding of an attitude, over gravity.
+const ROUNDING: f64 = 1e-9;
 
 /// The lattice and its map to the bodies.
 #[derive(Debug)]
@@ -32,14 +35,18 @@ impl LatticeAir {
             return Ok(Self { lattice, map });
         }
         let root = setup.root_at_start();
-        let pairs = mirror_pairs(&setup.animal, options.body_surfaces, &root).ok_or(
-            FlightError::Setup {
-                key: "air.mirror",
-                value: "true".into(),
-                problem: "the animal is not its own mirror image; compute both sides (false)"
-                    .into(),
-            },
-        )?;
+        let refused = |problem: &str| FlightError::Setup {
+            key: "air.mirror",
+            value: "true".into(),
+            problem: format!("{problem}; compute both sides (false)"),
+        };
+        let is_free = matches!(setup.mode, MotionMode::Free(_));
+        if is_free && root.r.y_axis.dot(setup.gravity).abs() > ROUNDING * setup.gravity.length() {
+            let problem = "gravity pulls across the plane of symmetry of the body";
+            return Err(refused(problem));
+        }
+        let pairs = mirror_pairs(&setup.animal, options.body_surfaces, &root)
+            .ok_or_else(|| refused("the animal is not its own mirror image"))?;
         let lattice = lattice.with_mirror_symmetry(pairs)?;
         Ok(Self { lattice, map })
     }
