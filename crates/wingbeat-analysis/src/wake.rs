@@ -455,7 +455,14 @@ fn scales(setup: &FlightSetup) -> Scales {
 /// # Errors
 /// As [`wake_monodromy`].
 pub fn wake_floquet(trim: &WakeTrim, memory: WakeMemory) -> Result<ModeSet, AnalysisError> {
-    let m = wake_monodromy(trim, memory)?;
-    let pairs = eigen(&m, 9)?;
+    wake_modes(trim, &wake_monodromy(trim, memory)?)
+}
+
+/// The same of a derivative that is known, [`wake_monodromy`].
+///
+/// # Errors
+/// Numbers that are not finite.
+pub fn wake_modes(trim: &WakeTrim, monodromy: &[f64]) -> Result<ModeSet, AnalysisError> {
+    let pairs = eigen(monodromy, 9)?;
     Ok(ModeSet::of_multipliers(pairs, &scales(&trim.setup), &[]))
 }

@@ -84,7 +84,7 @@ pub struct Trim {
 }
 
 /// Name, plane, growth [1/s], frequency [rad/s], multiplier, eigenvector: component, size, phase [rad].
-type ModeParts = (
+pub type ModeParts = (
     String,
     String,
     f64,
@@ -93,7 +93,7 @@ type ModeParts = (
     Vec<(&'static str, f64, f64)>,
 );
 
-fn modes(set: &ModeSet) -> Vec<ModeParts> {
+pub fn modes(set: &ModeSet) -> Vec<ModeParts> {
     let parts = |m: &Mode| {
         let plane = format!("{:?}", m.plane).to_lowercase();
         (

@@ -1,12 +1,15 @@
-//! Trim in air with a memory: the vortex lattice.
+//! Trim and stability in air with a memory: the vortex lattice.
 
 use pyo3::prelude::*;
 use wingbeat::analysis::TrimProblem;
-use wingbeat::analysis::wake::{WakeSettings, trim_with_wake};
+use wingbeat::analysis::wake::{
+    WakeMemory, WakeSettings, trim_with_wake, wake_modes, wake_monodromy,
+};
 use wingbeat::case::{LoadedCase, wake_trimmed_case};
 
 use crate::arrays::array;
 use crate::errors::raised;
+use crate::mechanics::{ModeParts, modes};
 use crate::worker::analyse;
 
 /// Trims the flight, its feedback left out, the body held for `held_beats` wingbeats first.
@@ -73,5 +76,25 @@ impl WakeTrim {
     fn case_text(&self) -> Option<String> {
         let case = self.case.as_ref()?;
         Some(wake_trimmed_case(case, &self.trim))
+    }
+
+    /// Monodromy matrix of the free wingbeat by rows, and Floquet's modes; held fixed when the body is disturbed: the wake of
+    /// the trimmed flight (`is_given`), or the disturbance during the hold.
+    fn stability<'py>(
+        &self,
+        py: Python<'py>,
+        is_given: bool,
+    ) -> PyResult<(Bound<'py, PyAny>, Vec<ModeParts>)> {
+        let trim = self.trim.clone();
+        let found = analyse(py, move || {
+            let memory = match is_given {
+                true => WakeMemory::Given,
+                false => WakeMemory::Carried,
+            };
+            let matrix = wake_monodromy(&trim, memory)?;
+            wake_modes(&trim, &matrix).map(|set| (matrix, set))
+        })?;
+        let (matrix, set) = found.map_err(|e| raised(py, &e.into()))?;
+        Ok((array(py, matrix, &[9, 9])?, modes(&set)))
     }
 }

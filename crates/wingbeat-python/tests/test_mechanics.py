@@ -90,3 +90,12 @@ def test_agrees_trim_with_a_wake_with_the_command_line(program):
     assert (trim.converged, trim.flights) == (done.returncode == 0, told["flights"])
     assert sorted(trim.residual) == sorted(told["residuals"].values())
     assert trim.flight().fly().outcome == "finished"
+    with pytest.raises(wingbeat.CaseError, match="wake"):
+        trim.stability(wake="frozen")
+    models = {wake: trim.stability(wake=wake) for wake in ("given", "carried")}
+    for wake, model in models.items():
+        told = json.loads(program("stability", "fruit-fly-hover", "--hold", 1, "--wake", wake, "--json", *sets).stdout)
+        assert [m.growth_per_s for m in model.floquet_modes] == [m["growth_per_s"] for m in told["floquet_modes"]]
+        values = np.linalg.eigvals(model.monodromy)
+        assert all(abs(values - m.multiplier).min() < 1e-9 * abs(values).max() for m in model.floquet_modes)
+    assert abs(models["given"].monodromy - models["carried"].monodromy).max() > 1e-3

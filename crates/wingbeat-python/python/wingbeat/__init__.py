@@ -17,7 +17,7 @@ from wingbeat._core import version as _version
 from wingbeat._case import Part
 from wingbeat._flight import Flight, Stepper
 from wingbeat._frame import Frame, Particles, Surface, Wake
-from wingbeat._mechanics import Derivatives, LinearModel, Mode, Power, Trim, WakeTrim
+from wingbeat._mechanics import Derivatives, LinearModel, Mode, Power, Trim, WakeModel, WakeTrim
 from wingbeat._own import Adjustment, Motions, Sensed
 from wingbeat._run import Beats, Estimate, Run, read
 from wingbeat.errors import AnalysisError, CaseError, Error, FlightError, ResultError
@@ -48,6 +48,7 @@ __all__ = [
     "Surface",
     "Trim",
     "Wake",
+    "WakeModel",
     "WakeTrim",
     "presets",
     "read",

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 from wingbeat import _core, _toml
 from wingbeat._case import Part
 from wingbeat._frame import Frame
-from wingbeat._mechanics import Derivatives, LinearModel, Power, Trim, WakeTrim
+from wingbeat._mechanics import Derivatives, LinearModel, Power, Trim, WakeTrim, _not_trimmed
 from wingbeat._own import Air, Controller, Loads, Steering
 from wingbeat._run import Run
 from wingbeat.errors import CaseError
@@ -243,14 +243,9 @@ class Flight:
         return self._trimmed(trim).power()
 
     def _trimmed(self, arguments: dict[str, Any]) -> Trim:
-        from wingbeat.errors import AnalysisError
-
         trim = self.trim(**arguments)
         if not trim.converged:
-            raise AnalysisError(
-                f"the flight is not trimmed: largest residual {abs(trim.residual).max():.1e}",
-                remedy="start nearer to it (flight.pitch_deg, motion), or choose other unknowns",
-            )
+            raise _not_trimmed(trim.residual)
         return trim
 
 

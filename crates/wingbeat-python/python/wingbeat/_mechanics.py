@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from wingbeat import _core
 from wingbeat._own import Adjustment
-from wingbeat.errors import AnalysisError
+from wingbeat.errors import AnalysisError, CaseError
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -122,6 +122,20 @@ class Power:
     """Of all wings."""
     mass_kg: float
     """Of the animal."""
+
+
+@dataclass(frozen=True)
+class WakeModel:
+    """A wingbeat in air with a memory as a map of small disturbances of the body, ``x(T) = M x(0)``, in the axes of
+    :class:`LinearModel`.
+    """
+
+    monodromy: NDArray[Any]
+    """M, shape (9, 9)."""
+    states: tuple[str, ...]
+    state_units: tuple[str, ...]
+    floquet_modes: tuple[Mode, ...]
+    """Modes of M."""
 
 
 class Trim:
@@ -250,6 +264,23 @@ class WakeTrim:
     def flight(self) -> Flight:
         """The trimmed flight: held, released, and the free wingbeat."""
         return _flight(self._core.case_text)
+
+    def stability(self, *, wake: str = "carried") -> WakeModel:
+        """Derivative of the free wingbeat by the state of the body, and its modes: 18 more flights. Held fixed when the body is
+        disturbed: the wake of the trimmed flight (``given``), or the disturbance during the hold, so that the wake goes with it
+        (``carried``). Neither is the whole problem of body and wake; the two bracket it.
+        """
+        if wake not in ("given", "carried"):
+            raise CaseError(f"wake = {wake!r}: there is none of this name", key="wake", remedy="given, carried")
+        if not self.converged:
+            raise _not_trimmed(self.residual)
+        matrix, modes = self._core.stability(wake == "given")
+        return WakeModel(matrix, STATES, STATE_UNITS, _modes(modes))
+
+
+def _not_trimmed(residual: NDArray[Any]) -> AnalysisError:
+    remedy = "start nearer to it (flight.pitch_deg, motion), or choose other unknowns"
+    return AnalysisError(f"the flight is not trimmed: largest residual {abs(residual).max():.1e}", remedy=remedy)
 
 
 def _flight(case_text: str | None) -> Flight:
