@@ -30,7 +30,8 @@ pub enum Law {
 }
 
 impl Law {
-    fn controls(&self, d: &Departure) -> Controls {
+    /// The controls against a departure, without limits.
+    pub fn controls(&self, d: &Departure) -> Controls {
         match self {
             Self::Stabiliser(loops) => loops.controls(d),
             Self::Regulator(regulator) => regulator.controls(d),
@@ -38,7 +39,7 @@ impl Law {
     }
 
     /// A beat goes by with the command `u`, which reaches a limit or not.
-    fn remember(&mut self, d: &Departure, u: Controls, limited: bool) {
+    pub fn remember(&mut self, d: &Departure, u: Controls, limited: bool) {
         if let Self::Regulator(regulator) = self {
             regulator.remember(d, u, limited);
         }

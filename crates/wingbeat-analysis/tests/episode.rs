@@ -4,9 +4,11 @@ mod common;
 
 use std::sync::Arc;
 
-use wingbeat_analysis::departure::adjustments;
+use wingbeat_analysis::control::{Held, Law, SteeredBeats, Steering};
+use wingbeat_analysis::departure::{Reference, adjustments};
 use wingbeat_analysis::episode::strokes::{SteadyStroke, SteeredStroke};
-use wingbeat_analysis::episode::{Course, Episode, Flyer, OBSERVED, Start, Task};
+use wingbeat_analysis::episode::tumble::{CALM_BEATS, CALM_SPEED, CALM_TILT, Tumbles};
+use wingbeat_analysis::episode::{Course, Draw, Episode, Flyer, Model, OBSERVED, Start, Task};
 use wingbeat_analysis::regulator::{Regulator, Weights};
 use wingbeat_analysis::{Beat, Trim, trim};
 use wingbeat_dynamics::Formulation;
@@ -32,7 +34,8 @@ fn agrees_a_steered_flyer_with_the_map_of_a_beat() {
         rate: DVec3::new(5.0, -3.0, 2.0),
         gust: None,
     };
-    let mut flyer = Flyer::new(&trim, &start).expect("a flyer");
+    let mut flyer =
+        Flyer::new(&trim, &Model::new(&trim).expect("a model"), &start).expect("a flyer");
     let mut y = flyer.state().clone();
     let sides: Vec<f64> = trim
         .setup
@@ -156,4 +159,56 @@ fn behaves_the_regulator_masters_hover_and_nothing_does_not() {
         }
     }
     assert!(rewards[0] > 90.0 && rewards[1] < 60.0, "{rewards:?}");
+}
+
+/// The map of a beat lays out every wingbeat by itself and keeps its own queue of commands.
+#[test]
+fn agrees_recoveries_with_the_map_of_a_beat() {
+    let trim = hovering();
+    let (latency, beats) = (1, 60);
+    let law = Law::Regulator(Regulator::new(&trim, &Weights::default(), latency).expect("gains"));
+    let tumbles = Tumbles::new(&trim, Some(law.clone()), latency, beats).expect("tumbles");
+    let mut recovered = 0;
+    for seed in 1..=6 {
+        let recovery = tumbles.recovery(seed).expect("a flight");
+        let start = Start::drawn(Task::Recover, &trim.beat, &mut Draw::new(seed, 0));
+        assert_eq!(recovery.tilt, start.tilt.length());
+        let held = Held::Known(Reference::trimmed(&trim).expect("a reference"));
+        let steering = Steering::new(law.clone(), held, &trim.setup);
+        let flight = SteeredBeats::new(&trim, start.state(&trim), Some(steering), latency);
+        let calm_from = calm_from(&trim, flight.expect("a flight"), beats);
+        assert_eq!(recovery.beats, calm_from, "seed {seed}");
+        recovered += usize::from(calm_from.is_some());
+    }
+    assert!(
+        (1..6).contains(&recovered),
+        "{recovered}: all alike say little"
+    );
+}
+
+/// The first of ten calm wingbeats in a row.
+fn calm_from(trim: &Trim, mut flight: SteeredBeats<'_>, beats: usize) -> Option<usize> {
+    let scale = trim.beat.period() / trim.beat.wing_length();
+    let mut calm = 0;
+    for k in 0..beats + CALM_BEATS {
+        let d = flight.departure();
+        if Task::Recover.is_lost(&trim.beat, &d) {
+            return None;
+        }
+        let is_calm = d.state.tilt.length() < CALM_TILT;
+        let is_slow = d.state.velocity.length() * scale < CALM_SPEED;
+        calm = if is_calm && is_slow { calm + 1 } else { 0 };
+        if calm == CALM_BEATS {
+            return Some(k + 1 - CALM_BEATS);
+        }
+        flight.beat().ok()?;
+    }
+    None
+}
+
+#[test]
+fn behaves_no_tumble_ends_by_itself() {
+    let trim = hovering();
+    let open = Tumbles::new(&trim, None, 0, 60).expect("tumbles");
+    assert!((1..=8).all(|seed| open.recovery(seed).expect("a flight").beats.is_none()));
 }

@@ -59,15 +59,18 @@ impl FreeFlight {
         law: &WingLaw<'_>,
         step: f64,
     ) -> Result<Self, FlightError> {
-        let system = system_with(setup, law)?;
-        if let Some(joint) = system.loops().first() {
-            return Err(FlightError::Setup {
-                key: "joint",
-                value: joint.name.clone(),
-                problem: "it closes a loop, which is solved for motions that are known beforehand only: leave it out".into(),
-            });
-        }
-        Self::of(setup, MomentumForm::new(system), step)
+        let form = untabulated(setup, law)?;
+        Self::of(setup, form, step)
+    }
+
+    /// The same `setup` as this flight's, to be asked at any time as [`Self::at_any_time`] has it, with wings that move by
+    /// another `law`: both fly in the same air, which is not built again.
+    ///
+    /// # Errors
+    /// As [`Self::at_any_time`].
+    pub fn with_law(&self, setup: &FlightSetup, law: &WingLaw<'_>) -> Result<Self, FlightError> {
+        let (air, step) = (Arc::clone(&self.equations.air), self.equations.step);
+        Ok(Self::in_air(setup, untabulated(setup, law)?, air, step))
     }
 
     fn of(setup: &FlightSetup, form: MomentumForm, step: f64) -> Result<Self, FlightError> {
@@ -79,6 +82,10 @@ impl FreeFlight {
                 problem: "a map of one wingbeat needs air that depends on the present motion alone (blade_element, none)".into(),
             });
         }
+        Ok(Self::in_air(setup, form, air, step))
+    }
+
+    fn in_air(setup: &FlightSetup, form: MomentumForm, air: Arc<dyn Air>, step: f64) -> Self {
         let equations = Equations {
             mechanism: Mechanism::of(form.system()),
             core: Core::Free(Box::new(form.clone())),
@@ -87,10 +94,10 @@ impl FreeFlight {
             springs: setup.springs.clone(),
             step,
         };
-        Ok(Self {
+        Self {
             equations: Arc::new(equations),
             form,
-        })
+        }
     }
 
     /// The bodies.
@@ -179,5 +186,18 @@ impl FreeFlight {
         let carried = |a: &AddedMass| a.wrench(&motions[a.body()], &accelerations[a.body()]);
         added.iter().for_each(|a| loads[a.body()] += carried(a));
         Ok(loads)
+    }
+}
+
+/// The momentum form of `setup` with nothing known beforehand.
+fn untabulated(setup: &FlightSetup, law: &WingLaw<'_>) -> Result<MomentumForm, FlightError> {
+    let system = system_with(setup, law)?;
+    match system.loops().first() {
+        None => Ok(MomentumForm::new(system)),
+        Some(joint) => Err(FlightError::Setup {
+            key: "joint",
+            value: joint.name.clone(),
+            problem: "it closes a loop, which is solved for motions that are known beforehand only: leave it out".into(),
+        }),
     }
 }

@@ -5,6 +5,8 @@ mod support;
 use std::fs;
 use std::path::Path;
 
+use serde_json::Value;
+
 use support::{Scratch, wingbeat};
 
 /// Standard output of a command that succeeds.
@@ -314,6 +316,37 @@ fn exact_fall_in_the_air_of_a_partner_program() {
     case("[\"no-such-program-anywhere\"]");
     let problem = refused(dir, 2, &["run", "ball.toml", "--out", "c"]);
     assert!(problem.contains("cannot be started"), "{problem}");
+}
+
+#[test]
+fn behaves_tumbles_follow_from_their_seeds() {
+    let scratch = Scratch::new("tumbles");
+    let dir = &scratch.0;
+    let words = "stabilise --steps 40 --latency 1 --tumbles 24 --beats 60 --json --seed";
+    let fly = |seed: &str| {
+        let args: Vec<&str> = words.split(' ').chain([seed]).collect();
+        let told: Value = serde_json::from_str(&said(dir, &args)).expect("JSON");
+        told
+    };
+    let (told, later) = (fly("3"), fly("4"));
+    let flights = told["flights"].as_array().expect("flights");
+    assert_eq!(flights.len(), 24);
+    // The next seeds are the same flights, whatever threads they came to.
+    let shifted = later["flights"].as_array().expect("flights");
+    assert_eq!(flights[1..], shifted[..23]);
+    let rows = told["tumbles"].as_array().expect("rows");
+    let recovered = |row: &Value| row["recovered"].as_f64().expect("a share");
+    let all = rows.last().expect("all");
+    assert!(recovered(&rows[0]) >= recovered(all) && recovered(all) > 0.0);
+    let problem = refused(
+        dir,
+        2,
+        &["stabilise", "--tumbles", "4", "--tilt", "1", "2", "3"],
+    );
+    assert!(
+        problem.contains("--tumbles") && problem.contains("--tilt"),
+        "{problem}"
+    );
 }
 
 #[test]

@@ -3,8 +3,8 @@
 use std::sync::Arc;
 
 use wingbeat_flight::{FlightSetup, FreeFlight, FreeFlightScratch, Sensed};
-use wingbeat_math::DVec3;
 use wingbeat_math::ode::Rk4;
+use wingbeat_math::{DVec3, RotationLaw};
 
 use super::strokes::{SteadyStroke, SteeredStroke};
 use super::task::Start;
@@ -12,6 +12,30 @@ use crate::AnalysisError;
 use crate::beat::State;
 use crate::departure::{Controls, adjustments};
 use crate::trim::Trim;
+
+/// What the flyers of a trimmed flight have in common: their steady strokes and the air.
+#[derive(Clone, Debug)]
+pub struct Model {
+    steady: Vec<Arc<SteadyStroke>>,
+    flight: FreeFlight,
+}
+
+impl Model {
+    /// Of the flight `trim`.
+    ///
+    /// # Errors
+    /// What bodies and air refuse.
+    pub fn new(trim: &Trim) -> Result<Self, AnalysisError> {
+        let (period, steps) = (trim.beat.period(), trim.beat.steps());
+        let wings = trim.setup.animal.wings.iter();
+        let steady: Vec<_> = wings
+            .map(|w| Arc::new(SteadyStroke::new(w, period, steps)))
+            .collect();
+        let law = |k: usize, _: &_| steered(&Arc::new(SteeredStroke::new(Arc::clone(&steady[k]))));
+        let flight = FreeFlight::at_any_time(&trim.setup, &law, period / steps as f64)?;
+        Ok(Self { steady, flight })
+    }
+}
 
 /// Free flight under commands, from the trimmed flight on.
 pub struct Flyer {
@@ -26,21 +50,17 @@ pub struct Flyer {
 }
 
 impl Flyer {
-    /// The flyer of `trim` at the start `start`.
+    /// The flyer of `trim`, whose model this is, at the start `start`.
     ///
     /// # Errors
     /// What bodies and air refuse.
-    pub fn new(trim: &Trim, start: &Start) -> Result<Self, AnalysisError> {
-        let (period, steps) = (trim.beat.period(), trim.beat.steps());
-        let wings = &trim.setup.animal.wings;
-        let stroke = |w| {
-            let steady = Arc::new(SteadyStroke::new(w, period, steps));
-            Arc::new(SteeredStroke::new(steady))
-        };
-        let strokes: Vec<_> = wings.iter().map(stroke).collect();
-        let flight = flight(trim, &strokes, start)?;
+    pub fn new(trim: &Trim, model: &Model, start: &Start) -> Result<Self, AnalysisError> {
+        let stroke = |s: &Arc<_>| Arc::new(SteeredStroke::new(Arc::clone(s)));
+        let strokes: Vec<_> = model.steady.iter().map(stroke).collect();
+        let flight = flight(trim, model, &strokes, start)?;
+        let wings = trim.setup.animal.wings.iter();
         Ok(Self {
-            sides: wings.iter().map(|w| w.side.sign()).collect(),
+            sides: wings.map(|w| w.side.sign()).collect(),
             method: Rk4::new(flight.dim()),
             scratch: flight.scratch(),
             y: start.state(trim),
@@ -54,9 +74,14 @@ impl Flyer {
     ///
     /// # Errors
     /// As [`Self::new`].
-    pub fn restart(&mut self, trim: &Trim, start: &Start) -> Result<(), AnalysisError> {
+    pub fn restart(
+        &mut self,
+        trim: &Trim,
+        model: &Model,
+        start: &Start,
+    ) -> Result<(), AnalysisError> {
         self.strokes.iter().for_each(|s| s.reset());
-        self.flight = flight(trim, &self.strokes, start)?;
+        self.flight = flight(trim, model, &self.strokes, start)?;
         self.scratch = self.flight.scratch();
         self.y = start.state(trim);
         self.steps = 0;
@@ -122,17 +147,25 @@ impl Flyer {
     }
 }
 
-/// The equations of an episode.
+/// The equations of an episode: in the air of the model, or in its own where there is a gust.
 fn flight(
     trim: &Trim,
+    model: &Model,
     strokes: &[Arc<SteeredStroke>],
     start: &Start,
 ) -> Result<FreeFlight, AnalysisError> {
-    let h = trim.beat.period() / trim.beat.steps() as f64;
+    let law = |k: usize, _: &_| steered(&strokes[k]);
+    let Some(gust) = &start.gust else {
+        return Ok(model.flight.with_law(&trim.setup, &law)?);
+    };
     let mut setup: FlightSetup = trim.setup.clone();
-    if let (Some(gust), Some(wind)) = (&start.gust, setup.air.wind_mut()) {
+    if let Some(wind) = setup.air.wind_mut() {
         wind.gusts.push(gust.clone());
     }
-    let law = |k: usize, _: &_| -> Arc<dyn wingbeat_math::RotationLaw> { strokes[k].clone() };
+    let h = trim.beat.period() / trim.beat.steps() as f64;
     Ok(FreeFlight::at_any_time(&setup, &law, h)?)
+}
+
+fn steered(stroke: &Arc<SteeredStroke>) -> Arc<dyn RotationLaw> {
+    stroke.clone()
 }

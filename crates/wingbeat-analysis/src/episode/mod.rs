@@ -19,6 +19,7 @@
 mod flyer;
 pub mod strokes;
 mod task;
+pub mod tumble;
 
 use std::collections::VecDeque;
 use std::f64::consts::TAU;
@@ -32,7 +33,7 @@ use crate::departure::{CONTROLS, Controls, Departure, Limits, Reference};
 use crate::sensors::Sensors;
 use crate::trim::Trim;
 
-pub use flyer::Flyer;
+pub use flyer::{Flyer, Model};
 pub use task::{Draw, Start, Task};
 
 /// How many numbers are observed.
@@ -56,13 +57,14 @@ pub struct Course {
     /// Control steps from sensing to observing.
     pub delay: usize,
     reference: Reference,
+    model: Model,
 }
 
 impl Course {
     /// Perfect sensors, default limits, one control per wingbeat, 100 wingbeats.
     ///
     /// # Errors
-    /// Numbers that are not finite.
+    /// Numbers that are not finite; what bodies and air refuse.
     pub fn new(task: Task, trim: Trim) -> Result<Self, AnalysisError> {
         Ok(Self {
             task,
@@ -72,6 +74,7 @@ impl Course {
             sensors: Sensors::default(),
             delay: 0,
             reference: Reference::trimmed(&trim)?,
+            model: Model::new(&trim)?,
             trim: Arc::new(trim),
         })
     }
@@ -113,7 +116,7 @@ impl Episode {
     pub fn new(course: Arc<Course>, seed: u64) -> Result<Self, AnalysisError> {
         let start = Start::drawn(course.task, &course.trim.beat, &mut Draw::new(seed, 0));
         let mut episode = Self {
-            flyer: Flyer::new(&course.trim, &start)?,
+            flyer: Flyer::new(&course.trim, &course.model, &start)?,
             course,
             seed,
             number: 0,
@@ -135,7 +138,8 @@ impl Episode {
         }
         let mut draw = Draw::new(self.seed, self.number);
         let start = Start::drawn(self.course.task, &self.course.trim.beat, &mut draw);
-        self.flyer.restart(&self.course.trim, &start)?;
+        let course = &self.course;
+        self.flyer.restart(&course.trim, &course.model, &start)?;
         self.begin()
     }
 

@@ -122,7 +122,7 @@ impl Start {
     }
 
     /// The state of the flyer.
-    pub(super) fn state(&self, trim: &Trim) -> State {
+    pub fn state(&self, trim: &Trim) -> State {
         let root = trim.beat.root(&trim.state);
         let level = Level::new(root.r, trim.beat.gravity());
         let turned = level.to_n * DMat3::from_quat(DQuat::from_scaled_axis(self.tilt));

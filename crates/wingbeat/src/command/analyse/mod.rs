@@ -7,3 +7,4 @@ pub(crate) mod stabilise;
 pub(crate) mod stability;
 pub(crate) mod trim;
 pub(crate) mod trimming;
+mod tumbling;

@@ -3,9 +3,11 @@
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
+use rayon::prelude::*;
 use serde_json::{Value, json};
 use wingbeat::analysis::control::{Held, Law, SteeredBeats, Steering, disturbed};
 use wingbeat::analysis::departure::Reference;
+use wingbeat::analysis::episode::tumble::{Recovery, Tumbles};
 use wingbeat::analysis::regulator::{Regulator, Weights};
 use wingbeat::analysis::stabiliser::{ProportionalDerivative, Stiffness};
 use wingbeat::analysis::{AnalysisError, Trim};
@@ -15,6 +17,7 @@ use wingbeat::results::file::NewFile;
 use wingbeat::results::fixed::fixed;
 
 use super::trimming::{Trimming, trimmed, unused, watched};
+use super::tumbling;
 use crate::command::failure::Failure;
 use crate::command::options;
 use crate::command::report::{Report, line};
@@ -24,6 +27,8 @@ use crate::command::watch::Watch;
 const MAX_BEATS: usize = 100_000;
 /// Wingbeats between sensing and acting at most: the regulator remembers them all.
 const MAX_LATENCY: usize = 20;
+/// Tumbles at most.
+const MAX_TUMBLES: usize = 10_000_000;
 /// Wingbeats between sensing and acting unless told otherwise.
 const DEFAULT_LATENCY: usize = 2;
 
@@ -53,6 +58,13 @@ pub(crate) struct StabiliseArgs {
     /// Draw the flight as SVG.
     #[arg(long, value_name = "FILE")]
     figure: Option<PathBuf>,
+    /// Instead: so many flights out of random tumbles, and how many recover within --beats.
+    #[arg(long, value_name = "N", value_parser = options::count::<1, MAX_TUMBLES>,
+          conflicts_with_all = ["tilt", "sample", "figure"])]
+    tumbles: Option<usize>,
+    /// The first tumble's seed; the next ones count on [default: 1].
+    #[arg(long, value_name = "SEED", requires = "tumbles")]
+    seed: Option<u64>,
 }
 
 /// Which feedback.
@@ -75,7 +87,10 @@ pub(crate) fn run(args: &StabiliseArgs) -> Result<(), Failure> {
         }
     }
     let report = &args.trimming.report;
-    report.deliver([&args.figure], |report, [figure]| fly(args, report, figure))
+    report.deliver([&args.figure], |report, [figure]| match args.tumbles {
+        Some(count) => tumble(args, report, count),
+        None => fly(args, report, figure),
+    })
 }
 
 fn fly(args: &StabiliseArgs, report: &mut Report, figure: Option<NewFile>) -> Result<(), Failure> {
@@ -113,15 +128,47 @@ fn controller(
     trim: &Trim,
     latency: usize,
 ) -> Result<Option<Steering>, AnalysisError> {
-    let law = match args.controller {
-        Feedback::Free => return Ok(None),
-        Feedback::Pd => Law::Stabiliser(ProportionalDerivative::new(trim, &Stiffness::default())?),
-        Feedback::Regulator => Law::Regulator(Regulator::new(trim, &Weights::default(), latency)?),
+    let Some(law) = law(args, trim, latency)? else {
+        return Ok(None);
     };
     let held = Held::Known(Reference::trimmed(trim)?);
     let mut steering = Steering::new(law, held, &trim.setup);
     steering.every = args.sample.unwrap_or(1);
     Ok(Some(steering))
+}
+
+/// The law of the feedback asked for.
+fn law(args: &StabiliseArgs, trim: &Trim, latency: usize) -> Result<Option<Law>, AnalysisError> {
+    Ok(match args.controller {
+        Feedback::Free => None,
+        Feedback::Pd => {
+            let loops = ProportionalDerivative::new(trim, &Stiffness::default())?;
+            Some(Law::Stabiliser(loops))
+        }
+        Feedback::Regulator => {
+            let regulator = Regulator::new(trim, &Weights::default(), latency)?;
+            Some(Law::Regulator(regulator))
+        }
+    })
+}
+
+/// Flights out of random tumbles, over all threads.
+fn tumble(args: &StabiliseArgs, report: &mut Report, count: usize) -> Result<(), Failure> {
+    let (_, trim) = trimmed(&args.trimming, report)?;
+    let latency = args.latency.unwrap_or(DEFAULT_LATENCY);
+    let law = watched("feedback", || law(args, &trim, latency))?;
+    let tumbles = Tumbles::new(&trim, law, latency, args.beats)?;
+    let first = args.seed.unwrap_or(1);
+    let watch = Watch::of("flying out of tumbles", count as u64);
+    let flown = (0..count as u64).into_par_iter().map(|k| {
+        let recovery = tumbles.recovery(first.wrapping_add(k));
+        watch.part(|| {});
+        recovery
+    });
+    let recoveries: Result<Vec<Recovery>, AnalysisError> = flown.collect();
+    drop(watch);
+    tumbling::tell(report, &trim, first, &recoveries?);
+    Ok(())
 }
 
 /// What is seen at this beat.
