@@ -42,8 +42,8 @@ fn main() {
         black_box(wingbeat_analysis::trim(&setup, &common::hover(100)).expect("the fruit fly"));
     });
     println!("trim of hover: {:.0} ms", 1e3 * trim);
-    for interval in [40, 1] {
-        episode(interval);
+    for (many, interval) in [(1, 40), (1, 1), (64, 1), (256, 1)] {
+        episodes(many, interval);
     }
 }
 
@@ -64,25 +64,34 @@ fn seconds(work: impl FnOnce()) -> f64 {
     start.elapsed().as_secs_f64()
 }
 
-/// Control steps of an episode of hover, 40 Runge-Kutta steps a beat, one control every `interval` steps.
-fn episode(interval: usize) {
+/// Control steps of `many` episodes of hover that take turns, 40 Runge-Kutta steps a beat, one control every `interval` steps.
+fn episodes(many: usize, interval: usize) {
     let trim = wingbeat_analysis::trim(&common::fly(), &common::hover(40)).expect("the fruit fly");
     let mut course = Course::new(Task::Hover, trim).expect("the fruit fly");
     (course.interval, course.beats) = (interval, usize::MAX);
-    let mut episode = Episode::new(Arc::new(course), 1).expect("the fruit fly");
-    let (mut best, mut seen, count) = (f64::INFINITY, [0.0; OBSERVED], 4000 / interval);
-    for seed in 0..20 {
-        episode.reset(Some(seed)).expect("the fruit fly");
+    let course = Arc::new(course);
+    let model = course.model().expect("the fruit fly");
+    let episode =
+        |seed| Episode::new(Arc::clone(&course), &model, seed as u64).expect("the fruit fly");
+    let mut list: Vec<Episode> = (0..many).map(episode).collect();
+    let (mut best, mut seen) = (f64::INFINITY, [0.0; OBSERVED]);
+    let count = (4000 / interval / many).max(40 / interval);
+    for _ in 0..20 {
+        list.iter_mut()
+            .try_for_each(|e| e.reset(None))
+            .expect("the fruit fly");
         let time = seconds(|| {
             for _ in 0..count {
-                black_box(episode.step(black_box(&[0.01; 4])));
-                episode.observe(black_box(&mut seen));
+                for episode in &mut list {
+                    black_box(episode.step(black_box(&[0.01; 4])));
+                    episode.observe(black_box(&mut seen));
+                }
             }
         });
-        best = best.min(time / count as f64);
+        best = best.min(time / (count * many) as f64);
     }
     println!(
-        "episode: {:.0} control steps, {:.0} wingbeats per core-second",
+        "{many} episodes: {:.0} control steps, {:.0} wingbeats per core-second",
         1.0 / best,
         interval as f64 / 40.0 / best
     );

@@ -2,13 +2,15 @@
 
 mod common;
 
-use std::sync::Arc;
+use std::sync::{Arc, Mutex};
 
 use wingbeat_analysis::control::{Held, Law, SteeredBeats, Steering};
 use wingbeat_analysis::departure::{Reference, adjustments};
-use wingbeat_analysis::episode::strokes::{SteadyStroke, SteeredStroke};
+use wingbeat_analysis::episode::strokes::{SteadyStroke, SteeredStroke, Transition};
 use wingbeat_analysis::episode::tumble::{CALM_BEATS, CALM_SPEED, CALM_TILT, Tumbles};
-use wingbeat_analysis::episode::{Course, Draw, Episode, Flyer, Model, OBSERVED, Start, Task};
+use wingbeat_analysis::episode::{
+    Course, Draw, Episode, Flyer, Model, OBSERVED, SharedModel, Start, Task,
+};
 use wingbeat_analysis::regulator::{Regulator, Weights};
 use wingbeat_analysis::{Beat, Trim, trim};
 use wingbeat_dynamics::Formulation;
@@ -18,6 +20,10 @@ use wingbeat_model::motion::Adjustment;
 use wingbeat_model::{Start as Beginning, WingMotion};
 
 const STEPS: usize = 40;
+
+fn model(trim: &Trim) -> SharedModel {
+    Arc::new(Mutex::new(Model::new(trim).expect("a model")))
+}
 
 fn hovering() -> Trim {
     trim(&common::fly(), &common::hover(STEPS)).expect("the fruit fly")
@@ -34,8 +40,7 @@ fn agrees_a_steered_flyer_with_the_map_of_a_beat() {
         rate: DVec3::new(5.0, -3.0, 2.0),
         gust: None,
     };
-    let mut flyer =
-        Flyer::new(&trim, &Model::new(&trim).expect("a model"), &start).expect("a flyer");
+    let mut flyer = Flyer::new(&trim, &model(&trim), &start).expect("a flyer");
     let mut y = flyer.state().clone();
     let sides: Vec<f64> = trim
         .setup
@@ -72,8 +77,8 @@ fn agrees_steered_strokes_with_the_passage_of_a_flight() {
     for wing in &fly.wings {
         let period = 1.0 / wing.motion.frequency;
         let steered = SteeredStroke::new(Arc::new(SteadyStroke::new(wing, period, steps)));
-        steered.pass(&command(1.0), -period, period);
-        steered.pass(&command(-0.5), 0.3 * period, 0.5 * period);
+        let before = Transition::default().then(&command(1.0), -period, period);
+        steered.follow(before.then(&command(-0.5), 0.3 * period, 0.5 * period));
         let steady = WingMotion {
             start: Beginning::Impulsive,
             ..wing.motion.clone()
@@ -95,16 +100,23 @@ fn agrees_steered_strokes_with_the_passage_of_a_flight() {
     }
 }
 
+/// The first episode of `seed`, alone with its model.
+fn episode(course: &Course, seed: u64) -> Episode {
+    let model = course.model().expect("a model");
+    Episode::new(Arc::new(course.clone()), &model, seed).expect("an episode")
+}
+
 /// Rewards and observations of `steps` steps under a command that varies.
 fn course_of(episode: &mut Episode, steps: usize) -> Vec<f64> {
-    let (mut list, mut seen) = (vec![], [0.0; OBSERVED]);
-    for k in 0..steps {
-        let outcome = episode.step(&[0.1 * (k as f64).sin(), 0.0, 0.05, -0.05]);
-        episode.observe(&mut seen);
-        list.push(outcome.reward);
-        list.extend(seen);
-    }
-    list
+    (0..steps).flat_map(|k| look(episode, k)).collect()
+}
+
+/// Reward and observation of step `k`.
+fn look(episode: &mut Episode, k: usize) -> Vec<f64> {
+    let mut seen = [0.0; OBSERVED];
+    let outcome = episode.step(&[0.1 * (k as f64).sin(), 0.0, 0.05, -0.05]);
+    episode.observe(&mut seen);
+    [&[outcome.reward], &seen[..]].concat()
 }
 
 #[test]
@@ -113,9 +125,7 @@ fn behaves_an_episode_follows_from_its_seed_alone() {
         let mut course = Course::new(task, hovering()).expect("a course");
         course.sensors.noise.tilt = 0.01;
         course.delay = 1;
-        let course = Arc::new(course);
-        let mut one = Episode::new(course.clone(), 7).expect("an episode");
-        let mut other = Episode::new(course, 8).expect("an episode");
+        let (mut one, mut other) = (episode(&course, 7), episode(&course, 8));
         let [first, second] = [&mut one, &mut other].map(|e| course_of(e, 5));
         assert_ne!(first, second, "{task:?}");
         other.reset(Some(7)).expect("an episode");
@@ -126,6 +136,29 @@ fn behaves_an_episode_follows_from_its_seed_alone() {
         });
         assert_eq!(again[0], again[1], "{task:?}");
         assert_ne!(again[0], first, "{task:?}: the next episode is another");
+    }
+}
+
+/// Control steps of half a wingbeat and of a fortieth: where models keep what they know of an instant, its flyer is another one.
+#[test]
+fn exact_episodes_that_take_turns_fly_as_if_alone() {
+    for (_, task) in Task::ALL {
+        for interval in [STEPS / 2, 1] {
+            let mut course = Course::new(task, hovering()).expect("a course");
+            course.interval = interval;
+            let seeds = [3, 4, 5];
+            let alone = seeds.map(|seed| course_of(&mut episode(&course, seed), 12));
+            let (model, course) = (course.model().expect("a model"), Arc::new(course));
+            let mut list = seeds
+                .map(|seed| Episode::new(Arc::clone(&course), &model, seed).expect("an episode"));
+            let mut flown = [const { vec![] }; 3];
+            for k in 0..12 {
+                for (episode, flown) in list.iter_mut().zip(&mut flown) {
+                    flown.extend(look(episode, k));
+                }
+            }
+            assert_eq!(flown, alone, "{task:?}, {interval}");
+        }
     }
 }
 
@@ -141,10 +174,9 @@ fn behaves_the_regulator_masters_hover_and_nothing_does_not() {
         limits.angle,
     ];
     let mut regulator = Regulator::new(&course.trim, &Weights::default(), 0).expect("gains");
-    let course = Arc::new(course);
     let mut rewards = [0.0; 2];
     for (steered, total) in [true, false].into_iter().zip(&mut rewards) {
-        let mut episode = Episode::new(course.clone(), 3).expect("an episode");
+        let mut episode = episode(&course, 3);
         for k in 1..=course.beats {
             let d = episode.seen();
             let u = limits.applied(regulator.controls(&d));

@@ -56,7 +56,7 @@ impl Workspace {
     }
 
     /// Forgets what it knows of the last evaluation.
-    pub(crate) fn forget(&mut self) {
+    pub fn forget(&mut self) {
         (self.prescribed, self.unfolded, self.carried.at) = (None, None, None);
     }
 

@@ -82,6 +82,12 @@ impl Scratch {
 }
 
 impl Scratch {
+    /// Forgets what it knows of the last evaluation: the same times and states may mean something else from now on.
+    pub fn forget(&mut self) {
+        self.dynamics.forget();
+        self.added_at = None;
+    }
+
     /// Makes room for the dynamics of other equations of the same bodies.
     pub fn fit(&mut self, equations: &Equations) {
         self.dynamics = equations.core.workspace();

@@ -30,6 +30,14 @@ pub struct FreeFlight {
 /// Intermediate results of [`FreeFlight::rates`].
 pub struct FreeFlightScratch(Scratch);
 
+impl FreeFlightScratch {
+    /// Forgets what it knows of the last evaluation: to be called where laws of the wings have changed in between, so that
+    /// the same time means another posture.
+    pub fn forget(&mut self) {
+        self.0.forget();
+    }
+}
+
 impl FreeFlight {
     /// Free flight of `setup` (its mode, formulation and integrator do not matter) with the wings
     /// moving by `law`. All that depends on time alone is known beforehand at the times

@@ -69,14 +69,20 @@ impl Fleet {
             let regulator =
                 is_per_beat.then(|| Regulator::new(&course.trim, &Weights::default(), 0).ok());
             let (course, regulator) = (Arc::new(course), regulator.flatten());
-            let cell = |seed: u64| {
-                Ok(Cell {
-                    episode: Episode::new(Arc::clone(&course), seed)?,
-                    is_done: false,
-                    regulator: regulator.clone(),
-                })
-            };
-            let cells: Result<Vec<Cell>, AnalysisError> = seeds.into_par_iter().map(cell).collect();
+            let group = group(seeds.len());
+            let grouped = seeds.par_chunks(group).map(|seeds| {
+                let model = course.model()?;
+                let cell = |seed: &u64| {
+                    Ok(Cell {
+                        episode: Episode::new(Arc::clone(&course), &model, *seed)?,
+                        is_done: false,
+                        regulator: regulator.clone(),
+                    })
+                };
+                seeds.iter().map(cell).collect::<Result<Vec<Cell>, _>>()
+            });
+            let cells: Result<Vec<Vec<Cell>>, AnalysisError> = grouped.collect();
+            let cells = cells.map(|groups| groups.into_iter().flatten().collect());
             Ok(Self {
                 cells: Mutex::new(cells?),
                 course,
@@ -86,6 +92,11 @@ impl Fleet {
         });
         built.map_err(|e: AnalysisError| raised(py, &e.into()))
     }
+}
+
+/// How many episodes take turns with one model: neighbours, which mostly fly in one thread.
+fn group(count: usize) -> usize {
+    count.div_ceil(4 * rayon::current_num_threads()).max(1)
 }
 
 impl Cell {
@@ -221,7 +232,7 @@ impl Fleet {
                 .zip(last.par_chunks_mut(OBSERVED))
                 .zip(rewards.par_iter_mut());
             let arrays = arrays.zip(terminated.par_iter_mut().zip(truncated.par_iter_mut()));
-            let rows = cells.par_iter_mut().zip(arrays);
+            let rows = cells.par_iter_mut().zip(arrays).with_min_len(group(n));
             let done = rows.try_for_each(
                 |(cell, ((((action, observed), last), reward), (terminated, truncated)))| {
                     let row = Row {
@@ -284,8 +295,9 @@ impl Fleet {
                 }
             };
             for _ in 0..count {
+                let least = group(cells.len());
                 let rows = cells.par_iter_mut().zip(observed.par_chunks_mut(OBSERVED));
-                rows.try_for_each(fly)?;
+                rows.with_min_len(least).try_for_each(fly)?;
             }
             Ok(begun.elapsed().as_secs_f64())
         });
@@ -295,13 +307,13 @@ impl Fleet {
     /// Distances of the mass centres from their targets [m].
     fn distances(&self, py: Python<'_>) -> Vec<f64> {
         py.detach(|| {
-            let mut cells = self.cells.lock().unwrap_or_else(PoisonError::into_inner);
-            let of = |cell: &mut Cell| {
+            let cells = self.cells.lock().unwrap_or_else(PoisonError::into_inner);
+            let of = |cell: &Cell| {
                 cell.episode
                     .truth()
                     .map_or(f64::NAN, |d| d.position.length())
             };
-            cells.iter_mut().map(of).collect()
+            cells.iter().map(of).collect()
         })
     }
 }

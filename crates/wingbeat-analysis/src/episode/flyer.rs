@@ -1,23 +1,29 @@
 //! A flyer that is steered.
 
-use std::sync::Arc;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
-use wingbeat_flight::{FlightSetup, FreeFlight, FreeFlightScratch, Sensed};
+use wingbeat_air::Gust;
+use wingbeat_dynamics::BodyMotion;
+use wingbeat_flight::{FlightSetup, FreeFlight, FreeFlightScratch, Sensed, WingLaw};
 use wingbeat_math::ode::Rk4;
 use wingbeat_math::{DVec3, RotationLaw};
 
-use super::strokes::{SteadyStroke, SteeredStroke};
+use super::strokes::{SteadyStroke, SteeredStroke, Transition};
 use super::task::Start;
 use crate::AnalysisError;
 use crate::beat::State;
 use crate::departure::{Controls, adjustments};
 use crate::trim::Trim;
 
-/// What the flyers of a trimmed flight have in common: their steady strokes and the air.
-#[derive(Clone, Debug)]
+/// The equations of the flyers of a trimmed flight, with their intermediate results: what they share, so that hundreds that
+/// take turns stay in the caches of the processor. A flyer brings its state and its commands.
 pub struct Model {
-    steady: Vec<Arc<SteadyStroke>>,
     flight: FreeFlight,
+    steady: Vec<Arc<SteadyStroke>>,
+    strokes: Vec<Arc<SteeredStroke>>,
+    sides: Vec<f64>,
+    method: Rk4,
+    scratch: FreeFlightScratch,
 }
 
 impl Model {
@@ -28,63 +34,113 @@ impl Model {
     pub fn new(trim: &Trim) -> Result<Self, AnalysisError> {
         let (period, steps) = (trim.beat.period(), trim.beat.steps());
         let wings = trim.setup.animal.wings.iter();
-        let steady: Vec<_> = wings
-            .map(|w| Arc::new(SteadyStroke::new(w, period, steps)))
-            .collect();
-        let law = |k: usize, _: &_| steered(&Arc::new(SteeredStroke::new(Arc::clone(&steady[k]))));
-        let flight = FreeFlight::at_any_time(&trim.setup, &law, period / steps as f64)?;
-        Ok(Self { steady, flight })
+        let steady = wings.map(|w| Arc::new(SteadyStroke::new(w, period, steps)));
+        let h = period / steps as f64;
+        Self::of(trim, steady.collect(), |law| {
+            Ok(FreeFlight::at_any_time(&trim.setup, law, h)?)
+        })
     }
-}
 
-/// Free flight under commands, from the trimmed flight on.
-pub struct Flyer {
-    flight: FreeFlight,
-    strokes: Vec<Arc<SteeredStroke>>,
-    sides: Vec<f64>,
-    method: Rk4,
-    scratch: FreeFlightScratch,
-    y: State,
-    /// Steps made.
-    steps: usize,
-}
-
-impl Flyer {
-    /// The flyer of `trim`, whose model this is, at the start `start`.
+    /// Another one of the same flight `trim`: for a thread of its own.
     ///
     /// # Errors
-    /// What bodies and air refuse.
-    pub fn new(trim: &Trim, model: &Model, start: &Start) -> Result<Self, AnalysisError> {
+    /// As [`Self::new`].
+    pub fn another(&self, trim: &Trim) -> Result<Self, AnalysisError> {
+        Self::of(trim, self.steady.clone(), |law| {
+            Ok(self.flight.with_law(&trim.setup, law)?)
+        })
+    }
+
+    /// Another one in a gust.
+    fn in_gust(&self, trim: &Trim, gust: &Gust) -> Result<Self, AnalysisError> {
+        let mut setup: FlightSetup = trim.setup.clone();
+        if let Some(wind) = setup.air.wind_mut() {
+            wind.gusts.push(gust.clone());
+        }
+        let h = trim.beat.period() / trim.beat.steps() as f64;
+        Self::of(trim, self.steady.clone(), |law| {
+            Ok(FreeFlight::at_any_time(&setup, law, h)?)
+        })
+    }
+
+    fn of(
+        trim: &Trim,
+        steady: Vec<Arc<SteadyStroke>>,
+        flight: impl FnOnce(&WingLaw<'_>) -> Result<FreeFlight, AnalysisError>,
+    ) -> Result<Self, AnalysisError> {
         let stroke = |s: &Arc<_>| Arc::new(SteeredStroke::new(Arc::clone(s)));
-        let strokes: Vec<_> = model.steady.iter().map(stroke).collect();
-        let flight = flight(trim, model, &strokes, start)?;
+        let strokes: Vec<_> = steady.iter().map(stroke).collect();
+        let flight = flight(&|k, _| -> Arc<dyn RotationLaw> { strokes[k].clone() })?;
         let wings = trim.setup.animal.wings.iter();
         Ok(Self {
             sides: wings.map(|w| w.side.sign()).collect(),
             method: Rk4::new(flight.dim()),
             scratch: flight.scratch(),
-            y: start.state(trim),
-            steps: 0,
             flight,
+            steady,
             strokes,
         })
+    }
+
+    /// Gets ready for a flyer under these commands.
+    fn turn_to(&mut self, commands: &[Transition]) {
+        let strokes = self.strokes.iter().zip(commands);
+        strokes.for_each(|(stroke, command)| stroke.follow(*command));
+        self.scratch.forget();
+    }
+}
+
+/// A model that several flyers take turns with.
+pub type SharedModel = Arc<Mutex<Model>>;
+
+/// Free flight under commands, from the trimmed flight on.
+pub struct Flyer {
+    shared: SharedModel,
+    /// The model that it flies: the shared one, or one of its own in a gust.
+    model: SharedModel,
+    commands: Vec<Transition>,
+    y: State,
+    root: BodyMotion,
+    /// Steps made.
+    steps: usize,
+}
+
+impl Flyer {
+    /// A flyer of `trim`, whose model this is, at the start `start`.
+    ///
+    /// # Errors
+    /// What bodies and air refuse; states that are not finite.
+    pub fn new(trim: &Trim, model: &SharedModel, start: &Start) -> Result<Self, AnalysisError> {
+        let mut flyer = Self {
+            shared: Arc::clone(model),
+            model: Arc::clone(model),
+            commands: vec![Transition::default(); trim.setup.animal.wings.len()],
+            y: vec![],
+            root: BodyMotion::REST,
+            steps: 0,
+        };
+        flyer.restart(trim, start)?;
+        Ok(flyer)
     }
 
     /// Begins again.
     ///
     /// # Errors
     /// As [`Self::new`].
-    pub fn restart(
-        &mut self,
-        trim: &Trim,
-        model: &Model,
-        start: &Start,
-    ) -> Result<(), AnalysisError> {
-        self.strokes.iter().for_each(|s| s.reset());
-        self.flight = flight(trim, model, &self.strokes, start)?;
-        self.scratch = self.flight.scratch();
+    pub fn restart(&mut self, trim: &Trim, start: &Start) -> Result<(), AnalysisError> {
+        self.model = match &start.gust {
+            None => Arc::clone(&self.shared),
+            Some(gust) => {
+                let own = locked(&self.shared).in_gust(trim, gust)?;
+                Arc::new(Mutex::new(own))
+            }
+        };
+        self.commands.fill(Transition::default());
         self.y = start.state(trim);
         self.steps = 0;
+        let model = &mut *locked(&self.model);
+        model.turn_to(&self.commands);
+        self.root = model.flight.root(0.0, &self.y, &mut model.scratch)?;
         Ok(())
     }
 
@@ -100,18 +156,22 @@ impl Flyer {
     ) -> Result<(), AnalysisError> {
         let h = trim.beat.period() / trim.beat.steps() as f64;
         let (start, duration) = (self.steps as f64 * h, steps as f64 * h);
-        let commands = adjustments(command, &self.sides);
-        for (stroke, to) in self.strokes.iter().zip(&commands) {
-            stroke.pass(to, start, duration);
+        let model = &mut *locked(&self.model);
+        let strokes = adjustments(command, &model.sides);
+        for (now, to) in self.commands.iter_mut().zip(strokes) {
+            *now = now.then(&to, start, duration);
         }
-        let (flight, scratch) = (&self.flight, &mut self.scratch);
+        model.turn_to(&self.commands);
+        let (flight, scratch) = (&model.flight, &mut model.scratch);
         for _ in 0..steps {
             let t = self.steps as f64 * h;
             let rates = |t: f64, y: &[f64], dy: &mut [f64]| flight.rates(t, y, scratch, dy);
-            self.method.advance(t, h, &mut self.y, rates)?;
+            model.method.advance(t, h, &mut self.y, rates)?;
             self.steps += 1;
         }
         trim.beat.normalise(&mut self.y);
+        let end = self.steps as f64 * h;
+        self.root = model.flight.root(end, &self.y, &mut model.scratch)?;
         Ok(())
     }
 
@@ -132,40 +192,17 @@ impl Flyer {
     }
 
     /// What is seen now, at the look `look`.
-    ///
-    /// # Errors
-    /// States that are not finite or singular.
-    pub fn sensed(&mut self, trim: &Trim, look: usize) -> Result<Sensed, AnalysisError> {
-        let time = self.time(trim);
-        Ok(Sensed {
+    pub fn sensed(&self, trim: &Trim, look: usize) -> Sensed {
+        Sensed {
             look,
-            time,
-            root: self.flight.root(time, &self.y, &mut self.scratch)?,
+            time: self.time(trim),
+            root: self.root,
             centre: DVec3::from_slice(&self.y),
             velocity: DVec3::from_slice(&self.y[7..]) / trim.beat.mass(),
-        })
+        }
     }
 }
 
-/// The equations of an episode: in the air of the model, or in its own where there is a gust.
-fn flight(
-    trim: &Trim,
-    model: &Model,
-    strokes: &[Arc<SteeredStroke>],
-    start: &Start,
-) -> Result<FreeFlight, AnalysisError> {
-    let law = |k: usize, _: &_| steered(&strokes[k]);
-    let Some(gust) = &start.gust else {
-        return Ok(model.flight.with_law(&trim.setup, &law)?);
-    };
-    let mut setup: FlightSetup = trim.setup.clone();
-    if let Some(wind) = setup.air.wind_mut() {
-        wind.gusts.push(gust.clone());
-    }
-    let h = trim.beat.period() / trim.beat.steps() as f64;
-    Ok(FreeFlight::at_any_time(&setup, &law, h)?)
-}
-
-fn steered(stroke: &Arc<SteeredStroke>) -> Arc<dyn RotationLaw> {
-    stroke.clone()
+fn locked(model: &SharedModel) -> MutexGuard<'_, Model> {
+    model.lock().unwrap_or_else(PoisonError::into_inner)
 }

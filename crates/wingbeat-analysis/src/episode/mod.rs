@@ -23,7 +23,7 @@ pub mod tumble;
 
 use std::collections::VecDeque;
 use std::f64::consts::TAU;
-use std::sync::Arc;
+use std::sync::{Arc, Mutex};
 
 use wingbeat_flight::Sensed;
 use wingbeat_math::DVec3;
@@ -33,14 +33,14 @@ use crate::departure::{CONTROLS, Controls, Departure, Limits, Reference};
 use crate::sensors::Sensors;
 use crate::trim::Trim;
 
-pub use flyer::{Flyer, Model};
+pub use flyer::{Flyer, Model, SharedModel};
 pub use task::{Draw, Start, Task};
 
 /// How many numbers are observed.
 pub const OBSERVED: usize = 17;
 
 /// What all episodes of a kind share.
-#[derive(Clone, Debug)]
+#[derive(Clone)]
 pub struct Course {
     /// What is to be done.
     pub task: Task,
@@ -57,7 +57,7 @@ pub struct Course {
     /// Control steps from sensing to observing.
     pub delay: usize,
     reference: Reference,
-    model: Model,
+    model: Arc<Model>,
 }
 
 impl Course {
@@ -74,9 +74,17 @@ impl Course {
             sensors: Sensors::default(),
             delay: 0,
             reference: Reference::trimmed(&trim)?,
-            model: Model::new(&trim)?,
+            model: Arc::new(Model::new(&trim)?),
             trim: Arc::new(trim),
         })
+    }
+
+    /// Equations for episodes that take turns in one thread.
+    ///
+    /// # Errors
+    /// What bodies and air refuse.
+    pub fn model(&self) -> Result<SharedModel, AnalysisError> {
+        Ok(Arc::new(Mutex::new(self.model.another(&self.trim)?)))
     }
 
     /// Control steps of a wingbeat.
@@ -109,14 +117,14 @@ pub struct Episode {
 }
 
 impl Episode {
-    /// The first episode of `seed`.
+    /// The first episode of `seed`, which takes turns with others of `model`.
     ///
     /// # Errors
     /// What bodies and air refuse.
-    pub fn new(course: Arc<Course>, seed: u64) -> Result<Self, AnalysisError> {
+    pub fn new(course: Arc<Course>, model: &SharedModel, seed: u64) -> Result<Self, AnalysisError> {
         let start = Start::drawn(course.task, &course.trim.beat, &mut Draw::new(seed, 0));
         let mut episode = Self {
-            flyer: Flyer::new(&course.trim, &course.model, &start)?,
+            flyer: Flyer::new(&course.trim, model, &start)?,
             course,
             seed,
             number: 0,
@@ -138,8 +146,7 @@ impl Episode {
         }
         let mut draw = Draw::new(self.seed, self.number);
         let start = Start::drawn(self.course.task, &self.course.trim.beat, &mut draw);
-        let course = &self.course;
-        self.flyer.restart(&course.trim, &course.model, &start)?;
+        self.flyer.restart(&self.course.trim, &start)?;
         self.begin()
     }
 
@@ -214,7 +221,7 @@ impl Episode {
     ///
     /// # Errors
     /// Numbers that are not finite.
-    pub fn truth(&mut self) -> Result<Departure, AnalysisError> {
+    pub fn truth(&self) -> Result<Departure, AnalysisError> {
         let truth = self.sensed()?;
         Ok(self.departure(&truth))
     }
@@ -224,8 +231,8 @@ impl Episode {
         self.flyer.time(&self.course.trim)
     }
 
-    fn sensed(&mut self) -> Result<Sensed, AnalysisError> {
-        let sensed = self.flyer.sensed(&self.course.trim, self.looks)?;
+    fn sensed(&self) -> Result<Sensed, AnalysisError> {
+        let sensed = self.flyer.sensed(&self.course.trim, self.looks);
         match sensed.centre.is_finite() && sensed.root.w.is_finite() {
             true => Ok(sensed),
             false => Err(AnalysisError::Numbers("the flyer is lost".into())),

@@ -49,56 +49,58 @@ impl SteadyStroke {
 /// A command in force: relative amplitude, offset [rad], plane [rad].
 type Command = [f64; 3];
 
-/// The stroke of a wing under commands, to be asked at multiples of half a step.
-#[derive(Debug)]
-pub struct SteeredStroke {
-    steady: Arc<SteadyStroke>,
-    passage: RwLock<Passage>,
-}
-
 /// From one command to another.
-#[derive(Clone, Copy, Debug, Default)]
-struct Passage {
+#[derive(Clone, Copy, Debug)]
+pub struct Transition {
     from: Command,
     to: Command,
     start: f64,
     duration: f64,
 }
 
-impl SteeredStroke {
-    /// Without a command.
-    pub fn new(steady: Arc<SteadyStroke>) -> Self {
-        let passage = Passage {
-            duration: 1.0,
-            ..Passage::default()
-        };
+impl Default for Transition {
+    /// No command.
+    fn default() -> Self {
         Self {
-            steady,
-            passage: RwLock::new(passage),
+            from: [0.0; 3],
+            to: [0.0; 3],
+            start: 0.0,
+            duration: 1.0,
         }
     }
+}
 
-    /// Forgets commands.
-    pub fn reset(&self) {
-        self.put(Passage {
-            duration: 1.0,
-            ..Passage::default()
-        });
-    }
-
-    /// From `start` [s] on the stroke goes over to a command within `duration` [s].
-    pub fn pass(&self, to: &Adjustment, start: f64, duration: f64) {
-        let from = self.passage.read().expect("no writer panicked").to;
-        self.put(Passage {
-            from,
+impl Transition {
+    /// What comes after this one: from `start` [s] on the stroke goes over to a command within `duration` [s].
+    pub fn then(&self, to: &Adjustment, start: f64, duration: f64) -> Self {
+        Self {
+            from: self.to,
             to: [to.stroke_amplitude, to.stroke_offset, to.stroke_plane],
             start,
             duration,
-        });
+        }
+    }
+}
+
+/// The stroke of a wing under commands, to be asked at multiples of half a step.
+#[derive(Debug)]
+pub struct SteeredStroke {
+    steady: Arc<SteadyStroke>,
+    transition: RwLock<Transition>,
+}
+
+impl SteeredStroke {
+    /// Without a command.
+    pub fn new(steady: Arc<SteadyStroke>) -> Self {
+        Self {
+            steady,
+            transition: RwLock::default(),
+        }
     }
 
-    fn put(&self, passage: Passage) {
-        *self.passage.write().expect("no writer panicked") = passage;
+    /// Follows these commands from now on.
+    pub fn follow(&self, transition: Transition) {
+        *self.transition.write().expect("no writer panicked") = transition;
     }
 }
 
@@ -107,12 +109,12 @@ impl RotationLaw for SteeredStroke {
         let steady = &*self.steady;
         let k = (t / steady.half).round() as usize % steady.angles.len();
         let [phi, theta, psi] = steady.angles[k];
-        let passage = *self.passage.read().expect("no writer panicked");
-        let s = smoothstep(t, passage.start, passage.duration);
+        let transition = *self.transition.read().expect("no writer panicked");
+        let s = smoothstep(t, transition.start, transition.duration);
         let now = |i: usize| {
-            let change = passage.to[i] - passage.from[i];
+            let change = transition.to[i] - transition.from[i];
             [
-                passage.from[i] + s[0] * change,
+                transition.from[i] + s[0] * change,
                 s[1] * change,
                 s[2] * change,
             ]

@@ -1,6 +1,7 @@
 //! Recoveries from random tumbles: a law in the loop, seed by seed, beat by beat.
 
 use std::collections::VecDeque;
+use std::sync::{Arc, Mutex};
 
 use wingbeat_math::DVec3;
 
@@ -18,7 +19,6 @@ pub const CALM_TILT: f64 = 10.0 * std::f64::consts::PI / 180.0;
 pub const CALM_SPEED: f64 = 0.1;
 
 /// What flies in every tumble.
-#[derive(Clone, Debug)]
 pub struct Tumbles<'a> {
     trim: &'a Trim,
     model: Model,
@@ -74,7 +74,8 @@ impl<'a> Tumbles<'a> {
     pub fn recovery(&self, seed: u64) -> Result<Recovery, AnalysisError> {
         let beat = &self.trim.beat;
         let start = Start::drawn(Task::Recover, beat, &mut Draw::new(seed, 0));
-        let mut flyer = Flyer::new(self.trim, &self.model, &start)?;
+        let model = Arc::new(Mutex::new(self.model.another(self.trim)?));
+        let mut flyer = Flyer::new(self.trim, &model, &start)?;
         let mut law = self.law.clone();
         let mut under_way = VecDeque::from(vec![[0.0; CONTROLS]; self.latency]);
         let mut recovery = Recovery {
@@ -85,7 +86,7 @@ impl<'a> Tumbles<'a> {
         };
         let mut calm = 0; // wingbeats in a row
         for k in 0..self.beats + CALM_BEATS {
-            let Some(d) = self.departure(&mut flyer, k) else {
+            let Some(d) = self.departure(&flyer, k) else {
                 break;
             };
             recovery.strayed = recovery.strayed.max(d.position.length());
@@ -109,8 +110,8 @@ impl<'a> Tumbles<'a> {
     }
 
     /// What is seen at the start of wingbeat `k`; none where the flyer is lost.
-    fn departure(&self, flyer: &mut Flyer, k: usize) -> Option<Departure> {
-        let sensed = flyer.sensed(self.trim, k).ok()?;
+    fn departure(&self, flyer: &Flyer, k: usize) -> Option<Departure> {
+        let sensed = flyer.sensed(self.trim, k);
         let d = self.reference.departure(&sensed, DVec3::ZERO);
         let known = d.position.is_finite() && d.state.tilt.is_finite();
         (known && !Task::Recover.is_lost(&self.trim.beat, &d)).then_some(d)
