@@ -19,6 +19,7 @@
 //! the wake keeps its impulse to some hundredths of the lift, with no correction farther than a few filaments from its cause.
 
 use crate::geometry::JoinedColumns;
+use crate::images::Mirror;
 use crate::lattice::Lattice;
 use crate::state::AirState;
 use crate::wake::filaments::Filaments;
@@ -61,6 +62,8 @@ pub(crate) struct ForceFree {
     wake: Vec<Option<usize>>,
     /// The node that each one is: another one where columns are joined.
     same: Vec<usize>,
+    /// Whether it lies where the sheet meets its own mirror image.
+    on_plane: Vec<bool>,
     near: Vec<[(Option<usize>, f64); 2]>,
     /// Nodes at two ends of a filament.
     links: Vec<[usize; 2]>,
@@ -93,7 +96,7 @@ impl ForceFree {
         self.vorticity.reset(self.middles.len());
         let both = [&mut self.velocity, &mut self.vorticity];
         sums.add_with_vorticity(&self.middles, lattice.mirrors(), both);
-        self.annul(velocity);
+        self.annul(velocity, lattice);
         for (i, &one) in self.same.iter().enumerate().filter(|(i, one)| i != *one) {
             velocity.set(i, velocity.get(one));
         }
@@ -122,10 +125,13 @@ impl ForceFree {
         }
         self.same.clear();
         self.same.extend(0..next);
+        self.on_plane.clear();
+        self.on_plane.resize(next, false);
         self.join(lattice, state);
     }
 
-    /// Nodes of joined columns are one node: what their filaments have in common cancels there.
+    /// Nodes of joined columns are one node: what their filaments have in common cancels there. Where a column is joined to
+    /// its own mirror image, the filaments of the other side are images of those of this one.
     fn join(&mut self, lattice: &Lattice, state: &AirState) {
         let nodes = |s: usize| match lattice.reflected_sheet(s) {
             Some(_) => 0,
@@ -139,11 +145,16 @@ impl ForceFree {
                     .then(|| first(k) + nodes(k) - (back + 1) * width + column)
             };
             for back in 0.. {
-                let (Some(one), Some(other)) = (place(*s, *c, back), place(*t, *d, back)) else {
-                    break;
-                };
-                self.same[other] = self.same[one];
+                match (place(*s, *c, back), place(*t, *d, back)) {
+                    (Some(one), Some(other)) => self.same[other] = self.same[one],
+                    (Some(one), None) if nodes(*t) == 0 => self.on_plane[one] = true,
+                    (None, Some(other)) if nodes(*s) == 0 => self.on_plane[other] = true,
+                    _ => break,
+                }
             }
+        }
+        for i in (0..self.same.len()).filter(|&i| self.same[i] != i) {
+            self.on_plane[self.same[i]] |= self.on_plane[i];
         }
         let same = |node: &mut Option<usize>| *node = node.map(|n| self.same[n]);
         self.wake.iter_mut().for_each(same);
@@ -206,7 +217,7 @@ impl ForceFree {
     }
 
     /// Sums the forces of the filaments at their nodes, and moves the nodes so that they vanish.
-    fn annul(&mut self, velocity: &mut Points) {
+    fn annul(&mut self, velocity: &mut Points, lattice: &Lattice) {
         let count = velocity.len();
         self.sums.clear();
         self.sums.resize(count, [DVec3::ZERO; 2]);
@@ -222,6 +233,15 @@ impl ForceFree {
             *vorticity += weight * end.vorticity;
             self.sizes[end.node] += weight * end.vorticity.length();
         }
+        let mirror = lattice.symmetry().map(|s| s.mirror);
+        if let Some(mirror) = mirror {
+            for i in (0..count).filter(|&i| self.on_plane[i]) {
+                let [force, vorticity] = &mut self.sums[i];
+                *force += mirror.vector(*force);
+                *vorticity -= mirror.vector(*vorticity); // an axial vector
+                self.sizes[i] *= 2.0;
+            }
+        }
         self.left.clear();
         for (i, ([force, vorticity], size)) in self.sums.iter().zip(&mut self.sizes).enumerate() {
             *size = vorticity.length().hypot(CANCELLED * *size);
@@ -230,7 +250,7 @@ impl ForceFree {
         self.link();
         self.yield_to_left(velocity);
         for _ in 0..HANDED_ON {
-            self.hand_on();
+            self.hand_on(mirror);
             self.yield_to_left(velocity);
         }
     }
@@ -250,6 +270,10 @@ impl ForceFree {
             self.around[a] += self.sizes[b];
             self.around[b] += self.sizes[a];
         }
+        let on_plane = self.around.iter_mut().zip(&self.on_plane);
+        for (around, _) in on_plane.filter(|(_, on_plane)| **on_plane) {
+            *around *= 2.0;
+        }
     }
 
     /// Each node moves with what annuls what is left there, as far as that goes.
@@ -264,13 +288,15 @@ impl ForceFree {
         }
     }
 
-    /// Each node hands what is left to the nodes around it; one that has none keeps it.
-    fn hand_on(&mut self) {
+    /// Each node hands what is left to the nodes around it; one that has none keeps it. Nodes in the plane of a mirror get as
+    /// much from the other side.
+    fn hand_on(&mut self, mirror: Option<Mirror>) {
         let Self {
             sizes,
             around,
             left,
             handed,
+            on_plane,
             ..
         } = self;
         handed.clear();
@@ -281,6 +307,12 @@ impl ForceFree {
                 if around[from] > 0.0 {
                     handed[to] += sizes[to] / around[from] * left[from];
                 }
+            }
+        }
+        if let Some(mirror) = mirror {
+            let given = handed.iter_mut().zip(around).zip(on_plane);
+            for ((given, _), _) in given.filter(|((_, a), on_plane)| **on_plane && **a > 0.0) {
+                *given += mirror.vector(*given);
             }
         }
         std::mem::swap(left, handed);
