@@ -1,6 +1,6 @@
 //! Episodes that are steered from outside.
 
-mod common;
+use crate::common;
 
 use std::sync::{Arc, Mutex};
 

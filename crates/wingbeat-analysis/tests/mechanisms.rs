@@ -1,6 +1,6 @@
 //! Wings that joints drive: a four-bar linkage against the same motion prescribed joint by joint.
 
-mod common;
+use crate::common;
 
 use std::sync::Arc;
 

@@ -1,6 +1,6 @@
 //! The fruit fly: trim, modes, power, stabilised hover.
 
-mod common;
+use crate::common;
 
 use common::*;
 use wingbeat_analysis::control::{Held, Law, SteeredBeats, Steering, disturbed};

@@ -1,6 +1,6 @@
 //! The machinery against cases with known answers.
 
-mod common;
+use crate::common;
 
 use common::*;
 use wingbeat_analysis::beat::Integration;

@@ -1,6 +1,6 @@
 //! Trim and stability by flights of hold and release.
 
-mod common;
+use crate::common;
 
 use common::*;
 use wingbeat_air::{AirSettings, CoreModel};

@@ -1,7 +1,5 @@
 //! Air that bodies carry along, on the left-hand side of the equations of motion.
 
-mod common;
-
 use std::sync::Arc;
 
 use wingbeat_dynamics::add_by_response;

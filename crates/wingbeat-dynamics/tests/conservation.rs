@@ -1,6 +1,6 @@
 //! Whole flights: momenta, energy and work, drift of constraints, symmetries, closed solutions.
 
-mod common;
+use crate::common;
 
 use common::*;
 use wingbeat_dynamics::{

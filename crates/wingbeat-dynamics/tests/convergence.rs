@@ -1,6 +1,6 @@
 //! Orders of convergence, agreement of the two formulations, and the limit of light wings.
 
-mod common;
+use crate::common;
 
 use common::*;
 use wingbeat_dynamics::{

@@ -1,7 +1,7 @@
 //! The three formulations of one system against each other: coordinates, reactions, multipliers;
 //! momenta and drift over many beats; the singularity that only one of them has.
 
-mod common;
+use crate::common;
 
 use common::*;
 use wingbeat_dynamics::{

@@ -1,7 +1,7 @@
 //! Free joints on a flying root: the momentum form against the quaternion form, balances, closed
 //! solutions.
 
-mod common;
+use crate::common;
 
 use common::*;
 use std::sync::Arc;

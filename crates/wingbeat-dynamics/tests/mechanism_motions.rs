@@ -1,6 +1,6 @@
 //! Mechanisms in absolute coordinates whose motion is known in closed form or by equations of their own.
 
-mod common;
+use crate::common;
 
 use common::body;
 use common::mechanism::*;

@@ -1,6 +1,6 @@
 //! Mechanisms in absolute coordinates against closed solutions and published references.
 
-mod common;
+use crate::common;
 
 use common::body;
 use common::mechanism::*;

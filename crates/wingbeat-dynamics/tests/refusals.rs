@@ -1,6 +1,6 @@
 //! Systems and states that are refused, each with what is wrong in the message.
 
-mod common;
+use crate::common;
 
 use common::*;
 use wingbeat_dynamics::euler::assembly::{consistent_coordinates, consistent_rates, kinematics};

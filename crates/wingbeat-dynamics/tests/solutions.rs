@@ -1,7 +1,7 @@
 //! Solutions of the seed's equations at one instant against the independent Newton-Euler sums of the momentum
 //! form, and the saddle-point matrix itself.
 
-mod common;
+use crate::common;
 
 use common::*;
 use wingbeat_dynamics::euler::assembly::kinematics;

@@ -1,6 +1,6 @@
 //! A fly on a support: what the support carries.
 
-mod common;
+use crate::common;
 
 use common::*;
 use wingbeat_dynamics::euler::coordinates::BodyKinematics;

@@ -1,6 +1,6 @@
 //! The terms of the seed's equations, each by itself, against differences and sums over points.
 
-mod common;
+use crate::common;
 
 use common::*;
 use wingbeat_dynamics::budget;

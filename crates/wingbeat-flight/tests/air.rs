@@ -1,6 +1,6 @@
 //! The interface of the air: wind in blade elements, what a partner gets, a model of one's own.
 
-mod common;
+use crate::common;
 
 use std::sync::{Arc, Mutex};
 

@@ -1,6 +1,6 @@
 //! Wings whose beats repeat themselves in whole steps: known beforehand, and the same flight.
 
-mod common;
+use crate::common;
 
 use std::sync::Arc;
 

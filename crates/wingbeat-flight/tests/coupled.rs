@@ -1,6 +1,6 @@
 //! Verification of coupled flight: balances, orders, symmetry, limits, restart.
 
-mod common;
+use crate::common;
 
 use common::{FREQUENCY, Fly, SPAN, distance, fly, pose, sine};
 use wingbeat_flight::*;

@@ -1,7 +1,7 @@
 //! Wings whose deformation is prescribed: against rigid wings that are or move the same, balances,
 //! symmetry, theory.
 
-mod common;
+use crate::common;
 
 use common::{FREQUENCY, Fly, fly, sine};
 use wingbeat_air::LoadMethod;

@@ -1,6 +1,6 @@
 //! Steady wings of the flight's own making: joined, twisted, with lines of panels spaced either way.
 
-mod common;
+use crate::common;
 
 use common::{Fly, fly};
 use wingbeat_air::AirSettings;

@@ -1,0 +1,8 @@
+//! All tests of the crate in one program: it is linked once.
+
+mod common;
+mod episode;
+mod mechanisms;
+mod validation;
+mod verification;
+mod wake;

@@ -1,0 +1,10 @@
+//! All tests of the crate in one program: it is linked once.
+
+mod absurd;
+mod defaults;
+mod idle;
+mod joints;
+mod keys;
+mod presets;
+mod wings;
+mod written;
