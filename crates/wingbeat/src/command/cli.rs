@@ -6,6 +6,7 @@ use clap::builder::styling::{AnsiColor, Styles};
 use clap::{Args, Parser, Subcommand};
 use clap_complete::Shell;
 
+use super::target::folder;
 use super::{analyse, export, new, plot, run, show, velocity, verify, view};
 
 /// Colours of help and errors, as cargo has them.
@@ -45,7 +46,7 @@ pub(crate) enum Command {
     Compare(show::CompareArgs),
     /// Check a case file or preset without flying it, and say what it holds.
     Check {
-        /// Case file or preset.
+        /// Case file or preset; - is the standard input.
         case: String,
         /// Set a key of the case, e.g. time.beats=3 (may be repeated).
         #[arg(long = "set", value_name = "KEY=VALUE")]
@@ -89,6 +90,7 @@ pub(crate) enum Command {
 #[derive(Args)]
 pub(crate) struct ManArgs {
     /// Folder for the pages.
+    #[arg(value_parser = folder)]
     pub(crate) dir: PathBuf,
     /// Replace files that exist already.
     #[arg(long)]

@@ -19,6 +19,7 @@ mod report;
 mod run;
 mod show;
 mod signals;
+mod target;
 mod terminal;
 mod velocity;
 mod verify;

@@ -4,9 +4,9 @@ use std::path::PathBuf;
 
 use clap::Args;
 use wingbeat::case::{self, presets};
-use wingbeat::results::file::NewFile;
 
 use crate::command::failure::Failure;
+use crate::command::target::Target;
 use crate::command::terminal::say;
 
 /// Arguments of `wingbeat new`.
@@ -14,7 +14,7 @@ use crate::command::terminal::say;
 pub(crate) struct NewArgs {
     /// Name of the preset.
     preset: String,
-    /// File to write; default PRESET.toml.
+    /// File to write, - for the standard output; default PRESET.toml.
     file: Option<PathBuf>,
     /// Replace the file if there is one.
     #[arg(long)]
@@ -25,12 +25,11 @@ pub(crate) struct NewArgs {
 pub(crate) fn new(args: &NewArgs) -> Result<(), Failure> {
     let preset = presets::find(&args.preset)?;
     let named = || PathBuf::from(format!("{}.toml", preset.name));
-    let file = NewFile::claim(&args.file.clone().unwrap_or_else(named), args.overwrite)?;
-    file.write(preset.text.as_bytes())?;
-    say!(
-        "wrote {0}; fly it with `wingbeat run {0}`",
-        file.path().display()
-    );
+    let target = Target::claim(&args.file.clone().unwrap_or_else(named), args.overwrite)?;
+    target.write(preset.text)?;
+    if let Some(path) = target.path() {
+        say!("wrote {0}; fly it with `wingbeat run {0}`", path.display());
+    }
     Ok(())
 }
 

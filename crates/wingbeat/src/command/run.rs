@@ -13,16 +13,17 @@ use crate::command::failure::{FAILED, Failure, INTERRUPTED};
 use crate::command::options::RunOptions;
 use crate::command::progress::Progress;
 use crate::command::signals::stop_flag;
+use crate::command::target::folder;
 use crate::command::terminal::{say, tell};
 
 /// Arguments of `wingbeat run`.
 #[derive(Args)]
 pub(crate) struct RunArgs {
-    /// Case file or preset.
+    /// Case file or preset; - is the standard input.
     #[arg(default_value = presets::DEFAULT)]
     case: String,
     /// Result directory; default results/NAME, with a number appended if that exists.
-    #[arg(long, value_name = "DIR")]
+    #[arg(long, value_name = "DIR", value_parser = folder)]
     out: Option<PathBuf>,
     /// Replace an earlier run in the result directory.
     #[arg(long, requires = "out")]

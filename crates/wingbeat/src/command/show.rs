@@ -6,11 +6,11 @@ use clap::Args;
 use wingbeat::case::IoError;
 use wingbeat::case::differences;
 use wingbeat::draw::page;
-use wingbeat::results::file::NewFile;
 use wingbeat::results::fixed::fixed;
 use wingbeat::results::{Manifest, ResultDir, Summary};
 
 use crate::command::failure::Failure;
+use crate::command::target::Target;
 use crate::command::terminal::say;
 
 /// Arguments of `wingbeat show`.
@@ -33,7 +33,8 @@ pub(crate) struct CompareArgs {
     /// As JSON.
     #[arg(long)]
     json: bool,
-    /// Write both flights, side by side and in step, as a page (HTML) into this file.
+    /// Write both flights, side by side and in step, as a page (HTML) into this file;
+    /// - is the standard output.
     #[arg(long, value_name = "FILE", conflicts_with = "json")]
     page: Option<PathBuf>,
     /// Replace the page if it is there already.
@@ -73,7 +74,7 @@ pub(crate) fn show(args: &ShowArgs) -> Result<(), Failure> {
 /// `wingbeat compare`: keys in which the cases differ, and the same numbers side by side.
 pub(crate) fn compare(args: &CompareArgs) -> Result<(), Failure> {
     if let Some(file) = &args.page {
-        return write_pair(args, &NewFile::claim(file, args.overwrite)?);
+        return write_pair(args, &Target::claim(file, args.overwrite)?);
     }
     let [first, second] = [read(&args.first)?, read(&args.second)?];
     let case = |dir: &Path| ResultDir::open(dir)?.case();
@@ -128,13 +129,15 @@ pub(crate) fn compare(args: &CompareArgs) -> Result<(), Failure> {
 }
 
 /// Both flights as one page.
-fn write_pair(args: &CompareArgs, file: &NewFile) -> Result<(), Failure> {
+fn write_pair(args: &CompareArgs, file: &Target) -> Result<(), Failure> {
     let [first, second] = [
         ResultDir::read(&args.first)?,
         ResultDir::read(&args.second)?,
     ];
     let page = page::pair([&first, &second], 2 * page::DEFAULT_BYTES)?;
-    file.write(page.as_bytes())?;
-    say!("wrote {}", file.path().display());
+    file.write(&page)?;
+    if let Some(path) = file.path() {
+        say!("wrote {}", path.display());
+    }
     Ok(())
 }

@@ -10,6 +10,7 @@ use wingbeat::results::file::NewFile;
 use wingbeat::verify::{Case, Entry, Report};
 
 use crate::command::failure::{FAILED, Failure};
+use crate::command::target::folder;
 use crate::command::terminal::{say, tell};
 use crate::command::watch::Watch;
 
@@ -23,7 +24,7 @@ pub(crate) struct VerifyArgs {
     #[arg(long, value_name = "TEXT", default_value = "")]
     only: String,
     /// Folder for verification.md, .csv and .json.
-    #[arg(long, value_name = "DIR", default_value = "verification")]
+    #[arg(long, value_name = "DIR", default_value = "verification", value_parser = folder)]
     out: PathBuf,
     /// Go on where an earlier run into the same folder ended: its cases are taken as they are,
     /// those named by `--only` run again.
