@@ -34,7 +34,7 @@ pub use data::data_sets;
 pub use decode::nearest;
 pub use differences::{Difference, differences};
 pub use error::{CaseError, IoError};
-pub use keys::schema;
+pub use keys::{SCHEMA_FILE, schema, with_schema};
 pub use loaded::LoadedCase;
 pub use output::{OutputSettings, SaveSettings};
 pub use trimmed::{derivative_case, trimmed_case, wake_trimmed_case};

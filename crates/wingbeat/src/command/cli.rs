@@ -75,7 +75,7 @@ pub(crate) enum Command {
     Presets,
     /// Write a preset as a commented case file to start from.
     New(new::NewArgs),
-    /// Print the JSON schema of case files, for editors.
+    /// Print the JSON schema of case files, for editors: the file that the first line of a case names.
     Schema,
     /// Print the completions of a shell.
     Completions {

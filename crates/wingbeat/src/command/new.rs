@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 use wingbeat::case::{self, presets};
+use wingbeat::results::file::write_file;
 
 use crate::command::failure::Failure;
 use crate::command::target::Target;
@@ -16,7 +17,10 @@ pub(crate) struct NewArgs {
     preset: String,
     /// File to write, - for the standard output; default PRESET.toml.
     file: Option<PathBuf>,
-    /// Replace the file if there is one.
+    /// Write the schema for editors beside it, too.
+    #[arg(long)]
+    schema: bool,
+    /// Replace files that exist already.
     #[arg(long)]
     overwrite: bool,
 }
@@ -25,11 +29,27 @@ pub(crate) struct NewArgs {
 pub(crate) fn new(args: &NewArgs) -> Result<(), Failure> {
     let preset = presets::find(&args.preset)?;
     let named = || PathBuf::from(format!("{}.toml", preset.name));
-    let target = Target::claim(&args.file.clone().unwrap_or_else(named), args.overwrite)?;
-    target.write(preset.text)?;
+    let path = args.file.clone().unwrap_or_else(named);
+    let target = Target::claim(&path, args.overwrite)?;
+    if args.schema {
+        write_schema(&target, args.overwrite)?;
+    }
+    target.write(&case::with_schema(preset.text))?;
     if let Some(path) = target.path() {
         say!("wrote {0}; fly it with `wingbeat run {0}`", path.display());
     }
+    Ok(())
+}
+
+/// Writes the schema beside a case.
+fn write_schema(case: &Target, overwrite: bool) -> Result<(), Failure> {
+    let Some(path) = case.path() else {
+        let problem = "--schema writes a file beside the case, which has none on the standard output; `wingbeat schema` prints it";
+        return Err(Failure::Option(problem.to_owned()));
+    };
+    let file = path.with_file_name(case::SCHEMA_FILE);
+    write_file(&file, case::schema().as_bytes(), overwrite)?;
+    say!("wrote {}", file.display());
     Ok(())
 }
 
