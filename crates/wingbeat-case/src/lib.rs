@@ -18,6 +18,7 @@ mod differences;
 mod error;
 pub mod external;
 mod files;
+pub mod insect;
 pub mod keys;
 mod loaded;
 mod output;

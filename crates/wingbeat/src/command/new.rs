@@ -2,21 +2,42 @@
 
 use std::path::PathBuf;
 
-use clap::Args;
+use clap::{Args, ValueEnum};
+use wingbeat::case::insect::{self, InsectAir, SPECIES, Size};
 use wingbeat::case::{self, presets};
 use wingbeat::results::file::write_file;
 
 use crate::command::failure::Failure;
+use crate::command::options;
 use crate::command::target::Target;
 use crate::command::terminal::say;
 
 /// Arguments of `wingbeat new`.
 #[derive(Args)]
+#[command(override_usage = USAGE)]
 pub(crate) struct NewArgs {
-    /// Name of the preset.
-    preset: String,
-    /// File to write, - for the standard output; default PRESET.toml.
+    /// Name of the preset; left out where --species, --mass or --wing says what to write.
+    preset: Option<String>,
+    /// File to write, - for the standard output; default NAME.toml.
     file: Option<PathBuf>,
+    /// An insect of this species; `wingbeat presets` lists them.
+    #[arg(long, value_name = "NAME", help_heading = INSECT,
+          conflicts_with_all = ["mass", "wing", "frequency"])]
+    species: Option<String>,
+    /// An insect of this mass, e.g. 100mg; what is not given follows from scaling laws.
+    #[arg(long, help_heading = INSECT, value_parser = options::mass, allow_hyphen_values = true)]
+    mass: Option<f64>,
+    /// Length of a wing, hinge to tip, e.g. 9.7mm.
+    #[arg(long, value_name = "LENGTH", help_heading = INSECT,
+          value_parser = options::wing_length, allow_hyphen_values = true)]
+    wing: Option<f64>,
+    /// Wingbeats per second, e.g. 230.
+    #[arg(long, value_name = "HERTZ", help_heading = INSECT,
+          value_parser = options::frequency, allow_hyphen_values = true)]
+    frequency: Option<f64>,
+    /// The air of an insect: blade elements, or the vortex lattice with wakes [default: blade].
+    #[arg(long, value_enum, help_heading = INSECT)]
+    air: Option<Air>,
     /// Write the schema for editors beside it, too.
     #[arg(long)]
     schema: bool,
@@ -25,16 +46,80 @@ pub(crate) struct NewArgs {
     overwrite: bool,
 }
 
+/// Heading of these options in the help.
+const INSECT: &str = "An insect of your own";
+
+const USAGE: &str = "wingbeat new PRESET [FILE] [OPTIONS]
+       wingbeat new --species NAME [FILE] [OPTIONS]
+       wingbeat new [--mass MASS] [--wing LENGTH] [--frequency HERTZ] [FILE] [OPTIONS]";
+
+/// The air of a new case.
+#[derive(Clone, Copy, ValueEnum)]
+enum Air {
+    /// Quasi-steady blade elements: seconds a flight.
+    Blade,
+    /// Unsteady vortex lattice with free wakes: minutes.
+    Lattice,
+}
+
+impl NewArgs {
+    fn size(&self) -> Size {
+        Size {
+            mass: self.mass,
+            wing_length: self.wing,
+            frequency: self.frequency,
+        }
+    }
+
+    fn asks_for_an_insect(&self) -> bool {
+        self.species.is_some() || self.size() != Size::default()
+    }
+
+    /// The name of the new case, its text, and the file that is named.
+    fn case(&self) -> Result<(String, String, Option<PathBuf>), Failure> {
+        if self.asks_for_an_insect() {
+            return self.insect();
+        }
+        let Some(name) = &self.preset else {
+            let problem = "name a preset, or an insect by --species, --mass or --wing; `wingbeat presets` lists both";
+            return Err(Failure::Option(problem.to_owned()));
+        };
+        let preset = presets::find(name)?;
+        if self.air.is_some() {
+            let problem = "--air has no effect on a preset, which has its own; leave it out, or set air.model in the file";
+            return Err(Failure::Option(problem.to_owned()));
+        }
+        Ok((name.clone(), preset.text.to_owned(), self.file.clone()))
+    }
+
+    /// The same of an insect of one's own.
+    fn insect(&self) -> Result<(String, String, Option<PathBuf>), Failure> {
+        if self.file.is_some() {
+            let problem = "--species, --mass and --wing write one file instead of a preset; name the file alone";
+            return Err(Failure::Option(problem.to_owned()));
+        }
+        let air = match self.air {
+            None | Some(Air::Blade) => InsectAir::BladeElement,
+            Some(Air::Lattice) => InsectAir::Lattice,
+        };
+        let (name, text) = match &self.species {
+            Some(name) => (name.as_str(), insect::case_of_species(name, air)?),
+            None => ("insect", insect::case_of_size(&self.size(), air)?),
+        };
+        let file = self.preset.as_ref().map(PathBuf::from);
+        Ok((name.to_owned(), text, file))
+    }
+}
+
 /// `wingbeat new`.
 pub(crate) fn new(args: &NewArgs) -> Result<(), Failure> {
-    let preset = presets::find(&args.preset)?;
-    let named = || PathBuf::from(format!("{}.toml", preset.name));
-    let path = args.file.clone().unwrap_or_else(named);
+    let (name, text, file) = args.case()?;
+    let path = file.unwrap_or_else(|| PathBuf::from(format!("{name}.toml")));
     let target = Target::claim(&path, args.overwrite)?;
     if args.schema {
         write_schema(&target, args.overwrite)?;
     }
-    target.write(&case::with_schema(preset.text))?;
+    target.write(&case::with_schema(&text))?;
     if let Some(path) = target.path() {
         say!("wrote {0}; fly it with `wingbeat run {0}`", path.display());
     }
@@ -58,6 +143,10 @@ pub(crate) fn list() {
     say!("Presets (wingbeat run NAME, wingbeat new NAME):");
     for preset in presets::PRESETS {
         say!("  {:<27}{}", preset.name, preset.line());
+    }
+    say!("\nSpecies (wingbeat new --species NAME):");
+    for s in SPECIES {
+        say!("  {:<27}{}, {:.4} mg", s.name, s.latin, 1e6 * s.mass);
     }
     say!("\nSets of wing angles (motion.data):");
     for (name, line) in case::data_sets() {
