@@ -57,7 +57,7 @@ description = \"Hovering {title}\"
 fn flight(insect: &Insect, air: InsectAir) -> String {
     let f = &insect.frequency;
     let (steps, start, air) = match air {
-        InsectAir::BladeElement => (100, "start = \"impulsive\"", BLADES),
+        InsectAir::BladeElement => (200, "start = \"impulsive\"", BLADES),
         InsectAir::Lattice => (40, "start = \"smooth\"", LATTICE),
     };
     let held = match start.contains("smooth") {

@@ -14,7 +14,7 @@ use crate::command::options::RunOptions;
 use crate::command::progress::Progress;
 use crate::command::signals::stop_flag;
 use crate::command::target::folder;
-use crate::command::terminal::{say, tell};
+use crate::command::terminal::{self, say, tell};
 
 /// Arguments of `wingbeat run`.
 #[derive(Args)]
@@ -182,7 +182,8 @@ fn fly(options: &RunOptions, mut run: Run, stop: &AtomicBool) -> Result<(), Fail
     match run.writer.finish(outcome.clone(), draw_run) {
         Ok(summary) if options.json => say!("{}", summary.to_json_line(&path)),
         Ok(summary) if !options.quiet => {
-            say!("\n{}\nResults: {}", summary.to_text(), path.display());
+            let text = terminal::judged(&summary);
+            say!("\n{text}\nResults: {}", path.display());
         }
         Ok(_) => {}
         Err(e) => {

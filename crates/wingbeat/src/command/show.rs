@@ -11,7 +11,7 @@ use wingbeat::results::{Manifest, ResultDir, Summary};
 
 use crate::command::failure::Failure;
 use crate::command::target::Target;
-use crate::command::terminal::say;
+use crate::command::terminal::{self, say};
 
 /// Arguments of `wingbeat show`.
 #[derive(Args)]
@@ -59,7 +59,7 @@ pub(crate) fn show(args: &ShowArgs) -> Result<(), Failure> {
         );
         return Ok(());
     }
-    say!("{}", summary.to_text().trim_end_matches('\n'));
+    say!("{}", terminal::judged(&summary).trim_end_matches('\n'));
     say!(
         "\nwingbeat {}, {} threads, {:.1} s of which {:.2} s writing, {} frames",
         manifest.version,
