@@ -3,12 +3,14 @@
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
+use serde_json::json;
 use wingbeat::case::insect::{self, InsectAir, SPECIES, Size};
 use wingbeat::case::{self, presets};
 use wingbeat::results::file::write_file;
 
 use crate::command::failure::Failure;
 use crate::command::options;
+use crate::command::report::{ReportArgs, line};
 use crate::command::target::Target;
 use crate::command::terminal::say;
 
@@ -139,17 +141,33 @@ fn write_schema(case: &Target, overwrite: bool) -> Result<(), Failure> {
 }
 
 /// `wingbeat presets`.
-pub(crate) fn list() {
-    say!("Presets (wingbeat run NAME, wingbeat new NAME):");
-    for preset in presets::PRESETS {
-        say!("  {:<27}{}", preset.name, preset.line());
-    }
-    say!("\nSpecies (wingbeat new --species NAME):");
-    for s in SPECIES {
-        say!("  {:<27}{}, {:.4} mg", s.name, s.latin, 1e6 * s.mass);
-    }
-    say!("\nSets of wing angles (motion.data):");
-    for (name, line) in case::data_sets() {
-        say!("  {name:<28}{line}");
-    }
+pub(crate) fn list(args: &ReportArgs) -> Result<(), Failure> {
+    args.deliver([], |report, []| {
+        line!(report, "Presets (wingbeat run NAME, wingbeat new NAME):");
+        for preset in presets::PRESETS {
+            line!(report, "  {:<27}{}", preset.name, preset.line());
+        }
+        line!(report, "\nSpecies (wingbeat new --species NAME):");
+        for s in SPECIES {
+            line!(
+                report,
+                "  {:<27}{}, {:.4} mg",
+                s.name,
+                s.latin,
+                1e6 * s.mass
+            );
+        }
+        line!(report, "\nSets of wing angles (motion.data):");
+        for (name, about) in case::data_sets() {
+            line!(report, "  {name:<28}{about}");
+        }
+        let named = |name: &str, about: &str| json!({ "name": name, "about": about });
+        let all = presets::PRESETS.iter().map(|p| named(p.name, p.line()));
+        report.value("presets", all.collect::<Vec<_>>());
+        report.value("species", SPECIES.map(|s| named(s.name, s.latin)).to_vec());
+        let sets = case::data_sets().into_iter();
+        let sets = sets.map(|(name, about)| named(name, &about));
+        report.value("wing_angles", sets.collect::<Vec<_>>());
+        Ok(())
+    })
 }

@@ -7,6 +7,7 @@ use std::path::PathBuf;
 use clap::Args;
 use serde_json::{Map, Value};
 use wingbeat::case::IoError;
+use wingbeat::results::Summary;
 
 use crate::command::failure::Failure;
 use crate::command::target::Target;
@@ -122,6 +123,15 @@ impl Report {
     /// A value for programs.
     pub(crate) fn value(&mut self, name: &str, value: impl Into<Value>) {
         self.values.insert(name.to_owned(), value.into());
+    }
+
+    /// A summary, its verdict in colour where it is said on a terminal that shows colours.
+    pub(crate) fn summary(&mut self, summary: &Summary) {
+        let text = match self.place {
+            Place::Output => terminal::judged(summary),
+            Place::Error | Place::File(_) => summary.to_text(),
+        };
+        self.words(format_args!("{text}"));
     }
 
     /// Says that a case was written, where it went to a file.

@@ -1,10 +1,11 @@
 //! `wingbeat verify`: run the verification suite and write its report.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 use std::time::Instant;
 
 use clap::Args;
+use serde_json::json;
 use wingbeat::case::IoError;
 use wingbeat::results::file::NewFile;
 use wingbeat::verify::{Case, Entry, Report};
@@ -36,6 +37,9 @@ pub(crate) struct VerifyArgs {
     /// Names and contents of the cases; nothing is run.
     #[arg(long)]
     list: bool,
+    /// The result, or the list, as one JSON object.
+    #[arg(long)]
+    json: bool,
 }
 
 /// The whole command: a failure if a row fails.
@@ -48,7 +52,14 @@ pub(crate) fn run(args: &VerifyArgs) -> Result<(), Failure> {
         )));
     }
     if args.list {
-        cases.iter().for_each(|c| say!("{:<28}{}", c.name, c.about));
+        let named = |c: &Case| json!({ "name": c.name, "about": c.about });
+        match args.json {
+            true => say!(
+                "{}",
+                json!({ "cases": cases.iter().map(named).collect::<Vec<_>>() })
+            ),
+            false => cases.iter().for_each(|c| say!("{:<28}{}", c.name, c.about)),
+        }
         return Ok(());
     }
     let files = claim(args)?;
@@ -68,16 +79,29 @@ pub(crate) fn run(args: &VerifyArgs) -> Result<(), Failure> {
         entries: so_far.into_inner().expect("no case panicked while writing"),
     };
     write(&report, &files)?;
-    let [pass, fail, unjudged] = report.counts();
-    say!(
-        "{pass} rows pass, {fail} fail, {unjudged} are reported; {:.0} s; see {}",
-        start.elapsed().as_secs_f64(),
-        files[0].path().display()
-    );
-    match fail {
-        0 => Ok(()),
+    tell_result(args, &report, start, files[0].path());
+    match report.counts() {
+        [_, 0, _] => Ok(()),
         _ => Err(Failure::Told(FAILED)),
     }
+}
+
+/// How many rows pass, and where to read about them.
+fn tell_result(args: &VerifyArgs, report: &Report, start: Instant, page: &Path) {
+    let [pass, fail, unjudged] = report.counts();
+    let seconds = start.elapsed().as_secs_f64();
+    if args.json {
+        let rows = json!({ "pass": pass, "fail": fail, "reported": unjudged });
+        say!(
+            "{}",
+            json!({ "rows": rows, "seconds": seconds, "report": page })
+        );
+        return;
+    }
+    say!(
+        "{pass} rows pass, {fail} fail, {unjudged} are reported; {seconds:.0} s; see {}",
+        page.display()
+    );
 }
 
 /// The files of the report, page, table and data.
