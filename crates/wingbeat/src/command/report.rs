@@ -10,7 +10,7 @@ use wingbeat::case::IoError;
 use wingbeat::results::Summary;
 
 use crate::command::failure::Failure;
-use crate::command::target::Target;
+use crate::command::target::{self, Target};
 use crate::command::terminal;
 
 /// Heading of these options in the help.
@@ -86,9 +86,19 @@ impl ReportArgs {
     fn place(&self, others: &[&Option<PathBuf>]) -> Result<Place, Failure> {
         let refused = |problem: &str| Err(Failure::Option(problem.to_owned()));
         let is_output = |path: &&PathBuf| Target::is_output(path);
-        let mut named = others.iter().copied().chain([&self.out]).flatten();
-        if self.overwrite && named.all(|p| is_output(&p)) {
+        let named: Vec<&PathBuf> = others
+            .iter()
+            .copied()
+            .chain([&self.out])
+            .flatten()
+            .collect();
+        if self.overwrite && named.iter().all(is_output) {
             return refused("--overwrite replaces nothing: no file is named to write");
+        }
+        let files = named.iter().filter(|p| !is_output(p));
+        let files: Vec<PathBuf> = files.map(|p| target::place_of(p)).collect();
+        if (1..files.len()).any(|k| files[..k].contains(&files[k])) {
+            return refused("two texts cannot share a file; name one for each");
         }
         let taken = others.iter().copied().flatten().filter(is_output).count();
         let reports_there = self.out.as_ref().map_or(self.json, |p| is_output(&p));

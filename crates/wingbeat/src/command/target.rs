@@ -58,6 +58,16 @@ impl Target {
     }
 }
 
+/// A path by which two names of one file are the same.
+pub(crate) fn place_of(path: &Path) -> PathBuf {
+    let folder = path.parent().filter(|f| !f.as_os_str().is_empty());
+    let folder = folder.unwrap_or(Path::new(".")).canonicalize();
+    match (folder, path.file_name()) {
+        (Ok(folder), Some(name)) => folder.join(name),
+        _ => path.to_owned(), // cannot be written anyway
+    }
+}
+
 /// The folder of a user for several files, which the standard output cannot hold.
 pub(crate) fn folder(text: &str) -> Result<PathBuf, String> {
     match Target::is_output(Path::new(text)) {

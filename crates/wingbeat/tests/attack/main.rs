@@ -6,5 +6,7 @@ mod cases;
 mod command_line;
 mod field;
 mod files;
+mod sizes;
+mod streams;
 #[path = "../support/mod.rs"]
 mod support;
