@@ -62,13 +62,24 @@ impl Field {
 
     /// One attack; what is wrong with its end is noted.
     pub fn attack(&mut self, wanted: Wanted, args: &[&str]) {
-        self.fed(wanted, b"", args);
+        self.within(wanted, "", b"", args);
     }
 
     /// One attack with this on the standard input.
     pub fn fed(&mut self, wanted: Wanted, input: &[u8], args: &[&str]) {
+        self.within(wanted, "", input, args);
+    }
+
+    /// One attack after these commands of a shell; the exit code.
+    pub fn within(
+        &mut self,
+        wanted: Wanted,
+        around: &str,
+        input: &[u8],
+        args: &[&str],
+    ) -> Option<i32> {
         self.count += 1;
-        let limit = format!("ulimit -v {MEMORY}; exec \"$0\" \"$@\"");
+        let limit = format!("ulimit -v {MEMORY}; {around} exec \"$0\" \"$@\"");
         let mut command = Command::new("sh");
         command
             .args(["-c", &limit, env!("CARGO_BIN_EXE_wingbeat")])
@@ -103,7 +114,8 @@ impl Field {
             problems.push("a panic".to_owned());
         }
         let code = out.status.code();
-        let is_quiet = args.contains(&"--quiet");
+        // What is said into a closed or full stream is not seen here.
+        let is_quiet = args.contains(&"--quiet") || around.contains("exec ");
         if code == Some(0)
             && !is_quiet
             && out.stdout.is_empty()
@@ -118,7 +130,7 @@ impl Field {
         if wanted == Wanted::Done && code != Some(0) {
             problems.push(format!("exit code {code:?}"));
         }
-        if code.is_some_and(|c| c != 0) && said.trim().is_empty() {
+        if code.is_some_and(|c| c != 0) && said.trim().is_empty() && !around.contains("2>") {
             problems.push("no reason".to_owned());
         }
         if let Some(word) = rust_words(&said) {
@@ -132,9 +144,11 @@ impl Field {
         if !problems.is_empty() {
             let args: Vec<String> = args.iter().map(|a| a.chars().take(80).collect()).collect();
             let said: String = said.chars().take(400).collect();
+            let problems = problems.join(", ");
             self.failures
-                .push(format!("[{pid}] {args:?}: {}\n{said}", problems.join(", ")));
+                .push(format!("[{pid}] {around} {args:?}: {problems}\n{said}"));
         }
+        code
     }
 
     pub fn refused(&mut self, args: &[&str]) {

@@ -4,6 +4,7 @@
 
 mod cases;
 mod command_line;
+mod environment;
 mod field;
 mod files;
 mod sizes;
