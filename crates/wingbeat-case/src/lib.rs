@@ -4,7 +4,7 @@
 //! (raw types of [`raw`], unknown keys refused) -> [`keys`] (every value in its range) -> `files`
 //! (meshes and tables read in) -> `resolve` (keys that follow from others) -> [`keys`] (every key has
 //! an effect) -> `build` -> [`wingbeat_flight::FlightSetup`], or an error that says what is wrong,
-//! where and what to do. [`presets`] are ordinary case files that come with the program.
+//! where and what to do. [`presets`] are ordinary case files that come with the program, [`insect`] writes them for other animals.
 //!
 //! Names in cases carry units; numbers are SI and radians on the other side of this border.
 //!

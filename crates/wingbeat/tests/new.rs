@@ -160,7 +160,8 @@ fn behaves_sizes_that_are_not_given_say_where_they_come_from() {
 fn refuses_insects_that_are_none() {
     let scratch = Scratch::new("new-refused");
     let dir = &scratch.0;
-    let lines: [(&[&str], &str); 16] = [
+    let lines: [(&[&str], &str); 17] = [
+        (&["bumblebee-blade", "--species", "honeybee"], "two cases"),
         (&["--species", "honeybe"], "did you mean `honeybee`?"),
         (
             &["--species", "honeybee", "--mass", "1mg"],

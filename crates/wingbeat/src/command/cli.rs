@@ -65,7 +65,7 @@ pub(crate) enum Command {
     Verify(verify::VerifyArgs),
     /// List the presets, the species and the shipped sets of wing angles.
     Presets(ReportArgs),
-    /// Write a preset as a commented case file to start from.
+    /// Write a commented case file to start from: a preset, a species, or an insect by its size.
     New(new::NewArgs),
     /// Print the JSON schema of case files, for editors: the file that the first line of a case names.
     Schema,

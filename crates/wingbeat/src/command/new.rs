@@ -100,6 +100,11 @@ impl NewArgs {
             let problem = "--species, --mass and --wing write one file instead of a preset; name the file alone";
             return Err(Failure::Option(problem.to_owned()));
         }
+        let name = self.preset.as_deref();
+        if name.is_some_and(|name| presets::find(name).is_ok()) {
+            let problem = "a preset and an insect are two cases; name one of them, and the file with its ending";
+            return Err(Failure::Option(problem.to_owned()));
+        }
         let air = match self.air {
             None | Some(Air::Blade) => InsectAir::BladeElement,
             Some(Air::Lattice) => InsectAir::Lattice,
