@@ -126,6 +126,24 @@ pub enum IoError {
         /// The nearest name, as a clause, or nothing.
         hint: String,
     },
+    /// A species that is not known.
+    #[error("there is no species called `{name}`{hint}; known are {known}")]
+    NoSpecies {
+        /// What was asked for.
+        name: String,
+        /// The nearest name, as a clause, or nothing.
+        hint: String,
+        /// All names.
+        known: String,
+    },
+    /// An insect that cannot hover, or is not given.
+    #[error("{problem}; {remedy}")]
+    Insect {
+        /// What is wrong.
+        problem: String,
+        /// What to try.
+        remedy: String,
+    },
     /// A file or directory that exists already and is not overwritten.
     #[error("`{}` exists already and is left untouched; {remedy}", path.display())]
     Exists {

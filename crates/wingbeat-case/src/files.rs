@@ -1,7 +1,9 @@
 //! The case file, and the files it refers to: they are read in, so that the case stands alone
 //! afterwards.
 
+use std::io::Read as _;
 use std::path::Path;
+use std::sync::{Mutex, PoisonError};
 
 use wingbeat_model::import;
 
@@ -32,13 +34,49 @@ pub(crate) fn text_of(path: &Path) -> Result<String, IoError> {
     std::fs::read_to_string(path).map_err(IoError::read(path))
 }
 
+/// The case that stands for the standard input.
+pub(crate) const STANDARD_INPUT: &str = "-";
+
+/// What was read from the standard input: it can be read once, and who asks again gets the same.
+static INPUT: Mutex<Option<String>> = Mutex::new(None);
+
+/// The text on the standard input, to its end.
+///
+/// # Errors
+/// A text that cannot be read, is not UTF-8 or too long.
+pub(crate) fn text_of_input() -> Result<String, IoError> {
+    let mut input = INPUT.lock().unwrap_or_else(PoisonError::into_inner);
+    if let Some(text) = &*input {
+        return Ok(text.clone());
+    }
+    let refused = |source| IoError::File {
+        action: "read",
+        path: "standard input".into(),
+        source,
+        remedy: "give it a case file as text; a file whose name is `-` is `./-`",
+    };
+    let mut text = String::new();
+    let mut source = std::io::stdin().lock().take(MAX_BYTES + 1);
+    source.read_to_string(&mut text).map_err(refused)?;
+    check_size(text.len() as u64).map_err(refused)?;
+    if text.trim().is_empty() {
+        return Err(refused(std::io::Error::other("it is empty")));
+    }
+    *input = Some(text.clone());
+    Ok(text)
+}
+
 /// Devices and pipes, which may never end, are not read; nor is what would fill the memory.
 fn check_file(path: &Path) -> std::io::Result<()> {
     let data = std::fs::metadata(path)?;
     if !data.is_file() {
         return Err(std::io::Error::other("it is not a file"));
     }
-    if data.len() > MAX_BYTES {
+    check_size(data.len())
+}
+
+fn check_size(bytes: u64) -> std::io::Result<()> {
+    if bytes > MAX_BYTES {
         let problem = format!("it is larger than {} MB", MAX_BYTES / 1_000_000);
         return Err(std::io::Error::other(problem));
     }

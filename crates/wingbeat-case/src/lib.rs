@@ -4,7 +4,7 @@
 //! (raw types of [`raw`], unknown keys refused) -> [`keys`] (every value in its range) -> `files`
 //! (meshes and tables read in) -> `resolve` (keys that follow from others) -> [`keys`] (every key has
 //! an effect) -> `build` -> [`wingbeat_flight::FlightSetup`], or an error that says what is wrong,
-//! where and what to do. [`presets`] are ordinary case files that come with the program.
+//! where and what to do. [`presets`] are ordinary case files that come with the program, [`insect`] writes them for other animals.
 //!
 //! Names in cases carry units; numbers are SI and radians on the other side of this border.
 //!
@@ -18,6 +18,7 @@ mod differences;
 mod error;
 pub mod external;
 mod files;
+pub mod insect;
 pub mod keys;
 mod loaded;
 mod output;
@@ -34,7 +35,7 @@ pub use data::data_sets;
 pub use decode::nearest;
 pub use differences::{Difference, differences};
 pub use error::{CaseError, IoError};
-pub use keys::schema;
+pub use keys::{SCHEMA_FILE, schema, with_schema};
 pub use loaded::LoadedCase;
 pub use output::{OutputSettings, SaveSettings};
 pub use trimmed::{derivative_case, trimmed_case, wake_trimmed_case};

@@ -107,11 +107,16 @@ impl LoadedCase {
         Self::from_text(&path.display().to_string(), &text, &base, overrides)
     }
 
-    /// Reads a case file or, where no such file exists, a preset of that name.
+    /// Reads a case file or, where no such file exists, a preset of that name; `-` is the standard
+    /// input, where paths are relative to the current folder.
     ///
     /// # Errors
     /// As [`Self::from_file`]; [`IoError::NoCase`] for a name that is neither.
     pub fn find(name: &str, overrides: &[String]) -> Result<Self, IoError> {
+        if name == files::STANDARD_INPUT {
+            let text = files::text_of_input()?;
+            return Self::from_text("stdin", &text, Path::new(""), overrides);
+        }
         let path = PathBuf::from(name);
         if path.is_file() {
             return Self::from_file(&path, overrides);

@@ -76,6 +76,11 @@ fn file(error: &IoError) -> (&'static str, Parts) {
             let remedy = format!("wingbeat.presets() lists the presets{hint}");
             ("CaseError", about(or_case(name), remedy))
         }
+        IoError::NoSpecies { name, known, .. } => {
+            let remedy = format!("choose from {known}");
+            ("CaseError", about(or_case(name), remedy))
+        }
+        IoError::Insect { remedy, .. } => ("CaseError", about("insect", remedy.as_str())),
         IoError::NoKeys { part, remedy, .. } => ("CaseError", about(part.as_str(), *remedy)),
         IoError::Exists { path, remedy } | IoError::File { path, remedy, .. } => {
             ("ResultError", about(path.display().to_string(), *remedy))

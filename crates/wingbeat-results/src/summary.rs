@@ -5,6 +5,7 @@ mod means;
 mod numbers;
 mod statistics;
 mod trust;
+mod verdict;
 mod words;
 
 use std::path::Path;
@@ -16,6 +17,7 @@ pub use beats::{BeatMeans, Beats, down, over_weight, steps_per_beat};
 pub use means::{Estimate, ManyBeats};
 pub use numbers::Summary;
 use statistics::Statistics;
+pub use verdict::Verdict;
 use wingbeat_case::IoError;
 use wingbeat_case::LoadedCase;
 
@@ -40,6 +42,8 @@ impl Summary {
         let mut summary = Self {
             case: setup.name.clone(),
             outcome: outcome.clone(),
+            verdict: Verdict::default(),
+            verdict_reason: String::new(),
             steps: s.last.step,
             time_s: s.last.time,
             mass_kg: setup.animal.mass(),
@@ -62,7 +66,9 @@ impl Summary {
             means: ManyBeats::of(&s.beats),
             beats: s.beats,
         };
-        summary.warnings = trust::warnings(setup, &summary);
+        let warnings = trust::warnings(setup, &summary);
+        (summary.verdict, summary.verdict_reason) = warnings.verdict(outcome);
+        summary.warnings = warnings.into_texts();
         summary
     }
 }

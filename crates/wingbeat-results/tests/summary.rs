@@ -4,6 +4,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use wingbeat_case::LoadedCase;
 use wingbeat_case::raw::{AirCase, AirModel, BodyCase, Case, FlightCase, OutputCase, TimeCase};
 use wingbeat_flight::Simulation;
+use wingbeat_results::summary::Verdict;
 use wingbeat_results::{Outcome, ResultDir, RunWriter, Summary};
 
 /// Flies a case to its end and reads the summary of what was written.
@@ -78,6 +79,12 @@ fn conserves_energy_of_a_free_rigid_body_without_an_alarm() {
     // Tolerance 1e-10 a step.
     assert!(summary.energy_residual_relative < 1e-9);
     assert!(!says(&summary, "balance"), "{:?}", summary.warnings);
+    assert_eq!(
+        summary.verdict,
+        Verdict::Green,
+        "{}",
+        summary.verdict_reason
+    );
     let still = flown(&rigid("resting", [0.0; 3]));
     assert_eq!(still.energy_residual_relative, 0.0);
     assert!(!says(&still, "balance"), "{:?}", still.warnings);
@@ -111,6 +118,27 @@ fn behaves_tethered_flights_are_not_told_that_their_momentum_is_open() {
         "{:?}",
         summary.warnings
     );
+}
+
+/// The same flight in finer steps goes from red to green: the residual of a fourth-order method falls with them.
+#[test]
+fn behaves_the_verdict_follows_the_balances() {
+    for (steps, verdict, reason) in [
+        (6, Verdict::Red, "The energy balance does not close"),
+        (50, Verdict::Amber, "The energy balance does not close"),
+        (400, Verdict::Green, "its balances close"),
+    ] {
+        let steps = format!("time.steps_per_beat={steps}");
+        let summary = flown(&preset("hawkmoth-blade", &[&steps, "time.beats=1"]));
+        println!("{steps}: {:.1e}", summary.energy_residual_relative);
+        assert_eq!(summary.verdict, verdict, "{}", summary.verdict_reason);
+        assert!(summary.verdict_reason.starts_with(reason));
+        let line = format!("{}: {}.", verdict.word(), summary.verdict_reason);
+        assert_eq!(summary.to_text().lines().next(), Some(&line[..]));
+        let json: serde_json::Value = serde_json::from_str(&summary.to_json()).unwrap();
+        assert_eq!(json["verdict"], verdict.word());
+        assert_eq!(json["verdict_reason"], summary.verdict_reason);
+    }
 }
 
 /// Attached hover: the force by pressures with the suction that they lack, by segments, and by the rate of the impulse.
@@ -167,4 +195,6 @@ fn behaves_a_wake_that_does_not_keep_its_impulse_is_blamed() {
         "{:?}",
         summary.warnings
     );
+    assert_eq!(summary.verdict, Verdict::Amber);
+    assert!(summary.verdict_reason.starts_with("Two ways"));
 }

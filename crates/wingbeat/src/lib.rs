@@ -1,7 +1,8 @@
 //! **wingbeat**, a simulator of flapping-wing flight: one multibody system, one unsteady vortex
 //! lattice, integrated together.
 //!
-//! This crate re-exports the library crates under one roof; [`command`] is the command line.
+//! This crate re-exports the library crates under one roof; `command` is the command line, behind the feature `cli`,
+//! which is on by default: `default-features = false` builds the library without it.
 //!
 //! | module | what it holds |
 //! |---|---|
@@ -41,6 +42,7 @@
 extern crate self as wingbeat; // the command line is written as any other user of the library
 
 mod batch;
+#[cfg(feature = "cli")]
 pub mod command;
 mod flown;
 mod refusal;

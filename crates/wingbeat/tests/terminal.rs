@@ -183,7 +183,9 @@ fn behaves_a_killed_run_is_interrupted_and_a_living_one_is_running() {
     let shown = |what: &str| {
         let out = wingbeat(dir, &["show", "r"]);
         let text = String::from_utf8(out.stdout).unwrap();
-        assert!(text.starts_with(&format!("good {what}")), "{text}");
+        let lines: Vec<&str> = text.lines().take(2).collect();
+        assert!(lines[0].starts_with("amber: it "), "{text}");
+        assert!(lines[1].starts_with(&format!("good {what}")), "{text}");
     };
     shown("is running");
     child.kill().unwrap();

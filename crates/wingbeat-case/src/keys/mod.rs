@@ -14,5 +14,5 @@ mod unit;
 
 pub(crate) use check::{alone, effective, together};
 pub use page::page;
-pub use schema::schema;
+pub use schema::{SCHEMA_FILE, schema, with_schema};
 pub(crate) use unit::without_unit;

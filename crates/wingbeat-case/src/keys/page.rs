@@ -16,8 +16,9 @@ const HEAD: &str = "\
 Every key with its unit, default, allowed values, and when to change it. This page is made from the
 program: `cargo run -p wingbeat-case --example case_keys > docs/case-keys.md`.
 
-A case is a TOML file; `wingbeat new PRESET` writes one to start from, `wingbeat new --schema` a
-schema for editors. Every key can also be set on the command line: `--set time.beats=3`. A key that
+A case is a TOML file; `wingbeat new PRESET` writes one to start from. Its first line names the schema
+that editors complete and check keys by, a file beside the case that `wingbeat new PRESET --schema` or
+`wingbeat schema > wingbeat.schema.json` writes; nothing is fetched. Every key can also be set on the command line: `--set time.beats=3`. A key that
 is unknown, out of its range, given twice in two units, or without effect beside the others is
 refused with its line in the file. Where `--set air.model=...` chooses another model of the air, the
 settings of the case's own model stand by unused.

@@ -12,6 +12,15 @@ static SCHEMA: LazyLock<Value> = LazyLock::new(|| {
     schema
 });
 
+/// Name of the file with the schema, beside the cases that [`with_schema`] names it in.
+pub const SCHEMA_FILE: &str = "wingbeat.schema.json";
+
+/// A case whose first line names its schema, as taplo and the editors that use it read it: the file
+/// [`SCHEMA_FILE`] beside the case, so that no network is needed.
+pub fn with_schema(case: &str) -> String {
+    format!("#:schema ./{SCHEMA_FILE}\n{case}")
+}
+
 /// The JSON schema of case files, for editors.
 pub fn schema() -> String {
     serde_json::to_string_pretty(&*SCHEMA).expect("a schema is JSON")

@@ -4,6 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::beats::BeatMeans;
 use super::means::ManyBeats;
+use super::verdict::Verdict;
 use crate::Outcome;
 
 /// Numbers of a run.
@@ -13,6 +14,12 @@ pub struct Summary {
     pub case: String,
     /// How the run ended.
     pub outcome: Outcome,
+    /// How far it can be trusted, at a glance.
+    #[serde(default)]
+    pub verdict: Verdict,
+    /// Why.
+    #[serde(default)]
+    pub verdict_reason: String,
     /// Steps made.
     pub steps: usize,
     /// Time flown \[s\].

@@ -7,23 +7,29 @@ use wingbeat_flight::{AirModel, FlightSetup, FormulationChoice, MotionMode};
 
 use super::beats::BeatMeans;
 use super::numbers::Summary;
+use super::verdict::Warnings;
 
 /// No animal carries this many of its weights over a whole wingbeat.
 const IMPLAUSIBLE_LIFT: f64 = 10.0;
 
+/// A balance with a larger residual is open; the tolerances are lower where the motion is smooth.
+const OPEN: f64 = 1e-2;
+
 /// What a reader should know before using the numbers.
-pub(super) fn warnings(setup: &FlightSetup, summary: &Summary) -> Vec<String> {
-    let mut list = wingbeat_flight::system_of(setup).map_or(vec![], |s| s.warnings());
+pub(super) fn warnings(setup: &FlightSetup, summary: &Summary) -> Warnings {
+    let mut list = Warnings::default();
+    let of_joints = wingbeat_flight::system_of(setup).map_or(vec![], |s| s.warnings());
+    of_joints.into_iter().for_each(|text| list.limit(text));
     match &setup.air {
-        AirModel::None => list.push(
+        AirModel::None => list.note(
             "There is no air: this is the motion that weight and wing inertia alone give."
                 .to_owned(),
         ),
         AirModel::VortexLattice(air) => air_warnings(setup, air, summary, &mut list),
-        AirModel::BladeElement(_) => list.push("The air is quasi-steady: blade elements with measured coefficients, no wake, no interaction of the wings with each other or with the air they moved before.".to_owned()),
-        AirModel::Derivatives(_) => list.push("The air is a table of stability derivatives: linear about its reference flight, and wrong far from it.".to_owned()),
-        AirModel::Own(_) => list.push("The air is a model of your own: wingbeat vouches for the motion under its loads, not for the loads.".to_owned()),
-        AirModel::External(_) => list.push("The air was computed by another program: wingbeat vouches for the motion under its loads, not for the loads.".to_owned()),
+        AirModel::BladeElement(_) => list.note("The air is quasi-steady: blade elements with measured coefficients, no wake, no interaction of the wings with each other or with the air they moved before.".to_owned()),
+        AirModel::Derivatives(_) => list.note("The air is a table of stability derivatives: linear about its reference flight, and wrong far from it.".to_owned()),
+        AirModel::Own(_) => list.note("The air is a model of your own: wingbeat vouches for the motion under its loads, not for the loads.".to_owned()),
+        AirModel::External(_) => list.note("The air was computed by another program: wingbeat vouches for the motion under its loads, not for the loads.".to_owned()),
     }
     deformation_warnings(setup, &mut list);
     balance_warnings(setup, summary, &mut list);
@@ -36,25 +42,29 @@ pub(super) fn warnings(setup: &FlightSetup, summary: &Summary) -> Vec<String> {
                 "accelerations are inaccurate there; use the momentum form"
             }
         };
-        list.push(format!(
+        let text = format!(
             "An Euler angle came close to its singularity (|cos theta| = {:.3}): {held}.",
             summary.euler_regularity
-        ));
+        );
+        match setup.formulation {
+            FormulationChoice::Euler(_) => list.limit(text),
+            FormulationChoice::Momentum | FormulationChoice::Quaternion(_) => list.note(text),
+        }
     }
     if matches!(setup.formulation, FormulationChoice::Euler(_)) {
-        list.push(format!(
+        list.note(format!(
             "Euler form: the constraints drift; here by at most {:.1e} m and {:.1e} rad.",
             summary.violation_position_m, summary.violation_orientation
         ));
     }
     if matches!(setup.mode, MotionMode::Tethered(_)) {
-        list.push("Tethered: the body does not answer to the forces on it.".to_owned());
+        list.note("Tethered: the body does not answer to the forces on it.".to_owned());
     }
     list
 }
 
 /// What prescribed deformation leaves out.
-fn deformation_warnings(setup: &FlightSetup, list: &mut Vec<String>) {
+fn deformation_warnings(setup: &FlightSetup, list: &mut Warnings) {
     let deformed = || {
         setup
             .animal
@@ -65,9 +75,9 @@ fn deformation_warnings(setup: &FlightSetup, list: &mut Vec<String>) {
     if deformed().next().is_none() {
         return;
     }
-    list.push("The wings' deformation is prescribed: it does not answer to the air, and for their inertia the wings stay rigid, so hinge moments lack what the moving shape would add. What deforms the wings against the air is in the power and in its own columns (deformation_...).".to_owned());
+    list.note("The wings' deformation is prescribed: it does not answer to the air, and for their inertia the wings stay rigid, so hinge moments lack what the moving shape would add. What deforms the wings against the air is in the power and in its own columns (deformation_...).".to_owned());
     if matches!(setup.air, AirModel::BladeElement(_)) && deformed().any(|d| !d.camber.is_empty()) {
-        list.push("Blade elements take twist and bending of the wings, not their camber: that is in the coefficients or nowhere.".to_owned());
+        list.note("Blade elements take twist and bending of the wings, not their camber: that is in the coefficients or nowhere.".to_owned());
     }
 }
 
@@ -75,8 +85,8 @@ fn deformation_warnings(setup: &FlightSetup, list: &mut Vec<String>) {
 /// digits; a wake's loads jump where it starts and where it is regularised. The momentum of a tethered
 /// animal, or of one held at first, follows from its prescribed motion and the support's reaction from that: it is as
 /// open as the quadrature of that reaction, which says nothing of the motion.
-fn balance_warnings(setup: &FlightSetup, summary: &Summary, list: &mut Vec<String>) {
-    let energy = if setup.air.has_memory() { 1e-2 } else { 1e-6 };
+fn balance_warnings(setup: &FlightSetup, summary: &Summary, list: &mut Warnings) {
+    let energy = if setup.air.has_memory() { OPEN } else { 1e-6 };
     let balances = [
         ("energy", summary.energy_residual_relative, energy),
         ("momentum", summary.momentum_residual_relative, 1e-6),
@@ -87,10 +97,13 @@ fn balance_warnings(setup: &FlightSetup, summary: &Summary, list: &mut Vec<Strin
     };
     let counted = if is_held { 1 } else { 2 };
     for (what, residual, tolerance) in balances.into_iter().take(counted) {
-        if residual > tolerance || residual.is_nan() {
-            list.insert(0, format!(
-                "The {what} balance does not close: residual {residual:.1e} (tolerance {tolerance:.0e}); take smaller steps before trusting the motion."
-            ));
+        let text = format!(
+            "The {what} balance does not close: residual {residual:.1e} (tolerance {tolerance:.0e}); take smaller steps before trusting the motion."
+        );
+        match residual {
+            r if r <= tolerance => {}
+            r if r <= OPEN => list.limit_first(text),
+            _ => list.fault(text), // NaN, too
         }
     }
 }
@@ -99,11 +112,11 @@ fn air_warnings(
     setup: &FlightSetup,
     air: &wingbeat_flight::AirOptions,
     summary: &Summary,
-    list: &mut Vec<String>,
+    list: &mut Warnings,
 ) {
     let lattice = &air.lattice;
     let suction = suction(lattice);
-    list.push(match &lattice.section_drag {
+    list.note(match &lattice.section_drag {
         None => format!("The air is inviscid: without friction, drag and power come out low, the more so the smaller the Reynolds number. {suction}"),
         Some(drag) => format!("The air is inviscid; drag of the sections was added to its forces (air.section_drag: {}, cd0 = {}, cd2 = {} per rad2), from the undisturbed air past each strip. {suction}", friction(drag), drag.cd0, drag.cd2),
     });
@@ -112,42 +125,43 @@ fn air_warnings(
             "The prescribed motion is impossible: {crossing}. The forces of those instants have no meaning."
         )
     };
-    list.extend(setup.crossing_wings().into_iter().map(no_meaning));
-    list.push(core_is_an_input(setup, lattice));
+    let crossing = setup.crossing_wings().into_iter().map(no_meaning);
+    crossing.for_each(|text| list.limit(text));
+    list.note(core_is_an_input(setup, lattice));
     if air.mirror {
-        list.push("Mirror symmetry was assumed (air.mirror): a real flow of this kind loses it, and with it roll, yaw and sideways drift would come.".to_owned());
+        list.note("Mirror symmetry was assumed (air.mirror): a real flow of this kind loses it, and with it roll, yaw and sideways drift would come.".to_owned());
     }
     if lattice.shedding.leading {
-        list.push("Leading edges shed: such sheets have no converged history beyond the first half stroke. Read means over several beats and their spread, not single peaks.".to_owned());
+        list.note("Leading edges shed: such sheets have no converged history beyond the first half stroke. Read means over several beats and their spread, not single peaks.".to_owned());
     }
     if setup.time.period.is_some() && lattice.convection == Convection::Euler {
-        list.push("The air is first order in the step and the wings are coarse: halve the step and double the panels before quoting a number.".to_owned());
+        list.limit("The air is first order in the step and the wings are coarse: halve the step and double the panels before quoting a number.".to_owned());
     }
     let weights = |b: &BeatMeans| b.lift_over_weight.unwrap_or(0.0).abs();
     if let Some(b) = summary.beats.iter().find(|b| weights(b) > IMPLAUSIBLE_LIFT) {
-        list.insert(0, format!(
+        list.fault(format!(
             "The air diverged: a mean lift of {:.0} weights in beat {} is not physical. Enlarge the wake core, take smaller steps, keep fewer wake rows, or do not shed from leading edges.",
             weights(b), b.beat
         ));
     }
     let still = lattice.images.is_empty() && lattice.wind.is_none();
     if let Some(beat) = summary.beats.last().filter(|_| still) {
-        list.push(two_ways_to_the_lift(lattice, beat));
+        two_ways_to_the_lift(lattice, beat, list);
     }
     if summary.wake_particles > 0 {
-        list.push(format!(
+        list.note(format!(
             "Part of the wake is vortex particles ({} at the end); their radius is an input, not a result.",
             summary.wake_particles
         ));
     }
     if summary.regularised > 0 {
-        list.push(format!(
+        list.note(format!(
             "{} times a wake node was stopped or ran close to a surface and was regularised.",
             summary.regularised
         ));
     }
     if summary.net_flux_residual_m_s > 0.0 {
-        list.push(format!(
+        list.note(format!(
             "Net flux through closed body surfaces: a normal velocity of at most {:.1e} m/s is left (their influence matrix has a null space of one dimension).",
             summary.net_flux_residual_m_s
         ));
@@ -211,7 +225,7 @@ fn core_is_an_input(setup: &FlightSetup, lattice: &AirSettings) -> String {
 }
 
 /// The inviscid lift of a beat by the loads and by the impulse of the vortices, and what it means if they differ.
-fn two_ways_to_the_lift(lattice: &AirSettings, beat: &BeatMeans) -> String {
+fn two_ways_to_the_lift(lattice: &AirSettings, beat: &BeatMeans, list: &mut Warnings) {
     let (other, inviscid, lift) = (
         beat.lift_by_impulse_newton,
         beat.inviscid_lift_newton,
@@ -241,17 +255,17 @@ fn two_ways_to_the_lift(lattice: &AirSettings, beat: &BeatMeans) -> String {
     let flown = differs.map_or(String::new(), |how| {
         format!(" (the flight has {lift:.3e} N, {how})")
     });
+    let both = format!(
+        "Mean lift of the last beat by the rate of the vortex impulse, another way to the same force: {other:.3e} N; by {loads} {inviscid:.3e} N{flown}."
+    );
     // A tenth: six times what the two differ by in attached hover with algebraic cores, and what they do with
     // leading-edge sheets.
-    let meaning = match (other - inviscid).abs() > 0.1 * inviscid.abs() {
-        false => "",
-        true => {
-            " They are apart: the wake does not keep its impulse (cores that are not algebraic, steps too long for its rolled-up parts, nodes held off surfaces), so its shape is not to be trusted."
-        }
-    };
-    format!(
-        "Mean lift of the last beat by the rate of the vortex impulse, another way to the same force: {other:.3e} N; by {loads} {inviscid:.3e} N{flown}.{meaning}"
-    )
+    match (other - inviscid).abs() > 0.1 * inviscid.abs() {
+        false => list.note(both),
+        true => list.limit(format!(
+            "Two ways to the mean lift are apart: the wake does not keep its impulse (cores that are not algebraic, steps too long for its rolled-up parts, nodes held off surfaces), so its shape is not to be trusted. {both}"
+        )),
+    }
 }
 
 fn friction(drag: &SectionDrag) -> String {

@@ -8,9 +8,9 @@ use crate::Outcome;
 use crate::fixed::{fixed, signed};
 
 impl Summary {
-    /// For people.
+    /// For people; the verdict comes first, its word in front.
     pub fn to_text(&self) -> String {
-        let mut out = String::new();
+        let mut out = format!("{}: {}.\n", self.verdict.word(), self.verdict_reason);
         self.headline(&mut out);
         self.beat_table(&mut out);
         self.balances(&mut out);

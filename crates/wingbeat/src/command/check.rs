@@ -2,6 +2,8 @@
 
 use std::sync::Arc;
 
+use clap::Args;
+use serde_json::json;
 use wingbeat::analysis::estimate;
 use wingbeat::case::external::Unasked;
 use wingbeat::case::{IoError, LoadedCase};
@@ -10,44 +12,74 @@ use wingbeat::results::fixed::fixed;
 
 use crate::command::expectation;
 use crate::command::failure::Failure;
-use crate::command::terminal::{say, tell};
+use crate::command::report::{Report, ReportArgs, line};
+use crate::command::terminal::tell;
 use crate::command::watch::Watch;
 
+/// Arguments of `wingbeat check`.
+#[derive(Args)]
+pub(crate) struct CheckArgs {
+    /// Case file or preset; - is the standard input.
+    case: String,
+    /// Set a key of the case, e.g. time.beats=3 (may be repeated).
+    #[arg(long = "set", value_name = "KEY=VALUE")]
+    set: Vec<String>,
+    /// Build and try lattices, too, that take long to build.
+    #[arg(long)]
+    trial: bool,
+    #[command(flatten)]
+    report: ReportArgs,
+}
+
 /// Describes the case, builds its flight and makes some steps on trial. Lattices that would take
-/// long to build are built only if `trial` says so. Nothing of the case is executed: a program
+/// long to build are built only if the user says so. Nothing of the case is executed: a program
 /// that computes the air is not started.
-pub(crate) fn check(name: &str, set: &[String], trial: bool) -> Result<(), Failure> {
-    let case = LoadedCase::find(name, set)?;
+pub(crate) fn check(args: &CheckArgs) -> Result<(), Failure> {
+    args.report
+        .deliver([], |report, []| Ok(look(args, report)?))
+}
+
+fn look(args: &CheckArgs, report: &mut Report) -> Result<(), IoError> {
+    let case = LoadedCase::find(&args.case, &args.set)?;
     let fault = |e: String| {
         let fault = case.fault("", e, "correct the case and check it again");
         IoError::from(fault)
     };
     let estimate = estimate(&case.setup).map_err(|e| fault(e.to_string()))?;
-    let cost = trial_cost(&case, trial)?;
-    say!("{}: this case can be flown.\n", case.origin());
-    describe(&case.setup);
+    let cost = trial_cost(&case, args.trial)?;
+    line!(report, "{}: this case can be flown.\n", case.origin());
+    report.value("case", case.name.as_str());
+    describe(report, &case.setup);
     if let Some(feedback) = &case.setup.feedback {
         let [every, late] = [feedback.interval, feedback.latency];
-        say!(
+        line!(
+            report,
             "{:<10}a look every {every} steps, acting {late} looks later",
             "feedback"
         );
+        report.value(
+            "feedback",
+            json!({ "every_steps": every, "latency_looks": late }),
+        );
     }
     let panels = expectation::panels(&case.setup);
-    say!("{:<10}{panels} panels", "lattice");
+    line!(report, "{:<10}{panels} panels", "lattice");
+    report.value("panels", panels);
     if let Some(program) = case.program() {
-        say!(
+        line!(
+            report,
             "{:<10}`wingbeat run` will start this one with your rights: {program}",
             "program"
         );
+        report.value("program", program);
     }
-    for line in expectation::lines(&estimate) {
-        say!("{line}");
-    }
-    say!("{:<10}{cost}", "cost");
+    expectation::tell(report, &estimate);
+    line!(report, "{:<10}{cost}", "cost");
+    report.value("cost", cost);
     for doubt in &estimate.doubts {
         tell!("warning: {doubt}");
     }
+    report.value("warnings", estimate.doubts);
     Ok(())
 }
 
@@ -74,22 +106,28 @@ fn trial_cost(case: &LoadedCase, trial: bool) -> Result<String, IoError> {
     Ok(cost.map_err(|e| case.refused(&e))?)
 }
 
-fn describe(setup: &FlightSetup) {
+fn describe(report: &mut Report, setup: &FlightSetup) {
     let animal = &setup.animal;
-    say!(
+    line!(
+        report,
         "{:<10}{:.4e} kg, of it body {:.4e} kg",
         "mass",
         animal.mass(),
         animal.body.mass
     );
-    let centre = animal.body.centre().to_array().map(|x| fixed(1e3 * x, 3));
-    say!(
+    report.value("mass_kg", animal.mass());
+    report.value("body_mass_kg", animal.body.mass);
+    let centre = animal.body.centre().to_array();
+    line!(
+        report,
         "{:<10}mass centre of the body at [{}] mm",
         "body",
-        centre.join(", ")
+        centre.map(|x| fixed(1e3 * x, 3)).join(", ")
     );
+    report.value("body_mass_centre_m", json!(centre));
     for w in animal.wing_reports() {
-        say!(
+        line!(
+            report,
             "{:<10}`{}`: length {:.3} mm, area {:.3} mm2, mean chord {:.3} mm, r2_hat {:.3}, mass {:.3e} kg",
             "wing",
             w.name,
@@ -105,7 +143,17 @@ fn describe(setup: &FlightSetup) {
         MotionMode::Tethered(_) => "tethered",
     };
     let air = setup.air.name();
-    say!("{:<10}{mode}, {air}", "flight");
+    line!(report, "{:<10}{mode}, {air}", "flight");
+    report.value("flight", mode);
+    report.value("air", air);
     let time = &setup.time;
-    say!("{:<10}{} steps of {:.4e} s", "time", time.steps, time.step);
+    line!(
+        report,
+        "{:<10}{} steps of {:.4e} s",
+        "time",
+        time.steps,
+        time.step
+    );
+    report.value("steps", time.steps);
+    report.value("step_s", time.step);
 }

@@ -6,7 +6,9 @@ use clap::builder::styling::{AnsiColor, Styles};
 use clap::{Args, Parser, Subcommand};
 use clap_complete::Shell;
 
-use super::{analyse, export, new, plot, run, show, velocity, verify, view};
+use super::report::ReportArgs;
+use super::target::folder;
+use super::{analyse, check, export, new, plot, run, show, velocity, verify, view};
 
 /// Colours of help and errors, as cargo has them.
 pub(crate) const STYLES: Styles = Styles::styled()
@@ -44,16 +46,7 @@ pub(crate) enum Command {
     /// Set the numbers of two runs side by side.
     Compare(show::CompareArgs),
     /// Check a case file or preset without flying it, and say what it holds.
-    Check {
-        /// Case file or preset.
-        case: String,
-        /// Set a key of the case, e.g. time.beats=3 (may be repeated).
-        #[arg(long = "set", value_name = "KEY=VALUE")]
-        set: Vec<String>,
-        /// Build and try lattices, too, that take long to build.
-        #[arg(long)]
-        trial: bool,
-    },
+    Check(check::CheckArgs),
     /// Find the wing motion and attitude that hold a steady flight: a periodic orbit of the full
     /// model.
     Trim(analyse::trim::TrimArgs),
@@ -70,11 +63,11 @@ pub(crate) enum Command {
     /// Run the verification suite and write its report: what is claimed of the air, against what,
     /// how far off.
     Verify(verify::VerifyArgs),
-    /// List the presets and the shipped sets of wing angles.
-    Presets,
-    /// Write a preset as a commented case file to start from.
+    /// List the presets, the species and the shipped sets of wing angles.
+    Presets(ReportArgs),
+    /// Write a commented case file to start from: a preset, a species, or an insect by its size.
     New(new::NewArgs),
-    /// Print the JSON schema of case files, for editors.
+    /// Print the JSON schema of case files, for editors: the file that the first line of a case names.
     Schema,
     /// Print the completions of a shell.
     Completions {
@@ -89,6 +82,7 @@ pub(crate) enum Command {
 #[derive(Args)]
 pub(crate) struct ManArgs {
     /// Folder for the pages.
+    #[arg(value_parser = folder)]
     pub(crate) dir: PathBuf,
     /// Replace files that exist already.
     #[arg(long)]

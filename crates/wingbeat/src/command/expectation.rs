@@ -3,10 +3,13 @@
 
 use std::time::{Duration, Instant};
 
+use serde_json::{Value, json};
 use wingbeat::analysis::Estimate;
+use wingbeat::analysis::plausibility::WingEstimate;
 use wingbeat::flight::{AirModel, FlightError, FlightSetup, Simulation};
 
 use crate::command::pace::Pace;
+use crate::command::report::{Report, line};
 
 /// Unknown circulations beyond which the trial is left out: their matrix takes some seconds and
 /// 0.1 GB, and eight times the one and four times the other with every doubling.
@@ -36,9 +39,7 @@ pub(crate) fn unknowns(setup: &FlightSetup) -> usize {
 }
 
 /// The numbers of a flight, a line each.
-pub(crate) fn lines(e: &Estimate) -> Vec<String> {
-    let mut list = vec![];
-    let mut say = |name: &str, text: String| list.push(format!("{name:<10}{text}"));
+pub(crate) fn tell(report: &mut Report, e: &Estimate) {
     for w in &e.wings {
         let mut parts = vec![];
         if w.tip_speed > 0.0 {
@@ -53,32 +54,55 @@ pub(crate) fn lines(e: &Estimate) -> Vec<String> {
             w.reduced_frequency
                 .map(|k| format!("reduced frequency {k:.3}")),
         );
-        say(
-            "motion",
-            format!("`{}`: {}", w.report.name, parts.join(", ")),
-        );
+        let (name, parts) = (&w.report.name, parts.join(", "));
+        line!(report, "{:<10}`{name}`: {parts}", "motion");
     }
+    report.value("wings", e.wings.iter().map(wing).collect::<Vec<Value>>());
+    let speed = e.flight_speed;
     if let Some(f) = e.frequency {
-        let speed = e.flight_speed;
-        say("beat", format!("{f:.4} Hz, flight speed {speed:.3} m/s"));
-    }
-    if let Some(loading) = e.wing_loading {
-        say("loading", format!("{loading:.3} N per m2 of wing"));
-    }
-    let [x, y, z] = e.inertia.to_array();
-    say(
-        "inertia",
-        format!(
-            "of the body about its mass centre: roll {x:.3e}, pitch {y:.3e}, yaw {z:.3e} kg m2"
-        ),
-    );
-    if let Some(lift) = e.lift_over_weight {
-        say(
-            "lift",
-            format!("{lift:.2} weights on average as it starts, by blade elements"),
+        line!(
+            report,
+            "{:<10}{f:.4} Hz, flight speed {speed:.3} m/s",
+            "beat"
         );
     }
-    list
+    report.value("frequency_hz", e.frequency);
+    report.value("flight_speed_m_s", speed);
+    if let Some(loading) = e.wing_loading {
+        line!(report, "{:<10}{loading:.3} N per m2 of wing", "loading");
+    }
+    report.value("wing_loading_newton_m2", e.wing_loading);
+    let [x, y, z] = e.inertia.to_array();
+    line!(
+        report,
+        "{:<10}of the body about its mass centre: roll {x:.3e}, pitch {y:.3e}, yaw {z:.3e} kg m2",
+        "inertia"
+    );
+    report.value("inertia_roll_pitch_yaw_kg_m2", json!([x, y, z]));
+    if let Some(lift) = e.lift_over_weight {
+        line!(
+            report,
+            "{:<10}{lift:.2} weights on average as it starts, by blade elements",
+            "lift"
+        );
+    }
+    report.value("lift_over_weight", e.lift_over_weight);
+}
+
+/// What is known of a wing.
+fn wing(w: &WingEstimate) -> Value {
+    json!({
+        "name": w.report.name,
+        "length_m": w.report.length,
+        "area_m2": w.report.area,
+        "mean_chord_m": w.report.mean_chord,
+        "r2_hat": w.report.r2_hat,
+        "mass_kg": w.report.mass,
+        "stroke_deg": w.stroke_amplitude.to_degrees(),
+        "tip_speed_m_s": w.tip_speed,
+        "reynolds_number": w.reynolds,
+        "reduced_frequency": w.reduced_frequency,
+    })
 }
 
 /// Seconds that the whole flight will take and the largest wake, from some steps on trial.

@@ -8,6 +8,7 @@ use wingbeat::results::export::{self, Format};
 
 use crate::command::failure::Failure;
 use crate::command::options::choose;
+use crate::command::target::folder;
 use crate::command::terminal::say;
 
 /// Arguments of `wingbeat export`.
@@ -19,7 +20,7 @@ pub(crate) struct ExportArgs {
     #[arg(long, value_parser = format)]
     format: Format,
     /// Folder for the files; default the result directory.
-    #[arg(long, value_name = "DIR")]
+    #[arg(long, value_name = "DIR", value_parser = folder)]
     out: Option<PathBuf>,
     /// Replace files that exist already.
     #[arg(long)]

@@ -19,6 +19,7 @@ mod report;
 mod run;
 mod show;
 mod signals;
+mod target;
 mod terminal;
 mod velocity;
 mod verify;
@@ -58,7 +59,7 @@ fn run(command: Command) -> Result<(), Failure> {
         Command::Export(args) => export::export(&args),
         Command::Show(args) => show::show(&args),
         Command::Compare(args) => show::compare(&args),
-        Command::Check { case, set, trial } => check::check(&case, &set, trial),
+        Command::Check(args) => check::check(&args),
         Command::Trim(args) => analyse::trim::run(&args),
         Command::Stability(args) => analyse::stability::run(&args),
         Command::Derivatives(args) => analyse::derivatives::run(&args),
@@ -66,10 +67,7 @@ fn run(command: Command) -> Result<(), Failure> {
         Command::Stabilise(args) => analyse::stabilise::run(&args),
         Command::Velocity(args) => velocity::run(&args),
         Command::Verify(args) => verify::run(&args),
-        Command::Presets => {
-            new::list();
-            Ok(())
-        }
+        Command::Presets(args) => new::list(&args),
         Command::New(args) => new::new(&args),
         Command::Schema => {
             say!("{}", case::schema());

@@ -2,46 +2,177 @@
 
 use std::path::PathBuf;
 
-use clap::Args;
+use clap::{Args, ValueEnum};
+use serde_json::json;
+use wingbeat::case::insect::{self, InsectAir, SPECIES, Size};
 use wingbeat::case::{self, presets};
-use wingbeat::results::file::NewFile;
+use wingbeat::results::file::write_file;
 
 use crate::command::failure::Failure;
+use crate::command::options;
+use crate::command::report::{ReportArgs, line};
+use crate::command::target::Target;
 use crate::command::terminal::say;
 
 /// Arguments of `wingbeat new`.
 #[derive(Args)]
+#[command(override_usage = USAGE)]
 pub(crate) struct NewArgs {
-    /// Name of the preset.
-    preset: String,
-    /// File to write; default PRESET.toml.
+    /// Name of the preset; left out where --species, --mass or --wing says what to write.
+    preset: Option<String>,
+    /// File to write, - for the standard output; default NAME.toml.
     file: Option<PathBuf>,
-    /// Replace the file if there is one.
+    /// An insect of this species; `wingbeat presets` lists them.
+    #[arg(long, value_name = "NAME", help_heading = INSECT,
+          conflicts_with_all = ["mass", "wing", "frequency"])]
+    species: Option<String>,
+    /// An insect of this mass, e.g. 100mg; what is not given follows from scaling laws.
+    #[arg(long, help_heading = INSECT, value_parser = options::mass, allow_hyphen_values = true)]
+    mass: Option<f64>,
+    /// Length of a wing, hinge to tip, e.g. 9.7mm.
+    #[arg(long, value_name = "LENGTH", help_heading = INSECT,
+          value_parser = options::wing_length, allow_hyphen_values = true)]
+    wing: Option<f64>,
+    /// Wingbeats per second, e.g. 230.
+    #[arg(long, value_name = "HERTZ", help_heading = INSECT,
+          value_parser = options::frequency, allow_hyphen_values = true)]
+    frequency: Option<f64>,
+    /// The air of an insect: blade elements, or the vortex lattice with wakes [default: blade].
+    #[arg(long, value_enum, help_heading = INSECT)]
+    air: Option<Air>,
+    /// Write the schema for editors beside it, too.
+    #[arg(long)]
+    schema: bool,
+    /// Replace files that exist already.
     #[arg(long)]
     overwrite: bool,
 }
 
+/// Heading of these options in the help.
+const INSECT: &str = "An insect of your own";
+
+const USAGE: &str = "wingbeat new PRESET [FILE] [OPTIONS]
+       wingbeat new --species NAME [FILE] [OPTIONS]
+       wingbeat new [--mass MASS] [--wing LENGTH] [--frequency HERTZ] [FILE] [OPTIONS]";
+
+/// The air of a new case.
+#[derive(Clone, Copy, ValueEnum)]
+enum Air {
+    /// Quasi-steady blade elements: seconds a flight.
+    Blade,
+    /// Unsteady vortex lattice with free wakes: minutes.
+    Lattice,
+}
+
+impl NewArgs {
+    fn size(&self) -> Size {
+        Size {
+            mass: self.mass,
+            wing_length: self.wing,
+            frequency: self.frequency,
+        }
+    }
+
+    fn asks_for_an_insect(&self) -> bool {
+        self.species.is_some() || self.size() != Size::default()
+    }
+
+    /// The name of the new case, its text, and the file that is named.
+    fn case(&self) -> Result<(String, String, Option<PathBuf>), Failure> {
+        if self.asks_for_an_insect() {
+            return self.insect();
+        }
+        let Some(name) = &self.preset else {
+            let problem = "name a preset, or an insect by --species, --mass or --wing; `wingbeat presets` lists both";
+            return Err(Failure::Option(problem.to_owned()));
+        };
+        let preset = presets::find(name)?;
+        if self.air.is_some() {
+            let problem = "--air has no effect on a preset, which has its own; leave it out, or set air.model in the file";
+            return Err(Failure::Option(problem.to_owned()));
+        }
+        Ok((name.clone(), preset.text.to_owned(), self.file.clone()))
+    }
+
+    /// The same of an insect of one's own.
+    fn insect(&self) -> Result<(String, String, Option<PathBuf>), Failure> {
+        if self.file.is_some() {
+            let problem = "--species, --mass and --wing write one file instead of a preset; name the file alone";
+            return Err(Failure::Option(problem.to_owned()));
+        }
+        let name = self.preset.as_deref();
+        if name.is_some_and(|name| presets::find(name).is_ok()) {
+            let problem = "a preset and an insect are two cases; name one of them, and the file with its ending";
+            return Err(Failure::Option(problem.to_owned()));
+        }
+        let air = match self.air {
+            None | Some(Air::Blade) => InsectAir::BladeElement,
+            Some(Air::Lattice) => InsectAir::Lattice,
+        };
+        let (name, text) = match &self.species {
+            Some(name) => (name.as_str(), insect::case_of_species(name, air)?),
+            None => ("insect", insect::case_of_size(&self.size(), air)?),
+        };
+        let file = self.preset.as_ref().map(PathBuf::from);
+        Ok((name.to_owned(), text, file))
+    }
+}
+
 /// `wingbeat new`.
 pub(crate) fn new(args: &NewArgs) -> Result<(), Failure> {
-    let preset = presets::find(&args.preset)?;
-    let named = || PathBuf::from(format!("{}.toml", preset.name));
-    let file = NewFile::claim(&args.file.clone().unwrap_or_else(named), args.overwrite)?;
-    file.write(preset.text.as_bytes())?;
-    say!(
-        "wrote {0}; fly it with `wingbeat run {0}`",
-        file.path().display()
-    );
+    let (name, text, file) = args.case()?;
+    let path = file.unwrap_or_else(|| PathBuf::from(format!("{name}.toml")));
+    let target = Target::claim(&path, args.overwrite)?;
+    if args.schema {
+        write_schema(&target, args.overwrite)?;
+    }
+    target.write(&case::with_schema(&text))?;
+    if let Some(path) = target.path() {
+        say!("wrote {0}; fly it with `wingbeat run {0}`", path.display());
+    }
+    Ok(())
+}
+
+/// Writes the schema beside a case.
+fn write_schema(case: &Target, overwrite: bool) -> Result<(), Failure> {
+    let Some(path) = case.path() else {
+        let problem = "--schema writes a file beside the case, which has none on the standard output; `wingbeat schema` prints it";
+        return Err(Failure::Option(problem.to_owned()));
+    };
+    let file = path.with_file_name(case::SCHEMA_FILE);
+    write_file(&file, case::schema().as_bytes(), overwrite)?;
+    say!("wrote {}", file.display());
     Ok(())
 }
 
 /// `wingbeat presets`.
-pub(crate) fn list() {
-    say!("Presets (wingbeat run NAME, wingbeat new NAME):");
-    for preset in presets::PRESETS {
-        say!("  {:<27}{}", preset.name, preset.line());
-    }
-    say!("\nSets of wing angles (motion.data):");
-    for (name, line) in case::data_sets() {
-        say!("  {name:<28}{line}");
-    }
+pub(crate) fn list(args: &ReportArgs) -> Result<(), Failure> {
+    args.deliver([], |report, []| {
+        line!(report, "Presets (wingbeat run NAME, wingbeat new NAME):");
+        for preset in presets::PRESETS {
+            line!(report, "  {:<27}{}", preset.name, preset.line());
+        }
+        line!(report, "\nSpecies (wingbeat new --species NAME):");
+        for s in SPECIES {
+            line!(
+                report,
+                "  {:<27}{}, {:.4} mg",
+                s.name,
+                s.latin,
+                1e6 * s.mass
+            );
+        }
+        line!(report, "\nSets of wing angles (motion.data):");
+        for (name, about) in case::data_sets() {
+            line!(report, "  {name:<28}{about}");
+        }
+        let named = |name: &str, about: &str| json!({ "name": name, "about": about });
+        let all = presets::PRESETS.iter().map(|p| named(p.name, p.line()));
+        report.value("presets", all.collect::<Vec<_>>());
+        report.value("species", SPECIES.map(|s| named(s.name, s.latin)).to_vec());
+        let sets = case::data_sets().into_iter();
+        let sets = sets.map(|(name, about)| named(name, &about));
+        report.value("wing_angles", sets.collect::<Vec<_>>());
+        Ok(())
+    })
 }

@@ -42,6 +42,47 @@ pub(crate) fn share(text: &str) -> Result<f64, String> {
     number(text, |x| x > 0.0 && x <= 1.0, "a share above 0 and up to 1")
 }
 
+/// A number with its unit, e.g. `100mg`; in SI units.
+fn quantity(
+    text: &str,
+    units: &[(&str, f64)],
+    allowed: impl Fn(f64) -> bool,
+    range: &str,
+) -> Result<f64, String> {
+    let text = text.trim();
+    let split = text.len() - text.chars().rev().take_while(|c| c.is_alphabetic()).count();
+    let (value, unit) = text.split_at_checked(split).unwrap_or((text, ""));
+    let scale = units.iter().find(|u| u.0 == unit).map(|u| u.1);
+    let value = scale.and_then(|scale| Some(scale * value.trim().parse::<f64>().ok()?));
+    let value = value.filter(|x| x.is_finite() && allowed(*x));
+    value.ok_or_else(|| format!("give {range}"))
+}
+
+/// The mass of an insect [kg].
+pub(crate) fn mass(text: &str) -> Result<f64, String> {
+    let units = [("ug", 1e-9), ("mg", 1e-6), ("g", 1e-3), ("kg", 1.0)];
+    let range = "a mass with its unit (ug, mg, g, kg) from 20ug to 50g, e.g. 100mg";
+    quantity(text, &units, |x| (2e-8..=5e-2).contains(&x), range)
+}
+
+/// The wing length of an insect [m].
+pub(crate) fn wing_length(text: &str) -> Result<f64, String> {
+    let units = [("um", 1e-6), ("mm", 1e-3), ("cm", 1e-2), ("m", 1.0)];
+    let range = "a length with its unit (um, mm, cm, m) from 0.3mm to 20cm, e.g. 9.7mm";
+    quantity(text, &units, |x| (3e-4..=0.2).contains(&x), range)
+}
+
+/// A wingbeat frequency [Hz].
+pub(crate) fn frequency(text: &str) -> Result<f64, String> {
+    let range = "a frequency in Hz from 1 to 1200, e.g. 230 or 230Hz";
+    quantity(
+        text,
+        &[("", 1.0), ("Hz", 1.0)],
+        |x| (1.0..=1200.0).contains(&x),
+        range,
+    )
+}
+
 /// Megabytes of a page.
 pub(crate) fn megabytes(text: &str) -> Result<f64, String> {
     number(
@@ -118,5 +159,27 @@ mod tests {
             (Ok(-0.4), Ok(1.0), Ok(-180.0))
         );
         assert_eq!(count::<1, 10>("10"), Ok(10));
+    }
+
+    #[test]
+    fn refuses_sizes_without_unit_or_out_of_range() {
+        for text in [
+            "100", "mg", "", "100 lb", "-1mg", "nanmg", "infmg", "1e9mg", "100Mg", "1mgé",
+        ] {
+            assert!(mass(text).is_err(), "{text}");
+        }
+        for text in ["9.7", "0mm", "1m", "9.7mg", "1e-400m"] {
+            assert!(wing_length(text).is_err(), "{text}");
+        }
+        for text in ["0", "-5", "1e4", "230rpm", "Hz"] {
+            assert!(frequency(text).is_err(), "{text}");
+        }
+        let close = |x: Result<f64, String>, y: f64| (x.unwrap() / y - 1.0).abs() < 1e-15;
+        assert!(close(mass("100mg"), 1e-4) && close(mass("0.1 g"), 1e-4));
+        assert!(close(wing_length("9.7mm"), 9.7e-3) && close(wing_length("0.97cm"), 9.7e-3));
+        assert_eq!(
+            (frequency("230"), frequency("230Hz")),
+            (Ok(230.0), Ok(230.0))
+        );
     }
 }

@@ -8,6 +8,7 @@ use wingbeat::results::ResultDir;
 
 use crate::command::failure::Failure;
 use crate::command::options::{self, choose};
+use crate::command::target::folder;
 use crate::command::terminal::say;
 
 /// Arguments of `wingbeat plot`.
@@ -41,7 +42,7 @@ pub(crate) struct PlotArgs {
           value_parser = options::positive)]
     beats: Option<f64>,
     /// Folder for the files; default DIR/figures, DIR/figures/paper for papers.
-    #[arg(long, value_name = "FOLDER")]
+    #[arg(long, value_name = "FOLDER", value_parser = folder)]
     out: Option<PathBuf>,
     /// Replace figures that are there already.
     #[arg(long)]

@@ -7,9 +7,10 @@ use std::path::PathBuf;
 use clap::Args;
 use serde_json::{Map, Value};
 use wingbeat::case::IoError;
-use wingbeat::results::file::NewFile;
+use wingbeat::results::Summary;
 
 use crate::command::failure::Failure;
+use crate::command::target::{self, Target};
 use crate::command::terminal;
 
 /// Heading of these options in the help.
@@ -21,7 +22,7 @@ pub(crate) struct ReportArgs {
     /// As one JSON object; units in the names.
     #[arg(long, help_heading = HEADING)]
     json: bool,
-    /// Write the report to a file instead of the terminal.
+    /// Write the report to a file instead of the terminal; - is the standard output.
     #[arg(long, value_name = "FILE", help_heading = HEADING)]
     out: Option<PathBuf>,
     /// Replace files that exist already.
@@ -32,9 +33,19 @@ pub(crate) struct ReportArgs {
 /// A report in the making.
 pub(crate) struct Report {
     json: bool,
-    file: Option<NewFile>,
+    place: Place,
     text: String,
     values: Map<String, Value>,
+}
+
+/// Where a report goes.
+enum Place {
+    /// The standard output, word by word.
+    Output,
+    /// The standard error: the standard output is taken by another text of the command.
+    Error,
+    /// A file, at the end.
+    File(Target),
 }
 
 /// A paragraph or line of a report, as `println!`.
@@ -52,24 +63,17 @@ impl ReportArgs {
     pub(crate) fn deliver<const N: usize>(
         &self,
         others: [&Option<PathBuf>; N],
-        analysis: impl FnOnce(&mut Report, [Option<NewFile>; N]) -> Result<(), Failure>,
+        analysis: impl FnOnce(&mut Report, [Option<Target>; N]) -> Result<(), Failure>,
     ) -> Result<(), Failure> {
-        let named = self.out.is_some() || others.iter().any(|f| f.is_some());
-        if self.overwrite && !named {
-            let problem = "--overwrite replaces nothing: no file is named to write";
-            return Err(Failure::Option(problem.to_owned()));
-        }
-        let claim = |path: &Option<PathBuf>| -> Result<Option<NewFile>, IoError> {
-            let claimed = path.as_ref().map(|p| NewFile::claim(p, self.overwrite));
-            claimed.transpose()
-        };
+        let place = self.place(&others)?;
+        let claim = |path: &PathBuf| Target::claim(path, self.overwrite);
         let mut files = [const { None }; N];
         for (file, path) in files.iter_mut().zip(others) {
-            *file = claim(path)?;
+            *file = path.as_ref().map(claim).transpose()?;
         }
         let mut report = Report {
             json: self.json,
-            file: claim(&self.out)?,
+            place,
             text: String::new(),
             values: Map::new(),
         };
@@ -77,15 +81,50 @@ impl ReportArgs {
         report.finish()?;
         outcome
     }
+
+    /// Where the report goes beside the `others`: what is named `-` has the standard output for itself.
+    fn place(&self, others: &[&Option<PathBuf>]) -> Result<Place, Failure> {
+        let refused = |problem: &str| Err(Failure::Option(problem.to_owned()));
+        let is_output = |path: &&PathBuf| Target::is_output(path);
+        let named: Vec<&PathBuf> = others
+            .iter()
+            .copied()
+            .chain([&self.out])
+            .flatten()
+            .collect();
+        if self.overwrite && named.iter().all(is_output) {
+            return refused("--overwrite replaces nothing: no file is named to write");
+        }
+        let files = named.iter().filter(|p| !is_output(p));
+        let files: Vec<PathBuf> = files.map(|p| target::place_of(p)).collect();
+        if (1..files.len()).any(|k| files[..k].contains(&files[k])) {
+            return refused("two texts cannot share a file; name one for each");
+        }
+        let taken = others.iter().copied().flatten().filter(is_output).count();
+        let reports_there = self.out.as_ref().map_or(self.json, |p| is_output(&p));
+        if taken + usize::from(reports_there) > 1 {
+            return refused(
+                "two texts cannot share the standard output; name files for all but one of them, the report with --out FILE",
+            );
+        }
+        match &self.out {
+            Some(path) if !is_output(&path) => {
+                Ok(Place::File(Target::claim(path, self.overwrite)?))
+            }
+            None if taken > 0 => Ok(Place::Error),
+            _ => Ok(Place::Output),
+        }
+    }
 }
 
 impl Report {
     /// Words for people; on the terminal they are said at once.
     pub(crate) fn words(&mut self, words: Arguments<'_>) {
-        match (self.json, &self.file) {
+        match (self.json, &self.place) {
             (true, _) => {}
-            (false, None) => terminal::output(words),
-            (false, Some(_)) => {
+            (false, Place::Output) => terminal::output(words),
+            (false, Place::Error) => terminal::errors(words),
+            (false, Place::File(_)) => {
                 let _ = self.text.write_fmt(words); // a string takes everything
             }
         }
@@ -96,14 +135,31 @@ impl Report {
         self.values.insert(name.to_owned(), value.into());
     }
 
+    /// A summary, its verdict in colour where it is said on a terminal that shows colours.
+    pub(crate) fn summary(&mut self, summary: &Summary) {
+        let text = match self.place {
+            Place::Output => terminal::judged(summary),
+            Place::Error | Place::File(_) => summary.to_text(),
+        };
+        self.words(format_args!("{text}"));
+    }
+
+    /// Says that a case was written, where it went to a file.
+    pub(crate) fn wrote(&mut self, case: &Target) {
+        if let Some(path) = case.path() {
+            let path = path.display();
+            line!(self, "\nwrote {path}; fly it with `wingbeat run {path}`");
+        }
+    }
+
     fn finish(mut self) -> Result<(), IoError> {
         if self.json && !self.values.is_empty() {
             self.text = format!("{}\n", Value::Object(self.values));
         }
-        match self.file {
-            Some(file) if !self.text.is_empty() => file.write(self.text.as_bytes()),
-            Some(_) => Ok(()),
-            None => {
+        match self.place {
+            _ if self.text.is_empty() => Ok(()),
+            Place::File(file) => file.write(&self.text),
+            Place::Output | Place::Error => {
                 terminal::output(format_args!("{}", self.text));
                 Ok(())
             }

@@ -13,16 +13,17 @@ use crate::command::failure::{FAILED, Failure, INTERRUPTED};
 use crate::command::options::RunOptions;
 use crate::command::progress::Progress;
 use crate::command::signals::stop_flag;
-use crate::command::terminal::{say, tell};
+use crate::command::target::folder;
+use crate::command::terminal::{self, say, tell};
 
 /// Arguments of `wingbeat run`.
 #[derive(Args)]
 pub(crate) struct RunArgs {
-    /// Case file or preset.
+    /// Case file or preset; - is the standard input.
     #[arg(default_value = presets::DEFAULT)]
     case: String,
     /// Result directory; default results/NAME, with a number appended if that exists.
-    #[arg(long, value_name = "DIR")]
+    #[arg(long, value_name = "DIR", value_parser = folder)]
     out: Option<PathBuf>,
     /// Replace an earlier run in the result directory.
     #[arg(long, requires = "out")]
@@ -181,7 +182,8 @@ fn fly(options: &RunOptions, mut run: Run, stop: &AtomicBool) -> Result<(), Fail
     match run.writer.finish(outcome.clone(), draw_run) {
         Ok(summary) if options.json => say!("{}", summary.to_json_line(&path)),
         Ok(summary) if !options.quiet => {
-            say!("\n{}\nResults: {}", summary.to_text(), path.display());
+            let text = terminal::judged(&summary);
+            say!("\n{text}\nResults: {}", path.display());
         }
         Ok(_) => {}
         Err(e) => {

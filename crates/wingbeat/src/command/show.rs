@@ -3,24 +3,23 @@
 use std::path::{Path, PathBuf};
 
 use clap::Args;
+use serde_json::json;
 use wingbeat::case::IoError;
-use wingbeat::case::differences;
+use wingbeat::case::{Difference, differences};
 use wingbeat::draw::page;
-use wingbeat::results::file::NewFile;
 use wingbeat::results::fixed::fixed;
 use wingbeat::results::{Manifest, ResultDir, Summary};
 
 use crate::command::failure::Failure;
-use crate::command::terminal::say;
+use crate::command::report::{Report, ReportArgs, line};
 
 /// Arguments of `wingbeat show`.
 #[derive(Args)]
 pub(crate) struct ShowArgs {
     /// Result directory of the run.
     dir: PathBuf,
-    /// As JSON: summary and manifest.
-    #[arg(long)]
-    json: bool,
+    #[command(flatten)]
+    report: ReportArgs,
 }
 
 /// Arguments of `wingbeat compare`.
@@ -30,15 +29,12 @@ pub(crate) struct CompareArgs {
     first: PathBuf,
     /// Result directory of another run.
     second: PathBuf,
-    /// As JSON.
-    #[arg(long)]
-    json: bool,
-    /// Write both flights, side by side and in step, as a page (HTML) into this file.
-    #[arg(long, value_name = "FILE", conflicts_with = "json")]
+    /// Write both flights, side by side and in step, as a page (HTML) into this file, too;
+    /// - is the standard output.
+    #[arg(long, value_name = "FILE")]
     page: Option<PathBuf>,
-    /// Replace the page if it is there already.
-    #[arg(long, requires = "page")]
-    overwrite: bool,
+    #[command(flatten)]
+    report: ReportArgs,
 }
 
 fn read(dir: &Path) -> Result<(Summary, Manifest), IoError> {
@@ -50,63 +46,71 @@ fn read(dir: &Path) -> Result<(Summary, Manifest), IoError> {
 
 /// `wingbeat show`: the summary made again from the history, whatever state the run is in.
 pub(crate) fn show(args: &ShowArgs) -> Result<(), Failure> {
-    let (summary, manifest) = read(&args.dir)?;
-    if args.json {
-        say!(
-            "{}",
-            serde_json::json!({ "summary": summary, "manifest": manifest })
+    args.report.deliver([], |report, []| {
+        let (summary, manifest) = read(&args.dir)?;
+        report.summary(&summary);
+        line!(
+            report,
+            "\nwingbeat {}, {} threads, {:.1} s of which {:.2} s writing, {} frames",
+            manifest.version,
+            manifest.threads,
+            manifest.wall_time_s,
+            manifest.writing_time_s,
+            manifest.frames
         );
-        return Ok(());
-    }
-    say!("{}", summary.to_text().trim_end_matches('\n'));
-    say!(
-        "\nwingbeat {}, {} threads, {:.1} s of which {:.2} s writing, {} frames",
-        manifest.version,
-        manifest.threads,
-        manifest.wall_time_s,
-        manifest.writing_time_s,
-        manifest.frames
-    );
-    Ok(())
+        report.value("summary", json!(summary));
+        report.value("manifest", json!(manifest));
+        Ok(())
+    })
 }
 
 /// `wingbeat compare`: keys in which the cases differ, and the same numbers side by side.
 pub(crate) fn compare(args: &CompareArgs) -> Result<(), Failure> {
-    if let Some(file) = &args.page {
-        return write_pair(args, &NewFile::claim(file, args.overwrite)?);
-    }
-    let [first, second] = [read(&args.first)?, read(&args.second)?];
-    let case = |dir: &Path| ResultDir::open(dir)?.case();
-    let keys = differences(&case(&args.first)?, &case(&args.second)?);
-    let rows = first.0.beside(&second.0);
-    if args.json {
-        let numbers: Vec<_> = rows
-            .iter()
-            .map(|(what, a, b)| serde_json::json!({ "what": what, "first": a, "second": b }))
-            .collect();
-        say!(
-            "{}",
-            serde_json::json!({ "keys": keys, "numbers": numbers })
-        );
-        return Ok(());
-    }
-    let (first, second) = (args.first.display(), args.second.display());
+    args.report.deliver([&args.page], |report, [page]| {
+        let dirs = [&args.first, &args.second];
+        let [first, second] = [read(dirs[0])?, read(dirs[1])?];
+        let case = |dir: &Path| ResultDir::open(dir)?.case();
+        let keys = differences(&case(dirs[0])?, &case(dirs[1])?);
+        tell_keys(report, dirs, &keys);
+        tell_numbers(report, &first.0.beside(&second.0));
+        if let Some(file) = page {
+            let [first, second] = [ResultDir::read(dirs[0])?, ResultDir::read(dirs[1])?];
+            let text = page::pair([&first, &second], 2 * page::DEFAULT_BYTES)?;
+            file.write(&text)?;
+            if let Some(path) = file.path() {
+                line!(report, "\nwrote {}", path.display());
+            }
+        }
+        Ok(())
+    })
+}
+
+fn tell_keys(report: &mut Report, dirs: [&PathBuf; 2], keys: &[Difference]) {
+    let [first, second] = dirs.map(|d| d.display());
     match keys.is_empty() {
-        true => say!("{first} and {second}: the same case\n"),
-        false => say!("{first} and {second}: cases that differ in\n"),
+        true => line!(report, "{first} and {second}: the same case\n"),
+        false => line!(report, "{first} and {second}: cases that differ in\n"),
     }
-    for d in &keys {
+    for d in keys {
         let or_none = |value: &Option<String>| value.clone().unwrap_or_else(|| "-".to_owned());
-        say!(
+        line!(
+            report,
             "  {:<36}{:>14}  {:>14}",
             d.key,
             or_none(&d.first),
             or_none(&d.second)
         );
     }
-    say!(
-        "{}{:<38}{:>14}{:>14}{:>14}{:>11}",
-        if keys.is_empty() { "" } else { "\n" },
+    if !keys.is_empty() {
+        line!(report, "");
+    }
+    report.value("keys", json!(keys));
+}
+
+fn tell_numbers(report: &mut Report, rows: &[(String, f64, f64)]) {
+    line!(
+        report,
+        "{:<38}{:>14}{:>14}{:>14}{:>11}",
         "",
         "first",
         "second",
@@ -116,7 +120,8 @@ pub(crate) fn compare(args: &CompareArgs) -> Result<(), Failure> {
     for (what, a, b) in rows {
         let scale = a.abs().max(b.abs());
         let relative = if scale > 0.0 { (b - a) / scale } else { 0.0 };
-        say!(
+        line!(
+            report,
             "{what:<38}{:>14.5e}{:>14.5e}{:>14.5e}{:>10}%",
             a + 0.0,
             b + 0.0,
@@ -124,17 +129,7 @@ pub(crate) fn compare(args: &CompareArgs) -> Result<(), Failure> {
             fixed(100.0 * relative, 2)
         );
     }
-    Ok(())
-}
-
-/// Both flights as one page.
-fn write_pair(args: &CompareArgs, file: &NewFile) -> Result<(), Failure> {
-    let [first, second] = [
-        ResultDir::read(&args.first)?,
-        ResultDir::read(&args.second)?,
-    ];
-    let page = page::pair([&first, &second], 2 * page::DEFAULT_BYTES)?;
-    file.write(page.as_bytes())?;
-    say!("wrote {}", file.path().display());
-    Ok(())
+    let numbers = rows.iter();
+    let numbers = numbers.map(|(what, a, b)| json!({ "what": what, "first": a, "second": b }));
+    report.value("numbers", numbers.collect::<Vec<_>>());
 }

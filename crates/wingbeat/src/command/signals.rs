@@ -1,7 +1,9 @@
 //! Ctrl-C, SIGTERM and hang-up: the first ends a flight after its step, a second one at once.
 
 use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::AtomicBool;
+#[cfg(unix)]
+use std::sync::atomic::Ordering;
 
 use signal_hook::consts::{SIGINT, SIGTERM};
 

@@ -6,8 +6,12 @@
 
 use std::borrow::Cow;
 use std::fmt::Arguments;
-use std::io::{self, ErrorKind, Write};
+use std::io::{self, ErrorKind, IsTerminal, Write};
 use std::sync::{Mutex, PoisonError};
+
+use clap::builder::styling::AnsiColor;
+use wingbeat::results::Summary;
+use wingbeat::results::summary::Verdict;
 
 /// Exit code of a command whose work is done, but whose words are lost.
 const UNSAID: u8 = 1;
@@ -59,6 +63,27 @@ pub(crate) fn output(text: Arguments<'_>) {
 pub(crate) fn errors(text: Arguments<'_>) {
     let text = text.to_string();
     ERRORS.print(|| io::stderr().write_all(abridged(&text).as_bytes()));
+}
+
+/// A summary in words, the word of its verdict in its colour where the standard output shows colours.
+pub(crate) fn judged(summary: &Summary) -> String {
+    let variable = |name: &str| std::env::var(name).unwrap_or_default();
+    let is_plain = !variable("NO_COLOR").is_empty() || variable("TERM") == "dumb";
+    coloured(summary, io::stdout().is_terminal() && !is_plain)
+}
+
+fn coloured(summary: &Summary, in_colours: bool) -> String {
+    let text = summary.to_text();
+    let colour = match summary.verdict {
+        Verdict::Green => AnsiColor::Green,
+        Verdict::Amber => AnsiColor::Yellow,
+        Verdict::Red => AnsiColor::Red,
+    };
+    let (style, word) = (colour.on_default().bold(), summary.verdict.word());
+    match text.strip_prefix(word) {
+        Some(rest) if in_colours => format!("{style}{word}{style:#}{rest}"),
+        _ => text,
+    }
 }
 
 /// Words longer than this many characters are not said in full.
@@ -118,6 +143,22 @@ pub(crate) fn close(code: u8) -> u8 {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn behaves_only_the_word_of_a_verdict_is_coloured() {
+        let case = wingbeat::case::LoadedCase::find("fruit-fly-blade", &[]).unwrap();
+        let record = wingbeat::flight::Record::default();
+        let failed = wingbeat::results::Outcome::Failed("it fell".to_owned());
+        let summary = Summary::of(&case.setup, &[record], &failed);
+        let text = summary.to_text();
+        assert_eq!(coloured(&summary, false), text);
+        let red = coloured(&summary, true);
+        assert!(
+            red.starts_with("\u{1b}[1m\u{1b}[31mred\u{1b}[0m: it ended early"),
+            "{red}"
+        );
+        assert_eq!(red.split_once("[0m").unwrap().1, &text["red".len()..]);
+    }
 
     #[test]
     fn behaves_only_very_long_words_are_abridged() {

@@ -1,15 +1,17 @@
 //! `wingbeat verify`: run the verification suite and write its report.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 use std::time::Instant;
 
 use clap::Args;
+use serde_json::json;
 use wingbeat::case::IoError;
 use wingbeat::results::file::NewFile;
 use wingbeat::verify::{Case, Entry, Report};
 
 use crate::command::failure::{FAILED, Failure};
+use crate::command::target::folder;
 use crate::command::terminal::{say, tell};
 use crate::command::watch::Watch;
 
@@ -23,7 +25,7 @@ pub(crate) struct VerifyArgs {
     #[arg(long, value_name = "TEXT", default_value = "")]
     only: String,
     /// Folder for verification.md, .csv and .json.
-    #[arg(long, value_name = "DIR", default_value = "verification")]
+    #[arg(long, value_name = "DIR", default_value = "verification", value_parser = folder)]
     out: PathBuf,
     /// Go on where an earlier run into the same folder ended: its cases are taken as they are,
     /// those named by `--only` run again.
@@ -35,6 +37,9 @@ pub(crate) struct VerifyArgs {
     /// Names and contents of the cases; nothing is run.
     #[arg(long)]
     list: bool,
+    /// The result, or the list, as one JSON object.
+    #[arg(long)]
+    json: bool,
 }
 
 /// The whole command: a failure if a row fails.
@@ -47,7 +52,14 @@ pub(crate) fn run(args: &VerifyArgs) -> Result<(), Failure> {
         )));
     }
     if args.list {
-        cases.iter().for_each(|c| say!("{:<28}{}", c.name, c.about));
+        let named = |c: &Case| json!({ "name": c.name, "about": c.about });
+        match args.json {
+            true => say!(
+                "{}",
+                json!({ "cases": cases.iter().map(named).collect::<Vec<_>>() })
+            ),
+            false => cases.iter().for_each(|c| say!("{:<28}{}", c.name, c.about)),
+        }
         return Ok(());
     }
     let files = claim(args)?;
@@ -67,16 +79,29 @@ pub(crate) fn run(args: &VerifyArgs) -> Result<(), Failure> {
         entries: so_far.into_inner().expect("no case panicked while writing"),
     };
     write(&report, &files)?;
-    let [pass, fail, unjudged] = report.counts();
-    say!(
-        "{pass} rows pass, {fail} fail, {unjudged} are reported; {:.0} s; see {}",
-        start.elapsed().as_secs_f64(),
-        files[0].path().display()
-    );
-    match fail {
-        0 => Ok(()),
+    tell_result(args, &report, start, files[0].path());
+    match report.counts() {
+        [_, 0, _] => Ok(()),
         _ => Err(Failure::Told(FAILED)),
     }
+}
+
+/// How many rows pass, and where to read about them.
+fn tell_result(args: &VerifyArgs, report: &Report, start: Instant, page: &Path) {
+    let [pass, fail, unjudged] = report.counts();
+    let seconds = start.elapsed().as_secs_f64();
+    if args.json {
+        let rows = json!({ "pass": pass, "fail": fail, "reported": unjudged });
+        say!(
+            "{}",
+            json!({ "rows": rows, "seconds": seconds, "report": page })
+        );
+        return;
+    }
+    say!(
+        "{pass} rows pass, {fail} fail, {unjudged} are reported; {seconds:.0} s; see {}",
+        page.display()
+    );
 }
 
 /// The files of the report, page, table and data.

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 use std::fs;
+use std::io::Write as _;
 use std::os::unix::process::ExitStatusExt;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
@@ -19,6 +20,8 @@ const PATIENCE: Duration = Duration::from_secs(10);
 pub enum Wanted {
     /// Refused with a reason, exit code 2, nothing written.
     Refused,
+    /// Right: done, exit code 0.
+    Done,
     /// Not wrong in itself: any true exit code, but no panic and no file changed.
     Survived,
 }
@@ -59,17 +62,37 @@ impl Field {
 
     /// One attack; what is wrong with its end is noted.
     pub fn attack(&mut self, wanted: Wanted, args: &[&str]) {
+        self.within(wanted, "", b"", args);
+    }
+
+    /// One attack with this on the standard input.
+    pub fn fed(&mut self, wanted: Wanted, input: &[u8], args: &[&str]) {
+        self.within(wanted, "", input, args);
+    }
+
+    /// One attack after these commands of a shell; the exit code.
+    pub fn within(
+        &mut self,
+        wanted: Wanted,
+        around: &str,
+        input: &[u8],
+        args: &[&str],
+    ) -> Option<i32> {
         self.count += 1;
-        let limit = format!("ulimit -v {MEMORY}; exec \"$0\" \"$@\"");
+        let limit = format!("ulimit -v {MEMORY}; {around} exec \"$0\" \"$@\"");
         let mut command = Command::new("sh");
         command
             .args(["-c", &limit, env!("CARGO_BIN_EXE_wingbeat")])
             .args(args);
-        command.current_dir(self.dir()).stdin(Stdio::null());
+        command.current_dir(self.dir()).stdin(Stdio::piped());
         command.stdout(Stdio::piped()).stderr(Stdio::piped());
         let began = Instant::now();
         let mut child = command.spawn().unwrap();
         let pid = child.id();
+        let (mut stdin, input) = (child.stdin.take().unwrap(), input.to_vec());
+        let feeding = std::thread::spawn(move || {
+            let _ = stdin.write_all(&input); // who refuses at once does not read it
+        });
         // What it says fits into a pipe, or it is read by nobody and time runs out.
         while child.try_wait().unwrap().is_none() && began.elapsed() < PATIENCE {
             std::thread::sleep(Duration::from_millis(2));
@@ -79,6 +102,7 @@ impl Field {
             child.kill().unwrap();
         }
         let out = child.wait_with_output().unwrap();
+        feeding.join().unwrap();
         let said = String::from_utf8_lossy(&out.stderr).into_owned();
         let mut problems = vec![];
         if late {
@@ -90,10 +114,23 @@ impl Field {
             problems.push("a panic".to_owned());
         }
         let code = out.status.code();
+        // What is said into a closed or full stream is not seen here.
+        let is_quiet = args.contains(&"--quiet") || around.contains("exec ");
+        if code == Some(0)
+            && !is_quiet
+            && out.stdout.is_empty()
+            && said.is_empty()
+            && self.before == contents(self.dir())
+        {
+            problems.push("nothing done and nothing said".to_owned());
+        }
         if wanted == Wanted::Refused && !late && code != Some(2) {
             problems.push(format!("exit code {code:?}"));
         }
-        if code.is_some_and(|c| c != 0) && said.trim().is_empty() {
+        if wanted == Wanted::Done && code != Some(0) {
+            problems.push(format!("exit code {code:?}"));
+        }
+        if code.is_some_and(|c| c != 0) && said.trim().is_empty() && !around.contains("2>") {
             problems.push("no reason".to_owned());
         }
         if let Some(word) = rust_words(&said) {
@@ -107,13 +144,20 @@ impl Field {
         if !problems.is_empty() {
             let args: Vec<String> = args.iter().map(|a| a.chars().take(80).collect()).collect();
             let said: String = said.chars().take(400).collect();
+            let problems = problems.join(", ");
             self.failures
-                .push(format!("[{pid}] {args:?}: {}\n{said}", problems.join(", ")));
+                .push(format!("[{pid}] {around} {args:?}: {problems}\n{said}"));
         }
+        code
     }
 
     pub fn refused(&mut self, args: &[&str]) {
         self.attack(Wanted::Refused, args);
+    }
+
+    /// How many attacks there were so far.
+    pub fn count(&self) -> usize {
+        self.count
     }
 
     /// Ends the attacks: there were at least so many, and all were withstood.

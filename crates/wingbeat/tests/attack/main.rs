@@ -4,7 +4,10 @@
 
 mod cases;
 mod command_line;
+mod environment;
 mod field;
 mod files;
+mod sizes;
+mod streams;
 #[path = "../support/mod.rs"]
 mod support;

@@ -3,8 +3,9 @@
 
 use std::collections::BTreeMap;
 use std::fs;
+use std::io::Write as _;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
+use std::process::{Command, Output, Stdio};
 
 /// A folder of its own, removed at the end.
 pub struct Scratch(pub PathBuf);
@@ -29,6 +30,22 @@ impl Drop for Scratch {
 pub fn wingbeat(dir: &Path, args: &[&str]) -> Output {
     let mut command = Command::new(env!("CARGO_BIN_EXE_wingbeat"));
     command.current_dir(dir).args(args).output().unwrap()
+}
+
+/// Runs the program in a folder with a text on its standard input.
+pub fn piped(dir: &Path, input: impl AsRef<[u8]>, args: &[&str]) -> Output {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_wingbeat"));
+    command.stdin(Stdio::piped()).stdout(Stdio::piped());
+    let mut child = command
+        .current_dir(dir)
+        .args(args)
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    let mut stdin = child.stdin.take().unwrap();
+    let _ = stdin.write_all(input.as_ref()); // who refuses at once does not read it
+    drop(stdin);
+    child.wait_with_output().unwrap()
 }
 
 /// Runs the program, which must succeed.

@@ -13,7 +13,6 @@ use wingbeat::analysis::stabiliser::{ProportionalDerivative, Stiffness};
 use wingbeat::analysis::{AnalysisError, Trim};
 use wingbeat::draw::figures::stabilised::{BeatRow, stabilised};
 use wingbeat::math::DVec3;
-use wingbeat::results::file::NewFile;
 use wingbeat::results::fixed::fixed;
 
 use super::trimming::{Trimming, trimmed, unused, watched};
@@ -21,6 +20,7 @@ use super::tumbling;
 use crate::command::failure::Failure;
 use crate::command::options;
 use crate::command::report::{Report, line};
+use crate::command::target::Target;
 use crate::command::watch::Watch;
 
 /// Wingbeats of a flight at most.
@@ -55,7 +55,7 @@ pub(crate) struct StabiliseArgs {
     /// Which feedback.
     #[arg(long, value_enum, default_value_t = Feedback::Regulator)]
     controller: Feedback,
-    /// Draw the flight as SVG.
+    /// Draw the flight as SVG; - is the standard output.
     #[arg(long, value_name = "FILE")]
     figure: Option<PathBuf>,
     /// Instead: so many flights out of random tumbles, and how many recover within --beats.
@@ -93,7 +93,7 @@ pub(crate) fn run(args: &StabiliseArgs) -> Result<(), Failure> {
     })
 }
 
-fn fly(args: &StabiliseArgs, report: &mut Report, figure: Option<NewFile>) -> Result<(), Failure> {
+fn fly(args: &StabiliseArgs, report: &mut Report, figure: Option<Target>) -> Result<(), Failure> {
     let (case, trim) = trimmed(&args.trimming, report)?;
     let tilt = DVec3::from_slice(&args.tilt).map(f64::to_radians);
     let latency = args.latency.unwrap_or(DEFAULT_LATENCY);
@@ -117,7 +117,7 @@ fn fly(args: &StabiliseArgs, report: &mut Report, figure: Option<NewFile>) -> Re
     tell(report, &rows);
     if let Some(file) = figure {
         let svg = stabilised(&case.name, trim.beat.wing_length(), &rows);
-        file.write(svg.as_bytes())?;
+        file.write(&svg)?;
     }
     lost.map_or(Ok(()), |e| Err(e.into()))
 }

@@ -10,19 +10,19 @@ use wingbeat::analysis::{ModeSet, floquet, linear_model, table_model};
 use wingbeat::case::LoadedCase;
 use wingbeat::case::derivative_case;
 use wingbeat::flight::AirModel;
-use wingbeat::results::file::NewFile;
 use wingbeat::results::fixed::{fixed, signed};
 
 use super::trimming::{Trimming, trimmed, trimmed_with_wake, unused, watched};
 use crate::command::failure::Failure;
 use crate::command::report::{Report, line};
+use crate::command::target::Target;
 
 /// Arguments of `wingbeat stability`.
 #[derive(Args)]
 pub(crate) struct StabilityArgs {
     #[command(flatten)]
     trimming: Trimming,
-    /// Write the averaged model as a case file with stability derivatives.
+    /// Write the averaged model as a case file with stability derivatives; - is the standard output.
     #[arg(long, value_name = "FILE")]
     write: Option<PathBuf>,
     /// In a vortex lattice: what is held fixed when the body is disturbed [default: carried].
@@ -41,7 +41,7 @@ enum Wake {
 
 /// The whole command.
 pub(crate) fn run(args: &StabilityArgs) -> Result<(), Failure> {
-    let deliver = |report: &mut Report, [file]: [Option<NewFile>; 1]| {
+    let deliver = |report: &mut Report, [file]: [Option<Target>; 1]| {
         let case = args.trimming.load()?;
         let table = matches!(case.setup.air, AirModel::Derivatives(_));
         let memory = case.setup.air.has_memory();
@@ -62,7 +62,7 @@ pub(crate) fn run(args: &StabilityArgs) -> Result<(), Failure> {
 }
 
 /// Averaged model and orbit of a flight in air without memory.
-fn of_trim(args: &Trimming, report: &mut Report, file: Option<NewFile>) -> Result<(), Failure> {
+fn of_trim(args: &Trimming, report: &mut Report, file: Option<Target>) -> Result<(), Failure> {
     if file.is_some() {
         args.check_averaged()?; // before the trim, which takes its time
     }
@@ -96,8 +96,8 @@ fn of_trim(args: &Trimming, report: &mut Report, file: Option<NewFile>) -> Resul
     );
     report.value("wingbeat_s", trim.beat.period());
     if let (Some(file), Some(averaged)) = (file, averaged) {
-        file.write(derivative_case(&case, &trim, &averaged)?.as_bytes())?;
-        line!(report, "\nwrote {}", file.path().display());
+        file.write(&derivative_case(&case, &trim, &averaged)?)?;
+        report.wrote(&file);
     }
     Ok(())
 }

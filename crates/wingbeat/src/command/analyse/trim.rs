@@ -7,14 +7,13 @@ use wingbeat::case::{trimmed_case, wake_trimmed_case};
 
 use super::trimming::{Trimming, trimmed, trimmed_with_wake};
 use crate::command::failure::Failure;
-use crate::command::report::line;
 
 /// Arguments of `wingbeat trim`.
 #[derive(Args)]
 pub(crate) struct TrimArgs {
     #[command(flatten)]
     trimming: Trimming,
-    /// Write the trimmed flight as a case file.
+    /// Write the trimmed flight as a case file; - is the standard output.
     #[arg(long, value_name = "FILE")]
     write: Option<PathBuf>,
 }
@@ -31,9 +30,8 @@ pub(crate) fn run(args: &TrimArgs) -> Result<(), Failure> {
             trimmed_case(&case, &trim)
         };
         if let Some(file) = file {
-            file.write(text.as_bytes())?;
-            let path = file.path().display();
-            line!(report, "\nwrote {path}; fly it with `wingbeat run {path}`");
+            file.write(&text)?;
+            report.wrote(&file);
         }
         Ok(())
     })

@@ -1,0 +1,28 @@
+//! Numbers as people write them into files.
+
+/// Five digits: what a reader edits. Powers of ten by threes, as prefixes go.
+pub(super) fn number(x: f64) -> String {
+    let rounded: f64 = format!("{x:.4e}").parse().expect("a number");
+    if !(0.1..1e5).contains(&rounded.abs()) {
+        let exponent = 3 * (rounded.abs().log10() / 3.0).floor() as i32;
+        let mantissa: f64 = format!("{:.4e}", rounded / 10f64.powi(exponent))
+            .parse()
+            .expect("a number");
+        return format!("{mantissa}e{exponent}");
+    }
+    format!("{rounded:?}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::number;
+
+    #[test]
+    fn exact_five_digits_with_exponents_by_threes() {
+        assert_eq!(number(0.000_101_900_04), "101.9e-6");
+        assert_eq!(number(9.8e-3), "9.8e-3");
+        assert_eq!(number(231.0), "231.0");
+        assert_eq!(number(52.123_456), "52.123");
+        assert_eq!(number(0.999_999_9e-6), "1e-6");
+    }
+}

@@ -1,0 +1,137 @@
+//! What every analysis says: words or one JSON object, on the standard output or in a file.
+
+mod support;
+
+use std::fs;
+use std::path::Path;
+
+use serde_json::Value;
+use support::{Scratch, flown, quick_case, wingbeat};
+
+/// Every command that analyses, with a name that its JSON has.
+const ANALYSES: [(&[&str], &str); 11] = [
+    (&["check", "case.toml"], "mass_kg"),
+    (&["show", "r"], "summary"),
+    (&["compare", "r", "s"], "keys"),
+    (&["presets"], "species"),
+    (&["trim", "--steps", "20"], "unknowns"),
+    (&["stability", "--steps", "20"], "floquet_modes"),
+    (&["derivatives", "--steps", "20"], "control_derivatives"),
+    (&["power", "--steps", "20"], "power"),
+    (&["stabilise", "--steps", "20", "--beats", "2"], "beats"),
+    (&["velocity", "v", "--point", "0,0,0"], "points"),
+    (&["stability", "table1-sun-2007"], "modes"),
+];
+
+/// Standard output of a command that succeeds.
+fn said(dir: &Path, args: &[&str]) -> String {
+    let out = wingbeat(dir, args);
+    let problem = String::from_utf8_lossy(&out.stderr);
+    assert!(out.status.success(), "{args:?}: {problem}");
+    String::from_utf8(out.stdout).unwrap()
+}
+
+/// Without the cost, which is measured and never the same.
+fn steady(text: &str) -> String {
+    let lines = text.lines().filter(|l| !l.starts_with("cost"));
+    lines.collect::<Vec<_>>().join("\n")
+}
+
+fn object(text: &str) -> Value {
+    let mut value: Value = serde_json::from_str(text).unwrap();
+    value.as_object_mut().expect("an object").remove("cost");
+    value
+}
+
+#[test]
+fn behaves_every_analysis_has_words_and_json_and_a_file_for_them() {
+    let scratch = Scratch::new("reports");
+    let dir = &scratch.0;
+    quick_case(dir);
+    for (out, beats) in [("r", "time.beats=0.2"), ("s", "time.beats=0.1")] {
+        flown(
+            dir,
+            &["run", "case.toml", "--quiet", "--out", out, "--set", beats],
+        );
+    }
+    let steps = [
+        "--set",
+        "time.steps=3",
+        "--set",
+        "output.keep_checkpoint=true",
+    ];
+    flown(
+        dir,
+        &[&["run", "benchmark-2", "--quiet", "--out", "v"], &steps[..]].concat(),
+    );
+    for (k, (args, name)) in ANALYSES.into_iter().enumerate() {
+        let with = |more: &[&str]| said(dir, &[args, more].concat());
+        let (words, json) = (with(&[]), with(&["--json"]));
+        assert!(!words.is_empty() && json.lines().count() == 1, "{args:?}");
+        let value = object(&json);
+        assert!(!value[name].is_null(), "{args:?}: {json}");
+
+        let [text, data] = ["txt", "json"].map(|end| format!("{k}.{end}"));
+        assert_eq!(with(&["--out", &text]), "", "{args:?}");
+        assert_eq!(with(&["--json", "--out", &data]), "", "{args:?}");
+        let read = |file: &str| fs::read_to_string(dir.join(file)).unwrap();
+        assert_eq!(steady(&read(&text)), steady(&words), "{args:?}");
+        assert_eq!(object(&read(&data)), value, "{args:?}");
+        assert_eq!(steady(&with(&["--out", "-"])), steady(&words), "{args:?}");
+
+        let again = wingbeat(dir, &[args, &["--out", &text]].concat());
+        assert_eq!(again.status.code(), Some(2), "{args:?}");
+        with(&["--out", &text, "--overwrite"]);
+        let idle = wingbeat(dir, &[args, &["--overwrite"]].concat());
+        assert_eq!(idle.status.code(), Some(2), "{args:?}");
+    }
+}
+
+#[test]
+fn behaves_the_verification_suite_has_json() {
+    let scratch = Scratch::new("reports-verify");
+    let dir = &scratch.0;
+    let list = object(&said(dir, &["verify", "--list", "--json"]));
+    let words = said(dir, &["verify", "--list"]);
+    assert_eq!(
+        list["cases"].as_array().unwrap().len(),
+        words.lines().count()
+    );
+    let one = ["verify", "--only", "biot-savart-filament", "--json"];
+    let told = object(&said(dir, &one));
+    assert_eq!(told["rows"]["fail"], 0);
+    assert!(told["rows"]["pass"].as_u64().unwrap() > 0);
+    assert!(dir.join(told["report"].as_str().unwrap()).is_file());
+}
+
+/// Commands, cases, keys, options, their values and species: the nearest that is known.
+#[test]
+fn behaves_a_slip_of_the_finger_is_answered_with_what_was_meant() {
+    let scratch = Scratch::new("reports-slips");
+    let dir = &scratch.0;
+    quick_case(dir);
+    flown(dir, &["run", "case.toml", "--quiet", "--out", "r"]);
+    let slips: [(&[&str], &str); 12] = [
+        (&["rnu"], "'run'"),
+        (&["prests"], "'presets'"),
+        (&["run", "fruit-fly-hoover"], "`fruit-fly-hover`"),
+        (&["check", "bumbleebee-blade"], "`bumblebee-blade`"),
+        (&["new", "dragnofly"], "`dragonfly`"),
+        (&["new", "--species", "hawkmoht"], "`hawkmoth`"),
+        (&["check", "case.toml", "--set", "time.beets=3"], "`beats`"),
+        (
+            &["check", "case.toml", "--set", "wing.right.mas_kg=3"],
+            "`mass_kg`",
+        ),
+        (&["check", "case.toml", "--jsn"], "'--json'"),
+        (&["export", "r", "--format", "hdf"], "`hdf5`"),
+        (&["plot", "r", "anglse"], "`angles`"),
+        (&["completions", "bahs"], "'bash'"),
+    ];
+    for (args, meant) in slips {
+        let out = wingbeat(dir, args);
+        assert_eq!(out.status.code(), Some(2), "{args:?}");
+        let problem = String::from_utf8(out.stderr).unwrap();
+        assert!(problem.contains(meant), "{args:?}: {problem}");
+    }
+}
