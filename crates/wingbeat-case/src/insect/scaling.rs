@@ -153,7 +153,7 @@ impl Insect {
         let chord = s.mean_chord * wing_length.value / r0;
         let frequency = Sourced::given_or(size.frequency, || {
             let area = 2.0 * chord * wing_length.value;
-            let law = "Deakin (2010): 317 sqrt(mass in g) / area of both wings in cm2";
+            let law = "Deakin (2010), as a later review quotes it: 317 sqrt(mass in g) / area of both wings in cm2";
             Sourced::new(DEAKIN * mass.value.sqrt() / area, law)
         });
         Ok(Self {
