@@ -94,9 +94,13 @@ impl Fleet {
     }
 }
 
-/// How many episodes take turns with one model: neighbours, which mostly fly in one thread.
+/// How many episodes take turns with one model: neighbours, which fly in one thread.
 fn group(count: usize) -> usize {
-    count.div_ceil(4 * rayon::current_num_threads()).max(1)
+    match rayon::current_num_threads() {
+        1 => count,
+        threads => count.div_ceil(4 * threads),
+    }
+    .max(1)
 }
 
 impl Cell {
@@ -128,6 +132,100 @@ struct Row<'a> {
     reward: &'a mut f64,
     terminated: &'a mut bool,
     truncated: &'a mut bool,
+}
+
+/// The same of neighbours.
+struct Rows<'a> {
+    cells: &'a mut [Cell],
+    actions: &'a [f32],
+    observed: &'a mut [f32],
+    last: &'a mut [f32],
+    rewards: &'a mut [f64],
+    terminated: &'a mut [bool],
+    truncated: &'a mut [bool],
+}
+
+impl<'a> Rows<'a> {
+    /// Whether all are as long as they should be.
+    fn fit(&self) -> bool {
+        let n = self.cells.len();
+        let wide = [self.observed.len(), self.last.len()];
+        let flat = [
+            self.rewards.len(),
+            self.terminated.len(),
+            self.truncated.len(),
+        ];
+        self.actions.len() == CONTROLS * n && wide == [OBSERVED * n; 2] && flat == [n; 3]
+    }
+
+    fn split(self, at: usize) -> [Self; 2] {
+        let (cells, other_cells) = self.cells.split_at_mut(at);
+        let (actions, other_actions) = self.actions.split_at(CONTROLS * at);
+        let (observed, other_observed) = self.observed.split_at_mut(OBSERVED * at);
+        let (last, other_last) = self.last.split_at_mut(OBSERVED * at);
+        let (rewards, other_rewards) = self.rewards.split_at_mut(at);
+        let (terminated, other_terminated) = self.terminated.split_at_mut(at);
+        let (truncated, other_truncated) = self.truncated.split_at_mut(at);
+        let first = Self {
+            cells,
+            actions,
+            observed,
+            last,
+            rewards,
+            terminated,
+            truncated,
+        };
+        let second = Self {
+            cells: other_cells,
+            actions: other_actions,
+            observed: other_observed,
+            last: other_last,
+            rewards: other_rewards,
+            terminated: other_terminated,
+            truncated: other_truncated,
+        };
+        [first, second]
+    }
+
+    fn each(self) -> impl Iterator<Item = Row<'a>> {
+        let wide = self.observed.chunks_exact_mut(OBSERVED);
+        let wide = wide.zip(self.last.chunks_exact_mut(OBSERVED));
+        let ends = self.terminated.iter_mut().zip(self.truncated);
+        let cells = self
+            .cells
+            .iter_mut()
+            .zip(self.actions.chunks_exact(CONTROLS));
+        let rows = cells.zip(wide).zip(self.rewards.iter_mut().zip(ends));
+        rows.map(|(((cell, action), (observed, last)), (reward, ends))| Row {
+            cell,
+            action,
+            observed,
+            last,
+            reward,
+            terminated: ends.0,
+            truncated: ends.1,
+        })
+    }
+
+    /// Steps all, over threads in groups of at most `most`; by itself if that is all.
+    fn step(
+        self,
+        most: usize,
+        autoreset: Autoreset,
+        regulator: &Option<Regulator>,
+    ) -> Result<(), AnalysisError> {
+        let count = self.cells.len();
+        if count <= most {
+            return self.each().try_for_each(|r| r.step(autoreset, regulator));
+        }
+        let groups = count.div_ceil(most);
+        let [first, second] = self.split(most * groups.div_ceil(2));
+        let (one, other) = rayon::join(
+            || first.step(most, autoreset, regulator),
+            || second.step(most, autoreset, regulator),
+        );
+        one.and(other)
+    }
 }
 
 impl Row<'_> {
@@ -215,39 +313,18 @@ impl Fleet {
         let truncated = truncated.as_slice_mut()?;
         let stepped = py.detach(|| {
             let mut cells = self.cells.lock().unwrap_or_else(PoisonError::into_inner);
-            let n = cells.len();
-            let sizes = [
-                actions.len() / CONTROLS,
-                observed.len() / OBSERVED,
-                last.len() / OBSERVED,
-            ];
-            let flat = [rewards.len(), terminated.len(), truncated.len()];
-            if sizes != [n; 3] || flat != [n; 3] {
-                return None;
-            }
-            let arrays = actions
-                .par_chunks(CONTROLS)
-                .zip(observed.par_chunks_mut(OBSERVED));
-            let arrays = arrays
-                .zip(last.par_chunks_mut(OBSERVED))
-                .zip(rewards.par_iter_mut());
-            let arrays = arrays.zip(terminated.par_iter_mut().zip(truncated.par_iter_mut()));
-            let rows = cells.par_iter_mut().zip(arrays).with_min_len(group(n));
-            let done = rows.try_for_each(
-                |(cell, ((((action, observed), last), reward), (terminated, truncated)))| {
-                    let row = Row {
-                        cell,
-                        action,
-                        observed,
-                        last,
-                        reward,
-                        terminated,
-                        truncated,
-                    };
-                    row.step(self.autoreset, &self.regulator)
-                },
-            );
-            Some(done)
+            let most = group(cells.len());
+            let rows = Rows {
+                cells: &mut cells,
+                actions,
+                observed,
+                last,
+                rewards,
+                terminated: &mut *terminated,
+                truncated: &mut *truncated,
+            };
+            let fit = rows.fit();
+            fit.then(|| rows.step(most, self.autoreset, &self.regulator))
         });
         stepped
             .ok_or_else(broken)?
@@ -279,25 +356,27 @@ impl Fleet {
         Ok(true)
     }
 
-    /// Seconds that `count` control steps take within Rust, all environments one step on threads, then the next: what Python
-    /// adds to it is seen beside it. Episodes that end begin again.
+    /// Seconds that `count` control steps take within Rust: what Python adds to it is seen beside it.
     fn core_seconds(&self, py: Python<'_>, count: usize) -> PyResult<f64> {
         let timed = py.detach(|| {
             let mut cells = self.cells.lock().unwrap_or_else(PoisonError::into_inner);
-            let mut observed = vec![0.0; OBSERVED * cells.len()];
+            let n = cells.len();
+            let actions = vec![0.0; CONTROLS * n];
+            let [mut observed, mut last] = [0, 1].map(|_| vec![0.0; OBSERVED * n]);
+            let [mut terminated, mut truncated] = [0, 1].map(|_| vec![false; n]);
+            let mut rewards = vec![0.0; n];
             let begun = std::time::Instant::now();
-            let fly = |(cell, seen): (&mut Cell, &mut [f64])| {
-                let outcome = cell.episode.step(&[0.0; CONTROLS]);
-                cell.episode.observe(seen);
-                match outcome.is_lost || outcome.is_over {
-                    true => cell.reset(None, &self.regulator),
-                    false => Ok(()),
-                }
-            };
             for _ in 0..count {
-                let least = group(cells.len());
-                let rows = cells.par_iter_mut().zip(observed.par_chunks_mut(OBSERVED));
-                rows.with_min_len(least).try_for_each(fly)?;
+                let rows = Rows {
+                    cells: &mut cells,
+                    actions: &actions,
+                    observed: &mut observed,
+                    last: &mut last,
+                    rewards: &mut rewards,
+                    terminated: &mut terminated,
+                    truncated: &mut truncated,
+                };
+                rows.step(group(n), Autoreset::NextStep, &self.regulator)?;
             }
             Ok(begun.elapsed().as_secs_f64())
         });
