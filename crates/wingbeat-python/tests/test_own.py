@@ -145,9 +145,9 @@ def test_behaves_a_look_costs_less_than_a_tenth_of_a_millisecond(blade):
     nothing = flight.with_controller(lambda _: wingbeat.Adjustment(), every_steps=4)
 
     def seconds(f: wingbeat.Flight) -> float:
-        begun = time.perf_counter()
+        begun = time.process_time()  # other work on the machine is not ours
         f.fly()
-        return time.perf_counter() - begun
+        return time.process_time() - begun
 
-    cost = min(seconds(nothing) for _ in range(3)) - min(seconds(flight) for _ in range(3))
+    cost = min(seconds(nothing) for _ in range(5)) - min(seconds(flight) for _ in range(5))
     assert cost / (flight.steps / 4) < 1e-4
