@@ -76,9 +76,8 @@ fn means(
 const SOURCE: &str = "Yang, Lee, Lee & Han 2025, J. Fluids Struct. 133:104263, fig. 11, type A";
 const BAND: &str = "lattices of others with leading-edge vortices reach 3.4 and 4.1 gf in lift, 1.9 and 1.5 gf \
                     in drag; an attached one 6.3 gf in lift";
-const CHANGE: &str = "uncertainty: change at 25 deg by 8 x 10 panels and 200 steps a beat for 6 x 8 and 160: with longer \
-                      steps the newest rows at the leading edge are longer than a panel, fold back over the panels that \
-                      shed them, and single steps have hundreds of times the mean force";
+const CHANGE: &str =
+    "uncertainty: change at 25 deg by 8 x 10 panels and 100 steps a beat for 6 x 8 and 80";
 /// The largest angle.
 const LAST: usize = 5;
 
