@@ -45,8 +45,10 @@ pub mod regulator;
 pub mod sensors;
 pub mod stabiliser;
 pub mod stability;
+pub mod sweep;
 pub mod table;
 pub mod trim;
+pub mod unknown;
 pub mod wake;
 
 pub use beat::{Beat, State};
@@ -56,4 +58,5 @@ pub use modes::{Mode, ModeSet};
 pub use plausibility::{Estimate, estimate};
 pub use stability::{LinearModel, floquet, linear_model};
 pub use table::table_model;
-pub use trim::{Trim, TrimProblem, TrimSettings, Unknown, trim};
+pub use trim::{Trim, TrimProblem, TrimSettings, trim};
+pub use unknown::Unknown;

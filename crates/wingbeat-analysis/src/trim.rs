@@ -16,7 +16,7 @@
 
 use wingbeat_flight::{
     FlightSetup, FormulationChoice, IntegratorChoice, MotionMode, PrescribedMotion,
-    StabilizationChoice, StartState, TimeGrid, closes_loop, faster,
+    StabilizationChoice, StartState, TimeGrid, closes_loop,
 };
 use wingbeat_math::{DVec3, EulerSequence, r2, solve_small};
 use wingbeat_model::Start;
@@ -25,50 +25,7 @@ use wingbeat_model::motion::Adjustment;
 use crate::AnalysisError;
 use crate::beat::{Beat, JOINTS, State};
 use crate::progress;
-
-/// A control that trim may choose.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Unknown {
-    /// Relative change of the stroke amplitude.
-    StrokeAmplitude,
-    /// Mean stroke angle, positive forward \[rad\].
-    StrokeOffset,
-    /// Relative change of the frequency.
-    Frequency,
-    /// Change of the stroke-plane pitch \[rad\].
-    StrokePlane,
-    /// Change of the mean feathering angle \[rad\].
-    FeatheringOffset,
-    /// Lead of feathering \[wingbeats\].
-    FeatheringLead,
-    /// Change of the mean deviation \[rad\].
-    DeviationOffset,
-    /// Pitch of the body \[rad\]; when it is not chosen, it is kept and one more control is needed.
-    BodyPitch,
-    /// Mass centre along b1, relative to the hinges, in wing lengths.
-    MassCentre,
-}
-
-/// All unknowns with their names in cases and reports.
-pub const UNKNOWNS: [(Unknown, &str); 9] = [
-    (Unknown::StrokeAmplitude, "stroke_amplitude"),
-    (Unknown::StrokeOffset, "stroke_offset"),
-    (Unknown::Frequency, "frequency"),
-    (Unknown::StrokePlane, "stroke_plane"),
-    (Unknown::FeatheringOffset, "feathering_offset"),
-    (Unknown::FeatheringLead, "feathering_lead"),
-    (Unknown::DeviationOffset, "deviation_offset"),
-    (Unknown::BodyPitch, "body_pitch"),
-    (Unknown::MassCentre, "mass_centre"),
-];
-
-impl Unknown {
-    /// Name in cases and reports.
-    pub fn name(self) -> &'static str {
-        let found = UNKNOWNS.iter().find(|u| u.0 == self);
-        found.expect("the table holds all").1
-    }
-}
+use crate::unknown::{Unknown, adjusted, check_unknowns};
 
 /// What to trim.
 #[derive(Clone, Debug, PartialEq)]
@@ -115,6 +72,8 @@ pub struct Trim {
     pub residual: Vec<f64>,
     /// Newton steps made.
     pub iterations: usize,
+    /// What was chosen.
+    pub unknowns: [Unknown; 3],
     /// The adjustment of all wings.
     pub adjustment: Adjustment,
     /// Shift of the mass centre along b1 [m].
@@ -123,6 +82,9 @@ pub struct Trim {
     pub body_pitch: f64,
     /// State at the start of the beat, mass centre at the origin.
     pub state: State,
+    /// The point that Newton's method found: velocity over R f forward and down, pitch rate times T, the controls,
+    /// then coordinates and speeds of free joints over their natural sizes.
+    pub point: Vec<f64>,
     /// The wingbeat of the adjusted animal.
     pub beat: Beat,
     /// The adjusted setup (animal only; start and time are those given).
@@ -238,6 +200,18 @@ pub fn trim(setup: &FlightSetup, problem: &TrimProblem) -> Result<Trim, Analysis
         _ => 0.0,
     }));
     x.extend(periodic_joints(&first, problem.body_pitch)?);
+    trim_from(setup, problem, x)
+}
+
+/// The same from a [`Trim::point`] near the one that is sought.
+///
+/// # Errors
+/// As [`trim`].
+pub fn trim_from(
+    setup: &FlightSetup,
+    problem: &TrimProblem,
+    mut x: Vec<f64>,
+) -> Result<Trim, AnalysisError> {
     let mut residual = evaluate(setup, problem, &x)?.residual;
     let mut iterations = 0;
     while iterations < problem.settings.iterations
@@ -260,25 +234,6 @@ pub fn trim(setup: &FlightSetup, problem: &TrimProblem) -> Result<Trim, Analysis
     found.iterations = iterations;
     found.converged = found.error() <= problem.settings.tolerance;
     Ok(found)
-}
-
-/// An error if an unknown is not what it says for the joints of `setup`.
-pub(crate) fn check_unknowns(
-    setup: &FlightSetup,
-    problem: &TrimProblem,
-) -> Result<(), AnalysisError> {
-    match setup.joints.first() {
-        Some(joint) if problem.unknowns.contains(&Unknown::MassCentre) => {
-            Err(AnalysisError::not_covered(
-                format!(
-                    "mass_centre shifts the hinges of wings against the body, and joint `{}` has a place of its own",
-                    joint.name
-                ),
-                "choose other unknowns, or shift at_m of the joints in the case",
-            ))
-        }
-        _ => Ok(()),
-    }
 }
 
 /// Beats within which free joints find their periodic motion while the body is held.
@@ -333,50 +288,15 @@ fn evaluate(setup: &FlightSetup, problem: &TrimProblem, x: &[f64]) -> Result<Tri
         converged: false,
         residual,
         iterations: 0,
+        unknowns: problem.unknowns,
         adjustment,
         mass_centre,
         body_pitch: pitch,
         state,
+        point: x.to_vec(),
         beat,
         setup,
     })
-}
-
-/// The setup with the controls `values` of the problem's unknowns; adjustment, shift of the mass
-/// centre and body pitch.
-pub(crate) fn adjusted(
-    setup: &FlightSetup,
-    problem: &TrimProblem,
-    values: &[f64],
-) -> (FlightSetup, Adjustment, f64, f64) {
-    let mut a = Adjustment::default();
-    let (mut shift, mut pitch) = (0.0, problem.body_pitch);
-    for (unknown, &x) in problem.unknowns.iter().zip(values) {
-        match unknown {
-            Unknown::StrokeAmplitude => a.stroke_amplitude = x,
-            Unknown::StrokeOffset => a.stroke_offset = x,
-            Unknown::Frequency => a.frequency = x,
-            Unknown::StrokePlane => a.stroke_plane = x,
-            Unknown::FeatheringOffset => a.feathering_offset = x,
-            Unknown::FeatheringLead => a.feathering_lead = x,
-            Unknown::DeviationOffset => a.deviation_offset = x,
-            Unknown::BodyPitch => pitch = x,
-            Unknown::MassCentre => shift = x,
-        }
-    }
-    let mut setup = setup.clone();
-    let tips = setup.animal.wings.iter().flat_map(|w| &w.mesh.nodes);
-    shift *= tips.fold(0.0_f64, |m, r| m.max(r.length()));
-    for wing in &mut setup.animal.wings {
-        wing.motion = wing.motion.adjusted(wing.side, &a);
-        wing.hinge_b.x -= shift;
-    }
-    if a.frequency != 0.0 {
-        for joint in &mut setup.joints {
-            *joint = faster(joint, 1.0 + a.frequency);
-        }
-    }
-    (setup, a, shift, pitch)
 }
 
 /// Derivatives of the residuals, rows by residual, by central differences.

@@ -24,7 +24,8 @@ use crate::eigen::eigen;
 use crate::level::{Level, Perturbation};
 use crate::modes::{ModeSet, Scales};
 use crate::progress;
-use crate::trim::{TrimProblem, adjusted, check_unknowns, largest};
+use crate::trim::{TrimProblem, largest};
+use crate::unknown::{adjusted, check_unknowns};
 
 /// What is held fixed when the state of the body is disturbed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

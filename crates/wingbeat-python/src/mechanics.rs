@@ -5,7 +5,7 @@ use wingbeat::analysis::derivatives::{CONTROLS, ControlDerivative, control_deriv
 use wingbeat::analysis::level::{Level, STATE};
 use wingbeat::analysis::power::{Power, power};
 use wingbeat::analysis::stability::{LinearModel, input_matrix};
-use wingbeat::analysis::trim::UNKNOWNS;
+use wingbeat::analysis::unknown::UNKNOWNS;
 use wingbeat::analysis::{AnalysisError, Mode, ModeSet, TrimProblem, floquet, linear_model};
 use wingbeat::case::{LoadedCase, trimmed_case};
 use wingbeat::math::DVec3;

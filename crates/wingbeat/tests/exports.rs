@@ -126,7 +126,8 @@ fn agrees_real_readers_read_every_number_back() {
                 .arg(folder)
                 .arg(run.join("flight.glb"));
             let said = works(&mut node).unwrap_or_else(|e| panic!("{e}"));
-            assert!(said.contains("\"drawCallCount\":3"), "{said}");
+            // Three bodies, ten frames with a wake, of which the last six have particles, too.
+            assert!(said.contains("\"drawCallCount\":19"), "{said}");
         }
     }
 }
@@ -186,6 +187,90 @@ fn exact_the_animation_is_where_the_animal_is() {
         let size = (c(0) * c(0) + c(1) * c(1) + c(2) * c(2)).sqrt();
         assert!((size - 1.0).abs() < 1e-6, "a normal of length {size}");
     }
+}
+
+/// What an accessor of a .glb counts, and its bytes.
+fn accessor<'a>(
+    head: &serde_json::Value,
+    binary: &'a [u8],
+    k: &serde_json::Value,
+) -> (usize, &'a [u8]) {
+    let number = |v: &serde_json::Value| v.as_u64().unwrap() as usize;
+    let accessor = &head["accessors"][number(k)];
+    let view = &head["bufferViews"][number(&accessor["bufferView"])];
+    let at = number(&view["byteOffset"]);
+    (
+        number(&accessor["count"]),
+        &binary[at..at + number(&view["byteLength"])],
+    )
+}
+
+fn floats(bytes: &[u8]) -> Vec<f32> {
+    let words = bytes.as_chunks::<4>().0.iter();
+    words.map(|w| f32::from_le_bytes(*w)).collect()
+}
+
+#[test]
+fn exact_one_wake_is_seen_at_a_time_and_it_is_that_of_the_frame() {
+    let scratch = Scratch::new("gltf-wake");
+    flown(&scratch.0, &CASE);
+    flown(&scratch.0, &["export", "run", "--format", "gltf"]);
+    let (head, binary) = glb(&scratch.0.join("run/flight.glb"));
+    let slower = head["extras"]["times_slower"].as_f64().unwrap();
+    let run = scratch.0.join("run");
+    let case = wingbeat::results::ResultDir::open(&run)
+        .unwrap()
+        .case()
+        .unwrap();
+    let steps = wingbeat::results::frames::steps(&run).unwrap();
+    let animation = &head["animations"][0];
+    let (mut seen, mut opaque) = (vec![0; steps.len()], vec![0; steps.len()]);
+    for channel in animation["channels"].as_array().unwrap() {
+        if channel["target"]["path"] != "scale" {
+            continue;
+        }
+        let sampler = &animation["samplers"][channel["sampler"].as_u64().unwrap() as usize];
+        let times = floats(accessor(&head, &binary, &sampler["input"]).1);
+        let scales = floats(accessor(&head, &binary, &sampler["output"]).1);
+        let at = |t: f64| {
+            times
+                .iter()
+                .rposition(|x| f64::from(*x) <= t)
+                .map_or(0.0, |k| scales[3 * k])
+        };
+        let node = &head["nodes"][channel["target"]["node"].as_u64().unwrap() as usize];
+        for (k, step) in steps.iter().enumerate() {
+            let time = (*step as f64 + 1e-3) * case.setup.time.step * slower;
+            if at(time) == 0.0 {
+                continue;
+            }
+            seen[k] += 1;
+            // Nodes of the youngest rows stand where the frame has them: x forward, y up, z right.
+            let mesh = &head["meshes"][node["mesh"].as_u64().unwrap() as usize];
+            let attributes = &mesh["primitives"][0]["attributes"];
+            let points = floats(accessor(&head, &binary, &attributes["POSITION"]).1);
+            let wakes = wingbeat::results::frames::Frame::read(&run, *step)
+                .unwrap()
+                .wakes;
+            for (p, q) in points.as_chunks::<3>().0.iter().zip(&wakes.points) {
+                assert_eq!(*p, [q[0] as f32, q[2] as f32, -q[1] as f32]);
+            }
+            assert_eq!(
+                points.len(),
+                3 * wakes.points.len(),
+                "a wake of one beat is there whole"
+            );
+            let (count, colours) = accessor(&head, &binary, &attributes["COLOR_0"]);
+            assert_eq!((4 * count, 3 * count), (colours.len(), points.len()));
+            let opacity = colours.as_chunks::<4>().0.iter().map(|c| c[3]);
+            opaque[k] = opacity.max().unwrap();
+        }
+    }
+    // The strokes begin smoothly: what is shed first is too weak to be seen.
+    assert!(opaque[3..].iter().all(|a| *a > 0), "{opaque:?}");
+    assert!(opaque[opaque.len() - 1] > 100, "{opaque:?}");
+    assert_eq!(seen[0], 0, "no wake yet");
+    assert!(seen[1..].iter().all(|n| *n == 1), "{seen:?}");
 }
 
 #[test]

@@ -63,7 +63,7 @@ impl Estimate {
 }
 
 /// Largest less smallest stroke angle of a beat \[rad\].
-fn stroke_amplitude(wing: &Wing) -> f64 {
+pub(crate) fn stroke_amplitude(wing: &Wing) -> f64 {
     const SAMPLES: usize = 200;
     let phi = |k: usize| wing.motion.angles.phi.at(k as f64 / SAMPLES as f64)[0];
     let ends = (0..SAMPLES)

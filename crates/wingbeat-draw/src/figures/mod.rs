@@ -27,6 +27,7 @@ mod source;
 pub mod stabilised;
 mod style;
 mod svg;
+pub mod swept;
 mod ticks;
 mod units;
 mod wake;

@@ -85,11 +85,8 @@ pub(super) fn tell(report: &mut Report, case: &LoadedCase, problem: &TrimProblem
         "{verdict} after {} Newton steps, largest residual {largest:.1e}",
         t.iterations
     );
-    let mut found = Map::new();
     for u in problem.unknowns {
-        let (words, unit, value) = value(u, t);
-        line!(report, "  {:<18}{words}", u.name());
-        found.insert(format!("{}{unit}", u.name()), json!(value));
+        line!(report, "  {:<18}{}", u.name(), value(u, t).0);
     }
     for ([name, _], r) in RESIDUALS.iter().zip(&t.residual) {
         line!(report, "  residual of {name:<28}{r:>10.1e}");
@@ -112,8 +109,17 @@ pub(super) fn tell(report: &mut Report, case: &LoadedCase, problem: &TrimProblem
     report.value("climb_m_s", up);
     report.value("converged", t.converged);
     report.value("newton_steps", t.iterations);
-    report.value("unknowns", found);
+    report.value("unknowns", values(&problem.unknowns, t));
     report.value("residuals", residuals);
+}
+
+/// What was found of the unknowns, units in the names.
+pub(super) fn values(unknowns: &[Unknown], t: &Found) -> Map<String, Value> {
+    let one = |u: &Unknown| {
+        let (_, unit, value) = value(*u, t);
+        (format!("{}{unit}", u.name()), json!(value))
+    };
+    unknowns.iter().map(one).collect()
 }
 
 /// An unknown in words; the unit its name ends with for programs, and the value in it.

@@ -5,6 +5,7 @@ mod found;
 pub(crate) mod power;
 pub(crate) mod stabilise;
 pub(crate) mod stability;
+mod sweeping;
 pub(crate) mod trim;
 pub(crate) mod trimming;
 mod tumbling;

@@ -1,7 +1,8 @@
 //! What is trimmed and how, for all analysing commands.
 
 use clap::Args;
-use wingbeat::analysis::trim::{UNKNOWNS, trim as find_trim};
+use wingbeat::analysis::trim::trim as find_trim;
+use wingbeat::analysis::unknown::UNKNOWNS;
 use wingbeat::analysis::wake::{WakeSettings, WakeTrim, trim_with_wake};
 use wingbeat::analysis::{Beat, Trim, TrimProblem, TrimSettings, Unknown};
 use wingbeat::case::{IoError, LoadedCase};
@@ -115,8 +116,22 @@ impl Trimming {
         Ok(Beat::new(&self.load()?.setup, steps)?.check_averaged()?)
     }
 
+    /// Refuses air with a memory where a case is trimmed many times over.
+    pub(super) fn without_memory(&self, case: &LoadedCase) -> Result<(), Failure> {
+        if self.hold.is_some() {
+            return Err(unused("hold", "a sweep goes without a wake to grow"));
+        }
+        match case.setup.air.has_memory() {
+            true => Err(unused(
+                "sweep",
+                "in air with memory every trim takes minutes; sweep in blade elements (--set air.model=blade_element), or trim speed by speed with --forward",
+            )),
+            false => Ok(()),
+        }
+    }
+
     /// What is asked of the trim.
-    fn problem(&self, case: &LoadedCase) -> Result<TrimProblem, Failure> {
+    pub(super) fn problem(&self, case: &LoadedCase) -> Result<TrimProblem, Failure> {
         let body_pitch = match &case.setup.mode {
             MotionMode::Free(start) => start.angles.x,
             MotionMode::Tethered(motion) => motion.angles[0].constant,

@@ -1,0 +1,178 @@
+//! Trim over a range of velocities: power and strokes against speed.
+//!
+//! Each trim begins at the point of the one before, extrapolated (natural continuation). Where Newton's method
+//! does not arrive, the way there is halved, a few times; where it does not arrive then, the range ends.
+
+use wingbeat_flight::FlightSetup;
+use wingbeat_math::DVec3;
+
+use crate::AnalysisError;
+use crate::plausibility::stroke_amplitude;
+use crate::power::{Power, power};
+use crate::progress;
+use crate::trim::{Trim, TrimProblem, trim, trim_from};
+
+/// A trimmed flight of a sweep.
+#[derive(Clone, Debug)]
+pub struct Swept {
+    /// Mean velocity, N components [m/s].
+    pub velocity: DVec3,
+    /// How it flies.
+    pub trim: Trim,
+    /// What it costs, the body carried in the trimmed attitude at the trimmed velocity.
+    pub power: Power,
+    /// Stroke angle of the first wing from end to end \[rad\]; 0 where it does not flap by itself.
+    pub stroke_amplitude: f64,
+}
+
+/// A sweep: the flights found, in order.
+#[derive(Clone, Debug, Default)]
+pub struct Sweep {
+    /// One for each velocity that was reached.
+    pub flights: Vec<Swept>,
+    /// The first velocity that was not reached, N components [m/s], with the largest residual there, if one was found.
+    pub lost: Option<(DVec3, Option<f64>)>,
+}
+
+impl Sweep {
+    /// The flight for which `cost` is least.
+    fn least(&self, cost: impl Fn(&Swept) -> f64) -> Option<&Swept> {
+        let finite = self.flights.iter().filter(|f| cost(f).is_finite());
+        finite.min_by(|a, b| cost(a).total_cmp(&cost(b)))
+    }
+
+    /// The flight of least power (muscles, perfect elastic storage).
+    pub fn least_power(&self) -> Option<&Swept> {
+        self.least(|f| f.power.perfect_storage)
+    }
+
+    /// The flight of least work per distance (muscles, perfect elastic storage); none in hover alone.
+    pub fn least_work(&self) -> Option<&Swept> {
+        self.least(|f| match f.velocity.length() {
+            v if v > 0.0 => f.power.perfect_storage / v,
+            _ => f64::INFINITY,
+        })
+    }
+}
+
+/// Halvings of the way to a velocity.
+const HALVINGS: usize = 4;
+
+/// Trims at each of the `velocities` [m/s], N components, in their order.
+///
+/// # Errors
+/// As [`trim`], for the first of them; as [`power`].
+pub fn sweep(
+    setup: &FlightSetup,
+    problem: &TrimProblem,
+    velocities: &[DVec3],
+) -> Result<Sweep, AnalysisError> {
+    let mut path = Path {
+        setup,
+        problem,
+        points: vec![],
+    };
+    let mut found = Sweep::default();
+    for (k, &velocity) in velocities.iter().enumerate() {
+        progress::task("sweep", k, velocities.len());
+        match path.reach(velocity)? {
+            Ok(trim) => {
+                let power = power(&trim.tethered()?)?;
+                let wing = trim.setup.animal.wings.first();
+                found.flights.push(Swept {
+                    velocity,
+                    stroke_amplitude: wing.map_or(0.0, stroke_amplitude),
+                    trim,
+                    power,
+                });
+            }
+            Err(residual) => {
+                found.lost = Some((velocity, residual));
+                break;
+            }
+        }
+    }
+    Ok(found)
+}
+
+/// The points found so far.
+struct Path<'a> {
+    setup: &'a FlightSetup,
+    problem: &'a TrimProblem,
+    points: Vec<(DVec3, Vec<f64>)>,
+}
+
+impl Path<'_> {
+    /// The trim at a velocity, or the residual of what was found instead.
+    fn reach(&mut self, velocity: DVec3) -> Result<Result<Trim, Option<f64>>, AnalysisError> {
+        let Some(from) = self.points.last().map(|p| p.0) else {
+            return self.first(velocity).map(arrived);
+        };
+        // Parts of the way that lie ahead, the nearest last.
+        let mut ahead = vec![velocity];
+        let mut at = from;
+        let mut residual = None;
+        while let Some(&next) = ahead.last() {
+            match self.try_at(next) {
+                Ok(trim) if trim.converged => {
+                    at = next;
+                    ahead.pop();
+                    if ahead.is_empty() {
+                        return Ok(Ok(trim));
+                    }
+                }
+                other => {
+                    residual = other.ok().map(|t| t.error()).or(residual);
+                    if ahead.len() > HALVINGS {
+                        break;
+                    }
+                    ahead.push(at.midpoint(next));
+                }
+            }
+        }
+        Ok(Err(residual))
+    }
+
+    fn first(&mut self, velocity: DVec3) -> Result<Trim, AnalysisError> {
+        let found = trim(self.setup, &self.at(velocity))?;
+        self.points.push((velocity, found.point.clone()));
+        Ok(found)
+    }
+
+    fn at(&self, velocity: DVec3) -> TrimProblem {
+        TrimProblem {
+            velocity,
+            ..self.problem.clone()
+        }
+    }
+
+    /// Trims at a velocity from the points found, extrapolated along the way.
+    fn try_at(&mut self, velocity: DVec3) -> Result<Trim, AnalysisError> {
+        let guess = match self.points.as_slice() {
+            [.., (v0, x0), (v1, x1)] => {
+                let way = (*v1 - *v0).length();
+                let share = if way > 0.0 {
+                    (velocity - *v1).length() / way
+                } else {
+                    0.0
+                };
+                let along = |(a, b): (&f64, &f64)| b + share.min(2.0) * (b - a);
+                x0.iter().zip(x1).map(along).collect()
+            }
+            [.., (_, x)] => x.clone(),
+            [] => return self.first(velocity),
+        };
+        let found = trim_from(self.setup, &self.at(velocity), guess)?;
+        if found.converged {
+            self.points.push((velocity, found.point.clone()));
+        }
+        Ok(found)
+    }
+}
+
+fn arrived(trim: Trim) -> Result<Trim, Option<f64>> {
+    match trim.converged {
+        true => Ok(trim),
+        false => Err(Some(trim.error())),
+    }
+}

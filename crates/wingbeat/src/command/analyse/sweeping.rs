@@ -1,0 +1,117 @@
+//! `wingbeat trim --sweep`: trimmed flights over a range of speeds.
+
+use serde_json::{Value, json};
+use wingbeat::analysis::sweep::{Sweep, Swept, sweep};
+use wingbeat::draw::figures::swept::{SpeedRow, swept};
+use wingbeat::math::DVec3;
+
+use super::found::{Found, values};
+use super::trimming::{Trimming, watched};
+use crate::command::failure::{FAILED, Failure};
+use crate::command::report::{Report, line};
+use crate::command::target::Target;
+
+/// Trims from speed to speed, reports, and draws.
+pub(super) fn run(
+    args: &Trimming,
+    [from, to]: [f64; 2],
+    points: usize,
+    report: &mut Report,
+    figure: Option<Target>,
+) -> Result<(), Failure> {
+    let case = args.load()?;
+    args.without_memory(&case)?;
+    let problem = args.problem(&case)?;
+    let share = |k: usize| k as f64 / (points - 1) as f64;
+    let velocity = |k: usize| DVec3::new(from + (to - from) * share(k), 0.0, problem.velocity.z);
+    let velocities: Vec<DVec3> = (0..points).map(velocity).collect();
+    let found = watched("trimming", || sweep(&case.setup, &problem, &velocities))?;
+    tell(report, &case.name, &found);
+    if let Some(file) = figure.filter(|_| !found.flights.is_empty()) {
+        let rows: Vec<SpeedRow> = found.flights.iter().map(row).collect();
+        file.write(&swept(&case.name, &rows))?;
+        report.wrote(&file);
+    }
+    match found.lost {
+        None => Ok(()),
+        Some(_) => Err(Failure::Told(FAILED)),
+    }
+}
+
+fn row(flight: &Swept) -> SpeedRow {
+    let p = &flight.power;
+    SpeedRow {
+        forward: flight.velocity.x,
+        power: [p.aerodynamic, p.perfect_storage, p.no_storage].map(|x| p.body_specific(x)),
+        stroke_amplitude: flight.stroke_amplitude,
+        frequency: 1.0 / flight.trim.beat.period(),
+        body_pitch: flight.trim.body_pitch,
+    }
+}
+
+fn tell(report: &mut Report, name: &str, found: &Sweep) {
+    line!(report, "{name}: trimmed flights against speed");
+    line!(
+        report,
+        "  {:>11}{:>12}{:>12}{:>12}{:>10}{:>12}{:>10}",
+        "forward m/s",
+        "air W/kg",
+        "storage",
+        "no storage",
+        "stroke deg",
+        "frequency Hz",
+        "pitch deg"
+    );
+    for r in found.flights.iter().map(row) {
+        let [air, perfect, none] = r.power;
+        line!(
+            report,
+            "  {:>11.3}{air:>12.2}{perfect:>12.2}{none:>12.2}{:>10.2}{:>12.2}{:>10.2}",
+            r.forward,
+            r.stroke_amplitude.to_degrees(),
+            r.frequency,
+            r.body_pitch.to_degrees()
+        );
+    }
+    line!(
+        report,
+        "  air: power against the air; storage: of muscles with perfect elastic storage, no storage: with none"
+    );
+    let forward = |f: Option<&Swept>| f.map(|f| f.velocity.x);
+    if let (true, Some(v)) = (found.flights.len() > 2, forward(found.least_power())) {
+        line!(report, "  least power at {v:.3} m/s");
+        report.value("least_power_forward_m_s", v);
+    }
+    if let (true, Some(v)) = (found.flights.len() > 2, forward(found.least_work())) {
+        line!(report, "  least work per distance at {v:.3} m/s");
+        report.value("least_work_per_distance_forward_m_s", v);
+    }
+    if let Some((velocity, residual)) = &found.lost {
+        let reached = residual.map_or(String::new(), |r| format!(", largest residual {r:.1e}"));
+        line!(
+            report,
+            "NOT trimmed at {:.3} m/s{reached}: the range ends before; choose other --unknowns, or a narrower range",
+            velocity.x
+        );
+        report.value("not_trimmed_forward_m_s", velocity.x);
+    }
+    let flights: Vec<Value> = found.flights.iter().map(value).collect();
+    report.value("case", name);
+    report.value("flights", flights);
+}
+
+fn value(flight: &Swept) -> Value {
+    let r = row(flight);
+    let [air, perfect, none] = r.power;
+    json!({
+        "forward_m_s": r.forward,
+        "climb_m_s": 0.0 - flight.velocity.z,
+        "aerodynamic_watt_per_kg_body": air,
+        "perfect_storage_watt_per_kg_body": perfect,
+        "no_storage_watt_per_kg_body": none,
+        "stroke_amplitude_deg": r.stroke_amplitude.to_degrees(),
+        "frequency_hz": r.frequency,
+        "body_pitch_deg": r.body_pitch.to_degrees(),
+        "unknowns": values(&flight.trim.unknowns, &Found::from(&flight.trim)),
+    })
+}
