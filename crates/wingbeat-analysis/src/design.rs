@@ -15,7 +15,8 @@ use crate::departure::{Limits, Reference};
 use crate::regulator::{Regulator, Weights};
 use crate::sensors::Sensors;
 use crate::stabiliser::{ProportionalDerivative, Stiffness};
-use crate::trim::{Trim, TrimProblem, TrimSettings, Unknown, trim};
+use crate::trim::{Trim, TrimProblem, TrimSettings, trim};
+use crate::unknown::Unknown;
 
 /// Which law, and how it is laid out.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -3,6 +3,8 @@
 //! Each trim begins at the point of the one before, extrapolated (natural continuation). Where Newton's method
 //! does not arrive, the way there is halved, a few times; where it does not arrive then, the range ends.
 
+use std::f64::consts::PI;
+
 use wingbeat_flight::FlightSetup;
 use wingbeat_math::DVec3;
 
@@ -30,8 +32,17 @@ pub struct Swept {
 pub struct Sweep {
     /// One for each velocity that was reached.
     pub flights: Vec<Swept>,
-    /// The first velocity that was not reached, N components [m/s], with the largest residual there, if one was found.
-    pub lost: Option<(DVec3, Option<f64>)>,
+    /// The first velocity that was not reached, N components [m/s], and why.
+    pub lost: Option<(DVec3, Lost)>,
+}
+
+/// Why a velocity was not reached.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Lost {
+    /// No point there has residuals within the tolerance; the largest of the best, if one was finite.
+    NotTrimmed(Option<f64>),
+    /// The first wing would stroke over more than half a circle \[rad\]: right and left wings pass through each other.
+    Stroke(f64),
 }
 
 impl Sweep {
@@ -77,17 +88,22 @@ pub fn sweep(
         progress::task("sweep", k, velocities.len());
         match path.reach(velocity)? {
             Ok(trim) => {
-                let power = power(&trim.tethered()?)?;
                 let wing = trim.setup.animal.wings.first();
+                let stroke_amplitude = wing.map_or(0.0, stroke_amplitude);
+                if stroke_amplitude > PI {
+                    found.lost = Some((velocity, Lost::Stroke(stroke_amplitude)));
+                    break;
+                }
+                let power = power(&trim.tethered()?)?;
                 found.flights.push(Swept {
                     velocity,
-                    stroke_amplitude: wing.map_or(0.0, stroke_amplitude),
+                    stroke_amplitude,
                     trim,
                     power,
                 });
             }
             Err(residual) => {
-                found.lost = Some((velocity, residual));
+                found.lost = Some((velocity, Lost::NotTrimmed(residual)));
                 break;
             }
         }

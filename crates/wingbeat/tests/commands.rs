@@ -182,6 +182,44 @@ fn balances_trim_reaches_forward_flight_and_says_when_it_fails() {
 }
 
 #[test]
+fn behaves_a_sweep_draws_power_against_speed_and_says_where_flight_ends() {
+    let scratch = Scratch::new("trim-sweep");
+    let dir = &scratch.0;
+    let sweep = ["trim", "bumblebee-blade", "--steps", "40", "--sweep"];
+    let text = said(
+        dir,
+        &[
+            &sweep[..],
+            &["0", "3", "--points", "4", "--figure", "s.svg"],
+        ]
+        .concat(),
+    );
+    // Power falls from hover and rises again: the curve of all that hover.
+    assert_eq!(figure(&text, "least power at"), "2.000 m/s", "{text}");
+    let svg = fs::read_to_string(dir.join("s.svg")).unwrap();
+    assert!(svg.contains("speed forward [m/s]"));
+    let out = wingbeat(dir, &[&sweep[..], &["2", "8", "--points", "3"]].concat());
+    let told = String::from_utf8_lossy(&out.stdout);
+    assert_eq!(out.status.code(), Some(1), "{told}");
+    assert!(told.contains("NOT trimmed at 5.000 m/s"), "{told}");
+    for (args, reason) in [
+        (&["trim", "--sweep", "1", "1"][..], "the same speed"),
+        (
+            &["trim", "fruit-fly-hover", "--sweep", "0", "1"],
+            "--sweep has no effect here",
+        ),
+        (
+            &["trim", "--sweep", "0", "1", "--write", "x.toml"],
+            "--write",
+        ),
+        (&["trim", "--points", "4"], "--sweep"),
+    ] {
+        let problem = refused(dir, 2, args);
+        assert!(problem.contains(reason), "{args:?}: {problem}");
+    }
+}
+
+#[test]
 fn published_structure_of_longitudinal_modes_of_all_insects() {
     // One unstable oscillation, one fast and one slow subsidence [Sun & Xiong 2005; Sun, Wang &
     // Xiong 2007], averaged and by Floquet's theory.

@@ -9,12 +9,18 @@ use serde_json::Value;
 use support::{Scratch, flown, quick_case, wingbeat};
 
 /// Every command that analyses, with a name that its JSON has.
-const ANALYSES: [(&[&str], &str); 11] = [
+const ANALYSES: [(&[&str], &str); 12] = [
     (&["check", "case.toml"], "mass_kg"),
     (&["show", "r"], "summary"),
     (&["compare", "r", "s"], "keys"),
     (&["presets"], "species"),
     (&["trim", "--steps", "20"], "unknowns"),
+    (
+        &[
+            "trim", "--steps", "20", "--sweep", "0", "0.4", "--points", "3",
+        ],
+        "flights",
+    ),
     (&["stability", "--steps", "20"], "floquet_modes"),
     (&["derivatives", "--steps", "20"], "control_derivatives"),
     (&["power", "--steps", "20"], "power"),

@@ -1,7 +1,7 @@
 //! `wingbeat trim --sweep`: trimmed flights over a range of speeds.
 
 use serde_json::{Value, json};
-use wingbeat::analysis::sweep::{Sweep, Swept, sweep};
+use wingbeat::analysis::sweep::{Lost, Sweep, Swept, sweep};
 use wingbeat::draw::figures::swept::{SpeedRow, swept};
 use wingbeat::math::DVec3;
 
@@ -30,7 +30,6 @@ pub(super) fn run(
     if let Some(file) = figure.filter(|_| !found.flights.is_empty()) {
         let rows: Vec<SpeedRow> = found.flights.iter().map(row).collect();
         file.write(&swept(&case.name, &rows))?;
-        report.wrote(&file);
     }
     match found.lost {
         None => Ok(()),
@@ -53,11 +52,11 @@ fn tell(report: &mut Report, name: &str, found: &Sweep) {
     line!(report, "{name}: trimmed flights against speed");
     line!(
         report,
-        "  {:>11}{:>12}{:>12}{:>12}{:>10}{:>12}{:>10}",
+        "  {:>11}{:>12}{:>14}{:>17}{:>12}{:>14}{:>11}",
         "forward m/s",
         "air W/kg",
-        "storage",
-        "no storage",
+        "storage W/kg",
+        "no storage W/kg",
         "stroke deg",
         "frequency Hz",
         "pitch deg"
@@ -66,7 +65,7 @@ fn tell(report: &mut Report, name: &str, found: &Sweep) {
         let [air, perfect, none] = r.power;
         line!(
             report,
-            "  {:>11.3}{air:>12.2}{perfect:>12.2}{none:>12.2}{:>10.2}{:>12.2}{:>10.2}",
+            "  {:>11.3}{air:>12.2}{perfect:>14.2}{none:>17.2}{:>12.2}{:>14.2}{:>11.2}",
             r.forward,
             r.stroke_amplitude.to_degrees(),
             r.frequency,
@@ -86,14 +85,22 @@ fn tell(report: &mut Report, name: &str, found: &Sweep) {
         line!(report, "  least work per distance at {v:.3} m/s");
         report.value("least_work_per_distance_forward_m_s", v);
     }
-    if let Some((velocity, residual)) = &found.lost {
-        let reached = residual.map_or(String::new(), |r| format!(", largest residual {r:.1e}"));
+    if let Some((velocity, lost)) = &found.lost {
+        let why = match lost {
+            Lost::NotTrimmed(Some(residual)) => format!("largest residual {residual:.1e}"),
+            Lost::NotTrimmed(None) => "no finite flight".to_owned(),
+            Lost::Stroke(angle) => format!(
+                "strokes of {:.0} deg, with which right and left wings pass through each other",
+                angle.to_degrees()
+            ),
+        };
         line!(
             report,
-            "NOT trimmed at {:.3} m/s{reached}: the range ends before; choose other --unknowns, or a narrower range",
+            "NOT trimmed at {:.3} m/s ({why}): the range ends before; choose other --unknowns, or a narrower range",
             velocity.x
         );
         report.value("not_trimmed_forward_m_s", velocity.x);
+        report.value("not_trimmed_reason", why);
     }
     let flights: Vec<Value> = found.flights.iter().map(value).collect();
     report.value("case", name);
