@@ -189,7 +189,7 @@ impl Trim {
 /// A setup that [`Beat`] does not cover; numbers that stop being finite at the very start. A
 /// trim that does not converge is no error: see [`Trim::converged`].
 pub fn trim(setup: &FlightSetup, problem: &TrimProblem) -> Result<Trim, AnalysisError> {
-    check_unknowns(setup, problem)?;
+    check_unknowns(setup, &problem.unknowns)?;
     let first = Beat::new(setup, problem.settings.steps)?;
     let speed = first.wing_length() / first.period();
     let v = problem.velocity;
@@ -261,7 +261,8 @@ fn periodic_joints(beat: &Beat, pitch: f64) -> Result<Vec<f64>, AnalysisError> {
 
 /// The residual at the point `x`, with everything that belongs to it.
 fn evaluate(setup: &FlightSetup, problem: &TrimProblem, x: &[f64]) -> Result<Trim, AnalysisError> {
-    let (setup, adjustment, mass_centre, pitch) = adjusted(setup, problem, &x[3..6]);
+    let (setup, adjustment, mass_centre, pitch) =
+        adjusted(setup, &problem.unknowns, problem.body_pitch, &x[3..6]);
     let beat = Beat::new(&setup, problem.settings.steps)?;
     let (length, period) = (beat.wing_length(), beat.period());
     let speed = length / period;

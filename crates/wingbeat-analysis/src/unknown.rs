@@ -4,7 +4,6 @@ use wingbeat_flight::{FlightSetup, faster};
 use wingbeat_model::motion::Adjustment;
 
 use crate::AnalysisError;
-use crate::trim::TrimProblem;
 
 /// A control that trim may choose.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -53,32 +52,31 @@ impl Unknown {
 /// An error if an unknown is not what it says for the joints of `setup`.
 pub(crate) fn check_unknowns(
     setup: &FlightSetup,
-    problem: &TrimProblem,
+    unknowns: &[Unknown; 3],
 ) -> Result<(), AnalysisError> {
     match setup.joints.first() {
-        Some(joint) if problem.unknowns.contains(&Unknown::MassCentre) => {
-            Err(AnalysisError::not_covered(
-                format!(
-                    "mass_centre shifts the hinges of wings against the body, and joint `{}` has a place of its own",
-                    joint.name
-                ),
-                "choose other unknowns, or shift at_m of the joints in the case",
-            ))
-        }
+        Some(joint) if unknowns.contains(&Unknown::MassCentre) => Err(AnalysisError::not_covered(
+            format!(
+                "mass_centre shifts the hinges of wings against the body, and joint `{}` has a place of its own",
+                joint.name
+            ),
+            "choose other unknowns, or shift at_m of the joints in the case",
+        )),
         _ => Ok(()),
     }
 }
 
-/// The setup with the controls `values` of the problem's unknowns; adjustment, shift of the mass
+/// The setup with the controls `values` of `unknowns`, from the body pitch `pitch`; adjustment, shift of the mass
 /// centre and body pitch.
 pub(crate) fn adjusted(
     setup: &FlightSetup,
-    problem: &TrimProblem,
+    unknowns: &[Unknown; 3],
+    mut pitch: f64,
     values: &[f64],
 ) -> (FlightSetup, Adjustment, f64, f64) {
     let mut a = Adjustment::default();
-    let (mut shift, mut pitch) = (0.0, problem.body_pitch);
-    for (unknown, &x) in problem.unknowns.iter().zip(values) {
+    let mut shift = 0.0;
+    for (unknown, &x) in unknowns.iter().zip(values) {
         match unknown {
             Unknown::StrokeAmplitude => a.stroke_amplitude = x,
             Unknown::StrokeOffset => a.stroke_offset = x,

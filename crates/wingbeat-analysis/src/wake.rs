@@ -121,7 +121,7 @@ pub fn trim_with_wake(
     problem: &TrimProblem,
     settings: &WakeSettings,
 ) -> Result<WakeTrim, AnalysisError> {
-    check_unknowns(setup, problem)?;
+    check_unknowns(setup, &problem.unknowns)?;
     let mut search = Search {
         setup,
         problem,
@@ -212,8 +212,12 @@ impl Search<'_> {
             0,
             0,
         );
-        let (mut setup, adjustment, mass_centre, pitch) =
-            adjusted(self.setup, self.problem, &x[3..]);
+        let (mut setup, adjustment, mass_centre, pitch) = adjusted(
+            self.setup,
+            &self.problem.unknowns,
+            self.problem.body_pitch,
+            &x[3..],
+        );
         let frequency = setup
             .animal
             .wings

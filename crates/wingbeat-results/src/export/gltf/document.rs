@@ -7,7 +7,7 @@ use std::path::Path;
 use serde_json::{Value, json};
 use wingbeat_math::DVec3;
 
-use super::Shown;
+use crate::export::source::Source;
 use crate::poses::Poses;
 
 pub(super) const FLOAT: u32 = 5126;
@@ -21,6 +21,32 @@ pub(super) const INDICES: u32 = 34963;
 const BODY: usize = 0;
 const WING: usize = 1;
 pub(super) const WAKE: usize = 2;
+
+/// How the flight is shown.
+pub(super) struct Shown {
+    /// Seconds of the animation per second of the flight.
+    pub slower: f64,
+    /// Lengths of the scene per length of the animal.
+    pub larger: f64,
+}
+
+impl Shown {
+    /// A wingbeat takes a second; the longest wing, or the body, is 1 to 10 decimetres long.
+    pub fn of(source: &Source) -> Self {
+        let setup = &source.case.setup;
+        let reports = setup.animal.wing_reports();
+        let wing = reports.iter().map(|r| r.length).fold(0.0, f64::max);
+        let length = wing.max(setup.animal.body_length());
+        let larger = match length > 0.0 {
+            true => 10f64.powf((0.0999 / length).log10().ceil()),
+            false => 1.0,
+        };
+        Self {
+            slower: setup.time.period.map_or(1.0, |p| 1.0 / p),
+            larger,
+        }
+    }
+}
 
 /// Everything of the file but the numbers of the animation and of the wakes.
 #[derive(Default)]

@@ -18,7 +18,7 @@ use super::block::Block;
 use super::source::Source;
 use crate::poses::Poses;
 use crate::rows::Rows;
-use document::{Document, FLOAT};
+use document::{Document, FLOAT, Shown};
 use wake::Wakes;
 use wingbeat_case::IoError;
 
@@ -28,32 +28,6 @@ const AXES: DMat3 = DMat3::from_cols(
     DVec3::new(0.0, 0.0, 1.0),
     DVec3::new(0.0, -1.0, 0.0),
 );
-
-/// How the flight is shown.
-struct Shown {
-    /// Seconds of the animation per second of the flight.
-    slower: f64,
-    /// Lengths of the scene per length of the animal.
-    larger: f64,
-}
-
-impl Shown {
-    /// A wingbeat takes a second; the longest wing, or the body, is 1 to 10 decimetres long.
-    fn of(source: &Source) -> Self {
-        let setup = &source.case.setup;
-        let reports = setup.animal.wing_reports();
-        let wing = reports.iter().map(|r| r.length).fold(0.0, f64::max);
-        let length = wing.max(setup.animal.body_length());
-        let larger = match length > 0.0 {
-            true => 10f64.powf((0.0999 / length).log10().ceil()),
-            false => 1.0,
-        };
-        Self {
-            slower: setup.time.period.map_or(1.0, |p| 1.0 / p),
-            larger,
-        }
-    }
-}
 
 /// Writes the animation.
 ///
