@@ -131,6 +131,22 @@ impl ModeSet {
         self.modes.iter().filter(move |m| m.plane == plane)
     }
 
+    /// What the modes of a plane are: whether each swings, and grows, in alphabetical order of their names; the neutral
+    /// one, which rounding makes grow or decay, left out with all that change by less than a hundredth in a
+    /// wingbeat.
+    pub fn kinds(&self, plane: Plane) -> Vec<&'static str> {
+        let clear = |m: &&Mode| m.frequency > 0.0 || (m.growth * m.wingbeat).abs() > 1e-2;
+        let name = |m: &Mode| match (m.frequency > 0.0, m.growth > 0.0) {
+            (true, true) => "unstable oscillation",
+            (true, false) => "stable oscillation",
+            (false, true) => "divergence",
+            (false, false) => "subsidence",
+        };
+        let mut kinds: Vec<&'static str> = self.plane(plane).filter(clear).map(name).collect();
+        kinds.sort_unstable();
+        kinds
+    }
+
     /// The first mode of this name in a plane.
     pub fn find(&self, plane: Plane, name: &str) -> Option<&Mode> {
         self.plane(plane).find(|m| m.name == name)

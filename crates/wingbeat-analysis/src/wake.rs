@@ -41,7 +41,8 @@ pub enum WakeMemory {
 pub struct WakeSettings {
     /// Wingbeats during which the body is held.
     pub held_beats: usize,
-    /// Largest residual that counts as trimmed \[1\].
+    /// Largest residual that counts as trimmed \[1\]. Where wakes meet wings or leave leading edges, the map of a
+    /// beat is rough at some 1e-4: smaller ones are not to be had there.
     pub tolerance: f64,
     /// Most quasi-Newton steps.
     pub iterations: usize,
@@ -51,7 +52,7 @@ impl Default for WakeSettings {
     fn default() -> Self {
         Self {
             held_beats: 2,
-            tolerance: 1e-6,
+            tolerance: 5e-4,
             iterations: 40,
         }
     }
@@ -262,15 +263,16 @@ impl Search<'_> {
         Ok((residual, found))
     }
 
-    /// Slopes of the residuals at `x`, rows by residual, by one-sided differences.
+    /// Slopes of the residuals at `x`, rows by residual, by one-sided differences, over steps beside which the
+    /// roughness of the map is small.
     fn jacobian(&mut self, x: &[f64; 6], r: &[f64; 6]) -> Result<[[f64; 6]; 6], AnalysisError> {
-        const STEP: f64 = 1e-4;
+        let step = (10.0 * self.settings.tolerance).max(1e-4);
         let mut j = [[0.0; 6]; 6];
         for k in 0..6 {
             let mut moved = *x;
-            moved[k] += STEP;
+            moved[k] += step;
             let at = self.fly(&moved)?.0;
-            (0..6).for_each(|i| j[i][k] = (at[i] - r[i]) / STEP);
+            (0..6).for_each(|i| j[i][k] = (at[i] - r[i]) / step);
         }
         Ok(j)
     }

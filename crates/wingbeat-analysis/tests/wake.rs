@@ -28,6 +28,7 @@ fn agrees_trim_and_modes_by_flights_with_the_beat_map_where_air_forgets() {
     let problem = hover(60);
     let settings = WakeSettings {
         held_beats: 1,
+        tolerance: 1e-6,
         ..WakeSettings::default()
     };
     let flown = trim_with_wake(&setup, &problem, &settings).unwrap();
@@ -78,6 +79,7 @@ fn in_lattice(steps: usize) -> FlightSetup {
 fn balances_hover_trims_in_the_vortex_lattice() {
     let settings = WakeSettings {
         held_beats: 1,
+        tolerance: 1e-6,
         ..WakeSettings::default()
     };
     let found = trim_with_wake(&in_lattice(20), &hover(20), &settings).unwrap();

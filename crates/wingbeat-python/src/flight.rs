@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 
 use pyo3::prelude::*;
 use wingbeat::analysis::TrimSettings;
+use wingbeat::analysis::wake::WakeSettings;
 use wingbeat::case::LoadedCase;
 use wingbeat::flight::Snapshot;
 
@@ -239,23 +240,32 @@ impl Flight {
         found.map_err(|e| self.slot.take().unwrap_or(e))
     }
     /// The same in air with a memory, its steps those of the case: the body is held for `held_beats` wingbeats while its
-    /// wake grows.
+    /// wake grows; trimmed is what has residuals within `tolerance`.
     fn trim_with_wake(
         &self,
         py: Python<'_>,
         velocity_m_s: [f64; 2],
         unknowns: [String; 3],
         held_beats: usize,
+        tolerance: f64,
     ) -> PyResult<WakeTrim> {
         const MOST: usize = 100;
         if !(1..=MOST).contains(&held_beats) {
             let remedy = format!("a whole number from 1 to {MOST}");
             return Err(refused(py, "held_beats", "out of range", &remedy));
         }
+        if !(1e-9..=0.1).contains(&tolerance) {
+            return Err(refused(py, "tolerance", "out of range", "from 1e-9 to 0.1"));
+        }
+        let settings = WakeSettings {
+            held_beats,
+            tolerance,
+            ..WakeSettings::default()
+        };
         let steps = TrimSettings::default().steps;
         let problem = mechanics::problem(py, &self.flight, velocity_m_s, &unknowns, steps)?;
         let case = (!self.is_own).then(|| self.case.clone());
-        let found = wake::trim(py, &self.flight, problem, held_beats, case);
+        let found = wake::trim(py, &self.flight, problem, settings, case);
         found.map_err(|e| self.slot.take().unwrap_or(e))
     }
 }

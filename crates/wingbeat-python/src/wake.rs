@@ -12,20 +12,16 @@ use crate::errors::raised;
 use crate::mechanics::{ModeParts, modes};
 use crate::worker::analyse;
 
-/// Trims the flight, its feedback left out, the body held for `held_beats` wingbeats first.
+/// Trims the flight, its feedback left out.
 pub fn trim(
     py: Python<'_>,
     flight: &wingbeat::Flight,
     problem: TrimProblem,
-    held_beats: usize,
+    settings: WakeSettings,
     case: Option<LoadedCase>,
 ) -> PyResult<WakeTrim> {
     let mut setup = flight.setup.clone();
     setup.feedback = None;
-    let settings = WakeSettings {
-        held_beats,
-        ..WakeSettings::default()
-    };
     let found = analyse(py, move || trim_with_wake(&setup, &problem, &settings))?;
     let trim = found.map_err(|e| raised(py, &e.into()))?;
     Ok(WakeTrim { trim, case })

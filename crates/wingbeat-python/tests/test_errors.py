@@ -91,6 +91,7 @@ BAD: dict[str, Bad] = {
     "unknown unknown": lambda blade, _: blade.trim(unknowns=("body_pitch", "courage", "frequency")),
     "trim at infinite speed": lambda blade, _: blade.trim(forward_m_per_s=float("inf")),
     "trim in one step": lambda blade, _: blade.trim(steps=1),
+    "trim with a wake, to nothing": lambda *_: Flight.preset("fruit-fly-hover").trim_with_wake(tolerance=0),
     "trim with a wake, held for nothing": lambda *_: Flight.preset("fruit-fly-hover").trim_with_wake(held_beats=0),
     "trim under a load": lambda blade, _: Flight.preset("fruit-fly-hover").trim(),
 }

@@ -223,12 +223,14 @@ class Flight:
         climb_m_per_s: float = 0.0,
         unknowns: Sequence[str] = _HOVER,
         held_beats: int = 2,
+        tolerance: float = 5e-4,
     ) -> WakeTrim:
         """The same in the vortex lattice, in the steps of the case: the body is held for ``held_beats`` wingbeats while its
-        wake grows, and the free wingbeat after them is the one that is trimmed. Some 20 to 60 such flights: minutes.
+        wake grows, and the free wingbeat after them is the one that is trimmed: its residuals, forces over weight, within
+        ``tolerance``. Some 10 to 30 such flights: minutes.
         """
         velocity = (float(forward_m_per_s), float(climb_m_per_s))
-        return WakeTrim(self._core.trim_with_wake(velocity, _three(unknowns), held_beats))
+        return WakeTrim(self._core.trim_with_wake(velocity, _three(unknowns), held_beats, float(tolerance)))
 
     def stability(self, **trim: Any) -> LinearModel:
         """Linear model about the trimmed flight; arguments are those of :meth:`trim`."""

@@ -42,6 +42,12 @@ pub(crate) fn share(text: &str) -> Result<f64, String> {
     number(text, |x| x > 0.0 && x <= 1.0, "a share above 0 and up to 1")
 }
 
+/// A residual below which something counts as zero.
+pub(crate) fn tolerance(text: &str) -> Result<f64, String> {
+    let range = "a residual from 1e-9 to 0.1";
+    number(text, |x| (1e-9..=0.1).contains(&x), range)
+}
+
 /// A number with its unit, e.g. `100mg`; in SI units.
 fn quantity(
     text: &str,

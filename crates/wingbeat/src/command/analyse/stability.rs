@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 use serde_json::{Value, json};
+use wingbeat::analysis::modes::Plane;
 use wingbeat::analysis::stability::{LOADS, LinearModel};
 use wingbeat::analysis::wake::{WakeMemory, wake_floquet};
 use wingbeat::analysis::{ModeSet, floquet, linear_model, table_model};
@@ -25,7 +26,7 @@ pub(crate) struct StabilityArgs {
     /// Write the averaged model as a case file with stability derivatives; - is the standard output.
     #[arg(long, value_name = "FILE")]
     write: Option<PathBuf>,
-    /// In a vortex lattice: what is held fixed when the body is disturbed [default: carried].
+    /// In a vortex lattice: what is held fixed when the body is disturbed [default: one after the other].
     #[arg(long, value_enum)]
     wake: Option<Wake>,
 }
@@ -105,16 +106,42 @@ fn of_trim(args: &Trimming, report: &mut Report, file: Option<Target>) -> Result
 /// Floquet's modes of the free wingbeat after a hold.
 fn with_wake(args: &StabilityArgs, report: &mut Report) -> Result<(), Failure> {
     let (_, trim) = trimmed_with_wake(&args.trimming, report)?;
-    let (memory, held) = match args.wake.unwrap_or(Wake::Carried) {
-        Wake::Given => (WakeMemory::Given, "the wake of the trimmed flight"),
-        Wake::Carried => (WakeMemory::Carried, "the disturbance during the hold"),
+    let of = |report: &mut Report, wake: Wake, key: &str| -> Result<ModeSet, Failure> {
+        let (memory, held) = match wake {
+            Wake::Given => (WakeMemory::Given, "the wake of the trimmed flight"),
+            Wake::Carried => (WakeMemory::Carried, "the disturbance during the hold"),
+        };
+        let found = watched("Floquet's modes", || wake_floquet(&trim, memory))?;
+        line!(
+            report,
+            "\nModes of the free wingbeat after the hold (Floquet); held fixed: {held}:"
+        );
+        modes(report, key, &found);
+        Ok(found)
     };
-    let found = watched("Floquet's modes", || wake_floquet(&trim, memory))?;
+    if let Some(wake) = args.wake {
+        of(report, wake, "floquet_modes")?;
+        return Ok(());
+    }
+    let given = of(report, Wake::Given, "floquet_modes_given")?;
+    let carried = of(report, Wake::Carried, "floquet_modes_carried")?;
     line!(
         report,
-        "\nModes of the free wingbeat after the hold (Floquet); held fixed: {held}:"
+        "\nThe two bracket what the wake remembers: the modes are known no better than they agree."
     );
-    modes(report, "floquet_modes", &found);
+    for (plane, name) in [
+        (Plane::Longitudinal, "longitudinal"),
+        (Plane::Lateral, "lateral"),
+    ] {
+        let agree = given.kinds(plane) == carried.kinds(plane);
+        if !agree {
+            line!(
+                report,
+                "The {name} modes differ in kind between them: this flight does not tell which there are."
+            );
+        }
+        report.value(&format!("{name}_modes_agree_in_kind"), agree);
+    }
     Ok(())
 }
 

@@ -68,6 +68,10 @@ pub(crate) struct Trimming {
     #[arg(long, value_name = "BEATS", help_heading = HEADING,
           value_parser = options::count::<1, MAX_HELD>)]
     hold: Option<usize>,
+    /// In a vortex lattice: largest residual (forces over weight) that counts as trimmed
+    /// [default: 5e-4].
+    #[arg(long, value_name = "RESIDUAL", help_heading = HEADING, value_parser = options::tolerance)]
+    tolerance: Option<f64>,
     #[command(flatten)]
     pub(super) report: ReportArgs,
 }
@@ -100,6 +104,7 @@ impl Trimming {
             ("climb", self.climb.is_some()),
             ("steps", self.steps.is_some()),
             ("hold", self.hold.is_some()),
+            ("tolerance", self.tolerance.is_some()),
         ];
         match given.iter().find(|g| g.1) {
             Some((option, _)) => Err(unused(
@@ -118,15 +123,27 @@ impl Trimming {
 
     /// Refuses air with a memory where a case is trimmed many times over.
     pub(super) fn without_memory(&self, case: &LoadedCase) -> Result<(), Failure> {
-        if self.hold.is_some() {
-            return Err(unused("hold", "a sweep goes without a wake to grow"));
-        }
         match case.setup.air.has_memory() {
             true => Err(unused(
                 "sweep",
                 "in air with memory every trim takes minutes; sweep in blade elements (--set air.model=blade_element), or trim speed by speed with --forward",
             )),
-            false => Ok(()),
+            false => self.without_hold(),
+        }
+    }
+
+    /// Refuses what a trim in air with memory has alone.
+    fn without_hold(&self) -> Result<(), Failure> {
+        match (self.hold, self.tolerance) {
+            (Some(_), _) => Err(unused(
+                "hold",
+                "this air has no memory, so no wake has to grow",
+            )),
+            (_, Some(_)) => Err(unused(
+                "tolerance",
+                "this air has no memory, and trims close to 1e-9 in it",
+            )),
+            _ => Ok(()),
         }
     }
 
@@ -166,12 +183,7 @@ pub(crate) fn watched<T>(what: &str, work: impl FnOnce() -> T) -> T {
 /// Loads the case and trims it; reports the trim.
 pub(crate) fn trimmed(args: &Trimming, report: &mut Report) -> Result<(LoadedCase, Trim), Failure> {
     let case = args.load()?;
-    if args.hold.is_some() {
-        return Err(unused(
-            "hold",
-            "this air has no memory, so no wake has to grow",
-        ));
-    }
+    args.without_hold()?;
     let problem = args.problem(&case)?;
     let found = watched("trimming", || find_trim(&case.setup, &problem))?;
     found::tell(report, &case, &problem, &Found::from(&found));
@@ -194,6 +206,7 @@ pub(crate) fn trimmed_with_wake(
     let problem = args.problem(&case)?;
     let settings = WakeSettings {
         held_beats: args.hold.unwrap_or(DEFAULT_HELD),
+        tolerance: args.tolerance.unwrap_or(WakeSettings::default().tolerance),
         ..WakeSettings::default()
     };
     let beats = settings.held_beats + 1;
