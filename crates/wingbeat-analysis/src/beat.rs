@@ -10,9 +10,9 @@
 
 use std::sync::Arc;
 
-use wingbeat_dynamics::free::Slot;
-use wingbeat_dynamics::posture::{Composite, Posture};
-use wingbeat_dynamics::{BodyMotion, Formulation, Link, System};
+use wingbeat_dynamics::configuration::{Composite, Configuration};
+use wingbeat_dynamics::free::JointOffsets;
+use wingbeat_dynamics::{BodyMotion, Formulation, Joint, System};
 use wingbeat_flight::{FlightSetup, FreeFlight, FreeFlightScratch, Passage};
 use wingbeat_math::ode::Rk4;
 use wingbeat_math::{DMat3, DQuat, DVec3, RotationLaw};
@@ -108,11 +108,11 @@ impl Beat {
         &self.flight
     }
 
-    /// Posture and whole at all half steps of one period, the end left out; free joints at their
+    /// Configuration and whole at all half steps of one period, the end left out; free joints at their
     /// start.
-    pub(crate) fn postures(&self) -> impl Iterator<Item = (&Posture, &Composite)> {
+    pub(crate) fn configurations(&self) -> impl Iterator<Item = (&Configuration, &Composite)> {
         let table = self.flight.form().table().expect("made with one");
-        (0..2 * self.steps).map(|k| table.posture(k))
+        (0..2 * self.steps).map(|k| table.configuration(k))
     }
 
     /// Half a step [s].
@@ -159,9 +159,9 @@ impl Beat {
     /// The whole at the start of a beat with the free joints at `joints` (coordinates, speeds).
     fn whole(&self, joints: &[f64]) -> Composite {
         let system = self.flight.system();
-        let mut posture = Posture::new(system);
-        posture.update_free(system, 0.0, joints.split_at(system.coordinates()));
-        posture.composite(system)
+        let mut configuration = Configuration::new(system);
+        configuration.update_free(system, 0.0, joints.split_at(system.coordinates()));
+        configuration.composite(system)
     }
 
     /// Mass centre at the start of the beat, root components [m]; free joints at their start.
@@ -217,9 +217,9 @@ impl Beat {
     pub fn joints(&self, y: &[f64]) -> Vec<(String, Vec<f64>, Vec<f64>)> {
         let system = self.flight.system();
         let (q, u) = y[JOINTS..].split_at(system.coordinates());
-        let hinges = system.hinges().iter().zip(system.slots());
-        let free = hinges.filter(|(_, slot)| slot.speeds > 0);
-        let of = |(hinge, s): (&Link, &Slot)| {
+        let hinges = system.hinges().iter().zip(system.offsets());
+        let free = hinges.filter(|(_, offsets)| offsets.speeds > 0);
+        let of = |(hinge, s): (&Joint, &JointOffsets)| {
             let q = &q[s.q..s.q + s.coordinates];
             let coordinates = match s.coordinates {
                 4 => DQuat::from_slice(q).to_scaled_axis().to_array().to_vec(),
@@ -257,8 +257,13 @@ impl Beat {
             turned.write_to_slice(q);
         };
         unit(&mut y[3..7]);
-        for slot in form.system().slots().iter().filter(|s| s.coordinates == 4) {
-            unit(&mut y[JOINTS + slot.q..JOINTS + slot.q + 4]);
+        for offsets in form
+            .system()
+            .offsets()
+            .iter()
+            .filter(|s| s.coordinates == 4)
+        {
+            unit(&mut y[JOINTS + offsets.q..JOINTS + offsets.q + 4]);
         }
     }
 
@@ -326,7 +331,7 @@ fn check_periodic(system: &System, period: f64) -> Result<(), AnalysisError> {
     let differs = |a: DVec3, b: DVec3, size: f64| (a - b).length() > CLOSE * size;
     let length = system.units().length;
     for hinge in system.hinges() {
-        let joint = &hinge.joint;
+        let joint = &hinge.model;
         let (a, b) = (hinge.rotation(0.0), hinge.rotation(period));
         let turned = (0..3).any(|k| differs(a.c.col(k), b.c.col(k), 1.0));
         let spun = differs(a.w * period, b.w * period, 1.0 + a.w.length() * period);

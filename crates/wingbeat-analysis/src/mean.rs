@@ -19,7 +19,7 @@ pub struct MeanLoad {
 impl Beat {
     /// Mean mass centre over the beat, root components [m].
     pub fn mean_centre(&self) -> DVec3 {
-        let sum: DVec3 = self.postures().map(|(_, whole)| whole.c).sum();
+        let sum: DVec3 = self.configurations().map(|(_, whole)| whole.c).sum();
         sum / (2 * self.steps()) as f64
     }
 
@@ -27,7 +27,7 @@ impl Beat {
     pub fn mean_inertia(&self) -> DMat3 {
         let centre = self.mean_centre();
         let mut sum = DMat3::ZERO;
-        for (_, whole) in self.postures() {
+        for (_, whole) in self.configurations() {
             let t = wingbeat_math::tilde(whole.c - centre);
             sum += whole.inertia + t.transpose() * t * self.mass();
         }
@@ -41,8 +41,8 @@ impl Beat {
     /// beforehand.
     pub fn check_averaged(&self) -> Result<(), AnalysisError> {
         let system = self.flight().system();
-        let mut hinges = system.hinges().iter().zip(system.slots());
-        match hinges.find(|(_, slot)| slot.speeds > 0) {
+        let mut hinges = system.hinges().iter().zip(system.offsets());
+        match hinges.find(|(_, offsets)| offsets.speeds > 0) {
             None => Ok(()),
             Some((hinge, _)) => Err(AnalysisError::not_covered(
                 format!(
@@ -86,9 +86,9 @@ impl Beat {
         let mut accelerations = vec![BodyAcceleration::default(); bodies];
         let mut scratch = self.flight().air().scratch();
         let (mut force, mut moment) = (DVec3::ZERO, DVec3::ZERO);
-        for (k, (posture, _)) in self.postures().enumerate() {
-            posture.motions(&root, &mut motions);
-            posture.accelerations(&root, &turning, &mut accelerations);
+        for (k, (configuration, _)) in self.configurations().enumerate() {
+            configuration.motions(&root, &mut motions);
+            configuration.accelerations(&root, &turning, &mut accelerations);
             let t = k as f64 * self.half_step();
             let loads = (self.flight()).air_loads(t, &motions, &accelerations, &mut scratch)?;
             for (load, m) in loads.iter().zip(&motions) {

@@ -1,6 +1,6 @@
 //! Mechanical power of flapping: aerodynamic, inertial, and what the muscles pay.
 
-use wingbeat_dynamics::{Body, BodyMotion, Element, Link, Mechanism};
+use wingbeat_dynamics::{Body, BodyMotion, Element, Joint, Mechanism};
 use wingbeat_flight::{FlightSetup, Record, Simulation, system_of};
 use wingbeat_math::DVec3;
 
@@ -112,8 +112,8 @@ fn over_beat(
         let passive = passive_powers(mechanism, record);
         let muscles: Vec<f64> = joints.iter().zip(&passive).map(|(a, b)| a - b).collect();
         let mut inertial = vec![0.0; mechanism.bodies().len()];
-        for (link, p) in mechanism.links().iter().zip(&joints) {
-            inertial[limbs[link.child]] += p;
+        for (joint, p) in mechanism.joints().iter().zip(&joints) {
+            inertial[limbs[joint.child]] += p;
         }
         (1..air.len()).for_each(|body| inertial[limbs[body]] -= air[body]);
         let total: f64 = muscles.iter().sum();
@@ -142,11 +142,11 @@ fn positive(powers: &[f64]) -> f64 {
 /// the root between them.
 fn limbs(mechanism: &Mechanism) -> Vec<usize> {
     let mut limbs: Vec<usize> = (0..mechanism.bodies().len()).collect();
-    for link in mechanism.links() {
-        let Some(parent) = link.parent.filter(|p| *p != 0 && link.child != 0) else {
+    for joint in mechanism.joints() {
+        let Some(parent) = joint.parent.filter(|p| *p != 0 && joint.child != 0) else {
             continue;
         };
-        let (one, other) = (limbs[parent], limbs[link.child]);
+        let (one, other) = (limbs[parent], limbs[joint.child]);
         let joined = limbs.iter_mut().filter(|l| **l == other);
         joined.for_each(|l| *l = one);
     }
@@ -162,17 +162,12 @@ fn joint_powers(record: &Record) -> Vec<f64> {
 /// Power of springs, dampers and stops along the free directions of every joint [W].
 fn passive_powers(mechanism: &Mechanism, record: &Record) -> Vec<f64> {
     let mut coordinates = record.joints.as_slice();
-    let of = |link: &Link| {
-        let n = link
-            .joint
-            .freedom
-            .directions()
-            .min(3)
-            .min(coordinates.len());
+    let of = |joint: &Joint| {
+        let n = joint.model.kind.directions().min(3).min(coordinates.len());
         let (own, rest) = coordinates.split_at(n);
         coordinates = rest;
-        let passive = link
-            .joint
+        let passive = joint
+            .model
             .elements
             .iter()
             .filter(|e| e.law.drive().is_none());
@@ -182,7 +177,7 @@ fn passive_powers(mechanism: &Mechanism, record: &Record) -> Vec<f64> {
         };
         passive.map(power).sum()
     };
-    mechanism.links().iter().map(of).collect()
+    mechanism.joints().iter().map(of).collect()
 }
 
 /// Power that every body gives to the air by its motion relative to the root, deformation included [W].

@@ -129,7 +129,7 @@ impl Trim {
         let joints = self.beat.joints(&self.state);
         for joint in &mut setup.joints {
             if let Some((_, q, u)) = joints.iter().find(|j| j.0 == joint.name) {
-                joint.joint = joint.joint.clone().starting(q, u);
+                joint.model = joint.model.clone().starting(q, u);
             }
         }
         setup

@@ -8,7 +8,7 @@ use common::*;
 use wingbeat_analysis::derivatives::control_derivatives;
 use wingbeat_analysis::power::power;
 use wingbeat_analysis::*;
-use wingbeat_dynamics::{ElementLaw, Freedom, Joint, Link};
+use wingbeat_dynamics::{ElementLaw, Joint, JointModel, JointType};
 use wingbeat_flight::joints::AxisTurn;
 use wingbeat_flight::*;
 use wingbeat_math::{DMat3, DVec3, DriftingFourier, MassProperties, RotationLaw, r2};
@@ -81,7 +81,7 @@ fn driven(by: Drive) -> FlightSetup {
         let linkage = by == Drive::Linkage;
         let joint = |what: &str, parent, child, [at, from]: [DVec3; 2]| {
             let name = format!("{what} {name}");
-            Link::new(&name, Some(parent), child, Freedom::Weld).at(at, from)
+            Joint::new(&name, Some(parent), child, JointType::Weld).at(at, from)
         };
         let zero = DVec3::ZERO;
         let mut rocker = joint("rocker", 0, first, [hinge, zero]);
@@ -92,8 +92,8 @@ fn driven(by: Drive) -> FlightSetup {
         if linkage {
             // Crossed bars close the loop too: it starts near the position meant.
             let start = STROKE[0] + STROKE[1];
-            rocker.joint = Joint::new(Freedom::Revolute { axis }).starting(&[start], &[]);
-            coupler.joint = Joint::new(Freedom::Revolute { axis }).starting(&[-start], &[]);
+            rocker.model = JointModel::new(JointType::Revolute { axis }).starting(&[start], &[]);
+            coupler.model = JointModel::new(JointType::Revolute { axis }).starting(&[-start], &[]);
         } else {
             rocker.law = Some(drive(axis, f, 1.0));
             coupler.law = Some(drive(axis, f, -1.0));
@@ -101,7 +101,7 @@ fn driven(by: Drive) -> FlightSetup {
         setup.joints.extend([rocker, crank, coupler, wing]);
         if linkage {
             let mut closing = joint("closing", first, first + 2, [out, -ground]);
-            closing.joint = Joint::new(Freedom::PointOnLine { axis });
+            closing.model = JointModel::new(JointType::PointOnLine { axis });
             setup.joints.push(closing);
         }
     }
@@ -219,7 +219,10 @@ fn refuses_by_name_what_a_map_of_beats_cannot_be_asked() {
         .iter_mut()
         .find(|j| j.name.starts_with("crank"))
         .unwrap();
-    (crank.law, crank.joint) = (None, Joint::new(Freedom::Revolute { axis: DVec3::X }));
+    (crank.law, crank.model) = (
+        None,
+        JointModel::new(JointType::Revolute { axis: DVec3::X }),
+    );
     let said = refused(Beat::new(&loose, 20));
     assert!(said.contains("closing") && said.contains("free"), "{said}");
 
@@ -265,11 +268,11 @@ fn refuses_by_name_what_a_map_of_beats_cannot_be_asked() {
 }
 
 /// Passive feathering hinges for all wings of `setup` with a spring, a damper and `law`.
-fn hinged(setup: &FlightSetup, law: ElementLaw) -> Vec<Link> {
+fn hinged(setup: &FlightSetup, law: ElementLaw) -> Vec<Joint> {
     let wings = setup.animal.wings.iter().enumerate();
-    let joint = |(k, wing): (usize, &Wing)| Link {
+    let joint = |(k, wing): (usize, &Wing)| Joint {
         // Three times as fast as the wings beat, half of critical damping.
-        joint: Joint::new(Freedom::Revolute { axis: DVec3::Y })
+        model: JointModel::new(JointType::Revolute { axis: DVec3::Y })
             .with(
                 0,
                 ElementLaw::Spring {
@@ -284,11 +287,11 @@ fn hinged(setup: &FlightSetup, law: ElementLaw) -> Vec<Link> {
                 },
             )
             .with(0, law.clone()),
-        ..Link::new(
+        ..Joint::new(
             &format!("hinge {}", wing.name),
             Some(0),
             1 + k,
-            Freedom::Weld,
+            JointType::Weld,
         )
         .at(wing.hinge_b, DVec3::ZERO)
     };

@@ -387,7 +387,7 @@ fn agrees_trim_of_passive_hinges_with_the_flight_it_leads_to() {
     // Another hinge, another trim: the joints are those of the animal.
     let mut stiff = case.setup.clone();
     for joint in &mut stiff.joints {
-        for element in &mut joint.joint.elements {
+        for element in &mut joint.model.elements {
             if let ElementLaw::Spring { stiffness, .. } = &mut element.law {
                 *stiffness *= 2.0;
             }

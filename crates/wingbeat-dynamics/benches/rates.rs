@@ -7,7 +7,7 @@
 
 use divan::{Bencher, counter::ItemsCount};
 use wingbeat_dynamics::{
-    Baumgarte, BodyMotion, ElementLaw, EulerForm, Formulation, Freedom, Joint, MomentumForm,
+    Baumgarte, BodyMotion, ElementLaw, EulerForm, Formulation, JointModel, JointType, MomentumForm,
     QuaternionForm, Stabilization, Wrench,
 };
 
@@ -94,7 +94,8 @@ fn momentum_form_with_passive_hinges(bencher: Bencher) {
         stiffness: 1e-9,
         rest: 0.0,
     };
-    let passive = || Joint::new(Freedom::Revolute { axis: DVec3::Y }).with(0, spring.clone());
+    let passive =
+        || JointModel::new(JointType::Revolute { axis: DVec3::Y }).with(0, spring.clone());
     let hinged = system()
         .with_joint(0, passive())
         .and_then(|s| s.with_joint(1, passive()));

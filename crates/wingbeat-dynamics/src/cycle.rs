@@ -54,7 +54,7 @@ impl System {
     pub fn cycle(&self, step: f64) -> Option<Cycle> {
         let (mut first, mut period) = (0, None);
         for hinge in self.hinges() {
-            if hinge.joint.travel.is_some() {
+            if hinge.model.travel.is_some() {
                 return None;
             }
             let [from, length] = hinge.law.as_ref().map_or(Some([0.0; 2]), |l| l.cycle())?;

@@ -11,8 +11,8 @@ use std::sync::Arc;
 use wingbeat_math::{DVec3, MovingRotation, RotationLaw};
 
 use self::closing::{Closing, Relative};
-use crate::joint::{Freedom, Joint, TravelLaw};
-use crate::link::Link;
+use crate::joint::Joint;
+use crate::joint_model::{JointModel, JointType, TravelLaw};
 use crate::{DynamicsError, System};
 
 /// Times at which loops are closed over the whole table at least, so that each is near the last.
@@ -66,7 +66,7 @@ pub fn driven(system: System, step: f64, count: usize) -> Result<System, Dynamic
     }
     let on_loops = on_loops(&system);
     let laws = closed_positions(&system, &on_loops, (step, count))?;
-    let joint = |(h, laws): (&Link, &Vec<Relative>)| match laws.is_empty() {
+    let joint = |(h, laws): (&Joint, &Vec<Relative>)| match laws.is_empty() {
         true => h.clone(),
         false => prescribed(h, laws, step),
     };
@@ -79,23 +79,23 @@ pub fn driven(system: System, step: f64, count: usize) -> Result<System, Dynamic
 }
 
 /// A joint whose motion is a law: springs and actuators along it decide on nothing any more.
-fn prescribed(joint: &Link, laws: &[Relative], step: f64) -> Link {
+fn prescribed(joint: &Joint, laws: &[Relative], step: f64) -> Joint {
     let travel: Arc<dyn TravelLaw> = Arc::new(Table {
         step,
         values: laws.iter().map(|l| l.1).collect(),
     });
-    let travel = match joint.joint.freedom {
-        Freedom::Prismatic { .. } => Some(travel),
-        _ => joint.joint.travel.clone(),
+    let travel = match joint.model.kind {
+        JointType::Prismatic { .. } => Some(travel),
+        _ => joint.model.travel.clone(),
     };
-    Link {
+    Joint {
         law: Some(Arc::new(Table {
             step,
             values: laws.iter().map(|l| l.0).collect(),
         })),
-        joint: Joint {
+        model: JointModel {
             travel,
-            ..Joint::new(Freedom::Weld)
+            ..JointModel::new(JointType::Weld)
         },
         ..joint.clone()
     }
@@ -104,10 +104,10 @@ fn prescribed(joint: &Link, laws: &[Relative], step: f64) -> Link {
 /// Which hinges lie on a loop: those on the way from one end of a closing joint to the other.
 fn on_loops(system: &System) -> Vec<bool> {
     let mut on = vec![false; system.hinges().len()];
-    for link in system.loops() {
+    for joint in system.loops() {
         let ends = [
-            link.parent.expect("loops of the ground are refused"),
-            link.child,
+            joint.parent.expect("loops of the ground are refused"),
+            joint.child,
         ];
         for (k, lies) in on.iter_mut().enumerate() {
             let [a, b] = ends.map(|body| system.behind(k)[body]);
@@ -144,11 +144,11 @@ fn held(system: &System, on_loops: &[bool]) -> Result<System, DynamicsError> {
     let mut held = system.clone();
     for (k, joint) in system.joints().enumerate() {
         let freedom = match on_loops[k] {
-            true => joint.freedom,
-            false => Freedom::Weld,
+            true => joint.kind,
+            false => JointType::Weld,
         };
-        let joint = Joint {
-            freedom,
+        let joint = JointModel {
+            kind: freedom,
             elements: vec![],
             ..joint.clone()
         };

@@ -13,11 +13,11 @@ use wingbeat_math::DVec3;
 use crate::baumgarte::Baumgarte;
 use crate::budget::{budget, load_power};
 use crate::check::{check_rotation, check_state};
+use crate::configuration::Configuration;
 use crate::euler::assembly::{consistent_coordinates, consistent_rates};
 use crate::euler::constraint::HingeKinematics;
 use crate::euler::coordinates::{BodyKinematics, PER_BODY, write};
 use crate::euler::scratch::EulerScratch;
-use crate::posture::Posture;
 use crate::{
     BodyAcceleration, BodyMotion, DynamicsError, Formulation, HingeReaction, Solution, System,
     Violation, Workspace, Wrench,
@@ -152,10 +152,10 @@ impl Formulation for EulerForm {
             });
         }
         check_rotation(root.r, t, || "the root's attitude".into())?;
-        Posture::check(&self.system, t)?;
+        Configuration::check(&self.system, t)?;
         let mut ws = self.workspace();
-        ws.posture.update(&self.system, t);
-        ws.posture.motions(root, &mut ws.motions);
+        ws.configuration.update(&self.system, t);
+        ws.configuration.motions(root, &mut ws.motions);
         let mut y = self.pack(&ws.motions);
         check_state(t, &y)?;
         let (q, qd) = y.split_at_mut(self.coordinates());

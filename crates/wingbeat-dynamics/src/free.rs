@@ -15,15 +15,15 @@
 
 use wingbeat_math::{DMat3, DQuat, DVec3, SingularMatrix, solve_small};
 
-use crate::mechanism::link::rotation_vector;
+use crate::configuration::Composite;
+use crate::mechanism::joint::rotation_vector;
+pub use crate::offsets::JointOffsets;
 use crate::placement::Placement;
-use crate::posture::Composite;
-pub use crate::slot::Slot;
-use crate::{Freedom, System, Wrench};
+use crate::{JointType, System, Wrench};
 
 /// Rates of a joint's coordinates.
-pub(crate) fn coordinate_rates(freedom: Freedom, q: &[f64], u: &[f64], out: &mut [f64]) {
-    if freedom == Freedom::Spherical {
+pub(crate) fn coordinate_rates(freedom: JointType, q: &[f64], u: &[f64], out: &mut [f64]) {
+    if freedom == JointType::Spherical {
         let rate = DQuat::from_slice(q) * DQuat::from_xyzw(u[0], u[1], u[2], 0.0) * 0.5;
         rate.write_to_slice(out);
     } else {
@@ -46,7 +46,7 @@ struct Direction {
 struct Part {
     first: DVec3,
     inertia: DMat3,
-    demand: [DVec3; 2],
+    bias_force: [DVec3; 2],
 }
 
 /// Scratch of the joint equations.
@@ -75,7 +75,7 @@ impl FreeScratch {
         }
     }
 
-    /// Accelerations of all speeds into `u_dot`; `demand` holds what every body needs at zero u'
+    /// Accelerations of all speeds into `u_dot`; `bias_force` holds what every body needs at zero u'
     /// and zero acceleration of the root (N components, about its origin), `r` the root's
     /// rotation.
     pub(crate) fn solve(
@@ -83,10 +83,10 @@ impl FreeScratch {
         system: &System,
         (t, q, u): (f64, &[f64], &[f64]),
         (placements, whole, r): (&[Placement], &Composite, DMat3),
-        demand: &[Wrench],
+        bias_force: &[Wrench],
     ) -> Result<(), SingularMatrix> {
         self.find_directions(system, placements, q);
-        self.find_parts(system, placements, r, demand);
+        self.find_parts(system, placements, r, bias_force);
         let inverse = whole.inertia.inverse();
         let total = self.total_demand(placements, whole.c);
         for j in 0..self.u_dot.len() {
@@ -103,21 +103,21 @@ impl FreeScratch {
 
     fn find_directions(&mut self, system: &System, placements: &[Placement], q: &[f64]) {
         for (hinge, h) in system.hinges().iter().enumerate() {
-            let (slot, child) = (system.slots()[hinge], &placements[h.child]);
+            let (offsets, child) = (system.offsets()[hinge], &placements[h.child]);
             let point = child.d + child.c * h.anchor_child;
-            for k in 0..slot.speeds {
+            for k in 0..offsets.speeds {
                 let (mut slide, mut spin) = (DVec3::ZERO, DVec3::ZERO);
-                match system.hinges()[hinge].joint.freedom {
-                    Freedom::Revolute { axis } => spin = axis,
-                    Freedom::Universal { axes: [a, b] } if k == 0 => {
-                        spin = DMat3::from_axis_angle(b, -q[slot.q + 1]) * a;
+                match system.hinges()[hinge].model.kind {
+                    JointType::Revolute { axis } => spin = axis,
+                    JointType::Universal { axes: [a, b] } if k == 0 => {
+                        spin = DMat3::from_axis_angle(b, -q[offsets.q + 1]) * a;
                     }
-                    Freedom::Universal { axes } => spin = axes[1],
-                    Freedom::Spherical => spin = DVec3::AXES[k],
-                    Freedom::Prismatic { axis } => slide = axis,
-                    Freedom::Weld | Freedom::PointOnLine { .. } => {}
+                    JointType::Universal { axes } => spin = axes[1],
+                    JointType::Spherical => spin = DVec3::AXES[k],
+                    JointType::Prismatic { axis } => slide = axis,
+                    JointType::Weld | JointType::PointOnLine { .. } => {}
                 }
-                self.directions[slot.u + k] = Direction {
+                self.directions[offsets.u + k] = Direction {
                     hinge,
                     slide: child.c * slide,
                     spin: child.c * spin,
@@ -132,14 +132,14 @@ impl FreeScratch {
         system: &System,
         placements: &[Placement],
         r: DMat3,
-        demand: &[Wrench],
+        bias_force: &[Wrench],
     ) {
         let back = r.transpose();
         for (i, (b, at)) in system.bodies().iter().zip(placements).enumerate() {
             self.parts[i] = Part {
                 first: at.c * b.mass.first_moment,
                 inertia: at.c * b.mass.inertia * at.c.transpose(),
-                demand: [back * demand[i].force, back * demand[i].moment],
+                bias_force: [back * bias_force[i].force, back * bias_force[i].moment],
             };
         }
     }
@@ -187,7 +187,7 @@ impl FreeScratch {
     fn total_demand(&self, placements: &[Placement], c: DVec3) -> [DVec3; 2] {
         let mut sum = [DVec3::ZERO; 2];
         for (p, at) in self.parts.iter().zip(placements) {
-            let [f, n] = p.demand;
+            let [f, n] = p.bias_force;
             sum[0] += f;
             sum[1] += n + (at.d - c).cross(f);
         }
@@ -197,7 +197,7 @@ impl FreeScratch {
     /// D_j.
     fn work(&self, system: &System, placements: &[Placement], j: usize) -> f64 {
         let one = |i: usize| {
-            let [f, n] = self.parts[i].demand;
+            let [f, n] = self.parts[i].bias_force;
             self.velocity(j, placements[i].d).dot(f) + self.directions[j].spin.dot(n)
         };
         self.moved(system, j).map(one).sum()
@@ -206,16 +206,16 @@ impl FreeScratch {
     /// Q_j, the effort of the joint's elements.
     fn effort(&self, system: &System, j: usize, t: f64, q: &[f64], u: &[f64]) -> f64 {
         let hinge = self.directions[j].hinge;
-        let (joint, slot) = (&system.hinges()[hinge].joint, system.slots()[hinge]);
+        let (joint, offsets) = (&system.hinges()[hinge].model, system.offsets()[hinge]);
         if joint.elements.is_empty() {
             return 0.0;
         }
-        let k = j - slot.u;
-        let value = if joint.freedom == Freedom::Spherical {
-            let turn = DQuat::from_slice(&q[slot.q..]).normalize();
+        let k = j - offsets.u;
+        let value = if joint.kind == JointType::Spherical {
+            let turn = DQuat::from_slice(&q[offsets.q..]).normalize();
             rotation_vector(DMat3::from_quat(turn))[k]
         } else {
-            q[slot.q + k]
+            q[offsets.q + k]
         };
         joint.effort(k, t, value, u[j])
     }

@@ -10,15 +10,15 @@ use crate::{BodyAcceleration, BodyMotion, System, Wrench};
 /// Reactions of all hinges and of the support of the root, from the motions in `ws` and the
 /// accelerations in `out`.
 pub(crate) fn reactions(system: &System, loads: &[Wrench], ws: &mut Workspace, out: &mut Solution) {
-    demand(system, loads, &ws.motions, &out.bodies, &mut ws.demand);
+    bias_force(system, loads, &ws.motions, &out.bodies, &mut ws.bias_force);
     for &k in system.outward().iter().rev() {
         let h = &system.hinges()[k];
         let (parent, child) = (&ws.motions[h.tree_parent()], &ws.motions[h.child]);
         let arm_child = child.r * h.anchor_child;
         let arm_parent = child.p + arm_child - parent.p;
-        let at_origin = ws.demand[h.child];
+        let at_origin = ws.bias_force[h.child];
         let at_hinge = at_origin.moment - arm_child.cross(at_origin.force);
-        ws.demand[h.tree_parent()] += Wrench {
+        ws.bias_force[h.tree_parent()] += Wrench {
             force: at_origin.force,
             moment: at_hinge + arm_parent.cross(at_origin.force),
         };
@@ -33,11 +33,11 @@ pub(crate) fn reactions(system: &System, loads: &[Wrench], ws: &mut Workspace, o
             power: moment.dot(relative) + at_origin.force.dot(slide),
         };
     }
-    out.tether = ws.demand[0];
+    out.tether = ws.bias_force[0];
 }
 
 /// What every body still needs beside loads and weight, about its own origin.
-pub(crate) fn demand(
+pub(crate) fn bias_force(
     system: &System,
     loads: &[Wrench],
     motions: &[BodyMotion],

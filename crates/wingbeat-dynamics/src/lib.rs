@@ -13,12 +13,12 @@
 //! - [`QuaternionForm`]: positions and quaternions of all bodies with multipliers, singular
 //!   nowhere, with loops ([`mechanism`]); also for a root on a moving support.
 //!
-//! Hinges may leave freedoms beside what they prescribe ([`Joint`], [`free`]), with springs, dampers,
+//! Hinges may leave freedoms beside what they prescribe ([`JointModel`], [`free`]), with springs, dampers,
 //! stops and actuators along them.
 //!
 //! [`tethered`] answers the inverse question: what a support of the root carries.
 //!
-//! The chapter, in reading order: [`System`], [`posture`] (where the bodies are, seen from the
+//! The chapter, in reading order: [`System`], [`configuration`] (where the bodies are, seen from the
 //! root), [`MomentumForm`], [`inverse`] (reactions), [`budget`] (energy, momenta), then the seed's
 //! form: [`euler::coordinates`] (eq. 2, 3, 14-16), [`euler::constraint`] (eq. 4, 5, 27),
 //! [`euler::forces`] (eq. 6-10), [`euler::inertia`] (eq. 17-26), [`euler::saddle`] (eq. 28-30),
@@ -30,7 +30,7 @@
 //! | T_i^{NB} | [`BodyMotion::r`] | rotation, body components to N components | 1 | | eq. 3 |
 //! | omega_i | [`BodyMotion::w`] | angular velocity relative to N | rad/s | body | eq. 15 |
 //! | eta_i | `eta` | Euler angles phi, theta, psi | rad | | eq. 2 |
-//! | C(t) | [`Link::law`] | prescribed rotation, child to parent components | 1 | | eq. 4 |
+//! | C(t) | [`Joint::law`] | prescribed rotation, child to parent components | 1 | | eq. 4 |
 //! | D | `HingeKinematics::d` | prescribed orientation seen from the child | 1 | child | eq. 4 |
 //! | Phi | `connection`, `orientation` | constraints | m, 1 | N, child | eq. 4, 5 |
 //! | B_q | `connection_jacobian`, `orientation_jacobian` | constraint Jacobian | | | eq. 11 |
@@ -41,7 +41,7 @@
 //! | alpha, beta | [`Baumgarte`] | stabilization constants | 1/s | | eq. 29 |
 //! | S | `Baumgarte::right_side` | right-hand side of the constraint rows | m/s2, 1/s2 | | eq. 30 |
 //! | P, H | state of [`MomentumForm`] | momenta of the whole, H about its mass centre | kg m/s, kg m2/s | N | |
-//! | I, h, c | [`posture::Composite`] | inertia, relative angular momentum, mass centre of the whole | kg m2, kg m2/s, m | root | |
+//! | I, h, c | [`configuration::Composite`] | inertia, relative angular momentum, mass centre of the whole | kg m2, kg m2/s, m | root | |
 //!
 //! The multipliers mean: hinge force on a wing = -(lambda_1, lambda_2, lambda_3) in N components,
 //! hinge moment on it = -(lambda_8, lambda_9, lambda_7) in wing components, and so on for every
@@ -55,6 +55,7 @@ mod baumgarte;
 mod body;
 pub mod budget;
 mod check;
+pub mod configuration;
 mod cycle;
 mod driven;
 mod error;
@@ -64,15 +65,14 @@ mod formulation;
 pub mod free;
 pub mod inverse;
 mod joint;
-mod link;
+mod joint_model;
 pub mod mechanism;
 mod momentum;
 mod motion;
+mod offsets;
 mod placement;
-pub mod posture;
 mod prescribed;
 mod quaternion;
-mod slot;
 mod solution;
 mod system;
 mod tether;
@@ -86,8 +86,8 @@ pub use driven::driven;
 pub use error::DynamicsError;
 pub use euler_form::EulerForm;
 pub use formulation::{Formulation, add_by_response};
-pub use joint::{Element, ElementLaw, Freedom, Joint, TravelLaw};
-pub use link::Link;
+pub use joint::Joint;
+pub use joint_model::{Element, ElementLaw, JointModel, JointType, TravelLaw};
 pub use mechanism::Mechanism;
 pub use mechanism::form::{AbsoluteForm, AbsoluteScratch, Stabilization};
 pub use momentum::MomentumForm;

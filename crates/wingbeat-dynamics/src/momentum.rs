@@ -8,7 +8,7 @@
 //! w    = I(t)^-1 (R^T H - h(t))         q' = q (0, w) / 2
 //! ```
 //!
-//! I(t) and h(t) are inertia and relative angular momentum of the posture in root components. In
+//! I(t) and h(t) are inertia and relative angular momentum of the configuration in root components. In
 //! vacuum P and H are constant in the arithmetic itself. Constraints hold by construction, so
 //! nothing can drift; a body without mass is as good as any.
 //!
@@ -29,15 +29,15 @@ use self::state::State;
 use self::whole::{momentum_rate, total_load, whole_load};
 use crate::budget::{budget, load_power};
 use crate::check::{check_rotation, check_state};
+use crate::configuration::{Configuration, ConfigurationTable};
 use crate::formulation::add_by_response;
 use crate::inverse::{multipliers, reactions};
 use crate::mechanism::Mechanism;
-use crate::posture::{Posture, PostureTable};
 use crate::prescribed::Turning;
 use crate::workspace::MOMENTUM_STATE;
 use crate::{
-    AddedMass, BodyAcceleration, BodyMotion, DynamicsError, Formulation, Freedom, Solution, System,
-    Violation, Workspace, Wrench,
+    AddedMass, BodyAcceleration, BodyMotion, DynamicsError, Formulation, JointType, Solution,
+    System, Violation, Workspace, Wrench,
 };
 
 /// Length of the state vector without free joint coordinates.
@@ -47,7 +47,7 @@ const DIM: usize = MOMENTUM_STATE;
 #[derive(Clone, Debug)]
 pub struct MomentumForm {
     system: System,
-    table: Option<Arc<PostureTable>>,
+    table: Option<Arc<ConfigurationTable>>,
 }
 
 impl MomentumForm {
@@ -60,7 +60,7 @@ impl MomentumForm {
     }
 
     /// The same with all that depends on time alone known at the times of `table`.
-    pub fn tabulated(self, table: Arc<PostureTable>) -> Self {
+    pub fn tabulated(self, table: Arc<ConfigurationTable>) -> Self {
         Self {
             table: Some(table),
             ..self
@@ -72,7 +72,7 @@ impl MomentumForm {
     fn lay(&self, t: f64, y: &[f64], ws: &mut Workspace) {
         if ws.prescribed != Some(t) {
             (ws.whole, ws.whole_rates) =
-                (ws.posture).lay(&self.system, t, self.free(y), self.table.as_deref());
+                (ws.configuration).lay(&self.system, t, self.free(y), self.table.as_deref());
             ws.turning = Turning::of(ws.whole.inertia);
             ws.prescribed = (self.system.coordinates() == 0).then_some(t);
         }
@@ -84,8 +84,8 @@ impl MomentumForm {
         y[DIM..].split_at(self.system.coordinates())
     }
 
-    /// The table of postures, if there is one.
-    pub fn table(&self) -> Option<&PostureTable> {
+    /// The table of configurations, if there is one.
+    pub fn table(&self) -> Option<&ConfigurationTable> {
         self.table.as_deref()
     }
 
@@ -102,10 +102,10 @@ impl MomentumForm {
     ) -> Result<Vec<f64>, DynamicsError> {
         self.system.refuse_loops("momentum")?;
         check_rotation(root.r, t, || "the root's attitude".into())?;
-        Posture::check(&self.system, t)?;
-        let mut posture = Posture::new(&self.system);
-        posture.update_free(&self.system, t, (&q, &u));
-        let whole = posture.composite(&self.system);
+        Configuration::check(&self.system, t)?;
+        let mut configuration = Configuration::new(&self.system);
+        configuration.update_free(&self.system, t, (&q, &u));
+        let whole = configuration.composite(&self.system);
         Turning::of(whole.inertia).solve(t, DVec3::ZERO)?;
         let state = State {
             centre: root.p + root.r * whole.c,
@@ -148,7 +148,7 @@ impl MomentumForm {
         let state = State::read(t, y)?;
         self.lay(t, y, ws);
         let root = Self::root_motion(t, &state, ws)?;
-        ws.posture.motions(&root, &mut ws.motions);
+        ws.configuration.motions(&root, &mut ws.motions);
         ws.note(t, y);
         Ok(state)
     }
@@ -164,14 +164,14 @@ impl MomentumForm {
     ) -> Result<(), DynamicsError> {
         let (root, whole) = (ws.motions[0], &ws.whole);
         // With the root's accelerations zero, the momenta change at the rate of the bias.
-        ws.posture
+        ws.configuration
             .accelerations(&root, &BodyAcceleration::default(), out);
         let bias = momentum_rate(&self.system, &ws.motions, out, x_c);
         let moment = root.r.transpose() * (load.moment - bias.moment);
         let angular = ws.turning.solve(t, moment)?;
         let linear = (load.force - bias.force) / whole.mass - root.r * angular.cross(whole.c);
         let acc = BodyAcceleration { linear, angular };
-        ws.posture.accelerations(&root, &acc, out);
+        ws.configuration.accelerations(&root, &acc, out);
         Ok(())
     }
 }
@@ -232,7 +232,7 @@ impl Formulation for MomentumForm {
                 (state, turn)
             }
         };
-        let load = whole_load(&self.system, loads, &ws.posture, r, ws.whole.c);
+        let load = whole_load(&self.system, loads, &ws.configuration, r, ws.whole.c);
         state.rates(&ws.whole, w, &load).write(dy);
         Ok(())
     }
@@ -304,16 +304,16 @@ impl Formulation for MomentumForm {
         s.extend([1.0; 4]);
         s.extend([p; 3]);
         s.extend([p * u.length; 3]);
-        let joints = || self.system.joints().zip(self.system.slots());
+        let joints = || self.system.joints().zip(self.system.offsets());
         let size = |freedom| match freedom {
-            Freedom::Prismatic { .. } => u.length,
+            JointType::Prismatic { .. } => u.length,
             _ => 1.0,
         };
-        for (j, slot) in joints() {
-            s.extend(vec![size(j.freedom); slot.coordinates]);
+        for (j, offsets) in joints() {
+            s.extend(vec![size(j.kind); offsets.coordinates]);
         }
-        for (j, slot) in joints() {
-            s.extend(vec![size(j.freedom) / u.time; slot.speeds]);
+        for (j, offsets) in joints() {
+            s.extend(vec![size(j.kind) / u.time; offsets.speeds]);
         }
         s
     }
@@ -322,9 +322,9 @@ impl Formulation for MomentumForm {
         let mut state = State::read(t, y)?;
         state.attitude = state.attitude.normalize();
         state.write(y);
-        for (joint, slot) in self.system.joints().zip(self.system.slots()) {
-            if joint.freedom == Freedom::Spherical {
-                let q = &mut y[DIM + slot.q..];
+        for (joint, offsets) in self.system.joints().zip(self.system.offsets()) {
+            if joint.kind == JointType::Spherical {
+                let q = &mut y[DIM + offsets.q..];
                 DQuat::from_slice(q).normalize().write_to_slice(q);
             }
         }

@@ -2,7 +2,7 @@
 
 use wingbeat_math::{DMat3, DQuat, DVec3, MovingRotation};
 
-use crate::joint::Freedom;
+use crate::joint_model::JointType;
 
 /// Placement of a body's frame relative to the root's frame, with two time derivatives as seen
 /// from the root.
@@ -78,7 +78,7 @@ impl Placement {
 /// The child's frame at the joint point, from the joint's frame `k`, for coordinates `q`, speeds `u` and their
 /// rates; none: constant speeds.
 pub(crate) fn carry(
-    freedom: Freedom,
+    freedom: JointType,
     k: Placement,
     q: &[f64],
     u: &[f64],
@@ -89,10 +89,10 @@ pub(crate) fn carry(
         k.turned_by(DMat3::from_axis_angle(a, q[i]), a * u[i], rate(a, i))
     };
     match freedom {
-        Freedom::Weld | Freedom::PointOnLine { .. } => k,
-        Freedom::Revolute { axis } => about(k, axis, 0),
-        Freedom::Universal { axes: [a, b] } => about(about(k, a, 0), b, 1),
-        Freedom::Spherical => {
+        JointType::Weld | JointType::PointOnLine { .. } => k,
+        JointType::Revolute { axis } => about(k, axis, 0),
+        JointType::Universal { axes: [a, b] } => about(about(k, a, 0), b, 1),
+        JointType::Spherical => {
             let turn = DMat3::from_quat(DQuat::from_slice(q).normalize());
             k.turned_by(
                 turn,
@@ -100,6 +100,6 @@ pub(crate) fn carry(
                 u_dot.map_or(DVec3::ZERO, DVec3::from_slice),
             )
         }
-        Freedom::Prismatic { axis } => k.slid([axis * q[0], axis * u[0], rate(axis, 0)]),
+        JointType::Prismatic { axis } => k.slid([axis * q[0], axis * u[0], rate(axis, 0)]),
     }
 }

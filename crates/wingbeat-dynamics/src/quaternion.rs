@@ -7,13 +7,13 @@ use wingbeat_math::RotationLaw;
 
 use crate::budget::{budget, load_power};
 use crate::check::{check_rotation, check_state};
+use crate::configuration::Configuration;
 use crate::inverse::multipliers;
-use crate::link::Link;
+use crate::joint::Joint;
 use crate::mechanism::Mechanism;
 use crate::mechanism::form::{AbsoluteForm, AbsoluteScratch, Stabilization};
-use crate::posture::Posture;
 use crate::{
-    BodyMotion, DynamicsError, Formulation, Freedom, Solution, System, TravelLaw, Violation,
+    BodyMotion, DynamicsError, Formulation, JointType, Solution, System, TravelLaw, Violation,
     Workspace, Wrench,
 };
 
@@ -34,12 +34,12 @@ impl QuaternionForm {
     /// The same with the root on a support that turns it by `law` against N and moves its origin
     /// along `path`; [`Solution::tether`] is what the support does to the root.
     pub fn supported(self, law: Arc<dyn RotationLaw>, path: Arc<dyn TravelLaw>) -> Self {
-        let mut link = Link {
+        let mut joint = Joint {
             law: Some(law),
-            ..Link::new("support of the root", None, 0, Freedom::Weld)
+            ..Joint::new("support of the root", None, 0, JointType::Weld)
         };
-        link.joint.travel = Some(path);
-        let mechanism = Mechanism::of(&self.system).with_link(link);
+        joint.model.travel = Some(path);
+        let mechanism = Mechanism::of(&self.system).with_link(joint);
         Self {
             form: AbsoluteForm::new(mechanism, self.form.stabilization()),
             ..self
@@ -78,7 +78,7 @@ impl Formulation for QuaternionForm {
 
     fn is_supported(&self) -> bool {
         let joints = self.system.hinges().len() + self.system.loops().len();
-        self.form.mechanism().links().len() > joints
+        self.form.mechanism().joints().len() > joints
     }
 
     fn workspace(&self) -> Workspace {
@@ -90,11 +90,11 @@ impl Formulation for QuaternionForm {
 
     fn initial(&self, t: f64, root: &BodyMotion) -> Result<Vec<f64>, DynamicsError> {
         check_rotation(root.r, t, || "the root's attitude".into())?;
-        Posture::check(&self.system, t)?;
-        let mut posture = Posture::new(&self.system);
-        posture.update(&self.system, t);
+        Configuration::check(&self.system, t)?;
+        let mut configuration = Configuration::new(&self.system);
+        configuration.update(&self.system, t);
         let mut motions = vec![BodyMotion::REST; self.system.bodies().len()];
-        posture.motions(root, &mut motions);
+        configuration.motions(root, &mut motions);
         if self.system.loops().is_empty() {
             return self.initial_from(t, &motions);
         }

@@ -5,9 +5,9 @@ use wingbeat_math::DVec3;
 use crate::body::{Body, NaturalUnits};
 use crate::check::{check_finite, check_positive};
 use crate::error::DynamicsError;
-use crate::joint::{Freedom, Joint};
-use crate::link::{Link, check_link, check_numbers_of};
-use crate::slot::{Slot, start};
+use crate::joint::{Joint, check_joint, check_numbers_of};
+use crate::joint_model::{JointModel, JointType};
+use crate::offsets::{JointOffsets, start};
 
 /// Bodies joined by hinges to a tree; body 0 is the root, which moves freely.
 ///
@@ -23,13 +23,13 @@ use crate::slot::{Slot, start};
 #[derive(Clone, Debug)]
 pub struct System {
     bodies: Vec<Body>,
-    hinges: Vec<Link>,
+    hinges: Vec<Joint>,
     gravity: DVec3,
     units: NaturalUnits,
     outward: Vec<usize>,
-    slots: Vec<Slot>,
+    offsets: Vec<JointOffsets>,
     behind: Vec<Vec<bool>>,
-    loops: Vec<Link>,
+    loops: Vec<Joint>,
 }
 
 impl System {
@@ -40,7 +40,7 @@ impl System {
     /// not join the bodies to a tree rooted at body 0.
     pub fn new(
         bodies: Vec<Body>,
-        hinges: Vec<Link>,
+        hinges: Vec<Joint>,
         gravity: DVec3,
         units: NaturalUnits,
     ) -> Result<Self, DynamicsError> {
@@ -49,7 +49,7 @@ impl System {
         hinges.iter().try_for_each(check_carrying)?;
         let behind = bodies_behind(bodies.len(), &hinges, &outward);
         Ok(Self {
-            slots: slots(&hinges),
+            offsets: offsets(&hinges),
             bodies,
             hinges,
             gravity,
@@ -66,7 +66,7 @@ impl System {
     /// # Errors
     /// No such hinge; axes that are no unit vectors, numbers that are not finite, elements along
     /// directions that are not free; a joint that only closes loops.
-    pub fn with_joint(mut self, index: usize, joint: Joint) -> Result<Self, DynamicsError> {
+    pub fn with_joint(mut self, index: usize, model: JointModel) -> Result<Self, DynamicsError> {
         let Some(hinge) = self.hinges.get_mut(index) else {
             return Err(DynamicsError::BadJoint {
                 joint: format!("number {index}"),
@@ -74,9 +74,9 @@ impl System {
                 value: index as f64,
             });
         };
-        hinge.joint = joint;
+        hinge.model = model;
         check_carrying(hinge)?;
-        self.slots = slots(&self.hinges);
+        self.offsets = offsets(&self.hinges);
         Ok(self)
     }
 
@@ -85,13 +85,13 @@ impl System {
     ///
     /// # Errors
     /// Bodies that do not exist; impossible numbers of a joint.
-    pub fn with_loops(self, loops: Vec<Link>) -> Result<Self, DynamicsError> {
-        (loops.iter()).try_for_each(|l| check_link(l, self.bodies.len()))?;
+    pub fn with_loops(self, loops: Vec<Joint>) -> Result<Self, DynamicsError> {
+        (loops.iter()).try_for_each(|l| check_joint(l, self.bodies.len()))?;
         Ok(Self { loops, ..self })
     }
 
     /// The joints that close loops.
-    pub fn loops(&self) -> &[Link] {
+    pub fn loops(&self) -> &[Joint] {
         &self.loops
     }
 
@@ -107,29 +107,29 @@ impl System {
     }
 
     /// What the hinges leave free, in their order.
-    pub fn joints(&self) -> impl ExactSizeIterator<Item = &Joint> {
-        self.hinges.iter().map(|h| &h.joint)
+    pub fn joints(&self) -> impl ExactSizeIterator<Item = &JointModel> {
+        self.hinges.iter().map(|h| &h.model)
     }
 
     /// Where the free coordinates of the hinges lie.
-    pub fn slots(&self) -> &[Slot] {
-        &self.slots
+    pub fn offsets(&self) -> &[JointOffsets] {
+        &self.offsets
     }
 
     /// Number of free joint coordinates (four for a spherical joint).
     pub fn coordinates(&self) -> usize {
-        self.slots.last().map_or(0, |s| s.q + s.coordinates)
+        self.offsets.last().map_or(0, |s| s.q + s.coordinates)
     }
 
     /// Number of free joint speeds.
     pub fn speeds(&self) -> usize {
-        self.slots.last().map_or(0, |s| s.u + s.speeds)
+        self.offsets.last().map_or(0, |s| s.u + s.speeds)
     }
 
     /// The first hinge whose motion is not all prescribed by its rotation law.
     pub fn first_free_hinge(&self) -> Option<&str> {
-        let moves = |j: &Joint| j.freedom != Freedom::Weld || j.travel.is_some();
-        let found = self.hinges.iter().find(|h| moves(&h.joint))?;
+        let moves = |j: &JointModel| j.kind != JointType::Weld || j.travel.is_some();
+        let found = self.hinges.iter().find(|h| moves(&h.model))?;
         Some(&found.name)
     }
 
@@ -141,8 +141,8 @@ impl System {
     /// Start of the free coordinates and speeds.
     pub fn start(&self) -> (Vec<f64>, Vec<f64>) {
         let (mut q, mut u) = (vec![0.0; self.coordinates()], vec![0.0; self.speeds()]);
-        for (joint, slot) in self.joints().zip(&self.slots) {
-            start(joint, slot, &mut q, &mut u);
+        for (joint, offsets) in self.joints().zip(&self.offsets) {
+            start(joint, offsets, &mut q, &mut u);
         }
         (q, u)
     }
@@ -183,7 +183,7 @@ impl System {
     }
 
     /// The hinges, in the order in which reactions and multipliers are given.
-    pub fn hinges(&self) -> &[Link] {
+    pub fn hinges(&self) -> &[Joint] {
         &self.hinges
     }
 
@@ -228,8 +228,8 @@ fn check_numbers(
 }
 
 /// An error if a joint cannot carry its child.
-fn check_carrying(hinge: &Link) -> Result<(), DynamicsError> {
-    if let Freedom::PointOnLine { .. } = hinge.joint.freedom {
+fn check_carrying(hinge: &Joint) -> Result<(), DynamicsError> {
+    if let JointType::PointOnLine { .. } = hinge.model.kind {
         return Err(DynamicsError::BadJoint {
             joint: hinge.name.clone(),
             what: "free directions of a point on a line, which only closes loops:".into(),
@@ -240,16 +240,16 @@ fn check_carrying(hinge: &Link) -> Result<(), DynamicsError> {
 }
 
 /// Where the coordinates of the hinges lie.
-fn slots(hinges: &[Link]) -> Vec<Slot> {
-    let next = |before: &mut Slot, h: &Link| {
-        *before = Slot::after(before, h.joint.freedom);
+fn offsets(hinges: &[Joint]) -> Vec<JointOffsets> {
+    let next = |before: &mut JointOffsets, h: &Joint| {
+        *before = JointOffsets::after(before, h.model.kind);
         Some(*before)
     };
-    hinges.iter().scan(Slot::default(), next).collect()
+    hinges.iter().scan(JointOffsets::default(), next).collect()
 }
 
 /// For every hinge, which bodies hang behind it.
-fn bodies_behind(bodies: usize, hinges: &[Link], outward: &[usize]) -> Vec<Vec<bool>> {
+fn bodies_behind(bodies: usize, hinges: &[Joint], outward: &[usize]) -> Vec<Vec<bool>> {
     let mut behind = vec![vec![false; bodies]; hinges.len()];
     for &k in outward {
         let (parent, child) = (hinges[k].tree_parent(), hinges[k].child);
@@ -264,7 +264,7 @@ fn bodies_behind(bodies: usize, hinges: &[Link], outward: &[usize]) -> Vec<Vec<b
 }
 
 /// Orders the hinges from the root outward.
-fn outward_order(bodies: &[Body], hinges: &[Link]) -> Result<Vec<usize>, DynamicsError> {
+fn outward_order(bodies: &[Body], hinges: &[Joint]) -> Result<Vec<usize>, DynamicsError> {
     if bodies.is_empty() {
         return Err(DynamicsError::NoBodies);
     }
@@ -282,7 +282,7 @@ fn outward_order(bodies: &[Body], hinges: &[Link]) -> Result<Vec<usize>, Dynamic
     Ok(order)
 }
 
-fn check_ends(bodies: &[Body], hinges: &[Link]) -> Result<(), DynamicsError> {
+fn check_ends(bodies: &[Body], hinges: &[Joint]) -> Result<(), DynamicsError> {
     for h in hinges {
         for index in h.parent.into_iter().chain([h.child]) {
             if index >= bodies.len() {
@@ -297,7 +297,7 @@ fn check_ends(bodies: &[Body], hinges: &[Link]) -> Result<(), DynamicsError> {
     Ok(())
 }
 
-fn check_tree(bodies: &[Body], hinges: &[Link], reached: &[bool]) -> Result<(), DynamicsError> {
+fn check_tree(bodies: &[Body], hinges: &[Joint], reached: &[bool]) -> Result<(), DynamicsError> {
     for (i, body) in bodies.iter().enumerate() {
         let count = hinges.iter().filter(|h| h.child == i).count();
         if count != usize::from(i > 0) || !reached[i] {

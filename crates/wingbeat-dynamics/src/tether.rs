@@ -22,8 +22,8 @@ pub fn tethered_motions(
     out: &mut [BodyMotion],
 ) {
     ws.forget();
-    ws.posture.update(system, t);
-    ws.posture.motions(root, out);
+    ws.configuration.update(system, t);
+    ws.configuration.motions(root, out);
 }
 
 /// Inverse dynamics at time `t` \[s\] of a system whose root is moved by a support:
@@ -38,9 +38,9 @@ pub fn tethered(
     out: &mut Solution,
 ) {
     ws.forget();
-    ws.posture.update(system, t);
-    ws.posture.motions(&root.motion, &mut ws.motions);
-    ws.posture
+    ws.configuration.update(system, t);
+    ws.configuration.motions(&root.motion, &mut ws.motions);
+    ws.configuration
         .accelerations(&root.motion, &root.acceleration, &mut out.bodies);
     reactions(system, loads, ws, out);
     multipliers(&out.hinges, &mut out.multipliers);

@@ -1,9 +1,9 @@
 //! Scratch room of the equations of motion.
 
+use crate::configuration::{Composite, CompositeRates, Configuration};
 use crate::euler::scratch::EulerScratch;
 use crate::free::FreeScratch;
 use crate::mechanism::form::AbsoluteScratch;
-use crate::posture::{Composite, CompositeRates, Posture};
 use crate::prescribed::{Carried, Turning};
 use crate::{BodyAcceleration, BodyMotion, System, Wrench};
 
@@ -11,21 +11,21 @@ use crate::{BodyAcceleration, BodyMotion, System, Wrench};
 /// workspace of the same system serves any call of it.
 #[derive(Clone, Debug)]
 pub struct Workspace {
-    pub(crate) posture: Posture,
+    pub(crate) configuration: Configuration,
     pub(crate) motions: Vec<BodyMotion>,
-    pub(crate) demand: Vec<Wrench>,
+    pub(crate) bias_force: Vec<Wrench>,
     pub(crate) euler: EulerScratch,
     pub(crate) free: FreeScratch,
     pub(crate) bias: Vec<BodyAcceleration>,
     pub(crate) absolute: Option<AbsoluteScratch>,
-    /// The whole of `posture`, and its rates where no joint is free.
+    /// The whole of `configuration`, and its rates where no joint is free.
     pub(crate) whole: Composite,
     pub(crate) whole_rates: CompositeRates,
     /// The inverse of its inertia.
     pub(crate) turning: Turning,
     /// Added masses last met, where no joint is free.
     pub(crate) carried: Carried,
-    /// Time of `posture` and its whole, where nothing but time decides on them.
+    /// Time of `configuration` and its whole, where nothing but time decides on them.
     pub(crate) prescribed: Option<f64>,
     /// Time and state that `motions` belong to, where no joint is free.
     pub(crate) unfolded: Option<(f64, [f64; MOMENTUM_STATE])>,
@@ -43,9 +43,9 @@ impl Workspace {
             whole_rates: CompositeRates::default(),
             turning: Turning::default(),
             carried: Carried::default(),
-            posture: Posture::new(system),
+            configuration: Configuration::new(system),
             motions: vec![BodyMotion::REST; bodies],
-            demand: vec![Wrench::default(); bodies],
+            bias_force: vec![Wrench::default(); bodies],
             euler: EulerScratch::new(system),
             free: FreeScratch::new(system),
             bias: vec![BodyAcceleration::default(); bodies],

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use wingbeat_dynamics::add_by_response;
 use wingbeat_dynamics::{
-    AddedMass, Baumgarte, Body, BodyMotion, EulerForm, Formulation, Freedom, Joint, Link,
+    AddedMass, Baumgarte, Body, BodyMotion, EulerForm, Formulation, Joint, JointModel, JointType,
     MomentumForm, NaturalUnits, QuaternionForm, Solution, Stabilization, System, Wrench,
 };
 use wingbeat_math::{DMat3, DVec3, EulerSequence, MassProperties, MovingRotation, RotationLaw};
@@ -45,9 +45,9 @@ fn flyer() -> System {
         ),
     ];
     let at = DVec3::new(0.2, 0.1, -0.1);
-    let hinge = Link {
+    let hinge = Joint {
         law: Some(Arc::new(Nod)),
-        ..Link::new("wing", Some(0), 1, Freedom::Weld).at(at, DVec3::ZERO)
+        ..Joint::new("wing", Some(0), 1, JointType::Weld).at(at, DVec3::ZERO)
     };
     let units = NaturalUnits {
         length: 1.0,
@@ -170,7 +170,7 @@ fn agrees_added_mass_of_every_formulation_is_that_of_the_accelerations() {
 #[test]
 fn agrees_added_mass_on_a_free_joint() {
     // Passive feathering about axis 2: the response to unit loads serves free joints too.
-    let joint = Joint::new(Freedom::Revolute { axis: DVec3::Y });
+    let joint = JointModel::new(JointType::Revolute { axis: DVec3::Y });
     let system = flyer().with_joint(0, joint).expect("a joint");
     let added = [plate(1, 1.0)];
     let momentum = MomentumForm::new(system.clone());

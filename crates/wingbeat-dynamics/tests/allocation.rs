@@ -8,8 +8,8 @@ use std::cell::Cell;
 
 use common::*;
 use wingbeat_dynamics::{
-    Baumgarte, ElementLaw, EulerForm, Formulation, Freedom, Joint, MomentumForm, QuaternionForm,
-    Stabilization,
+    Baumgarte, ElementLaw, EulerForm, Formulation, JointModel, JointType, MomentumForm,
+    QuaternionForm, Stabilization,
 };
 use wingbeat_math::DVec3;
 use wingbeat_math::ode::Rk4;
@@ -43,7 +43,7 @@ fn exact_no_allocation_in_steps_of_any_form() {
         stiffness: 1e-9,
         rest: 0.0,
     };
-    let passive = Joint::new(Freedom::Revolute { axis: DVec3::Y }).with(0, spring);
+    let passive = JointModel::new(JointType::Revolute { axis: DVec3::Y }).with(0, spring);
     let hinged = fly(GRAVITY).with_joint(1, passive).unwrap();
     let forms: [Box<dyn Formulation>; 4] = [
         Box::new(MomentumForm::new(fly(GRAVITY))),

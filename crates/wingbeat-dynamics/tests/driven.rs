@@ -3,9 +3,9 @@
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
-use wingbeat_dynamics::posture::Posture;
+use wingbeat_dynamics::configuration::Configuration;
 use wingbeat_dynamics::{
-    Body, DynamicsError, Freedom, Joint, Link, NaturalUnits, System, TravelLaw, driven,
+    Body, DynamicsError, Joint, JointModel, JointType, NaturalUnits, System, TravelLaw, driven,
 };
 use wingbeat_math::{DMat3, DVec3, EulerSequence, MassProperties, MovingRotation, RotationLaw};
 
@@ -59,33 +59,38 @@ fn slider_crank(mover: Mover) -> System {
         sequence: EulerSequence::BODY_231,
     };
     let bodies = ["ground", "crank", "rod", "slider"].map(body).to_vec();
-    let hinge = |name: &str, [parent, child]: [usize; 2], at: f64, freedom: Freedom| {
-        Link::new(name, Some(parent), child, freedom).at(at * DVec3::X, DVec3::ZERO)
+    let hinge = |name: &str, [parent, child]: [usize; 2], at: f64, freedom: JointType| {
+        Joint::new(name, Some(parent), child, freedom).at(at * DVec3::X, DVec3::ZERO)
     };
-    let turning = Freedom::Revolute { axis: DVec3::Y };
+    let turning = JointType::Revolute { axis: DVec3::Y };
     let mut hinges = vec![
         hinge("crank", [0, 1], 0.0, turning),
         hinge("rod", [1, 2], CRANK, turning),
-        hinge("slider", [0, 3], ROD, Freedom::Prismatic { axis: DVec3::X }),
+        hinge(
+            "slider",
+            [0, 3],
+            ROD,
+            JointType::Prismatic { axis: DVec3::X },
+        ),
     ];
-    hinges[2].joint.coordinates = vec![CRANK];
+    hinges[2].model.coordinates = vec![CRANK];
     if mover == Mover::Crank {
         hinges[0].law = Some(Arc::new(Turning));
-        hinges[0].joint = Joint::new(Freedom::Weld);
+        hinges[0].model = JointModel::new(JointType::Weld);
     }
     if mover == Mover::Slider {
-        hinges[2].joint = Joint::new(Freedom::Weld);
-        hinges[2].joint.travel = Some(Arc::new(Pushed));
-        hinges[0].joint.coordinates = vec![1.42];
-        hinges[1].joint.coordinates = vec![-1.72];
+        hinges[2].model = JointModel::new(JointType::Weld);
+        hinges[2].model.travel = Some(Arc::new(Pushed));
+        hinges[0].model.coordinates = vec![1.42];
+        hinges[1].model.coordinates = vec![-1.72];
     }
     let units = NaturalUnits {
         length: 1.0,
         time: 1.0,
     };
     let system = System::new(bodies, hinges, DVec3::ZERO, units).unwrap();
-    let freedom = Freedom::PointOnLine { axis: DVec3::Y };
-    let end = Link::new("end", Some(2), 3, freedom).at(ROD * DVec3::X, DVec3::ZERO);
+    let freedom = JointType::PointOnLine { axis: DVec3::Y };
+    let end = Joint::new("end", Some(2), 3, freedom).at(ROD * DVec3::X, DVec3::ZERO);
     system.with_loops(vec![end]).unwrap()
 }
 
@@ -108,11 +113,11 @@ fn exact_slider_crank_goes_round() {
     let (step, count) = (0.05, 20);
     let tree = driven(slider_crank(Mover::Crank), step, count).unwrap();
     assert!(tree.loops().is_empty() && tree.coordinates() == 0);
-    let mut posture = Posture::new(&tree);
+    let mut configuration = Configuration::new(&tree);
     for k in 0..=count {
         let t = k as f64 * step;
-        posture.update(&tree, t);
-        let at = posture.placements()[3];
+        configuration.update(&tree, t);
+        let at = configuration.placements()[3];
         let found = [at.d, at.d_dot, at.d_ddot];
         for (i, (found, exact)) in found.iter().zip(slider(t)).enumerate() {
             // Roundings of Newton's closing, times the square of the frequency for accelerations.
@@ -121,7 +126,7 @@ fn exact_slider_crank_goes_round() {
             assert!(gap < bound, "t = {t}, derivative {i}: {gap:.1e}");
         }
         // The rod ends there: sine of its angle to axis 1.
-        let rod = &posture.placements()[2];
+        let rod = &configuration.placements()[2];
         assert!((rod.c.x_axis.z - CRANK * angle(t)[0].sin() / ROD).abs() < 1e-13);
     }
 }

@@ -7,7 +7,7 @@ use common::*;
 use std::sync::Arc;
 use wingbeat_dynamics::budget::{budget, relative_energy};
 use wingbeat_dynamics::{
-    BodyAcceleration, BodyMotion, ElementLaw, Formulation, Freedom, Joint, MomentumForm,
+    BodyAcceleration, BodyMotion, ElementLaw, Formulation, JointModel, JointType, MomentumForm,
     QuaternionForm, Stabilization, System, TravelLaw, tethered_motions,
 };
 use wingbeat_math::ode::{Dop853, Tolerance};
@@ -52,10 +52,10 @@ fn menagerie() -> System {
     };
     let damper = |coefficient: f64| ElementLaw::Damper { coefficient };
     let axis = DVec3::new(0.6, 0.0, 0.8);
-    let ball = (0..3).fold(Joint::new(Freedom::Spherical), |j, k| {
+    let ball = (0..3).fold(JointModel::new(JointType::Spherical), |j, k| {
         j.with(k, spring(1e-7)).with(k, damper(1e-11))
     });
-    let cross = Joint::new(Freedom::Universal {
+    let cross = JointModel::new(JointType::Universal {
         axes: [DVec3::Y, DVec3::Z],
     })
     .with(0, spring(2e-8))
@@ -72,7 +72,7 @@ fn menagerie() -> System {
         },
     )
     .starting(&[0.2, -0.1], &[3.0, 0.0]);
-    let slider = Joint::new(Freedom::Prismatic { axis })
+    let slider = JointModel::new(JointType::Prismatic { axis })
         .with(
             0,
             ElementLaw::Spring {
@@ -89,14 +89,14 @@ fn menagerie() -> System {
             }),
         )
         .starting(&[5e-5], &[]);
-    let flap = Joint::new(Freedom::Revolute { axis: DVec3::Y })
+    let flap = JointModel::new(JointType::Revolute { axis: DVec3::Y })
         .with(0, spring(3e-9))
         .with(0, damper(1e-13));
-    let mut travelling = Joint::new(Freedom::Weld);
+    let mut travelling = JointModel::new(JointType::Weld);
     travelling.travel = Some(Arc::new(Slide));
     let joints = [
         travelling,
-        Joint::new(Freedom::Weld),
+        JointModel::new(JointType::Weld),
         ball,
         cross,
         slider,

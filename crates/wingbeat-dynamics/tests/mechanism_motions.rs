@@ -5,7 +5,7 @@ use crate::common;
 use common::body;
 use common::mechanism::*;
 use wingbeat_dynamics::{
-    AbsoluteForm, BodyMotion, DynamicsError, ElementLaw, Freedom, Joint, Link, Mechanism,
+    AbsoluteForm, BodyMotion, DynamicsError, ElementLaw, Joint, JointModel, JointType, Mechanism,
     Stabilization, Wrench,
 };
 use wingbeat_math::ode::{Dop853, Rk4, Tolerance};
@@ -40,11 +40,11 @@ fn exact_double_pendulum_against_its_own_equations() {
         planar("upper", m1, DVec3::X * l1, 0.0),
         planar("lower", m2, DVec3::X * l2, 0.0),
     ];
-    let links = vec![
-        Link::new("shoulder", None, 0, REVOLUTE),
-        Link::new("elbow", Some(0), 1, REVOLUTE).at(DVec3::X * l1, DVec3::ZERO),
+    let joints = vec![
+        Joint::new("shoulder", None, 0, REVOLUTE),
+        Joint::new("elbow", Some(0), 1, REVOLUTE).at(DVec3::X * l1, DVec3::ZERO),
     ];
-    let mechanism = Mechanism::new(bodies, links, DVec3::X * g, SI).unwrap();
+    let mechanism = Mechanism::new(bodies, joints, DVec3::X * g, SI).unwrap();
     let bar = |p: DVec3, a: f64, v: DVec3, w: f64| BodyMotion {
         p,
         r: r3(a),
@@ -70,11 +70,11 @@ fn conserves_energy_and_spin_of_the_spherical_pendulum_and_its_apsides() {
     let g = 9.81;
     let m = MassProperties::point(1.0, DVec3::Z);
     let bob = body("bob", m, EulerSequence::BODY_231);
-    let joint = Freedom::Universal {
+    let joint = JointType::Universal {
         axes: [DVec3::X, DVec3::Y],
     };
-    let links = vec![Link::new("string", None, 0, joint)];
-    let mechanism = Mechanism::new(vec![bob], links, DVec3::Z * g, SI).unwrap();
+    let joints = vec![Joint::new("string", None, 0, joint)];
+    let mechanism = Mechanism::new(vec![bob], joints, DVec3::Z * g, SI).unwrap();
     let form = AbsoluteForm::new(mechanism, Stabilization::Projection);
     let r = wingbeat_math::r1(-0.9);
     let tip = r * DVec3::Z;
@@ -119,10 +119,10 @@ fn conserves_energy_and_spin_of_the_spherical_pendulum_and_its_apsides() {
 
 fn slider(law: ElementLaw, x: f64, v: f64) -> (AbsoluteForm, Vec<f64>) {
     let axis = DVec3::X;
-    let mut link = Link::new("rail", None, 0, Freedom::Prismatic { axis });
-    link.joint = Joint::new(Freedom::Prismatic { axis }).with(0, law);
+    let mut joint = Joint::new("rail", None, 0, JointType::Prismatic { axis });
+    joint.model = JointModel::new(JointType::Prismatic { axis }).with(0, law);
     let m = planar("cart", 2.0, DVec3::ZERO, 0.1);
-    let mechanism = Mechanism::new(vec![m], vec![link], DVec3::Z, SI).unwrap();
+    let mechanism = Mechanism::new(vec![m], vec![joint], DVec3::Z, SI).unwrap();
     let form = AbsoluteForm::new(mechanism, Stabilization::None);
     let start = BodyMotion {
         p: DVec3::X * x,

@@ -5,8 +5,8 @@ use crate::common;
 use common::body;
 use common::mechanism::*;
 use wingbeat_dynamics::{
-    AbsoluteForm, Body, BodyMotion, DynamicsError, ElementLaw, Freedom, Joint, Link, Mechanism,
-    NaturalUnits, Stabilization, Wrench,
+    AbsoluteForm, Body, BodyMotion, DynamicsError, ElementLaw, Joint, JointModel, JointType,
+    Mechanism, NaturalUnits, Stabilization, Wrench,
 };
 use wingbeat_math::{DMat3, DVec3, DriftingFourier, EulerSequence, MassProperties, r3};
 
@@ -23,7 +23,7 @@ fn published_heavy_top() {
     let inertia = DMat3::from_diagonal(DVec3::new(0.234375, 0.46875, 0.234375));
     let mass = MassProperties::about_centre(15.0, DVec3::ZERO, inertia);
     let top = body("top", mass, EulerSequence::BODY_231);
-    let pivot = Link::new("pivot", None, 0, Freedom::Spherical).at(DVec3::ZERO, -DVec3::Y);
+    let pivot = Joint::new("pivot", None, 0, JointType::Spherical).at(DVec3::ZERO, -DVec3::Y);
     let m = Mechanism::new(vec![top], vec![pivot], DVec3::new(0.0, 0.0, -9.81), SI).unwrap();
     let form = AbsoluteForm::new(m, Stabilization::None);
     let rows = table(include_str!("data/heavy_top.csv"));
@@ -63,20 +63,20 @@ fn rod(name: &str) -> Body {
 }
 
 /// The chain of two four-bars: cranks 0, 1, 2 on the ground, couplers 3, 4.
-fn four_bars(last: Freedom) -> (Mechanism, Vec<BodyMotion>) {
+fn four_bars(last: JointType) -> (Mechanism, Vec<BodyMotion>) {
     let names = ["crank 0", "crank 1", "crank 2", "coupler 0", "coupler 1"];
     let bodies: Vec<Body> = names.iter().map(|n| rod(n)).collect();
     let ground = |i: usize| {
         let at = DVec3::X * i as f64;
-        Link::new(&format!("pivot {i}"), None, i, REVOLUTE).at(at, DVec3::ZERO)
+        Joint::new(&format!("pivot {i}"), None, i, REVOLUTE).at(at, DVec3::ZERO)
     };
     let knee = |i: usize| {
-        Link::new(&format!("knee {i}"), Some(i), 3 + i, REVOLUTE).at(DVec3::X, DVec3::ZERO)
+        Joint::new(&format!("knee {i}"), Some(i), 3 + i, REVOLUTE).at(DVec3::X, DVec3::ZERO)
     };
     let close = |i: usize| {
-        Link::new(&format!("close {i}"), Some(i + 1), 3 + i, last).at(DVec3::X, DVec3::X)
+        Joint::new(&format!("close {i}"), Some(i + 1), 3 + i, last).at(DVec3::X, DVec3::X)
     };
-    let links = vec![
+    let joints = vec![
         ground(0),
         ground(1),
         ground(2),
@@ -85,7 +85,7 @@ fn four_bars(last: Freedom) -> (Mechanism, Vec<BodyMotion>) {
         close(0),
         close(1),
     ];
-    let m = Mechanism::new(bodies, links, DVec3::new(0.0, -9.81, 0.0), SI).unwrap();
+    let m = Mechanism::new(bodies, joints, DVec3::new(0.0, -9.81, 0.0), SI).unwrap();
     let crank = |i: usize| BodyMotion {
         p: DVec3::X * i as f64,
         r: r3(std::f64::consts::FRAC_PI_2),
@@ -163,11 +163,11 @@ fn squeezer() -> Mechanism {
         } else {
             ON_LINE
         };
-        Link::new(name, parent, child, kind).at(at, from)
+        Joint::new(name, parent, child, kind).at(at, from)
     };
     let (x, y, zero) = (DVec3::X, DVec3::Y, DVec3::ZERO);
     let end = -0.028 * x;
-    let mut links = vec![
+    let mut joints = vec![
         joint("O", None, 0, zero, zero),
         joint("K1-K2", Some(0), 1, 0.007 * x, zero),
         joint("B", None, 2, b, zero),
@@ -183,12 +183,12 @@ fn squeezer() -> Mechanism {
         constant: 0.033,
         ..DriftingFourier::default()
     };
-    links[0].joint = Joint::new(REVOLUTE).with(0, ElementLaw::Effort(drive));
+    joints[0].model = JointModel::new(REVOLUTE).with(0, ElementLaw::Effort(drive));
     let units = NaturalUnits {
         length: 0.05,
         time: 1e-3,
     };
-    Mechanism::new(bodies, links, zero, units).unwrap()
+    Mechanism::new(bodies, joints, zero, units).unwrap()
 }
 
 /// Bodies of the squeezer for beta, Theta, gamma, Phi, delta, Omega, epsilon.
@@ -241,18 +241,18 @@ fn published_andrews_squeezing_mechanism_to_nine_digits() {
 #[test]
 fn exact_joints_that_cannot_hold_are_named() {
     let two = || vec![rod("a"), rod("b")];
-    let build = |links| Mechanism::new(two(), links, DVec3::ZERO, SI);
+    let build = |joints| Mechanism::new(two(), joints, DVec3::ZERO, SI);
     let start = [BodyMotion::REST; 2];
-    let loose = build(vec![Link::new("pin", None, 0, REVOLUTE)]).unwrap_err();
+    let loose = build(vec![Joint::new("pin", None, 0, REVOLUTE)]).unwrap_err();
     assert!(
         matches!(&loose, DynamicsError::Disconnected { body, .. } if body == "b"),
         "{loose}"
     );
     // A loop that cannot close: two bars of 1 m between points 3 m apart.
     let open = vec![
-        Link::new("first", None, 0, REVOLUTE),
-        Link::new("knee", Some(0), 1, REVOLUTE).at(DVec3::X, DVec3::ZERO),
-        Link::new("last", None, 1, ON_LINE).at(DVec3::X * 3.0, DVec3::X),
+        Joint::new("first", None, 0, REVOLUTE),
+        Joint::new("knee", Some(0), 1, REVOLUTE).at(DVec3::X, DVec3::ZERO),
+        Joint::new("last", None, 1, ON_LINE).at(DVec3::X * 3.0, DVec3::X),
     ];
     let mut bent = start;
     bent[1] = BodyMotion {
@@ -269,25 +269,25 @@ fn exact_joints_that_cannot_hold_are_named() {
     ));
     // Two welds of the same pair at different places.
     let clash = vec![
-        Link::new("ground", None, 0, REVOLUTE),
-        Link::new("weld", Some(0), 1, Freedom::Weld).at(DVec3::X, DVec3::ZERO),
-        Link::new("other weld", Some(0), 1, Freedom::Weld).at(DVec3::Y, DVec3::ZERO),
+        Joint::new("ground", None, 0, REVOLUTE),
+        Joint::new("weld", Some(0), 1, JointType::Weld).at(DVec3::X, DVec3::ZERO),
+        Joint::new("other weld", Some(0), 1, JointType::Weld).at(DVec3::Y, DVec3::ZERO),
     ];
     let form = AbsoluteForm::new(build(clash).unwrap(), Stabilization::None);
     let e = form.initial(0.0, &start, &[]).unwrap_err().to_string();
     println!("{e}");
     assert!(e.contains("`weld`") && e.contains("`other weld`"), "{e}");
     // An axis that is no unit vector, an element along a direction that is not free.
-    let long = Freedom::Revolute {
+    let long = JointType::Revolute {
         axis: DVec3::X * 2.0,
     };
-    let e = build(vec![Link::new("pin", None, 0, long)]).unwrap_err();
+    let e = build(vec![Joint::new("pin", None, 0, long)]).unwrap_err();
     assert!(
         matches!(e, DynamicsError::BadJoint { value: 2.0, .. }),
         "{e}"
     );
-    let mut pin = Link::new("pin", None, 0, REVOLUTE);
-    pin.joint = Joint::new(REVOLUTE).with(1, ElementLaw::Damper { coefficient: 1.0 });
+    let mut pin = Joint::new("pin", None, 0, REVOLUTE);
+    pin.model = JointModel::new(REVOLUTE).with(1, ElementLaw::Damper { coefficient: 1.0 });
     assert!(matches!(
         build(vec![pin]),
         Err(DynamicsError::BadJoint { .. })

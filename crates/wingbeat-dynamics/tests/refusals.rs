@@ -5,14 +5,14 @@ use crate::common;
 use common::*;
 use wingbeat_dynamics::euler::assembly::{consistent_coordinates, consistent_rates, kinematics};
 use wingbeat_dynamics::{
-    Baumgarte, Body, BodyMotion, DynamicsError, EulerForm, Formulation, Link, MomentumForm,
+    Baumgarte, Body, BodyMotion, DynamicsError, EulerForm, Formulation, Joint, MomentumForm,
     NaturalUnits, System,
 };
 use wingbeat_math::{DMat3, DVec3, EulerSequence, MassProperties};
 
 /// A fly's parts, changed by `change`, as a system.
 fn changed(
-    change: impl FnOnce(&mut Vec<Body>, &mut Vec<Link>, &mut DVec3, &mut NaturalUnits),
+    change: impl FnOnce(&mut Vec<Body>, &mut Vec<Joint>, &mut DVec3, &mut NaturalUnits),
 ) -> Result<System, DynamicsError> {
     let good = fly(GRAVITY);
     let (mut b, mut h) = (good.bodies().to_vec(), good.hinges().to_vec());
@@ -170,7 +170,7 @@ fn exact_consistent_rates_fulfil_the_velocity_constraints() {
         assert!(h.connection_rate().length() < 1e-12 * LENGTH / BEAT); // rounding
         assert!(h.orientation_rate().length() < 1e-12 / BEAT);
     }
-    // The same as the kinematics of the posture, found without any constraint equation.
+    // The same as the kinematics of the configuration, found without any constraint equation.
     let m = MomentumForm::new(system);
     let ym = m.initial(0.3 * BEAT, &start()).unwrap();
     let mut a = Flight::new(&m, none);

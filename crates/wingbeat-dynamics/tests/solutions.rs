@@ -4,11 +4,11 @@
 use crate::common;
 
 use common::*;
+use wingbeat_dynamics::configuration::Configuration;
 use wingbeat_dynamics::euler::assembly::kinematics;
 use wingbeat_dynamics::euler::condensed::Condensed;
 use wingbeat_dynamics::euler::coordinates::BodyKinematics;
 use wingbeat_dynamics::euler::saddle::Saddle;
-use wingbeat_dynamics::posture::Posture;
 use wingbeat_dynamics::{
     Baumgarte, BodyAcceleration, BodyMotion, EulerForm, Formulation, MomentumForm, Solution,
     System, Wrench,
@@ -192,7 +192,7 @@ fn same_budgets(m: &Solution, e: &Solution) {
 }
 
 #[test]
-fn agrees_posture_of_a_chain_with_time_differences() {
+fn agrees_configuration_of_a_chain_with_time_differences() {
     // Velocities and accelerations of every body of the chain (transport, Coriolis and relative
     // parts) against differences of positions and velocities along a motion of the root.
     let system = chain(GRAVITY);
@@ -205,13 +205,13 @@ fn agrees_posture_of_a_chain_with_time_differences() {
     };
     // The root moves on the scale one, the wings at 2 pi / BEAT.
     let at = |t: f64| {
-        let mut posture = Posture::new(&system);
-        posture.update(&system, 0.2 * BEAT + t);
+        let mut configuration = Configuration::new(&system);
+        configuration.update(&system, 0.2 * BEAT + t);
         let (motion, acceleration) = root(0.1 + t);
         let mut m = vec![BodyMotion::REST; 4];
         let mut a = vec![BodyAcceleration::default(); 4];
-        posture.motions(&motion, &mut m);
-        posture.accelerations(&motion, &acceleration, &mut a);
+        configuration.motions(&motion, &mut m);
+        configuration.accelerations(&motion, &acceleration, &mut a);
         (m, a)
     };
     let (m, a) = at(0.0);

@@ -8,7 +8,7 @@ use wingbeat_dynamics::euler::constraint::HingeKinematics;
 use wingbeat_dynamics::euler::coordinates::BodyKinematics;
 use wingbeat_dynamics::euler::{forces, inertia};
 use wingbeat_dynamics::inverse::weight_wrench;
-use wingbeat_dynamics::{Body, Link, Wrench};
+use wingbeat_dynamics::{Body, Joint, Wrench};
 use wingbeat_math::{DVec3, EulerSequence, MassProperties, RotationLaw};
 
 const SEQUENCES: [EulerSequence; 2] = [EulerSequence::BODY_231, EulerSequence::WING_132];
@@ -165,7 +165,7 @@ fn exact_weight_is_the_sum_over_points() {
 }
 
 /// A hinge with both anchors off the origins, whose law moves on the time scale one.
-fn test_hinge() -> Link {
+fn test_hinge() -> Joint {
     #[derive(Debug)]
     struct Slow(Flapping);
     impl RotationLaw for Slow {
@@ -178,20 +178,20 @@ fn test_hinge() -> Link {
             }
         }
     }
-    Link {
+    Joint {
         anchor_child: DVec3::new(0.1, 0.4, -0.2),
         ..hinge("h", 1, DVec3::new(0.3, -0.5, 0.7), Slow(Flapping::left()))
     }
 }
 
 /// The hinge between two bodies that move on their own, constraints not fulfilled.
-fn hinge_at(h: &Link, q: [&[f64]; 2], qd: [&[f64]; 2], t: f64) -> HingeKinematics {
+fn hinge_at(h: &Joint, q: [&[f64]; 2], qd: [&[f64]; 2], t: f64) -> HingeKinematics {
     let parent = BodyKinematics::new(&cloud_body(SEQUENCES[0]), q[0], qd[0]);
     let child = BodyKinematics::new(&cloud_body(SEQUENCES[1]), q[1], qd[1]);
     HingeKinematics::new(h, &h.rotation(t), &parent, &child)
 }
 
-fn hinge_along(h: &Link, t: f64) -> HingeKinematics {
+fn hinge_along(h: &Joint, t: f64) -> HingeKinematics {
     let ([qa, da, _], [qb, db, _]) = (motion(0.4, t), motion(2.6, t));
     hinge_at(h, [&qa, &qb], [&da, &db], t)
 }

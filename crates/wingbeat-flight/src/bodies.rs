@@ -4,8 +4,8 @@
 use std::sync::Arc;
 
 use wingbeat_dynamics::{
-    Baumgarte, Body, BodyMotion, DynamicsError, EulerForm, Formulation, Freedom, Link, Mechanism,
-    MomentumForm, NaturalUnits, QuaternionForm, Stabilization, System,
+    Baumgarte, Body, BodyMotion, DynamicsError, EulerForm, Formulation, Joint, JointType,
+    Mechanism, MomentumForm, NaturalUnits, QuaternionForm, Stabilization, System,
 };
 use wingbeat_math::{DVec3, EulerSequence, RotationLaw};
 use wingbeat_model::{Animal, Wing};
@@ -80,13 +80,13 @@ fn quaternion(system: System, root: &BodyMotion) -> Result<Vec<f64>, DynamicsErr
 
 fn articulated(
     animal: &Animal,
-    joints: &[Link],
+    joints: &[Joint],
     gravity: DVec3,
     units: NaturalUnits,
     law: &WingLaw<'_>,
 ) -> Result<System, DynamicsError> {
     let bodies = bodies(animal);
-    let mut hinges: Vec<Link> = vec![];
+    let mut hinges: Vec<Joint> = vec![];
     let mut loops = vec![];
     let first = |child: usize| joints.iter().position(|j| j.child == child);
     for child in 1..bodies.len() {
@@ -121,18 +121,18 @@ fn bodies(animal: &Animal) -> Vec<Body> {
     bodies
 }
 
-fn wing_hinge(wing: &Wing, child: usize, law: &WingLaw<'_>) -> Link {
-    Link {
+fn wing_hinge(wing: &Wing, child: usize, law: &WingLaw<'_>) -> Joint {
+    Joint {
         law: Some(law(child - 1, wing)),
-        ..Link::new(&wing.name, Some(0), child, Freedom::Weld).at(wing.hinge_b, DVec3::ZERO)
+        ..Joint::new(&wing.name, Some(0), child, JointType::Weld).at(wing.hinge_b, DVec3::ZERO)
     }
 }
 
 /// The joint that carries a body; a wing without a law of its own keeps its motion.
-fn carrying(joint: &Link, animal: &Animal, law: &WingLaw<'_>) -> Link {
+fn carrying(joint: &Joint, animal: &Animal, law: &WingLaw<'_>) -> Joint {
     let index = joint.child.wrapping_sub(1);
     let motion = || animal.wings.get(index).map(|w| law(index, w));
-    Link {
+    Joint {
         law: joint.law.clone().or_else(motion),
         ..joint.clone()
     }
@@ -144,7 +144,7 @@ pub struct JointCoordinate {
     /// Name of the joint.
     pub joint: String,
     /// What the joint leaves free.
-    pub freedom: Freedom,
+    pub kind: JointType,
     /// Number of the direction, from 0.
     pub direction: usize,
     /// Directions of the joint.
@@ -158,17 +158,17 @@ pub struct JointCoordinate {
 /// Bodies or joints that the dynamics refuse.
 pub fn joint_coordinates(setup: &FlightSetup) -> Result<Vec<JointCoordinate>, DynamicsError> {
     let mechanism = Mechanism::of(&system_of(setup)?);
-    let of = |link: &Link| {
-        let (name, freedom) = (link.name.clone(), link.joint.freedom);
-        let of = freedom.directions().min(3);
+    let of = |joint: &Joint| {
+        let (name, kind) = (joint.name.clone(), joint.model.kind);
+        let of = kind.directions().min(3);
         (0..of).map(move |direction| JointCoordinate {
             joint: name.clone(),
-            freedom,
+            kind,
             direction,
             of,
         })
     };
-    Ok(mechanism.links().iter().flat_map(of).collect())
+    Ok(mechanism.joints().iter().flat_map(of).collect())
 }
 
 /// Names of the joints that close loops, in the order of [`crate::Record::loops`].

@@ -54,7 +54,7 @@ pub enum FlightError {
     },
     /// A loop has come to a position where its motion is not determined.
     #[error(
-        "t = {time:.6e} s: the joints {joints} come to a position in which they ask for the same thing twice (links in line): the motion of their loop is not determined there; change lengths or start so that it is not reached, limit the motion by a stop, or free one of the joints"
+        "t = {time:.6e} s: the joints {joints} come to a position in which they ask for the same thing twice (joints in line): the motion of their loop is not determined there; change lengths or start so that it is not reached, limit the motion by a stop, or free one of the joints"
     )]
     SingularPosition {
         /// Time reached [s].

@@ -7,7 +7,7 @@
 
 use std::sync::Arc;
 
-use wingbeat_dynamics::posture::PostureTable;
+use wingbeat_dynamics::configuration::ConfigurationTable;
 use wingbeat_dynamics::{
     AddedMass, BodyAcceleration, BodyMotion, Formulation, Mechanism, MomentumForm, System, Wrench,
     driven,
@@ -32,7 +32,7 @@ pub struct FreeFlightScratch(Scratch);
 
 impl FreeFlightScratch {
     /// Forgets what it knows of the last evaluation: to be called where laws of the wings have changed in between, so that
-    /// the same time means another posture.
+    /// the same time means another configuration.
     pub fn forget(&mut self) {
         self.0.forget();
     }
@@ -53,7 +53,7 @@ impl FreeFlight {
         count: usize,
     ) -> Result<Self, FlightError> {
         let system = driven(system_with(setup, law)?, step, count)?;
-        let table = Arc::new(PostureTable::new(&system, step, count));
+        let table = Arc::new(ConfigurationTable::new(&system, step, count));
         Self::of(setup, MomentumForm::new(system).tabulated(table), step)
     }
 

@@ -3,28 +3,28 @@
 
 use std::sync::Arc;
 
-use wingbeat_dynamics::{ElementLaw, Link, TravelLaw};
+use wingbeat_dynamics::{ElementLaw, Joint, TravelLaw};
 use wingbeat_math::{DMat3, DVec3, DriftingFourier, MovingRotation, RotationLaw};
 
 use crate::prescribed::PrescribedMotion;
 
 /// Whether joint `k` closes a loop: its child is the central body or hangs on an earlier joint.
-pub fn closes_loop(joints: &[Link], k: usize) -> bool {
+pub fn closes_loop(joints: &[Joint], k: usize) -> bool {
     let child = joints[k].child;
     child == 0 || joints[..k].iter().any(|j| j.child == child)
 }
 
 /// The same joint with everything that is prescribed there `factor` times as fast: rotation, travel and
 /// actuators.
-pub fn faster(joint: &Link, factor: f64) -> Link {
+pub fn faster(joint: &Joint, factor: f64) -> Joint {
     let mut faster = joint.clone();
     if let Some(law) = faster.law.take() {
         faster.law = Some(Arc::new(Faster { law, factor }));
     }
-    if let Some(law) = faster.joint.travel.take() {
-        faster.joint.travel = Some(Arc::new(Faster { law, factor }));
+    if let Some(law) = faster.model.travel.take() {
+        faster.model.travel = Some(Arc::new(Faster { law, factor }));
     }
-    for element in &mut faster.joint.elements {
+    for element in &mut faster.model.elements {
         if let ElementLaw::Effort(series) | ElementLaw::Follow { target: series, .. } =
             &mut element.law
         {

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use wingbeat_air::{AirSettings, CoreModel, LeadingEdge, LoadMethod, SheddingKinds, Wind};
 use wingbeat_blade::DerivativeTable;
 use wingbeat_blade::{BladeSettings, BodyDrag};
-use wingbeat_dynamics::Link;
+use wingbeat_dynamics::Joint;
 use wingbeat_math::{DMat3, DVec3, EulerSequence};
 use wingbeat_model::{Animal, Crossing, crossings};
 
@@ -34,7 +34,7 @@ pub struct FlightSetup {
     /// system: 0 the central body, then the wings, then the segments. The first joint that has a body as its child
     /// carries it, with a wing's motion where the joint of a wing has no law of its own; others close loops. A
     /// wing without a joint hangs on the central body.
-    pub joints: Vec<Link>,
+    pub joints: Vec<Joint>,
     /// Which equations are integrated.
     pub formulation: FormulationChoice,
     /// By which method.

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use wingbeat_dynamics::posture::PostureTable;
+use wingbeat_dynamics::configuration::ConfigurationTable;
 use wingbeat_dynamics::{
     Baumgarte, Cycle, EulerForm, Formulation, Mechanism, MomentumForm, QuaternionForm,
     Stabilization, System,
@@ -115,14 +115,14 @@ pub fn cycle(setup: &FlightSetup, system: &System) -> Option<Cycle> {
     known.then(|| system.cycle(setup.time.step)).flatten()
 }
 
-/// The momentum form, with postures from a table where the motion repeats itself in whole steps.
+/// The momentum form, with configurations from a table where the motion repeats itself in whole steps.
 fn momentum(setup: &FlightSetup, system: System) -> MomentumForm {
     let step = setup.time.step;
     let table = cycle(setup, &system).map(|cycle| match setup.integrator {
         IntegratorChoice::RungeKutta => {
-            PostureTable::repeating(&system, 0.5 * step, cycle.halved())
+            ConfigurationTable::repeating(&system, 0.5 * step, cycle.halved())
         }
-        _ => PostureTable::repeating(&system, step, cycle),
+        _ => ConfigurationTable::repeating(&system, step, cycle),
     });
     let form = MomentumForm::new(system);
     match table {

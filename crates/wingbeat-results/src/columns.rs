@@ -7,7 +7,7 @@
 
 use std::path::Path;
 
-use wingbeat_dynamics::{DynamicsError, Freedom};
+use wingbeat_dynamics::{DynamicsError, JointType};
 use wingbeat_flight::{FlightSetup, JointCoordinate, Record, joint_coordinates, loop_names};
 use wingbeat_model::Animal;
 
@@ -119,8 +119,8 @@ impl Subject {
 
     /// The coordinate number `index` among all joints' coordinates.
     fn coordinate(c: &JointCoordinate, index: usize) -> Self {
-        let kind = match c.freedom {
-            Freedom::Prismatic { .. } => Kind::Displacement,
+        let kind = match c.kind {
+            JointType::Prismatic { .. } => Kind::Displacement,
             _ => Kind::Rotation,
         };
         let what = match kind {

@@ -8,7 +8,7 @@ use wingbeat::prelude::*;
 /// Springs of all joints this many times as stiff.
 fn stiffened(mut flight: Flight, factor: f64) -> Flight {
     let joints = flight.setup.joints.iter_mut();
-    for element in joints.flat_map(|j| &mut j.joint.elements) {
+    for element in joints.flat_map(|j| &mut j.model.elements) {
         if let ElementLaw::Spring { stiffness, .. } = &mut element.law {
             *stiffness *= factor;
         }

@@ -136,7 +136,7 @@ fn refuses_whole_results_of_what_no_case_says() {
     let mut swapped = short();
     swapped.setup.animal.wings.reverse();
     let mut robot = Flight::preset("robobee").expect("a preset");
-    robot.setup.joints[0].joint.elements.clear();
+    robot.setup.joints[0].model.elements.clear();
     let mut uneven = short();
     uneven.setup.animal.wings[0].motion.frequency *= 1.1;
     let refused = [

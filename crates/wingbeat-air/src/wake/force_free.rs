@@ -66,7 +66,7 @@ pub(crate) struct ForceFree {
     on_plane: Vec<bool>,
     near: Vec<[(Option<usize>, f64); 2]>,
     /// Nodes at two ends of a filament.
-    links: Vec<[usize; 2]>,
+    joints: Vec<[usize; 2]>,
     sums: Vec<[DVec3; 2]>,
     /// S, then the root of T^2 + (e S)^2 [m3/s].
     sizes: Vec<f64>,
@@ -257,16 +257,16 @@ impl ForceFree {
 
     /// Finds the nodes at the other ends of each node's filaments.
     fn link(&mut self) {
-        self.links.clear();
+        self.joints.clear();
         for ends in self.ends.chunk_by(|a, b| a.middle == b.middle) {
             for (k, a) in ends.iter().enumerate() {
                 let others = ends[k + 1..].iter().filter(|b| b.node != a.node);
-                self.links.extend(others.map(|b| [a.node, b.node]));
+                self.joints.extend(others.map(|b| [a.node, b.node]));
             }
         }
         self.around.clear();
         self.around.resize(self.sizes.len(), 0.0);
-        for &[a, b] in &self.links {
+        for &[a, b] in &self.joints {
             self.around[a] += self.sizes[b];
             self.around[b] += self.sizes[a];
         }
@@ -302,7 +302,7 @@ impl ForceFree {
         handed.clear();
         let kept = left.iter().zip(around.iter());
         handed.extend(kept.map(|(left, &around)| if around > 0.0 { DVec3::ZERO } else { *left }));
-        for &[a, b] in &self.links {
+        for &[a, b] in &self.joints {
             for (from, to) in [(a, b), (b, a)] {
                 if around[from] > 0.0 {
                     handed[to] += sizes[to] / around[from] * left[from];

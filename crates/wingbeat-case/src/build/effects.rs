@@ -24,10 +24,7 @@ pub(crate) fn check(case: &Case, setup: &FlightSetup, source: &CaseSource) -> Bu
     if case.flight.held_beats > 0.0 && setup.time.period.is_none() {
         return Err(idle("flight.held_beats", "where nothing beats"));
     }
-    let has_joints = setup
-        .joints
-        .iter()
-        .any(|j| j.joint.freedom.directions() > 0);
+    let has_joints = setup.joints.iter().any(|j| j.model.kind.directions() > 0);
     let default = case.dynamics.formulation.value() == Formulation::Momentum;
     if case.flight.mode == Mode::Tethered && !has_joints && !default {
         let why = "with flight.mode = \"tethered\": all motion is prescribed";

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use wingbeat_dynamics::{DynamicsError, Freedom, Joint, Link};
+use wingbeat_dynamics::{DynamicsError, Joint, JointModel, JointType};
 use wingbeat_flight::joints::{AxisTurn, Path};
 use wingbeat_flight::{DriftingFourier, FlightSetup};
 use wingbeat_math::DVec3;
@@ -26,7 +26,7 @@ pub(super) fn body_names(animal: &Animal) -> Vec<&str> {
 }
 
 /// All joints, those mirrored to left wings among them.
-pub(super) fn build_all(case: &Case, animal: &Animal) -> Built<Vec<Link>> {
+pub(super) fn build_all(case: &Case, animal: &Animal) -> Built<Vec<Joint>> {
     if !case.joint.is_empty() && case.animal.scale != 1.0 {
         return Err(Fault::new(
             "animal.scale",
@@ -46,7 +46,7 @@ pub(super) fn build_all(case: &Case, animal: &Animal) -> Built<Vec<Link>> {
     Ok(joints)
 }
 
-fn build(case: &Case, animal: &Animal, name: &str, joint: &JointCase) -> Built<Link> {
+fn build(case: &Case, animal: &Animal, name: &str, joint: &JointCase) -> Built<Joint> {
     let path = format!("joint.{name}");
     let parent = find(
         animal,
@@ -85,21 +85,21 @@ fn build(case: &Case, animal: &Animal, name: &str, joint: &JointCase) -> Built<L
         Some(t) => Some(Arc::new(turn(&path, t, frequency)?) as _),
         None => None,
     };
-    let mut freedom = Joint::new(freedom(&path, joint)?);
-    freedom.travel = joint
+    let mut model = JointModel::new(kind(&path, joint)?);
+    model.travel = joint
         .travel
         .as_ref()
         .map(|t| Arc::new(travel(t, frequency)) as _);
-    freedom.elements = element::build_all(&path, joint, frequency)?;
-    [freedom.coordinates, freedom.rates] = start(&path, joint)?;
-    Ok(Link {
+    model.elements = element::build_all(&path, joint, frequency)?;
+    [model.coordinates, model.rates] = start(&path, joint)?;
+    Ok(Joint {
         name: name.to_owned(),
         parent: Some(parent),
         child,
         anchor_parent,
         anchor_child,
         law,
-        joint: freedom,
+        model,
     })
 }
 
@@ -159,7 +159,7 @@ fn unit(key: &str, v: [f64; 3]) -> Built<DVec3> {
     })
 }
 
-fn freedom(path: &str, joint: &JointCase) -> Built<Freedom> {
+fn kind(path: &str, joint: &JointCase) -> Built<JointType> {
     let axis = || {
         let key = format!("{path}.axis");
         let given = joint.axis.ok_or_else(|| {
@@ -173,11 +173,11 @@ fn freedom(path: &str, joint: &JointCase) -> Built<Freedom> {
         unit(&key, given)
     };
     Ok(match joint.kind {
-        JointKind::Weld => Freedom::Weld,
-        JointKind::Spherical => Freedom::Spherical,
-        JointKind::Revolute => Freedom::Revolute { axis: axis()? },
-        JointKind::Prismatic => Freedom::Prismatic { axis: axis()? },
-        JointKind::PointOnLine => Freedom::PointOnLine { axis: axis()? },
+        JointKind::Weld => JointType::Weld,
+        JointKind::Spherical => JointType::Spherical,
+        JointKind::Revolute => JointType::Revolute { axis: axis()? },
+        JointKind::Prismatic => JointType::Prismatic { axis: axis()? },
+        JointKind::PointOnLine => JointType::PointOnLine { axis: axis()? },
         JointKind::Universal => {
             let key = format!("{path}.axes");
             let missing = || {
@@ -200,7 +200,7 @@ fn freedom(path: &str, joint: &JointCase) -> Built<Freedom> {
                     "turn one",
                 ));
             }
-            Freedom::Universal { axes }
+            JointType::Universal { axes }
         }
     })
 }

@@ -1,6 +1,6 @@
 //! `[segment.NAME]`: bodies beside the central one and the wings.
 
-use wingbeat_dynamics::Link;
+use wingbeat_dynamics::Joint;
 use wingbeat_math::{DMat3, DVec3, MassProperties};
 use wingbeat_model::{Animal, BodyPart, Segment};
 
@@ -116,7 +116,7 @@ fn mass(path: &str, case: &SegmentCase, parts: &[BodyPart], lumped: bool) -> Bui
 }
 
 /// Every segment hangs on a joint, and over joints on the central body.
-pub(super) fn check_carried(animal: &Animal, joints: &[Link]) -> Built<()> {
+pub(super) fn check_carried(animal: &Animal, joints: &[Joint]) -> Built<()> {
     let first = animal.wings.len() + 1;
     for (i, segment) in animal.segments.iter().enumerate() {
         let mut at = first + i;

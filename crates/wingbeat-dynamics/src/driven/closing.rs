@@ -11,14 +11,14 @@
 
 use wingbeat_math::{DQuat, DVec3, MovingRotation};
 
-use crate::link::Link;
+use crate::configuration::Configuration;
+use crate::joint::Joint;
 use crate::mechanism::Mechanism;
 use crate::mechanism::form::{AbsoluteForm, Stabilization};
-use crate::mechanism::link::{Row, kinematics};
+use crate::mechanism::joint::{Row, kinematics};
 use crate::mechanism::partition::partition;
 use crate::placement::{Placement, carry};
-use crate::posture::Posture;
-use crate::{BodyAcceleration, BodyMotion, DynamicsError, Freedom, System};
+use crate::{BodyAcceleration, BodyMotion, DynamicsError, JointType, System};
 
 /// Newton's steps at most; from where the loops were just before, four reach round-off.
 const ITERATIONS: usize = 20;
@@ -39,7 +39,7 @@ pub(super) type Relative = (MovingRotation, [DVec3; 3]);
 /// Loops that are closed time after time.
 pub(super) struct Closing<'a> {
     system: &'a System,
-    posture: Posture,
+    configuration: Configuration,
     motions: Vec<BodyMotion>,
     accelerations: Vec<BodyAcceleration>,
     /// Natural sizes of the coordinates.
@@ -55,29 +55,29 @@ impl<'a> Closing<'a> {
     /// # Errors
     /// Loops that cannot be closed, ask for something twice or leave something free, by name.
     pub fn new(system: &'a System) -> Result<Self, DynamicsError> {
-        let mut posture = Posture::new(system);
-        posture.update(system, 0.0);
+        let mut configuration = Configuration::new(system);
+        configuration.update(system, 0.0);
         let mut motions = vec![BodyMotion::REST; system.bodies().len()];
-        posture.motions(&BodyMotion::REST, &mut motions);
-        let support = Link::new("support of the root", None, 0, Freedom::Weld);
+        configuration.motions(&BodyMotion::REST, &mut motions);
+        let support = Joint::new("support of the root", None, 0, JointType::Weld);
         let mechanism = Mechanism::of(system).with_link(support);
         let form = AbsoluteForm::new(mechanism, Stabilization::None);
         let y = form.initial(0.0, &motions, &[])?;
         form.motions(0.0, &y, &mut motions)?;
-        if let (free @ 1.., Some(link)) = (form.freedoms(0.0, &motions), system.loops().first()) {
-            let joint = link.name.clone();
+        if let (free @ 1.., Some(joint)) = (form.freedoms(0.0, &motions), system.loops().first()) {
+            let joint = joint.name.clone();
             return Err(DynamicsError::LooseLoop { joint, free });
         }
         let (q, u) = form.mechanism().free_coordinates(system, 0.0, &motions);
         let mut sizes = vec![1.0; u.len()];
-        for (joint, slot) in system.joints().zip(system.slots()) {
-            if let Freedom::Prismatic { .. } = joint.freedom {
-                sizes[slot.u] = system.units().length;
+        for (joint, offsets) in system.joints().zip(system.offsets()) {
+            if let JointType::Prismatic { .. } = joint.kind {
+                sizes[offsets.u] = system.units().length;
             }
         }
         Ok(Self {
             system,
-            posture,
+            configuration,
             accelerations: vec![BodyAcceleration::default(); motions.len()],
             motions,
             sizes,
@@ -158,14 +158,14 @@ impl<'a> Closing<'a> {
 
     /// Changes the coordinates by `step`, those of spherical joints by a rotation vector.
     fn shift(&mut self, step: &[f64]) {
-        for slot in self.system.slots() {
-            let (q, step) = (&mut self.q[slot.q..], &step[slot.u..]);
-            if slot.coordinates == 4 {
+        for offsets in self.system.offsets() {
+            let (q, step) = (&mut self.q[offsets.q..], &step[offsets.u..]);
+            if offsets.coordinates == 4 {
                 let turn = DQuat::from_scaled_axis(DVec3::from_slice(step));
                 let turned = (DQuat::from_slice(q) * turn).normalize();
                 turned.write_to_slice(q);
             } else {
-                (0..slot.speeds).for_each(|k| q[k] += step[k]);
+                (0..offsets.speeds).for_each(|k| q[k] += step[k]);
             }
         }
     }
@@ -174,36 +174,36 @@ impl<'a> Closing<'a> {
     /// motions of the bodies, and accelerations at constant speeds, stay.
     fn rows(&mut self, t: f64, u: &[f64]) -> Vec<(usize, Row)> {
         let (root, still) = (BodyMotion::REST, BodyAcceleration::default());
-        self.posture.update_free(self.system, t, (&self.q, u));
-        self.posture.motions(&root, &mut self.motions);
-        (self.posture).accelerations(&root, &still, &mut self.accelerations);
+        self.configuration.update_free(self.system, t, (&self.q, u));
+        self.configuration.motions(&root, &mut self.motions);
+        (self.configuration).accelerations(&root, &still, &mut self.accelerations);
         let mut rows = vec![];
-        for (k, link) in self.system.loops().iter().enumerate() {
-            kinematics(link, t, &self.motions).rows(|row| rows.push((k, row)));
+        for (k, joint) in self.system.loops().iter().enumerate() {
+            kinematics(joint, t, &self.motions).rows(|row| rows.push((k, row)));
         }
         rows
     }
 
     /// Second rate of a constraint of loop `k` at constant speeds.
     fn second_rate(&self, k: usize, r: &Row) -> f64 {
-        let link = &self.system.loops()[k];
+        let joint = &self.system.loops()[k];
         let part = |body: usize, [v, w]: [DVec3; 2]| {
             let a = &self.accelerations[body];
             v.dot(a.linear) + w.dot(a.angular)
         };
-        let of_parent = link.parent.map_or(0.0, |p| part(p, r.parent));
-        of_parent + part(link.child, r.child) + r.bias
+        let of_parent = joint.parent.map_or(0.0, |p| part(p, r.parent));
+        of_parent + part(joint.child, r.child) + r.bias
     }
 
     /// How the child of hinge `k` moves against its parent in the position closed last, at time `t` \[s\].
     pub fn relative(&self, t: f64, k: usize) -> Relative {
         let h = &self.system.hinges()[k];
-        let joint = &h.joint;
-        let slot = self.system.slots()[k];
+        let joint = &h.model;
+        let offsets = self.system.offsets()[k];
         let travel = (joint.travel.as_ref()).map_or([DVec3::ZERO; 3], |law| law.at(t));
         let frame = Placement::ROOT.slid(travel).turned(&h.rotation(t));
-        let [u, u_dot] = [&self.u, &self.u_dot].map(|x| &x[slot.u..slot.u + slot.speeds]);
-        let child = carry(joint.freedom, frame, &self.q[slot.q..], u, Some(u_dot));
+        let [u, u_dot] = [&self.u, &self.u_dot].map(|x| &x[offsets.u..offsets.u + offsets.speeds]);
+        let child = carry(joint.kind, frame, &self.q[offsets.q..], u, Some(u_dot));
         let turned = MovingRotation {
             c: child.c,
             w: child.w,

@@ -9,7 +9,7 @@
 use wingbeat_math::{DMat3, DVec3, MovingRotation, tilde};
 
 use super::coordinates::BodyKinematics;
-use crate::link::Link;
+use crate::joint::Joint;
 
 /// Entries (1,2), (2,3), (3,1) of the relative rotation are constrained (seed eq. 4).
 const ENTRIES: [(usize, usize); 3] = [(0, 1), (1, 2), (2, 0)];
@@ -42,7 +42,7 @@ pub struct AngleJacobian {
 impl HingeKinematics {
     /// `law` is the hinge's law at the instant.
     pub fn new(
-        hinge: &Link,
+        hinge: &Joint,
         law: &MovingRotation,
         parent: &BodyKinematics,
         child: &BodyKinematics,

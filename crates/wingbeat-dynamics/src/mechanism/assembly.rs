@@ -114,14 +114,14 @@ impl AbsoluteForm {
         }
     }
 
-    /// Largest scaled constraint value and the index of its link.
+    /// Largest scaled constraint value and the index of its joint.
     fn residual(&self, s: &AbsoluteScratch) -> (f64, usize) {
         let length = self.mechanism().units().length;
         let mut worst = (0.0, 0);
-        for (link, r) in Self::rows(s) {
+        for (joint, r) in Self::rows(s) {
             let size = r.value.abs() / if r.is_length { length } else { 1.0 };
             if size.is_nan() || size > worst.0 {
-                worst = (size, *link);
+                worst = (size, *joint);
             }
         }
         worst
@@ -132,7 +132,7 @@ impl AbsoluteForm {
         &self,
         s: &AbsoluteScratch,
         free: &[bool],
-        what: impl Fn(&super::link::Row) -> f64,
+        what: impl Fn(&super::joint::Row) -> f64,
     ) -> Partition {
         self.eliminated_to(RANK_TOLERANCE, s, free, what)
     }
@@ -143,15 +143,15 @@ impl AbsoluteForm {
         zero: f64,
         s: &AbsoluteScratch,
         free: &[bool],
-        what: impl Fn(&super::link::Row) -> f64,
+        what: impl Fn(&super::joint::Row) -> f64,
     ) -> Partition {
         let length = self.mechanism().units().length;
         let (mut a, mut b) = (vec![], vec![]);
-        for (link, r) in Self::rows(s) {
-            let link = &self.mechanism().links()[*link];
+        for (joint, r) in Self::rows(s) {
+            let joint = &self.mechanism().joints()[*joint];
             let unit = if r.is_length { 1.0 / length } else { 1.0 };
             let mut row = vec![0.0; free.len()];
-            for (body, f) in [(link.parent, &r.parent), (Some(link.child), &r.child)] {
+            for (body, f) in [(joint.parent, &r.parent), (Some(joint.child), &r.child)] {
                 for (c, x) in body.into_iter().flat_map(|b| {
                     let columns = (0..6).map(move |c| 6 * b + c);
                     columns.zip(f[0].to_array().into_iter().chain(f[1].to_array()))
@@ -214,11 +214,11 @@ impl AbsoluteForm {
         })
     }
 
-    /// Names of the links with a share in a combination of rows.
+    /// Names of the joints with a share in a combination of rows.
     fn names(&self, s: &AbsoluteScratch, combination: &[f64]) -> String {
         let mut names: Vec<String> = vec![];
-        for (c, (link, _)) in combination.iter().zip(Self::rows(s)) {
-            let name = format!("`{}`", self.mechanism().links()[*link].name);
+        for (c, (joint, _)) in combination.iter().zip(Self::rows(s)) {
+            let name = format!("`{}`", self.mechanism().joints()[*joint].name);
             if c.abs() > 1e-6 && !names.contains(&name) {
                 names.push(name);
             }
@@ -246,22 +246,22 @@ impl AbsoluteForm {
                 residual: d.residual,
             };
         }
-        let (residual, link) = self.residual(s);
+        let (residual, joint) = self.residual(s);
         DynamicsError::NotAssembled {
             time,
-            joint: self.mechanism().links()[link].name.clone(),
+            joint: self.mechanism().joints()[joint].name.clone(),
             residual,
             iterations,
         }
     }
 
     fn check_branches(&self, time: f64, s: &AbsoluteScratch) -> Result<(), DynamicsError> {
-        let links = self.mechanism().links().iter();
-        for (link, l) in links.zip(Self::links(s)) {
+        let joints = self.mechanism().joints().iter();
+        for (joint, l) in joints.zip(Self::joints(s)) {
             if l.is_reversed() {
                 return Err(DynamicsError::NotAssembled {
                     time,
-                    joint: format!("{} (its axes point against each other)", link.name),
+                    joint: format!("{} (its axes point against each other)", joint.name),
                     residual: 2.0,
                     iterations: 0,
                 });

@@ -2,10 +2,10 @@
 
 use wingbeat_math::{DMat3, DVec3, solve_small, tilde};
 
-use super::link::{LinkKinematics, Row};
+use super::joint::{JointKinematics, Row};
 use super::structure::Mechanism;
 use crate::error::DynamicsError;
-use crate::link::Link;
+use crate::joint::Joint;
 use crate::motion::{BodyAcceleration, BodyMotion, Wrench};
 use crate::solution::HingeReaction;
 
@@ -16,11 +16,11 @@ pub struct AbsoluteScratch {
     pub motions: Vec<BodyMotion>,
     /// Accelerations of the bodies.
     pub accelerations: Vec<BodyAcceleration>,
-    /// Load of every link on its child at its anchor, efforts included.
+    /// Load of every joint on its child at its anchor, efforts included.
     pub reactions: Vec<HingeReaction>,
     /// Largest constraint values: lengths \[m\], angles \[rad\].
     pub violation: [f64; 2],
-    pub(super) links: Vec<LinkKinematics>,
+    pub(super) joints: Vec<JointKinematics>,
     pub(super) rows: Vec<(usize, Row)>,
     pub(super) matrix: Vec<f64>,
     pub(super) rhs: Vec<f64>,
@@ -30,18 +30,18 @@ pub struct AbsoluteScratch {
 
 /// Adds the efforts of springs, dampers, stops and actuators to the loads.
 pub(super) fn put_efforts(mechanism: &Mechanism, t: f64, s: &mut AbsoluteScratch) {
-    for (link, l) in mechanism.links().iter().zip(&s.links) {
-        let [force, moment] = effort(link, l, t);
-        if link.joint.elements.is_empty() {
+    for (joint, l) in mechanism.joints().iter().zip(&s.joints) {
+        let [force, moment] = effort(joint, l, t);
+        if joint.model.elements.is_empty() {
             continue;
         }
-        let child = &s.motions[link.child];
-        let (anchor, moment) = (child.r * link.anchor_child, child.r * moment);
-        s.loads[link.child] += Wrench {
+        let child = &s.motions[joint.child];
+        let (anchor, moment) = (child.r * joint.anchor_child, child.r * moment);
+        s.loads[joint.child] += Wrench {
             force,
             moment: moment + anchor.cross(force),
         };
-        if let Some(p) = link.parent {
+        if let Some(p) = joint.parent {
             let arm = child.p + anchor - s.motions[p].p;
             s.loads[p] += Wrench {
                 force: -force,
@@ -83,10 +83,10 @@ pub(super) fn put_bodies(mechanism: &Mechanism, s: &mut AbsoluteScratch) {
 /// Jacobian of all constraints, and scales of the multipliers.
 pub(super) fn put_constraints(mechanism: &Mechanism, s: &mut AbsoluteScratch) {
     let (n, first) = (s.rhs.len(), 6 * s.motions.len());
-    for (k, (link, r)) in s.rows.iter().enumerate() {
-        let link = &mechanism.links()[*link];
+    for (k, (joint, r)) in s.rows.iter().enumerate() {
+        let joint = &mechanism.joints()[*joint];
         let (at, mut size) = (first + k, 0.0);
-        let ends = [(link.parent, &r.parent), (Some(link.child), &r.child)];
+        let ends = [(joint.parent, &r.parent), (Some(joint.child), &r.child)];
         for (body, factors) in ends {
             let Some(body) = body else { continue };
             for (part, v) in factors.iter().enumerate() {
@@ -125,7 +125,7 @@ pub(super) fn eliminate(
 fn singular(mechanism: &Mechanism, time: f64, column: usize, s: &AbsoluteScratch) -> DynamicsError {
     let first = 6 * s.motions.len();
     let what = match column.checked_sub(first) {
-        Some(k) => format!("joint `{}`", mechanism.links()[s.rows[k].0].name),
+        Some(k) => format!("joint `{}`", mechanism.joints()[s.rows[k].0].name),
         None => format!("body `{}`", mechanism.bodies()[column / 6].name),
     };
     DynamicsError::SingularMechanism { time, what }
@@ -137,8 +137,8 @@ pub(super) fn read(mechanism: &Mechanism, t: f64, s: &mut AbsoluteScratch) {
         let [linear, angular] = step(&s.rhs, i);
         s.accelerations[i] = BodyAcceleration { linear, angular };
     }
-    for (k, link) in mechanism.links().iter().enumerate() {
-        let [force, moment] = effort(link, &s.links[k], t);
+    for (k, joint) in mechanism.joints().iter().enumerate() {
+        let [force, moment] = effort(joint, &s.joints[k], t);
         s.reactions[k] = HingeReaction {
             force,
             moment,
@@ -146,27 +146,27 @@ pub(super) fn read(mechanism: &Mechanism, t: f64, s: &mut AbsoluteScratch) {
         };
     }
     let first = 6 * s.motions.len();
-    for (k, (link, r)) in s.rows.iter().enumerate() {
-        let (l, at) = (&mechanism.links()[*link], s.rhs[first + k]);
+    for (k, (joint, r)) in s.rows.iter().enumerate() {
+        let (l, at) = (&mechanism.joints()[*joint], s.rhs[first + k]);
         let back = s.motions[l.child].r.transpose();
-        let out = &mut s.reactions[*link];
+        let out = &mut s.reactions[*joint];
         let force = -at * r.child[0];
         out.force += force;
         out.moment += -at * r.child[1] - l.anchor_child.cross(back * force);
     }
-    for (out, l) in s.reactions.iter_mut().zip(&s.links) {
+    for (out, l) in s.reactions.iter_mut().zip(&s.joints) {
         out.power = l.power(out.force, out.moment);
     }
 }
 
 /// Force (N components) and moment (child components) of all elements on the child at its anchor.
-fn effort(link: &Link, l: &LinkKinematics, t: f64) -> [DVec3; 2] {
+fn effort(joint: &Joint, l: &JointKinematics, t: f64) -> [DVec3; 2] {
     let mut sum = [DVec3::ZERO; 2];
-    if link.joint.elements.is_empty() {
+    if joint.model.elements.is_empty() {
         return sum;
     }
     let q = l.coordinates();
-    for e in &link.joint.elements {
+    for e in &joint.model.elements {
         let [value, rate] = q[e.direction];
         let (size, d) = (e.law.effort(t, value, rate), l.direction(e.direction));
         (0..2).for_each(|k| sum[k] += size * d[k]);

@@ -13,11 +13,11 @@ use wingbeat_math::{DMat3, DQuat, DVec3};
 
 pub use super::equations::AbsoluteScratch;
 use super::equations::{eliminate, put_bodies, put_constraints, put_efforts, read, step};
-use super::link::{LinkKinematics, Row, kinematics};
+use super::joint::{JointKinematics, Row, kinematics};
 use super::structure::Mechanism;
 use crate::body::kinetic_energy;
 use crate::check::check_state;
-use crate::link::Link;
+use crate::joint::Joint;
 use crate::{Baumgarte, BodyAcceleration, BodyMotion, DynamicsError, HingeReaction, Wrench};
 
 /// Numbers per body in the state.
@@ -68,24 +68,24 @@ impl AbsoluteForm {
 
     /// Room for intermediate results.
     pub fn scratch(&self) -> AbsoluteScratch {
-        let (bodies, links) = (self.mechanism.bodies().len(), self.mechanism.links());
+        let (bodies, joints) = (self.mechanism.bodies().len(), self.mechanism.joints());
         let motions = vec![BodyMotion::REST; bodies];
-        let links = link_kinematics(links, 0.0, &motions);
+        let joints = link_kinematics(joints, 0.0, &motions);
         let mut rows = vec![];
-        for (k, l) in links.iter().enumerate() {
+        for (k, l) in joints.iter().enumerate() {
             l.rows(|r| rows.push((k, r)));
         }
         let n = 6 * bodies + rows.len();
         AbsoluteScratch {
             accelerations: vec![BodyAcceleration::default(); bodies],
-            reactions: vec![HingeReaction::default(); links.len()],
+            reactions: vec![HingeReaction::default(); joints.len()],
             violation: [0.0; 2],
             matrix: vec![0.0; n * n],
             rhs: vec![0.0; n],
             scale: vec![0.0; n],
             loads: vec![Wrench::default(); bodies],
             motions,
-            links,
+            joints,
             rows,
         }
     }
@@ -227,13 +227,13 @@ impl AbsoluteForm {
         eliminate(&self.mechanism, t, s)
     }
 
-    /// Constraints of all links for the motions in `s`.
+    /// Constraints of all joints for the motions in `s`.
     pub(crate) fn find_rows(&self, t: f64, s: &mut AbsoluteScratch) {
         s.rows.clear();
         s.violation = [0.0; 2];
-        for (k, link) in self.mechanism.links().iter().enumerate() {
-            s.links[k] = kinematics(link, t, &s.motions);
-            s.links[k].rows(|r| s.rows.push((k, r)));
+        for (k, joint) in self.mechanism.joints().iter().enumerate() {
+            s.joints[k] = kinematics(joint, t, &s.motions);
+            s.joints[k].rows(|r| s.rows.push((k, r)));
         }
         for (_, r) in &s.rows {
             let worst = &mut s.violation[usize::from(!r.is_length)];
@@ -241,14 +241,14 @@ impl AbsoluteForm {
         }
     }
 
-    /// Constraints and the links they belong to, as last found.
+    /// Constraints and the joints they belong to, as last found.
     pub(crate) fn rows(s: &AbsoluteScratch) -> &[(usize, Row)] {
         &s.rows
     }
 
     /// Links as last found.
-    pub(crate) fn links(s: &AbsoluteScratch) -> &[LinkKinematics] {
-        &s.links
+    pub(crate) fn joints(s: &AbsoluteScratch) -> &[JointKinematics] {
+        &s.joints
     }
 
     /// Kinetic energy, potential energy in the field of gravity, energy stored in springs \[J\].
@@ -259,10 +259,10 @@ impl AbsoluteForm {
             let moment = b.mass.mass * m.p + m.r * b.mass.first_moment;
             sum[1] -= self.mechanism.gravity().dot(moment);
         }
-        for link in self.mechanism.links() {
-            let q = kinematics(link, t, motions).coordinates();
+        for joint in self.mechanism.joints() {
+            let q = kinematics(joint, t, motions).coordinates();
             let stored = |e: &crate::Element| e.law.stored(q[e.direction][0]);
-            sum[2] += link.joint.elements.iter().map(stored).sum::<f64>();
+            sum[2] += joint.model.elements.iter().map(stored).sum::<f64>();
         }
         sum
     }
@@ -281,6 +281,6 @@ impl AbsoluteForm {
 /// Steps of Newton's iteration in a projection: a step's drift is small, two reach round-off.
 const NEWTON_STEPS: usize = 2;
 
-fn link_kinematics(links: &[Link], t: f64, motions: &[BodyMotion]) -> Vec<LinkKinematics> {
-    links.iter().map(|l| kinematics(l, t, motions)).collect()
+fn link_kinematics(joints: &[Joint], t: f64, motions: &[BodyMotion]) -> Vec<JointKinematics> {
+    joints.iter().map(|l| kinematics(l, t, motions)).collect()
 }

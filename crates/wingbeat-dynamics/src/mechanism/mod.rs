@@ -1,18 +1,18 @@
 //! Mechanisms: bodies joined by any joints, to the ground or to each other, in trees and loops.
 //!
-//! A [`Mechanism`] is more general than a [`crate::System`]: links may hang on the ground, and
-//! several links may hold one body. [`AbsoluteForm`] writes its motion in absolute coordinates
+//! A [`Mechanism`] is more general than a [`crate::System`]: joints may hang on the ground, and
+//! several joints may hold one body. [`AbsoluteForm`] writes its motion in absolute coordinates
 //! (position and unit quaternion of every body) with multipliers, which are singular nowhere.
-//! Reading order: [`link`] (what a joint asks of two bodies), [`partition`] (which coordinates
+//! Reading order: [`joint`] (what a joint asks of two bodies), [`partition`] (which coordinates
 //! follow from which, and what is asked twice), `equations` (matrix and right-hand side), [`form`], [`assembly`]
 //! (consistent starts).
 
 pub mod assembly;
 mod equations;
 pub mod form;
-pub mod link;
+pub mod joint;
 pub mod partition;
 mod structure;
 
-pub use crate::link::Link;
+pub use crate::joint::Joint;
 pub use structure::Mechanism;

@@ -2,34 +2,34 @@
 
 use wingbeat_math::DVec3;
 
-use super::link::kinematics;
+use super::joint::kinematics;
 use crate::body::{Body, NaturalUnits};
 use crate::check::{check_finite, check_positive};
 use crate::error::DynamicsError;
-use crate::link::{Link, check_link};
+use crate::joint::{Joint, check_joint};
 use crate::motion::BodyMotion;
-use crate::slot::start;
+use crate::offsets::start;
 use crate::system::System;
 
-/// Bodies and links.
+/// Bodies and joints.
 #[derive(Clone, Debug)]
 pub struct Mechanism {
     bodies: Vec<Body>,
-    links: Vec<Link>,
+    joints: Vec<Joint>,
     gravity: DVec3,
     units: NaturalUnits,
 }
 
 impl Mechanism {
-    /// `bodies` joined by `links` in the field `gravity` [m/s2, N components]. Either body 0 or
+    /// `bodies` joined by `joints` in the field `gravity` [m/s2, N components]. Either body 0 or
     /// the ground is where everything hangs.
     ///
     /// # Errors
     /// Impossible mass properties, numbers that are not finite, axes that are no unit vectors,
-    /// links to bodies that do not exist, a body that no chain of links joins to the rest.
+    /// joints to bodies that do not exist, a body that no chain of joints joins to the rest.
     pub fn new(
         bodies: Vec<Body>,
-        links: Vec<Link>,
+        joints: Vec<Joint>,
         gravity: DVec3,
         units: NaturalUnits,
     ) -> Result<Self, DynamicsError> {
@@ -45,31 +45,33 @@ impl Mechanism {
         check_finite("gravity [m/s2]", gravity)?;
         check_positive("natural unit of length [m]", units.length)?;
         check_positive("natural unit of time [s]", units.time)?;
-        links.iter().try_for_each(|l| check_link(l, bodies.len()))?;
-        check_connected(&bodies, &links)?;
+        joints
+            .iter()
+            .try_for_each(|l| check_joint(l, bodies.len()))?;
+        check_connected(&bodies, &joints)?;
         Ok(Self {
             bodies,
-            links,
+            joints,
             gravity,
             units,
         })
     }
 
-    /// The mechanism of a [`System`]: its hinges as links, in their order, then those that close
+    /// The mechanism of a [`System`]: its hinges as joints, in their order, then those that close
     /// loops.
     pub fn of(system: &System) -> Self {
-        let links = system.hinges().iter().chain(system.loops());
+        let joints = system.hinges().iter().chain(system.loops());
         Self {
             bodies: system.bodies().to_vec(),
-            links: links.cloned().collect(),
+            joints: joints.cloned().collect(),
             gravity: system.gravity(),
             units: system.units(),
         }
     }
 
     /// The same mechanism with one more joint.
-    pub(crate) fn with_link(mut self, link: Link) -> Self {
-        self.links.push(link);
+    pub(crate) fn with_link(mut self, joint: Joint) -> Self {
+        self.joints.push(joint);
         self
     }
 
@@ -77,9 +79,9 @@ impl Mechanism {
     /// joint: angles in (-pi, pi] \[rad\], rotation vectors of spherical joints, displacements \[m\].
     pub fn coordinates(&self, t: f64, motions: &[BodyMotion], out: &mut Vec<[f64; 2]>) {
         out.clear();
-        for link in &self.links {
-            let n = link.joint.freedom.directions().min(3);
-            out.extend(&kinematics(link, t, motions).coordinates()[..n]);
+        for joint in &self.joints {
+            let n = joint.model.kind.directions().min(3);
+            out.extend(&kinematics(joint, t, motions).coordinates()[..n]);
         }
     }
 
@@ -95,10 +97,10 @@ impl Mechanism {
         self.coordinates(t, motions, &mut free);
         let (mut q, mut u) = system.start();
         let mut rest = free.as_slice();
-        for (joint, slot) in system.joints().zip(system.slots()) {
-            let (own, others) = rest.split_at(slot.speeds);
+        for (joint, offsets) in system.joints().zip(system.offsets()) {
+            let (own, others) = rest.split_at(offsets.speeds);
             let [x, v] = [0, 1].map(|k| own.iter().map(|c| c[k]).collect::<Vec<f64>>());
-            start(&joint.clone().starting(&x, &v), slot, &mut q, &mut u);
+            start(&joint.clone().starting(&x, &v), offsets, &mut q, &mut u);
             rest = others;
         }
         (q, u)
@@ -109,9 +111,9 @@ impl Mechanism {
         &self.bodies
     }
 
-    /// The links, in the order of reactions.
-    pub fn links(&self) -> &[Link] {
-        &self.links
+    /// The joints, in the order of reactions.
+    pub fn joints(&self) -> &[Joint] {
+        &self.joints
     }
 
     /// Gravity [m/s2], N components.
@@ -126,14 +128,14 @@ impl Mechanism {
 }
 
 /// Every body must be reached from the ground or, if nothing hangs on the ground, from body 0.
-fn check_connected(bodies: &[Body], links: &[Link]) -> Result<(), DynamicsError> {
-    let grounded = links.iter().any(|l| l.parent.is_none());
+fn check_connected(bodies: &[Body], joints: &[Joint]) -> Result<(), DynamicsError> {
+    let grounded = joints.iter().any(|l| l.parent.is_none());
     let mut reached = vec![false; bodies.len()];
     reached[0] = !grounded;
     let mut grows = true;
     while grows {
         grows = false;
-        for l in links {
+        for l in joints {
             let parent = l.parent.is_none_or(|p| reached[p]);
             if parent != reached[l.child] {
                 reached[l.child] = true;

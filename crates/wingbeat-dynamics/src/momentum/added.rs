@@ -9,9 +9,9 @@ use wingbeat_math::DVec3;
 
 use super::whole::whole_load;
 use crate::added_mass::{AddedMass, Factors, Six, six, wrench};
+use crate::configuration::Composite;
 use crate::motion::Wrench;
 use crate::placement::Placement;
-use crate::posture::Composite;
 use crate::prescribed::Carried;
 use crate::system::System;
 use crate::workspace::Workspace;
@@ -62,13 +62,13 @@ pub(super) fn accelerate(
     if ws.carried.at != Some(t) || ws.carried.added != added {
         carry(
             (t, added),
-            ws.posture.placements(),
+            ws.configuration.placements(),
             &ws.whole,
             &mut ws.carried,
         );
     }
     let (root, whole, rates) = (&ws.motions[0], &ws.whole, &ws.whole_rates);
-    let load = whole_load(system, loads, &ws.posture, root.r, whole.c);
+    let load = whole_load(system, loads, &ws.configuration, root.r, whole.c);
     let (back, w) = (root.r.transpose(), root.w);
     let spin = whole.inertia * w + whole.h;
     let gyroscopic = rates.inertia * w + rates.h + w.cross(spin);
@@ -80,7 +80,7 @@ pub(super) fn accelerate(
     };
     let carried = &mut ws.carried;
     for (k, a) in carried.added.iter().enumerate() {
-        let at_rest = moving.at_rest(&ws.posture.placements()[a.body()]);
+        let at_rest = moving.at_rest(&ws.configuration.placements()[a.body()]);
         let load = a.load(&at_rest);
         for &d in a.directions() {
             (0..6).for_each(|i| moving.x[i] += carried.rows[k][d][i] * load[d]);
@@ -103,7 +103,7 @@ pub(super) fn add(moving: &Moving, ws: &Workspace, loads: &mut [Wrench]) {
     }
 }
 
-/// The added masses in a posture, with the whole.
+/// The added masses in a configuration, with the whole.
 fn carry(
     (t, added): (f64, &[AddedMass]),
     placements: &[Placement],

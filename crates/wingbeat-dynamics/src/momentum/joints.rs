@@ -2,7 +2,7 @@
 
 use crate::error::DynamicsError;
 use crate::free::coordinate_rates;
-use crate::inverse::demand;
+use crate::inverse::bias_force;
 use crate::motion::{BodyAcceleration, Wrench};
 use crate::system::System;
 use crate::workspace::Workspace;
@@ -17,16 +17,17 @@ pub(super) fn move_joints(
 ) -> Result<(), DynamicsError> {
     let root = ws.motions[0];
     let still = BodyAcceleration::default();
-    ws.posture.accelerations(&root, &still, &mut ws.bias);
-    demand(system, loads, &ws.motions, &ws.bias, &mut ws.demand);
-    let posture = (ws.posture.placements(), &ws.whole, root.r);
+    ws.configuration.accelerations(&root, &still, &mut ws.bias);
+    bias_force(system, loads, &ws.motions, &ws.bias, &mut ws.bias_force);
+    let configuration = (ws.configuration.placements(), &ws.whole, root.r);
     (ws.free)
-        .solve(system, (t, q, u), posture, &ws.demand)
+        .solve(system, (t, q, u), configuration, &ws.bias_force)
         .map_err(|e| DynamicsError::SingularMechanism {
             time: t,
             what: format!("hinge `{}`", ws.free.hinge(system, e.column)),
         })?;
-    ws.free.accelerate(system, ws.posture.placements_mut());
+    ws.free
+        .accelerate(system, ws.configuration.placements_mut());
     Ok(())
 }
 
@@ -38,9 +39,9 @@ pub(super) fn write_joint_rates(
     dy: &mut [f64],
 ) {
     let (dq, du) = dy.split_at_mut(q.len());
-    for (joint, s) in system.joints().zip(system.slots()) {
+    for (joint, s) in system.joints().zip(system.offsets()) {
         let (q, u) = (&q[s.q..s.q + s.coordinates], &u[s.u..s.u + s.speeds]);
-        coordinate_rates(joint.freedom, q, u, &mut dq[s.q..s.q + s.coordinates]);
+        coordinate_rates(joint.kind, q, u, &mut dq[s.q..s.q + s.coordinates]);
     }
     du.copy_from_slice(&ws.free.u_dot);
 }

@@ -3,9 +3,9 @@
 use wingbeat_math::{DMat3, DQuat, DVec3};
 
 use crate::check::check_state;
+use crate::configuration::Composite;
 use crate::error::DynamicsError;
 use crate::motion::Wrench;
-use crate::posture::Composite;
 
 /// The state vector, taken apart.
 pub(super) struct State {

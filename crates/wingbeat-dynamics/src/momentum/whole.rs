@@ -3,8 +3,8 @@
 use wingbeat_math::{DMat3, DVec3};
 
 use crate::body::inertia_wrench;
+use crate::configuration::Configuration;
 use crate::motion::{BodyAcceleration, BodyMotion, Wrench};
-use crate::posture::Posture;
 use crate::system::System;
 
 /// Sum of all external forces and of their moments about the mass centre `x_c`, N components.
@@ -30,7 +30,7 @@ pub(super) fn total_load(
 pub(super) fn whole_load(
     system: &System,
     loads: &[Wrench],
-    posture: &Posture,
+    configuration: &Configuration,
     r: DMat3,
     c: DVec3,
 ) -> Wrench {
@@ -38,7 +38,7 @@ pub(super) fn whole_load(
         force: system.total_mass() * system.gravity(),
         moment: DVec3::ZERO,
     };
-    for (l, at) in loads.iter().zip(posture.placements()) {
+    for (l, at) in loads.iter().zip(configuration.placements()) {
         sum.force += l.force;
         sum.moment += l.moment + (r * (at.d - c)).cross(l.force);
     }

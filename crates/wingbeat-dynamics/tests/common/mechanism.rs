@@ -1,6 +1,6 @@
 //! Bodies in the plane and flights of mechanisms.
 
-use wingbeat_dynamics::{AbsoluteForm, Body, BodyMotion, Freedom, NaturalUnits, Wrench};
+use wingbeat_dynamics::{AbsoluteForm, Body, BodyMotion, JointType, NaturalUnits, Wrench};
 use wingbeat_math::ode::{Dop853, Tolerance};
 use wingbeat_math::{DMat3, DVec3, EulerSequence, MassProperties};
 
@@ -10,8 +10,8 @@ pub const SI: NaturalUnits = NaturalUnits {
     length: 1.0,
     time: 1.0,
 };
-pub const REVOLUTE: Freedom = Freedom::Revolute { axis: DVec3::Z };
-pub const ON_LINE: Freedom = Freedom::PointOnLine { axis: DVec3::Z };
+pub const REVOLUTE: JointType = JointType::Revolute { axis: DVec3::Z };
+pub const ON_LINE: JointType = JointType::PointOnLine { axis: DVec3::Z };
 
 /// A planar body: centre, mass, moment about the mass centre along axis 3.
 pub fn planar(name: &str, mass: f64, centre: DVec3, spin: f64) -> Body {

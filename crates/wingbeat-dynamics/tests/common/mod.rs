@@ -7,7 +7,7 @@ use std::f64::consts::{FRAC_PI_2, TAU};
 use std::sync::Arc;
 
 use wingbeat_dynamics::{
-    Body, BodyMotion, DynamicsError, Formulation, Freedom, Link, NaturalUnits, Solution, System,
+    Body, BodyMotion, DynamicsError, Formulation, Joint, JointType, NaturalUnits, Solution, System,
     Workspace, Wrench,
 };
 use wingbeat_math::ode::Rk4;
@@ -144,10 +144,10 @@ pub fn body(name: &str, mass: MassProperties, sequence: EulerSequence) -> Body {
     }
 }
 
-pub fn hinge(name: &str, child: usize, anchor: DVec3, law: impl RotationLaw + 'static) -> Link {
-    Link {
+pub fn hinge(name: &str, child: usize, anchor: DVec3, law: impl RotationLaw + 'static) -> Joint {
+    Joint {
         law: Some(Arc::new(law)),
-        ..Link::new(name, Some(0), child, Freedom::Weld).at(anchor, DVec3::ZERO)
+        ..Joint::new(name, Some(0), child, JointType::Weld).at(anchor, DVec3::ZERO)
     }
 }
 

@@ -9,8 +9,8 @@
 
 use wingbeat_math::{DMat3, DQuat, DVec3, untilde};
 
-use crate::joint::Freedom;
-use crate::link::Link;
+use crate::joint::Joint;
+use crate::joint_model::JointType;
 use crate::motion::BodyMotion;
 
 /// One scalar constraint.
@@ -30,10 +30,10 @@ pub struct Row {
     pub is_length: bool,
 }
 
-/// A link with its bodies at one instant.
+/// A joint with its bodies at one instant.
 #[derive(Clone, Copy, Debug)]
-pub struct LinkKinematics {
-    freedom: Freedom,
+pub struct JointKinematics {
+    kind: JointType,
     parent: BodyMotion,
     child: BodyMotion,
     law: DMat3,
@@ -53,23 +53,23 @@ pub struct LinkKinematics {
     delta_bias: DVec3,
 }
 
-impl LinkKinematics {
+impl JointKinematics {
     /// `parent` is [`BodyMotion::REST`] for the ground.
-    pub fn new(link: &Link, t: f64, parent: &BodyMotion, child: &BodyMotion) -> Self {
-        let law = link.rotation(t);
+    pub fn new(joint: &Joint, t: f64, parent: &BodyMotion, child: &BodyMotion) -> Self {
+        let law = joint.rotation(t);
         let [travel, travel_rate, travel_bias] =
-            (link.joint.travel.as_ref()).map_or([DVec3::ZERO; 3], |s| s.at(t));
+            (joint.model.travel.as_ref()).map_or([DVec3::ZERO; 3], |s| s.at(t));
         let (a, c) = (parent, child);
         let frame = a.r * law.c;
         let d = c.r.transpose() * frame;
         let (turning, turning_rate) = (law.w, law.w_dot);
         let seen = law.c.transpose() * a.w;
         let carried = d * (seen + turning);
-        let lever = link.anchor_parent + travel;
+        let lever = joint.anchor_parent + travel;
         let spin = a.w.cross(lever);
-        let (child_spin, anchor) = (c.w.cross(link.anchor_child), link.anchor_child);
+        let (child_spin, anchor) = (c.w.cross(joint.anchor_child), joint.anchor_child);
         Self {
-            freedom: link.joint.freedom,
+            kind: joint.model.kind,
             parent: *a,
             child: *c,
             law: law.c,
@@ -91,33 +91,33 @@ impl LinkKinematics {
 
     /// The joint's constraints, in order: position, then orientation.
     pub fn rows(&self, mut put: impl FnMut(Row)) {
-        match self.freedom {
-            Freedom::Prismatic { axis } | Freedom::PointOnLine { axis } => {
+        match self.kind {
+            JointType::Prismatic { axis } | JointType::PointOnLine { axis } => {
                 let [s, t] = across(axis);
                 put(self.beside(s));
                 put(self.beside(t));
             }
             _ => DVec3::AXES.iter().for_each(|&n| put(self.together(n))),
         }
-        match self.freedom {
-            Freedom::Weld | Freedom::Prismatic { .. } => {
+        match self.kind {
+            JointType::Weld | JointType::Prismatic { .. } => {
                 let turned = rotation_vector(self.d.transpose());
                 for n in DVec3::AXES {
                     put(self.turned(n, DVec3::ZERO, turned.dot(n)));
                 }
             }
-            Freedom::Revolute { axis } => {
+            JointType::Revolute { axis } => {
                 let tilt = (self.d * axis).cross(axis);
                 for n in across(axis) {
                     put(self.turned(n, DVec3::ZERO, tilt.dot(n)));
                 }
             }
-            Freedom::Universal { axes: [a, b] } => {
+            JointType::Universal { axes: [a, b] } => {
                 let seen = self.d * a;
                 let n_rate = -self.w.cross(seen).cross(b);
                 put(self.turned(seen.cross(b), n_rate, -seen.dot(b)));
             }
-            Freedom::Spherical | Freedom::PointOnLine { .. } => {}
+            JointType::Spherical | JointType::PointOnLine { .. } => {}
         }
     }
 
@@ -173,10 +173,10 @@ impl LinkKinematics {
     pub fn coordinates(&self) -> [[f64; 2]; 3] {
         let mut out = [[0.0; 2]; 3];
         let e = self.d.transpose();
-        match self.freedom {
-            Freedom::Weld => {}
-            Freedom::Revolute { axis } => out[0] = [angle(axis, e), axis.dot(self.w)],
-            Freedom::Universal { axes: [a, b] } => {
+        match self.kind {
+            JointType::Weld => {}
+            JointType::Revolute { axis } => out[0] = [angle(axis, e), axis.dot(self.w)],
+            JointType::Universal { axes: [a, b] } => {
                 let image = e * b;
                 let first = a.cross(b).dot(image).atan2(b.dot(image));
                 let seen = self.d * a;
@@ -184,11 +184,11 @@ impl LinkKinematics {
                 out[0] = [first, seen.dot(self.w)];
                 out[1] = [second, b.dot(self.w)];
             }
-            Freedom::Spherical | Freedom::PointOnLine { .. } => {
+            JointType::Spherical | JointType::PointOnLine { .. } => {
                 let turned = rotation_vector(e);
                 (0..3).for_each(|k| out[k] = [turned[k], self.w[k]]);
             }
-            Freedom::Prismatic { axis } => {
+            JointType::Prismatic { axis } => {
                 let delta = self.frame.transpose() * self.delta;
                 let w = self.seen + self.turning;
                 let rate = self.frame.transpose() * self.delta_rate - w.cross(delta);
@@ -201,14 +201,14 @@ impl LinkKinematics {
     /// Force \[N\] (N components) and moment [N m] (child components) on the child at its anchor of
     /// an effort along a free direction.
     pub fn direction(&self, k: usize) -> [DVec3; 2] {
-        match self.freedom {
-            Freedom::Weld => [DVec3::ZERO; 2],
-            Freedom::Revolute { axis } => [DVec3::ZERO, axis],
-            Freedom::Universal { axes: [a, b] } => {
+        match self.kind {
+            JointType::Weld => [DVec3::ZERO; 2],
+            JointType::Revolute { axis } => [DVec3::ZERO, axis],
+            JointType::Universal { axes: [a, b] } => {
                 [DVec3::ZERO, if k == 0 { self.d * a } else { b }]
             }
-            Freedom::Spherical | Freedom::PointOnLine { .. } => [DVec3::ZERO, DVec3::AXES[k]],
-            Freedom::Prismatic { axis } => [self.frame * axis, DVec3::ZERO],
+            JointType::Spherical | JointType::PointOnLine { .. } => [DVec3::ZERO, DVec3::AXES[k]],
+            JointType::Prismatic { axis } => [self.frame * axis, DVec3::ZERO],
         }
     }
 
@@ -224,17 +224,17 @@ impl LinkKinematics {
 
     /// Whether an axis that should point with its partner points against it: a wrong branch.
     pub fn is_reversed(&self) -> bool {
-        match self.freedom {
-            Freedom::Revolute { axis } => (self.d * axis).dot(axis) < 0.0,
+        match self.kind {
+            JointType::Revolute { axis } => (self.d * axis).dot(axis) < 0.0,
             _ => false,
         }
     }
 }
 
-/// A link with its bodies.
-pub(crate) fn kinematics(link: &Link, t: f64, motions: &[BodyMotion]) -> LinkKinematics {
-    let parent = link.parent.map_or(&BodyMotion::REST, |p| &motions[p]);
-    LinkKinematics::new(link, t, parent, &motions[link.child])
+/// A joint with its bodies.
+pub(crate) fn kinematics(joint: &Joint, t: f64, motions: &[BodyMotion]) -> JointKinematics {
+    let parent = joint.parent.map_or(&BodyMotion::REST, |p| &motions[p]);
+    JointKinematics::new(joint, t, parent, &motions[joint.child])
 }
 
 /// Two unit vectors that make a right-handed frame with the unit vector `axis`.

@@ -2,11 +2,11 @@
 
 use wingbeat_math::{DQuat, DVec3};
 
-use crate::joint::{Freedom, Joint};
+use crate::joint_model::{JointModel, JointType};
 
 /// Where a hinge's coordinates and speeds lie among those of all hinges.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Slot {
+pub struct JointOffsets {
     /// First coordinate.
     pub q: usize,
     /// Number of coordinates: 4 (a quaternion) for a spherical joint.
@@ -17,14 +17,14 @@ pub struct Slot {
     pub speeds: usize,
 }
 
-impl Slot {
-    /// The slot of a joint behind `before`.
-    pub(crate) fn after(before: &Self, freedom: Freedom) -> Self {
+impl JointOffsets {
+    /// The offsets of a joint behind `before`.
+    pub(crate) fn after(before: &Self, freedom: JointType) -> Self {
         let (coordinates, speeds) = match freedom {
-            Freedom::Weld | Freedom::PointOnLine { .. } => (0, 0),
-            Freedom::Revolute { .. } | Freedom::Prismatic { .. } => (1, 1),
-            Freedom::Universal { .. } => (2, 2),
-            Freedom::Spherical => (4, 3),
+            JointType::Weld | JointType::PointOnLine { .. } => (0, 0),
+            JointType::Revolute { .. } | JointType::Prismatic { .. } => (1, 1),
+            JointType::Universal { .. } => (2, 2),
+            JointType::Spherical => (4, 3),
         };
         Self {
             q: before.q + before.coordinates,
@@ -36,13 +36,13 @@ impl Slot {
 }
 
 /// Start of a joint's coordinates and speeds.
-pub(crate) fn start(joint: &Joint, slot: &Slot, q: &mut [f64], u: &mut [f64]) {
+pub(crate) fn start(joint: &JointModel, offsets: &JointOffsets, q: &mut [f64], u: &mut [f64]) {
     let get = |x: &[f64], k: usize| x.get(k).copied().unwrap_or(0.0);
-    if joint.freedom == Freedom::Spherical {
+    if joint.kind == JointType::Spherical {
         let turn = DVec3::from_array([0, 1, 2].map(|k| get(&joint.coordinates, k)));
-        DQuat::from_scaled_axis(turn).write_to_slice(&mut q[slot.q..]);
+        DQuat::from_scaled_axis(turn).write_to_slice(&mut q[offsets.q..]);
     } else {
-        (0..slot.coordinates).for_each(|k| q[slot.q + k] = get(&joint.coordinates, k));
+        (0..offsets.coordinates).for_each(|k| q[offsets.q + k] = get(&joint.coordinates, k));
     }
-    (0..slot.speeds).for_each(|k| u[slot.u + k] = get(&joint.rates, k));
+    (0..offsets.speeds).for_each(|k| u[offsets.u + k] = get(&joint.rates, k));
 }

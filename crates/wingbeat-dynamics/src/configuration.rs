@@ -36,11 +36,11 @@ pub struct CompositeRates {
 
 /// Placements of all bodies at one time.
 #[derive(Clone, Debug)]
-pub struct Posture {
+pub struct Configuration {
     placements: Vec<Placement>,
 }
 
-impl Posture {
+impl Configuration {
     /// Room for the placements of `system`.
     pub fn new(system: &System) -> Self {
         Self {
@@ -72,10 +72,10 @@ impl Posture {
         law: impl Fn(usize) -> MovingRotation,
     ) {
         for &k in system.outward() {
-            let (h, joint, slot) = (
+            let (h, joint, offsets) = (
                 &system.hinges()[k],
-                &system.hinges()[k].joint,
-                &system.slots()[k],
+                &system.hinges()[k].model,
+                &system.offsets()[k],
             );
             let mut travel = [h.anchor_parent, DVec3::ZERO, DVec3::ZERO];
             if let Some(law) = &joint.travel {
@@ -85,9 +85,9 @@ impl Posture {
             let frame = self.placements[h.tree_parent()]
                 .slid(travel)
                 .turned(&law(k));
-            let (q, u) = (&free.0[slot.q..], &free.1[slot.u..]);
-            let (q, u) = (&q[..slot.coordinates], &u[..slot.speeds]);
-            let child = carry(joint.freedom, frame, q, u, None);
+            let (q, u) = (&free.0[offsets.q..], &free.1[offsets.u..]);
+            let (q, u) = (&q[..offsets.coordinates], &u[..offsets.speeds]);
+            let child = carry(joint.kind, frame, q, u, None);
             self.placements[h.child] = child.shifted(-h.anchor_child);
         }
     }
@@ -164,7 +164,7 @@ impl Posture {
         }
     }
 
-    /// Rates of the mass properties `whole` of this posture.
+    /// Rates of the mass properties `whole` of this configuration.
     pub(crate) fn composite_rates(&self, system: &System, whole: &Composite) -> CompositeRates {
         let (mut s_ddot, mut inertia, mut h) = (DVec3::ZERO, DMat3::ZERO, DVec3::ZERO);
         for (b, at) in system.bodies().iter().zip(&self.placements) {
@@ -201,9 +201,9 @@ impl Posture {
 }
 
 /// What depends on time alone, at equal steps from time zero: rotations of the hinge laws and,
-/// where no joint is free, the posture. Evaluations at these times read it off.
+/// where no joint is free, the configuration. Evaluations at these times read it off.
 #[derive(Clone, Debug)]
-pub struct PostureTable {
+pub struct ConfigurationTable {
     step: f64,
     entries: Vec<Entry>,
     cycle: Option<Cycle>,
@@ -212,23 +212,23 @@ pub struct PostureTable {
 #[derive(Clone, Debug)]
 struct Entry {
     laws: Vec<MovingRotation>,
-    posture: Posture,
+    configuration: Configuration,
     whole: (Composite, CompositeRates),
 }
 
-impl PostureTable {
+impl ConfigurationTable {
     /// The laws of `system` at the times 0, `step`, ..., `count step` \[s\].
     pub fn new(system: &System, step: f64, count: usize) -> Self {
         let (q, u) = system.start();
         let entry = |k: usize| {
             let t = k as f64 * step;
             let laws: Vec<MovingRotation> = system.hinges().iter().map(|h| h.rotation(t)).collect();
-            let mut posture = Posture::new(system);
-            posture.place(system, t, (&q, &u), |k| laws[k]);
+            let mut configuration = Configuration::new(system);
+            configuration.place(system, t, (&q, &u), |k| laws[k]);
             Entry {
-                whole: posture.whole(system),
+                whole: configuration.whole(system),
                 laws,
-                posture,
+                configuration,
             }
         };
         let entries = (0..=count).map(entry).collect();
@@ -248,10 +248,10 @@ impl PostureTable {
         }
     }
 
-    /// Posture and whole at step number `k`, free joints at their start.
-    pub fn posture(&self, k: usize) -> (&Posture, &Composite) {
+    /// Configuration and whole at step number `k`, free joints at their start.
+    pub fn configuration(&self, k: usize) -> (&Configuration, &Composite) {
         let entry = &self.entries[k];
-        (&entry.posture, &entry.whole.0)
+        (&entry.configuration, &entry.whole.0)
     }
 
     /// The entry of time `t`, to the last bits of a sum of steps.
@@ -265,18 +265,19 @@ impl PostureTable {
     }
 }
 
-impl Posture {
-    /// The posture at time `t` \[s\] and its whole; `table` spares the laws where it has them.
+impl Configuration {
+    /// The configuration at time `t` \[s\] and its whole; `table` spares the laws where it has them.
     pub(crate) fn lay(
         &mut self,
         system: &System,
         t: f64,
         free: (&[f64], &[f64]),
-        table: Option<&PostureTable>,
+        table: Option<&ConfigurationTable>,
     ) -> (Composite, CompositeRates) {
         match table.and_then(|table| table.at(t)) {
             Some(known) if system.coordinates() == 0 => {
-                self.placements.copy_from_slice(&known.posture.placements);
+                self.placements
+                    .copy_from_slice(&known.configuration.placements);
                 return known.whole;
             }
             Some(known) => self.place(system, t, free, |k| known.laws[k]),
