@@ -6,6 +6,7 @@ use wingbeat_math::DVec3;
 
 use crate::AnalysisError;
 use crate::progress;
+use crate::wake::WakeTrim;
 
 /// Part of the peak by which powers of successive beats may differ for the motion to count as periodic.
 const PERIODIC: f64 = 1e-7;
@@ -87,6 +88,23 @@ pub fn power(setup: &FlightSetup) -> Result<Power, AnalysisError> {
     }
     last.mass = setup.animal.mass();
     Ok(last)
+}
+
+/// Powers over the free wingbeat of a flight that was trimmed in air with memory.
+///
+/// # Errors
+/// What the flight reports.
+pub fn power_with_wake(trim: &WakeTrim) -> Result<Power, AnalysisError> {
+    let held = trim.start().held_steps;
+    let mechanism = Mechanism::of(&system_of(&trim.setup)?);
+    let mut flight = Simulation::new(trim.setup.clone())?;
+    for step in 0..held {
+        progress::task("power", step, trim.setup.time.steps);
+        flight.step()?;
+    }
+    let mut found = over_beat(&mechanism, &mut flight, trim.setup.time.steps - held)?;
+    found.mass = trim.setup.animal.mass();
+    Ok(found)
 }
 
 impl Power {

@@ -227,15 +227,8 @@ impl Trim {
     /// Mean powers over a wingbeat [W]: aerodynamic, positive inertial, with perfect elastic storage, without
     /// storage, peak; mass [kg].
     fn power(&self, py: Python<'_>) -> PyResult<[f64; 6]> {
-        let p: Power = self.analyse(py, |trim| power(&trim.tethered()?))?;
-        Ok([
-            p.aerodynamic,
-            p.inertial_positive,
-            p.perfect_storage,
-            p.no_storage,
-            p.peak,
-            p.mass,
-        ])
+        let p = self.analyse(py, |trim| power(&trim.tethered()?))?;
+        Ok(powers(&p))
     }
 
     /// Episodes about it, one for each seed; settings: task, steps from one control to the next, wingbeats, limits, delay, noise,
@@ -249,4 +242,16 @@ impl Trim {
     fn names() -> (Vec<&'static str>, Vec<&'static str>) {
         (STATE.to_vec(), CONTROLS.iter().map(|c| c.1).collect())
     }
+}
+
+/// In the order of `wingbeat.Power`.
+pub fn powers(p: &Power) -> [f64; 6] {
+    [
+        p.aerodynamic,
+        p.inertial_positive,
+        p.perfect_storage,
+        p.no_storage,
+        p.peak,
+        p.mass,
+    ]
 }

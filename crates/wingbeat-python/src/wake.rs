@@ -2,6 +2,7 @@
 
 use pyo3::prelude::*;
 use wingbeat::analysis::TrimProblem;
+use wingbeat::analysis::power::power_with_wake;
 use wingbeat::analysis::wake::{
     WakeMemory, WakeSettings, trim_with_wake, wake_modes, wake_monodromy,
 };
@@ -9,7 +10,7 @@ use wingbeat::case::{LoadedCase, wake_trimmed_case};
 
 use crate::arrays::array;
 use crate::errors::raised;
-use crate::mechanics::{ModeParts, modes};
+use crate::mechanics::{ModeParts, modes, powers};
 use crate::worker::analyse;
 
 /// Trims the flight, its feedback left out.
@@ -72,6 +73,14 @@ impl WakeTrim {
     fn case_text(&self) -> Option<String> {
         let case = self.case.as_ref()?;
         Some(wake_trimmed_case(case, &self.trim))
+    }
+
+    /// Powers over the free wingbeat, in the order of `wingbeat.Power`.
+    fn power(&self, py: Python<'_>) -> PyResult<[f64; 6]> {
+        let trim = self.trim.clone();
+        let found = analyse(py, move || power_with_wake(&trim))?;
+        let power = found.map_err(|e| raised(py, &e.into()))?;
+        Ok(powers(&power))
     }
 
     /// Monodromy matrix of the free wingbeat by rows, and Floquet's modes; held fixed when the body is disturbed: the wake of

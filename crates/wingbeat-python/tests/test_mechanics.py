@@ -90,6 +90,9 @@ def test_agrees_trim_with_a_wake_with_the_command_line(program):
     assert (trim.converged, trim.flights) == (done.returncode == 0, told["flights"])
     assert sorted(trim.residual) == sorted(told["residuals"].values())
     assert trim.flight().fly().outcome == "finished"
+    told = json.loads(program("power", "fruit-fly-hover", "--hold", 1, "--json", *sets).stdout)["power"]
+    paid = trim.power()
+    assert paid.aerodynamic_watt == told["aerodynamic"]["watt"] > 0
     with pytest.raises(wingbeat.CaseError, match="wake"):
         trim.stability(wake="frozen")
     models = {wake: trim.stability(wake=wake) for wake in ("given", "carried")}

@@ -261,6 +261,10 @@ class WakeTrim:
         """Pitch of the body at its release [rad]."""
         return self._core.body_pitch_rad
 
+    def power(self) -> Power:
+        """Mean mechanical power over the free wingbeat."""
+        return Power(*self._core.power())
+
     def flight(self) -> Flight:
         """The trimmed flight: held, released, and the free wingbeat."""
         return _flight(self._core.case_text)

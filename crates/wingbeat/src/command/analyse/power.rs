@@ -2,9 +2,9 @@
 
 use clap::Args;
 use serde_json::{Map, json};
-use wingbeat::analysis::power::{Power, power};
+use wingbeat::analysis::power::{Power, power, power_with_wake};
 
-use super::trimming::{Trimming, trimmed, watched};
+use super::trimming::{Trimming, trimmed, trimmed_with_wake, watched};
 use crate::command::failure::Failure;
 use crate::command::options;
 use crate::command::report::{Report, line};
@@ -23,18 +23,24 @@ pub(crate) struct PowerArgs {
 pub(crate) fn run(args: &PowerArgs) -> Result<(), Failure> {
     let trimming = &args.trimming;
     trimming.report.deliver([], |report, []| {
-        let (_, trim) = trimmed(trimming, report)?;
-        let found = watched("power", || power(&trim.tethered()?))?;
-        tell(report, &found, args.muscle);
+        let (found, flight) = if trimming.load()?.setup.air.has_memory() {
+            let (_, trim) = trimmed_with_wake(trimming, report)?;
+            let found = watched("power", || power_with_wake(&trim))?;
+            (found, "the free wingbeat that was trimmed")
+        } else {
+            let (_, trim) = trimmed(trimming, report)?;
+            let found = watched("power", || power(&trim.tethered()?))?;
+            let carried =
+                "a wingbeat, body carried in the trimmed attitude at the trimmed velocity";
+            (found, carried)
+        };
+        tell(report, &found, flight, args.muscle);
         Ok(())
     })
 }
 
-fn tell(report: &mut Report, p: &Power, muscle: f64) {
-    line!(
-        report,
-        "\nMean mechanical power over a wingbeat, body carried in the trimmed attitude at the trimmed velocity:"
-    );
+fn tell(report: &mut Report, p: &Power, flight: &str, muscle: f64) {
+    line!(report, "\nMean mechanical power over {flight}:");
     line!(
         report,
         "  {:<44}{:>10}{:>12}{:>14}",
