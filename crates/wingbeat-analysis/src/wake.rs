@@ -42,17 +42,20 @@ pub struct WakeSettings {
     /// Wingbeats during which the body is held.
     pub held_beats: usize,
     /// Largest residual that counts as trimmed \[1\]. Where wakes meet wings or leave leading edges, the map of a
-    /// beat is rough at some 1e-4: smaller ones are not to be had there.
+    /// beat is rough, at some 1e-4 in coarse lattices and 1e-3 in fine ones: smaller ones are not to be had there.
     pub tolerance: f64,
     /// Most quasi-Newton steps.
     pub iterations: usize,
 }
 
+/// Trims within less than this are asked of smooth maps: small steps show their slopes \[1\].
+const SMOOTH: f64 = 1e-5;
+
 impl Default for WakeSettings {
     fn default() -> Self {
         Self {
             held_beats: 2,
-            tolerance: 5e-4,
+            tolerance: 2e-3,
             iterations: 40,
         }
     }
@@ -266,7 +269,11 @@ impl Search<'_> {
     /// Slopes of the residuals at `x`, rows by residual, by one-sided differences, over steps beside which the
     /// roughness of the map is small.
     fn jacobian(&mut self, x: &[f64; 6], r: &[f64; 6]) -> Result<[[f64; 6]; 6], AnalysisError> {
-        let step = (10.0 * self.settings.tolerance).max(1e-4);
+        let step = if self.settings.tolerance < SMOOTH {
+            1e-4
+        } else {
+            2e-2
+        };
         let mut j = [[0.0; 6]; 6];
         for k in 0..6 {
             let mut moved = *x;

@@ -7,8 +7,8 @@ use wingbeat_math::DVec3;
 use crate::data::find_data;
 use crate::error::Fault;
 use crate::raw::{
-    AirCase, AirModel, Case, CoreCase, Formulation, IntegratorCase, MotionCase, SchemeCase,
-    TimeCase,
+    AirCase, AirModel, Case, CoreCase, Formulation, IntegratorCase, JointCase, JointKind,
+    MotionCase, SchemeCase, TimeCase,
 };
 
 /// Steps per wingbeat where the case does not say.
@@ -70,7 +70,8 @@ fn air(case: &mut AirCase) {
 }
 
 /// The quaternion form where joints close loops, the momentum form else; Hamming's method with air,
-/// order eight without.
+/// order eight without. What moves freely in a wake, as wings on passive hinges do, weighs little beside the air that
+/// moves with it: backward differences, which bear that.
 fn dynamics(case: &mut Case) {
     let children: Vec<&str> = case.joint.values().map(|j| j.child.as_str()).collect();
     let again = |k: usize| children[..k].contains(&children[k]);
@@ -79,8 +80,11 @@ fn dynamics(case: &mut Case) {
         true => Formulation::Quaternion,
         false => Formulation::Momentum,
     });
+    let is_free = |j: &JointCase| !matches!(j.kind, JointKind::Weld | JointKind::PointOnLine);
+    let has_free = case.joint.values().any(is_free);
     case.dynamics.integrator.decide(match case.air.model {
         AirModel::None => IntegratorCase::OrderEight,
+        AirModel::VortexLattice if has_free => IntegratorCase::Bdf,
         _ => IntegratorCase::Hamming,
     });
 }

@@ -1,5 +1,6 @@
 //! What happened, in words and numbers, and how far it can be trusted.
 
+mod alternation;
 pub mod beats;
 mod means;
 mod numbers;
@@ -59,6 +60,7 @@ impl Summary {
             corrector_passes_most: s.corrector_passes.most as usize,
             corrector_passes_mean: s.passes_sum as f64 / s.rows.max(1) as f64,
             regularised: s.regularised,
+            alternating_steps: s.alternation.longest,
             wake_rings: s.last.wake_rings,
             wake_particles: s.last.wake_particles,
             net_flux_residual_m_s: s.net_flux_residual.most,

@@ -389,3 +389,42 @@ fn exact_show_and_compare_say_what_the_summary_says() {
         (&4.0.into(), &6.0.into())
     );
 }
+
+/// Passive hinges by Hamming's method, which does not bear the air that moves with such wings, and by the default, which does.
+#[test]
+fn limit_an_integrator_that_is_not_stable_is_named_and_the_default_is() {
+    let scratch = Scratch::new("alternating");
+    let dir = &scratch.0;
+    let coarse = [
+        "wing.right.mesh.chordwise=2",
+        "wing.right.mesh.spanwise=4",
+        "time.steps_per_beat=60",
+        "time.beats=2",
+        "output.page=false",
+        "output.frames_every=0",
+    ];
+    let sets: Vec<&str> = coarse.iter().flat_map(|s| ["--set", s]).collect();
+    let run = |more: &[&str], out: &str| {
+        let args = [
+            &["run", "robobee", "--quiet", "--out", out],
+            &sets[..],
+            more,
+        ]
+        .concat();
+        wingbeat(dir, &args);
+        let text = fs::read_to_string(dir.join(out).join("summary.json")).unwrap();
+        let summary: serde_json::Value = serde_json::from_str(&text).unwrap();
+        let warnings = summary["warnings"].to_string();
+        (summary["alternating_steps"].as_u64().unwrap(), warnings)
+    };
+    let (steps, warnings) = run(&["--set", "dynamics.integrator=hamming"], "hamming");
+    assert!(
+        steps >= 10 && warnings.contains("dynamics.integrator = "),
+        "{warnings}"
+    );
+    let (steps, warnings) = run(&[], "bdf");
+    assert!(
+        steps < 5 && !warnings.contains("alternate"),
+        "{steps} {warnings}"
+    );
+}

@@ -177,9 +177,10 @@ pub struct DynamicsCase {
     #[default(StabilisationCase::Baumgarte)]
     #[schemars(extend("with" = "formulation = quaternion"))]
     pub stabilisation: StabilisationCase,
-    /// Integrator. Default: `hamming` with air, `order_eight` without. A wake needs `hamming`.
+    /// Integrator. Default: `hamming` with air, `bdf` where joints leave something free in a vortex lattice, `order_eight`
+    /// without air. A wake needs `hamming` or `bdf`.
     ///
-    /// Change it to see what hangs on the method.
+    /// Change it to see what hangs on the method; to `bdf` where forces alternate from step to step.
     #[serde(skip_serializing_if = "Open::is_open")]
     pub integrator: Open<IntegratorCase>,
     /// Error per step of `order_eight`, relative to natural sizes.

@@ -223,7 +223,7 @@ class Flight:
         climb_m_per_s: float = 0.0,
         unknowns: Sequence[str] = _HOVER,
         held_beats: int = 2,
-        tolerance: float = 5e-4,
+        tolerance: float = 2e-3,
     ) -> WakeTrim:
         """The same in the vortex lattice, in the steps of the case: the body is held for ``held_beats`` wingbeats while its
         wake grows, and the free wingbeat after them is the one that is trimmed: its residuals, forces over weight, within

@@ -55,6 +55,9 @@ pub struct Summary {
     pub corrector_passes_mean: f64,
     /// Near-singular velocities that were regularised, all steps.
     pub regularised: usize,
+    /// Most steps in a row in which the force of the air on a wing turned back: some 2 in sound flights.
+    #[serde(default)]
+    pub alternating_steps: usize,
     /// Wake rings at the end.
     pub wake_rings: usize,
     /// Vortex particles at the end.

@@ -4,6 +4,7 @@ use std::path::Path;
 
 use wingbeat_flight::{FlightSetup, Record};
 
+use super::alternation::Alternation;
 use super::beats::{BeatMeans, Beats};
 use crate::records::Records;
 use wingbeat_case::IoError;
@@ -62,6 +63,7 @@ pub(super) struct Statistics {
     /// Sums over all steps.
     pub passes_sum: usize,
     pub regularised: usize,
+    pub alternation: Alternation,
     /// Means over whole wingbeats.
     pub beats: Vec<BeatMeans>,
 }
@@ -73,6 +75,7 @@ impl Statistics {
         let (mut s, mut beats) = (Self::default(), Beats::new(setup));
         while let Some(record) = records.next_record()? {
             s.take(record, &mut beats);
+            s.alternation.take(record, setup.animal.wings.len());
         }
         Ok(s)
     }
@@ -82,6 +85,7 @@ impl Statistics {
         let (mut s, mut beats) = (Self::default(), Beats::new(setup));
         for record in records {
             s.take(record, &mut beats);
+            s.alternation.take(record, setup.animal.wings.len());
         }
         s
     }

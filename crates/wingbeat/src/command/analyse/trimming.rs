@@ -69,7 +69,7 @@ pub(crate) struct Trimming {
           value_parser = options::count::<1, MAX_HELD>)]
     hold: Option<usize>,
     /// In a vortex lattice: largest residual (forces over weight) that counts as trimmed
-    /// [default: 5e-4].
+    /// [default: 2e-3].
     #[arg(long, value_name = "RESIDUAL", help_heading = HEADING, value_parser = options::tolerance)]
     tolerance: Option<f64>,
     #[command(flatten)]

@@ -1,0 +1,95 @@
+//! Forces that go up and down from step to step: the mark of an integrator that is not stable.
+//!
+//! The loads of a wake hold the rate of the circulation as a difference over steps; where the air that moves with
+//! wings or body weighs too much for the integrator, velocities alternate and grow (docs/dynamics.md,
+//! *Integrators*). In sound flights, separated ones too, forces of a wing turn back a step or two in a row.
+
+use wingbeat_flight::Record;
+use wingbeat_math::DVec3;
+
+/// A change counts beside the largest force so far from this part of it on.
+const CHANGE: f64 = 0.02;
+
+/// What was seen of the forces of the wings.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Alternation {
+    wings: Vec<Wing>,
+    step: usize,
+    /// Most steps in a row in which the force of a wing turned back.
+    pub longest: usize,
+}
+
+#[derive(Clone, Copy, Debug, Default)]
+struct Wing {
+    force: DVec3,
+    change: DVec3,
+    most: f64,
+    run: usize,
+}
+
+impl Alternation {
+    /// Takes the next record; `wings` of its bodies behind the first are wings. Where steps were left out nothing is counted.
+    pub fn take(&mut self, record: &Record, wings: usize) {
+        let forces = record.air.iter().skip(1).take(wings).map(|w| w.force);
+        self.wings.resize(wings, Wing::default());
+        let follows = record.step == self.step + 1;
+        self.step = record.step;
+        for (wing, force) in self.wings.iter_mut().zip(forces) {
+            self.longest = self.longest.max(wing.take(force, follows));
+        }
+    }
+}
+
+impl Wing {
+    /// Steps in a row, up to this one, in which the force turned back.
+    fn take(&mut self, force: DVec3, follows: bool) -> usize {
+        let change = if follows {
+            force - self.force
+        } else {
+            DVec3::ZERO
+        };
+        self.most = self.most.max(force.length());
+        let sizes = [change.length(), self.change.length()];
+        let turned = change.dot(self.change) < -0.5 * sizes[0] * sizes[1];
+        let counts = sizes.iter().all(|s| *s > CHANGE * self.most);
+        self.run = if turned && counts { self.run + 1 } else { 0 };
+        (self.force, self.change) = (force, change);
+        self.run
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use wingbeat_flight::LoadRecord;
+
+    /// Longest run of a force along n3 on one wing, the body beside it alternating all the time.
+    fn longest(force: impl Fn(usize) -> f64, every: usize) -> usize {
+        let mut seen = Alternation::default();
+        for step in (0..400).step_by(every) {
+            let of = |f: f64| LoadRecord {
+                force: DVec3::new(0.0, 0.0, f),
+                ..LoadRecord::default()
+            };
+            let body = if step % 2 == 0 { 1.0 } else { -1.0 };
+            let record = Record {
+                step,
+                air: vec![of(body), of(force(step))],
+                ..Record::default()
+            };
+            seen.take(&record, 1);
+        }
+        seen.longest
+    }
+
+    #[test]
+    fn limit_smooth_forces_do_not_alternate_and_growing_zigzags_do() {
+        let smooth = |k: usize| (0.1 * k as f64).sin();
+        assert_eq!(longest(smooth, 1), 0);
+        let zigzag = |k: usize| if k % 2 == 0 { 1.0 } else { -1.0 };
+        let growing = |k: usize| smooth(k) + 1e-6 * 1.05_f64.powi(k as i32) * zigzag(k);
+        assert!(longest(growing, 1) > 50);
+        assert_eq!(longest(|k| smooth(k) + 0.005 * zigzag(k), 1), 0); // less than counts
+        assert_eq!(longest(growing, 3), 0); // steps were left out
+    }
+}
