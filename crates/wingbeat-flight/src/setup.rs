@@ -209,6 +209,20 @@ impl AirModel {
         !matches!(self, Self::None)
     }
 
+    /// Velocity of the undisturbed air, N components [m/s]; none where the model has no stream.
+    pub fn stream_mut(&mut self) -> Option<&mut DVec3> {
+        match self {
+            Self::BladeElement(options) => Some(&mut options.blade.free_stream),
+            Self::VortexLattice(options) => Some(&mut options.lattice.free_stream),
+            Self::None | Self::Derivatives(_) | Self::External(_) | Self::Own(_) => None,
+        }
+    }
+
+    /// Whether half of the air stands for the whole.
+    pub fn is_mirrored(&self) -> bool {
+        matches!(self, Self::VortexLattice(options) if options.mirror)
+    }
+
     /// Shear and gusts that are added to the stream; none where the model has no wind.
     pub fn wind_mut(&mut self) -> Option<&mut Wind> {
         match self {

@@ -2,6 +2,7 @@
 
 mod alternation;
 pub mod beats;
+mod ensemble;
 mod means;
 mod numbers;
 mod statistics;
@@ -15,6 +16,7 @@ use wingbeat_flight::{FlightSetup, Record};
 
 use super::Outcome;
 pub use beats::{BeatMeans, Beats, down, over_weight, steps_per_beat};
+pub use ensemble::{Ensemble, EnsembleBeat};
 pub use means::{Estimate, ManyBeats};
 pub use numbers::Summary;
 use statistics::Statistics;

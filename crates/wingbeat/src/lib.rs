@@ -44,11 +44,13 @@ extern crate self as wingbeat; // the command line is written as any other user 
 mod batch;
 #[cfg(feature = "cli")]
 pub mod command;
+mod ensemble;
 mod flown;
 mod refusal;
 mod value;
 
 pub use batch::fly_all;
+pub use ensemble::ensemble;
 pub use flown::{Beat, Run};
 pub use refusal::Error;
 pub use value::Flight;

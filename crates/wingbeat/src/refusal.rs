@@ -34,4 +34,12 @@ pub enum Error {
         /// What the air is called.
         air: &'static str,
     },
+    /// What is no ensemble.
+    #[error("{problem}; choose {remedy}")]
+    Ensemble {
+        /// What is wrong.
+        problem: &'static str,
+        /// What to choose.
+        remedy: &'static str,
+    },
 }

@@ -9,7 +9,7 @@ use serde_json::Value;
 use support::{Scratch, flown, quick_case, wingbeat};
 
 /// Every command that analyses, with a name that its JSON has.
-const ANALYSES: [(&[&str], &str); 12] = [
+const ANALYSES: [(&[&str], &str); 13] = [
     (&["check", "case.toml"], "mass_kg"),
     (&["show", "r"], "summary"),
     (&["compare", "r", "s"], "keys"),
@@ -24,6 +24,10 @@ const ANALYSES: [(&[&str], &str); 12] = [
     (&["stability", "--steps", "20"], "floquet_modes"),
     (&["derivatives", "--steps", "20"], "control_derivatives"),
     (&["power", "--steps", "20"], "power"),
+    (
+        &["ensemble", "fruit-fly-blade", "--members", "2"],
+        "ensemble",
+    ),
     (&["stabilise", "--steps", "20", "--beats", "2"], "beats"),
     (&["velocity", "v", "--point", "0,0,0"], "points"),
     (&["stability", "table1-sun-2007"], "modes"),

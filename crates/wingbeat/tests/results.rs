@@ -428,3 +428,48 @@ fn limit_an_integrator_that_is_not_stable_is_named_and_the_default_is() {
         "{steps} {warnings}"
     );
 }
+
+#[test]
+fn behaves_an_ensemble_parts_and_is_the_same_on_any_number_of_threads() {
+    let scratch = Scratch::new("ensemble");
+    let dir = &scratch.0;
+    let fly = |more: &[&str]| {
+        let coarse = [
+            "ensemble",
+            "fruit-fly-tethered",
+            "--members",
+            "3",
+            "--json",
+            "--set=time.beats=4",
+            "--set=time.steps_per_beat=20",
+            "--set=wing.right.mesh.chordwise=2",
+            "--set=wing.right.mesh.spanwise=4",
+        ];
+        wingbeat(dir, &[&coarse[..], more].concat())
+    };
+    let one = fly(&["--threads", "1"]);
+    assert!(
+        one.status.success(),
+        "{}",
+        String::from_utf8_lossy(&one.stderr)
+    );
+    assert_eq!(one.stdout, fly(&["--threads", "2"]).stdout);
+    let told: serde_json::Value = serde_json::from_slice(&one.stdout).unwrap();
+    let spread = |k: usize| told["ensemble"]["beats"][k]["spread"].as_f64().unwrap();
+    // A millionth of the wings' speed changes forces by some millionths; separated flow makes more of it, beat by beat.
+    assert!(spread(0) > 0.0 && spread(0) < 1e-4, "{}", spread(0));
+    assert!(spread(3) > spread(0), "{told}");
+    assert!(
+        told["ensemble"]["means"]["lift_newton"]["standard_error"]
+            .as_f64()
+            .unwrap()
+            > 0.0
+    );
+    let refused = fly(&["--set=air.model=none"]);
+    assert_eq!(refused.status.code(), Some(2));
+    let said = String::from_utf8_lossy(&refused.stderr).into_owned();
+    assert!(
+        said.contains("stream") && said.contains("vortex lattice"),
+        "{said}"
+    );
+}

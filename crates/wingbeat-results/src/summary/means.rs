@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 use super::beats::BeatMeans;
 
 /// Beats at the start that are left out: the wake comes up.
-const LEFT_OUT: usize = 2;
+pub(super) const LEFT_OUT: usize = 2;
 
 /// Fewest beats of which a mean has an error.
 const FEWEST: usize = 3;
@@ -89,6 +89,17 @@ impl ManyBeats {
 }
 
 impl Estimate {
+    /// Of independent values, at least two.
+    pub(super) fn of_independent(values: &[f64]) -> Self {
+        let n = values.len() as f64;
+        let mean = values.iter().sum::<f64>() / n;
+        let square: f64 = values.iter().map(|x| (x - mean).powi(2)).sum();
+        Self {
+            mean,
+            standard_error: (square / (n - 1.0) / n).sqrt(),
+        }
+    }
+
     /// Of values that follow each other, at least two.
     fn of(values: &[f64]) -> Self {
         let n = values.len() as f64;

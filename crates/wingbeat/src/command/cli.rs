@@ -8,7 +8,7 @@ use clap_complete::Shell;
 
 use super::report::ReportArgs;
 use super::target::folder;
-use super::{analyse, check, export, new, plot, run, show, velocity, verify, view};
+use super::{analyse, check, ensemble, export, new, plot, run, show, velocity, verify, view};
 
 /// Colours of help and errors, as cargo has them.
 pub(crate) const STYLES: Styles = Styles::styled()
@@ -33,6 +33,8 @@ pub(crate) struct Cli {
 pub(crate) enum Command {
     /// Fly a case file or a preset; without one, the fruit fly in free hovering flight.
     Run(run::RunArgs),
+    /// Fly a case many times over, from starts that differ by next to nothing: means with their errors.
+    Ensemble(ensemble::EnsembleArgs),
     /// Go on with a run that was interrupted, killed or ran out of disk, bit for bit.
     Resume(run::ResumeArgs),
     /// Write the flight page of a run, one HTML file, and open it in the browser.

@@ -1,5 +1,6 @@
 //! Why a command did not do what it was asked, and its exit code.
 
+use wingbeat::Error;
 use wingbeat::analysis::AnalysisError;
 use wingbeat::case::IoError;
 
@@ -20,6 +21,8 @@ pub(crate) enum Failure {
     Io(IoError),
     /// The analysis.
     Analysis(AnalysisError),
+    /// A flight, or what it cannot be made for.
+    Flight(Error),
     /// What happened was told already; the exit code.
     Told(u8),
 }
@@ -36,6 +39,19 @@ impl From<AnalysisError> for Failure {
     }
 }
 
+impl From<Error> for Failure {
+    fn from(e: Error) -> Self {
+        match e {
+            Error::Io(e) => Self::Io(e),
+            Error::Analysis(e) => Self::Analysis(e),
+            Error::Flight(_)
+            | Error::Threads(_)
+            | Error::NoWind { .. }
+            | Error::Ensemble { .. } => Self::Flight(e),
+        }
+    }
+}
+
 impl Failure {
     /// Tells it; the exit code.
     pub(crate) fn tell(&self) -> u8 {
@@ -44,13 +60,14 @@ impl Failure {
             Self::Io(e) => tell!("error: {e}"),
             Self::Option(problem) => tell!("error: {problem}"),
             Self::Analysis(e) => tell!("error: {e}"),
+            Self::Flight(e) => tell!("error: {e}"),
             Self::Told(_) => {}
         }
         match self {
             Self::Told(code) => *code,
             Self::Analysis(AnalysisError::NotCovered { .. }) => REFUSED,
-            Self::Analysis(_) => FAILED,
-            Self::Option(_) | Self::Io(_) => REFUSED,
+            Self::Analysis(_) | Self::Flight(Error::Flight(_)) => FAILED,
+            Self::Option(_) | Self::Io(_) | Self::Flight(_) => REFUSED,
         }
     }
 }

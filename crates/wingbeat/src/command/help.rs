@@ -20,7 +20,7 @@ const PROGRAM: &str = "wingbeat";
 /// The commands by what they are for.
 const GROUPS: [(&str, &[&str]); 5] = [
     ("Cases", &["presets", "new", "check", "schema"]),
-    ("Flights", &["run", "resume"]),
+    ("Flights", &["run", "resume", "ensemble"]),
     (
         "Results",
         &["show", "compare", "view", "plot", "export", "velocity"],

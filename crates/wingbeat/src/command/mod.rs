@@ -5,6 +5,7 @@
 mod analyse;
 mod check;
 mod cli;
+mod ensemble;
 mod expectation;
 mod export;
 mod failure;
@@ -65,6 +66,7 @@ fn run(command: Command) -> Result<(), Failure> {
         Command::Derivatives(args) => analyse::derivatives::run(&args),
         Command::Power(args) => analyse::power::run(&args),
         Command::Stabilise(args) => analyse::stabilise::run(&args),
+        Command::Ensemble(args) => ensemble::run(&args),
         Command::Velocity(args) => velocity::run(&args),
         Command::Verify(args) => verify::run(&args),
         Command::Presets(args) => new::list(&args),

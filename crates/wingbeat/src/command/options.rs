@@ -119,7 +119,7 @@ pub(crate) fn choose<T: Copy>(name: &str, known: &[(&'static str, T)]) -> Result
 }
 
 /// Threads at most.
-const MAX_THREADS: usize = 1024;
+pub(crate) const MAX_THREADS: usize = 1024;
 
 /// How a flight is computed and shown.
 #[derive(Args)]

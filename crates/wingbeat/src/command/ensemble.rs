@@ -1,0 +1,102 @@
+//! `wingbeat ensemble`: the same flight many times over, from starts that differ by next to nothing.
+
+use clap::Args;
+use serde_json::json;
+use wingbeat::case::LoadedCase;
+use wingbeat::results::summary::{Ensemble, EnsembleBeat, Estimate};
+use wingbeat::{Flight, ensemble};
+
+use super::analyse::trimming::watched;
+use super::failure::Failure;
+use super::options;
+use super::report::{Report, ReportArgs, line};
+use super::run::name_program;
+
+/// Members at most, and unless told otherwise.
+const MAX_MEMBERS: usize = 10_000;
+const DEFAULT_MEMBERS: usize = 8;
+
+/// Arguments of `wingbeat ensemble`.
+#[derive(Args)]
+pub(crate) struct EnsembleArgs {
+    /// Case file or preset; - is the standard input.
+    #[arg(default_value = "fruit-fly-hover")]
+    case: String,
+    /// Set a key of the case, e.g. time.beats=3 (may be repeated).
+    #[arg(long = "set", value_name = "KEY=VALUE")]
+    set: Vec<String>,
+    /// Flights; in all but the first the air moves by a millionth of the wings' speed.
+    #[arg(long, value_name = "N", default_value_t = DEFAULT_MEMBERS,
+          value_parser = options::count::<2, MAX_MEMBERS>)]
+    members: usize,
+    /// Flights at a time [default: as many as the machine has threads].
+    #[arg(long, value_name = "N", value_parser = options::count::<1, { options::MAX_THREADS }>)]
+    threads: Option<usize>,
+    #[command(flatten)]
+    report: ReportArgs,
+}
+
+/// The whole command.
+pub(crate) fn run(args: &EnsembleArgs) -> Result<(), Failure> {
+    args.report.deliver([], |report, []| {
+        let case = LoadedCase::find(&args.case, &args.set)?;
+        name_program(&case);
+        let name = case.name.clone();
+        let flight = Flight::from(case);
+        let what = format!("{} flights", args.members);
+        let found = watched(&what, || {
+            ensemble(&flight, args.members, args.threads.unwrap_or(0))
+        })?;
+        tell(report, &name, &found);
+        Ok(())
+    })
+}
+
+fn tell(report: &mut Report, name: &str, found: &Ensemble) {
+    line!(
+        report,
+        "{name}: {} flights, in all but the first the air moves by a millionth of the wings' speed",
+        found.members
+    );
+    line!(
+        report,
+        "\n  {:<9}{:>24}{:>26}{:>26}{:>12}",
+        "beat",
+        "lift over weight",
+        "forward, uN",
+        "power, uW",
+        "spread, %"
+    );
+    for b in &found.beats {
+        row(report, &b.beat.to_string(), b);
+    }
+    if let Some(means) = &found.means {
+        row(
+            report,
+            &format!("{} to {}", means.beat, found.beats.len()),
+            means,
+        );
+    }
+    line!(
+        report,
+        "  means over the flights +- their standard errors; spread: standard deviation of the lift over the flights"
+    );
+    report.value("case", name);
+    report.value("ensemble", json!(found));
+}
+
+fn row(report: &mut Report, name: &str, b: &EnsembleBeat) {
+    let cell = |e: &Estimate, scale: f64, digits: usize| {
+        let [mean, error] = [e.mean, e.standard_error].map(|x| scale * x);
+        format!("{mean:.digits$} +- {error:.digits$}")
+    };
+    let lift = b.lift_over_weight.as_ref();
+    line!(
+        report,
+        "  {name:<9}{:>24}{:>26}{:>26}{:>12.4}",
+        lift.map_or_else(|| "-".to_owned(), |e| cell(e, 1.0, 5)),
+        cell(&b.thrust_newton, 1e6, 4),
+        cell(&b.power_watt, 1e6, 3),
+        100.0 * b.spread
+    );
+}
