@@ -3,6 +3,7 @@
 mod common;
 mod episode;
 mod mechanisms;
+mod oracle;
 mod validation;
 mod verification;
 mod wake;
