@@ -3,6 +3,7 @@
 use wingbeat_flight::{FlightSetup, faster};
 use wingbeat_math::{DMat3, DVec3};
 use wingbeat_model::motion::Adjustment;
+use wingbeat_model::{AngleLaw, Wing, WingMotion};
 
 use crate::AnalysisError;
 use crate::beat::Beat;
@@ -27,10 +28,12 @@ pub enum Control {
     FeatheringLead,
     /// Mean deviation \[rad\].
     DeviationOffset,
+    /// Part of the beat that the first half stroke takes \[1\], of split-cycle strokes only.
+    StrokeSplit,
 }
 
 /// All controls with their names.
-pub const CONTROLS: [(Control, &str); 7] = [
+pub const CONTROLS: [(Control, &str); 8] = [
     (Control::StrokeAmplitude, "stroke_amplitude"),
     (Control::StrokeOffset, "stroke_offset"),
     (Control::Frequency, "frequency"),
@@ -38,11 +41,13 @@ pub const CONTROLS: [(Control, &str); 7] = [
     (Control::FeatheringOffset, "feathering_offset"),
     (Control::FeatheringLead, "feathering_lead"),
     (Control::DeviationOffset, "deviation_offset"),
+    (Control::StrokeSplit, "stroke_split"),
 ];
 
 impl Control {
-    /// The adjustment by `x` of this control.
-    pub fn adjustment(self, x: f64) -> Adjustment {
+    /// The motion of `wing` with `x` of this control.
+    fn steered(self, wing: &Wing, x: f64) -> WingMotion {
+        let mut motion = wing.motion.clone();
         let mut a = Adjustment::default();
         match self {
             Self::StrokeAmplitude => a.stroke_amplitude = x,
@@ -52,8 +57,15 @@ impl Control {
             Self::FeatheringOffset => a.feathering_offset = x,
             Self::FeatheringLead => a.feathering_lead = x,
             Self::DeviationOffset => a.deviation_offset = x,
+            Self::StrokeSplit => motion.angles.phi = motion.angles.phi.split_by(x),
         }
-        a
+        motion.adjusted(wing.side, &a)
+    }
+
+    /// Whether any of the wings answers to it.
+    fn is_had(self, wings: &[Wing]) -> bool {
+        let split = |w: &Wing| matches!(w.motion.angles.phi, AngleLaw::SplitCycle(_));
+        self != Self::StrokeSplit || wings.iter().any(split)
     }
 }
 
@@ -83,8 +95,10 @@ pub fn control_derivatives(
     const STEP: f64 = 1e-4;
     let wings = setup.animal.wings.len();
     let mut list = vec![];
-    for (k, (control, name)) in CONTROLS.into_iter().enumerate() {
-        progress::task(&format!("derivatives by {name}"), k, CONTROLS.len());
+    let had = CONTROLS.iter().filter(|c| c.0.is_had(&setup.animal.wings));
+    let had: Vec<_> = had.copied().collect();
+    for (k, &(control, name)) in had.iter().enumerate() {
+        progress::task(&format!("derivatives by {name}"), k, had.len());
         let single = (0..wings)
             .map(Some)
             .filter(|_| control != Control::Frequency);
@@ -93,7 +107,7 @@ pub fn control_derivatives(
                 let mut setup = setup.clone();
                 for (k, wing) in setup.animal.wings.iter_mut().enumerate() {
                     if chosen.is_none_or(|c| c == k) {
-                        wing.motion = wing.motion.adjusted(wing.side, &control.adjustment(x));
+                        wing.motion = control.steered(wing, x);
                     }
                 }
                 if control == Control::Frequency {

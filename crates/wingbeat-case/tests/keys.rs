@@ -127,6 +127,7 @@ const SITES: &[Site] = &[
     site("FourierCase", "wing.right.motion.phi.fourier", &[]),
     site("ShapedCase", "wing.right.motion.phi.smooth_square", &[]),
     site("OvalCase", "wing.right.motion.theta.oval", &[]),
+    site("SplitCycleCase", "wing.right.motion.phi.split_cycle", &[]),
     site("TableCase", "wing.right.motion.phi.table", &[]),
     site("DeformationCase", "wing.right.deformation", &[]),
     site("SegmentCase", "segment.tail", &[]),

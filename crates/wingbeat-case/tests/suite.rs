@@ -6,5 +6,6 @@ mod idle;
 mod joints;
 mod keys;
 mod presets;
+mod table1;
 mod wings;
 mod written;

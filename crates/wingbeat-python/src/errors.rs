@@ -51,7 +51,7 @@ pub fn raised(py: Python<'_>, error: &Error) -> PyErr {
             let remedy = "fly in blade elements or in the vortex lattice";
             ("CaseError", about("air.model", remedy))
         }
-        Error::Ensemble { remedy, .. } => ("FlightError", about("members", remedy)),
+        Error::Ensemble { remedy, .. } => ("FlightError", about("members", *remedy)),
         Error::Threads(_) => ("FlightError", about("threads", "fly on fewer threads")),
     };
     exception(py, class, &error.to_string(), parts)

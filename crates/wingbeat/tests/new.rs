@@ -88,8 +88,8 @@ fn agrees_every_species_is_checked_and_flies_with_its_weight() {
     }
 }
 
-/// With the same attack and coefficients for all, the stroke that carries the weight is from 0.71 (drone fly) to 1.03
-/// (fruit fly, whose coefficients they are) of the one that was measured.
+/// With the same attack and coefficients for all, the stroke that carries the weight is from 0.71 (drone fly) to 1.05
+/// (hawkmoth) of that of the source; 1.03 of the fruit fly, whose coefficients they are, 0.97 of the honeybee.
 #[test]
 fn published_strokes_are_near_those_that_carry_the_weight() {
     let scratch = Scratch::new("new-strokes");
@@ -97,7 +97,7 @@ fn published_strokes_are_near_those_that_carry_the_weight() {
         let case = said(&scratch.0, &["new", "--species", name, "-"]);
         let ratio = 2.0 * number(&case, "sine_deg") / stroke;
         println!("{name:<18}{ratio:.3}");
-        assert!((0.7..1.05).contains(&ratio), "{name}: {ratio}");
+        assert!((0.7..1.06).contains(&ratio), "{name}: {ratio}");
     }
 }
 

@@ -1,12 +1,18 @@
-//! The fruit fly in blade-element air.
+//! Animals in blade-element air, and a second program to compare with.
 #![allow(dead_code)] // every test binary uses its own part
+
+pub mod flight_laws;
+pub mod quasi_steady;
 
 use wingbeat_air::Wind;
 use wingbeat_analysis::*;
 use wingbeat_blade::BladeSettings;
 use wingbeat_flight::*;
-use wingbeat_math::DVec3;
+use wingbeat_math::{DMat3, DVec3, MassProperties};
+use wingbeat_model::motion::{AngleLaw, AngleLaws, Fourier, SmoothSquare, Start, WingMotion};
+use wingbeat_model::planform::{Beta, ChordSize, Planform, WingShape};
 use wingbeat_model::species::{FlyOptions, HOVER_BODY_PITCH, drosophila_melanogaster};
+use wingbeat_model::{Animal, MassInput, Side, Wing};
 
 /// Air density [kg/m3].
 pub const RHO: f64 = 1.225;
@@ -14,9 +20,66 @@ pub const RHO: f64 = 1.225;
 /// The fruit fly with measured strokes in blade-element air, free, ten strips a wing.
 pub fn fly() -> FlightSetup {
     let options = FlyOptions::default();
-    let period = 1.0 / options.frequency;
     let mut animal = drosophila_melanogaster(&options).unwrap();
     animal.parts.clear();
+    hovering(animal, options.frequency, HOVER_BODY_PITCH)
+}
+
+/// The hawkmoth of the preset `hawkmoth-blade` without its body's surface: wings of 5.7 % of the mass.
+pub fn moth() -> FlightSetup {
+    let planform = Planform::Beta(Beta {
+        length: 51.9e-3,
+        size: ChordSize::Mean(18.26e-3),
+        r2_hat: 0.505,
+        root_offset: 2e-3,
+        axis_fraction: 0.25,
+        least_chord: 0.15,
+    });
+    let (frequency, pitch) = (26.1, 45_f64.to_radians());
+    let right = Wing::new(
+        "right",
+        Side::Right,
+        DVec3::new(8e-3, 5e-3, -8e-3),
+        &WingShape::uniform(planform, 4, 10),
+        &MassInput::Total(47e-6),
+        WingMotion {
+            angles: AngleLaws {
+                phi: AngleLaw::Fourier(Fourier {
+                    sin: vec![60_f64.to_radians()],
+                    ..Fourier::default()
+                }),
+                theta: AngleLaw::Constant(0.0),
+                psi: AngleLaw::SmoothSquare(SmoothSquare {
+                    amplitude: -55_f64.to_radians(),
+                    shape: 2.5,
+                    shift: std::f64::consts::FRAC_PI_2,
+                    mean: 0.0,
+                }),
+            },
+            frequency,
+            phase: 0.0,
+            stroke_plane_pitch: pitch,
+            start: Start::Impulsive,
+        },
+    )
+    .unwrap();
+    let animal = Animal {
+        name: "hawkmoth".to_owned(),
+        body: MassProperties {
+            mass: 1.554e-3,
+            first_moment: DVec3::ZERO,
+            inertia: DMat3::from_diagonal(DVec3::new(0.3e-7, 2.08e-7, 2.08e-7)),
+        },
+        parts: vec![],
+        wings: vec![right.mirrored("left"), right],
+        segments: vec![],
+    };
+    hovering(animal, frequency, pitch)
+}
+
+/// An animal in free flight at rest with this body pitch \[rad\], ten strips a wing.
+fn hovering(animal: Animal, frequency: f64, pitch: f64) -> FlightSetup {
+    let period = 1.0 / frequency;
     let air = AirModel::BladeElement(BladeOptions {
         blade: BladeSettings::insect(RHO),
         body_drag: None,
@@ -25,7 +88,7 @@ pub fn fly() -> FlightSetup {
     });
     FlightSetup {
         mode: MotionMode::Free(StartState {
-            angles: DVec3::new(HOVER_BODY_PITCH, 0.0, 0.0),
+            angles: DVec3::new(pitch, 0.0, 0.0),
             ..StartState::default()
         }),
         time: TimeGrid {
@@ -33,7 +96,7 @@ pub fn fly() -> FlightSetup {
             steps: 100,
             period: Some(period),
         },
-        ..FlightSetup::new("fly", animal, air)
+        ..FlightSetup::new("animal", animal, air)
     }
 }
 

@@ -1,7 +1,7 @@
 //! `[motion]` and `[wing.NAME.motion]`: angle laws and shipped data sets.
 
 use wingbeat_model::motion::{
-    Adjustment, Fourier, Oval, PeriodicSpline, SmoothSquare, SmoothTriangle,
+    Adjustment, Fourier, Oval, PeriodicSpline, SmoothSquare, SmoothTriangle, SplitCycle,
 };
 use wingbeat_model::{AngleLaw, AngleLaws, Side, Start, WingMotion};
 
@@ -131,6 +131,12 @@ fn angle_law(path: &str, case: &AngleCase) -> Built<AngleLaw> {
             count: o.count,
             shift: o.shift_deg.to_radians(),
             mean: o.mean_deg.to_radians(),
+        }),
+        AngleCase::SplitCycle(s) => AngleLaw::SplitCycle(SplitCycle {
+            amplitude: s.amplitude_deg.to_radians(),
+            first_share: s.first_share,
+            shift: s.shift_deg.to_radians(),
+            mean: s.mean_deg.to_radians(),
         }),
         AngleCase::Table(t) => AngleLaw::Table(spline(&format!("{path}.table"), t)?),
     })

@@ -98,31 +98,29 @@ pub(super) struct Insect {
     pub wing_length: Sourced,
     pub mean_chord: Sourced,
     pub frequency: Sourced,
-    /// Stroke that was measured \[deg\].
-    pub stroke: Option<f64>,
-    pub r2_hat: f64,
-    pub wing_mass: f64,
-    pub body_length: f64,
-    pub rest: String,
+    /// Stroke from end to end that the source has \[deg\].
+    pub stroke: Option<Sourced>,
+    pub r2_hat: Sourced,
+    pub wing_mass: Sourced,
+    pub body_length: Sourced,
 }
 
 impl Insect {
     /// A species as it is.
     pub(super) fn of_species(s: &Species) -> Self {
-        let sourced = |value| Sourced::new(value, s.source);
+        let by = &s.sources;
         Self {
             name: s.name.to_owned(),
             title: format!("{} ({})", s.name, s.latin),
             made_by: format!("wingbeat new --species {}", s.name),
-            mass: sourced(s.mass),
-            wing_length: sourced(s.wing_length),
-            mean_chord: sourced(s.mean_chord),
-            frequency: sourced(s.frequency),
-            stroke: Some(s.stroke),
-            r2_hat: s.r2_hat,
-            wing_mass: s.wing_share * s.mass,
-            body_length: s.body_length,
-            rest: s.rest.to_owned(),
+            mass: Sourced::new(s.mass, by.mass),
+            wing_length: Sourced::new(s.wing_length, by.wing_length),
+            mean_chord: Sourced::new(s.mean_chord, by.mean_chord),
+            frequency: Sourced::new(s.frequency, by.frequency),
+            stroke: Some(Sourced::new(s.stroke, by.stroke)),
+            r2_hat: Sourced::new(s.r2_hat, by.r2_hat),
+            wing_mass: Sourced::new(s.wing_share * s.mass, by.wing_share),
+            body_length: Sourced::new(s.body_length, by.body_length),
         }
     }
 
@@ -156,16 +154,17 @@ impl Insect {
             let law = "Deakin (2010), as a later review quotes it: 317 sqrt(mass in g) / area of both wings in cm2";
             Sourced::new(DEAKIN * mass.value.sqrt() / area, law)
         });
+        let proportional =
+            |value| Sourced::new(value, format!("estimated: proportions of the {}", s.name));
         Ok(Self {
             name: "insect".to_owned(),
             title: format!("insect of {} mg", number(1e6 * mass.value)),
             made_by: size.command(),
-            wing_mass: s.wing_share * mass.value,
-            body_length: s.body_length * (mass.value / m0).cbrt(),
+            wing_mass: proportional(s.wing_share * mass.value),
+            body_length: proportional(s.body_length * (mass.value / m0).cbrt()),
             mean_chord: Sourced::new(chord, format!("estimated: wing shape of the {}", s.name)),
-            r2_hat: s.r2_hat,
+            r2_hat: proportional(s.r2_hat),
             stroke: None,
-            rest: format!("estimated: proportions of the {}", s.name),
             mass,
             wing_length,
             frequency,
@@ -190,7 +189,7 @@ mod tests {
             let close = |x: f64, y: f64| (x / y - 1.0).abs() < 1e-14;
             assert!(close(insect.wing_length.value, s.wing_length), "{}", s.name);
             assert!(close(insect.mean_chord.value, s.mean_chord), "{}", s.name);
-            assert!(close(insect.body_length, s.body_length), "{}", s.name);
+            assert!(close(insect.body_length.value, s.body_length), "{}", s.name);
             let size = Size {
                 wing_length: Some(2.0 * s.wing_length),
                 mass: None,

@@ -1,4 +1,4 @@
-//! Insects that hover on one pair of wings, or on two that move as one, each with its source.
+//! Insects that hover on one pair of wings, or on two that move as one, each number with its source.
 
 use crate::decode::nearest;
 use crate::error::IoError;
@@ -26,18 +26,42 @@ pub struct Species {
     pub wing_share: f64,
     /// Length of the body \[m\].
     pub body_length: f64,
-    /// Where mass, wing length, chord, frequency and stroke come from.
-    pub source: &'static str,
-    /// Where `r2_hat`, `wing_share` and `body_length` come from.
-    pub rest: &'static str,
+    /// Where each comes from.
+    pub sources: Sources,
 }
 
-/// The set that Sun and co-workers took from Ellington.
-const ELLINGTON: &str =
-    "Ellington (1984) as quoted by Sun & Du (2003); from memory, not checked against print";
+/// Where the numbers of a species come from; "estimated" where no print was found.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Sources {
+    /// Of the mass.
+    pub mass: &'static str,
+    /// Of the wing length.
+    pub wing_length: &'static str,
+    /// Of the mean chord.
+    pub mean_chord: &'static str,
+    /// Of the second moment of the wing area.
+    pub r2_hat: &'static str,
+    /// Of the frequency.
+    pub frequency: &'static str,
+    /// Of the stroke.
+    pub stroke: &'static str,
+    /// Of the mass of a wing.
+    pub wing_share: &'static str,
+    /// Of the length of the body.
+    pub body_length: &'static str,
+}
 
-/// Where wing mass and body length are estimates and the outline is that of a bumblebee.
-const ESTIMATES: &str = "estimates: outline of a bumblebee's wing, wings of half a percent of the mass each, body length";
+/// The set that Sun and co-workers took from Ellington, as far as no print was found.
+const REMEMBERED: &str =
+    "estimated: after Ellington (1984) as Sun & Du (2003) quote him, not checked against print";
+const OF_FLY: &str = "Dickson, Straw & Dickinson (2008), as coded in their Grand Unified Fly";
+const OF_HYDEI: &str = "Muijres et al. (2014), as in published model code";
+const OF_HONEYBEE: &str = "Vance et al. (2014), hover in air: 226.8 +- 12.8 Hz, 86.7 +- 7.9 deg";
+const OF_BUMBLEBEE: &str =
+    "published bumblebee case of FLUSI: the specimen of Dudley & Ellington (1990)";
+const OF_HAWKMOTH: &str = "published model code that cites Sun (2014) and Kim et al. (2015)";
+const OUTLINE_OF_BOMBUS: &str = "outline of a Bombus wing pair, from a museum image";
+const AS_THE_FLY: &str = "estimated: in the proportion of Drosophila melanogaster";
 
 /// The species in the order of their mass; masses are those with wings. The parts of the fruit fly are those of the preset `fruit-fly-blade`.
 pub const SPECIES: [Species; 9] = [
@@ -52,8 +76,16 @@ pub const SPECIES: [Species; 9] = [
         stroke: 143.0,
         wing_share: 0.005_678,
         body_length: 2.5e-3,
-        source: "Dickson, Straw & Dickinson (2008); frequency nominal; stroke Fry, Sayaman & Dickinson (2005)",
-        rest: "Dickson, Straw & Dickinson (2008); outline from a digitised wing",
+        sources: Sources {
+            mass: OF_FLY,
+            wing_length: OF_FLY,
+            mean_chord: OF_FLY,
+            r2_hat: "outline of a wing digitised by J. Gruber",
+            frequency: "nominal; Dickson, Straw & Dickinson (2008) have beats of 4 to 6 ms",
+            stroke: "Fry, Sayaman & Dickinson (2005)",
+            wing_share: OF_FLY,
+            body_length: OF_FLY,
+        },
     },
     Species {
         name: "drosophila-hydei",
@@ -66,8 +98,16 @@ pub const SPECIES: [Species; 9] = [
         stroke: 132.0,
         wing_share: 0.005_678,
         body_length: 3.1e-3,
-        source: "Muijres et al. (2014), as in the published data of the robot",
-        rest: "outline Muijres et al. (2014); wing mass and body in the proportion of Drosophila melanogaster",
+        sources: Sources {
+            mass: OF_HYDEI,
+            wing_length: OF_HYDEI,
+            mean_chord: OF_HYDEI,
+            r2_hat: OF_HYDEI,
+            frequency: OF_HYDEI,
+            stroke: OF_HYDEI,
+            wing_share: AS_THE_FLY,
+            body_length: AS_THE_FLY,
+        },
     },
     of_ellington("crane-fly", "Tipula", [11.4, 12.7, 2.38], 45.5, 123.0, 15.0),
     of_ellington("hoverfly", "Syrphidae", [27.3, 9.3, 2.2], 160.0, 90.0, 10.0),
@@ -87,36 +127,73 @@ pub const SPECIES: [Species; 9] = [
         109.0,
         13.0,
     ),
-    of_ellington(
-        "honeybee",
-        "Apis mellifera",
-        [101.9, 9.8, 3.08],
-        197.0,
-        131.0,
-        12.5,
-    ),
-    of_ellington(
-        "bumblebee",
-        "Bombus",
-        [175.0, 13.2, 4.02],
-        155.0,
-        116.0,
-        18.6,
-    ),
+    Species {
+        sources: Sources {
+            frequency: OF_HONEYBEE,
+            stroke: OF_HONEYBEE,
+            ..ESTIMATES
+        },
+        ..of_ellington(
+            "honeybee",
+            "Apis mellifera",
+            [101.9, 9.8, 3.08],
+            226.8,
+            86.7,
+            12.5,
+        )
+    },
+    Species {
+        sources: Sources {
+            mass: OF_BUMBLEBEE,
+            wing_length: OF_BUMBLEBEE,
+            r2_hat: OUTLINE_OF_BOMBUS,
+            frequency: "Sun & Xiong (2005): a wingbeat of 6.4 ms",
+            ..ESTIMATES
+        },
+        ..of_ellington(
+            "bumblebee",
+            "Bombus",
+            [175.0, 13.2, 4.02],
+            156.25,
+            116.0,
+            18.6,
+        )
+    },
     Species {
         r2_hat: 0.505,
         wing_share: 0.029,
-        rest: "outline Kim et al. (2015); wing mass from memory; body length: estimate",
+        sources: Sources {
+            mass: OF_HAWKMOTH,
+            wing_length: OF_HAWKMOTH,
+            mean_chord: OF_HAWKMOTH,
+            r2_hat: "outline of Kim et al. (2015), figure 1",
+            frequency: OF_HAWKMOTH,
+            stroke: OF_HAWKMOTH,
+            wing_share: "estimated",
+            body_length: "estimated",
+        },
         ..of_ellington(
             "hawkmoth",
             "Manduca sexta",
-            [1648.0, 51.9, 18.26],
+            [1620.0, 51.9, 18.26],
             26.1,
-            121.0,
+            106.0,
             46.0,
         )
     },
 ];
+
+/// What nothing in print was found for; the outline is that of a bumblebee's wing.
+const ESTIMATES: Sources = Sources {
+    mass: REMEMBERED,
+    wing_length: REMEMBERED,
+    mean_chord: REMEMBERED,
+    r2_hat: "estimated: outline of a bumblebee's wing",
+    frequency: REMEMBERED,
+    stroke: REMEMBERED,
+    wing_share: "estimated: half a percent of the mass each",
+    body_length: "estimated",
+};
 
 /// From Ellington's set: mass \[mg\], wing length and mean chord \[mm\], frequency \[Hz\], stroke
 /// \[deg\]; body length \[mm\] estimated.
@@ -139,11 +216,9 @@ const fn of_ellington(
         stroke,
         wing_share: 0.005,
         body_length: 1e-3 * body_length,
-        source: ELLINGTON,
-        rest: ESTIMATES,
+        sources: ESTIMATES,
     }
 }
-
 impl Species {
     /// A species by name.
     ///

@@ -118,8 +118,8 @@ frames_every = 2
 
 /// An ellipsoid of revolution with the density of water.
 fn body(insect: &Insect) -> String {
-    let mass = insect.mass.value - 2.0 * insect.wing_mass;
-    let length = insect.body_length;
+    let mass = insect.mass.value - 2.0 * insect.wing_mass.value;
+    let length = insect.body_length.value;
     let diameter = (6.0 * mass / (std::f64::consts::PI * DENSITY * length)).sqrt();
     format!(
         "
@@ -135,7 +135,7 @@ diameter_m = {}
         number(insect.mass.value),
         insect.mass.source,
         number(length),
-        insect.rest,
+        insect.body_length.source,
         number(diameter)
     )
 }
@@ -143,15 +143,19 @@ diameter_m = {}
 fn wing(insect: &Insect, stroke: f64) -> String {
     let length = insect.wing_length.value;
     let aside = HINGE_HEIGHT * length / 2.0_f64.sqrt();
-    let measured = insect.stroke.map_or(String::new(), |measured| {
-        format!("; measured were {measured} deg from end to end")
+    let measured = insect.stroke.as_ref().map_or(String::new(), |stroke| {
+        format!(
+            "; {} deg from end to end: {}",
+            number(stroke.value),
+            stroke.source
+        )
     });
     format!(
         "
 # The right wing; the left one is its mirror image.
 [wing.right]
 hinge_m = [{aside}, {aside}, -{aside}]  # {HINGE_HEIGHT} wing lengths above the mass centre in hover: estimate
-mass_kg = {mass}  # {rest}
+mass_kg = {mass}  # a wing; {rest}
 
 [wing.right.motion.phi.fourier]
 mean_deg = 0
@@ -165,8 +169,8 @@ shift_deg = 90
 [wing.right.planform.beta] # an outline from three numbers (Ellington's beta distribution)
 length_m = {r}  # {r_source}
 mean_chord_m = {c}  # {c_source}
-r2_hat = {r2_hat}
-root_offset_m = {root}
+r2_hat = {r2_hat}  # {r2_source}
+root_offset_m = {root}  # estimate
 axis_fraction = 0.25       # part of the chord ahead of the hinge axis: estimate
 least_chord = 0.15         # at root and tip, relative to the largest
 
@@ -175,15 +179,16 @@ chordwise = 4
 spanwise = 10
 ",
         aside = number(aside),
-        mass = number(insect.wing_mass),
-        rest = insect.rest,
+        mass = number(insect.wing_mass.value),
+        rest = insect.wing_mass.source,
         half = number(0.5 * stroke),
         feathering = ATTACK - 90.0,
         r = number(length),
         r_source = insect.wing_length.source,
         c = number(insect.mean_chord.value),
         c_source = insect.mean_chord.source,
-        r2_hat = insect.r2_hat,
+        r2_hat = insect.r2_hat.value,
+        r2_source = insect.r2_hat.source,
         root = number(ROOT * length),
     )
 }

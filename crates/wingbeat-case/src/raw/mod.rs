@@ -49,8 +49,8 @@ pub use joint::{
 };
 pub use load::{LoadCase, SpringCase};
 pub use motion::{
-    AdjustCase, AngleCase, FourierCase, MotionCase, OvalCase, ShapedCase, StartCase, TableCase,
-    WingMotionCase,
+    AdjustCase, AngleCase, FourierCase, MotionCase, OvalCase, ShapedCase, SplitCycleCase,
+    StartCase, TableCase, WingMotionCase,
 };
 pub use open::Open;
 pub use wake::{FrictionCase, ParticlesCase, SectionDragCase};

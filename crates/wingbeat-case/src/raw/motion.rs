@@ -144,6 +144,8 @@ pub enum AngleCase {
     SmoothSquare(ShapedCase),
     /// Berman & Wang's deviation, `count` oscillations a beat.
     Oval(OvalCase),
+    /// Split-cycle strokes (Doman et al. 2009): half strokes of unequal length.
+    SplitCycle(SplitCycleCase),
     /// Samples over one beat, joined by a periodic cubic spline.
     Table(TableCase),
 }
@@ -215,6 +217,36 @@ pub struct OvalCase {
     /// Change it to what was measured.
     #[serde(default)]
     pub mean_deg: f64,
+}
+
+/// A cosine from `mean + amplitude` to `mean - amplitude` in the first part of the beat and back in the rest.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct SplitCycleCase {
+    /// Amplitude.
+    ///
+    /// Change it to that of the stroke; negative begins at the other end.
+    pub amplitude_deg: f64,
+    /// Part of the beat that the first half stroke takes; 0.5 is a cosine.
+    ///
+    /// Change it to steer: the quicker half stroke drags more.
+    #[schemars(extend("exclusiveMinimum" = 0, "exclusiveMaximum" = 1))]
+    #[serde(default = "half")]
+    pub first_share: f64,
+    /// Phase shift.
+    ///
+    /// Change it to begin at another instant.
+    #[serde(default)]
+    pub shift_deg: f64,
+    /// Mean.
+    ///
+    /// Change it to move the stroke forward or backward.
+    #[serde(default)]
+    pub mean_deg: f64,
+}
+
+fn half() -> f64 {
+    0.5
 }
 
 /// Samples over one beat; the last row repeats the first value one beat later.

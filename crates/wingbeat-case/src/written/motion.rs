@@ -7,7 +7,7 @@ use wingbeat_model::{AngleLaw, Animal, Deformation, Start, WingMotion};
 use super::refusal::{Written, no_keys};
 use crate::raw::{
     AngleCase, BendingCase, CamberCase, CourseCase, DeformationCase, FourierCase, MotionCase,
-    OvalCase, ShapedCase, StartCase, TableCase, TwistCase, WingMotionCase,
+    OvalCase, ShapedCase, SplitCycleCase, StartCase, TableCase, TwistCase, WingMotionCase,
 };
 
 /// What all wings share: frequency and start.
@@ -85,6 +85,12 @@ fn angle(law: &AngleLaw) -> AngleCase {
             count: o.count,
             shift_deg: o.shift.to_degrees(),
             mean_deg: o.mean.to_degrees(),
+        }),
+        AngleLaw::SplitCycle(s) => AngleCase::SplitCycle(SplitCycleCase {
+            amplitude_deg: s.amplitude.to_degrees(),
+            first_share: s.first_share,
+            shift_deg: s.shift.to_degrees(),
+            mean_deg: s.mean.to_degrees(),
         }),
         AngleLaw::Table(spline) => {
             let row = |(x, q): (f64, f64)| [x, q.to_degrees()];

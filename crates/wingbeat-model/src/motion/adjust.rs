@@ -12,6 +12,7 @@ impl AngleLaw {
             AngleLaw::SmoothTriangle(law) => law.mean,
             AngleLaw::SmoothSquare(law) => law.mean,
             AngleLaw::Oval(law) => law.mean,
+            AngleLaw::SplitCycle(law) => law.mean,
             AngleLaw::Table(law) => law.mean(),
         }
     }
@@ -25,6 +26,7 @@ impl AngleLaw {
             AngleLaw::SmoothTriangle(law) => law.mean += offset,
             AngleLaw::SmoothSquare(law) => law.mean += offset,
             AngleLaw::Oval(law) => law.mean += offset,
+            AngleLaw::SplitCycle(law) => law.mean += offset,
             AngleLaw::Table(law) => *law = law.raised(offset),
         }
         law
@@ -34,6 +36,16 @@ impl AngleLaw {
     pub fn amplified(&self, factor: f64) -> Self {
         let mean = self.mean();
         self.raised(-mean).scaled(factor).raised(mean)
+    }
+
+    /// The law with `more` of the beat given to its first half stroke: of split-cycle strokes; others have no such
+    /// share and stay as they are.
+    pub fn split_by(&self, more: f64) -> Self {
+        let mut law = self.clone();
+        if let AngleLaw::SplitCycle(law) = &mut law {
+            law.first_share += more;
+        }
+        law
     }
 
     /// The law `q(x + lead)`, lead in wingbeats.
@@ -46,6 +58,7 @@ impl AngleLaw {
             AngleLaw::SmoothTriangle(law) => law.shift += turn,
             AngleLaw::SmoothSquare(law) => law.shift += turn,
             AngleLaw::Oval(law) => law.shift += turn * law.count as f64,
+            AngleLaw::SplitCycle(law) => law.shift += turn,
             AngleLaw::Table(law) => *law = law.advanced(lead),
         }
         law

@@ -8,6 +8,7 @@ pub mod adjust;
 pub mod berman_wang;
 pub mod fourier;
 pub mod spline;
+pub mod split_cycle;
 pub mod start;
 mod wing_motion;
 
@@ -15,5 +16,6 @@ pub use adjust::Adjustment;
 pub use berman_wang::{Oval, SmoothSquare, SmoothTriangle};
 pub use fourier::Fourier;
 pub use spline::PeriodicSpline;
+pub use split_cycle::SplitCycle;
 pub use start::Start;
 pub use wing_motion::{AngleLaw, AngleLaws, WingMotion, wing_rotation};

@@ -4,6 +4,7 @@ use crate::error::{ModelError, finite, require};
 use crate::motion::berman_wang::{Oval, SmoothSquare, SmoothTriangle};
 use crate::motion::fourier::Fourier;
 use crate::motion::spline::PeriodicSpline;
+use crate::motion::split_cycle::SplitCycle;
 use crate::motion::start::Start;
 use std::f64::consts::TAU;
 use wingbeat_math::{MovingRotation, RotationLaw};
@@ -21,6 +22,8 @@ pub enum AngleLaw {
     SmoothSquare(SmoothSquare),
     /// Berman & Wang's deviation angle, N oscillations per beat.
     Oval(Oval),
+    /// Half strokes of unequal length.
+    SplitCycle(SplitCycle),
     /// Table of samples, periodic cubic spline.
     Table(PeriodicSpline),
 }
@@ -39,6 +42,7 @@ impl AngleLaw {
             AngleLaw::SmoothTriangle(law) => law.at(x),
             AngleLaw::SmoothSquare(law) => law.at(x),
             AngleLaw::Oval(law) => law.at(x),
+            AngleLaw::SplitCycle(law) => law.at(x),
             AngleLaw::Table(law) => law.at(x),
         }
     }
@@ -51,6 +55,7 @@ impl AngleLaw {
             AngleLaw::SmoothTriangle(law) => AngleLaw::SmoothTriangle(law.scaled(factor)),
             AngleLaw::SmoothSquare(law) => AngleLaw::SmoothSquare(law.scaled(factor)),
             AngleLaw::Oval(law) => AngleLaw::Oval(law.scaled(factor)),
+            AngleLaw::SplitCycle(law) => AngleLaw::SplitCycle(law.scaled(factor)),
             AngleLaw::Table(law) => AngleLaw::Table(law.scaled(factor)),
         }
     }
@@ -62,6 +67,7 @@ impl AngleLaw {
             AngleLaw::SmoothTriangle(law) => law.check(key),
             AngleLaw::SmoothSquare(law) => law.check(key),
             AngleLaw::Oval(law) => law.check(key),
+            AngleLaw::SplitCycle(law) => law.check(key),
             AngleLaw::Table(_) => Ok(()), // checked when it was made
         }
     }

@@ -4,7 +4,9 @@ use crate::gap;
 use std::f64::consts::{FRAC_PI_2, TAU};
 use wingbeat_math::{DMat3, DVec3, RotationLaw, r1, r2, r3};
 use wingbeat_model::kinematics::{self, Timing};
-use wingbeat_model::motion::{Fourier, Oval, PeriodicSpline, SmoothSquare, SmoothTriangle};
+use wingbeat_model::motion::{
+    Fourier, Oval, PeriodicSpline, SmoothSquare, SmoothTriangle, SplitCycle,
+};
 use wingbeat_model::{AngleLaw, AngleLaws, Side, Start, WingMotion};
 
 fn laws() -> Vec<AngleLaw> {
@@ -35,6 +37,12 @@ fn laws() -> Vec<AngleLaw> {
             count: 2,
             shift: 0.7,
             mean: 0.05,
+        }),
+        AngleLaw::SplitCycle(SplitCycle {
+            amplitude: 0.6,
+            first_share: 0.46,
+            shift: 0.5,
+            mean: -0.1,
         }),
         AngleLaw::Table(PeriodicSpline::new("table", &samples(40)).unwrap()),
     ]
@@ -100,6 +108,48 @@ fn exact_laws_have_period_one_and_scale() {
             }
         }
     }
+}
+
+#[test]
+fn exact_split_cycle_is_the_two_cosines_of_the_paper() {
+    // Doman et al.: cos((w - d) t), then cos((w + s) t + xi) with s = d w / (w - 2 d), xi = -2 pi d / (w - 2 d).
+    let (w, d) = (TAU, 0.07 * TAU);
+    let (s, xi) = (d * w / (w - 2.0 * d), -TAU * d / (w - 2.0 * d));
+    let law = SplitCycle {
+        amplitude: 1.0,
+        first_share: 0.5 * w / (w - d),
+        shift: 0.0,
+        mean: 0.0,
+    };
+    let turned = law.first_share;
+    for k in 0..200 {
+        let x = k as f64 / 200.0;
+        let (rate, phase) = if x < turned {
+            (w - d, 0.0)
+        } else {
+            (w + s, xi)
+        };
+        let (sin, cos) = (rate * x + phase).sin_cos();
+        let expected = [cos, -rate * sin, -rate * rate * cos];
+        for (a, b) in law.at(x).into_iter().zip(expected) {
+            assert!((a - b).abs() < 1e-12 * TAU * TAU, "{x}: {a} {b}"); // roundings of the phase
+        }
+    }
+    // Once continuously differentiable: no jump of angle or rate at the reversals.
+    for (before, after) in [(turned - 1e-9, turned + 1e-9), (1.0 - 1e-9, 1e-9)] {
+        let (a, b) = (law.at(before), law.at(after));
+        assert!((a[0] - b[0]).abs() < 1e-12 && (a[1] - b[1]).abs() < 1e-6);
+    }
+    // Half strokes of equal length are a cosine; the mean does not depend on the split.
+    let law = AngleLaw::SplitCycle(law);
+    let even = law.split_by(0.5 - turned);
+    assert!((even.at(0.3)[0] - (0.3 * TAU).cos()).abs() < 1e-14);
+    let samples = 100_000;
+    let sum: f64 = (0..samples)
+        .map(|k| law.at((k as f64 + 0.5) / samples as f64)[0])
+        .sum();
+    // The midpoint rule where the second derivative jumps: error h^2.
+    assert!((sum / samples as f64 - law.mean()).abs() < 1e-9);
 }
 
 #[test]
