@@ -64,7 +64,7 @@ pub use lattice::Lattice;
 pub use loads::{AirLoads, SurfaceLoads};
 pub use settings::{
     AirSettings, CirculationRate, Convection, Friction, Gust, GustShape, LeadingEdge, LoadMethod,
-    NewestRow, ParticleSettings, SectionDrag, Wind,
+    NewestRow, ParticleSettings, SectionDrag, Spectrum, Turbulence, Wind,
 };
 pub use state::{AirState, Particles, WakeEvents, WakeSheet};
 pub use wake::Filaments;

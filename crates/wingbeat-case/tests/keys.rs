@@ -140,6 +140,7 @@ const SITES: &[Site] = &[
 /// Tables in lists: they are written out.
 const LISTED: &[(&str, &str)] = &[
     ("GustCase", "[[air.gust]]\n"),
+    ("TurbulenceCase", "[[air.gust]]\n[air.gust.turbulence]\n"),
     ("LoadCase", "[[load]]\n"),
     ("TwistCase", "[[wing.right.deformation.twist]]\n"),
     ("CamberCase", "[[wing.right.deformation.camber]]\n"),

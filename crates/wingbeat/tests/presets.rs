@@ -104,7 +104,12 @@ fn exact_every_reader_takes_an_animal_with_joints() {
     let names: Vec<&str> = nodes.iter().map(|n| n["name"].as_str().unwrap()).collect();
     // The node behind them magnifies them all.
     let (magnifier, bodies) = names.split_last().unwrap();
+    let (bodies, wakes) = bodies.split_at(5);
     assert_eq!(bodies, ["body", "left", "right", "abdomen", "head"]);
+    assert!(
+        wakes.iter().all(|name| name.starts_with("wake at")),
+        "{wakes:?}"
+    );
     assert!(magnifier.ends_with("times larger"), "{magnifier}");
     assert!(nodes[..5].iter().all(|n| n["mesh"].is_number()));
 }

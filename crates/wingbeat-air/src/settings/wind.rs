@@ -1,6 +1,7 @@
 //! The undisturbed air: uniform stream, steady shear, gusts.
 
 use crate::error::{AirError, require};
+use crate::settings::turbulence::Turbulence;
 use wingbeat_math::{DMat3, DVec3, interpolate};
 
 /// How a gust rises and falls with its own time tau [s]: the share of its amplitude.
@@ -14,6 +15,9 @@ pub enum GustShape {
     /// Straight lines between (tau [s], share); nothing before the first row, the last value after
     /// the last one.
     Table(Vec<(f64, f64)>),
+    /// Turbulence of the amplitude as root mean square, from the start on; a front that travels carries it along, frozen
+    /// [Taylor 1938].
+    Turbulence(Turbulence),
 }
 
 /// A gust: `amplitude x shape(t - start - slowness . x)`.
@@ -44,6 +48,8 @@ impl GustShape {
             }
             Self::OneMinusCosine { .. } => 0.0,
             Self::Table(rows) => table(rows, tau),
+            Self::Turbulence(air) if tau >= 0.0 => air.at(tau),
+            Self::Turbulence(_) => 0.0,
         }
     }
 }
@@ -100,6 +106,7 @@ impl Wind {
                     "a time in s above 0",
                 )?,
                 GustShape::Table(rows) => check_table(gust, rows)?,
+                GustShape::Turbulence(_) => {} // checked when it is made
             }
         }
         Ok(())

@@ -1,12 +1,12 @@
 //! `[[air.gust]]`, `air.shear_1_s` and `[air.ground]`.
 
-use wingbeat_air::{Gust, GustShape, Plane, Wind};
+use wingbeat_air::{Gust, GustShape, Plane, Turbulence, Wind};
 use wingbeat_math::{DMat3, DVec3};
 
 use super::fault::Built;
 use super::numbers::vector;
 use crate::error::Fault;
-use crate::raw::{AirCase, GroundCase, GustCase};
+use crate::raw::{AirCase, GroundCase, GustCase, TurbulenceCase};
 
 /// What is added to the stream.
 pub(super) fn wind(case: &AirCase) -> Built<Wind> {
@@ -23,18 +23,19 @@ pub(super) fn wind(case: &AirCase) -> Built<Wind> {
 
 fn gust((k, case): (usize, &GustCase)) -> Built<Gust> {
     let path = format!("air.gust[{k}]");
-    let shape = match (case.duration_s, &case.table) {
-        (Some(duration), _) => GustShape::OneMinusCosine { duration },
-        (None, Some(rows)) => {
+    let shape = match (case.duration_s, &case.table, case.turbulence) {
+        (Some(duration), None, None) => GustShape::OneMinusCosine { duration },
+        (None, Some(rows), None) => {
             rising(&path, rows)?;
             GustShape::Table(rows.clone())
         }
-        (None, None) => {
+        (None, None, Some(t)) => GustShape::Turbulence(turbulence(&path, t)?),
+        _ => {
             return Err(Fault::new(
                 path,
-                "a gust has a duration or a table",
-                "duration_s or table",
-                "give one of the two",
+                "a gust has a duration, a table or turbulence",
+                "one of duration_s, table and turbulence",
+                "give one of the three",
             ));
         }
     };
@@ -54,6 +55,18 @@ fn gust((k, case): (usize, &GustCase)) -> Built<Gust> {
         start: case.start_s,
         slowness: front.map_or(DVec3::ZERO, |u| u / u.length_squared()),
         shape,
+    })
+}
+
+fn turbulence(path: &str, case: TurbulenceCase) -> Built<Turbulence> {
+    let made = Turbulence::new(case.spectrum, case.time_scale_s, case.seed);
+    made.map_err(|_| {
+        Fault::new(
+            format!("{path}.turbulence.time_scale_s"),
+            format!("{} s is no time scale", case.time_scale_s),
+            "a time above 0",
+            "length scale over speed, e.g. 0.1",
+        )
     })
 }
 

@@ -54,7 +54,7 @@ pub use motion::{
 };
 pub use open::Open;
 pub use wake::{FrictionCase, ParticlesCase, SectionDragCase};
-pub use wind::{GroundCase, GustCase};
+pub use wind::{GroundCase, GustCase, TurbulenceCase};
 pub use wing::{BetaCase, OutlineCase, PlanformCase, RectangleCase, WingCase, WingMeshCase};
 
 use std::collections::BTreeMap;

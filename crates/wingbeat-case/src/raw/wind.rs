@@ -2,8 +2,9 @@
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use wingbeat_air::Spectrum;
 
-/// A gust: amplitude times a function of time, given by `duration_s` or `table`.
+/// A gust: amplitude times a function of time, given by `duration_s`, `table` or `turbulence`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct GustCase {
@@ -33,6 +34,33 @@ pub struct GustCase {
     #[schemars(length(min = 2), extend("or" = "duration_s"))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub table: Option<Vec<(f64, f64)>>,
+    /// Turbulence, the amplitude its root mean square.
+    ///
+    /// Change it to fly in rough air.
+    #[schemars(extend("or" = ["duration_s", "table"]))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub turbulence: Option<TurbulenceCase>,
+}
+
+/// Turbulence of one direction as a sum of waves with a given spectrum.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct TurbulenceCase {
+    /// Spectrum, of the component along the motion through the air or across it.
+    ///
+    /// Change it to the spectrum that is asked for.
+    #[serde(default)]
+    pub spectrum: Spectrum,
+    /// Length scale of the turbulence over the speed with which the animal meets it.
+    ///
+    /// Change it to meet the slow or the fast modes of flight.
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub time_scale_s: f64,
+    /// Number from which the waves are drawn: the same air for the same seed.
+    ///
+    /// Change it for other air of the same kind, and for the other directions of the same air.
+    #[serde(default)]
+    pub seed: u64,
 }
 
 /// A plane through which no air goes; animal and wake stay on one side.

@@ -2,7 +2,7 @@
 
 use wingbeat_air::{
     AirSettings, CoreModel, EdgeKind, Friction, Gust, GustShape, LeadingEdge, Method, NewestRow,
-    ParticleSettings, Plane, SectionDrag, Wind,
+    ParticleSettings, Plane, SectionDrag, Turbulence, Wind,
 };
 use wingbeat_blade::{BladeSettings, Rotation, SETS, Translation};
 use wingbeat_flight::{AirModel, AirOptions, BladeOptions};
@@ -12,7 +12,7 @@ use super::refusal::{Written, no_keys};
 use crate::raw::{
     AirCase, AirModel as Model, BladeCase, BodyDragCase, CoreCase, CutOffCase, FrictionCase,
     GroundCase, GustCase, LambOseenCase, LeadingEdgeCase, OwnCoefficients, ParticlesCase,
-    RadiusCase, RotationCase, SchemeCase, SectionDragCase, ViscousCase,
+    RadiusCase, RotationCase, SchemeCase, SectionDragCase, TurbulenceCase, ViscousCase,
 };
 
 /// The air of the flight, lengths in metres.
@@ -48,9 +48,23 @@ fn gust(gust: &Gust) -> GustCase {
         slowness,
         shape,
     } = gust;
-    let (duration_s, table) = match shape {
-        GustShape::OneMinusCosine { duration } => (Some(*duration), None),
-        GustShape::Table(rows) => (None, Some(rows.clone())),
+    let (duration_s, table, turbulence) = match shape {
+        GustShape::OneMinusCosine { duration } => (Some(*duration), None, None),
+        GustShape::Table(rows) => (None, Some(rows.clone()), None),
+        GustShape::Turbulence(air) => {
+            let Turbulence {
+                spectrum,
+                time_scale,
+                seed,
+                ..
+            } = *air;
+            let turbulence = TurbulenceCase {
+                spectrum,
+                time_scale_s: time_scale,
+                seed,
+            };
+            (None, None, Some(turbulence))
+        }
     };
     let front = (*slowness != DVec3::ZERO).then(|| *slowness / slowness.length_squared());
     GustCase {
@@ -59,6 +73,7 @@ fn gust(gust: &Gust) -> GustCase {
         front_m_s: front.map(|u| u.to_array()),
         duration_s,
         table,
+        turbulence,
     }
 }
 

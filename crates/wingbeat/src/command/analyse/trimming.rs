@@ -212,7 +212,7 @@ pub(crate) fn trimmed_with_wake(
     let beats = settings.held_beats + 1;
     name_program(&case);
     tell!(
-        "{}: trimming in air with memory, some 20 to 60 flights of {beats} wingbeats; this takes minutes",
+        "{}: trimming in air with memory, some 10 to 30 flights of {beats} wingbeats; this takes minutes",
         case.name,
     );
     let found = watched("trimming", || {

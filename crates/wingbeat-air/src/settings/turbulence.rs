@@ -1,0 +1,219 @@
+//! Turbulence as a sum of waves with a given spectrum, by seed.
+//!
+//! Of one component of velocity, over its root mean square, with T the time in which the air carries a length scale
+//! past (L / V of the flight-mechanics specifications), one-sided in omega [rad/s], `integral S d omega = 1`
+//! [MIL-F-8785C, sec. 3.7]:
+//!
+//! | spectrum | along the motion | across it |
+//! |---|---|---|
+//! | Dryden | `(2 T / pi) / (1 + x^2)`, x = omega T | `(T / pi) (1 + 3 x^2) / (1 + x^2)^2` |
+//! | von Karman | `(2 T / pi) / (1 + y^2)^(5/6)`, y = 1.339 x | `(T / pi) (1 + 8/3 y^2) / (1 + y^2)^(11/6)` |
+//!
+//! Waves stand one in each of equal bins of log omega, at a place in its bin and with a phase that the seed draws, and
+//! carry the variance of their bin: the same seed gives the same air, bit for bit, at any time and place and on any
+//! number of threads, for the sum has no memory.
+
+use std::f64::consts::{PI, TAU};
+
+use crate::error::{AirError, require};
+
+/// Which spectrum, and of which component.
+#[derive(
+    Clone,
+    Copy,
+    Debug,
+    Default,
+    PartialEq,
+    Eq,
+    serde::Serialize,
+    serde::Deserialize,
+    schemars::JsonSchema,
+)]
+#[serde(rename_all = "snake_case")]
+pub enum Spectrum {
+    /// Dryden, component along the motion.
+    DrydenAlong,
+    /// Dryden, component across it.
+    #[default]
+    DrydenAcross,
+    /// Von Karman, component along the motion.
+    VonKarmanAlong,
+    /// Von Karman, component across it.
+    VonKarmanAcross,
+}
+
+/// Bins of log omega, from [`BAND`].0 / T to [`BAND`].1 / T.
+const WAVES: usize = 64;
+/// Ends of the band over 1 / T. Below it are 0.6 % of the variance (across, Dryden), carried by the first wave; above
+/// it 0.6 % (along, Dryden) to 3 % (von Karman), left out.
+const BAND: (f64, f64) = (0.01, 100.0);
+
+/// Turbulent course of one component over its root mean square.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Turbulence {
+    /// The spectrum.
+    pub spectrum: Spectrum,
+    /// Time scale T [s].
+    pub time_scale: f64,
+    /// The seed.
+    pub seed: u64,
+    /// Omega [rad/s], amplitude \[1\] and phase \[rad\] of every wave.
+    waves: Vec<[f64; 3]>,
+}
+
+impl Spectrum {
+    /// `S / T` at x = omega T, one-sided, of unit variance.
+    pub fn density(self, x: f64) -> f64 {
+        let y = 1.339 * x;
+        match self {
+            Self::DrydenAlong => 2.0 / PI / (1.0 + x * x),
+            Self::DrydenAcross => (1.0 + 3.0 * x * x) / (1.0 + x * x).powi(2) / PI,
+            Self::VonKarmanAlong => 2.0 / PI / (1.0 + y * y).powf(5.0 / 6.0),
+            Self::VonKarmanAcross => {
+                (1.0 + 8.0 / 3.0 * y * y) / (1.0 + y * y).powf(11.0 / 6.0) / PI
+            }
+        }
+    }
+
+    /// Variance between the x = omega T of a bin: Simpson's rule over log x, error 1e-6.
+    fn variance(self, [from, to]: [f64; 2]) -> f64 {
+        const PARTS: usize = 8;
+        let (start, step) = (from.ln(), (to / from).ln() / PARTS as f64);
+        let at = |k: usize| {
+            let x = (start + step * k as f64).exp();
+            let weight = match k {
+                0 | PARTS => 1.0,
+                _ if k % 2 == 1 => 4.0,
+                _ => 2.0,
+            };
+            weight * x * self.density(x)
+        };
+        step / 3.0 * (0..=PARTS).map(at).sum::<f64>()
+    }
+}
+
+/// Numbers in [0, 1) from a seed [Steele, Lea & Flood 2014, SplitMix64].
+struct Draw(u64);
+
+impl Draw {
+    fn next(&mut self) -> f64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
+    }
+}
+
+impl Turbulence {
+    /// Turbulence of this spectrum with the time scale `time_scale` [s].
+    ///
+    /// # Errors
+    /// A time scale that is not above 0.
+    pub fn new(spectrum: Spectrum, time_scale: f64, seed: u64) -> Result<Self, AirError> {
+        let allowed = "a time in s above 0";
+        let is_time = time_scale.is_finite() && time_scale > 0.0;
+        require(is_time, "turbulence time scale", time_scale, allowed)?;
+        let mut draw = Draw(seed);
+        let ratio = (BAND.1 / BAND.0).powf(1.0 / WAVES as f64);
+        let wave = |k: usize| {
+            let from = BAND.0 * ratio.powi(k as i32);
+            let below = if k == 0 {
+                from * spectrum.density(0.0)
+            } else {
+                0.0
+            };
+            let variance = below + spectrum.variance([from, from * ratio]);
+            let x = from * ratio.powf(draw.next());
+            [x / time_scale, (2.0 * variance).sqrt(), TAU * draw.next()]
+        };
+        Ok(Self {
+            spectrum,
+            time_scale,
+            seed,
+            waves: (0..WAVES).map(wave).collect(),
+        })
+    }
+
+    /// Share of the root mean square at the time `tau` [s].
+    pub fn at(&self, tau: f64) -> f64 {
+        let wave = |[omega, amplitude, phase]: &[f64; 3]| amplitude * (omega * tau + phase).cos();
+        self.waves.iter().map(wave).sum()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const T: f64 = 0.3;
+
+    fn drawn(spectrum: Spectrum) -> impl Iterator<Item = Turbulence> {
+        (0..400).map(move |seed| Turbulence::new(spectrum, T, seed).unwrap())
+    }
+
+    /// Mean over seeds of the product of the velocities at two times, from the waves as they run.
+    fn correlation(spectrum: Spectrum, lag: f64) -> f64 {
+        let products = drawn(spectrum).map(|air| {
+            let times = (0..20).map(|k| 7.3 * T * k as f64);
+            times.map(|t| air.at(t) * air.at(t + lag)).sum::<f64>() / 20.0
+        });
+        products.sum::<f64>() / 400.0
+    }
+
+    #[test]
+    fn published_correlations_of_dryden_turbulence_are_exponentials() {
+        for lag in [0.0, 0.25, 0.5, 1.0, 2.0, 3.0] {
+            let fade = f64::exp(-lag);
+            for (spectrum, exact) in [
+                (Spectrum::DrydenAlong, fade),
+                (Spectrum::DrydenAcross, (1.0 - 0.5 * lag) * fade),
+            ] {
+                let found = correlation(spectrum, lag * T);
+                println!("{spectrum:?} {lag}: {found:.4}, {exact:.4}");
+                // 8000 products of unit variance, correlated over some T: 2 % each way.
+                assert!((found - exact).abs() < 0.05, "{spectrum:?} {lag}");
+            }
+        }
+    }
+
+    #[test]
+    fn exact_spectra_have_unit_variance_and_their_bins_share_it() {
+        for (spectrum, above) in [
+            (Spectrum::DrydenAlong, 0.0064),
+            (Spectrum::DrydenAcross, 0.0096),
+            (Spectrum::VonKarmanAlong, 0.036),
+            (Spectrum::VonKarmanAcross, 0.047),
+        ] {
+            for air in drawn(spectrum).take(5) {
+                let of = |from: f64, to: f64| -> f64 {
+                    let inside = |w: &&[f64; 3]| (from..to).contains(&(w[0] * T));
+                    air.waves
+                        .iter()
+                        .filter(inside)
+                        .map(|w| 0.5 * w[1] * w[1])
+                        .sum()
+                };
+                let all = of(0.0, f64::INFINITY);
+                assert!((1.0 - all - above).abs() < 0.004, "{spectrum:?}: {all}");
+            }
+        }
+        // Dryden along: (2 / pi) (atan b - atan a) between two frequencies, here of four bins each way.
+        let air = Turbulence::new(Spectrum::DrydenAlong, T, 1).unwrap();
+        let edge = |k: i32| BAND.0 * (BAND.1 / BAND.0).powf(f64::from(k) / WAVES as f64);
+        for k in [8, 20, 32, 44] {
+            let [a, b] = [edge(k), edge(k + 4)];
+            let waves = &air.waves[k as usize..k as usize + 4];
+            let found: f64 = waves.iter().map(|w| 0.5 * w[1] * w[1]).sum();
+            let exact = 2.0 / PI * (b.atan() - a.atan());
+            assert!((found / exact - 1.0).abs() < 1e-5, "{found} {exact}");
+        }
+    }
+
+    #[test]
+    fn invariant_the_same_seed_gives_the_same_air() {
+        let make = |seed| Turbulence::new(Spectrum::VonKarmanAcross, T, seed).unwrap();
+        assert_eq!(make(5), make(5));
+        assert_ne!(make(5).at(0.7), make(6).at(0.7));
+    }
+}
