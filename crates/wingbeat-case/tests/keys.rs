@@ -140,7 +140,10 @@ const SITES: &[Site] = &[
 /// Tables in lists: they are written out.
 const LISTED: &[(&str, &str)] = &[
     ("GustCase", "[[air.gust]]\n"),
-    ("TurbulenceCase", "[[air.gust]]\n[air.gust.turbulence]\n"),
+    (
+        "TurbulenceCase",
+        "[[air.gust]]\namplitude_m_s = [0, 0, 1]\n[air.gust.turbulence]\n",
+    ),
     ("LoadCase", "[[load]]\n"),
     ("TwistCase", "[[wing.right.deformation.twist]]\n"),
     ("CamberCase", "[[wing.right.deformation.camber]]\n"),

@@ -86,7 +86,7 @@ mod tests {
     fn limit_smooth_forces_do_not_alternate_and_growing_zigzags_do() {
         let smooth = |k: usize| (0.1 * k as f64).sin();
         assert_eq!(longest(smooth, 1), 0);
-        let zigzag = |k: usize| if k % 2 == 0 { 1.0 } else { -1.0 };
+        let zigzag = |k: usize| if k.is_multiple_of(2) { 1.0 } else { -1.0 };
         let growing = |k: usize| smooth(k) + 1e-6 * 1.05_f64.powi(k as i32) * zigzag(k);
         assert!(longest(growing, 1) > 50);
         assert_eq!(longest(|k| smooth(k) + 0.005 * zigzag(k), 1), 0); // less than counts
