@@ -15,8 +15,8 @@ use crate::departure::{Limits, Reference};
 use crate::regulator::{Regulator, Weights};
 use crate::sensors::Sensors;
 use crate::stabiliser::{ProportionalDerivative, Stiffness};
-use crate::trim::{Trim, TrimProblem, TrimSettings, trim};
-use crate::unknown::Unknown;
+use crate::steady::TrimProblem;
+use crate::trim::{Trim, trim};
 
 /// Which law, and how it is laid out.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -67,16 +67,7 @@ impl Design {
             MotionMode::Free(start) => start.angles.x,
             MotionMode::Tethered(motion) => motion.angles[0].constant,
         };
-        let problem = TrimProblem {
-            unknowns: [
-                Unknown::BodyPitch,
-                Unknown::StrokeAmplitude,
-                Unknown::StrokeOffset,
-            ],
-            velocity: self.velocity,
-            body_pitch,
-            settings: TrimSettings::default(),
-        };
+        let problem = TrimProblem::straight(self.velocity, body_pitch);
         let plain = FlightSetup {
             air: AirModel::BladeElement(self.air.clone()),
             loads: vec![],

@@ -6,6 +6,7 @@ use wingbeat_math::DVec3;
 
 use crate::AnalysisError;
 use crate::progress;
+use crate::trim::Trim;
 use crate::wake::WakeTrim;
 
 /// Part of the peak by which powers of successive beats may differ for the motion to count as periodic.
@@ -90,20 +91,36 @@ pub fn power(setup: &FlightSetup) -> Result<Power, AnalysisError> {
     Ok(last)
 }
 
+/// Powers of a trimmed flight in air without memory: of straight flight those of [`Trim::tethered`], of a turn those
+/// over its free wingbeat.
+///
+/// # Errors
+/// As [`power`].
+pub fn power_of_trim(trim: &Trim) -> Result<Power, AnalysisError> {
+    match trim.turn_rate {
+        0.0 => power(&trim.tethered()?),
+        _ => over_free_beat(&trim.free(), 0),
+    }
+}
+
 /// Powers over the free wingbeat of a flight that was trimmed in air with memory.
 ///
 /// # Errors
 /// What the flight reports.
 pub fn power_with_wake(trim: &WakeTrim) -> Result<Power, AnalysisError> {
-    let held = trim.start().held_steps;
-    let mechanism = Mechanism::of(&system_of(&trim.setup)?);
-    let mut flight = Simulation::new(trim.setup.clone())?;
+    over_free_beat(&trim.setup, trim.start().held_steps)
+}
+
+/// Powers over a free flight after `held` steps.
+fn over_free_beat(setup: &FlightSetup, held: usize) -> Result<Power, AnalysisError> {
+    let mechanism = Mechanism::of(&system_of(setup)?);
+    let mut flight = Simulation::new(setup.clone())?;
     for step in 0..held {
-        progress::task("power", step, trim.setup.time.steps);
+        progress::task("power", step, setup.time.steps);
         flight.step()?;
     }
-    let mut found = over_beat(&mechanism, &mut flight, trim.setup.time.steps - held)?;
-    found.mass = trim.setup.animal.mass();
+    let mut found = over_beat(&mechanism, &mut flight, setup.time.steps - held)?;
+    found.mass = setup.animal.mass();
     Ok(found)
 }
 

@@ -1,6 +1,6 @@
 //! Linear models of flight: averaged over the beat, and Floquet's.
 
-use wingbeat_math::{DMat3, DQuat, DVec3};
+use wingbeat_math::{DMat3, DQuat, DVec3, r3};
 
 use crate::AnalysisError;
 use crate::beat::{Beat, JOINTS, State};
@@ -10,6 +10,8 @@ use crate::level::{Level, Perturbation};
 use crate::mean::MeanLoad;
 use crate::modes::{ModeSet, Scales};
 use crate::monodromy::monodromy;
+use crate::trim::Trim;
+
 /// Names of the six loads.
 pub const LOADS: [&str; 6] = ["X", "Y", "Z", "L", "M", "N"];
 
@@ -154,17 +156,27 @@ fn load_derivatives(
 /// # Errors
 /// Numbers that are not finite.
 pub fn orbit_monodromy(beat: &Beat, state: &State) -> Result<Vec<f64>, AnalysisError> {
+    turning_monodromy(beat, state, 0.0)
+}
+
+/// The same of an orbit that has turned by `turned` \[rad\] about n3 after a beat, seen from axes that turn with it.
+fn turning_monodromy(beat: &Beat, state: &State, turned: f64) -> Result<Vec<f64>, AnalysisError> {
     let level = Level::new(beat.root(state).r, beat.gravity());
-    let seen = |y: &[f64]| {
-        let mut x = Perturbation::of(beat, &level, y).to_array().to_vec();
+    let ahead = Level {
+        to_n: r3(turned) * level.to_n,
+        ..level
+    };
+    let seen = |level: &Level, y: &[f64]| {
+        let mut x = Perturbation::of(beat, level, y).to_array().to_vec();
         x.extend_from_slice(&y[JOINTS..]);
         x
     };
     let map = |x: &[f64]| -> Result<Vec<f64>, AnalysisError> {
         let start = Perturbation::from_array(x[..9].try_into().expect("nine components"));
-        Ok(seen(&beat.advance(&start.state(beat, &level, &x[9..]))?))
+        let end = beat.advance(&start.state(beat, &level, &x[9..]))?;
+        Ok(seen(&ahead, &end))
     };
-    let x = seen(state);
+    let x = seen(&level, state);
     let steps: Vec<f64> = orbit_scales(beat).iter().map(|s| 1e-4 * s).collect();
     monodromy(map, &x, &steps)
 }
@@ -182,9 +194,22 @@ fn orbit_scales(beat: &Beat) -> Vec<f64> {
 /// # Errors
 /// Numbers that are not finite.
 pub fn floquet(beat: &Beat, state: &State) -> Result<ModeSet, AnalysisError> {
-    let m = orbit_monodromy(beat, state)?;
-    let n = 9 + state.len() - JOINTS;
-    let pairs = eigen(&m, n)?;
+    multiplied(beat, &orbit_monodromy(beat, state)?)
+}
+
+/// Floquet's modes of a trimmed flight, straight or in a steady turn: that is periodic in axes that turn with it.
+///
+/// # Errors
+/// Numbers that are not finite.
+pub fn floquet_of_trim(trim: &Trim) -> Result<ModeSet, AnalysisError> {
+    let turned = trim.turn_rate * trim.beat.period();
+    let m = turning_monodromy(&trim.beat, &trim.state, turned)?;
+    multiplied(&trim.beat, &m)
+}
+
+fn multiplied(beat: &Beat, m: &[f64]) -> Result<ModeSet, AnalysisError> {
+    let n = 9 + beat.joints_at_start().len();
+    let pairs = eigen(m, n)?;
     Ok(ModeSet::of_multipliers(
         pairs,
         &scales(beat),

@@ -10,9 +10,11 @@ use wingbeat_math::DVec3;
 
 use crate::AnalysisError;
 use crate::plausibility::stroke_amplitude;
-use crate::power::{Power, power};
+use crate::power::{Power, power_of_trim};
 use crate::progress;
-use crate::trim::{Trim, TrimProblem, trim, trim_from};
+use crate::steady::TrimProblem;
+use crate::trim::{Trim, trim, trim_from};
+use crate::unknown::Unknown;
 
 /// A trimmed flight of a sweep.
 #[derive(Clone, Debug)]
@@ -41,6 +43,8 @@ pub struct Sweep {
 pub enum Lost {
     /// No point there has residuals within the tolerance; the largest of the best, if one was finite.
     NotTrimmed(Option<f64>),
+    /// This unknown would lie outside the bounds of the problem.
+    Bound(Unknown),
     /// The first wing would stroke over more than half a circle \[rad\]: right and left wings pass through each other.
     Stroke(f64),
 }
@@ -94,7 +98,11 @@ pub fn sweep(
                     found.lost = Some((velocity, Lost::Stroke(stroke_amplitude)));
                     break;
                 }
-                let power = power(&trim.tethered()?)?;
+                if let Some(&unknown) = trim.outside.first() {
+                    found.lost = Some((velocity, Lost::Bound(unknown)));
+                    break;
+                }
+                let power = power_of_trim(&trim)?;
                 found.flights.push(Swept {
                     velocity,
                     stroke_amplitude,

@@ -1,89 +1,60 @@
 //! Trim: steady flight as a periodic orbit of the full model.
 //!
-//! Unknowns are the state at the start of a beat in the plane of symmetry (velocity of the mass
-//! centre, pitch rate, body pitch) and two controls of the wings; equations are that one beat
-//! later nothing has changed but the position, which has moved as asked:
-//!
-//! ```text
-//! dP_1 / (m g T) = 0    dP_3 / (m g T) = 0    dH_2 / (m g R T) = 0
-//! d pitch = 0           dx / R = V_1 T / R    dz / R = V_3 T / R
-//! ```
-//!
-//! The first three are the mean forces and the mean moment over weight and weight times wing
-//! length. Coordinates and speeds of free joints are unknowns too, and come back to where they
-//! were. Newton's method with differences for the Jacobian and a line search; a failure keeps
-//! the best point found.
+//! Unknowns are the state at the start of a beat and controls of the wings; equations are that one beat later nothing
+//! has changed but place and heading, which have moved as asked ([`crate::steady`]). Coordinates and speeds of free
+//! joints are unknowns too, and come back to where they were. Newton's method with differences for the Jacobian and a
+//! line search; a failure keeps the best point found.
 
 use wingbeat_flight::{
     FlightSetup, FormulationChoice, IntegratorChoice, MotionMode, PrescribedMotion,
     StabilizationChoice, StartState, TimeGrid, closes_loop,
 };
-use wingbeat_math::{DVec3, EulerSequence, r2, solve_small};
+use wingbeat_math::{DMat3, DVec3, EulerSequence, solve_small};
 use wingbeat_model::Start;
 use wingbeat_model::motion::Adjustment;
 
 use crate::AnalysisError;
 use crate::beat::{Beat, JOINTS, State};
 use crate::progress;
-use crate::unknown::{Unknown, adjusted, check_unknowns};
-
-/// What to trim.
-#[derive(Clone, Debug, PartialEq)]
-pub struct TrimProblem {
-    /// Three controls: body pitch and two of the wings, or three of the wings.
-    pub unknowns: [Unknown; 3],
-    /// Mean velocity wanted, N components, in the plane n1-n3 [m/s].
-    pub velocity: DVec3,
-    /// Body pitch at the start of the iteration (kept if not an unknown) \[rad\].
-    pub body_pitch: f64,
-    /// Iteration.
-    pub settings: TrimSettings,
-}
-
-/// How the iteration runs.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct TrimSettings {
-    /// Steps per wingbeat.
-    pub steps: usize,
-    /// Largest residual that counts as trimmed \[1\].
-    pub tolerance: f64,
-    /// Most Newton steps.
-    pub iterations: usize,
-}
-
-impl Default for TrimSettings {
-    fn default() -> Self {
-        Self {
-            steps: 100,
-            tolerance: 1e-9,
-            iterations: 40,
-        }
-    }
-}
+use crate::steady::{self, Measures, Residuals, Snapshot, TrimProblem};
+use crate::unknown::{Unknown, adjusted};
 
 /// A trimmed flight, or the best point found.
 #[derive(Clone, Debug)]
 pub struct Trim {
     /// Whether the residual is within the tolerance.
     pub converged: bool,
-    /// The six residuals: horizontal and vertical force over weight, pitch moment over weight
-    /// times wing length, pitch per beat \[rad\], horizontal and vertical drift per beat over wing
-    /// length; then the change of every coordinate and speed of a free joint over its natural size.
+    /// The residuals, [`Residuals::names`]; then the change of every coordinate and speed of a free joint over its
+    /// natural size.
     pub residual: Vec<f64>,
+    /// Largest lateral residual where only those of the plane of symmetry are asked, else 0 \[1\].
+    pub aside: f64,
     /// Newton steps made.
     pub iterations: usize,
-    /// What was chosen.
-    pub unknowns: [Unknown; 3],
+    /// What was chosen, and what was given.
+    pub unknowns: Vec<Unknown>,
+    /// Values of the unknowns.
+    pub values: Vec<f64>,
+    /// Unknowns whose values are outside the bounds of the problem: steady flight, but not as asked.
+    pub outside: Vec<Unknown>,
+    /// Unknowns at a bound.
+    pub at_bound: Vec<Unknown>,
     /// The adjustment of all wings.
     pub adjustment: Adjustment,
+    /// What right wings have more of it than left ones.
+    pub difference: Adjustment,
     /// Shift of the mass centre along b1 [m].
     pub mass_centre: f64,
     /// Pitch of the body at the start of the beat \[rad\].
     pub body_pitch: f64,
+    /// Roll of the body at the start of the beat, right side down \[rad\].
+    pub body_roll: f64,
+    /// Turn of the heading [rad/s].
+    pub turn_rate: f64,
     /// State at the start of the beat, mass centre at the origin.
     pub state: State,
-    /// The point that Newton's method found: velocity over R f forward and down, pitch rate times T, the controls,
-    /// then coordinates and speeds of free joints over their natural sizes.
+    /// The point that Newton's method found: velocity over R f and angular velocity times T (of symmetric flight those
+    /// of its plane), the controls, then coordinates and speeds of free joints over their natural sizes.
     pub point: Vec<f64>,
     /// The wingbeat of the adjusted animal.
     pub beat: Beat,
@@ -100,7 +71,7 @@ impl Trim {
     /// Numbers that are not finite.
     pub fn tethered(&self) -> Result<FlightSetup, AnalysisError> {
         let mut setup = self.impulsive();
-        let angles = DVec3::new(self.body_pitch, 0.0, 0.0);
+        let angles = DVec3::new(self.body_pitch, 0.0, self.body_roll);
         let mut motion = PrescribedMotion::at_rest(DVec3::ZERO, angles);
         for (x, v) in motion
             .position
@@ -177,29 +148,31 @@ impl Trim {
         Ok((DVec3::from_slice(&end) - DVec3::from_slice(&self.state)) / self.beat.period())
     }
 
+    /// The value of an unknown, in its own unit; none if it was neither chosen nor given.
+    pub fn value(&self, unknown: Unknown) -> Option<f64> {
+        let mut pairs = self.unknowns.iter().zip(&self.values);
+        pairs.find(|(u, _)| **u == unknown).map(|(_, x)| *x)
+    }
+
     /// Largest residual.
     pub fn error(&self) -> f64 {
         largest(&self.residual)
     }
 }
 
-/// Trims the symmetric flight of `setup`.
+/// Trims the flight of `setup`.
 ///
 /// # Errors
-/// A setup that [`Beat`] does not cover; numbers that stop being finite at the very start. A
-/// trim that does not converge is no error: see [`Trim::converged`].
+/// A setup that [`Beat`] does not cover; unknowns that the problem does not determine, or too few; numbers that stop
+/// being finite at the very start. A trim that does not converge is no error: see [`Trim::converged`].
 pub fn trim(setup: &FlightSetup, problem: &TrimProblem) -> Result<Trim, AnalysisError> {
-    check_unknowns(setup, &problem.unknowns)?;
+    steady::check_determined(setup, problem)?;
     let first = Beat::new(setup, problem.settings.steps)?;
     let speed = first.wing_length() / first.period();
-    let v = problem.velocity;
-    // Unknowns: velocity over R f, pitch rate times T, the controls, then the joints.
-    let mut x = vec![v.x / speed, v.z / speed, 0.0];
-    x.extend(problem.unknowns.map(|u| match u {
-        Unknown::BodyPitch => problem.body_pitch,
-        _ => 0.0,
-    }));
-    x.extend(periodic_joints(&first, problem.body_pitch)?);
+    let rate = steady::turning(problem, problem.angles()) * first.period();
+    let mut x = Residuals::of(problem).point(problem.velocity / speed, rate);
+    x.extend(steady::first_controls(problem));
+    x.extend(periodic_joints(&first, steady::attitude(problem.angles()))?);
     trim_from(setup, problem, x)
 }
 
@@ -233,6 +206,7 @@ pub fn trim_from(
     let mut found = evaluate(setup, problem, &x)?;
     found.iterations = iterations;
     found.converged = found.error() <= problem.settings.tolerance;
+    steady::check_symmetric(found.aside, ROUNDING)?;
     Ok(found)
 }
 
@@ -245,58 +219,73 @@ const SETTLING_BEATS: usize = 5;
 /// Coordinates and speeds of the free joints over their natural sizes after some beats of a body
 /// that is put back into its place after each: a start from which Newton's method finds their
 /// periodic motion.
-fn periodic_joints(beat: &Beat, pitch: f64) -> Result<Vec<f64>, AnalysisError> {
+fn periodic_joints(beat: &Beat, attitude: DMat3) -> Result<Vec<f64>, AnalysisError> {
     let mut joints = beat.joints_at_start();
     if joints.is_empty() {
         return Ok(joints);
     }
     let still = DVec3::ZERO;
     for _ in 0..SETTLING_BEATS {
-        let y = beat.state_with(still, r2(pitch), still, still, &joints);
+        let y = beat.state_with(still, attitude, still, still, &joints);
         joints = beat.advance(&y)?[JOINTS..].to_vec();
     }
     let sizes = beat.joint_sizes();
     Ok(joints.iter().zip(sizes).map(|(x, s)| x / s).collect())
 }
 
+/// Right and left of a trimmed wingbeat in air without memory part by less than this by rounding \[1\].
+const ROUNDING: f64 = 1e-5;
+
 /// The residual at the point `x`, with everything that belongs to it.
 fn evaluate(setup: &FlightSetup, problem: &TrimProblem, x: &[f64]) -> Result<Trim, AnalysisError> {
-    let (setup, adjustment, mass_centre, pitch) =
-        adjusted(setup, &problem.unknowns, problem.body_pitch, &x[3..6]);
-    let beat = Beat::new(&setup, problem.settings.steps)?;
+    let residuals = Residuals::of(problem);
+    let n = residuals.controls();
+    let (unknowns, values) = problem.with_given(&x[n..2 * n]);
+    let a = adjusted(setup, &unknowns, problem.angles(), &values);
+    let beat = Beat::new(&a.setup, problem.settings.steps)?;
     let (length, period) = (beat.wing_length(), beat.period());
-    let speed = length / period;
-    let velocity = DVec3::new(x[0] * speed, 0.0, x[1] * speed);
-    let rate = DVec3::new(0.0, x[2] / period, 0.0);
+    let [velocity, rate] = residuals.motion(x);
+    let (velocity, rate) = (velocity * (length / period), rate / period);
     let sizes = beat.joint_sizes();
-    let joints: Vec<f64> = x[6..].iter().zip(sizes).map(|(x, s)| x * s).collect();
-    let state = beat.state_with(DVec3::ZERO, r2(pitch), velocity, rate, &joints);
+    let joints = x[2 * n..].iter().zip(sizes).map(|(x, s)| x * s);
+    let joints: Vec<f64> = joints.collect();
+    let attitude = steady::attitude([a.pitch, a.roll]);
+    let state = beat.state_with(DVec3::ZERO, attitude, velocity, rate, &joints);
     let end = beat.advance(&state)?;
-    let weight = beat.mass() * beat.gravity().length();
-    let (before, after) = (beat.root(&state), beat.root(&end));
-    let turned = before.r.transpose() * after.r;
-    let mut residual = vec![
-        (end[7] - state[7]) / (weight * period),
-        (end[9] - state[9]) / (weight * period),
-        (end[11] - state[11]) / (weight * length * period),
-        turned.z_axis.x.atan2(turned.x_axis.x),
-        (end[0] - problem.velocity.x * period) / length,
-        (end[2] - problem.velocity.z * period) / length,
-    ];
+    let size = Measures {
+        length,
+        period,
+        weight: beat.mass() * beat.gravity().length(),
+    };
+    let seen = |y: &[f64]| Snapshot {
+        centre: DVec3::from_slice(y),
+        momentum: DVec3::from_slice(&y[7..]),
+        spin: DVec3::from_slice(&y[10..]),
+        rotation: beat.root(y).r,
+    };
+    let (mut residual, aside) = residuals.between(problem, &size, &[seen(&state), seen(&end)]);
     let changes = end[JOINTS..].iter().zip(&state[JOINTS..]).zip(sizes);
     residual.extend(changes.map(|((end, start), size)| (end - start) / size));
+    let [outside, at_bound] = problem.beyond(&unknowns, &values);
     Ok(Trim {
         converged: false,
         residual,
+        aside,
         iterations: 0,
-        unknowns: problem.unknowns,
-        adjustment,
-        mass_centre,
-        body_pitch: pitch,
+        unknowns,
+        values,
+        outside,
+        at_bound,
+        adjustment: a.adjustment,
+        difference: a.difference,
+        mass_centre: a.mass_centre,
+        body_pitch: a.pitch,
+        body_roll: a.roll,
+        turn_rate: problem.turn_rate,
         state,
         point: x.to_vec(),
         beat,
-        setup,
+        setup: a.setup,
     })
 }
 
@@ -330,7 +319,8 @@ fn jacobian(
 fn check_effect(problem: &TrimProblem, k: usize, column: &[f64]) -> Result<(), AnalysisError> {
     // Differences of residuals that are known to 1e-13 over steps of 1e-5.
     const NOTHING: f64 = 1e-7;
-    let control = k.checked_sub(3).and_then(|c| problem.unknowns.get(c));
+    let motions = Residuals::of(problem).controls();
+    let control = (k.checked_sub(motions)).and_then(|c| problem.unknowns.get(c));
     match control {
         Some(unknown) if largest(column) < NOTHING => Err(AnalysisError::not_covered(
             format!(

@@ -1,5 +1,7 @@
 //! The controls that a trim may choose, and the animal with them.
 
+use std::f64::consts::{FRAC_PI_3, PI};
+
 use wingbeat_flight::{FlightSetup, faster};
 use wingbeat_model::motion::Adjustment;
 
@@ -26,10 +28,22 @@ pub enum Unknown {
     BodyPitch,
     /// Mass centre along b1, relative to the hinges, in wing lengths.
     MassCentre,
+    /// Roll of the body, right side down \[rad\].
+    BodyRoll,
+    /// Relative amplitude of right wings less that of left ones.
+    StrokeAmplitudeDifference,
+    /// Mean stroke angle of right wings less that of left ones, positive forward \[rad\].
+    StrokeOffsetDifference,
+    /// Stroke-plane pitch of right wings less that of left ones \[rad\].
+    StrokePlaneDifference,
+    /// Mean feathering angle of right wings less that of left ones \[rad\].
+    FeatheringOffsetDifference,
+    /// Mean deviation of right wings less that of left ones \[rad\].
+    DeviationOffsetDifference,
 }
 
 /// All unknowns with their names in cases and reports.
-pub const UNKNOWNS: [(Unknown, &str); 9] = [
+pub const UNKNOWNS: [(Unknown, &str); 15] = [
     (Unknown::StrokeAmplitude, "stroke_amplitude"),
     (Unknown::StrokeOffset, "stroke_offset"),
     (Unknown::Frequency, "frequency"),
@@ -39,6 +53,21 @@ pub const UNKNOWNS: [(Unknown, &str); 9] = [
     (Unknown::DeviationOffset, "deviation_offset"),
     (Unknown::BodyPitch, "body_pitch"),
     (Unknown::MassCentre, "mass_centre"),
+    (Unknown::BodyRoll, "body_roll"),
+    (
+        Unknown::StrokeAmplitudeDifference,
+        "stroke_amplitude_difference",
+    ),
+    (Unknown::StrokeOffsetDifference, "stroke_offset_difference"),
+    (Unknown::StrokePlaneDifference, "stroke_plane_difference"),
+    (
+        Unknown::FeatheringOffsetDifference,
+        "feathering_offset_difference",
+    ),
+    (
+        Unknown::DeviationOffsetDifference,
+        "deviation_offset_difference",
+    ),
 ];
 
 impl Unknown {
@@ -47,12 +76,77 @@ impl Unknown {
         let found = UNKNOWNS.iter().find(|u| u.0 == self);
         found.expect("the table holds all").1
     }
+
+    /// Whether it parts right from left.
+    pub fn is_lateral(self) -> bool {
+        use Unknown::{
+            BodyRoll, DeviationOffsetDifference, FeatheringOffsetDifference,
+            StrokeAmplitudeDifference, StrokeOffsetDifference, StrokePlaneDifference,
+        };
+        matches!(
+            self,
+            BodyRoll
+                | StrokeAmplitudeDifference
+                | StrokeOffsetDifference
+                | StrokePlaneDifference
+                | FeatheringOffsetDifference
+                | DeviationOffsetDifference
+        )
+    }
+}
+
+/// Between what an unknown must lie, in its own unit.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Bound {
+    /// The unknown.
+    pub unknown: Unknown,
+    /// Least value.
+    pub from: f64,
+    /// Largest value.
+    pub to: f64,
+}
+
+impl Bound {
+    /// What holds unless told otherwise: what wings that are still wings can do.
+    pub fn default_of(unknown: Unknown) -> Self {
+        let (from, to) = match unknown {
+            Unknown::StrokeAmplitude | Unknown::Frequency => (-0.7, 2.0),
+            Unknown::StrokeAmplitudeDifference => (-1.0, 1.0),
+            Unknown::BodyPitch | Unknown::BodyRoll => (-PI, PI),
+            Unknown::FeatheringLead => (-0.25, 0.25),
+            Unknown::MassCentre => (-1.0, 1.0),
+            _ => (-FRAC_PI_3, FRAC_PI_3),
+        };
+        Self { unknown, from, to }
+    }
+
+    /// By how much `x` is inside; negative outside.
+    pub(crate) fn room(&self, x: f64) -> f64 {
+        (x - self.from).min(self.to - x)
+    }
+}
+
+/// What the values of unknowns make of an animal.
+#[derive(Clone, Debug)]
+pub(crate) struct Adjusted {
+    /// The animal with all of it.
+    pub setup: FlightSetup,
+    /// Of all wings.
+    pub adjustment: Adjustment,
+    /// Of right wings less that of left ones.
+    pub difference: Adjustment,
+    /// Shift of the mass centre along b1 [m].
+    pub mass_centre: f64,
+    /// Pitch of the body \[rad\].
+    pub pitch: f64,
+    /// Roll of the body \[rad\].
+    pub roll: f64,
 }
 
 /// An error if an unknown is not what it says for the joints of `setup`.
 pub(crate) fn check_unknowns(
     setup: &FlightSetup,
-    unknowns: &[Unknown; 3],
+    unknowns: &[Unknown],
 ) -> Result<(), AnalysisError> {
     match setup.joints.first() {
         Some(joint) if unknowns.contains(&Unknown::MassCentre) => Err(AnalysisError::not_covered(
@@ -66,15 +160,15 @@ pub(crate) fn check_unknowns(
     }
 }
 
-/// The setup with the controls `values` of `unknowns`, from the body pitch `pitch`; adjustment, shift of the mass
-/// centre and body pitch.
+/// The setup with the values of `unknowns`; a body attitude that is not among them is `pitch` and `roll`.
 pub(crate) fn adjusted(
     setup: &FlightSetup,
-    unknowns: &[Unknown; 3],
-    mut pitch: f64,
+    unknowns: &[Unknown],
+    [mut pitch, mut roll]: [f64; 2],
     values: &[f64],
-) -> (FlightSetup, Adjustment, f64, f64) {
+) -> Adjusted {
     let mut a = Adjustment::default();
+    let mut d = Adjustment::default();
     let mut shift = 0.0;
     for (unknown, &x) in unknowns.iter().zip(values) {
         match unknown {
@@ -87,13 +181,19 @@ pub(crate) fn adjusted(
             Unknown::DeviationOffset => a.deviation_offset = x,
             Unknown::BodyPitch => pitch = x,
             Unknown::MassCentre => shift = x,
+            Unknown::BodyRoll => roll = x,
+            Unknown::StrokeAmplitudeDifference => d.stroke_amplitude = x,
+            Unknown::StrokeOffsetDifference => d.stroke_offset = x,
+            Unknown::StrokePlaneDifference => d.stroke_plane = x,
+            Unknown::FeatheringOffsetDifference => d.feathering_offset = x,
+            Unknown::DeviationOffsetDifference => d.deviation_offset = x,
         }
     }
     let mut setup = setup.clone();
     let tips = setup.animal.wings.iter().flat_map(|w| &w.mesh.nodes);
     shift *= tips.fold(0.0_f64, |m, r| m.max(r.length()));
     for wing in &mut setup.animal.wings {
-        wing.motion = wing.motion.adjusted(wing.side, &a);
+        wing.motion = wing.motion.adjusted(wing.side, &a.on(wing.side, &d));
         wing.hinge_b.x -= shift;
     }
     if a.frequency != 0.0 {
@@ -101,5 +201,12 @@ pub(crate) fn adjusted(
             *joint = faster(joint, 1.0 + a.frequency);
         }
     }
-    (setup, a, shift, pitch)
+    Adjusted {
+        setup,
+        adjustment: a,
+        difference: d,
+        mass_centre: shift,
+        pitch,
+        roll,
+    }
 }

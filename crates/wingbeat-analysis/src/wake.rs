@@ -3,7 +3,7 @@
 //! A periodic orbit of body **and** wake has thousands of unknowns. What is done instead: the body
 //! is held for some wingbeats with constant velocity and attitude while the wake grows, then
 //! released; the free wingbeat that follows is the map of the state. Trim asks that this beat
-//! changes nothing but the place (six residuals, as [`crate::trim`]). For stability the map is
+//! changes nothing but the place (the residuals of [`crate::steady`]). For stability the map is
 //! differentiated, and two things can be held fixed:
 //!
 //! - [`WakeMemory::Given`]: the wake of the trimmed hold; the disturbance is put on the body at
@@ -24,8 +24,10 @@ use crate::eigen::eigen;
 use crate::level::{Level, Perturbation};
 use crate::modes::{ModeSet, Scales};
 use crate::progress;
-use crate::trim::{TrimProblem, largest};
-use crate::unknown::{adjusted, check_unknowns};
+use crate::steady::TrimProblem;
+use crate::steady::{self, Measures, Residuals, Snapshot};
+use crate::trim::largest;
+use crate::unknown::{Unknown, adjusted};
 
 /// What is held fixed when the state of the body is disturbed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -67,17 +69,29 @@ pub struct WakeTrim {
     /// Whether the residual is within the tolerance.
     pub converged: bool,
     /// As [`crate::Trim::residual`].
-    pub residual: [f64; 6],
+    pub residual: Vec<f64>,
+    /// As [`crate::Trim::aside`].
+    pub aside: f64,
     /// Quasi-Newton steps made.
     pub iterations: usize,
     /// Flights flown.
     pub flights: usize,
+    /// What was chosen, and what was given.
+    pub unknowns: Vec<Unknown>,
+    /// Unknowns whose values are outside the bounds of the problem: steady flight, but not as asked.
+    pub outside: Vec<Unknown>,
+    /// Unknowns at a bound.
+    pub at_bound: Vec<Unknown>,
     /// The adjustment of all wings.
     pub adjustment: Adjustment,
+    /// What right wings have more of it than left ones.
+    pub difference: Adjustment,
     /// Shift of the mass centre along b1 [m].
     pub mass_centre: f64,
     /// Pitch of the body at its release \[rad\].
     pub body_pitch: f64,
+    /// Roll of the body at its release, right side down \[rad\].
+    pub body_roll: f64,
     /// The adjusted flight: held, released, one free wingbeat.
     pub setup: FlightSetup,
 }
@@ -115,29 +129,42 @@ fn steps_per_beat(setup: &FlightSetup) -> Result<usize, AnalysisError> {
     ))
 }
 
-/// Trims the symmetric flight of `setup` in air with memory.
+/// Trims the flight of `setup` in air with memory.
 ///
 /// # Errors
-/// No wingbeat, or one that is not a whole number of steps; a first flight that fails. A trim
-/// that does not converge is no error: see [`WakeTrim::converged`].
+/// No wingbeat, or one that is not a whole number of steps; a steady turn, which a body that is held cannot fly;
+/// unknowns that the problem does not determine, or too few; a first flight that fails. A trim that does not converge
+/// is no error: see [`WakeTrim::converged`].
 pub fn trim_with_wake(
     setup: &FlightSetup,
     problem: &TrimProblem,
     settings: &WakeSettings,
 ) -> Result<WakeTrim, AnalysisError> {
-    check_unknowns(setup, &problem.unknowns)?;
+    steady::check_determined(setup, problem)?;
+    if problem.turn_rate != 0.0 {
+        return Err(AnalysisError::not_covered(
+            "in air with memory the body is held straight while its wake grows, and a steady turn was asked for",
+            "trim the turn in blade elements (air.model = \"blade_element\")",
+        ));
+    }
+    let residuals = Residuals::of(problem);
+    let mut setup = setup.clone();
+    if let (AirModel::VortexLattice(air), Residuals::All) = (&mut setup.air, residuals) {
+        air.mirror = false; // right and left part
+    }
     let mut search = Search {
-        setup,
+        setup: &setup,
         problem,
+        residuals,
         settings,
-        steps: steps_per_beat(setup)?,
+        steps: steps_per_beat(&setup)?,
         flights: 0,
         best: f64::INFINITY,
     };
     let mut x = search.start();
-    let mut r = search.fly(&x)?.0;
+    let mut r = search.fly(&x)?.residual;
     let mut iterations = 0;
-    let mut jacobian = [[0.0; 6]; 6];
+    let mut jacobian = vec![];
     if largest(&r) > settings.tolerance {
         jacobian = search.jacobian(&x, &r)?;
     }
@@ -163,18 +190,21 @@ pub fn trim_with_wake(
             fresh = true;
         }
     }
-    let (residual, mut found) = search.fly(&x)?;
-    found.residual = residual;
-    found.converged = largest(&residual) <= settings.tolerance;
+    let mut found = search.fly(&x)?;
+    found.converged = found.error() <= settings.tolerance;
     found.iterations = iterations;
-    found.flights = search.flights;
+    steady::check_symmetric(found.aside, ROUNDING)?;
     Ok(found)
 }
+
+/// Right and left of a wingbeat after a hold part by less than this where wakes are chaotic \[1\].
+const ROUNDING: f64 = 1e-2;
 
 /// The search: what to fly and how often it was.
 struct Search<'a> {
     setup: &'a FlightSetup,
     problem: &'a TrimProblem,
+    residuals: Residuals,
     settings: &'a WakeSettings,
     steps: usize,
     flights: usize,
@@ -190,118 +220,117 @@ impl Search<'_> {
     }
 
     /// The point at which the search begins.
-    fn start(&self) -> [f64; 6] {
+    fn start(&self) -> Vec<f64> {
         let problem = self.problem;
-        let mut x = [0.0; 6];
-        for (k, unknown) in problem.unknowns.iter().enumerate() {
-            if unknown.name() == "body_pitch" {
-                x[3 + k] = problem.body_pitch;
-            }
-        }
         let (length, period) = self.scales();
         let (v, w) = match &self.setup.mode {
             // A case that was trimmed before: its motion at the release.
             MotionMode::Free(s) if s.held_steps > 0 => (s.velocity, s.angular_velocity),
             _ => (problem.velocity, DVec3::ZERO),
         };
-        x[..3].copy_from_slice(&[v.x * period / length, v.z * period / length, w.y * period]);
+        let scaled = DVec3::new(
+            v.x * period / length,
+            v.y * period / length,
+            v.z * period / length,
+        );
+        let mut x = self.residuals.point(scaled, w * period);
+        x.extend(steady::first_controls(problem));
         x
     }
 
-    /// Residual and flight at the point (velocity over R f, pitch rate times T, three controls).
-    fn fly(&mut self, x: &[f64; 6]) -> Result<([f64; 6], WakeTrim), AnalysisError> {
+    /// The flight at the point (velocity over R f, angular velocity times T, controls).
+    fn fly(&mut self, x: &[f64]) -> Result<WakeTrim, AnalysisError> {
         self.flights += 1;
         progress::task(
             &format!("flight {}, residual {:.1e}", self.flights, self.best),
             0,
             0,
         );
-        let (mut setup, adjustment, mass_centre, pitch) = adjusted(
-            self.setup,
-            &self.problem.unknowns,
-            self.problem.body_pitch,
-            &x[3..],
-        );
-        let frequency = setup
-            .animal
-            .wings
-            .first()
-            .map_or(0.0, |w| w.motion.frequency);
-        let period = 1.0 / frequency;
+        let problem = self.problem;
+        let (unknowns, values) = problem.with_given(&x[self.residuals.controls()..]);
+        let a = adjusted(self.setup, &unknowns, problem.angles(), &values);
+        let mut setup = a.setup;
+        let first = setup.animal.wings.first();
+        let period = 1.0 / first.map_or(0.0, |w| w.motion.frequency);
         let (length, old) = self.scales();
+        let [velocity, rate] = self.residuals.motion(x);
         setup.time.step = period / self.steps as f64;
         setup.time.period = Some(period);
         setup.time.steps = (self.settings.held_beats + 1) * self.steps;
         setup.mode = MotionMode::Free(StartState {
             position: DVec3::ZERO,
-            angles: DVec3::new(pitch, 0.0, 0.0),
-            velocity: DVec3::new(x[0], 0.0, x[1]) * length / old,
-            angular_velocity: DVec3::new(0.0, x[2] / old, 0.0),
+            angles: DVec3::new(a.pitch, 0.0, a.roll),
+            velocity: velocity * length / old,
+            angular_velocity: rate / old,
             held_steps: self.settings.held_beats * self.steps,
         });
-        let [a, b] = free_beat(&setup, self.steps, None)?;
-        let weight = setup.animal.mass() * setup.gravity.length();
-        let v = self.problem.velocity;
-        let change = b.momentum - a.momentum;
-        let travelled = b.mass_centre - a.mass_centre;
-        let residual = [
-            change.x / (weight * period),
-            change.z / (weight * period),
-            (spin(&b).y - spin(&a).y) / (weight * length * period),
-            pitched(&a, &b),
-            (travelled.x - v.x * period) / length,
-            (travelled.z - v.z * period) / length,
-        ];
+        let ends = free_beat(&setup, self.steps, None)?;
+        let size = Measures {
+            length,
+            period,
+            weight: setup.animal.mass() * setup.gravity.length(),
+        };
+        let seen = ends.map(|r| Snapshot {
+            centre: r.mass_centre,
+            momentum: r.momentum,
+            spin: spin(&r),
+            rotation: rotation(&r),
+        });
+        let (residual, aside) = self.residuals.between(problem, &size, &seen);
         self.best = self.best.min(largest(&residual));
-        let found = WakeTrim {
+        let [outside, at_bound] = problem.beyond(&unknowns, &values);
+        Ok(WakeTrim {
             converged: false,
             residual,
+            aside,
             iterations: 0,
             flights: self.flights,
-            adjustment,
-            mass_centre,
-            body_pitch: pitch,
+            unknowns,
+            outside,
+            at_bound,
+            adjustment: a.adjustment,
+            difference: a.difference,
+            mass_centre: a.mass_centre,
+            body_pitch: a.pitch,
+            body_roll: a.roll,
             setup,
-        };
-        Ok((residual, found))
+        })
     }
 
     /// Slopes of the residuals at `x`, rows by residual, by one-sided differences, over steps beside which the
     /// roughness of the map is small.
-    fn jacobian(&mut self, x: &[f64; 6], r: &[f64; 6]) -> Result<[[f64; 6]; 6], AnalysisError> {
+    fn jacobian(&mut self, x: &[f64], r: &[f64]) -> Result<Vec<f64>, AnalysisError> {
         let step = if self.settings.tolerance < SMOOTH {
             1e-4
         } else {
             2e-2
         };
-        let mut j = [[0.0; 6]; 6];
-        for k in 0..6 {
-            let mut moved = *x;
+        let n = x.len();
+        let mut j = vec![0.0; n * n];
+        for k in 0..n {
+            let mut moved = x.to_vec();
             moved[k] += step;
-            let at = self.fly(&moved)?.0;
-            (0..6).for_each(|i| j[i][k] = (at[i] - r[i]) / step);
+            let at = self.fly(&moved)?.residual;
+            (0..n).for_each(|i| j[n * i + k] = (at[i] - r[i]) / step);
         }
         Ok(j)
     }
 
     /// A point on the quasi-Newton direction with smaller residuals.
-    fn step(
-        &mut self,
-        x: &[f64; 6],
-        r: &[f64; 6],
-        jacobian: &[[f64; 6]; 6],
-    ) -> Option<([f64; 6], [f64; 6])> {
+    fn step(&mut self, x: &[f64], r: &[f64], jacobian: &[f64]) -> Option<(Vec<f64>, Vec<f64>)> {
         let mut direction = r.to_vec();
-        solve_small(&mut jacobian.concat(), &mut direction).ok()?;
+        solve_small(&mut jacobian.to_vec(), &mut direction).ok()?;
         let longest = direction.iter().fold(0.0_f64, |m, s| m.max(s.abs()));
-        let squares = |r: &[f64; 6]| r.iter().map(|x| x * x).sum::<f64>();
+        let squares = |r: &[f64]| r.iter().map(|x| x * x).sum::<f64>();
         let mut length = (0.3 / longest).min(1.0);
         for _ in 0..6 {
-            let trial = std::array::from_fn(|i| x[i] - length * direction[i]);
-            if let Ok((found, _)) = self.fly(&trial)
-                && squares(&found) < squares(r)
+            let trial: Vec<f64> = (x.iter().zip(&direction))
+                .map(|(x, d)| x - length * d)
+                .collect();
+            if let Ok(found) = self.fly(&trial)
+                && squares(&found.residual) < squares(r)
             {
-                return Some((trial, found));
+                return Some((trial, found.residual));
             }
             length *= 0.4;
         }
@@ -310,13 +339,15 @@ impl Search<'_> {
 }
 
 /// Broyden's update of the slopes by what a step showed [Broyden 1965].
-fn broyden(j: &mut [[f64; 6]; 6], x: &[f64; 6], r: &[f64; 6], x1: &[f64; 6], r1: &[f64; 6]) {
-    let s: [f64; 6] = std::array::from_fn(|i| x1[i] - x[i]);
+fn broyden(j: &mut [f64], x: &[f64], r: &[f64], x1: &[f64], r1: &[f64]) {
+    let s: Vec<f64> = x1.iter().zip(x).map(|(a, b)| a - b).collect();
     let square: f64 = s.iter().map(|a| a * a).sum();
-    for i in 0..6 {
-        let predicted: f64 = (0..6).map(|k| j[i][k] * s[k]).sum();
+    for (i, row) in j.chunks_mut(x.len()).enumerate() {
+        let predicted: f64 = row.iter().zip(&s).map(|(j, s)| j * s).sum();
         let gap = r1[i] - r[i] - predicted;
-        (0..6).for_each(|k| j[i][k] += gap * s[k] / square);
+        row.iter_mut()
+            .zip(&s)
+            .for_each(|(j, s)| *j += gap * s / square);
     }
 }
 
@@ -328,12 +359,6 @@ fn spin(r: &Record) -> DVec3 {
 fn rotation(r: &Record) -> DMat3 {
     let [w, x, y, z] = r.root_quaternion;
     DMat3::from_quat(DQuat::from_xyzw(x, y, z, w))
-}
-
-/// Pitch from one record to another \[rad\].
-fn pitched(a: &Record, b: &Record) -> f64 {
-    let turned = rotation(a).transpose() * rotation(b);
-    turned.z_axis.x.atan2(turned.x_axis.x)
 }
 
 /// The motion into which the root is released, from that at the end of the hold.

@@ -154,7 +154,7 @@ fn exact_parallelogram_drives_wings_as_laws_do() {
 #[test]
 fn agrees_trim_of_a_linkage_with_prescribed_joints() {
     let problem = TrimProblem {
-        unknowns: [
+        unknowns: vec![
             Unknown::BodyPitch,
             Unknown::Frequency,
             Unknown::FeatheringOffset,
@@ -259,7 +259,7 @@ fn refuses_by_name_what_a_map_of_beats_cannot_be_asked() {
         let said = refused(trim(
             &driven(Drive::Laws),
             &TrimProblem {
-                unknowns,
+                unknowns: unknowns.to_vec(),
                 ..hover(20)
             },
         ));

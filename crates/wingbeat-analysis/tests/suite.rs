@@ -2,6 +2,7 @@
 
 mod common;
 mod episode;
+mod lateral;
 mod mechanisms;
 mod oracle;
 mod sweep;

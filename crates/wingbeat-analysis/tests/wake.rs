@@ -100,6 +100,48 @@ fn balances_hover_trims_in_the_vortex_lattice() {
 }
 
 #[test]
+fn balances_sideslip_trims_in_the_vortex_lattice() {
+    // Both sides are computed, whatever the mirror of the case; flown, the free beat goes aside as asked.
+    let mut problem = hover(20);
+    problem.velocity.y = 0.1;
+    problem.unknowns.extend([
+        Unknown::BodyRoll,
+        Unknown::StrokeAmplitudeDifference,
+        Unknown::StrokePlaneDifference,
+    ]);
+    let settings = WakeSettings {
+        held_beats: 1,
+        tolerance: 1e-6,
+        ..WakeSettings::default()
+    };
+    let found = trim_with_wake(&in_lattice(20), &problem, &settings).unwrap();
+    assert!(
+        found.converged && found.residual.len() == 12,
+        "{:?}",
+        found.residual
+    );
+    assert!(
+        found.body_roll > 0.01,
+        "against the drag: {}",
+        found.body_roll
+    );
+    let mut flight = Simulation::new(found.setup.clone()).unwrap();
+    let mut centres = vec![];
+    while !flight.finished() {
+        flight.step().unwrap();
+        centres.push(flight.record().mass_centre);
+    }
+    let way = centres[39] - centres[19];
+    assert!(
+        (way - DVec3::new(0.0, 0.1 * 0.005, 0.0)).length() < 1e-5 * 2.5e-3,
+        "{way}"
+    );
+    problem.turn_rate = 1.0;
+    let said = trim_with_wake(&in_lattice(20), &problem, &settings).unwrap_err();
+    assert!(said.to_string().contains("steady turn"), "{said}");
+}
+
+#[test]
 fn agrees_power_of_a_free_wingbeat_with_that_of_a_carried_body_where_air_forgets() {
     // One beat of the same orbit, released and carried: the body's own small motion within the beat (a degree, a hundredth
     // of a wing length) is what they may differ by.

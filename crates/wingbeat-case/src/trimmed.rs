@@ -7,13 +7,15 @@ use wingbeat_blade::DerivativeTable;
 use wingbeat_dynamics::BodyMotion;
 use wingbeat_flight::closes_loop;
 use wingbeat_math::EulerSequence;
+use wingbeat_model::Side;
 use wingbeat_model::motion::Adjustment;
 
 use super::LoadedCase;
+use super::build::adjustment;
 use super::raw::{
-    AirCase, AirModel, BodyCase, Case, CorrectorCase, DerivativesCase, DynamicsCase, FlightCase,
-    Formulation, IntegratorCase, JointCase, JointKind, Mode, MotionCase, StabilisationCase,
-    StartCase, TimeCase,
+    AdjustCase, AirCase, AirModel, BodyCase, Case, CorrectorCase, DerivativesCase, DynamicsCase,
+    FlightCase, Formulation, IntegratorCase, JointCase, JointKind, Mode, MotionCase,
+    StabilisationCase, StartCase, TimeCase,
 };
 use crate::loaded::written;
 
@@ -21,7 +23,7 @@ use crate::loaded::written;
 /// the state of body and free joints at the start of the periodic beat, impulsively started, in the
 /// trim's steps by the trim's method: what was trimmed is what flies.
 pub fn trimmed_case(case: &LoadedCase, trim: &Trim) -> String {
-    let mut raw = adjusted(case, &trim.adjustment, trim.mass_centre);
+    let mut raw = adjusted(case, [&trim.adjustment, &trim.difference], trim.mass_centre);
     let time = &case.setup.time;
     let flown = time.steps as f64 * time.step / trim.beat.period();
     raw.time = TimeCase {
@@ -59,7 +61,10 @@ pub fn trimmed_case(case: &LoadedCase, trim: &Trim) -> String {
 
 /// The same for a flight in air with memory: held while the wake grows, then released.
 pub fn wake_trimmed_case(case: &LoadedCase, trim: &WakeTrim) -> String {
-    let mut raw = adjusted(case, &trim.adjustment, trim.mass_centre);
+    let mut raw = adjusted(case, [&trim.adjustment, &trim.difference], trim.mass_centre);
+    if trim.unknowns.iter().any(|u| u.is_lateral()) {
+        raw.air.mirror = false; // right and left part
+    }
     let start = trim.start();
     let root = BodyMotion {
         p: start.position,
@@ -76,27 +81,40 @@ pub fn wake_trimmed_case(case: &LoadedCase, trim: &WakeTrim) -> String {
     with_start(case, raw, &root, held, trim.error())
 }
 
-/// The case with the adjusted wing motion and hinges.
-fn adjusted(case: &LoadedCase, a: &Adjustment, mass_centre: f64) -> Case {
+/// The case with the adjusted wing motion and hinges: adjustment of all wings, and what right ones have more of it
+/// than left ones.
+fn adjusted(case: &LoadedCase, by: [&Adjustment; 2], mass_centre: f64) -> Case {
     let mut raw = case.raw.clone();
     let motion = &mut raw.motion;
-    let adjust = &mut motion.adjust;
-    adjust.stroke_amplitude = (1.0 + adjust.stroke_amplitude) * (1.0 + a.stroke_amplitude) - 1.0;
-    adjust.stroke_offset_deg += a.stroke_offset.to_degrees();
-    adjust.feathering_amplitude =
-        (1.0 + adjust.feathering_amplitude) * (1.0 + a.feathering_amplitude) - 1.0;
-    adjust.feathering_offset_deg += a.feathering_offset.to_degrees();
-    adjust.feathering_lead += a.feathering_lead;
-    adjust.deviation_offset_deg += a.deviation_offset.to_degrees();
-    adjust.stroke_plane_deg += a.stroke_plane.to_degrees();
-    motion.frequency_hz = (motion.frequency_hz.value() * (1.0 + a.frequency)).into();
+    // Side by side: what the case has, then what trim has.
+    let sides = [Side::Right, Side::Left].map(|side| {
+        let own = adjustment(&motion.adjust).on(side, &adjustment(&motion.difference));
+        own.then(&by[0].on(side, by[1]))
+    });
+    let [right, left] = sides;
+    motion.adjust = written_adjustment(&right.mean(&left));
+    motion.difference = written_adjustment(&right.less(&left));
+    motion.frequency_hz = (motion.frequency_hz.value() * (1.0 + by[0].frequency)).into();
     motion.start = StartCase::Impulsive;
     let given = raw.joint.values_mut().flat_map(frequencies);
-    given.for_each(|f| *f *= 1.0 + a.frequency);
+    given.for_each(|f| *f *= 1.0 + by[0].frequency);
     for hinge in raw.wing.values_mut().filter_map(|w| w.hinge_m.as_mut()) {
         hinge[0] -= mass_centre / raw.animal.scale;
     }
     raw
+}
+
+/// An adjustment as a case has it; the frequency stands elsewhere.
+fn written_adjustment(a: &Adjustment) -> AdjustCase {
+    AdjustCase {
+        stroke_amplitude: a.stroke_amplitude,
+        stroke_offset_deg: a.stroke_offset.to_degrees(),
+        feathering_amplitude: a.feathering_amplitude,
+        feathering_offset_deg: a.feathering_offset.to_degrees(),
+        feathering_lead: a.feathering_lead,
+        deviation_offset_deg: a.deviation_offset.to_degrees(),
+        stroke_plane_deg: a.stroke_plane.to_degrees(),
+    }
 }
 
 /// The frequencies of their own at which a joint is driven.

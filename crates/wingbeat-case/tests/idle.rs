@@ -109,6 +109,7 @@ const TABLE: &[(&[&str], &str, &str)] = &[
     ),
     (&[VACUUM, STILL], "motion.adjust.stroke_amplitude=0.1", ""),
     (&[VACUUM], "motion.adjust.feathering_amplitude=0.1", ""),
+    (&[VACUUM], "motion.difference.feathering_lead=0.1", ""),
     (&[VACUUM], "motion.adjust.feathering_lead=0.1", ""),
     (
         &[

@@ -3,7 +3,7 @@
 
 use std::path::Path;
 
-use wingbeat_analysis::{TrimProblem, TrimSettings, Unknown, trim};
+use wingbeat_analysis::{TrimProblem, trim};
 use wingbeat_case::{LoadedCase, presets};
 use wingbeat_dynamics::ElementLaw;
 use wingbeat_flight::{Record, Simulation};
@@ -351,16 +351,7 @@ fn agrees_trim_of_passive_hinges_with_the_flight_it_leads_to() {
     // Flown from there, body and hinges are back after a beat where they were.
     let set = ["air.model=\"blade_element\"".to_owned()];
     let case = LoadedCase::find("robobee", &set).unwrap_or_else(|e| panic!("{e}"));
-    let problem = TrimProblem {
-        unknowns: [
-            Unknown::BodyPitch,
-            Unknown::StrokeAmplitude,
-            Unknown::StrokeOffset,
-        ],
-        velocity: DVec3::ZERO,
-        body_pitch: 0.0,
-        settings: TrimSettings::default(),
-    };
+    let problem = TrimProblem::straight(DVec3::ZERO, 0.0);
     let found = trim(&case.setup, &problem).expect("the robot");
     assert!(found.converged, "{:?}", found.residual);
     assert_eq!(

@@ -226,15 +226,9 @@ impl Flight {
         ))
     }
 
-    /// Steady flight: mean velocity forward and up [m/s], names of the unknowns, steps per wingbeat.
-    fn trim(
-        &self,
-        py: Python<'_>,
-        velocity_m_s: [f64; 2],
-        unknowns: [String; 3],
-        steps: usize,
-    ) -> PyResult<Trim> {
-        let problem = mechanics::problem(py, &self.flight, velocity_m_s, &unknowns, steps)?;
+    /// Steady flight, in so many steps per wingbeat.
+    fn trim(&self, py: Python<'_>, asked: mechanics::Asked, steps: usize) -> PyResult<Trim> {
+        let problem = mechanics::problem(py, &self.flight, &asked, steps)?;
         let case = (!self.is_own).then(|| self.case.clone());
         let found = mechanics::trim(py, &self.flight, problem, case);
         found.map_err(|e| self.slot.take().unwrap_or(e))
@@ -244,8 +238,7 @@ impl Flight {
     fn trim_with_wake(
         &self,
         py: Python<'_>,
-        velocity_m_s: [f64; 2],
-        unknowns: [String; 3],
+        asked: mechanics::Asked,
         held_beats: usize,
         tolerance: f64,
     ) -> PyResult<WakeTrim> {
@@ -263,7 +256,7 @@ impl Flight {
             ..WakeSettings::default()
         };
         let steps = TrimSettings::default().steps;
-        let problem = mechanics::problem(py, &self.flight, velocity_m_s, &unknowns, steps)?;
+        let problem = mechanics::problem(py, &self.flight, &asked, steps)?;
         let case = (!self.is_own).then(|| self.case.clone());
         let found = wake::trim(py, &self.flight, problem, settings, case);
         found.map_err(|e| self.slot.take().unwrap_or(e))

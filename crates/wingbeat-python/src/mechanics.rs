@@ -3,10 +3,10 @@
 use pyo3::prelude::*;
 use wingbeat::analysis::derivatives::{CONTROLS, ControlDerivative, control_derivatives};
 use wingbeat::analysis::level::{Level, STATE};
-use wingbeat::analysis::power::{Power, power};
-use wingbeat::analysis::stability::{LinearModel, input_matrix};
-use wingbeat::analysis::unknown::UNKNOWNS;
-use wingbeat::analysis::{AnalysisError, Mode, ModeSet, TrimProblem, floquet, linear_model};
+use wingbeat::analysis::power::{Power, power_of_trim};
+use wingbeat::analysis::stability::{LinearModel, floquet_of_trim, input_matrix};
+use wingbeat::analysis::unknown::{Bound as Limits, UNKNOWNS, Unknown};
+use wingbeat::analysis::{AnalysisError, Mode, ModeSet, TrimProblem, linear_model};
 use wingbeat::case::{LoadedCase, trimmed_case};
 use wingbeat::math::DVec3;
 
@@ -15,31 +15,31 @@ use crate::errors::{raised, refused};
 use crate::fleet::{Fleet, Settings};
 use crate::worker::analyse;
 
+/// What is asked of a trim, as Python has it: mean velocity forward, right and up [m/s]; turn to the right [rad/s];
+/// names of the unknowns; of those with bounds the least and the largest value.
+pub type Asked = ([f64; 3], f64, Vec<String>, Vec<(String, f64, f64)>);
+
 /// What is asked of a trim.
 pub fn problem(
     py: Python<'_>,
     flight: &wingbeat::Flight,
-    [forward, climb]: [f64; 2],
-    unknowns: &[String; 3],
+    (velocity, turn_rate, unknowns, bounds): &Asked,
     steps: usize,
 ) -> PyResult<TrimProblem> {
     let names = UNKNOWNS.map(|u| u.1).join(", ");
-    let known = |name: &String| UNKNOWNS.iter().find(|u| u.1 == name).map(|u| u.0);
-    let mut problem = flight.hover();
-    for (k, name) in unknowns.iter().enumerate() {
-        let problem_of = |what| refused(py, "unknowns", &format!("`{name}` {what}"), &names);
-        problem.unknowns[k] = known(name).ok_or_else(|| problem_of("is not known"))?;
-        if unknowns[..k].contains(name) {
-            return Err(problem_of("is named twice"));
+    let known = |key: &str, name: &String| {
+        let found = UNKNOWNS.iter().find(|u| u.1 == name).map(|u| u.0);
+        found.ok_or_else(|| refused(py, key, &format!("`{name}` is not known"), &names))
+    };
+    let [forward, right, up] = *velocity;
+    let numbers = [
+        ("velocity_m_s", forward + right + up),
+        ("turn_rate_rad_s", *turn_rate),
+    ];
+    for (key, x) in numbers {
+        if !x.is_finite() {
+            return Err(refused(py, key, "it is not finite", "finite numbers"));
         }
-    }
-    if !forward.is_finite() || !climb.is_finite() {
-        return Err(refused(
-            py,
-            "velocity_m_s",
-            "it is not finite",
-            "finite numbers",
-        ));
     }
     if !(4..=2000).contains(&steps) {
         return Err(refused(
@@ -49,7 +49,30 @@ pub fn problem(
             "4 to 2000 steps per wingbeat",
         ));
     }
-    problem.velocity = DVec3::new(forward, 0.0, -climb);
+    let mut problem = flight.hover();
+    let twice = (1..unknowns.len()).find(|&k| unknowns[..k].contains(&unknowns[k]));
+    if let Some(k) = twice {
+        let problem = format!("`{}` is named twice", unknowns[k]);
+        return Err(refused(py, "unknowns", &problem, &names));
+    }
+    if unknowns.len() < 3 {
+        return Err(refused(py, "unknowns", "fewer than three", &names));
+    }
+    let unknowns = unknowns.iter().map(|name| known("unknowns", name));
+    problem.unknowns = unknowns.collect::<PyResult<_>>()?;
+    for (name, from, to) in bounds {
+        let unknown = known("bounds", name)?;
+        let is_range = from < to && from.is_finite() && to.is_finite();
+        if !is_range || !problem.unknowns.contains(&unknown) {
+            let problem = format!("`{name}` from {from} to {to}");
+            let remedy = "finite, the first below the second, of what is among the unknowns";
+            return Err(refused(py, "bounds", &problem, remedy));
+        }
+        let (from, to) = (*from, *to);
+        problem.bounds.push(Limits { unknown, from, to });
+    }
+    problem.velocity = DVec3::new(forward, right, -up);
+    problem.turn_rate = *turn_rate;
     problem.settings.steps = steps;
     Ok(problem)
 }
@@ -120,7 +143,21 @@ impl Trim {
         found.map_err(|e| raised(py, &e.into()))
     }
 
+    /// Refuses a turn: loads are averaged about a flight that is straight in the mean.
+    fn check_straight(&self, py: Python<'_>) -> PyResult<()> {
+        match self.trim.turn_rate {
+            0.0 => Ok(()),
+            _ => Err(refused(
+                py,
+                "turn_rate_rad_s",
+                "an averaged model and control derivatives are those of a flight that is straight in the mean",
+                "0, or power() and flight() of the turn",
+            )),
+        }
+    }
+
     fn controls(&self, py: Python<'_>) -> PyResult<Vec<ControlDerivative>> {
+        self.check_straight(py)?;
         let velocity = self.velocity;
         self.analyse(py, move |trim| {
             let r = trim.beat.root(&trim.state).r;
@@ -156,6 +193,25 @@ impl Trim {
         self.trim.adjustment.numbers().map(|(_, x)| x)
     }
 
+    /// What right wings have more of it than left ones.
+    #[getter]
+    fn difference(&self) -> [f64; 8] {
+        self.trim.difference.numbers().map(|(_, x)| x)
+    }
+
+    /// Roll of the body at the start of the beat [rad].
+    #[getter]
+    fn body_roll_rad(&self) -> f64 {
+        self.trim.body_roll
+    }
+
+    /// Names of the unknowns outside their bounds, and of those at one.
+    #[getter]
+    fn at_bounds(&self) -> [Vec<&'static str>; 2] {
+        let names = |list: &[Unknown]| list.iter().map(|u| u.name()).collect();
+        [names(&self.trim.outside), names(&self.trim.at_bound)]
+    }
+
     /// Pitch of the body at the start of the beat [rad].
     #[getter]
     fn body_pitch_rad(&self) -> f64 {
@@ -186,9 +242,10 @@ impl Trim {
         Vec<ModeParts>,
         Vec<ModeParts>,
     )> {
+        self.check_straight(py)?;
         let (model, orbit): (LinearModel, ModeSet) = self.analyse(py, |trim| {
             let model = linear_model(&trim.beat, &trim.state)?;
-            Ok((model, floquet(&trim.beat, &trim.state)?))
+            Ok((model, floquet_of_trim(trim)?))
         })?;
         let derivatives = model.derivatives.concat();
         Ok((
@@ -227,7 +284,7 @@ impl Trim {
     /// Mean powers over a wingbeat [W]: aerodynamic, positive inertial, with perfect elastic storage, without
     /// storage, peak; mass [kg].
     fn power(&self, py: Python<'_>) -> PyResult<[f64; 6]> {
-        let p = self.analyse(py, |trim| power(&trim.tethered()?))?;
+        let p = self.analyse(py, power_of_trim)?;
         Ok(powers(&p))
     }
 

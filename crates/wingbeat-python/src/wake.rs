@@ -1,11 +1,11 @@
 //! Trim and stability in air with a memory: the vortex lattice.
 
 use pyo3::prelude::*;
-use wingbeat::analysis::TrimProblem;
 use wingbeat::analysis::power::power_with_wake;
 use wingbeat::analysis::wake::{
     WakeMemory, WakeSettings, trim_with_wake, wake_modes, wake_monodromy,
 };
+use wingbeat::analysis::{TrimProblem, Unknown};
 use wingbeat::case::{LoadedCase, wake_trimmed_case};
 
 use crate::arrays::array;
@@ -47,7 +47,7 @@ impl WakeTrim {
     /// The residuals; see `wingbeat.WakeTrim`.
     #[getter]
     fn residual<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        array(py, self.trim.residual.to_vec(), &[6])
+        array(py, self.trim.residual.clone(), &[self.trim.residual.len()])
     }
 
     /// Quasi-Newton steps made, and flights flown.
@@ -60,6 +60,25 @@ impl WakeTrim {
     #[getter]
     fn adjustment(&self) -> [f64; 8] {
         self.trim.adjustment.numbers().map(|(_, x)| x)
+    }
+
+    /// What right wings have more of it than left ones.
+    #[getter]
+    fn difference(&self) -> [f64; 8] {
+        self.trim.difference.numbers().map(|(_, x)| x)
+    }
+
+    /// Roll of the body at its release [rad].
+    #[getter]
+    fn body_roll_rad(&self) -> f64 {
+        self.trim.body_roll
+    }
+
+    /// Names of the unknowns outside their bounds, and of those at one.
+    #[getter]
+    fn at_bounds(&self) -> [Vec<&'static str>; 2] {
+        let names = |list: &[Unknown]| list.iter().map(|u| u.name()).collect();
+        [names(&self.trim.outside), names(&self.trim.at_bound)]
     }
 
     /// Pitch of the body at its release [rad].

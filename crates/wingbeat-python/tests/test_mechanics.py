@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 
 import numpy as np
 import pytest
@@ -35,6 +36,19 @@ def test_agrees_with_the_command_line(trim, program):
     assert [m.growth_per_s for m in model.floquet_modes] == [m["growth_per_s"] for m in told["floquet_modes"]]
     done = program("power", "fruit-fly-blade", "--steps", 40, "--json")
     assert trim.power().no_storage_watt == json.loads(done.stdout)["power"]["no_storage"]["watt"]
+
+
+def test_agrees_turns_and_bounds_with_the_command_line(blade, program):
+    turn = blade.trim(forward_m_per_s=0.3, turn_rate_rad_per_s=math.radians(300), bounds={"body_roll": (0, 0.1)})
+    done = program("trim", "--forward", 0.3, "--turn-rate", 300, "--bound", "body_roll=0..5.729577951308232", "--json")
+    told = json.loads(done.stdout)
+    assert turn.converged and turn.residual.shape == (12,)
+    assert turn.outside_bounds == ("body_roll",) == tuple(told["outside_bounds"]) and done.returncode == 1
+    assert math.degrees(turn.body_roll_rad) == told["unknowns"]["body_roll_deg"]
+    assert turn.difference.stroke_amplitude == told["unknowns"]["stroke_amplitude_difference_change_relative"]
+    assert turn.power().perfect_storage_watt > 0
+    with pytest.raises(wingbeat.CaseError, match="straight in the mean"):
+        turn.stability()
 
 
 def test_exact_modes_are_the_eigenvalues_of_a(trim):

@@ -3,7 +3,7 @@
 use std::ops::ControlFlow;
 use std::path::Path;
 
-use wingbeat_analysis::{Trim, TrimProblem, TrimSettings, Unknown};
+use wingbeat_analysis::{Trim, TrimProblem};
 use wingbeat_case::{IoError, LoadedCase};
 use wingbeat_draw::draw_run;
 use wingbeat_flight::{AirModel, Feedback, FlightSetup, MotionMode, Simulation, StartState};
@@ -179,22 +179,14 @@ impl Flight {
     /// Hover as a question for [`Self::trim`]: no mean velocity; body pitch, stroke amplitude and mean
     /// stroke angle are found, the search begins at the present pitch.
     pub fn hover(&self) -> TrimProblem {
-        TrimProblem {
-            unknowns: [
-                Unknown::BodyPitch,
-                Unknown::StrokeAmplitude,
-                Unknown::StrokeOffset,
-            ],
-            velocity: DVec3::ZERO,
-            body_pitch: match &self.setup.mode {
-                MotionMode::Free(start) => start.angles.x,
-                MotionMode::Tethered(motion) => motion.angles[0].constant,
-            },
-            settings: TrimSettings::default(),
-        }
+        let body_pitch = match &self.setup.mode {
+            MotionMode::Free(start) => start.angles.x,
+            MotionMode::Tethered(motion) => motion.angles[0].constant,
+        };
+        TrimProblem::straight(DVec3::ZERO, body_pitch)
     }
 
-    /// Steady flight as a periodic orbit, see [`wingbeat_analysis::trim()`]. The trimmed animal flies
+    /// Steady flight as a periodic orbit, see [`wingbeat_analysis::least_power::trim_within`]. The trimmed animal flies
     /// on as `Flight::from(trim.free())`. Whether it was found says [`Trim::converged`].
     ///
     /// ```
@@ -211,7 +203,10 @@ impl Flight {
     /// # Errors
     /// Air with a memory, wind, applied loads, loops; numbers that stop being finite at once.
     pub fn trim(&self, problem: &TrimProblem) -> Result<Trim, Error> {
-        Ok(wingbeat_analysis::trim(&self.setup, problem)?)
+        Ok(wingbeat_analysis::least_power::trim_within(
+            &self.setup,
+            problem,
+        )?)
     }
 
     /// Flies it to its end.

@@ -125,6 +125,66 @@ fn balances_a_robot_with_passive_hinges_returns_to_its_place() {
     assert_returns(&dir.join("r"), 0, [1e-6 * 15e-3, 1e-3], &angles);
 }
 
+/// The turn of the page on flight mechanics, flown by `run` for ten wingbeats: on its circle to the last digits.
+#[test]
+fn balances_a_trimmed_turn_flies_its_circle() {
+    let scratch = Scratch::new("turn");
+    let dir = &scratch.0;
+    let turn = ["--forward", "0.3", "--turn-rate", "300"];
+    let text = said(
+        dir,
+        &[&["trim", "--write", "turn.toml"][..], &turn].concat(),
+    );
+    assert!(text.contains("turning right by 300.00 deg/s"), "{text}");
+    let beats = ["--set", "time.beats=10", "--quiet", "--out", "r"];
+    said(dir, &[&["run", "turn.toml"][..], &beats].concat());
+    let gone = |axis: &str| {
+        let x = column(&dir.join("r"), &format!("mass_centre_{axis}_m"));
+        x[x.len() - 1] - x[0]
+    };
+    let (rate, time) = (300_f64.to_radians(), 0.05);
+    let radius = 0.3 / rate;
+    let on_circle = [(rate * time).sin(), 1.0 - (rate * time).cos(), 0.0].map(|x| radius * x);
+    for (axis, x) in ["n1", "n2", "n3"].into_iter().zip(on_circle) {
+        // Trimmed to 1e-9 wing lengths a beat, which grows by half in ten.
+        assert!((gone(axis) - x).abs() < 1e-10, "{axis}: {} {x}", gone(axis));
+    }
+    said(dir, &[&["power", "--steps", "40"][..], &turn].concat());
+    let modes = said(dir, &[&["stability", "--steps", "40"][..], &turn].concat());
+    assert!(
+        modes.contains("No averaged model") && modes.contains("neutral"),
+        "{modes}"
+    );
+    for command in ["derivatives", "stabilise"] {
+        let problem = refused(dir, 2, &[&[command][..], &turn].concat());
+        assert!(problem.contains("--turn-rate"), "{problem}");
+    }
+}
+
+#[test]
+fn refuses_bounds_that_are_none_and_reports_trims_outside() {
+    let scratch = Scratch::new("bounds");
+    let dir = &scratch.0;
+    for (bound, what) in [
+        ("stroke_amplitude=0.2..-0.2", "FROM below TO"),
+        ("lift=0..1", "stroke_amplitude"),
+        ("stroke_plane=0..1", "not among the unknowns"),
+    ] {
+        let problem = refused(dir, 2, &["trim", "--bound", bound]);
+        assert!(problem.contains(what), "{problem}");
+    }
+    let out = wingbeat(
+        dir,
+        &["trim", "--steps", "40", "--bound", "body_pitch=0..30"],
+    );
+    let text = String::from_utf8_lossy(&out.stdout);
+    assert_eq!(out.status.code(), Some(1));
+    assert!(
+        text.contains("OUTSIDE its bound") && text.contains("NOT within"),
+        "{text}"
+    );
+}
+
 /// Averages over a beat need motions that are known beforehand: what cannot be had is named before the work is
 /// done, and what can be had is given.
 #[test]

@@ -103,16 +103,10 @@ fn hovering(animal: Animal, frequency: f64, pitch: f64) -> FlightSetup {
 /// Hover with body pitch, stroke amplitude and mean stroke angle to choose.
 pub fn hover(steps: usize) -> TrimProblem {
     TrimProblem {
-        unknowns: [
-            Unknown::BodyPitch,
-            Unknown::StrokeAmplitude,
-            Unknown::StrokeOffset,
-        ],
-        velocity: DVec3::ZERO,
-        body_pitch: HOVER_BODY_PITCH,
         settings: TrimSettings {
             steps,
             ..TrimSettings::default()
         },
+        ..TrimProblem::straight(DVec3::ZERO, HOVER_BODY_PITCH)
     }
 }

@@ -117,21 +117,22 @@ fn adjustments(case: &Case, setup: &FlightSetup) -> Built<()> {
         let constant = |w: &Wing| matches!(angle(w), AngleLaw::Constant(_));
         !setup.animal.wings.iter().all(constant)
     };
-    let adjust = &case.motion.adjust;
     let strokes = varies(|w| &w.motion.angles.phi);
     let feathers = varies(|w| &w.motion.angles.psi);
-    for (key, value, varies) in [
-        ("stroke_amplitude", adjust.stroke_amplitude, strokes),
-        (
-            "feathering_amplitude",
-            adjust.feathering_amplitude,
-            feathers,
-        ),
-        ("feathering_lead", adjust.feathering_lead, feathers),
+    let motion = &case.motion;
+    for (table, by) in [
+        ("adjust", &motion.adjust),
+        ("difference", &motion.difference),
     ] {
-        if value != 0.0 && !varies {
-            let key = format!("motion.adjust.{key}");
-            return Err(idle(key, "on wings whose angle is constant"));
+        for (key, value, varies) in [
+            ("stroke_amplitude", by.stroke_amplitude, strokes),
+            ("feathering_amplitude", by.feathering_amplitude, feathers),
+            ("feathering_lead", by.feathering_lead, feathers),
+        ] {
+            if value != 0.0 && !varies {
+                let key = format!("motion.{table}.{key}");
+                return Err(idle(key, "on wings whose angle is constant"));
+            }
         }
     }
     Ok(())

@@ -27,6 +27,7 @@ mod wind;
 mod wing;
 
 pub(crate) use effects::check as check_effects;
+pub(crate) use motion::adjustment;
 pub use names::column_name;
 pub(crate) use output::output;
 pub(crate) use refused::refused;

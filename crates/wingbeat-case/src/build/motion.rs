@@ -9,10 +9,11 @@ use super::fault::Built;
 use crate::data::find_data;
 use crate::error::Fault;
 use crate::raw::{
-    AngleCase, Case, FourierCase, MotionCase, StartCase, TableCase, WingCase, WingMotionCase,
+    AdjustCase, AngleCase, Case, FourierCase, MotionCase, StartCase, TableCase, WingCase,
+    WingMotionCase,
 };
 
-/// The motion of one wing.
+/// The motion of one wing, without adjustments.
 pub(super) fn law(case: &Case, name: &str, wing: &WingCase, side: Side) -> Built<WingMotion> {
     let none = WingMotionCase::default();
     let own = wing.motion.as_ref().unwrap_or(&none);
@@ -31,18 +32,26 @@ pub(super) fn law(case: &Case, name: &str, wing: &WingCase, side: Side) -> Built
             "add `frequency_hz = ...` to [motion]",
         ));
     }
-    let motion = WingMotion {
+    Ok(WingMotion {
         angles: laws,
         frequency,
         phase: own.phase.unwrap_or(case.motion.phase),
         stroke_plane_pitch: pitch.to_radians(),
         start: start(case, frequency),
-    };
-    Ok(motion.adjusted(side, &adjustment(&case.motion)))
+    })
 }
 
-fn adjustment(motion: &MotionCase) -> Adjustment {
-    let case = &motion.adjust;
+/// The motion of a wing of this side with the adjustments of the case.
+pub(super) fn adjusted(case: &Case, motion: &WingMotion, side: Side) -> WingMotion {
+    let MotionCase {
+        adjust, difference, ..
+    } = &case.motion;
+    let by = adjustment(adjust).on(side, &adjustment(difference));
+    motion.adjusted(side, &by)
+}
+
+/// An adjustment of a case.
+pub(crate) fn adjustment(case: &AdjustCase) -> Adjustment {
     Adjustment {
         stroke_amplitude: case.stroke_amplitude,
         stroke_offset: case.stroke_offset_deg.to_radians(),

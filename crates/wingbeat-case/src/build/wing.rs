@@ -26,6 +26,9 @@ pub(super) fn build_all(case: &Case) -> Built<Vec<Wing>> {
             wings.push(wings[wings.len() - 1].mirrored(&other));
         }
     }
+    for wing in &mut wings {
+        wing.motion = motion::adjusted(case, &wing.motion, wing.side);
+    }
     wings.sort_by(|a, b| a.name.cmp(&b.name));
     Ok(wings)
 }

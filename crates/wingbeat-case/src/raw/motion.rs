@@ -45,9 +45,12 @@ pub struct MotionCase {
     pub phase: f64,
     /// Adjustments of all wings on top of their angles, as trim finds them.
     pub adjust: AdjustCase,
+    /// By how much these adjustments are larger of right wings than of left ones: half to either side.
+    pub difference: AdjustCase,
 }
 
-/// Adjustments of the wing angles, the same on both sides by mirror symmetry.
+/// Adjustments of the wing angles: of `motion.adjust` the same on both sides by mirror symmetry, of
+/// `motion.difference` those of right wings less those of left ones.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct AdjustCase {

@@ -101,6 +101,63 @@ impl Adjustment {
         ]
     }
 
+    /// From the numbers in the order of [`Self::numbers`].
+    fn of_numbers(x: [f64; 8]) -> Self {
+        let [
+            stroke_amplitude,
+            stroke_offset,
+            feathering_offset,
+            feathering_amplitude,
+            feathering_lead,
+            deviation_offset,
+            stroke_plane,
+            frequency,
+        ] = x;
+        Self {
+            stroke_amplitude,
+            stroke_offset,
+            feathering_offset,
+            feathering_amplitude,
+            feathering_lead,
+            deviation_offset,
+            stroke_plane,
+            frequency,
+        }
+    }
+
+    /// Number by number of this one and another.
+    fn with(&self, other: &Self, f: impl Fn(f64, f64) -> f64) -> Self {
+        let (a, b) = (self.numbers(), other.numbers());
+        Self::of_numbers(std::array::from_fn(|k| f(a[k].1, b[k].1)))
+    }
+
+    /// That of the wings of one side: this one, and half of `difference` (right less left) to either side.
+    pub fn on(&self, side: Side, difference: &Self) -> Self {
+        let half = 0.5 * side.sign();
+        self.with(difference, |a, d| a + half * d)
+    }
+
+    /// What right wings with this one and left ones with the other have in the mean.
+    pub fn mean(&self, other: &Self) -> Self {
+        self.with(other, |a, b| 0.5 * (a + b))
+    }
+
+    /// What this one has more than the other.
+    pub fn less(&self, other: &Self) -> Self {
+        self.with(other, |a, b| a - b)
+    }
+
+    /// This one and then the other: relative changes multiply, angles and leads add.
+    pub fn then(&self, next: &Self) -> Self {
+        let both = |a: f64, b: f64| (1.0 + a) * (1.0 + b) - 1.0;
+        Self {
+            stroke_amplitude: both(self.stroke_amplitude, next.stroke_amplitude),
+            feathering_amplitude: both(self.feathering_amplitude, next.feathering_amplitude),
+            frequency: both(self.frequency, next.frequency),
+            ..self.with(next, |a, b| a + b)
+        }
+    }
+
     /// Whether all numbers are finite.
     pub fn is_finite(&self) -> bool {
         self.numbers().iter().all(|(_, x)| x.is_finite())

@@ -24,6 +24,7 @@ Progress = Callable[[int, int], object]
 
 _UNSET: Any = object()
 _HOVER = ("body_pitch", "stroke_amplitude", "stroke_offset")
+_LATERAL = ("body_roll", "stroke_amplitude_difference", "stroke_plane_difference")
 
 
 class Flight:
@@ -206,22 +207,29 @@ class Flight:
         self,
         *,
         forward_m_per_s: float = 0.0,
+        sideslip_m_per_s: float = 0.0,
         climb_m_per_s: float = 0.0,
-        unknowns: Sequence[str] = _HOVER,
+        turn_rate_rad_per_s: float = 0.0,
+        unknowns: Sequence[str] | None = None,
+        bounds: Mapping[str, tuple[float, float]] | None = None,
         steps: int = 100,
     ) -> Trim:
-        """Steady flight with this mean velocity as a periodic orbit, in air without memory, feedback left out; three
-        ``unknowns`` are chosen by it. See docs/flight-mechanics.md.
+        """Steady flight with this mean velocity (forward, to the right, up) and turn (to the right) as a periodic orbit, in
+        air without memory, feedback left out. Three ``unknowns`` are chosen by it; six where the flight turns, slips or
+        has wings that differ; those beyond for least power. ``bounds`` are of unknowns, in radians and parts of 1. See
+        docs/flight-mechanics.md.
         """
-        velocity = (float(forward_m_per_s), float(climb_m_per_s))
-        return Trim(self._core.trim(velocity, _three(unknowns), steps))
+        velocity = (float(forward_m_per_s), float(sideslip_m_per_s), float(climb_m_per_s))
+        return Trim(self._core.trim(_asked(velocity, float(turn_rate_rad_per_s), unknowns, bounds), steps))
 
     def trim_with_wake(
         self,
         *,
         forward_m_per_s: float = 0.0,
+        sideslip_m_per_s: float = 0.0,
         climb_m_per_s: float = 0.0,
-        unknowns: Sequence[str] = _HOVER,
+        unknowns: Sequence[str] | None = None,
+        bounds: Mapping[str, tuple[float, float]] | None = None,
         held_beats: int = 2,
         tolerance: float = 2e-3,
     ) -> WakeTrim:
@@ -229,8 +237,9 @@ class Flight:
         wake grows, and the free wingbeat after them is the one that is trimmed: its residuals, forces over weight, within
         ``tolerance``. Some 10 to 30 such flights: minutes.
         """
-        velocity = (float(forward_m_per_s), float(climb_m_per_s))
-        return WakeTrim(self._core.trim_with_wake(velocity, _three(unknowns), held_beats, float(tolerance)))
+        velocity = (float(forward_m_per_s), float(sideslip_m_per_s), float(climb_m_per_s))
+        asked = _asked(velocity, 0.0, unknowns, bounds)
+        return WakeTrim(self._core.trim_with_wake(asked, held_beats, float(tolerance)))
 
     def stability(self, **trim: Any) -> LinearModel:
         """Linear model about the trimmed flight; arguments are those of :meth:`trim`."""
@@ -301,11 +310,24 @@ class Stepper:
         return Run(self._core.run())
 
 
-def _three(unknowns: Sequence[str]) -> tuple[str, str, str]:
-    if isinstance(unknowns, str) or len(unknowns) != 3:
-        raise CaseError(f"unknowns = {unknowns!r}: not three", key="unknowns", remedy=f"three, as {_HOVER}")
-    a, b, c = unknowns
-    return a, b, c
+def _asked(
+    velocity: tuple[float, float, float],
+    turn_rate: float,
+    unknowns: Sequence[str] | None,
+    bounds: Mapping[str, tuple[float, float]] | None,
+) -> _core._Asked:
+    """What is asked of a trim, unknowns by default those of its kind."""
+    if unknowns is None:
+        unknowns = _HOVER if velocity[1] == 0.0 and turn_rate == 0.0 else _HOVER + _LATERAL
+    if isinstance(unknowns, str) or not all(isinstance(name, str) for name in unknowns):
+        raise CaseError(f"unknowns = {unknowns!r}: not a list of names", key="unknowns", remedy=f"as {_HOVER}")
+    try:
+        ranges = [(name, float(least), float(most)) for name, (least, most) in (bounds or {}).items()]
+    except (AttributeError, TypeError, ValueError):
+        raise CaseError(
+            f"bounds = {bounds!r}: not pairs by name", key="bounds", remedy="as {'stroke_amplitude': (-0.2, 0.2)}"
+        ) from None
+    return velocity, turn_rate, list(unknowns), ranges
 
 
 def _rows(name: str, angle: ArrayLike | Callable[[float], float], samples: int) -> list[list[float]]:

@@ -156,7 +156,8 @@ class Trim:
     @property
     def residual(self) -> NDArray[Any]:
         """Horizontal and vertical force over weight, pitch moment over weight times wing length, pitch per beat [rad],
-        horizontal and vertical drift per beat over wing length; then those of free joints.
+        horizontal and vertical drift per beat over wing length; of flight that turns, slips or has lateral unknowns three
+        of each: forward, right, down. Then those of free joints.
         """
         return self._core.residual
 
@@ -169,6 +170,26 @@ class Trim:
     def adjustment(self) -> Adjustment:
         """What trim adds to the motion of all wings."""
         return Adjustment(*self._core.adjustment)
+
+    @property
+    def difference(self) -> Adjustment:
+        """What right wings have more of it than left ones."""
+        return Adjustment(*self._core.difference)
+
+    @property
+    def outside_bounds(self) -> tuple[str, ...]:
+        """Unknowns outside their bounds: the flight is steady, but not as asked."""
+        return tuple(self._core.at_bounds[0])
+
+    @property
+    def at_bound(self) -> tuple[str, ...]:
+        """Unknowns at a bound."""
+        return tuple(self._core.at_bounds[1])
+
+    @property
+    def body_roll_rad(self) -> float:
+        """Roll of the body at the start of the wingbeat, right side down [rad]."""
+        return self._core.body_roll_rad
 
     @property
     def body_pitch_rad(self) -> float:
@@ -238,7 +259,7 @@ class WakeTrim:
 
     @property
     def residual(self) -> NDArray[Any]:
-        """As :attr:`Trim.residual`, shape (6,)."""
+        """As :attr:`Trim.residual`, shape (6,) or (12,)."""
         return self._core.residual
 
     @property
@@ -255,6 +276,26 @@ class WakeTrim:
     def adjustment(self) -> Adjustment:
         """What trim adds to the motion of all wings."""
         return Adjustment(*self._core.adjustment)
+
+    @property
+    def difference(self) -> Adjustment:
+        """What right wings have more of it than left ones."""
+        return Adjustment(*self._core.difference)
+
+    @property
+    def outside_bounds(self) -> tuple[str, ...]:
+        """Unknowns outside their bounds: the flight is steady, but not as asked."""
+        return tuple(self._core.at_bounds[0])
+
+    @property
+    def at_bound(self) -> tuple[str, ...]:
+        """Unknowns at a bound."""
+        return tuple(self._core.at_bounds[1])
+
+    @property
+    def body_roll_rad(self) -> float:
+        """Roll of the body at the start of the wingbeat, right side down [rad]."""
+        return self._core.body_roll_rad
 
     @property
     def body_pitch_rad(self) -> float:

@@ -16,6 +16,7 @@ pub(crate) fn run(args: &Trimming) -> Result<(), Failure> {
 
 fn find(args: &Trimming, report: &mut Report) -> Result<(), Failure> {
     args.check_averaged()?;
+    args.without_turn("a steadily moving body, about which loads are averaged,")?;
     let (_, trim) = trimmed(args, report)?;
     let r = trim.beat.root(&trim.state).r;
     let level = Level::new(r, trim.setup.gravity);
@@ -61,6 +62,7 @@ fn find(args: &Trimming, report: &mut Report) -> Result<(), Failure> {
 
 /// The velocity trimmed to, N components [m/s].
 fn trim_velocity(args: &Trimming) -> DVec3 {
-    let [forward, climb] = [args.forward, args.climb].map(|v| v.unwrap_or(0.0));
-    DVec3::new(forward, 0.0, -climb)
+    let given = [args.forward, args.sideslip, args.climb];
+    let [forward, right, climb] = given.map(|v| v.unwrap_or(0.0));
+    DVec3::new(forward, right, -climb)
 }

@@ -1,6 +1,8 @@
 //! What is reported of a trim.
 
 use serde_json::{Map, Value, json};
+use wingbeat::analysis::steady::Residuals;
+use wingbeat::analysis::unknown::{Bound, UNKNOWNS};
 use wingbeat::analysis::wake::WakeTrim;
 use wingbeat::analysis::{Trim, TrimProblem, Unknown};
 use wingbeat::case::LoadedCase;
@@ -14,9 +16,14 @@ pub(crate) struct Found {
     pub(crate) converged: bool,
     pub(crate) residual: Vec<f64>,
     pub(crate) iterations: usize,
+    pub(crate) unknowns: Vec<Unknown>,
+    pub(crate) outside: Vec<Unknown>,
+    pub(crate) at_bound: Vec<Unknown>,
     pub(crate) adjustment: Adjustment,
+    pub(crate) difference: Adjustment,
     pub(crate) mass_centre: f64,
     pub(crate) body_pitch: f64,
+    pub(crate) body_roll: f64,
 }
 
 impl From<&Trim> for Found {
@@ -25,9 +32,14 @@ impl From<&Trim> for Found {
             converged: t.converged,
             residual: t.residual.clone(),
             iterations: t.iterations,
+            unknowns: t.unknowns.clone(),
+            outside: t.outside.clone(),
+            at_bound: t.at_bound.clone(),
             adjustment: t.adjustment,
+            difference: t.difference,
             mass_centre: t.mass_centre,
             body_pitch: t.body_pitch,
+            body_roll: t.body_roll,
         }
     }
 }
@@ -36,46 +48,38 @@ impl From<&WakeTrim> for Found {
     fn from(t: &WakeTrim) -> Self {
         Self {
             converged: t.converged,
-            residual: t.residual.to_vec(),
+            residual: t.residual.clone(),
             iterations: t.iterations,
+            unknowns: t.unknowns.clone(),
+            outside: t.outside.clone(),
+            at_bound: t.at_bound.clone(),
             adjustment: t.adjustment,
+            difference: t.difference,
             mass_centre: t.mass_centre,
             body_pitch: t.body_pitch,
+            body_roll: t.body_roll,
         }
     }
 }
-
-/// Names of the residuals: in words, and for programs.
-const RESIDUALS: [[&str; 2]; 6] = [
-    ["force forward / weight", "force_forward_over_weight"],
-    ["force down / weight", "force_down_over_weight"],
-    [
-        "pitch moment / (weight R)",
-        "pitch_moment_over_weight_and_length",
-    ],
-    ["pitch per beat [rad]", "pitch_per_beat_rad"],
-    [
-        "drift forward / R per beat",
-        "drift_forward_over_length_per_beat",
-    ],
-    ["drift down / R per beat", "drift_down_over_length_per_beat"],
-];
 
 /// The trim.
 pub(super) fn tell(report: &mut Report, case: &LoadedCase, problem: &TrimProblem, t: &Found) {
     let (forward, up) = (problem.velocity.x, 0.0 - problem.velocity.z);
     line!(
         report,
-        "{}: trim to {forward:.3} m/s forward, {up:.3} m/s up",
-        case.name
+        "{}: trim to {forward:.3} m/s forward, {up:.3} m/s up{}",
+        case.name,
+        aside(problem)
     );
     let has_control = case.raw.control.is_some();
     if has_control {
         line!(report, "of the open loop: [control] is left out");
     }
     report.value("control_left_out", has_control);
-    let verdict = if t.converged {
+    let verdict = if t.converged && t.outside.is_empty() {
         "trimmed"
+    } else if t.converged {
+        "steady, but NOT within the bounds,"
     } else {
         "NOT trimmed; the best point found"
     };
@@ -85,17 +89,27 @@ pub(super) fn tell(report: &mut Report, case: &LoadedCase, problem: &TrimProblem
         "{verdict} after {} Newton steps, largest residual {largest:.1e}",
         t.iterations
     );
-    for u in problem.unknowns {
-        line!(report, "  {:<18}{}", u.name(), value(u, t).0);
+    let width = t.unknowns.iter().map(|u| u.name().len()).max();
+    let width = width.unwrap_or(0).max(16) + 2;
+    for &u in &t.unknowns {
+        let note = if t.outside.contains(&u) {
+            ", OUTSIDE its bound"
+        } else if t.at_bound.contains(&u) {
+            ", at its bound"
+        } else {
+            ""
+        };
+        line!(report, "  {:<width$}{}{note}", u.name(), value(u, t).0);
     }
-    for ([name, _], r) in RESIDUALS.iter().zip(&t.residual) {
+    let names = Residuals::of(problem).names();
+    for ([name, _], r) in names.iter().zip(&t.residual) {
         line!(report, "  residual of {name:<28}{r:>10.1e}");
     }
-    let residuals = RESIDUALS.iter().zip(&t.residual);
+    let residuals = names.iter().zip(&t.residual);
     let mut residuals: Map<String, Value> = residuals
         .map(|([_, key], r)| ((*key).to_owned(), json!(r)))
         .collect();
-    if let Some(joints) = t.residual.get(RESIDUALS.len()..).filter(|j| !j.is_empty()) {
+    if let Some(joints) = t.residual.get(names.len()..).filter(|j| !j.is_empty()) {
         let largest = joints.iter().fold(0.0_f64, |m, r| m.max(r.abs()));
         line!(
             report,
@@ -107,10 +121,32 @@ pub(super) fn tell(report: &mut Report, case: &LoadedCase, problem: &TrimProblem
     report.value("case", case.name.as_str());
     report.value("forward_m_s", forward);
     report.value("climb_m_s", up);
+    report.value("sideslip_m_s", problem.velocity.y);
+    report.value("turn_rate_deg_s", problem.turn_rate.to_degrees());
     report.value("converged", t.converged);
+    report.value("within_bounds", t.outside.is_empty());
+    report.value("at_bound", names_of(&t.at_bound));
+    report.value("outside_bounds", names_of(&t.outside));
     report.value("newton_steps", t.iterations);
-    report.value("unknowns", values(&problem.unknowns, t));
+    report.value("unknowns", values(&t.unknowns, t));
     report.value("residuals", residuals);
+}
+
+fn names_of(unknowns: &[Unknown]) -> Vec<&'static str> {
+    unknowns.iter().map(|u| u.name()).collect()
+}
+
+/// Sideslip and turn in words, where there are any.
+fn aside(problem: &TrimProblem) -> String {
+    let (right, turn) = (problem.velocity.y, problem.turn_rate.to_degrees());
+    let slip = match right {
+        0.0 => String::new(),
+        _ => format!(", {right:.3} m/s to the right"),
+    };
+    match turn {
+        0.0 => slip,
+        _ => format!("{slip}, turning right by {turn:.2} deg/s"),
+    }
 }
 
 /// What was found of the unknowns, units in the names.
@@ -124,31 +160,71 @@ pub(super) fn values(unknowns: &[Unknown], t: &Found) -> Map<String, Value> {
 
 /// An unknown in words; the unit its name ends with for programs, and the value in it.
 fn value(u: Unknown, t: &Found) -> (String, &'static str, f64) {
-    let a = &t.adjustment;
-    let degrees = |x: f64| {
-        let x = x.to_degrees();
-        (format!("{} deg", signed(x, 4)), "_deg", x)
+    let (a, d) = (&t.adjustment, &t.difference);
+    let x = match u {
+        Unknown::StrokeAmplitude => a.stroke_amplitude,
+        Unknown::StrokeOffset => a.stroke_offset,
+        Unknown::Frequency => a.frequency,
+        Unknown::StrokePlane => a.stroke_plane,
+        Unknown::FeatheringOffset => a.feathering_offset,
+        Unknown::FeatheringLead => a.feathering_lead,
+        Unknown::DeviationOffset => a.deviation_offset,
+        Unknown::BodyPitch => t.body_pitch,
+        Unknown::MassCentre => t.mass_centre,
+        Unknown::BodyRoll => t.body_roll,
+        Unknown::StrokeAmplitudeDifference => d.stroke_amplitude,
+        Unknown::StrokeOffsetDifference => d.stroke_offset,
+        Unknown::StrokePlaneDifference => d.stroke_plane,
+        Unknown::FeatheringOffsetDifference => d.feathering_offset,
+        Unknown::DeviationOffsetDifference => d.deviation_offset,
     };
-    let part = |x: f64| (format!("{} %", signed(100.0 * x, 3)), "_change_relative", x);
+    let [suffix, unit] = unit(u);
+    let (shown, places) = match unit {
+        "%" => (100.0 * x, 3),
+        "deg" => (x.to_degrees(), 4),
+        "mm forward" => (1e3 * x, 4),
+        _ => (x, 5),
+    };
+    let told = if unit == "deg" { shown } else { x };
+    (format!("{} {unit}", signed(shown, places)), suffix, told)
+}
+
+/// The unit of an unknown: as the end of its name for programs, and in words.
+fn unit(u: Unknown) -> [&'static str; 2] {
     match u {
-        Unknown::StrokeAmplitude => part(a.stroke_amplitude),
-        Unknown::StrokeOffset => degrees(a.stroke_offset),
-        Unknown::Frequency => part(a.frequency),
-        Unknown::StrokePlane => degrees(a.stroke_plane),
-        Unknown::FeatheringOffset => degrees(a.feathering_offset),
-        Unknown::FeatheringLead => {
-            let x = a.feathering_lead;
-            (format!("{} wingbeats", signed(x, 5)), "_wingbeats", x)
+        Unknown::StrokeAmplitude | Unknown::Frequency | Unknown::StrokeAmplitudeDifference => {
+            ["_change_relative", "%"]
         }
-        Unknown::DeviationOffset => degrees(a.deviation_offset),
-        Unknown::BodyPitch => degrees(t.body_pitch),
-        Unknown::MassCentre => {
-            let x = t.mass_centre;
-            (
-                format!("{} mm forward", signed(1e3 * x, 4)),
-                "_forward_m",
-                x,
-            )
-        }
+        Unknown::FeatheringLead => ["_wingbeats", "wingbeats"],
+        Unknown::MassCentre => ["_forward_m", "mm forward"],
+        _ => ["_deg", "deg"],
+    }
+}
+
+/// A bound as it is given, `NAME=FROM..TO`: angles in degrees, relative changes as parts of 1, `mass_centre` in wing
+/// lengths.
+pub(super) fn bound(text: &str) -> Result<Bound, String> {
+    let parts = text.split_once('=').and_then(|(name, range)| {
+        let (from, to) = range.split_once("..")?;
+        Some((name, from.trim().parse().ok()?, to.trim().parse().ok()?))
+    });
+    let known = |name: &str| UNKNOWNS.iter().find(|u| u.1 == name).map(|u| u.0);
+    let Some((name, from, to)) = parts.filter(|(_, a, b): &(&str, f64, f64)| a < b) else {
+        return Err(
+            "give NAME=FROM..TO with FROM below TO, e.g. stroke_amplitude=-0.2..0.2".to_owned(),
+        );
+    };
+    let Some(unknown) = known(name) else {
+        let names = UNKNOWNS.map(|u| u.1).join(", ");
+        return Err(format!("`{name}` is no unknown; give one of {names}"));
+    };
+    let scale = match unit(unknown)[1] {
+        "deg" => std::f64::consts::PI / 180.0,
+        _ => 1.0,
+    };
+    let (from, to) = (scale * from, scale * to);
+    match from.is_finite() && to.is_finite() {
+        true => Ok(Bound { unknown, from, to }),
+        false => Err("give finite numbers".to_owned()),
     }
 }

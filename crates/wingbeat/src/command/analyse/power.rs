@@ -2,7 +2,7 @@
 
 use clap::Args;
 use serde_json::{Map, json};
-use wingbeat::analysis::power::{Power, power, power_with_wake};
+use wingbeat::analysis::power::{Power, power_of_trim, power_with_wake};
 
 use super::trimming::{Trimming, trimmed, trimmed_with_wake, watched};
 use crate::command::failure::Failure;
@@ -29,10 +29,12 @@ pub(crate) fn run(args: &PowerArgs) -> Result<(), Failure> {
             (found, "the free wingbeat that was trimmed")
         } else {
             let (_, trim) = trimmed(trimming, report)?;
-            let found = watched("power", || power(&trim.tethered()?))?;
-            let carried =
-                "a wingbeat, body carried in the trimmed attitude at the trimmed velocity";
-            (found, carried)
+            let found = watched("power", || power_of_trim(&trim))?;
+            let flight = match trim.turn_rate {
+                0.0 => "a wingbeat, body carried in the trimmed attitude at the trimmed velocity",
+                _ => "the free wingbeat of the turn",
+            };
+            (found, flight)
         };
         tell(report, &found, flight, args.muscle);
         Ok(())

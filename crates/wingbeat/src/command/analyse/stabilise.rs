@@ -86,6 +86,7 @@ pub(crate) fn run(args: &StabiliseArgs) -> Result<(), Failure> {
             return Err(unused(option, "without feedback nothing is sensed"));
         }
     }
+    args.trimming.without_turn("a flight that feedback holds")?;
     let report = &args.trimming.report;
     report.deliver([&args.figure], |report, [figure]| match args.tumbles {
         Some(count) => tumble(args, report, count),

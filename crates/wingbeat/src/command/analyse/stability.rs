@@ -5,9 +5,10 @@ use std::path::PathBuf;
 use clap::{Args, ValueEnum};
 use serde_json::{Value, json};
 use wingbeat::analysis::modes::Plane;
+use wingbeat::analysis::stability::floquet_of_trim;
 use wingbeat::analysis::stability::{LOADS, LinearModel};
 use wingbeat::analysis::wake::{WakeMemory, wake_floquet};
-use wingbeat::analysis::{ModeSet, floquet, linear_model, table_model};
+use wingbeat::analysis::{ModeSet, linear_model, table_model};
 use wingbeat::case::LoadedCase;
 use wingbeat::case::derivative_case;
 use wingbeat::flight::AirModel;
@@ -65,13 +66,19 @@ pub(crate) fn run(args: &StabilityArgs) -> Result<(), Failure> {
 /// Averaged model and orbit of a flight in air without memory.
 fn of_trim(args: &Trimming, report: &mut Report, file: Option<Target>) -> Result<(), Failure> {
     if file.is_some() {
-        args.check_averaged()?; // before the trim, which takes its time
+        // Before the trim, which takes its time.
+        args.check_averaged()?;
+        args.without_turn("an averaged model to write")?;
     }
     let (case, trim) = trimmed(args, report)?;
-    let averaged = match trim.beat.check_averaged() {
+    let straight = match trim.turn_rate {
+        0.0 => trim.beat.check_averaged().map_err(|e| e.to_string()),
+        _ => Err("loads are averaged about a flight that is straight in the mean".to_owned()),
+    };
+    let averaged = match straight {
         Err(e) => {
             line!(report, "\nNo averaged model: {e}");
-            report.value("no_averaged_model", e.to_string());
+            report.value("no_averaged_model", e);
             None
         }
         Ok(()) => {
@@ -79,7 +86,7 @@ fn of_trim(args: &Trimming, report: &mut Report, file: Option<Target>) -> Result
             Some(found?)
         }
     };
-    let orbit = watched("Floquet's modes", || floquet(&trim.beat, &trim.state))?;
+    let orbit = watched("Floquet's modes", || floquet_of_trim(&trim))?;
     if let Some(averaged) = &averaged {
         derivatives(report, averaged);
         line!(

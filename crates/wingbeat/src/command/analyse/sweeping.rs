@@ -23,7 +23,10 @@ pub(super) fn run(
     args.without_memory(&case)?;
     let problem = args.problem(&case)?;
     let share = |k: usize| k as f64 / (points - 1) as f64;
-    let velocity = |k: usize| DVec3::new(from + (to - from) * share(k), 0.0, problem.velocity.z);
+    let velocity = |k: usize| DVec3 {
+        x: from + (to - from) * share(k),
+        ..problem.velocity
+    };
     let velocities: Vec<DVec3> = (0..points).map(velocity).collect();
     let found = watched("trimming", || sweep(&case.setup, &problem, &velocities))?;
     tell(report, &case.name, &found);
@@ -89,6 +92,7 @@ fn tell(report: &mut Report, name: &str, found: &Sweep) {
         let why = match lost {
             Lost::NotTrimmed(Some(residual)) => format!("largest residual {residual:.1e}"),
             Lost::NotTrimmed(None) => "no finite flight".to_owned(),
+            Lost::Bound(unknown) => format!("{} outside its bound", unknown.name()),
             Lost::Stroke(angle) => format!(
                 "strokes of {:.0} deg, with which right and left wings pass through each other",
                 angle.to_degrees()

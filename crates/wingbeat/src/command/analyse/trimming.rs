@@ -1,8 +1,9 @@
 //! What is trimmed and how, for all analysing commands.
 
 use clap::Args;
-use wingbeat::analysis::trim::trim as find_trim;
-use wingbeat::analysis::unknown::UNKNOWNS;
+use wingbeat::analysis::least_power::trim_within;
+use wingbeat::analysis::steady::Residuals;
+use wingbeat::analysis::unknown::{Bound, UNKNOWNS};
 use wingbeat::analysis::wake::{WakeSettings, WakeTrim, trim_with_wake};
 use wingbeat::analysis::{Beat, Trim, TrimProblem, TrimSettings, Unknown};
 use wingbeat::case::{IoError, LoadedCase};
@@ -29,11 +30,11 @@ const MAX_HELD: usize = 100;
 /// Wingbeats of the hold unless told otherwise.
 const DEFAULT_HELD: usize = 2;
 
-/// The unknowns unless told otherwise.
-const DEFAULT_UNKNOWNS: [Unknown; 3] = [
-    Unknown::BodyPitch,
-    Unknown::StrokeAmplitude,
-    Unknown::StrokeOffset,
+/// The unknowns of flight that turns or slips sideways, unless told otherwise, beside those of straight flight.
+const LATERAL_UNKNOWNS: [Unknown; 3] = [
+    Unknown::BodyRoll,
+    Unknown::StrokeAmplitudeDifference,
+    Unknown::StrokePlaneDifference,
 ];
 
 /// Heading of these options in the help.
@@ -48,9 +49,15 @@ pub(crate) struct Trimming {
     /// Set a key of the case, e.g. time.beats=3 (may be repeated).
     #[arg(long = "set", value_name = "KEY=VALUE")]
     set: Vec<String>,
-    /// The three things trim may choose [default: body_pitch stroke_amplitude stroke_offset].
-    #[arg(long, num_args = 3, value_names = ["A", "B", "C"], value_parser = unknown, help_heading = HEADING)]
+    /// What trim may choose: three things [default: body_pitch stroke_amplitude stroke_offset]; six, three of them
+    /// lateral, in turns, sideslip and of animals that differ right and left [default: these, body_roll,
+    /// stroke_amplitude_difference, stroke_plane_difference]; those beyond for least power.
+    #[arg(long, num_args = 3..=UNKNOWNS.len(), value_name = "NAME", value_parser = unknown, help_heading = HEADING)]
     unknowns: Option<Vec<Unknown>>,
+    /// Between what an unknown must lie, e.g. stroke_amplitude=-0.2..0.2 or body_pitch=20..60 (degrees; may be
+    /// repeated).
+    #[arg(long, value_name = "NAME=FROM..TO", value_parser = found::bound, help_heading = HEADING)]
+    bound: Vec<Bound>,
     /// Mean velocity forward (n1), m/s [default: 0].
     #[arg(long, value_name = "SPEED", allow_negative_numbers = true,
           value_parser = options::speed, help_heading = HEADING)]
@@ -59,6 +66,14 @@ pub(crate) struct Trimming {
     #[arg(long, value_name = "SPEED", allow_negative_numbers = true,
           value_parser = options::speed, help_heading = HEADING)]
     pub(super) climb: Option<f64>,
+    /// Mean velocity to the right of the heading, m/s [default: 0].
+    #[arg(long, value_name = "SPEED", allow_negative_numbers = true,
+          value_parser = options::speed, help_heading = HEADING)]
+    pub(super) sideslip: Option<f64>,
+    /// Steady turn to the right, degrees a second [default: 0].
+    #[arg(long, value_name = "DEG_S", allow_negative_numbers = true,
+          value_parser = options::finite, help_heading = HEADING)]
+    pub(super) turn_rate: Option<f64>,
     /// Steps per wingbeat; default 100, in a vortex lattice those of the case.
     #[arg(long, value_name = "N", help_heading = HEADING,
           value_parser = options::count::<{ STEPS[0] }, { STEPS[1] }>)]
@@ -101,7 +116,10 @@ impl Trimming {
         let given = [
             ("unknowns", self.unknowns.is_some()),
             ("forward", self.forward.is_some()),
+            ("bound", !self.bound.is_empty()),
             ("climb", self.climb.is_some()),
+            ("sideslip", self.sideslip.is_some()),
+            ("turn-rate", self.turn_rate.is_some()),
             ("steps", self.steps.is_some()),
             ("hold", self.hold.is_some()),
             ("tolerance", self.tolerance.is_some()),
@@ -149,28 +167,64 @@ impl Trimming {
 
     /// What is asked of the trim.
     pub(super) fn problem(&self, case: &LoadedCase) -> Result<TrimProblem, Failure> {
-        let body_pitch = match &case.setup.mode {
-            MotionMode::Free(start) => start.angles.x,
-            MotionMode::Tethered(motion) => motion.angles[0].constant,
+        let start = match &case.setup.mode {
+            MotionMode::Free(start) => start.angles,
+            MotionMode::Tethered(motion) => {
+                DVec3::from_array(motion.angles.each_ref().map(|a| a.constant))
+            }
         };
-        let unknowns = match self.unknowns.as_deref() {
-            Some(&[a, b, c]) => [a, b, c],
-            _ => DEFAULT_UNKNOWNS,
-        };
-        let [a, b, c] = unknowns;
-        if a == b || b == c || c == a {
-            let problem = "--unknowns: one is named twice; name three that differ";
-            return Err(Failure::Option(problem.to_owned()));
+        let velocity = DVec3::new(
+            self.forward.unwrap_or(0.0),
+            self.sideslip.unwrap_or(0.0),
+            -self.climb.unwrap_or(0.0),
+        );
+        let mut problem = TrimProblem::straight(velocity, start.x);
+        problem.turn_rate = self.turn_rate.unwrap_or(0.0).to_radians();
+        let lateral = Residuals::of(&problem) == Residuals::All;
+        match &self.unknowns {
+            Some(named) => problem.unknowns.clone_from(named),
+            None if lateral => problem.unknowns.extend(LATERAL_UNKNOWNS),
+            None => {}
         }
-        Ok(TrimProblem {
-            unknowns,
-            velocity: DVec3::new(self.forward.unwrap_or(0.0), 0.0, -self.climb.unwrap_or(0.0)),
-            body_pitch,
-            settings: TrimSettings {
-                steps: self.steps.unwrap_or(DEFAULT_STEPS),
-                ..TrimSettings::default()
-            },
-        })
+        if problem.unknowns.contains(&Unknown::BodyRoll) {
+            problem.body_roll = start.z;
+        }
+        problem.bounds.clone_from(&self.bound);
+        self.check_bounds(&problem)?;
+        problem.settings = TrimSettings {
+            steps: self.steps.unwrap_or(DEFAULT_STEPS),
+            ..TrimSettings::default()
+        };
+        Ok(problem)
+    }
+
+    /// Refuses bounds of what is not chosen, and two of one.
+    fn check_bounds(&self, problem: &TrimProblem) -> Result<(), Failure> {
+        for (k, bound) in self.bound.iter().enumerate() {
+            let name = bound.unknown.name();
+            if !problem.unknowns.contains(&bound.unknown) {
+                let problem =
+                    format!("--bound: {name} is not among the unknowns; name it in --unknowns too");
+                return Err(Failure::Option(problem));
+            }
+            if self.bound[..k].iter().any(|b| b.unknown == bound.unknown) {
+                return Err(Failure::Option(format!(
+                    "--bound: {name} has two; give one"
+                )));
+            }
+        }
+        Ok(())
+    }
+
+    /// Refuses a turn and spare unknowns, which `what` does not have.
+    pub(super) fn without_turn(&self, what: &str) -> Result<(), Failure> {
+        match self.turn_rate {
+            Some(rate) if rate != 0.0 => Err(unused(
+                "turn-rate",
+                &format!("{what} needs a flight that is straight in the mean"),
+            )),
+            _ => Ok(()),
+        }
     }
 }
 
@@ -185,9 +239,9 @@ pub(crate) fn trimmed(args: &Trimming, report: &mut Report) -> Result<(LoadedCas
     let case = args.load()?;
     args.without_hold()?;
     let problem = args.problem(&case)?;
-    let found = watched("trimming", || find_trim(&case.setup, &problem))?;
+    let found = watched("trimming", || trim_within(&case.setup, &problem))?;
     found::tell(report, &case, &problem, &Found::from(&found));
-    match found.converged {
+    match found.converged && found.outside.is_empty() {
         true => Ok((case, found)),
         false => Err(not_trimmed()),
     }
@@ -221,7 +275,7 @@ pub(crate) fn trimmed_with_wake(
     found::tell(report, &case, &problem, &Found::from(&found));
     line!(report, "  {} flights of {beats} wingbeats", found.flights);
     report.value("flights", found.flights);
-    match found.converged {
+    match found.converged && found.outside.is_empty() {
         true => Ok((case, found)),
         false => Err(not_trimmed()),
     }
