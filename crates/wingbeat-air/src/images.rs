@@ -12,9 +12,9 @@ use wingbeat_math::{DMat3, DVec3};
 /// side of it, or touch it; the undisturbed air must not cross it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Plane {
-    /// A point of it [m], N.
+    /// A point of it [m], N components.
     pub point: DVec3,
-    /// Its normal, of any length, N.
+    /// Its normal, of any length, N components \[1\].
     pub normal: DVec3,
 }
 

@@ -107,7 +107,7 @@ impl Lattice {
         &self.mirrors
     }
 
-    /// Velocity of the undisturbed air [m/s] at `x` [m] and time `t` [s], N.
+    /// Velocity of the undisturbed air [m/s] at `x` [m] and time `t` [s], N components.
     pub fn stream(&self, x: DVec3, t: f64) -> DVec3 {
         let uniform = self.settings.free_stream;
         match self.settings.wind.is_none() {

@@ -11,9 +11,9 @@ use crate::AnalysisError;
 /// An eigenvalue with its eigenvector, largest component 1.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Eigenpair {
-    /// Real and imaginary part.
+    /// Real and imaginary part, in the unit of the matrix \[1 or 1/s\].
     pub value: [f64; 2],
-    /// Real and imaginary part of each component.
+    /// Real and imaginary part of each component \[1\].
     pub vector: Vec<[f64; 2]>,
 }
 

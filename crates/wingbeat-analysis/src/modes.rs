@@ -46,7 +46,7 @@ pub struct Mode {
     pub growth: f64,
     /// Imaginary part of the exponent, >= 0: one mode stands for the conjugate pair [rad/s].
     pub frequency: f64,
-    /// Floquet multiplier (of the averaged model: `exp(exponent T)`).
+    /// Floquet multiplier (of the averaged model: `exp(exponent T)`) \[1\].
     pub multiplier: [f64; 2],
     /// Period of a wingbeat [s], for times in wingbeats.
     pub wingbeat: f64,

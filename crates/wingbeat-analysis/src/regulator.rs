@@ -32,13 +32,13 @@ const SUMMED: [usize; CONTROLS] = [0, 1, 2, 11];
 /// Departures that weigh alike in the cost.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Weights {
-    /// Position, in wing lengths.
+    /// Position \[wing lengths\].
     pub position: f64,
-    /// Velocity, in wing lengths per beat.
+    /// Velocity \[wing lengths per beat\].
     pub velocity: f64,
     /// Tilt \[rad\].
     pub tilt: f64,
-    /// Angular velocity, in rad per beat.
+    /// Angular velocity \[rad per beat\].
     pub rate: f64,
     /// Command \[1, rad\].
     pub command: f64,

@@ -19,9 +19,9 @@ pub const LOADS: [&str; 6] = ["X", "Y", "Z", "L", "M", "N"];
 /// properties under the mean air loads of a beat.
 #[derive(Clone, Debug)]
 pub struct LinearModel {
-    /// Rates of (u, v, w, p, q, r, phi, theta, psi), 9 x 9 by rows, SI.
+    /// Rates of (u, v, w, p, q, r, phi, theta, psi), 9 x 9 by rows [SI: m, s, rad].
     pub matrix: Vec<f64>,
-    /// Derivatives of (X, Y, Z, L, M, N) by (u, v, w, p, q, r), 6 x 6 by rows, SI.
+    /// Derivatives of (X, Y, Z, L, M, N) by (u, v, w, p, q, r), 6 x 6 by rows [SI: N, m, s, rad].
     pub derivatives: [[f64; 6]; 6],
     /// Modes.
     pub modes: ModeSet,

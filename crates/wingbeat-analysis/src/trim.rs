@@ -33,7 +33,7 @@ pub struct Trim {
     pub iterations: usize,
     /// What was chosen, and what was given.
     pub unknowns: Vec<Unknown>,
-    /// Values of the unknowns.
+    /// Values of the unknowns \[1 or rad\].
     pub values: Vec<f64>,
     /// Unknowns whose values are outside the bounds of the problem: steady flight, but not as asked.
     pub outside: Vec<Unknown>,
@@ -53,8 +53,9 @@ pub struct Trim {
     pub turn_rate: f64,
     /// State at the start of the beat, mass centre at the origin.
     pub state: State,
-    /// The point that Newton's method found: velocity over R f and angular velocity times T (of symmetric flight those
-    /// of its plane), the controls, then coordinates and speeds of free joints over their natural sizes.
+    /// The point that Newton's method found: velocity over R f and angular velocity times T (of symmetric flight
+    /// those of its plane), the controls, then coordinates and speeds of free joints over their natural sizes \[1 or
+    /// rad\].
     pub point: Vec<f64>,
     /// The wingbeat of the adjusted animal.
     pub beat: Beat,

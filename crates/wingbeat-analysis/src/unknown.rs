@@ -100,9 +100,9 @@ impl Unknown {
 pub struct Bound {
     /// The unknown.
     pub unknown: Unknown,
-    /// Least value.
+    /// Least value \[1 or rad\].
     pub from: f64,
-    /// Largest value.
+    /// Largest value \[1 or rad\].
     pub to: f64,
 }
 

@@ -15,22 +15,22 @@ pub struct Composite {
     pub mass: f64,
     /// Mass centre c \[m\], root components.
     pub c: DVec3,
-    /// Velocity of the mass centre as seen from the root [m/s].
+    /// Velocity of the mass centre as seen from the root, root components [m/s].
     pub c_dot: DVec3,
     /// Inertia about the mass centre [kg m2], root components.
     pub inertia: DMat3,
-    /// Angular momentum about the mass centre of the motion seen from the root [kg m2/s].
+    /// Angular momentum about the mass centre of the motion seen from the root, root components [kg m2/s].
     pub h: DVec3,
 }
 
 /// What a [`Composite`] changes at, free joints moving at the speeds they have.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct CompositeRates {
-    /// Acceleration of the mass centre as seen from the root [m/s2].
+    /// Acceleration of the mass centre as seen from the root, root components [m/s2].
     pub c_ddot: DVec3,
     /// Rate of the inertia about the mass centre [kg m2/s].
     pub inertia: DMat3,
-    /// Rate of the relative angular momentum [kg m2/s2].
+    /// Rate of the relative angular momentum, root components [kg m2/s2].
     pub h: DVec3,
 }
 

@@ -139,7 +139,7 @@ pub struct ControlState {
     pub to: Vec<Adjustment>,
     /// Commands under way, oldest first.
     pub queue: VecDeque<Vec<Adjustment>>,
-    /// What the controller remembers.
+    /// What the controller remembers \[units of the controller\].
     pub memory: Vec<f64>,
 }
 

@@ -140,7 +140,7 @@ pub trait Air: fmt::Debug + Send + Sync {
         Snapshot::default()
     }
 
-    /// Velocity of the air [m/s] at `points` [m], N; none where the model has none.
+    /// Velocity of the air [m/s] at `points` [m], N components; none where the model has none.
     fn velocity(&self, _memory: Option<&AirState>, _points: &Points) -> Option<Points> {
         None
     }

@@ -63,7 +63,7 @@ impl TravelLaw for Faster<Arc<dyn TravelLaw>> {
 /// Rotation about a fixed axis by an angle that is a Fourier series.
 #[derive(Clone, Debug, PartialEq)]
 pub struct AxisTurn {
-    /// The axis, a unit vector.
+    /// The axis, a unit vector \[1\].
     pub axis: DVec3,
     /// The angle [rad].
     pub angle: DriftingFourier,

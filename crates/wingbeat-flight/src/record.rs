@@ -18,7 +18,7 @@ pub struct Record {
     pub coordinates: Vec<f64>,
     /// Time derivatives of the coordinates [m/s, rad/s].
     pub rates: Vec<f64>,
-    /// Unit quaternion (w, x, y, z) of the root's R_NB.
+    /// Unit quaternion (w, x, y, z) of the root's R_NB \[1\].
     pub root_quaternion: [f64; 4],
     /// Angular velocity of the root, root components [rad/s].
     pub root_angular_velocity: DVec3,
@@ -61,9 +61,9 @@ pub struct Record {
     pub momentum: DVec3,
     /// Angular momentum about the inertial origin, N components [kg m2/s].
     pub angular_momentum: DVec3,
-    /// Momentum residual: momentum - start - impulse of all external forces [kg m/s].
+    /// Momentum residual, N components: momentum - start - impulse of all external forces [kg m/s].
     pub momentum_residual: DVec3,
-    /// The same for angular momentum about the inertial origin [kg m2/s].
+    /// The same for angular momentum about the inertial origin, N components [kg m2/s].
     pub angular_momentum_residual: DVec3,
     /// Largest violation of a connection constraint phi_1..6 [m].
     pub violation_position: f64,
@@ -75,15 +75,15 @@ pub struct Record {
     pub corrector_passes: usize,
     /// Scaled residual of the last corrector pass [1].
     pub corrector_residual: f64,
-    /// Impulse of all vorticity [kg m/s], N, less the momentum of the fictitious fluid in closed
+    /// Impulse of all vorticity [kg m/s], N components, less the momentum of the fictitious fluid in closed
     /// surfaces; zero without a lattice. In air at rest far away its rate of decrease is the inviscid
     /// force of the air on all bodies, see [`wingbeat_air::AirLoads::impulse`].
     pub vortex_impulse: DVec3,
     /// Impulse of the air's force on all bodies since the start, N components [N s], by the
     /// trapezoidal rule over the steps.
     pub air_impulse: DVec3,
-    /// The same of the inviscid force alone, with the suction that pressures lack, without friction;
-    /// zero without a lattice. See [`wingbeat_air::AirLoads::inviscid_force`].
+    /// The same of the inviscid force alone, with the suction that pressures lack, without friction, N components [N
+    /// s]; zero without a lattice. See [`wingbeat_air::AirLoads::inviscid_force`].
     pub inviscid_impulse: DVec3,
     /// Wake rings.
     pub wake_rings: usize,

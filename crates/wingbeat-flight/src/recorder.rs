@@ -21,13 +21,13 @@ pub struct Ledger {
     pub energy: f64,
     /// Kinetic energy relative to the root at the start [J].
     pub relative_energy: f64,
-    /// Linear momentum at the start [kg m/s], N.
+    /// Linear momentum at the start [kg m/s], N components.
     pub momentum: DVec3,
-    /// Angular momentum about the inertial origin at the start [kg m2/s], N.
+    /// Angular momentum about the inertial origin at the start [kg m2/s], N components.
     pub angular_momentum: DVec3,
-    /// Coordinates last recorded (seed eq. 2).
+    /// Coordinates last recorded (seed eq. 2) [m, rad].
     pub coordinates: Vec<f64>,
-    /// Their rates.
+    /// Their rates [m/s, rad/s].
     pub rates: Vec<f64>,
     /// Regularised events of the air up to the last record.
     pub events: u64,

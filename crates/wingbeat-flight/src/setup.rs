@@ -392,7 +392,7 @@ pub struct CorrectorSettings {
     pub tolerance: f64,
     /// Most passes before the step is given up with an error.
     pub max_passes: usize,
-    /// Relaxation factor of a pass, in (0, 1]; 1 is the plain iteration.
+    /// Relaxation factor of a pass \[1\], above 0 and up to 1; 1 is the plain iteration.
     pub relaxation: f64,
 }
 

@@ -5,7 +5,7 @@ use crate::small_lu::{SingularMatrix, solve_small};
 /// When to stop.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct NewtonSettings {
-    /// Largest residual allowed; scale the equations so that one number serves them all.
+    /// Largest residual allowed \[1\]; scale the equations so that one number serves them all.
     pub tolerance: f64,
     /// Most iterations allowed.
     pub max_iterations: usize,

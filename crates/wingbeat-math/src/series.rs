@@ -4,15 +4,15 @@
 /// `x(t) = x0 + rate t + sum_k a_k cos(2 pi k f t) + b_k sin(2 pi k f t)`, k = 1, 2, ...
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct DriftingFourier {
-    /// Value without the oscillation at t = 0.
+    /// Value without the oscillation at t = 0 \[unit of the value\].
     pub constant: f64,
     /// Steady rate of change [1/s].
     pub rate: f64,
     /// Fundamental frequency f [Hz].
     pub frequency: f64,
-    /// Cosine coefficients a_1, a_2, ...
+    /// Cosine coefficients a_1, a_2, ... \[unit of the value\].
     pub cosine: Vec<f64>,
-    /// Sine coefficients b_1, b_2, ...
+    /// Sine coefficients b_1, b_2, ... \[unit of the value\].
     pub sine: Vec<f64>,
 }
 

@@ -18,7 +18,7 @@ const TOUCH: f64 = 1e-6;
 pub struct Crossing {
     /// The two, among the wings of the animal.
     pub wings: [usize; 2],
-    /// Part of the time in which they do.
+    /// Part of the time in which they do \[1\].
     pub part: f64,
 }
 

@@ -120,7 +120,7 @@ pub fn mirror(x: DVec3) -> DVec3 {
 /// A surface of quadrilaterals. On a closed surface `(c2-c0) x (c3-c1)` points outward.
 #[derive(Clone, Debug, PartialEq)]
 pub struct QuadMesh {
-    /// Nodes \[m\].
+    /// Nodes, components of the frame of the body or wing \[m\].
     pub nodes: Vec<DVec3>,
     /// Corner nodes of each panel.
     pub quads: Vec<[usize; 4]>,

@@ -82,7 +82,7 @@ fn check_table(key: &str, rows: &[(f64, f64)]) -> Result<(), ModelError> {
 pub struct Revolution {
     /// Middle of the axis in the body frame \[m\].
     pub centre: DVec3,
-    /// Direction of the axis from rear to front pole; any length but zero.
+    /// Direction of the axis from rear to front pole, body components \[1\]; any length but zero.
     pub direction: DVec3,
     /// Distance between the poles \[m\].
     pub length: f64,

@@ -23,7 +23,7 @@ pub struct Cloud {
     pub strength: Vec<[f64; 3]>,
     /// Radii of the balls over which the vorticity is spread \[m\].
     pub radius: Vec<f64>,
-    /// Wake sheet that each was part of.
+    /// Number of the wake sheet that each was part of \[1\].
     pub sheet: Vec<f64>,
 }
 

@@ -35,16 +35,16 @@ pub struct Row {
     pub quantity: String,
     /// Its unit.
     pub unit: Cow<'static, str>,
-    /// The reference; none where a bound or a spread alone is stated.
+    /// The reference, in [`Self::unit`]; none where a bound or a spread alone is stated.
     pub reference: Option<f64>,
     /// Where the reference comes from.
     pub source: Cow<'static, str>,
-    /// Ours.
+    /// Ours, in [`Self::unit`].
     #[serde(alias = "ours")]
     pub computed: f64,
-    /// Half-width of our own uncertainty, from refinement; none for exact statements.
+    /// Half-width of our own uncertainty, from refinement, in [`Self::unit`]; none for exact statements.
     pub uncertainty: Option<f64>,
-    /// Largest error that passes, in the unit; none: a report.
+    /// Largest error that passes, in [`Self::unit`]; none: a report.
     pub tolerance: Option<f64>,
     /// Why that much, or what a report means.
     pub reason: Cow<'static, str>,

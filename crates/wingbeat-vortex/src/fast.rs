@@ -107,9 +107,9 @@ impl FastSettings {
 pub struct Report {
     /// How it was summed, never [`Method::Auto`].
     pub method: Method,
-    /// Root mean square of the error at the sampled targets, relative to that of the velocity there.
+    /// Root mean square of the error at the sampled targets, relative to that of the velocity there \[1\].
     pub error_rms: f64,
-    /// Largest error at a sampled target, relative to the root mean square of the velocity.
+    /// Largest error at a sampled target, relative to the root mean square of the velocity \[1\].
     pub error_max: f64,
     /// Targets sampled; 0 for the direct sum, which has no error to speak of.
     pub samples: usize,

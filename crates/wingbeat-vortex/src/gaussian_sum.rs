@@ -64,8 +64,8 @@ pub struct GaussianSum {
 pub struct GaussianReport {
     /// Whether a mesh was used.
     pub is_mesh: bool,
-    /// Root mean square of the error at the sampled targets, relative to that of the blobs' velocity there; 0 if summed
-    /// one by one.
+    /// Root mean square of the error at the sampled targets, relative to that of the blobs' velocity there; 0 if
+    /// summed one by one \[1\].
     pub error_rms: f64,
 }
 

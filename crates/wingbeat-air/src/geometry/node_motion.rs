@@ -12,9 +12,9 @@ const TOLERANCE: f64 = 1e-6;
 /// surfaces, in the inertial frame N.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct NodeMotion {
-    /// Positions [m], N.
+    /// Positions [m], N components.
     pub position: Vec<DVec3>,
-    /// Velocities [m/s], N.
+    /// Velocities [m/s], N components.
     pub velocity: Vec<DVec3>,
 }
 

@@ -12,7 +12,7 @@ pub struct Panels {
     pub point: Vec<DVec3>,
     /// Velocity of the control points with the surface [m/s].
     pub velocity: Vec<DVec3>,
-    /// Unit normals, along the cross product of the diagonals.
+    /// Unit normals, along the cross product of the diagonals, N components \[1\].
     pub normal: Vec<DVec3>,
     /// Areas, as two triangles [m2].
     pub area: Vec<f64>,

@@ -80,7 +80,7 @@ fn walk(
     }
 }
 
-/// Unit vector from the leading edge backward and the length of the chord [m], N.
+/// Unit vector from the leading edge backward and the length of the chord [m], N components.
 pub(crate) fn chord(strip: &Strip, position: &[DVec3]) -> (DVec3, f64) {
     let middle = |n: [usize; 2]| 0.5 * (position[n[0]] + position[n[1]]);
     let chord = middle(strip.rear) - middle(strip.nodes);

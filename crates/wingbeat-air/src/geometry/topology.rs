@@ -24,7 +24,7 @@ pub struct WakeColumn {
     pub sheet: usize,
     /// Column of rings.
     pub column: usize,
-    /// Circulation of a shed ring = sign x circulation of the panel.
+    /// Circulation of a shed ring = sign x circulation of the panel \[1\].
     pub sign: f64,
 }
 
@@ -37,7 +37,7 @@ pub struct Sheet {
     pub nodes: Vec<usize>,
     /// Shedding panel of each column (global).
     pub panels: Vec<usize>,
-    /// Circulation of a shed ring = sign x circulation of the panel.
+    /// Circulation of a shed ring = sign x circulation of the panel \[1\].
     pub signs: Vec<f64>,
     /// Kind of edge of each column.
     pub kinds: Vec<EdgeKind>,
@@ -48,9 +48,9 @@ pub struct Sheet {
 pub struct PanelEdge {
     /// Edge (global).
     pub edge: usize,
-    /// +1 if the panel's ring runs the edge forward, -1 if backward.
+    /// +1 if the panel's ring runs the edge forward, -1 if backward \[1\].
     pub sign: f64,
-    /// Weight of the edge in the velocity jump: 1 at free edges, 1/2 at shared ones.
+    /// Weight of the edge in the velocity jump: 1 at free edges, 1/2 at shared ones \[1\].
     pub weight: f64,
 }
 

@@ -36,7 +36,7 @@ fn area(lattice: &Lattice, panel: usize, position: &[DVec3]) -> f64 {
     0.5 * (x[2] - x[0]).cross(x[3] - x[1]).length()
 }
 
-/// Force per area of a strip [Pa], N.
+/// Force per area of a strip [Pa], N components.
 fn traction(
     lattice: &Lattice,
     drag: &SectionDrag,

@@ -6,16 +6,16 @@ use wingbeat_math::DVec3;
 /// What the air does to one surface.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct SurfaceLoads {
-    /// Force of the air [N], N.
+    /// Force of the air [N], N components.
     pub force: DVec3,
-    /// Moment of the air about the origin of N [N m], N.
+    /// Moment of the air about the origin of N [N m], N components.
     pub moment: DVec3,
     /// Net-flux residual: uniform normal velocity that the rings of a closed surface cannot make [m/s].
     pub net_flux_residual: f64,
 }
 
 impl SurfaceLoads {
-    /// Moment about the point `p` [m, N] [N m], N.
+    /// Moment about the point `p` [m, N] [N m], N components.
     pub fn moment_about(&self, p: DVec3) -> DVec3 {
         self.moment - p.cross(self.force)
     }
@@ -62,7 +62,7 @@ pub struct AirLoads {
     /// what the impulse is to be compared with.
     pub inviscid_force: DVec3,
     /// Impulse of all vorticity, that of dropped wakes included, less the momentum of the fictitious
-    /// fluid [kg m/s], N. In air that is at rest or in uniform motion far away, without images, its
+    /// fluid [kg m/s], N components. In air that is at rest or in uniform motion far away, without images, its
     /// rate of decrease is the inviscid force on all surfaces together: a method independent of pressures and segments
     /// [Saffman 1992, Vortex Dynamics, ch. 3].
     pub impulse: DVec3,

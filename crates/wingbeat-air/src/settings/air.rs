@@ -15,7 +15,7 @@ use wingbeat_vortex::{CoreModel, LAMB_ALPHA, Method};
 pub struct AirSettings {
     /// Density rho [kg/m3].
     pub density: f64,
-    /// Velocity of the undisturbed air [m/s], N.
+    /// Velocity of the undisturbed air [m/s], N components.
     pub free_stream: DVec3,
     /// Core of the filaments of the surfaces, the shedding edges among them.
     pub bound_core: CoreModel,

@@ -7,7 +7,7 @@ use crate::error::{AirError, require};
 pub struct SectionDrag {
     /// Friction.
     pub friction: Friction,
-    /// Profile drag coefficient at zero incidence.
+    /// Profile drag coefficient at zero incidence \[1\].
     pub cd0: f64,
     /// Its growth with the square of the incidence [1/rad2].
     pub cd2: f64,

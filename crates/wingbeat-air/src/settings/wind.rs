@@ -23,11 +23,11 @@ pub enum GustShape {
 /// A gust: `amplitude x shape(t - start - slowness . x)`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Gust {
-    /// Velocity at share one [m/s], N.
+    /// Velocity at share one [m/s], N components.
     pub amplitude: DVec3,
     /// When it begins at the origin of N [s].
     pub start: f64,
-    /// Direction over speed of a front that travels [s/m], N; zero: everywhere at once.
+    /// Direction over speed of a front that travels [s/m], N components; zero: everywhere at once.
     pub slowness: DVec3,
     /// The course.
     pub shape: GustShape,
@@ -76,7 +76,7 @@ impl Wind {
         self.shear.is_none() && self.gusts.is_empty()
     }
 
-    /// Velocity [m/s] that is added at `x` [m] and time `t` [s], N.
+    /// Velocity [m/s] that is added at `x` [m] and time `t` [s], N components.
     pub fn at(&self, x: DVec3, t: f64) -> DVec3 {
         let gust = |g: &Gust| g.amplitude * g.shape.at(t - g.start - g.slowness.dot(x));
         let shear = self.shear.map_or(DVec3::ZERO, |s| s * x);

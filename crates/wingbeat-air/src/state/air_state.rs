@@ -49,17 +49,17 @@ pub struct AirState {
     pub hold: Vec<f64>,
     /// Length of the last step of the wakes [s], zero before it.
     pub dt_wake: f64,
-    /// Positions of the surface nodes at the last accepted step [m], N.
+    /// Positions of the surface nodes at the last accepted step [m], N components.
     pub position: Vec<DVec3>,
-    /// Their velocities [m/s], N.
+    /// Their velocities [m/s], N components.
     pub velocity: Vec<DVec3>,
     /// Momentum of the fictitious fluid inside each surface (zero for open ones) at the last
-    /// accepted step [kg m/s], N.
+    /// accepted step [kg m/s], N components.
     pub inner_momentum: Vec<DVec3>,
     /// Wake sheets, in the order of [`crate::Lattice::sheets`].
     pub sheets: Vec<WakeSheet>,
     /// Regularised events since the start.
     pub events: WakeEvents,
-    /// Impulse per density of rings and particles when they were dropped [m4/s], N.
+    /// Impulse per density of rings and particles when they were dropped [m4/s], N components.
     pub dropped_impulse: DVec3,
 }

@@ -8,17 +8,17 @@ use wingbeat_vortex::{Blob, Points};
 /// The particles of one wake sheet, oldest first.
 #[derive(Clone, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Particles {
-    /// Positions [m], N.
+    /// Positions [m], N components.
     pub position: Points,
-    /// Strengths alpha [m3/s], N.
+    /// Strengths alpha [m3/s], N components.
     pub strength: Points,
     /// Sizes of the strengths when the particles were made [m3/s].
     pub first_size: Vec<f64>,
     /// Time at which the row they were left the edge [s].
     pub shed_time: Vec<f64>,
-    /// Velocity with which the first ones came here [m/s], N; newer ones have no past.
+    /// Velocity with which the first ones came here [m/s], N components; newer ones have no past.
     pub velocity: Points,
-    /// Rate with which their strengths changed [m3/s2], N; as many.
+    /// Rate with which their strengths changed [m3/s2], N components; as many.
     pub rate: Points,
 }
 

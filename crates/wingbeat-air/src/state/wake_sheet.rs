@@ -21,7 +21,7 @@ pub struct WakeSheet {
     pub gamma: Vec<f64>,
     /// Time at which each row of rings left the edge [s].
     pub shed_time: Vec<f64>,
-    /// Velocity with which the nodes came here [m/s], N; empty unless convection looks back.
+    /// Velocity with which the nodes came here [m/s], N components; empty unless convection looks back.
     pub velocity: Points,
     /// Oldest rows of each column whose rings have become particles. Their circulations are kept
     /// while a neighbour is still a ring.
@@ -36,7 +36,7 @@ impl WakeSheet {
         self.shed_time.len()
     }
 
-    /// Node `column` of free row `row`, counted from the oldest [m], N.
+    /// Node `column` of free row `row`, counted from the oldest [m], N components.
     pub fn node(&self, row: usize, column: usize) -> DVec3 {
         let k = row * (self.columns + 1) + column;
         DVec3::new(self.nodes.x[k], self.nodes.y[k], self.nodes.z[k])

@@ -233,7 +233,7 @@ impl Filaments {
         }
     }
 
-    /// Corners of the box around all nodes [m], N.
+    /// Corners of the box around all nodes [m], N components.
     pub(crate) fn bounds(&self) -> [DVec3; 2] {
         let nets = [&self.bound, &self.near_wake, &self.wake];
         let nodes = nets.into_iter().flat_map(|net| net.nodes.iter());

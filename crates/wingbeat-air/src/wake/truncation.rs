@@ -43,7 +43,7 @@ impl Lattice {
         (events, impulse)
     }
 
-    /// Middle of the edge that sheet `k` leaves [m], N.
+    /// Middle of the edge that sheet `k` leaves [m], N components.
     fn edge_middle(&self, k: usize, state: &AirState) -> DVec3 {
         let nodes = &self.sheets()[k].nodes;
         let sum: DVec3 = nodes.iter().map(|&n| state.position[n]).sum();

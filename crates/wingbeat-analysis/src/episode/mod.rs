@@ -96,7 +96,7 @@ impl Course {
 /// What came of a control step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Outcome {
-    /// Reward, between 0 and the length of the step in wingbeats.
+    /// Reward, between 0 and the length of the step \[wingbeats\].
     pub reward: f64,
     /// The flyer is lost: too far away, or turned over.
     pub is_lost: bool,

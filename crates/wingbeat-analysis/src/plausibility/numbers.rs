@@ -14,9 +14,9 @@ pub struct WingEstimate {
     pub tip_speed: f64,
     /// The larger of tip speed and flight speed [m/s].
     pub speed: f64,
-    /// Reynolds number of the mean chord; none where the viscosity is not known.
+    /// Reynolds number of the mean chord; none where the viscosity is not known \[1\].
     pub reynolds: Option<f64>,
-    /// Reduced frequency of the mean chord; none where nothing flaps or moves.
+    /// Reduced frequency of the mean chord; none where nothing flaps or moves \[1\].
     pub reduced_frequency: Option<f64>,
 }
 
@@ -37,8 +37,8 @@ pub struct Estimate {
     pub viscosity: Option<f64>,
     /// The wings, in the animal's order.
     pub wings: Vec<WingEstimate>,
-    /// Mean lift over weight in the attitude and at the velocity of the start, by blade elements;
-    /// none without weight, air or wingbeats.
+    /// Mean lift over weight in the attitude and at the velocity of the start, by blade elements; none without
+    /// weight, air or wingbeats \[1\].
     pub lift_over_weight: Option<f64>,
     /// What is implausible, in whole sentences; empty where nothing is.
     pub doubts: Vec<String>,

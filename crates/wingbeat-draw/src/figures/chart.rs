@@ -9,7 +9,7 @@ use super::style::{Look, Style};
 pub struct Series {
     /// Legend.
     pub label: String,
-    /// Values at the abscissas of the chart.
+    /// Values at the abscissas of the chart \[unit of its axis\].
     pub values: Vec<f64>,
 }
 
@@ -31,9 +31,9 @@ pub struct Chart {
     pub title: String,
     /// Quantity and unit of the horizontal axis.
     pub x_label: String,
-    /// Abscissas.
+    /// Abscissas \[unit of the axis\].
     pub x: Vec<f64>,
-    /// Shaded intervals of the horizontal axis (downstrokes).
+    /// Shaded intervals of the horizontal axis (downstrokes) \[unit of the axis\].
     pub shaded: Vec<[f64; 2]>,
     /// Panels from top to bottom.
     pub panels: Vec<Panel>,

@@ -9,7 +9,7 @@ use super::{Chart, Panel, Series};
 pub struct BeatRow {
     /// Number of the beat.
     pub beat: usize,
-    /// Mass centre from the start: forward, right, down [m].
+    /// Mass centre from the start, level frame: forward, right, down [m].
     pub position: DVec3,
     /// Roll, pitch, heading from the trimmed flight \[rad\].
     pub tilt: DVec3,

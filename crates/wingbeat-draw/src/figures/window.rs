@@ -19,11 +19,11 @@ const MAX_SHADED: usize = 80;
 /// A part of a flight, on its time axis: wingbeats where there are any, else seconds.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Window {
-    /// Where it begins; the start if none.
+    /// Where it begins; the start if none \[wingbeats\].
     pub from: Option<f64>,
-    /// Where it ends; the end if none.
+    /// Where it ends; the end if none \[wingbeats\].
     pub to: Option<f64>,
-    /// Wingbeats from `from` on, or up to `to`, or the last ones.
+    /// How many of them, from `from` on, or up to `to`, or the last ones \[wingbeats\].
     pub beats: Option<f64>,
 }
 

@@ -17,7 +17,7 @@ pub struct BodyKinematics {
     pub motion: BodyMotion,
     /// Euler angles eta \[rad\].
     pub eta: DVec3,
-    /// Their rates [rad/s].
+    /// Rates of the Euler angles [rad/s].
     pub eta_dot: DVec3,
     /// G, `w = G eta'` (seed eq. 15).
     pub g: DMat3,

@@ -16,9 +16,9 @@ use crate::motion::BodyMotion;
 /// One scalar constraint.
 #[derive(Clone, Copy, Debug)]
 pub struct Row {
-    /// Factors of the parent's velocity (N components) and angular velocity (body components).
+    /// Factors of the parent's velocity (N components) and angular velocity (body components) [1 and m].
     pub parent: [DVec3; 2],
-    /// Factors of the child's.
+    /// Factors of the child's velocity (N components) and angular velocity (body components) [1 and m].
     pub child: [DVec3; 2],
     /// Value of the position constraint [m or rad].
     pub value: f64,

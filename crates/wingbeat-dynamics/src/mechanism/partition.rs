@@ -11,16 +11,16 @@ pub const RANK_TOLERANCE: f64 = 1e-9;
 /// A row that follows from others.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Dependent {
-    /// Factors of all rows in the combination that vanishes.
+    /// Factors of all rows in the combination that vanishes \[1\].
     pub combination: Vec<f64>,
-    /// The same combination of the right-hand sides: zero if the rows do not contradict.
+    /// The same combination of the right-hand sides [m/s2 or rad/s2]: zero if the rows do not contradict.
     pub residual: f64,
 }
 
 /// Result of the elimination.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Partition {
-    /// Solution with all independent unknowns zero.
+    /// Solution with all independent unknowns zero [m/s2 or rad/s2].
     pub step: Vec<f64>,
     /// Columns of the dependent unknowns.
     pub pivots: Vec<usize>,

@@ -24,7 +24,7 @@ pub struct Bdf {
     pub step: f64,
     /// When the corrector is done.
     pub convergence: Convergence,
-    /// Natural sizes of the components of y.
+    /// Natural sizes of the components of y \[unit of y\].
     pub scales: Vec<f64>,
     /// What the past contributes to the corrected state.
     known: Vec<f64>,

@@ -8,7 +8,7 @@ pub struct Convergence {
     pub tolerance: f64,
     /// Most passes.
     pub max_passes: usize,
-    /// Relaxation factor of a pass in (0, 1].
+    /// Relaxation factor of a pass \[1\], above 0 and up to 1.
     pub relaxation: f64,
 }
 
@@ -17,7 +17,7 @@ pub struct Convergence {
 pub struct StepReport {
     /// Corrector passes made.
     pub passes: usize,
-    /// Scaled change of the last pass.
+    /// Scaled change of the last pass \[1\].
     pub residual: f64,
 }
 

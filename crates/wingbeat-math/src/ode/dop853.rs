@@ -9,9 +9,9 @@ use super::dop853_table::{A, B, B_THIRD, C, D, E_FIFTH};
 /// Accuracy asked for.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tolerance {
-    /// Error per step relative to the size of a component.
+    /// Error per step relative to the size of a component \[1\].
     pub relative: f64,
-    /// Error per step in units of the component's natural size.
+    /// Error per step over the component's natural size \[1\].
     pub absolute: f64,
     /// Most steps, accepted and rejected.
     pub max_steps: usize,

@@ -20,7 +20,7 @@ pub struct Multistep {
     pub y: [Vec<f64>; 4],
     /// f[n-3], f[n-2], f[n-1], f[n].
     pub f: [Vec<f64>; 4],
-    /// p - c of the last step; zero after the start.
+    /// p - c of the last step \[unit of y\]; zero after the start.
     pub predicted_minus_corrected: Vec<f64>,
 }
 
@@ -56,7 +56,7 @@ pub struct Hamming {
     pub step: f64,
     /// When the corrector is done.
     pub convergence: Convergence,
-    /// Natural sizes of the components of y.
+    /// Natural sizes of the components of y \[unit of y\].
     pub scales: Vec<f64>,
     followers: Vec<usize>,
     predicted: Vec<f64>,

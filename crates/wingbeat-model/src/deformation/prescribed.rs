@@ -7,7 +7,7 @@ use crate::motion::WingMotion;
 /// Twist, camber and bending of a wing; each is the sum of its terms.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Deformation {
-    /// Place of the twist axis behind the leading edge over the chord.
+    /// Place of the twist axis behind the leading edge over the chord \[1\].
     pub axis_fraction: f64,
     /// Place of the highest point of the mean line behind the leading edge over the chord, between
     /// 0 and 1; at 1/2 the line is a parabola, elsewhere the two parabolas of the NACA four-digit

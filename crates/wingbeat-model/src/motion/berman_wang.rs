@@ -13,7 +13,7 @@ use std::f64::consts::TAU;
 pub struct SmoothTriangle {
     /// Amplitude phi_m \[rad\].
     pub amplitude: f64,
-    /// Shape K in [0, 1); the triangle wave itself (K = 1) has corners and is refused.
+    /// Shape K \[1\], from 0 and below 1; the triangle wave itself (K = 1) has corners and is refused.
     pub shape: f64,
     /// Phase shift of the sine \[rad\].
     pub shift: f64,
@@ -55,7 +55,7 @@ impl SmoothTriangle {
 pub struct SmoothSquare {
     /// Amplitude psi_m \[rad\].
     pub amplitude: f64,
-    /// Shape C >= 0.
+    /// Shape C >= 0 \[1\].
     pub shape: f64,
     /// Phase shift of the sine \[rad\].
     pub shift: f64,

@@ -17,7 +17,7 @@ use crate::error::{finite, require};
 pub struct SplitCycle {
     /// Amplitude: the first half stroke runs from `mean + amplitude` to `mean - amplitude` \[rad\].
     pub amplitude: f64,
-    /// Share h of the beat that the first half stroke takes, in (0, 1).
+    /// Share h of the beat that the first half stroke takes \[1\], above 0 and below 1.
     pub first_share: f64,
     /// Phase shift \[rad\].
     pub shift: f64,

@@ -31,22 +31,22 @@ pub struct Beta {
     pub r2_hat: f64,
     /// Distance from the hinge to the root \[m\].
     pub root_offset: f64,
-    /// Part of the chord ahead of the hinge axis, 0 to 1.
+    /// Part of the chord ahead of the hinge axis, 0 to 1 \[1\].
     pub axis_fraction: f64,
-    /// Least chord relative to the largest, in (0, 0.9).
+    /// Least chord relative to the largest \[1\], above 0 and below 0.9.
     pub least_chord: f64,
 }
 
 /// The fitted chord distribution.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BetaChord {
-    /// Exponent p.
+    /// Exponent p \[1\].
     pub p: f64,
-    /// Exponent q.
+    /// Exponent q \[1\].
     pub q: f64,
     /// Largest chord \[m\].
     pub max: f64,
-    /// Least chord relative to the largest.
+    /// Least chord relative to the largest \[1\].
     pub least: f64,
 }
 

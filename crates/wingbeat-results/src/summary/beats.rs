@@ -15,7 +15,7 @@ pub struct BeatMeans {
     pub beat: usize,
     /// Mean air force against gravity \[N\].
     pub lift_newton: f64,
-    /// The same over the weight; none without gravity.
+    /// The same over the weight; none without gravity \[1\].
     pub lift_over_weight: Option<f64>,
     /// Mean air force along n1 (forward) \[N\].
     pub thrust_newton: f64,

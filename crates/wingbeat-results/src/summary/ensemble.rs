@@ -20,7 +20,8 @@ pub struct EnsembleBeat {
     pub thrust_newton: Estimate,
     /// Power of hinge actuators and prescribed deformation \[W\].
     pub power_watt: Estimate,
-    /// Standard deviation of the lift over the members, over the mean of its magnitudes: how far the members have parted.
+    /// Standard deviation of the lift over the members, over the mean of its magnitudes: how far the members have
+    /// parted \[1\].
     pub spread: f64,
 }
 

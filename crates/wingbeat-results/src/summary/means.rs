@@ -20,9 +20,9 @@ const NO_CHANGE: f64 = 0.01;
 /// A mean over wingbeats.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Estimate {
-    /// The mean.
+    /// The mean \[unit of the values\].
     pub mean: f64,
-    /// Its standard error, neighbouring beats being correlated.
+    /// Its standard error, neighbouring beats being correlated \[unit of the values\].
     pub standard_error: f64,
 }
 
@@ -44,7 +44,7 @@ pub struct ManyBeats {
     pub inviscid_lift_newton: Estimate,
     /// The same by the rate of the vortex impulse \[N\].
     pub lift_by_impulse_newton: Estimate,
-    /// Change of lift from the first half of these beats to the second, over their mean.
+    /// Change of lift from the first half of these beats to the second, over their mean \[1\].
     pub change_of_lift: f64,
     /// Whether that change is less than a hundredth, or than twice the error of the difference between the halves.
     pub is_steady: bool,

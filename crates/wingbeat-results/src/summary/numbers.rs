@@ -51,7 +51,7 @@ pub struct Summary {
     pub euler_regularity: f64,
     /// Most corrector passes in a step.
     pub corrector_passes_most: usize,
-    /// Mean corrector passes.
+    /// Mean corrector passes \[1\].
     pub corrector_passes_mean: f64,
     /// Near-singular velocities that were regularised, all steps.
     pub regularised: usize,
