@@ -127,7 +127,7 @@ impl Steering {
 }
 
 impl Controller for Steering {
-    fn command(&mut self, sensed: &Sensed) -> Vec<Adjustment> {
+    fn command(&mut self, sensed: &Sensed) -> Result<Vec<Adjustment>, String> {
         let sensed = self.sensors.map_or(*sensed, |s| s.seen(sensed));
         let (reference, origin) = self.begin(&sensed);
         let d = reference.departure(&sensed, origin);
@@ -142,7 +142,7 @@ impl Controller for Steering {
             a.stroke_amplitude = (1.0 + amplitude) * (1.0 + a.stroke_amplitude) - 1.0;
             a.stroke_offset += offset;
         }
-        list
+        Ok(list)
     }
 
     fn memory(&self) -> Vec<f64> {
@@ -248,7 +248,9 @@ impl<'a> SteeredBeats<'a> {
     /// Numbers that are not finite: the flyer is lost.
     pub fn beat(&mut self) -> Result<(), AnalysisError> {
         if let Some(controller) = &mut self.controller {
-            self.queue.push_back(controller.command(&self.sensed));
+            let command = controller.command(&self.sensed);
+            self.queue
+                .push_back(command.map_err(AnalysisError::Numbers)?);
         }
         let due = self.controller.as_ref().and(self.queue.pop_front());
         let next = due.unwrap_or_else(|| self.acting.clone());

@@ -228,9 +228,11 @@ impl Loop {
     /// Asks the controller at time `t` [s]; the passage to the command that is due begins.
     ///
     /// # Errors
-    /// Commands that are not finite, ask for another frequency, or are not one per wing.
+    /// A controller that has no command; commands that are not finite, ask for another frequency, or are not one per
+    /// wing.
     pub fn update(&mut self, t: f64, sensed: &Sensed) -> Result<(), FlightError> {
-        let command = self.controller.command(sensed);
+        let refused = |problem| FlightError::Control { time: t, problem };
+        let command = self.controller.command(sensed).map_err(refused)?;
         self.check(&command, t)?;
         self.state.queue.push_back(command);
         let due = self.state.queue.pop_front().expect("one was just pushed");

@@ -23,7 +23,10 @@ pub struct Sensed {
 pub trait Controller: Send {
     /// Adjustments of the wings, in the animal's order, on top of the motion of the case. Changes of
     /// frequency are not possible in flight.
-    fn command(&mut self, sensed: &Sensed) -> Vec<Adjustment>;
+    ///
+    /// # Errors
+    /// Why it has none; the flight ends with it.
+    fn command(&mut self, sensed: &Sensed) -> Result<Vec<Adjustment>, String>;
 
     /// Everything it remembers, for a flight that is resumed.
     fn memory(&self) -> Vec<f64> {

@@ -9,13 +9,15 @@ use wingbeat_analysis::regulator::Weights;
 use wingbeat_analysis::sensors::{Channels, Sensors};
 use wingbeat_analysis::stabiliser::Stiffness;
 use wingbeat_flight::control::MIN_INTERVAL;
-use wingbeat_flight::{BladeOptions, Feedback};
+use wingbeat_flight::{BladeOptions, ControlModel, Feedback};
 use wingbeat_math::DVec3;
 
 use super::blade;
 use super::fault::Built;
 use super::numbers::vector;
+use super::program::program;
 use crate::error::Fault;
+use crate::external::controller::ProcessController;
 use crate::raw::{
     AirModel, Case, ControlCase, ControllerCase, Mode, SensorsCase, StiffnessCase, TargetCase,
     WeightsCase,
@@ -29,11 +31,33 @@ pub(super) fn feedback(case: &Case) -> Built<Option<Feedback>> {
     let Some(control) = &case.control else {
         return Ok(None);
     };
-    let Some(law) = law(control) else {
-        return Ok(None);
+    let controller: Arc<dyn ControlModel> = match control.controller {
+        ControllerCase::None => return Ok(None),
+        ControllerCase::External => {
+            check(case)?;
+            Arc::new(external(case, control)?)
+        }
+        ControllerCase::Regulator => {
+            check(case)?;
+            let law = LawDesign::Regulator(weights(&control.weights));
+            Arc::new(design(case, control, law)?)
+        }
+        ControllerCase::Stabiliser => {
+            check(case)?;
+            let law = LawDesign::Stabiliser(stiffness(&control.stiffness));
+            Arc::new(design(case, control, law)?)
+        }
     };
-    check(case)?;
-    let design = Design {
+    Ok(Some(Feedback {
+        controller,
+        interval: interval(case)?,
+        latency: control.latency_beats,
+    }))
+}
+
+/// A law about the trimmed flight.
+fn design(case: &Case, control: &ControlCase, law: LawDesign) -> Built<Design> {
+    Ok(Design {
         law,
         target: match control.hold {
             TargetCase::Trim => Target::Trimmed,
@@ -46,17 +70,33 @@ pub(super) fn feedback(case: &Case) -> Built<Option<Feedback>> {
         velocity: DVec3::new(control.forward_m_s, 0.0, -control.climb_m_s),
         latency: control.latency_beats,
         every: control.every_beats,
-        limits: Limits {
-            amplitude: control.amplitude_limit,
-            angle: control.angle_limit_deg.to_radians(),
-        },
+        limits: limits(control),
         sensors: control.sensors.as_ref().map(sensors),
-    };
-    Ok(Some(Feedback {
-        controller: Arc::new(design),
-        interval: interval(case)?,
+    })
+}
+
+/// A law in another program.
+fn external(case: &Case, control: &ControlCase) -> Built<ProcessController> {
+    Ok(ProcessController {
+        program: program(
+            control.external.as_ref(),
+            "control.external",
+            "control.controller = \"external\"",
+            "docs/control.md",
+        )?,
+        limits: limits(control),
+        every: control.every_beats,
         latency: control.latency_beats,
-    }))
+        interval: 1.0 / case.motion.frequency_hz.value(),
+        sensors: control.sensors.as_ref().map(sensors),
+    })
+}
+
+fn limits(control: &ControlCase) -> Limits {
+    Limits {
+        amplitude: control.amplitude_limit,
+        angle: control.angle_limit_deg.to_radians(),
+    }
 }
 
 /// What stands against any feedback.
@@ -124,14 +164,6 @@ fn interval(case: &Case) -> Built<usize> {
         format!("a whole number of steps per wingbeat, at least {MIN_INTERVAL}, with [control]"),
         "give time.steps_per_beat in its place",
     ))
-}
-
-fn law(case: &ControlCase) -> Option<LawDesign> {
-    match case.controller {
-        ControllerCase::None => None,
-        ControllerCase::Regulator => Some(LawDesign::Regulator(weights(&case.weights))),
-        ControllerCase::Stabiliser => Some(LawDesign::Stabiliser(stiffness(&case.stiffness))),
-    }
 }
 
 fn weights(case: &WeightsCase) -> Weights {

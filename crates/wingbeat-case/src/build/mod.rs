@@ -19,6 +19,7 @@ mod motion;
 mod names;
 mod numbers;
 mod output;
+mod program;
 mod refused;
 mod segment;
 mod size;

@@ -8,9 +8,7 @@ use wingbeat_model::{AngleLaw, AngleLaws, Side, Start, WingMotion};
 use super::fault::Built;
 use crate::data::find_data;
 use crate::error::Fault;
-use crate::raw::{
-    AngleCase, Case, FourierCase, MotionCase, StartCase, TableCase, WingCase, WingMotionCase,
-};
+use crate::raw::{AngleCase, Case, FourierCase, StartCase, TableCase, WingCase, WingMotionCase};
 
 /// The motion of one wing.
 pub(super) fn law(case: &Case, name: &str, wing: &WingCase, side: Side) -> Built<WingMotion> {
@@ -38,21 +36,7 @@ pub(super) fn law(case: &Case, name: &str, wing: &WingCase, side: Side) -> Built
         stroke_plane_pitch: pitch.to_radians(),
         start: start(case, frequency),
     };
-    Ok(motion.adjusted(side, &adjustment(&case.motion)))
-}
-
-fn adjustment(motion: &MotionCase) -> Adjustment {
-    let case = &motion.adjust;
-    Adjustment {
-        stroke_amplitude: case.stroke_amplitude,
-        stroke_offset: case.stroke_offset_deg.to_radians(),
-        feathering_amplitude: case.feathering_amplitude,
-        feathering_offset: case.feathering_offset_deg.to_radians(),
-        feathering_lead: case.feathering_lead,
-        deviation_offset: case.deviation_offset_deg.to_radians(),
-        stroke_plane: case.stroke_plane_deg.to_radians(),
-        frequency: 0.0,
-    }
+    Ok(motion.adjusted(side, &Adjustment::from(&case.motion.adjust)))
 }
 
 fn start(case: &Case, frequency: f64) -> Start {

@@ -6,16 +6,21 @@ use smart_default::SmartDefault;
 use wingbeat_analysis::regulator::Weights;
 use wingbeat_analysis::stabiliser::Stiffness;
 
-/// Keys of any controller.
-const ANY: &str = "control.controller = regulator | stabiliser";
+use super::ExternalCase;
 
-/// Feedback: once per wingbeat a controller sees the flyer and commands changes of the strokes. It is
-/// laid out about the trimmed flight of the animal in blade elements when the flight is built, and
-/// acts from the release on; see docs/control.md.
+/// Keys of any controller.
+const ANY: &str = "control.controller = regulator | stabiliser | external";
+/// Keys of controllers that are laid out about a trimmed flight.
+const LAID_OUT: &str = "control.controller = regulator | stabiliser";
+
+/// Feedback: once per wingbeat a controller sees the flyer and commands changes of the strokes. It acts from the
+/// release on. `regulator` and `stabiliser` are laid out about the trimmed flight of the animal in blade elements
+/// when the flight is built; see docs/control.md.
 #[derive(Clone, Debug, PartialEq, SmartDefault, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct ControlCase {
-    /// Which law. `regulator` holds attitude and place, `stabiliser` attitude and altitude.
+    /// Which law. `regulator` holds attitude and place, `stabiliser` attitude and altitude, `external` asks a
+    /// program.
     ///
     /// Change it to `none` to see the flight without feedback.
     #[default(ControllerCase::Regulator)]
@@ -24,17 +29,17 @@ pub struct ControlCase {
     ///
     /// Change it to `start` where the case is trimmed already, by `wingbeat trim` in its own air.
     #[default(TargetCase::Trim)]
-    #[schemars(extend("with" = ANY))]
+    #[schemars(extend("with" = LAID_OUT))]
     pub hold: TargetCase,
     /// Mean velocity to fly with along n1.
     ///
     /// Change it for forward flight.
-    #[schemars(extend("with" = ANY))]
+    #[schemars(extend("with" = LAID_OUT))]
     pub forward_m_s: f64,
     /// Mean velocity to fly with upwards, along -n3.
     ///
     /// Change it to climb or to sink.
-    #[schemars(extend("with" = ANY))]
+    #[schemars(extend("with" = LAID_OUT))]
     pub climb_m_s: f64,
     /// Wingbeats from sensing to acting; the regulator counts with them, the stabiliser bears one.
     ///
@@ -48,13 +53,15 @@ pub struct ControlCase {
     #[default = 1]
     #[schemars(range(min = 1), extend("with" = ANY))]
     pub every_beats: usize,
-    /// Largest change of the relative stroke amplitude, and of its difference between the sides.
+    /// Largest change of the relative stroke amplitude, and of its difference between the sides; with `external`
+    /// largest relative change of the amplitudes of a wing.
     ///
     /// Change it to what the muscles can do.
     #[default = 0.2]
     #[schemars(extend("exclusiveMinimum" = 0, "exclusiveMaximum" = 1, "with" = ANY))]
     pub amplitude_limit: f64,
-    /// Largest change of the mean stroke angle, and largest difference of the stroke planes.
+    /// Largest change of the mean stroke angle, and largest difference of the stroke planes; with `external`
+    /// largest change of the angles of a wing.
     ///
     /// Change it to what the joints of the wings can do.
     #[default = 12.0]
@@ -66,6 +73,10 @@ pub struct ControlCase {
     /// Stiffness of the loops of the stabiliser.
     #[schemars(extend("with" = "control.controller = stabiliser"))]
     pub stiffness: StiffnessCase,
+    /// The program that is the controller.
+    #[schemars(extend("with" = "control.controller = external"))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub external: Option<ExternalCase>,
     /// Noise and bias of what is sensed; left out: none.
     #[schemars(extend("with" = ANY))]
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -80,6 +91,8 @@ pub enum ControllerCase {
     Regulator,
     /// Proportional-derivative loops of pitch, roll, heading and altitude.
     Stabiliser,
+    /// A program of any language, asked for the commands of every wing (docs/control.md).
+    External,
     /// No feedback.
     None,
 }
