@@ -7,7 +7,7 @@
 use std::collections::VecDeque;
 use std::sync::Arc;
 
-use wingbeat_flight::{Controller, Feedback, FlightSetup, Sensed};
+use wingbeat_flight::{Aim, Controller, Feedback, FlightSetup, Sensed};
 use wingbeat_math::{DMat3, DQuat, DVec3};
 use wingbeat_model::motion::Adjustment;
 
@@ -16,6 +16,7 @@ use crate::beat::{Beat, JOINTS, State};
 use crate::departure::{CONTROLS, Controls, Departure, Limits, Reference, adjustments};
 use crate::level::Level;
 use crate::regulator::Regulator;
+use crate::route::Route;
 use crate::sensors::Sensors;
 use crate::stabiliser::ProportionalDerivative;
 use crate::trim::Trim;
@@ -75,6 +76,8 @@ pub struct Steering {
     pub every: usize,
     /// Noise and bias of what is seen; none: the truth.
     pub sensors: Option<Sensors>,
+    /// Where the reference flight is brought to.
+    pub route: Route,
     /// Reference flight and place of its mass centre at the first look, N components [m].
     first: Option<(Reference, DVec3)>,
     command: Controls,
@@ -92,6 +95,7 @@ impl Steering {
             limits: Limits::default(),
             every: 1,
             sensors: None,
+            route: Route::default(),
             first: None,
             command: [0.0; CONTROLS],
         }
@@ -130,7 +134,8 @@ impl Controller for Steering {
     fn command(&mut self, sensed: &Sensed) -> Result<Vec<Adjustment>, String> {
         let sensed = self.sensors.map_or(*sensed, |s| s.seen(sensed));
         let (reference, origin) = self.begin(&sensed);
-        let d = reference.departure(&sensed, origin);
+        let aim = self.route.at(sensed.time);
+        let d = reference.departure_on(&aim, &sensed, origin);
         if d.beat.is_multiple_of(self.every) {
             self.command = self.limits.applied(self.law.controls(&d));
         }
@@ -143,6 +148,11 @@ impl Controller for Steering {
             a.stroke_offset += offset;
         }
         Ok(list)
+    }
+
+    fn aim(&self, time: f64) -> Option<Aim> {
+        let (reference, origin) = self.first?;
+        Some(reference.aim(&self.route.at(time), time, origin))
     }
 
     fn memory(&self) -> Vec<f64> {

@@ -13,6 +13,7 @@ use crate::AnalysisError;
 use crate::control::{Held, Law, Steering};
 use crate::departure::{Limits, Reference};
 use crate::regulator::{Regulator, Weights};
+use crate::route::Route;
 use crate::sensors::Sensors;
 use crate::stabiliser::{ProportionalDerivative, Stiffness};
 use crate::trim::{Trim, TrimProblem, TrimSettings, trim};
@@ -55,6 +56,8 @@ pub struct Design {
     pub limits: Limits,
     /// Noise and bias of what is seen.
     pub sensors: Option<Sensors>,
+    /// Where the flight that is held is brought to.
+    pub route: Route,
 }
 
 impl Design {
@@ -121,6 +124,7 @@ impl Design {
         steering.limits = self.limits;
         steering.every = self.every;
         steering.sensors = self.sensors;
+        steering.route = self.route.clone();
         Ok(steering)
     }
 }
@@ -136,5 +140,9 @@ impl ControlModel for Design {
             problem: e.to_string(),
         };
         Ok(Box::new(self.steering(setup).map_err(refused)?))
+    }
+
+    fn follows(&self) -> bool {
+        !self.route.0.is_empty()
     }
 }

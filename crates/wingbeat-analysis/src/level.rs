@@ -29,6 +29,18 @@ impl Level {
             to_root: r.transpose() * to_n,
         }
     }
+
+    /// The level frame of the attitude turned to the right by `heading` \[rad\].
+    pub fn turned(&self, heading: f64) -> Self {
+        if heading == 0.0 {
+            return *self; // to the bit
+        }
+        let down = self.to_n.z_axis;
+        Self {
+            to_n: DMat3::from_axis_angle(down, heading) * self.to_n,
+            ..*self
+        }
+    }
 }
 
 /// Names of the nine state components.

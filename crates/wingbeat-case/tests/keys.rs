@@ -145,6 +145,7 @@ const LISTED: &[(&str, &str)] = &[
         "[[air.gust]]\namplitude_m_s = [0, 0, 1]\n[air.gust.turbulence]\n",
     ),
     ("LoadCase", "[[load]]\n"),
+    ("WaypointCase", "[[control.waypoint]]\n"),
     ("TwistCase", "[[wing.right.deformation.twist]]\n"),
     ("CamberCase", "[[wing.right.deformation.camber]]\n"),
     ("BendingCase", "[[wing.right.deformation.bending]]\n"),

@@ -12,7 +12,7 @@ use wingbeat_math::{DVec3, MovingRotation, RotationLaw};
 use wingbeat_model::motion::{Adjustment, wing_rotation};
 use wingbeat_model::{Side, Wing, WingMotion};
 
-pub use crate::controller::{Controller, Sensed};
+pub use crate::controller::{Aim, Controller, Sensed};
 use crate::error::FlightError;
 pub use crate::setup::{ControlModel, Feedback};
 use crate::setup::{FlightSetup, MotionMode};
@@ -146,6 +146,7 @@ pub struct ControlState {
 /// Feedback in a flight: controller, latency, and the wings it moves.
 pub struct Loop {
     controller: Box<dyn Controller>,
+    follows: bool,
     interval: usize,
     /// An interval [s].
     duration: f64,
@@ -173,6 +174,7 @@ impl Loop {
         let none = vec![Adjustment::default(); wings.len()];
         Ok(Self {
             controller: feedback.controller.open(setup)?,
+            follows: feedback.controller.follows(),
             interval: feedback.interval,
             duration: feedback.interval as f64 * setup.time.step,
             state: ControlState {
@@ -218,6 +220,17 @@ impl Loop {
     /// Commands in force at the end of the present passage, wing by wing.
     pub fn commands(&self) -> &[Adjustment] {
         &self.state.to
+    }
+
+    /// Where the flyer is to be at `time` [s] since the release, if the reference moves; before it is known, at its
+    /// mass centre `centre` [m].
+    pub fn reference(&self, time: f64, centre: DVec3) -> Option<Aim> {
+        let here = Aim {
+            position: centre,
+            ..Aim::default()
+        };
+        self.follows
+            .then(|| self.controller.aim(time).unwrap_or(here))
     }
 
     /// Angles of the wings at time `t` [s].

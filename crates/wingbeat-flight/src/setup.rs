@@ -118,6 +118,11 @@ pub trait ControlModel: fmt::Debug + Send + Sync {
     /// # Errors
     /// A flight that it cannot control.
     fn open(&self, setup: &FlightSetup) -> Result<Box<dyn Controller>, FlightError>;
+
+    /// Whether it follows a reference that moves, which is recorded ([`crate::Record::reference`]).
+    fn follows(&self) -> bool {
+        false
+    }
 }
 
 /// A controller that can be copied controls any flight.

@@ -126,6 +126,7 @@ fn exact_flight_under_feedback_goes_on_bit_for_bit() {
         "control.every_beats=2",
         "control.latency_beats=2",
         "control.weights.sum=2",
+        "control.waypoint=[{time_s=0.012,position_m=[0,0,-1e-3],heading_deg=10}]",
         "control.sensors={seed=7,position_noise_m=1e-5,tilt_noise_deg=0.5,rate_noise_deg_s=50,velocity_bias_m_s=[0.01,0,0]}",
     ];
     for more in [["control.hold=start"], ["control.controller=stabiliser"]] {
@@ -148,6 +149,66 @@ fn exact_flight_under_feedback_goes_on_bit_for_bit() {
     }
 }
 
+/// What a flight departs by from its reference at the end of every wingbeat: place [wing lengths] and heading [deg].
+fn astray(setup: FlightSetup) -> Vec<(f64, f64)> {
+    let mut flight = Simulation::new(setup).unwrap();
+    let mut out = vec![];
+    while !flight.finished() {
+        (0..40).for_each(|_| _ = flight.step().unwrap());
+        let (record, ahead) = (flight.record(), flight.root().r.x_axis);
+        let aim = record.reference[0];
+        let turn = ahead.y.atan2(ahead.x) - aim.heading;
+        let way = record.mass_centre - aim.position;
+        out.push((way.length() / 2.5e-3, turn.to_degrees()));
+    }
+    out
+}
+
+#[test]
+fn balances_a_square_and_a_turn_along_waypoints() {
+    // A square of three wing lengths, 40 beats a side, then a turn by 90 degrees to the right within 40.
+    let square = "control.waypoint=[{time_s=0.2,position_m=[7.5e-3,0,0]},{time_s=0.4,position_m=[7.5e-3,7.5e-3,0]},{time_s=0.6,position_m=[0,7.5e-3,0]},{time_s=0.8,position_m=[0,0,0]},{time_s=1,heading_deg=90}]";
+    let start = ["time.beats=240", "flight.pitch_deg=49.58"];
+    let flown = astray(in_blades(&[&start[..], &[square]].concat()));
+    let place = flown.iter().fold(0.0_f64, |m, e| m.max(e.0));
+    let heading = flown.iter().fold(0.0_f64, |m, e| m.max(e.1.abs()));
+    let (left, turned) = flown[239];
+    println!("square: {place} R, {heading} deg; at the end {left:e} R, {turned:e} deg");
+    assert!(place < 0.8 && heading < 20.0, "{place} R, {heading} deg");
+    assert!(
+        left < 0.01 && turned.abs() < 0.1,
+        "{left:e} R, {turned:e} deg"
+    );
+    // Altitude and heading by the stabiliser, which holds no place.
+    let climb = [
+        "control.controller=stabiliser",
+        "control.latency_beats=0",
+        "control.waypoint=[{time_s=0.25,position_m=[0,0,-7.5e-3],heading_deg=-45}]",
+    ];
+    let mut flight = Simulation::new(in_blades(&[&start[..], &climb].concat())).unwrap();
+    let from = flight.record().mass_centre.z;
+    let middle = (0..1000)
+        .map(|_| flight.step().unwrap().reference[0])
+        .last();
+    let middle = middle.unwrap();
+    // Half the way at half the time; 35/16 of the mean velocity. The trimmed flight itself drifts by less than 1e-8 m/s.
+    let half = [
+        middle.position.z - from + 3.75e-3,
+        middle.velocity.z + 0.065625,
+    ];
+    assert!(half.iter().all(|x| x.abs() < 1e-8), "{half:?}");
+    assert!((middle.heading + 22.5_f64.to_radians()).abs() < 1e-12);
+    (1000..4800).for_each(|_| _ = flight.step().unwrap());
+    let (record, ahead) = (flight.record(), flight.root().r.x_axis);
+    let height = (record.mass_centre.z - record.reference[0].position.z) / 2.5e-3;
+    let turn = ahead.y.atan2(ahead.x).to_degrees() + 45.0;
+    println!("stabiliser: {height:e} R, {turn:e} deg");
+    assert!(
+        height.abs() < 0.05 && turn.abs() < 1.0,
+        "{height:e} R, {turn:e} deg"
+    );
+}
+
 #[test]
 fn exact_noise_is_that_of_its_seed() {
     let noisy = |seed: u32| {
@@ -161,7 +222,7 @@ fn exact_noise_is_that_of_its_seed() {
 
 #[test]
 fn refuses_what_control_cannot_do_by_name() {
-    let wrong: [(&[&str], &str); 12] = [
+    let wrong: [(&[&str], &str); 19] = [
         (&["control.controller=\"pid\""], "control.controller"),
         (&["control.latency_beats=-1"], "control.latency_beats"),
         (&["control.latency_beats=21"], "control.latency_beats"),
@@ -173,6 +234,41 @@ fn refuses_what_control_cannot_do_by_name() {
         (
             &["control.sensors.tilt_noise_deg=-1"],
             "control.sensors.tilt_noise_deg",
+        ),
+        (
+            &["control.waypoint=[{time_s=0}]"],
+            "control.waypoint[0].time_s",
+        ),
+        (
+            &["control.waypoint=[{time_s=0.1},{time_s=0.104}]"],
+            "control.waypoint[1].time_s",
+        ),
+        (
+            &["control.waypoint=[{time_s=1}]", "control.climb_m_s=0.1"],
+            "control.climb_m_s",
+        ),
+        (
+            &[
+                "control.controller=stabiliser",
+                "control.waypoint=[{time_s=1,position_m=[1e-3,0,0]}]",
+            ],
+            "control.waypoint[0].position_m",
+        ),
+        (&["control.controller=external"], "control.external.command"),
+        (
+            &[
+                "control.external={command=[\"true\"]}",
+                "control.controller=regulator",
+            ],
+            "control.external",
+        ),
+        (
+            &[
+                "control.controller=external",
+                "control.external={command=[\"true\"]}",
+                "control.climb_m_s=0.1",
+            ],
+            "control.climb_m_s",
         ),
         (&["air.model=none"], "control"),
         (&["flight.mode=tethered"], "control"),

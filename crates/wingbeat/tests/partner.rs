@@ -336,3 +336,38 @@ fn exact_the_program_in_the_docs_is_the_example() {
     let example = fs::read_to_string(root.join("examples/hover.py")).unwrap();
     assert!(page.contains(&format!("```python\n{example}```\n")));
 }
+
+#[test]
+fn exact_a_program_is_told_the_reference() {
+    let scratch = Scratch::new("told");
+    let dir = &scratch.0;
+    trimmed(dir);
+    let script = "while read -r line; do echo \"$line\" >> told; echo '{\"wings\":[{},{}]}'; done";
+    let command = serde_json::json!(["sh", "-c", script]).to_string();
+    let way =
+        "control.waypoint=[{time_s=0.01,position_m=[0,0,-2e-3],heading_deg=90},{time_s=0.03}]";
+    let out = commanded(dir, "r", &command, &["time.beats=3", way]);
+    assert!(out.status.success(), "{}", complaint(&out));
+    let told = fs::read_to_string(dir.join("told")).unwrap();
+    let looks: Vec<serde_json::Value> = told
+        .lines()
+        .map(|l| serde_json::from_str(l).unwrap())
+        .collect();
+    assert_eq!(looks.len(), 4);
+    let number = |look: usize, key: &str| looks[look]["reference"][key].as_f64().unwrap();
+    let height = |look: usize| looks[look]["reference"]["position_m"][2].as_f64().unwrap();
+    // The second look is half way, and the fourth is beyond the end of the first way.
+    assert!((height(1) - height(0) + 1e-3).abs() < 1e-15);
+    assert!((height(3) - height(0) + 2e-3).abs() < 1e-15);
+    assert!((number(1, "heading_deg") - 45.0).abs() < 1e-12);
+    assert!((number(1, "heading_rate_deg_s") - 35.0 / 16.0 * 9000.0).abs() < 1e-8);
+    let rows = column(&dir.join("r"), "reference_z_m");
+    assert!((rows[40] - height(1)).abs() < 1e-15 && rows.len() == 121);
+    for (key, value) in [
+        ("period_s", 0.005),
+        ("interval_s", 0.005),
+        ("latency_s", 0.0),
+    ] {
+        assert_eq!(looks[0][key].as_f64().unwrap(), value, "{key}");
+    }
+}

@@ -16,6 +16,7 @@ use super::blade;
 use super::fault::Built;
 use super::numbers::vector;
 use super::program::program;
+use super::route;
 use crate::error::Fault;
 use crate::external::controller::ProcessController;
 use crate::raw::{
@@ -72,6 +73,7 @@ fn design(case: &Case, control: &ControlCase, law: LawDesign) -> Built<Design> {
         every: control.every_beats,
         limits: limits(control),
         sensors: control.sensors.as_ref().map(sensors),
+        route: route::build(case, control)?,
     })
 }
 
@@ -89,6 +91,7 @@ fn external(case: &Case, control: &ControlCase) -> Built<ProcessController> {
         latency: control.latency_beats,
         interval: 1.0 / case.motion.frequency_hz.value(),
         sensors: control.sensors.as_ref().map(sensors),
+        route: route::build(case, control)?,
     })
 }
 

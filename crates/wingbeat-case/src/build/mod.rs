@@ -21,6 +21,7 @@ mod numbers;
 mod output;
 mod program;
 mod refused;
+mod route;
 mod segment;
 mod size;
 mod time;

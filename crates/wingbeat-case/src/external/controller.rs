@@ -5,8 +5,9 @@
 
 use serde::{Deserialize, Serialize};
 use wingbeat_analysis::departure::Limits;
+use wingbeat_analysis::route::Route;
 use wingbeat_analysis::sensors::Sensors;
-use wingbeat_flight::{ControlModel, Controller, FlightError, FlightSetup, Sensed};
+use wingbeat_flight::{Aim, ControlModel, Controller, FlightError, FlightSetup, Sensed};
 use wingbeat_math::DVec3;
 use wingbeat_model::motion::Adjustment;
 use wingbeat_model::{Side, Wing};
@@ -42,6 +43,8 @@ pub struct ProcessController {
     pub interval: f64,
     /// Noise and bias of what it sees.
     pub sensors: Option<Sensors>,
+    /// Where it is to bring the flyer.
+    pub route: Route,
 }
 
 impl ControlModel for ProcessController {
@@ -62,6 +65,10 @@ impl ControlModel for ProcessController {
             command: vec![Adjustment::default(); wings.len()],
             memory: vec![],
         }))
+    }
+
+    fn follows(&self) -> bool {
+        !self.route.0.is_empty()
     }
 }
 
@@ -123,10 +130,13 @@ struct LimitsTold {
     angle_deg: f64,
 }
 
-/// Where the mass centre is to be, in a question.
+/// Where the flyer is to be, in a question.
 #[derive(Clone, Copy, Debug, Serialize)]
 struct ReferenceTold {
     position_m: [f64; 3],
+    velocity_m_s: [f64; 3],
+    heading_deg: f64,
+    heading_rate_deg_s: f64,
 }
 
 /// What is asked at a look.
@@ -164,8 +174,17 @@ struct Answer {
 }
 
 impl Conversation {
+    fn aim_from(&self, origin: DVec3, time: f64) -> Aim {
+        let aim = self.model.route.at(time);
+        Aim {
+            position: origin + aim.position,
+            ..aim
+        }
+    }
+
     fn question(&mut self, sensed: &Sensed) -> String {
         let origin = *self.origin.get_or_insert(sensed.centre);
+        let aim = self.aim_from(origin, sensed.time);
         let (model, root) = (&self.model, &sensed.root);
         let question = Question {
             protocol: PROTOCOL,
@@ -181,7 +200,10 @@ impl Conversation {
             mass_centre_m: sensed.centre.to_array(),
             mass_centre_velocity_m_s: sensed.velocity.to_array(),
             reference: ReferenceTold {
-                position_m: origin.to_array(),
+                position_m: aim.position.to_array(),
+                velocity_m_s: aim.velocity.to_array(),
+                heading_deg: aim.heading.to_degrees(),
+                heading_rate_deg_s: aim.heading_rate.to_degrees(),
             },
             wings: &self.wings,
             limits: LimitsTold {
@@ -259,6 +281,10 @@ impl Controller for Conversation {
             })?;
         }
         Ok(self.command.clone())
+    }
+
+    fn aim(&self, time: f64) -> Option<Aim> {
+        self.origin.map(|origin| self.aim_from(origin, time))
     }
 
     fn memory(&self) -> Vec<f64> {

@@ -81,6 +81,35 @@ pub struct ControlCase {
     #[schemars(extend("with" = ANY))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub sensors: Option<SensorsCase>,
+    /// Where to be, and when: one `[[control.waypoint]]` each, in the order of their times. Left out: at the place of
+    /// the release.
+    #[schemars(extend("with" = ANY))]
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub waypoint: Vec<WaypointCase>,
+}
+
+/// A place and a heading, and when to be there. From one waypoint to the next, and from the release to the first, the
+/// reference goes over smoothly, at rest at either end; its velocity is fed forward. The last one is held.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct WaypointCase {
+    /// Time since the release, at least a wingbeat later than the waypoint before: over one wingbeat it is a step.
+    ///
+    /// Change it for a faster or slower way.
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub time_s: f64,
+    /// Place of the mass centre from that at the release, inertial axes. Left out: that of the waypoint before.
+    /// `stabiliser` holds no place but the altitude.
+    ///
+    /// Change it to go somewhere.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub position_m: Option<[f64; 3]>,
+    /// Heading to the right of the one that is held without waypoints; of `external` from n1. Left out: that of the
+    /// waypoint before.
+    ///
+    /// Change it to turn.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub heading_deg: Option<f64>,
 }
 
 /// Laws of control.

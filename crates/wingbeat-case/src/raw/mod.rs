@@ -34,7 +34,7 @@ pub use air::{AirCase, AirModel, LeadingEdgeCase, SchemeCase};
 pub use blade::{BladeCase, BodyDragCase, OwnCoefficients, RotationCase, ViscousCase};
 pub use body::{BodyCase, OriginCase, PartCase, ProfileCase};
 pub use control::{
-    ControlCase, ControllerCase, SensorsCase, StiffnessCase, TargetCase, WeightsCase,
+    ControlCase, ControllerCase, SensorsCase, StiffnessCase, TargetCase, WaypointCase, WeightsCase,
 };
 pub use cores::{CoreCase, CutOffCase, LambOseenCase, RadiusCase};
 pub use deformation::{BendingCase, CamberCase, CourseCase, DeformationCase, TwistCase};
