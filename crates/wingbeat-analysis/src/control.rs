@@ -39,6 +39,14 @@ impl Law {
         }
     }
 
+    /// The departure that is reckoned with where `seen` is seen.
+    pub fn estimated(&self, seen: &Departure) -> Departure {
+        match self {
+            Self::Stabiliser(_) => *seen,
+            Self::Regulator(regulator) => regulator.estimated(seen),
+        }
+    }
+
     /// A beat goes by with the command `u`, which reaches a limit or not.
     pub fn remember(&mut self, d: &Departure, u: Controls, limited: bool) {
         if let Self::Regulator(regulator) = self {
@@ -135,7 +143,8 @@ impl Controller for Steering {
         let sensed = self.sensors.map_or(*sensed, |s| s.seen(sensed));
         let (reference, origin) = self.begin(&sensed);
         let aim = self.route.at(sensed.time);
-        let d = reference.departure_on(&aim, &sensed, origin);
+        let seen = reference.departure_on(&aim, &sensed, origin);
+        let d = self.law.estimated(&seen);
         if d.beat.is_multiple_of(self.every) {
             self.command = self.limits.applied(self.law.controls(&d));
         }

@@ -12,6 +12,7 @@ use wingbeat_math::DVec3;
 use crate::AnalysisError;
 use crate::control::{Held, Law, Steering};
 use crate::departure::{Limits, Reference};
+use crate::regulator::observer::ProcessNoise;
 use crate::regulator::{Regulator, Weights};
 use crate::route::Route;
 use crate::sensors::Sensors;
@@ -56,6 +57,8 @@ pub struct Design {
     pub limits: Limits,
     /// Noise and bias of what is seen.
     pub sensors: Option<Sensors>,
+    /// Noise of the flight for which the regulator's observer filters what is seen; none: no observer.
+    pub observer: Option<ProcessNoise>,
     /// Where the flight that is held is brought to.
     pub route: Route,
 }
@@ -110,7 +113,12 @@ impl Design {
                 Law::Stabiliser(ProportionalDerivative::new(&trim, stiffness)?)
             }
             LawDesign::Regulator(weights) => {
-                Law::Regulator(Regulator::new(&trim, weights, self.latency)?)
+                let regulator = Regulator::new(&trim, weights, self.latency)?;
+                let noise = self.sensors.unwrap_or_default().noise;
+                Law::Regulator(match &self.observer {
+                    Some(process) => regulator.observed(&trim, process, &noise)?,
+                    None => regulator,
+                })
             }
         };
         let mut steering = match self.target {

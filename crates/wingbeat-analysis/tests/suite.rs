@@ -3,6 +3,7 @@
 mod common;
 mod episode;
 mod mechanisms;
+mod observer;
 mod oracle;
 mod sweep;
 mod validation;

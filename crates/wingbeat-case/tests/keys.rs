@@ -63,6 +63,11 @@ const SITES: &[Site] = &[
         &["control.controller=stabiliser"],
     ),
     site("SensorsCase", "control.sensors", &[]),
+    site(
+        "ObserverCase",
+        "control.observer",
+        &["control.sensors.tilt_noise_deg=1"],
+    ),
     site("TetherCase", "flight.tether", &["flight.mode=tethered"]),
     site(
         "PathOscillation",

@@ -125,17 +125,16 @@ fn exact_flight_under_feedback_goes_on_bit_for_bit() {
         "time.beats=4",
         "control.every_beats=2",
         "control.latency_beats=2",
-        "control.weights.sum=2",
         "control.waypoint=[{time_s=0.012,position_m=[0,0,-1e-3],heading_deg=10}]",
         "control.sensors={seed=7,position_noise_m=1e-5,tilt_noise_deg=0.5,rate_noise_deg_s=50,velocity_bias_m_s=[0.01,0,0]}",
     ];
-    for more in [["control.hold=start"], ["control.controller=stabiliser"]] {
-        let keys: Vec<&str> = [&keys[..], &more]
-            .concat()
-            .into_iter()
-            .filter(|k| more[0] != "control.controller=stabiliser" || !k.contains("weights.sum"))
-            .collect();
-        let setup = in_blades(&keys);
+    let regulator = [
+        "control.hold=start",
+        "control.weights.sum=2",
+        "control.observer={rate=0.02}",
+    ];
+    for more in [&regulator[..], &["control.controller=stabiliser"]] {
+        let setup = in_blades(&[&keys[..], more].concat());
         let whole = Flight::from(setup.clone()).fly().unwrap().records;
         // Broken off within a passage, through the bytes of a checkpoint.
         let mut flight = Simulation::new(setup.clone()).unwrap();
@@ -222,7 +221,7 @@ fn exact_noise_is_that_of_its_seed() {
 
 #[test]
 fn refuses_what_control_cannot_do_by_name() {
-    let wrong: [(&[&str], &str); 19] = [
+    let wrong: [(&[&str], &str); 21] = [
         (&["control.controller=\"pid\""], "control.controller"),
         (&["control.latency_beats=-1"], "control.latency_beats"),
         (&["control.latency_beats=21"], "control.latency_beats"),
@@ -253,6 +252,14 @@ fn refuses_what_control_cannot_do_by_name() {
                 "control.waypoint=[{time_s=1,position_m=[1e-3,0,0]}]",
             ],
             "control.waypoint[0].position_m",
+        ),
+        (&["control.observer={}"], "control.observer"),
+        (
+            &[
+                "control.sensors={tilt_noise_deg=1}",
+                "control.observer={velocity=0}",
+            ],
+            "control.observer.velocity",
         ),
         (&["control.controller=external"], "control.external.command"),
         (

@@ -6,6 +6,7 @@ use wingbeat_air::Wind;
 use wingbeat_analysis::departure::Limits;
 use wingbeat_analysis::design::{Design, LawDesign, Target};
 use wingbeat_analysis::regulator::Weights;
+use wingbeat_analysis::regulator::observer::ProcessNoise;
 use wingbeat_analysis::sensors::{Channels, Sensors};
 use wingbeat_analysis::stabiliser::Stiffness;
 use wingbeat_flight::control::MIN_INTERVAL;
@@ -73,6 +74,10 @@ fn design(case: &Case, control: &ControlCase, law: LawDesign) -> Built<Design> {
         every: control.every_beats,
         limits: limits(control),
         sensors: control.sensors.as_ref().map(sensors),
+        observer: control.observer.as_ref().map(|o| ProcessNoise {
+            velocity: o.velocity,
+            rate: o.rate,
+        }),
         route: route::build(case, control)?,
     })
 }

@@ -4,6 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use smart_default::SmartDefault;
 use wingbeat_analysis::regulator::Weights;
+use wingbeat_analysis::regulator::observer::ProcessNoise;
 use wingbeat_analysis::stabiliser::Stiffness;
 
 use super::ExternalCase;
@@ -81,11 +82,34 @@ pub struct ControlCase {
     #[schemars(extend("with" = ANY))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub sensors: Option<SensorsCase>,
+    /// Kalman filter of what is sensed, for its noise; left out: the regulator takes what is sensed for the truth.
+    #[schemars(extend("with" = ["control.controller = regulator", "sensors"]))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub observer: Option<ObserverCase>,
     /// Where to be, and when: one `[[control.waypoint]]` each, in the order of their times. Left out: at the place of
     /// the release.
     #[schemars(extend("with" = ANY))]
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub waypoint: Vec<WaypointCase>,
+}
+
+/// Noise of the flight: standard deviations of what each wingbeat changes that no command does (gusts, an air other
+/// than that of the layout). The filter weighs it against the noise of `[control.sensors]`.
+#[derive(Clone, Debug, PartialEq, SmartDefault, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct ObserverCase {
+    /// Of the velocity, in wing lengths per wingbeat.
+    ///
+    /// Change it to less for calm air: what is sensed counts less then.
+    #[default(ProcessNoise::default().velocity)]
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub velocity: f64,
+    /// Of the angular velocity, in radians per wingbeat.
+    ///
+    /// Change it to less for calm air: what is sensed counts less then.
+    #[default(ProcessNoise::default().rate)]
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub rate: f64,
 }
 
 /// A place and a heading, and when to be there. From one waypoint to the next, and from the release to the first, the
