@@ -19,12 +19,24 @@ pub type Controls = [f64; CONTROLS];
 /// The departure from the reference flight at the start of a wingbeat.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Departure {
-    /// Number of the beat.
+    /// Number of the look: that of the beat where there is one look in each.
     pub beat: usize,
     /// Mass centre relative to where the reference flight would be, level frame [m].
     pub position: DVec3,
     /// Velocity, angular velocity and tilt at this instant, less those of the reference flight.
     pub state: Perturbation,
+}
+
+impl Departure {
+    /// What is left of it less `other`.
+    pub fn less(&self, other: &Self) -> Self {
+        let (state, other_state) = (self.state.to_array(), other.state.to_array());
+        Self {
+            beat: self.beat,
+            position: self.position - other.position,
+            state: Perturbation::from_array(std::array::from_fn(|i| state[i] - other_state[i])),
+        }
+    }
 }
 
 /// The flight that is held.

@@ -12,8 +12,9 @@ use wingbeat_math::DVec3;
 use crate::AnalysisError;
 use crate::control::{Held, Law, Steering};
 use crate::departure::{Limits, Reference};
+use crate::part::Orbit;
 use crate::regulator::observer::ProcessNoise;
-use crate::regulator::{Regulator, Weights};
+use crate::regulator::{Regulator, Timing, Weights};
 use crate::route::Route;
 use crate::sensors::Sensors;
 use crate::stabiliser::{ProportionalDerivative, Stiffness};
@@ -49,9 +50,9 @@ pub struct Design {
     pub air: BladeOptions,
     /// Mean velocity to fly with, N components, in the plane n1-n3 [m/s].
     pub velocity: DVec3,
-    /// Wingbeats from sensing to acting.
-    pub latency: usize,
-    /// Wingbeats from one look to the next.
+    /// When is looked, and when acted.
+    pub timing: Timing,
+    /// Looks from one command to the next.
     pub every: usize,
     /// Largest commands.
     pub limits: Limits,
@@ -81,7 +82,7 @@ impl Design {
             ],
             velocity: self.velocity,
             body_pitch,
-            settings: TrimSettings::default(),
+            settings: self.settings(),
         };
         let plain = FlightSetup {
             air: AirModel::BladeElement(self.air.clone()),
@@ -102,6 +103,15 @@ impl Design {
         ))
     }
 
+    /// Steps that the looks divide.
+    fn settings(&self) -> TrimSettings {
+        let default = TrimSettings::default();
+        TrimSettings {
+            steps: default.steps.next_multiple_of(self.timing.parts),
+            ..default
+        }
+    }
+
     /// The controller of a flight of `setup`.
     ///
     /// # Errors
@@ -113,7 +123,7 @@ impl Design {
                 Law::Stabiliser(ProportionalDerivative::new(&trim, stiffness)?)
             }
             LawDesign::Regulator(weights) => {
-                let regulator = Regulator::new(&trim, weights, self.latency)?;
+                let regulator = Regulator::timed(&trim, weights, &self.timing)?;
                 let noise = self.sensors.unwrap_or_default().noise;
                 Law::Regulator(match &self.observer {
                     Some(process) => regulator.observed(&trim, process, &noise)?,
@@ -133,6 +143,7 @@ impl Design {
         steering.every = self.every;
         steering.sensors = self.sensors;
         steering.route = self.route.clone();
+        steering.orbit = Orbit::new(&trim, self.timing.parts)?.points;
         Ok(steering)
     }
 }

@@ -38,6 +38,7 @@ pub mod level;
 pub mod mean;
 pub mod modes;
 pub mod monodromy;
+pub mod part;
 pub mod plausibility;
 pub mod power;
 pub mod progress;

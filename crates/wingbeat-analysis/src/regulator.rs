@@ -1,6 +1,6 @@
 //! A stabiliser: proportional-derivative feedback of place, velocity, attitude and rates with
 //! the gains of the discrete linear-quadratic regulator, laid out on the full model's own map
-//! over one wingbeat, latency included.
+//! over one wingbeat, or over each of equal parts of it, latency included.
 //!
 //! ```text
 //! x[k+1] = M x[k] + B_0 a[k] + B_1 a[k+1]      a: command in force, blended over the beat
@@ -24,12 +24,13 @@ use wingbeat_math::DVec3;
 use crate::AnalysisError;
 use crate::departure::{CONTROLS, Controls, Departure};
 use crate::level::Perturbation;
+use crate::part::Orbit;
 use crate::sensors::Channels;
 use crate::trim::Trim;
 
 use observer::{Observer, ProcessNoise};
 use plant::{Plant, STATES, SUMMED, states};
-use riccati::riccati;
+use riccati::{Step, riccati};
 
 /// Departures that weigh alike in the cost.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -61,15 +62,25 @@ impl Default for Weights {
     }
 }
 
+/// When is looked, and when acted.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Timing {
+    /// Looks in a wingbeat, at equal times.
+    pub parts: usize,
+    /// Looks from sensing to acting.
+    pub latency: usize,
+}
+
 /// The stabiliser.
 #[derive(Clone, Debug)]
 pub struct Regulator {
-    gain: Vec<f64>,
+    /// Of every look of a wingbeat.
+    gains: Vec<Vec<f64>>,
     /// Sums of position [m] and heading \[rad\]; empty without integral action.
     sums: Vec<f64>,
     /// Commands in force and under way, oldest first.
     commands: VecDeque<Controls>,
-    plant: Plant,
+    plants: Vec<Plant>,
     observer: Option<Observer>,
 }
 
@@ -79,18 +90,28 @@ impl Regulator {
     /// # Errors
     /// A flight that the strokes cannot stabilise: Riccati's iteration does not converge.
     pub fn new(trim: &Trim, weights: &Weights, latency: usize) -> Result<Self, AnalysisError> {
+        Self::timed(trim, weights, &Timing { parts: 1, latency })
+    }
+
+    /// The same for looks at other times.
+    ///
+    /// # Errors
+    /// As [`Self::new`]; steps of the trim that the looks do not divide.
+    pub fn timed(trim: &Trim, weights: &Weights, timing: &Timing) -> Result<Self, AnalysisError> {
         let wings = &trim.setup.animal.wings;
         let sides: Vec<f64> = wings.iter().map(|w| w.side.sign()).collect();
-        let plant = Plant::new(trim, &sides)?;
+        let orbit = Orbit::new(trim, timing.parts)?;
+        let plants = Plant::parts(trim, &orbit, &sides)?;
         let sums = if weights.sum.is_some() { CONTROLS } else { 0 };
-        let (a, b, n) = plant.augmented(sums, latency);
-        let (q, r) = cost(trim, weights, n);
-        let gain = riccati(&a, &b, &q, &r, n)?;
+        let n = STATES + sums + CONTROLS * (timing.latency + 1);
+        let step = |p: &Plant| p.augmented(sums, timing.latency);
+        let steps: Vec<Step> = plants.iter().map(step).collect();
+        let (q, r) = cost(trim, weights, timing.parts, n);
         Ok(Self {
-            gain,
+            gains: riccati(&steps, &q, &r, n)?,
             sums: vec![0.0; sums],
-            commands: VecDeque::from(vec![[0.0; CONTROLS]; latency + 1]),
-            plant,
+            commands: VecDeque::from(vec![[0.0; CONTROLS]; timing.latency + 1]),
+            plants,
             observer: None,
         })
     }
@@ -105,13 +126,13 @@ impl Regulator {
         process: &ProcessNoise,
         noise: &Channels<f64>,
     ) -> Result<Self, AnalysisError> {
-        self.observer = Some(Observer::new(&self.plant, &trim.beat, process, noise)?);
+        self.observer = Some(Observer::new(&self.plants, &trim.beat, process, noise)?);
         Ok(self)
     }
 
-    /// The map that it is laid out on.
-    pub fn plant(&self) -> &Plant {
-        &self.plant
+    /// The maps that it is laid out on, one for each part of a wingbeat.
+    pub fn plants(&self) -> &[Plant] {
+        &self.plants
     }
 
     /// The departure that is estimated where `seen` is seen.
@@ -119,7 +140,7 @@ impl Regulator {
         let Some(observer) = &self.observer else {
             return *seen;
         };
-        let x = observer.estimate(&states(seen));
+        let x = observer.estimate(seen.beat, &states(seen));
         Departure {
             beat: seen.beat,
             position: DVec3::from_slice(&x),
@@ -127,10 +148,10 @@ impl Regulator {
         }
     }
 
-    /// Feedback gains, `CONTROLS` rows; columns: position, velocity, rate, tilt (SI), sums, then
+    /// Feedback gains of every look of a wingbeat, `CONTROLS` rows; columns: position, velocity, rate, tilt (SI), sums, then
     /// commands in force and under way.
-    pub fn gain(&self) -> &[f64] {
-        &self.gain
+    pub fn gains(&self) -> &[Vec<f64>] {
+        &self.gains
     }
 
     /// The controls against a departure, without limits.
@@ -139,7 +160,8 @@ impl Regulator {
         z.extend(&self.sums);
         z.extend(self.commands.iter().flatten());
         let n = z.len();
-        std::array::from_fn(|i| -(0..n).map(|j| self.gain[i * n + j] * z[j]).sum::<f64>())
+        let gain = &self.gains[departure.beat % self.gains.len()];
+        std::array::from_fn(|i| -(0..n).map(|j| gain[i * n + j] * z[j]).sum::<f64>())
     }
 
     /// A beat goes by: the command `u` joins those under way, the departure the sums, unless the
@@ -148,7 +170,8 @@ impl Regulator {
         self.commands.push_back(u);
         let now = self.commands.pop_front().unwrap_or(u);
         if let Some(observer) = &mut self.observer {
-            observer.advance(&self.plant, &states(departure), &now, &self.commands[0]);
+            let plant = &self.plants[departure.beat % self.plants.len()];
+            observer.advance(plant, &states(departure), &now, &self.commands[0]);
         }
         if !limited {
             let states = states(departure);
@@ -178,7 +201,7 @@ impl Regulator {
 }
 
 /// Diagonals of the cost of states and commands.
-fn cost(trim: &Trim, w: &Weights, n: usize) -> (Vec<f64>, [f64; CONTROLS]) {
+fn cost(trim: &Trim, w: &Weights, parts: usize, n: usize) -> (Vec<f64>, [f64; CONTROLS]) {
     let (length, period) = (trim.beat.wing_length(), trim.beat.period());
     let sizes = [
         w.position * length,
@@ -192,6 +215,8 @@ fn cost(trim: &Trim, w: &Weights, n: usize) -> (Vec<f64>, [f64; CONTROLS]) {
     }
     if let Some(sum) = w.sum {
         for (k, state) in SUMMED.into_iter().enumerate() {
+            // As many times as often is summed.
+            let sum = parts as f64 * sum;
             let size = if state < 3 { sum * length } else { sum };
             q[STATES + k] = size.powi(-2);
         }

@@ -34,7 +34,7 @@ fn noise() -> Channels<f64> {
 #[test]
 fn exact_filter_of_one_state() {
     for [a, w, r] in [[1.3_f64, 0.2, 0.7], [0.5, 1.0, 1e-3], [1.0, 1e-4, 1.0]] {
-        let Kalman { gain, covariance } = kalman(&[a], &[w], &[r]).expect("a filter");
+        let Kalman { gain, covariance } = kalman(&[&[a]], &[w], &[r]).expect("a filter").remove(0);
         let half = 0.5 * (w + r * (a * a - 1.0));
         let p = half + (half * half + w * r).sqrt();
         // The iteration stops at changes of 1e-12; it contracts by 0.99 at the slowest.
@@ -48,7 +48,7 @@ fn exact_filter_of_one_state() {
 fn balances_covariance_of_the_fly() {
     let trim = hovering();
     let regulator = Regulator::new(&trim, &Weights::default(), LATENCY).expect("gains");
-    let m = &regulator.plant().m;
+    let m = &regulator.plants()[0].m;
     let beat = &trim.beat;
     let sizes = [
         beat.wing_length(),
@@ -64,7 +64,7 @@ fn balances_covariance_of_the_fly() {
     let r: Vec<f64> = (0..STATES)
         .map(|k| square([n.position, n.velocity, n.rate, n.tilt][k / 3]))
         .collect();
-    let Kalman { gain, covariance } = kalman(m, &w, &r).expect("a filter");
+    let Kalman { gain, covariance } = kalman(&[m], &w, &r).expect("a filter").remove(0);
     let at = |x: &[f64], i: usize, j: usize| x[i * STATES + j];
     let times = |x: &[f64], y: &[f64]| -> Vec<f64> {
         let entry = |k: usize| {
@@ -109,7 +109,7 @@ fn closed(regulator: &Regulator, z: &[f64]) -> Vec<f64> {
     let memory = regulator.memory();
     let next: Controls = memory[..CONTROLS].try_into().expect("the next command");
     let x: &[f64; STATES] = x.try_into().expect("all states");
-    [&regulator.plant().advance(x, &now, &next)[..], &memory].concat()
+    [&regulator.plants()[0].advance(x, &now, &next)[..], &memory].concat()
 }
 
 /// The matrix of a linear map of `n` numbers, each of its natural size.
@@ -151,16 +151,16 @@ fn exact_eigenvalues_of_the_loop_are_those_of_regulator_and_filter() {
     let whole = matrix(m, &all, |z| closed(&observed, z));
     let regulated = matrix(n, &all, |z| closed(&plain, z));
     // Errors of what is expected: e' = M (1 - L) e.
-    let filter = Observer::new(plain.plant(), beat, &ProcessNoise::default(), &noise());
+    let filter = Observer::new(plain.plants(), beat, &ProcessNoise::default(), &noise());
     let filter = filter.expect("a filter");
     let errors = matrix(STATES, &all, |e| {
         let left: [f64; STATES] = std::array::from_fn(|i| {
             e[i] - (0..STATES)
-                .map(|j| filter.gain()[i * STATES + j] * e[j])
+                .map(|j| filter.gains()[0][i * STATES + j] * e[j])
                 .sum::<f64>()
         });
         let none = [0.0; CONTROLS];
-        plain.plant().advance(&left, &none, &none).to_vec()
+        plain.plants()[0].advance(&left, &none, &none).to_vec()
     });
     let polynomial = |a: &[f64], n: usize, z: f64| {
         let mut a: Vec<f64> = a.iter().map(|x| -x).collect();

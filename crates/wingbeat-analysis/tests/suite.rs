@@ -2,6 +2,7 @@
 
 mod common;
 mod episode;
+mod looks;
 mod mechanisms;
 mod observer;
 mod oracle;

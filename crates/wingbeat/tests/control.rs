@@ -86,8 +86,18 @@ fn balances_hover_recovers_from_twenty_degrees_and_open_loop_does_not() {
     // The loops do not hold the place, and lean against what drift is left, by half a degree.
     let regulator = ["control.controller=regulator", "control.weights={}"];
     let loops = ["control.controller=stabiliser", "control.latency_beats=0"];
-    for (keys, near, lean) in [(regulator, 0.005, 0.03), (loops, f64::INFINITY, 1.0)] {
-        let flown = beats(in_blades(&[&tilted[..], &keys].concat()));
+    // Looks within the beat bear a latency, too.
+    let often = [
+        "control.controller=stabiliser",
+        "control.looks_per_beat=4",
+        "control.latency_beats=0.5",
+    ];
+    for (keys, near, lean) in [
+        (&regulator[..], 0.005, 0.03),
+        (&loops, f64::INFINITY, 1.0),
+        (&often, f64::INFINITY, 2.0),
+    ] {
+        let flown = beats(in_blades(&[&tilted[..], keys].concat()));
         let (way, turned) = flown[79];
         // It has turned back by those 20 degrees.
         println!("{keys:?}: {turned} deg, {way:e} m");
@@ -133,7 +143,14 @@ fn exact_flight_under_feedback_goes_on_bit_for_bit() {
         "control.weights.sum=2",
         "control.observer={rate=0.02}",
     ];
-    for more in [&regulator[..], &["control.controller=stabiliser"]] {
+    let within = [
+        "control.every_beats=1",
+        "control.looks_per_beat=5",
+        "control.latency_beats=0.6",
+        "control.weights.sum=2",
+        "control.observer={rate=0.02}",
+    ];
+    for more in [&regulator[..], &within, &["control.controller=stabiliser"]] {
         let setup = in_blades(&[&keys[..], more].concat());
         let whole = Flight::from(setup.clone()).fly().unwrap().records;
         // Broken off within a passage, through the bytes of a checkpoint.
@@ -221,11 +238,22 @@ fn exact_noise_is_that_of_its_seed() {
 
 #[test]
 fn refuses_what_control_cannot_do_by_name() {
-    let wrong: [(&[&str], &str); 21] = [
+    let wrong: [(&[&str], &str); 26] = [
         (&["control.controller=\"pid\""], "control.controller"),
         (&["control.latency_beats=-1"], "control.latency_beats"),
         (&["control.latency_beats=21"], "control.latency_beats"),
         (&["control.every_beats=0"], "control.every_beats"),
+        (&["control.looks_per_beat=0"], "control.looks_per_beat"),
+        (&["control.looks_per_beat=4"], "control.looks_per_beat"), // of 30 steps
+        (&["control.looks_per_beat=10"], "control.looks_per_beat"),
+        (
+            &["control.looks_per_beat=2", "control.latency_beats=0.25"],
+            "control.latency_beats",
+        ),
+        (
+            &["control.looks_per_beat=2", "control.every_beats=2"],
+            "control.every_beats",
+        ),
         (&["control.amplitude_limit=0"], "control.amplitude_limit"),
         (&["control.angle_limit_deg=120"], "control.angle_limit_deg"),
         (&["control.weights.place=1"], "control.weights.place"),

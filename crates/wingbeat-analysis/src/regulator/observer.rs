@@ -45,19 +45,19 @@ impl Default for ProcessNoise {
 /// The filter.
 #[derive(Clone, Debug)]
 pub struct Observer {
-    /// L, by rows.
-    gain: Vec<f64>,
+    /// L of every look of a wingbeat, by rows.
+    gains: Vec<Vec<f64>>,
     /// What is expected at the next look; none before the first.
     expected: Option<[f64; STATES]>,
 }
 
 impl Observer {
-    /// The filter of a flight on the map `plant` of `beat`, seen with `noise`.
+    /// The filter of a flight on the maps of the parts of `beat`, seen with `noise`.
     ///
     /// # Errors
     /// An iteration that does not converge.
     pub fn new(
-        plant: &Plant,
+        plants: &[Plant],
         beat: &Beat,
         process: &ProcessNoise,
         noise: &Channels<f64>,
@@ -69,31 +69,36 @@ impl Observer {
         let moved = [0.0, process.velocity * speed, process.rate * rate, 0.0];
         let r = |k: usize| seen[k / 3].max(FLOOR * sizes[k / 3]).powi(2);
         let r: Vec<f64> = (0..STATES).map(r).collect();
-        let w: Vec<f64> = (0..STATES).map(|k| moved[k / 3].powi(2)).collect();
+        let share = plants.len() as f64;
+        let w = |k: usize| moved[k / 3].powi(2) / share;
+        let w: Vec<f64> = (0..STATES).map(w).collect();
+        let maps: Vec<&[f64]> = plants.iter().map(|p| &p.m[..]).collect();
+        let filters = kalman(&maps, &w, &r)?;
         Ok(Self {
-            gain: kalman(&plant.m, &w, &r)?.gain,
+            gains: filters.into_iter().map(|f| f.gain).collect(),
             expected: None,
         })
     }
 
-    /// L, by rows.
-    pub fn gain(&self) -> &[f64] {
-        &self.gain
+    /// L of every look of a wingbeat, by rows.
+    pub fn gains(&self) -> &[Vec<f64>] {
+        &self.gains
     }
 
-    /// What is estimated where `seen` is seen.
-    pub fn estimate(&self, seen: &[f64; STATES]) -> [f64; STATES] {
+    /// What is estimated where `seen` is seen at look number `look`.
+    pub fn estimate(&self, look: usize, seen: &[f64; STATES]) -> [f64; STATES] {
+        let gain = &self.gains[look % self.gains.len()];
         let Some(expected) = self.expected else {
             return *seen;
         };
         std::array::from_fn(|i| {
-            let row = self.gain[i * STATES..].iter();
+            let row = gain[i * STATES..].iter();
             let news = seen.iter().zip(&expected);
             expected[i] + row.zip(news).map(|(l, (y, x))| l * (y - x)).sum::<f64>()
         })
     }
 
-    /// A wingbeat goes by from the estimate `x`, in which the command `now` goes over to `next`.
+    /// Time goes by from the estimate `x` on the map `plant`, in which the command `now` goes over to `next`.
     pub fn advance(&mut self, plant: &Plant, x: &[f64; STATES], now: &Controls, next: &Controls) {
         self.expected = Some(plant.advance(x, now, next));
     }
@@ -118,39 +123,62 @@ pub struct Kalman {
     pub covariance: Vec<f64>,
 }
 
-/// The steady filter of `x' = M x + w` where x itself is seen with noise: variances `w` of the process and `r` of what is
-/// seen, all independent. Riccati's difference equation, run until it stands.
+/// The steady filters of a period of maps `x' = M x + w` where x itself is seen with noise: variances `w` of the process and
+/// `r` of what is seen, all independent. Riccati's difference equation, run through the periods until it stands.
 ///
 /// # Errors
 /// An iteration that does not converge.
-pub fn kalman(m: &[f64], w: &[f64], r: &[f64]) -> Result<Kalman, AnalysisError> {
+pub fn kalman(maps: &[&[f64]], w: &[f64], r: &[f64]) -> Result<Vec<Kalman>, AnalysisError> {
     let n = w.len();
     let mut p = vec![0.0; n * n];
     (0..n).for_each(|i| p[i * n + i] = w[i] + r[i]);
+    let mut filters: Vec<Kalman> = vec![];
     for _ in 0..MAX_PASSES {
-        let mut s = p.clone();
-        (0..n).for_each(|i| s[i * n + i] += r[i]);
-        // L = P S^-1 with symmetric P and S.
-        let gain = transposed(&solve_columns(&s, &p, n, n)?, n);
-        let after = corrected(&p, &gain, r);
-        let mut next = product(&product(m, &after, n, n, n), &transposed(m, n), n, n, n);
-        (0..n).for_each(|i| next[i * n + i] += w[i]);
-        let of = |x: &[f64], i: usize, j: usize| 0.5 * (x[i * n + j] + x[j * n + i]);
-        let even: Vec<f64> = (0..n * n).map(|k| of(&next, k / n, k % n)).collect();
-        // Entries in units of their own sizes.
-        let size = |k: usize| (even[k / n * (n + 1)] * even[k % n * (n + 1)]).sqrt();
-        let stands = (0..n * n).all(|k| (even[k] - p[k]).abs() <= TOLERANCE * size(k));
-        p = even;
-        if stands {
-            return Ok(Kalman {
-                gain,
-                covariance: p,
-            });
+        let passed: Result<Vec<Kalman>, AnalysisError> = (maps.iter())
+            .map(|m| {
+                let filter = filter(&p, r)?;
+                p = ahead(m, &filter, w, r);
+                Ok(filter)
+            })
+            .collect();
+        let last = std::mem::replace(&mut filters, passed?);
+        let mut pairs = filters.iter().zip(&last);
+        if last.len() == maps.len() && pairs.all(|(a, b)| stands(a, b, n)) {
+            return Ok(filters);
         }
     }
     Err(AnalysisError::Numbers(
         "the observer's iteration did not converge: more noise of the flight (control.observer) lets it".into(),
     ))
+}
+
+/// Whether two covariances are the same, entries in units of their own sizes.
+fn stands(a: &Kalman, b: &Kalman, n: usize) -> bool {
+    let (p, q) = (&a.covariance, &b.covariance);
+    let size = |k: usize| (p[k / n * (n + 1)] * p[k % n * (n + 1)]).sqrt();
+    (0..n * n).all(|k| (p[k] - q[k]).abs() <= TOLERANCE * size(k))
+}
+
+/// The filter where the covariance `p` is expected.
+fn filter(p: &[f64], r: &[f64]) -> Result<Kalman, AnalysisError> {
+    let n = r.len();
+    let mut s = p.to_vec();
+    (0..n).for_each(|i| s[i * n + i] += r[i]);
+    // L = P S^-1 with symmetric P and S.
+    Ok(Kalman {
+        gain: transposed(&solve_columns(&s, p, n, n)?, n),
+        covariance: p.to_vec(),
+    })
+}
+
+/// The covariance that is expected after the map `m`.
+fn ahead(m: &[f64], filter: &Kalman, w: &[f64], r: &[f64]) -> Vec<f64> {
+    let n = w.len();
+    let after = corrected(&filter.covariance, &filter.gain, r);
+    let mut next = product(&product(m, &after, n, n, n), &transposed(m, n), n, n, n);
+    (0..n).for_each(|i| next[i * n + i] += w[i]);
+    let of = |i: usize, j: usize| 0.5 * (next[i * n + j] + next[j * n + i]);
+    (0..n * n).map(|k| of(k / n, k % n)).collect()
 }
 
 /// `(1 - L) P (1 - L)^T + L R L^T`: as `P - L P`, without its loss of digits [Bucy & Joseph 1968].

@@ -1,13 +1,16 @@
-//! The linear map over one wingbeat about a trimmed flight, and what is commanded over it.
+//! The linear map over a wingbeat or an equal part of it about a trimmed flight, and what is commanded over it.
 
 use wingbeat_math::DVec3;
 
 use crate::AnalysisError;
-use crate::beat::{Beat, JOINTS};
+use crate::beat::Beat;
 use crate::departure::{CONTROLS, Controls, Departure, adjustments};
 use crate::level::{Level, Perturbation};
 use crate::monodromy::monodromy;
+use crate::part::{Orbit, Part};
 use crate::trim::Trim;
+
+use super::riccati::Step;
 
 /// Number of states: position, velocity, angular velocity, tilt.
 pub const STATES: usize = 12;
@@ -21,7 +24,7 @@ pub fn states(departure: &Departure) -> [f64; STATES] {
     std::array::from_fn(|k| if k < 3 { position[k] } else { rest[k - 3] })
 }
 
-/// The linear map over one beat about the trimmed flight.
+/// The linear map over one beat, or a part of it, about the trimmed flight.
 #[derive(Clone, Debug)]
 pub struct Plant {
     /// Of the states, by rows.
@@ -31,18 +34,23 @@ pub struct Plant {
 }
 
 impl Plant {
-    /// About the trimmed flight, wings on these sides (right +1, left -1).
+    /// Of every part of the wingbeat of the trimmed flight, wings on these sides (right +1, left -1).
     ///
     /// # Errors
     /// Numbers that are not finite.
-    pub fn new(trim: &Trim, sides: &[f64]) -> Result<Self, AnalysisError> {
+    pub fn parts(trim: &Trim, orbit: &Orbit, sides: &[f64]) -> Result<Vec<Self>, AnalysisError> {
+        let parts = Part::all(orbit.seen.len());
+        parts.map(|p| Self::new(trim, orbit, sides, p)).collect()
+    }
+
+    fn new(trim: &Trim, orbit: &Orbit, sides: &[f64], part: Part) -> Result<Self, AnalysisError> {
         let root = trim.beat.root(&trim.state);
         let level = Level::new(root.r, trim.beat.gravity());
-        let x = Perturbation::of(&trim.beat, &level, &trim.state).to_array();
         let mut all = vec![0.0; 3];
-        all.extend(x);
+        all.extend(orbit.seen[part.number].to_array());
         all.extend([0.0; 2 * CONTROLS]);
-        let map = |z: &[f64]| fly(trim, &level, sides, z);
+        let joints = &orbit.joints[part.number];
+        let map = |z: &[f64]| fly(trim, part, joints, &level, sides, z);
         let speed = trim.beat.wing_length() / trim.beat.period();
         let rate = 1.0 / trim.beat.period();
         let sizes = [trim.beat.wing_length(), speed, rate, 1.0];
@@ -50,17 +58,17 @@ impl Plant {
         let steps: Vec<f64> = (0..all.len()).map(step).collect();
         let d = monodromy(map, &all, &steps)?;
         let columns = STATES + 2 * CONTROLS;
-        let part = |from: usize, width: usize| {
+        let block = |from: usize, width: usize| {
             let entry = |k: usize| d[(k / width) * columns + from + k % width];
             (0..STATES * width).map(entry).collect::<Vec<f64>>()
         };
         Ok(Self {
-            m: part(0, STATES),
-            b: [part(STATES, CONTROLS), part(STATES + CONTROLS, CONTROLS)],
+            m: block(0, STATES),
+            b: [block(STATES, CONTROLS), block(STATES + CONTROLS, CONTROLS)],
         })
     }
 
-    /// The states a wingbeat later, in which `now` goes over to `next`.
+    /// The states at its end, in which `now` goes over to `next`.
     pub fn advance(&self, x: &[f64; STATES], now: &Controls, next: &Controls) -> [f64; STATES] {
         std::array::from_fn(|i| {
             let row = |m: &[f64], v: &[f64]| -> f64 {
@@ -76,8 +84,8 @@ impl Plant {
     }
 
     /// The map of states, sums, command in force and commands under way; its effect of a new
-    /// command; its order.
-    pub(super) fn augmented(&self, sums: usize, latency: usize) -> (Vec<f64>, Vec<f64>, usize) {
+    /// command.
+    pub(super) fn augmented(&self, sums: usize, latency: usize) -> Step {
         let first = STATES + sums;
         let n = first + CONTROLS * (latency + 1);
         let (mut a, mut b) = (vec![0.0; n * n], vec![0.0; n * CONTROLS]);
@@ -107,26 +115,33 @@ impl Plant {
                 b[i * CONTROLS + (i - first) % CONTROLS] = 1.0;
             }
         }
-        (a, b, n)
+        Step { a, b }
     }
 }
 
-/// Position and state after a beat from position, state, command in force and next command. Free
+/// Position and state after a part of a beat from position, state, command in force and next command. Free
 /// joints start as on the trimmed orbit: what they remember of the beat before is left to feedback.
-fn fly(trim: &Trim, level: &Level, sides: &[f64], z: &[f64]) -> Result<Vec<f64>, AnalysisError> {
+fn fly(
+    trim: &Trim,
+    part: Part,
+    joints: &[f64],
+    level: &Level,
+    sides: &[f64],
+    z: &[f64],
+) -> Result<Vec<f64>, AnalysisError> {
     let command = |from: usize| {
         let u = std::array::from_fn(|c| z[from + c]);
         adjustments(&u, sides)
     };
     let (now, next) = (command(STATES), command(STATES + CONTROLS));
-    let steps = trim.beat.steps();
-    let beat = Beat::between(&trim.setup, steps, &now, &next)?;
+    let beat = part.passing(trim, [&now, &next])?;
     let after = Beat::between(&trim.setup, 1, &next, &next)?;
+    let [start, end] = [part, part.next()].map(|p| p.start(beat.period()));
     let x = std::array::from_fn(|i| z[3 + i]);
-    let y = Perturbation::from_array(x).state(&beat, level, &trim.state[JOINTS..]);
-    let end = beat.advance(&y)?;
-    let moved = level.to_n.transpose() * DVec3::from_slice(&end);
+    let y = Perturbation::from_array(x).state_at(&beat, start, level, joints);
+    let y = beat.advance_over(part.steps(&beat), &y)?;
+    let moved = level.to_n.transpose() * DVec3::from_slice(&y);
     let mut out = (moved + DVec3::from_slice(z)).to_array().to_vec();
-    out.extend(Perturbation::of(&after, level, &end).to_array());
+    out.extend(Perturbation::at(&after, end, level, &y).to_array());
     Ok(out)
 }

@@ -5,8 +5,8 @@ use std::sync::Arc;
 use wingbeat_air::Wind;
 use wingbeat_analysis::departure::Limits;
 use wingbeat_analysis::design::{Design, LawDesign, Target};
-use wingbeat_analysis::regulator::Weights;
 use wingbeat_analysis::regulator::observer::ProcessNoise;
+use wingbeat_analysis::regulator::{Timing, Weights};
 use wingbeat_analysis::sensors::{Channels, Sensors};
 use wingbeat_analysis::stabiliser::Stiffness;
 use wingbeat_flight::control::MIN_INTERVAL;
@@ -52,8 +52,8 @@ pub(super) fn feedback(case: &Case) -> Built<Option<Feedback>> {
     };
     Ok(Some(Feedback {
         controller,
-        interval: interval(case)?,
-        latency: control.latency_beats,
+        interval: interval(case)? / control.looks_per_beat,
+        latency: timing(case, control)?.latency,
     }))
 }
 
@@ -70,7 +70,7 @@ fn design(case: &Case, control: &ControlCase, law: LawDesign) -> Built<Design> {
             ..blade::options(&case.air)?
         },
         velocity: DVec3::new(control.forward_m_s, 0.0, -control.climb_m_s),
-        latency: control.latency_beats,
+        timing: timing(case, control)?,
         every: control.every_beats,
         limits: limits(control),
         sensors: control.sensors.as_ref().map(sensors),
@@ -93,8 +93,8 @@ fn external(case: &Case, control: &ControlCase) -> Built<ProcessController> {
         )?,
         limits: limits(control),
         every: control.every_beats,
-        latency: control.latency_beats,
-        interval: 1.0 / case.motion.frequency_hz.value(),
+        latency: timing(case, control)?.latency,
+        interval: 1.0 / case.motion.frequency_hz.value() / control.looks_per_beat as f64,
         sensors: control.sensors.as_ref().map(sensors),
         route: route::build(case, control)?,
     })
@@ -172,6 +172,44 @@ fn interval(case: &Case) -> Built<usize> {
         format!("a whole number of steps per wingbeat, at least {MIN_INTERVAL}, with [control]"),
         "give time.steps_per_beat in its place",
     ))
+}
+
+/// When the controller looks, and when it acts.
+fn timing(case: &Case, control: &ControlCase) -> Built<Timing> {
+    let (steps, parts) = (interval(case)?, control.looks_per_beat);
+    if !steps.is_multiple_of(parts) || steps / parts < MIN_INTERVAL {
+        return Err(Fault::new(
+            "control.looks_per_beat",
+            format!("a wingbeat has {steps} time steps, and looks divide them into equal parts"),
+            format!(
+                "a number that divides {steps}, at most {}",
+                steps / MIN_INTERVAL
+            ),
+            "change it, or time.steps_per_beat",
+        ));
+    }
+    if parts > 1 && control.every_beats > 1 {
+        return Err(Fault::new(
+            "control.every_beats",
+            "a controller that looks several times in a wingbeat looks in every one",
+            "1 with control.looks_per_beat above 1",
+            "remove one of them",
+        ));
+    }
+    let looks = control.latency_beats * parts as f64;
+    let latency = looks.round();
+    if (looks - latency).abs() > 1e-9 * looks {
+        return Err(Fault::new(
+            "control.latency_beats",
+            format!("a command begins to act at a look, and there are {parts} in a wingbeat"),
+            format!("a multiple of {}", 1.0 / parts as f64),
+            "round it, or change control.looks_per_beat",
+        ));
+    }
+    Ok(Timing {
+        parts,
+        latency: latency as usize,
+    })
 }
 
 fn weights(case: &WeightsCase) -> Weights {

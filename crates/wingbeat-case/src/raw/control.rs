@@ -14,7 +14,7 @@ const ANY: &str = "control.controller = regulator | stabiliser | external";
 /// Keys of controllers that are laid out about a trimmed flight.
 const LAID_OUT: &str = "control.controller = regulator | stabiliser";
 
-/// Feedback: once per wingbeat a controller sees the flyer and commands changes of the strokes. It acts from the
+/// Feedback: once or several times per wingbeat a controller sees the flyer and commands changes of the strokes. It acts from the
 /// release on. `regulator` and `stabiliser` are laid out about the trimmed flight of the animal in blade elements
 /// when the flight is built; see docs/control.md.
 #[derive(Clone, Debug, PartialEq, SmartDefault, Serialize, Deserialize, JsonSchema)]
@@ -42,11 +42,18 @@ pub struct ControlCase {
     /// Change it to climb or to sink.
     #[schemars(extend("with" = LAID_OUT))]
     pub climb_m_s: f64,
-    /// Wingbeats from sensing to acting; the regulator counts with them, the stabiliser bears one.
+    /// Looks in a wingbeat, at equal times: a number that divides its time steps and leaves four or more between
+    /// looks.
+    ///
+    /// Change it to 2 or 4 for senses and muscles that are faster than the wingbeat.
+    #[default = 1]
+    #[schemars(range(min = 1), extend("with" = ANY))]
+    pub looks_per_beat: usize,
+    /// Wingbeats from sensing to acting, whole looks; the regulator counts with them, the stabiliser bears one.
     ///
     /// Change it to see what delay of senses and muscles costs.
-    #[schemars(range(max = 20), extend("with" = ANY))]
-    pub latency_beats: usize,
+    #[schemars(range(min = 0, max = 20), extend("with" = ANY))]
+    pub latency_beats: f64,
     /// Wingbeats from one look to the next; between them the command is kept. Gains are laid out for
     /// a look every wingbeat.
     ///
