@@ -127,6 +127,7 @@ impl Steering {
             interval: steps_per_beat / self.orbit.len(),
             controller: Arc::new(self),
             latency,
+            lag: 0.0,
         }
     }
 
@@ -225,6 +226,8 @@ pub struct SteeredBeats<'a> {
     trim: &'a Trim,
     controller: Option<Steering>,
     reference: Reference,
+    /// Share of the way to a command that actuators go until the next look.
+    share: f64,
     /// Commands under way: the latency.
     queue: VecDeque<Vec<Adjustment>>,
     acting: Vec<Adjustment>,
@@ -249,11 +252,19 @@ impl<'a> SteeredBeats<'a> {
             trim,
             controller,
             reference: Reference::trimmed(trim)?,
+            share: 1.0,
             queue: VecDeque::from(vec![none.clone(); latency]),
             acting: none,
             sensed: seen(&trim.beat, &state, 0, Part::at_look(0, 1)),
             state,
         })
+    }
+
+    /// The same with actuators that lag ([`Timing::share`](crate::regulator::Timing::share)).
+    #[must_use]
+    pub fn lagged(mut self, share: f64) -> Self {
+        self.share = share;
+        self
     }
 
     /// The same with these commands in force and under way, oldest first, at the start.
@@ -310,7 +321,11 @@ impl<'a> SteeredBeats<'a> {
                 .push_back(command.map_err(AnalysisError::Numbers)?);
         }
         let due = self.controller.as_ref().and(self.queue.pop_front());
-        let next = due.unwrap_or_else(|| self.acting.clone());
+        let mut next = due.unwrap_or_else(|| self.acting.clone());
+        if self.share < 1.0 {
+            let pairs = next.iter_mut().zip(&self.acting);
+            pairs.for_each(|(due, now)| *due = now.toward(due, self.share));
+        }
         let (trim, look) = (self.trim, self.sensed.look + 1);
         let beat = part.passing(trim, [&self.acting, &next])?;
         let number = self.sensed.look / part.of + 1;

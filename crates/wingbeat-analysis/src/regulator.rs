@@ -63,12 +63,21 @@ impl Default for Weights {
 }
 
 /// When is looked, and when acted.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Timing {
     /// Looks in a wingbeat, at equal times.
     pub parts: usize,
     /// Looks from sensing to acting.
     pub latency: usize,
+    /// Time constant of the actuators, in times from look to look; 0: none.
+    pub lag: f64,
+}
+
+impl Timing {
+    /// The share of the way to a command that actuators go from look to look.
+    pub fn share(&self) -> f64 {
+        wingbeat_flight::control::share(1.0 / self.lag)
+    }
 }
 
 /// The stabiliser.
@@ -80,6 +89,8 @@ pub struct Regulator {
     sums: Vec<f64>,
     /// Commands in force and under way, oldest first.
     commands: VecDeque<Controls>,
+    /// Share of the way to a command that actuators go from look to look.
+    share: f64,
     plants: Vec<Plant>,
     observer: Option<Observer>,
 }
@@ -90,7 +101,12 @@ impl Regulator {
     /// # Errors
     /// A flight that the strokes cannot stabilise: Riccati's iteration does not converge.
     pub fn new(trim: &Trim, weights: &Weights, latency: usize) -> Result<Self, AnalysisError> {
-        Self::timed(trim, weights, &Timing { parts: 1, latency })
+        let timing = Timing {
+            parts: 1,
+            latency,
+            lag: 0.0,
+        };
+        Self::timed(trim, weights, &timing)
     }
 
     /// The same for looks at other times.
@@ -104,13 +120,14 @@ impl Regulator {
         let plants = Plant::parts(trim, &orbit, &sides)?;
         let sums = if weights.sum.is_some() { CONTROLS } else { 0 };
         let n = STATES + sums + CONTROLS * (timing.latency + 1);
-        let step = |p: &Plant| p.augmented(sums, timing.latency);
+        let step = |p: &Plant| p.augmented(sums, timing.latency, timing.share());
         let steps: Vec<Step> = plants.iter().map(step).collect();
         let (q, r) = cost(trim, weights, timing.parts, n);
         Ok(Self {
             gains: riccati(&steps, &q, &r, n)?,
             sums: vec![0.0; sums],
             commands: VecDeque::from(vec![[0.0; CONTROLS]; timing.latency + 1]),
+            share: timing.share(),
             plants,
             observer: None,
         })
@@ -169,6 +186,10 @@ impl Regulator {
     pub fn remember(&mut self, departure: &Departure, u: Controls, limited: bool) {
         self.commands.push_back(u);
         let now = self.commands.pop_front().unwrap_or(u);
+        if self.share < 1.0 {
+            let due = self.commands[0];
+            self.commands[0] = std::array::from_fn(|c| now[c] + self.share * (due[c] - now[c]));
+        }
         if let Some(observer) = &mut self.observer {
             let plant = &self.plants[departure.beat % self.plants.len()];
             observer.advance(plant, &states(departure), &now, &self.commands[0]);

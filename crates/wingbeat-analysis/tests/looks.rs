@@ -90,7 +90,7 @@ fn flown(trim: &Trim, regulator: &Regulator, timing: &Timing, z: &[f64]) -> Vec<
         controller.restore(&memory(trim, commands));
         let flight = SteeredBeats::new(trim, state, Some(controller), timing.latency);
         let flight = flight.expect("a flight").commanded(under_way);
-        let mut flight = flight.expect("commands");
+        let mut flight = flight.expect("commands").lagged(timing.share());
         flight.beat().expect("it is held");
         let memory = flight.controller().expect("one").memory();
         let commands = &memory[memory.len() - commands.len()..];
@@ -115,12 +115,24 @@ fn matrix(sizes: &[f64], map: impl Fn(&[f64]) -> Vec<f64>) -> Vec<f64> {
 }
 
 /// The closed loop over a wingbeat, flown from small departures of states and commands, is the one the regulator was laid
-/// out on, and so are its eigenvalues: looks once, twice and five times in a wingbeat, latencies of whole looks.
+/// out on, and so are its eigenvalues: looks once to five times in a wingbeat, latencies of whole looks, actuators
+/// that lag.
 #[test]
 fn agrees_closed_loop_flown_with_that_of_the_layout() {
     let trim = hovering();
-    for [parts, latency] in [[1, 0], [1, 1], [2, 1], [5, 3]] {
-        let timing = Timing { parts, latency };
+    for (parts, latency, lag) in [
+        (1, 0, 0.0),
+        (1, 1, 0.0),
+        (2, 1, 0.0),
+        (5, 3, 0.0),
+        (1, 1, 1.5),
+        (4, 2, 3.0),
+    ] {
+        let timing = Timing {
+            parts,
+            latency,
+            lag,
+        };
         let regulator = Regulator::timed(&trim, &Weights::default(), &timing).expect("gains");
         let commanded = vec![1.0; CONTROLS * (latency + 1)];
         let sizes = [&sizes(&trim)[..], &commanded].concat();
@@ -149,7 +161,11 @@ fn agrees_closed_loop_flown_with_that_of_the_layout() {
 fn balances_a_tilted_flight_under_looks_within_the_beat() {
     let trim = hovering();
     let left = [(1, 1), (4, 1)].map(|(parts, latency)| {
-        let timing = Timing { parts, latency };
+        let timing = Timing {
+            parts,
+            latency,
+            lag: 0.0,
+        };
         let regulator = Regulator::timed(&trim, &Weights::default(), &timing).expect("gains");
         let mut controller = steering(&trim, &regulator, &timing);
         controller.limits = Limits::default();

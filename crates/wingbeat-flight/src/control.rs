@@ -33,6 +33,11 @@ pub fn smoothstep(t: f64, start: f64, duration: f64) -> [f64; 3] {
     ]
 }
 
+/// The share of the way to a command that actuators go within `time`, in units of their time constant (infinity: no lag).
+pub fn share(time: f64) -> f64 {
+    -(-time).exp_m1()
+}
+
 /// A wing whose angles and stroke plane go over from one motion to another by [`smoothstep`].
 #[derive(Clone, Debug)]
 pub struct Passage {
@@ -150,6 +155,8 @@ pub struct Loop {
     interval: usize,
     /// An interval [s].
     duration: f64,
+    /// Share of the way to a command that actuators go within an interval.
+    share: f64,
     wings: Vec<Arc<CommandedMotion>>,
     state: ControlState,
 }
@@ -172,11 +179,13 @@ impl Loop {
             });
         }
         let none = vec![Adjustment::default(); wings.len()];
+        let duration = feedback.interval as f64 * setup.time.step;
         Ok(Self {
             controller: feedback.controller.open(setup)?,
             follows: feedback.controller.follows(),
             interval: feedback.interval,
-            duration: feedback.interval as f64 * setup.time.step,
+            duration,
+            share: share(duration / feedback.lag),
             state: ControlState {
                 from: none.clone(),
                 to: none.clone(),
@@ -248,7 +257,13 @@ impl Loop {
         let command = self.controller.command(sensed).map_err(refused)?;
         self.check(&command, t)?;
         self.state.queue.push_back(command);
-        let due = self.state.queue.pop_front().expect("one was just pushed");
+        let mut due = self.state.queue.pop_front().expect("one was just pushed");
+        if self.share < 1.0 {
+            let lagged = |(due, now): (&mut Adjustment, &Adjustment)| {
+                *due = now.toward(due, self.share);
+            };
+            due.iter_mut().zip(&self.state.to).for_each(lagged);
+        }
         self.state.from = std::mem::replace(&mut self.state.to, due);
         self.state.since = t;
         self.state.looks += 1;

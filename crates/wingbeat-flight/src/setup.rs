@@ -109,6 +109,9 @@ pub struct Feedback {
     pub interval: usize,
     /// Looks from sensing to the beginning of the passage to the command.
     pub latency: usize,
+    /// Time constant of the actuators, a first-order lag: what acts goes over to the command by the share
+    /// `1 - exp(-interval / lag)` from one look to the next; 0: wholly [s].
+    pub lag: f64,
 }
 
 /// What makes the controller of a flight.

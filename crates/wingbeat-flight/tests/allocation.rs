@@ -62,6 +62,7 @@ fn exact_no_allocation_between_looks() {
             controller: Arc::new(Still),
             interval: 40,
             latency: 1,
+            lag: 0.0,
         }),
         ..blade()
     };

@@ -121,6 +121,7 @@ pub fn feedback(function: Py<PyAny>, slot: &Slot, interval: usize, latency: usiz
         controller: Arc::new(PythonController(function)),
         interval,
         latency,
+        lag: 0.0,
     }
 }
 

@@ -35,6 +35,7 @@ pub(crate) fn main() -> Result<(), Error> {
         controller: std::sync::Arc::new(controller),
         interval: interval as usize,
         latency: 0,
+        lag: 0.0,
     });
     for (name, run) in [("free", free), ("held", held.fly()?)] {
         let end = run.records.last().expect("a start at least");

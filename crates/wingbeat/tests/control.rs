@@ -12,7 +12,10 @@ use wingbeat::analysis::control::{Held, Law, Steering};
 use wingbeat::analysis::departure::{Limits, Reference};
 use wingbeat::analysis::regulator::{Regulator, Weights};
 use wingbeat::case::LoadedCase;
-use wingbeat::flight::{AirModel, ControlModel, FlightSetup, FlightState, Simulation};
+use wingbeat::flight::{
+    AirModel, ControlModel, Controller, Feedback, FlightSetup, FlightState, Sensed, Simulation,
+};
+use wingbeat::model::motion::Adjustment;
 
 const PRESET: &str = "fruit-fly-controlled";
 
@@ -147,6 +150,7 @@ fn exact_flight_under_feedback_goes_on_bit_for_bit() {
         "control.every_beats=1",
         "control.looks_per_beat=5",
         "control.latency_beats=0.6",
+        "control.lag_beats=0.7",
         "control.weights.sum=2",
         "control.observer={rate=0.02}",
     ];
@@ -225,6 +229,64 @@ fn balances_a_square_and_a_turn_along_waypoints() {
     );
 }
 
+/// Commands the same at every look.
+#[derive(Clone, Debug)]
+struct Constant(Adjustment);
+
+impl Controller for Constant {
+    fn command(&mut self, _: &Sensed) -> Result<Vec<Adjustment>, String> {
+        Ok(vec![self.0; 2])
+    }
+}
+
+/// A step of the command, through actuators of first order: `1 - exp(-t / lag)` at the looks, after the latency.
+#[test]
+fn exact_actuators_lag_behind_a_step() {
+    let mut setup = in_blades(&["time.beats=6"]);
+    let step = Adjustment {
+        stroke_amplitude: 0.1,
+        stroke_plane: -0.05,
+        ..Adjustment::default()
+    };
+    for (interval, latency, lag) in [(40, 0, 2.0), (40, 2, 0.5), (10, 1, 1.0)] {
+        setup.feedback = Some(Feedback {
+            controller: Arc::new(Constant(step)),
+            interval,
+            latency,
+            lag: lag * 0.005, // a wingbeat is 5 ms
+        });
+        let records = Flight::from(setup.clone()).fly().unwrap().records;
+        for (look, record) in records.iter().step_by(interval).enumerate() {
+            // At the end of the passage that begins here.
+            let beats = ((look + 1).saturating_sub(latency) * interval) as f64 / 40.0;
+            let share = 1.0 - (-beats / lag).exp();
+            let [a, b] = [
+                record.commands[0].stroke_amplitude,
+                record.commands[1].stroke_plane,
+            ];
+            assert!((a - 0.1 * share).abs() < 1e-14, "{look}: {a}");
+            assert!((b + 0.05 * share).abs() < 1e-14, "{look}: {b}");
+        }
+    }
+}
+
+/// Actuators that lag by a wingbeat: a regulator that counts with it holds a tilted fly.
+#[test]
+fn balances_a_tilted_flight_behind_slow_actuators() {
+    let tilted = [
+        "flight.pitch_deg=69.58",
+        "time.beats=80",
+        "control.weights={}",
+        "control.lag_beats=1",
+    ];
+    let (way, turned) = beats(in_blades(&tilted))[79];
+    println!("{turned} deg, {way:e} m");
+    assert!(
+        (turned - 20.0).abs() < 0.1 && way < 0.01 * 2.5e-3,
+        "{turned} deg, {way:e} m"
+    );
+}
+
 #[test]
 fn exact_noise_is_that_of_its_seed() {
     let noisy = |seed: u32| {
@@ -238,10 +300,11 @@ fn exact_noise_is_that_of_its_seed() {
 
 #[test]
 fn refuses_what_control_cannot_do_by_name() {
-    let wrong: [(&[&str], &str); 26] = [
+    let wrong: [(&[&str], &str); 27] = [
         (&["control.controller=\"pid\""], "control.controller"),
         (&["control.latency_beats=-1"], "control.latency_beats"),
         (&["control.latency_beats=21"], "control.latency_beats"),
+        (&["control.lag_beats=-1"], "control.lag_beats"),
         (&["control.every_beats=0"], "control.every_beats"),
         (&["control.looks_per_beat=0"], "control.looks_per_beat"),
         (&["control.looks_per_beat=4"], "control.looks_per_beat"), // of 30 steps

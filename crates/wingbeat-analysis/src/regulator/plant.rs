@@ -83,9 +83,9 @@ impl Plant {
         })
     }
 
-    /// The map of states, sums, command in force and commands under way; its effect of a new
-    /// command.
-    pub(super) fn augmented(&self, sums: usize, latency: usize) -> Step {
+    /// The map of states, sums, command in force and commands under way, and the effect of a new
+    /// command; actuators go the share `share` of the way to what is due.
+    pub(super) fn augmented(&self, sums: usize, latency: usize, share: f64) -> Step {
         let first = STATES + sums;
         let n = first + CONTROLS * (latency + 1);
         let (mut a, mut b) = (vec![0.0; n * n], vec![0.0; n * CONTROLS]);
@@ -94,8 +94,10 @@ impl Plant {
                 a[i * n + j] = self.m[i * STATES + j];
             }
             for c in 0..CONTROLS {
-                a[i * n + first + c] = self.b[0][i * CONTROLS + c];
-                let next = self.b[1][i * CONTROLS + c];
+                let [now, next] = [0, 1].map(|k| self.b[k][i * CONTROLS + c]);
+                // Actuators go over to what is due by their share.
+                a[i * n + first + c] = now + (1.0 - share) * next;
+                let next = share * next;
                 if latency == 0 {
                     b[i * CONTROLS + c] = next;
                 } else {
@@ -109,10 +111,13 @@ impl Plant {
         }
         // The queue moves up; the new command joins at its end.
         for i in first..n {
+            let acts = i < first + CONTROLS;
+            let share = if acts { share } else { 1.0 };
+            a[i * n + i] = 1.0 - share;
             if i + CONTROLS < n {
-                a[i * n + i + CONTROLS] = 1.0;
+                a[i * n + i + CONTROLS] = share;
             } else {
-                b[i * CONTROLS + (i - first) % CONTROLS] = 1.0;
+                b[i * CONTROLS + (i - first) % CONTROLS] = share;
             }
         }
         Step { a, b }

@@ -54,6 +54,7 @@ pub(super) fn feedback(case: &Case) -> Built<Option<Feedback>> {
         controller,
         interval: interval(case)? / control.looks_per_beat,
         latency: timing(case, control)?.latency,
+        lag: lag(case, control),
     }))
 }
 
@@ -94,6 +95,7 @@ fn external(case: &Case, control: &ControlCase) -> Built<ProcessController> {
         limits: limits(control),
         every: control.every_beats,
         latency: timing(case, control)?.latency,
+        lag: lag(case, control),
         interval: 1.0 / case.motion.frequency_hz.value() / control.looks_per_beat as f64,
         sensors: control.sensors.as_ref().map(sensors),
         route: route::build(case, control)?,
@@ -174,6 +176,11 @@ fn interval(case: &Case) -> Built<usize> {
     ))
 }
 
+/// Time constant of the actuators [s].
+fn lag(case: &Case, control: &ControlCase) -> f64 {
+    control.lag_beats / case.motion.frequency_hz.value()
+}
+
 /// When the controller looks, and when it acts.
 fn timing(case: &Case, control: &ControlCase) -> Built<Timing> {
     let (steps, parts) = (interval(case)?, control.looks_per_beat);
@@ -209,6 +216,7 @@ fn timing(case: &Case, control: &ControlCase) -> Built<Timing> {
     Ok(Timing {
         parts,
         latency: latency as usize,
+        lag: control.lag_beats * parts as f64,
     })
 }
 

@@ -39,6 +39,8 @@ pub struct ProcessController {
     pub every: usize,
     /// Looks from sensing to acting.
     pub latency: usize,
+    /// Time constant of the actuators [s].
+    pub lag: f64,
     /// Time from one look to the next [s].
     pub interval: f64,
     /// Noise and bias of what it sees.
@@ -148,6 +150,7 @@ struct Question<'a> {
     period_s: f64,
     interval_s: f64,
     latency_s: f64,
+    lag_s: f64,
     position_m: [f64; 3],
     velocity_m_s: [f64; 3],
     /// From body to inertial axes, by rows.
@@ -193,6 +196,7 @@ impl Conversation {
             period_s: self.period,
             interval_s: model.interval * model.every as f64,
             latency_s: model.interval * model.latency as f64,
+            lag_s: model.lag,
             position_m: root.p.to_array(),
             velocity_m_s: root.v.to_array(),
             attitude: root.r.transpose().to_cols_array_2d(),

@@ -54,6 +54,11 @@ pub struct ControlCase {
     /// Change it to see what delay of senses and muscles costs.
     #[schemars(range(min = 0, max = 20), extend("with" = ANY))]
     pub latency_beats: f64,
+    /// Time constant of the actuators, a first-order lag behind the commands; the regulator counts with it. 0: none.
+    ///
+    /// Change it for muscles and motors that take wingbeats to follow.
+    #[schemars(range(min = 0, max = 100), extend("with" = ANY))]
+    pub lag_beats: f64,
     /// Wingbeats from one look to the next; between them the command is kept. Gains are laid out for
     /// a look every wingbeat.
     ///

@@ -101,6 +101,21 @@ impl Adjustment {
         ]
     }
 
+    /// The share `share` of the way from here to `to`.
+    pub fn toward(&self, to: &Self, share: f64) -> Self {
+        let blend = |a: f64, b: f64| a + share * (b - a);
+        Self {
+            stroke_amplitude: blend(self.stroke_amplitude, to.stroke_amplitude),
+            stroke_offset: blend(self.stroke_offset, to.stroke_offset),
+            feathering_offset: blend(self.feathering_offset, to.feathering_offset),
+            feathering_amplitude: blend(self.feathering_amplitude, to.feathering_amplitude),
+            feathering_lead: blend(self.feathering_lead, to.feathering_lead),
+            deviation_offset: blend(self.deviation_offset, to.deviation_offset),
+            stroke_plane: blend(self.stroke_plane, to.stroke_plane),
+            frequency: blend(self.frequency, to.frequency),
+        }
+    }
+
     /// Whether all numbers are finite.
     pub fn is_finite(&self) -> bool {
         self.numbers().iter().all(|(_, x)| x.is_finite())
