@@ -8,11 +8,14 @@
 //! State: mass centre, quaternion, linear momentum, angular momentum about the mass centre (13
 //! numbers, N components), then coordinates and speeds of the free joints.
 
+mod periodic;
+
+use std::ops::Range;
 use std::sync::Arc;
 
 use wingbeat_dynamics::configuration::{Composite, Configuration};
 use wingbeat_dynamics::free::JointOffsets;
-use wingbeat_dynamics::{BodyMotion, Formulation, Joint, System};
+use wingbeat_dynamics::{BodyMotion, Formulation, Joint};
 use wingbeat_flight::{FlightSetup, FreeFlight, FreeFlightScratch, Passage};
 use wingbeat_math::ode::Rk4;
 use wingbeat_math::{DMat3, DQuat, DVec3, RotationLaw};
@@ -20,6 +23,7 @@ use wingbeat_model::motion::Adjustment;
 use wingbeat_model::{Animal, Start, Wing, WingMotion};
 
 use crate::AnalysisError;
+use periodic::check_periodic;
 
 /// The state of the momentum form.
 pub type State = Vec<f64>;
@@ -64,14 +68,28 @@ impl Beat {
         from: &[Adjustment],
         to: &[Adjustment],
     ) -> Result<Self, AnalysisError> {
-        let period = common_period(&setup.animal)?;
+        let window = [0.0, common_period(&setup.animal)?];
+        Self::passing(setup, steps, from, to, window)
+    }
+
+    /// The same, which begins and takes as long as `window` says [s].
+    ///
+    /// # Errors
+    /// As [`Self::new`].
+    pub fn passing(
+        setup: &FlightSetup,
+        steps: usize,
+        from: &[Adjustment],
+        to: &[Adjustment],
+        [start, duration]: [f64; 2],
+    ) -> Result<Self, AnalysisError> {
         Self::with_law(setup, steps, |k, wing| {
             let motion = |a: &Adjustment| steady(&wing.motion.adjusted(wing.side, a));
             Arc::new(Passage {
                 from: motion(&from[k]),
                 to: motion(&to[k]),
-                start: 0.0,
-                duration: period,
+                start,
+                duration,
             })
         })
     }
@@ -156,17 +174,17 @@ impl Beat {
         &self.joint_sizes
     }
 
-    /// The whole at the start of a beat with the free joints at `joints` (coordinates, speeds).
-    fn whole(&self, joints: &[f64]) -> Composite {
+    /// The whole at `time` [s] with the free joints at `joints` (coordinates, speeds).
+    fn whole(&self, time: f64, joints: &[f64]) -> Composite {
         let system = self.flight.system();
         let mut configuration = Configuration::new(system);
-        configuration.update_free(system, 0.0, joints.split_at(system.coordinates()));
+        configuration.update_free(system, time, joints.split_at(system.coordinates()));
         configuration.composite(system)
     }
 
     /// Mass centre at the start of the beat, root components [m]; free joints at their start.
     pub fn mass_centre(&self) -> DVec3 {
-        self.whole(&self.joints_at_start()).c
+        self.whole(0.0, &self.joints_at_start()).c
     }
 
     /// The state at the start of a beat in which the mass centre is at `centre` [m] with
@@ -185,7 +203,20 @@ impl Beat {
         rate: DVec3,
         joints: &[f64],
     ) -> State {
-        let whole = self.whole(joints);
+        self.state_at(0.0, centre, rotation, velocity, rate, joints)
+    }
+
+    /// The same at `time` [s] within the beat.
+    pub fn state_at(
+        &self,
+        time: f64,
+        centre: DVec3,
+        rotation: DMat3,
+        velocity: DVec3,
+        rate: DVec3,
+        joints: &[f64],
+    ) -> State {
+        let whole = self.whole(time, joints);
         let h = rotation * (whole.inertia * rate + whole.h);
         let mut y = vec![0.0; JOINTS];
         centre.write_to_slice(&mut y);
@@ -199,7 +230,12 @@ impl Beat {
 
     /// Motion of the root (origin of its frame) in the state `y` at the start of a beat.
     pub fn root(&self, y: &[f64]) -> BodyMotion {
-        let whole = self.whole(&y[JOINTS..]);
+        self.root_at(0.0, y)
+    }
+
+    /// The same at `time` [s] within the beat.
+    pub fn root_at(&self, time: f64, y: &[f64]) -> BodyMotion {
+        let whole = self.whole(time, &y[JOINTS..]);
         let r = DMat3::from_quat(DQuat::from_slice(&y[3..7]).normalize());
         let back = r.transpose();
         let w = whole.inertia.inverse() * (back * DVec3::from_slice(&y[10..]) - whole.h);
@@ -240,9 +276,17 @@ impl Beat {
     /// Numbers that are not finite, equations that are singular.
     pub fn advance(&self, y: &[f64]) -> Result<State, AnalysisError> {
         crate::progress::beat();
+        self.advance_over(0..self.steps, y)
+    }
+
+    /// The state after these steps of the beat.
+    ///
+    /// # Errors
+    /// As [`Self::advance`].
+    pub fn advance_over(&self, steps: Range<usize>, y: &[f64]) -> Result<State, AnalysisError> {
         let mut integration = Integration::new(self);
         let mut y = y.to_vec();
-        for step in 0..self.steps {
+        for step in steps {
             integration.step(self, step, &mut y)?;
         }
         self.normalise(&mut y);
@@ -319,42 +363,6 @@ fn check_steady(setup: &FlightSetup) -> Result<(), AnalysisError> {
             "the setup has feedback, which has a memory of its own",
             "analyse the flight without [control]",
         ));
-    }
-    Ok(())
-}
-
-/// An error if a joint of the system is not back after a wingbeat of `period` [s] or is driven at another
-/// frequency.
-fn check_periodic(system: &System, period: f64) -> Result<(), AnalysisError> {
-    // Roundings of a phase, some thousands of them.
-    const CLOSE: f64 = 1e-9;
-    let differs = |a: DVec3, b: DVec3, size: f64| (a - b).length() > CLOSE * size;
-    let length = system.units().length;
-    for hinge in system.hinges() {
-        let joint = &hinge.model;
-        let (a, b) = (hinge.rotation(0.0), hinge.rotation(period));
-        let turned = (0..3).any(|k| differs(a.c.col(k), b.c.col(k), 1.0));
-        let spun = differs(a.w * period, b.w * period, 1.0 + a.w.length() * period);
-        let travelled = joint.travel.as_ref().is_some_and(|law| {
-            let ([x, v, _], [y, u, _]) = (law.at(0.0), law.at(period));
-            let size = length + v.length() * period;
-            differs(x, y, size) || differs(v * period, u * period, size)
-        });
-        let driven = joint.elements.iter().filter_map(|e| e.law.drive());
-        let drifts = driven.clone().any(|series| series.rate != 0.0);
-        let varying =
-            driven.filter(|series| series.cosine.iter().chain(&series.sine).any(|x| *x != 0.0));
-        let mut phases = varying.map(|series| series.frequency * period);
-        let off = phases.any(|x| (x - x.round()).abs() > CLOSE * x.abs());
-        if turned || spun || travelled || drifts || off {
-            return Err(AnalysisError::not_covered(
-                format!(
-                    "joint `{}` is not back after a wingbeat of {period:.4e} s",
-                    hinge.name
-                ),
-                "drive it at the wings' frequency (motion.frequency_hz) or a multiple of it, or fly it with `run`",
-            ));
-        }
     }
     Ok(())
 }

@@ -1,13 +1,13 @@
 //! Feedback of departures from a reference flight: a law in the loop of any flight, in any air.
 //!
-//! Once per wingbeat the flyer is sensed; the command formed from it acts some beats later (the
-//! latency). Over the beat in which it acts the angles of the wings go over smoothly from the old
+//! Once per wingbeat, or in each of equal parts of it, the flyer is sensed; the command formed from it acts some looks later
+//! (the latency). Until the next look the angles of the wings go over smoothly from the old
 //! command to the new one, so that wing inertia does its part and nothing jumps.
 
 use std::collections::VecDeque;
 use std::sync::Arc;
 
-use wingbeat_flight::{Controller, Feedback, FlightSetup, Sensed};
+use wingbeat_flight::{Aim, Controller, Feedback, FlightSetup, Sensed};
 use wingbeat_math::{DMat3, DQuat, DVec3};
 use wingbeat_model::motion::Adjustment;
 
@@ -15,7 +15,9 @@ use crate::AnalysisError;
 use crate::beat::{Beat, JOINTS, State};
 use crate::departure::{CONTROLS, Controls, Departure, Limits, Reference, adjustments};
 use crate::level::Level;
+use crate::part::Part;
 use crate::regulator::Regulator;
+use crate::route::Route;
 use crate::sensors::Sensors;
 use crate::stabiliser::ProportionalDerivative;
 use crate::trim::Trim;
@@ -35,6 +37,14 @@ impl Law {
         match self {
             Self::Stabiliser(loops) => loops.controls(d),
             Self::Regulator(regulator) => regulator.controls(d),
+        }
+    }
+
+    /// The departure that is reckoned with where `seen` is seen.
+    pub fn estimated(&self, seen: &Departure) -> Departure {
+        match self {
+            Self::Stabiliser(_) => *seen,
+            Self::Regulator(regulator) => regulator.estimated(seen),
         }
     }
 
@@ -71,10 +81,14 @@ pub struct Steering {
     base: [f64; 2],
     /// Largest departures of commands from those of the reference flight.
     pub limits: Limits,
-    /// Wingbeats from one look to the next; the command is kept between them.
+    /// Looks from one command to the next; it is kept between them.
     pub every: usize,
     /// Noise and bias of what is seen; none: the truth.
     pub sensors: Option<Sensors>,
+    /// Where the reference flight is brought to.
+    pub route: Route,
+    /// The trimmed flight at the looks of a wingbeat, less that at its start ([`Orbit::points`]).
+    pub orbit: Vec<Departure>,
     /// Reference flight and place of its mass centre at the first look, N components [m].
     first: Option<(Reference, DVec3)>,
     command: Controls,
@@ -92,6 +106,8 @@ impl Steering {
             limits: Limits::default(),
             every: 1,
             sensors: None,
+            route: Route::default(),
+            orbit: vec![Departure::default()],
             first: None,
             command: [0.0; CONTROLS],
         }
@@ -105,12 +121,13 @@ impl Steering {
     }
 
     /// Feedback of a flight of `steps_per_beat` steps per wingbeat whose commands act `latency`
-    /// beats later.
+    /// looks later.
     pub fn feedback(self, steps_per_beat: usize, latency: usize) -> Feedback {
         Feedback {
+            interval: steps_per_beat / self.orbit.len(),
             controller: Arc::new(self),
-            interval: steps_per_beat,
             latency,
+            lag: 0.0,
         }
     }
 
@@ -127,10 +144,13 @@ impl Steering {
 }
 
 impl Controller for Steering {
-    fn command(&mut self, sensed: &Sensed) -> Vec<Adjustment> {
+    fn command(&mut self, sensed: &Sensed) -> Result<Vec<Adjustment>, String> {
         let sensed = self.sensors.map_or(*sensed, |s| s.seen(sensed));
         let (reference, origin) = self.begin(&sensed);
-        let d = reference.departure(&sensed, origin);
+        let aim = self.route.at(sensed.time);
+        let orbit = &self.orbit[sensed.look % self.orbit.len()];
+        let seen = reference.departure_on(&aim, &sensed, origin).less(orbit);
+        let d = self.law.estimated(&seen);
         if d.beat.is_multiple_of(self.every) {
             self.command = self.limits.applied(self.law.controls(&d));
         }
@@ -142,7 +162,12 @@ impl Controller for Steering {
             a.stroke_amplitude = (1.0 + amplitude) * (1.0 + a.stroke_amplitude) - 1.0;
             a.stroke_offset += offset;
         }
-        list
+        Ok(list)
+    }
+
+    fn aim(&self, time: f64) -> Option<Aim> {
+        let (reference, origin) = self.first?;
+        Some(reference.aim(&self.route.at(time), time, origin))
     }
 
     fn memory(&self) -> Vec<f64> {
@@ -195,12 +220,14 @@ pub fn disturbed(trim: &Trim, tilt: DVec3, velocity: DVec3) -> State {
     )
 }
 
-/// A flight under feedback on the map of wingbeats: as a flight of the trimmed setup with a look at
-/// the start of each beat, at two thirds of its cost.
+/// A flight under feedback on the map of wingbeats: as a flight of the trimmed setup with the looks of its
+/// controller, at two thirds of its cost.
 pub struct SteeredBeats<'a> {
     trim: &'a Trim,
     controller: Option<Steering>,
     reference: Reference,
+    /// Share of the way to a command that actuators go until the next look.
+    share: f64,
     /// Commands under way: the latency.
     queue: VecDeque<Vec<Adjustment>>,
     acting: Vec<Adjustment>,
@@ -209,7 +236,7 @@ pub struct SteeredBeats<'a> {
 }
 
 impl<'a> SteeredBeats<'a> {
-    /// From the state `state` at the start of a beat of `trim`; commands act `latency` beats after
+    /// From the state `state` at the start of a beat of `trim`; commands act `latency` looks after
     /// they were formed.
     ///
     /// # Errors
@@ -225,16 +252,52 @@ impl<'a> SteeredBeats<'a> {
             trim,
             controller,
             reference: Reference::trimmed(trim)?,
+            share: 1.0,
             queue: VecDeque::from(vec![none.clone(); latency]),
             acting: none,
-            sensed: seen(&trim.beat, &state, 0),
+            sensed: seen(&trim.beat, &state, 0, Part::at_look(0, 1)),
             state,
         })
     }
 
+    /// The same with actuators that lag ([`Timing::share`](crate::regulator::Timing::share)).
+    #[must_use]
+    pub fn lagged(mut self, share: f64) -> Self {
+        self.share = share;
+        self
+    }
+
+    /// The same with these commands in force and under way, oldest first, at the start.
+    ///
+    /// # Errors
+    /// Commands that are not one per wing.
+    pub fn commanded(mut self, commands: Vec<Vec<Adjustment>>) -> Result<Self, AnalysisError> {
+        let mut commands = VecDeque::from(commands);
+        if let Some(acting) = commands.pop_front() {
+            let held = Beat::between(&self.trim.setup, 1, &acting, &acting)?;
+            self.sensed = seen(&held, &self.state, 0, Part::at_look(0, 1));
+            (self.acting, self.queue) = (acting, commands);
+        }
+        Ok(self)
+    }
+
+    /// The controller.
+    pub fn controller(&self) -> Option<&Steering> {
+        self.controller.as_ref()
+    }
+
     /// What the flight departs by from the trimmed one at the start of this beat.
     pub fn departure(&self) -> Departure {
-        self.reference.departure(&self.sensed, DVec3::ZERO)
+        let seen = self.reference.departure(&self.sensed, DVec3::ZERO);
+        Departure {
+            beat: seen.beat / self.parts(),
+            ..seen
+        }
+    }
+
+    /// Looks in a wingbeat.
+    fn parts(&self) -> usize {
+        self.controller.as_ref().map_or(1, |c| c.orbit.len())
     }
 
     /// The commands in force.
@@ -247,29 +310,42 @@ impl<'a> SteeredBeats<'a> {
     /// # Errors
     /// Numbers that are not finite: the flyer is lost.
     pub fn beat(&mut self) -> Result<(), AnalysisError> {
+        Part::all(self.parts()).try_for_each(|part| self.look(part))
+    }
+
+    /// The part of the wingbeat from one look to the next.
+    fn look(&mut self, part: Part) -> Result<(), AnalysisError> {
         if let Some(controller) = &mut self.controller {
-            self.queue.push_back(controller.command(&self.sensed));
+            let command = controller.command(&self.sensed);
+            self.queue
+                .push_back(command.map_err(AnalysisError::Numbers)?);
         }
         let due = self.controller.as_ref().and(self.queue.pop_front());
-        let next = due.unwrap_or_else(|| self.acting.clone());
-        let (setup, number) = (&self.trim.setup, self.sensed.look + 1);
-        let beat = Beat::between(setup, self.trim.beat.steps(), &self.acting, &next)?;
+        let mut next = due.unwrap_or_else(|| self.acting.clone());
+        if self.share < 1.0 {
+            let pairs = next.iter_mut().zip(&self.acting);
+            pairs.for_each(|(due, now)| *due = now.toward(due, self.share));
+        }
+        let (trim, look) = (self.trim, self.sensed.look + 1);
+        let beat = part.passing(trim, [&self.acting, &next])?;
+        let number = self.sensed.look / part.of + 1;
         let lost = |e| AnalysisError::Numbers(format!("beat {number}: the flyer is lost ({e})"));
-        self.state = beat.advance(&self.state).map_err(lost)?;
+        let steps = part.steps(&trim.beat);
+        self.state = beat.advance_over(steps, &self.state).map_err(lost)?;
         self.acting = next;
-        // The next beat begins as this one ended.
-        let held = Beat::between(setup, 1, &self.acting, &self.acting)?;
-        self.sensed = seen(&held, &self.state, number);
+        // The next part begins as this one ended.
+        let held = Beat::between(&trim.setup, 1, &self.acting, &self.acting)?;
+        self.sensed = seen(&held, &self.state, look, part.next());
         Ok(())
     }
 }
 
-/// What is seen of the state `y` at the start of the wingbeat `look`.
-fn seen(beat: &Beat, y: &[f64], look: usize) -> Sensed {
+/// What is seen of the state `y` at the look number `look`, where this part of a wingbeat begins.
+fn seen(beat: &Beat, y: &[f64], look: usize, part: Part) -> Sensed {
     Sensed {
         look,
-        time: look as f64 * beat.period(),
-        root: beat.root(y),
+        time: look as f64 * beat.period() / part.of as f64,
+        root: beat.root_at(part.start(beat.period()), y),
         centre: DVec3::from_slice(y),
         velocity: DVec3::from_slice(&y[7..]) / beat.mass(),
     }

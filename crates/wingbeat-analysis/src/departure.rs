@@ -1,7 +1,7 @@
 //! What a controller makes of what it sees: the departure from a reference flight, and what it
 //! answers, four controls of the strokes.
 
-use wingbeat_flight::Sensed;
+use wingbeat_flight::{Aim, Sensed};
 use wingbeat_math::{DMat3, DVec3};
 use wingbeat_model::motion::Adjustment;
 
@@ -19,12 +19,24 @@ pub type Controls = [f64; CONTROLS];
 /// The departure from the reference flight at the start of a wingbeat.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Departure {
-    /// Number of the beat.
+    /// Number of the look: that of the beat where there is one look in each.
     pub beat: usize,
     /// Mass centre relative to where the reference flight would be, level frame [m].
     pub position: DVec3,
     /// Velocity, angular velocity and tilt at this instant, less those of the reference flight.
     pub state: Perturbation,
+}
+
+impl Departure {
+    /// What is left of it less `other`.
+    pub fn less(&self, other: &Self) -> Self {
+        let (state, other_state) = (self.state.to_array(), other.state.to_array());
+        Self {
+            beat: self.beat,
+            position: self.position - other.position,
+            state: Perturbation::from_array(std::array::from_fn(|i| state[i] - other_state[i])),
+        }
+    }
 }
 
 /// The flight that is held.
@@ -65,14 +77,35 @@ impl Reference {
     /// What `sensed` departs by from the reference flight, whose mass centre was at `origin` [m],
     /// N components, at the release.
     pub fn departure(&self, sensed: &Sensed, origin: DVec3) -> Departure {
+        self.departure_on(&Aim::default(), sensed, origin)
+    }
+
+    /// The same from the reference flight brought to `aim`, which is relative to it.
+    pub fn departure_on(&self, aim: &Aim, sensed: &Sensed, origin: DVec3) -> Departure {
+        let level = self.level.turned(aim.heading);
         let root = &sensed.root;
-        let seen = Perturbation::seen(&self.level, root.r, sensed.velocity, root.w).to_array();
-        let state = self.state.to_array();
-        let way = sensed.centre - origin - sensed.time * self.velocity;
+        let seen = Perturbation::seen(&level, root.r, sensed.velocity, root.w).to_array();
+        let mut state = self.state;
+        state.velocity += level.to_n.transpose() * aim.velocity;
+        state.rate.z += aim.heading_rate;
+        let state = state.to_array();
+        let way = sensed.centre - origin - sensed.time * self.velocity - aim.position;
         Departure {
             beat: sensed.look,
-            position: self.level.to_n.transpose() * way,
+            position: level.to_n.transpose() * way,
             state: Perturbation::from_array(std::array::from_fn(|i| seen[i] - state[i])),
+        }
+    }
+
+    /// Where the flyer is to be at `time` [s], whose mass centre was at `origin` [m] at the release, if it is brought
+    /// to `aim`, which is relative to the reference flight.
+    pub fn aim(&self, aim: &Aim, time: f64, origin: DVec3) -> Aim {
+        let ahead = self.level.to_n.x_axis;
+        Aim {
+            position: origin + time * self.velocity + aim.position,
+            velocity: self.velocity + aim.velocity,
+            heading: ahead.y.atan2(ahead.x) + aim.heading,
+            heading_rate: aim.heading_rate,
         }
     }
 

@@ -12,10 +12,13 @@ use wingbeat_math::DVec3;
 use crate::AnalysisError;
 use crate::control::{Held, Law, Steering};
 use crate::departure::{Limits, Reference};
-use crate::regulator::{Regulator, Weights};
+use crate::part::Orbit;
+use crate::regulator::observer::ProcessNoise;
+use crate::regulator::{Regulator, Timing, Weights};
+use crate::route::Route;
 use crate::sensors::Sensors;
 use crate::stabiliser::{ProportionalDerivative, Stiffness};
-use crate::steady::TrimProblem;
+use crate::steady::{TrimProblem, TrimSettings};
 use crate::trim::{Trim, trim};
 
 /// Which law, and how it is laid out.
@@ -47,14 +50,18 @@ pub struct Design {
     pub air: BladeOptions,
     /// Mean velocity to fly with, N components, in the plane n1-n3 [m/s].
     pub velocity: DVec3,
-    /// Wingbeats from sensing to acting.
-    pub latency: usize,
-    /// Wingbeats from one look to the next.
+    /// When is looked, and when acted.
+    pub timing: Timing,
+    /// Looks from one command to the next.
     pub every: usize,
     /// Largest commands.
     pub limits: Limits,
     /// Noise and bias of what is seen.
     pub sensors: Option<Sensors>,
+    /// Noise of the flight for which the regulator's observer filters what is seen; none: no observer.
+    pub observer: Option<ProcessNoise>,
+    /// Where the flight that is held is brought to.
+    pub route: Route,
 }
 
 impl Design {
@@ -67,7 +74,10 @@ impl Design {
             MotionMode::Free(start) => start.angles.x,
             MotionMode::Tethered(motion) => motion.angles[0].constant,
         };
-        let problem = TrimProblem::straight(self.velocity, body_pitch);
+        let problem = TrimProblem {
+            settings: self.settings(),
+            ..TrimProblem::straight(self.velocity, body_pitch)
+        };
         let plain = FlightSetup {
             air: AirModel::BladeElement(self.air.clone()),
             loads: vec![],
@@ -87,6 +97,15 @@ impl Design {
         ))
     }
 
+    /// Steps that the looks divide.
+    fn settings(&self) -> TrimSettings {
+        let default = TrimSettings::default();
+        TrimSettings {
+            steps: default.steps.next_multiple_of(self.timing.parts),
+            ..default
+        }
+    }
+
     /// The controller of a flight of `setup`.
     ///
     /// # Errors
@@ -98,7 +117,12 @@ impl Design {
                 Law::Stabiliser(ProportionalDerivative::new(&trim, stiffness)?)
             }
             LawDesign::Regulator(weights) => {
-                Law::Regulator(Regulator::new(&trim, weights, self.latency)?)
+                let regulator = Regulator::timed(&trim, weights, &self.timing)?;
+                let noise = self.sensors.unwrap_or_default().noise;
+                Law::Regulator(match &self.observer {
+                    Some(process) => regulator.observed(&trim, process, &noise)?,
+                    None => regulator,
+                })
             }
         };
         let mut steering = match self.target {
@@ -112,6 +136,8 @@ impl Design {
         steering.limits = self.limits;
         steering.every = self.every;
         steering.sensors = self.sensors;
+        steering.route = self.route.clone();
+        steering.orbit = Orbit::new(&trim, self.timing.parts)?.points;
         Ok(steering)
     }
 }
@@ -127,5 +153,9 @@ impl ControlModel for Design {
             problem: e.to_string(),
         };
         Ok(Box::new(self.steering(setup).map_err(refused)?))
+    }
+
+    fn follows(&self) -> bool {
+        !self.route.0.is_empty()
     }
 }

@@ -29,6 +29,18 @@ impl Level {
             to_root: r.transpose() * to_n,
         }
     }
+
+    /// The level frame of the attitude turned to the right by `heading` \[rad\].
+    pub fn turned(&self, heading: f64) -> Self {
+        if heading == 0.0 {
+            return *self; // to the bit
+        }
+        let down = self.to_n.z_axis;
+        Self {
+            to_n: DMat3::from_axis_angle(down, heading) * self.to_n,
+            ..*self
+        }
+    }
 }
 
 /// Names of the nine state components.
@@ -64,15 +76,25 @@ impl Perturbation {
 
     /// The state at the start of a beat, mass centre at the origin, free joints at `joints`.
     pub fn state(&self, beat: &Beat, level: &Level, joints: &[f64]) -> State {
+        self.state_at(beat, 0.0, level, joints)
+    }
+
+    /// The same at `time` [s] within the beat.
+    pub fn state_at(&self, beat: &Beat, time: f64, level: &Level, joints: &[f64]) -> State {
         let turned = level.to_n * DMat3::from_quat(DQuat::from_scaled_axis(self.tilt));
         let r = turned * level.to_root.transpose();
         let rate = level.to_root * self.rate;
-        beat.state_with(DVec3::ZERO, r, turned * self.velocity, rate, joints)
+        beat.state_at(time, DVec3::ZERO, r, turned * self.velocity, rate, joints)
     }
 
     /// What the state at the start of a beat looks like.
     pub fn of(beat: &Beat, level: &Level, y: &[f64]) -> Self {
-        let root = beat.root(y);
+        Self::at(beat, 0.0, level, y)
+    }
+
+    /// What the state at `time` [s] within a beat looks like.
+    pub fn at(beat: &Beat, time: f64, level: &Level, y: &[f64]) -> Self {
+        let root = beat.root_at(time, y);
         let velocity = DVec3::from_slice(&y[7..]) / beat.mass();
         Self::seen(level, root.r, velocity, root.w)
     }

@@ -6,7 +6,7 @@
 //! cycle-averaged rigid-body model with its derivatives, and Floquet's multipliers of the
 //! periodic orbit from the [`monodromy`] matrix; [`modes`] names what comes out; [`derivatives`]
 //! are the controls; [`power`] is what it takes; [`control`] holds a flyer on its orbit by feedback, laid out by
-//! [`stabiliser`] or [`regulator`] when a flight is built ([`design`]); an [`episode`] is steered from outside, for who learns.
+//! [`stabiliser`] or [`regulator`] when a flight is built ([`design`]), along a [`route`] if there is one; an [`episode`] is steered from outside, for who learns.
 //!
 //! | symbol | name in code | meaning | unit |
 //! |---|---|---|---|
@@ -39,10 +39,12 @@ pub mod level;
 pub mod mean;
 pub mod modes;
 pub mod monodromy;
+pub mod part;
 pub mod plausibility;
 pub mod power;
 pub mod progress;
 pub mod regulator;
+pub mod route;
 pub mod sensors;
 pub mod stabiliser;
 pub mod stability;

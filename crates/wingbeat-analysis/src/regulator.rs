@@ -1,6 +1,6 @@
 //! A stabiliser: proportional-derivative feedback of place, velocity, attitude and rates with
 //! the gains of the discrete linear-quadratic regulator, laid out on the full model's own map
-//! over one wingbeat, latency included.
+//! over one wingbeat, or over each of equal parts of it, latency included.
 //!
 //! ```text
 //! x[k+1] = M x[k] + B_0 a[k] + B_1 a[k+1]      a: command in force, blended over the beat
@@ -10,24 +10,27 @@
 //! Controls: amplitude of all wings, mean stroke angle of all wings, right-left differences of
 //! amplitude and of stroke plane. With a weight of their sums, position and heading are summed from
 //! beat to beat and fed back too (integral action): what steadily pulls the flyer away, a load or an
-//! air that differs from that of the layout, is then found and taken back wholly.
+//! air that differs from that of the layout, is then found and taken back wholly. Noise of what is seen is filtered by an
+//! [`observer`] where there is one.
+
+pub mod observer;
+pub mod plant;
+mod riccati;
 
 use std::collections::VecDeque;
 
-use wingbeat_math::{DVec3, solve_small};
+use wingbeat_math::DVec3;
 
 use crate::AnalysisError;
-use crate::beat::{Beat, JOINTS};
-use crate::departure::{CONTROLS, Controls, Departure, adjustments};
-use crate::level::{Level, Perturbation};
-use crate::monodromy::monodromy;
+use crate::departure::{CONTROLS, Controls, Departure};
+use crate::level::Perturbation;
+use crate::part::Orbit;
+use crate::sensors::Channels;
 use crate::trim::Trim;
 
-/// Position, velocity, angular velocity, tilt.
-const STATES: usize = 12;
-/// Of the states, those that are summed over the beats: position and heading, as many as there are
-/// controls.
-const SUMMED: [usize; CONTROLS] = [0, 1, 2, 11];
+use observer::{Observer, ProcessNoise};
+use plant::{Plant, STATES, SUMMED, states};
+use riccati::{Step, riccati};
 
 /// Departures that weigh alike in the cost.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -59,14 +62,37 @@ impl Default for Weights {
     }
 }
 
+/// When is looked, and when acted.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Timing {
+    /// Looks in a wingbeat, at equal times.
+    pub parts: usize,
+    /// Looks from sensing to acting.
+    pub latency: usize,
+    /// Time constant of the actuators \[looks\]; 0: none.
+    pub lag: f64,
+}
+
+impl Timing {
+    /// The share of the way to a command that actuators go from look to look.
+    pub fn share(&self) -> f64 {
+        wingbeat_flight::control::share(1.0 / self.lag)
+    }
+}
+
 /// The stabiliser.
 #[derive(Clone, Debug)]
 pub struct Regulator {
-    gain: Vec<f64>,
+    /// Of every look of a wingbeat.
+    gains: Vec<Vec<f64>>,
     /// Sums of position [m] and heading \[rad\]; empty without integral action.
     sums: Vec<f64>,
     /// Commands in force and under way, oldest first.
     commands: VecDeque<Controls>,
+    /// Share of the way to a command that actuators go from look to look.
+    share: f64,
+    plants: Vec<Plant>,
+    observer: Option<Observer>,
 }
 
 impl Regulator {
@@ -75,24 +101,74 @@ impl Regulator {
     /// # Errors
     /// A flight that the strokes cannot stabilise: Riccati's iteration does not converge.
     pub fn new(trim: &Trim, weights: &Weights, latency: usize) -> Result<Self, AnalysisError> {
+        let timing = Timing {
+            parts: 1,
+            latency,
+            lag: 0.0,
+        };
+        Self::timed(trim, weights, &timing)
+    }
+
+    /// The same for looks at other times.
+    ///
+    /// # Errors
+    /// As [`Self::new`]; steps of the trim that the looks do not divide.
+    pub fn timed(trim: &Trim, weights: &Weights, timing: &Timing) -> Result<Self, AnalysisError> {
         let wings = &trim.setup.animal.wings;
         let sides: Vec<f64> = wings.iter().map(|w| w.side.sign()).collect();
-        let plant = Plant::new(trim, &sides)?;
+        let orbit = Orbit::new(trim, timing.parts)?;
+        let plants = Plant::parts(trim, &orbit, &sides)?;
         let sums = if weights.sum.is_some() { CONTROLS } else { 0 };
-        let (a, b, n) = plant.augmented(sums, latency);
-        let (q, r) = cost(trim, weights, n);
-        let gain = riccati(&a, &b, &q, &r, n)?;
+        let n = STATES + sums + CONTROLS * (timing.latency + 1);
+        let step = |p: &Plant| p.augmented(sums, timing.latency, timing.share());
+        let steps: Vec<Step> = plants.iter().map(step).collect();
+        let (q, r) = cost(trim, weights, timing.parts, n);
         Ok(Self {
-            gain,
+            gains: riccati(&steps, &q, &r, n)?,
             sums: vec![0.0; sums],
-            commands: VecDeque::from(vec![[0.0; CONTROLS]; latency + 1]),
+            commands: VecDeque::from(vec![[0.0; CONTROLS]; timing.latency + 1]),
+            share: timing.share(),
+            plants,
+            observer: None,
         })
     }
 
-    /// Feedback gains, `CONTROLS` rows; columns: position, velocity, rate, tilt (SI), sums, then
+    /// With the steady Kalman filter for a flight `trim` that is seen with `noise`.
+    ///
+    /// # Errors
+    /// An iteration that does not converge.
+    pub fn observed(
+        mut self,
+        trim: &Trim,
+        process: &ProcessNoise,
+        noise: &Channels<f64>,
+    ) -> Result<Self, AnalysisError> {
+        self.observer = Some(Observer::new(&self.plants, &trim.beat, process, noise)?);
+        Ok(self)
+    }
+
+    /// The maps that it is laid out on, one for each part of a wingbeat.
+    pub fn plants(&self) -> &[Plant] {
+        &self.plants
+    }
+
+    /// The departure that is estimated where `seen` is seen.
+    pub fn estimated(&self, seen: &Departure) -> Departure {
+        let Some(observer) = &self.observer else {
+            return *seen;
+        };
+        let x = observer.estimate(seen.beat, &states(seen));
+        Departure {
+            beat: seen.beat,
+            position: DVec3::from_slice(&x),
+            state: Perturbation::from_array(std::array::from_fn(|k| x[3 + k])),
+        }
+    }
+
+    /// Feedback gains of every look of a wingbeat, `CONTROLS` rows; columns: position, velocity, rate, tilt (SI), sums, then
     /// commands in force and under way.
-    pub fn gain(&self) -> &[f64] {
-        &self.gain
+    pub fn gains(&self) -> &[Vec<f64>] {
+        &self.gains
     }
 
     /// The controls against a departure, without limits.
@@ -101,14 +177,23 @@ impl Regulator {
         z.extend(&self.sums);
         z.extend(self.commands.iter().flatten());
         let n = z.len();
-        std::array::from_fn(|i| -(0..n).map(|j| self.gain[i * n + j] * z[j]).sum::<f64>())
+        let gain = &self.gains[departure.beat % self.gains.len()];
+        std::array::from_fn(|i| -(0..n).map(|j| gain[i * n + j] * z[j]).sum::<f64>())
     }
 
     /// A beat goes by: the command `u` joins those under way, the departure the sums, unless the
     /// command is `limited`.
     pub fn remember(&mut self, departure: &Departure, u: Controls, limited: bool) {
         self.commands.push_back(u);
-        self.commands.pop_front();
+        let now = self.commands.pop_front().unwrap_or(u);
+        if self.share < 1.0 {
+            let due = self.commands[0];
+            self.commands[0] = std::array::from_fn(|c| now[c] + self.share * (due[c] - now[c]));
+        }
+        if let Some(observer) = &mut self.observer {
+            let plant = &self.plants[departure.beat % self.plants.len()];
+            observer.advance(plant, &states(departure), &now, &self.commands[0]);
+        }
         if !limited {
             let states = states(departure);
             let summed = self.sums.iter_mut().zip(SUMMED);
@@ -119,114 +204,25 @@ impl Regulator {
     /// Sums and commands, for a flight that is resumed.
     pub fn memory(&self) -> Vec<f64> {
         let commands = self.commands.iter().flatten();
-        self.sums.iter().chain(commands).copied().collect()
+        let filter = self.observer.as_ref().map_or(vec![], Observer::memory);
+        let numbers = self.sums.iter().chain(commands).copied();
+        numbers.chain(filter).collect()
     }
 
     /// Goes on from what it remembered.
     pub fn restore(&mut self, memory: &[f64]) {
         let commands = self.commands.iter_mut().flatten();
         let numbers = self.sums.iter_mut().chain(commands);
-        numbers.zip(memory).for_each(|(x, saved)| *x = *saved);
-    }
-}
-
-/// Position, velocity, angular velocity, tilt.
-fn states(departure: &Departure) -> [f64; STATES] {
-    let (position, rest) = (departure.position, departure.state.to_array());
-    std::array::from_fn(|k| if k < 3 { position[k] } else { rest[k - 3] })
-}
-
-/// The linear map over one beat about the trimmed flight.
-struct Plant {
-    m: Vec<f64>,
-    /// Effect of the command in force at the start and of the next one.
-    b: [Vec<f64>; 2],
-}
-
-impl Plant {
-    fn new(trim: &Trim, sides: &[f64]) -> Result<Self, AnalysisError> {
-        let root = trim.beat.root(&trim.state);
-        let level = Level::new(root.r, trim.beat.gravity());
-        let x = Perturbation::of(&trim.beat, &level, &trim.state).to_array();
-        let mut all = vec![0.0; 3];
-        all.extend(x);
-        all.extend([0.0; 2 * CONTROLS]);
-        let map = |z: &[f64]| fly(trim, &level, sides, z);
-        let speed = trim.beat.wing_length() / trim.beat.period();
-        let rate = 1.0 / trim.beat.period();
-        let sizes = [trim.beat.wing_length(), speed, rate, 1.0];
-        let step = |k: usize| 1e-4 * if k < STATES { sizes[k / 3] } else { 1.0 };
-        let steps: Vec<f64> = (0..all.len()).map(step).collect();
-        let d = monodromy(map, &all, &steps)?;
-        let columns = STATES + 2 * CONTROLS;
-        let part = |from: usize, width: usize| {
-            let entry = |k: usize| d[(k / width) * columns + from + k % width];
-            (0..STATES * width).map(entry).collect::<Vec<f64>>()
-        };
-        Ok(Self {
-            m: part(0, STATES),
-            b: [part(STATES, CONTROLS), part(STATES + CONTROLS, CONTROLS)],
-        })
-    }
-
-    /// The map of states, sums, command in force and commands under way; its effect of a new
-    /// command; its order.
-    fn augmented(&self, sums: usize, latency: usize) -> (Vec<f64>, Vec<f64>, usize) {
-        let first = STATES + sums;
-        let n = first + CONTROLS * (latency + 1);
-        let (mut a, mut b) = (vec![0.0; n * n], vec![0.0; n * CONTROLS]);
-        for i in 0..STATES {
-            for j in 0..STATES {
-                a[i * n + j] = self.m[i * STATES + j];
-            }
-            for c in 0..CONTROLS {
-                a[i * n + first + c] = self.b[0][i * CONTROLS + c];
-                let next = self.b[1][i * CONTROLS + c];
-                if latency == 0 {
-                    b[i * CONTROLS + c] = next;
-                } else {
-                    a[i * n + first + CONTROLS + c] = next;
-                }
-            }
+        let mut saved = memory.iter();
+        numbers.zip(&mut saved).for_each(|(x, saved)| *x = *saved);
+        if let Some(observer) = &mut self.observer {
+            observer.restore(saved.as_slice());
         }
-        for (k, state) in SUMMED.into_iter().enumerate().take(sums) {
-            let i = STATES + k;
-            (a[i * n + i], a[i * n + state]) = (1.0, 1.0);
-        }
-        // The queue moves up; the new command joins at its end.
-        for i in first..n {
-            if i + CONTROLS < n {
-                a[i * n + i + CONTROLS] = 1.0;
-            } else {
-                b[i * CONTROLS + (i - first) % CONTROLS] = 1.0;
-            }
-        }
-        (a, b, n)
     }
-}
-
-/// Position and state after a beat from position, state, command in force and next command. Free
-/// joints start as on the trimmed orbit: what they remember of the beat before is left to feedback.
-fn fly(trim: &Trim, level: &Level, sides: &[f64], z: &[f64]) -> Result<Vec<f64>, AnalysisError> {
-    let command = |from: usize| {
-        let u = std::array::from_fn(|c| z[from + c]);
-        adjustments(&u, sides)
-    };
-    let (now, next) = (command(STATES), command(STATES + CONTROLS));
-    let steps = trim.beat.steps();
-    let beat = Beat::between(&trim.setup, steps, &now, &next)?;
-    let after = Beat::between(&trim.setup, 1, &next, &next)?;
-    let x = std::array::from_fn(|i| z[3 + i]);
-    let y = Perturbation::from_array(x).state(&beat, level, &trim.state[JOINTS..]);
-    let end = beat.advance(&y)?;
-    let moved = level.to_n.transpose() * DVec3::from_slice(&end);
-    let mut out = (moved + DVec3::from_slice(z)).to_array().to_vec();
-    out.extend(Perturbation::of(&after, level, &end).to_array());
-    Ok(out)
 }
 
 /// Diagonals of the cost of states and commands.
-fn cost(trim: &Trim, w: &Weights, n: usize) -> (Vec<f64>, [f64; CONTROLS]) {
+fn cost(trim: &Trim, w: &Weights, parts: usize, n: usize) -> (Vec<f64>, [f64; CONTROLS]) {
     let (length, period) = (trim.beat.wing_length(), trim.beat.period());
     let sizes = [
         w.position * length,
@@ -240,93 +236,11 @@ fn cost(trim: &Trim, w: &Weights, n: usize) -> (Vec<f64>, [f64; CONTROLS]) {
     }
     if let Some(sum) = w.sum {
         for (k, state) in SUMMED.into_iter().enumerate() {
+            // As many times as often is summed.
+            let sum = parts as f64 * sum;
             let size = if state < 3 { sum * length } else { sum };
             q[STATES + k] = size.powi(-2);
         }
     }
     (q, [w.command.powi(-2); CONTROLS])
-}
-
-/// The gain of the discrete regulator: Riccati's difference equation, run until it stands.
-fn riccati(
-    a: &[f64],
-    b: &[f64],
-    q: &[f64],
-    r: &[f64; CONTROLS],
-    n: usize,
-) -> Result<Vec<f64>, AnalysisError> {
-    let mut p = vec![0.0; n * n];
-    (0..n).for_each(|i| p[i * n + i] = q[i]);
-    let mut gain = vec![0.0; CONTROLS * n];
-    for pass in 0..5000 {
-        let pa = product(&p, a, n, n, n);
-        let pb = product(&p, b, n, n, CONTROLS);
-        let mut s = transposed_product(b, &pb, n, CONTROLS, CONTROLS);
-        (0..CONTROLS).for_each(|i| s[i * CONTROLS + i] += r[i]);
-        let bpa = transposed_product(b, &pa, n, CONTROLS, n);
-        let next = solve_columns(&s, &bpa, n)?;
-        let mut closed = a.to_vec();
-        let bk = product(b, &next, n, CONTROLS, n);
-        closed.iter_mut().zip(&bk).for_each(|(x, y)| *x -= y);
-        let mut new = transposed_product(a, &product(&p, &closed, n, n, n), n, n, n);
-        (0..n).for_each(|i| new[i * n + i] += q[i]);
-        let change = next
-            .iter()
-            .zip(&gain)
-            .fold(0.0_f64, |m, (x, y)| m.max((x - y).abs()));
-        let size = next.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
-        for i in 0..n {
-            for j in 0..n {
-                p[i * n + j] = 0.5 * (new[i * n + j] + new[j * n + i]);
-            }
-        }
-        gain = next;
-        // A command needs as many passes as there are beats under way before it costs anything.
-        if pass > n && change <= 1e-9 * size {
-            return Ok(gain);
-        }
-    }
-    Err(AnalysisError::Numbers(
-        "Riccati's iteration did not converge: the strokes cannot stabilise this flight".into(),
-    ))
-}
-
-/// `X Y`, X of shape n x m, Y of shape m x l.
-fn product(x: &[f64], y: &[f64], n: usize, m: usize, l: usize) -> Vec<f64> {
-    let mut out = vec![0.0; n * l];
-    for i in 0..n {
-        for k in 0..m {
-            let f = x[i * m + k];
-            for j in 0..l {
-                out[i * l + j] += f * y[k * l + j];
-            }
-        }
-    }
-    out
-}
-
-/// `X^T Y`, X of shape m x n, Y of shape m x l.
-fn transposed_product(x: &[f64], y: &[f64], m: usize, n: usize, l: usize) -> Vec<f64> {
-    let mut out = vec![0.0; n * l];
-    for k in 0..m {
-        for i in 0..n {
-            let f = x[k * n + i];
-            for j in 0..l {
-                out[i * l + j] += f * y[k * l + j];
-            }
-        }
-    }
-    out
-}
-
-/// `S^-1 Y` column by column.
-fn solve_columns(s: &[f64], y: &[f64], n: usize) -> Result<Vec<f64>, AnalysisError> {
-    let mut out = vec![0.0; CONTROLS * n];
-    for j in 0..n {
-        let mut column: Vec<f64> = (0..CONTROLS).map(|i| y[i * n + j]).collect();
-        solve_small(&mut s.to_vec(), &mut column)
-            .map_err(|e| AnalysisError::Numbers(format!("Riccati's iteration: {e}")))?;
-        (0..CONTROLS).for_each(|i| out[i * n + j] = column[i]);
-    }
-    Ok(out)
 }

@@ -3,7 +3,9 @@
 mod common;
 mod episode;
 mod lateral;
+mod looks;
 mod mechanisms;
+mod observer;
 mod oracle;
 mod sweep;
 mod validation;

@@ -1,36 +1,39 @@
-//! Air computed by another program, asked line by line over its standard input and output.
+//! Other programs in a flight, asked line by line over their standard input and output: air here, controllers in
+//! [`controller`].
 //!
-//! The protocol is that of `docs/external-air.md`: words and numbers separated by blanks, SI units,
+//! The protocol of air is that of `docs/external-air.md`: words and numbers separated by blanks, SI units,
 //! N components unless said.
 
+pub mod controller;
 mod partner;
 
 use std::fmt::Write as _;
-use std::time::Duration;
 
 use wingbeat_dynamics::{BodyMotion, Wrench};
 use wingbeat_flight::{Announcement, ExternalAir, ExternalSession};
 use wingbeat_math::DVec3;
 
-use partner::Partner;
-pub use partner::end_all;
+use partner::{Partner, Protocol};
+pub use partner::{Program, end_all};
 
 /// Version of the protocol.
 pub const PROTOCOL: u32 = 2;
 
-/// A program to be started for each flight.
+/// How its partner is spoken to; an answer has six numbers.
+const SPOKEN: Protocol = Protocol {
+    timeout_key: "air.external.timeout_s",
+    max_bytes: 4096,
+    farewell: "end\n",
+};
+
+/// Air of a program that is started for each flight.
 #[derive(Clone, Debug, PartialEq)]
-pub struct ProcessAir {
-    /// The program and its arguments.
-    pub command: Vec<String>,
-    /// Longest wait for an answer.
-    pub timeout: Duration,
-}
+pub struct ProcessAir(pub Program);
 
 impl ExternalAir for ProcessAir {
     fn open(&self, flyer: &Announcement) -> Result<Box<dyn ExternalSession>, String> {
         let mut session = Conversation {
-            partner: Partner::start(&self.command, self.timeout)?,
+            partner: Partner::start(&self.0, SPOKEN)?,
         };
         session.greet(flyer)?;
         Ok(Box::new(session))

@@ -2,10 +2,13 @@
 //! filled in.
 
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
-use wingbeat_flight::{FlightError, FlightSetup};
+use wingbeat_flight::{AirModel, FlightError, FlightSetup};
 
 use crate::error::{CaseError, Fault, IoError};
+use crate::external::Unasked;
+use crate::external::controller::Uncommanded;
 use crate::output::OutputSettings;
 use crate::source::CaseSource;
 use crate::{build, decode, files, keys, presets, raw, resolve};
@@ -134,19 +137,29 @@ impl LoadedCase {
     /// The program that computes the air, with its arguments, if the case names one; words that
     /// could be mistaken on a terminal in quotes.
     pub fn program(&self) -> Option<String> {
-        let external = self.raw.air.external.as_ref()?;
         let starts = self.raw.air.model == raw::AirModel::External;
-        let plain = |c: char| c.is_alphanumeric() || "-_./=+,:@%".contains(c);
-        let quoted =
-            external
-                .command
-                .iter()
-                .map(|word| match !word.is_empty() && word.chars().all(plain) {
-                    true => word.clone(),
-                    false => format!("{word:?}"),
-                });
-        let words: Vec<String> = quoted.collect();
-        starts.then(|| words.join(" "))
+        let external = self.raw.air.external.as_ref();
+        external.filter(|_| starts).map(in_words)
+    }
+
+    /// The program that commands the wings, likewise.
+    pub fn control_program(&self) -> Option<String> {
+        let control = self.raw.control.as_ref()?;
+        let starts = control.controller == raw::ControllerCase::External;
+        let external = control.external.as_ref();
+        external.filter(|_| starts).map(in_words)
+    }
+
+    /// The setup with stand-ins for other programs, for those who only look: nothing is started.
+    pub fn unasked(&self) -> FlightSetup {
+        let mut setup = self.setup.clone();
+        if self.program().is_some() {
+            setup.air = AirModel::External(Arc::new(Unasked));
+        }
+        if let (Some(feedback), Some(_)) = (&mut setup.feedback, self.control_program()) {
+            feedback.controller = Arc::new(Uncommanded);
+        }
+        setup
     }
 
     /// The text of the case as it was written.
@@ -205,6 +218,21 @@ fn check_name(name: &str) -> Result<(), Fault> {
         ),
         "choose a plain name",
     ))
+}
+
+/// A command as it would be typed.
+fn in_words(external: &raw::ExternalCase) -> String {
+    let plain = |c: char| c.is_alphanumeric() || "-_./=+,:@%".contains(c);
+    let quoted =
+        external
+            .command
+            .iter()
+            .map(|word| match !word.is_empty() && word.chars().all(plain) {
+                true => word.clone(),
+                false => format!("{word:?}"),
+            });
+    let words: Vec<String> = quoted.collect();
+    words.join(" ")
 }
 
 fn table(case: &raw::Case) -> toml::Table {

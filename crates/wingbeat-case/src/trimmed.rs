@@ -11,7 +11,6 @@ use wingbeat_model::Side;
 use wingbeat_model::motion::Adjustment;
 
 use super::LoadedCase;
-use super::build::adjustment;
 use super::raw::{
     AdjustCase, AirCase, AirModel, BodyCase, Case, CorrectorCase, DerivativesCase, DynamicsCase,
     FlightCase, Formulation, IntegratorCase, JointCase, JointKind, Mode, MotionCase,
@@ -88,7 +87,7 @@ fn adjusted(case: &LoadedCase, by: [&Adjustment; 2], mass_centre: f64) -> Case {
     let motion = &mut raw.motion;
     // Side by side: what the case has, then what trim has.
     let sides = [Side::Right, Side::Left].map(|side| {
-        let own = adjustment(&motion.adjust).on(side, &adjustment(&motion.difference));
+        let own = Adjustment::from(&motion.adjust).on(side, &Adjustment::from(&motion.difference));
         own.then(&by[0].on(side, by[1]))
     });
     let [right, left] = sides;

@@ -63,6 +63,11 @@ const SITES: &[Site] = &[
         &["control.controller=stabiliser"],
     ),
     site("SensorsCase", "control.sensors", &[]),
+    site(
+        "ObserverCase",
+        "control.observer",
+        &["control.sensors.tilt_noise_deg=1"],
+    ),
     site("TetherCase", "flight.tether", &["flight.mode=tethered"]),
     site(
         "PathOscillation",
@@ -145,6 +150,7 @@ const LISTED: &[(&str, &str)] = &[
         "[[air.gust]]\namplitude_m_s = [0, 0, 1]\n[air.gust.turbulence]\n",
     ),
     ("LoadCase", "[[load]]\n"),
+    ("WaypointCase", "[[control.waypoint]]\n"),
     ("TwistCase", "[[wing.right.deformation.twist]]\n"),
     ("CamberCase", "[[wing.right.deformation.camber]]\n"),
     ("BendingCase", "[[wing.right.deformation.bending]]\n"),

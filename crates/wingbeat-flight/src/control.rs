@@ -12,7 +12,7 @@ use wingbeat_math::{DVec3, MovingRotation, RotationLaw};
 use wingbeat_model::motion::{Adjustment, wing_rotation};
 use wingbeat_model::{Side, Wing, WingMotion};
 
-pub use crate::controller::{Controller, Sensed};
+pub use crate::controller::{Aim, Controller, Sensed};
 use crate::error::FlightError;
 pub use crate::setup::{ControlModel, Feedback};
 use crate::setup::{FlightSetup, MotionMode};
@@ -31,6 +31,11 @@ pub fn smoothstep(t: f64, start: f64, duration: f64) -> [f64; 3] {
         140.0 * y * y * y / duration,
         420.0 * y * y * (1.0 - 2.0 * z) / (duration * duration),
     ]
+}
+
+/// The share of the way to a command that actuators go within `time`, in units of their time constant (infinity: no lag).
+pub fn share(time: f64) -> f64 {
+    -(-time).exp_m1()
 }
 
 /// A wing whose angles and stroke plane go over from one motion to another by [`smoothstep`].
@@ -146,9 +151,12 @@ pub struct ControlState {
 /// Feedback in a flight: controller, latency, and the wings it moves.
 pub struct Loop {
     controller: Box<dyn Controller>,
+    follows: bool,
     interval: usize,
     /// An interval [s].
     duration: f64,
+    /// Share of the way to a command that actuators go within an interval.
+    share: f64,
     wings: Vec<Arc<CommandedMotion>>,
     state: ControlState,
 }
@@ -171,10 +179,13 @@ impl Loop {
             });
         }
         let none = vec![Adjustment::default(); wings.len()];
+        let duration = feedback.interval as f64 * setup.time.step;
         Ok(Self {
             controller: feedback.controller.open(setup)?,
+            follows: feedback.controller.follows(),
             interval: feedback.interval,
-            duration: feedback.interval as f64 * setup.time.step,
+            duration,
+            share: share(duration / feedback.lag),
             state: ControlState {
                 from: none.clone(),
                 to: none.clone(),
@@ -220,6 +231,17 @@ impl Loop {
         &self.state.to
     }
 
+    /// Where the flyer is to be at `time` [s] since the release, if the reference moves; before it is known, at its
+    /// mass centre `centre` [m].
+    pub fn reference(&self, time: f64, centre: DVec3) -> Option<Aim> {
+        let here = Aim {
+            position: centre,
+            ..Aim::default()
+        };
+        self.follows
+            .then(|| self.controller.aim(time).unwrap_or(here))
+    }
+
     /// Angles of the wings at time `t` [s].
     pub fn angles(&self, t: f64) -> impl Iterator<Item = DVec3> {
         self.wings.iter().map(move |w| w.angles(t))
@@ -228,12 +250,20 @@ impl Loop {
     /// Asks the controller at time `t` [s]; the passage to the command that is due begins.
     ///
     /// # Errors
-    /// Commands that are not finite, ask for another frequency, or are not one per wing.
+    /// A controller that has no command; commands that are not finite, ask for another frequency, or are not one per
+    /// wing.
     pub fn update(&mut self, t: f64, sensed: &Sensed) -> Result<(), FlightError> {
-        let command = self.controller.command(sensed);
+        let refused = |problem| FlightError::Control { time: t, problem };
+        let command = self.controller.command(sensed).map_err(refused)?;
         self.check(&command, t)?;
         self.state.queue.push_back(command);
-        let due = self.state.queue.pop_front().expect("one was just pushed");
+        let mut due = self.state.queue.pop_front().expect("one was just pushed");
+        if self.share < 1.0 {
+            let lagged = |(due, now): (&mut Adjustment, &Adjustment)| {
+                *due = now.toward(due, self.share);
+            };
+            due.iter_mut().zip(&self.state.to).for_each(lagged);
+        }
         self.state.from = std::mem::replace(&mut self.state.to, due);
         self.state.since = t;
         self.state.looks += 1;

@@ -1,4 +1,4 @@
-//! A controller in the loop of the flight: what it sees, and what it answers.
+//! A controller in the loop of the flight: what it sees, what it answers, and where it steers to.
 
 use wingbeat_dynamics::BodyMotion;
 use wingbeat_math::DVec3;
@@ -19,11 +19,32 @@ pub struct Sensed {
     pub velocity: DVec3,
 }
 
+/// Where the mass centre of a flyer is to be, and where the flyer is to head.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Aim {
+    /// Place of the mass centre, N components [m].
+    pub position: DVec3,
+    /// Its velocity, N components [m/s].
+    pub velocity: DVec3,
+    /// Heading: the angle about n3 from n1 \[rad\].
+    pub heading: f64,
+    /// Its rate [rad/s].
+    pub heading_rate: f64,
+}
+
 /// A controller: from what is sensed to one adjustment per wing.
 pub trait Controller: Send {
     /// Adjustments of the wings, in the animal's order, on top of the motion of the case. Changes of
     /// frequency are not possible in flight.
-    fn command(&mut self, sensed: &Sensed) -> Vec<Adjustment>;
+    ///
+    /// # Errors
+    /// Why it has none; the flight ends with it.
+    fn command(&mut self, sensed: &Sensed) -> Result<Vec<Adjustment>, String>;
+
+    /// Where it steers to at `time` [s] since the release; none before its first look, or if it does not know.
+    fn aim(&self, _time: f64) -> Option<Aim> {
+        None
+    }
 
     /// Everything it remembers, for a flight that is resumed.
     fn memory(&self) -> Vec<f64> {

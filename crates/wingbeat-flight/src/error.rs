@@ -31,12 +31,12 @@ pub enum FlightError {
         /// Allowed distance [m].
         limit: f64,
     },
-    /// A controller asked for something impossible.
-    #[error("t = {time:.6e} s: the controller's command is refused: {problem}")]
+    /// A controller has no command, or asks for something impossible.
+    #[error("t = {time:.6e} s: no command from the controller: {problem}")]
     Control {
         /// Time [s].
         time: f64,
-        /// What is wrong with it.
+        /// What is wrong.
         problem: String,
     },
     /// Air computed elsewhere failed.

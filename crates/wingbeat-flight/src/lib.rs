@@ -48,7 +48,7 @@ pub use bodies::{
     system_of, system_with,
 };
 pub use control::Passage;
-pub use controller::{Controller, Sensed};
+pub use controller::{Aim, Controller, Sensed};
 pub use error::FlightError;
 pub use free::{FreeFlight, FreeFlightScratch};
 pub use interface::{Air, AirScratch, Announcement, ExternalAir, ExternalSession, Instant};

@@ -3,6 +3,8 @@
 use wingbeat_math::DVec3;
 use wingbeat_model::motion::Adjustment;
 
+use crate::controller::Aim;
+
 /// The record of one accepted step. Body 0 is the root, wings follow in the animal's order.
 #[derive(Debug, Default, PartialEq)]
 pub struct Record {
@@ -14,6 +16,8 @@ pub struct Record {
     pub wing_angles: Vec<DVec3>,
     /// Per wing: the command of feedback at the end of the passage under way; empty without feedback.
     pub commands: Vec<Adjustment>,
+    /// Where feedback is to bring the flyer; empty where nothing is followed.
+    pub reference: Vec<Aim>,
     /// Generalized coordinates q of seed eq. 2: per body x, y, z [m], phi, theta, psi [rad].
     pub coordinates: Vec<f64>,
     /// Time derivatives of the coordinates [m/s, rad/s].
@@ -107,6 +111,7 @@ impl Clone for Record {
         *self = Self {
             wing_angles: over(&mut self.wing_angles, &other.wing_angles),
             commands: over(&mut self.commands, &other.commands),
+            reference: over(&mut self.reference, &other.reference),
             coordinates: over(&mut self.coordinates, &other.coordinates),
             rates: over(&mut self.rates, &other.rates),
             accelerations: over(&mut self.accelerations, &other.accelerations),

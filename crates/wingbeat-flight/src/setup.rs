@@ -109,6 +109,9 @@ pub struct Feedback {
     pub interval: usize,
     /// Looks from sensing to the beginning of the passage to the command.
     pub latency: usize,
+    /// Time constant of the actuators, a first-order lag: what acts goes over to the command by the share
+    /// `1 - exp(-interval / lag)` from one look to the next; 0: wholly [s].
+    pub lag: f64,
 }
 
 /// What makes the controller of a flight.
@@ -118,6 +121,11 @@ pub trait ControlModel: fmt::Debug + Send + Sync {
     /// # Errors
     /// A flight that it cannot control.
     fn open(&self, setup: &FlightSetup) -> Result<Box<dyn Controller>, FlightError>;
+
+    /// Whether it follows a reference that moves, which is recorded ([`crate::Record::reference`]).
+    fn follows(&self) -> bool {
+        false
+    }
 }
 
 /// A controller that can be copied controls any flight.

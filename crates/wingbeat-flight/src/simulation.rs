@@ -304,12 +304,23 @@ impl Simulation {
             report,
         };
         sources.write(step, time, &mut self.state.ledger, &mut self.record);
+        self.write_reference();
         let equations = &self.stages[self.state.stage].equations;
         equations.accept_air(&mut self.state.air, &self.scratch)?;
         if starts && !self.finished() && !self.setup.integrator.is_one_step() {
             self.start()?;
         }
         Ok(())
+    }
+
+    /// Puts where the flyer is to be into the record.
+    fn write_reference(&mut self) {
+        let since = self.state.step - self.stages[self.state.stage].from_step;
+        let time = since as f64 * self.setup.time.step;
+        let feedback = self.feedback.as_ref();
+        let aim = feedback.and_then(|f| f.reference(time, self.record.mass_centre));
+        self.record.reference.clear();
+        self.record.reference.extend(aim);
     }
 
     /// Asks the controller, where there is one and it is time; a flyer that is held is not steered.

@@ -50,8 +50,11 @@ fn exact_no_allocation_between_looks() {
     #[derive(Clone, Debug)]
     struct Still;
     impl Controller for Still {
-        fn command(&mut self, _: &Sensed) -> Vec<wingbeat_model::motion::Adjustment> {
-            vec![Default::default(); 2]
+        fn command(
+            &mut self,
+            _: &Sensed,
+        ) -> Result<Vec<wingbeat_model::motion::Adjustment>, String> {
+            Ok(vec![Default::default(); 2])
         }
     }
     let setup = FlightSetup {
@@ -59,6 +62,7 @@ fn exact_no_allocation_between_looks() {
             controller: Arc::new(Still),
             interval: 40,
             latency: 1,
+            lag: 0.0,
         }),
         ..blade()
     };

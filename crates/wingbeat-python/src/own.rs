@@ -121,6 +121,7 @@ pub fn feedback(function: Py<PyAny>, slot: &Slot, interval: usize, latency: usiz
         controller: Arc::new(PythonController(function)),
         interval,
         latency,
+        lag: 0.0,
     }
 }
 
@@ -137,14 +138,13 @@ impl ControlModel for PythonController {
 struct Steered(Function);
 
 impl Controller for Steered {
-    fn command(&mut self, sensed: &wingbeat::flight::Sensed) -> Vec<Adjustment> {
+    fn command(&mut self, sensed: &wingbeat::flight::Sensed) -> Result<Vec<Adjustment>, String> {
         let answer = Python::attach(|py| -> PyResult<Vec<[f64; 8]>> {
             let seen = Bound::new(py, Sensed(*sensed))?;
             self.0.function.call1(py, (seen,))?.extract(py)
         });
-        // No adjustments end the flight.
-        let numbers = self.0.slot.keep(answer).unwrap_or_default();
-        numbers.into_iter().map(adjustment).collect()
+        let numbers = self.0.slot.keep(answer)?;
+        Ok(numbers.into_iter().map(adjustment).collect())
     }
 }
 

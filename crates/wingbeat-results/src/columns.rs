@@ -86,6 +86,7 @@ struct Shape {
     loops: usize,
     deforming: usize,
     commanded: usize,
+    following: usize,
 }
 
 /// Names of the bodies in column names: `body`, then `wing_NAME`, then `segment_NAME`.
@@ -157,6 +158,9 @@ impl Columns {
             loops: loops.len(),
             deforming: if deforms { wings } else { 0 },
             commanded: setup.feedback.as_ref().map_or(0, |_| wings),
+            following: (setup.feedback.iter())
+                .filter(|f| f.controller.follows())
+                .count(),
         };
         let subjects = Subjects {
             bodies,
@@ -230,6 +234,7 @@ impl Columns {
         Record {
             wing_angles: vec![Default::default(); s.wings],
             commands: vec![Default::default(); s.commanded],
+            reference: vec![Default::default(); s.following],
             coordinates: vec![0.0; 6 * s.bodies],
             rates: vec![0.0; 6 * s.bodies],
             accelerations: vec![Default::default(); s.bodies],
@@ -295,6 +300,9 @@ impl Subjects {
         let half = 3 * (shape.bodies - 1);
         match of {
             Of::Flight => vec![Subject::new(String::new(), "", Kind::Flight, 0)],
+            Of::Following => (0..shape.following)
+                .map(|_| Subject::new(String::new(), "", Kind::Flight, 0))
+                .collect(),
             Of::Bodies => self.bodies.clone(),
             Of::Wings => self.wings(shape.wings),
             Of::Deforming => self.wings(shape.deforming),

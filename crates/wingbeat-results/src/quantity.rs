@@ -259,6 +259,8 @@ pub(crate) enum Of {
     Deforming,
     /// The wings, where feedback commands them.
     Commanded,
+    /// The whole flight, where feedback follows a reference.
+    Following,
     /// What hangs at a hinge: wings and segments.
     Children,
     /// Multipliers of connection.

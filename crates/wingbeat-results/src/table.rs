@@ -1,10 +1,12 @@
 //! Every quantity that a history holds, in the order of its columns.
 
 mod balances;
+mod feedback;
 mod loads;
 mod motion;
 
-use self::balances::{COMMANDS, ENERGIES, MOMENTA, QUALITY, WAKE};
+use self::balances::{ENERGIES, MOMENTA, QUALITY, WAKE};
+use self::feedback::{COMMANDS, REFERENCE};
 use self::loads::{
     AIR, APPLIED, CONNECTIONS, COORDINATES, DEFORMATION, HINGES, LOOPS, ORIENTATIONS, TETHER,
 };
@@ -37,4 +39,5 @@ pub(crate) const GROUPS: &[Group] = &[
     group(Of::Flight, QUALITY),
     group(Of::Flight, WAKE),
     group(Of::Commanded, COMMANDS),
+    group(Of::Following, REFERENCE),
 ];

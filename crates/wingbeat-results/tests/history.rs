@@ -66,6 +66,7 @@ fn numbers(record: &Record) -> usize {
         time: _,
         wing_angles,
         commands,
+        reference,
         coordinates,
         rates,
         root_quaternion,
@@ -105,14 +106,15 @@ fn numbers(record: &Record) -> usize {
         net_flux_residual: _,
     } = record;
     let lists = coordinates.len() + rates.len() + multipliers.len() + deformation_power.len();
-    let vectors = 3 * wing_angles.len() + 8 * commands.len() + 6 * accelerations.len();
+    let feedback = 8 * commands.len() + 8 * reference.len();
+    let vectors = 3 * wing_angles.len() + feedback + 6 * accelerations.len();
     let reactions = 7 * (hinges.len() + loops.len()) + 2 * joints.len();
     let loads = 6 * (air.len() + applied.len() + 1);
     let (scalars, own_vectors) = (18, 9);
     lists + vectors + reactions + loads + root_quaternion.len() + scalars + 3 * own_vectors
 }
 
-const FLIGHTS: [(&str, &[&str]); 4] = [
+const FLIGHTS: [(&str, &[&str]); 5] = [
     (
         "fruit-fly-abdomen-spring",
         &["time.beats=0.1", "air.model=\"none\""],
@@ -123,6 +125,14 @@ const FLIGHTS: [(&str, &[&str]); 4] = [
     ),
     ("bird-cruise", &["time.beats=0.1"]),
     ("fruit-fly-blade", &["time.beats=0.1"]),
+    (
+        "fruit-fly-controlled",
+        &[
+            "time.beats=3",
+            "air.model=\"blade_element\"",
+            "control.waypoint=[{time_s=0.01,position_m=[0,0,1e-3],heading_deg=20}]",
+        ],
+    ),
 ];
 
 #[test]

@@ -12,14 +12,14 @@ struct HoldHeight {
 }
 
 impl Controller for HoldHeight {
-    fn command(&mut self, sensed: &Sensed) -> Vec<Adjustment> {
+    fn command(&mut self, sensed: &Sensed) -> Result<Vec<Adjustment>, String> {
         let [stiffness, damping] = self.gains;
         let amplitude = stiffness * sensed.centre.z + damping * sensed.velocity.z;
         let all = Adjustment {
             stroke_amplitude: amplitude.clamp(-0.2, 0.2),
             ..Adjustment::default()
         };
-        vec![all; self.wings]
+        Ok(vec![all; self.wings])
     }
 }
 
@@ -35,6 +35,7 @@ pub(crate) fn main() -> Result<(), Error> {
         controller: std::sync::Arc::new(controller),
         interval: interval as usize,
         latency: 0,
+        lag: 0.0,
     });
     for (name, run) in [("free", free), ("held", held.fly()?)] {
         let end = run.records.last().expect("a start at least");

@@ -12,7 +12,10 @@ use wingbeat::analysis::control::{Held, Law, Steering};
 use wingbeat::analysis::departure::{Limits, Reference};
 use wingbeat::analysis::regulator::{Regulator, Weights};
 use wingbeat::case::LoadedCase;
-use wingbeat::flight::{AirModel, ControlModel, FlightSetup, FlightState, Simulation};
+use wingbeat::flight::{
+    AirModel, ControlModel, Controller, Feedback, FlightSetup, FlightState, Sensed, Simulation,
+};
+use wingbeat::model::motion::Adjustment;
 
 const PRESET: &str = "fruit-fly-controlled";
 
@@ -86,8 +89,18 @@ fn balances_hover_recovers_from_twenty_degrees_and_open_loop_does_not() {
     // The loops do not hold the place, and lean against what drift is left, by half a degree.
     let regulator = ["control.controller=regulator", "control.weights={}"];
     let loops = ["control.controller=stabiliser", "control.latency_beats=0"];
-    for (keys, near, lean) in [(regulator, 0.005, 0.03), (loops, f64::INFINITY, 1.0)] {
-        let flown = beats(in_blades(&[&tilted[..], &keys].concat()));
+    // Looks within the beat bear a latency, too.
+    let often = [
+        "control.controller=stabiliser",
+        "control.looks_per_beat=4",
+        "control.latency_beats=0.5",
+    ];
+    for (keys, near, lean) in [
+        (&regulator[..], 0.005, 0.03),
+        (&loops, f64::INFINITY, 1.0),
+        (&often, f64::INFINITY, 2.0),
+    ] {
+        let flown = beats(in_blades(&[&tilted[..], keys].concat()));
         let (way, turned) = flown[79];
         // It has turned back by those 20 degrees.
         println!("{keys:?}: {turned} deg, {way:e} m");
@@ -125,16 +138,24 @@ fn exact_flight_under_feedback_goes_on_bit_for_bit() {
         "time.beats=4",
         "control.every_beats=2",
         "control.latency_beats=2",
-        "control.weights.sum=2",
+        "control.waypoint=[{time_s=0.012,position_m=[0,0,-1e-3],heading_deg=10}]",
         "control.sensors={seed=7,position_noise_m=1e-5,tilt_noise_deg=0.5,rate_noise_deg_s=50,velocity_bias_m_s=[0.01,0,0]}",
     ];
-    for more in [["control.hold=start"], ["control.controller=stabiliser"]] {
-        let keys: Vec<&str> = [&keys[..], &more]
-            .concat()
-            .into_iter()
-            .filter(|k| more[0] != "control.controller=stabiliser" || !k.contains("weights.sum"))
-            .collect();
-        let setup = in_blades(&keys);
+    let regulator = [
+        "control.hold=start",
+        "control.weights.sum=2",
+        "control.observer={rate=0.02}",
+    ];
+    let within = [
+        "control.every_beats=1",
+        "control.looks_per_beat=5",
+        "control.latency_beats=0.6",
+        "control.lag_beats=0.7",
+        "control.weights.sum=2",
+        "control.observer={rate=0.02}",
+    ];
+    for more in [&regulator[..], &within, &["control.controller=stabiliser"]] {
+        let setup = in_blades(&[&keys[..], more].concat());
         let whole = Flight::from(setup.clone()).fly().unwrap().records;
         // Broken off within a passage, through the bytes of a checkpoint.
         let mut flight = Simulation::new(setup.clone()).unwrap();
@@ -146,6 +167,124 @@ fn exact_flight_under_feedback_goes_on_bit_for_bit() {
             assert_eq!(flight.step().unwrap(), expect);
         }
     }
+}
+
+/// What a flight departs by from its reference at the end of every wingbeat: place [wing lengths] and heading [deg].
+fn astray(setup: FlightSetup) -> Vec<(f64, f64)> {
+    let mut flight = Simulation::new(setup).unwrap();
+    let mut out = vec![];
+    while !flight.finished() {
+        (0..40).for_each(|_| _ = flight.step().unwrap());
+        let (record, ahead) = (flight.record(), flight.root().r.x_axis);
+        let aim = record.reference[0];
+        let turn = ahead.y.atan2(ahead.x) - aim.heading;
+        let way = record.mass_centre - aim.position;
+        out.push((way.length() / 2.5e-3, turn.to_degrees()));
+    }
+    out
+}
+
+#[test]
+fn balances_a_square_and_a_turn_along_waypoints() {
+    // A square of three wing lengths, 40 beats a side, then a turn by 90 degrees to the right within 40.
+    let square = "control.waypoint=[{time_s=0.2,position_m=[7.5e-3,0,0]},{time_s=0.4,position_m=[7.5e-3,7.5e-3,0]},{time_s=0.6,position_m=[0,7.5e-3,0]},{time_s=0.8,position_m=[0,0,0]},{time_s=1,heading_deg=90}]";
+    let start = ["time.beats=240", "flight.pitch_deg=49.58"];
+    let flown = astray(in_blades(&[&start[..], &[square]].concat()));
+    let place = flown.iter().fold(0.0_f64, |m, e| m.max(e.0));
+    let heading = flown.iter().fold(0.0_f64, |m, e| m.max(e.1.abs()));
+    let (left, turned) = flown[239];
+    println!("square: {place} R, {heading} deg; at the end {left:e} R, {turned:e} deg");
+    assert!(place < 0.8 && heading < 20.0, "{place} R, {heading} deg");
+    assert!(
+        left < 0.01 && turned.abs() < 0.1,
+        "{left:e} R, {turned:e} deg"
+    );
+    // Altitude and heading by the stabiliser, which holds no place.
+    let climb = [
+        "control.controller=stabiliser",
+        "control.latency_beats=0",
+        "control.waypoint=[{time_s=0.25,position_m=[0,0,-7.5e-3],heading_deg=-45}]",
+    ];
+    let mut flight = Simulation::new(in_blades(&[&start[..], &climb].concat())).unwrap();
+    let from = flight.record().mass_centre.z;
+    let middle = (0..1000)
+        .map(|_| flight.step().unwrap().reference[0])
+        .last();
+    let middle = middle.unwrap();
+    // Half the way at half the time; 35/16 of the mean velocity. The trimmed flight itself drifts by less than 1e-8 m/s.
+    let half = [
+        middle.position.z - from + 3.75e-3,
+        middle.velocity.z + 0.065625,
+    ];
+    assert!(half.iter().all(|x| x.abs() < 1e-8), "{half:?}");
+    assert!((middle.heading + 22.5_f64.to_radians()).abs() < 1e-12);
+    (1000..4800).for_each(|_| _ = flight.step().unwrap());
+    let (record, ahead) = (flight.record(), flight.root().r.x_axis);
+    let height = (record.mass_centre.z - record.reference[0].position.z) / 2.5e-3;
+    let turn = ahead.y.atan2(ahead.x).to_degrees() + 45.0;
+    println!("stabiliser: {height:e} R, {turn:e} deg");
+    assert!(
+        height.abs() < 0.05 && turn.abs() < 1.0,
+        "{height:e} R, {turn:e} deg"
+    );
+}
+
+/// Commands the same at every look.
+#[derive(Clone, Debug)]
+struct Constant(Adjustment);
+
+impl Controller for Constant {
+    fn command(&mut self, _: &Sensed) -> Result<Vec<Adjustment>, String> {
+        Ok(vec![self.0; 2])
+    }
+}
+
+/// A step of the command, through actuators of first order: `1 - exp(-t / lag)` at the looks, after the latency.
+#[test]
+fn exact_actuators_lag_behind_a_step() {
+    let mut setup = in_blades(&["time.beats=6"]);
+    let step = Adjustment {
+        stroke_amplitude: 0.1,
+        stroke_plane: -0.05,
+        ..Adjustment::default()
+    };
+    for (interval, latency, lag) in [(40, 0, 2.0), (40, 2, 0.5), (10, 1, 1.0)] {
+        setup.feedback = Some(Feedback {
+            controller: Arc::new(Constant(step)),
+            interval,
+            latency,
+            lag: lag * 0.005, // a wingbeat is 5 ms
+        });
+        let records = Flight::from(setup.clone()).fly().unwrap().records;
+        for (look, record) in records.iter().step_by(interval).enumerate() {
+            // At the end of the passage that begins here.
+            let beats = ((look + 1).saturating_sub(latency) * interval) as f64 / 40.0;
+            let share = 1.0 - (-beats / lag).exp();
+            let [a, b] = [
+                record.commands[0].stroke_amplitude,
+                record.commands[1].stroke_plane,
+            ];
+            assert!((a - 0.1 * share).abs() < 1e-14, "{look}: {a}");
+            assert!((b + 0.05 * share).abs() < 1e-14, "{look}: {b}");
+        }
+    }
+}
+
+/// Actuators that lag by a wingbeat: a regulator that counts with it holds a tilted fly.
+#[test]
+fn balances_a_tilted_flight_behind_slow_actuators() {
+    let tilted = [
+        "flight.pitch_deg=69.58",
+        "time.beats=80",
+        "control.weights={}",
+        "control.lag_beats=1",
+    ];
+    let (way, turned) = beats(in_blades(&tilted))[79];
+    println!("{turned} deg, {way:e} m");
+    assert!(
+        (turned - 20.0).abs() < 0.1 && way < 0.01 * 2.5e-3,
+        "{turned} deg, {way:e} m"
+    );
 }
 
 #[test]
@@ -161,11 +300,23 @@ fn exact_noise_is_that_of_its_seed() {
 
 #[test]
 fn refuses_what_control_cannot_do_by_name() {
-    let wrong: [(&[&str], &str); 12] = [
+    let wrong: [(&[&str], &str); 27] = [
         (&["control.controller=\"pid\""], "control.controller"),
         (&["control.latency_beats=-1"], "control.latency_beats"),
         (&["control.latency_beats=21"], "control.latency_beats"),
+        (&["control.lag_beats=-1"], "control.lag_beats"),
         (&["control.every_beats=0"], "control.every_beats"),
+        (&["control.looks_per_beat=0"], "control.looks_per_beat"),
+        (&["control.looks_per_beat=4"], "control.looks_per_beat"), // of 30 steps
+        (&["control.looks_per_beat=10"], "control.looks_per_beat"),
+        (
+            &["control.looks_per_beat=2", "control.latency_beats=0.25"],
+            "control.latency_beats",
+        ),
+        (
+            &["control.looks_per_beat=2", "control.every_beats=2"],
+            "control.every_beats",
+        ),
         (&["control.amplitude_limit=0"], "control.amplitude_limit"),
         (&["control.angle_limit_deg=120"], "control.angle_limit_deg"),
         (&["control.weights.place=1"], "control.weights.place"),
@@ -173,6 +324,49 @@ fn refuses_what_control_cannot_do_by_name() {
         (
             &["control.sensors.tilt_noise_deg=-1"],
             "control.sensors.tilt_noise_deg",
+        ),
+        (
+            &["control.waypoint=[{time_s=0}]"],
+            "control.waypoint[0].time_s",
+        ),
+        (
+            &["control.waypoint=[{time_s=0.1},{time_s=0.104}]"],
+            "control.waypoint[1].time_s",
+        ),
+        (
+            &["control.waypoint=[{time_s=1}]", "control.climb_m_s=0.1"],
+            "control.climb_m_s",
+        ),
+        (
+            &[
+                "control.controller=stabiliser",
+                "control.waypoint=[{time_s=1,position_m=[1e-3,0,0]}]",
+            ],
+            "control.waypoint[0].position_m",
+        ),
+        (&["control.observer={}"], "control.observer"),
+        (
+            &[
+                "control.sensors={tilt_noise_deg=1}",
+                "control.observer={velocity=0}",
+            ],
+            "control.observer.velocity",
+        ),
+        (&["control.controller=external"], "control.external.command"),
+        (
+            &[
+                "control.external={command=[\"true\"]}",
+                "control.controller=regulator",
+            ],
+            "control.external",
+        ),
+        (
+            &[
+                "control.controller=external",
+                "control.external={command=[\"true\"]}",
+                "control.climb_m_s=0.1",
+            ],
+            "control.climb_m_s",
         ),
         (&["air.model=none"], "control"),
         (&["flight.mode=tethered"], "control"),

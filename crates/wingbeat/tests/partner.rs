@@ -160,3 +160,214 @@ fn refuses_programs_that_talk_without_end_or_do_not_listen() {
         assert!(began.elapsed() < Duration::from_secs(10), "{script}");
     }
 }
+
+/// The preset's fly in blade elements under a controller in another program.
+fn commanded(dir: &Path, out: &str, command: &str, more: &[&str]) -> Output {
+    let external = format!("control.external={{command={command},timeout_s=2}}");
+    let mut args = vec!["run", "hover.toml", "--quiet", "--out", out];
+    for set in ["control.controller=external", &external]
+        .iter()
+        .chain(more)
+    {
+        args.extend(["--set", set]);
+    }
+    wingbeat(dir, &args)
+}
+
+/// The trimmed fly of 40 steps a beat.
+fn trimmed(dir: &Path) {
+    let args = [
+        "trim",
+        "fruit-fly-blade",
+        "--steps",
+        "40",
+        "--write",
+        "hover.toml",
+    ];
+    support::flown(dir, &args);
+}
+
+/// Rows of a column of a history.
+fn column(run: &Path, name: &str) -> Vec<f64> {
+    let history = wingbeat::results::History::read(&run.join("history.csv")).unwrap();
+    history.column(name).to_vec()
+}
+
+/// `["python3", "hover.py"]` with the example's path.
+fn example() -> String {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/hover.py");
+    format!("[\"python3\",{:?}]", path.to_str().unwrap())
+}
+
+#[test]
+fn balances_hover_under_a_program_and_goes_on_bit_for_bit() {
+    let scratch = Scratch::new("program");
+    let dir = &scratch.0;
+    trimmed(dir);
+    let flight = [
+        "time.beats=40",
+        "output.checkpoint_every=130",
+        "control.sensors={seed=3,tilt_noise_deg=0.2}",
+    ];
+    let whole = commanded(dir, "whole", &example(), &flight);
+    assert!(whole.status.success(), "{}", complaint(&whole));
+    let start = [
+        "body_x_m",
+        "body_y_m",
+        "body_z_m",
+        "body_phi_rad",
+        "body_theta_rad",
+        "body_psi_rad",
+    ];
+    for name in start {
+        let rows = column(&dir.join("whole"), name);
+        let strayed = rows.iter().fold(0.0_f64, |m, x| m.max((x - rows[0]).abs()));
+        println!("{name}: {strayed:e}");
+        // A wing length is 2.5 mm; the beat itself pitches by 3 degrees and heaves by 0.02 mm.
+        let most = if name.ends_with("_m") { 2.5e-4 } else { 0.1 };
+        assert!(strayed < most, "{name}: {strayed}");
+    }
+    // A program that ends after 18 answers the first time: the flight goes on from the last checkpoint.
+    let program = example();
+    let path = program.split('"').nth(3).unwrap();
+    let once = format!(
+        "if [ -e died ]; then exec python3 {path}; fi; touch died; sed -u 18q | python3 {path}"
+    );
+    let once = serde_json::json!(["sh", "-c", once]).to_string();
+    let broken = commanded(dir, "broken", &once, &flight);
+    assert_eq!(broken.status.code(), Some(1), "{}", complaint(&broken));
+    let resumed = wingbeat(dir, &["resume", "broken"]);
+    let said = complaint(&resumed);
+    assert!(resumed.status.success(), "{said}");
+    assert!(
+        said.contains("which runs with your rights: sh -c"),
+        "{said}"
+    );
+    let history = |run: &str| fs::read(dir.join(run).join("history.csv")).unwrap();
+    assert_eq!(history("broken"), history("whole"));
+}
+
+#[test]
+fn refuses_answers_of_a_controller_that_cannot_be_flown() {
+    let scratch = Scratch::new("answers");
+    let dir = &scratch.0;
+    trimmed(dir);
+    let one = r#"{"wings":[{}]}"#;
+    let nan = r#"{"wings":[{},{"stroke_amplitude":NaN}]}"#;
+    let key = r#"{"wings":[{},{"frequency":0.1}]}"#;
+    let answers = [
+        ("yes", "look 0: `sh -c read line; yes"),
+        ("echo 1 2 3", "not what docs/control.md asks for"),
+        (
+            &format!("echo '{one}'")[..],
+            "commands 1 wings, and there are 2, in this order: ",
+        ),
+        (&format!("echo '{nan}'")[..], "JSON has no NaN"),
+        (&format!("echo '{key}'")[..], "unknown field `frequency`"),
+        ("echo '{}'", "has no \"wings\""),
+        (r#"echo '{"error":"I am lost"}'"#, "I am lost"),
+        (
+            "sleep 9",
+            "no answer within 2 s; allow more with control.external.timeout_s",
+        ),
+        ("true", "it ended its output"),
+        (
+            "echo '{\"wings\":[{},{}]}'; read line; echo '{}'",
+            "look 1: `sh -c",
+        ),
+    ];
+    for (script, wanted) in answers {
+        let command = serde_json::json!(["sh", "-c", format!("read line; {script}")]);
+        let began = Instant::now();
+        let out = commanded(dir, "r", &command.to_string(), &["time.beats=3"]);
+        let said = complaint(&out);
+        assert!(matches!(out.status.code(), Some(1 | 2)), "{script}: {said}");
+        assert!(said.contains(wanted), "{script}: {said}");
+        assert!(
+            said.contains("try the program on a line by hand, see docs/control.md"),
+            "{script}: {said}"
+        );
+        assert!(began.elapsed() < Duration::from_secs(8), "{script}");
+        let _ = fs::remove_dir_all(dir.join("r"));
+    }
+    let none = commanded(dir, "r", "[\"no-such-program\"]", &[]);
+    let said = complaint(&none);
+    assert!(
+        said.contains("control.external.command") && said.contains("cannot be started"),
+        "{said}"
+    );
+}
+
+#[test]
+fn behaves_a_check_starts_no_controller_and_a_run_says_what_it_starts() {
+    let scratch = Scratch::new("check-controls");
+    let dir = &scratch.0;
+    let external = "control.external={command=[\"sh\",\"-c\",\"touch started\"]}";
+    let case = [
+        "fruit-fly-blade",
+        "--set",
+        "control.controller=external",
+        "--set",
+        external,
+    ];
+    let with = |words: &[&'static str]| [words, &case[..]].concat();
+    let out = wingbeat(dir, &with(&["check"]));
+    assert!(out.status.success(), "{}", complaint(&out));
+    let said = String::from_utf8(out.stdout).unwrap();
+    assert!(
+        said.contains("will start this one with your rights: sh -c \"touch started\""),
+        "{said}"
+    );
+    assert!(!dir.join("started").exists());
+    let out = wingbeat(dir, &with(&["trim", "--steps", "40"]));
+    assert!(out.status.success() && !dir.join("started").exists());
+    let said = complaint(&wingbeat(dir, &with(&["run", "--out", "r"])));
+    let named =
+        said.find("the wings are commanded by another program, which runs with your rights");
+    let failed = said.find("it ended its output");
+    assert!(named.is_some() && named < failed, "{said}");
+    assert!(dir.join("started").exists());
+}
+
+#[test]
+fn exact_the_program_in_the_docs_is_the_example() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let page = fs::read_to_string(root.join("../../docs/control.md")).unwrap();
+    let example = fs::read_to_string(root.join("examples/hover.py")).unwrap();
+    assert!(page.contains(&format!("```python\n{example}```\n")));
+}
+
+#[test]
+fn exact_a_program_is_told_the_reference() {
+    let scratch = Scratch::new("told");
+    let dir = &scratch.0;
+    trimmed(dir);
+    let script = "while read -r line; do echo \"$line\" >> told; echo '{\"wings\":[{},{}]}'; done";
+    let command = serde_json::json!(["sh", "-c", script]).to_string();
+    let way =
+        "control.waypoint=[{time_s=0.01,position_m=[0,0,-2e-3],heading_deg=90},{time_s=0.03}]";
+    let out = commanded(dir, "r", &command, &["time.beats=3", way]);
+    assert!(out.status.success(), "{}", complaint(&out));
+    let told = fs::read_to_string(dir.join("told")).unwrap();
+    let looks: Vec<serde_json::Value> = told
+        .lines()
+        .map(|l| serde_json::from_str(l).unwrap())
+        .collect();
+    assert_eq!(looks.len(), 4);
+    let number = |look: usize, key: &str| looks[look]["reference"][key].as_f64().unwrap();
+    let height = |look: usize| looks[look]["reference"]["position_m"][2].as_f64().unwrap();
+    // The second look is half way, and the fourth is beyond the end of the first way.
+    assert!((height(1) - height(0) + 1e-3).abs() < 1e-15);
+    assert!((height(3) - height(0) + 2e-3).abs() < 1e-15);
+    assert!((number(1, "heading_deg") - 45.0).abs() < 1e-12);
+    assert!((number(1, "heading_rate_deg_s") - 35.0 / 16.0 * 9000.0).abs() < 1e-8);
+    let rows = column(&dir.join("r"), "reference_z_m");
+    assert!((rows[40] - height(1)).abs() < 1e-15 && rows.len() == 121);
+    for (key, value) in [
+        ("period_s", 0.005),
+        ("interval_s", 0.005),
+        ("latency_s", 0.0),
+    ] {
+        assert_eq!(looks[0][key].as_f64().unwrap(), value, "{key}");
+    }
+}

@@ -1,10 +1,14 @@
 //! `[air]`: the air's model.
 
+use std::sync::Arc;
+
 use wingbeat_flight::AirModel;
 use wingbeat_model::Animal;
 
 use super::fault::Built;
+use super::program::program;
 use super::{blade, derivatives, lattice};
+use crate::external::ProcessAir;
 use crate::raw::{AirModel as Model, Case};
 
 /// The air of the flight.
@@ -13,7 +17,12 @@ pub(super) fn model(case: &Case, animal: &Animal) -> Built<AirModel> {
         Model::None => AirModel::None,
         Model::BladeElement => AirModel::BladeElement(blade::options(&case.air)?),
         Model::Derivatives => AirModel::Derivatives(derivatives::table(case, animal)?),
-        Model::External => AirModel::External(derivatives::external(&case.air)?),
+        Model::External => {
+            let external = case.air.external.as_ref();
+            let chosen = "air.model = \"external\"";
+            let program = program(external, "air.external", chosen, "docs/external-air.md")?;
+            AirModel::External(Arc::new(ProcessAir(program)))
+        }
         Model::VortexLattice => AirModel::VortexLattice(lattice::options(case, animal)?),
     })
 }

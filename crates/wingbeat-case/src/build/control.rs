@@ -5,17 +5,21 @@ use std::sync::Arc;
 use wingbeat_air::Wind;
 use wingbeat_analysis::departure::Limits;
 use wingbeat_analysis::design::{Design, LawDesign, Target};
-use wingbeat_analysis::regulator::Weights;
+use wingbeat_analysis::regulator::observer::ProcessNoise;
+use wingbeat_analysis::regulator::{Timing, Weights};
 use wingbeat_analysis::sensors::{Channels, Sensors};
 use wingbeat_analysis::stabiliser::Stiffness;
 use wingbeat_flight::control::MIN_INTERVAL;
-use wingbeat_flight::{BladeOptions, Feedback};
+use wingbeat_flight::{BladeOptions, ControlModel, Feedback};
 use wingbeat_math::DVec3;
 
 use super::blade;
 use super::fault::Built;
 use super::numbers::vector;
+use super::program::program;
+use super::route;
 use crate::error::Fault;
+use crate::external::controller::ProcessController;
 use crate::raw::{
     AirModel, Case, ControlCase, ControllerCase, Mode, SensorsCase, StiffnessCase, TargetCase,
     WeightsCase,
@@ -29,11 +33,34 @@ pub(super) fn feedback(case: &Case) -> Built<Option<Feedback>> {
     let Some(control) = &case.control else {
         return Ok(None);
     };
-    let Some(law) = law(control) else {
-        return Ok(None);
+    let controller: Arc<dyn ControlModel> = match control.controller {
+        ControllerCase::None => return Ok(None),
+        ControllerCase::External => {
+            check(case)?;
+            Arc::new(external(case, control)?)
+        }
+        ControllerCase::Regulator => {
+            check(case)?;
+            let law = LawDesign::Regulator(weights(&control.weights));
+            Arc::new(design(case, control, law)?)
+        }
+        ControllerCase::Stabiliser => {
+            check(case)?;
+            let law = LawDesign::Stabiliser(stiffness(&control.stiffness));
+            Arc::new(design(case, control, law)?)
+        }
     };
-    check(case)?;
-    let design = Design {
+    Ok(Some(Feedback {
+        controller,
+        interval: interval(case)? / control.looks_per_beat,
+        latency: timing(case, control)?.latency,
+        lag: lag(case, control),
+    }))
+}
+
+/// A law about the trimmed flight.
+fn design(case: &Case, control: &ControlCase, law: LawDesign) -> Built<Design> {
+    Ok(Design {
         law,
         target: match control.hold {
             TargetCase::Trim => Target::Trimmed,
@@ -44,19 +71,42 @@ pub(super) fn feedback(case: &Case) -> Built<Option<Feedback>> {
             ..blade::options(&case.air)?
         },
         velocity: DVec3::new(control.forward_m_s, 0.0, -control.climb_m_s),
-        latency: control.latency_beats,
+        timing: timing(case, control)?,
         every: control.every_beats,
-        limits: Limits {
-            amplitude: control.amplitude_limit,
-            angle: control.angle_limit_deg.to_radians(),
-        },
+        limits: limits(control),
         sensors: control.sensors.as_ref().map(sensors),
-    };
-    Ok(Some(Feedback {
-        controller: Arc::new(design),
-        interval: interval(case)?,
-        latency: control.latency_beats,
-    }))
+        observer: control.observer.as_ref().map(|o| ProcessNoise {
+            velocity: o.velocity,
+            rate: o.rate,
+        }),
+        route: route::build(case, control)?,
+    })
+}
+
+/// A law in another program.
+fn external(case: &Case, control: &ControlCase) -> Built<ProcessController> {
+    Ok(ProcessController {
+        program: program(
+            control.external.as_ref(),
+            "control.external",
+            "control.controller = \"external\"",
+            "docs/control.md",
+        )?,
+        limits: limits(control),
+        every: control.every_beats,
+        latency: timing(case, control)?.latency,
+        lag: lag(case, control),
+        interval: 1.0 / case.motion.frequency_hz.value() / control.looks_per_beat as f64,
+        sensors: control.sensors.as_ref().map(sensors),
+        route: route::build(case, control)?,
+    })
+}
+
+fn limits(control: &ControlCase) -> Limits {
+    Limits {
+        amplitude: control.amplitude_limit,
+        angle: control.angle_limit_deg.to_radians(),
+    }
 }
 
 /// What stands against any feedback.
@@ -126,12 +176,48 @@ fn interval(case: &Case) -> Built<usize> {
     ))
 }
 
-fn law(case: &ControlCase) -> Option<LawDesign> {
-    match case.controller {
-        ControllerCase::None => None,
-        ControllerCase::Regulator => Some(LawDesign::Regulator(weights(&case.weights))),
-        ControllerCase::Stabiliser => Some(LawDesign::Stabiliser(stiffness(&case.stiffness))),
+/// Time constant of the actuators [s].
+fn lag(case: &Case, control: &ControlCase) -> f64 {
+    control.lag_beats / case.motion.frequency_hz.value()
+}
+
+/// When the controller looks, and when it acts.
+fn timing(case: &Case, control: &ControlCase) -> Built<Timing> {
+    let (steps, parts) = (interval(case)?, control.looks_per_beat);
+    if !steps.is_multiple_of(parts) || steps / parts < MIN_INTERVAL {
+        return Err(Fault::new(
+            "control.looks_per_beat",
+            format!("a wingbeat has {steps} time steps, and looks divide them into equal parts"),
+            format!(
+                "a number that divides {steps}, at most {}",
+                steps / MIN_INTERVAL
+            ),
+            "change it, or time.steps_per_beat",
+        ));
     }
+    if parts > 1 && control.every_beats > 1 {
+        return Err(Fault::new(
+            "control.every_beats",
+            "a controller that looks several times in a wingbeat looks in every one",
+            "1 with control.looks_per_beat above 1",
+            "remove one of them",
+        ));
+    }
+    let looks = control.latency_beats * parts as f64;
+    let latency = looks.round();
+    if (looks - latency).abs() > 1e-9 * looks {
+        return Err(Fault::new(
+            "control.latency_beats",
+            format!("a command begins to act at a look, and there are {parts} in a wingbeat"),
+            format!("a multiple of {}", 1.0 / parts as f64),
+            "round it, or change control.looks_per_beat",
+        ));
+    }
+    Ok(Timing {
+        parts,
+        latency: latency as usize,
+        lag: control.lag_beats * parts as f64,
+    })
 }
 
 fn weights(case: &WeightsCase) -> Weights {

@@ -1,21 +1,13 @@
-//! `[air.derivatives]` and `[air.external]`.
-
-use std::sync::Arc;
-use std::time::Duration;
+//! `[air.derivatives]`.
 
 use wingbeat_blade::{DerivativeTable, ReferenceSizes};
-use wingbeat_flight::ExternalAir;
 use wingbeat_math::r2;
 use wingbeat_model::Animal;
 
 use super::fault::Built;
 use super::numbers::vector;
 use crate::error::Fault;
-use crate::external::ProcessAir;
-use crate::raw::{AirCase, Case, DerivativesCase, DimensionlessCase};
-
-/// Longest wait for an answer [s]: a month or so.
-const MAX_TIMEOUT: f64 = 3e6;
+use crate::raw::{Case, DerivativesCase, DimensionlessCase};
 
 /// The table of the case.
 pub(super) fn table(case: &Case, animal: &Animal) -> Built<DerivativeTable> {
@@ -81,30 +73,4 @@ fn joined([fv, fw, mv, mw]: [Block; 4]) -> [[f64; 6]; 6] {
         (false, false) => mw[i - 3][j - 3],
     };
     std::array::from_fn(|i| std::array::from_fn(|j| entry(i, j)))
-}
-
-/// The program of the case.
-pub(super) fn external(case: &AirCase) -> Built<Arc<dyn ExternalAir>> {
-    let Some(external) = &case.external else {
-        return Err(Fault::new(
-            "air.external.command",
-            "air.model = \"external\" needs a program to ask",
-            "[\"PROGRAM\", \"ARGUMENT\", ...]",
-            "the protocol is described in docs/external-air.md",
-        ));
-    };
-    let key = "air.external.timeout_s";
-    let seconds = external.timeout_s;
-    if seconds > MAX_TIMEOUT {
-        return Err(Fault::new(
-            key,
-            "this is longer than any program is waited for",
-            format!("a number > 0, at most {MAX_TIMEOUT:e}"),
-            "600 is the default",
-        ));
-    }
-    Ok(Arc::new(ProcessAir {
-        command: external.command.clone(),
-        timeout: Duration::from_secs_f64(external.timeout_s),
-    }))
 }

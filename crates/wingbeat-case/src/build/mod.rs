@@ -19,7 +19,9 @@ mod motion;
 mod names;
 mod numbers;
 mod output;
+mod program;
 mod refused;
+mod route;
 mod segment;
 mod size;
 mod time;
@@ -27,7 +29,6 @@ mod wind;
 mod wing;
 
 pub(crate) use effects::check as check_effects;
-pub(crate) use motion::adjustment;
 pub use names::column_name;
 pub(crate) use output::output;
 pub(crate) use refused::refused;

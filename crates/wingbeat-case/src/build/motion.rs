@@ -9,8 +9,7 @@ use super::fault::Built;
 use crate::data::find_data;
 use crate::error::Fault;
 use crate::raw::{
-    AdjustCase, AngleCase, Case, FourierCase, MotionCase, StartCase, TableCase, WingCase,
-    WingMotionCase,
+    AngleCase, Case, FourierCase, MotionCase, StartCase, TableCase, WingCase, WingMotionCase,
 };
 
 /// The motion of one wing, without adjustments.
@@ -46,22 +45,8 @@ pub(super) fn adjusted(case: &Case, motion: &WingMotion, side: Side) -> WingMoti
     let MotionCase {
         adjust, difference, ..
     } = &case.motion;
-    let by = adjustment(adjust).on(side, &adjustment(difference));
+    let by = Adjustment::from(adjust).on(side, &Adjustment::from(difference));
     motion.adjusted(side, &by)
-}
-
-/// An adjustment of a case.
-pub(crate) fn adjustment(case: &AdjustCase) -> Adjustment {
-    Adjustment {
-        stroke_amplitude: case.stroke_amplitude,
-        stroke_offset: case.stroke_offset_deg.to_radians(),
-        feathering_amplitude: case.feathering_amplitude,
-        feathering_offset: case.feathering_offset_deg.to_radians(),
-        feathering_lead: case.feathering_lead,
-        deviation_offset: case.deviation_offset_deg.to_radians(),
-        stroke_plane: case.stroke_plane_deg.to_radians(),
-        frequency: 0.0,
-    }
 }
 
 fn start(case: &Case, frequency: f64) -> Start {

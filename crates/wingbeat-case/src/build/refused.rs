@@ -5,7 +5,7 @@ use wingbeat_flight::{FlightError, FlightSetup};
 
 use super::{joint, lattice};
 use crate::error::Fault;
-use crate::raw::Case;
+use crate::raw::{Case, ControlCase, ControllerCase};
 
 /// The error of a flight of `setup`, which `case` made, as a fault of the case.
 pub(crate) fn refused(case: &Case, setup: &FlightSetup, error: &FlightError) -> Fault {
@@ -17,6 +17,7 @@ pub(crate) fn refused(case: &Case, setup: &FlightSetup, error: &FlightError) -> 
             "air.external.command".to_owned(),
             "run the program by itself; docs/external-air.md says what it is asked",
         ),
+        FlightError::Control { .. } => of_control(case),
         FlightError::RootsApart { wings, .. } => (
             format!("wing.{}.joined", wings[1]),
             "bring the roots together, or do not join them",
@@ -34,6 +35,20 @@ pub(crate) fn refused(case: &Case, setup: &FlightSetup, error: &FlightError) -> 
         other => other.to_string(),
     };
     Fault::new(key, problem, "", remedy)
+}
+
+fn of_control(case: &Case) -> (String, &'static str) {
+    let external = |control: &ControlCase| control.controller == ControllerCase::External;
+    match case.control.as_ref().is_some_and(external) {
+        true => (
+            "control.external.command".to_owned(),
+            "correct the program, or name another",
+        ),
+        false => (
+            "control.controller".to_owned(),
+            "the message says what to try",
+        ),
+    }
 }
 
 fn of_lattice(error: &AirError) -> (String, &'static str) {

@@ -7,8 +7,6 @@ use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, SyncSender, channel, s
 use std::sync::{Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
-/// Bytes of a line at most; an answer has six numbers.
-const MAX_BYTES: usize = 4096;
 /// Lines that wait to be heard at most; a program that says more waits itself.
 const MAX_LINES: usize = 64;
 /// Time to end of its own accord.
@@ -19,6 +17,26 @@ const ENDED: &str = "it ended its output";
 
 /// What is said of a program whose input is full.
 const UNREAD: &str = "it does not read its input";
+
+/// A program to be started for each flight.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Program {
+    /// The program and its arguments.
+    pub command: Vec<String>,
+    /// Longest wait for an answer.
+    pub timeout: Duration,
+}
+
+/// What differs between the protocols.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Protocol {
+    /// Key of the case that says how long an answer may take.
+    pub timeout_key: &'static str,
+    /// Bytes of a line at most.
+    pub max_bytes: usize,
+    /// Last line before its input ends; may be none.
+    pub farewell: &'static str,
+}
 
 /// Why a program was not told.
 enum Deaf {
@@ -46,17 +64,19 @@ pub(super) struct Partner {
     written: Receiver<io::Result<()>>,
     lines: Receiver<Result<String, String>>,
     timeout: Duration,
+    protocol: Protocol,
 }
 
 impl Partner {
-    /// Starts `command`, a program and its arguments.
+    /// Starts `program`, which speaks `protocol`.
     ///
     /// # Errors
     /// A program that cannot be started.
-    pub fn start(command: &[String], timeout: Duration) -> Result<Self, String> {
-        let name = command.join(" ");
-        let mut program = Command::new(&command[0]);
-        program.args(&command[1..]);
+    pub fn start(program: &Program, protocol: Protocol) -> Result<Self, String> {
+        let (words, timeout) = (&program.command, program.timeout);
+        let name = words.join(" ");
+        let mut program = Command::new(&words[0]);
+        program.args(&words[1..]);
         program.stdin(Stdio::piped()).stdout(Stdio::piped());
         #[cfg(unix)]
         std::os::unix::process::CommandExt::process_group(&mut program, 0);
@@ -72,7 +92,7 @@ impl Partner {
         let ((words, inbox), (outbox, written)) = (channel(), channel());
         std::thread::spawn(move || write(input, &inbox, &outbox));
         let (send, lines) = sync_channel(MAX_LINES);
-        std::thread::spawn(move || read(output, &send));
+        std::thread::spawn(move || read(output, &send, protocol.max_bytes));
         Ok(Self {
             name,
             child,
@@ -80,6 +100,7 @@ impl Partner {
             written,
             lines,
             timeout,
+            protocol,
         })
     }
 
@@ -143,8 +164,9 @@ impl Partner {
 
     fn too_late(&self, problem: &str) -> String {
         self.complain(&format!(
-            "{problem} within {} s; allow more with air.external.timeout_s",
-            self.timeout.as_secs_f64()
+            "{problem} within {} s; allow more with {}",
+            self.timeout.as_secs_f64(),
+            self.protocol.timeout_key
         ))
     }
 
@@ -168,11 +190,11 @@ impl Partner {
 }
 
 impl Drop for Partner {
-    /// A program that listens ends on `end` or on the end of its input; whatever is left of its
+    /// A program that listens ends on the farewell or on the end of its input; whatever is left of its
     /// group a second later is killed.
     fn drop(&mut self) {
         if let Some(words) = self.words.take() {
-            let _ = words.send("end\n".to_owned()); // it may have gone already
+            let _ = words.send(self.protocol.farewell.to_owned()); // it may have gone already
         }
         let began = Instant::now();
         while began.elapsed() < GRACE && !has_ended(&mut self.child) {
@@ -198,16 +220,16 @@ fn write(mut input: ChildStdin, inbox: &Receiver<String>, outbox: &Sender<io::Re
 }
 
 /// Reads line by line; the last thing sent of a line that does not end is the complaint.
-fn read(output: ChildStdout, send: &SyncSender<Result<String, String>>) {
+fn read(output: ChildStdout, send: &SyncSender<Result<String, String>>, max_bytes: usize) {
     let mut output = BufReader::new(output);
     loop {
         let mut line = vec![];
-        let mut start = output.by_ref().take(MAX_BYTES as u64);
+        let mut start = output.by_ref().take(max_bytes as u64);
         let line = match start.read_until(b'\n', &mut line) {
-            Ok(1..) if line.len() < MAX_BYTES || line.ends_with(b"\n") => {
+            Ok(1..) if line.len() < max_bytes || line.ends_with(b"\n") => {
                 String::from_utf8(line).map_err(|_| "a line is not UTF-8".to_owned())
             }
-            Ok(1..) => Err(format!("a line is longer than {MAX_BYTES} bytes")),
+            Ok(1..) => Err(format!("a line is longer than {max_bytes} bytes")),
             Ok(0) | Err(_) => return,
         };
         let last = line.is_err();

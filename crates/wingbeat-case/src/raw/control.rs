@@ -4,18 +4,24 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use smart_default::SmartDefault;
 use wingbeat_analysis::regulator::Weights;
+use wingbeat_analysis::regulator::observer::ProcessNoise;
 use wingbeat_analysis::stabiliser::Stiffness;
 
-/// Keys of any controller.
-const ANY: &str = "control.controller = regulator | stabiliser";
+use super::ExternalCase;
 
-/// Feedback: once per wingbeat a controller sees the flyer and commands changes of the strokes. It is
-/// laid out about the trimmed flight of the animal in blade elements when the flight is built, and
-/// acts from the release on; see docs/control.md.
+/// Keys of any controller.
+const ANY: &str = "control.controller = regulator | stabiliser | external";
+/// Keys of controllers that are laid out about a trimmed flight.
+const LAID_OUT: &str = "control.controller = regulator | stabiliser";
+
+/// Feedback: once or several times per wingbeat a controller sees the flyer and commands changes of the strokes. It acts from the
+/// release on. `regulator` and `stabiliser` are laid out about the trimmed flight of the animal in blade elements
+/// when the flight is built; see docs/control.md.
 #[derive(Clone, Debug, PartialEq, SmartDefault, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct ControlCase {
-    /// Which law. `regulator` holds attitude and place, `stabiliser` attitude and altitude.
+    /// Which law. `regulator` holds attitude and place, `stabiliser` attitude and altitude, `external` asks a
+    /// program.
     ///
     /// Change it to `none` to see the flight without feedback.
     #[default(ControllerCase::Regulator)]
@@ -24,23 +30,35 @@ pub struct ControlCase {
     ///
     /// Change it to `start` where the case is trimmed already, by `wingbeat trim` in its own air.
     #[default(TargetCase::Trim)]
-    #[schemars(extend("with" = ANY))]
+    #[schemars(extend("with" = LAID_OUT))]
     pub hold: TargetCase,
     /// Mean velocity to fly with along n1.
     ///
     /// Change it for forward flight.
-    #[schemars(extend("with" = ANY))]
+    #[schemars(extend("with" = LAID_OUT))]
     pub forward_m_s: f64,
     /// Mean velocity to fly with upwards, along -n3.
     ///
     /// Change it to climb or to sink.
-    #[schemars(extend("with" = ANY))]
+    #[schemars(extend("with" = LAID_OUT))]
     pub climb_m_s: f64,
-    /// Wingbeats from sensing to acting; the regulator counts with them, the stabiliser bears one.
+    /// Looks in a wingbeat, at equal times: a number that divides its time steps and leaves four or more between
+    /// looks.
+    ///
+    /// Change it to 2 or 4 for senses and muscles that are faster than the wingbeat.
+    #[default = 1]
+    #[schemars(range(min = 1), extend("with" = ANY))]
+    pub looks_per_beat: usize,
+    /// Wingbeats from sensing to acting, whole looks; the regulator counts with them, the stabiliser bears one.
     ///
     /// Change it to see what delay of senses and muscles costs.
-    #[schemars(range(max = 20), extend("with" = ANY))]
-    pub latency_beats: usize,
+    #[schemars(range(min = 0, max = 20), extend("with" = ANY))]
+    pub latency_beats: f64,
+    /// Time constant of the actuators, a first-order lag behind the commands; the regulator counts with it. 0: none.
+    ///
+    /// Change it for muscles and motors that take wingbeats to follow.
+    #[schemars(range(min = 0, max = 100), extend("with" = ANY))]
+    pub lag_beats: f64,
     /// Wingbeats from one look to the next; between them the command is kept. Gains are laid out for
     /// a look every wingbeat.
     ///
@@ -48,13 +66,15 @@ pub struct ControlCase {
     #[default = 1]
     #[schemars(range(min = 1), extend("with" = ANY))]
     pub every_beats: usize,
-    /// Largest change of the relative stroke amplitude, and of its difference between the sides.
+    /// Largest change of the relative stroke amplitude, and of its difference between the sides; with `external`
+    /// largest relative change of the amplitudes of a wing.
     ///
     /// Change it to what the muscles can do.
     #[default = 0.2]
     #[schemars(extend("exclusiveMinimum" = 0, "exclusiveMaximum" = 1, "with" = ANY))]
     pub amplitude_limit: f64,
-    /// Largest change of the mean stroke angle, and largest difference of the stroke planes.
+    /// Largest change of the mean stroke angle, and largest difference of the stroke planes; with `external`
+    /// largest change of the angles of a wing.
     ///
     /// Change it to what the joints of the wings can do.
     #[default = 12.0]
@@ -66,10 +86,66 @@ pub struct ControlCase {
     /// Stiffness of the loops of the stabiliser.
     #[schemars(extend("with" = "control.controller = stabiliser"))]
     pub stiffness: StiffnessCase,
+    /// The program that is the controller.
+    #[schemars(extend("with" = "control.controller = external"))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub external: Option<ExternalCase>,
     /// Noise and bias of what is sensed; left out: none.
     #[schemars(extend("with" = ANY))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub sensors: Option<SensorsCase>,
+    /// Kalman filter of what is sensed, for its noise; left out: the regulator takes what is sensed for the truth.
+    #[schemars(extend("with" = ["control.controller = regulator", "sensors"]))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub observer: Option<ObserverCase>,
+    /// Where to be, and when: one `[[control.waypoint]]` each, in the order of their times. Left out: at the place of
+    /// the release.
+    #[schemars(extend("with" = ANY))]
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub waypoint: Vec<WaypointCase>,
+}
+
+/// Noise of the flight: standard deviations of what each wingbeat changes that no command does (gusts, an air other
+/// than that of the layout). The filter weighs it against the noise of `[control.sensors]`.
+#[derive(Clone, Debug, PartialEq, SmartDefault, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct ObserverCase {
+    /// Of the velocity, in wing lengths per wingbeat.
+    ///
+    /// Change it to less for calm air: what is sensed counts less then.
+    #[default(ProcessNoise::default().velocity)]
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub velocity: f64,
+    /// Of the angular velocity, in radians per wingbeat.
+    ///
+    /// Change it to less for calm air: what is sensed counts less then.
+    #[default(ProcessNoise::default().rate)]
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub rate: f64,
+}
+
+/// A place and a heading, and when to be there. From one waypoint to the next, and from the release to the first, the
+/// reference goes over smoothly, at rest at either end; its velocity is fed forward. The last one is held.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct WaypointCase {
+    /// Time since the release, at least a wingbeat later than the waypoint before: over one wingbeat it is a step.
+    ///
+    /// Change it for a faster or slower way.
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub time_s: f64,
+    /// Place of the mass centre from that at the release, inertial axes. Left out: that of the waypoint before.
+    /// `stabiliser` holds no place but the altitude.
+    ///
+    /// Change it to go somewhere.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub position_m: Option<[f64; 3]>,
+    /// Heading to the right of the one that is held without waypoints; of `external` from n1. Left out: that of the
+    /// waypoint before.
+    ///
+    /// Change it to turn.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub heading_deg: Option<f64>,
 }
 
 /// Laws of control.
@@ -80,6 +156,8 @@ pub enum ControllerCase {
     Regulator,
     /// Proportional-derivative loops of pitch, roll, heading and altitude.
     Stabiliser,
+    /// A program of any language, asked for the commands of every wing (docs/control.md).
+    External,
     /// No feedback.
     None,
 }

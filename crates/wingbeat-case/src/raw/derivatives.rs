@@ -1,4 +1,4 @@
-//! `[air.derivatives]` and `[air.external]`.
+//! `[air.derivatives]`; programs that are asked: `[air.external]`, `[control.external]`.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -107,19 +107,19 @@ pub struct DimensionlessCase {
     pub moment_by_rate: [[f64; 3]; 3],
 }
 
-/// A program that computes the loads; it is started for the flight and talked to over its
-/// standard input and output (docs/external-air.md).
+/// A program that is started for the flight and asked over its standard input and output for the loads
+/// (docs/external-air.md) or for the commands of a controller (docs/control.md).
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ExternalCase {
     /// The program and its arguments. It runs with your rights.
     ///
-    /// Change it to a solver of your own.
+    /// Change it to a solver or a controller of your own.
     #[schemars(length(min = 1))]
     pub command: Vec<String>,
     /// Longest wait for an answer.
     ///
-    /// Change it for solvers that think long.
+    /// Change it for programs that think long.
     #[schemars(extend("exclusiveMinimum" = 0))]
     #[serde(default = "ten_minutes")]
     pub timeout_s: f64,

@@ -34,7 +34,8 @@ pub use air::{AirCase, AirModel, LeadingEdgeCase, SchemeCase};
 pub use blade::{BladeCase, BodyDragCase, OwnCoefficients, RotationCase, ViscousCase};
 pub use body::{BodyCase, OriginCase, PartCase, ProfileCase};
 pub use control::{
-    ControlCase, ControllerCase, SensorsCase, StiffnessCase, TargetCase, WeightsCase,
+    ControlCase, ControllerCase, ObserverCase, SensorsCase, StiffnessCase, TargetCase,
+    WaypointCase, WeightsCase,
 };
 pub use cores::{CoreCase, CutOffCase, LambOseenCase, RadiusCase};
 pub use deformation::{BendingCase, CamberCase, CourseCase, DeformationCase, TwistCase};

@@ -3,6 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use smart_default::SmartDefault;
+use wingbeat_model::motion::Adjustment;
 
 use super::Open;
 
@@ -82,6 +83,21 @@ pub struct AdjustCase {
     ///
     /// Change it to trim or steer.
     pub stroke_plane_deg: f64,
+}
+
+impl From<&AdjustCase> for Adjustment {
+    fn from(case: &AdjustCase) -> Self {
+        Self {
+            stroke_amplitude: case.stroke_amplitude,
+            stroke_offset: case.stroke_offset_deg.to_radians(),
+            feathering_amplitude: case.feathering_amplitude,
+            feathering_offset: case.feathering_offset_deg.to_radians(),
+            feathering_lead: case.feathering_lead,
+            deviation_offset: case.deviation_offset_deg.to_radians(),
+            stroke_plane: case.stroke_plane_deg.to_radians(),
+            frequency: 0.0,
+        }
+    }
 }
 
 /// How the beat starts.

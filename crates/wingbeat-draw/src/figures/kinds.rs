@@ -15,7 +15,8 @@ pub(super) fn measured(setup: &FlightSetup, history: &History) -> Vec<Measured> 
     if setup.air.is_some() {
         list.push(forces(setup, history));
     }
-    list.push(trajectory(history));
+    let follows = (setup.feedback.as_ref()).is_some_and(|f| f.controller.follows());
+    list.push(trajectory(history, follows));
     if setup.time.period.is_some() {
         list.push(angles(setup, history));
     }
@@ -100,13 +101,22 @@ fn forces(setup: &FlightSetup, history: &History) -> Measured {
     }
 }
 
-fn trajectory(history: &History) -> Measured {
+/// Path and attitude; beside them the reference if it `follows` one.
+fn trajectory(history: &History, follows: bool) -> Measured {
     let column = |name: &str| history.column(name).to_vec();
-    let place = vec![
+    let mut place = vec![
         Line::new("forward n1", column("body_x_m")).since_start(),
         Line::new("right n2", column("body_y_m")).since_start(),
         Line::new("up −n3", scaled(history.column("body_z_m"), -1.0)).since_start(),
     ];
+    if follows {
+        let up = scaled(history.column("reference_z_m"), -1.0);
+        place.extend([
+            Line::new("reference n1", column("reference_x_m")).since_start(),
+            Line::new("reference n2", column("reference_y_m")).since_start(),
+            Line::new("reference −n3", up).since_start(),
+        ]);
+    }
     let attitude = vec![
         Line::new("pitch", column("body_phi_rad")),
         Line::new("yaw", column("body_theta_rad")),

@@ -137,6 +137,11 @@ impl Adjustment {
         self.with(difference, |a, d| a + half * d)
     }
 
+    /// The share `share` of the way from here to `to`.
+    pub fn toward(&self, to: &Self, share: f64) -> Self {
+        self.with(to, |a, b| a + share * (b - a))
+    }
+
     /// What right wings with this one and left ones with the other have in the mean.
     pub fn mean(&self, other: &Self) -> Self {
         self.with(other, |a, b| 0.5 * (a + b))

@@ -1,4 +1,4 @@
-//! Columns of balances, quality, wakes and commands.
+//! Columns of balances, quality and wakes.
 
 use crate::quantity::Components::Inertial;
 use crate::quantity::Fold::{Largest, Smallest, Sum};
@@ -170,56 +170,4 @@ pub(super) const WAKE: &[Quantity] = &[
     )
     .formerly("leak_velocity", "m_per_s")
     .fold(Largest),
-];
-
-/// What feedback commands.
-pub(super) const COMMANDS: &[Quantity] = &[
-    scalar(
-        "command_{s}_stroke_amplitude",
-        Unit::One,
-        "relative change of the stroke of {s}",
-        |r, s, _| Real(&mut r.commands[s].stroke_amplitude),
-    ),
-    scalar(
-        "command_{s}_stroke_offset",
-        Unit::Radian,
-        "added to the stroke angle of {s}, positive forward",
-        |r, s, _| Real(&mut r.commands[s].stroke_offset),
-    ),
-    scalar(
-        "command_{s}_feathering_offset",
-        Unit::Radian,
-        "added to the feathering angle of {s}",
-        |r, s, _| Real(&mut r.commands[s].feathering_offset),
-    ),
-    scalar(
-        "command_{s}_feathering_amplitude",
-        Unit::One,
-        "relative change of the feathering of {s}",
-        |r, s, _| Real(&mut r.commands[s].feathering_amplitude),
-    ),
-    scalar(
-        "command_{s}_feathering_lead",
-        Unit::Wingbeat,
-        "lead of the feathering of {s}",
-        |r, s, _| Real(&mut r.commands[s].feathering_lead),
-    ),
-    scalar(
-        "command_{s}_deviation_offset",
-        Unit::Radian,
-        "added to the deviation of {s}, in the sense of a right wing",
-        |r, s, _| Real(&mut r.commands[s].deviation_offset),
-    ),
-    scalar(
-        "command_{s}_stroke_plane",
-        Unit::Radian,
-        "added to the pitch of the stroke plane of {s}",
-        |r, s, _| Real(&mut r.commands[s].stroke_plane),
-    ),
-    scalar(
-        "command_{s}_frequency",
-        Unit::One,
-        "relative change of the frequency of {s}",
-        |r, s, _| Real(&mut r.commands[s].frequency),
-    ),
 ];

@@ -1,11 +1,8 @@
 //! `wingbeat check`: what a case holds, what its flight will be like, and whether it can be flown.
 
-use std::sync::Arc;
-
 use clap::Args;
 use serde_json::json;
 use wingbeat::analysis::estimate;
-use wingbeat::case::external::Unasked;
 use wingbeat::case::{IoError, LoadedCase};
 use wingbeat::flight::{AirModel, FlightSetup, MotionMode, Simulation};
 use wingbeat::results::fixed::fixed;
@@ -32,8 +29,8 @@ pub(crate) struct CheckArgs {
 }
 
 /// Describes the case, builds its flight and makes some steps on trial. Lattices that would take
-/// long to build are built only if the user says so. Nothing of the case is executed: a program
-/// that computes the air is not started.
+/// long to build are built only if the user says so. Nothing of the case is executed: programs
+/// that compute the air or command the wings are not started.
 pub(crate) fn check(args: &CheckArgs) -> Result<(), Failure> {
     args.report
         .deliver([], |report, []| Ok(look(args, report)?))
@@ -73,6 +70,14 @@ fn look(args: &CheckArgs, report: &mut Report) -> Result<(), IoError> {
         );
         report.value("program", program);
     }
+    if let Some(program) = case.control_program() {
+        line!(
+            report,
+            "{:<10}`wingbeat run` will start this one with your rights: {program}",
+            "controller"
+        );
+        report.value("control_program", program);
+    }
     expectation::tell(report, &estimate);
     line!(report, "{:<10}{cost}", "cost");
     report.value("cost", cost);
@@ -85,9 +90,8 @@ fn look(args: &CheckArgs, report: &mut Report) -> Result<(), IoError> {
 
 /// What the first steps cost, flown on trial where that is quick. A check starts no other program.
 fn trial_cost(case: &LoadedCase, trial: bool) -> Result<String, IoError> {
-    let mut setup = case.setup.clone();
-    if let AirModel::External(air) = &mut setup.air {
-        *air = Arc::new(Unasked);
+    let setup = case.unasked();
+    if matches!(setup.air, AirModel::External(_)) {
         Simulation::new(setup).map_err(|e| IoError::from(case.refused(&e)))?;
         return Ok("not tried: a check does not start the external program".into());
     }

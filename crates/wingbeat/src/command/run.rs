@@ -82,11 +82,18 @@ fn set_threads(wanted: Option<usize>) -> Result<usize, Failure> {
     Ok(rayon::current_num_threads())
 }
 
-/// Says which program of the case is going to run, before it does: it runs with the user's rights.
+/// Says which programs of the case are going to run, before they do: they run with the user's rights.
 pub(crate) fn name_program(case: &LoadedCase) {
     if let Some(program) = case.program() {
         tell!(
             "{}: the air is computed by another program, which runs with your rights: {program}",
+            case.name
+        );
+    }
+    let program = case.control_program();
+    if let Some(program) = program.filter(|_| case.setup.feedback.is_some()) {
+        tell!(
+            "{}: the wings are commanded by another program, which runs with your rights: {program}",
             case.name
         );
     }
@@ -150,6 +157,9 @@ fn go_back(dir: &Path, threads: usize) -> Result<Option<Run>, IoError> {
         let flight = build(&case)?;
         return begin(dir, case, flight, threads).map(Some);
     };
+    if case.program().is_none() {
+        name_program(&case); // a flight in external air is not resumed
+    }
     let flight = Simulation::resume(case.setup.clone(), state).map_err(|e| IoError::Damaged {
         path: dir.join("checkpoint.bin"),
         problem: format!("the flight cannot go on from it: {e}"),

@@ -121,7 +121,7 @@ fn flight(args: &VelocityArgs) -> Result<Simulation, IoError> {
         let problem = "there is none; run the case with --set output.keep_checkpoint=true";
         return Err(damaged(problem.to_owned()));
     };
-    Simulation::resume(case.setup, state)
+    Simulation::resume(case.unasked(), state)
         .map_err(|e| damaged(format!("the flight cannot go on from it: {e}")))
 }
 

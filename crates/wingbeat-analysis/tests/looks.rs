@@ -1,0 +1,190 @@
+//! Regulators that look several times in a wingbeat.
+
+use crate::common;
+
+use wingbeat_analysis::control::{Held, Law, SteeredBeats, Steering};
+use wingbeat_analysis::departure::{CONTROLS, Controls, Departure, Limits, Reference, adjustments};
+use wingbeat_analysis::eigen::eigen;
+use wingbeat_analysis::part::Orbit;
+use wingbeat_analysis::regulator::plant::{STATES, states};
+use wingbeat_analysis::regulator::{Regulator, Timing, Weights};
+use wingbeat_analysis::{Beat, Level, Perturbation, Trim, trim};
+use wingbeat_flight::Controller;
+use wingbeat_math::DVec3;
+
+fn hovering() -> Trim {
+    trim(&common::fly(), &common::hover(40)).expect("the fruit fly")
+}
+
+fn sizes(trim: &Trim) -> [f64; STATES] {
+    let (length, period) = (trim.beat.wing_length(), trim.beat.period());
+    let sizes = [length, length / period, 1.0 / period, 1.0];
+    std::array::from_fn(|k| sizes[k / 3])
+}
+
+/// The steering of a regulator that begins with these commands in force and under way.
+fn steering(trim: &Trim, regulator: &Regulator, timing: &Timing) -> Steering {
+    let reference = Reference::trimmed(trim).expect("a reference");
+    let law = Law::Regulator(regulator.clone());
+    let mut steering = Steering::new(law, Held::Known(reference), &trim.setup);
+    steering.orbit = Orbit::new(trim, timing.parts).expect("an orbit").points;
+    steering.limits = Limits {
+        amplitude: f64::INFINITY,
+        angle: f64::INFINITY,
+    };
+    steering
+}
+
+/// The controller's memory with these commands in force and under way, its place counted from the reference flight's.
+fn memory(trim: &Trim, commands: &[f64]) -> Vec<f64> {
+    let first = Reference::trimmed(trim).expect("a reference").to_vec();
+    let known = [&[first.len() as f64 + 3.0], &first[..], &[0.0; 3]].concat();
+    [&known[..], &[0.0; CONTROLS], commands].concat()
+}
+
+/// A wingbeat of the linear flight from states and commands `z`.
+fn predicted(regulator: &Regulator, z: &[f64]) -> Vec<f64> {
+    let mut regulator = regulator.clone();
+    let (x, commands) = z.split_at(STATES);
+    regulator.restore(commands);
+    let mut x: [f64; STATES] = x.try_into().expect("all states");
+    for look in 0..regulator.plants().len() {
+        let d = Departure {
+            beat: look,
+            position: DVec3::from_slice(&x),
+            state: Perturbation::from_array(std::array::from_fn(|k| x[3 + k])),
+        };
+        let u = regulator.controls(&d);
+        let in_force =
+            |r: &Regulator| -> Controls { r.memory()[..CONTROLS].try_into().expect("one") };
+        let now = in_force(&regulator);
+        regulator.remember(&d, u, false);
+        x = regulator.plants()[look].advance(&x, &now, &in_force(&regulator));
+    }
+    [&x[..], &regulator.memory()].concat()
+}
+
+/// The same flown: half the difference of flights from small departures of opposite signs, over their size.
+fn flown(trim: &Trim, regulator: &Regulator, timing: &Timing, z: &[f64]) -> Vec<f64> {
+    const SMALL: f64 = 1e-4;
+    let level = Level::new(trim.beat.root(&trim.state).r, trim.beat.gravity());
+    let own = Perturbation::of(&trim.beat, &level, &trim.state).to_array();
+    let sides: Vec<f64> = trim
+        .setup
+        .animal
+        .wings
+        .iter()
+        .map(|w| w.side.sign())
+        .collect();
+    let ends = [SMALL, -SMALL].map(|size| {
+        let z: Vec<f64> = z.iter().map(|x| size * x).collect();
+        let (x, commands) = z.split_at(STATES);
+        let departed = Perturbation::from_array(std::array::from_fn(|k| own[k] + x[3 + k]));
+        let under_way = commands.as_chunks::<CONTROLS>().0.iter();
+        let under_way: Vec<_> = under_way.map(|u| adjustments(u, &sides)).collect();
+        let held = Beat::between(&trim.setup, 1, &under_way[0], &under_way[0]).expect("a beat");
+        let mut state = departed.state(&held, &level, &[]);
+        let place = DVec3::from_slice(&trim.state) + level.to_n * DVec3::from_slice(x);
+        place.write_to_slice(&mut state);
+        let mut controller = steering(trim, regulator, timing);
+        controller.restore(&memory(trim, commands));
+        let flight = SteeredBeats::new(trim, state, Some(controller), timing.latency);
+        let flight = flight.expect("a flight").commanded(under_way);
+        let mut flight = flight.expect("commands").lagged(timing.share());
+        flight.beat().expect("it is held");
+        let memory = flight.controller().expect("one").memory();
+        let commands = &memory[memory.len() - commands.len()..];
+        [&states(&flight.departure())[..], commands].concat()
+    });
+    let pairs = ends[0].iter().zip(&ends[1]);
+    pairs.map(|(a, b)| (a - b) / (2.0 * SMALL)).collect()
+}
+
+/// The matrix of a map of numbers of these sizes.
+fn matrix(sizes: &[f64], map: impl Fn(&[f64]) -> Vec<f64>) -> Vec<f64> {
+    let n = sizes.len();
+    let mut out = vec![0.0; n * n];
+    for j in 0..n {
+        let mut z = vec![0.0; n];
+        z[j] = sizes[j];
+        for (i, y) in map(&z).into_iter().enumerate() {
+            out[i * n + j] = y / sizes[i];
+        }
+    }
+    out
+}
+
+/// The closed loop over a wingbeat, flown from small departures of states and commands, is the one the regulator was laid
+/// out on, and so are its eigenvalues: looks once to five times in a wingbeat, latencies of whole looks, actuators
+/// that lag.
+#[test]
+fn agrees_closed_loop_flown_with_that_of_the_layout() {
+    let trim = hovering();
+    for (parts, latency, lag) in [
+        (1, 0, 0.0),
+        (1, 1, 0.0),
+        (2, 1, 0.0),
+        (5, 3, 0.0),
+        (1, 1, 1.5),
+        (4, 2, 3.0),
+    ] {
+        let timing = Timing {
+            parts,
+            latency,
+            lag,
+        };
+        let regulator = Regulator::timed(&trim, &Weights::default(), &timing).expect("gains");
+        let commanded = vec![1.0; CONTROLS * (latency + 1)];
+        let sizes = [&sizes(&trim)[..], &commanded].concat();
+        let expect = matrix(&sizes, |z| predicted(&regulator, z));
+        let found = matrix(&sizes, |z| flown(&trim, &regulator, &timing, z));
+        let size = expect.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
+        let pairs = expect.iter().zip(&found);
+        let error = pairs.fold(0.0_f64, |m, (a, b)| m.max((a - b).abs())) / size;
+        let n = sizes.len();
+        let largest = |m: &[f64]| -> f64 {
+            let pairs = eigen(m, n).expect("eigenvalues");
+            pairs
+                .iter()
+                .fold(0.0, |m, p| m.max(p.value[0].hypot(p.value[1])))
+        };
+        let [a, b] = [largest(&expect), largest(&found)];
+        println!("{timing:?}: {error:e} of {size}; largest eigenvalue {a} predicted, {b} flown");
+        // Central differences of small departures: second order in 1e-4, and rounding over it.
+        assert!(error < 2e-8, "{timing:?}: {error:e}");
+        assert!(a < 1.0 && (a - b).abs() < 1e-9, "{timing:?}: {a} {b}");
+    }
+}
+
+/// Looks within the beat hold a flyer with a shorter latency: it comes back nearer after 40 wingbeats from a tumble.
+#[test]
+fn balances_a_tilted_flight_under_looks_within_the_beat() {
+    let trim = hovering();
+    let left = [(1, 1), (4, 1)].map(|(parts, latency)| {
+        let timing = Timing {
+            parts,
+            latency,
+            lag: 0.0,
+        };
+        let regulator = Regulator::timed(&trim, &Weights::default(), &timing).expect("gains");
+        let mut controller = steering(&trim, &regulator, &timing);
+        controller.limits = Limits::default();
+        let tilt = DVec3::new(0.3, 0.3, 0.3);
+        let start = wingbeat_analysis::control::disturbed(&trim, tilt, DVec3::ZERO);
+        let mut flight =
+            SteeredBeats::new(&trim, start, Some(controller), latency).expect("a flight");
+        let mut strayed = 0.0_f64;
+        for _ in 0..80 {
+            flight.beat().expect("it is held");
+            strayed = strayed.max(flight.departure().position.length());
+        }
+        let d = flight.departure();
+        println!(
+            "{timing:?}: strayed {strayed:e} m, left {:e} rad",
+            d.state.tilt.length()
+        );
+        assert!(d.state.tilt.length() < 0.01, "{timing:?}");
+        strayed
+    });
+    assert!(left[1] < left[0], "{left:?}");
+}

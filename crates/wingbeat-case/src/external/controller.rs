@@ -1,0 +1,322 @@
+//! A controller in another program, asked look by look over its standard input and output.
+//!
+//! The protocol is that of `docs/control.md`: one line of JSON each way. All that the program wants to remember
+//! beyond its present line it can give back as `memory`, which is part of the state of the flight.
+
+use serde::{Deserialize, Serialize};
+use wingbeat_analysis::departure::Limits;
+use wingbeat_analysis::route::Route;
+use wingbeat_analysis::sensors::Sensors;
+use wingbeat_flight::{Aim, ControlModel, Controller, FlightError, FlightSetup, Sensed};
+use wingbeat_math::DVec3;
+use wingbeat_model::motion::Adjustment;
+use wingbeat_model::{Side, Wing};
+
+use super::partner::{Partner, Program, Protocol};
+use crate::raw::AdjustCase;
+
+/// Version of the protocol.
+pub const PROTOCOL: &str = "wingbeat-control 1";
+
+/// How a controller is spoken to: its memory is part of a line.
+const SPOKEN: Protocol = Protocol {
+    timeout_key: "control.external.timeout_s",
+    max_bytes: 1 << 16,
+    farewell: "",
+};
+
+/// Numbers of an adjustment that are commanded.
+const NUMBERS: usize = 7;
+
+/// A controller in a program that is started for each flight.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ProcessController {
+    /// The program.
+    pub program: Program,
+    /// Largest commands of every wing.
+    pub limits: Limits,
+    /// Looks from one question to the next; the command is kept between them.
+    pub every: usize,
+    /// Looks from sensing to acting.
+    pub latency: usize,
+    /// Time constant of the actuators [s].
+    pub lag: f64,
+    /// Time from one look to the next [s].
+    pub interval: f64,
+    /// Noise and bias of what it sees.
+    pub sensors: Option<Sensors>,
+    /// Where it is to bring the flyer.
+    pub route: Route,
+}
+
+impl ControlModel for ProcessController {
+    fn open(&self, setup: &FlightSetup) -> Result<Box<dyn Controller>, FlightError> {
+        let partner =
+            Partner::start(&self.program, SPOKEN).map_err(|problem| FlightError::Setup {
+                key: "control.external.command",
+                value: self.program.command.join(" "),
+                problem,
+            })?;
+        let wings = &setup.animal.wings;
+        Ok(Box::new(Conversation {
+            partner,
+            model: self.clone(),
+            wings: wings.iter().map(WingName::of).collect(),
+            period: setup.time.period.unwrap_or(0.0),
+            origin: None,
+            command: vec![Adjustment::default(); wings.len()],
+            memory: vec![],
+        }))
+    }
+
+    fn follows(&self) -> bool {
+        !self.route.0.is_empty()
+    }
+}
+
+/// Stands in for a program where nothing may be started: commands nothing.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Uncommanded;
+
+/// As many wings as do what they would without a controller.
+struct Still(usize);
+
+impl ControlModel for Uncommanded {
+    fn open(&self, setup: &FlightSetup) -> Result<Box<dyn Controller>, FlightError> {
+        Ok(Box::new(Still(setup.animal.wings.len())))
+    }
+}
+
+impl Controller for Still {
+    fn command(&mut self, _sensed: &Sensed) -> Result<Vec<Adjustment>, String> {
+        Ok(vec![Adjustment::default(); self.0])
+    }
+}
+
+/// The protocol with a running partner.
+struct Conversation {
+    partner: Partner,
+    model: ProcessController,
+    wings: Vec<WingName>,
+    /// Of the wingbeat [s].
+    period: f64,
+    /// Mass centre at the first look, as it was seen, N components [m].
+    origin: Option<DVec3>,
+    command: Vec<Adjustment>,
+    memory: Vec<f64>,
+}
+
+/// A wing in a question.
+#[derive(Clone, Debug, Serialize)]
+struct WingName {
+    name: String,
+    side: &'static str,
+}
+
+impl WingName {
+    fn of(wing: &Wing) -> Self {
+        Self {
+            name: wing.name.clone(),
+            side: match wing.side {
+                Side::Left => "left",
+                Side::Right => "right",
+            },
+        }
+    }
+}
+
+/// Largest commands in a question.
+#[derive(Clone, Copy, Debug, Serialize)]
+struct LimitsTold {
+    amplitude: f64,
+    angle_deg: f64,
+}
+
+/// Where the flyer is to be, in a question.
+#[derive(Clone, Copy, Debug, Serialize)]
+struct ReferenceTold {
+    position_m: [f64; 3],
+    velocity_m_s: [f64; 3],
+    heading_deg: f64,
+    heading_rate_deg_s: f64,
+}
+
+/// What is asked at a look.
+#[derive(Clone, Debug, Serialize)]
+struct Question<'a> {
+    protocol: &'static str,
+    look: usize,
+    time_s: f64,
+    period_s: f64,
+    interval_s: f64,
+    latency_s: f64,
+    lag_s: f64,
+    position_m: [f64; 3],
+    velocity_m_s: [f64; 3],
+    /// From body to inertial axes, by rows.
+    attitude: [[f64; 3]; 3],
+    angular_velocity_rad_s: [f64; 3],
+    mass_centre_m: [f64; 3],
+    mass_centre_velocity_m_s: [f64; 3],
+    reference: ReferenceTold,
+    wings: &'a [WingName],
+    limits: LimitsTold,
+    memory: &'a [f64],
+}
+
+/// What is answered.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Answer {
+    /// One for each wing, in the order of the question.
+    wings: Option<Vec<AdjustCase>>,
+    #[serde(default)]
+    memory: Vec<f64>,
+    /// Ends the flight.
+    error: Option<String>,
+}
+
+impl Conversation {
+    fn aim_from(&self, origin: DVec3, time: f64) -> Aim {
+        let aim = self.model.route.at(time);
+        Aim {
+            position: origin + aim.position,
+            ..aim
+        }
+    }
+
+    fn question(&mut self, sensed: &Sensed) -> String {
+        let origin = *self.origin.get_or_insert(sensed.centre);
+        let aim = self.aim_from(origin, sensed.time);
+        let (model, root) = (&self.model, &sensed.root);
+        let question = Question {
+            protocol: PROTOCOL,
+            look: sensed.look,
+            time_s: sensed.time,
+            period_s: self.period,
+            interval_s: model.interval * model.every as f64,
+            latency_s: model.interval * model.latency as f64,
+            lag_s: model.lag,
+            position_m: root.p.to_array(),
+            velocity_m_s: root.v.to_array(),
+            attitude: root.r.transpose().to_cols_array_2d(),
+            angular_velocity_rad_s: root.w.to_array(),
+            mass_centre_m: sensed.centre.to_array(),
+            mass_centre_velocity_m_s: sensed.velocity.to_array(),
+            reference: ReferenceTold {
+                position_m: aim.position.to_array(),
+                velocity_m_s: aim.velocity.to_array(),
+                heading_deg: aim.heading.to_degrees(),
+                heading_rate_deg_s: aim.heading_rate.to_degrees(),
+            },
+            wings: &self.wings,
+            limits: LimitsTold {
+                amplitude: model.limits.amplitude,
+                angle_deg: model.limits.angle.to_degrees(),
+            },
+            memory: &self.memory,
+        };
+        let line = serde_json::to_string(&question).expect("numbers and names are JSON");
+        line + "\n"
+    }
+
+    /// Commands and memory of an answer.
+    fn understood(&self, line: &str) -> Result<(Vec<Adjustment>, Vec<f64>), String> {
+        let answer: Answer = serde_json::from_str(line).map_err(|e| {
+            format!(
+                "its answer is not what docs/control.md asks for ({e}; JSON has no NaN and no Infinity): `{line}`"
+            )
+        })?;
+        if let Some(problem) = answer.error {
+            return Err(problem);
+        }
+        let wings = answer.wings.ok_or_else(|| {
+            "its answer has no \"wings\": {\"wings\": [{...}, ...]}, one {...} for each".to_owned()
+        })?;
+        if wings.len() != self.wings.len() {
+            let names: Vec<&str> = self.wings.iter().map(|w| &w.name[..]).collect();
+            return Err(format!(
+                "its answer commands {} wings, and there are {}, in this order: {}",
+                wings.len(),
+                names.len(),
+                names.join(", ")
+            ));
+        }
+        let limits = &self.model.limits;
+        let commands = wings.iter().map(|w| limited(w.into(), limits));
+        Ok((commands.collect(), answer.memory))
+    }
+
+    fn asked(&mut self, sensed: &Sensed) -> Result<(Vec<Adjustment>, Vec<f64>), String> {
+        let question = self.question(sensed);
+        self.partner.say(question)?;
+        let line = self.partner.hear()?;
+        self.understood(&line)
+            .map_err(|problem| self.partner.complain(&problem))
+    }
+}
+
+/// The command of a wing within the limits; leads of the feathering have none.
+fn limited(a: Adjustment, limits: &Limits) -> Adjustment {
+    let share = |x: f64| x.clamp(-limits.amplitude, limits.amplitude);
+    let angle = |x: f64| x.clamp(-limits.angle, limits.angle);
+    Adjustment {
+        stroke_amplitude: share(a.stroke_amplitude),
+        stroke_offset: angle(a.stroke_offset),
+        feathering_offset: angle(a.feathering_offset),
+        feathering_amplitude: share(a.feathering_amplitude),
+        feathering_lead: a.feathering_lead,
+        deviation_offset: angle(a.deviation_offset),
+        stroke_plane: angle(a.stroke_plane),
+        frequency: 0.0,
+    }
+}
+
+impl Controller for Conversation {
+    fn command(&mut self, sensed: &Sensed) -> Result<Vec<Adjustment>, String> {
+        if sensed.look.is_multiple_of(self.model.every) {
+            let seen = self.model.sensors.map_or(*sensed, |s| s.seen(sensed));
+            let answer = self.asked(&seen);
+            (self.command, self.memory) = answer.map_err(|problem| {
+                let look = sensed.look;
+                format!(
+                    "look {look}: {problem}; try the program on a line by hand, see docs/control.md"
+                )
+            })?;
+        }
+        Ok(self.command.clone())
+    }
+
+    fn aim(&self, time: f64) -> Option<Aim> {
+        self.origin.map(|origin| self.aim_from(origin, time))
+    }
+
+    fn memory(&self) -> Vec<f64> {
+        let numbers = |a: &Adjustment| a.numbers().map(|(_, x)| x).into_iter().take(NUMBERS);
+        let command: Vec<f64> = self.command.iter().flat_map(numbers).collect();
+        let origin = self.origin.map_or([0.0; 3], |o| o.to_array());
+        let begun = f64::from(u8::from(self.origin.is_some()));
+        [&command[..], &origin, &[begun], &self.memory].concat()
+    }
+
+    fn restore(&mut self, memory: &[f64]) {
+        let split = memory.split_at_checked(NUMBERS * self.command.len());
+        let Some((command, [x, y, z, begun, memory @ ..])) = split else {
+            return;
+        };
+        self.origin = (*begun != 0.0).then(|| DVec3::new(*x, *y, *z));
+        for (a, x) in self.command.iter_mut().zip(command.chunks(NUMBERS)) {
+            *a = Adjustment {
+                stroke_amplitude: x[0],
+                stroke_offset: x[1],
+                feathering_offset: x[2],
+                feathering_amplitude: x[3],
+                feathering_lead: x[4],
+                deviation_offset: x[5],
+                stroke_plane: x[6],
+                frequency: 0.0,
+            };
+        }
+        self.memory = memory.to_vec();
+    }
+}

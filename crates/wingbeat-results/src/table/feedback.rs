@@ -1,0 +1,87 @@
+//! Columns of feedback: commands and reference.
+
+use crate::quantity::Components::Place;
+use crate::quantity::Slot::Real;
+use crate::quantity::{Frame, Quantity, Unit, scalar};
+
+/// What feedback commands.
+pub(super) const COMMANDS: &[Quantity] = &[
+    scalar(
+        "command_{s}_stroke_amplitude",
+        Unit::One,
+        "relative change of the stroke of {s}",
+        |r, s, _| Real(&mut r.commands[s].stroke_amplitude),
+    ),
+    scalar(
+        "command_{s}_stroke_offset",
+        Unit::Radian,
+        "added to the stroke angle of {s}, positive forward",
+        |r, s, _| Real(&mut r.commands[s].stroke_offset),
+    ),
+    scalar(
+        "command_{s}_feathering_offset",
+        Unit::Radian,
+        "added to the feathering angle of {s}",
+        |r, s, _| Real(&mut r.commands[s].feathering_offset),
+    ),
+    scalar(
+        "command_{s}_feathering_amplitude",
+        Unit::One,
+        "relative change of the feathering of {s}",
+        |r, s, _| Real(&mut r.commands[s].feathering_amplitude),
+    ),
+    scalar(
+        "command_{s}_feathering_lead",
+        Unit::Wingbeat,
+        "lead of the feathering of {s}",
+        |r, s, _| Real(&mut r.commands[s].feathering_lead),
+    ),
+    scalar(
+        "command_{s}_deviation_offset",
+        Unit::Radian,
+        "added to the deviation of {s}, in the sense of a right wing",
+        |r, s, _| Real(&mut r.commands[s].deviation_offset),
+    ),
+    scalar(
+        "command_{s}_stroke_plane",
+        Unit::Radian,
+        "added to the pitch of the stroke plane of {s}",
+        |r, s, _| Real(&mut r.commands[s].stroke_plane),
+    ),
+    scalar(
+        "command_{s}_frequency",
+        Unit::One,
+        "relative change of the frequency of {s}",
+        |r, s, _| Real(&mut r.commands[s].frequency),
+    ),
+];
+
+/// Where feedback is to bring the flyer.
+pub(super) const REFERENCE: &[Quantity] = &[
+    scalar(
+        "reference_{c}",
+        Unit::Metre,
+        "where the mass centre is to be",
+        |r, _, c| Real(&mut r.reference[0].position[c]),
+    )
+    .along(Place, Frame::Inertial),
+    scalar(
+        "reference_{c}_rate",
+        Unit::MetrePerSecond,
+        "velocity that it is to have",
+        |r, _, c| Real(&mut r.reference[0].velocity[c]),
+    )
+    .along(Place, Frame::Inertial),
+    scalar(
+        "reference_heading",
+        Unit::Radian,
+        "where the flyer is to head, about n3 from n1",
+        |r, _, _| Real(&mut r.reference[0].heading),
+    ),
+    scalar(
+        "reference_heading_rate",
+        Unit::RadianPerSecond,
+        "rate of that heading",
+        |r, _, _| Real(&mut r.reference[0].heading_rate),
+    ),
+];
