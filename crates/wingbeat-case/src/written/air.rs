@@ -2,7 +2,7 @@
 
 use wingbeat_air::{
     AirSettings, CoreModel, EdgeKind, Friction, Gust, GustShape, LeadingEdge, Method, NewestRow,
-    ParticleSettings, Plane, SectionDrag, Turbulence, Wind,
+    ParticleSettings, Plane, SectionDrag, SheddingKinds, Turbulence, Wind,
 };
 use wingbeat_blade::{BladeSettings, Rotation, SETS, Translation};
 use wingbeat_flight::{AirModel, AirOptions, BladeOptions};
@@ -204,21 +204,11 @@ fn settings(lattice: &AirSettings) -> AirCase {
         images: _,
         particles: _,
     } = *lattice;
-    let shed = [
-        (shedding.trailing, EdgeKind::Trailing),
-        (shedding.tip, EdgeKind::Tip),
-        (shedding.leading, EdgeKind::Leading),
-        (shedding.root, EdgeKind::Root),
-    ];
     let default = AirCase::default();
     AirCase {
         density_kg_m3: density,
         stream_m_s: free_stream.to_array(),
-        shed: shed
-            .iter()
-            .filter(|(sheds, _)| *sheds)
-            .map(|(_, e)| *e)
-            .collect(),
+        shed: shed(shedding),
         bound_core: core(bound_core),
         wake_core: core(wake_core),
         wake_overlap: wake_overlap.into(),
@@ -242,6 +232,18 @@ fn settings(lattice: &AirSettings) -> AirCase {
         },
         ..default
     }
+}
+
+/// The edges that shed.
+fn shed(shedding: SheddingKinds) -> Vec<EdgeKind> {
+    let edges = [
+        (shedding.trailing, EdgeKind::Trailing),
+        (shedding.tip, EdgeKind::Tip),
+        (shedding.leading, EdgeKind::Leading),
+        (shedding.root, EdgeKind::Root),
+    ];
+    let sheds = edges.into_iter().filter(|(sheds, _)| *sheds);
+    sheds.map(|(_, edge)| edge).collect()
 }
 
 fn core(model: CoreModel) -> CoreCase {

@@ -162,6 +162,11 @@ fn air_warnings(
     if let Some(beat) = summary.beats.last().filter(|_| still) {
         two_ways_to_the_lift(lattice, beat, list);
     }
+    of_wakes(summary, list);
+}
+
+/// What was limited or left over in the wakes.
+fn of_wakes(summary: &Summary, list: &mut Warnings) {
     if summary.wake_particles > 0 {
         list.note(format!(
             "Part of the wake is vortex particles ({} at the end); their radius is an input, not a result.",

@@ -101,6 +101,23 @@ pub(super) fn tell(report: &mut Report, case: &LoadedCase, problem: &TrimProblem
         };
         line!(report, "  {:<width$}{}{note}", u.name(), value(u, t).0);
     }
+    let residuals = residuals(report, problem, t);
+    report.value("case", case.name.as_str());
+    report.value("forward_m_s", forward);
+    report.value("climb_m_s", up);
+    report.value("sideslip_m_s", problem.velocity.y);
+    report.value("turn_rate_deg_s", problem.turn_rate.to_degrees());
+    report.value("converged", t.converged);
+    report.value("within_bounds", t.outside.is_empty());
+    report.value("at_bound", names_of(&t.at_bound));
+    report.value("outside_bounds", names_of(&t.outside));
+    report.value("newton_steps", t.iterations);
+    report.value("unknowns", values(&t.unknowns, t));
+    report.value("residuals", residuals);
+}
+
+/// Says the residuals; as they stand in the report.
+fn residuals(report: &mut Report, problem: &TrimProblem, t: &Found) -> Map<String, Value> {
     let names = Residuals::of(problem).names();
     for ([name, _], r) in names.iter().zip(&t.residual) {
         line!(report, "  residual of {name:<28}{r:>10.1e}");
@@ -118,18 +135,7 @@ pub(super) fn tell(report: &mut Report, case: &LoadedCase, problem: &TrimProblem
         );
         residuals.insert("free_joints_largest".to_owned(), json!(largest));
     }
-    report.value("case", case.name.as_str());
-    report.value("forward_m_s", forward);
-    report.value("climb_m_s", up);
-    report.value("sideslip_m_s", problem.velocity.y);
-    report.value("turn_rate_deg_s", problem.turn_rate.to_degrees());
-    report.value("converged", t.converged);
-    report.value("within_bounds", t.outside.is_empty());
-    report.value("at_bound", names_of(&t.at_bound));
-    report.value("outside_bounds", names_of(&t.outside));
-    report.value("newton_steps", t.iterations);
-    report.value("unknowns", values(&t.unknowns, t));
-    report.value("residuals", residuals);
+    residuals
 }
 
 fn names_of(unknowns: &[Unknown]) -> Vec<&'static str> {

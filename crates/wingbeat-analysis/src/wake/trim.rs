@@ -1,0 +1,315 @@
+//! Trim by flights.
+
+use wingbeat_flight::{AirModel, FlightSetup, MotionMode, Record, StartState};
+use wingbeat_math::{DVec3, solve_small};
+use wingbeat_model::motion::Adjustment;
+
+use super::{free_beat, rotation, start, steps_per_beat};
+use crate::AnalysisError;
+use crate::progress;
+use crate::steady::{self, Measures, Residuals, Snapshot, TrimProblem};
+use crate::trim::largest;
+use crate::unknown::{Unknown, adjusted};
+
+/// How the flights are flown.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct WakeSettings {
+    /// Wingbeats during which the body is held.
+    pub held_beats: usize,
+    /// Largest residual that counts as trimmed \[1\]. Where wakes meet wings or leave leading edges, the map of a
+    /// beat is rough, at some 1e-4 in coarse lattices and 1e-3 in fine ones: smaller ones are not to be had there.
+    pub tolerance: f64,
+    /// Most quasi-Newton steps.
+    pub iterations: usize,
+}
+
+/// Trims within less than this are asked of smooth maps: small steps show their slopes \[1\].
+const SMOOTH: f64 = 1e-5;
+
+impl Default for WakeSettings {
+    fn default() -> Self {
+        Self {
+            held_beats: 2,
+            tolerance: 2e-3,
+            iterations: 40,
+        }
+    }
+}
+
+/// A trimmed flight in air with memory, or the best point found.
+#[derive(Clone, Debug)]
+pub struct WakeTrim {
+    /// Whether the residual is within the tolerance.
+    pub converged: bool,
+    /// As [`crate::Trim::residual`].
+    pub residual: Vec<f64>,
+    /// As [`crate::Trim::aside`].
+    pub aside: f64,
+    /// Quasi-Newton steps made.
+    pub iterations: usize,
+    /// Flights flown.
+    pub flights: usize,
+    /// What was chosen, and what was given.
+    pub unknowns: Vec<Unknown>,
+    /// Unknowns whose values are outside the bounds of the problem: steady flight, but not as asked.
+    pub outside: Vec<Unknown>,
+    /// Unknowns at a bound.
+    pub at_bound: Vec<Unknown>,
+    /// The adjustment of all wings.
+    pub adjustment: Adjustment,
+    /// What right wings have more of it than left ones.
+    pub difference: Adjustment,
+    /// Shift of the mass centre along b1 [m].
+    pub mass_centre: f64,
+    /// Pitch of the body at its release \[rad\].
+    pub body_pitch: f64,
+    /// Roll of the body at its release, right side down \[rad\].
+    pub body_roll: f64,
+    /// The adjusted flight: held, released, one free wingbeat.
+    pub setup: FlightSetup,
+}
+
+impl WakeTrim {
+    /// Largest residual.
+    pub fn error(&self) -> f64 {
+        largest(&self.residual)
+    }
+
+    /// How it starts.
+    pub fn start(&self) -> &StartState {
+        start(&self.setup)
+    }
+}
+
+/// Trims the flight of `setup` in air with memory.
+///
+/// # Errors
+/// No wingbeat, or one that is not a whole number of steps; a steady turn, which a body that is held cannot fly;
+/// unknowns that the problem does not determine, or too few; a first flight that fails. A trim that does not converge
+/// is no error: see [`WakeTrim::converged`].
+pub fn trim_with_wake(
+    setup: &FlightSetup,
+    problem: &TrimProblem,
+    settings: &WakeSettings,
+) -> Result<WakeTrim, AnalysisError> {
+    steady::check_determined(setup, problem)?;
+    if problem.turn_rate != 0.0 {
+        return Err(AnalysisError::not_covered(
+            "in air with memory the body is held straight while its wake grows, and a steady turn was asked for",
+            "trim the turn in blade elements (air.model = \"blade_element\")",
+        ));
+    }
+    let residuals = Residuals::of(problem);
+    let mut setup = setup.clone();
+    if let (AirModel::VortexLattice(air), Residuals::All) = (&mut setup.air, residuals) {
+        air.mirror = false; // right and left part
+    }
+    let mut search = Search {
+        setup: &setup,
+        problem,
+        residuals,
+        settings,
+        steps: steps_per_beat(&setup)?,
+        flights: 0,
+        best: f64::INFINITY,
+    };
+    search.run()
+}
+
+/// Right and left of a wingbeat after a hold part by less than this where wakes are chaotic \[1\].
+const ROUNDING: f64 = 1e-2;
+
+/// The search: what to fly and how often it was.
+struct Search<'a> {
+    setup: &'a FlightSetup,
+    problem: &'a TrimProblem,
+    residuals: Residuals,
+    settings: &'a WakeSettings,
+    steps: usize,
+    flights: usize,
+    /// Smallest of the largest residuals so far.
+    best: f64,
+}
+
+impl Search<'_> {
+    fn scales(&self) -> (f64, f64) {
+        let nodes = self.setup.animal.wings.iter().flat_map(|w| &w.mesh.nodes);
+        let length = nodes.fold(0.0_f64, |m, r| m.max(r.length()));
+        (length, self.setup.time.period.unwrap_or(1.0))
+    }
+
+    /// Quasi-Newton steps until the residuals are within the tolerance, or nothing helps.
+    fn run(&mut self) -> Result<WakeTrim, AnalysisError> {
+        let settings = self.settings;
+        let mut x = self.start();
+        let mut r = self.fly(&x)?.residual;
+        let mut iterations = 0;
+        let mut jacobian = vec![];
+        if largest(&r) > settings.tolerance {
+            jacobian = self.jacobian(&x, &r)?;
+        }
+        let mut fresh = true;
+        while iterations < settings.iterations && largest(&r) > settings.tolerance {
+            let found = self.step(&x, &r, &jacobian);
+            let Some((x_new, r_new)) = found else {
+                if fresh {
+                    break;
+                }
+                jacobian = self.jacobian(&x, &r)?;
+                fresh = true;
+                continue;
+            };
+            // A step that hardly helps: the slopes have become old.
+            let poor = largest(&r_new) > 0.5 * largest(&r) && !fresh;
+            broyden(&mut jacobian, &x, &r, &x_new, &r_new);
+            (x, r) = (x_new, r_new);
+            fresh = false;
+            iterations += 1;
+            if poor && largest(&r) > settings.tolerance {
+                jacobian = self.jacobian(&x, &r)?;
+                fresh = true;
+            }
+        }
+        let mut found = self.fly(&x)?;
+        found.converged = found.error() <= settings.tolerance;
+        found.iterations = iterations;
+        steady::check_symmetric(found.aside, ROUNDING)?;
+        Ok(found)
+    }
+
+    /// The point at which the search begins.
+    fn start(&self) -> Vec<f64> {
+        let problem = self.problem;
+        let (length, period) = self.scales();
+        let (v, w) = match &self.setup.mode {
+            // A case that was trimmed before: its motion at the release.
+            MotionMode::Free(s) if s.held_steps > 0 => (s.velocity, s.angular_velocity),
+            _ => (problem.velocity, DVec3::ZERO),
+        };
+        let scaled = DVec3::new(
+            v.x * period / length,
+            v.y * period / length,
+            v.z * period / length,
+        );
+        let mut x = self.residuals.point(scaled, w * period);
+        x.extend(steady::first_controls(problem));
+        x
+    }
+
+    /// The flight at the point (velocity over R f, angular velocity times T, controls).
+    fn fly(&mut self, x: &[f64]) -> Result<WakeTrim, AnalysisError> {
+        self.flights += 1;
+        progress::task(
+            &format!("flight {}, residual {:.1e}", self.flights, self.best),
+            0,
+            0,
+        );
+        let problem = self.problem;
+        let (unknowns, values) = problem.with_given(&x[self.residuals.controls()..]);
+        let a = adjusted(self.setup, &unknowns, problem.angles(), &values);
+        let mut setup = a.setup;
+        let first = setup.animal.wings.first();
+        let period = 1.0 / first.map_or(0.0, |w| w.motion.frequency);
+        let (length, old) = self.scales();
+        let [velocity, rate] = self.residuals.motion(x);
+        setup.time.step = period / self.steps as f64;
+        setup.time.period = Some(period);
+        setup.time.steps = (self.settings.held_beats + 1) * self.steps;
+        setup.mode = MotionMode::Free(StartState {
+            position: DVec3::ZERO,
+            angles: DVec3::new(a.pitch, 0.0, a.roll),
+            velocity: velocity * length / old,
+            angular_velocity: rate / old,
+            held_steps: self.settings.held_beats * self.steps,
+        });
+        let ends = free_beat(&setup, self.steps, None)?;
+        let size = Measures {
+            length,
+            period,
+            weight: setup.animal.mass() * setup.gravity.length(),
+        };
+        let seen = ends.map(|r| Snapshot {
+            centre: r.mass_centre,
+            momentum: r.momentum,
+            spin: spin(&r),
+            rotation: rotation(&r),
+        });
+        let (residual, aside) = self.residuals.between(problem, &size, &seen);
+        self.best = self.best.min(largest(&residual));
+        let [outside, at_bound] = problem.beyond(&unknowns, &values);
+        Ok(WakeTrim {
+            converged: false,
+            residual,
+            aside,
+            iterations: 0,
+            flights: self.flights,
+            unknowns,
+            outside,
+            at_bound,
+            adjustment: a.adjustment,
+            difference: a.difference,
+            mass_centre: a.mass_centre,
+            body_pitch: a.pitch,
+            body_roll: a.roll,
+            setup,
+        })
+    }
+
+    /// Slopes of the residuals at `x`, rows by residual, by one-sided differences, over steps beside which the
+    /// roughness of the map is small.
+    fn jacobian(&mut self, x: &[f64], r: &[f64]) -> Result<Vec<f64>, AnalysisError> {
+        let step = if self.settings.tolerance < SMOOTH {
+            1e-4
+        } else {
+            2e-2
+        };
+        let n = x.len();
+        let mut j = vec![0.0; n * n];
+        for k in 0..n {
+            let mut moved = x.to_vec();
+            moved[k] += step;
+            let at = self.fly(&moved)?.residual;
+            (0..n).for_each(|i| j[n * i + k] = (at[i] - r[i]) / step);
+        }
+        Ok(j)
+    }
+
+    /// A point on the quasi-Newton direction with smaller residuals.
+    fn step(&mut self, x: &[f64], r: &[f64], jacobian: &[f64]) -> Option<(Vec<f64>, Vec<f64>)> {
+        let mut direction = r.to_vec();
+        solve_small(&mut jacobian.to_vec(), &mut direction).ok()?;
+        let longest = direction.iter().fold(0.0_f64, |m, s| m.max(s.abs()));
+        let squares = |r: &[f64]| r.iter().map(|x| x * x).sum::<f64>();
+        let mut length = (0.3 / longest).min(1.0);
+        for _ in 0..6 {
+            let trial: Vec<f64> = (x.iter().zip(&direction))
+                .map(|(x, d)| x - length * d)
+                .collect();
+            if let Ok(found) = self.fly(&trial)
+                && squares(&found.residual) < squares(r)
+            {
+                return Some((trial, found.residual));
+            }
+            length *= 0.4;
+        }
+        None
+    }
+}
+
+/// Broyden's update of the slopes by what a step showed [Broyden 1965].
+fn broyden(j: &mut [f64], x: &[f64], r: &[f64], x1: &[f64], r1: &[f64]) {
+    let s: Vec<f64> = x1.iter().zip(x).map(|(a, b)| a - b).collect();
+    let square: f64 = s.iter().map(|a| a * a).sum();
+    for (i, row) in j.chunks_mut(x.len()).enumerate() {
+        let predicted: f64 = row.iter().zip(&s).map(|(j, s)| j * s).sum();
+        let gap = r1[i] - r[i] - predicted;
+        row.iter_mut()
+            .zip(&s)
+            .for_each(|(j, s)| *j += gap * s / square);
+    }
+}
+
+/// Angular momentum about the mass centre, N components.
+fn spin(r: &Record) -> DVec3 {
+    r.angular_momentum - r.mass_centre.cross(r.momentum)
+}
