@@ -50,8 +50,9 @@ impl Law {
 
     /// A beat goes by with the command `u`, which reaches a limit or not.
     pub fn remember(&mut self, d: &Departure, u: Controls, limited: bool) {
-        if let Self::Regulator(regulator) = self {
-            regulator.remember(d, u, limited);
+        match self {
+            Self::Stabiliser(loops) => loops.remember(d, limited),
+            Self::Regulator(regulator) => regulator.remember(d, u, limited),
         }
     }
 }
@@ -175,7 +176,7 @@ impl Controller for Steering {
             [reference.to_vec(), origin.to_array().to_vec()].concat()
         });
         let law = match &self.law {
-            Law::Stabiliser(_) => vec![],
+            Law::Stabiliser(loops) => loops.memory(),
             Law::Regulator(regulator) => regulator.memory(),
         };
         [vec![first.len() as f64], first, self.command.to_vec(), law].concat()
@@ -198,8 +199,9 @@ impl Controller for Steering {
                 ))
             });
         self.command.copy_from_slice(command);
-        if let Law::Regulator(regulator) = &mut self.law {
-            regulator.restore(law);
+        match &mut self.law {
+            Law::Stabiliser(loops) => loops.restore(law),
+            Law::Regulator(regulator) => regulator.restore(law),
         }
     }
 }

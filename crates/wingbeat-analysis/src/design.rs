@@ -114,7 +114,8 @@ impl Design {
         let trim = self.trim(setup)?;
         let law = match &self.law {
             LawDesign::Stabiliser(stiffness) => {
-                Law::Stabiliser(ProportionalDerivative::new(&trim, stiffness)?)
+                let loops = ProportionalDerivative::new(&trim, stiffness)?;
+                Law::Stabiliser(loops.looking(self.timing.parts))
             }
             LawDesign::Regulator(weights) => {
                 let regulator = Regulator::timed(&trim, weights, &self.timing)?;

@@ -3,12 +3,13 @@
 //! ```text
 //! pitch    <- mean stroke angle of all wings        roll    <- right-left difference of amplitude
 //! heading  <- right-left difference of stroke plane  altitude <- amplitude of all wings
-//! u = -(omega^2 x + 2 zeta omega x') / B
+//! u = -(omega^2 (x + iota sum of x) + 2 zeta omega x') / B
 //! ```
 //!
 //! with B the acceleration per unit of the control (control derivative over mass or inertia;
 //! of roll and heading a 2 x 2 matrix, for either control does both): each loop, alone and
-//! without latency, has the natural frequency omega and the damping zeta.
+//! without latency, has the natural frequency omega and the damping zeta. With iota above 0 it is proportional-integral-
+//! derivative: sums over the looks take back wholly what pulls steadily, and stand still while a command is at its limit.
 //! Drift is braked by leaning against it: the pitch and roll held are `-+ omega_v u / g`. The
 //! place is not held; the regulator ([`crate::regulator`]) holds it, and bears longer latencies.
 
@@ -35,6 +36,8 @@ pub struct Stiffness {
     pub drift: f64,
     /// Damping ratio of all \[1\].
     pub damping: f64,
+    /// Rate iota at which departures are summed [1 per wingbeat]; 0: no integral action.
+    pub integral: f64,
 }
 
 impl Default for Stiffness {
@@ -45,6 +48,7 @@ impl Default for Stiffness {
             altitude: 0.1,
             drift: 0.1,
             damping: 1.0,
+            integral: 0.0,
         }
     }
 }
@@ -65,6 +69,10 @@ pub struct ProportionalDerivative {
     lean: f64,
     /// Damping ratio \[1\].
     damping: f64,
+    /// Share of a departure that joins its sum from look to look \[1\].
+    integral: f64,
+    /// Sums of roll, pitch, heading \[rad\] and altitude [m], in looks times shares.
+    sums: [f64; 4],
 }
 
 impl ProportionalDerivative {
@@ -101,21 +109,62 @@ impl ProportionalDerivative {
             omega: [k.lateral, k.pitch, k.lateral, k.altitude].map(|x| x / period),
             lean: k.drift / period / trim.beat.gravity().length(),
             damping: k.damping,
+            integral: k.integral,
+            sums: [0.0; 4],
         })
+    }
+
+    /// The same with so many looks in a wingbeat.
+    #[must_use]
+    pub fn looking(mut self, parts: usize) -> Self {
+        self.integral /= parts as f64;
+        self
     }
 
     /// The controls against a departure, without limits.
     pub fn controls(&self, departure: &Departure) -> Controls {
         let d = &departure.state;
-        let wanted =
-            |omega: f64, x: f64, rate: f64| -omega * omega * x - 2.0 * self.damping * omega * rate;
-        // Nose up accelerates backwards, right wing down accelerates to the right.
-        let lean = self.lean * DVec3::new(d.velocity.y, -d.velocity.x, 0.0);
-        let turn = |k: usize| wanted(self.omega[k], d.tilt[k] + lean[k], d.rate[k]);
+        let errors = self.errors(departure);
+        let wanted = |k: usize, rate: f64| {
+            let omega = self.omega[k];
+            -omega * omega * (errors[k] + self.sums[k]) - 2.0 * self.damping * omega * rate
+        };
+        let turn = |k: usize| wanted(k, d.rate[k]);
         let [roll, heading] = [turn(0), turn(2)];
-        let amplitude = wanted(self.omega[3], departure.position.z, d.velocity.z) / self.lift;
+        let amplitude = wanted(3, d.velocity.z) / self.lift;
         let [bank, yaw] = self.lateral.map(|row| row[0] * roll + row[1] * heading);
         [amplitude, turn(1) / self.nod, bank, yaw]
+    }
+
+    /// Departures of roll, pitch, heading and altitude from what is held.
+    fn errors(&self, departure: &Departure) -> [f64; 4] {
+        let d = &departure.state;
+        // Nose up accelerates backwards, right wing down accelerates to the right.
+        let lean = self.lean * DVec3::new(d.velocity.y, -d.velocity.x, 0.0);
+        let tilt = d.tilt + lean;
+        [tilt.x, tilt.y, tilt.z, departure.position.z]
+    }
+
+    /// Time goes by to the next look: the departure joins the sums, unless the command is `limited`.
+    pub fn remember(&mut self, departure: &Departure, limited: bool) {
+        if self.integral > 0.0 && !limited {
+            let errors = self.errors(departure);
+            let sums = self.sums.iter_mut().zip(errors);
+            sums.for_each(|(sum, x)| *sum += self.integral * x);
+        }
+    }
+
+    /// Sums, for a flight that is resumed; nothing without integral action.
+    pub fn memory(&self) -> Vec<f64> {
+        match self.integral > 0.0 {
+            true => self.sums.to_vec(),
+            false => vec![],
+        }
+    }
+
+    /// Goes on from what it remembered.
+    pub fn restore(&mut self, memory: &[f64]) {
+        self.sums = memory.try_into().unwrap_or_default();
     }
 }
 

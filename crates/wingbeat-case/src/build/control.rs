@@ -238,6 +238,7 @@ fn stiffness(case: &StiffnessCase) -> Stiffness {
         altitude: case.altitude,
         drift: case.drift,
         damping: case.damping,
+        integral: case.integral,
     }
 }
 

@@ -250,6 +250,13 @@ pub struct StiffnessCase {
     #[default(Stiffness::default().damping)]
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub damping: f64,
+    /// Rate at which departures of all loops are summed, per wingbeat: integral action, proportional-integral-derivative
+    /// loops. 0: none.
+    ///
+    /// Change it to 0.02 where a load or an air other than blade elements pulls the flyer away.
+    #[default(Stiffness::default().integral)]
+    #[schemars(range(min = 0))]
+    pub integral: f64,
 }
 
 /// Noise (standard deviation of every component, drawn again at each look) and bias of what is sensed. The

@@ -74,7 +74,7 @@ fn look(args: &CheckArgs, report: &mut Report) -> Result<(), IoError> {
         line!(
             report,
             "{:<10}`wingbeat run` will start this one with your rights: {program}",
-            "controller"
+            "control"
         );
         report.value("control_program", program);
     }
