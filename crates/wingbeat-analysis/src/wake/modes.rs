@@ -5,7 +5,8 @@ use wingbeat_flight::StartState;
 use wingbeat_flight::{AirModel, FlightSetup, MotionMode, Record};
 use wingbeat_math::{DMat3, DQuat, EulerSequence, solve_small};
 
-use super::{WakeTrim, free_beat, rotation, start, steps_per_beat};
+use super::free_beat::{free_beat, rotation, start, steps_per_beat};
+use super::trim::WakeTrim;
 use crate::AnalysisError;
 use crate::eigen::eigen;
 use crate::level::{Level, Perturbation};

@@ -4,7 +4,7 @@ use wingbeat_flight::{AirModel, FlightSetup, MotionMode, Record, StartState};
 use wingbeat_math::{DVec3, solve_small};
 use wingbeat_model::motion::Adjustment;
 
-use super::{free_beat, rotation, start, steps_per_beat};
+use super::free_beat::{free_beat, rotation, start, steps_per_beat};
 use crate::AnalysisError;
 use crate::progress;
 use crate::steady::{self, Measures, Residuals, Snapshot, TrimProblem};
