@@ -64,7 +64,8 @@ pub use lattice::Lattice;
 pub use loads::{AirLoads, SurfaceLoads};
 pub use settings::{
     AirSettings, CirculationRate, Convection, Friction, Gust, GustShape, LeadingEdge, LoadMethod,
-    NewestRow, ParticleSettings, SectionDrag, Spectrum, Turbulence, Wind,
+    NEUTRAL_WIDTH, NewestRow, ParticleSettings, SectionDrag, Spectrum, Turbulence, VortexStreet,
+    Wind,
 };
 pub use state::{AirState, Particles, WakeEvents, WakeSheet};
 pub use wake::Filaments;

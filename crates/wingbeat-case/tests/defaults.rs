@@ -168,6 +168,18 @@ fn refuses_keys_without_effect() {
             "blade_element",
         ),
         (
+            "fruit-fly-blade",
+            &["air.vortex_street={circulation_m2_s=1,spacing_m=1,drift_m_s=[0,1,0]}"],
+            "air.vortex_street.axis",
+            "square to drift_m_s",
+        ),
+        (
+            "fruit-fly-blade",
+            &["air.vortex_street={circulation_m2_s=1,spacing_m=1,drift_m_s=[0,0,0]}"],
+            "air.vortex_street.drift_m_s",
+            "other than 0",
+        ),
+        (
             "fruit-fly-vacuum",
             &["air.shear_1_s=[[0,0,1],[0,0,0],[0,0,0]]"],
             "air.shear_1_s",

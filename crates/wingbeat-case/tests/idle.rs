@@ -293,6 +293,11 @@ const TABLE: &[(&[&str], &str, &str)] = &[
     ),
     (
         &["air.model=external"],
+        "air.vortex_street={ circulation_m2_s = 1, spacing_m = 1, drift_m_s = [1, 0, 0] }",
+        "air.vortex_street",
+    ),
+    (
+        &["air.model=external"],
         "air.shear_1_s=[[0, 0, 1], [0, 0, 0], [0, 0, 0]]",
         "air.shear_1_s",
     ),

@@ -119,6 +119,7 @@ const SITES: &[Site] = &[
         "air.derivatives.dimensionless",
         &["air.model=derivatives"],
     ),
+    site("VortexStreetCase", "air.vortex_street", &[]),
     site("ExternalCase", "air.external", &["air.model=external"]),
     site("OutputCase", "output", &[]),
     site("BodyCase", "body", &[]),

@@ -1,6 +1,7 @@
-//! The undisturbed air: uniform stream, steady shear, gusts.
+//! The undisturbed air: uniform stream, steady shear, gusts, a vortex street.
 
 use crate::error::{AirError, require};
+use crate::settings::street::VortexStreet;
 use crate::settings::turbulence::Turbulence;
 use wingbeat_math::{DMat3, DVec3, interpolate};
 
@@ -68,19 +69,22 @@ pub struct Wind {
     pub shear: Option<DMat3>,
     /// Gusts, added up.
     pub gusts: Vec<Gust>,
+    /// A vortex street, if any.
+    pub street: Option<VortexStreet>,
 }
 
 impl Wind {
     /// Whether there is anything to add.
     pub fn is_none(&self) -> bool {
-        self.shear.is_none() && self.gusts.is_empty()
+        self.shear.is_none() && self.gusts.is_empty() && self.street.is_none()
     }
 
     /// Velocity [m/s] that is added at `x` [m] and time `t` [s], N components.
     pub fn at(&self, x: DVec3, t: f64) -> DVec3 {
         let gust = |g: &Gust| g.amplitude * g.shape.at(t - g.start - g.slowness.dot(x));
         let shear = self.shear.map_or(DVec3::ZERO, |s| s * x);
-        shear + self.gusts.iter().map(gust).sum::<DVec3>()
+        let street = self.street.map_or(DVec3::ZERO, |s| s.at(x, t));
+        shear + self.gusts.iter().map(gust).sum::<DVec3>() + street
     }
 
     /// Checks the numbers.
@@ -90,6 +94,9 @@ impl Wind {
     pub fn validate(&self) -> Result<(), AirError> {
         if let Some(shear) = self.shear {
             require(shear.is_finite(), "shear", shear, "finite numbers in 1/s")?;
+        }
+        if let Some(street) = &self.street {
+            street.validate()?;
         }
         for (gust, g) in self.gusts.iter().enumerate() {
             require(
@@ -140,8 +147,8 @@ mod tests {
             shape: GustShape::Table(vec![(0.0, 1.0), (1.0, 0.5)]),
         };
         let wind = Wind {
-            shear: None,
             gusts: vec![gust],
+            ..Wind::default()
         };
         let share = |x: f64, t: f64| wind.at(x * DVec3::X, t).z;
         assert_eq!(share(0.0, 1.99), 0.0);

@@ -120,6 +120,7 @@ pub(super) fn key_of(setting: &str) -> &'static str {
         "images" => "air.ground",
         "shear" => "air.shear_1_s",
         name if name.starts_with("gust") => "air.gust",
+        name if name.starts_with("vortex street") => "air.vortex_street",
         name if name.starts_with("particles") => "air.particles",
         name if name.starts_with("section drag") => "air.section_drag",
         name if name.starts_with("leading") => "air.leading_edge",

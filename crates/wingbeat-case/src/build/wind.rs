@@ -1,12 +1,12 @@
-//! `[[air.gust]]`, `air.shear_1_s` and `[air.ground]`.
+//! `[[air.gust]]`, `[air.vortex_street]`, `air.shear_1_s` and `[air.ground]`.
 
-use wingbeat_air::{Gust, GustShape, Plane, Turbulence, Wind};
+use wingbeat_air::{Gust, GustShape, NEUTRAL_WIDTH, Plane, Turbulence, VortexStreet, Wind};
 use wingbeat_math::{DMat3, DVec3};
 
 use super::fault::Built;
 use super::numbers::vector;
 use crate::error::Fault;
-use crate::raw::{AirCase, GroundCase, GustCase, TurbulenceCase};
+use crate::raw::{AirCase, GroundCase, GustCase, TurbulenceCase, VortexStreetCase};
 
 /// What is added to the stream.
 pub(super) fn wind(case: &AirCase) -> Built<Wind> {
@@ -18,6 +18,42 @@ pub(super) fn wind(case: &AirCase) -> Built<Wind> {
     Ok(Wind {
         shear,
         gusts: gusts?,
+        street: case.vortex_street.as_ref().map(street).transpose()?,
+    })
+}
+
+fn street(case: &VortexStreetCase) -> Built<VortexStreet> {
+    let refused = |key: &str, problem: &str, allowed: &str, remedy: &str| {
+        let key = format!("air.vortex_street.{key}");
+        Err(Fault::new(key, problem, allowed, remedy))
+    };
+    let [drift, axis] = [case.drift_m_s, case.axis].map(vector);
+    if drift == DVec3::ZERO {
+        let problem = "the rows of a street that does not travel have no direction";
+        return refused(
+            "drift_m_s",
+            problem,
+            "a velocity other than 0",
+            "give the speed of the wake",
+        );
+    }
+    if axis == DVec3::ZERO || drift.dot(axis).abs() > 1e-9 * drift.length() * axis.length() {
+        let problem = "the vortices do not stand square to the drift";
+        return refused(
+            "axis",
+            problem,
+            "a direction square to drift_m_s",
+            "turn one of them",
+        );
+    }
+    Ok(VortexStreet {
+        circulation: case.circulation_m2_s,
+        spacing: case.spacing_m,
+        width: case.width_m.unwrap_or(NEUTRAL_WIDTH * case.spacing_m),
+        concentration: case.concentration,
+        drift,
+        axis,
+        point: vector(case.point_m),
     })
 }
 

@@ -6,7 +6,7 @@ use smart_default::SmartDefault;
 use wingbeat_air::{CirculationRate, Convection, EdgeKind, LoadMethod, Method};
 
 use super::cores::{CoreCase, LambOseenCase};
-use super::wind::{GroundCase, GustCase};
+use super::wind::{GroundCase, GustCase, VortexStreetCase};
 use super::{BladeCase, DerivativesCase, ExternalCase, Open, ParticlesCase, SectionDragCase};
 
 /// Keys of the vortex lattice.
@@ -153,6 +153,12 @@ pub struct AirCase {
     #[schemars(extend("with" = WIND, "always" = true))]
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub gust: Vec<GustCase>,
+    /// A vortex street, added to the stream; left out: none.
+    ///
+    /// Change it to fly in the wake of a body or of an animal ahead.
+    #[schemars(extend("with" = WIND, "always" = true))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub vortex_street: Option<VortexStreetCase>,
     /// Gradient of a steady shear, three rows: the velocity (gradient x position) is added to the
     /// stream; left out: none.
     ///

@@ -55,7 +55,7 @@ pub use motion::{
 };
 pub use open::Open;
 pub use wake::{FrictionCase, ParticlesCase, SectionDragCase};
-pub use wind::{GroundCase, GustCase, TurbulenceCase};
+pub use wind::{GroundCase, GustCase, TurbulenceCase, VortexStreetCase};
 pub use wing::{BetaCase, OutlineCase, PlanformCase, RectangleCase, WingCase, WingMeshCase};
 
 use std::collections::BTreeMap;

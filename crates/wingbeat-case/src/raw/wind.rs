@@ -1,4 +1,4 @@
-//! `[[air.gust]]` and `[air.ground]`: what the undisturbed air does.
+//! `[[air.gust]]`, `[air.vortex_street]` and `[air.ground]`: what the undisturbed air does.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -61,6 +61,56 @@ pub struct TurbulenceCase {
     /// Change it for other air of the same kind, and for the other directions of the same air.
     #[serde(default)]
     pub seed: u64,
+}
+
+/// A von Karman vortex street that travels as it is: two rows of smooth vortices of opposite sense, without end, there
+/// from the first instant.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct VortexStreetCase {
+    /// Circulation of a vortex. Positive: between the rows the air goes against the drift, as behind a body.
+    ///
+    /// Change it to that of the wake that is met.
+    pub circulation_m2_s: f64,
+    /// From vortex to vortex of a row.
+    ///
+    /// Change it to that of the wake that is met: the speed over the frequency of shedding.
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub spacing_m: f64,
+    /// From row to row; left out: 0.281 spacings, von Karman's.
+    ///
+    /// Change it for a wider or narrower wake.
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub width_m: Option<f64>,
+    /// How concentrated the vortices are (Stuart's): towards 1 they become points, towards 0 a shear layer.
+    ///
+    /// Change it to less for an old wake.
+    #[schemars(extend("exclusiveMinimum" = 0, "exclusiveMaximum" = 1))]
+    #[serde(default = "concentration")]
+    pub concentration: f64,
+    /// Velocity with which the street travels, along its rows, inertial axes; not 0.
+    ///
+    /// Change it to the speed with which the wake meets the animal.
+    pub drift_m_s: [f64; 3],
+    /// Axis of the vortices, of any length but 0, square to the drift, inertial axes.
+    ///
+    /// Change it to [0, 0, 1] for vortices that stand upright.
+    #[serde(default = "axis")]
+    pub axis: [f64; 3],
+    /// A point midway between the rows at time 0, abreast of a vortex of the row towards axis x drift, inertial axes.
+    ///
+    /// Change it to meet the wake at another phase, or beside its middle.
+    #[serde(default)]
+    pub point_m: [f64; 3],
+}
+
+fn concentration() -> f64 {
+    0.9
+}
+
+fn axis() -> [f64; 3] {
+    [0.0, 1.0, 0.0]
 }
 
 /// A plane through which no air goes; animal and wake stay on one side.

@@ -2,7 +2,7 @@
 
 use wingbeat_air::{
     AirSettings, CoreModel, EdgeKind, Friction, Gust, GustShape, LeadingEdge, Method, NewestRow,
-    ParticleSettings, Plane, SectionDrag, SheddingKinds, Turbulence, Wind,
+    ParticleSettings, Plane, SectionDrag, SheddingKinds, Turbulence, VortexStreet, Wind,
 };
 use wingbeat_blade::{BladeSettings, Rotation, SETS, Translation};
 use wingbeat_flight::{AirModel, AirOptions, BladeOptions};
@@ -13,6 +13,7 @@ use crate::raw::{
     AirCase, AirModel as Model, BladeCase, BodyDragCase, CoreCase, CutOffCase, FrictionCase,
     GroundCase, GustCase, LambOseenCase, LeadingEdgeCase, OwnCoefficients, ParticlesCase,
     RadiusCase, RotationCase, SchemeCase, SectionDragCase, TurbulenceCase, ViscousCase,
+    VortexStreetCase,
 };
 
 /// The air of the flight, lengths in metres.
@@ -33,11 +34,37 @@ pub(super) fn write(air: &AirModel) -> Written<AirCase> {
 }
 
 fn with_wind(case: AirCase, wind: &Wind) -> AirCase {
-    let Wind { shear, gusts } = wind;
+    let Wind {
+        shear,
+        gusts,
+        street,
+    } = wind;
     AirCase {
         shear_1_s: shear.map(|s| [0, 1, 2].map(|k| s.row(k).to_array())),
         gust: gusts.iter().map(gust).collect(),
+        vortex_street: street.map(vortex_street),
         ..case
+    }
+}
+
+fn vortex_street(street: VortexStreet) -> VortexStreetCase {
+    let VortexStreet {
+        circulation,
+        spacing,
+        width,
+        concentration,
+        drift,
+        axis,
+        point,
+    } = street;
+    VortexStreetCase {
+        circulation_m2_s: circulation,
+        spacing_m: spacing,
+        width_m: Some(width),
+        concentration,
+        drift_m_s: drift.to_array(),
+        axis: axis.to_array(),
+        point_m: point.to_array(),
     }
 }
 

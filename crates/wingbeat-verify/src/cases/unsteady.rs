@@ -117,8 +117,8 @@ fn kuessner(quick: bool) -> Result<Vec<Row>, VerifyError> {
             shape: GustShape::Table(vec![(0.0, 0.0), (1e-9, 1.0)]),
         };
         let wind = Wind {
-            shear: None,
             gusts: vec![front],
+            ..Wind::default()
         };
         let lattice = lattice(rows, wind)?;
         let motion = |_| translating(flat(rows), DVec3::ZERO);
