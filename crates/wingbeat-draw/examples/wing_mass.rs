@@ -88,6 +88,7 @@ fn panel(label: &str, differences: &[[f64; 2]], k: usize) -> Panel {
     let series = |label: &str, values: Vec<f64>| Series {
         label: label.into(),
         values,
+        measured: false,
     };
     Panel {
         label: label.into(),

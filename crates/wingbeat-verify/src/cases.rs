@@ -1,5 +1,6 @@
 //! The suite, in the order of the report.
 
+mod anax;
 mod baik;
 mod benchmark;
 mod bodies;
@@ -47,6 +48,7 @@ pub fn suite() -> Vec<Case> {
         revolving::CASES,
         insects::CASES,
         dragonflies::CASES,
+        anax::CASES,
         hover::CASES,
     ]
     .concat()

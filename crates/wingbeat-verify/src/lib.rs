@@ -22,7 +22,7 @@ pub mod row;
 pub use case::{Case, Part};
 pub use cases::select;
 pub use report::{Entry, Report};
-pub use row::{Row, Verdict, VerifyError};
+pub use row::{Comparison, Row, Verdict, VerifyError};
 
 use rayon::prelude::*;
 

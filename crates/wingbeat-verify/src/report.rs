@@ -5,7 +5,7 @@ use std::fmt::Write;
 
 use crate::case::{Case, Part};
 use crate::cases::select;
-use crate::row::{Row, Verdict, VerifyError};
+use crate::row::{Comparison, Row, Verdict, VerifyError};
 
 /// What one case gave.
 #[derive(Clone, Debug, serde::Serialize, serde::Deserialize)]
@@ -36,6 +36,11 @@ impl Entry {
             rows,
             failure,
         }
+    }
+
+    /// The courses behind its rows, for its figure.
+    pub fn comparisons(&self) -> impl Iterator<Item = &Comparison> {
+        self.rows.iter().filter_map(|r| r.comparison.as_ref())
     }
 
     /// Rows that pass, fail, have no verdict; a case that could not be run is a failed row.
@@ -70,6 +75,10 @@ const PARTS: [(Part, &str); 4] = [
 ];
 
 impl Report {
+    /// Folder, beside the page, of the figures that the page shows: CASE.svg of every case with
+    /// [`Entry::comparisons`].
+    pub const FIGURES: &str = "verification";
+
     /// Rows that pass, fail, have no verdict.
     pub fn counts(&self) -> [usize; 3] {
         let add = |a: [usize; 3], e: &Entry| {
@@ -93,7 +102,7 @@ impl Report {
              The error is the computed value less the reference. The uncertainty is our own, from refinement of mesh \
              and step, or from the spread over wingbeats where it says so. A report compares \
              without judging: experiments are not fitted, all insects fly with one setting. The \
-             same rows are in `verification.csv` and `verification.json`.\n"
+             same rows are in `verification.csv` and `verification.json`, those with the courses that figures show.\n"
         );
         self.page_left_out(&mut text);
         self.page_failures(&mut text);
@@ -190,6 +199,9 @@ impl Report {
 
 fn section(entry: &Entry) -> String {
     let mut text = format!("\n### {}\n\n{}\n\n", entry.case, entry.about);
+    if entry.comparisons().next().is_some() {
+        let _ = writeln!(text, "![{0}]({1}/{0}.svg)\n", entry.case, Report::FIGURES);
+    }
     if let Some(failure) = &entry.failure {
         let _ = writeln!(text, "**Did not run:** {failure}");
         return text;

@@ -48,6 +48,50 @@ pub struct Row {
     pub tolerance: Option<f64>,
     /// Why that much, or what a report means.
     pub reason: Cow<'static, str>,
+    /// The course of the quantity behind the number, for the figure of the case.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub comparison: Option<Comparison>,
+}
+
+/// A history or polar beside its reference.
+#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+pub struct Comparison {
+    /// Quantity and unit upward; comparisons of one quantity and one reference share a pair of axes.
+    pub quantity: Cow<'static, str>,
+    /// Quantity and unit along.
+    pub along: Cow<'static, str>,
+    /// Name of the reference.
+    pub against: Cow<'static, str>,
+    /// Name of what was computed.
+    pub name: Cow<'static, str>,
+    /// Abscissa \[unit of `along`\], reference and computed value \[unit of `quantity`\].
+    pub points: Vec<[f64; 3]>,
+}
+
+impl Comparison {
+    /// A history over one wingbeat, at equal steps from its start, beside what others have.
+    pub fn over_a_beat(
+        quantity: impl Into<Cow<'static, str>>,
+        name: &'static str,
+        computed: &[f64],
+        reference: &[f64],
+    ) -> Self {
+        let part = |k: usize| k as f64 / reference.len() as f64;
+        let both = reference.iter().zip(computed).enumerate();
+        Self {
+            quantity: quantity.into(),
+            along: "wingbeats [1]".into(),
+            against: "reference".into(),
+            name: name.into(),
+            points: both.map(|(k, (r, c))| [part(k), *r, *c]).collect(),
+        }
+    }
+
+    /// Root of the mean square of the differences.
+    pub fn rms_error(&self) -> f64 {
+        let squares = self.points.iter().map(|p| (p[2] - p[1]).powi(2));
+        (squares.sum::<f64>() / self.points.len() as f64).sqrt()
+    }
 }
 
 impl Row {
@@ -62,6 +106,7 @@ impl Row {
             uncertainty: None,
             tolerance: None,
             reason: "".into(),
+            comparison: None,
         }
     }
 
@@ -94,6 +139,12 @@ impl Row {
     /// What a report means.
     pub fn because(mut self, reason: &'static str) -> Self {
         self.reason = reason.into();
+        self
+    }
+
+    /// With the course of the quantity.
+    pub fn drawn(mut self, comparison: Comparison) -> Self {
+        self.comparison = Some(comparison);
         self
     }
 

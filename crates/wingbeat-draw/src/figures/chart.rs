@@ -1,7 +1,7 @@
 //! Stacked line charts with a shared horizontal axis.
 
-use super::drawing::{COLOURS, Drawing};
-use super::plot::{self, Area, Plot};
+use super::drawing::{COLOURS, Drawing, INK};
+use super::plot::{self, Area, Curve, Plot};
 use super::style::{Look, Style};
 
 /// A line of a panel.
@@ -11,6 +11,8 @@ pub struct Series {
     pub label: String,
     /// Values at the abscissas of the chart \[unit of its axis\].
     pub values: Vec<f64>,
+    /// Whether these are given and not computed: black, with a dot at each number.
+    pub measured: bool,
 }
 
 /// One pair of axes.
@@ -75,8 +77,14 @@ impl Chart {
         let last = k + 1 == self.panels.len();
         let curves = panel.series.iter().enumerate().map(|(n, s)| {
             let points = self.x.iter().zip(&s.values).map(|(x, y)| [*x, *y]);
-            let colour = COLOURS[n % COLOURS.len()];
-            plot::curve(&s.name(), points.collect(), colour, n, look)
+            let colour = match s.measured {
+                true => INK,
+                false => COLOURS[n % COLOURS.len()],
+            };
+            Curve {
+                dotted: s.measured,
+                ..plot::curve(&s.name(), points.collect(), colour, n, look)
+            }
         });
         Plot {
             x_label: if last {
@@ -117,6 +125,7 @@ impl Panel {
         let series = series.into_iter().map(|(label, values)| Series {
             label: label.to_owned(),
             values,
+            measured: false,
         });
         Self {
             label: label.to_owned(),

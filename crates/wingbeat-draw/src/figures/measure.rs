@@ -132,6 +132,7 @@ impl Measure {
         let series = lines.iter().map(|(label, values)| Series {
             label: (*label).to_owned(),
             values: scaled(values, factor),
+            measured: false,
         });
         Some(Panel {
             label,

@@ -35,6 +35,7 @@ fn panels(length: f64, rows: &[BeatRow]) -> Vec<Panel> {
     let series = |label: &str, value: &dyn Fn(&BeatRow) -> f64| Series {
         label: label.into(),
         values: rows.iter().map(value).collect(),
+        measured: false,
     };
     let panel = |label: &str, series: Vec<Series>| Panel {
         label: label.into(),

@@ -22,6 +22,7 @@ pub fn swept(name: &str, rows: &[SpeedRow]) -> String {
     let series = |label: &str, value: &dyn Fn(&SpeedRow) -> f64| Series {
         label: label.into(),
         values: rows.iter().map(value).collect(),
+        measured: false,
     };
     let panel = |label: &str, series: Vec<Series>| Panel {
         label: label.into(),

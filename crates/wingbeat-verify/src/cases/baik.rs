@@ -1,8 +1,8 @@
 //! A plate that pitches and plunges in a channel, quasi two-dimensional.
 
 use crate::lab::rig::{ATTACHED, Fluid, Pose, SEPARATED, Wing, forces};
-use crate::lab::series::{Table, harmonic, interpolate, mean, rms};
-use crate::{Case, Part, Row, VerifyError};
+use crate::lab::series::{Table, harmonic, interpolate, mean};
+use crate::{Case, Comparison, Part, Row, VerifyError};
 use std::f64::consts::{PI, TAU};
 use wingbeat_math::{DVec3, r2};
 
@@ -121,8 +121,12 @@ fn filtered(history: &[f64], harmonics: usize, phases: &[f64]) -> Vec<f64> {
     phases.iter().map(at).collect()
 }
 
-/// Rms errors of drag and lift coefficient.
-fn errors(motion: &Motion, leading: bool, mesh: [usize; 3]) -> Result<[f64; 2], VerifyError> {
+/// Drag and lift coefficient beside the measured ones.
+fn beside(
+    motion: &Motion,
+    (name, leading): (&'static str, bool),
+    mesh: [usize; 3],
+) -> Result<[Comparison; 2], VerifyError> {
     let table = Table::new(include_str!("../../data/baik2011_lift_drag.csv"));
     let own: Vec<usize> = (table.words("case").enumerate())
         .filter(|(_, name)| *name == motion.0)
@@ -135,8 +139,14 @@ fn errors(motion: &Motion, leading: bool, mesh: [usize; 3]) -> Result<[f64; 2], 
     let computed = coefficients(motion, leading, mesh)?;
     Ok([0, 1].map(|i| {
         let computed = filtered(&computed[i], motion.3, &phase);
-        let apart = computed.iter().zip(&[&drag, &lift][i][..]);
-        rms(&apart.map(|(a, b)| a - b).collect::<Vec<f64>>())
+        let points = phase.iter().zip([&drag, &lift][i]).zip(computed);
+        Comparison {
+            quantity: format!("{} coefficient, {}", ["drag", "lift"][i], motion.0).into(),
+            along: "phase [1]".into(),
+            against: "measured".into(),
+            name: name.into(),
+            points: points.map(|((s, y), c)| [*s, *y, c]).collect(),
+        }
     }))
 }
 
@@ -149,11 +159,13 @@ const CHANGE: &str =
 fn run(_quick: bool) -> Result<Vec<Row>, VerifyError> {
     let mut rows = Vec::new();
     for (name, leading) in [ATTACHED, SEPARATED] {
-        let mut all = Vec::new();
+        let mut compared = Vec::new();
         for motion in &MOTIONS {
-            all.push(errors(motion, leading, [6, 10, 2])?);
+            compared.push(beside(motion, (name, leading), [6, 10, 2])?);
         }
-        let finer = errors(&MOTIONS[0], leading, [12, 20, 2])?;
+        let errors = |c: &[Comparison; 2]| [0, 1].map(|i| c[i].rms_error());
+        let all: Vec<[f64; 2]> = compared.iter().map(errors).collect();
+        let finer = errors(&beside(&MOTIONS[0], (name, leading), [12, 20, 2])?);
         for (i, what, band) in [(1, "lift", 0.45), (0, "drag", 0.30)] {
             let value = all.iter().map(|e| e[i]).sum::<f64>() / all.len() as f64;
             let quantity = format!("{name}: rms error of {what} coefficient, mean of both motions");
@@ -163,9 +175,10 @@ fn run(_quick: bool) -> Result<Vec<Row>, VerifyError> {
                 true => row.within(band, BAND),
                 false => row.because(CHANGE),
             });
-            for (motion, error) in MOTIONS.iter().zip(&all) {
+            for (k, (motion, error)) in MOTIONS.iter().zip(&all).enumerate() {
                 let quantity = format!("{name}, {}: rms error of {what} coefficient", motion.0);
-                rows.push(Row::new(quantity, "1", error[i]).against(0.0, SOURCE));
+                let row = Row::new(quantity, "1", error[i]).against(0.0, SOURCE);
+                rows.push(row.drawn(compared[k][i].clone()));
             }
         }
     }

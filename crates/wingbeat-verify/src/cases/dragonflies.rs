@@ -4,9 +4,9 @@
 //! psi, chord normal to the stroke plane at zero, leading edge up positive; a cone angle to the fore.
 //! Here: stroke-plane pitch 90 deg - gamma, flap -phi, deviation - cone, feathering psi.
 
-use crate::lab::insect::{Choice, DEFAULT, Fluid, MODELS, forces, middle};
-use crate::lab::series::{Table, correlation, interpolate, mean, rms};
-use crate::{Case, Part, Row, VerifyError};
+use crate::lab::insect::{Choice, Fluid, MODELS, forces, middle};
+use crate::lab::series::{Table, correlation, interpolate, mean};
+use crate::{Case, Comparison, Part, Row, VerifyError};
 use wingbeat_case::raw;
 use wingbeat_case::raw::{
     AngleCase, BetaCase, FourierCase, PlanformCase, WingCase, WingMotionCase,
@@ -29,14 +29,6 @@ pub(super) const CASES: &[Case] = &[
         quick: false,
         run: wang_russell,
     },
-    Case {
-        name: "dragonfly-azuma-1988",
-        about: "Anax parthenope in slow and in faster forward flight: mean vertical force of all wings in the \
-                measured motion against weight times load factor.",
-        part: Part::Experiments,
-        quick: false,
-        run: azuma_1988,
-    },
 ];
 
 /// Largest chord of the wings over their mean chord. So far apart are the hinges of the pairs: "about a wing's width"
@@ -44,24 +36,24 @@ pub(super) const CASES: &[Case] = &[
 const WIDEST: f64 = 1.25;
 
 /// Mean and harmonics (amplitude, phase) [deg]: mean + sum A cos(2 pi k t + phase).
-struct Series(f64, &'static [[f64; 2]]);
+pub(super) struct Series(pub f64, pub &'static [[f64; 2]]);
 
-struct Pair {
-    name: &'static str,
-    length: f64,
-    area: f64,
-    gamma: f64,
-    cone: Series,
-    phi: Series,
-    psi: Series,
+pub(super) struct Pair {
+    pub name: &'static str,
+    pub length: f64,
+    pub area: f64,
+    pub gamma: f64,
+    pub cone: Series,
+    pub phi: Series,
+    pub psi: Series,
 }
 
-struct Dragonfly {
-    body: f64,
-    frequency: f64,
+pub(super) struct Dragonfly {
+    pub body: f64,
+    pub frequency: f64,
     /// Flight speed [m/s] and direction above the horizontal [deg].
-    flight: [f64; 2],
-    pairs: [Pair; 2],
+    pub flight: [f64; 2],
+    pub pairs: [Pair; 2],
 }
 
 impl Series {
@@ -80,7 +72,7 @@ impl Series {
 }
 
 impl Dragonfly {
-    fn case(&self, with: Choice) -> raw::Case {
+    pub fn case(&self, with: Choice) -> raw::Case {
         let [fore, hind] = &self.pairs;
         let (s, c) = self.flight[1].to_radians().sin_cos();
         let mut case = with.case(Fluid {
@@ -143,7 +135,8 @@ fn compare(
         let beats = [1, 2].map(|b| mean(&lift[40 * b..=40 * (b + 1)]));
         let [_, spread] = middle(&beats);
         let second = &lift[60..100]; // the smooth start takes half a beat of phase
-        let apart: Vec<f64> = second.iter().zip(theirs).map(|(a, b)| a - b).collect();
+        let quantity = format!("vertical force [{unit}]");
+        let compared = Comparison::over_a_beat(quantity, name, second, theirs);
         let their_mean = theirs.iter().sum::<f64>() / 40.0;
         rows.push(
             Row::new(format!("{name}: mean vertical force"), unit, beats[1])
@@ -151,11 +144,14 @@ fn compare(
                 .uncertain(spread)
                 .because(note),
         );
-        rows.push(Row::new(
-            format!("{name}: rms difference over the motion's second beat"),
-            unit,
-            rms(&apart),
-        ));
+        rows.push(
+            Row::new(
+                format!("{name}: rms difference over the motion's second beat"),
+                unit,
+                compared.rms_error(),
+            )
+            .drawn(compared),
+        );
         rows.push(Row::new(
             format!("{name}: correlation over the motion's second beat"),
             "1",
@@ -209,7 +205,7 @@ fn azuma(_quick: bool) -> Result<Vec<Row>, VerifyError> {
 }
 
 /// Wings and motion of Wang & Russell 2007.
-const WANG_RUSSELL: Dragonfly = Dragonfly {
+pub(super) const WANG_RUSSELL: Dragonfly = Dragonfly {
     body: 0.051,
     frequency: 33.4,
     flight: [0.0, 0.0],
@@ -289,111 +285,4 @@ fn wang_russell(_quick: bool) -> Result<Vec<Row>, VerifyError> {
          third beat",
     ];
     compare(&WANG_RUSSELL, &theirs, words, 0.62e-3 * 9.81)
-}
-
-/// A flight of Anax: wingbeats a second, speed and direction, load factor; fore and hind wings with the inclination
-/// of their stroke plane, flap and feathering.
-struct Anax(f64, [f64; 2], f64, [(f64, Series, Series); 2]);
-
-const AZUMA_1988: [Anax; 2] = [
-    Anax(
-        26.5,
-        [0.7, -12.0],
-        1.1,
-        [
-            (
-                40.0,
-                Series(0.0, &[[36.0, 0.0]]),
-                Series(10.0, FEATHERING[0]),
-            ),
-            (
-                38.0,
-                Series(0.0, &[[26.0, 51.0]]),
-                Series(17.0, FEATHERING[1]),
-            ),
-        ],
-    ),
-    Anax(
-        28.1,
-        [1.5, -1.1],
-        0.97,
-        [
-            (
-                55.0,
-                Series(0.0, &[[25.0, 0.0]]),
-                Series(-2.0, FEATHERING[2]),
-            ),
-            (
-                48.0,
-                Series(0.0, &[[26.0, 61.0]]),
-                Series(-9.0, FEATHERING[3]),
-            ),
-        ],
-    ),
-];
-
-const FEATHERING: [&[[f64; 2]]; 4] = [
-    &[[54.0, 89.0], [2.0, -88.0], [7.0, 52.0], [1.0, -7.0]],
-    &[[38.0, -178.0], [6.0, -112.0], [2.0, -37.0], [1.0, -216.0]],
-    &[[54.0, 93.0], [4.0, 135.0], [4.0, -68.0], [5.0, 113.0]],
-    &[[30.0, 154.0], [6.0, -69.0], [2.0, -52.0], [2.0, 83.0]],
-];
-
-impl Anax {
-    /// Areas are those of one wing, as their mean chords, 0.20 and 0.26 of the length, show.
-    fn animal(self) -> Dragonfly {
-        let Self(frequency, flight, _, [fore, hind]) = self;
-        let pair = |name, [length, area, cone]: [f64; 3], (gamma, phi, psi)| Pair {
-            name,
-            length,
-            area,
-            gamma,
-            cone: Series(cone, &[]),
-            phi,
-            psi,
-        };
-        Dragonfly {
-            body: 0.075,
-            frequency,
-            flight,
-            pairs: [
-                pair("fore", [0.050, 5.0e-4, 8.0], fore),
-                pair("hind", [0.0485, 6.0e-4, -2.0], hind),
-            ],
-        }
-    }
-}
-
-fn azuma_1988(_quick: bool) -> Result<Vec<Row>, VerifyError> {
-    const SOURCE: &str = "Azuma & Watanabe 1988, J. Exp. Biol. 137:221, table 2";
-    const BAND: &str = "wing shape and distance of the pairs are estimates, twist is left out, the load \
-                        factor follows from the path; uncertainty: half the change from the second to \
-                        the third beat";
-    let weight = 0.79e-3 * 9.81;
-    let mut rows = Vec::new();
-    for (flight, number) in AZUMA_1988.into_iter().zip(1..) {
-        let load = flight.2;
-        let animal = flight.animal();
-        for model in [None, Some(MODELS[0]), Some(MODELS[2]), Some(MODELS[3])] {
-            let (name, choice) = model.unwrap_or(("blade elements", DEFAULT));
-            let mut case = animal.case(choice);
-            if model.is_none() {
-                case.air = raw::AirCase {
-                    model: raw::AirModel::BladeElement,
-                    stream_m_s: case.air.stream_m_s,
-                    ..raw::AirCase::default()
-                };
-            }
-            let lift: Vec<f64> = forces(case)?.iter().map(|f| -f.z / weight).collect();
-            let [lift, spread] = middle(&[1, 2].map(|b| mean(&lift[40 * b..=40 * (b + 1)])));
-            let quantity = format!("experiment {number}, {name}: mean vertical force");
-            let row = Row::new(quantity, "weights", lift).against(load, SOURCE);
-            let row = row.uncertain(spread);
-            rows.push(match model.is_none_or(|m| m.0 == MODELS[0].0) {
-                true => row.within_part(0.25, BAND),
-                false => row,
-            });
-        }
-    }
-    Ok(rows)
 }

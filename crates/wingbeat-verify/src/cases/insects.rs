@@ -1,8 +1,8 @@
 //! Insects and their robots, in the one setting of [`crate::lab::insect`].
 
 use crate::lab::insect::{Choice, DEFAULT, Insect, MODELS, data, forces, fruit_fly_wings, middle};
-use crate::lab::series::{Table, correlation, interpolate, mean, rms};
-use crate::{Case, Part, Row, VerifyError};
+use crate::lab::series::{Table, correlation, interpolate, mean};
+use crate::{Case, Comparison, Part, Row, VerifyError};
 use wingbeat_case::raw::{AngleCase, FourierCase, WingMotionCase};
 
 pub(super) const CASES: &[Case] = &[
@@ -62,7 +62,7 @@ fn hydei(_quick: bool) -> Result<Vec<Row>, VerifyError> {
         let beats = [1, 2].map(|b| mean(&lift[40 * b..=40 * (b + 1)]));
         let [_, spread] = middle(&beats);
         let last = &lift[60..100]; // the second beat: a smooth start takes half a beat of phase
-        let apart: Vec<f64> = last.iter().zip(&robot).map(|(a, b)| a - b).collect();
+        let compared = Comparison::over_a_beat("vertical force [weights]", name, last, &robot);
         rows.push(
             Row::new(format!("{name}: mean vertical force"), "weights", beats[1])
                 .against(1.022, source)
@@ -73,9 +73,10 @@ fn hydei(_quick: bool) -> Result<Vec<Row>, VerifyError> {
             Row::new(
                 format!("{name}: rms difference over the motion's second beat"),
                 "weights",
-                rms(&apart),
+                compared.rms_error(),
             )
-            .because("the robot's own rms about its mean is 0.9 weights"),
+            .because("the robot's own rms about its mean is 0.9 weights")
+            .drawn(compared),
         );
         rows.push(Row::new(
             format!("{name}: correlation over the motion's second beat"),

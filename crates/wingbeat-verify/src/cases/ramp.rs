@@ -1,8 +1,8 @@
 //! A plate that pitches up to 45 deg within one chord of travel.
 
 use crate::lab::rig::{ATTACHED, Fluid, Pose, SEPARATED, Wing, forces};
-use crate::lab::series::{Table, interpolate, rms};
-use crate::{Case, Part, Row, VerifyError};
+use crate::lab::series::{Table, interpolate};
+use crate::{Case, Comparison, Part, Row, VerifyError};
 use std::f64::consts::FRAC_PI_4;
 use wingbeat_math::{DVec3, r2};
 
@@ -84,16 +84,23 @@ fn run(_quick: bool) -> Result<Vec<Row>, VerifyError> {
             ("mid chord", 0.5, "CL_mid_chord_axis"),
         ] {
             let measured = &table.numbers(column)[first..];
-            let apart = |mesh| -> Result<f64, VerifyError> {
+            let beside = |mesh| -> Result<Comparison, VerifyError> {
                 let [s, lift] = lift(axis, leading, mesh)?;
-                let computed = travel[first..].iter().map(|x| interpolate(&s, &lift, *x));
-                let apart: Vec<f64> = computed.zip(measured).map(|(a, b)| a - b).collect();
-                Ok(rms(&apart))
+                let points = travel[first..].iter().zip(measured);
+                let points = points.map(|(x, y)| [*x, *y, interpolate(&s, &lift, *x)]);
+                Ok(Comparison {
+                    quantity: format!("lift coefficient, about the {about}").into(),
+                    along: "travel [chords]".into(),
+                    against: "measured".into(),
+                    name: name.into(),
+                    points: points.collect(),
+                })
             };
-            let [value, finer] = [apart([6, 6, 20])?, apart([9, 9, 30])?];
+            let [coarse, fine] = [beside([6, 6, 20])?, beside([9, 9, 30])?];
+            let [value, finer] = [&coarse, &fine].map(Comparison::rms_error);
             let quantity = format!("{name}, about the {about}: rms error of lift coefficient");
             let row = Row::new(quantity, "1", value).against(0.0, SOURCE);
-            let row = row.uncertain(finer - value);
+            let row = row.uncertain(finer - value).drawn(coarse);
             rows.push(match leading {
                 true => row.within(0.6, BAND),
                 false => row.because(CHANGE),

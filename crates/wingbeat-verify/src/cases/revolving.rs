@@ -2,7 +2,7 @@
 
 use crate::lab::rig::{Fluid, Pose, SEPARATED, Wing, forces, laminar};
 use crate::lab::series::{Table, interpolate, mean};
-use crate::{Case, Part, Row, VerifyError};
+use crate::{Case, Comparison, Part, Row, VerifyError};
 use std::f64::consts::{FRAC_PI_3, FRAC_PI_4, PI};
 use wingbeat_math::{DVec3, r2, r3};
 
@@ -120,6 +120,15 @@ fn run(_quick: bool) -> Result<Vec<Row>, VerifyError> {
                 false => row,
             });
         }
+        let points = angles.iter().zip(&theirs[i]).zip(&computed);
+        let compared = Comparison {
+            quantity: format!("{what} coefficient [1]").into(),
+            along: "incidence [deg]".into(),
+            against: "computed polar of others".into(),
+            name: SEPARATED.0.into(),
+            points: points.map(|((a, t), c)| [*a, *t, c[i]]).collect(),
+        };
+        rows.last_mut().expect("an angle").comparison = Some(compared);
     }
     for (i, what) in [(0, "lift"), (1, "drag")] {
         for (k, angle) in angles.iter().enumerate().filter(|(_, a)| is_judged(**a)) {

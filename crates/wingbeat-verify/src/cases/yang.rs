@@ -2,7 +2,7 @@
 
 use crate::lab::rig::{ATTACHED, Fluid, Pose, SEPARATED, Wing, forces};
 use crate::lab::series::{Table, harmonic, mean};
-use crate::{Case, Part, Row, VerifyError};
+use crate::{Case, Comparison, Part, Row, VerifyError};
 use std::f64::consts::TAU;
 use wingbeat_math::{DVec3, r1, r2};
 
@@ -97,7 +97,16 @@ fn run(_quick: bool) -> Result<Vec<Row>, VerifyError> {
             let apart: f64 = pairs.clone().map(|(a, b)| (a[i] - b).abs()).sum();
             let quantity = format!("{name}: mean absolute error of mean {what}");
             let row = Row::new(quantity, "gf", apart / angles.len() as f64).against(0.0, SOURCE);
-            let row = row.uncertain(finer[i] - computed[LAST][i]);
+            let points = angles.iter().zip(pairs.clone());
+            let row = row
+                .uncertain(finer[i] - computed[LAST][i])
+                .drawn(Comparison {
+                    quantity: format!("mean {what} [gf]").into(),
+                    along: "angle of the stream [deg]".into(),
+                    against: "measured".into(),
+                    name: name.into(),
+                    points: points.map(|(a, (c, m))| [*a, *m, c[i]]).collect(),
+                });
             rows.push(match leading {
                 true => row.within(band, BAND),
                 false => row.because(CHANGE),

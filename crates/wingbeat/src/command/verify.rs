@@ -7,7 +7,8 @@ use std::time::Instant;
 use clap::Args;
 use serde_json::json;
 use wingbeat::case::IoError;
-use wingbeat::results::file::NewFile;
+use wingbeat::draw::figures::{Chart, Panel, Series};
+use wingbeat::results::file::{NewFile, write_file};
 use wingbeat::verify::{Case, Entry, Report};
 
 use crate::command::failure::{FAILED, Failure};
@@ -79,6 +80,7 @@ pub(crate) fn run(args: &VerifyArgs) -> Result<(), Failure> {
         entries: so_far.into_inner().expect("no case panicked while writing"),
     };
     write(&report, &files)?;
+    draw(&report, args)?;
     tell_result(args, &report, start, files[0].path());
     match report.counts() {
         [_, 0, _] => Ok(()),
@@ -108,12 +110,63 @@ fn tell_result(args: &VerifyArgs, report: &Report, start: Instant, page: &Path) 
 fn claim(args: &VerifyArgs) -> Result<[NewFile; 3], IoError> {
     wingbeat::results::file::make_folder(&args.out)?;
     let overwrite = args.overwrite || args.resume;
+    let figures = args.out.join(Report::FIGURES);
+    if !overwrite && figures.exists() {
+        return Err(IoError::Exists {
+            path: figures,
+            remedy: "pass --overwrite to replace the report and its figures",
+        });
+    }
     let file = |name: &str| NewFile::claim(&args.out.join(name), overwrite);
     Ok([
         file("verification.md")?,
         file("verification.csv")?,
         file("verification.json")?,
     ])
+}
+
+/// The figures of cases that have courses to show.
+fn draw(report: &Report, args: &VerifyArgs) -> Result<(), IoError> {
+    let folder = args.out.join(Report::FIGURES);
+    for entry in &report.entries {
+        let Some(chart) = chart(entry) else { continue };
+        wingbeat::results::file::make_folder(&folder)?;
+        let path = folder.join(format!("{}.svg", entry.case));
+        write_file(&path, chart.to_svg().as_bytes(), true)?;
+    }
+    Ok(())
+}
+
+/// One pair of axes for each quantity: what is compared with in black, what was computed in colours. All courses of a case have
+/// the abscissas of its first.
+fn chart(entry: &Entry) -> Option<Chart> {
+    let first = entry.comparisons().next()?;
+    let mut panels: Vec<Panel> = vec![];
+    for c in entry.comparisons() {
+        let series = |label: &str, k: usize, measured| Series {
+            label: label.to_owned(),
+            values: c.points.iter().map(|p| p[k]).collect(),
+            measured,
+        };
+        let place = panels.iter().position(|p| p.label == c.quantity);
+        let place = place.unwrap_or_else(|| {
+            let given = series(&c.against, 1, true);
+            panels.push(Panel {
+                label: c.quantity.to_string(),
+                series: vec![given],
+                logarithmic: false,
+            });
+            panels.len() - 1
+        });
+        panels[place].series.push(series(&c.name, 2, false));
+    }
+    Some(Chart {
+        title: entry.case.to_string(),
+        x_label: first.along.to_string(),
+        x: first.points.iter().map(|p| p[0]).collect(),
+        shaded: vec![],
+        panels,
+    })
 }
 
 /// What an earlier run of the same set left; failures are tried again.
@@ -167,4 +220,41 @@ fn write(report: &Report, files: &[NewFile; 3]) -> Result<(), IoError> {
     let texts = [page, report.csv(), report.json()];
     let mut written = files.iter().zip(&texts);
     written.try_for_each(|(file, text)| file.replace(text.as_bytes()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use wingbeat::verify::{Comparison, Part, Row};
+
+    /// Two models beside one reference share a pair of axes; a case without courses has no figure.
+    #[test]
+    fn exact_courses_of_one_quantity_share_their_axes() {
+        let course = |quantity: &'static str, name: &'static str| {
+            let course = Comparison::over_a_beat(quantity, name, &[1.0, 2.0], &[3.0, 4.0]);
+            Row::new("x", "1", course.rms_error()).drawn(course)
+        };
+        let mut entry = Entry {
+            case: "case".into(),
+            about: "".into(),
+            part: Part::Experiments,
+            rows: vec![
+                course("lift", "a"),
+                course("drag", "a"),
+                course("lift", "b"),
+            ],
+            failure: None,
+        };
+        assert!(entry.rows.iter().all(|r| r.computed == 2.0));
+        let drawn = chart(&entry).unwrap();
+        let [lift, drag] = &drawn.panels[..] else {
+            panic!("two quantities");
+        };
+        let labels: Vec<&str> = lift.series.iter().map(|s| s.label.as_str()).collect();
+        assert_eq!(labels, ["reference", "a", "b"]);
+        assert_eq!(lift.series[0].values, [3.0, 4.0]);
+        assert_eq!((drag.series.len(), drawn.x), (2, vec![0.0, 0.5]));
+        entry.rows.truncate(0);
+        assert!(chart(&entry).is_none());
+    }
 }
