@@ -1,0 +1,47 @@
+"""What tests of campaigns do at points, in a module that workers can import."""
+
+from __future__ import annotations
+
+import os
+import signal
+import time
+
+import wingbeat
+
+HERE = os.getpid()
+
+
+def mean_lift(flight: wingbeat.Flight) -> dict[str, float]:
+    """A number of one's own, of a flight that is quick."""
+    return {"lift": float(flight.fly().beats["lift_newton"].mean()), "unasked": 1.0}
+
+
+def deadly(flight: wingbeat.Flight) -> dict[str, float]:
+    """Kills the process it runs in at 200 Hz."""
+    frequency = flight.case.motion.frequency_hz
+    if frequency == 200.0:
+        os.kill(os.getpid(), signal.SIGKILL)
+    return {"frequency": frequency}
+
+
+def slow(flight: wingbeat.Flight) -> dict[str, float]:
+    """Takes a while."""
+    time.sleep(0.05)
+    return {"frequency": flight.case.motion.frequency_hz}
+
+
+def threads(flight: wingbeat.Flight) -> dict[str, float]:
+    """Threads that a flight in this process makes."""
+    before = len(os.listdir("/proc/self/task"))
+    flight.fly()
+    return {"threads": len(os.listdir("/proc/self/task")) - before}
+
+
+def fruit_fly(point: dict[str, float]) -> wingbeat.Flight:
+    """A flight of a number that no case has."""
+    return wingbeat.Flight.preset("fruit-fly-blade").set({"time.beats": 1, "motion.frequency_hz": 100 * point["double"]})
+
+
+def wrong(flight: wingbeat.Flight) -> dict[str, float]:
+    """A function with a mistake."""
+    raise KeyError(flight.name)
