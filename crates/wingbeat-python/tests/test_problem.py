@@ -1,0 +1,88 @@
+"""A flight as a function of its keys."""
+
+from __future__ import annotations
+
+import campaign_tasks as tasks
+import numpy as np
+import pytest
+
+import wingbeat
+from wingbeat import CaseError, Flight, Problem
+from wingbeat.campaign import Serial
+
+VARIABLES = {"motion.frequency_hz": (150.0, 250.0), "body.mass_kg": (8e-7, 1e-6)}
+
+
+def hover(**settings):
+    base = Flight.preset("fruit-fly-blade").set("time.beats", 1)
+    objectives = {"power_watt": "min", "lift_newton": "max"}
+    return Problem(base, VARIABLES, objectives, {"lift_over_weight": (1.0, 1.2), "power_watt": (None, 1e-4)}, **settings)
+
+
+def test_agrees_with_flights_one_by_one():
+    problem = hover(executor=Serial())
+    X = np.array([[190.0, 9e-7], [210.0, 8.5e-7]])
+    Y = problem.evaluate(X)
+    assert problem.outputs == ("power_watt", "lift_newton", "lift_over_weight") and Y.shape == (2, 3)
+    for x, y in zip(X, Y, strict=True):
+        flight = Flight.preset("fruit-fly-blade").set({"time.beats": 1, **dict(zip(VARIABLES, x, strict=True))})
+        assert [flight.fly().beats[name].mean() for name in problem.outputs] == y.tolist()
+    assert problem.evaluate(X[1]).tolist() == Y[1].tolist() and problem.evaluate(X[:0]).shape == (0, 3)
+
+
+def test_invariant_processes_give_the_same_and_stay_until_closed():
+    X = np.column_stack([np.linspace(180, 220, 6), np.full(6, 9e-7)])
+    with hover(workers=2) as problem:
+        first = problem.evaluate(X)
+        pool = problem._own._pool
+        again = problem.evaluate(X)
+        assert pool is not None and problem._own._pool is pool
+    assert problem._own._pool is None
+    assert first.tobytes() == again.tobytes() == hover(executor=Serial()).evaluate(X).tobytes()
+
+
+def test_behaves_failures_are_nan_with_reasons():
+    problem = hover(executor=Serial())
+    Y = problem.evaluate([[200.0, 9e-7], [-1.0, 9e-7]])
+    assert np.isfinite(Y[0]).all() and np.isnan(Y[1]).all()
+    assert problem.reasons[0] == "" and "motion.frequency_hz" in problem.reasons[1]
+
+
+def test_exact_costs_and_violations():
+    problem = hover(executor=Serial())
+    Y = np.array([[2e-5, 1e-5, 0.9], [2e-4, 3e-5, 1.5]])
+    assert problem.costs(Y).tolist() == [[2e-5, -1e-5], [2e-4, -3e-5]]
+    assert np.allclose(problem.violations(Y), [[0.1, -0.3, -8e-5], [-0.5, 0.3, 1e-4]], rtol=0, atol=1e-15)
+    assert problem.violations(Y[0]).shape == (3,) and problem.costs(Y[0]).tolist() == [2e-5, -1e-5]
+    free = Problem("fruit-fly-blade", VARIABLES, "power_watt", executor=Serial())
+    assert free.violations(Y[:, :1]).shape == (2, 0) and free.objectives == {"power_watt": "min"}
+
+
+def test_behaves_functions_make_flights_of_variables_no_case_has():
+    problem = Problem(tasks.fruit_fly, {"double": (1.5, 2.5)}, ["lift"], do=tasks.mean_lift, executor=Serial())
+    assert problem.evaluate([[2.0]])[0, 0] == tasks.fruit_fly({"double": 2.0}).fly().beats["lift_newton"].mean()
+
+
+BAD = {
+    "no variables": lambda: Problem("fruit-fly-blade", {}, "power_watt"),
+    "no range": lambda: Problem("fruit-fly-blade", {"motion.frequency_hz": (200, 200)}, "power_watt"),
+    "half a range": lambda: Problem("fruit-fly-blade", {"motion.frequency_hz": 200}, "power_watt"),
+    "no end": lambda: Problem("fruit-fly-blade", {"motion.frequency_hz": (200, float("inf"))}, "power_watt"),
+    "no objective": lambda: Problem("fruit-fly-blade", VARIABLES, []),
+    "unknown objective": lambda: Problem("fruit-fly-blade", VARIABLES, ["power_wat"]),
+    "a sense of its own": lambda: Problem("fruit-fly-blade", VARIABLES, {"power_watt": "least"}),
+    "constraint without bounds": lambda: Problem("fruit-fly-blade", VARIABLES, "power_watt", {"lift_newton": (None, None)}),
+    "constraint upside down": lambda: Problem("fruit-fly-blade", VARIABLES, "power_watt", {"lift_newton": (2, 1)}),
+    "unknown constraint": lambda: Problem("fruit-fly-blade", VARIABLES, "power_watt", {"lift": (1, 2)}),
+    "another shape": lambda: hover(executor=Serial()).evaluate([[200.0, 9e-7, 1.0]]),
+    "a cube": lambda: hover(executor=Serial()).evaluate(np.zeros((2, 2, 2))),
+    "unknown variable": lambda: Problem("fruit-fly-blade", {"motion.f": (1, 2)}, "power_watt"),
+}
+
+
+@pytest.mark.parametrize("name", BAD)
+def test_refuses(name):
+    with pytest.raises(CaseError) as caught:
+        BAD[name]()
+    assert caught.value.remedy and caught.value.key, caught.value
+    assert wingbeat.Problem is Problem
