@@ -15,6 +15,9 @@ from wingbeat.errors import CaseError, FlightError
 if TYPE_CHECKING:
     from concurrent.futures import ProcessPoolExecutor
 
+_STARTS = 3
+"""How often a pool is started before it is given up."""
+
 
 class Serial(Executor):
     """The calling process, one point after the other."""
@@ -47,23 +50,23 @@ class Processes(Executor):
 
     def submit(self, fn: Callable[..., Any], /, *args: Any, **kwargs: Any) -> Future[Any]:
         """Hands it to the pool; to a new one where the last has died."""
-        from concurrent.futures import BrokenExecutor
-
         with self._lock:
-            if self._pool is None:
-                self._pool = self._started()
-            try:
-                return self._pool.submit(fn, *args, **kwargs)
-            except BrokenExecutor:
-                self._pool.shutdown(wait=True)
-                self._pool = self._started()
-                return self._pool.submit(fn, *args, **kwargs)
+            while True:
+                if self._pool is None:
+                    self._pool = self._started()
+                future = _handed(self._pool, fn, args, kwargs)
+                if future is not None:
+                    return future
+                _end(self._pool)
+                self._pool = None
 
     def shutdown(self, wait: bool = True, *, cancel_futures: bool = False) -> None:
         """Ends the processes when what was handed to them is done; the next ``submit`` starts new ones."""
         with self._lock:
             pool, self._pool = self._pool, None
-        if pool is not None:
+        if pool is not None and getattr(pool, "_broken", False):
+            _end(pool)
+        elif pool is not None:
             pool.shutdown(wait=wait, cancel_futures=cancel_futures)
 
     def stop(self) -> None:
@@ -71,27 +74,47 @@ class Processes(Executor):
         with self._lock:
             pool, self._pool = self._pool, None
         if pool is not None:
-            processes = list((getattr(pool, "_processes", None) or {}).values())
-            pool.shutdown(wait=False, cancel_futures=True)
-            for process in processes:
-                process.kill()
-            pool.shutdown(wait=True)
+            _end(pool)
 
     def _started(self) -> ProcessPoolExecutor:
-        """A pool whose processes are there."""
+        """A pool that has a process that runs. One may be killed while it starts; several are no accident."""
         from concurrent.futures import BrokenExecutor, ProcessPoolExecutor
 
-        pool = ProcessPoolExecutor(self._max_workers, mp_context=_context(), initializer=_begin)
-        try:
-            pool.submit(os.getpid).result()
-        except BrokenExecutor as e:
-            pool.shutdown(wait=True)
-            raise FlightError(
-                f"worker processes end before they fly anything: {e}",
-                key="executor",
-                remedy="in a script, put what is to run once under `if __name__ == '__main__':`; is there memory left?",
-            ) from e
-        return pool
+        for remaining in reversed(range(_STARTS)):
+            pool = ProcessPoolExecutor(self._max_workers, mp_context=_context(), initializer=_begin)
+            try:
+                pool.submit(os.getpid).result()
+                return pool
+            except BrokenExecutor as e:
+                _end(pool)
+                if not remaining:
+                    raise FlightError(
+                        f"worker processes end before they fly anything: {e}",
+                        key="executor",
+                        remedy="in a script, put what is to run once under `if __name__ == '__main__':`; is there memory left?",
+                    ) from e
+        raise AssertionError
+
+
+def _handed(pool: ProcessPoolExecutor, fn: Callable[..., Any], args: Any, kwargs: Any) -> Future[Any] | None:
+    """The future of a call, None if the pool has died. A pool that dies while it is handed something may forget it (CPython
+    3.11), so this looks again afterwards.
+    """
+    from concurrent.futures import BrokenExecutor
+
+    try:
+        future = pool.submit(fn, *args, **kwargs)
+    except BrokenExecutor:
+        return None
+    return None if getattr(pool, "_broken", False) else future
+
+
+def _end(pool: ProcessPoolExecutor) -> None:
+    """Ends the processes of a pool at once. One that it was starting when it died would be waited for, for ever."""
+    processes = list((getattr(pool, "_processes", None) or {}).values())
+    pool.shutdown(wait=False, cancel_futures=True)
+    for process in processes:
+        process.kill()
 
 
 class Ray(Executor):

@@ -20,6 +20,8 @@ _GROWTH = 4
 """How many times as large as the last a batch may be: first points may be quicker than others."""
 _AHEAD = 2
 """Batches handed out for each worker: one it flies, one that waits for it."""
+_HOPELESS = 20
+"""Batches lost one after the other, beyond the attempts of a point, after which the engine itself is taken to be dead."""
 _PERIOD_S = 0.5
 """How long to wait before signals are looked for where waiting cannot be interrupted."""
 _UNFIT = (ImportError, AttributeError, TypeError, pickle.PicklingError, pickle.UnpicklingError)
@@ -55,6 +57,7 @@ class Schedule:
     cost_s: float | None = None
     """Seconds a point takes."""
     _size: int = 1
+    _lost_in_a_row: int = 0
     _fresh: deque[int] = field(default_factory=deque)
     _again: deque[int] = field(default_factory=deque)
     _alone: deque[int] = field(default_factory=deque)
@@ -128,6 +131,7 @@ class Schedule:
         except Exception as e:  # each engine has exceptions of its own for workers that died
             self._lost(batch, e)
             return
+        self._lost_in_a_row = 0
         for index, result in zip(batch.points, results, strict=True):
             self.found(index, result)
         cost = seconds / len(batch.points)
@@ -135,6 +139,13 @@ class Schedule:
         self._size = max(self._size, len(batch.points))
 
     def _lost(self, batch: Batch, error: Exception) -> None:
+        self._lost_in_a_row += 1
+        if self._lost_in_a_row >= _HOPELESS + self.attempts:
+            raise FlightError(
+                f"{self._lost_in_a_row} batches were lost one after the other, the last with {type(error).__name__}: {error}",
+                key="executor",
+                remedy="look whether the engine still runs and its workers have memory; `out` keeps what was flown",
+            ) from error
         for index in batch.points:
             losses = self._losses[index] = self._losses.get(index, 0) + 1
             if batch.is_alone:
