@@ -6,6 +6,8 @@ import os
 import signal
 import time
 
+import numpy as np
+
 import wingbeat
 
 HERE = os.getpid()
@@ -35,6 +37,15 @@ def threads(flight: wingbeat.Flight) -> dict[str, float]:
     before = len(os.listdir("/proc/self/task"))
     flight.fly()
     return {"threads": len(os.listdir("/proc/self/task")) - before}
+
+
+def positive_power(flight: wingbeat.Flight) -> dict[str, float]:
+    """Mean of the positive power of the hinges over a beat [W], and lift over weight."""
+    run = flight.fly(frames=False)
+    power = run.arrays["hinge_wing_left_power_watt"] + run.arrays["hinge_wing_right_power_watt"]
+    positive = np.maximum(power, 0)
+    mean = (positive.sum() - 0.5 * (positive[0] + positive[-1])) / (positive.size - 1)
+    return {"positive": float(mean), "lift": run.beats["lift_over_weight"][-1]}
 
 
 def fruit_fly(point: dict[str, float]) -> wingbeat.Flight:

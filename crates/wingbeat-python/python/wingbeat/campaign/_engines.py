@@ -35,7 +35,7 @@ class Serial(Executor):
 
 
 class Processes(Executor):
-    """Processes of this machine, one thread each: a ``ProcessPoolExecutor`` that starts anew when a process of it dies.
+    """Processes of this machine, one thread each: a ``ProcessPoolExecutor`` that is started again when a process of it dies.
 
     ``workers`` is their number, by default that of the processors this process may use. They are started by the fork server
     where there is one, so nothing of this program's memory goes with them; functions come from modules.
@@ -143,7 +143,7 @@ class Ray(Executor):
 
 
 def engine(executor: Any, workers: int | None) -> tuple[Executor, bool]:
-    """The executor that was meant, and whether it is ours to end."""
+    """The executor that was meant, and whether it was made here."""
     if executor is None:
         return Processes(workers), True
     if isinstance(executor, type):

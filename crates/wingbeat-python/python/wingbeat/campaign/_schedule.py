@@ -115,7 +115,7 @@ class Schedule:
             raise FlightError(
                 f"the executor is broken: {e}",
                 key="executor",
-                remedy="executor=None, or wingbeat.campaign.Processes(), which start processes anew when one dies",
+                remedy="executor=None, or wingbeat.campaign.Processes(), which start processes again when one dies",
             ) from e
 
     def _collect(self, future: Future[Any], batch: Batch) -> None:
