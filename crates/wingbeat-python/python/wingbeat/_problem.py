@@ -69,6 +69,10 @@ class Problem:
         """Names, in the order of the columns of Y: objectives, then constraints."""
         self.reasons: list[str] = []
         """Why points of the last evaluation have no numbers; empty texts where they have."""
+        self.errors: NDArray[Any] = np.empty(0)
+        """Estimated errors of the last gradient."""
+        self.evaluations = 0
+        """Points evaluated so far."""
         self._own = Processes(workers) if executor is None else None
         self._executor = executor
         self._settings: dict[str, Any] = {
@@ -98,9 +102,32 @@ class Problem:
             return np.empty((0, len(self.outputs)))
         table = _map.map(dict(zip(self.variables, rows.T, strict=True)), self._engine(len(rows)), **self._settings)
         self.reasons = table.reasons
+        self.evaluations += len(rows)
         found = np.column_stack([table[name] for name in self.outputs])
         numbers: NDArray[Any] = found[0] if points.ndim == 1 else found
         return numbers
+
+    def gradient(self, x: ArrayLike, *, first_step: float = 0.02, relative: float = 1e-7) -> NDArray[Any]:
+        """Derivatives of all numbers by all variables at a point, shape (m, d), from (d,); or (n, m, d) from (n, d).
+
+        By differences within the bounds, the first over ``first_step`` of the range of a variable; steps become smaller until the
+        estimated errors (``errors``, of the same shape) are below the ``relative`` part of the derivative or of the number over the range,
+        or grow. Points of all variables are flown at once. A point that fails makes its derivatives NaN.
+        """
+        import numpy as np
+
+        from wingbeat import _gradient
+
+        if not 0.0 < first_step <= 0.05:
+            raise CaseError(f"first_step = {first_step!r}: no part of a range", key="first_step", remedy="above 0, up to 0.05")
+        points = np.atleast_2d(np.asarray(x, dtype=np.float64))
+        if points.shape[1:] != self.lower.shape or not ((self.lower <= points) & (points <= self.upper)).all():
+            raise CaseError("x: not within the bounds of the variables", key="x", remedy="lower <= x <= upper, shape (d,) or (n, d)")
+        pairs = [_gradient.jacobian(self.evaluate, at, self.lower, self.upper, first_step, relative) for at in points]
+        found, errors = (np.array(list(arrays)) for arrays in zip(*pairs, strict=True))
+        self.errors = errors[0] if np.ndim(x) == 1 else errors
+        derivatives: NDArray[Any] = found[0] if np.ndim(x) == 1 else found
+        return derivatives
 
     def costs(self, Y: ArrayLike) -> NDArray[Any]:
         """The objectives of results, what is to be large with the opposite sign: less is better."""
