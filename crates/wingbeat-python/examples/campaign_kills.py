@@ -58,7 +58,12 @@ def dask() -> Iterator[tuple[Executor, Pids]]:
     from distributed import Client, LocalCluster
 
     with LocalCluster(threads_per_worker=1, dashboard_address=None) as cluster, Client(cluster) as client:
-        yield client.get_executor(), lambda: [w.pid for n in cluster.workers.values() if (w := n.process)]
+
+        def pids() -> list[int]:  # of workers that have begun: one that is killed before is not started again by Dask
+            there = client.scheduler_info(n_workers=-1)["workers"]
+            return [n.process.pid for n in cluster.workers.values() if n.process and n.worker_address in there]
+
+        yield client.get_executor(), pids
 
 
 @contextmanager

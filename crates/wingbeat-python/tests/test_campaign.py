@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import multiprocessing
 import os
 import pickle
@@ -108,7 +109,7 @@ def test_behaves_a_point_that_kills_its_worker_is_recorded_and_no_other():
     assert table.reasons[2] == "its worker died, 2 times with nothing beside it: BrokenProcessPool"
 
 
-def test_refuses_to_go_on_with_a_pool_that_cannot_start_anew():
+def test_refuses_to_go_on_with_a_pool_that_cannot_start_again():
     points = {"motion.frequency_hz": [200.0, 190.0]}
     with ProcessPoolExecutor(1, multiprocessing.get_context("spawn")) as pool, pytest.raises(wingbeat.FlightError, match="broken") as caught:
         campaign.map(points, pool, base="fruit-fly-blade", do=tasks.deadly, keep=["frequency"])
@@ -163,6 +164,17 @@ def test_behaves_damaged_points_are_flown_again(tmp_path, serial):
     (tmp_path / "points" / "empty.jsonl").write_bytes(b"\0" * 100)
     again = campaign.map(POINTS, campaign.Serial(), **settings)
     assert again.flown == 1 and same(again, serial)
+
+
+def test_behaves_a_full_disk_ends_it_and_what_was_flown_is_in_the_error(tmp_path, monkeypatch, serial):
+    def full(*_: object) -> None:
+        raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+
+    with monkeypatch.context() as disk, pytest.raises(wingbeat.ResultError, match="No space left") as caught:
+        disk.setattr(os, "replace", full)
+        campaign.map(POINTS, campaign.Serial(), base="fruit-fly-blade", out=tmp_path)
+    assert caught.value.remedy and caught.value.table.ok.any() and not list((tmp_path / "points").iterdir())
+    assert same(campaign.map(POINTS, campaign.Serial(), base="fruit-fly-blade", out=tmp_path), serial)
 
 
 def test_behaves_one_thread_in_each_process():

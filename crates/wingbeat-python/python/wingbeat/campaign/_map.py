@@ -57,15 +57,15 @@ def map(
     case_text = task.base.case_text if isinstance(task.base, Flight) else ""
     table = Table(read, units, case_text)
     bar = _bar() if progress is True else progress or (lambda done, of: None)
-    used, is_ours = _engines.engine(executor, workers)
+    used, is_made_here = _engines.engine(executor, workers)
     try:
         _fly(table, read, task, store, used, _Settings(workers, chunk_s, attempts), bar)
     except BaseException as e:
         e.table = table  # type: ignore[attr-defined]
-        if is_ours and isinstance(used, _engines.Processes):
+        if is_made_here and isinstance(used, _engines.Processes):
             used.stop()
         raise
-    if is_ours:
+    if is_made_here:
         used.shutdown()
     return table
 
