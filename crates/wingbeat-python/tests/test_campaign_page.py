@@ -8,6 +8,7 @@ import subprocess
 import sys
 from pathlib import Path
 
+import campaign_tasks as tasks
 import numpy as np
 import pytest
 
@@ -38,11 +39,9 @@ def run(section: str, folder: Path) -> None:
     path = os.pathsep.join([scripts, os.environ["PATH"]])
     command = [sys.executable, "points.py"]
     if section == "MPI":
-        command = code(section, "sh").replace("mpirun", "mpirun --oversubscribe").split()
-    allowed = {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
-    done = subprocess.run(
-        command, cwd=folder, env=os.environ | allowed | {"PATH": path}, capture_output=True, text=True, timeout=120
-    )
+        command = code(section, "sh").split()
+    around = os.environ | tasks.MPI | {"PATH": path}
+    done = subprocess.run(command, cwd=folder, env=around, capture_output=True, text=True, timeout=120)
     assert done.returncode == 0, done.stderr[-3000:]
 
 
