@@ -14,7 +14,7 @@ import threading
 import time
 from collections.abc import Callable, Iterator
 from concurrent.futures import Executor
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
 
 import numpy as np
@@ -98,8 +98,9 @@ def main(engine: str, count: int = 10_000, kills: int = 50) -> None:
             if over.is_set():
                 return
             if there := pids():
-                os.kill(chance.choice(there), signal.SIGKILL)
-                killed += 1
+                with suppress(ProcessLookupError):
+                    os.kill(chance.choice(there), signal.SIGKILL)
+                    killed += 1
 
     with {"processes": processes, "dask": dask, "ray": ray}[engine]() as (executor, pids):
         campaign.map({"time.beats": [1] * 8}, executor, base="fruit-fly-blade")  # all processes are there

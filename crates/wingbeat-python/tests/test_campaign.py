@@ -13,6 +13,7 @@ import sys
 import threading
 import time
 from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
+from contextlib import suppress
 from pathlib import Path
 
 import campaign_tasks as tasks
@@ -37,29 +38,6 @@ def same(a: campaign.Table, b: campaign.Table) -> bool:
     return list(a) == list(b) and all(a[k].tobytes() == b[k].tobytes() for k in a) and a.reasons == b.reasons
 
 
-def children() -> set[int]:
-    """Processes that this one has started and that live, those of the fork server included."""
-    listed = subprocess.run(["ps", "-eo", "pid=,ppid=,stat="], capture_output=True, text=True).stdout
-    parents = {int(pid): int(parent) for pid, parent, state in map(str.split, listed.splitlines()) if state[0] != "Z"}
-    found, more = set(), {os.getpid()}
-    while more := {pid for pid, parent in parents.items() if parent in more} - found:
-        found |= more
-    return found
-
-
-def workers() -> set[int]:
-    """Processes of the fork server."""
-    def words(pid: int) -> str:
-        try:
-            return Path(f"/proc/{pid}/cmdline").read_text()
-        except OSError:
-            return ""
-
-    servers = {pid for pid in children() if "forkserver" in words(pid)}
-    parents = {pid: Path(f"/proc/{pid}/stat").read_text().rsplit(")", 1)[1].split()[1] for pid in servers}
-    return {pid for pid, parent in parents.items() if int(parent) in servers}
-
-
 def test_agrees_with_flights_one_by_one(serial):
     for k, frequency in enumerate(FREQUENCIES[::6]):
         run = Flight.preset("fruit-fly-blade").set({"motion.frequency_hz": frequency, "time.beats": 1}).fly()
@@ -79,26 +57,27 @@ def test_invariant_engine_number_of_workers_and_batches_change_no_bit(serial):
 
 def test_behaves_workers_that_are_killed_change_no_bit(serial):
     many = {"motion.frequency_hz": np.tile(FREQUENCIES, 8), "time.beats": 1}
-    over, killed = threading.Event(), []
+    over, killed, chance = threading.Event(), [], random.Random(1)
 
-    def kill() -> None:
-        chance = random.Random(1)
-        while not over.wait(0.1):
-            if len(killed) < 4 and (there := sorted(workers())):
-                os.kill(chance.choice(there), signal.SIGKILL)
-                killed.append(over.wait(0.3))
+    def kill(pool: campaign.Processes) -> None:
+        while not over.wait(0.3 * chance.random()) and len(killed) < 4:
+            if there := sorted(getattr(pool._pool, "_processes", None) or {}):
+                killed.append(chance.choice(there))
+                with suppress(ProcessLookupError):
+                    os.kill(killed[-1], signal.SIGKILL)
 
-    killer = threading.Thread(target=kill)
-    killer.start()
-    try:
-        table = campaign.map(many, base="fruit-fly-blade", workers=2, chunk_s=0.1)
-    finally:
-        over.set()
-        killer.join()
+    with campaign.Processes(2) as pool:
+        pool.submit(os.getpid).result()
+        killer = threading.Thread(target=kill, args=(pool,))
+        killer.start()
+        try:
+            table = campaign.map(many, pool, base="fruit-fly-blade", chunk_s=0.1)
+        finally:
+            over.set()
+            killer.join()
     assert killed and not any(table.reasons)
     for name in ("lift_over_weight", "power_watt"):
         assert table[name].tobytes() == np.tile(serial[name], 8).tobytes()
-    assert not workers()
 
 
 def test_behaves_a_point_that_kills_its_worker_is_recorded_and_no_other():
