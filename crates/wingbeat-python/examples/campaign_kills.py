@@ -55,8 +55,11 @@ def processes() -> Iterator[tuple[Executor, Pids]]:
 @contextmanager
 def dask() -> Iterator[tuple[Executor, Pids]]:
     """A local cluster of Dask."""
+    from dask import config
     from distributed import Client, LocalCluster
 
+    # Dask looks for a lost worker after a while, and takes its place away if it has been killed again just then.
+    config.set({"distributed.deploy.lost-worker-timeout": "1h"})
     with LocalCluster(threads_per_worker=1, dashboard_address=None) as cluster, Client(cluster) as client:
 
         def pids() -> list[int]:  # of workers that have begun: one that is killed before is not started again by Dask

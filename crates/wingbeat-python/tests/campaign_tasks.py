@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import signal
+import sys
 import time
 
 import numpy as np
@@ -62,3 +63,8 @@ def fruit_fly(point: dict[str, float]) -> wingbeat.Flight:
 def wrong(flight: wingbeat.Flight) -> dict[str, float]:
     """A function with a mistake."""
     raise KeyError(flight.name)
+
+
+def exits(flight: wingbeat.Flight) -> dict[str, float]:
+    """A function that ends its program."""
+    sys.exit("over")

@@ -105,6 +105,8 @@ def test_behaves_points_that_cannot_be_flown_have_reasons():
     assert none.reasons == ["0 whole wingbeats were flown, means need 1 (time.beats)"]
     bad = campaign.map({"time.beats": [1]}, campaign.Serial(), base="fruit-fly-blade", do=tasks.wrong, keep=["x"])
     assert bad.reasons == ["KeyError: 'fruit-fly-blade'"]
+    over = campaign.map({"time.beats": [1]}, workers=1, base="fruit-fly-blade", do=tasks.exits, keep=["x"])
+    assert over.reasons == ["SystemExit: over"]
     other = campaign.map({"time.beats": [1]}, campaign.Serial(), base="fruit-fly-blade", do=tasks.mean_lift, keep=["x"])
     assert other.reasons == ["keep = 'x': the function gave lift, unasked"]
 
@@ -199,6 +201,20 @@ def test_behaves_a_table_is_a_dataset_with_units(serial, tmp_path):
     data.to_netcdf(tmp_path / "table.nc", engine="h5netcdf")
     with xarray.open_dataset(tmp_path / "table.nc", engine="h5netcdf") as read:
         assert read["power_watt"].values.tobytes() == serial["power_watt"].tobytes()
+
+
+def test_behaves_points_may_be_tables_texts_and_vectors():
+    import pandas
+
+    frame = pandas.DataFrame({"air.blade.coefficients": ["dickson-2008", "dickinson-1999"], "time.beats": [1, 1]})
+    table = campaign.map(frame, campaign.Serial(), base="fruit-fly-blade")
+    assert table.ok.all() and table["air.blade.coefficients"].tolist() == list(frame["air.blade.coefficients"])
+    flight = Flight.preset("fruit-fly-blade").set({"time.beats": 1, "air.blade.coefficients": "dickinson-1999"})
+    assert table["lift_over_weight"][1] == flight.fly().beats["lift_over_weight"][0]
+    winds = {"air.stream_m_s": [[0.0, 0.0, 0.0], [-0.1, 0.0, 0.0]], "time.beats": 1}
+    blown = campaign.map(winds, campaign.Serial(), base="fruit-fly-blade")
+    assert blown.ok.all() and blown.dataset["air.stream_m_s"].shape == (2, 3)
+    assert blown["lift_over_weight"][0] != blown["lift_over_weight"][1]
 
 
 SCRIPT = """

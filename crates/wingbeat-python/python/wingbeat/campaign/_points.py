@@ -74,6 +74,8 @@ def _of_columns(given: Mapping[Any, Any]) -> Points:
             columns[key] = np.asarray(column)
         except ValueError:
             raise _wrong(f"{key}: values of several shapes") from None
+        if columns[key].dtype == object and all(isinstance(item, str) for item in columns[key].flat):
+            columns[key] = columns[key].astype(str)  # texts of pandas
         if columns[key].dtype == object:
             raise _wrong(f"{key}: values that are neither numbers nor texts")
     lengths = {key: len(column) for key, column in columns.items() if column.ndim}

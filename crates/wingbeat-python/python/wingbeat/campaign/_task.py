@@ -36,7 +36,7 @@ class Task:
             return [self._number(numbers, name) for name in self.keep], ""
         except Error as e:
             return None, _line(e)
-        except Exception as e:  # of functions of the user: whatever it is, the other points are flown
+        except (Exception, SystemExit) as e:  # of functions of the user: whatever it is, the other points are flown
             return None, f"{type(e).__name__}: {_line(e)}"
 
     def _numbers(self, point: Point) -> Mapping[str, Any]:
@@ -84,7 +84,7 @@ def _trimmed(flight: Flight, options: dict[str, float]) -> dict[str, Any]:
     return numbers | {name: getattr(trim, name) for name in _names.ATTITUDE}
 
 
-def _line(error: Exception) -> str:
+def _line(error: BaseException) -> str:
     return " ".join(str(error).split()) or type(error).__name__
 
 
