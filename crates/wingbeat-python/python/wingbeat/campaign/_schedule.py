@@ -18,6 +18,8 @@ from wingbeat.errors import FlightError
 
 _GROWTH = 4
 """How many times as large as the last a batch may be: first points may be quicker than others."""
+_SMALLER = 8
+"""How many times smaller batches of points are that were lost once."""
 _AHEAD = 2
 """Batches handed out for each worker: one it flies, one that waits for it."""
 _HOPELESS = 20
@@ -93,20 +95,20 @@ class Schedule:
         if len(self._flying) >= _AHEAD * self.workers:
             return None
         if self._fresh:
-            return Batch(_taken(self._fresh, self._batch_size()))
+            return Batch(_taken(self._fresh, self._batch_size(self._fresh, self.chunk_s)))
         if self._again:
-            return Batch(_taken(self._again, max(1, self._batch_size() // 8)))
+            return Batch(_taken(self._again, self._batch_size(self._again, self.chunk_s / _SMALLER)))
         if self._alone and not self._flying:
             return Batch(_taken(self._alone, 1), is_alone=True)
         return None
 
-    def _batch_size(self) -> int:
-        """As many points as take ``chunk_s``; towards the end fewer, so that all workers end together."""
+    def _batch_size(self, queue: deque[int], seconds: float) -> int:
+        """As many points as take so long; towards the end fewer, so that all workers end together."""
         if self.cost_s is None:
             return 1
-        wanted = math.ceil(self.chunk_s / max(self.cost_s, 1e-9))
-        left = math.ceil(len(self._fresh) / (_AHEAD * self.workers))
-        return max(1, min(wanted, _GROWTH * self._size, max(left, 1)))
+        wanted = math.ceil(seconds / max(self.cost_s, 1e-9))
+        left = math.ceil(len(queue) / (_AHEAD * self.workers))
+        return max(1, min(wanted, _GROWTH * self._size, left))
 
     def _submitted(self, arguments: tuple[Any, ...]) -> Future[Any]:
         try:
