@@ -41,6 +41,17 @@ def test_invariant_processes_give_the_same_and_stay_until_closed():
     assert first.tobytes() == again.tobytes() == hover(executor=Serial()).evaluate(X).tobytes()
 
 
+def test_behaves_points_that_are_kept_are_flown_once(tmp_path):
+    def kept() -> int:
+        return sum(len(file.read_text().splitlines()) for file in (tmp_path / "points").iterdir())
+
+    X = [[200.0, 9e-7], [210.0, 9e-7]]
+    first = hover(executor=Serial(), out=tmp_path)
+    Y = first.evaluate(X)
+    assert first.evaluate(X[::-1]).tolist() == Y[::-1].tolist() and kept() == 2
+    assert hover(executor=Serial(), out=tmp_path).evaluate([*X, [220.0, 9e-7]])[:2].tolist() == Y.tolist() and kept() == 3
+
+
 def test_behaves_failures_are_nan_with_reasons():
     problem = hover(executor=Serial())
     Y = problem.evaluate([[200.0, 9e-7], [-1.0, 9e-7]])
@@ -96,6 +107,9 @@ BAD = {
     "constraint without bounds": lambda: Problem("fruit-fly-blade", VARIABLES, "power_watt", {"lift_newton": (None, None)}),
     "constraint upside down": lambda: Problem("fruit-fly-blade", VARIABLES, "power_watt", {"lift_newton": (2, 1)}),
     "unknown constraint": lambda: Problem("fruit-fly-blade", VARIABLES, "power_watt", {"lift": (1, 2)}),
+    "executor that is none": lambda: Problem("fruit-fly-blade", VARIABLES, "power_watt", executor=3),
+    "no workers": lambda: Problem("fruit-fly-blade", VARIABLES, "power_watt", workers=0),
+    "unknown setting of a trim": lambda: Problem("fruit-fly-blade", {"trim.fast": (0, 1)}, "peak_watt", do="trim"),
     "another shape": lambda: hover(executor=Serial()).evaluate([[200.0, 9e-7, 1.0]]),
     "a cube": lambda: hover(executor=Serial()).evaluate(np.zeros((2, 2, 2))),
     "unknown variable": lambda: Problem("fruit-fly-blade", {"motion.f": (1, 2)}, "power_watt"),

@@ -8,7 +8,7 @@ from concurrent.futures import Executor
 from types import TracebackType
 from typing import TYPE_CHECKING, Any
 
-from wingbeat.campaign import Processes, Serial, _map, _names
+from wingbeat.campaign import Processes, Serial, _engines, _names, _plan, _points
 from wingbeat.errors import CaseError
 
 if TYPE_CHECKING:
@@ -73,19 +73,11 @@ class Problem:
         """Estimated errors of the last gradient."""
         self.evaluations = 0
         """Points evaluated so far."""
-        self._own = Processes(workers) if executor is None else None
-        self._executor = executor
-        self._settings: dict[str, Any] = {
-            "base": base if callable(base) else _map.based(base),
-            "do": do,
-            "keep": {name: _names.unit(name) for name in self.outputs},
-            "workers": None if executor is None else workers,
-            "last_beats": last_beats,
-            "chunk_s": chunk_s,
-            "attempts": attempts,
-        }
-        _map.check(list(self.variables), **self._settings)
-        self._settings["out"] = out
+        self._executor, is_made_here = _engines.engine(executor, workers)
+        self._own = self._executor if is_made_here and isinstance(self._executor, Processes) else None
+        shared = None if executor is None else workers
+        keep = {name: _names.unit(name) for name in self.outputs}
+        self._plan = _plan.plan(self.variables, base, do, keep, last_beats, out, shared, chunk_s, attempts)
 
     def evaluate(self, X: ArrayLike) -> NDArray[Any]:
         """Numbers of points: from shape (n, d) to (n, m), or from (d,) to (m,); NaN where a point failed."""
@@ -100,7 +92,8 @@ class Problem:
         if not len(rows):
             self.reasons = []
             return np.empty((0, len(self.outputs)))
-        table = _map.map(dict(zip(self.variables, rows.T, strict=True)), self._engine(len(rows)), **self._settings)
+        read = _points.read(dict(zip(self.variables, rows.T, strict=True)))
+        table = self._plan.fly(read, self._engine(len(rows)), None)
         self.reasons = table.reasons
         self.evaluations += len(rows)
         found = np.column_stack([table[name] for name in self.outputs])
@@ -165,7 +158,7 @@ class Problem:
     def __repr__(self) -> str:
         return f"<wingbeat.Problem: {', '.join(self.outputs)} of {', '.join(self.variables)}>"
 
-    def _engine(self, points: int) -> Executor | None:
+    def _engine(self, points: int) -> Executor:
         if self._own is not None:
             return self._own if points > 1 else Serial()
         return self._executor

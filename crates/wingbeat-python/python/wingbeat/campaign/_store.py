@@ -51,7 +51,7 @@ class Store:
 
     def put(self, key: str, found: Found) -> None:
         """Keeps a point; it is on the disk after :meth:`flush`."""
-        values, reason = found
+        values, reason = self._known[key] = found
         line = json.dumps([key, values, reason])
         self._lines.append(f"{zlib.crc32(line.encode()):08x} {line}\n")
         if len(self._lines) >= _MOST:
