@@ -12,6 +12,8 @@ inertial frame N (n1 forward, n2 right, n3 down along gravity) unless said.
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING, Any
+
 from wingbeat._core import presets as _presets
 from wingbeat._core import version as _version
 from wingbeat._case import Part
@@ -21,6 +23,10 @@ from wingbeat._mechanics import Derivatives, LinearModel, Mode, Power, Trim, Wak
 from wingbeat._own import Adjustment, Motions, Sensed
 from wingbeat._run import Beats, Estimate, Run, read
 from wingbeat.errors import AnalysisError, CaseError, Error, FlightError, ResultError
+
+if TYPE_CHECKING:
+    from wingbeat import campaign
+    from wingbeat._problem import Problem
 
 __version__ = _version()
 
@@ -41,6 +47,7 @@ __all__ = [
     "Part",
     "Particles",
     "Power",
+    "Problem",
     "ResultError",
     "Run",
     "Sensed",
@@ -50,6 +57,7 @@ __all__ = [
     "Wake",
     "WakeModel",
     "WakeTrim",
+    "campaign",
     "presets",
     "read",
 ]
@@ -58,3 +66,18 @@ __all__ = [
 def presets() -> dict[str, str]:
     """Names of the presets, and what each is."""
     return dict(_presets())
+
+
+def __getattr__(name: str) -> Any:
+    """What is imported when it is asked for."""
+    from importlib import import_module
+
+    if name == "campaign":
+        return import_module("wingbeat.campaign")
+    if name == "Problem":
+        return import_module("wingbeat._problem").Problem
+    raise AttributeError(f"module 'wingbeat' has no attribute {name!r}")
+
+
+def __dir__() -> list[str]:
+    return sorted({*globals(), *__all__})

@@ -80,6 +80,17 @@ class Part(dict[str, Any]):
         return NoKeyError(f"{key}: no case has this key", key=key, remedy=f"{remedy}There are {', '.join(names)}")
 
 
+def check_key(key: str) -> None:
+    """Refuses a key that no case has, ``motion.frequenzy_hz``, with one that was meant."""
+    part = Part()
+    for name in key.split("."):
+        shapes = _inner(part._shapes, name)
+        if not shapes:
+            error = part._unknown(name)
+            raise CaseError(str(error), key=error.key, remedy=error.remedy)
+        part = Part({}, shapes, f"{part._path}.{name}".lstrip("."))
+
+
 def _made(value: Any, shapes: _Shapes, path: str) -> Any:
     if isinstance(value, Mapping):
         return Part(value, shapes, path)

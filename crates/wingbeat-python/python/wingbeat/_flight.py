@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import sys
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -14,6 +15,7 @@ from wingbeat._frame import Frame
 from wingbeat._mechanics import Derivatives, LinearModel, Power, Trim, WakeTrim, _not_trimmed
 from wingbeat._own import Air, Controller, Loads, Steering
 from wingbeat._run import Run
+from wingbeat._source import Source
 from wingbeat.errors import CaseError
 
 if TYPE_CHECKING:
@@ -29,24 +31,34 @@ _LATERAL = ("body_roll", "stroke_amplitude_difference", "stroke_plane_difference
 
 class Flight:
     """A flight to be flown: a case, keys set on top of it, and parts written in Python. It never changes: methods
-    return new ones.
+    return new ones. Without such parts it can be pickled: another process flies the same, bit for bit.
     """
 
-    def __init__(self, core: _core.Flight) -> None:
+    def __init__(self, core: _core.Flight, source: Source | None = None) -> None:
         self._core = core
+        self._source = source
+
+    def __reduce__(self) -> tuple[Callable[[Source], Flight], tuple[Source]]:
+        if self._source is None:
+            raise CaseError(
+                "this flight has parts written in Python, or was read from the standard input: it cannot be pickled",
+                key="base",
+                remedy="give a function that makes the flight, or that adds the parts",
+            )
+        return _made, (self._source,)
 
     @staticmethod
     def preset(name: str) -> Flight:
         """An embedded preset (:func:`wingbeat.presets`), or a case file by its path."""
-        return Flight(_core.Flight.find(name, []))
+        return Flight(_core.Flight.find(name, []), Source.named(name))
 
     @staticmethod
     def from_case(case: str | os.PathLike[str] | Mapping[str, Any]) -> Flight:
         """A case: the text of one (TOML), the path of a file, or a dict of the same keys."""
         if isinstance(case, Mapping):
-            return Flight(_core.Flight.from_text("case", _toml.document(case), "", []))
+            return _made(Source("case", _toml.document(case), ""))
         if isinstance(case, str) and ("\n" in case or "=" in case):
-            return Flight(_core.Flight.from_text("case", case, "", []))
+            return _made(Source("case", case, ""))
         path = Path(case)
         if not path.is_file():
             raise CaseError(
@@ -54,7 +66,7 @@ class Flight:
                 key=str(path),
                 remedy="the path of a file, the text of a case, a dict, or Flight.preset(NAME)",
             )
-        return Flight(_core.Flight.find(os.fspath(path), []))
+        return Flight.preset(os.fspath(path))
 
     def __repr__(self) -> str:
         return f"<wingbeat.Flight {self.name}: {self.steps} steps of {self.step_s:.4g} s>"
@@ -71,7 +83,8 @@ class Flight:
             if item is _UNSET:
                 raise CaseError(f"{name}: no value is given", key=name, remedy="set(key, value)")
             sets.append(f"{name}={_toml.value(item, name)}")
-        return Flight(self._core.set(sets))
+        source = self._source and replace(self._source, sets=(*self._source.sets, *sets))
+        return Flight(self._core.set(sets), source)
 
     def with_motion(
         self,
@@ -310,6 +323,10 @@ class Stepper:
         return Run(self._core.run())
 
 
+def _made(source: Source) -> Flight:
+    return Flight(source.core(), source)
+
+
 def _asked(
     velocity: tuple[float, float, float],
     turn_rate: float,
@@ -350,13 +367,13 @@ def _rows(name: str, angle: ArrayLike | Callable[[float], float], samples: int) 
     return [[float(phase), float(x)] for phase, x in zip(phases, angles, strict=True)]
 
 
-def _bar(name: str) -> Progress:
+def _bar(name: str, unit: str = "step") -> Progress:
     """A bar of tqdm, or a line on the standard error."""
     try:
         from tqdm.auto import tqdm
     except ImportError:
         return lambda done, of: print(f"\r{name}: {done}/{of}", end="\n" if done == of else "", file=sys.stderr)
-    bar: Any = tqdm(total=None, desc=name, unit="step")
+    bar: Any = tqdm(total=None, desc=name, unit=unit)
 
     def show(done: int, of: int) -> None:
         bar.total = of

@@ -1,0 +1,142 @@
+"""Numbers of a flight by name, and their units."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from typing import Any
+
+from wingbeat.errors import CaseError
+
+BEATS = (
+    "lift_newton",
+    "lift_over_weight",
+    "thrust_newton",
+    "power_watt",
+    "inviscid_lift_newton",
+    "lift_by_impulse_newton",
+)
+"""Means over wingbeats."""
+SUMMARY = (
+    "steps",
+    "time_s",
+    "mass_kg",
+    "final_lift_newton",
+    "final_thrust_newton",
+    "energy_residual_relative",
+    "momentum_residual_relative",
+    "violation_position_m",
+    "violation_orientation",
+    "euler_regularity",
+    "corrector_passes_most",
+    "corrector_passes_mean",
+    "regularised",
+    "alternating_steps",
+    "wake_rings",
+    "wake_particles",
+    "net_flux_residual_m_s",
+)
+"""Numbers of the summary."""
+POWER = (
+    "aerodynamic_watt",
+    "inertial_positive_watt",
+    "perfect_storage_watt",
+    "no_storage_watt",
+    "peak_watt",
+)
+ATTITUDE = ("body_pitch_rad", "body_roll_rad", "period_s", "iterations")
+ADJUSTMENT = (
+    "stroke_amplitude",
+    "stroke_offset_rad",
+    "feathering_amplitude",
+    "feathering_offset_rad",
+    "feathering_lead_wingbeats",
+    "deviation_offset_rad",
+    "stroke_plane_rad",
+    "frequency",
+)
+"""What trim adds to the motion of the wings."""
+TRIM_OPTIONS = ("forward_m_per_s", "sideslip_m_per_s", "climb_m_per_s", "turn_rate_rad_per_s")
+"""What points may ask of a trim, as ``trim.forward_m_per_s``."""
+
+# Endings of names, the longest that fits counts.
+_UNITS = {
+    "m": "m",
+    "mm": "mm",
+    "m2": "m2",
+    "s": "s",
+    "hz": "Hz",
+    "kg": "kg",
+    "mg": "mg",
+    "kg_m2": "kg m2",
+    "kg_m3": "kg m-3",
+    "kg_m_per_s": "kg m s-1",
+    "kg_m2_per_s": "kg m2 s-1",
+    "m_s": "m s-1",
+    "m_per_s": "m s-1",
+    "m_s2": "m s-2",
+    "m_per_s2": "m s-2",
+    "m2_s": "m2 s-1",
+    "m2_per_s": "m2 s-1",
+    "1_s": "s-1",
+    "per_s": "s-1",
+    "deg": "degree",
+    "deg_s": "degree s-1",
+    "rad": "rad",
+    "rad_per_s": "rad s-1",
+    "rad_per_s2": "rad s-2",
+    "newton": "N",
+    "newton_m": "N m",
+    "newton_s": "N s",
+    "watt": "W",
+    "joule": "J",
+}
+
+
+def unit(name: str) -> str:
+    """The unit that a name ends in, ``1`` where it has none: ``motion.frequency_hz`` is in Hz."""
+    parts = name.rsplit(".", 1)[-1].split("_")
+    for start in range(1, len(parts)):
+        found = _UNITS.get("_".join(parts[start:]))
+        if found is not None:
+            return found
+    return "1"
+
+
+def of_task(do: str) -> tuple[str, ...]:
+    """Names of what a flight (``fly``) or a trim (``trim``) gives."""
+    return BEATS + SUMMARY if do == "fly" else POWER + ATTITUDE + ADJUSTMENT
+
+
+def kept(keep: Iterable[str] | Mapping[str, str], do: Any) -> dict[str, str]:
+    """Names that are kept and their units, checked against those of the task."""
+    if isinstance(keep, str):
+        keep = (keep,)
+    units = dict(keep) if isinstance(keep, Mapping) else {name: unit(name) for name in _texts(keep)}
+    if not units:
+        raise CaseError("keep: no name is given", key="keep", remedy="e.g. ['lift_over_weight', 'power_watt']")
+    if isinstance(do, str):
+        known = of_task(do)
+        for name in units:
+            if name not in known:
+                why = f"keep = {name!r}: no number of do={do!r} has this name"
+                raise CaseError(why, key="keep", remedy=_remedy(name, known))
+    return units
+
+
+def _texts(names: Iterable[str]) -> list[str]:
+    listed = list(names)
+    wrong = [name for name in listed if not isinstance(name, str)]
+    if wrong:
+        raise CaseError(f"keep: {wrong[0]!r} is no name", key="keep", remedy="names as texts, e.g. 'power_watt'")
+    twice = [name for name in listed if listed.count(name) > 1]
+    if twice:
+        raise CaseError(f"keep: {twice[0]} is there twice", key="keep", remedy="each name once")
+    return listed
+
+
+def _remedy(name: str, known: Iterable[str]) -> str:
+    from difflib import get_close_matches
+
+    near = get_close_matches(name, list(known), 1)
+    hint = f"did you mean {near[0]}? " if near else ""
+    return f"{hint}There are {', '.join(known)}; others by a function as do="

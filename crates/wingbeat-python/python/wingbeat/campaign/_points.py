@@ -1,0 +1,97 @@
+"""Points: what is flown at each."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping
+from typing import TYPE_CHECKING, Any
+
+from wingbeat.errors import CaseError
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+Point = dict[str, Any]
+"""Values by key."""
+
+
+class Points:
+    """Points as columns: an array over the points for each key."""
+
+    def __init__(self, columns: Mapping[str, NDArray[Any]], count: int) -> None:
+        self.columns = dict(columns)
+        self.count = count
+
+    def __len__(self) -> int:
+        return self.count
+
+    def __getitem__(self, index: int) -> Point:
+        return {key: column[index].tolist() for key, column in self.columns.items()}
+
+    def __iter__(self) -> Iterator[Point]:
+        return (self[k] for k in range(self.count))
+
+
+def read(points: Any) -> Points:
+    """Columns by key (a dict, a table of pandas or xarray; single values hold for all points), or dicts one after the
+    other.
+    """
+    if hasattr(points, "keys") and hasattr(points, "__getitem__"):
+        return _of_columns({key: points[key] for key in points.keys()})
+    if isinstance(points, (str, bytes)) or not isinstance(points, Iterable):
+        raise _wrong(f"a {type(points).__name__} has no points")
+    rows = list(points)
+    for k, row in enumerate(rows):
+        if not isinstance(row, Mapping):
+            raise _wrong(f"point {k} is a {type(row).__name__}")
+        if row.keys() != rows[0].keys():
+            raise _wrong(f"point {k} has the keys {', '.join(map(str, row))}, point 0 {', '.join(map(str, rows[0]))}")
+    if not rows:
+        raise _wrong("there are none")
+    return _of_columns({key: [row[key] for row in rows] for key in rows[0]})
+
+
+def grid(axes: Mapping[str, Iterable[Any]]) -> dict[str, NDArray[Any]]:
+    """All combinations of the values of each key, the last key quickest, as columns for :func:`wingbeat.campaign.map`."""
+    import numpy as np
+
+    if not isinstance(axes, Mapping) or not axes:
+        raise CaseError("grid: no key is given", key="grid", remedy="a dict of keys and their values")
+    values = [np.asarray(list(axis)) for axis in axes.values()]
+    for key, axis in zip(axes, values, strict=True):
+        if axis.ndim != 1 or axis.size == 0:
+            raise CaseError(f"grid: {key} has no list of values", key=str(key), remedy="at least one number or text")
+    return {key: axis.ravel() for key, axis in zip(axes, np.meshgrid(*values, indexing="ij"), strict=True)}
+
+
+def _of_columns(given: Mapping[Any, Any]) -> Points:
+    import numpy as np
+
+    columns = {}
+    for key, column in given.items():
+        if not isinstance(key, str) or not key:
+            raise _wrong(f"{key!r} is no key")
+        try:
+            columns[key] = np.asarray(column)
+        except ValueError:
+            raise _wrong(f"{key}: values of several shapes") from None
+        if columns[key].dtype == object and all(isinstance(item, str) for item in columns[key].flat):
+            columns[key] = columns[key].astype(str)  # texts of pandas
+        if columns[key].dtype == object:
+            raise _wrong(f"{key}: values that are neither numbers nor texts")
+    lengths = {key: len(column) for key, column in columns.items() if column.ndim}
+    if not lengths or not min(lengths.values()):
+        raise _wrong("there are none")
+    count = max(lengths.values())
+    for key, length in lengths.items():
+        if length != count:
+            raise _wrong(f"{key} has {length} values, others have {count}")
+    every = {key: c if c.ndim else np.full(count, c) for key, c in columns.items()}
+    return Points(every, count)
+
+
+def _wrong(why: str) -> CaseError:
+    return CaseError(
+        f"points: {why}",
+        key="points",
+        remedy="arrays of one length by key, as {'motion.frequency_hz': [190, 200]}, or dicts with the same keys",
+    )

@@ -1,0 +1,106 @@
+"""A folder in which points that were flown are kept, so that the same campaign flies only what is missing."""
+
+from __future__ import annotations
+
+import hashlib
+import inspect
+import json
+import os
+import uuid
+import zlib
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+from wingbeat import _core
+from wingbeat._flight import Flight
+from wingbeat.campaign._points import Point
+from wingbeat.campaign._task import Found, Task, packed
+from wingbeat.errors import ResultError
+
+_FORMAT = 1
+_MOST = 1000
+"""Points in a file at most."""
+
+
+class Store:
+    """Points by the hash of everything their numbers follow from.
+
+    Each file holds lines of points, and is renamed when it is whole: whoever reads sees all of it or nothing, and several
+    campaigns can write into one folder. A line that a power cut has damaged is left out, and its point is flown again.
+    """
+
+    def __init__(self, folder: str | os.PathLike[str], task: Task) -> None:
+        self._folder = Path(folder) / "points"
+        try:
+            self._folder.mkdir(parents=True, exist_ok=True)
+        except OSError as e:
+            raise _unwritten(self._folder, e) from e
+        self._task = _digest(task)
+        self._lines: list[str] = []
+        self._known: dict[str, Found] = dict(self._read())
+
+    def key(self, point: Point) -> str:
+        """The hash of a point."""
+        text = self._task + json.dumps(point, sort_keys=True)
+        return hashlib.sha256(text.encode()).hexdigest()[:32]
+
+    def get(self, key: str) -> Found | None:
+        """What is kept of a point."""
+        return self._known.get(key)
+
+    def put(self, key: str, found: Found) -> None:
+        """Keeps a point; it is on the disk after :meth:`flush`."""
+        values, reason = self._known[key] = found
+        line = json.dumps([key, values, reason])
+        self._lines.append(f"{zlib.crc32(line.encode()):08x} {line}\n")
+        if len(self._lines) >= _MOST:
+            self.flush()
+
+    def flush(self) -> None:
+        """Writes what is not written yet."""
+        if not self._lines:
+            return
+        path = self._folder / f"{uuid.uuid4().hex}.jsonl"
+        temporary = path.with_suffix(".part")
+        try:
+            temporary.write_text("".join(self._lines))
+            os.replace(temporary, path)
+        except OSError as e:
+            temporary.unlink(missing_ok=True)
+            raise _unwritten(path, e) from e
+        self._lines = []
+
+    def _read(self) -> Iterator[tuple[str, Found]]:
+        for path in sorted(self._folder.glob("*.jsonl")):
+            for line in path.read_text(errors="replace").splitlines():
+                checksum, _, text = line.partition(" ")
+                if checksum == f"{zlib.crc32(text.encode()):08x}":
+                    key, values, reason = json.loads(text)
+                    yield key, (values, reason)
+
+
+def _digest(task: Task) -> str:
+    """Everything that all points share: version, case, what is done, what is kept."""
+    parts = [_FORMAT, _core.version(), _identity(task.base), _identity(task.do), task.keep, task.last_beats]
+    return hashlib.sha256(json.dumps(parts).encode()).hexdigest()
+
+
+def _identity(part: Any) -> Any:
+    if isinstance(part, Flight):
+        source = part._source
+        return [part.case_text, source and [source.text, source.origin, source.sets]]
+    if isinstance(part, str):
+        return part
+    try:
+        return [part.__module__, part.__qualname__, inspect.getsource(part)]
+    except (OSError, TypeError, AttributeError):
+        return packed(part).hex()
+
+
+def _unwritten(path: Path, error: OSError) -> ResultError:
+    return ResultError(
+        f"{path}: cannot be written: {error.strerror or error}",
+        key=str(path),
+        remedy="a folder that can be written on a disk with room; what is there already is kept",
+    )
