@@ -1,0 +1,207 @@
+//! All points as one table: CSV, Parquet, `NetCDF`; and those that failed. Nothing of it tells when, where, by how many
+//! workers or in which order points were flown.
+
+use std::fmt::Write as _;
+use std::path::PathBuf;
+
+use wingbeat_case::IoError;
+use wingbeat_results::export::parquet::{Cell, Cells, ParquetWriter};
+use wingbeat_results::file::NewFile;
+
+use crate::campaign::Campaign;
+use crate::netcdf;
+use crate::store::{PointResult, Reason, Store, hexadecimal};
+use crate::value::Value;
+
+/// Files that a merge writes.
+pub const FILES: [&str; 4] = ["points.csv", "points.parquet", "points.nc", "failed.csv"];
+
+/// A point with what came of it.
+#[derive(Clone, Debug)]
+pub struct Row {
+    /// Its number.
+    pub point: usize,
+    /// Its hash.
+    pub hash: String,
+    /// Values of its keys.
+    pub keys: Vec<Value>,
+    /// Its numbers; not a number where there are none.
+    pub numbers: Vec<f64>,
+    /// Whether it has numbers; none where it was not flown.
+    pub success: Option<bool>,
+    /// Why it has none.
+    pub failed: Option<(Reason, String)>,
+}
+
+/// The points of a campaign one after the other.
+pub fn rows<'a>(
+    campaign: &'a Campaign,
+    store: &'a Store,
+) -> impl Iterator<Item = Result<Row, IoError>> + 'a {
+    (0..campaign.plan.points()).map(move |i| {
+        let hash = hexadecimal(&campaign.hash(i));
+        let found = store.get(&hash)?;
+        let count = campaign.numbers.len();
+        let numbers = found.as_ref().map(|r| values(r, count));
+        Ok(Row {
+            point: i,
+            hash,
+            keys: campaign.plan.values(i),
+            numbers: numbers.unwrap_or_else(|| vec![f64::NAN; count]),
+            success: found.as_ref().map(|r| r.failed.is_none()),
+            failed: found.and_then(|r| r.failed),
+        })
+    })
+}
+
+fn values(result: &PointResult, count: usize) -> Vec<f64> {
+    let mut values: Vec<f64> = result.values.iter().map(|x| x.unwrap_or(f64::NAN)).collect();
+    values.resize(count, f64::NAN);
+    values
+}
+
+/// What a column of keys is in all points.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum KeyKind {
+    /// Whole numbers.
+    Whole,
+    /// Numbers.
+    Number,
+    /// Texts, lists, truth values.
+    Text,
+}
+
+/// What the keys of a campaign are.
+pub fn kinds(campaign: &Campaign) -> Vec<KeyKind> {
+    let listed = campaign.plan.axes.iter().flat_map(|axis| &axis.values);
+    let kind = |values: &Vec<Value>| {
+        let whole = values.iter().all(|v| matches!(v, Value::Whole(_)));
+        let number = values.iter().all(|v| v.number().is_some());
+        match (whole, number) {
+            (true, _) => KeyKind::Whole,
+            (_, true) => KeyKind::Number,
+            _ => KeyKind::Text,
+        }
+    };
+    let drawn = campaign.plan.samplers.iter().map(|_| KeyKind::Number);
+    listed.map(kind).chain(drawn).collect()
+}
+
+/// Writes the tables into the directory of the campaign; how many points have no result yet.
+///
+/// # Errors
+/// A result that cannot be read; a file that cannot be written.
+pub fn merge(campaign: &Campaign, store: &Store) -> Result<(Vec<PathBuf>, usize), IoError> {
+    let rows: Vec<Row> = rows(campaign, store).collect::<Result<_, _>>()?;
+    let missing = rows.iter().filter(|r| r.success.is_none()).count();
+    let place = |name: &str| NewFile::claim_own(&store.path(name), true);
+    place(FILES[0])?.write(&points_csv(campaign, &rows)?)?;
+    place(FILES[1])?.make(|part| parquet(campaign, &rows, part).map_err(IoError::write(part)))?;
+    place(FILES[2])?.make(|part| netcdf::write(campaign, &rows, part).map_err(IoError::write(part)))?;
+    place(FILES[3])?.write(&failed_csv(campaign, &rows)?)?;
+    Ok((FILES.iter().map(|name| store.path(name)).collect(), missing))
+}
+
+/// Numbers of a point that failed stay empty.
+fn points_csv(campaign: &Campaign, rows: &[Row]) -> Result<Vec<u8>, IoError> {
+    let mut table = csv::Writer::from_writer(vec![]);
+    let keys = campaign.plan.keys().iter().map(String::as_str);
+    let numbers = campaign.numbers.iter().map(|n| n.name.as_str());
+    let header = ["point"].into_iter().chain(keys).chain(["success"]).chain(numbers);
+    let lost = "memory takes every row";
+    table.write_record(header.chain(["reason"])).expect(lost);
+    for row in rows {
+        let mut cells = vec![row.point.to_string()];
+        cells.extend(row.keys.iter().map(Value::shown));
+        cells.push(row.success.map_or_else(String::new, |s| u8::from(s).to_string()));
+        let number = |x: &f64| if x.is_finite() { format!("{x:?}") } else { String::new() };
+        cells.extend(row.numbers.iter().map(number));
+        cells.push(reason(row).to_owned());
+        table.write_record(&cells).expect(lost);
+    }
+    Ok(table.into_inner().expect(lost))
+}
+
+fn reason(row: &Row) -> &'static str {
+    match (&row.failed, row.success) {
+        (Some((reason, _)), _) => reason.name(),
+        (None, Some(_)) => "",
+        (None, None) => "missing",
+    }
+}
+
+/// Points that failed, with why, their cases and how to fly them.
+fn failed_csv(campaign: &Campaign, rows: &[Row]) -> Result<Vec<u8>, IoError> {
+    let mut table = csv::Writer::from_writer(vec![]);
+    let lost = "memory takes every row";
+    let header = ["point", "sha256", "reason", "message", "command", "case_toml"];
+    table.write_record(header).expect(lost);
+    for row in rows {
+        let Some((reason, message)) = &row.failed else {
+            continue;
+        };
+        // A key that cannot be put into the case is the message.
+        let text = campaign.case_text(row.point).unwrap_or_default();
+        let command = command(campaign, row.point);
+        let point = row.point.to_string();
+        let cells = [&point, &row.hash, reason.name(), message, &command, &text];
+        table.write_record(cells).expect(lost);
+    }
+    Ok(table.into_inner().expect(lost))
+}
+
+/// The command that flies a point by itself.
+pub fn command(campaign: &Campaign, i: usize) -> String {
+    let mut text = format!("wingbeat run {}", quoted(&campaign.raw.case));
+    for set in campaign.overrides(i) {
+        let _ = write!(text, " --set {}", quoted(&set)); // a string takes everything
+    }
+    text
+}
+
+fn quoted(word: &str) -> String {
+    let plain = |c: char| c.is_ascii_alphanumeric() || "-_./=+,:@%".contains(c);
+    match word.chars().all(plain) {
+        true => word.to_owned(),
+        false => format!("'{}'", word.replace('\'', r"'\''")),
+    }
+}
+
+fn parquet(campaign: &Campaign, rows: &[Row], path: &std::path::Path) -> std::io::Result<()> {
+    let cells = |kind: &KeyKind| match kind {
+        KeyKind::Whole => Cells::Counts,
+        KeyKind::Number => Cells::Numbers,
+        KeyKind::Text => Cells::Texts,
+    };
+    let kinds = kinds(campaign);
+    let mut columns = vec![("point".to_owned(), Cells::Counts)];
+    columns.extend(campaign.plan.keys().iter().cloned().zip(kinds.iter().map(cells)));
+    columns.push(("success".to_owned(), Cells::Numbers));
+    columns.extend(campaign.numbers.iter().map(|n| (n.name.clone(), Cells::Numbers)));
+    columns.push(("reason".to_owned(), Cells::Texts));
+    let mut table = ParquetWriter::create(path, "points", columns)?;
+    for row in rows {
+        let texts: Vec<String> = row.keys.iter().map(Value::shown).collect();
+        let key = |(k, value): (usize, &Value)| match kinds[k] {
+            KeyKind::Text => Cell::Text(texts[k].as_str()),
+            _ => Cell::Number(value.number().unwrap_or(f64::NAN)),
+        };
+        let keys: Vec<Cell> = row.keys.iter().enumerate().map(key).collect();
+        let success = row.success.map_or(f64::NAN, |s| f64::from(u8::from(s)));
+        let head = [Cell::Number(row.point as f64)].into_iter().chain(keys);
+        let numbers = row.numbers.iter().map(|x| Cell::Number(*x));
+        let all = head.chain([Cell::Number(success)]).chain(numbers);
+        table.cells(all.chain([Cell::Text(reason(row))]))?;
+    }
+    let note = |of: &dyn Fn(&crate::number::Number) -> String| {
+        let all = campaign.numbers.iter().map(|n| (n.name.clone(), of(n).into()));
+        serde_json::Value::Object(all.collect()).to_string()
+    };
+    table.finish(&[
+        ("wingbeat_version", env!("CARGO_PKG_VERSION")),
+        ("campaign_toml", campaign.text()),
+        ("case_toml", campaign.base.text()),
+        ("units", &note(&|n| n.unit.clone())),
+        ("meanings", &note(&|n| n.about.clone())),
+    ])
+}
