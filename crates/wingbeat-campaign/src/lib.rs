@@ -18,6 +18,7 @@ pub mod lease;
 pub mod merge;
 mod netcdf;
 pub mod number;
+pub mod page;
 pub mod plan;
 pub mod point;
 pub mod raw;

@@ -2,6 +2,8 @@
 //! workers or in which order points were flown.
 
 use std::fmt::Write as _;
+use std::io::Write;
+use std::ops::Range;
 use std::path::PathBuf;
 
 use wingbeat_case::IoError;
@@ -87,19 +89,45 @@ pub fn kinds(campaign: &Campaign) -> Vec<KeyKind> {
     listed.map(kind).chain(drawn).collect()
 }
 
-/// Writes the tables into the directory of the campaign; how many points have no result yet.
+/// Points that have no result yet.
+///
+/// # Errors
+/// A result that cannot be read.
+pub fn missing(campaign: &Campaign, store: &Store) -> Result<usize, IoError> {
+    let mut rows = rows(campaign, store);
+    rows.try_fold(0, |n, row| Ok(n + usize::from(row?.success.is_none())))
+}
+
+/// Writes the points of `range` as a table: number, hash, values of the keys.
+///
+/// # Errors
+/// What cannot be written.
+pub fn plan(campaign: &Campaign, range: Range<usize>, out: &mut dyn Write) -> std::io::Result<()> {
+    let mut table = csv::Writer::from_writer(out);
+    let keys = campaign.plan.keys().iter().map(String::as_str);
+    table.write_record(["point", "sha256"].into_iter().chain(keys))?;
+    let mut cells: Vec<String> = vec![];
+    for i in range {
+        cells.clear();
+        cells.extend([i.to_string(), hexadecimal(&campaign.hash(i))]);
+        cells.extend(campaign.plan.values(i).iter().map(Value::shown));
+        table.write_record(&cells)?;
+    }
+    table.flush()
+}
+
+/// Writes the tables into the directory of the campaign.
 ///
 /// # Errors
 /// A result that cannot be read; a file that cannot be written.
-pub fn merge(campaign: &Campaign, store: &Store) -> Result<(Vec<PathBuf>, usize), IoError> {
+pub fn merge(campaign: &Campaign, store: &Store) -> Result<Vec<PathBuf>, IoError> {
     let rows: Vec<Row> = rows(campaign, store).collect::<Result<_, _>>()?;
-    let missing = rows.iter().filter(|r| r.success.is_none()).count();
     let place = |name: &str| NewFile::claim_own(&store.path(name), true);
     place(FILES[0])?.write(&points_csv(campaign, &rows)?)?;
     place(FILES[1])?.make(|part| parquet(campaign, &rows, part).map_err(IoError::write(part)))?;
     place(FILES[2])?.make(|part| netcdf::write(campaign, &rows, part).map_err(IoError::write(part)))?;
     place(FILES[3])?.write(&failed_csv(campaign, &rows)?)?;
-    Ok((FILES.iter().map(|name| store.path(name)).collect(), missing))
+    Ok(FILES.iter().map(|name| store.path(name)).collect())
 }
 
 /// Numbers of a point that failed stay empty.
