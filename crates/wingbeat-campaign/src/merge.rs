@@ -105,15 +105,24 @@ pub fn missing(campaign: &Campaign, store: &Store) -> Result<usize, IoError> {
 pub fn plan(campaign: &Campaign, range: Range<usize>, out: &mut dyn Write) -> std::io::Result<()> {
     let mut table = csv::Writer::from_writer(out);
     let keys = campaign.plan.keys().iter().map(String::as_str);
-    table.write_record(["point", "sha256"].into_iter().chain(keys))?;
+    let header = ["point", "sha256"].into_iter().chain(keys);
+    table.write_record(header).map_err(io)?;
     let mut cells: Vec<String> = vec![];
     for i in range {
         cells.clear();
         cells.extend([i.to_string(), hexadecimal(&campaign.hash(i))]);
         cells.extend(campaign.plan.values(i).iter().map(Value::shown));
-        table.write_record(&cells)?;
+        table.write_record(&cells).map_err(io)?;
     }
     table.flush()
+}
+
+/// What the system said.
+fn io(e: csv::Error) -> std::io::Error {
+    match e.into_kind() {
+        csv::ErrorKind::Io(e) => e,
+        other => std::io::Error::other(format!("{other:?}")),
+    }
 }
 
 /// Writes the tables into the directory of the campaign.
