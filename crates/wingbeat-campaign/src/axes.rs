@@ -42,7 +42,7 @@ impl Reader<'_> {
                 Some(values) => axes.push(Axis::of_key(&key, place, values)),
                 None => {
                     let dimension = samplers.len();
-                    let seed = raw.seed.unwrap_or(0);
+                    let seed = raw.seed.unwrap_or(0) as u64;
                     self.check_law(&place, variation, samples, dimension)?;
                     samplers.push(sampler(&key, seed, variation, samples, dimension));
                 }
@@ -148,9 +148,18 @@ impl Reader<'_> {
         let end = |name: &str, value: &toml::Value| {
             let number = Value::of(value).and_then(|v| v.number());
             number.filter(|x| !logarithmic || *x > 0.0).ok_or_else(|| {
-                let allowed = if logarithmic { "a number above 0" } else { "a number" };
+                let allowed = if logarithmic {
+                    "a number above 0"
+                } else {
+                    "a number"
+                };
                 let key = format!("{place}.{name}");
-                self.wrong(&key, "this is no end of the range", allowed, "give a number; other values go into a list")
+                self.wrong(
+                    &key,
+                    "this is no end of the range",
+                    allowed,
+                    "give a number; other values go into a list",
+                )
             })
         };
         let [from, to] = [end("from", &range.from)?, end("to", &range.to)?];
@@ -176,7 +185,9 @@ impl Reader<'_> {
             && (b - a) % last as i64 == 0
         {
             let step = (b - a) / last as i64;
-            return Ok((0..=last).map(|k| Value::Whole(a + k as i64 * step)).collect());
+            return Ok((0..=last)
+                .map(|k| Value::Whole(a + k as i64 * step))
+                .collect());
         }
         let at = |k: usize| match k {
             0 => from,
@@ -198,7 +209,10 @@ impl Reader<'_> {
             if list.len() != wanted {
                 return Err(self.wrong(
                     &place,
-                    format!("this list has {} values, others of its group {wanted}", list.len()),
+                    format!(
+                        "this list has {} values, others of its group {wanted}",
+                        list.len()
+                    ),
                     "lists of the same length",
                     "complete it, or vary its key as a parameter of its own",
                 ));
@@ -240,7 +254,10 @@ impl Reader<'_> {
             for (k, cell) in record.iter().enumerate() {
                 let value = Value::of_cell(cell).filter(|_| !cell.is_empty());
                 let value = value.ok_or_else(|| {
-                    bad(format!("{name}:{line}: `{cell}` is no value of {}", keys[k]))
+                    bad(format!(
+                        "{name}:{line}: `{cell}` is no value of {}",
+                        keys[k]
+                    ))
                 })?;
                 values[k].push(value);
             }
@@ -327,7 +344,9 @@ impl Reader<'_> {
             };
             a.keys.iter().map(move |key| (key.as_str(), place(key)))
         });
-        let drawn = samplers.iter().map(|s| (s.key(), format!("parameter.{}", s.key())));
+        let drawn = samplers
+            .iter()
+            .map(|s| (s.key(), format!("parameter.{}", s.key())));
         let all: Vec<(&str, String)> = listed.chain(drawn).collect();
         for (k, (key, place)) in all.iter().enumerate() {
             let related = |other: &&(&str, String)| {

@@ -10,8 +10,8 @@ use wingbeat_flight::FlightSetup;
 use crate::axes::Reader;
 use crate::number::{self, Number, Of, Source};
 use crate::plan::Plan;
-use crate::raw::{FileKind, RawCampaign, Task};
 use crate::raw::TrimOptions;
+use crate::raw::{FileKind, RawCampaign, Task};
 use crate::trimming::{self, TRIM};
 
 /// Seconds of a block of points that a worker takes at once.
@@ -152,11 +152,17 @@ impl Campaign {
     /// What all points have in common.
     fn digest_of(&self) -> Sha256 {
         let raw = &self.raw;
-        let mut hash = Sha256::new_with_prefix(concat!("wingbeat ", env!("CARGO_PKG_VERSION"), "\n"));
+        let mut hash =
+            Sha256::new_with_prefix(concat!("wingbeat ", env!("CARGO_PKG_VERSION"), "\n"));
         let case = Sha256::digest(self.base.resolved());
         hash.update(case);
         hash.update(Sha256::digest(self.base.text()));
-        let tasks = (&raw.tasks, &raw.trim, &raw.keep, raw.mean_beats.unwrap_or(1));
+        let tasks = (
+            &raw.tasks,
+            &raw.trim,
+            &raw.keep,
+            raw.mean_beats.unwrap_or(1),
+        );
         let files = (&raw.files, &raw.retention, &raw.set);
         hash.update(format!("{tasks:?} {files:?}\n"));
         hash
@@ -165,7 +171,12 @@ impl Campaign {
     /// SHA-256 of the whole plan, which blocks of points belong to.
     pub fn plan_hash(&self) -> [u8; 32] {
         let mut hash = self.digest.clone();
-        let varied = (&self.raw.parameter, &self.raw.zip, self.plan.samples, self.raw.seed);
+        let varied = (
+            &self.raw.parameter,
+            &self.raw.zip,
+            self.plan.samples,
+            self.raw.seed,
+        );
         hash.update(format!("{varied:?} {}\n", self.block));
         if let Some(axis) = self.plan.axes.iter().find(|a| a.place == "table") {
             hash.update(format!("{axis:?}"));
@@ -199,7 +210,9 @@ impl Campaign {
         };
         let cost: f64 = raw.tasks.iter().map(of).sum();
         let by_time = (BLOCK_S / cost.max(1e-9)) as usize;
-        by_time.clamp(1, MAX_BLOCK).min((self.plan.points() / MIN_BLOCKS).max(1))
+        by_time
+            .clamp(1, MAX_BLOCK)
+            .min((self.plan.points() / MIN_BLOCKS).max(1))
     }
 
     /// The registry of numbers of this case.
@@ -213,7 +226,12 @@ impl Campaign {
     /// The numbers that are kept.
     fn kept(&self) -> Result<Vec<Number>, IoError> {
         let all = self.registry().map_err(|e| {
-            self.fault("case", e.to_string(), "a case that can be flown", "correct the case")
+            self.fault(
+                "case",
+                e.to_string(),
+                "a case that can be flown",
+                "correct the case",
+            )
         })?;
         let mut kept: Vec<Number> = vec![];
         for (k, name) in self.raw.keep.iter().enumerate() {
@@ -240,14 +258,28 @@ impl Campaign {
     fn check_number(&self, place: &str, number: &Number) -> Result<(), IoError> {
         let task = number.source.task();
         if !self.raw.tasks.contains(&task) {
-            let problem = format!("`{}` is a number of `{}`, which is not done", number.name, task.name());
+            let problem = format!(
+                "`{}` is a number of `{}`, which is not done",
+                number.name,
+                task.name()
+            );
             let remedy = format!("add \"{}\" to do, or remove the number", task.name());
             return Err(self.fault(place, problem, "numbers of what is done", &remedy));
         }
         let thinned = self.base.output.history_every > 1;
-        if thinned && matches!(number.source, Source::Column(Of::Mean | Of::Min | Of::Max, _)) {
+        if thinned
+            && matches!(
+                number.source,
+                Source::Column(Of::Mean | Of::Min | Of::Max, _)
+            )
+        {
             let problem = "the history of this case leaves steps out, which means and extremes of its columns need".to_owned();
-            return Err(self.fault(place, problem, "with output.history_every = 1", "add `\"output.history_every\" = 1` to [set]"));
+            return Err(self.fault(
+                place,
+                problem,
+                "with output.history_every = 1",
+                "add `\"output.history_every\" = 1` to [set]",
+            ));
         }
         Ok(())
     }
@@ -297,11 +329,20 @@ impl Campaign {
 
     /// A fault of a value that a point puts on top of the case, traced to the line of this file.
     fn traced(&self, e: CaseError, overrides: &[String]) -> IoError {
-        let by = overrides.iter().find(|o| e.origin.starts_with(&format!("{o} (set on top of")));
-        let key = by.and_then(|o| o.split_once('=')).map(|(key, _)| key.to_owned());
+        let by = overrides
+            .iter()
+            .find(|o| e.origin.starts_with(&format!("{o} (set on top of")));
+        let key = by
+            .and_then(|o| o.split_once('='))
+            .map(|(key, _)| key.to_owned());
         let Some(key) = key else { return e.into() };
         let problem = match e.key.is_empty() || e.key == key {
-            true => format!("{} = {}: {}", key, e.value.clone().unwrap_or_default(), e.problem),
+            true => format!(
+                "{} = {}: {}",
+                key,
+                e.value.clone().unwrap_or_default(),
+                e.problem
+            ),
             false => format!("{}: {}", e.key, e.problem),
         };
         self.fault(&self.place_of(&key), problem, &e.allowed, &e.remedy)
@@ -309,7 +350,11 @@ impl Campaign {
 
     /// Where a varied or set key stands in the file.
     pub(crate) fn place_of(&self, key: &str) -> String {
-        let axis = self.plan.axes.iter().find(|a| a.keys.iter().any(|k| k == key));
+        let axis = self
+            .plan
+            .axes
+            .iter()
+            .find(|a| a.keys.iter().any(|k| k == key));
         match axis {
             Some(axis) if axis.place == "table" => axis.place.clone(),
             Some(axis) if axis.place.starts_with("zip") => format!("{}.{key}", axis.place),
@@ -323,18 +368,29 @@ impl Campaign {
         let set = self.raw.set.keys().find(|k| k.starts_with(TRIM));
         if let Some(key) = set {
             let problem = "this is an option of the trim, no key of the case".to_owned();
-            return Err(self.fault(&format!("set.{key}"), problem, "keys of the case", "put it into [trim]"));
+            return Err(self.fault(
+                &format!("set.{key}"),
+                problem,
+                "keys of the case",
+                "put it into [trim]",
+            ));
         }
         for key in self.plan.keys().iter().filter(|k| k.starts_with(TRIM)) {
             let place = self.place_of(key);
             let name = &key[TRIM.len()..];
             if !self.raw.tasks.contains(&Task::Trim) {
                 let problem = "this has no effect: nothing is trimmed".to_owned();
-                return Err(self.fault(&place, problem, "with do = [\"trim\", ...]", "add \"trim\" to do, or remove it"));
+                return Err(self.fault(
+                    &place,
+                    problem,
+                    "with do = [\"trim\", ...]",
+                    "add \"trim\" to do, or remove it",
+                ));
             }
             if !trimming::OPTIONS.contains(&name) {
                 let problem = format!("unknown option `{name}` of the trim");
-                let near = nearest(name, &trimming::OPTIONS).map(|n| format!("did you mean `trim.{n}`?"));
+                let near =
+                    nearest(name, &trimming::OPTIONS).map(|n| format!("did you mean `trim.{n}`?"));
                 let remedy = near.unwrap_or_else(|| "use one of these".to_owned());
                 return Err(self.fault(&place, problem, &trimming::OPTIONS.join(", "), &remedy));
             }
@@ -345,7 +401,10 @@ impl Campaign {
 
 /// Keys of `[set]` as overrides, and what of the output is not kept.
 fn set_of(raw: &RawCampaign) -> Vec<String> {
-    raw.set.iter().map(|(key, value)| format!("{key}={value}")).collect()
+    raw.set
+        .iter()
+        .map(|(key, value)| format!("{key}={value}"))
+        .collect()
 }
 
 /// What an enum of tables cannot say clearly: one kind of variation each.
@@ -355,24 +414,38 @@ fn check_shape(document: &Document) -> Result<(), IoError> {
     };
     for (key, value) in parameters {
         let place = format!("parameter.{key}");
-        let kinds = "one of list, range, log_range, latin_hypercube, sobol, uniform, log_uniform, normal";
+        let kinds =
+            "one of list, range, log_range, latin_hypercube, sobol, uniform, log_uniform, normal";
         let wrong = |problem: String, remedy: &str| {
             Err(document.fault(&place, problem, kinds, remedy).into())
         };
         match value {
             toml::Value::Table(table) if table.len() == 1 => {}
             toml::Value::Table(table) if table.is_empty() => {
-                return wrong("nothing says how this varies".to_owned(), "add `list = [...]`, for instance");
+                return wrong(
+                    "nothing says how this varies".to_owned(),
+                    "add `list = [...]`, for instance",
+                );
             }
             toml::Value::Table(table) => {
                 let names: Vec<&str> = table.keys().map(String::as_str).collect();
                 let remedy = match names.iter().all(|n| ["from", "to", "count"].contains(n)) {
                     true => "write `range = { from = ..., to = ..., count = ... }`",
-                    false => "keep one of them; a key with dots stands in quotes: [parameter.\"motion.frequency_hz\"]",
+                    false => {
+                        "keep one of them; a key with dots stands in quotes: [parameter.\"motion.frequency_hz\"]"
+                    }
                 };
-                return wrong(format!("this varies in {} ways: {}", names.len(), names.join(", ")), remedy);
+                return wrong(
+                    format!("this varies in {} ways: {}", names.len(), names.join(", ")),
+                    remedy,
+                );
             }
-            _ => return wrong("this says no way to vary".to_owned(), "for a fixed value use [set]; else `list = [...]`"),
+            _ => {
+                return wrong(
+                    "this says no way to vary".to_owned(),
+                    "for a fixed value use [set]; else `list = [...]`",
+                );
+            }
         }
     }
     Ok(())
@@ -384,30 +457,65 @@ fn check_words(document: &Document, raw: &RawCampaign, name: &str) -> Result<(),
         Err(document.fault(key, problem, allowed, remedy).into())
     };
     if raw.format != 1 {
-        return wrong("format", "this version of the language is not known", "1", "write format = 1");
+        return wrong(
+            "format",
+            "this version of the language is not known",
+            "1",
+            "write format = 1",
+        );
     }
     let plain = |c: char| c.is_alphanumeric() || "-_. ".contains(c);
     if name.is_empty() || name.len() > 100 || name.starts_with('.') || !name.chars().all(plain) {
-        return wrong("name", "the name becomes the name of a directory", "letters, digits, -, _, . and spaces, not beginning with a dot, at most 100 bytes", "choose a plain name");
+        return wrong(
+            "name",
+            "the name becomes the name of a directory",
+            "letters, digits, -, _, . and spaces, not beginning with a dot, at most 100 bytes",
+            "choose a plain name",
+        );
     }
     if raw.tasks.is_empty() {
-        return wrong("do", "nothing is done", "run, trim, stability, power", "write do = [\"run\"], or leave it out");
+        return wrong(
+            "do",
+            "nothing is done",
+            "run, trim, stability, power",
+            "write do = [\"run\"], or leave it out",
+        );
     }
     for (k, task) in raw.tasks.iter().enumerate() {
         let place = format!("do[{k}]");
         if raw.tasks[..k].contains(task) {
-            return wrong(&place, "this is done twice", "each task once", "remove one of them");
+            return wrong(
+                &place,
+                "this is done twice",
+                "each task once",
+                "remove one of them",
+            );
         }
         let needs_trim = matches!(task, Task::Stability | Task::Power);
         if needs_trim && !raw.tasks[..k].contains(&Task::Trim) {
-            return wrong(&place, "this needs a trimmed flight", "after trim", "put \"trim\" before it");
+            return wrong(
+                &place,
+                "this needs a trimmed flight",
+                "after trim",
+                "put \"trim\" before it",
+            );
         }
     }
     if raw.keep.is_empty() {
-        return wrong("keep", "no number is kept", "at least one name", "keep = [\"lift_over_weight\", \"power_watt\"], for instance");
+        return wrong(
+            "keep",
+            "no number is kept",
+            "at least one name",
+            "keep = [\"lift_over_weight\", \"power_watt\"], for instance",
+        );
     }
     if raw.trim.is_some() && !raw.tasks.contains(&Task::Trim) {
-        return wrong("trim", "this has no effect: nothing is trimmed", "with do = [\"trim\", ...]", "add \"trim\" to do, or remove the table");
+        return wrong(
+            "trim",
+            "this has no effect: nothing is trimmed",
+            "with do = [\"trim\", ...]",
+            "add \"trim\" to do, or remove the table",
+        );
     }
     check_files(document, raw)?;
     check_budget(document, raw)
@@ -419,27 +527,60 @@ fn check_files(document: &Document, raw: &RawCampaign) -> Result<(), IoError> {
     };
     let runs = raw.tasks.contains(&Task::Run);
     if !raw.files.is_empty() && !runs {
-        return wrong("files", "this has no effect: nothing is flown", "with do = [..., \"run\"]", "add \"run\" to do, or remove it");
+        return wrong(
+            "files",
+            "this has no effect: nothing is flown",
+            "with do = [..., \"run\"]",
+            "add \"run\" to do, or remove it",
+        );
     }
     if let Some(k) = (1..raw.files.len()).find(|&k| raw.files[..k].contains(&raw.files[k])) {
-        return wrong(&format!("files[{k}]"), "this is named twice", "each kind once", "remove one of them");
+        return wrong(
+            &format!("files[{k}]"),
+            "this is named twice",
+            "each kind once",
+            "remove one of them",
+        );
     }
     if raw.retention.every == 0 {
-        return wrong("retention.every", "this must not be zero", "a whole number >= 1", "1 keeps the files of all points");
+        return wrong(
+            "retention.every",
+            "this must not be zero",
+            "a whole number >= 1",
+            "1 keeps the files of all points",
+        );
     }
     if raw.retention.every > 1 && raw.files.is_empty() {
-        return wrong("retention.every", "this has no effect without files", "beside files = [...]", "remove it, or keep files");
+        return wrong(
+            "retention.every",
+            "this has no effect without files",
+            "beside files = [...]",
+            "remove it, or keep files",
+        );
     }
     if raw.retention.failed && !runs {
-        return wrong("retention.failed", "this has no effect: nothing is flown", "with do = [..., \"run\"]", "remove it");
+        return wrong(
+            "retention.failed",
+            "this has no effect: nothing is flown",
+            "with do = [..., \"run\"]",
+            "remove it",
+        );
     }
-    for (key, kinds) in [("output.page", FileKind::Page), ("output.figures", FileKind::Figures)] {
+    for (key, kinds) in [
+        ("output.page", FileKind::Page),
+        ("output.figures", FileKind::Figures),
+    ] {
         if raw.set.contains_key(key) {
             let remedy = match kinds {
                 FileKind::Page => "remove it; files = [\"page\"] keeps pages",
                 _ => "remove it; files = [\"figures\"] keeps figures",
             };
-            return wrong(&format!("set.{key}"), "this has no effect: `files` says what is drawn", "no key output.page or output.figures", remedy);
+            return wrong(
+                &format!("set.{key}"),
+                "this has no effect: `files` says what is drawn",
+                "no key output.page or output.figures",
+                remedy,
+            );
         }
     }
     Ok(())
@@ -448,12 +589,29 @@ fn check_files(document: &Document, raw: &RawCampaign) -> Result<(), IoError> {
 fn check_budget(document: &Document, raw: &RawCampaign) -> Result<(), IoError> {
     let budget = &raw.budget;
     if !(1..=1000).contains(&budget.attempts) {
-        return Err(document.fault("budget.attempts", "a number of attempts out of range", "a whole number from 1 to 1000", "3 is the default").into());
+        return Err(document
+            .fault(
+                "budget.attempts",
+                "a number of attempts out of range",
+                "a whole number from 1 to 1000",
+                "3 is the default",
+            )
+            .into());
     }
-    for (key, value) in [("time_per_point_s", budget.time_per_point_s), ("disk_mb", budget.disk_mb)] {
+    for (key, value) in [
+        ("time_per_point_s", budget.time_per_point_s),
+        ("disk_mb", budget.disk_mb),
+    ] {
         if value.is_some_and(|x| x <= 0.0) {
             let key = format!("budget.{key}");
-            return Err(document.fault(&key, "this must be positive", "a number above 0", "remove it for no limit").into());
+            return Err(document
+                .fault(
+                    &key,
+                    "this must be positive",
+                    "a number above 0",
+                    "remove it for no limit",
+                )
+                .into());
         }
     }
     Ok(())
@@ -468,16 +626,37 @@ fn base_case(document: &Document, raw: &RawCampaign, folder: &Path) -> Result<Lo
         false => raw.case.clone(),
     };
     if name == "-" {
-        return Err(document.fault("case", "a campaign cannot read its case from the standard input", "a preset or a file", "name a file").into());
+        return Err(document
+            .fault(
+                "case",
+                "a campaign cannot read its case from the standard input",
+                "a preset or a file",
+                "name a file",
+            )
+            .into());
     }
     match LoadedCase::find(&name, &set) {
-        Err(e @ IoError::NoCase { .. }) => {
-            Err(document.fault("case", e.to_string(), "a preset, or a file beside this one", "correct the name").into())
-        }
+        Err(e @ IoError::NoCase { .. }) => Err(document
+            .fault(
+                "case",
+                e.to_string(),
+                "a preset, or a file beside this one",
+                "correct the name",
+            )
+            .into()),
         Err(IoError::Case(e)) => {
-            let by = set.iter().find(|o| e.origin.starts_with(&format!("{o} (set")));
+            let by = set
+                .iter()
+                .find(|o| e.origin.starts_with(&format!("{o} (set")));
             match by.and_then(|o| o.split_once('=')) {
-                Some((key, _)) => Err(document.fault(&format!("set.{key}"), format!("{}: {}", e.key, e.problem), e.allowed.clone(), e.remedy.clone()).into()),
+                Some((key, _)) => Err(document
+                    .fault(
+                        &format!("set.{key}"),
+                        format!("{}: {}", e.key, e.problem),
+                        e.allowed.clone(),
+                        e.remedy.clone(),
+                    )
+                    .into()),
                 None => Err(IoError::Case(e)),
             }
         }

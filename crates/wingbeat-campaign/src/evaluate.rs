@@ -25,7 +25,11 @@ impl Flown {
     /// Fewer wingbeats than means are taken over; a column that this flight does not have.
     pub fn fill(&self, numbers: &[Number], beats: usize, values: &mut [f64]) -> Result<(), String> {
         let mut counted = Beats::new(&self.setup);
-        let means: Vec<BeatMeans> = self.records.iter().filter_map(|r| counted.take(r)).collect();
+        let means: Vec<BeatMeans> = self
+            .records
+            .iter()
+            .filter_map(|r| counted.take(r))
+            .collect();
         let wants_mean = numbers.iter().any(|n| n.source.is_mean());
         if wants_mean && means.len() < beats {
             return Err(format!(
@@ -34,9 +38,10 @@ impl Flown {
             ));
         }
         let last = &means[means.len().saturating_sub(beats)..];
-        let summary = numbers.iter().any(|n| matches!(n.source, Source::Summary(_)));
-        let summary =
-            summary.then(|| Summary::of(&self.setup, &self.records, &Outcome::Finished));
+        let summary = numbers
+            .iter()
+            .any(|n| matches!(n.source, Source::Summary(_)));
+        let summary = summary.then(|| Summary::of(&self.setup, &self.records, &Outcome::Finished));
         for (number, value) in numbers.iter().zip(values) {
             let mean = |of: fn(&BeatMeans) -> f64| {
                 last.iter().map(of).sum::<f64>() / last.len().max(1) as f64
@@ -145,7 +150,9 @@ pub fn of_stability(
                 *value = of(averaged.as_ref().map(|a| &a.modes), *k, *what);
             }
             Source::Derivative(load, motion) => {
-                *value = averaged.as_ref().map_or(f64::NAN, |a| a.derivatives[*load][*motion]);
+                *value = averaged
+                    .as_ref()
+                    .map_or(f64::NAN, |a| a.derivatives[*load][*motion]);
             }
             _ => {}
         }

@@ -39,7 +39,12 @@ pub struct Process {
 impl Process {
     /// This one.
     pub fn own() -> Self {
-        let word = |path: &str| fs::read_to_string(path).unwrap_or_default().trim().to_owned();
+        let word = |path: &str| {
+            fs::read_to_string(path)
+                .unwrap_or_default()
+                .trim()
+                .to_owned()
+        };
         let space = fs::read_link("/proc/self/ns/pid").unwrap_or_default();
         let number = std::process::id();
         Self {
@@ -68,7 +73,10 @@ impl Process {
 
 #[cfg(unix)]
 fn host() -> String {
-    rustix::system::uname().nodename().to_string_lossy().into_owned()
+    rustix::system::uname()
+        .nodename()
+        .to_string_lossy()
+        .into_owned()
 }
 
 #[cfg(not(unix))]
@@ -154,7 +162,9 @@ impl Leases {
     pub fn done(&self) -> Vec<usize> {
         let files = fs::read_dir(&self.folder).into_iter().flatten().flatten();
         let block = |name: &str| name.strip_suffix(".done")?.parse().ok();
-        files.filter_map(|f| f.file_name().to_str().and_then(block)).collect()
+        files
+            .filter_map(|f| f.file_name().to_str().and_then(block))
+            .collect()
     }
 
     /// A block that was done is not any more.
@@ -181,7 +191,12 @@ impl Leases {
         let mut flown = None;
         loop {
             let path = self.file(block, generation);
-            match OpenOptions::new().read(true).write(true).create_new(true).open(&path) {
+            match OpenOptions::new()
+                .read(true)
+                .write(true)
+                .create_new(true)
+                .open(&path)
+            {
                 Ok(file) => return self.begin(path, file, (block, generation), flown),
                 Err(e) if e.kind() != ErrorKind::AlreadyExists => {
                     return Err(IoError::write(&path)(e));
@@ -209,10 +224,11 @@ impl Leases {
     ) -> Result<Taken, IoError> {
         let own = &self.own;
         let head = format!("{} {} {}\n", own.machine, own.number, own.start);
-        file.write_all(format!("{head}{NONE}\n").as_bytes()).map_err(|e| {
-            let _ = fs::remove_file(&path); // nobody may take it for ours
-            IoError::write(&path)(e)
-        })?;
+        file.write_all(format!("{head}{NONE}\n").as_bytes())
+            .map_err(|e| {
+                let _ = fs::remove_file(&path); // nobody may take it for ours
+                IoError::write(&path)(e)
+            })?;
         let lease = Lease {
             next: self.file(block, generation + 1),
             folder: self.folder.clone(),
@@ -241,17 +257,29 @@ impl Leases {
             Err(e) if e.kind() == ErrorKind::NotFound => return Ok(Holder::Gone),
             read => read.map_err(IoError::read(path))?,
         };
-        let point = text.lines().nth(1).and_then(|n| n.trim_start_matches('0').parse().ok());
-        let zero = text.lines().nth(1).is_some_and(|n| !n.is_empty() && n.bytes().all(|b| b == b'0'));
+        let point = text
+            .lines()
+            .nth(1)
+            .and_then(|n| n.trim_start_matches('0').parse().ok());
+        let zero = text
+            .lines()
+            .nth(1)
+            .is_some_and(|n| !n.is_empty() && n.bytes().all(|b| b == b'0'));
         let point = if zero { Some(0) } else { point };
         let holder = Process::decoded(&text);
-        let here = holder.as_ref().is_some_and(|h| h.machine == self.own.machine && !h.start.is_empty());
+        let here = holder
+            .as_ref()
+            .is_some_and(|h| h.machine == self.own.machine && !h.start.is_empty());
         let is_dead = match holder {
             Some(h) if here => start_of(h.number).as_deref() != Some(&h.start),
             // On another machine, or not written yet: its heartbeat says.
             _ => self.age(changed)? > STALE,
         };
-        Ok(if is_dead { Holder::Dead(point) } else { Holder::Alive })
+        Ok(if is_dead {
+            Holder::Dead(point)
+        } else {
+            Holder::Alive
+        })
     }
 
     /// How long ago that was by the clock of the file system.
@@ -266,11 +294,14 @@ impl Leases {
     /// Blocks that somebody alive flies now.
     pub fn held(&self) -> usize {
         let files = fs::read_dir(&self.folder).into_iter().flatten().flatten();
-        let lease = |name: &str| name.rsplit_once('.').is_some_and(|(b, g)| {
-            b.parse::<usize>().is_ok() && g.parse::<usize>().is_ok()
-        });
+        let lease = |name: &str| {
+            name.rsplit_once('.')
+                .is_some_and(|(b, g)| b.parse::<usize>().is_ok() && g.parse::<usize>().is_ok())
+        };
         let leases = files.filter(|f| f.file_name().to_str().is_some_and(lease));
-        leases.filter(|f| matches!(self.look(&f.path()), Ok(Holder::Alive))).count()
+        leases
+            .filter(|f| matches!(self.look(&f.path()), Ok(Holder::Alive)))
+            .count()
     }
 }
 
@@ -344,15 +375,24 @@ mod tests {
     #[test]
     fn exact_the_lease_of_a_dead_process_is_taken_over_once() {
         let leases = leases("dead");
-        let mut child = std::process::Command::new("sleep").arg("100").spawn().unwrap();
+        let mut child = std::process::Command::new("sleep")
+            .arg("100")
+            .spawn()
+            .unwrap();
         let process = Process {
             number: child.id(),
             start: start_of(child.id()).unwrap(),
             ..Process::own()
         };
-        let text = format!("{} {} {}\n000000000007\n", process.machine, process.number, process.start);
+        let text = format!(
+            "{} {} {}\n000000000007\n",
+            process.machine, process.number, process.start
+        );
         fs::write(leases.file(3, 0), &text).unwrap();
-        assert!(matches!(leases.take(3).unwrap(), Taken::Held), "it is alive");
+        assert!(
+            matches!(leases.take(3).unwrap(), Taken::Held),
+            "it is alive"
+        );
         child.kill().unwrap();
         // Dead, though nobody has waited for it.
         let begun = std::time::Instant::now();

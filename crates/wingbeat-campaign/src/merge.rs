@@ -57,7 +57,11 @@ pub fn rows<'a>(
 }
 
 fn values(result: &PointResult, count: usize) -> Vec<f64> {
-    let mut values: Vec<f64> = result.values.iter().map(|x| x.unwrap_or(f64::NAN)).collect();
+    let mut values: Vec<f64> = result
+        .values
+        .iter()
+        .map(|x| x.unwrap_or(f64::NAN))
+        .collect();
     values.resize(count, f64::NAN);
     values
 }
@@ -134,7 +138,8 @@ pub fn merge(campaign: &Campaign, store: &Store) -> Result<Vec<PathBuf>, IoError
     let place = |name: &str| NewFile::claim_own(&store.path(name), true);
     place(FILES[0])?.write(&points_csv(campaign, &rows)?)?;
     place(FILES[1])?.make(|part| parquet(campaign, &rows, part).map_err(IoError::write(part)))?;
-    place(FILES[2])?.make(|part| netcdf::write(campaign, &rows, part).map_err(IoError::write(part)))?;
+    place(FILES[2])?
+        .make(|part| netcdf::write(campaign, &rows, part).map_err(IoError::write(part)))?;
     place(FILES[3])?.write(&failed_csv(campaign, &rows)?)?;
     Ok(FILES.iter().map(|name| store.path(name)).collect())
 }
@@ -144,14 +149,27 @@ fn points_csv(campaign: &Campaign, rows: &[Row]) -> Result<Vec<u8>, IoError> {
     let mut table = csv::Writer::from_writer(vec![]);
     let keys = campaign.plan.keys().iter().map(String::as_str);
     let numbers = campaign.numbers.iter().map(|n| n.name.as_str());
-    let header = ["point"].into_iter().chain(keys).chain(["success"]).chain(numbers);
+    let header = ["point"]
+        .into_iter()
+        .chain(keys)
+        .chain(["success"])
+        .chain(numbers);
     let lost = "memory takes every row";
     table.write_record(header.chain(["reason"])).expect(lost);
     for row in rows {
         let mut cells = vec![row.point.to_string()];
         cells.extend(row.keys.iter().map(Value::shown));
-        cells.push(row.success.map_or_else(String::new, |s| u8::from(s).to_string()));
-        let number = |x: &f64| if x.is_finite() { format!("{x:?}") } else { String::new() };
+        cells.push(
+            row.success
+                .map_or_else(String::new, |s| u8::from(s).to_string()),
+        );
+        let number = |x: &f64| {
+            if x.is_finite() {
+                format!("{x:?}")
+            } else {
+                String::new()
+            }
+        };
         cells.extend(row.numbers.iter().map(number));
         cells.push(reason(row).to_owned());
         table.write_record(&cells).expect(lost);
@@ -171,7 +189,14 @@ fn reason(row: &Row) -> &'static str {
 fn failed_csv(campaign: &Campaign, rows: &[Row]) -> Result<Vec<u8>, IoError> {
     let mut table = csv::Writer::from_writer(vec![]);
     let lost = "memory takes every row";
-    let header = ["point", "sha256", "reason", "message", "command", "case_toml"];
+    let header = [
+        "point",
+        "sha256",
+        "reason",
+        "message",
+        "command",
+        "case_toml",
+    ];
     table.write_record(header).expect(lost);
     for row in rows {
         let Some((reason, message)) = &row.failed else {
@@ -212,9 +237,21 @@ fn parquet(campaign: &Campaign, rows: &[Row], path: &std::path::Path) -> std::io
     };
     let kinds = kinds(campaign);
     let mut columns = vec![("point".to_owned(), Cells::Counts)];
-    columns.extend(campaign.plan.keys().iter().cloned().zip(kinds.iter().map(cells)));
+    columns.extend(
+        campaign
+            .plan
+            .keys()
+            .iter()
+            .cloned()
+            .zip(kinds.iter().map(cells)),
+    );
     columns.push(("success".to_owned(), Cells::Numbers));
-    columns.extend(campaign.numbers.iter().map(|n| (n.name.clone(), Cells::Numbers)));
+    columns.extend(
+        campaign
+            .numbers
+            .iter()
+            .map(|n| (n.name.clone(), Cells::Numbers)),
+    );
     columns.push(("reason".to_owned(), Cells::Texts));
     let mut table = ParquetWriter::create(path, "points", columns)?;
     for row in rows {
@@ -231,7 +268,10 @@ fn parquet(campaign: &Campaign, rows: &[Row], path: &std::path::Path) -> std::io
         table.cells(all.chain([Cell::Text(reason(row))]))?;
     }
     let note = |of: &dyn Fn(&crate::number::Number) -> String| {
-        let all = campaign.numbers.iter().map(|n| (n.name.clone(), of(n).into()));
+        let all = campaign
+            .numbers
+            .iter()
+            .map(|n| (n.name.clone(), of(n).into()));
         serde_json::Value::Object(all.collect()).to_string()
     };
     table.finish(&[

@@ -89,7 +89,11 @@ pub fn write(campaign: &Campaign, rows: &[Row], path: &Path) -> std::io::Result<
     let success = |r: &Row| r.success.map_or(f64::NAN, |s| f64::from(u8::from(s)));
     let all = Data::Float(rows.iter().map(success).collect());
     let dataset = file.put("success", Kind::Float, &shape, all);
-    file.layout.text(dataset, "long_name", "1 where there are numbers, 0 where the point failed");
+    file.layout.text(
+        dataset,
+        "long_name",
+        "1 where there are numbers, 0 where the point failed",
+    );
     file.along(dataset, &scales);
     for (k, number) in campaign.numbers.iter().enumerate() {
         let column = Data::Float(rows.iter().map(|r| r.numbers[k]).collect());
@@ -126,7 +130,12 @@ fn axes(campaign: &Campaign, file: &mut File) -> (Vec<usize>, Vec<String>) {
         scales.push(scale);
         for sampler in &plan.samplers {
             let drawn: Vec<f64> = (0..plan.samples).map(|s| sampler.value(s)).collect();
-            let dataset = file.put(sampler.key(), Kind::Float, &[plan.samples], Data::Float(drawn));
+            let dataset = file.put(
+                sampler.key(),
+                Kind::Float,
+                &[plan.samples],
+                Data::Float(drawn),
+            );
             file.along(dataset, &[scale]);
             beside.push(sampler.key().to_owned());
         }
@@ -140,13 +149,19 @@ fn numbered(count: usize) -> Vec<Value> {
 
 fn describe(campaign: &Campaign, file: &mut File, beside: &[String]) {
     let text = |s: &str| Attribute::Text(s.to_owned());
-    file.layout.note_group("", "layout_version", Attribute::Integer(LAYOUT));
-    file.layout.note_group("", "wingbeat_version", text(env!("CARGO_PKG_VERSION")));
+    file.layout
+        .note_group("", "layout_version", Attribute::Integer(LAYOUT));
+    file.layout
+        .note_group("", "wingbeat_version", text(env!("CARGO_PKG_VERSION")));
     file.layout.note_group("", "campaign", text(&campaign.name));
     if !beside.is_empty() && beside.iter().all(|key| !key.contains(' ')) {
-        file.layout.note_group("", "coordinates", text(&beside.join(" ")));
+        file.layout
+            .note_group("", "coordinates", text(&beside.join(" ")));
     }
-    for (name, content) in [("campaign_toml", campaign.text()), ("case_toml", campaign.base.text())] {
+    for (name, content) in [
+        ("campaign_toml", campaign.text()),
+        ("case_toml", campaign.base.text()),
+    ] {
         let bytes = content.as_bytes().to_vec();
         file.put(name, Kind::Text(bytes.len()), &[], Data::Bytes(bytes));
     }

@@ -120,18 +120,39 @@ type Entry<T> = (&'static str, &'static str, &'static str, fn(&T) -> f64);
 
 /// Means of wingbeats: name, unit, meaning.
 const BEATS: [Entry<BeatMeans>; 6] = [
-    ("lift_newton", "N", "mean air force against gravity", |b| b.lift_newton),
-    ("lift_over_weight", "1", "mean air force against gravity over the weight", |b| {
-        b.lift_over_weight.unwrap_or(f64::NAN)
+    ("lift_newton", "N", "mean air force against gravity", |b| {
+        b.lift_newton
     }),
-    ("thrust_newton", "N", "mean air force along n1, forward", |b| b.thrust_newton),
-    ("power_watt", "W", "mean power of actuators and prescribed deformation", |b| b.power_watt),
-    ("inviscid_lift_newton", "N", "mean inviscid air force against gravity", |b| {
-        b.inviscid_lift_newton
-    }),
-    ("lift_by_impulse_newton", "N", "the same by the rate of the vortex impulse", |b| {
-        b.lift_by_impulse_newton
-    }),
+    (
+        "lift_over_weight",
+        "1",
+        "mean air force against gravity over the weight",
+        |b| b.lift_over_weight.unwrap_or(f64::NAN),
+    ),
+    (
+        "thrust_newton",
+        "N",
+        "mean air force along n1, forward",
+        |b| b.thrust_newton,
+    ),
+    (
+        "power_watt",
+        "W",
+        "mean power of actuators and prescribed deformation",
+        |b| b.power_watt,
+    ),
+    (
+        "inviscid_lift_newton",
+        "N",
+        "mean inviscid air force against gravity",
+        |b| b.inviscid_lift_newton,
+    ),
+    (
+        "lift_by_impulse_newton",
+        "N",
+        "the same by the rate of the vortex impulse",
+        |b| b.lift_by_impulse_newton,
+    ),
 ];
 
 const SUMMARY: [Entry<Summary>; 16] = [
@@ -144,31 +165,73 @@ const SUMMARY: [Entry<Summary>; 16] = [
     ("pitch_deg", "deg", "turn in pitch", |s| s.turn_deg[0]),
     ("yaw_deg", "deg", "turn in yaw", |s| s.turn_deg[1]),
     ("roll_deg", "deg", "turn in roll", |s| s.turn_deg[2]),
-    ("energy_residual_relative", "1", "largest energy residual over what is in play", |s| {
-        s.energy_residual_relative
+    (
+        "energy_residual_relative",
+        "1",
+        "largest energy residual over what is in play",
+        |s| s.energy_residual_relative,
+    ),
+    (
+        "momentum_residual_relative",
+        "1",
+        "largest momentum residual over what is in play",
+        |s| s.momentum_residual_relative,
+    ),
+    (
+        "violation_position_m",
+        "m",
+        "largest violation of a connection",
+        |s| s.violation_position_m,
+    ),
+    ("corrector_passes_mean", "1", "mean corrector passes", |s| {
+        s.corrector_passes_mean
     }),
-    ("momentum_residual_relative", "1", "largest momentum residual over what is in play", |s| {
-        s.momentum_residual_relative
+    ("wake_rings", "1", "wake rings at the end", |s| {
+        s.wake_rings as f64
     }),
-    ("violation_position_m", "m", "largest violation of a connection", |s| s.violation_position_m),
-    ("corrector_passes_mean", "1", "mean corrector passes", |s| s.corrector_passes_mean),
-    ("wake_rings", "1", "wake rings at the end", |s| s.wake_rings as f64),
-    ("wake_particles", "1", "vortex particles at the end", |s| s.wake_particles as f64),
-    ("warnings", "1", "how many warnings the summary has", |s| s.warnings.len() as f64),
+    ("wake_particles", "1", "vortex particles at the end", |s| {
+        s.wake_particles as f64
+    }),
+    ("warnings", "1", "how many warnings the summary has", |s| {
+        s.warnings.len() as f64
+    }),
 ];
 
 const POWERS: [Entry<Power>; 7] = [
-    ("aerodynamic_watt", "W", "mean power against the air", |p| p.aerodynamic),
-    ("inertial_positive_watt", "W", "positive part of the inertial power", |p| p.inertial_positive),
-    ("perfect_storage_watt", "W", "muscle power with perfect elastic storage", |p| p.perfect_storage),
-    ("no_storage_watt", "W", "muscle power without elastic storage", |p| p.no_storage),
+    ("aerodynamic_watt", "W", "mean power against the air", |p| {
+        p.aerodynamic
+    }),
+    (
+        "inertial_positive_watt",
+        "W",
+        "positive part of the inertial power",
+        |p| p.inertial_positive,
+    ),
+    (
+        "perfect_storage_watt",
+        "W",
+        "muscle power with perfect elastic storage",
+        |p| p.perfect_storage,
+    ),
+    (
+        "no_storage_watt",
+        "W",
+        "muscle power without elastic storage",
+        |p| p.no_storage,
+    ),
     ("peak_watt", "W", "peak power of all wings", |p| p.peak),
-    ("perfect_storage_watt_per_kg", "W kg-1", "muscle power with perfect storage over mass", |p| {
-        p.body_specific(p.perfect_storage)
-    }),
-    ("no_storage_watt_per_kg", "W kg-1", "muscle power without storage over mass", |p| {
-        p.body_specific(p.no_storage)
-    }),
+    (
+        "perfect_storage_watt_per_kg",
+        "W kg-1",
+        "muscle power with perfect storage over mass",
+        |p| p.body_specific(p.perfect_storage),
+    ),
+    (
+        "no_storage_watt_per_kg",
+        "W kg-1",
+        "muscle power without storage over mass",
+        |p| p.body_specific(p.no_storage),
+    ),
 ];
 
 /// Motions that derivatives are taken by.
@@ -197,7 +260,12 @@ pub fn registry(setup: &FlightSetup) -> Result<Vec<Number>, AnalysisError> {
     for (name, unit, about, of) in BEATS {
         put(name.to_owned(), unit, about, Source::Beat(of));
     }
-    put(EFFICIENCY.0.to_owned(), "1", EFFICIENCY.1, Source::Efficiency);
+    put(
+        EFFICIENCY.0.to_owned(),
+        "1",
+        EFFICIENCY.1,
+        Source::Efficiency,
+    );
     let deforms = setup.animal.wings.iter().any(|w| w.deformation.is_some());
     let columns = Columns::new(setup, deforms)?;
     for (prefix, words, of) in [
@@ -222,9 +290,19 @@ pub fn registry(setup: &FlightSetup) -> Result<Vec<Number>, AnalysisError> {
         put(format!("trim.{name}{ending}"), unit, &about, source);
     }
     let residual = Source::Trim(TrimNumber::Residual);
-    put("trim.residual".to_owned(), "1", "largest residual of the trim", residual);
+    put(
+        "trim.residual".to_owned(),
+        "1",
+        "largest residual of the trim",
+        residual,
+    );
     let iterations = Source::Trim(TrimNumber::Iterations);
-    put("trim.iterations".to_owned(), "1", "Newton steps of the trim", iterations);
+    put(
+        "trim.iterations".to_owned(),
+        "1",
+        "Newton steps of the trim",
+        iterations,
+    );
     modes_and_derivatives(&mut put);
     for (name, unit, about, of) in POWERS {
         put(format!("power.{name}"), unit, about, Source::Power(of));

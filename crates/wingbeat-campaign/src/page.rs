@@ -24,7 +24,9 @@ pub const MAX_POINTS: usize = 20_000;
 /// A result that cannot be read; a page that cannot be written.
 pub fn write(campaign: &Campaign, store: &Store) -> Result<PathBuf, IoError> {
     let stride = campaign.plan.points().div_ceil(MAX_POINTS);
-    let shown: Vec<Row> = rows(campaign, store).step_by(stride).collect::<Result<_, _>>()?;
+    let shown: Vec<Row> = rows(campaign, store)
+        .step_by(stride)
+        .collect::<Result<_, _>>()?;
     let path = store.path(FILE);
     let page = points::page(&campaign.name, &data(campaign, store, &shown, stride));
     NewFile::claim_own(&path, true)?.write(page.as_bytes())?;
@@ -33,8 +35,15 @@ pub fn write(campaign: &Campaign, store: &Store) -> Result<PathBuf, IoError> {
 
 /// What the page knows.
 fn data(campaign: &Campaign, store: &Store, shown: &[Row], stride: usize) -> Json {
-    let keys = campaign.plan.keys().iter().map(|key| json!({ "name": key, "kind": "key", "about": "varied" }));
-    let numbers = campaign.numbers.iter().map(|n| json!({ "name": n.name, "kind": "number", "unit": n.unit, "about": n.about }));
+    let keys = campaign
+        .plan
+        .keys()
+        .iter()
+        .map(|key| json!({ "name": key, "kind": "key", "about": "varied" }));
+    let numbers = campaign
+        .numbers
+        .iter()
+        .map(|n| json!({ "name": n.name, "kind": "number", "unit": n.unit, "about": n.about }));
     let columns: Vec<Json> = keys.chain(numbers).collect();
     let value = |v: &Value| v.number().map_or_else(|| json!(v.shown()), |x| json!(x));
     let number = |x: &f64| if x.is_finite() { json!(x) } else { Json::Null };

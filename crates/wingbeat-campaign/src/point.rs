@@ -40,14 +40,21 @@ const ALWAYS: [&str; 2] = ["case.toml", "manifest.json"];
 
 /// Does what is to be done at point `i`, whose hash is `hash`; with a `store`, flights that take long or keep files have
 /// a directory there.
-pub fn fly(campaign: &Campaign, i: usize, hash: &str, store: Option<&Store>, stop: &AtomicBool) -> Done {
+pub fn fly(
+    campaign: &Campaign,
+    i: usize,
+    hash: &str,
+    store: Option<&Store>,
+    stop: &AtomicBool,
+) -> Done {
     let work = store.map(|s| s.path("work").join(hash));
     let mut point = Point {
         campaign,
         i,
         work: work.as_deref(),
         stop,
-        end: (campaign.raw.budget.time_per_point_s).map(|s| Instant::now() + Duration::from_secs_f64(s)),
+        end: (campaign.raw.budget.time_per_point_s)
+            .map(|s| Instant::now() + Duration::from_secs_f64(s)),
         values: vec![f64::NAN; campaign.numbers.len()],
     };
     let found = point.tasks().and_then(|()| match store {
@@ -97,7 +104,8 @@ impl Point<'_> {
                 }
                 (Task::Trim, _) => trim = Some(self.trim(&case)?),
                 (Task::Stability, Some(trim)) => {
-                    evaluate::of_stability(trim, &campaign.numbers, &mut self.values).map_err(analysis)?;
+                    evaluate::of_stability(trim, &campaign.numbers, &mut self.values)
+                        .map_err(analysis)?;
                 }
                 (Task::Power, Some(trim)) => {
                     let power = power_of_trim(trim).map_err(analysis)?;
@@ -154,7 +162,9 @@ impl Point<'_> {
 
     fn run(&mut self, case: &LoadedCase) -> Result<(), Halt> {
         let campaign = self.campaign;
-        let place = self.work.filter(|_| campaign.has_directory(self.i, &case.setup));
+        let place = self
+            .work
+            .filter(|_| campaign.has_directory(self.i, &case.setup));
         let flown = match place {
             Some(path) => {
                 let folder = path.parent().unwrap_or(path);
@@ -164,7 +174,9 @@ impl Point<'_> {
             None => in_memory(case, &mut || self.watch())?,
         };
         let beats = campaign.raw.mean_beats.unwrap_or(1);
-        flown.fill(&campaign.numbers, beats, &mut self.values).map_err(Halt::Diverged)
+        flown
+            .fill(&campaign.numbers, beats, &mut self.values)
+            .map_err(Halt::Diverged)
     }
 
     fn trim(&mut self, case: &LoadedCase) -> Result<Trim, Halt> {
@@ -190,8 +202,13 @@ impl Point<'_> {
         if !self.campaign.keeps_files(self.i) {
             return flight::remove(work);
         }
-        let kept = KEPT.iter().filter(|(kind, _)| self.campaign.raw.files.contains(kind));
-        let names: Vec<&str> = kept.flat_map(|(_, names)| names.iter().copied()).chain(ALWAYS).collect();
+        let kept = KEPT
+            .iter()
+            .filter(|(kind, _)| self.campaign.raw.files.contains(kind));
+        let names: Vec<&str> = kept
+            .flat_map(|(_, names)| names.iter().copied())
+            .chain(ALWAYS)
+            .collect();
         for entry in fs::read_dir(work).map_err(IoError::read(work))?.flatten() {
             let (name, path) = (entry.file_name(), entry.path());
             if !name.to_str().is_some_and(|n| names.contains(&n)) {

@@ -24,7 +24,7 @@ pub struct RawCampaign {
     #[schemars(with = "BTreeMap<String, serde_json::Value>")]
     pub set: BTreeMap<String, toml::Value>,
     /// Seed of everything that is drawn.
-    pub seed: Option<u64>,
+    pub seed: Option<usize>,
     /// Points that are drawn (at every point of the grid, where there is one).
     pub samples: Option<usize>,
     /// What is done at each point, one after the other.

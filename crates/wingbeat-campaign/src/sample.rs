@@ -147,10 +147,7 @@ fn rounded(x: f64) -> f64 {
 mod tests {
     use super::*;
 
-    const ENDS: Ends = Ends {
-        from: 2.0,
-        to: 6.0,
-    };
+    const ENDS: Ends = Ends { from: 2.0, to: 6.0 };
 
     fn moments(values: &[f64]) -> [f64; 2] {
         let n = values.len() as f64;
@@ -175,11 +172,17 @@ mod tests {
         };
         let [mean, variance] = moments(&draw(Sampler::normal("a", 7, normal(None, None))));
         assert!((mean - 3.0).abs() < 4.0 * 0.5 / 141.0, "{mean}");
-        assert!((variance - 0.25).abs() < 4.0 * 0.25 * 1.414 / 141.0, "{variance}");
+        assert!(
+            (variance - 0.25).abs() < 4.0 * 0.25 * 1.414 / 141.0,
+            "{variance}"
+        );
         // Cut off at the mean: the half-normal distribution, mean sigma sqrt(2 / pi).
         let half = draw(Sampler::normal("a", 7, normal(Some(3.0), None)));
         let [mean, _] = moments(&half);
-        assert!((mean - 3.0 - 0.5 * 0.797_885).abs() < 4.0 * 0.3 / 141.0, "{mean}");
+        assert!(
+            (mean - 3.0 - 0.5 * 0.797_885).abs() < 4.0 * 0.3 / 141.0,
+            "{mean}"
+        );
         assert!(half.iter().all(|x| *x >= 3.0));
         let logs: Vec<f64> = draw(Sampler::log_uniform("a", 7, ENDS));
         let logs: Vec<f64> = logs.iter().map(|x| x.ln()).collect();

@@ -46,7 +46,11 @@ impl Status {
             }
         }
         let finished = done == points;
-        let flying = if finished { 0 } else { leases(campaign, store)?.held() };
+        let flying = if finished {
+            0
+        } else {
+            leases(campaign, store)?.held()
+        };
         Ok(Self {
             points,
             done,
@@ -68,7 +72,10 @@ fn rate(store: &Store, names: &[(String, bool)]) -> Option<f64> {
     let now = SystemTime::now();
     let ages = names.iter().step_by(stride).filter_map(|(hash, failed)| {
         let ending = if *failed { "failed" } else { "ok" };
-        let path = store.path("points").join(&hash[..2]).join(format!("{hash}.{ending}"));
+        let path = store
+            .path("points")
+            .join(&hash[..2])
+            .join(format!("{hash}.{ending}"));
         let changed = path.metadata().ok()?.modified().ok()?;
         Some(now.duration_since(changed).unwrap_or_default())
     });

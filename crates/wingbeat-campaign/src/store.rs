@@ -203,7 +203,11 @@ impl Store {
     pub fn put(&self, hash: &str, result: &PointResult) -> Result<(), IoError> {
         let body = serde_json::to_string(result).expect("a result is JSON");
         let text = format!("{MAGIC}{}\n{body}\n", sha256(body.as_bytes()));
-        let ending = if result.failed.is_some() { "failed" } else { "ok" };
+        let ending = if result.failed.is_some() {
+            "failed"
+        } else {
+            "ok"
+        };
         self.write(&self.place(hash, ending), text.as_bytes())?;
         let attempts = self.path("attempts").join(hash);
         if attempts.exists() && result.failed.is_none() {
@@ -250,7 +254,10 @@ impl Store {
     /// All points that are done by their hashes, and whether they failed; damage is not looked for.
     pub fn done(&self) -> HashMap<String, bool> {
         let mut done = HashMap::new();
-        let folders = fs::read_dir(self.path("points")).into_iter().flatten().flatten();
+        let folders = fs::read_dir(self.path("points"))
+            .into_iter()
+            .flatten()
+            .flatten();
         for file in folders.flat_map(|f| fs::read_dir(f.path()).into_iter().flatten().flatten()) {
             let name = file.file_name();
             let Some((hash, ending)) = name.to_str().and_then(|n| n.split_once('.')) else {
@@ -275,7 +282,11 @@ impl Store {
     /// A file that cannot be written.
     pub fn count_death(&self, hash: &str, step: usize) -> Result<usize, IoError> {
         let before = self.attempts(hash);
-        let deaths = if step > before.step { 1 } else { before.deaths + 1 };
+        let deaths = if step > before.step {
+            1
+        } else {
+            before.deaths + 1
+        };
         let text = serde_json::to_string(&Attempts { deaths, step }).expect("numbers are JSON");
         self.write(&self.path("attempts").join(hash), text.as_bytes())?;
         Ok(deaths)

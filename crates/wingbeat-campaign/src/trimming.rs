@@ -45,9 +45,14 @@ pub fn check(document: &Document, raw: &RawCampaign, setup: &FlightSetup) -> Res
         return Ok(());
     }
     if setup.air.has_memory() {
-        let problem = format!("in this air ({}) a trim takes minutes, and campaigns do not trim there", setup.air.name());
+        let problem = format!(
+            "in this air ({}) a trim takes minutes, and campaigns do not trim there",
+            setup.air.name()
+        );
         let remedy = "set air.model = \"blade_element\" in [set], or trim point by point with `wingbeat trim`";
-        return Err(document.fault("do", problem, "trim in air without memory", remedy).into());
+        return Err(document
+            .fault("do", problem, "trim in air without memory", remedy)
+            .into());
     }
     let names: Vec<&str> = UNKNOWNS.iter().map(|u| u.1).collect();
     let unknowns = raw.trim.iter().flat_map(|t| t.unknowns.iter().flatten());
@@ -58,7 +63,14 @@ pub fn check(document: &Document, raw: &RawCampaign, setup: &FlightSetup) -> Res
                 None => "choose from these".to_owned(),
             };
             let place = format!("trim.unknowns[{k}]");
-            return Err(document.fault(&place, format!("unknown choice `{name}`"), names.join(", "), remedy).into());
+            return Err(document
+                .fault(
+                    &place,
+                    format!("unknown choice `{name}`"),
+                    names.join(", "),
+                    remedy,
+                )
+                .into());
         }
     }
     Ok(())
@@ -120,7 +132,10 @@ fn check_options(options: &TrimOptions) -> Result<(), Bad> {
             });
         }
     }
-    match options.steps_per_beat.filter(|s| !(STEPS[0]..=STEPS[1]).contains(s)) {
+    match options
+        .steps_per_beat
+        .filter(|s| !(STEPS[0]..=STEPS[1]).contains(s))
+    {
         None => Ok(()),
         Some(steps) => Err(Bad {
             key: format!("{TRIM}steps_per_beat"),

@@ -55,7 +55,11 @@ impl<'a> Worker<'a> {
     ///
     /// # Errors
     /// A directory that cannot be written.
-    pub fn new(campaign: &'a Campaign, store: &'a Store, range: Range<usize>) -> Result<Self, IoError> {
+    pub fn new(
+        campaign: &'a Campaign,
+        store: &'a Store,
+        range: Range<usize>,
+    ) -> Result<Self, IoError> {
         let leases = leases(campaign, store)?;
         leases.beat();
         let blocks = blocks(&range, campaign.block);
@@ -166,7 +170,9 @@ impl<'a> Worker<'a> {
         self.complete[block - first] = true;
         let all = 0..self.campaign.plan.points();
         let mut whole = self.points(block, &all);
-        match whole.all(|i| self.range.contains(&i) || self.store.has(&hexadecimal(&self.campaign.hash(i)))) {
+        match whole.all(|i| {
+            self.range.contains(&i) || self.store.has(&hexadecimal(&self.campaign.hash(i)))
+        }) {
             true => lease.done()?,
             false => lease.let_go(),
         }
@@ -187,7 +193,8 @@ impl<'a> Worker<'a> {
                     let deaths = self.store.count_death(hash, 0)?;
                     if deaths >= self.campaign.raw.budget.attempts {
                         let words = format!("{e} ({deaths} attempts)");
-                        self.store.put(hash, &PointResult::failure(Reason::Unwritten, words))?;
+                        self.store
+                            .put(hash, &PointResult::failure(Reason::Unwritten, words))?;
                         return Ok(true);
                     }
                 }
@@ -207,7 +214,8 @@ impl<'a> Worker<'a> {
             return Ok(());
         }
         let words = format!("the process that flew it was killed or died {deaths} times");
-        self.store.put(&hash, &PointResult::failure(Reason::Died, words))
+        self.store
+            .put(&hash, &PointResult::failure(Reason::Died, words))
     }
 
     /// The size of the directory, where that is more than it may be.
@@ -237,7 +245,11 @@ pub fn size(folder: &std::path::Path) -> u64 {
 
 /// Whether there is no space, or a file may not grow.
 pub fn is_full(e: &IoError) -> bool {
-    let kinds = [ErrorKind::StorageFull, ErrorKind::QuotaExceeded, ErrorKind::FileTooLarge];
+    let kinds = [
+        ErrorKind::StorageFull,
+        ErrorKind::QuotaExceeded,
+        ErrorKind::FileTooLarge,
+    ];
     matches!(e, IoError::File { source, .. } if kinds.contains(&source.kind()))
 }
 

@@ -11,7 +11,9 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let (Some(file), Some(k), Some(n)) = (words.next(), words.next(), words.next()) else {
         return Err("campaign_loop FILE k n".into());
     };
-    rayon::ThreadPoolBuilder::new().num_threads(1).build_global()?;
+    rayon::ThreadPoolBuilder::new()
+        .num_threads(1)
+        .build_global()?;
     let campaign = Campaign::read(Path::new(&file))?;
     let mut lift = 0.0;
     rayon::scope(|_| -> Result<(), wingbeat::Error> {

@@ -112,11 +112,19 @@ impl ParquetWriter {
                     column.extend((text.len() as u32).to_le_bytes());
                     column.extend(text.as_bytes());
                 }
-                _ => return Err(std::io::Error::other("a cell of another kind than its column")),
+                _ => {
+                    return Err(std::io::Error::other(
+                        "a cell of another kind than its column",
+                    ));
+                }
             }
         }
         self.rows += 1;
-        if self.rows >= GROUP { self.flush() } else { Ok(()) }
+        if self.rows >= GROUP {
+            self.flush()
+        } else {
+            Ok(())
+        }
     }
 
     /// Writes the gathered rows as a group, each column as one page.

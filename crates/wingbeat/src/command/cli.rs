@@ -8,7 +8,9 @@ use clap_complete::Shell;
 
 use super::report::ReportArgs;
 use super::target::folder;
-use super::{analyse, campaign, check, ensemble, export, new, plot, run, show, velocity, verify, view};
+use super::{
+    analyse, campaign, check, ensemble, export, new, plot, run, show, velocity, verify, view,
+};
 
 /// Colours of help and errors, as cargo has them.
 pub(crate) const STYLES: Styles = Styles::styled()

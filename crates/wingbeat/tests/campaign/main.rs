@@ -1,8 +1,10 @@
 //! Campaigns: files that are refused, points that survive their processes, tables that do not tell how they were made.
 
 #[path = "../support/browser.rs"]
+#[allow(dead_code, reason = "this page is not driven by keys")]
 mod browser;
 mod chains;
+mod docs;
 mod kills;
 mod page;
 mod refusals;
@@ -58,7 +60,9 @@ fn column(dir: &Path, out: &str, name: &str) -> Vec<String> {
     let mut lines = text.lines();
     let at = lines.next().unwrap().split(',').position(|c| c == name);
     let at = at.unwrap_or_else(|| panic!("no column {name} in\n{text}"));
-    lines.map(|l| l.split(',').nth(at).unwrap().to_owned()).collect()
+    lines
+        .map(|l| l.split(',').nth(at).unwrap().to_owned())
+        .collect()
 }
 
 /// The numbers of a column of points.csv.

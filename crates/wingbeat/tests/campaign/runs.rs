@@ -17,7 +17,10 @@ fn exact_points_are_the_flights_of_their_cases() {
     merged(dir, "r");
     let [frequency, mass] = ["motion.frequency_hz", "body.mass_kg"].map(|c| numbers(dir, "r", c));
     assert_eq!(frequency, [190.0, 190.0, 200.0, 200.0, 210.0, 210.0]);
-    assert_eq!(mass[0], mass[2], "the same samples at every point of the grid");
+    assert_eq!(
+        mass[0], mass[2],
+        "the same samples at every point of the grid"
+    );
     for k in [0, 3] {
         let keys = [
             "time.beats=1".to_owned(),
@@ -26,7 +29,10 @@ fn exact_points_are_the_flights_of_their_cases() {
             format!("body.mass_kg={:?}", mass[k]),
         ];
         let keys: Vec<&str> = keys.iter().map(String::as_str).collect();
-        let run = Flight::preset_with("fruit-fly-blade", &keys).unwrap().fly().unwrap();
+        let run = Flight::preset_with("fruit-fly-blade", &keys)
+            .unwrap()
+            .fly()
+            .unwrap();
         let beat = run.beats()[0];
         let own = |name: &str| numbers(dir, "r", name)[k];
         assert_eq!(own("lift_over_weight"), beat.lift_over_weight); // to the bit
@@ -42,15 +48,34 @@ fn invariant_tables_do_not_tell_who_flew_what_and_reruns_fly_what_is_new() {
     let scratch = Scratch::new("campaign-shards");
     let dir = &scratch.0;
     write(dir, &blade(10));
-    flown(dir, &["campaign", "run", "c.toml", "--out", "a", "--jobs", "1", "--quiet"]);
-    for part in [["--shard", "2/3"], ["--points", "0..4"], ["--shard", "1/3"], ["--shard", "3/3"]] {
-        flown(dir, &[&["campaign", "run", "c.toml", "--out", "b", "--quiet"], &part[..]].concat());
+    flown(
+        dir,
+        &[
+            "campaign", "run", "c.toml", "--out", "a", "--jobs", "1", "--quiet",
+        ],
+    );
+    for part in [
+        ["--shard", "2/3"],
+        ["--points", "0..4"],
+        ["--shard", "1/3"],
+        ["--shard", "3/3"],
+    ] {
+        flown(
+            dir,
+            &[
+                &["campaign", "run", "c.toml", "--out", "b", "--quiet"],
+                &part[..],
+            ]
+            .concat(),
+        );
     }
     assert!(merged(dir, "a") == merged(dir, "b"));
     let files = || {
         let folders = fs::read_dir(dir.join("a/points")).unwrap();
         let files = folders.flat_map(|f| fs::read_dir(f.unwrap().path()).unwrap());
-        let times = files.map(|f| f.unwrap()).map(|f| (f.path(), f.metadata().unwrap().modified().unwrap()));
+        let times = files
+            .map(|f| f.unwrap())
+            .map(|f| (f.path(), f.metadata().unwrap().modified().unwrap()));
         times.collect::<std::collections::BTreeMap<_, _>>()
     };
     let before = files();
@@ -58,10 +83,21 @@ fn invariant_tables_do_not_tell_who_flew_what_and_reruns_fly_what_is_new() {
     flown(dir, &["campaign", "run", "c.toml", "--out", "a", "--quiet"]);
     let after = files();
     assert_eq!((before.len(), after.len()), (30, 36));
-    assert!(before.iter().all(|(path, time)| after.get(path) == Some(time)), "an old point was flown again");
-    let out = wingbeat(dir, &["campaign", "status", "c.toml", "--out", "a", "--json"]);
+    assert!(
+        before
+            .iter()
+            .all(|(path, time)| after.get(path) == Some(time)),
+        "an old point was flown again"
+    );
+    let out = wingbeat(
+        dir,
+        &["campaign", "status", "c.toml", "--out", "a", "--json"],
+    );
     let status: serde_json::Value = serde_json::from_slice(&out.stdout).unwrap();
-    assert_eq!((&status["points"], &status["done"], &status["failed"]), (&36.into(), &36.into(), &0.into()));
+    assert_eq!(
+        (&status["points"], &status["done"], &status["failed"]),
+        (&36.into(), &36.into(), &0.into())
+    );
 }
 
 /// A damaged result is found, and its point flown again.
@@ -83,7 +119,10 @@ fn behaves_damaged_results_are_flown_again() {
     let out = wingbeat(dir, &["campaign", "merge", "c.toml", "--out", "a"]);
     let report = String::from_utf8(out.stderr).unwrap();
     assert_eq!(out.status.code(), Some(2), "{report}");
-    assert!(report.contains("3 of 12 points have no result yet"), "{report}");
+    assert!(
+        report.contains("3 of 12 points have no result yet"),
+        "{report}"
+    );
     flown(dir, &["campaign", "run", "c.toml", "--out", "a", "--quiet"]);
     assert!(merged(dir, "a") == whole);
 }
@@ -122,9 +161,17 @@ list = [0.5, 1]
         let out = wingbeat(dir, &["campaign", "status", "c.toml", "--out", "r"]);
         String::from_utf8(out.stdout).unwrap()
     };
-    assert!(status().contains("1 of 2 points done, 0 failed"), "{}", status());
+    assert!(
+        status().contains("1 of 2 points done, 0 failed"),
+        "{}",
+        status()
+    );
     flown(dir, &["campaign", "run", "c.toml", "--out", "r", "--quiet"]);
-    assert!(status().contains("2 of 2 points done, 1 failed"), "{}", status());
+    assert!(
+        status().contains("2 of 2 points done, 1 failed"),
+        "{}",
+        status()
+    );
     assert!(merged(dir, "r") == tables);
 }
 
@@ -136,11 +183,18 @@ fn behaves_a_full_disk_stops_the_workers_and_loses_nothing() {
     let dir = &scratch.0;
     write(dir, &blade(4));
     flown(dir, &["campaign", "run", "c.toml", "--out", "a", "--quiet"]);
-    flown(dir, &["campaign", "run", "c.toml", "--out", "b", "--quiet", "--points", "0..5"]);
+    flown(
+        dir,
+        &[
+            "campaign", "run", "c.toml", "--out", "b", "--quiet", "--points", "0..5",
+        ],
+    );
     let program = env!("CARGO_BIN_EXE_wingbeat");
     let script = format!("trap '' XFSZ; ulimit -f 0; exec \"{program}\" \"$@\"");
     let out = Command::new("sh")
-        .args(["-c", &script, "sh", "campaign", "run", "c.toml", "--out", "b", "--quiet"])
+        .args([
+            "-c", &script, "sh", "campaign", "run", "c.toml", "--out", "b", "--quiet",
+        ])
         .current_dir(dir)
         .output()
         .unwrap();
@@ -150,7 +204,9 @@ fn behaves_a_full_disk_stops_the_workers_and_loses_nothing() {
     flown(dir, &["campaign", "run", "c.toml", "--out", "b", "--quiet"]);
     assert!(merged(dir, "a") == merged(dir, "b"));
     let left = crate::support::contents(&dir.join("b"));
-    let half = left.keys().filter(|p| p.extension().is_some_and(|e| e == "part"));
+    let half = left
+        .keys()
+        .filter(|p| p.extension().is_some_and(|e| e == "part"));
     assert_eq!(half.count(), 0);
 }
 
@@ -164,12 +220,17 @@ fn exact_tables_are_read_by_xarray_and_pyarrow() {
     merged(dir, "r");
     assert!(TABLES.iter().all(|t| dir.join("r").join(t).is_file()));
     let readers = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/readers");
-    let python = std::path::Path::new(env!("CARGO_TARGET_TMPDIR")).join("readers-python/bin/python");
+    let python =
+        std::path::Path::new(env!("CARGO_TARGET_TMPDIR")).join("readers-python/bin/python");
     if !python.is_file() {
         crate::support::required("the Python of the readers, which the test of exports installs");
         return;
     }
-    let out = Command::new(python).arg(readers.join("campaign.py")).arg(dir.join("r")).output().unwrap();
+    let out = Command::new(python)
+        .arg(readers.join("campaign.py"))
+        .arg(dir.join("r"))
+        .output()
+        .unwrap();
     let said = String::from_utf8_lossy(&out.stderr);
     assert!(out.status.success(), "{said}");
 }

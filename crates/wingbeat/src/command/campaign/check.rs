@@ -7,11 +7,11 @@ use serde_json::json;
 use wingbeat::campaign::Campaign;
 use wingbeat::campaign::cost::Cost;
 
+use super::args::duration;
 use super::master::processors;
 use crate::command::analyse::trimming::watched;
 use crate::command::failure::Failure;
 use crate::command::options;
-use super::args::duration;
 use crate::command::report::{Report, ReportArgs, line};
 
 /// Arguments of `wingbeat campaign check`.
@@ -32,26 +32,53 @@ pub(super) fn check(args: &CheckArgs) -> Result<(), Failure> {
         let campaign = Campaign::read(&args.file)?;
         describe(report, &campaign);
         if campaign.base.program().is_some() || campaign.base.control_program().is_some() {
-            line!(report, "{:<10}not tried: a check does not start other programs", "cost");
+            line!(
+                report,
+                "{:<10}not tried: a check does not start other programs",
+                "cost"
+            );
             return Ok(());
         }
         let cost = watched("three points", || Cost::of(&campaign));
-        tell(report, &campaign, &cost, args.jobs.unwrap_or_else(processors));
+        tell(
+            report,
+            &campaign,
+            &cost,
+            args.jobs.unwrap_or_else(processors),
+        );
         Ok(())
     })
 }
 
 fn describe(report: &mut Report, campaign: &Campaign) {
     let plan = &campaign.plan;
-    line!(report, "{}: this campaign can be run.\n", campaign.path.display());
+    line!(
+        report,
+        "{}: this campaign can be run.\n",
+        campaign.path.display()
+    );
     line!(report, "{:<10}{}", "case", campaign.base.origin());
     report.value("campaign", campaign.name.as_str());
-    let mut axes: Vec<String> = plan.axes.iter().map(|a| format!("{} ({})", a.keys.join(", "), a.len())).collect();
+    let mut axes: Vec<String> = plan
+        .axes
+        .iter()
+        .map(|a| format!("{} ({})", a.keys.join(", "), a.len()))
+        .collect();
     if !plan.samplers.is_empty() {
         let keys: Vec<&str> = plan.samplers.iter().map(|s| s.key()).collect();
         axes.push(format!("{} samples of {}", plan.samples, keys.join(", ")));
     }
-    line!(report, "{:<10}{}: {}", "points", plan.points(), if axes.is_empty() { "the case itself".to_owned() } else { axes.join(" x ") });
+    line!(
+        report,
+        "{:<10}{}: {}",
+        "points",
+        plan.points(),
+        if axes.is_empty() {
+            "the case itself".to_owned()
+        } else {
+            axes.join(" x ")
+        }
+    );
     report.value("points", plan.points());
     report.value("shape", json!(plan.shape()));
     let tasks: Vec<&str> = campaign.raw.tasks.iter().map(|t| t.name()).collect();
@@ -63,13 +90,36 @@ fn describe(report: &mut Report, campaign: &Campaign) {
 
 fn tell(report: &mut Report, campaign: &Campaign, cost: &Cost, jobs: usize) {
     for (i, time, failed) in &cost.samples {
-        let failed = failed.as_ref().map_or_else(String::new, |e| format!(", failed: {e}"));
-        line!(report, "{:<10}point {i}: {:.3} s{failed}", "sample", time.as_secs_f64());
+        let failed = failed
+            .as_ref()
+            .map_or_else(String::new, |e| format!(", failed: {e}"));
+        line!(
+            report,
+            "{:<10}point {i}: {:.3} s{failed}",
+            "sample",
+            time.as_secs_f64()
+        );
     }
     let each = cost.per_point().as_secs_f64();
     let all = each * campaign.plan.points() as f64 / jobs as f64;
-    line!(report, "{:<10}{:.3} s a point; {} in {jobs} processes", "cost", each, duration(all));
-    line!(report, "{:<10}{:.1} MB of results{}", "disk", cost.results_bytes as f64 / 1e6, if campaign.raw.files.is_empty() { "" } else { ", and the files that are kept" });
+    line!(
+        report,
+        "{:<10}{:.3} s a point; {} in {jobs} processes",
+        "cost",
+        each,
+        duration(all)
+    );
+    line!(
+        report,
+        "{:<10}{:.1} MB of results{}",
+        "disk",
+        cost.results_bytes as f64 / 1e6,
+        if campaign.raw.files.is_empty() {
+            ""
+        } else {
+            ", and the files that are kept"
+        }
+    );
     report.value("seconds_per_point", each);
     report.value("seconds", all);
     report.value("processes", jobs);

@@ -12,8 +12,8 @@ use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressDrawTarget};
 
-use crate::command::failure::{FAILED, Failure, INTERRUPTED};
 use super::args::duration;
+use crate::command::failure::{FAILED, Failure, INTERRUPTED};
 use crate::command::progress::bar;
 use crate::command::terminal::tell;
 
@@ -46,10 +46,20 @@ enum End {
 
 impl Master {
     pub(super) fn new(file: &Path, folder: &Path, range: Range<usize>, quiet: bool) -> Self {
-        let target = if quiet { ProgressDrawTarget::hidden() } else { ProgressDrawTarget::stderr() };
+        let target = if quiet {
+            ProgressDrawTarget::hidden()
+        } else {
+            ProgressDrawTarget::stderr()
+        };
         let words = ["campaign", "work"].map(OsString::from).into_iter();
         let points = format!("{}..{}", range.start, range.end);
-        let rest = [file.into(), "--out".into(), folder.into(), "--points".into(), points.into()];
+        let rest = [
+            file.into(),
+            "--out".into(),
+            folder.into(),
+            "--points".into(),
+            points.into(),
+        ];
         Self {
             arguments: words.chain(rest).collect(),
             total: range.len(),
@@ -59,7 +69,12 @@ impl Master {
     }
 
     /// Has `jobs` processes work until all points are done; `done` of them were before.
-    pub(super) fn work(&mut self, jobs: usize, done: usize, stop: &AtomicBool) -> Result<(), Failure> {
+    pub(super) fn work(
+        &mut self,
+        jobs: usize,
+        done: usize,
+        stop: &AtomicBool,
+    ) -> Result<(), Failure> {
         let begun = Instant::now();
         let jobs = jobs.min(self.total - done).max(1);
         let mut workers: Vec<Child> = vec![];
@@ -86,7 +101,9 @@ impl Master {
                     Some(End::Failed) => failed = true,
                     Some(End::Died) if stop.load(Ordering::SeqCst) || failed => {}
                     Some(End::Died) if deaths >= MAX_DEATHS => {
-                        tell!("error: {deaths} processes died one after the other before they did a point");
+                        tell!(
+                            "error: {deaths} processes died one after the other before they did a point"
+                        );
                         failed = true;
                     }
                     Some(End::Died) => {
@@ -115,7 +132,8 @@ impl Master {
         command.args(before).args(&self.arguments);
         command.stdin(Stdio::piped()).stdout(Stdio::piped());
         let child = command.spawn();
-        let mut child = child.map_err(|e| Failure::Option(format!("cannot start a process: {e}")))?;
+        let mut child =
+            child.map_err(|e| Failure::Option(format!("cannot start a process: {e}")))?;
         let points = Arc::clone(&self.points);
         let output = child.stdout.take();
         thread::spawn(move || {
@@ -134,10 +152,14 @@ impl Master {
         let rate = own as f64 / since.as_secs_f64();
         let left = match own {
             0 => String::new(),
-            _ => format!(", {rate:.1} a second, {} left", duration((self.total.saturating_sub(done)) as f64 / rate)),
+            _ => format!(
+                ", {rate:.1} a second, {} left",
+                duration((self.total.saturating_sub(done)) as f64 / rate)
+            ),
         };
         self.bar.set_position(done as u64);
-        self.bar.set_message(format!("{done} of {} points{left}", self.total));
+        self.bar
+            .set_message(format!("{done} of {} points{left}", self.total));
     }
 }
 

@@ -48,7 +48,9 @@ pub(super) struct MergeArgs {
 
 /// `wingbeat campaign plan`.
 pub(super) fn plan(args: &PlanArgs) -> Result<(), Failure> {
-    let file = (args.out.as_ref()).map(|path| NewFile::claim(path, args.overwrite)).transpose()?;
+    let file = (args.out.as_ref())
+        .map(|path| NewFile::claim(path, args.overwrite))
+        .transpose()?;
     let campaign = Campaign::read(&args.file)?;
     let range = args.part.range(campaign.plan.points())?;
     let Some(file) = file else {
@@ -79,7 +81,10 @@ pub(super) fn numbers(args: &NumbersArgs) -> Result<(), Failure> {
     let campaign = Campaign::read(&args.file)?;
     let all = campaign.registry();
     for number in all.map_err(|e: AnalysisError| Failure::Analysis(e))? {
-        output(format_args!("{:<44} {:<10} {}\n", number.name, number.unit, number.about));
+        output(format_args!(
+            "{:<44} {:<10} {}\n",
+            number.name, number.unit, number.about
+        ));
     }
     Ok(())
 }

@@ -38,7 +38,11 @@ pub(super) fn run(args: &RunArgs) -> Result<(), Failure> {
     let done = inspect(&campaign, &store, &range)?;
     if !args.quiet {
         let name = &campaign.name;
-        tell!("{name}: {} points, {done} of them done; results go to {}", range.len(), folder.display());
+        tell!(
+            "{name}: {} points, {done} of them done; results go to {}",
+            range.len(),
+            folder.display()
+        );
     }
     if done < range.len() {
         name_program(&campaign.base);
@@ -58,16 +62,24 @@ pub(super) fn run(args: &RunArgs) -> Result<(), Failure> {
     }
 }
 
-
 fn finish(campaign: &Campaign, store: &Store, file: &PathBuf) -> Result<(), Failure> {
     let status = Status::of(campaign, store)?;
     let file = file.display();
-    say!("{} of {} points are done, {} failed.", status.done, status.points, status.failed);
+    say!(
+        "{} of {} points are done, {} failed.",
+        status.done,
+        status.points,
+        status.failed
+    );
     if status.done == status.points {
-        say!("`wingbeat campaign merge {file}` writes them as one table, `wingbeat campaign view {file}` shows them.");
+        say!(
+            "`wingbeat campaign merge {file}` writes them as one table, `wingbeat campaign view {file}` shows them."
+        );
     }
     if status.failed > 0 {
-        say!("failed.csv of the merge has those that failed; `wingbeat campaign retry {file}` has them flown again.");
+        say!(
+            "failed.csv of the merge has those that failed; `wingbeat campaign retry {file}` has them flown again."
+        );
     }
     Ok(())
 }

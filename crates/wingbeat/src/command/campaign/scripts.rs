@@ -44,7 +44,12 @@ pub(super) struct SnakemakeArgs {
 pub(super) fn slurm(args: &SlurmArgs) -> Result<(), Failure> {
     let campaign = args.place.campaign()?;
     let [file, out] = words(&args.place, &args.place.folder(&campaign))?;
-    let engine = Engine { file: &file, out: &out, shards: args.shards.min(campaign.plan.points()), jobs: args.jobs };
+    let engine = Engine {
+        file: &file,
+        out: &out,
+        shards: args.shards.min(campaign.plan.points()),
+        jobs: args.jobs,
+    };
     output(format_args!("{}", engine.slurm(&campaign, &args.time)));
     Ok(())
 }
@@ -53,7 +58,12 @@ pub(super) fn slurm(args: &SlurmArgs) -> Result<(), Failure> {
 pub(super) fn snakemake(args: &SnakemakeArgs) -> Result<(), Failure> {
     let campaign = args.place.campaign()?;
     let [file, out] = words(&args.place, &args.place.folder(&campaign))?;
-    let engine = Engine { file: &file, out: &out, shards: args.shards.min(campaign.plan.points()), jobs: args.jobs };
+    let engine = Engine {
+        file: &file,
+        out: &out,
+        shards: args.shards.min(campaign.plan.points()),
+        jobs: args.jobs,
+    };
     output(format_args!("{}", engine.snakemake()));
     Ok(())
 }
@@ -64,11 +74,15 @@ fn words(place: &Place, folder: &std::path::Path) -> Result<[String; 2], Failure
     let [file, out] = [place.file.as_path(), folder].map(|p| p.display().to_string());
     match [&file, &out].iter().find(|w| !w.chars().all(plain)) {
         None => Ok([file, out]),
-        Some(word) => Err(Failure::Option(format!("`{word}` cannot stand in a script; use a path of letters, digits and -_./ =+,:@%~"))),
+        Some(word) => Err(Failure::Option(format!(
+            "`{word}` cannot stand in a script; use a path of letters, digits and -_./ =+,:@%~"
+        ))),
     }
 }
 
 fn time(text: &str) -> Result<String, String> {
     let plain = !text.is_empty() && text.chars().all(|c| c.is_ascii_digit() || ":-".contains(c));
-    plain.then(|| text.to_owned()).ok_or_else(|| "give a time as SLURM writes it, e.g. 04:00:00 or 1-12".to_owned())
+    plain
+        .then(|| text.to_owned())
+        .ok_or_else(|| "give a time as SLURM writes it, e.g. 04:00:00 or 1-12".to_owned())
 }

@@ -7,8 +7,8 @@ use wingbeat::campaign::Status;
 use wingbeat::campaign::status::retry as forget;
 
 use super::args::Place;
-use crate::command::failure::Failure;
 use super::args::duration;
+use crate::command::failure::Failure;
 use crate::command::terminal::say;
 
 /// Time between two lines of `--watch`.
@@ -56,13 +56,22 @@ fn json(status: &Status) -> String {
 }
 
 fn words(status: &Status) -> String {
-    let Status { points, done, failed, flying, .. } = status;
+    let Status {
+        points,
+        done,
+        failed,
+        flying,
+        ..
+    } = status;
     let mut text = format!("{done} of {points} points done, {failed} failed");
     if done < points {
         text += &format!(", {flying} blocks in flight");
     }
     if let (Some(rate), Some(left)) = (status.rate, status.left()) {
-        text += &format!(", {rate:.1} points a second, {} left", duration(left.as_secs_f64()));
+        text += &format!(
+            ", {rate:.1} points a second, {} left",
+            duration(left.as_secs_f64())
+        );
     }
     text
 }
@@ -71,6 +80,9 @@ fn words(status: &Status) -> String {
 pub(super) fn retry(place: &Place) -> Result<(), Failure> {
     let (campaign, store) = place.existing()?;
     let count = forget(&campaign, &store)?;
-    say!("{count} points that failed are forgotten; `wingbeat campaign run {}` flies them again.", place.file.display());
+    say!(
+        "{count} points that failed are forgotten; `wingbeat campaign run {}` flies them again.",
+        place.file.display()
+    );
     Ok(())
 }

@@ -23,7 +23,9 @@ pub(super) struct WorkArgs {
 
 /// The whole command: one thread; a line for every point, an end with the standard input.
 pub(super) fn work(args: &WorkArgs) -> Result<(), Failure> {
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build_global();
+    let pool = rayon::ThreadPoolBuilder::new()
+        .num_threads(1)
+        .build_global();
     pool.map_err(|e| Failure::Option(format!("cannot start threads: {e}")))?;
     let stop = stop_flag();
     end_with_input(Arc::clone(&stop));
@@ -42,11 +44,17 @@ pub(super) fn work(args: &WorkArgs) -> Result<(), Failure> {
         Ok(Ended::Complete) => Ok(()),
         Ok(Ended::Stopped) => Err(Failure::Told(INTERRUPTED)),
         Ok(Ended::Full(bytes)) => {
-            tell!("error: {} has {:.1} MB, more than budget.disk_mb allows; what is done is kept: raise it, or remove files, and run again", folder.display(), bytes as f64 / 1e6);
+            tell!(
+                "error: {} has {:.1} MB, more than budget.disk_mb allows; what is done is kept: raise it, or remove files, and run again",
+                folder.display(),
+                bytes as f64 / 1e6
+            );
             Err(Failure::Told(FAILED))
         }
         Err(e) => {
-            tell!("error: {e}\nWhat is done is kept; when that is mended, the same command goes on.");
+            tell!(
+                "error: {e}\nWhat is done is kept; when that is mended, the same command goes on."
+            );
             Err(Failure::Told(FAILED))
         }
     }
