@@ -29,7 +29,7 @@ range = { from = 180, to = 220, count = 10 }
 normal = { mean = 0.93e-6, standard_deviation = 0.05e-6 }
 """
 LATTICE = """case = "fruit-fly-hover"
-keep = ["lift_over_weight", "power_watt", "body_vel_x_m_per_s"]
+keep = ["lift_over_weight", "power_watt", "air_body_force_n1_newton"]
 [set]
 "time.beats" = 1.0
 "wing.right.mesh.spanwise" = 4

@@ -8,21 +8,14 @@ use wingbeat_case::{CaseError, Document, IoError, LoadedCase, nearest};
 use wingbeat_flight::FlightSetup;
 
 use crate::axes::Reader;
+use crate::blocks::points_of_block;
+use crate::checks;
 use crate::number::{self, Number, Of, Source};
 use crate::plan::Plan;
 use crate::raw::TrimOptions;
-use crate::raw::{FileKind, RawCampaign, Task};
+use crate::raw::{RawCampaign, Task};
 use crate::trimming::{self, TRIM};
 
-/// Seconds of a block of points that a worker takes at once.
-const BLOCK_S: f64 = 0.5;
-/// Points of a block at most.
-const MAX_BLOCK: usize = 64;
-/// Blocks that a campaign has at least, so that workers end together.
-const MIN_BLOCKS: usize = 64;
-/// Rough seconds of a step in blade elements, and of a trim or the modes of one.
-const STEP_S: f64 = 15e-6;
-const ANALYSIS_S: f64 = 0.3;
 /// Values of an axis that are tried before anything is flown.
 const TRIED: usize = 20;
 
@@ -60,19 +53,19 @@ impl Campaign {
     }
 
     fn of(path: &Path, document: Document) -> Result<Self, IoError> {
-        check_shape(&document)?;
+        checks::shape(&document)?;
         let raw: RawCampaign = document.decode()?;
         let folder = path.parent().map(Path::to_owned).unwrap_or_default();
         let stem = path.file_stem().and_then(|s| s.to_str());
         let name = raw.name.clone();
         let name = name.unwrap_or_else(|| stem.unwrap_or("campaign").to_owned());
-        check_words(&document, &raw, &name)?;
+        checks::words(&document, &raw, &name)?;
         let reader = Reader {
             document: &document,
             folder: &folder,
         };
         let plan = reader.plan(&raw)?;
-        let base = base_case(&document, &raw, &folder)?;
+        let base = checks::base_case(&document, &raw, &folder)?;
         let mut campaign = Self {
             name,
             path: path.to_owned(),
@@ -88,7 +81,8 @@ impl Campaign {
         campaign.check_points()?;
         campaign.numbers = campaign.kept()?;
         campaign.digest = campaign.digest_of();
-        campaign.block = campaign.points_of_block();
+        campaign.block =
+            points_of_block(&campaign.raw, &campaign.base.setup, campaign.plan.points());
         Ok(campaign)
     }
 
@@ -106,7 +100,10 @@ impl Campaign {
     pub fn overrides(&self, i: usize) -> Vec<String> {
         let of_point = self.plan.overrides(i).into_iter();
         let of_case = of_point.filter(|o| !o.starts_with(TRIM));
-        set_of(&self.raw).into_iter().chain(of_case).collect()
+        checks::set_of(&self.raw)
+            .into_iter()
+            .chain(of_case)
+            .collect()
     }
 
     /// The case of point `i`, with `more` put on top.
@@ -194,25 +191,6 @@ impl Campaign {
     /// Whether files of point `i` are kept.
     pub fn keeps_files(&self, i: usize) -> bool {
         !self.raw.files.is_empty() && i.is_multiple_of(self.raw.retention.every)
-    }
-
-    /// Points that a worker takes at once: half a second of them, by a rough estimate that is the same everywhere.
-    fn points_of_block(&self) -> usize {
-        let raw = &self.raw;
-        let flies_long = self.base.setup.air.has_memory() || !raw.files.is_empty();
-        if flies_long && raw.tasks.contains(&Task::Run) {
-            return 1;
-        }
-        let of = |task: &Task| match task {
-            Task::Run => self.base.setup.time.steps as f64 * STEP_S,
-            Task::Trim | Task::Stability => ANALYSIS_S,
-            Task::Power => 0.0,
-        };
-        let cost: f64 = raw.tasks.iter().map(of).sum();
-        let by_time = (BLOCK_S / cost.max(1e-9)) as usize;
-        by_time
-            .clamp(1, MAX_BLOCK)
-            .min((self.plan.points() / MIN_BLOCKS).max(1))
     }
 
     /// The registry of numbers of this case.
@@ -396,270 +374,5 @@ impl Campaign {
             }
         }
         Ok(())
-    }
-}
-
-/// Keys of `[set]` as overrides, and what of the output is not kept.
-fn set_of(raw: &RawCampaign) -> Vec<String> {
-    raw.set
-        .iter()
-        .map(|(key, value)| format!("{key}={value}"))
-        .collect()
-}
-
-/// What an enum of tables cannot say clearly: one kind of variation each.
-fn check_shape(document: &Document) -> Result<(), IoError> {
-    let Some(toml::Value::Table(parameters)) = document.table().get("parameter") else {
-        return Ok(());
-    };
-    for (key, value) in parameters {
-        let place = format!("parameter.{key}");
-        let kinds =
-            "one of list, range, log_range, latin_hypercube, sobol, uniform, log_uniform, normal";
-        let wrong = |problem: String, remedy: &str| {
-            Err(document.fault(&place, problem, kinds, remedy).into())
-        };
-        match value {
-            toml::Value::Table(table) if table.len() == 1 => {}
-            toml::Value::Table(table) if table.is_empty() => {
-                return wrong(
-                    "nothing says how this varies".to_owned(),
-                    "add `list = [...]`, for instance",
-                );
-            }
-            toml::Value::Table(table) => {
-                let names: Vec<&str> = table.keys().map(String::as_str).collect();
-                let remedy = match names.iter().all(|n| ["from", "to", "count"].contains(n)) {
-                    true => "write `range = { from = ..., to = ..., count = ... }`",
-                    false => {
-                        "keep one of them; a key with dots stands in quotes: [parameter.\"motion.frequency_hz\"]"
-                    }
-                };
-                return wrong(
-                    format!("this varies in {} ways: {}", names.len(), names.join(", ")),
-                    remedy,
-                );
-            }
-            _ => {
-                return wrong(
-                    "this says no way to vary".to_owned(),
-                    "for a fixed value use [set]; else `list = [...]`",
-                );
-            }
-        }
-    }
-    Ok(())
-}
-
-/// What the words of the file say of each other.
-fn check_words(document: &Document, raw: &RawCampaign, name: &str) -> Result<(), IoError> {
-    let wrong = |key: &str, problem: &str, allowed: &str, remedy: &str| {
-        Err(document.fault(key, problem, allowed, remedy).into())
-    };
-    if raw.format != 1 {
-        return wrong(
-            "format",
-            "this version of the language is not known",
-            "1",
-            "write format = 1",
-        );
-    }
-    let plain = |c: char| c.is_alphanumeric() || "-_. ".contains(c);
-    if name.is_empty() || name.len() > 100 || name.starts_with('.') || !name.chars().all(plain) {
-        return wrong(
-            "name",
-            "the name becomes the name of a directory",
-            "letters, digits, -, _, . and spaces, not beginning with a dot, at most 100 bytes",
-            "choose a plain name",
-        );
-    }
-    if raw.tasks.is_empty() {
-        return wrong(
-            "do",
-            "nothing is done",
-            "run, trim, stability, power",
-            "write do = [\"run\"], or leave it out",
-        );
-    }
-    for (k, task) in raw.tasks.iter().enumerate() {
-        let place = format!("do[{k}]");
-        if raw.tasks[..k].contains(task) {
-            return wrong(
-                &place,
-                "this is done twice",
-                "each task once",
-                "remove one of them",
-            );
-        }
-        let needs_trim = matches!(task, Task::Stability | Task::Power);
-        if needs_trim && !raw.tasks[..k].contains(&Task::Trim) {
-            return wrong(
-                &place,
-                "this needs a trimmed flight",
-                "after trim",
-                "put \"trim\" before it",
-            );
-        }
-    }
-    if raw.keep.is_empty() {
-        return wrong(
-            "keep",
-            "no number is kept",
-            "at least one name",
-            "keep = [\"lift_over_weight\", \"power_watt\"], for instance",
-        );
-    }
-    if raw.trim.is_some() && !raw.tasks.contains(&Task::Trim) {
-        return wrong(
-            "trim",
-            "this has no effect: nothing is trimmed",
-            "with do = [\"trim\", ...]",
-            "add \"trim\" to do, or remove the table",
-        );
-    }
-    check_files(document, raw)?;
-    check_budget(document, raw)
-}
-
-fn check_files(document: &Document, raw: &RawCampaign) -> Result<(), IoError> {
-    let wrong = |key: &str, problem: &str, allowed: &str, remedy: &str| {
-        Err(document.fault(key, problem, allowed, remedy).into())
-    };
-    let runs = raw.tasks.contains(&Task::Run);
-    if !raw.files.is_empty() && !runs {
-        return wrong(
-            "files",
-            "this has no effect: nothing is flown",
-            "with do = [..., \"run\"]",
-            "add \"run\" to do, or remove it",
-        );
-    }
-    if let Some(k) = (1..raw.files.len()).find(|&k| raw.files[..k].contains(&raw.files[k])) {
-        return wrong(
-            &format!("files[{k}]"),
-            "this is named twice",
-            "each kind once",
-            "remove one of them",
-        );
-    }
-    if raw.retention.every == 0 {
-        return wrong(
-            "retention.every",
-            "this must not be zero",
-            "a whole number >= 1",
-            "1 keeps the files of all points",
-        );
-    }
-    if raw.retention.every > 1 && raw.files.is_empty() {
-        return wrong(
-            "retention.every",
-            "this has no effect without files",
-            "beside files = [...]",
-            "remove it, or keep files",
-        );
-    }
-    if raw.retention.failed && !runs {
-        return wrong(
-            "retention.failed",
-            "this has no effect: nothing is flown",
-            "with do = [..., \"run\"]",
-            "remove it",
-        );
-    }
-    for (key, kinds) in [
-        ("output.page", FileKind::Page),
-        ("output.figures", FileKind::Figures),
-    ] {
-        if raw.set.contains_key(key) {
-            let remedy = match kinds {
-                FileKind::Page => "remove it; files = [\"page\"] keeps pages",
-                _ => "remove it; files = [\"figures\"] keeps figures",
-            };
-            return wrong(
-                &format!("set.{key}"),
-                "this has no effect: `files` says what is drawn",
-                "no key output.page or output.figures",
-                remedy,
-            );
-        }
-    }
-    Ok(())
-}
-
-fn check_budget(document: &Document, raw: &RawCampaign) -> Result<(), IoError> {
-    let budget = &raw.budget;
-    if !(1..=1000).contains(&budget.attempts) {
-        return Err(document
-            .fault(
-                "budget.attempts",
-                "a number of attempts out of range",
-                "a whole number from 1 to 1000",
-                "3 is the default",
-            )
-            .into());
-    }
-    for (key, value) in [
-        ("time_per_point_s", budget.time_per_point_s),
-        ("disk_mb", budget.disk_mb),
-    ] {
-        if value.is_some_and(|x| x <= 0.0) {
-            let key = format!("budget.{key}");
-            return Err(document
-                .fault(
-                    &key,
-                    "this must be positive",
-                    "a number above 0",
-                    "remove it for no limit",
-                )
-                .into());
-        }
-    }
-    Ok(())
-}
-
-/// The case that is varied, with what is set at all points.
-fn base_case(document: &Document, raw: &RawCampaign, folder: &Path) -> Result<LoadedCase, IoError> {
-    let set = set_of(raw);
-    let file = folder.join(&raw.case);
-    let name = match file.is_file() {
-        true => file.display().to_string(),
-        false => raw.case.clone(),
-    };
-    if name == "-" {
-        return Err(document
-            .fault(
-                "case",
-                "a campaign cannot read its case from the standard input",
-                "a preset or a file",
-                "name a file",
-            )
-            .into());
-    }
-    match LoadedCase::find(&name, &set) {
-        Err(e @ IoError::NoCase { .. }) => Err(document
-            .fault(
-                "case",
-                e.to_string(),
-                "a preset, or a file beside this one",
-                "correct the name",
-            )
-            .into()),
-        Err(IoError::Case(e)) => {
-            let by = set
-                .iter()
-                .find(|o| e.origin.starts_with(&format!("{o} (set")));
-            match by.and_then(|o| o.split_once('=')) {
-                Some((key, _)) => Err(document
-                    .fault(
-                        &format!("set.{key}"),
-                        format!("{}: {}", e.key, e.problem),
-                        e.allowed.clone(),
-                        e.remedy.clone(),
-                    )
-                    .into()),
-                None => Err(IoError::Case(e)),
-            }
-        }
-        found => found,
     }
 }

@@ -17,6 +17,8 @@ use std::time::{Duration, SystemTime};
 
 use wingbeat_case::IoError;
 
+use crate::process::{Process, start_of};
+
 /// Heartbeats this old are those of the dead.
 pub const STALE: Duration = Duration::from_secs(60);
 /// Time between heartbeats.
@@ -26,77 +28,10 @@ const DIGITS: usize = 12;
 /// No point is being flown.
 const NONE: &str = "------------";
 
-/// A process, so that it can be found dead or alive.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Process {
-    /// Machine, start of its system, name space of its process numbers.
-    machine: String,
-    number: u32,
-    /// When it started, as the system counts; empty where it does not say.
-    start: String,
-}
-
-impl Process {
-    /// This one.
-    pub fn own() -> Self {
-        let word = |path: &str| {
-            fs::read_to_string(path)
-                .unwrap_or_default()
-                .trim()
-                .to_owned()
-        };
-        let space = fs::read_link("/proc/self/ns/pid").unwrap_or_default();
-        let number = std::process::id();
-        Self {
-            machine: format!(
-                "{}/{}/{}",
-                host(),
-                word("/proc/sys/kernel/random/boot_id"),
-                space.display()
-            )
-            .replace([' ', '\n'], "_"),
-            number,
-            start: start_of(number).unwrap_or_default(),
-        }
-    }
-
-    fn decoded(text: &str) -> Option<Self> {
-        let mut words = text.lines().next()?.split(' ');
-        let own = Self {
-            machine: words.next()?.to_owned(),
-            number: words.next()?.parse().ok()?,
-            start: words.next()?.to_owned(),
-        };
-        words.next().is_none().then_some(own)
-    }
-}
-
-#[cfg(unix)]
-fn host() -> String {
-    rustix::system::uname()
-        .nodename()
-        .to_string_lossy()
-        .into_owned()
-}
-
-#[cfg(not(unix))]
-fn host() -> String {
-    std::env::var("COMPUTERNAME").unwrap_or_default()
-}
-
-/// Field 22 of `/proc/N/stat`, after the name, which may hold anything.
-fn start_of(number: u32) -> Option<String> {
-    let stat = fs::read_to_string(format!("/proc/{number}/stat")).ok()?;
-    let (_, rest) = stat.rsplit_once(')')?;
-    let mut fields = rest.split_whitespace();
-    let is_dead = matches!(fields.next(), Some("Z" | "X")); // killed, and nobody has looked yet
-    (!is_dead).then(|| fields.nth(18).map(str::to_owned))?
-}
-
 /// What came of the wish to have a block.
 #[derive(Debug)]
 pub enum Taken {
-    /// It is ours; of a process that died, the point that it was flying.
+    /// It is this process's; of a process that died, the point that it was flying.
     Own(Lease, Option<usize>),
     /// Somebody alive has it.
     Held,
@@ -113,7 +48,7 @@ pub struct Leases {
     beating: Arc<Mutex<Option<File>>>,
 }
 
-/// A block that is ours.
+/// A block that this process holds.
 #[derive(Debug)]
 pub struct Lease {
     path: PathBuf,
@@ -226,7 +161,7 @@ impl Leases {
         let head = format!("{} {} {}\n", own.machine, own.number, own.start);
         file.write_all(format!("{head}{NONE}\n").as_bytes())
             .map_err(|e| {
-                let _ = fs::remove_file(&path); // nobody may take it for ours
+                let _ = fs::remove_file(&path); // nobody may take it for a lease
                 IoError::write(&path)(e)
             })?;
         let lease = Lease {
@@ -316,7 +251,7 @@ enum Holder {
 }
 
 impl Lease {
-    /// Says which point is being flown; whether the block is still ours.
+    /// Says which point is being flown; whether the block is still held.
     ///
     /// # Errors
     /// A file that cannot be written.
@@ -404,11 +339,11 @@ mod tests {
         };
         assert_eq!((flown, lease.generation), (Some(7), 1));
         child.wait().unwrap();
-        assert!(matches!(leases.take(3).unwrap(), Taken::Held), "it is ours");
+        assert!(matches!(leases.take(3).unwrap(), Taken::Held), "it is held");
         assert!(lease.fly(0).unwrap());
         // Somebody takes us for dead.
         fs::write(leases.file(3, 2), &text).unwrap();
-        assert!(!lease.fly(1).unwrap(), "not ours any more");
+        assert!(!lease.fly(1).unwrap(), "not held any more");
         let Taken::Own(lease, flown) = leases.take(3).unwrap() else {
             panic!("the third is dead")
         };

@@ -8,8 +8,8 @@ use std::path::Path;
 use wingbeat_results::export::hdf5::{Attribute, Hdf5File, Kind, Layout};
 
 use crate::campaign::Campaign;
-use crate::merge::Row;
 use crate::plan::SAMPLE;
+use crate::rows::Row;
 use crate::value::Value;
 
 /// Version of the layout.

@@ -8,7 +8,8 @@ use wingbeat_draw::points;
 use wingbeat_results::file::NewFile;
 
 use crate::campaign::Campaign;
-use crate::merge::{Row, command, rows};
+use crate::merge::command;
+use crate::rows::{Row, rows};
 use crate::store::Store;
 use crate::value::Value;
 

@@ -131,7 +131,7 @@ impl<'a> Worker<'a> {
         (block * n).max(range.start)..((block + 1) * n).min(range.end)
     }
 
-    /// Flies a block that is ours; whether its points of this range are done.
+    /// Flies a block that this worker holds; whether its points of this range are done.
     fn block(
         &mut self,
         mut lease: Lease,

@@ -78,8 +78,11 @@ impl Document {
     fn with_value(&self, mut error: CaseError) -> CaseError {
         if error.value.is_none() {
             let written = self.source.written(&error.key);
+            // Not the heading of a table, which stands for what is below it.
+            let is_value = |v: &&str| format!("value = {v}").parse::<toml::Table>().is_ok();
             let short = |v: &&str| !v.contains('\n') && v.len() <= LONGEST_VALUE;
-            error.value = written.filter(short).map(str::to_owned);
+            let written = written.filter(short).filter(is_value);
+            error.value = written.map(str::to_owned);
         }
         error
     }

@@ -84,13 +84,17 @@ function drawMap() {
   pen.textAlign = "center"; pen.fillStyle = style("--text");
   pen.fillText(x.label, left + w / 2, height - 6);
   pen.save(); pen.translate(12, top + h / 2); pen.rotate(-Math.PI / 2); pen.fillText(y.label, 0, 0); pen.restore();
-  const list = chosen(), apart = Math.sqrt(w * h / Math.max(1, list.length)), radius = Math.max(2, Math.min(7, apart / 3));
+  const list = chosen(), apart = Math.sqrt(w * h / Math.max(1, list.length)), radius = Math.max(2, Math.min(7, apart / 4));
   spots = [];
+  const at = new Map(); // points at the same place are fanned out in a spiral around it
   for (const row of list) {
     const [a, b] = [x.share(row), y.share(row)];
     const bad = row.failed !== null;
     if (a === null || b === null && !bad) continue;
-    const [sx, sy] = [px(a), b === null ? top + h : py(b)];
+    let [sx, sy] = [px(a), b === null ? top + h : py(b)];
+    const place = `${Math.round(sx)} ${Math.round(sy)}`, k = at.get(place) || 0;
+    at.set(place, k + 1);
+    [sx, sy] = [sx + 1.25 * radius * Math.sqrt(k) * Math.cos(2.4 * k), sy + 1.25 * radius * Math.sqrt(k) * Math.sin(2.4 * k)];
     spots.push([sx, sy, row]);
     if (bad) {
       pen.strokeStyle = ALARM[theme()]; pen.lineWidth = 1.6; pen.beginPath();

@@ -202,7 +202,7 @@ const FILES: [Wrong; 38] = [
         "range = {",
         "rang = {",
         "rang =",
-        &["unknown choice `rang`", "did you mean `range`?"],
+        &["unknown key `rang`", "did you mean `range`?"],
     ),
     (
         "count = 3",

@@ -234,3 +234,71 @@ fn exact_tables_are_read_by_xarray_and_pyarrow() {
     let said = String::from_utf8_lossy(&out.stderr);
     assert!(out.status.success(), "{said}");
 }
+
+/// Points that take too long fail as such; a directory that is too large stops the workers.
+#[test]
+fn behaves_budgets_are_kept() {
+    let scratch = Scratch::new("campaign-budget");
+    let dir = &scratch.0;
+    let text = |budget: &str| blade(2).replace("attempts = 20", budget);
+    write(dir, &text("time_per_point_s = 1e-6"));
+    flown(
+        dir,
+        &["campaign", "run", "c.toml", "--out", "slow", "--quiet"],
+    );
+    merged(dir, "slow");
+    assert_eq!(column(dir, "slow", "reason"), ["slow"; 6]);
+    write(dir, &text("disk_mb = 1e-4"));
+    let args = [
+        "campaign", "run", "c.toml", "--out", "full", "--quiet", "--jobs", "1",
+    ];
+    let out = wingbeat(dir, &args);
+    let report = String::from_utf8_lossy(&out.stderr);
+    assert_eq!(out.status.code(), Some(1), "{report}");
+    assert!(
+        report.contains("more than budget.disk_mb allows"),
+        "{report}"
+    );
+    write(dir, &text("disk_mb = 10.0"));
+    flown(dir, &args);
+    merged(dir, "full");
+    assert_eq!(column(dir, "full", "success"), ["1"; 6]);
+}
+
+/// A table of points: texts, whole numbers and numbers go where they belong; its plan is that of the file.
+#[test]
+fn exact_points_of_a_table_are_flown() {
+    let scratch = Scratch::new("campaign-csv");
+    let dir = &scratch.0;
+    write(
+        dir,
+        "case = \"fruit-fly-blade\"\nkeep = [\"power_watt\", \"summary.steps\"]\ntable = \"points.csv\"\n[set]\n\"time.beats\" = 1\n",
+    );
+    let table = "time.steps_per_beat,dynamics.formulation,motion.frequency_hz\n40,momentum,200.5\n60,quaternion,190\n";
+    fs::write(dir.join("points.csv"), table).unwrap();
+    flown(dir, &["campaign", "run", "c.toml", "--out", "r", "--quiet"]);
+    merged(dir, "r");
+    assert_eq!(numbers(dir, "r", "summary.steps"), [40.0, 60.0]);
+    let keys = [
+        "time.beats=1",
+        "time.steps_per_beat=60",
+        "dynamics.formulation=quaternion",
+        "motion.frequency_hz=190",
+    ];
+    let run = Flight::preset_with("fruit-fly-blade", &keys)
+        .unwrap()
+        .fly()
+        .unwrap();
+    assert_eq!(
+        numbers(dir, "r", "power_watt")[1],
+        run.beats()[0].power_watt
+    ); // to the bit
+    fs::write(dir.join("points.csv"), table.replace("190", "190 Hz")).unwrap();
+    let out = wingbeat(dir, &["campaign", "plan", "c.toml"]);
+    let report = String::from_utf8_lossy(&out.stderr);
+    assert_eq!(out.status.code(), Some(2), "{report}");
+    assert!(
+        report.contains("c.toml:3:") && report.contains("motion.frequency_hz"),
+        "{report}"
+    );
+}

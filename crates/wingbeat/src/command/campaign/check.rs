@@ -19,7 +19,7 @@ use crate::command::report::{Report, ReportArgs, line};
 pub(super) struct CheckArgs {
     /// File of the campaign.
     file: PathBuf,
-    /// Processes that its time is told for [default: as many as the machine has processors].
+    /// Processes, for which its time is estimated [default: as many as the machine has processors].
     #[arg(long, value_name = "N", value_parser = options::count::<1, { options::MAX_THREADS }>)]
     jobs: Option<usize>,
     #[command(flatten)]

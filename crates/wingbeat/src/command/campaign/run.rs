@@ -1,6 +1,6 @@
 //! `wingbeat campaign run`: local processes fly the points.
 
-use std::path::PathBuf;
+use std::path::Path;
 
 use clap::Args;
 use wingbeat::campaign::worker::inspect;
@@ -62,7 +62,7 @@ pub(super) fn run(args: &RunArgs) -> Result<(), Failure> {
     }
 }
 
-fn finish(campaign: &Campaign, store: &Store, file: &PathBuf) -> Result<(), Failure> {
+fn finish(campaign: &Campaign, store: &Store, file: &Path) -> Result<(), Failure> {
     let status = Status::of(campaign, store)?;
     let file = file.display();
     say!(
