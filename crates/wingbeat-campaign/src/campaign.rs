@@ -323,7 +323,21 @@ impl Campaign {
             ),
             false => format!("{}: {}", e.key, e.problem),
         };
-        self.fault(&self.place_of(&key), problem, &e.allowed, &e.remedy)
+        let mut place = self.place_of(&key);
+        // An unknown key stands in the heading, a wrong value below it.
+        if !e.problem.starts_with("unknown key")
+            && let Some(way) = self.way_of(&place, &key)
+        {
+            place = format!("{place}.{way}");
+        }
+        self.fault(&place, problem, &e.allowed, &e.remedy)
+    }
+
+    /// How a parameter that stands at `place` is varied: `range`, for instance.
+    fn way_of(&self, place: &str, key: &str) -> Option<&String> {
+        let parameters = self.document.table().get("parameter")?;
+        let ways = parameters.get(place.strip_prefix("parameter.").filter(|k| *k == key)?)?;
+        ways.as_table()?.keys().next()
     }
 
     /// Where a varied or set key stands in the file.

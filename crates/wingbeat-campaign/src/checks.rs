@@ -93,6 +93,32 @@ pub fn words(document: &Document, raw: &RawCampaign, name: &str) -> Result<(), I
             "choose a plain name",
         );
     }
+    check_tasks(document, raw)?;
+    if raw.keep.is_empty() {
+        return wrong(
+            "keep",
+            "no number is kept",
+            "at least one name",
+            "keep = [\"lift_over_weight\", \"power_watt\"], for instance",
+        );
+    }
+    if raw.trim.is_some() && !raw.tasks.contains(&Task::Trim) {
+        return wrong(
+            "trim",
+            "this has no effect: nothing is trimmed",
+            "with do = [\"trim\", ...]",
+            "add \"trim\" to do, or remove the table",
+        );
+    }
+    check_files(document, raw)?;
+    check_budget(document, raw)
+}
+
+/// Each task once, and after what it needs.
+fn check_tasks(document: &Document, raw: &RawCampaign) -> Result<(), IoError> {
+    let wrong = |key: &str, problem: &str, allowed: &str, remedy: &str| {
+        Err(document.fault(key, problem, allowed, remedy).into())
+    };
     if raw.tasks.is_empty() {
         return wrong(
             "do",
@@ -121,24 +147,7 @@ pub fn words(document: &Document, raw: &RawCampaign, name: &str) -> Result<(), I
             );
         }
     }
-    if raw.keep.is_empty() {
-        return wrong(
-            "keep",
-            "no number is kept",
-            "at least one name",
-            "keep = [\"lift_over_weight\", \"power_watt\"], for instance",
-        );
-    }
-    if raw.trim.is_some() && !raw.tasks.contains(&Task::Trim) {
-        return wrong(
-            "trim",
-            "this has no effect: nothing is trimmed",
-            "with do = [\"trim\", ...]",
-            "add \"trim\" to do, or remove the table",
-        );
-    }
-    check_files(document, raw)?;
-    check_budget(document, raw)
+    Ok(())
 }
 
 fn check_files(document: &Document, raw: &RawCampaign) -> Result<(), IoError> {
@@ -186,6 +195,14 @@ fn check_files(document: &Document, raw: &RawCampaign) -> Result<(), IoError> {
             "remove it",
         );
     }
+    check_output(document, raw)
+}
+
+/// What is drawn follows from the files that are kept.
+fn check_output(document: &Document, raw: &RawCampaign) -> Result<(), IoError> {
+    let wrong = |key: &str, problem: &str, allowed: &str, remedy: &str| {
+        Err(document.fault(key, problem, allowed, remedy).into())
+    };
     for (key, kinds) in [
         ("output.page", FileKind::Page),
         ("output.figures", FileKind::Figures),

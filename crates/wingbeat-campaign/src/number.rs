@@ -283,6 +283,15 @@ pub fn registry(setup: &FlightSetup) -> Result<Vec<Number>, AnalysisError> {
     for (name, unit, about, of) in SUMMARY {
         put(format!("summary.{name}"), unit, about, Source::Summary(of));
     }
+    of_trim(&mut put);
+    modes_and_derivatives(&mut put);
+    for (name, unit, about, of) in POWERS {
+        put(format!("power.{name}"), unit, about, Source::Power(of));
+    }
+    Ok(all)
+}
+
+fn of_trim(put: &mut impl FnMut(String, &str, &str, Source)) {
     for (unknown, name) in UNKNOWNS {
         let [ending, unit] = unit_of(unknown);
         let source = Source::Trim(TrimNumber::Unknown(unknown));
@@ -303,11 +312,6 @@ pub fn registry(setup: &FlightSetup) -> Result<Vec<Number>, AnalysisError> {
         "Newton steps of the trim",
         iterations,
     );
-    modes_and_derivatives(&mut put);
-    for (name, unit, about, of) in POWERS {
-        put(format!("power.{name}"), unit, about, Source::Power(of));
-    }
-    Ok(all)
 }
 
 fn modes_and_derivatives(put: &mut impl FnMut(String, &str, &str, Source)) {

@@ -5,14 +5,8 @@ use serde_json::Value;
 use crate::support::{Scratch, flown, wingbeat};
 use crate::{merged, numbers, write};
 
-/// The numbers of a campaign are those of the commands.
-#[test]
-fn agrees_trim_stability_and_power_with_their_commands() {
-    let scratch = Scratch::new("campaign-chain");
-    let dir = &scratch.0;
-    write(
-        dir,
-        r#"case = "fruit-fly-blade"
+/// A chain of all tasks at two speeds.
+const CHAIN: &str = r#"case = "fruit-fly-blade"
 do = ["trim", "stability", "power", "run"]
 keep = ["trim.stroke_amplitude", "trim.body_pitch_rad", "stability.floquet.1.growth_per_s",
         "stability.averaged.2.frequency_rad_per_s", "stability.derivative.M_q", "power.perfect_storage_watt",
@@ -23,8 +17,14 @@ keep = ["trim.stroke_amplitude", "trim.body_pitch_rad", "stability.floquet.1.gro
 steps_per_beat = 40
 [parameter."trim.forward_m_s"]
 list = [0, 0.1]
-"#,
-    );
+"#;
+
+/// The numbers of a campaign are those of the commands.
+#[test]
+fn agrees_trim_stability_and_power_with_their_commands() {
+    let scratch = Scratch::new("campaign-chain");
+    let dir = &scratch.0;
+    write(dir, CHAIN);
     flown(dir, &["campaign", "run", "c.toml", "--out", "r", "--quiet"]);
     merged(dir, "r");
     let own = |name: &str| numbers(dir, "r", name);

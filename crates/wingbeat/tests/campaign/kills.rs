@@ -1,6 +1,8 @@
 //! Workers and masters that are killed, at any time: the tables are those of an undisturbed run.
 #![cfg(target_os = "linux")]
 
+use std::collections::BTreeMap;
+use std::ffi::OsString;
 use std::fs;
 use std::path::Path;
 use std::process::{Child, Command, Stdio};
@@ -108,6 +110,16 @@ fn invariant_kills_leave_no_trace_in_the_tables() {
     assert!(numbers(dir, "b", "success").iter().all(|s| *s == 1.0));
 }
 
+/// The histories that are kept.
+fn histories(dir: &Path, out: &str) -> BTreeMap<OsString, Vec<u8>> {
+    let folders = fs::read_dir(dir.join(out).join("files")).unwrap();
+    let read = |f: fs::DirEntry| {
+        let history = fs::read(f.path().join("history.csv")).unwrap();
+        (f.file_name(), history)
+    };
+    folders.map(|f| read(f.unwrap())).collect()
+}
+
 /// Flights in the vortex lattice go on from their checkpoints after a kill, bit for bit.
 #[test]
 fn invariant_a_killed_flight_in_the_lattice_goes_on_bit_for_bit() {
@@ -157,20 +169,11 @@ list = [200, 210]
     assert!(resumed > 0, "no flight was killed within");
     flown(dir, &["campaign", "run", "c.toml", "--out", "b", "--quiet"]);
     assert!(merged(dir, "a") == merged(dir, "b"));
-    let histories = |out: &str| {
-        let folders = fs::read_dir(dir.join(out).join("files")).unwrap();
-        let read = |f: fs::DirEntry| {
-            (
-                f.file_name(),
-                fs::read(f.path().join("history.csv")).unwrap(),
-            )
-        };
-        folders
-            .map(|f| read(f.unwrap()))
-            .collect::<std::collections::BTreeMap<_, _>>()
-    };
-    assert_eq!(histories("a").len(), 2);
-    assert!(histories("a") == histories("b"), "histories differ");
+    assert_eq!(histories(dir, "a").len(), 2);
+    assert!(
+        histories(dir, "a") == histories(dir, "b"),
+        "histories differ"
+    );
 }
 
 /// A point that kills whoever flies it is given up after so many attempts, the others are flown.
