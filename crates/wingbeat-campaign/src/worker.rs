@@ -282,3 +282,10 @@ pub fn inspect(campaign: &Campaign, store: &Store, range: &Range<usize>) -> Resu
     }
     Ok(done)
 }
+
+/// Points of the range that have no result, by the names of the results alone.
+pub fn left(campaign: &Campaign, store: &Store, range: &Range<usize>) -> usize {
+    let known = store.done();
+    let lacks = |i: &usize| !known.contains_key(&hexadecimal(&campaign.hash(*i)));
+    range.clone().filter(lacks).count()
+}

@@ -138,8 +138,8 @@ impl Master {
         let output = child.stdout.take();
         thread::spawn(move || {
             let lines = output.into_iter().flat_map(|o| BufReader::new(o).lines());
-            for _ in lines.map_while(Result::ok) {
-                points.fetch_add(1, Ordering::Relaxed);
+            for line in lines.map_while(Result::ok) {
+                points.fetch_add(line.trim().parse().unwrap_or(0), Ordering::Relaxed);
             }
         });
         Ok(child)

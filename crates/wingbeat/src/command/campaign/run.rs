@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use clap::Args;
-use wingbeat::campaign::worker::inspect;
+use wingbeat::campaign::worker::{inspect, left};
 use wingbeat::campaign::{Campaign, Status, Store};
 
 use super::args::{Part, Place};
@@ -51,7 +51,7 @@ pub(super) fn run(args: &RunArgs) -> Result<(), Failure> {
         let mut master = Master::new(&args.place.file, &folder, range.clone(), args.quiet);
         master.work(jobs, done, &stop)?;
     }
-    let left = range.len() - inspect(&campaign, &store, &range)?;
+    let left = left(&campaign, &store, &range);
     if left > 0 {
         tell!("interrupted: {left} points are left; the same command goes on");
         return Err(Failure::Told(INTERRUPTED));

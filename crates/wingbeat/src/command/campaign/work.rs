@@ -3,6 +3,7 @@
 use std::io::{Read as _, Write as _};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::{Duration, Instant};
 
 use clap::Args;
 use wingbeat::campaign::{Ended, Store, Worker};
@@ -11,6 +12,9 @@ use super::args::{Part, Place};
 use crate::command::failure::{FAILED, Failure, INTERRUPTED};
 use crate::command::signals::stop_flag;
 use crate::command::terminal::tell;
+
+/// Time between two counts on the standard output.
+const SAY: Duration = Duration::from_millis(200);
 
 /// Arguments of `wingbeat campaign work`.
 #[derive(Args)]
@@ -21,7 +25,7 @@ pub(super) struct WorkArgs {
     part: Part,
 }
 
-/// The whole command: one thread; a line for every point, an end with the standard input.
+/// The whole command: one thread; points counted on the standard output, an end with the standard input.
 pub(super) fn work(args: &WorkArgs) -> Result<(), Failure> {
     let pool = rayon::ThreadPoolBuilder::new()
         .num_threads(1)
@@ -34,12 +38,11 @@ pub(super) fn work(args: &WorkArgs) -> Result<(), Failure> {
     let folder = args.place.folder(&campaign);
     let store = Store::existing(&folder)?;
     let mut worker = Worker::new(&campaign, &store, range)?;
-    let mut tell = || {
-        let mut out = std::io::stdout().lock();
-        let _ = out.write_all(b".\n").and_then(|()| out.flush()); // nobody may be there to count
-    };
+    let mut counter = Counter::default();
+    let mut tell = || counter.count();
     // Within the pool: handing it work from outside wakes a thread for every sum.
     let ended = rayon::scope(|_| worker.work(&stop, &mut tell));
+    counter.say();
     match ended {
         Ok(Ended::Complete) => Ok(()),
         Ok(Ended::Stopped) => Err(Failure::Told(INTERRUPTED)),
@@ -57,6 +60,28 @@ pub(super) fn work(args: &WorkArgs) -> Result<(), Failure> {
             );
             Err(Failure::Told(FAILED))
         }
+    }
+}
+
+/// Counts points on the standard output, now and then: whoever reads there needs a processor for it.
+#[derive(Default)]
+struct Counter {
+    points: usize,
+    said: Option<Instant>,
+}
+
+impl Counter {
+    fn count(&mut self) {
+        self.points += 1;
+        if self.said.is_none_or(|at| at.elapsed() > SAY) {
+            self.say();
+        }
+    }
+
+    fn say(&mut self) {
+        let mut out = std::io::stdout().lock();
+        let _ = writeln!(out, "{}", self.points).and_then(|()| out.flush()); // nobody may be there to count
+        (self.points, self.said) = (0, Some(Instant::now()));
     }
 }
 
