@@ -8,6 +8,8 @@
 //!
 //! Names in cases carry units; numbers are SI and radians on the other side of this border.
 //!
+//! [`Document`] reads files of other languages, as those of campaigns, in the same way.
+//!
 //! What it does not know: physics, results.
 #![warn(missing_docs)]
 
@@ -15,6 +17,7 @@ mod build;
 mod data;
 mod decode;
 mod differences;
+mod document;
 mod error;
 pub mod external;
 mod files;
@@ -34,6 +37,7 @@ pub use build::column_name;
 pub use data::data_sets;
 pub use decode::nearest;
 pub use differences::{Difference, differences};
+pub use document::{Document, overridden};
 pub use error::{CaseError, IoError};
 pub use keys::{SCHEMA_FILE, schema, with_schema};
 pub use loaded::LoadedCase;

@@ -94,6 +94,12 @@ impl CaseSource {
         self.overrides.iter().any(|(k, _)| around(k))
     }
 
+    /// The value of a key as it is written in the file.
+    pub fn written(&self, key: &str) -> Option<&str> {
+        let place = self.places.get(key)?;
+        self.text.get(place.value.clone())
+    }
+
     /// Whether the document has a value at `key`.
     pub fn gives(&self, key: &str) -> bool {
         find(&self.table, key).is_some()

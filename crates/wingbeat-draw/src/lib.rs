@@ -6,6 +6,7 @@
 
 pub mod figures;
 pub mod page;
+pub mod points;
 
 use wingbeat_case::{IoError, LoadedCase};
 use wingbeat_results::{ResultDir, Summary};

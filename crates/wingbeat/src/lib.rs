@@ -17,6 +17,7 @@
 //! | [`case`] | case files and presets |
 //! | [`results`] | result directories: writer, readers, summary, exports |
 //! | [`draw`] | figures, flight page, animation |
+//! | [`campaign`] | thousands of flights from one file |
 //! | [`verify`] | the verification suite |
 //!
 //! A flight from a preset, three steps long:
@@ -82,6 +83,7 @@ pub mod prelude {
 pub use wingbeat_air as air;
 pub use wingbeat_analysis as analysis;
 pub use wingbeat_blade as blade;
+pub use wingbeat_campaign as campaign;
 pub use wingbeat_case as case;
 pub use wingbeat_draw as draw;
 pub use wingbeat_dynamics as dynamics;

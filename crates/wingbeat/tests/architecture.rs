@@ -71,6 +71,10 @@ fn invariant_dependency_graph_is_the_architecture() {
             vec!["math", "model", "vortex", "flight", "case", "results"],
         ),
         (
+            "wingbeat-campaign",
+            vec!["math", "flight", "analysis", "case", "results", "draw"],
+        ),
+        (
             "wingbeat-verify",
             vec!["math", "model", "vortex", "air", "flight", "case"],
         ),

@@ -61,7 +61,7 @@ fn plots(group: usize) -> String {
 }
 
 /// JSON that no element of the page can end or open: `<` stands only in its strings.
-pub(super) fn inert(json: &str) -> String {
+pub(crate) fn inert(json: &str) -> String {
     json.replace('<', "\\u003c")
 }
 

@@ -7,6 +7,7 @@
 //! Memory is bounded by the size of the page, not by the length of the flight.
 
 mod data;
+pub(crate) use data::inert;
 pub mod pack;
 pub mod plan;
 mod scene;
@@ -113,14 +114,14 @@ fn program(title: &str) -> [String; 2] {
 }
 
 /// A program without indentation and lines of comment: every page carries it.
-fn bare(program: &str) -> String {
+pub(crate) fn bare(program: &str) -> String {
     let lines = program.lines().map(str::trim_start);
     let lines = lines.filter(|l| !l.is_empty() && !l.starts_with("//"));
     lines.flat_map(|l| [l, "\n"]).collect()
 }
 
 /// A template with its places filled, each once and in order.
-fn fill(template: &str, parts: &[(&str, &str)]) -> String {
+pub(crate) fn fill(template: &str, parts: &[(&str, &str)]) -> String {
     let mut page = String::new();
     let mut rest = template;
     for (name, text) in parts {
@@ -134,7 +135,7 @@ fn fill(template: &str, parts: &[(&str, &str)]) -> String {
     page
 }
 
-fn escaped(text: &str) -> String {
+pub(crate) fn escaped(text: &str) -> String {
     let text = text.replace('&', "&amp;").replace('<', "&lt;");
     text.replace('>', "&gt;").replace('"', "&quot;")
 }

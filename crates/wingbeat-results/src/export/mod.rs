@@ -14,7 +14,7 @@
 mod block;
 mod gltf;
 pub mod hdf5;
-mod parquet;
+pub mod parquet;
 mod source;
 mod tables;
 mod vtkhdf;

@@ -1,5 +1,4 @@
-//! A table of numbers as Apache Parquet: uncompressed columns of doubles and, for counts, whole
-//! numbers, in groups of rows.
+//! A table as Apache Parquet: uncompressed columns of doubles, whole numbers and texts, in groups of rows.
 //!
 //! Numbers of fields are those of `parquet.thrift` (Apache Parquet format 2.x), written in
 //! Thrift's compact protocol.
@@ -8,25 +7,59 @@ use std::fs::File;
 use std::io::{BufWriter, Write};
 use std::path::Path;
 
-use crate::columns::Column;
-
 /// Rows that are gathered before they are written: the memory the writer takes.
 const GROUP: usize = 4096;
 const MAGIC: &[u8] = b"PAR1";
 const INT64: i64 = 2;
 const DOUBLE: i64 = 5;
+const BYTE_ARRAY: i64 = 6;
+const UTF8: i64 = 0;
 const REQUIRED: i64 = 0;
 const PLAIN: i64 = 0;
 const RLE: i64 = 3;
+
+/// What a column holds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Cells {
+    /// Numbers.
+    Numbers,
+    /// Whole numbers.
+    Counts,
+    /// Texts.
+    Texts,
+}
+
+impl Cells {
+    /// The type in the format.
+    fn kind(self) -> i64 {
+        match self {
+            Self::Numbers => DOUBLE,
+            Self::Counts => INT64,
+            Self::Texts => BYTE_ARRAY,
+        }
+    }
+}
+
+/// A cell.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Cell<'a> {
+    /// A number, or a whole number.
+    Number(f64),
+    /// A text.
+    Text(&'a str),
+}
 
 /// A table being written.
 pub struct ParquetWriter {
     file: BufWriter<File>,
     at: u64,
+    /// Name of the table.
+    name: String,
     names: Vec<String>,
-    /// INT64 or DOUBLE.
-    kinds: Vec<i64>,
-    columns: Vec<Vec<f64>>,
+    cells: Vec<Cells>,
+    /// Rows gathered so far, and the bytes of each column.
+    rows: usize,
+    columns: Vec<Vec<u8>>,
     groups: Vec<Group>,
 }
 
@@ -37,57 +70,78 @@ struct Group {
 }
 
 impl ParquetWriter {
-    /// A table with these columns.
+    /// A table of this name with these columns.
     ///
     /// # Errors
     /// A file that cannot be written.
-    pub fn create(path: &Path, columns: &[Column]) -> std::io::Result<Self> {
+    pub fn create(path: &Path, name: &str, columns: Vec<(String, Cells)>) -> std::io::Result<Self> {
         let mut file = BufWriter::new(File::create(path)?);
         file.write_all(MAGIC)?;
+        let (names, cells): (Vec<String>, Vec<Cells>) = columns.into_iter().unzip();
         Ok(Self {
             file,
             at: MAGIC.len() as u64,
-            names: columns.iter().map(|c| c.name.clone()).collect(),
-            kinds: columns.iter().map(kind).collect(),
-            columns: vec![Vec::with_capacity(GROUP); columns.len()],
+            name: name.to_owned(),
+            columns: vec![vec![]; names.len()],
+            names,
+            cells,
+            rows: 0,
             groups: vec![],
         })
+    }
+
+    /// Adds a row of numbers.
+    ///
+    /// # Errors
+    /// A file that cannot be written.
+    pub fn row(&mut self, row: &[f64]) -> std::io::Result<()> {
+        self.cells(row.iter().map(|x| Cell::Number(*x)))
     }
 
     /// Adds a row.
     ///
     /// # Errors
     /// A file that cannot be written.
-    pub fn row(&mut self, row: &[f64]) -> std::io::Result<()> {
-        for (column, value) in self.columns.iter_mut().zip(row) {
-            column.push(*value);
+    pub fn cells<'a>(&mut self, row: impl IntoIterator<Item = Cell<'a>>) -> std::io::Result<()> {
+        let columns = self.columns.iter_mut().zip(&self.cells);
+        for ((column, cells), cell) in columns.zip(row) {
+            match (cells, cell) {
+                (Cells::Numbers, Cell::Number(x)) => column.extend(x.to_le_bytes()),
+                (Cells::Counts, Cell::Number(x)) => column.extend((x as i64).to_le_bytes()),
+                (Cells::Texts, Cell::Text(text)) => {
+                    column.extend((text.len() as u32).to_le_bytes());
+                    column.extend(text.as_bytes());
+                }
+                _ => {
+                    return Err(std::io::Error::other(
+                        "a cell of another kind than its column",
+                    ));
+                }
+            }
         }
-        match self.columns.first() {
-            Some(first) if first.len() >= GROUP => self.flush(),
-            _ => Ok(()),
+        self.rows += 1;
+        if self.rows >= GROUP {
+            self.flush()
+        } else {
+            Ok(())
         }
     }
 
     /// Writes the gathered rows as a group, each column as one page.
     fn flush(&mut self) -> std::io::Result<()> {
-        let rows = self.columns.first().map_or(0, Vec::len);
+        let rows = std::mem::take(&mut self.rows);
         if rows == 0 {
             return Ok(());
         }
         let mut pages = vec![];
-        for (column, kind) in self.columns.iter_mut().zip(&self.kinds) {
-            let bytes = |v: &f64| match *kind {
-                INT64 => (*v as i64).to_le_bytes(),
-                _ => v.to_le_bytes(),
-            };
-            let data: Vec<u8> = column.iter().flat_map(bytes).collect();
+        for data in &mut self.columns {
             let head = page_header(rows, data.len());
             self.file.write_all(&head)?;
-            self.file.write_all(&data)?;
+            self.file.write_all(data)?;
             let length = (head.len() + data.len()) as u64;
             pages.push([self.at, length]);
             self.at += length;
-            column.clear();
+            data.clear();
         }
         self.groups.push(Group { rows, pages });
         Ok(())
@@ -112,14 +166,17 @@ impl ParquetWriter {
         t.integer(1, 2);
         t.list(2, 12, self.names.len() + 1);
         t.element(|t| {
-            t.text(4, "history");
+            t.text(4, &self.name);
             t.integer(5, self.names.len() as i64);
         });
-        for (name, kind) in self.names.iter().zip(&self.kinds) {
+        for (name, cells) in self.names.iter().zip(&self.cells) {
             t.element(|t| {
-                t.integer(1, *kind);
+                t.integer(1, cells.kind());
                 t.integer(3, REQUIRED);
                 t.text(4, name);
+                if *cells == Cells::Texts {
+                    t.integer(6, UTF8);
+                }
             });
         }
         t.long(3, self.groups.iter().map(|g| g.rows as i64).sum());
@@ -142,12 +199,12 @@ impl ParquetWriter {
     /// RowGroup with its ColumnChunks and ColumnMetaData.
     fn group(&self, t: &mut Thrift, group: &Group) {
         t.list(1, 12, self.names.len());
-        let pages = self.kinds.iter().zip(&group.pages);
-        for (name, (kind, [at, length])) in self.names.iter().zip(pages) {
+        let pages = self.cells.iter().zip(&group.pages);
+        for (name, (cells, [at, length])) in self.names.iter().zip(pages) {
             t.element(|t| {
                 t.long(2, *at as i64);
                 t.structure(3, |t| {
-                    t.integer(1, *kind);
+                    t.integer(1, cells.kind());
                     t.list(2, 5, 2);
                     t.zigzag(PLAIN);
                     t.zigzag(RLE);
@@ -164,11 +221,6 @@ impl ParquetWriter {
         t.long(2, group.pages.iter().map(|p| p[1] as i64).sum());
         t.long(3, group.rows as i64);
     }
-}
-
-/// What the numbers of a column are written as.
-fn kind(column: &Column) -> i64 {
-    if column.is_count { INT64 } else { DOUBLE }
 }
 
 /// PageHeader with its DataPageHeader.

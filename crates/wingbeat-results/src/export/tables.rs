@@ -6,7 +6,7 @@ use std::path::Path;
 
 use super::block::Block;
 use super::hdf5::{Attribute, Hdf5File, Kind, Layout};
-use super::parquet::ParquetWriter;
+use super::parquet::{Cells, ParquetWriter};
 use super::source::Source;
 use crate::Summary;
 use crate::columns::{Column, TIME};
@@ -21,7 +21,13 @@ const LAYOUT: i64 = 3;
 pub(super) fn parquet(source: &Source, path: &Path) -> Result<(), IoError> {
     let mut rows = source.rows()?;
     let columns = source.columns()?;
-    let mut table = ParquetWriter::create(path, &columns).map_err(IoError::write(path))?;
+    let cells = |c: &Column| match c.is_count {
+        true => (c.name.clone(), Cells::Counts),
+        false => (c.name.clone(), Cells::Numbers),
+    };
+    let names = columns.iter().map(cells).collect();
+    let table = ParquetWriter::create(path, "history", names);
+    let mut table = table.map_err(IoError::write(path))?;
     while let Some(row) = rows.next_row()? {
         table.row(row).map_err(IoError::write(path))?;
     }
@@ -100,7 +106,7 @@ fn history_layout(source: &Source, layout: &mut Layout) -> Result<Vec<(usize, bo
             layout.text(dataset, "CLASS", "DIMENSION_SCALE");
             layout.text(dataset, "NAME", &c.name);
         } else {
-            layout.note(dataset, "DIMENSION_LIST", Attribute::Scale(time));
+            layout.note(dataset, "DIMENSION_LIST", Attribute::Scales(vec![time]));
         }
     }
     let all = columns.iter().enumerate();

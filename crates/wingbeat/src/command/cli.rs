@@ -8,7 +8,9 @@ use clap_complete::Shell;
 
 use super::report::ReportArgs;
 use super::target::folder;
-use super::{analyse, check, ensemble, export, new, plot, run, show, velocity, verify, view};
+use super::{
+    analyse, campaign, check, ensemble, export, new, plot, run, show, velocity, verify, view,
+};
 
 /// Colours of help and errors, as cargo has them.
 pub(crate) const STYLES: Styles = Styles::styled()
@@ -35,6 +37,8 @@ pub(crate) enum Command {
     Run(run::RunArgs),
     /// Fly a case many times over, from starts that differ by next to nothing: means with their errors.
     Ensemble(ensemble::EnsembleArgs),
+    /// Fly thousands of points from one file: grids and samples of any keys, on any number of processes.
+    Campaign(campaign::CampaignArgs),
     /// Go on with a run that was interrupted, killed or ran out of disk, bit for bit.
     Resume(run::ResumeArgs),
     /// Write the flight page of a run, one HTML file, and open it in the browser.

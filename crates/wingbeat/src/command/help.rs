@@ -20,7 +20,7 @@ const PROGRAM: &str = "wingbeat";
 /// The commands by what they are for.
 const GROUPS: [(&str, &[&str]); 5] = [
     ("Cases", &["presets", "new", "check", "schema"]),
-    ("Flights", &["run", "resume", "ensemble"]),
+    ("Flights", &["run", "resume", "ensemble", "campaign"]),
     (
         "Results",
         &["show", "compare", "view", "plot", "export", "velocity"],

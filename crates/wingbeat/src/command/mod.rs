@@ -3,6 +3,7 @@
 #![deny(clippy::print_stdout, clippy::print_stderr)] // they panic where nobody reads; see `terminal`
 
 mod analyse;
+mod campaign;
 mod check;
 mod cli;
 mod ensemble;
@@ -67,6 +68,7 @@ fn run(command: Command) -> Result<(), Failure> {
         Command::Power(args) => analyse::power::run(&args),
         Command::Stabilise(args) => analyse::stabilise::run(&args),
         Command::Ensemble(args) => ensemble::run(&args),
+        Command::Campaign(args) => campaign::run(&args),
         Command::Velocity(args) => velocity::run(&args),
         Command::Verify(args) => verify::run(&args),
         Command::Presets(args) => new::list(&args),

@@ -46,7 +46,7 @@ pub(crate) fn view(args: &ViewArgs) -> Result<(), Failure> {
 }
 
 /// Hands a file to the browser the system prefers.
-fn open(page: &Path) -> bool {
+pub(crate) fn open(page: &Path) -> bool {
     let starter: &[&str] = match std::env::consts::OS {
         "macos" => &["open"],
         "windows" => &["cmd", "/C", "start", ""],

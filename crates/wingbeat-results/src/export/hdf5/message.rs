@@ -22,8 +22,8 @@ pub enum Attribute {
     Integer(i64),
     /// A list of whole numbers.
     Integers(Vec<i64>),
-    /// The arrays along whose elements each dimension of an array runs: number of a dataset.
-    Scale(usize),
+    /// The arrays along whose elements the dimensions of an array run, from the first on: numbers of datasets.
+    Scales(Vec<usize>),
 }
 
 impl Kind {
@@ -89,15 +89,15 @@ pub(super) fn attribute(name: &str, value: &Attribute, rank: usize, heap: u64) -
             let data = list.iter().flat_map(|n| n.to_le_bytes()).collect();
             (Kind::Integer.message(), dataspace(&[list.len()]), data)
         }
-        Attribute::Scale(dataset) => {
-            // a list of references to objects for each dimension; here one for the first only
+        Attribute::Scales(datasets) => {
+            // a list of references to objects for each dimension; here one or none
             let mut kind = vec![0x19, 0, 0, 0, 16, 0, 0, 0];
             kind.extend([0x17, 0, 0, 0, 8, 0, 0, 0]);
             let mut data = vec![];
             for k in 0..rank {
-                let (count, place, index) = match k {
-                    0 => (1_u32, heap, *dataset as u32 + 1),
-                    _ => (0, 0, 0),
+                let (count, place, index) = match datasets.get(k) {
+                    Some(dataset) => (1_u32, heap, *dataset as u32 + 1),
+                    None => (0, 0, 0),
                 };
                 data.extend(count.to_le_bytes());
                 data.extend(place.to_le_bytes());

@@ -1,0 +1,392 @@
+//! A campaign: its file read and checked, its points with their cases and hashes.
+
+use std::path::{Path, PathBuf};
+
+use sha2::{Digest, Sha256};
+use wingbeat_analysis::AnalysisError;
+use wingbeat_case::{CaseError, Document, IoError, LoadedCase, nearest};
+use wingbeat_flight::FlightSetup;
+
+use crate::axes::Reader;
+use crate::blocks::points_of_block;
+use crate::checks;
+use crate::number::{self, Number, Of, Source};
+use crate::plan::Plan;
+use crate::raw::TrimOptions;
+use crate::raw::{RawCampaign, Task};
+use crate::trimming::{self, TRIM};
+
+/// Values of an axis that are tried before anything is flown.
+const TRIED: usize = 20;
+
+/// A campaign, read and checked.
+#[derive(Clone, Debug)]
+pub struct Campaign {
+    /// Its name.
+    pub name: String,
+    /// The file.
+    pub path: PathBuf,
+    /// As it was written.
+    pub raw: RawCampaign,
+    /// Its points.
+    pub plan: Plan,
+    /// The numbers that are kept.
+    pub numbers: Vec<Number>,
+    /// The case without the values of a point.
+    pub base: LoadedCase,
+    /// Points of a block, which a worker takes at once.
+    pub block: usize,
+    document: Document,
+    folder: PathBuf,
+    /// Of everything but the values of the point.
+    digest: Sha256,
+}
+
+impl Campaign {
+    /// Reads the file of a campaign and checks it, as far as that goes without flying.
+    ///
+    /// # Errors
+    /// The first thing in it that cannot be done, with its line.
+    pub fn read(path: &Path) -> Result<Self, IoError> {
+        let remedy = "docs/campaigns.md has campaigns to start from";
+        Self::of(path, Document::read(path, remedy)?)
+    }
+
+    fn of(path: &Path, document: Document) -> Result<Self, IoError> {
+        checks::shape(&document)?;
+        let raw: RawCampaign = document.decode()?;
+        let folder = path.parent().map(Path::to_owned).unwrap_or_default();
+        let stem = path.file_stem().and_then(|s| s.to_str());
+        let name = raw.name.clone();
+        let name = name.unwrap_or_else(|| stem.unwrap_or("campaign").to_owned());
+        checks::words(&document, &raw, &name)?;
+        let reader = Reader {
+            document: &document,
+            folder: &folder,
+        };
+        let plan = reader.plan(&raw)?;
+        let base = checks::base_case(&document, &raw, &folder)?;
+        let mut campaign = Self {
+            name,
+            path: path.to_owned(),
+            numbers: vec![],
+            block: 1,
+            digest: Sha256::new(),
+            folder,
+            raw,
+            plan,
+            base,
+            document,
+        };
+        campaign.check_points()?;
+        campaign.numbers = campaign.kept()?;
+        campaign.digest = campaign.digest_of();
+        campaign.block =
+            points_of_block(&campaign.raw, &campaign.base.setup, campaign.plan.points());
+        Ok(campaign)
+    }
+
+    /// What is wrong at a key of the file.
+    pub(crate) fn fault(&self, key: &str, problem: String, allowed: &str, remedy: &str) -> IoError {
+        self.document.fault(key, problem, allowed, remedy).into()
+    }
+
+    /// The text of the file.
+    pub fn text(&self) -> &str {
+        self.document.text()
+    }
+
+    /// What is put on top of the case at point `i`, without the options of the trim.
+    pub fn overrides(&self, i: usize) -> Vec<String> {
+        let of_point = self.plan.overrides(i).into_iter();
+        let of_case = of_point.filter(|o| !o.starts_with(TRIM));
+        checks::set_of(&self.raw)
+            .into_iter()
+            .chain(of_case)
+            .collect()
+    }
+
+    /// The case of point `i`, with `more` put on top.
+    ///
+    /// # Errors
+    /// A case that cannot be flown.
+    pub fn case(&self, i: usize, more: &[String]) -> Result<LoadedCase, IoError> {
+        self.case_with(&[&self.overrides(i)[..], more].concat())
+    }
+
+    fn case_with(&self, overrides: &[String]) -> Result<LoadedCase, IoError> {
+        let (origin, text) = (self.base.origin(), self.base.text());
+        LoadedCase::from_text(origin, text, &self.case_folder(), overrides)
+    }
+
+    /// The text of the case of point `i`.
+    ///
+    /// # Errors
+    /// A key that cannot be put into it.
+    pub fn case_text(&self, i: usize) -> Result<String, IoError> {
+        wingbeat_case::overridden(self.base.origin(), self.base.text(), &self.overrides(i))
+    }
+
+    /// The folder that paths in the case are relative to.
+    fn case_folder(&self) -> PathBuf {
+        let file = self.folder.join(&self.raw.case);
+        match file.is_file() {
+            true => file.parent().map(Path::to_owned).unwrap_or_default(),
+            false => PathBuf::new(),
+        }
+    }
+
+    /// SHA-256 of what is done at point `i`: version, case, tasks, numbers that are kept, values of the point.
+    pub fn hash(&self, i: usize) -> [u8; 32] {
+        let mut hash = self.digest.clone();
+        for line in self.plan.overrides(i) {
+            hash.update(line);
+            hash.update(b"\n");
+        }
+        hash.finalize().into()
+    }
+
+    /// What all points have in common.
+    fn digest_of(&self) -> Sha256 {
+        let raw = &self.raw;
+        let mut hash =
+            Sha256::new_with_prefix(concat!("wingbeat ", env!("CARGO_PKG_VERSION"), "\n"));
+        let case = Sha256::digest(self.base.resolved());
+        hash.update(case);
+        hash.update(Sha256::digest(self.base.text()));
+        let tasks = (
+            &raw.tasks,
+            &raw.trim,
+            &raw.keep,
+            raw.mean_beats.unwrap_or(1),
+        );
+        let files = (&raw.files, &raw.retention, &raw.set);
+        hash.update(format!("{tasks:?} {files:?}\n"));
+        hash
+    }
+
+    /// SHA-256 of the whole plan, which blocks of points belong to.
+    pub fn plan_hash(&self) -> [u8; 32] {
+        let mut hash = self.digest.clone();
+        let varied = (
+            &self.raw.parameter,
+            &self.raw.zip,
+            self.plan.samples,
+            self.raw.seed,
+        );
+        hash.update(format!("{varied:?} {}\n", self.block));
+        if let Some(axis) = self.plan.axes.iter().find(|a| a.place == "table") {
+            hash.update(format!("{axis:?}"));
+        }
+        hash.finalize().into()
+    }
+
+    /// Whether point `i` has a result directory of its own while it is flown: it keeps files, or its air has a memory
+    /// and takes long.
+    pub fn has_directory(&self, i: usize, setup: &FlightSetup) -> bool {
+        let runs = self.raw.tasks.contains(&Task::Run);
+        runs && (self.keeps_files(i) || setup.air.has_memory())
+    }
+
+    /// Whether files of point `i` are kept.
+    pub fn keeps_files(&self, i: usize) -> bool {
+        !self.raw.files.is_empty() && i.is_multiple_of(self.raw.retention.every)
+    }
+
+    /// The registry of numbers of this case.
+    ///
+    /// # Errors
+    /// Joints that cannot be assembled.
+    pub fn registry(&self) -> Result<Vec<Number>, AnalysisError> {
+        number::registry(&self.base.setup)
+    }
+
+    /// The numbers that are kept.
+    fn kept(&self) -> Result<Vec<Number>, IoError> {
+        let all = self.registry().map_err(|e| {
+            self.fault(
+                "case",
+                e.to_string(),
+                "a case that can be flown",
+                "correct the case",
+            )
+        })?;
+        let mut kept: Vec<Number> = vec![];
+        for (k, name) in self.raw.keep.iter().enumerate() {
+            let place = format!("keep[{k}]");
+            let number = number::find(&all, name).map_err(|remedy| {
+                let problem = format!("there is no number called `{name}`");
+                self.fault(&place, problem, "a column of the history, lift_over_weight, power_watt, efficiency, summary.*, trim.*, stability.*, power.*", &remedy)
+            })?;
+            if kept.iter().any(|n| n.name == number.name) {
+                let problem = format!("`{name}` is kept twice");
+                return Err(self.fault(&place, problem, "each number once", "remove one"));
+            }
+            self.check_number(&place, &number)?;
+            kept.push(number);
+        }
+        let means = kept.iter().any(|n| n.source.is_mean());
+        if self.raw.mean_beats.is_some() && !means {
+            let problem = "this has no effect: no mean over wingbeats is kept".to_owned();
+            return Err(self.fault("mean_beats", problem, "beside a mean in keep", "remove it"));
+        }
+        Ok(kept)
+    }
+
+    fn check_number(&self, place: &str, number: &Number) -> Result<(), IoError> {
+        let task = number.source.task();
+        if !self.raw.tasks.contains(&task) {
+            let problem = format!(
+                "`{}` is a number of `{}`, which is not done",
+                number.name,
+                task.name()
+            );
+            let remedy = format!("add \"{}\" to do, or remove the number", task.name());
+            return Err(self.fault(place, problem, "numbers of what is done", &remedy));
+        }
+        let thinned = self.base.output.history_every > 1;
+        if thinned
+            && matches!(
+                number.source,
+                Source::Column(Of::Mean | Of::Min | Of::Max, _)
+            )
+        {
+            let problem = "the history of this case leaves steps out, which means and extremes of its columns need".to_owned();
+            return Err(self.fault(
+                place,
+                problem,
+                "with output.history_every = 1",
+                "add `\"output.history_every\" = 1` to [set]",
+            ));
+        }
+        Ok(())
+    }
+
+    /// Tries the case with the values of every axis, up to twenty of each, and what is drawn first.
+    fn check_points(&self) -> Result<(), IoError> {
+        trimming::check(&self.document, &self.raw, &self.base.setup)?;
+        self.check_options()?;
+        let mut block = 1;
+        for axis in self.plan.axes.iter().rev() {
+            let stride = (axis.len() / TRIED).max(1);
+            for at in (0..axis.len()).step_by(stride).chain([axis.len() - 1]) {
+                self.check_point(at * block * self.plan.samples)?;
+            }
+            block *= axis.len();
+        }
+        self.check_point(0)
+    }
+
+    fn check_point(&self, i: usize) -> Result<(), IoError> {
+        self.trim_options(i)?;
+        let overrides = self.overrides(i);
+        match self.case_with(&overrides) {
+            Ok(_) => Ok(()),
+            Err(IoError::Case(e)) => Err(self.traced(*e, &overrides)),
+            Err(e) => Err(e),
+        }
+    }
+
+    /// What is asked of the trim at point `i`; nothing where nothing is trimmed.
+    ///
+    /// # Errors
+    /// A value that cannot be used.
+    pub fn trim_options(&self, i: usize) -> Result<Option<TrimOptions>, IoError> {
+        if !self.raw.tasks.contains(&Task::Trim) {
+            return Ok(None);
+        }
+        let found = trimming::options(&self.raw, &self.plan, i);
+        found.map(Some).map_err(|bad| {
+            let place = match self.plan.keys().contains(&bad.key) {
+                true => self.place_of(&bad.key),
+                false => bad.key,
+            };
+            self.fault(&place, bad.problem, bad.allowed, bad.remedy)
+        })
+    }
+
+    /// A fault of a value that a point puts on top of the case, traced to the line of this file.
+    fn traced(&self, e: CaseError, overrides: &[String]) -> IoError {
+        let by = overrides
+            .iter()
+            .find(|o| e.origin.starts_with(&format!("{o} (set on top of")));
+        let key = by
+            .and_then(|o| o.split_once('='))
+            .map(|(key, _)| key.to_owned());
+        let Some(key) = key else { return e.into() };
+        let problem = match e.key.is_empty() || e.key == key {
+            true => format!(
+                "{} = {}: {}",
+                key,
+                e.value.clone().unwrap_or_default(),
+                e.problem
+            ),
+            false => format!("{}: {}", e.key, e.problem),
+        };
+        let mut place = self.place_of(&key);
+        // An unknown key stands in the heading, a wrong value below it.
+        if !e.problem.starts_with("unknown key")
+            && let Some(way) = self.way_of(&place, &key)
+        {
+            place = format!("{place}.{way}");
+        }
+        self.fault(&place, problem, &e.allowed, &e.remedy)
+    }
+
+    /// How a parameter that stands at `place` is varied: `range`, for instance.
+    fn way_of(&self, place: &str, key: &str) -> Option<&String> {
+        let parameters = self.document.table().get("parameter")?;
+        let ways = parameters.get(place.strip_prefix("parameter.").filter(|k| *k == key)?)?;
+        ways.as_table()?.keys().next()
+    }
+
+    /// Where a varied or set key stands in the file.
+    pub(crate) fn place_of(&self, key: &str) -> String {
+        let axis = self
+            .plan
+            .axes
+            .iter()
+            .find(|a| a.keys.iter().any(|k| k == key));
+        match axis {
+            Some(axis) if axis.place == "table" => axis.place.clone(),
+            Some(axis) if axis.place.starts_with("zip") => format!("{}.{key}", axis.place),
+            None if self.raw.set.contains_key(key) => format!("set.{key}"),
+            _ => format!("parameter.{key}"),
+        }
+    }
+
+    /// Options of the trim that vary are options of a trim.
+    fn check_options(&self) -> Result<(), IoError> {
+        let set = self.raw.set.keys().find(|k| k.starts_with(TRIM));
+        if let Some(key) = set {
+            let problem = "this is an option of the trim, no key of the case".to_owned();
+            return Err(self.fault(
+                &format!("set.{key}"),
+                problem,
+                "keys of the case",
+                "put it into [trim]",
+            ));
+        }
+        for key in self.plan.keys().iter().filter(|k| k.starts_with(TRIM)) {
+            let place = self.place_of(key);
+            let name = &key[TRIM.len()..];
+            if !self.raw.tasks.contains(&Task::Trim) {
+                let problem = "this has no effect: nothing is trimmed".to_owned();
+                return Err(self.fault(
+                    &place,
+                    problem,
+                    "with do = [\"trim\", ...]",
+                    "add \"trim\" to do, or remove it",
+                ));
+            }
+            if !trimming::OPTIONS.contains(&name) {
+                let problem = format!("unknown option `{name}` of the trim");
+                let near =
+                    nearest(name, &trimming::OPTIONS).map(|n| format!("did you mean `trim.{n}`?"));
+                let remedy = near.unwrap_or_else(|| "use one of these".to_owned());
+                return Err(self.fault(&place, problem, &trimming::OPTIONS.join(", "), &remedy));
+            }
+        }
+        Ok(())
+    }
+}

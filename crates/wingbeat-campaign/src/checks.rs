@@ -1,0 +1,317 @@
+//! What the words of a file say of each other, before its points and its case are looked at; the case that it varies.
+
+use std::path::Path;
+
+use wingbeat_case::{Document, IoError, LoadedCase, nearest};
+
+use crate::raw::{FileKind, RawCampaign, Task};
+
+/// Ways to vary a parameter.
+const WAYS: [&str; 8] = [
+    "list",
+    "range",
+    "log_range",
+    "latin_hypercube",
+    "sobol",
+    "uniform",
+    "log_uniform",
+    "normal",
+];
+
+/// What an enum of tables cannot say clearly: one way to vary each.
+///
+/// # Errors
+/// The first parameter that does not vary in one way.
+pub fn shape(document: &Document) -> Result<(), IoError> {
+    let Some(toml::Value::Table(parameters)) = document.table().get("parameter") else {
+        return Ok(());
+    };
+    for (key, value) in parameters {
+        let place = format!("parameter.{key}");
+        let wrong = |place: &str, problem: String, remedy: &str| {
+            let allowed = format!("one of {}", WAYS.join(", "));
+            Err(document.fault(place, problem, allowed, remedy).into())
+        };
+        let Some(table) = value.as_table() else {
+            let remedy = "for a fixed value use [set]; else `list = [...]`";
+            return wrong(&place, "this says no way to vary".to_owned(), remedy);
+        };
+        let names: Vec<&str> = table.keys().map(String::as_str).collect();
+        match names[..] {
+            [way] if WAYS.contains(&way) => {}
+            [way] => {
+                let near = nearest(way, &WAYS).map(|n| format!("did you mean `{n}`?"));
+                let quotes =
+                    "a key with dots stands in quotes: [parameter.\"motion.frequency_hz\"]";
+                let remedy = near.unwrap_or_else(|| quotes.to_owned());
+                return wrong(
+                    &format!("{place}.{way}"),
+                    format!("unknown key `{way}`"),
+                    &remedy,
+                );
+            }
+            [] => {
+                let remedy = "add `list = [...]`, for instance";
+                return wrong(&place, "nothing says how this varies".to_owned(), remedy);
+            }
+            _ => {
+                let ends = |n: &&str| ["from", "to", "count"].contains(n);
+                let remedy = match names.iter().all(ends) {
+                    true => "write `range = { from = ..., to = ..., count = ... }`",
+                    false => "keep one of them",
+                };
+                let problem = format!("this varies in {} ways: {}", names.len(), names.join(", "));
+                return wrong(&place, problem, remedy);
+            }
+        }
+    }
+    Ok(())
+}
+
+/// What the words of the file say of each other.
+///
+/// # Errors
+/// The first that has no effect, or contradicts another.
+pub fn words(document: &Document, raw: &RawCampaign, name: &str) -> Result<(), IoError> {
+    let wrong = |key: &str, problem: &str, allowed: &str, remedy: &str| {
+        Err(document.fault(key, problem, allowed, remedy).into())
+    };
+    if raw.format != 1 {
+        return wrong(
+            "format",
+            "this version of the language is not known",
+            "1",
+            "write format = 1",
+        );
+    }
+    let plain = |c: char| c.is_alphanumeric() || "-_. ".contains(c);
+    if name.is_empty() || name.len() > 100 || name.starts_with('.') || !name.chars().all(plain) {
+        return wrong(
+            "name",
+            "the name becomes the name of a directory",
+            "letters, digits, -, _, . and spaces, not beginning with a dot, at most 100 bytes",
+            "choose a plain name",
+        );
+    }
+    check_tasks(document, raw)?;
+    if raw.keep.is_empty() {
+        return wrong(
+            "keep",
+            "no number is kept",
+            "at least one name",
+            "keep = [\"lift_over_weight\", \"power_watt\"], for instance",
+        );
+    }
+    if raw.trim.is_some() && !raw.tasks.contains(&Task::Trim) {
+        return wrong(
+            "trim",
+            "this has no effect: nothing is trimmed",
+            "with do = [\"trim\", ...]",
+            "add \"trim\" to do, or remove the table",
+        );
+    }
+    check_files(document, raw)?;
+    check_budget(document, raw)
+}
+
+/// Each task once, and after what it needs.
+fn check_tasks(document: &Document, raw: &RawCampaign) -> Result<(), IoError> {
+    let wrong = |key: &str, problem: &str, allowed: &str, remedy: &str| {
+        Err(document.fault(key, problem, allowed, remedy).into())
+    };
+    if raw.tasks.is_empty() {
+        return wrong(
+            "do",
+            "nothing is done",
+            "run, trim, stability, power",
+            "write do = [\"run\"], or leave it out",
+        );
+    }
+    for (k, task) in raw.tasks.iter().enumerate() {
+        let place = format!("do[{k}]");
+        if raw.tasks[..k].contains(task) {
+            return wrong(
+                &place,
+                "this is done twice",
+                "each task once",
+                "remove one of them",
+            );
+        }
+        let needs_trim = matches!(task, Task::Stability | Task::Power);
+        if needs_trim && !raw.tasks[..k].contains(&Task::Trim) {
+            return wrong(
+                &place,
+                "this needs a trimmed flight",
+                "after trim",
+                "put \"trim\" before it",
+            );
+        }
+    }
+    Ok(())
+}
+
+fn check_files(document: &Document, raw: &RawCampaign) -> Result<(), IoError> {
+    let wrong = |key: &str, problem: &str, allowed: &str, remedy: &str| {
+        Err(document.fault(key, problem, allowed, remedy).into())
+    };
+    let runs = raw.tasks.contains(&Task::Run);
+    if !raw.files.is_empty() && !runs {
+        return wrong(
+            "files",
+            "this has no effect: nothing is flown",
+            "with do = [..., \"run\"]",
+            "add \"run\" to do, or remove it",
+        );
+    }
+    if let Some(k) = (1..raw.files.len()).find(|&k| raw.files[..k].contains(&raw.files[k])) {
+        return wrong(
+            &format!("files[{k}]"),
+            "this is named twice",
+            "each kind once",
+            "remove one of them",
+        );
+    }
+    if raw.retention.every == 0 {
+        return wrong(
+            "retention.every",
+            "this must not be zero",
+            "a whole number >= 1",
+            "1 keeps the files of all points",
+        );
+    }
+    if raw.retention.every > 1 && raw.files.is_empty() {
+        return wrong(
+            "retention.every",
+            "this has no effect without files",
+            "beside files = [...]",
+            "remove it, or keep files",
+        );
+    }
+    if raw.retention.failed && !runs {
+        return wrong(
+            "retention.failed",
+            "this has no effect: nothing is flown",
+            "with do = [..., \"run\"]",
+            "remove it",
+        );
+    }
+    check_output(document, raw)
+}
+
+/// What is drawn follows from the files that are kept.
+fn check_output(document: &Document, raw: &RawCampaign) -> Result<(), IoError> {
+    let wrong = |key: &str, problem: &str, allowed: &str, remedy: &str| {
+        Err(document.fault(key, problem, allowed, remedy).into())
+    };
+    for (key, kinds) in [
+        ("output.page", FileKind::Page),
+        ("output.figures", FileKind::Figures),
+    ] {
+        if raw.set.contains_key(key) {
+            let remedy = match kinds {
+                FileKind::Page => "remove it; files = [\"page\"] keeps pages",
+                _ => "remove it; files = [\"figures\"] keeps figures",
+            };
+            return wrong(
+                &format!("set.{key}"),
+                "this has no effect: `files` says what is drawn",
+                "no key output.page or output.figures",
+                remedy,
+            );
+        }
+    }
+    Ok(())
+}
+
+fn check_budget(document: &Document, raw: &RawCampaign) -> Result<(), IoError> {
+    let budget = &raw.budget;
+    if !(1..=1000).contains(&budget.attempts) {
+        return Err(document
+            .fault(
+                "budget.attempts",
+                "a number of attempts out of range",
+                "a whole number from 1 to 1000",
+                "3 is the default",
+            )
+            .into());
+    }
+    for (key, value) in [
+        ("time_per_point_s", budget.time_per_point_s),
+        ("disk_mb", budget.disk_mb),
+    ] {
+        if value.is_some_and(|x| x <= 0.0) {
+            let key = format!("budget.{key}");
+            return Err(document
+                .fault(
+                    &key,
+                    "this must be positive",
+                    "a number above 0",
+                    "remove it for no limit",
+                )
+                .into());
+        }
+    }
+    Ok(())
+}
+
+/// The case that is varied, with what is set at all points.
+///
+/// # Errors
+/// No such case; a case that cannot be flown.
+pub fn base_case(
+    document: &Document,
+    raw: &RawCampaign,
+    folder: &Path,
+) -> Result<LoadedCase, IoError> {
+    let set = set_of(raw);
+    let file = folder.join(&raw.case);
+    let name = match file.is_file() {
+        true => file.display().to_string(),
+        false => raw.case.clone(),
+    };
+    if name == "-" {
+        return Err(document
+            .fault(
+                "case",
+                "a campaign cannot read its case from the standard input",
+                "a preset or a file",
+                "name a file",
+            )
+            .into());
+    }
+    match LoadedCase::find(&name, &set) {
+        Err(e @ IoError::NoCase { .. }) => Err(document
+            .fault(
+                "case",
+                e.to_string(),
+                "a preset, or a file beside this one",
+                "correct the name",
+            )
+            .into()),
+        Err(IoError::Case(e)) => {
+            let by = set
+                .iter()
+                .find(|o| e.origin.starts_with(&format!("{o} (set")));
+            match by.and_then(|o| o.split_once('=')) {
+                Some((key, _)) => Err(document
+                    .fault(
+                        &format!("set.{key}"),
+                        format!("{}: {}", e.key, e.problem),
+                        e.allowed.clone(),
+                        e.remedy.clone(),
+                    )
+                    .into()),
+                None => Err(IoError::Case(e)),
+            }
+        }
+        found => found,
+    }
+}
+
+/// Keys of `[set]` as overrides.
+pub fn set_of(raw: &RawCampaign) -> Vec<String> {
+    raw.set
+        .iter()
+        .map(|(key, value)| format!("{key}={value}"))
+        .collect()
+}

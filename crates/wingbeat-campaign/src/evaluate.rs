@@ -1,0 +1,170 @@
+//! From what was flown or found to the numbers that are kept.
+
+use wingbeat_analysis::power::Power;
+use wingbeat_analysis::stability::{LinearModel, floquet_of_trim};
+use wingbeat_analysis::{AnalysisError, ModeSet, Trim, linear_model};
+use wingbeat_flight::{FlightSetup, Record};
+use wingbeat_results::columns::Columns;
+use wingbeat_results::summary::{BeatMeans, Beats, steps_per_beat};
+use wingbeat_results::{Outcome, Summary};
+
+use crate::number::{ModeNumber, Modes, Number, Of, Source, TrimNumber};
+
+/// A flight that was flown.
+pub struct Flown {
+    /// What was flown.
+    pub setup: FlightSetup,
+    /// One record per step.
+    pub records: Vec<Record>,
+}
+
+impl Flown {
+    /// Its numbers, put where `numbers` has them; others are left as they are.
+    ///
+    /// # Errors
+    /// Fewer wingbeats than means are taken over; a column that this flight does not have.
+    pub fn fill(&self, numbers: &[Number], beats: usize, values: &mut [f64]) -> Result<(), String> {
+        let mut counted = Beats::new(&self.setup);
+        let means: Vec<BeatMeans> = self
+            .records
+            .iter()
+            .filter_map(|r| counted.take(r))
+            .collect();
+        let wants_mean = numbers.iter().any(|n| n.source.is_mean());
+        if wants_mean && means.len() < beats {
+            return Err(format!(
+                "means over {beats} wingbeats, but only {} whole ones were flown",
+                means.len()
+            ));
+        }
+        let last = &means[means.len().saturating_sub(beats)..];
+        let summary = numbers
+            .iter()
+            .any(|n| matches!(n.source, Source::Summary(_)));
+        let summary = summary.then(|| Summary::of(&self.setup, &self.records, &Outcome::Finished));
+        for (number, value) in numbers.iter().zip(values) {
+            let mean = |of: fn(&BeatMeans) -> f64| {
+                last.iter().map(of).sum::<f64>() / last.len().max(1) as f64
+            };
+            match &number.source {
+                Source::Beat(of) => *value = mean(*of),
+                Source::Efficiency => {
+                    let work = mean(|b| b.thrust_newton) * self.airspeed(last);
+                    *value = work / mean(|b| b.power_watt);
+                }
+                Source::Column(of, name) => *value = self.column(*of, name, last)?,
+                Source::Summary(of) => *value = summary.as_ref().map_or(f64::NAN, of),
+                _ => {}
+            }
+        }
+        Ok(())
+    }
+
+    /// The rows of the last wingbeats.
+    fn rows(&self, beats: &[BeatMeans]) -> &[Record] {
+        let each = steps_per_beat(&self.setup.time).unwrap_or(0);
+        let end = beats.last().map_or(0, |b| b.beat * each);
+        let start = end - beats.len() * each;
+        let at = |step: usize| self.records.partition_point(|r| r.step < step);
+        self.records.get(at(start)..=at(end)).unwrap_or(&[])
+    }
+
+    /// Mean speed of the mass centre along n1 through the air [m/s].
+    fn airspeed(&self, beats: &[BeatMeans]) -> f64 {
+        let stream = self.setup.air.clone().stream_mut().map_or(0.0, |s| s.x);
+        match self.rows(beats) {
+            [first, .., last] => {
+                (last.mass_centre.x - first.mass_centre.x) / (last.time - first.time) - stream
+            }
+            _ => f64::NAN,
+        }
+    }
+
+    fn column(&self, of: Of, name: &str, beats: &[BeatMeans]) -> Result<f64, String> {
+        let first = self.records.first().ok_or("nothing was flown")?;
+        let columns = Columns::of(&self.setup, first).map_err(|e| e.to_string())?;
+        let place = columns.iter().position(|c| c.name == name);
+        let place = place.ok_or_else(|| format!("this flight has no column {name}"))?;
+        let (mut scratch, mut row) = (first.clone(), vec![]);
+        let mut value = |r: &Record| {
+            columns.values(r, &mut scratch, &mut row);
+            row[place]
+        };
+        let all = &self.records;
+        Ok(match of {
+            Of::End => value(&all[all.len() - 1]),
+            Of::Min => all.iter().map(value).fold(f64::INFINITY, f64::min),
+            Of::Max => all.iter().map(value).fold(f64::NEG_INFINITY, f64::max),
+            Of::Mean => {
+                let rows = self.rows(beats);
+                let values: Vec<f64> = rows.iter().map(value).collect();
+                let pairs = rows.windows(2).zip(values.windows(2));
+                let area = pairs.map(|(r, v)| 0.5 * (v[0] + v[1]) * (r[1].time - r[0].time));
+                area.sum::<f64>() / (rows[rows.len() - 1].time - rows[0].time)
+            }
+        })
+    }
+}
+
+/// Numbers of a trim.
+pub fn of_trim(trim: &Trim, numbers: &[Number], values: &mut [f64]) {
+    for (number, value) in numbers.iter().zip(values) {
+        if let Source::Trim(what) = &number.source {
+            *value = match what {
+                TrimNumber::Unknown(u) => trim.value(*u).unwrap_or(f64::NAN),
+                TrimNumber::Residual => trim.error(),
+                TrimNumber::Iterations => trim.iterations as f64,
+            };
+        }
+    }
+}
+
+/// Modes and derivatives of a trimmed flight.
+///
+/// # Errors
+/// What the analysis does not cover.
+pub fn of_stability(
+    trim: &Trim,
+    numbers: &[Number],
+    values: &mut [f64],
+) -> Result<(), AnalysisError> {
+    let orbit = floquet_of_trim(trim)?;
+    let averaged: Option<LinearModel> = match numbers.iter().any(|n| n.source.needs_average()) {
+        true => {
+            trim.beat.check_averaged()?;
+            Some(linear_model(&trim.beat, &trim.state)?)
+        }
+        false => None,
+    };
+    let of = |set: Option<&ModeSet>, k: usize, what: ModeNumber| {
+        let mode = set.and_then(|s| s.modes.get(k));
+        mode.map_or(f64::NAN, |m| match what {
+            ModeNumber::Growth => m.growth,
+            ModeNumber::Frequency => m.frequency,
+        })
+    };
+    for (number, value) in numbers.iter().zip(values) {
+        match &number.source {
+            Source::Mode(Modes::Floquet, k, what) => *value = of(Some(&orbit), *k, *what),
+            Source::Mode(Modes::Averaged, k, what) => {
+                *value = of(averaged.as_ref().map(|a| &a.modes), *k, *what);
+            }
+            Source::Derivative(load, motion) => {
+                *value = averaged
+                    .as_ref()
+                    .map_or(f64::NAN, |a| a.derivatives[*load][*motion]);
+            }
+            _ => {}
+        }
+    }
+    Ok(())
+}
+
+/// Powers.
+pub fn of_power(power: &Power, numbers: &[Number], values: &mut [f64]) {
+    for (number, value) in numbers.iter().zip(values) {
+        if let Source::Power(of) = &number.source {
+            *value = of(power);
+        }
+    }
+}

@@ -1,0 +1,169 @@
+//! One flight: in memory, or in a result directory from which it goes on after a kill, bit for bit.
+
+use std::fs;
+use std::path::Path;
+
+use wingbeat_case::{IoError, LoadedCase};
+use wingbeat_draw::draw_run;
+use wingbeat_flight::{FlightError, Simulation};
+use wingbeat_results::{Outcome, Records, ResultDir, RunWriter, saver};
+
+use crate::evaluate::Flown;
+
+/// Why a flight has no end.
+#[derive(Debug)]
+pub enum Halt {
+    /// It was asked to stop.
+    Stopped,
+    /// It took longer than it may.
+    Slow,
+    /// It cannot begin.
+    Refused(String),
+    /// It cannot go on.
+    Diverged(String),
+    /// A file cannot be read or written.
+    Io(IoError),
+}
+
+impl From<IoError> for Halt {
+    fn from(e: IoError) -> Self {
+        Self::Io(e)
+    }
+}
+
+/// Asked before every step whether the flight goes on.
+pub type Watch<'a> = &'a mut dyn FnMut() -> Result<(), Halt>;
+
+fn begin(case: &LoadedCase) -> Result<Simulation, Halt> {
+    let flight = Simulation::new(case.setup.clone());
+    flight.map_err(|e| Halt::Refused(case.refused(&e).problem))
+}
+
+fn diverged(e: &FlightError) -> Halt {
+    Halt::Diverged(e.to_string())
+}
+
+/// Flies a case in memory.
+///
+/// # Errors
+/// Why it has no end.
+pub fn in_memory(case: &LoadedCase, watch: Watch) -> Result<Flown, Halt> {
+    let mut flight = begin(case)?;
+    let mut records = Vec::with_capacity(case.setup.time.steps + 1);
+    records.push(flight.record().clone());
+    while !flight.finished() {
+        watch()?;
+        records.push(flight.step().map_err(|e| diverged(&e))?.clone());
+    }
+    Ok(Flown {
+        setup: flight.setup().clone(),
+        records,
+    })
+}
+
+/// Flies a case in the result directory `path`, which may hold a part of it already.
+///
+/// # Errors
+/// Why it has no end; where it was asked to stop, its state is saved.
+pub fn in_directory(path: &Path, case: &LoadedCase, watch: Watch) -> Result<Flown, Halt> {
+    match resumed(path, case)? {
+        Some((flight, writer)) => fly(flight, writer, case, watch)?,
+        None if is_finished(path) => {}
+        None => {
+            remove(path)?;
+            let flight = begin(case)?;
+            let dir = ResultDir::create(path)?;
+            let mut writer = RunWriter::new(dir, case, 1)?;
+            writer.write(flight.record(), || flight.snapshot())?;
+            fly(flight, writer, case, watch)?;
+        }
+    }
+    let mut rows = Records::open(&path.join("history.csv"), &case.setup)?;
+    let mut records = vec![];
+    while let Some(record) = rows.next_record()? {
+        records.push(record.clone());
+    }
+    Ok(Flown {
+        setup: case.setup.clone(),
+        records,
+    })
+}
+
+/// Whether the flight in a directory has ended, and is what was written.
+fn is_finished(path: &Path) -> bool {
+    let outcome = ResultDir::read(path).and_then(|d| d.manifest());
+    outcome.is_ok_and(|m| m.outcome == Outcome::Finished)
+}
+
+/// A flight and its writer at the last checkpoint in `path`; none where there is none that can be used.
+fn resumed(path: &Path, case: &LoadedCase) -> Result<Option<(Simulation, RunWriter)>, IoError> {
+    let Ok(saved) = saver::read(path) else {
+        return Ok(None); // nothing there, or damaged: from the start
+    };
+    let Some((header, state)) = saved.checkpoint else {
+        return Ok(None);
+    };
+    if saved.manifest.outcome == Outcome::Finished {
+        return Ok(None);
+    }
+    // The case in the directory has the lines of this one; programs beside us do not go on.
+    let same = fs::read_to_string(path.join("case.toml")).is_ok_and(|t| t == case.resolved());
+    let flight = match same && case.program().is_none() {
+        true => Simulation::resume(case.setup.clone(), state).ok(),
+        false => None,
+    };
+    let Some(flight) = flight else {
+        return Ok(None);
+    };
+    let dir = ResultDir::open(path)?;
+    let writer = RunWriter::resume(dir, case, &header, saved.manifest, 1)?;
+    Ok(Some((flight, writer)))
+}
+
+/// From step to step to the end; the newest step is written.
+fn fly(
+    mut flight: Simulation,
+    mut writer: RunWriter,
+    case: &LoadedCase,
+    watch: Watch,
+) -> Result<(), Halt> {
+    loop {
+        if let Err(halt) = watch() {
+            if matches!(halt, Halt::Stopped) {
+                writer.save(flight.state())?;
+            }
+            return Err(halt);
+        }
+        writer.save_if_due(flight.state())?;
+        if flight.finished() {
+            break;
+        }
+        if let Err(e) = flight.step() {
+            let _ = writer.finish(Outcome::Failed(e.to_string()), draw_run); // the reason counts
+            return Err(diverged(&e));
+        }
+        writer.write(flight.record(), || flight.snapshot())?;
+    }
+    debug_assert_eq!(flight.state().step, case.setup.time.steps);
+    writer.finish(Outcome::Finished, draw_run)?;
+    Ok(())
+}
+
+/// Removes a directory that may not be there.
+///
+/// # Errors
+/// A directory that cannot be removed.
+pub fn remove(path: &Path) -> Result<(), IoError> {
+    match fs::remove_dir_all(path) {
+        Err(e) if e.kind() != std::io::ErrorKind::NotFound => Err(IoError::write(path)(e)),
+        _ => Ok(()),
+    }
+}
+
+/// Step of the last checkpoint in a result directory, as its manifest tells; 0 without one.
+pub fn saved_step(path: &Path) -> usize {
+    match path.join("checkpoint.bin").is_file() {
+        true => saver::read_manifest(path).map_or(0, |m| m.steps),
+        false => 0,
+    }
+}

@@ -1,0 +1,373 @@
+//! The numbers that may be kept of a point, by their names: what each is, in which unit, and which task gives it.
+
+use wingbeat_analysis::power::Power;
+use wingbeat_analysis::stability::LOADS;
+use wingbeat_analysis::unknown::UNKNOWNS;
+use wingbeat_analysis::{AnalysisError, Unknown};
+use wingbeat_case::nearest;
+use wingbeat_flight::FlightSetup;
+use wingbeat_results::Summary;
+use wingbeat_results::columns::Columns;
+use wingbeat_results::summary::BeatMeans;
+
+use crate::raw::Task;
+
+/// Modes that may be kept of a set.
+const MAX_MODES: usize = 20;
+
+/// A number that is kept.
+#[derive(Clone, Debug)]
+pub struct Number {
+    /// Its name.
+    pub name: String,
+    /// Its unit, as units are written: `m s-1`.
+    pub unit: String,
+    /// What it is.
+    pub about: String,
+    /// Where it comes from.
+    pub source: Source,
+}
+
+/// Where a number comes from.
+#[derive(Clone, Debug)]
+pub enum Source {
+    /// Of the means of wingbeats, averaged over the last ones.
+    Beat(fn(&BeatMeans) -> f64),
+    /// Thrust times airspeed over power.
+    Efficiency,
+    /// Of a column of the history.
+    Column(Of, String),
+    /// Of the summary.
+    Summary(fn(&Summary) -> f64),
+    /// Of the trim.
+    Trim(TrimNumber),
+    /// Of the modes.
+    Mode(Modes, usize, ModeNumber),
+    /// A derivative of the averaged model: load, component of the motion.
+    Derivative(usize, usize),
+    /// Of the power.
+    Power(fn(&Power) -> f64),
+}
+
+/// What is taken of a column.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Of {
+    /// Mean over the last wingbeats, by the trapezoidal rule.
+    Mean,
+    /// The last number.
+    End,
+    /// The least number of the flight.
+    Min,
+    /// The largest number of the flight.
+    Max,
+}
+
+/// What is taken of a trim.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum TrimNumber {
+    /// An unknown, chosen or given.
+    Unknown(Unknown),
+    /// Largest residual.
+    Residual,
+    /// Newton steps.
+    Iterations,
+}
+
+/// Which modes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Modes {
+    /// Of the periodic orbit.
+    Floquet,
+    /// Of the averaged model.
+    Averaged,
+}
+
+/// What is taken of a mode.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ModeNumber {
+    /// Real part of the exponent.
+    Growth,
+    /// Imaginary part of the exponent.
+    Frequency,
+}
+
+impl Source {
+    /// The task that gives it.
+    pub fn task(&self) -> Task {
+        match self {
+            Self::Beat(_) | Self::Efficiency | Self::Column(..) | Self::Summary(_) => Task::Run,
+            Self::Trim(_) => Task::Trim,
+            Self::Mode(..) | Self::Derivative(..) => Task::Stability,
+            Self::Power(_) => Task::Power,
+        }
+    }
+
+    /// Whether it is taken over the last wingbeats.
+    pub fn is_mean(&self) -> bool {
+        matches!(
+            self,
+            Self::Beat(_) | Self::Efficiency | Self::Column(Of::Mean, _)
+        )
+    }
+
+    /// Whether it needs the averaged model.
+    pub fn needs_average(&self) -> bool {
+        matches!(self, Self::Mode(Modes::Averaged, ..) | Self::Derivative(..))
+    }
+}
+
+type Entry<T> = (&'static str, &'static str, &'static str, fn(&T) -> f64);
+
+/// Means of wingbeats: name, unit, meaning.
+const BEATS: [Entry<BeatMeans>; 6] = [
+    ("lift_newton", "N", "mean air force against gravity", |b| {
+        b.lift_newton
+    }),
+    (
+        "lift_over_weight",
+        "1",
+        "mean air force against gravity over the weight",
+        |b| b.lift_over_weight.unwrap_or(f64::NAN),
+    ),
+    (
+        "thrust_newton",
+        "N",
+        "mean air force along n1, forward",
+        |b| b.thrust_newton,
+    ),
+    (
+        "power_watt",
+        "W",
+        "mean power of actuators and prescribed deformation",
+        |b| b.power_watt,
+    ),
+    (
+        "inviscid_lift_newton",
+        "N",
+        "mean inviscid air force against gravity",
+        |b| b.inviscid_lift_newton,
+    ),
+    (
+        "lift_by_impulse_newton",
+        "N",
+        "the same by the rate of the vortex impulse",
+        |b| b.lift_by_impulse_newton,
+    ),
+];
+
+const SUMMARY: [Entry<Summary>; 16] = [
+    ("steps", "1", "steps made", |s| s.steps as f64),
+    ("time_s", "s", "time flown", |s| s.time_s),
+    ("mass_kg", "kg", "mass of the animal", |s| s.mass_kg),
+    ("forward_m", "m", "way along n1", |s| s.displacement_m[0]),
+    ("right_m", "m", "way along n2", |s| s.displacement_m[1]),
+    ("down_m", "m", "way along n3", |s| s.displacement_m[2]),
+    ("pitch_deg", "deg", "turn in pitch", |s| s.turn_deg[0]),
+    ("yaw_deg", "deg", "turn in yaw", |s| s.turn_deg[1]),
+    ("roll_deg", "deg", "turn in roll", |s| s.turn_deg[2]),
+    (
+        "energy_residual_relative",
+        "1",
+        "largest energy residual over what is in play",
+        |s| s.energy_residual_relative,
+    ),
+    (
+        "momentum_residual_relative",
+        "1",
+        "largest momentum residual over what is in play",
+        |s| s.momentum_residual_relative,
+    ),
+    (
+        "violation_position_m",
+        "m",
+        "largest violation of a connection",
+        |s| s.violation_position_m,
+    ),
+    ("corrector_passes_mean", "1", "mean corrector passes", |s| {
+        s.corrector_passes_mean
+    }),
+    ("wake_rings", "1", "wake rings at the end", |s| {
+        s.wake_rings as f64
+    }),
+    ("wake_particles", "1", "vortex particles at the end", |s| {
+        s.wake_particles as f64
+    }),
+    ("warnings", "1", "how many warnings the summary has", |s| {
+        s.warnings.len() as f64
+    }),
+];
+
+const POWERS: [Entry<Power>; 7] = [
+    ("aerodynamic_watt", "W", "mean power against the air", |p| {
+        p.aerodynamic
+    }),
+    (
+        "inertial_positive_watt",
+        "W",
+        "positive part of the inertial power",
+        |p| p.inertial_positive,
+    ),
+    (
+        "perfect_storage_watt",
+        "W",
+        "muscle power with perfect elastic storage",
+        |p| p.perfect_storage,
+    ),
+    (
+        "no_storage_watt",
+        "W",
+        "muscle power without elastic storage",
+        |p| p.no_storage,
+    ),
+    ("peak_watt", "W", "peak power of all wings", |p| p.peak),
+    (
+        "perfect_storage_watt_per_kg",
+        "W kg-1",
+        "muscle power with perfect storage over mass",
+        |p| p.body_specific(p.perfect_storage),
+    ),
+    (
+        "no_storage_watt_per_kg",
+        "W kg-1",
+        "muscle power without storage over mass",
+        |p| p.body_specific(p.no_storage),
+    ),
+];
+
+/// Motions that derivatives are taken by.
+const MOTIONS: [&str; 6] = ["u", "v", "w", "p", "q", "r"];
+
+/// Name of the efficiency.
+const EFFICIENCY: (&str, &str) = (
+    "efficiency",
+    "propulsive efficiency: mean thrust times the mean speed through the air along n1 over mean power",
+);
+
+/// All numbers that flights of `setup` may give.
+///
+/// # Errors
+/// Joints that cannot be assembled.
+pub fn registry(setup: &FlightSetup) -> Result<Vec<Number>, AnalysisError> {
+    let mut all = vec![];
+    let mut put = |name: String, unit: &str, about: &str, source| {
+        all.push(Number {
+            name,
+            unit: unit.to_owned(),
+            about: about.to_owned(),
+            source,
+        });
+    };
+    for (name, unit, about, of) in BEATS {
+        put(name.to_owned(), unit, about, Source::Beat(of));
+    }
+    put(
+        EFFICIENCY.0.to_owned(),
+        "1",
+        EFFICIENCY.1,
+        Source::Efficiency,
+    );
+    let deforms = setup.animal.wings.iter().any(|w| w.deformation.is_some());
+    let columns = Columns::new(setup, deforms)?;
+    for (prefix, words, of) in [
+        ("", "mean of ", Of::Mean),
+        ("end.", "at the end: ", Of::End),
+        ("min.", "least: ", Of::Min),
+        ("max.", "largest: ", Of::Max),
+    ] {
+        for c in columns.iter() {
+            let name = format!("{prefix}{}", c.name);
+            let about = format!("{words}{}", c.about);
+            put(name, c.unit, &about, Source::Column(of, c.name.clone()));
+        }
+    }
+    for (name, unit, about, of) in SUMMARY {
+        put(format!("summary.{name}"), unit, about, Source::Summary(of));
+    }
+    of_trim(&mut put);
+    modes_and_derivatives(&mut put);
+    for (name, unit, about, of) in POWERS {
+        put(format!("power.{name}"), unit, about, Source::Power(of));
+    }
+    Ok(all)
+}
+
+fn of_trim(put: &mut impl FnMut(String, &str, &str, Source)) {
+    for (unknown, name) in UNKNOWNS {
+        let [ending, unit] = unit_of(unknown);
+        let source = Source::Trim(TrimNumber::Unknown(unknown));
+        let about = format!("{} of the trim", name.replace('_', " "));
+        put(format!("trim.{name}{ending}"), unit, &about, source);
+    }
+    let residual = Source::Trim(TrimNumber::Residual);
+    put(
+        "trim.residual".to_owned(),
+        "1",
+        "largest residual of the trim",
+        residual,
+    );
+    let iterations = Source::Trim(TrimNumber::Iterations);
+    put(
+        "trim.iterations".to_owned(),
+        "1",
+        "Newton steps of the trim",
+        iterations,
+    );
+}
+
+fn modes_and_derivatives(put: &mut impl FnMut(String, &str, &str, Source)) {
+    for (set, modes) in [("floquet", Modes::Floquet), ("averaged", Modes::Averaged)] {
+        for k in 1..=MAX_MODES {
+            let of = |what: &str| format!("{what} of mode {k} by falling growth, {set}");
+            let source = |n| Source::Mode(modes, k - 1, n);
+            put(
+                format!("stability.{set}.{k}.growth_per_s"),
+                "s-1",
+                &of("growth"),
+                source(ModeNumber::Growth),
+            );
+            put(
+                format!("stability.{set}.{k}.frequency_rad_per_s"),
+                "rad s-1",
+                &of("frequency"),
+                source(ModeNumber::Frequency),
+            );
+        }
+    }
+    for (l, load) in LOADS.iter().enumerate() {
+        for (m, motion) in MOTIONS.iter().enumerate() {
+            put(
+                format!("stability.derivative.{load}_{motion}"),
+                "SI",
+                &format!("derivative of the mean load {load} by {motion}"),
+                Source::Derivative(l, m),
+            );
+        }
+    }
+}
+
+/// Ending of the name of an unknown, and its unit.
+fn unit_of(unknown: Unknown) -> [&'static str; 2] {
+    match unknown {
+        Unknown::StrokeAmplitude | Unknown::Frequency | Unknown::StrokeAmplitudeDifference => {
+            ["", "1"]
+        }
+        Unknown::FeatheringLead => ["_beats", "1"],
+        Unknown::MassCentre => ["_lengths", "1"],
+        _ => ["_rad", "rad"],
+    }
+}
+
+/// The number called `name`; else what to try.
+///
+/// # Errors
+/// The nearest names, in words.
+pub fn find(all: &[Number], name: &str) -> Result<Number, String> {
+    if let Some(number) = all.iter().find(|n| n.name == name) {
+        return Ok(number.clone());
+    }
+    let names: Vec<&str> = all.iter().map(|n| n.name.as_str()).collect();
+    Err(match nearest(name, &names) {
+        Some(near) => format!("did you mean `{near}`?"),
+        None => "`wingbeat campaign numbers FILE` lists all names".to_owned(),
+    })
+}

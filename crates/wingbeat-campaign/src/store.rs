@@ -1,0 +1,332 @@
+//! The directory of a campaign, and the result of a point in it.
+//!
+//! ```text
+//! campaign.toml        the file, as it was last run
+//! points/ab/HASH.ok    the numbers of a point, or
+//! points/ab/HASH.failed  why there are none; each written whole or not at all, with its checksum
+//! files/HASH/          files that are kept of a point
+//! work/HASH/           the result directory of a point that is being flown
+//! leases/PLAN/         who flies which block of points now, and which blocks are done
+//! attempts/HASH        how often the process died that flew a point
+//! points.csv, .parquet, .nc, failed.csv, campaign.html   what `merge` and `view` write
+//! ```
+//!
+//! Results are not put onto the disk one by one (`fsync`): a power failure may lose or damage those of the last seconds.
+//! Their checksums tell, and they are flown again.
+
+use std::collections::HashMap;
+use std::fs;
+use std::io::ErrorKind;
+use std::path::{Path, PathBuf};
+
+use serde::{Deserialize, Serialize};
+use wingbeat_case::IoError;
+use wingbeat_results::manifest::sha256;
+
+/// The copy of the campaign's file; where it is, there is a campaign.
+pub const FILE: &str = "campaign.toml";
+const MAGIC: &str = "wingbeat-point 1 ";
+
+/// Why a point has no numbers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Reason {
+    /// The case was refused.
+    Refused,
+    /// The flight or the analysis could not go on.
+    Diverged,
+    /// The process that flew it died, too often.
+    Died,
+    /// Its files could not be written, too often.
+    Unwritten,
+    /// It took longer than it may.
+    Slow,
+}
+
+impl Reason {
+    /// Its name in tables.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Refused => "refused",
+            Self::Diverged => "diverged",
+            Self::Died => "died",
+            Self::Unwritten => "unwritten",
+            Self::Slow => "slow",
+        }
+    }
+}
+
+/// What is known of a point that is done.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct PointResult {
+    /// Its numbers, in the order of `keep`; none where they are not finite, empty where it failed.
+    pub values: Vec<Option<f64>>,
+    /// Why it failed.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub failed: Option<(Reason, String)>,
+}
+
+impl PointResult {
+    /// Of a point that was flown.
+    pub fn of(values: &[f64]) -> Self {
+        Self {
+            values: values.iter().map(|x| x.is_finite().then_some(*x)).collect(),
+            failed: None,
+        }
+    }
+
+    /// Of a point that failed.
+    pub fn failure(reason: Reason, words: String) -> Self {
+        Self {
+            values: vec![],
+            failed: Some((reason, words)),
+        }
+    }
+}
+
+/// The hash of a point in hexadecimal.
+pub fn hexadecimal(hash: &[u8]) -> String {
+    const DIGITS: &[u8; 16] = b"0123456789abcdef";
+    let digits = hash.iter().flat_map(|b| [b >> 4, b & 15]);
+    digits.map(|d| char::from(DIGITS[usize::from(d)])).collect()
+}
+
+/// How often the process died that flew a point, and how far its checkpoint was.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Attempts {
+    /// Deaths, or failures to write, since the checkpoint advanced.
+    pub deaths: usize,
+    /// Step of the checkpoint at the last of them.
+    pub step: usize,
+}
+
+/// The directory of a campaign.
+#[derive(Clone, Debug)]
+pub struct Store {
+    root: PathBuf,
+}
+
+impl Store {
+    /// Makes or opens the directory, and keeps the text of the campaign in it.
+    ///
+    /// # Errors
+    /// A directory that holds something else; one that cannot be written.
+    pub fn open(root: &Path, text: &str) -> Result<Self, IoError> {
+        let store = Self {
+            root: root.to_owned(),
+        };
+        let mine = store.path(FILE);
+        let empty = fs::read_dir(root).map_or(true, |mut d| d.next().is_none());
+        if !empty && !mine.is_file() {
+            return Err(IoError::Exists {
+                path: root.to_owned(),
+                remedy: "it holds no campaign (no campaign.toml): choose another directory with --out",
+            });
+        }
+        store.make(root)?;
+        if fs::read_to_string(&mine).ok().as_deref() != Some(text) {
+            store.write(&mine, text.as_bytes())?;
+        }
+        Ok(store)
+    }
+
+    /// An existing directory.
+    ///
+    /// # Errors
+    /// A directory that holds no campaign.
+    pub fn existing(root: &Path) -> Result<Self, IoError> {
+        let store = Self {
+            root: root.to_owned(),
+        };
+        match store.path(FILE).is_file() {
+            true => Ok(store),
+            false => Err(IoError::Damaged {
+                path: root.to_owned(),
+                problem: "there is no campaign in this directory (no campaign.toml); `wingbeat campaign run FILE` makes one, --out DIR names another".to_owned(),
+            }),
+        }
+    }
+
+    /// A path inside.
+    pub fn path(&self, name: &str) -> PathBuf {
+        self.root.join(name)
+    }
+
+    /// The directory.
+    pub fn root(&self) -> &Path {
+        &self.root
+    }
+
+    /// Makes a folder.
+    ///
+    /// # Errors
+    /// A folder that cannot be made.
+    pub fn make(&self, folder: &Path) -> Result<(), IoError> {
+        fs::create_dir_all(folder).map_err(IoError::write(folder))
+    }
+
+    /// Writes a file whole or not at all; what is left of processes that died does not stand in the way of others.
+    ///
+    /// # Errors
+    /// A file that cannot be written.
+    pub fn write(&self, path: &Path, content: &[u8]) -> Result<(), IoError> {
+        let folder = path.parent().unwrap_or(&self.root);
+        let name = path.file_name().and_then(|n| n.to_str()).unwrap_or("file");
+        let part = folder.join(format!(".{name}.{}.part", std::process::id()));
+        let write = || fs::write(&part, content).and_then(|()| fs::rename(&part, path));
+        let written = match write() {
+            Err(e) if e.kind() == ErrorKind::NotFound => {
+                fs::create_dir_all(folder).and_then(|()| write())
+            }
+            other => other,
+        };
+        written.map_err(|e| {
+            let _ = fs::remove_file(&part); // nothing more can be done about a leftover
+            IoError::write(path)(e)
+        })
+    }
+
+    fn place(&self, hash: &str, ending: &str) -> PathBuf {
+        let folder = self.root.join("points").join(&hash[..2]);
+        folder.join(format!("{hash}.{ending}"))
+    }
+
+    /// Whether a point is done.
+    pub fn has(&self, hash: &str) -> bool {
+        self.place(hash, "ok").exists() || self.place(hash, "failed").exists()
+    }
+
+    /// Keeps the result of a point.
+    ///
+    /// # Errors
+    /// A file that cannot be written.
+    pub fn put(&self, hash: &str, result: &PointResult) -> Result<(), IoError> {
+        let body = serde_json::to_string(result).expect("a result is JSON");
+        let text = format!("{MAGIC}{}\n{body}\n", sha256(body.as_bytes()));
+        let ending = if result.failed.is_some() {
+            "failed"
+        } else {
+            "ok"
+        };
+        self.write(&self.place(hash, ending), text.as_bytes())?;
+        let attempts = self.path("attempts").join(hash);
+        if attempts.exists() && result.failed.is_none() {
+            let _ = fs::remove_file(attempts); // says nothing any more
+        }
+        Ok(())
+    }
+
+    /// The result of a point that is done; none where there is none, or a damaged one, which is removed.
+    ///
+    /// # Errors
+    /// A file that cannot be read.
+    pub fn get(&self, hash: &str) -> Result<Option<PointResult>, IoError> {
+        for ending in ["ok", "failed"] {
+            let path = self.place(hash, ending);
+            let bytes = match fs::read(&path) {
+                Err(e) if e.kind() == ErrorKind::NotFound => continue,
+                read => read.map_err(IoError::read(&path))?,
+            };
+            if let Some(result) = decoded(&bytes) {
+                return Ok(Some(result));
+            }
+            fs::remove_file(&path).map_err(IoError::write(&path))?;
+        }
+        Ok(None)
+    }
+
+    /// Forgets the result of a point that failed; whether there was one.
+    ///
+    /// # Errors
+    /// A file that cannot be removed.
+    pub fn forget_failure(&self, hash: &str) -> Result<bool, IoError> {
+        let path = self.place(hash, "failed");
+        match fs::remove_file(&path) {
+            Err(e) if e.kind() == ErrorKind::NotFound => Ok(false),
+            removed => {
+                removed.map_err(IoError::write(&path))?;
+                let _ = fs::remove_file(self.path("attempts").join(hash)); // there may be none
+                Ok(true)
+            }
+        }
+    }
+
+    /// All points that are done by their hashes, and whether they failed; damage is not looked for.
+    pub fn done(&self) -> HashMap<String, bool> {
+        let mut done = HashMap::new();
+        let folders = fs::read_dir(self.path("points"))
+            .into_iter()
+            .flatten()
+            .flatten();
+        for file in folders.flat_map(|f| fs::read_dir(f.path()).into_iter().flatten().flatten()) {
+            let name = file.file_name();
+            let Some((hash, ending)) = name.to_str().and_then(|n| n.split_once('.')) else {
+                continue;
+            };
+            if hash.len() == 64 && (ending == "ok" || ending == "failed") {
+                done.insert(hash.to_owned(), ending == "failed");
+            }
+        }
+        done
+    }
+
+    /// The attempts at a point.
+    pub fn attempts(&self, hash: &str) -> Attempts {
+        let text = fs::read(self.path("attempts").join(hash)).unwrap_or_default();
+        serde_json::from_slice(&text).unwrap_or_default()
+    }
+
+    /// Counts a death at a point whose checkpoint is at `step`; how many there are since it advanced.
+    ///
+    /// # Errors
+    /// A file that cannot be written.
+    pub fn count_death(&self, hash: &str, step: usize) -> Result<usize, IoError> {
+        let before = self.attempts(hash);
+        let deaths = if step > before.step {
+            1
+        } else {
+            before.deaths + 1
+        };
+        let text = serde_json::to_string(&Attempts { deaths, step }).expect("numbers are JSON");
+        self.write(&self.path("attempts").join(hash), text.as_bytes())?;
+        Ok(deaths)
+    }
+}
+
+fn decoded(bytes: &[u8]) -> Option<PointResult> {
+    let text = std::str::from_utf8(bytes).ok()?;
+    let (sum, body) = text.strip_prefix(MAGIC)?.split_once('\n')?;
+    let body = body.strip_suffix('\n')?;
+    (sha256(body.as_bytes()) == sum).then(|| serde_json::from_str(body).ok())?
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn exact_results_come_back_and_damage_is_found() {
+        let root = std::env::temp_dir().join(format!("wingbeat-store-{}", std::process::id()));
+        let store = Store::open(&root, "text").unwrap();
+        let hash = hexadecimal(&[0xa7; 32]);
+        let result = PointResult::of(&[0.1 + 0.2, f64::NAN, -1e-300]);
+        store.put(&hash, &result).unwrap();
+        assert!(store.has(&hash));
+        assert_eq!(store.get(&hash).unwrap(), Some(result));
+        let path = store.place(&hash, "ok");
+        let whole = fs::read(&path).unwrap();
+        for k in 0..whole.len() {
+            let mut changed = whole.clone();
+            changed[k] ^= 4;
+            fs::write(&path, &changed).unwrap();
+            assert_eq!(store.get(&hash).unwrap(), None, "byte {k}");
+            assert!(!path.exists(), "it is flown again");
+            fs::write(&path, &whole[..k]).unwrap();
+            assert_eq!(store.get(&hash).unwrap(), None, "cut to {k}");
+        }
+        assert_eq!(store.count_death(&hash, 0).unwrap(), 1);
+        assert_eq!(store.count_death(&hash, 0).unwrap(), 2);
+        assert_eq!(store.count_death(&hash, 40).unwrap(), 1, "it advanced");
+        fs::remove_dir_all(root).unwrap();
+    }
+}

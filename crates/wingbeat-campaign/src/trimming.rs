@@ -1,0 +1,193 @@
+//! What is asked of the trim at a point.
+
+use wingbeat_analysis::least_power::trim_within;
+use wingbeat_analysis::steady::Residuals;
+use wingbeat_analysis::unknown::UNKNOWNS;
+use wingbeat_analysis::{AnalysisError, Trim, TrimProblem, TrimSettings, Unknown};
+use wingbeat_case::{Document, IoError, nearest};
+use wingbeat_flight::{FlightSetup, MotionMode};
+use wingbeat_math::DVec3;
+
+use crate::plan::Plan;
+use crate::raw::{RawCampaign, Task, TrimOptions};
+
+/// Beginning of the keys that are options of the trim and not keys of the case.
+pub const TRIM: &str = "trim.";
+
+/// Options that may be parameters, as `trim.forward_m_s`.
+pub const OPTIONS: [&str; 5] = [
+    "forward_m_s",
+    "climb_m_s",
+    "sideslip_m_s",
+    "turn_rate_deg_s",
+    "steps_per_beat",
+];
+
+/// Steps per wingbeat unless the file says otherwise, and at least and most.
+const DEFAULT_STEPS: usize = 100;
+const STEPS: [usize; 2] = [4, 2000];
+/// The air is incompressible [m/s].
+const SOUND: f64 = 340.0;
+
+/// The unknowns of flight that turns or slips sideways, beside those of straight flight.
+const LATERAL: [Unknown; 3] = [
+    Unknown::BodyRoll,
+    Unknown::StrokeAmplitudeDifference,
+    Unknown::StrokePlaneDifference,
+];
+
+/// Checks the options themselves, and that the air can be trimmed in.
+///
+/// # Errors
+/// The first that cannot be used.
+pub fn check(document: &Document, raw: &RawCampaign, setup: &FlightSetup) -> Result<(), IoError> {
+    if !raw.tasks.contains(&Task::Trim) {
+        return Ok(());
+    }
+    if setup.air.has_memory() {
+        let problem = format!(
+            "in this air ({}) a trim takes minutes, and campaigns do not trim there",
+            setup.air.name()
+        );
+        let remedy = "set air.model = \"blade_element\" in [set], or trim point by point with `wingbeat trim`";
+        return Err(document
+            .fault("do", problem, "trim in air without memory", remedy)
+            .into());
+    }
+    let names: Vec<&str> = UNKNOWNS.iter().map(|u| u.1).collect();
+    let unknowns = raw.trim.iter().flat_map(|t| t.unknowns.iter().flatten());
+    for (k, name) in unknowns.enumerate() {
+        if !names.contains(&name.as_str()) {
+            let remedy = match nearest(name, &names) {
+                Some(near) => format!("did you mean `{near}`?"),
+                None => "choose from these".to_owned(),
+            };
+            let place = format!("trim.unknowns[{k}]");
+            return Err(document
+                .fault(
+                    &place,
+                    format!("unknown choice `{name}`"),
+                    names.join(", "),
+                    remedy,
+                )
+                .into());
+        }
+    }
+    Ok(())
+}
+
+/// An option that cannot be used: its name, what is wrong, what is allowed, what to try.
+pub struct Bad {
+    /// Key, as `trim.forward_m_s`.
+    pub key: String,
+    /// What is wrong.
+    pub problem: String,
+    /// What is allowed.
+    pub allowed: &'static str,
+    /// What to try.
+    pub remedy: &'static str,
+}
+
+/// The options at point `i`.
+///
+/// # Errors
+/// A value that cannot be used.
+pub fn options(raw: &RawCampaign, plan: &Plan, i: usize) -> Result<TrimOptions, Bad> {
+    let mut options = raw.trim.clone().unwrap_or_default();
+    for (key, value) in plan.keys().iter().zip(plan.values(i)) {
+        let Some(name) = key.strip_prefix(TRIM) else {
+            continue;
+        };
+        let number = value.number().ok_or_else(|| Bad {
+            key: key.clone(),
+            problem: format!("`{}` is no number", value.shown()),
+            allowed: "a number",
+            remedy: "give numbers",
+        })?;
+        match name {
+            "forward_m_s" => options.forward_m_s = Some(number),
+            "climb_m_s" => options.climb_m_s = Some(number),
+            "sideslip_m_s" => options.sideslip_m_s = Some(number),
+            "turn_rate_deg_s" => options.turn_rate_deg_s = Some(number),
+            _ => options.steps_per_beat = Some(number as usize),
+        }
+    }
+    check_options(&options)?;
+    Ok(options)
+}
+
+fn check_options(options: &TrimOptions) -> Result<(), Bad> {
+    let speeds = [
+        ("forward_m_s", options.forward_m_s),
+        ("climb_m_s", options.climb_m_s),
+        ("sideslip_m_s", options.sideslip_m_s),
+    ];
+    for (name, speed) in speeds {
+        if let Some(speed) = speed.filter(|v| v.abs() >= SOUND) {
+            return Err(Bad {
+                key: format!("{TRIM}{name}"),
+                problem: format!("{speed} m/s is no speed below that of sound"),
+                allowed: "a speed between -340 and 340",
+                remedy: "the air is incompressible: choose a lower speed",
+            });
+        }
+    }
+    match options
+        .steps_per_beat
+        .filter(|s| !(STEPS[0]..=STEPS[1]).contains(s))
+    {
+        None => Ok(()),
+        Some(steps) => Err(Bad {
+            key: format!("{TRIM}steps_per_beat"),
+            problem: format!("{steps} steps per wingbeat"),
+            allowed: "a whole number from 4 to 2000",
+            remedy: "100 is the default",
+        }),
+    }
+}
+
+/// Trims a flight, its feedback left out.
+///
+/// # Errors
+/// What the analysis does not cover; why no steady flight was found.
+pub fn trim(setup: &FlightSetup, options: &TrimOptions) -> Result<Trim, AnalysisError> {
+    let mut open = setup.clone();
+    open.feedback = None;
+    let start = match &open.mode {
+        MotionMode::Free(start) => start.angles,
+        MotionMode::Tethered(m) => DVec3::from_array(m.angles.each_ref().map(|a| a.constant)),
+    };
+    let number = |x: Option<f64>| x.unwrap_or(0.0);
+    let velocity = DVec3::new(
+        number(options.forward_m_s),
+        number(options.sideslip_m_s),
+        -number(options.climb_m_s),
+    );
+    let mut problem = TrimProblem::straight(velocity, start.x);
+    problem.turn_rate = number(options.turn_rate_deg_s).to_radians();
+    let lateral = Residuals::of(&problem) == Residuals::All;
+    match &options.unknowns {
+        Some(names) => {
+            let known = |name: &String| UNKNOWNS.iter().find(|u| u.1 == name).map(|u| u.0);
+            problem.unknowns = names.iter().filter_map(known).collect();
+        }
+        None if lateral => problem.unknowns.extend(LATERAL),
+        None => {}
+    }
+    if problem.unknowns.contains(&Unknown::BodyRoll) {
+        problem.body_roll = start.z;
+    }
+    problem.settings = TrimSettings {
+        steps: options.steps_per_beat.unwrap_or(DEFAULT_STEPS),
+        ..TrimSettings::default()
+    };
+    let trim = trim_within(&open, &problem)?;
+    match trim.converged && trim.outside.is_empty() {
+        true => Ok(trim),
+        false => Err(AnalysisError::Numbers(format!(
+            "no steady flight was found: residual {:.1e} after {} Newton steps",
+            trim.error(),
+            trim.iterations
+        ))),
+    }
+}

@@ -1,0 +1,291 @@
+//! A worker: takes blocks of points, flies them, keeps their results; any number of workers share a directory, without a
+//! coordinator.
+
+use std::io::ErrorKind;
+use std::ops::Range;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::{Duration, Instant};
+
+use wingbeat_case::IoError;
+
+use crate::campaign::Campaign;
+use crate::flight::saved_step;
+use crate::lease::{Lease, Leases, Taken};
+use crate::point::{self, Done};
+use crate::store::{PointResult, Reason, Store, hexadecimal};
+
+/// Time between two looks for a block that somebody has to let go.
+const WAIT: Duration = Duration::from_millis(50);
+/// Time between two looks at the size of the directory.
+const WEIGH: Duration = Duration::from_secs(10);
+
+/// How a worker ended.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Ended {
+    /// All points of its range are done.
+    Complete,
+    /// It was asked to stop.
+    Stopped,
+    /// The directory has the size that it may have.
+    Full(u64),
+}
+
+/// A worker.
+pub struct Worker<'a> {
+    campaign: &'a Campaign,
+    store: &'a Store,
+    leases: Leases,
+    range: Range<usize>,
+    /// Blocks whose points of this range are done, from the first of the range.
+    complete: Vec<bool>,
+    weighed: Option<Instant>,
+}
+
+/// Where the leases of a campaign are.
+///
+/// # Errors
+/// A folder that cannot be made.
+pub fn leases(campaign: &Campaign, store: &Store) -> Result<Leases, IoError> {
+    let plan = hexadecimal(&campaign.plan_hash()[..8]);
+    Leases::new(store.path("leases").join(plan))
+}
+
+impl<'a> Worker<'a> {
+    /// For the points of `range`.
+    ///
+    /// # Errors
+    /// A directory that cannot be written.
+    pub fn new(
+        campaign: &'a Campaign,
+        store: &'a Store,
+        range: Range<usize>,
+    ) -> Result<Self, IoError> {
+        let leases = leases(campaign, store)?;
+        leases.beat();
+        let blocks = blocks(&range, campaign.block);
+        let mut complete = vec![false; blocks.len()];
+        for block in leases.done() {
+            if blocks.contains(&block) {
+                complete[block - blocks.start] = true;
+            }
+        }
+        Ok(Self {
+            campaign,
+            store,
+            leases,
+            range,
+            complete,
+            weighed: None,
+        })
+    }
+
+    /// Works until all points of the range are done; `tell` hears of every point that it did.
+    ///
+    /// # Errors
+    /// A directory that cannot be read or written, e.g. on a full disk: everything done is kept.
+    pub fn work(&mut self, stop: &AtomicBool, tell: &mut dyn FnMut()) -> Result<Ended, IoError> {
+        let blocks = blocks(&self.range, self.campaign.block);
+        loop {
+            let (mut waits, mut flew) = (false, false);
+            for block in blocks.clone() {
+                if self.complete[block - blocks.start] {
+                    continue;
+                }
+                if stop.load(Ordering::Relaxed) {
+                    return Ok(Ended::Stopped);
+                }
+                if let Some(full) = self.is_full()? {
+                    return Ok(Ended::Full(full));
+                }
+                match self.leases.take(block)? {
+                    Taken::Done => self.complete[block - blocks.start] = true,
+                    Taken::Held => waits = !self.is_complete(block, blocks.start),
+                    Taken::Own(lease, died) => {
+                        flew = true;
+                        if !self.block(lease, block, died, stop, tell)? {
+                            waits = true;
+                        }
+                    }
+                }
+            }
+            if self.complete.iter().all(|c| *c) {
+                return Ok(Ended::Complete);
+            }
+            if waits && !flew {
+                std::thread::sleep(WAIT);
+            }
+        }
+    }
+
+    /// Of a block that somebody else has, whether the points of this range are done.
+    fn is_complete(&mut self, block: usize, first: usize) -> bool {
+        let mut points = self.points(block, &self.range);
+        let complete = points.all(|i| self.store.has(&hexadecimal(&self.campaign.hash(i))));
+        self.complete[block - first] = complete;
+        complete
+    }
+
+    /// Points of a block that are in a range.
+    fn points(&self, block: usize, range: &Range<usize>) -> Range<usize> {
+        let n = self.campaign.block;
+        (block * n).max(range.start)..((block + 1) * n).min(range.end)
+    }
+
+    /// Flies a block that this worker holds; whether its points of this range are done.
+    fn block(
+        &mut self,
+        mut lease: Lease,
+        block: usize,
+        died: Option<usize>,
+        stop: &AtomicBool,
+        tell: &mut dyn FnMut(),
+    ) -> Result<bool, IoError> {
+        if let Some(i) = died.filter(|i| *i < self.campaign.plan.points()) {
+            self.count_death(i)?;
+        }
+        for i in self.points(block, &self.range) {
+            let hash = hexadecimal(&self.campaign.hash(i));
+            if self.store.has(&hash) {
+                continue;
+            }
+            if !lease.fly(i)? {
+                return Ok(false); // somebody took us for dead
+            }
+            match self.point(i, &hash, stop) {
+                Ok(true) => tell(),
+                Ok(false) => {
+                    lease.rest()?;
+                    lease.let_go();
+                    return Ok(false);
+                }
+                Err(e) => {
+                    let _ = lease.rest(); // what went wrong before counts
+                    lease.let_go();
+                    return Err(e);
+                }
+            }
+        }
+        lease.rest()?;
+        let first = blocks(&self.range, self.campaign.block).start;
+        self.complete[block - first] = true;
+        let all = 0..self.campaign.plan.points();
+        let mut whole = self.points(block, &all);
+        match whole.all(|i| {
+            self.range.contains(&i) || self.store.has(&hexadecimal(&self.campaign.hash(i)))
+        }) {
+            true => lease.done()?,
+            false => lease.let_go(),
+        }
+        Ok(true)
+    }
+
+    /// Flies a point and keeps its result; false where it was asked to stop.
+    fn point(&self, i: usize, hash: &str, stop: &AtomicBool) -> Result<bool, IoError> {
+        loop {
+            match point::fly(self.campaign, i, hash, Some(self.store), stop) {
+                Done::Stopped => return Ok(false),
+                Done::Result(result) => {
+                    self.store.put(hash, &result)?;
+                    return Ok(true);
+                }
+                Done::Unwritten(e) if is_full(&e) => return Err(e),
+                Done::Unwritten(e) => {
+                    let deaths = self.store.count_death(hash, 0)?;
+                    if deaths >= self.campaign.raw.budget.attempts {
+                        let words = format!("{e} ({deaths} attempts)");
+                        self.store
+                            .put(hash, &PointResult::failure(Reason::Unwritten, words))?;
+                        return Ok(true);
+                    }
+                }
+            }
+        }
+    }
+
+    /// A process died while it flew this point: quarantined if that has happened too often.
+    fn count_death(&self, i: usize) -> Result<(), IoError> {
+        let hash = hexadecimal(&self.campaign.hash(i));
+        if self.store.has(&hash) {
+            return Ok(()); // it died right after
+        }
+        let step = saved_step(&self.store.path("work").join(&hash));
+        let deaths = self.store.count_death(&hash, step)?;
+        if deaths < self.campaign.raw.budget.attempts {
+            return Ok(());
+        }
+        let words = format!("the process that flew it was killed or died {deaths} times");
+        self.store
+            .put(&hash, &PointResult::failure(Reason::Died, words))
+    }
+
+    /// The size of the directory, where that is more than it may be.
+    fn is_full(&mut self) -> Result<Option<u64>, IoError> {
+        let Some(limit) = self.campaign.raw.budget.disk_mb else {
+            return Ok(None);
+        };
+        if self.weighed.is_some_and(|w| w.elapsed() < WEIGH) {
+            return Ok(None);
+        }
+        self.weighed = Some(Instant::now());
+        let bytes = size(self.store.root());
+        Ok((bytes as f64 > limit * 1e6).then_some(bytes))
+    }
+}
+
+/// Bytes of all files in a folder.
+pub fn size(folder: &std::path::Path) -> u64 {
+    let entries = std::fs::read_dir(folder).into_iter().flatten().flatten();
+    let of = |e: std::fs::DirEntry| match e.file_type() {
+        Ok(t) if t.is_dir() => size(&e.path()),
+        Ok(_) => e.metadata().map_or(0, |m| m.len()),
+        Err(_) => 0,
+    };
+    entries.map(of).sum()
+}
+
+/// Whether there is no space, or a file may not grow.
+pub fn is_full(e: &IoError) -> bool {
+    let kinds = [
+        ErrorKind::StorageFull,
+        ErrorKind::QuotaExceeded,
+        ErrorKind::FileTooLarge,
+    ];
+    matches!(e, IoError::File { source, .. } if kinds.contains(&source.kind()))
+}
+
+/// Blocks that have points of a range.
+pub fn blocks(range: &Range<usize>, block: usize) -> Range<usize> {
+    match range.is_empty() {
+        true => 0..0,
+        false => range.start / block..(range.end - 1) / block + 1,
+    }
+}
+
+/// Before work begins: damaged results are removed, and blocks that lack results are no longer done. How many points of
+/// the range are done.
+///
+/// # Errors
+/// A directory that cannot be read or written.
+pub fn inspect(campaign: &Campaign, store: &Store, range: &Range<usize>) -> Result<usize, IoError> {
+    let leases = leases(campaign, store)?;
+    let finished: std::collections::HashSet<usize> = leases.done().into_iter().collect();
+    let known = store.done();
+    let mut done = 0;
+    for i in range.clone() {
+        let hash = hexadecimal(&campaign.hash(i));
+        let there = known.contains_key(&hash) && store.get(&hash)?.is_some();
+        done += usize::from(there);
+        let block = i / campaign.block;
+        if !there && finished.contains(&block) {
+            leases.undo(block)?;
+        }
+    }
+    Ok(done)
+}
+
+/// Points of the range that have no result, by the names of the results alone.
+pub fn left(campaign: &Campaign, store: &Store, range: &Range<usize>) -> usize {
+    let known = store.done();
+    let lacks = |i: &usize| !known.contains_key(&hexadecimal(&campaign.hash(*i)));
+    range.clone().filter(lacks).count()
+}

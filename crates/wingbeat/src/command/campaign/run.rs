@@ -1,0 +1,85 @@
+//! `wingbeat campaign run`: local processes fly the points.
+
+use std::path::Path;
+
+use clap::Args;
+use wingbeat::campaign::worker::{inspect, left};
+use wingbeat::campaign::{Campaign, Status, Store};
+
+use super::args::{Part, Place};
+use super::master::{Master, processors};
+use crate::command::failure::{Failure, INTERRUPTED};
+use crate::command::options;
+use crate::command::run::name_program;
+use crate::command::signals::stop_flag;
+use crate::command::terminal::{say, tell};
+
+/// Arguments of `wingbeat campaign run`.
+#[derive(Args)]
+pub(super) struct RunArgs {
+    #[command(flatten)]
+    place: Place,
+    #[command(flatten)]
+    part: Part,
+    /// Processes [default: as many as the machine has processors].
+    #[arg(long, value_name = "N", value_parser = options::count::<1, { options::MAX_THREADS }>)]
+    jobs: Option<usize>,
+    /// No progress and no summary on the terminal.
+    #[arg(long)]
+    quiet: bool,
+}
+
+/// The whole command.
+pub(super) fn run(args: &RunArgs) -> Result<(), Failure> {
+    let campaign = args.place.campaign()?;
+    let range = args.part.range(campaign.plan.points())?;
+    let folder = args.place.folder(&campaign);
+    let store = Store::open(&folder, campaign.text())?;
+    let done = inspect(&campaign, &store, &range)?;
+    if !args.quiet {
+        let name = &campaign.name;
+        tell!(
+            "{name}: {} points, {done} of them done; results go to {}",
+            range.len(),
+            folder.display()
+        );
+    }
+    if done < range.len() {
+        name_program(&campaign.base);
+        let jobs = args.jobs.unwrap_or_else(processors);
+        let stop = stop_flag();
+        let mut master = Master::new(&args.place.file, &folder, range.clone(), args.quiet);
+        master.work(jobs, done, &stop)?;
+    }
+    let left = left(&campaign, &store, &range);
+    if left > 0 {
+        tell!("interrupted: {left} points are left; the same command goes on");
+        return Err(Failure::Told(INTERRUPTED));
+    }
+    match args.quiet {
+        true => Ok(()),
+        false => finish(&campaign, &store, &args.place.file),
+    }
+}
+
+fn finish(campaign: &Campaign, store: &Store, file: &Path) -> Result<(), Failure> {
+    let status = Status::of(campaign, store)?;
+    let file = file.display();
+    say!(
+        "{} of {} points are done, {} failed.",
+        status.done,
+        status.points,
+        status.failed
+    );
+    if status.done == status.points {
+        say!(
+            "`wingbeat campaign merge {file}` writes them as one table, `wingbeat campaign view {file}` shows them."
+        );
+    }
+    if status.failed > 0 {
+        say!(
+            "failed.csv of the merge has those that failed; `wingbeat campaign retry {file}` has them flown again."
+        );
+    }
+    Ok(())
+}

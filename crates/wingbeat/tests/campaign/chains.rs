@@ -1,0 +1,124 @@
+//! Chains of tasks: trim, modes, power, and the flight of what was trimmed.
+
+use serde_json::Value;
+
+use crate::support::{Scratch, flown, wingbeat};
+use crate::{merged, numbers, write};
+
+/// A chain of all tasks at two speeds.
+const CHAIN: &str = r#"case = "fruit-fly-blade"
+do = ["trim", "stability", "power", "run"]
+keep = ["trim.stroke_amplitude", "trim.body_pitch_rad", "stability.floquet.1.growth_per_s",
+        "stability.averaged.2.frequency_rad_per_s", "stability.derivative.M_q", "power.perfect_storage_watt",
+        "lift_over_weight", "summary.forward_m"]
+[set]
+"time.beats" = 1
+[trim]
+steps_per_beat = 40
+[parameter."trim.forward_m_s"]
+list = [0, 0.1]
+"#;
+
+/// The numbers of a campaign are those of the commands.
+#[test]
+fn agrees_trim_stability_and_power_with_their_commands() {
+    let scratch = Scratch::new("campaign-chain");
+    let dir = &scratch.0;
+    write(dir, CHAIN);
+    flown(dir, &["campaign", "run", "c.toml", "--out", "r", "--quiet"]);
+    merged(dir, "r");
+    let own = |name: &str| numbers(dir, "r", name);
+    for (k, speed) in ["0", "0.1"].iter().enumerate() {
+        let say = |command: &str| -> Value {
+            let args = [
+                command,
+                "fruit-fly-blade",
+                "--set",
+                "time.beats=1",
+                "--steps",
+                "40",
+                "--forward",
+                speed,
+                "--json",
+            ];
+            let out = wingbeat(dir, &args);
+            serde_json::from_slice(&out.stdout).unwrap()
+        };
+        let [stability, power] = ["stability", "power"].map(say);
+        let mode = &stability["floquet_modes"][0];
+        assert_eq!(
+            own("stability.floquet.1.growth_per_s")[k],
+            mode["growth_per_s"]
+        );
+        let mode = &stability["averaged_modes"][1];
+        assert_eq!(
+            own("stability.averaged.2.frequency_rad_per_s")[k],
+            mode["frequency_rad_per_s"]
+        );
+        let derivative = &stability["derivatives_si_by_u_v_w_p_q_r"][4][4];
+        assert_eq!(own("stability.derivative.M_q")[k], *derivative);
+        let watt = &power["power"]["perfect_storage"]["watt"];
+        assert_eq!(own("power.perfect_storage_watt")[k], *watt);
+        // What was trimmed flies: it carries its weight and goes as fast as was asked. The impulse of the air is summed
+        // over 40 steps: measured 7e-6 off.
+        assert!(
+            (own("lift_over_weight")[k] - 1.0).abs() < 3e-5,
+            "{:?}",
+            own("lift_over_weight")
+        );
+        let way = own("summary.forward_m")[k];
+        let period = stability["wingbeat_s"].as_f64().unwrap();
+        assert!(
+            (way / period - speed.parse::<f64>().unwrap()).abs() < 1e-5,
+            "{way}"
+        );
+    }
+    assert!(own("trim.stroke_amplitude")[0] != own("trim.stroke_amplitude")[1]);
+}
+
+/// Means of a column are those of the history; efficiency is thrust times airspeed over power.
+#[test]
+fn agrees_means_with_the_history() {
+    let scratch = Scratch::new("campaign-means");
+    let dir = &scratch.0;
+    write(
+        dir,
+        r#"case = "fruit-fly-blade"
+keep = ["body_phi_rad", "max.body_phi_rad", "end.body_phi_rad", "efficiency", "thrust_newton", "power_watt"]
+mean_beats = 2
+[set]
+"time.beats" = 3.5
+"time.steps_per_beat" = 40
+"air.stream_m_s" = [-0.5, 0, 0]
+"#,
+    );
+    flown(dir, &["campaign", "run", "c.toml", "--out", "r", "--quiet"]);
+    merged(dir, "r");
+    let own = |name: &str| numbers(dir, "r", name)[0];
+    let keys = [
+        "time.beats=3.5",
+        "time.steps_per_beat=40",
+        "air.stream_m_s=[-0.5, 0, 0]",
+    ];
+    let run = wingbeat::Flight::preset_with("fruit-fly-blade", &keys)
+        .unwrap()
+        .fly()
+        .unwrap();
+    let history = run.history().unwrap();
+    let angle = history.column("body_phi_rad");
+    // Steps 40 to 120: the second and the third wingbeat, evenly spaced, half a weight at the ends.
+    let mean = (angle[41..120].iter().sum::<f64>() + 0.5 * (angle[40] + angle[120])) / 80.0;
+    assert!(
+        (own("body_phi_rad") / mean - 1.0).abs() < 1e-12,
+        "roundings of 80 terms"
+    );
+    assert_eq!(own("end.body_phi_rad"), angle[140]);
+    assert_eq!(
+        own("max.body_phi_rad"),
+        angle.iter().copied().fold(f64::NEG_INFINITY, f64::max)
+    );
+    let way = run.records[120].mass_centre.x - run.records[40].mass_centre.x;
+    let speed = way / (run.records[120].time - run.records[40].time) + 0.5;
+    let wanted = own("thrust_newton") * speed / own("power_watt");
+    assert!((own("efficiency") / wanted - 1.0).abs() < 1e-12, "{wanted}");
+}

@@ -1,0 +1,304 @@
+//! What is flown, what is not flown again, what the tables hold.
+
+use std::fs;
+use std::process::Command;
+
+use wingbeat::Flight;
+
+use crate::support::{Scratch, flown, wingbeat};
+use crate::{TABLES, blade, column, merged, numbers, write};
+
+#[test]
+fn exact_points_are_the_flights_of_their_cases() {
+    let scratch = Scratch::new("campaign-exact");
+    let dir = &scratch.0;
+    write(dir, &blade(2));
+    flown(dir, &["campaign", "run", "c.toml", "--out", "r", "--quiet"]);
+    merged(dir, "r");
+    let [frequency, mass] = ["motion.frequency_hz", "body.mass_kg"].map(|c| numbers(dir, "r", c));
+    assert_eq!(frequency, [190.0, 190.0, 200.0, 200.0, 210.0, 210.0]);
+    assert_eq!(
+        mass[0], mass[2],
+        "the same samples at every point of the grid"
+    );
+    for k in [0, 3] {
+        let keys = [
+            "time.beats=1".to_owned(),
+            "time.steps_per_beat=40".to_owned(),
+            format!("motion.frequency_hz={}", frequency[k]),
+            format!("body.mass_kg={:?}", mass[k]),
+        ];
+        let keys: Vec<&str> = keys.iter().map(String::as_str).collect();
+        let run = Flight::preset_with("fruit-fly-blade", &keys)
+            .unwrap()
+            .fly()
+            .unwrap();
+        let beat = run.beats()[0];
+        let own = |name: &str| numbers(dir, "r", name)[k];
+        assert_eq!(own("lift_over_weight"), beat.lift_over_weight); // to the bit
+        assert_eq!(own("power_watt"), beat.power_watt);
+        let last = run.records.last().unwrap().mass_centre.z;
+        assert_eq!(own("end.mass_centre_n3_m"), last);
+    }
+}
+
+/// Shards, ranges and numbers of processes: the same tables. More samples fly only the new ones, other numbers all.
+#[test]
+fn invariant_tables_do_not_tell_who_flew_what_and_reruns_fly_what_is_new() {
+    let scratch = Scratch::new("campaign-shards");
+    let dir = &scratch.0;
+    write(dir, &blade(10));
+    flown(
+        dir,
+        &[
+            "campaign", "run", "c.toml", "--out", "a", "--jobs", "1", "--quiet",
+        ],
+    );
+    for part in [
+        ["--shard", "2/3"],
+        ["--points", "0..4"],
+        ["--shard", "1/3"],
+        ["--shard", "3/3"],
+    ] {
+        flown(
+            dir,
+            &[
+                &["campaign", "run", "c.toml", "--out", "b", "--quiet"],
+                &part[..],
+            ]
+            .concat(),
+        );
+    }
+    assert!(merged(dir, "a") == merged(dir, "b"));
+    let files = || {
+        let folders = fs::read_dir(dir.join("a/points")).unwrap();
+        let files = folders.flat_map(|f| fs::read_dir(f.unwrap().path()).unwrap());
+        let times = files
+            .map(|f| f.unwrap())
+            .map(|f| (f.path(), f.metadata().unwrap().modified().unwrap()));
+        times.collect::<std::collections::BTreeMap<_, _>>()
+    };
+    let before = files();
+    write(dir, &blade(12));
+    flown(dir, &["campaign", "run", "c.toml", "--out", "a", "--quiet"]);
+    let after = files();
+    assert_eq!((before.len(), after.len()), (30, 36));
+    assert!(
+        before
+            .iter()
+            .all(|(path, time)| after.get(path) == Some(time)),
+        "an old point was flown again"
+    );
+    let out = wingbeat(
+        dir,
+        &["campaign", "status", "c.toml", "--out", "a", "--json"],
+    );
+    let status: serde_json::Value = serde_json::from_slice(&out.stdout).unwrap();
+    assert_eq!(
+        (&status["points"], &status["done"], &status["failed"]),
+        (&36.into(), &36.into(), &0.into())
+    );
+}
+
+/// A damaged result is found, and its point flown again.
+#[test]
+fn behaves_damaged_results_are_flown_again() {
+    let scratch = Scratch::new("campaign-damage");
+    let dir = &scratch.0;
+    write(dir, &blade(4));
+    flown(dir, &["campaign", "run", "c.toml", "--out", "a", "--quiet"]);
+    let whole = merged(dir, "a");
+    let folders = fs::read_dir(dir.join("a/points")).unwrap();
+    let files = folders.flat_map(|f| fs::read_dir(f.unwrap().path()).unwrap());
+    let mut files: Vec<_> = files.map(|f| f.unwrap().path()).collect();
+    files.sort();
+    fs::write(&files[0], "").unwrap(); // as after a power failure
+    let text = fs::read_to_string(&files[1]).unwrap();
+    fs::write(&files[1], text.replacen("values", "value5", 1)).unwrap();
+    fs::remove_file(&files[2]).unwrap();
+    let out = wingbeat(dir, &["campaign", "merge", "c.toml", "--out", "a"]);
+    let report = String::from_utf8(out.stderr).unwrap();
+    assert_eq!(out.status.code(), Some(2), "{report}");
+    assert!(
+        report.contains("3 of 12 points have no result yet"),
+        "{report}"
+    );
+    flown(dir, &["campaign", "run", "c.toml", "--out", "a", "--quiet"]);
+    assert!(merged(dir, "a") == whole);
+}
+
+/// Points that cannot be flown are results too: their reason, case and command stand in failed.csv.
+#[test]
+fn behaves_points_that_fail_are_told_and_may_be_tried_again() {
+    let scratch = Scratch::new("campaign-failed");
+    let dir = &scratch.0;
+    // Each key alone is fine; wings with a long root offset and a short length are refused.
+    write(
+        dir,
+        r#"case = "fruit-fly-blade"
+keep = ["lift_over_weight"]
+[set]
+"time.steps_per_beat" = 40
+[parameter."time.beats"]
+list = [0.5, 1]
+"#,
+    );
+    flown(dir, &["campaign", "run", "c.toml", "--out", "r", "--quiet"]);
+    let tables = merged(dir, "r");
+    assert_eq!(column(dir, "r", "success"), ["0", "1"]);
+    assert_eq!(column(dir, "r", "reason"), ["diverged", ""]);
+    assert_eq!(column(dir, "r", "lift_over_weight")[0], "");
+    let failed = String::from_utf8(tables["failed.csv"].clone()).unwrap();
+    for part in [
+        "means over 1 wingbeats, but only 0 whole ones were flown",
+        "wingbeat run fruit-fly-blade --set time.steps_per_beat=40 --set time.beats=0.5",
+        "[wing.right.planform.beta]",
+    ] {
+        assert!(failed.contains(part), "{part} not in\n{failed}");
+    }
+    flown(dir, &["campaign", "retry", "c.toml", "--out", "r"]);
+    let status = || {
+        let out = wingbeat(dir, &["campaign", "status", "c.toml", "--out", "r"]);
+        String::from_utf8(out.stdout).unwrap()
+    };
+    assert!(
+        status().contains("1 of 2 points done, 0 failed"),
+        "{}",
+        status()
+    );
+    flown(dir, &["campaign", "run", "c.toml", "--out", "r", "--quiet"]);
+    assert!(
+        status().contains("2 of 2 points done, 1 failed"),
+        "{}",
+        status()
+    );
+    assert!(merged(dir, "r") == tables);
+}
+
+/// No file may grow, as on a full disk: a true exit code, nothing half-written, and it goes on.
+#[cfg(unix)]
+#[test]
+fn behaves_a_full_disk_stops_the_workers_and_loses_nothing() {
+    let scratch = Scratch::new("campaign-full");
+    let dir = &scratch.0;
+    write(dir, &blade(4));
+    flown(dir, &["campaign", "run", "c.toml", "--out", "a", "--quiet"]);
+    flown(
+        dir,
+        &[
+            "campaign", "run", "c.toml", "--out", "b", "--quiet", "--points", "0..5",
+        ],
+    );
+    let program = env!("CARGO_BIN_EXE_wingbeat");
+    let script = format!("trap '' XFSZ; ulimit -f 0; exec \"{program}\" \"$@\"");
+    let out = Command::new("sh")
+        .args([
+            "-c", &script, "sh", "campaign", "run", "c.toml", "--out", "b", "--quiet",
+        ])
+        .current_dir(dir)
+        .output()
+        .unwrap();
+    let report = String::from_utf8_lossy(&out.stderr);
+    assert_eq!(out.status.code(), Some(1), "{report}");
+    assert!(report.contains("cannot write"), "{report}");
+    flown(dir, &["campaign", "run", "c.toml", "--out", "b", "--quiet"]);
+    assert!(merged(dir, "a") == merged(dir, "b"));
+    let left = crate::support::contents(&dir.join("b"));
+    let half = left
+        .keys()
+        .filter(|p| p.extension().is_some_and(|e| e == "part"));
+    assert_eq!(half.count(), 0);
+}
+
+#[test]
+fn exact_tables_are_read_by_xarray_and_pyarrow() {
+    let scratch = Scratch::new("campaign-tables");
+    let dir = &scratch.0;
+    let zip = "[[zip]]\n\"air.density_kg_m3\" = [1.1, 1.2]\n\"dynamics.formulation\" = [\"momentum\", \"quaternion\"]\n";
+    write(dir, &format!("{}{zip}", blade(2)));
+    flown(dir, &["campaign", "run", "c.toml", "--out", "r", "--quiet"]);
+    merged(dir, "r");
+    assert!(TABLES.iter().all(|t| dir.join("r").join(t).is_file()));
+    let readers = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/readers");
+    let python =
+        std::path::Path::new(env!("CARGO_TARGET_TMPDIR")).join("readers-python/bin/python");
+    if !python.is_file() {
+        crate::support::required("the Python of the readers, which the test of exports installs");
+        return;
+    }
+    let out = Command::new(python)
+        .arg(readers.join("campaign.py"))
+        .arg(dir.join("r"))
+        .output()
+        .unwrap();
+    let said = String::from_utf8_lossy(&out.stderr);
+    assert!(out.status.success(), "{said}");
+}
+
+/// Points that take too long fail as such; a directory that is too large stops the workers.
+#[test]
+fn behaves_budgets_are_kept() {
+    let scratch = Scratch::new("campaign-budget");
+    let dir = &scratch.0;
+    let text = |budget: &str| blade(2).replace("attempts = 20", budget);
+    write(dir, &text("time_per_point_s = 1e-6"));
+    flown(
+        dir,
+        &["campaign", "run", "c.toml", "--out", "slow", "--quiet"],
+    );
+    merged(dir, "slow");
+    assert_eq!(column(dir, "slow", "reason"), ["slow"; 6]);
+    write(dir, &text("disk_mb = 1e-4"));
+    let args = [
+        "campaign", "run", "c.toml", "--out", "full", "--quiet", "--jobs", "1",
+    ];
+    let out = wingbeat(dir, &args);
+    let report = String::from_utf8_lossy(&out.stderr);
+    assert_eq!(out.status.code(), Some(1), "{report}");
+    assert!(
+        report.contains("more than budget.disk_mb allows"),
+        "{report}"
+    );
+    write(dir, &text("disk_mb = 10.0"));
+    flown(dir, &args);
+    merged(dir, "full");
+    assert_eq!(column(dir, "full", "success"), ["1"; 6]);
+}
+
+/// A table of points: texts, whole numbers and numbers go where they belong; its plan is that of the file.
+#[test]
+fn exact_points_of_a_table_are_flown() {
+    let scratch = Scratch::new("campaign-csv");
+    let dir = &scratch.0;
+    write(
+        dir,
+        "case = \"fruit-fly-blade\"\nkeep = [\"power_watt\", \"summary.steps\"]\ntable = \"points.csv\"\n[set]\n\"time.beats\" = 1\n",
+    );
+    let table = "time.steps_per_beat,dynamics.formulation,motion.frequency_hz\n40,momentum,200.5\n60,quaternion,190\n";
+    fs::write(dir.join("points.csv"), table).unwrap();
+    flown(dir, &["campaign", "run", "c.toml", "--out", "r", "--quiet"]);
+    merged(dir, "r");
+    assert_eq!(numbers(dir, "r", "summary.steps"), [40.0, 60.0]);
+    let keys = [
+        "time.beats=1",
+        "time.steps_per_beat=60",
+        "dynamics.formulation=quaternion",
+        "motion.frequency_hz=190",
+    ];
+    let run = Flight::preset_with("fruit-fly-blade", &keys)
+        .unwrap()
+        .fly()
+        .unwrap();
+    assert_eq!(
+        numbers(dir, "r", "power_watt")[1],
+        run.beats()[0].power_watt
+    ); // to the bit
+    fs::write(dir.join("points.csv"), table.replace("190", "190 Hz")).unwrap();
+    let out = wingbeat(dir, &["campaign", "plan", "c.toml"]);
+    let report = String::from_utf8_lossy(&out.stderr);
+    assert_eq!(out.status.code(), Some(2), "{report}");
+    assert!(
+        report.contains("c.toml:3:") && report.contains("motion.frequency_hz"),
+        "{report}"
+    );
+}
