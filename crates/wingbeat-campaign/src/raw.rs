@@ -147,9 +147,9 @@ pub struct Range {
 #[derive(Clone, Copy, Debug, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Ends {
-    /// Least value.
+    /// Least value \[unit of the key\].
     pub from: f64,
-    /// Largest value.
+    /// Largest value \[unit of the key\].
     pub to: f64,
 }
 
@@ -157,13 +157,13 @@ pub struct Ends {
 #[derive(Clone, Copy, Debug, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Normal {
-    /// Mean before it is cut off.
+    /// Mean before it is cut off \[unit of the key\].
     pub mean: f64,
-    /// Standard deviation before it is cut off.
+    /// Standard deviation before it is cut off \[unit of the key\].
     pub standard_deviation: f64,
-    /// Least value.
+    /// Least value \[unit of the key\].
     pub from: Option<f64>,
-    /// Largest value.
+    /// Largest value \[unit of the key\].
     pub to: Option<f64>,
 }
 

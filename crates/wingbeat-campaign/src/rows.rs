@@ -15,7 +15,7 @@ pub struct Row {
     pub hash: String,
     /// Values of its keys.
     pub keys: Vec<Value>,
-    /// Its numbers; not a number where there are none.
+    /// Its numbers \[unit of each\]; not a number where there are none.
     pub numbers: Vec<f64>,
     /// Whether it has numbers; none where it was not flown.
     pub success: Option<bool>,

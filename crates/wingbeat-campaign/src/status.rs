@@ -24,7 +24,7 @@ pub struct Status {
     pub failed: usize,
     /// Blocks that are being flown.
     pub flying: usize,
-    /// Points a second over the last half minute; none where nothing was done in it, or everything is.
+    /// Points over the last half minute [1/s]; none where nothing was done in it, or everything is.
     pub rate: Option<f64>,
 }
 

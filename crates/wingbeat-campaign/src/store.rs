@@ -59,7 +59,7 @@ impl Reason {
 /// What is known of a point that is done.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct PointResult {
-    /// Its numbers, in the order of `keep`; none where they are not finite, empty where it failed.
+    /// Its numbers, in the order of `keep` \[unit of each\]; none where they are not finite, empty where it failed.
     pub values: Vec<Option<f64>>,
     /// Why it failed.
     #[serde(default, skip_serializing_if = "Option::is_none")]
