@@ -52,7 +52,7 @@ def expected() -> bytes:
 
 
 def test_behaves_every_engine_has_a_section():
-    assert set(sections()) == {"", *NEEDS, "Measured"}
+    assert set(sections()) == {"", "A campaign file on an engine", *NEEDS, "Measured"}
 
 
 def test_behaves_first_script_runs(tmp_path):

@@ -73,7 +73,7 @@ let spots = [];
 function drawMap() {
   const { pen, width, height } = canvas("map"), [x, y, c] = [columns[shown.across], columns[shown.up], columns[shown.colour]];
   const left = 74, right = 14, top = 10, bottom = 40, w = width - left - right, h = height - top - bottom;
-  const px = (t) => left + (0.03 + 0.94 * t) * w, py = (t) => top + (0.97 - 0.94 * t) * h;
+  const inset = Math.min(34, 0.12 * h), px = (t) => left + inset + t * (w - 2 * inset), py = (t) => top + inset + (1 - t) * (h - 2 * inset);
   pen.strokeStyle = style("--grid"); pen.fillStyle = style("--muted");
   pen.textAlign = "center";
   const marks = (column, most) => column.words ? column.names.map((name, k) => [k, name]) : ticks(column.range, most).map((v) => [v, text(v)]);
@@ -89,13 +89,18 @@ function drawMap() {
   const at = new Map(); // points at the same place are fanned out in a spiral around it
   for (const row of list) {
     const [a, b] = [x.share(row), y.share(row)];
-    const bad = row.failed !== null;
-    if (a === null || b === null && !bad) continue;
-    let [sx, sy] = [px(a), b === null ? top + h : py(b)];
+    if (a === null || b === null && row.failed === null) continue;
+    const [sx, sy] = [px(a), b === null ? top + h - inset / 2 : py(b)];
     const place = `${Math.round(sx)} ${Math.round(sy)}`, k = at.get(place) || 0;
     at.set(place, k + 1);
-    [sx, sy] = [sx + 1.25 * radius * Math.sqrt(k) * Math.cos(2.4 * k), sy + 1.25 * radius * Math.sqrt(k) * Math.sin(2.4 * k)];
-    spots.push([sx, sy, row]);
+    spots.push([sx, sy, row, k]);
+  }
+  const pile = Math.max(1, ...at.values()), away = Math.min(1.25 * radius, (inset - radius) / Math.sqrt(pile));
+  for (const spot of spots) {
+    const [, , row, k] = spot, bad = row.failed !== null, turn = 2.4 * k, far = away * Math.sqrt(k);
+    spot[0] += far * Math.cos(turn);
+    spot[1] += far * Math.sin(turn);
+    const [sx, sy] = spot;
     if (bad) {
       pen.strokeStyle = ALARM[theme()]; pen.lineWidth = 1.6; pen.beginPath();
       pen.moveTo(sx - 4, sy - 4); pen.lineTo(sx + 4, sy + 4); pen.moveTo(sx - 4, sy + 4); pen.lineTo(sx + 4, sy - 4); pen.stroke(); pen.lineWidth = 1;

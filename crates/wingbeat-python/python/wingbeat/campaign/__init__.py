@@ -12,10 +12,11 @@ docs/campaigns-python.md.
 
 from __future__ import annotations
 
+from wingbeat.campaign._directory import run
 from wingbeat.campaign._engines import Processes, Ray, Serial
 from wingbeat.campaign._map import map
 from wingbeat.campaign._names import ADJUSTMENT, ATTITUDE, BEATS, POWER, SUMMARY
 from wingbeat.campaign._points import grid
 from wingbeat.campaign._table import Table
 
-__all__ = ["ADJUSTMENT", "ATTITUDE", "BEATS", "POWER", "SUMMARY", "Processes", "Ray", "Serial", "Table", "grid", "map"]
+__all__ = ["ADJUSTMENT", "ATTITUDE", "BEATS", "POWER", "SUMMARY", "Processes", "Ray", "Serial", "Table", "grid", "map", "run"]

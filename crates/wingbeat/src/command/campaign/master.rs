@@ -174,11 +174,16 @@ fn ended(worker: &mut Child) -> Option<End> {
     })
 }
 
-/// The program that runs now, and what stands before its commands (a script, where an interpreter carries us).
+/// The program that runs now, and what stands before its commands (a script, where an interpreter carries us: that is called
+/// by the name that it was called by, which tells it its environment).
 fn own_program() -> (PathBuf, Vec<OsString>) {
     let words: Vec<OsString> = std::env::args_os().collect();
     let command = words.iter().position(|w| w == "campaign").unwrap_or(1);
-    let program = std::env::current_exe();
-    let program = program.unwrap_or_else(|_| words.first().map(PathBuf::from).unwrap_or_default());
-    (program, words.get(1..command).unwrap_or_default().to_vec())
+    let called = words.first().map(PathBuf::from).unwrap_or_default();
+    let before = words.get(1..command).unwrap_or_default().to_vec();
+    let program = match before.is_empty() {
+        true => std::env::current_exe().unwrap_or(called),
+        false => called,
+    };
+    (program, before)
 }
