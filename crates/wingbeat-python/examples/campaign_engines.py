@@ -62,6 +62,12 @@ def masters() -> dict[str, list[str]]:
     }
 
 
+def started(name: str) -> subprocess.Popen[bytes]:
+    """A master; what it says goes to a file."""
+    with open(name.replace("/", " of ") + ".txt", "ab") as said:
+        return subprocess.Popen(masters()[name], stderr=said)
+
+
 def workers(folder: Path) -> list[int]:
     """Processes that fly points in this directory."""
     found = []
@@ -77,6 +83,7 @@ def workers(folder: Path) -> list[int]:
 
 def main(points: int, kills: int) -> None:
     folder = Path(tempfile.mkdtemp())
+    print(f"in {folder}", file=sys.stderr)
     os.chdir(folder)
     Path("study.toml").write_text(FILE.format(points=points))
     Path("engine.py").write_text(ENGINE)
@@ -85,7 +92,7 @@ def main(points: int, kills: int) -> None:
     alone = time.monotonic() - start
 
     start = time.monotonic()
-    running = {name: subprocess.Popen(words, stderr=subprocess.DEVNULL) for name, words in masters().items()}
+    running = {name: started(name) for name in masters()}
     killed = {"workers": 0, "masters": 0}
     chance = random.Random(1)
     while any(p.poll() is None for p in running.values()):
@@ -98,7 +105,7 @@ def main(points: int, kills: int) -> None:
                 running[name].kill()
                 running[name].wait()
                 killed["masters"] += 1
-                running[name] = subprocess.Popen(masters()[name], stderr=subprocess.DEVNULL)
+                running[name] = started(name)
         elif victims := workers(folder):
             try:
                 os.kill(chance.choice(victims), signal.SIGKILL)

@@ -10,6 +10,7 @@ import json
 import os
 import subprocess
 import sys
+import uuid
 from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, Executor, Future, wait
 from pathlib import Path
 from typing import Any
@@ -71,8 +72,11 @@ def _status(path: Path, folder: Path) -> dict[str, int]:
     return {name: int(status[name]) for name in ("points", "done", "failed")}
 
 
-def work(path: str, folder: str, points: str) -> int:
-    """In a worker of an engine: a worker process, which ends with this one. Its exit code; 0 and 130 are no failure."""
+def work(path: str, folder: str, points: str, call: str) -> int:
+    """In a worker of an engine: a worker process, which ends with this one. Its exit code; 0 and 130 are no failure.
+
+    ``call`` differs from call to call: Dask takes equal calls for one.
+    """
     words = ["work", path, "--out", folder, "--points", points]
     with subprocess.Popen(
         _command(words), stdin=subprocess.PIPE, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True
@@ -96,12 +100,13 @@ def _fly(path: Path, folder: Path, executor: Executor, workers: int, attempts: i
     while waiting or flying:
         while waiting and len(flying) < 2 * workers:
             part = waiting.pop()
-            flying[_submitted(executor, (str(path), str(folder), part))] = part
+            flying[_submitted(executor, (str(path), str(folder), part, uuid.uuid4().hex))] = part
         for future in wait(flying, timeout=_PERIOD_S, return_when=FIRST_COMPLETED).done:
             part = flying.pop(future)
             error = future.exception()
             if isinstance(error, FlightError):
                 raise error
+            ended = f"it ended with code {future.result()}" if error is None else f"{type(error).__name__}: {error}"
             if error is None and future.result() == 0:
                 losses = 0
                 continue
@@ -111,7 +116,7 @@ def _fly(path: Path, folder: Path, executor: Executor, workers: int, attempts: i
                 now = _status(path, folder)["done"]
                 if now == done:
                     raise FlightError(
-                        f"{losses} worker processes died one after the other before they did a point; the last: {error}",
+                        f"{losses} worker processes died one after the other before they did a point; the last: {ended}",
                         key="executor",
                         remedy="look whether the engine still runs and its workers have memory; the same call goes on",
                     )
