@@ -192,15 +192,7 @@ impl Leases {
             Err(e) if e.kind() == ErrorKind::NotFound => return Ok(Holder::Gone),
             read => read.map_err(IoError::read(path))?,
         };
-        let point = text
-            .lines()
-            .nth(1)
-            .and_then(|n| n.trim_start_matches('0').parse().ok());
-        let zero = text
-            .lines()
-            .nth(1)
-            .is_some_and(|n| !n.is_empty() && n.bytes().all(|b| b == b'0'));
-        let point = if zero { Some(0) } else { point };
+        let point = text.lines().nth(1).and_then(|n| n.parse().ok());
         let holder = Process::decoded(&text);
         let here = holder
             .as_ref()

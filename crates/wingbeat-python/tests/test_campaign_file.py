@@ -4,7 +4,10 @@ from __future__ import annotations
 
 import subprocess
 import sys
+from collections.abc import Callable
+from concurrent.futures import Future
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -46,6 +49,24 @@ def test_agrees_with_the_command_line_to_the_byte(file: Path, tmp_path: Path) ->
     for name in TABLES:
         assert (here / name).read_bytes() == (there / name).read_bytes(), name
     assert campaign.run(file, campaign.Serial(), out=there) == found, "nothing is left to fly"
+
+
+class Remembers(campaign.Serial):
+    """Takes equal calls for one, as Dask does; the worker of its first call is killed."""
+
+    def __init__(self) -> None:
+        self.known: dict[Any, Future[Any]] = {}
+
+    def submit(self, fn: Callable[..., Any], /, *args: Any, **kwargs: Any) -> Future[Any]:
+        if not self.known:
+            self.known[args] = super().submit(lambda: -9)
+        if args not in self.known:
+            self.known[args] = super().submit(fn, *args)
+        return self.known[args]
+
+
+def test_behaves_a_part_is_flown_again_where_equal_calls_are_one(file: Path, tmp_path: Path) -> None:
+    assert campaign.run(file, Remembers(), out=tmp_path / "out") == {"points": 12, "done": 12, "failed": 0}
 
 
 def test_refuses_what_no_campaign_is(file: Path, tmp_path: Path) -> None:
