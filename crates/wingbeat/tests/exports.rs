@@ -7,6 +7,7 @@ use std::process::Command;
 
 mod support;
 
+use support::readers::{python, readers, store, works};
 use support::{Scratch, flown, required, wingbeat};
 
 const CASE: [&str; 15] = [
@@ -26,50 +27,6 @@ const CASE: [&str; 15] = [
     "--set=air.particles={after_rows=8,radius_m=2.5e-4}",
     "--set=output.page=false",
 ];
-
-fn readers() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/readers")
-}
-
-/// Where the readers are installed, once.
-fn store(name: &str) -> PathBuf {
-    Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("readers-{name}"))
-}
-
-fn works(command: &mut Command) -> Result<String, String> {
-    let out = command.output().map_err(|e| format!("{command:?}: {e}"))?;
-    let said = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
-    match out.status.success() {
-        true => Ok(said(&out.stdout)),
-        false => Err(format!(
-            "{command:?}: {}{}",
-            said(&out.stdout),
-            said(&out.stderr)
-        )),
-    }
-}
-
-/// A Python with the readers.
-fn python() -> Result<PathBuf, String> {
-    let store = store("python");
-    let python = store.join("bin/python");
-    let list = readers().join("requirements.txt");
-    let wanted = fs::read_to_string(&list).map_err(|e| e.to_string())?;
-    if fs::read_to_string(store.join("ready")).ok().as_ref() != Some(&wanted) {
-        works(Command::new("python3").args(["-m", "venv"]).arg(&store))?;
-        let install = [
-            "-m",
-            "pip",
-            "install",
-            "--quiet",
-            "--disable-pip-version-check",
-            "-r",
-        ];
-        works(Command::new(&python).args(install).arg(list))?;
-        fs::write(store.join("ready"), &wanted).map_err(|e| e.to_string())?;
-    }
-    Ok(python)
-}
 
 /// The folder of the glTF validator.
 fn validator() -> Result<PathBuf, String> {

@@ -5,7 +5,7 @@ use std::process::Command;
 
 use wingbeat::Flight;
 
-use crate::support::{Scratch, flown, wingbeat};
+use crate::support::{Scratch, flown, readers, required, wingbeat};
 use crate::{TABLES, blade, column, merged, numbers, write};
 
 #[test]
@@ -219,20 +219,14 @@ fn exact_tables_are_read_by_xarray_and_pyarrow() {
     flown(dir, &["campaign", "run", "c.toml", "--out", "r", "--quiet"]);
     merged(dir, "r");
     assert!(TABLES.iter().all(|t| dir.join("r").join(t).is_file()));
-    let readers = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/readers");
-    let python =
-        std::path::Path::new(env!("CARGO_TARGET_TMPDIR")).join("readers-python/bin/python");
-    if !python.is_file() {
-        crate::support::required("the Python of the readers, which the test of exports installs");
-        return;
+    match readers::python() {
+        Err(problem) => required(&format!("no Python with the readers: {problem}")),
+        Ok(python) => {
+            let script = readers::readers().join("campaign.py");
+            let read = readers::works(Command::new(python).arg(script).arg(dir.join("r")));
+            read.unwrap_or_else(|e| panic!("{e}"));
+        }
     }
-    let out = Command::new(python)
-        .arg(readers.join("campaign.py"))
-        .arg(dir.join("r"))
-        .output()
-        .unwrap();
-    let said = String::from_utf8_lossy(&out.stderr);
-    assert!(out.status.success(), "{said}");
 }
 
 /// Points that take too long fail as such; a directory that is too large stops the workers.

@@ -7,6 +7,8 @@ use std::io::Write as _;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
 
+pub mod readers;
+
 /// A folder of its own, removed at the end.
 pub struct Scratch(pub PathBuf);
 
