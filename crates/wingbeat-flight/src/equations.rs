@@ -137,7 +137,7 @@ impl Equations {
         s
     }
 
-    /// Rates of the state `y` at time `t` [s] in the frozen wake of `air`; leaves all
+    /// Rates of the state `y` at time `t` [s] with the frozen `memory`; leaves all
     /// intermediate results in `s`.
     ///
     /// # Errors
@@ -147,12 +147,12 @@ impl Equations {
         &self,
         t: f64,
         y: &[f64],
-        air: Option<&AirState>,
+        memory: Memory<'_>,
         s: &mut Scratch,
         dy: &mut [f64],
     ) -> Result<(), FlightError> {
         let n = self.core.dim();
-        self.loaded_rates(t, y, air, s, dy)?;
+        self.loaded_rates(t, y, memory, s, dy)?;
         self.core
             .solve(t, &y[..n], &s.total, &mut s.dynamics, &mut s.solution)?;
         s.relative = relative_energy(self.core.system(), &s.motions, &s.solution.bodies);
@@ -175,14 +175,14 @@ impl Equations {
         &self,
         t: f64,
         y: &[f64],
-        air: Option<&AirState>,
+        memory: Memory<'_>,
         s: &mut Scratch,
         dy: &mut [f64],
     ) -> Result<(), FlightError> {
         if self.core.is_held() {
-            return self.evaluate(t, y, air, s, dy); // impulses ask for the force of the support
+            return self.evaluate(t, y, memory, s, dy); // impulses ask for the force of the support
         }
-        self.loaded_rates(t, y, air, s, dy)?;
+        self.loaded_rates(t, y, memory, s, dy)?;
         let centre = mass_centre(self.core.system(), &s.motions);
         let [impulse, angular_impulse] = self.external(s, centre, &Wrench::default());
         let quadratures = Quadratures {
@@ -199,12 +199,12 @@ impl Equations {
         &self,
         t: f64,
         y: &[f64],
-        air: Option<&AirState>,
+        memory: Memory<'_>,
         s: &mut Scratch,
         dy: &mut [f64],
     ) -> Result<(), FlightError> {
         let n = self.core.dim();
-        self.loads(t, &y[..n], air, s)?;
+        self.loads(t, &y[..n], memory, s)?;
         (self.core).rates(t, &y[..n], &s.total, &mut s.dynamics, &mut dy[..n])
     }
 
@@ -230,11 +230,11 @@ impl Equations {
         &self,
         t: f64,
         y: &[f64],
-        air: Option<&AirState>,
+        memory: Memory<'_>,
         s: &mut Scratch,
         dy: &mut [f64],
     ) -> Result<(), FlightError> {
-        self.known_loads(t, y, air, s)?;
+        self.known_loads(t, y, memory, s)?;
         let (ws, out) = (&mut s.dynamics, &mut s.solution);
         (self.core).rates_with((t, y), &s.added, &mut s.total, ws, out, dy)
     }
@@ -244,10 +244,10 @@ impl Equations {
         &self,
         t: f64,
         y: &[f64],
-        air: Option<&AirState>,
+        memory: Memory<'_>,
         s: &mut Scratch,
     ) -> Result<(), FlightError> {
-        self.known_loads(t, y, air, s)?;
+        self.known_loads(t, y, memory, s)?;
         if !s.added.is_empty() {
             let (ws, out) = (&mut s.dynamics, &mut s.solution);
             (self.core).add_mass((t, y), &s.added, &mut s.total, ws, out)?;
@@ -264,13 +264,13 @@ impl Equations {
         &self,
         t: f64,
         y: &[f64],
-        air: Option<&AirState>,
+        memory: Memory<'_>,
         s: &mut Scratch,
     ) -> Result<(), FlightError> {
         self.place_nodes(t, y, s)?;
         self.applied_loads(t, s);
         let at = instant(t, self.step, &s.motions);
-        (self.air).loads(&at, air, &mut s.air_scratch, &mut s.air)?;
+        (self.air).loads(&at, memory.air, &mut s.air_scratch, &mut s.air)?;
         if s.added_at != Some(t) {
             s.added.clear();
             self.air.added_mass(t, &mut s.added);

@@ -16,7 +16,7 @@ use wingbeat_dynamics::{
 use crate::air::{Air, AirScratch, Instant};
 use crate::bodies::{WingLaw, system_with};
 use crate::core::Core;
-use crate::equations::{Equations, Scratch};
+use crate::equations::{Equations, Memory, Scratch};
 use crate::error::FlightError;
 use crate::setup::{AirModel, FlightSetup};
 
@@ -144,7 +144,7 @@ impl FreeFlight {
         s: &mut FreeFlightScratch,
         dy: &mut [f64],
     ) -> Result<(), FlightError> {
-        self.equations.rates(t, y, None, &mut s.0, dy)
+        self.equations.rates(t, y, Memory::default(), &mut s.0, dy)
     }
 
     /// Motion of the root in the state `y` at time `t` [s]: as [`Self::motions`], with room that is there already.
@@ -186,6 +186,7 @@ impl FreeFlight {
             time: t,
             step: self.equations.step,
             motions,
+            shapes: &[],
         };
         let (mut loads, mut added) = (vec![Wrench::default(); motions.len()], vec![]);
         self.air().place(&at, s)?;

@@ -5,6 +5,7 @@ use std::fmt;
 
 use wingbeat_air::{AirLoads, AirState, AirWorkspace, NodeMotion, Points};
 use wingbeat_dynamics::{AddedMass, BodyAcceleration, BodyMotion, Wrench};
+use wingbeat_math::DVec3;
 
 use crate::error::FlightError;
 use crate::record::Snapshot;
@@ -18,6 +19,19 @@ pub struct Instant<'a> {
     pub step: f64,
     /// Motions of all bodies: root, wings, segments.
     pub motions: &'a [BodyMotion],
+    /// Shapes of the wings that loads bend, wing by wing; none for the others, empty where no wing bends.
+    pub shapes: &'a [Option<Shape>],
+}
+
+/// A wing as loads bend it: the nodes of its mesh relative to the frame of the wing, wing components.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Shape {
+    /// Places [m].
+    pub position: Vec<DVec3>,
+    /// Velocities [m/s].
+    pub velocity: Vec<DVec3>,
+    /// Accelerations [m/s2].
+    pub acceleration: Vec<DVec3>,
 }
 
 /// Room for intermediate results of the air; what it holds belongs to the instant last asked for.

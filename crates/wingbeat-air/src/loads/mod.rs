@@ -3,7 +3,9 @@
 mod closed;
 mod joukowski;
 mod lag;
+mod nodal;
 mod pressure;
+mod response;
 mod resultants;
 mod section_drag;
 mod separation;

@@ -147,7 +147,7 @@ impl Air for LatticeAir {
     }
 
     fn place(&self, at: &Instant<'_>, s: &mut AirScratch) -> Result<(), FlightError> {
-        self.map.node_motion(at.time, at.motions, &mut s.nodes)
+        self.map.node_motion(at, &mut s.nodes)
     }
 
     fn initial(&self, s: &AirScratch) -> Option<AirState> {
