@@ -61,7 +61,7 @@ pub use geometry::{
 };
 pub use images::Plane;
 pub use lattice::Lattice;
-pub use loads::{AirLoads, SurfaceLoads};
+pub use loads::{AirLoads, NodeWash, SurfaceLoads};
 pub use settings::{
     AirSettings, CirculationRate, Convection, Friction, Gust, GustShape, LeadingEdge, LoadMethod,
     NEUTRAL_WIDTH, NewestRow, ParticleSettings, SectionDrag, Spectrum, Turbulence, VortexStreet,

@@ -5,6 +5,7 @@ use crate::error::ModelError;
 use crate::integrate::scaled_properties;
 use crate::mesh::{GridMesh, QuadMesh, Side};
 use crate::motion::WingMotion;
+use crate::structure::WingStructure;
 use wingbeat_math::{DVec3, MassProperties};
 
 /// A wing: flat or cambered surface with its hinge, mass and prescribed motion.
@@ -24,6 +25,8 @@ pub struct Wing {
     pub motion: WingMotion,
     /// Prescribed deformation of the surface, if any; the mass stays where it is.
     pub deformation: Option<Deformation>,
+    /// What it is made of, if loads bend it; rigid otherwise.
+    pub structure: Option<WingStructure>,
 }
 
 impl Wing {
@@ -42,6 +45,7 @@ impl Wing {
             },
             motion: self.motion.mirrored(),
             deformation: self.deformation.clone(),
+            structure: self.structure.clone(),
         }
     }
 
@@ -58,6 +62,23 @@ impl Wing {
         deformation.check(&self.name, self.root(), &self.motion)?;
         Ok(Self {
             deformation: Some(deformation),
+            ..self
+        })
+    }
+
+    /// The same wing made of `structure`: its mass becomes that of the elastic body.
+    ///
+    /// # Errors
+    /// A number that is not allowed; a wing whose shape is prescribed; what the elastic body refuses.
+    pub fn made_of(self, structure: WingStructure) -> Result<Self, ModelError> {
+        structure.check(&self.name, self.root())?;
+        if self.deformation.is_some() {
+            return Err(ModelError::TwoShapes(self.name));
+        }
+        let body = structure.body(&self)?.structure;
+        Ok(Self {
+            mass: body.mass_properties(body.rest()),
+            structure: Some(structure),
             ..self
         })
     }
@@ -142,6 +163,7 @@ impl Animal {
             mesh: w.mesh.scaled(s),
             mass: scaled_properties(&w.mass, s),
             deformation: w.deformation.as_ref().map(|d| d.scaled(s)),
+            structure: w.structure.as_ref().map(|x| x.scaled(s)),
             ..w.clone()
         };
         let part = |p: &BodyPart| BodyPart {

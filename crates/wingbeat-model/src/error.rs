@@ -25,6 +25,12 @@ pub enum ModelError {
         /// The allowed range, in words.
         allowed: &'static str,
     },
+    /// A wing whose shape is prescribed and follows from loads, too.
+    #[error("wing `{0}` has a structure and a prescribed deformation: its shape follows from loads or is given, not both; leave one of them out")]
+    TwoShapes(String),
+    /// A structure that cannot be.
+    #[error(transparent)]
+    Structure(#[from] crate::structure::WingStructureError),
     /// A row of a table is wrong. Rows count from 1.
     #[error("{table}, row {row}: {problem}")]
     Table {

@@ -14,6 +14,7 @@ mod values;
 pub(crate) use closed::outer_forces;
 pub(crate) use joukowski::{Flow, Segments};
 pub(crate) use pressure::{circulation_rate, forces, pressure_jump, velocity_jump};
+pub use response::NodeWash;
 pub(crate) use resultants::{check_finite, impulse, resultants};
 pub(crate) use section_drag::add_section_drag;
 pub(crate) use separation::leading_values;

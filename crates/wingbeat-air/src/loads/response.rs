@@ -14,6 +14,10 @@ use crate::state::AirState;
 use crate::workspace::AirWorkspace;
 use wingbeat_math::{DVec3, DenseLu};
 
+/// How the normal velocity of a panel changes with a node of its surface: by its velocity \[1\] and by its place \[1/s\], N
+/// components. The first is also how the node shares in a normal force of the panel.
+pub type NodeWash = [DVec3; 2];
+
 impl Lattice {
     /// Derivative of the normal forces of the panels of the open surface `s` by the normal velocities of their control
     /// points \[N s/m\], row by row, at the instant that `ws` and `out` were last asked for ([`Self::loads`]): of one half
@@ -49,6 +53,31 @@ impl Lattice {
             }
         }
         Ok(response)
+    }
+
+    /// How the normal velocity of panel `p`, that of the surface less that of the air, changes with the nodes of its surface
+    /// (their numbers on it), at the instant of `ws` and `loads`; some nodes twice.
+    pub fn normal_wash(
+        &self,
+        p: usize,
+        ws: &AirWorkspace,
+        loads: &AirLoads,
+        mut see: impl FnMut(usize, NodeWash),
+    ) {
+        let first = self.nodes_of(self.topology().panel_surface[p]).start;
+        let corners = self.topology().panels[p];
+        let [a, b, c, d] = corners.map(|n| ws.rings.position[n]);
+        let (along, across) = (c - a, d - b);
+        let normal = loads.panels.normal[p];
+        let slip = loads.panels.velocity[p] - loads.velocity[p];
+        let tilt = (slip - slip.dot(normal) * normal) / along.cross(across).length();
+        let by_ends = [across.cross(tilt), tilt.cross(along)];
+        for (k, n) in corners.into_iter().enumerate() {
+            let sign = if k < 2 { -1.0 } else { 1.0 };
+            let (by_velocity, by_place) = (0.25 * normal, sign * by_ends[k % 2]);
+            (self.rings()).spread(n, by_velocity, |n, v| see(n - first, [v, DVec3::ZERO]));
+            (self.rings()).spread(n, by_place, |n, v| see(n - first, [DVec3::ZERO, v]));
+        }
     }
 
     /// Derivative of the normal force of panel `p` by circulations: (panel, weight \[N s/m2\]), some panels twice.
