@@ -14,6 +14,16 @@ pub struct ElementForces {
     pub tangent: Vec<f64>,
 }
 
+impl ElementForces {
+    /// Room for `numbers` of the nodes, all zero; allocates nothing if there was as much before.
+    pub fn resize(&mut self, numbers: usize) {
+        self.force.clear();
+        self.force.resize(numbers, 0.0);
+        self.tangent.clear();
+        self.tangent.resize(numbers * numbers, 0.0);
+    }
+}
+
 /// An element: strain energy between nodes.
 pub trait Element: std::fmt::Debug + Send + Sync {
     /// Numbers of its nodes.
@@ -22,6 +32,19 @@ pub trait Element: std::fmt::Debug + Send + Sync {
     /// Strain energy \[J\] in the configuration `at`, with its first derivative and, if `out.tangent` is asked for by
     /// `tangent`, its second into `out`.
     fn internal(&self, at: &Configuration, tangent: bool, out: &mut ElementForces) -> f64;
+
+    /// Fills `out.tangent` with the matrix that strain-rate damping multiplies: symmetric, positive semidefinite, and blind
+    /// to rigid motion if energy is to be dissipated by nothing else than deformation. Unless an element says better, the
+    /// symmetric part of its tangent, which is all of this at rest.
+    fn dissipation(&self, at: &Configuration, out: &mut ElementForces) {
+        self.internal(at, true, out);
+        let n = out.force.len();
+        for (i, j) in (0..n * n).map(|k| (k / n, k % n)).filter(|(i, j)| i < j) {
+            let mean = 0.5 * (out.tangent[i * n + j] + out.tangent[j * n + i]);
+            out.tangent[i * n + j] = mean;
+            out.tangent[j * n + i] = mean;
+        }
+    }
 
     /// Adds the element's mass, lumped at its nodes, to the mass properties of all nodes, each about its node in node
     /// components at rest.

@@ -14,8 +14,29 @@
 //! This crate does not know air, joints, animals or files.
 #![warn(missing_docs)]
 
+mod assembly;
+mod beam;
+mod block;
 mod configuration;
+mod dynamics;
 mod element;
+mod error;
+mod frame;
+mod inertia;
+mod loads;
+mod matrix;
+mod modes;
+mod screw;
+mod statics;
+mod structure;
 
-pub use configuration::Configuration;
+pub use beam::{Beam, BeamEnd, Section, Stiffness};
+pub use configuration::{Configuration, NODE};
+pub use dynamics::{GeneralizedAlpha, LoadTangent, Passes, Solver, State, Step, Trial, Weights};
 pub use element::{Element, ElementForces};
+pub use error::StructureError;
+pub use frame::FrameMotion;
+pub use loads::{Loading, NodeLoad};
+pub use modes::{Mode, modes};
+pub use statics::{StaticSettings, equilibrium};
+pub use structure::{Damping, Structure, StructureBuilder};

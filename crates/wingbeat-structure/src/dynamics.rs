@@ -1,0 +1,10 @@
+//! Motion in time.
+
+mod generalized_alpha;
+mod solver;
+mod step;
+
+pub use generalized_alpha::{GeneralizedAlpha, State, Trial, Weights};
+pub use solver::{LoadTangent, Solver};
+pub(crate) use solver::{inertial, size};
+pub use step::{Passes, Step};
