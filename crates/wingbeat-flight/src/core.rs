@@ -49,6 +49,11 @@ impl Core {
         }
     }
 
+    /// Whether all accelerations follow from time alone, whatever the loads.
+    pub fn prescribes_all(&self) -> bool {
+        matches!(self, Self::Tethered { .. })
+    }
+
     /// Length of the state vector; 0 when tethered.
     pub fn dim(&self) -> usize {
         match self {

@@ -83,6 +83,7 @@ impl FreeFlight {
 
     fn of(setup: &FlightSetup, form: MomentumForm, step: f64) -> Result<Self, FlightError> {
         let air = AirModel::build(setup, form.system())?;
+        setup.refuse_elastic("a map of one wingbeat")?;
         if air.has_memory() {
             return Err(FlightError::Setup {
                 key: "air.model",
@@ -98,6 +99,7 @@ impl FreeFlight {
             mechanism: Mechanism::of(form.system()),
             core: Core::Free(Box::new(form.clone())),
             air,
+            elastic: Arc::default(),
             applied: setup.loads.clone(),
             springs: setup.springs.clone(),
             step,

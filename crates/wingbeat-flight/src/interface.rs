@@ -7,6 +7,7 @@ use wingbeat_air::{AirLoads, AirState, AirWorkspace, NodeMotion, Points};
 use wingbeat_dynamics::{AddedMass, BodyAcceleration, BodyMotion, Wrench};
 use wingbeat_math::DVec3;
 
+use crate::elastic::WingResponse;
 use crate::error::FlightError;
 use crate::record::Snapshot;
 
@@ -41,6 +42,7 @@ pub struct AirScratch {
     pub nodes: NodeMotion,
     /// Circulations, pressure jumps, panel forces.
     pub loads: AirLoads,
+    pub(crate) rings: NodeMotion,
     pub(crate) workspace: AirWorkspace,
     pub(crate) nodes_done: NodeMotion,
     pub(crate) is_current: bool,
@@ -132,6 +134,41 @@ pub trait Air: fmt::Debug + Send + Sync {
             None => Ok(()),
             Some(_) => Err(misfit("the case has no air with a memory")),
         }
+    }
+
+    /// Forces on the nodes of the mesh of wing number `wing` \[N\], N components, into `out`: what the loads last asked for do
+    /// to it, the same force, moment and power.
+    ///
+    /// # Errors
+    /// A model that knows no wings that bend.
+    fn nodal_forces(
+        &self,
+        _wing: usize,
+        _at: &Instant<'_>,
+        _scratch: &mut AirScratch,
+        _out: &mut Vec<DVec3>,
+    ) -> Result<(), FlightError> {
+        Err(FlightError::Setup {
+            key: "air.model",
+            value: "this model".into(),
+            problem: "it gives no loads along the wings, so no wing can bend in it: take vortex_lattice or none, or leave out [wing.NAME.structure]".into(),
+        })
+    }
+
+    /// How the loads on a wing that bends answer to the motion of its nodes, at the instant last asked for, into `out`: for the
+    /// left-hand side of a step. False if they hardly do.
+    ///
+    /// # Errors
+    /// What the model reports.
+    fn wing_response(
+        &self,
+        _wing: usize,
+        _at: &Instant<'_>,
+        _memory: Option<&AirState>,
+        _scratch: &AirScratch,
+        _out: &mut WingResponse,
+    ) -> Result<bool, FlightError> {
+        Ok(false)
     }
 
     /// Whether any wing moves otherwise than its body.

@@ -129,8 +129,9 @@ impl Solver {
             }
             Self::OrderEight(method, b) => {
                 b.y.copy_from_slice(past.newest());
-                let rates =
-                    |t: f64, y: &[f64], dy: &mut [f64]| equations.evaluate(t, y, Memory::default(), s, dy);
+                let rates = |t: f64, y: &[f64], dy: &mut [f64]| {
+                    equations.evaluate(t, y, Memory::default(), s, dy)
+                };
                 let report = method
                     .integrate((t, end), &mut b.y, rates, |_| {})
                     .map_err(|e| StepError::Rates(adaptive(e, equations, &b.y, s)))?;

@@ -26,7 +26,9 @@ pub enum ModelError {
         allowed: &'static str,
     },
     /// A wing whose shape is prescribed and follows from loads, too.
-    #[error("wing `{0}` has a structure and a prescribed deformation: its shape follows from loads or is given, not both; leave one of them out")]
+    #[error(
+        "wing `{0}` has a structure and a prescribed deformation: its shape follows from loads or is given, not both; leave one of them out"
+    )]
     TwoShapes(String),
     /// A structure that cannot be.
     #[error(transparent)]

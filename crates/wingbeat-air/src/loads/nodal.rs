@@ -53,7 +53,8 @@ impl Lattice {
                 quarter + across,
             ];
             for (n, share) in corners.into_iter().zip(shares) {
-                self.rings().spread(n, share, |n, f| out[n - nodes.start] += f);
+                self.rings()
+                    .spread(n, share, |n, f| out[n - nodes.start] += f);
             }
         }
     }

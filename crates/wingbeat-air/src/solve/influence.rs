@@ -72,7 +72,9 @@ impl Influence {
     /// the flow is computed, those of the other half are its mirror image.
     pub(crate) fn block(&self, lattice: &Lattice, panels: Range<usize>) -> Vec<f64> {
         let of = |p: usize| unknown(lattice, p);
-        let rows = panels.clone().flat_map(|i| panels.clone().map(move |j| (of(i), of(j))));
+        let rows = panels
+            .clone()
+            .flat_map(|i| panels.clone().map(move |j| (of(i), of(j))));
         rows.map(|(i, j)| self.matrix.at(i, j)).collect()
     }
 

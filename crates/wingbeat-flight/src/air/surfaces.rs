@@ -120,11 +120,7 @@ impl SurfaceMap {
     ///
     /// # Errors
     /// Joined roots are too far apart.
-    pub fn node_motion(
-        &self,
-        at: &Instant<'_>,
-        out: &mut NodeMotion,
-    ) -> Result<(), FlightError> {
+    pub fn node_motion(&self, at: &Instant<'_>, out: &mut NodeMotion) -> Result<(), FlightError> {
         out.position.resize(self.local.len(), DVec3::ZERO);
         out.velocity.resize(self.local.len(), DVec3::ZERO);
         for (surface, nodes) in self.nodes.iter().enumerate() {
@@ -147,7 +143,9 @@ impl SurfaceMap {
                 }),
             }
         }
-        self.roots.iter().try_for_each(|r| r.join(at.time, self, out))
+        self.roots
+            .iter()
+            .try_for_each(|r| r.join(at.time, self, out))
     }
 
     /// Power that is needed to deform the wings against the air [W], body by body: that of the air

@@ -10,7 +10,8 @@ mod secants;
 mod tangent;
 mod wing;
 
-pub use coupling::{ElasticScratch, MAX_PASSES, TOLERANCE};
+pub use coupling::{ElasticScratch, MAX_PASSES, Moment, TOLERANCE};
+pub use tangent::WingResponse;
 pub use wing::{ElasticState, ElasticWing};
 
 use wingbeat_dynamics::{BodyAcceleration, BodyMotion, Wrench};
@@ -57,6 +58,13 @@ impl ElasticWings {
     /// The wings at rest.
     pub fn initial(&self) -> Vec<ElasticState> {
         self.wings.iter().map(ElasticWing::initial).collect()
+    }
+
+    /// Sets the accelerations of the wings to those of the step before.
+    pub fn recall(&self, states: &[ElasticState], accelerations: &mut [BodyAcceleration]) {
+        for (w, state) in self.wings.iter().zip(states) {
+            accelerations[w.wing + 1] = state.acceleration();
+        }
     }
 
     /// Room for the shapes of all wings.

@@ -26,7 +26,13 @@ pub(super) struct AirTangent {
 
 impl AirTangent {
     /// From the answer of a wing of attitude `r` whose mesh follows by `followers` in the configuration `at`.
-    pub fn set(&mut self, air: &WingResponse, r: DMat3, followers: &[Follower], at: &Configuration) {
+    pub fn set(
+        &mut self,
+        air: &WingResponse,
+        r: DMat3,
+        followers: &[Follower],
+        at: &Configuration,
+    ) {
         let (count, width) = (air.panels.len(), NODE * at.len());
         let back = r.transpose();
         for (k, rows) in self.wash.iter_mut().enumerate() {
@@ -39,7 +45,10 @@ impl AirTangent {
             }
         }
         let [by_velocity, by_place] = &self.wash;
-        for (out, wash) in [(&mut self.velocity, by_velocity), (&mut self.position, by_place)] {
+        for (out, wash) in [
+            (&mut self.velocity, by_velocity),
+            (&mut self.position, by_place),
+        ] {
             times(&air.matrix, wash, count, width, &mut self.answer);
             transposed_times(by_velocity, &self.answer, count, width, out);
         }

@@ -20,6 +20,8 @@ pub struct ElasticWing {
     pub(super) structure: Structure,
     /// Nodes of the mesh.
     pub(super) followers: Vec<Follower>,
+    /// Nodes of the mesh at the tip: leading and trailing edge.
+    pub(super) tip: [usize; 2],
     pub(super) method: GeneralizedAlpha,
     /// Mass properties at rest, as the multibody system has them.
     pub(super) rigid: MassProperties,
@@ -65,6 +67,7 @@ impl ElasticWing {
             wing: index,
             name: wing.name.clone(),
             rigid: wing.mass,
+            tip: [0, wing.mesh.rows].map(|i| wing.mesh.node(i, wing.mesh.cols)),
             structure: body.structure,
             followers: body.followers,
             method,

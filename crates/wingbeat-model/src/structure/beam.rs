@@ -31,6 +31,9 @@ pub struct WingBeam {
     pub mass: Option<SpanLaw>,
     /// Place of the mass centre behind the leading edge over the chord \[1\].
     pub mass_fraction: f64,
+    /// Moment of inertia about the mass centre of a section and its axis along the beam, per length \[kg m\], over r/R; none
+    /// is that of the mass spread evenly over the chord.
+    pub inertia: Option<SpanLaw>,
 }
 
 /// Leading edge, chord \[m\] and place along axis 2 \[m\] at a distance from the hinge.
@@ -44,7 +47,9 @@ struct Station {
 /// The wing at the distance `r` \[m\] from the hinge, straight between columns of nodes.
 fn station(mesh: &GridMesh, r: f64) -> Station {
     let distance = |j: usize| column(mesh, j).0;
-    let j = (1..mesh.cols).find(|&j| distance(j) > r).unwrap_or(mesh.cols);
+    let j = (1..mesh.cols)
+        .find(|&j| distance(j) > r)
+        .unwrap_or(mesh.cols);
     let (a, b) = (j - 1, j);
     let s = (r - distance(a)) / (distance(b) - distance(a));
     let at = |of: &dyn Fn(usize) -> f64| of(a) + s * (of(b) - of(a));
@@ -74,12 +79,19 @@ impl WingBeam {
             position: (0..count).map(place).collect(),
             rotation: vec![DQuat::IDENTITY; count],
         };
-        let mut builder = StructureBuilder::new(rest.clone()).clamp(0).damping(damping);
+        let middle = |k: usize| 0.5 * (distance(k) + distance(k + 1));
+        let width = (tip - root) / self.elements as f64;
+        let area: f64 = (0..self.elements)
+            .map(|k| width * station(&wing.mesh, middle(k)).chord)
+            .sum();
+        let even = wing.mass.mass / area;
+        let mut builder = StructureBuilder::new(rest.clone())
+            .clamp(0)
+            .damping(damping);
         for k in 0..self.elements {
-            let middle = 0.5 * (distance(k) + distance(k + 1));
             let length = rest.position[k].distance(rest.position[k + 1]);
             let along = (distance(k + 1) - distance(k)) / length;
-            let section = self.section(wing, middle, along);
+            let section = self.section(wing, middle(k), (even, along));
             builder = builder.element(Beam::straight(&rest, [k, k + 1], DVec3::X, &section)?);
         }
         let follower = |x: &DVec3| {
@@ -95,8 +107,9 @@ impl WingBeam {
         })
     }
 
-    /// Section at the distance `r` \[m\] from the hinge; `along` is the distance along the span over the length of the beam.
-    fn section(&self, wing: &Wing, r: f64, along: f64) -> Section {
+    /// Section at the distance `r` \[m\] from the hinge; `even` is the mass of the wing over its area \[kg/m2\], `along` the
+    /// distance along the span over the length of the beam.
+    fn section(&self, wing: &Wing, r: f64, (even, along): (f64, f64)) -> Section {
         let [root, tip] = span(&wing.mesh);
         let value = |law: &SpanLaw| law.at(r / tip, root / tip);
         let Station { chord, .. } = station(&wing.mesh, r);
@@ -109,10 +122,10 @@ impl WingBeam {
             torsion,
             bending: [flap, lag],
         };
-        let even = wing.mass.mass / wing.report().area * chord;
-        let mass = along * self.mass.as_ref().map_or(even, value);
+        let mass = along * self.mass.as_ref().map_or(even * chord, value);
         // Thin: all its inertia about the beam is that of the chord; a hundredth of the chord thick.
-        let roll = mass * chord * chord / 12.0;
+        let even = mass * chord * chord / 12.0;
+        let roll = self.inertia.as_ref().map_or(even, |law| along * value(law));
         Section::new(&stiffness).with_mass(
             mass,
             [(self.axis_fraction - self.mass_fraction) * chord, 0.0],
@@ -127,6 +140,7 @@ impl WingBeam {
             lag: self.lag.scaled(stiffness),
             torsion: self.torsion.scaled(stiffness),
             mass: self.mass.as_ref().map(|m| m.scaled(s * s)),
+            inertia: self.inertia.as_ref().map(|i| i.scaled(s.powi(4))),
             ..self.clone()
         }
     }
@@ -146,6 +160,7 @@ impl WingBeam {
             ("lag", Some(&self.lag)),
             ("torsion", Some(&self.torsion)),
             ("mass", self.mass.as_ref()),
+            ("inertia", self.inertia.as_ref()),
         ];
         for (k, law) in laws {
             let Some(law) = law else { continue };

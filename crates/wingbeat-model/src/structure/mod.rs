@@ -10,7 +10,8 @@ pub use beam::WingBeam;
 
 use std::fmt;
 
-use wingbeat_structure::{Damping, Follower, Structure, StructureError};
+pub use wingbeat_structure::Damping;
+use wingbeat_structure::{Follower, Structure, StructureError};
 
 use crate::animal::Wing;
 use crate::error::{ModelError, require};
@@ -100,7 +101,12 @@ impl WingStructure {
             ("damping_s", self.damping.strain_rate),
             ("mass_damping_per_s", self.damping.mass),
         ] {
-            require(&key(k), x, x.is_finite() && x >= 0.0, "a finite number >= 0")?;
+            require(
+                &key(k),
+                x,
+                x.is_finite() && x >= 0.0,
+                "a finite number >= 0",
+            )?;
         }
         match &self.members {
             Members::Beam(beam) => beam.check(&key("beam"), root),

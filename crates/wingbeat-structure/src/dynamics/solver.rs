@@ -229,6 +229,12 @@ impl Solver {
 }
 
 impl Trial {
+    /// Changes the increments of the step by those of the free unknowns, in the order of [`Structure::free_numbers`]; returns
+    /// their size \[1\], the largest of rotations \[rad\] and translations over the size of the body.
+    pub fn add(&mut self, structure: &Structure, change: &[f64]) -> f64 {
+        apply(structure, change, self)
+    }
+
     pub(crate) fn motion(&self) -> Motion<'_> {
         Motion {
             at: &self.configuration,

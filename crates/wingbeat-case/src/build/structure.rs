@@ -1,0 +1,85 @@
+//! `[wing.NAME.structure]`.
+
+use wingbeat_model::deformation::SpanLaw;
+use wingbeat_model::structure::Damping;
+use wingbeat_model::{Members, Wing, WingBeam, WingStructure};
+
+use super::fault::{Built, fault_at};
+use crate::error::Fault;
+use crate::raw::{BeamCase, StructureCase};
+
+/// In-plane over out-of-plane stiffness of a beam where nothing is said.
+const LAG: f64 = 100.0;
+
+/// Makes `wing` of what the table `[path]` says.
+pub(super) fn make(wing: Wing, path: &str, case: &StructureCase) -> Built<Wing> {
+    let Some(beam) = &case.beam else {
+        return Err(Fault::new(
+            path,
+            "the wing is made of nothing",
+            "structure.beam",
+            format!("add [{path}.beam] with flap_newton_m2 and torsion_newton_m2"),
+        ));
+    };
+    let structure = WingStructure {
+        members: Members::Beam(self::beam(&format!("{path}.beam"), beam)?),
+        damping: Damping {
+            strain_rate: case.damping_s,
+            mass: case.mass_damping_per_s,
+        },
+        spectral_radius: case.spectral_radius,
+    };
+    wing.made_of(structure)
+        .map_err(|e| fault_at(path, case, &e))
+}
+
+fn beam(path: &str, case: &BeamCase) -> Built<WingBeam> {
+    let flap = law(
+        path,
+        "flap",
+        "newton_m2",
+        (case.flap_newton_m2, case.flap_table_newton_m2.as_ref()),
+    )?;
+    let lag = (case.lag_newton_m2, case.lag_table_newton_m2.as_ref());
+    let mass = (case.mass_kg_per_m, case.mass_table_kg_per_m.as_ref());
+    Ok(WingBeam {
+        axis_fraction: case.axis_fraction,
+        elements: case.elements,
+        lag: given(lag).unwrap_or_else(|| flap.scaled(LAG)),
+        flap,
+        torsion: law(
+            path,
+            "torsion",
+            "newton_m2",
+            (
+                case.torsion_newton_m2,
+                case.torsion_table_newton_m2.as_ref(),
+            ),
+        )?,
+        mass: given(mass),
+        mass_fraction: case.mass_fraction,
+        inertia: given((case.inertia_kg_m, case.inertia_table_kg_m.as_ref())),
+    })
+}
+
+type Values<'a> = (Option<[f64; 2]>, Option<&'a Vec<[f64; 2]>>);
+
+fn given((linear, table): Values<'_>) -> Option<SpanLaw> {
+    let rows = |rows: &Vec<[f64; 2]>| rows.iter().map(|&[r, v]| (r, v)).collect();
+    match (linear, table) {
+        (Some([root, tip]), _) => Some(SpanLaw::Linear { root, tip }),
+        (None, Some(table)) => Some(SpanLaw::Table(rows(table))),
+        (None, None) => None,
+    }
+}
+
+fn law(path: &str, name: &str, unit: &str, values: Values<'_>) -> Built<SpanLaw> {
+    given(values).ok_or_else(|| {
+        Fault::new(
+            format!("{path}.{name}_{unit}"),
+            "this key is missing",
+            format!("{name}_{unit} = [value at the root, value at the tip] or {name}_table_{unit}"),
+            "give the stiffness along the span",
+        )
+    })
+}
