@@ -58,11 +58,14 @@ pub struct Scratch {
     pub applied: Vec<Wrench>,
     /// What elastic wings do to their bodies otherwise than rigid ones; empty where there are none.
     elastic_loads: Vec<Wrench>,
-    /// Sum of all.
+    /// Sum of all, and of all but what elastic wings do.
     total: Vec<Wrench>,
+    external: Vec<Wrench>,
     /// Masses carried along, and the time that they belong to.
     added: Vec<AddedMass>,
     added_at: Option<f64>,
+    /// The same with those of elastic wings.
+    carried: Vec<AddedMass>,
     /// Accelerations, reactions, energies.
     pub solution: Solution,
     /// Kinetic energy relative to the root [J] and its rate [W].
@@ -90,9 +93,11 @@ impl Scratch {
                 true => vec![],
                 false => none.clone(),
             },
+            external: none.clone(),
             total: none,
             added: vec![],
             added_at: None,
+            carried: vec![],
             solution: Solution::new(system),
             relative: [0.0; 2],
             deformation: vec![0.0; if equations.air.deforms() { bodies } else { 0 }],
@@ -184,6 +189,7 @@ impl Equations {
     ) -> Result<(), FlightError> {
         let n = self.core.dim();
         self.loaded_rates(t, y, memory, s, dy)?;
+        self.follow_shapes(t, &y[..n], s)?;
         self.core
             .solve(t, &y[..n], &s.total, &mut s.dynamics, &mut s.solution)?;
         self.correct_budget(s);
@@ -237,7 +243,16 @@ impl Equations {
     ) -> Result<(), FlightError> {
         let n = self.core.dim();
         self.loads(t, &y[..n], memory, s)?;
-        (self.core).rates(t, &y[..n], &s.total, &mut s.dynamics, &mut dy[..n])
+        let loads = match self.core.takes_shapes() && !self.elastic.is_empty() {
+            true => {
+                s.external.clone_from(&s.air);
+                let both = s.external.iter_mut().zip(&s.applied);
+                both.for_each(|(sum, applied)| *sum += *applied);
+                &s.external
+            }
+            false => &s.total,
+        };
+        (self.core).rates(t, &y[..n], loads, &mut s.dynamics, &mut dy[..n])
     }
 
     /// External force and its moment about the inertial origin, N components, with the mass centre at
@@ -249,7 +264,11 @@ impl Equations {
         let mut moment = centre.cross(weight) + tether.moment + s.motions[0].p.cross(tether.force);
         for (k, (l, m)) in s.total.iter().zip(&s.motions).enumerate() {
             // What elastic wings do to their bodies is no external load.
-            let l = s.elastic_loads.get(k).map_or(*l, |own| *l - *own);
+            let l = s.elastic_loads.get(k).map_or(*l, |_| {
+                let mut l = s.air[k];
+                l += s.applied[k];
+                l
+            });
             force += l.force;
             moment += l.moment + m.p.cross(l.force);
         }
@@ -282,6 +301,9 @@ impl Equations {
         s: &mut Scratch,
     ) -> Result<(), FlightError> {
         self.known_loads(t, y, memory, s)?;
+        if !self.elastic.is_empty() {
+            return self.add_masses(t, y, s);
+        }
         if !s.added.is_empty() {
             let (ws, out) = (&mut s.dynamics, &mut s.solution);
             (self.core).add_mass((t, y), &s.added, &mut s.total, ws, out)?;
@@ -290,6 +312,35 @@ impl Equations {
             }
             s.sum_loads();
         }
+        Ok(())
+    }
+
+    /// Loads of the added masses of the air and of elastic wings, each to its own.
+    fn add_masses(&self, t: f64, y: &[f64], s: &mut Scratch) -> Result<(), FlightError> {
+        let at = Moment {
+            time: t,
+            step: self.step,
+            motions: &s.motions,
+            accelerations: &s.solution.bodies,
+        };
+        s.carried.clone_from(&s.added);
+        let (loads, carried) = (&mut s.elastic_loads, &mut s.carried);
+        self.elastic.add_mass(&at, &s.elastic, loads, carried);
+        if s.carried.is_empty() {
+            return Ok(());
+        }
+        s.sum_loads();
+        let (ws, out) = (&mut s.dynamics, &mut s.solution);
+        (self.core).add_mass((t, y), &s.carried, &mut s.total, ws, out)?;
+        for (k, total) in s.total.iter().enumerate() {
+            let own = match s.carried[s.added.len()..].iter().any(|a| a.body() == k) {
+                true => [&mut s.elastic_loads[k], &mut s.air[k]],
+                false => [&mut s.air[k], &mut s.elastic_loads[k]],
+            };
+            let [to, other] = own;
+            *to = *total - *other - s.applied[k];
+        }
+        s.sum_loads();
         Ok(())
     }
 
@@ -327,12 +378,15 @@ impl Equations {
         s: &mut Scratch,
     ) -> Result<(), FlightError> {
         let n = self.core.dim();
+        let known = &mut s.solution.bodies;
+        (self.elastic).predict(self.step, memory.wings, &mut s.elastic, known);
+        if self.core.takes_shapes() {
+            let shapes = self.elastic.shape_masses(&s.elastic);
+            s.dynamics.set_shapes(shapes);
+        }
         self.core
             .motions(t, &y[..n], &mut s.dynamics, &mut s.motions)?;
         self.applied_loads(t, s);
-        if s.elastic.is_new() {
-            self.elastic.recall(memory.wings, &mut s.solution.bodies);
-        }
         if self.core.prescribes_all() {
             let (ws, out) = (&mut s.dynamics, &mut s.solution);
             self.core.solve(t, &y[..n], &s.total, ws, out)?;
@@ -345,8 +399,18 @@ impl Equations {
         };
         let air = (self.air.as_ref(), memory.air);
         let loads = (&mut s.air_scratch, &mut s.air[..]);
-        (self.elastic).couple(&at, memory.wings, air, &mut s.elastic, loads)?;
+        (self.elastic).couple(&at, air, &mut s.elastic, loads)?;
         (self.elastic).wrenches(&s.motions, &s.elastic, &mut s.elastic_loads);
+        Ok(())
+    }
+
+    /// Motions that have the momenta of the state with the shapes that have just been found.
+    fn follow_shapes(&self, t: f64, y: &[f64], s: &mut Scratch) -> Result<(), FlightError> {
+        if self.core.takes_shapes() && !self.elastic.is_empty() {
+            let shapes = self.elastic.shape_masses(&s.elastic);
+            s.dynamics.set_shapes(shapes);
+            (self.core).motions(t, y, &mut s.dynamics, &mut s.motions)?;
+        }
         Ok(())
     }
 

@@ -272,7 +272,9 @@ impl Simulation {
             let core = &self.stages[next].equations.core;
             let mut motions = self.scratch.motions.clone();
             carry(&mut motions, &root);
-            let mut y0 = core.initial_from(self.time(self.state.step), &motions)?;
+            let elastic = &self.stages[next].equations.elastic;
+            let shapes: Vec<_> = elastic.shape_masses(&self.scratch.elastic).collect();
+            let mut y0 = core.initial_from(self.time(self.state.step), &motions, &shapes)?;
             y0.extend(quadratures);
             self.state.stage = next;
             self.enter_stage(y0)?;

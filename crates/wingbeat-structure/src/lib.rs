@@ -33,7 +33,10 @@ mod structure;
 
 pub use beam::{Beam, BeamEnd, Section, Stiffness};
 pub use configuration::{Configuration, NODE};
-pub use dynamics::{GeneralizedAlpha, LoadTangent, Passes, Solver, State, Step, Trial, Weights};
+pub use dynamics::{
+    GeneralizedAlpha, LoadTangent, Passes, RootWrench, Solver, State, Step, Trial, Weights,
+};
+pub use dynamics::{kinetic_energy, reaction, relative_momentum};
 pub use element::{Element, ElementForces};
 pub use error::StructureError;
 pub use follower::{Follower, Share};

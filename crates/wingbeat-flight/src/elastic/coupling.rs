@@ -2,7 +2,7 @@
 
 use wingbeat_air::AirState;
 use wingbeat_dynamics::budget::kinetic_energy;
-use wingbeat_dynamics::{Body, BodyAcceleration, BodyMotion, Budget, Wrench};
+use wingbeat_dynamics::{AddedMass, Body, BodyAcceleration, BodyMotion, Budget, ShapeMass, Wrench};
 use wingbeat_math::{DVec3, EulerSequence, MassProperties};
 use wingbeat_structure::{FrameMotion, LoadTangent, NODE, Solver, Trial};
 
@@ -38,6 +38,8 @@ struct WingScratch {
     residual: Vec<f64>,
     response: WingResponse,
     tangent: AirTangent,
+    /// How the wing answers to accelerations of its frame beside the rigid one: an added mass.
+    carried: Option<AddedMass>,
 }
 
 impl WingScratch {
@@ -85,11 +87,6 @@ impl ElasticScratch {
     pub fn convergence(&self) -> (usize, f64) {
         (self.passes, self.unbalanced)
     }
-
-    /// Whether the next instant is the first of another step.
-    pub fn is_new(&self) -> bool {
-        self.is_new
-    }
 }
 
 /// What shape and loads are to agree at.
@@ -116,6 +113,7 @@ impl ElasticWings {
             residual: vec![],
             response: WingResponse::default(),
             tangent: AirTangent::default(),
+            carried: None,
         };
         let mut scratch = ElasticScratch {
             wings: self.wings.iter().zip(states).map(wing).collect(),
@@ -133,12 +131,11 @@ impl ElasticWings {
     pub fn couple(
         &self,
         at: &Moment<'_>,
-        states: &[ElasticState],
         around: (&dyn Air, Option<&AirState>),
         s: &mut ElasticScratch,
         (air_scratch, out): (&mut AirScratch, &mut [Wrench]),
     ) -> Result<(), FlightError> {
-        self.begin(at, states, s);
+        self.set_frames(at, s);
         for pass in 1..=MAX_PASSES {
             s.passes = pass;
             self.place(s);
@@ -202,20 +199,54 @@ impl ElasticWings {
         }
     }
 
-    /// Frames, and the first trial of a step.
-    fn begin(&self, at: &Moment<'_>, states: &[ElasticState], s: &mut ElasticScratch) {
+    /// Before the first instant of a step of `step` \[s\]: what the shapes will be if nothing new happens. Accelerations of the
+    /// wings are those of the step before.
+    pub fn predict(
+        &self,
+        step: f64,
+        states: &[ElasticState],
+        s: &mut ElasticScratch,
+        accelerations: &mut [BodyAcceleration],
+    ) {
+        if !std::mem::take(&mut s.is_new) {
+            return;
+        }
         for ((w, ws), state) in self.wings.iter().zip(&mut s.wings).zip(states) {
+            let (structure, own) = (&w.structure, &state.structure);
+            w.method.predict(structure, own, step, &mut ws.trial);
+            accelerations[w.wing + 1] = state.acceleration();
+        }
+    }
+
+    fn set_frames(&self, at: &Moment<'_>, s: &mut ElasticScratch) {
+        for (w, ws) in self.wings.iter().zip(&mut s.wings) {
             let (m, a) = (&at.motions[w.wing + 1], &at.accelerations[w.wing + 1]);
             ws.frame = frame_motion(m, a, self.gravity);
-            if s.is_new {
-                let (structure, state) = (&w.structure, &state.structure);
-                w.method.predict(structure, state, at.step, &mut ws.trial);
-            }
-        }
-        if s.is_new {
-            s.is_new = false;
         }
         s.secants.clear();
+    }
+
+    /// What the masses of the wings do otherwise than those of rigid ones, at the instant last asked for.
+    pub fn shape_masses<'a>(
+        &'a self,
+        s: &'a ElasticScratch,
+    ) -> impl Iterator<Item = ShapeMass> + 'a {
+        self.wings.iter().zip(&s.wings).map(|(w, ws)| {
+            let now = w.structure.mass_properties(&ws.trial.configuration);
+            let (mut momentum, mut angular_momentum) = (DVec3::ZERO, DVec3::ZERO);
+            for (mass, motion) in w.bodies(&BodyMotion::REST, ws.nodes()) {
+                let of = Parts::of(mass, &motion);
+                momentum += of.momentum;
+                angular_momentum += of.angular;
+            }
+            ShapeMass {
+                body: w.wing + 1,
+                first_moment: now.first_moment - w.rigid.first_moment,
+                inertia: now.inertia - w.rigid.inertia,
+                momentum,
+                angular_momentum,
+            }
+        })
     }
 
     fn place(&self, s: &mut ElasticScratch) {
@@ -272,7 +303,10 @@ impl ElasticWings {
                 loads.position = Some(&ws.tangent.position);
                 loads.velocity = Some(&ws.tangent.velocity);
             }
-            (ws.solver).factor(&w.structure, &ws.trial, &ws.frame, &loads)?;
+            let (structure, trial, frame) = (&w.structure, &ws.trial, &ws.frame);
+            ws.solver.factor(structure, trial, frame, &loads)?;
+            let response = ws.solver.frame_response(structure, trial, frame, &loads);
+            ws.carried = Some(w.carried(&response));
         }
         Ok(())
     }
@@ -320,6 +354,24 @@ impl ElasticWings {
             let rigid = w.rigid_inertia(&ws.frame);
             let both = [0, 1].map(|k| rigid[k] - needed[k] - loads[k]);
             out[w.wing + 1] = turned(m, both);
+        }
+    }
+
+    /// The wings' answer to accelerations of their frames, beside that of rigid ones, as added masses into `out`; what they
+    /// exert under the accelerations that the wings are known to have is taken out of `loads`.
+    pub fn add_mass(
+        &self,
+        at: &Moment<'_>,
+        s: &ElasticScratch,
+        loads: &mut [Wrench],
+        out: &mut Vec<AddedMass>,
+    ) {
+        for (w, ws) in self.wings.iter().zip(&s.wings) {
+            let Some(carried) = ws.carried else { continue };
+            let body = w.wing + 1;
+            let exerted = carried.wrench(&at.motions[body], &at.accelerations[body]);
+            loads[body] = loads[body] - exerted;
+            out.push(carried);
         }
     }
 

@@ -60,13 +60,6 @@ impl ElasticWings {
         self.wings.iter().map(ElasticWing::initial).collect()
     }
 
-    /// Sets the accelerations of the wings to those of the step before.
-    pub fn recall(&self, states: &[ElasticState], accelerations: &mut [BodyAcceleration]) {
-        for (w, state) in self.wings.iter().zip(states) {
-            accelerations[w.wing + 1] = state.acceleration();
-        }
-    }
-
     /// Room for the shapes of all wings.
     fn shapes(&self) -> Vec<Option<Shape>> {
         let mut shapes = vec![None; self.count];

@@ -1,7 +1,7 @@
 //! One elastic wing: its body, its nodes, and what it does to the frame that carries it.
 
-use wingbeat_dynamics::{BodyAcceleration, BodyMotion};
-use wingbeat_math::{DMat3, DVec3, MassProperties};
+use wingbeat_dynamics::{AddedMass, BodyAcceleration, BodyMotion};
+use wingbeat_math::{DMat3, DVec3, MassProperties, tilde};
 use wingbeat_model::Wing;
 use wingbeat_structure::{
     Configuration, Follower, FrameMotion, GeneralizedAlpha, NODE, State, Structure,
@@ -149,6 +149,24 @@ impl ElasticWing {
             self.rigid.mass * a + frame.w_dot.cross(s) + w.cross(w.cross(s)),
             j * frame.w_dot + w.cross(j * w) + s.cross(a),
         ]
+    }
+
+    /// From the derivative of what the wing exerts by the acceleration of its frame: what a mass beside that of the rigid wing
+    /// has. Its symmetric part.
+    pub(super) fn carried(&self, response: &[[f64; 6]; 6]) -> AddedMass {
+        let (m, s) = (self.rigid.mass, tilde(self.rigid.first_moment));
+        let rigid = |i: usize, j: usize| match (i < 3, j < 3) {
+            (true, true) => f64::from(i == j) * m,
+            (true, false) => -s.col(j - 3)[i],
+            (false, true) => s.col(j)[i - 3],
+            (false, false) => self.rigid.inertia.col(j - 3)[i - 3],
+        };
+        let own = |i: usize, j: usize| -response[i][j] - rigid(i, j);
+        let mean = |i: usize, j: usize| 0.5 * (own(i, j) + own(j, i));
+        AddedMass::new(
+            self.wing + 1,
+            std::array::from_fn(|i| std::array::from_fn(|j| mean(i, j))),
+        )
     }
 
     /// The nodes as rigid bodies in N, those of the frame `m`, with their masses.

@@ -26,7 +26,7 @@ pub struct LoadTangent<'a> {
 
 impl LoadTangent<'_> {
     /// Whether there is any.
-    fn is_none(&self) -> bool {
+    pub(super) fn is_none(&self) -> bool {
         self.position.is_none() && self.velocity.is_none() && self.acceleration.is_none()
     }
 
