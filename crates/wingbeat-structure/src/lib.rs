@@ -16,6 +16,8 @@
 
 mod configuration;
 mod element;
+pub mod shell;
 
 pub use configuration::Configuration;
 pub use element::{Element, ElementForces};
+pub use shell::{Lamina, Section, Shell, ShellError, ShellMesh};
