@@ -28,6 +28,7 @@ mod loads;
 mod matrix;
 mod modes;
 mod screw;
+pub mod shell;
 mod statics;
 mod structure;
 
@@ -43,5 +44,6 @@ pub use follower::{Follower, Share};
 pub use frame::FrameMotion;
 pub use loads::{Loading, NodeLoad};
 pub use modes::{Mode, modes};
+pub use shell::{Lamina, Shell, ShellError, ShellMesh};
 pub use statics::{StaticSettings, equilibrium};
 pub use structure::{Damping, Structure, StructureBuilder};

@@ -2,27 +2,31 @@
 
 use wingbeat_model::deformation::SpanLaw;
 use wingbeat_model::structure::Damping;
-use wingbeat_model::{Members, Wing, WingBeam, WingStructure};
+use wingbeat_model::{Members, Wing, WingBeam, WingShell, WingStructure};
 
 use super::fault::{Built, fault_at};
 use crate::error::Fault;
-use crate::raw::{BeamCase, StructureCase};
+use crate::raw::{BeamCase, ShellCase, StructureCase};
 
 /// In-plane over out-of-plane stiffness of a beam where nothing is said.
 const LAG: f64 = 100.0;
 
 /// Makes `wing` of what the table `[path]` says.
 pub(super) fn make(wing: Wing, path: &str, case: &StructureCase) -> Built<Wing> {
-    let Some(beam) = &case.beam else {
-        return Err(Fault::new(
-            path,
-            "the wing is made of nothing",
-            "structure.beam",
-            format!("add [{path}.beam] with flap_newton_m2 and torsion_newton_m2"),
-        ));
+    let members = match (&case.beam, &case.shell) {
+        (Some(beam), _) => Members::Beam(self::beam(&format!("{path}.beam"), beam)?),
+        (None, Some(shell)) => Members::Shell(self::shell(&format!("{path}.shell"), shell)?),
+        (None, None) => {
+            return Err(Fault::new(
+                path,
+                "the wing is made of nothing",
+                "structure.beam or structure.shell",
+                format!("add [{path}.beam] with flap_newton_m2 and torsion_newton_m2"),
+            ));
+        }
     };
     let structure = WingStructure {
-        members: Members::Beam(self::beam(&format!("{path}.beam"), beam)?),
+        members,
         damping: Damping {
             strain_rate: case.damping_s,
             mass: case.mass_damping_per_s,
@@ -62,6 +66,28 @@ fn beam(path: &str, case: &BeamCase) -> Built<WingBeam> {
     })
 }
 
+fn shell(path: &str, case: &ShellCase) -> Built<WingShell> {
+    let missing = |key: &str, remedy: &str| {
+        Fault::new(
+            format!("{path}.{key}"),
+            "this key is missing",
+            "a number above 0",
+            remedy,
+        )
+    };
+    let young = (case.young_pa).ok_or_else(|| missing("young_pa", "3e9 is that of cuticle"))?;
+    let thickness = (case.thickness_m, case.thickness_table_m.as_ref());
+    Ok(WingShell {
+        young: [young, case.young_chord_pa.unwrap_or(young)],
+        poisson: case.poisson,
+        shear: case.shear_pa,
+        thickness: law(path, "thickness", "m", thickness)?,
+        density: case.density_kg_m3,
+        clamps_root: case.clamped_root,
+        rigid_fraction: case.rigid_fraction,
+    })
+}
+
 type Values<'a> = (Option<[f64; 2]>, Option<&'a Vec<[f64; 2]>>);
 
 fn given((linear, table): Values<'_>) -> Option<SpanLaw> {
@@ -82,4 +108,23 @@ fn law(path: &str, name: &str, unit: &str, values: Values<'_>) -> Built<SpanLaw>
             "give the stiffness along the span",
         )
     })
+}
+
+/// The key that gives a structure a mass of its own, if one does.
+pub(super) fn own_mass(case: &StructureCase) -> Option<&'static str> {
+    let beam = case.beam.as_ref();
+    let linear = beam.is_some_and(|b| b.mass_kg_per_m.is_some());
+    let table = beam.is_some_and(|b| b.mass_table_kg_per_m.is_some());
+    let dense = case
+        .shell
+        .as_ref()
+        .is_some_and(|s| s.density_kg_m3.is_some());
+    let keys = [
+        (linear, "beam.mass_kg_per_m"),
+        (table, "beam.mass_table_kg_per_m"),
+        (dense, "shell.density_kg_m3"),
+    ];
+    keys.into_iter()
+        .find(|(given, _)| *given)
+        .map(|(_, key)| key)
 }

@@ -285,12 +285,12 @@ fn mass(source: &Source<'_>) -> Built<MassInput> {
     let (name, wing, mirrored) = source.of(has_mass);
     let path = format!("wing.{name}");
     let (_, made, _) = source.of(|w| w.structure.is_some());
-    let beam = made.structure.as_ref().and_then(|s| s.beam.as_ref());
-    if beam.is_some_and(|b| b.mass_kg_per_m.is_some() || b.mass_table_kg_per_m.is_some()) {
+    let own = made.structure.as_ref().and_then(structure::own_mass);
+    if let Some(key) = own {
         return match has_mass(wing) {
             false => Ok(MassInput::Total(0.0)),
             true => Err(Fault::new(
-                format!("wing.{}.structure.beam.mass_kg_per_m", source.name),
+                format!("wing.{}.structure.{key}", source.name),
                 "the mass of the wing is given twice: here and for the wing",
                 "one of them",
                 format!("remove {path}.mass_kg (or areal_density_kg_m2)"),

@@ -1,7 +1,7 @@
 //! Units of keys, from their names.
 
 /// Endings of names and the units they stand for, longer ones before their own endings.
-const UNITS: [(&str, &str); 32] = [
+const UNITS: [(&str, &str); 33] = [
     ("table_m_kg_m2", "m, kg/m2"),
     ("_newton_m_s_per_rad", "N m s/rad"),
     ("_newton_m_per_rad", "N m/rad"),
@@ -18,6 +18,7 @@ const UNITS: [(&str, &str); 32] = [
     ("_per_s", "1/s"),
     ("_1_s", "1/s"),
     ("_kg_m", "kg m"),
+    ("_pa", "Pa"),
     ("_kg_m2", "kg m2"),
     ("_kg_m3", "kg/m3"),
     ("_kg_per_m", "kg/m"),

@@ -11,6 +11,10 @@ pub struct StructureCase {
     /// A beam along the span with rigid sections across it.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub beam: Option<BeamCase>,
+    /// A shell: every panel of the mesh is a sheet that bends and stretches.
+    #[schemars(extend("or" = "beam"))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub shell: Option<ShellCase>,
     /// Time by which rates of strain add to strains (Kelvin and Voigt): the damping ratio of a mode is half this times its
     /// angular frequency.
     ///
@@ -111,4 +115,59 @@ pub struct BeamCase {
     #[schemars(length(min = 2), extend("or" = "inertia_kg_m"))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub inertia_table_kg_m: Option<Vec<[f64; 2]>>,
+}
+
+/// A sheet on the panels of the mesh, clamped to the wing frame at its root.
+#[derive(Clone, Debug, PartialEq, SmartDefault, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct ShellCase {
+    /// Young's modulus, along the span if that along the chord is given, too.
+    ///
+    /// Change it to that of the material: some 3e9 for cuticle.
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub young_pa: Option<f64>,
+    /// Young's modulus along the chord. Left out: that along the span.
+    ///
+    /// Change it for sheets stiffened by veins or fibres along the span.
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub young_chord_pa: Option<f64>,
+    /// Poisson's ratio: contraction along the chord for tension along the span.
+    ///
+    /// Change it to that of the material.
+    #[default = 0.3]
+    pub poisson: f64,
+    /// Shear modulus. Left out: that of a sheet alike in all directions.
+    ///
+    /// Change it for sheets stiffened by veins or fibres.
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub shear_pa: Option<f64>,
+    /// Thickness at root and tip, linear between.
+    ///
+    /// Change it to what was measured.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub thickness_m: Option<[f64; 2]>,
+    /// The same as rows [r/R, thickness] from the root (or the hinge, 0) to the tip (1).
+    ///
+    /// Change it to what was measured.
+    #[schemars(length(min = 2), extend("or" = "thickness_m"))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub thickness_table_m: Option<Vec<[f64; 2]>>,
+    /// Density, instead of the mass of the wing spread evenly over its area.
+    ///
+    /// Change it to that of the material.
+    #[schemars(extend("exclusiveMinimum" = 0, "or" = "wing.NAME.mass_kg"))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub density_kg_m3: Option<f64>,
+    /// Whether the root is clamped to the wing frame.
+    ///
+    /// Change it to false for foils that are held along their leading part alone.
+    #[default = true]
+    pub clamped_root: bool,
+    /// Part of the chord behind the leading edge that is rigid with the wing frame, all along the span.
+    ///
+    /// Change it for foils with a rigid leading part.
+    #[schemars(range(min = 0), extend("exclusiveMaximum" = 1))]
+    pub rigid_fraction: f64,
 }

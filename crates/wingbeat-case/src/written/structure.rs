@@ -1,10 +1,10 @@
 //! What a wing is made of.
 
 use wingbeat_model::deformation::SpanLaw;
-use wingbeat_model::{Members, WingBeam, WingStructure};
+use wingbeat_model::{Members, WingBeam, WingShell, WingStructure};
 
 use super::motion::span;
-use crate::raw::{BeamCase, StructureCase};
+use crate::raw::{BeamCase, ShellCase, StructureCase};
 
 /// A structure.
 pub(super) fn case(structure: &WingStructure) -> StructureCase {
@@ -13,9 +13,13 @@ pub(super) fn case(structure: &WingStructure) -> StructureCase {
         damping,
         spectral_radius,
     } = structure;
-    let Members::Beam(beam) = members;
+    let (beam, shell) = match members {
+        Members::Beam(beam) => (Some(beam_case(beam)), None),
+        Members::Shell(shell) => (None, Some(shell_case(shell))),
+    };
     StructureCase {
-        beam: Some(beam_case(beam)),
+        beam,
+        shell,
         damping_s: damping.strain_rate,
         mass_damping_per_s: damping.mass,
         spectral_radius: *spectral_radius,
@@ -24,8 +28,34 @@ pub(super) fn case(structure: &WingStructure) -> StructureCase {
 
 /// Whether it has a mass of its own.
 pub(super) fn has_mass(structure: &WingStructure) -> bool {
-    let Members::Beam(beam) = &structure.members;
-    beam.mass.is_some()
+    match &structure.members {
+        Members::Beam(beam) => beam.mass.is_some(),
+        Members::Shell(shell) => shell.density.is_some(),
+    }
+}
+
+fn shell_case(shell: &WingShell) -> ShellCase {
+    let WingShell {
+        young: [young, young_chord],
+        poisson,
+        shear,
+        thickness,
+        density,
+        clamps_root,
+        rigid_fraction,
+    } = shell;
+    let (thickness_m, thickness_table_m) = span(thickness, |x| x);
+    ShellCase {
+        young_pa: Some(*young),
+        young_chord_pa: Some(*young_chord),
+        poisson: *poisson,
+        shear_pa: *shear,
+        thickness_m,
+        thickness_table_m,
+        density_kg_m3: *density,
+        clamped_root: *clamps_root,
+        rigid_fraction: *rigid_fraction,
+    }
 }
 
 fn beam_case(beam: &WingBeam) -> BeamCase {

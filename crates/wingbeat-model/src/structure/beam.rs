@@ -11,9 +11,6 @@ use crate::deformation::{SpanLaw, column, span};
 use crate::error::{ModelError, require, require_count};
 use crate::mesh::GridMesh;
 
-/// Values of a law are looked for at so many places.
-const PLACES: usize = 65;
-
 /// A beam along the span of a wing, with rigid sections across it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct WingBeam {
@@ -165,11 +162,7 @@ impl WingBeam {
         for (k, law) in laws {
             let Some(law) = law else { continue };
             law.check(&of(k), root)?;
-            for i in 0..PLACES {
-                let r = root + (1.0 - root) * i as f64 / (PLACES - 1) as f64;
-                let x = law.at(r, root);
-                require(&of(k), x, x > 0.0, "above 0 all along the span")?;
-            }
+            super::check_positive(&of(k), law, root)?;
         }
         Ok(())
     }

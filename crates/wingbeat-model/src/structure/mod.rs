@@ -5,15 +5,18 @@
 //! spread over the structure.
 
 mod beam;
+mod shell;
 
 pub use beam::WingBeam;
+pub use shell::WingShell;
 
 use std::fmt;
 
 pub use wingbeat_structure::Damping;
-use wingbeat_structure::{Follower, Structure, StructureError};
+use wingbeat_structure::{Follower, ShellError, Structure, StructureError};
 
 use crate::animal::Wing;
+use crate::deformation::SpanLaw;
 use crate::error::{ModelError, require};
 
 /// What a wing is made of.
@@ -32,6 +35,8 @@ pub struct WingStructure {
 pub enum Members {
     /// A beam along the span: whole slender wings, leading-edge spars, shafts of feathers.
     Beam(WingBeam),
+    /// A shell on the panels of the mesh: membranes of insects, plates, foils that bend along the chord.
+    Shell(WingShell),
 }
 
 /// A wing as an elastic body.
@@ -49,7 +54,18 @@ pub struct WingStructureError {
     /// Name of the wing.
     pub wing: String,
     /// What is wrong.
-    pub source: StructureError,
+    pub source: MemberError,
+}
+
+/// What is wrong with the members of a wing.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum MemberError {
+    /// The elastic body.
+    #[error(transparent)]
+    Body(#[from] StructureError),
+    /// A shell.
+    #[error(transparent)]
+    Shell(#[from] ShellError),
 }
 
 impl fmt::Display for WingStructureError {
@@ -71,7 +87,8 @@ impl WingStructure {
     /// What the elastic body refuses.
     pub fn body(&self, wing: &Wing) -> Result<ElasticBody, WingStructureError> {
         let body = match &self.members {
-            Members::Beam(beam) => beam.body(wing, self.damping),
+            Members::Beam(beam) => beam.body(wing, self.damping).map_err(MemberError::from),
+            Members::Shell(shell) => shell.body(wing, self.damping),
         };
         body.map_err(|source| WingStructureError {
             wing: wing.name.clone(),
@@ -84,6 +101,7 @@ impl WingStructure {
     pub fn scaled(&self, s: f64) -> Self {
         let members = match &self.members {
             Members::Beam(beam) => Members::Beam(beam.scaled(s)),
+            Members::Shell(shell) => Members::Shell(shell.scaled(s)),
         };
         Self { members, ..*self }
     }
@@ -110,6 +128,20 @@ impl WingStructure {
         }
         match &self.members {
             Members::Beam(beam) => beam.check(&key("beam"), root),
+            Members::Shell(shell) => shell.check(&key("shell"), root),
         }
     }
+}
+
+/// Values of a law are looked for at so many places.
+const PLACES: usize = 65;
+
+/// Refuses a law that is not above 0 all along the span of a wing whose surface begins at `root` = r/R.
+fn check_positive(key: &str, law: &SpanLaw, root: f64) -> Result<(), ModelError> {
+    for i in 0..PLACES {
+        let r = root + (1.0 - root) * i as f64 / (PLACES - 1) as f64;
+        let x = law.at(r, root);
+        require(key, x, x > 0.0, "above 0 all along the span")?;
+    }
+    Ok(())
 }
