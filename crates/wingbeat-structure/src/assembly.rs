@@ -17,6 +17,8 @@ pub(crate) struct Assembly {
     pub energy: f64,
     element: ElementForces,
     viscous: ElementForces,
+    /// Increments of the numbers of an element.
+    numbers: Vec<f64>,
 }
 
 impl Assembly {
@@ -26,6 +28,7 @@ impl Assembly {
             energy: 0.0,
             element: ElementForces::default(),
             viscous: ElementForces::default(),
+            numbers: vec![],
         }
     }
 
@@ -60,16 +63,27 @@ impl Assembly {
     }
 
     /// Adds the tangent of all elements, times `scales[0]`, and the matrix of strain-rate damping times `scales[1]`;
-    /// `turn` maps increments of the attitude of a node to rotations in its axes.
+    /// `turn` maps increments of the attitude of a node to rotations in its axes. Stresses are those of `at`, or ahead from a
+    /// configuration by six numbers a node ([`crate::Element::tangent_ahead`]).
     pub fn tangent(
         &mut self,
         structure: &Structure,
-        at: &Configuration,
+        (at, ahead): (&Configuration, Option<(&Configuration, &[f64])>),
         scales: [f64; 2],
         turn: &dyn Fn(usize) -> DMat3,
     ) {
         for e in &structure.elements {
-            e.internal(at, true, &mut self.element);
+            match ahead {
+                None => {
+                    e.internal(at, true, &mut self.element);
+                }
+                Some((before, increment)) => {
+                    self.numbers.clear();
+                    let own = e.nodes().iter().flat_map(|n| NODE * n..NODE * (n + 1));
+                    self.numbers.extend(own.map(|k| increment[k]));
+                    e.tangent_ahead(at, before, &self.numbers, &mut self.element);
+                }
+            }
             for row in self
                 .element
                 .tangent

@@ -46,6 +46,21 @@ pub trait Element: std::fmt::Debug + Send + Sync {
         }
     }
 
+    /// Fills `out.tangent` with the tangent in the configuration `at`, its stresses replaced by those that strains linear in the
+    /// `increment` (six numbers of each of its nodes) from the configuration `before` would have. Thin elements that turn are
+    /// stretched at second order by increments that strain nothing at first; with that stress in the tangent Newton's
+    /// iteration goes astray [Magisano, Leonetti & Garcea 2017, Comput. Methods Appl. Mech. Engrg 313:986]. Unless an element
+    /// says better, its tangent.
+    fn tangent_ahead(
+        &self,
+        at: &Configuration,
+        _before: &Configuration,
+        _increment: &[f64],
+        out: &mut ElementForces,
+    ) {
+        self.internal(at, true, out);
+    }
+
     /// Adds the element's mass, lumped at its nodes, to the mass properties of all nodes, each about its node in node
     /// components at rest.
     fn add_mass(&self, rest: &Configuration, masses: &mut [MassProperties]);

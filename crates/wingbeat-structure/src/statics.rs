@@ -180,7 +180,7 @@ pub(crate) fn steady_tangent(
     assembly: &mut Assembly,
 ) {
     let unit = |_: usize| wingbeat_math::DMat3::IDENTITY;
-    assembly.tangent(structure, at, [1.0, 0.0], &unit);
+    assembly.tangent(structure, (at, None), [1.0, 0.0], &unit);
     for (n, m) in structure.masses.iter().enumerate() {
         let t = inertia::tangents(m, frame, &inertia::NodeMotion::still(at, n));
         assembly.add(structure, [n, n], &t.position);

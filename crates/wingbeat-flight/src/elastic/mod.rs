@@ -1,88 +1,20 @@
 //! Wings that loads bend: elastic bodies on the frames of the wings, coupled with the air.
 //!
 //! Within a step, at given motions and accelerations of the bodies, shape and loads are brought to agree
-//! (`coupling`): Newton's iteration on the elastic body, with the air's own answer to velocities and places on its
-//! left-hand side (`tangent`), accelerated by what its passes have shown (`secants`). The multibody system sees a wing as the rigid
-//! body it is at rest; what the elastic one does to it besides is a load ([`ElasticWings::wrenches`]).
+//! (`coupling`): each pass, Newton's iteration brings an elastic body to balance under loads that follow its motion as the
+//! air has answered to it (`step`, `tangent`); what passes have shown accelerates them (`secants`). The multibody system
+//! sees a wing as the rigid body it is at rest; what the elastic one does to it besides is a load
+//! ([`ElasticWings::wrenches`]), its answer to accelerations an added mass, and its momentum part of that of the flyer.
 
+mod balance;
 mod coupling;
 mod secants;
+mod step;
 mod tangent;
 mod wing;
+mod wings;
 
 pub use coupling::{ElasticScratch, MAX_PASSES, Moment, TOLERANCE};
 pub use tangent::WingResponse;
 pub use wing::{ElasticState, ElasticWing};
-
-use wingbeat_dynamics::{BodyAcceleration, BodyMotion, Wrench};
-use wingbeat_math::DVec3;
-use wingbeat_model::Animal;
-
-use crate::error::FlightError;
-use crate::interface::Shape;
-
-/// All wings of an animal that loads bend.
-#[derive(Debug, Default)]
-pub struct ElasticWings {
-    wings: Vec<ElasticWing>,
-    /// Number of wings, elastic or not.
-    count: usize,
-    gravity: DVec3,
-}
-
-impl ElasticWings {
-    /// Those of `animal` under `gravity` \[m/s2\], N components.
-    ///
-    /// # Errors
-    /// What the elastic bodies refuse.
-    pub fn new(animal: &Animal, gravity: DVec3) -> Result<Self, FlightError> {
-        let elastic = |(i, w)| ElasticWing::new(i, w).transpose();
-        let wings = animal.wings.iter().enumerate().filter_map(elastic);
-        Ok(Self {
-            wings: wings.collect::<Result<_, _>>()?,
-            count: animal.wings.len(),
-            gravity,
-        })
-    }
-
-    /// Whether there is none.
-    pub fn is_empty(&self) -> bool {
-        self.wings.is_empty()
-    }
-
-    /// The wings.
-    pub fn wings(&self) -> &[ElasticWing] {
-        &self.wings
-    }
-
-    /// The wings at rest.
-    pub fn initial(&self) -> Vec<ElasticState> {
-        self.wings.iter().map(ElasticWing::initial).collect()
-    }
-
-    /// Room for the shapes of all wings.
-    fn shapes(&self) -> Vec<Option<Shape>> {
-        let mut shapes = vec![None; self.count];
-        for w in &self.wings {
-            shapes[w.wing] = Some(Shape::default());
-        }
-        shapes
-    }
-}
-
-/// What a frame does, as the elastic body on it feels it.
-fn frame_motion(
-    m: &BodyMotion,
-    a: &BodyAcceleration,
-    gravity: DVec3,
-) -> wingbeat_structure::FrameMotion {
-    wingbeat_structure::FrameMotion::from_inertial(m.r, [a.linear, gravity], [m.w, a.angular])
-}
-
-/// A wrench in wing components as one in N components.
-fn turned(m: &BodyMotion, [force, moment]: [DVec3; 2]) -> Wrench {
-    Wrench {
-        force: m.r * force,
-        moment: m.r * moment,
-    }
-}
+pub use wings::ElasticWings;

@@ -2,7 +2,7 @@
 
 use wingbeat_dynamics::{AddedMass, BodyAcceleration, BodyMotion};
 use wingbeat_math::{DMat3, DVec3, MassProperties, tilde};
-use wingbeat_model::Wing;
+use wingbeat_model::{Members, Wing};
 use wingbeat_structure::{
     Configuration, Follower, FrameMotion, GeneralizedAlpha, NODE, State, Structure,
 };
@@ -23,6 +23,8 @@ pub struct ElasticWing {
     /// Nodes of the mesh at the tip: leading and trailing edge.
     pub(super) tip: [usize; 2],
     pub(super) method: GeneralizedAlpha,
+    /// Whether it hardly stretches beside how it bends: a shell.
+    pub(super) is_thin: bool,
     /// Mass properties at rest, as the multibody system has them.
     pub(super) rigid: MassProperties,
 }
@@ -67,6 +69,7 @@ impl ElasticWing {
             wing: index,
             name: wing.name.clone(),
             rigid: wing.mass,
+            is_thin: matches!(structure.members, Members::Shell(_)),
             tip: [0, wing.mesh.rows].map(|i| wing.mesh.node(i, wing.mesh.cols)),
             structure: body.structure,
             followers: body.followers,

@@ -95,6 +95,15 @@ impl Trial {
         self.weights
     }
 
+    /// Takes all increments back: places and attitudes are those at the start of the step, stresses in balance there. Thin
+    /// bodies are sought from here: a motion carried on stretches what hardly stretches.
+    pub fn take_back(&mut self) {
+        for n in 0..self.configuration.len() {
+            let back: [f64; NODE] = std::array::from_fn(|d| -self.increment[NODE * n + d]);
+            self.change(n, &back);
+        }
+    }
+
     /// Changes the increments of the six numbers of node n by `change`, and all that follows from them.
     pub(crate) fn change(&mut self, n: usize, change: &[f64; NODE]) {
         let w = self.weights;

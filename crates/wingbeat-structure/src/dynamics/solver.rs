@@ -5,7 +5,7 @@ use wingbeat_math::{DMat3, DVec3};
 use super::generalized_alpha::{State, Trial, Weights};
 use crate::assembly::Assembly;
 use crate::block::{Block, ZERO, add_pair, block, pair, product};
-use crate::configuration::NODE;
+use crate::configuration::{Configuration, NODE};
 use crate::error::StructureError;
 use crate::frame::FrameMotion;
 use crate::inertia::{self, Motion};
@@ -64,6 +64,9 @@ pub struct Solver {
     pub(super) loads: Vec<f64>,
     /// Loads while they are filled.
     pub(super) given: Vec<f64>,
+    /// Where stresses are foreseen from, and six increments a node.
+    before: Configuration,
+    ahead: Vec<f64>,
 }
 
 impl Solver {
@@ -76,6 +79,8 @@ impl Solver {
             damping: vec![0.0; NODE * structure.nodes()],
             loads: vec![0.0; NODE * structure.nodes()],
             given: vec![],
+            before: Configuration::default(),
+            ahead: vec![],
         }
     }
 
@@ -145,12 +150,63 @@ impl Solver {
         frame: &FrameMotion,
         loads: &LoadTangent<'_>,
     ) -> Result<(), StructureError> {
-        let w = trial.weights();
+        self.factor_from(structure, trial, frame, loads, false)
+    }
+
+    /// Takes note of where the next stresses will be foreseen from: the trial before it is changed by `step`, increments of the
+    /// free unknowns.
+    pub fn look_ahead(&mut self, structure: &Structure, trial: &Trial, step: &[f64]) {
+        self.before.clone_from(&trial.configuration);
+        self.ahead.clear();
+        self.ahead.resize(NODE * structure.nodes(), 0.0);
+        for (&k, x) in structure.number.iter().zip(step) {
+            self.ahead[k] = *x;
+        }
+        for n in 0..structure.nodes() {
+            let angles = &mut self.ahead[NODE * n + 3..NODE * (n + 1)];
+            let turned = right_jacobian(trial.turn(n)) * DVec3::from_slice(angles);
+            turned.write_to_slice(angles);
+        }
+    }
+
+    /// The same for a trial that has just been predicted.
+    pub fn look_ahead_from_start(&mut self, trial: &Trial) {
+        self.before.clone_from(&trial.start);
+        self.ahead.clone_from(&trial.increment);
+    }
+
+    /// As [`Self::factor`], with the stresses that were to be foreseen in place of those of the trial
+    /// ([`crate::Element::tangent_ahead`]): for trials far from balance.
+    ///
+    /// # Errors
+    /// [`StructureError::Singular`].
+    pub fn factor_ahead(
+        &mut self,
+        structure: &Structure,
+        trial: &Trial,
+        frame: &FrameMotion,
+        loads: &LoadTangent<'_>,
+    ) -> Result<(), StructureError> {
+        self.factor_from(structure, trial, frame, loads, true)
+    }
+
+    fn factor_from(
+        &mut self,
+        structure: &Structure,
+        trial: &Trial,
+        frame: &FrameMotion,
+        loads: &LoadTangent<'_>,
+        looks_ahead: bool,
+    ) -> Result<(), StructureError> {
         self.assembly.matrix.clear(!loads.is_none());
-        let scales = [1.0, structure.damping.strain_rate * w.velocity];
+        let scales = [
+            1.0,
+            structure.damping.strain_rate * trial.weights().velocity,
+        ];
+        let ahead = looks_ahead.then_some((&self.before, &self.ahead[..]));
         let turns = |n: usize| right_jacobian(trial.turn(n));
         self.assembly
-            .tangent(structure, &trial.configuration, scales, &turns);
+            .tangent(structure, (&trial.configuration, ahead), scales, &turns);
         for n in 0..structure.nodes() {
             let block = self.node_tangent(structure, trial, frame, n);
             self.assembly.add(structure, [n, n], &block);

@@ -145,6 +145,40 @@ impl Element for Shell {
         energy
     }
 
+    /// The part of the tangent that is the material's, whatever the tension.
+    fn dissipation(&self, at: &Configuration, out: &mut ElementForces) {
+        let rotations = self.rotations(at);
+        let vectors = self.vectors(at, &rotations);
+        let size = NODE * self.nodes.len();
+        out.resize(size);
+        let gradient = Gradient::new(&self.terms, &vectors, &rotations, &self.axes);
+        let mut sum = Tangent::new(&self.corner, size, &mut out.tangent);
+        sum.material(&gradient, &self.stiffness);
+    }
+
+    fn tangent_ahead(
+        &self,
+        at: &Configuration,
+        before: &Configuration,
+        increment: &[f64],
+        out: &mut ElementForces,
+    ) {
+        let turned = self.rotations(before);
+        let from = self.vectors(before, &turned);
+        let rows = Gradient::new(&self.terms, &from, &turned, &self.axes);
+        let mut strains = self.strains(before);
+        rows.add_strains(increment, &self.corner, &mut strains);
+        let (stress, _) = self.stresses(&strains);
+        let rotations = self.rotations(at);
+        let vectors = self.vectors(at, &rotations);
+        let size = NODE * self.nodes.len();
+        out.resize(size);
+        let gradient = Gradient::new(&self.terms, &vectors, &rotations, &self.axes);
+        let mut sum = Tangent::new(&self.corner, size, &mut out.tangent);
+        sum.material(&gradient, &self.stiffness);
+        sum.geometric(&self.terms, &stress, &vectors, &rotations, &self.axes);
+    }
+
     fn add_mass(&self, rest: &Configuration, masses: &mut [MassProperties]) {
         for (lump, &k) in self.lumps.iter().zip(&self.corner) {
             let node = self.nodes[k];

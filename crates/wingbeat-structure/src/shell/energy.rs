@@ -41,6 +41,19 @@ impl Gradient {
         Self(rows)
     }
 
+    /// Adds what the strains change by with the six numbers of the nodes, to first order.
+    pub fn add_strains(
+        &self,
+        increment: &[f64],
+        corner: &[usize; 4],
+        strains: &mut [f64; STRAINS],
+    ) {
+        for (row, strain) in self.0.iter().zip(strains) {
+            let part = |(k, g): (usize, &f64)| g * increment[NODE * corner[k / NODE] + k % NODE];
+            *strain += row.iter().enumerate().map(part).sum::<f64>();
+        }
+    }
+
     /// Adds the derivative of the energy, by nodes.
     pub fn force(&self, stress: &[f64; STRAINS], corner: &[usize; 4], out: &mut [f64]) {
         for (row, stress) in self.0.iter().zip(stress) {
