@@ -6,7 +6,7 @@ use wingbeat_model::{Members, Wing, WingBeam, WingShell, WingStructure};
 
 use super::fault::{Built, fault_at};
 use crate::error::Fault;
-use crate::raw::{BeamCase, ShellCase, StructureCase};
+use crate::raw::{BeamCase, ShellCase, ShellRule, StructureCase};
 
 /// In-plane over out-of-plane stiffness of a beam where nothing is said.
 const LAG: f64 = 100.0;
@@ -15,7 +15,16 @@ const LAG: f64 = 100.0;
 pub(super) fn make(wing: Wing, path: &str, case: &StructureCase) -> Built<Wing> {
     let members = match (&case.beam, &case.shell) {
         (Some(beam), _) => Members::Beam(self::beam(&format!("{path}.beam"), beam)?),
-        (None, Some(shell)) => Members::Shell(self::shell(&format!("{path}.shell"), shell)?),
+        (None, Some(shell)) => {
+            let path = format!("{path}.shell");
+            Members::Shell(match shell.rule {
+                Some(ShellRule::CombesDaniel) => {
+                    let wing = WingShell::combes_daniel(&wing, shell.poisson);
+                    edges(wing, shell)
+                }
+                None => self::shell(&path, shell)?,
+            })
+        }
         (None, None) => {
             return Err(Fault::new(
                 path,
@@ -77,15 +86,26 @@ fn shell(path: &str, case: &ShellCase) -> Built<WingShell> {
     };
     let young = (case.young_pa).ok_or_else(|| missing("young_pa", "3e9 is that of cuticle"))?;
     let thickness = (case.thickness_m, case.thickness_table_m.as_ref());
-    Ok(WingShell {
+    let wing = WingShell {
         young: [young, case.young_chord_pa.unwrap_or(young)],
         poisson: case.poisson,
         shear: case.shear_pa,
         thickness: law(path, "thickness", "m", thickness)?,
+        density: None,
+        clamps_root: true,
+        rigid_fraction: 0.0,
+    };
+    Ok(edges(wing, case))
+}
+
+/// The same with the mass and what is clamped as the case says.
+fn edges(wing: WingShell, case: &ShellCase) -> WingShell {
+    WingShell {
         density: case.density_kg_m3,
         clamps_root: case.clamped_root,
         rigid_fraction: case.rigid_fraction,
-    })
+        ..wing
+    }
 }
 
 type Values<'a> = (Option<[f64; 2]>, Option<&'a Vec<[f64; 2]>>);

@@ -117,19 +117,33 @@ pub struct BeamCase {
     pub inertia_table_kg_m: Option<Vec<[f64; 2]>>,
 }
 
+/// A rule for the stiffness of wings.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum ShellRule {
+    /// EI of the wing along the span `10^0.08 R^2.97`, along the chord `10^-1.73 c^2.08` [Combes & Daniel 2003, J. Exp. Biol.
+    /// 206:2979], spread evenly.
+    CombesDaniel,
+}
+
 /// A sheet on the panels of the mesh, clamped to the wing frame at its root.
 #[derive(Clone, Debug, PartialEq, SmartDefault, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct ShellCase {
+    /// Stiffness by a rule for wings of insects, from the span and the mean chord.
+    ///
+    /// Change it to leave moduli and thickness to what was measured in sixteen species.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub rule: Option<ShellRule>,
     /// Young's modulus, along the span if that along the chord is given, too.
     ///
     /// Change it to that of the material: some 3e9 for cuticle.
-    #[schemars(extend("exclusiveMinimum" = 0))]
+    #[schemars(extend("exclusiveMinimum" = 0, "or" = "rule"))]
     pub young_pa: Option<f64>,
     /// Young's modulus along the chord. Left out: that along the span.
     ///
     /// Change it for sheets stiffened by veins or fibres along the span.
-    #[schemars(extend("exclusiveMinimum" = 0))]
+    #[schemars(extend("exclusiveMinimum" = 0, "with" = "young_pa"))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub young_chord_pa: Option<f64>,
     /// Poisson's ratio: contraction along the chord for tension along the span.
@@ -140,12 +154,13 @@ pub struct ShellCase {
     /// Shear modulus. Left out: that of a sheet alike in all directions.
     ///
     /// Change it for sheets stiffened by veins or fibres.
-    #[schemars(extend("exclusiveMinimum" = 0))]
+    #[schemars(extend("exclusiveMinimum" = 0, "with" = "young_pa"))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub shear_pa: Option<f64>,
     /// Thickness at root and tip, linear between.
     ///
     /// Change it to what was measured.
+    #[schemars(extend("with" = "young_pa"))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub thickness_m: Option<[f64; 2]>,
     /// The same as rows [r/R, thickness] from the root (or the hinge, 0) to the tip (1).

@@ -46,6 +46,7 @@ fn shell_case(shell: &WingShell) -> ShellCase {
     } = shell;
     let (thickness_m, thickness_table_m) = span(thickness, |x| x);
     ShellCase {
+        rule: None,
         young_pa: Some(*young),
         young_chord_pa: Some(*young_chord),
         poisson: *poisson,

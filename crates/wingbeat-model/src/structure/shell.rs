@@ -33,7 +33,32 @@ pub struct WingShell {
 /// How much of the chord a node may lie beyond the rigid part and still belong to it: rounding.
 const ROUNDING: f64 = 1e-9;
 
+/// Density of cuticle \[kg/m3\] [Vincent & Wegst 2004, Arthropod Struct. Dev. 33:187].
+const CUTICLE: f64 = 1200.0;
+
 impl WingShell {
+    /// A sheet with the bending stiffness of insects' wings, EI along the span `10^0.08 R^2.97`, along the chord
+    /// `10^-1.73 c^2.08` (R the wing length, c the mean chord; N m2, m) [Combes & Daniel 2003, J. Exp. Biol. 206:2979], as
+    /// thick as cuticle of the wing's mass is; its shear modulus is the mean of both directions'.
+    pub fn combes_daniel(wing: &Wing, poisson: f64) -> Self {
+        let report = wing.report();
+        let (length, chord) = (report.length, report.area / report.length);
+        let thickness = wing.mass.mass / (CUTICLE * report.area);
+        let along = 10f64.powf(2.97 * length.log10() + 0.08) / chord;
+        let across = 10f64.powf(2.08 * chord.log10() - 1.73) / length;
+        // EI per width is E h3 / 12.
+        let young = [along, across].map(|d| 12.0 * d / thickness.powi(3));
+        Self {
+            young,
+            poisson,
+            shear: Some((young[0] * young[1]).sqrt() / (2.0 * (1.0 + poisson))),
+            thickness: SpanLaw::constant(thickness),
+            density: None,
+            clamps_root: true,
+            rigid_fraction: 0.0,
+        }
+    }
+
     pub(super) fn body(&self, wing: &Wing, damping: Damping) -> Result<ElasticBody, MemberError> {
         let grid = &wing.mesh;
         let mesh = ShellMesh::grid(&grid.nodes, grid.rows, grid.cols)?;
