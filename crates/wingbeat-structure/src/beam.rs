@@ -102,7 +102,8 @@ impl Beam {
         let screw = screw_between(rest, nodes, &offsets).1;
         let length = screw.u.length();
         let size = ends[0].place.length() + ends[1].place.length();
-        if !(length > 1e-12 * size) {
+        let is_apart = length > 1e-12 * size;
+        if !is_apart {
             return Err(StructureError::Length(nodes[0], nodes[1], length));
         }
         Ok(Self {
@@ -230,7 +231,8 @@ fn section_frame(
         .try_normalize()
         .ok_or(StructureError::Length(a, b, chord.length()))?;
     let across = towards - towards.dot(e1) * e1;
-    if !(across.length() > 1e-6 * towards.length()) {
+    let is_across = across.length() > 1e-6 * towards.length();
+    if !is_across {
         return Err(StructureError::Direction(a, b));
     }
     let e2 = across.normalize();

@@ -172,19 +172,6 @@ pub(crate) fn by_frame_acceleration(m: &MassProperties, n: &NodeMotion) -> Block
     ])
 }
 
-/// Derivative of the inertial force and moment by the angular velocity of W.
-pub(crate) fn by_frame_spin(m: &MassProperties, frame: &FrameMotion, n: &NodeMotion) -> [DMat3; 2] {
-    let p = parts(frame, n);
-    let (back, s) = (n.r.transpose(), tilde(m.first_moment));
-    let [spin_force, spin_moment] = gyroscopic(m, p.w);
-    let a = -(tilde(frame.w.cross(n.u)) + tilde(frame.w) * tilde(n.u) + tilde(n.v) * 2.0);
-    let w_dot = -(tilde(n.omega) * back);
-    [
-        a * m.mass + n.r * (spin_force * back - s * w_dot),
-        s * back * a + m.inertia * w_dot + spin_moment * back,
-    ]
-}
-
 /// Momentum relative to W \[kg m/s\] (W components) and angular momentum about the node (node components).
 pub(crate) fn momentum(m: &MassProperties, n: &NodeMotion) -> [DVec3; 2] {
     let s = m.first_moment;

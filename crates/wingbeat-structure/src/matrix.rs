@@ -71,16 +71,6 @@ impl Matrix {
         }
     }
 
-    /// An entry.
-    #[cfg(test)]
-    pub fn get(&self, i: usize, j: usize) -> f64 {
-        match &self.dense {
-            Some(d) => d.rows[i * self.n + j],
-            None if i.abs_diff(j) <= self.band => self.rows[self.place(i, j)],
-            None => 0.0,
-        }
-    }
-
     /// All entries by rows, where the matrix is dense.
     pub fn rows(&self) -> &[f64] {
         self.dense.as_ref().map_or(&[], |d| &d.rows)
@@ -132,7 +122,8 @@ impl Matrix {
             let size = |i: usize| self.rows[self.place(i, k)].abs();
             let pivot = (k..last).fold(k, |p, i| if size(i) > size(p) { i } else { p });
             // The scaled diagonal is one: n roundings of that are nothing.
-            if !(size(pivot) > n as f64 * f64::EPSILON) || !size(pivot).is_finite() {
+            let is_sound = size(pivot) > n as f64 * f64::EPSILON && size(pivot).is_finite();
+            if !is_sound {
                 return Err(k);
             }
             self.pivots[k] = pivot;

@@ -258,8 +258,8 @@ fn check_inertia(masses: &[MassProperties], held: &[bool]) -> Result<(), Structu
         let free = |d: usize| !held[NODE * node + d];
         let about = m.inertia_about_centre();
         let lacks = |d: usize| match d {
-            0..3 => !(m.mass > 0.0),
-            _ => !(about.col(d - 3)[d - 3] > 0.0),
+            0..3 => m.mass <= 0.0,
+            _ => about.col(d - 3)[d - 3] <= 0.0,
         };
         if let Some(direction) = (0..NODE).find(|&d| free(d) && lacks(d)) {
             return Err(StructureError::Inertia { node, direction });

@@ -300,16 +300,6 @@ impl Trial {
     }
 }
 
-impl State {
-    pub(crate) fn motion(&self) -> Motion<'_> {
-        Motion {
-            at: &self.configuration,
-            velocity: &self.velocity,
-            acceleration: &self.acceleration,
-        }
-    }
-}
-
 /// Changes a trial by increments of the free unknowns; returns their size.
 pub(crate) fn apply(structure: &Structure, change: &[f64], trial: &mut Trial) -> f64 {
     let mut largest = 0.0_f64;

@@ -4,7 +4,8 @@
 
 use faer::{Mat, Side};
 use wingbeat_math::{DVec3, MassProperties, tilde};
-use wingbeat_structure::{Configuration, Element, ElementForces, Section, Shell, ShellMesh};
+use wingbeat_structure::shell::Section;
+use wingbeat_structure::{Configuration, Element, ElementForces, Shell, ShellMesh};
 
 /// Six numbers of a node held or not.
 pub const CLAMPED: [bool; 6] = [true; 6];
@@ -310,6 +311,14 @@ impl Band {
 
     pub fn at(&mut self, r: usize, c: usize) -> &mut f64 {
         &mut self.rows[r * (2 * self.half + 1) + c + self.half - r]
+    }
+
+    /// The product with a vector.
+    pub fn times(&self, x: &[f64]) -> Vec<f64> {
+        let (w, h) = (2 * self.half + 1, self.half);
+        let row = |r: usize| (r.saturating_sub(h)..=(r + h).min(self.n - 1)).map(move |c| (r, c));
+        let product = |(r, c): (usize, usize)| self.rows[r * w + c + h - r] * x[c];
+        (0..self.n).map(|r| row(r).map(product).sum()).collect()
     }
 
     fn factor(&mut self) {
