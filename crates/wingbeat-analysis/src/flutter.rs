@@ -100,15 +100,22 @@ pub fn condition(
     let still = flown(0.0)?;
     let whole = difference(&flown(1.0)?, &still);
     let half = difference(&flown(0.5)?, &still);
-    let doubled: Vec<Vec<f64>> = half.iter().map(|y| y.iter().map(|x| 2.0 * x).collect()).collect();
+    let doubled: Vec<Vec<f64>> = half
+        .iter()
+        .map(|y| y.iter().map(|x| 2.0 * x).collect())
+        .collect();
     let nonlinearity = rms(&difference(&whole, &doubled)) / rms(&whole);
     let response = realise(&whole, sampling.every as f64 * rig.setup.time.step)?;
-    let vibrates = |v: &&Vibration| {
-        v.frequency > 0.0 && v.share >= LEAST_SHARE && v.damping() <= MOST_DAMPING
-    };
+    let vibrates =
+        |v: &&Vibration| v.frequency > 0.0 && v.share >= LEAST_SHARE && v.damping() <= MOST_DAMPING;
     Ok(Condition {
         speed,
-        modes: response.vibrations.iter().filter(vibrates).copied().collect(),
+        modes: response
+            .vibrations
+            .iter()
+            .filter(vibrates)
+            .copied()
+            .collect(),
         steady,
         response,
         nonlinearity,

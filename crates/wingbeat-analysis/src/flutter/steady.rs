@@ -1,7 +1,9 @@
 //! An elastic wing held in a stream, and its deformed steady state.
 
 use wingbeat_flight::elastic::{ElasticWing, ElasticWings};
-use wingbeat_flight::{AirModel, FlightSetup, FlightState, MotionMode, PrescribedMotion, Simulation};
+use wingbeat_flight::{
+    AirModel, FlightSetup, FlightState, MotionMode, PrescribedMotion, Simulation,
+};
 use wingbeat_math::DVec3;
 
 use super::FlutterSettings;
@@ -11,11 +13,11 @@ use crate::AnalysisError;
 /// Steps of the setup in a long step.
 const LONG: usize = 4;
 
-/// Chords that pass before the steady state is looked at, and steps of the setup after the long ones.
+/// Long steps before the steady state is looked at, a quarter of the short ones after them.
 const LEAST: usize = 60;
 
 /// Velocity at which the wing counts as steady: of its tip over that of the stream \[1\].
-const STEADY: f64 = 1e-9;
+const STEADY: f64 = 1e-7;
 
 /// The deformed steady state.
 #[derive(Clone, Debug, PartialEq)]
@@ -163,7 +165,10 @@ impl ElasticRig {
             tip: at.position[tip] - rest.position[tip],
             turn: (at.rotation[tip] * rest.rotation[tip].inverse()).to_scaled_axis(),
             drift: self.drift(state),
-            vacuum: modes.iter().map(wingbeat_structure::Mode::frequency).collect(),
+            vacuum: modes
+                .iter()
+                .map(wingbeat_structure::Mode::frequency)
+                .collect(),
         })
     }
 }
@@ -208,7 +213,8 @@ fn check(setup: &FlightSetup) -> Result<(), AnalysisError> {
 
 /// Whether a motion is at rest.
 fn rests(motion: &PrescribedMotion) -> bool {
-    [0.1, 0.7, 1.3].map(|t| motion.at(t)).iter().all(|root| {
-        root.velocity == DVec3::ZERO && root.angular_velocity == DVec3::ZERO
-    })
+    [0.1, 0.7, 1.3]
+        .map(|t| motion.at(t))
+        .iter()
+        .all(|root| root.velocity == DVec3::ZERO && root.angular_velocity == DVec3::ZERO)
 }

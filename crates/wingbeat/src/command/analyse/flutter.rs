@@ -132,10 +132,7 @@ fn conclude(report: &mut Report, found: &[Crossing]) {
         );
     }
     if found.is_empty() {
-        line!(
-            report,
-            "\nNo growth changes its sign between these speeds."
-        );
+        line!(report, "\nNo growth changes its sign between these speeds.");
     }
     let value = |c: &Crossing| {
         json!({
