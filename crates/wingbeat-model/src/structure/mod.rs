@@ -54,7 +54,7 @@ pub struct WingStructureError {
     /// Name of the wing.
     pub wing: String,
     /// What is wrong.
-    pub source: MemberError,
+    pub source: Box<MemberError>,
 }
 
 /// What is wrong with the members of a wing.
@@ -76,7 +76,7 @@ impl fmt::Display for WingStructureError {
 
 impl std::error::Error for WingStructureError {
     fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
-        Some(&self.source)
+        Some(self.source.as_ref())
     }
 }
 
@@ -92,7 +92,7 @@ impl WingStructure {
         };
         body.map_err(|source| WingStructureError {
             wing: wing.name.clone(),
-            source,
+            source: Box::new(source),
         })
     }
 
