@@ -41,7 +41,7 @@ pub struct Record {
     pub joints: Vec<[f64; 2]>,
     /// Per wing: power of what deforms it against the air [W]; empty where nothing is deformed.
     pub deformation_power: Vec<f64>,
-    /// Per elastic wing: how it is bent.
+    /// Per elastic wing, in the order of the wings: how it is bent.
     pub elastic: Vec<ElasticRecord>,
     /// Per body: air load.
     pub air: Vec<LoadRecord>,
@@ -194,8 +194,6 @@ impl AirImpulse {
 /// How an elastic wing is bent.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct ElasticRecord {
-    /// Number of the wing.
-    pub wing: usize,
     /// Displacement of the middle of the tip's chord from rest, wing components [m].
     pub tip: DVec3,
     /// Twist of the tip from rest, positive like feathering: leading edge towards -axis 3 [rad].

@@ -27,7 +27,7 @@ fn askew(thickness: f64) -> Lamina {
 fn distorted(height: f64) -> ShellMesh {
     let point = |i: usize, j: usize| {
         let (x, y) = (j as f64, i as f64);
-        let inner = f64::from(u8::from(i % 3 != 0 && j % 3 != 0));
+        let inner = f64::from(u8::from(!i.is_multiple_of(3) && !j.is_multiple_of(3)));
         let wobble = 0.25 * inner;
         let x = x + wobble * (3.0 * x + 5.0 * y).sin() + 0.1 * y;
         let y = y + wobble * (4.0 * x - 2.0 * y).cos();

@@ -89,8 +89,8 @@ fn limit_stiff_wings_carry_what_rigid_ones_do() {
         ])
     };
     for [soft, stiff] in [
-        [beam(2e-2).to_vec(), beam(2e-1).to_vec()].map(with),
-        [shell(1e10), shell(1e11)].map(with),
+        [beam(2.0).to_vec(), beam(20.0).to_vec()].map(with),
+        [shell(1e12), shell(1e13)].map(with),
     ] {
         // What is left goes with 1 / stiffness.
         assert!(stiff < 1e-2 * largest, "{stiff} of {largest}");
@@ -102,13 +102,13 @@ fn limit_stiff_wings_carry_what_rigid_ones_do() {
 fn conserves_momentum_of_a_flyer_with_soft_wings() {
     let records = fly(&[
         &strings(&["air.model=\"none\"", "time.beats=2"])[..],
-        &beam(1e-4),
+        &beam(2e-4),
     ]
     .concat());
     let tip = records
         .iter()
         .fold(0.0_f64, |m, r| m.max(r.elastic[0].tip.length()));
-    assert!(tip > 5e-3, "soft: {tip}");
+    assert!(tip > 2e-3, "soft: {tip}");
     let largest = |of: fn(&Record) -> f64| records.iter().map(of).fold(0.0, f64::max);
     let linear = largest(|r| r.momentum_residual.length()) / largest(|r| r.momentum.length());
     let angular = largest(|r| r.angular_momentum_residual.length())

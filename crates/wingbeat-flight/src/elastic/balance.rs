@@ -114,7 +114,6 @@ impl ElasticWings {
                 (-chord.z).atan2(chord.x)
             };
             out.push(ElasticRecord {
-                wing: w.wing,
                 tip: middle(&place) - middle(&rest),
                 twist: pitch(&place) - pitch(&rest),
                 strain_energy: ws.solver.strain_energy(),
