@@ -155,21 +155,32 @@ impl ElasticWing {
     }
 
     /// From the derivative of what the wing exerts by the acceleration of its frame: what a mass beside that of the rigid wing
-    /// has. Its symmetric part.
+    /// has. Of its symmetric part so much that both together are positive definite, as masses are; the answer of the air to
+    /// places and velocities within a step need not be.
     pub(super) fn carried(&self, response: &[[f64; 6]; 6]) -> AddedMass {
+        let rigid = self.rigid_mass();
+        let mean = |i: usize, j: usize| -0.5 * (response[i][j] + response[j][i]);
+        let part = [1.0, 0.5, 0.25, 0.0]
+            .into_iter()
+            .find(|part| is_positive(|i, j| rigid[i][j] + part * (mean(i, j) - rigid[i][j])));
+        let part = part.unwrap_or(0.0);
+        let beside = |i: usize, j: usize| part * (mean(i, j) - rigid[i][j]);
+        AddedMass::new(
+            self.wing + 1,
+            std::array::from_fn(|i| std::array::from_fn(|j| beside(i, j))),
+        )
+    }
+
+    /// Force and moment by acceleration and angular acceleration of the rigid wing.
+    fn rigid_mass(&self) -> [[f64; 6]; 6] {
         let (m, s) = (self.rigid.mass, tilde(self.rigid.first_moment));
-        let rigid = |i: usize, j: usize| match (i < 3, j < 3) {
+        let entry = |i: usize, j: usize| match (i < 3, j < 3) {
             (true, true) => f64::from(i == j) * m,
             (true, false) => -s.col(j - 3)[i],
             (false, true) => s.col(j)[i - 3],
             (false, false) => self.rigid.inertia.col(j - 3)[i - 3],
         };
-        let own = |i: usize, j: usize| -response[i][j] - rigid(i, j);
-        let mean = |i: usize, j: usize| 0.5 * (own(i, j) + own(j, i));
-        AddedMass::new(
-            self.wing + 1,
-            std::array::from_fn(|i| std::array::from_fn(|j| mean(i, j))),
-        )
+        std::array::from_fn(|i| std::array::from_fn(|j| entry(i, j)))
     }
 
     /// The nodes as rigid bodies in N, those of the frame `m`, with their masses.
@@ -192,4 +203,19 @@ impl ElasticWing {
             (mass, motion)
         })
     }
+}
+
+/// Whether a symmetric matrix is positive definite: its pivots are.
+fn is_positive(entry: impl Fn(usize, usize) -> f64) -> bool {
+    let mut a: [[f64; 6]; 6] = std::array::from_fn(|i| std::array::from_fn(|j| entry(i, j)));
+    for k in 0..6 {
+        if a[k][k] <= 0.0 {
+            return false;
+        }
+        for i in k + 1..6 {
+            let factor = a[i][k] / a[k][k];
+            (k..6).for_each(|j| a[i][j] -= factor * a[k][j]);
+        }
+    }
+    true
 }
