@@ -7,7 +7,6 @@ use wingbeat_air::{AirLoads, AirState, AirWorkspace, NodeMotion, Points};
 use wingbeat_dynamics::{AddedMass, BodyAcceleration, BodyMotion, Wrench};
 use wingbeat_math::DVec3;
 
-use crate::elastic::WingResponse;
 use crate::error::FlightError;
 use crate::record::Snapshot;
 
@@ -33,6 +32,16 @@ pub struct Shape {
     pub velocity: Vec<DVec3>,
     /// Accelerations [m/s2].
     pub acceleration: Vec<DVec3>,
+}
+
+/// How the normal forces of the panels of a wing answer to the motion of the nodes of its mesh, in frozen wakes.
+#[derive(Clone, Debug, Default)]
+pub struct WingResponse {
+    /// Derivative of the normal forces by the normal velocities of the panels \[N s/m\], row by row.
+    pub matrix: Vec<f64>,
+    /// Panel by panel: how a node of the mesh (its number among the wing's) shares in the panel's normal force \[1\], and how
+    /// the panel's normal velocity changes with the node's velocity \[1\] and place \[1/s\]; N components.
+    pub panels: Vec<Vec<(usize, [DVec3; 2])>>,
 }
 
 /// Room for intermediate results of the air; what it holds belongs to the instant last asked for.

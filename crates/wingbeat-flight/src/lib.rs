@@ -52,7 +52,9 @@ pub use control::Passage;
 pub use controller::{Aim, Controller, Sensed};
 pub use error::FlightError;
 pub use free::{FreeFlight, FreeFlightScratch};
-pub use interface::{Air, AirScratch, Announcement, ExternalAir, ExternalSession, Instant};
+pub use interface::{
+    Air, AirScratch, Announcement, ExternalAir, ExternalSession, Instant, Shape, WingResponse,
+};
 pub use joints::{closes_loop, faster};
 pub use record::{
     AccelerationRecord, ElasticRecord, HingeRecord, LoadRecord, ParticleSnapshot, Record, Snapshot,

@@ -5,7 +5,7 @@ use crate::error::ModelError;
 use crate::integrate::scaled_properties;
 use crate::mesh::{GridMesh, QuadMesh, Side};
 use crate::motion::WingMotion;
-use crate::structure::WingStructure;
+use crate::structure::{Blank, WingStructure};
 use wingbeat_math::{DVec3, MassProperties};
 
 /// A wing: flat or cambered surface with its hinge, mass and prescribed motion.
@@ -75,12 +75,21 @@ impl Wing {
         if self.deformation.is_some() {
             return Err(ModelError::TwoShapes(self.name));
         }
-        let body = structure.body(&self)?.structure;
+        let body = structure.body(&self.blank())?.structure;
         Ok(Self {
             mass: body.mass_properties(body.rest()),
             structure: Some(structure),
             ..self
         })
+    }
+
+    /// What an elastic body is made from.
+    pub fn blank(&self) -> Blank<'_> {
+        Blank {
+            name: &self.name,
+            mesh: &self.mesh,
+            mass: self.mass.mass,
+        }
     }
 
     /// Least distance of the surface from the hinge along the span over the largest.

@@ -10,7 +10,7 @@ pub struct ElementForces {
     /// Derivative of the strain energy by the six numbers of each node (dx in W components, dtheta in node components)
     /// \[N, N m\].
     pub force: Vec<f64>,
-    /// Derivative of `force` by the same numbers, row by row.
+    /// Derivative of `force` by the same numbers, row by row \[N/m, N, N m\].
     pub tangent: Vec<f64>,
 }
 

@@ -28,9 +28,9 @@ impl<F: Fn(&Configuration, &mut [f64])> Loading for F {
 pub struct NodeLoad {
     /// The node.
     pub node: usize,
-    /// Force \[N\].
+    /// Force \[N\], W components, or those of the node if it follows.
     pub force: DVec3,
-    /// Moment [N m].
+    /// Moment [N m], W components, or those of the node if it follows.
     pub moment: DVec3,
     /// Whether force and moment turn with the node (components are the node's) or keep their direction in W.
     pub follows: bool,

@@ -19,7 +19,7 @@ use crate::structure::Structure;
 pub struct Mode {
     /// Square of the angular frequency [rad2/s2]; negative if the state is unstable.
     pub square: f64,
-    /// Six numbers a node (dx in W, dtheta in node components) for a modal mass of 1 kg: `shape^T M shape = 1`.
+    /// Six numbers a node (dx \[m\] in W, dtheta \[rad\] in node components) for a modal mass of 1 kg: `shape^T M shape = 1`.
     pub shape: Vec<f64>,
 }
 

@@ -1,6 +1,6 @@
 //! Where growth changes its sign between speeds.
 
-use super::Condition;
+use super::condition::Condition;
 use crate::realisation::Vibration;
 
 /// A speed at which flutter begins or ends.

@@ -2,10 +2,10 @@
 
 use wingbeat_flight::FlightState;
 use wingbeat_math::{DQuat, DVec3};
-use wingbeat_structure::{FrameMotion, Mode, NODE, modes};
+use wingbeat_structure::NODE;
 
-use super::FlutterSettings;
-use super::steady::ElasticRig;
+use super::settings::FlutterSettings;
+use super::steady::{ElasticRig, leading};
 use crate::AnalysisError;
 
 /// Stations along the span at which outputs are taken.
@@ -60,23 +60,6 @@ impl Disturbance {
             numbers.for_each(|(v, x)| *v += part * x);
         }
         state
-    }
-}
-
-/// Leading modes in vacuum of the first elastic wing about a state.
-pub(super) fn leading(
-    rig: &ElasticRig,
-    state: &FlightState,
-    count: usize,
-) -> Result<Vec<Mode>, AnalysisError> {
-    let at = &state.wings[0].structure.configuration;
-    let found = modes(rig.first().structure(), at, &FrameMotion::REST, None);
-    let mut found = found.map_err(wingbeat_flight::FlightError::from)?;
-    found.retain(|m| m.square > 0.0);
-    found.truncate(count);
-    match found.is_empty() {
-        true => Err(AnalysisError::Numbers("the wing has no vibration".into())),
-        false => Ok(found),
     }
 }
 

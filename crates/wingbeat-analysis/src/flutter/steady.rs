@@ -5,9 +5,9 @@ use wingbeat_flight::{
     AirModel, FlightSetup, FlightState, MotionMode, PrescribedMotion, Simulation,
 };
 use wingbeat_math::DVec3;
+use wingbeat_structure::{FrameMotion, Mode, modes};
 
-use super::FlutterSettings;
-use super::disturbance::leading;
+use super::settings::FlutterSettings;
 use crate::AnalysisError;
 
 /// Steps of the setup in a long step.
@@ -85,7 +85,7 @@ impl ElasticRig {
     ///
     /// # Errors
     /// A steady state that is not reached, what the flight reports.
-    pub fn settle(
+    pub fn to_steady(
         &self,
         settings: &FlutterSettings,
     ) -> Result<(FlightState, SteadyWing), AnalysisError> {
@@ -217,4 +217,21 @@ fn rests(motion: &PrescribedMotion) -> bool {
         .map(|t| motion.at(t))
         .iter()
         .all(|root| root.velocity == DVec3::ZERO && root.angular_velocity == DVec3::ZERO)
+}
+
+/// Leading modes in vacuum of the first elastic wing about a state.
+pub(super) fn leading(
+    rig: &ElasticRig,
+    state: &FlightState,
+    count: usize,
+) -> Result<Vec<Mode>, AnalysisError> {
+    let at = &state.wings[0].structure.configuration;
+    let found = modes(rig.first().structure(), at, &FrameMotion::REST, None);
+    let mut found = found.map_err(wingbeat_flight::FlightError::from)?;
+    found.retain(|m| m.square > 0.0);
+    found.truncate(count);
+    match found.is_empty() {
+        true => Err(AnalysisError::Numbers("the wing has no vibration".into())),
+        false => Ok(found),
+    }
 }

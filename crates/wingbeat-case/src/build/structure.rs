@@ -19,7 +19,11 @@ pub(super) fn make(wing: Wing, path: &str, case: &StructureCase) -> Built<Wing> 
             let path = format!("{path}.shell");
             Members::Shell(match shell.rule {
                 Some(ShellRule::CombesDaniel) => {
-                    let wing = WingShell::combes_daniel(&wing, shell.poisson);
+                    let wing = {
+                        let (report, mass) = (wing.report(), wing.mass.mass);
+                        let sizes = [report.length, report.area, mass];
+                        WingShell::combes_daniel(sizes, shell.poisson)
+                    };
                     edges(wing, shell)
                 }
                 None => self::shell(&path, shell)?,

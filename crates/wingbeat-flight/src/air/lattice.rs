@@ -6,9 +6,8 @@ use wingbeat_math::DVec3;
 
 use super::mirror::mirror_pairs;
 use super::surfaces::SurfaceMap;
-use crate::elastic::WingResponse;
 use crate::error::FlightError;
-use crate::interface::{Air, AirScratch, Instant, misfit};
+use crate::interface::{Air, AirScratch, Instant, WingResponse, misfit};
 use crate::record::{ParticleSnapshot, Snapshot, SurfaceSnapshot, WakeSnapshot};
 use crate::setup::{AirOptions, FlightSetup, MotionMode};
 

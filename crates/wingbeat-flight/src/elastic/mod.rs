@@ -15,6 +15,5 @@ mod wing;
 mod wings;
 
 pub use coupling::{ElasticScratch, MAX_PASSES, Moment, TOLERANCE};
-pub use tangent::WingResponse;
 pub use wing::{ElasticState, ElasticWing};
 pub use wings::ElasticWings;

@@ -4,9 +4,10 @@ use wingbeat_dynamics::AddedMass;
 use wingbeat_math::DVec3;
 use wingbeat_structure::{FrameMotion, LoadTangent, NODE, Solver, Trial};
 
-use super::tangent::{AirTangent, WingResponse};
+use super::tangent::AirTangent;
 use super::wing::{ElasticState, ElasticWing, Nodes};
 use crate::error::FlightError;
+use crate::interface::WingResponse;
 
 /// Corrections that are the rounding of places: in stiff wings the forces of such are more than [`TOLERANCE`] \[1\].
 pub(super) const ROUNDING: f64 = 1e-14;

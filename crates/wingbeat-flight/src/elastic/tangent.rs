@@ -1,17 +1,9 @@
 //! The air's answer to the motion of an elastic wing, for the left-hand side of a step.
 
-use wingbeat_math::{DMat3, DVec3};
+use wingbeat_math::DMat3;
 use wingbeat_structure::{Configuration, Follower, NODE};
 
-/// How the normal forces of the panels of a wing answer to the motion of the nodes of its mesh, in frozen wakes.
-#[derive(Clone, Debug, Default)]
-pub struct WingResponse {
-    /// Derivative of the normal forces by the normal velocities of the panels \[N s/m\], row by row.
-    pub matrix: Vec<f64>,
-    /// Panel by panel: how a node of the mesh (its number among the wing's) shares in the panel's normal force \[1\], and how
-    /// the panel's normal velocity changes with the node's velocity \[1\] and place \[1/s\]; N components.
-    pub panels: Vec<Vec<(usize, [DVec3; 2])>>,
-}
+use crate::interface::WingResponse;
 
 /// Derivatives of the loads on the nodes of an elastic body by their six numbers and by their rates.
 #[derive(Clone, Debug, Default)]

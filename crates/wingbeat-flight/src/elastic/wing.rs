@@ -64,7 +64,7 @@ impl ElasticWing {
             return Ok(None);
         };
         let method = GeneralizedAlpha::new(structure.spectral_radius)?;
-        let body = structure.body(wing)?;
+        let body = structure.body(&wing.blank())?;
         Ok(Some(Self {
             wing: index,
             name: wing.name.clone(),

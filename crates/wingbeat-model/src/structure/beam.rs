@@ -5,8 +5,7 @@ use wingbeat_structure::{
     Beam, Configuration, Damping, Follower, Section, Stiffness, StructureBuilder, StructureError,
 };
 
-use super::ElasticBody;
-use crate::animal::Wing;
+use super::body::{Blank, ElasticBody, check_positive};
 use crate::deformation::{SpanLaw, column, span};
 use crate::error::{ModelError, require, require_count};
 use crate::mesh::GridMesh;
@@ -62,14 +61,14 @@ impl WingBeam {
     /// Nodes at equal distances from root to tip, the first clamped.
     pub(super) fn body(
         &self,
-        wing: &Wing,
+        wing: &Blank<'_>,
         damping: Damping,
     ) -> Result<ElasticBody, StructureError> {
-        let [root, tip] = span(&wing.mesh);
+        let [root, tip] = span(wing.mesh);
         let count = self.elements + 1;
         let distance = |k: usize| root + (tip - root) * k as f64 / self.elements as f64;
         let place = |k: usize| {
-            let s = station(&wing.mesh, distance(k));
+            let s = station(wing.mesh, distance(k));
             DVec3::new(s.lead - self.axis_fraction * s.chord, s.y, s.z)
         };
         let rest = Configuration {
@@ -79,9 +78,9 @@ impl WingBeam {
         let middle = |k: usize| 0.5 * (distance(k) + distance(k + 1));
         let width = (tip - root) / self.elements as f64;
         let area: f64 = (0..self.elements)
-            .map(|k| width * station(&wing.mesh, middle(k)).chord)
+            .map(|k| width * station(wing.mesh, middle(k)).chord)
             .sum();
-        let even = wing.mass.mass / area;
+        let even = wing.mass / area;
         let mut builder = StructureBuilder::new(rest.clone())
             .clamp(0)
             .damping(damping);
@@ -106,10 +105,10 @@ impl WingBeam {
 
     /// Section at the distance `r` \[m\] from the hinge; `even` is the mass of the wing over its area \[kg/m2\], `along` the
     /// distance along the span over the length of the beam.
-    fn section(&self, wing: &Wing, r: f64, (even, along): (f64, f64)) -> Section {
-        let [root, tip] = span(&wing.mesh);
+    fn section(&self, wing: &Blank<'_>, r: f64, (even, along): (f64, f64)) -> Section {
+        let [root, tip] = span(wing.mesh);
         let value = |law: &SpanLaw| law.at(r / tip, root / tip);
-        let Station { chord, .. } = station(&wing.mesh, r);
+        let Station { chord, .. } = station(wing.mesh, r);
         let [flap, lag, torsion] = [&self.flap, &self.lag, &self.torsion].map(value);
         // As a plate that is as stiff in its plane has it: EA = 12 EI / c2; shear as of solid sections.
         let axial = 12.0 * lag.max(flap) / (chord * chord);
@@ -162,7 +161,7 @@ impl WingBeam {
         for (k, law) in laws {
             let Some(law) = law else { continue };
             law.check(&of(k), root)?;
-            super::check_positive(&of(k), law, root)?;
+            check_positive(&of(k), law, root)?;
         }
         Ok(())
     }

@@ -5,18 +5,16 @@
 //! spread over the structure.
 
 mod beam;
+mod body;
 mod shell;
 
+pub use crate::error::{MemberError, WingStructureError};
 pub use beam::WingBeam;
+pub use body::{Blank, ElasticBody};
 pub use shell::WingShell;
 
-use std::fmt;
-
 pub use wingbeat_structure::Damping;
-use wingbeat_structure::{Follower, ShellError, Structure, StructureError};
 
-use crate::animal::Wing;
-use crate::deformation::SpanLaw;
 use crate::error::{ModelError, require};
 
 /// What a wing is made of.
@@ -39,59 +37,18 @@ pub enum Members {
     Shell(WingShell),
 }
 
-/// A wing as an elastic body.
-#[derive(Debug)]
-pub struct ElasticBody {
-    /// Nodes, elements, masses; clamped to the wing frame.
-    pub structure: Structure,
-    /// How the nodes of the wing's mesh follow, in their order.
-    pub followers: Vec<Follower>,
-}
-
-/// Why a wing cannot be made of this.
-#[derive(Clone, Debug, PartialEq)]
-pub struct WingStructureError {
-    /// Name of the wing.
-    pub wing: String,
-    /// What is wrong.
-    pub source: Box<MemberError>,
-}
-
-/// What is wrong with the members of a wing.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum MemberError {
-    /// The elastic body.
-    #[error(transparent)]
-    Body(#[from] StructureError),
-    /// A shell.
-    #[error(transparent)]
-    Shell(#[from] ShellError),
-}
-
-impl fmt::Display for WingStructureError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "structure of wing `{}`: {}", self.wing, self.source)
-    }
-}
-
-impl std::error::Error for WingStructureError {
-    fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
-        Some(self.source.as_ref())
-    }
-}
-
 impl WingStructure {
-    /// The elastic body of `wing`.
+    /// The elastic body of a wing.
     ///
     /// # Errors
     /// What the elastic body refuses.
-    pub fn body(&self, wing: &Wing) -> Result<ElasticBody, WingStructureError> {
+    pub fn body(&self, wing: &Blank<'_>) -> Result<ElasticBody, WingStructureError> {
         let body = match &self.members {
             Members::Beam(beam) => beam.body(wing, self.damping).map_err(MemberError::from),
             Members::Shell(shell) => shell.body(wing, self.damping),
         };
         body.map_err(|source| WingStructureError {
-            wing: wing.name.clone(),
+            wing: wing.name.to_owned(),
             source: Box::new(source),
         })
     }
@@ -131,17 +88,4 @@ impl WingStructure {
             Members::Shell(shell) => shell.check(&key("shell"), root),
         }
     }
-}
-
-/// Values of a law are looked for at so many places.
-const PLACES: usize = 65;
-
-/// Refuses a law that is not above 0 all along the span of a wing whose surface begins at `root` = r/R.
-fn check_positive(key: &str, law: &SpanLaw, root: f64) -> Result<(), ModelError> {
-    for i in 0..PLACES {
-        let r = root + (1.0 - root) * i as f64 / (PLACES - 1) as f64;
-        let x = law.at(r, root);
-        require(key, x, x > 0.0, "above 0 all along the span")?;
-    }
-    Ok(())
 }

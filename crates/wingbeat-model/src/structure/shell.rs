@@ -5,10 +5,9 @@ use wingbeat_structure::{
     Damping, Follower, Lamina, Shell, ShellError, ShellMesh, StructureBuilder,
 };
 
-use super::{ElasticBody, MemberError};
-use crate::animal::Wing;
+use super::body::{Blank, ElasticBody, check_positive};
 use crate::deformation::{SpanLaw, column, span};
-use crate::error::{ModelError, require};
+use crate::error::{MemberError, ModelError, require};
 use crate::mesh::GridMesh;
 
 /// A wing of sheet: orthotropic, its thickness a law along the span.
@@ -39,11 +38,11 @@ const CUTICLE: f64 = 1200.0;
 impl WingShell {
     /// A sheet with the bending stiffness of insects' wings, EI along the span `10^0.08 R^2.97`, along the chord
     /// `10^-1.73 c^2.08` (R the wing length, c the mean chord; N m2, m) [Combes & Daniel 2003, J. Exp. Biol. 206:2979], as
-    /// thick as cuticle of the wing's mass is; its shear modulus is the mean of both directions'.
-    pub fn combes_daniel(wing: &Wing, poisson: f64) -> Self {
-        let report = wing.report();
-        let (length, chord) = (report.length, report.area / report.length);
-        let thickness = wing.mass.mass / (CUTICLE * report.area);
+    /// thick as cuticle of the wing's mass is; its shear modulus is the mean of both directions'. For a wing of this `length`
+    /// \[m\], `area` \[m2\] and `mass` \[kg\].
+    pub fn combes_daniel([length, area, mass]: [f64; 3], poisson: f64) -> Self {
+        let chord = area / length;
+        let thickness = mass / (CUTICLE * area);
         let along = 10f64.powf(2.97 * length.log10() + 0.08) / chord;
         let across = 10f64.powf(2.08 * chord.log10() - 1.73) / length;
         // EI per width is E h3 / 12.
@@ -59,8 +58,12 @@ impl WingShell {
         }
     }
 
-    pub(super) fn body(&self, wing: &Wing, damping: Damping) -> Result<ElasticBody, MemberError> {
-        let grid = &wing.mesh;
+    pub(super) fn body(
+        &self,
+        wing: &Blank<'_>,
+        damping: Damping,
+    ) -> Result<ElasticBody, MemberError> {
+        let grid = wing.mesh;
         let mesh = ShellMesh::grid(&grid.nodes, grid.rows, grid.cols)?;
         let mut area = 0.0;
         for k in 0..mesh.panels.len() {
@@ -68,7 +71,7 @@ impl WingShell {
         }
         let mut builder = StructureBuilder::new(mesh.rest.clone()).damping(damping);
         for k in 0..mesh.panels.len() {
-            if let Some(shell) = self.panel(&mesh, grid, k, wing.mass.mass / area)? {
+            if let Some(shell) = self.panel(&mesh, grid, k, wing.mass / area)? {
                 builder = builder.element(shell);
             }
         }
@@ -157,6 +160,6 @@ impl WingShell {
             }
         }
         self.thickness.check(&of("thickness"), root)?;
-        super::check_positive(&of("thickness"), &self.thickness, root)
+        check_positive(&of("thickness"), &self.thickness, root)
     }
 }

@@ -29,7 +29,7 @@ pub struct Lamina {
     pub density: f64,
     /// Mass per area that carries nothing \[kg/m2\]: scales, paint.
     pub added_mass: f64,
-    /// Direction of the fibres, W components at rest; only its part in the tangent plane counts.
+    /// Direction of the fibres \[1\], W components at rest; only its part in the tangent plane counts.
     pub axis: DVec3,
     /// Tension at rest in fibre axes \[N/m\]: N_11, N_22, N_12.
     pub prestress: [f64; 3],

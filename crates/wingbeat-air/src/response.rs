@@ -8,8 +8,7 @@
 
 use crate::error::AirError;
 use crate::lattice::Lattice;
-use crate::loads::pressure::rate_weights;
-use crate::loads::values::AirLoads;
+use crate::loads::{AirLoads, rate_weights};
 use crate::state::AirState;
 use crate::workspace::AirWorkspace;
 use wingbeat_math::{DVec3, DenseLu};
