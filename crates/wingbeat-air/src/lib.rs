@@ -46,6 +46,7 @@ mod geometry;
 mod images;
 mod lattice;
 mod loads;
+mod response;
 mod settings;
 mod solve;
 mod state;
@@ -62,6 +63,7 @@ pub use geometry::{
 pub use images::Plane;
 pub use lattice::Lattice;
 pub use loads::{AirLoads, SurfaceLoads};
+pub use response::NodeWash;
 pub use settings::{
     AirSettings, CirculationRate, Convection, Friction, Gust, GustShape, LeadingEdge, LoadMethod,
     NEUTRAL_WIDTH, NewestRow, ParticleSettings, SectionDrag, Spectrum, Turbulence, VortexStreet,

@@ -6,7 +6,8 @@
 //! cycle-averaged rigid-body model with its derivatives, and Floquet's multipliers of the
 //! periodic orbit from the [`monodromy`] matrix; [`modes`] names what comes out; [`derivatives`]
 //! are the controls; [`power`] is what it takes; [`control`] holds a flyer on its orbit by feedback, laid out by
-//! [`stabiliser`] or [`regulator`] when a flight is built ([`design`]), along a [`route`] if there is one; an [`episode`] is steered from outside, for who learns.
+//! [`stabiliser`] or [`regulator`] when a flight is built ([`design`]), along a [`route`] if there is one; an [`episode`] is steered from outside, for who learns;
+//! [`flutter`] asks when the vibrations of elastic wings grow.
 //!
 //! | symbol | name in code | meaning | unit |
 //! |---|---|---|---|
@@ -34,6 +35,7 @@ pub mod design;
 pub mod eigen;
 pub mod episode;
 mod error;
+pub mod flutter;
 pub mod least_power;
 pub mod level;
 pub mod mean;
@@ -43,6 +45,7 @@ pub mod part;
 pub mod plausibility;
 pub mod power;
 pub mod progress;
+pub mod realisation;
 pub mod regulator;
 pub mod route;
 pub mod sensors;
@@ -57,6 +60,7 @@ pub mod wake;
 
 pub use beat::{Beat, State};
 pub use error::AnalysisError;
+pub use flutter::{Condition, FlutterSettings};
 pub use level::{Level, Perturbation};
 pub use modes::{Mode, ModeSet};
 pub use plausibility::{Estimate, estimate};

@@ -7,6 +7,7 @@ mod looks;
 mod mechanisms;
 mod observer;
 mod oracle;
+mod realisation;
 mod sweep;
 mod validation;
 mod verification;

@@ -71,7 +71,7 @@ fn air(case: &mut AirCase) {
 
 /// The quaternion form where joints close loops, the momentum form else; Hamming's method with air,
 /// order eight without. What moves freely in a wake, as wings on passive hinges do, weighs little beside the air that
-/// moves with it: backward differences, which bear that.
+/// moves with it: backward differences, which bear that. Elastic wings remember their shape, as air remembers its wakes.
 fn dynamics(case: &mut Case) {
     let children: Vec<&str> = case.joint.values().map(|j| j.child.as_str()).collect();
     let again = |k: usize| children[..k].contains(&children[k]);
@@ -82,8 +82,9 @@ fn dynamics(case: &mut Case) {
     });
     let is_free = |j: &JointCase| !matches!(j.kind, JointKind::Weld | JointKind::PointOnLine);
     let has_free = case.joint.values().any(is_free);
+    let bends = case.wing.values().any(|w| w.structure.is_some());
     case.dynamics.integrator.decide(match case.air.model {
-        AirModel::None => IntegratorCase::OrderEight,
+        AirModel::None if !bends => IntegratorCase::OrderEight,
         AirModel::VortexLattice if has_free => IntegratorCase::Bdf,
         _ => IntegratorCase::Hamming,
     });

@@ -136,6 +136,16 @@ const SITES: &[Site] = &[
     site("SplitCycleCase", "wing.right.motion.phi.split_cycle", &[]),
     site("TableCase", "wing.right.motion.phi.table", &[]),
     site("DeformationCase", "wing.right.deformation", &[]),
+    site(
+        "StructureCase",
+        "wing.right.structure",
+        &[
+            "wing.right.structure.beam.flap_newton_m2=[1,1]",
+            "wing.right.structure.beam.torsion_newton_m2=[1,1]",
+        ],
+    ),
+    site("BeamCase", "wing.right.structure.beam", &[]),
+    site("ShellCase", "wing.right.structure.shell", &[]),
     site("SegmentCase", "segment.tail", &[]),
     site("JointCase", "joint.waist", &["joint.waist.child=right"]),
     site("TurnCase", "joint.waist.turn", SERVO),

@@ -6,6 +6,7 @@ use crate::check::check_rotation;
 use crate::cycle::Cycle;
 pub use crate::placement::Placement;
 use crate::placement::carry;
+use crate::shape::ShapeMass;
 use crate::{BodyAcceleration, BodyMotion, DynamicsError, System};
 
 /// Mass properties of the whole system and the momentum of its parts relative to the root.
@@ -139,6 +140,11 @@ impl Configuration {
 
     /// Mass properties of the whole and momentum relative to the root.
     pub fn composite(&self, system: &System) -> Composite {
+        self.composite_of(system, &[])
+    }
+
+    /// The same with bodies that have changed their shapes.
+    pub(crate) fn composite_of(&self, system: &System, shapes: &[ShapeMass]) -> Composite {
         let (mut mass, mut s, mut s_dot) = (0.0, DVec3::ZERO, DVec3::ZERO);
         let (mut inertia, mut h) = (DMat3::ZERO, DVec3::ZERO);
         for (b, at) in system.bodies().iter().zip(&self.placements) {
@@ -150,6 +156,16 @@ impl Configuration {
             s_dot += m * at.d_dot + spun;
             inertia += j + steiner(m, first, at.d);
             h += (first + m * at.d).cross(at.d_dot) + at.d.cross(spun) + j * spin;
+        }
+        for x in shapes {
+            let at = &self.placements[x.body];
+            let j = at.c * x.inertia * at.c.transpose();
+            let (first, spin) = (at.c * x.first_moment, at.c * at.w);
+            let flow = spin.cross(first) + at.c * x.momentum;
+            s += first;
+            s_dot += flow;
+            inertia += j + steiner(0.0, first, at.d);
+            h += first.cross(at.d_dot) + at.d.cross(flow) + j * spin + at.c * x.angular_momentum;
         }
         let (c, c_dot) = (s / mass, s_dot / mass);
         let about_centre = inertia - steiner(mass, DVec3::ZERO, c);

@@ -3,6 +3,7 @@
 use wingbeat_math::solve_small;
 
 use crate::added_mass::{seen, wrench};
+use crate::shape::ShapeMass;
 use crate::{AddedMass, BodyMotion, DynamicsError, Solution, System, Workspace, Wrench};
 
 /// A way to write the motion of a [`System`] as `y' = f(t, y)`.
@@ -19,6 +20,25 @@ pub trait Formulation: Send + Sync {
     /// Whether a support carries the root.
     fn is_supported(&self) -> bool {
         false
+    }
+
+    /// Whether its momenta are those of bodies that change their shapes ([`Workspace::set_shapes`]): its rates are then
+    /// asked for under external loads alone, its accelerations under all.
+    fn takes_shapes(&self) -> bool {
+        false
+    }
+
+    /// [`Self::initial_from`] for bodies of these shapes.
+    ///
+    /// # Errors
+    /// As [`Self::initial`].
+    fn initial_shaped(
+        &self,
+        t: f64,
+        motions: &[BodyMotion],
+        _shapes: &[ShapeMass],
+    ) -> Result<Vec<f64>, DynamicsError> {
+        self.initial_from(t, motions)
     }
 
     /// Room for intermediate results.

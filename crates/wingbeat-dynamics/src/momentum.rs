@@ -34,6 +34,7 @@ use crate::formulation::add_by_response;
 use crate::inverse::{multipliers, reactions};
 use crate::mechanism::Mechanism;
 use crate::prescribed::Turning;
+use crate::shape::ShapeMass;
 use crate::workspace::MOMENTUM_STATE;
 use crate::{
     AddedMass, BodyAcceleration, BodyMotion, DynamicsError, Formulation, JointType, Solution,
@@ -76,6 +77,10 @@ impl MomentumForm {
             ws.turning = Turning::of(ws.whole.inertia);
             ws.prescribed = (self.system.coordinates() == 0).then_some(t);
         }
+        if !ws.shapes.is_empty() {
+            ws.shaped = ws.configuration.composite_of(&self.system, &ws.shapes);
+            ws.shaped_turning = Turning::of(ws.shaped.inertia);
+        }
     }
 
     /// Free joint coordinates and speeds in the state.
@@ -107,12 +112,7 @@ impl MomentumForm {
         configuration.update_free(&self.system, t, (&q, &u));
         let whole = configuration.composite(&self.system);
         Turning::of(whole.inertia).solve(t, DVec3::ZERO)?;
-        let state = State {
-            centre: root.p + root.r * whole.c,
-            attitude: DQuat::from_mat3(&root.r).normalize(),
-            momentum: whole.mass * (root.v + root.r * (root.w.cross(whole.c) + whole.c_dot)),
-            angular: root.r * (whole.inertia * root.w + whole.h),
-        };
+        let state = State::moving_like(root, &whole);
         let mut y = vec![0.0; DIM];
         state.write(&mut y);
         y.extend(q);
@@ -124,14 +124,15 @@ impl MomentumForm {
     /// Rotation of the root, and its angular velocity from the angular momentum, `w = I^-1 (R^T H - h)` [rad/s].
     fn root_turn(t: f64, state: &State, ws: &Workspace) -> Result<(DMat3, DVec3), DynamicsError> {
         let r = state.rotation();
-        let w = (ws.turning).solve(t, r.transpose() * state.angular - ws.whole.h)?;
+        let (whole, turning) = ws.moving();
+        let w = turning.solve(t, r.transpose() * state.angular - whole.h)?;
         Ok((r, w))
     }
 
     /// Motion of the root in the whole of `ws`.
     fn root_motion(t: f64, state: &State, ws: &Workspace) -> Result<BodyMotion, DynamicsError> {
         let (r, w) = Self::root_turn(t, state, ws)?;
-        let whole = &ws.whole;
+        let (whole, _) = ws.moving();
         Ok(BodyMotion {
             p: state.centre - r * whole.c,
             r,
@@ -179,6 +180,26 @@ impl MomentumForm {
 impl Formulation for MomentumForm {
     fn system(&self) -> &System {
         &self.system
+    }
+
+    fn takes_shapes(&self) -> bool {
+        self.system.speeds() == 0
+    }
+
+    fn initial_shaped(
+        &self,
+        t: f64,
+        motions: &[BodyMotion],
+        shapes: &[ShapeMass],
+    ) -> Result<Vec<f64>, DynamicsError> {
+        let mut y = self.initial_from(t, motions)?;
+        if self.takes_shapes() && !shapes.is_empty() {
+            let mut configuration = Configuration::new(&self.system);
+            configuration.update(&self.system, t);
+            let whole = configuration.composite_of(&self.system, shapes);
+            State::moving_like(&motions[0], &whole).write(&mut y);
+        }
+        Ok(y)
     }
 
     fn dim(&self) -> usize {
@@ -232,8 +253,9 @@ impl Formulation for MomentumForm {
                 (state, turn)
             }
         };
-        let load = whole_load(&self.system, loads, &ws.configuration, r, ws.whole.c);
-        state.rates(&ws.whole, w, &load).write(dy);
+        let (whole, _) = ws.moving();
+        let load = whole_load(&self.system, loads, &ws.configuration, r, whole.c);
+        state.rates(whole, w, &load).write(dy);
         Ok(())
     }
 
@@ -246,12 +268,17 @@ impl Formulation for MomentumForm {
         out: &mut Solution,
     ) -> Result<(), DynamicsError> {
         let state = self.unfold(t, y, ws)?;
-        let load = total_load(&self.system, loads, &ws.motions, state.centre);
+        // Accelerations are those of rigid bodies, under loads that hold what changing shapes do.
+        let centre = match ws.shapes.is_empty() {
+            true => state.centre,
+            false => ws.motions[0].point(ws.whole.c),
+        };
+        let load = total_load(&self.system, loads, &ws.motions, centre);
         if self.system.speeds() > 0 {
             let (q, u) = self.free(y);
             move_joints(&self.system, (t, q, u), loads, ws)?;
         }
-        self.accelerate(t, state.centre, &load, ws, &mut out.bodies)?;
+        self.accelerate(t, centre, &load, ws, &mut out.bodies)?;
         reactions(&self.system, loads, ws, out);
         out.tether = Wrench::default(); // free: what `reactions` leaves there is rounding
         multipliers(&out.hinges, &mut out.multipliers);

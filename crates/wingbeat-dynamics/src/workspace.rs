@@ -5,6 +5,7 @@ use crate::euler::scratch::EulerScratch;
 use crate::free::FreeScratch;
 use crate::mechanism::form::AbsoluteScratch;
 use crate::prescribed::{Carried, Turning};
+use crate::shape::ShapeMass;
 use crate::{BodyAcceleration, BodyMotion, System, Wrench};
 
 /// Intermediate results, kept between calls so that nothing is allocated. Holds no state: any
@@ -25,6 +26,10 @@ pub struct Workspace {
     pub(crate) turning: Turning,
     /// Added masses last met, where no joint is free.
     pub(crate) carried: Carried,
+    /// What bodies that change their shape do otherwise than rigid ones; the whole with that, and the inverse of its inertia.
+    pub(crate) shapes: Vec<ShapeMass>,
+    pub(crate) shaped: Composite,
+    pub(crate) shaped_turning: Turning,
     /// Time of `configuration` and its whole, where nothing but time decides on them.
     pub(crate) prescribed: Option<f64>,
     /// Time and state that `motions` belong to, where no joint is free.
@@ -43,6 +48,9 @@ impl Workspace {
             whole_rates: CompositeRates::default(),
             turning: Turning::default(),
             carried: Carried::default(),
+            shapes: vec![],
+            shaped: Composite::default(),
+            shaped_turning: Turning::default(),
             configuration: Configuration::new(system),
             motions: vec![BodyMotion::REST; bodies],
             bias_force: vec![Wrench::default(); bodies],
@@ -52,6 +60,21 @@ impl Workspace {
             absolute: None,
             prescribed: None,
             unfolded: None,
+        }
+    }
+
+    /// Gives bodies other shapes.
+    pub fn set_shapes(&mut self, shapes: impl Iterator<Item = ShapeMass>) {
+        self.shapes.clear();
+        self.shapes.extend(shapes);
+        self.unfolded = None;
+    }
+
+    /// The whole that momenta belong to, and the inverse of its inertia.
+    pub(crate) fn moving(&self) -> (&Composite, &Turning) {
+        match self.shapes.is_empty() {
+            true => (&self.whole, &self.turning),
+            false => (&self.shaped, &self.shaped_turning),
         }
     }
 

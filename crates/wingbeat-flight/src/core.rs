@@ -1,8 +1,8 @@
 //! How the root body moves: freely, by one of the formulations, or as a tether prescribes.
 
 use wingbeat_dynamics::{
-    AddedMass, BodyAcceleration, BodyMotion, Formulation, RootMotion, Solution, System, Workspace,
-    Wrench, tethered, tethered_motions,
+    AddedMass, BodyAcceleration, BodyMotion, Formulation, RootMotion, ShapeMass, Solution, System,
+    Workspace, Wrench, tethered, tethered_motions,
 };
 
 use crate::error::FlightError;
@@ -49,6 +49,19 @@ impl Core {
         }
     }
 
+    /// Whether all accelerations follow from time alone, whatever the loads.
+    pub fn prescribes_all(&self) -> bool {
+        matches!(self, Self::Tethered { .. })
+    }
+
+    /// Whether the momenta of the state are those of wings that bend ([`Formulation::takes_shapes`]).
+    pub fn takes_shapes(&self) -> bool {
+        match self {
+            Self::Free(form) => form.takes_shapes(),
+            Self::Tethered { .. } => false,
+        }
+    }
+
     /// Length of the state vector; 0 when tethered.
     pub fn dim(&self) -> usize {
         match self {
@@ -76,13 +89,18 @@ impl Core {
         }
     }
 
-    /// Consistent state at time `t` [s] for bodies that move like `motions`.
+    /// Consistent state at time `t` [s] for bodies that move like `motions` and have these shapes.
     ///
     /// # Errors
     /// No consistent state exists, or it is singular.
-    pub fn initial_from(&self, t: f64, motions: &[BodyMotion]) -> Result<Vec<f64>, FlightError> {
+    pub fn initial_from(
+        &self,
+        t: f64,
+        motions: &[BodyMotion],
+        shapes: &[ShapeMass],
+    ) -> Result<Vec<f64>, FlightError> {
         match self {
-            Self::Free(form) => Ok(form.initial_from(t, motions)?),
+            Self::Free(form) => Ok(form.initial_shaped(t, motions, shapes)?),
             Self::Tethered { .. } => Ok(vec![]),
         }
     }

@@ -14,8 +14,19 @@ use wingbeat_math::DVec3;
 use crate::air::{Air, AirScratch, Instant};
 use crate::applied::{AppliedLoad, PointSpring};
 use crate::core::Core;
+use crate::elastic::{ElasticScratch, ElasticState, ElasticWings, Moment};
 use crate::error::FlightError;
+use crate::interface::Shape;
 use crate::quadratures::{QUADRATURES, Quadratures, WORKS};
+
+/// What a flight remembers beside its state vector, frozen within a step.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Memory<'a> {
+    /// The air.
+    pub air: Option<&'a AirState>,
+    /// The elastic wings; empty where there are none.
+    pub wings: &'a [ElasticState],
+}
 
 /// The model: everything constant that the right-hand side needs.
 #[derive(Debug)]
@@ -24,6 +35,8 @@ pub struct Equations {
     pub core: Core,
     /// The air around them.
     pub air: Arc<dyn Air>,
+    /// The wings that loads bend.
+    pub elastic: Arc<ElasticWings>,
     /// All joints, for their coordinates.
     pub mechanism: Mechanism,
     /// Extra loads.
@@ -43,11 +56,16 @@ pub struct Scratch {
     pub air: Vec<Wrench>,
     /// Applied load per body about its origin.
     pub applied: Vec<Wrench>,
-    /// Sum of both.
+    /// What elastic wings do to their bodies otherwise than rigid ones; empty where there are none.
+    elastic_loads: Vec<Wrench>,
+    /// Sum of all, and of all but what elastic wings do.
     total: Vec<Wrench>,
+    external: Vec<Wrench>,
     /// Masses carried along, and the time that they belong to.
     added: Vec<AddedMass>,
     added_at: Option<f64>,
+    /// The same with those of elastic wings.
+    carried: Vec<AddedMass>,
     /// Accelerations, reactions, energies.
     pub solution: Solution,
     /// Kinetic energy relative to the root [J] and its rate [W].
@@ -57,6 +75,8 @@ pub struct Scratch {
     dynamics: Workspace,
     /// Scratch of the air.
     pub air_scratch: AirScratch,
+    /// Scratch of the elastic wings.
+    pub elastic: ElasticScratch,
 }
 
 impl Scratch {
@@ -69,14 +89,21 @@ impl Scratch {
             motions: vec![BodyMotion::REST; bodies],
             air: none.clone(),
             applied: none.clone(),
+            elastic_loads: match equations.elastic.is_empty() {
+                true => vec![],
+                false => none.clone(),
+            },
+            external: none.clone(),
             total: none,
             added: vec![],
             added_at: None,
+            carried: vec![],
             solution: Solution::new(system),
             relative: [0.0; 2],
             deformation: vec![0.0; if equations.air.deforms() { bodies } else { 0 }],
             dynamics: equations.core.workspace(),
             air_scratch: equations.air.scratch(),
+            elastic: equations.elastic.scratch(&equations.elastic.initial()),
         }
     }
 }
@@ -102,15 +129,24 @@ impl Scratch {
             *sum = *a;
             *sum += *b;
         }
+        for (sum, c) in self.total.iter_mut().zip(&self.elastic_loads) {
+            *sum += *c;
+        }
     }
 }
 
 /// The bodies at an instant.
-fn instant(time: f64, step: f64, motions: &[BodyMotion]) -> Instant<'_> {
+fn instant<'a>(
+    time: f64,
+    step: f64,
+    motions: &'a [BodyMotion],
+    shapes: &'a [Option<Shape>],
+) -> Instant<'a> {
     Instant {
         time,
         step,
         motions,
+        shapes,
     }
 }
 
@@ -137,7 +173,7 @@ impl Equations {
         s
     }
 
-    /// Rates of the state `y` at time `t` [s] in the frozen wake of `air`; leaves all
+    /// Rates of the state `y` at time `t` [s] with the frozen `memory`; leaves all
     /// intermediate results in `s`.
     ///
     /// # Errors
@@ -147,14 +183,16 @@ impl Equations {
         &self,
         t: f64,
         y: &[f64],
-        air: Option<&AirState>,
+        memory: Memory<'_>,
         s: &mut Scratch,
         dy: &mut [f64],
     ) -> Result<(), FlightError> {
         let n = self.core.dim();
-        self.loaded_rates(t, y, air, s, dy)?;
+        self.loaded_rates(t, y, memory, s, dy)?;
+        self.follow_shapes(t, &y[..n], s)?;
         self.core
             .solve(t, &y[..n], &s.total, &mut s.dynamics, &mut s.solution)?;
+        self.correct_budget(s);
         s.relative = relative_energy(self.core.system(), &s.motions, &s.solution.bodies);
         self.deformation_power(t, s);
         self.quadrature_rates(s).write(dy);
@@ -175,14 +213,14 @@ impl Equations {
         &self,
         t: f64,
         y: &[f64],
-        air: Option<&AirState>,
+        memory: Memory<'_>,
         s: &mut Scratch,
         dy: &mut [f64],
     ) -> Result<(), FlightError> {
-        if self.core.is_held() {
-            return self.evaluate(t, y, air, s, dy); // impulses ask for the force of the support
+        if self.core.is_held() || !self.elastic.is_empty() {
+            return self.evaluate(t, y, memory, s, dy); // impulses ask for the force of the support
         }
-        self.loaded_rates(t, y, air, s, dy)?;
+        self.loaded_rates(t, y, memory, s, dy)?;
         let centre = mass_centre(self.core.system(), &s.motions);
         let [impulse, angular_impulse] = self.external(s, centre, &Wrench::default());
         let quadratures = Quadratures {
@@ -199,13 +237,22 @@ impl Equations {
         &self,
         t: f64,
         y: &[f64],
-        air: Option<&AirState>,
+        memory: Memory<'_>,
         s: &mut Scratch,
         dy: &mut [f64],
     ) -> Result<(), FlightError> {
         let n = self.core.dim();
-        self.loads(t, &y[..n], air, s)?;
-        (self.core).rates(t, &y[..n], &s.total, &mut s.dynamics, &mut dy[..n])
+        self.loads(t, &y[..n], memory, s)?;
+        let loads = match self.core.takes_shapes() && !self.elastic.is_empty() {
+            true => {
+                s.external.clone_from(&s.air);
+                let both = s.external.iter_mut().zip(&s.applied);
+                both.for_each(|(sum, applied)| *sum += *applied);
+                &s.external
+            }
+            false => &s.total,
+        };
+        (self.core).rates(t, &y[..n], loads, &mut s.dynamics, &mut dy[..n])
     }
 
     /// External force and its moment about the inertial origin, N components, with the mass centre at
@@ -215,7 +262,13 @@ impl Equations {
         let weight = system.total_mass() * system.gravity();
         let mut force = weight + tether.force;
         let mut moment = centre.cross(weight) + tether.moment + s.motions[0].p.cross(tether.force);
-        for (l, m) in s.total.iter().zip(&s.motions) {
+        for (k, (l, m)) in s.total.iter().zip(&s.motions).enumerate() {
+            // What elastic wings do to their bodies is no external load.
+            let l = s.elastic_loads.get(k).map_or(*l, |_| {
+                let mut l = s.air[k];
+                l += s.applied[k];
+                l
+            });
             force += l.force;
             moment += l.moment + m.p.cross(l.force);
         }
@@ -230,11 +283,11 @@ impl Equations {
         &self,
         t: f64,
         y: &[f64],
-        air: Option<&AirState>,
+        memory: Memory<'_>,
         s: &mut Scratch,
         dy: &mut [f64],
     ) -> Result<(), FlightError> {
-        self.known_loads(t, y, air, s)?;
+        self.known_loads(t, y, memory, s)?;
         let (ws, out) = (&mut s.dynamics, &mut s.solution);
         (self.core).rates_with((t, y), &s.added, &mut s.total, ws, out, dy)
     }
@@ -244,10 +297,13 @@ impl Equations {
         &self,
         t: f64,
         y: &[f64],
-        air: Option<&AirState>,
+        memory: Memory<'_>,
         s: &mut Scratch,
     ) -> Result<(), FlightError> {
-        self.known_loads(t, y, air, s)?;
+        self.known_loads(t, y, memory, s)?;
+        if !self.elastic.is_empty() {
+            return self.add_masses(t, y, s);
+        }
         if !s.added.is_empty() {
             let (ws, out) = (&mut s.dynamics, &mut s.solution);
             (self.core).add_mass((t, y), &s.added, &mut s.total, ws, out)?;
@@ -259,18 +315,51 @@ impl Equations {
         Ok(())
     }
 
+    /// Loads of the added masses of the air and of elastic wings, each to its own.
+    fn add_masses(&self, t: f64, y: &[f64], s: &mut Scratch) -> Result<(), FlightError> {
+        let at = Moment {
+            time: t,
+            step: self.step,
+            motions: &s.motions,
+            accelerations: &s.solution.bodies,
+        };
+        s.carried.clone_from(&s.added);
+        let (loads, carried) = (&mut s.elastic_loads, &mut s.carried);
+        self.elastic.add_mass(&at, &s.elastic, loads, carried);
+        if s.carried.is_empty() {
+            return Ok(());
+        }
+        s.sum_loads();
+        let (ws, out) = (&mut s.dynamics, &mut s.solution);
+        (self.core).add_mass((t, y), &s.carried, &mut s.total, ws, out)?;
+        for (k, total) in s.total.iter().enumerate() {
+            let own = match s.carried[s.added.len()..].iter().any(|a| a.body() == k) {
+                true => [&mut s.elastic_loads[k], &mut s.air[k]],
+                false => [&mut s.air[k], &mut s.elastic_loads[k]],
+            };
+            let [to, other] = own;
+            *to = *total - *other - s.applied[k];
+        }
+        s.sum_loads();
+        Ok(())
+    }
+
     /// All loads but those of the added mass into `s.total`, the added mass into `s.added`.
     fn known_loads(
         &self,
         t: f64,
         y: &[f64],
-        air: Option<&AirState>,
+        memory: Memory<'_>,
         s: &mut Scratch,
     ) -> Result<(), FlightError> {
-        self.place_nodes(t, y, s)?;
-        self.applied_loads(t, s);
-        let at = instant(t, self.step, &s.motions);
-        (self.air).loads(&at, air, &mut s.air_scratch, &mut s.air)?;
+        if self.elastic.is_empty() {
+            self.place_nodes(t, y, s)?;
+            self.applied_loads(t, s);
+            let at = instant(t, self.step, &s.motions, &[]);
+            (self.air).loads(&at, memory.air, &mut s.air_scratch, &mut s.air)?;
+        } else {
+            self.bend(t, y, memory, s)?;
+        }
         if s.added_at != Some(t) {
             s.added.clear();
             self.air.added_mass(t, &mut s.added);
@@ -278,6 +367,60 @@ impl Equations {
         }
         s.sum_loads();
         Ok(())
+    }
+
+    /// Shapes of the elastic wings and loads of the air that agree, in the core's state `y`.
+    fn bend(
+        &self,
+        t: f64,
+        y: &[f64],
+        memory: Memory<'_>,
+        s: &mut Scratch,
+    ) -> Result<(), FlightError> {
+        let n = self.core.dim();
+        let known = &mut s.solution.bodies;
+        (self.elastic).predict(self.step, memory.wings, &mut s.elastic, known);
+        if self.core.takes_shapes() {
+            let shapes = self.elastic.shape_masses(&s.elastic);
+            s.dynamics.set_shapes(shapes);
+        }
+        self.core
+            .motions(t, &y[..n], &mut s.dynamics, &mut s.motions)?;
+        self.applied_loads(t, s);
+        if self.core.prescribes_all() {
+            let (ws, out) = (&mut s.dynamics, &mut s.solution);
+            self.core.solve(t, &y[..n], &s.total, ws, out)?;
+        }
+        let at = Moment {
+            time: t,
+            step: self.step,
+            motions: &s.motions,
+            accelerations: &s.solution.bodies,
+        };
+        let air = (self.air.as_ref(), memory.air);
+        let loads = (&mut s.air_scratch, &mut s.air[..]);
+        (self.elastic).couple(&at, air, &mut s.elastic, loads)?;
+        (self.elastic).wrenches(&s.motions, &s.elastic, &mut s.elastic_loads);
+        Ok(())
+    }
+
+    /// Motions that have the momenta of the state with the shapes that have just been found.
+    fn follow_shapes(&self, t: f64, y: &[f64], s: &mut Scratch) -> Result<(), FlightError> {
+        if self.core.takes_shapes() && !self.elastic.is_empty() {
+            let shapes = self.elastic.shape_masses(&s.elastic);
+            s.dynamics.set_shapes(shapes);
+            (self.core).motions(t, y, &mut s.dynamics, &mut s.motions)?;
+        }
+        Ok(())
+    }
+
+    /// Makes the budget that of the elastic wings.
+    fn correct_budget(&self, s: &mut Scratch) {
+        if !self.elastic.is_empty() {
+            let mass = self.core.system().total_mass();
+            let budget = &mut s.solution.budget;
+            (self.elastic).correct_budget(&s.motions, &s.elastic, mass, budget);
+        }
     }
 
     /// Puts the state at time `t` [s] back onto what it must fulfil.
@@ -308,7 +451,7 @@ impl Equations {
         let n = self.core.dim();
         self.core
             .motions(t, &y[..n], &mut s.dynamics, &mut s.motions)?;
-        let at = instant(t, self.step, &s.motions);
+        let at = instant(t, self.step, &s.motions, s.elastic.shapes());
         self.air.place(&at, &mut s.air_scratch)
     }
 
@@ -334,14 +477,21 @@ impl Equations {
         air: &mut Option<AirState>,
         s: &mut Scratch,
     ) -> Result<(), FlightError> {
+        s.elastic.begin_step();
         (self.air).advance(air, self.step, &mut s.air_scratch)
     }
 
-    /// Accepts the circulations of the state last evaluated.
+    /// Accepts circulations and shapes of the state last evaluated.
     ///
     /// # Errors
     /// The wake has not been moved.
-    pub fn accept_air(&self, air: &mut Option<AirState>, s: &Scratch) -> Result<(), FlightError> {
+    pub fn accept(
+        &self,
+        air: &mut Option<AirState>,
+        wings: &mut [ElasticState],
+        s: &Scratch,
+    ) -> Result<(), FlightError> {
+        (self.elastic).accept(&s.solution.bodies, &s.elastic, wings);
         self.air.accept(air, &s.air_scratch)
     }
 
@@ -364,7 +514,7 @@ impl Equations {
         if s.deformation.is_empty() {
             return;
         }
-        let at = instant(t, self.step, &s.motions);
+        let at = instant(t, self.step, &s.motions, s.elastic.shapes());
         let accelerations = &s.solution.bodies;
         (self.air).deformation_power(&at, accelerations, &s.air_scratch, &mut s.deformation);
     }
@@ -379,7 +529,7 @@ impl Equations {
         let deformation: f64 = s.deformation.iter().sum();
         Quadratures {
             hinge_work: s.solution.hinge_power() - s.relative[1],
-            air_work: power(&s.air) - deformation,
+            air_work: power(&s.air) - deformation + self.elastic.air_power(&s.elastic),
             applied_work: power(&s.applied) + tether.power(&s.motions[0]),
             impulse,
             angular_impulse,

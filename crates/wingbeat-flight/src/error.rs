@@ -10,6 +10,29 @@ pub enum FlightError {
     /// The multibody system cannot be built or evaluated.
     #[error(transparent)]
     Dynamics(#[from] DynamicsError),
+    /// An elastic wing cannot be built or solved.
+    #[error(transparent)]
+    Structure(#[from] wingbeat_structure::StructureError),
+    /// An elastic wing cannot be made of what it is to be made of.
+    #[error(transparent)]
+    WingStructure(#[from] wingbeat_model::structure::WingStructureError),
+    /// Shape and loads of elastic wings did not come to agree.
+    #[error(
+        "t = {time:.6e} s: shape and loads of {} did not agree after {passes} passes: unbalanced forces {unbalanced:.2e} of those at the nodes, allowed {tolerance:.0e}; try a smaller step (time.steps_per_beat), more damping (structure.damping_s), or look whether the wing is too soft for its loads or touches itself",
+        wings.join(" and ")
+    )]
+    ElasticNotConverged {
+        /// Time \[s\].
+        time: f64,
+        /// Names of the wings.
+        wings: Vec<String>,
+        /// Passes made.
+        passes: usize,
+        /// Unbalanced forces over those at the nodes \[1\].
+        unbalanced: f64,
+        /// Allowed.
+        tolerance: f64,
+    },
     /// The vortex lattice cannot be built or evaluated.
     #[error(transparent)]
     Air(#[from] AirError),

@@ -16,7 +16,7 @@ use wingbeat_dynamics::{
 use crate::air::{Air, AirScratch, Instant};
 use crate::bodies::{WingLaw, system_with};
 use crate::core::Core;
-use crate::equations::{Equations, Scratch};
+use crate::equations::{Equations, Memory, Scratch};
 use crate::error::FlightError;
 use crate::setup::{AirModel, FlightSetup};
 
@@ -83,6 +83,7 @@ impl FreeFlight {
 
     fn of(setup: &FlightSetup, form: MomentumForm, step: f64) -> Result<Self, FlightError> {
         let air = AirModel::build(setup, form.system())?;
+        setup.refuse_elastic("a map of one wingbeat")?;
         if air.has_memory() {
             return Err(FlightError::Setup {
                 key: "air.model",
@@ -98,6 +99,7 @@ impl FreeFlight {
             mechanism: Mechanism::of(form.system()),
             core: Core::Free(Box::new(form.clone())),
             air,
+            elastic: Arc::default(),
             applied: setup.loads.clone(),
             springs: setup.springs.clone(),
             step,
@@ -144,7 +146,7 @@ impl FreeFlight {
         s: &mut FreeFlightScratch,
         dy: &mut [f64],
     ) -> Result<(), FlightError> {
-        self.equations.rates(t, y, None, &mut s.0, dy)
+        self.equations.rates(t, y, Memory::default(), &mut s.0, dy)
     }
 
     /// Motion of the root in the state `y` at time `t` [s]: as [`Self::motions`], with room that is there already.
@@ -186,6 +188,7 @@ impl FreeFlight {
             time: t,
             step: self.equations.step,
             motions,
+            shapes: &[],
         };
         let (mut loads, mut added) = (vec![Wrench::default(); motions.len()], vec![]);
         self.air().place(&at, s)?;

@@ -5,6 +5,7 @@ use std::fmt;
 
 use wingbeat_air::{AirLoads, AirState, AirWorkspace, NodeMotion, Points};
 use wingbeat_dynamics::{AddedMass, BodyAcceleration, BodyMotion, Wrench};
+use wingbeat_math::DVec3;
 
 use crate::error::FlightError;
 use crate::record::Snapshot;
@@ -18,6 +19,29 @@ pub struct Instant<'a> {
     pub step: f64,
     /// Motions of all bodies: root, wings, segments.
     pub motions: &'a [BodyMotion],
+    /// Shapes of the wings that loads bend, wing by wing; none for the others, empty where no wing bends.
+    pub shapes: &'a [Option<Shape>],
+}
+
+/// A wing as loads bend it: the nodes of its mesh relative to the frame of the wing, wing components.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Shape {
+    /// Places [m].
+    pub position: Vec<DVec3>,
+    /// Velocities [m/s].
+    pub velocity: Vec<DVec3>,
+    /// Accelerations [m/s2].
+    pub acceleration: Vec<DVec3>,
+}
+
+/// How the normal forces of the panels of a wing answer to the motion of the nodes of its mesh, in frozen wakes.
+#[derive(Clone, Debug, Default)]
+pub struct WingResponse {
+    /// Derivative of the normal forces by the normal velocities of the panels \[N s/m\], row by row.
+    pub matrix: Vec<f64>,
+    /// Panel by panel: how a node of the mesh (its number among the wing's) shares in the panel's normal force \[1\], and how
+    /// the panel's normal velocity changes with the node's velocity \[1\] and place \[1/s\]; N components.
+    pub panels: Vec<Vec<(usize, [DVec3; 2])>>,
 }
 
 /// Room for intermediate results of the air; what it holds belongs to the instant last asked for.
@@ -27,6 +51,7 @@ pub struct AirScratch {
     pub nodes: NodeMotion,
     /// Circulations, pressure jumps, panel forces.
     pub loads: AirLoads,
+    pub(crate) rings: NodeMotion,
     pub(crate) workspace: AirWorkspace,
     pub(crate) nodes_done: NodeMotion,
     pub(crate) is_current: bool,
@@ -118,6 +143,41 @@ pub trait Air: fmt::Debug + Send + Sync {
             None => Ok(()),
             Some(_) => Err(misfit("the case has no air with a memory")),
         }
+    }
+
+    /// Forces on the nodes of the mesh of wing number `wing` \[N\], N components, into `out`: what the loads last asked for do
+    /// to it, the same force, moment and power.
+    ///
+    /// # Errors
+    /// A model that knows no wings that bend.
+    fn nodal_forces(
+        &self,
+        _wing: usize,
+        _at: &Instant<'_>,
+        _scratch: &mut AirScratch,
+        _out: &mut Vec<DVec3>,
+    ) -> Result<(), FlightError> {
+        Err(FlightError::Setup {
+            key: "air.model",
+            value: "this model".into(),
+            problem: "it gives no loads along the wings, so no wing can bend in it: take vortex_lattice or none, or leave out [wing.NAME.structure]".into(),
+        })
+    }
+
+    /// How the loads on a wing that bends answer to the motion of its nodes, at the instant last asked for, into `out`: for the
+    /// left-hand side of a step. False if they hardly do.
+    ///
+    /// # Errors
+    /// What the model reports.
+    fn wing_response(
+        &self,
+        _wing: usize,
+        _at: &Instant<'_>,
+        _memory: Option<&AirState>,
+        _scratch: &AirScratch,
+        _out: &mut WingResponse,
+    ) -> Result<bool, FlightError> {
+        Ok(false)
     }
 
     /// Whether any wing moves otherwise than its body.

@@ -27,6 +27,7 @@ mod bodies;
 pub mod control;
 mod controller;
 mod core;
+pub mod elastic;
 mod equations;
 mod error;
 mod free;
@@ -51,10 +52,12 @@ pub use control::Passage;
 pub use controller::{Aim, Controller, Sensed};
 pub use error::FlightError;
 pub use free::{FreeFlight, FreeFlightScratch};
-pub use interface::{Air, AirScratch, Announcement, ExternalAir, ExternalSession, Instant};
+pub use interface::{
+    Air, AirScratch, Announcement, ExternalAir, ExternalSession, Instant, Shape, WingResponse,
+};
 pub use joints::{closes_loop, faster};
 pub use record::{
-    AccelerationRecord, HingeRecord, LoadRecord, ParticleSnapshot, Record, Snapshot,
+    AccelerationRecord, ElasticRecord, HingeRecord, LoadRecord, ParticleSnapshot, Record, Snapshot,
     SurfaceSnapshot, WakeSnapshot,
 };
 pub use recorder::Ledger;

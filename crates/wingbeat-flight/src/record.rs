@@ -41,6 +41,8 @@ pub struct Record {
     pub joints: Vec<[f64; 2]>,
     /// Per wing: power of what deforms it against the air [W]; empty where nothing is deformed.
     pub deformation_power: Vec<f64>,
+    /// Per elastic wing, in the order of the wings: how it is bent.
+    pub elastic: Vec<ElasticRecord>,
     /// Per body: air load.
     pub air: Vec<LoadRecord>,
     /// Per body: applied load.
@@ -49,7 +51,7 @@ pub struct Record {
     pub tether: LoadRecord,
     /// Kinetic energy [J].
     pub kinetic_energy: f64,
-    /// Potential energy of weight, zero at the inertial origin [J].
+    /// Potential energy of weight, zero at the inertial origin, and elastic energy of wings [J].
     pub potential_energy: f64,
     /// Work done so far by the hinge actuators [J].
     pub hinge_work: f64,
@@ -59,7 +61,9 @@ pub struct Record {
     pub deformation_work: f64,
     /// Work done so far by applied loads and the tether [J].
     pub applied_work: f64,
-    /// Energy residual: kinetic + potential - start - all work [J].
+    /// Energy that the damping of elastic wings has dissipated so far [J].
+    pub dissipated: f64,
+    /// Energy residual: kinetic + potential (weight, elastic wings) - start - all work + what was dissipated [J].
     pub energy_residual: f64,
     /// Linear momentum, N components [kg m/s].
     pub momentum: DVec3,
@@ -120,6 +124,7 @@ impl Clone for Record {
             loops: over(&mut self.loops, &other.loops),
             joints: over(&mut self.joints, &other.joints),
             deformation_power: over(&mut self.deformation_power, &other.deformation_power),
+            elastic: over(&mut self.elastic, &other.elastic),
             air: over(&mut self.air, &other.air),
             applied: over(&mut self.applied, &other.applied),
             ..*other
@@ -184,6 +189,19 @@ impl AirImpulse {
         (self.time, self.force) = (time, force);
         self.sum
     }
+}
+
+/// How an elastic wing is bent.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct ElasticRecord {
+    /// Displacement of the middle of the tip's chord from rest, wing components [m].
+    pub tip: DVec3,
+    /// Twist of the tip from rest, positive like feathering: leading edge towards -axis 3 [rad].
+    pub twist: f64,
+    /// Elastic energy [J].
+    pub strain_energy: f64,
+    /// Passes that shape and loads took to agree.
+    pub passes: usize,
 }
 
 /// Accelerations of one body.

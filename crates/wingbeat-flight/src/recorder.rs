@@ -5,6 +5,7 @@ use wingbeat_dynamics::{Body, BodyMotion, Budget, Wrench};
 use wingbeat_math::ode::StepReport;
 use wingbeat_math::{DQuat, DVec3};
 
+use crate::elastic::ElasticState;
 use crate::equations::{Equations, Scratch};
 use crate::quadratures::Quadratures;
 use crate::record::{AccelerationRecord, AirImpulse, HingeRecord, LoadRecord, Record};
@@ -61,6 +62,8 @@ pub struct Sources<'a> {
     pub y: &'a [f64],
     /// The air, not yet moved on.
     pub air: Option<&'a AirState>,
+    /// The elastic wings, not yet moved on.
+    pub wings: &'a [ElasticState],
     /// What the corrector did.
     pub report: StepReport,
 }
@@ -106,6 +109,7 @@ impl Sources<'_> {
         refill(&mut r.air, &s.air, load);
         refill(&mut r.applied, &s.applied, load);
         r.tether = load(&solution.tether);
+        self.equations.elastic.records(&s.elastic, &mut r.elastic);
     }
 
     /// Energies, momenta, and what is missing in them.
@@ -118,8 +122,9 @@ impl Sources<'_> {
         r.air_work = work.air_work;
         r.deformation_work = work.deformation_work;
         r.applied_work = work.applied_work;
+        r.dissipated = self.equations.elastic.dissipated(self.wings, &s.elastic);
         let done = r.hinge_work + work.air_work + work.deformation_work + work.applied_work;
-        r.energy_residual = solution.energy() - ledger.energy - done;
+        r.energy_residual = solution.energy() - ledger.energy - done + r.dissipated;
         r.momentum = budget.momentum;
         r.angular_momentum = about_origin(budget);
         r.momentum_residual = budget.momentum - ledger.momentum - work.impulse;

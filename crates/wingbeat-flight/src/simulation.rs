@@ -19,7 +19,7 @@ use self::start::Start;
 use self::wings::WingAngles;
 use crate::bodies::{carry, own_motion};
 use crate::control::{Loop, Sensed, feedback};
-use crate::equations::{Equations, Scratch};
+use crate::equations::{Equations, Memory, Scratch};
 use crate::error::FlightError;
 use crate::quadratures::QUADRATURES;
 use crate::record::{Record, Snapshot};
@@ -66,6 +66,7 @@ impl Simulation {
             past: Multistep::default(),
             start_report: StepReport::default(),
             air: None,
+            wings: first.elastic.initial(),
             ledger: Ledger::default(),
             control: feedback.as_ref().map(Loop::state),
         };
@@ -101,6 +102,7 @@ impl Simulation {
         let first = &flight.stages[flight.state.stage].equations;
         flight.solver = flight.new_solver();
         flight.scratch = Scratch::new(first);
+        flight.scratch.elastic = first.elastic.scratch(&flight.state.wings);
         if let (Some(feedback), Some(state)) = (&mut flight.feedback, &flight.state.control) {
             feedback.restore(state);
         }
@@ -234,8 +236,8 @@ impl Simulation {
         let (t, k) = (self.time(self.state.step), self.newest());
         let equations = &self.stages[self.state.stage].equations;
         let mut dy = vec![0.0; equations.dim()];
-        let (y, air) = (&self.state.past.y[k], self.state.air.as_ref());
-        equations.evaluate(t, y, air, &mut self.scratch, &mut dy)?;
+        let y = &self.state.past.y[k];
+        equations.evaluate(t, y, self.state.memory(), &mut self.scratch, &mut dy)?;
         Ok(self.state.start_report)
     }
 
@@ -243,10 +245,14 @@ impl Simulation {
     fn predict_and_correct(&mut self) -> Result<StepReport, FlightError> {
         let (before, t) = (self.time(self.state.step - 1), self.time(self.state.step));
         let equations = &self.stages[self.state.stage].equations;
-        let (air, scratch) = (self.state.air.as_ref(), &mut self.scratch);
+        let scratch = &mut self.scratch;
+        let memory = Memory {
+            air: self.state.air.as_ref(),
+            wings: &self.state.wings,
+        };
         let past = &mut self.state.past;
         self.solver
-            .advance((before, t), past, equations, air, scratch)
+            .advance((before, t), past, equations, memory, scratch)
             .map_err(|e| failure(e, self.state.step, t, &self.setup))
     }
 
@@ -266,7 +272,9 @@ impl Simulation {
             let core = &self.stages[next].equations.core;
             let mut motions = self.scratch.motions.clone();
             carry(&mut motions, &root);
-            let mut y0 = core.initial_from(self.time(self.state.step), &motions)?;
+            let elastic = &self.stages[next].equations.elastic;
+            let shapes: Vec<_> = elastic.shape_masses(&self.scratch.elastic).collect();
+            let mut y0 = core.initial_from(self.time(self.state.step), &motions, &shapes)?;
             y0.extend(quadratures);
             self.state.stage = next;
             self.enter_stage(y0)?;
@@ -280,7 +288,7 @@ impl Simulation {
         let equations = &self.stages[self.state.stage].equations;
         self.scratch.fit(equations);
         let mut f0 = vec![0.0; y0.len()];
-        equations.evaluate(t, &y0, self.state.air.as_ref(), &mut self.scratch, &mut f0)?;
+        equations.evaluate(t, &y0, self.state.memory(), &mut self.scratch, &mut f0)?;
         self.solver = self.new_solver();
         self.state.started_at = self.state.step;
         self.state.past = Multistep::from_start(
@@ -301,12 +309,13 @@ impl Simulation {
             scratch: &self.scratch,
             y: &self.state.past.y[self.newest()],
             air: self.state.air.as_ref(),
+            wings: &self.state.wings,
             report,
         };
         sources.write(step, time, &mut self.state.ledger, &mut self.record);
         self.write_reference();
         let equations = &self.stages[self.state.stage].equations;
-        equations.accept_air(&mut self.state.air, &self.scratch)?;
+        equations.accept(&mut self.state.air, &mut self.state.wings, &self.scratch)?;
         if starts && !self.finished() && !self.setup.integrator.is_one_step() {
             self.start()?;
         }
@@ -360,6 +369,8 @@ impl Simulation {
             first,
             at_start: &state.air,
             air: None,
+            wings_at_start: &state.wings,
+            wings: vec![],
         };
         let (y0, f0) = (&state.past.y[0], &state.past.f[0]);
         let convergence = convergence(&self.setup.corrector);

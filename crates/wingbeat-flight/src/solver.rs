@@ -1,12 +1,11 @@
 //! The time integrators behind one face: a step of the coupled equations.
 
-use wingbeat_air::AirState;
 use wingbeat_math::ode::{
     AdamsBashforthMoulton, AdaptiveError, Asked, Bdf, Convergence, Dop853, Hamming, Multistep, Rk4,
     StepError, StepReport, Tolerance,
 };
 
-use crate::equations::{Equations, Scratch};
+use crate::equations::{Equations, Memory, Scratch};
 use crate::error::FlightError;
 use crate::setup::{CorrectorSettings, IntegratorChoice};
 
@@ -55,7 +54,7 @@ impl Buffers {
         s: &mut Scratch,
     ) -> Result<(), FlightError> {
         equations.normalise(t, &mut self.y, s)?;
-        equations.evaluate(t, &self.y, None, s, &mut self.f)?;
+        equations.evaluate(t, &self.y, Memory::default(), s, &mut self.f)?;
         past.push(&self.y, &self.f);
         Ok(())
     }
@@ -89,7 +88,7 @@ impl Solver {
         }
     }
 
-    /// One step from `t` to `end` [s] in the frozen wake of `air`: `past` moves on, and the newest state
+    /// One step from `t` to `end` [s] with the frozen `memory`: `past` moves on, and the newest state
     /// is the one last evaluated in `s`.
     ///
     /// # Errors
@@ -99,7 +98,7 @@ impl Solver {
         (t, end): (f64, f64),
         past: &mut Multistep,
         equations: &Equations,
-        air: Option<&AirState>,
+        memory: Memory<'_>,
         s: &mut Scratch,
     ) -> Result<StepReport, StepError<FlightError>> {
         let once = StepReport {
@@ -108,21 +107,21 @@ impl Solver {
         };
         match self {
             Self::Hamming(method) => method.advance_asking(past, |asked, y, dy| match asked {
-                Asked::Pass => equations.pass(end, y, air, s, dy),
-                Asked::Accepted => equations.evaluate(end, y, air, s, dy),
+                Asked::Pass => equations.pass(end, y, memory, s, dy),
+                Asked::Accepted => equations.evaluate(end, y, memory, s, dy),
             }),
             Self::Bdf(method) => {
-                method.advance(past, |y, dy| equations.evaluate(end, y, air, s, dy))
+                method.advance(past, |y, dy| equations.evaluate(end, y, memory, s, dy))
             }
             Self::Adams(method) => method
-                .advance(past, |y, dy| equations.evaluate(end, y, air, s, dy))
+                .advance(past, |y, dy| equations.evaluate(end, y, memory, s, dy))
                 .map(|()| once)
                 .map_err(StepError::Rates),
             Self::RungeKutta(method, b) => {
                 b.y.copy_from_slice(past.newest());
                 method
                     .advance(t, b.step, &mut b.y, |t, y, dy| {
-                        equations.evaluate(t, y, None, s, dy)
+                        equations.evaluate(t, y, Memory::default(), s, dy)
                     })
                     .and_then(|()| b.accept(end, past, equations, s))
                     .map(|()| once)
@@ -130,8 +129,9 @@ impl Solver {
             }
             Self::OrderEight(method, b) => {
                 b.y.copy_from_slice(past.newest());
-                let rates =
-                    |t: f64, y: &[f64], dy: &mut [f64]| equations.evaluate(t, y, None, s, dy);
+                let rates = |t: f64, y: &[f64], dy: &mut [f64]| {
+                    equations.evaluate(t, y, Memory::default(), s, dy)
+                };
                 let report = method
                     .integrate((t, end), &mut b.y, rates, |_| {})
                     .map_err(|e| StepError::Rates(adaptive(e, equations, &b.y, s)))?;

@@ -10,6 +10,7 @@ use wingbeat_dynamics::{
 
 use crate::bodies::{self, WingLaw};
 use crate::core::Core;
+use crate::elastic::ElasticWings;
 use crate::equations::Equations;
 use crate::error::FlightError;
 use crate::joints::Path;
@@ -34,12 +35,14 @@ pub struct Stage {
 pub fn stages(setup: &FlightSetup, law: &WingLaw<'_>) -> Result<Vec<Stage>, FlightError> {
     let system = bodies::system_with(setup, law)?;
     let air = AirModel::build(setup, &system)?;
+    let elastic = Arc::new(ElasticWings::new(&setup.animal, setup.gravity)?);
     let mechanism = Mechanism::of(&system);
     let stage = |from_step: usize, core: Core| Stage {
         from_step,
         equations: Equations {
             core,
             air: air.clone(),
+            elastic: elastic.clone(),
             mechanism: mechanism.clone(),
             applied: setup.loads.clone(),
             springs: setup.springs.clone(),

@@ -51,6 +51,23 @@ impl FlightSetup {
         Ok(())
     }
 
+    /// Refuses wings that loads bend.
+    ///
+    /// # Errors
+    /// [`FlightError::Setup`] names the first, and `what` knows none.
+    pub(crate) fn refuse_elastic(&self, what: &str) -> Result<(), FlightError> {
+        match self.animal.wings.iter().find(|w| w.structure.is_some()) {
+            None => Ok(()),
+            Some(wing) => Err(FlightError::Setup {
+                key: "wing.structure",
+                value: wing.name.clone(),
+                problem: format!(
+                    "{what} knows no wings that loads bend: leave out [wing.NAME.structure] for it"
+                ),
+            }),
+        }
+    }
+
     fn validate_integrator(&self) -> Result<(), FlightError> {
         let (key, method) = ("dynamics.integrator", format!("{:?}", self.integrator));
         if let IntegratorChoice::OrderEight { tolerance } = self.integrator {
@@ -58,7 +75,9 @@ impl FlightSetup {
             let allowed = "a finite number above 0";
             check(ok, "dynamics.tolerance", tolerance, allowed)?;
         }
-        let fits = !self.air.has_memory() || self.integrator.carries_wake();
+        let bends = self.animal.wings.iter().any(|w| w.structure.is_some());
+        let remembers = self.air.has_memory() || bends;
+        let fits = !remembers || self.integrator.carries_wake();
         let wake = "a wake is moved once per step: only hamming and bdf carry it along";
         check(fits, key, &method, wake)?;
         let projects =

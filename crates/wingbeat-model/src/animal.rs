@@ -5,6 +5,7 @@ use crate::error::ModelError;
 use crate::integrate::scaled_properties;
 use crate::mesh::{GridMesh, QuadMesh, Side};
 use crate::motion::WingMotion;
+use crate::structure::{Blank, WingStructure};
 use wingbeat_math::{DVec3, MassProperties};
 
 /// A wing: flat or cambered surface with its hinge, mass and prescribed motion.
@@ -24,6 +25,8 @@ pub struct Wing {
     pub motion: WingMotion,
     /// Prescribed deformation of the surface, if any; the mass stays where it is.
     pub deformation: Option<Deformation>,
+    /// What it is made of, if loads bend it; rigid otherwise.
+    pub structure: Option<WingStructure>,
 }
 
 impl Wing {
@@ -42,6 +45,7 @@ impl Wing {
             },
             motion: self.motion.mirrored(),
             deformation: self.deformation.clone(),
+            structure: self.structure.clone(),
         }
     }
 
@@ -60,6 +64,32 @@ impl Wing {
             deformation: Some(deformation),
             ..self
         })
+    }
+
+    /// The same wing made of `structure`: its mass becomes that of the elastic body.
+    ///
+    /// # Errors
+    /// A number that is not allowed; a wing whose shape is prescribed; what the elastic body refuses.
+    pub fn made_of(self, structure: WingStructure) -> Result<Self, ModelError> {
+        structure.check(&self.name, self.root())?;
+        if self.deformation.is_some() {
+            return Err(ModelError::TwoShapes(self.name));
+        }
+        let body = structure.body(&self.blank())?.structure;
+        Ok(Self {
+            mass: body.mass_properties(body.rest()),
+            structure: Some(structure),
+            ..self
+        })
+    }
+
+    /// What an elastic body is made from.
+    pub fn blank(&self) -> Blank<'_> {
+        Blank {
+            name: &self.name,
+            mesh: &self.mesh,
+            mass: self.mass.mass,
+        }
     }
 
     /// Least distance of the surface from the hinge along the span over the largest.
@@ -142,6 +172,7 @@ impl Animal {
             mesh: w.mesh.scaled(s),
             mass: scaled_properties(&w.mass, s),
             deformation: w.deformation.as_ref().map(|d| d.scaled(s)),
+            structure: w.structure.as_ref().map(|x| x.scaled(s)),
             ..w.clone()
         };
         let part = |p: &BodyPart| BodyPart {

@@ -77,6 +77,7 @@ impl Wing {
             mass,
             motion,
             deformation: None,
+            structure: None,
         })
     }
 }

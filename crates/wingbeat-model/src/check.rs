@@ -89,6 +89,9 @@ impl Animal {
             if let Some(deformation) = &wing.deformation {
                 deformation.check(&wing.name, wing.root(), &wing.motion)?;
             }
+            if let Some(structure) = &wing.structure {
+                structure.check(&wing.name, wing.root())?;
+            }
             self.check_hinge(wing)?;
         }
         Ok(())

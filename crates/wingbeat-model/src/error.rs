@@ -1,6 +1,9 @@
 //! What can be wrong with an animal: one enum, each case names the key, the value and the remedy.
 
+use std::fmt;
+
 use wingbeat_math::MassError;
+use wingbeat_structure::{ShellError, StructureError};
 
 /// Why the given data do not make an animal.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -25,6 +28,14 @@ pub enum ModelError {
         /// The allowed range, in words.
         allowed: &'static str,
     },
+    /// A wing whose shape is prescribed and follows from loads, too.
+    #[error(
+        "wing `{0}` has a structure and a prescribed deformation: its shape follows from loads or is given, not both; leave one of them out"
+    )]
+    TwoShapes(String),
+    /// A structure that cannot be.
+    #[error(transparent)]
+    Structure(#[from] WingStructureError),
     /// A row of a table is wrong. Rows count from 1.
     #[error("{table}, row {row}: {problem}")]
     Table {
@@ -167,4 +178,36 @@ pub(crate) fn require_count(
         value,
         allowed,
     })
+}
+
+/// Why a wing cannot be made of this.
+#[derive(Clone, Debug, PartialEq)]
+pub struct WingStructureError {
+    /// Name of the wing.
+    pub wing: String,
+    /// What is wrong.
+    pub source: Box<MemberError>,
+}
+
+/// What is wrong with the members of a wing.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum MemberError {
+    /// The elastic body.
+    #[error(transparent)]
+    Body(#[from] StructureError),
+    /// A shell.
+    #[error(transparent)]
+    Shell(#[from] ShellError),
+}
+
+impl fmt::Display for WingStructureError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "structure of wing `{}`: {}", self.wing, self.source)
+    }
+}
+
+impl std::error::Error for WingStructureError {
+    fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
+        Some(self.source.as_ref())
+    }
 }

@@ -38,6 +38,7 @@ pub mod motion;
 pub mod planform;
 pub mod revolution;
 pub mod species;
+pub mod structure;
 
 pub use animal::{Animal, BodyPart, Segment, Wing};
 pub use build::{BodyMass, fit_body_length};
@@ -51,3 +52,4 @@ pub use mesh::{GridMesh, QuadMesh, Side};
 pub use motion::{AngleLaw, AngleLaws, Start, WingMotion};
 pub use planform::{Planform, Spacing, WingShape};
 pub use revolution::{Profile, Revolution};
+pub use structure::{ElasticBody, Members, WingBeam, WingShell, WingStructure};

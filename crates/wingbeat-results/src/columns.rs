@@ -85,6 +85,7 @@ struct Shape {
     joints: usize,
     loops: usize,
     deforming: usize,
+    elastic: usize,
     commanded: usize,
     following: usize,
 }
@@ -92,6 +93,12 @@ struct Shape {
 /// Names of the bodies in column names: `body`, then `wing_NAME`, then `segment_NAME`.
 pub fn body_names(animal: &Animal) -> Vec<String> {
     bodies(animal).into_iter().map(|s| s.name).collect()
+}
+
+/// Numbers of the elastic wings.
+fn elastic(animal: &Animal) -> impl Iterator<Item = usize> {
+    let wings = animal.wings.iter().enumerate();
+    wings.filter(|(_, w)| w.structure.is_some()).map(|(k, _)| k)
 }
 
 fn bodies(animal: &Animal) -> Vec<Subject> {
@@ -157,12 +164,20 @@ impl Columns {
             joints: coordinates.len(),
             loops: loops.len(),
             deforming: if deforms { wings } else { 0 },
+            elastic: elastic(&setup.animal).count(),
             commanded: setup.feedback.as_ref().map_or(0, |_| wings),
             following: (setup.feedback.iter())
                 .filter(|f| f.controller.follows())
                 .count(),
         };
+        let elastic = elastic(&setup.animal).enumerate();
         let subjects = Subjects {
+            elastic: elastic
+                .map(|(k, w)| Subject {
+                    index: k,
+                    ..bodies[w + 1].clone()
+                })
+                .collect(),
             bodies,
             coordinates,
             loops,
@@ -243,6 +258,7 @@ impl Columns {
             loops: vec![Default::default(); s.loops],
             joints: vec![[0.0; 2]; s.joints],
             deformation_power: vec![0.0; s.deforming],
+            elastic: vec![Default::default(); s.elastic],
             air: vec![Default::default(); s.bodies],
             applied: vec![Default::default(); s.bodies],
             ..Record::default()
@@ -285,6 +301,7 @@ impl Columns {
 
 /// Everything that has quantities.
 struct Subjects {
+    elastic: Vec<Subject>,
     bodies: Vec<Subject>,
     coordinates: Vec<JointCoordinate>,
     loops: Vec<String>,
@@ -303,6 +320,11 @@ impl Subjects {
             Of::Following => (0..shape.following)
                 .map(|_| Subject::new(String::new(), "", Kind::Flight, 0))
                 .collect(),
+            Of::Elastic => self.elastic.clone(),
+            Of::Bending => match self.elastic.is_empty() {
+                true => vec![],
+                false => vec![Subject::new(String::new(), "", Kind::Flight, 0)],
+            },
             Of::Bodies => self.bodies.clone(),
             Of::Wings => self.wings(shape.wings),
             Of::Deforming => self.wings(shape.deforming),

@@ -51,9 +51,9 @@ pub fn columns_page() -> String {
 /// What stands for any subject of a group.
 fn placeholder(of: Of) -> Subject {
     let (name, words) = match of {
-        Of::Flight | Of::Following => ("", ""),
+        Of::Flight | Of::Following | Of::Bending => ("", ""),
         Of::Bodies => ("BODY", "a body"),
-        Of::Wings | Of::Deforming | Of::Commanded => ("wing_NAME", "a wing"),
+        Of::Wings | Of::Deforming | Of::Elastic | Of::Commanded => ("wing_NAME", "a wing"),
         Of::Children => ("CHILD", "a wing or segment"),
         Of::Connections | Of::Orientations => ("N", "N"),
         Of::Coordinates => ("JOINT", "coordinate of a joint"),

@@ -257,6 +257,10 @@ pub(crate) enum Of {
     Wings,
     /// The wings, where any deforms.
     Deforming,
+    /// The elastic wings.
+    Elastic,
+    /// The whole flight, where wings are elastic.
+    Bending,
     /// The wings, where feedback commands them.
     Commanded,
     /// The whole flight, where feedback follows a reference.

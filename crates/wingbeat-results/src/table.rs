@@ -8,7 +8,8 @@ mod motion;
 use self::balances::{ENERGIES, MOMENTA, QUALITY, WAKE};
 use self::feedback::{COMMANDS, REFERENCE};
 use self::loads::{
-    AIR, APPLIED, CONNECTIONS, COORDINATES, DEFORMATION, HINGES, LOOPS, ORIENTATIONS, TETHER,
+    AIR, APPLIED, CONNECTIONS, COORDINATES, DEFORMATION, DISSIPATION, ELASTIC, HINGES, LOOPS,
+    ORIENTATIONS, TETHER,
 };
 use self::motion::{ACCELERATIONS, POSES, PRESCRIBED, RATES, ROOT, TIME};
 use crate::quantity::{Group, Of, Quantity};
@@ -31,6 +32,8 @@ pub(crate) const GROUPS: &[Group] = &[
     group(Of::Loops, LOOPS),
     group(Of::Coordinates, COORDINATES),
     group(Of::Deforming, DEFORMATION),
+    group(Of::Elastic, ELASTIC),
+    group(Of::Bending, DISSIPATION),
     group(Of::Bodies, AIR),
     group(Of::Bodies, APPLIED),
     group(Of::Flight, TETHER),

@@ -78,6 +78,7 @@ fn numbers(record: &Record) -> usize {
         loops,
         joints,
         deformation_power,
+        elastic,
         air,
         applied,
         tether: _,
@@ -87,6 +88,7 @@ fn numbers(record: &Record) -> usize {
         air_work: _,
         deformation_work: _,
         applied_work: _,
+        dissipated: _,
         energy_residual: _,
         momentum: _,
         angular_momentum: _,
@@ -106,15 +108,24 @@ fn numbers(record: &Record) -> usize {
         net_flux_residual: _,
     } = record;
     let lists = coordinates.len() + rates.len() + multipliers.len() + deformation_power.len();
+    // Tip (3), twist, elastic energy, passes of each; what all have dissipated.
+    let elastic = 6 * elastic.len() + usize::from(!elastic.is_empty());
     let feedback = 8 * commands.len() + 8 * reference.len();
     let vectors = 3 * wing_angles.len() + feedback + 6 * accelerations.len();
     let reactions = 7 * (hinges.len() + loops.len()) + 2 * joints.len();
     let loads = 6 * (air.len() + applied.len() + 1);
     let (scalars, own_vectors) = (18, 9);
-    lists + vectors + reactions + loads + root_quaternion.len() + scalars + 3 * own_vectors
+    lists
+        + elastic
+        + vectors
+        + reactions
+        + loads
+        + root_quaternion.len()
+        + scalars
+        + 3 * own_vectors
 }
 
-const FLIGHTS: [(&str, &[&str]); 5] = [
+const FLIGHTS: [(&str, &[&str]); 6] = [
     (
         "fruit-fly-abdomen-spring",
         &["time.beats=0.1", "air.model=\"none\""],
@@ -124,6 +135,15 @@ const FLIGHTS: [(&str, &[&str]); 5] = [
         &["time.beats=0.1", "air.model=\"blade_element\""],
     ),
     ("bird-cruise", &["time.beats=0.1"]),
+    (
+        "flapping-rectangles",
+        &[
+            "time.beats=0.1",
+            "wing.right.mass_kg=0.1",
+            "wing.right.structure.beam.flap_newton_m2=[1e3,1e3]",
+            "wing.right.structure.beam.torsion_newton_m2=[1e3,1e3]",
+        ],
+    ),
     ("fruit-fly-blade", &["time.beats=0.1"]),
     (
         "fruit-fly-controlled",

@@ -42,17 +42,34 @@ fn invariant_dependency_graph_is_the_architecture() {
     let expect = [
         ("wingbeat-vortex", vec![]),
         ("wingbeat-math", vec![]),
-        ("wingbeat-model", vec!["math"]),
+        ("wingbeat-structure", vec!["math"]),
+        ("wingbeat-model", vec!["math", "structure"]),
         ("wingbeat-dynamics", vec!["math"]),
         ("wingbeat-blade", vec!["math"]),
         ("wingbeat-air", vec!["math", "vortex"]),
         (
             "wingbeat-flight",
-            vec!["math", "model", "dynamics", "vortex", "blade", "air"],
+            vec![
+                "math",
+                "model",
+                "dynamics",
+                "vortex",
+                "blade",
+                "air",
+                "structure",
+            ],
         ),
         (
             "wingbeat-analysis",
-            vec!["math", "model", "dynamics", "blade", "air", "flight"],
+            vec![
+                "math",
+                "model",
+                "dynamics",
+                "blade",
+                "air",
+                "structure",
+                "flight",
+            ],
         ),
         (
             "wingbeat-case",

@@ -38,6 +38,7 @@ pub(crate) fn rings(topology: &Topology, surfaces: &[Surface], settings: &AirSet
             shift(topology, surfaces, settings, &mut rings);
         }
     }
+    rings.offsets.sort_by_key(|o| o.node); // inset before shift, as they were
     rings
 }
 
@@ -130,6 +131,16 @@ impl Rings {
     ) -> impl Iterator<Item = (usize, DVec3)> + 'a {
         let offset = |o: &Offset| (o.node, o.part * (of[o.to] - of[o.node]));
         self.offsets.iter().map(offset)
+    }
+
+    /// What a force on ring node `n` does to the nodes of the surface: [`Self::place`], transposed.
+    pub(crate) fn spread(&self, n: usize, force: DVec3, mut add: impl FnMut(usize, DVec3)) {
+        add(n, force);
+        let first = self.offsets.partition_point(|o| o.node < n);
+        for o in self.offsets[first..].iter().take_while(|o| o.node == n) {
+            add(o.node, -o.part * force);
+            add(o.to, o.part * force);
+        }
     }
 
     /// Nodes of the rings from those of the surfaces.

@@ -3,6 +3,7 @@
 mod closed;
 mod joukowski;
 mod lag;
+mod nodal;
 mod pressure;
 mod resultants;
 mod section_drag;
@@ -11,7 +12,7 @@ mod values;
 
 pub(crate) use closed::outer_forces;
 pub(crate) use joukowski::{Flow, Segments};
-pub(crate) use pressure::{circulation_rate, forces, pressure_jump, velocity_jump};
+pub(crate) use pressure::{circulation_rate, forces, pressure_jump, rate_weights, velocity_jump};
 pub(crate) use resultants::{check_finite, impulse, resultants};
 pub(crate) use section_drag::add_section_drag;
 pub(crate) use separation::leading_values;

@@ -46,12 +46,10 @@ pub(crate) fn velocity_jump(
     }
 }
 
-/// Rate of change of the circulation on the moving panel [m2/s2]; zero at the very first step,
-/// which has no past.
-pub(crate) fn circulation_rate(lattice: &Lattice, state: &AirState, out: &mut AirLoads) {
-    let (h, h0) = (out.dt, state.dt_before);
-    // Weights of gamma now, one step and two steps before.
-    let [a, b, c] = match lattice.settings().rate {
+/// Weights of the circulation now, one step and two steps before in its rate of change \[1/s\], `h` after the last step.
+pub(crate) fn rate_weights(lattice: &Lattice, state: &AirState, h: f64) -> [f64; 3] {
+    let h0 = state.dt_before;
+    match lattice.settings().rate {
         CirculationRate::BackwardSecond if state.step > 1 => [
             (2.0 * h + h0) / (h * (h + h0)),
             -(h + h0) / (h * h0),
@@ -61,7 +59,13 @@ pub(crate) fn circulation_rate(lattice: &Lattice, state: &AirState, out: &mut Ai
             [1.0 / h, -1.0 / h, 0.0]
         }
         _ => [0.0; 3],
-    };
+    }
+}
+
+/// Rate of change of the circulation on the moving panel [m2/s2]; zero at the very first step,
+/// which has no past.
+pub(crate) fn circulation_rate(lattice: &Lattice, state: &AirState, out: &mut AirLoads) {
+    let [a, b, c] = rate_weights(lattice, state, out.dt);
     out.gamma_rate.clear();
     for p in 0..lattice.panel_count() {
         let rate = a * out.gamma[p] + b * state.gamma[p] + c * state.gamma_before[p];

@@ -68,6 +68,16 @@ impl Influence {
         self.augment(now.lattice);
     }
 
+    /// Normal velocities at the control points of these panels by their own circulations, row by row. Where one half of
+    /// the flow is computed, those of the other half are its mirror image.
+    pub(crate) fn block(&self, lattice: &Lattice, panels: Range<usize>) -> Vec<f64> {
+        let of = |p: usize| unknown(lattice, p);
+        let rows = panels
+            .clone()
+            .flat_map(|i| panels.clone().map(move |j| (of(i), of(j))));
+        rows.map(|(i, j)| self.matrix.at(i, j)).collect()
+    }
+
     fn augment(&mut self, lattice: &Lattice) {
         self.alpha.clear();
         self.alpha.resize(lattice.surfaces().len(), 0.0);

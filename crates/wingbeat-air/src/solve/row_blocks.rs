@@ -45,6 +45,10 @@ impl RowBlocks {
         &mut self.entries[k]
     }
 
+    pub fn at(&self, row: usize, column: usize) -> f64 {
+        self.entries[self.place(row, column)]
+    }
+
     /// The blocks, over threads; column j of a block begins at `j * BLOCK`.
     pub fn par_blocks(&mut self) -> impl IndexedParallelIterator<Item = &mut [f64]> {
         self.entries.par_chunks_mut(self.order * BLOCK)

@@ -24,6 +24,7 @@ mod refused;
 mod route;
 mod segment;
 mod size;
+mod structure;
 mod time;
 mod wind;
 mod wing;

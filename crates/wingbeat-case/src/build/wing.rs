@@ -6,7 +6,7 @@ use wingbeat_model::{GridMesh, MassInput, Side, Wing};
 
 use super::fault::{Built, fault_at};
 use super::numbers::{given_mass, symmetric, vector};
-use super::{deformation, motion};
+use super::{deformation, motion, structure};
 use crate::error::Fault;
 use crate::raw::{
     BetaCase, Case, OutlineCase, PlanformCase, RectangleCase, WingCase, WingMeshCase,
@@ -95,10 +95,42 @@ fn build(
     let path = format!("wing.{name}");
     let wing = Wing::with_mesh(name, side, hinge(&source)?, mesh, &mass, law);
     let wing = wing.map_err(|e| fault_of_wing(&path, &source, &e))?;
-    let (name, case, _) = source.of(|w| w.deformation.is_some());
-    match &case.deformation {
-        Some(case) => deformation::deform(wing, &format!("wing.{name}.deformation"), case),
+    let (from, deformed, _) = source.of(|w| w.deformation.is_some());
+    let wing = match &deformed.deformation {
+        Some(case) => deformation::deform(wing, &format!("wing.{from}.deformation"), case)?,
+        None => wing,
+    };
+    let (from, made, _) = source.of(|w| w.structure.is_some());
+    match &made.structure {
+        Some(case) => {
+            check_mass_of_structure(&source)?;
+            structure::make(wing, &format!("wing.{from}.structure"), case)
+        }
         None => Ok(wing),
+    }
+}
+
+/// A structure has the mass of the wing spread evenly, or its own.
+fn check_mass_of_structure(source: &Source<'_>) -> Built<()> {
+    let (name, wing, _) = source.of(has_mass);
+    let other = [
+        (
+            "inertia_about_centre_kg_m2",
+            wing.inertia_about_centre_kg_m2.is_some(),
+        ),
+        (
+            "areal_density_table_m_kg_m2",
+            wing.areal_density_table_m_kg_m2.is_some(),
+        ),
+    ];
+    match other.into_iter().find(|(_, given)| *given) {
+        None => Ok(()),
+        Some((key, _)) => Err(Fault::new(
+            format!("wing.{name}.{key}"),
+            "this has no effect beside a structure, which has a mass of its own",
+            "mass_kg, areal_density_kg_m2 or structure.beam.mass_kg_per_m",
+            "remove it, or give structure.beam.mass_table_kg_per_m",
+        )),
     }
 }
 
@@ -252,6 +284,19 @@ fn chord_size(path: &str, b: &BetaCase) -> Built<ChordSize> {
 fn mass(source: &Source<'_>) -> Built<MassInput> {
     let (name, wing, mirrored) = source.of(has_mass);
     let path = format!("wing.{name}");
+    let (_, made, _) = source.of(|w| w.structure.is_some());
+    let own = made.structure.as_ref().and_then(structure::own_mass);
+    if let Some(key) = own {
+        return match has_mass(wing) {
+            false => Ok(MassInput::Total(0.0)),
+            true => Err(Fault::new(
+                format!("wing.{}.structure.{key}", source.name),
+                "the mass of the wing is given twice: here and for the wing",
+                "one of them",
+                format!("remove {path}.mass_kg (or areal_density_kg_m2)"),
+            )),
+        };
+    }
     if !has_mass(wing) {
         return Err(Fault::new(
             format!("{path}.mass_kg"),

@@ -1,7 +1,7 @@
 //! Units of keys, from their names.
 
 /// Endings of names and the units they stand for, longer ones before their own endings.
-const UNITS: [(&str, &str); 29] = [
+const UNITS: [(&str, &str); 33] = [
     ("table_m_kg_m2", "m, kg/m2"),
     ("_newton_m_s_per_rad", "N m s/rad"),
     ("_newton_m_per_rad", "N m/rad"),
@@ -9,6 +9,7 @@ const UNITS: [(&str, &str); 29] = [
     ("_newton_per_m", "N/m"),
     ("_newton_s_m", "N s/m"),
     ("_newton_m_s", "N m s"),
+    ("_newton_m2", "N m2"),
     ("_newton_m", "N m"),
     ("_newton_s", "N s"),
     ("_newton", "N"),
@@ -16,8 +17,11 @@ const UNITS: [(&str, &str); 29] = [
     ("_per_rad2", "1/rad2"),
     ("_per_s", "1/s"),
     ("_1_s", "1/s"),
+    ("_kg_m", "kg m"),
+    ("_pa", "Pa"),
     ("_kg_m2", "kg m2"),
     ("_kg_m3", "kg/m3"),
+    ("_kg_per_m", "kg/m"),
     ("_kg", "kg"),
     ("_deg_s", "deg/s"),
     ("_deg", "deg"),

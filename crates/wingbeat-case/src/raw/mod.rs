@@ -26,6 +26,7 @@ mod joint;
 mod load;
 mod motion;
 mod open;
+mod structure;
 mod wake;
 mod wind;
 mod wing;
@@ -54,6 +55,7 @@ pub use motion::{
     StartCase, TableCase, WingMotionCase,
 };
 pub use open::Open;
+pub use structure::{BeamCase, ShellCase, ShellRule, StructureCase};
 pub use wake::{FrictionCase, ParticlesCase, SectionDragCase};
 pub use wind::{GroundCase, GustCase, TurbulenceCase, VortexStreetCase};
 pub use wing::{BetaCase, OutlineCase, PlanformCase, RectangleCase, WingCase, WingMeshCase};

@@ -6,7 +6,7 @@ use smart_default::SmartDefault;
 use wingbeat_model::Side;
 use wingbeat_model::planform::Spacing;
 
-use super::{DeformationCase, WingMotionCase};
+use super::{DeformationCase, StructureCase, WingMotionCase};
 
 /// One wing. What a left wing leaves out it takes from the mirror image of its right counterpart, and
 /// the other way round (`left` and `right` in the names make pairs).
@@ -77,6 +77,10 @@ pub struct WingCase {
     #[schemars(extend("with" = "air.model = vortex_lattice | blade_element"))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub deformation: Option<DeformationCase>,
+    /// What this wing is made of; left out: it is rigid but for a prescribed deformation.
+    #[schemars(extend("with" = "air.model = vortex_lattice | none", "or" = "deformation"))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub structure: Option<StructureCase>,
     /// Whether the wing shares the edge at its root with its counterpart on the other side: one lifting
     /// surface without a vortex in the middle. The roots must meet. Left out: false.
     ///

@@ -105,8 +105,14 @@ fn wing_case(wing: &Wing, all: &[Wing]) -> WingCase {
         mass: properties,
         motion,
         deformation,
+        structure,
     } = wing;
     let (mass_kg, centre_m, inertia_about_centre_kg_m2) = mass(properties);
+    let (mass_kg, centre_m, inertia_about_centre_kg_m2) = match structure {
+        None => (Some(mass_kg), centre_m, inertia_about_centre_kg_m2),
+        Some(own) if super::structure::has_mass(own) => (None, None, None),
+        Some(_) => (Some(mass_kg), None, None),
+    };
     let nodes = mesh.nodes.chunks(mesh.cols + 1);
     let row = |row: &[wingbeat_math::DVec3]| row.iter().map(|x| x.to_array()).collect();
     let counterpart = mirror_name(name);
@@ -117,13 +123,14 @@ fn wing_case(wing: &Wing, all: &[Wing]) -> WingCase {
         hinge_m: Some(hinge_b.to_array()),
         planform: Some(PlanformCase::NodesM(nodes.map(row).collect())),
         mesh: None,
-        mass_kg: Some(mass_kg),
+        mass_kg,
         areal_density_kg_m2: None,
         areal_density_table_m_kg_m2: None,
         centre_m,
         inertia_about_centre_kg_m2,
         motion: Some(motion::own(motion)),
         deformation: deformation.as_ref().map(motion::deformation),
+        structure: structure.as_ref().map(super::structure::case),
         joined: None,
     }
 }

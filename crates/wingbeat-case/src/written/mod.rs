@@ -8,6 +8,7 @@ mod animal;
 mod flight;
 mod motion;
 mod refusal;
+mod structure;
 
 use std::fmt::Debug;
 

@@ -148,7 +148,7 @@ pub(super) fn deformation(deformation: &Deformation) -> DeformationCase {
 
 type Span = (Option<[f64; 2]>, Option<Vec<[f64; 2]>>);
 
-fn span(law: &SpanLaw, unit: fn(f64) -> f64) -> Span {
+pub(super) fn span(law: &SpanLaw, unit: fn(f64) -> f64) -> Span {
     match law {
         SpanLaw::Linear { root, tip } => (Some([unit(*root), unit(*tip)]), None),
         SpanLaw::Table(rows) => {

@@ -5,7 +5,7 @@ use wingbeat_math::{DMat3, DQuat, DVec3};
 use crate::check::check_state;
 use crate::configuration::Composite;
 use crate::error::DynamicsError;
-use crate::motion::Wrench;
+use crate::motion::{BodyMotion, Wrench};
 
 /// The state vector, taken apart.
 pub(super) struct State {
@@ -16,6 +16,16 @@ pub(super) struct State {
 }
 
 impl State {
+    /// Of the `whole` whose root moves like `root`.
+    pub fn moving_like(root: &BodyMotion, whole: &Composite) -> Self {
+        Self {
+            centre: root.p + root.r * whole.c,
+            attitude: DQuat::from_mat3(&root.r).normalize(),
+            momentum: whole.mass * (root.v + root.r * (root.w.cross(whole.c) + whole.c_dot)),
+            angular: root.r * (whole.inertia * root.w + whole.h),
+        }
+    }
+
     /// Of the state vector `y` at time `t` \[s\].
     ///
     /// # Errors

@@ -7,7 +7,7 @@ use wingbeat_math::DVec3;
 use super::mirror::mirror_pairs;
 use super::surfaces::SurfaceMap;
 use crate::error::FlightError;
-use crate::interface::{Air, AirScratch, Instant, misfit};
+use crate::interface::{Air, AirScratch, Instant, WingResponse, misfit};
 use crate::record::{ParticleSnapshot, Snapshot, SurfaceSnapshot, WakeSnapshot};
 use crate::setup::{AirOptions, FlightSetup, MotionMode};
 
@@ -147,7 +147,7 @@ impl Air for LatticeAir {
     }
 
     fn place(&self, at: &Instant<'_>, s: &mut AirScratch) -> Result<(), FlightError> {
-        self.map.node_motion(at.time, at.motions, &mut s.nodes)
+        self.map.node_motion(at, &mut s.nodes)
     }
 
     fn initial(&self, s: &AirScratch) -> Option<AirState> {
@@ -177,6 +177,36 @@ impl Air for LatticeAir {
     fn check(&self, memory: Option<&AirState>) -> Result<(), FlightError> {
         let air = memory.ok_or_else(|| misfit("the case has wakes, the state has none"))?;
         Ok(self.lattice.check_state(air)?)
+    }
+
+    fn nodal_forces(
+        &self,
+        wing: usize,
+        _at: &Instant<'_>,
+        s: &mut AirScratch,
+        out: &mut Vec<DVec3>,
+    ) -> Result<(), FlightError> {
+        (self.lattice).nodal_forces(wing, &s.loads, &s.nodes, &mut s.rings, out);
+        Ok(())
+    }
+
+    fn wing_response(
+        &self,
+        wing: usize,
+        _at: &Instant<'_>,
+        memory: Option<&AirState>,
+        s: &AirScratch,
+        out: &mut WingResponse,
+    ) -> Result<bool, FlightError> {
+        let state = memory.ok_or_else(|| misfit("a lattice needs its wakes"))?;
+        out.matrix = (self.lattice).normal_response(wing, state, &s.workspace, &s.loads)?;
+        out.panels.clear();
+        for p in self.lattice.panels_of(wing) {
+            let mut nodes = vec![];
+            (self.lattice).normal_wash(p, &s.workspace, &s.loads, |n, by| nodes.push((n, by)));
+            out.panels.push(nodes);
+        }
+        Ok(true)
     }
 
     fn deforms(&self) -> bool {

@@ -108,6 +108,7 @@ fn is_image(wing: &Wing, other: &Wing) -> bool {
     let nodes = wing.mesh.nodes.iter().zip(&other.mesh.nodes);
     wing.side != other.side
         && wing.deformation == other.deformation
+        && wing.structure == other.structure
         && (wing.mesh.rows, wing.mesh.cols) == (other.mesh.rows, other.mesh.cols)
         && same(wing.hinge_b, other.hinge_b)
         && nodes.into_iter().all(|(&a, &b)| same(a, b))

@@ -21,6 +21,7 @@ use std::sync::Arc;
 
 use wingbeat_air::AirState;
 use wingbeat_dynamics::{System, Wrench};
+use wingbeat_math::DVec3;
 
 use crate::error::FlightError;
 use crate::setup::{AirModel, FlightSetup};
@@ -43,6 +44,19 @@ impl Air for Vacuum {
         out: &mut [Wrench],
     ) -> Result<(), FlightError> {
         out.fill(Wrench::default());
+        Ok(())
+    }
+
+    fn nodal_forces(
+        &self,
+        wing: usize,
+        at: &Instant<'_>,
+        _scratch: &mut AirScratch,
+        out: &mut Vec<DVec3>,
+    ) -> Result<(), FlightError> {
+        let nodes = at.shapes.get(wing).and_then(Option::as_ref);
+        out.clear();
+        out.resize(nodes.map_or(0, |n| n.position.len()), DVec3::ZERO);
         Ok(())
     }
 }

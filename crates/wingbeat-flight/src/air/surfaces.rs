@@ -7,6 +7,7 @@ use wingbeat_math::{DVec3, RotationLaw};
 use wingbeat_model::{Animal, BodyPart, DeformingMesh, GridMesh, Side, Wing, WingMotion};
 
 use crate::error::FlightError;
+use crate::interface::Instant;
 
 /// Which lattice nodes and panels belong to which rigid body.
 #[derive(Clone, Debug)]
@@ -114,35 +115,37 @@ impl SurfaceMap {
         self.roots.iter().map(edge).collect()
     }
 
-    /// Positions and velocities of all lattice nodes in N at time `t` [s], from the motions of the
-    /// bodies (seed eq. 3 and 14) and the deformation of the wings.
+    /// Positions and velocities of all lattice nodes in N, from the motions of the bodies (seed eq. 3 and 14) and the
+    /// deformation of the wings, prescribed or by loads.
     ///
     /// # Errors
     /// Joined roots are too far apart.
-    pub fn node_motion(
-        &self,
-        t: f64,
-        bodies: &[BodyMotion],
-        out: &mut NodeMotion,
-    ) -> Result<(), FlightError> {
+    pub fn node_motion(&self, at: &Instant<'_>, out: &mut NodeMotion) -> Result<(), FlightError> {
         out.position.resize(self.local.len(), DVec3::ZERO);
         out.velocity.resize(self.local.len(), DVec3::ZERO);
         for (surface, nodes) in self.nodes.iter().enumerate() {
-            let b = &bodies[self.body[surface]];
+            let b = &at.motions[self.body[surface]];
             let mut put = |k: usize, r: DVec3, u: DVec3| {
                 out.position[k] = b.p + b.r * r;
                 out.velocity[k] = b.v + b.r * (b.w.cross(r) + u);
             };
-            match &self.deforming[surface] {
-                None => nodes
+            let bent = at.shapes.get(surface).and_then(Option::as_ref);
+            match (bent, &self.deforming[surface]) {
+                (Some(shape), _) => {
+                    let moving = shape.position.iter().zip(&shape.velocity);
+                    (nodes.clone().zip(moving)).for_each(|(k, (r, u))| put(k, *r, *u));
+                }
+                (None, None) => nodes
                     .clone()
                     .for_each(|k| put(k, self.local[k], DVec3::ZERO)),
-                Some(d) => d.mesh.visit(d.motion.phase_at(t), |k, [r, u, _]| {
+                (None, Some(d)) => d.mesh.visit(d.motion.phase_at(at.time), |k, [r, u, _]| {
                     put(nodes.start + k, r, u);
                 }),
             }
         }
-        self.roots.iter().try_for_each(|r| r.join(t, self, out))
+        self.roots
+            .iter()
+            .try_for_each(|r| r.join(at.time, self, out))
     }
 
     /// Power that is needed to deform the wings against the air [W], body by body: that of the air
@@ -227,7 +230,13 @@ pub fn check_joined(animal: &Animal, pair: [usize; 2]) -> Result<(), FlightError
     };
     let wings = animal.wings.iter().map(at);
     let motions: Vec<BodyMotion> = std::iter::once(BodyMotion::REST).chain(wings).collect();
-    SurfaceMap::new(animal, false, &[pair]).node_motion(0.0, &motions, &mut NodeMotion::default())
+    let at = Instant {
+        time: 0.0,
+        step: 0.0,
+        motions: &motions,
+        shapes: &[],
+    };
+    SurfaceMap::new(animal, false, &[pair]).node_motion(&at, &mut NodeMotion::default())
 }
 
 impl Roots {

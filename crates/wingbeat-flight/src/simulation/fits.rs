@@ -1,6 +1,7 @@
 //! Whether a saved state, perhaps read from a file, fits the flight that is to go on from it.
 
 use super::state::FlightState;
+use crate::elastic::ElasticState;
 use crate::error::FlightError;
 use crate::recorder::Ledger;
 use crate::stages::Stage;
@@ -37,8 +38,38 @@ pub(super) fn check_fits(
     if lengths != [own.coordinates.len(), own.rates.len()] {
         return misfit(format!("{lengths:?} coordinates"), "the case has others");
     }
+    check_wings(stage, &state.wings)?;
     stage.equations.air.check(state.air.as_ref())?;
     check_events(state)
+}
+
+/// Elastic wings have the nodes that the case gives them.
+fn check_wings(stage: &Stage, wings: &[ElasticState]) -> Result<(), FlightError> {
+    let nodes = |s: &ElasticState| {
+        let state = &s.structure;
+        let numbers = [&state.velocity, &state.acceleration, &state.algorithmic];
+        let same = numbers.iter().all(|v| v.len() == state.velocity.len());
+        (
+            same,
+            state.configuration.len(),
+            state.configuration.rotation.len(),
+        )
+    };
+    let own: Vec<_> = stage
+        .equations
+        .elastic
+        .initial()
+        .iter()
+        .map(nodes)
+        .collect();
+    let saved: Vec<_> = wings.iter().map(nodes).collect();
+    match own == saved {
+        true => Ok(()),
+        false => misfit(
+            format!("{} elastic wings", saved.len()),
+            "the case has others; resume with the case that was saved with it",
+        ),
+    }
 }
 
 fn check_steps(state: &FlightState) -> Result<(), FlightError> {

@@ -3,7 +3,8 @@
 use wingbeat_air::AirState;
 use wingbeat_math::ode::Replay;
 
-use crate::equations::{Equations, Scratch};
+use crate::elastic::ElasticState;
+use crate::equations::{Equations, Memory, Scratch};
 use crate::error::FlightError;
 
 /// The coupled right-hand side over the starting steps: the wake is replayed with them.
@@ -13,6 +14,8 @@ pub(super) struct Start<'a> {
     pub first: usize,
     pub at_start: &'a Option<AirState>,
     pub air: Option<AirState>,
+    pub wings_at_start: &'a [ElasticState],
+    pub wings: Vec<ElasticState>,
 }
 
 impl Start<'_> {
@@ -27,17 +30,22 @@ impl Replay for Start<'_> {
     fn enter(&mut self, k: usize) -> Result<(), FlightError> {
         if k == 1 {
             self.air.clone_from(self.at_start);
+            self.wings.clear();
+            self.wings.extend_from_slice(self.wings_at_start);
         }
         self.equations.advance_air(&mut self.air, &mut self.scratch)
     }
 
     fn rates(&mut self, k: usize, y: &[f64], f: &mut [f64]) -> Result<(), FlightError> {
         let t = self.time(k);
-        self.equations
-            .evaluate(t, y, self.air.as_ref(), &mut self.scratch, f)
+        let memory = Memory {
+            air: self.air.as_ref(),
+            wings: &self.wings,
+        };
+        self.equations.evaluate(t, y, memory, &mut self.scratch, f)
     }
 
     fn leave(&mut self, _k: usize) -> Result<(), FlightError> {
-        self.equations.accept_air(&mut self.air, &self.scratch)
+        (self.equations).accept(&mut self.air, &mut self.wings, &self.scratch)
     }
 }

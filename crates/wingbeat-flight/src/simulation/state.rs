@@ -4,6 +4,8 @@ use wingbeat_air::AirState;
 use wingbeat_math::ode::{Multistep, StepReport};
 
 use crate::control::ControlState;
+use crate::elastic::ElasticState;
+use crate::equations::Memory;
 use crate::recorder::Ledger;
 
 /// Everything that is integrated: plain data, enough to go on bit for bit.
@@ -22,8 +24,21 @@ pub struct FlightState {
     pub start_report: StepReport,
     /// The air after the newest step, its wake not yet moved on; none in vacuum.
     pub air: Option<AirState>,
+    /// The elastic wings after the newest step; empty where there are none.
+    #[serde(default)]
+    pub wings: Vec<ElasticState>,
     /// What balances are counted from.
     pub ledger: Ledger,
     /// What feedback remembers; none without.
     pub control: Option<ControlState>,
+}
+
+impl FlightState {
+    /// What is remembered beside the state vector.
+    pub(crate) fn memory(&self) -> Memory<'_> {
+        Memory {
+            air: self.air.as_ref(),
+            wings: &self.wings,
+        }
+    }
 }

@@ -23,5 +23,5 @@ mod shape;
 
 pub use law::{Section, SpanLaw, Term};
 pub use prescribed::Deformation;
-pub(crate) use shape::span;
 pub use shape::{DeformingMesh, Stations};
+pub(crate) use shape::{column, span};

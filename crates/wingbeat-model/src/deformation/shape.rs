@@ -161,7 +161,7 @@ fn mean_line(s: f64, peak: f64) -> f64 {
 }
 
 /// Distance from the hinge along the span, leading edge and chord of a column of nodes \[m\].
-fn column(mesh: &GridMesh, j: usize) -> (f64, f64, f64) {
+pub(crate) fn column(mesh: &GridMesh, j: usize) -> (f64, f64, f64) {
     let (lead, trail) = (
         mesh.nodes[mesh.node(0, j)],
         mesh.nodes[mesh.node(mesh.rows, j)],

@@ -15,7 +15,7 @@ pub(super) const ENERGIES: &[Quantity] = &[
     scalar(
         "potential_energy",
         Unit::Joule,
-        "energy of weight, zero at the inertial origin",
+        "energy of weight, zero at the inertial origin, and elastic energy of wings",
         |r, _, _| Real(&mut r.potential_energy),
     ),
     scalar(
@@ -45,7 +45,7 @@ pub(super) const ENERGIES: &[Quantity] = &[
     scalar(
         "energy_residual",
         Unit::Joule,
-        "energy less that of the start less all work",
+        "energy less that of the start less all work, with what was dissipated",
         |r, _, _| Real(&mut r.energy_residual),
     ),
 ];

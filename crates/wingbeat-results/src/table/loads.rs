@@ -1,7 +1,7 @@
 //! Columns of joints and loads.
 
 use crate::quantity::Components::{Child, Inertial};
-use crate::quantity::Slot::Real;
+use crate::quantity::Slot::{Count, Real};
 use crate::quantity::{Frame, Quantity, Unit, scalar};
 
 pub(super) const CONNECTIONS: &[Quantity] = &[scalar(
@@ -91,6 +91,46 @@ pub(super) const DEFORMATION: &[Quantity] = &[scalar(
     "power of what deforms {s} against the air",
     |r, s, _| Real(&mut r.deformation_power[s]),
 )];
+
+pub(super) const ELASTIC: &[Quantity] = &[
+    scalar(
+        "tip_{s}_displacement_{c}",
+        Unit::Metre,
+        "displacement from rest of the middle of the tip's chord of {s}",
+        |r, s, c| Real(&mut r.elastic[s].tip[c]),
+    )
+    .along(Child, Frame::Own)
+    .new_here(),
+    scalar(
+        "tip_{s}_twist",
+        Unit::Radian,
+        "twist of the tip of {s} from rest, positive like feathering",
+        |r, s, _| Real(&mut r.elastic[s].twist),
+    )
+    .new_here(),
+    scalar(
+        "strain_energy_{s}",
+        Unit::Joule,
+        "elastic energy of {s}",
+        |r, s, _| Real(&mut r.elastic[s].strain_energy),
+    )
+    .new_here(),
+    scalar(
+        "elastic_passes_{s}",
+        Unit::Count,
+        "passes that shape and loads of {s} took to agree",
+        |r, s, _| Count(&mut r.elastic[s].passes),
+    )
+    .new_here(),
+];
+
+pub(super) const DISSIPATION: &[Quantity] = &[scalar(
+    "dissipated_energy",
+    Unit::Joule,
+    "energy that the damping of elastic wings has dissipated so far",
+    |r, _, _| Real(&mut r.dissipated),
+)
+.new_here()];
 
 pub(super) const AIR: &[Quantity] = &[
     scalar(

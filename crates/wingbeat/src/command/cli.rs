@@ -62,6 +62,9 @@ pub(crate) enum Command {
     Derivatives(analyse::trimming::Trimming),
     /// Trim, then give the mechanical power of flapping.
     Power(analyse::power::PowerArgs),
+    /// Find the speeds of a stream at which the vibrations of elastic wings grow: frequency and damping about the deformed
+    /// steady state.
+    Flutter(analyse::flutter::FlutterArgs),
     /// Trim, disturb, and fly under feedback.
     Stabilise(analyse::stabilise::StabiliseArgs),
     /// The velocity of the air at points, on a line or on a plane, from a run.

@@ -27,7 +27,14 @@ const GROUPS: [(&str, &[&str]); 5] = [
     ),
     (
         "Flight mechanics",
-        &["trim", "stability", "derivatives", "power", "stabilise"],
+        &[
+            "trim",
+            "stability",
+            "derivatives",
+            "power",
+            "stabilise",
+            "flutter",
+        ],
     ),
     ("The program", &["verify", "completions", "man", "help"]),
 ];

@@ -189,3 +189,37 @@ mod tests {
         );
     }
 }
+
+/// Speeds at equal distances [m/s].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Speeds {
+    ends: [f64; 2],
+    count: usize,
+}
+
+impl Speeds {
+    /// They themselves.
+    pub(crate) fn values(self) -> impl Iterator<Item = f64> {
+        let [from, to] = self.ends;
+        let last = self.count.saturating_sub(1).max(1) as f64;
+        (0..self.count).map(move |k| from + (to - from) * k as f64 / last)
+    }
+}
+
+/// `FROM:TO:N`, from lower to higher.
+pub(crate) fn speeds(text: &str) -> Result<Speeds, String> {
+    let wrong = || {
+        "give FROM:TO:N, two speeds above 0 and below 340 m/s in rising order and their number, 2 to 1000"
+            .to_owned()
+    };
+    let parts: Vec<&str> = text.split(':').collect();
+    let [from, to, count] = parts[..] else {
+        return Err(wrong());
+    };
+    let [from, to] = [from, to].map(speed);
+    let (ends, count) = ([from?, to?], count.trim().parse().map_err(|_| wrong())?);
+    match 0.0 < ends[0] && ends[0] < ends[1] && (2..=1000).contains(&count) {
+        true => Ok(Speeds { ends, count }),
+        false => Err(wrong()),
+    }
+}

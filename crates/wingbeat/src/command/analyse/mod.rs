@@ -1,6 +1,7 @@
 //! The analysing commands: each trims first, for there is no stability of no steady flight.
 
 pub(crate) mod derivatives;
+pub(crate) mod flutter;
 mod found;
 pub(crate) mod power;
 pub(crate) mod stabilise;

@@ -1,0 +1,105 @@
+//! How the forces of a surface answer to normal velocities of its panels: the lattice's own added mass, and what the
+//! circulation does meanwhile.
+//!
+//! In frozen wakes the circulations are linear in the normal velocities w of the panels, `dGamma = A^-1 dw`, A the
+//! influence of the surface on itself; pressures are linear in the circulations, by their rate of change and by the jump
+//! of the tangential velocity. Other surfaces, the images and the tilt of the panels are left out: this is for the
+//! left-hand side of a coupled step, whose right-hand side knows all of it.
+
+use crate::error::AirError;
+use crate::lattice::Lattice;
+use crate::loads::{AirLoads, rate_weights};
+use crate::state::AirState;
+use crate::workspace::AirWorkspace;
+use wingbeat_math::{DVec3, DenseLu};
+
+/// How the normal velocity of a panel changes with a node of its surface: by its velocity \[1\] and by its place \[1/s\], N
+/// components. The first is also how the node shares in a normal force of the panel.
+pub type NodeWash = [DVec3; 2];
+
+impl Lattice {
+    /// Derivative of the normal forces of the panels of the open surface `s` by the normal velocities of their control
+    /// points \[N s/m\], row by row, at the instant that `ws` and `out` were last asked for ([`Self::loads`]): of one half
+    /// where only that is computed the other's answers are its mirror image.
+    ///
+    /// # Errors
+    /// A singular influence matrix.
+    pub fn normal_response(
+        &self,
+        s: usize,
+        state: &AirState,
+        ws: &AirWorkspace,
+        loads: &AirLoads,
+    ) -> Result<Vec<f64>, AirError> {
+        let panels = self.panels_of(s);
+        let n = panels.len();
+        let matrix = ws.boundary.influence.block(self, panels.clone());
+        let mut lu = DenseLu::new(n);
+        lu.factor(&matrix).map_err(|source| AirError::Singular {
+            step: state.step,
+            source,
+        })?;
+        let inverse = lu.inverse(); // by columns
+        let mut response = vec![0.0; n * n];
+        for (i, p) in panels.clone().enumerate() {
+            for (j, weight) in self.force_by_circulation(p, state, ws, loads) {
+                let Some(j) = j.checked_sub(panels.start).filter(|j| *j < n) else {
+                    continue;
+                };
+                for k in 0..n {
+                    response[i * n + k] += weight * inverse[k * n + j];
+                }
+            }
+        }
+        Ok(response)
+    }
+
+    /// How the normal velocity of panel `p`, that of the surface less that of the air, changes with the nodes of its surface
+    /// (their numbers on it), at the instant of `ws` and `loads`; some nodes twice.
+    pub fn normal_wash(
+        &self,
+        p: usize,
+        ws: &AirWorkspace,
+        loads: &AirLoads,
+        mut see: impl FnMut(usize, NodeWash),
+    ) {
+        let first = self.nodes_of(self.topology().panel_surface[p]).start;
+        let corners = self.topology().panels[p];
+        let [a, b, c, d] = corners.map(|n| ws.rings.position[n]);
+        let (along, across) = (c - a, d - b);
+        let normal = loads.panels.normal[p];
+        let slip = loads.panels.velocity[p] - loads.velocity[p];
+        let tilt = (slip - slip.dot(normal) * normal) / along.cross(across).length();
+        let by_ends = [across.cross(tilt), tilt.cross(along)];
+        for (k, n) in corners.into_iter().enumerate() {
+            let sign = if k < 2 { -1.0 } else { 1.0 };
+            let (by_velocity, by_place) = (0.25 * normal, sign * by_ends[k % 2]);
+            (self.rings()).spread(n, by_velocity, |n, v| see(n - first, [v, DVec3::ZERO]));
+            (self.rings()).spread(n, by_place, |n, v| see(n - first, [DVec3::ZERO, v]));
+        }
+    }
+
+    /// Derivative of the normal force of panel `p` by circulations: (panel, weight \[N s/m2\]), some panels twice.
+    fn force_by_circulation<'a>(
+        &'a self,
+        p: usize,
+        state: &'a AirState,
+        ws: &'a AirWorkspace,
+        loads: &'a AirLoads,
+    ) -> impl Iterator<Item = (usize, f64)> + 'a {
+        let (topology, bound) = (self.topology(), &ws.filaments.bound);
+        let rho = self.settings().density;
+        let normal = loads.panels.normal[p];
+        let relative = loads.velocity[p] - loads.panels.velocity[p];
+        let [rate, ..] = rate_weights(self, state, loads.dt);
+        let own = (p, rho * rate * loads.panels.area[p]);
+        let edges = topology.panel_edges[p].iter().flat_map(move |e| {
+            let edge = &topology.edges[e.edge];
+            let [a, b]: [DVec3; 2] = [edge.from, edge.to].map(|n| bound.nodes.get(n));
+            let weight = rho * e.weight * relative.dot((b - a).cross(normal));
+            let minus = edge.minus.map(|q| (q, -weight));
+            std::iter::once((edge.plus, weight)).chain(minus)
+        });
+        std::iter::once(own).chain(edges)
+    }
+}

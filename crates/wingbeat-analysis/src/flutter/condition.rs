@@ -1,0 +1,124 @@
+//! The elastic wing at one speed: steady state, response, modes.
+
+use wingbeat_flight::{FlightSetup, FlightState, Simulation};
+
+use super::disturbance::{Disturbance, Stations};
+use super::settings::FlutterSettings;
+use super::steady::{ElasticRig, SteadyWing};
+use crate::AnalysisError;
+use crate::realisation::{Realisation, Vibration, realise, rms};
+
+/// The elastic wing at one speed.
+#[derive(Clone, Debug)]
+pub struct Condition {
+    /// Speed of the stream [m/s].
+    pub speed: f64,
+    /// The deformed steady state.
+    pub steady: SteadyWing,
+    /// Motions found in the response, of rising frequency, those that take part with less than [`MIN_SHARE`] or
+    /// hardly vibrate left out.
+    pub modes: Vec<Vibration>,
+    /// The whole response as a linear system.
+    pub response: Realisation,
+    /// Difference to twice the response to half the disturbance, over the response \[1\].
+    pub nonlinearity: f64,
+}
+
+/// Least share in a response of a motion that is reported \[1\].
+pub const MIN_SHARE: f64 = 1e-3;
+
+/// Damping over critical above which a motion is that of the wake, or dies within a period \[1\].
+pub const MAX_DAMPING: f64 = 0.8;
+
+/// Samples of a response at least, and samples in a period of the fastest mode that is disturbed.
+const SAMPLES: [f64; 2] = [80.0, 6.0];
+
+/// The elastic wings of `setup` in its stream at `speed` [m/s].
+///
+/// # Errors
+/// No elastic wing; wings or a root that move; no stream, no wake; a steady state that is not reached; what flights and
+/// the identification report.
+pub fn condition(
+    setup: &FlightSetup,
+    speed: f64,
+    settings: &FlutterSettings,
+) -> Result<Condition, AnalysisError> {
+    let rig = ElasticRig::new(setup, speed)?;
+    crate::progress::task("steady state", 0, 0);
+    let (state, steady) = rig.to_steady(settings)?;
+    crate::progress::task("response", 0, 0);
+    let disturbance = Disturbance::new(&rig, &state, settings)?;
+    let sampling = Sampling::new(rig.setup.time.step, &steady.vacuum, settings);
+    let stations = Stations::of(&rig);
+    let flown = |part: f64| {
+        let from = disturbance.added(&state, part);
+        flown(&rig.setup, from, &stations, &sampling)
+    };
+    let still = flown(0.0)?;
+    let whole = difference(&flown(1.0)?, &still);
+    let half = difference(&flown(0.5)?, &still);
+    let doubled: Vec<Vec<f64>> = half
+        .iter()
+        .map(|y| y.iter().map(|x| 2.0 * x).collect())
+        .collect();
+    let nonlinearity = rms(&difference(&whole, &doubled)) / rms(&whole);
+    let response = realise(&whole, sampling.every as f64 * rig.setup.time.step)?;
+    let vibrates =
+        |v: &&Vibration| v.frequency > 0.0 && v.share >= MIN_SHARE && v.damping() <= MAX_DAMPING;
+    Ok(Condition {
+        speed,
+        modes: response
+            .vibrations
+            .iter()
+            .filter(vibrates)
+            .copied()
+            .collect(),
+        steady,
+        response,
+        nonlinearity,
+    })
+}
+
+/// When outputs are taken.
+struct Sampling {
+    /// Steps between samples.
+    every: usize,
+    count: usize,
+}
+
+impl Sampling {
+    fn new(step: f64, vacuum: &[f64], settings: &FlutterSettings) -> Self {
+        use std::f64::consts::TAU;
+        let (first, last) = (vacuum[0], vacuum[vacuum.len() - 1]);
+        let length = settings.periods * TAU / first;
+        let apart = (length / SAMPLES[0]).min(TAU / last / SAMPLES[1]);
+        let every = ((apart / step) as usize).max(1);
+        Self {
+            every,
+            count: (length / (every as f64 * step)).ceil() as usize,
+        }
+    }
+}
+
+/// Outputs of a flight that goes on from `state`.
+fn flown(
+    setup: &FlightSetup,
+    state: FlightState,
+    stations: &Stations,
+    sampling: &Sampling,
+) -> Result<Vec<Vec<f64>>, AnalysisError> {
+    let mut flight = Simulation::resume(setup.clone(), state)?;
+    let mut samples = vec![];
+    for _ in 0..sampling.count {
+        for _ in 0..sampling.every {
+            flight.step()?;
+        }
+        samples.push(stations.outputs(flight.state()));
+    }
+    Ok(samples)
+}
+
+fn difference(a: &[Vec<f64>], b: &[Vec<f64>]) -> Vec<Vec<f64>> {
+    let row = |(a, b): (&Vec<f64>, &Vec<f64>)| a.iter().zip(b).map(|(a, b)| a - b).collect();
+    a.iter().zip(b).map(row).collect()
+}

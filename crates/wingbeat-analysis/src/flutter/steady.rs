@@ -1,0 +1,237 @@
+//! An elastic wing held in a stream, and its deformed steady state.
+
+use wingbeat_flight::elastic::{ElasticWing, ElasticWings};
+use wingbeat_flight::{
+    AirModel, FlightSetup, FlightState, MotionMode, PrescribedMotion, Simulation,
+};
+use wingbeat_math::DVec3;
+use wingbeat_structure::{FrameMotion, Mode, modes};
+
+use super::settings::FlutterSettings;
+use crate::AnalysisError;
+
+/// Steps of the setup in a long step.
+const LONG: usize = 4;
+
+/// Long steps before the steady state is looked at, a quarter of the short ones after them.
+const LEAST: usize = 60;
+
+/// Velocity at which the wing counts as steady: of its tip over that of the stream \[1\].
+const STEADY: f64 = 1e-7;
+
+/// The deformed steady state.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SteadyWing {
+    /// Displacement of the tip of the first elastic wing, wing components \[m\].
+    pub tip: DVec3,
+    /// Rotation vector of the tip, wing components \[rad\].
+    pub turn: DVec3,
+    /// Velocity of the tip that is left over that of the stream \[1\].
+    pub drift: f64,
+    /// Angular frequencies of the leading modes about it without air [rad/s].
+    pub vacuum: Vec<f64>,
+}
+
+/// Elastic wings held in a stream of one speed.
+pub struct ElasticRig {
+    /// The setup at that speed.
+    pub setup: FlightSetup,
+    elastic: ElasticWings,
+    speed: f64,
+}
+
+impl ElasticRig {
+    /// `setup` with its stream at `speed` [m/s], the step so that the stream passes the same way in it.
+    ///
+    /// # Errors
+    /// What flutter is not sought in.
+    pub fn new(setup: &FlightSetup, speed: f64) -> Result<Self, AnalysisError> {
+        let mut setup = setup.clone();
+        check(&setup)?;
+        let stream = setup.air.stream_mut().map_or(0.0, |s| {
+            let before = s.length();
+            *s *= speed / before;
+            before
+        });
+        if !(stream > 0.0 && speed > 0.0) {
+            return Err(AnalysisError::not_covered(
+                "there is no stream",
+                "give air.stream_m_s, whose direction and way per step are kept, and speeds above 0",
+            ));
+        }
+        setup.time.step *= stream / speed;
+        setup.time.steps = usize::MAX;
+        let elastic = ElasticWings::new(&setup.animal, setup.gravity)?;
+        Ok(Self {
+            setup,
+            elastic,
+            speed,
+        })
+    }
+
+    /// The first elastic wing.
+    pub fn first(&self) -> &ElasticWing {
+        &self.elastic.wings()[0]
+    }
+
+    /// Of each elastic wing whether it is on the other side than the first.
+    pub fn mirrored(&self) -> impl Iterator<Item = bool> + '_ {
+        let side = |w: &ElasticWing| self.setup.animal.wings[w.wing()].side;
+        let first = side(self.first());
+        (self.elastic.wings().iter()).map(move |w| side(w) != first)
+    }
+
+    /// Flies to the steady state: much damping, long steps, then those of the setup.
+    ///
+    /// # Errors
+    /// A steady state that is not reached, what the flight reports.
+    pub fn to_steady(
+        &self,
+        settings: &FlutterSettings,
+    ) -> Result<(FlightState, SteadyWing), AnalysisError> {
+        let mut start = Simulation::new(self.damped(1, [0.0; 2]))?.state().clone();
+        let rest = leading(self, &start, settings.modes)?;
+        let [first, second] = [0, 1].map(|k| rest[k.min(rest.len() - 1)].frequency());
+        let damping = [1.0 / second, first];
+        let mut long = Simulation::new(self.damped(LONG, damping))?;
+        let mut steps = 0;
+        while steps < LEAST || self.drift(long.state()) > STEADY {
+            if steps == settings.settling {
+                return Err(self.unsteady(self.drift(long.state())));
+            }
+            long.step()?;
+            steps += 1;
+        }
+        start.clone_from(long.state());
+        let mut short = Simulation::resume(self.damped(1, damping), start)?;
+        steps = 0;
+        while steps < 4 * LEAST || self.drift(short.state()) > STEADY {
+            if steps == settings.settling {
+                return Err(self.unsteady(self.drift(short.state())));
+            }
+            short.step()?;
+            steps += 1;
+        }
+        let state = short.state().clone();
+        let steady = self.steady(&state, settings)?;
+        Ok((state, steady))
+    }
+
+    fn unsteady(&self, drift: f64) -> AnalysisError {
+        AnalysisError::not_covered(
+            format!(
+                "at {} m/s the wing does not come to rest: its tip still moves at {drift:.1e} of the speed of the stream",
+                self.speed
+            ),
+            "allow more steps; what diverges or separates has no steady state",
+        )
+    }
+
+    /// The setup with other steps and damping added.
+    fn damped(&self, long: usize, [strain_rate, mass]: [f64; 2]) -> FlightSetup {
+        let mut setup = self.setup.clone();
+        setup.time.step *= long as f64;
+        for wing in &mut setup.animal.wings {
+            if let Some(structure) = &mut wing.structure {
+                structure.damping.strain_rate += strain_rate;
+                structure.damping.mass += mass;
+            }
+        }
+        if let AirModel::VortexLattice(options) = &mut setup.air {
+            let rows = &mut options.lattice.max_rows;
+            *rows = rows.map(|r| r.div_ceil(long));
+        }
+        setup
+    }
+
+    /// Velocity of the tip over that of the stream.
+    fn drift(&self, state: &FlightState) -> f64 {
+        let numbers = &state.wings[0].structure.velocity;
+        DVec3::from_slice(&numbers[numbers.len() - 6..]).length() / self.speed
+    }
+
+    fn steady(
+        &self,
+        state: &FlightState,
+        settings: &FlutterSettings,
+    ) -> Result<SteadyWing, AnalysisError> {
+        let (at, rest) = (
+            &state.wings[0].structure.configuration,
+            self.first().structure().rest(),
+        );
+        let tip = at.len() - 1;
+        let modes = leading(self, state, settings.modes)?;
+        Ok(SteadyWing {
+            tip: at.position[tip] - rest.position[tip],
+            turn: (at.rotation[tip] * rest.rotation[tip].inverse()).to_scaled_axis(),
+            drift: self.drift(state),
+            vacuum: modes
+                .iter()
+                .map(wingbeat_structure::Mode::frequency)
+                .collect(),
+        })
+    }
+}
+
+/// An error for what flutter is not sought in.
+fn check(setup: &FlightSetup) -> Result<(), AnalysisError> {
+    let wings = &setup.animal.wings;
+    let MotionMode::Tethered(motion) = &setup.mode else {
+        return Err(AnalysisError::not_covered(
+            "the flight is free",
+            "hold the body: flight.mode = \"tethered\"",
+        ));
+    };
+    let is_held = rests(motion);
+    let refused = [
+        (
+            wings.iter().all(|w| w.structure.is_none()),
+            "no wing is elastic",
+            "give one a structure: [wing.NAME.structure]",
+        ),
+        (
+            wings.iter().any(|w| w.motion.frequency > 0.0),
+            "the wings beat",
+            "leave motion.frequency_hz out: flutter is sought of wings that are held in a stream",
+        ),
+        (
+            !is_held,
+            "the body moves",
+            "leave its velocity and the motion of the tether out; the stream is air.stream_m_s",
+        ),
+        (
+            !matches!(setup.air, AirModel::VortexLattice(_)),
+            "the air is no vortex lattice",
+            "air.model = \"vortex_lattice\"",
+        ),
+    ];
+    match refused.into_iter().find(|r| r.0) {
+        Some((_, what, remedy)) => Err(AnalysisError::not_covered(what, remedy)),
+        None => Ok(()),
+    }
+}
+
+/// Whether a motion is at rest.
+fn rests(motion: &PrescribedMotion) -> bool {
+    [0.1, 0.7, 1.3]
+        .map(|t| motion.at(t))
+        .iter()
+        .all(|root| root.velocity == DVec3::ZERO && root.angular_velocity == DVec3::ZERO)
+}
+
+/// Leading modes in vacuum of the first elastic wing about a state.
+pub(super) fn leading(
+    rig: &ElasticRig,
+    state: &FlightState,
+    count: usize,
+) -> Result<Vec<Mode>, AnalysisError> {
+    let at = &state.wings[0].structure.configuration;
+    let found = modes(rig.first().structure(), at, &FrameMotion::REST, None);
+    let mut found = found.map_err(wingbeat_flight::FlightError::from)?;
+    found.retain(|m| m.square > 0.0);
+    found.truncate(count);
+    match found.is_empty() {
+        true => Err(AnalysisError::Numbers("the wing has no vibration".into())),
+        false => Ok(found),
+    }
+}

@@ -1,0 +1,188 @@
+//! `[wing.NAME.structure]`: what a wing is made of, where loads bend it.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use smart_default::SmartDefault;
+
+/// An elastic wing, clamped to the wing frame at its root: its shape follows from inertia and loads.
+#[derive(Clone, Debug, PartialEq, SmartDefault, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct StructureCase {
+    /// A beam along the span with rigid sections across it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub beam: Option<BeamCase>,
+    /// A shell: every panel of the mesh is a sheet that bends and stretches.
+    #[schemars(extend("or" = "beam"))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub shell: Option<ShellCase>,
+    /// Time by which rates of strain add to strains (Kelvin and Voigt): the damping ratio of a mode is half this times its
+    /// angular frequency.
+    ///
+    /// Change it to the damping that was measured.
+    #[schemars(range(min = 0))]
+    pub damping_s: f64,
+    /// Rate by which momentum relative to the wing frame decays: the damping ratio of a mode is half this over its angular
+    /// frequency.
+    ///
+    /// Change it where damping does not grow with frequency.
+    #[schemars(range(min = 0))]
+    pub mass_damping_per_s: f64,
+    /// Part of its amplitude that a motion of the highest frequencies keeps in a step; motions that steps resolve keep
+    /// theirs.
+    ///
+    /// Change it to 1 to keep all energy, to less where what steps do not resolve disturbs.
+    #[default = 0.8]
+    #[schemars(range(min = 0, max = 1))]
+    pub spectral_radius: f64,
+}
+
+/// A beam along the span; stiffness by its values at root and tip of the surface, linear between, or by tables.
+#[derive(Clone, Debug, PartialEq, SmartDefault, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct BeamCase {
+    /// Position of the elastic axis behind the leading edge over the chord.
+    ///
+    /// Change it to what was measured.
+    #[default = 0.25]
+    #[schemars(range(min = 0, max = 1))]
+    pub axis_fraction: f64,
+    /// Elements along the span.
+    ///
+    /// Change it to see what hangs on it.
+    #[default = 10]
+    #[schemars(range(min = 1, max = 400))]
+    pub elements: usize,
+    /// EI against bending out of the plane of the wing at root and tip.
+    ///
+    /// Change it to what was measured.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub flap_newton_m2: Option<[f64; 2]>,
+    /// The same as rows [r/R, EI] from the root (or the hinge, 0) to the tip (1).
+    ///
+    /// Change it to what was measured.
+    #[schemars(length(min = 2), extend("or" = "flap_newton_m2"))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub flap_table_newton_m2: Option<Vec<[f64; 2]>>,
+    /// EI against bending in the plane of the wing at root and tip. Left out: a hundred times that out of the plane.
+    ///
+    /// Change it to what was measured.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub lag_newton_m2: Option<[f64; 2]>,
+    /// The same as rows [r/R, EI].
+    ///
+    /// Change it to what was measured.
+    #[schemars(length(min = 2), extend("or" = "lag_newton_m2"))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub lag_table_newton_m2: Option<Vec<[f64; 2]>>,
+    /// GJ against twist at root and tip.
+    ///
+    /// Change it to what was measured.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub torsion_newton_m2: Option<[f64; 2]>,
+    /// The same as rows [r/R, GJ].
+    ///
+    /// Change it to what was measured.
+    #[schemars(length(min = 2), extend("or" = "torsion_newton_m2"))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub torsion_table_newton_m2: Option<Vec<[f64; 2]>>,
+    /// Mass per length at root and tip, instead of the mass of the wing spread evenly over its area.
+    ///
+    /// Change it to what was measured.
+    #[schemars(extend("or" = "wing.NAME.mass_kg"))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub mass_kg_per_m: Option<[f64; 2]>,
+    /// The same as rows [r/R, mass per length].
+    ///
+    /// Change it to what was measured.
+    #[schemars(length(min = 2), extend("or" = "mass_kg_per_m"))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub mass_table_kg_per_m: Option<Vec<[f64; 2]>>,
+    /// Position of the mass centre of a section behind the leading edge over the chord.
+    ///
+    /// Change it to what was measured: what lies ahead of the elastic axis keeps a wing from flutter.
+    #[default = 0.5]
+    #[schemars(range(min = 0, max = 1))]
+    pub mass_fraction: f64,
+    /// Moment of inertia of a section about its mass centre and the axis of the beam, per length, at root and tip. Left
+    /// out: that of mass spread evenly over the chord.
+    ///
+    /// Change it to what was measured.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub inertia_kg_m: Option<[f64; 2]>,
+    /// The same as rows [r/R, inertia per length].
+    ///
+    /// Change it to what was measured.
+    #[schemars(length(min = 2), extend("or" = "inertia_kg_m"))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub inertia_table_kg_m: Option<Vec<[f64; 2]>>,
+}
+
+/// A rule for the stiffness of wings.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum ShellRule {
+    /// EI of the wing along the span `10^0.08 R^2.97`, along the chord `10^-1.73 c^2.08` [Combes & Daniel 2003, J. Exp. Biol.
+    /// 206:2979], spread evenly.
+    CombesDaniel,
+}
+
+/// A sheet on the panels of the mesh, clamped to the wing frame at its root.
+#[derive(Clone, Debug, PartialEq, SmartDefault, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct ShellCase {
+    /// Stiffness by a rule for wings of insects, from the span and the mean chord.
+    ///
+    /// Change it to leave moduli and thickness to what was measured in sixteen species.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub rule: Option<ShellRule>,
+    /// Young's modulus, along the span if that along the chord is given, too.
+    ///
+    /// Change it to that of the material: some 3e9 for cuticle.
+    #[schemars(extend("exclusiveMinimum" = 0, "or" = "rule"))]
+    pub young_pa: Option<f64>,
+    /// Young's modulus along the chord. Left out: that along the span.
+    ///
+    /// Change it for sheets stiffened by veins or fibres along the span.
+    #[schemars(extend("exclusiveMinimum" = 0, "with" = "young_pa"))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub young_chord_pa: Option<f64>,
+    /// Poisson's ratio: contraction along the chord for tension along the span.
+    ///
+    /// Change it to that of the material.
+    #[default = 0.3]
+    pub poisson: f64,
+    /// Shear modulus. Left out: that of a sheet alike in all directions.
+    ///
+    /// Change it for sheets stiffened by veins or fibres.
+    #[schemars(extend("exclusiveMinimum" = 0, "with" = "young_pa"))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub shear_pa: Option<f64>,
+    /// Thickness at root and tip, linear between.
+    ///
+    /// Change it to what was measured.
+    #[schemars(extend("with" = "young_pa"))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub thickness_m: Option<[f64; 2]>,
+    /// The same as rows [r/R, thickness] from the root (or the hinge, 0) to the tip (1).
+    ///
+    /// Change it to what was measured.
+    #[schemars(length(min = 2), extend("or" = "thickness_m"))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub thickness_table_m: Option<Vec<[f64; 2]>>,
+    /// Density, instead of the mass of the wing spread evenly over its area.
+    ///
+    /// Change it to that of the material.
+    #[schemars(extend("exclusiveMinimum" = 0, "or" = "wing.NAME.mass_kg"))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub density_kg_m3: Option<f64>,
+    /// Whether the root is clamped to the wing frame.
+    ///
+    /// Change it to false for foils that are held along their leading part alone.
+    #[default = true]
+    pub clamped_root: bool,
+    /// Part of the chord behind the leading edge that is rigid with the wing frame, all along the span.
+    ///
+    /// Change it for foils with a rigid leading part.
+    #[schemars(range(min = 0), extend("exclusiveMaximum" = 1))]
+    pub rigid_fraction: f64,
+}

@@ -1,0 +1,94 @@
+//! What a wing is made of.
+
+use wingbeat_model::deformation::SpanLaw;
+use wingbeat_model::{Members, WingBeam, WingShell, WingStructure};
+
+use super::motion::span;
+use crate::raw::{BeamCase, ShellCase, StructureCase};
+
+/// A structure.
+pub(super) fn case(structure: &WingStructure) -> StructureCase {
+    let WingStructure {
+        members,
+        damping,
+        spectral_radius,
+    } = structure;
+    let (beam, shell) = match members {
+        Members::Beam(beam) => (Some(beam_case(beam)), None),
+        Members::Shell(shell) => (None, Some(shell_case(shell))),
+    };
+    StructureCase {
+        beam,
+        shell,
+        damping_s: damping.strain_rate,
+        mass_damping_per_s: damping.mass,
+        spectral_radius: *spectral_radius,
+    }
+}
+
+/// Whether it has a mass of its own.
+pub(super) fn has_mass(structure: &WingStructure) -> bool {
+    match &structure.members {
+        Members::Beam(beam) => beam.mass.is_some(),
+        Members::Shell(shell) => shell.density.is_some(),
+    }
+}
+
+fn shell_case(shell: &WingShell) -> ShellCase {
+    let WingShell {
+        young: [young, young_chord],
+        poisson,
+        shear,
+        thickness,
+        density,
+        clamps_root,
+        rigid_fraction,
+    } = shell;
+    let (thickness_m, thickness_table_m) = span(thickness, |x| x);
+    ShellCase {
+        rule: None,
+        young_pa: Some(*young),
+        young_chord_pa: Some(*young_chord),
+        poisson: *poisson,
+        shear_pa: *shear,
+        thickness_m,
+        thickness_table_m,
+        density_kg_m3: *density,
+        clamped_root: *clamps_root,
+        rigid_fraction: *rigid_fraction,
+    }
+}
+
+fn beam_case(beam: &WingBeam) -> BeamCase {
+    let WingBeam {
+        axis_fraction,
+        elements,
+        flap,
+        lag,
+        torsion,
+        mass,
+        mass_fraction,
+        inertia,
+    } = beam;
+    let plain = |law: &SpanLaw| span(law, |x| x);
+    let (flap_newton_m2, flap_table_newton_m2) = plain(flap);
+    let (lag_newton_m2, lag_table_newton_m2) = plain(lag);
+    let (torsion_newton_m2, torsion_table_newton_m2) = plain(torsion);
+    let (mass_kg_per_m, mass_table_kg_per_m) = mass.as_ref().map(plain).unwrap_or_default();
+    let (inertia_kg_m, inertia_table_kg_m) = inertia.as_ref().map(plain).unwrap_or_default();
+    BeamCase {
+        axis_fraction: *axis_fraction,
+        elements: *elements,
+        flap_newton_m2,
+        flap_table_newton_m2,
+        lag_newton_m2,
+        lag_table_newton_m2,
+        torsion_newton_m2,
+        torsion_table_newton_m2,
+        mass_kg_per_m,
+        mass_table_kg_per_m,
+        mass_fraction: *mass_fraction,
+        inertia_kg_m,
+        inertia_table_kg_m,
+    }
+}

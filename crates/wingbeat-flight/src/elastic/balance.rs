@@ -1,0 +1,179 @@
+//! What the elastic wings do to the bodies that carry them, their energies and momenta.
+
+use wingbeat_dynamics::budget::kinetic_energy;
+use wingbeat_dynamics::{AddedMass, Body, BodyMotion, Budget, ShapeMass, Wrench};
+use wingbeat_math::{DVec3, EulerSequence, MassProperties};
+
+use super::coupling::{ElasticScratch, Moment};
+use super::step::WingScratch;
+use super::wing::ElasticState;
+use super::wings::{ElasticWings, turned};
+use crate::record::ElasticRecord;
+
+impl ElasticWings {
+    /// What the masses of the wings do otherwise than those of rigid ones, at the instant last asked for.
+    pub fn shape_masses<'a>(
+        &'a self,
+        s: &'a ElasticScratch,
+    ) -> impl Iterator<Item = ShapeMass> + 'a {
+        self.wings.iter().zip(&s.wings).map(|(w, ws)| {
+            let now = w.structure.mass_properties(&ws.trial.configuration);
+            let (mut momentum, mut angular_momentum) = (DVec3::ZERO, DVec3::ZERO);
+            for (mass, motion) in w.bodies(&BodyMotion::REST, ws.nodes()) {
+                let of = Parts::of(mass, &motion);
+                momentum += of.momentum;
+                angular_momentum += of.angular;
+            }
+            ShapeMass {
+                body: w.wing + 1,
+                first_moment: now.first_moment - w.rigid.first_moment,
+                inertia: now.inertia - w.rigid.inertia,
+                momentum,
+                angular_momentum,
+            }
+        })
+    }
+
+    /// Adds to `out` what the elastic wings do to their frames beside the loads of the air and what rigid ones would do, N
+    /// components about the origins of the bodies.
+    pub fn wrenches(&self, motions: &[BodyMotion], s: &ElasticScratch, out: &mut [Wrench]) {
+        out.fill(Wrench::default());
+        for (w, ws) in self.wings.iter().zip(&s.wings) {
+            let m = &motions[w.wing + 1];
+            let at = &ws.trial.configuration;
+            let needed = w.resultant(at, &ws.residual);
+            let loads = w.resultant(at, &ws.loads);
+            let rigid = w.rigid_inertia(&ws.frame);
+            let both = [0, 1].map(|k| rigid[k] - needed[k] - loads[k]);
+            out[w.wing + 1] = turned(m, both);
+        }
+    }
+
+    /// The wings' answer to accelerations of their frames, beside that of rigid ones, as added masses into `out`; what they
+    /// exert under the accelerations that the wings are known to have is taken out of `loads`.
+    pub fn add_mass(
+        &self,
+        at: &Moment<'_>,
+        s: &ElasticScratch,
+        loads: &mut [Wrench],
+        out: &mut Vec<AddedMass>,
+    ) {
+        for (w, ws) in self.wings.iter().zip(&s.wings) {
+            let Some(carried) = ws.carried else { continue };
+            let body = w.wing + 1;
+            let exerted = carried.wrench(&at.motions[body], &at.accelerations[body]);
+            loads[body] = loads[body] - exerted;
+            out.push(carried);
+        }
+    }
+
+    /// Power of the air on what the wings move relative to their frames \[W\].
+    pub fn air_power(&self, s: &ElasticScratch) -> f64 {
+        let of = |ws: &WingScratch| -> f64 {
+            let pairs = ws.loads.iter().zip(&ws.trial.velocity);
+            pairs.map(|(f, v)| f * v).sum()
+        };
+        s.wings.iter().map(of).sum()
+    }
+
+    /// Elastic energy of each wing \[J\].
+    pub fn strain_energy<'a>(&self, s: &'a ElasticScratch) -> impl Iterator<Item = f64> + 'a {
+        s.wings.iter().map(|ws| ws.solver.strain_energy())
+    }
+
+    /// Power that the damping of the wings dissipates \[W\].
+    pub fn dissipation(&self, s: &ElasticScratch) -> f64 {
+        let of = |ws: &WingScratch| ws.solver.dissipation(&ws.trial);
+        s.wings.iter().map(of).sum()
+    }
+
+    /// Energy that damping has dissipated since the start \[J\], at the instant last asked for.
+    pub fn dissipated(&self, states: &[ElasticState], s: &ElasticScratch) -> f64 {
+        let of = |(ws, state): (&WingScratch, &ElasticState)| {
+            let (now, before) = (ws.solver.dissipation(&ws.trial), &state.structure);
+            let step = if s.is_stepping {
+                ws.trial.weights().step
+            } else {
+                0.0
+            };
+            before.dissipated + 0.5 * step * (before.dissipation + now)
+        };
+        s.wings.iter().zip(states).map(of).sum()
+    }
+
+    /// Where the tips are, how they are twisted and what elastic energy the wings hold.
+    pub fn records(&self, s: &ElasticScratch, out: &mut Vec<ElasticRecord>) {
+        out.clear();
+        for (w, ws) in self.wings.iter().zip(&s.wings) {
+            let place = |n: usize| w.followers[n].position(&ws.trial.configuration);
+            let rest = |n: usize| w.followers[n].position(w.structure.rest());
+            let [lead, trail] = w.tip;
+            let middle = |of: &dyn Fn(usize) -> DVec3| of(lead).midpoint(of(trail));
+            let pitch = |of: &dyn Fn(usize) -> DVec3| {
+                let chord = of(lead) - of(trail);
+                (-chord.z).atan2(chord.x)
+            };
+            out.push(ElasticRecord {
+                tip: middle(&place) - middle(&rest),
+                twist: pitch(&place) - pitch(&rest),
+                strain_energy: ws.solver.strain_energy(),
+                passes: s.passes,
+            });
+        }
+    }
+
+    /// Makes the budget of a system of rigid wings that of the elastic ones.
+    pub fn correct_budget(
+        &self,
+        motions: &[BodyMotion],
+        s: &ElasticScratch,
+        mass: f64,
+        b: &mut Budget,
+    ) {
+        let mut angular = b.angular_momentum + b.centre.cross(b.momentum);
+        let mut first = mass * b.centre;
+        for (w, ws) in self.wings.iter().zip(&s.wings) {
+            let m = &motions[w.wing + 1];
+            let rigid = std::iter::once((&w.rigid, *m)).map(|x| (-1.0, x));
+            let elastic = w.bodies(m, ws.nodes()).map(|x| (1.0, x));
+            for (sign, (properties, motion)) in rigid.chain(elastic) {
+                let of = Parts::of(properties, &motion);
+                b.kinetic += sign * of.kinetic;
+                b.momentum += sign * of.momentum;
+                angular += sign * of.angular;
+                first += sign * of.first;
+                b.potential -= sign * self.gravity.dot(of.first);
+            }
+            b.potential += ws.solver.strain_energy();
+        }
+        b.centre = first / mass;
+        b.angular_momentum = angular - b.centre.cross(b.momentum);
+    }
+}
+
+/// Energy and momenta of one small body, N components, about the origin of N.
+struct Parts {
+    kinetic: f64,
+    momentum: DVec3,
+    angular: DVec3,
+    /// First moment of mass \[kg m\].
+    first: DVec3,
+}
+
+impl Parts {
+    fn of(mass: &MassProperties, m: &BodyMotion) -> Self {
+        let body = Body {
+            name: String::new(),
+            mass: *mass,
+            sequence: EulerSequence::WING_132,
+        };
+        let momentum = mass.mass * m.v + m.r * m.w.cross(mass.first_moment);
+        let spin = mass.first_moment.cross(m.r.transpose() * m.v) + mass.inertia * m.w;
+        Self {
+            kinetic: kinetic_energy(&body, m),
+            momentum,
+            angular: m.p.cross(momentum) + m.r * spin,
+            first: mass.mass * m.p + m.r * mass.first_moment,
+        }
+    }
+}

@@ -1,0 +1,276 @@
+//! One step of the elastic wings with the air, at given motions and accelerations of the bodies.
+
+use wingbeat_air::AirState;
+use wingbeat_dynamics::{BodyAcceleration, BodyMotion, Wrench};
+use wingbeat_structure::NODE;
+
+use super::secants::Secants;
+use super::step::{ROUNDING, SMALL, WingScratch, larger};
+use super::wing::{ElasticState, ElasticWing};
+use super::wings::{ElasticWings, frame_motion};
+use crate::error::FlightError;
+use crate::interface::{Air, AirScratch, Instant, Shape};
+
+/// Forces that are left unbalanced at the end of a step over those at the nodes \[1\].
+pub const TOLERANCE: f64 = 1e-10;
+
+/// Most passes.
+pub const MAX_PASSES: usize = 40;
+
+/// Passes after which the air is asked again how it answers to the motion of the wings.
+const RENEWAL: usize = 8;
+
+/// Intermediate results of the elastic wings; what it holds belongs to the instant last asked for.
+#[derive(Debug, Default)]
+pub struct ElasticScratch {
+    pub(super) wings: Vec<WingScratch>,
+    /// Shapes of all wings of the animal.
+    shapes: Vec<Option<Shape>>,
+    secants: Secants,
+    change: Vec<f64>,
+    /// Whether the next instant is the first of another step.
+    is_new: bool,
+    /// Whether a step is under way; not at the start.
+    pub(super) is_stepping: bool,
+    /// Passes of the last coupling, and what was left unbalanced \[1\].
+    pub(super) passes: usize,
+    unbalanced: f64,
+    /// Size of the last correction: rotation \[rad\], translation over the size of the wing.
+    moved: f64,
+}
+
+impl ElasticScratch {
+    /// The next instant belongs to another step.
+    pub fn begin_step(&mut self) {
+        self.is_new = true;
+        self.is_stepping = true;
+    }
+
+    /// Shapes of all wings of the animal; none of the rigid ones.
+    pub fn shapes(&self) -> &[Option<Shape>] {
+        &self.shapes
+    }
+
+    /// Passes of the last coupling, and what it left unbalanced over the forces at the nodes \[1\].
+    pub fn convergence(&self) -> (usize, f64) {
+        (self.passes, self.unbalanced)
+    }
+}
+
+/// What shape and loads are to agree at.
+pub struct Moment<'a> {
+    /// Time \[s\].
+    pub time: f64,
+    /// Time step \[s\].
+    pub step: f64,
+    /// Motions of all bodies.
+    pub motions: &'a [BodyMotion],
+    /// Accelerations of all bodies; of wings in the first pass of a step that of the step before where they are not known.
+    pub accelerations: &'a [BodyAcceleration],
+}
+
+impl ElasticWings {
+    /// Room for steps from `states`.
+    pub fn scratch(&self, states: &[ElasticState]) -> ElasticScratch {
+        let wing = |(w, s): (&ElasticWing, &ElasticState)| WingScratch::new(w, s);
+        let mut scratch = ElasticScratch {
+            wings: self.wings.iter().zip(states).map(wing).collect(),
+            shapes: self.shapes(),
+            ..ElasticScratch::default()
+        };
+        self.place(&mut scratch);
+        scratch
+    }
+
+    /// Brings shapes and loads to agree at an instant: the loads of the air about the origins of the bodies stay in `out`.
+    ///
+    /// # Errors
+    /// What the air reports; shapes and loads that do not come to agree.
+    pub fn couple(
+        &self,
+        at: &Moment<'_>,
+        around: (&dyn Air, Option<&AirState>),
+        s: &mut ElasticScratch,
+        (air_scratch, out): (&mut AirScratch, &mut [Wrench]),
+    ) -> Result<(), FlightError> {
+        self.set_frames(at, s);
+        for pass in 1..=MAX_PASSES {
+            s.passes = pass;
+            self.place(s);
+            let mut shapes = std::mem::take(&mut s.shapes);
+            let instant = Instant {
+                time: at.time,
+                step: at.step,
+                motions: at.motions,
+                shapes: &shapes,
+            };
+            let passed = self.pass(&instant, around, s, (air_scratch, out));
+            std::mem::swap(&mut s.shapes, &mut shapes);
+            if passed? {
+                return Ok(());
+            }
+            self.correct(s)?;
+        }
+        Err(self.failed(at.time, s))
+    }
+
+    /// Loads and residuals of a trial, and the tangents where they are due; true if shapes and loads agree.
+    fn pass(
+        &self,
+        at: &Instant<'_>,
+        (air, memory): (&dyn Air, Option<&AirState>),
+        s: &mut ElasticScratch,
+        (air_scratch, out): (&mut AirScratch, &mut [Wrench]),
+    ) -> Result<bool, FlightError> {
+        air.place(at, air_scratch)?;
+        air.loads(at, memory, air_scratch, out)?;
+        for (w, ws) in self.wings.iter().zip(&mut s.wings) {
+            air.nodal_forces(w.wing, at, air_scratch, &mut ws.forces)?;
+            let m = &at.motions[w.wing + 1];
+            w.gather(m, &ws.trial.configuration, &ws.forces, &mut ws.loads);
+            ws.given.clone_from(&ws.loads);
+            ws.set_scale(w);
+            ws.set_residual(w);
+        }
+        let before = s.unbalanced;
+        let all = s.wings.iter().map(|ws| ws.unbalanced);
+        s.unbalanced = all.fold(0.0, larger);
+        // Where corrections are small and help no more, what is left is the rounding of stiff forces.
+        let helps = s.unbalanced < 0.5 * before;
+        let is_exact = s.passes > 1 && (s.moved <= ROUNDING || (s.moved <= SMALL && !helps));
+        if s.unbalanced <= TOLERANCE || is_exact || !s.is_stepping {
+            return Ok(true);
+        }
+        if !s.unbalanced.is_finite() {
+            return Err(self.failed(at.time, s));
+        }
+        if s.passes % RENEWAL == 1 {
+            self.take_answers(at, (air, memory), s, air_scratch)?;
+        }
+        Ok(false)
+    }
+
+    fn failed(&self, time: f64, s: &ElasticScratch) -> FlightError {
+        FlightError::ElasticNotConverged {
+            time,
+            wings: self.wings.iter().map(|w| w.name.clone()).collect(),
+            passes: s.passes,
+            unbalanced: s.unbalanced,
+            tolerance: TOLERANCE,
+        }
+    }
+
+    /// Before the first instant of a step of `step` \[s\]: what the shapes will be if nothing new happens. Accelerations of the
+    /// wings are those of the step before.
+    pub fn predict(
+        &self,
+        step: f64,
+        states: &[ElasticState],
+        s: &mut ElasticScratch,
+        accelerations: &mut [BodyAcceleration],
+    ) {
+        if !std::mem::take(&mut s.is_new) {
+            return;
+        }
+        for ((w, ws), state) in self.wings.iter().zip(&mut s.wings).zip(states) {
+            let (structure, own) = (&w.structure, &state.structure);
+            w.method.predict(structure, own, step, &mut ws.trial);
+            if w.is_thin {
+                ws.trial.take_back();
+            }
+            ws.solver.look_ahead_from_start(&ws.trial);
+            ws.carried = None;
+            accelerations[w.wing + 1] = state.acceleration();
+        }
+    }
+
+    fn set_frames(&self, at: &Moment<'_>, s: &mut ElasticScratch) {
+        for (w, ws) in self.wings.iter().zip(&mut s.wings) {
+            let (m, a) = (&at.motions[w.wing + 1], &at.accelerations[w.wing + 1]);
+            ws.frame = frame_motion(m, a, self.gravity);
+        }
+        s.secants.clear();
+    }
+
+    fn place(&self, s: &mut ElasticScratch) {
+        for (w, ws) in self.wings.iter().zip(&s.wings) {
+            if let Some(shape) = &mut s.shapes[w.wing] {
+                w.shape(ws.nodes(), shape);
+            }
+        }
+    }
+
+    /// What the air answers to the motion of the wings; factors are renewed, too.
+    fn take_answers(
+        &self,
+        instant: &Instant<'_>,
+        (air, memory): (&dyn Air, Option<&AirState>),
+        s: &mut ElasticScratch,
+        air_scratch: &AirScratch,
+    ) -> Result<(), FlightError> {
+        for (w, ws) in self.wings.iter().zip(&mut s.wings) {
+            let m = &instant.motions[w.wing + 1];
+            ws.answers =
+                air.wing_response(w.wing, instant, memory, air_scratch, &mut ws.response)?;
+            if ws.answers {
+                let (followers, at) = (&w.followers, &ws.trial.configuration);
+                ws.tangent.set(&ws.response, m.r, followers, at);
+            }
+            ws.is_stale = true;
+        }
+        Ok(())
+    }
+
+    /// New trials: what the elastic bodies do under loads that follow them as the air has answered, and what secants of former
+    /// passes make of that, all wings together; translations over the sizes of the wings.
+    fn correct(&self, s: &mut ElasticScratch) -> Result<(), FlightError> {
+        s.change.clear();
+        for (w, ws) in self.wings.iter().zip(&mut s.wings) {
+            ws.bend(w)?;
+            let scale = w.structure.size() * ws.trial.weights().velocity;
+            let turn = ws.trial.weights().velocity;
+            for &k in w.structure.free_numbers() {
+                let size = if k % NODE < 3 { scale } else { turn };
+                let moved = ws.trial.velocity[k] - ws.before[k];
+                s.change.push(moved / size);
+            }
+        }
+        s.secants.accelerate(&mut s.change);
+        let mut from = 0;
+        s.moved = 0.0;
+        for (w, ws) in self.wings.iter().zip(&mut s.wings) {
+            let free = w.structure.free_numbers();
+            let wanted = &s.change[from..from + free.len()];
+            from += free.len();
+            ws.step.clear();
+            for (&k, x) in free.iter().zip(wanted) {
+                let length = if k % NODE < 3 {
+                    w.structure.size()
+                } else {
+                    1.0
+                };
+                let made = (ws.trial.velocity[k] - ws.before[k]) / ws.trial.weights().velocity;
+                ws.step.push(length * x - made);
+                s.moved = s.moved.max(x.abs());
+            }
+            ws.trial.add(&w.structure, &ws.step);
+        }
+        Ok(())
+    }
+
+    /// Accepts the instant last asked for, the bodies accelerating as they do.
+    pub fn accept(
+        &self,
+        accelerations: &[BodyAcceleration],
+        s: &ElasticScratch,
+        states: &mut [ElasticState],
+    ) {
+        for ((w, ws), state) in self.wings.iter().zip(&s.wings).zip(states) {
+            if s.is_stepping {
+                ws.solver.accept(&ws.trial, &mut state.structure);
+            }
+            let a = &accelerations[w.wing + 1];
+            state.frame = [a.linear, a.angular];
+        }
+    }
+}

@@ -1,0 +1,124 @@
+//! Interface quasi-Newton with least squares: corrections from what former passes have shown [Degroote, Bathe &
+//! Vierendeels 2009, Comput. Struct. 87:793].
+//!
+//! A pass takes the unknowns z to a correction f(z), zero at the solution. What is sought is the combination of former
+//! differences of f that takes f away; the unknowns go along with theirs: `dz = f - (dZ + dF) c`, c from
+//! `min |f - dF c|`.
+
+/// Columns that depend on each other to so many digits are left out.
+const DEPENDENT: f64 = 1e-8;
+
+/// Differences of former passes of one step, newest last.
+#[derive(Clone, Debug, Default)]
+pub struct Secants {
+    /// Correction of the pass before, and the change that was made.
+    before: Vec<f64>,
+    change: Vec<f64>,
+    /// Differences of corrections and sums of both differences.
+    corrections: Vec<Vec<f64>>,
+    sums: Vec<Vec<f64>>,
+    /// Spare columns.
+    spare: Vec<Vec<f64>>,
+    basis: Vec<Vec<f64>>,
+    has_past: bool,
+}
+
+impl Secants {
+    /// Forgets all passes: another step.
+    pub fn clear(&mut self) {
+        self.spare.append(&mut self.corrections);
+        self.spare.append(&mut self.sums);
+        self.has_past = false;
+    }
+
+    /// The change of the unknowns for the correction `f`, in its place. The norm of least squares takes the numbers as they are:
+    /// they are to be of one size.
+    pub fn accelerate(&mut self, f: &mut [f64]) {
+        if self.has_past {
+            let (mut d, mut s) = (self.column(), self.column());
+            d.extend(f.iter().zip(&self.before).map(|(a, b)| a - b));
+            s.extend(d.iter().zip(&self.change).map(|(a, b)| a + b));
+            self.corrections.push(d);
+            self.sums.push(s);
+        }
+        self.before.clear();
+        self.before.extend_from_slice(f);
+        self.combine(f);
+        self.change.clear();
+        self.change.extend_from_slice(f);
+        self.has_past = true;
+    }
+
+    fn column(&mut self) -> Vec<f64> {
+        let mut column = self.spare.pop().unwrap_or_default();
+        column.clear();
+        column
+    }
+
+    /// Least squares by Gram and Schmidt, newest columns first: whatever is done to a column is done to its sum, too.
+    fn combine(&mut self, f: &mut [f64]) {
+        self.spare.append(&mut self.basis);
+        let mut along: Vec<Vec<f64>> = vec![];
+        for k in (0..self.corrections.len()).rev() {
+            let (mut d, mut s) = (self.column(), self.column());
+            d.extend_from_slice(&self.corrections[k]);
+            s.extend_from_slice(&self.sums[k]);
+            let size = norm(&d);
+            for _ in 0..2 {
+                for (q, sum) in self.basis.iter().zip(&along) {
+                    let part = dot(q, &d);
+                    add(&mut d, -part, q);
+                    add(&mut s, -part, sum);
+                }
+            }
+            let rest = norm(&d);
+            if rest <= DEPENDENT * size || size == 0.0 {
+                continue;
+            }
+            d.iter_mut().for_each(|x| *x /= rest);
+            s.iter_mut().for_each(|x| *x /= rest);
+            self.basis.push(d);
+            along.push(s);
+        }
+        let parts: Vec<f64> = self.basis.iter().map(|q| dot(q, &self.before)).collect();
+        for (part, sum) in parts.iter().zip(&along) {
+            add(f, -part, sum);
+        }
+        self.spare.append(&mut along);
+    }
+}
+
+fn dot(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}
+
+fn norm(a: &[f64]) -> f64 {
+    dot(a, a).sqrt()
+}
+
+fn add(to: &mut [f64], part: f64, of: &[f64]) {
+    to.iter_mut().zip(of).for_each(|(a, b)| *a += part * b);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// `z <- z + f(z)` with `f = b - A z`, A badly scaled and not near 1, diverges by itself; n + 1 passes solve it.
+    #[test]
+    fn exact_linear_fixed_points_after_as_many_passes_as_unknowns() {
+        let a = [[3.0, 0.4, 0.0], [-0.7, 5.0, 0.2], [0.1, 0.3, 9.0]];
+        let b = [1.0, -2.0, 0.5];
+        let mut z = [0.0; 3];
+        let mut secants = Secants::default();
+        let correction = |z: &[f64; 3]| -> [f64; 3] {
+            std::array::from_fn(|i| b[i] - (0..3).map(|j| a[i][j] * z[j]).sum::<f64>())
+        };
+        for _ in 0..4 {
+            let mut f = correction(&z);
+            secants.accelerate(&mut f);
+            (0..3).for_each(|i| z[i] += f[i]);
+        }
+        assert!(norm(&correction(&z)) < 1e-12); // rounding of numbers of order 10
+    }
+}

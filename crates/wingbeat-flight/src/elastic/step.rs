@@ -1,0 +1,180 @@
+//! One elastic wing within a step: Newton's iteration under loads that follow its motion.
+
+use wingbeat_dynamics::AddedMass;
+use wingbeat_math::DVec3;
+use wingbeat_structure::{FrameMotion, LoadTangent, NODE, Solver, Trial};
+
+use super::tangent::AirTangent;
+use super::wing::{ElasticState, ElasticWing, Nodes};
+use crate::error::FlightError;
+use crate::interface::WingResponse;
+
+/// Corrections that are the rounding of places: in stiff wings the forces of such are more than [`TOLERANCE`] \[1\].
+pub(super) const ROUNDING: f64 = 1e-14;
+
+/// Corrections that are small [1].
+pub(super) const SMALL: f64 = 1e-10;
+
+/// Most of Newton's passes on the elastic body under loads that follow its motion, the residual to reach over that at
+/// first, and the ratio of residuals from pass to pass above which factors are renewed \[1\].
+const MAX_NEWTON: usize = 20;
+const NEWTON: f64 = 1e-4;
+/// Residuals beyond this are those of a prediction that stretches what hardly stretches \[1\].
+const ROUGH: f64 = 1e-2;
+const SLOW: f64 = 0.1;
+
+/// Of one wing.
+#[derive(Debug)]
+pub(super) struct WingScratch {
+    pub trial: Trial,
+    pub solver: Solver,
+    pub frame: FrameMotion,
+    /// Forces on the nodes of the mesh \[N\], N components; loads on the nodes of the elastic body.
+    pub forces: Vec<DVec3>,
+    pub loads: Vec<f64>,
+    pub residual: Vec<f64>,
+    /// Largest residual over the forces at the nodes \[1\], and these.
+    pub unbalanced: f64,
+    pub scale: f64,
+    /// Velocities of the trial that the loads were taken for; loads as the air's answer carries them on; a step.
+    pub before: Vec<f64>,
+    pub given: Vec<f64>,
+    pub step: Vec<f64>,
+    /// Whether the air answers, and whether factors are older than what it said.
+    pub answers: bool,
+    pub is_stale: bool,
+    pub response: WingResponse,
+    pub tangent: AirTangent,
+    /// How the wing answers to accelerations of its frame beside the rigid one: an added mass.
+    pub carried: Option<AddedMass>,
+}
+
+/// The larger of two numbers, or what is not a number.
+pub(super) fn larger(a: f64, b: f64) -> f64 {
+    if b <= a { a } else { b }
+}
+
+impl WingScratch {
+    /// Room for steps from `s`.
+    pub fn new(w: &ElasticWing, s: &ElasticState) -> Self {
+        Self {
+            trial: Trial::of(&s.structure),
+            solver: Solver::new(&w.structure),
+            frame: FrameMotion::REST,
+            forces: vec![],
+            loads: vec![0.0; NODE * w.structure.nodes()],
+            residual: vec![],
+            unbalanced: 0.0,
+            scale: 0.0,
+            before: vec![],
+            given: vec![],
+            step: vec![],
+            answers: false,
+            is_stale: true,
+            response: WingResponse::default(),
+            tangent: AirTangent::default(),
+            carried: None,
+        }
+    }
+
+    /// The forces at the nodes that residuals are measured by \[N\].
+    pub fn set_scale(&mut self, w: &ElasticWing) {
+        let force = |six: &[f64]| DVec3::from_slice(six).length();
+        let loads: f64 = self.loads.chunks_exact(NODE).map(force).sum();
+        let spin = self.frame.w_dot.length() + self.frame.w.length_squared();
+        let carried = self.frame.acceleration.length() + spin * w.structure.size();
+        self.scale = loads + w.rigid.mass * carried;
+    }
+
+    /// Residual of the trial under the loads `given`; moments count over the size of the wing.
+    pub fn set_residual(&mut self, w: &ElasticWing) {
+        let (trial, frame) = (&self.trial, &self.frame);
+        let residual = (self.solver).residual(&w.structure, trial, frame, &self.given);
+        self.residual.clear();
+        self.residual.extend_from_slice(residual);
+        let size = w.structure.size();
+        let numbers = w.structure.free_numbers().iter();
+        let part = |&k: &usize| self.residual[k].abs() / if k % NODE < 3 { 1.0 } else { size };
+        let largest = numbers.map(part).fold(0.0, larger);
+        self.unbalanced = if largest == 0.0 {
+            0.0
+        } else {
+            largest / self.scale
+        };
+    }
+
+    /// Newton's iteration on the elastic body, under loads that follow its motion as the air has answered. The motion that the
+    /// loads were taken for stays in `before`.
+    pub fn bend(&mut self, w: &ElasticWing) -> Result<(), FlightError> {
+        self.before.clone_from(&self.trial.velocity);
+        let (target, mut last) = (NEWTON * self.unbalanced.min(ROUGH), f64::INFINITY);
+        for _ in 0..MAX_NEWTON {
+            if self.is_stale || self.unbalanced > (SLOW * last).min(ROUGH) {
+                self.factor(w)?;
+            }
+            last = self.unbalanced;
+            self.step.clear();
+            let free = w.structure.free_numbers();
+            self.step.extend(free.iter().map(|&k| -self.residual[k]));
+            self.solver.solve(&mut self.step);
+            (self.solver).look_ahead(&w.structure, &self.trial, &self.step);
+            let moved = self.trial.add(&w.structure, &self.step);
+            self.follow();
+            self.set_residual(w);
+            let is_rounding = moved <= ROUNDING || moved <= SMALL && self.unbalanced > 0.5 * last;
+            let is_done = self.unbalanced <= target || is_rounding;
+            if is_done || !self.unbalanced.is_finite() {
+                break;
+            }
+        }
+        Ok(())
+    }
+
+    /// Loads as the air's answer carries them on from the motion they were taken for.
+    fn follow(&mut self) {
+        self.given.clone_from(&self.loads);
+        if !self.answers {
+            return;
+        }
+        let (n, place) = (self.given.len(), 1.0 / self.trial.weights().velocity);
+        let both = self.trial.velocity.iter().zip(&self.before);
+        self.step.clear();
+        self.step.extend(both.map(|(a, b)| a - b));
+        let rows = self
+            .tangent
+            .velocity
+            .chunks_exact(n)
+            .zip(self.tangent.position.chunks_exact(n));
+        for (load, (by_velocity, by_place)) in self.given.iter_mut().zip(rows) {
+            let terms = self.step.iter().zip(by_velocity.iter().zip(by_place));
+            *load += terms.map(|(d, (v, p))| d * (v + place * p)).sum::<f64>();
+        }
+    }
+
+    /// Factorises the tangent, with the air's answer on its left-hand side.
+    fn factor(&mut self, w: &ElasticWing) -> Result<(), FlightError> {
+        let mut loads = LoadTangent::default();
+        if self.answers {
+            loads.position = Some(&self.tangent.position);
+            loads.velocity = Some(&self.tangent.velocity);
+        }
+        let (structure, trial, frame) = (&w.structure, &self.trial, &self.frame);
+        match self.unbalanced > ROUGH {
+            true => (self.solver).factor_ahead(structure, trial, frame, &loads)?,
+            false => self.solver.factor(structure, trial, frame, &loads)?,
+        }
+        if std::mem::take(&mut self.is_stale) {
+            let response = self.solver.frame_response(structure, trial, frame, &loads);
+            self.carried = Some(w.carried(&response));
+        }
+        Ok(())
+    }
+
+    pub fn nodes(&self) -> Nodes<'_> {
+        Nodes {
+            at: &self.trial.configuration,
+            velocity: &self.trial.velocity,
+            acceleration: &self.trial.acceleration,
+        }
+    }
+}

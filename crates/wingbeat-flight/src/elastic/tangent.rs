@@ -1,0 +1,73 @@
+//! The air's answer to the motion of an elastic wing, for the left-hand side of a step.
+
+use wingbeat_math::DMat3;
+use wingbeat_structure::{Configuration, Follower, NODE};
+
+use crate::interface::WingResponse;
+
+/// Derivatives of the loads on the nodes of an elastic body by their six numbers and by their rates.
+#[derive(Clone, Debug, Default)]
+pub(super) struct AirTangent {
+    /// By places, N/m, N, N m.
+    pub position: Vec<f64>,
+    /// By velocities.
+    pub velocity: Vec<f64>,
+    wash: [Vec<f64>; 2],
+    answer: Vec<f64>,
+}
+
+impl AirTangent {
+    /// From the answer of a wing of attitude `r` whose mesh follows by `followers` in the configuration `at`.
+    pub fn set(
+        &mut self,
+        air: &WingResponse,
+        r: DMat3,
+        followers: &[Follower],
+        at: &Configuration,
+    ) {
+        let (count, width) = (air.panels.len(), NODE * at.len());
+        let back = r.transpose();
+        for (k, rows) in self.wash.iter_mut().enumerate() {
+            rows.clear();
+            rows.resize(count * width, 0.0);
+            for (panel, row) in air.panels.iter().zip(rows.chunks_exact_mut(width)) {
+                for (node, by) in panel {
+                    followers[*node].add_force(at, back * by[k], row);
+                }
+            }
+        }
+        let [by_velocity, by_place] = &self.wash;
+        for (out, wash) in [
+            (&mut self.velocity, by_velocity),
+            (&mut self.position, by_place),
+        ] {
+            times(&air.matrix, wash, count, width, &mut self.answer);
+            transposed_times(by_velocity, &self.answer, count, width, out);
+        }
+    }
+}
+
+/// `out = a b`, a of order `n`, b of n rows of `width`.
+fn times(a: &[f64], b: &[f64], n: usize, width: usize, out: &mut Vec<f64>) {
+    out.clear();
+    out.resize(n * width, 0.0);
+    for (row, to) in a.chunks_exact(n).zip(out.chunks_exact_mut(width)) {
+        for (x, from) in row.iter().zip(b.chunks_exact(width)) {
+            to.iter_mut().zip(from).for_each(|(t, f)| *t += x * f);
+        }
+    }
+}
+
+/// `out = a^T b`, both of `n` rows of `width`.
+fn transposed_times(a: &[f64], b: &[f64], n: usize, width: usize, out: &mut Vec<f64>) {
+    out.clear();
+    out.resize(width * width, 0.0);
+    let rows = a.chunks_exact(width).zip(b.chunks_exact(width));
+    for (row, from) in rows.take(n) {
+        for (x, to) in row.iter().zip(out.chunks_exact_mut(width)) {
+            if *x != 0.0 {
+                to.iter_mut().zip(from).for_each(|(t, f)| *t += x * f);
+            }
+        }
+    }
+}

@@ -1,0 +1,221 @@
+//! One elastic wing: its body, its nodes, and what it does to the frame that carries it.
+
+use wingbeat_dynamics::{AddedMass, BodyAcceleration, BodyMotion};
+use wingbeat_math::{DMat3, DVec3, MassProperties, tilde};
+use wingbeat_model::{Members, Wing};
+use wingbeat_structure::{
+    Configuration, Follower, FrameMotion, GeneralizedAlpha, NODE, State, Structure,
+};
+
+use crate::error::FlightError;
+use crate::interface::Shape;
+
+/// A wing that loads bend.
+#[derive(Debug)]
+pub struct ElasticWing {
+    /// Number of the wing; its body is the next.
+    pub(super) wing: usize,
+    /// Its name.
+    pub(super) name: String,
+    pub(super) structure: Structure,
+    /// Nodes of the mesh.
+    pub(super) followers: Vec<Follower>,
+    /// Nodes of the mesh at the tip: leading and trailing edge.
+    pub(super) tip: [usize; 2],
+    pub(super) method: GeneralizedAlpha,
+    /// Whether it hardly stretches beside how it bends: a shell.
+    pub(super) is_thin: bool,
+    /// Mass properties at rest, as the multibody system has them.
+    pub(super) rigid: MassProperties,
+}
+
+/// What an elastic wing remembers from step to step.
+#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+pub struct ElasticState {
+    /// Shape and velocities.
+    pub structure: State,
+    /// Acceleration of the frame of the wing \[m/s2\], N components, and angular acceleration \[rad/s2\], wing components.
+    pub frame: [DVec3; 2],
+}
+
+impl ElasticState {
+    /// Acceleration of the frame.
+    pub(super) fn acceleration(&self) -> BodyAcceleration {
+        let [linear, angular] = self.frame;
+        BodyAcceleration { linear, angular }
+    }
+}
+
+/// Places and motions of the nodes at an instant, whoever has them.
+#[derive(Clone, Copy)]
+pub(super) struct Nodes<'a> {
+    pub at: &'a Configuration,
+    pub velocity: &'a [f64],
+    pub acceleration: &'a [f64],
+}
+
+impl ElasticWing {
+    /// The elastic body of `wing`, number `index` of the animal; none of a rigid one.
+    ///
+    /// # Errors
+    /// What the elastic body refuses.
+    pub fn new(index: usize, wing: &Wing) -> Result<Option<Self>, FlightError> {
+        let Some(structure) = &wing.structure else {
+            return Ok(None);
+        };
+        let method = GeneralizedAlpha::new(structure.spectral_radius)?;
+        let body = structure.body(&wing.blank())?;
+        Ok(Some(Self {
+            wing: index,
+            name: wing.name.clone(),
+            rigid: wing.mass,
+            is_thin: matches!(structure.members, Members::Shell(_)),
+            tip: [0, wing.mesh.rows].map(|i| wing.mesh.node(i, wing.mesh.cols)),
+            structure: body.structure,
+            followers: body.followers,
+            method,
+        }))
+    }
+
+    /// Number of the wing.
+    pub fn wing(&self) -> usize {
+        self.wing
+    }
+
+    /// The elastic body.
+    pub fn structure(&self) -> &Structure {
+        &self.structure
+    }
+
+    /// How the nodes of the mesh follow.
+    pub fn followers(&self) -> &[Follower] {
+        &self.followers
+    }
+
+    /// At rest.
+    pub(super) fn initial(&self) -> ElasticState {
+        ElasticState {
+            structure: State::at_rest(self.structure.rest().clone()),
+            frame: [DVec3::ZERO; 2],
+        }
+    }
+
+    /// The nodes of the mesh.
+    pub(super) fn shape(&self, nodes: Nodes<'_>, out: &mut Shape) {
+        let Nodes {
+            at,
+            velocity,
+            acceleration,
+        } = nodes;
+        out.position.clear();
+        out.velocity.clear();
+        out.acceleration.clear();
+        for f in &self.followers {
+            out.position.push(f.position(at));
+            out.velocity.push(f.velocity(at, velocity));
+            out.acceleration
+                .push(f.acceleration(at, velocity, acceleration));
+        }
+    }
+
+    /// Forces on the nodes of the mesh \[N\], N components, as loads on the nodes of the body that moves like `m`.
+    pub(super) fn gather(
+        &self,
+        m: &BodyMotion,
+        at: &Configuration,
+        forces: &[DVec3],
+        loads: &mut [f64],
+    ) {
+        let back = m.r.transpose();
+        loads.fill(0.0);
+        for (f, force) in self.followers.iter().zip(forces) {
+            f.add_force(at, back * *force, loads);
+        }
+    }
+
+    /// Force and moment about the origin of the frame, wing components, of six numbers at every node.
+    pub(super) fn resultant(&self, at: &Configuration, numbers: &[f64]) -> [DVec3; 2] {
+        let (mut force, mut moment) = (DVec3::ZERO, DVec3::ZERO);
+        for (n, six) in numbers.chunks_exact(NODE).enumerate() {
+            let (f, m) = (DVec3::from_slice(six), DVec3::from_slice(&six[3..]));
+            force += f;
+            moment += at.position[n].cross(f) + at.rotation[n] * m;
+        }
+        [force, moment]
+    }
+
+    /// What the wing as the rigid body it is at rest needs to move like its frame, less its weight; wing components.
+    pub(super) fn rigid_inertia(&self, frame: &FrameMotion) -> [DVec3; 2] {
+        let (s, j, w) = (self.rigid.first_moment, self.rigid.inertia, frame.w);
+        let a = frame.acceleration;
+        [
+            self.rigid.mass * a + frame.w_dot.cross(s) + w.cross(w.cross(s)),
+            j * frame.w_dot + w.cross(j * w) + s.cross(a),
+        ]
+    }
+
+    /// From the derivative of what the wing exerts by the acceleration of its frame: what a mass beside that of the rigid wing
+    /// has. Of its symmetric part so much that both together are positive definite, as masses are; the answer of the air to
+    /// places and velocities within a step need not be.
+    pub(super) fn carried(&self, response: &[[f64; 6]; 6]) -> AddedMass {
+        let rigid = self.rigid_mass();
+        let mean = |i: usize, j: usize| -0.5 * (response[i][j] + response[j][i]);
+        let part = [1.0, 0.5, 0.25, 0.0]
+            .into_iter()
+            .find(|part| is_positive(|i, j| rigid[i][j] + part * (mean(i, j) - rigid[i][j])));
+        let part = part.unwrap_or(0.0);
+        let beside = |i: usize, j: usize| part * (mean(i, j) - rigid[i][j]);
+        AddedMass::new(
+            self.wing + 1,
+            std::array::from_fn(|i| std::array::from_fn(|j| beside(i, j))),
+        )
+    }
+
+    /// Force and moment by acceleration and angular acceleration of the rigid wing.
+    fn rigid_mass(&self) -> [[f64; 6]; 6] {
+        let (m, s) = (self.rigid.mass, tilde(self.rigid.first_moment));
+        let entry = |i: usize, j: usize| match (i < 3, j < 3) {
+            (true, true) => f64::from(i == j) * m,
+            (true, false) => -s.col(j - 3)[i],
+            (false, true) => s.col(j)[i - 3],
+            (false, false) => self.rigid.inertia.col(j - 3)[i - 3],
+        };
+        std::array::from_fn(|i| std::array::from_fn(|j| entry(i, j)))
+    }
+
+    /// The nodes as rigid bodies in N, those of the frame `m`, with their masses.
+    pub(super) fn bodies<'a>(
+        &'a self,
+        m: &'a BodyMotion,
+        nodes: Nodes<'a>,
+    ) -> impl Iterator<Item = (&'a MassProperties, BodyMotion)> + 'a {
+        let masses = self.structure.masses().iter().enumerate();
+        masses.map(move |(n, mass)| {
+            let (u, r) = (nodes.at.position[n], DMat3::from_quat(nodes.at.rotation[n]));
+            let six = &nodes.velocity[NODE * n..];
+            let (v, spin) = (DVec3::from_slice(six), DVec3::from_slice(&six[3..]));
+            let motion = BodyMotion {
+                p: m.p + m.r * u,
+                r: m.r * r,
+                v: m.v + m.r * (m.w.cross(u) + v),
+                w: r.transpose() * m.w + spin,
+            };
+            (mass, motion)
+        })
+    }
+}
+
+/// Whether a symmetric matrix is positive definite: its pivots are.
+fn is_positive(entry: impl Fn(usize, usize) -> f64) -> bool {
+    let mut a: [[f64; 6]; 6] = std::array::from_fn(|i| std::array::from_fn(|j| entry(i, j)));
+    for k in 0..6 {
+        if a[k][k] <= 0.0 {
+            return false;
+        }
+        for i in k + 1..6 {
+            let factor = a[i][k] / a[k][k];
+            (k..6).for_each(|j| a[i][j] -= factor * a[k][j]);
+        }
+    }
+    true
+}

@@ -1,0 +1,40 @@
+//! The elastic body of a wing, and what it is made from.
+
+use wingbeat_structure::{Follower, Structure};
+
+use crate::deformation::SpanLaw;
+use crate::error::{ModelError, require};
+use crate::mesh::GridMesh;
+
+/// A wing before it is elastic.
+#[derive(Clone, Copy, Debug)]
+pub struct Blank<'a> {
+    /// Name of the wing.
+    pub name: &'a str,
+    /// Surface in the wing frame.
+    pub mesh: &'a GridMesh,
+    /// Mass \[kg\].
+    pub mass: f64,
+}
+
+/// A wing as an elastic body.
+#[derive(Debug)]
+pub struct ElasticBody {
+    /// Nodes, elements, masses; clamped to the wing frame.
+    pub structure: Structure,
+    /// How the nodes of the wing's mesh follow, in their order.
+    pub followers: Vec<Follower>,
+}
+
+/// Values of a law are looked for at so many places.
+const PLACES: usize = 65;
+
+/// Refuses a law that is not above 0 all along the span of a wing whose surface begins at `root` = r/R.
+pub(super) fn check_positive(key: &str, law: &SpanLaw, root: f64) -> Result<(), ModelError> {
+    for i in 0..PLACES {
+        let r = root + (1.0 - root) * i as f64 / (PLACES - 1) as f64;
+        let x = law.at(r, root);
+        require(key, x, x > 0.0, "above 0 all along the span")?;
+    }
+    Ok(())
+}

@@ -1,0 +1,157 @@
+//! Internal forces and tangent of all elements.
+
+use wingbeat_math::{DMat3, DVec3};
+
+use crate::block::Block;
+use crate::configuration::{Configuration, NODE};
+use crate::element::ElementForces;
+use crate::error::StructureError;
+use crate::matrix::Matrix;
+use crate::structure::{HELD, Structure};
+
+/// Scratch of assembly and the tangent of the free unknowns.
+#[derive(Debug)]
+pub(crate) struct Assembly {
+    pub matrix: Matrix,
+    /// Strain energy of the last internal forces \[J\].
+    pub energy: f64,
+    element: ElementForces,
+    viscous: ElementForces,
+    /// Increments of the numbers of an element.
+    numbers: Vec<f64>,
+}
+
+impl Assembly {
+    pub fn new(structure: &Structure) -> Self {
+        Self {
+            matrix: Matrix::new(structure.unknowns(), structure.band),
+            energy: 0.0,
+            element: ElementForces::default(),
+            viscous: ElementForces::default(),
+            numbers: vec![],
+        }
+    }
+
+    /// Adds the internal forces of all nodes.
+    pub fn internal(&mut self, structure: &Structure, at: &Configuration, out: &mut [f64]) {
+        self.energy = 0.0;
+        for e in &structure.elements {
+            self.energy += e.internal(at, false, &mut self.element);
+            for (n, f) in e.nodes().iter().zip(self.element.force.chunks_exact(NODE)) {
+                let to = &mut out[NODE * n..NODE * (n + 1)];
+                to.iter_mut().zip(f).for_each(|(t, f)| *t += f);
+            }
+        }
+    }
+
+    /// Adds the forces of strain-rate damping for a time constant of one second.
+    pub fn damping(
+        &mut self,
+        structure: &Structure,
+        at: &Configuration,
+        velocity: &[f64],
+        out: &mut [f64],
+    ) {
+        for e in &structure.elements {
+            e.dissipation(at, &mut self.viscous);
+            let (nodes, width) = (e.nodes(), NODE * e.nodes().len());
+            for (i, row) in self.viscous.tangent.chunks_exact(width).enumerate() {
+                let part = |k: usize| row[k] * velocity[NODE * nodes[k / NODE] + k % NODE];
+                out[NODE * nodes[i / NODE] + i % NODE] += (0..width).map(part).sum::<f64>();
+            }
+        }
+    }
+
+    /// Adds the tangent of all elements, times `scales[0]`, and the matrix of strain-rate damping times `scales[1]`;
+    /// `turn` maps increments of the attitude of a node to rotations in its axes. Stresses are those of `at`, or ahead from a
+    /// configuration by six numbers a node ([`crate::Element::tangent_ahead`]).
+    pub fn tangent(
+        &mut self,
+        structure: &Structure,
+        (at, ahead): (&Configuration, Option<(&Configuration, &[f64])>),
+        scales: [f64; 2],
+        turn: &dyn Fn(usize) -> DMat3,
+    ) {
+        for e in &structure.elements {
+            match ahead {
+                None => {
+                    e.internal(at, true, &mut self.element);
+                }
+                Some((before, increment)) => {
+                    self.numbers.clear();
+                    let own = e.nodes().iter().flat_map(|n| NODE * n..NODE * (n + 1));
+                    self.numbers.extend(own.map(|k| increment[k]));
+                    e.tangent_ahead(at, before, &self.numbers, &mut self.element);
+                }
+            }
+            for row in self
+                .element
+                .tangent
+                .chunks_exact_mut(NODE * e.nodes().len())
+            {
+                row.iter_mut().for_each(|k| *k *= scales[0]);
+            }
+            let width = NODE * e.nodes().len();
+            for (c, &n) in e.nodes().iter().enumerate() {
+                let turn = turn(n).transpose();
+                for row in self.element.tangent.chunks_exact_mut(width) {
+                    let angles = &mut row[NODE * c + 3..NODE * c + 6];
+                    (turn * DVec3::from_slice(angles)).write_to_slice(angles);
+                }
+            }
+            if scales[1] > 0.0 {
+                e.dissipation(at, &mut self.viscous);
+                let both = self.element.tangent.iter_mut().zip(&self.viscous.tangent);
+                both.for_each(|(k, c)| *k += scales[1] * c);
+            }
+            scatter(
+                &mut self.matrix,
+                structure,
+                e.nodes(),
+                &self.element.tangent,
+            );
+        }
+    }
+
+    /// Adds a block of two nodes.
+    pub fn add(&mut self, structure: &Structure, [a, b]: [usize; 2], block: &Block) {
+        for (i, j) in (0..NODE * NODE).map(|k| (k / NODE, k % NODE)) {
+            let (row, col) = (
+                structure.unknown[NODE * a + i],
+                structure.unknown[NODE * b + j],
+            );
+            if row != HELD && col != HELD {
+                self.matrix.add(row, col, block[i][j]);
+            }
+        }
+    }
+
+    /// Factorises the tangent.
+    ///
+    /// # Errors
+    /// [`StructureError::Singular`].
+    pub fn factor(&mut self, structure: &Structure) -> Result<(), StructureError> {
+        self.matrix.factor().map_err(|unknown| {
+            let (node, direction) = structure.direction(unknown);
+            StructureError::Singular { node, direction }
+        })
+    }
+}
+
+/// Adds the matrix of an element.
+fn scatter(matrix: &mut Matrix, structure: &Structure, nodes: &[usize], tangent: &[f64]) {
+    let width = NODE * nodes.len();
+    let unknown = |k: usize| structure.unknown[NODE * nodes[k / NODE] + k % NODE];
+    for (k, row) in tangent.chunks_exact(width).enumerate() {
+        let i = unknown(k);
+        if i == HELD {
+            continue;
+        }
+        for (l, value) in row.iter().enumerate() {
+            let j = unknown(l);
+            if j != HELD {
+                matrix.add(i, j, *value);
+            }
+        }
+    }
+}

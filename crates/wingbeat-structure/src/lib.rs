@@ -1,0 +1,49 @@
+//! Elastic bodies: nodes with mass, elements with stiffness, on a frame that moves.
+//!
+//! An elastic body has nodes, each with a place and an attitude in the frame W of the body that carries it, and elements
+//! (geometrically exact beams, shells) between them. Elements know strain energy, internal force and tangent; mass is
+//! lumped at nodes, each a small rigid body, so that inertia is exact rigid-body dynamics node by node.
+//!
+//! | symbol | name in code | meaning |
+//! |---|---|---|
+//! | u | [`Configuration::position`] | places of the nodes, W components \[m\] |
+//! | R | [`Configuration::rotation`] | attitudes of the nodes, node components to W components |
+//! | (dx, dtheta) | [`Configuration::moved`] | increments: dx in W components, dtheta in node components, `R exp(dtheta)` |
+//! | f | [`Element::internal`] | internal force, the derivative of the strain energy: force in W, moment in node components |
+//!
+//! This crate does not know air, joints, animals or files.
+#![warn(missing_docs)]
+
+mod assembly;
+mod beam;
+mod block;
+mod configuration;
+mod dynamics;
+mod element;
+mod error;
+mod follower;
+mod frame;
+mod inertia;
+mod loads;
+mod matrix;
+mod modes;
+mod screw;
+pub mod shell;
+mod statics;
+mod structure;
+
+pub use beam::{Beam, BeamEnd, Section, Stiffness};
+pub use configuration::{Configuration, NODE};
+pub use dynamics::{
+    GeneralizedAlpha, LoadTangent, Passes, RootWrench, Solver, State, Step, Trial, Weights,
+};
+pub use dynamics::{kinetic_energy, reaction, relative_momentum};
+pub use element::{Element, ElementForces};
+pub use error::StructureError;
+pub use follower::{Follower, Share};
+pub use frame::FrameMotion;
+pub use loads::{Loading, NodeLoad};
+pub use modes::{Mode, modes};
+pub use shell::{Lamina, Shell, ShellError, ShellMesh};
+pub use statics::{StaticSettings, equilibrium};
+pub use structure::{Damping, Structure, StructureBuilder};

@@ -1,0 +1,146 @@
+//! Frequencies and shapes of small vibrations.
+
+use faer::linalg::triangular_solve::{
+    solve_lower_triangular_in_place, solve_upper_triangular_in_place,
+};
+use faer::{Mat, Par, Side};
+use wingbeat_math::DMat3;
+
+use crate::assembly::Assembly;
+use crate::configuration::{Configuration, NODE};
+use crate::error::StructureError;
+use crate::frame::FrameMotion;
+use crate::inertia::mass_matrix;
+use crate::statics::steady_tangent;
+use crate::structure::Structure;
+
+/// A mode of small vibration.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Mode {
+    /// Square of the angular frequency [rad2/s2]; negative if the state is unstable.
+    pub square: f64,
+    /// Six numbers a node (dx \[m\] in W, dtheta \[rad\] in node components) for a modal mass of 1 kg: `shape^T M shape = 1`.
+    pub shape: Vec<f64>,
+}
+
+impl Mode {
+    /// Angular frequency [rad/s]; 0 for a mode that does not vibrate.
+    pub fn frequency(&self) -> f64 {
+        self.square.max(0.0).sqrt()
+    }
+}
+
+/// Modes about an equilibrium in a frame that moves steadily, of rising frequency: stiffness of the deformed state with
+/// centrifugal stiffening and softening; Coriolis forces, which couple modes of a turning body, are left out. `added` is
+/// mass that moves along, by rows of 6 N x 6 N numbers, N nodes, force in W and moment in node components by acceleration
+/// (added mass of the air), to be symmetric.
+///
+/// The matrices of this eigenproblem are dense: up to some 600 unknowns are solved within seconds.
+///
+/// # Errors
+/// [`StructureError::Modes`].
+pub fn modes(
+    structure: &Structure,
+    at: &Configuration,
+    frame: &FrameMotion,
+    added: Option<&[f64]>,
+) -> Result<Vec<Mode>, StructureError> {
+    let (mut k, mut m) = matrices(structure, at, frame, added);
+    let n = structure.unknowns();
+    // Diagonals of the stiffness of one: metres, radians, stiff and soft directions weigh alike.
+    let scale: Vec<f64> = (0..n).map(|i| positive(k[(i, i)]).sqrt().recip()).collect();
+    for matrix in [&mut k, &mut m] {
+        scaled(matrix, &scale);
+    }
+    let (values, vectors, shift) = shifted_eigen(&k, &m)?;
+    let mode = |j: usize| {
+        let mut shape = vec![0.0; NODE * structure.nodes()];
+        for (i, &number) in structure.number.iter().enumerate() {
+            shape[number] = scale[i] * vectors[(i, j)] / values[j].sqrt();
+        }
+        Mode {
+            square: 1.0 / values[j] - shift,
+            shape,
+        }
+    };
+    // Massless combinations have no frequency.
+    let heaviest = values.iter().fold(0.0_f64, |a, v| a.max(*v));
+    let heavy = (0..n).filter(|&j| values[j] > f64::EPSILON * f64::EPSILON * heaviest);
+    let mut all: Vec<Mode> = heavy.map(mode).collect();
+    all.sort_by(|a, b| a.square.total_cmp(&b.square));
+    Ok(all)
+}
+
+fn positive(x: f64) -> f64 {
+    if x.abs() > 0.0 { x.abs() } else { 1.0 }
+}
+
+fn scaled(m: &mut Mat<f64>, scale: &[f64]) {
+    for (j, i) in (0..scale.len()).flat_map(|j| (0..scale.len()).map(move |i| (j, i))) {
+        m[(i, j)] *= scale[i] * scale[j];
+    }
+}
+
+/// Symmetric stiffness and mass of the free unknowns.
+fn matrices(
+    structure: &Structure,
+    at: &Configuration,
+    frame: &FrameMotion,
+    added: Option<&[f64]>,
+) -> (Mat<f64>, Mat<f64>) {
+    let n = structure.unknowns();
+    let mut assembly = Assembly::new(structure);
+    assembly.matrix.clear(true);
+    steady_tangent(structure, at, frame, &mut assembly);
+    let k = symmetric(n, assembly.matrix.rows());
+    assembly.matrix.clear(true);
+    for (node, m) in structure.masses.iter().enumerate() {
+        let block = mass_matrix(m, DMat3::from_quat(at.rotation[node]));
+        assembly.add(structure, [node, node], &block);
+    }
+    if let Some(added) = added {
+        let width = NODE * structure.nodes();
+        for (i, j) in (0..n * n).map(|q| (q / n, q % n)) {
+            let value = added[structure.number[i] * width + structure.number[j]];
+            assembly.matrix.add(i, j, value);
+        }
+    }
+    (k, symmetric(n, assembly.matrix.rows()))
+}
+
+fn symmetric(n: usize, rows: &[f64]) -> Mat<f64> {
+    Mat::from_fn(n, n, |i, j| 0.5 * (rows[i * n + j] + rows[j * n + i]))
+}
+
+/// Shifts tried, over the smallest ratio of the diagonals of stiffness and mass.
+const SHIFTS: [f64; 6] = [1e-8, 1e-6, 1e-4, 1e-2, 1.0, 100.0];
+
+/// Eigenvalues `1 / (omega^2 + shift)` and vectors of `M x = mu (K + shift M) x`, and the shift: small frequencies
+/// come out best, and neither massless directions nor rigid motions disturb.
+fn shifted_eigen(k: &Mat<f64>, m: &Mat<f64>) -> Result<(Vec<f64>, Mat<f64>, f64), StructureError> {
+    let n = k.nrows();
+    let ratios = (0..n).filter(|&i| m[(i, i)] > 0.0);
+    let ratios = ratios.map(|i| k[(i, i)].abs() / m[(i, i)]);
+    let smallest = ratios.fold(f64::INFINITY, f64::min);
+    for shift in SHIFTS.map(|s| s * smallest) {
+        let sum = Mat::from_fn(n, n, |i, j| k[(i, j)] + shift * m[(i, j)]);
+        let Ok(llt) = sum.llt(Side::Lower) else {
+            continue;
+        };
+        let lower = llt.L();
+        let mut half = m.clone();
+        solve_lower_triangular_in_place(lower, half.as_mut(), Par::Seq);
+        let mut whole = half.transpose().to_owned();
+        solve_lower_triangular_in_place(lower, whole.as_mut(), Par::Seq);
+        let eigen = whole
+            .self_adjoint_eigen(Side::Lower)
+            .map_err(|_| StructureError::Modes("the iteration does not converge"))?;
+        let mut vectors = eigen.U().to_owned();
+        solve_upper_triangular_in_place(lower.transpose(), vectors.as_mut(), Par::Seq);
+        let values = (0..n).map(|i| eigen.S()[i]).collect();
+        return Ok((values, vectors, shift));
+    }
+    Err(StructureError::Modes(
+        "the stiffness has strongly negative eigenvalues: the state is not an equilibrium that can vibrate",
+    ))
+}

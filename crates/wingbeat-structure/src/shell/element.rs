@@ -1,0 +1,189 @@
+//! The shell element: strain energy, its derivatives, its mass.
+
+use wingbeat_math::{DMat3, DVec3, MassProperties};
+
+use super::energy::{Gradient, Tangent};
+use super::geometry::{Quad, lumps};
+use super::stiffness::stiffness;
+use super::strain::{STRAINS, Stiffness, Term, Vectors, terms};
+use super::{Section, ShellError};
+use crate::configuration::{Configuration, NODE};
+use crate::element::{Element, ElementForces};
+
+/// A quadrilateral of shell between four nodes, or a triangle between three.
+#[derive(Clone, Debug)]
+pub struct Shell {
+    /// Numbers of the nodes, each once.
+    nodes: Vec<usize>,
+    /// Which of them stands at each corner.
+    corner: [usize; 4],
+    /// Axes of the element at rest in node components, by corner.
+    axes: [DMat3; 4],
+    terms: Vec<Term>,
+    /// Values of the strains' forms at rest.
+    rest: [f64; STRAINS],
+    stiffness: Box<Stiffness>,
+    tension: [f64; STRAINS],
+    /// Quarters of the mass about their corners, W components at rest.
+    lumps: [MassProperties; 4],
+    area: f64,
+}
+
+impl Shell {
+    /// A shell of `section` between the nodes at the `corners`, counted about its normal, in the rest configuration.
+    /// Two neighbouring corners may be the same node: a triangle.
+    ///
+    /// # Errors
+    /// [`ShellError`] names what is wrong with the corners (no such node, no area) or with the section (a stiffness that
+    /// is not positive definite, a fibre axis along the normal).
+    pub fn new(
+        rest: &Configuration,
+        corners: [usize; 4],
+        section: &Section,
+    ) -> Result<Self, ShellError> {
+        section.check()?;
+        if let Some(&node) = corners.iter().find(|&&n| n >= rest.len()) {
+            let nodes = rest.len();
+            return Err(ShellError::NoNode { node, nodes });
+        }
+        let places = corners.map(|n| rest.position[n]);
+        let quad = Quad::new(places, section.axis)?;
+        let (nodes, corner) = distinct(corners);
+        let (stiffness, tension) = stiffness(&quad, section);
+        let turned = corners.map(|n| DMat3::from_quat(rest.rotation[n].inverse()) * quad.axes);
+        let mut shell = Self {
+            nodes,
+            corner,
+            axes: turned,
+            terms: terms(&quad),
+            rest: [0.0; STRAINS],
+            stiffness,
+            tension,
+            lumps: lumps(places, quad.axes, section),
+            area: quad.area,
+        };
+        shell.rest = shell.strains(rest);
+        Ok(shell)
+    }
+
+    /// Area at rest \[m2\], projected on the tangent plane at the centre.
+    pub fn area(&self) -> f64 {
+        self.area
+    }
+
+    /// Rotations of the corners' nodes.
+    fn rotations(&self, at: &Configuration) -> [DMat3; 4] {
+        self.corner
+            .map(|k| DMat3::from_quat(at.rotation[self.nodes[k]]))
+    }
+
+    /// Places and axes of the corners.
+    fn vectors(&self, at: &Configuration, rotations: &[DMat3; 4]) -> Vectors {
+        let axis = |k: usize| std::array::from_fn(|i| rotations[i] * self.axes[i].col(k));
+        let places = self.corner.map(|k| at.position[self.nodes[k]]);
+        [places, axis(0), axis(1), axis(2)]
+    }
+
+    /// Changes of the strains' forms from rest.
+    fn strains(&self, at: &Configuration) -> [f64; STRAINS] {
+        let vectors = self.vectors(at, &self.rotations(at));
+        let mut s = self.rest.map(|r| -r);
+        for term in &self.terms {
+            let [left, right] = term.vectors(&vectors);
+            s[term.strain] += left.dot(right);
+        }
+        s
+    }
+
+    /// Forces of the strains, and the energy.
+    fn stresses(&self, strains: &[f64; STRAINS]) -> ([f64; STRAINS], f64) {
+        let mut energy = 0.0;
+        let stress = std::array::from_fn(|i| {
+            let elastic: f64 = (0..STRAINS)
+                .map(|j| self.stiffness[i][j] * strains[j])
+                .sum();
+            energy += strains[i] * (0.5 * elastic + self.tension[i]);
+            elastic + self.tension[i]
+        });
+        (stress, energy)
+    }
+}
+
+/// Each node once, and which of them stands at each corner.
+fn distinct(corners: [usize; 4]) -> (Vec<usize>, [usize; 4]) {
+    let mut nodes: Vec<usize> = vec![];
+    let corner = corners.map(|n| {
+        nodes.iter().position(|&m| m == n).unwrap_or_else(|| {
+            nodes.push(n);
+            nodes.len() - 1
+        })
+    });
+    (nodes, corner)
+}
+
+impl Element for Shell {
+    fn nodes(&self) -> &[usize] {
+        &self.nodes
+    }
+
+    fn internal(&self, at: &Configuration, tangent: bool, out: &mut ElementForces) -> f64 {
+        let rotations = self.rotations(at);
+        let vectors = self.vectors(at, &rotations);
+        let (stress, energy) = self.stresses(&self.strains(at));
+        let size = NODE * self.nodes.len();
+        out.force.clear();
+        out.force.resize(size, 0.0);
+        let gradient = Gradient::new(&self.terms, &vectors, &rotations, &self.axes);
+        gradient.force(&stress, &self.corner, &mut out.force);
+        if tangent {
+            out.tangent.clear();
+            out.tangent.resize(size * size, 0.0);
+            let mut sum = Tangent::new(&self.corner, size, &mut out.tangent);
+            sum.material(&gradient, &self.stiffness);
+            sum.geometric(&self.terms, &stress, &vectors, &rotations, &self.axes);
+        }
+        energy
+    }
+
+    /// The part of the tangent that is the material's, whatever the tension.
+    fn dissipation(&self, at: &Configuration, out: &mut ElementForces) {
+        let rotations = self.rotations(at);
+        let vectors = self.vectors(at, &rotations);
+        let size = NODE * self.nodes.len();
+        out.resize(size);
+        let gradient = Gradient::new(&self.terms, &vectors, &rotations, &self.axes);
+        let mut sum = Tangent::new(&self.corner, size, &mut out.tangent);
+        sum.material(&gradient, &self.stiffness);
+    }
+
+    fn tangent_ahead(
+        &self,
+        at: &Configuration,
+        before: &Configuration,
+        increment: &[f64],
+        out: &mut ElementForces,
+    ) {
+        let turned = self.rotations(before);
+        let from = self.vectors(before, &turned);
+        let rows = Gradient::new(&self.terms, &from, &turned, &self.axes);
+        let mut strains = self.strains(before);
+        rows.add_strains(increment, &self.corner, &mut strains);
+        let (stress, _) = self.stresses(&strains);
+        let rotations = self.rotations(at);
+        let vectors = self.vectors(at, &rotations);
+        let size = NODE * self.nodes.len();
+        out.resize(size);
+        let gradient = Gradient::new(&self.terms, &vectors, &rotations, &self.axes);
+        let mut sum = Tangent::new(&self.corner, size, &mut out.tangent);
+        sum.material(&gradient, &self.stiffness);
+        sum.geometric(&self.terms, &stress, &vectors, &rotations, &self.axes);
+    }
+
+    fn add_mass(&self, rest: &Configuration, masses: &mut [MassProperties]) {
+        for (lump, &k) in self.lumps.iter().zip(&self.corner) {
+            let node = self.nodes[k];
+            let to_node = DMat3::from_quat(rest.rotation[node].inverse());
+            masses[node] = masses[node] + lump.moved(to_node, DVec3::ZERO);
+        }
+    }
+}

@@ -1,0 +1,299 @@
+//! An elastic body: nodes, masses, elements, supports and damping.
+
+use wingbeat_math::{DMat3, DVec3, MassProperties};
+
+use crate::configuration::{Configuration, NODE};
+use crate::element::Element;
+use crate::error::StructureError;
+use crate::matrix::order;
+
+/// Number of a held unknown in the order of the free ones.
+pub(crate) const HELD: usize = usize::MAX;
+
+/// Damping of an elastic body.
+#[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
+pub struct Damping {
+    /// Time \[s\] by which rates of strain are multiplied (Kelvin and Voigt): the damping ratio of a mode of frequency
+    /// omega [rad/s] is half this times omega.
+    pub strain_rate: f64,
+    /// Rate [1/s] by which momentum relative to the frame is multiplied: the damping ratio of a mode is half this over
+    /// omega. Its reaction is on the body that carries the frame.
+    pub mass: f64,
+}
+
+/// An elastic body, constant once built.
+#[derive(Debug)]
+pub struct Structure {
+    pub(crate) rest: Configuration,
+    pub(crate) masses: Vec<MassProperties>,
+    pub(crate) elements: Vec<Box<dyn Element>>,
+    pub(crate) damping: Damping,
+    /// Unknown of each of the six numbers of each node, or [`HELD`].
+    pub(crate) unknown: Vec<usize>,
+    /// Number (node and direction) of each unknown.
+    pub(crate) number: Vec<usize>,
+    /// Largest distance of unknowns of one element.
+    pub(crate) band: usize,
+    size: f64,
+}
+
+impl Structure {
+    /// The rest configuration.
+    pub fn rest(&self) -> &Configuration {
+        &self.rest
+    }
+
+    /// Number of nodes.
+    pub fn nodes(&self) -> usize {
+        self.rest.len()
+    }
+
+    /// Number of free unknowns.
+    pub fn unknowns(&self) -> usize {
+        self.number.len()
+    }
+
+    /// The number (six a node: place, attitude) that each free unknown is, in the order of the unknowns.
+    pub fn free_numbers(&self) -> &[usize] {
+        &self.number
+    }
+
+    /// Mass properties of the nodes, each about its node in node components.
+    pub fn masses(&self) -> &[MassProperties] {
+        &self.masses
+    }
+
+    /// Its elements.
+    pub fn elements(&self) -> &[Box<dyn Element>] {
+        &self.elements
+    }
+
+    /// Its damping.
+    pub fn damping(&self) -> Damping {
+        self.damping
+    }
+
+    /// Largest extent \[m\] of the nodes at rest along an axis of W: what changes of places are measured by.
+    pub fn size(&self) -> f64 {
+        self.size
+    }
+
+    /// Mass properties of the whole in a configuration, about the origin of W in W components.
+    pub fn mass_properties(&self, at: &Configuration) -> MassProperties {
+        let nodes = at.rotation.iter().zip(&at.position);
+        let moved =
+            |(m, (r, x)): (&MassProperties, (&_, &DVec3))| m.moved(DMat3::from_quat(*r), *x);
+        let all = self.masses.iter().zip(nodes).map(moved);
+        all.fold(MassProperties::ZERO, |a, b| a + b)
+    }
+
+    /// Node and direction of an unknown.
+    pub(crate) fn direction(&self, unknown: usize) -> (usize, usize) {
+        let number = self.number.get(unknown).copied().unwrap_or(0);
+        (number / NODE, number % NODE)
+    }
+}
+
+/// Collects the parts of a [`Structure`].
+#[derive(Debug, Default)]
+pub struct StructureBuilder {
+    rest: Configuration,
+    masses: Vec<(usize, MassProperties)>,
+    elements: Vec<Box<dyn Element>>,
+    held: Vec<(usize, [bool; NODE])>,
+    damping: Damping,
+}
+
+impl StructureBuilder {
+    /// Nodes at rest, without mass of their own, all free.
+    pub fn new(rest: Configuration) -> Self {
+        Self {
+            rest,
+            ..Self::default()
+        }
+    }
+
+    /// Adds an element, with its mass.
+    #[must_use]
+    pub fn element(mut self, element: impl Element + 'static) -> Self {
+        self.elements.push(Box::new(element));
+        self
+    }
+
+    /// Adds mass to a node, about the node in node components.
+    #[must_use]
+    pub fn mass(mut self, node: usize, mass: MassProperties) -> Self {
+        self.masses.push((node, mass));
+        self
+    }
+
+    /// Holds numbers of a node at their rest values in W: three of the place (W axes), three of the attitude (node axes).
+    #[must_use]
+    pub fn hold(mut self, node: usize, held: [bool; NODE]) -> Self {
+        self.held.push((node, held));
+        self
+    }
+
+    /// Clamps a node to the body that carries W.
+    #[must_use]
+    pub fn clamp(self, node: usize) -> Self {
+        self.hold(node, [true; NODE])
+    }
+
+    /// Sets the damping.
+    #[must_use]
+    pub fn damping(mut self, damping: Damping) -> Self {
+        self.damping = damping;
+        self
+    }
+
+    /// The elastic body.
+    ///
+    /// # Errors
+    /// [`StructureError`]: counts that differ, nodes that are not there, impossible masses, free nodes without inertia,
+    /// negative damping, nothing free.
+    pub fn build(self) -> Result<Structure, StructureError> {
+        self.check_nodes()?;
+        self.check_damping()?;
+        let masses = self.lumped()?;
+        let held = self.held_numbers();
+        check_inertia(&masses, &held)?;
+        let sequence = order(&self.neighbours());
+        let (unknown, number) = numbered(&sequence, &held);
+        if number.is_empty() {
+            return Err(StructureError::NothingFree);
+        }
+        Ok(Structure {
+            band: band(&self.elements, &unknown),
+            size: extent(&self.rest),
+            rest: self.rest,
+            masses,
+            elements: self.elements,
+            damping: self.damping,
+            unknown,
+            number,
+        })
+    }
+
+    fn check_nodes(&self) -> Result<(), StructureError> {
+        let nodes = self.rest.len();
+        if self.rest.rotation.len() != nodes {
+            return Err(StructureError::Count {
+                what: "attitudes of the rest configuration",
+                found: self.rest.rotation.len(),
+                nodes,
+            });
+        }
+        let elements = self.elements.iter().flat_map(|e| e.nodes());
+        let named = (elements.map(|&n| ("an element", n)))
+            .chain(self.masses.iter().map(|m| ("a mass", m.0)))
+            .chain(self.held.iter().map(|h| ("a support", h.0)));
+        match named.into_iter().find(|(_, node)| *node >= nodes) {
+            Some((what, node)) => Err(StructureError::Node { what, node, nodes }),
+            None => Ok(()),
+        }
+    }
+
+    fn check_damping(&self) -> Result<(), StructureError> {
+        let d = self.damping;
+        for (what, value) in [
+            ("strain-rate damping [s]", d.strain_rate),
+            ("mass-proportional damping [1/s]", d.mass),
+        ] {
+            if !(value.is_finite() && value >= 0.0) {
+                let allowed = "a finite number >= 0";
+                return Err(StructureError::Number {
+                    what,
+                    value,
+                    allowed,
+                });
+            }
+        }
+        Ok(())
+    }
+
+    /// Masses of nodes and elements together.
+    fn lumped(&self) -> Result<Vec<MassProperties>, StructureError> {
+        let mut masses = vec![MassProperties::ZERO; self.rest.len()];
+        for &(n, m) in &self.masses {
+            masses[n] = masses[n] + m;
+        }
+        for e in &self.elements {
+            e.add_mass(&self.rest, &mut masses);
+        }
+        for (node, m) in masses.iter().enumerate() {
+            m.validate()
+                .map_err(|error| StructureError::Mass { node, error })?;
+        }
+        Ok(masses)
+    }
+
+    fn held_numbers(&self) -> Vec<bool> {
+        let mut held = vec![false; NODE * self.rest.len()];
+        for (n, h) in &self.held {
+            let at = &mut held[NODE * n..NODE * (n + 1)];
+            at.iter_mut().zip(h).for_each(|(a, b)| *a |= b);
+        }
+        held
+    }
+
+    fn neighbours(&self) -> Vec<Vec<usize>> {
+        let mut all = vec![vec![]; self.rest.len()];
+        for e in &self.elements {
+            for &a in e.nodes() {
+                all[a].extend(e.nodes().iter().filter(|&&b| b != a));
+            }
+        }
+        for around in &mut all {
+            around.sort_unstable();
+            around.dedup();
+        }
+        all
+    }
+}
+
+/// A free node needs mass, and inertia about its mass centre, in every free direction.
+fn check_inertia(masses: &[MassProperties], held: &[bool]) -> Result<(), StructureError> {
+    for (node, m) in masses.iter().enumerate() {
+        let free = |d: usize| !held[NODE * node + d];
+        let about = m.inertia_about_centre();
+        let lacks = |d: usize| match d {
+            0..3 => m.mass <= 0.0,
+            _ => about.col(d - 3)[d - 3] <= 0.0,
+        };
+        if let Some(direction) = (0..NODE).find(|&d| free(d) && lacks(d)) {
+            return Err(StructureError::Inertia { node, direction });
+        }
+    }
+    Ok(())
+}
+
+/// Numbers the free unknowns, nodes in a sequence.
+fn numbered(sequence: &[usize], held: &[bool]) -> (Vec<usize>, Vec<usize>) {
+    let mut unknown = vec![HELD; held.len()];
+    let numbers = sequence.iter().flat_map(|n| NODE * n..NODE * (n + 1));
+    let number: Vec<usize> = numbers.filter(|&k| !held[k]).collect();
+    number.iter().enumerate().for_each(|(i, &k)| unknown[k] = i);
+    (unknown, number)
+}
+
+/// Largest distance of free unknowns of one element or node.
+fn band(elements: &[Box<dyn Element>], unknown: &[usize]) -> usize {
+    let spread = |nodes: &[usize]| {
+        let all = nodes.iter().flat_map(|n| NODE * n..NODE * (n + 1));
+        let free = all.map(|k| unknown[k]).filter(|&u| u != HELD);
+        let (low, high) = free.fold((HELD, 0), |(l, h), u| (l.min(u), h.max(u)));
+        high.saturating_sub(low)
+    };
+    let widest = elements.iter().map(|e| spread(e.nodes())).max();
+    widest.unwrap_or(0).max(NODE - 1)
+}
+
+/// Largest extent along an axis \[m\].
+fn extent(rest: &Configuration) -> f64 {
+    let fold = |f: fn(DVec3, DVec3) -> DVec3| rest.position.iter().copied().reduce(f);
+    match (fold(DVec3::min), fold(DVec3::max)) {
+        (Some(low), Some(high)) => (high - low).max_element(),
+        _ => 0.0,
+    }
+}

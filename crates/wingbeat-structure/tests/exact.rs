@@ -1,0 +1,193 @@
+//! Closed forms and identities.
+
+mod common;
+
+use common::*;
+use std::f64::consts::PI;
+use wingbeat_math::{DMat3, DQuat, DVec3, MassProperties};
+use wingbeat_structure::*;
+
+/// Largest difference.
+fn apart(a: &[f64], b: &[f64]) -> f64 {
+    let gaps = a.iter().zip(b).map(|(a, b)| (a - b).abs());
+    gaps.fold(0.0, f64::max)
+}
+
+#[test]
+fn exact_cantilever_under_a_tip_moment_is_a_circle_with_any_number_of_elements() {
+    // Curvature M / EI; with three elements and more the circle closes, each turning by less than half a turn.
+    for (elements, turns) in [
+        (1, 0.45),
+        (2, 0.9),
+        (3, 1.0),
+        (4, 1.0),
+        (10, 1.0),
+        (40, 1.0),
+    ] {
+        let section = Section::rectangle([1e9, 4e8], 1000.0, [0.02, 0.01]);
+        let body = straight(elements, 1.0, &section).clamp(0).build().unwrap();
+        let ei = section.stiffness[4][4];
+        let k = 2.0 * PI * turns;
+        let moment = load(elements, DVec3::ZERO, DVec3::Y * (-k * ei), false);
+        let settings = StaticSettings {
+            steps: 8,
+            ..Default::default()
+        };
+        let at = equilibrium(
+            &body,
+            body.rest(),
+            &FrameMotion::REST,
+            &moment[..],
+            &settings,
+        );
+        let at = at.unwrap();
+        for i in 0..=elements {
+            let s = i as f64 / elements as f64;
+            let place = DVec3::new((k * s).sin() / k, 0.0, (1.0 - (k * s).cos()) / k);
+            let gap = (at.position[i] - place).length();
+            assert!(gap < 1e-13, "{elements} {i}: {gap:.1e}"); // some hundred roundings
+        }
+        let turned = at.rotation[elements].angle_between(DQuat::from_rotation_y(-k));
+        assert!(turned < 1e-7); // the root of a rounding: the angle is an arc cosine
+    }
+}
+
+#[test]
+fn invariant_rigid_motion_strains_nothing() {
+    let (rest, beams) = crooked();
+    let turn = DQuat::from_scaled_axis(DVec3::new(1.9, -0.7, 2.1));
+    let shift = DVec3::new(3.0, -2.0, 1.0);
+    let moved = Configuration {
+        position: rest.position.iter().map(|x| turn * *x + shift).collect(),
+        rotation: rest.rotation.iter().map(|r| turn * *r).collect(),
+    };
+    for beam in &beams {
+        let (strain, _) = beam.strain(&moved);
+        assert!(strain.iter().all(|e| e.abs() < 1e-14), "{strain:?}"); // places of size 3 over lengths of 1
+        // And forces of a deformed beam turn with it.
+        let deformed = shaken(&rest, 0.2);
+        let seen = Configuration {
+            position: deformed
+                .position
+                .iter()
+                .map(|x| turn * *x + shift)
+                .collect(),
+            rotation: deformed.rotation.iter().map(|r| turn * *r).collect(),
+        };
+        assert!(apart(&beam.strain(&deformed).1, &beam.strain(&seen).1) < 1e-11); // 900 N times roundings
+    }
+}
+
+/// Derivatives by central differences of step d: error d^2 and roundings over d.
+fn differences(beam: &Beam, at: &Configuration, k: usize) -> (f64, Vec<f64>) {
+    let d = 1e-5;
+    let mut sides = [1.0, -1.0].map(|sign| {
+        let mut change = vec![0.0; NODE * at.len()];
+        change[k] = sign * d;
+        let mut moved = at.clone();
+        moved.moved(&change);
+        let mut out = ElementForces::default();
+        let energy = beam.internal(&moved, false, &mut out);
+        (energy, out.force)
+    });
+    let minus = sides[1].1.clone();
+    let force = &mut sides[0].1;
+    let slope = force.iter_mut().zip(minus);
+    let slope = slope.map(|(p, m)| (*p - m) / (2.0 * d)).collect();
+    ((sides[0].0 - sides[1].0) / (2.0 * d), slope)
+}
+
+#[test]
+fn agrees_beam_force_and_tangent_with_differences() {
+    let (rest, beams) = crooked();
+    // Small turns use the series, large ones the closed form.
+    for size in [0.0, 0.01, 0.4, 1.2] {
+        let at = shaken(&rest, size);
+        let mut out = ElementForces::default();
+        beams[0].internal(&at, true, &mut out);
+        let scale = out.tangent.iter().fold(0.0_f64, |a, k| a.max(k.abs()));
+        for k in 0..12 {
+            let (force, column) = differences(&beams[0], &at, k);
+            let gap = (force - out.force[k]).abs();
+            assert!(
+                gap < 1e-8 * scale,
+                "force {size} {k}: {gap:.1e} of {scale:.1e}"
+            );
+            let tangent: Vec<f64> = (0..12).map(|i| out.tangent[12 * i + k]).collect();
+            let gap = apart(&column, &tangent);
+            assert!(
+                gap < 1e-8 * scale,
+                "tangent {size} {k}: {gap:.1e} of {scale:.1e}"
+            );
+        }
+    }
+}
+
+#[test]
+fn exact_small_deflections_under_loads_at_nodes() {
+    // Timoshenko's cantilever under a tip force: L^3 / 3 EI + L / GA, whatever the number of elements.
+    let section = Section::new(&Stiffness {
+        axial: 1e4,
+        shear: [50.0, 80.0],
+        torsion: 0.7,
+        bending: [2.0, 3.0],
+    });
+    let length = 1.3;
+    for elements in [1, 2, 5] {
+        let mass = MassProperties::about_centre(1.0, DVec3::ZERO, DMat3::IDENTITY);
+        let mut body = straight(elements, length, &section).clamp(0);
+        for n in 1..=elements {
+            body = body.mass(n, mass);
+        }
+        let body = body.build().unwrap();
+        let small = 1e-7;
+        let force = load(
+            elements,
+            DVec3::new(0.0, 0.3, 1.0) * small,
+            DVec3::X * small,
+            false,
+        );
+        let rest = body.rest();
+        let at = equilibrium(
+            &body,
+            rest,
+            &FrameMotion::REST,
+            &force[..],
+            &Default::default(),
+        );
+        let at = at.unwrap();
+        let bent = |ei: f64, ga: f64| length.powi(3) / (3.0 * ei) + length / ga;
+        let tip = (at.position[elements] - rest.position[elements]) / small;
+        assert!((tip.z - bent(2.0, 80.0)).abs() < 1e-7, "{tip}"); // the load's size
+        assert!((tip.y - 0.3 * bent(3.0, 50.0)).abs() < 1e-7, "{tip}");
+        let twist = at.rotation[elements].to_scaled_axis().x / small;
+        assert!((twist - length / 0.7).abs() < 1e-6, "{twist}");
+    }
+}
+
+#[test]
+fn exact_lumped_mass_has_the_moments_of_the_beam() {
+    let section = coupled();
+    let rest = line(3, 1.2);
+    let mut masses = vec![MassProperties::ZERO; 4];
+    for i in 0..3 {
+        let beam = Beam::straight(&rest, [i, i + 1], DVec3::Y, &section).unwrap();
+        beam.add_mass(&rest, &mut masses);
+    }
+    let lumped = masses.iter().zip(&rest.position);
+    let lumped = lumped.map(|(m, x)| m.moved(DMat3::IDENTITY, *x));
+    let whole = lumped.fold(MassProperties::ZERO, |a, b| a + b);
+    // The same by the rule of Gauss of three points, exact for squares.
+    let slice = |along: f64, weight: f64| {
+        let part = section.mass.scaled(weight * 1.2);
+        part.moved(DMat3::IDENTITY, DVec3::X * (1.2 * along))
+    };
+    let off = 0.5 * 0.6_f64.sqrt();
+    let exact =
+        slice(0.5 - off, 5.0 / 18.0) + slice(0.5, 8.0 / 18.0) + slice(0.5 + off, 5.0 / 18.0);
+    assert!((whole.mass - exact.mass).abs() < 1e-15); // roundings
+    assert!((whole.first_moment - exact.first_moment).length() < 1e-15);
+    let gap = (whole.inertia - exact.inertia).to_cols_array();
+    assert!(gap.iter().all(|e| e.abs() < 1e-15), "{gap:?}");
+    masses.iter().for_each(|m| m.validate().unwrap());
+}

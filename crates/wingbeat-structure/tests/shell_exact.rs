@@ -1,0 +1,437 @@
+//! Shells against closed forms: rigid motions, patch tests, plates with a series, membranes.
+
+mod plate;
+
+use std::f64::consts::PI;
+
+use plate::{CLAMPED, FREE, Plate, lattice, rectangle};
+use wingbeat_math::{DMat3, DQuat, DVec3, MassProperties};
+use wingbeat_structure::shell::Section;
+use wingbeat_structure::{Configuration, Element, ElementForces, Lamina, ShellError, ShellMesh};
+
+/// An orthotropic sheet with fibres askew.
+fn askew(thickness: f64) -> Lamina {
+    Lamina {
+        young: [1.0, 0.4],
+        poisson: 0.3,
+        shear: 0.2,
+        thickness,
+        density: 1.0,
+        added_mass: 0.5,
+        axis: DVec3::new(0.8, 0.6, 0.1),
+        prestress: [0.0; 3],
+    }
+}
+
+/// A mesh without right angles; its last panel is a triangle.
+fn distorted(height: f64) -> ShellMesh {
+    let point = |i: usize, j: usize| {
+        let (x, y) = (j as f64, i as f64);
+        let inner = f64::from(u8::from(!i.is_multiple_of(3) && !j.is_multiple_of(3)));
+        let wobble = 0.25 * inner;
+        let x = x + wobble * (3.0 * x + 5.0 * y).sin() + 0.1 * y;
+        let y = y + wobble * (4.0 * x - 2.0 * y).cos();
+        DVec3::new(x, y, height * (x * x - 2.0 * y + x * y).sin())
+    };
+    let mut points: Vec<DVec3> = (0..16).map(|k| point(k / 4, k % 4)).collect();
+    points[15] = points[14];
+    ShellMesh::grid(&points, 3, 3).unwrap()
+}
+
+/// Largest of some numbers in size.
+fn largest(all: &[f64]) -> f64 {
+    all.iter().fold(0.0, |m, x| m.max(x.abs()))
+}
+
+/// A warped, thin mesh with nodes of any attitude, turned by 2.5 rad and displaced.
+#[test]
+fn exact_rigid_motion_has_neither_energy_nor_force() {
+    let mut mesh = distorted(0.3);
+    for (n, r) in mesh.rest.rotation.iter_mut().enumerate() {
+        *r = DQuat::from_scaled_axis(DVec3::new(n as f64, 1.0, -0.3 * n as f64));
+    }
+    let plate = Plate::new(&mesh, askew(1e-3).section().unwrap(), |_| FREE);
+    let turn = DQuat::from_scaled_axis(DVec3::new(1.5, -1.6, 1.2));
+    let moved = Configuration {
+        position: mesh
+            .rest
+            .position
+            .iter()
+            .map(|x| turn * *x + DVec3::new(5.0, 1.0, -2.0))
+            .collect(),
+        rotation: mesh.rest.rotation.iter().map(|r| turn * *r).collect(),
+    };
+    let (energy, force, _) = plate.assemble(&moved);
+    // Membrane stiffness 1e-3: round-off of places of order 10 strains by 1e-15.
+    assert!(largest(&force) < 1e-12 * 1e-3, "{:e}", largest(&force));
+    assert!(energy < 1e-24 * 1e-3, "{energy:e}");
+}
+
+/// Any finite homogeneous stretch of the plane: forces at inner nodes vanish (patch test of finite strains).
+#[test]
+fn exact_patch_of_constant_stretch_is_in_equilibrium() {
+    let mesh = distorted(0.0);
+    let plate = Plate::new(&mesh, askew(1e-2).section().unwrap(), |_| FREE);
+    let stretch = DMat3::from_cols(
+        DVec3::new(1.1, 0.07, 0.0),
+        DVec3::new(0.07, 0.95, 0.0),
+        DVec3::Z,
+    );
+    let mut at = mesh.rest.clone();
+    at.position.iter_mut().for_each(|x| *x = stretch * *x);
+    let (energy, force, _) = plate.assemble(&at);
+    assert!(energy > 1e-6);
+    for n in [5, 6, 9, 10] {
+        // Forces at the rim are 1e-3.
+        assert!(
+            largest(&force[6 * n..6 * n + 6]) < 1e-16,
+            "node {n}: {:?}",
+            &force[6 * n..6 * n + 6]
+        );
+    }
+}
+
+/// Any constant curvature at small deflection: forces and moments at inner nodes vanish, the energy is exact, for thin
+/// and thick sheets, with quadrilaterals and a triangle.
+#[test]
+fn exact_patch_of_constant_curvature_is_in_equilibrium() {
+    let mesh = distorted(0.0);
+    for thickness in [1e-6, 1e-2, 0.5] {
+        let section = Lamina {
+            axis: DVec3::X,
+            ..askew(thickness)
+        }
+        .section()
+        .unwrap();
+        let plate = Plate::new(&mesh, section, |_| FREE);
+        let k = DVec3::new(0.3, -0.5, 2.0 * 0.2); // 11, 22, 2 x 12
+        let bent: Vec<f64> = mesh
+            .rest
+            .position
+            .iter()
+            .flat_map(|x| bowl(*x, k))
+            .collect();
+        let (_, _, tangent) = plate.assemble(&mesh.rest);
+        let force = tangent.times(&bent);
+        let energy: f64 = 0.5 * bent.iter().zip(&force).map(|(a, b)| a * b).sum::<f64>();
+        let area: f64 = plate.shells.iter().map(|s| s.area()).sum();
+        let exact = 0.5 * area * k.dot(section.bending * k);
+        // Drilling does not move; the rest is bending, and rounds at some ten times its condition.
+        assert!(
+            (energy / exact - 1.0).abs() < 1e-12,
+            "{thickness}: {energy:e} {exact:e}"
+        );
+        for n in [5, 6, 9, 10] {
+            let f = largest(&force[6 * n..6 * n + 6]);
+            assert!(f < 1e-13 * largest(&force), "{thickness}, node {n}: {f:e}");
+        }
+    }
+}
+
+/// Six numbers of a node where the sheet bends by `k` (11, 22, 2 x 12): `w = -(k11 x^2 + k22 y^2 + 2 k12 x y) / 2`, so
+/// that the normal's derivatives are the curvatures.
+fn bowl(x: DVec3, k: DVec3) -> [f64; 6] {
+    let w = -0.5 * (k.x * x.x * x.x + k.y * x.y * x.y + k.z * x.x * x.y);
+    let slope = [
+        -(k.x * x.x + 0.5 * k.z * x.y),
+        -(k.y * x.y + 0.5 * k.z * x.x),
+    ];
+    [0.0, 0.0, w, slope[1], -slope[0], 0.0]
+}
+
+/// Force and tangent are the derivatives of the energy, far from rest, with prestress, warped, as triangle.
+#[test]
+fn agrees_force_and_tangent_with_differences() {
+    let lamina = Lamina {
+        prestress: [0.03, 0.01, -0.005],
+        ..askew(0.1)
+    };
+    for panel in [4, 8] {
+        let mesh = distorted(0.3);
+        let shell = &mesh.shells(|_| lamina.section().ok()).unwrap()[panel];
+        let mut at = mesh.rest.clone();
+        let push: Vec<f64> = (0..6 * at.len())
+            .map(|k| 0.7 * ((k * k) as f64).sin())
+            .collect();
+        at.moved(&push);
+        let mut out = ElementForces::default();
+        shell.internal(&at, true, &mut out);
+        let numbers: Vec<usize> = shell
+            .nodes()
+            .iter()
+            .flat_map(|n| 6 * n..6 * n + 6)
+            .collect();
+        let (h, size) = (1e-5, numbers.len());
+        for (k, number) in numbers.iter().enumerate() {
+            let side = |h: f64| {
+                let (mut there, mut d) = (at.clone(), vec![0.0; push.len()]);
+                d[*number] = h;
+                there.moved(&d);
+                let mut out = ElementForces::default();
+                (shell.internal(&there, false, &mut out), out.force)
+            };
+            let ((ep, fp), (em, fm)) = (side(h), side(-h));
+            // Central differences: h^2 times third derivatives of order 0.1.
+            assert!(((ep - em) / (2.0 * h) - out.force[k]).abs() < 1e-10);
+            for i in 0..size {
+                let slope = (fp[i] - fm[i]) / (2.0 * h);
+                assert!((slope - out.tangent[i * size + k]).abs() < 1e-10, "{i} {k}");
+            }
+        }
+    }
+}
+
+/// Lumped quarters have mass, first moment and inertia of the whole sheet.
+#[test]
+fn exact_mass_properties_are_those_of_the_sheet() {
+    let lamina = Lamina {
+        thickness: 0.02,
+        ..askew(0.02)
+    };
+    let mesh = rectangle(3, 2, 2.0, 1.0);
+    let plate = Plate::new(&mesh, lamina.section().unwrap(), |_| FREE);
+    let sum =
+        plate
+            .masses
+            .iter()
+            .zip(&plate.rest.position)
+            .fold(MassProperties::ZERO, |a, (m, x)| {
+                assert_eq!(m.validate(), Ok(()));
+                a + m.moved(DMat3::IDENTITY, *x)
+            });
+    let mass = 2.0 * (0.02 + 0.5);
+    let plate_inertia = |a: f64| mass * a * a / 12.0;
+    let thick = 2.0 * 0.02_f64.powi(3) / 12.0;
+    let inertia = DVec3::new(
+        plate_inertia(1.0) + thick,
+        plate_inertia(2.0) + thick,
+        plate_inertia(5.0_f64.sqrt()),
+    );
+    let exact = MassProperties::about_centre(
+        mass,
+        DVec3::new(1.0, 0.5, 0.0),
+        DMat3::from_diagonal(inertia),
+    );
+    assert!((sum.mass - exact.mass).abs() < 1e-15 * 10.0);
+    assert!((sum.first_moment - exact.first_moment).length() < 1e-14);
+    assert!(
+        (sum.inertia - exact.inertia)
+            .to_cols_array()
+            .iter()
+            .all(|e| e.abs() < 1e-14)
+    );
+}
+
+/// Simply supported on all sides, hard: deflection and the turn along the side are held.
+fn simply_supported(a: f64, b: f64) -> impl Fn(DVec3) -> [bool; 6] {
+    move |x| {
+        let across = x.x < 1e-9 || x.x > a - 1e-9;
+        let along = x.y < 1e-9 || x.y > b - 1e-9;
+        [true, true, across || along, across, along, true]
+    }
+}
+
+/// Deflection at the centre of a simply supported square plate under uniform pressure, thin and thick:
+/// 0.0040623527 q a^4 / D [Timoshenko & Woinowsky-Krieger 1959, art. 30] and 0.0736713 q a^2 / (k G h) of shear.
+#[test]
+fn exact_simply_supported_square_under_pressure() {
+    let error = |n: usize, thickness: f64| {
+        let section = Lamina::isotropic(1.0, 0.3, thickness, 1.0)
+            .section()
+            .unwrap();
+        let plate = Plate::new(
+            &rectangle(n, n, 1.0, 1.0),
+            section,
+            simply_supported(1.0, 1.0),
+        );
+        let mut load = vec![0.0; 6 * plate.rest.len()];
+        for shell in &plate.shells {
+            shell
+                .nodes()
+                .iter()
+                .for_each(|m| load[6 * m + 2] += 0.25 * shell.area());
+        }
+        let found = plate.linear(&load)[6 * plate.near(DVec3::new(0.5, 0.5, 0.0)) + 2];
+        let exact = 0.004_062_352_7 / section.bending.x_axis.x + 0.073_671_35 / section.shear;
+        found / exact - 1.0
+    };
+    for thickness in [1e-6, 1e-3, 0.1] {
+        let [coarse, fine] = [error(8, thickness), error(16, thickness)];
+        assert!(fine.abs() < 3e-3, "{thickness}: {fine:e}");
+        let order = (coarse / fine).abs().log2();
+        // Of the thick plate the soft edges converge more slowly.
+        assert!(
+            (1.6..2.3).contains(&order),
+            "{thickness}: {coarse:e} {fine:e}"
+        );
+    }
+}
+
+/// Frequencies of a simply supported orthotropic plate 1 x 0.8:
+/// `w^2 m = pi^4 (D11 (p/a)^4 + 2 (D12 + 2 D66) (p/a)^2 (q/b)^2 + D22 (q/b)^4)`.
+#[test]
+fn order_frequencies_of_an_orthotropic_plate() {
+    let lamina = Lamina {
+        axis: DVec3::X,
+        added_mass: 0.0,
+        ..askew(1e-4)
+    };
+    let section = lamina.section().unwrap();
+    let [d, m] = [
+        section.bending,
+        DMat3::from_diagonal(DVec3::splat(section.area_density)),
+    ];
+    let exact = |p: f64, q: f64| {
+        let (p, q) = (PI * p, PI * q / 0.8);
+        let twist = 2.0 * (d.y_axis.x + 2.0 * d.z_axis.z);
+        ((d.x_axis.x * p.powi(4) + twist * p * p * q * q + d.y_axis.y * q.powi(4)) / m.x_axis.x)
+            .sqrt()
+    };
+    let mut modes = vec![
+        exact(1.0, 1.0),
+        exact(1.0, 2.0),
+        exact(2.0, 1.0),
+        exact(2.0, 2.0),
+        exact(1.0, 3.0),
+    ];
+    modes.sort_by(f64::total_cmp);
+    let errors = |n: usize| -> Vec<f64> {
+        let plate = Plate::new(
+            &rectangle(n, n, 1.0, 0.8),
+            section,
+            simply_supported(1.0, 0.8),
+        );
+        let found = plate.frequencies(4, 0.0);
+        found.iter().zip(&modes).map(|(f, e)| f / e - 1.0).collect()
+    };
+    let (coarse, fine) = (errors(16), errors(32));
+    for (c, f) in coarse.iter().zip(&fine) {
+        // Lumped mass: (p^2 + q^2) / 2 (pi h)^2 / 12.
+        assert!(f.abs() < 1e-2, "{fine:?}");
+        assert!((1.8..2.2).contains(&(c / f).log2()), "{coarse:?} {fine:?}");
+    }
+}
+
+/// A stretched square membrane without bending stiffness: `w = pi sqrt(N (p^2 + q^2) / m)`, also through the hourglass'
+/// own geometric stiffness.
+#[test]
+fn order_frequencies_of_a_stretched_membrane() {
+    let lamina = Lamina {
+        prestress: [3.0, 3.0, 0.0],
+        ..Lamina::isotropic(1e6, 0.3, 1e-3, 1e3)
+    };
+    let section = lamina.section().unwrap().without_bending();
+    let held = |x: DVec3| {
+        let rim = |x: f64| !(1e-9..=1.0 - 1e-9).contains(&x);
+        let side = rim(x.x) || rim(x.y);
+        [side, side, side, true, true, true]
+    };
+    let errors = |n: usize| -> Vec<f64> {
+        let plate = Plate::new(&rectangle(n, n, 1.0, 1.0), section, held);
+        let found = plate.frequencies(4, 0.0);
+        let exact = [2.0_f64, 5.0, 5.0, 8.0].map(|s| PI * (3.0 * s).sqrt());
+        found.iter().zip(exact).map(|(f, e)| f / e - 1.0).collect()
+    };
+    let (coarse, fine) = (errors(16), errors(32));
+    for (c, f) in coarse.iter().zip(&fine) {
+        assert!(f.abs() < 1e-2, "{fine:?}");
+        assert!((1.8..2.2).contains(&(c / f).log2()), "{coarse:?} {fine:?}");
+    }
+}
+
+/// In-plane bending of a slender strip, one element across: `P L^3 / (3 E I)` and a little shear, with the turn about the
+/// normal joined only weakly.
+#[test]
+fn limit_in_plane_bending_of_a_strip_is_a_beam() {
+    let (length, width, thickness) = (10.0, 0.5, 0.01);
+    let section = Lamina::isotropic(1.0, 0.0, thickness, 1.0)
+        .section()
+        .unwrap();
+    let error = |n: usize| {
+        let plate = Plate::new(&rectangle(1, n, length, width), section, |x| {
+            if x.x < 1e-9 {
+                CLAMPED
+            } else {
+                [false, false, true, true, true, false]
+            }
+        });
+        let mut load = vec![0.0; 6 * plate.rest.len()];
+        let tip = [0.0, width].map(|y| plate.near(DVec3::new(length, y, 0.0)));
+        tip.iter().for_each(|n| load[6 * n + 1] = 0.5);
+        let found = plate.linear(&load)[6 * tip[0] + 1];
+        let inertia = thickness * width.powi(3) / 12.0;
+        let exact = length.powi(3) / (3.0 * inertia) + length / (thickness * width * 0.5);
+        found / exact - 1.0
+    };
+    let (coarse, fine) = (error(10), error(40));
+    // One element across is stiff in its plane until it is as long as wide; second order.
+    assert!(
+        fine.abs() < 5e-2 && fine.abs() < 0.12 * coarse.abs(),
+        "{coarse:e} {fine:e}"
+    );
+}
+
+/// Wrong numbers are named.
+#[test]
+fn refuses_what_is_no_shell() {
+    let wrong = Lamina {
+        poisson: 1.7,
+        ..askew(0.1)
+    }
+    .section();
+    assert!(matches!(
+        wrong,
+        Err(ShellError::Material {
+            name: "poisson",
+            ..
+        })
+    ));
+    let wrong = Lamina {
+        thickness: f64::NAN,
+        ..askew(0.1)
+    }
+    .section();
+    assert!(matches!(
+        wrong,
+        Err(ShellError::Material {
+            name: "thickness",
+            ..
+        })
+    ));
+    let mesh = rectangle(1, 1, 1.0, 1.0);
+    let good = askew(0.1).section().unwrap();
+    let with = |section: Section| mesh.shells(|_| Some(section)).map(|s| s.len());
+    assert_eq!(with(good), Ok(1));
+    assert!(matches!(
+        with(Section {
+            axis: DVec3::Z,
+            ..good
+        }),
+        Err(ShellError::Axis { .. })
+    ));
+    assert!(matches!(
+        with(Section { shear: 0.0, ..good }),
+        Err(ShellError::Material { name: "shear", .. })
+    ));
+    let shell = |corners| {
+        wingbeat_structure::Shell::new(&mesh.rest, corners, &good).map(|s| s.nodes().len())
+    };
+    assert_eq!(shell([0, 1, 3, 3]), Ok(3));
+    assert!(matches!(
+        shell([0, 1, 1, 0]),
+        Err(ShellError::NoArea { .. })
+    ));
+    assert!(matches!(
+        shell([0, 1, 3, 4]),
+        Err(ShellError::NoNode { node: 4, nodes: 4 })
+    ));
+    let grid = ShellMesh::grid(&mesh.rest.position, 2, 2);
+    assert_eq!(
+        grid,
+        Err(ShellError::Lattice {
+            found: 4,
+            expected: 9
+        })
+    );
+    let _ = lattice(1, 1, |r, c| DVec3::new(c, r, 0.0));
+}

@@ -1,0 +1,146 @@
+//! `wingbeat flutter`.
+
+use std::f64::consts::TAU;
+
+use clap::Args;
+use serde_json::{Value, json};
+use wingbeat::analysis::flutter::{Condition, Crossing, FlutterSettings, condition, crossings};
+use wingbeat::case::LoadedCase;
+
+use super::trimming::watched;
+use crate::command::failure::Failure;
+use crate::command::options;
+use crate::command::report::{Report, ReportArgs, line};
+
+/// Arguments of `wingbeat flutter`.
+#[derive(Args)]
+pub(crate) struct FlutterArgs {
+    /// Case file or preset with elastic wings held in a stream; - is the standard input.
+    case: String,
+    /// Set a key of the case, e.g. air.density_kg_m3=1 (may be repeated).
+    #[arg(long = "set", value_name = "KEY=VALUE")]
+    set: Vec<String>,
+    /// Speeds of the stream, m/s: from, to and their number.
+    #[arg(long, value_name = "FROM:TO:N", value_parser = options::speeds)]
+    speeds: options::Speeds,
+    /// Modes of the deformed wing that are disturbed.
+    #[arg(long, value_name = "N", default_value_t = FlutterSettings::default().modes,
+          value_parser = options::count::<1, 20>)]
+    modes: usize,
+    /// Amplitude of the disturbance over the length of the wing.
+    #[arg(long, value_name = "SHARE", default_value_t = FlutterSettings::default().disturbance,
+          value_parser = options::share)]
+    disturbance: f64,
+    /// Length of the response in periods of the first mode.
+    #[arg(long, value_name = "PERIODS", default_value_t = FlutterSettings::default().periods,
+          value_parser = options::positive)]
+    periods: f64,
+    #[command(flatten)]
+    report: ReportArgs,
+}
+
+/// The whole command.
+pub(crate) fn run(args: &FlutterArgs) -> Result<(), Failure> {
+    let settings = FlutterSettings {
+        modes: args.modes,
+        disturbance: args.disturbance,
+        periods: args.periods,
+        ..FlutterSettings::default()
+    };
+    args.report.deliver([], |report, []| {
+        let case = LoadedCase::find(&args.case, &args.set)?;
+        head(report, &case.name);
+        let mut found: Vec<Condition> = vec![];
+        for speed in args.speeds.values() {
+            let next = watched("flutter", || condition(&case.setup, speed, &settings))?;
+            tell(report, &next);
+            found.push(next);
+            report.value("speeds", found.iter().map(values).collect::<Vec<_>>());
+        }
+        conclude(report, &crossings(&found));
+        Ok(())
+    })
+}
+
+fn head(report: &mut Report, name: &str) {
+    report.value("case", name);
+    line!(report, "{name}: vibrations about the deformed steady state");
+    line!(
+        report,
+        "  {:>10}{:>12}{:>12}{:>12}{:>12}{:>10}",
+        "speed m/s",
+        "tip m",
+        "Hz",
+        "growth 1/s",
+        "damping",
+        "share"
+    );
+}
+
+fn tell(report: &mut Report, c: &Condition) {
+    for (k, m) in c.modes.iter().enumerate() {
+        let (speed, tip) = match k {
+            0 => (
+                format!("{:.3}", c.speed),
+                format!("{:.5}", c.steady.tip.length()),
+            ),
+            _ => (String::new(), String::new()),
+        };
+        line!(
+            report,
+            "  {speed:>10}{tip:>12}{:>12.4}{:>12.4}{:>12.5}{:>10.4}",
+            m.frequency / TAU,
+            m.growth,
+            m.damping(),
+            m.share
+        );
+    }
+}
+
+fn values(c: &Condition) -> Value {
+    let mode = |m: &wingbeat::analysis::realisation::Vibration| {
+        json!({
+            "frequency_hz": m.frequency / TAU,
+            "growth_per_s": m.growth,
+            "damping_ratio": m.damping(),
+            "share": m.share,
+        })
+    };
+    json!({
+        "speed_m_s": c.speed,
+        "tip_m": c.steady.tip.to_array(),
+        "tip_turn_rad": c.steady.turn.to_array(),
+        "drift": c.steady.drift,
+        "vacuum_hz": c.steady.vacuum.iter().map(|w| w / TAU).collect::<Vec<_>>(),
+        "modes": c.modes.iter().map(mode).collect::<Vec<_>>(),
+        "order": c.response.order,
+        "residual": c.response.residual,
+        "nonlinearity": c.nonlinearity,
+    })
+}
+
+fn conclude(report: &mut Report, found: &[Crossing]) {
+    for c in found {
+        let what = if c.begins { "begins" } else { "ends" };
+        line!(
+            report,
+            "\nFlutter {what} at {:.3} m/s with {:.3} Hz, between {:.3} and {:.3} m/s.",
+            c.speed,
+            c.frequency / TAU,
+            c.between[0],
+            c.between[1]
+        );
+    }
+    if found.is_empty() {
+        line!(report, "\nNo growth changes its sign between these speeds.");
+    }
+    let value = |c: &Crossing| {
+        json!({
+            "begins": c.begins,
+            "speed_m_s": c.speed,
+            "frequency_hz": c.frequency / TAU,
+            "between_m_s": c.between,
+        })
+    };
+    report.value("flutter", found.iter().map(value).collect::<Vec<_>>());
+}

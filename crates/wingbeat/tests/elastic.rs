@@ -1,0 +1,259 @@
+//! Wings that loads bend: what they must share with rigid ones, what they must keep, what is refused.
+
+use std::path::Path;
+
+use wingbeat::case::LoadedCase;
+use wingbeat::flight::{Record, Simulation};
+
+mod support;
+
+use support::{Scratch, flown, wingbeat};
+
+/// Two heavy wings on a light body.
+const CASE: &str = r#"
+format = 1
+name = "elastic"
+[time]
+steps_per_beat = 80
+beats = 0.5
+[motion]
+frequency_hz = 20.0
+start = "smooth"
+start_beats = 1
+[body.part.thorax]
+length_m = 1e-2
+diameter_m = 1e-2
+mass_kg = 1e-3
+[wing.right]
+hinge_m = [0, 0.5e-2, 0]
+mass_kg = 1e-4
+[wing.right.planform.rectangle]
+chord_m = 2e-2
+span_m = 6e-2
+[wing.right.mesh]
+chordwise = 3
+spanwise = 6
+[wing.right.motion.phi.fourier]
+cosine_deg = [40.0]
+"#;
+
+const LATTICE: [&str; 3] = [
+    "flight.mode=\"tethered\"",
+    "air.model=\"vortex_lattice\"",
+    "air.shed=[\"trailing\"]",
+];
+
+fn case(set: &[String]) -> LoadedCase {
+    LoadedCase::from_text("elastic", CASE, Path::new("."), set).unwrap()
+}
+
+fn beam(stiffness: f64) -> [String; 2] {
+    ["flap", "torsion"]
+        .map(|k| format!("wing.right.structure.beam.{k}_newton_m2=[{stiffness},{stiffness}]"))
+}
+
+fn strings(set: &[&str]) -> Vec<String> {
+    set.iter().map(|s| (*s).to_owned()).collect()
+}
+
+/// The records of all steps.
+fn fly(set: &[String]) -> Vec<Record> {
+    let mut flight = Simulation::new(case(set).setup).unwrap();
+    let mut records = vec![flight.record().clone()];
+    while !flight.finished() {
+        records.push(flight.step().unwrap().clone());
+    }
+    records
+}
+
+/// Largest difference of the air's force on all bodies.
+fn apart(a: &[Record], b: &[Record]) -> f64 {
+    let pairs = a.iter().zip(b);
+    pairs.fold(0.0, |m, (a, b)| {
+        m.max((a.air_force() - b.air_force()).length())
+    })
+}
+
+#[test]
+fn limit_stiff_wings_carry_what_rigid_ones_do() {
+    let lattice = strings(&LATTICE);
+    let rigid = fly(&lattice);
+    let with = |structure: Vec<String>| apart(&fly(&[lattice.clone(), structure].concat()), &rigid);
+    let largest = rigid
+        .iter()
+        .fold(0.0_f64, |m, r| m.max(r.air_force().length()));
+    let shell = |young: f64| {
+        strings(&[
+            &format!("wing.right.structure.shell.young_pa={young}"),
+            "wing.right.structure.shell.thickness_m=[1e-3,1e-3]",
+        ])
+    };
+    for [soft, stiff] in [
+        [beam(2.0).to_vec(), beam(20.0).to_vec()].map(with),
+        [shell(1e12), shell(1e13)].map(with),
+    ] {
+        // What is left goes with 1 / stiffness.
+        assert!(stiff < 1e-2 * largest, "{stiff} of {largest}");
+        assert!((7.0..14.0).contains(&(soft / stiff)), "{soft} {stiff}");
+    }
+}
+
+#[test]
+fn conserves_momentum_of_a_flyer_with_soft_wings() {
+    let records = fly(&[
+        &strings(&["air.model=\"none\"", "time.beats=2"])[..],
+        &beam(2e-4),
+    ]
+    .concat());
+    let tip = records
+        .iter()
+        .fold(0.0_f64, |m, r| m.max(r.elastic[0].tip.length()));
+    assert!(tip > 2e-3, "soft: {tip}");
+    let largest = |of: fn(&Record) -> f64| records.iter().map(of).fold(0.0, f64::max);
+    let linear = largest(|r| r.momentum_residual.length()) / largest(|r| r.momentum.length());
+    let angular = largest(|r| r.angular_momentum_residual.length())
+        / largest(|r| r.angular_momentum.length());
+    // Some hundred roundings.
+    assert!(linear < 1e-13 && angular < 1e-12, "{linear:e} {angular:e}");
+}
+
+#[test]
+fn order_energy_of_elastic_wings_closes_at_second_order() {
+    let residual = |steps: usize| {
+        let steps = format!("time.steps_per_beat={steps}");
+        let set = strings(&[
+            "flight.mode=\"tethered\"",
+            "air.model=\"none\"",
+            "time.beats=2",
+            "wing.right.structure.spectral_radius=1",
+            &steps,
+        ]);
+        let records = fly(&[&set[..], &beam(2e-4)].concat());
+        records
+            .iter()
+            .fold(0.0_f64, |m, r| m.max(r.energy_residual.abs()))
+    };
+    let ratio = residual(80) / residual(160);
+    assert!((3.5..4.5).contains(&ratio), "{ratio}");
+}
+
+#[test]
+fn balances_shape_and_loads_within_ten_passes_in_water() {
+    // Mass of the wing over that of the water about it, m / (rho b c^2): 0.004.
+    let water = strings(&["air.density_kg_m3=1000"]);
+    let set = [&strings(&LATTICE)[..], &water, &beam(2e-2)].concat();
+    let passes = fly(&set).iter().map(|r| r.elastic[0].passes).max().unwrap();
+    assert!(passes <= 10, "{passes}");
+    let light = strings(&["air.density_kg_m3=42"]);
+    let set = [&strings(&LATTICE)[..], &light, &beam(2e-2)].concat();
+    let passes = fly(&set).iter().map(|r| r.elastic[0].passes).max().unwrap();
+    assert!(passes <= 8, "{passes}");
+}
+
+#[test]
+fn invariant_a_saved_flight_goes_on_bit_for_bit() {
+    let set = [
+        &strings(&[
+            "air.model=\"vortex_lattice\"",
+            "air.shed=[\"trailing\"]",
+            "time.beats=0.2",
+        ])[..],
+        &beam(2e-4),
+    ]
+    .concat();
+    let whole = fly(&set);
+    let setup = case(&set).setup;
+    let mut flight = Simulation::new(setup.clone()).unwrap();
+    for _ in 0..7 {
+        flight.step().unwrap();
+    }
+    let mut flight = Simulation::resume(setup, flight.state().clone()).unwrap();
+    while !flight.finished() {
+        flight.step().unwrap();
+    }
+    assert!(*flight.record() == whole[whole.len() - 1]);
+}
+
+#[test]
+fn refuses_what_knows_no_elastic_wings() {
+    let scratch = Scratch::new("elastic");
+    let dir = &scratch.0;
+    let table = "\n[wing.right.structure.beam]\nflap_newton_m2 = [1e-3, 1e-3]\ntorsion_newton_m2 = [1e-3, 1e-3]\n";
+    std::fs::write(dir.join("c.toml"), format!("{CASE}{table}")).unwrap();
+    let blade = "air.model=\"blade_element\"";
+    for (args, says) in [
+        (vec!["run", "c.toml", "--set", blade], "structure"),
+        (vec!["trim", "c.toml", "--set", blade], "structure"),
+        (vec!["stability", "c.toml", "--set", blade], "structure"),
+        (
+            vec![
+                "run",
+                "c.toml",
+                "--set",
+                "wing.right.deformation.axis_fraction=0.3",
+            ],
+            "structure",
+        ),
+        (
+            vec![
+                "run",
+                "c.toml",
+                "--set",
+                "wing.right.structure.beam.mass_kg_per_m=[1e-3,1e-3]",
+            ],
+            "given twice",
+        ),
+        (
+            vec![
+                "run",
+                "c.toml",
+                "--set",
+                "wing.right.structure.beam.flap_newton_m2=[0,0]",
+            ],
+            "above 0",
+        ),
+        (
+            vec![
+                "run",
+                "c.toml",
+                "--set",
+                "wing.right.structure.shell.young_pa=1e9",
+            ],
+            "beam",
+        ),
+        (
+            vec![
+                "run",
+                "c.toml",
+                "--set",
+                "dynamics.integrator=\"runge_kutta\"",
+            ],
+            "hamming",
+        ),
+    ] {
+        let out = wingbeat(dir, &args);
+        let said = String::from_utf8_lossy(&out.stderr).into_owned();
+        assert!(
+            !out.status.success() && said.contains(says),
+            "{args:?}: {said}"
+        );
+    }
+    let vacuum = [
+        "run",
+        "c.toml",
+        "--set",
+        "air.model=\"none\"",
+        "--out",
+        "r",
+        "--quiet",
+    ];
+    flown(dir, &vacuum);
+    let header = std::fs::read_to_string(dir.join("r/history.csv")).unwrap();
+    let header = header.lines().next().unwrap();
+    for column in [
+        "tip_wing_right_displacement_w3_m",
+        "strain_energy_wing_left_joule",
+    ] {
+        assert!(header.split(',').any(|c| c == column), "{header}");
+    }
+}
