@@ -48,6 +48,12 @@ impl SheddingKinds {
         root: false,
     };
 
+    /// None: flow without circulation about the wings.
+    pub const NONE: Self = Self {
+        trailing: false,
+        ..Self::TRAILING
+    };
+
     /// Whether this kind sheds.
     pub fn sheds(&self, kind: EdgeKind) -> bool {
         match kind {

@@ -33,13 +33,7 @@ impl Lattice {
     ) -> Result<Vec<f64>, AirError> {
         let panels = self.panels_of(s);
         let n = panels.len();
-        let matrix = ws.boundary.influence.block(self, panels.clone());
-        let mut lu = DenseLu::new(n);
-        lu.factor(&matrix).map_err(|source| AirError::Singular {
-            step: state.step,
-            source,
-        })?;
-        let inverse = lu.inverse(); // by columns
+        let inverse = self.circulation_by_wash(s, state, ws)?;
         let mut response = vec![0.0; n * n];
         for (i, p) in panels.clone().enumerate() {
             for (j, weight) in self.force_by_circulation(p, state, ws, loads) {
@@ -52,6 +46,44 @@ impl Lattice {
             }
         }
         Ok(response)
+    }
+
+    /// Derivative of the normal forces of the panels of the open surface `s` by the normal accelerations of their control
+    /// points \[kg\], row by row, at the instant that `ws` and `out` were last asked for: the added mass, its sign turned.
+    ///
+    /// # Errors
+    /// A singular influence matrix.
+    pub fn normal_inertia(
+        &self,
+        s: usize,
+        state: &AirState,
+        ws: &AirWorkspace,
+        loads: &AirLoads,
+    ) -> Result<Vec<f64>, AirError> {
+        let n = self.panels_of(s).len();
+        let inverse = self.circulation_by_wash(s, state, ws)?;
+        let areas = &loads.panels.area[self.panels_of(s)];
+        let rho = self.settings().density;
+        let entry = |(area, q): (f64, usize)| rho * area * inverse[q];
+        let rows = (0..n).flat_map(|i| (0..n).map(move |k| (areas[i], k * n + i)));
+        Ok(rows.map(entry).collect())
+    }
+
+    /// Circulations of the panels of the surface `s` by normal velocities, by columns \[m\].
+    fn circulation_by_wash(
+        &self,
+        s: usize,
+        state: &AirState,
+        ws: &AirWorkspace,
+    ) -> Result<Vec<f64>, AirError> {
+        let panels = self.panels_of(s);
+        let mut lu = DenseLu::new(panels.len());
+        let matrix = ws.boundary.influence.block(self, panels);
+        lu.factor(&matrix).map_err(|source| AirError::Singular {
+            step: state.step,
+            source,
+        })?;
+        Ok(lu.inverse())
     }
 
     /// How the normal velocity of panel `p`, that of the surface less that of the air, changes with the nodes of its surface

@@ -7,7 +7,7 @@
 //! periodic orbit from the [`monodromy`] matrix; [`modes`] names what comes out; [`derivatives`]
 //! are the controls; [`power`] is what it takes; [`control`] holds a flyer on its orbit by feedback, laid out by
 //! [`stabiliser`] or [`regulator`] when a flight is built ([`design`]), along a [`route`] if there is one; an [`episode`] is steered from outside, for who learns;
-//! [`flutter`] asks when the vibrations of elastic wings grow.
+//! [`wing_modes`] are the vibrations of elastic wings, [`flutter`] asks when they grow.
 //!
 //! | symbol | name in code | meaning | unit |
 //! |---|---|---|---|
@@ -57,6 +57,7 @@ pub mod table;
 pub mod trim;
 pub mod unknown;
 pub mod wake;
+pub mod wing_modes;
 
 pub use beat::{Beat, State};
 pub use error::AnalysisError;
@@ -69,3 +70,4 @@ pub use steady::{TrimProblem, TrimSettings};
 pub use table::table_model;
 pub use trim::{Trim, trim};
 pub use unknown::Unknown;
+pub use wing_modes::{About, WingMode, WingModes, wing_modes};

@@ -42,6 +42,7 @@ presets![
     "bumblebee-blade",
     "hoverfly-blade",
     "hawkmoth-blade",
+    "hawkmoth-elastic",
     "locust-blade",
     "fruit-fly-abdomen",
     "fruit-fly-abdomen-spring",

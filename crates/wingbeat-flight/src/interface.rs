@@ -37,7 +37,8 @@ pub struct Shape {
 /// How the normal forces of the panels of a wing answer to the motion of the nodes of its mesh, in frozen wakes.
 #[derive(Clone, Debug, Default)]
 pub struct WingResponse {
-    /// Derivative of the normal forces by the normal velocities of the panels \[N s/m\], row by row.
+    /// Derivative of the normal forces by the normal velocities of the panels \[N s/m\] or by their accelerations \[kg\], row by
+    /// row.
     pub matrix: Vec<f64>,
     /// Panel by panel: how a node of the mesh (its number among the wing's) shares in the panel's normal force \[1\], and how
     /// the panel's normal velocity changes with the node's velocity \[1\] and place \[1/s\]; N components.

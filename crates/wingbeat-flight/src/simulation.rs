@@ -17,10 +17,13 @@ use wingbeat_math::ode::{Multistep, StepError, StepReport, block_start};
 use self::fits::check_fits;
 use self::start::Start;
 use self::wings::WingAngles;
+use crate::air::LatticeAir;
 use crate::bodies::{carry, own_motion};
 use crate::control::{Loop, Sensed, feedback};
+use crate::elastic::ElasticWings;
 use crate::equations::{Equations, Memory, Scratch};
 use crate::error::FlightError;
+use crate::interface::Instant;
 use crate::quadratures::QUADRATURES;
 use crate::record::{Record, Snapshot};
 use crate::recorder::{Ledger, Sources};
@@ -165,6 +168,33 @@ impl Simulation {
     /// vortex lattice.
     pub fn air_velocity(&self, points: &Points) -> Option<Points> {
         (self.equations().air).velocity(self.state.air.as_ref(), points)
+    }
+
+    /// The wings that loads bend, as [`FlightState::wings`] has their states.
+    pub fn elastic_wings(&self) -> &ElasticWings {
+        &self.equations().elastic
+    }
+
+    /// Added mass of the air on elastic wing number `k` of [`Self::elastic_wings`] at the newest step: six numbers a node
+    /// ([`crate::elastic::ElasticWing::added_mass`]). None where the air is no vortex lattice.
+    ///
+    /// # Errors
+    /// A singular influence matrix.
+    pub fn added_mass(&self, k: usize) -> Result<Option<Vec<f64>>, FlightError> {
+        let AirModel::VortexLattice(options) = &self.setup.air else {
+            return Ok(None);
+        };
+        let wing = &self.elastic_wings().wings()[k];
+        let at = Instant {
+            time: self.newest_time(),
+            step: self.setup.time.step,
+            motions: &self.scratch.motions,
+            shapes: self.scratch.elastic.shapes(),
+        };
+        let answer = LatticeAir::inertia(&self.setup, options, wing.wing(), &at)?;
+        let frame = &self.scratch.motions[wing.wing() + 1];
+        let at = &self.state.wings[k].structure.configuration;
+        Ok(Some(wing.added_mass(&answer, frame, at)))
     }
 
     /// Time of the newest step [s].

@@ -20,7 +20,7 @@ pub use section::{Section, Stiffness};
 use wingbeat_math::{DMat3, DQuat, DVec3, MassProperties, tilde};
 
 use crate::block::{Block, block, product, times, transpose};
-use crate::configuration::Configuration;
+use crate::configuration::{Configuration, NODE};
 use crate::element::{Element, ElementForces};
 use crate::error::StructureError;
 use crate::screw::{Screw, inverse_jacobian, pulled, pulled_gradient};
@@ -156,6 +156,27 @@ impl Beam {
         ]
     }
 
+    /// The tangent with the section frames `rotations` and the screw between them, the force of the screw being `force`.
+    fn add_tangent(
+        &self,
+        (rotations, screw): (&[DQuat; 2], &Screw),
+        force: &Screw,
+        out: &mut [f64],
+    ) {
+        let maps = self.node_to_end(rotations);
+        let by_nodes = self.screw_by_nodes(screw, &maps);
+        self.material(&by_nodes, out);
+        let turning = Turning {
+            screw,
+            force,
+            rotations,
+            ends: &ends(screw, force),
+            maps: &maps,
+            by_nodes: &by_nodes,
+        };
+        self.geometric(&turning, out);
+    }
+
     /// Part of the tangent that comes with the change of the element's strains.
     fn material(&self, by_nodes: &[Block; 2], out: &mut [f64]) {
         for (e, f) in (0..4).map(|k| (k / 2, k % 2)) {
@@ -197,6 +218,11 @@ struct Turning<'a> {
     ends: &'a [Screw; 2],
     maps: &'a [Block; 2],
     by_nodes: &'a [Block; 2],
+}
+
+/// Forces at the ends by that of the screw, section components.
+fn ends(screw: &Screw, force: &Screw) -> [Screw; 2] {
+    [-pulled(&-*screw, force), pulled(screw, force)]
 }
 
 /// Adds a block of the ends [e, f] to a 12 x 12 matrix by rows.
@@ -263,7 +289,7 @@ impl Element for Beam {
         let change = self.change(&screw);
         let work = times(&self.stiffness, &change);
         let force = Screw::from_numbers(&work);
-        let ends = [-pulled(&-screw, &force), pulled(&screw, &force)];
+        let ends = ends(&screw, &force);
         out.resize(ENDS);
         for (e, end) in ends.iter().enumerate() {
             let g = self.offsets[e].rotation;
@@ -271,20 +297,30 @@ impl Element for Beam {
             crate::block::add_pair(&mut out.force, e, [rotations[e] * end.u, moment]);
         }
         if tangent {
-            let maps = self.node_to_end(&rotations);
-            let by_nodes = self.screw_by_nodes(&screw, &maps);
-            self.material(&by_nodes, &mut out.tangent);
-            let turning = Turning {
-                screw: &screw,
-                force: &force,
-                rotations: &rotations,
-                ends: &ends,
-                maps: &maps,
-                by_nodes: &by_nodes,
-            };
-            self.geometric(&turning, &mut out.tangent);
+            self.add_tangent((&rotations, &screw), &force, &mut out.tangent);
         }
         0.5 * (0..6).map(|i| work[i] * change[i]).sum::<f64>()
+    }
+
+    fn tangent_ahead(
+        &self,
+        at: &Configuration,
+        before: &Configuration,
+        increment: &[f64],
+        out: &mut ElementForces,
+    ) {
+        let (rotations, screw) = screw_between(before, self.nodes, &self.offsets);
+        let by_nodes = self.screw_by_nodes(&screw, &self.node_to_end(&rotations));
+        let mut change = self.change(&screw);
+        for (block, six) in by_nodes.iter().zip(increment.chunks_exact(NODE)) {
+            let six: [f64; NODE] = std::array::from_fn(|k| six[k]);
+            let more = times(block, &six);
+            change.iter_mut().zip(more).for_each(|(c, m)| *c += m);
+        }
+        let force = Screw::from_numbers(&times(&self.stiffness, &change));
+        let (rotations, screw) = screw_between(at, self.nodes, &self.offsets);
+        out.resize(ENDS);
+        self.add_tangent((&rotations, &screw), &force, &mut out.tangent);
     }
 
     fn dissipation(&self, at: &Configuration, out: &mut ElementForces) {

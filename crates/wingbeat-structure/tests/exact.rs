@@ -124,6 +124,34 @@ fn agrees_beam_force_and_tangent_with_differences() {
 }
 
 #[test]
+fn order_foreseen_stresses_of_a_beam_differ_by_squares_of_the_increment() {
+    // Strains linear in the increment: the tangent with their stresses is the tangent where nothing moves, and differs by
+    // the square of what does.
+    let (rest, beams) = crooked();
+    let before = shaken(&rest, 0.4);
+    let gap = |size: f64| {
+        let turn = |k: usize| size * (1.0 + k as f64).sin();
+        let mut numbers = vec![0.0; NODE * rest.len()];
+        for (k, x) in numbers.iter_mut().enumerate() {
+            *x = turn(k) * if k % NODE < 3 { beams[0].length() } else { 1.0 };
+        }
+        let mut at = before.clone();
+        at.moved(&numbers);
+        let [mut now, mut ahead] = [ElementForces::default(), ElementForces::default()];
+        beams[0].internal(&at, true, &mut now);
+        let own: Vec<f64> = (beams[0].nodes().iter())
+            .flat_map(|n| numbers[NODE * n..NODE * (n + 1)].iter().copied())
+            .collect();
+        beams[0].tangent_ahead(&at, &before, &own, &mut ahead);
+        let scale = now.tangent.iter().fold(0.0_f64, |a, k| a.max(k.abs()));
+        apart(&now.tangent, &ahead.tangent) / scale
+    };
+    assert!(gap(0.0) < 1e-15);
+    let ratio = gap(2e-3) / gap(1e-3);
+    assert!((3.9..4.1).contains(&ratio), "{ratio}");
+}
+
+#[test]
 fn exact_small_deflections_under_loads_at_nodes() {
     // Timoshenko's cantilever under a tip force: L^3 / 3 EI + L / GA, whatever the number of elements.
     let section = Section::new(&Stiffness {

@@ -15,7 +15,7 @@ use crate::error::AnalysisError;
 /// Steps per wingbeat with which the blade elements are flown.
 const STEPS: usize = 60;
 
-/// Mean lift over weight of the second wingbeat of a tethered flight in blade elements.
+/// Mean lift over weight of the second wingbeat of a tethered flight in blade elements, all wings rigid.
 pub(super) fn lift_over_weight(setup: &FlightSetup) -> Result<Option<f64>, AnalysisError> {
     let weight = setup.animal.mass() * setup.gravity.length();
     let (Some(period), Some(density)) = (setup.time.period, density(&setup.air)) else {
@@ -39,6 +39,7 @@ pub(super) fn lift_over_weight(setup: &FlightSetup) -> Result<Option<f64>, Analy
     let mut tethered = setup.clone();
     for wing in &mut tethered.animal.wings {
         wing.motion.start = Start::Impulsive;
+        wing.structure = None; // blade elements know no wings that bend
     }
     if !matches!(setup.air, AirModel::BladeElement(_)) {
         tethered.air = AirModel::BladeElement(blades);

@@ -1,6 +1,6 @@
 //! The vortex lattice as the air of a flight: surfaces that follow the bodies, wakes as memory.
 
-use wingbeat_air::{AirState, Lattice, Points};
+use wingbeat_air::{AirSettings, AirState, Lattice, Points, SheddingKinds};
 use wingbeat_dynamics::{BodyAcceleration, Wrench};
 use wingbeat_math::DVec3;
 
@@ -51,9 +51,58 @@ impl LatticeAir {
         Ok(Self { lattice, map })
     }
 
+    /// How the panels of a wing answer to accelerations without circulation: of a lattice that sheds nothing, its rings inside all
+    /// edges by a quarter panel, which makes added masses good to second order of the panel size.
+    ///
+    /// # Errors
+    /// What the lattice refuses; a singular influence matrix.
+    pub fn inertia(
+        setup: &FlightSetup,
+        options: &AirOptions,
+        wing: usize,
+        at: &Instant<'_>,
+    ) -> Result<WingResponse, FlightError> {
+        let of = &options.lattice;
+        let settings = AirSettings {
+            bound_core: of.bound_core,
+            wake_core: of.wake_core,
+            wake_overlap: of.wake_overlap,
+            loads: of.loads,
+            images: of.images.clone(),
+            shedding: SheddingKinds::NONE,
+            ..AirSettings::accurate(of.density, DVec3::ZERO)
+        };
+        let options = AirOptions {
+            lattice: settings,
+            ..options.clone()
+        };
+        let air = Self::new(setup, &options)?;
+        let (mut s, mut wrenches) = (air.scratch(), vec![Wrench::default(); at.motions.len()]);
+        air.place(at, &mut s)?;
+        let memory = air.initial(&s);
+        air.loads(at, memory.as_ref(), &mut s, &mut wrenches)?;
+        let state = memory.ok_or_else(|| misfit("a lattice has a memory"))?;
+        let mut answer = WingResponse {
+            matrix: (air.lattice).normal_inertia(wing, &state, &s.workspace, &s.loads)?,
+            panels: vec![],
+        };
+        air.set_panels(wing, &s, &mut answer);
+        Ok(answer)
+    }
+
     /// The lattice.
     pub fn lattice(&self) -> &Lattice {
         &self.lattice
+    }
+
+    /// How nodes of the mesh share in the panels of a wing, and move them.
+    fn set_panels(&self, wing: usize, s: &AirScratch, out: &mut WingResponse) {
+        out.panels.clear();
+        for p in self.lattice.panels_of(wing) {
+            let mut nodes = vec![];
+            (self.lattice).normal_wash(p, &s.workspace, &s.loads, |n, by| nodes.push((n, by)));
+            out.panels.push(nodes);
+        }
     }
 
     fn surface_snapshot(&self, s: &AirScratch, k: usize) -> SurfaceSnapshot {
@@ -200,12 +249,7 @@ impl Air for LatticeAir {
     ) -> Result<bool, FlightError> {
         let state = memory.ok_or_else(|| misfit("a lattice needs its wakes"))?;
         out.matrix = (self.lattice).normal_response(wing, state, &s.workspace, &s.loads)?;
-        out.panels.clear();
-        for p in self.lattice.panels_of(wing) {
-            let mut nodes = vec![];
-            (self.lattice).normal_wash(p, &s.workspace, &s.loads, |n, by| nodes.push((n, by)));
-            out.panels.push(nodes);
-        }
+        self.set_panels(wing, s, out);
         Ok(true)
     }
 

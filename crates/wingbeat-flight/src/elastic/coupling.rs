@@ -35,6 +35,8 @@ pub struct ElasticScratch {
     /// Passes of the last coupling, and what was left unbalanced \[1\].
     pub(super) passes: usize,
     unbalanced: f64,
+    /// Share of what was unbalanced that the last correction took away \[1\].
+    share: f64,
     /// Size of the last correction: rotation \[rad\], translation over the size of the wing.
     moved: f64,
 }
@@ -110,6 +112,9 @@ impl ElasticWings {
                 return Ok(());
             }
             self.correct(s)?;
+            if s.share <= 0.0 {
+                break;
+            }
         }
         Err(self.failed(at.time, s))
     }
@@ -137,7 +142,8 @@ impl ElasticWings {
         s.unbalanced = all.fold(0.0, larger);
         // Where corrections are small and help no more, what is left is the rounding of stiff forces.
         let helps = s.unbalanced < 0.5 * before;
-        let is_exact = s.passes > 1 && (s.moved <= ROUNDING || (s.moved <= SMALL && !helps));
+        let is_whole = s.passes > 1 && s.share >= 1.0;
+        let is_exact = is_whole && (s.moved <= ROUNDING || (s.moved <= SMALL && !helps));
         if s.unbalanced <= TOLERANCE || is_exact || !s.is_stepping {
             return Ok(true);
         }
@@ -175,9 +181,7 @@ impl ElasticWings {
         for ((w, ws), state) in self.wings.iter().zip(&mut s.wings).zip(states) {
             let (structure, own) = (&w.structure, &state.structure);
             w.method.predict(structure, own, step, &mut ws.trial);
-            if w.is_thin {
-                ws.trial.take_back();
-            }
+            ws.trial.take_back();
             ws.solver.look_ahead_from_start(&ws.trial);
             ws.carried = None;
             accelerations[w.wing + 1] = state.acceleration();
@@ -225,8 +229,9 @@ impl ElasticWings {
     /// passes make of that, all wings together; translations over the sizes of the wings.
     fn correct(&self, s: &mut ElasticScratch) -> Result<(), FlightError> {
         s.change.clear();
+        s.share = 1.0;
         for (w, ws) in self.wings.iter().zip(&mut s.wings) {
-            ws.bend(w)?;
+            s.share = s.share.min(ws.bend(w)?);
             let scale = w.structure.size() * ws.trial.weights().velocity;
             let turn = ws.trial.weights().velocity;
             for &k in w.structure.free_numbers() {
@@ -253,6 +258,7 @@ impl ElasticWings {
                 ws.step.push(length * x - made);
                 s.moved = s.moved.max(x.abs());
             }
+            (ws.solver).look_ahead(&w.structure, &ws.trial, &ws.step);
             ws.trial.add(&w.structure, &ws.step);
         }
         Ok(())

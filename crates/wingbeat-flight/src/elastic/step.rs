@@ -2,7 +2,7 @@
 
 use wingbeat_dynamics::AddedMass;
 use wingbeat_math::DVec3;
-use wingbeat_structure::{FrameMotion, LoadTangent, NODE, Solver, Trial};
+use wingbeat_structure::{FrameMotion, LoadTangent, NODE, Solver, StructureError, Trial};
 
 use super::tangent::AirTangent;
 use super::wing::{ElasticState, ElasticWing, Nodes};
@@ -22,6 +22,12 @@ const NEWTON: f64 = 1e-4;
 /// Residuals beyond this are those of a prediction that stretches what hardly stretches \[1\].
 const ROUGH: f64 = 1e-2;
 const SLOW: f64 = 0.1;
+/// Corrections, and forces over those at first, that Newton's iteration does not come back from \[1\].
+const FAR: f64 = 10.0;
+const ASTRAY: f64 = 1e3;
+/// Parts of what is unbalanced at first that are tried where not all of it can be taken away at once.
+const LARGEST_PART: f64 = 0.25;
+const SMALLEST_PART: f64 = 1e-3;
 
 /// Of one wing.
 #[derive(Debug)]
@@ -40,6 +46,10 @@ pub(super) struct WingScratch {
     pub before: Vec<f64>,
     pub given: Vec<f64>,
     pub step: Vec<f64>,
+    /// What is unbalanced at first, how much of that stays so, and the velocities of the last trial that was in balance.
+    first: Vec<f64>,
+    kept: Vec<f64>,
+    known: Vec<f64>,
     /// Whether the air answers, and whether factors are older than what it said.
     pub answers: bool,
     pub is_stale: bool,
@@ -69,6 +79,9 @@ impl WingScratch {
             before: vec![],
             given: vec![],
             step: vec![],
+            first: vec![],
+            kept: vec![],
+            known: vec![],
             answers: false,
             is_stale: true,
             response: WingResponse::default(),
@@ -92,6 +105,8 @@ impl WingScratch {
         let residual = (self.solver).residual(&w.structure, trial, frame, &self.given);
         self.residual.clear();
         self.residual.extend_from_slice(residual);
+        let both = self.residual.iter_mut().zip(&self.kept);
+        both.for_each(|(r, kept)| *r -= kept);
         let size = w.structure.size();
         let numbers = w.structure.free_numbers().iter();
         let part = |&k: &usize| self.residual[k].abs() / if k % NODE < 3 { 1.0 } else { size };
@@ -103,14 +118,72 @@ impl WingScratch {
         };
     }
 
-    /// Newton's iteration on the elastic body, under loads that follow its motion as the air has answered. The motion that the
-    /// loads were taken for stays in `before`.
-    pub fn bend(&mut self, w: &ElasticWing) -> Result<(), FlightError> {
+    /// The elastic body brought to balance under loads that follow its motion as the air has answered. The motion that the
+    /// loads were taken for stays in `before`. Returns the share of what was unbalanced that is taken away \[1\].
+    ///
+    /// It is taken away at once or, where Newton's iteration goes astray, part by part.
+    pub fn bend(&mut self, w: &ElasticWing) -> Result<f64, FlightError> {
         self.before.clone_from(&self.trial.velocity);
-        let (target, mut last) = (NEWTON * self.unbalanced.min(ROUGH), f64::INFINITY);
+        let target = NEWTON * self.unbalanced.min(ROUGH);
+        self.kept.clear();
+        self.kept.resize(self.residual.len(), 0.0);
+        self.first.clone_from(&self.residual);
+        match self.newton(w, target)? {
+            true => Ok(1.0),
+            false => self.bend_by_parts(w, target),
+        }
+    }
+
+    /// The same from where it began, ever more of what is unbalanced at first taken away: as loads of a static problem are
+    /// put on step by step.
+    fn bend_by_parts(&mut self, w: &ElasticWing, target: f64) -> Result<f64, FlightError> {
+        let (mut done, mut part) = (0.0, LARGEST_PART);
+        self.known.clone_from(&self.before);
+        while done < 1.0 && part >= SMALLEST_PART {
+            self.return_to_known(w);
+            let next = f64::min(done + part, 1.0);
+            self.keep(w, 1.0 - next);
+            self.is_stale = true;
+            if self.newton(w, target)? {
+                self.known.clone_from(&self.trial.velocity);
+                done = next;
+                part *= 2.0;
+            } else {
+                part *= 0.25;
+            }
+        }
+        self.return_to_known(w);
+        self.keep(w, 0.0);
+        Ok(done)
+    }
+
+    /// Leaves a share of what was unbalanced at first as it is.
+    fn keep(&mut self, w: &ElasticWing, share: f64) {
+        let both = self.kept.iter_mut().zip(&self.first);
+        both.for_each(|(kept, first)| *kept = share * first);
+        self.follow();
+        self.set_residual(w);
+    }
+
+    /// Takes the trial back to the last one that was in balance with a part.
+    fn return_to_known(&mut self, w: &ElasticWing) {
+        let place = 1.0 / self.trial.weights().velocity;
+        let back = |&k: &usize| place * (self.known[k] - self.trial.velocity[k]);
+        self.step.clear();
+        self.step
+            .extend(w.structure.free_numbers().iter().map(back));
+        self.trial.add(&w.structure, &self.step);
+    }
+
+    /// Newton's iteration until what is unbalanced, but for what is kept, is less than `target`: false where it goes astray.
+    fn newton(&mut self, w: &ElasticWing, target: f64) -> Result<bool, FlightError> {
+        let (at_first, mut last) = (self.unbalanced, f64::INFINITY);
         for _ in 0..MAX_NEWTON {
             if self.is_stale || self.unbalanced > (SLOW * last).min(ROUGH) {
-                self.factor(w)?;
+                match self.factor(w) {
+                    Err(StructureError::Singular { .. }) => return Ok(false),
+                    factored => factored?,
+                }
             }
             last = self.unbalanced;
             self.step.clear();
@@ -122,12 +195,15 @@ impl WingScratch {
             self.follow();
             self.set_residual(w);
             let is_rounding = moved <= ROUNDING || moved <= SMALL && self.unbalanced > 0.5 * last;
-            let is_done = self.unbalanced <= target || is_rounding;
-            if is_done || !self.unbalanced.is_finite() {
-                break;
+            if self.unbalanced <= target || is_rounding {
+                return Ok(true);
+            }
+            let is_lost = moved > FAR || self.unbalanced > ASTRAY * at_first.max(1.0);
+            if is_lost || !(moved + self.unbalanced).is_finite() {
+                return Ok(false);
             }
         }
-        Ok(())
+        Ok(self.unbalanced <= ROUGH.min(at_first))
     }
 
     /// Loads as the air's answer carries them on from the motion they were taken for.
@@ -152,7 +228,7 @@ impl WingScratch {
     }
 
     /// Factorises the tangent, with the air's answer on its left-hand side.
-    fn factor(&mut self, w: &ElasticWing) -> Result<(), FlightError> {
+    fn factor(&mut self, w: &ElasticWing) -> Result<(), StructureError> {
         let mut loads = LoadTangent::default();
         if self.answers {
             loads.position = Some(&self.tangent.position);

@@ -47,6 +47,19 @@ impl AirTangent {
     }
 }
 
+/// Added mass of a wing of attitude `r` whose mesh follows by `followers` in the configuration `at`, from how its panels answer to
+/// accelerations: force in W and moment in node components by accelerations of the nodes, rows of six numbers a node each.
+pub(super) fn added_mass(
+    air: &WingResponse,
+    r: DMat3,
+    followers: &[Follower],
+    at: &Configuration,
+) -> Vec<f64> {
+    let mut tangent = AirTangent::default();
+    tangent.set(air, r, followers, at);
+    tangent.velocity.iter().map(|x| -x).collect()
+}
+
 /// `out = a b`, a of order `n`, b of n rows of `width`.
 fn times(a: &[f64], b: &[f64], n: usize, width: usize, out: &mut Vec<f64>) {
     out.clear();

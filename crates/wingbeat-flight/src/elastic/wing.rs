@@ -2,13 +2,14 @@
 
 use wingbeat_dynamics::{AddedMass, BodyAcceleration, BodyMotion};
 use wingbeat_math::{DMat3, DVec3, MassProperties, tilde};
-use wingbeat_model::{Members, Wing};
+use wingbeat_model::Wing;
 use wingbeat_structure::{
     Configuration, Follower, FrameMotion, GeneralizedAlpha, NODE, State, Structure,
 };
 
+use super::tangent::added_mass;
 use crate::error::FlightError;
-use crate::interface::Shape;
+use crate::interface::{Shape, WingResponse};
 
 /// A wing that loads bend.
 #[derive(Debug)]
@@ -23,8 +24,6 @@ pub struct ElasticWing {
     /// Nodes of the mesh at the tip: leading and trailing edge.
     pub(super) tip: [usize; 2],
     pub(super) method: GeneralizedAlpha,
-    /// Whether it hardly stretches beside how it bends: a shell.
-    pub(super) is_thin: bool,
     /// Mass properties at rest, as the multibody system has them.
     pub(super) rigid: MassProperties,
 }
@@ -69,7 +68,6 @@ impl ElasticWing {
             wing: index,
             name: wing.name.clone(),
             rigid: wing.mass,
-            is_thin: matches!(structure.members, Members::Shell(_)),
             tip: [0, wing.mesh.rows].map(|i| wing.mesh.node(i, wing.mesh.cols)),
             structure: body.structure,
             followers: body.followers,
@@ -90,6 +88,12 @@ impl ElasticWing {
     /// How the nodes of the mesh follow.
     pub fn followers(&self) -> &[Follower] {
         &self.followers
+    }
+
+    /// Added mass of the air by what its panels answer to accelerations, the body moving like `m` and bent as in `at`: rows of six
+    /// numbers a node each, as [`wingbeat_structure::modes`] takes it.
+    pub fn added_mass(&self, air: &WingResponse, m: &BodyMotion, at: &Configuration) -> Vec<f64> {
+        added_mass(air, m.r, &self.followers, at)
     }
 
     /// At rest.

@@ -62,6 +62,8 @@ pub(crate) enum Command {
     Derivatives(analyse::trimming::Trimming),
     /// Trim, then give the mechanical power of flapping.
     Power(analyse::power::PowerArgs),
+    /// Frequencies and shapes of the vibrations of elastic wings, in vacuum and with the added mass of the air.
+    Modes(analyse::modes::ModesArgs),
     /// Find the speeds of a stream at which the vibrations of elastic wings grow: frequency and damping about the deformed
     /// steady state.
     Flutter(analyse::flutter::FlutterArgs),

@@ -33,6 +33,7 @@ const GROUPS: [(&str, &[&str]); 5] = [
             "derivatives",
             "power",
             "stabilise",
+            "modes",
             "flutter",
         ],
     ),

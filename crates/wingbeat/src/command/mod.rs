@@ -66,6 +66,7 @@ fn run(command: Command) -> Result<(), Failure> {
         Command::Stability(args) => analyse::stability::run(&args),
         Command::Derivatives(args) => analyse::derivatives::run(&args),
         Command::Power(args) => analyse::power::run(&args),
+        Command::Modes(args) => analyse::modes::run(&args),
         Command::Flutter(args) => analyse::flutter::run(&args),
         Command::Stabilise(args) => analyse::stabilise::run(&args),
         Command::Ensemble(args) => ensemble::run(&args),

@@ -3,6 +3,7 @@
 pub(crate) mod derivatives;
 pub(crate) mod flutter;
 mod found;
+pub(crate) mod modes;
 pub(crate) mod power;
 pub(crate) mod stabilise;
 pub(crate) mod stability;

@@ -1,0 +1,159 @@
+//! Modes of small vibrations of elastic wings: in vacuum, and with the added mass of the air.
+//!
+//! A wing vibrates in its frame, which is held. In air the added mass of a lattice without wakes joins that of the wing: what a stream and a wake do to frequencies and damping is [`crate::flutter`]'s question. Other wings are held; of a
+//! lattice that computes one half only, the other half vibrates as the mirror image.
+//!
+//! | symbol | name in code | meaning | unit |
+//! |---|---|---|---|
+//! | omega | [`WingMode::frequency`] | angular frequency of a mode | rad/s |
+//! | phi | [`WingMode::displacement`] | shape of a mode at the nodes of the mesh, the largest displacement 1 | - |
+//! | m | [`WingMode::mass`] | modal mass for that shape, `phi^T M phi` | kg |
+
+use wingbeat_flight::elastic::ElasticWing;
+use wingbeat_flight::{FlightError, FlightSetup, FlightState, Simulation};
+use wingbeat_math::DVec3;
+use wingbeat_structure::{Configuration, FrameMotion, Mode, modes};
+
+use crate::AnalysisError;
+use crate::flutter::{ElasticRig, FlutterSettings};
+
+/// The state that wings vibrate about.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum About {
+    /// As built, at the start of the flight.
+    Rest,
+    /// The steady state in a stream, wings held.
+    Steady,
+}
+
+/// A mode of small vibration of a wing.
+#[derive(Clone, Debug, PartialEq)]
+pub struct WingMode {
+    /// Angular frequency [rad/s]; 0 of a mode that does not vibrate.
+    pub frequency: f64,
+    /// Displacements of the nodes of the mesh, wing components, the largest of length 1.
+    pub displacement: Vec<DVec3>,
+    /// Modal mass for that shape \[kg\], the added mass of the air included where it is there.
+    pub mass: f64,
+}
+
+impl WingMode {
+    fn new(wing: &ElasticWing, at: &Configuration, mode: &Mode) -> Self {
+        let followers = wing.followers().iter();
+        let mut displacement: Vec<DVec3> = followers.map(|f| f.velocity(at, &mode.shape)).collect();
+        let largest = displacement.iter().copied().fold(DVec3::ZERO, longer);
+        // At the place that moves most, towards w3 or else w1: signs do not depend on rounding in the solver.
+        let ahead = if largest.z.abs() > 0.5 * largest.length() {
+            largest.z
+        } else {
+            largest.x
+        };
+        let size = largest.length().copysign(ahead);
+        displacement.iter_mut().for_each(|d| *d /= size);
+        Self {
+            frequency: mode.frequency(),
+            displacement,
+            mass: size.powi(-2),
+        }
+    }
+
+    /// How alike two shapes are \[1\]: the modal assurance criterion of Allemang & Brown (1982) on the nodes of the mesh.
+    pub fn likeness(&self, other: &Self) -> f64 {
+        let product = |a: &Self, b: &Self| -> f64 {
+            let both = a.displacement.iter().zip(&b.displacement);
+            both.map(|(a, b)| a.dot(*b)).sum()
+        };
+        product(self, other).powi(2) / (product(self, self) * product(other, other))
+    }
+}
+
+fn longer(a: DVec3, b: DVec3) -> DVec3 {
+    // A hair's breadth of preference for the first: equal lengths at mirrored places differ by rounding.
+    if b.length() > (1.0 + 1e-9) * a.length() {
+        b
+    } else {
+        a
+    }
+}
+
+/// The modes of one elastic wing.
+#[derive(Clone, Debug, PartialEq)]
+pub struct WingModes {
+    /// Number of the wing.
+    pub wing: usize,
+    /// Nodes of its mesh as it vibrates about them \[m\], wing components.
+    pub nodes: Vec<DVec3>,
+    /// Displacement of the nodes from where they are at rest \[m\].
+    pub deflection: Vec<DVec3>,
+    /// Mass of the wing \[kg\].
+    pub mass: f64,
+    /// Without air, of rising frequency.
+    pub vacuum: Vec<WingMode>,
+    /// With the added mass of the air; none in vacuum.
+    pub air: Option<Vec<WingMode>>,
+}
+
+/// The leading `count` modes of all elastic wings of `setup`.
+///
+/// # Errors
+/// No elastic wing; a steady state that is not reached; what the flight and the eigenproblem report.
+pub fn wing_modes(
+    setup: &FlightSetup,
+    about: About,
+    count: usize,
+) -> Result<Vec<WingModes>, AnalysisError> {
+    if setup.animal.wings.iter().all(|w| w.structure.is_none()) {
+        return Err(AnalysisError::not_covered(
+            "no wing is elastic",
+            "give one a structure: [wing.NAME.structure]",
+        ));
+    }
+    let flight = match about {
+        About::Rest => Simulation::new(setup.clone())?,
+        About::Steady => steady(setup)?,
+    };
+    let wings = 0..flight.elastic_wings().wings().len();
+    wings.map(|k| of_wing(&flight, k, count)).collect()
+}
+
+/// The flight in its steady state.
+fn steady(setup: &FlightSetup) -> Result<Simulation, AnalysisError> {
+    let speed = setup.air.clone().stream_mut().map_or(0.0, |s| s.length());
+    let rig = ElasticRig::new(setup, speed)?;
+    let (state, _) = rig.to_steady(&FlutterSettings::default())?;
+    Ok(Simulation::resume(rig.setup, state)?)
+}
+
+fn of_wing(flight: &Simulation, k: usize, count: usize) -> Result<WingModes, AnalysisError> {
+    let wing = &flight.elastic_wings().wings()[k];
+    let state: &FlightState = flight.state();
+    let (structure, at) = (wing.structure(), &state.wings[k].structure.configuration);
+    let found = |added: Option<&[f64]>| -> Result<Vec<WingMode>, AnalysisError> {
+        crate::progress::task(
+            if added.is_some() {
+                "in air"
+            } else {
+                "in vacuum"
+            },
+            0,
+            0,
+        );
+        let all = modes(structure, at, &FrameMotion::REST, added).map_err(FlightError::from)?;
+        let leading = all.iter().take(count);
+        Ok(leading.map(|m| WingMode::new(wing, at, m)).collect())
+    };
+    let places = |at: &Configuration| -> Vec<DVec3> {
+        let followers = wing.followers().iter();
+        followers.map(|f| f.position(at)).collect()
+    };
+    let (nodes, rest) = (places(at), places(structure.rest()));
+    let added = flight.added_mass(k)?;
+    Ok(WingModes {
+        wing: wing.wing(),
+        deflection: nodes.iter().zip(rest).map(|(a, b)| *a - b).collect(),
+        nodes,
+        mass: structure.masses().iter().map(|m| m.mass).sum(),
+        vacuum: found(None)?,
+        air: added.map(|a| found(Some(&a))).transpose()?,
+    })
+}

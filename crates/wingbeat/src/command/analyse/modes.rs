@@ -1,0 +1,211 @@
+//! `wingbeat modes`.
+
+use std::f64::consts::TAU;
+use std::fmt::Write;
+use std::path::PathBuf;
+
+use clap::Args;
+use serde_json::{Value, json};
+use wingbeat::analysis::wing_modes::{About, WingMode, WingModes, wing_modes};
+use wingbeat::case::LoadedCase;
+use wingbeat::model::Wing;
+
+use super::trimming::watched;
+use crate::command::failure::Failure;
+use crate::command::options;
+use crate::command::report::{Report, ReportArgs, line};
+
+/// Relative difference of frequencies up to which two wings count as one \[1\]: rounding of mirror images.
+const SAME: f64 = 1e-6;
+
+/// Arguments of `wingbeat modes`.
+#[derive(Args)]
+pub(crate) struct ModesArgs {
+    /// Case file or preset with elastic wings; - is the standard input.
+    case: String,
+    /// Set a key of the case, e.g. wing.right.structure.shell.young_pa=2e9 (may be repeated).
+    #[arg(long = "set", value_name = "KEY=VALUE")]
+    set: Vec<String>,
+    /// Modes of each wing.
+    #[arg(long, value_name = "N", default_value_t = 6, value_parser = options::count::<1, 100>)]
+    count: usize,
+    /// About the deformed steady state in the stream of the case; else about the wing as built.
+    #[arg(long)]
+    steady: bool,
+    /// Write the shapes as CSV: displacements of the nodes of the mesh, the largest of length 1.
+    #[arg(long, value_name = "FILE")]
+    shapes: Option<PathBuf>,
+    #[command(flatten)]
+    report: ReportArgs,
+}
+
+/// The whole command.
+pub(crate) fn run(args: &ModesArgs) -> Result<(), Failure> {
+    let about = match args.steady {
+        true => About::Steady,
+        false => About::Rest,
+    };
+    args.report.deliver([&args.shapes], |report, [shapes]| {
+        let case = LoadedCase::find(&args.case, &args.set)?;
+        let found = watched("modes", || wing_modes(&case.setup, about, args.count))?;
+        let wings = &case.setup.animal.wings;
+        tell(report, &case.name, args.steady, wings, &found);
+        let value = |w: &WingModes| values(&wings[w.wing], w);
+        report.value("case", case.name.as_str());
+        report.value("about", if args.steady { "steady" } else { "rest" });
+        report.value("wings", found.iter().map(value).collect::<Vec<_>>());
+        match shapes {
+            Some(file) => Ok(file.write(&csv(wings, &found))?),
+            None => Ok(()),
+        }
+    })
+}
+
+fn tell(report: &mut Report, name: &str, steady: bool, wings: &[Wing], found: &[WingModes]) {
+    let about = match steady {
+        true => "the deformed steady state",
+        false => "the wing as built",
+    };
+    line!(report, "{name}: modes of elastic wings about {about}");
+    for (k, w) in found.iter().enumerate() {
+        let wing = &wings[w.wing];
+        if let Some(first) = found[..k].iter().find(|f| is_same(f, w)) {
+            let first = &wings[first.wing].name;
+            line!(report, "\nwing {}: as {first}", wing.name);
+            continue;
+        }
+        line!(report, "\nwing {}, {:.4e} kg", wing.name, w.mass);
+        let deflection = w.deflection.iter().map(|d| d.length());
+        if steady {
+            let most = deflection.fold(0.0, f64::max);
+            line!(report, "  bent by at most {most:.4e} m");
+        }
+        table(report, "in vacuum", wing, &w.vacuum, None);
+        if let Some(air) = &w.air {
+            let title = "with the added mass of the air";
+            table(report, title, wing, air, Some(&w.vacuum));
+        }
+    }
+    line!(
+        report,
+        "\n  tip: displacement where the largest is 1; w3 and w1 of the middle of the tip, twist: trailing less leading edge along w3"
+    );
+}
+
+fn is_same(a: &WingModes, b: &WingModes) -> bool {
+    let near =
+        |(a, b): (&WingMode, &WingMode)| (a.frequency - b.frequency).abs() <= SAME * a.frequency;
+    let all = |a: &[WingMode], b: &[WingMode]| a.len() == b.len() && a.iter().zip(b).all(near);
+    let [air_a, air_b] = [a, b].map(|w| w.air.as_deref().unwrap_or_default());
+    all(&a.vacuum, &b.vacuum) && all(air_a, air_b)
+}
+
+/// One line a mode; `vacuum`: modes that these are compared with.
+fn table(
+    report: &mut Report,
+    title: &str,
+    wing: &Wing,
+    modes: &[WingMode],
+    vacuum: Option<&[WingMode]>,
+) {
+    let beat = wing.motion.frequency;
+    let per_beat = if beat > 0.0 { "x wingbeat" } else { "" };
+    let like = if vacuum.is_some() { "like vacuum" } else { "" };
+    line!(report, "  {title}");
+    line!(
+        report,
+        "  {:>6}{:>12}{per_beat:>12}{:>12}{:>9}{:>9}{:>9}  {like}",
+        "mode",
+        "Hz",
+        "modal kg",
+        "tip w3",
+        "w1",
+        "twist"
+    );
+    for (k, m) in modes.iter().enumerate() {
+        let [w3, w1, twist] = tip(wing, m);
+        let hz = m.frequency / TAU;
+        let ratio = match beat > 0.0 {
+            true => format!("{:.3}", hz / beat),
+            false => String::new(),
+        };
+        let like = vacuum.map_or(String::new(), |all| {
+            let (number, likeness) = most_alike(m, all);
+            format!("mode {} ({likeness:.2})", number + 1)
+        });
+        line!(
+            report,
+            "  {:>6}{hz:>12.4}{ratio:>12}{:>12.3e}{w3:>9.3}{w1:>9.3}{twist:>9.3}  {like}",
+            k + 1,
+            m.mass
+        );
+    }
+}
+
+/// The mode of `all` that is most alike, and how alike.
+fn most_alike(m: &WingMode, all: &[WingMode]) -> (usize, f64) {
+    let alike = all.iter().map(|v| m.likeness(v)).enumerate();
+    alike.fold((0, -1.0), |best, next| match next.1 > best.1 {
+        true => next,
+        false => best,
+    })
+}
+
+/// At the tip: w3 and w1 of the middle, w3 of the trailing less that of the leading edge.
+fn tip(wing: &Wing, m: &WingMode) -> [f64; 3] {
+    let mesh = &wing.mesh;
+    let [lead, trail] = [0, mesh.rows].map(|i| m.displacement[mesh.node(i, mesh.cols)]);
+    let middle = 0.5 * (lead + trail);
+    [middle.z, middle.x, trail.z - lead.z]
+}
+
+fn values(wing: &Wing, w: &WingModes) -> Value {
+    let mode = |m: &WingMode| {
+        let [w3, w1, twist] = tip(wing, m);
+        json!({
+            "frequency_hz": m.frequency / TAU,
+            "modal_mass_kg": m.mass,
+            "tip_w3": w3,
+            "tip_w1": w1,
+            "tip_twist": twist,
+        })
+    };
+    let air = |all: &Vec<WingMode>| -> Vec<Value> {
+        let each = all.iter().map(|m| {
+            let (number, likeness) = most_alike(m, &w.vacuum);
+            let mut value = mode(m);
+            value["like_vacuum_mode"] = json!(number + 1);
+            value["likeness"] = json!(likeness);
+            value
+        });
+        each.collect()
+    };
+    let deflection = w.deflection.iter().map(|d| d.length());
+    json!({
+        "name": wing.name,
+        "mass_kg": w.mass,
+        "deflection_m": deflection.fold(0.0, f64::max),
+        "vacuum": w.vacuum.iter().map(mode).collect::<Vec<_>>(),
+        "air": w.air.as_ref().map(air),
+    })
+}
+
+/// All shapes, a line a node of the mesh.
+fn csv(wings: &[Wing], found: &[WingModes]) -> String {
+    let mut text =
+        "wing,medium,mode,frequency_hz,node,w1_m,w2_m,w3_m,shape_w1,shape_w2,shape_w3\n".to_owned();
+    for w in found {
+        let name = &wings[w.wing].name;
+        let air = w.air.as_deref().unwrap_or_default();
+        for (medium, modes) in [("vacuum", &w.vacuum[..]), ("air", air)] {
+            for (k, m) in modes.iter().enumerate() {
+                let hz = m.frequency / TAU;
+                for (n, (x, d)) in w.nodes.iter().zip(&m.displacement).enumerate() {
+                    let [x, d] = [x, d].map(|v| format!("{:e},{:e},{:e}", v.x, v.y, v.z));
+                    let _ = writeln!(text, "{name},{medium},{},{hz:e},{n},{x},{d}", k + 1);
+                }
+            }
+        }
+    }
+    text
+}

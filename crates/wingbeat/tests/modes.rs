@@ -1,0 +1,180 @@
+//! Modes of elastic wings: in vacuum, in air, about a deformed state; the command.
+
+use std::f64::consts::PI;
+use std::path::Path;
+
+use wingbeat::analysis::flutter::{FlutterSettings, condition};
+use wingbeat::analysis::wing_modes::{About, WingModes, wing_modes};
+use wingbeat::case::LoadedCase;
+
+mod support;
+
+use support::{Scratch, wingbeat};
+
+/// A wing of 20 chords of a metre, a beam along the middle of its chord.
+const SLENDER: &str = r#"
+format = 1
+name = "slender"
+[time]
+step_s = 0.01
+steps = 1
+[flight]
+mode = "tethered"
+[air]
+density_kg_m3 = 2.0
+shed = ["trailing"]
+body = false
+mirror = true
+[body]
+mass_kg = 1.0
+inertia_about_centre_kg_m2 = [1, 1, 1, 0, 0, 0]
+[wing.right]
+hinge_m = [0, 0, 0]
+joined = true
+[wing.right.planform.rectangle]
+chord_m = 1.0
+span_m = 20.0
+axis_fraction = 0.5
+[wing.right.mesh]
+chordwise = 8
+spanwise = 24
+[wing.right.structure.beam]
+axis_fraction = 0.5
+mass_fraction = 0.5
+elements = 24
+flap_newton_m2 = [1e4, 1e4]
+lag_newton_m2 = [1e8, 1e8]
+torsion_newton_m2 = [5e2, 5e2]
+mass_kg_per_m = [1.5, 1.5]
+inertia_kg_m = [0.1, 0.1]
+"#;
+
+fn modes(text: &str, set: &[&str], about: About) -> WingModes {
+    let set: Vec<String> = set.iter().map(|s| (*s).to_owned()).collect();
+    let case = LoadedCase::from_text("case", text, Path::new("."), &set).unwrap();
+    wing_modes(&case.setup, about, 4).unwrap().swap_remove(1)
+}
+
+#[test]
+fn agrees_modes_of_a_slender_wing_in_air_with_strips() {
+    let found = modes(SLENDER, &[], About::Rest);
+    let [m, i, l, rho] = [1.5, 0.1, 20.0, 2.0];
+    let bending = 3.516_015 / (l * l) * (1e4_f64 / m).sqrt();
+    let torsion = 0.5 * PI / l * (5e2_f64 / i).sqrt();
+    // 24 elements: 3e-5 in bending; a linear twist in each, (pi / 2 / 24)^2 / 24.
+    let near = |a: f64, b: f64, part: f64| assert!((a / b - 1.0).abs() < part, "{a} {b}");
+    let vacuum = &found.vacuum;
+    near(vacuum[0].frequency, bending, 3e-4);
+    let twists = |all: &[wingbeat::analysis::WingMode]| {
+        let edges = |m: &wingbeat::analysis::WingMode| {
+            let n = m.displacement.len();
+            (m.displacement[n - 1].z - m.displacement[24].z).abs()
+        };
+        let found = all.iter().find(|m| edges(m) > 1.0);
+        found.map(|m| m.frequency).unwrap()
+    };
+    near(twists(vacuum), torsion, 1e-3);
+    // Strips: pi / 4 rho c^2 and, about the middle, pi / 128 rho c^4; at 40 chords' span from tip to tip their ends carry
+    // less, which raises frequencies by some 1 to 2 %.
+    let air = found.air.as_ref().unwrap();
+    let heavier = |m: f64, added: f64| (m / (m + added)).sqrt();
+    near(
+        air[0].frequency,
+        bending * heavier(m, 0.25 * PI * rho),
+        0.02,
+    );
+    near(twists(air), torsion * heavier(i, PI * rho / 128.0), 0.03);
+    assert!(air[0].mass > vacuum[0].mass && air[0].likeness(&vacuum[0]) > 0.999);
+}
+
+#[test]
+fn limit_thin_air_leaves_modes_as_they_are() {
+    let found = modes(SLENDER, &["air.density_kg_m3=1e-9"], About::Rest);
+    for (a, b) in found.vacuum.iter().zip(found.air.as_ref().unwrap()) {
+        assert!((a.frequency / b.frequency - 1.0).abs() < 1e-8);
+    }
+}
+
+#[test]
+fn agrees_modes_about_a_steady_state_with_those_flutter_begins_from() {
+    let goland = include_str!("../../wingbeat-verify/data/goland.toml");
+    let coarse = [
+        "wing.right.mesh.chordwise=4",
+        "wing.right.mesh.spanwise=8",
+        "time.step_s=0.0028575",
+        "air.max_wake_rows=40",
+        "wing.right.motion.psi.constant_deg=1",
+    ];
+    let found = modes(goland, &coarse, About::Steady);
+    let set = coarse.map(String::from);
+    let case = LoadedCase::from_text("goland", goland, Path::new("."), &set).unwrap();
+    let settings = FlutterSettings {
+        modes: 2,
+        ..FlutterSettings::default()
+    };
+    let flutter = condition(&case.setup, 160.0, &settings).unwrap();
+    for (a, b) in found.vacuum.iter().zip(&flutter.steady.vacuum) {
+        // The state is steady to 1e-7.
+        assert!((a.frequency / b - 1.0).abs() < 1e-6, "{} {b}", a.frequency);
+    }
+    let bent = found.deflection.iter().map(|d| d.length());
+    assert!((bent.fold(0.0, f64::max) / flutter.steady.tip.length() - 1.0).abs() < 0.2);
+    assert!(found.air.unwrap()[0].frequency < found.vacuum[0].frequency);
+}
+
+#[test]
+fn exact_report_and_shapes_of_the_command_hold_the_modes() {
+    let scratch = Scratch::new("modes");
+    let dir = &scratch.0;
+    let told = wingbeat(
+        dir,
+        &[
+            "modes",
+            "hawkmoth-elastic",
+            "--count",
+            "3",
+            "--json",
+            "--shapes",
+            "s.csv",
+        ],
+    );
+    let report: serde_json::Value = serde_json::from_slice(&told.stdout).unwrap();
+    let right = &report["wings"][1];
+    assert_eq!(right["vacuum"].as_array().unwrap().len(), 3);
+    let [vacuum, air] = ["vacuum", "air"].map(|k| right[k][0]["frequency_hz"].as_f64().unwrap());
+    assert!(air < vacuum);
+    let csv = std::fs::read_to_string(dir.join("s.csv")).unwrap();
+    // Two wings, vacuum and air, 3 modes, 5 x 11 nodes.
+    assert_eq!(csv.lines().count(), 1 + 2 * 2 * 3 * 55);
+    let words = wingbeat(
+        dir,
+        &["modes", "hawkmoth-elastic", "--set", "air.model=\"none\""],
+    );
+    let words = String::from_utf8_lossy(&words.stdout).into_owned();
+    assert!(
+        words.contains("in vacuum") && !words.contains("added mass"),
+        "{words}"
+    );
+    assert!(words.contains("as left"), "{words}");
+}
+
+#[test]
+fn refuses_modes_of_what_does_not_bend() {
+    let scratch = Scratch::new("no-modes");
+    let dir = &scratch.0;
+    for (args, says) in [
+        (&["modes", "fruit-fly-hover"][..], "no wing is elastic"),
+        (
+            &["modes", "hawkmoth-elastic", "--steady"],
+            "the flight is free",
+        ),
+        (&["modes", "hawkmoth-elastic", "--count", "0"], "1 to 100"),
+    ] {
+        let out = wingbeat(dir, args);
+        let said = String::from_utf8_lossy(&out.stderr).into_owned();
+        assert!(
+            !out.status.success() && said.contains(says),
+            "{args:?}: {said}"
+        );
+    }
+}
