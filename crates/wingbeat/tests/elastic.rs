@@ -158,7 +158,7 @@ fn balances_shape_and_loads_of_a_soft_hawkmoth_in_free_flight() {
     let mut flight = Simulation::new(case.setup).unwrap();
     let (mut twist, mut passes) = (0.0_f64, 0);
     while !flight.finished() {
-        let elastic = flight.step().unwrap().elastic[0].clone();
+        let elastic = flight.step().unwrap().elastic[0];
         twist = twist.max(elastic.twist.abs());
         passes = passes.max(elastic.passes);
     }
