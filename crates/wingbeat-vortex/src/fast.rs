@@ -2,9 +2,8 @@
 
 use crate::cores::CoreModel;
 use crate::direct::block::{BLOCK, Block, Targets};
-use crate::direct::lanes::{
-    add_clusters, add_clusters_with_vorticity, add_patches, add_patches_with_vorticity,
-};
+use crate::direct::lanes::{add_clusters, add_patches, add_patches_with_vorticity};
+use crate::direct::moments;
 use crate::direct::packed::Packed;
 use crate::direct::single::{CLUSTER, SINGLE, Single};
 use crate::direct::sum::{sum_all, sum_both, sum_packed};
@@ -282,7 +281,7 @@ impl FastSum {
             let out = [&mut self.velocity, &mut self.vorticity];
             sum_both(edges, targets, out, |targets, sums| {
                 let all = 0..single.clusters.len();
-                add_clusters_with_vorticity(level, single, all, targets, sums);
+                moments::add_clusters(level, single, all, targets, sums);
             });
             let is_finite = self.vorticity.iter().all(|w| w.is_finite());
             if is_finite && self.error_of_single(&check).is_some() {

@@ -11,6 +11,7 @@ use crate::cores::vector::{
     Algebraic, Core, CutOff, Double, Float, LambOseen, Precision, Scully, Vatistas, square,
 };
 use crate::direct::block::{BLOCK, Block, Targets, load, load_softening, store};
+use crate::direct::moments;
 use crate::direct::packed::{Packed, PackedEdge, Patch, Sources, WINDOW};
 use crate::direct::single::Single;
 use fearless_simd::{Level, SimdFloatElement, dispatch, prelude::*};
@@ -68,7 +69,7 @@ pub(crate) fn add_patches_with_vorticity(
     dispatch!(level, simd => job.run::<_, Algebraic, 2, 2>(simd, ranges, sums));
 }
 
-/// The same in single precision, of the clusters with these numbers.
+/// The same in single precision, of the clusters with these numbers; of algebraic cores by moments.
 pub(crate) fn add_clusters(
     level: Level,
     model: CoreModel,
@@ -77,26 +78,14 @@ pub(crate) fn add_clusters(
     targets: Targets<'_>,
     sum: &mut Block,
 ) {
+    if matches!(model, CoreModel::Algebraic { .. }) {
+        return moments::add_clusters(level, single, clusters, targets, [sum]);
+    }
     let job = Job {
         sources: single.sources(),
         targets,
     };
-    for_core!(level, model, simd, C, N => job.run_single::<_, C, N, 1>(simd, single, clusters, [sum]));
-}
-
-/// [`add_patches_with_vorticity`] in single precision.
-pub(crate) fn add_clusters_with_vorticity(
-    level: Level,
-    single: &Single,
-    clusters: impl Iterator<Item = usize> + Clone,
-    targets: Targets<'_>,
-    sums: [&mut Block; 2],
-) {
-    let job = Job {
-        sources: single.sources(),
-        targets,
-    };
-    dispatch!(level, simd => job.run_single::<_, Algebraic, 2, 2>(simd, single, clusters, sums));
+    for_core!(level, model, simd, C, N => job.run_single::<_, C, N>(simd, single, clusters, sum));
 }
 
 /// Normal velocity [m/s] of every edge of these patches by itself, with unit circulation, at the targets:
@@ -182,12 +171,12 @@ impl Job<'_, f32> {
     /// Places are taken from the centre of each cluster before they lose digits; the sum of a cluster
     /// gets them back before it joins the others.
     #[inline(always)]
-    fn run_single<S: Simd, C: Core, const N: usize, const K: usize>(
+    fn run_single<S: Simd, C: Core, const N: usize>(
         &self,
         simd: S,
         single: &Single,
         clusters: impl Iterator<Item = usize> + Clone,
-        sums: [&mut Block; K],
+        sum: &mut Block,
     ) {
         let zero = S::f32s::splat(simd, 0.0);
         let mut window = [[zero; 4]; WINDOW];
@@ -195,16 +184,9 @@ impl Job<'_, f32> {
             let next = lane + S::f64s::LEN;
             let low = load(simd, self.targets.block, lane);
             let high = load(simd, self.targets.block, next);
-            let [_, _, _, soft_low] = place::<S, C>(simd, self.targets.block, lane);
-            let [_, _, _, soft_high] = place::<S, C>(simd, self.targets.block, next);
-            let per_unit2 = single.per_unit * single.per_unit;
-            let soft = (soft_low * per_unit2).narrow(soft_high * per_unit2);
-            let mut total = [[[S::f64s::splat(simd, 0.0); 3]; 2]; K];
-            for k in 0..K {
-                total[k] = [load(simd, sums[k], lane), load(simd, sums[k], next)];
-            }
+            let mut total = [load(simd, sum, lane), load(simd, sum, next)];
             for cluster in clusters.clone() {
-                let (mut p, mut v) = ([zero, zero, zero, soft], [[zero; 3]; K]);
+                let (mut p, mut v) = ([zero; 4], [[zero; 3]]);
                 let centre = single.centres[cluster];
                 for i in 0..3 {
                     p[i] = ((low[i] - centre[i]) * single.per_unit)
@@ -212,22 +194,15 @@ impl Job<'_, f32> {
                 }
                 let patches = &self.sources.patches[single.clusters[cluster].clone()];
                 self.sources
-                    .add::<S, Float, C, N, K>(simd, patches, p, &mut window, &mut v);
+                    .add::<S, Float, C, N, 1>(simd, patches, p, &mut window, &mut v);
                 for i in 0..3 {
                     let (low, high) = v[0][i].widen();
-                    total[0][0][i] += low;
-                    total[0][1][i] += high;
-                    if K > 1 {
-                        let (low, high) = v[K - 1][i].widen();
-                        total[K - 1][0][i] += low * single.per_unit;
-                        total[K - 1][1][i] += high * single.per_unit;
-                    }
+                    total[0][i] += low;
+                    total[1][i] += high;
                 }
             }
-            for k in 0..K {
-                store::<S>(total[k][0], sums[k], lane);
-                store::<S>(total[k][1], sums[k], next);
-            }
+            store::<S>(total[0], sum, lane);
+            store::<S>(total[1], sum, next);
         }
     }
 }

@@ -4,6 +4,7 @@ mod algebraic;
 pub(crate) mod block;
 pub(crate) mod gaussian;
 pub(crate) mod lanes;
+pub(crate) mod moments;
 pub(crate) mod packed;
 pub mod reference;
 pub(crate) mod single;

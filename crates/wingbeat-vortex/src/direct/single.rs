@@ -5,8 +5,8 @@
 //! keeps its digits wherever the wake has gone, and powers of lengths stay far from the ends of the range.
 
 use crate::cores::CoreModel;
-use crate::direct::packed::Sources;
-use crate::direct::packed::{Packed, PackedEdge};
+use crate::direct::packed::{Packed, PackedEdge, Patch, Sources, WINDOW};
+use glam::DVec3;
 use std::ops::Range;
 
 /// The tolerance from which single precision serves: its error is some 1e-6 of the velocity.
@@ -21,12 +21,30 @@ const CLOSE: f32 = 0.1;
 /// Largest number passed on: its square root times itself is still a number.
 const LARGEST: f64 = 1e30;
 
+/// An edge of algebraic cores, by its moments about the middle of its patch ([`crate::direct::moments`]).
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct MomentEdge {
+    /// Places of its nodes in the window.
+    pub ends: [u32; 2],
+    /// Squared length.
+    pub l2: f32,
+    /// Gamma / (2 pi) times the vector l from its first node to its second one.
+    pub vorticity: [f32; 3],
+    /// Gamma / (2 pi) times l x r, r from the middle of the patch to its first node.
+    pub moment: [f32; 3],
+}
+
 /// All sources, the patches those of a [`Packed`].
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Single {
-    nodes: Vec<[f32; 4]>,
+    pub nodes: Vec<[f32; 4]>,
+    /// Edges of all cores but algebraic ones.
     edges: Vec<PackedEdge<f32>>,
-    patches: Vec<crate::direct::packed::Patch>,
+    /// Edges of algebraic cores.
+    pub moment_edges: Vec<MomentEdge>,
+    /// Middles of the patches of those, from the centre of the cluster.
+    pub middles: Vec<[f32; 3]>,
+    pub patches: Vec<Patch>,
     /// Patches of each cluster.
     pub clusters: Vec<Range<usize>>,
     /// Where the places of its nodes are measured from [m].
@@ -51,7 +69,11 @@ impl Single {
         self.patches.clone_from(&packed.patches);
         self.centres.clear();
         self.nodes.clear();
-        for cluster in &self.clusters {
+        self.moment_edges.clear();
+        self.middles.clear();
+        let is_soft = matches!(model, CoreModel::Algebraic { .. });
+        for k in 0..self.clusters.len() {
+            let cluster = &self.clusters[k];
             let patches = &packed.patches[cluster.clone()];
             let (first, last) = (patches.first(), patches.last());
             let ends = first.zip(last).map(|(a, b)| a.nodes.start..b.nodes.end);
@@ -63,9 +85,18 @@ impl Single {
             };
             self.centres.push(centre);
             self.nodes.extend(nodes.iter().map(place));
+            if is_soft {
+                self.add_moment_edges(packed, patches, centre);
+            }
         }
-        let unit = self.unit_of_term(model);
         self.edges.clear();
+        if !is_soft {
+            self.add_edges(model, packed);
+        }
+    }
+
+    fn add_edges(&mut self, model: CoreModel, packed: &Packed) {
+        let unit = self.unit_of_term(model);
         self.edges.extend(packed.edges.iter().map(|e| {
             let l2 = (e.l2 * self.per_unit * self.per_unit) as f32;
             PackedEdge {
@@ -96,6 +127,41 @@ impl Single {
             nodes: &self.nodes,
             edges: &self.edges,
             patches: &self.patches,
+        }
+    }
+}
+
+impl Single {
+    /// Appends the edges of a cluster of patches, each measured from the middle of its patch; nodes are measured from
+    /// `centre` \[m\].
+    fn add_moment_edges(&mut self, packed: &Packed, patches: &[Patch], centre: [f64; 3]) {
+        let (centre, per_unit) = (DVec3::from(centre), self.per_unit);
+        for patch in patches {
+            // A place in the window is the number of a node modulo its size.
+            let newest = patch.nodes.end.wrapping_sub(1);
+            let node = |place: u32| {
+                let back = newest.wrapping_sub(place as usize) % WINDOW;
+                (DVec3::from_slice(&packed.nodes[newest - back]) - centre) * per_unit
+            };
+            let edges = &packed.edges[patch.edges.clone()];
+            let ends = || edges.iter().flat_map(|e| [node(e.from), node(e.to)]);
+            let low = ends().fold(DVec3::INFINITY, DVec3::min);
+            let high = ends().fold(DVec3::NEG_INFINITY, DVec3::max);
+            let middle = match edges.is_empty() {
+                true => glam::Vec3::ZERO,
+                false => (0.5 * (low + high)).as_vec3(),
+            };
+            self.middles.push(middle.into());
+            self.moment_edges.extend(edges.iter().map(|e| {
+                let (a, b) = (node(e.from), node(e.to));
+                let (l, strength) = (b - a, e.strength * per_unit);
+                MomentEdge {
+                    ends: [e.from, e.to],
+                    l2: (e.l2 * per_unit * per_unit) as f32,
+                    vorticity: (strength * l).as_vec3().into(),
+                    moment: (strength * l.cross(a - middle.as_dvec3())).as_vec3().into(),
+                }
+            }));
         }
     }
 }
