@@ -12,7 +12,7 @@ use crate::loads::values::AirLoads;
 use crate::settings::{LeadingEdge, LoadMethod};
 use crate::solve::is_computed;
 use crate::state::AirState;
-use crate::wake::{Filaments, Sums};
+use crate::wake::{Filaments, NEAR, Sums, WakeVelocityCache};
 use wingbeat_math::DVec3;
 use wingbeat_vortex::{Network, Points};
 
@@ -41,6 +41,8 @@ pub(crate) struct Segments {
     /// Places on the segments, as many on each, and the velocity of the air relative to them.
     place: Points,
     velocity: Points,
+    /// What of it the free wakes make.
+    free_wake: WakeVelocityCache,
     /// Force and moment of the segments on each panel.
     panel_force: Vec<[DVec3; 2]>,
 }
@@ -66,7 +68,7 @@ impl Segments {
     ) {
         let filaments = flow.filaments;
         let bound = &filaments.bound;
-        self.take_velocities(lattice, flow, out.time);
+        self.take_velocities(lattice, flow, NEAR * out.panels.size(), out.time);
         self.collect(lattice, state, bound, &out.panels.point);
         let method = lattice.settings().loads;
         let suction = match method {
@@ -97,7 +99,8 @@ impl Segments {
     }
 
     /// Velocity of the air relative to the places on the segments that are wanted.
-    fn take_velocities(&mut self, lattice: &Lattice, flow: Flow, t: f64) {
+    /// That of the free wakes is not summed again for places that have moved less than `near` [m].
+    fn take_velocities(&mut self, lattice: &Lattice, flow: Flow, near: f64, t: f64) {
         let bound = &flow.filaments.bound;
         let (places, settings) = (places(lattice), lattice.settings());
         self.place.clear();
@@ -115,9 +118,10 @@ impl Segments {
             let core = bound.nodes.core[0];
             self.place.core.resize(self.place.len(), core);
         }
-        self.velocity.reset(self.place.len());
         let (points, sum) = (&self.place, &mut self.velocity);
-        flow.sums.add(points, lattice.mirrors(), sum);
+        let (sums, mirrors) = (flow.sums, lattice.mirrors());
+        (self.free_wake).velocity(sums, points, near, mirrors, sum);
+        sums.add_attached(points, mirrors, sum);
         for (at, &e) in self.edges.iter().enumerate() {
             let [a, b] = bound.edges[e].map(|n| flow.rings.velocity[n as usize]);
             for (i, s) in places.iter().enumerate() {

@@ -4,13 +4,9 @@ use crate::error::AirError;
 use crate::lattice::Lattice;
 use crate::solve::influence::{Influence, Instant};
 use crate::solve::unknowns::{panel, unknowns};
-use crate::wake::{Filaments, Sums, WakeVelocityCache};
+use crate::wake::{Filaments, NEAR, Sums, WakeVelocityCache};
 use wingbeat_math::DVec3;
 use wingbeat_vortex::Points;
-
-/// How far a control point may go, in panel sizes, before the wakes are summed for it again: what
-/// this leaves out is a tenth of what the default tree does.
-const NEAR: f64 = 1e-5;
 
 /// Memory of the solution for the circulations.
 #[derive(Default)]
@@ -57,10 +53,10 @@ impl BoundaryCondition {
         self.points.clear();
         let points = (0..unknowns(lattice)).map(|i| panels.point[panel(lattice, i)]);
         points.for_each(|x| self.points.push(x));
-        let is_new = sums.load_free(settings, filaments);
+        sums.load_free(settings, filaments);
         let near = NEAR * panels.size();
         let (points, velocity) = (&self.points, &mut self.velocity);
-        (self.free_wake).velocity((sums, is_new), points, near, mirrors, velocity);
+        (self.free_wake).velocity(sums, points, near, mirrors, velocity);
         self.near_velocity.reset(points.len());
         sums.load_attached(settings, filaments);
         sums.add_attached(points, mirrors, &mut self.near_velocity);

@@ -43,8 +43,8 @@ impl WakeMotion {
     ) {
         filaments.movable(lattice, state, &mut self.nodes);
         self.velocity.reset(self.nodes.len());
-        sums.load(lattice.settings(), filaments);
-        sums.add(&self.nodes, lattice.mirrors(), &mut self.velocity);
+        sums.load_for_wakes(lattice.settings(), filaments);
+        sums.add_at_wakes(&self.nodes, lattice.mirrors(), &mut self.velocity);
         if lattice.settings().is_symmetric() {
             let velocity = &mut self.velocity;
             (self.force_free).correct(lattice, state, filaments, sums, velocity);

@@ -19,4 +19,4 @@ mod truncation;
 pub(crate) use convection::WakeMotion;
 pub use filaments::Filaments;
 pub(crate) use near_wake::{Row, Share, at_edge};
-pub(crate) use summation::{Sums, WakeVelocityCache};
+pub(crate) use summation::{NEAR, Sums, WakeVelocityCache};

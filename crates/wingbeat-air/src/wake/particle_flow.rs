@@ -67,7 +67,7 @@ impl ParticleFlow {
             }
         }
         self.ends.reset(self.points.len());
-        sums.add_filaments(&self.points, lattice.mirrors(), &mut self.ends);
+        sums.add_filaments_at_wakes(&self.points, lattice.mirrors(), &mut self.ends);
         for (i, p) in self.particles.iter().enumerate() {
             self.velocity.set(i, self.ends.get(i));
             if scheme != Stretching::Omitted {

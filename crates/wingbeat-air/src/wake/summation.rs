@@ -50,6 +50,17 @@ fn direct(model: CoreModel) -> FastSettings {
     }
 }
 
+/// How lattice and near wake act on the wakes where cores are algebraic: in single precision if the wakes may.
+fn on_wakes(settings: &AirSettings) -> FastSettings {
+    FastSettings {
+        method: match settings.summation {
+            Method::Direct => Method::Direct,
+            Method::Auto | Method::Single | Method::Tree => Method::Single,
+        },
+        ..free(settings)
+    }
+}
+
 /// How the free wakes are summed.
 fn free(settings: &AirSettings) -> FastSettings {
     FastSettings {
@@ -123,18 +134,37 @@ impl Images {
 pub(crate) struct Sums {
     bound: Summation,
     near_wake: Summation,
+    /// Lattice and near wake as one network, for what moves wakes of algebraic cores.
+    joined: Network,
+    attached: Summation,
+    is_joined: bool,
     wake: Summation,
     blobs: GaussianSum,
     /// Allowed error of the sum over blobs.
     tolerance: f64,
     particles: AlgebraicSum,
     images: Images,
+    /// How often what is frozen within a step was new.
+    generation: u64,
 }
 
 impl Sums {
     /// Takes all filaments, blobs and particles.
     pub(crate) fn load(&mut self, settings: &AirSettings, filaments: &Filaments) {
         self.load_attached(settings, filaments);
+        self.load_free(settings, filaments);
+    }
+
+    /// Takes all of them to move wakes, which do not ask for the last digits.
+    pub(crate) fn load_for_wakes(&mut self, settings: &AirSettings, filaments: &Filaments) {
+        self.is_joined = settings.is_symmetric();
+        if !self.is_joined {
+            return self.load(settings, filaments);
+        }
+        self.joined.clear();
+        self.joined.append(&filaments.bound);
+        self.joined.append(&filaments.near_wake);
+        self.attached.load(on_wakes(settings), &self.joined);
         self.load_free(settings, filaments);
     }
 
@@ -146,8 +176,8 @@ impl Sums {
             .load(direct(settings.wake_core), &filaments.near_wake);
     }
 
-    /// Takes what is frozen within a step: free wakes and particles; says whether they are new.
-    pub(crate) fn load_free(&mut self, settings: &AirSettings, filaments: &Filaments) -> bool {
+    /// Takes what is frozen within a step: free wakes and particles.
+    pub(crate) fn load_free(&mut self, settings: &AirSettings, filaments: &Filaments) {
         let is_new = self.wake.load(free(settings), &filaments.wake);
         let (min, bounds) = (settings.min_variance(), filaments.bounds());
         let nodes = filaments.wake.nodes.len();
@@ -156,7 +186,8 @@ impl Sums {
             Method::Direct => 0.0,
             _ => settings.tolerance,
         };
-        self.particles.load(&filaments.particles) || is_new
+        let is_new = self.particles.load(&filaments.particles) || is_new;
+        self.generation += u64::from(is_new);
     }
 
     /// The particles.
@@ -170,28 +201,45 @@ impl Sums {
         self.add_particles(targets, mirrors, out);
     }
 
-    /// The same, and the vorticity of [`FastSum::add_velocity_and_vorticity`] of all filaments of algebraic cores.
+    /// The same in the wakes, which all sources were taken for.
+    pub(crate) fn add_at_wakes(&mut self, targets: &Points, mirrors: &[Mirror], out: &mut Points) {
+        self.add_filaments_at_wakes(targets, mirrors, out);
+        self.add_particles(targets, mirrors, out);
+    }
+
+    /// The same, and the vorticity of [`FastSum::add_velocity_and_vorticity`] of all filaments, where cores are algebraic.
     pub(crate) fn add_with_vorticity(
         &mut self,
         targets: &Points,
         mirrors: &[Mirror],
         [velocity, vorticity]: [&mut Points; 2],
     ) {
-        let Self {
-            bound,
-            near_wake,
-            wake,
-            images,
-            ..
-        } = self;
-        for sum in [bound, near_wake, wake] {
+        let (images, attached, wake) = (&mut self.images, &mut self.attached, &mut self.wake);
+        for sum in [attached, wake] {
             images.add_with_vorticity(targets, mirrors, [velocity, vorticity], sum);
         }
         self.add_particles(targets, mirrors, velocity);
     }
 
-    /// The same of all but particles.
-    pub(crate) fn add_filaments(&mut self, targets: &Points, mirrors: &[Mirror], out: &mut Points) {
+    /// [`Self::add_at_wakes`] of all but particles.
+    pub(crate) fn add_filaments_at_wakes(
+        &mut self,
+        targets: &Points,
+        mirrors: &[Mirror],
+        out: &mut Points,
+    ) {
+        if !self.is_joined {
+            return self.add_filaments(targets, mirrors, out);
+        }
+        let (images, attached, wake) = (&mut self.images, &mut self.attached, &mut self.wake);
+        for sum in [attached, wake] {
+            images.add(targets, mirrors, out, |x, v| sum.add(x, v));
+        }
+        self.add_blobs(targets, mirrors, out);
+    }
+
+    /// [`Self::add`] of all but particles.
+    fn add_filaments(&mut self, targets: &Points, mirrors: &[Mirror], out: &mut Points) {
         let Self {
             bound,
             near_wake,
@@ -250,22 +298,30 @@ impl Sums {
 pub(crate) struct WakeVelocityCache {
     points: Points,
     velocity: Points,
+    generation: u64,
 }
+
+/// How far a point of a surface may go, in panel sizes, before the wakes are summed for it again: what
+/// this leaves out is a tenth of what the default tree does.
+pub(crate) const NEAR: f64 = 1e-5;
 
 impl WakeVelocityCache {
     /// Sets `out` to the velocity of the free wakes of `sums` at `points`. Unless the wakes are new, or a point is
     /// farther than `near` [m] from where the velocity was last summed, that velocity is taken.
     pub(crate) fn velocity(
         &mut self,
-        (sums, is_new): (&mut Sums, bool),
+        sums: &mut Sums,
         points: &Points,
         near: f64,
         mirrors: &[Mirror],
         out: &mut Points,
     ) {
-        let kept = !is_new && self.points.len() == points.len();
+        let kept = self.generation == sums.generation
+            && self.points.len() == points.len()
+            && self.points.core == points.core;
         let is_near = |(a, b): (DVec3, DVec3)| a.distance(b) <= near;
         if !(kept && self.points.iter().zip(points.iter()).all(is_near)) {
+            self.generation = sums.generation;
             self.points.copy_from(points);
             self.velocity.reset(points.len());
             sums.add_free(points, mirrors, &mut self.velocity);

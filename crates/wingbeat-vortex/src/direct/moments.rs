@@ -1,4 +1,4 @@
-//! Filaments of algebraic cores in single precision, by their moments: velocity and vorticity for the price of one.
+//! Filaments of algebraic cores in single precision, by their moments: velocity and vorticity in one sum.
 //!
 //! A filament from a to b makes the velocity `k l x (p - a)` at p, `l = b - a`, with a number k that holds all that
 //! depends on the distances. Summed from the middle o of some sixteen that are neighbours,

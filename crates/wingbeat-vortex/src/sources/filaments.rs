@@ -101,6 +101,16 @@ impl Network {
         self.core.clone_from(&other.core);
     }
 
+    /// Appends nodes and edges of `other`; either both have cores at their nodes, or none.
+    pub fn append(&mut self, other: &Self) {
+        let first = self.nodes.len() as u32;
+        self.nodes.append(&other.nodes);
+        let edges = other.edges.iter().map(|edge| edge.map(|n| first + n));
+        self.edges.extend(edges);
+        self.gamma.extend_from_slice(&other.gamma);
+        self.core.extend_from_slice(&other.core);
+    }
+
     /// Number of edges.
     pub fn len(&self) -> usize {
         self.edges.len()

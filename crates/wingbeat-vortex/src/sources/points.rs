@@ -87,6 +87,14 @@ impl Points {
         self.core.clone_from(&other.core);
     }
 
+    /// Appends the points of `other`, with their cores.
+    pub fn append(&mut self, other: &Self) {
+        self.x.extend_from_slice(&other.x);
+        self.y.extend_from_slice(&other.y);
+        self.z.extend_from_slice(&other.z);
+        self.core.extend_from_slice(&other.core);
+    }
+
     /// The points in order.
     pub fn iter(&self) -> impl Iterator<Item = DVec3> + '_ {
         (0..self.len()).map(|i| self.get(i))
