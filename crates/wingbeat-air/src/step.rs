@@ -136,6 +136,7 @@ impl Lattice {
         state.position.copy_from_slice(&motion.position);
         state.velocity.copy_from_slice(&motion.velocity);
         state.inner_momentum.copy_from_slice(&loads.inner_momentum);
+        (state.impulse, state.attached_impulse) = (loads.account, loads.attached_impulse);
         state.hold.copy_from_slice(&loads.hold);
         state.time = loads.time;
         state.step += 1;

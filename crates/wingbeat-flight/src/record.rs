@@ -1,5 +1,6 @@
 //! What one accepted step leaves behind: every quantity a reader may ask for, SI and radians.
 
+use wingbeat_air::ImpulseAccount;
 use wingbeat_math::DVec3;
 use wingbeat_model::motion::Adjustment;
 
@@ -93,6 +94,11 @@ pub struct Record {
     /// The same of the inviscid force alone, with the suction that pressures lack, without friction, N components [N
     /// s]; zero without a lattice. See [`wingbeat_air::AirLoads::inviscid_force`].
     pub inviscid_impulse: DVec3,
+    /// Where the vortex impulse came from and went; zero without a lattice.
+    pub impulse_account: ImpulseAccount,
+    /// What the impulse of all vorticity and that of the inviscid force have gained together since the start, N
+    /// components [kg m/s]: nothing where wakes carry no force, in air at rest far away and without a ground.
+    pub impulse_residual: DVec3,
     /// Wake rings.
     pub wake_rings: usize,
     /// Vortex particles of the wakes.

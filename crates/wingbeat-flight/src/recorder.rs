@@ -36,6 +36,8 @@ pub struct Ledger {
     pub air_impulse: AirImpulse,
     /// The same of the inviscid force alone.
     pub inviscid_impulse: AirImpulse,
+    /// Impulse of all vorticity at the start [kg m/s], N components.
+    pub vortex_impulse: DVec3,
 }
 
 impl Ledger {
@@ -47,6 +49,7 @@ impl Ledger {
             relative_energy: s.relative[0],
             momentum: budget.momentum,
             angular_momentum: about_origin(budget),
+            vortex_impulse: s.air_scratch.loads.impulse,
             ..Self::default()
         }
     }
@@ -142,6 +145,8 @@ impl Sources<'_> {
         let air_force = s.air.iter().map(|w| w.force).sum();
         r.air_impulse = ledger.air_impulse.count(time, air_force);
         r.inviscid_impulse = ledger.inviscid_impulse.count(time, loads.inviscid_force);
+        r.impulse_account = loads.account;
+        r.impulse_residual = loads.impulse - ledger.vortex_impulse + r.inviscid_impulse;
         r.wake_rings = self.in_wake(WakeSheet::ring_count);
         r.wake_particles = self.in_wake(|w| w.particles.len());
         r.net_flux_residual = self.net_flux_residual();

@@ -3,6 +3,7 @@
 mod alternation;
 pub mod beats;
 mod ensemble;
+mod impulse;
 mod means;
 mod numbers;
 mod statistics;
@@ -17,6 +18,7 @@ use wingbeat_flight::{FlightSetup, Record};
 use super::Outcome;
 pub use beats::{BeatMeans, Beats, down, over_weight, steps_per_beat};
 pub use ensemble::{Ensemble, EnsembleBeat};
+pub use impulse::ImpulseBudget;
 pub use means::{Estimate, ManyBeats};
 pub use numbers::Summary;
 use statistics::Statistics;
@@ -66,6 +68,7 @@ impl Summary {
             wake_rings: s.last.wake_rings,
             wake_particles: s.last.wake_particles,
             net_flux_residual_m_s: s.net_flux_residual.most,
+            impulse_budget: ImpulseBudget::between(setup, &s.first, &s.last),
             warnings: vec![],
             means: ManyBeats::of(&s.beats),
             beats: s.beats,

@@ -102,6 +102,8 @@ fn numbers(record: &Record) -> usize {
         vortex_impulse: _,
         air_impulse: _,
         inviscid_impulse: _,
+        impulse_account: _,
+        impulse_residual: _,
         wake_rings: _,
         wake_particles: _,
         regularised: _,
@@ -114,7 +116,7 @@ fn numbers(record: &Record) -> usize {
     let vectors = 3 * wing_angles.len() + feedback + 6 * accelerations.len();
     let reactions = 7 * (hinges.len() + loops.len()) + 2 * joints.len();
     let loads = 6 * (air.len() + applied.len() + 1);
-    let (scalars, own_vectors) = (18, 9);
+    let (scalars, own_vectors) = (18, 15);
     lists
         + elastic
         + vectors

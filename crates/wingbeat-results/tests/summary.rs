@@ -173,7 +173,30 @@ fn agrees_lift_by_all_loads_with_that_by_impulse_in_attached_hover() {
         }
         assert!(says(&summary, says_more), "{:?}", summary.warnings);
         assert!(!says(&summary, "the wake does not keep its impulse"));
+        balances_impulse_budget(&summary);
     }
+}
+
+/// The residual is what the account and the force have in sum, and small.
+fn balances_impulse_budget(summary: &Summary) {
+    let budget = summary.impulse_budget.expect("a lattice");
+    println!("{budget:?}");
+    let period = summary.time_s / summary.beats.len() as f64;
+    let lift: f64 = summary.beats.iter().map(|b| b.inviscid_lift_newton).sum();
+    let gained = budget.created_newton_s + budget.moved_newton_s + budget.converted_newton_s;
+    let sum = gained - lift * period;
+    // Roundings of parts that are some ten times as large as their sum.
+    assert!((budget.residual_newton_s - sum).abs() < 1e-12 * lift * period);
+    assert!(
+        budget.residual_relative < 0.03,
+        "{}",
+        budget.residual_relative
+    );
+    assert!(
+        summary
+            .to_text()
+            .contains("impulse residual over that of the air")
+    );
 }
 
 /// Cores of Lamb and Oseen are not the same for action and reaction: then the wake is to blame.

@@ -29,7 +29,7 @@ pub(crate) fn resultants(lattice: &Lattice, net_flux_residual: &[f64], out: &mut
     }
 }
 
-/// Impulse of all vorticity, see [`AirLoads::impulse`].
+/// Impulse of all vorticity, see [`AirLoads::impulse`], and its account up to now.
 pub(crate) fn impulse(
     lattice: &Lattice,
     state: &AirState,
@@ -37,8 +37,11 @@ pub(crate) fn impulse(
     out: &mut AirLoads,
 ) {
     let inner: DVec3 = out.inner_momentum.iter().sum();
-    let vorticity = filaments.impulse(DVec3::ZERO) + state.dropped_impulse;
-    out.impulse = lattice.settings().density * vorticity - inner;
+    let present = lattice.settings().density * filaments.impulse(DVec3::ZERO) - inner;
+    out.impulse = present + state.impulse.dropped();
+    out.attached_impulse = present - state.free_impulse;
+    out.account = state.impulse;
+    out.account.created += out.attached_impulse - state.attached_impulse;
 }
 
 /// # Errors

@@ -1,6 +1,7 @@
 //! Loads of one instant.
 
 use crate::geometry::Panels;
+use crate::state::ImpulseAccount;
 use wingbeat_math::DVec3;
 
 /// What the air does to one surface.
@@ -66,6 +67,11 @@ pub struct AirLoads {
     /// rate of decrease is the inviscid force on all surfaces together: a method independent of pressures and segments
     /// [Saffman 1992, Vortex Dynamics, ch. 3].
     pub impulse: DVec3,
+    /// Where that came from and went: its `created` and `moved` and `converted` together.
+    pub account: ImpulseAccount,
+    /// The part of what is attached, lattice and newest rows, less the momentum of the fictitious fluid [kg m/s], N
+    /// components.
+    pub attached_impulse: DVec3,
     /// Largest normal velocity through a control point, the net-flux residual apart [m/s].
     pub normal_velocity_residual: f64,
 }

@@ -1,5 +1,6 @@
 //! What the air remembers from step to step: circulations and wakes.
 
+use crate::state::impulse_account::ImpulseAccount;
 use crate::state::wake_sheet::WakeSheet;
 use wingbeat_math::DVec3;
 
@@ -60,6 +61,11 @@ pub struct AirState {
     pub sheets: Vec<WakeSheet>,
     /// Regularised events since the start.
     pub events: WakeEvents,
-    /// Impulse per density of rings and particles when they were dropped [m4/s], N components.
-    pub dropped_impulse: DVec3,
+    /// Where the impulse of the vorticity came from and where it went.
+    pub impulse: ImpulseAccount,
+    /// Impulse of what is attached, lattice and newest rows, less the momentum of the fictitious fluid, once the wakes were
+    /// moved [kg m/s], N components.
+    pub attached_impulse: DVec3,
+    /// Impulse of free rings and particles [kg m/s], N components.
+    pub free_impulse: DVec3,
 }

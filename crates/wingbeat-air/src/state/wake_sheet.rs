@@ -74,14 +74,7 @@ impl WakeSheet {
         gamma(r) - if r > 0 { gamma(r - 1) } else { 0.0 }
     }
 
-    /// Impulse per density [m4/s], N, of the rings of the oldest `rows` rows.
-    pub(crate) fn impulse_of_oldest(&self, rows: usize) -> DVec3 {
-        self.impulse_with(rows.min(self.rows().saturating_sub(1)), |r, c| {
-            self.node(r, c)
-        })
-    }
-
-    /// The same of the oldest `rows` rows with the nodes elsewhere: `at` (row, column).
+    /// Impulse per density [m4/s], N, of the rings of the oldest `rows` rows with the nodes `at` (row, column).
     pub(crate) fn impulse_with(&self, rows: usize, at: impl Fn(usize, usize) -> DVec3) -> DVec3 {
         let mut sum = DVec3::ZERO;
         for r in 0..rows {

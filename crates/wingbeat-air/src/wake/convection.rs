@@ -4,6 +4,7 @@ use crate::error::AirError;
 use crate::lattice::Lattice;
 use crate::settings::Convection;
 use crate::state::{AirState, WakeEvents, WakeSheet};
+use crate::wake::account::{SheetAccount, free_rings, impulse_with};
 use crate::wake::contact::Obstacles;
 use crate::wake::filaments::Filaments;
 use crate::wake::force_free::ForceFree;
@@ -28,8 +29,8 @@ pub(crate) struct WakeMotion {
     from: Vec<DVec3>,
     to: Vec<DVec3>,
     unhindered: Vec<DVec3>,
-    /// Impulse per density of what each sheet dropped and of what contact took from it.
-    dropped: Vec<DVec3>,
+    /// What happened to the impulse of each sheet.
+    accounts: Vec<SheetAccount>,
 }
 
 impl WakeMotion {
@@ -81,46 +82,79 @@ impl WakeMotion {
             },
             obstacles: &self.obstacles,
             next: 0,
+            first: 0,
             flow: &self.flow,
             next_particle: 0,
             events: WakeEvents::default(),
             from: std::mem::take(&mut self.from),
             to: std::mem::take(&mut self.to),
             unhindered: std::mem::take(&mut self.unhindered),
+            taken_from_particles: DVec3::ZERO,
         };
         let mut sheets = std::mem::take(&mut state.sheets);
-        self.dropped.clear();
-        let moved = move_each(&mut mover, state, &mut sheets, lengths, &mut self.dropped);
+        self.accounts.clear();
+        let moved = move_each(&mut mover, state, &mut sheets, lengths, &mut self.accounts);
         (self.from, self.to, self.unhindered) = (mover.from, mover.to, mover.unhindered);
-        if moved.is_ok() {
+        let mut sum = SheetAccount::default();
+        self.accounts.iter().for_each(|account| sum += *account);
+        if moved.is_ok() && !lattice.topology().joined_columns.is_empty() {
+            let before = impulses(lattice, state, &sheets);
             merge_joined_nodes(lattice.topology(), &mut sheets);
+            let after = impulses(lattice, state, &sheets);
+            sum.moved += after[0] - before[0];
+            sum.free += after[1] - before[1];
+            sum.released -= (after[0] - after[1]) - (before[0] - before[1]);
         }
         state.sheets = sheets;
         moved?;
-        state.dropped_impulse += self.dropped.iter().sum::<DVec3>();
+        book(lattice, state, &sum);
         Ok(mover.events)
     }
 }
 
-/// Moves sheet after sheet; `dropped` gets the impulse per density of what each has dropped or contact took from it.
+/// Impulses per density [m4/s], N, of all rings of the sheets, the newest rows reaching to the edges, and of free ones.
+fn impulses(lattice: &Lattice, state: &AirState, sheets: &[WakeSheet]) -> [DVec3; 2] {
+    let each = sheets.iter().zip(lattice.sheets()).map(|(sheet, root)| {
+        let all = impulse_with(sheet, sheet.rows(), |r, c| match r < sheet.rows() {
+            true => sheet.node(r, c),
+            false => state.position[root.nodes[c]],
+        });
+        [all, free_rings(sheet)]
+    });
+    each.fold([DVec3::ZERO; 2], |[all, free], [a, f]| [all + a, free + f])
+}
+
+/// Puts what happened within a step into the account of the state.
+fn book(lattice: &Lattice, state: &mut AirState, step: &SheetAccount) {
+    let density = lattice.settings().density;
+    let account = &mut state.impulse;
+    account.moved += density * step.moved;
+    account.converted += density * step.converted;
+    account.cut += density * step.cut;
+    account.absorbed += density * step.absorbed;
+    state.attached_impulse -= density * step.released;
+    state.free_impulse = density * step.free;
+}
+
+/// Moves sheet after sheet; `accounts` get what happens to the impulse of each.
 fn move_each(
     mover: &mut Mover,
     state: &AirState,
     sheets: &mut [WakeSheet],
     lengths: &[Vec<f64>],
-    dropped: &mut Vec<DVec3>,
+    accounts: &mut Vec<SheetAccount>,
 ) -> Result<(), AirError> {
     let lattice = mover.lattice;
     for (k, lengths) in lengths.iter().enumerate() {
         let (before, rest) = sheets.split_at_mut(k);
         let sheet = &mut rest[0];
         let Some((source, mirror)) = lattice.reflected_sheet(k) else {
+            let before = [free_rings(sheet), sheet.particles.impulse()];
             move_sheet(mover, (k, state.step), sheet)?;
             lattice.shed(k, sheet, state, lengths);
-            let taken = mover.taken_by_contact(sheet);
-            let (events, impulse) = lattice.truncate(k, sheet, state);
-            mover.events += events;
-            dropped.push(impulse + taken);
+            let mut account = SheetAccount::of_move(mover, sheet, before);
+            mover.events += lattice.truncate(k, sheet, state, &mut account);
+            accounts.push(account);
             continue;
         };
         lattice.shed(k, sheet, state, lengths);
@@ -128,7 +162,7 @@ fn move_each(
         if lattice.settings().particles.is_none() {
             mover.events.dropped_rows += rows;
         }
-        dropped.push(mirror.vector(dropped[source]));
+        accounts.push(accounts[source].reflected(mirror));
     }
     Ok(())
 }

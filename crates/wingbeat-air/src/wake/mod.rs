@@ -1,5 +1,6 @@
 //! The wakes: their filaments and blobs, the velocity they make, and how they move, shed and are truncated.
 
+mod account;
 mod contact;
 mod convection;
 mod conversion;

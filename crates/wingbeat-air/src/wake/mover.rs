@@ -23,6 +23,8 @@ pub(crate) struct Mover<'a> {
     pub obstacles: &'a Obstacles,
     /// Next node and particle of all sheets.
     pub next: usize,
+    /// First node of the sheet moved last.
+    pub first: usize,
     pub flow: &'a ParticleFlow,
     pub next_particle: usize,
     pub events: WakeEvents,
@@ -32,6 +34,8 @@ pub(crate) struct Mover<'a> {
     /// Where the nodes of the sheet would be without surfaces in the way, its shedding edge last; empty if none was held
     /// back.
     pub unhindered: Vec<DVec3>,
+    /// Impulse per density [m4/s], N, that surfaces in the way took from the particles of the sheet moved last.
+    pub taken_from_particles: DVec3,
 }
 
 impl Mover<'_> {
@@ -44,7 +48,7 @@ impl Mover<'_> {
         let (mut from, mut to) = (std::mem::take(&mut self.from), std::mem::take(&mut self.to));
         let (rows, width) = (sheet.rows() + 1, sheet.columns + 1);
         let nodes = self.next..self.next + rows * width;
-        self.next = nodes.end;
+        (self.first, self.next) = (nodes.start, nodes.end);
         from.clear();
         from.extend(nodes.clone().map(|k| self.nodes.get(k)));
         to.clear();
@@ -88,20 +92,10 @@ impl Mover<'_> {
         }
     }
 
-    /// Impulse per density [m4/s], N, that surfaces in the way took from the rings of the `sheet` moved last, its new
-    /// row shed.
-    pub(crate) fn taken_by_contact(&self, sheet: &WakeSheet) -> DVec3 {
-        if self.unhindered.is_empty() {
-            return DVec3::ZERO;
-        }
-        let width = sheet.columns + 1;
-        let unhindered = |r: usize, c: usize| self.unhindered[r * width + c];
-        let present = |r: usize, c: usize| match r < sheet.rows() {
-            true => sheet.node(r, c),
-            false => unhindered(r, c),
-        };
-        let rows = sheet.rows();
-        sheet.impulse_with(rows, unhindered) - sheet.impulse_with(rows, present)
+    /// Where a node of the `sheet` moved last was before [m], N; the last row was the shedding edge.
+    pub(crate) fn node_before(&self, row: usize, sheet: &WakeSheet, column: usize) -> DVec3 {
+        self.nodes
+            .get(self.first + row * (sheet.columns + 1) + column)
     }
 
     /// Displacement relative to the undisturbed air, shortened to the limit.

@@ -43,7 +43,13 @@ impl Mover<'_> {
                 set.rate.push(flow.rate.get(first + i));
             }
         }
+        let impulse = |places: &[DVec3]| -> DVec3 {
+            let each = places.iter().zip(set.strength.iter());
+            each.map(|(x, alpha)| 0.5 * x.cross(alpha)).sum()
+        };
+        let unhindered = impulse(&to);
         self.keep_clear(&from, &mut to);
+        self.taken_from_particles = unhindered - impulse(&to);
         set.position.clear();
         to.iter().for_each(|&x| set.position.push(x));
         (self.from, self.to) = (from, to);

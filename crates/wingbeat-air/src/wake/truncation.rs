@@ -3,17 +3,19 @@
 use crate::edges::EdgeKind;
 use crate::lattice::Lattice;
 use crate::state::{AirState, WakeEvents, WakeSheet};
+use crate::wake::account::{SheetAccount, free_rings, oldest_rings};
 use wingbeat_math::DVec3;
 
 impl Lattice {
-    /// Drops the oldest rows that are too many, too old or too far, or makes particles of them.
-    /// Returns also the impulse per density [m4/s], N, of what was dropped.
+    /// Drops the oldest rows that are too many, too old or too far, or makes particles of them, and puts their impulse
+    /// into the `account`.
     pub(crate) fn truncate(
         &self,
         k: usize,
         sheet: &mut WakeSheet,
         state: &AirState,
-    ) -> (WakeEvents, DVec3) {
+        account: &mut SheetAccount,
+    ) -> WakeEvents {
         let settings = self.settings();
         let before = sheet.rows();
         let mut keep = before.min(settings.max_rows.unwrap_or(usize::MAX));
@@ -32,15 +34,15 @@ impl Lattice {
         }
         let dropped = before - keep.clamp(1, before.max(1));
         if settings.particles.is_some() {
-            return self.make_particles(k, sheet, dropped, state);
+            return self.make_particles(k, sheet, dropped, state, account);
         }
-        let impulse = sheet.impulse_of_oldest(dropped);
+        account.cut = oldest_rings(sheet, dropped);
+        account.free -= account.cut;
         sheet.keep(before - dropped);
-        let events = WakeEvents {
+        WakeEvents {
             dropped_rows: dropped as u64,
             ..WakeEvents::default()
-        };
-        (events, impulse)
+        }
     }
 
     /// Middle of the edge that sheet `k` leaves [m], N components.
@@ -51,15 +53,15 @@ impl Lattice {
     }
 
     /// Makes particles of the rows of sheet `k` that are due, and of its oldest `dropped` rows in any
-    /// case; drops particles that are too old or too far. Returns also the impulse per density
-    /// [m4/s], N, of those dropped.
+    /// case; drops particles that are too old or too far.
     fn make_particles(
         &self,
         k: usize,
         sheet: &mut WakeSheet,
         dropped: usize,
         state: &AirState,
-    ) -> (WakeEvents, DVec3) {
+        account: &mut SheetAccount,
+    ) -> WakeEvents {
         let Some(settings) = &self.settings().particles else {
             return Default::default();
         };
@@ -74,15 +76,17 @@ impl Lattice {
         let (age, far) = (self.settings().max_age, self.settings().max_distance);
         let edge = self.edge_middle(k, state);
         let before = sheet.particles.impulse();
+        account.converted = free_rings(sheet) + before - account.free;
         let dropped_particles = sheet.particles.retain(|x, shed| {
             age.is_none_or(|age| state.time - shed <= age)
                 && far.is_none_or(|far| x.distance(edge) <= far)
         });
-        let events = WakeEvents {
+        account.cut = before - sheet.particles.impulse();
+        account.free = free_rings(sheet) + sheet.particles.impulse();
+        WakeEvents {
             new_particles,
             dropped_particles,
             ..WakeEvents::default()
-        };
-        (events, before - sheet.particles.impulse())
+        }
     }
 }

@@ -81,7 +81,7 @@ fn invariant_under_the_motion_of_the_observer() {
 }
 
 /// Two wings beside a sphere, with mirror pairs; the left wing's panels run the other way round.
-fn halves(motion: &NodeMotion, whole: bool) -> Lattice {
+pub(crate) fn halves(motion: &NodeMotion, whole: bool) -> Lattice {
     let right = Surface::grid("right", 3, 4);
     let mut left = Surface::grid("left", 3, 4);
     left.panels.iter_mut().for_each(|c| c.swap(1, 3));
@@ -125,7 +125,7 @@ fn halves(motion: &NodeMotion, whole: bool) -> Lattice {
         .unwrap()
 }
 
-fn with_body(t: f64) -> NodeMotion {
+pub(crate) fn with_body(t: f64) -> NodeMotion {
     let mut motion = pair(t);
     // Clear of the wings, and with nodes in the plane of symmetry.
     let body = sphere(2).0.into_iter().map(|x| 0.3 * x - 1.2 * DVec3::Z);

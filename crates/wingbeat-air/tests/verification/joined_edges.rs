@@ -16,7 +16,7 @@ const ALL: SheddingKinds = SheddingKinds {
     root: false,
 };
 
-fn settings(shedding: SheddingKinds, loads: LoadMethod) -> AirSettings {
+pub(crate) fn settings(shedding: SheddingKinds, loads: LoadMethod) -> AirSettings {
     AirSettings {
         shedding,
         loads,
@@ -39,7 +39,7 @@ fn moved(x: DVec3, t: f64, amplitude: f64) -> [DVec3; 2] {
     [at(t), (at(t + h) - at(t - h)) / (2.0 * h)]
 }
 
-fn motion(places: &[DVec3], t: f64, amplitude: f64) -> NodeMotion {
+pub(crate) fn motion(places: &[DVec3], t: f64, amplitude: f64) -> NodeMotion {
     let mut motion = NodeMotion::default();
     for x in places {
         let [p, v] = moved(*x, t, amplitude);
@@ -50,7 +50,7 @@ fn motion(places: &[DVec3], t: f64, amplitude: f64) -> NodeMotion {
 }
 
 /// Right and left half, root to tip.
-fn halves() -> Vec<DVec3> {
+pub(crate) fn halves() -> Vec<DVec3> {
     let half = |side: f64| rectangle(ROWS, COLS, DVec3::X, side * 2.0 * DVec3::Y);
     [half(1.0), half(-1.0)].concat()
 }
@@ -78,7 +78,7 @@ fn joined_edge() -> JoinedEdge {
     }
 }
 
-fn pair(settings: AirSettings) -> Lattice {
+pub(crate) fn pair(settings: AirSettings) -> Lattice {
     Lattice::joined(surfaces().to_vec(), &[joined_edge()], settings).unwrap()
 }
 

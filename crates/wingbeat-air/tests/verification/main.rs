@@ -6,6 +6,7 @@ mod centre_of_pressure;
 mod common;
 mod errors;
 mod impulse;
+mod impulse_account;
 mod invariance;
 mod joined_edges;
 mod known_shapes;

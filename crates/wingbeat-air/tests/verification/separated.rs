@@ -10,7 +10,7 @@ use wingbeat_math::{DVec3, r2, r3};
 
 /// Two wings of 4 x 6 panels that sweep horizontally once a second, at 45 degrees in the middle of each half stroke and
 /// upright where it turns: normal hovering.
-fn normal_hover(t: f64) -> NodeMotion {
+pub(crate) fn normal_hover(t: f64) -> NodeMotion {
     let w = std::f64::consts::TAU;
     let (stroke, stroke_rate) = ((w * t).sin(), w * (w * t).cos());
     let quarter = std::f64::consts::FRAC_PI_4;

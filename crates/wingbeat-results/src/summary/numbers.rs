@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::beats::BeatMeans;
+use super::impulse::ImpulseBudget;
 use super::means::ManyBeats;
 use super::verdict::Verdict;
 use crate::Outcome;
@@ -65,6 +66,9 @@ pub struct Summary {
     pub wake_particles: usize,
     /// Largest net-flux residual of closed surfaces: a uniform normal velocity \[m/s\].
     pub net_flux_residual_m_s: f64,
+    /// What became of the impulse that surfaces gave to the air; none without a lattice.
+    #[serde(default)]
+    pub impulse_budget: Option<ImpulseBudget>,
     /// What a reader should know before using the numbers.
     pub warnings: Vec<String>,
 }

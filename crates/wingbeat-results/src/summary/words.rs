@@ -2,6 +2,7 @@
 
 use std::fmt::Write as _;
 
+use super::impulse::ImpulseBudget;
 use super::means::{Estimate, ManyBeats};
 use super::numbers::Summary;
 use crate::Outcome;
@@ -117,7 +118,27 @@ impl Summary {
             "  regularised events                        {}",
             self.regularised
         );
+        if let Some(budget) = &self.impulse_budget {
+            impulse_rows(budget, out);
+        }
     }
+}
+
+/// What became of the impulse that surfaces gave to the air.
+fn impulse_rows(budget: &ImpulseBudget, out: &mut String) {
+    let _ = writeln!(
+        out,
+        "  impulse residual over that of the air     {:.1e}",
+        budget.residual_relative
+    );
+    out.push_str("  impulse of the vorticity along gravity\n");
+    let mut row = |what: &str, impulse: f64| {
+        let _ = writeln!(out, "    {what:<40}{}", engineering(impulse, "N s"));
+    };
+    row("given by surfaces", budget.created_newton_s);
+    row("gained by wakes as they moved", budget.moved_newton_s);
+    row("of what was dropped", budget.cut_newton_s);
+    row("taken by contact with surfaces", budget.absorbed_newton_s);
 }
 
 /// Means over many wingbeats, below the table of all.

@@ -144,6 +144,54 @@ pub(super) const WAKE: &[Quantity] = &[
     .along(Inertial, Frame::Inertial)
     .new_here(),
     scalar(
+        "impulse_created_{c}",
+        Unit::Momentum,
+        "impulse that surfaces have given to the vorticity so far: by its circulation, by their motion, by what they shed",
+        |r, _, c| Real(&mut r.impulse_account.created[c]),
+    )
+    .along(Inertial, Frame::Inertial)
+    .new_here(),
+    scalar(
+        "impulse_moved_{c}",
+        Unit::Momentum,
+        "impulse that free wakes have gained so far as they moved; with the one created it is the vortex impulse",
+        |r, _, c| Real(&mut r.impulse_account.moved[c]),
+    )
+    .along(Inertial, Frame::Inertial)
+    .new_here(),
+    scalar(
+        "impulse_converted_{c}",
+        Unit::Momentum,
+        "impulse gained so far where rings became particles, nothing but roundings",
+        |r, _, c| Real(&mut r.impulse_account.converted[c]),
+    )
+    .along(Inertial, Frame::Inertial)
+    .new_here(),
+    scalar(
+        "impulse_cut_{c}",
+        Unit::Momentum,
+        "impulse that wakes had when they were dropped, so far; it counts in the vortex impulse",
+        |r, _, c| Real(&mut r.impulse_account.cut[c]),
+    )
+    .along(Inertial, Frame::Inertial)
+    .new_here(),
+    scalar(
+        "impulse_absorbed_{c}",
+        Unit::Momentum,
+        "impulse that surfaces took so far from wakes that they held back; it counts in the vortex impulse",
+        |r, _, c| Real(&mut r.impulse_account.absorbed[c]),
+    )
+    .along(Inertial, Frame::Inertial)
+    .new_here(),
+    scalar(
+        "impulse_residual_{c}",
+        Unit::Momentum,
+        "vortex impulse and inviscid impulse together, less those of the start: nothing where wakes carry no force, in still air without a ground",
+        |r, _, c| Real(&mut r.impulse_residual[c]),
+    )
+    .along(Inertial, Frame::Inertial)
+    .new_here(),
+    scalar(
         "wake_rings",
         Unit::Count,
         "rings of the wakes",

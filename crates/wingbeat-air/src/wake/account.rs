@@ -1,0 +1,117 @@
+//! What happens to the impulse of a wake sheet within a step.
+
+use crate::images::Mirror;
+use crate::state::WakeSheet;
+use crate::wake::conversion::borders_ring;
+use crate::wake::mover::Mover;
+use wingbeat_math::DVec3;
+
+/// Changes of the impulse per density [m4/s] of one sheet, N components; see [`crate::ImpulseAccount`].
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct SheetAccount {
+    pub moved: DVec3,
+    pub converted: DVec3,
+    pub cut: DVec3,
+    pub absorbed: DVec3,
+    /// What the row that left had less what the new one at the edge has: no longer that of the attached vorticity.
+    pub released: DVec3,
+    /// What the free rings and particles have at the end.
+    pub free: DVec3,
+}
+
+impl std::ops::AddAssign for SheetAccount {
+    fn add_assign(&mut self, other: Self) {
+        self.moved += other.moved;
+        self.converted += other.converted;
+        self.cut += other.cut;
+        self.absorbed += other.absorbed;
+        self.released += other.released;
+        self.free += other.free;
+    }
+}
+
+impl SheetAccount {
+    /// That of the mirror image.
+    pub(crate) fn reflected(&self, mirror: Mirror) -> Self {
+        let of = |impulse| mirror.vector(impulse);
+        Self {
+            moved: of(self.moved),
+            converted: of(self.converted),
+            cut: of(self.cut),
+            absorbed: of(self.absorbed),
+            released: of(self.released),
+            free: of(self.free),
+        }
+    }
+
+    /// The account of the `sheet` moved last, its new row shed; `before` is what its free rings had before, and what its
+    /// particles had.
+    pub(crate) fn of_move(mover: &Mover, sheet: &WakeSheet, before: [DVec3; 2]) -> Self {
+        let rows = sheet.rows();
+        let edge = |c: usize| mover.node_before(rows - 1, sheet, c);
+        let start = impulse_with(sheet, rows, |r, c| {
+            mover.node_before(r.min(rows - 1), sheet, c)
+        });
+        let end = impulse_with(sheet, rows, |r, c| match r < rows {
+            true => sheet.node(r, c),
+            false => edge(c),
+        });
+        let unhindered = match mover.unhindered.is_empty() {
+            true => end,
+            false => impulse_with(sheet, rows, |r, c| {
+                mover.unhindered[r * (sheet.columns + 1) + c]
+            }),
+        };
+        let [rings_before, particles_before] = before;
+        let (rings, particles) = (free_rings(sheet), sheet.particles.impulse());
+        let taken = mover.taken_from_particles;
+        Self {
+            moved: (unhindered - start) + (particles + taken - particles_before),
+            absorbed: unhindered - end + taken,
+            released: (start - rings_before) - (end - rings),
+            free: rings + particles,
+            ..Self::default()
+        }
+    }
+}
+
+/// Impulse per density [m4/s], N, of the rings of a sheet but the newest row, which is still at the edge.
+pub(crate) fn free_rings(sheet: &WakeSheet) -> DVec3 {
+    oldest_rings(sheet, sheet.rows().saturating_sub(1))
+}
+
+/// The same of the oldest `rows` rows.
+pub(crate) fn oldest_rings(sheet: &WakeSheet, rows: usize) -> DVec3 {
+    let rows = rows.min(sheet.rows().saturating_sub(1));
+    impulse_with(sheet, rows, |r, c| sheet.node(r, c))
+}
+
+/// The same with the nodes elsewhere: `at` (row, column). Where rings of the sheet have become particles, that of its
+/// filaments, which hold what borders on those.
+pub(crate) fn impulse_with(
+    sheet: &WakeSheet,
+    rows: usize,
+    at: impl Fn(usize, usize) -> DVec3,
+) -> DVec3 {
+    if sheet.converted.iter().all(|&rows| rows == 0) {
+        return sheet.impulse_with(rows, at);
+    }
+    let gamma = |r: usize, c: usize| match r < rows {
+        true => sheet.gamma[r * sheet.columns + c],
+        false => 0.0,
+    };
+    let mut sum = DVec3::ZERO;
+    for r in 0..=rows {
+        for c in 0..=sheet.columns {
+            let mut add = |to: DVec3, net: f64| sum += 0.5 * net * at(r, c).cross(to);
+            if borders_ring(&sheet.converted, [r, c], true) {
+                let older = r.checked_sub(1).map_or(0.0, |r| gamma(r, c));
+                add(at(r, c + 1), gamma(r, c) - older);
+            }
+            if r < rows && borders_ring(&sheet.converted, [r, c], false) {
+                add(at(r + 1, c), sheet.between_columns(r, c));
+            }
+        }
+    }
+    sum
+}
