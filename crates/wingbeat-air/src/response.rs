@@ -9,6 +9,7 @@
 use crate::error::AirError;
 use crate::lattice::Lattice;
 use crate::loads::{AirLoads, rate_weights};
+use crate::settings::CirculationRate;
 use crate::state::AirState;
 use crate::workspace::AirWorkspace;
 use wingbeat_math::{DVec3, DenseLu};
@@ -67,6 +68,13 @@ impl Lattice {
         let entry = |(area, q): (f64, usize)| rho * area * inverse[q];
         let rows = (0..n).flat_map(|i| (0..n).map(move |k| (areas[i], k * n + i)));
         Ok(rows.map(entry).collect())
+    }
+
+    /// Weights of the circulations now, `dt` \[s\] after the last accepted step, in that step and in the one before in their
+    /// rate of change \[1/s\]; none where the loads leave that out ([`CirculationRate::Omitted`]).
+    pub fn circulation_rate_weights(&self, state: &AirState, dt: f64) -> Option<[f64; 3]> {
+        let is_omitted = self.settings().rate == CirculationRate::Omitted;
+        (!is_omitted).then(|| rate_weights(self, state, dt))
     }
 
     /// Circulations of the panels of the surface `s` by normal velocities, by columns \[m\].

@@ -2,6 +2,7 @@
 
 mod absurd;
 mod defaults;
+mod hinged;
 mod idle;
 mod joints;
 mod keys;

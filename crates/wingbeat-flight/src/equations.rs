@@ -13,6 +13,7 @@ use wingbeat_math::DVec3;
 
 use crate::air::{Air, AirScratch, Instant};
 use crate::applied::{AppliedLoad, PointSpring};
+use crate::carried::{CarriedAir, CarriedScratch, CarriedState};
 use crate::core::Core;
 use crate::elastic::{ElasticScratch, ElasticState, ElasticWings, Moment};
 use crate::error::FlightError;
@@ -26,6 +27,8 @@ pub struct Memory<'a> {
     pub air: Option<&'a AirState>,
     /// The elastic wings; empty where there are none.
     pub wings: &'a [ElasticState],
+    /// The wings that carry air along on free joints; empty where there are none.
+    pub carried: &'a [CarriedState],
 }
 
 /// The model: everything constant that the right-hand side needs.
@@ -37,6 +40,8 @@ pub struct Equations {
     pub air: Arc<dyn Air>,
     /// The wings that loads bend.
     pub elastic: Arc<ElasticWings>,
+    /// The wings on free joints, which carry air along.
+    pub carried: CarriedAir,
     /// All joints, for their coordinates.
     pub mechanism: Mechanism,
     /// Extra loads.
@@ -66,6 +71,8 @@ pub struct Scratch {
     added_at: Option<f64>,
     /// The same with those of elastic wings.
     carried: Vec<AddedMass>,
+    /// Air that wings on free joints carry along.
+    carried_air: CarriedScratch,
     /// Accelerations, reactions, energies.
     pub solution: Solution,
     /// Kinetic energy relative to the root [J] and its rate [W].
@@ -98,6 +105,7 @@ impl Scratch {
             added: vec![],
             added_at: None,
             carried: vec![],
+            carried_air: CarriedScratch::default(),
             solution: Solution::new(system),
             relative: [0.0; 2],
             deformation: vec![0.0; if equations.air.deforms() { bodies } else { 0 }],
@@ -113,12 +121,14 @@ impl Scratch {
     pub fn forget(&mut self) {
         self.dynamics.forget();
         self.added_at = None;
+        self.carried_air.forget();
     }
 
     /// Makes room for the dynamics of other equations of the same bodies.
     pub fn fit(&mut self, equations: &Equations) {
         self.dynamics = equations.core.workspace();
         self.added_at = None;
+        self.carried_air.forget();
     }
 }
 
@@ -357,12 +367,16 @@ impl Equations {
             self.applied_loads(t, s);
             let at = instant(t, self.step, &s.motions, &[]);
             (self.air).loads(&at, memory.air, &mut s.air_scratch, &mut s.air)?;
+            let air = (self.air.as_ref(), memory.air);
+            let scratch = (&s.air_scratch, &mut s.carried_air);
+            (self.carried).take_out(&at, air, memory.carried, scratch, &mut s.air)?;
         } else {
             self.bend(t, y, memory, s)?;
         }
         if s.added_at != Some(t) {
             s.added.clear();
             self.air.added_mass(t, &mut s.added);
+            s.added.extend(s.carried_air.masses());
             s.added_at = Some(t);
         }
         s.sum_loads();
@@ -488,9 +502,10 @@ impl Equations {
     pub fn accept(
         &self,
         air: &mut Option<AirState>,
-        wings: &mut [ElasticState],
+        (wings, carried): (&mut [ElasticState], &mut [CarriedState]),
         s: &Scratch,
     ) -> Result<(), FlightError> {
+        self.carried.accept(&s.motions, carried);
         (self.elastic).accept(&s.solution.bodies, &s.elastic, wings);
         self.air.accept(air, &s.air_scratch)
     }

@@ -15,6 +15,7 @@ use wingbeat_dynamics::{
 
 use crate::air::{Air, AirScratch, Instant};
 use crate::bodies::{WingLaw, system_with};
+use crate::carried::CarriedAir;
 use crate::core::Core;
 use crate::equations::{Equations, Memory, Scratch};
 use crate::error::FlightError;
@@ -100,6 +101,7 @@ impl FreeFlight {
             core: Core::Free(Box::new(form.clone())),
             air,
             elastic: Arc::default(),
+            carried: CarriedAir::default(),
             applied: setup.loads.clone(),
             springs: setup.springs.clone(),
             step,

@@ -45,6 +45,18 @@ pub struct WingResponse {
     pub panels: Vec<Vec<(usize, [DVec3; 2])>>,
 }
 
+/// The air that a rigid wing carries along, as loads hold it in which rates are differences over steps: of them
+/// `-A (w0 q + w1 q1 + w2 q2)`, with q, q1 and q2 the velocity of the wing's origin and its angular velocity \[m/s, rad/s\] now and in
+/// the last two accepted steps, wing components.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct WingInertia {
+    /// A: rows force and moment about the origin, columns acceleration of the origin and angular acceleration, wing
+    /// components \[kg, kg m, kg m2\].
+    pub mass: [[f64; 6]; 6],
+    /// w0, w1, w2 \[1/s\].
+    pub rate_weights: [f64; 3],
+}
+
 /// Room for intermediate results of the air; what it holds belongs to the instant last asked for.
 #[derive(Default)]
 pub struct AirScratch {
@@ -179,6 +191,21 @@ pub trait Air: fmt::Debug + Send + Sync {
         _out: &mut WingResponse,
     ) -> Result<bool, FlightError> {
         Ok(false)
+    }
+
+    /// The added mass of the rigid wing number `wing` that the loads last asked for hold as a difference over steps; none if
+    /// they hold none.
+    ///
+    /// # Errors
+    /// What the model reports.
+    fn wing_inertia(
+        &self,
+        _wing: usize,
+        _at: &Instant<'_>,
+        _memory: Option<&AirState>,
+        _scratch: &AirScratch,
+    ) -> Result<Option<WingInertia>, FlightError> {
+        Ok(None)
     }
 
     /// Whether any wing moves otherwise than its body.

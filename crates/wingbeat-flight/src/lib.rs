@@ -24,6 +24,7 @@
 pub mod air;
 mod applied;
 mod bodies;
+mod carried;
 pub mod control;
 mod controller;
 mod core;
@@ -53,7 +54,8 @@ pub use controller::{Aim, Controller, Sensed};
 pub use error::FlightError;
 pub use free::{FreeFlight, FreeFlightScratch};
 pub use interface::{
-    Air, AirScratch, Announcement, ExternalAir, ExternalSession, Instant, Shape, WingResponse,
+    Air, AirScratch, Announcement, ExternalAir, ExternalSession, Instant, Shape, WingInertia,
+    WingResponse,
 };
 pub use joints::{closes_loop, faster};
 pub use record::{

@@ -70,6 +70,7 @@ impl Simulation {
             start_report: StepReport::default(),
             air: None,
             wings: first.elastic.initial(),
+            carried: first.carried.initial(),
             ledger: Ledger::default(),
             control: feedback.as_ref().map(Loop::state),
         };
@@ -279,6 +280,7 @@ impl Simulation {
         let memory = Memory {
             air: self.state.air.as_ref(),
             wings: &self.state.wings,
+            carried: &self.state.carried,
         };
         let past = &mut self.state.past;
         self.solver
@@ -345,7 +347,8 @@ impl Simulation {
         sources.write(step, time, &mut self.state.ledger, &mut self.record);
         self.write_reference();
         let equations = &self.stages[self.state.stage].equations;
-        equations.accept(&mut self.state.air, &mut self.state.wings, &self.scratch)?;
+        let remembered = (&mut self.state.wings[..], &mut self.state.carried[..]);
+        equations.accept(&mut self.state.air, remembered, &self.scratch)?;
         if starts && !self.finished() && !self.setup.integrator.is_one_step() {
             self.start()?;
         }
@@ -401,6 +404,8 @@ impl Simulation {
             air: None,
             wings_at_start: &state.wings,
             wings: vec![],
+            carried_at_start: &state.carried,
+            carried: vec![],
         };
         let (y0, f0) = (&state.past.y[0], &state.past.f[0]);
         let convergence = convergence(&self.setup.corrector);

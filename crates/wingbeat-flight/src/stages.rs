@@ -9,6 +9,7 @@ use wingbeat_dynamics::{
 };
 
 use crate::bodies::{self, WingLaw};
+use crate::carried::CarriedAir;
 use crate::core::Core;
 use crate::elastic::ElasticWings;
 use crate::equations::Equations;
@@ -37,12 +38,20 @@ pub fn stages(setup: &FlightSetup, law: &WingLaw<'_>) -> Result<Vec<Stage>, Flig
     let air = AirModel::build(setup, &system)?;
     let elastic = Arc::new(ElasticWings::new(&setup.animal, setup.gravity)?);
     let mechanism = Mechanism::of(&system);
+    // What bends has its answer to accelerations from the elastic side.
+    let carried = match setup.air {
+        AirModel::VortexLattice(_) if elastic.is_empty() => {
+            CarriedAir::new(&system, setup.animal.wings.len())
+        }
+        _ => CarriedAir::default(),
+    };
     let stage = |from_step: usize, core: Core| Stage {
         from_step,
         equations: Equations {
             core,
             air: air.clone(),
             elastic: elastic.clone(),
+            carried: carried.clone(),
             mechanism: mechanism.clone(),
             applied: setup.loads.clone(),
             springs: setup.springs.clone(),

@@ -1,5 +1,6 @@
 //! Evidence for the air, by kind: benchmark, invariances, conservation, limits, bodies, wakes.
 
+mod answers;
 mod benchmark;
 mod bodies;
 mod centre_of_pressure;

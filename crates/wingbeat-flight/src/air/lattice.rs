@@ -1,13 +1,15 @@
 //! The vortex lattice as the air of a flight: surfaces that follow the bodies, wakes as memory.
 
-use wingbeat_air::{AirSettings, AirState, Lattice, Points, SheddingKinds};
-use wingbeat_dynamics::{BodyAcceleration, Wrench};
+use std::ops::Range;
+
+use wingbeat_air::{AirLoads, AirSettings, AirState, Lattice, Points, SheddingKinds};
+use wingbeat_dynamics::{BodyAcceleration, BodyMotion, Wrench};
 use wingbeat_math::DVec3;
 
 use super::mirror::mirror_pairs;
 use super::surfaces::SurfaceMap;
 use crate::error::FlightError;
-use crate::interface::{Air, AirScratch, Instant, WingResponse, misfit};
+use crate::interface::{Air, AirScratch, Instant, WingInertia, WingResponse, misfit};
 use crate::record::{ParticleSnapshot, Snapshot, SurfaceSnapshot, WakeSnapshot};
 use crate::setup::{AirOptions, FlightSetup, MotionMode};
 
@@ -253,6 +255,23 @@ impl Air for LatticeAir {
         Ok(true)
     }
 
+    fn wing_inertia(
+        &self,
+        wing: usize,
+        at: &Instant<'_>,
+        memory: Option<&AirState>,
+        s: &AirScratch,
+    ) -> Result<Option<WingInertia>, FlightError> {
+        let state = memory.ok_or_else(|| misfit("a lattice needs its wakes"))?;
+        let Some(rate_weights) = self.lattice.circulation_rate_weights(state, at.step) else {
+            return Ok(None);
+        };
+        let answer = (self.lattice).normal_inertia(wing, state, &s.workspace, &s.loads)?;
+        let panels = self.lattice.panels_of(wing);
+        let mass = rigid_mass(&answer, &s.loads, panels, &at.motions[wing + 1]);
+        Ok(Some(WingInertia { mass, rate_weights }))
+    }
+
     fn deforms(&self) -> bool {
         self.map.deforms()
     }
@@ -285,4 +304,42 @@ impl Air for LatticeAir {
         let sampled = (self.lattice).velocity(memory?, points, &mut ws, &mut velocity);
         sampled.ok().map(|()| velocity)
     }
+}
+
+/// Entries of an added mass smaller than this over the geometric mean of their diagonal ones are rounding \[1\].
+const NOTHING: f64 = 1e-12;
+
+/// The added mass of a wing that moves as a rigid body like `m`, from the `answer` of the normal forces of its panels to normal accelerations
+/// \[kg\], row by row; symmetric as energy asks.
+fn rigid_mass(
+    answer: &[f64],
+    loads: &AirLoads,
+    panels: Range<usize>,
+    m: &BodyMotion,
+) -> [[f64; 6]; 6] {
+    let back = m.r.transpose();
+    let six = |p: usize| {
+        let normal = back * loads.panels.normal[p];
+        let turn = (back * (loads.panels.point[p] - m.p)).cross(normal);
+        [normal.to_array(), turn.to_array()].concat()
+    };
+    let six: Vec<Vec<f64>> = panels.map(six).collect();
+    let mut mass = [[0.0; 6]; 6];
+    for (row, by) in answer.chunks_exact(six.len()).zip(&six) {
+        for (factor, of) in row.iter().zip(&six) {
+            for (i, j) in (0..36).map(|k| (k / 6, k % 6)) {
+                let part = -0.5 * factor * by[i] * of[j];
+                mass[i][j] += part;
+                mass[j][i] += part;
+            }
+        }
+    }
+    let size = |k: usize| -> f64 { (0..3).map(|l| mass[3 * (k / 3) + l][3 * (k / 3) + l]).sum() };
+    let sizes: [f64; 6] = std::array::from_fn(size);
+    for (i, j) in (0..36).map(|k| (k / 6, k % 6)) {
+        if mass[i][j].abs() <= NOTHING * (sizes[i] * sizes[j]).sqrt() {
+            mass[i][j] = 0.0;
+        }
+    }
+    mass
 }

@@ -39,6 +39,12 @@ pub(super) fn check_fits(
         return misfit(format!("{lengths:?} coordinates"), "the case has others");
     }
     check_wings(stage, &state.wings)?;
+    if state.carried.len() != stage.equations.carried.initial().len() {
+        return misfit(
+            format!("{} wings on free joints", state.carried.len()),
+            "the case has others; resume with the case that was saved with it",
+        );
+    }
     stage.equations.air.check(state.air.as_ref())?;
     check_events(state)
 }

@@ -3,6 +3,7 @@
 use wingbeat_air::AirState;
 use wingbeat_math::ode::Replay;
 
+use crate::carried::CarriedState;
 use crate::elastic::ElasticState;
 use crate::equations::{Equations, Memory, Scratch};
 use crate::error::FlightError;
@@ -16,6 +17,8 @@ pub(super) struct Start<'a> {
     pub air: Option<AirState>,
     pub wings_at_start: &'a [ElasticState],
     pub wings: Vec<ElasticState>,
+    pub carried_at_start: &'a [CarriedState],
+    pub carried: Vec<CarriedState>,
 }
 
 impl Start<'_> {
@@ -32,6 +35,8 @@ impl Replay for Start<'_> {
             self.air.clone_from(self.at_start);
             self.wings.clear();
             self.wings.extend_from_slice(self.wings_at_start);
+            self.carried.clear();
+            self.carried.extend_from_slice(self.carried_at_start);
         }
         self.equations.advance_air(&mut self.air, &mut self.scratch)
     }
@@ -41,11 +46,13 @@ impl Replay for Start<'_> {
         let memory = Memory {
             air: self.air.as_ref(),
             wings: &self.wings,
+            carried: &self.carried,
         };
         self.equations.evaluate(t, y, memory, &mut self.scratch, f)
     }
 
     fn leave(&mut self, _k: usize) -> Result<(), FlightError> {
-        (self.equations).accept(&mut self.air, &mut self.wings, &self.scratch)
+        let remembered = (&mut self.wings[..], &mut self.carried[..]);
+        (self.equations).accept(&mut self.air, remembered, &self.scratch)
     }
 }

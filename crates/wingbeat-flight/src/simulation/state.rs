@@ -3,6 +3,7 @@
 use wingbeat_air::AirState;
 use wingbeat_math::ode::{Multistep, StepReport};
 
+use crate::carried::CarriedState;
 use crate::control::ControlState;
 use crate::elastic::ElasticState;
 use crate::equations::Memory;
@@ -27,6 +28,9 @@ pub struct FlightState {
     /// The elastic wings after the newest step; empty where there are none.
     #[serde(default)]
     pub wings: Vec<ElasticState>,
+    /// The wings that carry air along on free joints; empty where there are none.
+    #[serde(default)]
+    pub carried: Vec<CarriedState>,
     /// What balances are counted from.
     pub ledger: Ledger,
     /// What feedback remembers; none without.
@@ -39,6 +43,7 @@ impl FlightState {
         Memory {
             air: self.air.as_ref(),
             wings: &self.wings,
+            carried: &self.carried,
         }
     }
 }

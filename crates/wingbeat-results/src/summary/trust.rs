@@ -12,8 +12,8 @@ use super::verdict::Warnings;
 /// No animal carries this many of its weights over a whole wingbeat.
 const IMPLAUSIBLE_LIFT: f64 = 10.0;
 
-/// Steps in a row in which the force of a wing turns back, from which on the integrator is not stable. Presets have 0 to 4,
-/// `robobee` by `hamming` 46 and, at half the step, all.
+/// Steps in a row in which the force of a wing turns back, from which on the integrator is not stable. Presets have 0 to 4;
+/// a body that is light in pitch, by `hamming`, all.
 const ALTERNATING: usize = 10;
 
 /// A balance with a larger residual is open; the tolerances are lower where the motion is smooth.

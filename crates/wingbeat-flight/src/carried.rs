@@ -1,0 +1,132 @@
+//! The air that wings on free joints carry along, as part of their inertia.
+//!
+//! The loads of a lattice hold the rate of the circulation as a difference over steps, and in it the added mass of a wing:
+//! `-A D q`, q the velocity of the wing's origin and its angular velocity in wing components, D the difference. Where a wing
+//! weighs less than the air that goes with it, passes that bring bodies and air to agree lead away from each other, and a
+//! method that weighs rates of several steps lets velocities alternate from step to step. So the rate itself takes the
+//! place of the difference; it is unknown and joins the inertia of the bodies ([`AddedMass`]):
+//!
+//! ```text
+//! L = L_lattice + A D q - A q'        q' = (R^T a - w x v, alpha)
+//! ```
+//!
+//! The two differ by the error of D, of second order in the step whatever A is. That A is the lattice's own, from
+//! its influence matrix, leaves next to nothing of the difference.
+
+use wingbeat_air::AirState;
+use wingbeat_dynamics::{AddedMass, BodyAcceleration, BodyMotion, System, Wrench};
+use wingbeat_math::DVec3;
+
+use crate::error::FlightError;
+use crate::interface::{Air, AirScratch, Instant, WingInertia};
+
+/// Wings that hang on free joints.
+#[derive(Clone, Debug, Default)]
+pub struct CarriedAir {
+    wings: Vec<usize>,
+}
+
+/// What is remembered of such a wing.
+#[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
+pub struct CarriedState {
+    /// Velocities of its origin \[m/s\] in the last two accepted steps, newest first, wing components.
+    linear: [DVec3; 2],
+    /// Angular velocities \[rad/s\] in these steps, wing components.
+    angular: [DVec3; 2],
+}
+
+/// What the air answered in this step.
+#[derive(Debug, Default)]
+pub struct CarriedScratch {
+    at: Option<f64>,
+    answers: Vec<Option<(AddedMass, [f64; 3])>>,
+}
+
+impl CarriedScratch {
+    /// The next instant is another one, whatever its time.
+    pub fn forget(&mut self) {
+        self.at = None;
+    }
+
+    /// The added masses.
+    pub fn masses(&self) -> impl Iterator<Item = AddedMass> + '_ {
+        self.answers.iter().flatten().map(|(mass, _)| *mass)
+    }
+}
+
+impl CarriedAir {
+    /// The first `wings` bodies after the root of `system` that a free joint carries.
+    pub fn new(system: &System, wings: usize) -> Self {
+        let mut free = vec![false; system.bodies().len()];
+        for _ in 0..free.len() {
+            for (hinge, offsets) in system.hinges().iter().zip(system.offsets()) {
+                let before = hinge.parent.is_some_and(|p| free[p]);
+                free[hinge.child] |= offsets.speeds > 0 || before;
+            }
+        }
+        Self {
+            wings: (0..wings).filter(|w| free[w + 1]).collect(),
+        }
+    }
+
+    /// Before the first step.
+    pub fn initial(&self) -> Vec<CarriedState> {
+        vec![CarriedState::default(); self.wings.len()]
+    }
+
+    /// Takes the added masses of the wings out of `loads`, N components, which the air said last. What the wings carry along
+    /// stays as at the first instant of the step.
+    ///
+    /// # Errors
+    /// What the air reports.
+    pub fn take_out(
+        &self,
+        at: &Instant<'_>,
+        (air, memory): (&dyn Air, Option<&AirState>),
+        states: &[CarriedState],
+        (scratch, s): (&AirScratch, &mut CarriedScratch),
+        loads: &mut [Wrench],
+    ) -> Result<(), FlightError> {
+        if s.at != Some(at.time) {
+            s.answers.clear();
+            for &w in &self.wings {
+                let answer = air.wing_inertia(w, at, memory, scratch)?;
+                let added = |a: WingInertia| (AddedMass::new(w + 1, a.mass), a.rate_weights);
+                s.answers.push(answer.map(added));
+            }
+            s.at = Some(at.time);
+        }
+        for (state, (mass, weights)) in states.iter().zip(&s.answers).filter_map(both) {
+            let m = &at.motions[mass.body()];
+            loads[mass.body()] = loads[mass.body()] - mass.wrench(m, &state.rate(m, *weights));
+        }
+        Ok(())
+    }
+
+    /// Accepts bodies that move like `motions`.
+    pub fn accept(&self, motions: &[BodyMotion], states: &mut [CarriedState]) {
+        for (state, w) in states.iter_mut().zip(&self.wings) {
+            let m = &motions[w + 1];
+            state.linear = [m.r.transpose() * m.v, state.linear[0]];
+            state.angular = [m.w, state.angular[0]];
+        }
+    }
+}
+
+/// A wing of which the air has something to say.
+fn both<'a, A, B>((a, b): (&'a A, &'a Option<B>)) -> Option<(&'a A, &'a B)> {
+    b.as_ref().map(|b| (a, b))
+}
+
+impl CarriedState {
+    /// The difference over steps of the velocities of a wing that moves like `m`, as an acceleration.
+    fn rate(&self, m: &BodyMotion, [now, before, earlier]: [f64; 3]) -> BodyAcceleration {
+        let v = m.r.transpose() * m.v;
+        let difference =
+            |x: DVec3, past: &[DVec3; 2]| now * x + before * past[0] + earlier * past[1];
+        BodyAcceleration {
+            linear: m.r * (difference(v, &self.linear) + m.w.cross(v)),
+            angular: difference(m.w, &self.angular),
+        }
+    }
+}
