@@ -169,6 +169,8 @@ const LISTED: &[(&str, &str)] = &[
         "CourseCase",
         "[[wing.right.deformation.twist]]\nlinear_deg = [0, 1]\n[wing.right.deformation.twist.fourier]\n",
     ),
+    ("VeinCase", "[[wing.right.structure.vein]]\n"),
+    ("RegionCase", "[[wing.right.structure.region]]\n"),
     ("ElementCase", "[[joint.waist.element]]\n"),
     (
         "StopCase",

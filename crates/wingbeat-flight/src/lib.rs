@@ -59,8 +59,8 @@ pub use interface::{
 };
 pub use joints::{closes_loop, faster};
 pub use record::{
-    AccelerationRecord, ElasticRecord, HingeRecord, LoadRecord, ParticleSnapshot, Record, Snapshot,
-    SurfaceSnapshot, WakeSnapshot,
+    AccelerationRecord, ElasticRecord, HingeRecord, LoadRecord, ParticleSnapshot, Record, STATIONS,
+    SectionRecord, Snapshot, SurfaceSnapshot, WakeSnapshot,
 };
 pub use recorder::Ledger;
 pub use setup::*;

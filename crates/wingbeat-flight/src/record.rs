@@ -204,10 +204,28 @@ pub struct ElasticRecord {
     pub tip: DVec3,
     /// Twist of the tip from rest, positive like feathering: leading edge towards -axis 3 [rad].
     pub twist: f64,
+    /// Its sections at [`STATIONS`] of the surface's length from its root.
+    pub sections: [SectionRecord; 4],
     /// Elastic energy [J].
     pub strain_energy: f64,
+    /// Power that goes into it [W].
+    pub strain_power: f64,
     /// Passes that shape and loads took to agree.
     pub passes: usize,
+}
+
+/// Where sections are looked at, in parts of the surface's length from its root.
+pub const STATIONS: [f64; 4] = [0.25, 0.5, 0.75, 1.0];
+
+/// What a section has other than at rest.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct SectionRecord {
+    /// Displacement of the middle of its chord along axis 3 of the wing \[m\].
+    pub deflection: f64,
+    /// Twist, positive like feathering: leading edge towards -axis 3 \[rad\].
+    pub twist: f64,
+    /// Camber: largest height over its chord, along its normal, over the chord \[1\].
+    pub camber: f64,
 }
 
 /// Accelerations of one body.

@@ -198,6 +198,32 @@ pub enum MemberError {
     /// A shell.
     #[error(transparent)]
     Shell(#[from] ShellError),
+    /// A vein between whose ends there is no second node.
+    #[error(
+        "vein[{number}]: both its ends are nearest to the same node of the mesh; give it a length, or the mesh more panels"
+    )]
+    ShortVein {
+        /// Which vein, counted from 0.
+        number: usize,
+    },
+    /// A region without panels.
+    #[error(
+        "region[{number}]: no panel of the mesh has its middle in it; make it larger, or the panels smaller"
+    )]
+    EmptyRegion {
+        /// Which region, counted from 0.
+        number: usize,
+    },
+    /// Veins that leave no mass for the sheet.
+    #[error(
+        "the veins weigh {veins:e} kg and the whole wing {wing:e} kg: nothing is left for the sheet; give shell.density_kg_m3 in place of the mass of the wing, or veins of less radius_m or density_kg_m3"
+    )]
+    HeavyVeins {
+        /// Mass of the veins \[kg\].
+        veins: f64,
+        /// Mass of the wing \[kg\].
+        wing: f64,
+    },
 }
 
 impl fmt::Display for WingStructureError {

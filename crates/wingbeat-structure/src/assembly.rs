@@ -9,12 +9,24 @@ use crate::error::StructureError;
 use crate::matrix::Matrix;
 use crate::structure::{HELD, Structure};
 
+/// Strain-rate damping in a step.
+pub(crate) struct Viscous<'a> {
+    /// Time constant \[s\].
+    pub time: f64,
+    /// Change of rates by change of increments [1/s].
+    pub rate: f64,
+    /// Rates, six numbers a node.
+    pub velocity: &'a [f64],
+}
+
 /// Scratch of assembly and the tangent of the free unknowns.
 #[derive(Debug)]
 pub(crate) struct Assembly {
     pub matrix: Matrix,
     /// Strain energy of the last internal forces \[J\].
     pub energy: f64,
+    /// Power that went into it at the last internal forces \[W\].
+    pub power: f64,
     element: ElementForces,
     viscous: ElementForces,
     /// Increments of the numbers of an element.
@@ -26,20 +38,29 @@ impl Assembly {
         Self {
             matrix: Matrix::new(structure.unknowns(), structure.band),
             energy: 0.0,
+            power: 0.0,
             element: ElementForces::default(),
             viscous: ElementForces::default(),
             numbers: vec![],
         }
     }
 
-    /// Adds the internal forces of all nodes.
-    pub fn internal(&mut self, structure: &Structure, at: &Configuration, out: &mut [f64]) {
-        self.energy = 0.0;
+    /// Adds the internal forces of all nodes, which move with `velocity`, six numbers each.
+    pub fn internal(
+        &mut self,
+        structure: &Structure,
+        at: &Configuration,
+        velocity: &[f64],
+        out: &mut [f64],
+    ) {
+        (self.energy, self.power) = (0.0, 0.0);
         for e in &structure.elements {
             self.energy += e.internal(at, false, &mut self.element);
             for (n, f) in e.nodes().iter().zip(self.element.force.chunks_exact(NODE)) {
-                let to = &mut out[NODE * n..NODE * (n + 1)];
-                to.iter_mut().zip(f).for_each(|(t, f)| *t += f);
+                let own = NODE * n..NODE * (n + 1);
+                let moving = f.iter().zip(&velocity[own.clone()]);
+                self.power += moving.map(|(f, v)| f * v).sum::<f64>();
+                out[own].iter_mut().zip(f).for_each(|(t, f)| *t += f);
             }
         }
     }
@@ -62,14 +83,14 @@ impl Assembly {
         }
     }
 
-    /// Adds the tangent of all elements, times `scales[0]`, and the matrix of strain-rate damping times `scales[1]`;
-    /// `turn` maps increments of the attitude of a node to rotations in its axes. Stresses are those of `at`, or ahead from a
-    /// configuration by six numbers a node ([`crate::Element::tangent_ahead`]).
+    /// Adds the tangent of all elements, and that of strain-rate damping where there is some; `turn` maps increments of the
+    /// attitude of a node to rotations in its axes. Stresses are those of `at`, or ahead from a configuration by six numbers
+    /// a node ([`crate::Element::tangent_ahead`]).
     pub fn tangent(
         &mut self,
         structure: &Structure,
         (at, ahead): (&Configuration, Option<(&Configuration, &[f64])>),
-        scales: [f64; 2],
+        damping: Option<&Viscous<'_>>,
         turn: &dyn Fn(usize) -> DMat3,
     ) {
         for e in &structure.elements {
@@ -78,18 +99,14 @@ impl Assembly {
                     e.internal(at, true, &mut self.element);
                 }
                 Some((before, increment)) => {
-                    self.numbers.clear();
-                    let own = e.nodes().iter().flat_map(|n| NODE * n..NODE * (n + 1));
-                    self.numbers.extend(own.map(|k| increment[k]));
+                    gather(increment, e.nodes(), &mut self.numbers);
                     e.tangent_ahead(at, before, &self.numbers, &mut self.element);
                 }
             }
-            for row in self
-                .element
-                .tangent
-                .chunks_exact_mut(NODE * e.nodes().len())
-            {
-                row.iter_mut().for_each(|k| *k *= scales[0]);
+            if let Some(d) = damping {
+                gather(d.velocity, e.nodes(), &mut self.numbers);
+                let out = &mut self.element.tangent;
+                e.add_dissipation_tangent(at, &self.numbers, d.time, out);
             }
             let width = NODE * e.nodes().len();
             for (c, &n) in e.nodes().iter().enumerate() {
@@ -99,10 +116,10 @@ impl Assembly {
                     (turn * DVec3::from_slice(angles)).write_to_slice(angles);
                 }
             }
-            if scales[1] > 0.0 {
+            if let Some(d) = damping {
                 e.dissipation(at, &mut self.viscous);
                 let both = self.element.tangent.iter_mut().zip(&self.viscous.tangent);
-                both.for_each(|(k, c)| *k += scales[1] * c);
+                both.for_each(|(k, c)| *k += d.time * d.rate * c);
             }
             scatter(
                 &mut self.matrix,
@@ -136,6 +153,13 @@ impl Assembly {
             StructureError::Singular { node, direction }
         })
     }
+}
+
+/// The numbers of some nodes.
+fn gather(all: &[f64], nodes: &[usize], out: &mut Vec<f64>) {
+    out.clear();
+    let own = nodes.iter().flat_map(|n| NODE * n..NODE * (n + 1));
+    out.extend(own.map(|k| all[k]));
 }
 
 /// Adds the matrix of an element.

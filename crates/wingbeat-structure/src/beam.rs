@@ -14,6 +14,7 @@
 //! elements the errors are +0.019 / N^2, -0.30 / N^2 and -1.03 / N^2 in the first three bending modes.
 
 mod section;
+mod viscous;
 
 pub use section::{Section, Stiffness};
 
@@ -321,6 +322,16 @@ impl Element for Beam {
         let (rotations, screw) = screw_between(at, self.nodes, &self.offsets);
         out.resize(ENDS);
         self.add_tangent((&rotations, &screw), &force, &mut out.tangent);
+    }
+
+    fn add_dissipation_tangent(
+        &self,
+        at: &Configuration,
+        velocity: &[f64],
+        factor: f64,
+        tangent: &mut [f64],
+    ) {
+        self.turning_of_damping(at, velocity, factor, tangent);
     }
 
     fn dissipation(&self, at: &Configuration, out: &mut ElementForces) {

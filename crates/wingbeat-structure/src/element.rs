@@ -46,6 +46,18 @@ pub trait Element: std::fmt::Debug + Send + Sync {
         }
     }
 
+    /// Adds to `tangent` (by rows) `factor` times the derivative of the damping force `C v` by the six numbers of the nodes, C the
+    /// matrix of [`Self::dissipation`], the six rates v of each node held: damping forces turn with the element, and so do
+    /// its rates of strain. Unless an element says better, nothing: Newton's iteration then needs more passes.
+    fn add_dissipation_tangent(
+        &self,
+        _at: &Configuration,
+        _velocity: &[f64],
+        _factor: f64,
+        _tangent: &mut [f64],
+    ) {
+    }
+
     /// Fills `out.tangent` with the tangent in the configuration `at`, its stresses replaced by those that strains linear in the
     /// `increment` (six numbers of each of its nodes) from the configuration `before` would have. Thin elements that turn are
     /// stretched at second order by increments that strain nothing at first; with that stress in the tangent Newton's

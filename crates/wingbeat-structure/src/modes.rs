@@ -91,7 +91,7 @@ fn matrices(
     let n = structure.unknowns();
     let mut assembly = Assembly::new(structure);
     assembly.matrix.clear(true);
-    steady_tangent(structure, at, frame, &mut assembly);
+    steady_tangent(structure, (at, None), frame, &mut assembly);
     let k = symmetric(n, assembly.matrix.rows());
     assembly.matrix.clear(true);
     for (node, m) in structure.masses.iter().enumerate() {

@@ -33,6 +33,9 @@ impl Default for StaticSettings {
 /// Largest change \[1\] in one pass: larger ones are scaled down.
 const MAX_CHANGE: f64 = 1.0;
 
+/// Corrections beyond this stretch what hardly stretches: the next tangent has the stresses that were foreseen \[1\].
+const ROUGH: f64 = 1e-3;
+
 /// Smallest part of the load that is tried.
 const MIN_PART: f64 = 1e-4;
 
@@ -87,6 +90,9 @@ struct Scratch {
     change: Vec<f64>,
     all: Vec<f64>,
     still: Vec<f64>,
+    /// Where the last correction `all` began, and whether stresses are foreseen from there.
+    before: Configuration,
+    looks_ahead: bool,
 }
 
 impl Scratch {
@@ -98,6 +104,8 @@ impl Scratch {
             change: vec![0.0; structure.unknowns()],
             all: zero.clone(),
             still: zero,
+            before: structure.rest().clone(),
+            looks_ahead: false,
         }
     }
 }
@@ -118,6 +126,7 @@ fn newton<L: Loading + ?Sized>(
     settings: &StaticSettings,
 ) -> Result<(), StructureError> {
     let (mut change, mut residual) = (f64::INFINITY, f64::INFINITY);
+    s.looks_ahead = false;
     for _ in 0..settings.max_passes {
         residual = unbalanced(p, at, s);
         tangent(p, at, s)?;
@@ -125,6 +134,7 @@ fn newton<L: Loading + ?Sized>(
         if change <= settings.tolerance {
             return Ok(());
         }
+        s.looks_ahead = change > ROUGH;
         if !change.is_finite() {
             break;
         }
@@ -144,7 +154,8 @@ fn unbalanced<L: Loading + ?Sized>(p: &Problem<'_, L>, at: &Configuration, s: &m
     s.residual.fill(0.0);
     p.loads.add(at, &mut s.residual);
     s.residual.iter_mut().for_each(|r| *r *= -p.part);
-    s.assembly.internal(p.structure, at, &mut s.residual);
+    s.assembly
+        .internal(p.structure, at, &s.still, &mut s.residual);
     let motion = Motion {
         at,
         velocity: &s.still,
@@ -162,7 +173,8 @@ fn tangent<L: Loading + ?Sized>(
     s: &mut Scratch,
 ) -> Result<(), StructureError> {
     s.assembly.matrix.clear(false);
-    steady_tangent(p.structure, at, &p.frame, &mut s.assembly);
+    let ahead = s.looks_ahead.then_some((&s.before, &s.all[..]));
+    steady_tangent(p.structure, (at, ahead), &p.frame, &mut s.assembly);
     for n in 0..p.structure.nodes() {
         if let Some(block) = p.loads.tangent(at, n) {
             let less = block.map(|row| row.map(|k| -p.part * k));
@@ -172,15 +184,16 @@ fn tangent<L: Loading + ?Sized>(
     s.assembly.factor(p.structure)
 }
 
-/// Adds the derivative of internal and inertial forces by the configuration, nothing moving relative to the frame.
+/// Adds the derivative of internal and inertial forces by the configuration, nothing moving relative to the frame; stresses may
+/// be foreseen ([`crate::Element::tangent_ahead`]).
 pub(crate) fn steady_tangent(
     structure: &Structure,
-    at: &Configuration,
+    (at, ahead): (&Configuration, Option<(&Configuration, &[f64])>),
     frame: &FrameMotion,
     assembly: &mut Assembly,
 ) {
     let unit = |_: usize| wingbeat_math::DMat3::IDENTITY;
-    assembly.tangent(structure, (at, None), [1.0, 0.0], &unit);
+    assembly.tangent(structure, (at, ahead), None, &unit);
     for (n, m) in structure.masses.iter().enumerate() {
         let t = inertia::tangents(m, frame, &inertia::NodeMotion::still(at, n));
         assembly.add(structure, [n, n], &t.position);
@@ -212,6 +225,7 @@ fn correct(structure: &Structure, at: &mut Configuration, s: &mut Scratch) -> f6
         1.0
     };
     s.all.iter_mut().for_each(|x| *x *= limit);
+    s.before.clone_from(at);
     at.moved(&s.all);
     largest
 }

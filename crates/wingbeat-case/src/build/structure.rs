@@ -2,11 +2,13 @@
 
 use wingbeat_model::deformation::SpanLaw;
 use wingbeat_model::structure::Damping;
-use wingbeat_model::{Members, Wing, WingBeam, WingShell, WingStructure};
+use wingbeat_model::{
+    Members, ModelError, Region, Vein, VeinStiffness, Wing, WingBeam, WingShell, WingStructure,
+};
 
 use super::fault::{Built, fault_at};
 use crate::error::Fault;
-use crate::raw::{BeamCase, ShellCase, ShellRule, StructureCase};
+use crate::raw::{BeamCase, RegionCase, ShellCase, ShellRule, StructureCase, VeinCase};
 
 /// In-plane over out-of-plane stiffness of a beam where nothing is said.
 const LAG: f64 = 100.0;
@@ -16,17 +18,19 @@ pub(super) fn make(wing: Wing, path: &str, case: &StructureCase) -> Built<Wing> 
     let members = match (&case.beam, &case.shell) {
         (Some(beam), _) => Members::Beam(self::beam(&format!("{path}.beam"), beam)?),
         (None, Some(shell)) => {
-            let path = format!("{path}.shell");
-            Members::Shell(match shell.rule {
+            let (table, path) = (path, format!("{path}.shell"));
+            let sheet = match shell.rule {
                 Some(ShellRule::CombesDaniel) => {
-                    let wing = {
-                        let (report, mass) = (wing.report(), wing.mass.mass);
-                        let sizes = [report.length, report.area, mass];
-                        WingShell::combes_daniel(sizes, shell.poisson)
-                    };
-                    edges(wing, shell)
+                    let (report, mass) = (wing.report(), wing.mass.mass);
+                    let sizes = [report.length, report.area, mass];
+                    WingShell::combes_daniel(sizes, shell.poisson)
                 }
                 None => self::shell(&path, shell)?,
+            };
+            Members::Shell(WingShell {
+                regions: regions(table, case, shell)?,
+                veins: veins(table, case)?,
+                ..edges(sheet, shell)
             })
         }
         (None, None) => {
@@ -46,8 +50,29 @@ pub(super) fn make(wing: Wing, path: &str, case: &StructureCase) -> Built<Wing> 
         },
         spectral_radius: case.spectral_radius,
     };
-    wing.made_of(structure)
-        .map_err(|e| fault_at(path, case, &e))
+    wing.made_of(structure).map_err(|e| traced(path, case, &e))
+}
+
+/// A fault of the model traced to the table it is about.
+fn traced(path: &str, case: &StructureCase, error: &ModelError) -> Fault {
+    let (ModelError::Value { key, .. } | ModelError::Count { key, .. }) = error else {
+        return fault_at(path, case, error);
+    };
+    let table = key.rsplit('.').nth(1).unwrap_or_default();
+    let path = format!("{path}.{table}");
+    let number = |list: &str| {
+        let inside = table.strip_prefix(list)?.strip_prefix('[')?;
+        inside.strip_suffix(']')?.parse::<usize>().ok()
+    };
+    let vein = number("vein").and_then(|k| case.vein.get(k));
+    let region = number("region").and_then(|k| case.region.get(k));
+    match (table, vein, region) {
+        (_, Some(vein), _) => fault_at(&path, vein, error),
+        (_, _, Some(region)) => fault_at(&path, region, error),
+        ("beam", ..) => fault_at(&path, &case.beam, error),
+        ("shell", ..) => fault_at(&path, &case.shell, error),
+        _ => fault_at(path.trim_end_matches(&format!(".{table}")), case, error),
+    }
 }
 
 fn beam(path: &str, case: &BeamCase) -> Built<WingBeam> {
@@ -96,20 +121,86 @@ fn shell(path: &str, case: &ShellCase) -> Built<WingShell> {
         shear: case.shear_pa,
         thickness: law(path, "thickness", "m", thickness)?,
         density: None,
+        fibre_angle: 0.0,
+        prestress: [0.0; 2],
+        bending_factor: 1.0,
+        regions: vec![],
+        veins: vec![],
         clamps_root: true,
         rigid_fraction: 0.0,
     };
-    Ok(edges(wing, case))
+    Ok(wing)
 }
 
-/// The same with the mass and what is clamped as the case says.
+/// The same with mass, fibres, tension and what is clamped as the case says.
 fn edges(wing: WingShell, case: &ShellCase) -> WingShell {
     WingShell {
         density: case.density_kg_m3,
+        fibre_angle: case.fibre_angle_deg.to_radians(),
+        prestress: case.prestress_newton_per_m,
+        bending_factor: case.bending_factor,
         clamps_root: case.clamped_root,
         rigid_fraction: case.rigid_fraction,
         ..wing
     }
+}
+
+fn regions(path: &str, case: &StructureCase, shell: &ShellCase) -> Built<Vec<Region>> {
+    let region = |(k, g): (usize, &RegionCase)| {
+        if g.density_kg_m3.is_some() && shell.density_kg_m3.is_none() {
+            return Err(Fault::new(
+                format!("{path}.region[{k}].density_kg_m3"),
+                "this has no effect: the mass of the wing is spread evenly over its area",
+                "a region's density beside that of the shell",
+                format!("remove it, or give {path}.shell.density_kg_m3"),
+            ));
+        }
+        let across = |y: f64| [y, g.young_chord_pa.unwrap_or(y)];
+        Ok(Region {
+            span: g.span_range,
+            chord: g.chord_range,
+            young: g.young_pa.map(across),
+            poisson: g.poisson,
+            shear: g.shear_pa,
+            thickness: g.thickness_m,
+            density: g.density_kg_m3,
+            fibre_angle: g.fibre_angle_deg.map(f64::to_radians),
+            prestress: g.prestress_newton_per_m,
+        })
+    };
+    case.region.iter().enumerate().map(region).collect()
+}
+
+fn veins(path: &str, case: &StructureCase) -> Built<Vec<Vein>> {
+    let vein = |(k, v): (usize, &VeinCase)| {
+        let missing = |key: &str, allowed: &str, remedy: &str| {
+            let key = format!("{path}.vein[{k}].{key}");
+            Fault::new(key, "this key is missing", allowed, remedy)
+        };
+        let stiffness = match (v.young_pa, v.bending_newton_m2, v.torsion_newton_m2) {
+            (Some(young), _, _) => VeinStiffness::Solid {
+                young,
+                shear: v.shear_pa,
+            },
+            (None, Some(bending), Some(torsion)) => VeinStiffness::Given { bending, torsion },
+            _ => {
+                let allowed = "young_pa, or bending_newton_m2 with torsion_newton_m2";
+                let remedy = "give the modulus of a solid bar, or what was measured";
+                return Err(missing("young_pa", allowed, remedy));
+            }
+        };
+        let allowed = "radius_m = [at its beginning, at its end]";
+        let remedy = "for flat bars the radius of a round one of the same area";
+        Ok(Vein {
+            from: v.from,
+            to: v.to,
+            radius: (v.radius_m).ok_or_else(|| missing("radius_m", allowed, remedy))?,
+            stiffness,
+            density: v.density_kg_m3,
+            is_clamped: v.clamped,
+        })
+    };
+    case.vein.iter().enumerate().map(vein).collect()
 }
 
 type Values<'a> = (Option<[f64; 2]>, Option<&'a Vec<[f64; 2]>>);

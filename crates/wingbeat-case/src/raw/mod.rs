@@ -55,7 +55,7 @@ pub use motion::{
     StartCase, TableCase, WingMotionCase,
 };
 pub use open::Open;
-pub use structure::{BeamCase, ShellCase, ShellRule, StructureCase};
+pub use structure::{BeamCase, RegionCase, ShellCase, ShellRule, StructureCase, VeinCase};
 pub use wake::{FrictionCase, ParticlesCase, SectionDragCase};
 pub use wind::{GroundCase, GustCase, TurbulenceCase, VortexStreetCase};
 pub use wing::{BetaCase, OutlineCase, PlanformCase, RectangleCase, WingCase, WingMeshCase};

@@ -15,6 +15,14 @@ pub struct StructureCase {
     #[schemars(extend("or" = "beam"))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub shell: Option<ShellCase>,
+    /// Veins, spars and battens of a shell: beams on the nodes of its mesh.
+    #[schemars(extend("with" = "shell"))]
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub vein: Vec<VeinCase>,
+    /// Regions of a shell that are made of something else; of those that overlap the last counts.
+    #[schemars(extend("with" = "shell"))]
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub region: Vec<RegionCase>,
     /// Time by which rates of strain add to strains (Kelvin and Voigt): the damping ratio of a mode is half this times its
     /// angular frequency.
     ///
@@ -135,18 +143,18 @@ pub struct ShellCase {
     /// Change it to leave moduli and thickness to what was measured in sixteen species.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub rule: Option<ShellRule>,
-    /// Young's modulus, along the span if that along the chord is given, too.
+    /// Young's modulus, along the fibres (the span unless they are turned) if that across them is given, too.
     ///
     /// Change it to that of the material: some 3e9 for cuticle.
     #[schemars(extend("exclusiveMinimum" = 0, "or" = "rule"))]
     pub young_pa: Option<f64>,
-    /// Young's modulus along the chord. Left out: that along the span.
+    /// Young's modulus across the fibres, along the chord unless they are turned. Left out: that along them.
     ///
-    /// Change it for sheets stiffened by veins or fibres along the span.
+    /// Change it for sheets stiffened by fibres.
     #[schemars(extend("exclusiveMinimum" = 0, "with" = "young_pa"))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub young_chord_pa: Option<f64>,
-    /// Poisson's ratio: contraction along the chord for tension along the span.
+    /// Poisson's ratio: contraction across the fibres (the span unless they are turned) for tension along them.
     ///
     /// Change it to that of the material.
     #[default = 0.3]
@@ -175,9 +183,24 @@ pub struct ShellCase {
     #[schemars(extend("exclusiveMinimum" = 0, "or" = "wing.NAME.mass_kg"))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub density_kg_m3: Option<f64>,
+    /// Direction of the fibres, from the span towards the leading edge.
+    ///
+    /// Change it for fabrics and laminates whose fibres run askew: bending then twists the wing.
+    pub fibre_angle_deg: f64,
+    /// Tension at rest along and across the fibres, between parts that hold it. A free edge gives way to tension across it.
+    ///
+    /// Change it for membranes that are stretched over a frame.
+    #[schemars(inner(range(min = 0)))]
+    pub prestress_newton_per_m: [f64; 2],
+    /// Bending stiffness over that of a solid sheet of this thickness.
+    ///
+    /// Change it to less than 1 for films that bend more easily, to more for pleated sheets.
+    #[default = 1.0]
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub bending_factor: f64,
     /// Whether the root is clamped to the wing frame.
     ///
-    /// Change it to false for foils that are held along their leading part alone.
+    /// Change it to false for foils that are held along their leading part alone, or by veins.
     #[default = true]
     pub clamped_root: bool,
     /// Part of the chord behind the leading edge that is rigid with the wing frame, all along the span.
@@ -185,4 +208,124 @@ pub struct ShellCase {
     /// Change it for foils with a rigid leading part.
     #[schemars(range(min = 0), extend("exclusiveMaximum" = 1))]
     pub rigid_fraction: f64,
+}
+
+/// A vein: a round beam on the nodes of the mesh nearest to a straight line over the wing, along lines of the mesh and diagonals
+/// of its panels. Pairs are values at its two ends, linear between.
+#[derive(Clone, Debug, PartialEq, SmartDefault, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct VeinCase {
+    /// Where it begins: r/R, and place behind the leading edge over the chord. Left out: at the root of the leading edge.
+    ///
+    /// Change it for veins that begin elsewhere.
+    #[schemars(inner(range(min = 0, max = 1)))]
+    pub from: [f64; 2],
+    /// Where it ends, likewise. Left out: at the tip of the leading edge.
+    ///
+    /// Change it for veins that run elsewhere.
+    #[default(_code = "[1.0, 0.0]")]
+    #[schemars(inner(range(min = 0, max = 1)))]
+    pub to: [f64; 2],
+    /// Radius: of it and the modulus are bending and torsion; stretching, `EA = 4 EI / r^2`, follows from it in any case.
+    ///
+    /// Change it to what was measured.
+    pub radius_m: Option<[f64; 2]>,
+    /// Young's modulus of a solid round bar.
+    ///
+    /// Change it to that of the material: some 5e9 for cuticle of veins, 1e11 to 3e11 for carbon fibre.
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub young_pa: Option<f64>,
+    /// Shear modulus of a solid round bar. Left out: that of a Poisson's ratio of 0.3.
+    ///
+    /// Change it for fibre along the bar, which twists more easily.
+    #[schemars(extend("exclusiveMinimum" = 0, "with" = "young_pa"))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub shear_pa: Option<f64>,
+    /// EI in all directions, in place of a modulus.
+    ///
+    /// Change it to what was measured, or for tubes and flat bars.
+    #[schemars(extend("or" = "young_pa", "with" = "torsion_newton_m2"))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub bending_newton_m2: Option<[f64; 2]>,
+    /// GJ, in place of a modulus.
+    ///
+    /// Change it to what was measured, or for tubes and flat bars.
+    #[schemars(extend("or" = "young_pa", "with" = "bending_newton_m2"))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub torsion_newton_m2: Option<[f64; 2]>,
+    /// Density. Left out: its mass is part of that spread over the sheet. Given, it is taken out of the mass of the wing
+    /// before the rest is spread, or added to that of a sheet which has a density, too.
+    ///
+    /// Change it to that of the material: veins carry much of the mass of a wing.
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub density_kg_m3: Option<f64>,
+    /// Whether its beginning is clamped to the wing frame, also where the root of the sheet is not.
+    ///
+    /// Change it to true for spars that alone hold a wing.
+    pub clamped: bool,
+}
+
+/// A part of a shell that is made of something else: panels whose middle lies in it. What is left out is as elsewhere.
+#[derive(Clone, Debug, PartialEq, SmartDefault, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct RegionCase {
+    /// From and to along the span, r/R.
+    ///
+    /// Change it to where the region lies.
+    #[default(_code = "[0.0, 1.0]")]
+    #[schemars(inner(range(min = 0, max = 1)))]
+    pub span_range: [f64; 2],
+    /// From and to behind the leading edge over the chord.
+    ///
+    /// Change it to where the region lies.
+    #[default(_code = "[0.0, 1.0]")]
+    #[schemars(inner(range(min = 0, max = 1)))]
+    pub chord_range: [f64; 2],
+    /// Young's modulus, along the fibres if that across them is given, too.
+    ///
+    /// Change it to that of the material.
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub young_pa: Option<f64>,
+    /// Young's modulus across the fibres. Left out: that along them.
+    ///
+    /// Change it for sheets stiffened by fibres.
+    #[schemars(extend("exclusiveMinimum" = 0, "with" = "young_pa"))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub young_chord_pa: Option<f64>,
+    /// Poisson's ratio.
+    ///
+    /// Change it to that of the material.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub poisson: Option<f64>,
+    /// Shear modulus. Left out beside `young_pa`: that of a sheet alike in all directions.
+    ///
+    /// Change it for sheets stiffened by fibres.
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub shear_pa: Option<f64>,
+    /// Thickness, even over the region.
+    ///
+    /// Change it to what was measured.
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub thickness_m: Option<f64>,
+    /// Density, of shells that have `shell.density_kg_m3`.
+    ///
+    /// Change it to that of the material.
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub density_kg_m3: Option<f64>,
+    /// Direction of the fibres, from the span towards the leading edge.
+    ///
+    /// Change it for laminates whose fibres run askew.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub fibre_angle_deg: Option<f64>,
+    /// Tension at rest along and across the fibres.
+    ///
+    /// Change it for membranes that are stretched over a frame.
+    #[schemars(inner(range(min = 0)))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub prestress_newton_per_m: Option<[f64; 2]>,
 }

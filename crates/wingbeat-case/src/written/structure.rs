@@ -1,10 +1,10 @@
 //! What a wing is made of.
 
 use wingbeat_model::deformation::SpanLaw;
-use wingbeat_model::{Members, WingBeam, WingShell, WingStructure};
+use wingbeat_model::{Members, Region, Vein, VeinStiffness, WingBeam, WingShell, WingStructure};
 
 use super::motion::span;
-use crate::raw::{BeamCase, ShellCase, StructureCase};
+use crate::raw::{BeamCase, RegionCase, ShellCase, StructureCase, VeinCase};
 
 /// A structure.
 pub(super) fn case(structure: &WingStructure) -> StructureCase {
@@ -17,9 +17,18 @@ pub(super) fn case(structure: &WingStructure) -> StructureCase {
         Members::Beam(beam) => (Some(beam_case(beam)), None),
         Members::Shell(shell) => (None, Some(shell_case(shell))),
     };
+    let (vein, region) = match members {
+        Members::Beam(_) => (vec![], vec![]),
+        Members::Shell(shell) => (
+            shell.veins.iter().map(vein_case).collect(),
+            shell.regions.iter().map(region_case).collect(),
+        ),
+    };
     StructureCase {
         beam,
         shell,
+        vein,
+        region,
         damping_s: damping.strain_rate,
         mass_damping_per_s: damping.mass,
         spectral_radius: *spectral_radius,
@@ -41,6 +50,11 @@ fn shell_case(shell: &WingShell) -> ShellCase {
         shear,
         thickness,
         density,
+        fibre_angle,
+        prestress,
+        bending_factor,
+        regions: _,
+        veins: _,
         clamps_root,
         rigid_fraction,
     } = shell;
@@ -54,8 +68,44 @@ fn shell_case(shell: &WingShell) -> ShellCase {
         thickness_m,
         thickness_table_m,
         density_kg_m3: *density,
+        fibre_angle_deg: fibre_angle.to_degrees(),
+        prestress_newton_per_m: *prestress,
+        bending_factor: *bending_factor,
         clamped_root: *clamps_root,
         rigid_fraction: *rigid_fraction,
+    }
+}
+
+fn region_case(region: &Region) -> RegionCase {
+    RegionCase {
+        span_range: region.span,
+        chord_range: region.chord,
+        young_pa: region.young.map(|[along, _]| along),
+        young_chord_pa: region.young.map(|[_, across]| across),
+        poisson: region.poisson,
+        shear_pa: region.shear,
+        thickness_m: region.thickness,
+        density_kg_m3: region.density,
+        fibre_angle_deg: region.fibre_angle.map(f64::to_degrees),
+        prestress_newton_per_m: region.prestress,
+    }
+}
+
+fn vein_case(vein: &Vein) -> VeinCase {
+    let (young_pa, shear_pa, bending_newton_m2, torsion_newton_m2) = match vein.stiffness {
+        VeinStiffness::Solid { young, shear } => (Some(young), shear, None, None),
+        VeinStiffness::Given { bending, torsion } => (None, None, Some(bending), Some(torsion)),
+    };
+    VeinCase {
+        from: vein.from,
+        to: vein.to,
+        radius_m: Some(vein.radius),
+        young_pa,
+        shear_pa,
+        bending_newton_m2,
+        torsion_newton_m2,
+        density_kg_m3: vein.density,
+        clamped: vein.is_clamped,
     }
 }
 

@@ -3,6 +3,7 @@
 use wingbeat_flight::FlightSetup;
 use wingbeat_math::DVec3;
 
+use super::bending::bending;
 use super::measure::{Kept, Line, Measure, Measured, Unit};
 use super::units::scaled;
 use wingbeat_results::History;
@@ -23,6 +24,7 @@ pub(super) fn measured(setup: &FlightSetup, history: &History) -> Vec<Measured> 
     if setup.feedback.is_some() {
         list.push(commands(setup, history));
     }
+    list.extend(bending(setup, history));
     list.push(balances(history));
     list
 }

@@ -8,6 +8,7 @@
 
 mod animation;
 mod beats;
+mod bending;
 mod chart;
 mod dots;
 mod drawing;

@@ -24,6 +24,8 @@ pub enum Kind {
     Path,
     /// Phase planes of body and wing.
     Phase,
+    /// How an elastic wing bends, twists and cambers over time.
+    Bending,
     /// Energy, momentum and constraints.
     Balances,
     /// Wakes from above and from the side.
@@ -34,7 +36,7 @@ pub enum Kind {
 
 impl Kind {
     /// All kinds by name, with what they show.
-    pub const ALL: [(&'static str, Self, &'static str); 11] = [
+    pub const ALL: [(&'static str, Self, &'static str); 12] = [
         ("angles", Self::Angles, "wing angles over time"),
         (
             "forces",
@@ -63,6 +65,11 @@ impl Kind {
             "path of the body in space, three views to one scale",
         ),
         ("phase", Self::Phase, "phase planes of body and wing"),
+        (
+            "bending",
+            Self::Bending,
+            "deflection, twist and camber of an elastic wing along its span",
+        ),
         ("balances", Self::Balances, "energy, momentum, constraints"),
         ("wake", Self::Wake, "wakes from above and from the side"),
         (
@@ -85,6 +92,7 @@ impl Kind {
             Self::Angles | Self::Lollipop => "no wing of this flight flaps",
             Self::Beats => "this flight has no whole wingbeat",
             Self::Commands => "this flight has no feedback",
+            Self::Bending => "no wing of this flight is elastic",
             Self::Path => "the body does not move in this flight",
             Self::Phase => "nothing moves in this flight",
             Self::Wake => "no frames were written (output.frames_every = 0, or air without wakes)",

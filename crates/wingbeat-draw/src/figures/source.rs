@@ -106,9 +106,12 @@ impl<'a> Source<'a> {
             Kind::Phase => phase::phase(setup, &self.history, &self.note(), &look),
             Kind::Wake => wake::wake(self.dir, self.case, self.step, &look)?,
             Kind::Animation => None,
-            Kind::Angles | Kind::Forces | Kind::Trajectory | Kind::Commands | Kind::Balances => {
-                chart()
-            }
+            Kind::Angles
+            | Kind::Forces
+            | Kind::Trajectory
+            | Kind::Commands
+            | Kind::Bending
+            | Kind::Balances => chart(),
         })
     }
 }

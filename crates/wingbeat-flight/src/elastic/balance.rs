@@ -116,7 +116,12 @@ impl ElasticWings {
             out.push(ElasticRecord {
                 tip: middle(&place) - middle(&rest),
                 twist: pitch(&place) - pitch(&rest),
+                sections: std::array::from_fn(|k| {
+                    let shapes = [&ws.trial.configuration, w.structure.rest()];
+                    w.stations[k].record(&w.followers, shapes)
+                }),
                 strain_energy: ws.solver.strain_energy(),
+                strain_power: ws.solver.strain_power(),
                 passes: s.passes,
             });
         }

@@ -9,6 +9,7 @@
 mod balance;
 mod coupling;
 mod secants;
+mod span;
 mod step;
 mod tangent;
 mod wing;

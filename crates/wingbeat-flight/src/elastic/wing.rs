@@ -7,6 +7,7 @@ use wingbeat_structure::{
     Configuration, Follower, FrameMotion, GeneralizedAlpha, NODE, State, Structure,
 };
 
+use super::span::Station;
 use super::tangent::added_mass;
 use crate::error::FlightError;
 use crate::interface::{Shape, WingResponse};
@@ -23,6 +24,8 @@ pub struct ElasticWing {
     pub(super) followers: Vec<Follower>,
     /// Nodes of the mesh at the tip: leading and trailing edge.
     pub(super) tip: [usize; 2],
+    /// Sections that are recorded.
+    pub(super) stations: [Station; 4],
     pub(super) method: GeneralizedAlpha,
     /// Mass properties at rest, as the multibody system has them.
     pub(super) rigid: MassProperties,
@@ -69,6 +72,7 @@ impl ElasticWing {
             name: wing.name.clone(),
             rigid: wing.mass,
             tip: [0, wing.mesh.rows].map(|i| wing.mesh.node(i, wing.mesh.cols)),
+            stations: Station::all(&wing.mesh.nodes, [wing.mesh.rows, wing.mesh.cols]),
             structure: body.structure,
             followers: body.followers,
             method,

@@ -6,12 +6,16 @@
 
 mod beam;
 mod body;
+mod region;
 mod shell;
+mod vein;
 
 pub use crate::error::{MemberError, WingStructureError};
 pub use beam::WingBeam;
 pub use body::{Blank, ElasticBody};
+pub use region::Region;
 pub use shell::WingShell;
+pub use vein::{Vein, VeinStiffness};
 
 pub use wingbeat_structure::Damping;
 
@@ -33,7 +37,7 @@ pub struct WingStructure {
 pub enum Members {
     /// A beam along the span: whole slender wings, leading-edge spars, shafts of feathers.
     Beam(WingBeam),
-    /// A shell on the panels of the mesh: membranes of insects, plates, foils that bend along the chord.
+    /// A shell on the panels of the mesh, with veins: membranes of insects, plates, foils that bend along the chord.
     Shell(WingShell),
 }
 

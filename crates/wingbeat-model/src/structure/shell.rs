@@ -6,11 +6,13 @@ use wingbeat_structure::{
 };
 
 use super::body::{Blank, ElasticBody, check_positive};
+use super::region::{Region, fibres, middle};
+use super::vein::Vein;
 use crate::deformation::{SpanLaw, column, span};
 use crate::error::{MemberError, ModelError, require};
 use crate::mesh::GridMesh;
 
-/// A wing of sheet: orthotropic, its thickness a law along the span.
+/// A wing of sheet: orthotropic, its thickness a law along the span, with regions of other materials and with veins.
 #[derive(Clone, Debug, PartialEq)]
 pub struct WingShell {
     /// Young's modulus along the span and along the chord \[Pa\].
@@ -23,6 +25,17 @@ pub struct WingShell {
     pub thickness: SpanLaw,
     /// Density \[kg/m3\]; none spreads the mass of the wing evenly over its area.
     pub density: Option<f64>,
+    /// Direction of the fibres, which `young` and `prestress` go along and across: from the span towards the leading edge
+    /// \[rad\].
+    pub fibre_angle: f64,
+    /// Tension at rest along and across the fibres \[N/m\].
+    pub prestress: [f64; 2],
+    /// Bending stiffness over that of a solid sheet \[1\]: less for a slack film, more for a pleated one.
+    pub bending_factor: f64,
+    /// Regions of other materials; of those that overlap the last counts.
+    pub regions: Vec<Region>,
+    /// Veins.
+    pub veins: Vec<Vein>,
     /// Whether the root is clamped to the wing frame.
     pub clamps_root: bool,
     /// Part of the chord behind the leading edge that is rigid with the wing frame, all along the span \[1\].
@@ -53,6 +66,11 @@ impl WingShell {
             shear: Some((young[0] * young[1]).sqrt() / (2.0 * (1.0 + poisson))),
             thickness: SpanLaw::constant(thickness),
             density: None,
+            fibre_angle: 0.0,
+            prestress: [0.0; 2],
+            bending_factor: 1.0,
+            regions: vec![],
+            veins: vec![],
             clamps_root: true,
             rigid_fraction: 0.0,
         }
@@ -65,13 +83,21 @@ impl WingShell {
     ) -> Result<ElasticBody, MemberError> {
         let grid = wing.mesh;
         let mesh = ShellMesh::grid(&grid.nodes, grid.rows, grid.cols)?;
-        let mut area = 0.0;
-        for k in 0..mesh.panels.len() {
-            area += self.panel(&mesh, grid, k, 0.0)?.map_or(0.0, |s| s.area());
-        }
+        let laminae = self.laminae(grid)?;
         let mut builder = StructureBuilder::new(mesh.rest.clone()).damping(damping);
-        for k in 0..mesh.panels.len() {
-            if let Some(shell) = self.panel(&mesh, grid, k, wing.mass / area)? {
+        let mut veins = 0.0;
+        for (number, vein) in self.veins.iter().enumerate() {
+            let vein = vein.beams(number, grid, &mesh)?;
+            veins += vein.mass;
+            builder = vein
+                .beams
+                .into_iter()
+                .fold(builder, |b, beam| b.element(beam));
+            builder = vein.clamped.into_iter().fold(builder, |b, n| b.clamp(n));
+        }
+        let even = self.spread(wing, &mesh, &laminae, veins)?;
+        for (k, lamina) in laminae.iter().enumerate() {
+            if let Some(shell) = self.panel(&mesh, k, lamina, even)? {
                 builder = builder.element(shell);
             }
         }
@@ -88,33 +114,75 @@ impl WingShell {
         })
     }
 
-    /// The element of panel `k`, none where it has no area; `even` is the mass of the wing over its area \[kg/m2\].
+    /// Mass over area \[kg/m2\] of what has no density of its own: the mass of the wing less that of its veins, spread evenly.
+    fn spread(
+        &self,
+        wing: &Blank<'_>,
+        mesh: &ShellMesh,
+        laminae: &[Lamina],
+        veins: f64,
+    ) -> Result<f64, MemberError> {
+        if self.density.is_some() {
+            return Ok(0.0);
+        }
+        let left = wing.mass - veins;
+        if left <= 0.0 {
+            let wing = wing.mass;
+            return Err(MemberError::HeavyVeins { veins, wing });
+        }
+        let mut area = 0.0;
+        for (k, lamina) in laminae.iter().enumerate() {
+            area += self.panel(mesh, k, lamina, 0.0)?.map_or(0.0, |s| s.area());
+        }
+        Ok(left / area)
+    }
+
+    /// What every panel of the mesh is made of.
+    fn laminae(&self, grid: &GridMesh) -> Result<Vec<Lamina>, MemberError> {
+        let [root, tip] = span(grid);
+        let place = |k: usize| middle(grid, k, tip);
+        let count = grid.rows * grid.cols;
+        for (number, region) in self.regions.iter().enumerate() {
+            if !(0..count).any(|k| region.holds(place(k))) {
+                return Err(MemberError::EmptyRegion { number });
+            }
+        }
+        let lamina = |k: usize| {
+            let [r, x] = place(k);
+            let alike = self.young[0] / (2.0 * (1.0 + self.poisson));
+            let lamina = Lamina {
+                young: self.young,
+                poisson: self.poisson,
+                shear: self.shear.unwrap_or(alike),
+                thickness: self.thickness.at(r, root / tip),
+                density: self.density.unwrap_or(0.0),
+                added_mass: 0.0,
+                axis: fibres(grid, self.fibre_angle),
+                prestress: [self.prestress[0], self.prestress[1], 0.0],
+            };
+            let here = self.regions.iter().filter(|g| g.holds([r, x]));
+            here.fold(lamina, |lamina, region| region.applied(grid, lamina))
+        };
+        Ok((0..count).map(lamina).collect())
+    }
+
+    /// The element of panel `k`, none where it has no area; `even` is the mass over area of what has no density \[kg/m2\].
     fn panel(
         &self,
         mesh: &ShellMesh,
-        grid: &GridMesh,
         k: usize,
+        lamina: &Lamina,
         even: f64,
     ) -> Result<Option<Shell>, ShellError> {
         let Some(nodes) = mesh.panels[k] else {
             return Ok(None);
         };
-        let [root, tip] = span(grid);
-        let j = k % grid.cols;
-        let r = 0.5 * (column(grid, j).0 + column(grid, j + 1).0);
-        let [along, across] = self.young;
-        let alike = along / (2.0 * (1.0 + self.poisson));
         let lamina = Lamina {
-            young: [along, across],
-            poisson: self.poisson,
-            shear: self.shear.unwrap_or(alike),
-            thickness: self.thickness.at(r / tip, root / tip),
-            density: self.density.unwrap_or(0.0),
-            added_mass: if self.density.is_some() { 0.0 } else { even },
-            axis: DVec3::Y,
-            prestress: [0.0; 3],
+            added_mass: even,
+            ..*lamina
         };
         let mut section = lamina.section()?;
+        section.bending *= self.bending_factor;
         // Of mass that has no density the inertia is that of the sheet's thickness.
         section.rotary_inertia = section.area_density * lamina.thickness.powi(2) / 12.0;
         Shell::new(&mesh.rest, nodes, &section).map(Some)
@@ -132,6 +200,9 @@ impl WingShell {
     pub(super) fn scaled(&self, s: f64) -> Self {
         Self {
             thickness: self.thickness.scaled(s),
+            prestress: self.prestress.map(|n| s * n),
+            regions: self.regions.iter().map(|g| g.scaled(s)).collect(),
+            veins: self.veins.iter().map(|v| v.scaled(s)).collect(),
             ..self.clone()
         }
     }
@@ -145,21 +216,49 @@ impl WingShell {
             (0.0..1.0).contains(&part),
             "from 0 to below 1",
         )?;
-        let held = self.clamps_root || part > 0.0;
-        let allowed = "above 0 where the root is not clamped: something must hold the wing";
+        let held = self.clamps_root || part > 0.0 || self.veins.iter().any(|v| v.is_clamped);
+        let allowed =
+            "above 0 where neither root nor vein is clamped: something must hold the wing";
         require(&of("rigid_fraction"), part, held, allowed)?;
         let positive = [
             ("young", Some(self.young[0])),
             ("young", Some(self.young[1])),
             ("shear", self.shear),
             ("density", self.density),
+            ("bending_factor", Some(self.bending_factor)),
         ];
         for (k, x) in positive {
             if let Some(x) = x {
                 require(&of(k), x, x > 0.0, "above 0")?;
             }
         }
+        for tension in self.prestress {
+            let pulls = tension >= 0.0;
+            require(
+                &of("prestress"),
+                tension,
+                pulls,
+                "0 or above: a sheet that is pushed buckles",
+            )?;
+        }
+        require(
+            &of("fibre_angle"),
+            self.fibre_angle,
+            true,
+            "a finite number",
+        )?;
         self.thickness.check(&of("thickness"), root)?;
-        check_positive(&of("thickness"), &self.thickness, root)
+        check_positive(&of("thickness"), &self.thickness, root)?;
+        (self.regions.iter().enumerate()).try_for_each(|(k, g)| g.check(&region_key(key, k)))?;
+        (self.veins.iter().enumerate()).try_for_each(|(k, v)| v.check(&vein_key(key, k)))
     }
+}
+
+/// The key of region or vein `k` of the sheet at `shell`.
+fn region_key(shell: &str, k: usize) -> String {
+    format!("{}.region[{k}]", shell.trim_end_matches(".shell"))
+}
+
+fn vein_key(shell: &str, k: usize) -> String {
+    format!("{}.vein[{k}]", shell.trim_end_matches(".shell"))
 }

@@ -109,6 +109,83 @@ pub(super) const ELASTIC: &[Quantity] = &[
     )
     .new_here(),
     scalar(
+        "deflection_quarter_{s}",
+        Unit::Metre,
+        "displacement along axis 3 from rest of the middle of the chord at a quarter of the length of {s}",
+        |r, s, _| Real(&mut r.elastic[s].sections[0].deflection),
+    )
+    .new_here(),
+    scalar(
+        "twist_quarter_{s}",
+        Unit::Radian,
+        "twist at a quarter of the length of {s} from rest, positive like feathering",
+        |r, s, _| Real(&mut r.elastic[s].sections[0].twist),
+    )
+    .new_here(),
+    scalar(
+        "camber_quarter_{s}",
+        Unit::One,
+        "camber at a quarter of the length of {s}: largest height over the chord, less that at rest",
+        |r, s, _| Real(&mut r.elastic[s].sections[0].camber),
+    )
+    .new_here(),
+    scalar(
+        "deflection_half_{s}",
+        Unit::Metre,
+        "displacement along axis 3 from rest of the middle of the chord at half of the length of {s}",
+        |r, s, _| Real(&mut r.elastic[s].sections[1].deflection),
+    )
+    .new_here(),
+    scalar(
+        "twist_half_{s}",
+        Unit::Radian,
+        "twist at half of the length of {s} from rest, positive like feathering",
+        |r, s, _| Real(&mut r.elastic[s].sections[1].twist),
+    )
+    .new_here(),
+    scalar(
+        "camber_half_{s}",
+        Unit::One,
+        "camber at half of the length of {s}: largest height over the chord, less that at rest",
+        |r, s, _| Real(&mut r.elastic[s].sections[1].camber),
+    )
+    .new_here(),
+    scalar(
+        "deflection_three_quarters_{s}",
+        Unit::Metre,
+        "displacement along axis 3 from rest of the middle of the chord at three quarters of the length of {s}",
+        |r, s, _| Real(&mut r.elastic[s].sections[2].deflection),
+    )
+    .new_here(),
+    scalar(
+        "twist_three_quarters_{s}",
+        Unit::Radian,
+        "twist at three quarters of the length of {s} from rest, positive like feathering",
+        |r, s, _| Real(&mut r.elastic[s].sections[2].twist),
+    )
+    .new_here(),
+    scalar(
+        "camber_three_quarters_{s}",
+        Unit::One,
+        "camber at three quarters of the length of {s}: largest height over the chord, less that at rest",
+        |r, s, _| Real(&mut r.elastic[s].sections[2].camber),
+    )
+    .new_here(),
+    scalar(
+        "camber_tip_{s}",
+        Unit::One,
+        "camber of the tip of {s}: largest height over the chord, less that at rest",
+        |r, s, _| Real(&mut r.elastic[s].sections[3].camber),
+    )
+    .new_here(),
+    scalar(
+        "strain_power_{s}",
+        Unit::Watt,
+        "power that goes into the elastic energy of {s}",
+        |r, s, _| Real(&mut r.elastic[s].strain_power),
+    )
+    .new_here(),
+    scalar(
         "strain_energy_{s}",
         Unit::Joule,
         "elastic energy of {s}",

@@ -3,7 +3,7 @@
 use wingbeat_math::{DMat3, DVec3};
 
 use super::generalized_alpha::{State, Trial, Weights};
-use crate::assembly::Assembly;
+use crate::assembly::{Assembly, Viscous};
 use crate::block::{Block, ZERO, add_pair, block, pair, product};
 use crate::configuration::{Configuration, NODE};
 use crate::error::StructureError;
@@ -96,7 +96,8 @@ impl Solver {
         self.loads.copy_from_slice(loads);
         let r = &mut self.residual;
         r.iter_mut().zip(loads).for_each(|(r, l)| *r = -l);
-        self.assembly.internal(structure, &trial.configuration, r);
+        let (at, velocity) = (&trial.configuration, &trial.velocity[..]);
+        self.assembly.internal(structure, at, velocity, r);
         self.damping_forces(structure, trial);
         let r = &mut self.residual;
         r.iter_mut().zip(&self.damping).for_each(|(r, d)| *r += d);
@@ -199,14 +200,16 @@ impl Solver {
         looks_ahead: bool,
     ) -> Result<(), StructureError> {
         self.assembly.matrix.clear(!loads.is_none());
-        let scales = [
-            1.0,
-            structure.damping.strain_rate * trial.weights().velocity,
-        ];
+        let viscous = Viscous {
+            time: structure.damping.strain_rate,
+            rate: trial.weights().velocity,
+            velocity: &trial.velocity,
+        };
+        let viscous = (viscous.time > 0.0).then_some(&viscous);
         let ahead = looks_ahead.then_some((&self.before, &self.ahead[..]));
         let turns = |n: usize| right_jacobian(trial.turn(n));
         self.assembly
-            .tangent(structure, (&trial.configuration, ahead), scales, &turns);
+            .tangent(structure, (&trial.configuration, ahead), viscous, &turns);
         for n in 0..structure.nodes() {
             let block = self.node_tangent(structure, trial, frame, n);
             self.assembly.add(structure, [n, n], &block);
@@ -276,6 +279,11 @@ impl Solver {
         state.velocity.clone_from(&trial.velocity);
         state.acceleration.clone_from(&trial.acceleration);
         state.algorithmic.clone_from(&trial.algorithmic);
+    }
+
+    /// Power that goes into the elastic energy in the last residual's trial \[W\].
+    pub fn strain_power(&self) -> f64 {
+        self.assembly.power
     }
 
     /// Elastic energy of the last residual's trial \[J\].

@@ -7,6 +7,7 @@ use super::geometry::{Quad, lumps};
 use super::stiffness::stiffness;
 use super::strain::{STRAINS, Stiffness, Term, Vectors, terms};
 use super::{Section, ShellError};
+use crate::block::pair;
 use crate::configuration::{Configuration, NODE};
 use crate::element::{Element, ElementForces};
 
@@ -154,6 +155,29 @@ impl Element for Shell {
         let gradient = Gradient::new(&self.terms, &vectors, &rotations, &self.axes);
         let mut sum = Tangent::new(&self.corner, size, &mut out.tangent);
         sum.material(&gradient, &self.stiffness);
+    }
+
+    fn add_dissipation_tangent(
+        &self,
+        at: &Configuration,
+        velocity: &[f64],
+        factor: f64,
+        tangent: &mut [f64],
+    ) {
+        let rotations = self.rotations(at);
+        let vectors = self.vectors(at, &rotations);
+        let gradient = Gradient::new(&self.terms, &vectors, &rotations, &self.axes);
+        let mut rates = [0.0; STRAINS];
+        gradient.add_strains(velocity, &self.corner, &mut rates);
+        let stress = std::array::from_fn(|i| {
+            let of = (0..STRAINS).map(|j| self.stiffness[i][j] * rates[j]);
+            factor * of.sum::<f64>()
+        });
+        let corners = self.corner.map(|k| pair(velocity, k));
+        let turned = Gradient::of_rates(&self.terms, &vectors, &rotations, &self.axes, &corners);
+        let mut sum = Tangent::new(&self.corner, NODE * self.nodes.len(), tangent);
+        sum.geometric(&self.terms, &stress, &vectors, &rotations, &self.axes);
+        sum.between([&gradient, &turned], &self.stiffness, factor);
     }
 
     fn tangent_ahead(

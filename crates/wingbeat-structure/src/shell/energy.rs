@@ -54,6 +54,43 @@ impl Gradient {
         }
     }
 
+    /// Derivatives by the numbers of the corners of what the strains change by per second under `rates`, six numbers of each
+    /// corner that are held.
+    pub fn of_rates(
+        terms: &[Term],
+        vectors: &Vectors,
+        rotations: &[DMat3; 4],
+        axes: &[DMat3; 4],
+        rates: &[[DVec3; 2]; 4],
+    ) -> Self {
+        let mut rows = [[0.0; SIZE]; STRAINS];
+        let moving = |w: &[f64; 4]| (0..4).map(|i| w[i] * rates[i][0]).sum::<DVec3>();
+        for term in terms {
+            let row = &mut rows[term.strain];
+            let ([left, _], left_rate) = (term.vectors(vectors), moving(&term.left));
+            let turning = |i: usize| rates[i][1].cross(axes[i].col(term.family.max(1) - 1));
+            let right_rate = if term.quadratic() {
+                moving(&term.right)
+            } else {
+                (0..4)
+                    .map(|i| term.right[i] * (rotations[i] * turning(i)))
+                    .sum()
+            };
+            for i in 0..4 {
+                add(row, NODE * i, term.left[i] * right_rate);
+                if term.quadratic() {
+                    add(row, NODE * i, term.right[i] * left_rate);
+                } else if term.right[i] != 0.0 {
+                    let back = rotations[i].transpose();
+                    let axis = axes[i].col(term.family - 1);
+                    let moment = axis.cross(back * left_rate) + turning(i).cross(back * left);
+                    add(row, NODE * i + 3, term.right[i] * moment);
+                }
+            }
+        }
+        Self(rows)
+    }
+
     /// Adds the derivative of the energy, by nodes.
     pub fn force(&self, stress: &[f64; STRAINS], corner: &[usize; 4], out: &mut [f64]) {
         for (row, stress) in self.0.iter().zip(stress) {
@@ -85,18 +122,22 @@ impl<'a> Tangent<'a> {
 
     /// `J^T C J`.
     pub fn material(&mut self, gradient: &Gradient, stiffness: &Stiffness) {
-        let j = &gradient.0;
+        self.between([gradient, gradient], stiffness, 1.0);
+    }
+
+    /// `factor J^T C D` of two gradients J and D.
+    pub fn between(&mut self, [j, d]: [&Gradient; 2], stiffness: &Stiffness, factor: f64) {
         for [first, count] in BLOCKS {
             for a in first..first + count {
                 let mut stressed = [0.0; SIZE];
                 for b in first..first + count {
-                    let c = stiffness[a][b];
+                    let c = factor * stiffness[a][b];
                     stressed
                         .iter_mut()
-                        .zip(&j[b])
+                        .zip(&d.0[b])
                         .for_each(|(s, g)| *s += c * g);
                 }
-                self.outer(&j[a], &stressed);
+                self.outer(&j.0[a], &stressed);
             }
         }
     }

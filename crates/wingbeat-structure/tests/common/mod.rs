@@ -88,3 +88,36 @@ pub fn crooked() -> (Configuration, Vec<Beam>) {
     let beams = (0..2).map(|i| beam(i).unwrap()).collect();
     (rest, beams)
 }
+
+/// The damping force `C(q) v` of an element and its derivative by q, v held, against differences.
+pub fn damping_tangent_error(element: &dyn Element, at: &Configuration) -> f64 {
+    let numbers: Vec<usize> = (element.nodes().iter())
+        .flat_map(|n| 6 * n..6 * n + 6)
+        .collect();
+    let size = numbers.len();
+    let velocity: Vec<f64> = (0..size).map(|k| ((3 * k + 1) as f64).cos()).collect();
+    let mut tangent = vec![0.0; size * size];
+    element.add_dissipation_tangent(at, &velocity, 0.3, &mut tangent);
+    let force = |at: &Configuration| -> Vec<f64> {
+        let mut out = ElementForces::default();
+        element.dissipation(at, &mut out);
+        let rows = out.tangent.chunks_exact(size);
+        rows.map(|r| 0.3 * r.iter().zip(&velocity).map(|(c, v)| c * v).sum::<f64>())
+            .collect()
+    };
+    let (h, mut error) = (1e-5, 0.0_f64);
+    for (k, number) in numbers.iter().enumerate() {
+        let side = |h: f64| {
+            let (mut there, mut d) = (at.clone(), vec![0.0; 6 * at.len()]);
+            d[*number] = h;
+            there.moved(&d);
+            force(&there)
+        };
+        let (plus, minus) = (side(h), side(-h));
+        for i in 0..size {
+            let slope = (plus[i] - minus[i]) / (2.0 * h);
+            error = error.max((slope - tangent[i * size + k]).abs());
+        }
+    }
+    error / tangent.iter().fold(0.0, |m: f64, x| m.max(x.abs()))
+}

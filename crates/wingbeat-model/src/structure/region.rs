@@ -1,0 +1,114 @@
+//! Regions of a wing of sheet that are made of something else.
+
+use wingbeat_math::DVec3;
+use wingbeat_structure::Lamina;
+
+use crate::deformation::column;
+use crate::error::{ModelError, require};
+use crate::mesh::GridMesh;
+
+/// A part of a wing of sheet that is made otherwise: panels whose middle lies in it. What is none is as elsewhere.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Region {
+    /// From and to along the span, r/R.
+    pub span: [f64; 2],
+    /// From and to behind the leading edge over the chord \[1\].
+    pub chord: [f64; 2],
+    /// Young's moduli along and across the fibres \[Pa\].
+    pub young: Option<[f64; 2]>,
+    /// Poisson's ratio \[1\].
+    pub poisson: Option<f64>,
+    /// Shear modulus \[Pa\]; where `young` is given and this is not, that of a sheet alike in all directions.
+    pub shear: Option<f64>,
+    /// Thickness \[m\].
+    pub thickness: Option<f64>,
+    /// Density \[kg/m3\].
+    pub density: Option<f64>,
+    /// Direction of the fibres from the span towards the leading edge \[rad\].
+    pub fibre_angle: Option<f64>,
+    /// Tension at rest along and across the fibres \[N/m\].
+    pub prestress: Option<[f64; 2]>,
+}
+
+/// The middle of panel `k`: r/R, and place behind the leading edge over the chord; `tip` is the wing length \[m\].
+pub(super) fn middle(grid: &GridMesh, k: usize, tip: f64) -> [f64; 2] {
+    let (i, j) = (k / grid.cols, k % grid.cols);
+    let behind = |i: usize, j: usize| {
+        let (_, lead, chord) = column(grid, j);
+        (lead - grid.nodes[grid.node(i, j)].x) / chord
+    };
+    let corners = [(i, j), (i, j + 1), (i + 1, j), (i + 1, j + 1)];
+    let x = corners.map(|(i, j)| behind(i, j)).iter().sum::<f64>() / 4.0;
+    [0.5 * (column(grid, j).0 + column(grid, j + 1).0) / tip, x]
+}
+
+/// Direction of fibres at an angle \[rad\] from the span towards the leading edge, wing components.
+pub(super) fn fibres(grid: &GridMesh, angle: f64) -> DVec3 {
+    let outward = (grid.nodes[grid.node(0, grid.cols)].y - grid.nodes[grid.node(0, 0)].y).signum();
+    DVec3::new(angle.sin(), outward * angle.cos(), 0.0)
+}
+
+impl Region {
+    /// Whether a place (r/R, behind the leading edge over the chord) lies in it.
+    pub(super) fn holds(&self, place: [f64; 2]) -> bool {
+        let ranges = [self.span, self.chord];
+        (place.iter().zip(ranges)).all(|(x, [from, to])| (from..=to).contains(x))
+    }
+
+    /// What a panel in it is made of.
+    pub(super) fn applied(&self, grid: &GridMesh, elsewhere: Lamina) -> Lamina {
+        let young = self.young.unwrap_or(elsewhere.young);
+        let poisson = self.poisson.unwrap_or(elsewhere.poisson);
+        let alike = self.young.map(|[along, _]| along / (2.0 * (1.0 + poisson)));
+        Lamina {
+            young,
+            poisson,
+            shear: self.shear.or(alike).unwrap_or(elsewhere.shear),
+            thickness: self.thickness.unwrap_or(elsewhere.thickness),
+            density: self.density.unwrap_or(elsewhere.density),
+            axis: (self.fibre_angle).map_or(elsewhere.axis, |angle| fibres(grid, angle)),
+            prestress: (self.prestress).map_or(elsewhere.prestress, |[a, b]| [a, b, 0.0]),
+            ..elsewhere
+        }
+    }
+
+    pub(super) fn scaled(&self, s: f64) -> Self {
+        Self {
+            thickness: self.thickness.map(|h| s * h),
+            prestress: self.prestress.map(|n| n.map(|n| s * n)),
+            ..self.clone()
+        }
+    }
+
+    pub(super) fn check(&self, key: &str) -> Result<(), ModelError> {
+        let of = |k: &str| format!("{key}.{k}");
+        for (k, [from, to]) in [("span_range", self.span), ("chord_range", self.chord)] {
+            let inside = 0.0 <= from && to <= 1.0;
+            require(&of(k), from, inside, "from 0 to 1")?;
+            require(&of(k), to, from < to, "above where the region begins")?;
+        }
+        let positive = [
+            ("young", self.young.map(|y| y[0])),
+            ("young", self.young.map(|y| y[1])),
+            ("shear", self.shear),
+            ("thickness", self.thickness),
+            ("density", self.density),
+        ];
+        for (k, x) in positive {
+            if let Some(x) = x {
+                require(&of(k), x, x > 0.0, "above 0")?;
+            }
+        }
+        for tension in self.prestress.into_iter().flatten() {
+            let pulls = tension >= 0.0;
+            require(
+                &of("prestress"),
+                tension,
+                pulls,
+                "0 or above: a sheet that is pushed buckles",
+            )?;
+        }
+        let angle = self.fibre_angle.unwrap_or(0.0);
+        require(&of("fibre_angle"), angle, true, "a finite number").map(drop)
+    }
+}

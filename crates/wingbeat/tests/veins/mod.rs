@@ -1,0 +1,198 @@
+//! Wings of sheet with veins and regions, made from keys.
+
+use std::f64::consts::PI;
+use std::path::Path;
+
+use wingbeat::analysis::wing_modes::{About, WingModes, wing_modes};
+use wingbeat::case::LoadedCase;
+
+use super::{CASE, strings};
+
+/// A sheet 2 cm x 6 cm without lateral contraction, of the mass of the wing.
+const SHEET: [&str; 3] = [
+    "wing.right.structure.shell.young_pa=3e9",
+    "wing.right.structure.shell.poisson=0",
+    "wing.right.structure.shell.thickness_m=[1e-4,1e-4]",
+];
+
+/// The case without air, with tables in lists behind it.
+fn load(set: &[&str], lists: &str) -> Result<LoadedCase, String> {
+    let text = CASE.replace(
+        "[wing.right.motion.phi.fourier]",
+        &format!("{lists}\n[wing.right.motion.phi.fourier]"),
+    );
+    let set = strings(&[&SHEET[..], &["air.model=\"none\""], set].concat());
+    LoadedCase::from_text("veins", &text, Path::new("."), &set).map_err(|e| e.to_string())
+}
+
+/// The modes of both wings in vacuum.
+fn both(case: &LoadedCase) -> Vec<WingModes> {
+    wing_modes(&case.setup, About::Rest, 4).unwrap()
+}
+
+/// Those of the right wing.
+fn right(set: &[&str], lists: &str) -> WingModes {
+    both(&load(set, lists).unwrap()).pop().unwrap()
+}
+
+/// The first frequencies \[rad/s\].
+fn frequencies(wing: &WingModes) -> Vec<f64> {
+    wing.vacuum.iter().map(|m| m.frequency).collect()
+}
+
+/// Two carbon spars along the edges.
+const SPARS: &str = "
+[[wing.right.structure.vein]]
+radius_m = [3e-4, 3e-4]
+young_pa = 1e11
+density_kg_m3 = 1600
+[[wing.right.structure.vein]]
+from = [0, 1]
+to = [1, 1]
+radius_m = [3e-4, 3e-4]
+young_pa = 1e11
+density_kg_m3 = 1600
+";
+
+/// `3.516 sqrt(EI / (m L^4))` of a composite section: sheet and two spars; the mass is that of the wing.
+#[test]
+fn exact_frequency_of_a_wing_with_two_spars() {
+    // Stiff along the chord, so that the sheet does not sag between the spars.
+    let set = [
+        "wing.right.mesh.spanwise=12",
+        "wing.right.structure.shell.young_chord_pa=3e12",
+        "wing.right.structure.shell.shear_pa=1.5e9",
+    ];
+    let wing = right(&set, SPARS);
+    let spar = 1e11 * PI / 4.0 * 3e-4_f64.powi(4);
+    let sheet = 3e9 * 0.02 * 1e-4_f64.powi(3) / 12.0;
+    let mass = wing.mass;
+    assert!((mass / 1e-4 - 1.0).abs() < 1e-12, "{mass:e}");
+    let exact = 3.516 * ((2.0 * spar + sheet) / (mass / 0.06 * 0.06_f64.powi(4))).sqrt();
+    // Second order in the elements, and rotary inertia of the spars.
+    let error = frequencies(&wing)[0] / exact - 1.0;
+    assert!(error.abs() < 3e-3, "{error:e}");
+}
+
+/// An outer half of twice the thickness weighs twice as much; a whole region is as if the sheet were of it.
+#[test]
+fn exact_mass_and_stiffness_of_regions() {
+    let dense = ["wing.right.structure.shell.density_kg_m3=1200"];
+    let text = |lists: &str| {
+        let case = CASE.replace("mass_kg = 1e-4", "").replace(
+            "[wing.right.motion.phi.fourier]",
+            &format!("{lists}\n[wing.right.motion.phi.fourier]"),
+        );
+        let set = strings(&[&SHEET[..], &dense, &["air.model=\"none\""]].concat());
+        let case = LoadedCase::from_text("region", &case, Path::new("."), &set).unwrap();
+        both(&case).pop().unwrap()
+    };
+    let plain = text("");
+    let outer = text("[[wing.right.structure.region]]\nspan_range = [0.5, 1]\nthickness_m = 2e-4");
+    assert!((outer.mass / plain.mass - 1.5).abs() < 1e-12);
+    let whole = text("[[wing.right.structure.region]]\nthickness_m = 2e-4");
+    // Twice as thick: frequencies of bending twice as high, but for shear and rotary inertia, (h / c)^2.
+    let [a, b] = [&plain, &whole].map(|w| frequencies(w)[0]);
+    assert!((b / a - 2.0).abs() < 5e-5, "{}", b / a);
+    let soft = "wing.right.structure.shell.bending_factor=0.01";
+    let [a, b] = [&[][..], &[soft]].map(|set| frequencies(&right(set, ""))[0]);
+    assert!((b / a - 0.1).abs() < 1e-6, "{}", b / a);
+}
+
+/// Fibres turned by a quarter turn are moduli exchanged; askew ones are mirrored on the other wing.
+#[test]
+fn invariant_directions_of_fibres() {
+    let along = [
+        "wing.right.structure.shell.young_chord_pa=3e8",
+        "wing.right.structure.shell.shear_pa=5e8",
+    ];
+    let across = [
+        "wing.right.structure.shell.young_pa=3e8",
+        "wing.right.structure.shell.young_chord_pa=3e9",
+        "wing.right.structure.shell.shear_pa=5e8",
+        "wing.right.structure.shell.fibre_angle_deg=90",
+    ];
+    let [a, b] = [&along[..], &across].map(|set| frequencies(&right(set, "")));
+    let askew = [
+        &along[..],
+        &["wing.right.structure.shell.fibre_angle_deg=30"],
+    ]
+    .concat();
+    let case = load(&askew, SPARS).unwrap();
+    let wings = both(&case);
+    let [c, d] = [0, 1].map(|k| frequencies(&wings[k]));
+    for (x, y) in a.iter().zip(&b).chain(c.iter().zip(&d)) {
+        assert!((x / y - 1.0).abs() < 1e-9, "{x} {y}");
+    }
+    // Askew they couple bending with twist: another wing.
+    assert!((c[0] / a[0] - 1.0).abs() > 1e-2);
+}
+
+#[test]
+fn refuses_veins_and_regions_that_say_nothing() {
+    let vein = "[[wing.right.structure.vein]]\n";
+    let region = "[[wing.right.structure.region]]\n";
+    let no_root = "wing.right.structure.shell.clamped_root=false";
+    for (set, lists, says) in [
+        (&[][..], format!("{vein}young_pa = 1e9"), "vein[0].radius_m"),
+        (
+            &[],
+            format!("{vein}radius_m = [1e-4, 1e-4]"),
+            "bending_newton_m2 with torsion_newton_m2",
+        ),
+        (
+            &[],
+            format!("{vein}radius_m = [1e-4, 0]\nyoung_pa = 1e9"),
+            "vein[0].radius_m",
+        ),
+        (
+            &[],
+            format!("{vein}radius_m = [1e-4, 1e-4]\nyoung_pa = 1e9\nto = [0.01, 0]"),
+            "same node",
+        ),
+        (
+            &[],
+            format!("{vein}radius_m = [1e-2, 1e-2]\nyoung_pa = 1e9\ndensity_kg_m3 = 1e3"),
+            "nothing is left",
+        ),
+        (
+            &[],
+            format!("{region}span_range = [0.5, 0.5]\nthickness_m = 1e-4"),
+            "region[0].span_range",
+        ),
+        (
+            &[],
+            format!("{region}span_range = [0.5, 0.51]\nthickness_m = 1e-4"),
+            "no panel",
+        ),
+        (&[], format!("{region}density_kg_m3 = 1e3"), "spread evenly"),
+        (
+            &["wing.right.structure.shell.prestress_newton_per_m=[-1,0]"],
+            String::new(),
+            "prestress_newton_per_m",
+        ),
+        (&[no_root], String::new(), "something must hold"),
+    ] {
+        let said = load(set, &lists).unwrap_err();
+        assert!(said.contains(says), "{lists}: {said}");
+    }
+    // A spar alone holds a wing.
+    load(
+        &[no_root],
+        &format!("{vein}radius_m = [3e-4, 3e-4]\nyoung_pa = 1e11\nclamped = true"),
+    )
+    .unwrap();
+    // Beside a beam there is nothing to stiffen.
+    let beam = strings(&[
+        "wing.right.structure.beam.flap_newton_m2=[1,1]",
+        "wing.right.structure.beam.torsion_newton_m2=[1,1]",
+    ]);
+    let text = CASE.replace(
+        "[wing.right.motion.phi.fourier]",
+        &format!("{SPARS}\n[wing.right.motion.phi.fourier]"),
+    );
+    let said = LoadedCase::from_text("beam", &text, Path::new("."), &beam)
+        .err()
+        .unwrap();
+    assert!(said.to_string().contains("without shell"), "{said}");
+}
