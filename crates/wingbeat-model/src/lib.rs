@@ -52,4 +52,4 @@ pub use mesh::{GridMesh, QuadMesh, Side};
 pub use motion::{AngleLaw, AngleLaws, Start, WingMotion};
 pub use planform::{Planform, Spacing, WingShape};
 pub use revolution::{Profile, Revolution};
-pub use structure::{ElasticBody, Members, WingBeam, WingShell, WingStructure};
+pub use structure::{BeamMass, Coupling, ElasticBody, Members, WingBeam, WingShell, WingStructure};

@@ -55,7 +55,7 @@ pub use motion::{
     StartCase, TableCase, WingMotionCase,
 };
 pub use open::Open;
-pub use structure::{BeamCase, ShellCase, ShellRule, StructureCase};
+pub use structure::{BeamCase, BeamMassCase, ShellCase, ShellRule, StructureCase};
 pub use wake::{FrictionCase, ParticlesCase, SectionDragCase};
 pub use wind::{GroundCase, GustCase, TurbulenceCase, VortexStreetCase};
 pub use wing::{BetaCase, OutlineCase, PlanformCase, RectangleCase, WingCase, WingMeshCase};
