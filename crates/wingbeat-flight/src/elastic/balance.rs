@@ -117,7 +117,7 @@ impl ElasticWings {
                 tip: middle(&place) - middle(&rest),
                 twist: pitch(&place) - pitch(&rest),
                 strain_energy: ws.solver.strain_energy(),
-                passes: s.passes,
+                passes: s.most,
             });
         }
     }
