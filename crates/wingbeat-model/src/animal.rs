@@ -72,6 +72,7 @@ impl Wing {
     /// A number that is not allowed; a wing whose shape is prescribed; what the elastic body refuses.
     pub fn made_of(self, structure: WingStructure) -> Result<Self, ModelError> {
         structure.check(&self.name, self.root())?;
+        structure.check_mass(&self.name, self.mass.mass)?;
         if self.deformation.is_some() {
             return Err(ModelError::TwoShapes(self.name));
         }

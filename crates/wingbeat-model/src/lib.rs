@@ -53,5 +53,6 @@ pub use motion::{AngleLaw, AngleLaws, Start, WingMotion};
 pub use planform::{Planform, Spacing, WingShape};
 pub use revolution::{Profile, Revolution};
 pub use structure::{
-    ElasticBody, Members, Region, Vein, VeinStiffness, WingBeam, WingShell, WingStructure,
+    BeamMass, Coupling, ElasticBody, Members, Region, Vein, VeinStiffness, WingBeam, WingShell,
+    WingStructure,
 };

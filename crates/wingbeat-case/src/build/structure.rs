@@ -3,15 +3,22 @@
 use wingbeat_model::deformation::SpanLaw;
 use wingbeat_model::structure::Damping;
 use wingbeat_model::{
-    Members, ModelError, Region, Vein, VeinStiffness, Wing, WingBeam, WingShell, WingStructure,
+    BeamMass, Coupling, Members, ModelError, Region, Vein, VeinStiffness, Wing, WingBeam,
+    WingShell, WingStructure,
 };
 
 use super::fault::{Built, fault_at};
+use super::numbers::{symmetric, vector};
 use crate::error::Fault;
-use crate::raw::{BeamCase, RegionCase, ShellCase, ShellRule, StructureCase, VeinCase};
+use crate::raw::{
+    BeamCase, BeamMassCase, RegionCase, ShellCase, ShellRule, StructureCase, VeinCase,
+};
 
 /// In-plane over out-of-plane stiffness of a beam where nothing is said.
 const LAG: f64 = 100.0;
+
+/// Elements of a beam where nothing is said.
+const ELEMENTS: usize = 10;
 
 /// Makes `wing` of what the table `[path]` says.
 pub(super) fn make(wing: Wing, path: &str, case: &StructureCase) -> Built<Wing> {
@@ -86,7 +93,8 @@ fn beam(path: &str, case: &BeamCase) -> Built<WingBeam> {
     let mass = (case.mass_kg_per_m, case.mass_table_kg_per_m.as_ref());
     Ok(WingBeam {
         axis_fraction: case.axis_fraction,
-        elements: case.elements,
+        elements: case.elements.unwrap_or(ELEMENTS),
+        stations: case.stations.clone(),
         lag: given(lag).unwrap_or_else(|| flap.scaled(LAG)),
         flap,
         torsion: law(
@@ -98,10 +106,27 @@ fn beam(path: &str, case: &BeamCase) -> Built<WingBeam> {
                 case.torsion_table_newton_m2.as_ref(),
             ),
         )?,
+        axial: given((case.axial_newton, case.axial_table_newton.as_ref())),
+        coupling: coupling(&case.coupling_table_newton_m_m2),
         mass: given(mass),
+        masses: case.mass.iter().map(lumped).collect(),
         mass_fraction: case.mass_fraction,
         inertia: given((case.inertia_kg_m, case.inertia_table_kg_m.as_ref())),
     })
+}
+
+fn coupling(rows: &[[f64; 7]]) -> Coupling {
+    let row = |&[r, a, b, c, d, e, f]: &[f64; 7]| (r, [a, b, c, d, e, f]);
+    Coupling(rows.iter().map(row).collect())
+}
+
+fn lumped(case: &BeamMassCase) -> BeamMass {
+    BeamMass {
+        at: case.at,
+        mass: case.mass_kg,
+        offset: vector(case.offset_m),
+        inertia: symmetric(case.inertia_about_centre_kg_m2),
+    }
 }
 
 fn shell(path: &str, case: &ShellCase) -> Built<WingShell> {

@@ -1,8 +1,9 @@
 //! Units of keys, from their names.
 
 /// Endings of names and the units they stand for, longer ones before their own endings.
-const UNITS: [(&str, &str); 33] = [
+const UNITS: [(&str, &str); 34] = [
     ("table_m_kg_m2", "m, kg/m2"),
+    ("_newton_m_m2", "N m, N m2"),
     ("_newton_m_s_per_rad", "N m s/rad"),
     ("_newton_m_per_rad", "N m/rad"),
     ("_newton_s_per_m", "N s/m"),

@@ -55,7 +55,9 @@ pub use motion::{
     StartCase, TableCase, WingMotionCase,
 };
 pub use open::Open;
-pub use structure::{BeamCase, RegionCase, ShellCase, ShellRule, StructureCase, VeinCase};
+pub use structure::{
+    BeamCase, BeamMassCase, RegionCase, ShellCase, ShellRule, StructureCase, VeinCase,
+};
 pub use wake::{FrictionCase, ParticlesCase, SectionDragCase};
 pub use wind::{GroundCase, GustCase, TurbulenceCase, VortexStreetCase};
 pub use wing::{BetaCase, OutlineCase, PlanformCase, RectangleCase, WingCase, WingMeshCase};

@@ -54,12 +54,18 @@ pub struct BeamCase {
     #[default = 0.25]
     #[schemars(range(min = 0, max = 1))]
     pub axis_fraction: f64,
-    /// Elements along the span.
+    /// Elements along the span, all of one length. Left out: 10.
     ///
     /// Change it to see what hangs on it.
-    #[default = 10]
-    #[schemars(range(min = 1, max = 400))]
-    pub elements: usize,
+    #[schemars(range(min = 1, max = 400), extend("or" = "stations"))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub elements: Option<usize>,
+    /// Nodes of the beam, r/R from the root to the tip (1), where elements have lengths of their own.
+    ///
+    /// Change it for tables of stiffness by element.
+    #[schemars(length(min = 2, max = 401))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub stations: Option<Vec<f64>>,
     /// EI against bending out of the plane of the wing at root and tip.
     ///
     /// Change it to what was measured.
@@ -93,7 +99,28 @@ pub struct BeamCase {
     #[schemars(length(min = 2), extend("or" = "torsion_newton_m2"))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub torsion_table_newton_m2: Option<Vec<[f64; 2]>>,
-    /// Mass per length at root and tip, instead of the mass of the wing spread evenly over its area.
+    /// EA against stretch at root and tip. Left out: that of a plate as stiff in its plane.
+    ///
+    /// Change it where the beam is coupled to stretch, or built of parts.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub axial_newton: Option<[f64; 2]>,
+    /// The same as rows [r/R, EA].
+    ///
+    /// Change it to what was measured.
+    #[schemars(length(min = 2), extend("or" = "axial_newton"))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub axial_table_newton: Option<Vec<[f64; 2]>>,
+    /// Stiffness that couples stretch, twist and bending, as rows [r/R, stretch-twist, stretch-flap, stretch-lag, twist-flap,
+    /// twist-lag, flap-lag]: the first three in N m, the others in N m2. Axes of the sections of a right wing: outward, to the
+    /// leading edge, to the upper side; curvatures are right-handed turns about them. A left wing is the mirror image.
+    /// The other keys of stiffness are the diagonal: that in the plane and that out of it about the elastic axis.
+    ///
+    /// Change it for composite layups, and where the tension centre is off the elastic axis.
+    #[schemars(length(min = 2))]
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub coupling_table_newton_m_m2: Vec<[f64; 7]>,
+    /// Mass per length at root and tip, instead of the mass of the wing spread evenly over its area. 0 is allowed beside
+    /// lumped masses.
     ///
     /// Change it to what was measured.
     #[schemars(extend("or" = "wing.NAME.mass_kg"))]
@@ -123,6 +150,38 @@ pub struct BeamCase {
     #[schemars(length(min = 2), extend("or" = "inertia_kg_m"))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub inertia_table_kg_m: Option<Vec<[f64; 2]>>,
+    /// Lumped masses, each rigid with the nearest node of the beam. They are part of `mass_kg` of the wing, and beside
+    /// `mass_kg_per_m`.
+    ///
+    /// Change it for stores, ballast, and models whose mass is given at nodes.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub mass: Vec<BeamMassCase>,
+}
+
+/// A lumped mass on the beam.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct BeamMassCase {
+    /// Its place along the beam, r/R.
+    ///
+    /// Change it to where it sits.
+    #[schemars(range(min = 0, max = 1))]
+    pub at: f64,
+    /// Its mass.
+    ///
+    /// Change it to what was weighed.
+    #[schemars(range(min = 0))]
+    pub mass_kg: f64,
+    /// Its mass centre from the elastic axis in wing axes of a right wing; on a left one it is the mirror image.
+    ///
+    /// Change it to where it sits.
+    #[serde(default)]
+    pub offset_m: [f64; 3],
+    /// Inertia matrix about its mass centre in wing axes of a right wing: xx, yy, zz, xy, xz, yz (elements of the matrix).
+    ///
+    /// Change it to that of its parts.
+    #[serde(default)]
+    pub inertia_about_centre_kg_m2: [f64; 6],
 }
 
 /// A rule for the stiffness of wings.

@@ -1,10 +1,12 @@
 //! What a wing is made of.
 
 use wingbeat_model::deformation::SpanLaw;
-use wingbeat_model::{Members, Region, Vein, VeinStiffness, WingBeam, WingShell, WingStructure};
+use wingbeat_model::{
+    BeamMass, Members, Region, Vein, VeinStiffness, WingBeam, WingShell, WingStructure,
+};
 
 use super::motion::span;
-use crate::raw::{BeamCase, RegionCase, ShellCase, StructureCase, VeinCase};
+use crate::raw::{BeamCase, BeamMassCase, RegionCase, ShellCase, StructureCase, VeinCase};
 
 /// A structure.
 pub(super) fn case(structure: &WingStructure) -> StructureCase {
@@ -113,32 +115,56 @@ fn beam_case(beam: &WingBeam) -> BeamCase {
     let WingBeam {
         axis_fraction,
         elements,
+        stations,
         flap,
         lag,
         torsion,
+        axial,
+        coupling,
         mass,
         mass_fraction,
         inertia,
+        masses,
     } = beam;
     let plain = |law: &SpanLaw| span(law, |x| x);
     let (flap_newton_m2, flap_table_newton_m2) = plain(flap);
     let (lag_newton_m2, lag_table_newton_m2) = plain(lag);
     let (torsion_newton_m2, torsion_table_newton_m2) = plain(torsion);
+    let (axial_newton, axial_table_newton) = axial.as_ref().map(plain).unwrap_or_default();
     let (mass_kg_per_m, mass_table_kg_per_m) = mass.as_ref().map(plain).unwrap_or_default();
     let (inertia_kg_m, inertia_table_kg_m) = inertia.as_ref().map(plain).unwrap_or_default();
     BeamCase {
         axis_fraction: *axis_fraction,
-        elements: *elements,
+        elements: stations.is_none().then_some(*elements),
+        stations: stations.clone(),
         flap_newton_m2,
         flap_table_newton_m2,
         lag_newton_m2,
         lag_table_newton_m2,
         torsion_newton_m2,
         torsion_table_newton_m2,
+        axial_newton,
+        axial_table_newton,
+        coupling_table_newton_m_m2: coupling.0.iter().map(row).collect(),
         mass_kg_per_m,
         mass_table_kg_per_m,
         mass_fraction: *mass_fraction,
         inertia_kg_m,
         inertia_table_kg_m,
+        mass: masses.iter().map(lumped).collect(),
+    }
+}
+
+fn row(&(r, [a, b, c, d, e, f]): &(f64, [f64; 6])) -> [f64; 7] {
+    [r, a, b, c, d, e, f]
+}
+
+fn lumped(mass: &BeamMass) -> BeamMassCase {
+    let j = mass.inertia.to_cols_array();
+    BeamMassCase {
+        at: mass.at,
+        mass_kg: mass.mass,
+        offset_m: mass.offset.to_array(),
+        inertia_about_centre_kg_m2: [j[0], j[4], j[8], j[1], j[2], j[5]],
     }
 }

@@ -122,7 +122,7 @@ impl ElasticWings {
                 }),
                 strain_energy: ws.solver.strain_energy(),
                 strain_power: ws.solver.strain_power(),
-                passes: s.passes,
+                passes: s.most,
             });
         }
     }

@@ -32,8 +32,9 @@ pub struct ElasticScratch {
     is_new: bool,
     /// Whether a step is under way; not at the start.
     pub(super) is_stepping: bool,
-    /// Passes of the last coupling, and what was left unbalanced \[1\].
+    /// Passes of the last coupling, the most of a coupling in this step, and what was left unbalanced \[1\].
     pub(super) passes: usize,
+    pub(super) most: usize,
     unbalanced: f64,
     /// Share of what was unbalanced that the last correction took away \[1\].
     share: f64,
@@ -98,6 +99,7 @@ impl ElasticWings {
         self.set_frames(at, s);
         for pass in 1..=MAX_PASSES {
             s.passes = pass;
+            s.most = s.most.max(pass);
             self.place(s);
             let mut shapes = std::mem::take(&mut s.shapes);
             let instant = Instant {
@@ -178,11 +180,11 @@ impl ElasticWings {
         if !std::mem::take(&mut s.is_new) {
             return;
         }
+        s.most = 0;
         for ((w, ws), state) in self.wings.iter().zip(&mut s.wings).zip(states) {
             let (structure, own) = (&w.structure, &state.structure);
             w.method.predict(structure, own, step, &mut ws.trial);
-            ws.trial.take_back();
-            ws.solver.look_ahead_from_start(&ws.trial);
+            ws.is_predicted = true;
             ws.carried = None;
             accelerations[w.wing + 1] = state.acceleration();
         }

@@ -53,6 +53,8 @@ pub(super) struct WingScratch {
     /// Whether the air answers, and whether factors are older than what it said.
     pub answers: bool,
     pub is_stale: bool,
+    /// Whether the trial is the motion of the step before carried on.
+    pub is_predicted: bool,
     pub response: WingResponse,
     pub tangent: AirTangent,
     /// How the wing answers to accelerations of its frame beside the rigid one: an added mass.
@@ -84,6 +86,7 @@ impl WingScratch {
             known: vec![],
             answers: false,
             is_stale: true,
+            is_predicted: false,
             response: WingResponse::default(),
             tangent: AirTangent::default(),
             carried: None,
@@ -121,13 +124,21 @@ impl WingScratch {
     /// The elastic body brought to balance under loads that follow its motion as the air has answered. The motion that the
     /// loads were taken for stays in `before`. Returns the share of what was unbalanced that is taken away \[1\].
     ///
+    /// A predicted motion is where the air was asked, not where balance is sought from: it stretches what hardly stretches.
     /// It is taken away at once or, where Newton's iteration goes astray, part by part.
     pub fn bend(&mut self, w: &ElasticWing) -> Result<f64, FlightError> {
         self.before.clone_from(&self.trial.velocity);
+        if std::mem::take(&mut self.is_predicted) {
+            self.trial.take_back();
+            self.solver.look_ahead_from_start(&self.trial);
+            self.follow();
+            self.set_residual(w);
+        }
         let target = NEWTON * self.unbalanced.min(ROUGH);
         self.kept.clear();
         self.kept.resize(self.residual.len(), 0.0);
         self.first.clone_from(&self.residual);
+        self.known.clone_from(&self.trial.velocity);
         match self.newton(w, target)? {
             true => Ok(1.0),
             false => self.bend_by_parts(w, target),
@@ -138,7 +149,6 @@ impl WingScratch {
     /// put on step by step.
     fn bend_by_parts(&mut self, w: &ElasticWing, target: f64) -> Result<f64, FlightError> {
         let (mut done, mut part) = (0.0, LARGEST_PART);
-        self.known.clone_from(&self.before);
         while done < 1.0 && part >= SMALLEST_PART {
             self.return_to_known(w);
             let next = f64::min(done + part, 1.0);

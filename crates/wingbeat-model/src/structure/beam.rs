@@ -1,11 +1,17 @@
 //! A wing on a beam: sections stay rigid, the beam bends and twists.
 
-use wingbeat_math::{DQuat, DVec3};
+mod coupling;
+mod mass;
+
+pub use coupling::Coupling;
+pub use mass::BeamMass;
+
+use wingbeat_math::{DQuat, DVec3, MassProperties};
 use wingbeat_structure::{
     Beam, Configuration, Damping, Follower, Section, Stiffness, StructureBuilder, StructureError,
 };
 
-use super::body::{Blank, ElasticBody, check_positive};
+use super::body::{Blank, ElasticBody, check_not_negative, check_positive};
 use crate::deformation::{SpanLaw, column, span};
 use crate::error::{ModelError, require, require_count};
 use crate::mesh::GridMesh;
@@ -17,19 +23,27 @@ pub struct WingBeam {
     pub axis_fraction: f64,
     /// Elements along the span.
     pub elements: usize,
+    /// r/R of the nodes from root to tip; none: at equal distances.
+    pub stations: Option<Vec<f64>>,
     /// EI against bending out of the plane of the wing \[N m2\], over r/R.
     pub flap: SpanLaw,
     /// EI against bending in the plane of the wing \[N m2\], over r/R.
     pub lag: SpanLaw,
     /// GJ against twist \[N m2\], over r/R.
     pub torsion: SpanLaw,
-    /// Mass per length \[kg/m\], over r/R; none spreads the mass of the wing evenly over its area.
+    /// EA \[N\], over r/R; none is that of a plate as stiff in its plane.
+    pub axial: Option<SpanLaw>,
+    /// Terms that couple stretch, twist and bending.
+    pub coupling: Coupling,
+    /// Mass per length \[kg/m\], over r/R; none spreads the mass of the wing, less lumped masses, evenly over its area.
     pub mass: Option<SpanLaw>,
     /// Place of the mass centre behind the leading edge over the chord \[1\].
     pub mass_fraction: f64,
     /// Moment of inertia about the mass centre of a section and its axis along the beam, per length \[kg m\], over r/R; none
     /// is that of the mass spread evenly over the chord.
     pub inertia: Option<SpanLaw>,
+    /// Lumped masses.
+    pub masses: Vec<BeamMass>,
 }
 
 /// Leading edge, chord \[m\] and place along axis 2 \[m\] at a distance from the hinge.
@@ -57,50 +71,94 @@ fn station(mesh: &GridMesh, r: f64) -> Station {
     }
 }
 
+/// 1 on a right wing, -1 on a left one.
+fn side(mesh: &GridMesh) -> f64 {
+    mesh.nodes[mesh.node(0, mesh.cols)].y.signum()
+}
+
+/// How the nodes of the mesh follow those of the beam on either side, at the distances `at` \[m\] from the hinge.
+fn followers(mesh: &GridMesh, at: &[f64], rest: &Configuration) -> Vec<Follower> {
+    let last = at.len() - 1;
+    let follower = |x: &DVec3| {
+        let r = x.y.abs().clamp(at[0], at[last]);
+        let k = at[1..last].iter().filter(|&&inner| inner <= r).count();
+        let part = (r - at[k]) / (at[k + 1] - at[k]);
+        Follower::new(*x, &[(k, 1.0 - part), (k + 1, part)], rest)
+    };
+    mesh.nodes.iter().map(follower).collect()
+}
+
 impl WingBeam {
-    /// Nodes at equal distances from root to tip, the first clamped.
+    /// Nodes from root to tip, the first clamped.
     pub(super) fn body(
         &self,
         wing: &Blank<'_>,
         damping: Damping,
     ) -> Result<ElasticBody, StructureError> {
-        let [root, tip] = span(wing.mesh);
-        let count = self.elements + 1;
-        let distance = |k: usize| root + (tip - root) * k as f64 / self.elements as f64;
-        let place = |k: usize| {
-            let s = station(wing.mesh, distance(k));
-            DVec3::new(s.lead - self.axis_fraction * s.chord, s.y, s.z)
-        };
+        let at = self.distances(wing.mesh);
         let rest = Configuration {
-            position: (0..count).map(place).collect(),
-            rotation: vec![DQuat::IDENTITY; count],
+            position: at.iter().map(|&r| self.axis(wing.mesh, r)).collect(),
+            rotation: vec![DQuat::IDENTITY; at.len()],
         };
-        let middle = |k: usize| 0.5 * (distance(k) + distance(k + 1));
-        let width = (tip - root) / self.elements as f64;
-        let area: f64 = (0..self.elements)
-            .map(|k| width * station(wing.mesh, middle(k)).chord)
-            .sum();
-        let even = wing.mass / area;
+        let even = self.even(wing, &at);
         let mut builder = StructureBuilder::new(rest.clone())
             .clamp(0)
             .damping(damping);
-        for k in 0..self.elements {
+        for (k, pair) in at.windows(2).enumerate() {
             let length = rest.position[k].distance(rest.position[k + 1]);
-            let along = (distance(k + 1) - distance(k)) / length;
-            let section = self.section(wing, middle(k), (even, along));
+            let along = (pair[1] - pair[0]) / length;
+            let section = self.section(wing, 0.5 * (pair[0] + pair[1]), (even, along));
             builder = builder.element(Beam::straight(&rest, [k, k + 1], DVec3::X, &section)?);
         }
-        let follower = |x: &DVec3| {
-            let r = x.y.abs().clamp(root, tip);
-            let s = (r - root) / (tip - root) * self.elements as f64;
-            let k = (s.floor() as usize).min(self.elements - 1);
-            let part = s - k as f64;
-            Follower::new(*x, &[(k, 1.0 - part), (k + 1, part)], &rest)
-        };
+        for m in &self.masses {
+            let (node, mass) = self.lumped(wing.mesh, (&at, &rest), m);
+            builder = builder.mass(node, mass);
+        }
         Ok(ElasticBody {
             structure: builder.build()?,
-            followers: wing.mesh.nodes.iter().map(follower).collect(),
+            followers: followers(wing.mesh, &at, &rest),
         })
+    }
+
+    /// Distances of the nodes from the hinge \[m\].
+    fn distances(&self, mesh: &GridMesh) -> Vec<f64> {
+        let [root, tip] = span(mesh);
+        match &self.stations {
+            Some(stations) => stations.iter().map(|r| r * tip).collect(),
+            None => (0..=self.elements)
+                .map(|k| root + (tip - root) * k as f64 / self.elements as f64)
+                .collect(),
+        }
+    }
+
+    /// Place of the elastic axis at the distance `r` \[m\] from the hinge, wing components \[m\].
+    fn axis(&self, mesh: &GridMesh, r: f64) -> DVec3 {
+        let s = station(mesh, r);
+        DVec3::new(s.lead - self.axis_fraction * s.chord, s.y, s.z)
+    }
+
+    /// Mass of the wing, less lumped masses, over its area \[kg/m2\].
+    fn even(&self, wing: &Blank<'_>, at: &[f64]) -> f64 {
+        let strip = |pair: &[f64]| {
+            (pair[1] - pair[0]) * station(wing.mesh, 0.5 * (pair[0] + pair[1])).chord
+        };
+        let area: f64 = at.windows(2).map(strip).sum();
+        let lumped: f64 = self.masses.iter().map(|m| m.mass).sum();
+        (wing.mass - lumped) / area
+    }
+
+    /// The node that a lumped mass moves with, and its mass properties about this node.
+    fn lumped(
+        &self,
+        mesh: &GridMesh,
+        (at, rest): (&[f64], &Configuration),
+        m: &BeamMass,
+    ) -> (usize, MassProperties) {
+        let r = m.at * span(mesh)[1];
+        let farther = at.windows(2).filter(|p| r > 0.5 * (p[0] + p[1]));
+        let node = farther.count();
+        let axis = self.axis(mesh, r);
+        (node, m.about_node(axis - rest.position[node], side(mesh)))
     }
 
     /// Section at the distance `r` \[m\] from the hinge; `even` is the mass of the wing over its area \[kg/m2\], `along` the
@@ -111,18 +169,21 @@ impl WingBeam {
         let Station { chord, .. } = station(wing.mesh, r);
         let [flap, lag, torsion] = [&self.flap, &self.lag, &self.torsion].map(value);
         // As a plate that is as stiff in its plane has it: EA = 12 EI / c2; shear as of solid sections.
-        let axial = 12.0 * lag.max(flap) / (chord * chord);
-        let stiffness = Stiffness {
+        let plate = 12.0 * lag.max(flap) / (chord * chord);
+        let axial = self.axial.as_ref().map_or(plate, value);
+        let mut section = Section::new(&Stiffness {
             axial,
             shear: [axial / 3.0; 2],
             torsion,
             bending: [flap, lag],
-        };
+        });
+        let left = side(wing.mesh) < 0.0;
+        self.coupling.add(r / tip, left, &mut section.stiffness);
         let mass = along * self.mass.as_ref().map_or(even * chord, value);
         // Thin: all its inertia about the beam is that of the chord; a hundredth of the chord thick.
         let even = mass * chord * chord / 12.0;
         let roll = self.inertia.as_ref().map_or(even, |law| along * value(law));
-        Section::new(&stiffness).with_mass(
+        section.with_mass(
             mass,
             [(self.axis_fraction - self.mass_fraction) * chord, 0.0],
             [1e-4 * roll, roll],
@@ -135,10 +196,22 @@ impl WingBeam {
             flap: self.flap.scaled(stiffness),
             lag: self.lag.scaled(stiffness),
             torsion: self.torsion.scaled(stiffness),
+            axial: self.axial.as_ref().map(|a| a.scaled(s * s)),
+            coupling: self.coupling.scaled(s),
+            masses: self.masses.iter().map(|m| m.scaled(s)).collect(),
             mass: self.mass.as_ref().map(|m| m.scaled(s * s)),
             inertia: self.inertia.as_ref().map(|i| i.scaled(s.powi(4))),
             ..self.clone()
         }
+    }
+
+    /// Checks that lumped masses weigh no more than the wing whose mass they are part of.
+    pub(super) fn check_mass(&self, key: &str, mass: f64) -> Result<(), ModelError> {
+        let lumped: f64 = self.masses.iter().map(|m| m.mass).sum();
+        let fits = self.mass.is_some() || lumped <= mass;
+        let allowed = "no more in all than the mass of the wing, which they are part of";
+        require(&format!("{key}.mass"), lumped, fits, allowed)?;
+        Ok(())
     }
 
     pub(super) fn check(&self, key: &str, root: f64) -> Result<(), ModelError> {
@@ -151,18 +224,47 @@ impl WingBeam {
         }
         let some = (1..=400).contains(&self.elements);
         require_count(&of("elements"), self.elements, some, "1 to 400")?;
-        let laws = [
+        if let Some(stations) = &self.stations {
+            check_stations(&of("stations"), stations, root)?;
+        }
+        self.coupling.check(&of("coupling"), root)?;
+        for (k, m) in self.masses.iter().enumerate() {
+            m.check(&of(&format!("mass[{k}]")), root)?;
+        }
+        let stiffness = [
             ("flap", Some(&self.flap)),
             ("lag", Some(&self.lag)),
             ("torsion", Some(&self.torsion)),
+            ("axial", self.axial.as_ref()),
+        ];
+        let mass = [
             ("mass", self.mass.as_ref()),
             ("inertia", self.inertia.as_ref()),
         ];
-        for (k, law) in laws {
+        for (k, law) in stiffness.into_iter().chain(mass) {
             let Some(law) = law else { continue };
             law.check(&of(k), root)?;
-            check_positive(&of(k), law, root)?;
+            let is_lumped = ["mass", "inertia"].contains(&k) && !self.masses.is_empty();
+            match is_lumped {
+                true => check_not_negative(&of(k), law, root)?,
+                false => check_positive(&of(k), law, root)?,
+            }
         }
         Ok(())
     }
+}
+
+/// Refuses stations that do not rise from the root of the surface to its tip.
+fn check_stations(key: &str, stations: &[f64], root: f64) -> Result<(), ModelError> {
+    let count = stations.len();
+    require_count(key, count, (2..=401).contains(&count), "2 to 401 stations")?;
+    let (first, last) = (stations[0], stations[count - 1]);
+    let begins = (first - root).abs() < 1e-6;
+    require(key, first, begins, "r/R of the root of the surface first")?;
+    require(key, last, (last - 1.0).abs() < 1e-6, "1 last: the tip")?;
+    let rises = |pair: &&[f64]| pair[1] - pair[0] > 1e-6;
+    if let Some(pair) = stations.windows(2).find(|pair| !rises(pair)) {
+        require(key, pair[1], false, "numbers that rise from root to tip")?;
+    }
+    Ok(())
 }

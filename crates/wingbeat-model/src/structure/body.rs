@@ -31,10 +31,23 @@ const PLACES: usize = 65;
 
 /// Refuses a law that is not above 0 all along the span of a wing whose surface begins at `root` = r/R.
 pub(super) fn check_positive(key: &str, law: &SpanLaw, root: f64) -> Result<(), ModelError> {
-    for i in 0..PLACES {
-        let r = root + (1.0 - root) * i as f64 / (PLACES - 1) as f64;
-        let x = law.at(r, root);
-        require(key, x, x > 0.0, "above 0 all along the span")?;
+    let allowed = "above 0 all along the span";
+    for x in places(root).map(|r| law.at(r, root)) {
+        require(key, x, x > 0.0, allowed)?;
     }
     Ok(())
+}
+
+/// Refuses a law that is below 0 somewhere.
+pub(super) fn check_not_negative(key: &str, law: &SpanLaw, root: f64) -> Result<(), ModelError> {
+    let allowed = "0 or above all along the span";
+    for x in places(root).map(|r| law.at(r, root)) {
+        require(key, x, x >= 0.0, allowed)?;
+    }
+    Ok(())
+}
+
+/// r/R at which laws are looked at.
+fn places(root: f64) -> impl Iterator<Item = f64> {
+    (0..PLACES).map(move |i| root + (1.0 - root) * i as f64 / (PLACES - 1) as f64)
 }

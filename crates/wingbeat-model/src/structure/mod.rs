@@ -11,7 +11,7 @@ mod shell;
 mod vein;
 
 pub use crate::error::{MemberError, WingStructureError};
-pub use beam::WingBeam;
+pub use beam::{BeamMass, Coupling, WingBeam};
 pub use body::{Blank, ElasticBody};
 pub use region::Region;
 pub use shell::WingShell;
@@ -65,6 +65,17 @@ impl WingStructure {
             Members::Shell(shell) => Members::Shell(shell.scaled(s)),
         };
         Self { members, ..*self }
+    }
+
+    /// Checks that the wing `name` has the `mass` \[kg\] that its structure takes from it.
+    ///
+    /// # Errors
+    /// Lumped masses heavier than the wing that they are part of.
+    pub fn check_mass(&self, name: &str, mass: f64) -> Result<(), ModelError> {
+        match &self.members {
+            Members::Beam(beam) => beam.check_mass(&format!("{name}.structure.beam"), mass),
+            Members::Shell(_) => Ok(()),
+        }
     }
 
     /// Checks every number of the structure of the wing `name`, whose surface begins at `root` = r/R.

@@ -1,5 +1,6 @@
 //! Verification of the model crate: closed forms, orders of convergence, symmetries.
 
+mod beam;
 mod deformation;
 mod errors;
 mod geometry;
