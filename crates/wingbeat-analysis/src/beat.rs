@@ -351,7 +351,7 @@ impl Integration {
 }
 
 /// An error if a wingbeat of the setup is not like the next.
-fn check_steady(setup: &FlightSetup) -> Result<(), AnalysisError> {
+pub(crate) fn check_steady(setup: &FlightSetup) -> Result<(), AnalysisError> {
     if !setup.loads.is_empty() {
         return Err(AnalysisError::not_covered(
             "the setup has applied loads",

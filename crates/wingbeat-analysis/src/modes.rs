@@ -33,6 +33,8 @@ pub enum Plane {
     Lateral,
     /// The free joints.
     Joints,
+    /// Wings that loads bend.
+    Wings,
 }
 
 /// A mode of flight.
@@ -85,31 +87,42 @@ impl ModeSet {
             let [re, im] = [p.value[0] * scales.period, p.value[1] * scales.period];
             (p.value, [re.exp() * im.cos(), re.exp() * im.sin()])
         };
-        Self::build(&pairs, scales, &[], with)
+        Self::build(&pairs, scales, ([].as_slice(), JOINTS), with)
+    }
+
+    /// From eigenpairs of a monodromy matrix, `wings` the natural sizes of the components of elastic wings behind the nine of
+    /// flight. What has decayed to a thousandth within a beat is left out: what else wings do is of that size.
+    pub fn with_wings(mut pairs: Vec<Eigenpair>, scales: &Scales, wings: &[f64]) -> Self {
+        pairs.retain(|p| p.value[0].hypot(p.value[1]) > 1e-3);
+        Self::of_map(&pairs, scales, (wings, WINGS))
     }
 
     /// From eigenpairs of a monodromy matrix, `joints` the natural sizes of the components of free
     /// joints behind the nine of flight. What has decayed to nothing within a beat is left out.
     pub fn of_multipliers(mut pairs: Vec<Eigenpair>, scales: &Scales, joints: &[f64]) -> Self {
         pairs.retain(|p| p.value[0].hypot(p.value[1]) > 1e-12);
+        Self::of_map(&pairs, scales, (joints, JOINTS))
+    }
+
+    fn of_map(pairs: &[Eigenpair], scales: &Scales, rest: (&[f64], &'static str)) -> Self {
         let with = |p: &Eigenpair| {
             let [a, b] = p.value;
             let exponent = [a.hypot(b).ln() / scales.period, b.atan2(a) / scales.period];
             (exponent, p.value)
         };
-        Self::build(&pairs, scales, joints, with)
+        Self::build(pairs, scales, rest, with)
     }
 
     fn build(
         pairs: &[Eigenpair],
         scales: &Scales,
-        joints: &[f64],
+        rest: (&[f64], &'static str),
         with: impl Fn(&Eigenpair) -> ([f64; 2], [f64; 2]),
     ) -> Self {
         let upper = pairs.iter().filter(|p| p.value[1] >= 0.0);
         let mode = |p: &Eigenpair| {
             let (exponent, multiplier) = with(p);
-            let vector = scaled_vector(p, scales, joints);
+            let vector = scaled_vector(p, scales, rest);
             Mode {
                 name: String::new(),
                 plane: plane(&vector),
@@ -153,24 +166,29 @@ impl ModeSet {
     }
 }
 
-/// Name of the component that stands for all free joints: the root of their squares.
+/// Name of the component that stands for all free joints, or all elastic wings: the root of their squares.
 const JOINTS: &str = "joints";
+const WINGS: &str = "wings";
 
 /// Components over their sizes, the largest 1.
-fn scaled_vector(p: &Eigenpair, scales: &Scales, joints: &[f64]) -> Vec<(&'static str, f64, f64)> {
+fn scaled_vector(
+    p: &Eigenpair,
+    scales: &Scales,
+    (sizes, name_of_rest): (&[f64], &'static str),
+) -> Vec<(&'static str, f64, f64)> {
     let scaled = |(z, s): (&[f64; 2], &f64)| [z[0] / s, z[1] / s];
     let (flight, rest) = p.vector.split_at(9);
     let flight: Vec<[f64; 2]> = flight.iter().zip(&scales.array()).map(scaled).collect();
-    let squares = rest.iter().zip(joints).map(scaled);
-    let of_joints = squares.map(|z| z[0] * z[0] + z[1] * z[1]).sum::<f64>();
+    let squares = rest.iter().zip(sizes).map(scaled);
+    let of_rest = squares.map(|z| z[0] * z[0] + z[1] * z[1]).sum::<f64>();
     let largest = flight.iter().map(|z| z[0].hypot(z[1]));
-    let largest = largest.fold(of_joints.sqrt(), f64::max);
+    let largest = largest.fold(of_rest.sqrt(), f64::max);
     let component = |(z, name): (&[f64; 2], &&'static str)| {
         (*name, z[0].hypot(z[1]) / largest, z[1].atan2(z[0]))
     };
     let mut vector: Vec<_> = flight.iter().zip(&STATE).map(component).collect();
-    if !joints.is_empty() {
-        vector.push((JOINTS, of_joints.sqrt() / largest, 0.0));
+    if !sizes.is_empty() {
+        vector.push((name_of_rest, of_rest.sqrt() / largest, 0.0));
     }
     vector
 }
@@ -185,6 +203,8 @@ fn plane(vector: &[(&'static str, f64, f64)]) -> Plane {
     let lateral = share(&["v", "p", "r", "phi", "psi"]);
     if share(&[JOINTS]) > longitudinal + lateral {
         Plane::Joints
+    } else if share(&[WINGS]) > longitudinal + lateral {
+        Plane::Wings
     } else if longitudinal > lateral {
         Plane::Longitudinal
     } else {
@@ -196,7 +216,12 @@ fn plane(vector: &[(&'static str, f64, f64)]) -> Plane {
 /// (the slower) and short period; real ones as divergence or subsidence, the fastest and slowest
 /// subsidence told apart; a neutral lateral one is heading.
 fn name(modes: &mut [Mode]) {
-    for plane in [Plane::Longitudinal, Plane::Lateral, Plane::Joints] {
+    for plane in [
+        Plane::Longitudinal,
+        Plane::Lateral,
+        Plane::Joints,
+        Plane::Wings,
+    ] {
         let real = |m: &Mode| m.plane == plane && m.frequency == 0.0 && !m.is_neutral();
         let decaying: Vec<f64> = modes
             .iter()

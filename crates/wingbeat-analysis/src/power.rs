@@ -1,6 +1,7 @@
 //! Mechanical power of flapping: aerodynamic, inertial, and what the muscles pay.
 
 use wingbeat_dynamics::{Body, BodyMotion, Element, Joint, Mechanism};
+use wingbeat_flight::elastic::ElasticState;
 use wingbeat_flight::{FlightSetup, Record, Simulation, system_of};
 use wingbeat_math::DVec3;
 
@@ -63,7 +64,7 @@ pub fn power(setup: &FlightSetup) -> Result<Power, AnalysisError> {
             "tether the animal at its trimmed attitude",
         ));
     }
-    let mechanism = Mechanism::of(&system_of(setup)?);
+    let limbs = Limbs::of(setup)?;
     let mut flight = Simulation::new(setup.clone())?;
     let beats = setup.time.steps / per_beat;
     for _ in 0..setup.time.steps - beats * per_beat {
@@ -72,7 +73,7 @@ pub fn power(setup: &FlightSetup) -> Result<Power, AnalysisError> {
     let mut last = Power::default();
     for beat in 0..beats {
         progress::task("power", beat, beats);
-        let now = over_beat(&mechanism, &mut flight, per_beat)?;
+        let now = over_beat(&limbs, &mut flight, per_beat)?;
         let is_periodic = now.is_near(&last);
         last = now;
         if is_periodic {
@@ -99,27 +100,34 @@ pub fn power(setup: &FlightSetup) -> Result<Power, AnalysisError> {
 pub fn power_of_trim(trim: &Trim) -> Result<Power, AnalysisError> {
     match trim.turn_rate {
         0.0 => power(&trim.tethered()?),
-        _ => over_free_beat(&trim.free(), 0),
+        _ => over_free_beat(&trim.free(), 0, &[]),
     }
 }
 
-/// Powers over the free wingbeat of a flight that was trimmed in air with memory.
+/// Powers over the free wingbeat of a flight that was trimmed in air with memory, or with elastic wings.
 ///
 /// # Errors
 /// What the flight reports.
 pub fn power_with_wake(trim: &WakeTrim) -> Result<Power, AnalysisError> {
-    over_free_beat(&trim.setup, trim.start().held_steps)
+    over_free_beat(&trim.setup, trim.start().held_steps, &trim.wings)
 }
 
-/// Powers over a free flight after `held` steps.
-fn over_free_beat(setup: &FlightSetup, held: usize) -> Result<Power, AnalysisError> {
-    let mechanism = Mechanism::of(&system_of(setup)?);
-    let mut flight = Simulation::new(setup.clone())?;
+/// Powers over a free flight after `held` steps, its elastic wings beginning as in `wings` if there are any.
+fn over_free_beat(
+    setup: &FlightSetup,
+    held: usize,
+    wings: &[ElasticState],
+) -> Result<Power, AnalysisError> {
+    let limbs = Limbs::of(setup)?;
+    let mut flight = match wings {
+        [] => Simulation::new(setup.clone())?,
+        wings => Simulation::bent(setup.clone(), wings)?,
+    };
     for step in 0..held {
         progress::task("power", step, setup.time.steps);
         flight.step()?;
     }
-    let mut found = over_beat(&mechanism, &mut flight, setup.time.steps - held)?;
+    let mut found = over_beat(&limbs, &mut flight, setup.time.steps - held)?;
     found.mass = setup.animal.mass();
     Ok(found)
 }
@@ -133,17 +141,20 @@ impl Power {
 }
 
 /// Powers over the next `steps` steps of a flight.
-fn over_beat(
-    mechanism: &Mechanism,
-    flight: &mut Simulation,
-    steps: usize,
-) -> Result<Power, AnalysisError> {
-    let limbs = limbs(mechanism);
+fn over_beat(limbs: &Limbs, flight: &mut Simulation, steps: usize) -> Result<Power, AnalysisError> {
+    let Limbs {
+        mechanism,
+        limbs,
+        elastic,
+    } = limbs;
     let mut sums = Power::default();
     for _ in 0..steps {
         let record = flight.step()?;
         let joints = joint_powers(record);
-        let air = air_powers(mechanism, record);
+        let mut air = air_powers(mechanism, record);
+        for (&wing, bent) in elastic.iter().zip(&record.elastic) {
+            air[wing + 1] -= bent.air_power;
+        }
         let passive = passive_powers(mechanism, record);
         let muscles: Vec<f64> = joints.iter().zip(&passive).map(|(a, b)| a - b).collect();
         let mut inertial = vec![0.0; mechanism.bodies().len()];
@@ -167,6 +178,26 @@ fn over_beat(
         peak: sums.peak,
         mass: 0.0,
     })
+}
+
+/// The bodies, the limb of each, and the numbers of the elastic wings.
+struct Limbs {
+    mechanism: Mechanism,
+    limbs: Vec<usize>,
+    elastic: Vec<usize>,
+}
+
+impl Limbs {
+    fn of(setup: &FlightSetup) -> Result<Self, AnalysisError> {
+        let mechanism = Mechanism::of(&system_of(setup)?);
+        let wings = setup.animal.wings.iter().enumerate();
+        let elastic = wings.filter(|(_, w)| w.structure.is_some());
+        Ok(Self {
+            limbs: limbs(&mechanism),
+            elastic: elastic.map(|(i, _)| i).collect(),
+            mechanism,
+        })
+    }
 }
 
 fn positive(powers: &[f64]) -> f64 {

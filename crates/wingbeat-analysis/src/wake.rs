@@ -13,10 +13,17 @@
 //!
 //! Neither is the full monodromy of body and wake; the two bracket what the memory does within
 //! a wingbeat.
+//!
+//! Wings that loads bend remember, too. In air without memory they have few enough unknowns, damped ones, and a trim
+//! finds the whole periodic orbit, wings included ([`WakeTrim::wings`]); its Floquet modes carry the leading modes of the wings
+//! along ([`elastic_floquet`]).
 
 mod free_beat;
 mod modes;
+mod orbit;
 mod trim;
+mod wings;
 
 pub use modes::{WakeMemory, wake_floquet, wake_modes, wake_monodromy};
 pub use trim::{WakeSettings, WakeTrim, trim_with_wake};
+pub use wings::{ElasticMonodromy, elastic_floquet, elastic_modes, elastic_monodromy};

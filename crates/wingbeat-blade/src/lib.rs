@@ -26,10 +26,11 @@
 //! A section is taken as symmetric fore and aft: air from the trailing edge (u < 0) gives the
 //! mirrored force. Velocities along the span are ignored, as in all the sources, but by the moment of
 //! the added momentum. Twist and bending of
-//! a wing place and move its strips ([`SectionMotion`]).
+//! a wing place and move its strips ([`SectionMotion`] where they are prescribed, [`Section`] where loads bend the wing).
 //!
 //! What this crate does not know: wakes, neighbouring strips, animals, coordinates, time.
 
+mod bent;
 mod body_drag;
 pub mod coefficients;
 mod deforming;
@@ -40,6 +41,7 @@ mod settings;
 mod strip;
 mod wing;
 
+pub use bent::{NodesInMotion, Section, SectionAnswer, SectionState};
 pub use body_drag::BodyDrag;
 pub use coefficients::{NamedSet, SETS, Translation, find_set};
 pub use deforming::{DeformingLoad, SectionMotion};

@@ -5,6 +5,9 @@ use std::f64::consts::PI;
 use wingbeat_blade::*;
 use wingbeat_math::{DMat3, DVec3, MovingRotation, r1, r2, r3};
 
+#[path = "bent/mod.rs"]
+mod bent;
+
 const RHO: f64 = 1.2;
 
 fn wing(settings: BladeSettings, count: usize, side: f64) -> BladeWing {

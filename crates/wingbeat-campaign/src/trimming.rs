@@ -44,12 +44,17 @@ pub fn check(document: &Document, raw: &RawCampaign, setup: &FlightSetup) -> Res
     if !raw.tasks.contains(&Task::Trim) {
         return Ok(());
     }
-    if setup.air.has_memory() {
+    if setup.has_memory() {
+        let bent = if setup.animal.is_elastic() {
+            " with wings that loads bend"
+        } else {
+            ""
+        };
         let problem = format!(
-            "in this air ({}) a trim takes minutes, and campaigns do not trim there",
+            "in this air ({}){bent} a trim takes minutes, and campaigns do not trim there",
             setup.air.name()
         );
-        let remedy = "set air.model = \"blade_element\" in [set], or trim point by point with `wingbeat trim`";
+        let remedy = "set air.model = \"blade_element\" in [set] and take rigid wings, or trim point by point with `wingbeat trim`";
         return Err(document
             .fault("do", problem, "trim in air without memory", remedy)
             .into());

@@ -58,7 +58,11 @@ pub fn trimmed_case(case: &LoadedCase, trim: &Trim) -> String {
     with_start(case, raw, &trim.beat.root(&trim.state), 0.0, trim.error())
 }
 
-/// The same for a flight in air with memory: held while the wake grows, then released.
+/// Wingbeats of the hold in which elastic wings come into their motion.
+const HELD_WITH_WINGS: f64 = 3.0;
+
+/// The same for a flight in air with memory, or with elastic wings: held while the wake grows, or the wings come into their
+/// motion, then released.
 pub fn wake_trimmed_case(case: &LoadedCase, trim: &WakeTrim) -> String {
     let mut raw = adjusted(case, [&trim.adjustment, &trim.difference], trim.mass_centre);
     if trim.unknowns.iter().any(|u| u.is_lateral()) {
@@ -72,7 +76,11 @@ pub fn wake_trimmed_case(case: &LoadedCase, trim: &WakeTrim) -> String {
         w: start.angular_velocity,
     };
     let time = &trim.setup.time;
-    let held = start.held_steps as f64 * time.step / time.period.unwrap_or(1.0);
+    // Elastic wings come into their motion while the body is held.
+    let held = match trim.wings.is_empty() {
+        true => start.held_steps as f64 * time.step / time.period.unwrap_or(1.0),
+        false => HELD_WITH_WINGS,
+    };
     // The hold and the free wingbeat that was trimmed.
     raw.time.beats = Some(held + 1.0);
     raw.time.steps = None;

@@ -156,6 +156,7 @@ fn instant<'a>(
         time,
         step,
         motions,
+        accelerations: &[],
         shapes,
     }
 }
@@ -207,6 +208,15 @@ impl Equations {
         self.deformation_power(t, s);
         self.quadrature_rates(s).write(dy);
         Ok(())
+    }
+
+    /// How often a state from which a stage begins is evaluated: loads on elastic wings that follow accelerations need to know
+    /// these, each time better.
+    pub fn entries(&self) -> usize {
+        match !self.elastic.is_empty() && self.air.follows_accelerations() {
+            true => 4,
+            false => 1,
+        }
     }
 
     /// Components of the state that nothing depends on and that a [`Self::pass`] leaves out.

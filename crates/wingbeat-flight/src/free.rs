@@ -84,7 +84,7 @@ impl FreeFlight {
 
     fn of(setup: &FlightSetup, form: MomentumForm, step: f64) -> Result<Self, FlightError> {
         let air = AirModel::build(setup, form.system())?;
-        setup.refuse_elastic("a map of one wingbeat")?;
+        setup.refuse_elastic("a map of one wingbeat (averaged models, control derivatives, feedback that is laid out)")?;
         if air.has_memory() {
             return Err(FlightError::Setup {
                 key: "air.model",
@@ -190,6 +190,7 @@ impl FreeFlight {
             time: t,
             step: self.equations.step,
             motions,
+            accelerations: &[],
             shapes: &[],
         };
         let (mut loads, mut added) = (vec![Wrench::default(); motions.len()], vec![]);

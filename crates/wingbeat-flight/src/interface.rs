@@ -4,6 +4,7 @@
 use std::fmt;
 
 use wingbeat_air::{AirLoads, AirState, AirWorkspace, NodeMotion, Points};
+use wingbeat_blade::SectionState;
 use wingbeat_dynamics::{AddedMass, BodyAcceleration, BodyMotion, Wrench};
 use wingbeat_math::DVec3;
 
@@ -19,6 +20,8 @@ pub struct Instant<'a> {
     pub step: f64,
     /// Motions of all bodies: root, wings, segments.
     pub motions: &'a [BodyMotion],
+    /// Their accelerations as far as they are known; empty where no wing bends.
+    pub accelerations: &'a [BodyAcceleration],
     /// Shapes of the wings that loads bend, wing by wing; none for the others, empty where no wing bends.
     pub shapes: &'a [Option<Shape>],
 }
@@ -34,12 +37,15 @@ pub struct Shape {
     pub acceleration: Vec<DVec3>,
 }
 
-/// How the normal forces of the panels of a wing answer to the motion of the nodes of its mesh, in frozen wakes.
+/// How the normal forces of the panels of a wing answer to the motion of the nodes of its mesh, in frozen wakes; of blade
+/// elements, how the forces of each section along three ways to move it do ([`wingbeat_blade::SectionAnswer`]).
 #[derive(Clone, Debug, Default)]
 pub struct WingResponse {
     /// Derivative of the normal forces by the normal velocities of the panels \[N s/m\] or by their accelerations \[kg\], row by
     /// row.
     pub matrix: Vec<f64>,
+    /// Derivative of the forces by accelerations \[kg\] where the air answers to them at once; else empty.
+    pub inertia: Vec<f64>,
     /// Panel by panel: how a node of the mesh (its number among the wing's) shares in the panel's normal force \[1\], and how
     /// the panel's normal velocity changes with the node's velocity \[1\] and place \[1/s\]; N components.
     pub panels: Vec<Vec<(usize, [DVec3; 2])>>,
@@ -68,6 +74,18 @@ pub struct AirScratch {
     pub(crate) workspace: AirWorkspace,
     pub(crate) nodes_done: NodeMotion,
     pub(crate) is_current: bool,
+    pub(crate) bent: BentScratch,
+}
+
+/// Room for blade elements on a wing that loads bend: its nodes, wing components, its sections, and the forces on the nodes wing
+/// by wing \[N\].
+#[derive(Debug, Default)]
+pub(crate) struct BentScratch {
+    pub position: Vec<DVec3>,
+    pub velocity: Vec<DVec3>,
+    pub acceleration: Vec<DVec3>,
+    pub states: Vec<SectionState>,
+    pub forces: Vec<Vec<DVec3>>,
 }
 
 /// Air around bodies that move.
@@ -173,7 +191,7 @@ pub trait Air: fmt::Debug + Send + Sync {
         Err(FlightError::Setup {
             key: "air.model",
             value: "this model".into(),
-            problem: "it gives no loads along the wings, so no wing can bend in it: take vortex_lattice or none, or leave out [wing.NAME.structure]".into(),
+            problem: "it gives no loads along the wings, so no wing can bend in it: take vortex_lattice, blade_element or none, or leave out [wing.NAME.structure]".into(),
         })
     }
 
@@ -206,6 +224,11 @@ pub trait Air: fmt::Debug + Send + Sync {
         _scratch: &AirScratch,
     ) -> Result<Option<WingInertia>, FlightError> {
         Ok(None)
+    }
+
+    /// Whether loads on wings that bend follow their accelerations within a step ([`WingResponse::inertia`]).
+    fn follows_accelerations(&self) -> bool {
+        false
     }
 
     /// Whether any wing moves otherwise than its body.

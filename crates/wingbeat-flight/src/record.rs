@@ -210,6 +210,8 @@ pub struct ElasticRecord {
     pub strain_energy: f64,
     /// Power that goes into it [W].
     pub strain_power: f64,
+    /// Power of the air on what the wing moves relative to its frame [W].
+    pub air_power: f64,
     /// Passes that shape and loads took to agree.
     pub passes: usize,
 }

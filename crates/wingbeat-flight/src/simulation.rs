@@ -20,10 +20,10 @@ use self::wings::WingAngles;
 use crate::air::LatticeAir;
 use crate::bodies::{carry, own_motion};
 use crate::control::{Loop, Sensed, feedback};
-use crate::elastic::ElasticWings;
+use crate::elastic::{ElasticState, ElasticWings};
 use crate::equations::{Equations, Memory, Scratch};
 use crate::error::FlightError;
-use crate::interface::Instant;
+use crate::interface::{Instant, WingResponse};
 use crate::quadratures::QUADRATURES;
 use crate::record::{Record, Snapshot};
 use crate::recorder::{Ledger, Sources};
@@ -54,6 +54,19 @@ impl Simulation {
     /// A setup that contradicts itself, bodies or surfaces that are impossible, a start state
     /// without consistent coordinates, a start that does not converge.
     pub fn new(setup: FlightSetup) -> Result<Self, FlightError> {
+        Self::begun(setup, None)
+    }
+
+    /// The same, the elastic wings bent and moving as in `wings` at the start, in their order: to go on with a beat that begins
+    /// where another one ended.
+    ///
+    /// # Errors
+    /// As [`Self::new`]; wings that are not those of the setup.
+    pub fn bent(setup: FlightSetup, wings: &[ElasticState]) -> Result<Self, FlightError> {
+        Self::begun(setup, Some(wings))
+    }
+
+    fn begun(setup: FlightSetup, bent: Option<&[ElasticState]>) -> Result<Self, FlightError> {
         setup.validate()?;
         let feedback = feedback(&setup)?;
         let wings = feedback.as_ref().map(Loop::wings);
@@ -62,6 +75,9 @@ impl Simulation {
             None => own_motion(k, wing),
         })?;
         let first = &stages[0].equations;
+        if let Some(bent) = bent {
+            fits::check_wings(&stages[0], bent)?;
+        }
         let state = FlightState {
             step: 0,
             stage: 0,
@@ -69,7 +85,7 @@ impl Simulation {
             past: Multistep::default(),
             start_report: StepReport::default(),
             air: None,
-            wings: first.elastic.initial(),
+            wings: bent.map_or_else(|| first.elastic.initial(), <[_]>::to_vec),
             carried: first.carried.initial(),
             ledger: Ledger::default(),
             control: feedback.as_ref().map(Loop::state),
@@ -85,7 +101,8 @@ impl Simulation {
             state,
             stages,
         };
-        flight.begin()?;
+        flight.scratch.elastic = flight.equations().elastic.scratch(&flight.state.wings);
+        flight.begin(bent.is_some())?;
         Ok(flight)
     }
 
@@ -177,22 +194,37 @@ impl Simulation {
     }
 
     /// Added mass of the air on elastic wing number `k` of [`Self::elastic_wings`] at the newest step: six numbers a node
-    /// ([`crate::elastic::ElasticWing::added_mass`]). None where the air is no vortex lattice.
+    /// ([`crate::elastic::ElasticWing::added_mass`]). None where the air has none.
     ///
     /// # Errors
     /// A singular influence matrix.
     pub fn added_mass(&self, k: usize) -> Result<Option<Vec<f64>>, FlightError> {
-        let AirModel::VortexLattice(options) = &self.setup.air else {
-            return Ok(None);
-        };
         let wing = &self.elastic_wings().wings()[k];
         let at = Instant {
             time: self.newest_time(),
             step: self.setup.time.step,
             motions: &self.scratch.motions,
+            accelerations: &self.scratch.solution.bodies,
             shapes: self.scratch.elastic.shapes(),
         };
-        let answer = LatticeAir::inertia(&self.setup, options, wing.wing(), &at)?;
+        let answer = match &self.setup.air {
+            AirModel::VortexLattice(options) => {
+                LatticeAir::inertia(&self.setup, options, wing.wing(), &at)?
+            }
+            _ if self.equations().air.follows_accelerations() => {
+                let (mut answer, memory) = (WingResponse::default(), self.state.air.as_ref());
+                let air = &self.equations().air;
+                air.wing_response(
+                    wing.wing(),
+                    &at,
+                    memory,
+                    &self.scratch.air_scratch,
+                    &mut answer,
+                )?;
+                answer
+            }
+            _ => return Ok(None),
+        };
         let frame = &self.scratch.motions[wing.wing() + 1];
         let at = &self.state.wings[k].structure.configuration;
         Ok(Some(wing.added_mass(&answer, frame, at)))
@@ -251,10 +283,16 @@ impl Simulation {
     }
 
     /// The first moment: consistent coordinates, circulation without a wake, open books.
-    fn begin(&mut self) -> Result<(), FlightError> {
+    fn begin(&mut self, is_bent: bool) -> Result<(), FlightError> {
         let root = self.setup.root_at_start();
-        let core = &self.stages[0].equations.core;
+        let Equations { core, elastic, .. } = &self.stages[0].equations;
         let mut y0 = core.initial(0.0, &root)?;
+        if is_bent && core.dim() > 0 {
+            let mut motions = self.scratch.motions.clone();
+            core.motions(0.0, &y0, &mut core.workspace(), &mut motions)?;
+            let shapes: Vec<_> = elastic.shape_masses(&self.scratch.elastic).collect();
+            y0 = core.initial_from(0.0, &motions, &shapes)?;
+        }
         y0.resize(y0.len() + QUADRATURES, 0.0);
         self.state.air = (self.stages[0].equations).initial_air(&y0, &mut self.scratch)?;
         self.enter_stage(y0)?;
@@ -320,7 +358,9 @@ impl Simulation {
         let equations = &self.stages[self.state.stage].equations;
         self.scratch.fit(equations);
         let mut f0 = vec![0.0; y0.len()];
-        equations.evaluate(t, &y0, self.state.memory(), &mut self.scratch, &mut f0)?;
+        for _ in 0..equations.entries() {
+            equations.evaluate(t, &y0, self.state.memory(), &mut self.scratch, &mut f0)?;
+        }
         self.solver = self.new_solver();
         self.state.started_at = self.state.step;
         self.state.past = Multistep::from_start(

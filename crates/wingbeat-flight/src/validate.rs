@@ -51,6 +51,11 @@ impl FlightSetup {
         Ok(())
     }
 
+    /// Whether what happens depends on the past beside the motion of rigid bodies: wakes, wings that loads bend.
+    pub fn has_memory(&self) -> bool {
+        self.air.has_memory() || self.animal.is_elastic()
+    }
+
     /// Refuses wings that loads bend.
     ///
     /// # Errors
@@ -75,8 +80,7 @@ impl FlightSetup {
             let allowed = "a finite number above 0";
             check(ok, "dynamics.tolerance", tolerance, allowed)?;
         }
-        let bends = self.animal.wings.iter().any(|w| w.structure.is_some());
-        let remembers = self.air.has_memory() || bends;
+        let remembers = self.has_memory();
         let fits = !remembers || self.integrator.carries_wake();
         let wake = "a wake is moved once per step: only hamming and bdf carry it along";
         check(fits, key, &method, wake)?;

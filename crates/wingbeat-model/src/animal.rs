@@ -143,6 +143,11 @@ pub struct Animal {
 }
 
 impl Animal {
+    /// Whether loads bend any of its wings.
+    pub fn is_elastic(&self) -> bool {
+        self.wings.iter().any(|w| w.structure.is_some())
+    }
+
     /// Total mass \[kg\].
     pub fn mass(&self) -> f64 {
         let wings = self.wings.iter().map(|w| w.mass.mass);

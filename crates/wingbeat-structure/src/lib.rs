@@ -37,7 +37,7 @@ pub use configuration::{Configuration, NODE};
 pub use dynamics::{
     GeneralizedAlpha, LoadTangent, Passes, RootWrench, Solver, State, Step, Trial, Weights,
 };
-pub use dynamics::{kinetic_energy, reaction, relative_momentum};
+pub use dynamics::{carried_by_frame, kinetic_energy, reaction, relative_momentum};
 pub use element::{Element, ElementForces};
 pub use error::StructureError;
 pub use follower::{Follower, Share};

@@ -5,6 +5,8 @@ use std::path::Path;
 use wingbeat::case::LoadedCase;
 use wingbeat::flight::{Record, Simulation};
 
+#[path = "elastic/blades.rs"]
+mod blades;
 mod support;
 mod veins;
 
@@ -278,9 +280,23 @@ fn refuses_what_knows_no_elastic_wings() {
         &["check", "c.toml", "--set", "air.model=\"vortex_lattice\""],
     );
     for (args, says) in [
-        (vec!["run", "c.toml", "--set", blade], "structure"),
-        (vec!["trim", "c.toml", "--set", blade], "structure"),
-        (vec!["stability", "c.toml", "--set", blade], "structure"),
+        (vec!["derivatives", "c.toml", "--set", blade], "structure"),
+        (
+            vec!["stability", "c.toml", "--set", blade, "--wake", "given"],
+            "no wake",
+        ),
+        (
+            vec!["trim", "c.toml", "--set", blade, "--hold", "2"],
+            "nothing is held",
+        ),
+        (
+            vec!["trim", "c.toml", "--set", blade, "--turn-rate", "20"],
+            "steady turn",
+        ),
+        (
+            vec!["trim", "c.toml", "--set", blade, "--sweep", "0", "1"],
+            "elastic wings",
+        ),
         (
             vec![
                 "run",

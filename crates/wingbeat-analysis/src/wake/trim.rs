@@ -1,10 +1,13 @@
 //! Trim by flights.
 
+use wingbeat_flight::elastic::ElasticState;
 use wingbeat_flight::{AirModel, FlightSetup, MotionMode, Record, StartState};
 use wingbeat_math::{DVec3, solve_small};
+use wingbeat_model::Start;
 use wingbeat_model::motion::Adjustment;
 
 use super::free_beat::{free_beat, rotation, start, steps_per_beat};
+use super::orbit::{check_orbit, is_elastic, periodic_beat};
 use crate::AnalysisError;
 use crate::progress;
 use crate::steady::{self, Measures, Residuals, Snapshot, TrimProblem};
@@ -65,7 +68,11 @@ pub struct WakeTrim {
     pub body_pitch: f64,
     /// Roll of the body at its release, right side down \[rad\].
     pub body_roll: f64,
-    /// The adjusted flight: held, released, one free wingbeat.
+    /// Elastic wings at the start of the periodic beat, where the air has no memory; else empty.
+    pub wings: Vec<ElasticState>,
+    /// Wingbeats flown.
+    pub beats: usize,
+    /// The adjusted flight: held, released, one free wingbeat; with [`Self::wings`] the free wingbeat alone.
     pub setup: FlightSetup,
 }
 
@@ -81,7 +88,8 @@ impl WakeTrim {
     }
 }
 
-/// Trims the flight of `setup` in air with memory.
+/// Trims the flight of `setup` in air with memory, or with elastic wings: where the air has none, as a periodic orbit of body
+/// and wings.
 ///
 /// # Errors
 /// No wingbeat, or one that is not a whole number of steps; a steady turn, which a body that is held cannot fly;
@@ -95,12 +103,17 @@ pub fn trim_with_wake(
     steady::check_determined(setup, problem)?;
     if problem.turn_rate != 0.0 {
         return Err(AnalysisError::not_covered(
-            "in air with memory the body is held straight while its wake grows, and a steady turn was asked for",
-            "trim the turn in blade elements (air.model = \"blade_element\")",
+            "with a memory of wakes or elastic wings flight is trimmed straight, and a steady turn was asked for",
+            "trim the turn in blade elements (air.model = \"blade_element\") with rigid wings",
         ));
     }
     let residuals = Residuals::of(problem);
+    let is_elastic = is_elastic(setup);
     let mut setup = setup.clone();
+    if is_elastic {
+        check_orbit(&setup)?;
+        (setup.animal.wings.iter_mut()).for_each(|w| w.motion.start = Start::Impulsive);
+    }
     if let (AirModel::VortexLattice(air), Residuals::All) = (&mut setup.air, residuals) {
         air.mirror = false; // right and left part
     }
@@ -110,14 +123,17 @@ pub fn trim_with_wake(
         residuals,
         settings,
         steps: steps_per_beat(&setup)?,
+        is_elastic,
+        wings: None,
         flights: 0,
+        beats: 0,
         best: f64::INFINITY,
     };
     search.run()
 }
 
-/// Right and left of a wingbeat after a hold part by less than this where wakes are chaotic \[1\].
-const ROUNDING: f64 = 1e-2;
+/// Right and left of a wingbeat after a hold part by less than this where wakes are chaotic, and where there are none \[1\].
+const ROUNDING: [f64; 2] = [1e-2, 1e-5];
 
 /// The search: what to fly and how often it was.
 struct Search<'a> {
@@ -126,7 +142,11 @@ struct Search<'a> {
     residuals: Residuals,
     settings: &'a WakeSettings,
     steps: usize,
+    /// Whether a periodic orbit of body and wings is sought, and its wings at the point flown last.
+    is_elastic: bool,
+    wings: Option<Vec<ElasticState>>,
     flights: usize,
+    beats: usize,
     /// Smallest of the largest residuals so far.
     best: f64,
 }
@@ -173,7 +193,7 @@ impl Search<'_> {
         let mut found = self.fly(&x)?;
         found.converged = found.error() <= settings.tolerance;
         found.iterations = iterations;
-        steady::check_symmetric(found.aside, ROUNDING)?;
+        steady::check_symmetric(found.aside, ROUNDING[usize::from(self.is_elastic)])?;
         Ok(found)
     }
 
@@ -214,15 +234,20 @@ impl Search<'_> {
         let [velocity, rate] = self.residuals.motion(x);
         setup.time.step = period / self.steps as f64;
         setup.time.period = Some(period);
-        setup.time.steps = (self.settings.held_beats + 1) * self.steps;
+        let held_beats = if self.is_elastic {
+            0
+        } else {
+            self.settings.held_beats
+        };
+        setup.time.steps = (held_beats + 1) * self.steps;
         setup.mode = MotionMode::Free(StartState {
             position: DVec3::ZERO,
             angles: DVec3::new(a.pitch, 0.0, a.roll),
             velocity: velocity * length / old,
             angular_velocity: rate / old,
-            held_steps: self.settings.held_beats * self.steps,
+            held_steps: held_beats * self.steps,
         });
-        let ends = free_beat(&setup, self.steps, None)?;
+        let (ends, wings) = self.beat(&setup)?;
         let size = Measures {
             length,
             period,
@@ -251,8 +276,26 @@ impl Search<'_> {
             mass_centre: a.mass_centre,
             body_pitch: a.pitch,
             body_roll: a.roll,
+            wings,
+            beats: self.beats,
             setup,
         })
+    }
+
+    /// The free beat of `setup`: its ends, and the elastic wings of a periodic orbit at its start.
+    fn beat(
+        &mut self,
+        setup: &FlightSetup,
+    ) -> Result<([Record; 2], Vec<ElasticState>), AnalysisError> {
+        if !self.is_elastic {
+            self.beats += self.settings.held_beats + 1;
+            return Ok((free_beat(setup, self.steps, None)?, vec![]));
+        }
+        let found = periodic_beat(setup, self.steps, self.wings.clone())?;
+        let [at_start, at_end] = found.wings;
+        self.wings = Some(at_end);
+        self.beats += found.beats;
+        Ok((found.ends, at_start))
     }
 
     /// Slopes of the residuals at `x`, rows by residual, by one-sided differences, over steps beside which the

@@ -78,7 +78,7 @@ pub struct WingCase {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub deformation: Option<DeformationCase>,
     /// What this wing is made of; left out: it is rigid but for a prescribed deformation.
-    #[schemars(extend("with" = "air.model = vortex_lattice | none", "or" = "deformation"))]
+    #[schemars(extend("with" = "air.model = vortex_lattice | blade_element | none", "or" = "deformation"))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub structure: Option<StructureCase>,
     /// Whether the wing shares the edge at its root with its counterpart on the other side: one lifting

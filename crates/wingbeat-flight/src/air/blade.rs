@@ -13,8 +13,9 @@ use wingbeat_math::DVec3;
 use wingbeat_model::deformation::Stations;
 use wingbeat_model::{Animal, Wing, WingMotion};
 
+use super::bent::BentStrips;
 use crate::error::FlightError;
-use crate::interface::{Air, AirScratch, Instant};
+use crate::interface::{Air, AirScratch, Instant, WingResponse};
 use crate::setup::BladeOptions;
 
 /// The blade elements of an animal.
@@ -24,7 +25,9 @@ pub struct BladeAir {
     wings: Vec<BladeWing>,
     /// How they are deformed.
     deforming: Vec<Option<DeformingStrips>>,
-    /// Added mass of those that are not.
+    /// How loads bend them.
+    bent: Vec<Option<BentStrips>>,
+    /// Added mass of those that neither deforms.
     added: Vec<AddedMass>,
     drag: Option<BodyDrag>,
     density: f64,
@@ -82,13 +85,17 @@ impl BladeAir {
         let mut air = Self {
             wings: wings?,
             deforming: animal.wings.iter().map(DeformingStrips::new).collect(),
+            bent: (animal.wings.iter().enumerate())
+                .map(|(i, w)| BentStrips::new(i, w))
+                .collect(),
             added: vec![],
             drag: options.body_drag,
             density: options.blade.density,
             stream: options.blade.free_stream,
             wind: options.wind.clone(),
         };
-        let rigid = (0..air.wings.len()).filter(|&i| air.deforming[i].is_none());
+        let rigid = |i: &usize| air.deforming[*i].is_none() && air.bent[*i].is_none();
+        let rigid = (0..air.wings.len()).filter(rigid);
         air.added = rigid.filter_map(|i| air.added_to(i, 0.0)).collect();
         Ok(air)
     }
@@ -170,7 +177,7 @@ impl Air for BladeAir {
         &self,
         at: &Instant<'_>,
         _memory: Option<&AirState>,
-        _scratch: &mut AirScratch,
+        scratch: &mut AirScratch,
         out: &mut [Wrench],
     ) -> Result<(), FlightError> {
         let (t, still) = (at.time, BodyAcceleration::default());
@@ -182,6 +189,14 @@ impl Air for BladeAir {
             out[0].force = b.r * drag.force(self.density, v);
         }
         for (i, m) in (0..self.wings.len()).zip(&at.motions[1..]) {
+            let bent = self.bent[i].as_ref();
+            let wind = self.wind_on(m, t);
+            if let Some(load) =
+                bent.and_then(|b| b.load(&self.wings[i], at, wind, &mut scratch.bent))
+            {
+                out[i + 1] = load;
+                continue;
+            }
             out[i + 1] = turned(&self.velocity_load(i, t, m).0, m);
             if self.wings[i].has_added_mass() {
                 out[i + 1] += turned(&self.acceleration_load(i, t, m, &still).0, m);
@@ -198,6 +213,36 @@ impl Air for BladeAir {
 
     fn is_uniform(&self) -> bool {
         self.wind.is_none()
+    }
+
+    fn nodal_forces(
+        &self,
+        wing: usize,
+        _at: &Instant<'_>,
+        scratch: &mut AirScratch,
+        out: &mut Vec<DVec3>,
+    ) -> Result<(), FlightError> {
+        out.clear();
+        out.extend_from_slice(scratch.bent.forces(wing));
+        Ok(())
+    }
+
+    fn wing_response(
+        &self,
+        wing: usize,
+        at: &Instant<'_>,
+        _memory: Option<&AirState>,
+        _scratch: &AirScratch,
+        out: &mut WingResponse,
+    ) -> Result<bool, FlightError> {
+        let wind = self.wind_on(&at.motions[wing + 1], at.time);
+        let bent = self.bent[wing].as_ref();
+        Ok(bent.is_some_and(|b| b.respond(&self.wings[wing], at, wind, out)))
+    }
+
+    fn follows_accelerations(&self) -> bool {
+        let mut wings = self.bent.iter().zip(&self.wings);
+        wings.any(|(bent, wing)| bent.is_some() && wing.has_added_mass())
     }
 
     fn deforms(&self) -> bool {

@@ -86,7 +86,7 @@ impl LatticeAir {
         let state = memory.ok_or_else(|| misfit("a lattice has a memory"))?;
         let mut answer = WingResponse {
             matrix: (air.lattice).normal_inertia(wing, &state, &s.workspace, &s.loads)?,
-            panels: vec![],
+            ..WingResponse::default()
         };
         air.set_panels(wing, &s, &mut answer);
         Ok(answer)
@@ -250,6 +250,7 @@ impl Air for LatticeAir {
         out: &mut WingResponse,
     ) -> Result<bool, FlightError> {
         let state = memory.ok_or_else(|| misfit("a lattice needs its wakes"))?;
+        out.inertia.clear();
         out.matrix = (self.lattice).normal_response(wing, state, &s.workspace, &s.loads)?;
         self.set_panels(wing, s, out);
         Ok(true)

@@ -10,6 +10,7 @@
 //!
 //! A model of your own implements [`Air`] and flies as [`AirModel::Own`].
 
+mod bent;
 mod blade;
 pub mod external;
 mod lattice;

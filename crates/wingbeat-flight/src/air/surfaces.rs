@@ -234,6 +234,7 @@ pub fn check_joined(animal: &Animal, pair: [usize; 2]) -> Result<(), FlightError
         time: 0.0,
         step: 0.0,
         motions: &motions,
+        accelerations: &[],
         shapes: &[],
     };
     SurfaceMap::new(animal, false, &[pair]).node_motion(&at, &mut NodeMotion::default())

@@ -69,11 +69,7 @@ impl ElasticWings {
 
     /// Power of the air on what the wings move relative to their frames \[W\].
     pub fn air_power(&self, s: &ElasticScratch) -> f64 {
-        let of = |ws: &WingScratch| -> f64 {
-            let pairs = ws.loads.iter().zip(&ws.trial.velocity);
-            pairs.map(|(f, v)| f * v).sum()
-        };
-        s.wings.iter().map(of).sum()
+        s.wings.iter().map(air_power).sum()
     }
 
     /// Elastic energy of each wing \[J\].
@@ -122,6 +118,7 @@ impl ElasticWings {
                 }),
                 strain_energy: ws.solver.strain_energy(),
                 strain_power: ws.solver.strain_power(),
+                air_power: air_power(ws),
                 passes: s.most,
             });
         }
@@ -154,6 +151,12 @@ impl ElasticWings {
         b.centre = first / mass;
         b.angular_momentum = angular - b.centre.cross(b.momentum);
     }
+}
+
+/// Power of the air on what a wing moves relative to its frame \[W\].
+fn air_power(ws: &WingScratch) -> f64 {
+    let pairs = ws.loads.iter().zip(&ws.trial.velocity);
+    pairs.map(|(f, v)| f * v).sum()
 }
 
 /// Energy and momenta of one small body, N components, about the origin of N.

@@ -106,6 +106,7 @@ impl ElasticWings {
                 time: at.time,
                 step: at.step,
                 motions: at.motions,
+                accelerations: at.accelerations,
                 shapes: &shapes,
             };
             let passed = self.pass(&instant, around, s, (air_scratch, out));
@@ -146,6 +147,11 @@ impl ElasticWings {
         let helps = s.unbalanced < 0.5 * before;
         let is_whole = s.passes > 1 && s.share >= 1.0;
         let is_exact = is_whole && (s.moved <= ROUNDING || (s.moved <= SMALL && !helps));
+        if !s.is_stepping && air.follows_accelerations() {
+            self.take_answers(at, (air, memory), s, air_scratch)?;
+            let all = self.wings.iter().zip(&mut s.wings);
+            all.for_each(|(w, ws)| ws.carried = ws.carried_air(w));
+        }
         if s.unbalanced <= TOLERANCE || is_exact || !s.is_stepping {
             return Ok(true);
         }

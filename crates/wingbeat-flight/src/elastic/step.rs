@@ -2,7 +2,9 @@
 
 use wingbeat_dynamics::AddedMass;
 use wingbeat_math::DVec3;
-use wingbeat_structure::{FrameMotion, LoadTangent, NODE, Solver, StructureError, Trial};
+use wingbeat_structure::{
+    FrameMotion, LoadTangent, NODE, Solver, StructureError, Trial, carried_by_frame,
+};
 
 use super::tangent::AirTangent;
 use super::wing::{ElasticState, ElasticWing, Nodes};
@@ -235,15 +237,20 @@ impl WingScratch {
             let terms = self.step.iter().zip(by_velocity.iter().zip(by_place));
             *load += terms.map(|(d, (v, p))| d * (v + place * p)).sum::<f64>();
         }
+        let at_once = place * self.trial.weights().acceleration;
+        let rows = self.tangent.acceleration.chunks_exact(n);
+        for (load, row) in self.given.iter_mut().zip(rows) {
+            let terms = self.step.iter().zip(row);
+            *load += at_once * terms.map(|(d, a)| d * a).sum::<f64>();
+        }
     }
 
     /// Factorises the tangent, with the air's answer on its left-hand side.
     fn factor(&mut self, w: &ElasticWing) -> Result<(), StructureError> {
-        let mut loads = LoadTangent::default();
-        if self.answers {
-            loads.position = Some(&self.tangent.position);
-            loads.velocity = Some(&self.tangent.velocity);
-        }
+        let loads = match self.answers {
+            true => self.tangent.loads(),
+            false => LoadTangent::default(),
+        };
         let (structure, trial, frame) = (&w.structure, &self.trial, &self.frame);
         match self.unbalanced > ROUGH {
             true => (self.solver).factor_ahead(structure, trial, frame, &loads)?,
@@ -254,6 +261,13 @@ impl WingScratch {
             self.carried = Some(w.carried(&response));
         }
         Ok(())
+    }
+
+    /// What the air alone, the shape of the wing kept, answers to accelerations of its frame.
+    pub fn carried_air(&self, w: &ElasticWing) -> Option<AddedMass> {
+        let felt = self.answers && !self.tangent.acceleration.is_empty();
+        let at = &self.trial.configuration;
+        felt.then(|| w.carried_air(&carried_by_frame(at, &self.tangent.acceleration)))
     }
 
     pub fn nodes(&self) -> Nodes<'_> {

@@ -1,7 +1,7 @@
 //! The air's answer to the motion of an elastic wing, for the left-hand side of a step.
 
 use wingbeat_math::DMat3;
-use wingbeat_structure::{Configuration, Follower, NODE};
+use wingbeat_structure::{Configuration, Follower, LoadTangent, NODE};
 
 use crate::interface::WingResponse;
 
@@ -12,6 +12,8 @@ pub(super) struct AirTangent {
     pub position: Vec<f64>,
     /// By velocities.
     pub velocity: Vec<f64>,
+    /// By accelerations; empty where loads do not follow them at once.
+    pub acceleration: Vec<f64>,
     wash: [Vec<f64>; 2],
     answer: Vec<f64>,
 }
@@ -44,6 +46,21 @@ impl AirTangent {
             times(&air.matrix, wash, count, width, &mut self.answer);
             transposed_times(by_velocity, &self.answer, count, width, out);
         }
+        self.acceleration.clear();
+        if !air.inertia.is_empty() {
+            times(&air.inertia, by_velocity, count, width, &mut self.answer);
+            let out = &mut self.acceleration;
+            transposed_times(by_velocity, &self.answer, count, width, out);
+        }
+    }
+
+    /// The derivatives as the structure takes them.
+    pub fn loads(&self) -> LoadTangent<'_> {
+        LoadTangent {
+            position: Some(&self.position),
+            velocity: Some(&self.velocity),
+            acceleration: (!self.acceleration.is_empty()).then_some(&self.acceleration),
+        }
     }
 }
 
@@ -57,7 +74,11 @@ pub(super) fn added_mass(
 ) -> Vec<f64> {
     let mut tangent = AirTangent::default();
     tangent.set(air, r, followers, at);
-    tangent.velocity.iter().map(|x| -x).collect()
+    let by_acceleration = match tangent.acceleration.is_empty() {
+        true => &tangent.velocity,
+        false => &tangent.acceleration,
+    };
+    by_acceleration.iter().map(|x| -x).collect()
 }
 
 /// `out = a b`, a of order `n`, b of n rows of `width`.

@@ -179,6 +179,13 @@ impl ElasticWing {
         )
     }
 
+    /// From the derivative of the loads of the air by the acceleration of the frame: the added mass that it is.
+    pub(super) fn carried_air(&self, response: &[[f64; 6]; 6]) -> AddedMass {
+        let mean = |i: usize, j: usize| -0.5 * (response[i][j] + response[j][i]);
+        let matrix = std::array::from_fn(|i| std::array::from_fn(|j| mean(i, j)));
+        AddedMass::new(self.wing + 1, matrix)
+    }
+
     /// Force and moment by acceleration and angular acceleration of the rigid wing.
     fn rigid_mass(&self) -> [[f64; 6]; 6] {
         let (m, s) = (self.rigid.mass, tilde(self.rigid.first_moment));

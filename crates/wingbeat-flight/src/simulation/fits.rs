@@ -50,7 +50,7 @@ pub(super) fn check_fits(
 }
 
 /// Elastic wings have the nodes that the case gives them.
-fn check_wings(stage: &Stage, wings: &[ElasticState]) -> Result<(), FlightError> {
+pub(super) fn check_wings(stage: &Stage, wings: &[ElasticState]) -> Result<(), FlightError> {
     let nodes = |s: &ElasticState| {
         let state = &s.structure;
         let numbers = [&state.velocity, &state.acceleration, &state.algorithmic];

@@ -114,8 +114,19 @@ impl Solver {
         let columns = self.frame_columns(structure, trial);
         let (rigid, rows) = self.root_rows(structure, trial, frame, loads);
         let mut response = rigid.map(|row| row.map(|v| -v));
+        let given = loads
+            .acceleration
+            .map(|by| followed(&trial.configuration, by));
         for (j, column) in columns.into_iter().enumerate() {
             let mut follow = column;
+            if let Some(given) = &given {
+                for (x, &k) in follow.iter_mut().zip(&structure.number) {
+                    *x -= given[j][k];
+                }
+                let sum = resultant(&trial.configuration, |n| pair(&given[j], n));
+                let six = [sum.force.to_array(), sum.moment.to_array()].concat();
+                (0..NODE).for_each(|i| response[i][j] += six[i]);
+            }
             self.solve(&mut follow);
             for i in 0..NODE {
                 let with: f64 = rows[i].iter().zip(&follow).map(|(a, b)| a * b).sum();
@@ -174,6 +185,42 @@ impl Solver {
         let free = |row: Vec<f64>| structure.number.iter().map(|&k| row[k]).collect();
         (rigid, full.map(free))
     }
+}
+
+/// Loads on the nodes by the acceleration and angular acceleration of W, where loads follow the accelerations of the nodes by
+/// the matrix `by` (rows of 6 N numbers).
+fn followed(at: &Configuration, by: &[f64]) -> [Vec<f64>; NODE] {
+    let width = NODE * at.len();
+    let of = |j: usize| {
+        let (linear, angular) = match j {
+            0..3 => (DVec3::AXES[j], DVec3::ZERO),
+            _ => (DVec3::ZERO, DVec3::AXES[j - 3]),
+        };
+        let node = |(u, r): (&DVec3, &wingbeat_math::DQuat)| {
+            let (a, turn) = (linear + angular.cross(*u), r.inverse() * angular);
+            [a.to_array(), turn.to_array()].concat()
+        };
+        let nodes: Vec<f64> = at
+            .position
+            .iter()
+            .zip(&at.rotation)
+            .flat_map(node)
+            .collect();
+        let rows = by.chunks_exact(width);
+        rows.map(|row| row.iter().zip(&nodes).map(|(b, x)| b * x).sum())
+            .collect()
+    };
+    std::array::from_fn(of)
+}
+
+/// Force and moment about the origin of W by its acceleration and angular acceleration, six by six by rows, of loads that
+/// follow the accelerations of the nodes by the matrix `by` (rows of 6 N numbers) and nothing else.
+pub fn carried_by_frame(at: &Configuration, by: &[f64]) -> [[f64; 6]; 6] {
+    let columns = followed(at, by).map(|loads| {
+        let sum = resultant(at, |n| pair(&loads, n));
+        [sum.force.to_array(), sum.moment.to_array()].concat()
+    });
+    std::array::from_fn(|i| std::array::from_fn(|j| columns[j][i]))
 }
 
 /// Map of a node's force (W) and moment (node components) to the origin.

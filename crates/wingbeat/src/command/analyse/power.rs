@@ -23,7 +23,7 @@ pub(crate) struct PowerArgs {
 pub(crate) fn run(args: &PowerArgs) -> Result<(), Failure> {
     let trimming = &args.trimming;
     trimming.report.deliver([], |report, []| {
-        let (found, flight) = if trimming.load()?.setup.air.has_memory() {
+        let (found, flight) = if trimming.load()?.setup.has_memory() {
             let (_, trim) = trimmed_with_wake(trimming, report)?;
             let found = watched("power", || power_with_wake(&trim))?;
             (found, "the free wingbeat that was trimmed")

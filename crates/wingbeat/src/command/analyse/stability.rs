@@ -7,7 +7,7 @@ use serde_json::{Value, json};
 use wingbeat::analysis::modes::Plane;
 use wingbeat::analysis::stability::floquet_of_trim;
 use wingbeat::analysis::stability::{LOADS, LinearModel};
-use wingbeat::analysis::wake::{WakeMemory, wake_floquet};
+use wingbeat::analysis::wake::{WakeMemory, elastic_floquet, wake_floquet};
 use wingbeat::analysis::{ModeSet, linear_model, table_model};
 use wingbeat::case::LoadedCase;
 use wingbeat::case::derivative_case;
@@ -16,6 +16,7 @@ use wingbeat::results::fixed::{fixed, signed};
 
 use super::trimming::{Trimming, trimmed, trimmed_with_wake, unused, watched};
 use crate::command::failure::Failure;
+use crate::command::options;
 use crate::command::report::{Report, line};
 use crate::command::target::Target;
 
@@ -30,7 +31,14 @@ pub(crate) struct StabilityArgs {
     /// In a vortex lattice: what is held fixed when the body is disturbed [default: one after the other].
     #[arg(long, value_enum)]
     wake: Option<Wake>,
+    /// With elastic wings in blade elements: modes of each wing that are disturbed, too [default: 3].
+    #[arg(long, value_name = "N", value_parser = options::count::<1, MAX_MODES>)]
+    modes: Option<usize>,
 }
+
+/// Modes of each wing at most, and unless told otherwise.
+const MAX_MODES: usize = 20;
+const DEFAULT_MODES: usize = 3;
 
 /// What is held fixed.
 #[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -46,17 +54,23 @@ pub(crate) fn run(args: &StabilityArgs) -> Result<(), Failure> {
     let deliver = |report: &mut Report, [file]: [Option<Target>; 1]| {
         let case = args.trimming.load()?;
         let table = matches!(case.setup.air, AirModel::Derivatives(_));
-        let memory = case.setup.air.has_memory();
+        let (wakes, memory) = (case.setup.air.has_memory(), case.setup.has_memory());
         if args.write.is_some() && (table || memory) {
-            let why = "only a trim in air without memory gives an averaged model to write";
+            let why =
+                "only a trim of rigid wings in air without memory gives an averaged model to write";
             return Err(unused("write", why));
         }
-        if args.wake.is_some() && !memory {
+        if args.wake.is_some() && !wakes {
             return Err(unused("wake", "this air has no wake"));
+        }
+        if args.modes.is_some() && (wakes || !memory) {
+            let why = "only wings that bend in air without memory take modes of theirs along";
+            return Err(unused("modes", why));
         }
         match (table, memory) {
             (true, _) => of_table(&args.trimming, &case, report),
-            (_, true) => with_wake(args, report),
+            (_, true) if wakes => with_wake(args, report),
+            (_, true) => with_wings(args, report),
             _ => of_trim(&args.trimming, report, file),
         }
     };
@@ -149,6 +163,20 @@ fn with_wake(args: &StabilityArgs, report: &mut Report) -> Result<(), Failure> {
         }
         report.value(&format!("{name}_modes_agree_in_kind"), agree);
     }
+    Ok(())
+}
+
+/// Floquet's modes of body and elastic wings.
+fn with_wings(args: &StabilityArgs, report: &mut Report) -> Result<(), Failure> {
+    let (_, trim) = trimmed_with_wake(&args.trimming, report)?;
+    let count = args.modes.unwrap_or(DEFAULT_MODES);
+    let found = watched("Floquet's modes", || elastic_floquet(&trim, count))?;
+    line!(
+        report,
+        "\nModes of the full periodic orbit of body and wings (Floquet), {count} modes of each wing:"
+    );
+    modes(report, "floquet_modes", &found);
+    report.value("modes_of_each_wing", count);
     Ok(())
 }
 

@@ -47,7 +47,7 @@ pub(crate) fn run(args: &TrimArgs) -> Result<(), Failure> {
             let points = args.points.unwrap_or(DEFAULT_POINTS);
             return sweeping::run(trimming, [from, to], points, report, figure);
         }
-        let text = if trimming.load()?.setup.air.has_memory() {
+        let text = if trimming.load()?.setup.has_memory() {
             let (case, trim) = trimmed_with_wake(trimming, report)?;
             wake_trimmed_case(&case, &trim)
         } else {

@@ -37,6 +37,9 @@ const LATERAL_UNKNOWNS: [Unknown; 3] = [
     Unknown::StrokePlaneDifference,
 ];
 
+/// Largest residual of a trim of body and elastic wings unless told otherwise.
+const ORBIT: f64 = 1e-6;
+
 /// Heading of these options in the help.
 const HEADING: &str = "Trim";
 
@@ -74,7 +77,7 @@ pub(crate) struct Trimming {
     #[arg(long, value_name = "DEG_S", allow_negative_numbers = true,
           value_parser = options::finite, help_heading = HEADING)]
     pub(super) turn_rate: Option<f64>,
-    /// Steps per wingbeat; default 100, in a vortex lattice those of the case.
+    /// Steps per wingbeat; default 100, in a vortex lattice and with elastic wings those of the case.
     #[arg(long, value_name = "N", help_heading = HEADING,
           value_parser = options::count::<{ STEPS[0] }, { STEPS[1] }>)]
     steps: Option<usize>,
@@ -83,8 +86,8 @@ pub(crate) struct Trimming {
     #[arg(long, value_name = "BEATS", help_heading = HEADING,
           value_parser = options::count::<1, MAX_HELD>)]
     hold: Option<usize>,
-    /// In a vortex lattice: largest residual (forces over weight) that counts as trimmed
-    /// [default: 2e-3].
+    /// In a vortex lattice or with elastic wings: largest residual (forces over weight) that counts as trimmed
+    /// [default: 2e-3; of elastic wings in blade elements 1e-6].
     #[arg(long, value_name = "RESIDUAL", help_heading = HEADING, value_parser = options::tolerance)]
     tolerance: Option<f64>,
     #[command(flatten)]
@@ -141,10 +144,10 @@ impl Trimming {
 
     /// Refuses air with a memory where a case is trimmed many times over.
     pub(super) fn without_memory(&self, case: &LoadedCase) -> Result<(), Failure> {
-        match case.setup.air.has_memory() {
+        match case.setup.has_memory() {
             true => Err(unused(
                 "sweep",
-                "in air with memory every trim takes minutes; sweep in blade elements (--set air.model=blade_element), or trim speed by speed with --forward",
+                "in air with memory or with elastic wings every trim takes minutes; sweep rigid wings in blade elements (--set air.model=blade_element), or trim speed by speed with --forward",
             )),
             false => self.without_hold(),
         }
@@ -258,23 +261,40 @@ pub(crate) fn trimmed_with_wake(
         case.raw.time.steps_per_beat = Some(steps);
     }
     let problem = args.problem(&case)?;
+    let is_orbit = !case.setup.air.has_memory();
+    if is_orbit && args.hold.is_some() {
+        return Err(unused(
+            "hold",
+            "nothing is held: body and wings fly their periodic beat",
+        ));
+    }
+    let default = WakeSettings::default();
     let settings = WakeSettings {
         held_beats: args.hold.unwrap_or(DEFAULT_HELD),
-        tolerance: args.tolerance.unwrap_or(WakeSettings::default().tolerance),
-        ..WakeSettings::default()
+        tolerance: (args.tolerance).unwrap_or(if is_orbit { ORBIT } else { default.tolerance }),
+        ..default
     };
-    let beats = settings.held_beats + 1;
+    let what = match is_orbit {
+        true => "body and elastic wings".to_owned(),
+        false => format!(
+            "in air with memory, some 10 to 30 flights of {} wingbeats",
+            settings.held_beats + 1
+        ),
+    };
     name_program(&case);
-    tell!(
-        "{}: trimming in air with memory, some 10 to 30 flights of {beats} wingbeats; this takes minutes",
-        case.name,
-    );
+    tell!("{}: trimming {what}; this takes minutes", case.name);
     let found = watched("trimming", || {
         trim_with_wake(&case.setup, &problem, &settings)
     })?;
     found::tell(report, &case, &problem, &Found::from(&found));
-    line!(report, "  {} flights of {beats} wingbeats", found.flights);
+    line!(
+        report,
+        "  {} flights of {} wingbeats in all",
+        found.flights,
+        found.beats
+    );
     report.value("flights", found.flights);
+    report.value("wingbeats", found.beats);
     match found.converged && found.outside.is_empty() {
         true => Ok((case, found)),
         false => Err(not_trimmed()),

@@ -1,0 +1,301 @@
+//! Floquet's modes of a flyer whose wings bend, in air without memory: body and wings are disturbed.
+//!
+//! Of what wings can do their leading modes of vibration about their shape at the start of the beat are taken along: a
+//! departure of the wings is its projections on them, displacements and velocities, `phi^T M dq` and `phi^T M dv`. What other
+//! modes do has died before the beat is over. Disturbed flights are looked at soon after their start and a wingbeat later; what
+//! takes the one into the other has Floquet's multipliers as its eigenvalues.
+
+use wingbeat_dynamics::BodyMotion;
+use wingbeat_flight::elastic::{ElasticState, ElasticWings};
+use wingbeat_flight::{FlightError, MotionMode, Record, Simulation, StartState};
+use wingbeat_math::{DMat3, DQuat, DVec3, EulerSequence, MassProperties, solve_small};
+use wingbeat_structure::{FrameMotion, Mode, NODE, modes};
+
+use super::free_beat::{rotation, start, steps_per_beat};
+use super::trim::WakeTrim;
+use crate::AnalysisError;
+use crate::eigen::eigen;
+use crate::level::{Level, Perturbation};
+use crate::modes::{ModeSet, Scales};
+use crate::progress;
+
+/// Components of a departure of the body.
+const BODY: usize = 9;
+
+/// Disturbances over natural sizes \[1\].
+const PART: f64 = 1e-3;
+
+/// Steps after which a disturbed flight is looked at first: accelerations of the wings have found what belongs to them.
+const SETTLING: usize = 4;
+
+/// A map of departures over one wingbeat.
+#[derive(Clone, Debug)]
+pub struct ElasticMonodromy {
+    /// By rows: the nine components of [`Perturbation`], then wing by wing displacements and velocities of the modes, all over
+    /// their natural sizes \[1\].
+    pub matrix: Vec<f64>,
+    /// Its order.
+    pub order: usize,
+    scales: Scales,
+}
+
+/// The map of the departures of body and wings over a beat, `count` modes of each wing.
+///
+/// # Errors
+/// A trim of another kind; a flight that fails; departures that the disturbances do not reach.
+pub fn elastic_monodromy(trim: &WakeTrim, count: usize) -> Result<ElasticMonodromy, AnalysisError> {
+    let rig = Rig::new(trim, count)?;
+    let n = rig.order();
+    let (mut before, mut after) = (vec![0.0; n * n], vec![0.0; n * n]);
+    for k in 0..n {
+        let fly = |s: f64| {
+            progress::task("disturbed flights", 2 * k + usize::from(s < 0.0), 2 * n);
+            rig.fly(k, s * PART)
+        };
+        let (plus, minus) = (fly(1.0)?, fly(-1.0)?);
+        for i in 0..n {
+            before[n * i + k] = (plus[0][i] - minus[0][i]) / (2.0 * PART);
+            after[n * i + k] = (plus[1][i] - minus[1][i]) / (2.0 * PART);
+        }
+    }
+    // after = M before: rows of M solve before^T m = after row.
+    let mut matrix = vec![0.0; n * n];
+    for i in 0..n {
+        let mut transposed: Vec<f64> = (0..n * n).map(|e| before[n * (e % n) + e / n]).collect();
+        let mut row = after[n * i..n * (i + 1)].to_vec();
+        solve_small(&mut transposed, &mut row)
+            .map_err(|e| AnalysisError::Numbers(format!("the disturbances are dependent: {e}")))?;
+        matrix[n * i..n * (i + 1)].copy_from_slice(&row);
+    }
+    Ok(ElasticMonodromy {
+        matrix,
+        order: n,
+        scales: rig.scales,
+    })
+}
+
+/// Floquet's modes of a flyer with elastic wings about its trimmed flight, with `count` modes of each wing.
+///
+/// # Errors
+/// As [`elastic_monodromy`].
+pub fn elastic_floquet(trim: &WakeTrim, count: usize) -> Result<ModeSet, AnalysisError> {
+    elastic_modes(&elastic_monodromy(trim, count)?)
+}
+
+/// The same of a map that is known.
+///
+/// # Errors
+/// Numbers that are not finite.
+pub fn elastic_modes(map: &ElasticMonodromy) -> Result<ModeSet, AnalysisError> {
+    let pairs = eigen(&map.matrix, map.order)?;
+    let one = Scales {
+        velocity: 1.0,
+        rate: 1.0,
+        ..map.scales
+    };
+    let wings = vec![1.0; map.order - BODY];
+    Ok(ModeSet::with_wings(pairs, &one, &wings))
+}
+
+/// The trimmed flight and how it is disturbed.
+struct Rig<'a> {
+    trim: &'a WakeTrim,
+    steps: usize,
+    level: Level,
+    scales: Scales,
+    wings: Vec<WingBasis>,
+}
+
+/// Modes of a wing.
+struct WingBasis {
+    masses: Vec<MassProperties>,
+    modes: Vec<Mode>,
+    /// Amplitude of each mode that moves some node by the size of the wing.
+    sizes: Vec<f64>,
+}
+
+impl<'a> Rig<'a> {
+    fn new(trim: &'a WakeTrim, count: usize) -> Result<Self, AnalysisError> {
+        if trim.wings.is_empty() {
+            return Err(AnalysisError::not_covered(
+                "the flight was trimmed without a periodic motion of elastic wings",
+                "trim wings with a structure in blade elements",
+            ));
+        }
+        let setup = &trim.setup;
+        let elastic = ElasticWings::new(&setup.animal, setup.gravity)?;
+        let both = elastic.wings().iter().zip(&trim.wings);
+        let wings = both.map(|(w, s)| WingBasis::new(w.structure(), s, count));
+        let nodes = setup.animal.wings.iter().flat_map(|w| &w.mesh.nodes);
+        let length = nodes.fold(0.0_f64, |m, r| m.max(r.length()));
+        let period = setup.time.period.unwrap_or(1.0);
+        Ok(Self {
+            trim,
+            steps: steps_per_beat(setup)?,
+            level: Level::new(start(setup).rotation(), setup.gravity),
+            scales: Scales {
+                velocity: length / period,
+                rate: 1.0 / period,
+                period,
+            },
+            wings: wings.collect::<Result<_, _>>()?,
+        })
+    }
+
+    /// Number of components.
+    fn order(&self) -> usize {
+        BODY + self.wings.iter().map(|w| 2 * w.modes.len()).sum::<usize>()
+    }
+
+    /// Departures soon after the start and a wingbeat later of a flight whose component `k` is disturbed by `part` of its size.
+    fn fly(&self, k: usize, part: f64) -> Result<[Vec<f64>; 2], AnalysisError> {
+        let mut setup = self.trim.setup.clone();
+        let mut wings = self.trim.wings.clone();
+        setup.time.steps = SETTLING + self.steps;
+        if k < BODY {
+            let mut x = [0.0; BODY];
+            x[k] = part * self.scales.array()[k];
+            let by = Perturbation::from_array(x);
+            setup.mode = MotionMode::Free(self.disturbed(&by));
+        } else {
+            self.disturb(&mut wings, k - BODY, part);
+        }
+        let mut flight = Simulation::bent(setup, &wings)?;
+        let mut looked = vec![];
+        for step in 1..=SETTLING + self.steps {
+            flight.step()?;
+            if step == SETTLING || step == SETTLING + self.steps {
+                looked.push(self.seen(flight.record(), &flight.state().wings));
+            }
+        }
+        let after = looked.pop().unwrap_or_default();
+        Ok([looked.pop().unwrap_or_default(), after])
+    }
+
+    /// The start with a disturbance of the body.
+    fn disturbed(&self, by: &Perturbation) -> StartState {
+        let level = &self.level;
+        let tilt = DMat3::from_quat(DQuat::from_scaled_axis(by.tilt));
+        let turn = level.to_n * tilt * level.to_n.transpose();
+        let trimmed = start(&self.trim.setup);
+        let root = BodyMotion {
+            p: trimmed.position,
+            r: turn * trimmed.rotation(),
+            v: turn * trimmed.velocity + level.to_n * tilt * by.velocity,
+            w: trimmed.angular_velocity + level.to_root * by.rate,
+        };
+        StartState {
+            angles: EulerSequence::BODY_231.angles(root.r),
+            velocity: root.v,
+            angular_velocity: root.w,
+            ..*trimmed
+        }
+    }
+
+    /// Disturbs component `k` of the wings.
+    fn disturb(&self, wings: &mut [ElasticState], mut k: usize, part: f64) {
+        for (basis, state) in self.wings.iter().zip(wings) {
+            let count = basis.modes.len();
+            if k >= 2 * count {
+                k -= 2 * count;
+                continue;
+            }
+            let mode = k % count;
+            let amplitude = part * basis.sizes[mode];
+            let by: Vec<f64> = (basis.modes[mode].shape.iter())
+                .map(|x| amplitude * x)
+                .collect();
+            match k < count {
+                true => displace(state, &by),
+                false => (state.structure.velocity.iter_mut().zip(&by))
+                    .for_each(|(v, x)| *v += x / self.scales.period),
+            }
+            return;
+        }
+    }
+
+    /// What a record and its wings look like, over natural sizes.
+    fn seen(&self, r: &Record, wings: &[ElasticState]) -> Vec<f64> {
+        let velocity = r.momentum / self.trim.setup.animal.mass();
+        let body = Perturbation::seen(&self.level, rotation(r), velocity, r.root_angular_velocity);
+        let sizes = self.scales.array();
+        let mut all: Vec<f64> = (body.to_array().iter().zip(sizes))
+            .map(|(x, s)| x / s)
+            .collect();
+        let trimmed = self.trim.wings.iter();
+        for ((basis, state), at) in self.wings.iter().zip(wings).zip(trimmed) {
+            let (moved, velocity) = departure(state, at);
+            let period = self.scales.period;
+            all.extend(basis.amplitudes(at, &moved));
+            all.extend(basis.amplitudes(at, &velocity).map(|x| x * period));
+        }
+        all
+    }
+}
+
+impl WingBasis {
+    fn new(
+        structure: &wingbeat_structure::Structure,
+        at: &ElasticState,
+        count: usize,
+    ) -> Result<Self, AnalysisError> {
+        let at = &at.structure.configuration;
+        let all = modes(structure, at, &FrameMotion::REST, None).map_err(FlightError::from)?;
+        let modes: Vec<Mode> = all.into_iter().take(count).collect();
+        let size = |m: &Mode| {
+            let nodes = m.shape.chunks_exact(NODE);
+            let moves = |six: &[f64]| {
+                let turn = DVec3::from_slice(&six[3..]).length();
+                (DVec3::from_slice(six).length() / structure.size()).max(turn)
+            };
+            1.0 / nodes.map(moves).fold(0.0, f64::max)
+        };
+        Ok(Self {
+            masses: structure.masses().to_vec(),
+            sizes: modes.iter().map(size).collect(),
+            modes,
+        })
+    }
+
+    /// `phi^T M x` over the natural size of every mode, M that of the wing bent as in `at`.
+    fn amplitudes<'b>(&'b self, at: &ElasticState, x: &[f64]) -> impl Iterator<Item = f64> + 'b {
+        let rotation = &at.structure.configuration.rotation;
+        let nodes = self.masses.iter().zip(rotation).zip(x.chunks_exact(NODE));
+        let momentum = nodes.flat_map(|((m, r), six)| {
+            let (v, w) = (DVec3::from_slice(six), DVec3::from_slice(&six[3..]));
+            let p = m.mass * v + *r * w.cross(m.first_moment);
+            let h = m.first_moment.cross(r.inverse() * v) + m.inertia * w;
+            [p.to_array(), h.to_array()].concat()
+        });
+        let momentum: Vec<f64> = momentum.collect();
+        let modes = self.modes.iter().zip(&self.sizes);
+        modes.map(move |(mode, size)| {
+            let both = mode.shape.iter().zip(&momentum);
+            both.map(|(a, b)| a * b).sum::<f64>() / size
+        })
+    }
+}
+
+/// Moves the nodes by six numbers each.
+fn displace(state: &mut ElasticState, by: &[f64]) {
+    let at = &mut state.structure.configuration;
+    let places = at.position.iter_mut().zip(&mut at.rotation);
+    for ((p, r), six) in places.zip(by.chunks_exact(NODE)) {
+        *p += DVec3::from_slice(six);
+        *r = (*r * DQuat::from_scaled_axis(DVec3::from_slice(&six[3..]))).normalize();
+    }
+}
+
+/// Six numbers a node by which a wing lies, and moves, otherwise than another.
+fn departure(state: &ElasticState, from: &ElasticState) -> (Vec<f64>, Vec<f64>) {
+    let (a, b) = (&state.structure, &from.structure);
+    let (p, r) = (&a.configuration.position, &a.configuration.rotation);
+    let places = p.iter().zip(r);
+    let others = (b.configuration.position.iter()).zip(&b.configuration.rotation);
+    let moved = places.zip(others).flat_map(|((p, r), (q, s))| {
+        let turn = (s.inverse() * *r).to_scaled_axis();
+        [(*p - *q).to_array(), turn.to_array()].concat()
+    });
+    let velocity = a.velocity.iter().zip(&b.velocity).map(|(u, v)| u - v);
+    (moved.collect(), velocity.collect())
+}

@@ -1,0 +1,398 @@
+//! Wings that loads bend: every strip a section through the nodes of two columns of the wing's mesh.
+//!
+//! Three weighted sums of the nodes say how a section lies: its place `p = sum a r`, its chord `d = sum b r` (forward, of length
+//! one at rest), and what lies between its two sides, `s = sum g r`. Chord, normal and span of the section follow, with their
+//! velocities and accelerations; the loads are those of the flat wing in these axes, and go back to the nodes by the same
+//! weights: force, moment and power are the same on both sides. Of what a section does beside moving as a flat one, camber,
+//! they know nothing.
+//!
+//! | symbol | name in code | meaning | unit |
+//! |---|---|---|---|
+//! | e1, e2, n | `e` | directions of chord (forward), span and normal of a section, wing components | 1 |
+//! | x | `x` | place along the chord, ahead of the feathering axis | m |
+//! | Omega | `turn` | angular velocity of a section, its own components; `Omega_2 = q` | rad/s |
+
+use wingbeat_math::{DVec2, DVec3};
+
+use crate::pair::{self, PairMotion, StripPair};
+use crate::settings::AddedMass;
+use crate::strip::Strip;
+use crate::wing::BladeWing;
+
+/// How much a node shares in the place, the chord \[1/m\] and the sides of a section.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Share {
+    node: usize,
+    place: f64,
+    chord: f64,
+    span: f64,
+}
+
+/// A section of the mesh.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Section {
+    shares: Vec<Share>,
+    /// Place at rest along axis 1 \[m\].
+    x: f64,
+    /// 1 where columns go along axis 2, -1 where against it.
+    side: f64,
+}
+
+/// Motion of the nodes of a mesh through air without wind, wing components.
+#[derive(Clone, Copy, Debug)]
+pub struct NodesInMotion<'a> {
+    /// Places \[m\].
+    pub position: &'a [DVec3],
+    /// Velocities through the air \[m/s\].
+    pub velocity: &'a [DVec3],
+    /// Accelerations \[m/s2\].
+    pub acceleration: &'a [DVec3],
+}
+
+/// How a section lies and moves.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct SectionState {
+    e: [DVec3; 3],
+    /// Length of d \[1\], and components of s along e1 and e2 \[m\].
+    d: f64,
+    s: [f64; 2],
+    /// Place along the chord that velocity and acceleration belong to.
+    x: f64,
+    v: DVec3,
+    a: DVec3,
+    /// Rates of d.
+    chord_rate: DVec3,
+    chord_acceleration: DVec3,
+    turn: DVec3,
+    /// Rate of Omega_2.
+    q_rate: f64,
+}
+
+/// What acts on a section, by the sums that say how it lies.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+struct Gathered {
+    place: DVec3,
+    chord: DVec3,
+    span: DVec3,
+}
+
+impl Section {
+    /// Through the nodes `inner` and `outer` of two columns, each from the leading to the trailing edge, of the mesh `rest`
+    /// \[m\], wing frame.
+    pub fn new(rest: &[DVec3], inner: &[usize], outer: &[usize]) -> Self {
+        let rows: Vec<[usize; 2]> = inner.iter().zip(outer).map(|(a, b)| [*a, *b]).collect();
+        let x: Vec<f64> = rows
+            .iter()
+            .map(|[a, b]| 0.5 * (rest[*a].x + rest[*b].x))
+            .collect();
+        let last = x.len() - 1;
+        // Of even pressure along the chord each row carries half of the panels beside it.
+        let weight = |i: usize| (x[i.saturating_sub(1)] - x[(i + 1).min(last)]) / 2.0;
+        let total = x[0] - x[last];
+        let mean: f64 = (0..=last).map(|i| weight(i) * x[i]).sum::<f64>() / total;
+        let spread: f64 = (0..=last)
+            .map(|i| weight(i) * (x[i] - mean).powi(2))
+            .sum::<f64>();
+        let mut shares = vec![];
+        for (i, nodes) in rows.iter().enumerate() {
+            let (w, chord) = (weight(i), weight(i) * (x[i] - mean) / spread);
+            for (node, sign) in nodes.iter().zip([-1.0, 1.0]) {
+                shares.push(Share {
+                    node: *node,
+                    place: 0.5 * w / total,
+                    chord: 0.5 * chord,
+                    span: sign * w / total,
+                });
+            }
+        }
+        let side = (rest[outer[0]].y - rest[inner[0]].y).signum();
+        Self {
+            shares,
+            x: mean,
+            side,
+        }
+    }
+
+    /// The three sums of `of`.
+    fn sums(&self, of: &[DVec3]) -> [DVec3; 3] {
+        self.shares.iter().fold([DVec3::ZERO; 3], |sum, s| {
+            let r = of[s.node];
+            [
+                sum[0] + s.place * r,
+                sum[1] + s.chord * r,
+                sum[2] + s.span * r,
+            ]
+        })
+    }
+
+    /// How it lies and moves where its nodes move like `nodes` in the `wind` at its feathering axis \[m/s\], wing components.
+    pub fn state(&self, nodes: &NodesInMotion<'_>, wind: impl Fn(DVec3) -> DVec3) -> SectionState {
+        let [p, chord, s] = self.sums(nodes.position);
+        let [v, chord_rate, s_rate] = self.sums(nodes.velocity);
+        let [a, chord_acceleration, _] = self.sums(nodes.acceleration);
+        let d = chord.length();
+        let e1 = chord / d;
+        let e2 = self.side * (s - s.dot(e1) * e1).normalize();
+        let n = e1.cross(e2);
+        let s = [s.dot(e1), s.dot(e2)];
+        // A line d that turns: d' = Omega x d; s' n = Omega_1 s_2 - Omega_2 s_1.
+        let q = -chord_rate.dot(n) / d;
+        let about_1 = (s_rate.dot(n) + q * s[0]) / s[1];
+        let normal_rate = q * e1 - about_1 * e2;
+        let falls = chord_acceleration.dot(n) + chord_rate.dot(normal_rate);
+        SectionState {
+            e: [e1, e2, n],
+            d,
+            s,
+            x: self.x,
+            v: v - wind(p - self.x * chord),
+            a,
+            chord_rate,
+            turn: DVec3::new(about_1, q, chord_rate.dot(e2) / d),
+            chord_acceleration,
+            q_rate: (chord_rate.dot(n) * chord_rate.dot(e1) / d - falls) / d,
+        }
+    }
+
+    /// Adds what acts on the section to the forces on the nodes.
+    fn scatter(&self, load: &Gathered, out: &mut [DVec3]) {
+        for s in &self.shares {
+            out[s.node] += s.place * load.place + s.chord * load.chord + s.span * load.span;
+        }
+    }
+}
+
+impl SectionState {
+    /// Velocity through the air of the point `x`.
+    fn velocity(&self, x: f64) -> DVec3 {
+        self.v + (x - self.x) * self.chord_rate
+    }
+
+    /// Velocities along chord and normal of the point on the feathering axis, and rate of feathering.
+    fn moves(&self) -> [f64; 3] {
+        let v = self.velocity(0.0);
+        [v.dot(self.e[0]), v.dot(self.e[2]), self.turn.y]
+    }
+
+    /// Rate of the normal: `Omega x n`.
+    fn normal_rate(&self) -> DVec3 {
+        self.turn.y * self.e[0] - self.turn.x * self.e[1]
+    }
+
+    /// Rate of the normal velocity of the point `x`.
+    fn normal_velocity_rate(&self, x: f64) -> f64 {
+        let acceleration = self.a + (x - self.x) * self.chord_acceleration;
+        acceleration.dot(self.e[2]) + self.velocity(x).dot(self.normal_rate())
+    }
+}
+
+impl Gathered {
+    /// Adds a force at the point `x` of a section.
+    fn add_force(&mut self, s: &SectionState, x: f64, force: DVec3) {
+        self.place += force;
+        self.chord += (x - s.x) * force;
+    }
+
+    /// Adds a couple, components of the section.
+    fn add_couple(&mut self, s: &SectionState, c: DVec3) {
+        let ([_, e2, n], [s1, s2]) = (s.e, s.s);
+        self.chord += (c.z * e2 - (c.y + c.x * s1 / s2) * n) / s.d;
+        self.span += c.x / s2 * n;
+    }
+}
+
+/// How the forces on the nodes of a bent wing answer to the motion of its sections.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct SectionAnswer {
+    /// Three ways to move a section: its point on the feathering axis along chord and normal, and feathering. Of each, node by
+    /// node: how the velocity of the node shares in it, and its place \[1/s\]; wing components.
+    pub ways: [Vec<(usize, [DVec3; 2])>; 3],
+    /// Derivatives of the forces along these ways by the velocities along them, by rows.
+    pub velocity: [[f64; 3]; 3],
+    /// The same by the accelerations.
+    pub acceleration: [[f64; 3]; 3],
+}
+
+impl BladeWing {
+    /// Adds to `out` the forces on the nodes \[N\], wing components, of a wing whose `sections` are in these `states`: all of
+    /// [`Self::velocity_load`] and [`Self::acceleration_load`].
+    pub fn bent_forces(&self, sections: &[Section], states: &[SectionState], out: &mut [DVec3]) {
+        pair::forces(
+            self.pairs(),
+            self.settings(),
+            pairs_of(states, [0.0; 3]),
+            |k, _, f| {
+                for lane in 0..2.min(states.len() - 2 * k) {
+                    let (section, s) = (&sections[2 * k + lane], &states[2 * k + lane]);
+                    let mut load = Gathered::default();
+                    load.add_force(s, 0.0, f.along[lane] * s.e[0] + f.normal[lane] * s.e[2]);
+                    load.add_couple(s, DVec3::new(0.0, f.about[lane], 0.0));
+                    section.scatter(&load, out);
+                }
+            },
+        );
+        if self.has_added_mass() {
+            let strips = self.strips().iter().zip(states).zip(sections);
+            strips.for_each(|((strip, s), section)| {
+                section.scatter(&self.added_load(strip, s), out);
+            });
+        }
+    }
+
+    /// What the added mass of a strip does, as for the flat wing: momentum `m w n` at mid chord, angular momentum `J q` about the
+    /// span, and their rates but for Munk's couple.
+    fn added_load(&self, strip: &Strip, s: &SectionState) -> Gathered {
+        let (law, rho, x) = (
+            self.settings().added_mass,
+            self.settings().density,
+            strip.x_mid(),
+        );
+        let (mass, v) = (strip.added_mass(rho), s.velocity(x));
+        let impulse = mass * v.dot(s.e[2]);
+        let inertia = match law.has_inertia() {
+            true => strip.added_inertia(rho),
+            false => 0.0,
+        };
+        let mut force = -mass * s.normal_velocity_rate(x) * s.e[2];
+        let mut couple = DVec3::new(0.0, -inertia * s.q_rate, 0.0);
+        match law {
+            AddedMass::None | AddedMass::Normal => {}
+            AddedMass::Section => force -= impulse * s.turn.y * s.e[0],
+            AddedMass::Impulse => {
+                force -= impulse * s.normal_rate();
+                couple.x -= impulse * v.dot(s.e[1]);
+                couple -= inertia * s.turn.y * s.turn.cross(DVec3::Y);
+            }
+        }
+        let mut load = Gathered::default();
+        load.add_force(s, x, force);
+        load.add_couple(s, couple);
+        load
+    }
+
+    /// How the forces on the nodes answer to motions of the sections, section by section; terms of second order in the rates
+    /// of turning are left out.
+    pub fn bent_answers(
+        &self,
+        sections: &[Section],
+        states: &[SectionState],
+    ) -> Vec<SectionAnswer> {
+        let by_velocity = self.velocity_answers(states);
+        let all = self
+            .strips()
+            .iter()
+            .zip(sections)
+            .zip(states.iter().zip(by_velocity));
+        let answer =
+            |((strip, section), (s, velocity)): ((&Strip, &Section), (&SectionState, _))| {
+                let mut answer = SectionAnswer {
+                    ways: ways(section, s),
+                    velocity,
+                    acceleration: [[0.0; 3]; 3],
+                };
+                if self.has_added_mass() {
+                    self.add_mass_answer(strip, s, &mut answer);
+                }
+                answer
+            };
+        all.map(answer).collect()
+    }
+
+    /// Derivatives of force along chord and normal and moment at the feathering axis by the three velocities there.
+    fn velocity_answers(&self, states: &[SectionState]) -> Vec<[[f64; 3]; 3]> {
+        let mut all = vec![[[0.0; 3]; 3]; states.len()];
+        for way in 0..3 {
+            for sign in [1.0, -1.0] {
+                let mut changed = [0.0; 3];
+                changed[way] = sign * SMALL;
+                let motion = pairs_of(states, changed);
+                pair::forces(self.pairs(), self.settings(), motion, |k, _, f| {
+                    for lane in 0..2.min(states.len() - 2 * k) {
+                        let j = 2 * k + lane;
+                        let step = 2.0 * SMALL * states[j].sizes()[way];
+                        let loads = [f.along[lane], f.normal[lane], f.about[lane]];
+                        for (row, load) in all[j].iter_mut().zip(loads) {
+                            row[way] += sign * load / step;
+                        }
+                    }
+                });
+            }
+        }
+        all
+    }
+
+    /// Adds the added mass of a strip: `-m (w' n)` at mid chord, in which `w' = .. + u q`, and `-J q'`.
+    fn add_mass_answer(&self, strip: &Strip, s: &SectionState, to: &mut SectionAnswer) {
+        let (rho, x) = (self.settings().density, strip.x_mid() * s.d);
+        let mass = strip.added_mass(rho);
+        let inertia = match self.settings().added_mass.has_inertia() {
+            true => strip.added_inertia(rho),
+            false => 0.0,
+        };
+        let [u, _, q] = s.moves();
+        let by_rate = [0.0, 1.0, -x];
+        let by_velocity = [q, 0.0, u];
+        for (row, lever) in [(1, 1.0), (2, -x)] {
+            for way in 0..3 {
+                to.acceleration[row][way] -= mass * lever * by_rate[way];
+                to.velocity[row][way] -= mass * lever * by_velocity[way];
+            }
+        }
+        to.acceleration[2][2] -= inertia;
+    }
+}
+
+/// Steps of differences over the sizes of velocities \[1\]: half of the digits.
+const SMALL: f64 = 1e-6;
+
+impl SectionState {
+    /// Sizes of velocities along the three ways; never zero.
+    fn sizes(&self) -> [f64; 3] {
+        let speed = self.velocity(0.0).length().max(1e-3);
+        [speed, speed, speed / self.s[1].abs()]
+    }
+}
+
+/// The motion of pairs of sections, changed by parts of the sizes of their velocities.
+fn pairs_of(
+    states: &[SectionState],
+    changed: [f64; 3],
+) -> impl Fn(usize, &StripPair) -> PairMotion + '_ {
+    let last = states.len().saturating_sub(1);
+    let is_changed = changed != [0.0; 3];
+    move |k, _| {
+        let moves = |k: usize| {
+            let s = &states[k.min(last)];
+            let mut moves = s.moves();
+            if is_changed {
+                let parts = changed.iter().zip(s.sizes());
+                moves
+                    .iter_mut()
+                    .zip(parts)
+                    .for_each(|(m, (c, size))| *m += c * size);
+            }
+            moves
+        };
+        let (a, b): ([f64; 3], [f64; 3]) = (moves(2 * k), moves(2 * k + 1));
+        let [u, w, q] = [0, 1, 2].map(|i| DVec2::new(a[i], b[i]));
+        PairMotion { u, w, q }
+    }
+}
+
+/// The three ways to move a section, by its nodes.
+fn ways(section: &Section, s: &SectionState) -> [Vec<(usize, [DVec3; 2])>; 3] {
+    let ([e1, _, n], [u, w, _]) = (s.e, s.moves());
+    let nodes = |of: &dyn Fn(f64, f64) -> [DVec3; 2]| {
+        let share = |share: &Share| {
+            let here = share.place - s.x * share.chord;
+            (share.node, of(here, share.chord / s.d))
+        };
+        section.shares.iter().map(share).collect()
+    };
+    // A chord that sinks by its change along n turns chord and normal.
+    [
+        nodes(&|here, chord| [here * e1, w * chord * n]),
+        nodes(&|here, chord| [here * n, -u * chord * n]),
+        nodes(&|_, chord| [-chord * n, DVec3::ZERO]),
+    ]
+}

@@ -1,0 +1,228 @@
+//! Wings that loads bend in blade elements.
+
+use super::{beam, case, fly, strings};
+use wingbeat::analysis::power::power_with_wake;
+use wingbeat::analysis::stability::floquet_of_trim;
+use wingbeat::analysis::wake::{WakeSettings, WakeTrim, elastic_floquet, trim_with_wake};
+use wingbeat::analysis::{ModeSet, TrimProblem, TrimSettings, Unknown, trim};
+use wingbeat::case::LoadedCase;
+use wingbeat::flight::{FlightSetup, Record, Simulation};
+use wingbeat::math::DVec3;
+
+const BLADES: [&str; 1] = ["air.model=\"blade_element\""];
+
+/// Largest difference of the air's force on all bodies over the largest force.
+fn apart(a: &[Record], b: &[Record]) -> f64 {
+    let largest = (b.iter()).fold(0.0_f64, |m, r| m.max(r.air_force().length()));
+    super::apart(a, b) / largest
+}
+
+#[test]
+fn limit_stiff_wings_in_blade_elements_carry_what_rigid_ones_do() {
+    for mode in ["tethered", "free"] {
+        let air = [
+            &strings(&BLADES)[..],
+            &strings(&[&format!("flight.mode=\"{mode}\"")]),
+        ]
+        .concat();
+        let rigid = fly(&air);
+        let with = |structure: &[String]| apart(&fly(&[&air[..], structure].concat()), &rigid);
+        let [soft, stiff] = [beam(2.0), beam(20.0)].map(|b| with(&b));
+        // What is left goes with 1 / stiffness.
+        assert!(stiff < 1e-2, "{mode}: {stiff}");
+        assert!(
+            (7.0..14.0).contains(&(soft / stiff)),
+            "{mode}: {soft} {stiff}"
+        );
+    }
+}
+
+#[test]
+fn conserves_momentum_in_blade_elements_and_agrees_between_integrators() {
+    let last = ["hamming", "bdf"].map(|method| {
+        let set = strings(&["time.beats=1", &format!("dynamics.integrator=\"{method}\"")]);
+        let records = fly(&[&strings(&BLADES)[..], &set, &beam(5e-4)].concat());
+        let tip = (records.iter()).fold(0.0_f64, |m, r| m.max(r.elastic[0].tip.length()));
+        assert!(tip > 2e-3, "soft: {tip}");
+        let largest = |of: fn(&Record) -> f64| records.iter().map(of).fold(0.0, f64::max);
+        let linear = largest(|r| r.momentum_residual.length()) / largest(|r| r.momentum.length());
+        let angular = largest(|r| r.angular_momentum_residual.length())
+            / largest(|r| r.angular_momentum.length());
+        // Momentum and impulse are integrated alike: some hundred roundings. Angular momentum is about the mass centre, its
+        // impulse about the origin: the error of the method, rigid wings have it, too.
+        assert!(linear < 1e-12 && angular < 5e-5, "{linear:e} {angular:e}");
+        let passes = records.iter().map(|r| r.elastic[0].passes).max().unwrap();
+        assert!(passes <= 8, "{passes}");
+        records.last().unwrap().mass_centre
+    });
+    let [a, b] = last;
+    assert!((a - b).length() < 1e-3 * a.length(), "{a} {b}");
+}
+
+#[test]
+fn order_energy_in_blade_elements_closes_at_second_order() {
+    let residual = |steps: usize| {
+        let steps = format!("time.steps_per_beat={steps}");
+        let set = strings(&[
+            "flight.mode=\"tethered\"",
+            "time.beats=1",
+            "wing.right.structure.spectral_radius=1",
+            &steps,
+        ]);
+        let records = fly(&[&strings(&BLADES)[..], &set, &beam(2e-3)].concat());
+        let residual = |r: &Record| r.energy_residual.abs();
+        records.iter().map(residual).fold(0.0, f64::max)
+    };
+    let ratio = residual(160) / residual(320);
+    assert!((3.3..4.7).contains(&ratio), "{ratio}");
+}
+
+#[test]
+fn invariant_a_saved_flight_in_blade_elements_goes_on_bit_for_bit() {
+    let set = [
+        &strings(&BLADES)[..],
+        &strings(&["time.beats=0.3"]),
+        &beam(2e-3),
+    ]
+    .concat();
+    let whole = fly(&set);
+    let setup = case(&set).setup;
+    let mut flight = Simulation::new(setup.clone()).unwrap();
+    for _ in 0..7 {
+        flight.step().unwrap();
+    }
+    let mut flight = Simulation::resume(setup, flight.state().clone()).unwrap();
+    while !flight.finished() {
+        flight.step().unwrap();
+    }
+    assert!(*flight.record() == whole[whole.len() - 1]);
+}
+
+#[test]
+fn balances_shape_and_loads_of_a_hawkmoth_in_blade_elements() {
+    let set = strings(&["air.model=\"blade_element\"", "time.beats=3"]);
+    let case = LoadedCase::find("hawkmoth-elastic", &set).unwrap();
+    let mut flight = Simulation::new(case.setup).unwrap();
+    let (mut twist, mut passes) = (0.0_f64, 0);
+    while !flight.finished() {
+        let elastic = flight.step().unwrap().elastic[0];
+        twist = twist.max(elastic.twist.abs());
+        passes = passes.max(elastic.passes);
+    }
+    assert!((0.2..1.0).contains(&twist), "{twist}");
+    assert!(passes <= 10, "{passes}");
+}
+
+/// A coarse hawkmoth in blade elements, its wings `factor` times as stiff as those of the preset.
+fn hawkmoth(factor: f64) -> FlightSetup {
+    let stiffness = |key: &str, value: f64| {
+        let value = factor * value;
+        format!("wing.right.structure.beam.{key}_newton_m2=[{value},{value}]")
+    };
+    let set = strings(&[
+        "air.model=\"blade_element\"",
+        "time.steps_per_beat=40",
+        "wing.right.mesh.chordwise=1",
+        "wing.right.mesh.spanwise=6",
+        "wing.right.structure.beam.elements=4",
+        "wing.right.structure.damping_s=3e-4",
+        &stiffness("flap", 1.8e-4),
+        &stiffness("torsion", 2.6e-5),
+    ]);
+    LoadedCase::find("hawkmoth-elastic", &set).unwrap().setup
+}
+
+fn problem() -> TrimProblem {
+    let mut problem = TrimProblem::straight(DVec3::ZERO, 45_f64.to_radians());
+    problem.settings = TrimSettings {
+        steps: 40,
+        ..TrimSettings::default()
+    };
+    problem
+}
+
+fn trimmed(setup: &FlightSetup) -> WakeTrim {
+    let settings = WakeSettings {
+        tolerance: 1e-6,
+        ..WakeSettings::default()
+    };
+    let found = trim_with_wake(setup, &problem(), &settings).unwrap();
+    assert!(found.converged, "{:?}", found.residual);
+    found
+}
+
+#[test]
+fn agrees_a_trimmed_orbit_of_body_and_wings_with_flights_that_go_on_from_it() {
+    let trim = trimmed(&hawkmoth(1.0));
+    let mut setup = trim.setup.clone();
+    let steps = setup.time.steps;
+    setup.time.steps = 2 * steps;
+    let mut flight = Simulation::bent(setup.clone(), &trim.wings).unwrap();
+    let size = setup.animal.wings[0].report().length;
+    let speed = size / setup.time.period.unwrap();
+    let first = flight.record().clone();
+    // The beat that was trimmed, and one that goes on without a new start of its method: its error in 40 steps, 2.3e-3.
+    for closes in [1e-6, 5e-3] {
+        for _ in 0..steps {
+            flight.step().unwrap();
+        }
+        let now = flight.record();
+        let drift = (now.mass_centre - first.mass_centre).length() / size;
+        let change = (now.momentum - first.momentum).length() / setup.animal.mass() / speed;
+        let tip = (now.elastic[0].tip - first.elastic[0].tip).length() / size;
+        assert!(
+            drift.max(change).max(tip) < closes,
+            "{drift:e} {change:e} {tip:e}"
+        );
+    }
+    // What the muscles pay: work of the hinges in the beat, by another sum.
+    let power = power_with_wake(&trim).unwrap();
+    let mut flight = Simulation::bent(trim.setup.clone(), &trim.wings).unwrap();
+    let before = flight.record().power_work();
+    while !flight.finished() {
+        flight.step().unwrap();
+    }
+    let mean = (flight.record().power_work() - before) / setup.time.period.unwrap();
+    assert!(
+        (power.perfect_storage / mean - 1.0).abs() < 1e-2,
+        "{power:?} {mean}"
+    );
+    // Damping takes a part, the air the rest.
+    let dissipated = flight.record().dissipated / setup.time.period.unwrap();
+    let rest = mean - power.aerodynamic - dissipated;
+    assert!(
+        dissipated > 0.0 && rest.abs() < 0.05 * mean,
+        "{mean} {power:?} {dissipated}"
+    );
+}
+
+/// The unstable and the neutral ones among the modes of flight: multipliers of most size.
+fn largest(set: &ModeSet) -> Vec<[f64; 2]> {
+    let modes = set.modes.iter().map(|m| m.multiplier);
+    modes.filter(|m| m[0].hypot(m[1]) > 0.6).collect()
+}
+
+#[test]
+fn limit_trim_and_modes_of_stiff_wings_are_those_of_rigid_ones() {
+    let setup = hawkmoth(30.0);
+    let bent = trimmed(&setup);
+    let mut rigid = setup.clone();
+    rigid
+        .animal
+        .wings
+        .iter_mut()
+        .for_each(|w| w.structure = None);
+    let flat = trim(&rigid, &problem()).unwrap();
+    let value = flat.value(Unknown::StrokeAmplitude).unwrap();
+    let apart = (bent.adjustment.stroke_amplitude - value).abs();
+    assert!(apart < 0.02, "{apart} of {value}");
+    assert!((bent.body_pitch - flat.body_pitch).abs() < 0.02);
+    let [a, b] = [
+        largest(&elastic_floquet(&bent, 1).unwrap()),
+        largest(&floquet_of_trim(&flat).unwrap()),
+    ];
+    assert_eq!(a.len(), b.len(), "{a:?} {b:?}");
+    for (a, b) in a.iter().zip(&b) {
+        assert!((a[0] - b[0]).hypot(a[1] - b[1]) < 0.03, "{a:?} {b:?}");
+    }
+}
