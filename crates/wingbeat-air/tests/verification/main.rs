@@ -5,6 +5,7 @@ mod bodies;
 mod centre_of_pressure;
 mod common;
 mod errors;
+mod implicit_suction;
 mod impulse;
 mod invariance;
 mod joined_edges;

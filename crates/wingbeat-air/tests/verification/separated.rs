@@ -10,7 +10,7 @@ use wingbeat_math::{DVec3, r2, r3};
 
 /// Two wings of 4 x 6 panels that sweep horizontally once a second, at 45 degrees in the middle of each half stroke and
 /// upright where it turns: normal hovering.
-fn normal_hover(t: f64) -> NodeMotion {
+pub fn normal_hover(t: f64) -> NodeMotion {
     let w = std::f64::consts::TAU;
     let (stroke, stroke_rate) = ((w * t).sin(), w * (w * t).cos());
     let quarter = std::f64::consts::FRAC_PI_4;
@@ -33,7 +33,7 @@ fn normal_hover(t: f64) -> NodeMotion {
 
 /// Vertical force and its rate by impulse, means of each of three beats, all edges shedding; `change` may change
 /// the settings.
-fn separated_hover(change: impl Fn(&mut AirSettings)) -> [[f64; 2]; 3] {
+pub fn separated_hover(change: impl Fn(&mut AirSettings)) -> [[f64; 2]; 3] {
     let mut settings = AirSettings {
         wake_overlap: 1.0,
         shedding: ALL,
@@ -59,7 +59,7 @@ fn separated_hover(change: impl Fn(&mut AirSettings)) -> [[f64; 2]; 3] {
     })
 }
 
-fn core_of(radius: f64) -> [CoreModel; 2] {
+pub fn core_of(radius: f64) -> [CoreModel; 2] {
     let viscosity = 0.01;
     [
         CoreModel::Algebraic { radius, viscosity },
