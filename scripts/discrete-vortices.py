@@ -2,7 +2,9 @@
 """A second method for leading-edge vorticity: discrete vortices in plane flow beside a flat plate, after Ramesh, Gopalarathnam,
 Granlund, Ol & Edwards 2014, J. Fluid Mech. 751:500. Nothing of wingbeat is used; needs numpy.
 
-    python3 scripts/discrete-vortices.py          Baik's plate, W1 and W3 (docs/separated-flow.md)
+    python3 scripts/discrete-vortices.py [dt]          Baik's plate, W1 and W3 (docs/separated-flow.md)
+    python3 scripts/discrete-vortices.py ramp [dt]     plate that pitches to 45 deg within a chord of travel about its leading edge
+    python3 scripts/discrete-vortices.py wagner [dt]   lift after a sudden start against R. T. Jones's form of Wagner's function
 
 Chord, speed and density are 1; the plate moves against x, z is up, clockwise circulation is positive. The vorticity of the plate is
 `gamma = 2 (A0 cot(theta/2) + sum An sin n theta)`. A vortex leaves the trailing edge each step, and one leaves the leading edge when |A0|
@@ -29,13 +31,14 @@ def velocity(at, place, circulation):
 
 
 def history(pitch, height, pivot, dt, steps, critical):
-    """Lift and drag coefficient step by step. `pitch(t)` and `height(t)` give value and rate; `critical` None: attached."""
+    """Lift and drag coefficient and what the leading edge has shed, step by step. `pitch(t)` and `height(t)` give value and rate;
+    `critical` None: attached."""
     theta = (np.arange(NODES) + 0.5) * np.pi / NODES
     x = 0.5 * (1 - np.cos(theta))
     place, circulation, is_leading = np.zeros((0, 2)), np.zeros(0), np.zeros(0, bool)
     coefficients = lambda w: np.array([-w.mean(), *(2 * (w * np.cos(k * theta)).mean() for k in (1, 2, 3))])
     bound = lambda a: np.pi * (a[0] + a[1] / 2)
-    before, dropped, was_shedding, found = None, 0.0, False, []
+    before, dropped, was_shedding, shed_ahead, found = None, 0.0, False, 0.0, []
     for step in range(steps + 1):
         t = step * dt
         (angle, spin), (z, rise) = pitch(t), height(t)
@@ -81,7 +84,8 @@ def history(pitch, height, pivot, dt, steps, critical):
         push = 2 * np.pi * ((cos + rise * sin) * (new_a[0] + new_a[1] / 2) + 0.75 * change[0] + 0.25 * change[1] + change[2] / 8)
         push += 2 * ((flow @ along) * width).sum() + 2 * rate
         pull = 2 * np.pi * new_a[0] ** 2
-        found.append((push * cos + pull * sin, push * sin - pull * cos))
+        shed_ahead += led if was_shedding else 0.0
+        found.append((push * cos + pull * sin, push * sin - pull * cos, shed_ahead))
 
         place = place + dt * (velocity(place, place, circulation) + velocity(place, plate, width))
         stays = place[:, 0] - axis[0] < ROOM
@@ -120,9 +124,48 @@ def baik(critical, dt, periods=3):
         yield name, np.sqrt(((computed - lift) ** 2).mean()), computed.max(), lift.max()
 
 
-if __name__ == "__main__":
-    dt = float(sys.argv[1]) if len(sys.argv) > 1 else 0.02
+def ramp(critical, dt, last=2.0, before=0.4, smoothing=11.0):
+    """Travel, lift coefficient and circulation shed by the leading edge of a plate that pitches to 45 deg within a chord of travel
+    [Eldredge, Wang & Ol 2009, AIAA 2009-3687]."""
+
+    def pitch(t):
+        rise, hold = smoothing * (t - before), smoothing * (t - before - 1)
+        angle = 1 + np.log(np.cosh(rise) / np.cosh(hold)) / smoothing
+        return np.pi / 8 * angle, np.pi / 8 * (np.tanh(rise) - np.tanh(hold))
+
+    steps = round((last + before) / dt)
+    found = history(pitch, lambda t: (0.0, 0.0), 0.0, dt, steps, critical)
+    for step in range(steps + 1):
+        yield step * dt - before, found[step, 0], found[step, 2]
+
+
+def wagner(dt):
+    """Travel and lift over steady lift after a sudden start, and Wagner's function in R. T. Jones's form."""
+    small = 0.01
+    found = history(lambda t: (small, 0.0), lambda t: (0.0, 0.0), 0.0, dt, round(2 / dt), None)
+    for t in (0.25, 0.5, 1.0, 2.0):
+        jones = 1 - 0.165 * np.exp(-0.091 * t) - 0.335 * np.exp(-0.6 * t)
+        yield t, found[round(t / dt), 0] / (2 * np.pi * small), jones
+
+
+def print_baik(dt):
     for critical in (None, 0.25, 0.18, 0.11):
         for name, error, peak, measured in baik(critical, dt):
             about = "attached" if critical is None else f"critical value {critical}"
             print(f"{name}, {about}: rms error of lift {error:.3f}, peak {peak:.2f} of {measured:.2f}", flush=True)
+
+
+if __name__ == "__main__":
+    words = sys.argv[1:]
+    what = words.pop(0) if words and words[0] in ("ramp", "wagner") else "baik"
+    dt = float(words[0]) if words else 0.02
+    if what == "baik":
+        print_baik(dt)
+    if what == "ramp":
+        print("travel,lift,leading_edge_circulation")
+        for travel, lift, shed in ramp(0.18, dt):
+            if abs(travel / 0.2 - round(travel / 0.2)) < 0.4 * dt and travel > 0.1:
+                print(f"{travel:.2f},{lift:.3f},{shed:.3f}")
+    if what == "wagner":
+        for travel, lift, jones in wagner(dt):
+            print(f"{travel} chords: lift over steady lift {lift:.3f}, Wagner's function {jones:.3f}")

@@ -2,7 +2,8 @@
 
 use crate::error::AirError;
 use crate::geometry::{
-    JoinedEdge, MirrorPairs, Rings, Sheet, Strip, Surface, Symmetry, Topology, rings, strips,
+    JoinedEdge, MirrorPairs, Rings, Sheet, Strip, SuctionStrips, Surface, Symmetry, Topology,
+    rings, strips,
 };
 use crate::images::{Mirror, mirrors};
 use crate::settings::{AirSettings, LeadingEdge};
@@ -20,6 +21,7 @@ pub struct Lattice {
     rings: Rings,
     mirrors: Vec<Mirror>,
     symmetry: Option<Symmetry>,
+    suction: SuctionStrips,
     identity: Identity,
 }
 
@@ -71,8 +73,10 @@ impl Lattice {
             settings,
             topology,
             symmetry: None,
+            suction: SuctionStrips::default(),
             identity: Identity::default(),
-        })
+        }
+        .with_suction_strips())
     }
 
     /// The same lattice for motions that are mirror-symmetric: computed on one half.
@@ -82,7 +86,7 @@ impl Lattice {
     pub fn with_mirror_symmetry(mut self, pairs: MirrorPairs) -> Result<Self, AirError> {
         self.symmetry = Some(Symmetry::new(pairs, &self.topology)?);
         self.identity = Identity::default();
-        Ok(self)
+        Ok(self.with_suction_strips())
     }
 
     /// The mirror symmetry of the flow, if only one half is computed.
@@ -97,6 +101,20 @@ impl Lattice {
     /// Strips of panels behind the leading edges, in the order of [`crate::AirState::leading`].
     pub fn strips(&self) -> &[Strip] {
         &self.strips
+    }
+
+    /// Strips whose leading edges hold suction and shed what is beyond it.
+    pub(crate) fn suction(&self) -> &SuctionStrips {
+        &self.suction
+    }
+
+    fn with_suction_strips(mut self) -> Self {
+        let symmetry = self.symmetry.as_ref();
+        self.suction = match self.settings.solves_suction() {
+            true => SuctionStrips::new(&self.topology, &self.strips, symmetry),
+            false => SuctionStrips::none(self.strips.len()),
+        };
+        self
     }
 
     pub(crate) fn rings(&self) -> &Rings {

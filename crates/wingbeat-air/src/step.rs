@@ -51,7 +51,8 @@ impl Lattice {
         };
         ws.segments.add_forces(self, state, motion, flow, out);
         add_section_drag(self, &motion.position, out);
-        leading_values(self, &ws.filaments, &motion.position, out);
+        let suction = (&ws.boundary.leading_edges.suction[..], &motion.position[..]);
+        leading_values(self, &ws.filaments, suction, out);
         impulse(self, state, &ws.filaments, out);
         resultants(self, &ws.boundary.net_flux_residual, out);
         check_finite(self, state, out)
@@ -104,8 +105,10 @@ impl Lattice {
             time: out.time,
         };
         let (filaments, sums) = (&mut ws.filaments, &mut ws.sums);
-        (ws.boundary).solve(now, filaments, sums, &mut out.gamma)?;
-        (ws.boundary).velocities(now, filaments, sums, &out.gamma, &mut out.velocity);
+        let found = [&mut out.gamma, &mut out.leaving];
+        (ws.boundary).solve(now, filaments, sums, found)?;
+        let found = [&out.gamma[..], &out.leaving];
+        (ws.boundary).velocities(now, filaments, sums, found, &mut out.velocity);
         Ok(())
     }
 
@@ -138,6 +141,7 @@ impl Lattice {
         state.inner_momentum.copy_from_slice(&loads.inner_momentum);
         (state.impulse, state.attached_impulse) = (loads.account, loads.attached_impulse);
         state.hold.copy_from_slice(&loads.hold);
+        state.leaving.copy_from_slice(&loads.leaving);
         state.time = loads.time;
         state.step += 1;
         state.wake_due = true;
@@ -185,7 +189,7 @@ impl Lattice {
     fn gather_accepted(&self, state: &AirState, ws: &mut AirWorkspace) {
         ws.filaments
             .gather(self, state, state.time, &state.position);
-        ws.filaments.set_bound(self, state, &state.gamma);
+        (ws.filaments).set_bound(self, state, [&state.gamma, &state.leaving]);
         ws.filaments.soften(self.settings(), state);
     }
 

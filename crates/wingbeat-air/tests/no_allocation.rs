@@ -2,7 +2,8 @@
 
 use allocation_counter::measure;
 use wingbeat_air::{
-    AirLoads, AirSettings, AirState, AirWorkspace, Lattice, NodeMotion, Surface, WakeSheet,
+    AirLoads, AirSettings, AirState, AirWorkspace, Lattice, LeadingEdge, NodeMotion, Surface,
+    WakeSheet,
 };
 use wingbeat_math::DVec3;
 use wingbeat_vortex::Method;
@@ -37,12 +38,23 @@ impl Flight {
 
     /// With so many panels along the chord.
     fn of(panels: usize, max_rows: Option<usize>, method: Method) -> Self {
-        let settings = AirSettings {
+        Self::with(panels, max_rows, method, |_| {})
+    }
+
+    /// With these settings changed.
+    fn with(
+        panels: usize,
+        max_rows: Option<usize>,
+        method: Method,
+        change: impl Fn(&mut AirSettings),
+    ) -> Self {
+        let mut settings = AirSettings {
             max_rows,
             clearance: 0.01,
             summation: method,
             ..AirSettings::accurate(1.2, DVec3::ZERO)
         };
+        change(&mut settings);
         let at = |k: usize| {
             let (i, j) = (k / (COLUMNS + 1), k % (COLUMNS + 1));
             DVec3::new(i as f64 / panels as f64, j as f64 / 4.0, 0.0)
@@ -94,6 +106,31 @@ fn exact_no_allocation_in_steps_of_a_wake_that_keeps_its_size() {
             (0..20).for_each(|_| flight.step());
             let five = measure(|| (0..5).for_each(|_| flight.step()));
             assert_eq!(five.count_total, 0, "{panels}");
+        }
+    });
+}
+
+#[test]
+fn exact_no_allocation_in_steps_of_leading_edges_that_shed() {
+    on_one_thread(|| {
+        for panels in [4, 16] {
+            let mut flight = Flight::with(panels, Some(12), Method::Direct, |s| {
+                s.shedding.leading = true;
+                s.leading = LeadingEdge::SuctionImplicit {
+                    threshold: 0.005,
+                    efficiency: 1.0,
+                };
+            });
+            (0..20).for_each(|_| flight.step());
+            let mut shed = 0;
+            let some = measure(|| {
+                for _ in 0..10 {
+                    flight.step();
+                    shed += flight.loads.leaving.iter().filter(|l| **l != 0.0).count();
+                }
+            });
+            assert!(shed > COLUMNS, "{shed}");
+            assert_eq!(some.count_total, 0, "{panels}");
         }
     });
 }

@@ -108,10 +108,15 @@ impl Symmetry {
         Ok(())
     }
 
-    /// Values of the computed panels go to their images too.
-    pub fn spread(&self, computed: &[f64], all: &mut [f64]) {
-        for (p, value) in all.iter_mut().enumerate() {
-            *value = computed[self.unknown[p]];
+    /// Values of the computed panels, which stand first, go to their panels and to the images of these.
+    pub fn spread_in_place(&self, values: &mut [f64]) {
+        // Panel p has no later unknown than p, and an image its partner's.
+        for &p in self.computed.iter().rev() {
+            values[p] = values[self.unknown[p]];
+        }
+        for p in 0..values.len() {
+            let computed = p.min(self.panel[p]);
+            values[p] = values[computed];
         }
     }
 

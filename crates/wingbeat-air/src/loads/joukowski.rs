@@ -9,7 +9,7 @@ use crate::geometry::{Edge, NodeMotion, Strip, chord};
 use crate::lattice::Lattice;
 use crate::loads::lag::add_lag;
 use crate::loads::values::AirLoads;
-use crate::settings::{LeadingEdge, LoadMethod};
+use crate::settings::LoadMethod;
 use crate::solve::is_computed;
 use crate::state::AirState;
 use crate::wake::{Filaments, NEAR, Sums, WakeVelocityCache};
@@ -193,7 +193,7 @@ impl Segments {
 
     /// Takes from leading edges that may shed what their suction lacks of the force it would have on round ones.
     fn lose_suction(&self, lattice: &Lattice, motion: &NodeMotion, out: &mut AirLoads) {
-        let LeadingEdge::Suction { efficiency, .. } = lattice.settings().leading else {
+        let Some([_, efficiency]) = lattice.settings().leading.suction() else {
             return;
         };
         let edges = &lattice.topology().edges;

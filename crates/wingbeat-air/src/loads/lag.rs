@@ -5,7 +5,8 @@
 //! plane flow are exact on any number of panels [James 1972, Comput. Methods Appl. Mech. Eng. 1:59; Katz & Plotkin, Low-Speed
 //! Aerodynamics, sec. 11.1]. Rings that lie on the edges of the panels have them at zero and at half: they are those of
 //! a wing a quarter panel ahead, and what they feel acts a quarter panel farther aft. Where the flow leaves both edges
-//! or none, neither side has an advantage.
+//! or none, neither side has an advantage; what leaves an edge whose suction is solved for
+//! is vorticity beside an attached wing.
 
 use crate::geometry::opposite;
 use crate::lattice::Lattice;
@@ -33,6 +34,7 @@ pub(crate) fn add_lag(
         let forward = match (leading.wake, settings.leading) {
             (None, _) => 0.0,
             (_, LeadingEdge::Always) => 1.0,
+            (_, LeadingEdge::SuctionImplicit { .. }) => 0.0,
             // As much as is gone of what the edge would have if none had left.
             _ => {
                 let [net, all] = [

@@ -54,6 +54,9 @@ pub struct AirLoads {
     pub leading: Vec<f64>,
     /// Circulation that the leading edge of each strip holds before flow leaves it, 0 where all leaves [m2/s].
     pub hold: Vec<f64>,
+    /// Circulation that leaves the leading edge of each strip within the step, where that is part of the solution, counted as
+    /// that of panels [m2/s].
+    pub leaving: Vec<f64>,
     /// Resultants of the surfaces.
     pub surfaces: Vec<SurfaceLoads>,
     /// Momentum of the fictitious fluid inside each closed surface [kg m/s].

@@ -140,10 +140,16 @@ impl AirSettings {
 
     /// Part of its panel by which all rings of a wing lie aft, see [`Self::inset`].
     pub(crate) fn ring_shift(&self) -> f64 {
-        match self.shedding.trailing && !self.shedding.leading {
+        let leading_is_smooth = self.shedding.leading && !self.solves_suction();
+        match self.shedding.trailing && !leading_is_smooth {
             true => self.inset,
             false => 0.0,
         }
+    }
+
+    /// Whether what leaves leading edges is part of the solution for the circulations.
+    pub(crate) fn solves_suction(&self) -> bool {
+        self.shedding.leading && matches!(self.leading, LeadingEdge::SuctionImplicit { .. })
     }
 
     /// Whether filaments act on each other as the others act on them, see [`CoreModel::Algebraic`].

@@ -112,4 +112,30 @@ pub enum LeadingEdge {
         /// alone have none anyway.
         efficiency: f64,
     },
+    /// The same, what leaves being found together with the circulations of the same instant, so that no edge ever has more than it
+    /// holds. Rings lie aft as in attached flow, the wake begins at the very edge, and the suction counts what vorticity beside
+    /// the leading panel makes along it.
+    SuctionImplicit {
+        /// Threshold, above 0.
+        threshold: f64,
+        /// Part of the force of the suction held that acts, 0 to 1, as above.
+        efficiency: f64,
+    },
+}
+
+impl LeadingEdge {
+    /// Suction parameter that edges hold and part of its force that acts \[1\], if it is suction that decides.
+    pub fn suction(&self) -> Option<[f64; 2]> {
+        match *self {
+            Self::Suction {
+                threshold,
+                efficiency,
+            }
+            | Self::SuctionImplicit {
+                threshold,
+                efficiency,
+            } => Some([threshold, efficiency]),
+            _ => None,
+        }
+    }
 }

@@ -124,6 +124,10 @@ impl AirSettings {
             LeadingEdge::Suction {
                 threshold,
                 efficiency,
+            }
+            | LeadingEdge::SuctionImplicit {
+                threshold,
+                efficiency,
             } => {
                 require(
                     is_positive(threshold),

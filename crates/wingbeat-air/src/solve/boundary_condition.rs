@@ -3,6 +3,7 @@
 use crate::error::AirError;
 use crate::lattice::Lattice;
 use crate::solve::influence::{Influence, Instant};
+use crate::solve::leading_edges::{FreeWakes, LeadingEdges};
 use crate::solve::unknowns::{panel, unknowns};
 use crate::wake::{Filaments, NEAR, Sums, WakeVelocityCache};
 use wingbeat_math::DVec3;
@@ -19,13 +20,14 @@ pub(crate) struct BoundaryCondition {
     /// Velocity there of near wakes and shedding edges without the panels' circulations.
     near_velocity: Points,
     free_wake: WakeVelocityCache,
+    pub leading_edges: LeadingEdges,
     /// Uniform normal velocity that the rings of each surface could not make [m/s].
     pub net_flux_residual: Vec<f64>,
 }
 
 impl BoundaryCondition {
-    /// Circulations of the panels: the rings make up for what motion, stream and wakes leave. The filaments are
-    /// those of this instant.
+    /// Circulations of the panels and what leaves the leading edges: the rings make up for what motion, stream and wakes leave.
+    /// The filaments are those of this instant.
     ///
     /// # Errors
     /// Equations without a unique solution.
@@ -34,20 +36,33 @@ impl BoundaryCondition {
         now: Instant,
         filaments: &mut Filaments,
         sums: &mut Sums,
-        gamma: &mut Vec<f64>,
+        [gamma, leaving]: [&mut Vec<f64>; 2],
     ) -> Result<(), AirError> {
-        gamma.clear();
-        gamma.resize(now.lattice.panel_count(), 0.0);
-        filaments.set_bound(now.lattice, now.state, gamma);
-        self.wake_velocity(now, filaments, sums);
+        let lattice = now.lattice;
+        for (list, count) in [
+            (&mut *gamma, lattice.panel_count()),
+            (&mut *leaving, lattice.strips().len()),
+        ] {
+            list.clear();
+            list.resize(count, 0.0);
+        }
+        filaments.set_bound(lattice, now.state, [gamma, leaving]);
+        let is_new = self.wake_velocity(now, filaments, sums);
         self.right_side(now, gamma);
         self.influence.assemble(now, filaments);
-        (self.influence).solve(now.lattice, now.state, gamma, &mut self.net_flux_residual)
+        let found = &mut gamma[..self.points.len()];
+        self.influence.solve(lattice, now.state, found)?;
+        let near = NEAR * now.panels.size();
+        let wakes = FreeWakes { sums, is_new, near };
+        let (influence, found) = (&mut self.influence, (found, &mut leaving[..]));
+        (self.leading_edges).settle(now, (filaments, wakes), influence, found)?;
+        (self.influence).spread(lattice, gamma, &mut self.net_flux_residual);
+        Ok(())
     }
 
     /// Velocity at the control points of the wakes alone. Their near parts and their share of the
-    /// shedding edges come from the filaments with no circulation on the panels.
-    fn wake_velocity(&mut self, now: Instant, filaments: &Filaments, sums: &mut Sums) {
+    /// shedding edges come from the filaments with no circulation on the panels. Says whether the free wakes are new.
+    fn wake_velocity(&mut self, now: Instant, filaments: &Filaments, sums: &mut Sums) -> bool {
         let (lattice, panels) = (now.lattice, now.panels);
         let (settings, mirrors) = (lattice.settings(), lattice.mirrors());
         self.points.clear();
@@ -60,6 +75,7 @@ impl BoundaryCondition {
         self.near_velocity.reset(points.len());
         sums.load_attached(settings, filaments);
         sums.add_attached(points, mirrors, &mut self.near_velocity);
+        is_new
     }
 
     /// The normal velocities that the rings have to make.
@@ -74,17 +90,17 @@ impl BoundaryCondition {
     }
 
     /// Velocity of the air at all control points [m/s], N: that of stream and wakes, and of the lattice with these
-    /// circulations.
+    /// circulations and what leaves its leading edges.
     pub(crate) fn velocities(
         &mut self,
         now: Instant,
         filaments: &mut Filaments,
         sums: &mut Sums,
-        gamma: &[f64],
+        found: [&[f64]; 2],
         out: &mut Vec<DVec3>,
     ) {
         let lattice: &Lattice = now.lattice;
-        filaments.set_bound(lattice, now.state, gamma);
+        filaments.set_bound(lattice, now.state, found);
         sums.load_attached(lattice.settings(), filaments);
         sums.add_attached(&self.points, lattice.mirrors(), &mut self.velocity);
         if let Some(symmetry) = lattice.symmetry() {

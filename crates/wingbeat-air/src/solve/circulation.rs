@@ -4,9 +4,9 @@ use crate::error::AirError;
 use crate::lattice::Lattice;
 use crate::solve::row_blocks::RowBlocks;
 use crate::solve::self_influence::SelfInfluence;
-use crate::solve::unknowns::{panel, unknowns};
+use crate::solve::unknowns::panel;
 use crate::state::AirState;
-use wingbeat_math::{BiCgStab, DenseLu, LuError};
+use wingbeat_math::{BiCgStab, DenseLu};
 
 /// Memory of the solution.
 #[derive(Default)]
@@ -17,10 +17,12 @@ pub(crate) struct Circulation {
     iterations: BiCgStab,
     rows: Vec<f64>,
     lu: DenseLu,
+    /// Whether the equations were solved by factors, which are there.
+    by_factors: bool,
 }
 
 impl Circulation {
-    /// Solves for the circulations in place of the right-hand side, which stands in the first unknowns.
+    /// Solves for the circulations in place of the right-hand side, one for each unknown.
     ///
     /// # Errors
     /// The matrix is singular.
@@ -31,39 +33,52 @@ impl Circulation {
         matrix: &RowBlocks,
         gamma: &mut [f64],
     ) -> Result<(), AirError> {
+        // From the circulations of the state, which do not depend on what was tried before.
+        self.found.clear();
+        (self.found).extend((0..gamma.len()).map(|i| state.gamma[panel(lattice, i)]));
         self.wanted.clear();
-        self.wanted.extend(&gamma[..unknowns(lattice)]);
-        if !self.iterate((lattice, known), state, matrix) {
-            let singular = |source| AirError::Singular {
-                step: state.step,
-                source,
-            };
-            self.eliminate(matrix).map_err(singular)?;
+        self.wanted.extend_from_slice(gamma);
+        self.by_factors = !self.iterate(known, matrix);
+        if self.by_factors {
+            self.eliminate(matrix, state)?;
         }
-        match lattice.symmetry() {
-            None => gamma.copy_from_slice(&self.found),
-            Some(symmetry) => symmetry.spread(&self.found, gamma),
-        }
+        gamma.copy_from_slice(&self.found);
         Ok(())
     }
 
-    /// Starts from the circulations of the state, which do not depend on what was tried before; false if not all
-    /// surfaces are known, or if it does not get there.
-    fn iterate(
+    /// The same for another right-hand side of the same equations.
+    ///
+    /// # Errors
+    /// The matrix is singular.
+    pub(crate) fn solve_another(
         &mut self,
-        (lattice, known): (&Lattice, &[SelfInfluence]),
+        known: &[SelfInfluence],
         state: &AirState,
         matrix: &RowBlocks,
-    ) -> bool {
-        let (count, n): (usize, _) = (
-            known.iter().map(|k| k.unknowns.len()).sum(),
-            unknowns(lattice),
-        );
-        if count < n {
-            return false;
+        gamma: &mut [f64],
+    ) -> Result<(), AirError> {
+        if self.by_factors {
+            self.lu.solve_in_place(gamma);
+            return Ok(());
         }
         self.found.clear();
-        (self.found).extend((0..n).map(|i| state.gamma[panel(lattice, i)]));
+        self.found.resize(gamma.len(), 0.0);
+        self.wanted.clear();
+        self.wanted.extend_from_slice(gamma);
+        if !self.iterate(known, matrix) {
+            self.by_factors = true;
+            self.eliminate(matrix, state)?;
+        }
+        gamma.copy_from_slice(&self.found);
+        Ok(())
+    }
+
+    /// False if not all surfaces are known, or if it does not get there.
+    fn iterate(&mut self, known: &[SelfInfluence], matrix: &RowBlocks) -> bool {
+        let count: usize = known.iter().map(|k| k.unknowns.len()).sum();
+        if count < self.wanted.len() {
+            return false;
+        }
         let multiply = |x: &[f64], out: &mut [f64]| matrix.multiply(x, out);
         let nearly_divide = |x: &[f64], out: &mut [f64]| {
             for k in known {
@@ -76,13 +91,17 @@ impl Circulation {
     }
 
     /// By factors of the whole matrix.
-    fn eliminate(&mut self, matrix: &RowBlocks) -> Result<(), LuError> {
+    fn eliminate(&mut self, matrix: &RowBlocks, state: &AirState) -> Result<(), AirError> {
         let n = matrix.order();
         matrix.to_rows(&mut self.rows);
         if self.lu.order() != n {
             self.lu = DenseLu::new(n);
         }
-        self.lu.factor(&self.rows)?;
+        let singular = |source| AirError::Singular {
+            step: state.step,
+            source,
+        };
+        self.lu.factor(&self.rows).map_err(singular)?;
         self.found.clone_from(&self.wanted);
         self.lu.solve_in_place(&mut self.found);
         Ok(())

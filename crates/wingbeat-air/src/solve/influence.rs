@@ -68,6 +68,11 @@ impl Influence {
         self.augment(now.lattice);
     }
 
+    /// Number of unknowns.
+    pub(crate) fn order(&self) -> usize {
+        self.matrix.order()
+    }
+
     /// Normal velocities at the control points of these panels by their own circulations, row by row. Where one half of
     /// the flow is computed, those of the other half are its mirror image.
     pub(crate) fn block(&self, lattice: &Lattice, panels: Range<usize>) -> Vec<f64> {
@@ -95,9 +100,7 @@ impl Influence {
         }
     }
 
-    /// Solves for the circulations in place of the right-hand side, which stands in the first
-    /// unknowns; `net_flux_residual` is the uniform normal velocity [m/s] of each surface that the rings could
-    /// not make.
+    /// Solves for the circulations in place of the right-hand side, one for each unknown.
     ///
     /// # Errors
     /// The matrix is singular.
@@ -106,10 +109,35 @@ impl Influence {
         lattice: &Lattice,
         state: &AirState,
         gamma: &mut [f64],
-        net_flux_residual: &mut Vec<f64>,
     ) -> Result<(), AirError> {
         let known = self.known.surfaces();
-        (self.circulation).solve((lattice, known), state, &self.matrix, gamma)?;
+        (self.circulation).solve((lattice, known), state, &self.matrix, gamma)
+    }
+
+    /// The same for another right-hand side.
+    ///
+    /// # Errors
+    /// The matrix is singular.
+    pub(crate) fn solve_another(
+        &mut self,
+        state: &AirState,
+        gamma: &mut [f64],
+    ) -> Result<(), AirError> {
+        let known = self.known.surfaces();
+        (self.circulation).solve_another(known, state, &self.matrix, gamma)
+    }
+
+    /// Spreads the circulations of the unknowns, which stand first, over all panels; `net_flux_residual` is the uniform normal
+    /// velocity [m/s] of each surface that the rings could not make.
+    pub(crate) fn spread(
+        &self,
+        lattice: &Lattice,
+        gamma: &mut [f64],
+        net_flux_residual: &mut Vec<f64>,
+    ) {
+        if let Some(symmetry) = lattice.symmetry() {
+            symmetry.spread_in_place(gamma);
+        }
         net_flux_residual.clear();
         net_flux_residual.resize(lattice.surfaces().len(), 0.0);
         for (s, surface) in lattice.surfaces().iter().enumerate() {
@@ -121,7 +149,6 @@ impl Influence {
                 gamma.iter_mut().for_each(|g| *g -= mean);
             }
         }
-        Ok(())
     }
 }
 

@@ -3,10 +3,14 @@
 mod boundary_condition;
 mod circulation;
 mod influence;
+mod leading_edges;
+mod leaving;
 mod row_blocks;
 mod self_influence;
+mod suction;
 mod unknowns;
 
 pub(crate) use boundary_condition::BoundaryCondition;
 pub(crate) use influence::Instant;
+pub(crate) use suction::suction_unit;
 pub(crate) use unknowns::is_computed;

@@ -48,6 +48,9 @@ pub struct AirState {
     /// Circulation that the leading edge of each strip holds before flow leaves it, at the last accepted step [m2/s];
     /// what any edge may have before there was one.
     pub hold: Vec<f64>,
+    /// Circulation that left the leading edge of each strip within the last accepted step, where that was part of the solution, counted
+    /// as that of panels [m2/s].
+    pub leaving: Vec<f64>,
     /// Length of the last step of the wakes [s], zero before it.
     pub dt_wake: f64,
     /// Positions of the surface nodes at the last accepted step [m], N components.

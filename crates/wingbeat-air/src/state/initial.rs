@@ -23,6 +23,7 @@ impl Lattice {
             velocity: motion.velocity.clone(),
             inner_momentum: vec![DVec3::ZERO; self.surfaces().len()],
             hold: vec![f64::MAX; self.strips().len()],
+            leaving: vec![0.0; self.strips().len()],
             sheets: self.sheets().iter().map(sheet).collect(),
             ..AirState::default()
         }
@@ -44,7 +45,10 @@ impl Lattice {
         {
             return mismatch("number of nodes");
         }
-        if state.hold.len() != self.strips().len() {
+        if [&state.hold, &state.leaving]
+            .iter()
+            .any(|x| x.len() != self.strips().len())
+        {
             return mismatch("number of leading-edge strips");
         }
         if state.inner_momentum.len() != self.surfaces().len() {

@@ -29,6 +29,10 @@ pub struct Filaments {
     pub(crate) shares: Vec<Share>,
     /// Rows of nodes of the newest row of a sheet.
     levels: usize,
+    /// Nodes of the rings behind leading edges from which wakes leave, which end the newest row of each sheet.
+    inner: Vec<usize>,
+    /// Where wakes leave the surfaces: nodes of the rings, at leading edges that hold suction nodes of the surfaces [m].
+    roots: Vec<DVec3>,
     /// Length of the newest row in panel lengths, sheet by sheet and column by column.
     pub(crate) lengths: Vec<Vec<f64>>,
     /// All other edges of the wakes, which do not move within a step. Nodes: sheet after sheet,
@@ -51,6 +55,7 @@ impl Filaments {
         position: &[DVec3],
     ) {
         self.gather_bound(lattice, position);
+        self.inner.clear();
         self.levels = strips(lattice.settings()) + 1;
         self.wake.clear();
         self.blobs.clear();
@@ -58,13 +63,13 @@ impl Filaments {
         self.shares.clear();
         self.lengths.resize_with(state.sheets.len(), Vec::new);
         for (s, (sheet, root)) in state.sheets.iter().zip(lattice.sheets()).enumerate() {
-            let edge = root.nodes.iter().map(|&n| self.bound.nodes.get(n));
+            let edge = root.nodes.iter().map(|&n| self.roots[n]);
             if lattice.settings().is_symmetric() {
                 let cores = &mut self.wake.nodes.core;
                 add_cores(cores, sheet, lattice.settings(), t, edge.clone());
             }
             self.add_sheet(sheet, lattice.settings(), t);
-            let edge = root.nodes.iter().map(|&n| self.bound.nodes.get(n));
+            let edge = root.nodes.iter().map(|&n| self.roots[n]);
             row_lengths(lattice, state, s, &self.bound.nodes, &mut self.lengths[s]);
             let row = Row {
                 lattice,
@@ -72,7 +77,14 @@ impl Filaments {
                 s,
                 lengths: &self.lengths[s],
             };
-            add_near_wake(&mut self.near_wake, &mut self.shares, &row, t, edge);
+            let nodes = &self.bound.nodes;
+            let inner = root.nodes.iter().enumerate();
+            let inner = inner.map(|(c, &n)| (c, nodes.get(n), self.roots[n]));
+            let inner = inner.filter(|(_, ring, root)| ring != root && sheet.rows() > 0);
+            self.inner.push(inner.clone().count());
+            let inner = inner.map(|(c, ring, _)| (c, ring));
+            let (network, shares) = (&mut self.near_wake, &mut self.shares);
+            add_near_wake(network, shares, &row, t, edge, inner);
         }
         self.particles.clear();
         if let Some(settings) = &lattice.settings().particles {
@@ -92,7 +104,7 @@ impl Filaments {
                 continue;
             }
             sheet.nodes.iter().for_each(|x| out.push(x));
-            let edge = root.nodes.iter().map(|&n| self.bound.nodes.get(n));
+            let edge = root.nodes.iter().map(|&n| self.roots[n]);
             edge.for_each(|x| out.push(x));
         }
         if lattice.settings().is_symmetric() {
@@ -109,12 +121,13 @@ impl Filaments {
             return;
         }
         let free = &self.wake.nodes.core;
-        let ends = state.sheets.iter().scan(0, |end, sheet| {
+        let sheets = state.sheets.iter().zip(&self.inner);
+        let ends = sheets.scan(0, |end, (sheet, inner)| {
             *end += sheet.nodes.len();
-            Some((sheet, *end))
+            Some((sheet, *inner, *end))
         });
-        let newest = ends.filter(|(sheet, _)| sheet.rows() > 0);
-        let newest = newest.map(|(sheet, end)| (sheet, &free[end - sheet.columns - 1..end]));
+        let newest = ends.filter(|(sheet, ..)| sheet.rows() > 0);
+        let newest = newest.map(|(sheet, inner, end)| (inner, &free[end - sheet.columns - 1..end]));
         let (sum, count) = newest.clone().fold((0.0, 0), |(sum, count), (_, cores)| {
             (sum + cores.iter().sum::<f64>(), count + cores.len())
         });
@@ -128,12 +141,14 @@ impl Filaments {
             .core
             .resize(self.bound.nodes.len(), attached);
         self.near_wake.nodes.core.clear();
-        for (_, cores) in newest {
+        for (inner, cores) in newest {
             for level in (0..self.levels).rev() {
                 let part = level as f64 / (self.levels - 1) as f64; // 1 at the free row
                 let between = cores.iter().map(|free| attached + part * (free - attached));
                 self.near_wake.nodes.core.extend(between);
             }
+            let ends = std::iter::repeat_n(attached, inner);
+            self.near_wake.nodes.core.extend(ends);
         }
     }
 
@@ -155,6 +170,11 @@ impl Filaments {
         if sheet.rows() > 0 { self.levels } else { 0 }
     }
 
+    /// Nodes of the rings that end the newest row of sheet `s` in [`Self::near_wake`].
+    pub(crate) fn inner_nodes(&self, s: usize) -> usize {
+        self.inner[s]
+    }
+
     fn gather_bound(&mut self, lattice: &Lattice, position: &[DVec3]) {
         let model = lattice.settings().bound_core;
         self.bound.clear();
@@ -163,6 +183,14 @@ impl Filaments {
         for (n, d) in lattice.rings().offsets(position) {
             nodes.set(n, nodes.get(n) + d);
         }
+        let suction = lattice.suction();
+        let root = |(n, ring): (usize, DVec3)| match suction.is_front(n) {
+            true => position[n],
+            false => ring,
+        };
+        self.roots.clear();
+        self.roots
+            .extend(self.bound.nodes.iter().enumerate().map(root));
         for edge in &lattice.topology().edges {
             let length = (self.bound.nodes.get(edge.to) - self.bound.nodes.get(edge.from)).length();
             let core = model.core(length, 0.0);
@@ -171,8 +199,13 @@ impl Filaments {
     }
 
     /// Net circulation of every lattice edge, its panels' difference, less the newest wake ring's
-    /// at a shedding edge; and of the newest rows.
-    pub(crate) fn set_bound(&mut self, lattice: &Lattice, state: &AirState, gamma: &[f64]) {
+    /// at a shedding edge; and of the newest rows: from the circulations of the panels and what leaves the leading edges.
+    pub(crate) fn set_bound(
+        &mut self,
+        lattice: &Lattice,
+        state: &AirState,
+        [gamma, leaving]: [&[f64]; 2],
+    ) {
         for (edge, net) in lattice.topology().edges.iter().zip(&mut self.bound.gamma) {
             let minus = edge.minus.map_or(0.0, |p| gamma[p]);
             let wake = edge.wake.map_or(0.0, |w| {
@@ -184,12 +217,16 @@ impl Filaments {
                     lengths,
                 };
                 let [fixed, part] = at_edge(&row, w.column);
-                fixed + part * gamma[edge.plus]
+                let wake = fixed + part * gamma[edge.plus];
+                match lattice.suction().of_column(s, w.column) {
+                    Some(strip) => wake + leaving[strip],
+                    None => wake,
+                }
             });
             *net = gamma[edge.plus] - minus - wake;
         }
         for (share, net) in self.shares.iter().zip(&mut self.near_wake.gamma) {
-            *net = share.net(gamma);
+            *net = share.net([gamma, leaving]);
         }
     }
 

@@ -121,6 +121,8 @@ impl ForceFree {
                     self.near.push([(row, part), (place(free + c), 1.0 - part)]);
                 }
             }
+            let rings = filaments.inner_nodes(s);
+            (self.near).extend(std::iter::repeat_n([(None, 0.0); 2], rings));
             next += if is_moved { free + width } else { 0 };
         }
         self.same.clear();

@@ -90,18 +90,31 @@ pub(crate) fn row_lengths(
 
 pub(crate) fn strips(settings: &AirSettings) -> usize {
     match settings.newest_row {
+        NewestRow::Constant if settings.solves_suction() => 2,
         NewestRow::Constant => 1,
         NewestRow::Matched => STRIPS,
     }
+}
+
+/// Where the vortex lies that leaves a leading edge within a step, from the edge over the length of the row: what an even
+/// stream of vorticity sheds has its middle there.
+pub(crate) const NEW_VORTEX: f64 = 0.5;
+
+/// Whether strip `k` from the edge of `strips` lies between a leading edge and the vortex that leaves it within the step.
+fn is_before_new_vortex(strips: usize, k: usize) -> bool {
+    (k as f64) < NEW_VORTEX * strips as f64
 }
 
 /// How the net circulation of one filament of the row follows from the panels: `fixed` plus a share
 /// of the circulation of up to two panels.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Share {
-    fixed: f64,
+    pub fixed: f64,
     pub panel: [usize; 2],
     pub part: [f64; 2],
+    /// Strips of whose leaving circulation it has a part.
+    pub strip: [usize; 2],
+    pub leaving: [f64; 2],
 }
 
 impl Share {
@@ -110,19 +123,32 @@ impl Share {
         self.fixed += sign * strip.past;
         self.panel[at] = strip.panel;
         self.part[at] += sign * strip.part;
+        if let Some((s, leaving)) = strip.leaving {
+            self.strip[at] = s;
+            self.leaving[at] += sign * leaving;
+        }
     }
 
-    pub(crate) fn net(&self, gamma: &[f64]) -> f64 {
+    pub(crate) fn net(&self, [gamma, leaving]: [&[f64]; 2]) -> f64 {
         let of = |k: usize| self.part[k] * gamma[self.panel[k]];
-        self.fixed + (of(0) + of(1))
+        let net = self.fixed + (of(0) + of(1));
+        match self.leaving {
+            [0.0, 0.0] => net,
+            parts => {
+                net + (0..2)
+                    .map(|k| parts[k] * leaving[self.strip[k]])
+                    .sum::<f64>()
+            }
+        }
     }
 }
 
-/// The circulation of a strip: `past` plus `part` of the present one of `panel`.
+/// The circulation of a strip: `past` plus `part` of the present one of `panel`, or of what leaves a leading edge.
 struct Strip {
     past: f64,
     part: f64,
     panel: usize,
+    leaving: Option<(usize, f64)>,
 }
 
 /// The newest row of one sheet.
@@ -144,6 +170,15 @@ fn strip(row: &Row, column: usize, k: usize) -> Strip {
         lengths,
     } = *row;
     let (root, old) = (&lattice.sheets()[s], state.sheets[s].newest(column));
+    if let Some(strip) = lattice.suction().of_column(s, column) {
+        let is_before = is_before_new_vortex(strips(lattice.settings()), k);
+        return Strip {
+            past: old,
+            part: 0.0,
+            panel: root.panels[column],
+            leaving: is_before.then_some((strip, root.signs[column])),
+        };
+    }
     let part = match lattice.feeds(s, &state.sheets[s], column) {
         true => present(lattice.settings(), lengths[column], k),
         false => 0.0,
@@ -155,16 +190,21 @@ fn strip(row: &Row, column: usize, k: usize) -> Strip {
         past: (1.0 - part) * old - part * held,
         part: part * root.signs[column],
         panel: root.panels[column],
+        leaving: None,
     }
 }
 
 /// Fills in the filaments of the row of sheet `s` beyond the shedding edge, whose nodes are `edge`.
+///
+/// Where a wake begins ahead of the rings, at the very leading edge, its sides go on from there to the rings, whose nodes
+/// come last (`inner`: column and place).
 pub(crate) fn add_near_wake(
     near_wake: &mut Network,
     shares: &mut Vec<Share>,
     row: &Row,
     t: f64,
     edge: impl Iterator<Item = DVec3> + Clone,
+    inner: impl Iterator<Item = (usize, DVec3)>,
 ) {
     let (sheet, settings) = (&row.state.sheets[row.s], row.lattice.settings());
     let Some(newest) = sheet.rows().checked_sub(1) else {
@@ -205,6 +245,14 @@ pub(crate) fn add_near_wake(
             );
         }
     }
+    for (c, x) in inner {
+        let ring = near_wake.nodes.len();
+        near_wake.nodes.push(x);
+        let root = node(0, c);
+        let length = near_wake.nodes.get(root).distance(x);
+        near_wake.push_edge(root, ring, 0.0, settings.wake_core.core(length, 0.0));
+        shares.push(across(row, c, 0));
+    }
 }
 
 /// The edge between the columns `c - 1` and `c` in strip `k`.
@@ -233,7 +281,7 @@ fn along(row: &Row, c: usize, k: usize, strips: usize) -> Share {
 }
 
 /// What the row's strip at the shedding edge takes from the circulation of a panel there: the fixed
-/// part, and the part of the panel's own.
+/// part, and the part of the panel's own; what leaves a leading edge within the step comes on top.
 pub(crate) fn at_edge(row: &Row, column: usize) -> [f64; 2] {
     if row.lengths.is_empty() {
         return [0.0; 2];

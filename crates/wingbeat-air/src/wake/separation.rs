@@ -58,7 +58,11 @@ impl Lattice {
 
     /// Part of the net circulation `net` [m2/s] of an edge that it holds, 0 to 1: what is beyond it is about to leave.
     pub(crate) fn held_part(&self, state: &AirState, edge: &Edge, net: f64) -> f64 {
-        let hold = (edge.wake).map_or(0.0, |w| self.hold(state, w.sheet, w.column));
+        let wake = edge.wake;
+        if wake.is_some_and(|w| self.suction().of_column(w.sheet, w.column).is_some()) {
+            return 1.0; // what leaves is beside the edge already
+        }
+        let hold = wake.map_or(0.0, |w| self.hold(state, w.sheet, w.column));
         if hold >= net.abs() && hold > 0.0 {
             return 1.0;
         }

@@ -3,7 +3,7 @@
 use crate::lattice::Lattice;
 use crate::settings::NewestRow;
 use crate::state::{AirState, WakeSheet};
-use crate::wake::near_wake::{kept, released};
+use crate::wake::near_wake::{NEW_VORTEX, kept, released};
 
 impl Lattice {
     /// Unsteady Kutta condition: the row that leaves carries the circulation of its panels, at leading edges less what
@@ -14,6 +14,10 @@ impl Lattice {
         let delays = self.settings().newest_row == NewestRow::Matched && sheet.rows() > 0;
         for (c, (&panel, &sign)) in root.panels.iter().zip(&root.signs).enumerate() {
             let before = sheet.newest(c);
+            if let Some(s) = self.suction().of_column(k, c) {
+                leave_edge(sheet, c, sign * state.leaving[s]);
+                continue;
+            }
             let wanted = self.to_shed(state, (k, c), sign * state.gamma[panel], before);
             let gamma = match delays {
                 false => wanted,
@@ -34,7 +38,7 @@ impl Lattice {
         }
         let root = &self.sheets()[k];
         for c in 0..sheet.columns {
-            if self.feeds(k, sheet, c) {
+            if self.suction().of_column(k, c).is_none() && self.feeds(k, sheet, c) {
                 let ring = &mut sheet.gamma[newest * sheet.columns + c];
                 let present = root.signs[c] * state.gamma[root.panels[c]];
                 let wanted = self.to_shed(state, (k, c), present, *ring);
@@ -42,4 +46,14 @@ impl Lattice {
             }
         }
     }
+}
+
+/// Sheds the ring of a column that differs by `leaving` from the newest one. The vortex that is the difference lay part of the
+/// way from the edge to the nodes shed before: it goes to both lines of nodes, so that its place remains.
+fn leave_edge(sheet: &mut WakeSheet, column: usize, leaving: f64) {
+    let before = sheet.newest(column);
+    if let Some(newest) = sheet.rows().checked_sub(1) {
+        sheet.gamma[newest * sheet.columns + column] += NEW_VORTEX * leaving;
+    }
+    sheet.gamma.push(before + leaving);
 }

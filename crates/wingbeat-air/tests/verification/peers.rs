@@ -22,7 +22,7 @@ fn motion(rows: usize, cols: usize, t: f64) -> NodeMotion {
 }
 
 /// A column of a table by its name.
-fn column(text: &str, name: &str) -> Vec<f64> {
+pub fn column(text: &str, name: &str) -> Vec<f64> {
     let mut lines = text.lines().skip(1);
     let header = lines.next().expect("a header");
     let k = header.split(',').position(|w| w == name).expect(name);

@@ -33,7 +33,7 @@ pub(crate) fn normal_hover(t: f64) -> NodeMotion {
 
 /// Vertical force and its rate by impulse, means of each of three beats, all edges shedding; `change` may change
 /// the settings.
-fn separated_hover(change: impl Fn(&mut AirSettings)) -> [[f64; 2]; 3] {
+pub fn separated_hover(change: impl Fn(&mut AirSettings)) -> [[f64; 2]; 3] {
     let mut settings = AirSettings {
         wake_overlap: 1.0,
         shedding: ALL,
@@ -59,7 +59,7 @@ fn separated_hover(change: impl Fn(&mut AirSettings)) -> [[f64; 2]; 3] {
     })
 }
 
-fn core_of(radius: f64) -> [CoreModel; 2] {
+pub fn core_of(radius: f64) -> [CoreModel; 2] {
     let viscosity = 0.01;
     [
         CoreModel::Algebraic { radius, viscosity },

@@ -192,6 +192,10 @@ fn leading_edge(case: &AirCase) -> Built<LeadingEdge> {
             threshold: case.leading_edge_threshold,
             efficiency: case.leading_edge_suction_efficiency,
         },
+        LeadingEdgeCase::SuctionImplicit => LeadingEdge::SuctionImplicit {
+            threshold: case.leading_edge_threshold,
+            efficiency: case.leading_edge_suction_efficiency,
+        },
     })
 }
 

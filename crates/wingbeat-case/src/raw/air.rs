@@ -139,13 +139,13 @@ pub struct AirCase {
     ///
     /// Change it with the section of the wing and its Reynolds number.
     #[default(0.15)]
-    #[schemars(extend("exclusiveMinimum" = 0, "with" = [LATTICE, "leading_edge = suction"]))]
+    #[schemars(extend("exclusiveMinimum" = 0, "with" = [LATTICE, "leading_edge = suction | suction_implicit"]))]
     pub leading_edge_threshold: f64,
     /// Part of the force of that suction which acts: none on the thin edges of insects.
     ///
     /// Change it to 1 for round leading edges.
     #[default(0.0)]
-    #[schemars(extend("minimum" = 0, "maximum" = 1, "with" = [LATTICE, "leading_edge = suction", "loads = joukowski"]))]
+    #[schemars(extend("minimum" = 0, "maximum" = 1, "with" = [LATTICE, "leading_edge = suction | suction_implicit", "loads = joukowski"]))]
     pub leading_edge_suction_efficiency: f64,
     /// Gusts, added to the stream.
     ///
@@ -293,4 +293,7 @@ pub enum LeadingEdgeCase {
     /// What is beyond the leading-edge suction parameter `leading_edge_threshold`, so that the suction stays there [Ramesh et al.
     /// 2014, J. Fluid Mech. 751:500].
     Suction,
+    /// The same, found together with the circulations of the wings: the suction never is above the threshold, and what is shed hangs
+    /// less on panels and steps.
+    SuctionImplicit,
 }

@@ -320,6 +320,14 @@ fn with_leading_edge(air: AirCase, lattice: &AirSettings) -> AirCase {
             leading_edge_suction_efficiency: efficiency,
             ..of(LeadingEdgeCase::Suction)
         },
+        LeadingEdge::SuctionImplicit {
+            threshold,
+            efficiency,
+        } => AirCase {
+            leading_edge_threshold: threshold,
+            leading_edge_suction_efficiency: efficiency,
+            ..of(LeadingEdgeCase::SuctionImplicit)
+        },
     }
 }
 

@@ -1,8 +1,6 @@
 //! How far the results can be trusted.
 
-use wingbeat_air::{
-    AirSettings, Convection, CoreModel, Friction, LeadingEdge, LoadMethod, SectionDrag,
-};
+use wingbeat_air::{AirSettings, Convection, CoreModel, Friction, LoadMethod, SectionDrag};
 use wingbeat_flight::{AirModel, FlightSetup, FormulationChoice, IntegratorChoice, MotionMode};
 
 use super::beats::BeatMeans;
@@ -209,13 +207,10 @@ fn suction(lattice: &AirSettings) -> String {
 
 /// Suction parameter that leading edges hold and part of its force that acts, where they may shed by this criterion.
 fn held(lattice: &AirSettings) -> Option<[f64; 2]> {
-    match lattice.leading {
-        LeadingEdge::Suction {
-            threshold,
-            efficiency,
-        } if lattice.shedding.leading => Some([threshold, efficiency]),
-        _ => None,
-    }
+    lattice
+        .leading
+        .suction()
+        .filter(|_| lattice.shedding.leading)
 }
 
 /// What is said of the vortex core of the wakes.

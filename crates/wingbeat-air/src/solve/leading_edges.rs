@@ -1,0 +1,202 @@
+//! The leading edges in the solution: their suction in the flow of this instant, and what leaves them.
+
+use crate::error::AirError;
+use crate::solve::influence::{Influence, Instant};
+use crate::solve::leaving::{Leaving, Part};
+use crate::solve::suction::{Front, PLACES, Release, WEIGHTS, threshold};
+use crate::solve::unknowns::{panel, unknown};
+use crate::wake::{Filaments, Sums, WakeVelocityCache};
+use wingbeat_math::DVec3;
+use wingbeat_vortex::Points;
+
+/// The free wakes, which the sums hold.
+pub(crate) struct FreeWakes<'a> {
+    pub sums: &'a mut Sums,
+    /// Whether they are others than before.
+    pub is_new: bool,
+    /// How far a place may go before they are summed for it again [m].
+    pub near: f64,
+}
+
+/// Memory of what happens at leading edges.
+#[derive(Default)]
+pub(crate) struct LeadingEdges {
+    fronts: Vec<Front>,
+    leaving: Leaving,
+    release: Release,
+    /// Places along the leading panels, each with the normal, and the velocity of the free wakes there.
+    places: Points,
+    at_places: Vec<[DVec3; 2]>,
+    free_wake: WakeVelocityCache,
+    velocity: Points,
+    /// Control points of the unknowns, with the normals.
+    at_points: Vec<[DVec3; 2]>,
+    /// What the circulations are by what leaves each strip, column by column.
+    answer: Vec<f64>,
+    /// Suction parameter of each strip \[1\].
+    pub suction: Vec<f64>,
+}
+
+impl LeadingEdges {
+    /// What leaves each strip, counted as circulation of panels [m2/s], where that is part of the solution; `gamma` has the
+    /// circulations of the unknowns if nothing leaves, and gets those of what does. The filaments have the circulations of wakes
+    /// alone.
+    ///
+    /// # Errors
+    /// Equations without a unique solution.
+    pub(crate) fn settle(
+        &mut self,
+        now: Instant,
+        (filaments, wakes): (&Filaments, FreeWakes),
+        influence: &mut Influence,
+        (gamma, leaving): (&mut [f64], &mut [f64]),
+    ) -> Result<(), AirError> {
+        self.suction.clear();
+        self.suction.resize(now.lattice.strips().len(), 0.0);
+        let Some(threshold) = threshold(now.lattice) else {
+            return Ok(());
+        };
+        self.fronts.clear();
+        let fronts = now.lattice.strips().iter();
+        self.fronts
+            .extend(fronts.map(|strip| Front::of(now, strip)));
+        self.leaving.load(now.lattice, filaments);
+        self.place(now, wakes);
+        self.take_limits(now, filaments, (threshold, gamma));
+        self.count_unseen(now, filaments);
+        self.release.none();
+        if self.release.is_due() {
+            self.take_answers(now, filaments, influence)?;
+            self.release.settle(now.state.step)?;
+            self.answer(gamma);
+        }
+        self.report(now, filaments, (gamma, leaving));
+        Ok(())
+    }
+
+    /// Net circulation of the leading edge of strip `k`, if nothing leaves.
+    fn net(now: Instant, filaments: &Filaments, gamma: &[f64], k: usize) -> f64 {
+        let strip = &now.lattice.strips()[k];
+        let panel = unknown(now.lattice, strip.panels[0]);
+        gamma[panel] + filaments.bound.gamma[strip.edge]
+    }
+
+    /// Places along the leading panels, and the velocity of the free wakes there.
+    fn place(&mut self, now: Instant, wakes: FreeWakes) {
+        let lattice = now.lattice;
+        self.places.clear();
+        self.at_places.clear();
+        for &s in &lattice.suction().computed {
+            let p = lattice.strips()[s].panels[0];
+            self.fronts[s].places(now.panels.point[p], &mut self.places);
+            let new = self.at_places.len()..self.places.len();
+            let with_normal = |i: usize| [self.places.get(i), now.panels.normal[p]];
+            self.at_places.extend(new.map(with_normal));
+        }
+        let (sums, mirrors) = ((wakes.sums, wakes.is_new), lattice.mirrors());
+        let (places, velocity) = (&self.places, &mut self.velocity);
+        (self.free_wake).velocity(sums, places, wakes.near, mirrors, velocity);
+    }
+
+    /// Net circulations of the edges as the lattice has them, and what the edges may have.
+    fn take_limits(&mut self, now: Instant, filaments: &Filaments, (most, gamma): (f64, &[f64])) {
+        let lattice = now.lattice;
+        self.release.net.clear();
+        self.release.most.clear();
+        for &s in &lattice.suction().computed {
+            let wake = lattice.topology().edges[lattice.strips()[s].edge].wake;
+            let has_row = wake.is_some_and(|w| now.state.sheets[w.sheet].rows() > 0);
+            self.release.most.push(match has_row {
+                true => most * self.fronts[s].unit,
+                false => f64::INFINITY, // no vortex has a place to go yet
+            });
+            let net = Self::net(now, filaments, gamma, s);
+            self.release.net.push(net);
+        }
+    }
+
+    /// Counts what wakes make along the leading panels and the lattice does not see: those that are there, and what leaves.
+    fn count_unseen(&mut self, now: Instant, filaments: &Filaments) {
+        let computed = &now.lattice.suction().computed;
+        let (n, fronts) = (computed.len(), &self.fronts);
+        let weight = |i: usize| WEIGHTS[i % PLACES] * fronts[computed[i / PLACES]].per_velocity;
+        let Release {
+            net, by_leaving, ..
+        } = &mut self.release;
+        for (i, [_, normal]) in self.at_places.iter().enumerate() {
+            net[i / PLACES] += weight(i) * self.velocity.get(i).dot(*normal);
+        }
+        by_leaving.clear();
+        by_leaving.resize(n * n, 0.0);
+        let see = |i: usize, part: Part, rate: f64| match part {
+            Part::Fixed => net[i / PLACES] += weight(i) * rate,
+            Part::Leaving(k) => by_leaving[i / PLACES * n + k] += weight(i) * rate,
+        };
+        (self.leaving).near_wake(now.lattice, &filaments.shares, &self.at_places, see);
+    }
+
+    /// How the circulations, and so the net ones at the edges, answer to what leaves.
+    fn take_answers(
+        &mut self,
+        now: Instant,
+        filaments: &Filaments,
+        influence: &mut Influence,
+    ) -> Result<(), AirError> {
+        let lattice = now.lattice;
+        let computed = &lattice.suction().computed;
+        let (n, strips) = (influence.order(), computed.len());
+        self.at_points.clear();
+        let points = (0..n).map(|i| panel(lattice, i));
+        let with_normal = |p: usize| [now.panels.point[p], now.panels.normal[p]];
+        self.at_points.extend(points.map(with_normal));
+        let answer = &mut self.answer;
+        answer.clear();
+        answer.resize(n * strips, 0.0);
+        let see = |i: usize, part: Part, rate: f64| {
+            if let Part::Leaving(k) = part {
+                answer[k * n + i] -= rate;
+            }
+        };
+        (self.leaving).near_wake(lattice, &filaments.shares, &self.at_points, see);
+        let see = |i: usize, k: usize, rate: f64| answer[k * n + i] -= rate;
+        (self.leaving).fronts(lattice, &self.at_points, see);
+        for (k, column) in answer.chunks_mut(n).enumerate() {
+            influence.solve_another(now.state, column)?;
+            for (u, &s) in computed.iter().enumerate() {
+                let first = unknown(lattice, lattice.strips()[s].panels[0]);
+                let own = if u == k { 1.0 } else { 0.0 };
+                self.release.by_leaving[u * strips + k] += column[first] - own;
+            }
+        }
+        Ok(())
+    }
+
+    /// Adds to the circulations what they are by what leaves.
+    fn answer(&self, gamma: &mut [f64]) {
+        let columns = self.answer.chunks(gamma.len());
+        for (column, left) in columns.zip(&self.release.leaving) {
+            for (gamma, answer) in gamma.iter_mut().zip(column) {
+                *gamma += left * answer;
+            }
+        }
+    }
+
+    /// Suction and what leaves, strip by strip; edges that do not shed have what the lattice gives them.
+    fn report(
+        &mut self,
+        now: Instant,
+        filaments: &Filaments,
+        (gamma, leaving): (&[f64], &mut [f64]),
+    ) {
+        for (k, unknown) in now.lattice.suction().unknown.iter().enumerate() {
+            let net = match unknown {
+                Some(u) => {
+                    leaving[k] = self.release.leaving[*u];
+                    self.release.held[*u]
+                }
+                None => Self::net(now, filaments, gamma, k),
+            };
+            self.suction[k] = net.abs() / self.fronts[k].unit.max(f64::MIN_POSITIVE);
+        }
+    }
+}

@@ -1,0 +1,225 @@
+//! Suction at leading edges: what each strip has, and what has to leave so that none has more than it holds.
+//!
+//! The suction parameter A0 is the coefficient of the suction singularity in thin-airfoil theory,
+//! `A0 = 1 / (pi U) integral w dtheta` along the chord, `cos theta = 1 - 2 x / c`, w the normal velocity of air against wing that
+//! the wing's own vorticity has to annul [Ramesh et al. 2014, J. Fluid Mech. 751:500]. From the net circulation G of the
+//! leading edge of a lattice, a leading panel of length h and a chord c it is `A0 = 2 / sqrt(pi) G / (U c (a + sin a))`, `cos a = 1 - 2 h / c`;
+//! `2 / sqrt(pi) = 1.13` is what a lattice's first vortex falls short of the exact circulation of its panel
+//! [Hirato et al. 2019, AIAA J. 57:4034]. U is the speed of stream and motion at the quarter chord, in the plane of the section.
+//!
+//! A lattice sees w at the control points only, so vorticity nearer to the edge than a panel acts on G with what it makes at one
+//! point of the panel. What it makes along the panel, over theta, is larger. G counts with that difference besides: without it a
+//! plate of six panels that pitches to 45 degrees sheds two thirds of what it should while it pitches.
+//!
+//! What leaves within the step lies half a row from the edge ([`NEW_VORTEX`](crate::wake)). Its
+//! strength in each strip follows together with the circulations of the panels, in one flow: either the strip has less than it
+//! holds and nothing leaves, or it has as much as it holds and what leaves has the sign of its suction.
+
+use crate::error::AirError;
+use crate::geometry::{Panels, Strip, chord, opposite};
+use crate::lattice::Lattice;
+use crate::settings::LeadingEdge;
+use crate::solve::influence::Instant;
+use std::f64::consts::PI;
+use wingbeat_math::{DVec3, DenseLu};
+use wingbeat_vortex::Points;
+
+/// Places along the leading panel of a strip where velocities are wanted: as many in even parts of theta, and last its control
+/// point.
+pub(crate) const PLACES: usize = 4;
+
+/// Weight of the normal velocity at each of the places, over the extent of the panel in theta.
+pub(crate) const WEIGHTS: [f64; PLACES] = [1.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0, -1.0];
+
+/// Rounds of changes to all strips at once; then one strip changes at a time.
+const ALL_AT_ONCE: usize = 8;
+
+/// A strip at one instant.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Front {
+    /// Net circulation of a suction parameter of one [m2/s].
+    pub unit: f64,
+    /// Net circulation that corresponds to a mean normal velocity along the leading panel [m].
+    pub per_velocity: f64,
+    /// Middle of the leading edge [m], backward unit vector, length of the leading panel and chord [m].
+    middle: DVec3,
+    aft: DVec3,
+    extent: [f64; 2],
+}
+
+impl Front {
+    pub fn of(now: Instant, strip: &Strip) -> Self {
+        let (lattice, position) = (now.lattice, &now.motion.position);
+        let (aft, c) = chord(strip, position);
+        let middle = |n: [usize; 2]| 0.5 * (position[n[0]] + position[n[1]]);
+        let (front, p) = (middle(strip.nodes), strip.panels[0]);
+        let rear = middle(opposite(lattice.topology().panels[p], strip.nodes));
+        let h = (rear - front).dot(aft);
+        let a = angle(h, c);
+        let here = (lattice, now.panels, now.time);
+        let per_speed = 0.5 * PI.sqrt() * c * (a + a.sin());
+        Self {
+            unit: suction_unit(here, strip, (front, aft), [h, c]),
+            per_velocity: per_speed * a / PI,
+            middle: front,
+            aft,
+            extent: [h, c],
+        }
+    }
+
+    /// Appends the places along the leading panel; the control point is at `point`.
+    pub fn places(&self, point: DVec3, out: &mut Points) {
+        let [h, c] = self.extent;
+        let even = PLACES - 1;
+        for k in 0..even {
+            let theta = angle(h, c) * (k as f64 + 0.5) / even as f64;
+            let x = 0.5 * c * (1.0 - theta.cos());
+            out.push(self.middle + x * self.aft);
+        }
+        out.push(point);
+    }
+}
+
+/// Angle theta at a place of the chord.
+fn angle(x: f64, chord: f64) -> f64 {
+    (1.0 - 2.0 * x / chord).clamp(-1.0, 1.0).acos()
+}
+
+/// Net circulation of the leading edge of a strip that is a suction parameter of one [m2/s]; middle of the edge and direction
+/// aft [m, 1], length of the leading panel and chord [m].
+pub(crate) fn suction_unit(
+    now: (&Lattice, &Panels, f64),
+    strip: &Strip,
+    (middle, aft): (DVec3, DVec3),
+    [h, c]: [f64; 2],
+) -> f64 {
+    let a = angle(h, c);
+    let wind = quarter_chord_wind(now, strip, (middle, aft, c));
+    let speed = wind.dot(aft).hypot(wind.dot(now.1.normal[strip.panels[0]]));
+    0.5 * PI.sqrt() * speed * c * (a + a.sin())
+}
+
+/// The wind that stream and motion make at the quarter chord of a strip, whose leading edge is at `middle` [m, m/s]: that of
+/// its control points, which is linear along a rigid section.
+fn quarter_chord_wind(
+    (lattice, panels, time): (&Lattice, &Panels, f64),
+    strip: &Strip,
+    (middle, aft, c): (DVec3, DVec3, f64),
+) -> DVec3 {
+    let ends = [strip.panels[0], strip.panels[strip.panels.len() - 1]];
+    let place = ends.map(|p| (panels.point[p] - middle).dot(aft));
+    let wind = ends.map(|p| lattice.stream(panels.point[p], time) - panels.velocity[p]);
+    let way = place[1] - place[0];
+    match way > 0.0 {
+        true => wind[0].lerp(wind[1], (0.25 * c - place[0]) / way),
+        false => wind[0],
+    }
+}
+
+/// What leaves the strips whose edges may shed.
+#[derive(Default)]
+pub(crate) struct Release {
+    /// Net circulation of each, counted with what the lattice does not see, if nothing leaves; and by what leaves, row by row.
+    pub net: Vec<f64>,
+    pub by_leaving: Vec<f64>,
+    /// What each may have [m2/s].
+    pub most: Vec<f64>,
+    /// What leaves, and what each has then.
+    pub leaving: Vec<f64>,
+    pub held: Vec<f64>,
+    /// Sign of the suction of strips from which something leaves, else zero.
+    sign: Vec<f64>,
+    rows: Vec<f64>,
+    lu: DenseLu,
+}
+
+impl Release {
+    /// Whether any strip has more than it may have if nothing leaves.
+    pub fn is_due(&self) -> bool {
+        let mut both = self.net.iter().zip(&self.most);
+        both.any(|(net, most)| net.abs() > *most)
+    }
+
+    /// Nothing leaves.
+    pub fn none(&mut self) {
+        self.leaving.clear();
+        self.leaving.resize(self.net.len(), 0.0);
+        self.held.clone_from(&self.net);
+    }
+
+    /// Finds what leaves: strips that have too much begin to shed, strips that would take back cease.
+    ///
+    /// # Errors
+    /// The equations of the strips that shed have no unique solution.
+    pub fn settle(&mut self, step: u64) -> Result<(), AirError> {
+        self.none();
+        self.sign.clear();
+        self.sign.resize(self.net.len(), 0.0);
+        for round in 0..ALL_AT_ONCE + 4 * self.net.len() {
+            if !self.change(round >= ALL_AT_ONCE) {
+                break;
+            }
+            self.solve()
+                .map_err(|source| AirError::Singular { step, source })?;
+        }
+        Ok(())
+    }
+
+    /// Changes which strips shed, only the first that is wrong if `one`; says whether any was wrong.
+    fn change(&mut self, one: bool) -> bool {
+        let mut any = false;
+        for j in 0..self.net.len() {
+            let sign = self.sign[j];
+            let right = match sign == 0.0 {
+                true if self.held[j].abs() > self.most[j] => self.held[j].signum(),
+                false if self.leaving[j] * sign < 0.0 => 0.0,
+                _ => sign,
+            };
+            if right != sign {
+                (self.sign[j], any) = (right, true);
+                if one {
+                    break;
+                }
+            }
+        }
+        any
+    }
+
+    /// What leaves the strips that shed, so that each has what it may have.
+    fn solve(&mut self) -> Result<(), wingbeat_math::LuError> {
+        let n = self.net.len();
+        if self.lu.order() != n {
+            self.lu = DenseLu::new(n);
+        }
+        self.rows.clone_from(&self.by_leaving);
+        for j in 0..n {
+            match self.sign[j] == 0.0 {
+                true => {
+                    self.rows[j * n..(j + 1) * n].fill(0.0);
+                    self.rows[j * n + j] = 1.0;
+                    self.leaving[j] = 0.0;
+                }
+                false => self.leaving[j] = self.sign[j] * self.most[j] - self.net[j],
+            }
+        }
+        self.lu.factor(&self.rows)?;
+        self.lu.solve_in_place(&mut self.leaving);
+        for j in 0..n {
+            let row = &self.by_leaving[j * n..(j + 1) * n];
+            let more: f64 = row.iter().zip(&self.leaving).map(|(m, x)| m * x).sum();
+            self.held[j] = match self.sign[j] == 0.0 {
+                true => self.net[j] + more,
+                false => self.sign[j] * self.most[j],
+            };
+        }
+        Ok(())
+    }
+}
+
+/// What leading edges may have of the suction parameter, if what leaves them is part of the solution.
+pub(crate) fn threshold(lattice: &Lattice) -> Option<f64> {
+    match lattice.settings().leading {
+        LeadingEdge::SuctionImplicit { threshold, .. } => Some(threshold),
+        _ => None,
+    }
+}
