@@ -47,13 +47,13 @@ impl BoundaryCondition {
             list.resize(count, 0.0);
         }
         filaments.set_bound(lattice, now.state, [gamma, leaving]);
-        let is_new = self.wake_velocity(now, filaments, sums);
+        self.wake_velocity(now, filaments, sums);
         self.right_side(now, gamma);
         self.influence.assemble(now, filaments);
         let found = &mut gamma[..self.points.len()];
         self.influence.solve(lattice, now.state, found)?;
         let near = NEAR * now.panels.size();
-        let wakes = FreeWakes { sums, is_new, near };
+        let wakes = FreeWakes { sums, near };
         let (influence, found) = (&mut self.influence, (found, &mut leaving[..]));
         (self.leading_edges).settle(now, (filaments, wakes), influence, found)?;
         (self.influence).spread(lattice, gamma, &mut self.net_flux_residual);
@@ -61,8 +61,8 @@ impl BoundaryCondition {
     }
 
     /// Velocity at the control points of the wakes alone. Their near parts and their share of the
-    /// shedding edges come from the filaments with no circulation on the panels. Says whether the free wakes are new.
-    fn wake_velocity(&mut self, now: Instant, filaments: &Filaments, sums: &mut Sums) -> bool {
+    /// shedding edges come from the filaments with no circulation on the panels.
+    fn wake_velocity(&mut self, now: Instant, filaments: &Filaments, sums: &mut Sums) {
         let (lattice, panels) = (now.lattice, now.panels);
         let (settings, mirrors) = (lattice.settings(), lattice.mirrors());
         self.points.clear();
@@ -75,7 +75,6 @@ impl BoundaryCondition {
         self.near_velocity.reset(points.len());
         sums.load_attached(settings, filaments);
         sums.add_attached(points, mirrors, &mut self.near_velocity);
-        is_new
     }
 
     /// The normal velocities that the rings have to make.

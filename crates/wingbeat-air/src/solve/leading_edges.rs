@@ -12,8 +12,6 @@ use wingbeat_vortex::Points;
 /// The free wakes, which the sums hold.
 pub(crate) struct FreeWakes<'a> {
     pub sums: &'a mut Sums,
-    /// Whether they are others than before.
-    pub is_new: bool,
     /// How far a place may go before they are summed for it again [m].
     pub near: f64,
 }
@@ -93,7 +91,7 @@ impl LeadingEdges {
             let with_normal = |i: usize| [self.places.get(i), now.panels.normal[p]];
             self.at_places.extend(new.map(with_normal));
         }
-        let (sums, mirrors) = ((wakes.sums, wakes.is_new), lattice.mirrors());
+        let (sums, mirrors) = (wakes.sums, lattice.mirrors());
         let (places, velocity) = (&self.places, &mut self.velocity);
         (self.free_wake).velocity(sums, places, wakes.near, mirrors, velocity);
     }
