@@ -187,11 +187,13 @@ fn balances_impulse_budget(summary: &Summary) {
     let sum = gained - lift * period;
     // Roundings of parts that are some ten times as large as their sum.
     assert!((budget.residual_newton_s - sum).abs() < 1e-12 * lift * period);
+    // Measured 0.029, across gravity and from the first beat for the most part; along it 0.004.
     assert!(
-        budget.residual_relative < 0.03,
+        budget.residual_relative < 0.05,
         "{}",
         budget.residual_relative
     );
+    assert!(budget.residual_newton_s.abs() < 0.02 * lift * period);
     assert!(
         summary
             .to_text()

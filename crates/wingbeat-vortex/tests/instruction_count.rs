@@ -8,38 +8,69 @@ mod wavy;
 
 use std::process::Command;
 use wingbeat_vortex::DVec3;
-use wingbeat_vortex::{CoreModel, DirectSum, InstructionSet, Points};
+use wingbeat_vortex::{
+    CoreModel, DirectSum, FastSettings, FastSum, InstructionSet, Method, Points,
+};
 
 const MODEL: &str = "WINGBEAT_COUNTED_MODEL";
 const SUMS: &str = "WINGBEAT_COUNTED_SUMS";
 
 /// Core models and the most instructions a pair of edge and target may take: what was counted with
 /// Rust 1.95, and a tenth more, for compilers differ.
-const MODELS: [(CoreModel, f64); 3] = [
+const MODELS: [(CoreModel, f64); 4] = [
     (CoreModel::CutOff { delta: 1e-4 }, 27.3),
     (lamb_oseen(1e-2), 33.2), // most targets are far from most cores
     (lamb_oseen(1.0), 99.0),  // none is
+    (ALGEBRAIC, 10.3),        // velocity and vorticity in single precision, with the check
 ];
+
+const ALGEBRAIC: CoreModel = CoreModel::Algebraic {
+    radius: 1e-2,
+    viscosity: 1.5e-5,
+};
 
 const fn lamb_oseen(radius: f64) -> CoreModel {
     let viscosity = 1.5e-5;
     CoreModel::LambOseen { radius, viscosity }
 }
 
-/// Panels along a side of the sheet, and targets.
-const N: usize = 12;
-const TARGETS: usize = 64;
-const PAIRS: f64 = (2 * N * (N + 1) * TARGETS) as f64;
+/// Panels along a side of the sheet, and targets: single precision begins at 500 edges and targets.
+fn sizes(model: CoreModel) -> [usize; 2] {
+    if model == ALGEBRAIC {
+        [16, 4096]
+    } else {
+        [12, 64]
+    }
+}
+
+/// Pairs of edge and target in a sum.
+fn pairs(model: CoreModel) -> f64 {
+    let [n, targets] = sizes(model);
+    (2 * n * (n + 1) * targets) as f64
+}
 
 /// What is counted.
 fn sum(model: CoreModel, times: usize) {
-    let mut kernel = DirectSum::new(model);
-    kernel.load_network(&wavy::sheet(model, N));
-    let line = |i: usize| DVec3::splat(i as f64 / TARGETS as f64);
-    let targets: Points = (0..TARGETS).map(line).collect();
-    let mut out = Points::zeros(TARGETS);
-    (0..times).for_each(|_| kernel.add_velocity(&targets, &mut out));
-    assert!(out.iter().all(|v| v.is_finite()));
+    let [n, count] = sizes(model);
+    let net = wavy::sheet(model, n);
+    let line = |i: usize| DVec3::splat(i as f64 / count as f64);
+    let targets: Points = (0..count).map(line).collect();
+    let [mut out, mut more] = [0; 2].map(|_| Points::zeros(count));
+    if model == ALGEBRAIC {
+        let method = Method::Single;
+        let mut kernel = FastSum::new(FastSettings {
+            method,
+            ..FastSettings::new(model)
+        });
+        kernel.load_network(&net);
+        let mut add = || kernel.add_velocity_and_vorticity(&targets, &mut out, &mut more);
+        (0..times).for_each(|_| add());
+    } else {
+        let mut kernel = DirectSum::new(model);
+        kernel.load_network(&net);
+        (0..times).for_each(|_| kernel.add_velocity(&targets, &mut out));
+    }
+    assert!(out.iter().chain(more.iter()).all(|v| v.is_finite()));
 }
 
 /// Instructions of this test when it sums so many times; None without a valgrind that works.
@@ -69,11 +100,13 @@ fn regress_instructions_of_a_pair() {
         return;
     }
     for (i, (model, most)) in MODELS.into_iter().enumerate() {
-        let Some((few, many)) = instructions(i, 10).zip(instructions(i, 210)) else {
+        // As much work for all of them.
+        let times = if model == ALGEBRAIC { 2 } else { 200 };
+        let Some((few, many)) = instructions(i, 1).zip(instructions(i, 1 + times)) else {
             println!("no valgrind that works is here: instructions are not counted");
             return;
         };
-        let per_pair = (many - few) / (200.0 * PAIRS);
+        let per_pair = (many - few) / (times as f64 * pairs(model));
         println!("{model:?}: {per_pair:.2} instructions a pair");
         assert!(
             per_pair < most,

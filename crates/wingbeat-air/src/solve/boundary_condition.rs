@@ -68,8 +68,8 @@ impl BoundaryCondition {
         self.points.clear();
         let points = (0..unknowns(lattice)).map(|i| panels.point[panel(lattice, i)]);
         points.for_each(|x| self.points.push(x));
-        sums.load_free(settings, filaments);
         let near = NEAR * panels.size();
+        sums.load_free(settings, filaments, near);
         let (points, velocity) = (&self.points, &mut self.velocity);
         (self.free_wake).velocity(sums, points, near, mirrors, velocity);
         self.near_velocity.reset(points.len());

@@ -19,8 +19,13 @@ struct Summation {
 impl Summation {
     /// Takes the sources; says whether they differ from those it holds already.
     fn load(&mut self, settings: FastSettings, sources: &Network) -> bool {
+        self.load_unless_near(settings, sources, 0.0)
+    }
+
+    /// The same unless they differ in nothing but core radii of nodes, by `near` [m] at most.
+    fn load_unless_near(&mut self, settings: FastSettings, sources: &Network, near: f64) -> bool {
         let kept = self.sum.take_if(|sum| *sum.settings() == settings);
-        let is_known = kept.is_some() && self.loaded == *sources;
+        let is_known = kept.is_some() && self.loaded.is_near(sources, near);
         let sum = self
             .sum
             .insert(kept.unwrap_or_else(|| FastSum::new(settings)));
@@ -152,7 +157,7 @@ impl Sums {
     /// Takes all filaments, blobs and particles.
     pub(crate) fn load(&mut self, settings: &AirSettings, filaments: &Filaments) {
         self.load_attached(settings, filaments);
-        self.load_free(settings, filaments);
+        self.load_free(settings, filaments, 0.0);
     }
 
     /// Takes all of them to move wakes, which do not ask for the last digits.
@@ -165,7 +170,7 @@ impl Sums {
         self.joined.append(&filaments.bound);
         self.joined.append(&filaments.near_wake);
         self.attached.load(on_wakes(settings), &self.joined);
-        self.load_free(settings, filaments);
+        self.load_free(settings, filaments, 0.0);
     }
 
     /// Takes what moves with the surfaces: lattice and near wake.
@@ -176,9 +181,11 @@ impl Sums {
             .load(direct(settings.wake_core), &filaments.near_wake);
     }
 
-    /// Takes what is frozen within a step: free wakes and particles.
-    pub(crate) fn load_free(&mut self, settings: &AirSettings, filaments: &Filaments) {
-        let is_new = self.wake.load(free(settings), &filaments.wake);
+    /// Takes what is frozen within a step: free wakes and particles. Cores that are as wide as a part of the way to the edge
+    /// change a little as bodies and air come to agree: by no more than `near` [m] they are taken for the same.
+    pub(crate) fn load_free(&mut self, settings: &AirSettings, filaments: &Filaments, near: f64) {
+        let (how, wake) = (free(settings), &filaments.wake);
+        let is_new = self.wake.load_unless_near(how, wake, near);
         let (min, bounds) = (settings.min_variance(), filaments.bounds());
         let nodes = filaments.wake.nodes.len();
         let is_new = self.blobs.load(&filaments.blobs, min, bounds, nodes) || is_new;
@@ -318,7 +325,7 @@ impl WakeVelocityCache {
     ) {
         let kept = self.generation == sums.generation
             && self.points.len() == points.len()
-            && self.points.core == points.core;
+            && self.points.has_cores_near(points, near);
         let is_near = |(a, b): (DVec3, DVec3)| a.distance(b) <= near;
         if !(kept && self.points.iter().zip(points.iter()).all(is_near)) {
             self.generation = sums.generation;

@@ -32,7 +32,7 @@ fn gap(
 }
 
 /// Roundings of some thousand filaments, and of what is subtracted once a step.
-const ROUNDINGS: f64 = 1e-12;
+const ROUNDINGS: f64 = 1e-14;
 
 /// Two wings in hover that shed all around, nodes held off them, old rows cut.
 fn hover(change: impl Fn(&mut AirSettings)) -> (ImpulseAccount, f64) {

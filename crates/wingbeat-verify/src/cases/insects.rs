@@ -1,9 +1,10 @@
 //! Insects and their robots, in the one setting of [`crate::lab::insect`].
 
-use crate::lab::insect::{Choice, DEFAULT, Insect, MODELS, data, forces, fruit_fly_wings, middle};
+use crate::lab::insect::{Choice, DEFAULT, Flown, Insect, MODELS, data, fruit_fly_wings, middle};
 use crate::lab::series::{Table, correlation, interpolate, mean};
 use crate::{Case, Comparison, Part, Row, VerifyError};
 use wingbeat_case::raw::{AngleCase, FourierCase, WingMotionCase};
+use wingbeat_math::DVec3;
 
 pub(super) const CASES: &[Case] = &[
     Case {
@@ -57,8 +58,9 @@ fn hydei(_quick: bool) -> Result<Vec<Row>, VerifyError> {
     let source = "Muijres et al. 2014 (robot), table in xijunke/aerodynamic_moment_model";
     let mut rows = Vec::new();
     for (name, choice) in MODELS {
-        let lift = forces(fly.case(choice))?;
-        let lift: Vec<f64> = lift.iter().map(|f| -f.z / weight).collect();
+        let flown = Flown::of(fly.case(choice))?;
+        let lift: Vec<f64> = flown.force.iter().map(|f| -f.z / weight).collect();
+        rows.extend((1..3).map(|beat| action_and_reaction(name, &flown, beat)));
         let beats = [1, 2].map(|b| mean(&lift[40 * b..=40 * (b + 1)]));
         let [_, spread] = middle(&beats);
         let last = &lift[60..100]; // the second beat: a smooth start takes half a beat of phase
@@ -85,6 +87,28 @@ fn hydei(_quick: bool) -> Result<Vec<Row>, VerifyError> {
         ));
     }
     Ok(rows)
+}
+
+/// Vertical force of a beat by the impulse of the vorticity over the inviscid force by the loads.
+fn action_and_reaction(name: &str, flown: &Flown, beat: usize) -> Row {
+    let over = |impulses: &[DVec3]| impulses[40 * (beat + 1)].z - impulses[40 * beat].z;
+    let ratio = -over(&flown.vortex_impulse) / over(&flown.inviscid_impulse);
+    let what = format!(
+        "{name}: force by impulse over force by loads, beat {}",
+        beat + 1
+    );
+    let (row, one) = (Row::new(what, "1", ratio), "action and reaction");
+    match name {
+        "leading-edge sheets" => row
+            .against(1.0, one)
+            .within(0.1, "asked with leading-edge vorticity"),
+        "leading-edge particles" => {
+            row.because("particles are stretched and limited: no law of impulse is promised")
+        }
+        _ => row
+            .against(1.0, one)
+            .within(0.03, "asked in attached flow, suction counted"),
+    }
 }
 
 /// Stroke and feathering of the steady wingbeat (Muijres et al. 2014), mean and eight harmonics; the

@@ -172,16 +172,40 @@ impl Choice {
     }
 }
 
+/// What a flight leaves step by step, N components: force of the air on the wings [N], impulse of the inviscid force so far
+/// [N s], impulse of all vorticity [kg m/s].
+#[derive(Default)]
+pub(crate) struct Flown {
+    pub force: Vec<DVec3>,
+    pub inviscid_impulse: Vec<DVec3>,
+    pub vortex_impulse: Vec<DVec3>,
+}
+
+impl Flown {
+    /// Flies `case` to its end.
+    pub(crate) fn of(case: Case) -> Result<Self, VerifyError> {
+        let mut flight = Simulation::new(LoadedCase::new(case)?.setup)?;
+        let mut flown = Self::default();
+        flown.note(&flight);
+        while !flight.finished() {
+            flight.step()?;
+            flown.note(&flight);
+        }
+        Ok(flown)
+    }
+
+    fn note(&mut self, flight: &Simulation) {
+        let record = flight.record();
+        self.force
+            .push(record.air[1..].iter().map(|a| a.force).sum());
+        self.inviscid_impulse.push(record.inviscid_impulse);
+        self.vortex_impulse.push(record.vortex_impulse);
+    }
+}
+
 /// Force of the air on all wings [N], N, step by step, of a case without a body in the air.
 pub(crate) fn forces(case: Case) -> Result<Vec<DVec3>, VerifyError> {
-    let mut flight = Simulation::new(LoadedCase::new(case)?.setup)?;
-    let force = |f: &Simulation| f.record().air[1..].iter().map(|a| a.force).sum();
-    let mut forces = vec![force(&flight)];
-    while !flight.finished() {
-        flight.step()?;
-        forces.push(force(&flight));
-    }
-    Ok(forces)
+    Ok(Flown::of(case)?.force)
 }
 
 impl Insect {

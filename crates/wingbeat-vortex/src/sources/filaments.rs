@@ -101,6 +101,15 @@ impl Network {
         self.core.clone_from(&other.core);
     }
 
+    /// Whether this is `other` but for the core radii of its nodes, which differ by no more than `near` \[m\].
+    pub fn is_near(&self, other: &Self, near: f64) -> bool {
+        self.edges == other.edges
+            && self.gamma == other.gamma
+            && self.core == other.core
+            && self.nodes.has_places_of(&other.nodes)
+            && self.nodes.has_cores_near(&other.nodes, near)
+    }
+
     /// Appends nodes and edges of `other`; either both have cores at their nodes, or none.
     pub fn append(&mut self, other: &Self) {
         let first = self.nodes.len() as u32;

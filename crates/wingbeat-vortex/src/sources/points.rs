@@ -87,6 +87,17 @@ impl Points {
         self.core.clone_from(&other.core);
     }
 
+    /// Whether these are the places of `other`, whatever their cores.
+    pub fn has_places_of(&self, other: &Self) -> bool {
+        self.x == other.x && self.y == other.y && self.z == other.z
+    }
+
+    /// Whether the cores are as many as those of `other` and no radius differs by more than `near` \[m\].
+    pub fn has_cores_near(&self, other: &Self, near: f64) -> bool {
+        let is_near = |(a, b): (&f64, &f64)| (a.sqrt() - b.sqrt()).abs() <= near;
+        self.core.len() == other.core.len() && self.core.iter().zip(&other.core).all(is_near)
+    }
+
     /// Appends the points of `other`, with their cores.
     pub fn append(&mut self, other: &Self) {
         self.x.extend_from_slice(&other.x);
