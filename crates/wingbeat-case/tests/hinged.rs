@@ -1,7 +1,7 @@
 //! Wings on passive hinges in the lattice: the air that they carry along weighs more than they do.
 
 use wingbeat_case::LoadedCase;
-use wingbeat_flight::{Record, Simulation};
+use wingbeat_flight::{FlightSetup, Record, Simulation};
 
 /// Few panels: what is looked at here does not hang on them.
 const COARSE: [&str; 3] = [
@@ -10,11 +10,15 @@ const COARSE: [&str; 3] = [
     "air.mirror=false",
 ];
 
-/// Records of the robot with passive hinges.
-fn robot(set: &[&str]) -> Vec<Record> {
+/// The robot with passive hinges.
+fn setup(set: &[&str]) -> FlightSetup {
     let all: Vec<String> = COARSE.iter().chain(set).map(|s| (*s).to_owned()).collect();
-    let case = LoadedCase::find("robobee", &all).expect("a case");
-    let mut flight = Simulation::new(case.setup).expect("a start");
+    LoadedCase::find("robobee", &all).expect("a case").setup
+}
+
+/// Its records.
+fn robot(set: &[&str]) -> Vec<Record> {
+    let mut flight = Simulation::new(setup(set)).expect("a start");
     let mut records = vec![flight.record().clone()];
     while !flight.finished() {
         let step = flight.step().unwrap_or_else(|e| panic!("{set:?}: {e}"));
@@ -90,5 +94,25 @@ fn limit_a_wing_of_a_hundredth_of_the_mass_flies() {
             .map(|r| r.joints[1][0].abs())
             .fold(0.0, f64::max);
         assert!((0.3..1.5).contains(&largest), "{largest} rad");
+    }
+}
+
+/// What is remembered of the wings is part of the state.
+#[test]
+fn exact_flights_on_passive_hinges_go_on_bit_for_bit() {
+    let setup = setup(&["time.beats=0.2", "flight.held_beats=0.05"]);
+    let mut whole = Simulation::new(setup.clone()).expect("a start");
+    let mut states = vec![whole.state().clone()];
+    while !whole.finished() {
+        whole.step().expect("a step");
+        states.push(whole.state().clone());
+    }
+    for state in &states[..states.len() - 1] {
+        let step = state.step;
+        let mut again = Simulation::resume(setup.clone(), state.clone()).expect("a state");
+        while !again.finished() {
+            again.step().expect("a step");
+        }
+        assert!(again.state() == whole.state(), "from step {step}");
     }
 }

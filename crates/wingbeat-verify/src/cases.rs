@@ -6,6 +6,8 @@ mod benchmark;
 mod bodies;
 mod conservation;
 mod dragonflies;
+mod feathering;
+mod hinges;
 mod hover;
 mod insects;
 mod invariance;
@@ -49,6 +51,8 @@ pub fn suite() -> Vec<Case> {
         insects::CASES,
         dragonflies::CASES,
         anax::CASES,
+        hinges::CASES,
+        feathering::CASES,
         hover::CASES,
     ]
     .concat()

@@ -1,5 +1,6 @@
 //! Wings, motions and the stepping that the cases share.
 
+pub(crate) mod hinged;
 pub(crate) mod insect;
 pub mod outline;
 pub(crate) mod rig;
