@@ -169,6 +169,7 @@ const LISTED: &[(&str, &str)] = &[
         "CourseCase",
         "[[wing.right.deformation.twist]]\nlinear_deg = [0, 1]\n[wing.right.deformation.twist.fourier]\n",
     ),
+    ("BeamMassCase", "[[wing.right.structure.beam.mass]]\n"),
     ("ElementCase", "[[joint.waist.element]]\n"),
     (
         "StopCase",

@@ -6,12 +6,15 @@ mod benchmark;
 mod bodies;
 mod conservation;
 mod dragonflies;
+mod goland;
+mod heathcote;
 mod hover;
 mod insects;
 mod invariance;
 mod kernel;
 mod onset;
 mod particles;
+mod pazy;
 mod peer;
 mod plates;
 mod ramp;
@@ -41,6 +44,9 @@ pub fn suite() -> Vec<Case> {
         peer::CASES,
         yeo::CASES,
         onset::CASES,
+        goland::CASES,
+        pazy::CASES,
+        heathcote::CASES,
         scherer::CASES,
         ramp::CASES,
         baik::CASES,

@@ -23,6 +23,15 @@ pub enum VerifyError {
     /// The flight refused.
     #[error("{0}")]
     Flight(#[from] wingbeat_flight::FlightError),
+    /// The analysis refused.
+    #[error("{0}")]
+    Analysis(#[from] wingbeat_analysis::AnalysisError),
+    /// The elastic body refused.
+    #[error("{0}")]
+    Structure(#[from] wingbeat_structure::StructureError),
+    /// The wing refused.
+    #[error("{0}")]
+    Model(#[from] wingbeat_model::ModelError),
     /// The case file was refused.
     #[error("{0}")]
     Case(#[from] wingbeat_case::IoError),
