@@ -98,7 +98,7 @@ fn measured(quantity: &str, plate: &str) -> [Vec<f64>; 2] {
 
 const SOURCE: &str = "Heathcote & Gursul 2007, AIAA J. 45:1066 (S. Heathcote's thesis, fig. 5.13)";
 const THRUST: &str = "Heathcote & Gursul 2007, AIAA J. 45:1066 (S. Heathcote's thesis, fig. 5.6)";
-const BAND: &str = "10 %, stated beforehand; uncertainty: change by 18 panels and 90 steps a beat. At Strouhal numbers of 0.27 the two plates differ by 2.6 as measured; \
+const BAND: &str = "10 %, stated beforehand; uncertainty: change by 18 panels and 90 steps a beat at the middle Strouhal number. At Strouhal numbers of 0.27 the two plates differ by 2.6 as measured; \
                     plates of these thicknesses differ by 4.6 in any air, their bending being small";
 const DIFFERENCE: &str = "20 %, stated beforehand; no friction. The rigid foil is the plate of 4.23e-3, measured \
                           values between points by straight lines";
