@@ -171,6 +171,7 @@ const LISTED: &[(&str, &str)] = &[
     ),
     ("VeinCase", "[[wing.right.structure.vein]]\n"),
     ("RegionCase", "[[wing.right.structure.region]]\n"),
+    ("BeamMassCase", "[[wing.right.structure.beam.mass]]\n"),
     ("ElementCase", "[[joint.waist.element]]\n"),
     (
         "StopCase",

@@ -7,6 +7,8 @@ mod bodies;
 mod conservation;
 mod dragonflies;
 mod feathering;
+mod goland;
+mod heathcote;
 mod hinges;
 mod hover;
 mod insects;
@@ -14,6 +16,7 @@ mod invariance;
 mod kernel;
 mod onset;
 mod particles;
+mod pazy;
 mod peer;
 mod plates;
 mod ramp;
@@ -43,6 +46,9 @@ pub fn suite() -> Vec<Case> {
         peer::CASES,
         yeo::CASES,
         onset::CASES,
+        goland::CASES,
+        pazy::CASES,
+        heathcote::CASES,
         scherer::CASES,
         ramp::CASES,
         baik::CASES,

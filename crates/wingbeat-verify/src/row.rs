@@ -23,6 +23,15 @@ pub enum VerifyError {
     /// The flight refused.
     #[error("{0}")]
     Flight(#[from] wingbeat_flight::FlightError),
+    /// The analysis refused.
+    #[error("{0}")]
+    Analysis(#[from] wingbeat_analysis::AnalysisError),
+    /// The elastic body refused.
+    #[error("{0}")]
+    Structure(#[from] wingbeat_structure::StructureError),
+    /// The wing refused.
+    #[error("{0}")]
+    Model(#[from] wingbeat_model::ModelError),
     /// The case file was refused.
     #[error("{0}")]
     Case(#[from] wingbeat_case::IoError),
@@ -40,7 +49,7 @@ pub struct Row {
     /// Where the reference comes from.
     pub source: Cow<'static, str>,
     /// Ours, in [`Self::unit`].
-    #[serde(alias = "ours")]
+    #[serde(alias = "ours", deserialize_with = "number")]
     pub computed: f64,
     /// Half-width of our own uncertainty, from refinement, in [`Self::unit`]; none for exact statements.
     pub uncertainty: Option<f64>,
@@ -92,6 +101,12 @@ impl Comparison {
         let squares = self.points.iter().map(|p| (p[2] - p[1]).powi(2));
         (squares.sum::<f64>() / self.points.len() as f64).sqrt()
     }
+}
+
+/// A number; what JSON has no number for is written as null.
+fn number<'de, D: serde::Deserializer<'de>>(from: D) -> Result<f64, D::Error> {
+    let read: Option<f64> = serde::Deserialize::deserialize(from)?;
+    Ok(read.unwrap_or(f64::NAN))
 }
 
 impl Row {
@@ -174,6 +189,9 @@ mod tests {
         assert_eq!(row.clone().within(0.03, "").verdict(), Verdict::Pass);
         assert_eq!(row.within_part(0.01, "").verdict(), Verdict::Fail);
         let lost = Row::new("x", "1", f64::NAN).within(1.0, "");
+        let text = serde_json::to_string(&lost).unwrap();
+        let read: Row = serde_json::from_str(&text).unwrap();
+        assert_eq!(read.verdict(), Verdict::Fail, "nor after it was written");
         assert_eq!(lost.verdict(), Verdict::Fail, "not a number never passes");
     }
 }

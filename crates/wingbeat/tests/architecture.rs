@@ -93,7 +93,16 @@ fn invariant_dependency_graph_is_the_architecture() {
         ),
         (
             "wingbeat-verify",
-            vec!["math", "model", "vortex", "air", "flight", "case"],
+            vec![
+                "math",
+                "structure",
+                "model",
+                "vortex",
+                "air",
+                "flight",
+                "analysis",
+                "case",
+            ],
         ),
     ];
     for (name, allowed) in expect {

@@ -215,6 +215,28 @@ fn order_energy_of_elastic_wings_closes_at_second_order() {
 }
 
 #[test]
+fn order_energy_of_a_beat_with_air_closes_at_second_order() {
+    // What is missing at the end of the beat over the work of the hinge in it.
+    let residual = |steps: usize| {
+        let steps = format!("time.steps_per_beat={steps}");
+        let set = strings(&[
+            "time.beats=1",
+            "air.stream_m_s=[-4,0,0]",
+            "wing.right.structure.spectral_radius=1",
+            &steps,
+        ]);
+        let records = fly(&[&strings(&LATTICE)[..], &set, &beam(2e-3)].concat());
+        let last = &records[records.len() - 1];
+        last.energy_residual / last.hinge_work
+    };
+    let (coarse, fine) = (residual(80), residual(160));
+    let ratio = coarse / fine;
+    // 2.0e-5 and 4.9e-6; 1e-6 from some 360 steps a beat on (docs/flexible-wings.md).
+    assert!((3.5..4.6).contains(&ratio), "{coarse:e} {fine:e}");
+    assert!(fine.abs() < 7e-6, "{fine:e}");
+}
+
+#[test]
 fn balances_shape_and_loads_within_ten_passes_in_water() {
     // Mass of the wing over that of the water about it, m / (rho b c^2): 0.004.
     let water = strings(&["air.density_kg_m3=1000"]);
@@ -224,7 +246,7 @@ fn balances_shape_and_loads_within_ten_passes_in_water() {
     let light = strings(&["air.density_kg_m3=42"]);
     let set = [&strings(&LATTICE)[..], &light, &beam(2e-2)].concat();
     let passes = fly(&set).iter().map(|r| r.elastic[0].passes).max().unwrap();
-    assert!(passes <= 8, "{passes}");
+    assert!(passes <= 6, "{passes}");
 }
 
 #[test]
@@ -368,4 +390,45 @@ fn refuses_what_knows_no_elastic_wings() {
     ] {
         assert!(header.split(',').any(|c| c == column), "{header}");
     }
+}
+
+/// Amplitude of the pitch \[deg\] of the plunging foil of the report, b/c 0.85e-3 at 1.1866 Hz, that moves by a hundredth of what it
+/// moves there.
+fn small_plunge(rows: usize) -> f64 {
+    let (frequency, steps, beats) = (1.1866, 60, 2);
+    // Flow of small motions does not separate.
+    let text = include_str!("../../wingbeat-verify/data/heathcote-gursul.toml");
+    let lines = text.lines().filter(|l| !l.starts_with("leading_edge"));
+    let text = lines.collect::<Vec<_>>().join("\n");
+    let text = text.replace("\"trailing\", \"leading\"", "\"trailing\"");
+    let set = [
+        format!("flight.tether.z.frequency_hz={frequency}"),
+        "flight.tether.z.cosine_m=[1.75e-4]".into(),
+        format!("time.step_s={}", 1.0 / (frequency * f64::from(steps))),
+        format!("time.steps={}", steps * beats),
+        format!("wing.right.mesh.chordwise={rows}"),
+    ];
+    let case = LoadedCase::from_text("plunge", &text, Path::new("."), &set).unwrap();
+    let mut flight = Simulation::new(case.setup).unwrap();
+    let (mut cosine, mut sine) = (0.0, 0.0);
+    for k in 1..=steps * beats {
+        let twist = flight.step().unwrap().elastic[0].twist.to_degrees();
+        if k > steps * (beats - 1) {
+            let (s, c) = (std::f64::consts::TAU * f64::from(k) / f64::from(steps)).sin_cos();
+            cosine += twist * c * 2.0 / f64::from(steps);
+            sine += twist * s * 2.0 / f64::from(steps);
+        }
+    }
+    cosine.hypot(sine)
+}
+
+#[test]
+fn agrees_pitch_of_a_plate_in_water_with_linear_theory() {
+    // Thin-airfoil theory with Euler and Bernoulli's beam, scripts/plunging-plate.py: 8.8968 deg for a hundred times the heave. The plate has
+    // a mass of 0.6 kg/m2, the water about it some 70.
+    let error = |rows: usize| small_plunge(rows) / 8.8968e-2 - 1.0;
+    let (coarse, fine) = (error(12), error(24));
+    // 12 and 5 % on these meshes: the load at the trailing edge, where the lever is longest, is of first order in the panels.
+    assert!((0.0..0.15).contains(&coarse), "{coarse}");
+    assert!((0.0..0.6 * coarse).contains(&fine), "{coarse} {fine}");
 }

@@ -23,7 +23,7 @@ pub struct WingBeam {
     pub axis_fraction: f64,
     /// Elements along the span.
     pub elements: usize,
-    /// r/R of the nodes from root to tip; none: at equal distances.
+    /// r/R of the nodes from root to tip \[1\]; none: at equal distances.
     pub stations: Option<Vec<f64>>,
     /// EI against bending out of the plane of the wing \[N m2\], over r/R.
     pub flap: SpanLaw,
