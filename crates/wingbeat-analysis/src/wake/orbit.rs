@@ -12,8 +12,8 @@ use crate::AnalysisError;
 use crate::beat::check_steady;
 
 /// Change of places over the wing length, of attitudes \[rad\], and of velocities over wing length and wingbeat, within which
-/// wings count as back: some ten times what a step leaves unbalanced.
-const BACK: f64 = 1e-9;
+/// wings count as back, over the residuals that count as trimmed; and some ten times what a step leaves unbalanced.
+const BACK: [f64; 2] = [1e-2, 1e-9];
 
 /// Beats within which they must be.
 const MAX_BEATS: usize = 60;
@@ -56,7 +56,8 @@ pub(super) struct PeriodicBeat {
     pub beats: usize,
 }
 
-/// The beat of `setup`, which is `steps` long, its wings sought from `wings` on, or from rest.
+/// The beat of `setup`, which is `steps` long, its wings sought from `wings` on, or from rest, for residuals within
+/// `tolerance`.
 ///
 /// # Errors
 /// What the flight reports; wings that do not come back.
@@ -64,8 +65,10 @@ pub(super) fn periodic_beat(
     setup: &FlightSetup,
     steps: usize,
     wings: Option<Vec<ElasticState>>,
+    tolerance: f64,
 ) -> Result<PeriodicBeat, AnalysisError> {
     let mut wings = wings;
+    let back = (BACK[0] * tolerance).max(BACK[1]);
     for beats in 1..=MAX_BEATS {
         let mut flight = match &wings {
             Some(wings) => Simulation::bent(setup.clone(), wings)?,
@@ -76,7 +79,7 @@ pub(super) fn periodic_beat(
             flight.step()?;
         }
         let after = flight.state().wings.clone();
-        if change(setup, &before, &after) <= BACK {
+        if change(setup, &before, &after) <= back {
             let ends = [first, flight.record().clone()];
             return Ok(PeriodicBeat {
                 ends,

@@ -291,7 +291,12 @@ impl Search<'_> {
             self.beats += self.settings.held_beats + 1;
             return Ok((free_beat(setup, self.steps, None)?, vec![]));
         }
-        let found = periodic_beat(setup, self.steps, self.wings.clone())?;
+        let found = periodic_beat(
+            setup,
+            self.steps,
+            self.wings.clone(),
+            self.settings.tolerance,
+        )?;
         let [at_start, at_end] = found.wings;
         self.wings = Some(at_end);
         self.beats += found.beats;

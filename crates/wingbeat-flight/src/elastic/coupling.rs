@@ -30,6 +30,8 @@ pub struct ElasticScratch {
     change: Vec<f64>,
     /// Whether the next instant is the first of another step.
     is_new: bool,
+    /// Whether the air has answered in this step.
+    has_answers: bool,
     /// Whether a step is under way; not at the start.
     pub(super) is_stepping: bool,
     /// Passes of the last coupling, the most of a coupling in this step, and what was left unbalanced \[1\].
@@ -158,7 +160,9 @@ impl ElasticWings {
         if !s.unbalanced.is_finite() {
             return Err(self.failed(at.time, s));
         }
-        if s.passes % RENEWAL == 1 {
+        // Answers at once, without a wake between, hardly change while bodies and wings are brought to agree.
+        let is_known = s.passes == 1 && s.has_answers && air.follows_accelerations();
+        if s.passes % RENEWAL == 1 && !is_known {
             self.take_answers(at, (air, memory), s, air_scratch)?;
         }
         Ok(false)
@@ -187,6 +191,7 @@ impl ElasticWings {
             return;
         }
         s.most = 0;
+        s.has_answers = false;
         for ((w, ws), state) in self.wings.iter().zip(&mut s.wings).zip(states) {
             let (structure, own) = (&w.structure, &state.structure);
             w.method.predict(structure, own, step, &mut ws.trial);
@@ -230,6 +235,7 @@ impl ElasticWings {
             }
             ws.is_stale = true;
         }
+        s.has_answers = true;
         Ok(())
     }
 

@@ -86,7 +86,11 @@ fn times(a: &[f64], b: &[f64], n: usize, width: usize, out: &mut Vec<f64>) {
     out.clear();
     out.resize(n * width, 0.0);
     for (row, to) in a.chunks_exact(n).zip(out.chunks_exact_mut(width)) {
-        for (x, from) in row.iter().zip(b.chunks_exact(width)) {
+        let felt = row
+            .iter()
+            .zip(b.chunks_exact(width))
+            .filter(|(x, _)| **x != 0.0);
+        for (x, from) in felt {
             to.iter_mut().zip(from).for_each(|(t, f)| *t += x * f);
         }
     }

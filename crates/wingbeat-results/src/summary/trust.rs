@@ -84,11 +84,11 @@ fn deformation_warnings(setup: &FlightSetup, list: &mut Warnings) {
 }
 
 /// A balance worse than it should be. Without a wake the motion is smooth and integrated to many
-/// digits; a wake's loads jump where it starts and where it is regularised. The momentum of a tethered
-/// animal, or of one held at first, follows from its prescribed motion and the support's reaction from that: it is as
+/// digits; a wake's loads jump where it starts and where it is regularised, and elastic wings are of second order in the
+/// step. The momentum of a tethered animal, or of one held at first, follows from its prescribed motion and the support's reaction from that: it is as
 /// open as the quadrature of that reaction, which says nothing of the motion.
 fn balance_warnings(setup: &FlightSetup, summary: &Summary, list: &mut Warnings) {
-    let energy = if setup.air.has_memory() { OPEN } else { 1e-6 };
+    let energy = if setup.has_memory() { OPEN } else { 1e-6 };
     let balances = [
         ("energy", summary.energy_residual_relative, energy),
         ("momentum", summary.momentum_residual_relative, 1e-6),
