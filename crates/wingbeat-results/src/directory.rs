@@ -34,7 +34,7 @@ const FIGURES: &str = "figures";
 /// Figures for papers, within the folder of figures.
 const PAPER: &str = "figures/paper";
 /// Figures by their names, the endings left out.
-pub const FIGURE_NAMES: [&str; 11] = [
+pub const FIGURE_NAMES: [&str; 12] = [
     "angles",
     "forces",
     "lollipop",
@@ -43,6 +43,7 @@ pub const FIGURE_NAMES: [&str; 11] = [
     "commands",
     "path",
     "phase",
+    "bending",
     "balances",
     "wake",
     "animation",
