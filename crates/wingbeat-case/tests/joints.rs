@@ -26,6 +26,13 @@ fn fly(name: &str, set: &[&str]) -> Vec<Record> {
     records
 }
 
+/// Whether loads bend its wings.
+fn is_elastic(name: &str) -> bool {
+    let case = LoadedCase::find(name, &[]).unwrap_or_else(|e| panic!("{e}"));
+    let mut wings = case.setup.animal.wings.iter();
+    wings.any(|w| w.structure.is_some())
+}
+
 /// Largest energy residual over the largest kinetic energy.
 fn balance(records: &[Record]) -> f64 {
     let most = |f: fn(&Record) -> f64| records.iter().map(f).fold(0.0, |a: f64, x| a.max(x.abs()));
@@ -48,7 +55,11 @@ const ARTICULATED: [(&str, usize, usize); 4] = [
 #[test]
 fn balances_energy_of_every_preset_alone() {
     for preset in presets::PRESETS {
-        // The integrator that a case without air has of its own.
+        // The integrator that a case without air has of its own; elastic wings remember their shape from step to step: their
+        // energy closes at second order, which has its own tests.
+        if is_elastic(preset.name) {
+            continue;
+        }
         let alone = [
             "air.model=none",
             "dynamics.integrator=order_eight",

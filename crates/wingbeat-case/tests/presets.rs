@@ -326,10 +326,12 @@ fn exact_symmetric_presets_fly_straight_without_air() {
                 .unwrap_or_else(|e| panic!("{}: {e}", preset.name));
         }
         // Free joints are eliminated one side after the other: a few roundings (measured 2.3e-19).
-        let allowed = if flight.setup().joints.is_empty() {
-            0.0
-        } else {
-            2e-18
+        // Elastic wings are brought to balance one by one, rounding each in its own axes (measured 5.3e-17).
+        let is_elastic = !flight.elastic_wings().is_empty();
+        let allowed = match flight.setup().joints.is_empty() {
+            _ if is_elastic => 5e-16,
+            true => 0.0,
+            false => 2e-18,
         };
         let apart = out_of_symmetry(&flight);
         assert!(apart <= allowed, "{}: {apart:.1e}", preset.name);

@@ -106,7 +106,8 @@ impl Assembly {
             if let Some(d) = damping {
                 gather(d.velocity, e.nodes(), &mut self.numbers);
                 let out = &mut self.element.tangent;
-                e.add_dissipation_tangent(at, &self.numbers, d.time, out);
+                let before = ahead.map_or(at, |a| a.0);
+                e.add_dissipation_tangent((at, before), &self.numbers, d.time, out);
             }
             let width = NODE * e.nodes().len();
             for (c, &n) in e.nodes().iter().enumerate() {

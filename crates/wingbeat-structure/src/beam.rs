@@ -326,12 +326,12 @@ impl Element for Beam {
 
     fn add_dissipation_tangent(
         &self,
-        at: &Configuration,
+        (at, before): (&Configuration, &Configuration),
         velocity: &[f64],
         factor: f64,
         tangent: &mut [f64],
     ) {
-        self.turning_of_damping(at, velocity, factor, tangent);
+        self.turning_of_damping((at, before), velocity, factor, tangent);
     }
 
     fn dissipation(&self, at: &Configuration, out: &mut ElementForces) {

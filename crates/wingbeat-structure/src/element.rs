@@ -48,10 +48,12 @@ pub trait Element: std::fmt::Debug + Send + Sync {
 
     /// Adds to `tangent` (by rows) `factor` times the derivative of the damping force `C v` by the six numbers of the nodes, C the
     /// matrix of [`Self::dissipation`], the six rates v of each node held: damping forces turn with the element, and so do
-    /// its rates of strain. Unless an element says better, nothing: Newton's iteration then needs more passes.
+    /// its rates of strain. The force that turns is that of rates of strain linear in v from the configuration `before`: `at`
+    /// itself, or one that v was foreseen from, as in [`Self::tangent_ahead`]. Unless an element says better, nothing:
+    /// Newton's iteration then needs more passes.
     fn add_dissipation_tangent(
         &self,
-        _at: &Configuration,
+        (_at, _before): (&Configuration, &Configuration),
         _velocity: &[f64],
         _factor: f64,
         _tangent: &mut [f64],

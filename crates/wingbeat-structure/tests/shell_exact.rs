@@ -200,6 +200,44 @@ fn agrees_damping_tangent_of_shells_with_differences() {
     }
 }
 
+/// Rates of bending are damped as bending is stiff (Kelvin and Voigt), those of stretching are not.
+#[test]
+fn exact_damping_is_that_of_bending_alone() {
+    let mesh = distorted(0.0);
+    let section = Lamina {
+        axis: DVec3::X,
+        ..askew(1e-2)
+    }
+    .section()
+    .unwrap();
+    let k = DVec3::new(0.3, -0.5, 2.0 * 0.2);
+    let bent = |x: &DVec3| bowl(*x, k);
+    let stretched = |x: &DVec3| [0.3 * x.x + 0.1 * x.y, -0.2 * x.y, 0.0, 0.0, 0.0, 0.0];
+    let power = |v: &dyn Fn(&DVec3) -> [f64; 6]| -> f64 {
+        let shells = mesh.shells(|_| Some(section)).unwrap();
+        let of = shells.iter().map(|shell| {
+            let mut out = ElementForces::default();
+            shell.dissipation(&mesh.rest, &mut out);
+            let own = shell.nodes().iter();
+            let v: Vec<f64> = own.flat_map(|n| v(&mesh.rest.position[*n])).collect();
+            let rows = out.tangent.chunks_exact(v.len()).zip(&v);
+            rows.map(|(row, w)| w * row.iter().zip(&v).map(|(c, v)| c * v).sum::<f64>())
+                .sum::<f64>()
+        });
+        of.sum()
+    };
+    let area: f64 = mesh
+        .shells(|_| Some(section))
+        .unwrap()
+        .iter()
+        .map(|s| s.area())
+        .sum();
+    let exact = area * k.dot(section.bending * k);
+    let error = power(&bent) / exact - 1.0;
+    assert!(error.abs() < 1e-12, "{error:e}");
+    assert!(power(&stretched).abs() < 1e-24, "{:e}", power(&stretched));
+}
+
 /// Lumped quarters have mass, first moment and inertia of the whole sheet.
 #[test]
 fn exact_mass_properties_are_those_of_the_sheet() {

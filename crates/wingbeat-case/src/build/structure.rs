@@ -145,6 +145,7 @@ fn shell(path: &str, case: &ShellCase) -> Built<WingShell> {
         poisson: case.poisson,
         shear: case.shear_pa,
         thickness: law(path, "thickness", "m", thickness)?,
+        stretching: None,
         density: None,
         fibre_angle: 0.0,
         prestress: [0.0; 2],
@@ -160,6 +161,7 @@ fn shell(path: &str, case: &ShellCase) -> Built<WingShell> {
 /// The same with mass, fibres, tension and what is clamped as the case says.
 fn edges(wing: WingShell, case: &ShellCase) -> WingShell {
     WingShell {
+        stretching: case.stretching_young_pa.or(wing.stretching),
         density: case.density_kg_m3,
         fibre_angle: case.fibre_angle_deg.to_radians(),
         prestress: case.prestress_newton_per_m,

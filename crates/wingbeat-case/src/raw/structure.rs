@@ -24,7 +24,7 @@ pub struct StructureCase {
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub region: Vec<RegionCase>,
     /// Time by which rates of strain add to strains (Kelvin and Voigt): the damping ratio of a mode is half this times its
-    /// angular frequency.
+    /// angular frequency. In shells bending alone is damped, not stretching.
     ///
     /// Change it to the damping that was measured.
     #[schemars(range(min = 0))]
@@ -224,6 +224,13 @@ pub struct ShellCase {
     #[schemars(extend("exclusiveMinimum" = 0, "with" = "young_pa"))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub shear_pa: Option<f64>,
+    /// Young's modulus against stretching in the plane, alike in all directions, where those above are of bending alone. Left
+    /// out: the same; with `rule` 3e9, that of cuticle.
+    ///
+    /// Change it for pleated and veined sheets, which bending finds many times stiffer than stretching does.
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub stretching_young_pa: Option<f64>,
     /// Thickness at root and tip, linear between.
     ///
     /// Change it to what was measured.

@@ -21,6 +21,9 @@ pub struct WingShell {
     pub poisson: f64,
     /// Shear modulus \[Pa\]; none is that of a sheet alike in all directions.
     pub shear: Option<f64>,
+    /// Young's modulus against stretching in the plane \[Pa\], alike in all directions, where the moduli above are those of
+    /// bending alone: pleats and veins stiffen bending many times more than stretching; none where they are the same.
+    pub stretching: Option<f64>,
     /// Thickness \[m\], over r/R.
     pub thickness: SpanLaw,
     /// Density \[kg/m3\]; none spreads the mass of the wing evenly over its area.
@@ -48,11 +51,15 @@ const ROUNDING: f64 = 1e-9;
 /// Density of cuticle \[kg/m3\] [Vincent & Wegst 2004, Arthropod Struct. Dev. 33:187].
 const CUTICLE: f64 = 1200.0;
 
+/// Young's modulus of cuticle of wings \[Pa\]: same source, 1e9 to 2e10.
+const CUTICLE_YOUNG: f64 = 3e9;
+
 impl WingShell {
     /// A sheet with the bending stiffness of insects' wings, EI along the span `10^0.08 R^2.97`, along the chord
     /// `10^-1.73 c^2.08` (R the wing length, c the mean chord; N m2, m) [Combes & Daniel 2003, J. Exp. Biol. 206:2979], as
-    /// thick as cuticle of the wing's mass is; its shear modulus is the mean of both directions'. For a wing of this `length`
-    /// \[m\], `area` \[m2\] and `mass` \[kg\].
+    /// thick as cuticle of the wing's mass is and no stiffer than it against stretching: what pleats and veins add to bending
+    /// they do not add to that. The shear modulus is the mean of both directions'. For a wing of this `length` \[m\], `area`
+    /// \[m2\] and `mass` \[kg\].
     pub fn combes_daniel([length, area, mass]: [f64; 3], poisson: f64) -> Self {
         let chord = area / length;
         let thickness = mass / (CUTICLE * area);
@@ -64,6 +71,7 @@ impl WingShell {
             young,
             poisson,
             shear: Some((young[0] * young[1]).sqrt() / (2.0 * (1.0 + poisson))),
+            stretching: Some(CUTICLE_YOUNG),
             thickness: SpanLaw::constant(thickness),
             density: None,
             fibre_angle: 0.0,
@@ -183,6 +191,10 @@ impl WingShell {
         };
         let mut section = lamina.section()?;
         section.bending *= self.bending_factor;
+        if let Some(young) = self.stretching {
+            let (nu, h) = (lamina.poisson, lamina.thickness);
+            section.membrane = Lamina::isotropic(young, nu, h, 0.0).section()?.membrane;
+        }
         // Of mass that has no density the inertia is that of the sheet's thickness.
         section.rotary_inertia = section.area_density * lamina.thickness.powi(2) / 12.0;
         Shell::new(&mesh.rest, nodes, &section).map(Some)
@@ -225,6 +237,7 @@ impl WingShell {
             ("young", Some(self.young[1])),
             ("shear", self.shear),
             ("density", self.density),
+            ("stretching_young", self.stretching),
             ("bending_factor", Some(self.bending_factor)),
         ];
         for (k, x) in positive {

@@ -10,7 +10,7 @@ impl Beam {
     /// turning of the force, `B v` by that of the rates.
     pub(super) fn turning_of_damping(
         &self,
-        at: &Configuration,
+        (at, before): (&Configuration, &Configuration),
         velocity: &[f64],
         factor: f64,
         tangent: &mut [f64],
@@ -30,7 +30,9 @@ impl Beam {
             self.geometric(&turning, out);
         };
         let six = |e: usize| std::array::from_fn(|k| velocity[NODE * e + k]);
-        let [a, b] = [0, 1].map(|e| times(&by_nodes[e], &six(e)));
+        let (attitudes, foreseen) = screw_between(before, self.nodes, &self.offsets);
+        let foreseen = self.screw_by_nodes(&foreseen, &self.node_to_end(&attitudes));
+        let [a, b] = [0, 1].map(|e| times(&foreseen[e], &six(e)));
         let rate = std::array::from_fn(|k| factor * (a[k] + b[k]));
         let force = Screw::from_numbers(&times(&self.stiffness, &rate));
         turning(&force, tangent);

@@ -5,11 +5,14 @@ use wingbeat_math::{DMat3, DVec3, MassProperties};
 use super::energy::{Gradient, Tangent};
 use super::geometry::{Quad, lumps};
 use super::stiffness::stiffness;
-use super::strain::{STRAINS, Stiffness, Term, Vectors, terms};
+use super::strain::{BENDING, CURVATURE, STRAINS, Stiffness, Term, Vectors, terms};
 use super::{Section, ShellError};
 use crate::block::pair;
 use crate::configuration::{Configuration, NODE};
 use crate::element::{Element, ElementForces};
+
+/// Strains whose rates are damped: those that bend.
+const DAMPED: [[usize; 2]; 1] = [[CURVATURE, BENDING]];
 
 /// A quadrilateral of shell between four nodes, or a triangle between three.
 #[derive(Clone, Debug)]
@@ -146,7 +149,8 @@ impl Element for Shell {
         energy
     }
 
-    /// The part of the tangent that is the material's, whatever the tension.
+    /// Of the tangent the material's part, of bending alone. In a sheet that turns by much in a step the rates of its stretching
+    /// are errors of the step times its large stiffness; what they damp is beyond what steps resolve.
     fn dissipation(&self, at: &Configuration, out: &mut ElementForces) {
         let rotations = self.rotations(at);
         let vectors = self.vectors(at, &rotations);
@@ -154,12 +158,12 @@ impl Element for Shell {
         out.resize(size);
         let gradient = Gradient::new(&self.terms, &vectors, &rotations, &self.axes);
         let mut sum = Tangent::new(&self.corner, size, &mut out.tangent);
-        sum.material(&gradient, &self.stiffness);
+        sum.between([&gradient, &gradient], &self.stiffness, 1.0, &DAMPED);
     }
 
     fn add_dissipation_tangent(
         &self,
-        at: &Configuration,
+        (at, before): (&Configuration, &Configuration),
         velocity: &[f64],
         factor: f64,
         tangent: &mut [f64],
@@ -168,16 +172,23 @@ impl Element for Shell {
         let vectors = self.vectors(at, &rotations);
         let gradient = Gradient::new(&self.terms, &vectors, &rotations, &self.axes);
         let mut rates = [0.0; STRAINS];
-        gradient.add_strains(velocity, &self.corner, &mut rates);
-        let stress = std::array::from_fn(|i| {
-            let of = (0..STRAINS).map(|j| self.stiffness[i][j] * rates[j]);
-            factor * of.sum::<f64>()
-        });
+        let turned = self.rotations(before);
+        let from = self.vectors(before, &turned);
+        let foreseen = Gradient::new(&self.terms, &from, &turned, &self.axes);
+        foreseen.add_strains(velocity, &self.corner, &mut rates);
+        let mut stress = [0.0; STRAINS];
+        for [first, count] in DAMPED {
+            let all = first..first + count;
+            for i in all.clone() {
+                let of = all.clone().map(|j| self.stiffness[i][j] * rates[j]);
+                stress[i] = factor * of.sum::<f64>();
+            }
+        }
         let corners = self.corner.map(|k| pair(velocity, k));
         let turned = Gradient::of_rates(&self.terms, &vectors, &rotations, &self.axes, &corners);
         let mut sum = Tangent::new(&self.corner, NODE * self.nodes.len(), tangent);
         sum.geometric(&self.terms, &stress, &vectors, &rotations, &self.axes);
-        sum.between([&gradient, &turned], &self.stiffness, factor);
+        sum.between([&gradient, &turned], &self.stiffness, factor, &DAMPED);
     }
 
     fn tangent_ahead(

@@ -122,12 +122,18 @@ impl<'a> Tangent<'a> {
 
     /// `J^T C J`.
     pub fn material(&mut self, gradient: &Gradient, stiffness: &Stiffness) {
-        self.between([gradient, gradient], stiffness, 1.0);
+        self.between([gradient, gradient], stiffness, 1.0, &BLOCKS);
     }
 
-    /// `factor J^T C D` of two gradients J and D.
-    pub fn between(&mut self, [j, d]: [&Gradient; 2], stiffness: &Stiffness, factor: f64) {
-        for [first, count] in BLOCKS {
+    /// `factor J^T C D` of two gradients J and D, for strains in these blocks.
+    pub fn between(
+        &mut self,
+        [j, d]: [&Gradient; 2],
+        stiffness: &Stiffness,
+        factor: f64,
+        blocks: &[[usize; 2]],
+    ) {
+        for &[first, count] in blocks {
             for a in first..first + count {
                 let mut stressed = [0.0; SIZE];
                 for b in first..first + count {

@@ -97,7 +97,7 @@ pub fn damping_tangent_error(element: &dyn Element, at: &Configuration) -> f64 {
     let size = numbers.len();
     let velocity: Vec<f64> = (0..size).map(|k| ((3 * k + 1) as f64).cos()).collect();
     let mut tangent = vec![0.0; size * size];
-    element.add_dissipation_tangent(at, &velocity, 0.3, &mut tangent);
+    element.add_dissipation_tangent((at, at), &velocity, 0.3, &mut tangent);
     let force = |at: &Configuration| -> Vec<f64> {
         let mut out = ElementForces::default();
         element.dissipation(at, &mut out);
