@@ -207,9 +207,9 @@ pub struct SectionAnswer {
     /// Three ways to move a section: its point on the feathering axis along chord and normal, and feathering. Of each, node by
     /// node: how the velocity of the node shares in it, and its place \[1/s\]; wing components.
     pub ways: [Vec<(usize, [DVec3; 2])>; 3],
-    /// Derivatives of the forces along these ways by the velocities along them, by rows.
+    /// Derivatives of the forces along these ways by the velocities along them \[N s/m, N s, N m s\], by rows.
     pub velocity: [[f64; 3]; 3],
-    /// The same by the accelerations.
+    /// The same by the accelerations \[kg, kg m, kg m2\].
     pub acceleration: [[f64; 3]; 3],
 }
 

@@ -10,7 +10,7 @@ use crate::mesh::GridMesh;
 /// A part of a wing of sheet that is made otherwise: panels whose middle lies in it. What is none is as elsewhere.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Region {
-    /// From and to along the span, r/R.
+    /// From and to along the span, r/R \[1\].
     pub span: [f64; 2],
     /// From and to behind the leading edge over the chord \[1\].
     pub chord: [f64; 2],

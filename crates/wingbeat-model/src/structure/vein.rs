@@ -15,7 +15,7 @@ use crate::mesh::GridMesh;
 pub struct Vein {
     /// Where it begins: r/R, and place behind the leading edge over the chord \[1\].
     pub from: [f64; 2],
-    /// Where it ends, likewise.
+    /// Where it ends, likewise \[1\].
     pub to: [f64; 2],
     /// Radius \[m\]: what stretches and shears, `EA = 4 EI / r^2`, and the inertia of its sections follow from it.
     pub radius: [f64; 2],
