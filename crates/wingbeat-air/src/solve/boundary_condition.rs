@@ -55,7 +55,7 @@ impl BoundaryCondition {
         let near = NEAR * now.panels.size();
         let wakes = FreeWakes { sums, near };
         let (influence, found) = (&mut self.influence, (found, &mut leaving[..]));
-        (self.leading_edges).settle(now, (filaments, wakes), influence, found)?;
+        (self.leading_edges).converge(now, (filaments, wakes), influence, found)?;
         (self.influence).spread(lattice, gamma, &mut self.net_flux_residual);
         Ok(())
     }

@@ -42,7 +42,7 @@ impl LeadingEdges {
     ///
     /// # Errors
     /// Equations without a unique solution.
-    pub(crate) fn settle(
+    pub(crate) fn converge(
         &mut self,
         now: Instant,
         (filaments, wakes): (&Filaments, FreeWakes),
@@ -65,7 +65,7 @@ impl LeadingEdges {
         self.release.none();
         if self.release.is_due() {
             self.take_answers(now, filaments, influence)?;
-            self.release.settle(now.state.step)?;
+            self.release.converge(now.state.step)?;
             self.answer(gamma);
         }
         self.report(now, filaments, (gamma, leaving));

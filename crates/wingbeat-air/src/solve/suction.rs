@@ -151,7 +151,7 @@ impl Release {
     ///
     /// # Errors
     /// The equations of the strips that shed have no unique solution.
-    pub fn settle(&mut self, step: u64) -> Result<(), AirError> {
+    pub fn converge(&mut self, step: u64) -> Result<(), AirError> {
         self.none();
         self.sign.clear();
         self.sign.resize(self.net.len(), 0.0);
