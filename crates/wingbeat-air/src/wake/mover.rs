@@ -34,7 +34,7 @@ pub(crate) struct Mover<'a> {
     /// Where the nodes of the sheet would be without surfaces in the way, its shedding edge last; empty if none was held
     /// back.
     pub unhindered: Vec<DVec3>,
-    /// Impulse per density [m4/s], N, that surfaces in the way took from the particles of the sheet moved last.
+    /// Impulse per density [m4/s], N components, that surfaces in the way took from the particles of the sheet moved last.
     pub taken_from_particles: DVec3,
 }
 
