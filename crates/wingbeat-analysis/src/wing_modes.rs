@@ -31,7 +31,7 @@ pub enum About {
 pub struct WingMode {
     /// Angular frequency [rad/s]; 0 of a mode that does not vibrate.
     pub frequency: f64,
-    /// Displacements of the nodes of the mesh, wing components, the largest of length 1.
+    /// Displacements of the nodes of the mesh, wing components, the largest of length 1 \[1\].
     pub displacement: Vec<DVec3>,
     /// Modal mass for that shape \[kg\], the added mass of the air included where it is there.
     pub mass: f64,
@@ -83,7 +83,7 @@ pub struct WingModes {
     pub wing: usize,
     /// Nodes of its mesh as it vibrates about them \[m\], wing components.
     pub nodes: Vec<DVec3>,
-    /// Displacement of the nodes from where they are at rest \[m\].
+    /// Displacement of the nodes from where they are at rest \[m\], wing components.
     pub deflection: Vec<DVec3>,
     /// Mass of the wing \[kg\].
     pub mass: f64,
