@@ -205,9 +205,9 @@ impl Gathered {
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct SectionAnswer {
     /// Three ways to move a section: its point on the feathering axis along chord and normal, and feathering. Of each, node by
-    /// node: how the velocity of the node shares in it, and its place \[1/s\]; wing components.
+    /// node: how the velocity of the node shares in it, and its place; wing components \[1, 1/s, 1/m\].
     pub ways: [Vec<(usize, [DVec3; 2])>; 3],
-    /// Derivatives of the forces along these ways by the velocities along them \[N s/m, N s, N m s\], by rows.
+    /// Derivatives of the forces along these ways by the velocities along them, by rows \[N s/m, N s, N m s\].
     pub velocity: [[f64; 3]; 3],
     /// The same by the accelerations \[kg, kg m, kg m2\].
     pub acceleration: [[f64; 3]; 3],

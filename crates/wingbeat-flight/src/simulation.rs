@@ -85,7 +85,7 @@ impl Simulation {
             past: Multistep::default(),
             start_report: StepReport::default(),
             air: None,
-            wings: bent.map_or_else(|| first.elastic.initial(), anew),
+            wings: bent.map_or_else(|| first.elastic.initial(), afresh),
             carried: first.carried.initial(),
             ledger: Ledger::default(),
             control: feedback.as_ref().map(Loop::state),
@@ -457,7 +457,7 @@ impl Simulation {
 }
 
 /// Elastic wings at the start of a flight, whose books begin there.
-fn anew(wings: &[ElasticState]) -> Vec<ElasticState> {
+fn afresh(wings: &[ElasticState]) -> Vec<ElasticState> {
     let mut wings = wings.to_vec();
     (wings.iter_mut()).for_each(|w| w.structure.dissipated = 0.0);
     wings
