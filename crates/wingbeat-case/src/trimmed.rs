@@ -61,7 +61,7 @@ pub fn trimmed_case(case: &LoadedCase, trim: &Trim) -> String {
 /// Wingbeats of the hold in which elastic wings come into their motion.
 const HELD_WITH_WINGS: f64 = 3.0;
 
-/// What the reader of a case with elastic wings is told.
+/// What a case of a trimmed flight with elastic wings says of itself.
 const DEPARTS: &str = "# While the body is held, elastic wings come into a motion that is not quite that of the trimmed orbit:\n# the free flight departs from it.\n";
 
 /// The same for a flight in air with memory, or with elastic wings: held while the wake grows, or the wings come into their
