@@ -61,6 +61,9 @@ pub fn trimmed_case(case: &LoadedCase, trim: &Trim) -> String {
 /// Wingbeats of the hold in which elastic wings come into their motion.
 const HELD_WITH_WINGS: f64 = 3.0;
 
+/// What a case of a trimmed flight with elastic wings says of itself.
+const DEPARTS: &str = "# While the body is held, elastic wings come into a motion that is not quite that of the trimmed orbit:\n# the free flight departs from it.\n";
+
 /// The same for a flight in air with memory, or with elastic wings: held while the wake grows, or the wings come into their
 /// motion, then released.
 pub fn wake_trimmed_case(case: &LoadedCase, trim: &WakeTrim) -> String {
@@ -85,7 +88,11 @@ pub fn wake_trimmed_case(case: &LoadedCase, trim: &WakeTrim) -> String {
     raw.time.beats = Some(held + 1.0);
     raw.time.steps = None;
     raw.motion.start = case.raw.motion.start;
-    with_start(case, raw, &root, held, trim.error())
+    let text = with_start(case, raw, &root, held, trim.error());
+    match trim.wings.is_empty() {
+        true => text,
+        false => format!("{DEPARTS}{text}"),
+    }
 }
 
 /// The case with the adjusted wing motion and hinges: adjustment of all wings, and what right ones have more of it
