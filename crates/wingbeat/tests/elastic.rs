@@ -195,23 +195,42 @@ fn conserves_momentum_and_energy_of_a_free_body_with_sheets_over_ten_thousand_st
 }
 
 #[test]
+fn conserves_momentum_where_wings_lose_it_to_their_frames() {
+    let damped = strings(&[
+        "air.model=\"none\"",
+        "time.beats=1",
+        "wing.right.structure.mass_damping_per_s=30",
+    ]);
+    let records = fly(&[&damped[..], &beam(2e-4)].concat());
+    let largest = |of: fn(&Record) -> f64| records.iter().map(of).fold(0.0, f64::max);
+    let linear = largest(|r| r.momentum_residual.length()) / largest(|r| r.momentum.length());
+    let angular = largest(|r| r.angular_momentum_residual.length())
+        / largest(|r| r.angular_momentum.length());
+    assert!(linear < 1e-13 && angular < 1e-12, "{linear:e} {angular:e}");
+}
+
+#[test]
 fn order_energy_of_elastic_wings_closes_at_second_order() {
-    let residual = |steps: usize| {
+    let residual = |steps: usize, damping: f64| {
         let steps = format!("time.steps_per_beat={steps}");
+        let damping = format!("wing.right.structure.mass_damping_per_s={damping}");
         let set = strings(&[
             "flight.mode=\"tethered\"",
             "air.model=\"none\"",
             "time.beats=2",
             "wing.right.structure.spectral_radius=1",
             &steps,
+            &damping,
         ]);
         let records = fly(&[&set[..], &beam(2e-4)].concat());
         records
             .iter()
             .fold(0.0_f64, |m, r| m.max(r.energy_residual.abs()))
     };
-    let ratio = residual(80) / residual(160);
-    assert!((3.5..4.5).contains(&ratio), "{ratio}");
+    for damping in [0.0, 30.0] {
+        let ratio = residual(80, damping) / residual(160, damping);
+        assert!((3.5..4.5).contains(&ratio), "{damping}: {ratio}");
+    }
 }
 
 #[test]

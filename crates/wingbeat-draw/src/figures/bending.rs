@@ -14,6 +14,9 @@ const SECTIONS: [[&str; 2]; 4] = [
     ["tip", "tip"],
 ];
 
+/// Camber over chord that is rounding \[1\].
+const ROUNDING: f64 = 1e-12;
+
 /// Of the last elastic wing, which stands for all; none where wings are rigid.
 pub(super) fn bending(setup: &FlightSetup, history: &History) -> Option<Measured> {
     let wings = &setup.animal.wings;
@@ -34,7 +37,8 @@ pub(super) fn bending(setup: &FlightSetup, history: &History) -> Option<Measured
     };
     let power = format!("strain_power_{wing}_watt");
     let power = Line::new("power", history.column(&power).to_vec());
-    let panels = vec![
+    let camber = named("camber", "dimensionless", "");
+    let mut panels = vec![
         Measure::new(
             "deflection",
             Unit::Prefixed("m"),
@@ -42,16 +46,15 @@ pub(super) fn bending(setup: &FlightSetup, history: &History) -> Option<Measured
         ),
         Measure::new("twist", Unit::Degrees, named("twist", "rad", "twist_rad")),
         Measure::new(
-            "camber over chord",
-            Unit::Given,
-            named("camber", "dimensionless", ""),
-        ),
-        Measure::new(
             "power into elastic energy",
             Unit::Prefixed("W"),
             vec![power.kept(Kept::Always)],
         ),
     ];
+    // Sections of beams stay as they are but for rounding.
+    if camber.iter().any(|line| line.most() > ROUNDING) {
+        panels.insert(2, Measure::new("camber over chord", Unit::Given, camber));
+    }
     Some(Measured {
         name: "bending",
         title: "bending of the wing at parts of its length",

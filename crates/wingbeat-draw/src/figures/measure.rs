@@ -87,7 +87,8 @@ impl Line {
         if self.from_start { self.first } else { 0.0 }
     }
 
-    fn most(&self) -> f64 {
+    /// Its largest value in size.
+    pub fn most(&self) -> f64 {
         self.values.iter().fold(0.0, |a, v| a.max(v.abs()))
     }
 }

@@ -44,7 +44,12 @@ impl ElasticWings {
             let needed = w.resultant(at, &ws.residual);
             let loads = w.resultant(at, &ws.loads);
             let rigid = w.rigid_inertia(&ws.frame);
-            let both = [0, 1].map(|k| rigid[k] - needed[k] - loads[k]);
+            let mut both = [0, 1].map(|k| rigid[k] - needed[k] - loads[k]);
+            if w.structure.damping().mass > 0.0 {
+                // What momentum relative to the frame loses, the frame gains.
+                let damped = w.resultant(at, ws.solver.damping());
+                both = [0, 1].map(|k| both[k] + damped[k]);
+            }
             out[w.wing + 1] = turned(m, both);
         }
     }

@@ -133,6 +133,11 @@ impl Solver {
         }
     }
 
+    /// Forces of damping in the last residual, six numbers a node (W components, moments in node components) [N, N m].
+    pub fn damping(&self) -> &[f64] {
+        &self.damping
+    }
+
     /// Power that damping dissipates in a trial \[W\], from the last [`Self::residual`].
     pub fn dissipation(&self, trial: &Trial) -> f64 {
         let both = self.damping.iter().zip(&trial.velocity);
