@@ -150,19 +150,25 @@ impl Release {
     /// Finds what leaves: strips that have too much begin to shed, strips that would take back cease.
     ///
     /// # Errors
-    /// The equations of the strips that shed have no unique solution.
+    /// The equations of the strips that shed have no unique solution, or no choice of these strips is right.
     pub fn converge(&mut self, step: u64) -> Result<(), AirError> {
         self.none();
         self.sign.clear();
         self.sign.resize(self.net.len(), 0.0);
-        for round in 0..ALL_AT_ONCE + 4 * self.net.len() {
+        let strips = self.net.len();
+        let changes = ALL_AT_ONCE + 4 * strips;
+        for round in 0..changes {
             if !self.change(round >= ALL_AT_ONCE) {
-                break;
+                return Ok(());
             }
             self.solve()
                 .map_err(|source| AirError::Singular { step, source })?;
         }
-        Ok(())
+        Err(AirError::Suction {
+            step,
+            strips,
+            changes,
+        })
     }
 
     /// Changes which strips shed, only the first that is wrong if `one`; says whether any was wrong.
