@@ -180,6 +180,7 @@ impl Lattice {
         wakes.take_velocities(self, state, filaments, sums);
         let events = wakes.move_sheets(self, state, dt, &filaments.lengths)?;
         state.events += events;
+        state.leaving.fill(0.0); // it is in the wakes now
         state.wake_due = false;
         state.dt_wake = dt;
         Ok(events)

@@ -226,7 +226,7 @@ pub struct SectionRecord {
     pub deflection: f64,
     /// Twist, positive like feathering: leading edge towards -axis 3 \[rad\].
     pub twist: f64,
-    /// Camber: largest height over its chord, along its normal, over the chord \[1\].
+    /// Camber: largest height over its chord, over the chord, positive towards -axis 3 as prescribed camber is \[1\].
     pub camber: f64,
 }
 

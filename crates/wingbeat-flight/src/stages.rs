@@ -38,7 +38,8 @@ pub fn stages(setup: &FlightSetup, law: &WingLaw<'_>) -> Result<Vec<Stage>, Flig
     let air = AirModel::build(setup, &system)?;
     let elastic = Arc::new(ElasticWings::new(&setup.animal, setup.gravity)?);
     let mechanism = Mechanism::of(&system);
-    // What bends has its answer to accelerations from the elastic side.
+    // What bends has its answer to accelerations from the elastic side; where any wing bends, rigid wings on free joints are
+    // left to the passes, too.
     let carried = match setup.air {
         AirModel::VortexLattice(_) if elastic.is_empty() => {
             CarriedAir::new(&system, setup.animal.wings.len())

@@ -69,6 +69,34 @@ fn fly(set: &[String]) -> Vec<Record> {
     records
 }
 
+/// A flight saved in its seventh step ends as the one that is not interrupted.
+fn goes_on(set: &[String]) {
+    let whole = fly(set);
+    let setup = case(set).setup;
+    let mut flight = Simulation::new(setup.clone()).unwrap();
+    for _ in 0..7 {
+        flight.step().unwrap();
+    }
+    let mut flight = Simulation::resume(setup, flight.state().clone()).unwrap();
+    while !flight.finished() {
+        flight.step().unwrap();
+    }
+    assert!(*flight.record() == whole[whole.len() - 1]);
+}
+
+/// Largest twist \[rad\] of a tip and most passes of a step in a flight of `hawkmoth-elastic`.
+fn hawkmoth_extremes(set: &[String]) -> (f64, usize) {
+    let case = LoadedCase::find("hawkmoth-elastic", set).unwrap();
+    let mut flight = Simulation::new(case.setup).unwrap();
+    let (mut twist, mut passes) = (0.0_f64, 0);
+    while !flight.finished() {
+        let elastic = flight.step().unwrap().elastic[0];
+        twist = twist.max(elastic.twist.abs());
+        passes = passes.max(elastic.passes);
+    }
+    (twist, passes)
+}
+
 /// Largest difference of the air's force on all bodies.
 fn apart(a: &[Record], b: &[Record]) -> f64 {
     let pairs = a.iter().zip(b);
@@ -272,14 +300,7 @@ fn balances_shape_and_loads_within_ten_passes_in_water() {
 fn balances_shape_and_loads_of_a_soft_hawkmoth_in_free_flight() {
     // Wings that twist by half a radian at every turn of the stroke; the body is free after its first beat.
     let set = strings(&["time.beats=3", "air.max_wake_age_s=0.03"]);
-    let case = LoadedCase::find("hawkmoth-elastic", &set).unwrap();
-    let mut flight = Simulation::new(case.setup).unwrap();
-    let (mut twist, mut passes) = (0.0_f64, 0);
-    while !flight.finished() {
-        let elastic = flight.step().unwrap().elastic[0];
-        twist = twist.max(elastic.twist.abs());
-        passes = passes.max(elastic.passes);
-    }
+    let (twist, passes) = hawkmoth_extremes(&set);
     assert!((0.3..1.0).contains(&twist), "{twist}");
     assert!(passes <= 12, "{passes}");
 }
@@ -295,17 +316,7 @@ fn invariant_a_saved_flight_goes_on_bit_for_bit() {
         &beam(2e-4),
     ]
     .concat();
-    let whole = fly(&set);
-    let setup = case(&set).setup;
-    let mut flight = Simulation::new(setup.clone()).unwrap();
-    for _ in 0..7 {
-        flight.step().unwrap();
-    }
-    let mut flight = Simulation::resume(setup, flight.state().clone()).unwrap();
-    while !flight.finished() {
-        flight.step().unwrap();
-    }
-    assert!(*flight.record() == whole[whole.len() - 1]);
+    goes_on(&set);
 }
 
 #[test]
@@ -364,6 +375,24 @@ fn refuses_what_knows_no_elastic_wings() {
                 "wing.right.structure.beam.flap_newton_m2=[0,0]",
             ],
             "above 0",
+        ),
+        (
+            vec![
+                "run",
+                "c.toml",
+                "--set",
+                "wing.right.structure.beam.mass=[{at=0.5,mass_kg=1}]",
+            ],
+            "beam.mass`",
+        ),
+        (
+            vec![
+                "run",
+                "c.toml",
+                "--set",
+                "wing.right.structure.beam.mass=[{at=0.5,mass_kg=1e-6,inertia_about_centre_kg_m2=[-1,0,0,0,0,0]}]",
+            ],
+            "beam.mass[0].inertia_about_centre_kg_m2",
         ),
         (
             vec![

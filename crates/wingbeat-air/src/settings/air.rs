@@ -63,7 +63,8 @@ pub struct AirSettings {
     pub section_drag: Option<SectionDrag>,
     /// Part of its panel by which a ring stays inside a side edge that does not shed; a quarter
     /// makes the loads of coarse lattices good to second order, 0 is the published benchmark's.
-    /// Where trailing edges shed and leading edges do not, all rings lie aft by the same part.
+    /// Where trailing edges shed and leading edges do not, or hold their suction in the solution
+    /// ([`LeadingEdge::SuctionImplicit`]), all rings lie aft by the same part.
     pub inset: f64,
     /// What is added to the free stream.
     pub wind: Wind,

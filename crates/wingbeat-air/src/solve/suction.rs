@@ -156,19 +156,19 @@ impl Release {
         self.sign.clear();
         self.sign.resize(self.net.len(), 0.0);
         let strips = self.net.len();
+        let unknown = |changes: usize| AirError::Suction {
+            step,
+            strips,
+            changes,
+        };
         let changes = ALL_AT_ONCE + 4 * strips;
         for round in 0..changes {
             if !self.change(round >= ALL_AT_ONCE) {
                 return Ok(());
             }
-            self.solve()
-                .map_err(|source| AirError::Singular { step, source })?;
+            self.solve().map_err(|_| unknown(round))?;
         }
-        Err(AirError::Suction {
-            step,
-            strips,
-            changes,
-        })
+        Err(unknown(changes))
     }
 
     /// Changes which strips shed, only the first that is wrong if `one`; says whether any was wrong.

@@ -49,7 +49,7 @@ pub struct AirState {
     /// what any edge may have before there was one.
     pub hold: Vec<f64>,
     /// Circulation that left the leading edge of each strip within the last accepted step, where that was part of the solution, counted
-    /// as that of panels [m2/s].
+    /// as that of panels [m2/s]; zero once the wakes were moved.
     pub leaving: Vec<f64>,
     /// Length of the last step of the wakes [s], zero before it.
     pub dt_wake: f64,

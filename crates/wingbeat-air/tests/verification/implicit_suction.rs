@@ -20,7 +20,7 @@ fn implicit(threshold: f64) -> LeadingEdge {
     }
 }
 
-/// The setting of insects in a unit stream, leading and trailing edges shedding.
+/// The cores of insects in a unit stream, without clearance and overlap, leading and trailing edges shedding.
 fn settings(leading: LeadingEdge) -> AirSettings {
     AirSettings {
         shedding: SheddingKinds {

@@ -35,7 +35,8 @@ pub(super) fn fault_at(path: &str, raw: &impl Serialize, error: &ModelError) -> 
         !stem.is_empty() && rest.is_some_and(|r| r.is_empty() || r.starts_with('_'))
     };
     let table = toml::Table::try_from(raw).unwrap_or_default();
-    let key = match table.keys().find(matching) {
+    let same = table.keys().find(|key| *key == stem);
+    let key = match same.or_else(|| table.keys().find(matching)) {
         Some(key) => format!("{path}.{key}"),
         None => path.to_owned(),
     };

@@ -66,19 +66,23 @@ fn traced(path: &str, case: &StructureCase, error: &ModelError) -> Fault {
         return fault_at(path, case, error);
     };
     let table = key.rsplit('.').nth(1).unwrap_or_default();
-    let path = format!("{path}.{table}");
+    let (root, path) = (path, format!("{path}.{table}"));
     let number = |list: &str| {
         let inside = table.strip_prefix(list)?.strip_prefix('[')?;
         inside.strip_suffix(']')?.parse::<usize>().ok()
     };
     let vein = number("vein").and_then(|k| case.vein.get(k));
     let region = number("region").and_then(|k| case.region.get(k));
+    let lump = number("mass").and_then(|k| case.beam.as_ref()?.mass.get(k));
+    if let Some(lump) = lump {
+        return fault_at(&format!("{root}.beam.{table}"), lump, error);
+    }
     match (table, vein, region) {
         (_, Some(vein), _) => fault_at(&path, vein, error),
         (_, _, Some(region)) => fault_at(&path, region, error),
         ("beam", ..) => fault_at(&path, &case.beam, error),
         ("shell", ..) => fault_at(&path, &case.shell, error),
-        _ => fault_at(path.trim_end_matches(&format!(".{table}")), case, error),
+        _ => fault_at(root, case, error),
     }
 }
 

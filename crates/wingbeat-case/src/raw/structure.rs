@@ -348,7 +348,8 @@ pub struct RegionCase {
     #[default(_code = "[0.0, 1.0]")]
     #[schemars(inner(range(min = 0, max = 1)))]
     pub chord_range: [f64; 2],
-    /// Young's modulus, along the fibres if that across them is given, too.
+    /// Young's modulus, along the fibres if that across them is given, too. Where the shell has `stretching_young_pa`, or
+    /// `rule`, which sets it, the moduli and fibres of a region are those of bending alone.
     ///
     /// Change it to that of the material.
     #[schemars(extend("exclusiveMinimum" = 0))]

@@ -54,6 +54,7 @@ struct Section {
     /// Place of the middle of the chord along axis 3 \[m\].
     middle: f64,
     pitch: f64,
+    /// Largest height over the chord towards -axis 3, over the chord \[1\].
     camber: f64,
 }
 
@@ -64,7 +65,7 @@ impl Section {
         let [lead, trail] = ends;
         let chord = lead - trail;
         let along = chord.normalize_or_zero();
-        let normal = (DVec3::Z - along.z * along).normalize_or_zero();
+        let normal = -(DVec3::Z - along.z * along).normalize_or_zero();
         let height = |n: &usize| (place(n) - trail).dot(normal);
         let higher = |a: f64, h: f64| if h.abs() > a.abs() { h } else { a };
         let inner = nodes.len().saturating_sub(1);
@@ -73,6 +74,29 @@ impl Section {
             middle: lead.midpoint(trail).z,
             pitch: (-chord.z).atan2(chord.x),
             camber: heights.fold(0.0, higher) / chord.length().max(f64::MIN_POSITIVE),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use wingbeat_math::DQuat;
+
+    #[test]
+    fn exact_camber_of_an_arched_section() {
+        // A mean line that is lifted by 5 % of the chord towards -axis 3, however the section is pitched.
+        let arched = [[1.0, 0.0], [0.5, -0.05], [0.0, 0.0]];
+        for pitch in [0.0, 0.4, -1.0] {
+            let turned = |[x, z]: [f64; 2]| DQuat::from_rotation_y(pitch) * DVec3::new(x, 0.0, z);
+            let at = Configuration {
+                position: arched.map(turned).to_vec(),
+                rotation: vec![DQuat::IDENTITY; 3],
+            };
+            let follower = |n: usize| Follower::new(at.position[n], &[(n, 1.0)], &at);
+            let followers = [0, 1, 2].map(follower);
+            let camber = Section::new(&[0, 1, 2], &followers, &at).camber;
+            assert!((camber - 0.05).abs() < 1e-15, "{pitch}: {camber}");
         }
     }
 }

@@ -29,7 +29,6 @@ pub struct FlightState {
     #[serde(default)]
     pub wings: Vec<ElasticState>,
     /// The wings that carry air along on free joints; empty where there are none.
-    #[serde(default)]
     pub carried: Vec<CarriedState>,
     /// What balances are counted from.
     pub ledger: Ledger,

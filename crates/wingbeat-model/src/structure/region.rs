@@ -80,11 +80,20 @@ impl Region {
         }
     }
 
-    pub(super) fn check(&self, key: &str) -> Result<(), ModelError> {
+    /// `weighed`: whether the rest of the sheet has a density.
+    pub(super) fn check(&self, key: &str, weighed: bool) -> Result<(), ModelError> {
         let of = |k: &str| format!("{key}.{k}");
+        let density = self.density.unwrap_or_default();
+        let allowed = "left out where the shell has no density of its own";
+        require(
+            &of("density"),
+            density,
+            weighed || self.density.is_none(),
+            allowed,
+        )?;
         for (k, [from, to]) in [("span_range", self.span), ("chord_range", self.chord)] {
-            let inside = 0.0 <= from && to <= 1.0;
-            require(&of(k), from, inside, "from 0 to 1")?;
+            require(&of(k), from, 0.0 <= from, "from 0 to 1")?;
+            require(&of(k), to, to <= 1.0, "from 0 to 1")?;
             require(&of(k), to, from < to, "above where the region begins")?;
         }
         let positive = [

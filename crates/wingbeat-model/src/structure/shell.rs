@@ -262,7 +262,9 @@ impl WingShell {
         )?;
         self.thickness.check(&of("thickness"), root)?;
         check_positive(&of("thickness"), &self.thickness, root)?;
-        (self.regions.iter().enumerate()).try_for_each(|(k, g)| g.check(&region_key(key, k)))?;
+        let weighed = self.density.is_some();
+        (self.regions.iter().enumerate())
+            .try_for_each(|(k, g)| g.check(&region_key(key, k), weighed))?;
         (self.veins.iter().enumerate()).try_for_each(|(k, v)| v.check(&vein_key(key, k)))
     }
 }

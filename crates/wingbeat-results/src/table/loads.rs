@@ -125,7 +125,7 @@ pub(super) const ELASTIC: &[Quantity] = &[
     scalar(
         "camber_quarter_{s}",
         Unit::One,
-        "camber at a quarter of the length of {s}: largest height over the chord, less that at rest",
+        "camber at a quarter of the length of {s}: largest height over the chord, less that at rest, positive towards -axis 3 like prescribed camber",
         |r, s, _| Real(&mut r.elastic[s].sections[0].camber),
     )
     .new_here(),
@@ -146,7 +146,7 @@ pub(super) const ELASTIC: &[Quantity] = &[
     scalar(
         "camber_half_{s}",
         Unit::One,
-        "camber at half of the length of {s}: largest height over the chord, less that at rest",
+        "camber at half of the length of {s}: largest height over the chord, less that at rest, positive towards -axis 3 like prescribed camber",
         |r, s, _| Real(&mut r.elastic[s].sections[1].camber),
     )
     .new_here(),
@@ -167,14 +167,14 @@ pub(super) const ELASTIC: &[Quantity] = &[
     scalar(
         "camber_three_quarters_{s}",
         Unit::One,
-        "camber at three quarters of the length of {s}: largest height over the chord, less that at rest",
+        "camber at three quarters of the length of {s}: largest height over the chord, less that at rest, positive towards -axis 3 like prescribed camber",
         |r, s, _| Real(&mut r.elastic[s].sections[2].camber),
     )
     .new_here(),
     scalar(
         "camber_tip_{s}",
         Unit::One,
-        "camber of the tip of {s}: largest height over the chord, less that at rest",
+        "camber of the tip of {s}: largest height over the chord, less that at rest, positive towards -axis 3 like prescribed camber",
         |r, s, _| Real(&mut r.elastic[s].sections[3].camber),
     )
     .new_here(),
@@ -195,7 +195,7 @@ pub(super) const ELASTIC: &[Quantity] = &[
     scalar(
         "elastic_passes_{s}",
         Unit::Count,
-        "passes that shape and loads of {s} took to agree",
+        "most passes within the step that shape and loads of {s} took to agree",
         |r, s, _| Count(&mut r.elastic[s].passes),
     )
     .new_here(),

@@ -22,7 +22,7 @@ const STEPS: usize = 200;
 const SOURCE: &str = "avikde/robobee3d: bee2, drawerbee (5 October 2020), sdab1";
 const TRACKED: &str =
     "avikde/robobee3d: Bee1 at 165 Hz and 180 V, points on the wing tracked frame by frame";
-const BAND: &str = "asked of one setting for all wings; nothing is fitted";
+const BAND: &str = "band for one setting of all wings; nothing is fitted";
 const PROJECTED: &str = "raw angles as those of a vein seen along the stroke axis, which is 45.45 deg from the leading edge in the plane of the wing";
 const AS_PITCH: &str = "read so, pitch rises from 35 to 42 deg as strokes grow from 25 to 44 deg";
 

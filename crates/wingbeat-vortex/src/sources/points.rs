@@ -94,7 +94,8 @@ impl Points {
 
     /// Whether the cores are as many as those of `other` and no radius differs by more than `near` \[m\].
     pub fn has_cores_near(&self, other: &Self, near: f64) -> bool {
-        let is_near = |(a, b): (&f64, &f64)| (a.sqrt() - b.sqrt()).abs() <= near;
+        let is_near =
+            |(a, b): (&f64, &f64)| a == b || near > 0.0 && (a.sqrt() - b.sqrt()).abs() <= near;
         self.core.len() == other.core.len() && self.core.iter().zip(&other.core).all(is_near)
     }
 

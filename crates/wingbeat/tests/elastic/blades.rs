@@ -1,6 +1,6 @@
 //! Wings that loads bend in blade elements.
 
-use super::{beam, case, fly, strings};
+use super::{beam, case, fly, goes_on, hawkmoth_extremes, strings};
 use wingbeat::analysis::power::power_with_wake;
 use wingbeat::analysis::stability::floquet_of_trim;
 use wingbeat::analysis::wake::{WakeSettings, WakeTrim, elastic_floquet, trim_with_wake};
@@ -85,30 +85,13 @@ fn invariant_a_saved_flight_in_blade_elements_goes_on_bit_for_bit() {
         &beam(2e-3),
     ]
     .concat();
-    let whole = fly(&set);
-    let setup = case(&set).setup;
-    let mut flight = Simulation::new(setup.clone()).unwrap();
-    for _ in 0..7 {
-        flight.step().unwrap();
-    }
-    let mut flight = Simulation::resume(setup, flight.state().clone()).unwrap();
-    while !flight.finished() {
-        flight.step().unwrap();
-    }
-    assert!(*flight.record() == whole[whole.len() - 1]);
+    goes_on(&set);
 }
 
 #[test]
 fn balances_shape_and_loads_of_a_hawkmoth_in_blade_elements() {
     let set = strings(&["air.model=\"blade_element\"", "time.beats=3"]);
-    let case = LoadedCase::find("hawkmoth-elastic", &set).unwrap();
-    let mut flight = Simulation::new(case.setup).unwrap();
-    let (mut twist, mut passes) = (0.0_f64, 0);
-    while !flight.finished() {
-        let elastic = flight.step().unwrap().elastic[0];
-        twist = twist.max(elastic.twist.abs());
-        passes = passes.max(elastic.passes);
-    }
+    let (twist, passes) = hawkmoth_extremes(&set);
     assert!((0.2..1.0).contains(&twist), "{twist}");
     assert!(passes <= 10, "{passes}");
 }
