@@ -110,8 +110,8 @@ fn numbers(record: &Record) -> usize {
         net_flux_residual: _,
     } = record;
     let lists = coordinates.len() + rates.len() + multipliers.len() + deformation_power.len();
-    // Tip (3), twist, elastic energy, passes of each; what all have dissipated.
-    let elastic = 6 * elastic.len() + usize::from(!elastic.is_empty());
+    // Tip (3), twist, four sections (3), elastic energy and its power, that of the air, passes of each; what all have dissipated.
+    let elastic = 20 * elastic.len() + usize::from(!elastic.is_empty());
     let feedback = 8 * commands.len() + 8 * reference.len();
     let vectors = 3 * wing_angles.len() + feedback + 6 * accelerations.len();
     let reactions = 7 * (hinges.len() + loops.len()) + 2 * joints.len();

@@ -72,7 +72,10 @@ fn agrees_every_preset_with_its_page_figures_and_frames() {
         assert!(run.join("flight.html").is_file(), "{}", preset.name);
         let figures = fs::read_dir(run.join("figures")).unwrap().count();
         assert!(figures >= 3, "{}: {figures} figures", preset.name);
-        if let Some(gap) = apart(&run) {
+        // How a wing bends stands in its frames alone.
+        let bends = LoadedCase::find(preset.name, &[]).unwrap();
+        let bends = bends.setup.animal.is_elastic();
+        if let Some(gap) = apart(&run).filter(|_| !bends) {
             // Coordinates are the state's but for a few roundings in taking angles from rotations.
             assert!(gap < 1e-12, "{}: {gap:.1e} apart", preset.name);
             println!("{}: {gap:.1e}", preset.name);

@@ -172,10 +172,31 @@ pub(super) const ELASTIC: &[Quantity] = &[
     )
     .new_here(),
     scalar(
+        "deflection_tip_{s}",
+        Unit::Metre,
+        "displacement along axis 3 from rest of the middle of the chord at the tip of {s}",
+        |r, s, _| Real(&mut r.elastic[s].sections[3].deflection),
+    )
+    .new_here(),
+    scalar(
+        "twist_tip_{s}",
+        Unit::Radian,
+        "twist of the tip section of {s} from rest, positive like feathering",
+        |r, s, _| Real(&mut r.elastic[s].sections[3].twist),
+    )
+    .new_here(),
+    scalar(
         "camber_tip_{s}",
         Unit::One,
         "camber of the tip of {s}: largest height over the chord, less that at rest, positive towards -axis 3 like prescribed camber",
         |r, s, _| Real(&mut r.elastic[s].sections[3].camber),
+    )
+    .new_here(),
+    scalar(
+        "air_power_{s}",
+        Unit::Watt,
+        "power of the air on what {s} moves relative to its frame",
+        |r, s, _| Real(&mut r.elastic[s].air_power),
     )
     .new_here(),
     scalar(
