@@ -1,6 +1,6 @@
 //! Wings that loads bend in blade elements.
 
-use super::{beam, case, fly, goes_on, hawkmoth_extremes, strings};
+use super::{beam, fly, goes_on, hawkmoth_extremes, strings};
 use wingbeat::analysis::power::power_with_wake;
 use wingbeat::analysis::stability::floquet_of_trim;
 use wingbeat::analysis::wake::{WakeSettings, WakeTrim, elastic_floquet, trim_with_wake};
