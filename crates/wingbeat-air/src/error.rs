@@ -207,18 +207,6 @@ pub enum AirError {
         /// What the solver met.
         source: LuError,
     },
-    /// Which leading edges shed, and which hold their suction, was not found.
-    #[error(
-        "air step {step}: which of {strips} leading edges shed was not found in {changes} changes; reduce the time step, or take air.leading_edge = \"suction\""
-    )]
-    Suction {
-        /// Accepted steps so far.
-        step: u64,
-        /// Strips whose leading edge may shed.
-        strips: usize,
-        /// Changes tried.
-        changes: usize,
-    },
     /// Circulation, pressure or force of a panel is not finite.
     #[error(
         "air step {step}: the {what} of panel {panel} of surface {surface} is {value}; reduce the time step or enlarge the wake core radius"

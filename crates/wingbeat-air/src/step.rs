@@ -109,6 +109,7 @@ impl Lattice {
         (ws.boundary).solve(now, filaments, sums, found)?;
         let found = [&out.gamma[..], &out.leaving];
         (ws.boundary).velocities(now, filaments, sums, found, &mut out.velocity);
+        out.unfound = ws.boundary.leading_edges.unfound;
         Ok(())
     }
 
@@ -142,6 +143,7 @@ impl Lattice {
         (state.impulse, state.attached_impulse) = (loads.account, loads.attached_impulse);
         state.hold.copy_from_slice(&loads.hold);
         state.leaving.copy_from_slice(&loads.leaving);
+        state.events.limited += loads.unfound;
         state.time = loads.time;
         state.step += 1;
         state.wake_due = true;

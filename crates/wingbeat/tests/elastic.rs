@@ -383,7 +383,7 @@ fn refuses_what_knows_no_elastic_wings() {
                 "--set",
                 "wing.right.structure.beam.mass=[{at=0.5,mass_kg=1}]",
             ],
-            "beam.mass`",
+            "beam.mass = ",
         ),
         (
             vec![

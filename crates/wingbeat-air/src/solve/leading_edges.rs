@@ -33,6 +33,8 @@ pub(crate) struct LeadingEdges {
     answer: Vec<f64>,
     /// Suction parameter of each strip \[1\].
     pub suction: Vec<f64>,
+    /// Strips that shed what they had too much, for want of a solution.
+    pub unfound: u64,
 }
 
 impl LeadingEdges {
@@ -63,9 +65,10 @@ impl LeadingEdges {
         self.take_limits(now, filaments, (threshold, gamma));
         self.count_unseen(now, filaments);
         self.release.none();
+        self.unfound = 0;
         if self.release.is_due() {
             self.take_answers(now, filaments, influence)?;
-            self.release.converge(now.state.step)?;
+            self.unfound = self.release.converge();
             self.answer(gamma);
         }
         self.report(now, filaments, (gamma, leaving));

@@ -15,7 +15,6 @@
 //! strength in each strip follows together with the circulations of the panels, in one flow: either the strip has less than it
 //! holds and nothing leaves, or it has as much as it holds and what leaves has the sign of its suction.
 
-use crate::error::AirError;
 use crate::geometry::{Panels, Strip, chord, opposite};
 use crate::lattice::Lattice;
 use crate::settings::LeadingEdge;
@@ -147,28 +146,39 @@ impl Release {
         self.held.clone_from(&self.net);
     }
 
-    /// Finds what leaves: strips that have too much begin to shed, strips that would take back cease.
-    ///
-    /// # Errors
-    /// The equations of the strips that shed have no unique solution, or no choice of these strips is right.
-    pub fn converge(&mut self, step: u64) -> Result<(), AirError> {
+    /// Finds what leaves: strips that have too much begin to shed, strips that would take back cease. Where no choice of strips is
+    /// right, as when a sharp wake crosses the leading panels, each sheds what it has too much. Returns how many strips do that.
+    pub fn converge(&mut self) -> u64 {
         self.none();
         self.sign.clear();
         self.sign.resize(self.net.len(), 0.0);
-        let strips = self.net.len();
-        let unknown = |changes: usize| AirError::Suction {
-            step,
-            strips,
-            changes,
-        };
-        let changes = ALL_AT_ONCE + 4 * strips;
-        for round in 0..changes {
+        for round in 0..ALL_AT_ONCE + 4 * self.net.len() {
             if !self.change(round >= ALL_AT_ONCE) {
-                return Ok(());
+                return 0;
             }
-            self.solve().map_err(|_| unknown(round))?;
+            if self.solve().is_err() {
+                break;
+            }
         }
-        Err(unknown(changes))
+        self.shed_what_is_too_much()
+    }
+
+    /// What is more than the edge may have leaves each strip, whatever that does to the others. Returns the number of strips.
+    fn shed_what_is_too_much(&mut self) -> u64 {
+        let both = self.net.iter().zip(&self.most);
+        self.leaving.clear();
+        (self.leaving).extend(both.map(|(net, most)| net - net.clamp(-most, *most)));
+        for j in 0..self.net.len() {
+            self.held[j] = self.net[j] + self.answer(j);
+        }
+        self.leaving.iter().filter(|l| **l != 0.0).count() as u64
+    }
+
+    /// What all that leaves adds to the net circulation of strip `j`.
+    fn answer(&self, j: usize) -> f64 {
+        let n = self.net.len();
+        let row = &self.by_leaving[j * n..(j + 1) * n];
+        row.iter().zip(&self.leaving).map(|(m, x)| m * x).sum()
     }
 
     /// Changes which strips shed, only the first that is wrong if `one`; says whether any was wrong.
@@ -211,10 +221,8 @@ impl Release {
         self.lu.factor(&self.rows)?;
         self.lu.solve_in_place(&mut self.leaving);
         for j in 0..n {
-            let row = &self.by_leaving[j * n..(j + 1) * n];
-            let more: f64 = row.iter().zip(&self.leaving).map(|(m, x)| m * x).sum();
             self.held[j] = match self.sign[j] == 0.0 {
-                true => self.net[j] + more,
+                true => self.net[j] + self.answer(j),
                 false => self.sign[j] * self.most[j],
             };
         }

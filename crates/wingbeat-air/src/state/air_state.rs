@@ -8,7 +8,8 @@ use wingbeat_math::DVec3;
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 pub struct WakeEvents {
     /// Displacements shortened to [`crate::AirSettings::max_displacement`], and strengths
-    /// of particles held to a change of half in a step and twice their first size in all.
+    /// of particles held to a change of half in a step and twice their first size in all; leading edges that shed what they
+    /// had too much where no solution holds the suction of all ([`crate::LeadingEdge::SuctionImplicit`]).
     pub limited: u64,
     /// Wake nodes and particles kept at [`crate::AirSettings::clearance`] from a surface.
     pub near_surface: u64,
