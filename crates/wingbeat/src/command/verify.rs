@@ -9,7 +9,7 @@ use serde_json::json;
 use wingbeat::case::IoError;
 use wingbeat::draw::figures::{Chart, Panel, Series};
 use wingbeat::results::file::{NewFile, write_file};
-use wingbeat::verify::{Case, Entry, Report};
+use wingbeat::verify::{Case, Comparison, Entry, Report};
 
 use crate::command::failure::{FAILED, Failure};
 use crate::command::target::folder;
@@ -137,12 +137,14 @@ fn draw(report: &Report, args: &VerifyArgs) -> Result<(), IoError> {
     Ok(())
 }
 
-/// One pair of axes for each quantity: what is compared with in black, what was computed in colours. All courses of a case have
-/// the abscissas of its first.
+/// One pair of axes for each quantity: what is compared with in black, what was computed in colours. A figure has the courses
+/// that share the abscissas of the first; others stand in the tables alone.
 fn chart(entry: &Entry) -> Option<Chart> {
     let first = entry.comparisons().next()?;
+    let abscissas = |c: &Comparison| c.points.iter().map(|p| p[0]).collect::<Vec<_>>();
+    let x = abscissas(first);
     let mut panels: Vec<Panel> = vec![];
-    for c in entry.comparisons() {
+    for c in (entry.comparisons()).filter(|c| c.along == first.along && abscissas(c) == x) {
         let series = |label: &str, k: usize, measured| Series {
             label: label.to_owned(),
             values: c.points.iter().map(|p| p[k]).collect(),
@@ -163,7 +165,7 @@ fn chart(entry: &Entry) -> Option<Chart> {
     Some(Chart {
         title: entry.case.to_string(),
         x_label: first.along.to_string(),
-        x: first.points.iter().map(|p| p[0]).collect(),
+        x,
         shaded: vec![],
         panels,
     })
@@ -225,7 +227,7 @@ fn write(report: &Report, files: &[NewFile; 3]) -> Result<(), IoError> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use wingbeat::verify::{Comparison, Part, Row};
+    use wingbeat::verify::{Part, Row};
 
     /// Two models beside one reference share a pair of axes; a case without courses has no figure.
     #[test]
@@ -254,6 +256,10 @@ mod tests {
         assert_eq!(labels, ["reference", "a", "b"]);
         assert_eq!(lift.series[0].values, [3.0, 4.0]);
         assert_eq!((drag.series.len(), drawn.x), (2, vec![0.0, 0.5]));
+        // Half as many points over the beat: other places.
+        let other = Comparison::over_a_beat("power", "a", &[1.0], &[3.0]);
+        entry.rows.push(Row::new("x", "1", 0.0).drawn(other));
+        assert_eq!(chart(&entry).unwrap().panels.len(), 2);
         entry.rows.truncate(0);
         assert!(chart(&entry).is_none());
     }
