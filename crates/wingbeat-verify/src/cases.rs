@@ -14,6 +14,7 @@ mod hover;
 mod insects;
 mod invariance;
 mod kernel;
+mod membrane;
 mod onset;
 mod particles;
 mod pazy;
@@ -48,6 +49,7 @@ pub fn suite() -> Vec<Case> {
         onset::CASES,
         goland::CASES,
         pazy::CASES,
+        membrane::CASES,
         heathcote::CASES,
         scherer::CASES,
         ramp::CASES,

@@ -16,7 +16,7 @@ const LONG: usize = 4;
 /// Long steps before the steady state is looked at, a quarter of the short ones after them.
 const LEAST: usize = 60;
 
-/// Velocity at which the wing counts as steady: of its tip over that of the stream \[1\].
+/// Velocity at which the wing counts as steady: of its fastest node over that of the stream \[1\].
 const STEADY: f64 = 1e-7;
 
 /// The deformed steady state.
@@ -26,7 +26,7 @@ pub struct SteadyWing {
     pub tip: DVec3,
     /// Rotation vector of the tip, wing components \[rad\].
     pub turn: DVec3,
-    /// Velocity of the tip that is left over that of the stream \[1\].
+    /// Velocity of the fastest node that is left over that of the stream \[1\].
     pub drift: f64,
     /// Angular frequencies of the leading modes about it without air [rad/s].
     pub vacuum: Vec<f64>,
@@ -120,7 +120,7 @@ impl ElasticRig {
     fn unsteady(&self, drift: f64) -> AnalysisError {
         AnalysisError::not_covered(
             format!(
-                "at {} m/s the wing does not come to rest: its tip still moves at {drift:.1e} of the speed of the stream",
+                "at {} m/s the wing does not come to rest: a node still moves at {drift:.1e} of the speed of the stream",
                 self.speed
             ),
             "allow more steps; what diverges or separates has no steady state",
@@ -144,10 +144,11 @@ impl ElasticRig {
         setup
     }
 
-    /// Velocity of the tip over that of the stream.
+    /// Velocity of the fastest node over that of the stream.
     fn drift(&self, state: &FlightState) -> f64 {
-        let numbers = &state.wings[0].structure.velocity;
-        DVec3::from_slice(&numbers[numbers.len() - 6..]).length() / self.speed
+        let nodes = state.wings[0].structure.velocity.chunks_exact(6);
+        let speeds = nodes.map(|node| DVec3::from_slice(node).length());
+        speeds.fold(0.0, f64::max) / self.speed
     }
 
     fn steady(

@@ -26,6 +26,7 @@ pub(super) fn make(wing: Wing, path: &str, case: &StructureCase) -> Built<Wing> 
         (Some(beam), _) => Members::Beam(self::beam(&format!("{path}.beam"), beam)?),
         (None, Some(shell)) => {
             let (table, path) = (path, format!("{path}.shell"));
+            check_clamps(&path, shell)?;
             let sheet = match shell.rule {
                 Some(ShellRule::CombesDaniel) => {
                     let (report, mass) = (wing.report(), wing.mass.mass);
@@ -157,9 +158,23 @@ fn shell(path: &str, case: &ShellCase) -> Built<WingShell> {
         regions: vec![],
         veins: vec![],
         clamps_root: true,
+        clamps_perimeter: false,
         rigid_fraction: 0.0,
     };
     Ok(wing)
+}
+
+/// Refuses a root that is free on a perimeter that is clamped.
+fn check_clamps(path: &str, case: &ShellCase) -> Built<()> {
+    match case.clamped_perimeter && !case.clamped_root {
+        true => Err(Fault::new(
+            format!("{path}.clamped_root"),
+            "false: the root is part of the perimeter, which is clamped",
+            "true, or clamped_perimeter = false",
+            "remove one of the two",
+        )),
+        false => Ok(()),
+    }
 }
 
 /// The same with mass, fibres, tension and what is clamped as the case says.
@@ -171,6 +186,7 @@ fn edges(wing: WingShell, case: &ShellCase) -> WingShell {
         prestress: case.prestress_newton_per_m,
         bending_factor: case.bending_factor,
         clamps_root: case.clamped_root,
+        clamps_perimeter: case.clamped_perimeter,
         rigid_fraction: case.rigid_fraction,
         ..wing
     }

@@ -269,6 +269,10 @@ pub struct ShellCase {
     /// Change it to false for foils that are held along their leading part alone, or by veins.
     #[default = true]
     pub clamped_root: bool,
+    /// Whether all its edges are clamped to the wing frame, leading and trailing edge, root and tip.
+    ///
+    /// Change it to true for membranes on a rigid frame.
+    pub clamped_perimeter: bool,
     /// Part of the chord behind the leading edge that is rigid with the wing frame, all along the span.
     ///
     /// Change it for foils with a rigid leading part.

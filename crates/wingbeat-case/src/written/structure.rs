@@ -59,6 +59,7 @@ fn shell_case(shell: &WingShell) -> ShellCase {
         regions: _,
         veins: _,
         clamps_root,
+        clamps_perimeter,
         rigid_fraction,
     } = shell;
     let (thickness_m, thickness_table_m) = span(thickness, |x| x);
@@ -76,6 +77,7 @@ fn shell_case(shell: &WingShell) -> ShellCase {
         prestress_newton_per_m: *prestress,
         bending_factor: *bending_factor,
         clamped_root: *clamps_root,
+        clamped_perimeter: *clamps_perimeter,
         rigid_fraction: *rigid_fraction,
     }
 }

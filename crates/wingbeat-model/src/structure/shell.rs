@@ -41,6 +41,8 @@ pub struct WingShell {
     pub veins: Vec<Vein>,
     /// Whether the root is clamped to the wing frame.
     pub clamps_root: bool,
+    /// Whether all its edges are clamped to the wing frame: a membrane on a rigid frame.
+    pub clamps_perimeter: bool,
     /// Part of the chord behind the leading edge that is rigid with the wing frame, all along the span \[1\].
     pub rigid_fraction: f64,
 }
@@ -80,6 +82,7 @@ impl WingShell {
             regions: vec![],
             veins: vec![],
             clamps_root: true,
+            clamps_perimeter: false,
             rigid_fraction: 0.0,
         }
     }
@@ -202,11 +205,12 @@ impl WingShell {
 
     /// Whether node `p` of the mesh is rigid with the wing frame.
     fn is_held(&self, grid: &GridMesh, p: usize) -> bool {
-        let j = p % (grid.cols + 1);
+        let [i, j] = [p / (grid.cols + 1), p % (grid.cols + 1)];
         let (_, lead, chord) = column(grid, j);
         let behind = (lead - grid.nodes[p].x) / chord;
         let rigid = self.rigid_fraction > 0.0 && behind <= self.rigid_fraction + ROUNDING;
-        rigid || (self.clamps_root && j == 0)
+        let edge = [0, grid.rows].contains(&i) || [0, grid.cols].contains(&j);
+        rigid || (self.clamps_root && j == 0) || (self.clamps_perimeter && edge)
     }
 
     pub(super) fn scaled(&self, s: f64) -> Self {
@@ -228,7 +232,8 @@ impl WingShell {
             (0.0..1.0).contains(&part),
             "from 0 to below 1",
         )?;
-        let held = self.clamps_root || part > 0.0 || self.veins.iter().any(|v| v.is_clamped);
+        let clamps = self.clamps_root || self.clamps_perimeter;
+        let held = clamps || part > 0.0 || self.veins.iter().any(|v| v.is_clamped);
         let allowed =
             "above 0 where neither root nor vein is clamped: something must hold the wing";
         require(&of("rigid_fraction"), part, held, allowed)?;

@@ -74,6 +74,34 @@ fn exact_frequency_of_a_wing_with_two_spars() {
     assert!(error.abs() < 3e-3, "{error:e}");
 }
 
+/// Square plate clamped all around, `omega a^2 sqrt(m / D)` 35.985, 73.394 twice, 108.22 [Leissa 1973, J. Sound Vib. 31:257].
+#[test]
+fn order_frequencies_of_a_plate_on_a_frame() {
+    let rigidity = 3e9 * 1e-4_f64.powi(3) / (12.0 * 0.91);
+    let plate = (rigidity * 0.06_f64.powi(2) / 1e-4).sqrt() / 0.06_f64.powi(2);
+    let errors = |n: usize| -> Vec<f64> {
+        let mesh = ["chordwise", "spanwise"].map(|k| format!("wing.right.mesh.{k}={n}"));
+        let set = [
+            "wing.right.structure.shell.clamped_perimeter=true",
+            "wing.right.planform.rectangle.chord_m=6e-2",
+            "wing.right.structure.shell.poisson=0.3",
+            &mesh[0],
+            &mesh[1],
+        ];
+        let exact = [35.985, 73.394, 73.394, 108.22].map(|k| k * plate);
+        let found = frequencies(&right(&set, ""));
+        (found.iter().zip(exact))
+            .map(|(f, e)| f / e - 1.0)
+            .collect()
+    };
+    let (coarse, fine) = (errors(6), errors(12));
+    for (coarse, fine) in coarse.iter().zip(&fine) {
+        assert!(fine.abs() < 0.06, "{fine:e}"); // 1.7, 2.9, 2.9, 5.4 %
+        let order = (coarse / fine).log2();
+        assert!((1.6..2.4).contains(&order), "{coarse:e} {fine:e}");
+    }
+}
+
 /// An outer half of twice the thickness weighs twice as much; a whole region is as if the sheet were of it.
 #[test]
 fn exact_mass_and_stiffness_of_regions() {
@@ -172,6 +200,11 @@ fn refuses_veins_and_regions_that_say_nothing() {
             "prestress_newton_per_m",
         ),
         (&[no_root], String::new(), "something must hold"),
+        (
+            &[no_root, "wing.right.structure.shell.clamped_perimeter=true"],
+            String::new(),
+            "part of the perimeter",
+        ),
     ] {
         let said = load(set, &lists).unwrap_err();
         assert!(said.contains(says), "{lists}: {said}");
