@@ -24,6 +24,7 @@ use crate::elastic::{ElasticState, ElasticWings};
 use crate::equations::{Equations, Memory, Scratch};
 use crate::error::FlightError;
 use crate::interface::{Instant, WingResponse};
+use crate::memory::wakes_of;
 use crate::quadratures::QUADRATURES;
 use crate::record::{Record, Snapshot};
 use crate::recorder::{Ledger, Sources};
@@ -137,7 +138,7 @@ impl Simulation {
         let (y, s) = (&self.state.past.y[k], &mut self.scratch);
         let equations = &self.stages[self.state.stage].equations;
         equations.place_nodes(t, y, s)?;
-        if let Some(air) = &self.state.air {
+        if let Some(air) = wakes_of(self.state.air.as_ref()) {
             let loads = &mut s.air_scratch.loads;
             loads.gamma.clone_from(&air.gamma);
             loads.pressure_jump = vec![f64::NAN; air.gamma.len()];

@@ -4,7 +4,7 @@
 //! the left-hand side of the equations of motion ([`AddedMass`]); what of it follows from velocities
 //! is among the loads.
 
-use wingbeat_air::{AirState, Wind};
+use wingbeat_air::Wind;
 use wingbeat_blade::{
     BladeError, BladeWing, BodyDrag, FrameAcceleration, FrameMotion, Load, SectionMotion, Strip,
 };
@@ -16,6 +16,7 @@ use wingbeat_model::{Animal, Wing, WingMotion};
 use super::bent::BentStrips;
 use crate::error::FlightError;
 use crate::interface::{Air, AirScratch, Instant, WingResponse};
+use crate::memory::AirMemory;
 use crate::setup::BladeOptions;
 
 /// The blade elements of an animal.
@@ -176,7 +177,7 @@ impl Air for BladeAir {
     fn loads(
         &self,
         at: &Instant<'_>,
-        _memory: Option<&AirState>,
+        _memory: Option<&AirMemory>,
         scratch: &mut AirScratch,
         out: &mut [Wrench],
     ) -> Result<(), FlightError> {
@@ -231,7 +232,7 @@ impl Air for BladeAir {
         &self,
         wing: usize,
         at: &Instant<'_>,
-        _memory: Option<&AirState>,
+        _memory: Option<&AirMemory>,
         _scratch: &AirScratch,
         out: &mut WingResponse,
     ) -> Result<bool, FlightError> {

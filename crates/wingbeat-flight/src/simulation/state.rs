@@ -1,12 +1,12 @@
 //! What is integrated.
 
-use wingbeat_air::AirState;
 use wingbeat_math::ode::{Multistep, StepReport};
 
 use crate::carried::CarriedState;
 use crate::control::ControlState;
 use crate::elastic::ElasticState;
 use crate::equations::Memory;
+use crate::memory::AirMemory;
 use crate::recorder::Ledger;
 
 /// Everything that is integrated: plain data, enough to go on bit for bit.
@@ -24,7 +24,7 @@ pub struct FlightState {
     /// What the starter did.
     pub start_report: StepReport,
     /// The air after the newest step, its wake not yet moved on; none in vacuum.
-    pub air: Option<AirState>,
+    pub air: Option<AirMemory>,
     /// The elastic wings after the newest step; empty where there are none.
     #[serde(default)]
     pub wings: Vec<ElasticState>,
