@@ -3,6 +3,7 @@
 use wingbeat_math::{DMat3, DVec2, DVec3};
 
 use crate::error::BladeError;
+use crate::lag::{Gust, Lag, Lags, Slowed, StripTrial};
 use crate::pair::{self, PairMotion, StripPair};
 use crate::settings::{AddedMass, BladeSettings};
 use crate::strip::Strip;
@@ -43,6 +44,7 @@ pub struct BladeWing {
     pairs: Vec<StripPair>,
     settings: BladeSettings,
     added: AddedMoments,
+    lags: Option<Lags>,
 }
 
 /// Sums over the strips of the added mass m = rho pi/4 c^2 dr and its place (x, y) at mid chord,
@@ -111,6 +113,7 @@ impl BladeWing {
         Ok(Self {
             pairs: StripPair::all(&strips, &settings),
             strips,
+            lags: settings.unsteady.map(Lags::of),
             settings,
             added,
         })
@@ -140,8 +143,18 @@ impl BladeWing {
     /// As [`Self::velocity_load`], `wind` being added to the free stream: a velocity [m/s] at a
     /// point [m] of the wing frame, wing components.
     pub fn velocity_load_in(&self, motion: &FrameMotion, wind: impl Fn(DVec3) -> DVec3) -> Load {
+        self.lagging_load(motion, wind, None)
+    }
+
+    /// As [`Self::velocity_load_in`], the circulation of the strips lagging behind as `lag` says.
+    pub fn lagging_load(
+        &self,
+        motion: &FrameMotion,
+        wind: impl Fn(DVec3) -> DVec3,
+        lag: Option<Lag<'_>>,
+    ) -> Load {
         let v = self.velocity_through_air(motion);
-        let mut sum = self.strip_load(v, motion.rate, &wind);
+        let mut sum = self.strip_load(v, motion.rate, &wind, lag);
         match self.settings.added_mass {
             AddedMass::None | AddedMass::Normal => {}
             AddedMass::Section => {
@@ -211,7 +224,13 @@ impl BladeWing {
 
     /// Translation, rotation and viscous moment of all strips; the hinge moves with `v` through air
     /// without wind.
-    fn strip_load(&self, v: DVec3, rate: DVec3, wind: &impl Fn(DVec3) -> DVec3) -> Load {
+    fn strip_load(
+        &self,
+        v: DVec3,
+        rate: DVec3,
+        wind: &impl Fn(DVec3) -> DVec3,
+        mut lag: Option<Lag<'_>>,
+    ) -> Load {
         let motion = |_: usize, pair: &StripPair| {
             let [a, b] = [pair.y.x, pair.y.y].map(|y| v - wind(DVec3::new(0.0, y, 0.0)));
             // Velocity of the points on the feathering axis, v + rate x (0, y, 0).
@@ -221,8 +240,14 @@ impl BladeWing {
                 q: DVec2::splat(rate.y),
             }
         };
+        let gust = |k: usize| {
+            let s = &self.strips[k];
+            [0.0, s.x_leading].map(|x| wind(DVec3::new(x, s.y, 0.0)).z)
+        };
+        let mut slowed = self.slowed(lag.as_mut(), &gust);
         let mut sums = [DVec2::ZERO; 5];
-        pair::forces(&self.pairs, &self.settings, motion, |_, pair, f| {
+        let (pairs, settings) = (&self.pairs, &self.settings);
+        pair::slowed_forces(pairs, settings, slowed.as_mut(), motion, |_, pair, f| {
             let y = pair.y;
             sums[0] += f.along;
             sums[1] += f.normal;
@@ -235,6 +260,30 @@ impl BladeWing {
             force: DVec3::new(along, 0.0, normal),
             moment: DVec3::new(about_1, about_2, about_3),
         }
+    }
+
+    /// The indicial functions; none of a quasi-steady wing.
+    pub(crate) fn lags(&self) -> Option<&Lags> {
+        self.lags.as_ref()
+    }
+
+    /// The strips as their wakes slow them down in a `gust`; none where nothing does.
+    pub(crate) fn slowed<'a, 'b>(
+        &'a self,
+        lag: Option<&'a mut Lag<'b>>,
+        gust: &'a Gust<'a>,
+    ) -> Option<Slowed<'a, 'b>> {
+        let (lags, lag) = (self.lags.as_ref()?, lag?);
+        let count = self.strips.len();
+        if let Lag::Trial { trial, .. } = &mut *lag {
+            trial.resize(count, StripTrial::default());
+        }
+        Some(Slowed {
+            lags,
+            lag,
+            gust,
+            count,
+        })
     }
 
     /// The strips, two by two.

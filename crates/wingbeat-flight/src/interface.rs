@@ -4,7 +4,7 @@
 use std::fmt;
 
 use wingbeat_air::{AirLoads, AirWorkspace, NodeMotion, Points};
-use wingbeat_blade::SectionState;
+use wingbeat_blade::{SectionState, StripTrial};
 use wingbeat_dynamics::{AddedMass, BodyAcceleration, BodyMotion, Wrench};
 use wingbeat_math::DVec3;
 
@@ -76,6 +76,7 @@ pub struct AirScratch {
     pub(crate) nodes_done: NodeMotion,
     pub(crate) is_current: bool,
     pub(crate) bent: BentScratch,
+    pub(crate) strips: StripScratch,
 }
 
 /// Room for blade elements on a wing that loads bend: its nodes, wing components, its sections, and the forces on the nodes wing
@@ -87,6 +88,13 @@ pub(crate) struct BentScratch {
     pub acceleration: Vec<DVec3>,
     pub states: Vec<SectionState>,
     pub forces: Vec<Vec<DVec3>>,
+}
+
+/// Room for blade elements whose wakes are remembered: the strips at the time last asked for \[s\], wing by wing.
+#[derive(Debug, Default)]
+pub(crate) struct StripScratch {
+    pub time: f64,
+    pub trials: Vec<Vec<StripTrial>>,
 }
 
 /// Air around bodies that move.

@@ -66,4 +66,4 @@ pub use record::{
 };
 pub use recorder::Ledger;
 pub use setup::*;
-pub use simulation::{FlightState, Simulation};
+pub use simulation::{FlightState, Past, Simulation};

@@ -24,7 +24,7 @@ use crate::elastic::{ElasticState, ElasticWings};
 use crate::equations::{Equations, Memory, Scratch};
 use crate::error::FlightError;
 use crate::interface::{Instant, WingResponse};
-use crate::memory::wakes_of;
+use crate::memory::{AirMemory, wakes_of};
 use crate::quadratures::QUADRATURES;
 use crate::record::{Record, Snapshot};
 use crate::recorder::{Ledger, Sources};
@@ -34,6 +34,30 @@ use crate::stages::{Stage, stages};
 
 /// Target of the `log` events that say that a step begins; fields `step`, `steps`.
 pub const STEP_EVENT: &str = "wingbeat::step";
+
+/// Where a flight goes on from another one: all that is remembered beside the motion of rigid bodies, but for wakes in space.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Past {
+    /// Elastic wings, in their order; empty where there are none.
+    pub wings: Vec<ElasticState>,
+    /// The air, where strips remember their wakes.
+    pub air: Option<AirMemory>,
+}
+
+impl Past {
+    /// That of a flight in this state.
+    pub fn of(state: &FlightState) -> Self {
+        Self {
+            wings: state.wings.clone(),
+            air: state.air.clone(),
+        }
+    }
+
+    /// Whether there is nothing.
+    pub fn is_empty(&self) -> bool {
+        self.wings.is_empty() && self.air.is_none()
+    }
+}
 
 /// A flight in progress.
 pub struct Simulation {
@@ -55,7 +79,7 @@ impl Simulation {
     /// A setup that contradicts itself, bodies or surfaces that are impossible, a start state
     /// without consistent coordinates, a start that does not converge.
     pub fn new(setup: FlightSetup) -> Result<Self, FlightError> {
-        Self::begun(setup, None)
+        Self::begun(setup, None, None)
     }
 
     /// The same, the elastic wings bent and moving as in `wings` at the start, in their order: to go on with a beat that begins
@@ -64,10 +88,22 @@ impl Simulation {
     /// # Errors
     /// As [`Self::new`]; wings that are not those of the setup.
     pub fn bent(setup: FlightSetup, wings: &[ElasticState]) -> Result<Self, FlightError> {
-        Self::begun(setup, Some(wings))
+        Self::begun(setup, Some(wings), None)
     }
 
-    fn begun(setup: FlightSetup, bent: Option<&[ElasticState]>) -> Result<Self, FlightError> {
+    /// The same with the `past` of elastic wings and of the wakes of strips.
+    ///
+    /// # Errors
+    /// As [`Self::bent`]; wakes that are not those of the setup's strips.
+    pub fn after(setup: FlightSetup, past: &Past) -> Result<Self, FlightError> {
+        Self::begun(setup, Some(&past.wings), past.air.as_ref())
+    }
+
+    fn begun(
+        setup: FlightSetup,
+        bent: Option<&[ElasticState]>,
+        air: Option<&AirMemory>,
+    ) -> Result<Self, FlightError> {
         setup.validate()?;
         let feedback = feedback(&setup)?;
         let wings = feedback.as_ref().map(Loop::wings);
@@ -78,6 +114,9 @@ impl Simulation {
         let first = &stages[0].equations;
         if let Some(bent) = bent {
             fits::check_wings(&stages[0], bent)?;
+        }
+        if air.is_some() {
+            first.air.check(air)?;
         }
         let state = FlightState {
             step: 0,
@@ -103,7 +142,7 @@ impl Simulation {
             stages,
         };
         flight.scratch.elastic = flight.equations().elastic.scratch(&flight.state.wings);
-        flight.begin(bent.is_some())?;
+        flight.begin(bent.is_some_and(|b| !b.is_empty()), air)?;
         Ok(flight)
     }
 
@@ -121,6 +160,8 @@ impl Simulation {
         let mut flight = Self::new(setup)?;
         check_fits(&state, &flight.stages, &flight.state.ledger)?;
         flight.state = state;
+        let time = flight.newest_time();
+        (flight.state.air.iter_mut()).for_each(|air| air.set_time(time));
         let first = &flight.stages[flight.state.stage].equations;
         flight.solver = flight.new_solver();
         flight.scratch = Scratch::new(first);
@@ -284,7 +325,7 @@ impl Simulation {
     }
 
     /// The first moment: consistent coordinates, circulation without a wake, open books.
-    fn begin(&mut self, is_bent: bool) -> Result<(), FlightError> {
+    fn begin(&mut self, is_bent: bool, air: Option<&AirMemory>) -> Result<(), FlightError> {
         let root = self.setup.root_at_start();
         let Equations { core, elastic, .. } = &self.stages[0].equations;
         let mut y0 = core.initial(0.0, &root)?;
@@ -296,6 +337,9 @@ impl Simulation {
         }
         y0.resize(y0.len() + QUADRATURES, 0.0);
         self.state.air = (self.stages[0].equations).initial_air(&y0, &mut self.scratch)?;
+        if let Some(air) = air {
+            self.state.air = Some(air.clone().restarted());
+        }
         self.enter_stage(y0)?;
         self.state.ledger = Ledger::open(&self.scratch);
         self.finish_arrival(StepReport::default(), true)

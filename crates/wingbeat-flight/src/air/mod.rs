@@ -3,7 +3,7 @@
 //! | model | module | memory |
 //! |---|---|---|
 //! | vortex lattice | `lattice` | circulations and wakes |
-//! | blade elements | `blade` | none |
+//! | blade elements | `blade` | none, or wakes of the strips |
 //! | stability derivatives | `table` | none |
 //! | another program | [`external`] | its own |
 //! | vacuum | here | none |
