@@ -17,6 +17,7 @@ use wingbeat_math::{DVec2, DVec3};
 use crate::lag::Lag;
 use crate::pair::{self, PairMotion, StripPair};
 use crate::settings::AddedMass;
+use crate::slowed::slowed_forces;
 use crate::strip::Strip;
 use crate::wing::BladeWing;
 
@@ -232,7 +233,7 @@ impl BladeWing {
     ) {
         let gust = |k: usize| states[k].gust;
         let mut slowed = self.slowed(lag.as_mut(), &gust);
-        pair::slowed_forces(
+        slowed_forces(
             self.pairs(),
             self.settings(),
             slowed.as_mut(),
@@ -330,7 +331,7 @@ impl BladeWing {
                 changed[way] = sign * SMALL;
                 let motion = pairs_of(states, changed);
                 let (pairs, settings) = (self.pairs(), self.settings());
-                pair::slowed_forces(pairs, settings, slowed.as_mut(), motion, |k, _, f| {
+                slowed_forces(pairs, settings, slowed.as_mut(), motion, |k, _, f| {
                     for lane in 0..2.min(states.len() - 2 * k) {
                         let j = 2 * k + lane;
                         let step = 2.0 * SMALL * states[j].sizes()[way];

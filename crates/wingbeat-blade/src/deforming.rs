@@ -9,6 +9,7 @@ use wingbeat_math::{DVec2, DVec3};
 use crate::lag::Lag;
 use crate::pair::{self, PairMotion, StripPair};
 use crate::settings::AddedMass;
+use crate::slowed::slowed_forces;
 use crate::strip::Strip;
 use crate::wing::{BladeWing, FrameAcceleration, FrameMotion, Load};
 
@@ -99,7 +100,7 @@ impl BladeWing {
         let mut slowed = self.slowed(lag.as_mut(), &gust);
         let mut sum = DeformingLoad::default();
         let (pairs, settings) = (self.pairs(), self.settings());
-        pair::slowed_forces(pairs, settings, slowed.as_mut(), pair_moves, |k, _, f| {
+        slowed_forces(pairs, settings, slowed.as_mut(), pair_moves, |k, _, f| {
             for lane in 0..2.min(self.strips().len() - 2 * k) {
                 let s = section(2 * k + lane);
                 let [e1, e3] = s.axes();

@@ -15,10 +15,7 @@
 //! | s | `way` | way through the air in half chords | 1 |
 //! | z | `wake`, `wind` | states of the wake | m/s |
 
-use wingbeat_math::DVec2;
-
 use crate::indicial::{Indicial, Pole, Unsteady, passed, product, quotient};
-use crate::pair::{PairMotion, StripPair};
 
 /// What a strip remembers of its wake.
 #[derive(Clone, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
@@ -47,7 +44,8 @@ pub struct StripTrial {
     drive: f64,
     gust: f64,
     speed: f64,
-    downwash: f64,
+    /// Downwash of its wake \[m/s\].
+    pub(crate) downwash: f64,
 }
 
 /// Where the downwash of the wakes comes from.
@@ -137,7 +135,7 @@ impl Lags {
     }
 
     /// The strip after it has moved as in `trial` at `time` \[s\], its chord being 2 `half`.
-    fn accept(&self, strip: &mut StripMemory, trial: &StripTrial, duration: f64, half: f64) {
+    fn accept_strip(&self, strip: &mut StripMemory, trial: &StripTrial, duration: f64, half: f64) {
         let way = strip.way_to(trial.speed, duration, half);
         let lists = [
             (&self.wake, &mut strip.wake, trial.drive - strip.drive),
@@ -157,9 +155,9 @@ impl Lags {
     }
 
     /// What is missing of the circulation's and of the wind's downwash \[m/s\].
-    fn downwash(&self, strip: &StripMemory, trial: &StripTrial, duration: f64, half: f64) -> f64 {
+    fn missing(&self, strip: &StripMemory, trial: &StripTrial, duration: f64, half: f64) -> f64 {
         let way = strip.way_to(trial.speed, duration, half);
-        let missing = |law: &Indicial, mut states: &[f64], change: f64| -> f64 {
+        let parts_of = |law: &Indicial, mut states: &[f64], change: f64| -> f64 {
             let part = |pole: &Pole| {
                 let (own, rest) = states.split_at(pole.numbers());
                 states = rest;
@@ -167,13 +165,54 @@ impl Lags {
             };
             law.poles().iter().map(part).sum()
         };
-        let wake = missing(&self.wake, &strip.wake, trial.drive - strip.drive);
+        let wake = parts_of(&self.wake, &strip.wake, trial.drive - strip.drive);
         let is_calm =
             trial.gust == 0.0 && strip.gust == 0.0 && strip.wind.iter().all(|z| *z == 0.0);
         match is_calm {
             true => wake,
-            false => wake - missing(&self.wind, &strip.wind, trial.gust - strip.gust),
+            false => wake - parts_of(&self.wind, &strip.wind, trial.gust - strip.gust),
         }
+    }
+
+    /// The strips of chords `chords` \[m\] after they have moved as in `trial` at `time` \[s\].
+    pub fn accept(
+        &self,
+        memory: &mut WingMemory,
+        trial: &[StripTrial],
+        time: f64,
+        chords: impl Iterator<Item = f64>,
+    ) {
+        let duration = time - memory.time;
+        for ((own, trial), chord) in memory.strips.iter_mut().zip(trial).zip(chords) {
+            self.accept_strip(own, trial, duration, 0.5 * chord);
+        }
+        memory.time = time;
+    }
+
+    /// The downwash \[m/s\] to be taken from a strip of chord `chord` \[m\], and the trial that it belongs to: its motion has the downwash `drive`
+    /// and the `speed`, the wind the normal velocities `at_axis`, which the motion lacks, and `gust` at the leading edge.
+    pub fn downwash(
+        &self,
+        (memory, strip, time): (&WingMemory, usize, f64),
+        chord: f64,
+        [drive, speed]: [f64; 2],
+        [at_axis, gust]: [f64; 2],
+    ) -> StripTrial {
+        let mut here = StripTrial {
+            drive,
+            gust,
+            speed,
+            downwash: 0.0,
+        };
+        let missing = self.missing(
+            &memory.strips[strip],
+            &here,
+            time - memory.time,
+            0.5 * chord,
+        );
+        // Of the wind at the axis, which the motion has, that at the leading edge takes the place.
+        here.downwash = missing + (gust - at_axis);
+        here
     }
 
     /// The beat after which a memory `after` was found that began with `before`, ended by the states that come back: of the same
@@ -217,81 +256,5 @@ impl StripMemory {
     /// Way in half chords to an instant `duration` \[s\] later at which its speed is `speed` \[m/s\].
     fn way_to(&self, speed: f64, duration: f64, half: f64) -> f64 {
         0.5 * (self.speed + speed) * duration / half
-    }
-}
-
-/// Normal velocities \[m/s\] of the wind at the feathering axis and the leading edge of a strip.
-pub(crate) type Gust<'a> = dyn Fn(usize) -> [f64; 2] + 'a;
-
-/// Strips that their wakes slow down.
-pub(crate) struct Slowed<'a, 'b> {
-    pub lags: &'a Lags,
-    pub lag: &'a mut Lag<'b>,
-    pub gust: &'a Gust<'a>,
-    /// Number of strips.
-    pub count: usize,
-}
-
-impl Slowed<'_, '_> {
-    /// Pair number `k`, which moves like `m`, less the downwash of its wake.
-    pub fn slowed(&mut self, k: usize, pair: &StripPair, mut m: PairMotion) -> PairMotion {
-        let mut less = DVec2::ZERO;
-        for lane in 0..2.min(self.count - 2 * k) {
-            let strip = 2 * k + lane;
-            less[lane] = match &mut self.lag {
-                Lag::Known(trial) => trial[strip].downwash,
-                Lag::Trial {
-                    memory,
-                    time,
-                    trial,
-                } => {
-                    let [at_axis, gust] = (self.gust)(strip);
-                    let (u, w, q) = (m.u[lane], m.w[lane], m.q[lane]);
-                    let mut here = StripTrial {
-                        drive: w + at_axis + pair.lever()[lane] * q,
-                        gust,
-                        speed: u.hypot(w),
-                        downwash: 0.0,
-                    };
-                    let (own, half) = (&memory.strips[strip], 0.5 * pair.chord()[lane]);
-                    // Of the wind at the axis, which m has, that at the leading edge takes the place.
-                    here.downwash = self.lags.downwash(own, &here, *time - memory.time, half)
-                        + (gust - at_axis);
-                    trial[strip] = here;
-                    here.downwash
-                }
-            };
-        }
-        m.w -= less;
-        m
-    }
-}
-
-impl crate::BladeWing {
-    /// What its strips remember before they have moved; none of a quasi-steady wing.
-    pub fn memory(&self) -> Option<WingMemory> {
-        self.lags()
-            .map(|lags| WingMemory::new(self.strips().len(), lags))
-    }
-
-    /// Strips that have moved as in the `trial` at `time` \[s\].
-    pub fn accept(&self, memory: &mut WingMemory, trial: &[StripTrial], time: f64) {
-        let Some(lags) = self.lags() else { return };
-        let duration = time - memory.time;
-        let strips = memory.strips.iter_mut().zip(trial).zip(self.strips());
-        for ((own, trial), strip) in strips {
-            lags.accept(own, trial, duration, 0.5 * strip.chord);
-        }
-        memory.time = time;
-    }
-
-    /// What the strips would remember if the motion by which they came from `before` to `after` repeated itself for ever.
-    #[must_use]
-    pub fn periodic(&self, before: &WingMemory, after: &WingMemory) -> WingMemory {
-        let mut found = after.clone();
-        if let Some(lags) = self.lags() {
-            lags.periodic(before, &mut found);
-        }
-        found
     }
 }

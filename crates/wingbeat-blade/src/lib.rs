@@ -43,6 +43,7 @@ mod indicial;
 mod lag;
 mod pair;
 mod settings;
+mod slowed;
 mod strip;
 mod wing;
 

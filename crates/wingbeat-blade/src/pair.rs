@@ -5,7 +5,6 @@ use std::f64::consts::PI;
 use wingbeat_math::DVec2;
 
 use crate::coefficients::Translation;
-use crate::lag::Slowed;
 use crate::settings::{BladeSettings, CentreOfPressure, Rotation};
 use crate::strip::Strip;
 
@@ -98,21 +97,6 @@ fn circulation(rotation: Rotation, s: &Strip) -> f64 {
         Rotation::None => 0.0,
         Rotation::SaneDickinson | Rotation::Circulation => PI * (0.75 - s.x0()),
         Rotation::Coefficient(c) => c,
-    }
-}
-
-/// As [`forces`] of `pairs` that wakes slow down, if there are any.
-#[inline]
-pub(crate) fn slowed_forces(
-    pairs: &[StripPair],
-    settings: &BladeSettings,
-    wakes: Option<&mut Slowed<'_, '_>>,
-    motion: impl Fn(usize, &StripPair) -> PairMotion,
-    put: impl FnMut(usize, &StripPair, PairForce),
-) {
-    match wakes {
-        None => forces(pairs, settings, motion, put),
-        Some(s) => forces(pairs, settings, |k, p| s.slowed(k, p, motion(k, p)), put),
     }
 }
 

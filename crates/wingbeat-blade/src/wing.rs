@@ -3,9 +3,10 @@
 use wingbeat_math::{DMat3, DVec2, DVec3};
 
 use crate::error::BladeError;
-use crate::lag::{Gust, Lag, Lags, Slowed, StripTrial};
-use crate::pair::{self, PairMotion, StripPair};
+use crate::lag::{Lag, Lags, StripTrial, WingMemory};
+use crate::pair::{PairMotion, StripPair};
 use crate::settings::{AddedMass, BladeSettings};
+use crate::slowed::{Gust, Slowed, slowed_forces};
 use crate::strip::Strip;
 
 /// How the frame of a wing moves.
@@ -247,7 +248,7 @@ impl BladeWing {
         let mut slowed = self.slowed(lag.as_mut(), &gust);
         let mut sums = [DVec2::ZERO; 5];
         let (pairs, settings) = (&self.pairs, &self.settings);
-        pair::slowed_forces(pairs, settings, slowed.as_mut(), motion, |_, pair, f| {
+        slowed_forces(pairs, settings, slowed.as_mut(), motion, |_, pair, f| {
             let y = pair.y;
             sums[0] += f.along;
             sums[1] += f.normal;
@@ -262,9 +263,27 @@ impl BladeWing {
         }
     }
 
-    /// The indicial functions; none of a quasi-steady wing.
-    pub(crate) fn lags(&self) -> Option<&Lags> {
-        self.lags.as_ref()
+    /// What its strips remember before they have moved; none of a quasi-steady wing.
+    pub fn memory(&self) -> Option<WingMemory> {
+        let lags = self.lags.as_ref()?;
+        Some(WingMemory::new(self.strips.len(), lags))
+    }
+
+    /// Strips that have moved as in the `trial` at `time` \[s\].
+    pub fn accept(&self, memory: &mut WingMemory, trial: &[StripTrial], time: f64) {
+        if let Some(lags) = &self.lags {
+            lags.accept(memory, trial, time, self.strips.iter().map(|s| s.chord));
+        }
+    }
+
+    /// What the strips would remember if the motion by which they came from `before` to `after` repeated itself for ever.
+    #[must_use]
+    pub fn periodic(&self, before: &WingMemory, after: &WingMemory) -> WingMemory {
+        let mut found = after.clone();
+        if let Some(lags) = &self.lags {
+            lags.periodic(before, &mut found);
+        }
+        found
     }
 
     /// The strips as their wakes slow them down in a `gust`; none where nothing does.

@@ -8,7 +8,7 @@ mod start;
 mod state;
 mod wings;
 
-pub use state::FlightState;
+pub use state::{FlightState, Past};
 
 use wingbeat_air::Points;
 use wingbeat_dynamics::BodyMotion;
@@ -34,30 +34,6 @@ use crate::stages::{Stage, stages};
 
 /// Target of the `log` events that say that a step begins; fields `step`, `steps`.
 pub const STEP_EVENT: &str = "wingbeat::step";
-
-/// Where a flight goes on from another one: all that is remembered beside the motion of rigid bodies, but for wakes in space.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Past {
-    /// Elastic wings, in their order; empty where there are none.
-    pub wings: Vec<ElasticState>,
-    /// The air, where strips remember their wakes.
-    pub air: Option<AirMemory>,
-}
-
-impl Past {
-    /// That of a flight in this state.
-    pub fn of(state: &FlightState) -> Self {
-        Self {
-            wings: state.wings.clone(),
-            air: state.air.clone(),
-        }
-    }
-
-    /// Whether there is nothing.
-    pub fn is_empty(&self) -> bool {
-        self.wings.is_empty() && self.air.is_none()
-    }
-}
 
 /// A flight in progress.
 pub struct Simulation {

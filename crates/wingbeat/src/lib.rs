@@ -10,7 +10,7 @@
 //! | [`model`] | the animal: meshes, masses, wing motion |
 //! | [`dynamics`] | constrained multibody dynamics |
 //! | [`vortex`] | Biot-Savart sums over vortex filaments and blobs |
-//! | [`blade`] | quasi-steady air: blade elements, stability derivatives |
+//! | [`blade`] | blade elements, quasi-steady or with wakes of strips; stability derivatives |
 //! | [`air`] | unsteady vortex lattice with free wakes |
 //! | [`flight`] | the two together |
 //! | [`analysis`] | analysis of flights |

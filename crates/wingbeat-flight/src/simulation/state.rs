@@ -46,3 +46,27 @@ impl FlightState {
         }
     }
 }
+
+/// Where a flight goes on from another one: all that is remembered beside the motion of rigid bodies, but for wakes in space.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Past {
+    /// Elastic wings, in their order; empty where there are none.
+    pub wings: Vec<ElasticState>,
+    /// The air, where strips remember their wakes.
+    pub air: Option<AirMemory>,
+}
+
+impl Past {
+    /// That of a flight in this state.
+    pub fn of(state: &FlightState) -> Self {
+        Self {
+            wings: state.wings.clone(),
+            air: state.air.clone(),
+        }
+    }
+
+    /// Whether there is nothing.
+    pub fn is_empty(&self) -> bool {
+        self.wings.is_empty() && self.air.is_none()
+    }
+}
