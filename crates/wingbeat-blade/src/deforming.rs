@@ -7,7 +7,7 @@
 use wingbeat_math::{DVec2, DVec3};
 
 use crate::lag::Lag;
-use crate::pair::{self, PairMotion, StripPair};
+use crate::pair::{PairMotion, StripPair};
 use crate::settings::AddedMass;
 use crate::slowed::slowed_forces;
 use crate::strip::Strip;

@@ -170,19 +170,23 @@ fn with_wake(args: &StabilityArgs, report: &mut Report) -> Result<(), Failure> {
 /// Floquet's modes of body, elastic wings and wakes of strips.
 fn with_wings(args: &StabilityArgs, report: &mut Report) -> Result<(), Failure> {
     let (_, trim) = trimmed_with_wake(&args.trimming, report)?;
-    let count = match trim.past.wings.is_empty() {
+    let is_rigid = trim.past.wings.is_empty();
+    let count = match is_rigid {
         true => 0,
         false => args.modes.unwrap_or(DEFAULT_MODES),
     };
     let found = watched("Floquet's modes", || elastic_floquet(&trim, count))?;
-    let wakes = match trim.past.air {
-        Some(_) => "; wakes of strips are coordinates, motions that lie in them are left out",
-        None => "",
+    let of = match is_rigid {
+        true => "body and wakes of strips (Floquet)".to_owned(),
+        false => format!("body and wings (Floquet), {count} modes of each wing"),
     };
-    line!(
-        report,
-        "\nModes of the full periodic orbit of body and wings (Floquet), {count} modes of each wing{wakes}:"
-    );
+    line!(report, "\nModes of the full periodic orbit of {of}:");
+    if trim.past.air.is_some() {
+        line!(
+            report,
+            "  (all states of the wakes are coordinates; what decays in them alone is left out)"
+        );
+    }
     modes(report, "floquet_modes", &found);
     report.value("modes_of_each_wing", count);
     Ok(())

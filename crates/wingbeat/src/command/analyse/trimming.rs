@@ -283,7 +283,11 @@ pub(crate) fn trimmed_with_wake(
         ),
     };
     name_program(&case);
-    tell!("{}: trimming {what}; this takes minutes", case.name);
+    let pace = match case.setup.air.keeps_wake() || case.setup.animal.is_elastic() {
+        true => "; this takes minutes",
+        false => "",
+    };
+    tell!("{}: trimming {what}{pace}", case.name);
     let found = watched("trimming", || {
         trim_with_wake(&case.setup, &problem, &settings)
     })?;
