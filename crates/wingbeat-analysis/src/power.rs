@@ -1,8 +1,7 @@
 //! Mechanical power of flapping: aerodynamic, inertial, and what the muscles pay.
 
 use wingbeat_dynamics::{Body, BodyMotion, Element, Joint, Mechanism};
-use wingbeat_flight::elastic::ElasticState;
-use wingbeat_flight::{FlightSetup, Record, Simulation, system_of};
+use wingbeat_flight::{FlightSetup, Past, Record, Simulation, system_of};
 use wingbeat_math::DVec3;
 
 use crate::AnalysisError;
@@ -100,7 +99,7 @@ pub fn power(setup: &FlightSetup) -> Result<Power, AnalysisError> {
 pub fn power_of_trim(trim: &Trim) -> Result<Power, AnalysisError> {
     match trim.turn_rate {
         0.0 => power(&trim.tethered()?),
-        _ => over_free_beat(&trim.free(), 0, &[]),
+        _ => over_free_beat(&trim.free(), 0, &Past::default()),
     }
 }
 
@@ -109,19 +108,15 @@ pub fn power_of_trim(trim: &Trim) -> Result<Power, AnalysisError> {
 /// # Errors
 /// What the flight reports.
 pub fn power_with_wake(trim: &WakeTrim) -> Result<Power, AnalysisError> {
-    over_free_beat(&trim.setup, trim.start().held_steps, &trim.wings)
+    over_free_beat(&trim.setup, trim.start().held_steps, &trim.past)
 }
 
-/// Powers over a free flight after `held` steps, its elastic wings beginning as in `wings` if there are any.
-fn over_free_beat(
-    setup: &FlightSetup,
-    held: usize,
-    wings: &[ElasticState],
-) -> Result<Power, AnalysisError> {
+/// Powers over a free flight after `held` steps, its elastic wings and wakes of strips beginning as in `past` if there are any.
+fn over_free_beat(setup: &FlightSetup, held: usize, past: &Past) -> Result<Power, AnalysisError> {
     let limbs = Limbs::of(setup)?;
-    let mut flight = match wings {
-        [] => Simulation::new(setup.clone())?,
-        wings => Simulation::bent(setup.clone(), wings)?,
+    let mut flight = match past.is_empty() {
+        true => Simulation::new(setup.clone())?,
+        false => Simulation::after(setup.clone(), past)?,
     };
     for step in 0..held {
         progress::task("power", step, setup.time.steps);

@@ -14,8 +14,10 @@
 
 use wingbeat_math::{DVec2, DVec3};
 
-use crate::pair::{self, PairMotion, StripPair};
+use crate::lag::Lag;
+use crate::pair::{PairMotion, StripPair};
 use crate::settings::AddedMass;
+use crate::slowed::slowed_forces;
 use crate::strip::Strip;
 use crate::wing::BladeWing;
 
@@ -32,8 +34,9 @@ struct Share {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Section {
     shares: Vec<Share>,
-    /// Place at rest along axis 1 \[m\].
+    /// Place at rest along axis 1, and that of the leading edge \[m\].
     x: f64,
+    leading: f64,
     /// 1 where columns go along axis 2, -1 where against it.
     side: f64,
 }
@@ -66,6 +69,8 @@ pub struct SectionState {
     turn: DVec3,
     /// Rate of Omega_2.
     q_rate: f64,
+    /// Normal velocities of the wind at the feathering axis and the leading edge.
+    gust: [f64; 2],
 }
 
 /// What acts on a section, by the sums that say how it lies.
@@ -109,6 +114,7 @@ impl Section {
         Self {
             shares,
             x: mean,
+            leading: x[0],
             side,
         }
     }
@@ -139,18 +145,20 @@ impl Section {
         let q = -chord_rate.dot(n) / d;
         let about_1 = (s_rate.dot(n) + q * s[0]) / s[1];
         let normal_rate = q * e1 - about_1 * e2;
+        let [here, at_edge] = [0.0, self.leading].map(|x| wind(p + (x - self.x) * chord));
         let falls = chord_acceleration.dot(n) + chord_rate.dot(normal_rate);
         SectionState {
             e: [e1, e2, n],
             d,
             s,
             x: self.x,
-            v: v - wind(p - self.x * chord),
+            v: v - here,
             a,
             chord_rate,
             turn: DVec3::new(about_1, q, chord_rate.dot(e2) / d),
             chord_acceleration,
             q_rate: (chord_rate.dot(n) * chord_rate.dot(e1) / d - falls) / d,
+            gust: [here.dot(n), at_edge.dot(n)],
         }
     }
 
@@ -215,11 +223,20 @@ pub struct SectionAnswer {
 
 impl BladeWing {
     /// Adds to `out` the forces on the nodes \[N\], wing components, of a wing whose `sections` are in these `states`: all of
-    /// [`Self::velocity_load`] and [`Self::acceleration_load`].
-    pub fn bent_forces(&self, sections: &[Section], states: &[SectionState], out: &mut [DVec3]) {
-        pair::forces(
+    /// [`Self::lagging_load`] and [`Self::acceleration_load`].
+    pub fn bent_forces(
+        &self,
+        sections: &[Section],
+        states: &[SectionState],
+        mut lag: Option<Lag<'_>>,
+        out: &mut [DVec3],
+    ) {
+        let gust = |k: usize| states[k].gust;
+        let mut slowed = self.slowed(lag.as_mut(), &gust);
+        slowed_forces(
             self.pairs(),
             self.settings(),
+            slowed.as_mut(),
             pairs_of(states, [0.0; 3]),
             |k, _, f| {
                 for lane in 0..2.min(states.len() - 2 * k) {
@@ -270,14 +287,15 @@ impl BladeWing {
         load
     }
 
-    /// How the forces on the nodes answer to motions of the sections, section by section; terms of second order in the rates
-    /// of turning are left out.
+    /// How the forces on the nodes answer to motions of the sections, section by section, their wakes lagging as `lag` says; terms of
+    /// second order in the rates of turning are left out.
     pub fn bent_answers(
         &self,
         sections: &[Section],
         states: &[SectionState],
+        mut lag: Option<Lag<'_>>,
     ) -> Vec<SectionAnswer> {
-        let by_velocity = self.velocity_answers(states);
+        let by_velocity = self.velocity_answers(states, lag.as_mut());
         let all = self
             .strips()
             .iter()
@@ -299,14 +317,21 @@ impl BladeWing {
     }
 
     /// Derivatives of force along chord and normal and moment at the feathering axis by the three velocities there.
-    fn velocity_answers(&self, states: &[SectionState]) -> Vec<[[f64; 3]; 3]> {
+    fn velocity_answers(
+        &self,
+        states: &[SectionState],
+        lag: Option<&mut Lag<'_>>,
+    ) -> Vec<[[f64; 3]; 3]> {
+        let gust = |k: usize| states[k].gust;
+        let mut slowed = self.slowed(lag, &gust);
         let mut all = vec![[[0.0; 3]; 3]; states.len()];
         for way in 0..3 {
             for sign in [1.0, -1.0] {
                 let mut changed = [0.0; 3];
                 changed[way] = sign * SMALL;
                 let motion = pairs_of(states, changed);
-                pair::forces(self.pairs(), self.settings(), motion, |k, _, f| {
+                let (pairs, settings) = (self.pairs(), self.settings());
+                slowed_forces(pairs, settings, slowed.as_mut(), motion, |k, _, f| {
                     for lane in 0..2.min(states.len() - 2 * k) {
                         let j = 2 * k + lane;
                         let step = 2.0 * SMALL * states[j].sizes()[way];

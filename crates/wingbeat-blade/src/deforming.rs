@@ -6,8 +6,10 @@
 
 use wingbeat_math::{DVec2, DVec3};
 
-use crate::pair::{self, PairMotion, StripPair};
+use crate::lag::Lag;
+use crate::pair::{PairMotion, StripPair};
 use crate::settings::AddedMass;
+use crate::slowed::slowed_forces;
 use crate::strip::Strip;
 use crate::wing::{BladeWing, FrameAcceleration, FrameMotion, Load};
 
@@ -67,12 +69,13 @@ struct Through {
 }
 
 impl BladeWing {
-    /// As [`BladeWing::velocity_load`], strip `k` lying and moving like `section(k)`.
+    /// As [`BladeWing::lagging_load`], strip `k` lying and moving like `section(k)`.
     pub fn deforming_velocity_load(
         &self,
         motion: &FrameMotion,
         section: impl Fn(usize) -> SectionMotion,
         wind: impl Fn(DVec3) -> DVec3,
+        mut lag: Option<Lag<'_>>,
     ) -> DeformingLoad {
         let v = self.velocity_through_air(motion);
         let last = self.strips().len().saturating_sub(1);
@@ -88,8 +91,16 @@ impl BladeWing {
             let [u, w, q] = [0, 1, 2].map(|i| DVec2::new(a[i], b[i]));
             PairMotion { u, w, q }
         };
+        let gust = |k: usize| {
+            let s = section(k);
+            let [e1, e3] = s.axes();
+            let leading = s.axis[0] + self.strips()[k].x_leading * e1;
+            [s.axis[0], leading].map(|p| wind(p).dot(e3))
+        };
+        let mut slowed = self.slowed(lag.as_mut(), &gust);
         let mut sum = DeformingLoad::default();
-        pair::forces(self.pairs(), self.settings(), pair_moves, |k, _, f| {
+        let (pairs, settings) = (self.pairs(), self.settings());
+        slowed_forces(pairs, settings, slowed.as_mut(), pair_moves, |k, _, f| {
             for lane in 0..2.min(self.strips().len() - 2 * k) {
                 let s = section(2 * k + lane);
                 let [e1, e3] = s.axes();

@@ -1,4 +1,4 @@
-//! Blade elements: quasi-steady air without memory, strip by strip along the span.
+//! Blade elements, strip by strip along the span: quasi-steady, or with the wake of plane flow behind every strip.
 //!
 //! Each strip of a wing is a flat section in the 1-3 plane of the wing frame (axis 1 to the
 //! leading edge, axis 3 the normal). From the velocity of the section through the air follow
@@ -9,6 +9,9 @@
 //! 3. the added mass, the rate of the momentum `rho pi/4 c^2 w` that the strip gives the air at mid
 //!    chord, or other published forms ([`AddedMass`]). What is linear in the accelerations is kept
 //!    apart: whoever integrates the motion can put it on the left-hand side.
+//!
+//! With [`Unsteady`] the circulation of a strip lags behind its motion ([`Indicial`], Wagner's function): the downwash of the
+//! strip's own wake is taken from the normal velocity that 1 and 2 see, and feathering is damped as thin-airfoil theory has it.
 //!
 //! Optional: drag of the body ([`BodyDrag`]). [`DerivativeTable`] is simpler still: the loads on a whole animal, linear
 //! about a reference flight.
@@ -28,7 +31,7 @@
 //! the added momentum. Twist and bending of
 //! a wing place and move its strips ([`SectionMotion`] where they are prescribed, [`Section`] where loads bend the wing).
 //!
-//! What this crate does not know: wakes, neighbouring strips, animals, coordinates, time.
+//! What this crate does not know: wakes of other strips, animals, coordinates, time.
 
 mod bent;
 mod body_drag;
@@ -36,8 +39,11 @@ pub mod coefficients;
 mod deforming;
 mod derivatives;
 mod error;
+mod indicial;
+mod lag;
 mod pair;
 mod settings;
+mod slowed;
 mod strip;
 mod wing;
 
@@ -47,6 +53,8 @@ pub use coefficients::{NamedSet, SETS, Translation, find_set};
 pub use deforming::{DeformingLoad, SectionMotion};
 pub use derivatives::{DerivativeTable, ReferenceSizes};
 pub use error::BladeError;
+pub use indicial::{Indicial, MAX_STATES, Pole, Unsteady};
+pub use lag::{Lag, StripMemory, StripTrial, WingMemory};
 pub use settings::{AddedMass, BladeSettings, CentreOfPressure, Rotation, ViscousMoment};
 pub use strip::Strip;
 pub use wing::{BladeWing, FrameAcceleration, FrameMotion, Load, calm};

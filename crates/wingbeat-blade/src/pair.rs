@@ -21,6 +21,10 @@ pub(crate) struct StripPair {
     circulation: DVec2,
     /// `pi/16 rho c^4 dr` [kg m].
     viscous: DVec2,
+    /// `C_rot c / pi`: how far behind the feathering axis the downwash is that the circulation follows \[m\].
+    lever: DVec2,
+    /// `pi/16 rho c^3 dr` \[kg\].
+    couple: DVec2,
 }
 
 /// How the points of two strips on the feathering axis move through the air.
@@ -62,7 +66,19 @@ impl StripPair {
                 rho * circulation(settings.rotation, s) * s.chord * s.chord * s.width
             }),
             viscous: lanes(&|s| PI / 16.0 * rho * s.chord.powi(4) * s.width),
+            lever: lanes(&|s| circulation(settings.rotation, s) * s.chord / PI),
+            couple: lanes(&|s| PI / 16.0 * rho * s.chord.powi(3) * s.width),
         }
+    }
+
+    /// How far behind the feathering axis the downwash is that the circulation follows \[m\].
+    pub fn lever(&self) -> DVec2 {
+        self.lever
+    }
+
+    /// Chords \[m\].
+    pub fn chord(&self) -> DVec2 {
+        self.chord
     }
 }
 
@@ -90,7 +106,7 @@ fn circulation(rotation: Rotation, s: &Strip) -> f64 {
 pub(crate) fn forces(
     pairs: &[StripPair],
     settings: &BladeSettings,
-    motion: impl Fn(usize, &StripPair) -> PairMotion,
+    motion: impl FnMut(usize, &StripPair) -> PairMotion,
     put: impl FnMut(usize, &StripPair, PairForce),
 ) {
     match settings.translation {
@@ -118,11 +134,12 @@ pub(crate) fn forces(
 fn with_law(
     pairs: &[StripPair],
     settings: &BladeSettings,
-    motion: impl Fn(usize, &StripPair) -> PairMotion,
+    mut motion: impl FnMut(usize, &StripPair) -> PairMotion,
     mut put: impl FnMut(usize, &StripPair, PairForce),
     law: impl Fn(DVec2, DVec2) -> [DVec2; 2],
 ) {
     let across = settings.rotation == Rotation::SaneDickinson;
+    let is_unsteady = settings.unsteady.is_some();
     let viscous = settings
         .viscous
         .map_or([0.0; 2], |m| [m.linear, m.quadratic]);
@@ -145,7 +162,11 @@ fn with_law(
         let normal = normal + r3;
         let behind = centre_of_pressure(settings.centre_of_pressure, sin, cos);
         let x_cp = pair.x_leading - pair.chord * behind;
-        let damping = pair.viscous * (viscous[0] + viscous[1] * q.abs()) * q;
+        let mut damping = pair.viscous * (viscous[0] + viscous[1] * q.abs()) * q;
+        if is_unsteady {
+            // Of the force m u q of the added mass half acts at 3/4 of the chord: `-pi/16 rho c^3 u q` [Theodorsen 1935].
+            damping += pair.couple * u.abs() * q;
+        }
         let force = PairForce {
             along: along + r1,
             normal,

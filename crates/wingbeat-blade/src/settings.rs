@@ -6,6 +6,7 @@ use wingbeat_math::DVec3;
 
 use crate::coefficients::{Translation, find_set};
 use crate::error::{BladeError, require};
+use crate::indicial::Unsteady;
 
 /// The blade-element model of a wing.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -24,6 +25,8 @@ pub struct BladeSettings {
     pub added_mass: AddedMass,
     /// Viscous moment against feathering.
     pub viscous: Option<ViscousMoment>,
+    /// How the circulation lags behind the motion; none: quasi-steady.
+    pub unsteady: Option<Unsteady>,
 }
 
 /// Place of the translational and rotational force along the chord.
@@ -110,6 +113,7 @@ impl BladeSettings {
             rotation: Rotation::Circulation,
             added_mass: AddedMass::Impulse,
             viscous: None,
+            unsteady: None,
         }
     }
 
@@ -171,6 +175,7 @@ impl BladeSettings {
                 "a finite number >= 0",
             )?;
         }
+        self.unsteady.map_or(Ok(()), Unsteady::check)?;
         self.translation.check()
     }
 }

@@ -3,8 +3,10 @@
 use wingbeat_math::{DMat3, DVec2, DVec3};
 
 use crate::error::BladeError;
-use crate::pair::{self, PairMotion, StripPair};
+use crate::lag::{Lag, Lags, StripTrial, WingMemory};
+use crate::pair::{PairMotion, StripPair};
 use crate::settings::{AddedMass, BladeSettings};
+use crate::slowed::{Gust, Slowed, slowed_forces};
 use crate::strip::Strip;
 
 /// How the frame of a wing moves.
@@ -43,6 +45,7 @@ pub struct BladeWing {
     pairs: Vec<StripPair>,
     settings: BladeSettings,
     added: AddedMoments,
+    lags: Option<Lags>,
 }
 
 /// Sums over the strips of the added mass m = rho pi/4 c^2 dr and its place (x, y) at mid chord,
@@ -111,6 +114,7 @@ impl BladeWing {
         Ok(Self {
             pairs: StripPair::all(&strips, &settings),
             strips,
+            lags: settings.unsteady.map(Lags::of),
             settings,
             added,
         })
@@ -140,8 +144,18 @@ impl BladeWing {
     /// As [`Self::velocity_load`], `wind` being added to the free stream: a velocity [m/s] at a
     /// point [m] of the wing frame, wing components.
     pub fn velocity_load_in(&self, motion: &FrameMotion, wind: impl Fn(DVec3) -> DVec3) -> Load {
+        self.lagging_load(motion, wind, None)
+    }
+
+    /// As [`Self::velocity_load_in`], the circulation of the strips lagging behind as `lag` says.
+    pub fn lagging_load(
+        &self,
+        motion: &FrameMotion,
+        wind: impl Fn(DVec3) -> DVec3,
+        lag: Option<Lag<'_>>,
+    ) -> Load {
         let v = self.velocity_through_air(motion);
-        let mut sum = self.strip_load(v, motion.rate, &wind);
+        let mut sum = self.strip_load(v, motion.rate, &wind, lag);
         match self.settings.added_mass {
             AddedMass::None | AddedMass::Normal => {}
             AddedMass::Section => {
@@ -211,7 +225,13 @@ impl BladeWing {
 
     /// Translation, rotation and viscous moment of all strips; the hinge moves with `v` through air
     /// without wind.
-    fn strip_load(&self, v: DVec3, rate: DVec3, wind: &impl Fn(DVec3) -> DVec3) -> Load {
+    fn strip_load(
+        &self,
+        v: DVec3,
+        rate: DVec3,
+        wind: &impl Fn(DVec3) -> DVec3,
+        mut lag: Option<Lag<'_>>,
+    ) -> Load {
         let motion = |_: usize, pair: &StripPair| {
             let [a, b] = [pair.y.x, pair.y.y].map(|y| v - wind(DVec3::new(0.0, y, 0.0)));
             // Velocity of the points on the feathering axis, v + rate x (0, y, 0).
@@ -221,8 +241,14 @@ impl BladeWing {
                 q: DVec2::splat(rate.y),
             }
         };
+        let gust = |k: usize| {
+            let s = &self.strips[k];
+            [0.0, s.x_leading].map(|x| wind(DVec3::new(x, s.y, 0.0)).z)
+        };
+        let mut slowed = self.slowed(lag.as_mut(), &gust);
         let mut sums = [DVec2::ZERO; 5];
-        pair::forces(&self.pairs, &self.settings, motion, |_, pair, f| {
+        let (pairs, settings) = (&self.pairs, &self.settings);
+        slowed_forces(pairs, settings, slowed.as_mut(), motion, |_, pair, f| {
             let y = pair.y;
             sums[0] += f.along;
             sums[1] += f.normal;
@@ -235,6 +261,48 @@ impl BladeWing {
             force: DVec3::new(along, 0.0, normal),
             moment: DVec3::new(about_1, about_2, about_3),
         }
+    }
+
+    /// What its strips remember before they have moved; none of a quasi-steady wing.
+    pub fn memory(&self) -> Option<WingMemory> {
+        let lags = self.lags.as_ref()?;
+        Some(WingMemory::new(self.strips.len(), lags))
+    }
+
+    /// Strips that have moved as in the `trial` at `time` \[s\].
+    pub fn accept(&self, memory: &mut WingMemory, trial: &[StripTrial], time: f64) {
+        if let Some(lags) = &self.lags {
+            lags.accept(memory, trial, time, self.strips.iter().map(|s| s.chord));
+        }
+    }
+
+    /// What the strips would remember if the motion by which they came from `before` to `after` repeated itself for ever.
+    #[must_use]
+    pub fn periodic(&self, before: &WingMemory, after: &WingMemory) -> WingMemory {
+        let mut found = after.clone();
+        if let Some(lags) = &self.lags {
+            lags.periodic(before, &mut found);
+        }
+        found
+    }
+
+    /// The strips as their wakes slow them down in a `gust`; none where nothing does.
+    pub(crate) fn slowed<'a, 'b>(
+        &'a self,
+        lag: Option<&'a mut Lag<'b>>,
+        gust: &'a Gust<'a>,
+    ) -> Option<Slowed<'a, 'b>> {
+        let (lags, lag) = (self.lags.as_ref()?, lag?);
+        let count = self.strips.len();
+        if let Lag::Trial { trial, .. } = &mut *lag {
+            trial.resize(count, StripTrial::default());
+        }
+        Some(Slowed {
+            lags,
+            lag,
+            gust,
+            count,
+        })
     }
 
     /// The strips, two by two.

@@ -7,6 +7,8 @@ use wingbeat_math::{DMat3, DVec3, MovingRotation, r1, r2, r3};
 
 #[path = "bent/mod.rs"]
 mod bent;
+#[path = "unsteady/mod.rs"]
+mod unsteady;
 
 const RHO: f64 = 1.2;
 

@@ -16,7 +16,7 @@ const ANALYSIS_S: f64 = 0.3;
 
 /// Points that a worker takes at once: half a second of them, by a rough estimate that is the same everywhere.
 pub fn points_of_block(raw: &RawCampaign, setup: &FlightSetup, points: usize) -> usize {
-    let flies_long = setup.air.has_memory() || !raw.files.is_empty();
+    let flies_long = setup.air.keeps_wake() || !raw.files.is_empty();
     if flies_long && raw.tasks.contains(&Task::Run) {
         return 1;
     }

@@ -181,11 +181,11 @@ impl Campaign {
         hash.finalize().into()
     }
 
-    /// Whether point `i` has a result directory of its own while it is flown: it keeps files, or its air has a memory
+    /// Whether point `i` has a result directory of its own while it is flown: it keeps files, or its air has wakes in space
     /// and takes long.
     pub fn has_directory(&self, i: usize, setup: &FlightSetup) -> bool {
         let runs = self.raw.tasks.contains(&Task::Run);
-        runs && (self.keeps_files(i) || setup.air.has_memory())
+        runs && (self.keeps_files(i) || setup.air.keeps_wake())
     }
 
     /// Whether files of point `i` are kept.

@@ -50,11 +50,16 @@ pub fn check(document: &Document, raw: &RawCampaign, setup: &FlightSetup) -> Res
         } else {
             ""
         };
+        let wakes = if setup.air.has_strip_wakes() {
+            " with wakes of its strips"
+        } else {
+            ""
+        };
         let problem = format!(
-            "in this air ({}){bent} a trim takes minutes, and campaigns do not trim there",
+            "in this air ({}){wakes}{bent} a trim takes minutes, and campaigns do not trim there",
             setup.air.name()
         );
-        let remedy = "set air.model = \"blade_element\" in [set] and take rigid wings, or trim point by point with `wingbeat trim`";
+        let remedy = "set air.model = \"blade_element\" in [set], leave air.blade.unsteady out and take rigid wings, or trim point by point with `wingbeat trim`";
         return Err(document
             .fault("do", problem, "trim in air without memory", remedy)
             .into());

@@ -58,11 +58,11 @@ pub fn trimmed_case(case: &LoadedCase, trim: &Trim) -> String {
     with_start(case, raw, &trim.beat.root(&trim.state), 0.0, trim.error())
 }
 
-/// Wingbeats of the hold in which elastic wings come into their motion.
+/// Wingbeats of the hold in which elastic wings and wakes of strips come into their motion.
 const HELD_WITH_WINGS: f64 = 3.0;
 
-/// What a case of a trimmed flight with elastic wings says of itself.
-const DEPARTS: &str = "# While the body is held, elastic wings come into a motion that is not quite that of the trimmed orbit:\n# the free flight departs from it.\n";
+/// What a case of a flight that was trimmed with elastic wings or wakes of strips says of itself.
+const DEPARTS: &str = "# While the body is held, elastic wings and wakes of strips come into a motion that is not quite that of the trimmed orbit:\n# the free flight departs from it.\n";
 
 /// The same for a flight in air with memory, or with elastic wings: held while the wake grows, or the wings come into their
 /// motion, then released.
@@ -79,19 +79,19 @@ pub fn wake_trimmed_case(case: &LoadedCase, trim: &WakeTrim) -> String {
         w: start.angular_velocity,
     };
     let time = &trim.setup.time;
-    // Elastic wings come into their motion while the body is held.
-    let held = match trim.wings.is_empty() {
-        true => start.held_steps as f64 * time.step / time.period.unwrap_or(1.0),
-        false => HELD_WITH_WINGS,
+    // Elastic wings and wakes of strips come into their motion while the body is held.
+    let held = match trim.is_orbit() {
+        false => start.held_steps as f64 * time.step / time.period.unwrap_or(1.0),
+        true => HELD_WITH_WINGS,
     };
     // The hold and the free wingbeat that was trimmed.
     raw.time.beats = Some(held + 1.0);
     raw.time.steps = None;
     raw.motion.start = case.raw.motion.start;
     let text = with_start(case, raw, &root, held, trim.error());
-    match trim.wings.is_empty() {
-        true => text,
-        false => format!("{DEPARTS}{text}"),
+    match trim.is_orbit() {
+        false => text,
+        true => format!("{DEPARTS}{text}"),
     }
 }
 

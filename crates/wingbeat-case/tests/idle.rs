@@ -281,6 +281,12 @@ const TABLE: &[(&[&str], &str, &str)] = &[
         "air.blade={ rotation = \"none\", rotation_coefficient = 1 }",
         "air.blade.rotation_coefficient",
     ),
+    (&[BLADE], "air.blade={ states = 4 }", "air.blade.states"),
+    (
+        &[BLADE],
+        "air.blade={ unsteady = \"jones\", states = 4 }",
+        "air.blade.states",
+    ),
     (
         &[BLADE],
         "air.ground={ point_m = [0, 0, 1], normal = [0, 0, 1] }",

@@ -120,7 +120,14 @@ fn invariant_left_equals_right_with_a_clearance() {
     let attached = asymmetry(&mut flight, 40);
     let mut flight = simulation("fruit-fly-tethered", &both);
     let separated = asymmetry(&mut flight, 40);
-    let met = flight.state().air.as_ref().unwrap().events.near_surface;
+    let met = flight
+        .state()
+        .air
+        .as_ref()
+        .and_then(wingbeat_flight::AirMemory::wakes)
+        .unwrap()
+        .events
+        .near_surface;
     println!(
         "left and right differ by {attached:.1e} attached, {separated:.1e} separated, {met} contacts"
     );

@@ -13,12 +13,12 @@
 //! The two differ by the error of D, of second order in the step whatever A is. That A is the lattice's own, from
 //! its influence matrix, leaves next to nothing of the difference.
 
-use wingbeat_air::AirState;
 use wingbeat_dynamics::{AddedMass, BodyAcceleration, BodyMotion, System, Wrench};
 use wingbeat_math::DVec3;
 
 use crate::error::FlightError;
 use crate::interface::{Air, AirScratch, Instant, WingInertia};
+use crate::memory::AirMemory;
 
 /// Wings that hang on free joints.
 #[derive(Clone, Debug, Default)]
@@ -82,7 +82,7 @@ impl CarriedAir {
     pub fn take_out(
         &self,
         at: &Instant<'_>,
-        (air, memory): (&dyn Air, Option<&AirState>),
+        (air, memory): (&dyn Air, Option<&AirMemory>),
         states: &[CarriedState],
         (scratch, s): (&AirScratch, &mut CarriedScratch),
         loads: &mut [Wrench],

@@ -4,7 +4,6 @@
 
 use std::sync::Arc;
 
-use wingbeat_air::AirState;
 use wingbeat_dynamics::budget::{mass_centre, relative_energy};
 use wingbeat_dynamics::{
     AbsoluteForm, AddedMass, BodyMotion, Mechanism, Solution, Stabilization, Workspace, Wrench,
@@ -18,13 +17,14 @@ use crate::core::Core;
 use crate::elastic::{ElasticScratch, ElasticState, ElasticWings, Moment};
 use crate::error::FlightError;
 use crate::interface::Shape;
+use crate::memory::AirMemory;
 use crate::quadratures::{QUADRATURES, Quadratures, WORKS};
 
 /// What a flight remembers beside its state vector, frozen within a step.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Memory<'a> {
     /// The air.
-    pub air: Option<&'a AirState>,
+    pub air: Option<&'a AirMemory>,
     /// The elastic wings; empty where there are none.
     pub wings: &'a [ElasticState],
     /// The wings that carry air along on free joints; empty where there are none.
@@ -487,7 +487,7 @@ impl Equations {
         &self,
         y0: &[f64],
         s: &mut Scratch,
-    ) -> Result<Option<AirState>, FlightError> {
+    ) -> Result<Option<AirMemory>, FlightError> {
         self.place_nodes(0.0, y0, s)?;
         Ok(self.air.initial(&s.air_scratch))
     }
@@ -498,7 +498,7 @@ impl Equations {
     /// Velocities that are not finite.
     pub fn advance_air(
         &self,
-        air: &mut Option<AirState>,
+        air: &mut Option<AirMemory>,
         s: &mut Scratch,
     ) -> Result<(), FlightError> {
         s.elastic.begin_step();
@@ -511,7 +511,7 @@ impl Equations {
     /// The wake has not been moved.
     pub fn accept(
         &self,
-        air: &mut Option<AirState>,
+        air: &mut Option<AirMemory>,
         (wings, carried): (&mut [ElasticState], &mut [CarriedState]),
         s: &Scratch,
     ) -> Result<(), FlightError> {

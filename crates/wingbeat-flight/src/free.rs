@@ -89,7 +89,7 @@ impl FreeFlight {
             return Err(FlightError::Setup {
                 key: "air.model",
                 value: "with a memory".into(),
-                problem: "a map of one wingbeat needs air that depends on the present motion alone (blade_element, none)".into(),
+                problem: "a map of one wingbeat (averaged models, control derivatives, feedback that is laid out) needs air that depends on the present motion alone: blade_element without air.blade.unsteady, or none".into(),
             });
         }
         Ok(Self::in_air(setup, form, air, step))

@@ -3,12 +3,13 @@
 
 use std::fmt;
 
-use wingbeat_air::{AirLoads, AirState, AirWorkspace, NodeMotion, Points};
-use wingbeat_blade::SectionState;
+use wingbeat_air::{AirLoads, AirWorkspace, NodeMotion, Points};
+use wingbeat_blade::{SectionState, StripTrial};
 use wingbeat_dynamics::{AddedMass, BodyAcceleration, BodyMotion, Wrench};
 use wingbeat_math::DVec3;
 
 use crate::error::FlightError;
+use crate::memory::AirMemory;
 use crate::record::Snapshot;
 
 /// The bodies at one instant, as the air sees them.
@@ -75,6 +76,7 @@ pub struct AirScratch {
     pub(crate) nodes_done: NodeMotion,
     pub(crate) is_current: bool,
     pub(crate) bent: BentScratch,
+    pub(crate) strips: StripScratch,
 }
 
 /// Room for blade elements on a wing that loads bend: its nodes, wing components, its sections, and the forces on the nodes wing
@@ -86,6 +88,13 @@ pub(crate) struct BentScratch {
     pub acceleration: Vec<DVec3>,
     pub states: Vec<SectionState>,
     pub forces: Vec<Vec<DVec3>>,
+}
+
+/// Room for blade elements whose wakes are remembered: the strips at the time last asked for \[s\], wing by wing.
+#[derive(Debug, Default)]
+pub(crate) struct StripScratch {
+    pub time: f64,
+    pub trials: Vec<Vec<StripTrial>>,
 }
 
 /// Air around bodies that move.
@@ -102,7 +111,7 @@ pub trait Air: fmt::Debug + Send + Sync {
     fn loads(
         &self,
         at: &Instant<'_>,
-        memory: Option<&AirState>,
+        memory: Option<&AirMemory>,
         scratch: &mut AirScratch,
         out: &mut [Wrench],
     ) -> Result<(), FlightError>;
@@ -136,7 +145,7 @@ pub trait Air: fmt::Debug + Send + Sync {
     }
 
     /// The memory before the first step, the surfaces placed.
-    fn initial(&self, _scratch: &AirScratch) -> Option<AirState> {
+    fn initial(&self, _scratch: &AirScratch) -> Option<AirMemory> {
         None
     }
 
@@ -146,7 +155,7 @@ pub trait Air: fmt::Debug + Send + Sync {
     /// Velocities that are not finite.
     fn advance(
         &self,
-        _memory: &mut Option<AirState>,
+        _memory: &mut Option<AirMemory>,
         _step: f64,
         _scratch: &mut AirScratch,
     ) -> Result<(), FlightError> {
@@ -159,7 +168,7 @@ pub trait Air: fmt::Debug + Send + Sync {
     /// The memory has not been moved on.
     fn accept(
         &self,
-        _memory: &mut Option<AirState>,
+        _memory: &mut Option<AirMemory>,
         _scratch: &AirScratch,
     ) -> Result<(), FlightError> {
         Ok(())
@@ -169,7 +178,7 @@ pub trait Air: fmt::Debug + Send + Sync {
     ///
     /// # Errors
     /// What does not fit.
-    fn check(&self, memory: Option<&AirState>) -> Result<(), FlightError> {
+    fn check(&self, memory: Option<&AirMemory>) -> Result<(), FlightError> {
         match memory {
             None => Ok(()),
             Some(_) => Err(misfit("the case has no air with a memory")),
@@ -204,7 +213,7 @@ pub trait Air: fmt::Debug + Send + Sync {
         &self,
         _wing: usize,
         _at: &Instant<'_>,
-        _memory: Option<&AirState>,
+        _memory: Option<&AirMemory>,
         _scratch: &AirScratch,
         _out: &mut WingResponse,
     ) -> Result<bool, FlightError> {
@@ -220,7 +229,7 @@ pub trait Air: fmt::Debug + Send + Sync {
         &self,
         _wing: usize,
         _at: &Instant<'_>,
-        _memory: Option<&AirState>,
+        _memory: Option<&AirMemory>,
         _scratch: &AirScratch,
     ) -> Result<Option<WingInertia>, FlightError> {
         Ok(None)
@@ -247,12 +256,12 @@ pub trait Air: fmt::Debug + Send + Sync {
     }
 
     /// Surfaces and wakes at the instant last asked for; none where there are none.
-    fn snapshot(&self, _memory: Option<&AirState>, _scratch: &AirScratch) -> Snapshot {
+    fn snapshot(&self, _memory: Option<&AirMemory>, _scratch: &AirScratch) -> Snapshot {
         Snapshot::default()
     }
 
     /// Velocity of the air [m/s] at `points` [m], N components; none where the model has none.
-    fn velocity(&self, _memory: Option<&AirState>, _points: &Points) -> Option<Points> {
+    fn velocity(&self, _memory: Option<&AirMemory>, _points: &Points) -> Option<Points> {
         None
     }
 }

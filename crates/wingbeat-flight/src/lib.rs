@@ -34,6 +34,7 @@ mod error;
 mod free;
 mod interface;
 pub mod joints;
+mod memory;
 mod prescribed;
 mod quadratures;
 pub mod record;
@@ -58,10 +59,11 @@ pub use interface::{
     WingResponse,
 };
 pub use joints::{closes_loop, faster};
+pub use memory::AirMemory;
 pub use record::{
     AccelerationRecord, ElasticRecord, HingeRecord, LoadRecord, ParticleSnapshot, Record, STATIONS,
     SectionRecord, Snapshot, SurfaceSnapshot, WakeSnapshot,
 };
 pub use recorder::Ledger;
 pub use setup::*;
-pub use simulation::{FlightState, Simulation};
+pub use simulation::{FlightState, Past, Simulation};

@@ -7,6 +7,7 @@ use wingbeat_math::{DQuat, DVec3};
 
 use crate::elastic::ElasticState;
 use crate::equations::{Equations, Scratch};
+use crate::memory::{AirMemory, wakes_of};
 use crate::quadratures::Quadratures;
 use crate::record::{AccelerationRecord, AirImpulse, HingeRecord, LoadRecord, Record};
 
@@ -64,7 +65,7 @@ pub struct Sources<'a> {
     /// State vector last evaluated.
     pub y: &'a [f64],
     /// The air, not yet moved on.
-    pub air: Option<&'a AirState>,
+    pub air: Option<&'a AirMemory>,
     /// The elastic wings, not yet moved on.
     pub wings: &'a [ElasticState],
     /// What the corrector did.
@@ -138,7 +139,7 @@ impl Sources<'_> {
     /// Impulses of the air and the state of its wakes.
     fn write_air(&self, time: f64, ledger: &mut Ledger, r: &mut Record) {
         let (s, loads) = (self.scratch, &self.scratch.air_scratch.loads);
-        let events = self.air.map_or(0, total_events);
+        let events = wakes_of(self.air).map_or(0, total_events);
         r.regularised = (events - ledger.events) as usize;
         ledger.events = events;
         r.vortex_impulse = loads.impulse;
@@ -163,7 +164,7 @@ impl Sources<'_> {
 
     /// Sum over all wake sheets.
     fn in_wake(&self, count: impl Fn(&WakeSheet) -> usize) -> usize {
-        let sheets = self.air.map_or(&[][..], |a| &a.sheets);
+        let sheets = wakes_of(self.air).map_or(&[][..], |a| &a.sheets);
         sheets.iter().map(count).sum()
     }
 

@@ -240,13 +240,23 @@ impl AirModel {
         }
     }
 
-    /// Whether the loads depend on the past (a wake).
+    /// Whether the loads depend on the past.
     pub fn has_memory(&self) -> bool {
+        self.has_strip_wakes() || self.keeps_wake()
+    }
+
+    /// Whether what is remembered is moved on once a step and known at the ends of steps alone, as a wake in space is.
+    pub fn keeps_wake(&self) -> bool {
         match self {
             Self::VortexLattice(_) | Self::External(_) => true,
             Self::None | Self::BladeElement(_) | Self::Derivatives(_) => false,
             Self::Own(air) => air.has_memory(),
         }
+    }
+
+    /// Whether strips remember their own wakes, in a few states each.
+    pub fn has_strip_wakes(&self) -> bool {
+        matches!(self, Self::BladeElement(options) if options.blade.unsteady.is_some())
     }
 }
 

@@ -8,7 +8,7 @@ mod start;
 mod state;
 mod wings;
 
-pub use state::FlightState;
+pub use state::{FlightState, Past};
 
 use wingbeat_air::Points;
 use wingbeat_dynamics::BodyMotion;
@@ -24,6 +24,7 @@ use crate::elastic::{ElasticState, ElasticWings};
 use crate::equations::{Equations, Memory, Scratch};
 use crate::error::FlightError;
 use crate::interface::{Instant, WingResponse};
+use crate::memory::{AirMemory, wakes_of};
 use crate::quadratures::QUADRATURES;
 use crate::record::{Record, Snapshot};
 use crate::recorder::{Ledger, Sources};
@@ -54,7 +55,7 @@ impl Simulation {
     /// A setup that contradicts itself, bodies or surfaces that are impossible, a start state
     /// without consistent coordinates, a start that does not converge.
     pub fn new(setup: FlightSetup) -> Result<Self, FlightError> {
-        Self::begun(setup, None)
+        Self::begun(setup, None, None)
     }
 
     /// The same, the elastic wings bent and moving as in `wings` at the start, in their order: to go on with a beat that begins
@@ -63,10 +64,22 @@ impl Simulation {
     /// # Errors
     /// As [`Self::new`]; wings that are not those of the setup.
     pub fn bent(setup: FlightSetup, wings: &[ElasticState]) -> Result<Self, FlightError> {
-        Self::begun(setup, Some(wings))
+        Self::begun(setup, Some(wings), None)
     }
 
-    fn begun(setup: FlightSetup, bent: Option<&[ElasticState]>) -> Result<Self, FlightError> {
+    /// The same with the `past` of elastic wings and of the wakes of strips.
+    ///
+    /// # Errors
+    /// As [`Self::bent`]; wakes that are not those of the setup's strips.
+    pub fn after(setup: FlightSetup, past: &Past) -> Result<Self, FlightError> {
+        Self::begun(setup, Some(&past.wings), past.air.as_ref())
+    }
+
+    fn begun(
+        setup: FlightSetup,
+        bent: Option<&[ElasticState]>,
+        air: Option<&AirMemory>,
+    ) -> Result<Self, FlightError> {
         setup.validate()?;
         let feedback = feedback(&setup)?;
         let wings = feedback.as_ref().map(Loop::wings);
@@ -77,6 +90,9 @@ impl Simulation {
         let first = &stages[0].equations;
         if let Some(bent) = bent {
             fits::check_wings(&stages[0], bent)?;
+        }
+        if air.is_some() {
+            first.air.check(air)?;
         }
         let state = FlightState {
             step: 0,
@@ -102,7 +118,7 @@ impl Simulation {
             stages,
         };
         flight.scratch.elastic = flight.equations().elastic.scratch(&flight.state.wings);
-        flight.begin(bent.is_some())?;
+        flight.begin(bent.is_some_and(|b| !b.is_empty()), air)?;
         Ok(flight)
     }
 
@@ -120,6 +136,8 @@ impl Simulation {
         let mut flight = Self::new(setup)?;
         check_fits(&state, &flight.stages, &flight.state.ledger)?;
         flight.state = state;
+        let time = flight.newest_time();
+        (flight.state.air.iter_mut()).for_each(|air| air.set_time(time));
         let first = &flight.stages[flight.state.stage].equations;
         flight.solver = flight.new_solver();
         flight.scratch = Scratch::new(first);
@@ -137,7 +155,7 @@ impl Simulation {
         let (y, s) = (&self.state.past.y[k], &mut self.scratch);
         let equations = &self.stages[self.state.stage].equations;
         equations.place_nodes(t, y, s)?;
-        if let Some(air) = &self.state.air {
+        if let Some(air) = wakes_of(self.state.air.as_ref()) {
             let loads = &mut s.air_scratch.loads;
             loads.gamma.clone_from(&air.gamma);
             loads.pressure_jump = vec![f64::NAN; air.gamma.len()];
@@ -283,7 +301,7 @@ impl Simulation {
     }
 
     /// The first moment: consistent coordinates, circulation without a wake, open books.
-    fn begin(&mut self, is_bent: bool) -> Result<(), FlightError> {
+    fn begin(&mut self, is_bent: bool, air: Option<&AirMemory>) -> Result<(), FlightError> {
         let root = self.setup.root_at_start();
         let Equations { core, elastic, .. } = &self.stages[0].equations;
         let mut y0 = core.initial(0.0, &root)?;
@@ -295,6 +313,9 @@ impl Simulation {
         }
         y0.resize(y0.len() + QUADRATURES, 0.0);
         self.state.air = (self.stages[0].equations).initial_air(&y0, &mut self.scratch)?;
+        if let Some(air) = air {
+            self.state.air = Some(air.clone().restarted());
+        }
         self.enter_stage(y0)?;
         self.state.ledger = Ledger::open(&self.scratch);
         self.finish_arrival(StepReport::default(), true)

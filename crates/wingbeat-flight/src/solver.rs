@@ -50,11 +50,11 @@ impl Buffers {
         &mut self,
         t: f64,
         past: &mut Multistep,
-        equations: &Equations,
+        (equations, memory): (&Equations, Memory<'_>),
         s: &mut Scratch,
     ) -> Result<(), FlightError> {
         equations.normalise(t, &mut self.y, s)?;
-        equations.evaluate(t, &self.y, Memory::default(), s, &mut self.f)?;
+        equations.evaluate(t, &self.y, memory, s, &mut self.f)?;
         past.push(&self.y, &self.f);
         Ok(())
     }
@@ -121,21 +121,20 @@ impl Solver {
                 b.y.copy_from_slice(past.newest());
                 method
                     .advance(t, b.step, &mut b.y, |t, y, dy| {
-                        equations.evaluate(t, y, Memory::default(), s, dy)
+                        equations.evaluate(t, y, memory, s, dy)
                     })
-                    .and_then(|()| b.accept(end, past, equations, s))
+                    .and_then(|()| b.accept(end, past, (equations, memory), s))
                     .map(|()| once)
                     .map_err(StepError::Rates)
             }
             Self::OrderEight(method, b) => {
                 b.y.copy_from_slice(past.newest());
-                let rates = |t: f64, y: &[f64], dy: &mut [f64]| {
-                    equations.evaluate(t, y, Memory::default(), s, dy)
-                };
+                let rates =
+                    |t: f64, y: &[f64], dy: &mut [f64]| equations.evaluate(t, y, memory, s, dy);
                 let report = method
                     .integrate((t, end), &mut b.y, rates, |_| {})
                     .map_err(|e| StepError::Rates(adaptive(e, equations, &b.y, s)))?;
-                b.accept(end, past, equations, s)
+                b.accept(end, past, (equations, memory), s)
                     .map_err(StepError::Rates)?;
                 Ok(StepReport {
                     passes: report.accepted + report.rejected,

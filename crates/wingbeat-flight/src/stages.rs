@@ -119,11 +119,11 @@ fn formulation(setup: &FlightSetup, system: System) -> Result<Box<dyn Formulatio
 }
 
 /// How a free flight of `system` repeats itself from step to step, if that is known beforehand: in the momentum form, in air
-/// without a memory, whose flights are many beats long and cost little else, by a method that keeps to the time grid.
+/// without a wake in space, whose flights are many beats long and cost little else, by a method that keeps to the time grid.
 pub fn cycle(setup: &FlightSetup, system: &System) -> Option<Cycle> {
     let known = setup.formulation == FormulationChoice::Momentum
         && matches!(setup.mode, MotionMode::Free(_))
-        && !setup.air.has_memory()
+        && !setup.air.keeps_wake()
         && !matches!(setup.integrator, IntegratorChoice::OrderEight { .. });
     known.then(|| system.cycle(setup.time.step)).flatten()
 }

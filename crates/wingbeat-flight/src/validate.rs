@@ -80,7 +80,7 @@ impl FlightSetup {
             let allowed = "a finite number above 0";
             check(ok, "dynamics.tolerance", tolerance, allowed)?;
         }
-        let remembers = self.has_memory();
+        let remembers = self.air.keeps_wake() || self.animal.is_elastic();
         let fits = !remembers || self.integrator.carries_wake();
         let wake = "a wake is moved once per step: only hamming and bdf carry it along";
         check(fits, key, &method, wake)?;

@@ -5,7 +5,7 @@ use crate::common;
 use std::sync::{Arc, Mutex};
 
 use common::Fly;
-use wingbeat_air::{AirState, Gust, GustShape, VortexStreet, Wind};
+use wingbeat_air::{Gust, GustShape, VortexStreet, Wind};
 use wingbeat_blade::BladeSettings;
 use wingbeat_dynamics::{BodyMotion, Wrench};
 use wingbeat_flight::*;
@@ -174,7 +174,7 @@ impl Air for Syrup {
     fn loads(
         &self,
         at: &Instant<'_>,
-        _memory: Option<&AirState>,
+        _memory: Option<&AirMemory>,
         _scratch: &mut AirScratch,
         out: &mut [Wrench],
     ) -> Result<(), FlightError> {

@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use allocation_counter::measure;
 use common::Fly;
-use wingbeat_blade::BladeSettings;
+use wingbeat_blade::{BladeSettings, Unsteady};
 use wingbeat_flight::*;
 
 fn blade() -> FlightSetup {
@@ -20,17 +20,24 @@ fn blade() -> FlightSetup {
 
 #[test]
 fn exact_no_allocation_in_steps_in_blade_elements() {
-    for integrator in [
+    let wakes = Some(Unsteady::Peters { states: 8 });
+    for (integrator, unsteady) in [
         IntegratorChoice::Hamming,
         IntegratorChoice::Bdf,
         IntegratorChoice::Adams,
         IntegratorChoice::RungeKutta,
         IntegratorChoice::OrderEight { tolerance: 1e-9 },
-    ] {
-        let setup = FlightSetup {
+    ]
+    .into_iter()
+    .flat_map(|i| [(i, None), (i, wakes)])
+    {
+        let mut setup = FlightSetup {
             integrator,
             ..blade()
         };
+        if let AirModel::BladeElement(air) = &mut setup.air {
+            air.blade.unsteady = unsteady;
+        }
         let mut flight = Simulation::new(setup).expect("the little fly");
         let mut copy = Record::default();
         let mut step = || {
@@ -39,7 +46,7 @@ fn exact_no_allocation_in_steps_in_blade_elements() {
         };
         (0..5).for_each(|_| step());
         let beat = measure(|| (0..40).for_each(|_| step()));
-        assert_eq!(beat.count_total, 0, "{integrator:?}");
+        assert_eq!(beat.count_total, 0, "{integrator:?} {unsteady:?}");
     }
 }
 

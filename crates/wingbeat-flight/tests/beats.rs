@@ -5,7 +5,6 @@ use crate::common;
 use std::sync::Arc;
 
 use common::{Fly, distance, fly};
-use wingbeat_air::AirState;
 use wingbeat_blade::BladeSettings;
 use wingbeat_dynamics::{AddedMass, Wrench};
 use wingbeat_flight::air::BladeAir;
@@ -37,7 +36,7 @@ impl Air for Remembering {
     fn loads(
         &self,
         at: &Instant<'_>,
-        memory: Option<&AirState>,
+        memory: Option<&AirMemory>,
         scratch: &mut AirScratch,
         out: &mut [Wrench],
     ) -> Result<(), FlightError> {

@@ -268,9 +268,18 @@ fn refuses_states_that_do_not_fit() {
         |s| s.past.y[2].clear(),
         |s| s.past.predicted_minus_corrected.clear(),
         |s| s.ledger.coordinates.clear(),
-        |s| s.ledger.events = 1 + s.air.as_ref().map_or(0, |a| a.events.limited),
+        |s| {
+            s.ledger.events = 1 + s
+                .air
+                .as_ref()
+                .and_then(AirMemory::wakes)
+                .map_or(0, |a| a.events.limited)
+        },
         |s| s.air = None,
-        |s| s.air.iter_mut().for_each(|a| a.sheets[0].nodes.y.clear()),
+        |s| {
+            let wakes = s.air.as_mut().and_then(AirMemory::wakes_mut);
+            wakes.into_iter().for_each(|a| a.sheets[0].nodes.y.clear());
+        },
     ];
     for (k, damage) in damages.iter().enumerate() {
         let mut state = sim.state().clone();

@@ -6,3 +6,4 @@ mod common;
 mod coupled;
 mod deforming;
 mod steady;
+mod unsteady;

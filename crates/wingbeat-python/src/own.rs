@@ -7,8 +7,8 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use numpy::{PyArray2, PyArrayMethods};
 use pyo3::prelude::*;
-use wingbeat::air::AirState;
 use wingbeat::dynamics::{BodyMotion, Wrench};
+use wingbeat::flight::AirMemory;
 use wingbeat::flight::{
     Air, AirModel, AirScratch, Announcement, ControlModel, Controller, ExternalAir,
     ExternalSession, Feedback, FlightError, FlightSetup, Instant,
@@ -214,7 +214,7 @@ impl Air for PythonAir {
     fn loads(
         &self,
         at: &Instant<'_>,
-        _memory: Option<&AirState>,
+        _memory: Option<&AirMemory>,
         _scratch: &mut AirScratch,
         out: &mut [Wrench],
     ) -> Result<(), FlightError> {

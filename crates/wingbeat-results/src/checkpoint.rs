@@ -20,7 +20,7 @@ use wingbeat_case::IoError;
 /// Name of the file in a result directory.
 pub const FILE: &str = "checkpoint.bin";
 const MAGIC: &str = "wingbeat-checkpoint ";
-const FORMAT: &str = "2";
+const FORMAT: &str = "3";
 
 /// What a checkpoint says about itself.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]

@@ -43,7 +43,7 @@ impl Air for CreepingFlow {
     fn loads(
         &self,
         at: &Instant<'_>,
-        _memory: Option<&AirState>,
+        _memory: Option<&AirMemory>,
         _scratch: &mut AirScratch,
         out: &mut [Wrench],
     ) -> Result<(), FlightError> {

@@ -10,7 +10,7 @@
 //! | [`model`] | the animal: meshes, masses, wing motion |
 //! | [`dynamics`] | constrained multibody dynamics |
 //! | [`vortex`] | Biot-Savart sums over vortex filaments and blobs |
-//! | [`blade`] | quasi-steady air: blade elements, stability derivatives |
+//! | [`blade`] | blade elements, quasi-steady or with wakes of strips; stability derivatives |
 //! | [`air`] | unsteady vortex lattice with free wakes |
 //! | [`flight`] | the two together |
 //! | [`analysis`] | analysis of flights |
@@ -69,11 +69,11 @@ pub use value::Flight;
 /// ```
 pub mod prelude {
     pub use crate::{Beat, Error, Flight, Run, fly_all};
-    pub use wingbeat_air::{AirState, Gust, GustShape};
+    pub use wingbeat_air::{Gust, GustShape};
     pub use wingbeat_dynamics::{BodyMotion, Wrench};
     pub use wingbeat_flight::{
-        Air, AirModel, AirOptions, AirScratch, BladeOptions, Controller, Feedback, FlightError,
-        FlightSetup, Instant, MotionMode, Record, Sensed, Simulation, StartState,
+        Air, AirMemory, AirModel, AirOptions, AirScratch, BladeOptions, Controller, Feedback,
+        FlightError, FlightSetup, Instant, MotionMode, Record, Sensed, Simulation, StartState,
     };
     pub use wingbeat_math::{DMat3, DVec3};
     pub use wingbeat_model::motion::Adjustment;

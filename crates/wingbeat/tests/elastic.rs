@@ -9,6 +9,8 @@ use wingbeat::flight::{Record, Simulation};
 mod blades;
 mod support;
 mod veins;
+#[path = "elastic/wakes.rs"]
+mod wakes;
 
 use support::{Scratch, flown, wingbeat};
 

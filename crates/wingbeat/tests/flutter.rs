@@ -6,6 +6,9 @@ use wingbeat::analysis::AnalysisError;
 use wingbeat::analysis::flutter::{Condition, FlutterSettings, condition, crossings};
 use wingbeat::case::LoadedCase;
 
+#[path = "flutter/theodorsen.rs"]
+mod theodorsen;
+
 const GOLAND: &str = include_str!("../../wingbeat-verify/data/goland.toml");
 
 /// Goland's wing, coarse, with keys set.
@@ -116,7 +119,10 @@ fn refuses_what_has_no_steady_state_to_look_about() {
     let error = condition(&still, 160.0, &settings())
         .map(|_| ())
         .unwrap_err();
-    assert!(error.to_string().contains("no vortex lattice"), "{error}");
+    assert!(
+        error.to_string().contains("the air has no wakes"),
+        "{error}"
+    );
     let mut rigid = goland(&[]).setup;
     rigid
         .animal
@@ -127,4 +133,49 @@ fn refuses_what_has_no_steady_state_to_look_about() {
         .map(|_| ())
         .unwrap_err();
     assert!(told.to_string().contains("no wing is elastic"), "{told}");
+}
+
+const STRIPS: &str = include_str!("../../wingbeat-verify/data/goland-strips.toml");
+
+/// Goland's wing in strips.
+fn strips(set: &[&str]) -> LoadedCase {
+    let set: Vec<String> = set.iter().map(|s| (*s).to_owned()).collect();
+    LoadedCase::from_text("strips", STRIPS, std::path::Path::new("."), &set).unwrap()
+}
+
+#[test]
+fn published_goland_in_strips_flutters_at_137_m_s_as_by_theodorsens_function() {
+    let set = [
+        "wing.right.mesh.spanwise=10",
+        "wing.right.structure.beam.elements=8",
+    ];
+    let setup = strips(&set).setup;
+    let found = [135.0, 139.0].map(|speed| condition(&setup, speed, &settings()).unwrap());
+    let all = crossings(&found);
+    assert_eq!(all.len(), 1, "{all:?}");
+    let c = all[0];
+    // Goland & Luke (1948): 137.2 m/s, 70.7 rad/s. By frequencies, with Theodorsen's function and two modes: 136.8 m/s (136.9 with eight).
+    // What is left is that of eight states, 10 strips, the step, and a straight line between the two speeds.
+    let [speed, frequency] = theodorsen::goland();
+    assert!(
+        (speed - 136.78).abs() < 0.02 && (frequency - 69.97).abs() < 0.02,
+        "{speed} {frequency}"
+    );
+    assert!(c.begins && (c.speed / 137.2 - 1.0).abs() < 0.005, "{c:?}");
+    assert!((c.speed / speed - 1.0).abs() < 0.005, "{c:?} {speed}");
+    assert!((c.frequency / frequency - 1.0).abs() < 0.005, "{c:?}");
+}
+
+#[test]
+fn refuses_flutter_in_strips_without_wakes() {
+    let text = STRIPS.replace("unsteady = \"peters\"\n", "");
+    let steady = LoadedCase::from_text("strips", &text, std::path::Path::new("."), &[]).unwrap();
+    let told = condition(&steady.setup, 130.0, &settings())
+        .map(|_| ())
+        .unwrap_err()
+        .to_string();
+    assert!(
+        told.contains("no wakes") && told.contains("air.blade.unsteady"),
+        "{told}"
+    );
 }

@@ -201,9 +201,9 @@ fn check(setup: &FlightSetup) -> Result<(), AnalysisError> {
             "leave its velocity and the motion of the tether out; the stream is air.stream_m_s",
         ),
         (
-            !matches!(setup.air, AirModel::VortexLattice(_)),
-            "the air is no vortex lattice",
-            "air.model = \"vortex_lattice\"",
+            !(matches!(setup.air, AirModel::VortexLattice(_)) || setup.air.has_strip_wakes()),
+            "the air has no wakes",
+            "air.model = \"vortex_lattice\", or blade elements with air.blade.unsteady",
         ),
     ];
     match refused.into_iter().find(|r| r.0) {

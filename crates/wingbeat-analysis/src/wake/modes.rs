@@ -27,7 +27,7 @@ pub enum WakeMemory {
 /// # Errors
 /// A flight that fails; disturbances that do not reach all nine components.
 pub fn wake_monodromy(trim: &WakeTrim, memory: WakeMemory) -> Result<Vec<f64>, AnalysisError> {
-    if !trim.wings.is_empty() {
+    if trim.is_orbit() {
         return Err(AnalysisError::not_covered(
             "this flight is periodic with its elastic wings, and no wake is given or carried",
             "ask for the modes of body and wings (elastic_floquet; `wingbeat stability` without --wake)",

@@ -1,11 +1,14 @@
-//! The periodic beat of a flyer whose wings bend in air without memory: wings come back to shape and velocity as the body does.
+//! The periodic beat of a flyer whose wings bend or whose strips leave wakes, in air without wakes in space: wings come back to shape
+//! and velocity, and wakes to their states, as the body does.
 //!
 //! A beat is flown again and again, the body put back to its start after each and the wings going on from where they are: air
-//! damps them so much that after a few beats they come back to where they began. What the body has changed by in such a beat
-//! are the residuals of steady flight.
+//! damps them so much that after a few beats they come back to where they began. States of wakes decay by their ways, which a
+//! beat tells: they go on from where they would be if the strips' motion repeated itself for ever. What the body has changed by in
+//! such a beat are the residuals of steady flight.
 
+use wingbeat_flight::air::BladeAir;
 use wingbeat_flight::elastic::ElasticState;
-use wingbeat_flight::{FlightSetup, Record, Simulation, system_of};
+use wingbeat_flight::{AirMemory, AirModel, FlightSetup, Past, Record, Simulation, system_of};
 use wingbeat_math::DVec3;
 
 use crate::AnalysisError;
@@ -18,12 +21,12 @@ const BACK: [f64; 2] = [1e-2, 1e-9];
 /// Beats within which they must be.
 const MAX_BEATS: usize = 60;
 
-/// Whether the past of a flight is in its wings alone.
-pub(super) fn is_elastic(setup: &FlightSetup) -> bool {
-    setup.animal.is_elastic() && !setup.air.has_memory()
+/// Whether the past of a flight is in its wings and their strips alone.
+pub(super) fn has_orbit(setup: &FlightSetup) -> bool {
+    setup.has_memory() && !setup.air.keeps_wake()
 }
 
-/// An error if a wingbeat of the setup is not like the next, or has a past beside that of its wings.
+/// An error if a wingbeat of the setup is not like the next, or has a past beside that of its wings and strips.
 ///
 /// # Errors
 /// Loads, feedback, wind that changes, joints that move freely.
@@ -40,59 +43,115 @@ pub(super) fn check_orbit(setup: &FlightSetup) -> Result<(), AnalysisError> {
     match system.speeds() {
         0 => Ok(()),
         _ => Err(AnalysisError::not_covered(
-            "joints move freely beside elastic wings, and the periodic motion of both is not sought",
-            "prescribe the joints' motion, or make the wings rigid",
+            "joints move freely beside elastic wings or wakes of strips, and the periodic motion of both is not sought",
+            "prescribe the joints' motion, or make the wings rigid and leave air.blade.unsteady out",
         )),
     }
 }
 
-/// A beat whose wings come back.
+/// A beat whose wings and wakes come back.
 pub(super) struct PeriodicBeat {
     /// At its start and its end.
     pub ends: [Record; 2],
-    /// The wings at its start and its end.
-    pub wings: [Vec<ElasticState>; 2],
+    /// Wings and wakes at its start and its end.
+    pub pasts: [Past; 2],
     /// Beats flown until then.
     pub beats: usize,
 }
 
-/// The beat of `setup`, which is `steps` long, its wings sought from `wings` on, or from rest, for residuals within
+/// The beat of `setup`, which is `steps` long, its wings and wakes sought from `past` on, or from rest, for residuals within
 /// `tolerance`.
 ///
 /// # Errors
-/// What the flight reports; wings that do not come back.
+/// What the flight reports; wings or wakes that do not come back.
 pub(super) fn periodic_beat(
     setup: &FlightSetup,
     steps: usize,
-    wings: Option<Vec<ElasticState>>,
+    past: Option<Past>,
     tolerance: f64,
 ) -> Result<PeriodicBeat, AnalysisError> {
-    let mut wings = wings;
+    let mut past = past;
     let back = (BACK[0] * tolerance).max(BACK[1]);
     for beats in 1..=MAX_BEATS {
-        let mut flight = match &wings {
-            Some(wings) => Simulation::bent(setup.clone(), wings)?,
+        let mut flight = match &past {
+            Some(past) => Simulation::after(setup.clone(), past)?,
             None => Simulation::new(setup.clone())?,
         };
-        let (before, first) = (flight.state().wings.clone(), flight.record().clone());
+        let (mut before, first) = (Past::of(flight.state()), flight.record().clone());
+        // Where the body has been put back the strips' downwash jumps: a beat of the wakes begins before that.
+        if let Some(past) = past.take() {
+            before.air = past.air;
+        }
         for _ in 0..steps {
             flight.step()?;
         }
-        let after = flight.state().wings.clone();
-        if change(setup, &before, &after) <= back {
+        let mut after = Past::of(flight.state());
+        let changed = change(setup, &before.wings, &after.wings);
+        let felt = change_of_wakes(setup, &before, &after);
+        if larger(changed, felt) <= back {
             let ends = [first, flight.record().clone()];
             return Ok(PeriodicBeat {
                 ends,
-                wings: [before, after],
+                pasts: [before, after],
                 beats,
             });
         }
-        wings = Some(after);
+        repeat_wakes(setup, &before, &mut after)?;
+        past = Some(after);
     }
     Err(AnalysisError::not_covered(
-        format!("the elastic wings find no periodic motion within {MAX_BEATS} wingbeats"),
-        "give them damping (wing.NAME.structure.damping_s), or look with `run` at what they do",
+        format!(
+            "elastic wings and wakes of strips find no periodic motion within {MAX_BEATS} wingbeats"
+        ),
+        "give elastic wings damping (wing.NAME.structure.damping_s), or look with `run` at what they do",
     ))
+}
+
+/// Puts the wakes where they would be if the strips moved as between `before` and `after` for ever.
+fn repeat_wakes(setup: &FlightSetup, before: &Past, after: &mut Past) -> Result<(), AnalysisError> {
+    let AirModel::BladeElement(options) = &setup.air else {
+        return Ok(());
+    };
+    let strips = |past: &Past| {
+        past.air
+            .as_ref()
+            .and_then(AirMemory::strips)
+            .map(<[_]>::to_vec)
+    };
+    let (Some(from), Some(to)) = (
+        strips(before),
+        after.air.as_mut().and_then(AirMemory::strips_mut),
+    ) else {
+        return Ok(());
+    };
+    let air = BladeAir::new(&setup.animal, options)?;
+    for ((wing, from), to) in air.wings().iter().zip(&from).zip(to) {
+        *to = wing.periodic(from, to);
+    }
+    Ok(())
+}
+
+/// How much the wakes of the strips have changed, over wing length and wingbeat \[1\].
+fn change_of_wakes(setup: &FlightSetup, before: &Past, after: &Past) -> f64 {
+    let unit = speed(setup);
+    let both = numbers(before).into_iter().zip(numbers(after));
+    both.map(|(a, b)| (a - b).abs() / unit).fold(0.0, larger)
+}
+
+/// Natural size of velocities \[m/s\]: a wing length a wingbeat.
+pub(super) fn speed(setup: &FlightSetup) -> f64 {
+    let nodes = setup.animal.wings.iter().flat_map(|w| &w.mesh.nodes);
+    let length = nodes.fold(0.0_f64, |m, r| m.max(r.length()));
+    length / setup.time.period.unwrap_or(1.0)
+}
+
+/// States of the wakes of all strips \[m/s\].
+pub(super) fn numbers(past: &Past) -> Vec<f64> {
+    let wings = past.air.as_ref().and_then(AirMemory::strips);
+    let wings = wings.unwrap_or_default().iter();
+    wings
+        .flat_map(wingbeat_blade::WingMemory::numbers)
+        .collect()
 }
 
 /// How much the wings have changed over a beat \[1\].

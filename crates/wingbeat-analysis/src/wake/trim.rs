@@ -1,13 +1,12 @@
 //! Trim by flights.
 
-use wingbeat_flight::elastic::ElasticState;
-use wingbeat_flight::{AirModel, FlightSetup, MotionMode, Record, StartState};
+use wingbeat_flight::{AirModel, FlightSetup, MotionMode, Past, Record, StartState};
 use wingbeat_math::{DVec3, solve_small};
 use wingbeat_model::Start;
 use wingbeat_model::motion::Adjustment;
 
 use super::free_beat::{free_beat, rotation, start, steps_per_beat};
-use super::orbit::{check_orbit, is_elastic, periodic_beat};
+use super::orbit::{check_orbit, has_orbit, periodic_beat};
 use crate::AnalysisError;
 use crate::progress;
 use crate::steady::{self, Measures, Residuals, Snapshot, TrimProblem};
@@ -68,11 +67,11 @@ pub struct WakeTrim {
     pub body_pitch: f64,
     /// Roll of the body at its release, right side down \[rad\].
     pub body_roll: f64,
-    /// Elastic wings at the start of the periodic beat, where the air has no memory; else empty.
-    pub wings: Vec<ElasticState>,
+    /// Elastic wings and wakes of strips at the start of the periodic beat, where the air has no wakes in space; else empty.
+    pub past: Past,
     /// Wingbeats flown.
     pub beats: usize,
-    /// The adjusted flight: held, released, one free wingbeat; with [`Self::wings`] the free wingbeat alone.
+    /// The adjusted flight: held, released, one free wingbeat; with [`Self::past`] the free wingbeat alone.
     pub setup: FlightSetup,
 }
 
@@ -82,14 +81,19 @@ impl WakeTrim {
         largest(&self.residual)
     }
 
+    /// Whether the whole orbit is periodic: body, elastic wings, wakes of strips.
+    pub fn is_orbit(&self) -> bool {
+        !self.past.is_empty()
+    }
+
     /// How it starts.
     pub fn start(&self) -> &StartState {
         start(&self.setup)
     }
 }
 
-/// Trims the flight of `setup` in air with memory, or with elastic wings: where the air has none, as a periodic orbit of body
-/// and wings.
+/// Trims the flight of `setup` in air with memory, or with elastic wings: where the air has no wakes in space, as a periodic orbit of
+/// body, wings and wakes of strips.
 ///
 /// # Errors
 /// No wingbeat, or one that is not a whole number of steps; a steady turn, which a body that is held cannot fly;
@@ -104,13 +108,13 @@ pub fn trim_with_wake(
     if problem.turn_rate != 0.0 {
         return Err(AnalysisError::not_covered(
             "with a memory of wakes or elastic wings flight is trimmed straight, and a steady turn was asked for",
-            "trim the turn in blade elements (air.model = \"blade_element\") with rigid wings",
+            "trim the turn in blade elements (air.model = \"blade_element\", no air.blade.unsteady) with rigid wings",
         ));
     }
     let residuals = Residuals::of(problem);
-    let is_elastic = is_elastic(setup);
+    let has_orbit = has_orbit(setup);
     let mut setup = setup.clone();
-    if is_elastic {
+    if has_orbit {
         check_orbit(&setup)?;
         (setup.animal.wings.iter_mut()).for_each(|w| w.motion.start = Start::Impulsive);
     }
@@ -123,8 +127,8 @@ pub fn trim_with_wake(
         residuals,
         settings,
         steps: steps_per_beat(&setup)?,
-        is_elastic,
-        wings: None,
+        has_orbit,
+        past: None,
         flights: 0,
         beats: 0,
         best: f64::INFINITY,
@@ -142,9 +146,9 @@ struct Search<'a> {
     residuals: Residuals,
     settings: &'a WakeSettings,
     steps: usize,
-    /// Whether a periodic orbit of body and wings is sought, and its wings at the point flown last.
-    is_elastic: bool,
-    wings: Option<Vec<ElasticState>>,
+    /// Whether a periodic orbit is sought, and its wings and wakes at the point flown last.
+    has_orbit: bool,
+    past: Option<Past>,
     flights: usize,
     beats: usize,
     /// Smallest of the largest residuals so far.
@@ -193,7 +197,7 @@ impl Search<'_> {
         let mut found = self.fly(&x)?;
         found.converged = found.error() <= settings.tolerance;
         found.iterations = iterations;
-        steady::check_symmetric(found.aside, ROUNDING[usize::from(self.is_elastic)])?;
+        steady::check_symmetric(found.aside, ROUNDING[usize::from(self.has_orbit)])?;
         Ok(found)
     }
 
@@ -234,7 +238,7 @@ impl Search<'_> {
         let [velocity, rate] = self.residuals.motion(x);
         setup.time.step = period / self.steps as f64;
         setup.time.period = Some(period);
-        let held_beats = if self.is_elastic {
+        let held_beats = if self.has_orbit {
             0
         } else {
             self.settings.held_beats
@@ -247,7 +251,7 @@ impl Search<'_> {
             angular_velocity: rate / old,
             held_steps: held_beats * self.steps,
         });
-        let (ends, wings) = self.beat(&setup)?;
+        let (ends, past) = self.beat(&setup)?;
         let size = Measures {
             length,
             period,
@@ -276,29 +280,26 @@ impl Search<'_> {
             mass_centre: a.mass_centre,
             body_pitch: a.pitch,
             body_roll: a.roll,
-            wings,
+            past,
             beats: self.beats,
             setup,
         })
     }
 
-    /// The free beat of `setup`: its ends, and the elastic wings of a periodic orbit at its start.
-    fn beat(
-        &mut self,
-        setup: &FlightSetup,
-    ) -> Result<([Record; 2], Vec<ElasticState>), AnalysisError> {
-        if !self.is_elastic {
+    /// The free beat of `setup`: its ends, and elastic wings and wakes of a periodic orbit at its start.
+    fn beat(&mut self, setup: &FlightSetup) -> Result<([Record; 2], Past), AnalysisError> {
+        if !self.has_orbit {
             self.beats += self.settings.held_beats + 1;
-            return Ok((free_beat(setup, self.steps, None)?, vec![]));
+            return Ok((free_beat(setup, self.steps, None)?, Past::default()));
         }
         let found = periodic_beat(
             setup,
             self.steps,
-            self.wings.clone(),
+            self.past.clone(),
             self.settings.tolerance,
         )?;
-        let [at_start, at_end] = found.wings;
-        self.wings = Some(at_end);
+        let [at_start, at_end] = found.pasts;
+        self.past = Some(at_end);
         self.beats += found.beats;
         Ok((found.ends, at_start))
     }

@@ -1,20 +1,22 @@
-//! Floquet's modes of a flyer whose wings bend, in air without memory: body and wings are disturbed.
+//! Floquet's modes of a flyer whose wings bend or whose strips leave wakes, in air without wakes in space: body, wings and wakes are
+//! disturbed.
 //!
 //! Of what wings can do their leading modes of vibration about their shape at the start of the beat are taken along: a
 //! departure of the wings is its projections on them, displacements and velocities, `phi^T M dq` and `phi^T M dv`. What other
-//! modes do has died before the beat is over. Disturbed flights are looked at soon after their start and a wingbeat later; what
+//! modes do has died before the beat is over. Wakes of strips are coordinates with all their states. Disturbed flights are looked at soon after their start and a wingbeat later; what
 //! takes the one into the other has Floquet's multipliers as its eigenvalues.
 
 use wingbeat_dynamics::BodyMotion;
 use wingbeat_flight::elastic::{ElasticState, ElasticWings};
-use wingbeat_flight::{FlightError, MotionMode, Record, Simulation, StartState};
+use wingbeat_flight::{AirMemory, FlightError, MotionMode, Past, Record, Simulation, StartState};
 use wingbeat_math::{DMat3, DQuat, DVec3, EulerSequence, MassProperties, solve_small};
 use wingbeat_structure::{FrameMotion, Mode, NODE, modes};
 
 use super::free_beat::{rotation, start, steps_per_beat};
+use super::orbit::numbers;
 use super::trim::WakeTrim;
 use crate::AnalysisError;
-use crate::eigen::eigen;
+use crate::eigen::{Eigenpair, eigen};
 use crate::level::{Level, Perturbation};
 use crate::modes::{ModeSet, Scales};
 use crate::progress;
@@ -31,15 +33,17 @@ const SETTLING: usize = 4;
 /// A map of departures over one wingbeat.
 #[derive(Clone, Debug)]
 pub struct ElasticMonodromy {
-    /// By rows: the nine components of [`Perturbation`], then wing by wing displacements and velocities of the modes, all over
-    /// their natural sizes \[1\].
+    /// By rows: the nine components of [`Perturbation`], then wing by wing displacements and velocities of the modes, then strip by
+    /// strip the states of their wakes, all over their natural sizes \[1\].
     pub matrix: Vec<f64>,
     /// Its order.
     pub order: usize,
+    /// States of wakes among it, the last.
+    pub wakes: usize,
     scales: Scales,
 }
 
-/// The map of the departures of body and wings over a beat, `count` modes of each wing.
+/// The map of the departures of body, wings and wakes over a beat, `count` modes of each wing.
 ///
 /// # Errors
 /// A trim of another kind; a flight that fails; departures that the disturbances do not reach.
@@ -70,6 +74,7 @@ pub fn elastic_monodromy(trim: &WakeTrim, count: usize) -> Result<ElasticMonodro
     Ok(ElasticMonodromy {
         matrix,
         order: n,
+        wakes: rig.wakes.len(),
         scales: rig.scales,
     })
 }
@@ -93,8 +98,32 @@ pub fn elastic_modes(map: &ElasticMonodromy) -> Result<ModeSet, AnalysisError> {
         rate: 1.0,
         ..map.scales
     };
-    let wings = vec![1.0; map.order - BODY];
-    Ok(ModeSet::with_wings(pairs, &one, &wings))
+    let wings = vec![1.0; map.order - map.wakes - BODY];
+    let own = pairs.into_iter().filter(|p| !lies_in_wakes(p, map.wakes));
+    Ok(ModeSet::with_wings(
+        own.map(without(map.wakes)).collect(),
+        &one,
+        &wings,
+    ))
+}
+
+/// Whether hardly anything but wakes takes part in a decaying motion: components of body and wings are within the mean of those of the
+/// wakes.
+fn lies_in_wakes(pair: &Eigenpair, wakes: usize) -> bool {
+    let size = |z: &[f64; 2]| z[0].hypot(z[1]);
+    let (own, rest) = pair.vector.split_at(pair.vector.len() - wakes);
+    let squares = rest.iter().map(|z| size(z).powi(2)).sum::<f64>();
+    let mean = (squares / wakes.max(1) as f64).sqrt();
+    let largest = own.iter().map(size).fold(0.0, f64::max);
+    wakes > 0 && largest < mean && size(&pair.value) < 1.0
+}
+
+/// An eigenpair without the components of the wakes.
+fn without(wakes: usize) -> impl Fn(Eigenpair) -> Eigenpair {
+    move |mut pair| {
+        pair.vector.truncate(pair.vector.len() - wakes);
+        pair
+    }
 }
 
 /// The trimmed flight and how it is disturbed.
@@ -104,6 +133,8 @@ struct Rig<'a> {
     level: Level,
     scales: Scales,
     wings: Vec<WingBasis>,
+    /// States of the wakes at the start of the beat \[m/s\].
+    wakes: Vec<f64>,
 }
 
 /// Modes of a wing.
@@ -116,15 +147,15 @@ struct WingBasis {
 
 impl<'a> Rig<'a> {
     fn new(trim: &'a WakeTrim, count: usize) -> Result<Self, AnalysisError> {
-        if trim.wings.is_empty() {
+        if !trim.is_orbit() {
             return Err(AnalysisError::not_covered(
-                "the flight was trimmed without a periodic motion of elastic wings",
-                "trim wings with a structure in blade elements",
+                "the flight was trimmed without a periodic motion of elastic wings or of wakes of strips",
+                "trim wings with a structure, or with air.blade.unsteady, in blade elements",
             ));
         }
         let setup = &trim.setup;
         let elastic = ElasticWings::new(&setup.animal, setup.gravity)?;
-        let both = elastic.wings().iter().zip(&trim.wings);
+        let both = elastic.wings().iter().zip(&trim.past.wings);
         let wings = both.map(|(w, s)| WingBasis::new(w.structure(), s, count));
         let nodes = setup.animal.wings.iter().flat_map(|w| &w.mesh.nodes);
         let length = nodes.fold(0.0_f64, |m, r| m.max(r.length()));
@@ -139,33 +170,42 @@ impl<'a> Rig<'a> {
                 period,
             },
             wings: wings.collect::<Result<_, _>>()?,
+            wakes: numbers(&trim.past),
         })
     }
 
     /// Number of components.
     fn order(&self) -> usize {
-        BODY + self.wings.iter().map(|w| 2 * w.modes.len()).sum::<usize>()
+        BODY + self.shapes() + self.wakes.len()
+    }
+
+    /// Number of those of elastic wings.
+    fn shapes(&self) -> usize {
+        self.wings.iter().map(|w| 2 * w.modes.len()).sum()
     }
 
     /// Departures soon after the start and a wingbeat later of a flight whose component `k` is disturbed by `part` of its size.
     fn fly(&self, k: usize, part: f64) -> Result<[Vec<f64>; 2], AnalysisError> {
         let mut setup = self.trim.setup.clone();
-        let mut wings = self.trim.wings.clone();
+        let mut past = self.trim.past.clone();
         setup.time.steps = SETTLING + self.steps;
         if k < BODY {
             let mut x = [0.0; BODY];
             x[k] = part * self.scales.array()[k];
             let by = Perturbation::from_array(x);
             setup.mode = MotionMode::Free(self.disturbed(&by));
+        } else if k < BODY + self.shapes() {
+            self.disturb(&mut past.wings, k - BODY, part);
         } else {
-            self.disturb(&mut wings, k - BODY, part);
+            let by = part * self.speed();
+            disturb_wakes(&mut past, k - BODY - self.shapes(), by);
         }
-        let mut flight = Simulation::bent(setup, &wings)?;
+        let mut flight = Simulation::after(setup, &past)?;
         let mut looked = vec![];
         for step in 1..=SETTLING + self.steps {
             flight.step()?;
             if step == SETTLING || step == SETTLING + self.steps {
-                looked.push(self.seen(flight.record(), &flight.state().wings));
+                looked.push(self.seen(flight.record(), &Past::of(flight.state())));
             }
         }
         let after = looked.pop().unwrap_or_default();
@@ -214,21 +254,28 @@ impl<'a> Rig<'a> {
         }
     }
 
-    /// What a record and its wings look like, over natural sizes.
-    fn seen(&self, r: &Record, wings: &[ElasticState]) -> Vec<f64> {
+    /// Natural size of the states of wakes \[m/s\]: a wing length a wingbeat.
+    fn speed(&self) -> f64 {
+        self.scales.velocity
+    }
+
+    /// What a record, its wings and wakes look like, over natural sizes.
+    fn seen(&self, r: &Record, past: &Past) -> Vec<f64> {
         let velocity = r.momentum / self.trim.setup.animal.mass();
         let body = Perturbation::seen(&self.level, rotation(r), velocity, r.root_angular_velocity);
         let sizes = self.scales.array();
         let mut all: Vec<f64> = (body.to_array().iter().zip(sizes))
             .map(|(x, s)| x / s)
             .collect();
-        let trimmed = self.trim.wings.iter();
-        for ((basis, state), at) in self.wings.iter().zip(wings).zip(trimmed) {
+        let trimmed = self.trim.past.wings.iter();
+        for ((basis, state), at) in self.wings.iter().zip(&past.wings).zip(trimmed) {
             let (moved, velocity) = departure(state, at);
             let period = self.scales.period;
             all.extend(basis.amplitudes(at, &moved));
             all.extend(basis.amplitudes(at, &velocity).map(|x| x * period));
         }
+        let wakes = numbers(past).into_iter().zip(&self.wakes);
+        all.extend(wakes.map(|(z, at)| (z - at) / self.speed()));
         all
     }
 }
@@ -273,6 +320,19 @@ impl WingBasis {
             let both = mode.shape.iter().zip(&momentum);
             both.map(|(a, b)| a * b).sum::<f64>() / size
         })
+    }
+}
+
+/// Adds `by` \[m/s\] to number `k` of the states of all wakes.
+fn disturb_wakes(past: &mut Past, mut k: usize, by: f64) {
+    let wings = past.air.as_mut().and_then(AirMemory::strips_mut);
+    for wing in wings.into_iter().flatten() {
+        let count = wing.numbers().count();
+        if k < count {
+            wing.disturb(k, by);
+            return;
+        }
+        k -= count;
     }
 }
 

@@ -64,7 +64,8 @@ impl Bent {
             .map(|s| s.state(&moving, calm))
             .collect();
         let mut out = vec![DVec3::ZERO; r.len()];
-        self.wing.bent_forces(&self.sections, &states, &mut out);
+        self.wing
+            .bent_forces(&self.sections, &states, None, &mut out);
         out
     }
 }
@@ -152,7 +153,7 @@ fn agrees_with_sections_whose_twist_is_prescribed_in_force_moment_and_power() {
                 })
                 .collect();
             let forces = bent.forces(&r, &v, &a);
-            let by_velocity = bent.wing.deforming_velocity_load(&m, section, calm);
+            let by_velocity = bent.wing.deforming_velocity_load(&m, section, calm, None);
             let by_mass = bent
                 .wing
                 .deforming_acceleration_load(&m, &acc, section, calm);
@@ -194,7 +195,7 @@ fn agrees_answers_of_sections_with_differences_of_their_forces() {
         .iter()
         .map(|s| s.state(&moving, calm))
         .collect();
-    let answers = bent.wing.bent_answers(&bent.sections, &states);
+    let answers = bent.wing.bent_answers(&bent.sections, &states, None);
     let predicted = |of: &dyn Fn(&SectionAnswer) -> [[f64; 3]; 3], change: &[DVec3]| {
         let mut out = vec![DVec3::ZERO; r.len()];
         for answer in &answers {

@@ -1,13 +1,15 @@
 //! `[air.blade]`: the blade-element model.
 
-use wingbeat_blade::{BladeSettings, BodyDrag, Rotation, Translation, ViscousMoment, find_set};
+use wingbeat_blade::{
+    BladeSettings, BodyDrag, Rotation, Translation, Unsteady, ViscousMoment, find_set,
+};
 use wingbeat_flight::BladeOptions;
 
 use super::fault::Built;
 use super::numbers::vector;
 use super::wind::wind;
 use crate::error::Fault;
-use crate::raw::{AirCase, BladeCase, BodyDragCase, RotationCase};
+use crate::raw::{AirCase, BladeCase, BodyDragCase, RotationCase, UnsteadyCase};
 
 /// The blade elements of the case.
 pub(super) fn options(air: &AirCase) -> Built<BladeOptions> {
@@ -28,6 +30,13 @@ pub(super) fn options(air: &AirCase) -> Built<BladeOptions> {
             linear: v.linear_hz,
             quadratic: v.quadratic,
         }),
+        unsteady: match case.unsteady {
+            UnsteadyCase::None => None,
+            UnsteadyCase::Jones => Some(Unsteady::Jones),
+            UnsteadyCase::Peters => Some(Unsteady::Peters {
+                states: case.states,
+            }),
+        },
     };
     Ok(BladeOptions {
         blade,

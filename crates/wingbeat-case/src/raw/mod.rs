@@ -32,7 +32,9 @@ mod wind;
 mod wing;
 
 pub use air::{AirCase, AirModel, LeadingEdgeCase, SchemeCase};
-pub use blade::{BladeCase, BodyDragCase, OwnCoefficients, RotationCase, ViscousCase};
+pub use blade::{
+    BladeCase, BodyDragCase, OwnCoefficients, RotationCase, UnsteadyCase, ViscousCase,
+};
 pub use body::{BodyCase, OriginCase, PartCase, ProfileCase};
 pub use control::{
     ControlCase, ControllerCase, ObserverCase, SensorsCase, StiffnessCase, TargetCase,

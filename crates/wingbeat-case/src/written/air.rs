@@ -4,7 +4,7 @@ use wingbeat_air::{
     AirSettings, CoreModel, EdgeKind, Friction, Gust, GustShape, LeadingEdge, Method, NewestRow,
     ParticleSettings, Plane, SectionDrag, SheddingKinds, Turbulence, VortexStreet, Wind,
 };
-use wingbeat_blade::{BladeSettings, Rotation, SETS, Translation};
+use wingbeat_blade::{BladeSettings, Rotation, SETS, Translation, Unsteady};
 use wingbeat_flight::{AirModel, AirOptions, BladeOptions};
 use wingbeat_math::DVec3;
 
@@ -12,8 +12,8 @@ use super::refusal::{Written, no_keys};
 use crate::raw::{
     AirCase, AirModel as Model, BladeCase, BodyDragCase, CoreCase, CutOffCase, FrictionCase,
     GroundCase, GustCase, LambOseenCase, LeadingEdgeCase, OwnCoefficients, ParticlesCase,
-    RadiusCase, RotationCase, SchemeCase, SectionDragCase, TurbulenceCase, ViscousCase,
-    VortexStreetCase,
+    RadiusCase, RotationCase, SchemeCase, SectionDragCase, TurbulenceCase, UnsteadyCase,
+    ViscousCase, VortexStreetCase,
 };
 
 /// The air of the flight, lengths in metres.
@@ -119,7 +119,13 @@ fn blade(options: &BladeOptions) -> Written<AirCase> {
         rotation,
         added_mass,
         viscous,
+        unsteady,
     } = *blade;
+    let (unsteady, states) = match unsteady {
+        None => (UnsteadyCase::None, BladeCase::default().states),
+        Some(Unsteady::Jones) => (UnsteadyCase::Jones, BladeCase::default().states),
+        Some(Unsteady::Peters { states }) => (UnsteadyCase::Peters, states),
+    };
     let (rotation, rotation_coefficient) = match rotation {
         Rotation::None => (RotationCase::None, None),
         Rotation::Circulation => (RotationCase::Circulation, None),
@@ -140,6 +146,8 @@ fn blade(options: &BladeOptions) -> Written<AirCase> {
             along: d.along,
             across: d.across,
         }),
+        unsteady,
+        states,
         induced_m_s: induced.to_array(),
         ..coefficients(translation)?
     };

@@ -1,6 +1,6 @@
 //! Blade elements on wings that loads bend: nodes of the wing's mesh move the sections, whose forces go back to them.
 
-use wingbeat_blade::{BladeWing, NodesInMotion, Section};
+use wingbeat_blade::{BladeWing, Lag, NodesInMotion, Section};
 use wingbeat_dynamics::{BodyAcceleration, BodyMotion, Wrench};
 use wingbeat_math::DVec3;
 use wingbeat_model::Wing;
@@ -35,12 +35,13 @@ impl BentStrips {
     }
 
     /// Forces of the air on the nodes into the scratch \[N\], N components, the whole returned about the origin of the wing; none
-    /// of a wing without a shape. `wind` is beside the stream, wing components.
+    /// of a wing without a shape. `wind` is beside the stream, wing components; circulations lag behind as `lag` says.
     pub fn load(
         &self,
         blade: &BladeWing,
         at: &Instant<'_>,
         wind: impl Fn(DVec3) -> DVec3,
+        lag: Option<Lag<'_>>,
         s: &mut BentScratch,
     ) -> Option<Wrench> {
         let shape = self.shape(at)?;
@@ -58,7 +59,7 @@ impl BentStrips {
         let forces = &mut s.forces[self.wing];
         forces.clear();
         forces.resize(shape.position.len(), DVec3::ZERO);
-        blade.bent_forces(&self.sections, &s.states, forces);
+        blade.bent_forces(&self.sections, &s.states, lag, forces);
         let (mut force, mut moment) = (DVec3::ZERO, DVec3::ZERO);
         for (f, r) in forces.iter_mut().zip(&shape.position) {
             force += *f;
@@ -91,6 +92,7 @@ impl BentStrips {
         blade: &BladeWing,
         at: &Instant<'_>,
         wind: impl Fn(DVec3) -> DVec3,
+        lag: Option<Lag<'_>>,
         out: &mut WingResponse,
     ) -> bool {
         let Some(shape) = self.shape(at) else {
@@ -105,7 +107,7 @@ impl BentStrips {
             blade.settings().free_stream,
         );
         self.set_states(wind, &mut s);
-        let answers = blade.bent_answers(&self.sections, &s.states);
+        let answers = blade.bent_answers(&self.sections, &s.states, lag);
         let order = 3 * answers.len();
         out.panels.clear();
         for matrix in [&mut out.matrix, &mut out.inertia] {

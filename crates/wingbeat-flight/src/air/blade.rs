@@ -4,9 +4,10 @@
 //! the left-hand side of the equations of motion ([`AddedMass`]); what of it follows from velocities
 //! is among the loads.
 
-use wingbeat_air::{AirState, Wind};
+use wingbeat_air::Wind;
 use wingbeat_blade::{
-    BladeError, BladeWing, BodyDrag, FrameAcceleration, FrameMotion, Load, SectionMotion, Strip,
+    BladeError, BladeWing, BodyDrag, FrameAcceleration, FrameMotion, Lag, Load, SectionMotion,
+    Strip, StripTrial, WingMemory, calm,
 };
 use wingbeat_dynamics::{AddedMass, BodyAcceleration, BodyMotion, Wrench};
 use wingbeat_math::DVec3;
@@ -15,7 +16,8 @@ use wingbeat_model::{Animal, Wing, WingMotion};
 
 use super::bent::BentStrips;
 use crate::error::FlightError;
-use crate::interface::{Air, AirScratch, Instant, WingResponse};
+use crate::interface::{Air, AirScratch, Instant, StripScratch, WingResponse, misfit};
+use crate::memory::AirMemory;
 use crate::setup::BladeOptions;
 
 /// The blade elements of an animal.
@@ -126,18 +128,30 @@ impl BladeAir {
         }
     }
 
-    /// Force and moment on a wing by its velocities, and the power that deforms it.
-    fn velocity_load(&self, i: usize, t: f64, m: &BodyMotion) -> (Load, f64) {
+    /// Force and moment on a wing by its velocities and the wakes that `lag` tells of, and the power that deforms it.
+    fn velocity_load(&self, i: usize, t: f64, m: &BodyMotion, lag: Option<Lag<'_>>) -> (Load, f64) {
         let (wing, wind) = (&self.wings[i], self.wind_on(m, t));
         match &self.deforming[i] {
-            None if self.wind.is_none() => (wing.velocity_load(&frame(m)), 0.0),
-            None => (wing.velocity_load_in(&frame(m), wind), 0.0),
+            None if self.wind.is_none() => (wing.lagging_load(&frame(m), calm, lag), 0.0),
+            None => (wing.lagging_load(&frame(m), wind, lag), 0.0),
             Some(d) => {
                 let phase = d.motion.phase_at(t);
                 let section = |k| d.section(k, phase);
-                let sum = wing.deforming_velocity_load(&frame(m), section, wind);
+                let sum = wing.deforming_velocity_load(&frame(m), section, wind, lag);
                 (sum.load, sum.power)
             }
+        }
+    }
+
+    /// The wakes of the strips, where they are remembered.
+    fn wakes<'a>(
+        &self,
+        memory: Option<&'a AirMemory>,
+    ) -> Result<Option<&'a [WingMemory]>, FlightError> {
+        match (self.has_memory(), memory.and_then(AirMemory::strips)) {
+            (false, _) => Ok(None),
+            (true, Some(wakes)) => Ok(Some(wakes)),
+            (true, None) => Err(misfit("strips with wakes need their memory")),
         }
     }
 
@@ -176,10 +190,13 @@ impl Air for BladeAir {
     fn loads(
         &self,
         at: &Instant<'_>,
-        _memory: Option<&AirState>,
+        memory: Option<&AirMemory>,
         scratch: &mut AirScratch,
         out: &mut [Wrench],
     ) -> Result<(), FlightError> {
+        let wakes = self.wakes(memory)?;
+        scratch.strips.time = at.time;
+        (scratch.strips.trials).resize_with(self.wings.len(), Vec::new);
         let (t, still) = (at.time, BodyAcceleration::default());
         out.fill(Wrench::default());
         if let Some(drag) = &self.drag {
@@ -191,13 +208,15 @@ impl Air for BladeAir {
         for (i, m) in (0..self.wings.len()).zip(&at.motions[1..]) {
             let bent = self.bent[i].as_ref();
             let wind = self.wind_on(m, t);
-            if let Some(load) =
-                bent.and_then(|b| b.load(&self.wings[i], at, wind, &mut scratch.bent))
-            {
+            let trial = &mut scratch.strips.trials[i];
+            if let Some(load) = bent.and_then(|b| {
+                let lag = lag(wakes, i, t, trial);
+                b.load(&self.wings[i], at, wind, lag, &mut scratch.bent)
+            }) {
                 out[i + 1] = load;
                 continue;
             }
-            out[i + 1] = turned(&self.velocity_load(i, t, m).0, m);
+            out[i + 1] = turned(&self.velocity_load(i, t, m, lag(wakes, i, t, trial)).0, m);
             if self.wings[i].has_added_mass() {
                 out[i + 1] += turned(&self.acceleration_load(i, t, m, &still).0, m);
             }
@@ -209,6 +228,44 @@ impl Air for BladeAir {
         out.extend_from_slice(&self.added);
         let deforming = (0..self.wings.len()).filter(|&i| self.deforming[i].is_some());
         out.extend(deforming.filter_map(|i| self.added_to(i, t)));
+    }
+
+    fn has_memory(&self) -> bool {
+        self.wings.iter().any(|w| w.settings().unsteady.is_some())
+    }
+
+    fn initial(&self, _scratch: &AirScratch) -> Option<AirMemory> {
+        let memories: Vec<_> = self.wings.iter().filter_map(BladeWing::memory).collect();
+        self.has_memory().then_some(AirMemory::Strips(memories))
+    }
+
+    fn accept(
+        &self,
+        memory: &mut Option<AirMemory>,
+        scratch: &AirScratch,
+    ) -> Result<(), FlightError> {
+        let StripScratch { time, trials } = &scratch.strips;
+        if let Some(AirMemory::Strips(wakes)) = memory {
+            let wings = self.wings.iter().zip(wakes).zip(trials);
+            wings.for_each(|((wing, wake), trial)| wing.accept(wake, trial, *time));
+        }
+        Ok(())
+    }
+
+    fn check(&self, memory: Option<&AirMemory>) -> Result<(), FlightError> {
+        let own = self.initial(&AirScratch::default());
+        let fits = match (&own, memory) {
+            (None, None) => true,
+            (Some(AirMemory::Strips(own)), Some(AirMemory::Strips(saved))) => {
+                let mut both = own.iter().zip(saved);
+                own.len() == saved.len() && both.all(|(a, b)| a.fits(b))
+            }
+            _ => false,
+        };
+        match fits {
+            true => Ok(()),
+            false => Err(misfit("the strips of the case have other wakes, or none")),
+        }
     }
 
     fn is_uniform(&self) -> bool {
@@ -231,13 +288,14 @@ impl Air for BladeAir {
         &self,
         wing: usize,
         at: &Instant<'_>,
-        _memory: Option<&AirState>,
+        memory: Option<&AirMemory>,
         _scratch: &AirScratch,
         out: &mut WingResponse,
     ) -> Result<bool, FlightError> {
         let wind = self.wind_on(&at.motions[wing + 1], at.time);
-        let bent = self.bent[wing].as_ref();
-        Ok(bent.is_some_and(|b| b.respond(&self.wings[wing], at, wind, out)))
+        let (bent, mut trial) = (self.bent[wing].as_ref(), vec![]);
+        let lag = lag(self.wakes(memory)?, wing, at.time, &mut trial);
+        Ok(bent.is_some_and(|b| b.respond(&self.wings[wing], at, wind, lag, out)))
     }
 
     fn follows_accelerations(&self) -> bool {
@@ -253,19 +311,34 @@ impl Air for BladeAir {
         &self,
         at: &Instant<'_>,
         accelerations: &[BodyAcceleration],
-        _scratch: &AirScratch,
+        scratch: &AirScratch,
         out: &mut [f64],
     ) {
         out.fill(0.0);
         for i in (0..self.wings.len()).filter(|&i| self.deforming[i].is_some()) {
             let (m, a) = (&at.motions[i + 1], &accelerations[i + 1]);
+            let known = scratch.strips.trials.get(i).map(|t| Lag::Known(t));
             let [by_velocity, by_mass] = [
-                self.velocity_load(i, at.time, m).1,
+                self.velocity_load(i, at.time, m, known).1,
                 self.acceleration_load(i, at.time, m, a).1,
             ];
             out[i + 1] = by_velocity + by_mass;
         }
     }
+}
+
+/// What slows wing number `i` down at time `t` \[s\]; its strips go into `trial`.
+fn lag<'a>(
+    wakes: Option<&'a [WingMemory]>,
+    i: usize,
+    t: f64,
+    trial: &'a mut Vec<StripTrial>,
+) -> Option<Lag<'a>> {
+    wakes.map(|wakes| Lag::Trial {
+        memory: &wakes[i],
+        time: t,
+        trial,
+    })
 }
 
 /// One strip per spanwise panel: mean chord and mean place of its leading edge.

@@ -8,11 +8,11 @@
 use std::fmt;
 use std::sync::{Mutex, MutexGuard};
 
-use wingbeat_air::AirState;
 use wingbeat_dynamics::{System, Wrench};
 
 use crate::error::FlightError;
 use crate::interface::{Air, AirScratch, Announcement, ExternalAir, ExternalSession, Instant};
+use crate::memory::AirMemory;
 use crate::setup::FlightSetup;
 
 /// The session of a flight, shared by its stages, with the step asked for last.
@@ -54,7 +54,7 @@ impl Air for Session {
     fn loads(
         &self,
         at: &Instant<'_>,
-        _memory: Option<&AirState>,
+        _memory: Option<&AirMemory>,
         _scratch: &mut AirScratch,
         out: &mut [Wrench],
     ) -> Result<(), FlightError> {
@@ -78,7 +78,7 @@ impl Air for Session {
         true
     }
 
-    fn accept(&self, _memory: &mut Option<AirState>, _s: &AirScratch) -> Result<(), FlightError> {
+    fn accept(&self, _memory: &mut Option<AirMemory>, _s: &AirScratch) -> Result<(), FlightError> {
         let mut guard = self.lock();
         let (session, asked) = &mut *guard;
         session.accept(*asked).map_err(FlightError::External)

@@ -10,6 +10,7 @@ use super::mirror::mirror_pairs;
 use super::surfaces::SurfaceMap;
 use crate::error::FlightError;
 use crate::interface::{Air, AirScratch, Instant, WingInertia, WingResponse, misfit};
+use crate::memory::{AirMemory, wakes_of};
 use crate::record::{ParticleSnapshot, Snapshot, SurfaceSnapshot, WakeSnapshot};
 use crate::setup::{AirOptions, FlightSetup, MotionMode};
 
@@ -83,9 +84,9 @@ impl LatticeAir {
         air.place(at, &mut s)?;
         let memory = air.initial(&s);
         air.loads(at, memory.as_ref(), &mut s, &mut wrenches)?;
-        let state = memory.ok_or_else(|| misfit("a lattice has a memory"))?;
+        let state = wakes_of(memory.as_ref()).ok_or_else(|| misfit("a lattice has a memory"))?;
         let mut answer = WingResponse {
-            matrix: (air.lattice).normal_inertia(wing, &state, &s.workspace, &s.loads)?,
+            matrix: (air.lattice).normal_inertia(wing, state, &s.workspace, &s.loads)?,
             ..WingResponse::default()
         };
         air.set_panels(wing, &s, &mut answer);
@@ -166,11 +167,11 @@ impl Air for LatticeAir {
     fn loads(
         &self,
         at: &Instant<'_>,
-        memory: Option<&AirState>,
+        memory: Option<&AirMemory>,
         s: &mut AirScratch,
         out: &mut [Wrench],
     ) -> Result<(), FlightError> {
-        let state = memory.ok_or_else(|| misfit("a lattice needs its wakes"))?;
+        let state = wakes_of(memory).ok_or_else(|| misfit("a lattice needs its wakes"))?;
         if !(s.is_current && s.nodes == s.nodes_done) {
             let (t, h) = (at.time, at.step);
             (self.lattice).loads(state, t, h, &s.nodes, &mut s.workspace, &mut s.loads)?;
@@ -201,32 +202,34 @@ impl Air for LatticeAir {
         self.map.node_motion(at, &mut s.nodes)
     }
 
-    fn initial(&self, s: &AirScratch) -> Option<AirState> {
-        Some(self.lattice.initial_state(&s.nodes))
+    fn initial(&self, s: &AirScratch) -> Option<AirMemory> {
+        let wakes = self.lattice.initial_state(&s.nodes);
+        Some(AirMemory::Wakes(Box::new(wakes)))
     }
 
     fn advance(
         &self,
-        memory: &mut Option<AirState>,
+        memory: &mut Option<AirMemory>,
         step: f64,
         s: &mut AirScratch,
     ) -> Result<(), FlightError> {
-        if let Some(air) = memory {
+        if let Some(air) = memory.as_mut().and_then(AirMemory::wakes_mut) {
             self.lattice.convect(air, step, &mut s.workspace)?;
             s.is_current = false;
         }
         Ok(())
     }
 
-    fn accept(&self, memory: &mut Option<AirState>, s: &AirScratch) -> Result<(), FlightError> {
-        if let Some(air) = memory {
+    fn accept(&self, memory: &mut Option<AirMemory>, s: &AirScratch) -> Result<(), FlightError> {
+        if let Some(air) = memory.as_mut().and_then(AirMemory::wakes_mut) {
             self.lattice.accept(air, &s.nodes, &s.loads)?;
         }
         Ok(())
     }
 
-    fn check(&self, memory: Option<&AirState>) -> Result<(), FlightError> {
-        let air = memory.ok_or_else(|| misfit("the case has wakes, the state has none"))?;
+    fn check(&self, memory: Option<&AirMemory>) -> Result<(), FlightError> {
+        let air =
+            wakes_of(memory).ok_or_else(|| misfit("the case has wakes, the state has none"))?;
         Ok(self.lattice.check_state(air)?)
     }
 
@@ -245,11 +248,11 @@ impl Air for LatticeAir {
         &self,
         wing: usize,
         _at: &Instant<'_>,
-        memory: Option<&AirState>,
+        memory: Option<&AirMemory>,
         s: &AirScratch,
         out: &mut WingResponse,
     ) -> Result<bool, FlightError> {
-        let state = memory.ok_or_else(|| misfit("a lattice needs its wakes"))?;
+        let state = wakes_of(memory).ok_or_else(|| misfit("a lattice needs its wakes"))?;
         out.inertia.clear();
         out.matrix = (self.lattice).normal_response(wing, state, &s.workspace, &s.loads)?;
         self.set_panels(wing, s, out);
@@ -260,10 +263,10 @@ impl Air for LatticeAir {
         &self,
         wing: usize,
         at: &Instant<'_>,
-        memory: Option<&AirState>,
+        memory: Option<&AirMemory>,
         s: &AirScratch,
     ) -> Result<Option<WingInertia>, FlightError> {
-        let state = memory.ok_or_else(|| misfit("a lattice needs its wakes"))?;
+        let state = wakes_of(memory).ok_or_else(|| misfit("a lattice needs its wakes"))?;
         let Some(rate_weights) = self.lattice.circulation_rate_weights(state, at.step) else {
             return Ok(None);
         };
@@ -287,8 +290,8 @@ impl Air for LatticeAir {
         (self.map).deformation_power(&s.loads, &s.nodes, at.motions, out);
     }
 
-    fn snapshot(&self, memory: Option<&AirState>, s: &AirScratch) -> Snapshot {
-        let Some(air) = memory else {
+    fn snapshot(&self, memory: Option<&AirMemory>, s: &AirScratch) -> Snapshot {
+        let Some(air) = wakes_of(memory) else {
             return Snapshot::default();
         };
         let surfaces = 0..self.lattice.surfaces().len();
@@ -300,9 +303,9 @@ impl Air for LatticeAir {
         }
     }
 
-    fn velocity(&self, memory: Option<&AirState>, points: &Points) -> Option<Points> {
+    fn velocity(&self, memory: Option<&AirMemory>, points: &Points) -> Option<Points> {
         let (mut ws, mut velocity) = (self.lattice.workspace(), Points::default());
-        let sampled = (self.lattice).velocity(memory?, points, &mut ws, &mut velocity);
+        let sampled = (self.lattice).velocity(wakes_of(memory)?, points, &mut ws, &mut velocity);
         sampled.ok().map(|()| velocity)
     }
 }

@@ -3,7 +3,7 @@
 //! | model | module | memory |
 //! |---|---|---|
 //! | vortex lattice | `lattice` | circulations and wakes |
-//! | blade elements | `blade` | none |
+//! | blade elements | `blade` | none, or wakes of the strips |
 //! | stability derivatives | `table` | none |
 //! | another program | [`external`] | its own |
 //! | vacuum | here | none |
@@ -20,11 +20,11 @@ mod table;
 
 use std::sync::Arc;
 
-use wingbeat_air::AirState;
 use wingbeat_dynamics::{System, Wrench};
 use wingbeat_math::DVec3;
 
 use crate::error::FlightError;
+use crate::memory::AirMemory;
 use crate::setup::{AirModel, FlightSetup};
 
 pub use crate::interface::{Air, AirScratch, Instant};
@@ -40,7 +40,7 @@ impl Air for Vacuum {
     fn loads(
         &self,
         _at: &Instant<'_>,
-        _memory: Option<&AirState>,
+        _memory: Option<&AirMemory>,
         _scratch: &mut AirScratch,
         out: &mut [Wrench],
     ) -> Result<(), FlightError> {

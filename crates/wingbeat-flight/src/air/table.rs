@@ -1,6 +1,5 @@
 //! Stability derivatives on the root body.
 
-use wingbeat_air::AirState;
 use wingbeat_blade::DerivativeTable;
 use wingbeat_dynamics::Wrench;
 use wingbeat_model::Animal;
@@ -8,6 +7,7 @@ use wingbeat_model::Animal;
 use super::blade::{frame, turned};
 use crate::error::FlightError;
 use crate::interface::{Air, AirScratch, Instant};
+use crate::memory::AirMemory;
 
 /// A table of derivatives as the air of the whole animal.
 #[derive(Clone, Copy, Debug)]
@@ -35,7 +35,7 @@ impl Air for TableAir {
     fn loads(
         &self,
         at: &Instant<'_>,
-        _memory: Option<&AirState>,
+        _memory: Option<&AirMemory>,
         _scratch: &mut AirScratch,
         out: &mut [Wrench],
     ) -> Result<(), FlightError> {

@@ -1,6 +1,5 @@
 //! One step of the elastic wings with the air, at given motions and accelerations of the bodies.
 
-use wingbeat_air::AirState;
 use wingbeat_dynamics::{BodyAcceleration, BodyMotion, Wrench};
 use wingbeat_structure::NODE;
 
@@ -10,6 +9,7 @@ use super::wing::{ElasticState, ElasticWing};
 use super::wings::{ElasticWings, frame_motion};
 use crate::error::FlightError;
 use crate::interface::{Air, AirScratch, Instant, Shape};
+use crate::memory::AirMemory;
 
 /// Forces that are left unbalanced at the end of a step over those at the nodes \[1\].
 pub const TOLERANCE: f64 = 1e-10;
@@ -94,7 +94,7 @@ impl ElasticWings {
     pub fn couple(
         &self,
         at: &Moment<'_>,
-        around: (&dyn Air, Option<&AirState>),
+        around: (&dyn Air, Option<&AirMemory>),
         s: &mut ElasticScratch,
         (air_scratch, out): (&mut AirScratch, &mut [Wrench]),
     ) -> Result<(), FlightError> {
@@ -128,7 +128,7 @@ impl ElasticWings {
     fn pass(
         &self,
         at: &Instant<'_>,
-        (air, memory): (&dyn Air, Option<&AirState>),
+        (air, memory): (&dyn Air, Option<&AirMemory>),
         s: &mut ElasticScratch,
         (air_scratch, out): (&mut AirScratch, &mut [Wrench]),
     ) -> Result<bool, FlightError> {
@@ -221,7 +221,7 @@ impl ElasticWings {
     fn take_answers(
         &self,
         instant: &Instant<'_>,
-        (air, memory): (&dyn Air, Option<&AirState>),
+        (air, memory): (&dyn Air, Option<&AirMemory>),
         s: &mut ElasticScratch,
         air_scratch: &AirScratch,
     ) -> Result<(), FlightError> {

@@ -3,6 +3,7 @@
 use super::state::FlightState;
 use crate::elastic::ElasticState;
 use crate::error::FlightError;
+use crate::memory::wakes_of;
 use crate::recorder::Ledger;
 use crate::stages::Stage;
 
@@ -93,7 +94,7 @@ fn check_steps(state: &FlightState) -> Result<(), FlightError> {
 
 /// Events that were recorded are among those that were counted.
 fn check_events(state: &FlightState) -> Result<(), FlightError> {
-    let counts = state.air.as_ref().map_or([0; 6], |air| {
+    let counts = wakes_of(state.air.as_ref()).map_or([0; 6], |air| {
         let e = &air.events;
         [
             e.limited,

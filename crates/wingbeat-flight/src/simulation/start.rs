@@ -1,20 +1,20 @@
 //! The coupled right-hand side over the starting steps of a multistep method.
 
-use wingbeat_air::AirState;
 use wingbeat_math::ode::Replay;
 
 use crate::carried::CarriedState;
 use crate::elastic::ElasticState;
 use crate::equations::{Equations, Memory, Scratch};
 use crate::error::FlightError;
+use crate::memory::AirMemory;
 
 /// The coupled right-hand side over the starting steps: the wake is replayed with them.
 pub(super) struct Start<'a> {
     pub equations: &'a Equations,
     pub scratch: Scratch,
     pub first: usize,
-    pub at_start: &'a Option<AirState>,
-    pub air: Option<AirState>,
+    pub at_start: &'a Option<AirMemory>,
+    pub air: Option<AirMemory>,
     pub wings_at_start: &'a [ElasticState],
     pub wings: Vec<ElasticState>,
     pub carried_at_start: &'a [CarriedState],

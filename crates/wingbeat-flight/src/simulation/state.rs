@@ -1,12 +1,12 @@
 //! What is integrated.
 
-use wingbeat_air::AirState;
 use wingbeat_math::ode::{Multistep, StepReport};
 
 use crate::carried::CarriedState;
 use crate::control::ControlState;
 use crate::elastic::ElasticState;
 use crate::equations::Memory;
+use crate::memory::AirMemory;
 use crate::recorder::Ledger;
 
 /// Everything that is integrated: plain data, enough to go on bit for bit.
@@ -24,7 +24,7 @@ pub struct FlightState {
     /// What the starter did.
     pub start_report: StepReport,
     /// The air after the newest step, its wake not yet moved on; none in vacuum.
-    pub air: Option<AirState>,
+    pub air: Option<AirMemory>,
     /// The elastic wings after the newest step; empty where there are none.
     #[serde(default)]
     pub wings: Vec<ElasticState>,
@@ -44,5 +44,29 @@ impl FlightState {
             wings: &self.wings,
             carried: &self.carried,
         }
+    }
+}
+
+/// Where a flight goes on from another one: all that is remembered beside the motion of rigid bodies, but for wakes in space.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Past {
+    /// Elastic wings, in their order; empty where there are none.
+    pub wings: Vec<ElasticState>,
+    /// The air, where strips remember their wakes.
+    pub air: Option<AirMemory>,
+}
+
+impl Past {
+    /// That of a flight in this state.
+    pub fn of(state: &FlightState) -> Self {
+        Self {
+            wings: state.wings.clone(),
+            air: state.air.clone(),
+        }
+    }
+
+    /// Whether there is nothing.
+    pub fn is_empty(&self) -> bool {
+        self.wings.is_empty() && self.air.is_none()
     }
 }

@@ -1,7 +1,10 @@
 //! How far the results can be trusted.
 
 use wingbeat_air::{AirSettings, Convection, CoreModel, Friction, LoadMethod, SectionDrag};
-use wingbeat_flight::{AirModel, FlightSetup, FormulationChoice, IntegratorChoice, MotionMode};
+use wingbeat_flight::{
+    AirModel, BladeOptions, FlightSetup, FormulationChoice, IntegratorChoice, MotionMode,
+};
+use wingbeat_math::DVec3;
 
 use super::beats::BeatMeans;
 use super::numbers::Summary;
@@ -28,6 +31,9 @@ pub(super) fn warnings(setup: &FlightSetup, summary: &Summary) -> Warnings {
                 .to_owned(),
         ),
         AirModel::VortexLattice(air) => air_warnings(setup, air, summary, &mut list),
+        AirModel::BladeElement(air) if air.blade.unsteady.is_some() => {
+            wake_of_strips(setup, air, summary, &mut list);
+        }
         AirModel::BladeElement(_) => list.note("The air is quasi-steady: blade elements with measured coefficients, no wake, no interaction of the wings with each other or with the air they moved before.".to_owned()),
         AirModel::Derivatives(_) => list.note("The air is a table of stability derivatives: linear about its reference flight, and wrong far from it.".to_owned()),
         AirModel::Own(_) => list.note("The air is a model of your own: wingbeat vouches for the motion under its loads, not for the loads.".to_owned()),
@@ -63,6 +69,26 @@ pub(super) fn warnings(setup: &FlightSetup, summary: &Summary) -> Warnings {
         list.note("Tethered: the body does not answer to the forces on it.".to_owned());
     }
     list
+}
+
+/// Wing lengths by which a flyer passes through the air in a wingbeat below which wings come back into their wakes \[1\].
+const PASSES: f64 = 2.0;
+
+/// What strips know of their wakes.
+fn wake_of_strips(setup: &FlightSetup, air: &BladeOptions, summary: &Summary, list: &mut Warnings) {
+    list.note("The air is blade elements whose strips each leave a wake of plane flow straight behind (air.blade.unsteady): no interaction of strips or wings with each other or with the air they moved before.".to_owned());
+    let Some(period) = setup.time.period else {
+        return;
+    };
+    let nodes = setup.animal.wings.iter().flat_map(|w| &w.mesh.nodes);
+    let length = nodes.fold(0.0_f64, |m, r| m.max(r.length()));
+    let flown = DVec3::from_array(summary.displacement_m) / summary.time_s.max(period);
+    let passed = (flown - air.blade.free_stream).length() * period / length;
+    if passed < PASSES {
+        list.limit(format!(
+            "The flyer passes {passed:.2} wing lengths through the air in a wingbeat: its wings come back into wakes that strips take to be left behind, and coefficients measured on flapping wings hold a part of the lag already. Leave air.blade.unsteady out in hover, or take the vortex lattice."
+        ));
+    }
 }
 
 /// What prescribed deformation leaves out.

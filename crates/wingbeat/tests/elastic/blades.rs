@@ -140,7 +140,7 @@ fn agrees_a_trimmed_orbit_of_body_and_wings_with_flights_that_go_on_from_it() {
     let mut setup = trim.setup.clone();
     let steps = setup.time.steps;
     setup.time.steps = 2 * steps;
-    let mut flight = Simulation::bent(setup.clone(), &trim.wings).unwrap();
+    let mut flight = Simulation::bent(setup.clone(), &trim.past.wings).unwrap();
     let size = setup.animal.wings[0].report().length;
     let speed = size / setup.time.period.unwrap();
     let first = flight.record().clone();
@@ -160,7 +160,7 @@ fn agrees_a_trimmed_orbit_of_body_and_wings_with_flights_that_go_on_from_it() {
     }
     // What the muscles pay: work of the hinges in the beat, by another sum.
     let power = power_with_wake(&trim).unwrap();
-    let mut flight = Simulation::bent(trim.setup.clone(), &trim.wings).unwrap();
+    let mut flight = Simulation::bent(trim.setup.clone(), &trim.past.wings).unwrap();
     let before = flight.record().power_work();
     while !flight.finished() {
         flight.step().unwrap();

@@ -54,7 +54,7 @@ pub(crate) fn run(args: &StabilityArgs) -> Result<(), Failure> {
     let deliver = |report: &mut Report, [file]: [Option<Target>; 1]| {
         let case = args.trimming.load()?;
         let table = matches!(case.setup.air, AirModel::Derivatives(_));
-        let (wakes, memory) = (case.setup.air.has_memory(), case.setup.has_memory());
+        let (wakes, memory) = (case.setup.air.keeps_wake(), case.setup.has_memory());
         if args.write.is_some() && (table || memory) {
             let why =
                 "only a trim of rigid wings in air without memory gives an averaged model to write";
@@ -63,8 +63,9 @@ pub(crate) fn run(args: &StabilityArgs) -> Result<(), Failure> {
         if args.wake.is_some() && !wakes {
             return Err(unused("wake", "this air has no wake"));
         }
-        if args.modes.is_some() && (wakes || !memory) {
-            let why = "only wings that bend in air without memory take modes of theirs along";
+        if args.modes.is_some() && (wakes || !case.setup.animal.is_elastic()) {
+            let why =
+                "only wings that bend, in air without wakes in space, take modes of theirs along";
             return Err(unused("modes", why));
         }
         match (table, memory) {
@@ -166,15 +167,26 @@ fn with_wake(args: &StabilityArgs, report: &mut Report) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Floquet's modes of body and elastic wings.
+/// Floquet's modes of body, elastic wings and wakes of strips.
 fn with_wings(args: &StabilityArgs, report: &mut Report) -> Result<(), Failure> {
     let (_, trim) = trimmed_with_wake(&args.trimming, report)?;
-    let count = args.modes.unwrap_or(DEFAULT_MODES);
+    let is_rigid = trim.past.wings.is_empty();
+    let count = match is_rigid {
+        true => 0,
+        false => args.modes.unwrap_or(DEFAULT_MODES),
+    };
     let found = watched("Floquet's modes", || elastic_floquet(&trim, count))?;
-    line!(
-        report,
-        "\nModes of the full periodic orbit of body and wings (Floquet), {count} modes of each wing:"
-    );
+    let of = match is_rigid {
+        true => "body and wakes of strips (Floquet)".to_owned(),
+        false => format!("body and wings (Floquet), {count} modes of each wing"),
+    };
+    line!(report, "\nModes of the full periodic orbit of {of}:");
+    if trim.past.air.is_some() {
+        line!(
+            report,
+            "  (all states of the wakes are coordinates; what decays in them alone is left out)"
+        );
+    }
     modes(report, "floquet_modes", &found);
     report.value("modes_of_each_wing", count);
     Ok(())

@@ -147,7 +147,7 @@ impl Trimming {
         match case.setup.has_memory() {
             true => Err(unused(
                 "sweep",
-                "in air with memory or with elastic wings every trim takes minutes; sweep rigid wings in blade elements (--set air.model=blade_element), or trim speed by speed with --forward",
+                "in air with memory or with elastic wings every trim takes minutes; sweep rigid wings in blade elements without air.blade.unsteady (--set air.model=blade_element), or trim speed by speed with --forward",
             )),
             false => self.without_hold(),
         }
@@ -261,11 +261,11 @@ pub(crate) fn trimmed_with_wake(
         case.raw.time.steps_per_beat = Some(steps);
     }
     let problem = args.problem(&case)?;
-    let is_orbit = !case.setup.air.has_memory();
+    let is_orbit = !case.setup.air.keeps_wake();
     if is_orbit && args.hold.is_some() {
         return Err(unused(
             "hold",
-            "nothing is held: body and wings fly their periodic beat",
+            "nothing is held: body, wings and wakes of strips fly their periodic beat",
         ));
     }
     let default = WakeSettings::default();
@@ -275,6 +275,7 @@ pub(crate) fn trimmed_with_wake(
         ..default
     };
     let what = match is_orbit {
+        true if case.setup.air.has_strip_wakes() => "body, wings and wakes of strips".to_owned(),
         true => "body and elastic wings".to_owned(),
         false => format!(
             "in air with memory, some 10 to 30 flights of {} wingbeats",
@@ -282,7 +283,11 @@ pub(crate) fn trimmed_with_wake(
         ),
     };
     name_program(&case);
-    tell!("{}: trimming {what}; this takes minutes", case.name);
+    let pace = match case.setup.air.keeps_wake() || case.setup.animal.is_elastic() {
+        true => "; this takes minutes",
+        false => "",
+    };
+    tell!("{}: trimming {what}{pace}", case.name);
     let found = watched("trimming", || {
         trim_with_wake(&case.setup, &problem, &settings)
     })?;

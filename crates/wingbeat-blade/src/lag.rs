@@ -1,0 +1,260 @@
+//! The wakes of strips over a flight: what each remembers, and what its downwash is in a trial motion.
+//!
+//! Within a step the downwash w of a strip goes linearly over its way, of which the mean speed decides: with that the equations of
+//! [`crate::indicial`] are solved exactly, `z1 = exp(-p ds) z0 + (1 - exp(-p ds)) / (p ds) (w1 - w0)`. What the motion at the end of
+//! the step changes in lambda is so part of every trial: second order in the step, stable whatever the step.
+//!
+//! The downwash of the wake comes up to the whole strip, along its normal: the strip's coefficients, whatever their law, see
+//! `w - lambda`. The way is that with the speed through the air, `sqrt(u^2 + w^2)`: where the strip turns back or meets the
+//! air broadside on, all of this stays finite and smooth. Wind beside the stream comes up by Kuessner's function from when it meets the leading edge.
+//!
+//! | symbol | name in code | meaning | unit |
+//! |---|---|---|---|
+//! | w | `drive` | downwash of the strip's motion, `w + C_rot / pi c q`: at 3/4 of the chord in the theory | m/s |
+//! | lambda | `downwash` | downwash of the wake, and what is still missing of the wind's | m/s |
+//! | s | `way` | way through the air in half chords | 1 |
+//! | z | `wake`, `wind` | states of the wake | m/s |
+
+use crate::indicial::{Indicial, Pole, Unsteady, passed, product, quotient};
+
+/// What a strip remembers of its wake.
+#[derive(Clone, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
+pub struct StripMemory {
+    /// Downwash of its motion, normal velocity of the wind at its leading edge, and speed at the last accepted instant \[m/s\].
+    drive: f64,
+    gust: f64,
+    speed: f64,
+    /// Way since the memory began, in half chords \[1\].
+    way: f64,
+    /// States of the wake, and those of the wind \[m/s\]: one number of a real rate, two of a pair.
+    wake: Vec<f64>,
+    wind: Vec<f64>,
+}
+
+/// What the strips of a wing remember.
+#[derive(Clone, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
+pub struct WingMemory {
+    time: f64,
+    strips: Vec<StripMemory>,
+}
+
+/// A strip in a trial motion.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct StripTrial {
+    drive: f64,
+    gust: f64,
+    speed: f64,
+    /// Downwash of its wake \[m/s\].
+    pub(crate) downwash: f64,
+}
+
+/// Where the downwash of the wakes comes from.
+#[derive(Debug)]
+pub enum Lag<'a> {
+    /// From what the strips remember, at this time \[s\]; what they do in the trial stays in `trial`.
+    Trial {
+        /// What they remember.
+        memory: &'a WingMemory,
+        /// Time \[s\].
+        time: f64,
+        /// The strips in the trial.
+        trial: &'a mut Vec<StripTrial>,
+    },
+    /// It is that of the trial before.
+    Known(&'a [StripTrial]),
+}
+
+impl WingMemory {
+    /// Of `strips` strips at rest at time zero, no wake yet.
+    pub(crate) fn new(strips: usize, lags: &Lags) -> Self {
+        let strip = StripMemory {
+            wake: vec![0.0; lags.wake.numbers()],
+            wind: vec![0.0; lags.wind.numbers()],
+            ..StripMemory::default()
+        };
+        Self {
+            time: 0.0,
+            strips: vec![strip; strips],
+        }
+    }
+
+    /// The same at the time `time` \[s\], ways counted from there.
+    #[must_use]
+    pub fn at(mut self, time: f64) -> Self {
+        self.time = time;
+        self.strips.iter_mut().for_each(|s| s.way = 0.0);
+        self
+    }
+
+    /// Sets the time \[s\] at which the memory was accepted.
+    pub fn set_time(&mut self, time: f64) {
+        self.time = time;
+    }
+
+    /// Whether another memory is one of the same strips, all numbers finite.
+    pub fn fits(&self, other: &Self) -> bool {
+        let same = |a: &StripMemory, b: &StripMemory| {
+            let numbers = b.wake.iter().chain(&b.wind);
+            let mut numbers = numbers.chain([&b.drive, &b.gust, &b.speed, &b.way]);
+            (a.wake.len(), a.wind.len()) == (b.wake.len(), b.wind.len())
+                && numbers.all(|x| x.is_finite())
+        };
+        let mut both = self.strips.iter().zip(&other.strips);
+        self.strips.len() == other.strips.len()
+            && other.time.is_finite()
+            && both.all(|(a, b)| same(a, b))
+    }
+
+    /// States of the wakes \[m/s\], strip by strip.
+    pub fn numbers(&self) -> impl Iterator<Item = f64> + '_ {
+        self.strips.iter().flat_map(|s| s.wake.iter().copied())
+    }
+
+    /// Adds `by` \[m/s\] to number `k` of [`Self::numbers`].
+    pub fn disturb(&mut self, k: usize, by: f64) {
+        let mut numbers = self.strips.iter_mut().flat_map(|s| s.wake.iter_mut());
+        if let Some(x) = numbers.nth(k) {
+            *x += by;
+        }
+    }
+}
+
+/// The indicial functions of a wing.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Lags {
+    wake: Indicial,
+    wind: Indicial,
+}
+
+impl Lags {
+    pub fn of(theory: Unsteady) -> Self {
+        Self {
+            wake: theory.indicial(),
+            wind: Indicial::kuessner(),
+        }
+    }
+
+    /// The strip after it has moved as in `trial` at `time` \[s\], its chord being 2 `half`.
+    fn accept_strip(&self, strip: &mut StripMemory, trial: &StripTrial, duration: f64, half: f64) {
+        let way = strip.way_to(trial.speed, duration, half);
+        let lists = [
+            (&self.wake, &mut strip.wake, trial.drive - strip.drive),
+            (&self.wind, &mut strip.wind, trial.gust - strip.gust),
+        ];
+        for (law, states, change) in lists {
+            let mut states = &mut states[..];
+            for pole in law.poles() {
+                let (own, rest) = states.split_at_mut(pole.numbers());
+                let z = next(pole.rate, complex(own), change, way);
+                own.copy_from_slice(&z[..own.len()]);
+                states = rest;
+            }
+        }
+        strip.way += way;
+        (strip.drive, strip.gust, strip.speed) = (trial.drive, trial.gust, trial.speed);
+    }
+
+    /// What is missing of the circulation's and of the wind's downwash \[m/s\].
+    fn missing(&self, strip: &StripMemory, trial: &StripTrial, duration: f64, half: f64) -> f64 {
+        let way = strip.way_to(trial.speed, duration, half);
+        let parts_of = |law: &Indicial, mut states: &[f64], change: f64| -> f64 {
+            let part = |pole: &Pole| {
+                let (own, rest) = states.split_at(pole.numbers());
+                states = rest;
+                product(pole.weight, next(pole.rate, complex(own), change, way))[0]
+            };
+            law.poles().iter().map(part).sum()
+        };
+        let wake = parts_of(&self.wake, &strip.wake, trial.drive - strip.drive);
+        let is_calm =
+            trial.gust == 0.0 && strip.gust == 0.0 && strip.wind.iter().all(|z| *z == 0.0);
+        match is_calm {
+            true => wake,
+            false => wake - parts_of(&self.wind, &strip.wind, trial.gust - strip.gust),
+        }
+    }
+
+    /// The strips of chords `chords` \[m\] after they have moved as in `trial` at `time` \[s\].
+    pub fn accept(
+        &self,
+        memory: &mut WingMemory,
+        trial: &[StripTrial],
+        time: f64,
+        chords: impl Iterator<Item = f64>,
+    ) {
+        let duration = time - memory.time;
+        for ((own, trial), chord) in memory.strips.iter_mut().zip(trial).zip(chords) {
+            self.accept_strip(own, trial, duration, 0.5 * chord);
+        }
+        memory.time = time;
+    }
+
+    /// The downwash \[m/s\] to be taken from a strip of chord `chord` \[m\], and the trial that it belongs to: its motion has the downwash `drive`
+    /// and the `speed`, the wind the normal velocities `at_axis`, which the motion lacks, and `gust` at the leading edge.
+    pub fn downwash(
+        &self,
+        (memory, strip, time): (&WingMemory, usize, f64),
+        chord: f64,
+        [drive, speed]: [f64; 2],
+        [at_axis, gust]: [f64; 2],
+    ) -> StripTrial {
+        let mut here = StripTrial {
+            drive,
+            gust,
+            speed,
+            downwash: 0.0,
+        };
+        let missing = self.missing(
+            &memory.strips[strip],
+            &here,
+            time - memory.time,
+            0.5 * chord,
+        );
+        // Of the wind at the axis, which the motion has, that at the leading edge takes the place.
+        here.downwash = missing + (gust - at_axis);
+        here
+    }
+
+    /// The beat after which a memory `after` was found that began with `before`, ended by the states that come back: of the same
+    /// motion, beat after beat.
+    pub fn periodic(&self, before: &WingMemory, after: &mut WingMemory) {
+        /// Parts of a state that a beat must take away for its periodic value to be known.
+        const FELT: f64 = 1e-3;
+        for (a, b) in after.strips.iter_mut().zip(&before.strips) {
+            let way = a.way;
+            let mut from = 0;
+            for pole in self.wake.poles() {
+                let range = from..from + pole.numbers();
+                from = range.end;
+                let left = passed(pole.rate, way).0;
+                let lost = [1.0 - left[0], -left[1]];
+                if lost[0].hypot(lost[1]) > FELT {
+                    let kept = product(left, complex(&b.wake[range.clone()]));
+                    let own = &mut a.wake[range];
+                    let z = complex(own);
+                    let z = quotient([z[0] - kept[0], z[1] - kept[1]], lost);
+                    own.copy_from_slice(&z[..own.len()]);
+                }
+            }
+        }
+    }
+}
+
+/// One or two numbers as a complex one.
+fn complex(numbers: &[f64]) -> [f64; 2] {
+    [numbers[0], numbers.get(1).copied().unwrap_or(0.0)]
+}
+
+/// A state after its downwash has changed by `change` over a `way`.
+fn next(rate: [f64; 2], z: [f64; 2], change: f64, way: f64) -> [f64; 2] {
+    let (left, gained) = passed(rate, way);
+    let kept = product(left, z);
+    [kept[0] + gained[0] * change, kept[1] + gained[1] * change]
+}
+
+impl StripMemory {
+    /// Way in half chords to an instant `duration` \[s\] later at which its speed is `speed` \[m/s\].
+    fn way_to(&self, speed: f64, duration: f64, half: f64) -> f64 {
+        0.5 * (self.speed + speed) * duration / half
+    }
+}
