@@ -21,7 +21,7 @@ pub fn implicit(threshold: f64) -> LeadingEdge {
 }
 
 /// The cores of insects in a unit stream, without clearance and overlap, leading and trailing edges shedding.
-fn settings(leading: LeadingEdge) -> AirSettings {
+pub fn settings(leading: LeadingEdge) -> AirSettings {
     AirSettings {
         shedding: SheddingKinds {
             leading: true,

@@ -2,9 +2,9 @@
 //! where there is no solution.
 
 use crate::common::{Run, fly, rectangle, total_force};
-use crate::implicit_suction::{implicit, pitched};
+use crate::implicit_suction::{implicit, pitched, settings};
 use crate::wakes::ALL;
-use wingbeat_air::{AirSettings, AirState, Lattice, Method, Surface};
+use wingbeat_air::{AirSettings, AirState, Lattice, Method, SheddingKinds, Surface};
 use wingbeat_math::DVec3;
 use wingbeat_vortex::Points;
 
@@ -119,4 +119,52 @@ fn behaves_strips_that_shed_for_want_of_a_solution_are_counted() {
         "{counted} strips without a solution, {missed} missed what they hold, {found} steps with one"
     );
     assert!(counted > 20 && missed > 20 && found > 5);
+}
+
+/// A wing at 40 degrees sheds ever more of one sign from its leading edge and of the other from its trailing edge; its roots shed,
+/// too. Force and rate of impulse, means over the last of eight chords of travel, the wake cut after two of them or not at all.
+fn steady_separation(max_rows: Option<usize>) -> [DVec3; 2] {
+    let (per_chord, chords) = (10, 8);
+    let flat = rectangle(4, 6, DVec3::X, 4.0 * DVec3::Y);
+    let settings = AirSettings {
+        shedding: SheddingKinds { root: true, ..ALL },
+        wake_overlap: 1.0,
+        clearance: 0.1,
+        max_rows,
+        ..settings(implicit(0.15))
+    };
+    let lattice = Lattice::new(vec![Surface::grid("wing", 4, 6)], settings).unwrap();
+    let (mut forces, mut impulses) = (vec![], vec![]);
+    let held = pitched(&flat, [0.7, 0.0]);
+    let dt = 1.0 / per_chord as f64;
+    fly(
+        &lattice,
+        |_| held.clone(),
+        dt,
+        chords * per_chord,
+        |_, _, loads, _| {
+            forces.push(loads.inviscid_force);
+            impulses.push(loads.impulse);
+        },
+    )
+    .unwrap();
+    let last = chords * per_chord;
+    let first = last - per_chord;
+    let force = forces[first + 1..].iter().sum::<DVec3>() / per_chord as f64;
+    [force, impulses[first] - impulses[last]]
+}
+
+/// What all rings have in common does not stay behind at the end of the wake: with it the cut wake pulled the wing down, with
+/// a lift of -1.8 instead of 1.9.
+#[test]
+fn agrees_second_method_impulse_of_a_wing_that_sheds_around_with_its_wake_cut() {
+    let [whole, cut] = [None, Some(20)].map(steady_separation);
+    println!("force, rate of impulse: whole {whole:?}, cut {cut:?}");
+    for [force, impulse] in [whole, cut] {
+        // Measured 2 and 5 %: an edge's vortex has a quarter of a panel more area than the panels, as in hover; and in the
+        // cut one the flow of what was dropped is missing.
+        assert!(impulse.distance(force) < 0.1 * force.length());
+    }
+    // Measured 7 %.
+    assert!(cut[0].distance(whole[0]) < 0.15 * whole[0].length());
 }

@@ -25,14 +25,11 @@ fn limit_stiff_wings_with_suction_in_the_solution_carry_what_rigid_ones_do() {
     let largest = largest_force(&rigid);
     let with = |b: [String; 2]| apart(&fly(&[&implicit()[..], &b].concat()), &rigid) / largest;
     let [soft, stiff] = [beam(2.0), beam(20.0)].map(with);
-    println!(
-        "{soft} {stiff}, shed {}",
-        apart(&attached, &rigid) / largest
-    );
+    println!("{soft:e}, ten times stiffer {stiff:e}");
     assert!(apart(&attached, &rigid) > 0.1 * largest); // edges do shed
-    // What is left goes with 1 / stiffness.
+    // What is left goes with 1 / stiffness (5.8e-5 measured).
     assert!(
-        stiff < 1e-2 && (7.0..14.0).contains(&(soft / stiff)),
+        stiff < 5e-4 && (7.0..14.0).contains(&(soft / stiff)),
         "{soft} {stiff}"
     );
 }
