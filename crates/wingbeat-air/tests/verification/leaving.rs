@@ -161,7 +161,7 @@ fn agrees_second_method_impulse_of_a_wing_that_sheds_around_with_its_wake_cut() 
     let [whole, cut] = [None, Some(20)].map(steady_separation);
     println!("force, rate of impulse: whole {whole:?}, cut {cut:?}");
     for [force, impulse] in [whole, cut] {
-        // Measured 2 and 5 %: an edge's vortex has a quarter of a panel more area than the panels, as in hover; and in the
+        // Measured 8 and 5 %: an edge's vortex has a quarter of a panel more area than the panels, as in hover; and in the
         // cut one the flow of what was dropped is missing.
         assert!(impulse.distance(force) < 0.1 * force.length());
     }
