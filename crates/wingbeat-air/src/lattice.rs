@@ -2,8 +2,8 @@
 
 use crate::error::AirError;
 use crate::geometry::{
-    JoinedEdge, MirrorPairs, Rings, Sheet, Strip, SuctionStrips, Surface, Symmetry, Topology,
-    rings, strips,
+    JoinedEdge, MirrorPairs, Rings, ShedAround, Sheet, Strip, SuctionStrips, Surface, Symmetry,
+    Topology, rings, shed_around, strips,
 };
 use crate::images::{Mirror, mirrors};
 use crate::settings::{AirSettings, LeadingEdge};
@@ -22,6 +22,7 @@ pub struct Lattice {
     mirrors: Vec<Mirror>,
     symmetry: Option<Symmetry>,
     suction: SuctionStrips,
+    shed_around: Vec<ShedAround>,
     identity: Identity,
 }
 
@@ -68,6 +69,7 @@ impl Lattice {
         Ok(Self {
             strips: strips(&topology, &surfaces),
             rings: rings(&topology, &surfaces, &settings),
+            shed_around: shed_around(&topology, &surfaces),
             mirrors: mirrors(&settings.images)?,
             surfaces,
             settings,
@@ -106,6 +108,11 @@ impl Lattice {
     /// Strips whose leading edges hold suction and shed what is beyond it.
     pub(crate) fn suction(&self) -> &SuctionStrips {
         &self.suction
+    }
+
+    /// Wings that shed from all their edges.
+    pub(crate) fn shed_around(&self) -> &[ShedAround] {
+        &self.shed_around
     }
 
     fn with_suction_strips(mut self) -> Self {

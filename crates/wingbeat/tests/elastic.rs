@@ -7,6 +7,8 @@ use wingbeat::flight::{Record, Simulation};
 
 #[path = "elastic/blades.rs"]
 mod blades;
+#[path = "elastic/leading_edges.rs"]
+mod leading_edges;
 mod support;
 mod veins;
 #[path = "elastic/wakes.rs"]

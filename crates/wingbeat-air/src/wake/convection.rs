@@ -108,6 +108,7 @@ impl WakeMotion {
         state.sheets = sheets;
         moved?;
         book(lattice, state, &sum);
+        lattice.drop_common_circulation(state);
         Ok(mover.events)
     }
 }

@@ -1,6 +1,7 @@
 //! The wakes: their filaments and blobs, the velocity they make, and how they move, shed and are truncated.
 
 mod account;
+mod common_circulation;
 mod contact;
 mod convection;
 mod conversion;

@@ -13,7 +13,7 @@ use wingbeat_math::{DVec3, r2};
 
 const HELD: f64 = 0.18;
 
-fn implicit(threshold: f64) -> LeadingEdge {
+pub fn implicit(threshold: f64) -> LeadingEdge {
     LeadingEdge::SuctionImplicit {
         threshold,
         efficiency: 1.0,
@@ -21,7 +21,7 @@ fn implicit(threshold: f64) -> LeadingEdge {
 }
 
 /// The cores of insects in a unit stream, without clearance and overlap, leading and trailing edges shedding.
-fn settings(leading: LeadingEdge) -> AirSettings {
+pub fn settings(leading: LeadingEdge) -> AirSettings {
     AirSettings {
         shedding: SheddingKinds {
             leading: true,
@@ -37,7 +37,7 @@ fn settings(leading: LeadingEdge) -> AirSettings {
 }
 
 /// Places and velocities of a flat plate at this incidence, which grows at this rate about its leading edge.
-fn pitched(flat: &[DVec3], [angle, rate]: [f64; 2]) -> NodeMotion {
+pub fn pitched(flat: &[DVec3], [angle, rate]: [f64; 2]) -> NodeMotion {
     let arm = |x: &DVec3| r2(angle) * DVec3::new(x.x, 0.0, x.z) + x.y * DVec3::Y;
     NodeMotion {
         position: flat.iter().map(arm).collect(),

@@ -61,7 +61,12 @@ fn balances_impulse_account_with_contact_and_cuts() {
         s.wake_core = CoreModel::LambOseen { radius, viscosity };
         s.wake_blob_length = Some(0.3);
     });
-    for (account, gap) in [algebraic, blobs] {
+    let around = hover(|s| {
+        s.shedding.root = true;
+        s.bound_core = CoreModel::Algebraic { radius, viscosity };
+        s.wake_core = CoreModel::Algebraic { radius, viscosity };
+    });
+    for (account, gap) in [algebraic, blobs, around] {
         assert!(account.absorbed.length() > 0.0 && account.cut.length() > 0.0);
         assert!(gap < ROUNDINGS, "{gap}");
     }

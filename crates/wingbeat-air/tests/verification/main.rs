@@ -12,6 +12,7 @@ mod impulse_account;
 mod invariance;
 mod joined_edges;
 mod known_shapes;
+mod leaving;
 mod particles;
 mod peers;
 mod section_drag;

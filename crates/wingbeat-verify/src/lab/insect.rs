@@ -10,8 +10,8 @@
 use wingbeat_air::{EdgeKind, LoadMethod};
 use wingbeat_case::LoadedCase;
 use wingbeat_case::raw::{
-    AirCase, BetaCase, BodyCase, Case, CoreCase, FlightCase, LambOseenCase, Mode, MotionCase,
-    ParticlesCase, PlanformCase, TimeCase, WingCase, WingMeshCase, WingMotionCase,
+    AirCase, BetaCase, BodyCase, Case, CoreCase, FlightCase, LambOseenCase, LeadingEdgeCase, Mode,
+    MotionCase, ParticlesCase, PlanformCase, TimeCase, WingCase, WingMeshCase, WingMotionCase,
 };
 use wingbeat_flight::Simulation;
 use wingbeat_math::DVec3;
@@ -36,6 +36,8 @@ pub(crate) struct Insect {
 #[derive(Clone, Copy)]
 pub(crate) struct Choice {
     pub shed: &'static [EdgeKind],
+    /// Whether the suction of leading edges that shed is held in the solution.
+    pub implicit: bool,
     pub loads: LoadMethod,
     pub core: f64,
     pub overlap: f64,
@@ -63,6 +65,7 @@ pub(crate) enum Cut {
 
 pub(crate) const DEFAULT: Choice = Choice {
     shed: &[EdgeKind::Trailing, EdgeKind::Tip, EdgeKind::Leading],
+    implicit: false,
     loads: LoadMethod::Joukowski,
     core: 1.0,
     overlap: 1.0,
@@ -124,6 +127,10 @@ impl Choice {
             body: false,
             mirror: true,
             shed: self.shed.to_vec(),
+            leading_edge: match self.implicit {
+                true => LeadingEdgeCase::SuctionImplicit,
+                false => LeadingEdgeCase::Suction,
+            },
             loads: self.loads,
             bound_core: self.core(0.01, &fluid),
             wake_core: self.core(0.07, &fluid),
@@ -298,6 +305,21 @@ pub(crate) const MODELS: [(&str, Choice); 5] = [
         },
     ),
 ];
+
+/// Wings whose roots are free: these shed, too, and what leaves leading edges is part of the solution.
+pub(crate) const FREE_ROOTS: (&str, Choice) = (
+    "leading-edge sheets, roots free",
+    Choice {
+        shed: &[
+            EdgeKind::Trailing,
+            EdgeKind::Tip,
+            EdgeKind::Leading,
+            EdgeKind::Root,
+        ],
+        implicit: true,
+        ..DEFAULT
+    },
+);
 
 /// The wings of the fruit-fly presets and the animal's weight [N].
 pub(crate) fn fruit_fly_wings() -> (Insect, f64) {

@@ -1,0 +1,47 @@
+//! Surfaces whose edges all shed.
+
+use crate::geometry::surface::Surface;
+use crate::geometry::topology::Topology;
+
+/// An open surface, or several joined ones, that shed from every edge: lattice and wakes together have no edge but that of the
+/// oldest rows, so that a circulation common to all rings moves no air except by that edge.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) struct ShedAround {
+    pub panels: Vec<usize>,
+    /// Their wake sheets.
+    pub sheets: Vec<usize>,
+}
+
+/// All of them.
+pub(crate) fn shed_around(topology: &Topology, surfaces: &[Surface]) -> Vec<ShedAround> {
+    let group = joined_groups(topology, surfaces.len());
+    let of = |panel: usize| group[topology.panel_surface[panel]];
+    let whole = |g: &usize| {
+        let open = (0..surfaces.len()).all(|s| group[s] != *g || !surfaces[s].closed);
+        let mut edges = topology.edges.iter().filter(|e| of(e.plus) == *g);
+        open && edges.all(|e| e.minus.is_none() == e.wake.is_some())
+    };
+    let members = |g: usize| ShedAround {
+        panels: (0..topology.panels.len()).filter(|&p| of(p) == g).collect(),
+        sheets: (0..topology.sheets.len())
+            .filter(|&k| group[topology.sheets[k].surface] == g)
+            .collect(),
+    };
+    let first = (0..surfaces.len()).filter(|&s| group[s] == s);
+    first.filter(whole).map(members).collect()
+}
+
+/// For each surface the first of those that it is joined to.
+fn joined_groups(topology: &Topology, count: usize) -> Vec<usize> {
+    let mut group: Vec<usize> = (0..count).collect();
+    for edge in &topology.edges {
+        let Some(minus) = edge.minus else { continue };
+        let [a, b] = [edge.plus, minus].map(|p| group[topology.panel_surface[p]]);
+        let (low, high) = (a.min(b), a.max(b));
+        group
+            .iter_mut()
+            .filter(|g| **g == high)
+            .for_each(|g| *g = low);
+    }
+    group
+}
