@@ -14,6 +14,7 @@ mod joined_edges;
 mod known_shapes;
 mod particles;
 mod peers;
+mod plane_wakes;
 mod section_drag;
 mod separated;
 mod wakes;
