@@ -329,6 +329,11 @@ fn refuses_settings_of_the_lattice_that_do_not_fit_each_other_at_their_keys() {
         ),
         ("ring_inset = 0.5", "ring_inset", "< 0.5"),
         (
+            "shed = [\"trailing\", \"tip\"]\nplane_wakes = true",
+            "plane_wakes",
+            "tips and roots",
+        ),
+        (
             "shed = [\"leading\"]\nleading_edge_suction_efficiency = 1.1",
             "leading_edge_suction_efficiency",
             "<= 1",

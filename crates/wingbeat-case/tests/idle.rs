@@ -266,6 +266,7 @@ const TABLE: &[(&[&str], &str, &str)] = &[
     (&["air.shed=[]"], "air.max_wake_age_s=5", ""),
     (&["air.shed=[]"], "air.max_wake_distance_m=5", ""),
     (&["air.shed=[]"], "air.max_displacement_m=5", ""),
+    (&["air.shed=[]"], "air.plane_wakes=true", ""),
     (
         &["air.summation=direct"],
         "air.summation_tolerance=1e-3",

@@ -51,6 +51,9 @@ pub struct AirSettings {
     /// Free wake nodes keep this distance [m] from surfaces and do not pass through them; the
     /// core radius is the natural choice. 0 lets them pass (the published benchmark).
     pub clearance: f64,
+    /// Whether all nodes of a row of wake move alike, with the air in the middle of the row: plane flow. Where long straight
+    /// filaments end in nodes that move each by itself, these part within beats.
+    pub plane_wakes: bool,
     /// Convection of the wakes.
     pub convection: Convection,
     /// Circulation of the newest row of a wake.
@@ -99,6 +102,7 @@ impl AirSettings {
             max_age: None,
             max_distance: None,
             clearance: 0.0,
+            plane_wakes: false,
             convection: Convection::Euler,
             newest_row: NewestRow::Constant,
             loads: LoadMethod::Pressure,

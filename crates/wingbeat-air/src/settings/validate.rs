@@ -1,5 +1,6 @@
 //! Which numbers make sense.
 
+use crate::edges::SheddingKinds;
 use crate::error::{AirError, require};
 use crate::images::{Plane, mirrors};
 use crate::settings::air::AirSettings;
@@ -40,6 +41,7 @@ impl AirSettings {
         )?;
         self.check_leading()?;
         self.check_particles()?;
+        self.check_plane()?;
         self.section_drag.map_or(Ok(()), |d| d.validate())?;
         self.wind.validate()?;
         self.check_images()?;
@@ -156,6 +158,18 @@ impl AirSettings {
             "max_rows",
             format!("{:?}", self.max_rows),
             "none beside particles, which have no rows: truncate by age or distance",
+        )
+    }
+
+    /// In plane flow nothing leaves side edges, and wakes are filaments across it.
+    fn check_plane(&self) -> Result<(), AirError> {
+        let SheddingKinds { tip, root, .. } = self.shedding;
+        let is_plane = !tip && !root && self.particles.is_none() && self.wake_blob_length.is_none();
+        require(
+            !self.plane_wakes || is_plane,
+            "plane_wakes",
+            self.plane_wakes,
+            "true only where tips and roots do not shed, without particles and blobs: plane flow has vorticity across it alone",
         )
     }
 

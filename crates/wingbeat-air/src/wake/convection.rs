@@ -12,6 +12,7 @@ use crate::wake::joined_nodes::merge_joined_nodes;
 use crate::wake::mover::Mover;
 use crate::wake::particle_flow::ParticleFlow;
 use crate::wake::summation::Sums;
+use std::ops::Range;
 use wingbeat_math::DVec3;
 use wingbeat_vortex::Points;
 
@@ -21,6 +22,8 @@ pub(crate) struct WakeMotion {
     /// Nodes that are moved, and the velocity there without the undisturbed air.
     nodes: Points,
     velocity: Points,
+    /// Middles of the rows of plane wakes, once for every node.
+    middles: Points,
     flow: ParticleFlow,
     force_free: ForceFree,
     /// Surfaces in the way.
@@ -45,10 +48,25 @@ impl WakeMotion {
         filaments.movable(lattice, state, &mut self.nodes);
         self.velocity.reset(self.nodes.len());
         sums.load_for_wakes(lattice.settings(), filaments);
-        sums.add_at_wakes(&self.nodes, lattice.mirrors(), &mut self.velocity);
+        let velocity = &mut self.velocity;
+        if lattice.settings().plane_wakes {
+            // Where the flow is plane: in the middle of each row, far from its ends.
+            self.middles.clone_from(&self.nodes);
+            for row in rows(lattice, state) {
+                let ends = [row.start, row.end - 1].map(|n| self.nodes.get(n));
+                row.for_each(|n| self.middles.set(n, ends[0].midpoint(ends[1])));
+            }
+            sums.add_at_wakes(&self.middles, lattice.mirrors(), velocity);
+        } else {
+            sums.add_at_wakes(&self.nodes, lattice.mirrors(), velocity);
+        }
         if lattice.settings().is_symmetric() {
-            let velocity = &mut self.velocity;
             (self.force_free).correct(lattice, state, filaments, sums, velocity);
+        }
+        if lattice.settings().plane_wakes {
+            for row in rows(lattice, state) {
+                make_plane(row, &self.nodes, velocity);
+            }
         }
         self.flow.take(lattice, state, sums);
     }
@@ -111,6 +129,25 @@ impl WakeMotion {
         lattice.drop_common_circulation(state);
         Ok(mover.events)
     }
+}
+
+/// Numbers of the nodes of every row of wake that is moved, the shedding edge among them.
+fn rows<'a>(lattice: &'a Lattice, state: &'a AirState) -> impl Iterator<Item = Range<usize>> + 'a {
+    let sheets = state.sheets.iter().enumerate();
+    let moved = sheets.filter(|(k, _)| lattice.reflected_sheet(*k).is_none());
+    let widths = moved.flat_map(|(_, sheet)| (0..=sheet.rows()).map(|_| sheet.columns + 1));
+    widths.scan(0, |end, width| {
+        *end += width;
+        Some(*end - width..*end)
+    })
+}
+
+/// Gives the nodes of a row of wake their mean velocity, without its part along the row.
+fn make_plane(row: Range<usize>, nodes: &Points, velocity: &mut Points) {
+    let mean = row.clone().map(|n| velocity.get(n)).sum::<DVec3>() / row.len() as f64;
+    let along = nodes.get(row.end - 1) - nodes.get(row.start);
+    let across = mean - mean.project_onto(along);
+    row.for_each(|n| velocity.set(n, across));
 }
 
 /// Impulses per density [m4/s], N, of all rings of the sheets, the newest rows reaching to the edges, and of free ones.

@@ -15,6 +15,7 @@ mod known_shapes;
 mod leaving;
 mod particles;
 mod peers;
+mod plane_wakes;
 mod section_drag;
 mod separated;
 mod wakes;

@@ -226,6 +226,7 @@ fn settings(lattice: &AirSettings) -> AirCase {
         max_distance,
         max_displacement,
         clearance,
+        plane_wakes,
         convection,
         newest_row,
         inset,
@@ -260,6 +261,7 @@ fn settings(lattice: &AirSettings) -> AirCase {
         max_wake_rows: max_rows,
         max_displacement_m: max_displacement,
         clearance_m: Some(clearance),
+        plane_wakes,
         summation,
         summation_tolerance: match summation {
             Method::Direct => default.summation_tolerance, // without effect
