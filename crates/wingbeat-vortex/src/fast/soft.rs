@@ -21,6 +21,9 @@ const NEAR: u64 = 16;
 const FAR: u64 = 42;
 const READ: u64 = 19;
 
+/// How large cells may be at the first and at the second attempt.
+const PARTS: [f64; 2] = [1.0, 0.7];
+
 /// The cells, for cores and tolerances that they serve.
 pub(super) fn interpolation(settings: &FastSettings, level: Level) -> Option<Interpolation> {
     let is_soft = matches!(settings.model, CoreModel::Algebraic { .. });
@@ -32,8 +35,8 @@ pub(super) fn interpolation(settings: &FastSettings, level: Level) -> Option<Int
 }
 
 impl FastSum {
-    /// Adds velocities, and vorticities if they are wanted; or adds nothing and says how many attempts were made: none if
-    /// the sum in single precision is the cheaper one, one if the error was above the tolerance.
+    /// Adds velocities, and vorticities if they are wanted; or adds nothing and says how many attempts were made
+    /// before the sum in single precision was the cheaper one, or the error above the tolerance at all of them.
     pub(super) fn add_soft(
         &mut self,
         check: &Check,
@@ -42,42 +45,45 @@ impl FastSum {
         vorticity: Option<&mut Points>,
     ) -> Result<Report, usize> {
         let soft = self.soft.as_mut().expect("cells are made");
-        let work = soft.aim(targets);
-        if self.settings.method == Method::Auto
-            && !pays(
-                work,
-                soft.points(),
-                [self.packed.edges.len(), targets.len()],
-            )
-        {
-            return Err(0);
+        soft.aim(targets);
+        let size = [self.packed.edges.len(), targets.len()];
+        for (made, part) in PARTS.into_iter().enumerate() {
+            let work = soft.pair(part);
+            if self.settings.method == Method::Auto && !pays(work, soft.points(), size) {
+                return Err(made); // a stricter one costs more still
+            }
+            let sums = soft.evaluate();
+            let [error_rms, error_max] = error(check, sums);
+            let is_finite = sums.iter().flatten().all(|v| v.is_finite());
+            if is_finite && error_rms <= self.settings.tolerance {
+                add_part(sums, 0, velocity);
+                if let Some(vorticity) = vorticity {
+                    add_part(sums, 3, vorticity);
+                }
+                return Ok(Report {
+                    method: Method::Tree,
+                    error_rms,
+                    error_max,
+                    samples: check.count,
+                    attempts: made + 1,
+                    far: work.far,
+                    near: work.near,
+                });
+            }
         }
-        let sums = soft.evaluate();
-        let mut sampled = [[DVec3::ZERO; SAMPLES]; 2];
-        for (k, &i) in check.index[..check.count].iter().enumerate() {
-            let [u, v, w, x, y, z] = sums[i];
-            (sampled[0][k], sampled[1][k]) = (DVec3::new(u, v, w), DVec3::new(x, y, z));
-        }
-        let [velocities, vorticities] = sampled.each_ref().map(|v| &v[..check.count]);
-        let [error_rms, error_max] = check.error_of_both(velocities, vorticities);
-        let is_finite = sums.iter().flatten().all(|v| v.is_finite());
-        if !is_finite || error_rms > self.settings.tolerance {
-            return Err(1);
-        }
-        add_part(sums, 0, velocity);
-        if let Some(vorticity) = vorticity {
-            add_part(sums, 3, vorticity);
-        }
-        Ok(Report {
-            method: Method::Tree,
-            error_rms,
-            error_max,
-            samples: check.count,
-            attempts: 1,
-            far: work.far,
-            near: work.near,
-        })
+        Err(PARTS.len())
     }
+}
+
+/// Root mean square and largest error of velocities and vorticities.
+fn error(check: &Check, sums: &[[f64; 6]]) -> [f64; 2] {
+    let mut sampled = [[DVec3::ZERO; SAMPLES]; 2];
+    for (k, &i) in check.index[..check.count].iter().enumerate() {
+        let [u, v, w, x, y, z] = sums[i];
+        (sampled[0][k], sampled[1][k]) = (DVec3::new(u, v, w), DVec3::new(x, y, z));
+    }
+    let [velocities, vorticities] = sampled.each_ref().map(|v| &v[..check.count]);
+    check.error_of_both(velocities, vorticities)
 }
 
 /// Whether cells are cheaper than the sum in single precision.
