@@ -1,6 +1,9 @@
 //! Cost and error of the fast sum against the direct one on hover-like wakes.
 //!
-//! `cargo run --release -p wingbeat-vortex --example fast_sum_table -- [EDGES ...]`
+//! `cargo run --release -p wingbeat-vortex --example fast_sum_table -- [wide] [EDGES ...]`
+//!
+//! With `wide` cores are algebraic and widen with age from 0.02 to 0.5 wing lengths, velocity and vorticity are summed with a
+//! tolerance of 1e-3, and the other sum is that in single precision.
 //!
 //! Seconds are processor seconds of all threads where the system tells them (Linux), so that other
 //! work on the machine disturbs little.
@@ -14,8 +17,9 @@ use wingbeat_vortex::{
 };
 
 fn main() {
+    let is_wide = std::env::args().nth(1).is_some_and(|a| a == "wide");
     let sizes: Vec<usize> = std::env::args()
-        .skip(1)
+        .skip(1 + usize::from(is_wide))
         .map(|a| a.parse().expect("edges"))
         .collect();
     let sizes = if sizes.is_empty() {
@@ -23,6 +27,9 @@ fn main() {
     } else {
         sizes
     };
+    if is_wide {
+        return wide(&sizes);
+    }
     println!(
         "   edges    nodes   load    sum   wall  direct      rms      max cells edges  (s, of velocity, per target)"
     );
@@ -37,6 +44,56 @@ fn main() {
         let mut v = Points::zeros(net.nodes.len());
         let (sum, wall, report) = timed(|| fast.add_velocity(&net.nodes, &mut v));
         print_row(model, &net, &v, [load, sum, wall], report);
+    }
+}
+
+/// The same of algebraic cores, both ways.
+fn wide(sizes: &[usize]) {
+    println!(
+        "   edges    nodes   tree  single  rms of velocity, of vorticity  (processor seconds, the loading included)"
+    );
+    for &edges in sizes {
+        let model = CoreModel::Algebraic {
+            radius: 0.0,
+            viscosity: 0.0,
+        };
+        let mut net = wakes::hover(model, edges);
+        let half = net.nodes.len() / 2;
+        let radius = |k: usize| 0.02 + 0.48 * (k % half) as f64 / half as f64;
+        net.nodes.core = (0..net.nodes.len()).map(|k| radius(k).powi(2)).collect();
+        let n = net.nodes.len();
+        let part = n.min(if edges > 50_000 { 4096 } else { n });
+        let mut some = Points::default();
+        for i in 0..part {
+            let k = i * n / part;
+            some.push_with_core(net.nodes.get(k), net.nodes.core[k]);
+        }
+        let sum = |method, at: &Points| {
+            let mut fast = FastSum::new(FastSettings {
+                method,
+                tolerance: 1e-3,
+                ..FastSettings::new(model)
+            });
+            let mut both = [Points::zeros(at.len()), Points::zeros(at.len())];
+            let [u, w] = &mut both;
+            let (seconds, _, ()) = timed(|| {
+                fast.load_network(&net);
+                fast.add_velocity_and_vorticity(at, u, w);
+            });
+            (seconds, both)
+        };
+        let (tree, of_tree) = sum(Method::Tree, &net.nodes);
+        let (single, of_single) = sum(Method::Single, &some);
+        let [u, w] = [0, 1].map(|k| {
+            let pair = |i: usize| (of_single[k].get(i), of_tree[k].get(i * n / part));
+            let pairs = || (0..part).map(pair);
+            let square: f64 = pairs().map(|(a, _)| a.length_squared()).sum();
+            let error: f64 = pairs().map(|(a, b)| a.distance_squared(b)).sum();
+            (error / square).sqrt()
+        });
+        let single = single * n as f64 / part as f64;
+        let edges = net.len();
+        println!("{edges:>8} {n:>8} {tree:>6.2} {single:>7.2} {u:>9.1e} {w:>9.1e}");
     }
 }
 

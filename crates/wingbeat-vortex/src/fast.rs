@@ -1,19 +1,22 @@
 //! The fast sum: near sources one by one, far ones cell by cell, with a checked error.
 
+mod check;
+mod soft;
+
 use crate::cores::CoreModel;
-use crate::direct::block::{BLOCK, Block, Targets};
-use crate::direct::lanes::{add_clusters, add_patches, add_patches_with_vorticity};
+use crate::direct::lanes::{add_clusters, add_patches_with_vorticity};
 use crate::direct::moments;
 use crate::direct::packed::Packed;
 use crate::direct::single::{CLUSTER, SINGLE, Single};
 use crate::direct::sum::{sum_all, sum_both, sum_packed};
+use crate::fast::check::{Check, SAMPLES};
 use crate::instruction_set::InstructionSet;
+use crate::interpolation::Interpolation;
 use crate::sources::{Network, Points, Segments};
 use crate::tree::cells::Cells;
 use crate::tree::groups::Groups;
 use fearless_simd::Level;
 use glam::DVec3;
-use rayon::prelude::*;
 
 /// Edges and targets from which the tree may be the faster one. Its check alone costs as much as some
 /// hundred targets.
@@ -23,12 +26,6 @@ const AUTO_TARGETS: usize = 1000;
 /// Edges and targets from which single precision gains more than its check costs.
 const SINGLE_EDGES: usize = 500;
 const SINGLE_TARGETS: usize = 500;
-
-/// Targets, at most, at which the tree is checked against the direct sum: one of every
-/// [`SAMPLE_EVERY`].
-const SAMPLES: usize = BLOCK;
-const SAMPLE_EVERY: usize = 250;
-const MIN_SAMPLES: usize = 16;
 
 /// What a far cell may leave out, in parts of the tolerance. Many cells add up, with either sign:
 /// fewer may leave out more, as the inverse root of their number.
@@ -154,6 +151,9 @@ pub struct FastSum {
     cells: Cells,
     has_tree: bool,
     groups: Groups,
+    /// The tree of wide algebraic cores, where the tolerance allows it.
+    soft: Option<Interpolation>,
+    has_soft: bool,
     segments: Network,
 }
 
@@ -180,6 +180,8 @@ impl FastSum {
             cells,
             has_tree: false,
             groups,
+            soft: soft::interpolation(&settings, level),
+            has_soft: false,
             segments,
         }
     }
@@ -197,20 +199,24 @@ impl FastSum {
             tolerance,
             ..
         } = self.settings;
-        self.has_tree = match method {
-            Method::Auto => network.len() >= AUTO_EDGES,
+        let has_cells = |least: usize| match method {
+            Method::Auto => network.len() >= least,
             Method::Direct | Method::Single => false,
             Method::Tree => !network.is_empty(),
         };
-        self.has_single = matches!(method, Method::Auto | Method::Single)
-            && network.len() >= SINGLE_EDGES
-            && tolerance >= SINGLE;
-        match self.has_tree || self.has_single {
+        self.has_soft = self.soft.is_some() && has_cells(soft::AUTO_EDGES);
+        self.has_tree = self.soft.is_none() && has_cells(AUTO_EDGES);
+        let may_be_single = method != Method::Direct && (method != Method::Tree || self.has_soft);
+        self.has_single = may_be_single && network.len() >= SINGLE_EDGES && tolerance >= SINGLE;
+        match self.has_tree || self.has_soft || self.has_single {
             true => self.packed.load_network(model, network),
             false => self.packed.load_moving(model, network),
         }
         if self.has_tree {
             self.cells.load(network);
+        }
+        if let Some(soft) = self.soft.as_mut().filter(|_| self.has_soft) {
+            soft.load(network);
         }
         if self.has_single {
             let patches = self.packed.patches.len();
@@ -233,12 +239,19 @@ impl FastSum {
         assert_eq!(targets.len(), out.len(), "as many velocities as targets");
         let few = self.settings.method == Method::Auto && targets.len() < AUTO_TARGETS;
         let has_tree = self.has_tree && !few;
+        let has_soft = self.has_soft && !few;
         let has_single = self.has_single && targets.len() >= SINGLE_TARGETS;
-        if targets.is_empty() || !(has_tree || has_single) {
+        if targets.is_empty() || !(has_tree || has_soft || has_single) {
             return self.add_direct(targets, out, 0);
         }
         let check = Check::new(self, targets);
         let mut attempts = 0;
+        if has_soft {
+            match self.add_soft(&check, targets, out, None) {
+                Ok(report) => return report,
+                Err(made) => attempts = made,
+            }
+        }
         if has_tree {
             self.groups.load(targets);
             match self.find_allowed(&check) {
@@ -257,7 +270,7 @@ impl FastSum {
         self.add_direct(targets, out, attempts)
     }
 
-    /// As [`Self::add_velocity`], of algebraic cores ([`CoreModel::Algebraic`]), without the tree; and adds to
+    /// As [`Self::add_velocity`], of algebraic cores ([`CoreModel::Algebraic`]); and adds to
     /// `vorticity` \[1/s\] the sum of `Gamma / (4 pi)` times the integral along the filaments of `dl` over the cube of
     /// the softened distance. Where squared core radii change along a filament, closed filaments act on each other with
     /// no force in sum if a piece with a change `d(sigma^2)` is given `-Gamma d(sigma^2) / 4` times this beside
@@ -268,11 +281,19 @@ impl FastSum {
         velocity: &mut Points,
         vorticity: &mut Points,
     ) {
-        let (model, packed, single) = (self.settings.model, &self.packed, &self.single);
         assert!(
-            matches!(model, CoreModel::Algebraic { .. }),
+            matches!(self.settings.model, CoreModel::Algebraic { .. }),
             "algebraic cores"
         );
+        let few = self.settings.method == Method::Auto && targets.len() < AUTO_TARGETS;
+        if self.has_soft && !few && !targets.is_empty() {
+            let check = Check::with_vorticity(self, targets);
+            let sum = self.add_soft(&check, targets, velocity, Some(vorticity));
+            if sum.is_ok() {
+                return;
+            }
+        }
+        let (packed, single) = (&self.packed, &self.single);
         let (edges, level) = (packed.edges.len(), self.level);
         if self.has_single && targets.len() >= SINGLE_TARGETS {
             let check = Check::new(self, targets);
@@ -419,68 +440,5 @@ fn order(tolerance: f64) -> usize {
         t if t >= 2e-7 => 8,
         t if t >= 2e-9 => 10,
         _ => 12,
-    }
-}
-
-/// The direct sum at targets spread over their numbers.
-struct Check {
-    count: usize,
-    index: [usize; SAMPLES],
-    velocity: [DVec3; SAMPLES],
-    /// Root mean square velocity [m/s].
-    scale: f64,
-}
-
-impl Check {
-    fn new(sum: &FastSum, targets: &Points) -> Self {
-        let few = targets.len().min(MIN_SAMPLES);
-        let count = (targets.len() / SAMPLE_EVERY).clamp(few, SAMPLES);
-        let index = std::array::from_fn(|k| {
-            // A square more than even steps: no pattern in the numbering is always missed.
-            (k.min(count - 1) * targets.len() / count + k * k) % targets.len()
-        });
-        let mut velocity = [DVec3::ZERO; SAMPLES];
-        // Eight targets to a task: one vector of the widest processors.
-        velocity[..count]
-            .par_chunks_mut(8)
-            .zip(index.par_chunks(8))
-            .for_each(|(v, index)| {
-                let (mut block, mut velocity) = (Block::ZERO, Block::ZERO);
-                for (lane, &i) in index.iter().enumerate() {
-                    block.set(lane, targets.get(i));
-                    block.softening[lane] = targets.core.get(i).map_or(0.0, |core| 0.5 * core);
-                }
-                let FastSum { level, packed, .. } = sum;
-                let (model, all) = (sum.settings.model, 0..packed.patches.len());
-                let targets = Targets {
-                    block: &block,
-                    count: v.len(),
-                };
-                let all = std::iter::once(all);
-                add_patches(*level, model, packed, all, targets, &mut velocity);
-                let vector =
-                    |lane: usize| DVec3::new(velocity.x[lane], velocity.y[lane], velocity.z[lane]);
-                v.iter_mut()
-                    .enumerate()
-                    .for_each(|(lane, v)| *v = vector(lane));
-            });
-        let square: f64 = velocity[..count].iter().map(|v| v.length_squared()).sum();
-        Self {
-            count,
-            index,
-            velocity,
-            scale: (square / count as f64).sqrt(),
-        }
-    }
-
-    /// Root mean square and largest error of these velocities, relative to the scale; zero where
-    /// nothing moves.
-    fn error(&self, velocity: &[DVec3]) -> [f64; 2] {
-        let square = (self.velocity.iter().zip(velocity)).map(|(a, b)| a.distance_squared(*b));
-        let (sum, max) = square.fold((0.0, 0.0), |(sum, max): (f64, f64), e| {
-            (sum + e, max.max(e))
-        });
-        let scale = if self.scale > 0.0 { self.scale } else { 1.0 };
-        [(sum / self.count as f64).sqrt() / scale, max.sqrt() / scale]
     }
 }

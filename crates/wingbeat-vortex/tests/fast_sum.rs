@@ -1,5 +1,6 @@
 //! Evidence for the fast sum: the direct one.
 
+mod soft;
 mod wakes;
 
 use wingbeat_vortex::DVec3;

@@ -34,6 +34,36 @@ fn exact_no_allocation_after_warm_up() {
     });
 }
 
+/// The tree of algebraic cores.
+#[test]
+fn exact_no_allocation_of_algebraic_cores_after_warm_up() {
+    let model = CoreModel::Algebraic {
+        radius: 0.1,
+        viscosity: 0.0,
+    };
+    let mut net = wakes::hover(model, 6_000);
+    let cores = (0..net.nodes.len()).map(|k| 0.01 * (1.0 + (k % 7) as f64));
+    net.nodes.core = cores.collect();
+    let [mut u, mut w] = [
+        Points::zeros(net.nodes.len()),
+        Points::zeros(net.nodes.len()),
+    ];
+    on_one_thread(|| {
+        let mut tree = FastSum::new(FastSettings {
+            method: Method::Tree,
+            tolerance: 1e-3,
+            ..FastSettings::new(model)
+        });
+        let mut step = || {
+            tree.load_network(&net);
+            assert_eq!(tree.add_velocity(&net.nodes, &mut u).method, Method::Tree);
+            tree.add_velocity_and_vorticity(&net.nodes, &mut u, &mut w);
+        };
+        step();
+        assert_eq!(measure(step).count_total, 0);
+    });
+}
+
 /// The mesh of blobs that move within the same box.
 #[test]
 fn exact_no_allocation_of_blobs_after_warm_up() {

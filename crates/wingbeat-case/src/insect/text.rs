@@ -104,7 +104,7 @@ density_kg_m3 = 1.225
 body = true
 mirror = true              # symmetric flight: half the air is computed; false for anything else
 shed = [\"trailing\", \"tip\", \"leading\"]
-summation = \"single\"       # cores this wide leave a tree no far field
+summation = \"single\"       # for more than ten beats \"auto\" with summation_tolerance = 1e-3
 # Vortex cores and the clearance are in mean chords; cores spread with age as viscosity makes them.
 # They are inputs of hover, not results: vary them before trusting a number.
 bound_core.algebraic = { radius_chords = 0.01, viscosity_m2_s = 1.5e-5 }

@@ -61,11 +61,16 @@ impl Single {
         packed: &Packed,
         clusters: impl Iterator<Item = Range<usize>>,
     ) {
+        self.clusters.clear();
+        self.clusters.extend(clusters);
+        self.load_clusters(model, packed);
+    }
+
+    /// The same by the clusters that are there.
+    pub fn load_clusters(&mut self, model: CoreModel, packed: &Packed) {
         let l2: f64 = packed.edges.iter().map(|e| e.l2).sum();
         let mean = (l2 / packed.edges.len().max(1) as f64).sqrt();
         self.per_unit = if mean > 0.0 { mean.recip() } else { 1.0 };
-        self.clusters.clear();
-        self.clusters.extend(clusters);
         self.patches.clone_from(&packed.patches);
         self.centres.clear();
         self.nodes.clear();

@@ -261,7 +261,7 @@ fn product(from: f64, step: f64, to: f64) -> f64 {
 }
 
 /// Abscissas and weights of n points on (0, 1): roots of the Legendre polynomial by Newton.
-fn gauss_legendre(n: usize) -> Vec<(f64, f64)> {
+pub(crate) fn gauss_legendre(n: usize) -> Vec<(f64, f64)> {
     let legendre = |x: f64| {
         let (mut old, mut new) = (1.0, x);
         for k in 2..=n {

@@ -6,3 +6,5 @@ mod harmonics;
 #[cfg(test)]
 mod harmonics_tests;
 mod moments;
+
+pub(crate) use harmonics::gauss_legendre;
