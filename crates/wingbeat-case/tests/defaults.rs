@@ -220,6 +220,12 @@ fn refuses_keys_without_effect() {
         ),
         (
             "fruit-fly-hover",
+            &["air.leading_edge_formation_chords=3"],
+            "air.leading_edge_formation_chords",
+            "vortex_lift",
+        ),
+        (
+            "fruit-fly-hover",
             &["air.shed=[\"trailing\"]", "air.leading_edge=never"],
             "air.leading_edge",
             "leading",
@@ -332,6 +338,11 @@ fn refuses_settings_of_the_lattice_that_do_not_fit_each_other_at_their_keys() {
             "shed = [\"leading\"]\nleading_edge_suction_efficiency = 1.1",
             "leading_edge_suction_efficiency",
             "<= 1",
+        ),
+        (
+            "shed = [\"leading\"]\nleading_edge = \"vortex_lift\"",
+            "loads",
+            "forces on segments",
         ),
         ("summation_tolerance = 0.2", "summation_tolerance", "<= 0.1"),
         (

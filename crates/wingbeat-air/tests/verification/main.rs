@@ -16,5 +16,6 @@ mod particles;
 mod peers;
 mod section_drag;
 mod separated;
+mod vortex_lift;
 mod wakes;
 mod wings;

@@ -110,7 +110,13 @@ fn azuma_1988(_quick: bool) -> Result<Vec<Row>, VerifyError> {
     for (flight, number) in AZUMA_1988.into_iter().zip(1..) {
         let load = flight.2;
         let animal = flight.animal();
-        for model in [None, Some(MODELS[0]), Some(MODELS[2]), Some(MODELS[3])] {
+        for model in [
+            None,
+            Some(MODELS[0]),
+            Some(MODELS[2]),
+            Some(MODELS[3]),
+            Some(MODELS[5]),
+        ] {
             let (name, choice) = model.unwrap_or(("blade elements", DEFAULT));
             let mut case = animal.case(choice);
             if model.is_none() {

@@ -10,8 +10,8 @@
 use wingbeat_air::{EdgeKind, LoadMethod};
 use wingbeat_case::LoadedCase;
 use wingbeat_case::raw::{
-    AirCase, BetaCase, BodyCase, Case, CoreCase, FlightCase, LambOseenCase, Mode, MotionCase,
-    ParticlesCase, PlanformCase, TimeCase, WingCase, WingMeshCase, WingMotionCase,
+    AirCase, BetaCase, BodyCase, Case, CoreCase, FlightCase, LambOseenCase, LeadingEdgeCase, Mode,
+    MotionCase, ParticlesCase, PlanformCase, TimeCase, WingCase, WingMeshCase, WingMotionCase,
 };
 use wingbeat_flight::Simulation;
 use wingbeat_math::DVec3;
@@ -37,6 +37,7 @@ pub(crate) struct Insect {
 pub(crate) struct Choice {
     pub shed: &'static [EdgeKind],
     pub loads: LoadMethod,
+    pub leading_edge: LeadingEdgeCase,
     pub core: f64,
     pub overlap: f64,
     /// Length, in chords, from which wake filaments become blobs.
@@ -64,6 +65,7 @@ pub(crate) enum Cut {
 pub(crate) const DEFAULT: Choice = Choice {
     shed: &[EdgeKind::Trailing, EdgeKind::Tip, EdgeKind::Leading],
     loads: LoadMethod::Joukowski,
+    leading_edge: LeadingEdgeCase::Suction,
     core: 1.0,
     overlap: 1.0,
     blobs: None,
@@ -125,6 +127,7 @@ impl Choice {
             mirror: true,
             shed: self.shed.to_vec(),
             loads: self.loads,
+            leading_edge: self.leading_edge,
             bound_core: self.core(0.01, &fluid),
             wake_core: self.core(0.07, &fluid),
             wake_overlap: self.overlap.into(),
@@ -263,7 +266,7 @@ pub(crate) fn data(name: &str) -> WingMotionCase {
     }
 }
 
-pub(crate) const MODELS: [(&str, Choice); 5] = [
+pub(crate) const MODELS: [(&str, Choice); 6] = [
     ("leading-edge sheets", DEFAULT),
     (
         "leading-edge particles",
@@ -294,6 +297,13 @@ pub(crate) const MODELS: [(&str, Choice); 5] = [
         Choice {
             shed: ATTACHED,
             loads: LoadMethod::Joukowski,
+            ..DEFAULT
+        },
+    ),
+    (
+        "vortex lift",
+        Choice {
+            leading_edge: LeadingEdgeCase::VortexLift,
             ..DEFAULT
         },
     ),
