@@ -142,7 +142,7 @@ fn regress_presets_fly_in_the_air_they_flew_in() {
 
 #[test]
 fn refuses_keys_without_effect() {
-    let cases: [(&str, &[&str], &str, &str); 23] = [
+    let cases: [(&str, &[&str], &str, &str); 24] = [
         (
             "fruit-fly-blade",
             &["air.ground={point_m=[0,0,1],normal=[0,0,1]}"],

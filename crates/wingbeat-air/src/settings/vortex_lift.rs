@@ -15,7 +15,7 @@
 //! - A wing that turns carries the vorticity outboard at the rate of its turning. In steady revolution T is then the strip's radius in
 //!   chords, and less than T* within the radius of four chords, where vortices of revolving wings stay [Kruyt et al. 2015, J. R. Soc. Interface
 //!   12:20150051].
-//! - A vortex that is fed for longer leaves. What remains is a wing that has stalled: its circulation makes `((1 + sigma) / 2)^2` of its normal
+//! - A vortex that is fed for longer leaves, between T* and 1.5 T*. What remains is a wing that has stalled: its circulation makes `((1 + sigma) / 2)^2` of its normal
 //!   force, Kirchhoff's law where `sigma^2` of the chord is attached [Leishman & Beddoes 1989, J. Am. Helicopter Soc. 34(3):3], and
 //!   of Polhamus's force [`REMAINDER`] is left.
 //! - An edge that has again no more suction than it holds recovers within [`RECOVERY`] chords.
@@ -23,7 +23,7 @@
 use crate::error::{AirError, require};
 
 /// Rounding, relative to the threshold and to T*: plates hold 0.11 to 0.19 about 0.15 [Ramesh et al. 2014, J. Fluid Mech. 751:500], flow
-/// attaches again at 0.07 to 0.13, and measured lift of plates falls from three chords of travel to five.
+/// attaches again at 0.07 to 0.13, and vortex lift decays within two to three chords [Leishman & Beddoes 1989].
 const SPREAD: f64 = 0.25;
 
 /// Part of Polhamus's normal force that a stalled plate has: across the stream, where the attached lattice has 2 pi in plane flow, it
@@ -92,7 +92,7 @@ impl VortexLift {
             false => 1.0,
         };
         let grown = fed / self.formation;
-        let lost = step(grown);
+        let lost = step(grown - SPREAD); // from T* to 1.5 T*
         Parts {
             suction: self.efficiency * sigma,
             vortex: (1.0 - sigma) * ((1.0 - lost) * grown + lost * REMAINDER),

@@ -2,8 +2,8 @@
 
 use crate::common::{fly, rectangle, total_force, translating};
 use wingbeat_air::{
-    AirLoads, AirSettings, Lattice, LeadingEdge, LoadMethod, NodeMotion, SheddingKinds, Surface,
-    VortexLift,
+    AirLoads, AirSettings, CoreModel, Lattice, LeadingEdge, LoadMethod, NodeMotion, SheddingKinds,
+    Surface, VortexLift,
 };
 use wingbeat_math::{DVec3, r2, r3};
 
@@ -96,7 +96,7 @@ fn exact_half_fed_is_half_of_polhamus() {
 #[test]
 fn exact_forces_are_differentiable_in_the_angle() {
     let h = 1e-5;
-    for fed in [2.0, 3.5, 4.5, 7.0] {
+    for fed in [2.0, 4.0, 5.0, 7.0] {
         for k in 1..40 {
             let alpha = 0.015 * f64::from(k);
             let at = |d: f64| total_force(&met(settings(alpha + d, law(0.15, 0.5)), fed));
@@ -136,21 +136,27 @@ fn exact_what_is_fed_in_revolution() {
     }
 }
 
-/// The suction parameter of a flat plate in plane flow is the sine of its angle: 3.3 % off on eight panels, and less as their number grows.
+/// The suction parameter of a flat plate in plane flow is the sine of its angle: 0.6 % off on eight panels, 0.13 % on 32.
 #[test]
 fn limit_suction_parameter_in_plane_flow() {
     let alpha: f64 = 0.3;
     let error = |rows: usize| {
         let surface = vec![Surface::grid("wing", rows, 1)];
-        let lattice = Lattice::new(surface, settings(alpha, law(0.15, 0.0))).unwrap();
-        let flat = rectangle(rows, 1, DVec3::X, 1e6 * DVec3::Y);
+        let core = CoreModel::Scully { radius: 1e-7 };
+        let settings = AirSettings {
+            bound_core: core,
+            wake_core: core,
+            ..settings(alpha, law(0.15, 0.0))
+        };
+        let lattice = Lattice::new(surface, settings).unwrap();
+        let flat = rectangle(rows, 1, DVec3::X, 1e5 * DVec3::Y);
         let motion = |_| translating(flat.clone(), DVec3::ZERO);
-        let run = fly(&lattice, motion, 1e5, 150, |_, _, _, _| {}).unwrap();
+        let run = fly(&lattice, motion, 1e4, 150, |_, _, _, _| {}).unwrap();
         run.loads.leading[0] / alpha.sin() - 1.0
     };
     let [coarse, fine] = [8, 32].map(error);
     println!("{coarse:.5} {fine:.5}");
-    assert!(coarse.abs() < 0.04 && fine.abs() < 0.3 * coarse.abs());
+    assert!(coarse.abs() < 0.01 && fine.abs() < 0.3 * coarse.abs());
 }
 
 /// The state says all: a copy of it goes on bit for bit with a new workspace.
