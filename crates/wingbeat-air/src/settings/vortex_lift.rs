@@ -38,7 +38,7 @@ const RECOVERY: f64 = 1.5;
 pub struct VortexLift {
     /// Leading-edge suction parameter that the edge holds \[1\], above 0.
     pub threshold: f64,
-    /// Part of the force of the suction held that acts, 0 to 1.
+    /// Part of the force of the suction held that acts \[1\], 0 to 1.
     pub efficiency: f64,
     /// Chords T* for which a vortex is fed before it leaves \[1\], above 0.
     pub formation: f64,

@@ -149,7 +149,7 @@ pub struct AirCase {
     pub leading_edge_suction_efficiency: f64,
     /// Chords of travel for which the vortex of a leading edge can be fed before its lift is lost.
     ///
-    /// Change it within what is measured, 3.4 to 4.5; to 1000 for vortices that are never lost.
+    /// Change it within what is measured, 3.4 to 4.5.
     #[default(4.0)]
     #[schemars(extend("exclusiveMinimum" = 0, "with" = [LATTICE, "leading_edge = vortex_lift"]))]
     pub leading_edge_formation_chords: f64,
