@@ -6,7 +6,7 @@ use crate::geometry::{
     Topology, rings, shed_around, strips,
 };
 use crate::images::{Mirror, mirrors};
-use crate::settings::{AirSettings, LeadingEdge};
+use crate::settings::AirSettings;
 use std::ops::Range;
 use std::sync::Arc;
 use wingbeat_math::DVec3;
@@ -64,7 +64,7 @@ impl Lattice {
     ) -> Result<Self, AirError> {
         settings.validate()?;
         let mut settings = settings;
-        settings.shedding.leading &= settings.leading != LeadingEdge::Never;
+        settings.shedding.leading &= settings.leading.sheds();
         let topology = Topology::new(&surfaces, joined, settings.shedding)?;
         Ok(Self {
             strips: strips(&topology, &surfaces),

@@ -66,8 +66,8 @@ pub use loads::{AirLoads, SurfaceLoads};
 pub use response::NodeWash;
 pub use settings::{
     AirSettings, CirculationRate, Convection, Friction, Gust, GustShape, LeadingEdge, LoadMethod,
-    NEUTRAL_WIDTH, NewestRow, ParticleSettings, SectionDrag, Spectrum, Turbulence, VortexStreet,
-    Wind,
+    NEUTRAL_WIDTH, NewestRow, ParticleSettings, SectionDrag, Spectrum, Turbulence, VortexLift,
+    VortexStreet, Wind,
 };
 pub use state::{AirState, ImpulseAccount, Particles, WakeEvents, WakeSheet};
 pub use wake::Filaments;

@@ -130,7 +130,7 @@ impl Lattice {
             let step = state.step;
             return Err(AirError::Order { step, what });
         }
-        if loads.gamma.len() != self.panel_count() || loads.hold.len() != self.strips().len() {
+        if loads.gamma.len() != self.panel_count() || loads.fed.len() != self.strips().len() {
             let what = "number of panels of the loads";
             return Err(AirError::StateMismatch { what });
         }
@@ -143,6 +143,7 @@ impl Lattice {
         (state.impulse, state.attached_impulse) = (loads.account, loads.attached_impulse);
         state.hold.copy_from_slice(&loads.hold);
         state.leaving.copy_from_slice(&loads.leaving);
+        state.fed.copy_from_slice(&loads.fed);
         state.events.limited += loads.unfound;
         state.time = loads.time;
         state.step += 1;

@@ -2,8 +2,8 @@
 
 use allocation_counter::measure;
 use wingbeat_air::{
-    AirLoads, AirSettings, AirState, AirWorkspace, Lattice, LeadingEdge, NodeMotion, Surface,
-    WakeSheet,
+    AirLoads, AirSettings, AirState, AirWorkspace, Lattice, LeadingEdge, LoadMethod, NodeMotion,
+    Surface, VortexLift, WakeSheet,
 };
 use wingbeat_math::DVec3;
 use wingbeat_vortex::Method;
@@ -136,6 +136,21 @@ fn exact_no_allocation_in_steps_of_leading_edges_that_shed() {
             assert!(shed > COLUMNS, "{shed}");
             assert_eq!(some.count_total, 0, "{panels}");
         }
+    });
+}
+
+#[test]
+fn exact_no_allocation_in_steps_with_vortex_lift() {
+    on_one_thread(|| {
+        let mut flight = Flight::with(4, Some(12), Method::Direct, |s| {
+            s.shedding.leading = true;
+            s.loads = LoadMethod::Joukowski;
+            s.leading = LeadingEdge::VortexLift(VortexLift::default());
+        });
+        flight.rise = 1.0; // at 45 degrees at first
+        (0..20).for_each(|_| flight.step());
+        let five = measure(|| (0..5).for_each(|_| flight.step()));
+        assert_eq!(five.count_total, 0);
     });
 }
 

@@ -99,6 +99,25 @@ fn balances_hover_trims_in_the_vortex_lattice() {
     assert!(b.wake_rings > 0);
 }
 
+/// Hover with vortex lift is as smooth as attached hover: it trims to the same tolerance.
+#[test]
+fn balances_hover_trims_with_vortex_lift() {
+    let mut setup = in_lattice(20);
+    let AirModel::VortexLattice(options) = &mut setup.air else {
+        unreachable!("it is a lattice");
+    };
+    options.lattice.loads = wingbeat_air::LoadMethod::Joukowski;
+    options.lattice.shedding.leading = true;
+    options.lattice.leading = wingbeat_air::LeadingEdge::VortexLift(Default::default());
+    let settings = WakeSettings {
+        held_beats: 1,
+        tolerance: 1e-6,
+        ..WakeSettings::default()
+    };
+    let found = trim_with_wake(&setup, &hover(20), &settings).unwrap();
+    assert!(found.converged, "{:?}", found.residual);
+}
+
 #[test]
 fn balances_sideslip_trims_in_the_vortex_lattice() {
     // Both sides are computed, whatever the mirror of the case; flown, the free beat goes aside as asked.

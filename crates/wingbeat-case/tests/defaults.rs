@@ -142,7 +142,7 @@ fn regress_presets_fly_in_the_air_they_flew_in() {
 
 #[test]
 fn refuses_keys_without_effect() {
-    let cases: [(&str, &[&str], &str, &str); 23] = [
+    let cases: [(&str, &[&str], &str, &str); 24] = [
         (
             "fruit-fly-blade",
             &["air.ground={point_m=[0,0,1],normal=[0,0,1]}"],
@@ -217,6 +217,12 @@ fn refuses_keys_without_effect() {
             ],
             "air.leading_edge_suction_efficiency",
             "joukowski",
+        ),
+        (
+            "fruit-fly-hover",
+            &["air.leading_edge_formation_chords=3"],
+            "air.leading_edge_formation_chords",
+            "vortex_lift",
         ),
         (
             "fruit-fly-hover",
@@ -337,6 +343,11 @@ fn refuses_settings_of_the_lattice_that_do_not_fit_each_other_at_their_keys() {
             "shed = [\"leading\"]\nleading_edge_suction_efficiency = 1.1",
             "leading_edge_suction_efficiency",
             "<= 1",
+        ),
+        (
+            "shed = [\"leading\"]\nleading_edge = \"vortex_lift\"",
+            "loads",
+            "forces on segments",
         ),
         ("summation_tolerance = 0.2", "summation_tolerance", "<= 0.1"),
         (

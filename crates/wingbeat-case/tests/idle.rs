@@ -251,6 +251,7 @@ const TABLE: &[(&[&str], &str, &str)] = &[
         "air.leading_edge_suction_efficiency=0.5",
         "",
     ),
+    (&[], "air.leading_edge_formation_chords=3", ""),
     (
         &["air.shed=[\"trailing\"]"],
         "air.particles={ leading_edge = true, radius_m = 1e-4 }",

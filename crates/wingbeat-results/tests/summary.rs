@@ -177,6 +177,24 @@ fn agrees_lift_by_all_loads_with_that_by_impulse_in_attached_hover() {
     }
 }
 
+/// Vortex lift is a law of forces on an attached lattice: the inviscid force is that of attached flow, the one flown is less.
+#[test]
+fn agrees_lift_with_that_by_impulse_beside_vortex_lift() {
+    let set = ["air.leading_edge=vortex_lift", "time.beats=3"];
+    let summary = flown(&preset("fruit-fly-tethered", &set));
+    for beat in &summary.beats[1..] {
+        let (lift, impulse) = (beat.inviscid_lift_newton, beat.lift_by_impulse_newton);
+        assert!((impulse / lift - 1.0).abs() < 0.03, "{impulse} {lift}"); // as attached hover
+        assert!(beat.lift_newton < 0.85 * lift, "the test is void");
+    }
+    assert!(says(
+        &summary,
+        "with section drag and the vortex lift of leading edges)"
+    ));
+    assert!(says(&summary, "No vorticity leaves leading edges"));
+    assert!(!says(&summary, "Leading edges shed"));
+}
+
 /// The residual is what the account and the force have in sum, and small.
 fn balances_impulse_budget(summary: &Summary) {
     let budget = summary.impulse_budget.expect("a lattice");

@@ -1,4 +1,4 @@
-//! Forces on segments: Joukowski's theorem, and Polhamus's analogy built on it.
+//! Forces on segments: Joukowski's theorem, and Polhamus's analogy and vortex lift built on it.
 //!
 //! A segment l of net circulation G that moves with the surface at U in air of velocity V feels
 //! `rho G (V - U) x l`; the panels feel `rho A dG/dt` along their normals besides. In sum this is the
@@ -9,7 +9,8 @@ use crate::geometry::{Edge, NodeMotion, Strip, chord};
 use crate::lattice::Lattice;
 use crate::loads::lag::add_lag;
 use crate::loads::values::AirLoads;
-use crate::settings::LoadMethod;
+use crate::loads::vortex_lift::yielding;
+use crate::settings::{LeadingEdge, LoadMethod, VortexLift};
 use crate::solve::is_computed;
 use crate::state::AirState;
 use crate::wake::{Filaments, NEAR, Sums, WakeVelocityCache};
@@ -45,6 +46,8 @@ pub(crate) struct Segments {
     free_wake: WakeVelocityCache,
     /// Force and moment of the segments on each panel.
     panel_force: Vec<[DVec3; 2]>,
+    /// Force that is added at the leading edge of each strip [N], N.
+    at_edge: Vec<DVec3>,
 }
 
 /// The flow around the segments: all sources are in the sums, with their circulations.
@@ -79,8 +82,15 @@ impl Segments {
             LoadMethod::Pressure | LoadMethod::Polhamus => self.suction(&out.panels.normal),
         };
         out.inviscid_force = out.force.iter().sum::<DVec3>() + suction;
+        out.fed.clear();
+        out.fed.resize(lattice.strips().len(), 0.0);
         match method {
-            LoadMethod::Joukowski => self.lose_suction(lattice, motion, out),
+            LoadMethod::Joukowski => match lattice.settings().leading {
+                LeadingEdge::VortexLift(law) => {
+                    self.vortex_lift(state, (lattice, &law), (filaments, motion), out);
+                }
+                _ => self.lose_suction(lattice, motion, out),
+            },
             LoadMethod::Polhamus => self.polhamus(lattice, motion, out),
             LoadMethod::Pressure => {}
         }
@@ -204,6 +214,45 @@ impl Segments {
             let pull: DVec3 = strip.panels.iter().map(along).sum();
             let lost = (1.0 - efficiency) * (-pull.dot(aft)).max(0.0) * aft;
             add_at_edge(strip, motion, lost, out);
+        }
+    }
+
+    /// Makes of the suction and of the normal forces of all strips what their leading edges hold and the vortices there leave of them.
+    fn vortex_lift(
+        &mut self,
+        state: &AirState,
+        (lattice, law): (&Lattice, &VortexLift),
+        (filaments, motion): (&Filaments, &NodeMotion),
+        out: &mut AirLoads,
+    ) {
+        let dt = if state.step > 0 { out.dt } else { 0.0 };
+        self.at_edge.clear();
+        for (k, strip) in lattice.strips().iter().enumerate() {
+            let strip_now = yielding((lattice, law), strip, motion, (state.fed[k], dt), out);
+            let (parts, aft) = (strip_now.parts, strip_now.aft);
+            out.fed[k] = strip_now.fed;
+            let along = |&p: &usize| self.along(p, &out.panels.normal);
+            let suction = -strip.panels.iter().map(along).sum::<DVec3>().dot(aft);
+            let side = strip_now.parameter.signum() * out.panels.normal[strip.panels[0]];
+            let lost = (1.0 - parts.suction) * suction * aft;
+            self.at_edge.push(lost + parts.vortex * suction * side);
+            if parts.normal < 1.0 {
+                self.weaken(strip, 1.0 - parts.normal, &out.panels.normal);
+            }
+        }
+        self.joukowski(lattice, filaments, &motion.position, out);
+        for (strip, force) in lattice.strips().iter().zip(&self.at_edge) {
+            add_at_edge(strip, motion, *force, out);
+        }
+    }
+
+    /// Takes this part of the normal forces of a strip's segments, and of their moments.
+    fn weaken(&mut self, strip: &Strip, part: f64, normals: &[DVec3]) {
+        for &p in &strip.panels {
+            let n = normals[p];
+            let [force, moment] = &mut self.panel_force[p];
+            *force -= part * force.dot(n) * n;
+            *moment -= part * (*moment - moment.dot(n) * n);
         }
     }
 

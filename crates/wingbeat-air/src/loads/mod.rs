@@ -9,6 +9,7 @@ mod resultants;
 mod section_drag;
 mod separation;
 mod values;
+mod vortex_lift;
 
 pub(crate) use closed::outer_forces;
 pub(crate) use joukowski::{Flow, Segments};

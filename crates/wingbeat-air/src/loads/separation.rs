@@ -3,6 +3,7 @@
 use crate::geometry::chord;
 use crate::lattice::Lattice;
 use crate::loads::values::AirLoads;
+use crate::loads::vortex_lift::suction_parameter;
 use crate::settings::LeadingEdge;
 use crate::solve::suction_unit;
 use crate::wake::Filaments;
@@ -31,6 +32,10 @@ pub(crate) fn leading_values(
         let [value, hold] = match lattice.settings().leading {
             LeadingEdge::Always => [0.0, 0.0],
             LeadingEdge::Never => [0.0, f64::MAX],
+            LeadingEdge::VortexLift(_) => {
+                let [parameter, _] = suction_parameter(lattice, strip, position, out);
+                [parameter.abs(), f64::MAX]
+            }
             LeadingEdge::AngleOfAttack { threshold } => {
                 let wind = lattice.stream(out.panels.point[p], out.time) - out.panels.velocity[p];
                 let (along, across) = (wind.dot(aft), wind.dot(out.panels.normal[p]));

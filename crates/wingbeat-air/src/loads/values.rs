@@ -57,6 +57,8 @@ pub struct AirLoads {
     /// Circulation that leaves the leading edge of each strip within the step, where that is part of the solution, counted as
     /// that of panels [m2/s].
     pub leaving: Vec<f64>,
+    /// Chords for which the leading-edge vortex of each strip has been fed, less what was lost \[1\]: [`crate::VortexLift`].
+    pub fed: Vec<f64>,
     /// Strips whose leading edge sheds what it has too much, for want of a solution that holds the suction of all.
     pub unfound: u64,
     /// Resultants of the surfaces.

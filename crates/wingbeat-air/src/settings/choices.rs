@@ -1,5 +1,7 @@
 //! Choices of the method.
 
+use crate::settings::vortex_lift::VortexLift;
+
 /// How the rate of change of circulation in the unsteady Bernoulli equation is formed.
 #[derive(
     Clone,
@@ -121,9 +123,17 @@ pub enum LeadingEdge {
         /// Part of the force of the suction held that acts, 0 to 1, as above.
         efficiency: f64,
     },
+    /// Nowhere: what the suction parameter has beyond the threshold acts as the normal force of a leading-edge vortex, which
+    /// is lost when it has been fed for too long, see [`VortexLift`].
+    VortexLift(VortexLift),
 }
 
 impl LeadingEdge {
+    /// Whether any flow may leave leading edges.
+    pub fn sheds(&self) -> bool {
+        !matches!(self, Self::Never | Self::VortexLift(_))
+    }
+
     /// Suction parameter that edges hold and part of its force that acts \[1\], if it is suction that decides.
     pub fn suction(&self) -> Option<[f64; 2]> {
         match *self {
@@ -134,7 +144,12 @@ impl LeadingEdge {
             | Self::SuctionImplicit {
                 threshold,
                 efficiency,
-            } => Some([threshold, efficiency]),
+            }
+            | Self::VortexLift(VortexLift {
+                threshold,
+                efficiency,
+                ..
+            }) => Some([threshold, efficiency]),
             _ => None,
         }
     }

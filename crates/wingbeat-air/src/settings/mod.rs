@@ -7,6 +7,7 @@ mod section_drag;
 mod street;
 mod turbulence;
 mod validate;
+mod vortex_lift;
 mod wind;
 
 pub use air::AirSettings;
@@ -15,4 +16,6 @@ pub use particles::ParticleSettings;
 pub use section_drag::{Friction, SectionDrag};
 pub use street::{NEUTRAL_WIDTH, VortexStreet};
 pub use turbulence::{Spectrum, Turbulence};
+pub use vortex_lift::VortexLift;
+pub(crate) use vortex_lift::{Parts, Passage};
 pub use wind::{Gust, GustShape, Wind};

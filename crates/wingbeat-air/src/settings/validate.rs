@@ -4,7 +4,7 @@ use crate::edges::SheddingKinds;
 use crate::error::{AirError, require};
 use crate::images::{Plane, mirrors};
 use crate::settings::air::AirSettings;
-use crate::settings::choices::LeadingEdge;
+use crate::settings::choices::{LeadingEdge, LoadMethod};
 use std::f64::consts::PI;
 use wingbeat_vortex::CoreModel;
 
@@ -123,6 +123,15 @@ impl AirSettings {
                 threshold,
                 "an angle in rad from 0 to pi",
             ),
+            LeadingEdge::VortexLift(law) => {
+                law.validate()?;
+                require(
+                    self.loads == LoadMethod::Joukowski,
+                    "loads",
+                    format!("{:?}", self.loads),
+                    "forces on segments with the vortex lift of leading edges, which is made of their suction",
+                )
+            }
             LeadingEdge::Suction {
                 threshold,
                 efficiency,
@@ -153,6 +162,12 @@ impl AirSettings {
             return Ok(());
         };
         particles.validate()?;
+        require(
+            !particles.leading_at_once || self.leading.sheds(),
+            "particles leading_at_once",
+            particles.leading_at_once,
+            "false where nothing leaves leading edges",
+        )?;
         require(
             self.max_rows.is_none(),
             "max_rows",

@@ -12,5 +12,5 @@ mod unknowns;
 
 pub(crate) use boundary_condition::BoundaryCondition;
 pub(crate) use influence::Instant;
-pub(crate) use suction::suction_unit;
+pub(crate) use suction::{section_speed, suction_per_speed, suction_unit};
 pub(crate) use unknowns::is_computed;

@@ -93,9 +93,25 @@ pub(crate) fn suction_unit(
     [h, c]: [f64; 2],
 ) -> f64 {
     let a = angle(h, c);
-    let wind = quarter_chord_wind(now, strip, (middle, aft, c));
-    let speed = wind.dot(aft).hypot(wind.dot(now.1.normal[strip.panels[0]]));
+    let speed = section_speed(now, strip, (middle, aft, c));
     0.5 * PI.sqrt() * speed * c * (a + a.sin())
+}
+
+/// The same over the speed \[m\].
+pub(crate) fn suction_per_speed([h, c]: [f64; 2]) -> f64 {
+    let a = angle(h, c);
+    0.5 * PI.sqrt() * c * (a + a.sin())
+}
+
+/// Speed of stream and motion at the quarter chord of a strip, in the plane of the section [m/s]; middle of its leading edge [m],
+/// direction aft and chord [m].
+pub(crate) fn section_speed(
+    now: (&Lattice, &Panels, f64),
+    strip: &Strip,
+    (middle, aft, c): (DVec3, DVec3, f64),
+) -> f64 {
+    let wind = quarter_chord_wind(now, strip, (middle, aft, c));
+    wind.dot(aft).hypot(wind.dot(now.1.normal[strip.panels[0]]))
 }
 
 /// The wind that stream and motion make at the quarter chord of a strip, whose leading edge is at `middle` [m, m/s]: that of

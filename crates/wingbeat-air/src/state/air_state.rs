@@ -52,6 +52,9 @@ pub struct AirState {
     /// Circulation that left the leading edge of each strip within the last accepted step, where that was part of the solution, counted
     /// as that of panels [m2/s]; zero once the wakes were moved.
     pub leaving: Vec<f64>,
+    /// Chords for which the leading-edge vortex of each strip has been fed, less what was lost, at the last accepted step \[1\];
+    /// zero without ([`crate::VortexLift`]).
+    pub fed: Vec<f64>,
     /// Length of the last step of the wakes [s], zero before it.
     pub dt_wake: f64,
     /// Positions of the surface nodes at the last accepted step [m], N components.

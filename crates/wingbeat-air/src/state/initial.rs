@@ -24,6 +24,7 @@ impl Lattice {
             inner_momentum: vec![DVec3::ZERO; self.surfaces().len()],
             hold: vec![f64::MAX; self.strips().len()],
             leaving: vec![0.0; self.strips().len()],
+            fed: vec![0.0; self.strips().len()],
             sheets: self.sheets().iter().map(sheet).collect(),
             ..AirState::default()
         }
@@ -45,7 +46,7 @@ impl Lattice {
         {
             return mismatch("number of nodes");
         }
-        if [&state.hold, &state.leaving]
+        if [&state.hold, &state.leaving, &state.fed]
             .iter()
             .any(|x| x.len() != self.strips().len())
         {

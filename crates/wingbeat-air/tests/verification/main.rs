@@ -18,5 +18,6 @@ mod peers;
 mod plane_wakes;
 mod section_drag;
 mod separated;
+mod vortex_lift;
 mod wakes;
 mod wings;

@@ -2,7 +2,7 @@
 
 use wingbeat_air::{
     AirError, AirSettings, CoreModel, EdgeKind, Friction, LeadingEdge, ParticleSettings,
-    SectionDrag, SheddingKinds,
+    SectionDrag, SheddingKinds, VortexLift,
 };
 use wingbeat_flight::AirOptions;
 use wingbeat_model::Animal;
@@ -125,6 +125,7 @@ pub(super) fn key_of(setting: &str) -> &'static str {
         name if name.starts_with("vortex street") => "air.vortex_street",
         name if name.starts_with("particles") => "air.particles",
         name if name.starts_with("section drag") => "air.section_drag",
+        "loads" => "air.loads",
         name if name.starts_with("leading") => "air.leading_edge",
         _ => "air",
     }
@@ -198,6 +199,11 @@ fn leading_edge(case: &AirCase) -> Built<LeadingEdge> {
             threshold: case.leading_edge_threshold,
             efficiency: case.leading_edge_suction_efficiency,
         },
+        LeadingEdgeCase::VortexLift => LeadingEdge::VortexLift(VortexLift {
+            threshold: case.leading_edge_threshold,
+            efficiency: case.leading_edge_suction_efficiency,
+            formation: case.leading_edge_formation_chords,
+        }),
     })
 }
 

@@ -139,14 +139,20 @@ pub struct AirCase {
     ///
     /// Change it with the section of the wing and its Reynolds number.
     #[default(0.15)]
-    #[schemars(extend("exclusiveMinimum" = 0, "with" = [LATTICE, "leading_edge = suction | suction_implicit"]))]
+    #[schemars(extend("exclusiveMinimum" = 0, "with" = [LATTICE, "leading_edge = suction | suction_implicit | vortex_lift"]))]
     pub leading_edge_threshold: f64,
     /// Part of the force of that suction which acts: none on the thin edges of insects.
     ///
     /// Change it to 1 for round leading edges.
     #[default(0.0)]
-    #[schemars(extend("minimum" = 0, "maximum" = 1, "with" = [LATTICE, "leading_edge = suction | suction_implicit", "loads = joukowski"]))]
+    #[schemars(extend("minimum" = 0, "maximum" = 1, "with" = [LATTICE, "leading_edge = suction | suction_implicit | vortex_lift", "loads = joukowski"]))]
     pub leading_edge_suction_efficiency: f64,
+    /// Chords of travel for which the vortex of a leading edge can be fed before its lift is lost.
+    ///
+    /// Change it within what is measured, 3.4 to 4.5.
+    #[default(4.0)]
+    #[schemars(extend("exclusiveMinimum" = 0, "with" = [LATTICE, "leading_edge = vortex_lift"]))]
+    pub leading_edge_formation_chords: f64,
     /// Gusts, added to the stream.
     ///
     /// Change it to meet the animal with one; several add up.
@@ -301,4 +307,7 @@ pub enum LeadingEdgeCase {
     /// The same, found together with the circulations of the wings: the suction never is above the threshold, and what is shed hangs
     /// less on panels and steps.
     SuctionImplicit,
+    /// Nowhere: what is beyond the threshold acts as the normal force of a leading-edge vortex that stays [Polhamus 1966, NASA TN
+    /// D-3767], until it has been fed for `leading_edge_formation_chords`. Smooth: for trim, modes and many flights.
+    VortexLift,
 }

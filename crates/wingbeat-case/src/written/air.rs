@@ -2,7 +2,8 @@
 
 use wingbeat_air::{
     AirSettings, CoreModel, EdgeKind, Friction, Gust, GustShape, LeadingEdge, Method, NewestRow,
-    ParticleSettings, Plane, SectionDrag, SheddingKinds, Turbulence, VortexStreet, Wind,
+    ParticleSettings, Plane, SectionDrag, SheddingKinds, Turbulence, VortexLift, VortexStreet,
+    Wind,
 };
 use wingbeat_blade::{BladeSettings, Rotation, SETS, Translation, Unsteady};
 use wingbeat_flight::{AirModel, AirOptions, BladeOptions};
@@ -337,6 +338,16 @@ fn with_leading_edge(air: AirCase, lattice: &AirSettings) -> AirCase {
             leading_edge_threshold: threshold,
             leading_edge_suction_efficiency: efficiency,
             ..of(LeadingEdgeCase::SuctionImplicit)
+        },
+        LeadingEdge::VortexLift(VortexLift {
+            threshold,
+            efficiency,
+            formation,
+        }) => AirCase {
+            leading_edge_threshold: threshold,
+            leading_edge_suction_efficiency: efficiency,
+            leading_edge_formation_chords: formation,
+            ..of(LeadingEdgeCase::VortexLift)
         },
     }
 }

@@ -1,6 +1,8 @@
 //! How far the results can be trusted.
 
-use wingbeat_air::{AirSettings, Convection, CoreModel, Friction, LoadMethod, SectionDrag};
+use wingbeat_air::{
+    AirSettings, Convection, CoreModel, Friction, LeadingEdge, LoadMethod, SectionDrag,
+};
 use wingbeat_flight::{
     AirModel, BladeOptions, FlightSetup, FormulationChoice, IntegratorChoice, MotionMode,
 };
@@ -159,7 +161,7 @@ fn air_warnings(
     if air.mirror {
         list.note("Mirror symmetry was assumed (air.mirror): a real flow of this kind loses it, and with it roll, yaw and sideways drift would come.".to_owned());
     }
-    if lattice.shedding.leading {
+    if lattice.shedding.leading && lattice.leading.sheds() {
         list.note("Leading edges shed: such sheets have no converged history beyond the first half stroke. Read means over several beats and their spread, not single peaks.".to_owned());
     }
     if setup.time.period.is_some() && lattice.convection == Convection::Euler {
@@ -220,6 +222,13 @@ fn suction(lattice: &AirSettings) -> String {
         (LoadMethod::Joukowski, None) => {
             "Forces hold the full suction of the edges that do not shed.".to_owned()
         }
+        (LoadMethod::Joukowski, Some([threshold, efficiency])) if has_vortex_lift(lattice) => {
+            format!(
+                "No vorticity leaves leading edges: they hold a suction parameter of {threshold} and have {efficiency} of its force \
+             (air.leading_edge_threshold, air.leading_edge_suction_efficiency), what is beyond it is the lift of a vortex that \
+             grows and is lost by a law from measurements (air.leading_edge = vortex_lift)."
+            )
+        }
         (LoadMethod::Joukowski, Some([threshold, efficiency])) => format!(
             "Leading edges hold a suction parameter of {threshold} and have {efficiency} of its force (air.leading_edge_threshold, \
              air.leading_edge_suction_efficiency)."
@@ -237,6 +246,11 @@ fn held(lattice: &AirSettings) -> Option<[f64; 2]> {
         .leading
         .suction()
         .filter(|_| lattice.shedding.leading)
+}
+
+/// Whether leading edges have vortex lift in place of free vorticity.
+fn has_vortex_lift(lattice: &AirSettings) -> bool {
+    lattice.shedding.leading && matches!(lattice.leading, LeadingEdge::VortexLift(_))
 }
 
 /// What is said of the vortex core of the wakes.
@@ -279,6 +293,12 @@ fn two_ways_to_the_lift(lattice: &AirSettings, beat: &BeatMeans, list: &mut Warn
     };
     let is_lost = held(lattice).is_some_and(|[_, efficiency]| efficiency < 1.0);
     let differs = match (lattice.loads, lattice.section_drag) {
+        (LoadMethod::Joukowski, None) if has_vortex_lift(lattice) => {
+            Some("with the vortex lift of leading edges")
+        }
+        (LoadMethod::Joukowski, Some(_)) if has_vortex_lift(lattice) => {
+            Some("with section drag and the vortex lift of leading edges")
+        }
         (LoadMethod::Joukowski, None) if is_lost => Some("without the suction that is lost"),
         (LoadMethod::Joukowski, None) => None,
         (LoadMethod::Joukowski, Some(_)) if is_lost => {

@@ -112,7 +112,7 @@ fn azuma_1988(_quick: bool) -> Result<Vec<Row>, VerifyError> {
         let load = flight.2;
         let animal = flight.animal();
         let sheets = [MODELS[0], FREE_ROOTS];
-        let models = [MODELS[0], FREE_ROOTS, MODELS[2], MODELS[3]].map(Some);
+        let models = [MODELS[0], FREE_ROOTS, MODELS[2], MODELS[3], MODELS[5]].map(Some);
         for model in std::iter::once(None).chain(models) {
             let (name, choice) = model.unwrap_or(("blade elements", DEFAULT));
             let mut case = animal.case(choice);

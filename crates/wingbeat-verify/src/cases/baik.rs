@@ -1,6 +1,6 @@
 //! A plate that pitches and plunges in a channel, quasi two-dimensional.
 
-use crate::lab::rig::{ATTACHED, Fluid, Pose, SEPARATED, Wing, forces};
+use crate::lab::rig::{Edge, Fluid, Pose, Wing, forces};
 use crate::lab::series::{Table, harmonic, interpolate, mean};
 use crate::{Case, Comparison, Part, Row, VerifyError};
 use std::f64::consts::{PI, TAU};
@@ -67,7 +67,7 @@ struct Plunge {
 /// Drag and lift coefficient of the middle over the last period, a sample a step, both ends.
 fn coefficients(
     &(_, k, [flow, pitch], _): &Motion,
-    leading: bool,
+    edge: Edge,
     [rows, per_chord, periods]: [usize; 3],
 ) -> Result<[Vec<f64>; 2], VerifyError> {
     let period = PI / k;
@@ -94,7 +94,7 @@ fn coefficients(
     let force = forces(
         &Fluid::unit(5000.0),
         &wing,
-        leading,
+        edge,
         pose,
         [0.0, dt],
         periods * steps,
@@ -122,11 +122,7 @@ fn filtered(history: &[f64], harmonics: usize, phases: &[f64]) -> Vec<f64> {
 }
 
 /// Drag and lift coefficient beside the measured ones.
-fn beside(
-    motion: &Motion,
-    (name, leading): (&'static str, bool),
-    mesh: [usize; 3],
-) -> Result<[Comparison; 2], VerifyError> {
+fn beside(motion: &Motion, edge: Edge, mesh: [usize; 3]) -> Result<[Comparison; 2], VerifyError> {
     let table = Table::new(include_str!("../../data/baik2011_lift_drag.csv"));
     let own: Vec<usize> = (table.words("case").enumerate())
         .filter(|(_, name)| *name == motion.0)
@@ -136,7 +132,7 @@ fn beside(
         let column = table.numbers(name);
         own.iter().map(|&k| column[k]).collect::<Vec<f64>>()
     });
-    let computed = coefficients(motion, leading, mesh)?;
+    let computed = coefficients(motion, edge, mesh)?;
     Ok([0, 1].map(|i| {
         let computed = filtered(&computed[i], motion.3, &phase);
         let points = phase.iter().zip([&drag, &lift][i]).zip(computed);
@@ -144,7 +140,7 @@ fn beside(
             quantity: format!("{} coefficient, {}", ["drag", "lift"][i], motion.0).into(),
             along: "phase [1]".into(),
             against: "measured".into(),
-            name: name.into(),
+            name: edge.name().into(),
             points: points.map(|((s, y), c)| [*s, *y, c]).collect(),
         }
     }))
@@ -158,20 +154,21 @@ const CHANGE: &str =
 
 fn run(_quick: bool) -> Result<Vec<Row>, VerifyError> {
     let mut rows = Vec::new();
-    for (name, leading) in [ATTACHED, SEPARATED] {
+    for edge in Edge::ALL {
+        let name = edge.name();
         let mut compared = Vec::new();
         for motion in &MOTIONS {
-            compared.push(beside(motion, (name, leading), [6, 10, 2])?);
+            compared.push(beside(motion, edge, [6, 10, 2])?);
         }
         let errors = |c: &[Comparison; 2]| [0, 1].map(|i| c[i].rms_error());
         let all: Vec<[f64; 2]> = compared.iter().map(errors).collect();
-        let finer = errors(&beside(&MOTIONS[0], (name, leading), [12, 20, 2])?);
+        let finer = errors(&beside(&MOTIONS[0], edge, [12, 20, 2])?);
         for (i, what, band) in [(1, "lift", 0.45), (0, "drag", 0.30)] {
             let value = all.iter().map(|e| e[i]).sum::<f64>() / all.len() as f64;
             let quantity = format!("{name}: rms error of {what} coefficient, mean of both motions");
             let row = Row::new(quantity, "1", value).against(0.0, SOURCE);
             let row = row.uncertain(finer[i] - all[0][i]);
-            rows.push(match leading {
+            rows.push(match edge == Edge::Sheds {
                 true => row.within(band, BAND),
                 false => row.because(CHANGE),
             });

@@ -129,7 +129,7 @@ fn compare(
     newton: f64,
 ) -> Result<Vec<Row>, VerifyError> {
     let mut rows = Vec::new();
-    for (name, choice) in [MODELS[0], FREE_ROOTS, MODELS[2], MODELS[3]] {
+    for (name, choice) in [MODELS[0], FREE_ROOTS, MODELS[2], MODELS[3], MODELS[5]] {
         let lift = forces(animal.case(choice))?;
         let lift: Vec<f64> = lift.iter().map(|f| -f.z / newton).collect();
         let beats = [1, 2].map(|b| mean(&lift[40 * b..=40 * (b + 1)]));

@@ -1,6 +1,6 @@
 //! A plate that pitches up to 45 deg within one chord of travel.
 
-use crate::lab::rig::{ATTACHED, Fluid, Pose, SEPARATED, Wing, forces};
+use crate::lab::rig::{Edge, Fluid, Pose, Wing, forces};
 use crate::lab::series::{Table, interpolate};
 use crate::{Case, Comparison, Part, Row, VerifyError};
 use std::f64::consts::FRAC_PI_4;
@@ -41,7 +41,7 @@ fn ramp(s: f64) -> [f64; 2] {
 /// Travel [chords] and lift coefficient, smoothed as the measurement: mean over 100 ms, 0.07 chords.
 fn lift(
     axis: f64,
-    leading: bool,
+    edge: Edge,
     [rows, cols, per_chord]: [usize; 3],
 ) -> Result<[Vec<f64>; 2], VerifyError> {
     let stations: Vec<f64> = (0..=cols)
@@ -61,7 +61,7 @@ fn lift(
         }
     };
     let (dt, last) = (1.0 / per_chord as f64, (5.44 * per_chord as f64) as usize);
-    let force = forces(&Fluid::unit(1e4), &wing, leading, pose, [-BEFORE, dt], last)?;
+    let force = forces(&Fluid::unit(1e4), &wing, edge, pose, [-BEFORE, dt], last)?;
     let s: Vec<f64> = (0..=last).map(|k| k as f64 * dt - BEFORE).collect();
     let raw: Vec<f64> = force.iter().map(|f| 2.0 * f.z / HALF_SPAN).collect();
     let window = (-3..=3).map(|k| f64::from(k) * 0.01);
@@ -78,14 +78,15 @@ fn run(_quick: bool) -> Result<Vec<Row>, VerifyError> {
     let travel = table.numbers("s_over_c");
     let first = travel.iter().take_while(|s| **s < 0.05).count();
     let mut rows = Vec::new();
-    for (name, leading) in [ATTACHED, SEPARATED] {
+    for edge in Edge::ALL {
+        let name = edge.name();
         for (about, axis, column) in [
             ("leading edge", 0.0, "CL_leading_edge_axis"),
             ("mid chord", 0.5, "CL_mid_chord_axis"),
         ] {
             let measured = &table.numbers(column)[first..];
             let beside = |mesh| -> Result<Comparison, VerifyError> {
-                let [s, lift] = lift(axis, leading, mesh)?;
+                let [s, lift] = lift(axis, edge, mesh)?;
                 let points = travel[first..].iter().zip(measured);
                 let points = points.map(|(x, y)| [*x, *y, interpolate(&s, &lift, *x)]);
                 Ok(Comparison {
@@ -101,7 +102,7 @@ fn run(_quick: bool) -> Result<Vec<Row>, VerifyError> {
             let quantity = format!("{name}, about the {about}: rms error of lift coefficient");
             let row = Row::new(quantity, "1", value).against(0.0, SOURCE);
             let row = row.uncertain(finer - value).drawn(coarse);
-            rows.push(match leading {
+            rows.push(match edge == Edge::Sheds {
                 true => row.within(0.6, BAND),
                 false => row.because(CHANGE),
             });

@@ -1,6 +1,6 @@
 //! A Robofly wing that revolves steadily.
 
-use crate::lab::rig::{Fluid, Pose, SEPARATED, Wing, forces, laminar};
+use crate::lab::rig::{Edge, Fluid, Pose, Wing, forces, laminar};
 use crate::lab::series::{Table, interpolate, mean};
 use crate::{Case, Comparison, Part, Row, VerifyError};
 use std::f64::consts::{FRAC_PI_3, FRAC_PI_4, PI};
@@ -67,6 +67,7 @@ fn turned(t: f64) -> [f64; 2] {
 
 /// Mean lift and drag coefficient between 2 and 3 s.
 fn coefficients(
+    edge: Edge,
     incidence: f64,
     mesh: [usize; 2],
     per_second: usize,
@@ -89,7 +90,7 @@ fn coefficients(
         }
     };
     let dt = 1.0 / per_second as f64;
-    let force = forces(&fluid, &wing, SEPARATED.1, pose, [0.0, dt], 3 * per_second)?;
+    let force = forces(&fluid, &wing, edge, pose, [0.0, dt], 3 * per_second)?;
     let scale = 1.0 / (0.5 * DENSITY * OMEGA * OMEGA * SECOND_MOMENT);
     let aft = |k: usize| r3(turned(k as f64 * dt)[0]) * DVec3::X;
     let last = 2 * per_second..=3 * per_second;
@@ -99,19 +100,28 @@ fn coefficients(
 }
 
 fn run(_quick: bool) -> Result<Vec<Row>, VerifyError> {
+    let mut rows = Vec::new();
+    for edge in [Edge::VortexLift, Edge::Sheds] {
+        rows.extend(polar(edge)?);
+    }
+    Ok(rows)
+}
+
+fn polar(edge: Edge) -> Result<Vec<Row>, VerifyError> {
     let table = Table::new(include_str!("../../data/robofly_revolving_cfd.csv"));
     let theirs = ["CL", "CD"].map(|name| table.numbers(name));
     let angles = table.numbers("alpha_deg");
     let mut computed = Vec::new();
     for angle in &angles {
-        computed.push(coefficients(angle.to_radians(), [5, 10], 25)?);
+        computed.push(coefficients(edge, angle.to_radians(), [5, 10], 25)?);
     }
-    let finer = coefficients(FRAC_PI_4, [10, 20], 50)?;
-    let base = coefficients(FRAC_PI_4, [5, 10], 25)?;
+    let finer = coefficients(edge, FRAC_PI_4, [10, 20], 50)?;
+    let base = coefficients(edge, FRAC_PI_4, [5, 10], 25)?;
+    let name = edge.name();
     let mut rows = Vec::new();
     for (i, what) in [(0, "lift"), (1, "drag")] {
         for (k, angle) in angles.iter().enumerate() {
-            let quantity = format!("{what} coefficient at {angle} deg");
+            let quantity = format!("{name}: {what} coefficient at {angle} deg");
             let row = Row::new(quantity, "1", computed[k][i])
                 .against(theirs[i][k], SOURCE)
                 .uncertain(finer[i] - base[i]);
@@ -125,14 +135,14 @@ fn run(_quick: bool) -> Result<Vec<Row>, VerifyError> {
             quantity: format!("{what} coefficient [1]").into(),
             along: "incidence [deg]".into(),
             against: "computed polar of others".into(),
-            name: SEPARATED.0.into(),
+            name: name.into(),
             points: points.map(|((a, t), c)| [*a, *t, c[i]]).collect(),
         };
         rows.last_mut().expect("an angle").comparison = Some(compared);
     }
     for (i, what) in [(0, "lift"), (1, "drag")] {
         for (k, angle) in angles.iter().enumerate().filter(|(_, a)| is_judged(**a)) {
-            let quantity = format!("{what} coefficient at {angle} deg, and the robot's");
+            let quantity = format!("{name}: {what} coefficient at {angle} deg, and the robot's");
             rows.push(
                 Row::new(quantity, "1", computed[k][i])
                     .against(robot(*angle)[i], ROBOT)

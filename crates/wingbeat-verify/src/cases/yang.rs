@@ -1,6 +1,6 @@
 //! A rigid rectangular wing that a crank flaps in a wind tunnel.
 
-use crate::lab::rig::{ATTACHED, Fluid, Pose, SEPARATED, Wing, forces};
+use crate::lab::rig::{Edge, Fluid, Pose, Wing, forces};
 use crate::lab::series::{Table, harmonic, mean};
 use crate::{Case, Comparison, Part, Row, VerifyError};
 use std::f64::consts::TAU;
@@ -39,7 +39,7 @@ fn flap() -> Vec<[f64; 2]> {
 /// Mean lift and thrust over the last beat [gf].
 fn means(
     incidence: f64,
-    leading: bool,
+    edge: Edge,
     [rows, cols, steps, beats]: [usize; 4],
 ) -> Result<[f64; 2], VerifyError> {
     let stations: Vec<f64> = (0..=cols)
@@ -64,7 +64,7 @@ fn means(
     };
     let fluid = Fluid::unit(SPEED * CHORD / 1.47e-5);
     let dt = PERIOD / steps as f64;
-    let force = forces(&fluid, &wing, leading, pose, [0.0, dt], beats * steps)?;
+    let force = forces(&fluid, &wing, edge, pose, [0.0, dt], beats * steps)?;
     let scale = FORCE * 2.0 / (ENDS[1] - ENDS[0]);
     let of = |part: fn(&DVec3) -> f64| {
         let last: Vec<f64> = force[(beats - 1) * steps..].iter().map(part).collect();
@@ -86,12 +86,13 @@ fn run(_quick: bool) -> Result<Vec<Row>, VerifyError> {
     let angles = table.numbers("alpha_deg");
     let measured = ["lift_test_gf", "thrust_test_gf"].map(|name| table.numbers(name));
     let mut rows = Vec::new();
-    for (name, leading) in [ATTACHED, SEPARATED] {
+    for edge in Edge::ALL {
+        let name = edge.name();
         let mut computed = Vec::new();
         for &angle in &angles {
-            computed.push(means(angle, leading, [6, 8, 80, 2])?);
+            computed.push(means(angle, edge, [6, 8, 80, 2])?);
         }
-        let finer = means(angles[LAST], leading, [8, 10, 100, 2])?;
+        let finer = means(angles[LAST], edge, [8, 10, 100, 2])?;
         for (i, what, band) in [(0, "lift", 4.5), (1, "thrust", 2.0)] {
             let pairs = computed.iter().zip(&measured[i]);
             let apart: f64 = pairs.clone().map(|(a, b)| (a[i] - b).abs()).sum();
@@ -107,7 +108,7 @@ fn run(_quick: bool) -> Result<Vec<Row>, VerifyError> {
                     name: name.into(),
                     points: points.map(|(a, (c, m))| [*a, *m, c[i]]).collect(),
                 });
-            rows.push(match leading {
+            rows.push(match edge == Edge::Sheds {
                 true => row.within(band, BAND),
                 false => row.because(CHANGE),
             });

@@ -39,6 +39,7 @@ pub(crate) struct Choice {
     /// Whether the suction of leading edges that shed is held in the solution.
     pub implicit: bool,
     pub loads: LoadMethod,
+    pub leading_edge: LeadingEdgeCase,
     pub core: f64,
     pub overlap: f64,
     /// Length, in chords, from which wake filaments become blobs.
@@ -67,6 +68,7 @@ pub(crate) const DEFAULT: Choice = Choice {
     shed: &[EdgeKind::Trailing, EdgeKind::Tip, EdgeKind::Leading],
     implicit: false,
     loads: LoadMethod::Joukowski,
+    leading_edge: LeadingEdgeCase::Suction,
     core: 1.0,
     overlap: 1.0,
     blobs: None,
@@ -132,6 +134,7 @@ impl Choice {
                 false => LeadingEdgeCase::Suction,
             },
             loads: self.loads,
+            leading_edge: self.leading_edge,
             bound_core: self.core(0.01, &fluid),
             wake_core: self.core(0.07, &fluid),
             wake_overlap: self.overlap.into(),
@@ -270,7 +273,7 @@ pub(crate) fn data(name: &str) -> WingMotionCase {
     }
 }
 
-pub(crate) const MODELS: [(&str, Choice); 5] = [
+pub(crate) const MODELS: [(&str, Choice); 6] = [
     ("leading-edge sheets", DEFAULT),
     (
         "leading-edge particles",
@@ -301,6 +304,13 @@ pub(crate) const MODELS: [(&str, Choice); 5] = [
         Choice {
             shed: ATTACHED,
             loads: LoadMethod::Joukowski,
+            ..DEFAULT
+        },
+    ),
+    (
+        "vortex lift",
+        Choice {
+            leading_edge: LeadingEdgeCase::VortexLift,
             ..DEFAULT
         },
     ),

@@ -7,24 +7,39 @@
 
 use wingbeat_air::{
     AirError, AirSettings, Friction, JoinedEdge, Lattice, LeadingEdge, MirrorPairs, NodeMotion,
-    Plane, SectionDrag, SheddingKinds, Surface,
+    Plane, SectionDrag, SheddingKinds, Surface, VortexLift,
 };
 use wingbeat_flight::AirOptions;
 use wingbeat_math::{DMat3, DVec3};
 
 use super::fly;
 
-/// What becomes of leading edges: name, and whether they shed.
-pub(crate) const ATTACHED: (&str, bool) = ("attached", false);
-/// Vorticity from the leading edge, as the insect presets have it.
-pub(crate) const SEPARATED: (&str, bool) = ("leading-edge vorticity", true);
+/// What becomes of leading edges.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Edge {
+    /// The flow stays attached: all of their suction acts.
+    Attached,
+    /// No vorticity leaves them; what they do not hold is the lift of a vortex.
+    VortexLift,
+    /// They shed what they do not hold, as in the insect presets.
+    Sheds,
+}
 
-/// Round leading edges: the critical suction parameter of the section SD7003 at a Reynolds number of 3e4 [Ramesh et al. 2014,
-/// J. Fluid Mech. 751:500], and all of its force.
-const ROUND: LeadingEdge = LeadingEdge::Suction {
-    threshold: 0.18,
-    efficiency: 1.0,
-};
+impl Edge {
+    pub const ALL: [Self; 3] = [Self::Attached, Self::VortexLift, Self::Sheds];
+
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Attached => "attached",
+            Self::VortexLift => "vortex lift",
+            Self::Sheds => "leading-edge vorticity",
+        }
+    }
+}
+
+/// Suction parameter that round leading edges hold and part of its force that acts: the critical one of the section SD7003 at a
+/// Reynolds number of 3e4 [Ramesh et al. 2014, J. Fluid Mech. 751:500], and all of its force.
+const ROUND: [f64; 2] = [0.18, 1.0];
 
 /// The fluid and the size of what it meets.
 pub(crate) struct Fluid {
@@ -48,16 +63,28 @@ impl Fluid {
         }
     }
 
-    fn settings(&self, leading: bool, wing: &Wing) -> AirSettings {
+    fn settings(&self, edge: Edge, wing: &Wing) -> AirSettings {
         let insect = AirOptions::insect(self.density, self.viscosity, self.chord).lattice;
+        let thin = insect.leading.suction().expect("insects' edges hold some");
+        let [threshold, efficiency] = if wing.round { ROUND } else { thin };
         AirSettings {
             free_stream: self.stream,
             shedding: SheddingKinds {
-                leading,
+                leading: edge != Edge::Attached,
                 root: wing.free_root,
                 ..insect.shedding
             },
-            leading: if wing.round { ROUND } else { insect.leading },
+            leading: match edge {
+                Edge::VortexLift => LeadingEdge::VortexLift(VortexLift {
+                    threshold,
+                    efficiency,
+                    ..VortexLift::default()
+                }),
+                _ => LeadingEdge::Suction {
+                    threshold,
+                    efficiency,
+                },
+            },
             clearance: 0.1 * self.chord,
             section_drag: Some(self.drag),
             ..insect
@@ -167,12 +194,12 @@ pub(crate) struct Pose {
 pub(crate) fn forces(
     fluid: &Fluid,
     wing: &Wing,
-    leading: bool,
+    edge: Edge,
     pose: impl Fn(f64) -> Pose,
     [start, dt]: [f64; 2],
     last: usize,
 ) -> Result<Vec<DVec3>, AirError> {
-    let lattice = wing.lattice(fluid.settings(leading, wing))?;
+    let lattice = wing.lattice(fluid.settings(edge, wing))?;
     let [rows, cols] = wing.mesh;
     let measured: Vec<usize> = (0..rows * cols)
         .filter(|p| p % cols < wing.measured)

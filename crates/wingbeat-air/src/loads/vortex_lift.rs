@@ -1,0 +1,89 @@
+//! What becomes of the forces of strips whose leading edges have vortex lift, see [`VortexLift`].
+
+use crate::geometry::{NodeMotion, Strip, chord, opposite};
+use crate::lattice::Lattice;
+use crate::loads::values::AirLoads;
+use crate::settings::{Parts, Passage, VortexLift};
+use crate::solve::{section_speed, suction_per_speed};
+use wingbeat_math::DVec3;
+
+/// A strip at one instant.
+pub(crate) struct Yielding {
+    pub parts: Parts,
+    /// Chords for which its vortex has been fed \[1\].
+    pub fed: f64,
+    /// Suction parameter, positive where the leading panel lifts along its normal \[1\].
+    pub parameter: f64,
+    /// Unit vector backward.
+    pub aft: DVec3,
+}
+
+/// What strip `strip` makes of its forces, `dt` [s] after its vortex had been fed for `before` chords.
+pub(crate) fn yielding(
+    (lattice, law): (&Lattice, &VortexLift),
+    strip: &Strip,
+    motion: &NodeMotion,
+    (before, dt): (f64, f64),
+    out: &AirLoads,
+) -> Yielding {
+    let [parameter, speed] = suction_parameter(lattice, strip, &motion.position, out);
+    let (aft, c) = chord(strip, &motion.position);
+    let passage = Passage {
+        chords: speed / c,
+        turning: turning(strip, motion, (aft, c)),
+    };
+    let fed = law.fed(before, parameter, passage, dt);
+    Yielding {
+        parts: law.parts(parameter, fed),
+        fed,
+        parameter,
+        aft,
+    }
+}
+
+/// Suction parameter of a strip, positive where the leading panel lifts along its normal \[1\], and speed at its quarter chord [m/s].
+pub(crate) fn suction_parameter(
+    lattice: &Lattice,
+    strip: &Strip,
+    position: &[DVec3],
+    out: &AirLoads,
+) -> [f64; 2] {
+    let (aft, c) = chord(strip, position);
+    let middle = |n: [usize; 2]| position[n[0]].midpoint(position[n[1]]);
+    let (front, p) = (middle(strip.nodes), strip.panels[0]);
+    let rear = middle(opposite(lattice.topology().panels[p], strip.nodes));
+    let here = (lattice, &out.panels, out.time);
+    let speed = section_speed(here, strip, (front, aft, c));
+    let unit = speed * suction_per_speed([(rear - front).dot(aft), c]);
+    match unit > 0.0 {
+        true => [out.gamma[p] / unit, speed],
+        false => [0.0, speed],
+    }
+}
+
+/// Rate at which the section of a strip turns about axes across its span [rad/s]: how the velocity of its quarter chord changes along
+/// the span, pitching apart.
+fn turning(strip: &Strip, motion: &NodeMotion, (aft, chord): (DVec3, f64)) -> f64 {
+    let sides = sides(strip, motion);
+    let across = |list: &[DVec3]| {
+        let at = |[f, r]: [usize; 2]| list[f].lerp(list[r], 0.25);
+        at(sides[1]) - at(sides[0])
+    };
+    let along_chord = |[f, r]: [usize; 2]| (motion.velocity[r] - motion.velocity[f]) / chord;
+    let (way, change) = (across(&motion.position), across(&motion.velocity));
+    let sweep = way.dot(aft);
+    let span = way - sweep * aft;
+    let pitching = 0.5 * sweep * (along_chord(sides[0]) + along_chord(sides[1]));
+    let turned = (change - pitching).reject_from(span);
+    turned.length() / span.length()
+}
+
+/// Front and rear node on either side of a strip.
+fn sides(strip: &Strip, motion: &NodeMotion) -> [[usize; 2]; 2] {
+    let ([a, b], [c, d]) = (strip.nodes, strip.rear);
+    let x = &motion.position;
+    match (x[b] - x[a]).dot(x[d] - x[c]) > 0.0 {
+        true => [[a, c], [b, d]],
+        false => [[a, d], [b, c]],
+    }
+}
