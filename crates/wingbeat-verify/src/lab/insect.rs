@@ -36,8 +36,6 @@ pub(crate) struct Insect {
 #[derive(Clone, Copy)]
 pub(crate) struct Choice {
     pub shed: &'static [EdgeKind],
-    /// Whether the suction of leading edges that shed is held in the solution.
-    pub implicit: bool,
     pub loads: LoadMethod,
     pub leading_edge: LeadingEdgeCase,
     pub core: f64,
@@ -66,7 +64,6 @@ pub(crate) enum Cut {
 
 pub(crate) const DEFAULT: Choice = Choice {
     shed: &[EdgeKind::Trailing, EdgeKind::Tip, EdgeKind::Leading],
-    implicit: false,
     loads: LoadMethod::Joukowski,
     leading_edge: LeadingEdgeCase::Suction,
     core: 1.0,
@@ -129,10 +126,6 @@ impl Choice {
             body: false,
             mirror: true,
             shed: self.shed.to_vec(),
-            leading_edge: match self.implicit {
-                true => LeadingEdgeCase::SuctionImplicit,
-                false => LeadingEdgeCase::Suction,
-            },
             loads: self.loads,
             leading_edge: self.leading_edge,
             bound_core: self.core(0.01, &fluid),
@@ -326,7 +319,7 @@ pub(crate) const FREE_ROOTS: (&str, Choice) = (
             EdgeKind::Leading,
             EdgeKind::Root,
         ],
-        implicit: true,
+        leading_edge: LeadingEdgeCase::SuctionImplicit,
         ..DEFAULT
     },
 );
