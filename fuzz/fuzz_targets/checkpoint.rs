@@ -33,7 +33,7 @@ fn read(bytes: &[u8]) -> Option<(Header, FlightState)> {
 /// Bytes as they are, and as the content of a file whose checksum is right.
 fn read_file(bytes: &[u8]) {
     read(bytes);
-    let first = format!("wingbeat-checkpoint 1 {}\n", sha256(bytes));
+    let first = format!("wingbeat-checkpoint {} {}\n", checkpoint::FORMAT, sha256(bytes));
     read(&[first.as_bytes(), bytes].concat());
 }
 

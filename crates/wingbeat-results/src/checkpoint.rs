@@ -1,7 +1,7 @@
 //! Checkpoints: the state of a flight in one file, enough to go on bit for bit.
 //!
 //! ```text
-//! wingbeat-checkpoint 1 SHA256      of every byte after this line
+//! wingbeat-checkpoint FORMAT SHA256 of every byte after this line
 //! {"version": ..., "step": ...}     the header, one line of JSON
 //! ...                               the state, postcard (binary, floats bit for bit)
 //! ```
@@ -20,7 +20,8 @@ use wingbeat_case::IoError;
 /// Name of the file in a result directory.
 pub const FILE: &str = "checkpoint.bin";
 const MAGIC: &str = "wingbeat-checkpoint ";
-const FORMAT: &str = "3";
+/// What the bytes of a state mean: another one is refused.
+pub const FORMAT: &str = "3";
 
 /// What a checkpoint says about itself.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]

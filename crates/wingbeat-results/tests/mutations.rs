@@ -140,7 +140,8 @@ fn corpus() -> Corpus {
 /// A checkpoint whose content was damaged and whose checksum is right all the same.
 fn signed(content: &[u8]) -> Vec<u8> {
     let sum = wingbeat_results::manifest::sha256(content);
-    [format!("wingbeat-checkpoint 1 {sum}\n").as_bytes(), content].concat()
+    let first = format!("wingbeat-checkpoint {} {sum}\n", checkpoint::FORMAT);
+    [first.as_bytes(), content].concat()
 }
 
 /// A frame whose content was damaged and whose checksum is right all the same.
