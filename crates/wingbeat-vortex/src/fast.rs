@@ -180,7 +180,9 @@ impl FastSum {
             cells,
             has_tree: false,
             groups,
-            soft: soft::interpolation(&settings, level),
+            soft: matches!(settings.method, Method::Auto | Method::Tree)
+                .then(|| soft::interpolation(settings.model, settings.tolerance, level))
+                .flatten(),
             has_soft: false,
             segments,
         }
@@ -244,7 +246,7 @@ impl FastSum {
         if targets.is_empty() || !(has_tree || has_soft || has_single) {
             return self.add_direct(targets, out, 0);
         }
-        let check = Check::new(self, targets);
+        let check = Check::new(self.sources(), targets);
         let mut attempts = 0;
         if has_soft {
             match self.add_soft(&check, targets, out, None) {
@@ -287,7 +289,7 @@ impl FastSum {
         );
         let few = self.settings.method == Method::Auto && targets.len() < AUTO_TARGETS;
         if self.has_soft && !few && !targets.is_empty() {
-            let check = Check::with_vorticity(self, targets);
+            let check = Check::with_vorticity(self.sources(), targets);
             let sum = self.add_soft(&check, targets, velocity, Some(vorticity));
             if sum.is_ok() {
                 return;
@@ -296,7 +298,7 @@ impl FastSum {
         let (packed, single) = (&self.packed, &self.single);
         let (edges, level) = (packed.edges.len(), self.level);
         if self.has_single && targets.len() >= SINGLE_TARGETS {
-            let check = Check::new(self, targets);
+            let check = Check::new(self.sources(), targets);
             self.velocity.reset(targets.len());
             self.vorticity.reset(targets.len());
             let out = [&mut self.velocity, &mut self.vorticity];
@@ -315,6 +317,41 @@ impl FastSum {
         sum_both(edges, targets, [velocity, vorticity], |targets, sums| {
             add_patches_with_vorticity(level, packed, all(), targets, sums);
         });
+    }
+
+    /// What the sums are checked against.
+    fn sources(&self) -> (Level, CoreModel, &Packed) {
+        (self.level, self.settings.model, &self.packed)
+    }
+
+    /// By cells of algebraic cores: adds velocities, and vorticities if they are wanted; or adds nothing and says how many
+    /// attempts were made.
+    fn add_soft(
+        &mut self,
+        check: &Check,
+        targets: &Points,
+        velocity: &mut Points,
+        vorticity: Option<&mut Points>,
+    ) -> Result<Report, usize> {
+        let FastSettings {
+            method, tolerance, ..
+        } = self.settings;
+        let soft = self.soft.as_mut().expect("cells are made");
+        let how = (tolerance, method == Method::Auto);
+        let sum = soft::sum(soft, check, targets, self.packed.edges.len(), how)?;
+        soft::add_part(sum.values, 0, velocity);
+        if let Some(vorticity) = vorticity {
+            soft::add_part(sum.values, 3, vorticity);
+        }
+        Ok(Report {
+            method: Method::Tree,
+            error_rms: sum.error[0],
+            error_max: sum.error[1],
+            samples: check.count,
+            attempts: sum.attempts,
+            far: sum.work.far,
+            near: sum.work.near,
+        })
     }
 
     /// Error of the velocities in single precision at the sampled targets, root mean square and largest; None if it is

@@ -1,9 +1,11 @@
 //! How far a sum is off: at some targets, against the direct sum.
 
+use crate::cores::CoreModel;
 use crate::direct::block::{BLOCK, Block, Targets};
 use crate::direct::lanes::{add_patches, add_patches_with_vorticity};
-use crate::fast::FastSum;
+use crate::direct::packed::Packed;
 use crate::sources::Points;
+use fearless_simd::Level;
 use glam::DVec3;
 use rayon::prelude::*;
 
@@ -12,6 +14,9 @@ use rayon::prelude::*;
 pub(super) const SAMPLES: usize = BLOCK;
 const SAMPLE_EVERY: usize = 250;
 const MIN_SAMPLES: usize = 16;
+
+/// What the direct sum takes.
+pub(super) type Sources<'a> = (Level, CoreModel, &'a Packed);
 
 /// The direct sum at targets spread over their numbers.
 pub(super) struct Check {
@@ -26,9 +31,9 @@ pub(super) struct Check {
 
 impl Check {
     /// Velocities.
-    pub fn new(sum: &FastSum, targets: &Points) -> Self {
+    pub fn new(sources: Sources<'_>, targets: &Points) -> Self {
         let (count, index) = spread(targets.len());
-        let [velocity, _] = direct::<1>(sum, targets, &index[..count]);
+        let [velocity, _] = direct::<1>(sources, targets, &index[..count]);
         let scale = root_mean_square(&velocity[..count]);
         Self {
             count,
@@ -40,9 +45,9 @@ impl Check {
     }
 
     /// Velocities and vorticities of algebraic cores.
-    pub fn with_vorticity(sum: &FastSum, targets: &Points) -> Self {
+    pub fn with_vorticity(sources: Sources<'_>, targets: &Points) -> Self {
         let (count, index) = spread(targets.len());
-        let [velocity, vorticity] = direct::<2>(sum, targets, &index[..count]);
+        let [velocity, vorticity] = direct::<2>(sources, targets, &index[..count]);
         let [scale, of_vorticity] = [&velocity, &vorticity].map(|v| root_mean_square(&v[..count]));
         Self {
             count,
@@ -83,7 +88,7 @@ fn spread(targets: usize) -> (usize, [usize; SAMPLES]) {
 
 /// Velocities [m/s] and, with `K` = 2, vorticities [1/s] at the targets with these numbers.
 fn direct<const K: usize>(
-    sum: &FastSum,
+    (level, model, packed): Sources<'_>,
     targets: &Points,
     index: &[usize],
 ) -> [[DVec3; SAMPLES]; 2] {
@@ -99,8 +104,7 @@ fn direct<const K: usize>(
                 block.set(lane, targets.get(i));
                 block.softening[lane] = targets.core.get(i).map_or(0.0, |core| 0.5 * core);
             }
-            let FastSum { level, packed, .. } = sum;
-            let (model, all) = (sum.settings.model, 0..packed.patches.len());
+            let all = 0..packed.patches.len();
             let targets = Targets {
                 block: &block,
                 count: v.len(),
@@ -108,9 +112,9 @@ fn direct<const K: usize>(
             let all = std::iter::once(all);
             if K > 1 {
                 let both = [&mut velocity, &mut vorticity];
-                add_patches_with_vorticity(*level, packed, all, targets, both);
+                add_patches_with_vorticity(level, packed, all, targets, both);
             } else {
-                add_patches(*level, model, packed, all, targets, &mut velocity);
+                add_patches(level, model, packed, all, targets, &mut velocity);
             }
             for lane in 0..v.len() {
                 (v[lane], w[lane]) = (velocity.get(lane), vorticity.get(lane));

@@ -2,7 +2,6 @@
 
 use crate::cores::CoreModel;
 use crate::fast::check::{Check, SAMPLES};
-use crate::fast::{FastSettings, FastSum, Method, Report};
 use crate::interpolation::{Fineness, Interpolation, Work};
 use crate::sources::Points;
 use fearless_simd::Level;
@@ -25,54 +24,54 @@ const READ: u64 = 19;
 const PARTS: [f64; 2] = [1.0, 0.7];
 
 /// The cells, for cores and tolerances that they serve.
-pub(super) fn interpolation(settings: &FastSettings, level: Level) -> Option<Interpolation> {
-    let is_soft = matches!(settings.model, CoreModel::Algebraic { .. });
-    let may_be = matches!(settings.method, Method::Auto | Method::Tree);
-    (is_soft && may_be && settings.tolerance >= TOLERANCE).then(|| {
-        let fineness = Fineness::for_tolerance(settings.tolerance);
-        Interpolation::new(settings.model, level, fineness)
-    })
+pub(super) fn interpolation(
+    model: CoreModel,
+    tolerance: f64,
+    level: Level,
+) -> Option<Interpolation> {
+    let is_soft = matches!(model, CoreModel::Algebraic { .. });
+    (is_soft && tolerance >= TOLERANCE)
+        .then(|| Interpolation::new(model, level, Fineness::for_tolerance(tolerance)))
 }
 
-impl FastSum {
-    /// Adds velocities, and vorticities if they are wanted; or adds nothing and says how many attempts were made
-    /// before the sum in single precision was the cheaper one, or the error above the tolerance at all of them.
-    pub(super) fn add_soft(
-        &mut self,
-        check: &Check,
-        targets: &Points,
-        velocity: &mut Points,
-        vorticity: Option<&mut Points>,
-    ) -> Result<Report, usize> {
-        let soft = self.soft.as_mut().expect("cells are made");
-        soft.aim(targets);
-        let size = [self.packed.edges.len(), targets.len()];
-        for (made, part) in PARTS.into_iter().enumerate() {
-            let work = soft.pair(part);
-            if self.settings.method == Method::Auto && !pays(work, soft.points(), size) {
-                return Err(made); // a stricter one costs more still
-            }
-            let sums = soft.evaluate();
-            let [error_rms, error_max] = error(check, sums);
-            let is_finite = sums.iter().flatten().all(|v| v.is_finite());
-            if is_finite && error_rms <= self.settings.tolerance {
-                add_part(sums, 0, velocity);
-                if let Some(vorticity) = vorticity {
-                    add_part(sums, 3, vorticity);
-                }
-                return Ok(Report {
-                    method: Method::Tree,
-                    error_rms,
-                    error_max,
-                    samples: check.count,
-                    attempts: made + 1,
-                    far: work.far,
-                    near: work.near,
-                });
-            }
+/// A sum that keeps the tolerance.
+pub(super) struct Sum<'a> {
+    /// Velocity \[m/s\] and vorticity \[1/s\] at each target.
+    pub values: &'a [[f64; 6]],
+    /// Root mean square and largest error at the sampled targets.
+    pub error: [f64; 2],
+    pub attempts: usize,
+    pub work: Work,
+}
+
+/// Sums of so many `edges`, which are loaded; or the attempts made before the sum in single precision was the cheaper one,
+/// if that `may_be`, or the error above the tolerance at all of them.
+pub(super) fn sum<'a>(
+    soft: &'a mut Interpolation,
+    check: &Check,
+    targets: &Points,
+    edges: usize,
+    (tolerance, may_be_single): (f64, bool),
+) -> Result<Sum<'a>, usize> {
+    soft.aim(targets);
+    for (made, part) in PARTS.into_iter().enumerate() {
+        let work = soft.pair(part);
+        if may_be_single && !pays(work, soft.points(), [edges, targets.len()]) {
+            return Err(made); // a stricter one costs more still
         }
-        Err(PARTS.len())
+        soft.evaluate();
+        let error = error(check, soft.sums());
+        let is_finite = soft.sums().iter().flatten().all(|v| v.is_finite());
+        if is_finite && error[0] <= tolerance {
+            return Ok(Sum {
+                values: soft.sums(),
+                error,
+                attempts: made + 1,
+                work,
+            });
+        }
     }
+    Err(PARTS.len())
 }
 
 /// Root mean square and largest error of velocities and vorticities.
@@ -93,7 +92,7 @@ fn pays(work: Work, points: usize, [edges, targets]: [usize; 2]) -> bool {
 }
 
 /// Adds three of the six numbers at each target.
-fn add_part(sums: &[[f64; 6]], first: usize, out: &mut Points) {
+pub(super) fn add_part(sums: &[[f64; 6]], first: usize, out: &mut Points) {
     for (i, sum) in sums.iter().enumerate() {
         out.set(i, out.get(i) + DVec3::from_slice(&sum[first..]));
     }

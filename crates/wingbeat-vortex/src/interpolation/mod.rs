@@ -238,7 +238,7 @@ impl Interpolation {
     }
 
     /// Velocity and vorticity at all targets.
-    pub fn evaluate(&mut self) -> &[[f64; VALUES]] {
+    pub fn evaluate(&mut self) {
         let (len, count) = (self.grid.len(), self.targets.items.len());
         for (sums, count) in [
             (&mut self.sums, count),
@@ -249,7 +249,7 @@ impl Interpolation {
             sums.resize(count, [0.0; VALUES]);
         }
         if self.sources.cells.is_empty() || count == 0 {
-            return &self.sums;
+            return;
         }
         self.sum_at_grids();
         self.refine();
@@ -257,6 +257,10 @@ impl Interpolation {
         for (item, sum) in self.targets.items.iter().zip(&self.sorted) {
             self.sums[item.index as usize] = *sum;
         }
+    }
+
+    /// What was evaluated last: velocity \[m/s\] and vorticity \[1/s\] at each target.
+    pub fn sums(&self) -> &[[f64; VALUES]] {
         &self.sums
     }
 
