@@ -1,6 +1,6 @@
 //! Wings that loads bend in blade elements.
 
-use super::{beam, fly, goes_on, hawkmoth_extremes, strings};
+use super::{LATTICE, beam, fly, goes_on, hawkmoth_extremes, strings};
 use wingbeat::analysis::power::power_with_wake;
 use wingbeat::analysis::stability::floquet_of_trim;
 use wingbeat::analysis::wake::{WakeSettings, WakeTrim, elastic_floquet, trim_with_wake};
@@ -77,15 +77,52 @@ fn order_energy_in_blade_elements_closes_at_second_order() {
     assert!((3.3..4.7).contains(&ratio), "{ratio}");
 }
 
+/// A sheet instead of a beam: every panel of the mesh.
+fn sheet(young: f64) -> Vec<String> {
+    strings(&[
+        &format!("wing.right.structure.shell.young_pa={young}"),
+        "wing.right.structure.shell.thickness_m=[1e-3,1e-3]",
+    ])
+}
+
+#[test]
+fn limit_stiff_sheets_in_blade_elements_carry_what_rigid_wings_do() {
+    let air = [&strings(&BLADES)[..], &strings(&LATTICE[..1])].concat();
+    let rigid = fly(&air);
+    let with = |young: f64| apart(&fly(&[&air[..], &sheet(young)].concat()), &rigid);
+    let [soft, stiff] = [1e12, 1e13].map(with);
+    assert!(stiff < 1e-2, "{stiff}");
+    assert!((7.0..14.0).contains(&(soft / stiff)), "{soft} {stiff}");
+}
+
 #[test]
 fn invariant_a_saved_flight_in_blade_elements_goes_on_bit_for_bit() {
-    let set = [
-        &strings(&BLADES)[..],
-        &strings(&["time.beats=0.3"]),
-        &beam(2e-3),
-    ]
-    .concat();
-    goes_on(&set);
+    for structure in [beam(2e-3).to_vec(), sheet(3e9)] {
+        let set = [
+            &strings(&BLADES)[..],
+            &strings(&["time.beats=0.3"]),
+            &structure,
+        ]
+        .concat();
+        goes_on(&set);
+    }
+}
+
+#[test]
+fn invariant_flights_in_blade_elements_have_the_same_bits_on_any_threads() {
+    for structure in [beam(2e-3).to_vec(), sheet(3e9)] {
+        let set = [
+            &strings(&BLADES)[..],
+            &strings(&["time.beats=0.2"]),
+            &structure,
+        ]
+        .concat();
+        let [one, three] = [1, 3].map(|n| {
+            let threads = rayon::ThreadPoolBuilder::new().num_threads(n).build();
+            threads.unwrap().install(|| fly(&set))
+        });
+        assert!(one == three);
+    }
 }
 
 #[test]
