@@ -47,6 +47,12 @@ pub(super) fn check_not_negative(key: &str, law: &SpanLaw, root: f64) -> Result<
     Ok(())
 }
 
+/// Refuses a sheet that is pushed at rest: `tension` \[N/m\] along and across its fibres.
+pub(super) fn check_tension(key: &str, tension: [f64; 2]) -> Result<(), ModelError> {
+    let allowed = "0 or above: a sheet that is pushed buckles";
+    (tension.into_iter()).try_for_each(|n| require(key, n, n >= 0.0, allowed).map(drop))
+}
+
 /// r/R at which laws are looked at.
 fn places(root: f64) -> impl Iterator<Item = f64> {
     (0..PLACES).map(move |i| root + (1.0 - root) * i as f64 / (PLACES - 1) as f64)

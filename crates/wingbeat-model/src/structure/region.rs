@@ -3,6 +3,7 @@
 use wingbeat_math::DVec3;
 use wingbeat_structure::Lamina;
 
+use super::body::check_tension;
 use crate::deformation::column;
 use crate::error::{ModelError, require};
 use crate::mesh::GridMesh;
@@ -108,15 +109,7 @@ impl Region {
                 require(&of(k), x, x > 0.0, "above 0")?;
             }
         }
-        for tension in self.prestress.into_iter().flatten() {
-            let pulls = tension >= 0.0;
-            require(
-                &of("prestress"),
-                tension,
-                pulls,
-                "0 or above: a sheet that is pushed buckles",
-            )?;
-        }
+        check_tension(&of("prestress"), self.prestress.unwrap_or_default())?;
         let angle = self.fibre_angle.unwrap_or(0.0);
         require(&of("fibre_angle"), angle, true, "a finite number").map(drop)
     }

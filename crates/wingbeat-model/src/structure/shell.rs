@@ -5,7 +5,7 @@ use wingbeat_structure::{
     Damping, Follower, Lamina, Shell, ShellError, ShellMesh, StructureBuilder,
 };
 
-use super::body::{Blank, ElasticBody, check_positive};
+use super::body::{Blank, ElasticBody, check_positive, check_tension};
 use super::region::{Region, fibres, middle};
 use super::vein::Vein;
 use crate::deformation::{SpanLaw, column, span};
@@ -250,15 +250,7 @@ impl WingShell {
                 require(&of(k), x, x > 0.0, "above 0")?;
             }
         }
-        for tension in self.prestress {
-            let pulls = tension >= 0.0;
-            require(
-                &of("prestress"),
-                tension,
-                pulls,
-                "0 or above: a sheet that is pushed buckles",
-            )?;
-        }
+        check_tension(&of("prestress"), self.prestress)?;
         require(
             &of("fibre_angle"),
             self.fibre_angle,
