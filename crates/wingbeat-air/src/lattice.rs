@@ -1,6 +1,6 @@
 //! The lattice: surfaces, topology and settings, checked once and constant after that.
 
-use crate::error::AirError;
+use crate::error::{AirError, require};
 use crate::geometry::{
     JoinedEdge, MirrorPairs, Rings, ShedAround, Sheet, Strip, SuctionStrips, Surface, Symmetry,
     Topology, rings, shed_around, strips,
@@ -66,6 +66,12 @@ impl Lattice {
         let mut settings = settings;
         settings.shedding.leading &= settings.leading.sheds();
         let topology = Topology::new(&surfaces, joined, settings.shedding)?;
+        require(
+            !settings.plane_wakes || topology.sheets.iter().all(|s| s.panels.len() == 1),
+            "plane_wakes",
+            settings.plane_wakes,
+            "true only for wings of one panel along the span (mesh.spanwise = 1), whose flow is that of a section",
+        )?;
         Ok(Self {
             strips: strips(&topology, &surfaces),
             rings: rings(&topology, &surfaces, &settings),

@@ -56,7 +56,7 @@ pub fn check(document: &Document, raw: &RawCampaign, setup: &FlightSetup) -> Res
             ""
         };
         let problem = format!(
-            "in this air ({}){wakes}{bent} a trim takes minutes, and campaigns do not trim there",
+            "in this air ({}){wakes}{bent} a trim seeks a periodic orbit, and campaigns do not trim there",
             setup.air.name()
         );
         let remedy = "set air.model = \"blade_element\" in [set], leave air.blade.unsteady out and take rigid wings, or trim point by point with `wingbeat trim`";

@@ -86,9 +86,13 @@ impl FreeFlight {
         let air = AirModel::build(setup, form.system())?;
         setup.refuse_elastic("a map of one wingbeat (averaged models, control derivatives, feedback that is laid out)")?;
         if air.has_memory() {
+            let (key, value) = match setup.air.has_strip_wakes() {
+                true => ("air.blade.unsteady", "set"),
+                false => ("air.model", "with a memory"),
+            };
             return Err(FlightError::Setup {
-                key: "air.model",
-                value: "with a memory".into(),
+                key,
+                value: value.into(),
                 problem: "a map of one wingbeat (averaged models, control derivatives, feedback that is laid out) needs air that depends on the present motion alone: blade_element without air.blade.unsteady, or none".into(),
             });
         }

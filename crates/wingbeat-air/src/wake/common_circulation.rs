@@ -4,8 +4,9 @@
 //! that sheds all around every ring then has a circulation that grows without end. It means nothing: lattice and wakes are one
 //! closed surface, and what is common to its rings moves no air. But where the oldest rows are dropped the surface ends, and along that end runs a
 //! vortex with all the circulation of the rings: as if everything that ever was dropped lay there. In the flow it lies behind, spread over the way
-//! it has gone. So the mean circulation of the oldest row is taken from all rings: nothing changes but that the
-//! vortex is gone, which is booked as cut.
+//! it has gone. So what all rings of the oldest row have, the least of them where they
+//! have one sign, is taken from all rings: nothing changes but that the vortex is gone, which is booked as cut. Where an edge holds, its rings
+//! have none, and nothing is taken.
 
 use crate::geometry::ShedAround;
 use crate::lattice::Lattice;
@@ -28,16 +29,19 @@ impl Lattice {
     }
 
     fn take_common(&self, wing: &ShedAround, state: &mut AirState) {
-        let (mut sum, mut count, mut area) = (0.0, 0.0, DVec3::ZERO);
+        let (mut least, mut most, mut area) = (f64::INFINITY, f64::NEG_INFINITY, DVec3::ZERO);
         for &k in &wing.sheets {
             let (sheet, signs) = (&state.sheets[k], &self.sheets()[k].signs);
             for (c, sign) in signs.iter().enumerate() {
-                sum += sign * sheet.gamma[c];
+                least = least.min(sign * sheet.gamma[c]);
+                most = most.max(sign * sheet.gamma[c]);
                 area += 0.5 * sign * sheet.node(0, c).cross(sheet.node(0, c + 1));
             }
-            count += signs.len() as f64;
         }
-        let common = sum / count;
+        let common = least.max(0.0) + most.min(0.0);
+        if common == 0.0 {
+            return;
+        }
         let free = |state: &AirState| -> DVec3 {
             let sheets = wing.sheets.iter().map(|&k| &state.sheets[k]);
             sheets.map(free_rings).sum()

@@ -168,3 +168,25 @@ fn agrees_second_method_impulse_of_a_wing_that_sheds_around_with_its_wake_cut() 
     // Measured 7 %.
     assert!(cut[0].distance(whole[0]) < 0.15 * whole[0].length());
 }
+
+/// Rings of a leading edge that holds have no circulation: nothing is common to all, and where the wake is cut an attached wing
+/// whose roots shed has the force of one whose roots do not, up to what roots do to the newest rows.
+#[test]
+fn agrees_attached_wing_with_its_wake_cut_whether_its_roots_shed_or_not() {
+    let flat = rectangle(4, 6, DVec3::X, 4.0 * DVec3::Y);
+    let force = |root: bool, max_rows: Option<usize>| {
+        let settings = AirSettings {
+            shedding: SheddingKinds { root, ..ALL },
+            max_rows,
+            ..settings(implicit(0.15))
+        };
+        let lattice = Lattice::new(vec![Surface::grid("wing", 4, 6)], settings).unwrap();
+        let held = pitched(&flat, [0.08, 0.0]);
+        let run = fly(&lattice, |_| held.clone(), 0.1, 30, |_, _, _, _| {}).unwrap();
+        total_force(&run.loads)
+    };
+    let [whole, cut] = [None, Some(8)].map(|rows| [true, false].map(|root| force(root, rows)));
+    let apart = |[a, b]: [DVec3; 2]| a.distance(b) / b.length();
+    println!("{} {}", apart(whole), apart(cut));
+    assert!(apart(cut) < apart(whole) + 1e-3);
+}

@@ -29,8 +29,8 @@ pub enum WakeMemory {
 pub fn wake_monodromy(trim: &WakeTrim, memory: WakeMemory) -> Result<Vec<f64>, AnalysisError> {
     if trim.is_orbit() {
         return Err(AnalysisError::not_covered(
-            "this flight is periodic with its elastic wings, and no wake is given or carried",
-            "ask for the modes of body and wings (elastic_floquet; `wingbeat stability` without --wake)",
+            "this flight is periodic with its elastic wings or wakes of strips, and no wake is given or carried",
+            "ask for the modes of body, wings and wakes (elastic_floquet; `wingbeat stability` without --wake)",
         ));
     }
     let steps = steps_per_beat(&trim.setup)?;

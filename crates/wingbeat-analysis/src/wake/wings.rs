@@ -6,6 +6,8 @@
 //! modes do has died before the beat is over. Wakes of strips are coordinates with all their states. Disturbed flights are looked at soon after their start and a wingbeat later; what
 //! takes the one into the other has Floquet's multipliers as its eigenvalues.
 
+use faer::linalg::solvers::Solve;
+use faer::{Mat, c64};
 use wingbeat_dynamics::BodyMotion;
 use wingbeat_flight::elastic::{ElasticState, ElasticWings};
 use wingbeat_flight::{AirMemory, FlightError, MotionMode, Past, Record, Simulation, StartState};
@@ -99,23 +101,36 @@ pub fn elastic_modes(map: &ElasticMonodromy) -> Result<ModeSet, AnalysisError> {
         ..map.scales
     };
     let wings = vec![1.0; map.order - map.wakes - BODY];
-    let own = pairs.into_iter().filter(|p| !lies_in_wakes(p, map.wakes));
+    let parts = own_parts(&pairs, map.wakes);
+    let both = pairs.into_iter().zip(parts);
+    let own = both.filter(|(pair, part)| !lies_in_wakes(pair, *part));
     Ok(ModeSet::with_wings(
-        own.map(without(map.wakes)).collect(),
+        own.map(|(pair, _)| without(map.wakes)(pair)).collect(),
         &one,
         &wings,
     ))
 }
 
-/// Whether hardly anything but wakes takes part in a decaying motion: components of body and wings are within the mean of those of the
-/// wakes.
-fn lies_in_wakes(pair: &Eigenpair, wakes: usize) -> bool {
-    let size = |z: &[f64; 2]| z[0].hypot(z[1]);
-    let (own, rest) = pair.vector.split_at(pair.vector.len() - wakes);
-    let squares = rest.iter().map(|z| size(z).powi(2)).sum::<f64>();
-    let mean = (squares / wakes.max(1) as f64).sqrt();
-    let largest = own.iter().map(size).fold(0.0, f64::max);
-    wakes > 0 && largest < mean && size(&pair.value) < 1.0
+/// What part body and wings have in each motion: the sum of their participation factors, which no unit of a component changes
+/// [Perez-Arriaga, Verghese & Schweppe 1982, IEEE Trans. Power Appar. Syst. 101:3117].
+fn own_parts(pairs: &[Eigenpair], wakes: usize) -> Vec<f64> {
+    let n = pairs.len();
+    let right = Mat::from_fn(n, n, |k, i| {
+        let [re, im] = pairs[i].vector[k];
+        c64::new(re, im)
+    });
+    let left = right.partial_piv_lu().solve(Mat::<c64>::identity(n, n));
+    let part = |i: usize| {
+        (0..n - wakes)
+            .map(|k| (right[(k, i)] * left[(i, k)]).re)
+            .sum()
+    };
+    (0..n).map(part).collect()
+}
+
+/// Whether a motion decays in which the wakes have more part than body and wings, `part`.
+fn lies_in_wakes(pair: &Eigenpair, part: f64) -> bool {
+    part < 0.5 && pair.value[0].hypot(pair.value[1]) < 1.0
 }
 
 /// An eigenpair without the components of the wakes.

@@ -73,12 +73,12 @@ fn conserves_momentum_of_a_flyer_with_soft_wings_and_wakes() {
     assert!(passes <= 10, "{passes}");
 }
 
-/// The fruit fly in forward flight, its strips with wakes, trimmed.
-fn trimmed() -> WakeTrim {
+/// The fruit fly in forward flight, its `strips` a wing with wakes, trimmed.
+fn trimmed(strips: usize) -> WakeTrim {
     let set = strings(&[
         "air.blade.unsteady=\"jones\"",
         "time.steps_per_beat=40",
-        "wing.right.mesh.spanwise=4",
+        &format!("wing.right.mesh.spanwise={strips}"),
     ]);
     let setup = LoadedCase::find("fruit-fly-blade", &set).unwrap().setup;
     let mut problem = TrimProblem::straight(DVec3::new(1.0, 0.0, 0.0), 40_f64.to_radians());
@@ -115,7 +115,7 @@ fn beats(trim: &WakeTrim, past: &Past, velocity: DVec3, beats: usize) -> Vec<Rec
 
 #[test]
 fn agrees_orbit_and_modes_of_a_fly_with_wakes_with_flights_about_it() {
-    let trim = trimmed();
+    let trim = trimmed(4);
     let period = trim.setup.time.period.unwrap();
     let size = trim.setup.animal.wings[0].report().length;
     let (mass, speed) = (trim.setup.animal.mass(), size / period);
@@ -148,4 +148,18 @@ fn agrees_orbit_and_modes_of_a_fly_with_wakes_with_flights_about_it() {
     // Beats without a new start differ from those of the map by the error of 40 steps.
     let rate = unstable.growth.hypot(unstable.frequency);
     assert!(nearest < 0.03 * rate, "{unstable:?} {shown:?}");
+}
+
+/// Which motions are those of body and wings does not hang on how many states the wakes have.
+#[test]
+fn invariant_modes_that_are_shown_on_any_number_of_strips() {
+    let shown = [4, 7].map(|strips| {
+        let modes = elastic_floquet(&trimmed(strips), 0).unwrap().modes;
+        let fastest = modes.iter().map(|m| m.growth).fold(0.0, f64::min);
+        (modes.len(), fastest)
+    });
+    let [(few, a), (many, b)] = shown;
+    assert!(few == many, "{shown:?}");
+    // The fast subsidence among them, some -330 1/s in hover.
+    assert!(a < -200.0 && (a / b - 1.0).abs() < 0.2, "{shown:?}");
 }

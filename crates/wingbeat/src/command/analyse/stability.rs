@@ -184,7 +184,7 @@ fn with_wings(args: &StabilityArgs, report: &mut Report) -> Result<(), Failure> 
     if trim.past.air.is_some() {
         line!(
             report,
-            "  (all states of the wakes are coordinates; what decays in them alone is left out)"
+            "  (all states of the wakes are coordinates; decaying motions in which they have more part than body and wings are left out)"
         );
     }
     modes(report, "floquet_modes", &found);

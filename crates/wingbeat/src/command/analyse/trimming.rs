@@ -147,7 +147,7 @@ impl Trimming {
         match case.setup.has_memory() {
             true => Err(unused(
                 "sweep",
-                "in air with memory or with elastic wings every trim takes minutes; sweep rigid wings in blade elements without air.blade.unsteady (--set air.model=blade_element), or trim speed by speed with --forward",
+                "in air with memory (wakes of the lattice or of strips) or with elastic wings a trim seeks a periodic orbit and is not swept; sweep rigid wings in blade elements without air.blade.unsteady (--set air.model=blade_element), or trim speed by speed with --forward",
             )),
             false => self.without_hold(),
         }
