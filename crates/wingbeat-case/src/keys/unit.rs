@@ -40,13 +40,16 @@ const UNITS: [(&str, &str); 34] = [
 
 /// Unit of a key; none where it is a pure number or no number.
 pub(super) fn unit(key: &str) -> Option<&'static str> {
-    let areal = key.starts_with("areal_density_kg");
-    let found = UNITS.iter().find(|(end, _)| key.ends_with(end));
-    if areal {
-        Some("kg/m2")
-    } else {
-        found.map(|u| u.1)
+    if key.starts_with("areal_density_kg") {
+        return Some("kg/m2");
     }
+    if key.ends_with("formation_chords") {
+        return Some("chords"); // of each strip
+    }
+    UNITS
+        .iter()
+        .find(|(end, _)| key.ends_with(end))
+        .map(|u| u.1)
 }
 
 /// The name of a key without its unit; none for names without one.

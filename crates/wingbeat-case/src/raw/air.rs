@@ -147,7 +147,7 @@ pub struct AirCase {
     #[default(0.0)]
     #[schemars(extend("minimum" = 0, "maximum" = 1, "with" = [LATTICE, "leading_edge = suction | suction_implicit | vortex_lift", "loads = joukowski"]))]
     pub leading_edge_suction_efficiency: f64,
-    /// Chords of travel for which the vortex of a leading edge can be fed before its lift is lost.
+    /// Chords of travel, of each strip by its own chord, for which the vortex of a leading edge can be fed before its lift is lost.
     ///
     /// Change it within what is measured, 3.4 to 4.5.
     #[default(4.0)]
