@@ -12,12 +12,12 @@
 //! | x | `x` | place along the chord, ahead of the feathering axis | m |
 //! | Omega | `turn` | angular velocity of a section, its own components; `Omega_2 = q` | rad/s |
 
-use wingbeat_math::{DVec2, DVec3};
+use wingbeat_math::{DMat3, DVec2, DVec3};
 
-use crate::lag::Lag;
+use crate::lag::{Lag, StripWind};
 use crate::pair::{PairMotion, StripPair};
 use crate::settings::AddedMass;
-use crate::slowed::slowed_forces;
+use crate::slowed::{front, slowed_forces};
 use crate::strip::Strip;
 use crate::wing::BladeWing;
 
@@ -34,9 +34,9 @@ struct Share {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Section {
     shares: Vec<Share>,
-    /// Place at rest along axis 1, and that of the leading edge \[m\].
+    /// Place at rest along axis 1, and those of the leading and the trailing edge \[m\].
     x: f64,
-    leading: f64,
+    edges: [f64; 2],
     /// 1 where columns go along axis 2, -1 where against it.
     side: f64,
 }
@@ -69,8 +69,7 @@ pub struct SectionState {
     turn: DVec3,
     /// Rate of Omega_2.
     q_rate: f64,
-    /// Normal velocities of the wind at the feathering axis and the leading edge.
-    gust: [f64; 2],
+    wind: StripWind,
 }
 
 /// What acts on a section, by the sums that say how it lies.
@@ -114,7 +113,7 @@ impl Section {
         Self {
             shares,
             x: mean,
-            leading: x[0],
+            edges: [x[0], x[last]],
             side,
         }
     }
@@ -131,8 +130,14 @@ impl Section {
         })
     }
 
-    /// How it lies and moves where its nodes move like `nodes` in the `wind` at its feathering axis \[m/s\], wing components.
-    pub fn state(&self, nodes: &NodesInMotion<'_>, wind: impl Fn(DVec3) -> DVec3) -> SectionState {
+    /// How it lies and moves where its nodes move like `nodes` in the `wind` \[m/s\] at points \[m\], wing components; `rotation`
+    /// takes these to N components.
+    pub fn state(
+        &self,
+        nodes: &NodesInMotion<'_>,
+        wind: impl Fn(DVec3) -> DVec3,
+        rotation: DMat3,
+    ) -> SectionState {
         let [p, chord, s] = self.sums(nodes.position);
         let [v, chord_rate, s_rate] = self.sums(nodes.velocity);
         let [a, chord_acceleration, _] = self.sums(nodes.acceleration);
@@ -145,7 +150,12 @@ impl Section {
         let q = -chord_rate.dot(n) / d;
         let about_1 = (s_rate.dot(n) + q * s[0]) / s[1];
         let normal_rate = q * e1 - about_1 * e2;
-        let [here, at_edge] = [0.0, self.leading].map(|x| wind(p + (x - self.x) * chord));
+        let wind = |x: f64| wind(p + (x - self.x) * chord);
+        let here = wind(0.0);
+        let at_axis = v - here - self.x * chord_rate;
+        let [leading, trailing] = self.edges;
+        let ahead = front(at_axis.dot(e1), at_axis.dot(n));
+        let at_front = wind(0.5 * (leading + trailing + (leading - trailing) * ahead));
         let falls = chord_acceleration.dot(n) + chord_rate.dot(normal_rate);
         SectionState {
             e: [e1, e2, n],
@@ -158,7 +168,11 @@ impl Section {
             turn: DVec3::new(about_1, q, chord_rate.dot(e2) / d),
             chord_acceleration,
             q_rate: (chord_rate.dot(n) * chord_rate.dot(e1) / d - falls) / d,
-            gust: [here.dot(n), at_edge.dot(n)],
+            wind: StripWind {
+                at_axis: here.dot(n),
+                at_front: rotation * at_front,
+                normal: rotation * n,
+            },
         }
     }
 
@@ -231,7 +245,7 @@ impl BladeWing {
         mut lag: Option<Lag<'_>>,
         out: &mut [DVec3],
     ) {
-        let gust = |k: usize| states[k].gust;
+        let gust = |k: usize, _: f64| states[k].wind;
         let mut slowed = self.slowed(lag.as_mut(), &gust);
         slowed_forces(
             self.pairs(),
@@ -322,7 +336,7 @@ impl BladeWing {
         states: &[SectionState],
         lag: Option<&mut Lag<'_>>,
     ) -> Vec<[[f64; 3]; 3]> {
-        let gust = |k: usize| states[k].gust;
+        let gust = |k: usize, _: f64| states[k].wind;
         let mut slowed = self.slowed(lag, &gust);
         let mut all = vec![[[0.0; 3]; 3]; states.len()];
         for way in 0..3 {

@@ -6,7 +6,7 @@
 
 use wingbeat_math::{DVec2, DVec3};
 
-use crate::lag::Lag;
+use crate::lag::{Lag, StripWind};
 use crate::pair::{PairMotion, StripPair};
 use crate::settings::AddedMass;
 use crate::slowed::slowed_forces;
@@ -91,11 +91,15 @@ impl BladeWing {
             let [u, w, q] = [0, 1, 2].map(|i| DVec2::new(a[i], b[i]));
             PairMotion { u, w, q }
         };
-        let gust = |k: usize| {
-            let s = section(k);
+        let gust = |k: usize, front: f64| {
+            let (s, strip) = (section(k), &self.strips()[k]);
             let [e1, e3] = s.axes();
-            let leading = s.axis[0] + self.strips()[k].x_leading * e1;
-            [s.axis[0], leading].map(|p| wind(p).dot(e3))
+            let x = strip.x_mid() + 0.5 * strip.chord * front;
+            StripWind {
+                at_axis: wind(s.axis[0]).dot(e3),
+                at_front: motion.rotation * wind(s.axis[0] + x * e1),
+                normal: motion.rotation * e3,
+            }
         };
         let mut slowed = self.slowed(lag.as_mut(), &gust);
         let mut sum = DeformingLoad::default();

@@ -6,7 +6,8 @@
 //!
 //! The downwash of the wake comes up to the whole strip, along its normal: the strip's coefficients, whatever their law, see
 //! `w - lambda`. The way is that with the speed through the air, `sqrt(u^2 + w^2)`: where the strip turns back or meets the
-//! air broadside on, all of this stays finite and smooth. Wind beside the stream comes up by Kuessner's function from when it meets the leading edge.
+//! air broadside on, all of this stays finite and smooth. Where the wind beside the stream changes, what changes comes up by Kuessner's function from when
+//! the edge in front meets it; what the turning of the strip changes of the wind along its normal is part of the strip's own motion, as of the stream.
 //!
 //! | symbol | name in code | meaning | unit |
 //! |---|---|---|---|
@@ -15,20 +16,24 @@
 //! | s | `way` | way through the air in half chords | 1 |
 //! | z | `wake`, `wind` | states of the wake | m/s |
 
+use wingbeat_math::DVec3;
+
 use crate::indicial::{Indicial, Pole, Unsteady, passed, product, quotient};
 
 /// What a strip remembers of its wake.
 #[derive(Clone, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct StripMemory {
-    /// Downwash of its motion, normal velocity of the wind at its leading edge, and speed at the last accepted instant \[m/s\].
+    /// Downwash of its motion and speed at the last accepted instant \[m/s\].
     drive: f64,
-    gust: f64,
     speed: f64,
+    /// Wind at the edge in front \[m/s\] and normal of the strip then, N components; none before the first.
+    wind: DVec3,
+    normal: DVec3,
     /// Way since the memory began, in half chords \[1\].
     way: f64,
     /// States of the wake, and those of the wind \[m/s\]: one number of a real rate, two of a pair.
     wake: Vec<f64>,
-    wind: Vec<f64>,
+    gust: Vec<f64>,
 }
 
 /// What the strips of a wing remember.
@@ -38,12 +43,24 @@ pub struct WingMemory {
     strips: Vec<StripMemory>,
 }
 
+/// The wind beside the stream on a strip.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct StripWind {
+    /// Its velocity along the normal at the feathering axis, which the motion through the air lacks \[m/s\].
+    pub at_axis: f64,
+    /// Its velocity where the strip meets the air, N components \[m/s\].
+    pub at_front: DVec3,
+    /// Normal of the strip, N components \[1\].
+    pub normal: DVec3,
+}
+
 /// A strip in a trial motion.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct StripTrial {
     drive: f64,
-    gust: f64,
     speed: f64,
+    wind: DVec3,
+    normal: DVec3,
     /// Downwash of its wake \[m/s\].
     pub(crate) downwash: f64,
 }
@@ -69,7 +86,7 @@ impl WingMemory {
     pub(crate) fn new(strips: usize, lags: &Lags) -> Self {
         let strip = StripMemory {
             wake: vec![0.0; lags.wake.numbers()],
-            wind: vec![0.0; lags.wind.numbers()],
+            gust: vec![0.0; lags.gust.numbers()],
             ..StripMemory::default()
         };
         Self {
@@ -94,10 +111,11 @@ impl WingMemory {
     /// Whether another memory is one of the same strips, all numbers finite.
     pub fn fits(&self, other: &Self) -> bool {
         let same = |a: &StripMemory, b: &StripMemory| {
-            let numbers = b.wake.iter().chain(&b.wind);
-            let mut numbers = numbers.chain([&b.drive, &b.gust, &b.speed, &b.way]);
-            (a.wake.len(), a.wind.len()) == (b.wake.len(), b.wind.len())
+            let numbers = b.wake.iter().chain(&b.gust);
+            let mut numbers = numbers.chain([&b.drive, &b.speed, &b.way]);
+            (a.wake.len(), a.gust.len()) == (b.wake.len(), b.gust.len())
                 && numbers.all(|x| x.is_finite())
+                && [b.wind, b.normal].iter().all(|v| v.is_finite())
         };
         let mut both = self.strips.iter().zip(&other.strips);
         self.strips.len() == other.strips.len()
@@ -123,23 +141,24 @@ impl WingMemory {
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Lags {
     wake: Indicial,
-    wind: Indicial,
+    gust: Indicial,
 }
 
 impl Lags {
     pub fn of(theory: Unsteady) -> Self {
         Self {
             wake: theory.indicial(),
-            wind: Indicial::kuessner(),
+            gust: Indicial::kuessner(),
         }
     }
 
     /// The strip after it has moved as in `trial` at `time` \[s\], its chord being 2 `half`.
     fn accept_strip(&self, strip: &mut StripMemory, trial: &StripTrial, duration: f64, half: f64) {
         let way = strip.way_to(trial.speed, duration, half);
+        let [wake, gust] = strip.changes(trial);
         let lists = [
-            (&self.wake, &mut strip.wake, trial.drive - strip.drive),
-            (&self.wind, &mut strip.wind, trial.gust - strip.gust),
+            (&self.wake, &mut strip.wake, wake),
+            (&self.gust, &mut strip.gust, gust),
         ];
         for (law, states, change) in lists {
             let mut states = &mut states[..];
@@ -151,7 +170,8 @@ impl Lags {
             }
         }
         strip.way += way;
-        (strip.drive, strip.gust, strip.speed) = (trial.drive, trial.gust, trial.speed);
+        (strip.drive, strip.speed) = (trial.drive, trial.speed);
+        (strip.wind, strip.normal) = (trial.wind, trial.normal);
     }
 
     /// What is missing of the circulation's and of the wind's downwash \[m/s\].
@@ -165,12 +185,11 @@ impl Lags {
             };
             law.poles().iter().map(part).sum()
         };
-        let wake = parts_of(&self.wake, &strip.wake, trial.drive - strip.drive);
-        let is_calm =
-            trial.gust == 0.0 && strip.gust == 0.0 && strip.wind.iter().all(|z| *z == 0.0);
-        match is_calm {
+        let [own, met] = strip.changes(trial);
+        let wake = parts_of(&self.wake, &strip.wake, own);
+        match met == 0.0 && strip.gust.iter().all(|z| *z == 0.0) {
             true => wake,
-            false => wake - parts_of(&self.wind, &strip.wind, trial.gust - strip.gust),
+            false => wake - parts_of(&self.gust, &strip.gust, met),
         }
     }
 
@@ -189,19 +208,20 @@ impl Lags {
         memory.time = time;
     }
 
-    /// The downwash \[m/s\] to be taken from a strip of chord `chord` \[m\], and the trial that it belongs to: its motion has the downwash `drive`
-    /// and the `speed`, the wind the normal velocities `at_axis`, which the motion lacks, and `gust` at the leading edge.
+    /// The downwash \[m/s\] to be taken from a strip of chord `chord` \[m\] in the `wind`, and the trial that it belongs to: its motion has the
+    /// downwash `drive` and the `speed`.
     pub fn downwash(
         &self,
         (memory, strip, time): (&WingMemory, usize, f64),
         chord: f64,
         [drive, speed]: [f64; 2],
-        [at_axis, gust]: [f64; 2],
+        wind: StripWind,
     ) -> StripTrial {
         let mut here = StripTrial {
             drive,
-            gust,
             speed,
+            wind: wind.at_front,
+            normal: wind.normal,
             downwash: 0.0,
         };
         let missing = self.missing(
@@ -210,8 +230,8 @@ impl Lags {
             time - memory.time,
             0.5 * chord,
         );
-        // Of the wind at the axis, which the motion has, that at the leading edge takes the place.
-        here.downwash = missing + (gust - at_axis);
+        // Of the wind at the axis, which the motion has, that at the edge in front takes the place.
+        here.downwash = missing + (wind.at_front.dot(wind.normal) - wind.at_axis);
         here
     }
 
@@ -256,5 +276,17 @@ impl StripMemory {
     /// Way in half chords to an instant `duration` \[s\] later at which its speed is `speed` \[m/s\].
     fn way_to(&self, speed: f64, duration: f64, half: f64) -> f64 {
         0.5 * (self.speed + speed) * duration / half
+    }
+
+    /// By how much the downwash of the motion, and of the wind that is met, has changed in a trial \[m/s\]: of the product of wind and normal
+    /// what the normal changes belongs to the motion.
+    fn changes(&self, trial: &StripTrial) -> [f64; 2] {
+        let normal = match self.normal == DVec3::ZERO {
+            true => trial.normal,
+            false => self.normal,
+        };
+        let turned = 0.5 * (self.wind + trial.wind).dot(trial.normal - normal);
+        let met = 0.5 * (trial.wind - self.wind).dot(trial.normal + normal);
+        [trial.drive - self.drive - turned, met]
     }
 }

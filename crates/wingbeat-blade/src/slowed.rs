@@ -2,12 +2,21 @@
 
 use wingbeat_math::DVec2;
 
-use crate::lag::{Lag, Lags};
+use crate::lag::{Lag, Lags, StripWind};
 use crate::pair::{self, PairForce, PairMotion, StripPair};
 use crate::settings::BladeSettings;
 
-/// Normal velocities \[m/s\] of the wind at the feathering axis and the leading edge of a strip.
-pub(crate) type Gust<'a> = dyn Fn(usize) -> [f64; 2] + 'a;
+/// The wind on a strip whose front is so far from mid chord, over half the chord: 1 is the leading edge.
+pub(crate) type Gust<'a> = dyn Fn(usize, f64) -> StripWind + 'a;
+
+/// Where a section meets the air that moves along its chord with `u` and along its normal with `w` \[m/s\], from mid chord over half the chord:
+/// at the leading edge (1), at the trailing edge where it flies backwards (-1), in the middle where it meets the air broadside on.
+pub(crate) fn front(u: f64, w: f64) -> f64 {
+    match u.hypot(w) {
+        0.0 => 1.0,
+        speed => u / speed,
+    }
+}
 
 /// Strips that their wakes slow down.
 pub(crate) struct Slowed<'a, 'b> {
@@ -31,9 +40,9 @@ impl Slowed<'_, '_> {
                     time,
                     trial,
                 } => {
-                    let wind = (self.gust)(strip);
                     let (u, w, q) = (m.u[lane], m.w[lane], m.q[lane]);
-                    let own = [w + wind[0] + pair.lever()[lane] * q, u.hypot(w)];
+                    let wind = (self.gust)(strip, front(u, w));
+                    let own = [w + wind.at_axis + pair.lever()[lane] * q, u.hypot(w)];
                     let at = (*memory, strip, *time);
                     let here = self.lags.downwash(at, pair.chord()[lane], own, wind);
                     trial[strip] = here;

@@ -3,7 +3,7 @@
 use wingbeat_math::{DMat3, DVec2, DVec3};
 
 use crate::error::BladeError;
-use crate::lag::{Lag, Lags, StripTrial, WingMemory};
+use crate::lag::{Lag, Lags, StripTrial, StripWind, WingMemory};
 use crate::pair::{PairMotion, StripPair};
 use crate::settings::{AddedMass, BladeSettings};
 use crate::slowed::{Gust, Slowed, slowed_forces};
@@ -155,7 +155,7 @@ impl BladeWing {
         lag: Option<Lag<'_>>,
     ) -> Load {
         let v = self.velocity_through_air(motion);
-        let mut sum = self.strip_load(v, motion.rate, &wind, lag);
+        let mut sum = self.strip_load(v, motion, &wind, lag);
         match self.settings.added_mass {
             AddedMass::None | AddedMass::Normal => {}
             AddedMass::Section => {
@@ -228,10 +228,11 @@ impl BladeWing {
     fn strip_load(
         &self,
         v: DVec3,
-        rate: DVec3,
+        frame: &FrameMotion,
         wind: &impl Fn(DVec3) -> DVec3,
         mut lag: Option<Lag<'_>>,
     ) -> Load {
+        let rate = frame.rate;
         let motion = |_: usize, pair: &StripPair| {
             let [a, b] = [pair.y.x, pair.y.y].map(|y| v - wind(DVec3::new(0.0, y, 0.0)));
             // Velocity of the points on the feathering axis, v + rate x (0, y, 0).
@@ -241,9 +242,14 @@ impl BladeWing {
                 q: DVec2::splat(rate.y),
             }
         };
-        let gust = |k: usize| {
+        let gust = |k: usize, front: f64| {
             let s = &self.strips[k];
-            [0.0, s.x_leading].map(|x| wind(DVec3::new(x, s.y, 0.0)).z)
+            let at = |x: f64| wind(DVec3::new(x, s.y, 0.0));
+            StripWind {
+                at_axis: at(0.0).z,
+                at_front: frame.rotation * at(s.x_mid() + 0.5 * s.chord * front),
+                normal: frame.rotation.z_axis,
+            }
         };
         let mut slowed = self.slowed(lag.as_mut(), &gust);
         let mut sums = [DVec2::ZERO; 5];

@@ -2,7 +2,7 @@
 
 use super::{RHO, motions};
 use wingbeat_blade::*;
-use wingbeat_math::DVec3;
+use wingbeat_math::{DMat3, DVec3};
 
 const ROWS: usize = 3;
 const COLS: usize = 7;
@@ -61,7 +61,7 @@ impl Bent {
             acceleration: a,
         };
         let states: Vec<SectionState> = (self.sections.iter())
-            .map(|s| s.state(&moving, calm))
+            .map(|s| s.state(&moving, calm, DMat3::IDENTITY))
             .collect();
         let mut out = vec![DVec3::ZERO; r.len()];
         self.wing
@@ -193,7 +193,7 @@ fn agrees_answers_of_sections_with_differences_of_their_forces() {
     let states: Vec<_> = bent
         .sections
         .iter()
-        .map(|s| s.state(&moving, calm))
+        .map(|s| s.state(&moving, calm, DMat3::IDENTITY))
         .collect();
     let answers = bent.wing.bent_answers(&bent.sections, &states, None);
     let predicted = |of: &dyn Fn(&SectionAnswer) -> [[f64; 3]; 3], change: &[DVec3]| {

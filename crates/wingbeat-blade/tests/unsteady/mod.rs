@@ -232,6 +232,59 @@ fn published_lift_in_a_sharp_gust_is_kuessners_function() {
     }
 }
 
+/// A section that pitches and plunges up and down through air that streams, or blows as a steady wind: forces of the last period.
+fn pitching(stream: DVec3, wind: DVec3) -> Vec<Load> {
+    let settings = BladeSettings {
+        free_stream: stream,
+        ..*section(-0.3, Some(PETERS)).settings()
+    };
+    let strips = section(-0.3, None).strips().to_vec();
+    let mut flown = Flown::new(BladeWing::new(strips, settings).unwrap());
+    let (per, periods) = (40, 60);
+    let load = |step: usize| {
+        let t = 10.0 * step as f64 / per as f64;
+        let (sin, cos) = (TAU * t / 10.0).sin_cos();
+        let rotation = r2(0.8 * sin);
+        let m = FrameMotion {
+            rotation,
+            velocity: DVec3::new(0.0, 0.0, 0.3 * cos),
+            rate: DVec3::new(0.0, 0.8 * TAU / 10.0 * cos, 0.0),
+        };
+        flown.load(t, &m, |_| rotation.transpose() * wind)
+    };
+    let all: Vec<Load> = (0..=periods * per).map(load).collect();
+    all[(periods - 1) * per..].to_vec()
+}
+
+#[test]
+fn exact_steady_wind_is_a_stream_to_a_strip_that_turns() {
+    // From ahead, and from behind: then the trailing edge is in front.
+    for v in [DVec3::new(-1.0, 0.0, 0.2), DVec3::new(1.0, 0.0, 0.2)] {
+        let pairs = pitching(v, DVec3::ZERO)
+            .into_iter()
+            .zip(pitching(DVec3::ZERO, v));
+        for (a, b) in pairs {
+            let apart = (a.force - b.force).length();
+            assert!(apart < 1e-10 * a.force.length().max(1.0), "{a:?} {b:?}");
+        }
+    }
+}
+
+#[test]
+fn invariant_gust_from_behind_is_met_by_the_trailing_edge() {
+    // The gust comes up from behind and reaches the trailing edge, 1.3 behind the axis, at s = 2.
+    let mut flown = Flown::new(section(-0.3, Some(PETERS)));
+    for k in 1..=400 {
+        let s = 0.01 * f64::from(k);
+        let wind = |r: DVec3| match r.x <= s - 3.305 {
+            true => DVec3::new(0.0, 0.0, -1e-4),
+            false => DVec3::ZERO,
+        };
+        let lift = -flown.load(s, &along(-DVec3::X), wind).force.z;
+        assert_eq!(lift != 0.0, s > 2.0, "{s}: {lift}");
+    }
+}
+
 #[test]
 fn limit_slow_motion_has_the_quasi_steady_force() {
     let steady = section(-0.2, None);

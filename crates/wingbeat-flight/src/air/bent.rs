@@ -2,7 +2,7 @@
 
 use wingbeat_blade::{BladeWing, Lag, NodesInMotion, Section};
 use wingbeat_dynamics::{BodyAcceleration, BodyMotion, Wrench};
-use wingbeat_math::DVec3;
+use wingbeat_math::{DMat3, DVec3};
 use wingbeat_model::Wing;
 
 use crate::interface::{BentScratch, Instant, Shape, WingResponse};
@@ -52,7 +52,7 @@ impl BentStrips {
             shape,
             blade.settings().free_stream,
         );
-        self.set_states(wind, s);
+        self.set_states(wind, m.r, s);
         if s.forces.len() <= self.wing {
             s.forces.resize(self.wing + 1, vec![]);
         }
@@ -72,7 +72,7 @@ impl BentStrips {
         })
     }
 
-    fn set_states(&self, wind: impl Fn(DVec3) -> DVec3, s: &mut BentScratch) {
+    fn set_states(&self, wind: impl Fn(DVec3) -> DVec3, turn: DMat3, s: &mut BentScratch) {
         let nodes = NodesInMotion {
             position: &s.position,
             velocity: &s.velocity,
@@ -82,7 +82,7 @@ impl BentStrips {
         (s.states).extend(
             self.sections
                 .iter()
-                .map(|section| section.state(&nodes, &wind)),
+                .map(|section| section.state(&nodes, &wind, turn)),
         );
     }
 
@@ -106,7 +106,7 @@ impl BentStrips {
             shape,
             blade.settings().free_stream,
         );
-        self.set_states(wind, &mut s);
+        self.set_states(wind, m.r, &mut s);
         let answers = blade.bent_answers(&self.sections, &s.states, lag);
         let order = 3 * answers.len();
         out.panels.clear();

@@ -82,9 +82,6 @@ fn wake_of_strips(setup: &FlightSetup, air: &BladeOptions, summary: &Summary, li
     let Some(period) = setup.time.period else {
         return;
     };
-    if !air.wind.is_none() {
-        list.note("Wind beside the stream: what changes of it along the normal of a strip comes up as a gust that the leading edge meets, also where the strip turns in a steady wind (3 % of the lift of a fruit fly in 2 m/s). Give uniform wind as air.stream_m_s.".to_owned());
-    }
     let nodes = setup.animal.wings.iter().flat_map(|w| &w.mesh.nodes);
     let length = nodes.fold(0.0_f64, |m, r| m.max(r.length()));
     let flown = DVec3::from_array(summary.displacement_m) / summary.time_s;
