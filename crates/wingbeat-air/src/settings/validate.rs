@@ -116,6 +116,18 @@ impl AirSettings {
     }
 
     fn check_leading(&self) -> Result<(), AirError> {
+        let SheddingKinds {
+            trailing,
+            tip,
+            leading,
+            root,
+        } = self.shedding;
+        require(
+            self.leading.sheds() || !leading || trailing || tip || root,
+            "shedding",
+            "leading edges alone",
+            "other edges too, or none: leading edges of this choice shed nothing",
+        )?;
         match self.leading {
             LeadingEdge::AngleOfAttack { threshold } => require(
                 (0.0..=PI).contains(&threshold),
@@ -125,6 +137,12 @@ impl AirSettings {
             ),
             LeadingEdge::VortexLift(law) => {
                 law.validate()?;
+                require(
+                    leading,
+                    "shedding",
+                    format!("{:?}", self.shedding),
+                    "leading edges too: it is theirs that the vortex lift is",
+                )?;
                 require(
                     self.loads == LoadMethod::Joukowski,
                     "loads",

@@ -107,6 +107,7 @@ fn refused(case: &AirCase, error: &AirError) -> Fault {
 pub(super) fn key_of(setting: &str) -> &'static str {
     match setting {
         "density" => "air.density_kg_m3",
+        "shedding" => "air.shed",
         "free_stream" => "air.stream_m_s",
         "bound_core" => "air.bound_core",
         "wake_overlap" => "air.wake_overlap",

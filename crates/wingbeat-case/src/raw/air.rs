@@ -12,7 +12,7 @@ use super::{BladeCase, DerivativesCase, ExternalCase, Open, ParticlesCase, Secti
 /// Keys of the vortex lattice.
 const LATTICE: &str = "air.model = vortex_lattice";
 /// Keys of wakes.
-const SHEDDING: &str = "shed = trailing | tip | leading";
+const SHEDDING: &str = "shed = trailing | tip | leading | root";
 /// Keys of the air that moves.
 const WIND: &str = "air.model = vortex_lattice | blade_element";
 /// Keys of the undisturbed air.
