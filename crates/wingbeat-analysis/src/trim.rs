@@ -135,6 +135,7 @@ impl Trim {
             velocity: root.v,
             angular_velocity: root.w,
             held_steps: 0,
+            held_motion: None,
         });
         self.in_its_steps(&mut setup, 1);
         setup

@@ -21,6 +21,7 @@
 mod free_beat;
 mod modes;
 mod orbit;
+mod sway;
 mod trim;
 mod wings;
 

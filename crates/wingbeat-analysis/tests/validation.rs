@@ -63,6 +63,7 @@ fn balances_hover_trims_and_then_stays_where_it_is() {
         velocity: root.v,
         angular_velocity: root.w,
         held_steps: 0,
+        held_motion: None,
     });
     let mut flight = Simulation::new(setup).unwrap();
     while !flight.finished() {

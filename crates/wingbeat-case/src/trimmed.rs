@@ -17,6 +17,7 @@ use super::raw::{
     StabilisationCase, StartCase, TimeCase,
 };
 use crate::loaded::written;
+use crate::written::flight::tethered;
 
 /// The case of a trimmed flight as TOML: the given case with the adjusted wing motion, hinges and
 /// the state of body and free joints at the start of the periodic beat, impulsively started, in the
@@ -55,14 +56,14 @@ pub fn trimmed_case(case: &LoadedCase, trim: &Trim) -> String {
             (joint.start_deg, joint.start_deg_s) = (degrees(coordinates), degrees(rates));
         }
     }
-    with_start(case, raw, &trim.beat.root(&trim.state), 0.0, trim.error())
+    let flight = released_into(&trim.beat.root(&trim.state));
+    with_start(case, raw, flight, trim.error())
 }
 
-/// Wingbeats of the hold in which elastic wings and wakes of strips come into their motion.
-const HELD_WITH_WINGS: f64 = 3.0;
-
-/// What a case of a flight that was trimmed with elastic wings or wakes of strips says of itself.
-const DEPARTS: &str = "# While the body is held, elastic wings and wakes of strips come into a motion that is not quite that of the trimmed orbit:\n# the free flight departs from it.\n";
+/// Wingbeats of the rise of the beat and of the hold in which elastic wings and wakes of strips come into their motion. The clock of the
+/// wings lags by half of the rise: a whole wingbeat, so that the release is at the beginning of one.
+const RISE: f64 = 2.0;
+const HELD_WITH_WINGS: f64 = 5.0;
 
 /// The same for a flight in air with memory, or with elastic wings: held while the wake grows, or the wings come into their
 /// motion, then released.
@@ -72,27 +73,33 @@ pub fn wake_trimmed_case(case: &LoadedCase, trim: &WakeTrim) -> String {
         raw.air.mirror = false; // right and left part
     }
     let start = trim.start();
-    let root = BodyMotion {
-        p: start.position,
-        r: start.rotation(),
-        v: start.velocity,
-        w: start.angular_velocity,
-    };
     let time = &trim.setup.time;
-    // Elastic wings and wakes of strips come into their motion while the body is held.
-    let held = match trim.is_orbit() {
-        false => start.held_steps as f64 * time.step / time.period.unwrap_or(1.0),
-        true => HELD_WITH_WINGS,
+    // While elastic wings and wakes of strips come into their motion the body moves as on the orbit that was trimmed.
+    let (held, flight) = match &trim.orbit {
+        Some(orbit) => (HELD_WITH_WINGS, tethered(orbit)),
+        None => {
+            let held = start.held_steps as f64 * time.step / time.period.unwrap_or(1.0);
+            let root = BodyMotion {
+                p: start.position,
+                r: start.rotation(),
+                v: start.velocity,
+                w: start.angular_velocity,
+            };
+            (held, released_into(&root))
+        }
     };
     // The hold and the free wingbeat that was trimmed.
     raw.time.beats = Some(held + 1.0);
     raw.time.steps = None;
     raw.motion.start = case.raw.motion.start;
-    let text = with_start(case, raw, &root, held, trim.error());
-    match trim.is_orbit() {
-        false => text,
-        true => format!("{DEPARTS}{text}"),
+    if trim.is_orbit() {
+        (raw.motion.start, raw.motion.start_beats) = (StartCase::Smooth, RISE);
     }
+    let flight = FlightCase {
+        held_beats: held,
+        ..flight
+    };
+    with_start(case, raw, flight, trim.error())
 }
 
 /// The case with the adjusted wing motion and hinges: adjustment of all wings, and what right ones have more of it
@@ -150,24 +157,27 @@ fn frequencies(joint: &mut JointCase) -> Vec<&mut f64> {
     turn.chain(travel).chain(series).collect()
 }
 
-/// The case as text with this start of its free flight.
-fn with_start(
-    case: &LoadedCase,
-    mut raw: Case,
-    root: &BodyMotion,
-    held: f64,
-    error: f64,
-) -> String {
-    let angles = EulerSequence::BODY_231.angles(root.r);
-    let flight = &mut raw.flight;
-    flight.mode = Mode::Free;
-    flight.tether = None;
-    flight.held_beats = held;
-    flight.pitch_deg = angles.x.to_degrees();
-    flight.yaw_deg = angles.y.to_degrees();
-    flight.roll_deg = angles.z.to_degrees();
-    flight.velocity_m_s = root.v.to_array();
-    flight.angular_velocity_deg_s = root.w.to_array().map(f64::to_degrees);
+/// A root that is free from this motion on.
+fn released_into(root: &BodyMotion) -> FlightCase {
+    let angles = EulerSequence::BODY_231.angles(root.r).to_array();
+    let [pitch_deg, yaw_deg, roll_deg] = angles.map(f64::to_degrees);
+    FlightCase {
+        pitch_deg,
+        yaw_deg,
+        roll_deg,
+        velocity_m_s: root.v.to_array(),
+        angular_velocity_deg_s: root.w.to_array().map(f64::to_degrees),
+        ..FlightCase::default()
+    }
+}
+
+/// The case as text with this start of its free flight, in the place that it had.
+fn with_start(case: &LoadedCase, mut raw: Case, flight: FlightCase, error: f64) -> String {
+    raw.flight = FlightCase {
+        mode: Mode::Free,
+        position_m: raw.flight.position_m,
+        ..flight
+    };
     let body = written(&raw);
     format!(
         "# `{}`, trimmed: largest residual {:.1e} of weight, weight times wing length, radian and\n# wing length per beat.\n{body}",

@@ -122,6 +122,11 @@ const TABLE: &[(&[&str], &str, &str)] = &[
         "",
     ),
     (
+        &[VACUUM],
+        "flight.tether.x={ frequency_hz = 3, sine_m = [1e-3] }",
+        "flight.tether",
+    ),
+    (
         &[VACUUM, "flight.mode=tethered"],
         "flight.tether.x={ frequency_hz = 3 }",
         "flight.tether.x.frequency_hz",
@@ -329,6 +334,19 @@ fn refuses_keys_without_effect_by_name() {
         }
     }
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+#[test]
+fn refuses_leading_edges_alone_where_they_shed_nothing() {
+    for choice in ["never", "vortex_lift"] {
+        let choice = format!("air.leading_edge={choice}");
+        let refused = load(&["air.shed=[\"leading\"]", &choice]).unwrap_err();
+        assert!(
+            refused.contains("air.shed") && refused.contains("other edges too"),
+            "{refused}"
+        );
+        load(&["air.shed=[\"leading\", \"root\"]", &choice]).unwrap();
+    }
 }
 
 /// Paths and values of all numbers and switches of a document.

@@ -1,6 +1,7 @@
 //! Setups written as cases: read back they are what they were, to rounding; what no key says is refused.
 
 use wingbeat_case::{LoadedCase, case_of, presets};
+use wingbeat_flight::MotionMode;
 use wingbeat_math::MassProperties;
 
 /// The words of a text and, apart, its numbers.
@@ -71,5 +72,28 @@ fn exact_setup_that_is_unchanged_keeps_its_case() {
             case_of(&longer, Some(&case)).unwrap_or_else(|e| panic!("{}: {e}", preset.name));
         let [a, b] = [&longer, &again.setup].map(|s| format!("{s:?}"));
         assert!(a == b, "{}", preset.name);
+    }
+}
+
+#[test]
+fn agrees_a_hold_on_a_moving_tether_with_the_case_of_its_setup() {
+    let set = [
+        "flight.held_beats=2",
+        "flight.angular_velocity_deg_s=[1, 2, 3]",
+        "flight.tether.x={ frequency_hz = 200, cosine_m = [1e-4], sine_m = [0, 2e-5] }",
+        "flight.tether.pitch={ frequency_hz = 200, sine_deg = [3] }",
+    ]
+    .map(str::to_owned);
+    let setup = LoadedCase::find("fruit-fly-blade", &set).unwrap().setup;
+    let again = case_of(&setup, None).unwrap().setup;
+    let [a, b] = [&setup, &again].map(|s| match &s.mode {
+        MotionMode::Free(start) => start.clone(),
+        MotionMode::Tethered(_) => panic!("it is free"),
+    });
+    assert_eq!(a.held_steps, b.held_steps);
+    for t in [0.0, 1e-3, 7e-3] {
+        let [a, b] = [&a, &b].map(|s| s.released(t));
+        let parts = [a.p - b.p, a.v - b.v, 1e-3 * (a.w - b.w)];
+        assert!(parts.iter().all(|d| d.length() < 1e-15), "{parts:?}");
     }
 }

@@ -7,7 +7,7 @@ use wingbeat_dynamics::{
 
 use crate::error::FlightError;
 use crate::prescribed::PrescribedMotion;
-use crate::setup::{FlightSetup, MotionMode};
+use crate::setup::{FlightSetup, MotionMode, StartState};
 
 /// The bodies' equations of motion, free or tethered.
 #[expect(clippy::large_enum_variant, reason = "there are one or two per flight")]
@@ -255,6 +255,7 @@ impl FlightSetup {
     pub fn root_at_start(&self) -> BodyMotion {
         match &self.mode {
             MotionMode::Tethered(motion) => root_motion(motion, 0.0).motion,
+            MotionMode::Free(start) if start.held_motion.is_some() => start.released(0.0),
             MotionMode::Free(start) => BodyMotion {
                 p: start.position,
                 r: start.rotation(),
@@ -262,5 +263,14 @@ impl FlightSetup {
                 w: start.angular_velocity,
             },
         }
+    }
+}
+
+impl StartState {
+    /// Motion of the root that is released at `time` \[s\].
+    pub fn released(&self, time: f64) -> BodyMotion {
+        let mut root = root_motion(&self.hold(), time).motion;
+        root.w += self.angular_velocity;
+        root
     }
 }

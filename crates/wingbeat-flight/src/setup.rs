@@ -299,7 +299,7 @@ pub enum MotionMode {
 }
 
 /// Position, attitude and velocities of the root body at time zero.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct StartState {
     /// Origin of the root frame, N components [m].
     pub position: DVec3,
@@ -313,12 +313,33 @@ pub struct StartState {
     /// with this constant velocity while the wings beat and the wake grows, then it is
     /// released. 0 releases at once.
     pub held_steps: usize,
+    /// How it moves about that attitude and path while it is held; none is still. It is released with the velocities that it has then,
+    /// and with [`Self::angular_velocity`] besides.
+    pub held_motion: Option<Box<PrescribedMotion>>,
 }
 
 impl StartState {
     /// Rotation R_NB of the start attitude.
     pub fn rotation(&self) -> DMat3 {
         EulerSequence::BODY_231.rotation(self.angles)
+    }
+
+    /// The motion of the hold before the release.
+    pub fn hold(&self) -> PrescribedMotion {
+        let (x, v) = (self.position.to_array(), self.velocity.to_array());
+        let (angles, more) = (self.angles.to_array(), self.held_motion.as_deref());
+        let about = |constant: f64, rate: f64, more: Option<&DriftingFourier>| {
+            let more = more.cloned().unwrap_or_default();
+            DriftingFourier {
+                constant: constant + more.constant,
+                rate: rate + more.rate,
+                ..more
+            }
+        };
+        PrescribedMotion {
+            position: std::array::from_fn(|i| about(x[i], v[i], more.map(|m| &m.position[i]))),
+            angles: std::array::from_fn(|i| about(angles[i], 0.0, more.map(|m| &m.angles[i]))),
+        }
     }
 }
 

@@ -28,7 +28,7 @@ use crate::memory::{AirMemory, wakes_of};
 use crate::quadratures::QUADRATURES;
 use crate::record::{Record, Snapshot};
 use crate::recorder::{Ledger, Sources};
-use crate::setup::{AirModel, FlightSetup};
+use crate::setup::{AirModel, FlightSetup, MotionMode};
 use crate::solver::{Solver, convergence};
 use crate::stages::{Stage, stages};
 
@@ -358,7 +358,10 @@ impl Simulation {
             let past = &self.state.past.y[self.newest()];
             let quadratures = past[past.len() - QUADRATURES..].to_vec();
             let mut root = self.scratch.motions[0];
-            root.w = self.setup.root_at_start().w;
+            if let MotionMode::Free(start) = &self.setup.mode {
+                let swaying = start.held_motion.as_ref().map(|_| root.w);
+                root.w = start.angular_velocity + swaying.unwrap_or_default();
+            }
             let root = self.release.take().unwrap_or(root);
             let core = &self.stages[next].equations.core;
             let mut motions = self.scratch.motions.clone();

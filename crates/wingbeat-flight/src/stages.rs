@@ -16,8 +16,8 @@ use crate::equations::Equations;
 use crate::error::FlightError;
 use crate::joints::Path;
 use crate::setup::{
-    AirModel, BaumgarteChoice, DriftingFourier, FlightSetup, FormulationChoice, IntegratorChoice,
-    MotionMode, PrescribedMotion, StabilizationChoice, StartState,
+    AirModel, BaumgarteChoice, FlightSetup, FormulationChoice, IntegratorChoice, MotionMode,
+    PrescribedMotion, StabilizationChoice,
 };
 
 /// A part of the flight with the same equations.
@@ -66,7 +66,7 @@ pub fn stages(setup: &FlightSetup, law: &WingLaw<'_>) -> Result<Vec<Stage>, Flig
             if start.held_steps == 0 {
                 vec![stage(0, free)]
             } else {
-                let held = tethered(setup, system, &held_motion(start));
+                let held = tethered(setup, system, &start.hold());
                 vec![stage(0, held), stage(start.held_steps, free)]
             }
         }
@@ -141,17 +141,5 @@ fn momentum(setup: &FlightSetup, system: System) -> MomentumForm {
     match table {
         Some(table) => form.tabulated(Arc::new(table)),
         None => form,
-    }
-}
-
-/// The hold before the release: constant attitude, constant velocity.
-fn held_motion(start: &StartState) -> PrescribedMotion {
-    let (x, v) = (start.position.to_array(), start.velocity.to_array());
-    PrescribedMotion {
-        position: std::array::from_fn(|i| DriftingFourier {
-            rate: v[i],
-            ..DriftingFourier::constant(x[i])
-        }),
-        angles: start.angles.to_array().map(DriftingFourier::constant),
     }
 }

@@ -141,7 +141,10 @@ impl FlightSetup {
             "flight.start",
             format!("{numbers:?}"),
             "finite numbers",
-        )
+        )?;
+        let idle = start.held_motion.is_some() && start.held_steps == 0;
+        let problem = "none where the root is released at once: held_steps above 0";
+        check(!idle, "flight.held_motion", "a motion", problem)
     }
 }
 

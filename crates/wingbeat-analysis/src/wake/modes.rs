@@ -93,7 +93,7 @@ fn disturbed(
                 angles: EulerSequence::BODY_231.angles(attitude),
                 velocity: turn * trimmed.velocity + push,
                 angular_velocity: trimmed.angular_velocity + rate,
-                ..*trimmed
+                ..trimmed.clone()
             });
             free_beat(&setup, steps, None)
         }

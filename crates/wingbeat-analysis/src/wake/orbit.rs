@@ -6,6 +6,7 @@
 //! beat tells: they go on from where they would be if the strips' motion repeated itself for ever. What the body has changed by in
 //! such a beat are the residuals of steady flight.
 
+use wingbeat_dynamics::BodyMotion;
 use wingbeat_flight::air::BladeAir;
 use wingbeat_flight::elastic::ElasticState;
 use wingbeat_flight::{AirMemory, AirModel, FlightSetup, Past, Record, Simulation, system_of};
@@ -55,6 +56,8 @@ pub(super) struct PeriodicBeat {
     pub ends: [Record; 2],
     /// Wings and wakes at its start and its end.
     pub pasts: [Past; 2],
+    /// Motion of the root over it, from step to step, both ends among them.
+    pub roots: Vec<BodyMotion>,
     /// Beats flown until then.
     pub beats: usize,
 }
@@ -82,8 +85,10 @@ pub(super) fn periodic_beat(
         if let Some(past) = past.take() {
             before.air = past.air;
         }
+        let mut roots = vec![flight.root()];
         for _ in 0..steps {
             flight.step()?;
+            roots.push(flight.root());
         }
         let mut after = Past::of(flight.state());
         let changed = change(setup, &before.wings, &after.wings);
@@ -93,6 +98,7 @@ pub(super) fn periodic_beat(
             return Ok(PeriodicBeat {
                 ends,
                 pasts: [before, after],
+                roots,
                 beats,
             });
         }

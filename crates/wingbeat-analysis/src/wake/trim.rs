@@ -1,12 +1,16 @@
 //! Trim by flights.
 
-use wingbeat_flight::{AirModel, FlightSetup, MotionMode, Past, Record, StartState};
+use wingbeat_dynamics::BodyMotion;
+use wingbeat_flight::{
+    AirModel, FlightSetup, MotionMode, Past, PrescribedMotion, Record, StartState,
+};
 use wingbeat_math::{DVec3, solve_small};
 use wingbeat_model::Start;
 use wingbeat_model::motion::Adjustment;
 
 use super::free_beat::{free_beat, rotation, start, steps_per_beat};
 use super::orbit::{check_orbit, has_orbit, periodic_beat};
+use super::sway::sway;
 use crate::AnalysisError;
 use crate::progress;
 use crate::steady::{self, Measures, Residuals, Snapshot, TrimProblem};
@@ -69,6 +73,8 @@ pub struct WakeTrim {
     pub body_roll: f64,
     /// Elastic wings and wakes of strips at the start of the periodic beat, where the air has no wakes in space; else empty.
     pub past: Past,
+    /// Motion of the body over that beat, whose means are velocity and attitude; where [`Self::past`] is empty, none.
+    pub orbit: Option<PrescribedMotion>,
     /// Wingbeats flown.
     pub beats: usize,
     /// The adjusted flight: held, released, one free wingbeat; with [`Self::past`] the free wingbeat alone.
@@ -207,7 +213,10 @@ impl Search<'_> {
         let (length, period) = self.scales();
         let (v, w) = match &self.setup.mode {
             // A case that was trimmed before: its motion at the release.
-            MotionMode::Free(s) if s.held_steps > 0 => (s.velocity, s.angular_velocity),
+            MotionMode::Free(s) if s.held_steps > 0 => {
+                let root = s.released(s.held_steps as f64 * self.setup.time.step);
+                (root.v, root.w)
+            }
             _ => (problem.velocity, DVec3::ZERO),
         };
         let scaled = DVec3::new(
@@ -250,8 +259,9 @@ impl Search<'_> {
             velocity: velocity * length / old,
             angular_velocity: rate / old,
             held_steps: held_beats * self.steps,
+            held_motion: None,
         });
-        let (ends, past) = self.beat(&setup)?;
+        let (ends, past, roots) = self.beat(&setup)?;
         let size = Measures {
             length,
             period,
@@ -281,16 +291,21 @@ impl Search<'_> {
             body_pitch: a.pitch,
             body_roll: a.roll,
             past,
+            orbit: self.has_orbit.then(|| sway(&roots, 1.0 / period)),
             beats: self.beats,
             setup,
         })
     }
 
-    /// The free beat of `setup`: its ends, and elastic wings and wakes of a periodic orbit at its start.
-    fn beat(&mut self, setup: &FlightSetup) -> Result<([Record; 2], Past), AnalysisError> {
+    /// The free beat of `setup`: its ends; of a periodic orbit elastic wings and wakes at its start, and the motion of the root.
+    fn beat(
+        &mut self,
+        setup: &FlightSetup,
+    ) -> Result<([Record; 2], Past, Vec<BodyMotion>), AnalysisError> {
         if !self.has_orbit {
             self.beats += self.settings.held_beats + 1;
-            return Ok((free_beat(setup, self.steps, None)?, Past::default()));
+            let ends = free_beat(setup, self.steps, None)?;
+            return Ok((ends, Past::default(), vec![]));
         }
         let found = periodic_beat(
             setup,
@@ -301,7 +316,7 @@ impl Search<'_> {
         let [at_start, at_end] = found.pasts;
         self.past = Some(at_end);
         self.beats += found.beats;
-        Ok((found.ends, at_start))
+        Ok((found.ends, at_start, found.roots))
     }
 
     /// Slopes of the residuals at `x`, rows by residual, by one-sided differences, over steps beside which the

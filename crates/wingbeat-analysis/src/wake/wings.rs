@@ -243,7 +243,7 @@ impl<'a> Rig<'a> {
             angles: EulerSequence::BODY_231.angles(root.r),
             velocity: root.v,
             angular_velocity: root.w,
-            ..*trimmed
+            ..trimmed.clone()
         }
     }
 

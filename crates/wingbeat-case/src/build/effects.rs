@@ -24,6 +24,13 @@ pub(crate) fn check(case: &Case, setup: &FlightSetup, source: &CaseSource) -> Bu
     if case.flight.held_beats > 0.0 && setup.time.period.is_none() {
         return Err(idle("flight.held_beats", "where nothing beats"));
     }
+    let is_free = case.flight.mode == Mode::Free;
+    if is_free && case.flight.tether.is_some() && case.flight.held_beats == 0.0 {
+        return Err(idle(
+            "flight.tether",
+            "in free flight that is not held at first: give flight.held_beats, or mode = \"tethered\"",
+        ));
+    }
     let has_joints = setup.joints.iter().any(|j| j.model.kind.directions() > 0);
     let default = case.dynamics.formulation.value() == Formulation::Momentum;
     if case.flight.mode == Mode::Tethered && !has_joints && !default {

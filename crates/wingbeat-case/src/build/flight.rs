@@ -45,16 +45,21 @@ fn free(flight: &FlightCase, time: &TimeGrid) -> StartState {
         velocity: vector(flight.velocity_m_s),
         angular_velocity: degrees(flight.angular_velocity_deg_s),
         held_steps: (held_time / time.step).round() as usize,
+        held_motion: (flight.tether.as_ref()).map(|t| Box::new(on_tether(t, [[0.0; 3]; 3]))),
     }
 }
 
 fn tethered(flight: &FlightCase) -> PrescribedMotion {
     let none = TetherCase::default();
     let tether = flight.tether.as_ref().unwrap_or(&none);
+    let angles = start_angles(flight).to_array();
+    on_tether(tether, [flight.position_m, flight.velocity_m_s, angles])
+}
+
+/// Oscillations about a constant velocity from a place \[m\] on, at an attitude \[rad\].
+fn on_tether(tether: &TetherCase, [p, v, angles]: [[f64; 3]; 3]) -> PrescribedMotion {
     let paths = [&tether.x, &tether.y, &tether.z];
     let turns = [&tether.pitch, &tether.yaw, &tether.roll];
-    let angles = start_angles(flight).to_array();
-    let (p, v) = (flight.position_m, flight.velocity_m_s);
     PrescribedMotion {
         position: std::array::from_fn(|i| path(paths[i].as_ref(), p[i], v[i])),
         angles: std::array::from_fn(|i| turn(turns[i].as_ref(), angles[i])),

@@ -37,7 +37,7 @@ pub struct FlightCase {
     ///
     /// Change it for forward flight in still air.
     pub velocity_m_s: [f64; 3],
-    /// Angular velocity in body axes, at the release if the body is held.
+    /// Angular velocity in body axes, at the release if the body is held, beside that of the tether.
     ///
     /// Change it to start from a turn.
     #[schemars(extend("with" = FREE))]
@@ -47,10 +47,10 @@ pub struct FlightCase {
     /// Change it to 1 or 2 to release the body into a grown wake.
     #[schemars(range(min = 0), extend("with" = FREE))]
     pub held_beats: f64,
-    /// Motion of the tether on top of the constant velocity; left out: none.
+    /// Motion of the tether on top of the constant velocity, in free flight while the body is held (`held_beats`), which is released
+    /// with the velocities that it has then; left out: none.
     ///
     /// Change it to move the body as an experiment did.
-    #[schemars(extend("with" = "mode = tethered"))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub tether: Option<TetherCase>,
 }

@@ -51,8 +51,9 @@ fn free(start: &StartState, time: &TimeGrid) -> Written<FlightCase> {
         velocity,
         angular_velocity,
         held_steps,
-    } = *start;
-    let held_beats = match (held_steps, time.period) {
+        held_motion,
+    } = start;
+    let held_beats = match (*held_steps, time.period) {
         (0, _) => 0.0,
         (steps, Some(period)) => steps as f64 * time.step / period,
         (_, None) => {
@@ -60,12 +61,16 @@ fn free(start: &StartState, time: &TimeGrid) -> Written<FlightCase> {
             return Err(no_keys("hold of the start", problem, "set held_steps = 0"));
         }
     };
+    let hold = held_motion.as_ref().map(|_| tethered(&start.hold()));
     Ok(FlightCase {
-        position_m: position.to_array(),
-        velocity_m_s: velocity.to_array(),
+        mode: Mode::Free,
         angular_velocity_deg_s: angular_velocity.to_array().map(f64::to_degrees),
         held_beats,
-        ..pitched(angles)
+        ..hold.unwrap_or_else(|| FlightCase {
+            position_m: position.to_array(),
+            velocity_m_s: velocity.to_array(),
+            ..pitched(*angles)
+        })
     })
 }
 
@@ -79,7 +84,8 @@ fn pitched(angles: DVec3) -> FlightCase {
     }
 }
 
-fn tethered(motion: &PrescribedMotion) -> FlightCase {
+/// A body that follows a motion.
+pub(crate) fn tethered(motion: &PrescribedMotion) -> FlightCase {
     let PrescribedMotion { position, angles } = motion;
     let [x, y, z] = position.each_ref().map(path);
     let [pitch, yaw, roll] = angles.each_ref().map(turn);

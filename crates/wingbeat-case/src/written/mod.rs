@@ -5,7 +5,7 @@
 
 mod air;
 mod animal;
-mod flight;
+pub(crate) mod flight;
 mod motion;
 mod refusal;
 mod structure;

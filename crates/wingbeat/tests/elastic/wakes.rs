@@ -1,5 +1,6 @@
 //! Blade elements whose strips leave wakes: elastic wings, trimmed orbits and their modes.
 
+use super::blades::departures;
 use super::{apart, beam, fly, goes_on, strings};
 use wingbeat::analysis::modes::Plane;
 use wingbeat::analysis::power::power_with_wake;
@@ -75,12 +76,19 @@ fn conserves_momentum_of_a_flyer_with_soft_wings_and_wakes() {
 
 /// The fruit fly in forward flight, its `strips` a wing with wakes, trimmed.
 fn trimmed(strips: usize) -> WakeTrim {
+    trimmed_of(&fly_forward(strips))
+}
+
+fn fly_forward(strips: usize) -> LoadedCase {
     let set = strings(&[
         "air.blade.unsteady=\"jones\"",
         "time.steps_per_beat=40",
         &format!("wing.right.mesh.spanwise={strips}"),
     ]);
-    let setup = LoadedCase::find("fruit-fly-blade", &set).unwrap().setup;
+    LoadedCase::find("fruit-fly-blade", &set).unwrap()
+}
+
+fn trimmed_of(case: &LoadedCase) -> WakeTrim {
     let mut problem = TrimProblem::straight(DVec3::new(1.0, 0.0, 0.0), 40_f64.to_radians());
     problem.settings = TrimSettings {
         steps: 40,
@@ -90,10 +98,22 @@ fn trimmed(strips: usize) -> WakeTrim {
         tolerance: 1e-8,
         ..WakeSettings::default()
     };
-    let found = trim_with_wake(&setup, &problem, &settings).unwrap();
+    let found = trim_with_wake(&case.setup, &problem, &settings).unwrap();
     assert!(found.converged, "{:?}", found.residual);
     assert!(found.is_orbit() && found.past.wings.is_empty());
     found
+}
+
+#[test]
+fn agrees_the_written_case_of_a_fly_with_wakes_with_its_orbit() {
+    let case = fly_forward(4);
+    let found = departures(&case, &trimmed_of(&case), 2);
+    assert!(
+        found
+            .iter()
+            .all(|[drift, turn]| *drift < 2e-3 && *turn < 2e-3),
+        "{found:?}"
+    );
 }
 
 /// Records at the ends of `beats` beats that go on from the `past`.
