@@ -26,7 +26,7 @@ pub(super) fn make(wing: Wing, path: &str, case: &StructureCase) -> Built<Wing> 
         (Some(beam), _) => Members::Beam(self::beam(&format!("{path}.beam"), beam)?),
         (None, Some(shell)) => {
             let (table, path) = (path, format!("{path}.shell"));
-            check_clamps(&path, shell)?;
+            check_clamps(&path, shell, [wing.mesh.rows, wing.mesh.cols])?;
             let sheet = match shell.rule {
                 Some(ShellRule::CombesDaniel) => {
                     let (report, mass) = (wing.report(), wing.mass.mass);
@@ -164,8 +164,16 @@ fn shell(path: &str, case: &ShellCase) -> Built<WingShell> {
     Ok(wing)
 }
 
-/// Refuses a root that is free on a perimeter that is clamped.
-fn check_clamps(path: &str, case: &ShellCase) -> Built<()> {
+/// Refuses a root that is free on a perimeter that is clamped, and a perimeter that all nodes lie on.
+fn check_clamps(path: &str, case: &ShellCase, [rows, cols]: [usize; 2]) -> Built<()> {
+    if case.clamped_perimeter && rows.min(cols) < 2 {
+        return Err(Fault::new(
+            format!("{path}.clamped_perimeter"),
+            format!("true: every node of {rows} x {cols} panels lies on the perimeter"),
+            "true on meshes of 2 x 2 panels or more",
+            "refine mesh.chordwise or mesh.spanwise of this wing",
+        ));
+    }
     match case.clamped_perimeter && !case.clamped_root {
         true => Err(Fault::new(
             format!("{path}.clamped_root"),

@@ -61,8 +61,10 @@ class Beats(Mapping[str, "NDArray[Any]"]):
         estimates = {k: v for k, v in (means or {}).items() if isinstance(v, dict)}
         self.means: Mapping[str, Estimate] = MappingProxyType({k: Estimate(**v) for k, v in estimates.items()})
         """Means over all but the first two wingbeats with their standard errors; empty of fewer than five."""
-        self.is_steady: bool | None = (means or {}).get("is_steady")
-        """Whether lift still changes from the first half of these beats to the second; None of fewer than five."""
+        known = (means or {}).get("is_known", True)
+        self.is_steady: bool | None = (means or {}).get("is_steady") if known else None
+        """Whether lift and thrust stay from the first half of these beats to the second; None of fewer than five, or of beats that
+        scatter too much to tell."""
 
     def __getitem__(self, name: str) -> NDArray[Any]:
         return self._arrays[name]

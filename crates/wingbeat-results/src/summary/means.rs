@@ -14,8 +14,11 @@ pub(super) const LEFT_OUT: usize = 2;
 /// Fewest beats of which a mean has an error.
 const FEWEST: usize = 3;
 
-/// A change of the lift from the first half of the beats to the second, in parts of it, that is none.
+/// A change of the force from the first half of the beats to the second, in parts of it, that is none.
 const NO_CHANGE: f64 = 0.01;
+
+/// A change that must show beside the scatter of the beats if they are to count as steady.
+const MUST_SHOW: f64 = 0.1;
 
 /// A mean over wingbeats.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -44,10 +47,22 @@ pub struct ManyBeats {
     pub inviscid_lift_newton: Estimate,
     /// The same by the rate of the vortex impulse \[N\].
     pub lift_by_impulse_newton: Estimate,
-    /// Change of lift from the first half of these beats to the second, over their mean \[1\].
+    /// Change of lift from the first half of these beats to the second, over the mean force \[1\].
     pub change_of_lift: f64,
-    /// Whether that change is less than a hundredth, or than twice the error of the difference between the halves.
+    /// The same of the thrust \[1\].
+    #[serde(default)]
+    pub change_of_thrust: f64,
+    /// Whether both changes are less than a hundredth, or than twice the error of the difference between the halves, and this is less than a
+    /// tenth of the force.
     pub is_steady: bool,
+    /// Whether the scatter of the beats tells that: not steady is what changes by more than it, unknown what scatters by more than a tenth.
+    #[serde(default = "yes")]
+    pub is_known: bool,
+}
+
+/// Results that do not say it were written when nothing was unknown.
+fn yes() -> bool {
+    true
 }
 
 impl ManyBeats {
@@ -59,32 +74,56 @@ impl ManyBeats {
         };
         let lift_newton = of(|b| b.lift_newton);
         let ratios: Option<Vec<f64>> = beats.iter().map(|b| b.lift_over_weight).collect();
-        let half = beats.len() / 2;
-        let mean = |part: &[BeatMeans]| {
-            part.iter().map(|b| b.lift_newton).sum::<f64>() / part.len() as f64
-        };
-        let change = mean(&beats[beats.len() - half..]) - mean(&beats[..half]);
-        let size = lift_newton.mean.abs().max(f64::MIN_POSITIVE);
-        // The error of each half is that of the scatter about its own mean: a drift must not excuse itself.
-        let about = |part: &[BeatMeans]| {
-            let values: Vec<f64> = part.iter().map(|b| b.lift_newton).collect();
-            Estimate::of(&values).standard_error
-        };
-        let uncertain = match half > 1 {
-            true => 2.0 * about(&beats[..half]).hypot(about(&beats[beats.len() - half..])),
-            false => 2.0 * lift_newton.standard_error,
-        };
+        let thrust_newton = of(|b| b.thrust_newton);
+        let size = lift_newton.mean.hypot(thrust_newton.mean);
+        let size = size.max(f64::MIN_POSITIVE);
+        let forces: [fn(&BeatMeans) -> f64; 2] = [|b| b.lift_newton, |b| b.thrust_newton];
+        let changes = forces.map(|of| Change::of(&beats.iter().map(of).collect::<Vec<_>>(), size));
+        let changed = changes.iter().any(|c| c.is_felt());
+        let hidden = changes.iter().any(|c| c.hidden > MUST_SHOW);
         Some(Self {
             beats: [beats[0].beat, beats[beats.len() - 1].beat],
             lift_newton,
             lift_over_weight: ratios.map(|r| Estimate::of(&r)),
-            thrust_newton: of(|b| b.thrust_newton),
+            thrust_newton,
             power_watt: of(|b| b.power_watt),
             inviscid_lift_newton: of(|b| b.inviscid_lift_newton),
             lift_by_impulse_newton: of(|b| b.lift_by_impulse_newton),
-            change_of_lift: change / size,
-            is_steady: change.abs() <= uncertain.max(NO_CHANGE * size),
+            change_of_lift: changes[0].change,
+            change_of_thrust: changes[1].change,
+            is_steady: !changed && !hidden,
+            is_known: changed || !hidden,
         })
+    }
+}
+
+/// By how much values change from their first half to their second, and what of that their scatter would hide, over a size \[1\].
+struct Change {
+    change: f64,
+    hidden: f64,
+}
+
+impl Change {
+    fn of(values: &[f64], size: f64) -> Self {
+        let half = values.len() / 2;
+        let halves = [&values[..half], &values[values.len() - half..]];
+        let means = halves.map(|part| part.iter().sum::<f64>() / half as f64);
+        // The error of each half is that of the scatter about its own mean: a drift must not excuse itself.
+        let error = match half > 1 {
+            true => {
+                let [a, b] = halves.map(|part| Estimate::of(part).standard_error);
+                a.hypot(b)
+            }
+            false => Estimate::of(values).standard_error,
+        };
+        Self {
+            change: (means[1] - means[0]) / size,
+            hidden: 2.0 * error / size,
+        }
+    }
+
+    fn is_felt(&self) -> bool {
+        self.change.abs() > self.hidden.max(NO_CHANGE)
     }
 }
 
@@ -157,11 +196,15 @@ mod tests {
     }
 
     fn flown(lift: impl Fn(usize) -> f64) -> Option<ManyBeats> {
+        flown_with(lift, |_| 0.0)
+    }
+
+    fn flown_with(lift: impl Fn(usize) -> f64, thrust: impl Fn(usize) -> f64) -> Option<ManyBeats> {
         let beat = |k: usize| BeatMeans {
             beat: k,
             lift_newton: lift(k),
             lift_over_weight: Some(lift(k) / 2.0),
-            thrust_newton: 0.0,
+            thrust_newton: thrust(k),
             power_watt: 3.0,
             inviscid_lift_newton: lift(k),
             lift_by_impulse_newton: lift(k),
@@ -183,6 +226,13 @@ mod tests {
         );
         let scatters = flown(|k| 10.0 + [0.4, -0.3, 0.1, -0.4, 0.2][k % 5]).unwrap();
         assert!(scatters.is_steady, "{scatters:?}");
+        // From the lift of one beat to that of the next by a half: a change of a tenth would not show.
+        let unknown = flown(|k| 10.0 + [4.0, -3.0, 1.0, -4.0, 2.0][k % 5]).unwrap();
+        assert!(!unknown.is_steady && !unknown.is_known, "{unknown:?}");
+        assert!(falls.is_known && scatters.is_known && same.is_known);
+        // A body that tilts: its lift is what it was, its thrust is not.
+        let tilts = flown_with(|_| 10.0, |k| 0.3 * k as f64).unwrap();
+        assert!(!tilts.is_steady && tilts.is_known && tilts.change_of_thrust > 0.1);
         assert_eq!(ManyBeats::of(&[]), None);
     }
 }

@@ -157,13 +157,15 @@ fn mean_rows(means: &ManyBeats, out: &mut String) {
     row(" mean", |e| e.mean);
     row("   +-", |e| e.standard_error);
     let [first, last] = means.beats;
-    let change = signed(100.0 * means.change_of_lift, 1);
-    let verdict = match means.is_steady {
-        true => "steady",
-        false => "NOT steady",
+    let [lift, thrust] =
+        [means.change_of_lift, means.change_of_thrust].map(|x| signed(100.0 * x, 1));
+    let verdict = match (means.is_steady, means.is_known) {
+        (true, _) => "which are steady",
+        (false, true) => "which are NOT steady",
+        (false, false) => "which scatter too much to tell whether they are steady",
     };
     let text = format!(
-        "Mean and standard error of beats {first} to {last}, which are {verdict}: from the first half of them to the second, lift changes by {change} %."
+        "Mean and standard error of beats {first} to {last}, {verdict}: from the first half of them to the second, lift changes by {lift} % of the force, the force forward by {thrust} %."
     );
     out.push_str(&wrapped("       ", &text));
 }

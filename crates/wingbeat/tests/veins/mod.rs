@@ -195,6 +195,14 @@ fn refuses_veins_and_regions_that_say_nothing() {
         ),
         (&[], format!("{region}density_kg_m3 = 1e3"), "spread evenly"),
         (
+            &[
+                "wing.right.structure.shell.clamped_perimeter=true",
+                "wing.right.mesh.chordwise=1",
+            ],
+            String::new(),
+            "lies on the perimeter",
+        ),
+        (
             &["wing.right.structure.shell.prestress_newton_per_m=[-1,0]"],
             String::new(),
             "prestress_newton_per_m",
