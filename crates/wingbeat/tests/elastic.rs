@@ -4,6 +4,7 @@ use std::path::Path;
 
 use wingbeat::case::LoadedCase;
 use wingbeat::flight::{Record, Simulation};
+use wingbeat::verify::lab::{foil::PlungingFoil, series::harmonic};
 
 #[path = "elastic/blades.rs"]
 mod blades;
@@ -444,46 +445,25 @@ fn refuses_what_knows_no_elastic_wings() {
     }
 }
 
-/// Bars without mass across the plate at every row of nodes, as in the report: both ends of the one panel along the span bend alike.
-fn bars(rows: usize) -> String {
-    let bar = |i: usize| {
-        let x = format!("{:?}", i as f64 / rows as f64);
-        let stiffness = "bending_newton_m2 = [100.0, 100.0], torsion_newton_m2 = [1e5, 1e5]";
-        format!("{{ from = [0.0, {x}], to = [1.0, {x}], radius_m = [0.01, 0.01], {stiffness} }}")
-    };
-    let all: Vec<String> = (rows / 3 + 1..=rows).map(bar).collect();
-    all.join(", ")
-}
-
 /// Amplitude of the pitch \[deg\] of the plunging foil of the report, b/c 0.85e-3 at 0.7714 Hz, that moves by a hundredth of what it
 /// moves there.
 fn small_plunge(rows: usize) -> f64 {
-    let (frequency, steps, beats) = (0.7714, 60, 3);
-    // Flow of small motions does not separate.
-    let text = include_str!("../../wingbeat-verify/data/heathcote-gursul.toml");
-    let lines = text.lines().filter(|l| !l.starts_with("leading_edge"));
-    let text = lines.collect::<Vec<_>>().join("\n");
-    let text = text.replace("\"trailing\", \"leading\"", "\"trailing\"");
-    let set = [
-        format!("flight.tether.z.frequency_hz={frequency}"),
-        "flight.tether.z.cosine_m=[1.75e-4]".into(),
-        format!("time.step_s={}", 1.0 / (frequency * f64::from(steps))),
-        format!("time.steps={}", steps * beats),
-        format!("wing.right.mesh.chordwise={rows}"),
-        format!("wing.right.structure.vein=[{}]", bars(rows)),
-        "air.wake_core.cut_off={length_m=1e-5}".into(), // it does not matter
-    ];
-    let case = LoadedCase::from_text("plunge", &text, Path::new("."), &set).unwrap();
-    let mut flight = Simulation::new(case.setup).unwrap();
-    let (mut cosine, mut sine) = (0.0, 0.0);
-    for k in 1..=steps * beats {
-        let twist = flight.step().unwrap().elastic[0].twist.to_degrees();
-        if k > steps * (beats - 1) {
-            let (s, c) = (std::f64::consts::TAU * f64::from(k) / f64::from(steps)).sin_cos();
-            cosine += twist * c * 2.0 / f64::from(steps);
-            sine += twist * s * 2.0 / f64::from(steps);
-        }
+    let foil = PlungingFoil {
+        thickness: 0.85e-3,
+        frequency: 0.7714,
+        heave: 1.75e-4,
+        rows,
+        steps: 60,
+        beats: 3,
+        kept: 4.0,
+    };
+    let core = "air.wake_core={cut_off={length_m=1e-5}}".into(); // it does not matter
+    let mut flight = Simulation::new(foil.case(&[core]).unwrap().setup).unwrap();
+    let mut pitch = vec![];
+    while !flight.finished() {
+        pitch.push(flight.step().unwrap().elastic[0].twist.to_degrees());
     }
+    let [cosine, sine] = harmonic(&pitch[foil.steps * 2 - 1..], foil.steps, 1);
     cosine.hypot(sine)
 }
 
