@@ -7,6 +7,8 @@ with an upward velocity of the surface w = U (P0 + 2 sum Pn cos n theta), x = b 
     jump of pressure (upward) = -rho U^2 (2 a0 tan(theta / 2) + 4 sum an sin n theta),
     a0 = C(k) (P0 + P1) - P1,   an = Pn + i k / (2 n) (P(n-1) - P(n+1)),   k = omega b / U.
 
+Thrust is the suction of the leading edge, pi rho U^2 c |a0|^2 / 2 in the mean [Garrick 1936], and the pressure along the slope of the bent plate.
+
 The plate is Euler and Bernoulli's beam of unit width with E / (1 - nu^2), clamped at the end of the rigid part.
 
     plunging-plate.py THICKNESS_OVER_CHORD STROUHAL ...        (numpy, scipy; the foil of Heathcote & Gursul 2007)
@@ -56,8 +58,8 @@ def plate(thickness):
     return stiff[2:, 2:], mass[2:, 2:], mass[2:, 0::2].sum(axis=1)
 
 
-def pitch(part, strouhal):
-    """Complex pitch [rad] for a heave of HEAVE cos(omega t), and the frequency [Hz]."""
+def flight(part, strouhal):
+    """Complex pitch [rad] for a heave of HEAVE cos(omega t), the mean thrust over rho U^2 c / 2, and the frequency [Hz]."""
     frequency = strouhal * SPEED / (2 * HEAVE)
     omega, b = 2 * np.pi * frequency, 0.5 * CHORD
     k = omega * b / SPEED
@@ -66,18 +68,22 @@ def pitch(part, strouhal):
     shape, slope = motion(b * (1 + np.cos(theta)))
     wash = np.hstack([np.full((ANGLES, 1), 1j * omega), 1j * omega * shape + SPEED * slope]) / SPEED
     p = [np.cos(n * theta) @ wash / ANGLES for n in range(TERMS + 1)]
-    jump = 2 * np.outer(np.tan(theta / 2), theodorsen * (p[0] + p[1]) - p[1])
+    edge = theodorsen * (p[0] + p[1]) - p[1]
+    jump = 2 * np.outer(np.tan(theta / 2), edge)
     for n in range(1, TERMS):
         jump += 4 * np.outer(np.sin(n * theta), p[n] + 1j * k / (2 * n) * (p[n - 1] - p[n + 1]))
-    load = -DENSITY * SPEED**2 * shape.T @ (jump * (b * np.sin(theta) * np.pi / ANGLES)[:, None])
+    width = b * np.sin(theta) * np.pi / ANGLES
+    load = -DENSITY * SPEED**2 * shape.T @ (jump * width[:, None])
     stiff, mass, carried = plate(part * CHORD)
     known = load[:, 0] + omega**2 * carried
     bent = np.linalg.solve(stiff - omega**2 * mass - load[:, 1:], known * HEAVE)
-    return bent[-2] / CHORD, frequency
+    moved = np.concatenate([[HEAVE], bent])
+    along = -np.real(np.vdot(slope @ bent, width * (jump @ moved))) / CHORD
+    return bent[-2] / CHORD, along + np.pi * abs(edge @ moved) ** 2, frequency
 
 
 if __name__ == "__main__":
     thickness = float(sys.argv[1])
     for number in map(float, sys.argv[2:]):
-        angle, hertz = pitch(thickness, number)
-        print(f"St {number:.4f}  {hertz:.4f} Hz  pitch {np.degrees(abs(angle)):.4f} deg, phase {np.degrees(np.angle(angle)):.1f} deg")
+        angle, thrust, hertz = flight(thickness, number)
+        print(f"St {number:.4f}  {hertz:.4f} Hz  pitch {np.degrees(abs(angle)):.4f} deg, phase {np.degrees(np.angle(angle)):.1f} deg  thrust {thrust:.4f}")

@@ -1,5 +1,6 @@
 //! Wings, motions and the stepping that the cases share.
 
+pub mod foil;
 pub(crate) mod hinged;
 pub(crate) mod insect;
 pub mod outline;

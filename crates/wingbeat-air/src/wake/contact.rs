@@ -118,6 +118,20 @@ impl Obstacles {
             .sum()
     }
 
+    /// The same for plane wakes, whose rows of two nodes move as their middles do: the ends of rows lie on the ends of the
+    /// surface, which are no edges that the flow goes around.
+    pub(crate) fn keep_rows_off(&self, from: &[DVec3], to: &mut [DVec3]) -> u64 {
+        let middle = |row: &[DVec3]| row[0].midpoint(row[1]);
+        let mut changed = 0;
+        for (to, from) in to.chunks_exact_mut(2).zip(from.chunks_exact(2)) {
+            let (start, mut end) = ([middle(from)], [middle(to)]);
+            let free = end[0];
+            changed += 2 * self.keep_off(&start, &mut end);
+            to.iter_mut().for_each(|x| *x += end[0] - free);
+        }
+        changed
+    }
+
     /// What is to be added to the end of a path [m].
     fn push(&self, from: DVec3, to: DVec3) -> DVec3 {
         let near = |s: &&Obstacle| {

@@ -86,7 +86,10 @@ impl Mover<'_> {
 
     /// Keeps ends of paths off surfaces and on their side of planes.
     pub(crate) fn keep_clear(&mut self, from: &[DVec3], to: &mut [DVec3]) {
-        self.events.near_surface += self.obstacles.keep_off(from, to);
+        self.events.near_surface += match self.lattice.settings().plane_wakes {
+            true => self.obstacles.keep_rows_off(from, to),
+            false => self.obstacles.keep_off(from, to),
+        };
         for plane in &self.lattice.settings().images {
             self.events.near_surface += keep_on_side(plane, from, to);
         }

@@ -48,6 +48,18 @@ fn exact_node_that_would_cross_a_wing_stays_on_its_side() {
 }
 
 #[test]
+fn exact_rows_of_plane_wakes_are_held_back_as_their_middles() {
+    let o = sheet(0.0, 0.0, false);
+    let row = |z: f64| [0.0, 3.0].map(|y| DVec3::new(0.5, y, z));
+    let (from, mut to, mut single) = (row(0.3), row(-0.4), row(-0.4));
+    assert_eq!(o.keep_rows_off(&from, &mut to), 2);
+    let short = to.map(|x| (x.z - 0.1).abs());
+    assert!(short.iter().all(|d| *d < 1e-15), "{to:?}");
+    // Each by itself they pass beside the ends of the wing.
+    assert_eq!(o.keep_off(&from, &mut single), 0);
+}
+
+#[test]
 fn exact_wing_that_overtakes_a_resting_node_takes_it_along() {
     let o = sheet(0.5, 0.0, false);
     let swept = end(&o, [0.5, 0.5, 0.2], [0.5, 0.5, 0.2]);
