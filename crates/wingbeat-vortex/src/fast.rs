@@ -1,7 +1,10 @@
 //! The fast sum: near sources one by one, far ones cell by cell, with a checked error.
 
 mod check;
+mod settings;
 mod soft;
+
+pub use settings::{FastSettings, Method, Report};
 
 use crate::cores::CoreModel;
 use crate::direct::lanes::{add_clusters, add_patches_with_vorticity};
@@ -12,6 +15,7 @@ use crate::direct::sum::{sum_all, sum_both, sum_packed};
 use crate::fast::check::{Check, SAMPLES};
 use crate::instruction_set::InstructionSet;
 use crate::interpolation::Interpolation;
+use crate::multilevel::Multilevel;
 use crate::sources::{Network, Points, Segments};
 use crate::tree::cells::Cells;
 use crate::tree::groups::Groups;
@@ -44,78 +48,14 @@ const FAR: u64 = 160;
 /// How many times single precision is as fast.
 const SINGLE_GAIN: u64 = 2;
 
+/// Meshes that cost less than this part of single precision are taken without counting what cells would cost.
+const CHEAP: f64 = 0.7;
+
+/// The tolerance from which [`Method::Mesh`] serves.
+pub const MESH_TOLERANCE: f64 = soft::TOLERANCE;
+
 /// Attempts at the tolerance before the direct sum takes over.
 const ATTEMPTS: usize = 6;
-
-/// How to sum.
-#[derive(
-    Clone,
-    Copy,
-    Debug,
-    Default,
-    PartialEq,
-    Eq,
-    serde::Serialize,
-    serde::Deserialize,
-    schemars::JsonSchema,
-)]
-#[serde(rename_all = "snake_case")]
-pub enum Method {
-    /// The one that is fastest at this size.
-    #[default]
-    Auto,
-    /// Every source at every target, in double precision.
-    Direct,
-    /// Every source at every target, in single precision; in double where the tolerance wants that.
-    Single,
-    /// Far sources by cells, near ones in single precision if the tolerance allows it.
-    Tree,
-}
-
-/// Settings of a [`FastSum`].
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct FastSettings {
-    /// Regularisation.
-    pub model: CoreModel,
-    /// Allowed error: root mean square over targets, relative to that of the velocity.
-    pub tolerance: f64,
-    /// Tree or direct.
-    pub method: Method,
-    /// Vector instructions.
-    pub instructions: InstructionSet,
-}
-
-impl FastSettings {
-    /// Tolerance 1e-4, method and instructions chosen by themselves.
-    pub fn new(model: CoreModel) -> Self {
-        let instructions = InstructionSet::Best;
-        Self {
-            model,
-            tolerance: 1e-4,
-            method: Method::Auto,
-            instructions,
-        }
-    }
-}
-
-/// What a sum did and how well.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Report {
-    /// How it was summed, never [`Method::Auto`].
-    pub method: Method,
-    /// Root mean square of the error at the sampled targets, relative to that of the velocity there \[1\].
-    pub error_rms: f64,
-    /// Largest error at a sampled target, relative to the root mean square of the velocity \[1\].
-    pub error_max: f64,
-    /// Targets sampled; 0 for the direct sum, which has no error to speak of.
-    pub samples: usize,
-    /// Attempts it took to keep the tolerance.
-    pub attempts: usize,
-    /// Evaluations of an expansion (cell, target).
-    pub far: u64,
-    /// Evaluations of the kernel (edge, target), the check not included.
-    pub near: u64,
-}
 
 /// A sum that is direct for small sets, in single precision for larger ones, and a tree where that spares
 /// something; the error of both is measured at every call.
@@ -154,6 +94,9 @@ pub struct FastSum {
     /// The tree of wide algebraic cores, where the tolerance allows it.
     soft: Option<Interpolation>,
     has_soft: bool,
+    /// The meshes of wide algebraic cores, and what they cost for each target, in pairs of filament and target.
+    meshes: Option<Multilevel>,
+    mesh_cost: Option<f64>,
     segments: Network,
 }
 
@@ -184,6 +127,10 @@ impl FastSum {
                 .then(|| soft::interpolation(settings.model, settings.tolerance, level))
                 .flatten(),
             has_soft: false,
+            meshes: matches!(settings.method, Method::Auto | Method::Mesh)
+                .then(|| soft::multilevel(settings.model, settings.tolerance, level))
+                .flatten(),
+            mesh_cost: None,
             segments,
         }
     }
@@ -204,11 +151,24 @@ impl FastSum {
         let has_cells = |least: usize| match method {
             Method::Auto => network.len() >= least,
             Method::Direct | Method::Single => false,
-            Method::Tree => !network.is_empty(),
+            Method::Tree | Method::Mesh => !network.is_empty(),
         };
-        self.has_soft = self.soft.is_some() && has_cells(soft::AUTO_EDGES);
-        self.has_tree = self.soft.is_none() && has_cells(AUTO_EDGES);
-        let may_be_single = method != Method::Direct && (method != Method::Tree || self.has_soft);
+        let meshes = self.meshes.as_mut().filter(|_| has_cells(soft::MESH_EDGES));
+        self.mesh_cost = meshes.and_then(|meshes| meshes.load(network));
+        if method == Method::Auto {
+            self.mesh_cost = self.mesh_cost.filter(|cost| *cost < network.len() as f64);
+        }
+        // Cells are not looked for where meshes are much cheaper than single precision.
+        let is_cheap = |cost: f64| cost < CHEAP * network.len() as f64;
+        let may_be_soft = self.soft.is_some() && !self.mesh_cost.is_some_and(is_cheap);
+        self.has_soft = may_be_soft && has_cells(soft::AUTO_EDGES);
+        let has_expansions = self.soft.is_none() && self.meshes.is_none();
+        self.has_tree = has_expansions && has_cells(AUTO_EDGES);
+        let may_be_single = match method {
+            Method::Auto | Method::Single | Method::Mesh => true,
+            Method::Tree => self.has_soft,
+            Method::Direct => false,
+        };
         self.has_single = may_be_single && network.len() >= SINGLE_EDGES && tolerance >= SINGLE;
         match self.has_tree || self.has_soft || self.has_single {
             true => self.packed.load_network(model, network),
@@ -241,7 +201,7 @@ impl FastSum {
         assert_eq!(targets.len(), out.len(), "as many velocities as targets");
         let few = self.settings.method == Method::Auto && targets.len() < AUTO_TARGETS;
         let has_tree = self.has_tree && !few;
-        let has_soft = self.has_soft && !few;
+        let has_soft = (self.has_soft || self.mesh_cost.is_some()) && !few;
         let has_single = self.has_single && targets.len() >= SINGLE_TARGETS;
         if targets.is_empty() || !(has_tree || has_soft || has_single) {
             return self.add_direct(targets, out, 0);
@@ -288,7 +248,8 @@ impl FastSum {
             "algebraic cores"
         );
         let few = self.settings.method == Method::Auto && targets.len() < AUTO_TARGETS;
-        if self.has_soft && !few && !targets.is_empty() {
+        let has_soft = self.has_soft || self.mesh_cost.is_some();
+        if has_soft && !few && !targets.is_empty() {
             let check = Check::with_vorticity(self.sources(), targets);
             let sum = self.add_soft(&check, targets, velocity, Some(vorticity));
             if sum.is_ok() {
@@ -322,36 +283,6 @@ impl FastSum {
     /// What the sums are checked against.
     fn sources(&self) -> (Level, CoreModel, &Packed) {
         (self.level, self.settings.model, &self.packed)
-    }
-
-    /// By cells of algebraic cores: adds velocities, and vorticities if they are wanted; or adds nothing and says how many
-    /// attempts were made.
-    fn add_soft(
-        &mut self,
-        check: &Check,
-        targets: &Points,
-        velocity: &mut Points,
-        vorticity: Option<&mut Points>,
-    ) -> Result<Report, usize> {
-        let FastSettings {
-            method, tolerance, ..
-        } = self.settings;
-        let soft = self.soft.as_mut().expect("cells are made");
-        let how = (tolerance, method == Method::Auto);
-        let sum = soft::sum(soft, check, targets, self.packed.edges.len(), how)?;
-        soft::add_part(sum.values, 0, velocity);
-        if let Some(vorticity) = vorticity {
-            soft::add_part(sum.values, 3, vorticity);
-        }
-        Ok(Report {
-            method: Method::Tree,
-            error_rms: sum.error[0],
-            error_max: sum.error[1],
-            samples: check.count,
-            attempts: sum.attempts,
-            far: sum.work.far,
-            near: sum.work.near,
-        })
     }
 
     /// Error of the velocities in single precision at the sampled targets, root mean square and largest; None if it is

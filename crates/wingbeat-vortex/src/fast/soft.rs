@@ -1,8 +1,10 @@
-//! The fast sum of algebraic cores by interpolation between cells.
+//! The fast sums of algebraic cores: by interpolation between cells, and by Gaussians on meshes.
 
 use crate::cores::CoreModel;
 use crate::fast::check::{Check, SAMPLES};
-use crate::interpolation::{Fineness, Interpolation, Work};
+use crate::fast::{FastSum, Method, Report};
+use crate::interpolation::{Fineness, Interpolation};
+use crate::multilevel::Multilevel;
 use crate::sources::Points;
 use fearless_simd::Level;
 use glam::DVec3;
@@ -10,8 +12,11 @@ use glam::DVec3;
 /// Edges from which the cells may gain more than they cost; measured.
 pub(super) const AUTO_EDGES: usize = 25_000;
 
-/// The tolerance from which they serve. Below it, single precision takes less time than a finer interpolation.
-const TOLERANCE: f64 = 1e-3;
+/// Edges from which meshes may gain more than their check costs; measured.
+pub(super) const MESH_EDGES: usize = 8_000;
+
+/// The tolerance from which both serve. Below it, single precision takes less time than a finer interpolation.
+pub(super) const TOLERANCE: f64 = 1e-3;
 
 /// What sums of leaves cost in pairs of the sum in single precision, which finds more nodes in sight, in tenths.
 const NEAR: u64 = 16;
@@ -34,6 +39,12 @@ pub(super) fn interpolation(
         .then(|| Interpolation::new(model, level, Fineness::for_tolerance(tolerance)))
 }
 
+/// The meshes, for the same.
+pub(super) fn multilevel(model: CoreModel, tolerance: f64, level: Level) -> Option<Multilevel> {
+    let is_soft = matches!(model, CoreModel::Algebraic { .. });
+    (is_soft && tolerance >= TOLERANCE).then(|| Multilevel::new(model, level))
+}
+
 /// A sum that keeps the tolerance.
 pub(super) struct Sum<'a> {
     /// Velocity \[m/s\] and vorticity \[1/s\] at each target.
@@ -41,22 +52,67 @@ pub(super) struct Sum<'a> {
     /// Root mean square and largest error at the sampled targets.
     pub error: [f64; 2],
     pub attempts: usize,
-    pub work: Work,
+    /// Cells on cells or targets on meshes, and pairs.
+    pub work: [u64; 2],
 }
 
-/// Sums of so many `edges`, which are loaded; or the attempts made before the sum in single precision was the cheaper one,
-/// if that `may_be`, or the error above the tolerance at all of them.
+impl FastSum {
+    /// By cells of algebraic cores or by meshes: adds velocities, and vorticities if they are wanted; or adds nothing and says
+    /// how many attempts were made.
+    pub(super) fn add_soft(
+        &mut self,
+        check: &Check,
+        targets: &Points,
+        velocity: &mut Points,
+        vorticity: Option<&mut Points>,
+    ) -> Result<Report, usize> {
+        let (tolerance, mut attempts) = (self.settings.tolerance, 0);
+        let mut found = None;
+        if let Some(cells) = self.soft.as_mut().filter(|_| self.has_soft) {
+            let edges = self.packed.edges.len();
+            let others = self.mesh_cost.map_or(edges, |cost| cost as usize);
+            let dearest = (self.settings.method == Method::Auto).then_some(others);
+            match sum(cells, check, targets, (tolerance, dearest)) {
+                Ok(sum) => found = Some((Method::Tree, sum)),
+                Err(made) => attempts = made,
+            }
+        }
+        let has_meshes = found.is_none() && self.mesh_cost.is_some();
+        if let Some(meshes) = self.meshes.as_mut().filter(|_| has_meshes) {
+            attempts += 1;
+            let sum = mesh_sum(meshes, check, targets, tolerance);
+            found = sum.map(|sum| (Method::Mesh, sum));
+        }
+        let (method, sum) = found.ok_or(attempts)?;
+        add_part(sum.values, 0, velocity);
+        if let Some(vorticity) = vorticity {
+            add_part(sum.values, 3, vorticity);
+        }
+        Ok(Report {
+            method,
+            error_rms: sum.error[0],
+            error_max: sum.error[1],
+            samples: check.count,
+            attempts: attempts.max(sum.attempts),
+            far: sum.work[0],
+            near: sum.work[1],
+        })
+    }
+}
+
+/// Sums by cells; or the attempts made before another sum was the cheaper one, which takes `dearest` pairs a target
+/// if there is one, or the error above the tolerance at all of them.
 pub(super) fn sum<'a>(
     soft: &'a mut Interpolation,
     check: &Check,
     targets: &Points,
-    edges: usize,
-    (tolerance, may_be_single): (f64, bool),
+    (tolerance, dearest): (f64, Option<usize>),
 ) -> Result<Sum<'a>, usize> {
     soft.aim(targets);
     for (made, part) in PARTS.into_iter().enumerate() {
         let work = soft.pair(part);
-        if may_be_single && !pays(work, soft.points(), [edges, targets.len()]) {
+        let cost = cost([work.far, work.near], soft.points(), targets.len());
+        if dearest.is_some_and(|pairs| cost >= pairs as u64 * targets.len() as u64) {
             return Err(made); // a stricter one costs more still
         }
         soft.evaluate();
@@ -67,11 +123,29 @@ pub(super) fn sum<'a>(
                 values: soft.sums(),
                 error,
                 attempts: made + 1,
-                work,
+                work: [work.far, work.near],
             });
         }
     }
     Err(PARTS.len())
+}
+
+/// Sums by meshes; None where they do not serve these targets, or with an error above the tolerance.
+pub(super) fn mesh_sum<'a>(
+    meshes: &'a mut Multilevel,
+    check: &Check,
+    targets: &Points,
+    tolerance: f64,
+) -> Option<Sum<'a>> {
+    let (values, work) = meshes.sum(targets)?;
+    let error = error(check, values);
+    let is_finite = values.iter().flatten().all(|v| v.is_finite());
+    (is_finite && error[0] <= tolerance).then_some(Sum {
+        values,
+        error,
+        attempts: 1,
+        work: [work.far, work.near],
+    })
 }
 
 /// Root mean square and largest error of velocities and vorticities.
@@ -85,10 +159,9 @@ fn error(check: &Check, sums: &[[f64; 6]]) -> [f64; 2] {
     check.error_of_both(velocities, vorticities)
 }
 
-/// Whether cells are cheaper than the sum in single precision.
-fn pays(work: Work, points: usize, [edges, targets]: [usize; 2]) -> bool {
-    let [points, edges, targets] = [points, edges, targets].map(|n| n as u64);
-    NEAR * work.near / 10 + points * (FAR * work.far + READ * targets) < edges * targets
+/// What cells cost, in pairs of the sum in single precision.
+fn cost([far, near]: [u64; 2], points: usize, targets: usize) -> u64 {
+    NEAR * near / 10 + points as u64 * (FAR * far + READ * targets as u64)
 }
 
 /// Adds three of the six numbers at each target.
