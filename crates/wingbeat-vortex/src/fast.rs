@@ -13,9 +13,8 @@ use crate::direct::packed::Packed;
 use crate::direct::single::{CLUSTER, SINGLE, Single};
 use crate::direct::sum::{sum_all, sum_both, sum_packed};
 use crate::fast::check::{Check, SAMPLES};
+use crate::fast::soft::Soft;
 use crate::instruction_set::InstructionSet;
-use crate::interpolation::Interpolation;
-use crate::multilevel::Multilevel;
 use crate::sources::{Network, Points, Segments};
 use crate::tree::cells::Cells;
 use crate::tree::groups::Groups;
@@ -47,9 +46,6 @@ const FAR: u64 = 160;
 
 /// How many times single precision is as fast.
 const SINGLE_GAIN: u64 = 2;
-
-/// Meshes that cost less than this part of single precision are taken without counting what cells would cost.
-const CHEAP: f64 = 0.7;
 
 /// The tolerance from which [`Method::Mesh`] serves.
 pub const MESH_TOLERANCE: f64 = soft::TOLERANCE;
@@ -91,12 +87,8 @@ pub struct FastSum {
     cells: Cells,
     has_tree: bool,
     groups: Groups,
-    /// The tree of wide algebraic cores, where the tolerance allows it.
-    soft: Option<Interpolation>,
-    has_soft: bool,
-    /// The meshes of wide algebraic cores, and what they cost for each target, in pairs of filament and target.
-    meshes: Option<Multilevel>,
-    mesh_cost: Option<f64>,
+    /// What serves wide algebraic cores.
+    soft: Soft,
     segments: Network,
 }
 
@@ -123,14 +115,7 @@ impl FastSum {
             cells,
             has_tree: false,
             groups,
-            soft: matches!(settings.method, Method::Auto | Method::Tree)
-                .then(|| soft::interpolation(settings.model, settings.tolerance, level))
-                .flatten(),
-            has_soft: false,
-            meshes: matches!(settings.method, Method::Auto | Method::Mesh)
-                .then(|| soft::multilevel(settings.model, settings.tolerance, level))
-                .flatten(),
-            mesh_cost: None,
+            soft: Soft::new(&settings, level),
             segments,
         }
     }
@@ -153,32 +138,20 @@ impl FastSum {
             Method::Direct | Method::Single => false,
             Method::Tree | Method::Mesh => !network.is_empty(),
         };
-        let meshes = self.meshes.as_mut().filter(|_| has_cells(soft::MESH_EDGES));
-        self.mesh_cost = meshes.and_then(|meshes| meshes.load(network));
-        if method == Method::Auto {
-            self.mesh_cost = self.mesh_cost.filter(|cost| *cost < network.len() as f64);
-        }
-        // Cells are not looked for where meshes are much cheaper than single precision.
-        let is_cheap = |cost: f64| cost < CHEAP * network.len() as f64;
-        let may_be_soft = self.soft.is_some() && !self.mesh_cost.is_some_and(is_cheap);
-        self.has_soft = may_be_soft && has_cells(soft::AUTO_EDGES);
-        let has_expansions = self.soft.is_none() && self.meshes.is_none();
-        self.has_tree = has_expansions && has_cells(AUTO_EDGES);
+        self.soft.load(method, network);
+        self.has_tree = !self.soft.serves() && has_cells(AUTO_EDGES);
         let may_be_single = match method {
             Method::Auto | Method::Single | Method::Mesh => true,
-            Method::Tree => self.has_soft,
+            Method::Tree => self.soft.serves(),
             Method::Direct => false,
         };
         self.has_single = may_be_single && network.len() >= SINGLE_EDGES && tolerance >= SINGLE;
-        match self.has_tree || self.has_soft || self.has_single {
+        match self.has_tree || self.soft.is_loaded() || self.has_single {
             true => self.packed.load_network(model, network),
             false => self.packed.load_moving(model, network),
         }
         if self.has_tree {
             self.cells.load(network);
-        }
-        if let Some(soft) = self.soft.as_mut().filter(|_| self.has_soft) {
-            soft.load(network);
         }
         if self.has_single {
             let patches = self.packed.patches.len();
@@ -201,7 +174,7 @@ impl FastSum {
         assert_eq!(targets.len(), out.len(), "as many velocities as targets");
         let few = self.settings.method == Method::Auto && targets.len() < AUTO_TARGETS;
         let has_tree = self.has_tree && !few;
-        let has_soft = (self.has_soft || self.mesh_cost.is_some()) && !few;
+        let has_soft = self.soft.is_loaded() && !few;
         let has_single = self.has_single && targets.len() >= SINGLE_TARGETS;
         if targets.is_empty() || !(has_tree || has_soft || has_single) {
             return self.add_direct(targets, out, 0);
@@ -209,7 +182,7 @@ impl FastSum {
         let check = Check::new(self.sources(), targets);
         let mut attempts = 0;
         if has_soft {
-            match self.add_soft(&check, targets, out, None) {
+            match self.add_soft(&check, targets, (out, None)) {
                 Ok(report) => return report,
                 Err(made) => attempts = made,
             }
@@ -248,10 +221,9 @@ impl FastSum {
             "algebraic cores"
         );
         let few = self.settings.method == Method::Auto && targets.len() < AUTO_TARGETS;
-        let has_soft = self.has_soft || self.mesh_cost.is_some();
-        if has_soft && !few && !targets.is_empty() {
+        if self.soft.is_loaded() && !few && !targets.is_empty() {
             let check = Check::with_vorticity(self.sources(), targets);
-            let sum = self.add_soft(&check, targets, velocity, Some(vorticity));
+            let sum = self.add_soft(&check, targets, (&mut *velocity, Some(&mut *vorticity)));
             if sum.is_ok() {
                 return;
             }
@@ -283,6 +255,17 @@ impl FastSum {
     /// What the sums are checked against.
     fn sources(&self) -> (Level, CoreModel, &Packed) {
         (self.level, self.settings.model, &self.packed)
+    }
+
+    /// By cells or meshes of algebraic cores, or nothing and the attempts made.
+    fn add_soft(
+        &mut self,
+        check: &Check,
+        targets: &Points,
+        out: (&mut Points, Option<&mut Points>),
+    ) -> Result<Report, usize> {
+        let how = (&self.settings, self.packed.edges.len());
+        self.soft.add(check, targets, how, out)
     }
 
     /// Error of the velocities in single precision at the sampled targets, root mean square and largest; None if it is

@@ -2,18 +2,18 @@
 
 use crate::cores::CoreModel;
 use crate::fast::check::{Check, SAMPLES};
-use crate::fast::{FastSum, Method, Report};
+use crate::fast::settings::{FastSettings, Method, Report};
 use crate::interpolation::{Fineness, Interpolation};
 use crate::multilevel::Multilevel;
-use crate::sources::Points;
+use crate::sources::{Network, Points};
 use fearless_simd::Level;
 use glam::DVec3;
 
 /// Edges from which the cells may gain more than they cost; measured.
-pub(super) const AUTO_EDGES: usize = 25_000;
+const AUTO_EDGES: usize = 25_000;
 
 /// Edges from which meshes may gain more than their check costs; measured.
-pub(super) const MESH_EDGES: usize = 8_000;
+const MESH_EDGES: usize = 8_000;
 
 /// The tolerance from which both serve. Below it, single precision takes less time than a finer interpolation.
 pub(super) const TOLERANCE: f64 = 1e-3;
@@ -28,50 +28,82 @@ const READ: u64 = 19;
 /// How large cells may be at the first and at the second attempt.
 const PARTS: [f64; 2] = [1.0, 0.7];
 
-/// The cells, for cores and tolerances that they serve.
-pub(super) fn interpolation(
-    model: CoreModel,
-    tolerance: f64,
-    level: Level,
-) -> Option<Interpolation> {
-    let is_soft = matches!(model, CoreModel::Algebraic { .. });
-    (is_soft && tolerance >= TOLERANCE)
-        .then(|| Interpolation::new(model, level, Fineness::for_tolerance(tolerance)))
+/// Meshes that cost less than this part of single precision are taken without counting what cells would cost.
+const CHEAP: f64 = 0.7;
+
+/// Cells and meshes of algebraic cores.
+#[derive(Clone, Debug)]
+pub(super) struct Soft {
+    cells: Option<Interpolation>,
+    has_cells: bool,
+    meshes: Option<Multilevel>,
+    /// What meshes cost for each target, in pairs of filament and target, where they are loaded.
+    mesh_cost: Option<f64>,
 }
 
-/// The meshes, for the same.
-pub(super) fn multilevel(model: CoreModel, tolerance: f64, level: Level) -> Option<Multilevel> {
-    let is_soft = matches!(model, CoreModel::Algebraic { .. });
-    (is_soft && tolerance >= TOLERANCE).then(|| Multilevel::new(model, level))
-}
+impl Soft {
+    /// For cores, tolerances and methods that they serve; else nothing.
+    pub fn new(settings: &FastSettings, level: Level) -> Self {
+        let (model, tolerance) = (settings.model, settings.tolerance);
+        let serves = matches!(model, CoreModel::Algebraic { .. }) && tolerance >= TOLERANCE;
+        let may_be = |method| serves && [Method::Auto, method].contains(&settings.method);
+        let cells = || Interpolation::new(model, level, Fineness::for_tolerance(tolerance));
+        Self {
+            cells: may_be(Method::Tree).then(cells),
+            has_cells: false,
+            meshes: may_be(Method::Mesh).then(|| Multilevel::new(model, level)),
+            mesh_cost: None,
+        }
+    }
 
-/// A sum that keeps the tolerance.
-pub(super) struct Sum<'a> {
-    /// Velocity \[m/s\] and vorticity \[1/s\] at each target.
-    pub values: &'a [[f64; 6]],
-    /// Root mean square and largest error at the sampled targets.
-    pub error: [f64; 2],
-    pub attempts: usize,
-    /// Cells on cells or targets on meshes, and pairs.
-    pub work: [u64; 2],
-}
+    /// Whether it serves cores and tolerance.
+    pub fn serves(&self) -> bool {
+        self.cells.is_some() || self.meshes.is_some()
+    }
 
-impl FastSum {
-    /// By cells of algebraic cores or by meshes: adds velocities, and vorticities if they are wanted; or adds nothing and says
-    /// how many attempts were made.
-    pub(super) fn add_soft(
+    /// Whether anything is loaded.
+    pub fn is_loaded(&self) -> bool {
+        self.has_cells || self.mesh_cost.is_some()
+    }
+
+    /// Replaces the sources where that may gain something.
+    pub fn load(&mut self, method: Method, network: &Network) {
+        let edges = network.len();
+        let is_large = |least: usize| match method {
+            Method::Auto => edges >= least,
+            _ => edges > 0,
+        };
+        let meshes = self.meshes.as_mut().filter(|_| is_large(MESH_EDGES));
+        self.mesh_cost = meshes.and_then(|meshes| meshes.load(network));
+        if method == Method::Auto {
+            self.mesh_cost = self.mesh_cost.filter(|cost| *cost < edges as f64);
+        }
+        let is_cheap = self
+            .mesh_cost
+            .is_some_and(|cost| cost < CHEAP * edges as f64);
+        let cells = self
+            .cells
+            .as_mut()
+            .filter(|_| is_large(AUTO_EDGES) && !is_cheap);
+        self.has_cells = cells.is_some();
+        if let Some(cells) = cells {
+            cells.load(network);
+        }
+    }
+
+    /// Adds velocities, and vorticities if they are wanted, of so many `edges`; or adds nothing and says how many attempts were made.
+    pub fn add(
         &mut self,
         check: &Check,
         targets: &Points,
-        velocity: &mut Points,
-        vorticity: Option<&mut Points>,
+        (settings, edges): (&FastSettings, usize),
+        (velocity, vorticity): (&mut Points, Option<&mut Points>),
     ) -> Result<Report, usize> {
-        let (tolerance, mut attempts) = (self.settings.tolerance, 0);
+        let (tolerance, mut attempts) = (settings.tolerance, 0);
         let mut found = None;
-        if let Some(cells) = self.soft.as_mut().filter(|_| self.has_soft) {
-            let edges = self.packed.edges.len();
+        if let Some(cells) = self.cells.as_mut().filter(|_| self.has_cells) {
             let others = self.mesh_cost.map_or(edges, |cost| cost as usize);
-            let dearest = (self.settings.method == Method::Auto).then_some(others);
+            let dearest = (settings.method == Method::Auto).then_some(others);
             match sum(cells, check, targets, (tolerance, dearest)) {
                 Ok(sum) => found = Some((Method::Tree, sum)),
                 Err(made) => attempts = made,
@@ -100,9 +132,20 @@ impl FastSum {
     }
 }
 
+/// A sum that keeps the tolerance.
+struct Sum<'a> {
+    /// Velocity \[m/s\] and vorticity \[1/s\] at each target.
+    values: &'a [[f64; 6]],
+    /// Root mean square and largest error at the sampled targets.
+    error: [f64; 2],
+    attempts: usize,
+    /// Cells on cells or targets on meshes, and pairs.
+    work: [u64; 2],
+}
+
 /// Sums by cells; or the attempts made before another sum was the cheaper one, which takes `dearest` pairs a target
 /// if there is one, or the error above the tolerance at all of them.
-pub(super) fn sum<'a>(
+fn sum<'a>(
     soft: &'a mut Interpolation,
     check: &Check,
     targets: &Points,
@@ -131,7 +174,7 @@ pub(super) fn sum<'a>(
 }
 
 /// Sums by meshes; None where they do not serve these targets, or with an error above the tolerance.
-pub(super) fn mesh_sum<'a>(
+fn mesh_sum<'a>(
     meshes: &'a mut Multilevel,
     check: &Check,
     targets: &Points,
@@ -165,7 +208,7 @@ fn cost([far, near]: [u64; 2], points: usize, targets: usize) -> u64 {
 }
 
 /// Adds three of the six numbers at each target.
-pub(super) fn add_part(sums: &[[f64; 6]], first: usize, out: &mut Points) {
+fn add_part(sums: &[[f64; 6]], first: usize, out: &mut Points) {
     for (i, sum) in sums.iter().enumerate() {
         out.set(i, out.get(i) + DVec3::from_slice(&sum[first..]));
     }
