@@ -198,10 +198,9 @@ impl Multilevel {
             |far: &dyn Fn(&f64) -> f64, d: usize| out(axes[d].iter().map(far).fold(0.0, f64::max));
         let low = std::array::from_fn(|d| low[d] - beyond(&|x| low[d] - x, d));
         let high = std::array::from_fn(|d| high[d] + beyond(&|x| x - high[d], d));
-        let softest = targets
-            .core
-            .iter()
-            .fold(0.0, |most: f64, core| most.max(0.5 * core));
+        // In a wake that of the sources: all its targets have the same meshes.
+        let soft = targets.core.iter().map(|core| 0.5 * core);
+        let softest = soft.fold(self.widest, f64::max);
         let sides: [f64; 3] = std::array::from_fn(|d| high[d] - low[d]);
         let square: f64 = sides.iter().map(|side| side * side).sum();
         let most = square + self.widest + softest;
@@ -219,8 +218,9 @@ impl Multilevel {
         let Domain { low, high, count } = domain;
         self.domain = Some(domain);
         let first = self.stencils[0];
-        self.meshes.truncate(count);
-        self.meshes.resize_with(count, || Mesh::new(first));
+        if self.meshes.len() < count {
+            self.meshes.resize_with(count, || Mesh::new(first));
+        }
         let sides = std::array::from_fn(|d| high[d] - low[d]);
         let (level, sources) = (self.level, [&self.wide[..], &self.narrow]);
         let stencils = &self.stencils;
@@ -228,7 +228,7 @@ impl Multilevel {
             origin: low,
             quadrature: &self.quadrature,
         };
-        let meshes = self.meshes.par_iter_mut().enumerate();
+        let meshes = self.meshes[..count].par_iter_mut().enumerate();
         meshes.for_each(|(k, mesh)| {
             let gaussian = gaussians::gaussian(k, count, plan.least);
             mesh.stencil = stencils[fineness(k)];
@@ -239,8 +239,10 @@ impl Multilevel {
 
     /// Adds what all targets read of the meshes; returns how often they did.
     fn read(&mut self, plan: Plan, targets: &Points) -> u64 {
-        let (meshes, level) = (&self.meshes, self.level);
-        let origin = self.domain.map_or([0.0; 3], |domain| domain.low);
+        let Some(Domain { low, count, .. }) = self.domain else {
+            return 0;
+        };
+        let (meshes, level, origin) = (&self.meshes[..count], self.level, DVec3::from(low));
         let sums = self.sums.par_chunks_mut(TASK).enumerate();
         let work = sums.map(|(task, sums)| {
             let mut count = 0;
@@ -255,7 +257,7 @@ impl Multilevel {
                             continue;
                         }
                         count += 1;
-                        let x = (targets.get(i) - DVec3::from(origin)).to_array();
+                        let x = (targets.get(i) - origin).to_array();
                         let more = mesh.read(simd, (x, soft), is_narrow);
                         sum.iter_mut().zip(more).for_each(|(sum, more)| *sum += more);
                     }
