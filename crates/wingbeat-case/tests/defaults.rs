@@ -350,6 +350,7 @@ fn refuses_settings_of_the_lattice_that_do_not_fit_each_other_at_their_keys() {
             "forces on segments",
         ),
         ("summation_tolerance = 0.2", "summation_tolerance", "<= 0.1"),
+        ("summation = \"mesh\"", "summation", "algebraic cores"),
         (
             "shed = [\"leading\"]\nleading_edge = \"angle_of_attack\"\nleading_edge_threshold_deg = 200",
             "leading_edge_threshold_deg",

@@ -2,7 +2,7 @@
 //!
 //! `cargo run --release -p wingbeat-vortex --example fast_sum_table -- [wide] [EDGES ...]`
 //!
-//! With `wide` cores are algebraic and widen with age from 0.02 to 0.5 wing lengths, velocity and vorticity are summed with a
+//! With `wide` cores are algebraic and widen with age from 0.02 to 0.5 wing lengths, velocity and vorticity are summed by tree and by meshes with a
 //! tolerance of 1e-3, and the other sum is that in single precision.
 //!
 //! Seconds are processor seconds of all threads where the system tells them (Linux), so that other
@@ -50,7 +50,7 @@ fn main() {
 /// The same of algebraic cores, both ways.
 fn wide(sizes: &[usize]) {
     println!(
-        "   edges    nodes   tree  single  rms of velocity, of vorticity  (processor seconds, the loading included)"
+        "   edges    nodes   tree   mesh  single  rms of velocity, of vorticity, tree and mesh  (processor seconds, the loading included)"
     );
     for &edges in sizes {
         let model = CoreModel::Algebraic {
@@ -82,18 +82,23 @@ fn wide(sizes: &[usize]) {
             });
             (seconds, both)
         };
-        let (tree, of_tree) = sum(Method::Tree, &net.nodes);
         let (single, of_single) = sum(Method::Single, &some);
-        let [u, w] = [0, 1].map(|k| {
-            let pair = |i: usize| (of_single[k].get(i), of_tree[k].get(i * n / part));
-            let pairs = || (0..part).map(pair);
-            let square: f64 = pairs().map(|(a, _)| a.length_squared()).sum();
-            let error: f64 = pairs().map(|(a, b)| a.distance_squared(b)).sum();
-            (error / square).sqrt()
-        });
         let single = single * n as f64 / part as f64;
-        let edges = net.len();
-        println!("{edges:>8} {n:>8} {tree:>6.2} {single:>7.2} {u:>9.1e} {w:>9.1e}");
+        let [(tree, of_tree), (mesh, of_mesh)] = [Method::Tree, Method::Mesh].map(|method| {
+            let (seconds, sums) = sum(method, &net.nodes);
+            let error = |k: usize| {
+                let pair = |i: usize| (of_single[k].get(i), sums[k].get(i * n / part));
+                let pairs = || (0..part).map(pair);
+                let square: f64 = pairs().map(|(a, _)| a.length_squared()).sum();
+                let error: f64 = pairs().map(|(a, b)| a.distance_squared(b)).sum();
+                (error / square).sqrt()
+            };
+            (seconds, [0, 1].map(error))
+        });
+        let ([u, w], [v, x], edges) = (of_tree, of_mesh, net.len());
+        println!(
+            "{edges:>8} {n:>8} {tree:>6.2} {mesh:>6.2} {single:>7.2} {u:>9.1e} {w:>9.1e} {v:>9.1e} {x:>9.1e}"
+        );
     }
 }
 

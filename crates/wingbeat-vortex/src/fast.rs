@@ -1,7 +1,10 @@
 //! The fast sum: near sources one by one, far ones cell by cell, with a checked error.
 
 mod check;
+mod settings;
 mod soft;
+
+pub use settings::{FastSettings, Method, Report};
 
 use crate::cores::CoreModel;
 use crate::direct::lanes::{add_clusters, add_patches_with_vorticity};
@@ -10,8 +13,8 @@ use crate::direct::packed::Packed;
 use crate::direct::single::{CLUSTER, SINGLE, Single};
 use crate::direct::sum::{sum_all, sum_both, sum_packed};
 use crate::fast::check::{Check, SAMPLES};
+use crate::fast::soft::Soft;
 use crate::instruction_set::InstructionSet;
-use crate::interpolation::Interpolation;
 use crate::sources::{Network, Points, Segments};
 use crate::tree::cells::Cells;
 use crate::tree::groups::Groups;
@@ -44,78 +47,11 @@ const FAR: u64 = 160;
 /// How many times single precision is as fast.
 const SINGLE_GAIN: u64 = 2;
 
+/// The tolerance from which [`Method::Mesh`] serves.
+pub const MESH_TOLERANCE: f64 = soft::TOLERANCE;
+
 /// Attempts at the tolerance before the direct sum takes over.
 const ATTEMPTS: usize = 6;
-
-/// How to sum.
-#[derive(
-    Clone,
-    Copy,
-    Debug,
-    Default,
-    PartialEq,
-    Eq,
-    serde::Serialize,
-    serde::Deserialize,
-    schemars::JsonSchema,
-)]
-#[serde(rename_all = "snake_case")]
-pub enum Method {
-    /// The one that is fastest at this size.
-    #[default]
-    Auto,
-    /// Every source at every target, in double precision.
-    Direct,
-    /// Every source at every target, in single precision; in double where the tolerance wants that.
-    Single,
-    /// Far sources by cells, near ones in single precision if the tolerance allows it.
-    Tree,
-}
-
-/// Settings of a [`FastSum`].
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct FastSettings {
-    /// Regularisation.
-    pub model: CoreModel,
-    /// Allowed error: root mean square over targets, relative to that of the velocity.
-    pub tolerance: f64,
-    /// Tree or direct.
-    pub method: Method,
-    /// Vector instructions.
-    pub instructions: InstructionSet,
-}
-
-impl FastSettings {
-    /// Tolerance 1e-4, method and instructions chosen by themselves.
-    pub fn new(model: CoreModel) -> Self {
-        let instructions = InstructionSet::Best;
-        Self {
-            model,
-            tolerance: 1e-4,
-            method: Method::Auto,
-            instructions,
-        }
-    }
-}
-
-/// What a sum did and how well.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Report {
-    /// How it was summed, never [`Method::Auto`].
-    pub method: Method,
-    /// Root mean square of the error at the sampled targets, relative to that of the velocity there \[1\].
-    pub error_rms: f64,
-    /// Largest error at a sampled target, relative to the root mean square of the velocity \[1\].
-    pub error_max: f64,
-    /// Targets sampled; 0 for the direct sum, which has no error to speak of.
-    pub samples: usize,
-    /// Attempts it took to keep the tolerance.
-    pub attempts: usize,
-    /// Evaluations of an expansion (cell, target).
-    pub far: u64,
-    /// Evaluations of the kernel (edge, target), the check not included.
-    pub near: u64,
-}
 
 /// A sum that is direct for small sets, in single precision for larger ones, and a tree where that spares
 /// something; the error of both is measured at every call.
@@ -151,9 +87,8 @@ pub struct FastSum {
     cells: Cells,
     has_tree: bool,
     groups: Groups,
-    /// The tree of wide algebraic cores, where the tolerance allows it.
-    soft: Option<Interpolation>,
-    has_soft: bool,
+    /// What serves wide algebraic cores.
+    soft: Soft,
     segments: Network,
 }
 
@@ -180,10 +115,7 @@ impl FastSum {
             cells,
             has_tree: false,
             groups,
-            soft: matches!(settings.method, Method::Auto | Method::Tree)
-                .then(|| soft::interpolation(settings.model, settings.tolerance, level))
-                .flatten(),
-            has_soft: false,
+            soft: Soft::new(&settings, level),
             segments,
         }
     }
@@ -204,21 +136,22 @@ impl FastSum {
         let has_cells = |least: usize| match method {
             Method::Auto => network.len() >= least,
             Method::Direct | Method::Single => false,
-            Method::Tree => !network.is_empty(),
+            Method::Tree | Method::Mesh => !network.is_empty(),
         };
-        self.has_soft = self.soft.is_some() && has_cells(soft::AUTO_EDGES);
-        self.has_tree = self.soft.is_none() && has_cells(AUTO_EDGES);
-        let may_be_single = method != Method::Direct && (method != Method::Tree || self.has_soft);
+        self.soft.load(method, network);
+        self.has_tree = !self.soft.serves() && has_cells(AUTO_EDGES);
+        let may_be_single = match method {
+            Method::Auto | Method::Single | Method::Mesh => true,
+            Method::Tree => self.soft.serves(),
+            Method::Direct => false,
+        };
         self.has_single = may_be_single && network.len() >= SINGLE_EDGES && tolerance >= SINGLE;
-        match self.has_tree || self.has_soft || self.has_single {
+        match self.has_tree || self.soft.is_loaded() || self.has_single {
             true => self.packed.load_network(model, network),
             false => self.packed.load_moving(model, network),
         }
         if self.has_tree {
             self.cells.load(network);
-        }
-        if let Some(soft) = self.soft.as_mut().filter(|_| self.has_soft) {
-            soft.load(network);
         }
         if self.has_single {
             let patches = self.packed.patches.len();
@@ -241,7 +174,7 @@ impl FastSum {
         assert_eq!(targets.len(), out.len(), "as many velocities as targets");
         let few = self.settings.method == Method::Auto && targets.len() < AUTO_TARGETS;
         let has_tree = self.has_tree && !few;
-        let has_soft = self.has_soft && !few;
+        let has_soft = self.soft.is_loaded() && !few;
         let has_single = self.has_single && targets.len() >= SINGLE_TARGETS;
         if targets.is_empty() || !(has_tree || has_soft || has_single) {
             return self.add_direct(targets, out, 0);
@@ -249,7 +182,7 @@ impl FastSum {
         let check = Check::new(self.sources(), targets);
         let mut attempts = 0;
         if has_soft {
-            match self.add_soft(&check, targets, out, None) {
+            match self.add_soft(&check, targets, (out, None)) {
                 Ok(report) => return report,
                 Err(made) => attempts = made,
             }
@@ -288,9 +221,9 @@ impl FastSum {
             "algebraic cores"
         );
         let few = self.settings.method == Method::Auto && targets.len() < AUTO_TARGETS;
-        if self.has_soft && !few && !targets.is_empty() {
+        if self.soft.is_loaded() && !few && !targets.is_empty() {
             let check = Check::with_vorticity(self.sources(), targets);
-            let sum = self.add_soft(&check, targets, velocity, Some(vorticity));
+            let sum = self.add_soft(&check, targets, (&mut *velocity, Some(&mut *vorticity)));
             if sum.is_ok() {
                 return;
             }
@@ -324,34 +257,15 @@ impl FastSum {
         (self.level, self.settings.model, &self.packed)
     }
 
-    /// By cells of algebraic cores: adds velocities, and vorticities if they are wanted; or adds nothing and says how many
-    /// attempts were made.
+    /// By cells or meshes of algebraic cores, or nothing and the attempts made.
     fn add_soft(
         &mut self,
         check: &Check,
         targets: &Points,
-        velocity: &mut Points,
-        vorticity: Option<&mut Points>,
+        out: (&mut Points, Option<&mut Points>),
     ) -> Result<Report, usize> {
-        let FastSettings {
-            method, tolerance, ..
-        } = self.settings;
-        let soft = self.soft.as_mut().expect("cells are made");
-        let how = (tolerance, method == Method::Auto);
-        let sum = soft::sum(soft, check, targets, self.packed.edges.len(), how)?;
-        soft::add_part(sum.values, 0, velocity);
-        if let Some(vorticity) = vorticity {
-            soft::add_part(sum.values, 3, vorticity);
-        }
-        Ok(Report {
-            method: Method::Tree,
-            error_rms: sum.error[0],
-            error_max: sum.error[1],
-            samples: check.count,
-            attempts: sum.attempts,
-            far: sum.work.far,
-            near: sum.work.near,
-        })
+        let how = (&self.settings, self.packed.edges.len());
+        self.soft.add(check, targets, how, out)
     }
 
     /// Error of the velocities in single precision at the sampled targets, root mean square and largest; None if it is

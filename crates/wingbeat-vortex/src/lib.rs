@@ -17,8 +17,8 @@
 //! Vectors are in the inertial frame N.
 //!
 //! Two sums: [`DirectSum`] takes every segment at every target; [`FastSum`] does so in single precision, or
-//! sums far segments by the cells of a tree, expansions of bare filaments or interpolation of the kernel of wide ones, to
-//! a tolerance that it checks at every call.
+//! sums far segments by the cells of a tree, expansions of bare filaments or interpolation of the kernel of wide ones, or
+//! wide filaments of algebraic cores by Gaussians on meshes, to a tolerance that it checks at every call.
 //!
 //! Two more sum over vortex blobs: [`GaussianSum`] one by one or on a mesh, [`AlgebraicSum`] one by one, with the rate
 //! at which blobs stretch each other.
@@ -35,6 +35,7 @@ mod fast;
 mod gaussian_sum;
 mod instruction_set;
 mod interpolation;
+mod multilevel;
 mod particle_mesh;
 mod sources;
 mod tree;
@@ -42,7 +43,7 @@ mod tree;
 pub use cores::{CoreModel, LAMB_ALPHA};
 pub use direct::reference;
 pub use direct::{AlgebraicSum, BLOCK, DirectSum, Stretching, UnitEdges, WINDOW, add_velocity};
-pub use fast::{FastSettings, FastSum, Method, Report};
+pub use fast::{FastSettings, FastSum, MESH_TOLERANCE, Method, Report};
 pub use gaussian_sum::{GaussianReport, GaussianSum};
 pub use glam::DVec3;
 pub use instruction_set::InstructionSet;

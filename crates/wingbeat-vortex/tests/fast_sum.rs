@@ -1,5 +1,6 @@
 //! Evidence for the fast sum: the direct one.
 
+mod mesh;
 mod soft;
 mod wakes;
 

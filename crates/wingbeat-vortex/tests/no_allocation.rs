@@ -34,7 +34,7 @@ fn exact_no_allocation_after_warm_up() {
     });
 }
 
-/// The tree of algebraic cores.
+/// Tree and meshes of algebraic cores.
 #[test]
 fn exact_no_allocation_of_algebraic_cores_after_warm_up() {
     let model = CoreModel::Algebraic {
@@ -49,18 +49,20 @@ fn exact_no_allocation_of_algebraic_cores_after_warm_up() {
         Points::zeros(net.nodes.len()),
     ];
     on_one_thread(|| {
-        let mut tree = FastSum::new(FastSettings {
-            method: Method::Tree,
-            tolerance: 1e-3,
-            ..FastSettings::new(model)
-        });
-        let mut step = || {
-            tree.load_network(&net);
-            assert_eq!(tree.add_velocity(&net.nodes, &mut u).method, Method::Tree);
-            tree.add_velocity_and_vorticity(&net.nodes, &mut u, &mut w);
-        };
-        step();
-        assert_eq!(measure(step).count_total, 0);
+        for method in [Method::Tree, Method::Mesh] {
+            let mut sum = FastSum::new(FastSettings {
+                method,
+                tolerance: 1e-3,
+                ..FastSettings::new(model)
+            });
+            let mut step = || {
+                sum.load_network(&net);
+                assert_eq!(sum.add_velocity(&net.nodes, &mut u).method, method);
+                sum.add_velocity_and_vorticity(&net.nodes, &mut u, &mut w);
+            };
+            step();
+            assert_eq!(measure(step).count_total, 0, "{method:?}");
+        }
     });
 }
 

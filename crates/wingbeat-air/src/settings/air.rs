@@ -77,7 +77,7 @@ pub struct AirSettings {
     pub particles: Option<ParticleSettings>,
     /// How the velocities of the wakes' rings are summed.
     pub summation: Method,
-    /// Allowed error of tree and single precision: root mean square over the places where velocities are wanted,
+    /// Allowed error of meshes, tree and single precision: root mean square over the places where velocities are wanted,
     /// relative to that of the velocity.
     pub tolerance: f64,
 }

@@ -6,7 +6,7 @@ use crate::images::{Plane, mirrors};
 use crate::settings::air::AirSettings;
 use crate::settings::choices::{LeadingEdge, LoadMethod};
 use std::f64::consts::PI;
-use wingbeat_vortex::CoreModel;
+use wingbeat_vortex::{CoreModel, MESH_TOLERANCE, Method};
 
 impl AirSettings {
     /// Checks the numbers.
@@ -39,6 +39,7 @@ impl AirSettings {
             self.tolerance,
             "a number above 0 and up to 0.1",
         )?;
+        self.check_summation()?;
         self.check_leading()?;
         self.check_particles()?;
         self.check_plane()?;
@@ -95,6 +96,17 @@ impl AirSettings {
             )?;
         }
         Ok(())
+    }
+
+    /// Meshes are for kernels that are smooth, and as good as they are.
+    fn check_summation(&self) -> Result<(), AirError> {
+        let serves = self.is_symmetric() && self.tolerance >= MESH_TOLERANCE;
+        require(
+            self.summation != Method::Mesh || serves,
+            "summation",
+            "mesh",
+            "auto, direct, single or tree; mesh only with algebraic cores and a summation tolerance of 1e-3 or more",
+        )
     }
 
     /// Algebraic cores are for all filaments or none.

@@ -60,7 +60,7 @@ fn on_wakes(settings: &AirSettings) -> FastSettings {
     FastSettings {
         method: match settings.summation {
             Method::Direct => Method::Direct,
-            Method::Auto | Method::Single | Method::Tree => Method::Single,
+            Method::Auto | Method::Single | Method::Tree | Method::Mesh => Method::Single,
         },
         ..free(settings)
     }

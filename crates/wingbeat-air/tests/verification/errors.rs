@@ -3,6 +3,7 @@
 use crate::common::{rectangle, translating};
 use wingbeat_air::{AirError, AirLoads, AirSettings, EdgeKind, Lattice, SheddingSegment, Surface};
 use wingbeat_math::DVec3;
+use wingbeat_vortex::Method;
 
 fn wing() -> Surface {
     Surface::grid("wing", 2, 2)
@@ -62,7 +63,7 @@ fn exact_topology_errors() {
 #[test]
 fn exact_setting_errors_name_the_key() {
     type Spoil = fn(&mut AirSettings);
-    let spoil: [(&str, Spoil); 9] = [
+    let spoil: [(&str, Spoil); 10] = [
         ("density", |s| s.density = -1.0),
         ("free_stream", |s| s.free_stream.y = f64::NAN),
         ("max_displacement", |s| s.max_displacement = Some(0.0)),
@@ -72,6 +73,8 @@ fn exact_setting_errors_name_the_key() {
         ("wake_blob_length", |s| s.wake_blob_length = Some(f64::NAN)),
         // Blobs as wide as nothing.
         ("wake_blob_length", |s| s.wake_blob_length = Some(1.0)),
+        // Meshes are for algebraic cores.
+        ("summation", |s| s.summation = Method::Mesh),
         ("clearance", |s| s.clearance = -1.0),
         ("max_rows", |s| s.max_rows = Some(0)),
     ];

@@ -119,6 +119,7 @@ pub(super) fn key_of(setting: &str) -> &'static str {
         "max_distance" => "air.max_wake_distance_m",
         "max_rows" => "air.max_wake_rows",
         "inset" => "air.ring_inset",
+        "summation" => "air.summation",
         "summation tolerance" => "air.summation_tolerance",
         "images" => "air.ground",
         "shear" => "air.shear_1_s",

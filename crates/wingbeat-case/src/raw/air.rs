@@ -241,16 +241,17 @@ pub struct AirCase {
     pub section_drag: Option<SectionDragCase>,
     /// How the velocities of the wakes are summed.
     ///
-    /// Change it to `direct` to see what the approximations change: less than `summation_tolerance`.
+    /// Change it to `direct` to see what the approximations change: less than `summation_tolerance`. `mesh` asks for algebraic cores and a
+    /// `summation_tolerance` of 1e-3 or more.
     #[default(Method::Auto)]
     #[schemars(extend("with" = LATTICE))]
     pub summation: Method,
-    /// Allowed error of tree and single precision, relative to the velocity; it is checked at every sum.
+    /// Allowed error of meshes, tree and single precision, relative to the velocity; it is checked at every sum.
     /// Below 1e-5 all is in double precision.
     ///
     /// Change it for studies of convergence.
     #[default = 1e-4]
-    #[schemars(range(max = 0.1), extend("exclusiveMinimum" = 0, "with" = [LATTICE, "summation = auto | single | tree"]))]
+    #[schemars(range(max = 0.1), extend("exclusiveMinimum" = 0, "with" = [LATTICE, "summation = auto | single | tree | mesh"]))]
     pub summation_tolerance: f64,
     /// Settings of the blade elements.
     #[schemars(extend("with" = "air.model = blade_element"))]

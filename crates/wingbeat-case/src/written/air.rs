@@ -266,7 +266,7 @@ fn settings(lattice: &AirSettings) -> AirCase {
         summation,
         summation_tolerance: match summation {
             Method::Direct => default.summation_tolerance, // without effect
-            Method::Auto | Method::Single | Method::Tree => tolerance,
+            Method::Auto | Method::Single | Method::Tree | Method::Mesh => tolerance,
         },
         ..default
     }

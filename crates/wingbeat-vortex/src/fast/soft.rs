@@ -1,17 +1,22 @@
-//! The fast sum of algebraic cores by interpolation between cells.
+//! The fast sums of algebraic cores: by interpolation between cells, and by Gaussians on meshes.
 
 use crate::cores::CoreModel;
 use crate::fast::check::{Check, SAMPLES};
-use crate::interpolation::{Fineness, Interpolation, Work};
-use crate::sources::Points;
+use crate::fast::settings::{FastSettings, Method, Report};
+use crate::interpolation::{Fineness, Interpolation};
+use crate::multilevel::Multilevel;
+use crate::sources::{Network, Points};
 use fearless_simd::Level;
 use glam::DVec3;
 
 /// Edges from which the cells may gain more than they cost; measured.
-pub(super) const AUTO_EDGES: usize = 25_000;
+const AUTO_EDGES: usize = 25_000;
 
-/// The tolerance from which they serve. Below it, single precision takes less time than a finer interpolation.
-const TOLERANCE: f64 = 1e-3;
+/// Edges from which meshes may gain more than their check costs; measured.
+const MESH_EDGES: usize = 8_000;
+
+/// The tolerance from which both serve. Below it, single precision takes less time than a finer interpolation.
+pub(super) const TOLERANCE: f64 = 1e-3;
 
 /// What sums of leaves cost in pairs of the sum in single precision, which finds more nodes in sight, in tenths.
 const NEAR: u64 = 16;
@@ -23,40 +28,134 @@ const READ: u64 = 19;
 /// How large cells may be at the first and at the second attempt.
 const PARTS: [f64; 2] = [1.0, 0.7];
 
-/// The cells, for cores and tolerances that they serve.
-pub(super) fn interpolation(
-    model: CoreModel,
-    tolerance: f64,
-    level: Level,
-) -> Option<Interpolation> {
-    let is_soft = matches!(model, CoreModel::Algebraic { .. });
-    (is_soft && tolerance >= TOLERANCE)
-        .then(|| Interpolation::new(model, level, Fineness::for_tolerance(tolerance)))
+/// Meshes that cost less than this part of single precision are taken without counting what cells would cost.
+const CHEAP: f64 = 0.7;
+
+/// Cells and meshes of algebraic cores.
+#[derive(Clone, Debug)]
+pub(super) struct Soft {
+    cells: Option<Interpolation>,
+    has_cells: bool,
+    meshes: Option<Multilevel>,
+    /// What meshes cost for each target, in pairs of filament and target, where they are loaded.
+    mesh_cost: Option<f64>,
+}
+
+impl Soft {
+    /// For cores, tolerances and methods that they serve; else nothing.
+    pub fn new(settings: &FastSettings, level: Level) -> Self {
+        let (model, tolerance) = (settings.model, settings.tolerance);
+        let serves = matches!(model, CoreModel::Algebraic { .. }) && tolerance >= TOLERANCE;
+        let may_be = |method| serves && [Method::Auto, method].contains(&settings.method);
+        let cells = || Interpolation::new(model, level, Fineness::for_tolerance(tolerance));
+        Self {
+            cells: may_be(Method::Tree).then(cells),
+            has_cells: false,
+            meshes: may_be(Method::Mesh).then(|| Multilevel::new(model, level)),
+            mesh_cost: None,
+        }
+    }
+
+    /// Whether it serves cores and tolerance.
+    pub fn serves(&self) -> bool {
+        self.cells.is_some() || self.meshes.is_some()
+    }
+
+    /// Whether anything is loaded.
+    pub fn is_loaded(&self) -> bool {
+        self.has_cells || self.mesh_cost.is_some()
+    }
+
+    /// Replaces the sources where that may gain something.
+    pub fn load(&mut self, method: Method, network: &Network) {
+        let edges = network.len();
+        let is_large = |least: usize| match method {
+            Method::Auto => edges >= least,
+            _ => edges > 0,
+        };
+        let meshes = self.meshes.as_mut().filter(|_| is_large(MESH_EDGES));
+        self.mesh_cost = meshes.and_then(|meshes| meshes.load(network));
+        if method == Method::Auto {
+            self.mesh_cost = self.mesh_cost.filter(|cost| *cost < edges as f64);
+        }
+        let is_cheap = self
+            .mesh_cost
+            .is_some_and(|cost| cost < CHEAP * edges as f64);
+        let cells = self
+            .cells
+            .as_mut()
+            .filter(|_| is_large(AUTO_EDGES) && !is_cheap);
+        self.has_cells = cells.is_some();
+        if let Some(cells) = cells {
+            cells.load(network);
+        }
+    }
+
+    /// Adds velocities, and vorticities if they are wanted, of so many `edges`; or adds nothing and says how many attempts were made.
+    pub fn add(
+        &mut self,
+        check: &Check,
+        targets: &Points,
+        (settings, edges): (&FastSettings, usize),
+        (velocity, vorticity): (&mut Points, Option<&mut Points>),
+    ) -> Result<Report, usize> {
+        let (tolerance, mut attempts) = (settings.tolerance, 0);
+        let mut found = None;
+        if let Some(cells) = self.cells.as_mut().filter(|_| self.has_cells) {
+            let others = self.mesh_cost.map_or(edges, |cost| cost as usize);
+            let dearest = (settings.method == Method::Auto).then_some(others);
+            match sum(cells, check, targets, (tolerance, dearest)) {
+                Ok(sum) => found = Some((Method::Tree, sum)),
+                Err(made) => attempts = made,
+            }
+        }
+        let has_meshes = found.is_none() && self.mesh_cost.is_some();
+        if let Some(meshes) = self.meshes.as_mut().filter(|_| has_meshes) {
+            attempts += 1;
+            let sum = mesh_sum(meshes, check, targets, tolerance);
+            found = sum.map(|sum| (Method::Mesh, sum));
+        }
+        let (method, sum) = found.ok_or(attempts)?;
+        add_part(sum.values, 0, velocity);
+        if let Some(vorticity) = vorticity {
+            add_part(sum.values, 3, vorticity);
+        }
+        Ok(Report {
+            method,
+            error_rms: sum.error[0],
+            error_max: sum.error[1],
+            samples: check.count,
+            attempts: attempts.max(sum.attempts),
+            far: sum.work[0],
+            near: sum.work[1],
+        })
+    }
 }
 
 /// A sum that keeps the tolerance.
-pub(super) struct Sum<'a> {
+struct Sum<'a> {
     /// Velocity \[m/s\] and vorticity \[1/s\] at each target.
-    pub values: &'a [[f64; 6]],
+    values: &'a [[f64; 6]],
     /// Root mean square and largest error at the sampled targets.
-    pub error: [f64; 2],
-    pub attempts: usize,
-    pub work: Work,
+    error: [f64; 2],
+    attempts: usize,
+    /// Cells on cells or targets on meshes, and pairs.
+    work: [u64; 2],
 }
 
-/// Sums of so many `edges`, which are loaded; or the attempts made before the sum in single precision was the cheaper one,
-/// if that `may_be`, or the error above the tolerance at all of them.
-pub(super) fn sum<'a>(
+/// Sums by cells; or the attempts made before another sum was the cheaper one, which takes `dearest` pairs a target
+/// if there is one, or the error above the tolerance at all of them.
+fn sum<'a>(
     soft: &'a mut Interpolation,
     check: &Check,
     targets: &Points,
-    edges: usize,
-    (tolerance, may_be_single): (f64, bool),
+    (tolerance, dearest): (f64, Option<usize>),
 ) -> Result<Sum<'a>, usize> {
     soft.aim(targets);
     for (made, part) in PARTS.into_iter().enumerate() {
         let work = soft.pair(part);
-        if may_be_single && !pays(work, soft.points(), [edges, targets.len()]) {
+        let cost = cost([work.far, work.near], soft.points(), targets.len());
+        if dearest.is_some_and(|pairs| cost >= pairs as u64 * targets.len() as u64) {
             return Err(made); // a stricter one costs more still
         }
         soft.evaluate();
@@ -67,11 +166,29 @@ pub(super) fn sum<'a>(
                 values: soft.sums(),
                 error,
                 attempts: made + 1,
-                work,
+                work: [work.far, work.near],
             });
         }
     }
     Err(PARTS.len())
+}
+
+/// Sums by meshes; None where they do not serve these targets, or with an error above the tolerance.
+fn mesh_sum<'a>(
+    meshes: &'a mut Multilevel,
+    check: &Check,
+    targets: &Points,
+    tolerance: f64,
+) -> Option<Sum<'a>> {
+    let (values, work) = meshes.sum(targets)?;
+    let error = error(check, values);
+    let is_finite = values.iter().flatten().all(|v| v.is_finite());
+    (is_finite && error[0] <= tolerance).then_some(Sum {
+        values,
+        error,
+        attempts: 1,
+        work: [work.far, work.near],
+    })
 }
 
 /// Root mean square and largest error of velocities and vorticities.
@@ -85,14 +202,13 @@ fn error(check: &Check, sums: &[[f64; 6]]) -> [f64; 2] {
     check.error_of_both(velocities, vorticities)
 }
 
-/// Whether cells are cheaper than the sum in single precision.
-fn pays(work: Work, points: usize, [edges, targets]: [usize; 2]) -> bool {
-    let [points, edges, targets] = [points, edges, targets].map(|n| n as u64);
-    NEAR * work.near / 10 + points * (FAR * work.far + READ * targets) < edges * targets
+/// What cells cost, in pairs of the sum in single precision.
+fn cost([far, near]: [u64; 2], points: usize, targets: usize) -> u64 {
+    NEAR * near / 10 + points as u64 * (FAR * far + READ * targets as u64)
 }
 
 /// Adds three of the six numbers at each target.
-pub(super) fn add_part(sums: &[[f64; 6]], first: usize, out: &mut Points) {
+fn add_part(sums: &[[f64; 6]], first: usize, out: &mut Points) {
     for (i, sum) in sums.iter().enumerate() {
         out.set(i, out.get(i) + DVec3::from_slice(&sum[first..]));
     }

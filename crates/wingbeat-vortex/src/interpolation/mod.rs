@@ -14,7 +14,7 @@
 //! Gaussians, [`gaussians`]) and what is near one by one, and read the velocities at the targets.
 
 mod boxes;
-mod gaussians;
+pub(crate) mod gaussians;
 mod grid;
 mod pairs;
 #[cfg(test)]

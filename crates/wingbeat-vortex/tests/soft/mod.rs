@@ -213,15 +213,19 @@ fn exact_degenerate_sizes_of_algebraic_cores() {
     assert_eq!(one(&net, &beyond), exact(&net, &beyond)[0]);
 }
 
-/// Filaments as long as their cores are wide take the cells only where these are cheaper.
+/// Cells are taken only where they are the cheapest sum.
 #[test]
 fn behaves_auto_takes_cells_only_where_they_pay() {
     let auto = FastSettings {
         method: Method::Auto,
         ..settings(1e-3)
     };
-    for (edges, method) in [(8_000, Method::Single), (40_000, Method::Tree)] {
-        let net = wake(edges, [0.02, 0.5]);
+    for (edges, cores, method) in [
+        (8_000, [0.02, 0.5], Method::Single),
+        (40_000, [0.02, 0.5], Method::Mesh),
+        (40_000, [0.005, 0.01], Method::Tree), // too thin for meshes
+    ] {
+        let net = wake(edges, cores);
         assert_eq!(velocity(auto, &net, &net.nodes).1.method, method);
     }
     // At a tolerance that is too fine for them nothing changes.
