@@ -1,6 +1,7 @@
 //! From circulations to forces, in the order of the theory.
 
 mod closed;
+mod front;
 mod joukowski;
 mod lag;
 mod nodal;

@@ -1,6 +1,7 @@
 //! Unsteady Bernoulli: from circulation to pressure jump and force.
 
 use crate::lattice::Lattice;
+use crate::loads::front::add_front;
 use crate::loads::lag::add_lag;
 use crate::loads::values::AirLoads;
 use crate::settings::CirculationRate;
@@ -112,5 +113,6 @@ pub(crate) fn forces(
         out.force.push(force);
         out.couple.push(couple);
     }
+    add_front(lattice, state, filaments, position, out);
     add_lag(lattice, filaments, position, out);
 }
