@@ -6,7 +6,7 @@
 //! forces.
 
 use crate::lattice::Lattice;
-use crate::loads::pressure::rate_weights;
+use crate::loads::rate::rate_weights;
 use crate::loads::values::AirLoads;
 use crate::state::{AirState, WakeSheet};
 use crate::wake::{Filaments, NEW_VORTEX};
