@@ -385,3 +385,31 @@ fn invariant_every_preset_flies_to_its_end_symmetric_ones_symmetrically() {
     }
     assert!(symmetric > 20, "{symmetric}");
 }
+
+/// Hovering strokes are alike back and forth, or nearly so; those of the tethered dragonfly, slowed and turned, are not.
+#[test]
+fn behaves_one_sided_leading_edges_are_told_of_dragonflies_and_not_of_hovering_flight() {
+    for preset in PRESETS {
+        let setup = LoadedCase::find(preset.name, &[]).unwrap().setup;
+        let said = setup.one_sided_leading_edges();
+        assert!(said.is_none(), "{}: {said:?}", preset.name);
+    }
+    let part = |name: &str| {
+        let setup = LoadedCase::find(name, &[]).unwrap().setup;
+        setup.one_sided_part(0)
+    };
+    let alike = part("robofly-symmetrical");
+    println!("{alike:e} {}", part("fruit-fly-tethered"));
+    assert!(alike < 1e-3 && part("fruit-fly-tethered") < 0.03); // measured 2e-4 and 0.015
+    let with = |shed: &str| {
+        let set = [format!("air.shed={shed}")];
+        let setup = LoadedCase::find("dragonfly", &set).unwrap().setup;
+        setup.one_sided_leading_edges()
+    };
+    let said = with(r#"["trailing", "tip", "leading"]"#).unwrap();
+    assert!(
+        said.contains("`fore-right`") && said.contains("`hind-left`"),
+        "{said}"
+    );
+    assert_eq!(with(r#"["trailing", "tip", "leading", "root"]"#), None);
+}

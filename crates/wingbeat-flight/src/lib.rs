@@ -35,6 +35,7 @@ mod free;
 mod interface;
 pub mod joints;
 mod memory;
+mod one_sided;
 mod prescribed;
 mod quadratures;
 pub mod record;

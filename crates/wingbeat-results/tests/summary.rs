@@ -120,6 +120,18 @@ fn behaves_tethered_flights_are_not_told_that_their_momentum_is_open() {
     );
 }
 
+/// Leading edges that shed one sign more than the other while roots hold: with strokes unlike back and forth, not in hover.
+#[test]
+fn behaves_summaries_tell_of_leading_edges_that_shed_one_sign() {
+    let shed = r#"air.shed=["trailing", "tip", "leading"]"#;
+    for (name, told) in [("dragonfly", true), ("fruit-fly-tethered", false)] {
+        let summary = flown(&preset(name, &["time.beats=0.05", shed]));
+        let says = says(&summary, "is left over of one sign in every beat");
+        assert_eq!(says, told, "{name}: {:?}", summary.warnings);
+        assert!(!told || summary.verdict >= Verdict::Amber);
+    }
+}
+
 /// The same flight in finer steps goes from red to green: the residual of a fourth-order method falls with them.
 #[test]
 fn behaves_the_verdict_follows_the_balances() {

@@ -7,6 +7,7 @@
 
 use crate::geometry::{Edge, NodeMotion, Strip, chord};
 use crate::lattice::Lattice;
+use crate::loads::front::add_front;
 use crate::loads::lag::add_lag;
 use crate::loads::values::AirLoads;
 use crate::loads::vortex_lift::yielding;
@@ -77,6 +78,7 @@ impl Segments {
         let suction = match method {
             LoadMethod::Joukowski => {
                 self.joukowski(lattice, filaments, &motion.position, out);
+                add_front(lattice, state, filaments, &motion.position, out);
                 DVec3::ZERO
             }
             LoadMethod::Pressure | LoadMethod::Polhamus => self.suction(&out.panels.normal),

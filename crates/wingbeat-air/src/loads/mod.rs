@@ -1,10 +1,12 @@
 //! From circulations to forces, in the order of the theory.
 
 mod closed;
+mod front;
 mod joukowski;
 mod lag;
 mod nodal;
 mod pressure;
+mod rate;
 mod resultants;
 mod section_drag;
 mod separation;
@@ -13,7 +15,8 @@ mod vortex_lift;
 
 pub(crate) use closed::outer_forces;
 pub(crate) use joukowski::{Flow, Segments};
-pub(crate) use pressure::{circulation_rate, forces, pressure_jump, rate_weights, velocity_jump};
+pub(crate) use pressure::{circulation_rate, forces, pressure_jump, velocity_jump};
+pub(crate) use rate::rate_weights;
 pub(crate) use resultants::{check_finite, impulse, resultants};
 pub(crate) use section_drag::add_section_drag;
 pub(crate) use separation::leading_values;

@@ -1,9 +1,10 @@
 //! Unsteady Bernoulli: from circulation to pressure jump and force.
 
 use crate::lattice::Lattice;
+use crate::loads::front::add_front;
 use crate::loads::lag::add_lag;
+use crate::loads::rate::rate_weights;
 use crate::loads::values::AirLoads;
-use crate::settings::CirculationRate;
 use crate::state::AirState;
 use crate::wake::Filaments;
 use wingbeat_math::DVec3;
@@ -43,22 +44,6 @@ pub(crate) fn velocity_jump(
         }
         let jump = vorticity.cross(out.panels.normal[p]) / out.panels.area[p];
         out.velocity_jump.push(jump);
-    }
-}
-
-/// Weights of the circulation now, one step and two steps before in its rate of change \[1/s\], `h` after the last step.
-pub(crate) fn rate_weights(lattice: &Lattice, state: &AirState, h: f64) -> [f64; 3] {
-    let h0 = state.dt_before;
-    match lattice.settings().rate {
-        CirculationRate::BackwardSecond if state.step > 1 => [
-            (2.0 * h + h0) / (h * (h + h0)),
-            -(h + h0) / (h * h0),
-            h / (h0 * (h + h0)),
-        ],
-        CirculationRate::Backward | CirculationRate::BackwardSecond if state.step > 0 => {
-            [1.0 / h, -1.0 / h, 0.0]
-        }
-        _ => [0.0; 3],
     }
 }
 
@@ -112,5 +97,6 @@ pub(crate) fn forces(
         out.force.push(force);
         out.couple.push(couple);
     }
+    add_front(lattice, state, filaments, position, out);
     add_lag(lattice, filaments, position, out);
 }

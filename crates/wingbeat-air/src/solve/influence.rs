@@ -47,6 +47,17 @@ pub(crate) struct Instant<'a> {
     pub time: f64,
 }
 
+impl Instant<'_> {
+    /// Middle of the newest free nodes of the wake that leaves an edge [m], N.
+    pub(crate) fn newest_row(&self, edge: usize) -> Option<DVec3> {
+        let wake = self.lattice.topology().edges[edge].wake?;
+        let sheet = &self.state.sheets[wake.sheet];
+        let row = sheet.rows().checked_sub(1)?;
+        let [a, b] = [0, 1].map(|k| sheet.node(row, wake.column + k));
+        Some(a.midpoint(b))
+    }
+}
+
 impl Influence {
     /// Computes the matrix.
     pub(crate) fn assemble(&mut self, now: Instant, filaments: &Filaments) {

@@ -68,6 +68,7 @@ impl LeadingEdges {
         self.unfound = 0;
         if self.release.is_due() {
             self.take_answers(now, filaments, influence)?;
+            self.bound_effects(now);
             self.unfound = self.release.converge();
             self.answer(gamma);
         }
@@ -170,6 +171,20 @@ impl LeadingEdges {
             }
         }
         Ok(())
+    }
+
+    /// Gives what leaves a strip at least the effect on its own suction that it has where the wing has turned into its newest row.
+    fn bound_effects(&mut self, now: Instant) {
+        let computed = &now.lattice.suction().computed;
+        for (u, &s) in computed.iter().enumerate() {
+            let strip = &now.lattice.strips()[s];
+            let row = now.newest_row(strip.edge);
+            let normal = now.panels.normal[strip.panels[0]];
+            let own = &mut self.release.by_leaving[u * computed.len() + u];
+            if let Some(row) = row {
+                *own = own.min(self.fronts[s].least_effect(row, normal));
+            }
+        }
     }
 
     /// Adds to the circulations what they are by what leaves.

@@ -154,10 +154,9 @@ fn agrees_second_method_impulse_in_hover_with_implicit_suction() {
         (s.bound_core, s.wake_core) = (core_of(0.01)[0], core_of(0.07)[0]);
     });
     println!("force, rate of impulse: {beats:?}");
-    // Measured 8 and 5 %; 11 % in the first beat. What an edge sheds leaves from the very edge, a quarter of a panel ahead of the
-    // rings: its impulse has so much more area than the forces on the panels.
-    for [force, impulse] in &beats[1..] {
-        assert!((impulse / force - 1.0).abs() < 0.1, "{beats:?}");
+    // Measured 2.8, 0.1 and 2.8 %. Without the force on the strip between the edge and the rings 11, 8 and 5 %.
+    for [force, impulse] in beats {
+        assert!((impulse / force - 1.0).abs() < 0.045, "{beats:?}");
     }
 }
 

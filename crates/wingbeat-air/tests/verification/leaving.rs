@@ -4,8 +4,10 @@
 use crate::common::{Run, fly, rectangle, total_force};
 use crate::implicit_suction::{implicit, pitched, settings};
 use crate::wakes::ALL;
-use wingbeat_air::{AirSettings, AirState, Lattice, Method, SheddingKinds, Surface};
-use wingbeat_math::DVec3;
+use wingbeat_air::{
+    AirLoads, AirSettings, AirState, EdgeKind, Lattice, Method, SheddingKinds, Surface,
+};
+use wingbeat_math::{DVec3, r2};
 use wingbeat_vortex::Points;
 
 /// The settings of a wing with sharp cores, all of whose edges shed.
@@ -86,39 +88,30 @@ fn limit_wakes_moved_for_no_time_leave_impulse_and_far_flow() {
     assert!(parts[0] < 0.02 && parts[2] < 2e-3, "{parts:?}");
 }
 
-/// Steps of a panel's length and a suction that hardly any edge has: sharp wakes cross the leading panels, and no choice of
-/// strips is right. What was shed so is counted in the loads and, once the step is accepted, in the state.
+/// Steps of a panel's length and a suction that hardly any edge has: sharp wakes cross the leading panels. As what leaves a strip
+/// has at least its bounded effect on that strip, there is a choice of strips that is right in every step.
 #[test]
-fn behaves_strips_that_shed_for_want_of_a_solution_are_counted() {
+fn exact_suction_is_held_where_sharp_wakes_cross_the_leading_panels() {
     let (held, cols) = (0.05, 12);
     let flat = rectangle(4, cols, DVec3::X, 4.0 * DVec3::Y);
     let lattice = Lattice::new(vec![Surface::grid("wing", 4, cols)], sharp(held)).unwrap();
     let swing = |t: f64| pitched(&flat, [0.3 * t.cos(), -0.3 * t.sin()]);
-    let (mut counted, mut found, mut missed) = (0, 0, 0);
+    let mut shed = 0;
     fly(&lattice, swing, 0.25, 24, |step, state, loads, _| {
-        let shed = loads.leaving.iter().filter(|l| **l != 0.0).count() as u64;
-        let off = |s: &&f64| (**s / held - 1.0).abs() > 1e-6;
-        let wrong = loads.leading.iter().filter(off).count();
-        match loads.unfound {
-            0 if step > 0 => {
-                found += 1;
-                assert!(loads.leading.iter().all(|s| *s < held * (1.0 + 1e-9)));
-            }
-            0 => {}
-            n => {
-                missed += wrong;
-                assert_eq!(n, shed);
+        assert_eq!((loads.unfound, state.events.limited), (0, 0));
+        let with = loads.leading.iter().zip(&loads.leaving);
+        for (suction, leaving) in with.filter(|_| step > 0) {
+            assert!(*suction < held * (1.0 + 1e-9));
+            if *leaving != 0.0 {
+                shed += 1;
+                assert!((suction / held - 1.0).abs() < 1e-9);
             }
         }
-        counted += loads.unfound;
-        assert_eq!(state.events.limited, counted);
         assert!(total_force(loads).is_finite());
     })
     .unwrap();
-    println!(
-        "{counted} strips without a solution, {missed} missed what they hold, {found} steps with one"
-    );
-    assert!(counted > 20 && missed > 20 && found > 5);
+    println!("{shed} strips shed");
+    assert!(shed > 100);
 }
 
 /// A wing at 40 degrees sheds ever more of one sign from its leading edge and of the other from its trailing edge; its roots shed,
@@ -161,12 +154,12 @@ fn agrees_second_method_impulse_of_a_wing_that_sheds_around_with_its_wake_cut() 
     let [whole, cut] = [None, Some(20)].map(steady_separation);
     println!("force, rate of impulse: whole {whole:?}, cut {cut:?}");
     for [force, impulse] in [whole, cut] {
-        // Measured 8 and 5 %: an edge's vortex has a quarter of a panel more area than the panels, as in hover; and in the
-        // cut one the flow of what was dropped is missing.
-        assert!(impulse.distance(force) < 0.1 * force.length());
+        // Measured 12 and 14 %, the force being larger, as in the same flow of edges that hold suction by the step before or shed always
+        // (6 to 17 %): what is left of it is not of this form. In the cut one the flow of what was dropped is missing, too.
+        assert!(impulse.distance(force) < 0.2 * force.length());
     }
-    // Measured 7 %.
-    assert!(cut[0].distance(whole[0]) < 0.15 * whole[0].length());
+    // Measured 1 %.
+    assert!(cut[0].distance(whole[0]) < 0.05 * whole[0].length());
 }
 
 /// Rings of a leading edge that holds have no circulation: nothing is common to all, and where the wake is cut an attached wing
@@ -189,4 +182,49 @@ fn agrees_attached_wing_with_its_wake_cut_whether_its_roots_shed_or_not() {
     let apart = |[a, b]: [DVec3; 2]| a.distance(b) / b.length();
     println!("{} {}", apart(whole), apart(cut));
     assert!(apart(cut) < apart(whole) + 1e-3);
+}
+
+/// What leaves the middle of a leading edge whose newest free nodes lie, a panel away from it, at this angle from straight ahead [deg], and
+/// the pull of what lies at the edge [N].
+fn with_newest_row_at(angle: f64) -> [f64; 2] {
+    let (lattice, run) = shedding_plate();
+    let motion = pitched(
+        &rectangle(4, 6, DVec3::X, 4.0 * DVec3::Y),
+        [std::f64::consts::FRAC_PI_4, 0.0],
+    );
+    let mut state = run.state;
+    let mut ws = lattice.workspace();
+    lattice.convect(&mut state, 0.05, &mut ws).unwrap();
+    let (sin, cos) = angle.to_radians().sin_cos();
+    let [ahead, above] = [-DVec3::X, DVec3::Z].map(|x| r2(std::f64::consts::FRAC_PI_4) * x);
+    for (sheet, root) in state.sheets.iter_mut().zip(lattice.sheets()) {
+        let leading = (0..sheet.columns).filter(|&c| root.kinds[c] == EdgeKind::Leading);
+        for node in leading.flat_map(|c| [c, c + 1]) {
+            let edge = motion.position[root.nodes[node]];
+            let at = edge + 0.25 * (cos * ahead + sin * above);
+            sheet
+                .nodes
+                .set((sheet.rows() - 1) * (sheet.columns + 1) + node, at);
+        }
+    }
+    let mut loads = AirLoads::default();
+    lattice
+        .loads(&state, 0.45, 0.05, &motion, &mut ws, &mut loads)
+        .unwrap();
+    [loads.leaving[3].abs(), total_force(&loads).length()]
+}
+
+/// Where a wing turns into its newest row, a vortex that leaves along it has no effect on the suction of the edge, and what leaves had no bound. The sheet leaves the edge straight
+/// ahead before it bends, so what leaves stays finite.
+#[test]
+fn limit_what_leaves_stays_finite_where_a_wing_turns_into_its_newest_row() {
+    let angles = [90.0, 120.0, 140.0, 150.0, 160.0, 170.0, 175.0, 179.0];
+    let all = angles.map(with_newest_row_at);
+    println!("{all:?}");
+    let [beside, push] = all[0];
+    // Measured 3.3 and 2.3 at most; 32 and 8.7 at 160 degrees without a bound to the effect of what leaves, none beyond.
+    for [left, force] in all {
+        assert!((0.5..5.0).contains(&(left / beside)), "{all:?}");
+        assert!(force < 4.0 * push, "{all:?}");
+    }
 }

@@ -187,6 +187,7 @@ pub(super) fn doubts(setup: &FlightSetup, e: &Estimate) -> Vec<String> {
         list.extend(own.into_iter().map(name));
     }
     list.extend(setup.crossing_wings());
+    list.extend(setup.one_sided_leading_edges());
     list
 }
 

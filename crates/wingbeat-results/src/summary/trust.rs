@@ -162,6 +162,9 @@ fn air_warnings(
     };
     let crossing = setup.crossing_wings().into_iter().map(no_meaning);
     crossing.for_each(|text| list.limit(text));
+    if let Some(text) = setup.one_sided_leading_edges() {
+        list.limit(format!("By the prescribed motion {text}."));
+    }
     list.note(core_is_an_input(setup, lattice));
     if air.mirror {
         list.note("Mirror symmetry was assumed (air.mirror): a real flow of this kind loses it, and with it roll, yaw and sideways drift would come.".to_owned());

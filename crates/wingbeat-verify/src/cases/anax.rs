@@ -204,3 +204,29 @@ fn choices(_quick: bool) -> Result<Vec<Row>, VerifyError> {
     }
     Ok(rows)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::lab::insect::fruit_fly_wings;
+    use wingbeat_case::LoadedCase;
+
+    /// What is said before a flight, and after it, of strokes that are not alike back and forth.
+    #[test]
+    fn behaves_flights_of_anax_are_told_that_leading_edges_shed_one_sign() {
+        let said = |case: raw::Case| {
+            let setup = LoadedCase::new(case).unwrap().setup;
+            setup.one_sided_leading_edges()
+        };
+        let four = AZUMA_1988
+            .map(Anax::animal)
+            .into_iter()
+            .chain([WANG_RUSSELL]);
+        for animal in four {
+            assert!(said(animal.case(DEFAULT)).is_some());
+            assert_eq!(said(animal.case(FREE_ROOTS.1)), None);
+        }
+        let (fly, _) = fruit_fly_wings();
+        assert_eq!(said(fly.case(DEFAULT)), None);
+    }
+}
