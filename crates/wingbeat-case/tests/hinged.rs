@@ -139,14 +139,14 @@ fn limit_passes_are_few_whatever_a_wing_on_a_hinge_weighs() {
 /// Wings of a tenth of `rho b c^2`: what parts them by rounding does not grow.
 #[test]
 fn agrees_half_of_the_air_with_both_halves_around_light_hinged_wings() {
-    let set = |mirror: &'static str| ["wing.right.mass_kg=2.2e-8", mirror, "time.beats=1.5"];
+    let set = |mirror: &'static str| ["wing.right.mass_kg=2.2e-8", mirror, "time.beats=1"];
     let [half, whole] = ["air.mirror=true", "air.mirror=false"].map(|m| pitch(&robot(&set(m))));
     println!("{half} and {whole} deg");
     // What the wings do to each other's added mass is a rate with one half and a difference over steps with both.
-    assert!((half - whole).abs() < 1e-3, "{half} and {whole} deg");
+    assert!((half - whole).abs() < 5e-4, "{half} and {whole} deg");
 }
 
-/// Inertia in pitch from a half to 1/250 of that of the air: plain passes diverge or alternate.
+/// Inertia in pitch from a fifth to 1/250 of that of the air: plain passes diverge or alternate.
 #[test]
 fn agrees_a_flyer_that_is_light_as_a_whole_by_either_integrator() {
     for pitch in ["4e-6", "4e-7", "8e-8"] {
@@ -161,12 +161,14 @@ fn agrees_a_flyer_that_is_light_as_a_whole_by_either_integrator() {
                 let set: Vec<&str> = set.iter().map(String::as_str).collect();
                 let records = flown(light_flyer(pitch, &set), &set);
                 let (rows, most) = (alternating(&records), passes(&records));
-                let momentum = |r: &Record| r.momentum_residual.length() / r.momentum.length().max(1e-6);
-                let kept = momentum(records.last().expect("steps"));
+                // Since the release; before, a support takes part.
+                let (last, released) = (&records[records.len() - 1], &records[records.len() * 2 / 5 + 1]);
+                let lost = last.momentum_residual - released.momentum_residual;
+                let kept = lost.length() / last.momentum.length();
                 println!("{pitch}, {steps} by {integrator}: {rows} in a row, {most} passes, momentum {kept:e}");
                 assert!(rows < 5 && most <= 10, "{rows} in a row, {most} passes");
-                assert!(kept < 1e-11, "momentum {kept}"); // rounding of some hundred steps
-                records.last().expect("steps").mass_centre
+                assert!(kept < 1e-12, "momentum {kept}"); // rounding of some dozen steps
+                last.mass_centre
             });
             apart.push(place[0].distance(place[1]));
         }

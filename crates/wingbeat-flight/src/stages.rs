@@ -88,7 +88,7 @@ fn accelerated_from(setup: &FlightSetup, is_carried: bool) -> Option<usize> {
     };
     match is_carried && !is_mirrored {
         true => Some(1),
-        false => setup.air.has_memory().then_some(PLAIN_PASSES + 1),
+        false => setup.air.keeps_wake().then_some(PLAIN_PASSES + 1),
     }
 }
 

@@ -390,7 +390,7 @@ fn exact_show_and_compare_say_what_the_summary_says() {
     );
 }
 
-/// In pitch such a body weighs half of the air that moves with its wings.
+/// In pitch the air that moves with the wings has half the inertia of such a body.
 #[test]
 fn limit_a_flyer_that_is_light_in_pitch_does_not_alternate() {
     let scratch = Scratch::new("alternating");
