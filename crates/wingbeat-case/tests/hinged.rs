@@ -1,7 +1,8 @@
-//! Wings on passive hinges in the lattice: the air that they carry along weighs more than they do.
+//! Wings on passive hinges in the lattice, and flyers that are light as a whole: the air that wings carry along weighs more than
+//! what carries them.
 
 use wingbeat_case::LoadedCase;
-use wingbeat_flight::{FlightSetup, Record, Simulation};
+use wingbeat_flight::{FlightError, FlightSetup, Record, Simulation};
 
 /// Few panels: what is looked at here does not hang on them.
 const COARSE: [&str; 3] = [
@@ -16,9 +17,31 @@ fn setup(set: &[&str]) -> FlightSetup {
     LoadedCase::find("robobee", &all).expect("a case").setup
 }
 
-/// Its records.
+/// A pair of driven wings on a body of so much inertia in pitch \[kg m2\], with half a beat held: in pitch the air weighs more.
+fn light_flyer(pitch: &str, set: &[&str]) -> FlightSetup {
+    let own = [
+        "flight.mode=free",
+        "flight.held_beats=0.5",
+        "wing.right.mass_kg=1e-6",
+        "wing.right.mesh.chordwise=3",
+        "wing.right.mesh.spanwise=6",
+        "air.scheme=accurate",
+        &format!("body.inertia_about_centre_kg_m2=[1e-3, {pitch}, 1e-3, 0, 0, 0]"),
+    ];
+    let all: Vec<String> = own.iter().chain(set).map(|s| (*s).to_owned()).collect();
+    LoadedCase::find("flapping-rectangles", &all)
+        .expect("a case")
+        .setup
+}
+
+/// The robot's records.
 fn robot(set: &[&str]) -> Vec<Record> {
-    let mut flight = Simulation::new(setup(set)).expect("a start");
+    flown(setup(set), set)
+}
+
+/// The records of a flight.
+fn flown(setup: FlightSetup, set: &[&str]) -> Vec<Record> {
+    let mut flight = Simulation::new(setup).expect("a start");
     let mut records = vec![flight.record().clone()];
     while !flight.finished() {
         let step = flight.step().unwrap_or_else(|e| panic!("{set:?}: {e}"));
@@ -66,7 +89,7 @@ fn limit_wings_on_passive_hinges_fly_by_either_integrator() {
                 pitch(&flown)
             );
             // Unstable ones turn back in all of the last steps, by plain iteration in 25 passes where they converge at all.
-            assert!(rows < 5 && most <= 14, "{rows} in a row, {most} passes");
+            assert!(rows < 5 && most <= 10, "{rows} in a row, {most} passes");
             ends.push(pitch(&flown));
         }
     }
@@ -88,7 +111,7 @@ fn limit_a_wing_of_a_hundredth_of_the_mass_flies() {
             "{integrator}: {rows} in a row, {most} passes, {:.3} deg",
             pitch(&flown)
         );
-        assert!(rows < 5 && most <= 15, "{rows} in a row, {most} passes");
+        assert!(rows < 5 && most <= 10, "{rows} in a row, {most} passes");
         let largest = flown
             .iter()
             .map(|r| r.joints[1][0].abs())
@@ -97,10 +120,147 @@ fn limit_a_wing_of_a_hundredth_of_the_mass_flies() {
     }
 }
 
+/// Passes to 1e-10, wings of a tenth and of 1/250 of `rho b c^2`: what passes have shown speeds up the next ones.
+#[test]
+fn limit_passes_are_few_whatever_a_wing_on_a_hinge_weighs() {
+    for (mass, integrator, allowed) in [("2.2e-8", "bdf", 6), ("8.9e-10", "hamming", 10)] {
+        let flown = robot(&[
+            &format!("wing.right.mass_kg={mass}"),
+            &format!("dynamics.integrator={integrator}"),
+            "time.steps_per_beat=160",
+            "time.beats=1.25",
+        ]);
+        let most = passes(&flown);
+        println!("{mass} kg by {integrator}: {most} passes");
+        assert!(most <= allowed, "{mass} kg: {most} passes");
+    }
+}
+
+/// Wings of a tenth of `rho b c^2`: what parts them by rounding does not grow.
+#[test]
+fn agrees_half_of_the_air_with_both_halves_around_light_hinged_wings() {
+    let set = |mirror: &'static str| ["wing.right.mass_kg=2.2e-8", mirror, "time.beats=1"];
+    let [half, whole] = ["air.mirror=true", "air.mirror=false"].map(|m| pitch(&robot(&set(m))));
+    println!("{half} and {whole} deg");
+    // What the wings do to each other's added mass is a rate with one half and a difference over steps with both.
+    assert!((half - whole).abs() < 5e-4, "{half} and {whole} deg");
+}
+
+/// Inertia in pitch from a fifth to 1/250 of that of the air: plain passes diverge or alternate.
+#[test]
+fn agrees_a_flyer_that_is_light_as_a_whole_by_either_integrator() {
+    for pitch in ["4e-6", "4e-7", "8e-8"] {
+        let mut apart = vec![];
+        for steps in ["40", "80"] {
+            let place = ["hamming", "bdf"].map(|integrator| {
+                let set = [
+                    format!("time.steps_per_beat={steps}"),
+                    format!("dynamics.integrator={integrator}"),
+                    "time.beats=1.25".into(),
+                ];
+                let set: Vec<&str> = set.iter().map(String::as_str).collect();
+                let records = flown(light_flyer(pitch, &set), &set);
+                let (rows, most) = (alternating(&records), passes(&records));
+                // Since the release; before, a support takes part.
+                let (last, released) = (&records[records.len() - 1], &records[records.len() * 2 / 5 + 1]);
+                let lost = last.momentum_residual - released.momentum_residual;
+                let kept = lost.length() / last.momentum.length();
+                println!("{pitch}, {steps} by {integrator}: {rows} in a row, {most} passes, momentum {kept:e}");
+                assert!(rows < 5 && most <= 10, "{rows} in a row, {most} passes");
+                assert!(kept < 1e-12, "momentum {kept}"); // rounding of some dozen steps
+                last.mass_centre
+            });
+            apart.push(place[0].distance(place[1]));
+        }
+        println!("{pitch}: apart by {apart:?} m");
+        // Of order four but for the release; the body moves by 15 mm.
+        let is_close = apart[1] < 2e-4 && apart[1] < 0.25 * apart[0];
+        assert!(is_close, "{apart:?} m");
+    }
+}
+
+/// The robot with wings of beams, `times` as stiff as a spar of carbon fibre.
+fn bending(times: f64, set: &[&str]) -> Vec<Record> {
+    let [flap, torsion] = [2e-6, 5e-7].map(|x| times * x);
+    let beam = format!(
+        "wing.right.structure.beam={{ flap_newton_m2 = [{flap}, {flap}], torsion_newton_m2 = [{torsion}, {torsion}] }}"
+    );
+    robot(&[&[beam.as_str(), "time.beats=0.5"], set].concat())
+}
+
+#[test]
+fn limit_elastic_wings_on_passive_hinges_stiffen_to_rigid_ones() {
+    let rigid = pitch(&robot(&["time.beats=0.5"]));
+    let [soft, stiff, stiffer] = [1.0, 10.0, 100.0].map(|times| {
+        let flown = bending(times, &[]);
+        let (rows, most) = (alternating(&flown), passes(&flown));
+        println!("times {times}: {rows} in a row, {most} passes");
+        assert!(rows < 5 && most <= 12, "{rows} in a row, {most} passes");
+        pitch(&flown)
+    });
+    println!("{soft}, {stiff}, {stiffer} and {rigid} deg");
+    // What bending does goes with one over the stiffness.
+    let falls = (soft - stiff) / (stiff - stiffer);
+    assert!((9.0..11.0).contains(&falls), "{falls}");
+    // The rate of the circulation of rigid wings is no difference over steps: 0.03 deg at 80 steps a beat.
+    assert!((stiffer - rigid).abs() < 0.1, "{stiffer} and {rigid} deg");
+}
+
+/// Work of the hinges, of the air and of the wings closes with the step.
+#[test]
+fn order_of_the_energy_of_elastic_wings_on_passive_hinges() {
+    let left = |steps: &str| {
+        let steps = format!("time.steps_per_beat={steps}");
+        let flown = bending(1.0, &[&steps]);
+        let turned = flown.iter().map(|r| r.kinetic_energy).fold(0.0, f64::max);
+        let most = flown
+            .iter()
+            .map(|r| r.energy_residual.abs())
+            .fold(0.0, f64::max);
+        most / turned
+    };
+    let [coarse, fine] = ["80", "160"].map(left);
+    println!("{coarse:e} and {fine:e}, {:.2}", (coarse / fine).log2());
+    assert!(
+        coarse < 1e-2 && fine < 0.4 * coarse,
+        "{coarse:e} and {fine:e}"
+    );
+}
+
+/// Loads of a wing that bends tell of its frame's rate by differences over steps alone.
+#[test]
+fn refuses_elastic_wings_on_free_joints_by_hamming() {
+    let hinge = "joint.hinge-right={ child = \"right\", kind = \"revolute\", axis = [0, 1, 0] }";
+    let set = [hinge, "dynamics.integrator=hamming"].map(String::from);
+    let setup = LoadedCase::find("robobee-elastic", &set)
+        .expect("a case")
+        .setup;
+    let refused = Simulation::new(setup).err().expect("a refusal");
+    assert!(
+        matches!(
+            refused,
+            FlightError::Setup {
+                key: "dynamics.integrator",
+                ..
+            }
+        ),
+        "{refused}"
+    );
+    assert!(refused.to_string().contains("bdf"), "{refused}");
+}
+
 /// What is remembered of the wings is part of the state.
 #[test]
 fn exact_flights_on_passive_hinges_go_on_bit_for_bit() {
-    let setup = setup(&["time.beats=0.2", "flight.held_beats=0.05"]);
+    go_on_bit_for_bit(&setup(&["time.beats=0.2", "flight.held_beats=0.05"]));
+}
+
+#[test]
+fn exact_flights_of_light_flyers_go_on_bit_for_bit() {
+    go_on_bit_for_bit(&light_flyer("4e-7", &["time.beats=0.7"]));
+}
+
+fn go_on_bit_for_bit(setup: &FlightSetup) {
     let mut whole = Simulation::new(setup.clone()).expect("a start");
     let mut states = vec![whole.state().clone()];
     while !whole.finished() {

@@ -214,6 +214,7 @@ const FIXED: Convergence = Convergence {
     tolerance: 0.0,
     max_passes: 2,
     relaxation: 1.0,
+    accelerated_from: None,
 };
 
 /// Starting values from the block formulas, then Hamming's method to `steps`.
@@ -224,6 +225,7 @@ fn hamming(form: &dyn Formulation, h: f64, steps: usize) -> (Multistep, Hamming)
         tolerance: 1e-14,
         max_passes: 60,
         relaxation: 1.0,
+        accelerated_from: None,
     };
     let mut f0 = vec![0.0; form.dim()];
     flight.rates(0.0, &y0, &mut f0).unwrap();

@@ -250,6 +250,7 @@ fn multistep(form: &dyn Formulation, h: f64) -> Multistep {
         tolerance: 1e-14,
         max_passes: 60,
         relaxation: 1.0,
+        accelerated_from: None,
     };
     block_start(&y0, &f0, h, tight, &form.scales(), &mut replay)
         .unwrap()
@@ -267,6 +268,7 @@ fn by_hamming(form: &dyn Formulation, n: usize, beats: usize) -> BodyMotion {
         tolerance: 1e-10,
         max_passes: 30,
         relaxation: 1.0,
+        accelerated_from: None,
     };
     let mut method = Hamming::new(h, settings, form.scales());
     let mut flight = Flight::new(form, applied);

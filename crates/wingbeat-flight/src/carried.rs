@@ -1,4 +1,4 @@
-//! The air that wings on free joints carry along, as part of their inertia.
+//! The air that wings on free joints carry along, and that of all wings of a light flyer, as part of the inertia of the bodies.
 //!
 //! The loads of a lattice hold the rate of the circulation as a difference over steps, and in it the added mass of a wing:
 //! `-A D q`, q the velocity of the wing's origin and its angular velocity in wing components, D the difference. Where a wing
@@ -10,6 +10,9 @@
 //! L = L_lattice + A D q - A q'        q' = (R^T a - w x v, alpha)
 //! ```
 //!
+//! Where one half of the air is computed, the loads of a wing hold the rates of its image: of both D q the mean is taken out, or
+//! what parts the two wings by rounding would feed itself.
+//!
 //! The two differ by the error of D, of second order in the step whatever A is. That A is the lattice's own, from
 //! its influence matrix, leaves next to nothing of the difference.
 
@@ -20,10 +23,12 @@ use crate::error::FlightError;
 use crate::interface::{Air, AirScratch, Instant, WingInertia};
 use crate::memory::AirMemory;
 
-/// Wings that hang on free joints.
+/// Wings that hang on free joints, or all of a flyer that is light as a whole.
 #[derive(Clone, Debug, Default)]
 pub struct CarriedAir {
     wings: Vec<usize>,
+    /// Where one half of the air is computed: pairs of places in `wings` that are mirror images of each other.
+    pairs: Vec<[usize; 2]>,
 }
 
 /// What is remembered of such a wing.
@@ -40,6 +45,8 @@ pub struct CarriedState {
 pub struct CarriedScratch {
     at: Option<f64>,
     answers: Vec<Option<(AddedMass, [f64; 3])>>,
+    /// What the loads of the wings hold of it as differences over steps.
+    held: Vec<Wrench>,
 }
 
 impl CarriedScratch {
@@ -55,6 +62,14 @@ impl CarriedScratch {
 }
 
 impl CarriedAir {
+    /// All wings, the first `wings` bodies after the root: of a flyer that is light as a whole.
+    pub fn of_all(wings: usize) -> Self {
+        Self {
+            wings: (0..wings).collect(),
+            pairs: vec![],
+        }
+    }
+
     /// The first `wings` bodies after the root of `system` that a free joint carries.
     pub fn new(system: &System, wings: usize) -> Self {
         let mut free = vec![false; system.bodies().len()];
@@ -66,7 +81,24 @@ impl CarriedAir {
         }
         Self {
             wings: (0..wings).filter(|w| free[w + 1]).collect(),
+            pairs: vec![],
         }
+    }
+
+    /// The same in air of which one half is computed, for wings of which these `pairs` are mirror images of each other.
+    pub fn mirrored(self, pairs: &[[usize; 2]]) -> Self {
+        let place = |w: usize| self.wings.iter().position(|of| *of == w);
+        let pairs = pairs.iter();
+        let pairs = pairs.filter_map(|[a, b]| Some([place(*a)?, place(*b)?]));
+        Self {
+            pairs: pairs.collect(),
+            wings: self.wings.clone(),
+        }
+    }
+
+    /// Whether there are none.
+    pub fn is_empty(&self) -> bool {
+        self.wings.is_empty()
     }
 
     /// Before the first step.
@@ -96,9 +128,24 @@ impl CarriedAir {
             }
             s.at = Some(at.time);
         }
-        for (state, (mass, weights)) in states.iter().zip(&s.answers).filter_map(both) {
-            let m = &at.motions[mass.body()];
-            loads[mass.body()] = loads[mass.body()] - mass.wrench(m, &state.rate(m, *weights));
+        s.held.clear();
+        for (answer, state) in s.answers.iter().zip(states) {
+            let held = answer.as_ref().map(|(mass, weights)| {
+                let m = &at.motions[mass.body()];
+                mass.wrench(m, &state.rate(m, *weights))
+            });
+            s.held.push(held.unwrap_or_default());
+        }
+        for &[a, b] in &self.pairs {
+            let image = reflected(&s.held[b], at.motions[0].r.y_axis);
+            let mean = Wrench {
+                force: 0.5 * (s.held[a].force + image.force),
+                moment: 0.5 * (s.held[a].moment + image.moment),
+            };
+            (s.held[a], s.held[b]) = (mean, reflected(&mean, at.motions[0].r.y_axis));
+        }
+        for (w, held) in self.wings.iter().zip(&s.held) {
+            loads[w + 1] = loads[w + 1] - *held;
         }
         Ok(())
     }
@@ -113,9 +160,13 @@ impl CarriedAir {
     }
 }
 
-/// A wing of which the air has something to say.
-fn both<'a, A, B>((a, b): (&'a A, &'a Option<B>)) -> Option<(&'a A, &'a B)> {
-    b.as_ref().map(|b| (a, b))
+/// The mirror image of a load in the plane across `normal`.
+fn reflected(load: &Wrench, normal: DVec3) -> Wrench {
+    let image = |x: DVec3| x - 2.0 * normal.dot(x) * normal;
+    Wrench {
+        force: image(load.force),
+        moment: -image(load.moment),
+    }
 }
 
 impl CarriedState {

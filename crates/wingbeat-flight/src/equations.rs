@@ -51,6 +51,8 @@ pub struct Equations {
     pub springs: Vec<PointSpring>,
     /// Time step h [s].
     pub step: f64,
+    /// Pass of a step from which those before speed the next ones up; none for plain passes.
+    pub accelerated_from: Option<usize>,
 }
 
 /// Intermediate results of one evaluation, kept between calls. After

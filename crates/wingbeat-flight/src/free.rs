@@ -109,6 +109,7 @@ impl FreeFlight {
             applied: setup.loads.clone(),
             springs: setup.springs.clone(),
             step,
+            accelerated_from: None,
         };
         Self {
             equations: Arc::new(equations),

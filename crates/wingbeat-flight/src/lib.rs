@@ -34,6 +34,7 @@ mod error;
 mod free;
 mod interface;
 pub mod joints;
+mod light;
 mod memory;
 mod one_sided;
 mod prescribed;

@@ -472,7 +472,7 @@ impl Simulation {
             carried: vec![],
         };
         let (y0, f0) = (&state.past.y[0], &state.past.f[0]);
-        let convergence = convergence(&self.setup.corrector);
+        let convergence = convergence(&self.setup.corrector, equations);
         let (past, report) = block_start(y0, f0, h, convergence, &equations.scales(), &mut start)
             .map_err(|e| failure(e, first + 1, start.time(1), &self.setup))?;
         (state.past, state.start_report) = (past, report);

@@ -66,10 +66,10 @@ impl Solver {
         let (step, scales) = (equations.step, equations.scales());
         match choice {
             IntegratorChoice::Hamming => {
-                let method = Hamming::new(step, convergence(c), scales);
+                let method = Hamming::new(step, convergence(c, equations), scales);
                 Self::Hamming(method.followed_by(equations.followers()))
             }
-            IntegratorChoice::Bdf => Self::Bdf(Bdf::new(step, convergence(c), scales)),
+            IntegratorChoice::Bdf => Self::Bdf(Bdf::new(step, convergence(c, equations), scales)),
             IntegratorChoice::Adams => {
                 Self::Adams(AdamsBashforthMoulton::new(step, equations.dim()))
             }
@@ -169,11 +169,12 @@ fn adaptive(
     })
 }
 
-/// The corrector's settings in the integrator's words.
-pub fn convergence(c: &CorrectorSettings) -> Convergence {
+/// The corrector's settings in the integrator's words, for these equations.
+pub fn convergence(c: &CorrectorSettings, equations: &Equations) -> Convergence {
     Convergence {
         tolerance: c.tolerance,
         max_passes: c.max_passes,
         relaxation: c.relaxation,
+        accelerated_from: equations.accelerated_from,
     }
 }

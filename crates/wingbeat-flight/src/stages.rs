@@ -8,6 +8,7 @@ use wingbeat_dynamics::{
     Stabilization, System,
 };
 
+use crate::air::{Air, wing_pairs};
 use crate::bodies::{self, WingLaw};
 use crate::carried::CarriedAir;
 use crate::core::Core;
@@ -15,10 +16,14 @@ use crate::elastic::ElasticWings;
 use crate::equations::Equations;
 use crate::error::FlightError;
 use crate::joints::Path;
+use crate::light::is_light;
 use crate::setup::{
     AirModel, BaumgarteChoice, FlightSetup, FormulationChoice, IntegratorChoice, MotionMode,
     PrescribedMotion, StabilizationChoice,
 };
+
+/// Passes of a step that are plain where nothing speaks for more.
+const PLAIN_PASSES: usize = 12;
 
 /// A part of the flight with the same equations.
 #[derive(Debug)]
@@ -36,16 +41,16 @@ pub struct Stage {
 pub fn stages(setup: &FlightSetup, law: &WingLaw<'_>) -> Result<Vec<Stage>, FlightError> {
     let system = bodies::system_with(setup, law)?;
     let air = AirModel::build(setup, &system)?;
-    let elastic = Arc::new(ElasticWings::new(&setup.animal, setup.gravity)?);
-    let mechanism = Mechanism::of(&system);
-    // What bends has its answer to accelerations from the elastic side; where any wing bends, rigid wings on free joints are
-    // left to the passes, too.
-    let carried = match setup.air {
-        AirModel::VortexLattice(_) if elastic.is_empty() => {
-            CarriedAir::new(&system, setup.animal.wings.len())
-        }
-        _ => CarriedAir::default(),
+    let elastic = ElasticWings::new(&setup.animal, setup.gravity)?;
+    let on_joints = !CarriedAir::new(&system, setup.animal.wings.len()).is_empty();
+    let elastic = match on_joints {
+        true => Arc::new(elastic.on_free_joints()),
+        false => Arc::new(elastic),
     };
+    let mechanism = Mechanism::of(&system);
+    let carried = carried(setup, (&system, air.as_ref()), &elastic)?;
+    let is_carried = !carried.is_empty() || (on_joints && !elastic.is_empty());
+    let accelerated_from = accelerated_from(setup, is_carried);
     let stage = |from_step: usize, core: Core| Stage {
         from_step,
         equations: Equations {
@@ -57,6 +62,7 @@ pub fn stages(setup: &FlightSetup, law: &WingLaw<'_>) -> Result<Vec<Stage>, Flig
             applied: setup.loads.clone(),
             springs: setup.springs.clone(),
             step: setup.time.step,
+            accelerated_from,
         },
     };
     Ok(match &setup.mode {
@@ -70,6 +76,56 @@ pub fn stages(setup: &FlightSetup, law: &WingLaw<'_>) -> Result<Vec<Stage>, Flig
                 vec![stage(0, held), stage(start.held_steps, free)]
             }
         }
+    })
+}
+
+/// Pass from which those before speed the next ones up: from the first where air is carried along, else where plain passes lead
+/// nowhere, as where one half of the air is computed: least squares raise what parts the halves by rounding.
+fn accelerated_from(setup: &FlightSetup, is_carried: bool) -> Option<usize> {
+    let is_mirrored = match &setup.air {
+        AirModel::VortexLattice(options) => options.mirror,
+        _ => false,
+    };
+    match is_carried && !is_mirrored {
+        true => Some(1),
+        false => setup.air.keeps_wake().then_some(PLAIN_PASSES + 1),
+    }
+}
+
+/// The wings whose air joins the inertia of the bodies: of a flyer that is light as a whole all, else those on free joints. What
+/// bends has its answer to accelerations from the elastic side; where any wing bends, rigid wings on free joints are left to
+/// the passes, too.
+///
+/// # Errors
+/// What the air reports at the start; wings that bend on free joints by `hamming`.
+fn carried(
+    setup: &FlightSetup,
+    (system, air): (&System, &dyn Air),
+    elastic: &ElasticWings,
+) -> Result<CarriedAir, FlightError> {
+    let AirModel::VortexLattice(options) = &setup.air else {
+        return Ok(CarriedAir::default());
+    };
+    let wings = setup.animal.wings.len();
+    let on_joints = CarriedAir::new(system, wings);
+    if !elastic.is_empty() {
+        if setup.integrator == IntegratorChoice::Hamming && !on_joints.is_empty() {
+            return Err(FlightError::Setup {
+                key: "dynamics.integrator",
+                value: "hamming".into(),
+                problem: "with elastic wings, wings on free joints carry air along that velocities over steps alone tell of, and by hamming these alternate from step to step: take bdf, or leave out [wing.NAME.structure]".into(),
+            });
+        }
+        return Ok(CarriedAir::default());
+    }
+    let is_free = matches!(setup.mode, MotionMode::Free(_));
+    let carried = match is_free && is_light(setup, system, air, options.mirror)? {
+        true => CarriedAir::of_all(wings),
+        false => on_joints,
+    };
+    Ok(match options.mirror {
+        true => carried.mirrored(&wing_pairs(&setup.animal)),
+        false => carried,
     })
 }
 

@@ -1,7 +1,7 @@
 //! The mathematics every other crate of wingbeat stands on.
 //!
 //! What is here: rotations that move in time, Euler-angle sequences, the algebra of mass
-//! properties, dense linear solves, Newton iteration, quadrature and time integrators.
+//! properties, dense linear solves, Newton iteration, least squares of passes, quadrature and time integrators.
 //! What this crate does not know: animals, air, joints, files.
 //!
 //! Vectors and 3 x 3 matrices are [`glam`]'s `f64` types, re-exported here.
@@ -21,6 +21,7 @@ pub mod mass;
 pub mod newton;
 pub mod ode;
 pub mod rotation;
+mod secants;
 pub mod series;
 mod small_lu;
 
@@ -30,5 +31,6 @@ pub use iterative::{BiCgStab, Product};
 pub use lu::{DenseLu, LuError};
 pub use mass::{MassError, MassProperties};
 pub use rotation::{MovingRotation, RotationLaw, r1, r2, r3, rotation_about, tilde, untilde};
+pub use secants::{Secants, Shown};
 pub use series::{DriftingFourier, interpolate};
 pub use small_lu::{SingularMatrix, solve_small};

@@ -390,9 +390,9 @@ fn exact_show_and_compare_say_what_the_summary_says() {
     );
 }
 
-/// Passive hinges by Hamming's method, which does not bear the air that moves with such wings, and by the default, which does.
+/// In pitch the air that moves with the wings has half the inertia of such a body.
 #[test]
-fn limit_an_integrator_that_is_not_stable_is_named_and_the_other_is() {
+fn limit_a_flyer_that_is_light_in_pitch_does_not_alternate() {
     let scratch = Scratch::new("alternating");
     let dir = &scratch.0;
     // Free, light in pitch: the air that its wings carry along has half its inertia.
@@ -421,16 +421,15 @@ fn limit_an_integrator_that_is_not_stable_is_named_and_the_other_is() {
         let warnings = summary["warnings"].to_string();
         (summary["alternating_steps"].as_u64().unwrap(), warnings)
     };
-    let (steps, warnings) = run(&["--set", "dynamics.integrator=hamming"], "hamming");
-    assert!(
-        steps >= 10 && warnings.contains("dynamics.integrator = "),
-        "{warnings}"
-    );
-    let (steps, warnings) = run(&["--set", "dynamics.integrator=bdf"], "bdf");
-    assert!(
-        steps < 5 && !warnings.contains("alternate"),
-        "{steps} {warnings}"
-    );
+    // By differences over steps alone hamming let them alternate.
+    for integrator in ["hamming", "bdf"] {
+        let set = format!("dynamics.integrator={integrator}");
+        let (steps, warnings) = run(&["--set", &set], integrator);
+        assert!(
+            steps < 5 && !warnings.contains("alternate"),
+            "{integrator}: {steps} {warnings}"
+        );
+    }
 }
 
 #[test]

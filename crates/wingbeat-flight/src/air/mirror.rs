@@ -39,6 +39,17 @@ pub fn mirror_pairs(
     Some(pairs)
 }
 
+/// Pairs of wings that are mirror images of each other.
+pub fn wing_pairs(animal: &Animal) -> Vec<[usize; 2]> {
+    let image = |wing: &Wing| animal.wings.iter().position(|o| is_image(wing, o));
+    let pairs = animal
+        .wings
+        .iter()
+        .enumerate()
+        .filter_map(|(k, wing)| Some([k, image(wing)?]));
+    pairs.filter(|[a, b]| a < b).collect()
+}
+
 /// A closed part of the body or of a segment.
 struct Closed<'a> {
     mesh: &'a QuadMesh,

@@ -27,6 +27,7 @@ use crate::error::FlightError;
 use crate::memory::AirMemory;
 use crate::setup::{AirModel, FlightSetup};
 
+pub(crate) use self::mirror::wing_pairs;
 pub use crate::interface::{Air, AirScratch, Instant};
 pub use blade::{BladeAir, strips};
 pub use lattice::LatticeAir;

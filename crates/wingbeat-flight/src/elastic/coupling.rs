@@ -1,9 +1,9 @@
 //! One step of the elastic wings with the air, at given motions and accelerations of the bodies.
 
 use wingbeat_dynamics::{BodyAcceleration, BodyMotion, Wrench};
+use wingbeat_math::Secants;
 use wingbeat_structure::NODE;
 
-use super::secants::Secants;
 use super::step::{ROUNDING, SMALL, WingScratch, larger};
 use super::wing::{ElasticState, ElasticWing};
 use super::wings::{ElasticWings, frame_motion};
@@ -13,6 +13,10 @@ use crate::memory::AirMemory;
 
 /// Forces that are left unbalanced at the end of a step over those at the nodes \[1\].
 pub const TOLERANCE: f64 = 1e-10;
+
+/// The same of wings on free joints, whose small moments of inertia turn what is left into accelerations: passes of bodies and air
+/// would not see less than that.
+pub(super) const FINE_TOLERANCE: f64 = 1e-12;
 
 /// Most passes.
 pub const MAX_PASSES: usize = 40;
@@ -154,7 +158,7 @@ impl ElasticWings {
             let all = self.wings.iter().zip(&mut s.wings);
             all.for_each(|(w, ws)| ws.carried = ws.carried_air(w));
         }
-        if s.unbalanced <= TOLERANCE || is_exact || !s.is_stepping {
+        if s.unbalanced <= self.tolerance || is_exact || !s.is_stepping {
             return Ok(true);
         }
         if !s.unbalanced.is_finite() {
@@ -174,7 +178,7 @@ impl ElasticWings {
             wings: self.wings.iter().map(|w| w.name.clone()).collect(),
             passes: s.passes,
             unbalanced: s.unbalanced,
-            tolerance: TOLERANCE,
+            tolerance: self.tolerance,
         }
     }
 

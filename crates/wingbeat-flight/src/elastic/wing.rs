@@ -1,7 +1,7 @@
 //! One elastic wing: its body, its nodes, and what it does to the frame that carries it.
 
 use wingbeat_dynamics::{AddedMass, BodyAcceleration, BodyMotion};
-use wingbeat_math::{DMat3, DVec3, MassProperties, tilde};
+use wingbeat_math::{DMat3, DVec3, MassProperties};
 use wingbeat_model::Wing;
 use wingbeat_structure::{
     Configuration, Follower, FrameMotion, GeneralizedAlpha, NODE, State, Structure,
@@ -11,6 +11,7 @@ use super::span::Station;
 use super::tangent::added_mass;
 use crate::error::FlightError;
 use crate::interface::{Shape, WingResponse};
+use crate::light::{is_positive, rigid_mass};
 
 /// A wing that loads bend.
 #[derive(Debug)]
@@ -166,11 +167,11 @@ impl ElasticWing {
     /// has. Of its symmetric part so much that both together are positive definite, as masses are; the answer of the air to
     /// places and velocities within a step need not be.
     pub(super) fn carried(&self, response: &[[f64; 6]; 6]) -> AddedMass {
-        let rigid = self.rigid_mass();
+        let rigid = rigid_mass(&self.rigid);
         let mean = |i: usize, j: usize| -0.5 * (response[i][j] + response[j][i]);
         let part = [1.0, 0.5, 0.25, 0.0]
             .into_iter()
-            .find(|part| is_positive(|i, j| rigid[i][j] + part * (mean(i, j) - rigid[i][j])));
+            .find(|part| is_positive(6, |i, j| rigid[i][j] + part * (mean(i, j) - rigid[i][j])));
         let part = part.unwrap_or(0.0);
         let beside = |i: usize, j: usize| part * (mean(i, j) - rigid[i][j]);
         AddedMass::new(
@@ -184,18 +185,6 @@ impl ElasticWing {
         let mean = |i: usize, j: usize| -0.5 * (response[i][j] + response[j][i]);
         let matrix = std::array::from_fn(|i| std::array::from_fn(|j| mean(i, j)));
         AddedMass::new(self.wing + 1, matrix)
-    }
-
-    /// Force and moment by acceleration and angular acceleration of the rigid wing.
-    fn rigid_mass(&self) -> [[f64; 6]; 6] {
-        let (m, s) = (self.rigid.mass, tilde(self.rigid.first_moment));
-        let entry = |i: usize, j: usize| match (i < 3, j < 3) {
-            (true, true) => f64::from(i == j) * m,
-            (true, false) => -s.col(j - 3)[i],
-            (false, true) => s.col(j)[i - 3],
-            (false, false) => self.rigid.inertia.col(j - 3)[i - 3],
-        };
-        std::array::from_fn(|i| std::array::from_fn(|j| entry(i, j)))
     }
 
     /// The nodes as rigid bodies in N, those of the frame `m`, with their masses.
@@ -218,19 +207,4 @@ impl ElasticWing {
             (mass, motion)
         })
     }
-}
-
-/// Whether a symmetric matrix is positive definite: its pivots are.
-fn is_positive(entry: impl Fn(usize, usize) -> f64) -> bool {
-    let mut a: [[f64; 6]; 6] = std::array::from_fn(|i| std::array::from_fn(|j| entry(i, j)));
-    for k in 0..6 {
-        if a[k][k] <= 0.0 {
-            return false;
-        }
-        for i in k + 1..6 {
-            let factor = a[i][k] / a[k][k];
-            (k..6).for_each(|j| a[i][j] -= factor * a[k][j]);
-        }
-    }
-    true
 }

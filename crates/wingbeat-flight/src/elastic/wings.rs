@@ -4,6 +4,7 @@ use wingbeat_dynamics::{BodyAcceleration, BodyMotion, Wrench};
 use wingbeat_math::DVec3;
 use wingbeat_model::Animal;
 
+use super::coupling::{FINE_TOLERANCE, TOLERANCE};
 use super::wing::{ElasticState, ElasticWing};
 use crate::error::FlightError;
 use crate::interface::Shape;
@@ -15,6 +16,8 @@ pub struct ElasticWings {
     /// Number of wings, elastic or not.
     count: usize,
     pub(super) gravity: DVec3,
+    /// Forces that are left unbalanced over those at the nodes \[1\].
+    pub(super) tolerance: f64,
 }
 
 impl ElasticWings {
@@ -29,7 +32,16 @@ impl ElasticWings {
             wings: wings.collect::<Result<_, _>>()?,
             count: animal.wings.len(),
             gravity,
+            tolerance: TOLERANCE,
         })
+    }
+
+    /// The same of an animal whose wings hang on free joints.
+    pub fn on_free_joints(self) -> Self {
+        Self {
+            tolerance: FINE_TOLERANCE,
+            ..self
+        }
     }
 
     /// Whether there is none.

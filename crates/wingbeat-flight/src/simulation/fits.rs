@@ -34,6 +34,16 @@ pub(super) fn check_fits(
             &format!("the case has {dim}; resume with the case that was saved with it"),
         );
     }
+    let scales = stage.equations.scales();
+    let own_dim = scales.iter().filter(|s| s.is_finite()).count();
+    if past.shown.iter().flatten().any(|v| v.len() != own_dim) {
+        return misfit(
+            "what passes have shown".into(),
+            &format!(
+                "the case has {own_dim} components; resume with the case that was saved with it"
+            ),
+        );
+    }
     let ledger = &state.ledger;
     let lengths = [ledger.coordinates.len(), ledger.rates.len()];
     if lengths != [own.coordinates.len(), own.rates.len()] {

@@ -14,7 +14,7 @@
 //! difference of order two up to mu = 0.359, with that of order one up to 0.701; beyond, y alternates
 //! from step to step and grows, whatever the step.
 
-use super::corrector::{Convergence, StepError, StepReport, agree};
+use super::corrector::{Convergence, Passing, StepError, StepReport, agree};
 use super::hamming::Multistep;
 
 /// The method: step, convergence and scratch.
@@ -31,6 +31,7 @@ pub struct Bdf {
     trial: Vec<f64>,
     corrected: Vec<f64>,
     rates: Vec<f64>,
+    passing: Passing,
 }
 
 impl Bdf {
@@ -45,6 +46,7 @@ impl Bdf {
             trial: zero.clone(),
             corrected: zero.clone(),
             rates: zero,
+            passing: Passing::default(),
         }
     }
 
@@ -68,7 +70,14 @@ impl Bdf {
             Ok(())
         };
         let (trial, corrected) = (&mut self.trial, &mut self.corrected);
-        let report = agree(self.convergence, trial, corrected, &self.scales, pass)?;
+        let report = agree(
+            self.convergence,
+            trial,
+            corrected,
+            &self.scales,
+            (&mut self.passing, &mut past.shown),
+            pass,
+        )?;
         rates(&self.corrected, &mut self.rates).map_err(StepError::Rates)?;
         past.push(&self.corrected, &self.rates);
         Ok(report)

@@ -11,7 +11,9 @@
 //! With one, two, three corrector passes the limits of stability on the real axis are
 //! |lambda h| = 0.88, 0.72, 1.46, on the imaginary axis 0.28, 0.80, 1.08.
 
-use super::corrector::{Asked, Convergence, StepError, StepReport, agree};
+use crate::secants::Shown;
+
+use super::corrector::{Asked, Convergence, Passing, StepError, StepReport, agree};
 
 /// The past that a multistep method needs: plain data, enough to go on bit for bit.
 #[derive(Clone, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
@@ -22,6 +24,10 @@ pub struct Multistep {
     pub f: [Vec<f64>; 4],
     /// p - c of the last step \[unit of y\]; zero after the start.
     pub predicted_minus_corrected: Vec<f64>,
+    /// What corrector passes of the last steps have shown, oldest first, over the natural sizes of the components; empty where
+    /// nothing speeds them up.
+    #[serde(default)]
+    pub shown: Vec<Shown>,
 }
 
 impl Multistep {
@@ -32,6 +38,7 @@ impl Multistep {
             y,
             f,
             predicted_minus_corrected,
+            shown: vec![],
         }
     }
 
@@ -65,6 +72,7 @@ pub struct Hamming {
     trial: Vec<f64>,
     corrected: Vec<f64>,
     rates: Vec<f64>,
+    passing: Passing,
 }
 
 impl Hamming {
@@ -81,6 +89,7 @@ impl Hamming {
             trial: zero.clone(),
             corrected: zero.clone(),
             rates: zero,
+            passing: Passing::default(),
         }
     }
 
@@ -114,7 +123,7 @@ impl Hamming {
         mut rates: impl FnMut(Asked, &[f64], &mut [f64]) -> Result<(), E>,
     ) -> Result<StepReport, StepError<E>> {
         self.predict(past);
-        let report = self.correct(&mut rates)?;
+        let report = self.correct(&mut past.shown, &mut rates)?;
         let ends = self.corrected.iter().zip(&self.predicted);
         for (y, (c, p)) in self.trial.iter_mut().zip(ends) {
             *y = finished(*p, *c);
@@ -154,6 +163,7 @@ impl Hamming {
     /// Corrector passes until convergence; leaves the result in `corrected`.
     fn correct<E>(
         &mut self,
+        shown: &mut Vec<Shown>,
         rates: &mut impl FnMut(Asked, &[f64], &mut [f64]) -> Result<(), E>,
     ) -> Result<StepReport, StepError<E>> {
         let (dy, h, known) = (&mut self.rates, self.step, &self.known);
@@ -165,7 +175,14 @@ impl Hamming {
             Ok(())
         };
         let (trial, result) = (&mut self.trial, &mut self.corrected);
-        agree(self.convergence, trial, result, &self.scales, pass)
+        agree(
+            self.convergence,
+            trial,
+            result,
+            &self.scales,
+            (&mut self.passing, shown),
+            pass,
+        )
     }
 
     /// Makes the accepted state the newest of `past`.

@@ -13,7 +13,7 @@
 //! iterated until they agree. A right-hand side with a history (a wake) is replayed from the
 //! start in every sweep and frozen within a step, as it will be later on.
 
-use super::corrector::{Convergence, StepError, StepReport, scaled_difference};
+use super::corrector::{Convergence, Passing, StepError, StepReport, scaled_difference};
 use super::hamming::Multistep;
 
 /// Most sweeps over the three starting steps. Smooth right-hand sides converge in six or so; a
@@ -134,9 +134,10 @@ fn agree<R: Replay>(
     let Convergence {
         tolerance,
         max_passes,
-        relaxation,
+        ..
     } = convergence;
     let mut report = StepReport::default();
+    let (mut passing, mut corrected) = (Passing::default(), past.y[k].clone());
     let mut f = std::mem::take(&mut past.f[k]);
     loop {
         replay
@@ -151,25 +152,22 @@ fn agree<R: Replay>(
             }
             break;
         }
-        let mut residual = 0.0_f64;
         for i in 0..f.len() {
             let rate = |j: usize| if j == k { f[i] } else { past.f[j][i] };
             let sum: f64 = (0..4).map(|j| weights[j] * rate(j)).sum();
-            let change = past.y[0][i] + step * sum - past.y[k][i];
-            past.y[k][i] += relaxation * change;
-            let scaled = if scales[i].is_finite() {
-                change.abs() / scales[i]
-            } else {
-                0.0
-            };
-            residual = if scaled.is_nan() {
-                f64::INFINITY
-            } else {
-                residual.max(scaled)
-            };
+            corrected[i] = past.y[0][i] + step * sum;
         }
         report.passes += 1;
-        report.residual = residual;
+        report.residual = scaled_difference(&corrected, &past.y[k], scales);
+        // What is accepted is what the formulas say, for sums over rates as for the state.
+        let accepts = report.residual <= tolerance;
+        let accelerated_from = convergence.accelerated_from.filter(|_| !accepts);
+        let how = Convergence {
+            accelerated_from,
+            ..convergence
+        };
+        let trial = (&mut past.y[k][..], &corrected[..]);
+        passing.go_on(&how, report.passes, trial, scales);
     }
     past.f[k] = f;
     Ok(report)

@@ -3,14 +3,32 @@
 //!
 //! A pass takes the unknowns z to a correction f(z), zero at the solution. What is sought is the combination of former
 //! differences of f that takes f away; the unknowns go along with theirs: `dz = f - (dZ + dF) c`, c from
-//! `min |f - dF c|`.
+//! `min |f - dF c|`. Differences of the last steps may be among them, after those of the present one.
 
-/// Columns that depend on each other to so many digits are left out.
+/// What two passes have shown: the difference of their corrections, and its sum with that of the unknowns.
+pub type Shown = [Vec<f64>; 2];
+
+/// Columns that depend on each other to so many digits are left out, unless asked otherwise.
 const DEPENDENT: f64 = 1e-8;
 
 /// Differences of former passes of one step, newest last.
-#[derive(Clone, Debug, Default)]
+///
+/// Here `z <- z + f(z)` with `f = 1 - 3 z`, which by itself leads away, ends at the root in the second pass:
+///
+/// ```
+/// use wingbeat_math::Secants;
+/// let (mut z, mut secants) = ([0.0], Secants::default());
+/// for _ in 0..2 {
+///     let mut change = [1.0 - 3.0 * z[0]];
+///     secants.accelerate(&mut change);
+///     z[0] += change[0];
+/// }
+/// assert!((z[0] - 1.0 / 3.0_f64).abs() < 1e-15);
+/// ```
+#[derive(Clone, Debug)]
 pub struct Secants {
+    /// Part of a column below which what others leave of it is rounding \[1\].
+    dependent: f64,
     /// Correction of the pass before, and the change that was made.
     before: Vec<f64>,
     change: Vec<f64>,
@@ -23,7 +41,28 @@ pub struct Secants {
     has_past: bool,
 }
 
+impl Default for Secants {
+    fn default() -> Self {
+        Self::leaving_out(DEPENDENT)
+    }
+}
+
 impl Secants {
+    /// No passes yet; columns of which others leave less than the part `dependent` \[1\] are left out: what they are multiplied by
+    /// raises the rounding in them by as much.
+    pub fn leaving_out(dependent: f64) -> Self {
+        Self {
+            dependent,
+            before: vec![],
+            change: vec![],
+            corrections: vec![],
+            sums: vec![],
+            spare: vec![],
+            basis: vec![],
+            has_past: false,
+        }
+    }
+
     /// Forgets all passes: another step.
     pub fn clear(&mut self) {
         self.spare.append(&mut self.corrections);
@@ -31,9 +70,46 @@ impl Secants {
         self.has_past = false;
     }
 
+    /// Another step, in which what `shown` holds of former ones counts after its own passes.
+    pub fn begin(&mut self, shown: &[Shown]) {
+        self.clear();
+        for [correction, sum] in shown {
+            for (from, to) in [(correction, 0), (sum, 1)] {
+                let mut column = self.column();
+                column.extend_from_slice(from);
+                [&mut self.corrections, &mut self.sums][to].push(column);
+            }
+        }
+    }
+
+    /// Leaves in `shown` what the newest passes have shown, `most` of them at most: those whose corrections differ by at least the
+    /// part `telling` \[1\] of the largest difference.
+    pub fn keep(&self, telling: f64, most: usize, shown: &mut Vec<Shown>) {
+        let both = self.corrections.iter().zip(&self.sums);
+        let least = telling * self.corrections.iter().map(|d| norm(d)).fold(0.0, f64::max);
+        let told = both.rev().filter(|(d, _)| norm(d) > least).take(most);
+        shown.clear();
+        shown.extend(told.map(|(d, s)| [d.clone(), s.clone()]));
+        shown.reverse();
+    }
+
     /// The change of the unknowns for the correction `f`, in its place. The norm of least squares takes the numbers as they are:
     /// they are to be of one size.
     pub fn accelerate(&mut self, f: &mut [f64]) {
+        self.remember(f);
+        self.combine(f);
+        self.change.clear();
+        self.change.extend_from_slice(f);
+    }
+
+    /// The unknowns are changed by the correction `f` as it is: a pass to learn from.
+    pub fn watch(&mut self, f: &[f64]) {
+        self.remember(f);
+        self.change.clear();
+        self.change.extend_from_slice(f);
+    }
+
+    fn remember(&mut self, f: &[f64]) {
         if self.has_past {
             let (mut d, mut s) = (self.column(), self.column());
             d.extend(f.iter().zip(&self.before).map(|(a, b)| a - b));
@@ -43,9 +119,6 @@ impl Secants {
         }
         self.before.clear();
         self.before.extend_from_slice(f);
-        self.combine(f);
-        self.change.clear();
-        self.change.extend_from_slice(f);
         self.has_past = true;
     }
 
@@ -72,7 +145,7 @@ impl Secants {
                 }
             }
             let rest = norm(&d);
-            if rest <= DEPENDENT * size || size == 0.0 {
+            if rest <= self.dependent * size || size == 0.0 {
                 continue;
             }
             d.iter_mut().for_each(|x| *x /= rest);
@@ -120,5 +193,15 @@ mod tests {
             (0..3).for_each(|i| z[i] += f[i]);
         }
         assert!(norm(&correction(&z)) < 1e-12); // rounding of numbers of order 10
+        // What these passes have shown solves the next step, of other numbers b, at once.
+        let mut shown = vec![];
+        secants.keep(1e-12, 3, &mut shown);
+        assert_eq!(shown.len(), 3);
+        secants.begin(&shown);
+        let mut f: [f64; 3] = std::array::from_fn(|i| correction(&z)[i] + [0.3, -0.2, 1.0][i]);
+        let other = f;
+        secants.accelerate(&mut f);
+        let left = |i: usize| other[i] - (0..3).map(|j| a[i][j] * f[j]).sum::<f64>();
+        assert!(norm(&[left(0), left(1), left(2)]) < 1e-11); // the columns are independent to two digits
     }
 }

@@ -1,0 +1,121 @@
+//! Whether a flyer as a whole is light beside the air that its wings carry along.
+//!
+//! The wings together have the added mass `A = sum J^T A_w J`, the bodies the inertia `M = sum J^T M_b J`, J from the
+//! acceleration of the root's origin and its angular acceleration to those of a body, all joints as they stand. The largest mu of
+//! `A x = mu M x` says how passes that bring both to agree go and how far `hamming` is stable (docs/dynamics.md): the flyer is
+//! light where `mu > LIMIT`, so where `LIMIT M - A` is not positive definite.
+
+use wingbeat_dynamics::{BodyMotion, System, Workspace, Wrench, tethered_motions};
+use wingbeat_math::{DVec3, MassProperties, tilde};
+
+use crate::error::FlightError;
+use crate::interface::{Air, Instant};
+use crate::setup::FlightSetup;
+
+/// Added mass over mass above which the rate of the circulation joins the inertia of the bodies \[1\]: `hamming` is stable to
+/// 0.36, and passes converge by a factor of 0.2 to 0.25 there.
+const LIMIT: f64 = 0.3;
+
+type Matrix = [[f64; 6]; 6];
+
+/// Directions of the root (origin, then turn) in which a flyer moves: those of symmetric flight where one half is computed.
+const ALL: &[usize] = &[0, 1, 2, 3, 4, 5];
+const SYMMETRIC: &[usize] = &[0, 2, 4];
+
+/// Whether the flyer of `setup`, its bodies in the posture of the start, is light in `air`.
+///
+/// # Errors
+/// What the air reports at the start.
+pub fn is_light(
+    setup: &FlightSetup,
+    system: &System,
+    air: &dyn Air,
+    is_symmetric: bool,
+) -> Result<bool, FlightError> {
+    let mut motions = vec![BodyMotion::REST; system.bodies().len()];
+    let (root, mut ws) = (setup.root_at_start(), Workspace::new(system));
+    tethered_motions(system, 0.0, &root, &mut ws, &mut motions);
+    let at = Instant {
+        time: 0.0,
+        step: setup.time.step,
+        motions: &motions,
+        accelerations: &[],
+        shapes: &[],
+    };
+    let (mut s, mut loads) = (air.scratch(), vec![Wrench::default(); motions.len()]);
+    air.place(&at, &mut s)?;
+    let memory = air.initial(&s);
+    air.loads(&at, memory.as_ref(), &mut s, &mut loads)?;
+    let mut left = [[0.0; 6]; 6];
+    for (body, m) in system.bodies().iter().zip(&motions) {
+        add_moved(&rigid_mass(&body.mass), LIMIT, [m, &motions[0]], &mut left);
+    }
+    for w in 0..setup.animal.wings.len() {
+        if let Some(answer) = air.wing_inertia(w, &at, memory.as_ref(), &s)? {
+            add_moved(
+                &answer.mass,
+                -1.0,
+                [&motions[w + 1], &motions[0]],
+                &mut left,
+            );
+        }
+    }
+    let directions = if is_symmetric { SYMMETRIC } else { ALL };
+    Ok(!is_positive(directions.len(), |i, j| {
+        left[directions[i]][directions[j]]
+    }))
+}
+
+/// Force and moment about the origin of a body by accelerations of the origin and angular accelerations, body components.
+pub fn rigid_mass(of: &MassProperties) -> Matrix {
+    let (m, s) = (of.mass, tilde(of.first_moment));
+    let entry = |i: usize, j: usize| match (i < 3, j < 3) {
+        (true, true) => f64::from(i == j) * m,
+        (true, false) => -s.col(j - 3)[i],
+        (false, true) => s.col(j)[i - 3],
+        (false, false) => of.inertia.col(j - 3)[i - 3],
+    };
+    std::array::from_fn(|i| std::array::from_fn(|j| entry(i, j)))
+}
+
+/// Adds `factor J^T A J` to `out`: `of` in components of the body that moves like `m`, `out` in those of the root.
+fn add_moved(of: &Matrix, factor: f64, [m, root]: [&BodyMotion; 2], out: &mut Matrix) {
+    let (turn, arm) = (
+        m.r.transpose() * root.r,
+        root.r.transpose() * (m.p - root.p),
+    );
+    // Column k of J: what the body's origin and axes accelerate at where the root does in direction k.
+    let column = |k: usize| -> [f64; 6] {
+        let axis = DVec3::AXES[k % 3];
+        let (a, alpha) = match k < 3 {
+            true => (axis, DVec3::ZERO),
+            false => (axis.cross(arm), axis),
+        };
+        let (a, alpha) = (turn * a, turn * alpha);
+        [a.x, a.y, a.z, alpha.x, alpha.y, alpha.z]
+    };
+    let columns: [[f64; 6]; 6] = std::array::from_fn(column);
+    for (k, l) in (0..36).map(|n| (n / 6, n % 6)) {
+        let entries = (0..36).map(|n| (n / 6, n % 6));
+        let sum = entries.map(|(i, j)| columns[k][i] * of[i][j] * columns[l][j]);
+        out[k][l] += factor * sum.sum::<f64>();
+    }
+}
+
+/// Whether a symmetric matrix of order `n`, at most 6, is positive definite: its pivots are.
+pub fn is_positive(n: usize, entry: impl Fn(usize, usize) -> f64) -> bool {
+    let mut a = [[0.0; 6]; 6];
+    for (i, row) in a.iter_mut().enumerate().take(n) {
+        (0..n).for_each(|j| row[j] = entry(i, j));
+    }
+    for k in 0..n {
+        if a[k][k] <= 0.0 {
+            return false;
+        }
+        for i in k + 1..n {
+            let factor = a[i][k] / a[k][k];
+            (k..n).for_each(|j| a[i][j] -= factor * a[k][j]);
+        }
+    }
+    true
+}
