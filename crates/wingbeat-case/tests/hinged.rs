@@ -260,6 +260,12 @@ fn exact_flights_of_light_flyers_go_on_bit_for_bit() {
     go_on_bit_for_bit(&light_flyer("4e-7", &["time.beats=0.7"]));
 }
 
+#[test]
+fn exact_flights_of_elastic_wings_on_passive_hinges_go_on_bit_for_bit() {
+    let beam = "wing.right.structure.beam={ flap_newton_m2 = [2e-6, 2e-6], torsion_newton_m2 = [5e-7, 5e-7] }";
+    go_on_bit_for_bit(&setup(&[beam, "time.beats=0.1"]));
+}
+
 fn go_on_bit_for_bit(setup: &FlightSetup) {
     let mut whole = Simulation::new(setup.clone()).expect("a start");
     let mut states = vec![whole.state().clone()];
