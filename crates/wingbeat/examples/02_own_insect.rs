@@ -27,7 +27,7 @@ pub(crate) fn main() -> Result<(), Box<dyn std::error::Error>> {
     let whole = AirModel::VortexLattice(AirOptions::insect(AIR[0], AIR[1], 1.05e-3));
     for air in [quick, whole] {
         let flight = Flight::new("my insect", insect.clone(), air)
-            .start(start)
+            .start(start.clone())
             .beats(2.0);
         let run = flight.fly()?;
         let last = run.beats()[1];

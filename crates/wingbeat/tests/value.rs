@@ -126,7 +126,7 @@ fn agrees_case_of_flights_built_in_rust() {
     for air in airs {
         let name = air.name().replace(' ', "-");
         let flight = Flight::new("insect", insect.clone(), air);
-        agrees_with_itself(&name, &flight.start(start).beats(0.2));
+        agrees_with_itself(&name, &flight.start(start.clone()).beats(0.2));
     }
 }
 
