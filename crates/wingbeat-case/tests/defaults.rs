@@ -250,7 +250,10 @@ fn refuses_keys_without_effect() {
         ),
         (
             "fruit-fly-hover",
-            &["flight.tether.x={frequency_hz=1}"],
+            &[
+                "flight.tether.x={frequency_hz=1,sine_m=[1e-3]}",
+                "flight.held_beats=0",
+            ],
             "flight.tether",
             "tethered",
         ),
@@ -345,7 +348,7 @@ fn refuses_settings_of_the_lattice_that_do_not_fit_each_other_at_their_keys() {
             "<= 1",
         ),
         (
-            "shed = [\"leading\"]\nleading_edge = \"vortex_lift\"",
+            "shed = [\"trailing\", \"leading\"]\nleading_edge = \"vortex_lift\"",
             "loads",
             "forces on segments",
         ),

@@ -11,13 +11,6 @@ use crate::error::FlightError;
 use crate::interface::{Air, AirScratch, Instant, Shape};
 use crate::memory::AirMemory;
 
-/// Forces that are left unbalanced at the end of a step over those at the nodes \[1\].
-pub const TOLERANCE: f64 = 1e-10;
-
-/// The same of wings on free joints, whose small moments of inertia turn what is left into accelerations: passes of bodies and air
-/// would not see less than that.
-pub(super) const FINE_TOLERANCE: f64 = 1e-12;
-
 /// Most passes.
 pub const MAX_PASSES: usize = 40;
 

@@ -14,6 +14,6 @@ mod tangent;
 mod wing;
 mod wings;
 
-pub use coupling::{ElasticScratch, MAX_PASSES, Moment, TOLERANCE};
+pub use coupling::{ElasticScratch, MAX_PASSES, Moment};
 pub use wing::{ElasticState, ElasticWing};
 pub use wings::ElasticWings;

@@ -11,6 +11,13 @@ use super::wing::{ElasticState, ElasticWing, Nodes};
 use crate::error::FlightError;
 use crate::interface::WingResponse;
 
+/// Forces that are left unbalanced at the end of a step over those at the nodes \[1\].
+pub const TOLERANCE: f64 = 1e-10;
+
+/// The same of wings on free joints, whose small moments of inertia turn what is left into accelerations: passes of bodies and air
+/// would not see less than that.
+pub(super) const FINE_TOLERANCE: f64 = 1e-12;
+
 /// Corrections that are the rounding of places: in stiff wings the forces of such are more than [`TOLERANCE`] \[1\].
 pub(super) const ROUNDING: f64 = 1e-14;
 

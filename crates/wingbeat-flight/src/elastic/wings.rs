@@ -4,7 +4,7 @@ use wingbeat_dynamics::{BodyAcceleration, BodyMotion, Wrench};
 use wingbeat_math::DVec3;
 use wingbeat_model::Animal;
 
-use super::coupling::{FINE_TOLERANCE, TOLERANCE};
+use super::step::{FINE_TOLERANCE, TOLERANCE};
 use super::wing::{ElasticState, ElasticWing};
 use crate::error::FlightError;
 use crate::interface::Shape;
