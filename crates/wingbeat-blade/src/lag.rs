@@ -14,7 +14,7 @@
 //! | w | `drive` | downwash of the strip's motion, `w + C_rot / pi c q`: at 3/4 of the chord in the theory | m/s |
 //! | lambda | `downwash` | downwash of the wake, and what is still missing of the wind's | m/s |
 //! | s | `way` | way through the air in half chords | 1 |
-//! | z | `wake`, `wind` | states of the wake | m/s |
+//! | z | `wake`, `gust` | states of the wake | m/s |
 
 use wingbeat_math::DVec3;
 

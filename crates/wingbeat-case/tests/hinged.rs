@@ -123,7 +123,7 @@ fn limit_a_wing_of_a_hundredth_of_the_mass_flies() {
 /// Passes to 1e-10, wings of a tenth and of 1/250 of `rho b c^2`: what passes have shown speeds up the next ones.
 #[test]
 fn limit_passes_are_few_whatever_a_wing_on_a_hinge_weighs() {
-    for (mass, integrator, allowed) in [("2.2e-8", "bdf", 6), ("8.9e-10", "hamming", 10)] {
+    for (mass, integrator, allowed) in [("2.2e-8", "bdf", 6), ("8.9e-10", "hamming", 7)] {
         let flown = robot(&[
             &format!("wing.right.mass_kg={mass}"),
             &format!("dynamics.integrator={integrator}"),
@@ -167,7 +167,7 @@ fn agrees_a_flyer_that_is_light_as_a_whole_by_either_integrator() {
                 let kept = lost.length() / last.momentum.length();
                 println!("{pitch}, {steps} by {integrator}: {rows} in a row, {most} passes, momentum {kept:e}");
                 assert!(rows < 5 && most <= 10, "{rows} in a row, {most} passes");
-                assert!(kept < 1e-12, "momentum {kept}"); // rounding of some dozen steps
+                assert!(kept < 1e-14, "momentum {kept}"); // rounding of some dozen steps
                 last.mass_centre
             });
             apart.push(place[0].distance(place[1]));
@@ -222,7 +222,7 @@ fn order_of_the_energy_of_elastic_wings_on_passive_hinges() {
     let [coarse, fine] = ["80", "160"].map(left);
     println!("{coarse:e} and {fine:e}, {:.2}", (coarse / fine).log2());
     assert!(
-        coarse < 1e-2 && fine < 0.4 * coarse,
+        coarse < 1e-3 && fine < 0.2 * coarse,
         "{coarse:e} and {fine:e}"
     );
 }

@@ -6,6 +6,7 @@ mod hinged;
 mod idle;
 mod joints;
 mod keys;
+mod meshes;
 mod presets;
 mod table1;
 mod wings;

@@ -307,11 +307,11 @@ pub struct StartState {
     pub angles: DVec3,
     /// Velocity of the root origin, N components [m/s].
     pub velocity: DVec3,
-    /// Angular velocity at the release, root components [rad/s].
+    /// Angular velocity at the release, beside that of [`Self::held_motion`], root components [rad/s].
     pub angular_velocity: DVec3,
     /// Number of first steps during which the root is held: it keeps this attitude and moves
-    /// with this constant velocity while the wings beat and the wake grows, then it is
-    /// released. 0 releases at once.
+    /// with this constant velocity (but for [`Self::held_motion`]) while the wings beat and the wake
+    /// grows, then it is released. 0 releases at once.
     pub held_steps: usize,
     /// How it moves about that attitude and path while it is held; none is still. It is released with the velocities that it has then,
     /// and with [`Self::angular_velocity`] besides.

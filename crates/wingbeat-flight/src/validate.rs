@@ -142,9 +142,26 @@ impl FlightSetup {
             format!("{numbers:?}"),
             "finite numbers",
         )?;
-        let idle = start.held_motion.is_some() && start.held_steps == 0;
-        let problem = "none where the root is released at once: held_steps above 0";
-        check(!idle, "flight.held_motion", "a motion", problem)
+        let Some(motion) = &start.held_motion else {
+            return Ok(());
+        };
+        let series = motion.position.iter().chain(&motion.angles);
+        let numbers = series.flat_map(|s| {
+            let shape = [s.constant, s.rate, s.frequency];
+            shape
+                .into_iter()
+                .chain(s.cosine.clone())
+                .chain(s.sine.clone())
+        });
+        let key = "flight.held_motion";
+        check(
+            numbers.into_iter().all(f64::is_finite),
+            key,
+            "a motion with infinite numbers",
+            "finite numbers",
+        )?;
+        let problem = "a hold of one step or more: released at once the root has no such motion";
+        check(start.held_steps > 0, key, "held for no step", problem)
     }
 }
 

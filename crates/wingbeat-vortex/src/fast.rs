@@ -169,12 +169,18 @@ impl FastSum {
         self.segments = network;
     }
 
+    /// Whether expansions and meshes cost more than they gain at so few targets.
+    fn is_few(&self, targets: &Points) -> bool {
+        let method = self.settings.method;
+        matches!(method, Method::Auto | Method::Mesh) && targets.len() < AUTO_TARGETS
+    }
+
     /// Adds to `out` \[m/s\] the velocity of all sources at the `targets` \[m\].
     pub fn add_velocity(&mut self, targets: &Points, out: &mut Points) -> Report {
         assert_eq!(targets.len(), out.len(), "as many velocities as targets");
         let few = self.settings.method == Method::Auto && targets.len() < AUTO_TARGETS;
         let has_tree = self.has_tree && !few;
-        let has_soft = self.soft.is_loaded() && !few;
+        let has_soft = self.soft.is_loaded() && !self.is_few(targets);
         let has_single = self.has_single && targets.len() >= SINGLE_TARGETS;
         if targets.is_empty() || !(has_tree || has_soft || has_single) {
             return self.add_direct(targets, out, 0);
@@ -220,8 +226,7 @@ impl FastSum {
             matches!(self.settings.model, CoreModel::Algebraic { .. }),
             "algebraic cores"
         );
-        let few = self.settings.method == Method::Auto && targets.len() < AUTO_TARGETS;
-        if self.soft.is_loaded() && !few && !targets.is_empty() {
+        if self.soft.is_loaded() && !self.is_few(targets) && !targets.is_empty() {
             let check = Check::with_vorticity(self.sources(), targets);
             let sum = self.add_soft(&check, targets, (&mut *velocity, Some(&mut *vorticity)));
             if sum.is_ok() {

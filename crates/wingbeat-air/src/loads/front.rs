@@ -29,8 +29,8 @@ pub(crate) fn add_front(
             continue;
         };
         let sign = lattice.sheets()[wake.sheet].signs[wake.column];
-        let before = sign * left_before(&state.sheets[wake.sheet], wake.column);
-        let rate = rate_of_what_left(lattice, state, [out.leaving[k], before], out.dt);
+        let before = left_before(&state.sheets[wake.sheet], wake.column).map(|left| sign * left);
+        let rate = rate_of_what_left(lattice, state, (out.leaving[k], before), out.dt);
         let [a, b] = strip.nodes.map(|n| position[n]);
         let [c, d] = strip.nodes.map(|n| filaments.bound.nodes.get(n));
         let p = strip.panels[0];
@@ -42,16 +42,26 @@ pub(crate) fn add_front(
     }
 }
 
-/// What left the edge of a column within the step before, counted as circulation of rings [m2/s]: it went to the two newest rows.
-fn left_before(sheet: &WakeSheet, column: usize) -> f64 {
-    let Some(older) = sheet.rows().checked_sub(2) else {
-        return 0.0;
-    };
-    (sheet.newest(column) - sheet.gamma[older * sheet.columns + column]) / (1.0 - NEW_VORTEX)
+/// What left the edge of a column within the step before, counted as circulation of rings [m2/s]: it went to the two newest rows. None
+/// where there are not as many, as in a wake that is cut to one.
+fn left_before(sheet: &WakeSheet, column: usize) -> Option<f64> {
+    let older = sheet.rows().checked_sub(2)?;
+    let change = sheet.newest(column) - sheet.gamma[older * sheet.columns + column];
+    Some(change / (1.0 - NEW_VORTEX))
 }
 
-/// Rate of change of all that has left an edge [m2/s2], from what leaves it within this step and left it within the one before.
-fn rate_of_what_left(lattice: &Lattice, state: &AirState, [now, before]: [f64; 2], h: f64) -> f64 {
+/// Rate of change of all that has left an edge [m2/s2], from what leaves it within this step and left it within the one before; to first
+/// order where that is not known.
+fn rate_of_what_left(
+    lattice: &Lattice,
+    state: &AirState,
+    (now, before): (f64, Option<f64>),
+    h: f64,
+) -> f64 {
     let [a, _, c] = rate_weights(lattice, state, h);
-    a * now - c * before
+    match before {
+        Some(before) => a * now - c * before,
+        None if a == 0.0 => 0.0,
+        None => now / h,
+    }
 }

@@ -59,7 +59,7 @@ pub struct AirLoads {
     pub leaving: Vec<f64>,
     /// Chords for which the leading-edge vortex of each strip has been fed, less what was lost \[1\]: [`crate::VortexLift`].
     pub fed: Vec<f64>,
-    /// Strips whose leading edge sheds what it has too much, for want of a solution that holds the suction of all.
+    /// Strips that shed with a bounded effect on their own suction, or what they have too much for want of a solution that holds the suction of all.
     pub unfound: u64,
     /// Resultants of the surfaces.
     pub surfaces: Vec<SurfaceLoads>,

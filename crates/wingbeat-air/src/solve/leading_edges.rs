@@ -33,7 +33,9 @@ pub(crate) struct LeadingEdges {
     answer: Vec<f64>,
     /// Suction parameter of each strip \[1\].
     pub suction: Vec<f64>,
-    /// Strips that shed what they had too much, for want of a solution.
+    /// What the bound on the effect of what leaves has given to it, strip by strip \[1\].
+    given: Vec<f64>,
+    /// Strips that shed with a bounded effect, or what they had too much for want of a solution.
     pub unfound: u64,
 }
 
@@ -70,6 +72,7 @@ impl LeadingEdges {
             self.take_answers(now, filaments, influence)?;
             self.bound_effects(now);
             self.unfound = self.release.converge();
+            self.take_back();
             self.answer(gamma);
         }
         self.report(now, filaments, (gamma, leaving));
@@ -176,14 +179,28 @@ impl LeadingEdges {
     /// Gives what leaves a strip at least the effect on its own suction that it has where the wing has turned into its newest row.
     fn bound_effects(&mut self, now: Instant) {
         let computed = &now.lattice.suction().computed;
+        self.given.clear();
+        self.given.resize(computed.len(), 0.0);
         for (u, &s) in computed.iter().enumerate() {
             let strip = &now.lattice.strips()[s];
             let row = now.newest_row(strip.edge);
             let normal = now.panels.normal[strip.panels[0]];
             let own = &mut self.release.by_leaving[u * computed.len() + u];
             if let Some(row) = row {
-                *own = own.min(self.fronts[s].least_effect(row, normal));
+                let bounded = own.min(self.fronts[s].least_effect(row, normal));
+                self.given[u] = bounded - *own;
+                *own = bounded;
             }
+        }
+    }
+
+    /// Takes from the suction that is reported what the bound on its effect has given to what leaves, and counts the strips that shed so.
+    fn take_back(&mut self) {
+        let release = &mut self.release;
+        let strips = release.held.iter_mut().zip(&release.leaving);
+        for ((held, leaving), given) in strips.zip(&self.given) {
+            *held -= given * leaving;
+            self.unfound += u64::from(given * leaving != 0.0);
         }
     }
 

@@ -183,7 +183,7 @@ impl Release {
     }
 
     /// Finds what leaves: strips that have too much begin to shed, strips that would take back cease. Where no choice of strips is
-    /// right, as when a sharp wake crosses the leading panels, each sheds what it has too much. Returns how many strips do that.
+    /// right each sheds what it has too much. Returns how many strips do that.
     pub fn converge(&mut self) -> u64 {
         self.none();
         self.sign.clear();

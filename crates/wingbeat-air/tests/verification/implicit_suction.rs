@@ -307,20 +307,25 @@ fn behaves_with_pressures_the_first_order_scheme_and_particles() {
     };
     for settings in [pressures, first_order, particles] {
         let lattice = Lattice::new(vec![Surface::grid("wing", 4, 4)], settings).unwrap();
-        let (mut most, mut shed, mut lift) = (0.0_f64, 0.0, 0.0);
+        let (mut least, mut shed, mut lift) = (f64::INFINITY, 0.0, 0.0);
         fly(
             &lattice,
             |t| pitched(&flat, ramp(t)),
             0.05,
             30,
             |_, _, loads, _| {
-                most = loads.leading.iter().fold(most, |m, s| m.max(*s));
+                // Edges that shed have the suction they hold, or are counted.
+                let above = loads.leading.iter().filter(|s| **s > HELD * (1.0 + 1e-9));
+                assert!(above.count() as u64 <= loads.unfound);
+                let all = loads.leading.iter().zip(&loads.leaving);
+                let shedding = all.filter(|(_, leaving)| **leaving != 0.0);
+                least = shedding.fold(least, |m, (s, _)| m.min(*s));
                 shed += loads.leaving.iter().sum::<f64>();
                 lift = total_force(loads).z;
             },
         )
         .unwrap();
-        println!("suction {most}, shed {shed}, lift {lift}");
-        assert!((most / HELD - 1.0).abs() < 1e-9 && shed > 1.0 && lift.is_finite());
+        println!("suction {least} and more, shed {shed}, lift {lift}");
+        assert!((least / HELD - 1.0).abs() < 1e-9 && shed > 1.0 && lift.is_finite());
     }
 }

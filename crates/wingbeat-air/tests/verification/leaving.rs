@@ -88,30 +88,35 @@ fn limit_wakes_moved_for_no_time_leave_impulse_and_far_flow() {
     assert!(parts[0] < 0.02 && parts[2] < 2e-3, "{parts:?}");
 }
 
-/// Steps of a panel's length and a suction that hardly any edge has: sharp wakes cross the leading panels. As what leaves a strip
-/// has at least its bounded effect on that strip, there is a choice of strips that is right in every step.
+/// Steps of a panel's length and a suction that hardly any edge has: sharp wakes cross the leading panels. Every strip that sheds has the
+/// suction it holds, or more where the bound on the effect of what leaves acts, and then it is counted.
 #[test]
-fn exact_suction_is_held_where_sharp_wakes_cross_the_leading_panels() {
+fn exact_strips_hold_their_suction_or_are_counted_where_sharp_wakes_cross_the_leading_panels() {
     let (held, cols) = (0.05, 12);
     let flat = rectangle(4, cols, DVec3::X, 4.0 * DVec3::Y);
     let lattice = Lattice::new(vec![Surface::grid("wing", 4, cols)], sharp(held)).unwrap();
     let swing = |t: f64| pitched(&flat, [0.3 * t.cos(), -0.3 * t.sin()]);
-    let mut shed = 0;
-    fly(&lattice, swing, 0.25, 24, |step, state, loads, _| {
-        assert_eq!((loads.unfound, state.events.limited), (0, 0));
+    let (mut shed, mut bounded) = (0, 0);
+    let run = fly(&lattice, swing, 0.25, 24, |step, state, loads, _| {
         let with = loads.leading.iter().zip(&loads.leaving);
+        let apart = |suction: f64| (suction / held - 1.0).abs() > 1e-9;
+        let mut above = 0;
         for (suction, leaving) in with.filter(|_| step > 0) {
-            assert!(*suction < held * (1.0 + 1e-9));
-            if *leaving != 0.0 {
-                shed += 1;
-                assert!((suction / held - 1.0).abs() < 1e-9);
-            }
+            let sheds = *leaving != 0.0;
+            shed += u64::from(sheds);
+            above += u64::from(sheds && apart(*suction));
+            assert!(sheds || *suction < held * (1.0 + 1e-9));
         }
+        assert_eq!(above, loads.unfound);
+        bounded += above;
+        assert_eq!(state.events.limited, bounded);
         assert!(total_force(loads).is_finite());
     })
     .unwrap();
-    println!("{shed} strips shed");
-    assert!(shed > 100);
+    println!("{shed} strips shed, {bounded} with a bounded effect");
+    assert_eq!(run.state.events.limited, bounded);
+    // 202 and 160: hardly any suction is held here, and wings turn into what they have just shed.
+    assert!(shed > 100 && bounded > 0 && bounded < shed);
 }
 
 /// A wing at 40 degrees sheds ever more of one sign from its leading edge and of the other from its trailing edge; its roots shed,

@@ -3,8 +3,7 @@
 use wingbeat_air::Wind;
 use wingbeat_blade::BladeSettings;
 use wingbeat_flight::{
-    AirModel, BladeOptions, DriftingFourier, FlightSetup, MotionMode, PrescribedMotion, Simulation,
-    StartState, TimeGrid,
+    AirModel, BladeOptions, FlightSetup, MotionMode, PrescribedMotion, Simulation, TimeGrid,
 };
 use wingbeat_math::DVec3;
 use wingbeat_model::Start;
@@ -62,24 +61,10 @@ pub(super) fn lift_over_weight(setup: &FlightSetup) -> Result<Option<f64>, Analy
     Ok(Some(lift / STEPS as f64 / weight))
 }
 
-/// The root as it starts, attitude and velocity kept.
+/// The root as it is held or starts, attitude and velocity kept.
 fn held(setup: &FlightSetup) -> PrescribedMotion {
     match &setup.mode {
         MotionMode::Tethered(motion) => motion.clone(),
-        MotionMode::Free(StartState {
-            position,
-            angles,
-            velocity,
-            ..
-        }) => {
-            let (x, v) = (position.to_array(), velocity.to_array());
-            PrescribedMotion {
-                position: std::array::from_fn(|i| DriftingFourier {
-                    rate: v[i],
-                    ..DriftingFourier::constant(x[i])
-                }),
-                angles: angles.to_array().map(DriftingFourier::constant),
-            }
-        }
+        MotionMode::Free(start) => start.hold(),
     }
 }

@@ -76,6 +76,7 @@ fn of_setup(key: &str) -> &str {
         "time.step" => "time.step_s",
         "time.period" => "motion.frequency_hz",
         "flight.start" => "flight",
+        "flight.held_motion" => "flight.tether",
         "load.body" => "load",
         "spring.between" | "spring.stiffness" | "spring.rest" | "spring.damping" => "spring",
         key => key,

@@ -305,8 +305,8 @@ pub enum LeadingEdgeCase {
     /// What is beyond the leading-edge suction parameter `leading_edge_threshold`, so that the suction stays there [Ramesh et al.
     /// 2014, J. Fluid Mech. 751:500].
     Suction,
-    /// The same, found together with the circulations of the wings: the suction never is above the threshold, and what is shed hangs
-    /// less on panels and steps.
+    /// The same, found together with the circulations of the wings: the suction is not above the threshold but where a
+    /// wing turns into what it has just shed (which is counted), and what is shed hangs less on panels and steps.
     SuctionImplicit,
     /// Nowhere: what is beyond the threshold acts as the normal force of a leading-edge vortex that stays [Polhamus 1966, NASA TN
     /// D-3767], until it has been fed for `leading_edge_formation_chords`. Smooth: for trim, modes and many flights.

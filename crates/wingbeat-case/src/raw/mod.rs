@@ -215,9 +215,9 @@ pub struct CorrectorCase {
     #[default(CorrectorSettings::default().max_passes)]
     #[schemars(range(min = 1, max = 10_000), extend("with" = ITERATED))]
     pub max_passes: usize,
-    /// Relaxation: 1 is the plain iteration.
+    /// Relaxation: 1 takes each pass whole.
     ///
-    /// Change it to less than 1 for light bodies with large wings.
+    /// Change it to less than 1 where passes do not converge.
     #[default(CorrectorSettings::default().relaxation)]
     #[schemars(range(max = 1), extend("exclusiveMinimum" = 0, "with" = ITERATED))]
     pub relaxation: f64,

@@ -209,7 +209,7 @@ fn of_wakes(summary: &Summary, list: &mut Warnings) {
     }
     if summary.regularised > 0 {
         list.note(format!(
-            "{} times a wake node was stopped, ran close to a surface, or left a leading edge whose suction no solution held, and was regularised.",
+            "{} times a wake node was stopped, ran close to a surface, or left a leading edge that has more suction than it holds, and was regularised.",
             summary.regularised
         ));
     }

@@ -181,7 +181,7 @@ fn late(animal: &Dragonfly, with: Choice) -> Result<[f64; 2], VerifyError> {
 }
 
 fn choices(_quick: bool) -> Result<Vec<Row>, VerifyError> {
-    const BAND: &str = "what is asked of four wings; uncertainty: standard error over the beats";
+    const BAND: &str = "a tenth: choices of the method should not decide; uncertainty: standard error over the beats";
     let [slow, fast] = AZUMA_1988;
     let flights = [
         ("Anax, experiment 1", slow.animal(), WEIGHT),

@@ -139,9 +139,9 @@ fn measured(quantity: &str, plate: &str) -> [Vec<f64>; 2] {
 
 const SOURCE: &str = "Heathcote & Gursul 2007, AIAA J. 45:1066 (S. Heathcote's thesis, fig. 5.13)";
 const THRUST: &str = "Heathcote & Gursul 2007, AIAA J. 45:1066 (S. Heathcote's thesis, fig. 5.6)";
-const BAND: &str = "10 %, stated beforehand; uncertainty: standard error over beats, and the change by 36 panels and 90 steps a beat at the middle Strouhal number. At \
+const BAND: &str = "10 %, stated beforehand (attached flow was chosen by the thrust of the stiffest plate, after flights of all plates had been seen); uncertainty: standard error over beats, and the change by 36 panels and 90 steps a beat at the middle Strouhal number. At \
                     Strouhal numbers of 0.27 the two plates differ by 2.6 as measured; plates of these thicknesses differ by 4.6 in any air, their bending being small";
-const DIFFERENCE: &str = "20 %, stated beforehand; no friction; uncertainty: standard error over beats, and the change of the thrust by 36 panels and 90 steps a beat. The \
+const DIFFERENCE: &str = "20 %, stated beforehand (attached flow and the points, those next to measured thrusts, were chosen afterwards); no friction; uncertainty: standard error over beats, and the change of the thrust by 36 panels and 90 steps a beat. The \
                           stiffest foil is flown as the plate of 4.23e-3 that it is; between points straight lines over the square of the Strouhal number, \
                           both measured and computed";
 const STIFF_REASON: &str = "no friction: the measured drag at a Strouhal number of 0.1 is 0.08, where attached theory has a thrust of 0.08";
@@ -162,7 +162,7 @@ fn run(_quick: bool) -> Result<Vec<Row>, VerifyError> {
         let fine = beat(plate, strouhal[middle], Edge::Attached, FINE);
         let change = |of: fn(&Beats) -> Mean| {
             let change = of(&fine).of / of(&beats[middle]).of - 1.0;
-            if change.is_finite() { change } else { 0.0 }
+            if change.is_finite() { change } else { 1.0 } // a flight that ends early decides nothing
         };
         rows.extend(pitch_rows(
             plate,

@@ -206,7 +206,8 @@ impl Multilevel {
         let most = square + self.widest + softest;
         let [from, to] = self.box_of_sources;
         let own = std::array::from_fn(|d| to[d] - from[d]);
-        let allowed = GROWTH * plan::nodes(own, plan.least, most);
+        let own = plan::nodes(own, plan.least, most);
+        let allowed = (GROWTH * own).min(plan::MOST_NODES.max(own));
         let is_sound = (most / plan.least).is_finite();
         let fits = is_sound && plan::nodes(sides, plan.least, most) <= allowed;
         let count = gaussians::count(most / plan.least);

@@ -16,7 +16,7 @@ const TARGETS: f64 = 1.5;
 
 /// Nodes of all meshes for each source, at most, and in any case: memory.
 const NODES: f64 = 150.0;
-const MOST_NODES: f64 = 3e6;
+pub(super) const MOST_NODES: f64 = 3e6;
 
 /// Standard deviation of a Gaussian over the distance of its nodes, and how far its stencil reaches: the first ones, whose mesh has
 /// the most nodes, are coarser, for only the cores of the narrowest see them whole.
