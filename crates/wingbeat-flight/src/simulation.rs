@@ -358,6 +358,7 @@ impl Simulation {
             let past = &self.state.past.y[self.newest()];
             let quadratures = past[past.len() - QUADRATURES..].to_vec();
             let mut root = self.scratch.motions[0];
+            // As `StartState::released`; a root that is held still has no rounding of its support.
             if let MotionMode::Free(start) = &self.setup.mode {
                 let swaying = start.held_motion.as_ref().map(|_| root.w);
                 root.w = start.angular_velocity + swaying.unwrap_or_default();

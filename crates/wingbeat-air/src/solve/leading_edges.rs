@@ -194,13 +194,15 @@ impl LeadingEdges {
         }
     }
 
-    /// Takes from the suction that is reported what the bound on its effect has given to what leaves, and counts the strips that shed so.
+    /// Takes from the suction that is reported what the bound on its effect has given to what leaves, and counts the strips that shed so,
+    /// unless all that shed are counted for want of a solution.
     fn take_back(&mut self) {
+        let is_counted = self.unfound > 0;
         let release = &mut self.release;
         let strips = release.held.iter_mut().zip(&release.leaving);
         for ((held, leaving), given) in strips.zip(&self.given) {
             *held -= given * leaving;
-            self.unfound += u64::from(given * leaving != 0.0);
+            self.unfound += u64::from(!is_counted && given * leaving != 0.0);
         }
     }
 

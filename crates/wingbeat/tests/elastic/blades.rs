@@ -264,6 +264,32 @@ fn invariant_a_hold_on_a_moving_tether_and_its_release_go_on_bit_for_bit() {
     }
 }
 
+/// A tether that moves and turns the body works on it, with both force and moment.
+#[test]
+fn order_energy_of_a_hold_on_a_moving_tether_and_its_release_closes() {
+    let residual = |steps: usize| {
+        let set = [
+            "time.beats=1.2",
+            "flight.held_beats=0.5",
+            "flight.tether.x={frequency_hz=200,cosine_m=[1e-4]}",
+            "flight.tether.pitch={frequency_hz=200,sine_deg=[3]}",
+        ];
+        let steps = format!("time.steps_per_beat={steps}");
+        let case = LoadedCase::find("fruit-fly-blade", &strings(&[&set[..], &[&steps]].concat()));
+        let mut flight = Simulation::new(case.unwrap().setup).unwrap();
+        let (mut most, mut turned) = (0.0_f64, 0.0_f64);
+        while !flight.finished() {
+            let record = flight.step().unwrap();
+            most = most.max(record.energy_residual.abs());
+            turned = turned.max(record.kinetic_energy);
+        }
+        most / turned
+    };
+    let [coarse, fine] = [100, 200].map(residual);
+    println!("{coarse:e} {fine:e}");
+    assert!(coarse < 1e-5 && fine < 0.1 * coarse, "{coarse:e} {fine:e}");
+}
+
 #[test]
 fn agrees_the_written_case_of_a_trimmed_hawkmoth_with_its_orbit() {
     let case = hawkmoth_case(1.0);
