@@ -35,6 +35,9 @@ pub enum VerifyError {
     /// The case file was refused.
     #[error("{0}")]
     Case(#[from] wingbeat_case::IoError),
+    /// The measured points do not determine what is fitted to them.
+    #[error("measured points do not determine what is fitted to them: {0}")]
+    Fit(#[from] wingbeat_math::SingularMatrix),
 }
 
 /// A quantity, its reference and the computed value.

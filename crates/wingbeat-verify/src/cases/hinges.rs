@@ -5,6 +5,7 @@ use std::path::Path;
 use crate::lab::hinged::{Air, Flown};
 use crate::lab::series::{Table, harmonic, interpolate, rms};
 use crate::{Case, Comparison, Part, Row, VerifyError};
+use wingbeat_math::solve_small;
 
 pub(super) const CASES: &[Case] = &[Case {
     name: "robobee-sdab",
@@ -135,6 +136,7 @@ fn robobees(_quick: bool) -> Result<Vec<Row>, VerifyError> {
     rows.push(of_strokes(&marks, &computed));
     rows.push(as_pitch(&marks, &computed));
     rows.push(scatter(&marks));
+    rows.push(best_curve(&marks)?);
     rows.push(tracked()?);
     rows.extend(lattice()?);
     Ok(rows)
@@ -224,6 +226,32 @@ fn scatter(marks: &[Mark]) -> Row {
     let apart: Vec<f64> = marks.chunks_exact(2).map(of_stroke).collect();
     let quantity = "measured: rms of half the difference between the two half strokes";
     Row::new(quantity, "deg", rms(&apart)).because("a wing without a mean pitch has none")
+}
+
+/// What the best curve through all measured points leaves: a cubic of the amplitude and its product with the frequency,
+/// six numbers fitted to them. No model in which pitch follows from these two does much better.
+fn best_curve(marks: &[Mark]) -> Result<Row, VerifyError> {
+    let terms = |m: &Mark| {
+        let [a, f] = [(m.amplitude - 33.0) / 10.0, (m.frequency - 170.0) / 5.0];
+        [1.0, a, a * a, a * a * a, f, f * a]
+    };
+    let (mut normal, mut fitted) = ([0.0; 36], [0.0; 6]);
+    for mark in marks {
+        let x = terms(mark);
+        for i in 0..6 {
+            fitted[i] += x[i] * mark.pitch();
+            for j in 0..6 {
+                normal[6 * i + j] += x[i] * x[j];
+            }
+        }
+    }
+    solve_small(&mut normal, &mut fitted)?;
+    let apart = |m: &Mark| -> f64 { terms(m).iter().zip(fitted).map(|(x, c)| x * c).sum() };
+    let apart: Vec<f64> = marks.iter().map(|m| apart(m) - m.pitch()).collect();
+    let quantity = "measured: rms about the best cubic of stroke amplitude, with frequency";
+    Ok(Row::new(quantity, "deg", rms(&apart)).because(
+        "six numbers fitted to the measured points: what one setting of all wings could reach",
+    ))
 }
 
 /// The wing that was tracked: its own stroke, three harmonics of it.
