@@ -236,12 +236,12 @@ mod tests {
                 pitch,
                 axis,
             };
-            let ours = exact(&motion);
+            let found = exact(&motion);
             // Eight decimals.
-            assert!((ours.thrust - thrust).abs() < 2e-8, "{k} {axis} {ours:?}");
-            assert!((ours.power - power).abs() < 2e-8, "{k} {axis} {ours:?}");
-            let size = ours.lift[0].hypot(ours.lift[1]);
-            assert!((size - lift).abs() < 2e-8, "{k} {axis} {ours:?}");
+            assert!((found.thrust - thrust).abs() < 2e-8, "{k} {axis} {found:?}");
+            assert!((found.power - power).abs() < 2e-8, "{k} {axis} {found:?}");
+            let size = found.lift[0].hypot(found.lift[1]);
+            assert!((size - lift).abs() < 2e-8, "{k} {axis} {found:?}");
         }
     }
 }

@@ -153,11 +153,11 @@ fn against(
     let mut rows = Vec::new();
     for (i, what, prefix) in [(1, "lift", "CL"), (0, "drag", "CD")] {
         let theirs = table.numbers(&format!("{prefix}_{column}"));
-        let [ours, fine] = [flown, finer].map(|b| folded(b, i));
+        let [computed, fine] = [flown, finer].map(|b| folded(b, i));
         let row = Row::new(
             format!("{name}: mean {what} coefficient, {who}"),
             "1",
-            average(&ours),
+            average(&computed),
         )
         .against(average(&theirs), paper)
         .uncertain(error_of_mean(flown, i));
@@ -174,7 +174,7 @@ fn against(
                 .map(|k| [(k as f64 + 0.5) / SAMPLES as f64, theirs[k], values[k]])
                 .collect(),
         };
-        let [course, change] = [&ours, &fine].map(|v| beside(v));
+        let [course, change] = [&computed, &fine].map(|v| beside(v));
         let rms = course.rms_error();
         let quantity = format!("{name}: rms difference of {what} coefficient, {who}");
         let row = Row::new(quantity, "1", rms).against(0.0, paper);
@@ -182,7 +182,7 @@ fn against(
         rows.push(row.drawn(course));
         if judged {
             let quantity = format!("{name}: correlation of {what}, {who}");
-            rows.push(Row::new(quantity, "1", correlation(&ours, &theirs)).against(1.0, paper));
+            rows.push(Row::new(quantity, "1", correlation(&computed, &theirs)).against(1.0, paper));
         }
     }
     rows
