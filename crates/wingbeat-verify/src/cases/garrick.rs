@@ -11,7 +11,7 @@ use wingbeat_math::DVec3;
 pub(super) const CASES: &[Case] = &[Case {
     name: "garrick",
     about: "Lift, mean thrust and mean power of a plate in plane flow that plunges, or pitches about its leading edge or a \
-            quarter of its chord: forces on segments, 40 panels along the chord, steps of one panel, third period.",
+            quarter of its chord: forces on segments, 40 panels along the chord, steps of one panel or of half a panel, third period.",
     part: Part::Analytic,
     quick: false,
     run,
@@ -101,10 +101,10 @@ fn lattice(rows: usize) -> Result<Lattice, VerifyError> {
     )?)
 }
 
-/// The same from the lattice, over the third period.
-fn computed(motion: &Motion, rows: usize) -> Result<Forces, VerifyError> {
+/// The same from the lattice, over the third period, with steps of so many panels.
+fn computed(motion: &Motion, rows: usize, step: f64) -> Result<Forces, VerifyError> {
     let (w, period) = (2.0 * motion.k, PI / motion.k);
-    let per_period = (period * rows as f64).round() as usize;
+    let per_period = (period * rows as f64 / step).round() as usize;
     let dt = period / per_period as f64;
     let flat = rectangle(rows, 1, DVec3::X, SPAN * DVec3::Y);
     let pose = |t: f64| {
@@ -154,8 +154,8 @@ fn computed(motion: &Motion, rows: usize) -> Result<Forces, VerifyError> {
 const SOURCE: &str = "Theodorsen 1935, NACA Rep. 496; Garrick 1936, NACA Rep. 567";
 const SMALL: &str = "linear theory: amplitudes of 0.01 chords and 0.5 deg; errors of 40 panels, of first order in the panel, grow with the \
                      frequency";
-const PARTS: &str =
-    "the parts, suction and what the normal force has of it, nearly cancel in pitch";
+const PARTS: &str = "the parts, suction and what the normal force has of it, nearly cancel in pitch; suction goes as the square of the \
+                     circulatory part of the lift, and wants shorter steps than lift";
 
 /// What pitch a half degree is [rad].
 const PITCH: f64 = PI / 360.0;
@@ -184,19 +184,29 @@ fn run(_quick: bool) -> Result<Vec<Row>, VerifyError> {
         ("pitch about a quarter chord", pitch(2.0, 0.25)),
     ];
     let mut rows = Vec::new();
-    for (name, motion) in motions {
-        rows.extend(compared(name, &motion)?);
+    for (name, motion) in &motions {
+        rows.extend(compared(name, motion, 1.0)?);
+    }
+    for (name, motion) in motions.iter().filter(|(_, m)| m.k == 2.0) {
+        rows.extend(compared(
+            &format!("{name}, steps of half a panel"),
+            motion,
+            0.5,
+        )?);
     }
     Ok(rows)
 }
 
 /// Lift, thrust and power of one motion beside linear theory, with the change from half as many panels.
-fn compared(name: &str, motion: &Motion) -> Result<[Row; 3], VerifyError> {
+fn compared(name: &str, motion: &Motion, step: f64) -> Result<[Row; 3], VerifyError> {
     let want = exact(motion);
     let parts = want.suction + (want.suction - want.thrust).abs();
     let size = want.lift[0].hypot(want.lift[1]);
     let off = |f: &Forces| (f.lift[0] - want.lift[0]).hypot(f.lift[1] - want.lift[1]) / size;
-    let both = [computed(motion, ROWS / 2)?, computed(motion, ROWS)?];
+    let both = [
+        computed(motion, ROWS / 2, step)?,
+        computed(motion, ROWS, step)?,
+    ];
     let row = |what: &str, of: &dyn Fn(&Forces) -> f64, want: f64| {
         let [coarse, fine] = [0, 1].map(|i| of(&both[i]));
         Row::new(format!("{name}, k = {}: {what}", motion.k), "1", fine)
