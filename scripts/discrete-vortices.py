@@ -2,9 +2,13 @@
 """A second method for leading-edge vorticity: discrete vortices in plane flow beside a flat plate, after Ramesh, Gopalarathnam,
 Granlund, Ol & Edwards 2014, J. Fluid Mech. 751:500. Nothing of wingbeat is used; needs numpy.
 
-    python3 scripts/discrete-vortices.py [dt]          Baik's plate, W1 and W3 (docs/separated-flow.md)
-    python3 scripts/discrete-vortices.py ramp [dt]     plate that pitches to 45 deg within a chord of travel about its leading edge
-    python3 scripts/discrete-vortices.py wagner [dt]   lift after a sudden start against R. T. Jones's form of Wagner's function
+    python3 scripts/discrete-vortices.py [dt] [quarter]    Baik's plate, W1 and W3 (docs/separated-flow.md)
+    python3 scripts/discrete-vortices.py ramp [dt] [quarter]    plate that pitches to 45 deg within a chord of travel about its leading edge
+    python3 scripts/discrete-vortices.py wagner [dt] [quarter]    lift after a sudden start against R. T. Jones's form of Wagner's function
+    python3 scripts/discrete-vortices.py hover [dt] [quarter]    plate that hovers at 45 deg, 2.8 chords to and fro
+
+Each new vortex lies a third of the way to the last one [Ramesh et al. 2014], which is half of what has left within the step; with `quarter`
+a quarter of that, where a vortex has the effect on the edge of an even sheet as long, and with cores of 0.005 chords for 0.02.
 
 Chord, speed and density are 1; the plate moves against x, z is up, clockwise circulation is positive. The vorticity of the plate is
 `gamma = 2 (A0 cot(theta/2) + sum An sin n theta)`. A vortex leaves the trailing edge each step, and one leaves the leading edge when |A0|
@@ -20,6 +24,7 @@ import numpy as np
 
 NODES = 60
 CORE = 0.02  # of Vatistas, n = 2
+PLACE = 1 / 2  # of a new vortex in what has left within the step, from the edge
 ROOM = 25.0  # chords behind the plate after which vortices are dropped
 
 
@@ -30,9 +35,14 @@ def velocity(at, place, circulation):
     return np.stack([(part * way[..., 1]).sum(1), -(part * way[..., 0]).sum(1)], 1)
 
 
-def history(pitch, height, pivot, dt, steps, critical):
-    """Lift and drag coefficient and what the leading edge has shed, step by step. `pitch(t)` and `height(t)` give value and rate;
-    `critical` None: attached."""
+def stream(t):
+    """Place and speed along x of a plate that moves steadily."""
+    return -t, -1.0
+
+
+def history(pitch, height, pivot, dt, steps, critical, travel=stream, held=0.0):
+    """Lift and drag coefficient and what the leading edge has shed, step by step. `pitch(t)`, `height(t)` and `travel(t)` give value and
+    rate; `critical` None: attached; `held`: part of the force of suction that does not act."""
     theta = (np.arange(NODES) + 0.5) * np.pi / NODES
     x = 0.5 * (1 - np.cos(theta))
     place, circulation, is_leading = np.zeros((0, 2)), np.zeros(0), np.zeros(0, bool)
@@ -41,35 +51,36 @@ def history(pitch, height, pivot, dt, steps, critical):
     before, dropped, was_shedding, shed_ahead, found = None, 0.0, False, 0.0, []
     for step in range(steps + 1):
         t = step * dt
-        (angle, spin), (z, rise) = pitch(t), height(t)
+        (angle, spin), (z, rise), (ahead, speed) = pitch(t), height(t), travel(t)
         cos, sin = np.cos(angle), np.sin(angle)
-        along, normal, axis = np.array([cos, -sin]), np.array([sin, cos]), np.array([-t, z])
+        along, normal, axis = np.array([cos, -sin]), np.array([sin, cos]), np.array([ahead, z])
         plate = axis + (x[:, None] - pivot) * along
         front, rear = axis - pivot * along, axis + (1 - pivot) * along
-        motion = -sin - spin * (x - pivot) + rise * cos
+        motion = speed * sin - spin * (x - pivot) + rise * cos
+        limit = None if critical is None else critical * (1.0 if travel is stream else np.hypot(speed, spin * pivot))
         wake = velocity(plate, place, circulation)
         a, total = coefficients(motion - wake @ normal), circulation.sum() + dropped
 
         def newest(edge, leading, drift):
-            """A third of the way to the last one; the first half a step from the edge."""
+            """At its place on the way to the last one, which was at the same place; the first as far from the edge."""
             last = place[is_leading == leading]
             fresh = not len(last) or leading and not was_shedding
-            return edge + (0.5 * dt * drift if fresh else (last[-1] - edge) / 3)
+            return edge + (PLACE * dt * drift if fresh else (last[-1] - edge) * PLACE / (1 + PLACE))
 
-        behind = newest(rear, False, along)
+        behind = newest(rear, False, along if travel is stream else -np.array([speed, rise]) + spin * (1 - pivot) * normal)
         of_rear = velocity(plate, behind[None], np.ones(1))
         rear_a = coefficients(-of_rear @ normal)
         shed = -(bound(a) + total) / (bound(rear_a) + 1)
         new_a, flow = a + shed * rear_a, wake + shed * of_rear
         new, rate = [(behind, shed, False)], 0.0
-        was_shedding_now = critical is not None and abs(new_a[0]) > critical
+        was_shedding_now = limit is not None and abs(new_a[0]) > limit
         if was_shedding_now:
-            edge = np.array([-1.0, rise]) - pivot * spin * np.array([-sin, -cos])
+            edge = np.array([speed, rise]) - pivot * spin * np.array([-sin, -cos])
             before_it = newest(front, True, velocity(front[None], place, circulation)[0] - edge)
             of_front = velocity(plate, before_it[None], np.ones(1))
             front_a = coefficients(-of_front @ normal)
             matrix = [[bound(rear_a) + 1, bound(front_a) + 1], [rear_a[0], front_a[0]]]
-            shed, led = np.linalg.solve(matrix, [-bound(a) - total, critical * np.sign(new_a[0]) - a[0]])
+            shed, led = np.linalg.solve(matrix, [-bound(a) - total, limit * np.sign(new_a[0]) - a[0]])
             new_a, flow = a + shed * rear_a + led * front_a, wake + shed * of_rear + led * of_front
             new, rate = [(behind, shed, False), (before_it, led, True)], led / dt
         was_shedding = was_shedding_now
@@ -81,14 +92,14 @@ def history(pitch, height, pivot, dt, steps, critical):
         before = new_a
         gamma = 2 * (new_a[0] / np.tan(theta / 2) + sum(new_a[k] * np.sin(k * theta) for k in (1, 2, 3)))
         width = gamma * 0.5 * np.sin(theta) * np.pi / NODES
-        push = 2 * np.pi * ((cos + rise * sin) * (new_a[0] + new_a[1] / 2) + 0.75 * change[0] + 0.25 * change[1] + change[2] / 8)
+        push = 2 * np.pi * ((rise * sin - speed * cos) * (new_a[0] + new_a[1] / 2) + 0.75 * change[0] + 0.25 * change[1] + change[2] / 8)
         push += 2 * ((flow @ along) * width).sum() + 2 * rate
-        pull = 2 * np.pi * new_a[0] ** 2
+        pull = 2 * np.pi * new_a[0] ** 2 * (1 - held)
         shed_ahead += led if was_shedding else 0.0
         found.append((push * cos + pull * sin, push * sin - pull * cos, shed_ahead))
 
         place = place + dt * (velocity(place, place, circulation) + velocity(place, plate, width))
-        stays = place[:, 0] - axis[0] < ROOM
+        stays = np.abs(place[:, 0] - axis[0]) < ROOM
         dropped += circulation[~stays].sum()
         place, circulation, is_leading = place[stays], circulation[stays], is_leading[stays]
     return np.array(found)
@@ -148,6 +159,22 @@ def wagner(dt):
         yield t, found[round(t / dt), 0] / (2 * np.pi * small), jones
 
 
+def hover(dt, beats=4, stroke=2.8):
+    """Mean lift and drag coefficient of each beat of a plate that moves as cos along x and turns about its mid chord while it reverses,
+    45 deg at mid stroke; thin: the force of the suction that its edge holds, 0.15, does not act."""
+    period = np.pi * stroke
+    steps = round(period / dt)
+    turn = 2 * np.pi / period
+    pitch = lambda t: (np.pi / 2 - np.pi / 4 * np.sin(turn * t), -np.pi / 4 * turn * np.cos(turn * t))
+    travel = lambda t: (stroke / 2 * np.cos(turn * t), -np.sin(turn * t))
+    found = history(pitch, lambda t: (0.0, 0.0), 0.5, period / steps, beats * steps, 0.15, travel, 1.0)
+    middle = (found[1:, :2] + found[:-1, :2]) / 2
+    forward = np.sign(np.sin(turn * (np.arange(beats * steps) + 0.5) * period / steps))
+    for beat in range(beats):
+        own = slice(beat * steps, (beat + 1) * steps)
+        yield middle[own, 0].mean(), (middle[own, 1] * forward[own]).mean()
+
+
 def print_baik(dt):
     for critical in (None, 0.25, 0.18, 0.11):
         for name, error, peak, measured in baik(critical, dt):
@@ -157,7 +184,10 @@ def print_baik(dt):
 
 if __name__ == "__main__":
     words = sys.argv[1:]
-    what = words.pop(0) if words and words[0] in ("ramp", "wagner") else "baik"
+    if "quarter" in words:
+        words.remove("quarter")
+        PLACE, CORE = 1 / 4, 0.005
+    what = words.pop(0) if words and words[0] in ("ramp", "wagner", "hover") else "baik"
     dt = float(words[0]) if words else 0.02
     if what == "baik":
         print_baik(dt)
@@ -169,3 +199,6 @@ if __name__ == "__main__":
     if what == "wagner":
         for travel, lift, jones in wagner(dt):
             print(f"{travel} chords: lift over steady lift {lift:.3f}, Wagner's function {jones:.3f}")
+    if what == "hover":
+        for beat, (lift, drag) in enumerate(hover(dt if words else 0.055)):
+            print(f"beat {beat + 1}: lift {lift:.3f}, drag {drag:.3f}")

@@ -7,6 +7,7 @@ mod bodies;
 mod conservation;
 mod dragonflies;
 mod feathering;
+mod garrick;
 mod goland;
 mod heathcote;
 mod hinges;
@@ -14,6 +15,7 @@ mod hover;
 mod insects;
 mod invariance;
 mod kernel;
+mod mancini;
 mod membrane;
 mod onset;
 mod particles;
@@ -26,6 +28,7 @@ mod scherer;
 mod start;
 mod steady;
 mod unsteady;
+mod wang;
 mod yang;
 mod yeo;
 
@@ -38,6 +41,7 @@ pub fn suite() -> Vec<Case> {
         bodies::CASES,
         steady::CASES,
         unsteady::CASES,
+        garrick::CASES,
         plates::CASES,
         conservation::CASES,
         particles::CASES,
@@ -53,8 +57,10 @@ pub fn suite() -> Vec<Case> {
         heathcote::CASES,
         scherer::CASES,
         ramp::CASES,
+        mancini::CASES,
         baik::CASES,
         yang::CASES,
+        wang::CASES,
         revolving::CASES,
         insects::CASES,
         dragonflies::CASES,

@@ -9,8 +9,8 @@ use wingbeat_math::{DVec3, r2};
 pub(super) const CASES: &[Case] = &[Case {
     name: "baik-2011",
     about: "A flat plate with round edges from wall to wall of a channel at a Reynolds number of 5000 pitches and \
-            plunges, effective incidence 8 + 14 sin deg, at the reduced frequencies 0.5 (W1) \
-            and 1 (W3): histories of lift and drag coefficient. Computed: the middle strip, two \
+            plunges, effective incidence 8 + 14 sin deg, at the reduced frequencies 0.5 (W1, W4) \
+            and 1 (W2, W3) and the Strouhal numbers 0.16 (W1, W3) and 0.32 (W2, W4): histories of lift and drag coefficient. Computed: the middle strip, two \
             chords wide, of a wing of aspect ratio 32.",
     part: Part::Experiments,
     quick: false,
@@ -21,13 +21,21 @@ pub(super) const CASES: &[Case] = &[Case {
 /// the filter of the measurement leaves.
 type Motion = (&'static str, f64, [f64; 2], usize);
 
-const MOTIONS: [Motion; 2] = [
+/// The first two were looked at first; the others were computed once the method stood.
+const MOTIONS: [Motion; 4] = [
     ("W1", 0.5, [27.182, 13.16], 7),
     ("W3", 1.0, [27.182, 13.16], 3),
+    ("W2", 1.0, [47.756, 33.73], 3),
+    ("W4", 0.5, [47.756, 33.73], 7),
 ];
+/// So many motions from the first on, and what they are called together.
+const GROUPS: [(usize, &str); 2] = [(2, "mean of W1 and W3"), (4, "mean of all four")];
 
 /// Span positions [chords] from the middle to the tip.
 const STATIONS: [f64; 8] = [0.0, 1.0, 2.0, 3.0, 4.5, 7.0, 11.0, 16.0];
+/// Travel [chords] until the last period ends, four periods of W1 and W4 and eight of the others: the measurement leaves out its first
+/// five, and what begins from rest lacks lift as long as the vortex of the start is near (Wagner), 4 % at 25 chords.
+const TRAVEL: f64 = 25.0;
 const AXIS: f64 = 0.25;
 const MEAN: f64 = 8.0;
 
@@ -149,8 +157,7 @@ fn beside(motion: &Motion, edge: Edge, mesh: [usize; 3]) -> Result<[Comparison; 
 const SOURCE: &str = "Baik 2011, thesis, Univ. Michigan, figs 5.24 to 5.27";
 const BAND: &str = "a lattice with separation of others reaches 0.42 in lift and 0.29 in drag over four such \
                     motions, Theodorsen's theory 0.82 in lift";
-const CHANGE: &str =
-    "uncertainty: change for W1 by 12 panels along the chord and 20 steps a chord for 6 and 10";
+const CHANGE: &str = "uncertainty: change for the second period of W1 by 12 panels along the chord and 20 steps a chord for 6 and 10";
 
 fn run(_quick: bool) -> Result<Vec<Row>, VerifyError> {
     let mut rows = Vec::new();
@@ -158,20 +165,26 @@ fn run(_quick: bool) -> Result<Vec<Row>, VerifyError> {
         let name = edge.name();
         let mut compared = Vec::new();
         for motion in &MOTIONS {
-            compared.push(beside(motion, edge, [6, 10, 2])?);
+            let periods = (TRAVEL * motion.1 / PI).round() as usize;
+            compared.push(beside(motion, edge, [6, 10, periods])?);
         }
         let errors = |c: &[Comparison; 2]| [0, 1].map(|i| c[i].rms_error());
         let all: Vec<[f64; 2]> = compared.iter().map(errors).collect();
-        let finer = errors(&beside(&MOTIONS[0], edge, [12, 20, 2])?);
+        let mut short = Vec::new();
+        for mesh in [[6, 10, 2], [12, 20, 2]] {
+            short.push(errors(&beside(&MOTIONS[0], edge, mesh)?));
+        }
         for (i, what, band) in [(1, "lift", 0.45), (0, "drag", 0.30)] {
-            let value = all.iter().map(|e| e[i]).sum::<f64>() / all.len() as f64;
-            let quantity = format!("{name}: rms error of {what} coefficient, mean of both motions");
-            let row = Row::new(quantity, "1", value).against(0.0, SOURCE);
-            let row = row.uncertain(finer[i] - all[0][i]);
-            rows.push(match edge == Edge::Sheds {
-                true => row.within(band, BAND),
-                false => row.because(CHANGE),
-            });
+            for (n, which) in GROUPS {
+                let value = all[..n].iter().map(|e| e[i]).sum::<f64>() / n as f64;
+                let quantity = format!("{name}: rms error of {what} coefficient, {which}");
+                let row = Row::new(quantity, "1", value).against(0.0, SOURCE);
+                let row = row.uncertain(short[1][i] - short[0][i]);
+                rows.push(match edge == Edge::Sheds {
+                    true => row.within(band, BAND),
+                    false => row.because(CHANGE),
+                });
+            }
             for (k, (motion, error)) in MOTIONS.iter().zip(&all).enumerate() {
                 let quantity = format!("{name}, {}: rms error of {what} coefficient", motion.0);
                 let row = Row::new(quantity, "1", error[i]).against(0.0, SOURCE);
@@ -188,7 +201,7 @@ mod tests {
 
     #[test]
     fn published_plunge_amplitudes_follow_from_the_law() {
-        for ((name, k, [flow, _], _), h0) in MOTIONS.iter().zip([0.5, 0.25]) {
+        for ((name, k, [flow, _], _), h0) in MOTIONS.iter().zip([0.5, 0.25, 0.5, 1.0]) {
             let plunge = Plunge::of(flow.to_radians(), PI / k);
             let [top, bottom] = [0.0, 0.5].map(|s| plunge.at(s)[0]);
             // The source rounds its angles to five digits.

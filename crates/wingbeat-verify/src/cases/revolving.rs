@@ -49,6 +49,7 @@ fn wing([rows, cols]: [usize; 2]) -> Wing {
         joined: false,
         free_root: false,
         round: false,
+        plane: false,
         measured: cols,
     }
 }

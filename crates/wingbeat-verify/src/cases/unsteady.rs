@@ -152,7 +152,7 @@ fn kuessner(quick: bool) -> Result<Vec<Row>, VerifyError> {
 }
 
 /// Theodorsen's function C(k) as [real, imaginary], from the series of the Bessel functions.
-fn theodorsen_function(k: f64) -> [f64; 2] {
+pub(super) fn theodorsen_function(k: f64) -> [f64; 2] {
     let [j0, j1, y0, y1] = bessel(k);
     let (a, b) = (j1 + y0, y1 - j0);
     let d = a * a + b * b;

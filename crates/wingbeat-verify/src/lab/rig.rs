@@ -72,6 +72,7 @@ impl Fluid {
             shedding: SheddingKinds {
                 leading: edge != Edge::Attached,
                 root: wing.free_root,
+                tip: !wing.plane,
                 ..insect.shedding
             },
             leading: match edge {
@@ -86,6 +87,9 @@ impl Fluid {
                 },
             },
             clearance: 0.1 * self.chord,
+            // Filaments that run straight across plane flow have no length to resolve.
+            wake_overlap: if wing.plane { 0.0 } else { insect.wake_overlap },
+            plane_wakes: wing.plane,
             section_drag: Some(self.drag),
             ..insect
         }
@@ -112,6 +116,8 @@ pub(crate) struct Wing {
     pub free_root: bool,
     /// Whether its leading edge is round, and not thin.
     pub round: bool,
+    /// Whether the flow is plane: one panel along a long span, whose ends do not shed and whose wakes stay straight.
+    pub plane: bool,
     /// Columns from the root on whose force is measured.
     pub measured: usize,
 }
@@ -131,7 +137,18 @@ impl Wing {
             joined,
             free_root: !joined,
             round: false,
+            plane: false,
             measured: cols,
+        }
+    }
+
+    /// A section of plane flow, of chord 1, its axis of pitch this part of the chord behind the leading edge, which is thin:
+    /// one panel along this span.
+    pub fn section(rows: usize, span: f64, axis: f64) -> Self {
+        Self {
+            free_root: false,
+            plane: true,
+            ..Self::rectangle(rows, &[-0.5 * span, 0.5 * span], axis, false)
         }
     }
 
