@@ -2,8 +2,8 @@
 //!
 //! A segment l of net circulation G that moves with the surface at U in air of velocity V feels
 //! `rho G (V - U) x l`; the panels feel `rho A dG/dt` along their normals besides. In sum this is the
-//! pressure on the sheet and the suction at its free edges. A segment of an edge that sheds counts
-//! half, as its other half is wake.
+//! pressure on the sheet and the suction at its free edges. Of a segment of an edge that sheds a
+//! part is wake and feels nothing.
 
 use crate::geometry::{Edge, NodeMotion, Strip, chord};
 use crate::lattice::Lattice;
@@ -16,7 +16,7 @@ use crate::solve::is_computed;
 use crate::state::AirState;
 use crate::wake::{Filaments, NEAR, Sums, WakeVelocityCache};
 use wingbeat_math::DVec3;
-use wingbeat_vortex::{Network, Points};
+use wingbeat_vortex::Points;
 
 /// Where on a segment the velocity is taken, from 0 to 1: in the middle; at Gauss's two points where the force is to be
 /// what the segment does to the rest of the flow, reversed.
@@ -71,9 +71,8 @@ impl Segments {
         out: &mut AirLoads,
     ) {
         let filaments = flow.filaments;
-        let bound = &filaments.bound;
         self.take_velocities(lattice, flow, NEAR * out.panels.size(), out.time);
-        self.collect(lattice, state, bound, &out.panels.point);
+        self.collect(lattice, state, filaments, &out.panels.point);
         let method = lattice.settings().loads;
         let suction = match method {
             LoadMethod::Joukowski => {
@@ -146,7 +145,14 @@ impl Segments {
 
     /// Force and moment about the control point that the segments give to every panel of an open
     /// surface; a shared segment gives half to either side.
-    fn collect(&mut self, lattice: &Lattice, state: &AirState, bound: &Network, points: &[DVec3]) {
+    fn collect(
+        &mut self,
+        lattice: &Lattice,
+        state: &AirState,
+        filaments: &Filaments,
+        points: &[DVec3],
+    ) {
+        let bound = &filaments.bound;
         let (rho, count) = (lattice.settings().density, places(lattice).len());
         self.panel_force.clear();
         self.panel_force
@@ -155,10 +161,12 @@ impl Segments {
             let edge = &lattice.topology().edges[e];
             let l = bound.nodes.get(edge.to) - bound.nodes.get(edge.from);
             let circulation = rho * bound.gamma[e] / count as f64;
-            let shared = edge.minus.is_some();
-            let part = match shared || edge.wake.is_some() {
-                true => 0.5 + 0.5 * lattice.held_part(state, edge, bound.gamma[e]),
-                false => 1.0,
+            let part = match (edge.minus, edge.wake) {
+                (Some(_), _) => 0.5,
+                (None, Some(_)) => {
+                    lattice.felt_part(state, edge, bound.gamma[e], &filaments.lengths)
+                }
+                (None, None) => 1.0,
             };
             for k in at * count..(at + 1) * count {
                 let share = part * (circulation * self.velocity.get(k).cross(l));

@@ -21,10 +21,12 @@ fn shares<'a>(
     topology.panel_edges[panel].iter().map(move |e| {
         let edge = &topology.edges[e.edge];
         let [a, b] = [edge.from, edge.to].map(|n| bound.nodes.get(n));
-        // Half of what leaves is the wake's.
-        let held = lattice.held_part(state, edge, bound.gamma[e.edge]);
-        let weight = held + (1.0 - held) * e.weight;
-        [weight * bound.gamma[e.edge] * (b - a), a.midpoint(b)]
+        let net = bound.gamma[e.edge];
+        let weight = match (edge.minus, edge.wake) {
+            (None, Some(_)) => lattice.felt_part(state, edge, net, &filaments.lengths),
+            _ => e.weight,
+        };
+        [weight * net * (b - a), a.midpoint(b)]
     })
 }
 

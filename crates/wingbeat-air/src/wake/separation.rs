@@ -6,10 +6,11 @@
 //! back: an edge that ceases to shed keeps the circulation of its newest ring (Kelvin's theorem of the strip).
 
 use crate::edges::EdgeKind;
-use crate::geometry::Edge;
+use crate::geometry::{Edge, WakeColumn};
 use crate::lattice::Lattice;
-use crate::settings::LeadingEdge;
+use crate::settings::{LeadingEdge, NewestRow};
 use crate::state::{AirState, WakeSheet};
+use crate::wake::near_wake::released;
 
 impl Lattice {
     /// Circulation [m2/s] that the edge of a column of a wake sheet holds: none but at leading edges with a criterion.
@@ -57,7 +58,7 @@ impl Lattice {
     }
 
     /// Part of the net circulation `net` [m2/s] of an edge that it holds, 0 to 1: what is beyond it is about to leave.
-    pub(crate) fn held_part(&self, state: &AirState, edge: &Edge, net: f64) -> f64 {
+    fn held_part(&self, state: &AirState, edge: &Edge, net: f64) -> f64 {
         let wake = edge.wake;
         if wake.is_some_and(|w| self.suction().of_column(w.sheet, w.column).is_some()) {
             return 1.0; // what leaves is beside the edge already
@@ -67,5 +68,25 @@ impl Lattice {
             return 1.0;
         }
         hold / net.abs().max(f64::MIN_POSITIVE)
+    }
+
+    /// Part of the net circulation `net` [m2/s] of an edge of one panel that sheds which the wing feels, `lengths` being those of
+    /// the newest rows, 0 to 1: all that it holds, and of what is about to leave all but half of what leaves within a step.
+    ///
+    /// What leaves with the next row stands for a sheet from half a row ahead of the edge to half a row behind it. What
+    /// waits on the edge of a short row ([`released`]) stands for a sheet ahead of the edge, on the wing.
+    pub(crate) fn felt_part(
+        &self,
+        state: &AirState,
+        edge: &Edge,
+        net: f64,
+        lengths: &[Vec<f64>],
+    ) -> f64 {
+        let length = |w: WakeColumn| lengths[w.sheet].get(w.column).copied();
+        let leaves = match edge.wake.and_then(length) {
+            Some(length) if self.settings().newest_row == NewestRow::Matched => released(length),
+            _ => 1.0,
+        };
+        1.0 - 0.5 * leaves * (1.0 - self.held_part(state, edge, net))
     }
 }

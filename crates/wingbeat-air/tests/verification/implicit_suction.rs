@@ -154,9 +154,10 @@ fn agrees_second_method_impulse_in_hover_with_implicit_suction() {
         (s.bound_core, s.wake_core) = (core_of(0.01)[0], core_of(0.07)[0]);
     });
     println!("force, rate of impulse: {beats:?}");
-    // Measured 2.8, 0.1 and 2.8 %. Without the force on the strip between the edge and the rings 11, 8 and 5 %.
-    for [force, impulse] in beats {
-        assert!((impulse / force - 1.0).abs() < 0.045, "{beats:?}");
+    // Measured 5.9 in the beat of the start, then 2.6 and 0.04 %. With half the step 4.0, 3.4 and 1.0 %, and the same forces to 2 %; they
+    // differed by 8 % where half of what waits on edges was counted.
+    for ([force, impulse], most) in beats.into_iter().zip([0.065, 0.04, 0.02]) {
+        assert!((impulse / force - 1.0).abs() < most, "{beats:?}");
     }
 }
 

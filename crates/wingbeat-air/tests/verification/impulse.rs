@@ -1,7 +1,10 @@
 //! Force against the rate of change of the impulse of all vorticity.
 
 use crate::common::{fly, order, rectangle, total_force, translating};
-use wingbeat_air::{AirLoads, AirSettings, CirculationRate, Lattice, SheddingKinds, Surface};
+use std::f64::consts::{PI, TAU};
+use wingbeat_air::{
+    AirLoads, AirSettings, CirculationRate, CoreModel, Lattice, LoadMethod, SheddingKinds, Surface,
+};
 use wingbeat_math::DVec3;
 
 const NONE: SheddingKinds = SheddingKinds {
@@ -73,6 +76,68 @@ fn conserves_impulse_of_a_heaving_wing_at_first_order() {
     }
     assert!(errors[2].abs() < 0.03, "{errors:?}");
     assert!(order(errors[0], errors[2]) / 2.0 > 0.7, "{errors:?}");
+}
+
+/// Complex lift over pi q c of a long plate that plunges with the reduced frequency 1, down by `e^{i w t}` half chords, in steps of so
+/// many panels: by pressures and by the impulse, as [real, imaginary].
+fn plunging(rows: usize, step: f64, loads: LoadMethod) -> [[f64; 2]; 2] {
+    const SPAN: f64 = 1e4;
+    let (period, amplitude) = (PI, 1e-4);
+    let per_period = (period * rows as f64 / step).round() as usize;
+    let (dt, w) = (period / per_period as f64, TAU / period);
+    let core = CoreModel::Scully { radius: 1e-8 };
+    let settings = AirSettings {
+        bound_core: core,
+        wake_core: core,
+        loads,
+        ..AirSettings::accurate(1.0, DVec3::X)
+    };
+    let lattice = Lattice::new(vec![Surface::grid("wing", rows, 1)], settings).unwrap();
+    let flat = rectangle(rows, 1, DVec3::X, SPAN * DVec3::Y);
+    let motion = |t: f64| {
+        let (s, c) = (w * t).sin_cos();
+        let shift = -0.5 * amplitude * c * DVec3::Z;
+        let nodes = flat.iter().map(|x| *x + shift).collect();
+        translating(nodes, 0.5 * amplitude * w * s * DVec3::Z)
+    };
+    let (mut lift, mut impulse) = (vec![], vec![]);
+    fly(&lattice, motion, dt, 3 * per_period, |_, _, loads, _| {
+        lift.push(total_force(loads).z);
+        impulse.push(loads.impulse.z);
+    })
+    .unwrap();
+    let harmonic = |x: &dyn Fn(usize) -> f64| {
+        let phase = |i: usize| TAU * i as f64 / per_period as f64;
+        let sum = |part: fn(f64) -> f64| -> f64 {
+            let steps = 0..per_period;
+            steps
+                .map(|i| x(2 * per_period + i - 1) * part(phase(i) - phase(1)))
+                .sum()
+        };
+        let scale = 0.25 * PI * amplitude * SPAN * per_period as f64;
+        [sum(f64::cos) / scale, -sum(f64::sin) / scale]
+    };
+    let rate = |i: usize| (impulse[i - 1] - impulse[i + 1]) / (2.0 * dt);
+    [harmonic(&|i| lift[i]), harmonic(&rate)]
+}
+
+/// In steps of less than a panel a part of what is shed waits on the trailing edge. It stands for vorticity on the plate, which feels a force: with all
+/// of it but half of what leaves within a step, the lift has no more error than the impulse, that of eight panels. With half of all it
+/// was off by 3.4 and 2.9 %.
+#[test]
+fn limit_theodorsen_lift_of_a_plunging_plate_in_steps_of_less_than_a_panel() {
+    let [f, g] = [0.539_4, -0.100_3]; // C(1) [Bisplinghoff, Ashley, Halfman, table 5-1]
+    let exact = [-1.0 - 2.0 * g, 2.0 * f];
+    let apart = |[a, b]: [[f64; 2]; 2]| (a[0] - b[0]).hypot(a[1] - b[1]) / b[0].hypot(b[1]);
+    for (step, most) in [(0.25, 0.031), (0.5, 0.026)] {
+        for loads in [LoadMethod::Pressure, LoadMethod::Joukowski] {
+            let [force, impulse] = plunging(8, step, loads);
+            let [off, of_impulse] = [force, impulse].map(|lift| apart([lift, exact]));
+            let both = apart([force, impulse]);
+            println!("{loads:?}, steps of {step} panels: {off:.4}, {of_impulse:.4}, {both:.4}");
+            assert!(off < most && both < 0.01);
+        }
+    }
 }
 
 /// Added mass per span of a long plate: `pi/4 rho chord^2` [Lamb art. 71]. Rings on the true edges
