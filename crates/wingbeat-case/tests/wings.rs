@@ -158,10 +158,16 @@ fn exact_surface_of_a_case_moves_both_wings() {
         let wanted = wingbeat_math::DVec3::new(-0.15, far, 0.08);
         assert!((tip - wanted).length() < 1e-14, "{tip}"); // roundings of the least squares
     }
-    let case = load(&surface("harmonics = 3\n"), &[]).unwrap();
+    let still = ["wing.right.motion.phi={ constant_deg = 0 }"];
+    let case = load(&surface("harmonics = 3\n"), &still).unwrap();
     let again = wingbeat_case::case_of(&case.setup, None).unwrap();
     let deformations = [&case, &again].map(|c| c.setup.animal.wings[0].deformation.clone());
     assert_eq!(deformations[0], deformations[1]);
+    // The tip goes up and down by 0.04 m five times in a second; blade elements have nothing to say.
+    let estimate = wingbeat_analysis::estimate(&case.setup).unwrap();
+    assert!(estimate.lift_over_weight.is_none());
+    let speed = estimate.wings[0].tip_speed;
+    assert!((speed - 4.0 * 0.04 * 5.0).abs() < 1e-3, "{speed}"); // chords of 200 pieces
     assert!(!fly(case.setup).is_empty());
 }
 
@@ -187,11 +193,17 @@ fn refuses_surfaces_that_do_not_fit() {
         "[[wing.right.deformation.twist]]",
         &["wing.right.deformation.twist", "surface"],
     );
-    let blade = load(&first, &["air={ model = \"blade_element\" }"]).expect_err("refused");
-    assert!(
-        blade.contains("deformation.surface") && blade.contains("vortex_lattice"),
-        "{blade}"
+    let lattice = "scheme = \"accurate\"\nshed = [\"trailing\"]";
+    let blade = "model = \"blade_element\"";
+    refused(
+        &first.replace(lattice, blade),
+        "[wing.right.deformation.surface]",
+        &["wing.right.deformation.surface", "vortex_lattice"],
     );
+    // Chosen on the command line: the flight refuses it.
+    let setup = good(&first, &["air={ model = \"blade_element\" }"]);
+    let error = Simulation::new(setup).err().expect("refused").to_string();
+    assert!(error.contains("measured surface"), "{error}");
 }
 
 #[test]

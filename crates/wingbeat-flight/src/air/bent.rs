@@ -171,8 +171,7 @@ impl BentScratch {
 
 /// Refuses wings whose surface was measured: strips are flat sections that twist and bend.
 pub(super) fn refuse_measured_surfaces(animal: &Animal) -> Result<(), FlightError> {
-    let measured = |w: &&Wing| w.deformation.as_ref().is_some_and(|d| d.surface.is_some());
-    match animal.wings.iter().find(measured) {
+    match animal.wings.iter().find(|w| w.has_measured_surface()) {
         None => Ok(()),
         Some(wing) => Err(FlightError::Setup {
             key: "air.model",
