@@ -11,6 +11,7 @@ mod goland;
 mod heathcote;
 mod hinges;
 mod hover;
+mod hummingbird;
 mod insects;
 mod invariance;
 mod kernel;
@@ -21,6 +22,7 @@ mod pazy;
 mod peer;
 mod plates;
 mod ramp;
+mod razak;
 mod revolving;
 mod scherer;
 mod start;
@@ -55,8 +57,10 @@ pub fn suite() -> Vec<Case> {
         ramp::CASES,
         baik::CASES,
         yang::CASES,
+        razak::CASES,
         revolving::CASES,
         insects::CASES,
+        hummingbird::CASES,
         dragonflies::CASES,
         anax::CASES,
         hinges::CASES,
