@@ -136,6 +136,7 @@ const SITES: &[Site] = &[
     site("SplitCycleCase", "wing.right.motion.phi.split_cycle", &[]),
     site("TableCase", "wing.right.motion.phi.table", &[]),
     site("DeformationCase", "wing.right.deformation", &[]),
+    site("SurfaceCase", "wing.right.deformation.surface", &[]),
     site(
         "StructureCase",
         "wing.right.structure",

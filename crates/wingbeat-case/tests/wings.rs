@@ -132,6 +132,80 @@ linear_m = [0, 0.02]
     assert!((d.twist[0].span.at(0.75, 0.0) - 6f64.to_radians()).abs() < 1e-15);
 }
 
+/// A wing that flaps by 0.1 rad as its surface, measured at nine phases.
+fn surface(extra: &str) -> String {
+    let phases: Vec<f64> = (0..9).map(|k| 0.02 + f64::from(k) / 9.0).collect();
+    let at = |x: &f64| {
+        let tip = 0.04 * (std::f64::consts::TAU * x).sin();
+        let row = |x: f64| [[x, 0.0, 0.0], [x, 0.4, tip]];
+        [row(0.025), row(-0.075)]
+    };
+    let nodes: Vec<_> = phases.iter().map(at).collect();
+    let table = "[wing.right.deformation.surface]";
+    format!("{GOOD}{table}\nphases = {phases:?}\nnodes_m = {nodes:?}\n{extra}")
+}
+
+#[test]
+fn exact_surface_of_a_case_moves_both_wings() {
+    let setup = good(&surface(""), &["animal.scale=2"]);
+    for wing in &setup.animal.wings {
+        let mesh = wingbeat_model::DeformingMesh::new(
+            &wing.mesh,
+            wing.deformation.as_ref().expect("the image too"),
+        );
+        let tip = mesh.places(0.25)[wing.mesh.node(2, 4)];
+        let far = 0.8 * wing.mesh.nodes[wing.mesh.cols].y.signum();
+        let wanted = wingbeat_math::DVec3::new(-0.15, far, 0.08);
+        assert!((tip - wanted).length() < 1e-14, "{tip}"); // roundings of the least squares
+    }
+    let still = ["wing.right.motion.phi={ constant_deg = 0 }"];
+    let case = load(&surface("harmonics = 3\n"), &still).unwrap();
+    let again = wingbeat_case::case_of(&case.setup, None).unwrap();
+    let deformations = [&case, &again].map(|c| c.setup.animal.wings[0].deformation.clone());
+    assert_eq!(deformations[0], deformations[1]);
+    // The tip goes up and down by 0.04 m five times in a second; blade elements have nothing to say.
+    let estimate = wingbeat_analysis::estimate(&case.setup).unwrap();
+    assert!(estimate.lift_over_weight.is_none());
+    let speed = estimate.wings[0].tip_speed;
+    assert!((speed - 4.0 * 0.04 * 5.0).abs() < 1e-3, "{speed}"); // chords of 200 pieces
+    assert!(!fly(case.setup).is_empty());
+}
+
+#[test]
+fn refuses_surfaces_that_do_not_fit() {
+    let first = surface("");
+    let phase = "phases = [0.02, ";
+    refused(
+        &first.replace(phase, "phases = [0.02, 0.01, "),
+        "phases",
+        &["surface.phases", "rise"],
+    );
+    refused(&surface("harmonics = 5\n"), "phases", &["fewer harmonics"]);
+    refused(&surface("harmonics = 0\n"), "harmonics", &["harmonics"]);
+    let short = surface("harmonics = 2\n").replace(phase, "phases = [");
+    refused(&short, "nodes_m", &["9 surfaces for 8 phases"]);
+    let twist = first.replace(
+        "[wing.right.deformation.surface]",
+        &format!("{TWIST}[wing.right.deformation.surface]"),
+    );
+    refused(
+        &twist,
+        "[[wing.right.deformation.twist]]",
+        &["wing.right.deformation.twist", "surface"],
+    );
+    let lattice = "scheme = \"accurate\"\nshed = [\"trailing\"]";
+    let blade = "model = \"blade_element\"";
+    refused(
+        &first.replace(lattice, blade),
+        "[wing.right.deformation.surface]",
+        &["wing.right.deformation.surface", "vortex_lattice"],
+    );
+    // Chosen on the command line: the flight refuses it.
+    let setup = good(&first, &["air={ model = \"blade_element\" }"]);
+    let error = Simulation::new(setup).err().expect("refused").to_string();
+    assert!(error.contains("measured surface"), "{error}");
+}
+
 #[test]
 fn agrees_page_poses_with_the_lattice() {
     // Where no frames are written the page draws wings from history rows; both see one shape.

@@ -8,7 +8,7 @@ use wingbeat_air::LoadMethod;
 use wingbeat_blade::{AddedMass, BladeSettings};
 use wingbeat_flight::*;
 use wingbeat_math::{DVec3, MassProperties};
-use wingbeat_model::deformation::{SpanLaw, Term};
+use wingbeat_model::deformation::{MovingSurface, SpanLaw, Term};
 use wingbeat_model::motion::Fourier;
 use wingbeat_model::{AngleLaw, Deformation, DeformingMesh};
 
@@ -303,4 +303,62 @@ fn invariant_symmetric_flight_with_deforming_wings_stays_symmetric() {
     air(&mut odd).mirror = true;
     let error = Simulation::new(odd).err().expect("refused").to_string();
     assert!(error.contains("air.mirror"), "{error}");
+}
+
+/// The surface of the first wing under `deformation`, as cameras would see it at eleven phases.
+fn measured(setup: &FlightSetup, deformation: &Deformation) -> Deformation {
+    let mesh = &setup.animal.wings[0].mesh;
+    let moving = DeformingMesh::new(mesh, deformation);
+    let phases: Vec<f64> = (0..11).map(|k| 0.03 + f64::from(k) / 11.0).collect();
+    let at = |x: &f64| -> Vec<Vec<DVec3>> {
+        let outboard = |x: DVec3| DVec3::new(x.x, x.y.abs(), x.z);
+        let places: Vec<DVec3> = moving.places(*x).into_iter().map(outboard).collect();
+        places
+            .chunks(mesh.cols + 1)
+            .map(<[DVec3]>::to_vec)
+            .collect()
+    };
+    let surface = MovingSurface {
+        places: phases.iter().map(at).collect(),
+        phases,
+        harmonics: 2,
+    };
+    Deformation {
+        surface: Some(surface),
+        ..Deformation::default()
+    }
+}
+
+#[test]
+fn agrees_a_measured_surface_with_the_law_it_was_measured_of() {
+    let bending = Deformation {
+        bending: vec![term(0.0, 5e-4, series(0.1, 1.0, 0.3))],
+        ..Deformation::default()
+    };
+    let setup = Fly::default().setup(40, 0.5);
+    let surface = measured(&setup, &bending);
+    let (a, b) = (
+        fly(deformed(setup.clone(), &bending)),
+        fly(deformed(setup, &surface)),
+    );
+    let [force, place] = difference(&a, &b);
+    println!("measured surface: loads differ by {force:.1e}, places by {place:.1e}");
+    assert!(force < 1e-8 && place < 1e-9); // roundings of the least squares in a free wake
+    let scale = a
+        .iter()
+        .map(|r| r.deformation_work.abs())
+        .fold(0.0, f64::max);
+    for (a, b) in a.iter().zip(&b) {
+        assert!((a.deformation_work - b.deformation_work).abs() < 1e-8 * scale);
+    }
+    assert!(scale > 0.0);
+}
+
+#[test]
+fn refuses_measured_surfaces_beside_strips() {
+    let setup = Fly::default().setup(40, 0.1);
+    let surface = measured(&setup, &everything());
+    let strips = blade(deformed(setup, &surface), AddedMass::None);
+    let error = Simulation::new(strips).err().expect("refused").to_string();
+    assert!(error.contains("measured surface"), "{error}");
 }

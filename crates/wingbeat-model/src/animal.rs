@@ -66,6 +66,11 @@ impl Wing {
         })
     }
 
+    /// Whether its surface is given as it was measured.
+    pub fn has_measured_surface(&self) -> bool {
+        (self.deformation.as_ref()).is_some_and(|d| d.surface.is_some())
+    }
+
     /// The same wing made of `structure`: its mass becomes that of the elastic body.
     ///
     /// # Errors

@@ -12,6 +12,7 @@ mod goland;
 mod heathcote;
 mod hinges;
 mod hover;
+mod hummingbird;
 mod insects;
 mod invariance;
 mod kernel;
@@ -23,6 +24,7 @@ mod pazy;
 mod peer;
 mod plates;
 mod ramp;
+mod razak;
 mod revolving;
 mod scherer;
 mod start;
@@ -60,9 +62,11 @@ pub fn suite() -> Vec<Case> {
         mancini::CASES,
         baik::CASES,
         yang::CASES,
+        razak::CASES,
         wang::CASES,
         revolving::CASES,
         insects::CASES,
+        hummingbird::CASES,
         dragonflies::CASES,
         anax::CASES,
         hinges::CASES,

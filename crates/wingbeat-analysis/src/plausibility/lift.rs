@@ -6,7 +6,7 @@ use wingbeat_flight::{
     AirModel, BladeOptions, FlightSetup, MotionMode, PrescribedMotion, Simulation, TimeGrid,
 };
 use wingbeat_math::DVec3;
-use wingbeat_model::Start;
+use wingbeat_model::{Start, Wing};
 
 use super::air::{density, stream};
 use crate::error::AnalysisError;
@@ -14,13 +14,15 @@ use crate::error::AnalysisError;
 /// Steps per wingbeat with which the blade elements are flown.
 const STEPS: usize = 60;
 
-/// Mean lift over weight of the second wingbeat of a tethered flight in blade elements, all wings rigid.
+/// Mean lift over weight of the second wingbeat of a tethered flight in blade elements, all wings rigid; none where these cannot
+/// follow a measured surface.
 pub(super) fn lift_over_weight(setup: &FlightSetup) -> Result<Option<f64>, AnalysisError> {
     let weight = setup.animal.mass() * setup.gravity.length();
     let (Some(period), Some(density)) = (setup.time.period, density(&setup.air)) else {
         return Ok(None);
     };
-    if weight == 0.0 || setup.animal.wings.is_empty() {
+    let wings = &setup.animal.wings;
+    if weight == 0.0 || wings.is_empty() || wings.iter().any(Wing::has_measured_surface) {
         return Ok(None);
     }
     let blades = BladeOptions {

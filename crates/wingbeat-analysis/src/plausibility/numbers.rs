@@ -1,7 +1,7 @@
 //! The numbers of an estimate.
 
 use wingbeat_math::DVec3;
-use wingbeat_model::{Wing, WingReport};
+use wingbeat_model::{DeformingMesh, Wing, WingReport};
 
 /// What is expected of one wing.
 #[derive(Clone, Debug, PartialEq)]
@@ -10,7 +10,7 @@ pub struct WingEstimate {
     pub report: WingReport,
     /// Stroke angle from end to end \[rad\]; 0 for a wing that does not flap.
     pub stroke_amplitude: f64,
-    /// Mean speed of the tip from flapping [m/s].
+    /// Mean speed of the tip from flapping, or from the course of a measured surface if that is faster [m/s].
     pub tip_speed: f64,
     /// The larger of tip speed and flight speed [m/s].
     pub speed: f64,
@@ -48,7 +48,8 @@ impl Estimate {
     pub(super) fn wing(&self, wing: &Wing, report: WingReport) -> WingEstimate {
         let stroke_amplitude = stroke_amplitude(wing);
         let f = wing.motion.frequency;
-        let tip_speed = 2.0 * stroke_amplitude * report.length * f;
+        let flapping = 2.0 * stroke_amplitude * report.length * f;
+        let tip_speed = flapping.max(f * path_of_measured_tip(wing));
         let speed = tip_speed.max(self.flight_speed);
         let flaps = tip_speed > 0.0;
         WingEstimate {
@@ -62,9 +63,22 @@ impl Estimate {
     }
 }
 
+/// Phases at which a beat is looked at.
+const SAMPLES: usize = 200;
+
+/// Way of the tip of a measured surface in the wing frame in a beat \[m\]; 0 for other wings.
+fn path_of_measured_tip(wing: &Wing) -> f64 {
+    let Some(shape) = wing.deformation.as_ref().filter(|d| d.surface.is_some()) else {
+        return 0.0;
+    };
+    let mesh = DeformingMesh::new(&wing.mesh, shape);
+    let tip = wing.mesh.node(0, wing.mesh.cols);
+    let at = |k: usize| mesh.places(k as f64 / SAMPLES as f64)[tip];
+    (0..SAMPLES).map(|k| at(k).distance(at(k + 1))).sum()
+}
+
 /// Largest less smallest stroke angle of a beat \[rad\].
 pub(crate) fn stroke_amplitude(wing: &Wing) -> f64 {
-    const SAMPLES: usize = 200;
     let phi = |k: usize| wing.motion.angles.phi.at(k as f64 / SAMPLES as f64)[0];
     let ends = (0..SAMPLES)
         .map(phi)

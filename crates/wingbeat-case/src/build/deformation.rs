@@ -1,13 +1,13 @@
 //! `[wing.NAME.deformation]` and `wing.NAME.joined`.
 
 use wingbeat_flight::check_joined;
-use wingbeat_model::deformation::{SpanLaw, Term};
+use wingbeat_model::deformation::{MovingSurface, SpanLaw, Term};
 use wingbeat_model::motion::Fourier;
 use wingbeat_model::{Animal, Deformation, ModelError, Wing};
 
 use super::fault::Built;
 use crate::error::Fault;
-use crate::raw::{Case, CourseCase, DeformationCase};
+use crate::raw::{Case, CourseCase, DeformationCase, SurfaceCase};
 use crate::sides::mirror_name;
 
 /// A term as it is written, whatever it deforms.
@@ -56,6 +56,10 @@ pub(super) fn deform(wing: Wing, path: &str, case: &DeformationCase) -> Built<Wi
         twist: twist.map(term).collect::<Built<_>>()?,
         camber: camber.map(term).collect::<Built<_>>()?,
         bending: bending.map(term).collect::<Built<_>>()?,
+        surface: match &case.surface {
+            Some(case) => Some(surface(&format!("{path}.surface"), case, &wing)?),
+            None => None,
+        },
     };
     let whole = |e: ModelError| Fault::new(path, e.to_string(), "", "correct this table");
     wing.deformed_by(deformation).map_err(whole)
@@ -104,6 +108,44 @@ fn term(w: &Written<'_>, wing: &Wing) -> Built<Term> {
         ));
     }
     Ok(term)
+}
+
+/// A measured surface.
+fn surface(path: &str, case: &SurfaceCase, wing: &Wing) -> Built<MovingSurface> {
+    let row = |row: &Vec<[f64; 3]>| row.iter().map(|&x| x.into()).collect();
+    let at = |rows: &Vec<Vec<[f64; 3]>>| rows.iter().map(row).collect();
+    let surface = MovingSurface {
+        phases: case.phases.clone(),
+        places: case.nodes_m.iter().map(at).collect(),
+        harmonics: case.harmonics,
+    };
+    if wing.motion.frequency == 0.0 {
+        return Err(Fault::new(
+            path,
+            "the surface varies over a beat, but there is no wingbeat frequency",
+            "a frequency > 0",
+            "add `frequency_hz = ...` to [motion]",
+        ));
+    }
+    let fault = |e: ModelError| {
+        let (key, allowed, remedy) = match &e {
+            ModelError::Table { table, row, .. } if table.ends_with("nodes") => (
+                format!("{path}.nodes_m[{}]", row.saturating_sub(1)),
+                "one surface for each phase, all of the same number of rows and points, at least 2 x 2",
+                "rows from the leading to the trailing edge, each from the root to the tip",
+            ),
+            _ => (
+                format!("{path}.phases"),
+                "rising, all within one beat, neighbours less than 1 / (2 harmonics) apart, over the end of the beat too",
+                "leave out the phase that repeats the first, or lower `harmonics`",
+            ),
+        };
+        Fault::new(key, e.to_string(), allowed, remedy)
+    };
+    match surface.check("surface", &wing.motion) {
+        Ok(()) => Ok(surface),
+        Err(e) => Err(fault(e)),
+    }
 }
 
 fn always() -> Fourier {

@@ -6,7 +6,7 @@ use smart_default::SmartDefault;
 use wingbeat_model::Deformation;
 
 /// Prescribed deformation of a wing: the sum of its terms, each a law along the span times a series
-/// in time. The air sees it; for its inertia the wing stays rigid.
+/// in time; or its measured surface. The air sees it; for its inertia the wing stays rigid.
 #[derive(Clone, Debug, PartialEq, SmartDefault, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct DeformationCase {
@@ -25,18 +25,55 @@ pub struct DeformationCase {
     /// Twist of the sections about the axis, positive like feathering: leading edge towards -axis 3.
     ///
     /// Change it to what was measured; terms add up.
+    #[schemars(extend("with" = "no surface"))]
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub twist: Vec<TwistCase>,
     /// Height of the mean line over the local chord, positive towards -axis 3.
     ///
     /// Change it to what was measured; terms add up.
+    #[schemars(extend("with" = "no surface"))]
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub camber: Vec<CamberCase>,
     /// Displacement of the sections towards -axis 3.
     ///
     /// Change it to what was measured; terms add up.
+    #[schemars(extend("with" = "no surface"))]
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub bending: Vec<BendingCase>,
+    /// The surface as it was measured over the beat, instead of twist, camber and bending.
+    #[schemars(extend("with" = "air.model = vortex_lattice"))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub surface: Option<SurfaceCase>,
+}
+
+/// A wing's surface at phases of its beat. Each point's course is a Fourier series, fitted by least squares. The planform is the
+/// wing at rest: it says where the nodes of the mesh lie, in parts of chord and span, and what its inertia is.
+#[derive(Clone, Debug, PartialEq, SmartDefault, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct SurfaceCase {
+    /// Phases of the wing's own beat in wingbeats, rising, all within one beat.
+    ///
+    /// Change it to what was measured.
+    #[schemars(length(min = 3))]
+    pub phases: Vec<f64>,
+    /// Points of the surface, phase by phase: rows at equal parts of the chord from the leading to the trailing edge, each with points
+    /// at equal parts of the span from root to tip. A point is [position along axis 1 from the hinge, distance outboard of the hinge along
+    /// axis 2 (positive on wings of either side), position along axis 3 from the hinge].
+    ///
+    /// Change it to what was measured.
+    #[schemars(length(min = 3))]
+    pub nodes_m: Vec<Vec<Vec<[f64; 3]>>>,
+    /// Harmonics of the series: two neighbouring phases may be less than 1 / (2 harmonics) wingbeats apart.
+    ///
+    /// Change it to see what hangs on the fastest part of the motion.
+    #[schemars(range(min = 1))]
+    #[default = 4]
+    #[serde(default = "harmonics")]
+    pub harmonics: usize,
+}
+
+fn harmonics() -> usize {
+    SurfaceCase::default().harmonics
 }
 
 /// A term of the twist: `linear_deg` or `table_deg`, times `fourier`.

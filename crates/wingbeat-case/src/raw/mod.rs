@@ -41,7 +41,9 @@ pub use control::{
     WaypointCase, WeightsCase,
 };
 pub use cores::{CoreCase, CutOffCase, LambOseenCase, RadiusCase};
-pub use deformation::{BendingCase, CamberCase, CourseCase, DeformationCase, TwistCase};
+pub use deformation::{
+    BendingCase, CamberCase, CourseCase, DeformationCase, SurfaceCase, TwistCase,
+};
 pub use derivatives::{DerivativesCase, DimensionlessCase, ExternalCase};
 pub use flight::{
     AngleOscillation, BaumgarteCase, DynamicsCase, FlightCase, Formulation, IntegratorCase, Mode,

@@ -73,7 +73,7 @@ pub struct WingCase {
     /// Motion of this wing.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub motion: Option<WingMotionCase>,
-    /// Twist, camber and bending of this wing.
+    /// Twist, camber and bending of this wing, or its measured surface.
     #[schemars(extend("with" = "air.model = vortex_lattice | blade_element"))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub deformation: Option<DeformationCase>,

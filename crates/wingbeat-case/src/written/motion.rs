@@ -1,13 +1,15 @@
 //! Motion and deformation of wings.
 
-use wingbeat_model::deformation::{SpanLaw, Term};
+use wingbeat_math::DVec3;
+use wingbeat_model::deformation::{MovingSurface, SpanLaw, Term};
 use wingbeat_model::motion::Fourier;
 use wingbeat_model::{AngleLaw, Animal, Deformation, Start, WingMotion};
 
 use super::refusal::{Written, no_keys};
 use crate::raw::{
     AngleCase, BendingCase, CamberCase, CourseCase, DeformationCase, FourierCase, MotionCase,
-    OvalCase, ShapedCase, SplitCycleCase, StartCase, TableCase, TwistCase, WingMotionCase,
+    OvalCase, ShapedCase, SplitCycleCase, StartCase, SurfaceCase, TableCase, TwistCase,
+    WingMotionCase,
 };
 
 /// What all wings share: frequency and start.
@@ -110,6 +112,7 @@ pub(super) fn deformation(deformation: &Deformation) -> DeformationCase {
         twist,
         camber,
         bending,
+        surface,
     } = deformation;
     let turned = |term: &Term| span(&term.span, f64::to_degrees);
     let plain = |term: &Term| span(&term.span, |x| x);
@@ -143,6 +146,17 @@ pub(super) fn deformation(deformation: &Deformation) -> DeformationCase {
         twist: twists.collect(),
         camber: cambers.collect(),
         bending: bendings.collect(),
+        surface: surface.as_ref().map(measured),
+    }
+}
+
+fn measured(surface: &MovingSurface) -> SurfaceCase {
+    let row = |row: &Vec<DVec3>| row.iter().map(|x| x.to_array()).collect();
+    let at = |rows: &Vec<Vec<DVec3>>| rows.iter().map(row).collect();
+    SurfaceCase {
+        phases: surface.phases.clone(),
+        nodes_m: surface.places.iter().map(at).collect(),
+        harmonics: surface.harmonics,
     }
 }
 

@@ -3,8 +3,9 @@
 use wingbeat_blade::{BladeWing, Lag, NodesInMotion, Section};
 use wingbeat_dynamics::{BodyAcceleration, BodyMotion, Wrench};
 use wingbeat_math::{DMat3, DVec3};
-use wingbeat_model::Wing;
+use wingbeat_model::{Animal, Wing};
 
+use crate::error::FlightError;
 use crate::interface::{BentScratch, Instant, Shape, WingResponse};
 
 /// Sections of an elastic wing.
@@ -165,5 +166,20 @@ impl BentScratch {
     /// Forces on the nodes of a wing at the instant last asked for \[N\], N components.
     pub fn forces(&self, wing: usize) -> &[DVec3] {
         self.forces.get(wing).map_or(&[], Vec::as_slice)
+    }
+}
+
+/// Refuses wings whose surface was measured: strips are flat sections that twist and bend.
+pub(super) fn refuse_measured_surfaces(animal: &Animal) -> Result<(), FlightError> {
+    match animal.wings.iter().find(|w| w.has_measured_surface()) {
+        None => Ok(()),
+        Some(wing) => Err(FlightError::Setup {
+            key: "air.model",
+            value: "blade_element".into(),
+            problem: format!(
+                "wing `{}` has a measured surface, which strips cannot follow: give twist and bending instead, or take the vortex lattice",
+                wing.name
+            ),
+        }),
     }
 }

@@ -14,7 +14,7 @@ use wingbeat_math::DVec3;
 use wingbeat_model::deformation::Stations;
 use wingbeat_model::{Animal, Wing, WingMotion};
 
-use super::bent::BentStrips;
+use super::bent::{BentStrips, refuse_measured_surfaces};
 use crate::error::FlightError;
 use crate::interface::{Air, AirScratch, Instant, StripScratch, WingResponse, misfit};
 use crate::memory::AirMemory;
@@ -74,12 +74,13 @@ impl BladeAir {
     /// One strip per column of each wing's mesh.
     ///
     /// # Errors
-    /// A setting out of range; a strip without chord.
+    /// A setting out of range; a strip without chord; a wing with a measured surface.
     pub fn new(animal: &Animal, options: &BladeOptions) -> Result<Self, FlightError> {
         if let Some(drag) = &options.body_drag {
             drag.check()?;
         }
         options.wind.validate()?;
+        refuse_measured_surfaces(animal)?;
         let mut settings = options.blade;
         settings.free_stream += options.induced;
         let wing = |w: &Wing| BladeWing::new(strips(w), settings);

@@ -125,10 +125,15 @@ impl Term {
     }
 
     /// Value and first two time derivatives of the series at the phase `[x, x', x'']`.
-    pub(crate) fn over_time(&self, [x, x1, x2]: [f64; 3]) -> [f64; 3] {
-        let [q, q1, q2] = self.time.at(x - x.floor());
-        [q, q1 * x1, q2 * x1 * x1 + q1 * x2]
+    pub(crate) fn over_time(&self, phase: [f64; 3]) -> [f64; 3] {
+        over_time(&self.time, phase)
     }
+}
+
+/// Value and first two time derivatives of a series at the phase `[x, x', x'']`.
+pub(super) fn over_time(series: &Fourier, [x, x1, x2]: [f64; 3]) -> [f64; 3] {
+    let [q, q1, q2] = series.at(x - x.floor());
+    [q, q1 * x1, q2 * x1 * x1 + q1 * x2]
 }
 
 /// Deformation of one section, each with its first two time derivatives.

@@ -15,13 +15,18 @@
 //! beat, so a smooth start of the motion is one of the deformation too. Positions, velocities and
 //! accelerations are analytic. Both wings of a mirrored pair have the same laws.
 //!
+//! Or the places of the surface's points are given at phases of the beat ([`MovingSurface`]): what was measured.
+//!
 //! The mass of the wing does not follow: for its inertia the wing stays the rigid body it was.
 
 mod law;
+mod lines;
 mod prescribed;
 mod shape;
+mod surface;
 
 pub use law::{Section, SpanLaw, Term};
+pub(crate) use lines::{column, span};
 pub use prescribed::Deformation;
 pub use shape::{DeformingMesh, Stations};
-pub(crate) use shape::{column, span};
+pub use surface::MovingSurface;

@@ -1,10 +1,11 @@
 //! Which laws a wing has.
 
 use crate::deformation::law::Term;
+use crate::deformation::surface::MovingSurface;
 use crate::error::{ModelError, finite, require};
 use crate::motion::WingMotion;
 
-/// Twist, camber and bending of a wing; each is the sum of its terms.
+/// Twist, camber and bending of a wing, each the sum of its terms; or its surface as it was measured.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Deformation {
     /// Place of the twist axis behind the leading edge over the chord \[1\].
@@ -19,6 +20,8 @@ pub struct Deformation {
     pub camber: Vec<Term>,
     /// Displacement w towards -axis 3 \[m\].
     pub bending: Vec<Term>,
+    /// The surface itself at phases of the beat, without any of the terms.
+    pub surface: Option<MovingSurface>,
 }
 
 impl Default for Deformation {
@@ -30,6 +33,7 @@ impl Default for Deformation {
             twist: vec![],
             camber: vec![],
             bending: vec![],
+            surface: None,
         }
     }
 }
@@ -42,7 +46,7 @@ impl Deformation {
             .chain(named("bending", &self.bending))
     }
 
-    /// For a wing `s` times as large: bending is a length, twist and camber are not.
+    /// For a wing `s` times as large: bending and places are lengths, twist and camber are not.
     pub fn scaled(&self, s: f64) -> Self {
         let bending = self.bending.iter().map(|t| Term {
             span: t.span.scaled(s),
@@ -50,6 +54,7 @@ impl Deformation {
         });
         Self {
             bending: bending.collect(),
+            surface: self.surface.as_ref().map(|x| x.scaled(s)),
             ..self.clone()
         }
     }
@@ -58,13 +63,26 @@ impl Deformation {
     ///
     /// # Errors
     /// A number that is not allowed, a table that is unsorted or does not cover the span, a term
-    /// that varies over a beat that `motion` does not have; `name` names the wing.
+    /// that varies over a beat that `motion` does not have, a surface beside terms or one that
+    /// [`MovingSurface::check`] refuses; `name` names the wing.
     pub fn check(&self, name: &str, root: f64, motion: &WingMotion) -> Result<(), ModelError> {
         let key = |k: &str| format!("{name}.deformation.{k}");
         let (a, peak) = (self.axis_fraction, self.camber_peak);
         finite(&key("axis_fraction"), a)?;
         let inside = peak > 0.0 && peak < 1.0;
         require(&key("camber_peak"), peak, inside, "above 0 and below 1")?;
+        if let Some(surface) = &self.surface {
+            surface.check(&key("surface"), motion)?;
+            let terms = self.terms().count();
+            let (key, allowed) = (key("terms"), "0 beside a surface, which is the whole shape");
+            if terms > 0 {
+                return Err(ModelError::Count {
+                    key,
+                    value: terms,
+                    allowed,
+                });
+            }
+        }
         for (term, law) in self.terms() {
             let key = key(&term);
             law.span.check(&key, root)?;

@@ -1,7 +1,9 @@
 //! From the laws to places, velocities and accelerations of points in the wing frame.
 
-use crate::deformation::law::{Section, Term};
+use crate::deformation::law::{Section, Term, over_time};
+use crate::deformation::lines::{column, span};
 use crate::deformation::prescribed::Deformation;
+use crate::deformation::surface::Course;
 use crate::mesh::GridMesh;
 use wingbeat_math::DVec3;
 
@@ -54,10 +56,19 @@ impl Stations {
 
 /// The mesh of a wing as its deformation moves it.
 #[derive(Clone, Debug, PartialEq)]
-pub struct DeformingMesh {
-    stations: Stations,
-    rows: usize,
-    nodes: Vec<Node>,
+pub struct DeformingMesh(How);
+
+/// What moves the nodes.
+#[derive(Clone, Debug, PartialEq)]
+enum How {
+    /// Laws along the span and over the beat.
+    Laws {
+        stations: Stations,
+        rows: usize,
+        nodes: Vec<Node>,
+    },
+    /// Each its own course, in the order of the mesh.
+    Courses(Vec<Course>),
 }
 
 /// A node at rest, column by column.
@@ -74,6 +85,9 @@ struct Node {
 impl DeformingMesh {
     /// Every line of nodes along the chord of `mesh` is a section.
     pub fn new(mesh: &GridMesh, deformation: &Deformation) -> Self {
+        if let Some(surface) = &deformation.surface {
+            return Self(How::Courses(surface.courses(mesh)));
+        }
         let [inner, tip] = span(mesh);
         let columns = 0..=mesh.cols;
         let r = columns.clone().map(|j| column(mesh, j).0 / tip);
@@ -95,28 +109,46 @@ impl DeformingMesh {
             }
         };
         let places = columns.flat_map(|j| (0..=mesh.rows).map(move |i| (j, i)));
-        Self {
+        Self(How::Laws {
             stations: Stations::new(deformation, &r, inner / tip),
             rows: mesh.rows,
             nodes: places.map(node).collect(),
-        }
+        })
     }
 
     /// Shows place \[m\], velocity \[m/s\] and acceleration \[m/s2\] of every node relative to the wing
     /// frame, wing components, at the phase `[x, x', x'']` of the beat.
     pub fn visit(&self, phase: [f64; 3], mut see: impl FnMut(usize, [DVec3; 3])) {
-        for (j, nodes) in self.nodes.chunks(self.rows + 1).enumerate() {
-            let section = self.stations.at(j, phase);
-            for n in nodes {
-                let [d, v, a] = section.displacement(n.ahead, n.rest.z, n.line);
-                see(n.index, [n.rest + d, v, a]);
+        match &self.0 {
+            How::Laws {
+                stations,
+                rows,
+                nodes,
+            } => {
+                for (j, nodes) in nodes.chunks(rows + 1).enumerate() {
+                    let section = stations.at(j, phase);
+                    for n in nodes {
+                        let [d, v, a] = section.displacement(n.ahead, n.rest.z, n.line);
+                        see(n.index, [n.rest + d, v, a]);
+                    }
+                }
+            }
+            How::Courses(nodes) => {
+                for (n, course) in nodes.iter().enumerate() {
+                    let [x, y, z] = course.each_ref().map(|q| over_time(q, phase));
+                    see(n, [0, 1, 2].map(|k| DVec3::new(x[k], y[k], z[k])));
+                }
             }
         }
     }
 
     /// Places of the nodes \[m\] at the phase `x`, wing components.
     pub fn places(&self, x: f64) -> Vec<DVec3> {
-        let mut places = vec![DVec3::ZERO; self.nodes.len()];
+        let nodes = match &self.0 {
+            How::Laws { nodes, .. } => nodes.len(),
+            How::Courses(nodes) => nodes.len(),
+        };
+        let mut places = vec![DVec3::ZERO; nodes];
         self.visit([x, 0.0, 0.0], |n, [p, _, _]| places[n] = p);
         places
     }
@@ -158,19 +190,4 @@ fn mean_line(s: f64, peak: f64) -> f64 {
     } else {
         (1.0 - s) * (1.0 + s - 2.0 * peak) / ((1.0 - peak) * (1.0 - peak))
     }
-}
-
-/// Distance from the hinge along the span, leading edge and chord of a column of nodes \[m\].
-pub(crate) fn column(mesh: &GridMesh, j: usize) -> (f64, f64, f64) {
-    let (lead, trail) = (
-        mesh.nodes[mesh.node(0, j)],
-        mesh.nodes[mesh.node(mesh.rows, j)],
-    );
-    (lead.y.abs(), lead.x, lead.x - trail.x)
-}
-
-/// Least and largest distance of the leading edge from the hinge along the span \[m\].
-pub(crate) fn span(mesh: &GridMesh) -> [f64; 2] {
-    let r = (0..=mesh.cols).map(|j| column(mesh, j).0);
-    r.fold([f64::INFINITY, 0.0], |[a, b], r| [a.min(r), b.max(r)])
 }

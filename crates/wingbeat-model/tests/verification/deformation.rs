@@ -54,6 +54,7 @@ fn everything() -> Deformation {
             span: table,
             time: series(0.0, &[1.0, 0.1], &[0.2]),
         }],
+        surface: None,
     }
 }
 

@@ -8,6 +8,7 @@ mod import;
 mod mass;
 mod motion;
 mod planform;
+mod surface;
 
 /// Largest absolute entry of a matrix difference.
 pub fn gap(a: wingbeat_math::DMat3, b: wingbeat_math::DMat3) -> f64 {

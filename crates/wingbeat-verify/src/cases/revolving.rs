@@ -47,6 +47,7 @@ fn wing([rows, cols]: [usize; 2]) -> Wing {
         nodes: all.map(|(i, j)| at(i, j)).collect(),
         mesh: [rows, cols],
         joined: false,
+        paired: false,
         free_root: false,
         round: false,
         plane: false,
@@ -80,6 +81,7 @@ fn coefficients(
         stream: DVec3::ZERO,
         chord: 0.066,
         drag: laminar(VISCOSITY),
+        kept: None,
     };
     let pose = |t: f64| {
         let [angle, rate] = turned(t);

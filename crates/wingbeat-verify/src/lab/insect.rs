@@ -176,12 +176,14 @@ impl Choice {
 }
 
 /// What a flight leaves step by step, N components: force of the air on the wings [N], impulse of the inviscid force so far
-/// [N s], impulse of all vorticity [kg m/s].
+/// [N s], impulse of all vorticity [kg m/s], power [W].
 #[derive(Default)]
 pub(crate) struct Flown {
     pub force: Vec<DVec3>,
     pub inviscid_impulse: Vec<DVec3>,
     pub vortex_impulse: Vec<DVec3>,
+    /// Power of hinges and deformation [W].
+    pub power: Vec<f64>,
 }
 
 impl Flown {
@@ -203,6 +205,7 @@ impl Flown {
             .push(record.air[1..].iter().map(|a| a.force).sum());
         self.inviscid_impulse.push(record.inviscid_impulse);
         self.vortex_impulse.push(record.vortex_impulse);
+        self.power.push(record.hinge_power());
     }
 }
 

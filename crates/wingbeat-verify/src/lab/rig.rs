@@ -49,6 +49,8 @@ pub(crate) struct Fluid {
     pub chord: f64,
     /// Profile drag beside the friction.
     pub drag: SectionDrag,
+    /// How far from the wing its wake is kept; none: all of it.
+    pub kept: Option<f64>,
 }
 
 impl Fluid {
@@ -60,6 +62,7 @@ impl Fluid {
             stream: DVec3::X,
             chord: 1.0,
             drag: laminar(1.0 / reynolds),
+            kept: None,
         }
     }
 
@@ -91,6 +94,7 @@ impl Fluid {
             wake_overlap: if wing.plane { 0.0 } else { insect.wake_overlap },
             plane_wakes: wing.plane,
             section_drag: Some(self.drag),
+            max_distance: self.kept,
             ..insect
         }
     }
@@ -112,6 +116,8 @@ pub(crate) struct Wing {
     pub mesh: [usize; 2],
     /// Whether its mirror image follows beyond the plane y = 0, where its root lies.
     pub joined: bool,
+    /// Whether its mirror image flies beyond that plane, apart from it.
+    pub paired: bool,
     /// Whether the root is an edge that sheds.
     pub free_root: bool,
     /// Whether its leading edge is round, and not thin.
@@ -135,6 +141,7 @@ impl Wing {
             nodes: (0..=rows).flat_map(row).collect(),
             mesh: [rows, cols],
             joined,
+            paired: false,
             free_root: !joined,
             round: false,
             plane: false,
@@ -152,20 +159,25 @@ impl Wing {
         }
     }
 
+    fn has_image(&self) -> bool {
+        self.joined || self.paired
+    }
+
     /// # Errors
     /// As the lattice's.
     pub fn lattice(&self, settings: AirSettings) -> Result<Lattice, AirError> {
         let [rows, cols] = self.mesh;
         let wing = Surface::grid("right", rows, cols);
-        if !self.joined {
+        if !self.has_image() {
             return Lattice::new(vec![wing], settings);
         }
         let mut left = Surface::grid("left", rows, cols);
         left.panels.iter_mut().for_each(|c| c.reverse()); // both normals point up
-        let joined = JoinedEdge {
+        let root = JoinedEdge {
             surfaces: [0, 1],
             nodes: (0..=rows).map(|i| [i * (cols + 1); 2]).collect(),
         };
+        let joined = if self.joined { vec![root] } else { vec![] };
         let other = |n: usize| (0..2 * n).map(|k| (k + n) % (2 * n)).collect();
         let pairs = MirrorPairs {
             plane: Plane {
@@ -175,7 +187,7 @@ impl Wing {
             node: other(self.nodes.len()),
             panel: other(rows * cols),
         };
-        Lattice::joined(vec![wing, left], &[joined], settings)?.with_mirror_symmetry(pairs)
+        Lattice::joined(vec![wing, left], &joined, settings)?.with_mirror_symmetry(pairs)
     }
 
     /// Its nodes in this pose, its mirror image last.
@@ -187,7 +199,7 @@ impl Wing {
                 .map(|x| pose.velocity + pose.spin.cross(arm(x)))
                 .collect(),
         };
-        if self.joined {
+        if self.has_image() {
             for list in [&mut motion.position, &mut motion.velocity] {
                 let image: Vec<DVec3> = list.iter().map(|v| DVec3::new(v.x, -v.y, v.z)).collect();
                 list.extend(image);

@@ -43,11 +43,10 @@ pub(crate) fn tell(report: &mut Report, e: &Estimate) {
     for w in &e.wings {
         let mut parts = vec![];
         if w.tip_speed > 0.0 {
-            let stroke = w.stroke_amplitude.to_degrees();
-            parts.push(format!(
-                "stroke {stroke:.1} deg, mean tip speed {:.3} m/s",
-                w.tip_speed
-            ));
+            if w.stroke_amplitude > 0.0 {
+                parts.push(format!("stroke {:.1} deg", w.stroke_amplitude.to_degrees()));
+            }
+            parts.push(format!("mean tip speed {:.3} m/s", w.tip_speed));
         }
         parts.extend(w.reynolds.map(|re| format!("Reynolds number {re:.0}")));
         parts.extend(
