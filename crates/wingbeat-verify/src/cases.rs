@@ -26,6 +26,7 @@ mod scherer;
 mod start;
 mod steady;
 mod unsteady;
+mod yamano;
 mod yang;
 mod yeo;
 
@@ -50,6 +51,7 @@ pub fn suite() -> Vec<Case> {
         goland::CASES,
         pazy::CASES,
         membrane::CASES,
+        yamano::CASES,
         heathcote::CASES,
         scherer::CASES,
         ramp::CASES,
