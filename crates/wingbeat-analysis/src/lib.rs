@@ -41,6 +41,7 @@ pub mod level;
 pub mod mean;
 pub mod modes;
 pub mod monodromy;
+mod moving;
 pub mod part;
 pub mod plausibility;
 pub mod power;

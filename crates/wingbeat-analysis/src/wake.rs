@@ -18,6 +18,7 @@
 //! enough unknowns, damped ones, and a trim finds the whole periodic orbit, wings and strips included ([`WakeTrim::past`]); its Floquet
 //! modes carry the leading modes of the wings and the states of the strips' wakes along ([`elastic_floquet`]).
 
+mod fewer;
 mod free_beat;
 mod modes;
 mod orbit;
@@ -25,6 +26,7 @@ mod sway;
 mod trim;
 mod wings;
 
+pub use fewer::change_by_last_mode;
 pub use modes::{WakeMemory, wake_floquet, wake_modes, wake_monodromy};
 pub use trim::{WakeSettings, WakeTrim, trim_with_wake};
 pub use wings::{ElasticMonodromy, elastic_floquet, elastic_modes, elastic_monodromy};

@@ -3,6 +3,11 @@
 //! A wing vibrates in its frame, which is held. In air the added mass of a lattice without wakes joins that of the wing: what a stream and a wake do to frequencies and damping is [`crate::flutter`]'s question. Other wings are held; of a
 //! lattice that computes one half only, the other half vibrates as the mirror image.
 //!
+//! Sheets have modes in which nodes turn and nothing moves, of the elements and of no sheet: quarters of panels are lumped at nodes and turn
+//! with them. Among those of solid sheets they are the fastest; of sheets that bend much more easily they lie among the first. A wave of
+//! number k over panels of length d has `(k d)^2 / 12` times as much energy in turns as in displacements, less than as much even for two
+//! panels a wave: where there is more, nothing moves. They are left out, and counted.
+//!
 //! | symbol | name in code | meaning | unit |
 //! |---|---|---|---|
 //! | omega | [`WingMode::frequency`] | angular frequency of a mode | rad/s |
@@ -16,6 +21,7 @@ use wingbeat_structure::{Configuration, FrameMotion, Mode, modes};
 
 use crate::AnalysisError;
 use crate::flutter::{ElasticRig, FlutterSettings};
+use crate::moving::moving;
 
 /// The state that wings vibrate about.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -91,6 +97,8 @@ pub struct WingModes {
     pub vacuum: Vec<WingMode>,
     /// With the added mass of the air; none in vacuum.
     pub air: Option<Vec<WingMode>>,
+    /// How many modes below the last of these were left out in which nodes turn and nothing moves: in vacuum, in air.
+    pub left_out: [usize; 2],
 }
 
 /// The leading `count` modes of all elastic wings of `setup`.
@@ -128,7 +136,7 @@ fn of_wing(flight: &Simulation, k: usize, count: usize) -> Result<WingModes, Ana
     let wing = &flight.elastic_wings().wings()[k];
     let state: &FlightState = flight.state();
     let (structure, at) = (wing.structure(), &state.wings[k].structure.configuration);
-    let found = |added: Option<&[f64]>| -> Result<Vec<WingMode>, AnalysisError> {
+    let found = |added: Option<&[f64]>| -> Result<(Vec<WingMode>, usize), AnalysisError> {
         crate::progress::task(
             if added.is_some() {
                 "in air"
@@ -139,8 +147,9 @@ fn of_wing(flight: &Simulation, k: usize, count: usize) -> Result<WingModes, Ana
             0,
         );
         let all = modes(structure, at, &FrameMotion::REST, added).map_err(FlightError::from)?;
-        let leading = all.iter().take(count);
-        Ok(leading.map(|m| WingMode::new(wing, at, m)).collect())
+        let (leading, left_out) = moving(wing, all, count);
+        let leading = leading.iter().map(|m| WingMode::new(wing, at, m));
+        Ok((leading.collect(), left_out))
     };
     let places = |at: &Configuration| -> Vec<DVec3> {
         let followers = wing.followers().iter();
@@ -148,12 +157,16 @@ fn of_wing(flight: &Simulation, k: usize, count: usize) -> Result<WingModes, Ana
     };
     let (nodes, rest) = (places(at), places(structure.rest()));
     let added = flight.added_mass(k)?;
+    let (vacuum, below) = found(None)?;
+    let air = added.map(|a| found(Some(&a))).transpose()?;
+    let (air, below_in_air) = air.unzip();
     Ok(WingModes {
         wing: wing.wing(),
         deflection: nodes.iter().zip(rest).map(|(a, b)| *a - b).collect(),
         nodes,
         mass: structure.masses().iter().map(|m| m.mass).sum(),
-        vacuum: found(None)?,
-        air: added.map(|a| found(Some(&a))).transpose()?,
+        vacuum,
+        air,
+        left_out: [below, below_in_air.unwrap_or(0)],
     })
 }

@@ -5,7 +5,7 @@ use wingbeat_analysis::steady::Residuals;
 use wingbeat_analysis::unknown::UNKNOWNS;
 use wingbeat_analysis::{AnalysisError, Trim, TrimProblem, TrimSettings, Unknown};
 use wingbeat_case::{Document, IoError, nearest};
-use wingbeat_flight::{FlightSetup, MotionMode};
+use wingbeat_flight::FlightSetup;
 use wingbeat_math::DVec3;
 
 use crate::plan::Plan;
@@ -163,10 +163,7 @@ fn check_options(options: &TrimOptions) -> Result<(), Bad> {
 pub fn trim(setup: &FlightSetup, options: &TrimOptions) -> Result<Trim, AnalysisError> {
     let mut open = setup.clone();
     open.feedback = None;
-    let start = match &open.mode {
-        MotionMode::Free(start) => start.angles,
-        MotionMode::Tethered(m) => DVec3::from_array(m.angles.each_ref().map(|a| a.constant)),
-    };
+    let start = open.angles_at_release();
     let number = |x: Option<f64>| x.unwrap_or(0.0);
     let velocity = DVec3::new(
         number(options.forward_m_s),

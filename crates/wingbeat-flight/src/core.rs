@@ -4,6 +4,7 @@ use wingbeat_dynamics::{
     AddedMass, BodyAcceleration, BodyMotion, Formulation, RootMotion, ShapeMass, Solution, System,
     Workspace, Wrench, tethered, tethered_motions,
 };
+use wingbeat_math::{DVec3, EulerSequence};
 
 use crate::error::FlightError;
 use crate::prescribed::PrescribedMotion;
@@ -262,6 +263,22 @@ impl FlightSetup {
                 v: start.velocity,
                 w: start.angular_velocity,
             },
+        }
+    }
+}
+
+impl FlightSetup {
+    /// Pitch, yaw and roll of the root where its free flight begins, be it released then or not; tethered all along, the means over its motion \[rad\].
+    pub fn angles_at_release(&self) -> DVec3 {
+        match &self.mode {
+            MotionMode::Tethered(motion) => {
+                DVec3::from_array(motion.angles.each_ref().map(|a| a.constant))
+            }
+            MotionMode::Free(start) if start.held_motion.is_some() => {
+                let root = start.released(start.held_steps as f64 * self.time.step);
+                EulerSequence::BODY_231.angles(root.r)
+            }
+            MotionMode::Free(start) => start.angles,
         }
     }
 }

@@ -43,13 +43,14 @@ pub fn stages(setup: &FlightSetup, law: &WingLaw<'_>) -> Result<Vec<Stage>, Flig
     let air = AirModel::build(setup, &system)?;
     let elastic = ElasticWings::new(&setup.animal, setup.gravity)?;
     let on_joints = !CarriedAir::new(&system, setup.animal.wings.len()).is_empty();
-    let elastic = match on_joints {
-        true => Arc::new(elastic.on_free_joints()),
+    let is_light = is_light_as_a_whole(setup, (&system, air.as_ref()))?;
+    let elastic = match on_joints || is_light {
+        true => Arc::new(elastic.on_light_bodies()),
         false => Arc::new(elastic),
     };
     let mechanism = Mechanism::of(&system);
-    let carried = carried(setup, (&system, air.as_ref()), &elastic)?;
-    let is_carried = !carried.is_empty() || (on_joints && !elastic.is_empty());
+    let carried = carried(setup, (&system, is_light), &elastic)?;
+    let is_carried = !carried.is_empty() || ((on_joints || is_light) && !elastic.is_empty());
     let accelerated_from = accelerated_from(setup, is_carried);
     let stage = |from_step: usize, core: Core| Stage {
         from_step,
@@ -92,15 +93,31 @@ fn accelerated_from(setup: &FlightSetup, is_carried: bool) -> Option<usize> {
     }
 }
 
+/// Whether the flyer is light as a whole beside the air that its wings carry along.
+///
+/// # Errors
+/// What the air reports at the start.
+fn is_light_as_a_whole(
+    setup: &FlightSetup,
+    (system, air): (&System, &dyn Air),
+) -> Result<bool, FlightError> {
+    match (&setup.air, &setup.mode) {
+        (AirModel::VortexLattice(options), MotionMode::Free(_)) => {
+            is_light(setup, system, air, options.mirror)
+        }
+        _ => Ok(false),
+    }
+}
+
 /// The wings whose air joins the inertia of the bodies: of a flyer that is light as a whole all, else those on free joints. What
 /// bends has its answer to accelerations from the elastic side; where any wing bends, rigid wings on free joints are left to
 /// the passes, too.
 ///
 /// # Errors
-/// What the air reports at the start; wings that bend on free joints by `hamming`.
+/// Wings that bend on free joints by `hamming`.
 fn carried(
     setup: &FlightSetup,
-    (system, air): (&System, &dyn Air),
+    (system, is_light): (&System, bool),
     elastic: &ElasticWings,
 ) -> Result<CarriedAir, FlightError> {
     let AirModel::VortexLattice(options) = &setup.air else {
@@ -118,8 +135,7 @@ fn carried(
         }
         return Ok(CarriedAir::default());
     }
-    let is_free = matches!(setup.mode, MotionMode::Free(_));
-    let carried = match is_free && is_light(setup, system, air, options.mirror)? {
+    let carried = match is_light {
         true => CarriedAir::of_all(wings),
         false => on_joints,
     };

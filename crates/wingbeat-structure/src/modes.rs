@@ -4,7 +4,7 @@ use faer::linalg::triangular_solve::{
     solve_lower_triangular_in_place, solve_upper_triangular_in_place,
 };
 use faer::{Mat, Par, Side};
-use wingbeat_math::DMat3;
+use wingbeat_math::{DMat3, DVec3, MassProperties};
 
 use crate::assembly::Assembly;
 use crate::configuration::{Configuration, NODE};
@@ -27,6 +27,16 @@ impl Mode {
     /// Angular frequency [rad/s]; 0 for a mode that does not vibrate.
     pub fn frequency(&self) -> f64 {
         self.square.max(0.0).sqrt()
+    }
+
+    /// What part of the kinetic energy the turns of the nodes of `structure` hold, each about its origin \[1\].
+    pub fn turning(&self, structure: &Structure) -> f64 {
+        let nodes = self.shape.chunks_exact(NODE).zip(structure.masses());
+        let part = |(six, mass): (&[f64], &MassProperties)| {
+            let w = DVec3::from_slice(&six[3..]);
+            w.dot(mass.inertia * w)
+        };
+        nodes.map(part).sum()
     }
 }
 

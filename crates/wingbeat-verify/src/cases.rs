@@ -31,6 +31,7 @@ mod start;
 mod steady;
 mod unsteady;
 mod wang;
+mod yamano;
 mod yang;
 mod yeo;
 
@@ -56,6 +57,7 @@ pub fn suite() -> Vec<Case> {
         goland::CASES,
         pazy::CASES,
         membrane::CASES,
+        yamano::CASES,
         heathcote::CASES,
         scherer::CASES,
         ramp::CASES,

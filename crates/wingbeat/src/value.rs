@@ -179,11 +179,7 @@ impl Flight {
     /// Hover as a question for [`Self::trim`]: no mean velocity; body pitch, stroke amplitude and mean
     /// stroke angle are found, the search begins at the present pitch.
     pub fn hover(&self) -> TrimProblem {
-        let body_pitch = match &self.setup.mode {
-            MotionMode::Free(start) => start.angles.x,
-            MotionMode::Tethered(motion) => motion.angles[0].constant,
-        };
-        TrimProblem::straight(DVec3::ZERO, body_pitch)
+        TrimProblem::straight(DVec3::ZERO, self.setup.angles_at_release().x)
     }
 
     /// Steady flight as a periodic orbit, see [`wingbeat_analysis::least_power::trim_within`]. The trimmed animal flies

@@ -9,6 +9,7 @@ use wingbeat_structure::{FrameMotion, Mode, modes};
 
 use super::settings::FlutterSettings;
 use crate::AnalysisError;
+use crate::moving::moving;
 
 /// Steps of the setup in a long step.
 const LONG: usize = 4;
@@ -230,7 +231,7 @@ pub(super) fn leading(
     let found = modes(rig.first().structure(), at, &FrameMotion::REST, None);
     let mut found = found.map_err(wingbeat_flight::FlightError::from)?;
     found.retain(|m| m.square > 0.0);
-    found.truncate(count);
+    let (found, _) = moving(rig.first(), found, count);
     match found.is_empty() {
         true => Err(AnalysisError::Numbers("the wing has no vibration".into())),
         false => Ok(found),

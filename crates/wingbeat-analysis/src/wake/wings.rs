@@ -9,7 +9,7 @@
 use faer::linalg::solvers::Solve;
 use faer::{Mat, c64};
 use wingbeat_dynamics::BodyMotion;
-use wingbeat_flight::elastic::{ElasticState, ElasticWings};
+use wingbeat_flight::elastic::{ElasticState, ElasticWing, ElasticWings};
 use wingbeat_flight::{AirMemory, FlightError, MotionMode, Past, Record, Simulation, StartState};
 use wingbeat_math::{DMat3, DQuat, DVec3, EulerSequence, MassProperties, solve_small};
 use wingbeat_structure::{FrameMotion, Mode, NODE, modes};
@@ -21,10 +21,11 @@ use crate::AnalysisError;
 use crate::eigen::{Eigenpair, eigen};
 use crate::level::{Level, Perturbation};
 use crate::modes::{ModeSet, Scales};
+use crate::moving::moving;
 use crate::progress;
 
 /// Components of a departure of the body.
-const BODY: usize = 9;
+pub(super) const BODY: usize = 9;
 
 /// Disturbances over natural sizes \[1\].
 const PART: f64 = 1e-3;
@@ -42,7 +43,9 @@ pub struct ElasticMonodromy {
     pub order: usize,
     /// States of wakes among it, the last.
     pub wakes: usize,
-    scales: Scales,
+    /// Modes of each elastic wing among it, whose displacements come before their velocities.
+    pub wings: Vec<usize>,
+    pub(super) scales: Scales,
 }
 
 /// The map of the departures of body, wings and wakes over a beat, `count` modes of each wing.
@@ -77,6 +80,7 @@ pub fn elastic_monodromy(trim: &WakeTrim, count: usize) -> Result<ElasticMonodro
         matrix,
         order: n,
         wakes: rig.wakes.len(),
+        wings: rig.wings.iter().map(|w| w.modes.len()).collect(),
         scales: rig.scales,
     })
 }
@@ -171,7 +175,7 @@ impl<'a> Rig<'a> {
         let setup = &trim.setup;
         let elastic = ElasticWings::new(&setup.animal, setup.gravity)?;
         let both = elastic.wings().iter().zip(&trim.past.wings);
-        let wings = both.map(|(w, s)| WingBasis::new(w.structure(), s, count));
+        let wings = both.map(|(w, s)| WingBasis::new(w, s, count));
         let nodes = setup.animal.wings.iter().flat_map(|w| &w.mesh.nodes);
         let length = nodes.fold(0.0_f64, |m, r| m.max(r.length()));
         let period = setup.time.period.unwrap_or(1.0);
@@ -296,14 +300,11 @@ impl<'a> Rig<'a> {
 }
 
 impl WingBasis {
-    fn new(
-        structure: &wingbeat_structure::Structure,
-        at: &ElasticState,
-        count: usize,
-    ) -> Result<Self, AnalysisError> {
+    fn new(wing: &ElasticWing, at: &ElasticState, count: usize) -> Result<Self, AnalysisError> {
+        let structure = wing.structure();
         let at = &at.structure.configuration;
         let all = modes(structure, at, &FrameMotion::REST, None).map_err(FlightError::from)?;
-        let modes: Vec<Mode> = all.into_iter().take(count).collect();
+        let (modes, _) = moving(wing, all, count);
         let size = |m: &Mode| {
             let nodes = m.shape.chunks_exact(NODE);
             let moves = |six: &[f64]| {

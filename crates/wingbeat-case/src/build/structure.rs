@@ -158,13 +158,14 @@ fn shell(path: &str, case: &ShellCase) -> Built<WingShell> {
         regions: vec![],
         veins: vec![],
         clamps_root: true,
+        clamps_leading_edge: false,
         clamps_perimeter: false,
         rigid_fraction: 0.0,
     };
     Ok(wing)
 }
 
-/// Refuses a root that is free on a perimeter that is clamped, and a perimeter that all nodes lie on.
+/// Refuses a root that is free on a perimeter that is clamped, a perimeter that all nodes lie on, and a leading edge that is held anyway.
 fn check_clamps(path: &str, case: &ShellCase, [rows, cols]: [usize; 2]) -> Built<()> {
     if case.clamped_perimeter && rows.min(cols) < 2 {
         return Err(Fault::new(
@@ -172,6 +173,18 @@ fn check_clamps(path: &str, case: &ShellCase, [rows, cols]: [usize; 2]) -> Built
             format!("true: every node of {rows} x {cols} panels lies on the perimeter"),
             "true on meshes of 2 x 2 panels or more",
             "refine mesh.chordwise or mesh.spanwise of this wing",
+        ));
+    }
+    let holds = [
+        (case.clamped_perimeter, "clamped_perimeter"),
+        (case.rigid_fraction > 0.0, "rigid_fraction"),
+    ];
+    if let (true, Some((_, key))) = (case.clamped_leading_edge, holds.iter().find(|h| h.0)) {
+        return Err(Fault::new(
+            format!("{path}.clamped_leading_edge"),
+            format!("true has no effect: {key} holds the leading edge"),
+            format!("false beside {key}"),
+            "remove one of the two",
         ));
     }
     match case.clamped_perimeter && !case.clamped_root {
@@ -194,6 +207,7 @@ fn edges(wing: WingShell, case: &ShellCase) -> WingShell {
         prestress: case.prestress_newton_per_m,
         bending_factor: case.bending_factor,
         clamps_root: case.clamped_root,
+        clamps_leading_edge: case.clamped_leading_edge,
         clamps_perimeter: case.clamped_perimeter,
         rigid_fraction: case.rigid_fraction,
         ..wing

@@ -269,6 +269,10 @@ pub struct ShellCase {
     /// Change it to false for foils that are held along their leading part alone, or by veins.
     #[default = true]
     pub clamped_root: bool,
+    /// Whether its leading edge is clamped to the wing frame, all along the span.
+    ///
+    /// Change it to true for sheets that hang in a stream like flags.
+    pub clamped_leading_edge: bool,
     /// Whether all its edges are clamped to the wing frame, leading and trailing edge, root and tip.
     ///
     /// Change it to true for membranes on a rigid frame.

@@ -59,6 +59,7 @@ fn shell_case(shell: &WingShell) -> ShellCase {
         regions: _,
         veins: _,
         clamps_root,
+        clamps_leading_edge,
         clamps_perimeter,
         rigid_fraction,
     } = shell;
@@ -77,6 +78,7 @@ fn shell_case(shell: &WingShell) -> ShellCase {
         prestress_newton_per_m: *prestress,
         bending_factor: *bending_factor,
         clamped_root: *clamps_root,
+        clamped_leading_edge: *clamps_leading_edge,
         clamped_perimeter: *clamps_perimeter,
         rigid_fraction: *rigid_fraction,
     }

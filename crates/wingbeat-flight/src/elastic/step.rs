@@ -14,7 +14,7 @@ use crate::interface::WingResponse;
 /// Forces that are left unbalanced at the end of a step over those at the nodes \[1\].
 pub const TOLERANCE: f64 = 1e-10;
 
-/// The same of wings on free joints, whose small moments of inertia turn what is left into accelerations: passes of bodies and air
+/// The same of wings on free joints and of light flyers, whose small moments of inertia turn what is left into accelerations: passes of bodies and air
 /// would not see less than that.
 pub(super) const FINE_TOLERANCE: f64 = 1e-12;
 

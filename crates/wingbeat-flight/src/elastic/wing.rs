@@ -2,7 +2,7 @@
 
 use wingbeat_dynamics::{AddedMass, BodyAcceleration, BodyMotion};
 use wingbeat_math::{DMat3, DVec3, MassProperties};
-use wingbeat_model::Wing;
+use wingbeat_model::{Members, Wing};
 use wingbeat_structure::{
     Configuration, Follower, FrameMotion, GeneralizedAlpha, NODE, State, Structure,
 };
@@ -21,6 +21,8 @@ pub struct ElasticWing {
     /// Its name.
     pub(super) name: String,
     pub(super) structure: Structure,
+    /// Whether it is a sheet, of which every panel of the mesh is an element.
+    pub(super) is_sheet: bool,
     /// Nodes of the mesh.
     pub(super) followers: Vec<Follower>,
     /// Nodes of the mesh at the tip: leading and trailing edge.
@@ -74,6 +76,7 @@ impl ElasticWing {
             rigid: wing.mass,
             tip: [0, wing.mesh.rows].map(|i| wing.mesh.node(i, wing.mesh.cols)),
             stations: Station::all(&wing.mesh.nodes, [wing.mesh.rows, wing.mesh.cols]),
+            is_sheet: matches!(structure.members, Members::Shell(_)),
             structure: body.structure,
             followers: body.followers,
             method,
@@ -88,6 +91,11 @@ impl ElasticWing {
     /// The elastic body.
     pub fn structure(&self) -> &Structure {
         &self.structure
+    }
+
+    /// Whether it is a sheet, of which every panel of the mesh is an element.
+    pub fn is_sheet(&self) -> bool {
+        self.is_sheet
     }
 
     /// How the nodes of the mesh follow.

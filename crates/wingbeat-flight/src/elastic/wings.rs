@@ -36,8 +36,8 @@ impl ElasticWings {
         })
     }
 
-    /// The same of an animal whose wings hang on free joints.
-    pub fn on_free_joints(self) -> Self {
+    /// The same of an animal whose wings hang on free joints, or that is light as a whole.
+    pub fn on_light_bodies(self) -> Self {
         Self {
             tolerance: FINE_TOLERANCE,
             ..self

@@ -41,6 +41,8 @@ pub struct WingShell {
     pub veins: Vec<Vein>,
     /// Whether the root is clamped to the wing frame.
     pub clamps_root: bool,
+    /// Whether its leading edge is clamped to the wing frame, all along the span.
+    pub clamps_leading_edge: bool,
     /// Whether all its edges are clamped to the wing frame: a membrane on a rigid frame.
     pub clamps_perimeter: bool,
     /// Part of the chord behind the leading edge that is rigid with the wing frame, all along the span \[1\].
@@ -82,6 +84,7 @@ impl WingShell {
             regions: vec![],
             veins: vec![],
             clamps_root: true,
+            clamps_leading_edge: false,
             clamps_perimeter: false,
             rigid_fraction: 0.0,
         }
@@ -206,11 +209,12 @@ impl WingShell {
     /// Whether node `p` of the mesh is rigid with the wing frame.
     fn is_held(&self, grid: &GridMesh, p: usize) -> bool {
         let [i, j] = [p / (grid.cols + 1), p % (grid.cols + 1)];
-        let (_, lead, chord) = column(grid, j);
-        let behind = (lead - grid.nodes[p].x) / chord;
+        let (_, front, chord) = column(grid, j);
+        let behind = (front - grid.nodes[p].x) / chord;
         let rigid = self.rigid_fraction > 0.0 && behind <= self.rigid_fraction + ROUNDING;
         let edge = [0, grid.rows].contains(&i) || [0, grid.cols].contains(&j);
-        rigid || (self.clamps_root && j == 0) || (self.clamps_perimeter && edge)
+        let lead = self.clamps_leading_edge && i == 0;
+        rigid || lead || (self.clamps_root && j == 0) || (self.clamps_perimeter && edge)
     }
 
     pub(super) fn scaled(&self, s: f64) -> Self {
@@ -232,10 +236,9 @@ impl WingShell {
             (0.0..1.0).contains(&part),
             "from 0 to below 1",
         )?;
-        let clamps = self.clamps_root || self.clamps_perimeter;
+        let clamps = self.clamps_root || self.clamps_leading_edge || self.clamps_perimeter;
         let held = clamps || part > 0.0 || self.veins.iter().any(|v| v.is_clamped);
-        let allowed =
-            "above 0 where neither root nor vein is clamped: something must hold the wing";
+        let allowed = "above 0 where neither root nor leading edge nor vein is clamped: something must hold the wing";
         require(&of("rigid_fraction"), part, held, allowed)?;
         let positive = [
             ("young", Some(self.young[0])),

@@ -5,7 +5,10 @@ use std::path::Path;
 use super::{LATTICE, beam, fly, goes_on, hawkmoth_extremes, strings};
 use wingbeat::analysis::power::power_with_wake;
 use wingbeat::analysis::stability::floquet_of_trim;
-use wingbeat::analysis::wake::{WakeSettings, WakeTrim, elastic_floquet, trim_with_wake};
+use wingbeat::analysis::wake::{
+    WakeSettings, WakeTrim, change_by_last_mode, elastic_floquet, elastic_modes, elastic_monodromy,
+    trim_with_wake,
+};
 use wingbeat::analysis::{ModeSet, TrimProblem, TrimSettings, Unknown, trim};
 use wingbeat::case::{LoadedCase, wake_trimmed_case};
 use wingbeat::flight::{FlightSetup, MotionMode, Record, Simulation};
@@ -302,6 +305,59 @@ fn agrees_the_written_case_of_a_trimmed_hawkmoth_with_its_orbit() {
             .all(|[drift, turn]| *drift < 1e-2 && *turn < 2e-2),
         "{found:?}"
     );
+}
+
+/// The case that a trim wrote is trimmed where it begins: what is left is what twelve harmonics of the tether leave of the orbit.
+#[test]
+fn agrees_a_trim_of_a_trimmed_case_with_the_first() {
+    let case = hawkmoth_case(1.0);
+    let first = trimmed(&case.setup);
+    let text = wake_trimmed_case(&case, &first);
+    let again = LoadedCase::from_text("written", &text, Path::new("."), &[]);
+    let setup = again.unwrap().setup;
+    let pitch = setup.angles_at_release().x;
+    let begun = (pitch - first.body_pitch).abs();
+    assert!(begun < 1e-4, "{begun:e}"); // what the harmonics beyond the twelfth have: 2e-5
+    let problem = TrimProblem {
+        body_pitch: pitch,
+        ..problem()
+    };
+    let settings = WakeSettings {
+        tolerance: 1e-6,
+        ..WakeSettings::default()
+    };
+    let second = trim_with_wake(&setup, &problem, &settings).unwrap();
+    let turned = (second.body_pitch - first.body_pitch).abs();
+    let amplitude = second.adjustment.stroke_amplitude.abs();
+    println!("{} steps, {turned:e} {amplitude:e}", second.iterations);
+    assert!(second.converged && second.iterations <= 2);
+    assert!(
+        turned < 1e-6 && amplitude < 1e-6, // the tolerance of both
+        "{turned:e} {amplitude:e}"
+    );
+}
+
+/// The motions of flight with one, two and three modes of each wing: each changes less than the one before, and the check without
+/// flights says by how much.
+#[test]
+fn agrees_motions_of_flight_with_ever_more_modes_of_the_wings() {
+    let trim = trimmed(&hawkmoth(1.0));
+    let maps = [1, 2, 3].map(|count| elastic_monodromy(&trim, count).unwrap());
+    let sets = maps
+        .each_ref()
+        .map(|map| largest(&elastic_modes(map).unwrap()));
+    let apart = |a: &[[f64; 2]], b: &[[f64; 2]]| {
+        let nearest = |v: &[f64; 2]| {
+            let all = b.iter().map(|w| (v[0] - w[0]).hypot(v[1] - w[1]));
+            all.fold(f64::INFINITY, f64::min)
+        };
+        a.iter().map(nearest).fold(0.0, f64::max)
+    };
+    let [second, third] = [apart(&sets[1], &sets[0]), apart(&sets[2], &sets[1])];
+    let said = [1, 2].map(|k| change_by_last_mode(&maps[k]).unwrap().unwrap());
+    println!("{second:e} {third:e}, said {said:?}");
+    assert!(third < 0.5 * second, "{second:e} {third:e}");
+    assert!(said[1] < 0.5 * said[0], "{said:?}");
 }
 
 /// The unstable and the neutral ones among the modes of flight: multipliers of most size.

@@ -102,6 +102,57 @@ fn order_frequencies_of_a_plate_on_a_frame() {
     }
 }
 
+/// A square plate held at its leading edge is one held at its root, turned by a quarter; `omega a^2 sqrt(m / D)` of the cantilever 3.471, 8.507
+/// [Leissa 1969, table 4.46].
+#[test]
+fn agrees_a_plate_clamped_at_its_leading_edge_with_one_clamped_at_its_root() {
+    let plate = [
+        "wing.right.planform.rectangle.chord_m=6e-2",
+        "wing.right.structure.shell.poisson=0.3",
+        "wing.right.mesh.chordwise=8",
+        "wing.right.mesh.spanwise=8",
+    ];
+    let leading = [
+        "wing.right.structure.shell.clamped_root=false",
+        "wing.right.structure.shell.clamped_leading_edge=true",
+    ];
+    let at_root = frequencies(&right(&plate, ""));
+    let at_front = frequencies(&right(&[&plate[..], &leading].concat(), ""));
+    for (a, b) in at_root.iter().zip(&at_front) {
+        assert!((a / b - 1.0).abs() < 1e-9, "{a} {b}"); // rounding of eigenvalues
+    }
+    let rigidity = 3e9 * 1e-4_f64.powi(3) / (12.0 * 0.91);
+    let unit = (rigidity * 0.06_f64.powi(2) / 1e-4).sqrt() / 0.06_f64.powi(2);
+    for (found, known) in at_front.iter().zip([3.471, 8.507]) {
+        let error = found / (known * unit) - 1.0;
+        assert!(error.abs() < 0.01, "{error:e}"); // 8 x 8 elements
+    }
+}
+
+/// A stretched square film whose bending is a millionth of a solid sheet's, `omega = pi sqrt((i^2 + j^2) T / m) / a`: nodes that turn by
+/// themselves vibrate below, and are left out.
+#[test]
+fn exact_frequencies_of_a_film_without_those_of_turning_nodes() {
+    let set = [
+        "wing.right.structure.shell.clamped_perimeter=true",
+        "wing.right.planform.rectangle.chord_m=6e-2",
+        "wing.right.mesh.chordwise=10",
+        "wing.right.mesh.spanwise=10",
+        "wing.right.structure.shell.prestress_newton_per_m=[3,3]",
+        "wing.right.structure.shell.bending_factor=1e-6",
+    ];
+    let film = right(&set, "");
+    let unit = PI * (3.0 / (film.mass / 0.06_f64.powi(2))).sqrt() / 0.06;
+    let exact = [2.0_f64, 5.0, 5.0, 8.0].map(|s| unit * s.sqrt());
+    println!("{:?} {exact:?} {:?}", frequencies(&film), film.left_out);
+    for (found, exact) in frequencies(&film).iter().zip(exact) {
+        assert!((found / exact - 1.0).abs() < 0.05, "{found} {exact}"); // 10 x 10 elements
+    }
+    assert!(film.left_out[0] > 0, "{:?}", film.left_out);
+    // Of a solid sheet they are faster than what is asked for.
+    assert_eq!(right(&set[..4], "").left_out, [0; 2]);
+}
+
 /// An outer half of twice the thickness weighs twice as much; a whole region is as if the sheet were of it.
 #[test]
 fn exact_mass_and_stiffness_of_regions() {
@@ -161,6 +212,7 @@ fn refuses_veins_and_regions_that_say_nothing() {
     let vein = "[[wing.right.structure.vein]]\n";
     let region = "[[wing.right.structure.region]]\n";
     let no_root = "wing.right.structure.shell.clamped_root=false";
+    let leading = "wing.right.structure.shell.clamped_leading_edge=true";
     for (set, lists, says) in [
         (&[][..], format!("{vein}young_pa = 1e9"), "vein[0].radius_m"),
         (
@@ -212,6 +264,16 @@ fn refuses_veins_and_regions_that_say_nothing() {
             &[no_root, "wing.right.structure.shell.clamped_perimeter=true"],
             String::new(),
             "part of the perimeter",
+        ),
+        (
+            &[leading, "wing.right.structure.shell.clamped_perimeter=true"],
+            String::new(),
+            "clamped_perimeter holds the leading edge",
+        ),
+        (
+            &[leading, "wing.right.structure.shell.rigid_fraction=0.5"],
+            String::new(),
+            "rigid_fraction holds the leading edge",
         ),
     ] {
         let said = load(set, &lists).unwrap_err();

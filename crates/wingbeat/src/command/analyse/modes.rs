@@ -81,15 +81,26 @@ fn tell(report: &mut Report, name: &str, steady: bool, wings: &[Wing], found: &[
             line!(report, "  bent by at most {most:.4e} m");
         }
         table(report, "in vacuum", wing, &w.vacuum, None);
+        tell_left_out(report, w.left_out[0]);
         if let Some(air) = &w.air {
             let title = "with the added mass of the air";
             table(report, title, wing, air, Some(&w.vacuum));
+            tell_left_out(report, w.left_out[1]);
         }
     }
     line!(
         report,
         "\n  tip: displacement where the largest is 1; w3 and w1 of the middle of the tip, twist: trailing less leading edge along w3"
     );
+}
+
+fn tell_left_out(report: &mut Report, count: usize) {
+    if count > 0 {
+        line!(
+            report,
+            "  left out below the last: {count} in which nodes turn and nothing moves, of the elements and not of the film"
+        );
+    }
 }
 
 fn is_same(a: &WingModes, b: &WingModes) -> bool {
@@ -187,6 +198,8 @@ fn values(wing: &Wing, w: &WingModes) -> Value {
         "deflection_m": deflection.fold(0.0, f64::max),
         "vacuum": w.vacuum.iter().map(mode).collect::<Vec<_>>(),
         "air": w.air.as_ref().map(air),
+        "vacuum_left_out": w.left_out[0],
+        "air_left_out": w.left_out[1],
     })
 }
 

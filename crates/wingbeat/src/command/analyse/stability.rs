@@ -7,7 +7,9 @@ use serde_json::{Value, json};
 use wingbeat::analysis::modes::Plane;
 use wingbeat::analysis::stability::floquet_of_trim;
 use wingbeat::analysis::stability::{LOADS, LinearModel};
-use wingbeat::analysis::wake::{WakeMemory, elastic_floquet, wake_floquet};
+use wingbeat::analysis::wake::{
+    WakeMemory, change_by_last_mode, elastic_modes, elastic_monodromy, wake_floquet,
+};
 use wingbeat::analysis::{ModeSet, linear_model, table_model};
 use wingbeat::case::LoadedCase;
 use wingbeat::case::derivative_case;
@@ -175,7 +177,8 @@ fn with_wings(args: &StabilityArgs, report: &mut Report) -> Result<(), Failure> 
         true => 0,
         false => args.modes.unwrap_or(DEFAULT_MODES),
     };
-    let found = watched("Floquet's modes", || elastic_floquet(&trim, count))?;
+    let map = watched("Floquet's modes", || elastic_monodromy(&trim, count))?;
+    let found = elastic_modes(&map)?;
     let of = match is_rigid {
         true => "body and wakes of strips (Floquet)".to_owned(),
         false => format!("body and wings (Floquet), {count} modes of each wing"),
@@ -189,6 +192,13 @@ fn with_wings(args: &StabilityArgs, report: &mut Report) -> Result<(), Failure> 
     }
     modes(report, "floquet_modes", &found);
     report.value("modes_of_each_wing", count);
+    if let Some(change) = change_by_last_mode(&map)? {
+        line!(
+            report,
+            "\nWith one mode of each wing fewer the multipliers of motions that last change by at most {change:.1e}: where that matters, more modes (--modes)."
+        );
+        report.value("change_by_last_mode", change);
+    }
     Ok(())
 }
 

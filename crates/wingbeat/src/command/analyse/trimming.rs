@@ -7,7 +7,6 @@ use wingbeat::analysis::unknown::{Bound, UNKNOWNS};
 use wingbeat::analysis::wake::{WakeSettings, WakeTrim, trim_with_wake};
 use wingbeat::analysis::{Beat, Trim, TrimProblem, TrimSettings, Unknown};
 use wingbeat::case::{IoError, LoadedCase};
-use wingbeat::flight::MotionMode;
 use wingbeat::math::DVec3;
 
 use super::found::{self, Found};
@@ -170,12 +169,7 @@ impl Trimming {
 
     /// What is asked of the trim.
     pub(super) fn problem(&self, case: &LoadedCase) -> Result<TrimProblem, Failure> {
-        let start = match &case.setup.mode {
-            MotionMode::Free(start) => start.angles,
-            MotionMode::Tethered(motion) => {
-                DVec3::from_array(motion.angles.each_ref().map(|a| a.constant))
-            }
-        };
+        let start = case.setup.angles_at_release();
         let velocity = DVec3::new(
             self.forward.unwrap_or(0.0),
             self.sideslip.unwrap_or(0.0),
