@@ -136,11 +136,8 @@ impl Lattice {
         let edges = topology.panel_edges[p].iter().flat_map(move |e| {
             let edge = &topology.edges[e.edge];
             let [a, b]: [DVec3; 2] = [edge.from, edge.to].map(|n| bound.nodes.get(n));
-            // Half of what leaves is the wake's, unless it has left.
-            let leads = edge
-                .wake
-                .filter(|w| self.suction().of_column(w.sheet, w.column).is_some());
-            let weight = leads.map_or(e.weight, |_| 1.0);
+            let net = bound.gamma[e.edge];
+            let weight = self.felt_part(state, edge, net, &ws.filaments.lengths);
             let weight = rho * weight * relative.dot((b - a).cross(normal));
             let minus = edge.minus.map(|q| (q, -weight));
             std::iter::once((edge.plus, weight)).chain(minus)

@@ -120,10 +120,11 @@ fn limit_a_wing_of_a_hundredth_of_the_mass_flies() {
     }
 }
 
-/// Passes to 1e-10, wings of a tenth and of 1/250 of `rho b c^2`: what passes have shown speeds up the next ones.
+/// Passes to 1e-10, wings of a tenth and of 1/250 of `rho b c^2`: what passes have shown speeds up the next ones. One more than
+/// when the wing felt but half of what waits on its trailing edge: the air damps more.
 #[test]
 fn limit_passes_are_few_whatever_a_wing_on_a_hinge_weighs() {
-    for (mass, integrator, allowed) in [("2.2e-8", "bdf", 6), ("8.9e-10", "hamming", 7)] {
+    for (mass, integrator, allowed) in [("2.2e-8", "bdf", 7), ("8.9e-10", "hamming", 7)] {
         let flown = robot(&[
             &format!("wing.right.mass_kg={mass}"),
             &format!("dynamics.integrator={integrator}"),
@@ -166,7 +167,7 @@ fn agrees_a_flyer_that_is_light_as_a_whole_by_either_integrator() {
                 let lost = last.momentum_residual - released.momentum_residual;
                 let kept = lost.length() / last.momentum.length();
                 println!("{pitch}, {steps} by {integrator}: {rows} in a row, {most} passes, momentum {kept:e}");
-                assert!(rows < 5 && most <= 10, "{rows} in a row, {most} passes");
+                assert!(rows < 5 && most <= 11, "{rows} in a row, {most} passes");
                 assert!(kept < 1e-14, "momentum {kept}"); // rounding of some dozen steps
                 last.mass_centre
             });

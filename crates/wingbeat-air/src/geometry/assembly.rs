@@ -281,14 +281,8 @@ impl Topology {
     fn join_panels_to_edges(&mut self) {
         self.panel_edges = vec![Vec::with_capacity(4); self.panels.len()];
         for (e, edge) in self.edges.iter().enumerate() {
-            let free = edge.minus.is_none() && edge.wake.is_none();
-            let weight = if free { 1.0 } else { 0.5 };
             let mut join = |panel: usize, sign| {
-                self.panel_edges[panel].push(PanelEdge {
-                    edge: e,
-                    sign,
-                    weight,
-                });
+                self.panel_edges[panel].push(PanelEdge { edge: e, sign });
             };
             join(edge.plus, 1.0);
             if let Some(panel) = edge.minus {

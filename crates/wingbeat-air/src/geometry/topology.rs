@@ -50,8 +50,6 @@ pub struct PanelEdge {
     pub edge: usize,
     /// +1 if the panel's ring runs the edge forward, -1 if backward \[1\].
     pub sign: f64,
-    /// Weight of the edge in the velocity jump: 1 at free edges, 1/2 at shared ones \[1\].
-    pub weight: f64,
 }
 
 /// Two columns of wake nodes that left one place: (sheet, column) of both.

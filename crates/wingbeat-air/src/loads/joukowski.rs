@@ -161,13 +161,7 @@ impl Segments {
             let edge = &lattice.topology().edges[e];
             let l = bound.nodes.get(edge.to) - bound.nodes.get(edge.from);
             let circulation = rho * bound.gamma[e] / count as f64;
-            let part = match (edge.minus, edge.wake) {
-                (Some(_), _) => 0.5,
-                (None, Some(_)) => {
-                    lattice.felt_part(state, edge, bound.gamma[e], &filaments.lengths)
-                }
-                (None, None) => 1.0,
-            };
+            let part = lattice.felt_part(state, edge, bound.gamma[e], &filaments.lengths);
             for k in at * count..(at + 1) * count {
                 let share = part * (circulation * self.velocity.get(k).cross(l));
                 for p in [Some(edge.plus), edge.minus].into_iter().flatten() {

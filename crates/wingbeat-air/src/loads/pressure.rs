@@ -10,7 +10,7 @@ use crate::wake::Filaments;
 use wingbeat_math::DVec3;
 
 /// Vorticity `w Gamma l` [m3/s] that each edge of a panel lends it, an edge shared by two rings giving half to either
-/// side (w = 1/2), a free edge all (w = 1); and the middle of the edge [m].
+/// side (w = 1/2), a free edge all (w = 1), one that sheds what the wing feels of it; and the middle of the edge [m].
 fn shares<'a>(
     lattice: &'a Lattice,
     state: &'a AirState,
@@ -22,10 +22,7 @@ fn shares<'a>(
         let edge = &topology.edges[e.edge];
         let [a, b] = [edge.from, edge.to].map(|n| bound.nodes.get(n));
         let net = bound.gamma[e.edge];
-        let weight = match (edge.minus, edge.wake) {
-            (None, Some(_)) => lattice.felt_part(state, edge, net, &filaments.lengths),
-            _ => e.weight,
-        };
+        let weight = lattice.felt_part(state, edge, net, &filaments.lengths);
         [weight * net * (b - a), a.midpoint(b)]
     })
 }

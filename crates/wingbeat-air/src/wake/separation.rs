@@ -70,8 +70,9 @@ impl Lattice {
         hold / net.abs().max(f64::MIN_POSITIVE)
     }
 
-    /// Part of the net circulation `net` [m2/s] of an edge of one panel that sheds which the wing feels, `lengths` being those of
-    /// the newest rows, 0 to 1: all that it holds, and of what is about to leave all but half of what leaves within a step.
+    /// Part of the net circulation `net` [m2/s] of an edge that each of its panels feels, `lengths` being those of the newest rows: half of
+    /// an edge shared by two, all of a free one; of one that sheds all that it holds, and of what is about to leave all but half of what
+    /// leaves within a step.
     ///
     /// What leaves with the next row stands for a sheet from half a row ahead of the edge to half a row behind it. What
     /// waits on the edge of a short row ([`released`]) stands for a sheet ahead of the edge, on the wing.
@@ -82,9 +83,14 @@ impl Lattice {
         net: f64,
         lengths: &[Vec<f64>],
     ) -> f64 {
-        let length = |w: WakeColumn| lengths[w.sheet].get(w.column).copied();
-        let leaves = match edge.wake.and_then(length) {
-            Some(length) if self.settings().newest_row == NewestRow::Matched => released(length),
+        if edge.minus.is_some() {
+            return 0.5;
+        }
+        let Some(WakeColumn { sheet, column, .. }) = edge.wake else {
+            return 1.0;
+        };
+        let leaves = match lengths[sheet].get(column) {
+            Some(&length) if self.settings().newest_row == NewestRow::Matched => released(length),
             _ => 1.0,
         };
         1.0 - 0.5 * leaves * (1.0 - self.held_part(state, edge, net))
