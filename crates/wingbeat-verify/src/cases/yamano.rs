@@ -70,10 +70,7 @@ fn frequencies(_quick: bool) -> Result<Vec<Row>, VerifyError> {
                 mode.frequency,
             )
             .against(known, source)
-            .within_part(
-                0.01,
-                "stated beforehand: error of 15 x 10 elements, of second order",
-            )
+            .within_part(0.01, "the error of 15 x 10 elements, of second order")
         };
         rows.push(row("the program", theirs[k], PROGRAM));
         rows.push(row(
