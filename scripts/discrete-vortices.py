@@ -7,8 +7,8 @@ Granlund, Ol & Edwards 2014, J. Fluid Mech. 751:500. Nothing of wingbeat is used
     python3 scripts/discrete-vortices.py wagner [dt] [quarter]    lift after a sudden start against R. T. Jones's form of Wagner's function
     python3 scripts/discrete-vortices.py hover [dt] [quarter]    plate that hovers at 45 deg, 2.8 chords to and fro
 
-Each new vortex lies a third of the way to the last one [Ramesh et al. 2014], which is half of what has left within the step; with `quarter`
-a quarter of that, where a vortex has the effect on the edge of an even sheet as long, and with cores of 0.005 chords for 0.02.
+Each new vortex lies a third of the way to the last one [Ramesh et al. 2014], which is half a step's way from the edge; with `quarter`
+a quarter of it, where a vortex has the effect on the edge of an even sheet as long, and with cores of 0.005 chords for 0.02.
 
 Chord, speed and density are 1; the plate moves against x, z is up, clockwise circulation is positive. The vorticity of the plate is
 `gamma = 2 (A0 cot(theta/2) + sum An sin n theta)`. A vortex leaves the trailing edge each step, and one leaves the leading edge when |A0|

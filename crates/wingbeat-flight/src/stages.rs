@@ -114,7 +114,7 @@ fn is_light_as_a_whole(
 /// the passes, too.
 ///
 /// # Errors
-/// Wings that bend on free joints by `hamming`.
+/// Wings that bend on free joints, or on a flyer that is light as a whole, by `hamming`.
 fn carried(
     setup: &FlightSetup,
     (system, is_light): (&System, bool),
@@ -126,11 +126,11 @@ fn carried(
     let wings = setup.animal.wings.len();
     let on_joints = CarriedAir::new(system, wings);
     if !elastic.is_empty() {
-        if setup.integrator == IntegratorChoice::Hamming && !on_joints.is_empty() {
+        if setup.integrator == IntegratorChoice::Hamming && (is_light || !on_joints.is_empty()) {
             return Err(FlightError::Setup {
                 key: "dynamics.integrator",
                 value: "hamming".into(),
-                problem: "with elastic wings, wings on free joints carry air along that velocities over steps alone tell of, and by hamming these alternate from step to step: take bdf, or leave out [wing.NAME.structure]".into(),
+                problem: "with elastic wings, wings on free joints or on a body that weighs little beside the air carry air along that velocities over steps alone tell of, and by hamming these alternate from step to step: take bdf, or leave out [wing.NAME.structure]".into(),
             });
         }
         return Ok(CarriedAir::default());

@@ -1,50 +1,56 @@
 //! How many modes of the wings Floquet's modes need: what changes where one fewer is taken along.
 //!
-//! The map of a wingbeat without the last mode of every wing is that map without its rows and columns: the mode is neither disturbed nor
-//! looked at. So the check costs an eigenproblem and no flight.
+//! With one mode of every wing fewer, the last is neither disturbed nor looked at: its columns and rows of the flown departures are
+//! left out before the map is made of them. So the check costs an eigenproblem and no flight.
 
-use super::wings::{BODY, ElasticMonodromy};
+use super::wings::{BODY, ElasticMonodromy, map_between};
 use crate::AnalysisError;
 use crate::eigen::eigen;
 
 impl ElasticMonodromy {
-    /// The map of departures without the last mode of every wing: what it would be had one mode fewer been taken along. None where no
-    /// wing has any.
-    pub fn with_fewer_modes(&self) -> Option<Self> {
+    /// The map of departures that one mode fewer of every wing gives. None where some wing has none.
+    ///
+    /// # Errors
+    /// Departures that depend on each other.
+    pub fn with_fewer_modes(&self) -> Result<Option<Self>, AnalysisError> {
+        if self.wings.is_empty() || self.wings.contains(&0) {
+            return Ok(None);
+        }
         let mut kept: Vec<usize> = (0..BODY).collect();
         let mut from = BODY;
         for &count in &self.wings {
-            let last = count.checked_sub(1)?;
-            let own = (0..2 * count).filter(|k| k % count != last);
+            let own = (0..2 * count).filter(|k| k % count != count - 1);
             kept.extend(own.map(|k| from + k));
             from += 2 * count;
         }
         kept.extend(from..self.order);
         let of = |i: usize| kept.iter().map(move |k| (i, *k));
-        let entries = kept.iter().flat_map(|i| of(*i));
-        let fewer = Self {
-            matrix: entries
-                .map(|(i, k)| self.matrix[self.order * i + k])
-                .collect(),
+        let part = |all: &Vec<f64>| -> Vec<f64> {
+            let entries = kept.iter().flat_map(|i| of(*i));
+            entries.map(|(i, k)| all[self.order * i + k]).collect()
+        };
+        let departures = self.departures.each_ref().map(part);
+        Ok(Some(Self {
+            matrix: map_between(&departures[0], &departures[1], kept.len())?,
+            departures,
             order: kept.len(),
             wakes: self.wakes,
             wings: self.wings.iter().map(|n| n - 1).collect(),
             scales: self.scales,
-        };
-        (fewer.order < self.order).then_some(fewer)
+        }))
     }
 }
 
-/// Multipliers over which motions count as those of flight: what decays faster is over within two wingbeats \[1\].
+/// Multipliers over which motions count as those of flight: what decays faster has lost three quarters after two wingbeats \[1\].
 const LASTING: f64 = 0.5;
 
 /// How far Floquet's multipliers of the motions that last move where one mode fewer of each wing is taken along: the largest distance of
-/// one of these to the nearest of those \[1\]. None where there is no mode to leave out.
+/// one of these to the nearest of those \[1\]. None where some wing has no mode to leave out.
 ///
 /// # Errors
-/// Numbers that are not finite.
+/// Numbers that are not finite; departures that depend on each other.
 pub fn change_by_last_mode(map: &ElasticMonodromy) -> Result<Option<f64>, AnalysisError> {
-    let Some(fewer) = map.with_fewer_modes() else {
+    let Some(fewer) = map.with_fewer_modes()? else {
         return Ok(None);
     };
     let values = |map: &ElasticMonodromy| -> Result<Vec<[f64; 2]>, AnalysisError> {

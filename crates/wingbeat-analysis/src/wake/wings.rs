@@ -45,6 +45,8 @@ pub struct ElasticMonodromy {
     pub wakes: usize,
     /// Modes of each elastic wing among it, whose displacements come before their velocities.
     pub wings: Vec<usize>,
+    /// The departures that it maps, one column a disturbance: at first and a beat later \[1\].
+    pub(super) departures: [Vec<f64>; 2],
     pub(super) scales: Scales,
 }
 
@@ -67,22 +69,35 @@ pub fn elastic_monodromy(trim: &WakeTrim, count: usize) -> Result<ElasticMonodro
             after[n * i + k] = (plus[1][i] - minus[1][i]) / (2.0 * PART);
         }
     }
-    // after = M before: rows of M solve before^T m = after row.
-    let mut matrix = vec![0.0; n * n];
-    for i in 0..n {
-        let mut transposed: Vec<f64> = (0..n * n).map(|e| before[n * (e % n) + e / n]).collect();
-        let mut row = after[n * i..n * (i + 1)].to_vec();
-        solve_small(&mut transposed, &mut row)
-            .map_err(|e| AnalysisError::Numbers(format!("the disturbances are dependent: {e}")))?;
-        matrix[n * i..n * (i + 1)].copy_from_slice(&row);
-    }
     Ok(ElasticMonodromy {
-        matrix,
+        matrix: map_between(&before, &after, n)?,
+        departures: [before, after],
         order: n,
         wakes: rig.wakes.len(),
         wings: rig.wings.iter().map(|w| w.modes.len()).collect(),
         scales: rig.scales,
     })
+}
+
+/// The map of order `n` from the columns of `before` to those of `after`.
+///
+/// # Errors
+/// Columns that depend on each other.
+pub(super) fn map_between(
+    before: &[f64],
+    after: &[f64],
+    n: usize,
+) -> Result<Vec<f64>, AnalysisError> {
+    // after = M before: rows of M solve before^T m = after row.
+    let mut matrix = Vec::with_capacity(n * n);
+    for after in after.chunks_exact(n) {
+        let mut transposed: Vec<f64> = (0..n * n).map(|e| before[n * (e % n) + e / n]).collect();
+        let mut row = after.to_vec();
+        solve_small(&mut transposed, &mut row)
+            .map_err(|e| AnalysisError::Numbers(format!("the disturbances are dependent: {e}")))?;
+        matrix.extend(row);
+    }
+    Ok(matrix)
 }
 
 /// Floquet's modes of a flyer with elastic wings about its trimmed flight, with `count` modes of each wing.

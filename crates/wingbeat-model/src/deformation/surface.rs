@@ -4,7 +4,7 @@
 //! points the surface is bilinear in the parts of chord and span. So places, velocities and accelerations are analytic,
 //! and the surface may do what no twist, camber and bending can: change its area, sweep and fold.
 //!
-//! A series of n harmonics is determined stably by phases of which no two neighbours are 1 / (2 n) apart or more,
+//! A series of n harmonics is determined by phases of which no two neighbours are 1 / (2 n) apart or more,
 //! wherever they lie \[Groechenig 1992, Math. Comput. 59:181, for one dimension\]; others are refused.
 
 use crate::deformation::lines::{column, span};
@@ -153,7 +153,11 @@ impl MovingSurface {
         let mut courses = Vec::with_capacity(mesh.nodes.len());
         for (i, j) in (0..=mesh.rows).flat_map(|i| (0..=mesh.cols).map(move |j| (i, j))) {
             let (r, lead, chord) = column(mesh, j);
-            let behind = (lead - mesh.nodes[mesh.node(i, j)].x) / chord;
+            let behind = if chord == 0.0 {
+                0.0 // a pointed tip
+            } else {
+                (lead - mesh.nodes[mesh.node(i, j)].x) / chord
+            };
             let at = [behind, (r - inner) / (tip - inner)];
             let places: Vec<DVec3> = (self.places.iter())
                 .map(|rows| bilinear(rows, at))

@@ -229,7 +229,7 @@ fn scatter(marks: &[Mark]) -> Row {
 }
 
 /// What the best curve through all measured points leaves: a cubic of the amplitude and its product with the frequency,
-/// six numbers fitted to them. No model in which pitch follows from these two does much better.
+/// six numbers fitted to them.
 fn best_curve(marks: &[Mark]) -> Result<Row, VerifyError> {
     let terms = |m: &Mark| {
         let [a, f] = [(m.amplitude - 33.0) / 10.0, (m.frequency - 170.0) / 5.0];
@@ -249,9 +249,7 @@ fn best_curve(marks: &[Mark]) -> Result<Row, VerifyError> {
     let apart = |m: &Mark| -> f64 { terms(m).iter().zip(fitted).map(|(x, c)| x * c).sum() };
     let apart: Vec<f64> = marks.iter().map(|m| apart(m) - m.pitch()).collect();
     let quantity = "measured: rms about the best cubic of stroke amplitude, with frequency";
-    Ok(Row::new(quantity, "deg", rms(&apart)).because(
-        "six numbers fitted to the measured points: what one setting of all wings could reach",
-    ))
+    Ok(Row::new(quantity, "deg", rms(&apart)).because("six numbers fitted to the measured points"))
 }
 
 /// The wing that was tracked: its own stroke, three harmonics of it.

@@ -3,6 +3,7 @@
 use std::f64::consts::TAU;
 use std::path::Path;
 
+use wingbeat_analysis::AnalysisError;
 use wingbeat_analysis::flutter::{Condition, FlutterSettings, condition, crossings};
 use wingbeat_analysis::wing_modes::{About, wing_modes};
 use wingbeat_case::LoadedCase;
@@ -266,7 +267,12 @@ fn flutter(_quick: bool) -> Result<Vec<Row>, VerifyError> {
             .map(|speed| condition(&case.setup, speed, &settings))
             .collect::<Result<_, _>>()?;
         let begins = crossings(&both).into_iter().find(|c| c.begins);
-        Ok(begins.map_or([f64::NAN; 2], |c| [REDUCED * c.speed, c.frequency / TAU]))
+        let begins = begins.ok_or_else(|| {
+            AnalysisError::Numbers(format!(
+                "{rows} x {cols} panels: no flutter begins between {speeds:?} m/s"
+            ))
+        })?;
+        Ok([REDUCED * begins.speed, begins.frequency / TAU])
     };
     let (coarse, fine) = (onset([6, 4], SPEEDS)?, onset([8, 4], SPEEDS)?);
     Ok(vec![

@@ -358,6 +358,14 @@ fn agrees_motions_of_flight_with_ever_more_modes_of_the_wings() {
     println!("{second:e} {third:e}, said {said:?}");
     assert!(third < 0.5 * second, "{second:e} {third:e}");
     assert!(said[1] < 0.5 * said[0], "{said:?}");
+    // The check without flights has the map that fewer flights give.
+    for [more, fewer] in [[1, 0], [2, 1]] {
+        let reduced = maps[more].with_fewer_modes().unwrap().unwrap();
+        let both = reduced.matrix.iter().zip(&maps[fewer].matrix);
+        let apart = both.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        println!("maps of {fewer} modes: {apart:e} apart");
+        assert!(reduced.order == maps[fewer].order && apart < 1e-8);
+    }
 }
 
 /// The unstable and the neutral ones among the modes of flight: multipliers of most size.
