@@ -27,8 +27,8 @@ const BAND: &str = "about a sixth of the mean lift coefficient during the ramp; 
                     given, the rig's vibration shows as 0.2";
 const CHANGE: &str = "from 0.05 chords of travel on; the plate stalls from about 20 deg on; uncertainty: \
                       change by 9 x 18 panels and 30 steps a chord for 6 x 12 and 20";
-/// Travel from which the rig no longer rings [chords].
-const RUNG_OUT: f64 = 0.25;
+/// Travel from which the rig is quiet [chords].
+const QUIET: f64 = 0.25;
 const RINGS: &str = "before, the rig rings: measured are 8.3, 6.6 and 5.6 after 0.05, 0.10 and 0.15 chords, where attached flow with its \
                      added mass makes 5.3, 4.3 and 3.7";
 
@@ -111,7 +111,7 @@ fn run(_quick: bool) -> Result<Vec<Row>, VerifyError> {
                     .points
                     .iter()
                     .copied()
-                    .filter(|p| p[0] >= RUNG_OUT)
+                    .filter(|p| p[0] >= QUIET)
                     .collect(),
                 ..coarse.clone()
             };
