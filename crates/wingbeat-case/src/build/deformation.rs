@@ -130,7 +130,10 @@ fn surface(path: &str, case: &SurfaceCase, wing: &Wing) -> Built<MovingSurface> 
     let fault = |e: ModelError| {
         let (key, allowed, remedy) = match &e {
             ModelError::Table { table, row, .. } if table.ends_with("nodes") => (
-                format!("{path}.nodes_m[{}]", row.saturating_sub(1)),
+                match row.saturating_sub(1) {
+                    k if k < case.nodes_m.len() => format!("{path}.nodes_m[{k}]"),
+                    _ => format!("{path}.nodes_m"), // too few or too many
+                },
                 "one surface for each phase, all of the same number of rows and points, at least 2 x 2",
                 "rows from the leading to the trailing edge, each from the root to the tip",
             ),

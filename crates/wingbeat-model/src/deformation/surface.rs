@@ -60,15 +60,7 @@ impl MovingSurface {
     }
 
     fn check_phases(&self, table: &str) -> Result<(), ModelError> {
-        let bad = |row: usize, problem: String| {
-            let table = table.to_owned();
-            let row = row + 1;
-            Err(ModelError::Table {
-                table,
-                row,
-                problem,
-            })
-        };
+        let bad = |row, problem| fault(table, row, problem);
         let (n, x) = (self.harmonics, &self.phases);
         let (Some(first), Some(last)) = (x.first(), x.last()) else {
             return bad(0, "no phases".to_owned());
@@ -105,15 +97,7 @@ impl MovingSurface {
     }
 
     fn check_places(&self, table: &str) -> Result<(), ModelError> {
-        let bad = |row: usize, problem: String| {
-            let table = table.to_owned();
-            let row = row + 1;
-            Err(ModelError::Table {
-                table,
-                row,
-                problem,
-            })
-        };
+        let bad = |row, problem| fault(table, row, problem);
         if self.places.len() != self.phases.len() {
             let (places, phases) = (self.places.len(), self.phases.len());
             return bad(places, format!("{places} surfaces for {phases} phases"));
@@ -202,6 +186,15 @@ impl MovingSurface {
         let row = |k: usize| columns.iter().map(|c| c[k]).collect();
         Ok((0..size).map(row).collect())
     }
+}
+
+/// What is wrong with a row of a table, counted from zero.
+fn fault(table: &str, row: usize, problem: String) -> Result<(), ModelError> {
+    Err(ModelError::Table {
+        table: table.to_owned(),
+        row: row + 1,
+        problem,
+    })
 }
 
 /// The series of values at the phases.
