@@ -119,7 +119,7 @@ impl Lattice {
         }
     }
 
-    /// Derivative of the normal force of panel `p` by circulations: (panel, weight \[N s/m2\]), some panels twice.
+    /// Secant of the normal force of panel `p` by circulations, the derivative where edges hold nothing or all: (panel, weight \[N s/m2\]), some panels twice.
     fn force_by_circulation<'a>(
         &'a self,
         p: usize,
