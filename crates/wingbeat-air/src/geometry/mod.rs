@@ -19,7 +19,7 @@ pub(crate) use panels::point_and_normal;
 pub(crate) use rings::{Rings, opposite, rings};
 pub(crate) use shed_around::{ShedAround, shed_around};
 pub use strips::Strip;
-pub(crate) use strips::{chord, strips};
+pub(crate) use strips::{column, section, strips};
 pub(crate) use suction_strips::SuctionStrips;
 pub use surface::{SheddingSegment, Surface};
 pub use symmetry::MirrorPairs;

@@ -80,9 +80,21 @@ fn walk(
     }
 }
 
-/// Unit vector from the leading edge backward and the length of the chord [m], N components.
-pub(crate) fn chord(strip: &Strip, position: &[DVec3]) -> (DVec3, f64) {
+/// From the middle of the leading edge of a strip to that of its rear edge [m], N components: columns of a mesh need not be
+/// normal to either.
+pub(crate) fn column(strip: &Strip, position: &[DVec3]) -> DVec3 {
     let middle = |n: [usize; 2]| 0.5 * (position[n[0]] + position[n[1]]);
-    let chord = middle(strip.rear) - middle(strip.nodes);
+    middle(strip.rear) - middle(strip.nodes)
+}
+
+/// The section of a strip normal to its leading edge: unit vector backward and length of the chord [m], N components. What flows along
+/// an edge, or how its mesh is sheared, makes no suction there.
+pub(crate) fn section(strip: &Strip, position: &[DVec3]) -> (DVec3, f64) {
+    let edge = position[strip.nodes[1]] - position[strip.nodes[0]];
+    let column = column(strip, position);
+    let chord = match edge == DVec3::ZERO {
+        true => column,
+        false => column.reject_from(edge),
+    };
     (chord.normalize_or_zero(), chord.length())
 }

@@ -5,7 +5,7 @@
 //! pressure on the sheet and the suction at its free edges. Of a segment of an edge that sheds a
 //! part is wake and feels nothing.
 
-use crate::geometry::{Edge, NodeMotion, Strip, chord};
+use crate::geometry::{Edge, NodeMotion, Strip, section};
 use crate::lattice::Lattice;
 use crate::loads::front::add_front;
 use crate::loads::lag::add_lag;
@@ -213,7 +213,7 @@ impl Segments {
         let edges = &lattice.topology().edges;
         let strips = lattice.strips().iter();
         for strip in strips.filter(|s| efficiency < 1.0 && edges[s.edge].wake.is_some()) {
-            let (aft, _) = chord(strip, &motion.position);
+            let (aft, _) = section(strip, &motion.position);
             let along = |&p: &usize| self.along(p, &out.panels.normal);
             let pull: DVec3 = strip.panels.iter().map(along).sum();
             let lost = (1.0 - efficiency) * (-pull.dot(aft)).max(0.0) * aft;
@@ -265,7 +265,7 @@ impl Segments {
     /// does, at the leading edge.
     fn polhamus(&self, lattice: &Lattice, motion: &NodeMotion, out: &mut AirLoads) {
         for strip in lattice.strips() {
-            let (aft, _) = chord(strip, &motion.position);
+            let (aft, _) = section(strip, &motion.position);
             let force = |&p: &usize| self.panel_force[p][0];
             let forward: DVec3 = strip.panels.iter().map(force).sum();
             let suction = (-forward.dot(aft)).max(0.0);

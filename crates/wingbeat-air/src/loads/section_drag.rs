@@ -11,7 +11,7 @@
 //! and wakes induce is left out. The lattice has the pressure drag of a wing at incidence already;
 //! the polar is for what it lacks. The force is spread over the panels of the strip by their area.
 
-use crate::geometry::{Strip, chord};
+use crate::geometry::{Strip, column};
 use crate::lattice::Lattice;
 use crate::loads::values::AirLoads;
 use crate::settings::SectionDrag;
@@ -54,7 +54,7 @@ fn traction(
         normal += part * panels.normal[p];
     }
     let (wind, normal) = (flow / whole, normal.normalize_or_zero());
-    let (speed, (_, chord)) = (wind.length(), chord(strip, position));
+    let (speed, chord) = (wind.length(), column(strip, position).length());
     if speed == 0.0 || chord == 0.0 {
         return DVec3::ZERO;
     }

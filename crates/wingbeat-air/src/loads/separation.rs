@@ -1,6 +1,6 @@
 //! What the separation criteria compare with their thresholds.
 
-use crate::geometry::chord;
+use crate::geometry::section;
 use crate::lattice::Lattice;
 use crate::loads::values::AirLoads;
 use crate::loads::vortex_lift::suction_parameter;
@@ -28,7 +28,7 @@ pub(crate) fn leading_values(
     let all_or_none = |leaves: bool| if leaves { 0.0 } else { f64::MAX };
     for (k, strip) in lattice.strips().iter().enumerate() {
         let p = strip.panels[0];
-        let (aft, c) = chord(strip, position);
+        let (aft, c) = section(strip, position);
         let [value, hold] = match lattice.settings().leading {
             LeadingEdge::Always => [0.0, 0.0],
             LeadingEdge::Never => [0.0, f64::MAX],

@@ -1,6 +1,6 @@
 //! What becomes of the forces of strips whose leading edges have vortex lift, see [`VortexLift`].
 
-use crate::geometry::{NodeMotion, Strip, chord, opposite};
+use crate::geometry::{NodeMotion, Strip, opposite, section};
 use crate::lattice::Lattice;
 use crate::loads::values::AirLoads;
 use crate::settings::{Parts, Passage, VortexLift};
@@ -27,10 +27,10 @@ pub(crate) fn yielding(
     out: &AirLoads,
 ) -> Yielding {
     let [parameter, speed] = suction_parameter(lattice, strip, &motion.position, out);
-    let (aft, c) = chord(strip, &motion.position);
+    let (aft, c) = section(strip, &motion.position);
     let passage = Passage {
         chords: speed / c,
-        turning: turning(strip, motion, (aft, c)),
+        turning: turning(strip, motion, aft),
     };
     let fed = law.fed(before, parameter, passage, dt);
     Yielding {
@@ -48,7 +48,7 @@ pub(crate) fn suction_parameter(
     position: &[DVec3],
     out: &AirLoads,
 ) -> [f64; 2] {
-    let (aft, c) = chord(strip, position);
+    let (aft, c) = section(strip, position);
     let middle = |n: [usize; 2]| position[n[0]].midpoint(position[n[1]]);
     let (front, p) = (middle(strip.nodes), strip.panels[0]);
     let rear = middle(opposite(lattice.topology().panels[p], strip.nodes));
@@ -63,19 +63,21 @@ pub(crate) fn suction_parameter(
 
 /// Rate at which the section of a strip turns about axes across its span [rad/s]: how the velocity of its quarter chord changes along
 /// the span, pitching apart.
-fn turning(strip: &Strip, motion: &NodeMotion, (aft, chord): (DVec3, f64)) -> f64 {
+fn turning(strip: &Strip, motion: &NodeMotion, aft: DVec3) -> f64 {
     let sides = sides(strip, motion);
     let across = |list: &[DVec3]| {
         let at = |[f, r]: [usize; 2]| list[f].lerp(list[r], 0.25);
         at(sides[1]) - at(sides[0])
     };
-    let along_chord = |[f, r]: [usize; 2]| (motion.velocity[r] - motion.velocity[f]) / chord;
-    let (way, change) = (across(&motion.position), across(&motion.velocity));
-    let sweep = way.dot(aft);
-    let span = way - sweep * aft;
-    let pitching = 0.5 * sweep * (along_chord(sides[0]) + along_chord(sides[1]));
-    let turned = (change - pitching).reject_from(span);
-    turned.length() / span.length()
+    let along = |list: &[DVec3]| {
+        let [a, b] = sides.map(|[f, r]| list[r] - list[f]);
+        a.midpoint(b)
+    };
+    let (way, column) = (across(&motion.position), along(&motion.position));
+    let part = way.dot(aft) / column.dot(aft);
+    let span = way - part * column;
+    let turned = across(&motion.velocity) - part * along(&motion.velocity);
+    turned.reject_from(span).length() / span.length()
 }
 
 /// Front and rear node on either side of a strip.

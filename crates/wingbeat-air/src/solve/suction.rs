@@ -15,7 +15,7 @@
 //! strength in each strip follows together with the circulations of the panels, in one flow: either the strip has less than it
 //! holds and nothing leaves, or it has as much as it holds and what leaves has the sign of its suction.
 
-use crate::geometry::{Panels, Strip, chord, opposite};
+use crate::geometry::{Panels, Strip, opposite, section};
 use crate::lattice::Lattice;
 use crate::settings::LeadingEdge;
 use crate::solve::influence::Instant;
@@ -54,7 +54,7 @@ pub(crate) struct Front {
 impl Front {
     pub fn of(now: Instant, strip: &Strip) -> Self {
         let (lattice, position) = (now.lattice, &now.motion.position);
-        let (aft, c) = chord(strip, position);
+        let (aft, c) = section(strip, position);
         let middle = |n: [usize; 2]| 0.5 * (position[n[0]] + position[n[1]]);
         let (front, p) = (middle(strip.nodes), strip.panels[0]);
         let rear = middle(opposite(lattice.topology().panels[p], strip.nodes));

@@ -18,6 +18,7 @@ mod peers;
 mod plane_wakes;
 mod section_drag;
 mod separated;
+mod swept;
 mod vortex_lift;
 mod wakes;
 mod wings;
