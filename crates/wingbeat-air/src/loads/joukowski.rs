@@ -205,7 +205,8 @@ impl Segments {
         add_lag(lattice, filaments, position, out);
     }
 
-    /// Takes from leading edges that may shed what their suction lacks of the force it would have on round ones.
+    /// Takes from leading edges that may shed what their suction lacks of the force it would have on round ones, and from their strips
+    /// whatever pulls sideways with it: what acts on a thin plate is normal to it.
     fn lose_suction(&self, lattice: &Lattice, motion: &NodeMotion, out: &mut AirLoads) {
         let Some([_, efficiency]) = lattice.settings().leading.suction() else {
             return;
@@ -216,8 +217,9 @@ impl Segments {
             let (aft, _) = section(strip, &motion.position);
             let along = |&p: &usize| self.along(p, &out.panels.normal);
             let pull: DVec3 = strip.panels.iter().map(along).sum();
-            let lost = (1.0 - efficiency) * (-pull.dot(aft)).max(0.0) * aft;
-            add_at_edge(strip, motion, lost, out);
+            if pull.dot(aft) < 0.0 {
+                add_at_edge(strip, motion, -(1.0 - efficiency) * pull, out);
+            }
         }
     }
 
@@ -236,10 +238,11 @@ impl Segments {
             let (parts, aft) = (strip_now.parts, strip_now.aft);
             out.fed[k] = strip_now.fed;
             let along = |&p: &usize| self.along(p, &out.panels.normal);
-            let suction = -strip.panels.iter().map(along).sum::<DVec3>().dot(aft);
+            let pull: DVec3 = strip.panels.iter().map(along).sum();
             let side = strip_now.parameter.signum() * out.panels.normal[strip.panels[0]];
-            let lost = (1.0 - parts.suction) * suction * aft;
-            self.at_edge.push(lost + parts.vortex * suction * side);
+            let lost = -(1.0 - parts.suction) * pull;
+            self.at_edge
+                .push(lost - parts.vortex * pull.dot(aft) * side);
             if parts.normal < 1.0 {
                 self.weaken(strip, 1.0 - parts.normal, &out.panels.normal);
             }

@@ -82,3 +82,33 @@ fn exact_lost_suction_leaves_a_force_normal_to_endless_plates() {
         assert!(along.abs() < 1e-14, "{name}: {along}");
     }
 }
+
+/// So it is on a flat wing with ends, swept and tapered, all of whose strips pull forward; with round edges it is not.
+#[test]
+fn exact_lost_suction_leaves_a_force_normal_to_flat_wings() {
+    let along = |efficiency: f64| {
+        let settings = AirSettings {
+            shedding: SheddingKinds {
+                leading: true,
+                tip: true,
+                ..SheddingKinds::TRAILING
+            },
+            loads: LoadMethod::Joukowski,
+            leading: LeadingEdge::Suction {
+                threshold: 0.1,
+                efficiency,
+            },
+            ..AirSettings::accurate(1.0, DVec3::new(ALPHA.cos(), 0.0, ALPHA.sin()))
+        };
+        let lattice = Lattice::new(vec![Surface::grid("wing", 4, 6)], settings).unwrap();
+        let tapered = |x: DVec3| DVec3::new(0.8 * x.y + x.x * (1.0 - 0.2 * x.y), x.y, 0.0);
+        let flat = rectangle(4, 6, DVec3::X, 3.0 * DVec3::Y);
+        let motion = translating(flat.into_iter().map(tapered).collect(), DVec3::ZERO);
+        let run = fly(&lattice, |_| motion.clone(), 0.25, 8, |_, _, _, _| {}).unwrap();
+        let force = total_force(&run.loads);
+        force.truncate().length() / force.z
+    };
+    let [thin, round] = [0.0, 1.0].map(along);
+    println!("{thin:.1e} {round:.3}");
+    assert!(thin < 1e-14 && round > 0.02, "{thin} {round}");
+}
