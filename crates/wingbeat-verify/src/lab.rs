@@ -4,6 +4,7 @@ pub mod foil;
 pub(crate) mod hinged;
 pub(crate) mod insect;
 pub mod outline;
+pub(crate) mod ramp;
 pub(crate) mod rig;
 pub mod series;
 

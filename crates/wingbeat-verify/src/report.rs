@@ -43,6 +43,30 @@ impl Entry {
         self.rows.iter().filter_map(|r| r.comparison.as_ref())
     }
 
+    /// The figures of the case: comparisons that share their abscissas.
+    pub fn figures(&self) -> Vec<Vec<&Comparison>> {
+        let shared = |a: &Comparison, b: &Comparison| {
+            let abscissas = |c: &Comparison| c.points.iter().map(|p| p[0]).collect::<Vec<_>>();
+            a.along == b.along && abscissas(a) == abscissas(b)
+        };
+        let mut figures: Vec<Vec<&Comparison>> = vec![];
+        for c in self.comparisons() {
+            match figures.iter_mut().find(|f| shared(f[0], c)) {
+                Some(figure) => figure.push(c),
+                None => figures.push(vec![c]),
+            }
+        }
+        figures
+    }
+
+    /// Name of the file of figure `k`, from 0.
+    pub fn figure_name(&self, k: usize) -> String {
+        match k {
+            0 => format!("{}.svg", self.case),
+            _ => format!("{}-{}.svg", self.case, k + 1),
+        }
+    }
+
     /// Rows that pass, fail, have no verdict; a case that could not be run is a failed row.
     pub fn counts(&self) -> [usize; 3] {
         let of = |v| self.rows.iter().filter(|r| r.verdict() == v).count();
@@ -199,8 +223,9 @@ impl Report {
 
 fn section(entry: &Entry) -> String {
     let mut text = format!("\n### {}\n\n{}\n\n", entry.case, entry.about);
-    if entry.comparisons().next().is_some() {
-        let _ = writeln!(text, "![{0}]({1}/{0}.svg)\n", entry.case, Report::FIGURES);
+    for k in 0..entry.figures().len() {
+        let (case, folder, name) = (&entry.case, Report::FIGURES, entry.figure_name(k));
+        let _ = writeln!(text, "![{case}]({folder}/{name})\n");
     }
     if let Some(failure) = &entry.failure {
         let _ = writeln!(text, "**Did not run:** {failure}");

@@ -269,7 +269,8 @@ pub struct ShellCase {
     /// Change it to false for foils that are held along their leading part alone, or by veins.
     #[default = true]
     pub clamped_root: bool,
-    /// Whether its leading edge is clamped to the wing frame, all along the span.
+    /// Whether its leading edge is clamped to the wing frame, all along the span. A vein along it bends nowhere and takes its mass from the
+    /// sheet alone.
     ///
     /// Change it to true for sheets that hang in a stream like flags.
     pub clamped_leading_edge: bool,

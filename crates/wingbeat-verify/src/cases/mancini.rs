@@ -1,5 +1,6 @@
 //! A plate that pitches up to 45 deg fast, within one chord of travel, or slowly, within six.
 
+use crate::lab::ramp::Ramp;
 use crate::lab::rig::{Edge, Fluid, Pose, Wing, forces};
 use crate::lab::series::{Table, interpolate};
 use crate::{Case, Comparison, Part, Row, VerifyError};
@@ -15,12 +16,11 @@ pub(super) const CASES: &[Case] = &[Case {
     run,
 }];
 
-/// A ramp: name, its length [chords], smoothing of its corners [1/chord], travel before it [chords], by when the smoothed corner
+/// A flight: name, its ramp (in chords), travel before it [chords], by when the smoothed corner
 /// is below 1e-4 of its peak, column of the measurement, and band.
-struct Ramp {
+struct Flight {
     name: &'static str,
-    length: f64,
-    smoothing: f64,
+    ramp: Ramp,
     before: f64,
     column: &'static str,
     band: f64,
@@ -28,20 +28,26 @@ struct Ramp {
     last: f64,
 }
 
-const RAMPS: [Ramp; 2] = [
+const fn ramp(length: f64, smoothing: f64) -> Ramp {
     Ramp {
+        height: FRAC_PI_4,
+        length,
+        smoothing,
+    }
+}
+
+const FLIGHTS: [Flight; 2] = [
+    Flight {
         name: "fast",
-        length: 1.0,
-        smoothing: 15.0,
+        ramp: ramp(1.0, 15.0),
         before: 0.4,
         column: "CL_fast",
         band: 1.22,
         last: COMPARED,
     },
-    Ramp {
+    Flight {
         name: "slow",
-        length: 6.0,
-        smoothing: 4.0,
+        ramp: ramp(6.0, 4.0),
         before: 1.2,
         column: "CL_slow",
         band: 0.29,
@@ -64,22 +70,9 @@ const BAND: &str = "what the lattice of others with shed leading-edge vorticity 
 const SHIFTED: &str = "both pulses of added mass in the measured lift come a quarter of a chord after the corners of the ramp: the motion or its \
                        record is late";
 
-/// Incidence [rad] and its rate after `s` chords of travel [Eldredge, Wang, Ol 2009, AIAA 2009-3687].
-fn incidence(ramp: &Ramp, s: f64) -> [f64; 2] {
-    let a = ramp.smoothing;
-    let [rise, hold] = [a * s, a * (s - ramp.length)];
-    // ln cosh without overflow.
-    let log = |x: f64| x.abs() + (-2.0 * x.abs()).exp().ln_1p() - LN_2;
-    let scale = 0.5 * FRAC_PI_4 / ramp.length;
-    [
-        scale * (ramp.length + (log(rise) - log(hold)) / a),
-        scale * (rise.tanh() - hold.tanh()),
-    ]
-}
-
 /// Travel up to `until` [chords] and lift coefficient.
 fn lift(
-    ramp: &Ramp,
+    flight: &Flight,
     edge: Edge,
     [panels, per_chord]: [usize; 2],
     until: f64,
@@ -92,7 +85,7 @@ fn lift(
         ..Wing::rectangle(panels, &stations, 0.0, true)
     };
     let pose = |s: f64| {
-        let [angle, rate] = incidence(ramp, s);
+        let [angle, rate] = flight.ramp.at(s);
         Pose {
             turn: r2(angle),
             spin: rate * DVec3::Y,
@@ -101,16 +94,16 @@ fn lift(
         }
     };
     let dt = 1.0 / per_chord as f64;
-    let last = ((ramp.before + until) * per_chord as f64).ceil() as usize;
+    let last = ((flight.before + until) * per_chord as f64).ceil() as usize;
     let force = forces(
         &Fluid::unit(2e4),
         &wing,
         edge,
         pose,
-        [-ramp.before, dt],
+        [-flight.before, dt],
         last,
     )?;
-    let s: Vec<f64> = (0..=last).map(|k| k as f64 * dt - ramp.before).collect();
+    let s: Vec<f64> = (0..=last).map(|k| k as f64 * dt - flight.before).collect();
     let raw: Vec<f64> = force.iter().map(|f| 2.0 * f.z / HALF_SPAN).collect();
     let filtered = s.iter().map(|s0| filtered(&s, &raw, *s0)).collect();
     Ok([s, filtered])
@@ -128,17 +121,17 @@ fn filtered(s: &[f64], raw: &[f64], s0: f64) -> f64 {
 
 /// Measured and computed lift between these travels [chords], the computed one `late` chords later.
 fn beside(
-    (ramp, edge): (&Ramp, Edge),
+    (flight, edge): (&Flight, Edge),
     [s, lift]: &[Vec<f64>; 2],
     [from, to]: [f64; 2],
     late: f64,
 ) -> Comparison {
     let table = Table::new(include_str!("../../data/mancini2017_lift.csv"));
-    let (travel, measured) = (table.numbers("s_over_c"), table.numbers(ramp.column));
+    let (travel, measured) = (table.numbers("s_over_c"), table.numbers(flight.column));
     let points = travel.iter().zip(measured);
     let points = points.filter(|(x, _)| (from..=to).contains(*x));
     Comparison {
-        quantity: format!("lift coefficient, {}", ramp.name).into(),
+        quantity: format!("lift coefficient, {}", flight.name).into(),
         along: "travel [chords]".into(),
         against: "measured".into(),
         name: edge.name().into(),
@@ -151,22 +144,22 @@ fn beside(
 fn run(_quick: bool) -> Result<Vec<Row>, VerifyError> {
     let mut rows = Vec::new();
     for edge in Edge::ALL {
-        for ramp in &RAMPS {
-            rows.extend(compared(ramp, edge)?);
+        for flight in &FLIGHTS {
+            rows.extend(compared(flight, edge)?);
         }
     }
     Ok(rows)
 }
 
 /// One ramp as it is described, and as late as the measured lift of the fast one is.
-fn compared(ramp: &Ramp, edge: Edge) -> Result<Vec<Row>, VerifyError> {
-    let coarse = lift(ramp, edge, [6, 20], ramp.last)?;
+fn compared(flight: &Flight, edge: Edge) -> Result<Vec<Row>, VerifyError> {
+    let coarse = lift(flight, edge, [6, 20], flight.last)?;
     let fine = match edge {
-        Edge::Sheds => Some(lift(ramp, edge, [9, 30], COMPARED)?),
+        Edge::Sheds => Some(lift(flight, edge, [9, 30], COMPARED)?),
         _ => None,
     };
-    let name = format!("{}, {}", edge.name(), ramp.name);
-    let rms = |flown, late| beside((ramp, edge), flown, [0.0, COMPARED], late).rms_error();
+    let name = format!("{}, {}", edge.name(), flight.name);
+    let rms = |flown, late| beside((flight, edge), flown, [0.0, COMPARED], late).rms_error();
     let row = |quantity: String, late: f64| {
         let value = rms(&coarse, late);
         let row = Row::new(quantity, "1", value).against(0.0, SOURCE);
@@ -176,10 +169,10 @@ fn compared(ramp: &Ramp, edge: Edge) -> Result<Vec<Row>, VerifyError> {
         }
     };
     let first = row(format!("{name}: rms error of lift coefficient"), 0.0);
-    let first = first.drawn(beside((ramp, edge), &coarse, [0.0, ramp.last], 0.0));
+    let first = first.drawn(beside((flight, edge), &coarse, [0.0, flight.last], 0.0));
     let late = row(format!("{name}, {LATE} chords later: the same"), LATE);
     let first = match edge == Edge::Sheds {
-        true => first.within(ramp.band, BAND),
+        true => first.within(flight.band, BAND),
         false => first,
     };
     Ok(vec![first, late.because(SHIFTED)])
@@ -188,19 +181,6 @@ fn compared(ramp: &Ramp, edge: Edge) -> Result<Vec<Row>, VerifyError> {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn agrees_rate_of_the_ramps_with_differences() {
-        for ramp in &RAMPS {
-            for s in [-0.1, 0.02, 0.5, ramp.length - 0.03, 7.0] {
-                let h = 1e-6;
-                let [a, b] = [s + h, s - h].map(|s| incidence(ramp, s)[0]);
-                // Central differences: h^2 times the third derivative, and roundings of 1e-16 / h.
-                assert!(((a - b) / (2.0 * h) - incidence(ramp, s)[1]).abs() < 1e-8);
-            }
-            assert!((incidence(ramp, 30.0)[0] - FRAC_PI_4).abs() < 1e-12);
-        }
-    }
 
     #[test]
     fn exact_filter_halves_the_frequency_of_the_cut_off() {

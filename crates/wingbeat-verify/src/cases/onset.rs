@@ -1,6 +1,7 @@
 //! Where and when the flow leaves the leading edge of a wing that pitches up.
 
 use crate::lab::fly;
+use crate::lab::ramp::Ramp;
 use crate::lab::rig::{Pose, Wing};
 use crate::{Case, Part, Row, VerifyError};
 use std::f64::consts::FRAC_PI_4;
@@ -22,24 +23,18 @@ const AXIS: f64 = 0.25;
 /// Rate of pitch [rad per chord of travel], from one chord on.
 const RATE: f64 = 0.6;
 const START: f64 = 1.0;
-/// Smoothing of the ramp's corner [1/chord].
-const SMOOTHING: f64 = 11.0;
+/// From [`START`] on, in chords.
+const RAMP: Ramp = Ramp {
+    height: FRAC_PI_4,
+    length: FRAC_PI_4 / RATE,
+    smoothing: 11.0,
+};
 const CRITICAL: f64 = 0.27;
 
 const SOURCE: &str =
     "Hirato, Shen, Gopalarathnam & Edwards 2019, J. Aircraft 56(4), a vortex lattice of theirs";
 const BAND: &str = "two steps of theirs; by how much another program of the same rules is off";
 const CHANGE: &str = "8 x 24 panels and 40 steps a chord, on which others reproduce it; uncertainty: change by twice as many";
-
-/// Incidence [rad] and its rate at time `t` [chords of travel], the corner smoothed [Eldredge, Wang, Ol 2009].
-fn ramp(t: f64) -> [f64; 2] {
-    let [rise, hold] = [START, START + FRAC_PI_4 / RATE].map(|from| SMOOTHING * (t - from));
-    let angle = (rise.cosh() / hold.cosh()).ln() / SMOOTHING;
-    [
-        0.5 * (FRAC_PI_4 + RATE * angle),
-        0.5 * RATE * (rise.tanh() - hold.tanh()),
-    ]
-}
 
 /// Mean line over the chord at the part `x` of the chord: two parabolas of the largest camber of SD7003, 1.46 % at 0.35.
 fn mean_line(x: f64) -> f64 {
@@ -80,7 +75,7 @@ fn onset(twist: f64, [rows, cols, steps]: [usize; 3]) -> Result<[f64; 2], Verify
     };
     let lattice = wing.lattice(settings)?;
     let motion = |t: f64| {
-        let [angle, rate] = ramp(t);
+        let [angle, rate] = RAMP.at(t - START);
         wing.moved(&Pose {
             turn: r2(angle),
             spin: rate * DVec3::Y,

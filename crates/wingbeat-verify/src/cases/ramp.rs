@@ -1,5 +1,6 @@
 //! A plate that pitches up to 45 deg within one chord of travel.
 
+use crate::lab::ramp::Ramp;
 use crate::lab::rig::{Edge, Fluid, Pose, Wing, forces};
 use crate::lab::series::{Table, interpolate};
 use crate::{Case, Comparison, Part, Row, VerifyError};
@@ -16,8 +17,12 @@ pub(super) const CASES: &[Case] = &[Case {
     run,
 }];
 
-/// Smoothing of the ramp's corners [1/chord].
-const SMOOTHING: f64 = 11.0;
+/// In chords.
+const RAMP: Ramp = Ramp {
+    height: FRAC_PI_4,
+    length: 1.0,
+    smoothing: 11.0,
+};
 /// Travel before the ramp [chords]: the smoothed corner is below 1e-3 of its peak there.
 const BEFORE: f64 = 0.4;
 const HALF_SPAN: f64 = 2.0;
@@ -31,16 +36,6 @@ const CHANGE: &str = "from 0.05 chords of travel on; the plate stalls from about
 const QUIET: f64 = 0.25;
 const RINGS: &str = "before, the rig rings: measured are 8.3, 6.6 and 5.6 after 0.05, 0.10 and 0.15 chords, where attached flow with its \
                      added mass makes 5.3, 4.3 and 3.7";
-
-/// Incidence [rad] and its rate after `s` chords of travel [Eldredge, Wang, Ol 2009, AIAA 2009-3687].
-fn ramp(s: f64) -> [f64; 2] {
-    let a = SMOOTHING;
-    let [rise, hold] = [a * s, a * (s - 1.0)];
-    [
-        0.5 * FRAC_PI_4 * (1.0 + (rise.cosh() / hold.cosh()).ln() / a),
-        0.5 * FRAC_PI_4 * (rise.tanh() - hold.tanh()),
-    ]
-}
 
 /// Travel [chords] and lift coefficient, smoothed as the measurement: mean over 100 ms, 0.07 chords.
 fn lift(
@@ -56,7 +51,7 @@ fn lift(
         ..Wing::rectangle(rows, &stations, axis, true)
     };
     let pose = |s: f64| {
-        let [angle, rate] = ramp(s);
+        let [angle, rate] = RAMP.at(s);
         Pose {
             turn: r2(angle),
             spin: rate * DVec3::Y,

@@ -61,7 +61,7 @@ pub fn interpolate(xs: &[f64], ys: &[f64], x: f64) -> f64 {
     wingbeat_math::interpolate(xs.len(), |k| (xs[k], ys[k]), x)
 }
 
-/// Largest correlation is not asked here: the plain linear correlation of two histories.
+/// Linear correlation of two histories.
 pub fn correlation(a: &[f64], b: &[f64]) -> f64 {
     let n = a.len() as f64;
     let (ma, mb) = (a.iter().sum::<f64>() / n, b.iter().sum::<f64>() / n);

@@ -129,22 +129,19 @@ fn claim(args: &VerifyArgs) -> Result<[NewFile; 3], IoError> {
 fn draw(report: &Report, args: &VerifyArgs) -> Result<(), IoError> {
     let folder = args.out.join(Report::FIGURES);
     for entry in &report.entries {
-        let Some(chart) = chart(entry) else { continue };
-        wingbeat::results::file::make_folder(&folder)?;
-        let path = folder.join(format!("{}.svg", entry.case));
-        write_file(&path, chart.to_svg().as_bytes(), true)?;
+        for (k, figure) in entry.figures().iter().enumerate() {
+            wingbeat::results::file::make_folder(&folder)?;
+            let svg = chart(&entry.case, figure).to_svg();
+            write_file(&folder.join(entry.figure_name(k)), svg.as_bytes(), true)?;
+        }
     }
     Ok(())
 }
 
-/// One pair of axes for each quantity: what is compared with in black, what was computed in colours. A figure has the courses
-/// that share the abscissas of the first; others stand in the tables alone.
-fn chart(entry: &Entry) -> Option<Chart> {
-    let first = entry.comparisons().next()?;
-    let abscissas = |c: &Comparison| c.points.iter().map(|p| p[0]).collect::<Vec<_>>();
-    let x = abscissas(first);
+/// One pair of axes for each quantity: what is compared with in black, what was computed in colours.
+fn chart(case: &str, figure: &[&Comparison]) -> Chart {
     let mut panels: Vec<Panel> = vec![];
-    for c in (entry.comparisons()).filter(|c| c.along == first.along && abscissas(c) == x) {
+    for c in figure {
         let series = |label: &str, k: usize, measured| Series {
             label: label.to_owned(),
             values: c.points.iter().map(|p| p[k]).collect(),
@@ -162,13 +159,13 @@ fn chart(entry: &Entry) -> Option<Chart> {
         });
         panels[place].series.push(series(&c.name, 2, false));
     }
-    Some(Chart {
-        title: entry.case.to_string(),
-        x_label: first.along.to_string(),
-        x,
+    Chart {
+        title: case.to_owned(),
+        x_label: figure[0].along.to_string(),
+        x: figure[0].points.iter().map(|p| p[0]).collect(),
         shaded: vec![],
         panels,
-    })
+    }
 }
 
 /// What an earlier run of the same set left; failures are tried again.
@@ -229,7 +226,7 @@ mod tests {
     use super::*;
     use wingbeat::verify::{Part, Row};
 
-    /// Two models beside one reference share a pair of axes; a case without courses has no figure.
+    /// Two models beside one reference share a pair of axes; courses of other places have a figure of their own, and a case without courses has none.
     #[test]
     fn exact_courses_of_one_quantity_share_their_axes() {
         let course = |quantity: &'static str, name: &'static str| {
@@ -248,7 +245,7 @@ mod tests {
             failure: None,
         };
         assert!(entry.rows.iter().all(|r| r.computed == 2.0));
-        let drawn = chart(&entry).unwrap();
+        let drawn = chart("case", &entry.figures()[0]);
         let [lift, drag] = &drawn.panels[..] else {
             panic!("two quantities");
         };
@@ -259,8 +256,13 @@ mod tests {
         // Half as many points over the beat: other places.
         let other = Comparison::over_a_beat("power", "a", &[1.0], &[3.0]);
         entry.rows.push(Row::new("x", "1", 0.0).drawn(other));
-        assert_eq!(chart(&entry).unwrap().panels.len(), 2);
+        let panels = |k: usize| chart("case", &entry.figures()[k]).panels.len();
+        assert_eq!([panels(0), panels(1)], [2, 1]);
+        assert_eq!(
+            [0, 1].map(|k| entry.figure_name(k)),
+            ["case.svg", "case-2.svg"]
+        );
         entry.rows.truncate(0);
-        assert!(chart(&entry).is_none());
+        assert!(entry.figures().is_empty());
     }
 }
