@@ -205,8 +205,8 @@ impl Segments {
         add_lag(lattice, filaments, position, out);
     }
 
-    /// Takes from leading edges that may shed what their suction lacks of the force it would have on round ones, and from their strips
-    /// whatever pulls sideways with it: what acts on a thin plate is normal to it.
+    /// Takes from strips behind leading edges that may shed what their suction lacks of the force it would have on round ones, and
+    /// whatever else pulls along them: what acts on a thin plate is normal to it.
     fn lose_suction(&self, lattice: &Lattice, motion: &NodeMotion, out: &mut AirLoads) {
         let Some([_, efficiency]) = lattice.settings().leading.suction() else {
             return;
@@ -214,12 +214,9 @@ impl Segments {
         let edges = &lattice.topology().edges;
         let strips = lattice.strips().iter();
         for strip in strips.filter(|s| efficiency < 1.0 && edges[s.edge].wake.is_some()) {
-            let (aft, _) = section(strip, &motion.position);
             let along = |&p: &usize| self.along(p, &out.panels.normal);
             let pull: DVec3 = strip.panels.iter().map(along).sum();
-            if pull.dot(aft) < 0.0 {
-                add_at_edge(strip, motion, -(1.0 - efficiency) * pull, out);
-            }
+            add_at_edge(strip, motion, -(1.0 - efficiency) * pull, out);
         }
     }
 
