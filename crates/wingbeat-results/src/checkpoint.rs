@@ -20,7 +20,7 @@ use wingbeat_case::IoError;
 /// Name of the file in a result directory.
 pub const FILE: &str = "checkpoint.bin";
 const MAGIC: &str = "wingbeat-checkpoint ";
-/// What the bytes of a state mean: another one is refused.
+/// What the bytes of a state mean, and with which forces a flight goes on from them: another one is refused.
 pub const FORMAT: &str = "5";
 
 /// What a checkpoint says about itself.

@@ -92,9 +92,11 @@ pub(crate) fn column(strip: &Strip, position: &[DVec3]) -> DVec3 {
 pub(crate) fn section(strip: &Strip, position: &[DVec3]) -> (DVec3, f64) {
     let edge = position[strip.nodes[1]] - position[strip.nodes[0]];
     let column = column(strip, position);
-    let chord = match edge == DVec3::ZERO {
-        true => column,
-        false => column.reject_from(edge),
+    let across = column - edge.dot(column) / edge.length_squared().max(f64::MIN_POSITIVE) * edge;
+    // Where the column lies along the edge there is no such section.
+    let chord = match across.length() > 1e-9 * column.length() {
+        true => across,
+        false => column,
     };
     (chord.normalize_or_zero(), chord.length())
 }

@@ -90,7 +90,7 @@ impl Segments {
                 LeadingEdge::VortexLift(law) => {
                     self.vortex_lift(state, (lattice, &law), (filaments, motion), out);
                 }
-                _ => self.lose_suction(lattice, motion, out),
+                _ => self.lose_suction(lattice, out),
             },
             LoadMethod::Polhamus => self.polhamus(lattice, motion, out),
             LoadMethod::Pressure => {}
@@ -207,16 +207,19 @@ impl Segments {
 
     /// Takes from strips behind leading edges that may shed what their suction lacks of the force it would have on round ones, and
     /// whatever else pulls along them: what acts on a thin plate is normal to it.
-    fn lose_suction(&self, lattice: &Lattice, motion: &NodeMotion, out: &mut AirLoads) {
+    fn lose_suction(&self, lattice: &Lattice, out: &mut AirLoads) {
         let Some([_, efficiency]) = lattice.settings().leading.suction() else {
             return;
         };
         let edges = &lattice.topology().edges;
         let strips = lattice.strips().iter();
         for strip in strips.filter(|s| efficiency < 1.0 && edges[s.edge].wake.is_some()) {
-            let along = |&p: &usize| self.along(p, &out.panels.normal);
-            let pull: DVec3 = strip.panels.iter().map(along).sum();
-            add_at_edge(strip, motion, -(1.0 - efficiency) * pull, out);
+            for &p in &strip.panels {
+                let n = out.panels.normal[p];
+                out.force[p] -= (1.0 - efficiency) * self.along(p, &out.panels.normal);
+                let turning = out.couple[p].dot(n) * n;
+                out.couple[p] -= (1.0 - efficiency) * turning;
+            }
         }
     }
 
@@ -237,9 +240,8 @@ impl Segments {
             let along = |&p: &usize| self.along(p, &out.panels.normal);
             let pull: DVec3 = strip.panels.iter().map(along).sum();
             let side = strip_now.parameter.signum() * out.panels.normal[strip.panels[0]];
-            let lost = -(1.0 - parts.suction) * pull;
-            self.at_edge
-                .push(lost - parts.vortex * pull.dot(aft) * side);
+            self.at_edge.push(-parts.vortex * pull.dot(aft) * side);
+            self.slacken(strip, 1.0 - parts.suction, &out.panels.normal);
             if parts.normal < 1.0 {
                 self.weaken(strip, 1.0 - parts.normal, &out.panels.normal);
             }
@@ -247,6 +249,16 @@ impl Segments {
         self.joukowski(lattice, filaments, &motion.position, out);
         for (strip, force) in lattice.strips().iter().zip(&self.at_edge) {
             add_at_edge(strip, motion, *force, out);
+        }
+    }
+
+    /// Takes this part of the forces of a strip's segments along its panels, and of their moments.
+    fn slacken(&mut self, strip: &Strip, part: f64, normals: &[DVec3]) {
+        for &p in &strip.panels {
+            let (n, along) = (normals[p], self.along(p, normals));
+            let [force, moment] = &mut self.panel_force[p];
+            *force -= part * along;
+            *moment -= part * moment.dot(n) * n;
         }
     }
 
@@ -260,7 +272,7 @@ impl Segments {
         }
     }
 
-    /// The suction of a strip is the part of its segments' forces along the chord, forward; it is added
+    /// The suction of a strip is the part of its segments' forces forward, normal to the edge; it is added
     /// to the leading panel along its normal, on the side to which the pressure of the strip pushes. It acts where suction
     /// does, at the leading edge.
     fn polhamus(&self, lattice: &Lattice, motion: &NodeMotion, out: &mut AirLoads) {

@@ -12,7 +12,7 @@ use wingbeat_math::DVec3;
 /// The number that the criterion compares with its threshold, and the circulation that the leading edge holds, strip by
 /// strip.
 ///
-/// - Effective angle of attack [rad], 0 to pi: between chord and the wind that stream and motion
+/// - Effective angle of attack [rad], 0 to pi: between the chord of the section normal to the edge and the wind that stream and motion
 ///   make at the leading panel, in the plane of the section; what the wake induces is left out. Beyond the threshold all
 ///   leaves, below it none.
 /// - Leading-edge suction parameter, from the net circulation of the leading edge ([`suction_unit`]): the edge holds what gives it

@@ -108,7 +108,7 @@ pub enum LeadingEdge {
     Suction {
         /// Threshold, above 0.
         threshold: f64,
-        /// Part of the force of the suction held that acts, 0 to 1: the leading-edge suction efficiency [`DeLaurier` 1993,
+        /// Part of the force of the suction held, and of all else that pulls along the wing, that acts, 0 to 1: the leading-edge suction efficiency [`DeLaurier` 1993,
         /// Aeronaut. J. 97:125]. Thin sharp edges hold the circulation in a bubble and have none of that force: what they
         /// feel is normal to the wing [Usherwood & Ellington 2002, J. Exp. Biol. 205:1547]. Forces on segments have it; pressures
         /// alone have none anyway.

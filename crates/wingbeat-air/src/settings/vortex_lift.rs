@@ -7,7 +7,7 @@
 //!
 //! `dT/dt = g U / c - T (|W| + (1 - g) U / (c T_r))`
 //!
-//! g is 0 below the threshold and 1 above, U the speed of stream and motion at the quarter chord, c the chord, W the rate at which the
+//! g is 0 below the threshold and 1 above, U the speed of stream and motion at the quarter chord and c the chord of the section normal to the edge, W the rate at which the
 //! section turns about axes across the span, T_r [`RECOVERY`]:
 //!
 //! - The circulation of a vortex grows with the way the wing goes, up to T* chords, 3.7 +- 0.3 of pitching plates [Onoue & Breuer
@@ -67,7 +67,7 @@ pub(crate) struct Passage {
 /// What becomes of the forces of a strip \[1\].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Parts {
-    /// Of the suction, that which acts along the chord.
+    /// Of the suction, that which acts as such.
     pub suction: f64,
     /// Of the suction, that which acts along the normal.
     pub vortex: f64,

@@ -141,13 +141,13 @@ pub struct AirCase {
     #[default(0.15)]
     #[schemars(extend("exclusiveMinimum" = 0, "with" = [LATTICE, "leading_edge = suction | suction_implicit | vortex_lift"]))]
     pub leading_edge_threshold: f64,
-    /// Part of the force of that suction which acts: none on the thin edges of insects.
+    /// Part of the force of that suction which acts, and of all else that pulls along the wing: none on the thin edges of insects.
     ///
     /// Change it to 1 for round leading edges.
     #[default(0.0)]
     #[schemars(extend("minimum" = 0, "maximum" = 1, "with" = [LATTICE, "leading_edge = suction | suction_implicit | vortex_lift", "loads = joukowski"]))]
     pub leading_edge_suction_efficiency: f64,
-    /// Chords of travel, of each strip by its own chord, for which the vortex of a leading edge can be fed before its lift is lost.
+    /// Chords of travel, of each strip by the chord of its section normal to the edge, for which the vortex of a leading edge can be fed before its lift is lost.
     ///
     /// Change it within what is measured, 3.4 to 4.5.
     #[default(4.0)]
