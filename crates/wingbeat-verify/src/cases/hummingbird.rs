@@ -66,7 +66,8 @@ fn measured() -> SurfaceCase {
 }
 
 /// The surface with columns across the wing. Stations along a feathered wing are not: lines through those of one number are up to 65 deg
-/// off the normal of the leading edge, and what leaves the edge of so sheared a mesh is resolved worse.
+/// off the normal of the leading edge, and what leaves the edge of so sheared a mesh is resolved worse. At the tip it lacks 1 to 2 %
+/// of the area.
 fn across(mut surface: SurfaceCase) -> SurfaceCase {
     let places = lengthwise(&surface.nodes_m);
     let last = places[0].len() - 1;
