@@ -8,8 +8,8 @@
 //! - `cd0 + cd2 alpha^2` is a polar of the user's, alpha the angle between U and the strip.
 //!
 //! U is that of stream and motion at the control points, their mean over the strip by area: what wing
-//! and wakes induce is left out. The length in C_f is that of the strip's column of panels, however it stands on the edge. The lattice has the pressure drag of a wing at incidence already;
-//! the polar is for what it lacks. The force is spread over the panels of the strip by their area.
+//! and wakes induce is left out. The length in C_f is that of the strip's column of panels, however it stands on the edge.
+//! The lattice has the pressure drag of a wing at incidence already; the polar is for what it lacks. The force is spread over the panels of the strip by their area.
 
 use crate::geometry::{Strip, column};
 use crate::lattice::Lattice;
