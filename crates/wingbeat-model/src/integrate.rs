@@ -12,7 +12,7 @@ use crate::mesh::{GridMesh, QuadMesh, Side};
 use wingbeat_math::{DMat3, DVec3, MassProperties};
 
 /// Abscissas on [0, 1] and weights of the three-point Gauss rule (exact to degree five).
-const GAUSS: [(f64, f64); 3] = [
+pub(crate) const GAUSS: [(f64, f64); 3] = [
     (0.112_701_665_379_258_3, 5.0 / 18.0),
     (0.5, 8.0 / 18.0),
     (0.887_298_334_620_741_7, 5.0 / 18.0),

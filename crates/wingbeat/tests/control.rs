@@ -84,8 +84,8 @@ fn exact_control_of_a_case_is_the_controller_built_in_rust() {
 
 #[test]
 fn balances_hover_recovers_from_twenty_degrees_and_open_loop_does_not() {
-    // From 20 degrees of pitch beyond the trimmed 49.58.
-    let tilted = ["flight.pitch_deg=69.58", "time.beats=80"];
+    // From 20 degrees of pitch beyond the trimmed 49.54.
+    let tilted = ["flight.pitch_deg=69.54", "time.beats=80"];
     // The loops do not hold the place, and lean against what drift is left, by half a degree.
     let regulator = ["control.controller=regulator", "control.weights={}"];
     let loops = ["control.controller=stabiliser", "control.latency_beats=0"];
@@ -281,7 +281,7 @@ fn exact_actuators_lag_behind_a_step() {
 #[test]
 fn balances_a_tilted_flight_behind_slow_actuators() {
     let tilted = [
-        "flight.pitch_deg=69.58",
+        "flight.pitch_deg=69.54",
         "time.beats=80",
         "control.weights={}",
         "control.lag_beats=1",

@@ -31,9 +31,14 @@ impl Edges {
             }
             Curve::Points(leading, trailing, least) => {
                 let [a, b] = [interpolate(leading, r), interpolate(trailing, r)];
-                let widen = 0.5 * (least - (a - b)).max(0.0);
-                [a + widen, b - widen]
+                widened([a, b], *least)
             }
         }
     }
+}
+
+/// Edges moved apart to this chord at least.
+pub(super) fn widened([leading, trailing]: [f64; 2], least: f64) -> [f64; 2] {
+    let widen = 0.5 * (least - (leading - trailing)).max(0.0);
+    [leading + widen, trailing - widen]
 }

@@ -2,6 +2,7 @@
 
 use crate::error::{ModelError, require_count};
 use crate::mesh::{GridMesh, Side};
+use crate::planform::fit::fit;
 use crate::planform::outline::Planform;
 use std::f64::consts::PI;
 use wingbeat_math::DVec3;
@@ -65,12 +66,13 @@ impl WingShape {
         require_count(&format!("{name}.rows"), rows, rows > 0, ">= 1")?;
         require_count(&format!("{name}.cols"), cols, cols > 0, ">= 1")?;
         let edges = self.planform.edges()?;
+        let line = |j| edges.root + (edges.tip - edges.root) * self.spanwise.at(j, cols);
+        let lines: Vec<f64> = (0..=cols).map(line).collect();
+        let ends = fit(&edges, &lines)?;
         let mut nodes = Vec::with_capacity((rows + 1) * (cols + 1));
         for i in 0..=rows {
             let s = self.chordwise.at(i, rows);
-            for j in 0..=cols {
-                let r = edges.root + (edges.tip - edges.root) * self.spanwise.at(j, cols);
-                let [lead, trail] = edges.at(r);
+            for (r, [lead, trail]) in lines.iter().zip(&ends) {
                 let x = lead + (trail - lead) * s;
                 nodes.push(DVec3::new(x, side.sign() * r, 0.0));
             }

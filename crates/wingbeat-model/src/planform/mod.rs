@@ -5,6 +5,7 @@
 
 pub mod beta;
 mod edges;
+mod fit;
 mod grid;
 mod outline;
 
