@@ -72,9 +72,10 @@ impl Lattice {
             settings.plane_wakes,
             "true only for wings of one panel along the span (mesh.spanwise = 1), whose flow is that of a section",
         )?;
+        let strips = strips(&topology, &surfaces);
         Ok(Self {
-            strips: strips(&topology, &surfaces),
-            rings: rings(&topology, &surfaces, &settings),
+            rings: rings(&topology, &surfaces, &strips, &settings),
+            strips,
             shed_around: shed_around(&topology, &surfaces),
             mirrors: mirrors(&settings.images)?,
             surfaces,

@@ -95,27 +95,33 @@ impl Lattice {
     }
 
     /// How the normal velocity of panel `p`, that of the surface less that of the air, changes with the nodes of its surface
-    /// (their numbers on it), at the instant of `ws` and `loads`; some nodes twice.
+    /// (their numbers on it), at the instant of `ws` and `loads`, all nodes of the surfaces being at `position` [m, N]; some nodes
+    /// several times.
     pub fn normal_wash(
         &self,
         p: usize,
         ws: &AirWorkspace,
-        loads: &AirLoads,
+        (loads, position): (&AirLoads, &[DVec3]),
         mut see: impl FnMut(usize, NodeWash),
     ) {
         let first = self.nodes_of(self.topology().panel_surface[p]).start;
         let corners = self.topology().panels[p];
-        let [a, b, c, d] = corners.map(|n| ws.rings.position[n]);
+        let [a, b, c, d] = corners.map(|n| ws.wash.nodes.position[n]);
         let (along, across) = (c - a, d - b);
-        let normal = loads.panels.normal[p];
-        let slip = loads.panels.velocity[p] - loads.velocity[p];
+        let normal = ws.wash.normal[p];
+        let slip = ws.wash.velocity[p] - loads.velocity[p];
         let tilt = (slip - slip.dot(normal) * normal) / along.cross(across).length();
         let by_ends = [across.cross(tilt), tilt.cross(along)];
         for (k, n) in corners.into_iter().enumerate() {
             let sign = if k < 2 { -1.0 } else { 1.0 };
             let (by_velocity, by_place) = (0.25 * normal, sign * by_ends[k % 2]);
-            (self.rings()).spread(n, by_velocity, |n, v| see(n - first, [v, DVec3::ZERO]));
-            (self.rings()).spread(n, by_place, |n, v| see(n - first, [DVec3::ZERO, v]));
+            let (rings, aft) = (self.rings(), self.rings().aft());
+            (ws.wash).spread((n, aft), &ws.rings, by_velocity, |n, v| {
+                rings.spread((n, position), v, |n, v| see(n - first, [v, DVec3::ZERO]));
+            });
+            (ws.wash).spread((n, aft), &ws.rings, by_place, |n, v| {
+                rings.spread((n, position), v, |n, v| see(n - first, [DVec3::ZERO, v]));
+            });
         }
     }
 

@@ -1,7 +1,7 @@
 //! The recipes of a step: loads, acceptance, motion of the wakes; and what can be asked of an accepted step.
 
 use crate::error::AirError;
-use crate::geometry::NodeMotion;
+use crate::geometry::{NodeMotion, Panels};
 use crate::lattice::Lattice;
 use crate::loads::{
     AirLoads, Flow, add_section_drag, check_finite, circulation_rate, forces, impulse,
@@ -47,7 +47,7 @@ impl Lattice {
         let flow = Flow {
             filaments: &ws.filaments,
             sums: &mut ws.sums,
-            rings: &ws.rings,
+            rings: &ws.wash.nodes,
         };
         ws.segments.add_forces(self, state, motion, flow, out);
         add_section_drag(self, &motion.position, out);
@@ -89,8 +89,40 @@ impl Lattice {
         }
     }
 
-    /// Circulations of the panels and velocities at their control points.
+    /// Place and motion of the surfaces as the rings meet them, where leading edges hold this part of their circulation, strip by strip.
+    fn take_wash(&self, ws: &mut AirWorkspace, panels: &Panels, held: impl Fn(usize) -> f64) {
+        ws.wash.none(&ws.rings, panels);
+        let all = self.settings().held_shift();
+        if all > 0.0 {
+            let strips = (self.strips(), self.rings().aft());
+            (ws.wash).move_aft(self.topology(), strips, |k| all * held(k), &ws.rings);
+        }
+    }
+
+    /// Circulations of the panels and velocities at their control points. Without circulation before it is not known what leading edges
+    /// will hold: that follows from the flow in which they hold all.
     fn solve_circulations(
+        &self,
+        state: &AirState,
+        motion: &NodeMotion,
+        ws: &mut AirWorkspace,
+        out: &mut AirLoads,
+    ) -> Result<(), AirError> {
+        let lengths = std::mem::take(&mut ws.filaments.lengths);
+        self.take_wash(ws, &out.panels, |k| self.part_held(state, k, &lengths));
+        ws.filaments.lengths = lengths;
+        self.solve_with_wash(state, motion, ws, out)?;
+        if self.settings().held_shift() > 0.0 && state.gamma.iter().all(|g| *g == 0.0) {
+            leading_values(self, &ws.filaments, (&[], &motion.position), out);
+            let held = |k: usize| out.hold[k] / (out.gamma[self.strips()[k].panels[0]].abs());
+            self.take_wash(ws, &out.panels, |k| held(k).min(1.0));
+            self.solve_with_wash(state, motion, ws, out)?;
+        }
+        Ok(())
+    }
+
+    /// The same with the wash there is.
+    fn solve_with_wash(
         &self,
         state: &AirState,
         motion: &NodeMotion,
@@ -101,6 +133,7 @@ impl Lattice {
             lattice: self,
             state,
             panels: &out.panels,
+            wash: &ws.wash,
             motion,
             time: out.time,
         };

@@ -1,6 +1,6 @@
 //! Scratch memory of the air.
 
-use crate::geometry::NodeMotion;
+use crate::geometry::{NodeMotion, Wash};
 use crate::lattice::Lattice;
 use crate::loads::Segments;
 use crate::solve::BoundaryCondition;
@@ -13,6 +13,8 @@ pub struct AirWorkspace {
     pub(crate) filaments: Filaments,
     /// Nodes of the rings.
     pub(crate) rings: NodeMotion,
+    /// The surfaces where the rings meet them.
+    pub(crate) wash: Wash,
     pub(crate) sums: Sums,
     pub(crate) boundary: BoundaryCondition,
     pub(crate) segments: Segments,

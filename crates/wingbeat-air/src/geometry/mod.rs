@@ -1,5 +1,6 @@
 //! Surfaces and what follows from them alone: edges, panels, rings, strips, pairs of mirror images.
 
+mod aft;
 mod assembly;
 mod joined_edge;
 mod node_motion;
@@ -11,6 +12,7 @@ mod suction_strips;
 mod surface;
 mod symmetry;
 mod topology;
+mod wash;
 
 pub use joined_edge::JoinedEdge;
 pub use node_motion::NodeMotion;
@@ -25,3 +27,4 @@ pub use surface::{SheddingSegment, Surface};
 pub use symmetry::MirrorPairs;
 pub(crate) use symmetry::Symmetry;
 pub use topology::{Edge, JoinedColumns, PanelEdge, Sheet, Topology, WakeColumn};
+pub(crate) use wash::Wash;

@@ -95,7 +95,7 @@ pub(crate) fn point_and_normal(corners: &[usize; 4], nodes: &[DVec3]) -> Option<
 }
 
 /// Half the cross product of the diagonals.
-fn vector_area(x: &[DVec3; 4]) -> DVec3 {
+pub(super) fn vector_area(x: &[DVec3; 4]) -> DVec3 {
     0.5 * (x[2] - x[0]).cross(x[3] - x[1])
 }
 
@@ -115,7 +115,7 @@ fn is_crossed(x: &[DVec3; 4]) -> bool {
 }
 
 /// Mean over the corners, a repeated corner counted once.
-fn mean_corner(corners: &[usize; 4], x: &[DVec3; 4]) -> DVec3 {
+pub(super) fn mean_corner(corners: &[usize; 4], x: &[DVec3; 4]) -> DVec3 {
     let repeated = (0..4).find(|&k| corners[k] == corners[(k + 1) % 4]);
     let sum = (x[0] + x[1]) + (x[2] + x[3]);
     match repeated {

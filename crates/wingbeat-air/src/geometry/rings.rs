@@ -6,8 +6,9 @@
 //! point, normal and area of a panel are those of its ring.
 
 use crate::edges::EdgeKind;
+use crate::geometry::aft::{Aft, nodes_of_strips};
 use crate::geometry::node_motion::NodeMotion;
-use crate::geometry::strips::strips;
+use crate::geometry::strips::Strip;
 use crate::geometry::surface::Surface;
 use crate::geometry::topology::Topology;
 use crate::settings::AirSettings;
@@ -27,18 +28,29 @@ pub(crate) struct Offset {
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Rings {
     offsets: Vec<Offset>,
+    /// Nodes of the strips behind leading edges, and the part of a panel by which all lie aft.
+    aft: Vec<Aft>,
+    shift: f64,
 }
 
-/// The offsets of all nodes of the open surfaces.
-pub(crate) fn rings(topology: &Topology, surfaces: &[Surface], settings: &AirSettings) -> Rings {
-    let mut rings = Rings::default();
+/// Where the rings of the surfaces lie, whose strips these are. A lifting wing that sheds from its trailing edge has all rings aft by the same
+/// part of a panel, vortices at a quarter and control points at three quarters of each panel [Katz & Plotkin, Low-Speed
+/// Aerodynamics, sec. 12.3]. Without it the lattice is that of a wing a quarter panel ahead.
+pub(crate) fn rings(
+    topology: &Topology,
+    surfaces: &[Surface],
+    strips: &[Strip],
+    settings: &AirSettings,
+) -> Rings {
+    let mut rings = Rings {
+        aft: nodes_of_strips(topology, strips),
+        ..Rings::default()
+    };
     if settings.inset > 0.0 {
         inset(topology, surfaces, settings, &mut rings);
-        if settings.ring_shift() > 0.0 {
-            shift(topology, surfaces, settings, &mut rings);
-        }
+        rings.shift = settings.ring_shift();
     }
-    rings.offsets.sort_by_key(|o| o.node); // inset before shift, as they were
+    rings.offsets.sort_by_key(|o| o.node);
     rings
 }
 
@@ -76,31 +88,6 @@ fn inset(topology: &Topology, surfaces: &[Surface], settings: &AirSettings, ring
     );
 }
 
-/// A lifting wing that sheds from its trailing edge: all rings lie aft by the same part of a panel,
-/// vortices at a quarter and control points at three quarters of each panel [Katz & Plotkin, Low-Speed
-/// Aerodynamics, sec. 12.3]. Without it the lattice is that of a wing a quarter panel ahead.
-fn shift(topology: &Topology, surfaces: &[Surface], settings: &AirSettings, rings: &mut Rings) {
-    let part = settings.ring_shift();
-    let mut found = BTreeMap::new();
-    for strip in strips(topology, surfaces) {
-        let mut front = strip.nodes;
-        for &p in &strip.panels {
-            let rear = opposite(topology.panels[p], front);
-            for k in 0..2 {
-                found.insert(front[k], (rear[k], part));
-            }
-            front = rear;
-        }
-        let last = strip.panels[strip.panels.len() - 1];
-        let fore = opposite(topology.panels[last], front);
-        for k in 0..2 {
-            found.insert(front[k], (fore[k], -part));
-        }
-    }
-    let of = |(node, (to, part))| Offset { node, to, part };
-    rings.offsets.extend(found.into_iter().map(of));
-}
-
 /// The nodes across the panel from those of an edge, in their order.
 pub(crate) fn opposite(corners: [usize; 4], edge: [usize; 2]) -> [usize; 2] {
     edge.map(|n| {
@@ -124,33 +111,51 @@ fn is_free(topology: &Topology, panel: usize, [a, b]: [usize; 2]) -> bool {
 }
 
 impl Rings {
-    /// What takes positions (or velocities) of nodes from the surfaces to the rings: (node, difference).
+    /// What takes positions of nodes, or their velocities `of`, from the surfaces to the rings: (node, difference).
     pub(crate) fn offsets<'a>(
         &'a self,
+        position: &'a [DVec3],
         of: &'a [DVec3],
     ) -> impl Iterator<Item = (usize, DVec3)> + 'a {
         let offset = |o: &Offset| (o.node, o.part * (of[o.to] - of[o.node]));
-        self.offsets.iter().map(offset)
+        let shift = |a: &Aft| (a.node, self.shift * a.way(position, of));
+        let shifted = self.aft.iter().filter(|_| self.shift > 0.0);
+        self.offsets.iter().map(offset).chain(shifted.map(shift))
     }
 
-    /// What a force on ring node `n` does to the nodes of the surface: [`Self::place`], transposed.
-    pub(crate) fn spread(&self, n: usize, force: DVec3, mut add: impl FnMut(usize, DVec3)) {
+    /// What a force on ring node `n` does to the nodes of the surface, which are at `position`: [`Self::place`], transposed.
+    pub(crate) fn spread(
+        &self,
+        (n, position): (usize, &[DVec3]),
+        force: DVec3,
+        mut add: impl FnMut(usize, DVec3),
+    ) {
         add(n, force);
         let first = self.offsets.partition_point(|o| o.node < n);
         for o in self.offsets[first..].iter().take_while(|o| o.node == n) {
             add(o.node, -o.part * force);
             add(o.to, o.part * force);
         }
+        if self.shift > 0.0
+            && let Ok(k) = self.aft.binary_search_by_key(&n, |a| a.node)
+        {
+            self.aft[k].spread(position, self.shift * force, add);
+        }
+    }
+
+    /// Nodes of the strips behind leading edges.
+    pub(crate) fn aft(&self) -> &[Aft] {
+        &self.aft
     }
 
     /// Nodes of the rings from those of the surfaces.
     pub(crate) fn place(&self, motion: &NodeMotion, rings: &mut NodeMotion) {
         rings.position.clone_from(&motion.position);
         rings.velocity.clone_from(&motion.velocity);
-        for (n, d) in self.offsets(&motion.position) {
+        for (n, d) in self.offsets(&motion.position, &motion.position) {
             rings.position[n] += d;
         }
-        for (n, d) in self.offsets(&motion.velocity) {
+        for (n, d) in self.offsets(&motion.position, &motion.velocity) {
             rings.velocity[n] += d;
         }
     }

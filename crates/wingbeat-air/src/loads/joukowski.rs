@@ -55,7 +55,7 @@ pub(crate) struct Segments {
 pub(crate) struct Flow<'a> {
     pub filaments: &'a Filaments,
     pub sums: &'a mut Sums,
-    /// Nodes of the rings.
+    /// Nodes of the rings as they meet the surfaces.
     pub rings: &'a NodeMotion,
 }
 
@@ -76,7 +76,7 @@ impl Segments {
         let method = lattice.settings().loads;
         let suction = match method {
             LoadMethod::Joukowski => {
-                self.joukowski(lattice, filaments, &motion.position, out);
+                self.joukowski((lattice, state), filaments, &motion.position, out);
                 add_front(lattice, state, filaments, &motion.position, out);
                 DVec3::ZERO
             }
@@ -186,7 +186,7 @@ impl Segments {
 
     fn joukowski(
         &self,
-        lattice: &Lattice,
+        (lattice, state): (&Lattice, &AirState),
         filaments: &Filaments,
         position: &[DVec3],
         out: &mut AirLoads,
@@ -202,7 +202,7 @@ impl Segments {
             out.force[p] = force + unsteady;
             out.couple[p] = moment;
         }
-        add_lag(lattice, filaments, position, out);
+        add_lag(lattice, state, filaments, position, out);
     }
 
     /// Takes from strips behind leading edges that may shed what their suction lacks of the force it would have on round ones, and
@@ -246,7 +246,7 @@ impl Segments {
                 self.weaken(strip, 1.0 - parts.normal, &out.panels.normal);
             }
         }
-        self.joukowski(lattice, filaments, &motion.position, out);
+        self.joukowski((lattice, state), filaments, &motion.position, out);
         for (strip, force) in lattice.strips().iter().zip(&self.at_edge) {
             add_at_edge(strip, motion, *force, out);
         }

@@ -12,6 +12,7 @@ use crate::geometry::opposite;
 use crate::lattice::Lattice;
 use crate::loads::values::AirLoads;
 use crate::settings::LeadingEdge;
+use crate::state::AirState;
 use crate::wake::Filaments;
 use wingbeat_math::DVec3;
 
@@ -22,27 +23,20 @@ const VORTEX: f64 = 0.25;
 /// less what the rings are moved already.
 pub(crate) fn add_lag(
     lattice: &Lattice,
+    state: &AirState,
     filaments: &Filaments,
     position: &[DVec3],
     out: &mut AirLoads,
 ) {
     let (topology, settings) = (lattice.topology(), lattice.settings());
     let middle = |n: [usize; 2]| position[n[0]].midpoint(position[n[1]]);
-    for strip in lattice.strips() {
+    for (k, strip) in lattice.strips().iter().enumerate() {
         let leading = &topology.edges[strip.edge];
         let aft = f64::from(settings.shedding.trailing);
         let forward = match (leading.wake, settings.leading) {
             (None, _) => 0.0,
-            (_, LeadingEdge::Always) => 1.0,
             (_, LeadingEdge::SuctionImplicit { .. }) => 0.0,
-            // As much as is gone of what the edge would have if none had left.
-            _ => {
-                let [net, all] = [
-                    filaments.bound.gamma[strip.edge],
-                    out.gamma[strip.panels[0]],
-                ];
-                1.0 - (net.abs() / all.abs().max(f64::MIN_POSITIVE)).min(1.0)
-            }
+            _ => 1.0 - lattice.part_held(state, k, &filaments.lengths),
         };
         let part = VORTEX * (aft - forward) - settings.ring_shift();
         if part == 0.0 {

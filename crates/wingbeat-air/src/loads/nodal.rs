@@ -53,8 +53,9 @@ impl Lattice {
                 quarter + across,
             ];
             for (n, share) in corners.into_iter().zip(shares) {
-                self.rings()
-                    .spread(n, share, |n, f| out[n - nodes.start] += f);
+                self.rings().spread((n, &motion.position), share, |n, f| {
+                    out[n - nodes.start] += f
+                });
             }
         }
     }

@@ -97,5 +97,5 @@ pub(crate) fn forces(
         out.couple.push(couple);
     }
     add_front(lattice, state, filaments, position, out);
-    add_lag(lattice, filaments, position, out);
+    add_lag(lattice, state, filaments, position, out);
 }

@@ -152,6 +152,15 @@ impl AirSettings {
         }
     }
 
+    /// Part of a panel by which rings that begin at the leading edge stand for the wing behind them where that edge holds all.
+    pub(crate) fn held_shift(&self) -> f64 {
+        let may_hold = self.shedding.leading && self.leading != LeadingEdge::Always;
+        match self.shedding.trailing && may_hold && !self.solves_suction() {
+            true => self.inset,
+            false => 0.0,
+        }
+    }
+
     /// Whether what leaves leading edges is part of the solution for the circulations.
     pub(crate) fn solves_suction(&self) -> bool {
         self.shedding.leading && matches!(self.leading, LeadingEdge::SuctionImplicit { .. })

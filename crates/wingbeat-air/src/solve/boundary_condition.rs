@@ -84,7 +84,7 @@ impl BoundaryCondition {
             let p = panel(now.lattice, i);
             let stream = now.lattice.stream(panels.point[p], now.time);
             let v = stream + self.velocity.get(i) + self.near_velocity.get(i);
-            *right = (panels.velocity[p] - v).dot(panels.normal[p]);
+            *right = (now.wash.velocity[p] - v).dot(now.wash.normal[p]);
         }
     }
 

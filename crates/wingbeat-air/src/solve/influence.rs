@@ -1,7 +1,7 @@
 //! The influence equations: no air goes through the surfaces.
 
 use crate::error::AirError;
-use crate::geometry::{Edge, NodeMotion, Panels};
+use crate::geometry::{Edge, NodeMotion, Panels, Wash};
 use crate::images::Mirror;
 use crate::lattice::Lattice;
 use crate::settings::NewestRow;
@@ -42,6 +42,8 @@ pub(crate) struct Instant<'a> {
     pub lattice: &'a Lattice,
     pub state: &'a AirState,
     pub panels: &'a Panels,
+    /// The surfaces where the rings meet them.
+    pub wash: &'a Wash,
     pub motion: &'a NodeMotion,
     /// Time [s].
     pub time: f64,

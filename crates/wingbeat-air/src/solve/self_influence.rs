@@ -73,7 +73,7 @@ fn known_shapes(lattice: &Lattice) -> Vec<SelfInfluence> {
         }
     }
     let mut nodes = rest.clone();
-    for (n, d) in lattice.rings().offsets(&rest) {
+    for (n, d) in lattice.rings().offsets(&rest, &rest) {
         nodes[n] += d;
     }
     let known = |s: usize| SelfInfluence::new(lattice, s, &rest[lattice.nodes_of(s)], &nodes);

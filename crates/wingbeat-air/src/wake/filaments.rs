@@ -180,7 +180,7 @@ impl Filaments {
         self.bound.clear();
         position.iter().for_each(|&x| self.bound.nodes.push(x));
         let nodes = &mut self.bound.nodes;
-        for (n, d) in lattice.rings().offsets(position) {
+        for (n, d) in lattice.rings().offsets(position, position) {
             nodes.set(n, nodes.get(n) + d);
         }
         let suction = lattice.suction();

@@ -57,6 +57,35 @@ impl Lattice {
         sheet.newest(column) != before
     }
 
+    /// Part of the circulation at the leading edge of strip `k` that the edge holds, 0 to 1, by what the state has kept: beside it is what left
+    /// while the flow went on by a panel length, or more if that is about to leave; `lengths` are those of the newest rows.
+    pub(crate) fn part_held(&self, state: &AirState, k: usize, lengths: &[Vec<f64>]) -> f64 {
+        let strip = &self.strips()[k];
+        let Some(wake) = self.topology().edges[strip.edge].wake else {
+            return 1.0;
+        };
+        if self.settings().leading == LeadingEdge::Always {
+            return 0.0;
+        }
+        let (root, sheet) = (&self.sheets()[wake.sheet], &state.sheets[wake.sheet]);
+        let Some(&length) = lengths[wake.sheet].get(wake.column) else {
+            return 1.0; // nothing has left yet
+        };
+        let before = match sheet.rows() {
+            0 | 1 => 0.0,
+            rows => sheet.gamma[(rows - 2) * sheet.columns + wake.column],
+        };
+        let newest = sheet.newest(wake.column);
+        let net = root.signs[wake.column] * state.gamma[strip.panels[0]] - newest;
+        let held = net.abs().min(state.hold[k]);
+        let left = (newest - before).abs() / length.max(f64::MIN_POSITIVE);
+        let gone = left.max(net.abs() - held);
+        match gone > 0.0 {
+            true => held / (held + gone),
+            false => 1.0,
+        }
+    }
+
     /// Part of the net circulation `net` [m2/s] of an edge that it holds, 0 to 1: what is beyond it is about to leave.
     fn held_part(&self, state: &AirState, edge: &Edge, net: f64) -> f64 {
         let wake = edge.wake;

@@ -6,6 +6,7 @@ mod bodies;
 mod centre_of_pressure;
 mod common;
 mod errors;
+mod held;
 mod implicit_suction;
 mod impulse;
 mod impulse_account;

@@ -103,7 +103,8 @@ impl LatticeAir {
         out.panels.clear();
         for p in self.lattice.panels_of(wing) {
             let mut nodes = vec![];
-            (self.lattice).normal_wash(p, &s.workspace, &s.loads, |n, by| nodes.push((n, by)));
+            let now = (&s.loads, &s.nodes.position[..]);
+            (self.lattice).normal_wash(p, &s.workspace, now, |n, by| nodes.push((n, by)));
             out.panels.push(nodes);
         }
     }

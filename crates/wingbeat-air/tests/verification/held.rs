@@ -1,0 +1,93 @@
+//! Leading edges that may shed but hold everything: the flow is the attached one.
+
+use crate::common::{fly, rectangle, total_force, translating};
+use crate::implicit_suction::implicit;
+use wingbeat_air::{
+    AirSettings, CoreModel, Lattice, LeadingEdge, LoadMethod, NodeMotion, SheddingKinds, Surface,
+};
+use wingbeat_math::{DVec3, r2};
+
+/// Far more than what the edges have, and all of the force of their suction.
+fn hold_all() -> LeadingEdge {
+    LeadingEdge::Suction {
+        threshold: 9.0,
+        efficiency: 1.0,
+    }
+}
+
+fn settings(leading: LeadingEdge) -> AirSettings {
+    let core = CoreModel::Scully { radius: 1e-7 };
+    AirSettings {
+        shedding: SheddingKinds {
+            leading: true,
+            ..SheddingKinds::TRAILING
+        },
+        loads: LoadMethod::Joukowski,
+        leading,
+        bound_core: core,
+        wake_core: core,
+        ..AirSettings::accurate(1.0, DVec3::X)
+    }
+}
+
+/// The lift coefficient of an arc of the height h over its chord in a stream along the chord is 4 pi h, in thin-airfoil theory and on any
+/// number of panels [James 1972]. Where the boundary condition was that of the control points themselves it was `(1 - 1 / (2 n))` of that on n.
+#[test]
+fn exact_lift_of_parabolic_arcs() {
+    const HEIGHT: f64 = 1e-3;
+    for rows in [2, 4, 8] {
+        for leading in [hold_all(), implicit(9.0), LeadingEdge::Never] {
+            let surface = Surface::grid("wing", rows, 1);
+            let lattice = Lattice::new(vec![surface], settings(leading)).unwrap();
+            let mut arc = rectangle(rows, 1, DVec3::X, 1e5 * DVec3::Y);
+            for x in &mut arc {
+                x.z = 4.0 * HEIGHT * x.x * (1.0 - x.x);
+            }
+            let motion = |_| translating(arc.clone(), DVec3::ZERO);
+            let end = fly(&lattice, motion, 1e4, 150, |_, _, _, _| {}).unwrap();
+            let exact = 4.0 * std::f64::consts::PI * HEIGHT;
+            let ratio = total_force(&end.loads).z / (0.5 * 1e5) / exact;
+            println!("{leading:?}, {rows} panels: {ratio:.6}");
+            assert!((ratio - 1.0).abs() < 1e-3, "{leading:?}, {rows}: {ratio}");
+        }
+    }
+}
+
+/// Largest difference of the force on a pitching wing from the attached one over the largest force.
+fn apart(rows: usize, leading: LeadingEdge) -> f64 {
+    const RATE: f64 = 2.0;
+    let flat = rectangle(rows, 6, DVec3::X, 4.0 * DVec3::Y);
+    let motion = |t: f64| {
+        let (pitch, rate) = (0.2 * (RATE * t).sin(), 0.2 * RATE * (RATE * t).cos());
+        let turned = |x: &DVec3| r2(pitch) * (*x - 0.5 * DVec3::X);
+        let position: Vec<DVec3> = flat.iter().map(turned).collect();
+        let velocity = |x: &DVec3| (rate * DVec3::Y).cross(*x);
+        let velocity = position.iter().map(velocity).collect();
+        NodeMotion { position, velocity }
+    };
+    let forces = |leading| {
+        let surface = Surface::grid("wing", rows, 6);
+        let lattice = Lattice::new(vec![surface], settings(leading)).unwrap();
+        let mut forces = Vec::new();
+        let step = 1.0 / rows as f64;
+        fly(&lattice, motion, step, 4 * rows, |_, _, loads, _| {
+            forces.push(total_force(loads));
+        })
+        .unwrap();
+        forces
+    };
+    let [attached, held] = [LeadingEdge::Never, leading].map(forces);
+    // At the first step it is not known what the edge holds.
+    let both = attached.iter().zip(&held).skip(1);
+    let most = attached.iter().map(|f| f.length()).fold(0.0, f64::max);
+    both.map(|(a, b)| a.distance(*b)).fold(0.0, f64::max) / most
+}
+
+#[test]
+fn limit_pitching_wings_have_the_attached_force() {
+    for rows in [4, 8] {
+        let apart = apart(rows, hold_all());
+        println!("{rows} panels: {apart:.2e}");
+        assert!(apart < 0.02, "{rows} panels: {apart}");
+    }
+}
