@@ -1,7 +1,6 @@
 //! Places behind the nodes of a strip by a part of a panel.
 
-use crate::geometry::rings::opposite;
-use crate::geometry::strips::Strip;
+use crate::geometry::strips::{Strip, opposite};
 use crate::geometry::topology::Topology;
 use std::collections::BTreeMap;
 use wingbeat_math::DVec3;

@@ -88,19 +88,6 @@ fn inset(topology: &Topology, surfaces: &[Surface], settings: &AirSettings, ring
     );
 }
 
-/// The nodes across the panel from those of an edge, in their order.
-pub(crate) fn opposite(corners: [usize; 4], edge: [usize; 2]) -> [usize; 2] {
-    edge.map(|n| {
-        let k = corners.iter().position(|&c| c == n).expect("a corner");
-        let sides = [corners[(k + 1) % 4], corners[(k + 3) % 4]];
-        if edge.contains(&sides[0]) {
-            sides[1]
-        } else {
-            sides[0]
-        }
-    })
-}
-
 /// Whether the edge of `panel` between these nodes is its surface's border.
 fn is_free(topology: &Topology, panel: usize, [a, b]: [usize; 2]) -> bool {
     topology.panel_edges[panel].iter().any(|e| {

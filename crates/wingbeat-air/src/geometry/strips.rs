@@ -80,6 +80,19 @@ fn walk(
     }
 }
 
+/// The nodes across the panel from those of an edge, in their order.
+pub(crate) fn opposite(corners: [usize; 4], edge: [usize; 2]) -> [usize; 2] {
+    edge.map(|n| {
+        let k = corners.iter().position(|&c| c == n).expect("a corner");
+        let sides = [corners[(k + 1) % 4], corners[(k + 3) % 4]];
+        if edge.contains(&sides[0]) {
+            sides[1]
+        } else {
+            sides[0]
+        }
+    })
+}
+
 /// From the middle of the leading edge of a strip to that of its rear edge [m], N components: columns of a mesh need not be
 /// normal to either.
 pub(crate) fn column(strip: &Strip, position: &[DVec3]) -> DVec3 {

@@ -11,7 +11,7 @@ use crate::planform::edges::{Curve, Edges, widened};
 use wingbeat_math::DenseLu;
 
 /// Parts of a panel in which edges are integrated.
-const PARTS: usize = 32;
+const PARTS: usize = 256;
 
 /// No chord of the mesh is less than this part of the least of the planform, wherever an edge leaps.
 const LEAST: f64 = 0.5;

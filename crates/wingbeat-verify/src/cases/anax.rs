@@ -115,14 +115,10 @@ fn azuma_1988(_quick: bool) -> Result<Vec<Row>, VerifyError> {
         let models = [MODELS[0], FREE_ROOTS, MODELS[2], MODELS[3], MODELS[5]].map(Some);
         for model in std::iter::once(None).chain(models) {
             let (name, choice) = model.unwrap_or(("blade elements", DEFAULT));
-            let mut case = animal.case(choice);
-            if model.is_none() {
-                case.air = raw::AirCase {
-                    model: raw::AirModel::BladeElement,
-                    stream_m_s: case.air.stream_m_s,
-                    ..raw::AirCase::default()
-                };
-            }
+            let case = match model {
+                None => animal.in_blades(raw::RotationCase::Circulation),
+                Some(_) => animal.case(choice),
+            };
             let lift: Vec<f64> = forces(case)?.iter().map(|f| -f.z / WEIGHT).collect();
             let [lift, spread] = middle(&[1, 2].map(|b| mean(&lift[40 * b..=40 * (b + 1)])));
             let quantity = format!("experiment {number}, {name}: mean vertical force");

@@ -4,7 +4,7 @@
 //! psi, chord normal to the stroke plane at zero, leading edge up positive; a cone angle to the fore.
 //! Here: stroke-plane pitch 90 deg - gamma, flap -phi, deviation - cone, feathering psi.
 
-use crate::lab::insect::{Choice, FREE_ROOTS, Fluid, MODELS, forces, middle};
+use crate::lab::insect::{Choice, DEFAULT, FREE_ROOTS, Fluid, MODELS, forces, middle};
 use crate::lab::series::{Table, correlation, interpolate, mean};
 use crate::{Case, Comparison, Part, Row, VerifyError};
 use wingbeat_case::raw;
@@ -94,6 +94,23 @@ impl Dragonfly {
     }
 }
 
+impl Dragonfly {
+    /// The same wings in blade elements.
+    pub fn in_blades(&self, rotation: raw::RotationCase) -> raw::Case {
+        let mut case = self.case(DEFAULT);
+        case.air = raw::AirCase {
+            model: raw::AirModel::BladeElement,
+            stream_m_s: case.air.stream_m_s,
+            blade: raw::BladeCase {
+                rotation,
+                ..raw::BladeCase::default()
+            },
+            ..raw::AirCase::default()
+        };
+        case
+    }
+}
+
 impl Pair {
     fn right(&self, hinge: [f64; 3], with: Choice) -> WingCase {
         let planform = BetaCase {
@@ -119,6 +136,12 @@ impl Pair {
         }
     }
 }
+
+/// Blade elements, with the force of feathering while sweeping and without: what computations leave out that know the angles of attack alone.
+const BLADES: [(&str, raw::RotationCase); 2] = [
+    ("blade elements", raw::RotationCase::Circulation),
+    ("blade elements without feathering", raw::RotationCase::None),
+];
 
 /// Rows for the vertical force over the motion's second beat [`unit` newton] against `theirs`, at
 /// fortieths of a beat.
@@ -157,6 +180,13 @@ fn compare(
             "1",
             correlation(second, theirs),
         ));
+    }
+    let their_mean = theirs.iter().sum::<f64>() / 40.0;
+    for (name, rotation) in BLADES {
+        let lift = forces(animal.in_blades(rotation))?;
+        let lift: Vec<f64> = lift[80..=120].iter().map(|f| -f.z / newton).collect();
+        let row = Row::new(format!("{name}: mean vertical force"), unit, mean(&lift));
+        rows.push(row.against(their_mean, source));
     }
     Ok(rows)
 }
