@@ -293,4 +293,4 @@ fn flutter(_quick: bool) -> Result<Vec<Row>, VerifyError> {
 }
 
 /// Speeds between which the sheet begins to flutter [m/s].
-const SPEEDS: [f64; 2] = [0.28, 0.34];
+const SPEEDS: [f64; 2] = [0.23, 0.29];
