@@ -109,7 +109,7 @@ impl Lattice {
         out: &mut AirLoads,
     ) -> Result<(), AirError> {
         let lengths = std::mem::take(&mut ws.filaments.lengths);
-        self.take_wash(ws, &out.panels, |k| self.part_held(state, k, &lengths));
+        self.take_wash(ws, &out.panels, |k| self.held_of_strip(state, k, &lengths));
         ws.filaments.lengths = lengths;
         self.solve_with_wash(state, motion, ws, out)?;
         if self.settings().held_shift() > 0.0 && state.gamma.iter().all(|g| *g == 0.0) {

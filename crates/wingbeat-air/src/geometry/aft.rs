@@ -26,16 +26,10 @@ pub(crate) fn nodes_of_strips(topology: &Topology, strips: &[Strip]) -> Vec<Aft>
             let rear = opposite(topology.panels[p], front);
             for k in 0..2 {
                 let side = [front[k], rear[k]];
-                let (node, none) = (front[k], None);
-                let aft = Aft {
-                    node,
-                    side,
-                    before: none,
-                };
-                found.insert(node, aft);
+                let mut add = |node, before| found.insert(node, Aft { node, side, before });
+                add(front[k], None);
                 if i + 1 == strip.panels.len() {
-                    let (node, before) = (rear[k], before.map(|b| b[k]));
-                    found.insert(node, Aft { node, side, before });
+                    add(rear[k], before.map(|b| b[k]));
                 }
             }
             (before, front) = (Some(front), rear);

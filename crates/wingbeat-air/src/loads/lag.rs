@@ -36,7 +36,7 @@ pub(crate) fn add_lag(
         let forward = match (leading.wake, settings.leading) {
             (None, _) => 0.0,
             (_, LeadingEdge::SuctionImplicit { .. }) => 0.0,
-            _ => 1.0 - lattice.part_held(state, k, &filaments.lengths),
+            _ => 1.0 - lattice.held_of_strip(state, k, &filaments.lengths),
         };
         let part = VORTEX * (aft - forward) - settings.ring_shift();
         if part == 0.0 {

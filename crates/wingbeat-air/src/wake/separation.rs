@@ -59,7 +59,7 @@ impl Lattice {
 
     /// Part of the circulation at the leading edge of strip `k` that the edge holds, 0 to 1, by what the state has kept: beside it is what left
     /// while the flow went on by a panel length, or more if that is about to leave; `lengths` are those of the newest rows.
-    pub(crate) fn part_held(&self, state: &AirState, k: usize, lengths: &[Vec<f64>]) -> f64 {
+    pub(crate) fn held_of_strip(&self, state: &AirState, k: usize, lengths: &[Vec<f64>]) -> f64 {
         let strip = &self.strips()[k];
         let Some(wake) = self.topology().edges[strip.edge].wake else {
             return 1.0;
