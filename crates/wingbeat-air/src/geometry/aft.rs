@@ -53,12 +53,16 @@ impl Aft {
         }
     }
 
-    /// Weight of the change of direction between the last two sides, and the ratio of their lengths.
+    /// Weight of the change of direction between the last two sides, and the ratio of their lengths; none where one has no length, as in
+    /// triangles.
     fn bend(&self, place: &[DVec3], before: usize) -> [f64; 2] {
         let [a, b] = self.side;
         let last = place[a].distance(place[b]);
         let other = place[before].distance(place[a]);
-        [2.0 * last / (last + other), last / other]
+        match last > 0.0 && other > 0.0 {
+            true => [2.0 * last / (last + other), last / other],
+            false => [0.0; 2],
+        }
     }
 
     /// What a force at the end of a part of that way does to the nodes besides the one it leads from: [`Self::way`], transposed.
