@@ -52,7 +52,7 @@ impl Lattice {
         ws.segments.add_forces(self, state, motion, flow, out);
         add_section_drag(self, &motion.position, out);
         let suction = (&ws.boundary.leading_edges.suction[..], &motion.position[..]);
-        leading_values(self, &ws.filaments, suction, out);
+        leading_values((self, state), &ws.filaments, suction, out);
         impulse(self, state, &ws.filaments, out);
         resultants(self, &ws.boundary.net_flux_residual, out);
         check_finite(self, state, out)
@@ -113,7 +113,7 @@ impl Lattice {
         ws.filaments.lengths = lengths;
         self.solve_with_wash(state, motion, ws, out)?;
         if self.settings().held_shift() > 0.0 && state.gamma.iter().all(|g| *g == 0.0) {
-            leading_values(self, &ws.filaments, (&[], &motion.position), out);
+            leading_values((self, state), &ws.filaments, (&[], &motion.position), out);
             let held = |k: usize| out.hold[k] / (out.gamma[self.strips()[k].panels[0]].abs());
             self.take_wash(ws, &out.panels, |k| held(k).min(1.0));
             self.solve_with_wash(state, motion, ws, out)?;

@@ -1,7 +1,6 @@
 //! Places behind the nodes of a strip by a part of a panel.
 
-use crate::geometry::strips::{Strip, opposite};
-use crate::geometry::topology::Topology;
+use crate::geometry::strips::Strip;
 use std::collections::BTreeMap;
 use wingbeat_math::DVec3;
 
@@ -17,22 +16,18 @@ pub(crate) struct Aft {
 }
 
 /// All nodes of the strips, in their order.
-pub(crate) fn nodes_of_strips(topology: &Topology, strips: &[Strip]) -> Vec<Aft> {
+pub(crate) fn nodes_of_strips(strips: &[Strip]) -> Vec<Aft> {
     let mut found = BTreeMap::new();
     for strip in strips {
-        let mut before: Option<[usize; 2]> = None;
-        let mut front = strip.nodes;
-        for (i, &p) in strip.panels.iter().enumerate() {
-            let rear = opposite(topology.panels[p], front);
+        for (i, ends) in strip.sides.windows(2).enumerate() {
             for k in 0..2 {
-                let side = [front[k], rear[k]];
+                let side = [ends[0][k], ends[1][k]];
                 let mut add = |node, before| found.insert(node, Aft { node, side, before });
-                add(front[k], None);
+                add(ends[0][k], None);
                 if i + 1 == strip.panels.len() {
-                    add(rear[k], before.map(|b| b[k]));
+                    add(ends[1][k], i.checked_sub(1).map(|b| strip.sides[b][k]));
                 }
             }
-            (before, front) = (Some(front), rear);
         }
     }
     found.into_values().collect()

@@ -43,7 +43,7 @@ pub(crate) fn rings(
     settings: &AirSettings,
 ) -> Rings {
     let mut rings = Rings {
-        aft: nodes_of_strips(topology, strips),
+        aft: nodes_of_strips(strips),
         ..Rings::default()
     };
     if settings.inset > 0.0 {

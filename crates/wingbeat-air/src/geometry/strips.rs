@@ -13,10 +13,20 @@ pub struct Strip {
     pub edge: usize,
     /// Panels from the leading edge on (global).
     pub panels: Vec<usize>,
-    /// Nodes of the segment (global).
-    pub nodes: [usize; 2],
+    /// Nodes of the segment, of the edges between the panels and of the last panel's rear edge (global): one more than panels.
+    pub sides: Vec<[usize; 2]>,
+}
+
+impl Strip {
+    /// Nodes of the leading-edge segment (global).
+    pub fn front(&self) -> [usize; 2] {
+        self.sides[0]
+    }
+
     /// Nodes of the last panel's rear edge (global).
-    pub rear: [usize; 2],
+    pub fn rear(&self) -> [usize; 2] {
+        self.sides[self.panels.len()]
+    }
 }
 
 /// All strips, surface by surface in the order of their leading-edge segments.
@@ -34,39 +44,26 @@ pub(crate) fn strips(topology: &Topology, surfaces: &[Surface]) -> Vec<Strip> {
             let Some(&edge) = by_nodes.get(&front) else {
                 continue;
             };
-            let (panels, rear) = walk(topology, &by_nodes, g.panel + panel, front);
-            strips.push(Strip {
-                edge,
-                panels,
-                nodes: front,
-                rear,
-            });
+            strips.push(walk(topology, &by_nodes, (edge, g.panel + panel), front));
         }
     }
     strips
 }
 
-/// From panel to panel over opposite edges, until the surface ends.
+/// From the leading-edge segment `edge` and its panel `first` on, panel to panel over opposite edges, until the surface ends.
 fn walk(
     topology: &Topology,
     by_nodes: &BTreeMap<[usize; 2], usize>,
-    first: usize,
+    (edge, first): (usize, usize),
     front: [usize; 2],
-) -> (Vec<usize>, [usize; 2]) {
-    let (mut panels, mut side) = (vec![first], front);
+) -> Strip {
+    let (mut panels, mut sides) = (vec![first], vec![front]);
     loop {
-        let here = panels[panels.len() - 1];
-        let c = topology.panels[here];
-        let i = (0..4).find(|&i| {
-            let (a, b) = (c[i], c[(i + 1) % 4]);
-            [a.min(b), a.max(b)] == side
-        });
-        let Some(i) = i else {
-            return (panels, side);
-        };
-        let (a, b) = (c[(i + 2) % 4], c[(i + 3) % 4]);
-        side = [a.min(b), a.max(b)];
-        let next = by_nodes.get(&side).and_then(|&e| {
+        let (here, side) = (panels[panels.len() - 1], sides[panels.len() - 1]);
+        let rear = opposite(topology.panels[here], side);
+        sides.push(rear);
+        let shared = by_nodes.get(&[rear[0].min(rear[1]), rear[0].max(rear[1])]);
+        let next = shared.and_then(|&e| {
             let edge = &topology.edges[e];
             [Some(edge.plus), edge.minus]
                 .into_iter()
@@ -75,7 +72,13 @@ fn walk(
         });
         match next {
             Some(p) if !panels.contains(&p) => panels.push(p),
-            _ => return (panels, side),
+            _ => {
+                return Strip {
+                    edge,
+                    panels,
+                    sides,
+                };
+            }
         }
     }
 }
@@ -97,13 +100,14 @@ pub(crate) fn opposite(corners: [usize; 4], edge: [usize; 2]) -> [usize; 2] {
 /// normal to either.
 pub(crate) fn column(strip: &Strip, position: &[DVec3]) -> DVec3 {
     let middle = |n: [usize; 2]| 0.5 * (position[n[0]] + position[n[1]]);
-    middle(strip.rear) - middle(strip.nodes)
+    middle(strip.rear()) - middle(strip.front())
 }
 
 /// The section of a strip normal to its leading edge: unit vector backward and length of the chord [m], N components. What flows along
 /// an edge, or how its mesh is sheared, makes no suction there.
 pub(crate) fn section(strip: &Strip, position: &[DVec3]) -> (DVec3, f64) {
-    let edge = position[strip.nodes[1]] - position[strip.nodes[0]];
+    let [from, to] = strip.front();
+    let edge = position[to] - position[from];
     let column = column(strip, position);
     let across = column - edge.dot(column) / edge.length_squared().max(f64::MIN_POSITIVE) * edge;
     // Where the column lies along the edge there is no such section.

@@ -40,7 +40,7 @@ impl SuctionStrips {
                 continue;
             };
             found.of_column[wake.sheet][wake.column] = Some(s);
-            strip.nodes.iter().for_each(|&n| found.is_front[n] = true);
+            strip.front().iter().for_each(|&n| found.is_front[n] = true);
             if symmetry.is_none_or(|m| strip.panels[0] <= m.panel[strip.panels[0]]) {
                 found.unknown[s] = Some(found.computed.len());
                 found.computed.push(s);

@@ -31,8 +31,8 @@ pub(crate) fn add_front(
         let sign = lattice.sheets()[wake.sheet].signs[wake.column];
         let before = left_before(&state.sheets[wake.sheet], wake.column).map(|left| sign * left);
         let rate = rate_of_what_left(lattice, state, (out.leaving[k], before), out.dt);
-        let [a, b] = strip.nodes.map(|n| position[n]);
-        let [c, d] = strip.nodes.map(|n| filaments.bound.nodes.get(n));
+        let [a, b] = strip.front().map(|n| position[n]);
+        let [c, d] = strip.front().map(|n| filaments.bound.nodes.get(n));
         let p = strip.panels[0];
         let area = 0.5 * (d - a).cross(c - b);
         let force = rho * rate * area.length() * out.panels.normal[p];

@@ -293,7 +293,8 @@ impl Segments {
 /// Adds a force on the leading panel of a strip that acts at the leading edge.
 fn add_at_edge(strip: &Strip, motion: &NodeMotion, force: DVec3, out: &mut AirLoads) {
     let first = strip.panels[0];
-    let edge = motion.position[strip.nodes[0]].midpoint(motion.position[strip.nodes[1]]);
+    let [a, b] = strip.front().map(|n| motion.position[n]);
+    let edge = a.midpoint(b);
     out.force[first] += force;
     out.couple[first] += (edge - out.panels.point[first]).cross(force);
 }

@@ -8,7 +8,6 @@
 //! or none, neither side has an advantage; what leaves an edge whose suction is solved for
 //! is vorticity beside an attached wing.
 
-use crate::geometry::opposite;
 use crate::lattice::Lattice;
 use crate::loads::values::AirLoads;
 use crate::settings::LeadingEdge;
@@ -42,12 +41,9 @@ pub(crate) fn add_lag(
         if part == 0.0 {
             continue;
         }
-        let mut front = strip.nodes;
-        for &p in &strip.panels {
-            let rear = opposite(topology.panels[p], front);
-            let lag = part * (middle(rear) - middle(front));
+        for (&p, sides) in strip.panels.iter().zip(strip.sides.windows(2)) {
+            let lag = part * (middle(sides[1]) - middle(sides[0]));
             out.couple[p] += lag.cross(out.force[p]);
-            front = rear;
         }
     }
 }

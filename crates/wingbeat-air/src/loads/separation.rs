@@ -3,9 +3,10 @@
 use crate::geometry::section;
 use crate::lattice::Lattice;
 use crate::loads::values::AirLoads;
-use crate::loads::vortex_lift::suction_parameter;
+use crate::loads::vortex_lift::{foremost, suction_parameter};
 use crate::settings::LeadingEdge;
-use crate::solve::suction_unit;
+use crate::solve::LeadingSection;
+use crate::state::AirState;
 use crate::wake::Filaments;
 use wingbeat_math::DVec3;
 
@@ -18,7 +19,7 @@ use wingbeat_math::DVec3;
 /// - Leading-edge suction parameter, from the net circulation of the leading edge ([`suction_unit`]): the edge holds what gives it
 ///   the threshold. Where what leaves is part of the solution, `suction` is what that found.
 pub(crate) fn leading_values(
-    lattice: &Lattice,
+    (lattice, state): (&Lattice, &AirState),
     filaments: &Filaments,
     (suction, position): (&[f64], &[DVec3]),
     out: &mut AirLoads,
@@ -28,7 +29,6 @@ pub(crate) fn leading_values(
     let all_or_none = |leaves: bool| if leaves { 0.0 } else { f64::MAX };
     for (k, strip) in lattice.strips().iter().enumerate() {
         let p = strip.panels[0];
-        let (aft, c) = section(strip, position);
         let [value, hold] = match lattice.settings().leading {
             LeadingEdge::Always => [0.0, 0.0],
             LeadingEdge::Never => [0.0, f64::MAX],
@@ -37,18 +37,24 @@ pub(crate) fn leading_values(
                 [parameter.abs(), f64::MAX]
             }
             LeadingEdge::AngleOfAttack { threshold } => {
+                let (aft, _) = section(strip, position);
                 let wind = lattice.stream(out.panels.point[p], out.time) - out.panels.velocity[p];
                 let (along, across) = (wind.dot(aft), wind.dot(out.panels.normal[p]));
                 let angle = across.abs().atan2(along);
                 [angle, all_or_none(angle > threshold)]
             }
             LeadingEdge::Suction { threshold, .. } => {
-                let middle = 0.5 * (position[strip.nodes[0]] + position[strip.nodes[1]]);
-                let h = 2.0 * (out.panels.point[p] - middle).dot(aft);
-                let now = (lattice, &out.panels, out.time);
-                let unit = suction_unit(now, strip, (middle, aft), [h, c]);
-                let net = filaments.bound.gamma[strip.edge].abs();
-                [net / unit.max(f64::MIN_POSITIVE), threshold * unit]
+                let section = LeadingSection::of((lattice, &out.panels, out.time), strip, position);
+                let net = filaments.bound.gamma[strip.edge];
+                let [_, second] = foremost(strip, &out.gamma);
+                let [share, gone] = lattice.held_and_gone(state, k, &filaments.lengths);
+                let second = second - gone;
+                let counted = section.counted([net, second], share);
+                let second = second * net.signum();
+                [
+                    section.parameter(counted).abs(),
+                    section.limit(threshold, second, share),
+                ]
             }
             LeadingEdge::SuctionImplicit { .. } => [suction[k], f64::MAX],
         };

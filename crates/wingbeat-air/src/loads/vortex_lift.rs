@@ -1,10 +1,10 @@
 //! What becomes of the forces of strips whose leading edges have vortex lift, see [`VortexLift`].
 
-use crate::geometry::{NodeMotion, Strip, opposite, section};
+use crate::geometry::{NodeMotion, Strip, section};
 use crate::lattice::Lattice;
 use crate::loads::values::AirLoads;
 use crate::settings::{Parts, Passage, VortexLift};
-use crate::solve::{section_speed, suction_per_speed};
+use crate::solve::LeadingSection;
 use wingbeat_math::DVec3;
 
 /// A strip at one instant.
@@ -48,17 +48,16 @@ pub(crate) fn suction_parameter(
     position: &[DVec3],
     out: &AirLoads,
 ) -> [f64; 2] {
-    let (aft, c) = section(strip, position);
-    let middle = |n: [usize; 2]| position[n[0]].midpoint(position[n[1]]);
-    let (front, p) = (middle(strip.nodes), strip.panels[0]);
-    let rear = middle(opposite(lattice.topology().panels[p], strip.nodes));
-    let here = (lattice, &out.panels, out.time);
-    let speed = section_speed(here, strip, (front, aft, c));
-    let unit = speed * suction_per_speed([(rear - front).dot(aft), c]);
-    match unit > 0.0 {
-        true => [out.gamma[p] / unit, speed],
-        false => [0.0, speed],
-    }
+    let section = LeadingSection::of((lattice, &out.panels, out.time), strip, position);
+    let net = section.counted(foremost(strip, &out.gamma), 1.0);
+    [section.parameter(net), section.speed]
+}
+
+/// Circulations of the two foremost vortices of a strip where no wake is at its edge [m2/s].
+pub(crate) fn foremost(strip: &Strip, gamma: &[f64]) -> [f64; 2] {
+    let first = gamma[strip.panels[0]];
+    let second = strip.panels.get(1).map_or(0.0, |&p| gamma[p] - first);
+    [first, second]
 }
 
 /// Rate at which the section of a strip turns about axes across its span [rad/s]: how the velocity of its quarter chord changes along
@@ -82,7 +81,7 @@ fn turning(strip: &Strip, motion: &NodeMotion, aft: DVec3) -> f64 {
 
 /// Front and rear node on either side of a strip.
 fn sides(strip: &Strip, motion: &NodeMotion) -> [[usize; 2]; 2] {
-    let ([a, b], [c, d]) = (strip.nodes, strip.rear);
+    let ([a, b], [c, d]) = (strip.front(), strip.rear());
     let x = &motion.position;
     match (x[b] - x[a]).dot(x[d] - x[c]) > 0.0 {
         true => [[a, c], [b, d]],

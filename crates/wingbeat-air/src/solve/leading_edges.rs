@@ -3,8 +3,8 @@
 use crate::error::AirError;
 use crate::solve::influence::{Influence, Instant};
 use crate::solve::leaving::{Leaving, Part};
-use crate::solve::suction::{Front, PLACES, Release, WEIGHTS, threshold};
-use crate::solve::unknowns::{panel, unknown};
+use crate::solve::suction::{Front, PLACES, Release, threshold};
+use crate::solve::unknowns::panel;
 use crate::wake::{Filaments, Sums, WakeVelocityCache};
 use wingbeat_math::DVec3;
 use wingbeat_vortex::Points;
@@ -79,11 +79,11 @@ impl LeadingEdges {
         Ok(())
     }
 
-    /// Net circulation of the leading edge of strip `k`, if nothing leaves.
-    fn net(now: Instant, filaments: &Filaments, gamma: &[f64], k: usize) -> f64 {
+    /// Net circulation of the leading edge of strip `k` that counts, if nothing leaves.
+    fn net(&self, now: Instant, filaments: &Filaments, gamma: &[f64], k: usize) -> f64 {
         let strip = &now.lattice.strips()[k];
-        let panel = unknown(now.lattice, strip.panels[0]);
-        gamma[panel] + filaments.bound.gamma[strip.edge]
+        let ring = filaments.bound.gamma[strip.edge];
+        self.fronts[k].counted(now.lattice, strip, (gamma, ring))
     }
 
     /// Places along the leading panels, and the velocity of the free wakes there.
@@ -92,10 +92,14 @@ impl LeadingEdges {
         self.places.clear();
         self.at_places.clear();
         for &s in &lattice.suction().computed {
-            let p = lattice.strips()[s].panels[0];
-            self.fronts[s].places(now.panels.point[p], &mut self.places);
+            let panels = &lattice.strips()[s].panels;
+            let foremost = [panels[0], panels[1.min(panels.len() - 1)]];
+            let points = foremost.map(|p| now.panels.point[p]);
+            self.fronts[s].places(points, &mut self.places);
             let new = self.at_places.len()..self.places.len();
-            let with_normal = |i: usize| [self.places.get(i), now.panels.normal[p]];
+            let last = self.places.len() - 1;
+            let panel = |i: usize| foremost[usize::from(i == last)];
+            let with_normal = |i: usize| [self.places.get(i), now.panels.normal[panel(i)]];
             self.at_places.extend(new.map(with_normal));
         }
         let (sums, mirrors) = (wakes.sums, lattice.mirrors());
@@ -112,10 +116,10 @@ impl LeadingEdges {
             let wake = lattice.topology().edges[lattice.strips()[s].edge].wake;
             let has_row = wake.is_some_and(|w| now.state.sheets[w.sheet].rows() > 0);
             self.release.most.push(match has_row {
-                true => most * self.fronts[s].unit,
+                true => most * self.fronts[s].section.unit(),
                 false => f64::INFINITY, // no vortex has a place to go yet
             });
-            let net = Self::net(now, filaments, gamma, s);
+            let net = self.net(now, filaments, gamma, s);
             self.release.net.push(net);
         }
     }
@@ -124,7 +128,7 @@ impl LeadingEdges {
     fn count_unseen(&mut self, now: Instant, filaments: &Filaments) {
         let computed = &now.lattice.suction().computed;
         let (n, fronts) = (computed.len(), &self.fronts);
-        let weight = |i: usize| WEIGHTS[i % PLACES] * fronts[computed[i / PLACES]].per_velocity;
+        let weight = |i: usize| fronts[computed[i / PLACES]].weights[i % PLACES];
         let Release {
             net, by_leaving, ..
         } = &mut self.release;
@@ -168,9 +172,9 @@ impl LeadingEdges {
         for (k, column) in answer.chunks_mut(n).enumerate() {
             influence.solve_another(now.state, column)?;
             for (u, &s) in computed.iter().enumerate() {
-                let first = unknown(lattice, lattice.strips()[s].panels[0]);
-                let own = if u == k { 1.0 } else { 0.0 };
-                self.release.by_leaving[u * strips + k] += column[first] - own;
+                let own = if u == k { -1.0 } else { 0.0 };
+                let change = self.fronts[s].counted(lattice, &lattice.strips()[s], (column, own));
+                self.release.by_leaving[u * strips + k] += change;
             }
         }
         Ok(())
@@ -229,9 +233,9 @@ impl LeadingEdges {
                     leaving[k] = self.release.leaving[*u];
                     self.release.held[*u]
                 }
-                None => Self::net(now, filaments, gamma, k),
+                None => self.net(now, filaments, gamma, k),
             };
-            self.suction[k] = net.abs() / self.fronts[k].unit.max(f64::MIN_POSITIVE);
+            self.suction[k] = self.fronts[k].section.parameter(net.abs());
         }
     }
 }

@@ -4,6 +4,7 @@ mod boundary_condition;
 mod circulation;
 mod influence;
 mod leading_edges;
+mod leading_section;
 mod leaving;
 mod row_blocks;
 mod self_influence;
@@ -12,5 +13,5 @@ mod unknowns;
 
 pub(crate) use boundary_condition::BoundaryCondition;
 pub(crate) use influence::Instant;
-pub(crate) use suction::{section_speed, suction_per_speed, suction_unit};
+pub(crate) use leading_section::LeadingSection;
 pub(crate) use unknowns::is_computed;

@@ -1,35 +1,27 @@
 //! Suction at leading edges: what each strip has, and what has to leave so that none has more than it holds.
 //!
-//! The suction parameter A0 is the coefficient of the suction singularity in thin-airfoil theory,
-//! `A0 = 1 / (pi U) integral w dtheta` along the chord, `cos theta = 1 - 2 x / c`, w the normal velocity of air against wing that
-//! the wing's own vorticity has to annul [Ramesh et al. 2014, J. Fluid Mech. 751:500]. From the net circulation G of the
-//! leading edge of a lattice, a leading panel of length h and a chord c it is `A0 = 2 / sqrt(pi) G / (U c (a + sin a))`, `cos a = 1 - 2 h / c`;
-//! `2 / sqrt(pi) = 1.13` is what a lattice's first vortex falls short of the exact circulation of its panel
-//! [Hirato et al. 2019, AIAA J. 57:4034]. U is the speed of stream and motion at the quarter chord, in the plane of the section.
-//!
-//! A lattice sees w at the control points only, so vorticity nearer to the edge than a panel acts on G with what it makes at one
-//! point of the panel. What it makes along the panel, over theta, is larger. G counts with that difference besides: without it a
+//! A lattice sees normal velocities at the control points only, so vorticity nearer to the edge than a panel acts on the suction parameter ([`LeadingSection`]) with
+//! what it makes at a few points. What it makes along the leading panel, over theta, is larger. The net circulation counts with that difference besides: without it a
 //! plate of six panels that pitches to 45 degrees sheds two thirds of what it should while it pitches.
 //!
 //! What leaves within the step lies half a row from the edge ([`NEW_VORTEX`](crate::wake)). Its
 //! strength in each strip follows together with the circulations of the panels, in one flow: either the strip has less than it
 //! holds and nothing leaves, or it has as much as it holds and what leaves has the sign of its suction.
 
-use crate::geometry::{Panels, Strip, opposite, section};
+use crate::geometry::Strip;
 use crate::lattice::Lattice;
 use crate::settings::LeadingEdge;
 use crate::solve::influence::Instant;
+use crate::solve::leading_section::LeadingSection;
+use crate::solve::unknowns::unknown;
 use crate::wake::NEW_VORTEX;
 use std::f64::consts::PI;
 use wingbeat_math::{DVec3, DenseLu};
 use wingbeat_vortex::Points;
 
-/// Places along the leading panel of a strip where velocities are wanted: as many in even parts of theta, and last its control
-/// point.
-pub(crate) const PLACES: usize = 4;
-
-/// Weight of the normal velocity at each of the places, over the extent of the panel in theta.
-pub(crate) const WEIGHTS: [f64; PLACES] = [1.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0, -1.0];
+/// Places of a strip where velocities are wanted: as many in even parts of theta along the leading panel, and last the two foremost control
+/// points.
+pub(crate) const PLACES: usize = 5;
 
 /// Part of the effect of a vortex straight ahead that what leaves has at least on the suction of its edge: that of one 145 degrees from there. A plate
 /// that pitches to 45 degrees sheds as it does without this bound.
@@ -41,34 +33,34 @@ const ALL_AT_ONCE: usize = 8;
 /// A strip at one instant.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Front {
-    /// Net circulation of a suction parameter of one [m2/s].
-    pub unit: f64,
-    /// Net circulation that corresponds to a mean normal velocity along the leading panel [m].
-    pub per_velocity: f64,
-    /// Middle of the leading edge [m], backward unit vector, length of the leading panel and chord [m].
-    middle: DVec3,
-    aft: DVec3,
-    extent: [f64; 2],
+    pub section: LeadingSection,
+    /// Net circulation by a normal velocity at each of the places that the lattice does not see [m].
+    pub weights: [f64; PLACES],
 }
 
 impl Front {
     pub fn of(now: Instant, strip: &Strip) -> Self {
-        let (lattice, position) = (now.lattice, &now.motion.position);
-        let (aft, c) = section(strip, position);
-        let middle = |n: [usize; 2]| 0.5 * (position[n[0]] + position[n[1]]);
-        let (front, p) = (middle(strip.nodes), strip.panels[0]);
-        let rear = middle(opposite(lattice.topology().panels[p], strip.nodes));
-        let h = (rear - front).dot(aft);
-        let a = angle(h, c);
-        let here = (lattice, now.panels, now.time);
-        let per_speed = 0.5 * PI.sqrt() * c * (a + a.sin());
+        let here = (now.lattice, now.panels, now.time);
+        let section = LeadingSection::of(here, strip, &now.motion.position);
+        let [first, second, c] = section.extent;
+        let [a, b] = [first, second].map(|x| angle(x, c));
+        let even = a / PI / (PLACES - 2) as f64;
+        let mut weights = [even; PLACES];
+        weights[PLACES - 2] = -section.weights[0];
+        weights[PLACES - 1] = (b - a) / PI - section.weights[1];
         Self {
-            unit: suction_unit(here, strip, (front, aft), [h, c]),
-            per_velocity: per_speed * a / PI,
-            middle: front,
-            aft,
-            extent: [h, c],
+            section,
+            weights: weights.map(|w| w * section.per_speed),
         }
+    }
+
+    /// Net circulation of the leading edge of the strip that counts, where the unknowns have the circulations `gamma` and the newest ring makes
+    /// `ring` [m2/s].
+    pub fn counted(&self, lattice: &Lattice, strip: &Strip, (gamma, ring): (&[f64], f64)) -> f64 {
+        let of = |p: usize| gamma[unknown(lattice, p)];
+        let first = of(strip.panels[0]);
+        let second = strip.panels.get(1).map_or(0.0, |&p| of(p) - first);
+        self.section.counted([first + ring, second], 1.0)
     }
 
     /// What a unit of circulation changes of the net one by leaving, at least in size \[1\], the newest free nodes being at `row` [m, N].
@@ -80,75 +72,28 @@ impl Front {
     /// evenly bent, from there to f, it has at least 0.78 of what it has straight ahead. [`LEAST`] of it is what is counted at least. A vortex at the
     /// edge itself takes all that it is.
     pub fn least_effect(&self, row: DVec3, normal: DVec3) -> f64 {
-        let way = row - self.middle;
-        let distance = NEW_VORTEX * way.dot(self.aft).hypot(way.dot(normal));
-        let ahead = (self.extent[0] / (PI * distance).max(f64::MIN_POSITIVE)).sqrt();
+        let way = row - self.section.middle;
+        let distance = NEW_VORTEX * way.dot(self.section.aft).hypot(way.dot(normal));
+        let ahead = (self.section.extent[0] / (PI * distance).max(f64::MIN_POSITIVE)).sqrt();
         -LEAST * ahead.min(1.0)
     }
 
-    /// Appends the places along the leading panel; the control point is at `point`.
-    pub fn places(&self, point: DVec3, out: &mut Points) {
-        let [h, c] = self.extent;
-        let even = PLACES - 1;
+    /// Appends the places along the leading panel; the two foremost control points are at `points`.
+    pub fn places(&self, points: [DVec3; 2], out: &mut Points) {
+        let [h, _, c] = self.section.extent;
+        let even = PLACES - 2;
         for k in 0..even {
             let theta = angle(h, c) * (k as f64 + 0.5) / even as f64;
             let x = 0.5 * c * (1.0 - theta.cos());
-            out.push(self.middle + x * self.aft);
+            out.push(self.section.middle + x * self.section.aft);
         }
-        out.push(point);
+        points.into_iter().for_each(|p| out.push(p));
     }
 }
 
 /// Angle theta at a place of the chord.
 fn angle(x: f64, chord: f64) -> f64 {
     (1.0 - 2.0 * x / chord).clamp(-1.0, 1.0).acos()
-}
-
-/// Net circulation of the leading edge of a strip that is a suction parameter of one [m2/s]; middle of the edge and direction
-/// aft [m, 1], length of the leading panel and chord [m].
-pub(crate) fn suction_unit(
-    now: (&Lattice, &Panels, f64),
-    strip: &Strip,
-    (middle, aft): (DVec3, DVec3),
-    [h, c]: [f64; 2],
-) -> f64 {
-    let a = angle(h, c);
-    let speed = section_speed(now, strip, (middle, aft, c));
-    0.5 * PI.sqrt() * speed * c * (a + a.sin())
-}
-
-/// The same over the speed \[m\].
-pub(crate) fn suction_per_speed([h, c]: [f64; 2]) -> f64 {
-    let a = angle(h, c);
-    0.5 * PI.sqrt() * c * (a + a.sin())
-}
-
-/// Speed of stream and motion at the quarter chord of a strip, in the plane of the section [m/s]; middle of its leading edge [m],
-/// direction aft and chord [m].
-pub(crate) fn section_speed(
-    now: (&Lattice, &Panels, f64),
-    strip: &Strip,
-    (middle, aft, c): (DVec3, DVec3, f64),
-) -> f64 {
-    let wind = quarter_chord_wind(now, strip, (middle, aft, c));
-    wind.dot(aft).hypot(wind.dot(now.1.normal[strip.panels[0]]))
-}
-
-/// The wind that stream and motion make at the quarter chord of a strip, whose leading edge is at `middle` [m, m/s]: that of
-/// its control points, which is linear along a rigid section.
-fn quarter_chord_wind(
-    (lattice, panels, time): (&Lattice, &Panels, f64),
-    strip: &Strip,
-    (middle, aft, c): (DVec3, DVec3, f64),
-) -> DVec3 {
-    let ends = [strip.panels[0], strip.panels[strip.panels.len() - 1]];
-    let place = ends.map(|p| (panels.point[p] - middle).dot(aft));
-    let wind = ends.map(|p| lattice.stream(panels.point[p], time) - panels.velocity[p]);
-    let way = place[1] - place[0];
-    match way > 0.0 {
-        true => wind[0].lerp(wind[1], (0.25 * c - place[0]) / way),
-        false => wind[0],
-    }
 }
 
 /// What leaves the strips whose edges may shed.

@@ -60,16 +60,26 @@ impl Lattice {
     /// Part of the circulation at the leading edge of strip `k` that the edge holds, 0 to 1, by what the state has kept: beside it is what left
     /// while the flow went on by a panel length, or more if that is about to leave; `lengths` are those of the newest rows.
     pub(crate) fn held_of_strip(&self, state: &AirState, k: usize, lengths: &[Vec<f64>]) -> f64 {
+        match self.settings().leading {
+            LeadingEdge::Always => 0.0,
+            _ => self.held_and_gone(state, k, lengths)[0],
+        }
+    }
+
+    /// The same with what left beside it, counted as circulation of panels [m2/s]; of an edge with a criterion, or one that does not shed.
+    pub(crate) fn held_and_gone(
+        &self,
+        state: &AirState,
+        k: usize,
+        lengths: &[Vec<f64>],
+    ) -> [f64; 2] {
         let strip = &self.strips()[k];
         let Some(wake) = self.topology().edges[strip.edge].wake else {
-            return 1.0;
+            return [1.0, 0.0];
         };
-        if self.settings().leading == LeadingEdge::Always {
-            return 0.0;
-        }
         let (root, sheet) = (&self.sheets()[wake.sheet], &state.sheets[wake.sheet]);
         let Some(&length) = lengths[wake.sheet].get(wake.column) else {
-            return 1.0; // nothing has left yet
+            return [1.0, 0.0]; // nothing has left yet
         };
         let before = match sheet.rows() {
             0 | 1 => 0.0,
@@ -78,11 +88,16 @@ impl Lattice {
         let newest = sheet.newest(wake.column);
         let net = root.signs[wake.column] * state.gamma[strip.panels[0]] - newest;
         let held = net.abs().min(state.hold[k]);
-        let left = (newest - before).abs() / length.max(f64::MIN_POSITIVE);
-        let gone = left.max(net.abs() - held);
-        match gone > 0.0 {
-            true => held / (held + gone),
-            false => 1.0,
+        let left = (newest - before) / length.max(f64::MIN_POSITIVE);
+        let leaves = net.abs() - held;
+        let gone = if left.abs() > leaves {
+            left
+        } else {
+            leaves.copysign(net)
+        };
+        match gone != 0.0 {
+            true => [held / (held + gone.abs()), root.signs[wake.column] * gone],
+            false => [1.0, 0.0],
         }
     }
 

@@ -42,8 +42,7 @@ fn plates() -> [(&'static str, DVec3, DVec3); 3] {
     ]
 }
 
-/// What flows along an endless edge makes no suction: the parameter is the sine of the angle in the plane normal to the edge, up to the
-/// error that a straight plate of eight panels has, 0.6 %.
+/// What flows along an endless edge makes no suction: the parameter is the sine of the angle in the plane normal to the edge.
 #[test]
 fn exact_simple_sweep_suction_parameter_of_endless_plates() {
     let law = LeadingEdge::VortexLift(VortexLift {
@@ -62,10 +61,11 @@ fn exact_simple_sweep_suction_parameter_of_endless_plates() {
             println!("{name}: {:.6}", loads.leading[0] / exact - 1.0);
             loads.leading[0] / exact - 1.0
         });
-        assert!(errors[0].abs() < 0.01, "{leading:?}: {errors:?}");
         // Ends 1e5 chords away, and the vortex of the start 1.5e6.
-        let same = errors.iter().all(|e| (e - errors[0]).abs() < 1e-4);
-        assert!(same, "{leading:?}: {errors:?}");
+        assert!(
+            errors.iter().all(|e| e.abs() < 1e-4),
+            "{leading:?}: {errors:?}"
+        );
     }
 }
 

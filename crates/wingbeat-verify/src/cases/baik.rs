@@ -1,6 +1,6 @@
 //! A plate that pitches and plunges in a channel, quasi two-dimensional.
 
-use crate::lab::rig::{Edge, Fluid, Pose, Wing, forces};
+use crate::lab::rig::{Edge, Fluid, Nose, Pose, Wing, forces};
 use crate::lab::series::{Table, harmonic, interpolate, mean};
 use crate::{Case, Comparison, Part, Row, VerifyError};
 use std::f64::consts::{PI, TAU};
@@ -95,7 +95,7 @@ fn coefficients(
     };
     let wing = Wing {
         measured: 1,
-        round: true,
+        nose: Nose::Blunt,
         ..Wing::rectangle(rows, &STATIONS, AXIS, true)
     };
     let dt = period / steps as f64;

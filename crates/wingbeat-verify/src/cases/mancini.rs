@@ -1,7 +1,7 @@
 //! A plate that pitches up to 45 deg fast, within one chord of travel, or slowly, within six.
 
 use crate::lab::ramp::Ramp;
-use crate::lab::rig::{Edge, Fluid, Pose, Wing, forces};
+use crate::lab::rig::{Edge, Fluid, Nose, Pose, Wing, forces};
 use crate::lab::series::{Table, interpolate};
 use crate::{Case, Comparison, Part, Row, VerifyError};
 use std::f64::consts::{FRAC_PI_4, LN_2, TAU};
@@ -81,7 +81,7 @@ fn lift(
         .map(|j| HALF_SPAN * j as f64 / panels as f64)
         .collect();
     let wing = Wing {
-        round: true,
+        nose: Nose::Blunt,
         ..Wing::rectangle(panels, &stations, 0.0, true)
     };
     let pose = |s: f64| {

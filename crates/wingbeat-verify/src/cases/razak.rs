@@ -3,7 +3,7 @@
 //! The published angles are their extremes: sines stand for them. Pitch is taken about the quarter chord, and both
 //! wings flap about one axis in the plane of symmetry; the coefficients are taken to be over the area of both wings.
 
-use crate::lab::rig::{Edge, Fluid, Pose, Wing, forces};
+use crate::lab::rig::{Edge, Fluid, Nose, Pose, Wing, forces};
 use crate::lab::series::{Table, interpolate};
 use crate::{Case, Comparison, Part, Row, VerifyError};
 use std::f64::consts::TAU;
@@ -24,6 +24,8 @@ const ENDS: [f64; 2] = [0.15 / CHORD, 0.55 / CHORD];
 const FLAP_DEG: f64 = 30.0;
 const PITCH_DEG: f64 = 6.0;
 const AXIS: f64 = 0.25;
+/// Radius of the nose over the chord: that of the four-digit sections, 1.1019 times the square of the thickness [Abbott & von Doenhoff 1959].
+const NOSE: f64 = 1.1019 * 0.09 * 0.09;
 /// Beats flown before the one compared: 12 to 37 chords of travel.
 const BEFORE: f64 = 0.5;
 
@@ -78,7 +80,7 @@ fn wing([rows, cols]: [usize; 2]) -> Wing {
     }
     Wing {
         paired: true,
-        round: true,
+        nose: Nose::Aerofoil(NOSE),
         ..wing
     }
 }

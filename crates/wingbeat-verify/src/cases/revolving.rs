@@ -1,6 +1,6 @@
 //! A Robofly wing that revolves steadily.
 
-use crate::lab::rig::{Edge, Fluid, Pose, Wing, forces, laminar};
+use crate::lab::rig::{Edge, Fluid, Nose, Pose, Wing, forces, laminar};
 use crate::lab::series::{Table, interpolate, mean};
 use crate::{Case, Comparison, Part, Row, VerifyError};
 use std::f64::consts::{FRAC_PI_3, FRAC_PI_4, PI};
@@ -49,7 +49,7 @@ fn wing([rows, cols]: [usize; 2]) -> Wing {
         joined: false,
         paired: false,
         free_root: false,
-        round: false,
+        nose: Nose::Thin,
         plane: false,
         measured: cols,
     }

@@ -1,6 +1,6 @@
 //! A wing that heaves and pitches in a stream: mean thrust, where suction and pressure drag nearly balance.
 
-use crate::lab::rig::{Edge, Fluid, Pose, Wing, forces};
+use crate::lab::rig::{Edge, Fluid, Nose, Pose, Wing, forces};
 use crate::lab::series::{Table, mean};
 use crate::{Case, Part, Row, VerifyError};
 use std::f64::consts::TAU;
@@ -22,6 +22,8 @@ const PERIOD: f64 = 6.0;
 const HEAVE: f64 = 0.6;
 const HALF_SPAN: f64 = 1.5;
 const AXIS: f64 = 0.75;
+/// Radius of the nose of NACA 63A015 over the chord [Loftin 1948, NACA Report 903].
+const NOSE: f64 = 0.0163;
 /// Panels along chord and half span, steps a period, periods.
 const MESH: [usize; 4] = [6, 6, 40, 2];
 
@@ -54,7 +56,7 @@ fn thrust(
         .map(|j| HALF_SPAN * (0.5 * std::f64::consts::PI * j as f64 / cols as f64).sin())
         .collect();
     let wing = Wing {
-        round: true,
+        nose: Nose::Aerofoil(NOSE),
         ..Wing::rectangle(rows, &stations, AXIS, true)
     };
     let none = SectionDrag {

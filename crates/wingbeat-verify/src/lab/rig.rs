@@ -3,7 +3,7 @@
 //! The setting is that of all insects ([`AirOptions::insect`], wakes kept 0.1 chords off the wings) and the same for
 //! all experiments: forces on segments, algebraic cores, wakes from trailing edges and tips, so with the suction of
 //! attached leading edges; with leading-edge vorticity these hold some suction and shed what is beyond it: thin ones as insects'
-//! do, round ones somewhat more, whose force acts. Which they are is what the experiments' descriptions say.
+//! do, round ones somewhat more, whose force acts, the more the rounder they are. Which they are is what the experiments' descriptions say.
 
 use wingbeat_air::{
     AirError, AirSettings, Friction, JoinedEdge, Lattice, LeadingEdge, MirrorPairs, NodeMotion,
@@ -37,9 +37,33 @@ impl Edge {
     }
 }
 
-/// Suction parameter that round leading edges hold and part of its force that acts: the critical one of the section SD7003 at a
-/// Reynolds number of 3e4 [Ramesh et al. 2014, J. Fluid Mech. 751:500], and all of its force.
-const ROUND: [f64; 2] = [0.18, 1.0];
+/// Form of a leading edge, which decides what suction it holds and how much of its force acts.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Nose {
+    /// What insects' wings hold, and none of its force.
+    Thin,
+    /// Round edge of a plate: [`SD7003`], within what such plates hold, and all of its force.
+    Blunt,
+    /// Nose of an aerofoil with this radius over the chord. Near it the flow is that around a parabola, and whether it separates there is decided by the
+    /// suction parameter over the root of the radius, and little by the Reynolds number [Rusak & Morris 2005, AIAA 2005-86]: that of SD7003, scaled; all of its force.
+    Aerofoil(f64),
+}
+
+/// Critical suction parameter of the section SD7003 at a Reynolds number of 3e4 [Ramesh et al. 2014, J. Fluid Mech. 751:500], and the radius of
+/// its nose over the chord, of the parabola through its foremost coordinates.
+const SD7003: [f64; 2] = [0.18, 0.008];
+
+impl Nose {
+    /// Suction parameter held, and part of its force that acts; `thin` are those of thin edges.
+    fn suction(self, thin: [f64; 2]) -> [f64; 2] {
+        let [held, of] = SD7003;
+        match self {
+            Self::Thin => thin,
+            Self::Blunt => [held, 1.0],
+            Self::Aerofoil(radius) => [held * (radius / of).sqrt(), 1.0],
+        }
+    }
+}
 
 /// The fluid and the size of what it meets.
 pub(crate) struct Fluid {
@@ -69,7 +93,7 @@ impl Fluid {
     fn settings(&self, edge: Edge, wing: &Wing) -> AirSettings {
         let insect = AirOptions::insect(self.density, self.viscosity, self.chord).lattice;
         let thin = insect.leading.suction().expect("insects' edges hold some");
-        let [threshold, efficiency] = if wing.round { ROUND } else { thin };
+        let [threshold, efficiency] = wing.nose.suction(thin);
         AirSettings {
             free_stream: self.stream,
             shedding: SheddingKinds {
@@ -120,8 +144,7 @@ pub(crate) struct Wing {
     pub paired: bool,
     /// Whether the root is an edge that sheds.
     pub free_root: bool,
-    /// Whether its leading edge is round, and not thin.
-    pub round: bool,
+    pub nose: Nose,
     /// Whether the flow is plane: one panel along a long span, whose ends do not shed and whose wakes stay straight.
     pub plane: bool,
     /// Columns from the root on whose force is measured.
@@ -143,7 +166,7 @@ impl Wing {
             joined,
             paired: false,
             free_root: !joined,
-            round: false,
+            nose: Nose::Thin,
             plane: false,
             measured: cols,
         }
