@@ -46,11 +46,17 @@ pub(crate) fn leading_values(
             LeadingEdge::Suction { threshold, .. } => {
                 let section = LeadingSection::of((lattice, &out.panels, out.time), strip, position);
                 let net = filaments.bound.gamma[strip.edge];
-                let [_, second] = foremost(strip, &out.gamma);
-                let [share, gone] = lattice.held_and_gone(state, k, &filaments.lengths);
-                let second = second - gone;
-                let counted = section.counted([net, second], share);
-                let second = second * net.signum();
+                let [_, beside] = lattice.held_and_beside(state, k, &filaments.lengths);
+                let [_, second] = foremost(strip, &out.gamma).map(|g| (g - beside) * net.signum());
+                // Flow that leaves the edge smoothly has no next mode there.
+                let even = threshold * section.unit();
+                let all = section.counted([net.abs(), second], 1.0).abs();
+                let leaves = beside.abs().max(all - even);
+                let share = match leaves < even {
+                    true => 1.0 - leaves.max(0.0) / even,
+                    false => 0.0,
+                };
+                let counted = section.counted([net.abs(), second], share);
                 [
                     section.parameter(counted).abs(),
                     section.limit(threshold, second, share),

@@ -57,17 +57,22 @@ impl Lattice {
         sheet.newest(column) != before
     }
 
-    /// Part of the circulation at the leading edge of strip `k` that the edge holds, 0 to 1, by what the state has kept: beside it is what left
-    /// while the flow went on by a panel length, or more if that is about to leave; `lengths` are those of the newest rows.
+    /// Part of the circulation at the leading edge of strip `k` that the edge holds, 0 to 1, by what the state has kept; `lengths` are those
+    /// of the newest rows.
     pub(crate) fn held_of_strip(&self, state: &AirState, k: usize, lengths: &[Vec<f64>]) -> f64 {
-        match self.settings().leading {
-            LeadingEdge::Always => 0.0,
-            _ => self.held_and_gone(state, k, lengths)[0],
+        if self.settings().leading == LeadingEdge::Always {
+            return 0.0;
+        }
+        let [held, beside] = self.held_and_beside(state, k, lengths);
+        match beside == 0.0 {
+            true => 1.0,
+            false => held / (held + beside.abs()),
         }
     }
 
-    /// The same with what left beside it, counted as circulation of panels [m2/s]; of an edge with a criterion, or one that does not shed.
-    pub(crate) fn held_and_gone(
+    /// What the leading edge of strip `k` holds by what the state has kept, and what is beside it, counted as circulation of panels [m2/s]: what left
+    /// while the flow went on by a panel length, or more if that is about to leave. Of an edge with a criterion, or one that does not shed.
+    pub(crate) fn held_and_beside(
         &self,
         state: &AirState,
         k: usize,
@@ -90,15 +95,11 @@ impl Lattice {
         let held = net.abs().min(state.hold[k]);
         let left = (newest - before) / length.max(f64::MIN_POSITIVE);
         let leaves = net.abs() - held;
-        let gone = if left.abs() > leaves {
-            left
-        } else {
-            leaves.copysign(net)
+        let beside = match left.abs() > leaves {
+            true => left,
+            false => leaves.copysign(net),
         };
-        match gone != 0.0 {
-            true => [held / (held + gone.abs()), root.signs[wake.column] * gone],
-            false => [1.0, 0.0],
-        }
+        [held, root.signs[wake.column] * beside]
     }
 
     /// Part of the net circulation `net` [m2/s] of an edge that it holds, 0 to 1: what is beyond it is about to leave.
