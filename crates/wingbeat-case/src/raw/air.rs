@@ -137,7 +137,7 @@ pub struct AirCase {
     pub leading_edge_threshold_deg: Option<f64>,
     /// Leading-edge suction parameter that the leading edge of a strip holds: what is beyond it sheds.
     ///
-    /// Change it with the section of the wing and its Reynolds number.
+    /// Change it with the section of the wing: aerofoils hold about 0.18 times the root of their nose's radius over 0.008 chords.
     #[default(0.15)]
     #[schemars(extend("exclusiveMinimum" = 0, "with" = [LATTICE, "leading_edge = suction | suction_implicit | vortex_lift"]))]
     pub leading_edge_threshold: f64,
