@@ -107,9 +107,12 @@ impl LeadingSection {
         ((threshold * self.unit() - without) / (1.0 + share * self.ahead)).max(0.0)
     }
 
-    /// Suction parameter \[1\] where [`Self::counted`] is this [m2/s].
+    /// Suction parameter \[1\] where [`Self::counted`] is this [m2/s]; none where nothing flows past the section.
     pub fn parameter(&self, counted: f64) -> f64 {
-        counted / self.unit().max(f64::MIN_POSITIVE)
+        match self.unit() > 0.0 {
+            true => counted / self.unit(),
+            false => 0.0,
+        }
     }
 }
 
@@ -173,5 +176,61 @@ fn quarter_chord_wind(
     match way > 0.0 {
         true => wind[0].lerp(wind[1], (0.25 * c - place[0]) / way),
         false => wind[0],
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// What the two foremost vortices make of an even normal velocity is that velocity, and nothing of one that is linear about mid chord, for panels of
+    /// any lengths whose first and last are alike.
+    #[test]
+    fn exact_weights_of_even_and_linear_normal_velocities() {
+        for ends in [&[0.0, 0.5, 1.0][..], &[0.0, 0.1, 0.35, 0.8, 0.9]] {
+            let (count, chord) = (ends.len() - 1, ends[ends.len() - 1]);
+            let row = Row {
+                place: |k: usize| ends[k],
+                count,
+                shift: 0.25,
+            };
+            let weights: Vec<f64> = (0..count).map(|i| row.weight(i)).collect();
+            let even: f64 = weights.iter().sum();
+            let about_middle = |(i, w): (usize, &f64)| w * (row.point(i) - 0.5 * chord);
+            let linear: f64 = weights.iter().enumerate().map(about_middle).sum();
+            assert!(
+                (even - 1.0).abs() < 1e-12 && linear.abs() < 1e-12,
+                "{weights:?}"
+            );
+        }
+    }
+
+    /// The largest circulation is that which counts as the threshold, whatever share of the next mode it has.
+    #[test]
+    fn exact_limit_counts_as_the_threshold() {
+        let section = LeadingSection {
+            middle: DVec3::ZERO,
+            aft: DVec3::X,
+            extent: [0.2, 0.4, 1.0],
+            speed: 2.0,
+            per_speed: 1.5,
+            weights: [0.4, 0.1],
+            ratio: 2.0,
+            ahead: 0.25,
+        };
+        for (second, share) in [(0.3, 0.0), (0.3, 1.0), (-0.1, 0.6)] {
+            let most = section.limit(0.15, second, share);
+            let parameter = section.parameter(section.counted([most, second], share));
+            assert!(
+                (parameter - 0.15).abs() < 1e-15,
+                "{second}, {share}: {parameter}"
+            );
+        }
+        assert_eq!(section.limit(0.15, -9.0, 1.0), 0.0);
+        let still = LeadingSection {
+            speed: 0.0,
+            ..section
+        };
+        assert_eq!(still.parameter(1.0), 0.0);
     }
 }

@@ -142,6 +142,30 @@ fn exact_what_is_fed_in_revolution() {
     }
 }
 
+/// Where a plate stands still in still air with circulation left, nothing flows past its edge and no suction is left to be turned.
+#[test]
+fn behaves_a_plate_that_stops_in_still_air_has_finite_forces() {
+    let settings = AirSettings {
+        free_stream: DVec3::ZERO,
+        ..settings(0.0, law(0.15, 0.0))
+    };
+    let lattice = Lattice::new(vec![Surface::grid("wing", ROWS, COLS)], settings).unwrap();
+    let flat = rectangle(ROWS, COLS, DVec3::X, 3.0 * DVec3::Y);
+    let motion = |t: f64| {
+        let way = DVec3::new(-1.0, 0.0, -0.5);
+        let shift = t.min(1.0) * way;
+        let velocity = if t < 1.0 { way } else { DVec3::ZERO };
+        translating(flat.iter().map(|x| *x + shift).collect(), velocity)
+    };
+    let mut last = (0.0, 1.0);
+    fly(&lattice, motion, 0.125, 16, |_, _, loads, _| {
+        last = (loads.gamma[0], loads.leading[0]);
+        assert!(total_force(loads).is_finite());
+    })
+    .unwrap();
+    assert!(last.0 != 0.0 && last.1 == 0.0, "{last:?}");
+}
+
 /// The state says all: a copy of it goes on bit for bit with a new workspace.
 #[test]
 fn invariant_a_copied_state_goes_on_bit_for_bit() {
