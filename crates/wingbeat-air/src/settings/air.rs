@@ -161,6 +161,20 @@ impl AirSettings {
         }
     }
 
+    /// Whether the flow may leave leading edges: they shed, or have vortex lift.
+    pub fn flow_may_leave_leading_edges(&self) -> bool {
+        self.shedding.leading || matches!(self.leading, LeadingEdge::VortexLift(_))
+    }
+
+    /// Part of the friction of an attached plate at this incidence [rad], 0 to pi/2, that its strips feel: the face that the flow leaves at the leading edge has as much of
+    /// its own as the edge holds of the suction \[1\].
+    pub(crate) fn friction_felt(&self, incidence: f64) -> f64 {
+        match self.flow_may_leave_leading_edges() {
+            true => 0.5 * (1.0 + self.leading.holds(incidence)),
+            false => 1.0,
+        }
+    }
+
     /// Whether what leaves leading edges is part of the solution for the circulations.
     pub(crate) fn solves_suction(&self) -> bool {
         self.shedding.leading && matches!(self.leading, LeadingEdge::SuctionImplicit { .. })

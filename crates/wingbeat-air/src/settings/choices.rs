@@ -1,6 +1,6 @@
 //! Choices of the method.
 
-use crate::settings::vortex_lift::VortexLift;
+use crate::settings::vortex_lift::{VortexLift, held_part};
 
 /// How the rate of change of circulation in the unsteady Bernoulli equation is formed.
 #[derive(
@@ -151,6 +151,23 @@ impl LeadingEdge {
                 ..
             }) => Some([threshold, efficiency]),
             _ => None,
+        }
+    }
+
+    /// Part of the suction of a plate at this incidence [rad], 0 to pi/2, that the edge holds: the rest of the flow leaves it \[1\].
+    ///
+    /// Where a suction parameter decides, the plate's is the sine of its incidence, and the part is rounded as [`VortexLift`] rounds it.
+    pub(crate) fn holds(&self, incidence: f64) -> f64 {
+        match *self {
+            Self::Never => 1.0,
+            Self::Always => 0.0,
+            Self::AngleOfAttack { threshold } if incidence > threshold => 0.0,
+            Self::AngleOfAttack { .. } => 1.0,
+            Self::Suction { threshold, .. }
+            | Self::SuctionImplicit { threshold, .. }
+            | Self::VortexLift(VortexLift { threshold, .. }) => {
+                held_part(incidence.sin() / threshold)
+            }
         }
     }
 }

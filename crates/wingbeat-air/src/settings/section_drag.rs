@@ -18,7 +18,7 @@ pub struct SectionDrag {
 pub enum Friction {
     /// None.
     None,
-    /// Laminar flat plate, both sides, see [`SectionDrag::speed_times_friction`].
+    /// Laminar flat plate, both faces, less on one where the flow leaves the leading edge, see [`SectionDrag::speed_times_friction`].
     Blasius {
         /// Kinematic viscosity nu [m2/s].
         viscosity: f64,

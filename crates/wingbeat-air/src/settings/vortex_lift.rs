@@ -86,11 +86,7 @@ impl VortexLift {
 
     /// What becomes of the forces of a strip at this suction parameter, whose vortex has been fed for so many chords.
     pub(crate) fn parts(&self, a0: f64, fed: f64) -> Parts {
-        let ratio = a0.abs() / self.threshold;
-        let sigma = match ratio > 0.0 {
-            true => (held(ratio) / ratio).powi(2),
-            false => 1.0,
-        };
+        let sigma = held_part(a0.abs() / self.threshold).powi(2);
         let grown = fed / self.formation;
         let lost = step(grown - SPREAD); // from T* to 1.5 T*
         Parts {
@@ -116,6 +112,14 @@ impl VortexLift {
             self.efficiency,
             "a number from 0 to 1",
         )
+    }
+}
+
+/// Part of the suction parameter that an edge holds, from that parameter over the threshold.
+pub(super) fn held_part(ratio: f64) -> f64 {
+    match ratio > 0.0 {
+        true => held(ratio) / ratio,
+        false => 1.0,
     }
 }
 

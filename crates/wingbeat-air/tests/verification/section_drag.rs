@@ -2,7 +2,8 @@
 
 use crate::common::{fly, rectangle, total_force, translating};
 use wingbeat_air::{
-    AirSettings, EdgeKind, Friction, Lattice, NodeMotion, SectionDrag, SheddingKinds, Surface,
+    AirSettings, EdgeKind, Friction, Lattice, LeadingEdge, LoadMethod, NodeMotion, SectionDrag,
+    SheddingKinds, Surface, VortexLift,
 };
 use wingbeat_math::{DVec3, r2};
 
@@ -68,6 +69,53 @@ fn exact_friction_acts_along_the_surface() {
     let flat = added(0.0, speed * alpha.cos()).x;
     assert!((added(alpha, speed) - flat * along).length() < 1e-11 * flat); // roundings of the pressures
     assert!(added(0.5 * std::f64::consts::PI, speed).length() < 1e-8 * flat); // 1.6e-16 to the 9/8
+}
+
+/// The face that the flow leaves at the leading edge has as much friction as the edge holds: all, none, or the threshold over the suction parameter of the plate.
+#[test]
+fn exact_friction_where_leading_edges_shed() {
+    let (alpha, speed) = (0.5_f64, 4.0);
+    let hold = |threshold: f64| LeadingEdge::Suction {
+        threshold,
+        efficiency: 0.0,
+    };
+    let vortex_lift = LeadingEdge::VortexLift(VortexLift {
+        threshold: 0.2,
+        ..VortexLift::default()
+    });
+    let along = r2(alpha) * DVec3::X;
+    let added = |leading: Option<LeadingEdge>| {
+        let shedding = SheddingKinds {
+            leading: leading.is_some(),
+            ..SheddingKinds::TRAILING
+        };
+        let of = |d| {
+            let settings = AirSettings {
+                shedding,
+                leading: leading.unwrap_or_default(),
+                loads: LoadMethod::Joukowski,
+                section_drag: d,
+                ..AirSettings::accurate(RHO, speed * DVec3::X)
+            };
+            drag(settings, alpha, DVec3::ZERO).0
+        };
+        let force = of(Some(BLASIUS)) - of(None);
+        assert!((force - force.dot(along) * along).length() < 1e-10 * force.length());
+        force.dot(along)
+    };
+    let attached = added(None);
+    for (leading, part) in [
+        (LeadingEdge::Never, 1.0),
+        (LeadingEdge::Always, 0.5),
+        (LeadingEdge::AngleOfAttack { threshold: 0.6 }, 1.0),
+        (LeadingEdge::AngleOfAttack { threshold: 0.4 }, 0.5),
+        (hold(0.9), 1.0),
+        (hold(0.2), 0.5 + 0.1 / alpha.sin()),
+        (vortex_lift, 0.5 + 0.1 / alpha.sin()),
+    ] {
+        let felt = added(Some(leading)) / attached;
+        assert!((felt - part).abs() < 1e-9, "{leading:?}: {felt}, {part}"); // roundings of the pressures
+    }
 }
 
 /// One side of a plate along the stream: Janour's experiments in oil, 2.90 / Re^0.601 from Re = 12 to 2335

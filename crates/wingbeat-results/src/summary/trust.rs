@@ -153,7 +153,7 @@ fn air_warnings(
     }
     list.note(match &lattice.section_drag {
         None => format!("The air is inviscid: without friction, drag and power come out low, the more so the smaller the Reynolds number. {suction}"),
-        Some(drag) => format!("The air is inviscid; drag of the sections was added to its forces (air.section_drag: {}, cd0 = {}, cd2 = {} per rad2), from the undisturbed air past each strip. {suction}", friction(drag), drag.cd0, drag.cd2),
+        Some(drag) => format!("The air is inviscid; drag of the sections was added to its forces (air.section_drag: {}, cd0 = {}, cd2 = {} per rad2), from the undisturbed air past each strip. {suction}", friction(lattice, drag), drag.cd0, drag.cd2),
     });
     let no_meaning = |crossing| {
         format!(
@@ -336,11 +336,15 @@ fn two_ways_to_the_lift(lattice: &AirSettings, beat: &BeatMeans, list: &mut Warn
     }
 }
 
-fn friction(drag: &SectionDrag) -> String {
+fn friction(lattice: &AirSettings, drag: &SectionDrag) -> String {
     match drag.friction {
         Friction::None => "no friction".to_owned(),
         Friction::Blasius { viscosity } => {
-            format!("laminar friction at a viscosity of {viscosity:.2e} m2/s")
+            let of = match lattice.flow_may_leave_leading_edges() {
+                true => ", less on faces that the flow has left at the leading edge",
+                false => "",
+            };
+            format!("laminar friction at a viscosity of {viscosity:.2e} m2/s{of}")
         }
     }
 }
