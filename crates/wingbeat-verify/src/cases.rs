@@ -4,6 +4,7 @@ mod anax;
 mod baik;
 mod benchmark;
 mod bodies;
+mod bumblebee;
 mod conservation;
 mod dragonflies;
 mod feathering;
@@ -68,6 +69,7 @@ pub fn suite() -> Vec<Case> {
         wang::CASES,
         revolving::CASES,
         insects::CASES,
+        bumblebee::CASES,
         hummingbird::CASES,
         dragonflies::CASES,
         anax::CASES,
