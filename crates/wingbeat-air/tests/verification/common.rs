@@ -1,6 +1,9 @@
 //! Wings, motions and the stepping that the tests share.
 
-use wingbeat_air::{AirError, AirLoads, AirState, AirWorkspace, Lattice, NodeMotion};
+use wingbeat_air::{
+    AirError, AirLoads, AirSettings, AirState, AirWorkspace, Lattice, LeadingEdge, LoadMethod,
+    NodeMotion, SheddingKinds,
+};
 use wingbeat_math::DVec3;
 
 /// Nodes of a flat rectangle of `rows` x `cols` panels: leading edge on the axis of `span`.
@@ -16,6 +19,19 @@ pub fn rectangle(rows: usize, cols: usize, chord: DVec3, span: DVec3) -> Vec<DVe
 pub fn translating(position: Vec<DVec3>, velocity: DVec3) -> NodeMotion {
     let velocity = vec![velocity; position.len()];
     NodeMotion { position, velocity }
+}
+
+/// Forces on segments in this stream of density 1; leading and trailing edges may shed.
+pub fn with_leading_edges(leading: LeadingEdge, stream: DVec3) -> AirSettings {
+    AirSettings {
+        shedding: SheddingKinds {
+            leading: true,
+            ..SheddingKinds::TRAILING
+        },
+        loads: LoadMethod::Joukowski,
+        leading,
+        ..AirSettings::accurate(1.0, stream)
+    }
 }
 
 /// A run in steps of one length: the state after the last accepted step, its wake not yet moved,

@@ -1,11 +1,8 @@
 //! Leading edges that may shed but hold everything: the flow is the attached one.
 
-use crate::common::{fly, rectangle, total_force, translating};
+use crate::common::{fly, rectangle, total_force, translating, with_leading_edges};
 use crate::implicit_suction::implicit;
-use wingbeat_air::{
-    AirSettings, CoreModel, Lattice, LeadingEdge, LoadMethod, NodeMotion, SheddingKinds, Surface,
-    VortexLift,
-};
+use wingbeat_air::{AirSettings, CoreModel, Lattice, LeadingEdge, NodeMotion, Surface, VortexLift};
 use wingbeat_math::{DVec3, r2};
 
 /// Far more than what the edges have, and all of the force of their suction.
@@ -19,15 +16,9 @@ fn hold_all() -> LeadingEdge {
 fn settings(leading: LeadingEdge) -> AirSettings {
     let core = CoreModel::Scully { radius: 1e-7 };
     AirSettings {
-        shedding: SheddingKinds {
-            leading: true,
-            ..SheddingKinds::TRAILING
-        },
-        loads: LoadMethod::Joukowski,
-        leading,
         bound_core: core,
         wake_core: core,
-        ..AirSettings::accurate(1.0, DVec3::X)
+        ..with_leading_edges(leading, DVec3::X)
     }
 }
 

@@ -1,6 +1,6 @@
 //! Leading edges that hold suction, what leaves them found together with the circulations.
 
-use crate::common::{fly, rectangle, total_force};
+use crate::common::{fly, rectangle, total_force, with_leading_edges};
 use crate::peers::column;
 use crate::separated::{core_of, normal_hover, separated_hover};
 use crate::wakes::ALL;
@@ -23,16 +23,10 @@ pub fn implicit(threshold: f64) -> LeadingEdge {
 /// The cores of insects in a unit stream, without clearance and overlap, leading and trailing edges shedding.
 pub fn settings(leading: LeadingEdge) -> AirSettings {
     AirSettings {
-        shedding: SheddingKinds {
-            leading: true,
-            ..SheddingKinds::TRAILING
-        },
-        leading,
-        loads: LoadMethod::Joukowski,
         bound_core: core_of(0.01)[0],
         wake_core: core_of(0.07)[0],
         summation: Method::Direct, // to the last bits
-        ..AirSettings::accurate(1.0, DVec3::X)
+        ..with_leading_edges(leading, DVec3::X)
     }
 }
 

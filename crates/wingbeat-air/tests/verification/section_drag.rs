@@ -1,9 +1,9 @@
 //! Drag of the sections, and wakes from side edges.
 
-use crate::common::{fly, rectangle, total_force, translating};
+use crate::common::{fly, rectangle, total_force, translating, with_leading_edges};
 use wingbeat_air::{
-    AirSettings, EdgeKind, Friction, Lattice, LeadingEdge, LoadMethod, NodeMotion, SectionDrag,
-    SheddingKinds, Surface, VortexLift,
+    AirSettings, EdgeKind, Friction, Lattice, LeadingEdge, NodeMotion, SectionDrag, SheddingKinds,
+    Surface, VortexLift,
 };
 use wingbeat_math::{DVec3, r2};
 
@@ -84,18 +84,12 @@ fn exact_friction_where_leading_edges_shed() {
         ..VortexLift::default()
     });
     let along = r2(alpha) * DVec3::X;
-    let added = |leading: Option<LeadingEdge>| {
-        let shedding = SheddingKinds {
-            leading: leading.is_some(),
-            ..SheddingKinds::TRAILING
-        };
+    let added = |leading: LeadingEdge| {
         let of = |d| {
             let settings = AirSettings {
-                shedding,
-                leading: leading.unwrap_or_default(),
-                loads: LoadMethod::Joukowski,
+                density: RHO,
                 section_drag: d,
-                ..AirSettings::accurate(RHO, speed * DVec3::X)
+                ..with_leading_edges(leading, speed * DVec3::X)
             };
             drag(settings, alpha, DVec3::ZERO).0
         };
@@ -103,9 +97,8 @@ fn exact_friction_where_leading_edges_shed() {
         assert!((force - force.dot(along) * along).length() < 1e-10 * force.length());
         force.dot(along)
     };
-    let attached = added(None);
+    let attached = added(LeadingEdge::Never);
     for (leading, part) in [
-        (LeadingEdge::Never, 1.0),
         (LeadingEdge::Always, 0.5),
         (LeadingEdge::AngleOfAttack { threshold: 0.6 }, 1.0),
         (LeadingEdge::AngleOfAttack { threshold: 0.4 }, 0.5),
@@ -113,7 +106,7 @@ fn exact_friction_where_leading_edges_shed() {
         (hold(0.2), 0.5 + 0.1 / alpha.sin()),
         (vortex_lift, 0.5 + 0.1 / alpha.sin()),
     ] {
-        let felt = added(Some(leading)) / attached;
+        let felt = added(leading) / attached;
         assert!((felt - part).abs() < 1e-9, "{leading:?}: {felt}, {part}"); // roundings of the pressures
     }
 }

@@ -1,6 +1,6 @@
 //! Leading edges that are swept, and meshes whose columns are not normal to them.
 
-use crate::common::{fly, rectangle, translating};
+use crate::common::{fly, rectangle, translating, with_leading_edges};
 use crate::implicit_suction::implicit;
 use wingbeat_air::{
     AirLoads, AirSettings, CoreModel, Lattice, LeadingEdge, LoadMethod, SheddingKinds, Surface,
@@ -16,15 +16,9 @@ const ALL: f64 = 9.0;
 fn plane_flow(rows: usize, chord: DVec3, edge: DVec3, leading: LeadingEdge) -> AirLoads {
     let core = CoreModel::Scully { radius: 1e-7 };
     let settings = AirSettings {
-        shedding: SheddingKinds {
-            leading: true,
-            ..SheddingKinds::TRAILING
-        },
-        loads: LoadMethod::Joukowski,
-        leading,
         bound_core: core,
         wake_core: core,
-        ..AirSettings::accurate(1.0, DVec3::new(ALPHA.cos(), 0.0, ALPHA.sin()))
+        ..with_leading_edges(leading, DVec3::new(ALPHA.cos(), 0.0, ALPHA.sin()))
     };
     let lattice = Lattice::new(vec![Surface::grid("wing", rows, 1)], settings).unwrap();
     let flat = rectangle(rows, 1, chord, 1e5 * edge);

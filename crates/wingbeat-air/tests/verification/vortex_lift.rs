@@ -1,9 +1,8 @@
 //! Leading edges whose vortices are a law of forces and no free vorticity.
 
-use crate::common::{fly, rectangle, total_force, translating};
+use crate::common::{fly, rectangle, total_force, translating, with_leading_edges};
 use wingbeat_air::{
-    AirLoads, AirSettings, Lattice, LeadingEdge, LoadMethod, NodeMotion, SheddingKinds, Surface,
-    VortexLift,
+    AirLoads, AirSettings, Lattice, LeadingEdge, LoadMethod, NodeMotion, Surface, VortexLift,
 };
 use wingbeat_math::{DVec3, r2, r3};
 
@@ -12,16 +11,7 @@ const COLS: usize = 6;
 
 /// Settings of a wing in a stream of 1 at this angle [rad], with forces on segments.
 fn settings(alpha: f64, leading: LeadingEdge) -> AirSettings {
-    let stream = DVec3::new(alpha.cos(), 0.0, alpha.sin());
-    AirSettings {
-        shedding: SheddingKinds {
-            leading: true,
-            ..SheddingKinds::TRAILING
-        },
-        loads: LoadMethod::Joukowski,
-        leading,
-        ..AirSettings::accurate(1.0, stream)
-    }
+    with_leading_edges(leading, DVec3::new(alpha.cos(), 0.0, alpha.sin()))
 }
 
 fn law(threshold: f64, efficiency: f64) -> LeadingEdge {
