@@ -180,20 +180,18 @@ impl LeadingEdges {
         Ok(())
     }
 
-    /// Gives what leaves a strip at least the effect on its own suction that it has where the wing has turned into its newest row.
+    /// Gives what leaves a strip so much effect on its own suction that what leaves all of them together has at least that which it has where
+    /// the wing has turned into its newest row.
     fn bound_effects(&mut self, now: Instant) {
         let computed = &now.lattice.suction().computed;
         self.given.clear();
         self.given.resize(computed.len(), 0.0);
         for (u, &s) in computed.iter().enumerate() {
             let strip = &now.lattice.strips()[s];
-            let row = now.newest_row(strip.edge);
             let normal = now.panels.normal[strip.panels[0]];
-            let own = &mut self.release.by_leaving[u * computed.len() + u];
-            if let Some(row) = row {
-                let bounded = own.min(self.fronts[s].least_effect(row, normal));
-                self.given[u] = bounded - *own;
-                *own = bounded;
+            if let Some(row) = now.newest_row(strip.edge) {
+                let least = self.fronts[s].least_effect(row, normal);
+                self.given[u] = self.release.bound(u, least);
             }
         }
     }

@@ -120,6 +120,22 @@ impl Release {
         both.any(|(net, most)| net.abs() > *most)
     }
 
+    /// Makes what leaves strip `j` act on its own net circulation by so much that the others, as far as they act against it, leave at least `least`,
+    /// a negative number; returns what that gives.
+    ///
+    /// So strips that shed alike, as those of plane flow, shed no more than what is too much over `-least`. Bounded by itself alone a strip is not: what leaves its
+    /// neighbours may act against it by nearly as much as its own does, and the whole edge would have to shed a hundred times what is too much.
+    pub fn bound(&mut self, j: usize, least: f64) -> f64 {
+        let n = self.net.len();
+        let row = &mut self.by_leaving[j * n..(j + 1) * n];
+        let others = row.iter().enumerate().filter(|(k, _)| *k != j);
+        let against: f64 = others.map(|(_, by)| by.max(0.0)).sum();
+        let bounded = row[j].min(least - against);
+        let given = bounded - row[j];
+        row[j] = bounded;
+        given
+    }
+
     /// Nothing leaves.
     pub fn none(&mut self) {
         self.leaving.clear();
@@ -222,6 +238,32 @@ pub(crate) fn threshold(lattice: &Lattice) -> Option<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// Neighbours that act against each other by nearly as much as each acts on itself: what leaves has a bound.
+    #[test]
+    fn limit_what_leaves_has_a_bound_where_neighbours_act_against_each_other() {
+        const LEAST: f64 = -0.3;
+        let excess = 0.004;
+        let mut release = Release {
+            net: vec![1.0 + excess; 3],
+            by_leaving: vec![-0.3, 0.15, 0.05, 0.15, -0.3, 0.149, 0.05, 0.15, -0.3],
+            most: vec![1.0; 3],
+            ..Release::default()
+        };
+        let given = [0, 1, 2].map(|j| release.bound(j, LEAST));
+        assert_eq!(release.converge(), 0);
+        for (j, given) in given.iter().enumerate() {
+            assert!((release.held[j] - 1.0).abs() < 1e-12);
+            assert!(*given < 0.0 && (release.leaving[j] + excess / LEAST).abs() < 1e-12);
+        }
+        // Straight ahead neighbours help, and nothing is given.
+        let mut ahead = Release {
+            net: vec![1.0 + excess; 2],
+            by_leaving: vec![-0.6, -0.1, 0.05, -0.6],
+            ..Release::default()
+        };
+        assert_eq!([0, 1].map(|j| ahead.bound(j, LEAST)), [0.0; 2]);
+    }
 
     /// A strip whose suction grows with what leaves it has no solution: it sheds what it has too much, and is counted.
     #[test]
