@@ -2,7 +2,7 @@
 //!
 //! The loads of a wake hold the rate of the circulation as a difference over steps; where the air that moves with
 //! wings or body weighs too much for the integrator, velocities alternate and grow (docs/dynamics.md,
-//! *Integrators*): by one factor in each step, so that successive changes are alike in size. Forces of wings among their own
+//! *Integrators*): no change is much smaller than the one before. Forces of wings among their own
 //! wakes turn back as well, a dozen times in a row in flights of few panels and long steps, but by changes of any size.
 
 use wingbeat_flight::Record;
@@ -10,15 +10,15 @@ use wingbeat_math::DVec3;
 
 /// A change counts beside the largest force so far from this part of it on.
 const CHANGE: f64 = 0.02;
-/// Changes whose ratio is no greater are alike.
-const ALIKE: f64 = 2.0;
+/// A change counts beside the one before from this part of it on.
+const LASTS: f64 = 0.5;
 
 /// What was seen of the forces of the wings.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Alternation {
     wings: Vec<Wing>,
     step: usize,
-    /// Most steps in a row in which the force of a wing turned back by about as much.
+    /// Most steps in a row in which the force of a wing turned back by no much smaller a change.
     pub longest: usize,
 }
 
@@ -44,7 +44,7 @@ impl Alternation {
 }
 
 impl Wing {
-    /// Steps in a row, up to this one, in which the force turned back by about as much.
+    /// Steps in a row, up to this one, in which the force turned back by no much smaller a change.
     fn take(&mut self, force: DVec3, follows: bool) -> usize {
         let change = if follows {
             force - self.force
@@ -55,8 +55,8 @@ impl Wing {
         let sizes = [change.length(), self.change.length()];
         let turned = change.dot(self.change) < -0.5 * sizes[0] * sizes[1];
         let counts = sizes.iter().all(|s| *s > CHANGE * self.most);
-        let alike = sizes[0] <= ALIKE * sizes[1] && sizes[1] <= ALIKE * sizes[0];
-        self.run = if turned && counts && alike {
+        let lasts = sizes[0] >= LASTS * sizes[1];
+        self.run = if turned && counts && lasts {
             self.run + 1
         } else {
             0
@@ -97,6 +97,14 @@ mod tests {
         let zigzag = |k: usize| if k.is_multiple_of(2) { 1.0 } else { -1.0 };
         let growing = |k: usize| smooth(k) + 1e-6 * 1.05_f64.powi(k as i32) * zigzag(k);
         assert!(longest(growing, 1) > 50);
+        let fast = |k: usize| {
+            if k < 27 {
+                1e-6 * 3_f64.powi(k as i32) * zigzag(k)
+            } else {
+                0.0
+            }
+        };
+        assert!(longest(fast, 1) > 20);
         assert_eq!(longest(|k| smooth(k) + 0.005 * zigzag(k), 1), 0); // less than counts
         assert_eq!(longest(growing, 3), 0); // steps were left out
         // A hawkmoth's wing that turns among its wakes, the body held: changes of its force, each back from the one before.

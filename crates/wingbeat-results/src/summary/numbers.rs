@@ -56,7 +56,7 @@ pub struct Summary {
     pub corrector_passes_mean: f64,
     /// Near-singular velocities that were regularised, all steps.
     pub regularised: usize,
-    /// Most steps in a row in which the force of the air on a wing turned back by about as much: some 2 in sound flights, up to 7 where wings turn among their wakes.
+    /// Most steps in a row in which the force of the air on a wing turned back by no much smaller a change: some 2 in sound flights, up to 7 where wings turn among their wakes.
     #[serde(default)]
     pub alternating_steps: usize,
     /// Wake rings at the end.

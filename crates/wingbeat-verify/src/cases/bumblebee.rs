@@ -1,10 +1,10 @@
 //! A bumblebee in forward flight, in the setting of all insects.
 
-use crate::lab::insect::{Choice, DEFAULT, FREE_ROOTS, Flown, Insect, MODELS, middle};
+use crate::lab::insect::{Choice, DEFAULT, FREE_ROOTS, Flown, Insect, MODELS, fourier, middle};
 use crate::lab::series::mean;
 use crate::{Case, Part, Row, VerifyError};
 use wingbeat_case::raw;
-use wingbeat_case::raw::{AngleCase, FourierCase, WingMotionCase};
+use wingbeat_case::raw::WingMotionCase;
 use wingbeat_math::DVec3;
 
 pub(super) const CASES: &[Case] = &[Case {
@@ -25,15 +25,6 @@ const BAND: &str = "a quarter, as asked of dragonflies: wings flat, angles of a 
                     out; uncertainty: half the change over the last two beats";
 /// Beats flown; the last two are measured.
 const BEATS: usize = 5;
-
-/// Mean, cosines and sines [deg].
-fn fourier(mean_deg: f64, cosine_deg: &[f64], sine_deg: &[f64]) -> Option<AngleCase> {
-    Some(AngleCase::Fourier(FourierCase {
-        mean_deg,
-        cosine_deg: cosine_deg.to_vec(),
-        sine_deg: sine_deg.to_vec(),
-    }))
-}
 
 /// Wings of the outline's area and moments; angles in the convention of `wingbeat_model::kinematics::convert::flusi`.
 fn bee() -> Insect {

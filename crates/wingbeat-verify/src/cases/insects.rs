@@ -1,9 +1,11 @@
 //! Insects and their robots, in the one setting of [`crate::lab::insect`].
 
-use crate::lab::insect::{Choice, DEFAULT, Flown, Insect, MODELS, data, fruit_fly_wings, middle};
+use crate::lab::insect::{
+    Choice, DEFAULT, Flown, Insect, MODELS, data, fourier, fruit_fly_wings, middle,
+};
 use crate::lab::series::{Table, correlation, interpolate, mean};
 use crate::{Case, Comparison, Part, Row, VerifyError};
-use wingbeat_case::raw::{AngleCase, FourierCase, WingMotionCase};
+use wingbeat_case::raw::WingMotionCase;
 use wingbeat_math::DVec3;
 
 pub(super) const CASES: &[Case] = &[
@@ -114,13 +116,6 @@ fn action_and_reaction(name: &str, flown: &Flown, beat: usize) -> Row {
 /// Stroke and feathering of the steady wingbeat (Muijres et al. 2014), mean and eight harmonics; the
 /// stroke angle is positive forward, feathering turns the leading edge into the motion.
 fn hydei_motion() -> WingMotionCase {
-    let fourier = |mean_deg, cosine_deg: &[f64], sine_deg: &[f64]| {
-        Some(AngleCase::Fourier(FourierCase {
-            mean_deg,
-            cosine_deg: cosine_deg.to_vec(),
-            sine_deg: sine_deg.to_vec(),
-        }))
-    };
     WingMotionCase {
         phi: fourier(
             3.9008,

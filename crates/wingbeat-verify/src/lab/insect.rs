@@ -10,8 +10,9 @@
 use wingbeat_air::{EdgeKind, LoadMethod};
 use wingbeat_case::LoadedCase;
 use wingbeat_case::raw::{
-    AirCase, BetaCase, BodyCase, Case, CoreCase, FlightCase, LambOseenCase, LeadingEdgeCase, Mode,
-    MotionCase, ParticlesCase, PlanformCase, TimeCase, WingCase, WingMeshCase, WingMotionCase,
+    AirCase, AngleCase, BetaCase, BodyCase, Case, CoreCase, FlightCase, FourierCase, LambOseenCase,
+    LeadingEdgeCase, Mode, MotionCase, ParticlesCase, PlanformCase, TimeCase, WingCase,
+    WingMeshCase, WingMotionCase,
 };
 use wingbeat_flight::Simulation;
 use wingbeat_math::DVec3;
@@ -267,6 +268,15 @@ pub(crate) fn data(name: &str) -> WingMotionCase {
         data: Some(name.to_owned()),
         ..WingMotionCase::default()
     }
+}
+
+/// Angle by its mean, cosines and sines [deg].
+pub(crate) fn fourier(mean_deg: f64, cosine_deg: &[f64], sine_deg: &[f64]) -> Option<AngleCase> {
+    Some(AngleCase::Fourier(FourierCase {
+        mean_deg,
+        cosine_deg: cosine_deg.to_vec(),
+        sine_deg: sine_deg.to_vec(),
+    }))
 }
 
 pub(crate) const MODELS: [(&str, Choice); 6] = [
