@@ -49,6 +49,7 @@ impl WakeMotion {
         self.velocity.reset(self.nodes.len());
         sums.load_for_wakes(lattice.settings(), filaments);
         let velocity = &mut self.velocity;
+        let mut places = &self.nodes;
         if lattice.settings().plane_wakes {
             // Where the flow is plane: in the middle of each row, far from its ends.
             self.middles.clone_from(&self.nodes);
@@ -56,12 +57,12 @@ impl WakeMotion {
                 let ends = [row.start, row.end - 1].map(|n| self.nodes.get(n));
                 row.for_each(|n| self.middles.set(n, ends[0].midpoint(ends[1])));
             }
-            sums.add_at_wakes(&self.middles, lattice.mirrors(), velocity);
-        } else {
-            sums.add_at_wakes(&self.nodes, lattice.mirrors(), velocity);
+            places = &self.middles;
         }
         if lattice.settings().is_symmetric() {
-            (self.force_free).correct(lattice, state, filaments, sums, velocity);
+            (self.force_free).add_velocity(lattice, state, filaments, sums, places, velocity);
+        } else {
+            sums.add_at_wakes(places, lattice.mirrors(), velocity);
         }
         if lattice.settings().plane_wakes {
             for row in rows(lattice, state) {

@@ -11,12 +11,11 @@
 //! `T = sum G integral w ds l`, `S = sum abs(G) integral w ds abs(l)`.
 //!
 //! Where squared cores sigma^2 change along a filament, action is reaction only if it also feels
-//! `-rho G / 4 integral W d(sigma^2)`, W the sum of `G dl / (4 pi)` over the cube of softened distances; f holds that too
-//! (W from the middle).
+//! `-rho G / 4 integral W d(sigma^2)`, W the sum of `G dl / (4 pi)` over the cube of softened distances; f holds that too.
 //!
 //! e keeps nodes in order where vorticity cancels. What is left, for the most part along T, is handed on to the
 //! nodes at the other ends of the filaments, in proportion to their vorticity, who annul of it what they can, and so on:
-//! the wake keeps its impulse to some hundredths of the lift, with no correction farther than a few filaments from its cause.
+//! the wake keeps its impulse to a hundredth of the lift, with most of a correction within a few filaments of its cause.
 
 use crate::geometry::JoinedColumns;
 use crate::images::Mirror;
@@ -28,11 +27,11 @@ use wingbeat_math::DVec3;
 use wingbeat_vortex::{Network, Points};
 
 /// e: where the vorticity of a node is a smaller part of that of its filaments, little is annulled.
-const CANCELLED: f64 = 0.3;
+const CANCELLED: f64 = 0.6;
 
-/// How often what is left is handed on. Impulse against forces of a tethered fly (beats 4 and 5): apart by a sixth with
-/// none, by 3 parts in a hundred with 4, by 1 with 8.
-const HANDED_ON: usize = 8;
+/// How often what is left is handed on. Impulse against forces of a tethered fly: apart by a sixth with none in its fourth
+/// beat; by 2 and by 7 parts in a hundred with 8 in its 12th and 20th, whose wakes are long and their filaments, too; by 1 with 32.
+const HANDED_ON: usize = 32;
 
 /// A filament seen from one of its ends.
 #[derive(Clone, Copy, Debug)]
@@ -43,9 +42,9 @@ struct End {
     middle: usize,
     /// G l [m3/s].
     vorticity: DVec3,
-    /// Its share of -G (sigma_b^2 - sigma_a^2) / 4 [m4/s].
+    /// -G (sigma_b^2 - sigma_a^2) / 4 [m4/s].
     widening: f64,
-    /// Weights of the velocities of the node and of the middle.
+    /// Weights of velocity and vorticity at the node and in the middle.
     at_node: f64,
     at_middle: f64,
 }
@@ -53,6 +52,9 @@ struct End {
 /// Memory of the correction.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct ForceFree {
+    /// Vorticity at the nodes.
+    at_nodes: Points,
+    /// Middles of filaments, velocity and vorticity there.
     middles: Points,
     velocity: Points,
     vorticity: Points,
@@ -77,16 +79,20 @@ pub(crate) struct ForceFree {
 }
 
 impl ForceFree {
-    /// Corrects the `velocity` of `nodes`, both without the undisturbed air, which are the movable ones; the sums hold
-    /// all filaments.
-    pub(crate) fn correct(
+    /// Adds to `velocity` that of the movable nodes, which is zero before, without the undisturbed air; the flow is taken
+    /// at `places`, node by node, and the sums hold all filaments.
+    pub(crate) fn add_velocity(
         &mut self,
         lattice: &Lattice,
         state: &AirState,
         filaments: &Filaments,
         sums: &mut Sums,
+        places: &Points,
         velocity: &mut Points,
     ) {
+        let mirrors = lattice.mirrors();
+        self.at_nodes.reset(places.len());
+        sums.add_with_vorticity(places, mirrors, [velocity, &mut self.at_nodes]);
         self.number(lattice, state, filaments);
         self.middles.clear();
         self.ends.clear();
@@ -95,7 +101,7 @@ impl ForceFree {
         self.velocity.reset(self.middles.len());
         self.vorticity.reset(self.middles.len());
         let both = [&mut self.velocity, &mut self.vorticity];
-        sums.add_with_vorticity(&self.middles, lattice.mirrors(), both);
+        sums.add_with_vorticity(&self.middles, mirrors, both);
         self.annul(velocity, lattice);
         for (i, &one) in self.same.iter().enumerate().filter(|(i, one)| i != *one) {
             velocity.set(i, velocity.get(one));
@@ -177,7 +183,7 @@ impl ForceFree {
                     node,
                     middle,
                     vorticity,
-                    widening: 0.5 * widening,
+                    widening,
                     at_node: 1.0 / 6.0,
                     at_middle: 1.0 / 3.0,
                 });
@@ -202,7 +208,7 @@ impl ForceFree {
                     node,
                     middle,
                     vorticity,
-                    widening: 0.5 * part * widening,
+                    widening,
                     at_node: 0.0,
                     at_middle: 0.5 * part,
                 });
@@ -226,11 +232,13 @@ impl ForceFree {
         self.sizes.clear();
         self.sizes.resize(count, 0.0);
         for end in &self.ends {
-            let u = end.at_node * velocity.get(end.node)
-                + end.at_middle * self.velocity.get(end.middle);
+            let along = |node: &Points, middle: &Points| {
+                end.at_node * node.get(end.node) + end.at_middle * middle.get(end.middle)
+            };
+            let u = along(velocity, &self.velocity);
             let weight = end.at_node + end.at_middle;
             let [force, vorticity] = &mut self.sums[end.node];
-            let widening = end.widening * self.vorticity.get(end.middle);
+            let widening = end.widening * along(&self.at_nodes, &self.vorticity);
             *force += u.cross(end.vorticity) + widening;
             *vorticity += weight * end.vorticity;
             self.sizes[end.node] += weight * end.vorticity.length();
