@@ -77,13 +77,28 @@ fn agrees_second_method_impulse_in_separated_hover() {
     let gap = |[force, impulse]: [f64; 2]| (impulse / force - 1.0).abs();
     let [symmetric, other] = [0, 1].map(with);
     println!("force, rate of impulse: algebraic {symmetric:?}, Lamb-Oseen {other:?}");
-    // Measured 0.0 %, 2.0 % and 2.7 %.
+    // Measured 0.3 %, 3.1 % and 4.3 %.
     assert!(
         symmetric.iter().all(|&both| gap(both) < 0.1),
         "{symmetric:?}"
     );
     // Where action is not reaction: measured 79 %, 59 % and 109 %.
     assert!(other.iter().any(|&both| gap(both) > 0.4), "{other:?}");
+}
+
+/// Attached wings have long filaments in their wakes, and nothing else that could part the two.
+#[test]
+fn agrees_second_method_impulse_in_attached_hover() {
+    for radius in [0.07, 0.02] {
+        let beats = separated_hover(|s| {
+            s.shedding.leading = false;
+            (s.bound_core, s.wake_core) = (core_of(0.01)[0], core_of(radius)[0]);
+        });
+        let gaps = beats.map(|[force, impulse]| impulse / force - 1.0);
+        println!("cores of {radius}: {gaps:.4?}");
+        // Measured 3.3 % at most; 6.8 % where the force of widening cores was that of the middle of a filament.
+        assert!(gaps.iter().all(|gap| gap.abs() < 0.05), "{gaps:?}");
+    }
 }
 
 /// The mean force of later beats with half and twice the core of the wake, the clearance and the overlap.
@@ -104,7 +119,7 @@ fn behaves_separated_lift_hangs_little_on_cores_overlap_and_clearance() {
             changed[k] *= factor;
             let change = of(changed) / nominal - 1.0;
             println!("{what} x {factor}: {:+.1} %", 100.0 * change);
-            // Measured 6.0 % for twice the overlap, 4.7 % for a clearance of a fifth of a chord, else 2.7 % at most.
+            // Measured 3.0 % at most.
             assert!(change.abs() < 0.07, "{what} x {factor}: {change}");
         }
     }
