@@ -172,7 +172,7 @@ fn agrees_second_method_impulse_of_a_plate_at_40_degrees_in_every_way_of_leading
             impulse.distance(force) / force.length()
         });
         println!("{leading:?}: {apart:.4?}");
-        // Measured 2.5 to 2.9 and 2.4 to 3.6 %: quadrature along filaments, and what nodes could not hand on.
+        // Measured 1.5 to 2.4 and 2.3 to 2.8 %: quadrature along segments and filaments.
         assert!(apart.iter().all(|apart| *apart < 0.05));
     }
 }
