@@ -20,18 +20,19 @@ fn largest_force(records: &[Record]) -> f64 {
 
 #[test]
 fn limit_stiff_wings_with_suction_in_the_solution_carry_what_rigid_ones_do() {
-    // Not longer: wakes part flights that differ by a millionth by a thousandth within another fifth of a beat.
-    let lattice = [implicit(), strings(&["time.beats=0.3"])].concat();
-    let rigid = fly(&lattice);
-    let attached = fly(&[&lattice[..], &strings(&["air.leading_edge_threshold=9"])].concat());
+    let rigid = fly(&implicit());
+    let attached = fly(&[implicit(), strings(&["air.leading_edge_threshold=9"])].concat());
     let largest = largest_force(&rigid);
-    let with = |b: [String; 2]| apart(&fly(&[&lattice[..], &b].concat()), &rigid) / largest;
+    assert!(apart(&attached, &rigid) > 0.1 * largest); // edges do shed
+    // Over 32 of 40 steps: wakes part flights that differ by a millionth by a thousandth within a few more.
+    let early = &rigid[..=32];
+    let with = |b: [String; 2]| apart(&fly(&[&implicit()[..], &b].concat()), early) / largest;
     let [soft, stiff] = [beam(2.0), beam(20.0)].map(with);
     println!("{soft:e}, ten times stiffer {stiff:e}");
-    assert!(apart(&attached, &rigid) > 0.1 * largest); // edges do shed
-    // What is left goes with 1 / stiffness (9.0e-4 measured, of forces that have only begun).
+    assert!(apart(&attached, early) > 100.0 * stiff * largest); // ... by then, too
+    // What is left goes with 1 / stiffness (6.4e-5 measured).
     assert!(
-        stiff < 5e-3 && (7.0..14.0).contains(&(soft / stiff)),
+        stiff < 5e-4 && (7.0..14.0).contains(&(soft / stiff)),
         "{soft} {stiff}"
     );
 }
