@@ -195,13 +195,13 @@ def test_behaves_progress_is_told_and_may_stop_the_flight(lattice):
 
 
 def test_behaves_ctrl_c_is_noticed_within_a_fifth_of_a_second(tmp_path):
-    code = "wingbeat.Flight.preset('fruit-fly-hover').set('time.beats', 40).fly()"
+    code = "wingbeat.Flight.preset('fruit-fly-hover').set('time.beats', 40).fly(progress=flying)"
     assert min(interrupted(code, tmp_path) for _ in range(3)) < 0.2
 
 
 def test_behaves_a_flight_stopped_by_ctrl_c_is_resumed_by_the_program(program, tmp_path):
     keys = "{'time.beats': 0.6, 'time.steps_per_beat': 200, 'output.figures': False, 'output.page': False}"
-    code = f"f = wingbeat.Flight.preset('fruit-fly-hover').set({keys})\nf.fly(out='stopped')"
+    code = f"f = wingbeat.Flight.preset('fruit-fly-hover').set({keys})\nf.fly(out='stopped', progress=flying)"
     interrupted(code, tmp_path)
     stopped = wingbeat.read(tmp_path / "stopped")
     assert stopped.outcome == "interrupted" and len(stopped.arrays["time_s"]) < 121
