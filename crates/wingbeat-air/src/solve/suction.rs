@@ -23,9 +23,9 @@ use wingbeat_vortex::Points;
 /// points.
 pub(crate) const PLACES: usize = 5;
 
-/// Part of the effect of a vortex straight ahead that what leaves has at least on the suction of its edge: that of one 145 degrees from there. A plate
+/// Part of the effect of a vortex straight ahead that what leaves has at least on the suction of its edge: that of one 133 degrees from there. A plate
 /// that pitches to 45 degrees sheds as it does without this bound.
-const LEAST: f64 = 0.3;
+const LEAST: f64 = 0.4;
 
 /// Rounds of changes to all strips at once; then one strip changes at a time.
 const ALL_AT_ONCE: usize = 8;
