@@ -1,5 +1,7 @@
 //! How wide the filaments of the free wakes are where action is to be reaction.
 
+use crate::geometry::JoinedColumns;
+use crate::lattice::Lattice;
 use crate::settings::AirSettings;
 use crate::state::WakeSheet;
 use wingbeat_math::DVec3;
@@ -36,6 +38,27 @@ pub(super) fn add_cores(
             let aged = settings.wake_core.core(0.0, age);
             cores[first + r * width + c] = wide.min(aged.max((SHARE_OF_WAY * way).powi(2)));
             newer = x;
+        }
+    }
+}
+
+/// Gives nodes of joined columns, which are one, one core: `cores` of all free nodes, sheet after sheet, see each the filaments
+/// of their own column only. Mirror images have those of what they are images of.
+pub(super) fn join_cores(cores: &mut [f64], lattice: &Lattice, sheets: &[WakeSheet]) {
+    for JoinedColumns(ends) in &lattice.topology().joined_columns {
+        if ends
+            .iter()
+            .any(|&(s, _)| lattice.reflected_sheet(s).is_some())
+        {
+            continue;
+        }
+        let first = |s: usize| sheets[..s].iter().map(|k| k.nodes.len()).sum::<usize>();
+        let ends = ends.map(|(s, c)| (first(s) + c, sheets[s].rows(), sheets[s].columns + 1));
+        let rows = ends[0].1.min(ends[1].1);
+        for back in 1..=rows {
+            let [a, b] = ends.map(|(first, rows, width)| first + (rows - back) * width);
+            let wide = cores[a].max(cores[b]);
+            (cores[a], cores[b]) = (wide, wide);
         }
     }
 }

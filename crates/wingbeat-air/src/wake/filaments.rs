@@ -5,7 +5,7 @@ use crate::lattice::Lattice;
 use crate::settings::AirSettings;
 use crate::state::{AirState, WakeSheet};
 use crate::wake::conversion::borders_ring;
-use crate::wake::cores::add_cores;
+use crate::wake::cores::{add_cores, join_cores};
 use crate::wake::near_wake::{Row, Share, add_near_wake, at_edge, row_lengths, strips};
 use wingbeat_math::DVec3;
 use wingbeat_vortex::{Blob, Network, Points, WINDOW};
@@ -85,6 +85,9 @@ impl Filaments {
             let inner = inner.map(|(c, ring, _)| (c, ring));
             let (network, shares) = (&mut self.near_wake, &mut self.shares);
             add_near_wake(network, shares, &row, t, edge, inner);
+        }
+        if lattice.settings().is_symmetric() {
+            join_cores(&mut self.wake.nodes.core, lattice, &state.sheets);
         }
         self.particles.clear();
         if let Some(settings) = &lattice.settings().particles {

@@ -13,7 +13,8 @@
 //! Where squared cores sigma^2 change along a filament, action is reaction only if it also feels
 //! `-rho G / 4 integral W d(sigma^2)`, W the sum of `G dl / (4 pi)` over the cube of softened distances; f holds that too.
 //!
-//! e keeps nodes in order where vorticity cancels. What is left, for the most part along T, is handed on to the
+//! e keeps nodes in order where vorticity cancels; filaments that run side by side along joined columns are one, with
+//! their common circulation. What is left, for the most part along T, is handed on to the
 //! nodes at the other ends of the filaments, in proportion to their vorticity, who annul of it what they can, and so on:
 //! the wake keeps its impulse to a hundredth of the lift, with most of a correction within a few filaments of its cause.
 
@@ -23,6 +24,7 @@ use crate::lattice::Lattice;
 use crate::state::AirState;
 use crate::wake::filaments::Filaments;
 use crate::wake::summation::Sums;
+use std::ops::Range;
 use wingbeat_math::DVec3;
 use wingbeat_vortex::{Network, Points};
 
@@ -33,6 +35,9 @@ const CANCELLED: f64 = 0.6;
 /// How often what is left is handed on. Impulse against forces of a tethered fly: apart by a sixth with none in its fourth
 /// beat; by 3 and by 7 parts in a hundred with 8 in its 12th and 20th, whose wakes are long and their filaments, too; by 1 with 32.
 const HANDED_ON: usize = 32;
+
+/// What a node has less of than this part of the most is a rounding, whose direction says nothing.
+const ROUNDING: f64 = 1e-12;
 
 /// A filament seen from one of its ends.
 #[derive(Clone, Copy, Debug)]
@@ -50,6 +55,9 @@ struct End {
     at_middle: f64,
 }
 
+/// Which filaments between nodes of joined columns are one: those with the same nodes, that begin at the same part of the way between them.
+type Beside = ([usize; 2], u64);
+
 /// Memory of the correction.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct ForceFree {
@@ -60,16 +68,20 @@ pub(crate) struct ForceFree {
     velocity: Points,
     vorticity: Points,
     ends: Vec<End>,
+    /// Filaments between nodes of joined columns, and their ends.
+    beside: Vec<(Beside, Range<usize>)>,
     /// Nodes that are moved, by their number in the network of the wakes, and in that of the newest rows with their
     /// weights.
     wake: Vec<Option<usize>>,
     /// The node that each one is: another one where columns are joined.
     same: Vec<usize>,
+    /// Whether others are one with it.
+    is_joined: Vec<bool>,
     /// Whether it lies where the sheet meets its own mirror image.
     on_plane: Vec<bool>,
     near: Vec<[(Option<usize>, f64); 2]>,
-    /// Nodes at two ends of a filament.
-    joints: Vec<[usize; 2]>,
+    /// Nodes at two ends of a filament, and the part of it that is here.
+    joints: Vec<([usize; 2], f64)>,
     sums: Vec<[DVec3; 2]>,
     /// S, then the root of T^2 + (e S)^2 [m3/s].
     sizes: Vec<f64>,
@@ -97,8 +109,11 @@ impl ForceFree {
         self.number(lattice, state, filaments);
         self.middles.clear();
         self.ends.clear();
+        self.beside.clear();
+        self.joints.clear();
         self.add_wake(&filaments.wake);
         self.add_near_wake(&filaments.near_wake);
+        self.merge_joined();
         self.velocity.reset(self.middles.len());
         self.vorticity.reset(self.middles.len());
         let both = [&mut self.velocity, &mut self.vorticity];
@@ -134,6 +149,8 @@ impl ForceFree {
         }
         self.same.clear();
         self.same.extend(0..next);
+        self.is_joined.clear();
+        self.is_joined.resize(next, false);
         self.on_plane.clear();
         self.on_plane.resize(next, false);
         self.join(lattice, state);
@@ -164,6 +181,7 @@ impl ForceFree {
         }
         for i in (0..self.same.len()).filter(|&i| self.same[i] != i) {
             self.on_plane[self.same[i]] |= self.on_plane[i];
+            self.is_joined[self.same[i]] = true;
         }
         let same = |node: &mut Option<usize>| *node = node.map(|n| self.same[n]);
         self.wake.iter_mut().for_each(same);
@@ -174,21 +192,12 @@ impl ForceFree {
     fn add_wake(&mut self, wake: &Network) {
         for (e, &[a, b]) in wake.edges.iter().enumerate() {
             let nodes = [a, b].map(|n| self.wake[n as usize]);
-            if nodes == [None, None] || wake.gamma[e] == 0.0 {
+            if nodes == [None, None] {
                 continue;
             }
-            let middle = self.middles.len();
-            let (vorticity, widening) = self.push_middle(wake, e);
-            for node in nodes.into_iter().flatten() {
-                self.ends.push(End {
-                    node,
-                    middle,
-                    vorticity,
-                    widening,
-                    at_node: 1.0 / 6.0,
-                    at_middle: 1.0 / 3.0,
-                });
-            }
+            let ends = nodes.into_iter().flatten();
+            let ends = ends.map(|node| (node, [1.0 / 6.0, 1.0 / 3.0]));
+            self.push(wake, e, ends, (nodes, 0.0));
         }
     }
 
@@ -196,24 +205,76 @@ impl ForceFree {
     fn add_near_wake(&mut self, near: &Network) {
         for (e, &[a, b]) in near.edges.iter().enumerate() {
             let [a, b] = [a, b].map(|n| self.near[n as usize]);
-            if a[0].0.is_none() || near.gamma[e] == 0.0 {
+            if a[0].0.is_none() {
                 continue;
             }
-            let middle = self.middles.len();
-            let (vorticity, widening) = self.push_middle(near, e);
-            for (node, part) in a.into_iter().chain(b) {
-                let Some(node) = node.filter(|_| part > 0.0) else {
-                    continue;
-                };
-                self.ends.push(End {
-                    node,
-                    middle,
-                    vorticity,
-                    widening,
-                    at_node: 0.0,
-                    at_middle: 0.5 * part,
-                });
+            let ends = a.into_iter().chain(b).filter(|(_, part)| *part > 0.0);
+            let ends = ends.filter_map(|(node, part)| Some((node?, [0.0, 0.5 * part])));
+            let [column, other] = [a, b].map(|ends| ends.map(|(node, _)| node));
+            let is_across = column == other || other == [None, None];
+            if !is_across && near.gamma[e] == 0.0 {
+                continue; // strips of one circulation are one
             }
+            let between = column.map(|node| node.filter(|_| is_across));
+            self.push(near, e, ends, (between, a[0].1));
+        }
+    }
+
+    /// Adds an edge that has these ends, each with its node and the weights at the node and in the middle; it lies between these two nodes, or
+    /// within what joins them, and begins at this part of the way. One without circulation is a joint, too: whether it has a rounding of it does
+    /// not matter.
+    fn push(
+        &mut self,
+        net: &Network,
+        e: usize,
+        ends: impl Iterator<Item = (usize, [f64; 2])> + Clone,
+        (between, part): ([Option<usize>; 2], f64),
+    ) {
+        let all = |is: &[bool]| between.iter().all(|n| n.is_some_and(|n| is[n]));
+        let (in_plane, is_joined) = (all(&self.on_plane), all(&self.is_joined));
+        // The other half of the joint is on the other side.
+        let joint = if in_plane || is_joined { 0.5 } else { 1.0 };
+        for (k, (a, _)) in ends.clone().enumerate() {
+            let others = ends.clone().skip(k + 1).filter(|(b, _)| *b != a);
+            self.joints.extend(others.map(|(b, _)| ([a, b], joint)));
+        }
+        // In the plane it is its own image, and together they have no circulation.
+        if in_plane || net.gamma[e] == 0.0 {
+            return;
+        }
+        let (middle, first) = (self.middles.len(), self.ends.len());
+        let (vorticity, widening) = self.push_middle(net, e);
+        let ends = ends.map(|(node, [at_node, at_middle])| End {
+            node,
+            middle,
+            vorticity,
+            widening,
+            at_node,
+            at_middle,
+        });
+        self.ends.extend(ends);
+        if let ([Some(a), Some(b)], true) = (between, is_joined) {
+            let key = ([a, b], part.to_bits());
+            self.beside.push((key, first..self.ends.len()));
+        }
+    }
+
+    /// Makes one filament, with their common circulation, of those that run side by side along joined columns.
+    fn merge_joined(&mut self) {
+        let order = |(key, ends): &(Beside, Range<usize>)| (*key, ends.start);
+        self.beside.sort_unstable_by_key(order);
+        for same in self.beside.chunk_by(|(a, _), (b, _)| a == b) {
+            let (_, first) = &same[0];
+            let others = same[1..].iter();
+            for (into, from) in others.flat_map(|(_, other)| first.clone().zip(other.clone())) {
+                let merged = self.ends[from];
+                self.ends[into].vorticity += merged.vorticity;
+                self.ends[into].widening += merged.widening;
+                (self.ends[from].at_node, self.ends[from].at_middle) = (0.0, 0.0);
+            }
+        }
+        if !self.beside.is_empty() {
+            self.ends.retain(|end| end.at_node + end.at_middle > 0.0);
         }
     }
 
@@ -258,7 +319,13 @@ impl ForceFree {
             *size = vorticity.length().hypot(CANCELLED * *size);
             self.left.push(*force - velocity.get(i).cross(*vorticity));
         }
-        self.link();
+        let most = self.sizes.iter().fold(0.0, |most, size| size.max(most));
+        let roundings = self
+            .sizes
+            .iter_mut()
+            .filter(|size| **size < ROUNDING * most);
+        roundings.for_each(|size| *size = 0.0);
+        self.look_around();
         self.yield_to_left(velocity);
         for _ in 0..HANDED_ON {
             self.hand_on(mirror);
@@ -266,20 +333,13 @@ impl ForceFree {
         }
     }
 
-    /// Finds the nodes at the other ends of each node's filaments.
-    fn link(&mut self) {
-        self.joints.clear();
-        for ends in self.ends.chunk_by(|a, b| a.middle == b.middle) {
-            for (k, a) in ends.iter().enumerate() {
-                let others = ends[k + 1..].iter().filter(|b| b.node != a.node);
-                self.joints.extend(others.map(|b| [a.node, b.node]));
-            }
-        }
+    /// Sums the sizes of the nodes at the other ends of each node's filaments.
+    fn look_around(&mut self) {
         self.around.clear();
         self.around.resize(self.sizes.len(), 0.0);
-        for &[a, b] in &self.joints {
-            self.around[a] += self.sizes[b];
-            self.around[b] += self.sizes[a];
+        for &([a, b], part) in &self.joints {
+            self.around[a] += part * self.sizes[b];
+            self.around[b] += part * self.sizes[a];
         }
         let on_plane = self.around.iter_mut().zip(&self.on_plane);
         for (around, _) in on_plane.filter(|(_, on_plane)| **on_plane) {
@@ -313,10 +373,10 @@ impl ForceFree {
         handed.clear();
         let kept = left.iter().zip(around.iter());
         handed.extend(kept.map(|(left, &around)| if around > 0.0 { DVec3::ZERO } else { *left }));
-        for &[a, b] in &self.joints {
+        for &([a, b], part) in &self.joints {
             for (from, to) in [(a, b), (b, a)] {
                 if around[from] > 0.0 {
-                    handed[to] += sizes[to] / around[from] * left[from];
+                    handed[to] += part * sizes[to] / around[from] * left[from];
                 }
             }
         }

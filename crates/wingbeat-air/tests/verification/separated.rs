@@ -375,6 +375,20 @@ fn agrees_second_method_impulse_in_hover_with_suction_held() {
     }
 }
 
+#[test]
+fn agrees_second_method_impulse_in_hover_of_wings_that_shed_all_around() {
+    for radius in [0.07, 0.02] {
+        let beats = separated_hover(|s| {
+            s.shedding.root = true;
+            s.leading = held(0.15, 0.0);
+            (s.bound_core, s.wake_core) = (core_of(0.01)[0], core_of(radius)[0]);
+        });
+        println!("force, rate of impulse: {beats:?}");
+        let gaps = beats.map(|[force, impulse]| impulse / force - 1.0);
+        println!("{gaps:.4?}");
+    }
+}
+
 /// The first and the last column of a sheet that leaves a wing all around are one line, though as much circulation runs along
 /// either, in opposite directions, as the whole edge has shed.
 #[test]
