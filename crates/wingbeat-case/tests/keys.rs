@@ -396,3 +396,27 @@ fn regress_the_page_of_keys_is_that_of_the_program() {
         "docs/case-keys.md is old: cargo run -p wingbeat-case --example case_keys > docs/case-keys.md"
     );
 }
+
+/// The fuzzer finds no key by chance.
+#[test]
+fn regress_the_dictionary_of_the_fuzzer_has_every_key_and_choice() {
+    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../fuzz/case.dict");
+    let words = std::fs::read_to_string(file).unwrap();
+    let schema = schema();
+    let tables = schema["$defs"].as_object().unwrap().values();
+    for table in tables.chain([&schema]) {
+        let choices = table["oneOf"].as_array().into_iter().flatten();
+        let names = choices
+            .clone()
+            .filter_map(|choice| choice["const"].as_str());
+        let keys = [table].into_iter().chain(choices);
+        let keys = keys.filter_map(|table| table["properties"].as_object());
+        for word in keys
+            .flat_map(|keys| keys.keys().map(String::as_str))
+            .chain(names)
+        {
+            let is_there = words.lines().any(|line| line == format!("\"{word}\""));
+            assert!(is_there, "fuzz/case.dict lacks \"{word}\"");
+        }
+    }
+}
