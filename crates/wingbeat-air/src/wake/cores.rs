@@ -1,7 +1,6 @@
 //! How wide the filaments of the free wakes are where action is to be reaction.
 
 use crate::geometry::JoinedColumns;
-use crate::lattice::Lattice;
 use crate::settings::AirSettings;
 use crate::state::WakeSheet;
 use wingbeat_math::DVec3;
@@ -43,15 +42,9 @@ pub(super) fn add_cores(
 }
 
 /// Gives nodes of joined columns, which are one, one core: `cores` of all free nodes, sheet after sheet, see each the filaments
-/// of their own column only. Mirror images have those of what they are images of.
-pub(super) fn join_cores(cores: &mut [f64], lattice: &Lattice, sheets: &[WakeSheet]) {
-    for JoinedColumns(ends) in &lattice.topology().joined_columns {
-        if ends
-            .iter()
-            .any(|&(s, _)| lattice.reflected_sheet(s).is_some())
-        {
-            continue;
-        }
+/// of their own column only.
+pub(super) fn join_cores(cores: &mut [f64], joined: &[JoinedColumns], sheets: &[WakeSheet]) {
+    for JoinedColumns(ends) in joined {
         let first = |s: usize| sheets[..s].iter().map(|k| k.nodes.len()).sum::<usize>();
         let ends = ends.map(|(s, c)| (first(s) + c, sheets[s].rows(), sheets[s].columns + 1));
         let rows = ends[0].1.min(ends[1].1);

@@ -87,7 +87,8 @@ impl Filaments {
             add_near_wake(network, shares, &row, t, edge, inner);
         }
         if lattice.settings().is_symmetric() {
-            join_cores(&mut self.wake.nodes.core, lattice, &state.sheets);
+            let joined = &lattice.topology().joined_columns;
+            join_cores(&mut self.wake.nodes.core, joined, &state.sheets);
         }
         self.particles.clear();
         if let Some(settings) = &lattice.settings().particles {

@@ -191,8 +191,8 @@ fn invariant_left_and_right_wing_in_hover() {
     assert!(apart < 1e-6 * largest);
 }
 
-/// Two halves joined at the root, in pairs of mirror images or not.
-fn halves(symmetric: bool) -> (Lattice, Vec<DVec3>) {
+/// Two halves in pairs of mirror images or not; joined at the root, or apart, and then they shed all around.
+fn halves(symmetric: bool, is_joined: bool) -> (Lattice, Vec<DVec3>) {
     let (rows, cols) = (3, 4);
     let mut left = Surface::grid("left", rows, cols);
     left.panels.iter_mut().for_each(|c| c.reverse());
@@ -204,12 +204,15 @@ fn halves(symmetric: bool) -> (Lattice, Vec<DVec3>) {
         shedding: SheddingKinds {
             leading: true,
             tip: true,
+            root: !is_joined,
             ..SheddingKinds::TRAILING
         },
+        wake_overlap: 1.0,
         ..settings(implicit(0.15))
     };
     let wings = vec![Surface::grid("right", rows, cols), left];
-    let lattice = Lattice::joined(wings, &[joined], settings).unwrap();
+    let joined = if is_joined { vec![joined] } else { vec![] };
+    let lattice = Lattice::joined(wings, &joined, settings).unwrap();
     let other = |n: usize| (0..2 * n).map(|k| (k + n) % (2 * n)).collect();
     let pairs = MirrorPairs {
         plane: Plane {
@@ -223,44 +226,43 @@ fn halves(symmetric: bool) -> (Lattice, Vec<DVec3>) {
         true => lattice.with_mirror_symmetry(pairs).unwrap(),
         false => lattice,
     };
+    let apart = if is_joined { 0.0 } else { 0.3 };
     let right = rectangle(rows, cols, DVec3::X, 2.0 * DVec3::Y);
+    let right: Vec<DVec3> = right.iter().map(|x| *x + apart * DVec3::Y).collect();
     let image: Vec<DVec3> = right.iter().map(|x| DVec3::new(x.x, -x.y, x.z)).collect();
     (lattice, [right, image].concat())
 }
 
 #[test]
 fn invariant_half_of_a_symmetric_flow_is_that_of_the_whole() {
-    let [whole, half] = [false, true].map(|symmetric| {
-        let (lattice, flat) = halves(symmetric);
-        let (mut forces, mut left) = (vec![], 0.0);
-        fly(
-            &lattice,
-            |t| pitched(&flat, ramp(t)),
-            0.05,
-            40,
-            |_, _, loads, _| {
+    for is_joined in [true, false] {
+        let [whole, half] = [false, true].map(|symmetric| {
+            let (lattice, flat) = halves(symmetric, is_joined);
+            let (mut forces, mut left) = (vec![], 0.0);
+            let motion = |t| pitched(&flat, ramp(t));
+            fly(&lattice, motion, 0.05, 40, |_, _, loads, _| {
                 forces.push(total_force(loads));
                 left += loads.leaving.iter().map(|l| l.abs()).sum::<f64>();
-            },
-        )
-        .unwrap();
-        assert!(left > 1.0, "edges shed: {left}");
-        forces
-    });
-    let apart = whole
-        .iter()
-        .zip(&half)
-        .map(|(a, b)| a.distance(*b) / (1.0 + a.length()));
-    let apart = apart.fold(0.0, f64::max);
-    println!("{apart:e}");
-    // Roundings.
-    assert!(apart < 1e-11);
+            })
+            .unwrap();
+            assert!(left > 1.0, "edges shed: {left}");
+            forces
+        });
+        let apart = whole
+            .iter()
+            .zip(&half)
+            .map(|(a, b)| a.distance(*b) / (1.0 + a.length()));
+        let apart = apart.fold(0.0, f64::max);
+        println!("joined {is_joined}: {apart:e}");
+        // Roundings.
+        assert!(apart < 1e-11);
+    }
 }
 
 /// On one thread, on two, and on from the middle with new scratch memory: the same bits.
 #[test]
 fn exact_same_bits_on_any_threads_and_from_any_step() {
-    let (lattice, flat) = halves(true);
+    let (lattice, flat) = halves(true, true);
     let go_on = |mut state: AirState, last: u64| -> Result<AirState, AirError> {
         let (mut ws, mut loads) = (lattice.workspace(), AirLoads::default());
         while state.step < last {
