@@ -383,9 +383,10 @@ fn agrees_second_method_impulse_in_hover_of_wings_that_shed_all_around() {
             s.leading = held(0.15, 0.0);
             (s.bound_core, s.wake_core) = (core_of(0.01)[0], core_of(radius)[0]);
         });
-        println!("force, rate of impulse: {beats:?}");
         let gaps = beats.map(|[force, impulse]| impulse / force - 1.0);
-        println!("{gaps:.4?}");
+        println!("cores of {radius}: {gaps:.4?}");
+        // Measured 2.8 % at most: as with roots that hold, quadrature where wakes are close by.
+        assert!(gaps.iter().all(|gap| gap.abs() < 0.06), "{gaps:?}");
     }
 }
 
