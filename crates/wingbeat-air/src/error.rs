@@ -294,6 +294,28 @@ pub enum AirError {
         /// Its number.
         index: usize,
     },
+    /// Undisturbed air, or a plane, that is not mirror-symmetric though only one half is computed.
+    #[error(
+        "{what} is not its own mirror image in the plane of symmetry of the motion: compute both halves, or turn it so that it is"
+    )]
+    AsymmetricAir {
+        /// Part of the settings.
+        what: &'static str,
+    },
+    /// A surface on both sides of a plane through which nothing goes.
+    #[error(
+        "air step {step}: node {node} of surface {surface} is {depth:e} m beyond a plane of symmetry or ground; all surfaces stay on one side of it: start farther from it, or fly without it"
+    )]
+    ThroughPlane {
+        /// Accepted steps so far.
+        step: u64,
+        /// Name of the surface.
+        surface: String,
+        /// Node, counted in its surface.
+        node: usize,
+        /// Distance behind the plane [m].
+        depth: f64,
+    },
     /// Motion that is not mirror-symmetric though only one half is computed.
     #[error(
         "air step {step}: surface node {node} is {distance:e} m away from the mirror image of node {image}; the flight is not mirror-symmetric: compute both halves"

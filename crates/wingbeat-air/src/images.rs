@@ -8,6 +8,10 @@
 use crate::error::AirError;
 use wingbeat_math::{DMat3, DVec3};
 
+/// What directions and places that are the same in exact arithmetic may differ by, relative to their size: far above
+/// round-off, far below what anyone means.
+pub(crate) const ROUNDING: f64 = 1e-9;
+
 /// A plane through which no air goes: a plane of symmetry or a ground. All surfaces lie on one
 /// side of it, or touch it; the undisturbed air must not cross it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -22,6 +26,13 @@ impl Plane {
     /// Distance of `x` [m], positive on the side of the normal [m].
     pub fn height(&self, x: DVec3) -> f64 {
         (x - self.point).dot(self.normal) / self.normal.length()
+    }
+
+    /// Whether this is the same plane as `other`, but for rounding.
+    pub(crate) fn is(&self, other: &Self) -> bool {
+        let [a, b] = [self.normal, other.normal].map(DVec3::normalize);
+        let size = self.point.length().max(other.point.length());
+        a.cross(b).length() <= ROUNDING && self.height(other.point).abs() <= ROUNDING * size
     }
 
     /// The foot of the perpendicular from `x` [m].
@@ -61,6 +72,21 @@ impl Mirror {
     /// The image of a velocity. All turns here are symmetric, so this is also the way back.
     pub(crate) fn vector(&self, v: DVec3) -> DVec3 {
         self.turn * v
+    }
+
+    /// The image of a vorticity: one reflection turns it over, two do not.
+    pub(crate) fn axial(&self, w: DVec3) -> DVec3 {
+        self.turn.determinant() * (self.turn * w)
+    }
+
+    /// The image of a gradient of velocity [1/s].
+    pub(crate) fn gradient(&self, g: DMat3) -> DMat3 {
+        self.turn * g * self.turn
+    }
+
+    /// How far the origin is moved [m], N components.
+    pub(crate) fn shift(&self) -> DVec3 {
+        self.shift
     }
 }
 

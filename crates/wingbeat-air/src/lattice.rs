@@ -11,6 +11,9 @@ use std::ops::Range;
 use std::sync::Arc;
 use wingbeat_math::DVec3;
 
+/// How far behind a plane a node may be that touches it, over the distance of the farthest one: far above round-off.
+const TOUCHING: f64 = 1e-7;
+
 /// Vortex rings on the panels of any number of surfaces, with their wakes' roots.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Lattice {
@@ -91,11 +94,49 @@ impl Lattice {
     /// The same lattice for motions that are mirror-symmetric: computed on one half.
     ///
     /// # Errors
-    /// [`AirError::MirrorPairs`] names the first node, panel or wake sheet whose image does not fit.
+    /// [`AirError::MirrorPairs`] names the first node, panel or wake sheet whose image does not fit, [`AirError::AsymmetricAir`] the
+    /// part of the undisturbed air that is no mirror image of itself.
     pub fn with_mirror_symmetry(mut self, pairs: MirrorPairs) -> Result<Self, AirError> {
-        self.symmetry = Some(Symmetry::new(pairs, &self.topology)?);
+        let symmetry = Symmetry::new(pairs, &self.topology)?;
+        if let Some(what) = self.settings.asymmetric_part(&symmetry.mirror) {
+            return Err(AirError::AsymmetricAir { what });
+        }
+        self.symmetry = Some(symmetry);
         self.identity = Identity::default();
         Ok(self.with_suction_strips())
+    }
+
+    /// Checks that all surfaces lie on one side of each plane of symmetry or ground.
+    ///
+    /// # Errors
+    /// [`AirError::ThroughPlane`] names the node that is farthest behind one of them.
+    pub(crate) fn check_sides(&self, position: &[DVec3], step: u64) -> Result<(), AirError> {
+        for plane in &self.settings.images {
+            let heights = || position.iter().map(|x| plane.height(*x));
+            let largest = |sign: f64| heights().map(|h| sign * h).fold(0.0, f64::max);
+            let side = if largest(1.0) < largest(-1.0) {
+                -1.0
+            } else {
+                1.0
+            };
+            let [far, depth] = [side, -side].map(largest);
+            if depth <= TOUCHING * far {
+                continue;
+            }
+            let node = heights().position(|h| -side * h == depth).unwrap_or(0);
+            let s = self
+                .topology
+                .first_node
+                .partition_point(|&first| first <= node)
+                - 1;
+            return Err(AirError::ThroughPlane {
+                step,
+                surface: self.surfaces[s].name.clone(),
+                node: node - self.topology.first_node[s],
+                depth,
+            });
+        }
+        Ok(())
     }
 
     /// The mirror symmetry of the flow, if only one half is computed.

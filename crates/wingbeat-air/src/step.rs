@@ -83,6 +83,7 @@ impl Lattice {
         self.rings().place(motion, &mut ws.rings);
         (out.panels).update(self.topology(), &ws.rings, state.step)?;
         motion.check_joined(self.topology(), out.panels.size(), state.step)?;
+        self.check_sides(&motion.position, state.step)?;
         match self.symmetry() {
             Some(symmetry) => symmetry.check(&motion.position, state.step),
             None => Ok(()),

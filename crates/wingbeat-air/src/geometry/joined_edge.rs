@@ -4,8 +4,9 @@
 //! circulations on either side, so no vortex leaves there and the sheet is continuous. The joined
 //! nodes exist on both surfaces, and so do the wake nodes they leave; both are kept in one place.
 
+use crate::edges::EdgeKind;
 use crate::error::AirError;
-use crate::geometry::surface::Surface;
+use crate::geometry::surface::{SheddingSegment, Surface};
 
 /// An edge line that two open surfaces share. Their normals must agree across it.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -39,6 +40,19 @@ pub(crate) fn check_joined_edges(
         let inside = |n: &[usize; 2]| n[0] < first.node_count && n[1] < second.node_count;
         if !j.nodes.iter().all(inside) {
             return wrong("a node does not exist");
+        }
+        let along_strips = |side: usize| {
+            let ends = |s: &SheddingSegment| {
+                let is = |pair: &[[usize; 2]]| [pair[0][side], pair[1][side]];
+                (j.nodes.windows(2)).any(|w| is(w) == [s.from, s.to] || is(w) == [s.to, s.from])
+            };
+            let segments = surfaces[j.surfaces[side]].shedding.iter().flatten();
+            let across =
+                |s: &&SheddingSegment| matches!(s.kind, EdgeKind::Leading | EdgeKind::Trailing);
+            segments.filter(across).any(ends)
+        };
+        if along_strips(0) || along_strips(1) {
+            return wrong("leading and trailing edges are not joined: roots and tips are");
         }
     }
     Ok(())

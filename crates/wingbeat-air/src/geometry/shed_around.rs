@@ -18,8 +18,8 @@ pub(crate) fn shed_around(topology: &Topology, surfaces: &[Surface]) -> Vec<Shed
     let of = |panel: usize| group[topology.panel_surface[panel]];
     let whole = |g: &usize| {
         let open = (0..surfaces.len()).all(|s| group[s] != *g || !surfaces[s].closed);
-        let mut edges = topology.edges.iter().filter(|e| of(e.plus) == *g);
-        open && edges.all(|e| e.minus.is_none() == e.wake.is_some())
+        let edges = || topology.edges.iter().filter(|e| of(e.plus) == *g);
+        open && edges().next().is_some() && edges().all(|e| e.minus.is_none() == e.wake.is_some())
     };
     let members = |g: usize| ShedAround {
         panels: (0..topology.panels.len()).filter(|&p| of(p) == g).collect(),

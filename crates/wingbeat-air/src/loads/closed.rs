@@ -13,6 +13,7 @@
 
 use crate::geometry::Panels;
 use crate::lattice::Lattice;
+use crate::loads::rate::rate_weights;
 use crate::loads::values::AirLoads;
 use crate::state::AirState;
 use std::ops::Range;
@@ -31,8 +32,8 @@ pub(crate) fn outer_forces(lattice: &Lattice, state: &AirState, out: &mut AirLoa
         let (volume, flux) = volume_and_flux(&out.panels, panels.clone());
         let momentum = rho * flux;
         out.inner_momentum.push(momentum);
-        if state.step == 0 {
-            continue; // no past, as for dGamma/dt
+        if rate_weights(lattice, state, out.dt)[0] == 0.0 {
+            continue; // without dGamma/dt the jump holds nothing of the inner fluid
         }
         let gradient = (momentum - state.inner_momentum[s]) / out.dt / volume;
         let centre = mean_point(&out.panels, panels.clone());

@@ -1,7 +1,7 @@
 //! All settings of the air.
 
 use crate::edges::SheddingKinds;
-use crate::images::Plane;
+use crate::images::{Mirror, Plane, ROUNDING};
 use crate::settings::choices::{CirculationRate, Convection, LeadingEdge, LoadMethod, NewestRow};
 use crate::settings::particles::ParticleSettings;
 use crate::settings::section_drag::SectionDrag;
@@ -149,6 +149,32 @@ impl AirSettings {
         match self.shedding.trailing && !leading_is_smooth {
             true => self.inset,
             false => 0.0,
+        }
+    }
+
+    /// Rows that are kept of every wake: leading edges with a criterion look at what left the step before.
+    pub(crate) fn least_rows(&self) -> usize {
+        let by_criterion = self.leading.sheds() && self.leading != LeadingEdge::Always;
+        match self.shedding.leading && by_criterion {
+            true => 2,
+            false => 1,
+        }
+    }
+
+    /// The first part of the undisturbed air or of the planes that this mirror does not leave as it is.
+    pub(crate) fn asymmetric_part(&self, mirror: &Mirror) -> Option<&'static str> {
+        let stream = self.free_stream;
+        if mirror.vector(stream).distance(stream) > ROUNDING * stream.length() {
+            return Some("the stream");
+        }
+        let image = |p: &Plane| Plane {
+            point: mirror.point(p.point),
+            normal: mirror.vector(p.normal),
+        };
+        let has_image = |p: &Plane| self.images.iter().any(|q| q.is(&image(p)));
+        match self.images.iter().all(has_image) {
+            true => self.wind.asymmetric_part(mirror),
+            false => Some("the ground, or a plane of symmetry,"),
         }
     }
 

@@ -90,7 +90,7 @@ pub enum LoadMethod {
 }
 
 /// Where and when the flow leaves leading edges, judged strip by strip at every step. Needs
-/// [`SheddingKinds::leading`]; see [`crate::strips`] for the two numbers.
+/// [`SheddingKinds::leading`].
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum LeadingEdge {
     /// Nowhere.

@@ -44,7 +44,7 @@ pub enum Spectrum {
 
 /// Bins of log omega, from [`BAND`].0 / T to [`BAND`].1 / T.
 const WAVES: usize = 64;
-/// Ends of the band over 1 / T. Below it are 0.6 % of the variance (across, Dryden), carried by the first wave; above
+/// Ends of the band over 1 / T. Below it are 0.6 % of the variance (along, Dryden; across 0.3 %), carried by the first wave; above
 /// it 0.6 % (along, Dryden) to 4 % (across, von Karman), left out.
 const BAND: (f64, f64) = (0.01, 100.0);
 

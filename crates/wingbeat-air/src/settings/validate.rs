@@ -26,6 +26,7 @@ impl AirSettings {
             self.free_stream,
             "three finite numbers in m/s",
         )?;
+        self.check_cores()?;
         self.check_wake()?;
         require(
             (0.0..0.5).contains(&self.inset),
@@ -51,6 +52,12 @@ impl AirSettings {
             "max_rows",
             0,
             "at least 1 row, or none to keep all; without any shed row there is no Kutta condition",
+        )?;
+        require(
+            self.max_rows.is_none_or(|rows| rows >= self.least_rows()),
+            "max_rows",
+            format!("{:?}", self.max_rows),
+            "at least 2 rows where leading edges shed by a criterion, which asks what left the step before",
         )
     }
 
@@ -107,6 +114,21 @@ impl AirSettings {
             "mesh",
             "auto, direct, single or tree; mesh only with algebraic cores and a summation tolerance of 1e-3 or more",
         )
+    }
+
+    fn check_cores(&self) -> Result<(), AirError> {
+        for (key, core) in [
+            ("bound_core", self.bound_core),
+            ("wake_core", self.wake_core),
+        ] {
+            require(
+                core.is_sound(),
+                key,
+                format!("{core:?}"),
+                "finite numbers, none below 0",
+            )?;
+        }
+        Ok(())
     }
 
     /// Algebraic cores are for all filaments or none.
@@ -226,8 +248,17 @@ impl AirSettings {
         };
         let allowed = "planes along the free stream: no air goes through them";
         let crossed = self.images.iter().find(through);
-        crossed.map_or(Ok(()), |plane| {
-            require(false, "images", format!("{plane:?}"), allowed)
+        if let Some(plane) = crossed {
+            return require(false, "images", format!("{plane:?}"), allowed);
+        }
+        let part = self.images.iter().find_map(|p| self.wind.part_through(p));
+        part.map_or(Ok(()), |part| {
+            require(
+                false,
+                part,
+                "through a plane of symmetry or ground",
+                "air that goes along such planes: no air goes through them",
+            )
         })
     }
 }

@@ -1,6 +1,7 @@
 //! The undisturbed air: uniform stream, steady shear, gusts, a vortex street.
 
 use crate::error::{AirError, require};
+use crate::images::{Mirror, Plane, ROUNDING};
 use crate::settings::street::VortexStreet;
 use crate::settings::turbulence::Turbulence;
 use wingbeat_math::{DMat3, DVec3, interpolate};
@@ -87,6 +88,57 @@ impl Wind {
         shear + self.gusts.iter().map(gust).sum::<DVec3>() + street
     }
 
+    /// The first part that this mirror does not leave as it is.
+    pub(crate) fn asymmetric_part(&self, mirror: &Mirror) -> Option<&'static str> {
+        let turns = |v: DVec3| mirror.vector(v).distance(v) > ROUNDING * v.length();
+        let turns_shear = |s: DMat3| {
+            let change = (mirror.gradient(s) - s).to_cols_array();
+            let size = largest(s.to_cols_array());
+            // The air of a mirrored place also lacks what the shear makes of the way to it.
+            let rest = (s * mirror.shift()).length();
+            largest(change) > ROUNDING * size || rest > ROUNDING * size * mirror.shift().length()
+        };
+        let gusts = || self.gusts.iter();
+        if self.shear.is_some_and(turns_shear) {
+            Some("the shear")
+        } else if gusts().any(|g| turns(g.amplitude)) {
+            Some("the amplitude of a gust")
+        } else if gusts().any(|g| turns(g.slowness)) {
+            Some("the front of a gust")
+        } else if self
+            .street
+            .is_some_and(|s| turns(s.drift) || !turns_over(mirror, s.axis))
+        {
+            Some("the vortex street")
+        } else {
+            None
+        }
+    }
+
+    /// The first part that goes through this plane.
+    pub(crate) fn part_through(&self, plane: &Plane) -> Option<&'static str> {
+        let n = plane.normal.normalize();
+        let crosses = |v: DVec3| v.dot(n).abs() > ROUNDING * v.length();
+        // At p + t, t along the plane, n . shear (p + t) is to be 0.
+        let crosses_by_shear = |s: DMat3| {
+            let (size, across) = (largest(s.to_cols_array()), s.transpose() * n);
+            let along = across - across.dot(n) * n;
+            let place = plane.point.dot(n);
+            along.length() > ROUNDING * size
+                || (across.dot(n) * place).abs() > ROUNDING * size * place.abs()
+        };
+        let is_square = |axis: DVec3| axis.cross(n).length() <= ROUNDING * axis.length();
+        if self.shear.is_some_and(crosses_by_shear) {
+            Some("shear")
+        } else if self.gusts.iter().any(|g| crosses(g.amplitude)) {
+            Some("gust")
+        } else if self.street.is_some_and(|s| !is_square(s.axis)) {
+            Some("vortex street")
+        } else {
+            None
+        }
+    }
+
     /// Checks the numbers.
     ///
     /// # Errors
@@ -118,6 +170,15 @@ impl Wind {
         }
         Ok(())
     }
+}
+
+/// Whether the mirror reverses this direction: it is that of its normal.
+fn turns_over(mirror: &Mirror, v: DVec3) -> bool {
+    (mirror.vector(v) + v).length() <= ROUNDING * v.length()
+}
+
+fn largest(of: [f64; 9]) -> f64 {
+    of.iter().fold(0.0, |most, x| most.max(x.abs()))
 }
 
 fn check_table(gust: usize, rows: &[(f64, f64)]) -> Result<(), AirError> {

@@ -55,6 +55,7 @@ impl LeadingEdges {
     ) -> Result<(), AirError> {
         self.suction.clear();
         self.suction.resize(now.lattice.strips().len(), 0.0);
+        self.unfound = 0;
         let Some(threshold) = threshold(now.lattice) else {
             return Ok(());
         };
@@ -67,7 +68,6 @@ impl LeadingEdges {
         self.take_limits(now, filaments, (threshold, gamma));
         self.count_unseen(now, filaments);
         self.release.none();
-        self.unfound = 0;
         if self.release.is_due() {
             self.take_answers(now, filaments, influence)?;
             self.bound_effects(now);

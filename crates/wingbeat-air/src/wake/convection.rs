@@ -52,7 +52,7 @@ impl WakeMotion {
         let mut places = &self.nodes;
         if lattice.settings().plane_wakes {
             // Where the flow is plane: in the middle of each row, far from its ends.
-            self.middles.clone_from(&self.nodes);
+            self.middles.copy_from(&self.nodes);
             for row in rows(lattice, state) {
                 let ends = [row.start, row.end - 1].map(|n| self.nodes.get(n));
                 row.for_each(|n| self.middles.set(n, ends[0].midpoint(ends[1])));

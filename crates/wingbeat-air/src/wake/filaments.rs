@@ -20,7 +20,7 @@ const STRIP: usize = WINDOW * 3 / 4;
 /// the newest wake ring, so that both are regularised alike.
 #[derive(Clone, Debug, Default)]
 pub struct Filaments {
-    /// Edges of the lattice, in the order of [`crate::topology::Topology::edges`].
+    /// Edges of the lattice, in the order of [`crate::Topology::edges`].
     pub bound: Network,
     /// Edges of the newest rings from the shedding edges to the first free nodes: they follow the
     /// surfaces. Nodes: sheet after sheet, first the free row, last the shedding edge.

@@ -103,7 +103,7 @@ impl Images {
         }
     }
 
-    /// The same of velocity and vorticity, whose mirror image has the opposite sign.
+    /// The same of velocity and vorticity.
     fn add_with_vorticity(
         &mut self,
         targets: &Points,
@@ -121,7 +121,7 @@ impl Images {
             let sums = self.velocity.iter().zip(self.vorticity.iter());
             for (i, (v, w)) in sums.enumerate() {
                 velocity.set(i, velocity.get(i) + mirror.vector(v));
-                vorticity.set(i, vorticity.get(i) - mirror.vector(w));
+                vorticity.set(i, vorticity.get(i) + mirror.axial(w));
             }
         }
     }
@@ -306,6 +306,7 @@ pub(crate) struct WakeVelocityCache {
     points: Points,
     velocity: Points,
     generation: u64,
+    mirrors: Vec<Mirror>,
 }
 
 /// How far a point of a surface may go, in panel sizes, before the wakes are summed for it again: what
@@ -324,11 +325,14 @@ impl WakeVelocityCache {
         out: &mut Points,
     ) {
         let kept = self.generation == sums.generation
+            && self.mirrors == mirrors
             && self.points.len() == points.len()
             && self.points.has_cores_near(points, near);
         let is_near = |(a, b): (DVec3, DVec3)| a.distance(b) <= near;
         if !(kept && self.points.iter().zip(points.iter()).all(is_near)) {
             self.generation = sums.generation;
+            self.mirrors.clear();
+            self.mirrors.extend_from_slice(mirrors);
             self.points.copy_from(points);
             self.velocity.reset(points.len());
             sums.add_free(points, mirrors, &mut self.velocity);

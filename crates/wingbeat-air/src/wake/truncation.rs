@@ -32,7 +32,7 @@ impl Lattice {
             let farthest = (0..before).rev().find(|&r| is_far(r));
             keep = keep.min(farthest.map_or(before, |r| before - 1 - r));
         }
-        let dropped = before - keep.clamp(1, before.max(1));
+        let dropped = before - keep.max(settings.least_rows()).min(before);
         if settings.particles.is_some() {
             return self.make_particles(k, sheet, dropped, state, account);
         }

@@ -1,9 +1,11 @@
 //! Bad input and wrong order of calls: each an error that names what is wrong.
 
 use crate::common::{rectangle, translating};
-use wingbeat_air::{AirError, AirLoads, AirSettings, EdgeKind, Lattice, SheddingSegment, Surface};
+use wingbeat_air::{
+    AirError, AirLoads, AirSettings, EdgeKind, Lattice, LeadingEdge, SheddingSegment, Surface,
+};
 use wingbeat_math::DVec3;
-use wingbeat_vortex::Method;
+use wingbeat_vortex::{CoreModel, Method};
 
 fn wing() -> Surface {
     Surface::grid("wing", 2, 2)
@@ -63,7 +65,7 @@ fn exact_topology_errors() {
 #[test]
 fn exact_setting_errors_name_the_key() {
     type Spoil = fn(&mut AirSettings);
-    let spoil: [(&str, Spoil); 10] = [
+    let spoil: [(&str, Spoil); 13] = [
         ("density", |s| s.density = -1.0),
         ("free_stream", |s| s.free_stream.y = f64::NAN),
         ("max_displacement", |s| s.max_displacement = Some(0.0)),
@@ -77,6 +79,18 @@ fn exact_setting_errors_name_the_key() {
         ("summation", |s| s.summation = Method::Mesh),
         ("clearance", |s| s.clearance = -1.0),
         ("max_rows", |s| s.max_rows = Some(0)),
+        // What left the step before would not be known.
+        ("max_rows", |s| {
+            s.shedding.leading = true;
+            s.leading = LeadingEdge::AngleOfAttack { threshold: 0.3 };
+            s.max_rows = Some(1);
+        }),
+        ("bound_core", |s| {
+            s.bound_core = CoreModel::CutOff { delta: f64::NAN }
+        }),
+        ("wake_core", |s| {
+            s.wake_core = CoreModel::CutOff { delta: -0.1 }
+        }),
     ];
     for (name, spoil) in spoil {
         let mut s = settings();

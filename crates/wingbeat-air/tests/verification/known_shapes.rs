@@ -112,6 +112,7 @@ fn agrees_with_factors_over_the_ground_and_without_a_matched_row() {
     };
     let [a, b] = [None, rest()].map(|rest| run(&lattice(settings.clone(), rest), 0.0));
     assert_agree(&a, &b);
+    assert!(a.loads != b.loads, "the other method was not used");
 }
 
 #[test]
@@ -158,6 +159,7 @@ fn limit_wrong_shapes_do_no_harm() {
     let wrong = wrong.map(|[right, left]: [Vec<DVec3>; 2]| [right, left, body()]);
     let [a, b] = [None, wrong].map(|rest| run(&lattice(settings(), rest), 0.0));
     assert_agree(&a, &b);
+    assert!(a.loads != b.loads, "the other method was not used");
 }
 
 #[test]

@@ -17,6 +17,7 @@ mod leaving;
 mod particles;
 mod peers;
 mod plane_wakes;
+mod planes;
 mod section_drag;
 mod separated;
 mod swept;

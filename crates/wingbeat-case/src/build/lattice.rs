@@ -110,6 +110,7 @@ pub(super) fn key_of(setting: &str) -> &'static str {
         "shedding" => "air.shed",
         "free_stream" => "air.stream_m_s",
         "bound_core" => "air.bound_core",
+        "wake_core" => "air.wake_core",
         "wake_overlap" => "air.wake_overlap",
         "wake_blob_length" => "air.wake_blob_length_m",
         "max_displacement" => "air.max_displacement_m",

@@ -58,9 +58,15 @@ fn of_lattice(error: &AirError) -> (String, &'static str) {
             format!("air.gust[{gust}].table"),
             "put the rows in the order of their times",
         ),
-        AirError::MirrorPairs { .. } | AirError::Asymmetric { .. } => (
+        AirError::MirrorPairs { .. }
+        | AirError::Asymmetric { .. }
+        | AirError::AsymmetricAir { .. } => (
             "air.mirror".to_owned(),
             "set it to false: both sides are computed",
+        ),
+        AirError::ThroughPlane { .. } => (
+            "air.ground".to_owned(),
+            "lower the ground, start higher, or leave the key out",
         ),
         AirError::Empty => (
             "air.model".to_owned(),

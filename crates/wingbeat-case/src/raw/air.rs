@@ -45,7 +45,7 @@ pub struct AirCase {
     #[schemars(extend("with" = LATTICE))]
     pub body: bool,
     /// The flight is mirror-symmetric: the air is computed on one half. Lateral motion cannot
-    /// grow; a motion that is not symmetric is refused.
+    /// grow; a motion, a stream, a gust, a shear or a ground that is not symmetric is refused.
     ///
     /// Change it to true for symmetric flight: it costs half as much.
     #[schemars(extend("with" = LATTICE))]
@@ -172,7 +172,7 @@ pub struct AirCase {
     #[schemars(extend("with" = WIND, "always" = true))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub shear_1_s: Option<[[f64; 3]; 3]>,
-    /// A plane through which no air goes; left out: none.
+    /// A plane through which no air goes: stream, gusts and shear go along it, and bodies and wings stay on one side; left out: none.
     ///
     /// Change it for take-off, landing and hovering near the ground.
     #[schemars(extend("with" = LATTICE, "always" = true))]
@@ -196,7 +196,7 @@ pub struct AirCase {
     #[schemars(extend("exclusiveMinimum" = 0, "with" = [LATTICE, SHEDDING], "or" = "max_wake_distance_m"))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub max_wake_distance_chords: Option<f64>,
-    /// Rows kept in each wake sheet; left out: all.
+    /// Rows kept in each wake sheet, at least 2 where leading edges shed by a criterion; left out: all.
     ///
     /// Change it to make long flights cheaper; what is dropped is missing.
     #[schemars(range(min = 1), extend("with" = [LATTICE, SHEDDING]))]

@@ -50,6 +50,18 @@ pub enum CoreModel {
 }
 
 impl CoreModel {
+    /// Whether its numbers are finite and none is below 0.
+    pub fn is_sound(&self) -> bool {
+        let sound = |x: f64| x.is_finite() && x >= 0.0;
+        match *self {
+            Self::CutOff { delta } => sound(delta),
+            Self::Vatistas { radius } | Self::Scully { radius } => sound(radius),
+            Self::LambOseen { radius, viscosity } | Self::Algebraic { radius, viscosity } => {
+                sound(radius) && sound(viscosity)
+            }
+        }
+    }
+
     /// Regularisation number of a segment of this `length` \[m\] and `age` \[s\]:
     /// (delta length)^2 for the cut-off, r_c^2 \[m^2\] for the others; only Lamb-Oseen and algebraic cores age.
     ///
