@@ -250,6 +250,28 @@ fn balances_impulse_budget(summary: &Summary) {
     );
 }
 
+/// A ground bears force normal to it and none along it.
+#[test]
+fn balances_impulse_along_a_ground() {
+    let set = [
+        "air.ground={point_m=[0,0,2.5e-3],normal=[0,0,-1]}",
+        "time.beats=3",
+    ];
+    let summary = flown(&preset("fruit-fly-tethered", &set));
+    let budget = summary.impulse_budget.expect("a lattice");
+    let period = summary.time_s / summary.beats.len() as f64;
+    let lift: f64 = summary.beats.iter().map(|b| b.inviscid_lift_newton).sum();
+    println!("{budget:?} {}", lift * period);
+    // Measured 0.011, along the stroke.
+    assert!(budget.residual_relative < 0.05);
+    assert!(
+        budget.residual_newton_s.abs() > 0.1 * lift * period,
+        "the test is void"
+    );
+    let text = summary.to_text();
+    assert!(text.contains("impulse residual along the ground"), "{text}");
+}
+
 /// Cores of Lamb and Oseen are not the same for action and reaction: then the wake is to blame.
 #[test]
 fn behaves_a_wake_that_does_not_keep_its_impulse_is_blamed() {

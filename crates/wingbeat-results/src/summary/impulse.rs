@@ -21,21 +21,30 @@ pub struct ImpulseBudget {
     pub absorbed_newton_s: f64,
     /// Vortex impulse and impulse of the inviscid force together \[N s\].
     pub residual_newton_s: f64,
-    /// The residual, with its parts across gravity, over the impulse of the inviscid force \[1\].
+    /// The residual, with its parts across gravity, over the impulse of the inviscid force \[1\]. Beside a ground its part along
+    /// the ground alone, which bears a force normal to it.
     pub residual_relative: f64,
+    /// Whether there is a ground.
+    #[serde(default)]
+    pub is_beside_ground: bool,
 }
 
 impl ImpulseBudget {
     /// Between two records; none without a lattice, and of results of older versions, which lack the account.
     pub(super) fn between(setup: &FlightSetup, from: &Record, to: &Record) -> Option<Self> {
-        let is_lattice = matches!(setup.air, AirModel::VortexLattice(_));
-        if !(is_lattice && to.impulse_residual.is_finite()) {
+        let AirModel::VortexLattice(air) = &setup.air else {
+            return None;
+        };
+        if !to.impulse_residual.is_finite() {
             return None;
         }
         let along = |of: fn(&ImpulseAccount) -> wingbeat_math::DVec3| {
             (of(&to.impulse_account) - of(&from.impulse_account)).dot(down(setup))
         };
         let residual = to.impulse_residual - from.impulse_residual;
+        let grounds = &air.lattice.images;
+        let normals = grounds.iter().map(|ground| ground.normal.normalize());
+        let free = normals.fold(residual, |r, n| r - r.dot(n) * n);
         let inviscid = (to.inviscid_impulse - from.inviscid_impulse).length();
         Some(Self {
             created_newton_s: along(|a| a.created),
@@ -45,9 +54,10 @@ impl ImpulseBudget {
             absorbed_newton_s: along(|a| a.absorbed),
             residual_newton_s: residual.dot(down(setup)),
             residual_relative: match inviscid > 0.0 {
-                true => residual.length() / inviscid,
-                false => residual.length(),
+                true => free.length() / inviscid,
+                false => free.length(),
             },
+            is_beside_ground: !grounds.is_empty(),
         })
     }
 }

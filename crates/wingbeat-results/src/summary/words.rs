@@ -126,11 +126,11 @@ impl Summary {
 
 /// What became of the impulse that surfaces gave to the air.
 fn impulse_rows(budget: &ImpulseBudget, out: &mut String) {
-    let _ = writeln!(
-        out,
-        "  impulse residual over that of the air     {:.1e}",
-        budget.residual_relative
-    );
+    let residual = match budget.is_beside_ground {
+        true => "impulse residual along the ground",
+        false => "impulse residual over that of the air",
+    };
+    let _ = writeln!(out, "  {residual:<42}{:.1e}", budget.residual_relative);
     out.push_str("  impulse of the vorticity along gravity\n");
     let mut row = |what: &str, impulse: f64| {
         let _ = writeln!(out, "    {what:<40}{}", engineering(impulse, "N s"));
