@@ -102,8 +102,7 @@ pub(crate) fn mirrors(planes: &[Plane]) -> Result<Vec<Mirror>, AirError> {
             allowed,
         })
     };
-    let usable = |p: &Plane| p.point.is_finite() && p.normal.try_normalize().is_some();
-    if !planes.iter().all(usable) {
+    if planes.iter().any(|p| Mirror::of(p).is_none()) {
         return wrong("planes with a finite point and a normal that has a direction");
     }
     match planes {

@@ -3,7 +3,7 @@
 use crate::error::{AirError, require};
 use crate::geometry::{
     JoinedEdge, MirrorPairs, Rings, ShedAround, Sheet, Strip, SuctionStrips, Surface, Symmetry,
-    Topology, rings, shed_around, strips,
+    Topology, joined_groups, rings, shed_around, strips,
 };
 use crate::images::{Mirror, mirrors};
 use crate::settings::AirSettings;
@@ -25,7 +25,10 @@ pub struct Lattice {
     mirrors: Vec<Mirror>,
     symmetry: Option<Symmetry>,
     suction: SuctionStrips,
+    joined: Vec<usize>,
     shed_around: Vec<ShedAround>,
+    /// The strip that a panel leads.
+    led: Vec<Option<usize>>,
     identity: Identity,
 }
 
@@ -76,10 +79,17 @@ impl Lattice {
             "true only for wings of one panel along the span (mesh.spanwise = 1), whose flow is that of a section",
         )?;
         let strips = strips(&topology, &surfaces);
+        let joined = joined_groups(&topology, surfaces.len());
+        let mut led = vec![None; topology.panels.len()];
+        for (s, strip) in strips.iter().enumerate() {
+            led[strip.panels[0]] = Some(s);
+        }
         Ok(Self {
             rings: rings(&topology, &surfaces, &strips, &settings),
             strips,
-            shed_around: shed_around(&topology, &surfaces),
+            shed_around: shed_around(&topology, &surfaces, &joined),
+            joined,
+            led,
             mirrors: mirrors(&settings.images)?,
             surfaces,
             settings,
@@ -156,6 +166,16 @@ impl Lattice {
     /// Strips whose leading edges hold suction and shed what is beyond it.
     pub(crate) fn suction(&self) -> &SuctionStrips {
         &self.suction
+    }
+
+    /// For each surface the first of those that it is joined to.
+    pub(crate) fn joined_groups(&self) -> &[usize] {
+        &self.joined
+    }
+
+    /// The strip that begins with panel `p`, if one does.
+    pub(crate) fn led_by(&self, p: usize) -> Option<usize> {
+        self.led[p]
     }
 
     /// Wings that shed from all their edges.

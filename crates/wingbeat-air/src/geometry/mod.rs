@@ -19,7 +19,7 @@ pub use node_motion::NodeMotion;
 pub use panels::Panels;
 pub(crate) use panels::point_and_normal;
 pub(crate) use rings::{Rings, rings};
-pub(crate) use shed_around::{ShedAround, shed_around};
+pub(crate) use shed_around::{ShedAround, joined_groups, shed_around};
 pub use strips::Strip;
 pub(crate) use strips::{column, opposite, section, strips};
 pub(crate) use suction_strips::SuctionStrips;

@@ -13,8 +13,11 @@ pub(crate) struct ShedAround {
 }
 
 /// All of them.
-pub(crate) fn shed_around(topology: &Topology, surfaces: &[Surface]) -> Vec<ShedAround> {
-    let group = joined_groups(topology, surfaces.len());
+pub(crate) fn shed_around(
+    topology: &Topology,
+    surfaces: &[Surface],
+    group: &[usize],
+) -> Vec<ShedAround> {
     let of = |panel: usize| group[topology.panel_surface[panel]];
     let whole = |g: &usize| {
         let open = (0..surfaces.len()).all(|s| group[s] != *g || !surfaces[s].closed);
@@ -32,7 +35,7 @@ pub(crate) fn shed_around(topology: &Topology, surfaces: &[Surface]) -> Vec<Shed
 }
 
 /// For each surface the first of those that it is joined to.
-fn joined_groups(topology: &Topology, count: usize) -> Vec<usize> {
+pub(crate) fn joined_groups(topology: &Topology, count: usize) -> Vec<usize> {
     let mut group: Vec<usize> = (0..count).collect();
     for edge in &topology.edges {
         let Some(minus) = edge.minus else { continue };

@@ -57,8 +57,6 @@ struct Obstacle {
 #[derive(Default)]
 pub(crate) struct Obstacles {
     surfaces: Vec<Obstacle>,
-    /// The first of the surfaces that each one is joined to.
-    first: Vec<usize>,
     clearance: f64,
 }
 
@@ -77,29 +75,10 @@ impl Obstacles {
         };
         self.surfaces.resize_with(count, Obstacle::default);
         self.surfaces.iter_mut().for_each(Obstacle::clear);
-        self.join(lattice);
         for s in 0..count {
-            self.surfaces[self.first[s]].add(lattice, s, ends);
+            self.surfaces[lattice.joined_groups()[s]].add(lattice, s, ends);
         }
         self.surfaces.iter_mut().for_each(Obstacle::enclose);
-    }
-
-    /// Finds which surfaces are joined.
-    fn join(&mut self, lattice: &Lattice) {
-        let (topology, first) = (lattice.topology(), &mut self.first);
-        first.clear();
-        first.extend(0..lattice.surfaces().len());
-        for edge in &topology.edges {
-            let Some(minus) = edge.minus else { continue };
-            let [a, b] = [edge.plus, minus].map(|p| first[topology.panel_surface[p]]);
-            if a != b {
-                let (low, high) = (a.min(b), a.max(b));
-                first
-                    .iter_mut()
-                    .filter(|f| **f == high)
-                    .for_each(|f| *f = low);
-            }
-        }
     }
 
     /// Mends the ends of the paths `from` -> `to` of all nodes; returns how many were changed.

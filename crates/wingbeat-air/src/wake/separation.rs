@@ -20,8 +20,7 @@ impl Lattice {
         {
             return 0.0;
         }
-        let leads = |panels: &[usize]| panels[0] == root.panels[column];
-        let strip = self.strips().iter().position(|s| leads(&s.panels));
+        let strip = self.led_by(root.panels[column]);
         strip.map_or(0.0, |s| state.hold[s])
     }
 

@@ -370,8 +370,9 @@ fn agrees_second_method_impulse_in_hover_with_suction_held() {
         (s.bound_core, s.wake_core) = (core_of(0.01)[0], core_of(0.07)[0]);
     });
     println!("force, rate of impulse: {beats:?}");
-    for [force, impulse] in beats {
-        assert!((impulse / force - 1.0).abs() < 0.1, "{beats:?}");
+    // Measured 0.031, 0.020, 0.014.
+    for ([force, impulse], bound) in beats.into_iter().zip([0.06, 0.04, 0.03]) {
+        assert!((impulse / force - 1.0).abs() < bound, "{beats:?}");
     }
 }
 

@@ -22,7 +22,6 @@ fn sheet(w: f64, fold: f64, left: bool) -> Obstacles {
     wing.enclose();
     Obstacles {
         surfaces: vec![wing],
-        first: vec![0],
         clearance: 0.1,
     }
 }
