@@ -35,7 +35,7 @@ const CHANGE: &str = "from 0.05 chords of travel on; the plate stalls from about
 /// Travel from which the rig is quiet [chords].
 const QUIET: f64 = 0.25;
 const RINGS: &str = "before, the rig rings: measured are 8.3, 6.6 and 5.6 after 0.05, 0.10 and 0.15 chords, where attached flow with its \
-                     added mass makes 5.3, 4.3 and 3.7";
+                     added mass makes 5.1, 4.1 and 3.5";
 
 /// Travel [chords] and lift coefficient, smoothed as the measurement: mean over 100 ms, 0.07 chords.
 fn lift(
