@@ -4,6 +4,9 @@ use wingbeat_air::AirError;
 use wingbeat_blade::BladeError;
 use wingbeat_dynamics::DynamicsError;
 
+/// Residual over the allowed one up to which a step that did not converge was nearly there.
+const NEARLY: f64 = 100.0;
+
 /// Why a flight cannot start or go on. Times in seconds.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum FlightError {
@@ -97,9 +100,10 @@ pub enum FlightError {
     },
     /// The corrector of a step did not converge.
     #[error(
-        "step {step} (t = {time:.6e} s): {} after {passes} corrector passes: scaled residual {residual:.2e}, allowed {tolerance:.2e}; try a smaller step, more passes, or relaxation below {relaxation}{}",
+        "step {step} (t = {time:.6e} s): {} after {passes} corrector passes: scaled residual {residual:.2e}, allowed {tolerance:.2e}; try a smaller step, more passes, or relaxation below {relaxation}{}{}",
         if *in_air { "bodies and air did not agree" } else { "the motion of the bodies did not converge" },
-        if *in_air { " (light bodies with large wings need it), and look whether wings cut through each other or the body" } else { "; integrator = \"order_eight\" chooses its steps itself" }
+        if *in_air { " (light bodies with large wings need it), and look whether wings cut through each other or the body" } else { "; integrator = \"order_eight\" chooses its steps itself" },
+        if *residual < NEARLY * tolerance { "; it is nearly there, where the air's answer may be no smoother: a larger corrector.tolerance takes it" } else { "" }
     )]
     NotConverged {
         /// Step that failed.
