@@ -7,6 +7,7 @@
 //! left-hand side of a coupled step, whose right-hand side knows all of it.
 
 use crate::error::AirError;
+use crate::geometry::corner_weights;
 use crate::lattice::Lattice;
 use crate::loads::{AirLoads, rate_weights};
 use crate::settings::CirculationRate;
@@ -112,9 +113,10 @@ impl Lattice {
         let slip = ws.wash.velocity[p] - loads.velocity[p];
         let tilt = (slip - slip.dot(normal) * normal) / along.cross(across).length();
         let by_ends = [across.cross(tilt), tilt.cross(along)];
+        let weights = corner_weights(&corners);
         for (k, n) in corners.into_iter().enumerate() {
             let sign = if k < 2 { -1.0 } else { 1.0 };
-            let (by_velocity, by_place) = (0.25 * normal, sign * by_ends[k % 2]);
+            let (by_velocity, by_place) = (weights[k] * normal, sign * by_ends[k % 2]);
             let (rings, aft) = (self.rings(), self.rings().aft());
             (ws.wash).spread((n, aft), &ws.rings, by_velocity, |n, v| {
                 rings.spread((n, position), v, |n, v| see(n - first, [v, DVec3::ZERO]));

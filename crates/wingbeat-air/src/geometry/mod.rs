@@ -17,7 +17,7 @@ mod wash;
 pub use joined_edge::JoinedEdge;
 pub use node_motion::NodeMotion;
 pub use panels::Panels;
-pub(crate) use panels::point_and_normal;
+pub(crate) use panels::{corner_weights, point_and_normal};
 pub(crate) use rings::{Rings, rings};
 pub(crate) use shed_around::{ShedAround, joined_groups, shed_around};
 pub use strips::Strip;

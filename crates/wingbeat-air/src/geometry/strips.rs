@@ -88,7 +88,9 @@ pub(crate) fn opposite(corners: [usize; 4], edge: [usize; 2]) -> [usize; 2] {
     edge.map(|n| {
         let k = corners.iter().position(|&c| c == n).expect("a corner");
         let sides = [corners[(k + 1) % 4], corners[(k + 3) % 4]];
-        if edge.contains(&sides[0]) {
+        if corners.iter().filter(|&&c| c == n).count() > 1 {
+            n // a triangle: the side between its repeated corners has no length
+        } else if edge.contains(&sides[0]) {
             sides[1]
         } else {
             sides[0]

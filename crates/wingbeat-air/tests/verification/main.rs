@@ -14,6 +14,7 @@ mod invariance;
 mod joined_edges;
 mod known_shapes;
 mod leaving;
+mod nodal;
 mod particles;
 mod peers;
 mod plane_wakes;
