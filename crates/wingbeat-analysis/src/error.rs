@@ -20,6 +20,16 @@ pub enum AnalysisError {
         /// What to do instead.
         remedy: &'static str,
     },
+    /// A wing in a stream does not come to rest.
+    #[error(
+        "at {speed} m/s the wing does not come to rest: a node still moves at {drift:.1e} of the speed of the stream. A wing that diverges or whose flow separates has no steady state: try lower speeds, less incidence or a stiffer wing"
+    )]
+    NotSteady {
+        /// Speed of the stream [m/s].
+        speed: f64,
+        /// Velocity of its fastest node over that of the stream \[1\].
+        drift: f64,
+    },
     /// A number is not finite or a matrix singular.
     #[error("{0}")]
     Numbers(String),

@@ -4,12 +4,14 @@
 //! flights go on with the damping of the wing itself, one of them with small velocities added in the leading modes of the deformed wing
 //! ([`disturbance`]). The difference of the two is the response of the system linearised about the deformed state, wakes
 //! and all; [`crate::realisation`] finds its eigenvalues. Growth that changes its sign between speeds is an onset or an
-//! end of flutter ([`crossing`]). The disturbance of half the size tells how far the response is linear.
+//! end of flutter ([`crossing`]), if it differs from zero by more than is not known of it (`uncertainty`). The disturbance of
+//! half the size tells how far the response is linear.
 //!
 //! | symbol | name in code | meaning | unit |
 //! |---|---|---|---|
 //! | V | [`Condition::speed`] | speed of the stream | m/s |
 //! | sigma | [`Vibration::growth`](crate::realisation::Vibration::growth) | growth of a mode | 1/s |
+//! | - | [`Condition::uncertainty`] | what is not known of sigma | 1/s |
 //! | omega | [`Vibration::frequency`](crate::realisation::Vibration::frequency) | angular frequency of a mode | rad/s |
 //!
 //! The step of the setup goes with the speed: the stream passes the same way in a step as in the setup.
@@ -19,8 +21,9 @@ pub mod crossing;
 pub mod disturbance;
 mod settings;
 mod steady;
+mod uncertainty;
 
 pub use condition::{Condition, MAX_DAMPING, MIN_SHARE, condition};
-pub use crossing::{Crossing, crossings};
+pub use crossing::{Crossing, crossings, growing};
 pub use settings::FlutterSettings;
 pub use steady::{ElasticRig, SteadyWing};

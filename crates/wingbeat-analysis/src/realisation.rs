@@ -31,6 +31,11 @@ impl Vibration {
     pub fn damping(&self) -> f64 {
         -self.growth / self.growth.hypot(self.frequency)
     }
+
+    /// Distance of the eigenvalues of two motions [1/s].
+    pub fn distance(&self, other: &Self) -> f64 {
+        (self.growth - other.growth).hypot(self.frequency - other.frequency)
+    }
 }
 
 /// What a response is made of.

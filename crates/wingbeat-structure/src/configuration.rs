@@ -6,12 +6,27 @@ use wingbeat_math::{DQuat, DVec3};
 pub const NODE: usize = 6;
 
 /// Places and attitudes of the nodes, in the frame W of the body that carries the elastic one.
-#[derive(Clone, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
+#[derive(Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Configuration {
     /// Places \[m\], W components.
     pub position: Vec<DVec3>,
     /// Attitudes, node components to W components.
     pub rotation: Vec<DQuat>,
+}
+
+/// Written out because a derived `clone_from` allocates, and Newton's passes copy configurations.
+impl Clone for Configuration {
+    fn clone(&self) -> Self {
+        Self {
+            position: self.position.clone(),
+            rotation: self.rotation.clone(),
+        }
+    }
+
+    fn clone_from(&mut self, source: &Self) {
+        self.position.clone_from(&source.position);
+        self.rotation.clone_from(&source.rotation);
+    }
 }
 
 impl Configuration {

@@ -2,7 +2,7 @@
 
 use crate::assembly::Assembly;
 use crate::configuration::{Configuration, NODE};
-use crate::dynamics::{inertial, size};
+use crate::dynamics::{inertial, larger, size};
 use crate::error::StructureError;
 use crate::frame::FrameMotion;
 use crate::inertia::{self, Motion};
@@ -212,12 +212,7 @@ fn correct(structure: &Structure, at: &mut Configuration, s: &mut Scratch) -> f6
     }
     let mut largest = 0.0_f64;
     for six in s.all.as_chunks::<NODE>().0 {
-        let here = size(six, structure.size());
-        largest = if here > largest || here.is_nan() {
-            here
-        } else {
-            largest
-        };
+        largest = larger(largest, size(six, structure.size()));
     }
     let limit = if largest > MAX_CHANGE {
         MAX_CHANGE / largest

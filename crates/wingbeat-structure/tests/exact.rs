@@ -231,3 +231,25 @@ fn exact_lumped_mass_has_the_moments_of_the_beam() {
     assert!(gap.iter().all(|e| e.abs() < 1e-15), "{gap:?}");
     masses.iter().for_each(|m| m.validate().unwrap());
 }
+
+#[test]
+fn refuses_loads_that_are_not_numbers() {
+    let body = straight(2, 1.0, &slender()).clamp(0).build().unwrap();
+    let method = GeneralizedAlpha::new(0.9).unwrap();
+    for k in 0..6 {
+        // One number of the tip: a force, then a moment.
+        let mut state = State::at_rest(body.rest().clone());
+        let before = state.clone();
+        let mut trial = Trial::of(&state);
+        let step = Step {
+            h: 1e-3,
+            frame: &FrameMotion::REST,
+            loads: &mut |_: &Trial, loads: &mut [f64]| loads[12 + k] = f64::NAN,
+            passes: Passes::default(),
+        };
+        let told = Solver::new(&body).advance(&method, &body, &mut state, step, &mut trial);
+        let is_told = matches!(told, Err(StructureError::NotConverged { .. }));
+        assert!(is_told, "number {k}: {told:?}");
+        assert_eq!(state, before);
+    }
+}

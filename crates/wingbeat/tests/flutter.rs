@@ -3,7 +3,10 @@
 use std::f64::consts::TAU;
 
 use wingbeat::analysis::AnalysisError;
-use wingbeat::analysis::flutter::{Condition, FlutterSettings, condition, crossings};
+use wingbeat::analysis::flutter::{
+    Condition, FlutterSettings, SteadyWing, condition, crossings, growing,
+};
+use wingbeat::analysis::realisation::{Realisation, Vibration};
 use wingbeat::case::LoadedCase;
 
 #[path = "flutter/theodorsen.rs"]
@@ -178,4 +181,138 @@ fn refuses_flutter_in_strips_without_wakes() {
         told.contains("no wakes") && told.contains("air.blade.unsteady"),
         "{told}"
     );
+}
+
+/// A condition that has modes of frequency, growth and its uncertainty.
+fn with_modes(speed: f64, modes: &[[f64; 3]]) -> Condition {
+    let mode = |[frequency, growth, _]: &[f64; 3]| Vibration {
+        growth: *growth,
+        frequency: *frequency,
+        share: 0.5,
+    };
+    let modes_found: Vec<_> = modes.iter().map(mode).collect();
+    Condition {
+        speed,
+        steady: SteadyWing {
+            tip: Default::default(),
+            turn: Default::default(),
+            drift: 0.0,
+            vacuum: vec![],
+        },
+        modes: modes_found.clone(),
+        uncertainty: modes.iter().map(|m| m[2]).collect(),
+        response: Realisation {
+            vibrations: modes_found,
+            order: 2 * modes.len(),
+            residual: 0.0,
+        },
+        nonlinearity: 0.0,
+    }
+}
+
+#[test]
+fn behaves_growth_counts_beyond_its_uncertainty_alone() {
+    // A mode that flutters, neutral at the speed between, and one whose growth is noise.
+    let all = [
+        with_modes(10.0, &[[70.0, -2.0, 0.1], [400.0, 0.2, 1.0]]),
+        with_modes(11.0, &[[70.0, 0.05, 0.1], [400.0, -0.3, 1.0]]),
+        with_modes(12.0, &[[70.0, 2.0, 0.1], [400.0, 0.1, 1.0]]),
+    ];
+    let found = crossings(&all);
+    assert_eq!(found.len(), 1, "{found:?}");
+    assert!(found[0].begins && (found[0].speed - 11.0).abs() < 1e-12);
+    assert_eq!(found[0].between, [10.0, 12.0]);
+    assert!(growing(&all).is_empty());
+    // Frequencies that lie apart are of two modes.
+    let apart = [
+        with_modes(10.0, &[[70.0, -2.0, 0.1]]),
+        with_modes(11.0, &[[140.0, 2.0, 0.1]]),
+    ];
+    assert!(crossings(&apart).is_empty());
+    // Flutter at all speeds.
+    let found = growing(&[
+        with_modes(10.0, &[[70.0, 1.0, 0.1], [90.0, -1.0, 0.1]]),
+        with_modes(11.0, &[[68.0, 2.0, 0.1], [91.0, -1.0, 0.1]]),
+    ]);
+    assert_eq!(found.len(), 1);
+    assert_eq!(found[0].map(|v| v.frequency), [70.0, 68.0]);
+}
+
+#[test]
+fn exact_undamped_wing_in_thin_air_is_neutral() {
+    // Nothing damps it and nothing feeds it: growth is zero but for what is not known of it.
+    let found = [150.0, 160.0].map(|speed| at(&["air.density_kg_m3=1e-6"], speed));
+    for condition in &found {
+        for k in 0..condition.modes.len() {
+            assert_eq!(condition.grows(k), None, "{:?}", condition.modes[k]);
+        }
+    }
+    assert!(crossings(&found).is_empty());
+}
+
+/// Six modes, most of them hardly damped or hardly disturbed.
+const SIX: FlutterSettings = FlutterSettings {
+    modes: 6,
+    disturbance: 1e-5,
+    periods: 1.5,
+    settling: 4000,
+};
+
+#[test]
+fn published_goland_in_strips_does_not_flutter_below_137_m_s_in_any_of_six_modes() {
+    let setup = strips(&[]).setup;
+    let found = [70.0, 80.0, 90.0].map(|speed| condition(&setup, speed, &SIX).unwrap());
+    assert!(crossings(&found).is_empty(), "{:?}", crossings(&found));
+    assert!(growing(&found).is_empty());
+}
+
+#[test]
+fn agrees_flutter_on_a_soft_hinge_of_six_modes_with_that_of_two() {
+    let text = STRIPS.replace("motion.psi", "# motion.psi");
+    let text = text
+        + r#"
+[joint.hinge-right]
+child = "right"
+kind = "revolute"
+axis = [0, 1, 0]
+[[joint.hinge-right.element]]
+stiffness_newton_m_per_rad = 3e5
+"#;
+    let hinged = LoadedCase::from_text("hinged", &text, std::path::Path::new("."), &[]).unwrap();
+    let onsets = |settings: &FlutterSettings| {
+        let found = [70.0, 80.0, 90.0].map(|v| condition(&hinged.setup, v, settings).unwrap());
+        crossings(&found)
+    };
+    let [six, two] = [onsets(&SIX), onsets(&settings())];
+    assert_eq!((six.len(), two.len()), (1, 1), "{six:?} {two:?}");
+    // A straight line of growth over 10 m/s; the modes are the same.
+    assert!(
+        (six[0].speed / two[0].speed - 1.0).abs() < 0.01,
+        "{six:?} {two:?}"
+    );
+    assert!(
+        (six[0].frequency / TAU / 9.107 - 1.0).abs() < 0.01,
+        "{six:?}"
+    );
+}
+
+#[test]
+fn refuses_speeds_and_lengths_at_which_nothing_is_found() {
+    let setup = strips(&[]).setup;
+    let diverges = condition(&setup, 339.0, &settings())
+        .map(|_| ())
+        .unwrap_err();
+    assert!(
+        matches!(diverges, AnalysisError::NotSteady { .. }),
+        "{diverges}"
+    );
+    let short = FlutterSettings {
+        periods: 0.01,
+        ..settings()
+    };
+    let told = condition(&setup, 130.0, &short)
+        .map(|_| ())
+        .unwrap_err()
+        .to_string();
+    assert!(told.contains("--periods 0.01"), "{told}");
 }

@@ -5,6 +5,7 @@ use wingbeat_flight::{FlightSetup, FlightState, Simulation};
 use super::disturbance::{Disturbance, Stations};
 use super::settings::FlutterSettings;
 use super::steady::{ElasticRig, SteadyWing};
+use super::uncertainty::{Taken, uncertainties};
 use crate::AnalysisError;
 use crate::realisation::{Realisation, Vibration, realise, rms};
 
@@ -18,6 +19,8 @@ pub struct Condition {
     /// Motions found in the response, of rising frequency, those that take part with less than [`MIN_SHARE`] or
     /// hardly vibrate left out.
     pub modes: Vec<Vibration>,
+    /// What is not known of the growth of each of them [1/s] (see `uncertainty.rs`).
+    pub uncertainty: Vec<f64>,
     /// The whole response as a linear system.
     pub response: Realisation,
     /// Difference to twice the response to half the disturbance, over the response \[1\].
@@ -30,14 +33,20 @@ pub const MIN_SHARE: f64 = 1e-3;
 /// Damping over critical above which a motion is that of the wake, or dies within a period \[1\].
 pub const MAX_DAMPING: f64 = 0.8;
 
+/// Samples without which nothing is found, also not in three quarters of a response.
+const LEAST: usize = 8;
+
+/// Quarters of a response from which its modes are found a second time.
+const KEPT: usize = 3;
+
 /// Samples of a response at least, and samples in a period of the fastest mode that is disturbed.
 const SAMPLES: [f64; 2] = [80.0, 6.0];
 
 /// The elastic wings of `setup` in its stream at `speed` [m/s].
 ///
 /// # Errors
-/// No elastic wing; wings or a root that move; no stream, no wake; a steady state that is not reached; what flights and
-/// the identification report.
+/// No elastic wing; wings or a root that move; no stream, no wake; a steady state that is not reached; a response that is too
+/// short; what flights and the identification report.
 pub fn condition(
     setup: &FlightSetup,
     speed: f64,
@@ -49,6 +58,15 @@ pub fn condition(
     crate::progress::task("response", 0, 0);
     let disturbance = Disturbance::new(&rig, &state, settings)?;
     let sampling = Sampling::new(rig.setup.time.step, &steady.vacuum, settings);
+    if sampling.count < LEAST {
+        return Err(AnalysisError::not_covered(
+            format!(
+                "--periods {}: the response has {} samples of at least {LEAST} that are needed",
+                settings.periods, sampling.count
+            ),
+            "lengthen it: 1 period of the first mode or more",
+        ));
+    }
     let stations = Stations::of(&rig);
     let flown = |part: f64| {
         let from = disturbance.added(&state, part);
@@ -62,21 +80,35 @@ pub fn condition(
         .map(|y| y.iter().map(|x| 2.0 * x).collect())
         .collect();
     let nonlinearity = rms(&difference(&whole, &doubled)) / rms(&whole);
-    let response = realise(&whole, sampling.every as f64 * rig.setup.time.step)?;
+    let step = sampling.every as f64 * rig.setup.time.step;
+    let response = realise(&whole, step)?;
     let vibrates =
         |v: &&Vibration| v.frequency > 0.0 && v.share >= MIN_SHARE && v.damping() <= MAX_DAMPING;
+    let found = response.vibrations.iter().filter(vibrates);
+    let modes: Vec<Vibration> = found.copied().collect();
+    let others = [&doubled[..], &whole[..KEPT * whole.len() / 4]];
+    let taken = Taken {
+        flight: rig.setup.time.step,
+        step,
+        length: whole.len() as f64 * step,
+    };
+    let uncertainty = uncertainties(&modes, &response, &taken, &others)?;
     Ok(Condition {
         speed,
-        modes: response
-            .vibrations
-            .iter()
-            .filter(vibrates)
-            .copied()
-            .collect(),
+        modes,
+        uncertainty,
         steady,
         response,
         nonlinearity,
     })
+}
+
+impl Condition {
+    /// Whether mode `k` grows or dies out; none where its growth is neutral within what is known of it.
+    pub fn grows(&self, k: usize) -> Option<bool> {
+        let growth = self.modes[k].growth;
+        (growth.abs() > self.uncertainty[k]).then_some(growth > 0.0)
+    }
 }
 
 /// When outputs are taken.

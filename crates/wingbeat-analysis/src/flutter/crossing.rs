@@ -16,39 +16,92 @@ pub struct Crossing {
     pub between: [f64; 2],
 }
 
+/// Most that the frequencies of a mode at neighbouring speeds differ, over the larger \[1\]: modes of beams and plates are at
+/// least so far apart unless they flutter together.
+const NEAR: f64 = 0.25;
+
 /// Zero crossings of growth along `conditions` of rising speed, interpolated linearly. Modes of two speeds go together by the
-/// distance of their eigenvalues, the nearest first: where two come close, speeds are to be closer than they.
+/// distance of their eigenvalues, the nearest first: where two come close, speeds are to be closer than they. A crossing
+/// counts where growth differs from zero by more than its uncertainty on both sides; speeds between, at which the mode is neutral
+/// within what is known, are passed over.
 pub fn crossings(conditions: &[Condition]) -> Vec<Crossing> {
-    let pairs = conditions.windows(2);
-    let between = |w: &[Condition]| {
-        let speeds = [w[0].speed, w[1].speed];
-        let pairs = together(&w[0].modes, &w[1].modes).into_iter();
-        let crossing = pairs.filter_map(|(v, next)| crossing(speeds, v, next));
-        crossing.collect::<Vec<_>>()
-    };
-    pairs.flat_map(between).collect()
+    let mut found = vec![];
+    for track in tracks(conditions) {
+        let mut known: Option<(usize, usize, bool)> = None;
+        for (c, m) in track {
+            let Some(grows) = conditions[c].grows(m) else {
+                continue;
+            };
+            if let Some((c0, m0, grew)) = known.filter(|k| k.2 != grows) {
+                let sides = [(c0, m0), (c, m)].map(|(c, m)| (&conditions[c], m));
+                found.push(crossing(sides, !grew));
+            }
+            known = Some((c, m, grows));
+        }
+    }
+    found.sort_by(|a, b| a.speed.total_cmp(&b.speed));
+    found
 }
 
-fn crossing(between: [f64; 2], v: &Vibration, next: &Vibration) -> Option<Crossing> {
-    if (v.growth > 0.0) == (next.growth > 0.0) {
-        return None;
-    }
+/// Modes whose growth is above zero, by more than its uncertainty, at all of `conditions`: at the first and at the last of
+/// them.
+pub fn growing(conditions: &[Condition]) -> Vec<[Vibration; 2]> {
+    let through = |track: &Vec<(usize, usize)>| {
+        let grows = |&(c, m): &(usize, usize)| conditions[c].grows(m) == Some(true);
+        track.len() == conditions.len() && track.iter().all(grows)
+    };
+    let ends = |track: Vec<(usize, usize)>| {
+        let ends = [track[0], track[track.len() - 1]];
+        ends.map(|(c, m)| conditions[c].modes[m])
+    };
+    let all = tracks(conditions).into_iter();
+    all.filter(through).map(ends).collect()
+}
+
+fn crossing([(a, i), (b, j)]: [(&Condition, usize); 2], begins: bool) -> Crossing {
+    let (v, next, between) = (&a.modes[i], &b.modes[j], [a.speed, b.speed]);
     let s = v.growth / (v.growth - next.growth);
-    Some(Crossing {
+    Crossing {
         speed: between[0] + s * (between[1] - between[0]),
         frequency: v.frequency + s * (next.frequency - v.frequency),
-        begins: next.growth > v.growth,
+        begins,
         between,
-    })
+    }
+}
+
+/// Each mode along speeds: number of the condition and of the mode in it.
+fn tracks(conditions: &[Condition]) -> Vec<Vec<(usize, usize)>> {
+    let mut all: Vec<Vec<(usize, usize)>> = vec![];
+    for (c, here) in conditions.iter().enumerate() {
+        let pairs = match c {
+            0 => vec![],
+            _ => together(&conditions[c - 1].modes, &here.modes),
+        };
+        for m in 0..here.modes.len() {
+            let before = pairs.iter().find(|p| p.1 == m).map(|p| (c - 1, p.0));
+            let follows =
+                |t: &&mut Vec<(usize, usize)>| before.is_some() && t.last().copied() == before;
+            match all.iter_mut().find(follows) {
+                Some(track) => track.push((c, m)),
+                None => all.push(vec![(c, m)]),
+            }
+        }
+    }
+    all
 }
 
 /// Pairs of nearest eigenvalues, each in one pair at most.
-fn together<'a>(a: &'a [Vibration], b: &'a [Vibration]) -> Vec<(&'a Vibration, &'a Vibration)> {
-    let apart =
-        |v: &Vibration, w: &Vibration| (w.growth - v.growth).hypot(w.frequency - v.frequency);
+fn together(a: &[Vibration], b: &[Vibration]) -> Vec<(usize, usize)> {
+    let is_near = |&(i, j): &(usize, usize)| {
+        let (v, w) = (a[i].frequency, b[j].frequency);
+        (v - w).abs() <= NEAR * v.max(w)
+    };
     let all = (0..a.len()).flat_map(|i| (0..b.len()).map(move |j| (i, j)));
-    let mut all: Vec<_> = all.collect();
-    all.sort_by(|p, q| apart(&a[p.0], &b[p.1]).total_cmp(&apart(&a[q.0], &b[q.1])));
+    let mut all: Vec<_> = all.filter(is_near).collect();
+    all.sort_by(|p, q| {
+        let apart = |p: &(usize, usize)| a[p.0].distance(&b[p.1]);
+        apart(p).total_cmp(&apart(q))
+    });
     let (mut left, mut right) = (vec![true; a.len()], vec![true; b.len()]);
     all.retain(|&(i, j)| {
         let free = left[i] && right[j];
@@ -57,5 +110,5 @@ fn together<'a>(a: &'a [Vibration], b: &'a [Vibration]) -> Vec<(&'a Vibration, &
         }
         free
     });
-    all.into_iter().map(|(i, j)| (&a[i], &b[j])).collect()
+    all
 }

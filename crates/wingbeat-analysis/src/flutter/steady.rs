@@ -98,7 +98,7 @@ impl ElasticRig {
         let mut steps = 0;
         while steps < LEAST || self.drift(long.state()) > STEADY {
             if steps == settings.settling {
-                return Err(self.unsteady(self.drift(long.state())));
+                return Err(self.unsteady(long.state()));
             }
             long.step()?;
             steps += 1;
@@ -108,7 +108,7 @@ impl ElasticRig {
         steps = 0;
         while steps < 4 * LEAST || self.drift(short.state()) > STEADY {
             if steps == settings.settling {
-                return Err(self.unsteady(self.drift(short.state())));
+                return Err(self.unsteady(short.state()));
             }
             short.step()?;
             steps += 1;
@@ -118,14 +118,11 @@ impl ElasticRig {
         Ok((state, steady))
     }
 
-    fn unsteady(&self, drift: f64) -> AnalysisError {
-        AnalysisError::not_covered(
-            format!(
-                "at {} m/s the wing does not come to rest: a node still moves at {drift:.1e} of the speed of the stream",
-                self.speed
-            ),
-            "allow more steps; what diverges or separates has no steady state",
-        )
+    fn unsteady(&self, state: &FlightState) -> AnalysisError {
+        AnalysisError::NotSteady {
+            speed: self.speed,
+            drift: self.drift(state),
+        }
     }
 
     /// The setup with other steps and damping added.

@@ -184,8 +184,8 @@ impl GeneralizedAlpha {
     /// First trial of a step h \[s\]: accelerations stay.
     pub fn predict(&self, structure: &Structure, state: &State, h: f64, trial: &mut Trial) {
         trial.weights = self.weights(h);
-        copy(&mut trial.start, &state.configuration);
-        copy(&mut trial.configuration, &state.configuration);
+        trial.start.clone_from(&state.configuration);
+        trial.configuration.clone_from(&state.configuration);
         trial.acceleration.clone_from(&state.acceleration);
         trial.velocity.clone_from(&state.velocity);
         trial.algorithmic.clone_from(&state.algorithmic);
@@ -201,9 +201,4 @@ impl GeneralizedAlpha {
         }
         (0..structure.nodes()).for_each(|n| trial.place(n));
     }
-}
-
-fn copy(to: &mut Configuration, from: &Configuration) {
-    to.position.clone_from(&from.position);
-    to.rotation.clone_from(&from.rotation);
 }

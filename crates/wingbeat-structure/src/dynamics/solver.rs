@@ -273,14 +273,7 @@ impl Solver {
         let power = self.dissipation(trial);
         state.dissipated += 0.5 * trial.weights().step * (state.dissipation + power);
         state.dissipation = power;
-        state
-            .configuration
-            .position
-            .clone_from(&trial.configuration.position);
-        state
-            .configuration
-            .rotation
-            .clone_from(&trial.configuration.rotation);
+        state.configuration.clone_from(&trial.configuration);
         state.velocity.clone_from(&trial.velocity);
         state.acceleration.clone_from(&trial.acceleration);
         state.algorithmic.clone_from(&trial.algorithmic);
@@ -313,7 +306,7 @@ impl Trial {
     }
 }
 
-/// Changes a trial by increments of the free unknowns; returns their size.
+/// Changes a trial by increments of the free unknowns; returns their size, not a number where one of them is not.
 pub(crate) fn apply(structure: &Structure, change: &[f64], trial: &mut Trial) -> f64 {
     let mut largest = 0.0_f64;
     for n in 0..structure.nodes() {
@@ -322,7 +315,7 @@ pub(crate) fn apply(structure: &Structure, change: &[f64], trial: &mut Trial) ->
             u => change[u],
         });
         trial.change(n, &all);
-        largest = largest.max(size(&all, structure.size()));
+        largest = larger(largest, size(&all, structure.size()));
     }
     largest
 }
@@ -330,8 +323,15 @@ pub(crate) fn apply(structure: &Structure, change: &[f64], trial: &mut Trial) ->
 /// Size of six increments \[1\]; not a number where one of them is not.
 pub(crate) fn size(numbers: &[f64; NODE], length: f64) -> f64 {
     let [dx, turn] = pair(numbers, 0);
-    let (a, b) = (dx.length() / length, turn.length());
-    if a > b { a } else { b }
+    larger(dx.length() / length, turn.length())
+}
+
+/// The larger of two; not a number where one of them is not, which [`f64::max`] leaves out.
+pub(crate) fn larger(a: f64, b: f64) -> f64 {
+    match a.is_nan() || a > b {
+        true => a,
+        false => b,
+    }
 }
 
 /// Adds the inertial forces of all nodes.

@@ -16,8 +16,8 @@ use crate::command::terminal::say;
 pub(crate) struct PlotArgs {
     /// Result directory of the run.
     dir: PathBuf,
-    /// Figures: angles, forces, lollipop, beats, trajectory, path, phase, balances, wake,
-    /// animation; default all but the animation.
+    /// Figures: angles, forces, lollipop, beats, trajectory, commands, path, phase, bending,
+    /// balances, wake, animation; default all but the animation.
     #[arg(value_name = "KIND", value_parser = kind)]
     kinds: Vec<Kind>,
     /// For a paper (180 mm wide, no title) or for the screen.

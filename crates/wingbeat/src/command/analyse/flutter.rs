@@ -4,7 +4,10 @@ use std::f64::consts::TAU;
 
 use clap::Args;
 use serde_json::{Value, json};
-use wingbeat::analysis::flutter::{Condition, Crossing, FlutterSettings, condition, crossings};
+use wingbeat::analysis::flutter::{
+    Condition, Crossing, FlutterSettings, condition, crossings, growing,
+};
+use wingbeat::analysis::realisation::Vibration;
 use wingbeat::case::LoadedCase;
 
 use super::trimming::watched;
@@ -57,7 +60,7 @@ pub(crate) fn run(args: &FlutterArgs) -> Result<(), Failure> {
             found.push(next);
             report.value("speeds", found.iter().map(values).collect::<Vec<_>>());
         }
-        conclude(report, &crossings(&found));
+        conclude(report, &found, &crossings(&found));
         Ok(())
     })
 }
@@ -67,11 +70,12 @@ fn head(report: &mut Report, name: &str) {
     line!(report, "{name}: vibrations about the deformed steady state");
     line!(
         report,
-        "  {:>10}{:>12}{:>12}{:>12}{:>12}{:>10}",
+        "  {:>10}{:>12}{:>12}{:>12}{:>10}{:>12}{:>10}",
         "speed m/s",
         "tip m",
         "Hz",
         "growth 1/s",
+        "+-",
         "damping",
         "share"
     );
@@ -88,20 +92,49 @@ fn tell(report: &mut Report, c: &Condition) {
         };
         line!(
             report,
-            "  {speed:>10}{tip:>12}{:>12.4}{:>12.4}{:>12.5}{:>10.4}",
+            "  {speed:>10}{tip:>12}{:>12.4}{:>12.4}{:>10.1e}{:>12.5}{:>10.4}",
             m.frequency / TAU,
             m.growth,
+            c.uncertainty[k],
             m.damping(),
             m.share
         );
     }
+    for note in notes(c) {
+        line!(report, "  {:>10}{note}", "");
+    }
+}
+
+/// Part of a response that is not linear, and part that no mode explains, from which on they are told \[1\]. Growth of the
+/// leading mode is known to about this part of one over the length of the response: a few per cent are as much as damping
+/// of a mode near flutter.
+const NOT_LINEAR: f64 = 0.05;
+const UNEXPLAINED: f64 = 0.02;
+
+/// What makes the modes at a speed doubtful.
+fn notes(c: &Condition) -> Vec<String> {
+    let mut notes = vec![];
+    if c.nonlinearity > NOT_LINEAR {
+        notes.push(format!(
+            "  nonlinearity {:.2}: the response is not proportional to the disturbance; try a smaller --disturbance",
+            c.nonlinearity
+        ));
+    }
+    if c.response.residual > UNEXPLAINED {
+        notes.push(format!(
+            "  residual {:.2}: no modes explain this part of the response; try other --modes, longer --periods or a smaller --disturbance",
+            c.response.residual
+        ));
+    }
+    notes
 }
 
 fn values(c: &Condition) -> Value {
-    let mode = |m: &wingbeat::analysis::realisation::Vibration| {
+    let mode = |(m, u): (&Vibration, &f64)| {
         json!({
             "frequency_hz": m.frequency / TAU,
             "growth_per_s": m.growth,
+            "growth_uncertainty_per_s": u,
             "damping_ratio": m.damping(),
             "share": m.share,
         })
@@ -112,14 +145,14 @@ fn values(c: &Condition) -> Value {
         "tip_turn_rad": c.steady.turn.to_array(),
         "drift": c.steady.drift,
         "vacuum_hz": c.steady.vacuum.iter().map(|w| w / TAU).collect::<Vec<_>>(),
-        "modes": c.modes.iter().map(mode).collect::<Vec<_>>(),
+        "modes": c.modes.iter().zip(&c.uncertainty).map(mode).collect::<Vec<_>>(),
         "order": c.response.order,
         "residual": c.response.residual,
         "nonlinearity": c.nonlinearity,
     })
 }
 
-fn conclude(report: &mut Report, found: &[Crossing]) {
+fn conclude(report: &mut Report, conditions: &[Condition], found: &[Crossing]) {
     for c in found {
         let what = if c.begins { "begins" } else { "ends" };
         line!(
@@ -131,8 +164,32 @@ fn conclude(report: &mut Report, found: &[Crossing]) {
             c.between[1]
         );
     }
-    if found.is_empty() {
-        line!(report, "\nNo growth changes its sign between these speeds.");
+    let through = growing(conditions);
+    for [first, last] in &through {
+        line!(
+            report,
+            "\nGrowth is positive at all these speeds: the mode of {:.3} Hz at the first of them, {:.3} Hz at the last. Flutter begins below; try lower --speeds.",
+            first.frequency / TAU,
+            last.frequency / TAU
+        );
+    }
+    if found.is_empty() && through.is_empty() {
+        line!(report, "\n{}", unchanged(conditions));
+    }
+    if conditions.iter().any(|c| !notes(c).is_empty()) {
+        line!(
+            report,
+            "\nThis is not to be relied on: see the notes on nonlinearity and residual above."
+        );
+    }
+    if conditions
+        .iter()
+        .any(|c| (0..c.modes.len()).any(|k| c.grows(k).is_none()))
+    {
+        line!(
+            report,
+            "\nModes whose growth is smaller than what is not known of it (+-) are neutral within what is known: they count for no onset."
+        );
     }
     let value = |c: &Crossing| {
         json!({
@@ -143,4 +200,18 @@ fn conclude(report: &mut Report, found: &[Crossing]) {
         })
     };
     report.value("flutter", found.iter().map(value).collect::<Vec<_>>());
+}
+
+/// What is said where no growth changes its sign and none is positive throughout.
+fn unchanged(conditions: &[Condition]) -> String {
+    let grows = |c: &&Condition| (0..c.modes.len()).any(|k| c.grows(k) == Some(true));
+    let speeds = conditions.iter().filter(grows);
+    let speeds: Vec<String> = speeds.map(|c| format!("{:.3}", c.speed)).collect();
+    match speeds.is_empty() {
+        true => "No growth is positive, beyond what is known of it, at any of these speeds.".into(),
+        false => format!(
+            "Growth is positive at {} m/s, but its mode cannot be followed to other speeds: try --speeds that lie closer together.",
+            speeds.join(", ")
+        ),
+    }
 }

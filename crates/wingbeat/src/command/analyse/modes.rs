@@ -18,6 +18,9 @@ use crate::command::report::{Report, ReportArgs, line};
 /// Relative difference of frequencies up to which two wings count as one \[1\]: rounding of mirror images.
 const SAME: f64 = 1e-6;
 
+/// Likeness below which a mode in air is called like none in vacuum \[1\]: it has most of its shape from others.
+const ALIKE: f64 = 0.5;
+
 /// Arguments of `wingbeat modes`.
 #[derive(Args)]
 pub(crate) struct ModesArgs {
@@ -142,14 +145,26 @@ fn table(
         };
         let like = vacuum.map_or(String::new(), |all| {
             let (number, likeness) = most_alike(m, all);
-            format!("mode {} ({likeness:.2})", number + 1)
+            match likeness < ALIKE {
+                true => "none".to_owned(),
+                false => format!("mode {} ({likeness:.2})", number + 1),
+            }
         });
         line!(
             report,
-            "  {:>6}{hz:>12.4}{ratio:>12}{:>12.3e}{w3:>9.3}{w1:>9.3}{twist:>9.3}  {like}",
+            "  {:>6}{:>12}{ratio:>12}{:>12.3e}{w3:>9.3}{w1:>9.3}{twist:>9.3}  {like}",
             k + 1,
+            hertz(hz),
             m.mass
         );
+    }
+}
+
+/// A frequency with four digits or more behind the point, or five that count where it is small.
+fn hertz(hz: f64) -> String {
+    match hz > 0.0 && hz < 0.1 {
+        true => format!("{hz:.4e}"),
+        false => format!("{hz:.4}"),
     }
 }
 
