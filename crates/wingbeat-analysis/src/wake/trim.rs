@@ -204,7 +204,9 @@ impl Search<'_> {
         let mut found = self.fly(&x)?;
         found.converged = found.error() <= settings.tolerance;
         found.iterations = iterations;
-        steady::check_symmetric(found.aside, ROUNDING[usize::from(self.has_orbit)])?;
+        if found.converged {
+            steady::check_symmetric(found.aside, ROUNDING[usize::from(self.has_orbit)])?;
+        }
         Ok(found)
     }
 
