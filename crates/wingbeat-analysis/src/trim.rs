@@ -208,7 +208,10 @@ pub fn trim_from(
     let mut found = evaluate(setup, problem, &x)?;
     found.iterations = iterations;
     found.converged = found.error() <= problem.settings.tolerance;
-    steady::check_symmetric(found.aside, ROUNDING)?;
+    if found.converged {
+        // Elsewhere rounding grows with the numbers.
+        steady::check_symmetric(found.aside, ROUNDING)?;
+    }
     Ok(found)
 }
 

@@ -8,7 +8,7 @@ use wingbeat_analysis::modes::Plane;
 use wingbeat_analysis::wake::*;
 use wingbeat_analysis::*;
 use wingbeat_flight::*;
-use wingbeat_math::DVec3;
+use wingbeat_math::{DMat3, DVec3};
 
 /// The growth and frequency of the longitudinal modes.
 fn longitudinal(set: &ModeSet) -> Vec<[f64; 2]> {
@@ -179,4 +179,51 @@ fn agrees_power_of_a_free_wingbeat_with_that_of_a_carried_body_where_air_forgets
     assert!((free.aerodynamic / carried.aerodynamic - 1.0).abs() < 0.05);
     assert!((free.no_storage / carried.no_storage - 1.0).abs() < 0.05);
     assert_eq!(free.mass, carried.mass);
+}
+
+/// What a trim of this setup in the lattice says.
+fn refused(setup: &FlightSetup) -> String {
+    let found = trim_with_wake(setup, &hover(20), &WakeSettings::default());
+    found.unwrap_err().to_string()
+}
+
+#[test]
+fn refuses_a_lattice_whose_wingbeats_are_not_alike() {
+    let with = |change: &dyn Fn(&mut AirSettings)| {
+        let mut setup = in_lattice(20);
+        let AirModel::VortexLattice(air) = &mut setup.air else {
+            unreachable!("it is a lattice");
+        };
+        change(&mut air.lattice);
+        setup
+    };
+    let shear = with(&|air| air.wind.shear = Some(DMat3::from_diagonal(DVec3::X)));
+    let ground = with(&|air| {
+        air.images = vec![wingbeat_air::Plane {
+            point: DVec3::new(0.0, 0.0, 3e-3),
+            normal: -DVec3::Z,
+        }];
+    });
+    for setup in [shear, ground] {
+        let said = refused(&setup);
+        assert!(said.contains("air changes with time or place"), "{said}");
+    }
+    let mut loaded = in_lattice(20);
+    loaded.loads = vec![AppliedLoad {
+        body: 0,
+        frame: LoadFrame::Inertial,
+        point: DVec3::ZERO,
+        force: Default::default(),
+        couple: Default::default(),
+    }];
+    let said = refused(&loaded);
+    assert!(said.contains("applied loads"), "{said}");
+}
+
+#[test]
+fn refuses_to_trim_wings_that_do_not_beat_in_the_lattice() {
+    let mut setup = in_lattice(20);
+    setup.time.period = None;
+    let said = refused(&setup);
+    assert!(said.contains("no wing beats"), "{said}");
 }

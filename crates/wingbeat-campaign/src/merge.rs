@@ -13,6 +13,7 @@ use wingbeat_results::file::NewFile;
 use crate::campaign::Campaign;
 use crate::netcdf;
 use crate::rows::{KeyKind, Row, kinds, rows};
+use crate::scripts::shell;
 use crate::store::{Store, hexadecimal};
 use crate::value::Value;
 
@@ -140,19 +141,11 @@ fn failed_csv(campaign: &Campaign, rows: &[Row]) -> Result<Vec<u8>, IoError> {
 
 /// The command that flies a point by itself.
 pub fn command(campaign: &Campaign, i: usize) -> String {
-    let mut text = format!("wingbeat run {}", quoted(&campaign.raw.case));
+    let mut text = format!("wingbeat run {}", shell(&campaign.raw.case));
     for set in campaign.overrides(i) {
-        let _ = write!(text, " --set {}", quoted(&set)); // a string takes everything
+        let _ = write!(text, " --set {}", shell(&set)); // a string takes everything
     }
     text
-}
-
-fn quoted(word: &str) -> String {
-    let plain = |c: char| c.is_ascii_alphanumeric() || "-_./=+,:@%".contains(c);
-    match word.chars().all(plain) {
-        true => word.to_owned(),
-        false => format!("'{}'", word.replace('\'', r"'\''")),
-    }
 }
 
 fn parquet(campaign: &Campaign, rows: &[Row], path: &std::path::Path) -> std::io::Result<()> {

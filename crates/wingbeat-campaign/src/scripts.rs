@@ -1,6 +1,7 @@
 //! What other engines need: an array of jobs for SLURM, a rule for Snakemake.
 
 use crate::campaign::Campaign;
+use crate::merge::FILES;
 
 /// A campaign for other engines.
 #[derive(Clone, Copy, Debug)]
@@ -18,12 +19,8 @@ pub struct Engine<'a> {
 impl Engine<'_> {
     /// A script for `sbatch`: an array of jobs, a shard each, then one that merges.
     pub fn slurm(&self, campaign: &Campaign, time: &str) -> String {
-        let Self {
-            file,
-            out,
-            shards,
-            jobs,
-        } = self;
+        let Self { shards, jobs, .. } = self;
+        let [file, out] = [self.file, self.out].map(shell);
         let name = &campaign.name;
         let points = campaign.plan.points();
         format!(
@@ -37,34 +34,91 @@ impl Engine<'_> {
 #SBATCH --output=slurm-%A_%a.log
 #SBATCH --signal=TERM@60
 #SBATCH --requeue
-exec wingbeat campaign run "{file}" --out "{out}" --shard "$SLURM_ARRAY_TASK_ID/{shards}" --jobs "${{SLURM_CPUS_PER_TASK:-{jobs}}}"
+exec wingbeat campaign run {file} --out {out} --shard "$SLURM_ARRAY_TASK_ID/{shards}" --jobs "${{SLURM_CPUS_PER_TASK:-{jobs}}}"
 "#
         )
     }
 
     /// A Snakefile: a rule for each shard, one that merges.
     pub fn snakemake(&self) -> String {
-        let Self {
-            file,
-            out,
-            shards,
-            jobs,
-        } = self;
+        let Self { shards, jobs, .. } = self;
+        let [file, out] = [self.file, self.out].map(for_pattern);
+        let place = |name: &str| python(&format!("{out}/{name}"));
+        let tables = FILES.map(place).join(", ");
+        let [pattern, done] = [python(&file), place("shards/{k}.done")];
+        let asked = format!("{} --out {}", shell(self.file), shell(self.out));
+        let asked = for_pattern(&asked);
+        let merge = python(&format!("wingbeat campaign merge {asked}"));
+        let run = python(&format!(
+            "wingbeat campaign run {asked} --shard {{wildcards.k}}/{shards} --jobs {{threads}} --quiet"
+        ));
         format!(
             r#"# snakemake --cores all --snakefile THIS_FILE
 SHARDS = range(1, {shards} + 1)
 
 rule points:
-    input: "{file}", expand("{out}/shards/{{k}}.done", k=SHARDS)
-    output: "{out}/points.csv", "{out}/points.parquet", "{out}/points.nc", "{out}/failed.csv"
-    shell: "wingbeat campaign merge {file:?} --out {out:?}"
+    input: {pattern}, expand({done}, k=SHARDS)
+    output: {tables}
+    shell: {merge}
 
 rule shard:
-    input: "{file}"
-    output: touch("{out}/shards/{{k}}.done")
+    input: {pattern}
+    output: touch({done})
     threads: {jobs}
-    shell: "wingbeat campaign run {file:?} --out {out:?} --shard {{wildcards.k}}/{shards} --jobs {{threads}} --quiet"
+    shell: {run}
 "#
         )
+    }
+}
+
+/// A word that braces in patterns of Snakemake leave as it is.
+fn for_pattern(word: &str) -> String {
+    word.replace('{', "{{").replace('}', "}}")
+}
+
+/// A string of Python: what JSON writes.
+fn python(text: &str) -> String {
+    serde_json::Value::from(text).to_string()
+}
+
+/// A word of a command line.
+pub(crate) fn shell(word: &str) -> String {
+    let plain = |c: char| c.is_ascii_alphanumeric() || "-_./=+,:@%".contains(c);
+    match !word.is_empty() && word.chars().all(plain) {
+        true => word.to_owned(),
+        false => format!("'{}'", word.replace('\'', r"'\''")),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn engine(file: &'static str) -> Engine<'static> {
+        Engine {
+            file,
+            out: "all maps",
+            shards: 2,
+            jobs: 1,
+        }
+    }
+
+    #[test]
+    fn behaves_a_snakefile_quotes_commands_for_python_and_the_shell() {
+        let text = engine("map.toml").snakemake();
+        let merge = r#"    shell: "wingbeat campaign merge map.toml --out 'all maps'""#;
+        assert!(text.lines().any(|l| l == merge), "{text}");
+        let run = r#"    shell: "wingbeat campaign run map.toml --out 'all maps' --shard {wildcards.k}/2 --jobs {threads} --quiet""#;
+        assert!(text.lines().any(|l| l == run), "{text}");
+    }
+
+    #[test]
+    fn behaves_quotes_and_braces_in_names_of_files_stay_in_their_strings() {
+        let text = engine(r#"a "b" it's {c}.toml"#).snakemake();
+        let merge = r#"    shell: "wingbeat campaign merge 'a \"b\" it'\\''s {{c}}.toml' --out 'all maps'""#;
+        assert!(text.lines().any(|l| l == merge), "{text}");
+        let input =
+            r#"    input: "a \"b\" it's {{c}}.toml", expand("all maps/shards/{k}.done", k=SHARDS)"#;
+        assert!(text.lines().any(|l| l == input), "{text}");
     }
 }

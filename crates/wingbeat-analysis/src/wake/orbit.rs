@@ -27,19 +27,38 @@ pub(super) fn has_orbit(setup: &FlightSetup) -> bool {
     setup.has_memory() && !setup.air.keeps_wake()
 }
 
-/// An error if a wingbeat of the setup is not like the next, or has a past beside that of its wings and strips.
+/// An error if no wing of the setup beats, or a wingbeat is not like the next.
 ///
 /// # Errors
-/// Loads, feedback, wind that changes, joints that move freely.
-pub(super) fn check_orbit(setup: &FlightSetup) -> Result<(), AnalysisError> {
-    check_steady(setup)?;
-    let changes = setup.air.clone().wind_mut().is_some_and(|w| !w.is_none());
-    if changes {
+/// No wingbeat; loads, feedback; air that changes with time or place.
+pub fn check_alike(setup: &FlightSetup) -> Result<(), AnalysisError> {
+    if setup.time.period.is_none_or(|period| period <= 0.0) {
         return Err(AnalysisError::not_covered(
-            "the air changes with time or place (gust, shear): no wingbeat is like the next",
-            "leave [air.gust] and shear out, or fly it with `run`",
+            "no wing beats",
+            "give a wingbeat frequency",
         ));
     }
+    check_steady(setup)?;
+    let has_wind = setup.air.clone().wind_mut().is_some_and(|w| !w.is_none());
+    let changes = match &setup.air {
+        AirModel::VortexLattice(air) => !air.lattice.images.is_empty(),
+        AirModel::Own(air) => !air.is_uniform(),
+        _ => false,
+    };
+    match has_wind || changes {
+        false => Ok(()),
+        true => Err(AnalysisError::not_covered(
+            "the air changes with time or place (gust, shear, vortex street, ground): no wingbeat is like the next",
+            "leave air.gust, air.shear_1_s, air.vortex_street and air.ground out, or fly it with `run`",
+        )),
+    }
+}
+
+/// An error if the periodic motion of the setup is not that of its body, wings and strips alone.
+///
+/// # Errors
+/// Joints that move freely.
+pub(super) fn check_orbit(setup: &FlightSetup) -> Result<(), AnalysisError> {
     let system = system_of(setup)?;
     match system.speeds() {
         0 => Ok(()),

@@ -9,7 +9,7 @@ use wingbeat_model::Start;
 use wingbeat_model::motion::Adjustment;
 
 use super::free_beat::{free_beat, rotation, start, steps_per_beat};
-use super::orbit::{check_orbit, has_orbit, periodic_beat};
+use super::orbit::{check_alike, check_orbit, has_orbit, periodic_beat};
 use super::sway::sway;
 use crate::AnalysisError;
 use crate::progress;
@@ -102,7 +102,7 @@ impl WakeTrim {
 /// body, wings and wakes of strips.
 ///
 /// # Errors
-/// No wingbeat, or one that is not a whole number of steps; a steady turn, which a body that is held cannot fly;
+/// As [`check_alike`]; a wingbeat that is not a whole number of steps; a steady turn, which a body that is held cannot fly;
 /// unknowns that the problem does not determine, or too few; a first flight that fails. A trim that does not converge
 /// is no error: see [`WakeTrim::converged`].
 pub fn trim_with_wake(
@@ -110,6 +110,7 @@ pub fn trim_with_wake(
     problem: &TrimProblem,
     settings: &WakeSettings,
 ) -> Result<WakeTrim, AnalysisError> {
+    check_alike(setup)?;
     steady::check_determined(setup, problem)?;
     if problem.turn_rate != 0.0 {
         return Err(AnalysisError::not_covered(
@@ -203,7 +204,9 @@ impl Search<'_> {
         let mut found = self.fly(&x)?;
         found.converged = found.error() <= settings.tolerance;
         found.iterations = iterations;
-        steady::check_symmetric(found.aside, ROUNDING[usize::from(self.has_orbit)])?;
+        if found.converged {
+            steady::check_symmetric(found.aside, ROUNDING[usize::from(self.has_orbit)])?;
+        }
         Ok(found)
     }
 

@@ -4,7 +4,7 @@ use clap::Args;
 use wingbeat::analysis::least_power::trim_within;
 use wingbeat::analysis::steady::Residuals;
 use wingbeat::analysis::unknown::{Bound, UNKNOWNS};
-use wingbeat::analysis::wake::{WakeSettings, WakeTrim, trim_with_wake};
+use wingbeat::analysis::wake::{WakeSettings, WakeTrim, check_alike, trim_with_wake};
 use wingbeat::analysis::{Beat, Trim, TrimProblem, TrimSettings, Unknown};
 use wingbeat::case::{IoError, LoadedCase};
 use wingbeat::math::DVec3;
@@ -276,6 +276,7 @@ pub(crate) fn trimmed_with_wake(
             settings.held_beats + 1
         ),
     };
+    check_alike(&case.setup)?;
     name_program(&case);
     let pace = match case.setup.air.keeps_wake() || case.setup.animal.is_elastic() {
         true => "; this takes minutes",
