@@ -82,8 +82,13 @@ impl FlightSetup {
         }
         let remembers = self.air.keeps_wake() || self.animal.is_elastic();
         let fits = !remembers || self.integrator.carries_wake();
-        let wake = "a wake is moved once per step: only hamming and bdf carry it along";
-        check(fits, key, &method, wake)?;
+        let problem = match self.air.keeps_wake() {
+            true => "a wake is moved once per step: only hamming and bdf carry it along",
+            false => {
+                "elastic wings are moved on once per step: only hamming and bdf carry them along"
+            }
+        };
+        check(fits, key, &method, problem)?;
         let projects =
             self.formulation == FormulationChoice::Quaternion(StabilizationChoice::Projection);
         let fits = !projects || self.integrator.is_one_step();

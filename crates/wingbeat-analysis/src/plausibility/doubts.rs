@@ -117,6 +117,14 @@ const LIFT: Limit = Limit {
     ],
 };
 
+const LIFT_DOWN: Limit = Limit {
+    hints: [
+        "it pushes the body down: look at the signs and phases of the wings' angles, the feathering (psi) first",
+        "",
+    ],
+    ..LIFT
+};
+
 const WAKE_CORE: Limit = Limit {
     low: 0.02,
     high: 0.4,
@@ -160,7 +168,11 @@ pub(super) fn doubts(setup: &FlightSetup, e: &Estimate) -> Vec<String> {
     let loading = e.wing_loading.filter(|_| is_free);
     see(&WING_LOADING, "wing loading", loading, " N/m2");
     let lift = e.lift_over_weight.filter(|_| is_free);
-    see(&LIFT, "mean lift over weight by blade elements", lift, "");
+    let of_lift = match lift {
+        Some(lift) if lift < 0.0 => &LIFT_DOWN,
+        _ => &LIFT,
+    };
+    see(of_lift, "mean lift over weight by blade elements", lift, "");
     let wings: f64 = e.wings.iter().map(|w| w.report.mass).sum();
     let part = (is_free && e.mass > 0.0).then(|| wings / e.mass);
     see(

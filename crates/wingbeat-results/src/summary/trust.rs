@@ -25,7 +25,10 @@ const OPEN: f64 = 1e-2;
 /// What a reader should know before using the numbers.
 pub(super) fn warnings(setup: &FlightSetup, summary: &Summary) -> Warnings {
     let mut list = Warnings::default();
-    let of_joints = wingbeat_flight::system_of(setup).map_or(vec![], |s| s.warnings());
+    // Without wings, as of a table of derivatives, there is no length to judge the mass by.
+    let is_sized = !setup.animal.wings.is_empty();
+    let system = is_sized.then(|| wingbeat_flight::system_of(setup).ok());
+    let of_joints = system.flatten().map_or(vec![], |s| s.warnings());
     of_joints.into_iter().for_each(|text| list.limit(text));
     match &setup.air {
         AirModel::None => list.note(
