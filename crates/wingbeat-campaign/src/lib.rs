@@ -13,6 +13,7 @@ mod axes;
 mod blocks;
 pub mod campaign;
 mod checks;
+mod command;
 pub mod cost;
 mod evaluate;
 mod flight;

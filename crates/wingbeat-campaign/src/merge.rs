@@ -1,7 +1,6 @@
 //! All points as one table: CSV, Parquet, `NetCDF`; and those that failed. Nothing of it tells when, where, by how many
 //! workers or in which order points were flown.
 
-use std::fmt::Write as _;
 use std::io::Write;
 use std::ops::Range;
 use std::path::PathBuf;
@@ -11,10 +10,9 @@ use wingbeat_results::export::parquet::{Cell, Cells, ParquetWriter};
 use wingbeat_results::file::NewFile;
 
 use crate::campaign::Campaign;
+use crate::command::command;
 use crate::netcdf;
-use crate::raw::Task;
 use crate::rows::{KeyKind, Row, kinds, rows};
-use crate::scripts::shell;
 use crate::store::{Store, hexadecimal};
 use crate::value::Value;
 
@@ -138,37 +136,6 @@ fn failed_csv(campaign: &Campaign, rows: &[Row]) -> Result<Vec<u8>, IoError> {
         table.write_record(cells).expect(lost);
     }
     Ok(table.into_inner().expect(lost))
-}
-
-/// The command that flies a point by itself; where it is trimmed, the trim first, and the flight if one is asked for.
-pub fn command(campaign: &Campaign, i: usize) -> String {
-    let trim = campaign.trim_options(i).ok().flatten();
-    let verb = if trim.is_some() { "trim" } else { "run" };
-    let mut text = format!("wingbeat {verb} {}", shell(&campaign.raw.case));
-    for set in campaign.overrides(i) {
-        let _ = write!(text, " --set {}", shell(&set)); // a string takes everything
-    }
-    let Some(trim) = trim else { return text };
-    let numbers = [
-        ("forward", trim.forward_m_s),
-        ("climb", trim.climb_m_s),
-        ("sideslip", trim.sideslip_m_s),
-        ("turn-rate", trim.turn_rate_deg_s),
-        ("steps", trim.steps_per_beat.map(|n| n as f64)),
-    ];
-    for (option, number) in numbers {
-        if let Some(x) = number {
-            let _ = write!(text, " --{option} {x}");
-        }
-    }
-    if let Some(unknowns) = trim.unknowns {
-        let _ = write!(text, " --unknowns {}", unknowns.join(" "));
-    }
-    text.push_str(" --write trimmed.toml");
-    if campaign.raw.tasks.contains(&Task::Run) {
-        text.push_str(" && wingbeat run trimmed.toml");
-    }
-    text
 }
 
 fn parquet(campaign: &Campaign, rows: &[Row], path: &std::path::Path) -> std::io::Result<()> {

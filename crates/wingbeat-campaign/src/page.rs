@@ -8,7 +8,7 @@ use wingbeat_draw::points;
 use wingbeat_results::file::NewFile;
 
 use crate::campaign::Campaign;
-use crate::merge::command;
+use crate::command::command;
 use crate::rows::{Row, rows};
 use crate::store::Store;
 use crate::value::Value;

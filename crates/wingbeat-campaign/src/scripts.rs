@@ -1,6 +1,7 @@
 //! What other engines need: an array of jobs for SLURM, a rule for Snakemake.
 
 use crate::campaign::Campaign;
+use crate::command::shell;
 use crate::merge::FILES;
 
 /// A campaign for other engines.
@@ -79,15 +80,6 @@ fn for_pattern(word: &str) -> String {
 /// A string of Python: what JSON writes.
 fn python(text: &str) -> String {
     serde_json::Value::from(text).to_string()
-}
-
-/// A word of a command line.
-pub(crate) fn shell(word: &str) -> String {
-    let plain = |c: char| c.is_ascii_alphanumeric() || "-_./=+,:@%".contains(c);
-    match !word.is_empty() && word.chars().all(plain) {
-        true => word.to_owned(),
-        false => format!("'{}'", word.replace('\'', r"'\''")),
-    }
 }
 
 #[cfg(test)]
