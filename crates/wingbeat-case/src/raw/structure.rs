@@ -278,7 +278,8 @@ pub struct ShellCase {
     ///
     /// Change it to true for membranes on a rigid frame.
     pub clamped_perimeter: bool,
-    /// Part of the chord behind the leading edge that is rigid with the wing frame, all along the span.
+    /// Part of the chord behind the leading edge that is rigid with the wing frame, all along the span: the lines of nodes within it,
+    /// so up to a panel less where it does not end on one.
     ///
     /// Change it for foils with a rigid leading part.
     #[schemars(range(min = 0), extend("exclusiveMaximum" = 1))]
