@@ -104,10 +104,7 @@ impl Beat {
         let half = period / (2 * steps) as f64;
         let flight = FreeFlight::new(setup, &law, half, 2 * steps)?;
         if !flight.air().is_uniform() {
-            return Err(AnalysisError::not_covered(
-                "the air changes with time or place (gust, shear, ground): no wingbeat is like the next",
-                "leave [air.gust], shear and ground out, or fly it with `run`",
-            ));
+            return Err(changing_air());
         }
         let tips = setup.animal.wings.iter().flat_map(|w| &w.mesh.nodes);
         Ok(Self {
@@ -365,6 +362,14 @@ pub(crate) fn check_steady(setup: &FlightSetup) -> Result<(), AnalysisError> {
         ));
     }
     Ok(())
+}
+
+/// That no wingbeat is like the next because of the air.
+pub(crate) fn changing_air() -> AnalysisError {
+    AnalysisError::not_covered(
+        "the air changes with time or place (gust, shear, vortex street, ground): no wingbeat is like the next",
+        "leave air.gust, air.shear_1_s, air.vortex_street and air.ground out, or fly it with `run`",
+    )
 }
 
 /// The motion without its start: at full rate from the first instant.

@@ -13,7 +13,7 @@ use wingbeat_flight::{AirMemory, AirModel, FlightSetup, Past, Record, Simulation
 use wingbeat_math::DVec3;
 
 use crate::AnalysisError;
-use crate::beat::check_steady;
+use crate::beat::{changing_air, check_steady};
 
 /// Change of places over the wing length, of attitudes \[rad\], and of velocities over wing length and wingbeat, within which
 /// wings count as back, over the residuals that count as trimmed; and some ten times what a step leaves unbalanced.
@@ -47,10 +47,7 @@ pub fn check_alike(setup: &FlightSetup) -> Result<(), AnalysisError> {
     };
     match has_wind || changes {
         false => Ok(()),
-        true => Err(AnalysisError::not_covered(
-            "the air changes with time or place (gust, shear, vortex street, ground): no wingbeat is like the next",
-            "leave air.gust, air.shear_1_s, air.vortex_street and air.ground out, or fly it with `run`",
-        )),
+        true => Err(changing_air()),
     }
 }
 

@@ -175,6 +175,39 @@ list = [0.5, 1]
     assert!(merged(dir, "r") == tables);
 }
 
+/// The command of a point that is trimmed begins with its trim, at the speed of the point.
+#[test]
+fn behaves_the_command_of_a_failed_trim_fails_as_the_point_does() {
+    let scratch = Scratch::new("campaign-failed-trim");
+    let dir = &scratch.0;
+    write(
+        dir,
+        r#"case = "fruit-fly-blade"
+keep = ["lift_over_weight"]
+do = ["trim", "run"]
+[set]
+"time.beats" = 1
+[trim]
+steps_per_beat = 40
+[parameter."trim.forward_m_s"]
+list = [3]
+"#,
+    );
+    flown(dir, &["campaign", "run", "c.toml", "--out", "r", "--quiet"]);
+    let failed = String::from_utf8(merged(dir, "r")["failed.csv"].clone()).unwrap();
+    let trim =
+        "trim fruit-fly-blade --set time.beats=1 --forward 3 --steps 40 --write trimmed.toml";
+    let whole = format!("wingbeat {trim} && wingbeat run trimmed.toml");
+    assert!(failed.contains(&whole), "{whole} not in\n{failed}");
+    let words: Vec<&str> = trim.split(' ').collect();
+    let out = wingbeat(dir, &words);
+    assert_eq!(out.status.code(), Some(1), "{out:?}");
+    assert!(
+        String::from_utf8_lossy(&out.stdout).contains("NOT trimmed"),
+        "{out:?}"
+    );
+}
+
 /// No file may grow, as on a full disk: a true exit code, nothing half-written, and it goes on.
 #[cfg(unix)]
 #[test]
