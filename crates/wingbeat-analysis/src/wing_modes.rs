@@ -37,6 +37,8 @@ pub enum About {
 pub struct WingMode {
     /// Angular frequency [rad/s]; 0 of a mode that does not vibrate.
     pub frequency: f64,
+    /// Rate [1/s] at which it grows about a state that is no stable equilibrium; 0 of a mode that vibrates.
+    pub growth: f64,
     /// Displacements of the nodes of the mesh, wing components, the largest of length 1 \[1\].
     pub displacement: Vec<DVec3>,
     /// Modal mass for that shape \[kg\], the added mass of the air included where it is there.
@@ -58,6 +60,7 @@ impl WingMode {
         displacement.iter_mut().for_each(|d| *d /= size);
         Self {
             frequency: mode.frequency(),
+            growth: (-mode.square).max(0.0).sqrt(),
             displacement,
             mass: size.powi(-2),
         }
@@ -82,6 +85,29 @@ fn longer(a: DVec3, b: DVec3) -> DVec3 {
     }
 }
 
+/// The mode in vacuum that one in air is most alike.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Alike {
+    /// Its number, counted from 0.
+    pub mode: usize,
+    /// How alike \[1\].
+    pub likeness: f64,
+}
+
+impl Alike {
+    fn of(m: &WingMode, vacuum: &[WingMode]) -> Self {
+        let likenesses = vacuum.iter().map(|v| m.likeness(v)).enumerate();
+        let (mode, likeness) = likenesses.fold((0, -1.0), |best, next| match next.1 > best.1 {
+            true => next,
+            false => best,
+        });
+        Self { mode, likeness }
+    }
+}
+
+/// How many times as many modes in vacuum as are asked for those in air are compared with: heavy air changes their order.
+const COMPARED: usize = 4;
+
 /// The modes of one elastic wing.
 #[derive(Clone, Debug, PartialEq)]
 pub struct WingModes {
@@ -97,6 +123,8 @@ pub struct WingModes {
     pub vacuum: Vec<WingMode>,
     /// With the added mass of the air; none in vacuum.
     pub air: Option<Vec<WingMode>>,
+    /// Of each of those in air the mode in vacuum that is most alike.
+    pub alike: Vec<Alike>,
     /// How many modes below the last of these were left out in which nodes turn and nothing moves: in vacuum, in air.
     pub left_out: [usize; 2],
 }
@@ -136,7 +164,7 @@ fn of_wing(flight: &Simulation, k: usize, count: usize) -> Result<WingModes, Ana
     let wing = &flight.elastic_wings().wings()[k];
     let state: &FlightState = flight.state();
     let (structure, at) = (wing.structure(), &state.wings[k].structure.configuration);
-    let found = |added: Option<&[f64]>| -> Result<(Vec<WingMode>, usize), AnalysisError> {
+    let all = |added: Option<&[f64]>| -> Result<Vec<Mode>, AnalysisError> {
         crate::progress::task(
             if added.is_some() {
                 "in air"
@@ -146,10 +174,12 @@ fn of_wing(flight: &Simulation, k: usize, count: usize) -> Result<WingModes, Ana
             0,
             0,
         );
-        let all = modes(structure, at, &FrameMotion::REST, added).map_err(FlightError::from)?;
+        Ok(modes(structure, at, &FrameMotion::REST, added).map_err(FlightError::from)?)
+    };
+    let leading = |all: Vec<Mode>, count: usize| -> (Vec<WingMode>, usize) {
         let (leading, left_out) = moving(wing, all, count);
         let leading = leading.iter().map(|m| WingMode::new(wing, at, m));
-        Ok((leading.collect(), left_out))
+        (leading.collect(), left_out)
     };
     let places = |at: &Configuration| -> Vec<DVec3> {
         let followers = wing.followers().iter();
@@ -157,15 +187,19 @@ fn of_wing(flight: &Simulation, k: usize, count: usize) -> Result<WingModes, Ana
     };
     let (nodes, rest) = (places(at), places(structure.rest()));
     let added = flight.added_mass(k)?;
-    let (vacuum, below) = found(None)?;
-    let air = added.map(|a| found(Some(&a))).transpose()?;
-    let (air, below_in_air) = air.unzip();
+    let in_vacuum = all(None)?;
+    let (vacuum, below) = leading(in_vacuum.clone(), count);
+    let air = added.map(|a| all(Some(&a))).transpose()?;
+    let (air, below_in_air) = air.map(|a| leading(a, count)).unzip();
+    let compared = leading(in_vacuum, COMPARED * count).0;
+    let alike = air.iter().flatten().map(|m| Alike::of(m, &compared));
     Ok(WingModes {
         wing: wing.wing(),
         deflection: nodes.iter().zip(rest).map(|(a, b)| *a - b).collect(),
         nodes,
         mass: structure.masses().iter().map(|m| m.mass).sum(),
         vacuum,
+        alike: alike.collect(),
         air,
         left_out: [below, below_in_air.unwrap_or(0)],
     })

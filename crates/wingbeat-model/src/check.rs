@@ -1,10 +1,15 @@
 //! Sanity of a whole animal, and a report of the sizes its meshes really have.
 
+use std::collections::BTreeSet;
+
+use wingbeat_math::{DVec3, MassProperties};
+use wingbeat_structure::NODE;
+
 use crate::animal::{Animal, Wing};
 use crate::error::{ModelError, require};
 use crate::integrate;
 use crate::mesh::{QuadMesh, Side};
-use wingbeat_math::{DVec3, MassProperties};
+use crate::structure::Members;
 
 /// Sizes of one wing, measured on its mesh.
 #[derive(Clone, Debug, PartialEq)]
@@ -29,7 +34,47 @@ pub struct WingReport {
     pub panels: usize,
 }
 
+/// What the elastic body of a wing consists of.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ElasticReport {
+    /// Name of the wing.
+    pub name: String,
+    /// Whether it is a sheet, or else a beam.
+    pub is_sheet: bool,
+    /// Number of nodes of the structure.
+    pub nodes: usize,
+    /// How many of them do not move against the frame of the wing.
+    pub held: usize,
+    /// By how much nodes of the mesh are off at rest, where tension pulls at free edges and these give way \[m\].
+    pub slack: f64,
+}
+
+/// Displacement over the length of a wing that is rounding \[1\].
+const ROUNDING: f64 = 1e-12;
+
 impl Wing {
+    /// What its elastic body consists of; none of a rigid wing.
+    pub fn elastic_report(&self) -> Option<ElasticReport> {
+        let made = self.structure.as_ref()?;
+        let body = made.body(&self.blank()).ok()?; // checked when the wing was made of it
+        let structure = &body.structure;
+        let free: BTreeSet<usize> = structure.free_numbers().iter().map(|k| k / NODE).collect();
+        let places = body.followers.iter().zip(&self.mesh.nodes);
+        let moved = places.map(|(f, x)| f.position(structure.rest()).distance(*x));
+        let slack = moved.fold(0.0, f64::max);
+        Some(ElasticReport {
+            name: self.name.clone(),
+            is_sheet: matches!(made.members, Members::Shell(_)),
+            nodes: structure.nodes(),
+            held: structure.nodes() - free.len(),
+            slack: if slack > ROUNDING * structure.size() {
+                slack
+            } else {
+                0.0
+            },
+        })
+    }
+
     /// Sizes measured on the mesh.
     pub fn report(&self) -> WingReport {
         let quads = self.mesh.to_quads(Side::Right);

@@ -42,7 +42,7 @@ pub mod structure;
 
 pub use animal::{Animal, BodyPart, Segment, Wing};
 pub use build::{BodyMass, fit_body_length};
-pub use check::WingReport;
+pub use check::{ElasticReport, WingReport};
 pub use crossing::{Crossing, crossings};
 pub use deformation::{Deformation, DeformingMesh};
 pub use error::ModelError;

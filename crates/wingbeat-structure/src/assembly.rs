@@ -53,7 +53,7 @@ impl Assembly {
         velocity: &[f64],
         out: &mut [f64],
     ) {
-        (self.energy, self.power) = (0.0, 0.0);
+        (self.energy, self.power) = (-structure.rest_energy, 0.0);
         for e in &structure.elements {
             self.energy += e.internal(at, false, &mut self.element);
             for (n, f) in e.nodes().iter().zip(self.element.force.chunks_exact(NODE)) {

@@ -33,6 +33,11 @@ pub trait Element: std::fmt::Debug + Send + Sync {
     /// `tangent`, its second into `out`.
     fn internal(&self, at: &Configuration, tangent: bool, out: &mut ElementForces) -> f64;
 
+    /// Whether it has stress as built.
+    fn is_stressed_at_rest(&self) -> bool {
+        false
+    }
+
     /// Fills `out.tangent` with the matrix that strain-rate damping multiplies: symmetric, positive semidefinite, and blind
     /// to rigid motion if energy is to be dissipated by nothing else than deformation. Unless an element says better, the
     /// symmetric part of its tangent, which is all of this at rest.

@@ -100,6 +100,21 @@ pub enum StructureError {
         /// What to try.
         remedy: &'static str,
     },
+    /// Stress as built that no rest is found with.
+    #[error(
+        "under its tension at rest the body finds no equilibrium ({0}): give it less tension, or hold the edges that it pulls at"
+    )]
+    Stressed(#[source] Box<StructureError>),
+    /// Stress as built that would pull the body out of its shape.
+    #[error(
+        "its tension at rest pulls at free edges and moves them by {moved:.2e} m, more than a twentieth of the body's {size:.2e} m: give it less tension, or hold the edges that it pulls at"
+    )]
+    Slack {
+        /// Largest displacement of a node \[m\].
+        moved: f64,
+        /// Largest extent of the body \[m\].
+        size: f64,
+    },
     /// An eigenproblem could not be solved.
     #[error("the eigenproblem of the modes cannot be solved: {0}")]
     Modes(&'static str),

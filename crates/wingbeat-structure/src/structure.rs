@@ -3,9 +3,11 @@
 use wingbeat_math::{DMat3, DVec3, MassProperties};
 
 use crate::configuration::{Configuration, NODE};
-use crate::element::Element;
+use crate::element::{Element, ElementForces};
 use crate::error::StructureError;
+use crate::frame::FrameMotion;
 use crate::matrix::order;
+use crate::statics::{StaticSettings, equilibrium};
 
 /// Number of a held unknown in the order of the free ones.
 pub(crate) const HELD: usize = usize::MAX;
@@ -35,10 +37,13 @@ pub struct Structure {
     /// Largest distance of unknowns of one element.
     pub(crate) band: usize,
     size: f64,
+    /// Strain energy \[J\] at rest, from which that of other configurations is counted.
+    pub(crate) rest_energy: f64,
 }
 
 impl Structure {
-    /// The rest configuration.
+    /// The configuration at rest, in equilibrium without loads: as built, unless elements have a stress there that pulls at free
+    /// edges, which then give way.
     pub fn rest(&self) -> &Configuration {
         &self.rest
     }
@@ -151,7 +156,7 @@ impl StructureBuilder {
     ///
     /// # Errors
     /// [`StructureError`]: counts that differ, nodes that are not there, impossible masses, free nodes without inertia,
-    /// negative damping, nothing free.
+    /// negative damping, nothing free, stress at rest that finds no equilibrium.
     pub fn build(self) -> Result<Structure, StructureError> {
         self.check_nodes()?;
         self.check_damping()?;
@@ -163,16 +168,21 @@ impl StructureBuilder {
         if number.is_empty() {
             return Err(StructureError::NothingFree);
         }
-        Ok(Structure {
+        let built = Structure {
             band: band(&self.elements, &unknown),
             size: extent(&self.rest),
+            rest_energy: 0.0,
             rest: self.rest,
             masses,
             elements: self.elements,
             damping: self.damping,
             unknown,
             number,
-        })
+        };
+        if built.elements.iter().any(|e| e.is_stressed_at_rest()) {
+            return relaxed(built);
+        }
+        Ok(built)
     }
 
     fn check_nodes(&self) -> Result<(), StructureError> {
@@ -250,6 +260,35 @@ impl StructureBuilder {
         }
         all
     }
+}
+
+/// Largest displacement, over the size of the body, by which stress at rest may change its shape \[1\].
+const MAX_SLACK: f64 = 0.05;
+
+/// The body with its stresses in equilibrium.
+fn relaxed(built: Structure) -> Result<Structure, StructureError> {
+    let none = |_: &Configuration, _: &mut [f64]| {};
+    let settings = StaticSettings::default();
+    let rest = equilibrium(&built, &built.rest, &FrameMotion::REST, &none, &settings)
+        .map_err(|error| StructureError::Stressed(Box::new(error)))?;
+    let places = rest.position.iter().zip(&built.rest.position);
+    let moved = places.map(|(a, b)| a.distance(*b)).fold(0.0, f64::max);
+    if moved > MAX_SLACK * built.size {
+        return Err(StructureError::Slack {
+            moved,
+            size: built.size,
+        });
+    }
+    let mut forces = ElementForces::default();
+    let energies = built.elements.iter();
+    let rest_energy = energies
+        .map(|e| e.internal(&rest, false, &mut forces))
+        .sum();
+    Ok(Structure {
+        rest,
+        rest_energy,
+        ..built
+    })
 }
 
 /// A free node needs mass, and inertia about its mass centre, in every free direction.

@@ -149,6 +149,10 @@ impl Element for Shell {
         energy
     }
 
+    fn is_stressed_at_rest(&self) -> bool {
+        self.tension.iter().any(|t| t.abs() > 0.0)
+    }
+
     /// Of the tangent the material's part, of bending alone. In a sheet that turns by much in a step the rates of its stretching
     /// are errors of the step times its large stiffness; what they damp is beyond what steps resolve.
     fn dissipation(&self, at: &Configuration, out: &mut ElementForces) {

@@ -1,10 +1,11 @@
 //! `wingbeat check`: what a case holds, what its flight will be like, and whether it can be flown.
 
 use clap::Args;
-use serde_json::json;
+use serde_json::{Value, json};
 use wingbeat::analysis::estimate;
 use wingbeat::case::{IoError, LoadedCase};
 use wingbeat::flight::{AirModel, FlightSetup, MotionMode, Simulation};
+use wingbeat::model::ElasticReport;
 use wingbeat::results::fixed::fixed;
 
 use crate::command::expectation;
@@ -110,6 +111,31 @@ fn trial_cost(case: &LoadedCase, trial: bool) -> Result<String, IoError> {
     Ok(cost.map_err(|e| case.refused(&e))?)
 }
 
+fn said(w: &ElasticReport) -> String {
+    let kind = if w.is_sheet { "sheet" } else { "beam" };
+    let slack = match w.slack > 0.0 {
+        true => format!(
+            "; its tension at rest pulls at free edges, which give way by {:.2e} mm",
+            1e3 * w.slack
+        ),
+        false => String::new(),
+    };
+    format!(
+        "`{}`: a {kind} of {} nodes, {} of them held{slack}",
+        w.name, w.nodes, w.held
+    )
+}
+
+fn value(w: &ElasticReport) -> Value {
+    json!({
+        "name": w.name,
+        "kind": if w.is_sheet { "sheet" } else { "beam" },
+        "nodes": w.nodes,
+        "held_nodes": w.held,
+        "slack_m": w.slack,
+    })
+}
+
 fn describe(report: &mut Report, setup: &FlightSetup) {
     let animal = &setup.animal;
     line!(
@@ -142,6 +168,13 @@ fn describe(report: &mut Report, setup: &FlightSetup) {
             w.mass
         );
     }
+    let elastic = animal.wings.iter().filter_map(|w| w.elastic_report());
+    let elastic: Vec<ElasticReport> = elastic.collect();
+    for w in &elastic {
+        line!(report, "{:<10}{}", "elastic", said(w));
+    }
+    let values: Vec<Value> = elastic.iter().map(value).collect();
+    report.value("elastic_wings", values);
     let mode = match setup.mode {
         MotionMode::Free(_) => "free flight",
         MotionMode::Tethered(_) => "tethered",

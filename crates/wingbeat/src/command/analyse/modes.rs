@@ -6,7 +6,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 use serde_json::{Value, json};
-use wingbeat::analysis::wing_modes::{About, WingMode, WingModes, wing_modes};
+use wingbeat::analysis::wing_modes::{About, Alike, WingMode, WingModes, wing_modes};
 use wingbeat::case::LoadedCase;
 use wingbeat::model::Wing;
 
@@ -87,7 +87,7 @@ fn tell(report: &mut Report, name: &str, steady: bool, wings: &[Wing], found: &[
         tell_left_out(report, w.left_out[0]);
         if let Some(air) = &w.air {
             let title = "with the added mass of the air";
-            table(report, title, wing, air, Some(&w.vacuum));
+            table(report, title, wing, air, Some(&w.alike));
             tell_left_out(report, w.left_out[1]);
         }
     }
@@ -114,17 +114,17 @@ fn is_same(a: &WingModes, b: &WingModes) -> bool {
     all(&a.vacuum, &b.vacuum) && all(air_a, air_b)
 }
 
-/// One line a mode; `vacuum`: modes that these are compared with.
+/// One line a mode; `alike`: the modes in vacuum that these are most alike.
 fn table(
     report: &mut Report,
     title: &str,
     wing: &Wing,
     modes: &[WingMode],
-    vacuum: Option<&[WingMode]>,
+    alike: Option<&[Alike]>,
 ) {
     let beat = wing.motion.frequency;
     let per_beat = if beat > 0.0 { "x wingbeat" } else { "" };
-    let like = if vacuum.is_some() { "like vacuum" } else { "" };
+    let like = if alike.is_some() { "like vacuum" } else { "" };
     line!(report, "  {title}");
     line!(
         report,
@@ -143,19 +143,31 @@ fn table(
             true => format!("{:.3}", hz / beat),
             false => String::new(),
         };
-        let like = vacuum.map_or(String::new(), |all| {
-            let (number, likeness) = most_alike(m, all);
-            match likeness < ALIKE {
-                true => "none".to_owned(),
-                false => format!("mode {} ({likeness:.2})", number + 1),
-            }
+        let like = alike.map_or(String::new(), |all| match all[k] {
+            Alike { likeness, .. } if likeness < ALIKE => "none".to_owned(),
+            Alike { mode, likeness } => format!("mode {} ({likeness:.2})", mode + 1),
         });
         line!(
             report,
             "  {:>6}{:>12}{ratio:>12}{:>12.3e}{w3:>9.3}{w1:>9.3}{twist:>9.3}  {like}",
             k + 1,
-            hertz(hz),
+            if m.growth > 0.0 {
+                "grows".to_owned()
+            } else {
+                hertz(hz)
+            },
             m.mass
+        );
+    }
+    if let Some(fastest) = modes
+        .iter()
+        .map(|m| m.growth)
+        .reduce(f64::max)
+        .filter(|g| *g > 0.0)
+    {
+        line!(
+            report,
+            "  the state is no stable equilibrium: a mode grows by {fastest:.4} per s (a sheet under tension buckles where it is pushed together)"
         );
     }
 }
@@ -166,15 +178,6 @@ fn hertz(hz: f64) -> String {
         true => format!("{hz:.4e}"),
         false => format!("{hz:.4}"),
     }
-}
-
-/// The mode of `all` that is most alike, and how alike.
-fn most_alike(m: &WingMode, all: &[WingMode]) -> (usize, f64) {
-    let alike = all.iter().map(|v| m.likeness(v)).enumerate();
-    alike.fold((0, -1.0), |best, next| match next.1 > best.1 {
-        true => next,
-        false => best,
-    })
 }
 
 /// At the tip: w3 and w1 of the middle, w3 of the trailing less that of the leading edge.
@@ -190,6 +193,7 @@ fn values(wing: &Wing, w: &WingModes) -> Value {
         let [w3, w1, twist] = tip(wing, m);
         json!({
             "frequency_hz": m.frequency / TAU,
+            "growth_per_s": m.growth,
             "modal_mass_kg": m.mass,
             "tip_w3": w3,
             "tip_w1": w1,
@@ -197,11 +201,10 @@ fn values(wing: &Wing, w: &WingModes) -> Value {
         })
     };
     let air = |all: &Vec<WingMode>| -> Vec<Value> {
-        let each = all.iter().map(|m| {
-            let (number, likeness) = most_alike(m, &w.vacuum);
+        let each = all.iter().zip(&w.alike).map(|(m, alike)| {
             let mut value = mode(m);
-            value["like_vacuum_mode"] = json!(number + 1);
-            value["likeness"] = json!(likeness);
+            value["like_vacuum_mode"] = json!(alike.mode + 1);
+            value["likeness"] = json!(alike.likeness);
             value
         });
         each.collect()
