@@ -18,7 +18,7 @@ mod doubts;
 mod lift;
 mod numbers;
 
-pub(crate) use numbers::stroke_amplitude;
+pub use numbers::stroke_amplitude;
 pub use numbers::{Estimate, WingEstimate};
 
 use wingbeat_flight::{FlightSetup, MotionMode};

@@ -6,7 +6,7 @@
 //! line search; a failure keeps the best point found.
 
 use wingbeat_flight::{
-    FlightSetup, FormulationChoice, IntegratorChoice, MotionMode, PrescribedMotion,
+    AirModel, FlightSetup, FormulationChoice, IntegratorChoice, MotionMode, PrescribedMotion,
     StabilizationChoice, StartState, TimeGrid, closes_loop,
 };
 use wingbeat_math::{DMat3, DVec3, EulerSequence, solve_small};
@@ -168,6 +168,12 @@ impl Trim {
 /// A setup that [`Beat`] does not cover; unknowns that the problem does not determine, or too few; numbers that stop
 /// being finite at the very start. A trim that does not converge is no error: see [`Trim::converged`].
 pub fn trim(setup: &FlightSetup, problem: &TrimProblem) -> Result<Trim, AnalysisError> {
+    if matches!(setup.air, AirModel::None) {
+        return Err(AnalysisError::not_covered(
+            "there is no air, and nothing carries the weight",
+            "choose one: air.model = \"blade_element\", for instance",
+        ));
+    }
     steady::check_determined(setup, problem)?;
     let first = Beat::new(setup, problem.settings.steps)?;
     let speed = first.wing_length() / first.period();

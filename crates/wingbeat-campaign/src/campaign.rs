@@ -3,7 +3,6 @@
 use std::path::{Path, PathBuf};
 
 use sha2::{Digest, Sha256};
-use wingbeat_analysis::AnalysisError;
 use wingbeat_case::{CaseError, Document, IoError, LoadedCase, nearest};
 use wingbeat_flight::FlightSetup;
 
@@ -18,6 +17,9 @@ use crate::trimming::{self, TRIM};
 
 /// Values of an axis that are tried before anything is flown.
 const TRIED: usize = 20;
+
+/// What to do where the file of a campaign cannot be read.
+const REMEDY: &str = "docs/campaigns.md has campaigns to start from";
 
 /// A campaign, read and checked.
 #[derive(Clone, Debug)]
@@ -48,11 +50,28 @@ impl Campaign {
     /// # Errors
     /// The first thing in it that cannot be done, with its line.
     pub fn read(path: &Path) -> Result<Self, IoError> {
-        let remedy = "docs/campaigns.md has campaigns to start from";
-        Self::of(path, Document::read(path, remedy)?)
+        Self::of(path, Document::read(path, REMEDY)?)
     }
 
     fn of(path: &Path, document: Document) -> Result<Self, IoError> {
+        let mut campaign = Self::without_numbers(path, document)?;
+        campaign.numbers = campaign.kept()?;
+        campaign.digest = campaign.digest_of();
+        campaign.block =
+            points_of_block(&campaign.raw, &campaign.base.setup, campaign.plan.points());
+        Ok(campaign)
+    }
+
+    /// The numbers that the campaign of a file may keep, whatever it keeps.
+    ///
+    /// # Errors
+    /// As [`Self::read`].
+    pub fn possible_numbers(path: &Path) -> Result<Vec<Number>, IoError> {
+        let campaign = Self::without_numbers(path, Document::read(path, REMEDY)?)?;
+        campaign.possible()
+    }
+
+    fn without_numbers(path: &Path, document: Document) -> Result<Self, IoError> {
         checks::shape(&document)?;
         let raw: RawCampaign = document.decode()?;
         let folder = path.parent().map(Path::to_owned).unwrap_or_default();
@@ -66,7 +85,7 @@ impl Campaign {
         };
         let plan = reader.plan(&raw)?;
         let base = checks::base_case(&document, &raw, &folder)?;
-        let mut campaign = Self {
+        let campaign = Self {
             name,
             path: path.to_owned(),
             numbers: vec![],
@@ -79,10 +98,6 @@ impl Campaign {
             document,
         };
         campaign.check_points()?;
-        campaign.numbers = campaign.kept()?;
-        campaign.digest = campaign.digest_of();
-        campaign.block =
-            points_of_block(&campaign.raw, &campaign.base.setup, campaign.plan.points());
         Ok(campaign)
     }
 
@@ -193,24 +208,21 @@ impl Campaign {
         !self.raw.files.is_empty() && i.is_multiple_of(self.raw.retention.every)
     }
 
-    /// The registry of numbers of this case.
-    ///
-    /// # Errors
-    /// Joints that cannot be assembled.
-    pub fn registry(&self) -> Result<Vec<Number>, AnalysisError> {
-        number::registry(&self.base.setup)
-    }
-
-    /// The numbers that are kept.
-    fn kept(&self) -> Result<Vec<Number>, IoError> {
-        let all = self.registry().map_err(|e| {
+    /// The numbers that this case may keep.
+    fn possible(&self) -> Result<Vec<Number>, IoError> {
+        number::registry(&self.base.setup).map_err(|e| {
             self.fault(
                 "case",
                 e.to_string(),
                 "a case that can be flown",
                 "correct the case",
             )
-        })?;
+        })
+    }
+
+    /// The numbers that are kept.
+    fn kept(&self) -> Result<Vec<Number>, IoError> {
+        let all = self.possible()?;
         let mut kept: Vec<Number> = vec![];
         for (k, name) in self.raw.keep.iter().enumerate() {
             let place = format!("keep[{k}]");

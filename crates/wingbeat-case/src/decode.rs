@@ -12,8 +12,31 @@ pub(crate) fn decode<T: DeserializeOwned>(source: &CaseSource) -> Result<T, Box<
     serde_path_to_error::deserialize(document).map_err(|e| {
         let path = e.path().to_string();
         let path = if path == "." { String::new() } else { path };
-        Box::new(source.locate(explain(&path, e.inner().message())))
+        let message = e.inner().message();
+        let fault = match message.starts_with(ONE_CHOICE) {
+            true => one_choice(&path, &source.keys_at(&path)),
+            false => explain(&path, message),
+        };
+        Box::new(source.locate(fault))
     })
+}
+
+/// How the decoder begins what it says of a choice that is none, or several.
+const ONE_CHOICE: &str = "wanted exactly 1 element";
+
+/// A table that has to hold one of several choices holds `keys`.
+fn one_choice(path: &str, keys: &[&str]) -> Fault {
+    let (problem, example) = match keys {
+        [] => ("none is chosen".to_owned(), "..."),
+        [.., last] => (format!("{} at once", keys.join(" and ")), *last),
+    };
+    let name = path.rsplit('.').next().unwrap_or(path);
+    Fault::new(
+        path,
+        problem,
+        "one of several choices",
+        format!("give the whole table to choose another: {name} = {{ {example} = ... }}"),
+    )
 }
 
 /// One of serde's messages as a fault.

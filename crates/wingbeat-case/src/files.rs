@@ -5,7 +5,8 @@ use std::io::Read as _;
 use std::path::Path;
 use std::sync::{Mutex, PoisonError};
 
-use wingbeat_model::import;
+use wingbeat_model::motion::PeriodicSpline;
+use wingbeat_model::{ModelError, import};
 
 use super::raw::{AngleCase, Case, PartCase, TableCase};
 use crate::error::{Fault, IoError};
@@ -204,7 +205,7 @@ fn read_table(path: &str, table: &mut TableCase, base: &Path) -> Result<(), Faul
         column(&table.phase_column, 0)?,
         column(&table.angle_column, 1)?,
     ];
-    let mut rows = vec![];
+    let (mut rows, mut lines) = (vec![], vec![]);
     for record in reader.records() {
         let record = record.map_err(|e| bad(e.to_string()))?;
         let line = record.position().map_or(0, csv::Position::line);
@@ -214,9 +215,15 @@ fn read_table(path: &str, table: &mut TableCase, base: &Path) -> Result<(), Faul
             value.ok_or_else(|| bad(format!("line {line}: `{text}` is not a finite number")))
         };
         rows.push([number(columns[0])?, number(columns[1])?]);
+        lines.push(line);
     }
     if rows.is_empty() {
         return Err(bad("there are no rows below the header".to_owned()));
+    }
+    let pairs: Vec<(f64, f64)> = rows.iter().map(|&[x, q]| (x, q)).collect();
+    if let Err(ModelError::Table { row, problem, .. }) = PeriodicSpline::new("", &pairs) {
+        let line = row.checked_sub(1).and_then(|k| lines.get(k)).copied();
+        return Err(bad(format!("line {}: {problem}", line.unwrap_or_default())));
     }
     table.rows_deg = Some(rows);
     (table.phase_column, table.angle_column) = (None, None);

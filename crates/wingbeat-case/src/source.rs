@@ -58,6 +58,12 @@ impl CaseSource {
         Ok(source)
     }
 
+    /// The keys of the table at a path; none where there is no table.
+    pub fn keys_at(&self, path: &str) -> Vec<&str> {
+        let table = find(&self.table, path).and_then(Value::as_table);
+        table.map_or(vec![], |t| t.keys().map(String::as_str).collect())
+    }
+
     /// Traces a fault to its line, or to the override that caused it.
     pub fn locate(&self, fault: Fault) -> CaseError {
         let value = find(&self.table, &fault.key).and_then(in_one_line);

@@ -2,9 +2,10 @@
 
 use wingbeat_air::CoreModel;
 use wingbeat_flight::{AirModel, AirOptions, FlightSetup, MotionMode};
-use wingbeat_model::Wing;
+use wingbeat_math::DVec3;
+use wingbeat_model::{Wing, WingMotion};
 
-use super::numbers::{Estimate, WingEstimate};
+use super::numbers::{Estimate, SAMPLES, WingEstimate};
 
 /// A number outside these limits is doubted.
 struct Limit {
@@ -198,9 +199,52 @@ pub(super) fn doubts(setup: &FlightSetup, e: &Estimate) -> Vec<String> {
         let name = |d| format!("wing `{}`: {d}", wing.name);
         list.extend(own.into_iter().map(name));
     }
+    list.extend(against_each_other(&setup.animal.wings));
     list.extend(setup.crossing_wings());
     list.extend(setup.one_sided_leading_edges());
     list
+}
+
+/// Right and left wings of one place that go opposite ways: signs of a left wing taken for those of a right one.
+fn against_each_other(wings: &[Wing]) -> Vec<String> {
+    let across = |a: &Wing, b: &Wing| {
+        let place = DVec3::new(b.hinge_b.x, -b.hinge_b.y, b.hinge_b.z);
+        a.hinge_b.distance(place) <= 1e-6 * a.report().length
+    };
+    let pairs = wings.iter().enumerate().flat_map(|(k, a)| {
+        let others = wings[k + 1..].iter();
+        others
+            .filter(move |b| a.side != b.side && across(a, b))
+            .map(move |b| (a, b))
+    });
+    let opposite = pairs.filter(|(a, b)| likeness_of_strokes(a, b) < -0.5);
+    let say = |(a, b): (&Wing, &Wing)| {
+        format!(
+            "wings `{}` and `{}` stroke against each other, one forward while the other goes back: look at sign and phase of motion.phi",
+            a.name, b.name
+        )
+    };
+    opposite.map(say).collect()
+}
+
+/// Correlation of the strokes of a wing and of one on the other side, as seen in a mirror \[1\]; 0 where one does not stroke by
+/// itself.
+fn likeness_of_strokes(a: &Wing, b: &Wing) -> f64 {
+    let [a, b] = [a.motion.clone(), b.motion.mirrored()].map(|m| strokes(&m));
+    let product = |x: &[f64], y: &[f64]| x.iter().zip(y).map(|(x, y)| x * y).sum::<f64>();
+    let sizes = (product(&a, &a) * product(&b, &b)).sqrt();
+    match sizes > 0.0 {
+        true => product(&a, &b) / sizes,
+        false => 0.0,
+    }
+}
+
+/// Stroke angles over a beat less their mean \[rad\].
+fn strokes(m: &WingMotion) -> Vec<f64> {
+    let at = |k: usize| m.angles.phi.at(k as f64 / SAMPLES as f64 + m.phase)[0];
+    let all: Vec<f64> = (0..SAMPLES).map(at).collect();
+    let mean = all.iter().sum::<f64>() / SAMPLES as f64;
+    all.iter().map(|x| x - mean).collect()
 }
 
 fn wing_doubts(setup: &FlightSetup, wing: &Wing, w: &WingEstimate) -> Vec<String> {

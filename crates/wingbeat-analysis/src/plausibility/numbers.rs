@@ -64,7 +64,7 @@ impl Estimate {
 }
 
 /// Phases at which a beat is looked at.
-const SAMPLES: usize = 200;
+pub(super) const SAMPLES: usize = 200;
 
 /// Way of the tip of a measured surface in the wing frame in a beat \[m\]; 0 for other wings.
 fn path_of_measured_tip(wing: &Wing) -> f64 {
@@ -78,7 +78,7 @@ fn path_of_measured_tip(wing: &Wing) -> f64 {
 }
 
 /// Largest less smallest stroke angle of a beat \[rad\].
-pub(crate) fn stroke_amplitude(wing: &Wing) -> f64 {
+pub fn stroke_amplitude(wing: &Wing) -> f64 {
     let phi = |k: usize| wing.motion.angles.phi.at(k as f64 / SAMPLES as f64)[0];
     let ends = (0..SAMPLES)
         .map(phi)

@@ -87,6 +87,17 @@ fn animal(case: &Case, name: &str) -> Built<Animal> {
         .scaled(scale)
         .map_err(|e| Fault::new("animal.scale", e.to_string(), "a number > 0", ""))?;
     if case.dynamics.wings == WingInertia::Massless {
+        if let Some(wing) = animal.wings.iter().find(|w| w.structure.is_some()) {
+            return Err(Fault::new(
+                "dynamics.wings",
+                format!(
+                    "wing `{}` is elastic, and what has no mass cannot vibrate",
+                    wing.name
+                ),
+                "massless beside rigid wings",
+                "remove it, or the structure of the wings",
+            ));
+        }
         for wing in &mut animal.wings {
             wing.mass = wing.mass.scaled(0.0);
         }

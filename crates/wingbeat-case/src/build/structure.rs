@@ -224,6 +224,20 @@ fn regions(path: &str, case: &StructureCase, shell: &ShellCase) -> Built<Vec<Reg
                 format!("remove it, or give {path}.shell.density_kg_m3"),
             ));
         }
+        if *g
+            == (RegionCase {
+                span_range: g.span_range,
+                chord_range: g.chord_range,
+                ..RegionCase::default()
+            })
+        {
+            return Err(Fault::new(
+                format!("{path}.region[{k}]"),
+                "this region is made of the same as the rest",
+                "a region with a modulus, thickness, density, direction of fibres or tension of its own",
+                "remove it, or say what is different there",
+            ));
+        }
         let across = |y: f64| [y, g.young_chord_pa.unwrap_or(y)];
         Ok(Region {
             span: g.span_range,

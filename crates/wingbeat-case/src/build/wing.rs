@@ -7,9 +7,10 @@ use wingbeat_model::{GridMesh, MassInput, Side, Wing};
 use super::fault::{Built, fault_at};
 use super::numbers::{given_mass, symmetric, vector};
 use super::{deformation, motion, structure};
+use crate::decode::nearest;
 use crate::error::Fault;
 use crate::raw::{
-    BetaCase, Case, OutlineCase, PlanformCase, RectangleCase, WingCase, WingMeshCase,
+    BetaCase, Case, OutlineCase, PlanformCase, RectangleCase, StructureCase, WingCase, WingMeshCase,
 };
 use crate::sides::mirror_name;
 
@@ -17,7 +18,7 @@ use crate::sides::mirror_name;
 pub(super) fn build_all(case: &Case) -> Built<Vec<Wing>> {
     let mut wings = vec![];
     for (name, own) in &case.wing {
-        let side = side(name, own)?;
+        let side = side(case, name, own)?;
         let counterpart = mirror_name(name).and_then(|n| case.wing.get_key_value(&n));
         wings.push(build(case, name, side, own, counterpart)?);
         let image =
@@ -41,17 +42,24 @@ pub(super) fn source_of(case: &Case, wing: &str) -> String {
     }
 }
 
-fn side(name: &str, own: &WingCase) -> Built<Side> {
+fn side(case: &Case, name: &str, own: &WingCase) -> Built<Side> {
     match own.side {
         Some(side) => Ok(side),
         None if name.contains("right") => Ok(Side::Right),
         None if name.contains("left") => Ok(Side::Left),
-        None => Err(Fault::new(
-            format!("wing.{name}.side"),
-            "this key is missing and the name does not tell the side",
-            "left, right",
-            "add `side = \"right\"` or call the wing e.g. `fore-right`",
-        )),
+        None => {
+            let others = case.wing.keys().map(String::as_str).filter(|n| *n != name);
+            let remedy = match nearest(name, &others.collect::<Vec<_>>()) {
+                Some(other) => format!("did you mean wing.{other}?"),
+                None => "add `side = \"right\"` or call the wing e.g. `fore-right`".to_owned(),
+            };
+            Err(Fault::new(
+                format!("wing.{name}.side"),
+                "this key is missing and the name does not tell the side",
+                "left, right",
+                remedy,
+            ))
+        }
     }
 }
 
@@ -103,16 +111,28 @@ fn build(
     let (from, made, _) = source.of(|w| w.structure.is_some());
     match &made.structure {
         Some(case) => {
-            check_mass_of_structure(&source)?;
+            check_mass_of_structure(&source, case, wing.mass.mass)?;
             structure::make(wing, &format!("wing.{from}.structure"), case)
         }
         None => Ok(wing),
     }
 }
 
-/// A structure has the mass of the wing spread evenly, or its own.
-fn check_mass_of_structure(source: &Source<'_>) -> Built<()> {
+/// A structure has the `mass` of the wing \[kg\] spread evenly, or its own.
+fn check_mass_of_structure(source: &Source<'_>, made: &StructureCase, mass: f64) -> Built<()> {
     let (name, wing, _) = source.of(has_mass);
+    if structure::own_mass(made).is_none() && mass <= 0.0 {
+        let key = match wing.areal_density_kg_m2 {
+            Some(_) => "areal_density_kg_m2",
+            None => "mass_kg",
+        };
+        return Err(Fault::new(
+            format!("wing.{name}.{key}"),
+            "what has no mass cannot vibrate",
+            "above 0 beside a structure",
+            "an insect's wing has 0.5 to 1 % of the body mass",
+        ));
+    }
     let other = [
         (
             "inertia_about_centre_kg_m2",

@@ -108,7 +108,7 @@ fn check_rows(name: &str, rows: &[(f64, f64)]) -> Result<(), ModelError> {
             let before = rows[k - 1].0;
             return bad(
                 k + 1,
-                format!("time {x} does not increase (row before: {before})"),
+                format!("phase {x} does not increase (row before: {before})"),
             );
         }
     }
@@ -122,8 +122,13 @@ fn check_rows(name: &str, rows: &[(f64, f64)]) -> Result<(), ModelError> {
 fn check_closure(n: usize, first: (f64, f64), last: (f64, f64), range: f64) -> Result<(), String> {
     let period = last.0 - first.0;
     if (period - 1.0).abs() > 1e-9 {
+        let unit = match period {
+            90.0..=101.0 => ": phases in per cent are to be divided by 100",
+            330.0..=361.0 => ": phases in degrees are to be divided by 360",
+            _ => "",
+        };
         return Err(format!(
-            "the table spans {period} wingbeats, not 1; row {n} must repeat the first row one period after it"
+            "the table spans {period} wingbeats, not 1{unit}; row {n} must repeat the first row one period after it"
         ));
     }
     if (last.1 - first.1).abs() > CLOSURE * range {

@@ -3,7 +3,7 @@
 use wingbeat_math::DVec3;
 use wingbeat_structure::Lamina;
 
-use super::body::check_tension;
+use super::body::{Fibres, check_poisson, check_tension};
 use crate::deformation::column;
 use crate::error::{ModelError, require};
 use crate::mesh::GridMesh;
@@ -81,8 +81,23 @@ impl Region {
         }
     }
 
+    /// What gives its fibres a direction, in a sheet of fibres `elsewhere`.
+    pub(super) fn fibres(&self, elsewhere: Fibres) -> Fibres {
+        let own = elsewhere.shear.filter(|_| self.young.is_none());
+        Fibres {
+            young: self.young.unwrap_or(elsewhere.young),
+            shear: self.shear.or(own),
+            prestress: self.prestress.unwrap_or(elsewhere.prestress),
+        }
+    }
+
     /// `weighed`: whether the rest of the sheet has a density.
-    pub(super) fn check(&self, key: &str, weighed: bool) -> Result<(), ModelError> {
+    pub(super) fn check(
+        &self,
+        key: &str,
+        weighed: bool,
+        elsewhere: Fibres,
+    ) -> Result<(), ModelError> {
         let of = |k: &str| format!("{key}.{k}");
         let density = self.density.unwrap_or_default();
         let allowed = "left out where the shell has no density of its own";
@@ -109,8 +124,15 @@ impl Region {
                 require(&of(k), x, x > 0.0, "above 0")?;
             }
         }
+        if let Some(poisson) = self.poisson {
+            check_poisson(
+                &of("poisson"),
+                poisson,
+                self.young.unwrap_or(elsewhere.young),
+            )?;
+        }
         check_tension(&of("prestress"), self.prestress.unwrap_or_default())?;
         let angle = self.fibre_angle.unwrap_or(0.0);
-        require(&of("fibre_angle"), angle, true, "a finite number").map(drop)
+        self.fibres(elsewhere).check(&of("fibre_angle"), angle)
     }
 }

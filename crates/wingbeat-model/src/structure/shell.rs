@@ -5,7 +5,7 @@ use wingbeat_structure::{
     Damping, Follower, Lamina, Shell, ShellError, ShellMesh, StructureBuilder,
 };
 
-use super::body::{Blank, ElasticBody, check_positive, check_tension};
+use super::body::{Blank, ElasticBody, Fibres, check_poisson, check_positive, check_tension};
 use super::region::{Region, fibres, middle};
 use super::vein::Vein;
 use crate::deformation::{SpanLaw, column, span};
@@ -253,18 +253,22 @@ impl WingShell {
                 require(&of(k), x, x > 0.0, "above 0")?;
             }
         }
+        check_poisson(&of("poisson"), self.poisson, self.young)?;
         check_tension(&of("prestress"), self.prestress)?;
-        require(
-            &of("fibre_angle"),
-            self.fibre_angle,
-            true,
-            "a finite number",
-        )?;
+        let fibres = Fibres {
+            young: self.young,
+            shear: self.shear,
+            prestress: self.prestress,
+        };
+        let heirs = self.regions.iter().filter(|g| g.fibre_angle.is_none());
+        let mut heirs = heirs.map(|g| g.fibres(fibres));
+        let all = heirs.find(Fibres::count).unwrap_or(fibres);
+        all.check(&of("fibre_angle"), self.fibre_angle)?;
         self.thickness.check(&of("thickness"), root)?;
         check_positive(&of("thickness"), &self.thickness, root)?;
         let weighed = self.density.is_some();
         (self.regions.iter().enumerate())
-            .try_for_each(|(k, g)| g.check(&region_key(key, k), weighed))?;
+            .try_for_each(|(k, g)| g.check(&region_key(key, k), weighed, fibres))?;
         (self.veins.iter().enumerate()).try_for_each(|(k, v)| v.check(&vein_key(key, k)))
     }
 }

@@ -1,15 +1,18 @@
 //! What is reported of a trim.
 
 use serde_json::{Map, Value, json};
+use wingbeat::analysis::plausibility::stroke_amplitude;
 use wingbeat::analysis::steady::Residuals;
 use wingbeat::analysis::unknown::{Bound, UNKNOWNS};
 use wingbeat::analysis::wake::WakeTrim;
 use wingbeat::analysis::{Trim, TrimProblem, Unknown};
 use wingbeat::case::LoadedCase;
+use wingbeat::flight::FlightSetup;
 use wingbeat::model::motion::Adjustment;
 use wingbeat::results::fixed::signed;
 
 use crate::command::report::{Report, line};
+use crate::command::terminal::tell;
 
 /// What is reported of a trim of either kind.
 pub(crate) struct Found {
@@ -24,6 +27,14 @@ pub(crate) struct Found {
     pub(crate) mass_centre: f64,
     pub(crate) body_pitch: f64,
     pub(crate) body_roll: f64,
+    /// Largest stroke angle of a wing from end to end \[rad\].
+    pub(crate) stroke: f64,
+}
+
+/// Largest stroke angle of a wing from end to end \[rad\].
+fn stroke(setup: &FlightSetup) -> f64 {
+    let strokes = setup.animal.wings.iter().map(stroke_amplitude);
+    strokes.fold(0.0, f64::max)
 }
 
 impl From<&Trim> for Found {
@@ -40,6 +51,7 @@ impl From<&Trim> for Found {
             mass_centre: t.mass_centre,
             body_pitch: t.body_pitch,
             body_roll: t.body_roll,
+            stroke: stroke(&t.setup),
         }
     }
 }
@@ -58,6 +70,7 @@ impl From<&WakeTrim> for Found {
             mass_centre: t.mass_centre,
             body_pitch: t.body_pitch,
             body_roll: t.body_roll,
+            stroke: stroke(&t.setup),
         }
     }
 }
@@ -102,6 +115,13 @@ pub(super) fn tell(report: &mut Report, case: &LoadedCase, problem: &TrimProblem
         line!(report, "  {:<width$}{}{note}", u.name(), value(u, t).0);
     }
     let residuals = residuals(report, problem, t);
+    let stroke = t.stroke.to_degrees();
+    if stroke > 180.0 {
+        tell!(
+            "warning: strokes of {stroke:.0} deg: right and left wings pass through each other; choose other --unknowns (frequency, for instance), or a slower flight"
+        );
+    }
+    report.value("stroke_deg", stroke);
     report.value("case", case.name.as_str());
     report.value("forward_m_s", forward);
     report.value("climb_m_s", up);

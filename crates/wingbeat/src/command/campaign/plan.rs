@@ -4,7 +4,6 @@ use std::io::{BufWriter, ErrorKind, Write as _};
 use std::path::PathBuf;
 
 use clap::Args;
-use wingbeat::analysis::AnalysisError;
 use wingbeat::campaign::merge;
 use wingbeat::campaign::{Campaign, Store};
 use wingbeat::case::IoError;
@@ -78,9 +77,7 @@ pub(super) fn plan(args: &PlanArgs) -> Result<(), Failure> {
 
 /// `wingbeat campaign numbers`.
 pub(super) fn numbers(args: &NumbersArgs) -> Result<(), Failure> {
-    let campaign = Campaign::read(&args.file)?;
-    let all = campaign.registry();
-    for number in all.map_err(|e: AnalysisError| Failure::Analysis(e))? {
+    for number in Campaign::possible_numbers(&args.file)? {
         output(format_args!(
             "{:<44} {:<10} {}\n",
             number.name, number.unit, number.about
