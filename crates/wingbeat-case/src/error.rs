@@ -210,8 +210,11 @@ impl IoError {
         move |source| Self::File {
             action: "read",
             path: path.to_owned(),
+            remedy: match source.kind() {
+                std::io::ErrorKind::InvalidData => "save it as a text in UTF-8",
+                _ => "check the name and the permissions",
+            },
             source,
-            remedy: "check the name and the permissions",
         }
     }
 }

@@ -162,7 +162,8 @@ impl MassInput {
                 shell(&quads, |_| sigma)
             }
             MassInput::SpanTable(rows) => {
-                check_span_table(&key, rows)?;
+                let tip = quads.nodes.iter().fold(0.0_f64, |a, x| a.max(x.y.abs()));
+                check_span_table(&key, rows, tip)?;
                 shell(&quads, |x| interpolate(rows, x.y.abs()))
             }
             &MassInput::Given(given) => given,
@@ -201,14 +202,27 @@ fn validated(name: &str, p: MassProperties) -> Result<MassProperties, ModelError
     Ok(p)
 }
 
-fn check_span_table(key: &str, rows: &[(f64, f64)]) -> Result<(), ModelError> {
+/// Where the last row of a table of strips may lie, over the length of the wing: middles of few strips end before the tip, and
+/// measured wings differ a little from their outlines.
+const LAST_ROW: std::ops::RangeInclusive<f64> = 0.5..=1.1;
+
+/// `tip`: distance of the tip from the hinge along the span \[m\].
+fn check_span_table(key: &str, rows: &[(f64, f64)], tip: f64) -> Result<(), ModelError> {
     let bad = |row: usize, problem: &str| ModelError::Table {
         table: key.to_owned(),
         row: row + 1,
         problem: problem.to_owned(),
     };
-    if rows.is_empty() {
-        return Err(bad(0, "the table is empty; give at least one row"));
+    let last = match rows {
+        [] => return Err(bad(0, "the table is empty; give at least one row")),
+        [_] => tip, // even all over
+        [.., last] => last.0,
+    };
+    if !LAST_ROW.contains(&(last / tip)) {
+        let problem = format!(
+            "the table ends {last} m from the hinge, the wing at {tip:.4e} m: distances are in metres from the hinge"
+        );
+        return Err(bad(rows.len() - 1, &problem));
     }
     for (k, &(r, d)) in rows.iter().enumerate() {
         if !(r.is_finite() && d.is_finite() && d >= 0.0) {

@@ -105,7 +105,7 @@ fn parts(bytes: &[u8]) -> Result<(&[u8], &[u8]), &'static str> {
     let body = &bytes[end + 1..];
     if sha256(body) != sum {
         return Err(
-            "the checksum is wrong: the checkpoint is cut or damaged; fly the case again with `wingbeat run case.toml`",
+            "the checksum is wrong: the checkpoint is cut or damaged; fly the case.toml of this result again with `wingbeat run`",
         );
     }
     let cut = line(body).ok_or(none)?;

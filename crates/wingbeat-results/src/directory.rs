@@ -69,7 +69,12 @@ impl ResultDir {
         fs::create_dir(path).map_err(|e| match e.kind() {
             ErrorKind::AlreadyExists => IoError::Exists {
                 path: path.to_owned(),
-                remedy: "choose another directory with --out, or replace this run with --overwrite",
+                remedy: match may_be_taken(path) {
+                    true => {
+                        "choose another directory with --out, or take this one with --overwrite"
+                    }
+                    false => "it holds no earlier run: choose another directory with --out",
+                },
             },
             _ => make(path)(e),
         })?;
@@ -99,13 +104,10 @@ impl ResultDir {
     /// # Errors
     /// A directory that holds no run is left untouched: [`IoError::Exists`].
     pub fn overwrite(path: &Path) -> Result<Self, IoError> {
-        let empty = fs::read_dir(path)
-            .map(|mut d| d.next().is_none())
-            .unwrap_or(false);
         if !path.exists() {
             return Self::create(path);
         }
-        if !empty && !holds_run(path) {
+        if !may_be_taken(path) {
             return Err(IoError::Exists {
                 path: path.to_owned(),
                 remedy: "it holds no earlier run (no manifest.json of ours), so --overwrite leaves it alone: choose another directory",
@@ -237,6 +239,12 @@ pub(crate) fn belongs_to_run(path: &Path) -> bool {
         let folder = [FRAMES, FIGURES].iter().any(|f| inside.starts_with(f));
         folder || ENTRIES.iter().any(|entry| inside == Path::new(entry))
     })
+}
+
+/// Whether a directory is empty or holds an earlier run.
+fn may_be_taken(path: &Path) -> bool {
+    let mut entries = fs::read_dir(path).into_iter().flatten();
+    path.is_dir() && entries.next().is_none() || holds_run(path)
 }
 
 /// Whether a run was written here: other programs have files called manifest.json, too.

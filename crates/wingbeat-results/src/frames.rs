@@ -54,7 +54,7 @@ pub fn steps(dir: &Path) -> Result<Vec<usize>, IoError> {
     let index = std::fs::read_to_string(&path).map_err(IoError::read(&path))?;
     let names = indexed(&index).map_err(|problem| IoError::Damaged {
         path,
-        problem: format!("{problem}; fly the case again with `wingbeat run case.toml`"),
+        problem: format!("{problem}; fly the case.toml of this result again with `wingbeat run`"),
     })?;
     for name in names {
         if !folder.join(name).is_file() {
@@ -138,7 +138,9 @@ impl Mesh {
         let text = std::fs::read_to_string(path).map_err(IoError::read(path))?;
         Self::parse(&text).map_err(|problem| IoError::Damaged {
             path: path.to_owned(),
-            problem: format!("{problem}; fly the case again with `wingbeat run case.toml`"),
+            problem: format!(
+                "{problem}; fly the case.toml of this result again with `wingbeat run`"
+            ),
         })
     }
 
@@ -150,7 +152,7 @@ impl Mesh {
         Err(IoError::Damaged {
             path: path.to_owned(),
             problem: format!(
-                "this frame has no array `{name}`: another frame stands in its place; fly the case again with `wingbeat run case.toml`"
+                "this frame has no array `{name}`: another frame stands in its place; fly the case.toml of this result again with `wingbeat run`"
             ),
         })
     }

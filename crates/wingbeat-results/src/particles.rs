@@ -103,7 +103,9 @@ impl Cloud {
         let text = std::fs::read_to_string(path).map_err(IoError::read(path))?;
         Self::parse(&text).map_err(|problem| IoError::Damaged {
             path: path.to_owned(),
-            problem: format!("{problem}; fly the case again with `wingbeat run case.toml`"),
+            problem: format!(
+                "{problem}; fly the case.toml of this result again with `wingbeat run`"
+            ),
         })
     }
 

@@ -9,7 +9,7 @@ use wingbeat_flight::FlightState;
 use super::checkpoint::{self, FILE, Header};
 use super::history::hash_start;
 use super::manifest::{Manifest, Outcome, hexadecimal, sha256};
-use super::vtp::is_frame;
+use super::vtp::{frame_name, is_frame};
 use super::whole::write_safely;
 use wingbeat_case::{IoError, SaveSettings};
 
@@ -125,7 +125,7 @@ fn check_start(path: &Path, header: &Header) -> Result<(), IoError> {
     Err(IoError::Damaged {
         path: path.to_owned(),
         problem: format!(
-            "this is not the history that the checkpoint of step {} was made beside: it was cut or changed; fly the case again with `wingbeat run case.toml`",
+            "this is not the history that the checkpoint of step {} was made beside: it was cut or changed; fly the case.toml of this result again with `wingbeat run`",
             header.step
         ),
     })
@@ -170,7 +170,7 @@ pub(crate) fn check_history(dir: &Path, manifest: &Manifest) -> Result<(), IoErr
     if !starts_with(&path, wanted)? {
         return damaged(
             path,
-            "this is not the history that was written here: it was cut or changed; fly the case again with `wingbeat run case.toml`",
+            "this is not the history that was written here: it was cut or changed; fly the case.toml of this result again with `wingbeat run`",
         );
     }
     let length = fs::metadata(&path).map_err(IoError::read(&path))?.len();
@@ -178,13 +178,37 @@ pub(crate) fn check_history(dir: &Path, manifest: &Manifest) -> Result<(), IoErr
         return damaged(
             path,
             &format!(
-                "this history holds {} bytes more than the run wrote: something was appended to it; cut it back to {} bytes, or fly the case again with `wingbeat run case.toml`",
+                "this history holds {} bytes more than the run wrote: something was appended to it; cut it back to {} bytes, or fly the case.toml of this result again with `wingbeat run`",
                 length - manifest.history_bytes,
                 manifest.history_bytes
             ),
         );
     }
     Ok(())
+}
+
+/// Checks that the frames of these steps are there, whole as far as their names tell.
+///
+/// # Errors
+/// [`IoError::Damaged`] names the first that is missing.
+pub(crate) fn check_frames(
+    dir: &Path,
+    mut steps: impl Iterator<Item = usize>,
+    parts: &[&str],
+) -> Result<(), IoError> {
+    let lost = |step: usize| {
+        let files = parts
+            .iter()
+            .map(|part| dir.join("frames").join(frame_name(part, step)));
+        files.into_iter().find(|file| !file.is_file())
+    };
+    match steps.find_map(lost) {
+        None => Ok(()),
+        Some(path) => Err(IoError::Damaged {
+            path,
+            problem: "this frame was written and is missing; put it back, or fly the case.toml of this result again with `wingbeat run`".to_owned(),
+        }),
+    }
 }
 
 /// Takes the frames back to step `last`: removes later and half-written ones, and nothing that is

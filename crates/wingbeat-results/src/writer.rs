@@ -85,7 +85,7 @@ impl RunWriter {
     /// Goes on with a run from its checkpoint: what was written later is cut off.
     ///
     /// # Errors
-    /// A file that cannot be changed.
+    /// A file that cannot be changed; a frame that was removed.
     pub fn resume(
         dir: ResultDir,
         case: &LoadedCase,
@@ -93,6 +93,11 @@ impl RunWriter {
         manifest: Manifest,
         threads: usize,
     ) -> Result<Self, IoError> {
+        if manifest.frames > 0 {
+            let every = case.output.frames_every;
+            let written = (0..=header.step).step_by(every.max(1));
+            saver::check_frames(dir.path(), written, parts(case))?;
+        }
         let path = dir.join("history.csv");
         let mut history = HistoryWriter::reopen(&path, &case.setup, header)?;
         let manifest = Manifest {
@@ -215,7 +220,7 @@ impl RunWriter {
         }
         self.manifest.panels = snapshot.surfaces.iter().map(|s| s.quads.len()).sum();
         self.frames.push((snapshot.time, snapshot.step));
-        let (folder, parts) = (self.dir.join("frames"), self.parts());
+        let (folder, parts) = (self.dir.join("frames"), parts(&self.case));
         let framer = self
             .framer
             .get_or_insert_with(|| Framer::new(folder, parts));
@@ -224,15 +229,6 @@ impl RunWriter {
             self.index()?;
         }
         Ok(())
-    }
-
-    /// What a frame of this flight is made of.
-    fn parts(&self) -> &'static [&'static str] {
-        let parts: &'static [&'static str] = &["surfaces", "wakes", "particles"];
-        match &self.case.setup.air {
-            AirModel::VortexLattice(air) if air.lattice.particles.is_some() => parts,
-            _ => &parts[..2],
-        }
     }
 
     /// Waits until the frames taken so far are on the disk.
@@ -246,8 +242,10 @@ impl RunWriter {
         }
         self.finish_frames()?;
         self.indexed = self.frames.len();
-        self.dir
-            .write("flight.pvd", pvd(&self.frames, self.parts()).as_bytes())
+        self.dir.write(
+            "flight.pvd",
+            pvd(&self.frames, parts(&self.case)).as_bytes(),
+        )
     }
 
     /// Ends a result that cannot be written any more: only the reason is noted, if that still goes.
@@ -285,5 +283,14 @@ impl RunWriter {
             saver::forget(self.dir.path())?;
         }
         Ok(summary)
+    }
+}
+
+/// What a frame of the flight of a case is made of.
+fn parts(case: &LoadedCase) -> &'static [&'static str] {
+    let parts: &'static [&'static str] = &["surfaces", "wakes", "particles"];
+    match &case.setup.air {
+        AirModel::VortexLattice(air) if air.lattice.particles.is_some() => parts,
+        _ => &parts[..2],
     }
 }

@@ -368,7 +368,7 @@ fn exact_show_and_compare_say_what_the_summary_says() {
     assert_eq!(json["manifest"]["steps"], 4);
     let compared = said(&["compare", "one", "two"]);
     let lines = compared.lines().filter(|l| !l.is_empty());
-    let differ: Vec<&str> = lines.take_while(|l| !l.contains("relative")).collect();
+    let differ: Vec<&str> = lines.take_while(|l| !l.contains("of the first")).collect();
     assert_eq!(differ[0], "one and two: cases that differ in");
     let words: Vec<&str> = differ[1].split_whitespace().collect();
     assert_eq!(words, ["time.steps", "4", "6"]);

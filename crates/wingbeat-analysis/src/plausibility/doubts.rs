@@ -3,7 +3,7 @@
 use wingbeat_air::CoreModel;
 use wingbeat_flight::{AirModel, AirOptions, FlightSetup, MotionMode};
 use wingbeat_math::DVec3;
-use wingbeat_model::{Wing, WingMotion};
+use wingbeat_model::{DeformingMesh, Wing, WingMotion};
 
 use super::numbers::{Estimate, SAMPLES, WingEstimate};
 
@@ -159,6 +159,18 @@ const TIP_STEP: Limit = Limit {
     hints: ["", "take more steps: time.steps_per_beat"],
 };
 
+const DISPLACEMENT: Limit = Limit {
+    low: 0.0,
+    high: 0.6,
+    hints: ["", "bending is in metres: deformation.bending"],
+};
+
+const TURN: Limit = Limit {
+    low: 0.0,
+    high: 90.0,
+    hints: ["", "twist is in degrees: deformation.twist"],
+};
+
 pub(super) fn doubts(setup: &FlightSetup, e: &Estimate) -> Vec<String> {
     let mut list: Vec<String> = vec![];
     let mut see = |limit: &Limit, what: &str, x: Option<f64>, unit: &str| {
@@ -272,6 +284,20 @@ fn wing_doubts(setup: &FlightSetup, wing: &Wing, w: &WingEstimate) -> Vec<String
         w.reduced_frequency,
         "",
     );
+    let [away, turn] = deformation(wing);
+    let away = Some(away / w.report.length);
+    see(
+        &DISPLACEMENT,
+        "way that deformation moves the surface",
+        away,
+        " wing lengths",
+    );
+    see(
+        &TURN,
+        "turn of a section by deformation",
+        Some(turn),
+        " deg",
+    );
     if let AirModel::VortexLattice(air) = &setup.air {
         let chord = w.report.mean_chord;
         let step = flaps.map(|u| u * setup.time.step / chord);
@@ -294,6 +320,34 @@ fn wing_doubts(setup: &FlightSetup, wing: &Wing, w: &WingEstimate) -> Vec<String
         ));
     }
     list
+}
+
+/// Phases at which a deformation is looked at.
+const PHASES: usize = 24;
+
+/// Largest displacement of a node by prescribed deformation \[m\], and largest turn of a chord \[deg\]; none of a measured surface, which
+/// is the wing as it was seen.
+fn deformation(wing: &Wing) -> [f64; 2] {
+    let Some(shape) = wing.deformation.as_ref().filter(|d| d.surface.is_none()) else {
+        return [0.0; 2];
+    };
+    let (mesh, rest) = (DeformingMesh::new(&wing.mesh, shape), &wing.mesh.nodes);
+    let chord = |nodes: &[DVec3], j: usize| {
+        nodes[wing.mesh.node(wing.mesh.rows, j)] - nodes[wing.mesh.node(0, j)]
+    };
+    let mut largest = [0.0_f64; 2];
+    for k in 0..PHASES {
+        let now = mesh.places(k as f64 / PHASES as f64);
+        let moved = now.iter().zip(rest).map(|(a, b)| a.distance(*b));
+        let chords = (0..=wing.mesh.cols).map(|j| [chord(rest, j), chord(&now, j)]);
+        let turned = chords.filter(|c| c.iter().all(|c| c.length() > 0.0));
+        let turned = turned.map(|[a, b]| a.angle_between(b).to_degrees());
+        largest = [
+            moved.fold(largest[0], f64::max),
+            turned.fold(largest[1], f64::max),
+        ];
+    }
+    largest
 }
 
 /// Wake core and clearance over the mean chord, bound core over the mean panel length.

@@ -7,19 +7,6 @@ use crate::error::Fault;
 
 pub(super) type Built<T> = Result<T, Fault>;
 
-/// A whole number <= `most` at `key`.
-pub(super) fn at_most(key: &str, value: usize, most: usize, remedy: &str) -> Built<usize> {
-    if value <= most {
-        return Ok(value);
-    }
-    Err(Fault::new(
-        key,
-        "this is too large",
-        format!("a whole number <= {most}"),
-        remedy,
-    ))
-}
-
 /// A fault of the model traced to the key of the raw table `raw` at `path` it is about.
 pub(super) fn fault_at(path: &str, raw: &impl Serialize, error: &ModelError) -> Fault {
     let (named, allowed) = match error {

@@ -2,7 +2,7 @@
 
 use wingbeat_flight::TimeGrid;
 
-use super::fault::{Built, at_most};
+use super::fault::Built;
 use crate::error::Fault;
 use crate::raw::Case;
 
@@ -26,10 +26,17 @@ pub(super) fn grid(case: &Case) -> Built<TimeGrid> {
         }
         _ => return Err(no_beat("time.steps", "steps")),
     };
-    let remedy = "fly fewer beats, or with longer steps";
+    if steps > MAX_STEPS {
+        return Err(Fault::new(
+            key,
+            format!("{steps} steps are too many"),
+            format!("as much as {MAX_STEPS} steps make"),
+            "fly fewer beats, or with longer steps",
+        ));
+    }
     Ok(TimeGrid {
         step,
-        steps: at_most(key, steps, MAX_STEPS, remedy)?,
+        steps,
         period,
     })
 }

@@ -20,6 +20,9 @@ pub enum SpanLaw {
 /// Rounding allowed where a table has to reach root and tip.
 const END: f64 = 1e-9;
 
+/// Where tables may end beyond the tip, r/R \[1\]: outlines differ a little from the wings that were measured.
+const BEYOND: f64 = 1.1;
+
 impl SpanLaw {
     /// The same value all along.
     pub fn constant(value: f64) -> Self {
@@ -58,7 +61,7 @@ impl SpanLaw {
                 finite(&format!("{key}.linear[0]"), *root)?;
                 finite(&format!("{key}.linear[1]"), *tip).map(|_| ())
             }
-            Self::Table(rows) => check_table(&format!("{key}.table"), rows, root),
+            Self::Table(rows) => check_table(key, rows, root),
         }
     }
 }
@@ -93,6 +96,13 @@ fn check_table(table: &str, rows: &[(f64, f64)], root: f64) -> Result<(), ModelE
             rows.len() - 1,
             format!(
                 "the table ends at r/R = {}, not at the tip (1): it does not cover the span",
+                last.0
+            ),
+        ),
+        [.., last] if last.0 > BEYOND => bad(
+            rows.len() - 1,
+            format!(
+                "the table ends at r/R = {}, and the tip is at 1: distances from the hinge are to be divided by the wing length, per cent by 100",
                 last.0
             ),
         ),

@@ -73,6 +73,13 @@ pub(super) fn warnings(setup: &FlightSetup, summary: &Summary) -> Warnings {
     if matches!(setup.mode, MotionMode::Tethered(_)) {
         list.note("Tethered: the body does not answer to the forces on it.".to_owned());
     }
+    if let MotionMode::Free(start) = &setup.mode
+        && start.held_steps >= summary.steps
+    {
+        list.note(
+            "Held to its end (flight.held_beats): the body has not been released.".to_owned(),
+        );
+    }
     list
 }
 

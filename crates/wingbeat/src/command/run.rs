@@ -154,6 +154,12 @@ fn go_back(dir: &Path, threads: usize) -> Result<Option<Run>, IoError> {
     }
     let case = dir.case()?;
     let Some((header, state)) = saved.checkpoint else {
+        if saved.manifest.steps > 0 {
+            tell!(
+                "{}: its checkpoint (checkpoint.bin) is missing: it is flown from the start again",
+                case.name
+            );
+        }
         let flight = build(&case)?;
         return begin(dir, case, flight, threads).map(Some);
     };

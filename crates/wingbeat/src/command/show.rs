@@ -110,23 +110,25 @@ fn tell_keys(report: &mut Report, dirs: [&PathBuf; 2], keys: &[Difference]) {
 fn tell_numbers(report: &mut Report, rows: &[(String, f64, f64)]) {
     line!(
         report,
-        "{:<38}{:>14}{:>14}{:>14}{:>11}",
+        "{:<38}{:>14}{:>14}{:>14}{:>14}",
         "",
         "first",
         "second",
         "difference",
-        "relative"
+        "of the first"
     );
     for (what, a, b) in rows {
-        let scale = a.abs().max(b.abs());
-        let relative = if scale > 0.0 { (b - a) / scale } else { 0.0 };
+        let part = (b - a) / a.abs();
+        let part = match part.is_finite() {
+            true => format!("{}%", fixed(100.0 * part, 2)),
+            false => "-".to_owned(),
+        };
         line!(
             report,
-            "{what:<38}{:>14.5e}{:>14.5e}{:>14.5e}{:>10}%",
+            "{what:<38}{:>14.5e}{:>14.5e}{:>14.5e}{part:>14}",
             a + 0.0,
             b + 0.0,
-            b - a + 0.0,
-            fixed(100.0 * relative, 2)
+            b - a + 0.0
         );
     }
     let numbers = rows.iter();
