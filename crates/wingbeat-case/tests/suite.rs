@@ -8,6 +8,7 @@ mod joints;
 mod keys;
 mod meshes;
 mod presets;
+mod slips;
 mod table1;
 mod wings;
 mod written;

@@ -300,6 +300,17 @@ fn refuses_directories_that_cannot_be_gone_on_with() {
 }
 
 #[test]
+fn refuses_a_run_that_lost_a_frame() {
+    let scratch = Scratch::new("lost");
+    for part in ["surfaces", "wakes"] {
+        let dir = scratch.0.join(part);
+        interrupted(&dir);
+        fs::remove_file(dir.join(format!("frames/{part}_000000.vtp"))).unwrap();
+        refused(&dir, "was written and is missing");
+    }
+}
+
+#[test]
 fn refuses_a_second_writer() {
     let scratch = Scratch::new("second");
     let dir = scratch.0.join("run");

@@ -240,9 +240,11 @@ impl WingShell {
         let held = clamps || part > 0.0 || self.veins.iter().any(|v| v.is_clamped);
         let allowed = "above 0 where neither root nor leading edge nor vein is clamped: something must hold the wing";
         require(&of("rigid_fraction"), part, held, allowed)?;
+        for young in self.young {
+            require(&of("young"), young, young > 0.0, "above 0")?;
+        }
+        check_poisson(&of("poisson"), self.poisson, self.young)?;
         let positive = [
-            ("young", Some(self.young[0])),
-            ("young", Some(self.young[1])),
             ("shear", self.shear),
             ("density", self.density),
             ("stretching_young", self.stretching),
@@ -253,7 +255,6 @@ impl WingShell {
                 require(&of(k), x, x > 0.0, "above 0")?;
             }
         }
-        check_poisson(&of("poisson"), self.poisson, self.young)?;
         check_tension(&of("prestress"), self.prestress)?;
         let fibres = Fibres {
             young: self.young,

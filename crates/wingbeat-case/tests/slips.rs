@@ -1,0 +1,142 @@
+//! Slips that users make: units, names, signs, choices; each is named where it was made.
+
+use std::fs;
+use std::path::Path;
+
+use wingbeat_case::{LoadedCase, presets};
+
+/// What is said about a preset with overrides.
+fn refusal(case: &str, set: &[&str]) -> String {
+    let set: Vec<String> = set.iter().map(|s| (*s).to_owned()).collect();
+    LoadedCase::find(case, &set).expect_err(case).to_string()
+}
+
+#[test]
+fn refuses_slips_by_name() {
+    let twist = "wing.right.deformation.twist=[{ table_deg = [[0, 0], [40, 6], [100, 22]] }]";
+    let beam = "wing.right.structure.beam";
+    let shell = "wing.right.structure.shell";
+    let table = format!(
+        "{beam}={{ flap_newton_m2 = [1e-4, 1e-5], torsion_table_newton_m2 = [[0, 1e-4], [50, 1e-5], [100, 1e-6]] }}"
+    );
+    for (case, set, says) in [
+        ("bird-cruise", &[twist][..], "per cent by 100"),
+        ("hawkmoth-elastic", &[&table], "per cent by 100"),
+        (
+            "hawkmoth-elastic",
+            &["dynamics.wings=massless"],
+            "is elastic",
+        ),
+        (
+            "hawkmoth-elastic",
+            &["wing.right.mass_kg=0"],
+            "wing.right.mass_kg = 0",
+        ),
+        (
+            "hawkmoth-veins",
+            &[&format!("{shell}.poisson=-1")],
+            "shell.poisson = -1",
+        ),
+        (
+            "hawkmoth-veins",
+            &["wing.right.structure.region=[{}]"],
+            "made of the same as the rest",
+        ),
+        (
+            "fruit-fly-hover",
+            &["wing.rihgt.mass_kg=1e-9"],
+            "did you mean wing.right?",
+        ),
+        (
+            "fruit-fly-hover",
+            &["wing.right.planform.rectangle.chord_m=1e-3"],
+            "beta and rectangle at once",
+        ),
+        (
+            "fruit-fly-hover",
+            &["wing.right.motion.phi={}"],
+            "none is chosen",
+        ),
+    ] {
+        let said = refusal(case, set);
+        assert!(
+            said.contains(says) && said.contains("try: "),
+            "{set:?}: {said}"
+        );
+    }
+}
+
+#[test]
+fn refuses_strips_in_other_units() {
+    let text = presets::find("bird-cruise").unwrap().text;
+    let (before, after) = text.split_once("[wing.right]").unwrap();
+    let mass = after.lines().find(|l| l.starts_with("mass_kg")).unwrap();
+    let load = |rows: &str| {
+        let strips = format!("areal_density_table_m_kg_m2 = {rows}");
+        let text = format!("{before}[wing.right]{}", after.replacen(mass, &strips, 1));
+        LoadedCase::from_text("strips", &text, Path::new("."), &[])
+    };
+    load("[[0.02, 0.5], [0.3, 0.1]]").unwrap();
+    for rows in ["[[0, 0.5], [330, 0.1]]", "[[0, 0.5], [0.1, 0.1]]"] {
+        let said = load(rows).unwrap_err().to_string();
+        assert!(said.contains("distances are in metres"), "{said}");
+    }
+}
+
+/// Fibres of a sheet alike in all directions have no direction; those of one that is not have.
+#[test]
+fn refuses_fibres_without_direction() {
+    let shell = "wing.right.structure.shell";
+    let film =
+        format!("{shell}={{ young_pa = 3e9, thickness_m = [1e-4, 1e-4], fibre_angle_deg = 20 }}");
+    let load = |more: &[&str]| {
+        let set = [&[&film[..]], more].concat();
+        let set: Vec<String> = set.iter().map(|s| (*s).to_owned()).collect();
+        LoadedCase::find("hawkmoth-veins", &set)
+            .map(|_| ())
+            .map_err(|e| e.to_string())
+    };
+    let said = load(&[]).unwrap_err();
+    assert!(said.contains("fibre_angle_deg = 20"), "{said}");
+    for (key, value) in [
+        ("young_chord_pa", "1e9"),
+        ("shear_pa", "5e8"),
+        ("prestress_newton_per_m", "[1, 0]"),
+    ] {
+        load(&[&format!("{shell}.{key}={value}")]).unwrap();
+    }
+    // A region that takes its fibres from the sheet gives them an effect, too.
+    load(&["wing.right.structure.region=[{ young_pa = 1e9, young_chord_pa = 2e9 }]"]).unwrap();
+    let own = "wing.right.structure.region=[{ fibre_angle_deg = 3, young_pa = 1e9 }]";
+    let said = load(&[&format!("{shell}.fibre_angle_deg=0"), own]).unwrap_err();
+    assert!(said.contains("region[0].fibre_angle_deg = 3"), "{said}");
+}
+
+#[test]
+fn refuses_phases_in_other_units_by_the_line() {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("slips");
+    fs::create_dir_all(&folder).unwrap();
+    for (name, rows, says) in [
+        (
+            "cents",
+            "0,10\n25,3\n50,-10\n75,3\n100,10",
+            "line 6: the table spans 100 wingbeats, not 1: phases in per cent",
+        ),
+        (
+            "degrees",
+            "0,10\n90,3\n180,-10\n270,3\n360,10",
+            "phases in degrees are to be divided by 360",
+        ),
+        (
+            "unsorted",
+            "0,10\n0.5,3\n0.3,-10\n0.75,3\n1,10",
+            "line 4: phase 0.3 does not increase",
+        ),
+    ] {
+        let file = folder.join(format!("{name}.csv"));
+        fs::write(&file, format!("phase,phi\n{rows}\n")).unwrap();
+        let law = format!("wing.right.motion.phi={{ table = {{ file = {file:?} }} }}");
+        let said = refusal("fruit-fly-hover", &[&law]);
+        assert!(said.contains(says) && said.contains("table.file"), "{said}");
+    }
+}
