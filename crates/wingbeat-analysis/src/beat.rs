@@ -37,6 +37,7 @@ pub struct Beat {
     flight: FreeFlight,
     mass: f64,
     gravity: DVec3,
+    stream: DVec3,
     steps: usize,
     period: f64,
     wing_length: f64,
@@ -110,12 +111,18 @@ impl Beat {
         Ok(Self {
             mass: flight.system().total_mass(),
             gravity: setup.gravity,
+            stream: (setup.air.clone().stream_mut()).map_or(DVec3::ZERO, |s| *s),
             steps,
             period,
             wing_length: tips.fold(0.0, |m, r| m.max(r.length())),
             joint_sizes: flight.form().scales().split_off(JOINTS),
             flight,
         })
+    }
+
+    /// Velocity of the undisturbed air, N components [m/s].
+    pub(crate) fn stream(&self) -> DVec3 {
+        self.stream
     }
 
     /// The equations.

@@ -55,8 +55,8 @@ impl Beat {
     }
 
     /// Mean air load when the mean mass centre moves with `velocity` [m/s] and the body turns with
-    /// `rate` [rad/s], both steady in the level frame that turns with the body. Equal weights over
-    /// the beat: spectrally accurate for a periodic motion.
+    /// `rate` [rad/s], the rate and the velocity through the air steady in the level frame that turns with the body. Equal
+    /// weights over the beat: spectrally accurate for a periodic motion.
     ///
     /// # Errors
     /// Free joints, whose motion is not known beforehand; what the air reports.
@@ -78,7 +78,7 @@ impl Beat {
             w,
         };
         let turning = BodyAcceleration {
-            linear: r * w.cross(r.transpose() * root.v),
+            linear: r * w.cross(r.transpose() * (root.v - self.stream())),
             angular: DVec3::ZERO,
         };
         let bodies = system.bodies().len();

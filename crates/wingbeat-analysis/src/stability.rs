@@ -71,6 +71,7 @@ fn averaged_rates(beat: &Beat, level: &Level, x: &[f64]) -> Result<[f64; 9], Ana
         mass: beat.mass(),
         inertia: level.to_root.transpose() * beat.mean_inertia() * level.to_root,
         gravity: level.to_n.transpose() * beat.gravity(),
+        stream: level.to_n.transpose() * beat.stream(),
     };
     body.rates(x, |v, w| beat.mean_load(level, v, w))
 }
@@ -84,10 +85,13 @@ pub(crate) struct RigidBody {
     pub(crate) inertia: DMat3,
     /// In the reference attitude.
     pub(crate) gravity: DVec3,
+    /// Velocity of the undisturbed air in the reference attitude.
+    pub(crate) stream: DVec3,
 }
 
 impl RigidBody {
-    /// Rates of the nine components of [`Perturbation`] under the air's `load(velocity, rate)`.
+    /// Rates of the nine components of [`Perturbation`] under the air's `load(velocity, rate)` in the reference attitude: in
+    /// another the stream comes from elsewhere, as if the body moved otherwise through that of the reference.
     pub(crate) fn rates<E>(
         &self,
         x: &[f64],
@@ -95,8 +99,8 @@ impl RigidBody {
     ) -> Result<[f64; 9], E> {
         let state = Perturbation::from_array(x.try_into().expect("nine components"));
         let (v, w, j) = (state.velocity, state.rate, self.inertia);
-        let load = load(v, w)?;
         let tilt = DMat3::from_quat(DQuat::from_scaled_axis(state.tilt));
+        let load = load(v + (self.stream - tilt.transpose() * self.stream), w)?;
         // To first order in tilt and rate the rotation vector changes at the rate w.
         let rates = Perturbation {
             velocity: load.force / self.mass + tilt.transpose() * self.gravity - w.cross(v),

@@ -38,6 +38,7 @@ pub fn table_model(setup: &FlightSetup) -> Result<LinearModel, AnalysisError> {
         mass: setup.animal.body.mass,
         inertia: table.to_body.transpose() * inertia * table.to_body,
         gravity: DVec3::Z * setup.gravity.length(),
+        stream: DVec3::ZERO, // velocities are those through the air
     };
     let mut reference = [0.0; 9];
     table.velocity.write_to_slice(&mut reference);
@@ -86,7 +87,8 @@ fn load(table: &DerivativeTable, velocity: DVec3, rate: DVec3) -> MeanLoad {
 }
 
 /// The rigid animal with the mean mass properties of a trimmed flight, and its derivatives: mass
-/// [kg], inertia about the mass centre in body axes [kg m2], table.
+/// [kg], inertia about the mass centre in body axes [kg m2], table. The table is that of still air, velocities being those
+/// through the air of the trim.
 ///
 /// # Errors
 /// What the air reports.
@@ -97,12 +99,13 @@ pub fn rigid_animal(
     let root = trim.beat.root(&trim.state);
     let level = Level::new(root.r, trim.beat.gravity());
     let velocity = level.to_n.transpose() * trim.mean_velocity()?;
+    let stream = level.to_n.transpose() * trim.beat.stream();
     let air = trim.beat.mean_load(&level, velocity, DVec3::ZERO)?;
     let (f, m) = (air.force, air.moment);
     let table = DerivativeTable {
         to_body: level.to_root,
         point: DVec3::ZERO,
-        velocity,
+        velocity: velocity - stream,
         reference: [f.x, f.y, f.z, m.x, m.y, m.z],
         derivatives: model.derivatives,
         stream: DVec3::ZERO,

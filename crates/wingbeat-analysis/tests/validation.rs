@@ -112,6 +112,35 @@ fn limit_an_impossible_trim_reports_the_best_point() {
     assert!(t.error() < untouched.error());
 }
 
+/// A body that tilts in a stream meets it from elsewhere: flight through air that moves is that through air that does not.
+#[test]
+fn invariant_averaged_modes_in_a_stream_are_those_of_flight_through_still_air() {
+    for velocity in [DVec3::new(0.5, 0.0, 0.0), DVec3::new(0.1, 0.0, -0.4)] {
+        let modes = |setup: &FlightSetup, v: DVec3| {
+            let problem = TrimProblem {
+                velocity: v,
+                ..hover(100)
+            };
+            let t = trim(setup, &problem).unwrap();
+            assert!(t.converged);
+            linear_model(&t.beat, &t.state).unwrap().modes
+        };
+        let mut streaming = fly();
+        *streaming.air.stream_mut().unwrap() = -velocity;
+        let [still, stream] = [modes(&fly(), velocity), modes(&streaming, DVec3::ZERO)];
+        for plane in [Plane::Longitudinal, Plane::Lateral] {
+            for (a, b) in still.plane(plane).zip(stream.plane(plane)) {
+                let apart = (a.growth - b.growth).hypot(a.frequency - b.frequency);
+                // Steps of 1e-3 of the natural sizes, other ones in other variables.
+                assert!(
+                    apart < 1e-5 * a.growth.hypot(a.frequency).max(1.0),
+                    "{a:?} {b:?}"
+                );
+            }
+        }
+    }
+}
+
 #[test]
 fn published_longitudinal_modes_have_the_known_structure() {
     // One unstable oscillation, one fast and one slow subsidence: published for bumblebee [Sun &

@@ -185,6 +185,9 @@ fn with_start(case: &LoadedCase, mut raw: Case, flight: FlightCase, error: f64) 
     )
 }
 
+/// Roll of straight flights by rounding \[deg\].
+const ROUNDING: f64 = 1e-9;
+
 /// The rigid animal of a trimmed flight under the derivatives of its averaged model, as TOML.
 ///
 /// # Errors
@@ -196,13 +199,10 @@ pub fn derivative_case(
 ) -> Result<String, AnalysisError> {
     let (mass, inertia, table) = rigid_animal(trim, model)?;
     let j = |i: usize, k: usize| inertia.col(k)[i];
-    // The table's axes are level: the body is pitched by the angle of its first axis.
-    let pitch = table
-        .to_body
-        .x_axis
-        .z
-        .atan2(table.to_body.x_axis.x)
-        .to_degrees();
+    // The table's axes are level: the body is pitched and rolled against them.
+    let [ahead, down] = [table.to_body.x_axis, table.to_body.z_axis];
+    let [roll, pitch] = [down.y.atan2(down.z), (-down.x).atan2(ahead.x)].map(f64::to_degrees);
+    let roll = if roll.abs() > ROUNDING { roll } else { 0.0 };
     let mut raw = case.raw.clone();
     raw.name = Some(format!("{}-averaged", case.name));
     raw.control = None; // nothing steers a table of derivatives
@@ -225,11 +225,11 @@ pub fn derivative_case(
     raw.air = AirCase {
         model: AirModel::Derivatives,
         density_kg_m3: case.raw.air.density_kg_m3,
-        stream_m_s: case.raw.air.stream_m_s,
         ..AirCase::default()
     };
-    raw.air.derivatives = Some(derivatives(&table, pitch));
+    raw.air.derivatives = Some(derivatives(&table, [roll, pitch]));
     raw.flight = FlightCase {
+        roll_deg: roll,
         pitch_deg: pitch,
         velocity_m_s: table.velocity.to_array(),
         ..FlightCase::default()
@@ -241,8 +241,11 @@ pub fn derivative_case(
     ))
 }
 
-/// The table as a case file has it; `body_pitch_deg` is that of its axes.
-fn derivatives(table: &DerivativeTable, body_pitch_deg: f64) -> DerivativesCase {
+/// The table as a case file has it; the angles are those of the body against its axes.
+fn derivatives(
+    table: &DerivativeTable,
+    [body_roll_deg, body_pitch_deg]: [f64; 2],
+) -> DerivativesCase {
     let block = |i: usize, k: usize| -> Option<[[f64; 3]; 3]> {
         let entry = |r: usize, c: usize| table.derivatives[i + r][k + c];
         Some(std::array::from_fn(|r| {
@@ -252,6 +255,7 @@ fn derivatives(table: &DerivativeTable, body_pitch_deg: f64) -> DerivativesCase 
     let r = table.reference;
     DerivativesCase {
         body_pitch_deg,
+        body_roll_deg,
         velocity_m_s: table.velocity.to_array(),
         force_newton: Some([r[0], r[1], r[2]]),
         moment_newton_m: [r[3], r[4], r[5]],

@@ -347,6 +347,16 @@ fn agrees_a_written_table_of_derivatives_with_the_averaged_model() {
     };
     assert_eq!(modes(&full).len(), 7);
     assert_eq!(modes(&full), modes(&table));
+    // So it does of flights with sideslip, whose bodies roll, and in a stream.
+    for flight in [
+        ["--sideslip", "0.4"],
+        ["--set", "air.stream_m_s=[-0.3,0.1,0]"],
+    ] {
+        let write = ["stability", "--write", "other.toml", "--overwrite"];
+        let full = said(dir, &[&write[..], &flight].concat());
+        let table = said(dir, &["stability", "other.toml"]);
+        assert_eq!(modes(&full), modes(&table), "{flight:?}");
+    }
     // The table's flight stays in its trimmed state.
     said(
         dir,

@@ -1,7 +1,7 @@
 //! `[air.derivatives]`.
 
 use wingbeat_blade::{DerivativeTable, ReferenceSizes};
-use wingbeat_math::r2;
+use wingbeat_math::{r1, r2};
 use wingbeat_model::Animal;
 
 use super::fault::Built;
@@ -23,7 +23,7 @@ pub(super) fn table(case: &Case, animal: &Animal) -> Built<DerivativeTable> {
     let force = d.force_newton.unwrap_or([0.0, 0.0, -weight]);
     let [f, m] = [force, d.moment_newton_m];
     Ok(DerivativeTable {
-        to_body: r2(d.body_pitch_deg.to_radians()).transpose(),
+        to_body: (r2(d.body_pitch_deg.to_radians()) * r1(d.body_roll_deg.to_radians())).transpose(),
         point: animal.body.centre(),
         velocity: vector(d.velocity_m_s),
         reference: [f[0], f[1], f[2], m[0], m[1], m[2]],

@@ -14,6 +14,10 @@ pub struct DerivativesCase {
     ///
     /// Change it to the body angle of the flight that was linearised.
     pub body_pitch_deg: f64,
+    /// Roll of the body in the reference flight, after the pitch: the angle about the body's b1.
+    ///
+    /// Change it to that of a flight with sideslip that was linearised.
+    pub body_roll_deg: f64,
     /// Velocity in the reference flight, axes of the table.
     ///
     /// Change it to that of the flight that was linearised.
