@@ -100,6 +100,11 @@ impl CaseSource {
         self.overrides.iter().any(|(k, _)| around(k))
     }
 
+    /// Whether an override sets a key, one around it or one inside it.
+    pub fn touches(&self, key: &str) -> bool {
+        self.overrides.iter().any(|(k, _)| related(k, key))
+    }
+
     /// The value of a key as it is written in the file.
     pub fn written(&self, key: &str) -> Option<&str> {
         let place = self.places.get(key)?;

@@ -17,6 +17,7 @@
 mod assembly;
 mod beam;
 mod block;
+mod builder;
 mod configuration;
 mod dynamics;
 mod element;
@@ -33,6 +34,7 @@ mod statics;
 mod structure;
 
 pub use beam::{Beam, BeamEnd, Section, Stiffness};
+pub use builder::StructureBuilder;
 pub use configuration::{Configuration, NODE};
 pub use dynamics::{
     GeneralizedAlpha, LoadTangent, Passes, RootWrench, Solver, State, Step, Trial, Weights,
@@ -46,4 +48,4 @@ pub use loads::{Loading, NodeLoad};
 pub use modes::{Mode, modes};
 pub use shell::{Lamina, Shell, ShellError, ShellMesh};
 pub use statics::{StaticSettings, equilibrium};
-pub use structure::{Damping, Structure, StructureBuilder};
+pub use structure::{Damping, Structure};

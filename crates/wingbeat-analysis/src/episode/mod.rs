@@ -30,7 +30,7 @@ use wingbeat_math::DVec3;
 
 use crate::AnalysisError;
 use crate::departure::{CONTROLS, Controls, Departure, Limits, Reference};
-use crate::sensors::Sensors;
+use crate::sensors::{Sensors, scrambled};
 use crate::trim::Trim;
 
 pub use flyer::{Flyer, Model, SharedModel};
@@ -52,7 +52,7 @@ pub struct Course {
     pub beats: usize,
     /// Controls of size 1.
     pub limits: Limits,
-    /// Noise and bias of what is observed.
+    /// Noise and bias of what is observed; every episode has noise of its own.
     pub sensors: Sensors,
     /// Control steps from sensing to observing.
     pub delay: usize,
@@ -153,9 +153,18 @@ impl Episode {
     fn begin(&mut self) -> Result<(), AnalysisError> {
         self.looks = 0;
         let truth = self.sensed()?;
-        let first = self.departure(&truth);
+        let first = self.departure(&self.sensors().seen(&truth));
         self.seen = vec![first; self.course.delay + 1].into();
         Ok(())
+    }
+
+    /// The sensors of the course, with noise of this episode's own.
+    fn sensors(&self) -> Sensors {
+        let shared = self.course.sensors;
+        Sensors {
+            seed: scrambled(scrambled(shared.seed ^ self.seed) ^ self.number),
+            ..shared
+        }
     }
 
     /// One control step under `controls`, fractions of their limits.
@@ -180,7 +189,7 @@ impl Episode {
             };
         };
         let (beat, departure) = (&course.trim.beat, self.departure(&truth));
-        let sensed = self.departure(&course.sensors.seen(&truth));
+        let sensed = self.departure(&self.sensors().seen(&truth));
         self.seen.pop_front();
         self.seen.push_back(sensed);
         let is_lost = course.task.is_lost(beat, &departure);

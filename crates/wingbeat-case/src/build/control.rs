@@ -138,7 +138,7 @@ fn check(case: &Case) -> Built<()> {
             "give wings and motion.frequency_hz, or remove [control]",
         );
     }
-    if case.air.mirror {
+    if case.air.mirror && case.air.model == AirModel::VortexLattice {
         return refused(
             "air.mirror",
             "a controller commands each side by itself, the mirror holds both alike",

@@ -125,7 +125,7 @@ impl Pair<'_> {
         let chosen = |key: &str| need.is_value_of(key) && source.chooses(key);
         let switched =
             chosen(MODEL) || chosen(CONTROLLER) || need.is_value_of(INTEGRATOR) && follows;
-        switched && !source.chooses(path) && key.key.get("always").is_none()
+        switched && !source.touches(path) && key.key.get("always").is_none()
     }
 }
 

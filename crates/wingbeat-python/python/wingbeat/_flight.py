@@ -99,12 +99,16 @@ class Flight:
 
         Each is an array of equally spaced values over one wingbeat, the end left out, or a function of the phase in
         wingbeats, from 0 to 1, which is sampled ``samples`` times now and never called again. They hold for ``wing``,
-        or for all right wings; left ones are their mirror images. The flight joins them by a periodic cubic spline.
+        or for all right wings; a left wing without angles of its own is the mirror image of the right one (and the other way
+        round). The flight joins them by a periodic cubic spline.
         """
         angles = {"phi": phi_deg, "theta": theta_deg, "psi": psi_deg}
         given = {name: _rows(name, angle, samples) for name, angle in angles.items() if angle is not None}
         if not given:
             raise CaseError("with_motion: no angle is given", key="motion", remedy="phi_deg, theta_deg or psi_deg")
+        names = [name for name, _ in self._core.wings]
+        if wing is not None and wing not in names:
+            raise CaseError(f"wing = {wing!r}: there is none of this name", key="wing", remedy=", ".join(names))
         wings = [name for name, side in self._core.wings if side > 0] if wing is None else [wing]
         keys = {
             f"wing.{name}.motion.{angle}": {"table": {"rows_deg": rows}}

@@ -10,7 +10,8 @@ hover, recover (from a tumble), path (follow a target), gust. Needs gymnasium.
 Actions are four numbers in [-1, 1], fractions of their limits: relative stroke amplitude, mean stroke angle, right-left
 differences of amplitude and of stroke plane, once per wingbeat or ``controls_per_beat`` times; the strokes go over to them smoothly.
 Observations are 17 numbers in natural units (wing length R, wingbeat T): place less the target's, velocity, angular velocity,
-tilt, velocity of the target, sine and cosine of the phase of the wingbeat. Rewards are at most one per wingbeat.
+tilt, velocity of the target, sine and cosine of the phase of the wingbeat. Rewards are at most one per wingbeat. Starts and
+noise of the sensors follow from the seed of ``reset`` and the number of the episode since.
 """
 
 from __future__ import annotations
@@ -43,7 +44,7 @@ def _whole(key: str, number: int, least: int, most: int) -> int:
 
 
 def _size(key: str, number: float, most: float) -> float:
-    if not 0.0 <= number <= most:
+    if isinstance(number, bool) or not isinstance(number, int | float | np.number) or not 0.0 <= number <= most:
         raise CaseError(f"{key} = {number!r}: out of range", key=key, remedy=f"a number from 0 to {most}")
     return float(number)
 
@@ -85,14 +86,19 @@ class _Fleet:
             _size("tilt_noise_rad", tilt_noise_rad, 3.0),
             _size("rate_noise_rad_per_s", rate_noise_rad_per_s, 1e5),
         ]
-        trim = (flight or Flight.preset("fruit-fly-blade")).trim(steps=steps)
+        flight = Flight.preset("fruit-fly-blade") if flight is None else flight
+        if not isinstance(flight, Flight):
+            remedy = "Flight.preset(NAME) or Flight.from_case(FILE)"
+            raise CaseError(f"flight = {flight!r}: no Flight", key="flight", remedy=remedy)
+        trim = flight.trim(steps=steps)
         if not trim.converged:
             raise AnalysisError("the flight is not trimmed", remedy="another flight; see what flight.trim() says")
         delay = _whole("delay", delay, 0, 10_000)
         settings = (task, steps // controls, beats, limits, delay, noise, autoreset)
         self.count = _whole("num_envs", count, 1, 1_000_000)
         self.period_s = trim.period_s
-        self.core = trim._core.fleet(settings, list(range(self.count)))
+        seeds = np.random.default_rng().integers(2**63, size=self.count)  # until reset() gives others
+        self.core = trim._core.fleet(settings, [int(s) for s in seeds])
         self.observed = np.zeros((self.count, _OBSERVED), np.float32)
         self.last = np.zeros((self.count, _OBSERVED), np.float32)
         self.rewards = np.zeros(self.count)
@@ -102,7 +108,8 @@ class _Fleet:
         self.action_space = gymnasium.spaces.Box(-1.0, 1.0, (_CONTROLS,), np.float32)
 
     def reset(self, seeds: Sequence[int | None], mask: Sequence[bool]) -> None:
-        self.core.reset(list(seeds), list(mask), self.observed)
+        seeds = [None if s is None else _whole("seed", s, 0, 2**64 - 1) for s in seeds]
+        self.core.reset(seeds, list(mask), self.observed)
 
     def step(self, actions: Any) -> bool:
         """Whether any episode has ended."""
@@ -137,7 +144,7 @@ class Environment(gymnasium.Env[Any, Any]):
         self.action_space = self._fleet.action_space
 
     def reset(self, *, seed: int | None = None, options: dict[str, Any] | None = None) -> tuple[Any, dict[str, Any]]:
-        """A new episode; the first of ``seed``, else the next one."""
+        """A new episode; the first of ``seed``, else the next one (before any seed, one drawn at random)."""
         super().reset(seed=seed)
         self._fleet.reset([seed], [True])
         return self._fleet.observed[0].copy(), {}
