@@ -131,8 +131,21 @@ pub fn air_force(history: &super::History, direction: wingbeat_math::DVec3) -> V
     total
 }
 
-/// Total power of hinge actuators and prescribed deformation, row by row \[W\].
-pub fn hinge_power(history: &super::History) -> Vec<f64> {
-    let gives = |n: &str| n.starts_with("hinge_") || n.starts_with("deformation_");
+/// Total power of the actuators of all joints and of prescribed deformation, row by row \[W\].
+pub fn driving_power(history: &super::History) -> Vec<f64> {
+    let gives = |n: &str| {
+        ["hinge_", "loop_", "deformation_"]
+            .iter()
+            .any(|s| n.starts_with(s))
+    };
     history.sum(|n| gives(n) && n.ends_with("_power_watt"))
+}
+
+/// What [`driving_power`] is the power of, in words.
+pub fn driving_power_name(history: &super::History) -> &'static str {
+    let deforms = |n: &String| n.starts_with("deformation_") && n.ends_with("_power_watt");
+    match history.names().iter().any(deforms) {
+        true => "power of hinges and deformation",
+        false => "power of the hinges",
+    }
 }

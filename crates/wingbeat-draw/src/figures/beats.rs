@@ -9,7 +9,7 @@ use super::plot::{self, Band, Curve, Plot};
 use super::style::Look;
 use super::units::{force_unit, prefix, scaled};
 use wingbeat_results::History;
-use wingbeat_results::summary::{BeatMeans, air_force, down, hinge_power};
+use wingbeat_results::summary::{BeatMeans, air_force, down, driving_power, driving_power_name};
 
 /// What is drawn: name of the axis, over time, number and mean of every beat.
 type Quantity = (String, Vec<f64>, Vec<[f64; 2]>);
@@ -54,10 +54,10 @@ fn quantities(setup: &FlightSetup, history: &History, beats: &[BeatMeans]) -> Ve
         let means = mean(&|b| b.lift_newton * factor);
         list.push((label, scaled(&up, factor), means));
     }
-    let power = hinge_power(history);
+    let power = driving_power(history);
     let (scale, prefix) = prefix(&power);
     let means = mean(&|b| b.power_watt / scale);
-    let label = format!("power of the hinges [{prefix}W]");
+    let label = format!("{} [{prefix}W]", driving_power_name(history));
     list.push((label, scaled(&power, 1.0 / scale), means));
     list
 }

@@ -8,7 +8,7 @@ use super::measure::{Kept, Line, Measure, Measured, Unit};
 use super::units::scaled;
 use wingbeat_results::History;
 use wingbeat_results::columns::body_names;
-use wingbeat_results::summary::{air_force, down, hinge_power};
+use wingbeat_results::summary::{air_force, down, driving_power, driving_power_name};
 
 /// The figures over time that make sense for a run, row by row in SI units.
 pub(super) fn measured(setup: &FlightSetup, history: &History) -> Vec<Measured> {
@@ -91,14 +91,14 @@ fn forces(setup: &FlightSetup, history: &History) -> Measured {
         Line::new("forward", air_force(history, DVec3::X)),
         Line::new("right", air_force(history, DVec3::Y)).kept(Kept::Felt),
     ];
-    let power = vec![Line::new("power", hinge_power(history))];
+    let power = vec![Line::new("power", driving_power(history))];
     Measured {
         name: "forces",
         title: "forces and power",
         shaded: true,
         panels: vec![
             Measure::new("force of the air", Unit::Weight, lines),
-            Measure::new("power of the hinges", Unit::Prefixed("W"), power),
+            Measure::new(driving_power_name(history), Unit::Prefixed("W"), power),
         ],
     }
 }
@@ -232,4 +232,60 @@ fn magnitude(history: &History, stem: &str, unit: &str) -> Vec<f64> {
     parts
         .map(|((a, b), c)| DVec3::new(*a, *b, *c).length())
         .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::figures::{Chart, charts_of};
+    use wingbeat_case::LoadedCase;
+    use wingbeat_flight::Record;
+    use wingbeat_results::columns::Columns;
+
+    /// A history of a preset whose records `change` fills, step by step.
+    fn history(
+        setup: &FlightSetup,
+        deforms: bool,
+        steps: usize,
+        change: impl Fn(usize, &mut Record),
+    ) -> History {
+        let columns = Columns::new(setup, deforms).unwrap();
+        let record = |step| {
+            let mut record = columns.blank();
+            record.step = step;
+            record.time = step as f64 * setup.time.step;
+            change(step, &mut record);
+            record
+        };
+        let records: Vec<Record> = (0..steps).map(record).collect();
+        History::of(&columns, &records)
+    }
+
+    fn chart(setup: &FlightSetup, history: &History, name: &str) -> Chart {
+        let mut all = charts_of(setup, history);
+        let at = all.iter().position(|c| c.0 == name).unwrap();
+        all.swap_remove(at).1
+    }
+
+    /// Hinges of 1 W and deformation of 2 W, each of two wings.
+    #[test]
+    fn exact_power_is_named_for_what_it_drives() {
+        for (preset, deforms, power, name) in [
+            (
+                "bird-cruise",
+                true,
+                6.0,
+                "power of hinges and deformation [W]",
+            ),
+            ("fruit-fly-hover", false, 2.0, "power of the hinges [W]"),
+        ] {
+            let setup = LoadedCase::find(preset, &[]).unwrap().setup;
+            let history = history(&setup, deforms, 3, |_, r| {
+                r.hinges[..2].iter_mut().for_each(|h| h.power = 1.0);
+                r.deformation_power.iter_mut().for_each(|p| *p = 2.0);
+            });
+            let panel = &chart(&setup, &history, "forces").panels[1];
+            assert_eq!((&panel.label[..], panel.series[0].values[2]), (name, power));
+        }
+    }
 }

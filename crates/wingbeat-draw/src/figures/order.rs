@@ -10,7 +10,7 @@ use super::window::Window;
 pub enum Kind {
     /// Prescribed wing angles over time.
     Angles,
-    /// Force of the air and power of the hinges over time, the downstroke shaded.
+    /// Force of the air and power that drives the wings over time, the downstroke shaded.
     Forces,
     /// Chord of a wing with the force on it through the last wingbeat.
     Lollipop,
