@@ -57,7 +57,7 @@ pub(super) fn bending(setup: &FlightSetup, history: &History) -> Option<Measured
     }
     Some(Measured {
         name: "bending",
-        title: "bending of the wing at parts of its length",
+        title: "bending of the wing at parts of its length".to_owned(),
         shaded: true,
         panels,
     })

@@ -6,6 +6,7 @@ use wingbeat_math::DVec3;
 use super::bending::bending;
 use super::measure::{Kept, Line, Measure, Measured, Unit};
 use super::units::scaled;
+use super::wing_angles::wing_angles;
 use wingbeat_results::History;
 use wingbeat_results::columns::body_names;
 use wingbeat_results::summary::{air_force, down, driving_power, driving_power_name};
@@ -94,7 +95,7 @@ fn forces(setup: &FlightSetup, history: &History) -> Measured {
     let power = vec![Line::new("power", driving_power(history))];
     Measured {
         name: "forces",
-        title: "forces and power",
+        title: "forces and power".to_owned(),
         shaded: true,
         panels: vec![
             Measure::new("force of the air", Unit::Weight, lines),
@@ -126,7 +127,7 @@ fn trajectory(history: &History, follows: bool) -> Measured {
     ];
     Measured {
         name: "trajectory",
-        title: "path of the body and attitude",
+        title: "path of the body and attitude".to_owned(),
         shaded: true,
         panels: vec![
             Measure::new("position from the start", Unit::Prefixed("m"), place),
@@ -143,23 +144,30 @@ pub(super) fn from_start(values: &[f64]) -> Vec<f64> {
 
 fn angles(setup: &FlightSetup, history: &History) -> Measured {
     let names = body_names(&setup.animal);
-    let panels = names[1..][..setup.animal.wings.len()].iter().map(|wing| {
-        let angle = |label: &str, k: &str| {
-            let column = format!("{wing}_prescribed_{k}_rad");
-            Line::new(label, history.column(&column).to_vec())
-        };
-        let lines = vec![
-            angle("stroke φ", "phi"),
-            angle("deviation θ", "theta"),
-            angle("feathering ψ", "psi"),
-        ];
-        Measure::new(&wing.replace('_', " "), Unit::Degrees, lines)
+    let (mut feathers, mut joints) = (false, false);
+    let panels = (0..setup.animal.wings.len()).map(|k| {
+        let found = wing_angles(setup, history, k);
+        feathers |= found.feathers;
+        joints |= !found.joint.is_empty();
+        let labels = ["stroke φ", "deviation θ", "feathering ψ"];
+        let lines = labels.into_iter().zip(found.angles);
+        let lines = lines.map(|(label, values)| Line::new(label, values));
+        let others = found.joint.into_iter();
+        let others = others.map(|(label, values)| Line::new(&label, values));
+        let label = names[k + 1].replace('_', " ");
+        Measure::new(&label, Unit::Degrees, lines.chain(others).collect())
     });
+    let panels = panels.collect();
+    let title = match (feathers, joints) {
+        (false, false) => "prescribed wing angles",
+        (true, false) => "wing angles, with those of passive joints",
+        (_, true) => "prescribed wing angles, and those of joints",
+    };
     Measured {
         name: "angles",
-        title: "prescribed wing angles",
+        title: title.to_owned(),
         shaded: true,
-        panels: panels.collect(),
+        panels,
     }
 }
 
@@ -178,7 +186,7 @@ fn commands(setup: &FlightSetup, history: &History) -> Measured {
     let [offset, plane] = ["stroke_offset_rad", "stroke_plane_rad"].map(lines);
     Measured {
         name: "commands",
-        title: "commands of feedback",
+        title: "commands of feedback".to_owned(),
         shaded: false,
         panels: vec![
             Measure::new("stroke amplitude, relative change", Unit::Given, amplitude),
@@ -214,7 +222,7 @@ fn balances(history: &History) -> Measured {
     let given = |label: &str, lines| Measure::new(label, Unit::Given, lines).logarithmic();
     Measured {
         name: "balances",
-        title: "balances (magnitudes on logarithmic axes)",
+        title: "balances (magnitudes on logarithmic axes)".to_owned(),
         shaded: false,
         panels: vec![
             Measure::new("energy", Unit::Prefixed("J"), energies),
@@ -265,6 +273,43 @@ mod tests {
         let mut all = charts_of(setup, history);
         let at = all.iter().position(|c| c.0 == name).unwrap();
         all.swap_remove(at).1
+    }
+
+    /// A joint about the axis of feathering turns the wing beyond what is prescribed; one about another axis stands
+    /// beside that.
+    #[test]
+    fn exact_the_feathering_is_that_of_the_wing() {
+        for (set, title, values) in [
+            (
+                &[][..],
+                "wing angles, with those of passive joints",
+                vec![0.0, 0.0, 20.0],
+            ),
+            (
+                &["joint.hinge-right.axis=[0,-1,0]"],
+                "wing angles, with those of passive joints",
+                vec![0.0, 0.0, -20.0],
+            ),
+            (
+                &["joint.hinge-right.axis=[1,0,0]"],
+                "prescribed wing angles, and those of joints",
+                vec![0.0, 0.0, 0.0, 20.0],
+            ),
+        ] {
+            let set: Vec<String> = set.iter().map(|s| (*s).to_owned()).collect();
+            let setup = LoadedCase::find("robobee", &set).unwrap().setup;
+            let history = history(&setup, false, 3, |_, r| {
+                r.joints.iter_mut().for_each(|q| q[0] = 20f64.to_radians());
+            });
+            let chart = chart(&setup, &history, "angles");
+            assert!(chart.title.contains(title), "{}", chart.title);
+            let right = chart.panels.iter().find(|p| p.label == "wing right [deg]");
+            let series = &right.unwrap().series;
+            assert_eq!(series.len(), values.len());
+            for (line, wanted) in series.iter().zip(values) {
+                assert!((line.values[1] - wanted).abs() < 1e-12, "{}", line.label);
+            }
+        }
     }
 
     /// Hinges of 1 W and deformation of 2 W, each of two wings.

@@ -12,7 +12,7 @@ pub(super) struct Measured {
     /// Name of its kind.
     pub name: &'static str,
     /// Title without the name of the flight.
-    pub title: &'static str,
+    pub title: String,
     /// Whether downstrokes are shaded.
     pub shaded: bool,
     pub panels: Vec<Measure>,

@@ -33,6 +33,7 @@ mod ticks;
 mod units;
 mod wake;
 mod window;
+mod wing_angles;
 
 use std::path::{Path, PathBuf};
 
