@@ -110,7 +110,7 @@ function drawPlot(p) {
   g.save();
   g.beginPath(); g.rect(PAD.left, 0, w - PAD.left - PAD.right, h); g.clip();
   g.fillStyle = of("--band");
-  for (const [a, b] of chart.shaded) g.fillRect(X(a), PAD.top, X(b) - X(a), h - PAD.top - PAD.bottom);
+  for (const [a, b] of panel.shaded || chart.shaded) g.fillRect(X(a), PAD.top, X(b) - X(a), h - PAD.top - PAD.bottom);
   g.restore();
   g.textBaseline = "middle"; g.textAlign = "right";
   for (const t of ticks(y0, y1, Math.max(4, Math.floor(h / 30)))) {

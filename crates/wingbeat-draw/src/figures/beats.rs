@@ -4,8 +4,8 @@ use wingbeat_flight::FlightSetup;
 
 use super::drawing::{COLOURS, Drawing};
 use super::grid::grid;
-use super::kinds::{downstrokes, stroke};
 use super::plot::{self, Band, Curve, Plot};
+use super::strokes::{downstrokes, stroke};
 use super::style::Look;
 use super::units::{force_unit, prefix, scaled};
 use wingbeat_results::History;

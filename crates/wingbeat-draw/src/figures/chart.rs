@@ -16,7 +16,7 @@ pub struct Series {
 }
 
 /// One pair of axes.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Panel {
     /// Quantity and unit of the vertical axis.
     pub label: String,
@@ -24,6 +24,8 @@ pub struct Panel {
     pub series: Vec<Series>,
     /// Logarithmic vertical axis of magnitudes.
     pub logarithmic: bool,
+    /// Shaded intervals of its own, in place of those of the chart \[unit of the horizontal axis\].
+    pub shaded: Option<Vec<[f64; 2]>>,
 }
 
 /// Panels above each other with one abscissa.
@@ -96,7 +98,7 @@ impl Chart {
             x: self.x_range(),
             y: panel.range(),
             logarithmic: panel.logarithmic,
-            shaded: self.shaded.clone(),
+            shaded: panel.shaded.as_ref().unwrap_or(&self.shaded).clone(),
             curves: curves.collect(),
             bands: vec![],
         }
@@ -130,7 +132,7 @@ impl Panel {
         Self {
             label: label.to_owned(),
             series: series.collect(),
-            logarithmic: false,
+            ..Self::default()
         }
     }
 

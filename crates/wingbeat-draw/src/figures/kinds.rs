@@ -30,23 +30,6 @@ pub(super) fn measured(setup: &FlightSetup, history: &History) -> Vec<Measured> 
     list
 }
 
-/// Name in column names of the wing that stands for all, the last one, and the sign that makes its
-/// stroke angle rise in the downstroke; none for a motion without a period.
-pub(super) fn reference_wing(setup: &FlightSetup) -> Option<(String, f64)> {
-    setup.time.period?;
-    let wing = setup.animal.wings.last()?;
-    let name = body_names(&setup.animal).swap_remove(setup.animal.wings.len());
-    Some((name, wing.side.sign()))
-}
-
-/// Where the stroke angle of the reference wing stands in a row, and the sign by which it rises in
-/// the downstroke.
-pub(crate) fn stroke_column(setup: &FlightSetup, names: &[String]) -> Option<(usize, f64)> {
-    let (wing, sign) = reference_wing(setup)?;
-    let name = format!("{wing}_prescribed_phi_rad");
-    Some((names.iter().position(|n| *n == name)?, sign))
-}
-
 /// Time axis: wingbeats where there are any, else seconds.
 pub(crate) fn time_axis(setup: &FlightSetup, history: &History) -> (String, Vec<f64>) {
     let time = history.column("time_s");
@@ -57,33 +40,6 @@ pub(crate) fn time_axis(setup: &FlightSetup, history: &History) -> (String, Vec<
         ),
         None => ("time [s]".to_owned(), time.to_vec()),
     }
-}
-
-/// Stroke angle of the reference wing, row by row, with the sign by which it rises in the downstroke;
-/// nothing without one \[rad\].
-pub(super) fn stroke(setup: &FlightSetup, history: &History) -> Vec<f64> {
-    reference_wing(setup).map_or(vec![], |(wing, sign)| {
-        scaled(history.column(&format!("{wing}_prescribed_phi_rad")), sign)
-    })
-}
-
-/// Whether the reference wing goes down (or forward: its stroke angle rises) from each row to the
-/// next.
-pub(super) fn goes_down(stroke: &[f64]) -> Vec<bool> {
-    stroke.windows(2).map(|p| p[1] > p[0]).collect()
-}
-
-/// Intervals of the downstroke.
-pub(super) fn downstrokes(stroke: &[f64], x: &[f64]) -> Vec<[f64; 2]> {
-    let mut list: Vec<[f64; 2]> = vec![];
-    for (ends, down) in x.windows(2).zip(goes_down(stroke)) {
-        match list.last_mut() {
-            _ if !down => {}
-            Some(last) if last[1] == ends[0] => last[1] = ends[1],
-            _ => list.push([ends[0], ends[1]]),
-        }
-    }
-    list
 }
 
 fn forces(setup: &FlightSetup, history: &History) -> Measured {
@@ -155,7 +111,7 @@ fn angles(setup: &FlightSetup, history: &History) -> Measured {
         let others = found.joint.into_iter();
         let others = others.map(|(label, values)| Line::new(&label, values));
         let label = names[k + 1].replace('_', " ");
-        Measure::new(&label, Unit::Degrees, lines.chain(others).collect())
+        Measure::new(&label, Unit::Degrees, lines.chain(others).collect()).of_wing(k)
     });
     let panels = panels.collect();
     let title = match (feathers, joints) {
@@ -310,6 +266,46 @@ mod tests {
                 assert!((line.values[1] - wanted).abs() < 1e-12, "{}", line.label);
             }
         }
+    }
+
+    /// Fore wings go down in the first half of the beat, hind wings in the second.
+    #[test]
+    fn exact_each_wing_has_its_own_downstroke() {
+        let setup = LoadedCase::find("dragonfly", &[]).unwrap().setup;
+        let history = history(&setup, false, 41, |k, r| {
+            let phi = -(k as f64 * std::f64::consts::TAU / 40.0).cos();
+            for (angles, wing) in r.wing_angles.iter_mut().zip(&setup.animal.wings) {
+                let pair = if wing.name.contains("fore") {
+                    1.0
+                } else {
+                    -1.0
+                };
+                angles[0] = pair * wing.side.sign() * phi;
+            }
+        });
+        let angles = chart(&setup, &history, "angles");
+        assert!(angles.title.ends_with("(downstroke shaded)"));
+        for panel in &angles.panels {
+            let shaded = panel.shaded.as_ref().unwrap_or(&angles.shaded);
+            let wanted = if panel.label.contains("fore") {
+                [0.0, 0.5]
+            } else {
+                [0.5, 1.0]
+            };
+            assert_eq!(shaded.len(), 1, "{}", panel.label);
+            assert!(
+                (0..2).all(|c| (shaded[0][c] - wanted[c]).abs() < 1e-9),
+                "{shaded:?}"
+            );
+        }
+        let forces = chart(&setup, &history, "forces");
+        assert!(
+            forces
+                .title
+                .ends_with("(downstroke of wing hind right shaded)"),
+            "{}",
+            forces.title
+        );
     }
 
     /// Hinges of 1 W and deformation of 2 W, each of two wings.

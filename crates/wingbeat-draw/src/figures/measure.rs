@@ -4,6 +4,8 @@
 use wingbeat_flight::FlightSetup;
 
 use super::chart::{Chart, Panel, Series};
+use super::shades::Shades;
+use super::strokes::reference_wing;
 use super::units::{force_unit, prefix, scaled};
 
 /// A figure.
@@ -25,6 +27,8 @@ pub(super) struct Measure {
     unit: Unit,
     pub lines: Vec<Line>,
     logarithmic: bool,
+    /// Number of the wing whose downstrokes are shaded; none: those of the chart are.
+    wing: Option<usize>,
 }
 
 /// What the numbers are shown in.
@@ -100,6 +104,15 @@ impl Measure {
             unit,
             lines,
             logarithmic: false,
+            wing: None,
+        }
+    }
+
+    /// The same with the downstrokes of wing number `k` shaded.
+    pub fn of_wing(self, k: usize) -> Self {
+        Self {
+            wing: Some(k),
+            ..self
         }
     }
 
@@ -112,7 +125,7 @@ impl Measure {
     }
 
     /// The panel; none where no line is worth showing.
-    fn panel(&self, setup: &FlightSetup) -> Option<Panel> {
+    fn panel(&self, setup: &FlightSetup, shades: &Shades) -> Option<Panel> {
         let most = self.lines.iter().map(Line::most).fold(0.0, f64::max);
         let kept = |line: &&Line| match line.kept {
             Kept::Always => true,
@@ -139,6 +152,7 @@ impl Measure {
             label,
             series: series.collect(),
             logarithmic: self.logarithmic,
+            shaded: self.wing.and_then(|k| shades.own(k)),
         })
     }
 
@@ -184,20 +198,28 @@ impl Measured {
         &self,
         setup: &FlightSetup,
         (x_label, x): (&str, &[f64]),
-        shaded: &[[f64; 2]],
+        shades: &Shades,
         note: &str,
     ) -> Chart {
-        let shaded = if self.shaded { shaded } else { &[] };
-        let words = match shaded.is_empty() {
-            true => "",
-            false => " (downstroke shaded)",
+        let shaded = match self.shaded {
+            true => shades.of_chart(),
+            false => vec![],
         };
+        let each = self.panels.iter().all(|p| p.wing.is_some());
+        let words = match (shaded.is_empty(), reference_wing(setup)) {
+            (true, _) => String::new(),
+            (_, Some((wing, _))) if shades.differ() && !each => {
+                format!(" (downstroke of {} shaded)", wing.replace('_', " "))
+            }
+            _ => " (downstroke shaded)".to_owned(),
+        };
+        let panels = self.panels.iter();
         Chart {
             title: format!("{}: {}{words}{note}", setup.name, self.title),
             x_label: x_label.to_owned(),
             x: x.to_vec(),
-            shaded: shaded.to_vec(),
-            panels: self.panels.iter().filter_map(|p| p.panel(setup)).collect(),
+            shaded,
+            panels: panels.filter_map(|p| p.panel(setup, shades)).collect(),
         }
     }
 }

@@ -4,8 +4,9 @@ use wingbeat_flight::FlightSetup;
 
 use super::drawing::{COLOURS, Drawing};
 use super::grid::grid;
-use super::kinds::{from_start, reference_wing};
+use super::kinds::from_start;
 use super::plot::{self, Plot};
+use super::strokes::reference_wing;
 use super::style::Look;
 use super::units::{prefix, scaled};
 use super::wing_angles::wing_angles;

@@ -7,14 +7,13 @@ use std::path::Path;
 use wingbeat_flight::FlightSetup;
 
 use super::chart::Chart;
-use super::kinds::{downstrokes, measured, stroke, time_axis};
+use super::kinds::{measured, time_axis};
 use super::measure::Measured;
+use super::shades::Shades;
+use super::strokes::strokes;
 use wingbeat_case::IoError;
 use wingbeat_results::History;
 use wingbeat_results::rows::Rows;
-
-/// More downstrokes than this are not shaded: they could not be told apart.
-const MAX_SHADED: usize = 80;
 
 /// A part of a flight, on its time axis: wingbeats where there are any, else seconds.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -160,9 +159,9 @@ struct Drawn {
     /// Abscissas of the charts.
     x: Vec<f64>,
     figures: Vec<Measured>,
-    /// Abscissa and stroke angle of every row.
+    /// Abscissa of every row, and stroke angles there, wing by wing.
     times: Vec<f64>,
-    stroke: Vec<f64>,
+    strokes: Vec<Vec<f64>>,
 }
 
 impl Drawn {
@@ -170,7 +169,11 @@ impl Drawn {
     fn add(&mut self, setup: &FlightSetup, part: &History, extremes: bool) {
         let (label, times) = time_axis(setup, part);
         self.label = label;
-        self.stroke.extend(stroke(setup, part));
+        let strokes = strokes(setup, part);
+        self.strokes.resize(strokes.len(), vec![]);
+        for (all, next) in self.strokes.iter_mut().zip(strokes) {
+            all.extend(next);
+        }
         match extremes {
             true => self.x.extend([times[0], times[times.len() - 1]]),
             false => self.x.extend(&times),
@@ -185,16 +188,13 @@ impl Drawn {
     }
 
     fn charts(&self, setup: &FlightSetup, group: usize) -> Vec<(&'static str, Chart)> {
-        let mut shaded = downstrokes(&self.stroke, &self.times);
-        if shaded.len() > MAX_SHADED {
-            shaded.clear();
-        }
+        let shades = Shades::new(&self.strokes, &self.times);
         let note = match group {
             1 => String::new(),
             n => format!(", extremes of every {n} steps"),
         };
         let axis = (&self.label[..], &self.x[..]);
-        let chart = |m: &Measured| (m.name, m.chart(setup, axis, &shaded, &note));
+        let chart = |m: &Measured| (m.name, m.chart(setup, axis, &shades, &note));
         self.figures.iter().map(chart).collect()
     }
 }

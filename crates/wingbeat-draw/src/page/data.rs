@@ -99,6 +99,7 @@ fn chart(name: &str, chart: &Chart) -> Value {
         json!({
             "label": p.label,
             "logarithmic": p.logarithmic,
+            "shaded": p.shaded,
             "series": series.collect::<Vec<Value>>(),
         })
     });
