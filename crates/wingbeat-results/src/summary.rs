@@ -111,7 +111,19 @@ fn momentum_residual(setup: &FlightSetup, s: &Statistics) -> f64 {
 /// What a thinned history leaves out.
 fn thinning(case: &LoadedCase) -> Option<String> {
     let every = case.output.history_every;
-    (every > 1).then(|| format!("The history holds every {every}th step and the ends of wingbeats: means of wingbeats, sums and extremes are those of all steps, residuals of balances those of its rows."))
+    (every > 1).then(|| format!("The history holds every {} step and the ends of wingbeats: means of wingbeats, sums and extremes are those of all steps, residuals of balances those of its rows.", ordinal(every)))
+}
+
+/// A number as one counts: 1st, 2nd, 11th.
+pub fn ordinal(number: usize) -> String {
+    let ending = match (number % 10, number % 100) {
+        (_, 11..=13) => "th",
+        (1, _) => "st",
+        (2, _) => "nd",
+        (3, _) => "rd",
+        _ => "th",
+    };
+    format!("{number}{ending}")
 }
 
 fn ratio(x: f64, scale: f64) -> f64 {

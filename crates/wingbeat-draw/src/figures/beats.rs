@@ -14,11 +14,11 @@ use wingbeat_results::summary::{BeatMeans, air_force, down, driving_power, drivi
 /// What is drawn: name of the axis, over time, number and mean of every beat.
 type Quantity = (String, Vec<f64>, Vec<[f64; 2]>);
 
-/// The figure of these whole wingbeats; none without any.
+/// The figure of these whole wingbeats; none without any. `note` says which part of the flight it is.
 pub(super) fn beats(
     setup: &FlightSetup,
     history: &History,
-    beats: &[BeatMeans],
+    (beats, note): (&[BeatMeans], &str),
     look: &Look,
 ) -> Option<Drawing> {
     let period = setup.time.period?;
@@ -33,7 +33,7 @@ pub(super) fn beats(
         .map(|q| over_phase(setup, history, &x, q, look))
         .collect();
     plots.extend(quantities.iter().map(|q| over_beats(q, look)));
-    let title = format!("{}: wingbeat by wingbeat, with means", setup.name);
+    let title = format!("{}: wingbeat by wingbeat, with means{note}", setup.name);
     let (columns, height) = (quantities.len(), 1.15 * look.panel);
     Some(grid(&plots, columns, height, &title, look).0)
 }

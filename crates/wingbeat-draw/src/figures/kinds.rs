@@ -5,6 +5,7 @@ use wingbeat_math::DVec3;
 
 use super::bending::bending;
 use super::measure::{Kept, Line, Measure, Measured, Unit};
+use super::part::Part;
 use super::units::scaled;
 use super::wing_angles::wing_angles;
 use wingbeat_results::History;
@@ -12,13 +13,13 @@ use wingbeat_results::columns::body_names;
 use wingbeat_results::summary::{air_force, down, driving_power, driving_power_name};
 
 /// The figures over time that make sense for a run, row by row in SI units.
-pub(super) fn measured(setup: &FlightSetup, history: &History) -> Vec<Measured> {
+pub(super) fn measured(setup: &FlightSetup, history: &History, part: &Part) -> Vec<Measured> {
     let mut list = vec![];
     if setup.air.is_some() {
         list.push(forces(setup, history));
     }
     let follows = (setup.feedback.as_ref()).is_some_and(|f| f.controller.follows());
-    list.push(trajectory(history, follows));
+    list.push(trajectory(history, follows, part));
     if setup.time.period.is_some() {
         list.push(angles(setup, history));
     }
@@ -61,7 +62,7 @@ fn forces(setup: &FlightSetup, history: &History) -> Measured {
 }
 
 /// Path and attitude; beside them the reference if it `follows` one.
-fn trajectory(history: &History, follows: bool) -> Measured {
+fn trajectory(history: &History, follows: bool, part: &Part) -> Measured {
     let column = |name: &str| history.column(name).to_vec();
     let mut place = vec![
         Line::new("forward n1", column("body_x_m")).since_start(),
@@ -86,7 +87,11 @@ fn trajectory(history: &History, follows: bool) -> Measured {
         title: "path of the body and attitude".to_owned(),
         shaded: true,
         panels: vec![
-            Measure::new("position from the start", Unit::Prefixed("m"), place),
+            Measure::new(
+                &format!("position from {}", part.origin()),
+                Unit::Prefixed("m"),
+                place,
+            ),
             Measure::new("attitude", Unit::Degrees, attitude),
         ],
     }

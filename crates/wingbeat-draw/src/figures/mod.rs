@@ -18,6 +18,7 @@ mod kinds;
 mod lollipop;
 mod measure;
 mod order;
+mod part;
 mod path;
 mod pdf;
 mod phase;
@@ -42,6 +43,7 @@ use std::path::{Path, PathBuf};
 pub use chart::{Chart, Panel, Series};
 use drawing::Drawing;
 pub use order::{Format, Kind, Order};
+pub(crate) use part::Part;
 pub(crate) use strokes::stroke_columns;
 pub use style::Style;
 pub(crate) use window::charts;
@@ -101,7 +103,7 @@ pub fn plot(dir: &ResultDir, order: &Order) -> Result<Vec<PathBuf>, IoError> {
                 stills.push((file, bytes));
             }
             None if order.kinds.is_empty() => {}
-            None => return Err(fault(&file)(kind.needs().to_owned())),
+            None => return Err(fault(&file)(source.lacks(kind))),
         }
     }
     make_folder(&order.folder)?;

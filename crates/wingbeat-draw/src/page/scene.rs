@@ -84,9 +84,10 @@ impl<'a> Scene<'a> {
         let plan = if framed {
             Plan::of_directory(dir.path(), &written, (own, blob.most_rows), room)?
         } else {
-            let rows = Rows::count(&dir.join("history.csv"))?;
-            let stride = rows.div_ceil(MAX_POSES).max(1);
-            let steps: Vec<usize> = (0..rows).step_by(stride).collect();
+            let times = Rows::times(&dir.join("history.csv"))?;
+            let stride = times.len().div_ceil(MAX_POSES).max(1);
+            let step = |t: &f64| (t / case.setup.time.step).round() as usize;
+            let steps: Vec<usize> = times.iter().step_by(stride).map(step).collect();
             Plan::new(&steps, &vec![own; steps.len()], own, room)
         };
         Ok(Self {
