@@ -217,7 +217,11 @@ fn exact_a_window_of_the_flight_is_drawn() {
             &["--from", "1", "--to", "2.5"][..],
             ", 1 to 2.5 wingbeats<",
         ),
-        ("lollipop", &second, "in wingbeat 2<"),
+        (
+            "lollipop",
+            &second,
+            "chord of wing right and force of the air in wingbeat 2<",
+        ),
         ("lollipop", &[], "in the last wingbeat<"),
         ("beats", &second, "with means, 1 to 2 wingbeats<"),
         ("phase", &second, ", 1 to 2 wingbeats<"),

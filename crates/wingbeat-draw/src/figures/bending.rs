@@ -57,8 +57,11 @@ pub(super) fn bending(setup: &FlightSetup, history: &History) -> Option<Measured
     }
     Some(Measured {
         name: "bending",
-        title: "bending of the wing at parts of its length".to_owned(),
+        title: format!(
+            "bending of {} at parts of its length",
+            wing.replace('_', " ")
+        ),
         shaded: true,
-        panels,
+        panels: panels.into_iter().map(|p| p.of_wing(last)).collect(),
     })
 }

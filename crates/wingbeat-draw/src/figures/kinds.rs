@@ -313,6 +313,17 @@ mod tests {
         );
     }
 
+    #[test]
+    fn behaves_bending_names_its_wing() {
+        let setup = LoadedCase::find("hawkmoth-elastic", &[]).unwrap().setup;
+        let history = history(&setup, false, 3, |_, _| {});
+        let title = chart(&setup, &history, "bending").title;
+        assert!(
+            title.contains("bending of wing right at parts of its length"),
+            "{title}"
+        );
+    }
+
     /// Hinges of 1 W and deformation of 2 W, each of two wings.
     #[test]
     fn exact_power_is_named_for_what_it_drives() {

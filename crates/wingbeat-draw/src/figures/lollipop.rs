@@ -10,7 +10,7 @@ use super::font;
 use super::grid::one_scale;
 use super::part::Part;
 use super::plot::{self, Area, Axes, Plot};
-use super::strokes::{goes_down, stroke};
+use super::strokes::{goes_down, reference_wing, stroke};
 use super::style::Look;
 use super::units::prefix;
 use wingbeat_results::History;
@@ -175,7 +175,11 @@ fn draw(setup: &FlightSetup, chords: &[Vec<Chord>; 2], when: &str, look: &Look) 
     let below = [0.5 * look.font, 3.1 * look.font];
     let whole = look.head() + 2.0 * (above + height) + below[0] + below[1];
     let mut drawing = Drawing::new([look.width, whole]);
-    let title = format!("{}: chord and force of the air {when}", setup.name);
+    let wing = reference_wing(setup).map_or(String::new(), |(w, _)| w.replace('_', " "));
+    let title = format!(
+        "{}: chord of {wing} and force of the air {when}",
+        setup.name
+    );
     plot::title(&mut drawing, &title, look);
     let mut top = look.head();
     for (half, name) in ["downstroke →", "← upstroke"].iter().enumerate() {
