@@ -24,6 +24,8 @@ pub struct Panel {
     pub series: Vec<Series>,
     /// Logarithmic vertical axis of magnitudes.
     pub logarithmic: bool,
+    /// The vertical axis shows no less than this: smaller differences are rounding \[unit of the axis\].
+    pub least: f64,
     /// Shaded intervals of its own, in place of those of the chart \[unit of the horizontal axis\].
     pub shaded: Option<Vec<[f64; 2]>>,
 }
@@ -144,11 +146,11 @@ impl Panel {
         }
     }
 
-    fn range(&self) -> [f64; 2] {
+    pub(super) fn range(&self) -> [f64; 2] {
         let values = self.series.iter().flat_map(|s| s.values.iter().copied());
         match self.logarithmic {
             true => plot::decades(values),
-            false => plot::range(values),
+            false => plot::at_least(plot::range(values), self.least),
         }
     }
 }

@@ -1,6 +1,6 @@
 //! Figures over time: angles, forces, trajectory, balances.
 
-use wingbeat_flight::FlightSetup;
+use wingbeat_flight::{FlightSetup, natural_units};
 use wingbeat_math::DVec3;
 
 use super::bending::bending;
@@ -12,14 +12,18 @@ use wingbeat_results::History;
 use wingbeat_results::columns::body_names;
 use wingbeat_results::summary::{air_force, down, driving_power, driving_power_name};
 
+/// Differences of places over the length of a wing that are rounding \[1\].
+const LENGTH_FLOOR: f64 = 1e-9;
+/// Relative changes of strokes that are rounding \[1\].
+const CHANGE_FLOOR: f64 = 1e-7;
+
 /// The figures over time that make sense for a run, row by row in SI units.
 pub(super) fn measured(setup: &FlightSetup, history: &History, part: &Part) -> Vec<Measured> {
     let mut list = vec![];
     if setup.air.is_some() {
         list.push(forces(setup, history));
     }
-    let follows = (setup.feedback.as_ref()).is_some_and(|f| f.controller.follows());
-    list.push(trajectory(history, follows, part));
+    list.push(trajectory(setup, history, part));
     if setup.time.period.is_some() {
         list.push(angles(setup, history));
     }
@@ -61,8 +65,9 @@ fn forces(setup: &FlightSetup, history: &History) -> Measured {
     }
 }
 
-/// Path and attitude; beside them the reference if it `follows` one.
-fn trajectory(history: &History, follows: bool, part: &Part) -> Measured {
+/// Path and attitude; beside them the reference if the flight follows one.
+fn trajectory(setup: &FlightSetup, history: &History, part: &Part) -> Measured {
+    let follows = (setup.feedback.as_ref()).is_some_and(|f| f.controller.follows());
     let column = |name: &str| history.column(name).to_vec();
     let mut place = vec![
         Line::new("forward n1", column("body_x_m")).since_start(),
@@ -91,10 +96,16 @@ fn trajectory(history: &History, follows: bool, part: &Part) -> Measured {
                 &format!("position from {}", part.origin()),
                 Unit::Prefixed("m"),
                 place,
-            ),
+            )
+            .floored(length_floor(setup)),
             Measure::new("attitude", Unit::Degrees, attitude),
         ],
     }
+}
+
+/// Differences of places below this are rounding \[m\].
+pub(super) fn length_floor(setup: &FlightSetup) -> f64 {
+    LENGTH_FLOOR * natural_units(setup).length
 }
 
 /// Differences to the first number.
@@ -150,7 +161,8 @@ fn commands(setup: &FlightSetup, history: &History) -> Measured {
         title: "commands of feedback".to_owned(),
         shaded: false,
         panels: vec![
-            Measure::new("stroke amplitude, relative change", Unit::Given, amplitude),
+            Measure::new("stroke amplitude, relative change", Unit::Given, amplitude)
+                .floored(CHANGE_FLOOR),
             Measure::new("mean stroke angle, forward", Unit::Degrees, offset),
             Measure::new("pitch of the stroke plane", Unit::Degrees, plane),
         ],
@@ -321,6 +333,41 @@ mod tests {
         assert!(
             title.contains("bending of wing right at parts of its length"),
             "{title}"
+        );
+    }
+
+    /// Rounding fills no axis: places that differ by 1e-19 m, angles that differ by 5e-8 deg.
+    #[test]
+    fn exact_axes_do_not_show_rounding() {
+        let setup = LoadedCase::find("fruit-fly-controlled", &[]).unwrap().setup;
+        let history = history(&setup, false, 41, |k, r| {
+            let noise = (k as f64).sin();
+            r.coordinates[0] = 1e-19 * noise;
+            r.coordinates[1] = 1e-9 * noise; // m: a nanometre is no rounding
+            r.commands[0].stroke_plane = 5e-8f64.to_radians() * noise;
+        });
+        let place = &chart(&setup, &history, "trajectory").panels[0];
+        assert_eq!(place.label, "position from the start [nm]");
+        let range = place.range();
+        assert!((1.9..3.0).contains(&(range[1] - range[0])), "{range:?}");
+        let plane = &chart(&setup, &history, "commands").panels[2];
+        let range = plane.range();
+        assert!(plane.label.starts_with("pitch of the stroke plane"));
+        assert!((range[1] - range[0] - 1e-5).abs() < 1e-12, "{range:?}");
+        let still = self::history(&setup, false, 41, |k, r| {
+            r.coordinates[0] = 1e-19 * (k as f64).sin();
+        });
+        let place = &chart(&setup, &still, "trajectory").panels[0];
+        let wing = natural_units(&setup).length;
+        let unit = if place.label.ends_with("[nm]") {
+            1e-9
+        } else {
+            f64::NAN
+        };
+        let range = place.range();
+        assert!(
+            ((range[1] - range[0]) * unit - 1e-9 * wing).abs() < 1e-12 * wing,
+            "{range:?}"
         );
     }
 

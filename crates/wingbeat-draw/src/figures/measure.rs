@@ -27,9 +27,14 @@ pub(super) struct Measure {
     unit: Unit,
     pub lines: Vec<Line>,
     logarithmic: bool,
+    /// Extent below which differences are rounding, SI.
+    floor: f64,
     /// Number of the wing whose downstrokes are shaded; none: those of the chart are.
     wing: Option<usize>,
 }
+
+/// Differences of angles below this are rounding \[deg\].
+const ANGLE_FLOOR: f64 = 1e-5;
 
 /// What the numbers are shown in.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -45,10 +50,12 @@ pub(super) enum Unit {
 }
 
 /// When a line is shown.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Kept {
     Always,
     NotZero,
+    /// With all lines of its panel, if one of them has more than this, SI.
+    Over(f64),
     /// Beside the other lines of its panel: more than 1e-9 of the largest.
     Felt,
 }
@@ -104,8 +111,17 @@ impl Measure {
             unit,
             lines,
             logarithmic: false,
+            floor: match unit {
+                Unit::Degrees => ANGLE_FLOOR.to_radians(),
+                _ => 0.0,
+            },
             wing: None,
         }
+    }
+
+    /// The same with an axis that shows no less than this extent, SI.
+    pub fn floored(self, floor: f64) -> Self {
+        Self { floor, ..self }
     }
 
     /// The same with the downstrokes of wing number `k` shaded.
@@ -130,6 +146,7 @@ impl Measure {
         let kept = |line: &&Line| match line.kept {
             Kept::Always => true,
             Kept::NotZero => line.values.iter().any(|v| *v != 0.0),
+            Kept::Over(least) => most > least,
             Kept::Felt => line.most() > 1e-9 * most,
         };
         let lines = self.lines.iter().filter(kept);
@@ -152,6 +169,7 @@ impl Measure {
             label,
             series: series.collect(),
             logarithmic: self.logarithmic,
+            least: self.floor * factor,
             shaded: self.wing.and_then(|k| shades.own(k)),
         })
     }
@@ -163,7 +181,8 @@ impl Measure {
             Unit::Given => (label.clone(), 1.0),
             Unit::Degrees => (format!("{label} [deg]"), 1f64.to_degrees()),
             Unit::Prefixed(unit) => {
-                let all: Vec<f64> = lines.iter().flat_map(|l| &l.1).copied().collect();
+                let all = lines.iter().flat_map(|l| &l.1).copied();
+                let all: Vec<f64> = all.chain([self.floor]).collect();
                 let (scale, prefix) = prefix(&all);
                 (format!("{label} [{prefix}{unit}]"), 1.0 / scale)
             }

@@ -109,6 +109,7 @@ fn chart(name: &str, chart: &Chart) -> Value {
             "label": p.label,
             "logarithmic": p.logarithmic,
             "shaded": p.shaded,
+            "least": p.least,
             "series": series.collect::<Vec<Value>>(),
         })
     });
