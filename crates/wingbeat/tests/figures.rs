@@ -225,7 +225,7 @@ fn exact_a_window_of_the_flight_is_drawn() {
         ("lollipop", &[], "in the last wingbeat<"),
         ("beats", &second, "with means, 1 to 2 wingbeats<"),
         ("phase", &second, ", 1 to 2 wingbeats<"),
-        ("path", &second, ">after 1 beats<"),
+        ("path", &second, ">after 1 beat<"),
         ("path", &[], ">start<"),
         (
             "trajectory",

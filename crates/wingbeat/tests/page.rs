@@ -386,6 +386,46 @@ fn exact_wakes_have_the_half_strokes_of_their_wings() {
     content(&mut browser);
 }
 
+/// Where the sheets of joined wings meet, the page draws their common circulation: none of symmetric wings.
+#[test]
+fn exact_joined_wings_shed_no_root_vortex() {
+    let scratch = Scratch::new("browser-joined");
+    let Some(mut browser) = started(&scratch, &[]) else {
+        return;
+    };
+    let args = [
+        "run",
+        "bird-cruise",
+        "--quiet",
+        "--out",
+        "run",
+        "--set=time.beats=0.5",
+    ];
+    let mesh = [
+        "--set=wing.right.mesh.spanwise=5",
+        "--set=wing.right.mesh.chordwise=2",
+    ];
+    flown(&scratch.0, &[&args[..], &mesh].concat());
+    browser.open(&scratch.0.join("run/flight.html"), "");
+    let most = browser.value(
+        "(() => { const frame = unpack(LAST), P = frame.wake; let all = 0, root = 0, count = 0;
+          eachFilament(frame, flight.frames[LAST].step, 1e9, (a, b, g) => {
+            all = Math.max(all, Math.abs(g));
+            if (Math.abs(P[a + 1]) < 1e-4 && Math.abs(P[b + 1]) < 1e-4) { root = Math.max(root, Math.abs(g)); count++; }
+          });
+          return [all, root, count]; })()",
+    );
+    let [all, root, count] = [0, 1, 2].map(|k| most[k].as_f64().unwrap());
+    let rows = browser
+        .value("flight.frames[LAST].rows[0]")
+        .as_f64()
+        .unwrap();
+    assert_eq!(count, rows, "one line, drawn once");
+    // 16 bits of each circulation
+    assert!(all > 0.01 && root < 1e-4 * all, "{root} of {all} m2/s");
+    content(&mut browser);
+}
+
 /// A flight without any shape (mass and inertia alone): its ellipsoid is drawn and said to be one.
 #[test]
 fn behaves_a_body_without_shape_is_drawn_as_its_ellipsoid() {

@@ -65,7 +65,9 @@ function unpack(k) {
     return out;
   };
   const frame = { wings: points(wingNodes), pressure: signed(PANELS, f.pressure) };
-  frame.sheets = flight.sheets.map((cols, s) => ({ cols, rows: f.rows[s] || 0, wing: flight.shedding[s] })).filter((s) => s.rows > 0);
+  frame.sheets = flight.sheets.map((cols, s) => ({ cols, rows: f.rows[s] || 0, wing: flight.shedding[s], id: s })).filter((s) => s.rows > 0);
+  let ring = 0;
+  for (const s of frame.sheets) { s.ring = ring; ring += s.rows * s.cols; }
   frame.wake = points(frame.sheets.reduce((n, s) => n + (s.rows + 1) * (s.cols + 1), 0));
   frame.rings = signed(frame.sheets.reduce((n, s) => n + s.rows * s.cols, 0), f.circulation);
   frame.particles = points(f.particles);

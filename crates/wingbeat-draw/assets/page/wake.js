@@ -13,13 +13,22 @@ const CORE = 2.4; // level of the inner surface over that of the outer
 
 // Every filament of a frame that is young enough: ends, difference of the rings' circulations either
 // side, age in rows, step in which it was shed, wing that shed it. The front edge of the newest row is bound: not drawn.
+// Edges along which the sheets of joined wings are one carry their common circulation, once.
 function eachFilament(frame, step, oldest, use) {
+  const joint = (id, c, side) => {
+    const pair = flight.joined.find((p) => p[side][0] === id && p[side][1] === c), other = pair && pair[1 - side];
+    return pair && { sheet: frame.sheets.find((s) => s.id === other[0]), column: other[1] };
+  };
+  const reaches = (one, r) => one && one.sheet && r < one.sheet.rows;
+  const across = ({ sheet: s, column: c }, r) => (c < s.cols ? frame.rings[s.ring + r * s.cols + c] : 0) - (c > 0 ? frame.rings[s.ring + r * s.cols + c - 1] : 0);
   let node = 0, ring = 0;
-  for (const { cols, rows, wing } of frame.sheets) {
+  for (const { cols, rows, wing, id } of frame.sheets) {
+    const first = [], second = []; // what edges of this sheet are one with: as the first of a pair, as the second
+    if (flight.joined.length) for (const c of [0, cols]) { first[c] = joint(id, c, 0); second[c] = joint(id, c, 1); }
     const n = cols + 1, g = (r, c) => (r < 0 || r >= rows || c < 0 || c >= cols ? 0 : frame.rings[ring + r * cols + c]);
     for (let r = 0; r <= Math.min(rows, Math.ceil(oldest)); r++) for (let c = 0; c <= cols; c++) {
       const a = 3 * (node + r * n + c);
-      if (r < rows) use(a, a + 3 * n, g(r, c) - g(r, c - 1), r + 0.5, step - r, wing);
+      if (r < rows && !reaches(second[c], r)) use(a, a + 3 * n, g(r, c) - g(r, c - 1) + (reaches(first[c], r) ? across(first[c], r) : 0), r + 0.5, step - r, wing);
       // The last row that is shown is not the last there is, where older rows are left out.
       if (c < cols && r > 0 && r < rows) use(a, a + 3, g(r - 1, c) - g(r, c), r, step - r, wing);
     }

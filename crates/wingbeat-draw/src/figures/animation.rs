@@ -122,7 +122,8 @@ impl View {
             all.sum::<f64>()
         };
         if let Some(frame) = frame {
-            for (ends, strength) in &Filaments::newest(&frame.wakes, MAX_RINGS).list {
+            let joined = frame.wakes.joined_edges(&case.setup);
+            for (ends, strength) in &Filaments::newest(&frame.wakes, &joined, MAX_RINGS).list {
                 to.line(ends.map(flat).to_vec(), pen(*strength, 0.8));
             }
             Dots::strongest(&frame.particles, MAX_RINGS).draw(&mut to, flat, 1.6);

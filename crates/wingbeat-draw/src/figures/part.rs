@@ -78,7 +78,10 @@ impl Part {
     /// The place it begins at.
     pub fn start(&self) -> String {
         match (self.range, self.beating) {
-            (Some([from, _]), true) if from > 0.0 => format!("after {} beats", short(from)),
+            (Some([from, _]), true) if from > 0.0 => match short(from) {
+                1.0 => "after 1 beat".to_owned(),
+                n => format!("after {n} beats"),
+            },
             (Some([from, _]), false) if from > 0.0 => format!("at {} s", short(from)),
             _ => "start".to_owned(),
         }

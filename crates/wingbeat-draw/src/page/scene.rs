@@ -54,6 +54,8 @@ pub(super) struct Scene<'a> {
     turns: Vec<Vec<usize>>,
     /// Number of the wing that sheds a sheet, by number of the sheet; none of sheets without rings.
     shedding: Vec<Option<usize>>,
+    /// Edges along which sheets are one: number and column of nodes in both.
+    joined: Vec<[(usize, usize); 2]>,
 }
 
 impl<'a> Scene<'a> {
@@ -100,6 +102,7 @@ impl<'a> Scene<'a> {
             shown: vec![],
             turns: vec![],
             shedding: vec![],
+            joined: vec![],
         })
     }
 
@@ -128,6 +131,11 @@ impl<'a> Scene<'a> {
             let most = self.plan.frame_bytes.saturating_sub(ENTRY);
             let packed = self.blob.add(&surfaces, &wakes, &cloud, most);
             self.note(&surfaces, &wakes);
+            for pair in wakes.joined_edges(&case.setup) {
+                if !self.joined.contains(&pair) {
+                    self.joined.push(pair);
+                }
+            }
             let vector =
                 |k: &Option<usize>| k.map_or(DVec3::ZERO, |k| DVec3::from_slice(&row[k..]));
             self.shown.push(Shown {
@@ -244,6 +252,7 @@ impl<'a> Scene<'a> {
         head["weight_newton"] = json!(weight);
         head["turns"] = json!(self.turns);
         head["shedding"] = json!(self.shedding);
+        head["joined"] = json!(self.joined);
         head["most"] = json!({
             "circulation": usual(self.shown.iter().map(|f| f.packed.circulation)),
             "pressure": usual(self.shown.iter().map(|f| f.packed.pressure)),
