@@ -247,7 +247,7 @@ impl Mesh {
 
     /// Edges along which the wake sheets of joined wings are one: of every pair, number and column of nodes in both
     /// sheets. Empty for wings that are not joined.
-    pub fn joined_edges(&self, setup: &FlightSetup) -> Vec<[(usize, usize); 2]> {
+    pub fn joined_edges(&self, setup: &FlightSetup) -> Vec<JoinedEdges> {
         match &setup.air {
             AirModel::VortexLattice(air) if !air.joined.is_empty() => self.coincident_edges(),
             _ => vec![],
@@ -255,7 +255,7 @@ impl Mesh {
     }
 
     /// Side edges of two sheets that lie on one line.
-    fn coincident_edges(&self) -> Vec<[(usize, usize); 2]> {
+    fn coincident_edges(&self) -> Vec<JoinedEdges> {
         let sheets = self.sheets();
         let sides = |s: &Sheet| [(*s, 0), (*s, s.cols)];
         let all: Vec<(Sheet, usize)> = sheets.iter().flat_map(sides).collect();
@@ -287,6 +287,9 @@ impl Mesh {
         right.unwrap_or(&0.0) - left.unwrap_or(&0.0)
     }
 }
+
+/// Two side edges of wake sheets that are one: number of the sheet and column of its nodes.
+pub type JoinedEdges = [(usize, usize); 2];
 
 /// How far nodes that are one may be apart, in parts of their coordinates: rounding \[1\].
 const COINCIDENT: f64 = 1e-9;

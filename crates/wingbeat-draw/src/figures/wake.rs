@@ -11,7 +11,7 @@ use super::style::Look;
 use super::units::prefix;
 use wingbeat_case::IoError;
 use wingbeat_case::LoadedCase;
-use wingbeat_results::frames::{self, Frame, Mesh, Sheet};
+use wingbeat_results::frames::{self, Frame, JoinedEdges, Mesh, Sheet};
 
 /// More rings than this are not drawn: the newest of every sheet are.
 pub(super) const MAX_RINGS: usize = 2500;
@@ -80,7 +80,7 @@ pub(super) struct Filaments {
 impl Filaments {
     /// Of the newest rows of all sheets, about `most` rings in all.
     /// Edges that are one (`joined`, as [`Mesh::joined_edges`] lists them) carry their common circulation.
-    pub fn newest(wakes: &Mesh, joined: &[[(usize, usize); 2]], most: usize) -> Self {
+    pub fn newest(wakes: &Mesh, joined: &[JoinedEdges], most: usize) -> Self {
         let sheets = wakes.sheets();
         let per_row: usize = sheets.iter().map(|s| s.cols).sum();
         let rows = most.div_ceil(per_row.max(1));
@@ -114,7 +114,7 @@ impl Filaments {
 /// wake does not know, nor the one where older rows are left out.
 fn edges(
     wakes: &Mesh,
-    (sheet, sheets, joined): (&Sheet, &[Sheet], &[[(usize, usize); 2]]),
+    (sheet, sheets, joined): (&Sheet, &[Sheet], &[JoinedEdges]),
     rows: usize,
     list: &mut Vec<([[f64; 3]; 2], f64)>,
 ) {

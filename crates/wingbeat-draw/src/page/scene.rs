@@ -14,7 +14,7 @@ use wingbeat_case::IoError;
 use wingbeat_case::LoadedCase;
 use wingbeat_results::ResultDir;
 use wingbeat_results::columns::body_names;
-use wingbeat_results::frames::{self, Frame, Mesh};
+use wingbeat_results::frames::{self, Frame, JoinedEdges, Mesh};
 use wingbeat_results::particles::Cloud;
 use wingbeat_results::poses::{Poses, picture};
 use wingbeat_results::rows::Rows;
@@ -54,8 +54,8 @@ pub(super) struct Scene<'a> {
     turns: Vec<Vec<usize>>,
     /// Number of the wing that sheds a sheet, by number of the sheet; none of sheets without rings.
     shedding: Vec<Option<usize>>,
-    /// Edges along which sheets are one: number and column of nodes in both.
-    joined: Vec<[(usize, usize); 2]>,
+    /// Edges along which sheets are one.
+    joined: Vec<JoinedEdges>,
 }
 
 impl<'a> Scene<'a> {
