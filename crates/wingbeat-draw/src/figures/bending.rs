@@ -4,8 +4,8 @@ use wingbeat_flight::FlightSetup;
 use wingbeat_results::History;
 use wingbeat_results::columns::body_names;
 
-use super::kinds::length_floor;
 use super::measure::{Kept, Line, Measure, Measured, Unit};
+use super::units::length_floor;
 
 /// Names of the sections in columns, and what stands for them in a figure.
 const SECTIONS: [[&str; 2]; 4] = [

@@ -1,19 +1,17 @@
 //! Figures over time: angles, forces, trajectory, balances.
 
-use wingbeat_flight::{FlightSetup, natural_units};
+use wingbeat_flight::FlightSetup;
 use wingbeat_math::DVec3;
 
 use super::bending::bending;
 use super::measure::{Kept, Line, Measure, Measured, Unit};
 use super::part::Part;
-use super::units::scaled;
+use super::units::{length_floor, scaled};
 use super::wing_angles::wing_angles;
 use wingbeat_results::History;
 use wingbeat_results::columns::body_names;
 use wingbeat_results::summary::{air_force, down, driving_power, driving_power_name};
 
-/// Differences of places over the length of a wing that are rounding \[1\].
-const LENGTH_FLOOR: f64 = 1e-9;
 /// Relative changes of strokes that are rounding \[1\].
 const CHANGE_FLOOR: f64 = 1e-7;
 
@@ -101,11 +99,6 @@ fn trajectory(setup: &FlightSetup, history: &History, part: &Part) -> Measured {
             Measure::new("attitude", Unit::Degrees, attitude),
         ],
     }
-}
-
-/// Differences of places below this are rounding \[m\].
-pub(super) fn length_floor(setup: &FlightSetup) -> f64 {
-    LENGTH_FLOOR * natural_units(setup).length
 }
 
 /// Differences to the first number.
@@ -220,7 +213,7 @@ mod tests {
     use super::*;
     use crate::figures::{Chart, charts_of};
     use wingbeat_case::LoadedCase;
-    use wingbeat_flight::Record;
+    use wingbeat_flight::{Record, natural_units};
     use wingbeat_results::columns::Columns;
 
     /// A history of a preset whose records `change` fills, step by step.
