@@ -96,6 +96,6 @@ fn panel(label: &str, differences: &[[f64; 2]], k: usize) -> Panel {
             series("flight", differences.iter().map(|d| d[k]).collect()),
             series("first order", FRACTIONS.iter().map(|f| slope * f).collect()),
         ],
-        logarithmic: false,
+        ..Panel::default()
     }
 }

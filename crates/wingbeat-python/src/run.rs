@@ -27,10 +27,10 @@ pub struct Run {
 
 /// Name, unit, frame, symbol and meaning of a column.
 type About = (String, &'static str, &'static str, &'static str, String);
-/// Label of an axis and its lines: label and values.
-type Panel = (String, Vec<(String, Vec<f64>)>);
-/// Title, label of the abscissa, abscissas, shaded intervals, panels.
-type Picture = (String, String, Vec<f64>, Vec<[f64; 2]>, Vec<Panel>);
+/// Label of an axis, its lines (label and values) and its shaded intervals.
+type Panel = (String, Vec<(String, Vec<f64>)>, Vec<[f64; 2]>);
+/// Title, label of the abscissa, abscissas, panels.
+type Picture = (String, String, Vec<f64>, Vec<Panel>);
 
 impl Run {
     /// Of a flight that has just ended.
@@ -232,12 +232,10 @@ fn picture(chart: Chart) -> Picture {
     let lines = |series: Vec<wingbeat::draw::figures::Series>| {
         series.into_iter().map(|s| (s.label, s.values)).collect()
     };
-    let panels = chart.panels.into_iter().map(|p| (p.label, lines(p.series)));
-    (
-        chart.title,
-        chart.x_label,
-        chart.x,
-        chart.shaded,
-        panels.collect(),
-    )
+    let panels = chart.panels.into_iter().map(|p| {
+        let shaded = p.shaded.unwrap_or_else(|| chart.shaded.clone());
+        (p.label, lines(p.series), shaded)
+    });
+    let panels = panels.collect();
+    (chart.title, chart.x_label, chart.x, panels)
 }

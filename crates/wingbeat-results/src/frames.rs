@@ -8,6 +8,7 @@ use super::arrays::{arrays, groups};
 use super::particles::Cloud;
 use super::vtp::{frame_name, indexed};
 use wingbeat_case::IoError;
+use wingbeat_flight::{AirModel, FlightSetup};
 
 /// One `.vtp` file: points, quadrilaterals and numbers per quadrilateral.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -245,7 +246,55 @@ impl Mesh {
         });
         sheets
     }
+
+    /// Edges along which the wake sheets of joined wings are one: of every pair, number and column of nodes in both
+    /// sheets. Empty for wings that are not joined.
+    pub fn joined_edges(&self, setup: &FlightSetup) -> Vec<JoinedEdges> {
+        match &setup.air {
+            AirModel::VortexLattice(air) if !air.joined.is_empty() => self.coincident_edges(),
+            _ => vec![],
+        }
+    }
+
+    /// Side edges of two sheets that lie on one line.
+    fn coincident_edges(&self) -> Vec<JoinedEdges> {
+        let sheets = self.sheets();
+        let sides = |s: &Sheet| [(*s, 0), (*s, s.cols)];
+        let all: Vec<(Sheet, usize)> = sheets.iter().flat_map(sides).collect();
+        let is_one = |(a, i): (Sheet, usize), (b, j): (Sheet, usize)| {
+            let node =
+                |s: &Sheet, r: usize, c: usize| self.points[s.first_node + r * (s.cols + 1) + c];
+            (0..=a.rows().min(b.rows())).all(|r| {
+                let [p, q] = [node(&a, r, i), node(&b, r, j)];
+                let size = p.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
+                (0..3).all(|c| (p[c] - q[c]).abs() <= COINCIDENT * size)
+            })
+        };
+        let mut list = vec![];
+        for (n, &a) in all.iter().enumerate() {
+            let others = all[n + 1..].iter().filter(|b| b.0.id != a.0.id);
+            let found = others.copied().find(|b| is_one(a, *b));
+            list.extend(found.map(|b| [(a.0.id, a.1), (b.0.id, b.1)]));
+        }
+        list
+    }
+
+    /// Strength of the vortex filament along column `c` of the nodes of a sheet between rows `r` and `r + 1`, towards
+    /// the older one \[m2/s\]: what parts the circulations on both sides.
+    pub fn streamwise(&self, sheet: &Sheet, r: usize, c: usize) -> f64 {
+        let gamma = self.cell("circulation_m2_per_s");
+        let ring = |c: usize| gamma.get(sheet.first_cell + r * sheet.cols + c);
+        let left = if c > 0 { ring(c - 1) } else { None };
+        let right = if c < sheet.cols { ring(c) } else { None };
+        right.unwrap_or(&0.0) - left.unwrap_or(&0.0)
+    }
 }
+
+/// Two side edges of wake sheets that are one: number of the sheet and column of its nodes.
+pub type JoinedEdges = [(usize, usize); 2];
+
+/// How far nodes that are one may be apart, in parts of their coordinates: rounding \[1\].
+const COINCIDENT: f64 = 1e-9;
 
 /// Where a wake sheet stands in its mesh; nodes and rings are in rows, newest first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -111,7 +111,19 @@ fn momentum_residual(setup: &FlightSetup, s: &Statistics) -> f64 {
 /// What a thinned history leaves out.
 fn thinning(case: &LoadedCase) -> Option<String> {
     let every = case.output.history_every;
-    (every > 1).then(|| format!("The history holds every {every}th step and the ends of wingbeats: means of wingbeats, sums and extremes are those of all steps, residuals of balances those of its rows."))
+    (every > 1).then(|| format!("The history holds every {} step and the ends of wingbeats: means of wingbeats, sums and extremes are those of all steps, residuals of balances those of its rows.", ordinal(every)))
+}
+
+/// A number as one counts: 1st, 2nd, 11th.
+pub fn ordinal(number: usize) -> String {
+    let ending = match (number % 10, number % 100) {
+        (_, 11..=13) => "th",
+        (1, _) => "st",
+        (2, _) => "nd",
+        (3, _) => "rd",
+        _ => "th",
+    };
+    format!("{number}{ending}")
 }
 
 fn ratio(x: f64, scale: f64) -> f64 {
@@ -131,8 +143,21 @@ pub fn air_force(history: &super::History, direction: wingbeat_math::DVec3) -> V
     total
 }
 
-/// Total power of hinge actuators and prescribed deformation, row by row \[W\].
-pub fn hinge_power(history: &super::History) -> Vec<f64> {
-    let gives = |n: &str| n.starts_with("hinge_") || n.starts_with("deformation_");
+/// Total power of the actuators of all joints and of prescribed deformation, row by row \[W\].
+pub fn driving_power(history: &super::History) -> Vec<f64> {
+    let gives = |n: &str| {
+        ["hinge_", "loop_", "deformation_"]
+            .iter()
+            .any(|s| n.starts_with(s))
+    };
     history.sum(|n| gives(n) && n.ends_with("_power_watt"))
+}
+
+/// What [`driving_power`] is the power of, in words.
+pub fn driving_power_name(history: &super::History) -> &'static str {
+    let deforms = |n: &String| n.starts_with("deformation_") && n.ends_with("_power_watt");
+    match history.names().iter().any(deforms) {
+        true => "power of hinges and deformation",
+        false => "power of the hinges",
+    }
 }

@@ -206,6 +206,45 @@ fn exact_a_window_of_the_flight_is_drawn() {
         curve(&["angles", "--to", "2", "--beats", "0.5"]),
         beat / 2 + 1
     );
+    let words = |kind: &str, args: &[&str]| {
+        let args = [&[kind], args, &["--out", "words", "--overwrite"]].concat();
+        fs::read_to_string(&plotted(&scratch.0, &args)[0]).unwrap()
+    };
+    let second = ["--from", "1", "--to", "2"];
+    for (kind, args, said) in [
+        (
+            "angles",
+            &["--from", "1", "--to", "2.5"][..],
+            ", 1 to 2.5 wingbeats<",
+        ),
+        (
+            "lollipop",
+            &second,
+            "chord of wing right and force of the air in wingbeat 2<",
+        ),
+        ("lollipop", &[], "in the last wingbeat<"),
+        ("beats", &second, "with means, 1 to 2 wingbeats<"),
+        ("phase", &second, ", 1 to 2 wingbeats<"),
+        ("path", &second, ">after 1 beat<"),
+        ("path", &[], ">start<"),
+        (
+            "trajectory",
+            &second,
+            "position from the start of this part [",
+        ),
+        ("trajectory", &[], "position from the start ["),
+    ] {
+        let svg = words(kind, args);
+        assert!(svg.contains(said), "{kind} {args:?} does not say: {said}");
+    }
+    for kind in ["lollipop", "beats"] {
+        let half = ["plot", "run", kind, "--from", "2", "--to", "2.5"];
+        refused(
+            &scratch.0,
+            &half,
+            "no whole wingbeat from 2 to 2.5 wingbeats",
+        );
+    }
     for (args, reason) in [
         (
             &["--from", "3.5"][..],
@@ -223,4 +262,28 @@ fn exact_a_window_of_the_flight_is_drawn() {
             reason,
         );
     }
+}
+
+/// A history of every ninth step is not drawn as if it were all of them.
+#[test]
+fn behaves_thinned_histories_say_so() {
+    let scratch = Scratch::new("figures-thinned");
+    let args = ["--set=time.beats=1.25", "--set=output.history_every=9"];
+    flown(&scratch.0, &[&CASE[..], &args].concat());
+    let stills = [
+        "angles",
+        "forces",
+        "lollipop",
+        "beats",
+        "trajectory",
+        "path",
+        "phase",
+        "balances",
+    ];
+    for file in plotted(&scratch.0, &[&stills[..], &["--out", "drawn"]].concat()) {
+        let svg = fs::read_to_string(&file).unwrap();
+        assert!(svg.contains(", every 9th step<"), "{}", file.display());
+    }
+    let page = fs::read_to_string(scratch.0.join("run/flight.html")).unwrap();
+    assert!(page.contains("plots with every 9th step, as history.csv"));
 }

@@ -343,6 +343,89 @@ fn behaves_any_description_is_shown() {
     content(&mut browser);
 }
 
+/// Four wings in two phases: each sheet is coloured by the half-strokes of the wing that shed it.
+#[test]
+fn exact_wakes_have_the_half_strokes_of_their_wings() {
+    let scratch = Scratch::new("browser-four");
+    let Some(mut browser) = started(&scratch, &[]) else {
+        return;
+    };
+    let args = ["run", "dragonfly", "--quiet", "--out", "run"];
+    let meshes = ["fore-right", "hind-right"].map(|w| {
+        [("spanwise", 4), ("chordwise", 2)]
+            .map(|(along, n)| format!("--set=wing.{w}.mesh.{along}={n}"))
+    });
+    let meshes: Vec<&str> = meshes.iter().flatten().map(String::as_str).collect();
+    flown(
+        &scratch.0,
+        &[&args[..], &meshes, &["--set=time.beats=0.9"]].concat(),
+    );
+    browser.open(&scratch.0.join("run/flight.html"), "");
+    assert_eq!(browser.value("flight.wings.length"), json!(4));
+    let shedding = browser.value("flight.shedding.map((w) => flight.wings[w].name).sort()");
+    assert_eq!(
+        shedding,
+        json!(["fore-left", "fore-right", "hind-left", "hind-right"])
+    );
+    // In every frame the clock says of each pair what its prescribed stroke angle does.
+    let differ = browser.value(
+        "flight.frames.slice(0, -1).map((f, k) => {
+          const down = Object.fromEntries(flight.wings.map((w) => {
+            const chart = flight.charts.find((c) => c.name === 'angles'), panel = chart.panels.find((p) => p.label === `wing ${w.name.replace('-', ' ')} [deg]`);
+            const phi = panel.series[0].values, sign = w.left ? -1 : 1;
+            return [w.name, sign * (phi[f.step + 1] - phi[f.step]) > 0];
+          }));
+          if (flight.wings.some((w, i) => (downOf(f.step, i) === 1) !== down[w.name])) throw Error(`step ${f.step}`);
+          const word = (d) => (d ? 'downstroke' : 'upstroke'), [fore, hind] = [down['fore-right'], down['hind-right']];
+          const wanted = fore === hind ? word(fore) : `fore ${word(fore)}, hind ${word(hind)}`;
+          if (strokeOf(k) !== wanted && strokeOf(k) !== wanted.split(', ').reverse().join(', ')) throw Error(`${strokeOf(k)}, not ${wanted}`);
+          return fore !== hind;
+        }).filter((d) => d).length",
+    );
+    assert!(differ.as_u64().unwrap() > 0, "{differ} frames");
+    content(&mut browser);
+}
+
+/// Where the sheets of joined wings meet, the page draws their common circulation: none of symmetric wings.
+#[test]
+fn exact_joined_wings_shed_no_root_vortex() {
+    let scratch = Scratch::new("browser-joined");
+    let Some(mut browser) = started(&scratch, &[]) else {
+        return;
+    };
+    let args = [
+        "run",
+        "bird-cruise",
+        "--quiet",
+        "--out",
+        "run",
+        "--set=time.beats=0.5",
+    ];
+    let mesh = [
+        "--set=wing.right.mesh.spanwise=5",
+        "--set=wing.right.mesh.chordwise=2",
+    ];
+    flown(&scratch.0, &[&args[..], &mesh].concat());
+    browser.open(&scratch.0.join("run/flight.html"), "");
+    let most = browser.value(
+        "(() => { const frame = unpack(LAST), P = frame.wake; let all = 0, root = 0, count = 0;
+          eachFilament(frame, flight.frames[LAST].step, 1e9, (a, b, g) => {
+            all = Math.max(all, Math.abs(g));
+            if (Math.abs(P[a + 1]) < 1e-4 && Math.abs(P[b + 1]) < 1e-4) { root = Math.max(root, Math.abs(g)); count++; }
+          });
+          return [all, root, count]; })()",
+    );
+    let [all, root, count] = [0, 1, 2].map(|k| most[k].as_f64().unwrap());
+    let rows = browser
+        .value("flight.frames[LAST].rows[0]")
+        .as_f64()
+        .unwrap();
+    assert_eq!(count, rows, "one line, drawn once");
+    // 16 bits of each circulation
+    assert!(all > 0.01 && root < 1e-4 * all, "{root} of {all} m2/s");
+    content(&mut browser);
+}
+
 /// A flight without any shape (mass and inertia alone): its ellipsoid is drawn and said to be one.
 #[test]
 fn behaves_a_body_without_shape_is_drawn_as_its_ellipsoid() {

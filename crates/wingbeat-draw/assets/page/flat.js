@@ -23,11 +23,11 @@ function drawFlat(k) {
   const at = (p) => { const [x, y, z] = flatSeen([p[0] - c[0], p[1] - c[1], p[2] - c[2]]); return [0.5 * w + flat.scale * x, up * h - flat.scale * y, z]; };
   const css = (colour, alpha) => `rgba(${colour.map((x) => Math.round(255 * Math.min(1, x))).join()},${alpha})`;
   const frame = unpack(k), dye = wakeDye(state.colour), P = frame.wake;
-  if (state.vortices || state.smoke || state.filaments) eachFilament(frame, flight.frames[k].step, state.age * BEAT, (a, b, strength, age, shed) => {
+  if (state.vortices || state.smoke || state.filaments) eachFilament(frame, flight.frames[k].step, state.age * BEAT, (a, b, strength, age, shed, wing) => {
     const s = Math.min(1, Math.abs(strength) / STRENGTH) * youthOf(age);
     if (s < 0.05) return;
     const p = at(P.subarray(a, a + 3)), q = at(P.subarray(b, b + 3));
-    g.strokeStyle = css(dye(shareOf(shed, age, spinOf(strength * (P[b + 1] - P[a + 1]), 1, strength))), 0.5 * s * state.opacity);
+    g.strokeStyle = css(dye(shareOf(shed, age, spinOf(strength * (P[b + 1] - P[a + 1]), 1, strength), wing)), 0.5 * s * state.opacity);
     g.lineWidth = 0.6 + 1.6 * s;
     g.beginPath(); g.moveTo(p[0], p[1]); g.lineTo(q[0], q[1]); g.stroke();
   });

@@ -19,17 +19,23 @@ const bytes = (() => {
   return out.buffer;
 })();
 
-// Whether the wings go down in a step: the flight begins with an upstroke and turns at flight.turns.
+// Whether a wing goes down in a step: the flight begins with an upstroke and turns at flight.turns of the wing. The last
+// wing stands for those that are not named or do not beat.
 const downOf = (() => {
-  const steps = LAST >= 0 ? flight.frames[LAST].step : 0, down = new Uint8Array(steps + 1);
-  let now = 0, next = 0;
-  for (let k = 0; k <= steps; k++) {
-    while (next < flight.turns.length && flight.turns[next] <= k) { now = 1 - now; next++; }
-    down[k] = now;
-  }
-  return (step) => down[Math.max(0, Math.min(steps, step))];
+  const steps = LAST >= 0 ? flight.frames[LAST].step : 0;
+  const downs = flight.turns.map((turns) => {
+    const down = new Uint8Array(steps + 1);
+    let now = 0, next = 0;
+    for (let k = 0; k <= steps; k++) {
+      while (next < turns.length && turns[next] <= k) { now = 1 - now; next++; }
+      down[k] = now;
+    }
+    return down;
+  });
+  const last = downs.length - 1;
+  return (step, wing = last) => (last < 0 ? 0 : downs[flight.turns[wing]?.length ? wing : last][Math.max(0, Math.min(steps, step))]);
 })();
-const hasStrokes = flight.turns.length > 0;
+const hasStrokes = flight.turns.length > 0 && flight.turns[flight.turns.length - 1].length > 0;
 
 const WINGS = (() => {
   let first = 0;
@@ -59,7 +65,9 @@ function unpack(k) {
     return out;
   };
   const frame = { wings: points(wingNodes), pressure: signed(PANELS, f.pressure) };
-  frame.sheets = flight.sheets.map((cols, s) => ({ cols, rows: f.rows[s] || 0 })).filter((s) => s.rows > 0);
+  frame.sheets = flight.sheets.map((cols, s) => ({ cols, rows: f.rows[s] || 0, wing: flight.shedding[s], id: s })).filter((s) => s.rows > 0);
+  let ring = 0;
+  for (const s of frame.sheets) { s.ring = ring; ring += s.rows * s.cols; }
   frame.wake = points(frame.sheets.reduce((n, s) => n + (s.rows + 1) * (s.cols + 1), 0));
   frame.rings = signed(frame.sheets.reduce((n, s) => n + s.rows * s.cols, 0), f.circulation);
   frame.particles = points(f.particles);

@@ -69,6 +69,7 @@ function limits({ chart, panel }) {
   }
   if (!panel.logarithmic) { low = Math.min(0, low); high = Math.max(0, high); }
   if (!(high > low)) { low = Number.isFinite(low) ? low - 1 : -1; high = low + 2; }
+  else if (high - low < panel.least) { const half = 0.5 * panel.least, middle = 0.5 * (low + high); low = middle - half; high = middle + half; }
   if (panel.logarithmic) low = Math.max(low, high - 18);
   const margin = 0.06 * (high - low);
   return [low - margin, high + margin];
@@ -110,7 +111,7 @@ function drawPlot(p) {
   g.save();
   g.beginPath(); g.rect(PAD.left, 0, w - PAD.left - PAD.right, h); g.clip();
   g.fillStyle = of("--band");
-  for (const [a, b] of chart.shaded) g.fillRect(X(a), PAD.top, X(b) - X(a), h - PAD.top - PAD.bottom);
+  for (const [a, b] of panel.shaded || chart.shaded) g.fillRect(X(a), PAD.top, X(b) - X(a), h - PAD.top - PAD.bottom);
   g.restore();
   g.textBaseline = "middle"; g.textAlign = "right";
   for (const t of ticks(y0, y1, Math.max(4, Math.floor(h / 30)))) {
@@ -155,7 +156,7 @@ function curve(g, chart, panel, s, X, Y, y0, now) {
 }
 function plotWords(p, name, unit, at) {
   const make = (tag, text, colour) => { const e = document.createElement(tag); e.textContent = text; if (colour) e.style.color = colour; return e; };
-  p.most ??= Math.max(0, ...p.panel.series.map((s) => s.values.reduce((a, v) => Math.max(a, Math.abs(v || 0)), 0)));
+  p.most ??= Math.max(p.panel.least, ...p.panel.series.map((s) => s.values.reduce((a, v) => Math.max(a, Math.abs(v || 0)), 0)));
   const grain = p.panel.logarithmic || !p.most ? 0 : 10 ** (Math.floor(Math.log10(p.most)) - 3); // finer than the plot shows
   const round = (v) => (v === null || !grain ? v : Math.round(v / grain) * grain);
   const series = p.panel.series.map((s, k) => {

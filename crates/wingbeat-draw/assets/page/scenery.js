@@ -115,5 +115,5 @@ function drawLegend() {
 }
 function drawClock(k) {
   const f = flight.frames[k], clock = byId("clock"), stroke = strokeOf(k);
-  clock.innerHTML = (flight.period ? `<b>${(f.time / flight.period).toFixed(2)}</b> beats · ` : "") + timeWords(f.time) + (stroke ? ` · <span class="${stroke === "downstroke" ? "down" : "up"}">${stroke}</span>` : "");
+  clock.innerHTML = (flight.period ? `<b>${(f.time / flight.period).toFixed(2)}</b> beats · ` : "") + timeWords(f.time) + (stroke ? ` · <span class="${{ downstroke: "down", upstroke: "up" }[stroke] || ""}">${stroke}</span>` : "");
 }

@@ -12,16 +12,25 @@ const PER_AREA = SCALE * SCALE; // m2 to square wing lengths
 const CORE = 2.4; // level of the inner surface over that of the outer
 
 // Every filament of a frame that is young enough: ends, difference of the rings' circulations either
-// side, age in rows, step in which it was shed. The front edge of the newest row is bound: not drawn.
+// side, age in rows, step in which it was shed, wing that shed it. The front edge of the newest row is bound: not drawn.
+// Edges along which the sheets of joined wings are one carry their common circulation, once.
 function eachFilament(frame, step, oldest, use) {
+  const joint = (id, c, side) => {
+    const pair = flight.joined.find((p) => p[side][0] === id && p[side][1] === c), other = pair && pair[1 - side];
+    return pair && { sheet: frame.sheets.find((s) => s.id === other[0]), column: other[1] };
+  };
+  const reaches = (one, r) => one && one.sheet && r < one.sheet.rows;
+  const across = ({ sheet: s, column: c }, r) => (c < s.cols ? frame.rings[s.ring + r * s.cols + c] : 0) - (c > 0 ? frame.rings[s.ring + r * s.cols + c - 1] : 0);
   let node = 0, ring = 0;
-  for (const { cols, rows } of frame.sheets) {
+  for (const { cols, rows, wing, id } of frame.sheets) {
+    const first = [], second = []; // what edges of this sheet are one with: as the first of a pair, as the second
+    if (flight.joined.length) for (const c of [0, cols]) { first[c] = joint(id, c, 0); second[c] = joint(id, c, 1); }
     const n = cols + 1, g = (r, c) => (r < 0 || r >= rows || c < 0 || c >= cols ? 0 : frame.rings[ring + r * cols + c]);
     for (let r = 0; r <= Math.min(rows, Math.ceil(oldest)); r++) for (let c = 0; c <= cols; c++) {
       const a = 3 * (node + r * n + c);
-      if (r < rows) use(a, a + 3 * n, g(r, c) - g(r, c - 1), r + 0.5, step - r);
+      if (r < rows && !reaches(second[c], r)) use(a, a + 3 * n, g(r, c) - g(r, c - 1) + (reaches(first[c], r) ? across(first[c], r) : 0), r + 0.5, step - r, wing);
       // The last row that is shown is not the last there is, where older rows are left out.
-      if (c < cols && r > 0 && r < rows) use(a, a + 3, g(r - 1, c) - g(r, c), r, step - r);
+      if (c < cols && r > 0 && r < rows) use(a, a + 3, g(r - 1, c) - g(r, c), r, step - r, wing);
     }
     node += (rows + 1) * n;
     ring += rows * cols;
@@ -29,8 +38,8 @@ function eachFilament(frame, step, oldest, use) {
 }
 const youthOf = (age) => { const x = 1 - age / (state.age * BEAT); return x <= 0 ? 0 : Math.pow(x, 1.5); };
 // What a filament is coloured by: 1 downstroke, newest, or spin to the left; 0 the opposite.
-function shareOf(step, age, left) {
-  if (state.colour === "stroke") return downOf(step) ? 1 : 0;
+function shareOf(step, age, left, wing) {
+  if (state.colour === "stroke") return downOf(step, wing) ? 1 : 0;
   return state.colour === "age" ? 1 - Math.min(1, age / (state.age * BEAT)) : left;
 }
 
@@ -65,11 +74,11 @@ function drawFilaments(k) {
   };
   filaments?.begin();
   const smoky = state.smoke && !hurried;
-  if (smoky || state.filaments) eachFilament(frame, step, state.age * BEAT, (a, b, g, age, shed) => {
+  if (smoky || state.filaments) eachFilament(frame, step, state.age * BEAT, (a, b, g, age, shed, wing) => {
     const dx = P[b] - P[a], dy = P[b + 1] - P[a + 1], dz = P[b + 2] - P[a + 2], length = Math.hypot(dx, dy, dz);
     const strong = Math.min(1, Math.abs(g) / STRENGTH), s = strong * youthOf(age) * Math.min(1, CLEAR / length);
     if (!(length > 1e-6) || s < 0.01) return;
-    const colour = dye(shareOf(shed, age, spinOf(g * dy, length, g)));
+    const colour = dye(shareOf(shed, age, spinOf(g * dy, length, g), wing));
     if (state.filaments && s > 0.015) filaments.add(P.subarray(a, a + 3), P.subarray(b, b + 3), colour, [Math.min(0.9, 0.6 * s), Math.min(0.9, 0.6 * s)], [0.005 + 0.012 * strong, 0.005 + 0.012 * strong]);
     if (!smoky) return;
     const parts = Math.min(4, Math.max(1, Math.ceil(length / 0.056)));
@@ -94,10 +103,10 @@ const spinOf = (strengthLeft, length, g) => 0.5 + 0.5 * Math.sign(strengthLeft) 
 // Vorticity of a frame as points: filaments cut into pieces shorter than their width.
 function vorticityOf(k, sigma) {
   const frame = unpack(k), step = flight.frames[k].step, P = frame.wake, out = [];
-  eachFilament(frame, step, state.age * BEAT, (a, b, g, age, shed) => {
+  eachFilament(frame, step, state.age * BEAT, (a, b, g, age, shed, wing) => {
     const d = [P[b] - P[a], P[b + 1] - P[a + 1], P[b + 2] - P[a + 2]], length = Math.hypot(...d), youth = youthOf(age);
     if (youth <= 0 || length > LONGEST || length < 1e-6 || Math.abs(g) < 0.06 * STRENGTH) return;
-    const parts = Math.min(10, Math.max(1, Math.ceil(length / (1.2 * sigma)))), share = shareOf(shed, age, spinOf(g * d[1], length, g)), w = g * PER_AREA / parts;
+    const parts = Math.min(10, Math.max(1, Math.ceil(length / (1.2 * sigma)))), share = shareOf(shed, age, spinOf(g * d[1], length, g), wing), w = g * PER_AREA / parts;
     for (let i = 0; i < parts; i++) { const t = (i + 0.5) / parts; out.push(P[a] + t * d[0], P[a + 1] + t * d[1], P[a + 2] + t * d[2], w * d[0], w * d[1], w * d[2], share, youth); }
   });
   const n = frame.particles.length / 3, volume = PER_AREA * SCALE;

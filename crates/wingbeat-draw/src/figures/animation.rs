@@ -40,11 +40,11 @@ pub(super) fn write(source: &Source<'_>, path: &Path, film: bool) -> Result<usiz
     let framed = !written.is_empty();
     let all = match framed {
         true => written,
-        false => (0..Rows::count(&history)?).collect(),
+        false => source.steps.clone(),
     };
     let steps: Vec<usize> = all
         .into_iter()
-        .filter(|k| source.rows.contains(k))
+        .filter(|k| source.steps.binary_search(k).is_ok())
         .collect();
     let most = if film { MAX_FILMED } else { MAX_PICTURES };
     let stride = steps.len().div_ceil(most).max(1);
@@ -122,7 +122,8 @@ impl View {
             all.sum::<f64>()
         };
         if let Some(frame) = frame {
-            for (ends, strength) in &Filaments::newest(&frame.wakes, MAX_RINGS).list {
+            let joined = frame.wakes.joined_edges(&case.setup);
+            for (ends, strength) in &Filaments::newest(&frame.wakes, &joined, MAX_RINGS).list {
                 to.line(ends.map(flat).to_vec(), pen(*strength, 0.8));
             }
             Dots::strongest(&frame.particles, MAX_RINGS).draw(&mut to, flat, 1.6);

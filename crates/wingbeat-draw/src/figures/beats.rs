@@ -4,21 +4,21 @@ use wingbeat_flight::FlightSetup;
 
 use super::drawing::{COLOURS, Drawing};
 use super::grid::grid;
-use super::kinds::{downstrokes, stroke};
 use super::plot::{self, Band, Curve, Plot};
+use super::strokes::{downstrokes, stroke};
 use super::style::Look;
 use super::units::{force_unit, prefix, scaled};
 use wingbeat_results::History;
-use wingbeat_results::summary::{BeatMeans, air_force, down, hinge_power};
+use wingbeat_results::summary::{BeatMeans, air_force, down, driving_power, driving_power_name};
 
 /// What is drawn: name of the axis, over time, number and mean of every beat.
 type Quantity = (String, Vec<f64>, Vec<[f64; 2]>);
 
-/// The figure of these whole wingbeats; none without any.
+/// The figure of these whole wingbeats; none without any. `note` says which part of the flight it is.
 pub(super) fn beats(
     setup: &FlightSetup,
     history: &History,
-    beats: &[BeatMeans],
+    (beats, note): (&[BeatMeans], &str),
     look: &Look,
 ) -> Option<Drawing> {
     let period = setup.time.period?;
@@ -33,7 +33,7 @@ pub(super) fn beats(
         .map(|q| over_phase(setup, history, &x, q, look))
         .collect();
     plots.extend(quantities.iter().map(|q| over_beats(q, look)));
-    let title = format!("{}: wingbeat by wingbeat, with means", setup.name);
+    let title = format!("{}: wingbeat by wingbeat, with means{note}", setup.name);
     let (columns, height) = (quantities.len(), 1.15 * look.panel);
     Some(grid(&plots, columns, height, &title, look).0)
 }
@@ -54,10 +54,10 @@ fn quantities(setup: &FlightSetup, history: &History, beats: &[BeatMeans]) -> Ve
         let means = mean(&|b| b.lift_newton * factor);
         list.push((label, scaled(&up, factor), means));
     }
-    let power = hinge_power(history);
+    let power = driving_power(history);
     let (scale, prefix) = prefix(&power);
     let means = mean(&|b| b.power_watt / scale);
-    let label = format!("power of the hinges [{prefix}W]");
+    let label = format!("{} [{prefix}W]", driving_power_name(history));
     list.push((label, scaled(&power, 1.0 / scale), means));
     list
 }

@@ -5,6 +5,7 @@ use wingbeat_results::History;
 use wingbeat_results::columns::body_names;
 
 use super::measure::{Kept, Line, Measure, Measured, Unit};
+use super::units::length_floor;
 
 /// Names of the sections in columns, and what stands for them in a figure.
 const SECTIONS: [[&str; 2]; 4] = [
@@ -37,28 +38,31 @@ pub(super) fn bending(setup: &FlightSetup, history: &History) -> Option<Measured
     };
     let power = format!("strain_power_{wing}_watt");
     let power = Line::new("power", history.column(&power).to_vec());
-    let camber = named("camber", "dimensionless", "");
-    let mut panels = vec![
+    // Sections of beams stay as they are but for rounding.
+    let camber = named("camber", "dimensionless", "").into_iter();
+    let camber = camber.map(|line| line.kept(Kept::Over(ROUNDING)));
+    let panels = vec![
         Measure::new(
             "deflection",
             Unit::Prefixed("m"),
             named("deflection", "m", "displacement_w3_m"),
-        ),
+        )
+        .floored(length_floor(setup)),
         Measure::new("twist", Unit::Degrees, named("twist", "rad", "twist_rad")),
+        Measure::new("camber over chord", Unit::Given, camber.collect()),
         Measure::new(
             "power into elastic energy",
             Unit::Prefixed("W"),
             vec![power.kept(Kept::Always)],
         ),
     ];
-    // Sections of beams stay as they are but for rounding.
-    if camber.iter().any(|line| line.most() > ROUNDING) {
-        panels.insert(2, Measure::new("camber over chord", Unit::Given, camber));
-    }
     Some(Measured {
         name: "bending",
-        title: "bending of the wing at parts of its length",
+        title: format!(
+            "bending of {} at parts of its length",
+            wing.replace('_', " ")
+        ),
         shaded: true,
-        panels,
+        panels: panels.into_iter().map(|p| p.of_wing(last)).collect(),
     })
 }

@@ -16,7 +16,7 @@ pub struct Series {
 }
 
 /// One pair of axes.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Panel {
     /// Quantity and unit of the vertical axis.
     pub label: String,
@@ -24,6 +24,10 @@ pub struct Panel {
     pub series: Vec<Series>,
     /// Logarithmic vertical axis of magnitudes.
     pub logarithmic: bool,
+    /// The vertical axis shows no less than this: smaller differences are rounding \[unit of the axis\].
+    pub least: f64,
+    /// Shaded intervals of its own, in place of those of the chart \[unit of the horizontal axis\].
+    pub shaded: Option<Vec<[f64; 2]>>,
 }
 
 /// Panels above each other with one abscissa.
@@ -96,7 +100,7 @@ impl Chart {
             x: self.x_range(),
             y: panel.range(),
             logarithmic: panel.logarithmic,
-            shaded: self.shaded.clone(),
+            shaded: panel.shaded.as_ref().unwrap_or(&self.shaded).clone(),
             curves: curves.collect(),
             bands: vec![],
         }
@@ -130,7 +134,7 @@ impl Panel {
         Self {
             label: label.to_owned(),
             series: series.collect(),
-            logarithmic: false,
+            ..Self::default()
         }
     }
 
@@ -142,11 +146,11 @@ impl Panel {
         }
     }
 
-    fn range(&self) -> [f64; 2] {
+    pub(super) fn range(&self) -> [f64; 2] {
         let values = self.series.iter().flat_map(|s| s.values.iter().copied());
         match self.logarithmic {
             true => plot::decades(values),
-            false => plot::range(values),
+            false => plot::at_least(plot::range(values), self.least),
         }
     }
 }

@@ -5,19 +5,23 @@ use wingbeat_math::DVec3;
 
 use super::bending::bending;
 use super::measure::{Kept, Line, Measure, Measured, Unit};
-use super::units::scaled;
+use super::part::Part;
+use super::units::{length_floor, scaled};
+use super::wing_angles::wing_angles;
 use wingbeat_results::History;
 use wingbeat_results::columns::body_names;
-use wingbeat_results::summary::{air_force, down, hinge_power};
+use wingbeat_results::summary::{air_force, down, driving_power, driving_power_name};
+
+/// Relative changes of strokes that are rounding \[1\].
+const CHANGE_FLOOR: f64 = 1e-7;
 
 /// The figures over time that make sense for a run, row by row in SI units.
-pub(super) fn measured(setup: &FlightSetup, history: &History) -> Vec<Measured> {
+pub(super) fn measured(setup: &FlightSetup, history: &History, part: &Part) -> Vec<Measured> {
     let mut list = vec![];
     if setup.air.is_some() {
         list.push(forces(setup, history));
     }
-    let follows = (setup.feedback.as_ref()).is_some_and(|f| f.controller.follows());
-    list.push(trajectory(history, follows));
+    list.push(trajectory(setup, history, part));
     if setup.time.period.is_some() {
         list.push(angles(setup, history));
     }
@@ -27,23 +31,6 @@ pub(super) fn measured(setup: &FlightSetup, history: &History) -> Vec<Measured> 
     list.extend(bending(setup, history));
     list.push(balances(history));
     list
-}
-
-/// Name in column names of the wing that stands for all, the last one, and the sign that makes its
-/// stroke angle rise in the downstroke; none for a motion without a period.
-pub(super) fn reference_wing(setup: &FlightSetup) -> Option<(String, f64)> {
-    setup.time.period?;
-    let wing = setup.animal.wings.last()?;
-    let name = body_names(&setup.animal).swap_remove(setup.animal.wings.len());
-    Some((name, wing.side.sign()))
-}
-
-/// Where the stroke angle of the reference wing stands in a row, and the sign by which it rises in
-/// the downstroke.
-pub(crate) fn stroke_column(setup: &FlightSetup, names: &[String]) -> Option<(usize, f64)> {
-    let (wing, sign) = reference_wing(setup)?;
-    let name = format!("{wing}_prescribed_phi_rad");
-    Some((names.iter().position(|n| *n == name)?, sign))
 }
 
 /// Time axis: wingbeats where there are any, else seconds.
@@ -58,53 +45,27 @@ pub(crate) fn time_axis(setup: &FlightSetup, history: &History) -> (String, Vec<
     }
 }
 
-/// Stroke angle of the reference wing, row by row, with the sign by which it rises in the downstroke;
-/// nothing without one \[rad\].
-pub(super) fn stroke(setup: &FlightSetup, history: &History) -> Vec<f64> {
-    reference_wing(setup).map_or(vec![], |(wing, sign)| {
-        scaled(history.column(&format!("{wing}_prescribed_phi_rad")), sign)
-    })
-}
-
-/// Whether the reference wing goes down (or forward: its stroke angle rises) from each row to the
-/// next.
-pub(super) fn goes_down(stroke: &[f64]) -> Vec<bool> {
-    stroke.windows(2).map(|p| p[1] > p[0]).collect()
-}
-
-/// Intervals of the downstroke.
-pub(super) fn downstrokes(stroke: &[f64], x: &[f64]) -> Vec<[f64; 2]> {
-    let mut list: Vec<[f64; 2]> = vec![];
-    for (ends, down) in x.windows(2).zip(goes_down(stroke)) {
-        match list.last_mut() {
-            _ if !down => {}
-            Some(last) if last[1] == ends[0] => last[1] = ends[1],
-            _ => list.push([ends[0], ends[1]]),
-        }
-    }
-    list
-}
-
 fn forces(setup: &FlightSetup, history: &History) -> Measured {
     let lines = vec![
         Line::new("up", air_force(history, -down(setup))),
         Line::new("forward", air_force(history, DVec3::X)),
         Line::new("right", air_force(history, DVec3::Y)).kept(Kept::Felt),
     ];
-    let power = vec![Line::new("power", hinge_power(history))];
+    let power = vec![Line::new("power", driving_power(history))];
     Measured {
         name: "forces",
-        title: "forces and power",
+        title: "forces and power".to_owned(),
         shaded: true,
         panels: vec![
             Measure::new("force of the air", Unit::Weight, lines),
-            Measure::new("power of the hinges", Unit::Prefixed("W"), power),
+            Measure::new(driving_power_name(history), Unit::Prefixed("W"), power),
         ],
     }
 }
 
-/// Path and attitude; beside them the reference if it `follows` one.
-fn trajectory(history: &History, follows: bool) -> Measured {
+/// Path and attitude; beside them the reference if the flight follows one.
+fn trajectory(setup: &FlightSetup, history: &History, part: &Part) -> Measured {
+    let follows = (setup.feedback.as_ref()).is_some_and(|f| f.controller.follows());
     let column = |name: &str| history.column(name).to_vec();
     let mut place = vec![
         Line::new("forward n1", column("body_x_m")).since_start(),
@@ -126,10 +87,15 @@ fn trajectory(history: &History, follows: bool) -> Measured {
     ];
     Measured {
         name: "trajectory",
-        title: "path of the body and attitude",
+        title: "path of the body and attitude".to_owned(),
         shaded: true,
         panels: vec![
-            Measure::new("position from the start", Unit::Prefixed("m"), place),
+            Measure::new(
+                &format!("position from {}", part.origin()),
+                Unit::Prefixed("m"),
+                place,
+            )
+            .floored(length_floor(setup)),
             Measure::new("attitude", Unit::Degrees, attitude),
         ],
     }
@@ -143,23 +109,30 @@ pub(super) fn from_start(values: &[f64]) -> Vec<f64> {
 
 fn angles(setup: &FlightSetup, history: &History) -> Measured {
     let names = body_names(&setup.animal);
-    let panels = names[1..][..setup.animal.wings.len()].iter().map(|wing| {
-        let angle = |label: &str, k: &str| {
-            let column = format!("{wing}_prescribed_{k}_rad");
-            Line::new(label, history.column(&column).to_vec())
-        };
-        let lines = vec![
-            angle("stroke φ", "phi"),
-            angle("deviation θ", "theta"),
-            angle("feathering ψ", "psi"),
-        ];
-        Measure::new(&wing.replace('_', " "), Unit::Degrees, lines)
+    let (mut feathers, mut joints) = (false, false);
+    let panels = (0..setup.animal.wings.len()).map(|k| {
+        let found = wing_angles(setup, history, k);
+        feathers |= found.feathers;
+        joints |= !found.joint.is_empty();
+        let labels = ["stroke φ", "deviation θ", "feathering ψ"];
+        let lines = labels.into_iter().zip(found.angles);
+        let lines = lines.map(|(label, values)| Line::new(label, values));
+        let others = found.joint.into_iter();
+        let others = others.map(|(label, values)| Line::new(&label, values));
+        let label = names[k + 1].replace('_', " ");
+        Measure::new(&label, Unit::Degrees, lines.chain(others).collect()).of_wing(k)
     });
+    let panels = panels.collect();
+    let title = match (feathers, joints) {
+        (false, false) => "prescribed wing angles",
+        (true, false) => "wing angles, with those of passive joints",
+        (_, true) => "prescribed wing angles, and those of joints",
+    };
     Measured {
         name: "angles",
-        title: "prescribed wing angles",
+        title: title.to_owned(),
         shaded: true,
-        panels: panels.collect(),
+        panels,
     }
 }
 
@@ -178,10 +151,11 @@ fn commands(setup: &FlightSetup, history: &History) -> Measured {
     let [offset, plane] = ["stroke_offset_rad", "stroke_plane_rad"].map(lines);
     Measured {
         name: "commands",
-        title: "commands of feedback",
+        title: "commands of feedback".to_owned(),
         shaded: false,
         panels: vec![
-            Measure::new("stroke amplitude, relative change", Unit::Given, amplitude),
+            Measure::new("stroke amplitude, relative change", Unit::Given, amplitude)
+                .floored(CHANGE_FLOOR),
             Measure::new("mean stroke angle, forward", Unit::Degrees, offset),
             Measure::new("pitch of the stroke plane", Unit::Degrees, plane),
         ],
@@ -214,7 +188,7 @@ fn balances(history: &History) -> Measured {
     let given = |label: &str, lines| Measure::new(label, Unit::Given, lines).logarithmic();
     Measured {
         name: "balances",
-        title: "balances (magnitudes on logarithmic axes)",
+        title: "balances (magnitudes on logarithmic axes)".to_owned(),
         shaded: false,
         panels: vec![
             Measure::new("energy", Unit::Prefixed("J"), energies),
@@ -232,4 +206,183 @@ fn magnitude(history: &History, stem: &str, unit: &str) -> Vec<f64> {
     parts
         .map(|((a, b), c)| DVec3::new(*a, *b, *c).length())
         .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::figures::{Chart, charts_of};
+    use wingbeat_case::LoadedCase;
+    use wingbeat_flight::{Record, natural_units};
+    use wingbeat_results::columns::Columns;
+
+    /// A history of a preset whose records `change` fills, step by step.
+    fn history(
+        setup: &FlightSetup,
+        deforms: bool,
+        steps: usize,
+        change: impl Fn(usize, &mut Record),
+    ) -> History {
+        let columns = Columns::new(setup, deforms).unwrap();
+        let record = |step| {
+            let mut record = columns.blank();
+            record.step = step;
+            record.time = step as f64 * setup.time.step;
+            change(step, &mut record);
+            record
+        };
+        let records: Vec<Record> = (0..steps).map(record).collect();
+        History::of(&columns, &records)
+    }
+
+    fn chart(setup: &FlightSetup, history: &History, name: &str) -> Chart {
+        let mut all = charts_of(setup, history);
+        let at = all.iter().position(|c| c.0 == name).unwrap();
+        all.swap_remove(at).1
+    }
+
+    /// A joint about the axis of feathering turns the wing beyond what is prescribed; one about another axis stands
+    /// beside that.
+    #[test]
+    fn exact_the_feathering_is_that_of_the_wing() {
+        for (set, title, values) in [
+            (
+                &[][..],
+                "wing angles, with those of passive joints",
+                vec![0.0, 0.0, 20.0],
+            ),
+            (
+                &["joint.hinge-right.axis=[0,-1,0]"],
+                "wing angles, with those of passive joints",
+                vec![0.0, 0.0, -20.0],
+            ),
+            (
+                &["joint.hinge-right.axis=[1,0,0]"],
+                "prescribed wing angles, and those of joints",
+                vec![0.0, 0.0, 0.0, 20.0],
+            ),
+        ] {
+            let set: Vec<String> = set.iter().map(|s| (*s).to_owned()).collect();
+            let setup = LoadedCase::find("robobee", &set).unwrap().setup;
+            let history = history(&setup, false, 3, |_, r| {
+                r.joints.iter_mut().for_each(|q| q[0] = 20f64.to_radians());
+            });
+            let chart = chart(&setup, &history, "angles");
+            assert!(chart.title.contains(title), "{}", chart.title);
+            let right = chart.panels.iter().find(|p| p.label == "wing right [deg]");
+            let series = &right.unwrap().series;
+            assert_eq!(series.len(), values.len());
+            for (line, wanted) in series.iter().zip(values) {
+                assert!((line.values[1] - wanted).abs() < 1e-12, "{}", line.label);
+            }
+        }
+    }
+
+    /// Fore wings go down in the first half of the beat, hind wings in the second.
+    #[test]
+    fn exact_each_wing_has_its_own_downstroke() {
+        let setup = LoadedCase::find("dragonfly", &[]).unwrap().setup;
+        let history = history(&setup, false, 41, |k, r| {
+            let phi = -(k as f64 * std::f64::consts::TAU / 40.0).cos();
+            for (angles, wing) in r.wing_angles.iter_mut().zip(&setup.animal.wings) {
+                let pair = if wing.name.contains("fore") {
+                    1.0
+                } else {
+                    -1.0
+                };
+                angles[0] = pair * wing.side.sign() * phi;
+            }
+        });
+        let angles = chart(&setup, &history, "angles");
+        assert!(angles.title.ends_with("(downstroke shaded)"));
+        for panel in &angles.panels {
+            let shaded = panel.shaded.as_ref().unwrap_or(&angles.shaded);
+            let wanted = if panel.label.contains("fore") {
+                [0.0, 0.5]
+            } else {
+                [0.5, 1.0]
+            };
+            assert_eq!(shaded.len(), 1, "{}", panel.label);
+            assert!(
+                (0..2).all(|c| (shaded[0][c] - wanted[c]).abs() < 1e-9),
+                "{shaded:?}"
+            );
+        }
+        let forces = chart(&setup, &history, "forces");
+        assert!(
+            forces
+                .title
+                .ends_with("(downstroke of wing hind right shaded)"),
+            "{}",
+            forces.title
+        );
+    }
+
+    #[test]
+    fn behaves_bending_names_its_wing() {
+        let setup = LoadedCase::find("hawkmoth-elastic", &[]).unwrap().setup;
+        let history = history(&setup, false, 3, |_, _| {});
+        let title = chart(&setup, &history, "bending").title;
+        assert!(
+            title.contains("bending of wing right at parts of its length"),
+            "{title}"
+        );
+    }
+
+    /// Rounding fills no axis: places that differ by 1e-19 m, angles that differ by 5e-8 deg.
+    #[test]
+    fn exact_axes_do_not_show_rounding() {
+        let setup = LoadedCase::find("fruit-fly-controlled", &[]).unwrap().setup;
+        let history = history(&setup, false, 41, |k, r| {
+            let noise = (k as f64).sin();
+            r.coordinates[0] = 1e-19 * noise;
+            r.coordinates[1] = 1e-9 * noise; // m: a nanometre is no rounding
+            r.commands[0].stroke_plane = 5e-8f64.to_radians() * noise;
+        });
+        let place = &chart(&setup, &history, "trajectory").panels[0];
+        assert_eq!(place.label, "position from the start [nm]");
+        let range = place.range();
+        assert!((1.9..3.0).contains(&(range[1] - range[0])), "{range:?}");
+        let plane = &chart(&setup, &history, "commands").panels[2];
+        let range = plane.range();
+        assert!(plane.label.starts_with("pitch of the stroke plane"));
+        assert!((range[1] - range[0] - 1e-5).abs() < 1e-12, "{range:?}");
+        let still = self::history(&setup, false, 41, |k, r| {
+            r.coordinates[0] = 1e-19 * (k as f64).sin();
+        });
+        let place = &chart(&setup, &still, "trajectory").panels[0];
+        let wing = natural_units(&setup).length;
+        let unit = if place.label.ends_with("[nm]") {
+            1e-9
+        } else {
+            f64::NAN
+        };
+        let range = place.range();
+        assert!(
+            ((range[1] - range[0]) * unit - 1e-9 * wing).abs() < 1e-12 * wing,
+            "{range:?}"
+        );
+    }
+
+    /// Hinges of 1 W and deformation of 2 W, each of two wings.
+    #[test]
+    fn exact_power_is_named_for_what_it_drives() {
+        for (preset, deforms, power, name) in [
+            (
+                "bird-cruise",
+                true,
+                6.0,
+                "power of hinges and deformation [W]",
+            ),
+            ("fruit-fly-hover", false, 2.0, "power of the hinges [W]"),
+        ] {
+            let setup = LoadedCase::find(preset, &[]).unwrap().setup;
+            let history = history(&setup, deforms, 3, |_, r| {
+                r.hinges[..2].iter_mut().for_each(|h| h.power = 1.0);
+                r.deformation_power.iter_mut().for_each(|p| *p = 2.0);
+            });
+            let panel = &chart(&setup, &history, "forces").panels[1];
+            assert_eq!((&panel.label[..], panel.series[0].values[2]), (name, power));
+        }
+    }
 }

@@ -8,8 +8,9 @@ use wingbeat_model::Wing;
 use super::drawing::{Anchor, COLOURS, Drawing, INK, Stroke};
 use super::font;
 use super::grid::one_scale;
-use super::kinds::{goes_down, stroke};
+use super::part::Part;
 use super::plot::{self, Area, Axes, Plot};
+use super::strokes::{goes_down, reference_wing, stroke};
 use super::style::Look;
 use super::units::prefix;
 use wingbeat_results::History;
@@ -30,26 +31,33 @@ struct Chord {
     force: [f64; 2],
 }
 
-/// The figure of the last whole beat; none for wings that do not flap.
-pub(super) fn lollipop(setup: &FlightSetup, history: &History, look: &Look) -> Option<Drawing> {
+/// The figure of the last whole beat of this part; none for wings that do not flap.
+pub(super) fn lollipop(
+    setup: &FlightSetup,
+    history: &History,
+    part: &Part,
+    look: &Look,
+) -> Option<Drawing> {
     let poses = Poses::new(&setup.animal, history.names())?;
-    let [down, up] = half_strokes(setup, history)?;
+    let (beat, when) = part.beat()?;
+    let [down, up] = half_strokes(setup, history, beat)?;
     let chords = [down, up].map(|rows| {
         let chord = |k: &usize| chord(setup, history, &poses, *k);
         rows.iter().map(chord).collect::<Vec<Chord>>()
     });
-    Some(draw(setup, &chords, look))
+    let when = when + &part.thinning();
+    Some(draw(setup, &chords, &when, look))
 }
 
-/// Rows of downstroke and upstroke in the last whole beat, thinned.
-fn half_strokes(setup: &FlightSetup, history: &History) -> Option<[Vec<usize>; 2]> {
+/// Rows of downstroke and upstroke between these times \[wingbeats\], thinned.
+fn half_strokes(
+    setup: &FlightSetup,
+    history: &History,
+    [from, to]: [f64; 2],
+) -> Option<[Vec<usize>; 2]> {
     let period = setup.time.period?;
     let time = history.column("time_s");
-    let end = (time.last()? / period + 1e-6).floor();
-    let inside = |k: &usize| {
-        let x = time[*k] / period;
-        end < 1.0 || (x >= end - 1.0 - 1e-6 && x <= end + 1e-6)
-    };
+    let inside = |k: &usize| (from - 1e-6..=to + 1e-6).contains(&(time[*k] / period));
     let down = goes_down(&stroke(setup, history));
     let rows = |wanted: bool| {
         let all = (0..time.len() - 1).filter(inside);
@@ -148,7 +156,7 @@ struct Scales {
     arrow: f64,
 }
 
-fn draw(setup: &FlightSetup, chords: &[Vec<Chord>; 2], look: &Look) -> Drawing {
+fn draw(setup: &FlightSetup, chords: &[Vec<Chord>; 2], when: &str, look: &Look) -> Drawing {
     let scales = scales(chords);
     let all = || chords.iter().flatten();
     let ends = |c: usize| {
@@ -167,8 +175,9 @@ fn draw(setup: &FlightSetup, chords: &[Vec<Chord>; 2], look: &Look) -> Drawing {
     let below = [0.5 * look.font, 3.1 * look.font];
     let whole = look.head() + 2.0 * (above + height) + below[0] + below[1];
     let mut drawing = Drawing::new([look.width, whole]);
+    let wing = reference_wing(setup).map_or(String::new(), |(w, _)| w.replace('_', " "));
     let title = format!(
-        "{}: chord and force of the air in the last wingbeat",
+        "{}: chord of {wing} and force of the air {when}",
         setup.name
     );
     plot::title(&mut drawing, &title, look);

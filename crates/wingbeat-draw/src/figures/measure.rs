@@ -4,6 +4,8 @@
 use wingbeat_flight::FlightSetup;
 
 use super::chart::{Chart, Panel, Series};
+use super::shades::Shades;
+use super::strokes::reference_wing;
 use super::units::{force_unit, prefix, scaled};
 
 /// A figure.
@@ -12,7 +14,7 @@ pub(super) struct Measured {
     /// Name of its kind.
     pub name: &'static str,
     /// Title without the name of the flight.
-    pub title: &'static str,
+    pub title: String,
     /// Whether downstrokes are shaded.
     pub shaded: bool,
     pub panels: Vec<Measure>,
@@ -25,7 +27,14 @@ pub(super) struct Measure {
     unit: Unit,
     pub lines: Vec<Line>,
     logarithmic: bool,
+    /// Extent below which differences are rounding, SI.
+    floor: f64,
+    /// Number of the wing whose downstrokes are shaded; none: those of the chart are.
+    wing: Option<usize>,
 }
+
+/// Differences of angles below this are rounding \[deg\].
+const ANGLE_FLOOR: f64 = 1e-5;
 
 /// What the numbers are shown in.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -41,10 +50,12 @@ pub(super) enum Unit {
 }
 
 /// When a line is shown.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Kept {
     Always,
     NotZero,
+    /// With all lines of its panel, if one of them has more than this, SI.
+    Over(f64),
     /// Beside the other lines of its panel: more than 1e-9 of the largest.
     Felt,
 }
@@ -100,6 +111,24 @@ impl Measure {
             unit,
             lines,
             logarithmic: false,
+            floor: match unit {
+                Unit::Degrees => ANGLE_FLOOR.to_radians(),
+                _ => 0.0,
+            },
+            wing: None,
+        }
+    }
+
+    /// The same with an axis that shows no less than this extent, SI.
+    pub fn floored(self, floor: f64) -> Self {
+        Self { floor, ..self }
+    }
+
+    /// The same with the downstrokes of wing number `k` shaded.
+    pub fn of_wing(self, k: usize) -> Self {
+        Self {
+            wing: Some(k),
+            ..self
         }
     }
 
@@ -112,11 +141,12 @@ impl Measure {
     }
 
     /// The panel; none where no line is worth showing.
-    fn panel(&self, setup: &FlightSetup) -> Option<Panel> {
+    fn panel(&self, setup: &FlightSetup, shades: &Shades) -> Option<Panel> {
         let most = self.lines.iter().map(Line::most).fold(0.0, f64::max);
         let kept = |line: &&Line| match line.kept {
             Kept::Always => true,
             Kept::NotZero => line.values.iter().any(|v| *v != 0.0),
+            Kept::Over(least) => most > least,
             Kept::Felt => line.most() > 1e-9 * most,
         };
         let lines = self.lines.iter().filter(kept);
@@ -139,6 +169,8 @@ impl Measure {
             label,
             series: series.collect(),
             logarithmic: self.logarithmic,
+            least: self.floor * factor,
+            shaded: self.wing.and_then(|k| shades.own(k)),
         })
     }
 
@@ -149,7 +181,8 @@ impl Measure {
             Unit::Given => (label.clone(), 1.0),
             Unit::Degrees => (format!("{label} [deg]"), 1f64.to_degrees()),
             Unit::Prefixed(unit) => {
-                let all: Vec<f64> = lines.iter().flat_map(|l| &l.1).copied().collect();
+                let all = lines.iter().flat_map(|l| &l.1).copied();
+                let all: Vec<f64> = all.chain([self.floor]).collect();
                 let (scale, prefix) = prefix(&all);
                 (format!("{label} [{prefix}{unit}]"), 1.0 / scale)
             }
@@ -184,20 +217,28 @@ impl Measured {
         &self,
         setup: &FlightSetup,
         (x_label, x): (&str, &[f64]),
-        shaded: &[[f64; 2]],
+        shades: &Shades,
         note: &str,
     ) -> Chart {
-        let shaded = if self.shaded { shaded } else { &[] };
-        let words = match shaded.is_empty() {
-            true => "",
-            false => " (downstroke shaded)",
+        let shaded = match self.shaded {
+            true => shades.of_chart(),
+            false => vec![],
         };
+        let each = self.panels.iter().all(|p| p.wing.is_some());
+        let words = match (shaded.is_empty(), reference_wing(setup)) {
+            (true, _) => String::new(),
+            (_, Some((wing, _))) if shades.differ() && !each => {
+                format!(" (downstroke of {} shaded)", wing.replace('_', " "))
+            }
+            _ => " (downstroke shaded)".to_owned(),
+        };
+        let panels = self.panels.iter();
         Chart {
             title: format!("{}: {}{words}{note}", setup.name, self.title),
             x_label: x_label.to_owned(),
             x: x.to_vec(),
-            shaded: shaded.to_vec(),
-            panels: self.panels.iter().filter_map(|p| p.panel(setup)).collect(),
+            shaded,
+            panels: panels.filter_map(|p| p.panel(setup, shades)).collect(),
         }
     }
 }

@@ -18,14 +18,17 @@ mod kinds;
 mod lollipop;
 mod measure;
 mod order;
+mod part;
 mod path;
 mod pdf;
 mod phase;
 mod plot;
 mod raster;
 mod reel;
+mod shades;
 mod source;
 pub mod stabilised;
+mod strokes;
 mod style;
 mod svg;
 pub mod swept;
@@ -33,13 +36,15 @@ mod ticks;
 mod units;
 mod wake;
 mod window;
+mod wing_angles;
 
 use std::path::{Path, PathBuf};
 
 pub use chart::{Chart, Panel, Series};
 use drawing::Drawing;
-pub(crate) use kinds::stroke_column;
 pub use order::{Format, Kind, Order};
+pub(crate) use part::Part;
+pub(crate) use strokes::stroke_columns;
 pub use style::Style;
 pub(crate) use window::charts;
 pub use window::{NamedCharts, Window, charts_of};
@@ -98,7 +103,7 @@ pub fn plot(dir: &ResultDir, order: &Order) -> Result<Vec<PathBuf>, IoError> {
                 stills.push((file, bytes));
             }
             None if order.kinds.is_empty() => {}
-            None => return Err(fault(&file)(kind.needs().to_owned())),
+            None => return Err(fault(&file)(source.lacks(kind))),
         }
     }
     make_folder(&order.folder)?;

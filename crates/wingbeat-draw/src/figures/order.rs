@@ -8,9 +8,9 @@ use super::window::Window;
 /// What a figure shows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
-    /// Prescribed wing angles over time.
+    /// Wing angles over time: prescribed ones, with those of passive joints.
     Angles,
-    /// Force of the air and power of the hinges over time, the downstroke shaded.
+    /// Force of the air and power that drives the wings over time, the downstroke shaded.
     Forces,
     /// Chord of a wing with the force on it through the last wingbeat.
     Lollipop,

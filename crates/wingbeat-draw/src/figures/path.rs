@@ -3,6 +3,7 @@
 use wingbeat_flight::FlightSetup;
 
 use super::drawing::{Anchor, COLOURS, Drawing, INK};
+use super::part::Part;
 use super::plot::{self, Area, Plot};
 use super::style::Look;
 use super::units::prefix;
@@ -56,7 +57,11 @@ const VIEWS: [(&str, [usize; 2], [&str; 2]); 3] = [
 const MAX_DOTS: usize = 60;
 
 /// The figure; none where the body stays.
-pub(super) fn path(setup: &FlightSetup, path: &Path, look: &Look) -> Option<Drawing> {
+pub(super) fn path(
+    setup: &FlightSetup,
+    (path, part): (&Path, &Part),
+    look: &Look,
+) -> Option<Drawing> {
     let ends = ends(path);
     let longest = ends.iter().map(|[a, b]| b - a).fold(0.0, f64::max);
     if longest.is_nan() || longest <= 1e-6 * setup.animal.body_length().max(1e-6) {
@@ -83,8 +88,9 @@ pub(super) fn path(setup: &FlightSetup, path: &Path, look: &Look) -> Option<Draw
         .sum();
     let mut drawing = Drawing::new([look.width, look.head() + high]);
     let title = format!(
-        "{}: path of the body (dots: starts of wingbeats)",
-        setup.name
+        "{}: path of the body (dots: starts of wingbeats){}",
+        setup.name,
+        part.note()
     );
     plot::title(&mut drawing, &title, look);
     let dots = setup.time.period.map_or(vec![], |p| path.beats(p));
@@ -111,7 +117,7 @@ pub(super) fn path(setup: &FlightSetup, path: &Path, look: &Look) -> Option<Draw
             dots.iter()
                 .for_each(|p| drawing.dot(placed.at(flat(p)), 1.3 * look.line, COLOURS[1]));
         }
-        start_mark(&mut drawing, placed.at([0.0, 0.0]), look);
+        start_mark(&mut drawing, placed.at([0.0, 0.0]), &part.start(), look);
         top += height + foot;
     }
     Some(drawing)
@@ -145,10 +151,10 @@ fn view(
 }
 
 /// Marks where the path starts.
-fn start_mark(drawing: &mut Drawing, start: [f64; 2], look: &Look) {
+fn start_mark(drawing: &mut Drawing, start: [f64; 2], name: &str, look: &Look) {
     drawing.dot(start, 1.8 * look.line, INK);
     let at = [start[0] + 0.6 * look.font, start[1] - 0.4 * look.font];
-    drawing.text(at, "start", look.font, Anchor::Start);
+    drawing.text(at, name, look.font, Anchor::Start);
 }
 
 #[cfg(test)]
@@ -171,7 +177,12 @@ mod tests {
                 [2e-4 * a, a.sin(), a.cos()],
             );
         }
-        let drawing = path(&case.setup, &helix, &Style::Paper.look()).unwrap();
+        let drawing = path(
+            &case.setup,
+            (&helix, &Part::whole(&case.setup)),
+            &Style::Paper.look(),
+        )
+        .unwrap();
         let lines = drawing.marks.iter().filter_map(|m| match m {
             Mark::Line { points, .. } if points.len() > 700 => Some(points),
             _ => None,

@@ -4,10 +4,12 @@ use wingbeat_flight::FlightSetup;
 
 use super::drawing::{COLOURS, Drawing};
 use super::grid::grid;
-use super::kinds::{from_start, reference_wing};
+use super::kinds::from_start;
 use super::plot::{self, Plot};
+use super::strokes::reference_wing;
 use super::style::Look;
 use super::units::{prefix, scaled};
+use super::wing_angles::wing_angles;
 use wingbeat_results::History;
 
 /// Two quantities over time, with their names.
@@ -138,14 +140,20 @@ fn wing(setup: &FlightSetup, history: &History) -> Vec<Plane> {
     let Some((wing, _)) = reference_wing(setup) else {
         return vec![];
     };
-    let degrees = |k: &str| {
-        let column = format!("{wing}_prescribed_{k}_rad");
-        scaled(history.column(&column), 1f64.to_degrees())
+    let found = wing_angles(setup, history, setup.animal.wings.len() - 1);
+    let prescribed = if found.joint.is_empty() {
+        ""
+    } else {
+        "prescribed "
     };
-    let [phi, psi] = ["phi", "psi"].map(degrees);
+    let feathering = format!("{prescribed}feathering ψ");
+    let [phi, _, psi] = found.angles;
     let name = wing.replace('_', " ");
-    vec![Plane {
-        x: (format!("{name}: stroke φ [deg]"), phi),
-        y: ("feathering ψ [deg]".to_owned(), psi),
-    }]
+    let degrees = |values: &[f64]| scaled(values, 1f64.to_degrees());
+    let plane = |(label, values): (String, Vec<f64>)| Plane {
+        x: (format!("{name}: stroke φ [deg]"), degrees(&phi)),
+        y: (format!("{label} [deg]"), degrees(&values)),
+    };
+    let all = std::iter::once((feathering, psi)).chain(found.joint);
+    all.map(plane).collect()
 }

@@ -278,6 +278,12 @@ pub(super) fn range(values: impl Iterator<Item = f64>) -> [f64; 2] {
     [lo - margin, hi + margin]
 }
 
+/// A range widened about its middle to this extent, if it is smaller.
+pub(super) fn at_least([lo, hi]: [f64; 2], extent: f64) -> [f64; 2] {
+    let missing = 0.5 * (extent - (hi - lo)).max(0.0);
+    [lo - missing, hi + missing]
+}
+
 /// Exponents of the decades that hold all magnitudes, at most eighteen of them.
 pub(super) fn decades(values: impl Iterator<Item = f64>) -> [f64; 2] {
     let sizes = values.map(f64::abs).filter(|y| y.is_finite() && *y > 0.0);

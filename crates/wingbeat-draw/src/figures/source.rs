@@ -6,6 +6,7 @@ use std::path::Path;
 use super::chart::Chart;
 use super::drawing::Drawing;
 use super::order::Kind;
+use super::part::Part;
 use super::style::Style;
 use super::window::{Window, charts};
 use super::{beats, lollipop, path, phase, wake};
@@ -25,7 +26,10 @@ pub(super) struct Source<'a> {
     pub dir: &'a Path,
     pub case: &'a LoadedCase,
     /// Rows of the history that are drawn.
-    pub rows: Range<usize>,
+    rows: Range<usize>,
+    /// Steps of these rows.
+    pub steps: Vec<usize>,
+    part: Part,
     /// The last of these rows, at most [`MAX_ROWS`].
     history: History,
     charts: Vec<(&'static str, Chart)>,
@@ -43,11 +47,17 @@ impl<'a> Source<'a> {
         (window, step): (Window, Option<usize>),
     ) -> Result<Self, IoError> {
         let path = dir.join("history.csv");
-        let rows = window.rows(&case.setup, &path)?;
+        let times = Rows::times(&path)?;
+        let rows = window.rows(&case.setup, &path, &times)?;
+        let part = Part::of(&case.setup, case.output.history_every, &times, &rows);
         let last = rows.end.saturating_sub(MAX_ROWS).max(rows.start)..rows.end;
         let history = History::of_rows(&path, last)?;
-        let (charts, _) = charts(&case.setup, &path, rows.clone(), MAX_POINTS)?;
-        let whole = Window::beats(&case.setup, &path, &rows)?;
+        let drawn = (part.clone(), MAX_POINTS);
+        let (charts, _) = charts(&case.setup, &path, rows.clone(), drawn)?;
+        let whole = Window::beats(&case.setup, &times, &rows);
+        let steps = times[rows.clone()].iter();
+        let steps = steps.map(|t| (t / case.setup.time.step).round() as usize);
+        let steps: Vec<usize> = steps.collect();
         let inside = |b: &&BeatMeans| whole.contains(&b.beat);
         Ok(Self {
             dir,
@@ -55,7 +65,9 @@ impl<'a> Source<'a> {
             history,
             charts,
             beats: summary.beats.iter().filter(inside).cloned().collect(),
-            step: step.or_else(|| rows.end.checked_sub(1)),
+            step: step.or_else(|| steps.last().copied()),
+            steps,
+            part,
             rows,
         })
     }
@@ -84,9 +96,18 @@ impl<'a> Source<'a> {
     /// What phase planes show, where it is not everything.
     fn note(&self) -> String {
         match self.rows.len() - self.history.rows() {
-            0 => String::new(),
-            _ => format!(", last {} steps", self.history.rows()),
+            0 => self.part.note(),
+            _ => format!("{}, last {} rows", self.part.note(), self.history.rows()),
         }
+    }
+
+    /// Why there is no drawing of a kind.
+    pub fn lacks(&self, kind: Kind) -> String {
+        let beat = match kind {
+            Kind::Lollipop | Kind::Beats => self.part.lacks_beat(),
+            _ => None,
+        };
+        beat.unwrap_or_else(|| kind.needs().to_owned())
     }
 
     /// The drawing of a kind; none where the run has no such thing.
@@ -100,9 +121,14 @@ impl<'a> Source<'a> {
             found.map(|c| c.1.drawing(&look))
         };
         Ok(match kind {
-            Kind::Lollipop => lollipop::lollipop(setup, &self.history, &look),
-            Kind::Beats => beats::beats(setup, &self.history, &self.beats, &look),
-            Kind::Path => path::path(setup, &self.path()?, &look),
+            Kind::Lollipop => lollipop::lollipop(setup, &self.history, &self.part, &look),
+            Kind::Beats => beats::beats(
+                setup,
+                &self.history,
+                (&self.beats, &self.part.note()),
+                &look,
+            ),
+            Kind::Path => path::path(setup, (&self.path()?, &self.part), &look),
             Kind::Phase => phase::phase(setup, &self.history, &self.note(), &look),
             Kind::Wake => wake::wake(self.dir, self.case, self.step, &look)?,
             Kind::Animation => None,

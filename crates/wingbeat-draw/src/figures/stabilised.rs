@@ -40,7 +40,7 @@ fn panels(length: f64, rows: &[BeatRow]) -> Vec<Panel> {
     let panel = |label: &str, series: Vec<Series>| Panel {
         label: label.into(),
         series,
-        logarithmic: false,
+        ..Panel::default()
     };
     vec![
         panel(

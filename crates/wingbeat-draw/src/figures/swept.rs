@@ -27,7 +27,7 @@ pub fn swept(name: &str, rows: &[SpeedRow]) -> String {
     let panel = |label: &str, series: Vec<Series>| Panel {
         label: label.into(),
         series,
-        logarithmic: false,
+        ..Panel::default()
     };
     let chart = Chart {
         title: format!("{name}: trimmed flight against speed"),

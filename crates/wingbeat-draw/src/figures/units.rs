@@ -1,6 +1,9 @@
 //! Numbers in units that suit them.
 
-use wingbeat_flight::FlightSetup;
+use wingbeat_flight::{FlightSetup, natural_units};
+
+/// Differences of places over the length of a wing that are rounding \[1\].
+const LENGTH_FLOOR: f64 = 1e-9;
 
 pub(super) fn scaled(values: &[f64], factor: f64) -> Vec<f64> {
     values.iter().map(|v| v * factor).collect()
@@ -24,4 +27,9 @@ pub(super) fn force_unit(setup: &FlightSetup, values: &[f64]) -> (String, f64) {
     }
     let (scale, prefix) = prefix(values);
     (format!("{prefix}N"), 1.0 / scale)
+}
+
+/// Differences of places below this are rounding \[m\].
+pub(super) fn length_floor(setup: &FlightSetup) -> f64 {
+    LENGTH_FLOOR * natural_units(setup).length
 }

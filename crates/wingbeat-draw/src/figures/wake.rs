@@ -11,7 +11,7 @@ use super::style::Look;
 use super::units::prefix;
 use wingbeat_case::IoError;
 use wingbeat_case::LoadedCase;
-use wingbeat_results::frames::{self, Frame, Mesh, Sheet};
+use wingbeat_results::frames::{self, Frame, JoinedEdges, Mesh, Sheet};
 
 /// More rings than this are not drawn: the newest of every sheet are.
 pub(super) const MAX_RINGS: usize = 2500;
@@ -42,7 +42,11 @@ pub(super) fn wake(
         Some(period) => format!("after {:.2} wingbeats", time / period),
         None => format!("after {:.4} s", time),
     };
-    let filaments = Filaments::newest(&frame.wakes, MAX_RINGS);
+    let filaments = Filaments::newest(
+        &frame.wakes,
+        &frame.wakes.joined_edges(&case.setup),
+        MAX_RINGS,
+    );
     let dots = Dots::strongest(&frame.particles, MAX_DOTS);
     let note = match filaments.left_out {
         0 => String::new(),
@@ -75,7 +79,8 @@ pub(super) struct Filaments {
 
 impl Filaments {
     /// Of the newest rows of all sheets, about `most` rings in all.
-    pub fn newest(wakes: &Mesh, most: usize) -> Self {
+    /// Edges that are one (`joined`, as [`Mesh::joined_edges`] lists them) carry their common circulation.
+    pub fn newest(wakes: &Mesh, joined: &[JoinedEdges], most: usize) -> Self {
         let sheets = wakes.sheets();
         let per_row: usize = sheets.iter().map(|s| s.cols).sum();
         let rows = most.div_ceil(per_row.max(1));
@@ -83,7 +88,12 @@ impl Filaments {
         let mut kept = 0;
         for sheet in &sheets {
             kept += rows.min(sheet.rows()) * sheet.cols;
-            edges(wakes, sheet, rows.min(sheet.rows()), &mut list);
+            edges(
+                wakes,
+                (sheet, &sheets, joined),
+                rows.min(sheet.rows()),
+                &mut list,
+            );
         }
         list.sort_by(|a, b| a.1.total_cmp(&b.1));
         let usual = list.get(list.len() * 19 / 20).map_or(0.0, |f| f.1);
@@ -102,7 +112,18 @@ impl Filaments {
 
 /// The edges between the rings of a sheet; not the one it leaves the wing by, whose bound ring the
 /// wake does not know, nor the one where older rows are left out.
-fn edges(wakes: &Mesh, sheet: &Sheet, rows: usize, list: &mut Vec<([[f64; 3]; 2], f64)>) {
+fn edges(
+    wakes: &Mesh,
+    (sheet, sheets, joined): (&Sheet, &[Sheet], &[JoinedEdges]),
+    rows: usize,
+    list: &mut Vec<([[f64; 3]; 2], f64)>,
+) {
+    // The other edge at side `from` of a pair whose side `1 - from` is this one, if it reaches to row `i`.
+    let other = |from: usize, i: usize, j: usize| {
+        let pair = joined.iter().find(|p| p[1 - from] == (sheet.id, j))?;
+        let found = sheets.iter().find(|s| s.id == pair[from].0);
+        found.filter(|s| i < s.rows()).map(|s| (s, pair[from].1))
+    };
     let gamma = wakes.cell("circulation_m2_per_s");
     let ring = |i: usize, j: usize| {
         let value = gamma.get(sheet.first_cell + i * sheet.cols + j);
@@ -123,9 +144,12 @@ fn edges(wakes: &Mesh, sheet: &Sheet, rows: usize, list: &mut Vec<([[f64; 3]; 2]
             }
         }
         for j in 0..=sheet.cols {
-            let left = if j > 0 { ring(i, j - 1) } else { 0.0 };
-            let right = if j < sheet.cols { ring(i, j) } else { 0.0 };
-            list.push(([node(i, j), node(i + 1, j)], (left - right).abs()));
+            if other(0, i, j).is_some() {
+                continue; // drawn with the first of the pair
+            }
+            let more = other(1, i, j).map_or(0.0, |(s, c)| wakes.streamwise(s, i, c));
+            let strength = wakes.streamwise(sheet, i, j) + more;
+            list.push(([node(i, j), node(i + 1, j)], strength.abs()));
         }
     }
 }
@@ -275,6 +299,7 @@ fn short(value: f64) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use wingbeat_flight::FlightSetup;
 
     /// Two rows of two rings, 3 and 3 in the newer row, 3 and 1 in the older.
     #[test]
@@ -297,7 +322,7 @@ mod tests {
             let found = filaments.list.iter().find(|f| f.0 == ends);
             found.map_or(0.0, |f| f.1 * filaments.usual)
         };
-        let all = Filaments::newest(&mesh, 100);
+        let all = Filaments::newest(&mesh, &[], 100);
         assert_eq!((all.left_out, all.usual), (0, 3.0));
         for (a, b, wanted) in [
             ([0.0, 0.0], [1.0, 0.0], 3.0),
@@ -311,8 +336,42 @@ mod tests {
         ] {
             assert!((strength(&all, a, b) - wanted).abs() < 1e-12, "{a:?} {b:?}");
         }
-        let newest = Filaments::newest(&mesh, 2);
+        let newest = Filaments::newest(&mesh, &[], 2);
         assert_eq!(newest.left_out, 2);
         assert_eq!(strength(&newest, [1.0, 1.0], [1.0, 2.0]), 0.0);
+    }
+
+    /// Two sheets of two rings whose roots are one line: of joined wings, its circulation is the sum of both.
+    #[test]
+    fn exact_joined_sheets_have_one_root() {
+        let setup = |name: &str| LoadedCase::find(name, &[]).unwrap().setup;
+        let node = |k: usize| {
+            let side = if k < 6 { 1.0 } else { -1.0 };
+            [(k % 6 / 2) as f64, side * (k % 2) as f64, 0.0]
+        };
+        let quad = |n: usize| {
+            let first = (n / 2) * 6 + (n % 2) * 2;
+            [first, first + 2, first + 3, first + 1]
+        };
+        let mut mesh = Mesh {
+            points: (0..12).map(node).collect(),
+            quads: (0..4).map(quad).collect(),
+            ..Mesh::default()
+        };
+        let gamma = vec![3.0, 2.0, -3.0, -1.5];
+        mesh.cells.insert("circulation_m2_per_s".to_owned(), gamma);
+        mesh.cells
+            .insert("sheet".to_owned(), vec![0.0, 0.0, 1.0, 1.0]);
+        let roots = |setup: &FlightSetup| {
+            let all = Filaments::newest(&mesh, &mesh.joined_edges(setup), 100);
+            let at_root = |f: &&([[f64; 3]; 2], f64)| f.0.iter().all(|p| p[1] == 0.0);
+            let along = |f: &&([[f64; 3]; 2], f64)| f.0[0][0] != f.0[1][0];
+            let found = all.list.iter().filter(at_root).filter(along);
+            let mut found: Vec<f64> = found.map(|f| f.1 * all.usual).collect();
+            found.sort_by(f64::total_cmp);
+            found
+        };
+        assert_eq!(roots(&setup("bird-cruise")), [0.5]);
+        assert_eq!(roots(&setup("fruit-fly-hover")), [1.5, 2.0, 3.0, 3.0]);
     }
 }

@@ -7,14 +7,14 @@ use std::path::Path;
 use wingbeat_flight::FlightSetup;
 
 use super::chart::Chart;
-use super::kinds::{downstrokes, measured, stroke, time_axis};
+use super::kinds::{measured, time_axis};
 use super::measure::Measured;
+use super::part::Part;
+use super::shades::Shades;
+use super::strokes::strokes;
 use wingbeat_case::IoError;
 use wingbeat_results::History;
 use wingbeat_results::rows::Rows;
-
-/// More downstrokes than this are not shaded: they could not be told apart.
-const MAX_SHADED: usize = 80;
 
 /// A part of a flight, on its time axis: wingbeats where there are any, else seconds.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -28,14 +28,17 @@ pub struct Window {
 }
 
 impl Window {
-    /// The rows of a history that lie in it.
+    /// The rows of the history at `path`, with these times \[s\], that lie in it.
     ///
     /// # Errors
-    /// A history that cannot be read; a window without two rows; wingbeats of a flight that has
-    /// none.
-    pub(crate) fn rows(self, setup: &FlightSetup, path: &Path) -> Result<Range<usize>, IoError> {
+    /// A window without two rows; wingbeats of a flight that has none.
+    pub(crate) fn rows(
+        self,
+        setup: &FlightSetup,
+        path: &Path,
+        times: &[f64],
+    ) -> Result<Range<usize>, IoError> {
         let unit = setup.time.period.unwrap_or(1.0);
-        let times = Rows::times(path)?;
         let all = 0..times.len();
         if self == Self::default() {
             return Ok(all);
@@ -64,21 +67,13 @@ impl Window {
         Ok(first..first + count)
     }
 
-    /// Numbers, from 1, of the whole wingbeats in these rows.
-    ///
-    /// # Errors
-    /// A history that cannot be read.
-    pub(crate) fn beats(
-        setup: &FlightSetup,
-        path: &Path,
-        rows: &Range<usize>,
-    ) -> Result<Range<usize>, IoError> {
-        let times = Rows::times(path)?;
+    /// Numbers, from 1, of the whole wingbeats in these rows of a history with these times \[s\].
+    pub(crate) fn beats(setup: &FlightSetup, times: &[f64], rows: &Range<usize>) -> Range<usize> {
         let (Some(period), false) = (setup.time.period, rows.is_empty()) else {
-            return Ok(0..0);
+            return 0..0;
         };
         let [first, last] = [times[rows.start], times[rows.end - 1]].map(|t| t / period);
-        Ok((first - 1e-6).ceil() as usize + 1..(last + 1e-6).floor() as usize + 1)
+        (first - 1e-6).ceil() as usize + 1..(last + 1e-6).floor() as usize + 1
     }
 
     /// Start and end on the time axis of a flight that lasts until `end`.
@@ -125,7 +120,7 @@ pub(crate) fn charts(
     setup: &FlightSetup,
     path: &Path,
     rows: Range<usize>,
-    most: usize,
+    (part, most): (Part, usize),
 ) -> Result<(NamedCharts, usize), IoError> {
     let group = match rows.len() <= most {
         true => 1,
@@ -134,13 +129,13 @@ pub(crate) fn charts(
     let piece = if group == 1 { rows.len() } else { group };
     let mut source = Rows::open(path)?;
     source.skip(rows.start)?;
-    let mut drawn = Drawn::default();
+    let mut drawn = Drawn::of(part);
     let mut left = rows.len();
     while left > 0 {
-        let part = History::next(&mut source, piece.min(left))?;
-        left = left.saturating_sub(part.rows().max(1));
-        if part.rows() > 0 {
-            drawn.add(setup, &part, group > 1);
+        let next = History::next(&mut source, piece.min(left))?;
+        left = left.saturating_sub(next.rows().max(1));
+        if next.rows() > 0 {
+            drawn.add(setup, &next, group > 1);
         }
     }
     Ok((drawn.charts(setup, group), group))
@@ -148,35 +143,50 @@ pub(crate) fn charts(
 
 /// The figures over time of a history in memory, every row of it: name and chart.
 pub fn charts_of(setup: &FlightSetup, history: &History) -> NamedCharts {
-    let mut drawn = Drawn::default();
+    let mut drawn = Drawn::of(Part::whole(setup));
     drawn.add(setup, history, false);
     drawn.charts(setup, 1)
 }
 
 /// What has been read of a history for its charts.
-#[derive(Default)]
 struct Drawn {
+    part: Part,
     label: String,
     /// Abscissas of the charts.
     x: Vec<f64>,
     figures: Vec<Measured>,
-    /// Abscissa and stroke angle of every row.
+    /// Abscissa of every row, and stroke angles there, wing by wing.
     times: Vec<f64>,
-    stroke: Vec<f64>,
+    strokes: Vec<Vec<f64>>,
 }
 
 impl Drawn {
+    fn of(part: Part) -> Self {
+        Self {
+            part,
+            label: String::new(),
+            x: vec![],
+            figures: vec![],
+            times: vec![],
+            strokes: vec![],
+        }
+    }
+
     /// Adds rows, each or their extremes.
-    fn add(&mut self, setup: &FlightSetup, part: &History, extremes: bool) {
-        let (label, times) = time_axis(setup, part);
+    fn add(&mut self, setup: &FlightSetup, rows: &History, extremes: bool) {
+        let (label, times) = time_axis(setup, rows);
         self.label = label;
-        self.stroke.extend(stroke(setup, part));
+        let strokes = strokes(setup, rows);
+        self.strokes.resize(strokes.len(), vec![]);
+        for (all, next) in self.strokes.iter_mut().zip(strokes) {
+            all.extend(next);
+        }
         match extremes {
             true => self.x.extend([times[0], times[times.len() - 1]]),
             false => self.x.extend(&times),
         }
         self.times.extend(times);
-        let next = measured(setup, part).into_iter();
+        let next = measured(setup, rows, &self.part).into_iter();
         let next = next.map(|m| if extremes { m.extremes() } else { m });
         match self.figures.is_empty() {
             true => self.figures = next.collect(),
@@ -185,16 +195,10 @@ impl Drawn {
     }
 
     fn charts(&self, setup: &FlightSetup, group: usize) -> Vec<(&'static str, Chart)> {
-        let mut shaded = downstrokes(&self.stroke, &self.times);
-        if shaded.len() > MAX_SHADED {
-            shaded.clear();
-        }
-        let note = match group {
-            1 => String::new(),
-            n => format!(", extremes of every {n} steps"),
-        };
+        let shades = Shades::new(&self.strokes, &self.times);
+        let note = self.part.extremes(group);
         let axis = (&self.label[..], &self.x[..]);
-        let chart = |m: &Measured| (m.name, m.chart(setup, axis, &shaded, &note));
+        let chart = |m: &Measured| (m.name, m.chart(setup, axis, &shades, &note));
         self.figures.iter().map(chart).collect()
     }
 }
@@ -217,7 +221,11 @@ mod tests {
             text += &format!("{k},{},{phi}\n", beats * period);
         }
         std::fs::write(&path, text).unwrap();
-        let drawn = |rows| charts(&case.setup, &path, rows, 1500).unwrap();
+        let times = Rows::times(&path).unwrap();
+        let drawn = |rows: Range<usize>| {
+            let part = Part::of(&case.setup, 1, &times, &rows);
+            charts(&case.setup, &path, rows, (part, 1500)).unwrap()
+        };
         let (all, group) = drawn(0..60_001);
         let angles = |list: &[(&'static str, Chart)]| {
             let chart = &list.iter().find(|c| c.0 == "angles").unwrap().1;
@@ -243,12 +251,17 @@ mod tests {
         let (part, group) = drawn(400..801);
         let (x, _, shaded) = angles(&part);
         assert_eq!((group, x.len(), x[0], shaded), (1, 401, 10.0, 11));
+        assert!(
+            part[0].1.title.ends_with(", 10 to 20 wingbeats"),
+            "{}",
+            part[0].1.title
+        );
         let window = Window {
             to: Some(20.0),
             beats: Some(10.0),
             from: None,
         };
-        assert_eq!(window.rows(&case.setup, &path).unwrap(), 400..801);
+        assert_eq!(window.rows(&case.setup, &path, &times).unwrap(), 400..801);
         std::fs::remove_file(&path).unwrap();
     }
 }

@@ -3,9 +3,10 @@
 use serde_json::{Value, json};
 
 use super::scene::Scene;
-use crate::figures::{self, Chart};
+use crate::figures::{self, Chart, Part};
 use wingbeat_case::IoError;
 use wingbeat_results::rows::Rows;
+use wingbeat_results::summary::ordinal;
 use wingbeat_results::{Outcome, ResultDir, Summary};
 
 /// More points than this do not make a plot on a page better: of longer flights, extremes are shown.
@@ -22,8 +23,11 @@ pub(super) fn gather(
 ) -> Result<(String, String), IoError> {
     let case = dir.case()?;
     let path = dir.join("history.csv");
-    let rows = 0..Rows::count(&path)?;
-    let (charts, group) = figures::charts(&case.setup, &path, rows, MAX_POINTS)?;
+    let every = case.output.history_every;
+    let times = Rows::times(&path)?;
+    let rows = 0..times.len();
+    let part = Part::of(&case.setup, every, &times, &rows);
+    let (charts, group) = figures::charts(&case.setup, &path, rows, (part, MAX_POINTS))?;
     let summary = Summary::read(&case, &path, outcome)?;
     let mut head = json!({
         "name": case.name,
@@ -45,7 +49,7 @@ pub(super) fn gather(
     head["thinned"] = json!(format!(
         "{}; {}; {PRECISION}",
         scene.thinned(),
-        plots(group)
+        plots(group, every)
     ));
     Ok((case.name, inert(&head.to_string())))
 }
@@ -53,10 +57,15 @@ pub(super) fn gather(
 const PRECISION: &str =
     "positions rounded to 1/65535 of the frame. history.csv and frames/ hold everything.";
 
-fn plots(group: usize) -> String {
-    match group {
-        1 => "plots with every step".to_owned(),
-        n => format!("plots with the extremes of every {n} steps"),
+fn plots(group: usize, every: usize) -> String {
+    match (group, every) {
+        (1, 0 | 1) => "plots with every step".to_owned(),
+        (1, n) => format!("plots with every {} step, as history.csv", ordinal(n)),
+        (k, 0 | 1) => format!("plots with the extremes of every {k} steps"),
+        (k, n) => format!(
+            "plots with the extremes of every {k} rows of history.csv, which holds every {} step",
+            ordinal(n)
+        ),
     }
 }
 
@@ -99,6 +108,8 @@ fn chart(name: &str, chart: &Chart) -> Value {
         json!({
             "label": p.label,
             "logarithmic": p.logarithmic,
+            "shaded": p.shaded,
+            "least": p.least,
             "series": series.collect::<Vec<Value>>(),
         })
     });

@@ -14,7 +14,7 @@ use wingbeat_case::IoError;
 use wingbeat_case::LoadedCase;
 use wingbeat_results::ResultDir;
 use wingbeat_results::columns::body_names;
-use wingbeat_results::frames::{self, Frame, Mesh};
+use wingbeat_results::frames::{self, Frame, JoinedEdges, Mesh};
 use wingbeat_results::particles::Cloud;
 use wingbeat_results::poses::{Poses, picture};
 use wingbeat_results::rows::Rows;
@@ -50,8 +50,12 @@ pub(super) struct Scene<'a> {
     framed: bool,
     blob: Blob,
     shown: Vec<Shown>,
-    /// Steps at which downstroke and upstroke change places; the flight begins with an upstroke.
-    turns: Vec<usize>,
+    /// Steps at which downstroke and upstroke change places, wing by wing; the flight begins with an upstroke.
+    turns: Vec<Vec<usize>>,
+    /// Number of the wing that sheds a sheet, by number of the sheet; none of sheets without rings.
+    shedding: Vec<Option<usize>>,
+    /// Edges along which sheets are one.
+    joined: Vec<JoinedEdges>,
 }
 
 impl<'a> Scene<'a> {
@@ -82,9 +86,10 @@ impl<'a> Scene<'a> {
         let plan = if framed {
             Plan::of_directory(dir.path(), &written, (own, blob.most_rows), room)?
         } else {
-            let rows = Rows::count(&dir.join("history.csv"))?;
-            let stride = rows.div_ceil(MAX_POSES).max(1);
-            let steps: Vec<usize> = (0..rows).step_by(stride).collect();
+            let times = Rows::times(&dir.join("history.csv"))?;
+            let stride = times.len().div_ceil(MAX_POSES).max(1);
+            let step = |t: &f64| (t / case.setup.time.step).round() as usize;
+            let steps: Vec<usize> = times.iter().step_by(stride).map(step).collect();
             Plan::new(&steps, &vec![own; steps.len()], own, room)
         };
         Ok(Self {
@@ -96,6 +101,8 @@ impl<'a> Scene<'a> {
             blob,
             shown: vec![],
             turns: vec![],
+            shedding: vec![],
+            joined: vec![],
         })
     }
 
@@ -103,15 +110,19 @@ impl<'a> Scene<'a> {
     pub fn read(mut self, case: &LoadedCase) -> Result<Self, IoError> {
         let mut rows = Rows::open(&self.dir.join("history.csv"))?;
         let forces = force_columns(case, rows.names());
-        let mut stroke = Stroke::new(figures::stroke_column(&case.setup, rows.names()));
+        let columns = figures::stroke_columns(&case.setup, rows.names());
+        let mut strokes: Vec<Stroke> = columns.into_iter().map(Stroke::new).collect();
+        self.turns = vec![vec![]; strokes.len()];
         let unit = case.setup.time.period.unwrap_or(1.0);
         let posed = self.posed();
         let steps = self.plan.steps.clone();
         let mut wanted = steps.into_iter().peekable();
         while let Some(row) = rows.next_row()? {
             let step = row[0] as usize;
-            if stroke.turns(row) {
-                self.turns.push(step.saturating_sub(1));
+            for (stroke, turns) in strokes.iter_mut().zip(&mut self.turns) {
+                if stroke.turns(row) {
+                    turns.push(step.saturating_sub(1));
+                }
             }
             if wanted.next_if_eq(&step).is_none() {
                 continue;
@@ -119,6 +130,12 @@ impl<'a> Scene<'a> {
             let (surfaces, wakes, cloud) = self.frame(row)?;
             let most = self.plan.frame_bytes.saturating_sub(ENTRY);
             let packed = self.blob.add(&surfaces, &wakes, &cloud, most);
+            self.note(&surfaces, &wakes);
+            for pair in wakes.joined_edges(&case.setup) {
+                if !self.joined.contains(&pair) {
+                    self.joined.push(pair);
+                }
+            }
             let vector =
                 |k: &Option<usize>| k.map_or(DVec3::ZERO, |k| DVec3::from_slice(&row[k..]));
             self.shown.push(Shown {
@@ -137,6 +154,27 @@ impl<'a> Scene<'a> {
             });
         }
         Ok(self)
+    }
+
+    /// Notes which wings shed the sheets not seen before: those their newest nodes are nearest to.
+    fn note(&mut self, surfaces: &Surfaces, wakes: &Mesh) {
+        for sheet in wakes.sheets() {
+            let known = self.shedding.len().max(sheet.id + 1);
+            self.shedding.resize(known, None);
+            if self.shedding[sheet.id].is_some() {
+                continue;
+            }
+            let edge = &wakes.points[sheet.first_node..][..=sheet.cols];
+            let mut first = 0;
+            let wings = self.poses.surfaces.iter();
+            let distances = wings.filter(|s| self.poses.is_wing(s.body)).map(|s| {
+                let nodes = &surfaces.points[first..][..s.nodes.len()];
+                first += s.nodes.len();
+                edge.iter().map(|p| nearest(nodes, p)).sum::<f64>()
+            });
+            let wing = distances.enumerate().min_by(|a, b| a.1.total_cmp(&b.1));
+            self.shedding[sheet.id] = wing.map(|w| w.0);
+        }
     }
 
     /// Bodies that carry solids.
@@ -213,6 +251,8 @@ impl<'a> Scene<'a> {
         head["down"] = json!(picture(down(setup)));
         head["weight_newton"] = json!(weight);
         head["turns"] = json!(self.turns);
+        head["shedding"] = json!(self.shedding);
+        head["joined"] = json!(self.joined);
         head["most"] = json!({
             "circulation": usual(self.shown.iter().map(|f| f.packed.circulation)),
             "pressure": usual(self.shown.iter().map(|f| f.packed.pressure)),
@@ -253,6 +293,12 @@ impl<'a> Scene<'a> {
         }
         text
     }
+}
+
+/// Square of the distance from a place to the nearest of these points \[m2\].
+fn nearest(points: &[[f64; 3]], to: &[f64; 3]) -> f64 {
+    let far = |p: &[f64; 3]| (0..3).map(|c| (p[c] - to[c]).powi(2)).sum::<f64>();
+    points.iter().map(far).fold(f64::INFINITY, f64::min)
 }
 
 /// Where the forces of the air stand in a row, per body.

@@ -194,11 +194,11 @@ class Run:
             )
         import matplotlib.pyplot as plt
 
-        title, x_label, x, shaded, panels = charts[name]
+        title, x_label, x, panels = charts[name]
         size = (8, 1.2 + 1.8 * len(panels))
         figure, grid = plt.subplots(len(panels), 1, sharex=True, squeeze=False, figsize=size, layout="constrained")
         figure.suptitle(title)
-        for axes, (label, lines) in zip(grid[:, 0], panels, strict=True):
+        for axes, (label, lines, shaded) in zip(grid[:, 0], panels, strict=True):
             for line, values in lines:
                 axes.plot(x, values, label=line)
             for start, end in shaded:

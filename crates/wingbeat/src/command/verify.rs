@@ -153,7 +153,7 @@ fn chart(case: &str, figure: &[&Comparison]) -> Chart {
             panels.push(Panel {
                 label: c.quantity.to_string(),
                 series: vec![given],
-                logarithmic: false,
+                ..Panel::default()
             });
             panels.len() - 1
         });

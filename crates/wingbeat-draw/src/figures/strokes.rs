@@ -1,0 +1,65 @@
+//! How the wings stroke: angles that rise in the downstroke, and when that is.
+
+use wingbeat_flight::FlightSetup;
+
+use super::units::scaled;
+use wingbeat_results::History;
+use wingbeat_results::columns::body_names;
+
+/// Name in column names of the wing that stands for all, the last one, and the sign that makes its
+/// stroke angle rise in the downstroke; none for a motion without a period.
+pub(super) fn reference_wing(setup: &FlightSetup) -> Option<(String, f64)> {
+    stroking(setup).pop()
+}
+
+/// Where the stroke angles of the wings stand in a row, and the signs by which they rise in the
+/// downstroke; nothing for a motion without a period.
+pub(crate) fn stroke_columns(setup: &FlightSetup, names: &[String]) -> Vec<Option<(usize, f64)>> {
+    let column = |(wing, sign): (String, f64)| {
+        let name = format!("{wing}_prescribed_phi_rad");
+        Some((names.iter().position(|n| *n == name)?, sign))
+    };
+    stroking(setup).into_iter().map(column).collect()
+}
+
+/// Names in column names of all wings, with the signs by which their stroke angles rise in the
+/// downstroke; nothing for a motion without a period.
+fn stroking(setup: &FlightSetup) -> Vec<(String, f64)> {
+    let wings = setup.animal.wings.iter().map(|w| w.side.sign());
+    let names = body_names(&setup.animal).into_iter().skip(1);
+    let list = names.zip(wings).collect();
+    setup.time.period.map_or(vec![], |_| list)
+}
+
+/// Stroke angle of the reference wing, row by row, with the sign by which it rises in the downstroke;
+/// nothing without one \[rad\].
+pub(super) fn stroke(setup: &FlightSetup, history: &History) -> Vec<f64> {
+    strokes(setup, history).pop().unwrap_or_default()
+}
+
+/// The same of every wing; that of reference comes last.
+pub(super) fn strokes(setup: &FlightSetup, history: &History) -> Vec<Vec<f64>> {
+    let angle = |(wing, sign): (String, f64)| {
+        scaled(history.column(&format!("{wing}_prescribed_phi_rad")), sign)
+    };
+    stroking(setup).into_iter().map(angle).collect()
+}
+
+/// Whether the reference wing goes down (or forward: its stroke angle rises) from each row to the
+/// next.
+pub(super) fn goes_down(stroke: &[f64]) -> Vec<bool> {
+    stroke.windows(2).map(|p| p[1] > p[0]).collect()
+}
+
+/// Intervals of the downstroke.
+pub(super) fn downstrokes(stroke: &[f64], x: &[f64]) -> Vec<[f64; 2]> {
+    let mut list: Vec<[f64; 2]> = vec![];
+    for (ends, down) in x.windows(2).zip(goes_down(stroke)) {
+        match list.last_mut() {
+            _ if !down => {}
+            Some(last) if last[1] == ends[0] => last[1] = ends[1],
+            _ => list.push([ends[0], ends[1]]),
+        }
+    }
+    list
+}
