@@ -20,6 +20,14 @@ pub enum AnalysisError {
         /// What to do instead.
         remedy: &'static str,
     },
+    /// What was flown does not come back after a wingbeat.
+    #[error("{what}: {remedy}")]
+    NotPeriodic {
+        /// What has no periodic motion.
+        what: String,
+        /// What to try.
+        remedy: &'static str,
+    },
     /// A wing in a stream does not come to rest.
     #[error(
         "at {speed} m/s the wing does not come to rest: a node still moves at {drift:.1e} of the speed of the stream. A wing that diverges or whose flow separates has no steady state: try lower speeds, less incidence or a stiffer wing"

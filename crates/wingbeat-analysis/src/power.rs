@@ -79,12 +79,12 @@ pub fn power(setup: &FlightSetup) -> Result<Power, AnalysisError> {
             break;
         }
         if beat + 1 == beats && beat > 0 && !flight.record().joints.is_empty() {
-            return Err(AnalysisError::not_covered(
-                format!(
+            return Err(AnalysisError::NotPeriodic {
+                what: format!(
                     "the free joints find no periodic motion within {beats} wingbeats while the body is held"
                 ),
-                "give them damping (joint.NAME.element), or fly longer with `run` and read the powers of the history",
-            ));
+                remedy: "give them damping (joint.NAME.element), or fly longer with `run` and read the powers of the history",
+            });
         }
     }
     last.mass = setup.animal.mass();

@@ -8,6 +8,7 @@ use std::time::{Duration, Instant};
 use wingbeat_analysis::power::power_of_trim;
 use wingbeat_analysis::{AnalysisError, Trim};
 use wingbeat_case::{IoError, LoadedCase, trimmed_case};
+use wingbeat_flight::FlightError;
 
 use crate::campaign::Campaign;
 use crate::evaluate;
@@ -227,7 +228,9 @@ impl Point<'_> {
 
 fn analysis(e: AnalysisError) -> Halt {
     match e {
-        AnalysisError::NotCovered { .. } => Halt::Refused(e.to_string()),
+        AnalysisError::NotCovered { .. } | AnalysisError::Flight(FlightError::Setup { .. }) => {
+            Halt::Refused(e.to_string())
+        }
         e => Halt::Diverged(e.to_string()),
     }
 }

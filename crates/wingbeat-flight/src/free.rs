@@ -88,7 +88,7 @@ impl FreeFlight {
         if air.has_memory() {
             let (key, value) = match setup.air.has_strip_wakes() {
                 true => ("air.blade.unsteady", "set"),
-                false => ("air.model", "with a memory"),
+                false => ("air.model", setup.air.name()),
             };
             return Err(FlightError::Setup {
                 key,

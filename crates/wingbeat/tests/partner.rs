@@ -282,6 +282,14 @@ fn refuses_answers_of_a_controller_that_cannot_be_flown() {
             "echo '{\"wings\":[{},{}]}'; read line; echo '{}'",
             "look 1: `sh -c",
         ),
+        (
+            "echo '{\"wings\":[{},{}]}'; echo '{\"wings\":[{},{}]}'; sleep 9",
+            "it says more than one line for a look",
+        ),
+        (
+            "echo '{\"wings\":[{},{\"feathering_lead\":1e15}]}'",
+            "feathering_lead = 1000000000000000 wingbeats; allowed: from -0.5 to 0.5",
+        ),
     ];
     for (script, wanted) in answers {
         let command = serde_json::json!(["sh", "-c", format!("read line; {script}")]);

@@ -121,12 +121,12 @@ pub(super) fn periodic_beat(
         repeat_wakes(setup, &before, &mut after)?;
         past = Some(after);
     }
-    Err(AnalysisError::not_covered(
-        format!(
+    Err(AnalysisError::NotPeriodic {
+        what: format!(
             "elastic wings and wakes of strips find no periodic motion within {MAX_BEATS} wingbeats"
         ),
-        "give elastic wings damping (wing.NAME.structure.damping_s), or look with `run` at what they do",
-    ))
+        remedy: "give elastic wings damping (wing.NAME.structure.damping_s), or look with `run` at what they do",
+    })
 }
 
 /// Puts the wakes where they would be if the strips moved as between `before` and `after` for ever.

@@ -242,12 +242,25 @@ impl Conversation {
                 names.join(", ")
             ));
         }
+        if let Some(lead) = wings
+            .iter()
+            .map(|w| w.feathering_lead)
+            .find(|x| x.abs() > MAX_LEAD)
+        {
+            return Err(format!(
+                "its answer has feathering_lead = {lead} wingbeats; allowed: from -{MAX_LEAD} to {MAX_LEAD}"
+            ));
+        }
         let limits = &self.model.limits;
         let commands = wings.iter().map(|w| limited(w.into(), limits));
         Ok((commands.collect(), answer.memory))
     }
 
     fn asked(&mut self, sensed: &Sensed) -> Result<(Vec<Adjustment>, Vec<f64>), String> {
+        if let Some(line) = self.partner.unasked() {
+            let problem = format!("it says more than one line for a look: `{line}`");
+            return Err(self.partner.complain(&problem));
+        }
         let question = self.question(sensed);
         self.partner.say(question)?;
         let line = self.partner.hear()?;
@@ -256,7 +269,10 @@ impl Conversation {
     }
 }
 
-/// The command of a wing within the limits; leads of the feathering have none.
+/// Longest lead of the feathering before the stroke \[wingbeats\]: half a beat is as far as there is.
+const MAX_LEAD: f64 = 0.5;
+
+/// The command of a wing within the limits.
 fn limited(a: Adjustment, limits: &Limits) -> Adjustment {
     let share = |x: f64| x.clamp(-limits.amplitude, limits.amplitude);
     let angle = |x: f64| x.clamp(-limits.angle, limits.angle);

@@ -141,6 +141,12 @@ impl Partner {
         }
     }
 
+    /// A line that it says before it is asked, if there is one.
+    pub fn unasked(&self) -> Option<String> {
+        let line = self.lines.try_recv().ok()?;
+        Some(line.unwrap_or_else(|problem| problem))
+    }
+
     /// The next line.
     ///
     /// # Errors

@@ -169,7 +169,8 @@ pub enum TargetCase {
     /// The trimmed flight in blade elements: its attitude, heading along n1; what trim adds to stroke
     /// amplitude and mean stroke angle is commanded too.
     Trim,
-    /// Attitude and velocity as they are seen at the release, strokes as the case has them.
+    /// Attitude and velocity of a look as they are seen at the release, strokes as the case has them; the mean velocity is that of
+    /// `forward_m_s` and `climb_m_s`.
     Start,
 }
 

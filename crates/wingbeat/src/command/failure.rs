@@ -3,6 +3,7 @@
 use wingbeat::Error;
 use wingbeat::analysis::AnalysisError;
 use wingbeat::case::IoError;
+use wingbeat::flight::FlightError;
 
 use crate::command::terminal::tell;
 
@@ -65,7 +66,10 @@ impl Failure {
         }
         match self {
             Self::Told(code) => *code,
-            Self::Analysis(AnalysisError::NotCovered { .. }) => REFUSED,
+            Self::Analysis(
+                AnalysisError::NotCovered { .. } | AnalysisError::Flight(FlightError::Setup { .. }),
+            )
+            | Self::Flight(Error::Flight(FlightError::Setup { .. })) => REFUSED,
             Self::Analysis(_) | Self::Flight(Error::Flight(_)) => FAILED,
             Self::Option(_) | Self::Io(_) | Self::Flight(_) => REFUSED,
         }
