@@ -106,9 +106,20 @@ impl Flight {
     }
 
     /// Under the controller `function`, which looks every `interval` steps; commands act `latency` looks later.
-    fn with_controller(&self, function: Py<PyAny>, interval: usize, latency: usize) -> Self {
+    fn with_controller(
+        &self,
+        py: Python<'_>,
+        function: Py<PyAny>,
+        interval: usize,
+        latency: usize,
+    ) -> PyResult<Self> {
+        if self.case.setup.feedback.is_some() {
+            let problem = "the case has a controller already";
+            let remedy = "set(\"control.controller\", \"none\") first";
+            return Err(refused(py, "control.controller", problem, remedy));
+        }
         let feedback = feedback(function, &self.slot, interval, latency);
-        self.with(|flight| flight.setup.feedback = Some(feedback))
+        Ok(self.with(|flight| flight.setup.feedback = Some(feedback)))
     }
 
     /// In air that `function` computes.

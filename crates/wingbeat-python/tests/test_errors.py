@@ -70,6 +70,10 @@ BAD: dict[str, Bad] = {
     "controller that is none": lambda blade, _: blade.with_controller(3),
     "controller too often": lambda blade, _: blade.with_controller(lambda _: Adjustment(), every_steps=1),
     "negative latency": lambda blade, _: blade.with_controller(lambda _: Adjustment(), latency_looks=-1),
+    "controller beside that of the case": lambda blade, _: blade.set("control.controller", "regulator").with_controller(
+        lambda _: Adjustment()
+    ),
+    "nothing for an answer": controlled(None),
     "too few adjustments": controlled([Adjustment()]),
     "adjustments that are none": controlled([1.0, 2.0]),
     "infinite adjustment": controlled(Adjustment(stroke_amplitude=float("inf"))),
@@ -82,6 +86,7 @@ BAD: dict[str, Bad] = {
     "tethered under a controller": lambda blade, _: Flight.preset("fruit-fly-tethered")
     .with_controller(lambda _: Adjustment())
     .start(),
+    "motion of a wing of another name": lambda blade, _: blade.with_motion(phi_deg=[1.0, 2.0, 3.0, 2.0], wing="rigth"),
     "motion of nothing": lambda blade, _: blade.with_motion(),
     "motion of two samples": lambda blade, _: blade.with_motion(phi_deg=[1.0, 2.0]),
     "motion that is not finite": lambda blade, _: blade.with_motion(phi_deg=[0.0, np.nan, 0.0, 1.0]),

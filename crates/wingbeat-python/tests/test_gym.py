@@ -132,6 +132,24 @@ def test_behaves_sensors_have_noise_and_delay():
     np.testing.assert_array_equal(seen[2][0][:, :3], seen[0][0][:, :3])
 
 
+def test_behaves_noise_is_of_the_seed_and_the_episode():
+    plain, noisy = (VectorEnvironment(3, "hover", **s) for s in ({}, {"position_noise_m": 1e-4}))
+    errors = []
+    for seed in ([5, 5, 6], None):
+        errors.append(noisy.reset(seed=seed)[0][:, :3] - plain.reset(seed=seed)[0][:, :3])
+    first, second = errors
+    assert np.abs(first).min() > 0.0, "the first observation has noise, too"
+    np.testing.assert_array_equal(first[0], first[1])
+    assert not np.array_equal(first[0], first[2]), "another seed"
+    assert not np.array_equal(first[0], second[0]), "another episode"
+
+
+def test_behaves_environments_without_a_seed_are_unlike():
+    observed = [VectorEnvironment(2, "hover").reset()[0] for _ in range(2)]
+    rows = {tuple(row) for row in np.concatenate(observed)}
+    assert len(rows) == 4
+
+
 @pytest.mark.parametrize(
     "settings",
     [
@@ -143,6 +161,8 @@ def test_behaves_sensors_have_noise_and_delay():
         {"amplitude_limit": float("nan")},
         {"delay": -1},
         {"tilt_noise_rad": -1.0},
+        {"position_noise_m": "a"},
+        {"flight": "fruit-fly-blade"},
         {"autoreset_mode": "sometimes"},
         {"render_mode": "human"},
         {"flight": wingbeat.Flight.preset("fruit-fly-hover")},
@@ -156,6 +176,8 @@ def test_refuses_settings(settings):
 
 def test_refuses_actions():
     envs = VectorEnvironment(2)
+    with pytest.raises(wingbeat.CaseError):
+        envs.reset(seed=-1)
     for actions in (np.zeros((3, 4)), np.zeros(4), np.full((2, 4), np.nan)):
         with pytest.raises(wingbeat.CaseError):
             envs.step(actions)

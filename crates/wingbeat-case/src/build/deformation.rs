@@ -83,7 +83,7 @@ fn term(w: &Written<'_>, wing: &Wing) -> Built<Term> {
             ));
         }
     };
-    span.check("the table", wing.root()).map_err(|e| {
+    span.check("law", wing.root()).map_err(|e| {
         let row = match &e {
             ModelError::Table { row, .. } if *row > 0 => format!("[{}]", row - 1),
             _ => String::new(),

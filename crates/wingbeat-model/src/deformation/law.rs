@@ -61,7 +61,7 @@ impl SpanLaw {
                 finite(&format!("{key}.linear[0]"), *root)?;
                 finite(&format!("{key}.linear[1]"), *tip).map(|_| ())
             }
-            Self::Table(rows) => check_table(key, rows, root),
+            Self::Table(rows) => check_table(&format!("{key}.table"), rows, root),
         }
     }
 }

@@ -58,7 +58,7 @@ class Steering:
         answer = self._controller(sensed)
         if isinstance(answer, Adjustment):
             return [astuple(answer)] * self._wings
-        for item in answer:
+        for item in answer if isinstance(answer, Sequence) else [answer]:
             if not isinstance(item, Adjustment):
                 raise CaseError(
                     f"control: the controller answered with a {type(item).__name__}",

@@ -20,7 +20,7 @@ def map(
     *,
     base: Flight | Mapping[str, Any] | str | os.PathLike[str] | Callable[[dict[str, Any]], Flight],
     do: str | Do = "fly",
-    keep: Iterable[str] | Mapping[str, str] = ("lift_over_weight", "power_watt"),
+    keep: Iterable[str] | Mapping[str, str] | None = None,
     last_beats: int | None = None,
     out: str | os.PathLike[str] | None = None,
     workers: int | None = None,
@@ -34,7 +34,8 @@ def map(
     on top of ``base``: a flight, a case, the name of a preset, or a function that makes a flight of a point. ``do`` is
     ``"fly"``; ``"trim"``, where points may also have ``trim.forward_m_per_s`` and the like; or a function of the flight that
     returns numbers by name. ``keep`` are the names of numbers to be kept, of a function also with their units: of flights
-    means over all whole wingbeats, or the ``last_beats`` of them, and numbers of the summary.
+    means over all whole wingbeats, or the ``last_beats`` of them, and numbers of the summary; left out: lift over weight and power
+    of flights, power and body angles of trims.
 
     ``executor`` is any of the interface of ``concurrent.futures``, or a client of Dask; processes of this machine if left
     out. ``workers`` is how many of them there are, if it is not to be found out. Points go to workers in batches of

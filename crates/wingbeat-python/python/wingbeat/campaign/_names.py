@@ -107,8 +107,13 @@ def of_task(do: str) -> tuple[str, ...]:
     return BEATS + SUMMARY if do == "fly" else POWER + ATTITUDE + ADJUSTMENT
 
 
-def kept(keep: Iterable[str] | Mapping[str, str], do: Any) -> dict[str, str]:
-    """Names that are kept and their units, checked against those of the task."""
+_DEFAULT = {"fly": ("lift_over_weight", "power_watt"), "trim": ("perfect_storage_watt", "body_pitch_rad", "body_roll_rad")}
+
+
+def kept(keep: Iterable[str] | Mapping[str, str] | None, do: Any) -> dict[str, str]:
+    """Names that are kept and their units, checked against those of the task; by default those of a task that has a name."""
+    if keep is None:
+        keep = _DEFAULT.get(do, ()) if isinstance(do, str) else ()
     if isinstance(keep, str):
         keep = (keep,)
     units = dict(keep) if isinstance(keep, Mapping) else {name: unit(name) for name in _texts(keep)}

@@ -94,6 +94,8 @@ def plan(
     attempts: Any,
 ) -> Plan:
     """What is done at points with these keys; refuses what cannot be."""
+    if not callable(do) and do not in ("fly", "trim"):
+        raise CaseError(f"do = {do!r}: no task", key="do", remedy="'fly', 'trim', or a function of the flight")
     units = _names.kept(keep, do)
     task = _task(base, do, tuple(units), last_beats)
     _check_keys(task, keys)
@@ -107,8 +109,6 @@ def _is_death(result: Found) -> bool:
 
 
 def _task(base: Any, do: Any, keep: tuple[str, ...], last_beats: int | None) -> Task:
-    if not callable(do) and do not in ("fly", "trim"):
-        raise CaseError(f"do = {do!r}: no task", key="do", remedy="'fly', 'trim', or a function of the flight")
     if last_beats is not None:
         if do != "fly":
             raise CaseError("last_beats: has no effect here", key="last_beats", remedy="leave it out, or do='fly'")
