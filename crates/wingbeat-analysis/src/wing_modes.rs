@@ -108,6 +108,9 @@ impl Alike {
 /// How many times as many modes in vacuum as are asked for those in air are compared with: heavy air changes their order.
 const COMPARED: usize = 4;
 
+/// Growth over the highest frequency that rounding makes of a mode without stiffness \[1\].
+const ROUNDING: f64 = 1e-5;
+
 /// The modes of one elastic wing.
 #[derive(Clone, Debug, PartialEq)]
 pub struct WingModes {
@@ -179,7 +182,12 @@ fn of_wing(flight: &Simulation, k: usize, count: usize) -> Result<WingModes, Ana
     let leading = |all: Vec<Mode>, count: usize| -> (Vec<WingMode>, usize) {
         let (leading, left_out) = moving(wing, all, count);
         let leading = leading.iter().map(|m| WingMode::new(wing, at, m));
-        (leading.collect(), left_out)
+        let mut leading: Vec<WingMode> = leading.collect();
+        let fastest = leading.iter().map(|m| m.frequency).fold(0.0, f64::max);
+        for m in leading.iter_mut().filter(|m| m.growth < ROUNDING * fastest) {
+            m.growth = 0.0;
+        }
+        (leading, left_out)
     };
     let places = |at: &Configuration| -> Vec<DVec3> {
         let followers = wing.followers().iter();

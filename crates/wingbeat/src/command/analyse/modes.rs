@@ -32,7 +32,7 @@ pub(crate) struct ModesArgs {
     /// Modes of each wing.
     #[arg(long, value_name = "N", default_value_t = 6, value_parser = options::count::<1, 100>)]
     count: usize,
-    /// About the deformed steady state in the stream of the case; else about the wing as built.
+    /// About the deformed steady state in the stream of the case; else about the wing at rest.
     #[arg(long)]
     steady: bool,
     /// Write the shapes as CSV: displacements of the nodes of the mesh, the largest of length 1.
@@ -67,7 +67,7 @@ pub(crate) fn run(args: &ModesArgs) -> Result<(), Failure> {
 fn tell(report: &mut Report, name: &str, steady: bool, wings: &[Wing], found: &[WingModes]) {
     let about = match steady {
         true => "the deformed steady state",
-        false => "the wing as built",
+        false => "the wing at rest",
     };
     line!(report, "{name}: modes of elastic wings about {about}");
     for (k, w) in found.iter().enumerate() {
