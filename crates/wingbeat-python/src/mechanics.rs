@@ -55,11 +55,11 @@ pub fn problem(
         let problem = format!("`{}` is named twice", unknowns[k]);
         return Err(refused(py, "unknowns", &problem, &names));
     }
+    let known_all = unknowns.iter().map(|name| known("unknowns", name));
+    problem.unknowns = known_all.collect::<PyResult<_>>()?;
     if unknowns.len() < 3 {
         return Err(refused(py, "unknowns", "fewer than three", &names));
     }
-    let unknowns = unknowns.iter().map(|name| known("unknowns", name));
-    problem.unknowns = unknowns.collect::<PyResult<_>>()?;
     for (name, from, to) in bounds {
         let unknown = known("bounds", name)?;
         let is_range = from < to && from.is_finite() && to.is_finite();

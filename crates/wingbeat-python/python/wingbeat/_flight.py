@@ -207,6 +207,12 @@ class Flight:
         state is saved, and ``wingbeat resume`` goes on from it. Whatever exception ends a flight, what was flown is its
         ``run``.
         """
+        if out is not None and self._core.is_own:
+            raise CaseError(
+                "out: this flight has parts written in Python, which no case of a result holds",
+                key="out",
+                remedy="fly() in memory, then run.write(FOLDER)",
+            )
         bar = _bar(self.name) if progress is True else progress or None
         folder = None if out is None else os.fspath(out)
         run, error = self._core.fly(folder, bar, frames)
