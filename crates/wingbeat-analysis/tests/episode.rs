@@ -244,3 +244,29 @@ fn behaves_no_tumble_ends_by_itself() {
     let open = Tumbles::new(&trim, None, 0, 60).expect("tumbles");
     assert!((1..=8).all(|seed| open.recovery(seed).expect("a flight").beats.is_none()));
 }
+
+/// Noise of the sensors is that of the seed and of the episode, from the first look on; the flight knows nothing of it.
+#[test]
+fn exact_episodes_have_noise_of_their_own() {
+    let mut course = Course::new(Task::ALL[0].1, hovering()).expect("a course");
+    course.sensors.noise.position = 1e-4;
+    let course = Arc::new(course);
+    let model = course.model().expect("a model");
+    let mut errors = vec![];
+    for seed in [5, 5, 6] {
+        let mut episode = Episode::new(Arc::clone(&course), &model, seed).expect("an episode");
+        let error = |e: &Episode| e.seen().position - e.truth().expect("numbers").position;
+        errors.push(error(&episode));
+        episode.reset(None).expect("another");
+        errors.push(error(&episode));
+    }
+    let [a, a2, b, b2, c, c2] = errors[..] else {
+        panic!("six")
+    };
+    assert_eq!([a, a2], [b, b2]);
+    let all = [a, a2, c, c2];
+    for (k, x) in all.iter().enumerate() {
+        assert!((1e-6..1e-3).contains(&x.length()), "{x}");
+        assert!(all[..k].iter().all(|y| x.distance(*y) > 1e-6), "{k}");
+    }
+}

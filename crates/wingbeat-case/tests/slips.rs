@@ -140,3 +140,34 @@ fn refuses_phases_in_other_units_by_the_line() {
         assert!(said.contains(says) && said.contains("table.file"), "{said}");
     }
 }
+
+/// Left wings have the signs of their mirror images; deformation in millimetres for metres.
+#[test]
+fn behaves_implausible_motions_are_doubted() {
+    let doubts = |case: &str, set: &[&str]| {
+        let set: Vec<String> = set.iter().map(|s| (*s).to_owned()).collect();
+        let case = LoadedCase::find(case, &set).unwrap();
+        wingbeat_analysis::estimate(&case.setup)
+            .unwrap()
+            .doubts
+            .join("\n")
+    };
+    let both = |left: f64| {
+        let [left, right] = [("left", left), ("right", 60.0)].map(|(wing, angle)| {
+            format!("wing.{wing}.motion.phi={{ fourier = {{ sine_deg = [{angle}] }} }}")
+        });
+        doubts("fruit-fly-hover", &["air.mirror=false", &left, &right])
+    };
+    let against = "stroke against each other";
+    assert!(both(60.0).contains(against) && !both(-60.0).contains(against));
+    let bent = "wing.right.deformation.bending=[{ table_m = [[0, 0], [0.5, 4], [1, 25]], fourier = { sine = [1] } }]";
+    let twisted = "wing.right.deformation.twist=[{ table_deg = [[0, 0], [1, 120]], fourier = { sine = [1] } }]";
+    for (set, says) in [
+        (bent, "bending is in metres"),
+        (twisted, "twist is in degrees"),
+    ] {
+        let said = doubts("bird-cruise", &[set]);
+        assert!(said.contains(says), "{said}");
+        assert!(!doubts("bird-cruise", &[]).contains(says));
+    }
+}

@@ -7,33 +7,7 @@ use std::path::Path;
 
 use serde_json::Value;
 
-use support::{Scratch, wingbeat};
-
-/// Standard output of a command that succeeds.
-fn said(dir: &Path, args: &[&str]) -> String {
-    let out = wingbeat(dir, args);
-    let problem = String::from_utf8_lossy(&out.stderr);
-    assert!(out.status.success(), "{args:?}: {problem}");
-    String::from_utf8(out.stdout).unwrap()
-}
-
-/// Standard error of a command that fails with this exit code.
-fn refused(dir: &Path, code: i32, args: &[&str]) -> String {
-    let out = wingbeat(dir, args);
-    assert_eq!(out.status.code(), Some(code), "{args:?}");
-    String::from_utf8(out.stderr).unwrap()
-}
-
-/// A column of the history of a run.
-fn column(run: &Path, name: &str) -> Vec<f64> {
-    let text = fs::read_to_string(run.join("history.csv")).unwrap();
-    let mut lines = text.lines().filter(|l| !l.starts_with('#'));
-    let k = lines.next().unwrap().split(',').position(|c| c == name);
-    let k = k.unwrap_or_else(|| panic!("no column {name}"));
-    lines
-        .map(|l| l.split(',').nth(k).unwrap().parse().unwrap())
-        .collect()
-}
+use support::{Scratch, column, refused, said, wingbeat};
 
 /// The value at the end of the line that begins with `name`.
 fn figure(text: &str, name: &str) -> String {
@@ -321,58 +295,6 @@ fn published_structure_of_longitudinal_modes_of_all_insects() {
         let structure = ["unstable oscillation", "slow subsidence", "fast subsidence"];
         assert_eq!(names, [structure, structure].concat(), "{preset}");
     }
-}
-
-#[test]
-fn agrees_a_written_table_of_derivatives_with_the_averaged_model() {
-    let scratch = Scratch::new("table");
-    let dir = &scratch.0;
-    let full = said(dir, &["stability", "--write", "table.toml"]);
-    let table = said(dir, &["stability", "table.toml"]);
-    // Growth and frequency of every mode, printed with four decimals.
-    let modes = |text: &str| -> Vec<Vec<String>> {
-        let section = text.split("Modes").nth(1).unwrap();
-        let rows = section.lines().filter(|l| {
-            let l = l.trim_start();
-            l.starts_with("longitudinal") || l.starts_with("lateral")
-        });
-        let words = |l: &str| -> Vec<String> {
-            let numbers = l.split_whitespace().filter(|w| w.parse::<f64>().is_ok());
-            numbers
-                .take(2)
-                .map(|w| w.trim_start_matches('-').to_owned())
-                .collect()
-        };
-        rows.map(words).collect()
-    };
-    assert_eq!(modes(&full).len(), 7);
-    assert_eq!(modes(&full), modes(&table));
-    // So it does of flights with sideslip, whose bodies roll, and in a stream.
-    for flight in [
-        ["--sideslip", "0.4"],
-        ["--set", "air.stream_m_s=[-0.3,0,0]"],
-    ] {
-        let write = ["stability", "--write", "other.toml", "--overwrite"];
-        let full = said(dir, &[&write[..], &flight].concat());
-        let table = said(dir, &["stability", "other.toml"]);
-        assert_eq!(modes(&full), modes(&table), "{flight:?}");
-    }
-    // The table's flight stays in its trimmed state.
-    said(
-        dir,
-        &[
-            "run",
-            "table.toml",
-            "--quiet",
-            "--out",
-            "r",
-            "--set",
-            "time.beats=2",
-        ],
-    );
-    let z = column(&dir.join("r"), "body_z_m");
-    // The mean loads of the swaying orbit and of its mean differ by a hundredth of the weight.
-    assert!(z[z.len() - 1].abs() < 0.01 * 2.5e-3, "{}", z[z.len() - 1]);
 }
 
 /// A ball of 1 g in free fall.

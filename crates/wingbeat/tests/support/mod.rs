@@ -132,3 +132,29 @@ pub fn array(text: &str, name: &str) -> Vec<[u8; 8]> {
         .map(|c| c.try_into().unwrap())
         .collect()
 }
+
+/// Standard output of a command that succeeds.
+pub fn said(dir: &Path, args: &[&str]) -> String {
+    let out = wingbeat(dir, args);
+    let problem = String::from_utf8_lossy(&out.stderr);
+    assert!(out.status.success(), "{args:?}: {problem}");
+    String::from_utf8(out.stdout).unwrap()
+}
+
+/// Standard error of a command that fails with this exit code.
+pub fn refused(dir: &Path, code: i32, args: &[&str]) -> String {
+    let out = wingbeat(dir, args);
+    assert_eq!(out.status.code(), Some(code), "{args:?}");
+    String::from_utf8(out.stderr).unwrap()
+}
+
+/// A column of the history of a run.
+pub fn column(run: &Path, name: &str) -> Vec<f64> {
+    let text = fs::read_to_string(run.join("history.csv")).unwrap();
+    let mut lines = text.lines().filter(|l| !l.starts_with('#'));
+    let k = lines.next().unwrap().split(',').position(|c| c == name);
+    let k = k.unwrap_or_else(|| panic!("no column {name}"));
+    lines
+        .map(|l| l.split(',').nth(k).unwrap().parse().unwrap())
+        .collect()
+}

@@ -153,6 +153,32 @@ fn exact_frequencies_of_a_film_without_those_of_turning_nodes() {
     assert_eq!(right(&set[..4], "").left_out, [0; 2]);
 }
 
+/// Tension along the span, which the free tip cannot hold, is gone before the wing vibrates; tension along the chord, which the
+/// clamped root holds, pushes the sheet together there, and a thin one buckles.
+#[test]
+fn limit_tension_that_nothing_holds_changes_no_frequency() {
+    let tense = |tension: &str| {
+        right(
+            &[&format!(
+                "wing.right.structure.shell.prestress_newton_per_m={tension}"
+            )],
+            "",
+        )
+    };
+    let (slack, along, across) = (tense("[0,0]"), tense("[100,0]"), tense("[0,1000]"));
+    for (a, b) in frequencies(&slack).iter().zip(frequencies(&along)) {
+        assert!((a / b - 1.0).abs() < 2e-3, "{a} {b}"); // it shortens by 3e-4
+    }
+    assert!(
+        slack
+            .vacuum
+            .iter()
+            .chain(&along.vacuum)
+            .all(|m| m.growth == 0.0)
+    );
+    assert!(across.vacuum[0].growth > 0.0 && across.vacuum[0].frequency == 0.0);
+}
+
 /// An outer half of twice the thickness weighs twice as much; a whole region is as if the sheet were of it.
 #[test]
 fn exact_mass_and_stiffness_of_regions() {

@@ -1,0 +1,143 @@
+//! Trims and averaged models, through the program.
+
+mod support;
+
+use std::fs;
+
+use support::{Scratch, column, refused, said, wingbeat};
+
+#[test]
+fn agrees_a_written_table_of_derivatives_with_the_averaged_model() {
+    let scratch = Scratch::new("table");
+    let dir = &scratch.0;
+    let full = said(dir, &["stability", "--write", "table.toml"]);
+    let table = said(dir, &["stability", "table.toml"]);
+    // Growth and frequency of every mode, printed with four decimals.
+    let modes = |text: &str| -> Vec<Vec<String>> {
+        let section = text.split("Modes").nth(1).unwrap();
+        let rows = section.lines().filter(|l| {
+            let l = l.trim_start();
+            l.starts_with("longitudinal") || l.starts_with("lateral")
+        });
+        let words = |l: &str| -> Vec<String> {
+            let numbers = l.split_whitespace().filter_map(|w| w.parse::<f64>().ok());
+            // Zeros have no sign.
+            numbers.take(2).map(|x| format!("{:.4}", x + 0.0)).collect()
+        };
+        rows.map(words).collect()
+    };
+    assert_eq!(modes(&full).len(), 7);
+    assert_eq!(modes(&full), modes(&table));
+    // So it does of flights with sideslip, whose bodies roll, and in a stream.
+    for flight in [
+        ["--sideslip", "0.4"],
+        ["--set", "air.stream_m_s=[-0.3,0,0]"],
+    ] {
+        let write = ["stability", "--write", "other.toml", "--overwrite"];
+        let full = said(dir, &[&write[..], &flight].concat());
+        let table = said(dir, &["stability", "other.toml"]);
+        assert_eq!(modes(&full), modes(&table), "{flight:?}");
+    }
+    // The table's flight stays in its trimmed state.
+    said(
+        dir,
+        &[
+            "run",
+            "table.toml",
+            "--quiet",
+            "--out",
+            "r",
+            "--set",
+            "time.beats=2",
+        ],
+    );
+    let z = column(&dir.join("r"), "body_z_m");
+    // The mean loads of the swaying orbit and of its mean differ by a hundredth of the weight.
+    assert!(z[z.len() - 1].abs() < 0.01 * 2.5e-3, "{}", z[z.len() - 1]);
+}
+
+#[test]
+fn behaves_a_trim_beyond_half_a_turn_is_warned_of() {
+    let scratch = Scratch::new("beyond");
+    let warned = |forward: &str| {
+        let out = wingbeat(
+            &scratch.0,
+            &["trim", "fruit-fly-blade", "--forward", forward],
+        );
+        assert!(out.status.success());
+        String::from_utf8(out.stderr)
+            .unwrap()
+            .contains("right and left wings pass through each other")
+    };
+    assert!(warned("2") && !warned("0.2"));
+}
+
+/// Refusals before anything is flown have exit code 2.
+#[test]
+fn refuses_what_has_no_map_of_a_beat() {
+    let dir = &Scratch::new("map").0;
+    for (command, case, says) in [
+        (
+            "derivatives",
+            "fruit-fly-hover",
+            "air.model = vortex lattice",
+        ),
+        ("stabilise", "fruit-fly-hover", "air.model = vortex lattice"),
+        ("trim", "fruit-fly-vacuum", "there is no air"),
+    ] {
+        let said = refused(dir, 2, &[command, case]);
+        assert!(said.contains(says), "{command}: {said}");
+    }
+}
+
+#[test]
+fn behaves_a_flight_that_is_never_released_says_so() {
+    let scratch = Scratch::new("held");
+    let dir = &scratch.0;
+    let fly = |out: &str, held: &str| {
+        let held = format!("flight.held_beats={held}");
+        let set = ["--set", "time.beats=2", "--set", &held];
+        said(
+            dir,
+            &[
+                &["run", "fruit-fly-blade", "--quiet", "--out", out][..],
+                &set,
+            ]
+            .concat(),
+        );
+        fs::read_to_string(dir.join(out).join("summary.txt")).unwrap()
+    };
+    let words = "the body has not been released";
+    assert!(fly("held", "9").contains(words) && !fly("free", "1").contains(words));
+}
+
+#[test]
+fn exact_compare_gives_differences_over_the_first() {
+    let scratch = Scratch::new("over");
+    let dir = &scratch.0;
+    for (out, hertz) in [("slow", "180"), ("fast", "220")] {
+        let frequency = format!("motion.frequency_hz={hertz}");
+        let set = ["--set", "time.beats=1", "--set", &frequency];
+        let run = ["run", "fruit-fly-blade", "--quiet", "--out", out];
+        said(dir, &[&run[..], &set].concat());
+    }
+    for runs in [["slow", "fast"], ["fast", "slow"]] {
+        let text = said(dir, &[&["compare"][..], &runs].concat());
+        let rows = text.lines().filter_map(|l| {
+            let words: Vec<&str> = l.split_whitespace().rev().take(4).collect();
+            let part: f64 = words.first()?.strip_suffix('%')?.parse().ok()?;
+            let [difference, first] = [1, 3].map(|k| words[k].parse::<f64>().ok());
+            Some((part, difference?, first?))
+        });
+        let rows: Vec<(f64, f64, f64)> = rows.collect();
+        assert!(rows.len() > 5, "{text}");
+        for (part, difference, first) in rows {
+            let exact = 100.0 * difference / first.abs();
+            // Six digits and two decimals are printed.
+            assert!(
+                (part - exact).abs() < 0.0051 + 2e-5 * exact.abs(),
+                "{part} {exact}"
+            );
+        }
+    }
+}
