@@ -279,14 +279,45 @@ impl Mesh {
         list
     }
 
-    /// Strength of the vortex filament along column `c` of the nodes of a sheet between rows `r` and `r + 1`, towards
-    /// the older one \[m2/s\]: what parts the circulations on both sides.
-    pub fn streamwise(&self, sheet: &Sheet, r: usize, c: usize) -> f64 {
+    /// Circulation of the ring in row `r` beyond the side edge of a sheet at column `c` of its nodes (0 or the last), in
+    /// the sense of this sheet \[m2/s\]: that of the sheet whose edge is the same line (`joined`, as
+    /// [`Mesh::joined_edges`] lists them); 0 beyond an edge of its own, and where the other sheet ends before.
+    pub fn ring_beyond(
+        &self,
+        (sheets, joined): (&[Sheet], &[JoinedEdges]),
+        sheet: &Sheet,
+        (r, c): (usize, usize),
+    ) -> f64 {
+        let is_this = |edge: &(usize, usize)| *edge == (sheet.id, c);
+        let pair = joined.iter().find(|p| p.iter().any(is_this));
+        let Some((id, column)) = pair.and_then(|p| p.iter().copied().find(|e| !is_this(e))) else {
+            return 0.0;
+        };
+        let Some(other) = sheets.iter().find(|s| s.id == id && r < s.rows()) else {
+            return 0.0;
+        };
+        let beside = column.min(other.cols - 1);
         let gamma = self.cell("circulation_m2_per_s");
-        let ring = |c: usize| gamma.get(sheet.first_cell + r * sheet.cols + c);
-        let left = if c > 0 { ring(c - 1) } else { None };
-        let right = if c < sheet.cols { ring(c) } else { None };
-        right.unwrap_or(&0.0) - left.unwrap_or(&0.0)
+        let found = gamma.get(other.first_cell + r * other.cols + beside);
+        // Two edges on the same side: columns of the other sheet run the other way.
+        let sense = if (c == 0) == (column == 0) { -1.0 } else { 1.0 };
+        sense * found.unwrap_or(&0.0)
+    }
+
+    /// Strength of the vortex filament along column `c` of the nodes of a sheet between rows `r` and `r + 1`, towards
+    /// the older one \[m2/s\]: what parts the circulations on both sides, beyond an edge that two sheets share too.
+    pub fn streamwise(
+        &self,
+        all: (&[Sheet], &[JoinedEdges]),
+        sheet: &Sheet,
+        (r, c): (usize, usize),
+    ) -> f64 {
+        let gamma = self.cell("circulation_m2_per_s");
+        let ring = |c: usize| gamma.get(sheet.first_cell + r * sheet.cols + c).unwrap_or(&0.0);
+        let beyond = || self.ring_beyond(all, sheet, (r, c));
+        let left = if c > 0 { *ring(c - 1) } else { beyond() };
+        let right = if c < sheet.cols { *ring(c) } else { beyond() };
+        right - left
     }
 }
 

@@ -1,6 +1,11 @@
 // The time bar: a range input under a drawing of the half-strokes; playing.
 const bar = byId("time-drawing"), slider = byId("time");
 const EDGE_OF_BAR = 8;
+// Wings that beat, one for each rhythm.
+const beating = (() => {
+  const rhythms = flight.turns.map((turns) => turns.join());
+  return [...rhythms.keys()].filter((i) => rhythms[i] && rhythms.indexOf(rhythms[i]) === i);
+})();
 function drawTime() {
   if (LAST < 0) return;
   const w = bar.clientWidth, h = bar.clientHeight, ratio = Math.min(2, window.devicePixelRatio || 1), g = bar.getContext("2d"), css = getComputedStyle(document.documentElement);
@@ -9,14 +14,17 @@ function drawTime() {
   const X = (k) => EDGE_OF_BAR + (w - 2 * EDGE_OF_BAR) * k / Math.max(1, LAST), now = state.at;
   g.fillStyle = css.getPropertyValue("--line");
   g.fillRect(EDGE_OF_BAR, 9, w - 2 * EDGE_OF_BAR, 5);
-  if (hasStrokes) for (let k = 0; k < now;) { // runs of one half-stroke
-    const down = downOf(flight.frames[k].step);
-    let end = k;
-    while (end < now && downOf(flight.frames[Math.min(LAST, end)].step) === down) end++;
-    g.fillStyle = down ? theme.down : theme.up;
-    g.fillRect(X(k), 9, X(Math.min(end, now)) - X(k) + 0.4, 5);
-    k = end;
-  } else { g.fillStyle = theme.up; g.fillRect(EDGE_OF_BAR, 9, X(now) - EDGE_OF_BAR, 5); }
+  if (hasStrokes) beating.forEach((wing, i) => { // runs of one half-stroke, a band for each rhythm
+    const high = beating.length > 1 ? 8 : 5, height = high / beating.length, top = 11.5 - high / 2 + i * height;
+    for (let k = 0; k < now;) {
+      const down = downOf(flight.frames[k].step, wing);
+      let end = k;
+      while (end < now && downOf(flight.frames[Math.min(LAST, end)].step, wing) === down) end++;
+      g.fillStyle = down ? theme.down : theme.up;
+      g.fillRect(X(k), top, X(Math.min(end, now)) - X(k) + 0.4, height);
+      k = end;
+    }
+  }); else { g.fillStyle = theme.up; g.fillRect(EDGE_OF_BAR, 9, X(now) - EDGE_OF_BAR, 5); }
   if (flight.failed) { g.fillStyle = theme.high; g.fillRect(w - EDGE_OF_BAR - 3, 4, 5, 15); }
   g.fillStyle = css.getPropertyValue("--muted"); g.font = "10px system-ui, sans-serif"; g.textAlign = "center";
   const first = flight.frames[0].x, last = flight.frames[LAST].x, at = (x) => EDGE_OF_BAR + (w - 2 * EDGE_OF_BAR) * (x - first) / (last - first || 1);

@@ -118,11 +118,10 @@ fn edges(
     rows: usize,
     list: &mut Vec<([[f64; 3]; 2], f64)>,
 ) {
-    // The other edge at side `from` of a pair whose side `1 - from` is this one, if it reaches to row `i`.
-    let other = |from: usize, i: usize, j: usize| {
-        let pair = joined.iter().find(|p| p[1 - from] == (sheet.id, j))?;
-        let found = sheets.iter().find(|s| s.id == pair[from].0);
-        found.filter(|s| i < s.rows()).map(|s| (s, pair[from].1))
+    // An edge that two sheets share is drawn with the first of them.
+    let is_drawn = |i: usize, j: usize| {
+        let pair = joined.iter().find(|p| p[1] == (sheet.id, j));
+        pair.is_some_and(|p| sheets.iter().any(|s| s.id == p[0].0 && i < s.rows()))
     };
     let gamma = wakes.cell("circulation_m2_per_s");
     let ring = |i: usize, j: usize| {
@@ -144,11 +143,10 @@ fn edges(
             }
         }
         for j in 0..=sheet.cols {
-            if other(0, i, j).is_some() {
-                continue; // drawn with the first of the pair
+            if is_drawn(i, j) {
+                continue;
             }
-            let more = other(1, i, j).map_or(0.0, |(s, c)| wakes.streamwise(s, i, c));
-            let strength = wakes.streamwise(sheet, i, j) + more;
+            let strength = wakes.streamwise((sheets, joined), sheet, (i, j));
             list.push(([node(i, j), node(i + 1, j)], strength.abs()));
         }
     }

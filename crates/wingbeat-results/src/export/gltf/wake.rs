@@ -11,7 +11,7 @@ use serde_json::{Value, json};
 
 use super::document::{BYTE, Document, FLOAT, VERTICES, WAKE, bounds};
 use crate::export::source::Source;
-use crate::frames::{self, Frame, Mesh, Sheet};
+use crate::frames::{self, Frame, JoinedEdges, Mesh, Sheet};
 use crate::particles::Cloud;
 use wingbeat_case::IoError;
 
@@ -118,8 +118,9 @@ impl Wakes {
         let mesh = Frame::part(source.dir.path(), step, 1)?;
         let cloud = Frame::cloud(source.dir.path(), step)?;
         let mut piece = Piece::default();
-        for sheet in mesh.sheets() {
-            piece.sheet(&mesh, &sheet, self.rows);
+        let (sheets, joined) = (mesh.sheets(), mesh.joined_edges(&source.case.setup));
+        for sheet in &sheets {
+            piece.sheet(&mesh, sheet, (&sheets, &joined), self.rows);
         }
         piece.cloud(&cloud);
         Ok(piece)
@@ -143,17 +144,28 @@ impl Wakes {
 }
 
 impl Piece {
-    /// Takes the newest rows of a sheet.
-    fn sheet(&mut self, mesh: &Mesh, sheet: &Sheet, most: usize) {
+    /// Takes the newest rows of a sheet. An edge that it shares with another has their common circulation.
+    fn sheet(
+        &mut self,
+        mesh: &Mesh,
+        sheet: &Sheet,
+        all: (&[Sheet], &[JoinedEdges]),
+        most: usize,
+    ) {
         let (rows, cols) = (sheet.rows().min(most), sheet.cols);
         if rows == 0 {
             return;
         }
         let circulation = &mesh.cell("circulation_m2_per_s")[sheet.first_cell..];
         let ring = |r: isize, c: isize| {
-            let inside = r >= 0 && c >= 0 && r < sheet.rows() as isize && c < cols as isize;
-            let at = |r: isize, c: isize| circulation[r as usize * cols + c as usize];
-            if inside { at(r, c) } else { 0.0 }
+            if r < 0 || r >= sheet.rows() as isize {
+                return 0.0;
+            }
+            match usize::try_from(c) {
+                Ok(c) if c < cols => circulation[r as usize * cols + c],
+                Ok(_) => mesh.ring_beyond(all, sheet, (r as usize, cols)),
+                Err(_) => mesh.ring_beyond(all, sheet, (r as usize, 0)),
+            }
         };
         for r in 0..=rows {
             for c in 0..=cols {
@@ -290,4 +302,40 @@ fn colour(age: f64, opacity: f64) -> [u8; 4] {
     };
     let alpha = (255.0 * opacity.clamp(0.0, 1.0)).round() as u8;
     [mix(0), mix(1), mix(2), alpha]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Two sheets of two rings, side by side, rows alike: without joint edges each root is as strong as its ring, as
+    /// one line it has what parts the two.
+    #[test]
+    fn exact_an_edge_that_two_sheets_share_has_their_common_circulation() {
+        for (second, left_out) in [([3.0, 2.0], 0.0), ([1.0, 2.0], 2.0)] {
+            let node = |k: usize| [(k % 6 / 2) as f64, (k % 2 + k / 6) as f64, 0.0];
+            let quad = |n: usize| {
+                let first = (n / 2) * 6 + (n % 2) * 2;
+                [first, first + 2, first + 3, first + 1]
+            };
+            let mut mesh = Mesh {
+                points: (0..12).map(node).collect(),
+                quads: (0..4).map(quad).collect(),
+                ..Mesh::default()
+            };
+            let [upper, lower] = second;
+            let gamma = vec![3.0, 2.0, upper, lower];
+            mesh.cells.insert("circulation_m2_per_s".to_owned(), gamma);
+            let of_sheets = vec![0.0, 0.0, 1.0, 1.0];
+            mesh.cells.insert("sheet".to_owned(), of_sheets);
+            let sheets = mesh.sheets();
+            let newest = |joined: &[JoinedEdges]| {
+                let mut piece = Piece::default();
+                piece.sheet(&mesh, &sheets[0], (&sheets, joined), 2);
+                piece.nodes[1][0] // right edge, newest row
+            };
+            assert_eq!(newest(&[]), 3.0);
+            assert_eq!(newest(&[[(0, 1), (1, 0)]]), left_out);
+        }
+    }
 }
