@@ -5,10 +5,12 @@ use std::ffi::OsString;
 use pyo3::prelude::*;
 use wingbeat::case::{self, presets::PRESETS};
 
+use crate::threads::detached;
+
 /// Does what the command line says, the name of the program first; the exit code.
 #[pyfunction]
-pub fn main(py: Python<'_>, args: Vec<OsString>) -> u8 {
-    py.detach(|| wingbeat::command::main(args))
+pub fn main(py: Python<'_>, args: Vec<OsString>) -> PyResult<u8> {
+    detached(py, || wingbeat::command::main(args))
 }
 
 /// Names of the presets and what each is.

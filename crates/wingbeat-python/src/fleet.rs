@@ -10,6 +10,7 @@ use wingbeat::analysis::regulator::{Regulator, Weights};
 use wingbeat::analysis::{AnalysisError, Trim};
 
 use crate::errors::{broken, raised, refused};
+use crate::threads::detached;
 
 /// Controls of a flyer.
 const CONTROLS: usize = 4;
@@ -59,7 +60,7 @@ impl Fleet {
         let task = Task::ALL.iter().find(|t| t.0 == task);
         let (_, task) =
             task.ok_or_else(|| refused(py, "task", "there is none of this name", &names))?;
-        let built = py.detach(move || {
+        let built = detached(py, move || {
             let mut course = Course::new(*task, trim)?;
             (course.interval, course.beats, course.delay) = (interval, beats, delay);
             [course.limits.amplitude, course.limits.angle] = limits;
@@ -89,7 +90,7 @@ impl Fleet {
                 autoreset,
                 regulator,
             })
-        });
+        })?;
         built.map_err(|e: AnalysisError| raised(py, &e.into()))
     }
 }
@@ -268,7 +269,7 @@ impl Fleet {
         mut observed: PyReadwriteArray2<'_, f32>,
     ) -> PyResult<()> {
         let observed = observed.as_slice_mut()?;
-        let done = py.detach(|| {
+        let done = detached(py, || {
             let mut cells = self.cells.lock().unwrap_or_else(PoisonError::into_inner);
             if seeds.len() != cells.len()
                 || mask.len() != cells.len()
@@ -285,7 +286,7 @@ impl Fleet {
                 cell.observe(out);
                 Ok::<(), AnalysisError>(())
             }))
-        });
+        })?;
         done.ok_or_else(broken)?.map_err(|e| raised(py, &e.into()))
     }
 
@@ -311,7 +312,7 @@ impl Fleet {
         let (observed, last) = (observed.as_slice_mut()?, last.as_slice_mut()?);
         let (rewards, terminated) = (rewards.as_slice_mut()?, terminated.as_slice_mut()?);
         let truncated = truncated.as_slice_mut()?;
-        let stepped = py.detach(|| {
+        let stepped = detached(py, || {
             let mut cells = self.cells.lock().unwrap_or_else(PoisonError::into_inner);
             let most = group(cells.len());
             let rows = Rows {
@@ -325,7 +326,7 @@ impl Fleet {
             };
             let fit = rows.fit();
             fit.then(|| rows.step(most, self.autoreset, &self.regulator))
-        });
+        })?;
         stepped
             .ok_or_else(broken)?
             .map_err(|e| raised(py, &e.into()))?;
@@ -358,7 +359,7 @@ impl Fleet {
 
     /// Seconds that `count` control steps take within Rust: what Python adds to it is seen beside it.
     fn core_seconds(&self, py: Python<'_>, count: usize) -> PyResult<f64> {
-        let timed = py.detach(|| {
+        let timed = detached(py, || {
             let mut cells = self.cells.lock().unwrap_or_else(PoisonError::into_inner);
             let n = cells.len();
             let actions = vec![0.0; CONTROLS * n];
@@ -379,7 +380,7 @@ impl Fleet {
                 rows.step(group(n), Autoreset::NextStep, &self.regulator)?;
             }
             Ok(begun.elapsed().as_secs_f64())
-        });
+        })?;
         timed.map_err(|e: AnalysisError| raised(py, &e.into()))
     }
 

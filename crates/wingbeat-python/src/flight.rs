@@ -15,6 +15,7 @@ use crate::mechanics::{self, Trim};
 use crate::own::{Slot, air, feedback};
 use crate::run::Run;
 use crate::stepping::Stepper;
+use crate::threads::detached;
 use crate::wake::{self, WakeTrim};
 use crate::worker::{Worked, work};
 
@@ -227,7 +228,7 @@ impl Flight {
 
     /// The flight before its first step.
     fn start(&self, py: Python<'_>) -> PyResult<Stepper> {
-        let flight = py.detach(|| self.flight.begin());
+        let flight = detached(py, || self.flight.begin())?;
         let flight = flight.map_err(|e| self.slot.take().unwrap_or_else(|| raised(py, &e)))?;
         Ok(Stepper::new(
             flight,

@@ -10,6 +10,7 @@
 //! | `errors` | errors as exceptions of `wingbeat.errors` |
 //! | `arrays` | numpy arrays that cannot be written to |
 //! | `own` | controllers and models of the air written in Python |
+//! | `threads` | the pool of threads of this process, of a fork too |
 //! | `worker` | work beside the interpreter: progress, signals |
 //! | `flight` | flights |
 //! | `stepping` | flights step by step |
@@ -30,6 +31,7 @@ mod mechanics;
 mod own;
 mod run;
 mod stepping;
+mod threads;
 mod wake;
 mod worker;
 
@@ -54,4 +56,11 @@ mod _core {
     use crate::stepping::Stepper;
     #[pymodule_export]
     use crate::wake::WakeTrim;
+
+    #[pymodule_init]
+    #[allow(clippy::unnecessary_wraps)]
+    fn init(_module: &pyo3::Bound<'_, pyo3::types::PyModule>) -> pyo3::PyResult<()> {
+        crate::threads::begin();
+        Ok(())
+    }
 }

@@ -12,6 +12,7 @@ use crate::errors::{broken, raised};
 use crate::frame::{Frame, is_framed};
 use crate::own::Slot;
 use crate::run::Run;
+use crate::threads::detached;
 
 /// A flight and what it has flown.
 struct Course {
@@ -56,7 +57,9 @@ impl Stepper {
         py: Python<'_>,
         work: impl FnOnce(&mut Course) -> T + Send,
     ) -> PyResult<T> {
-        let done = py.detach(|| self.course.lock().ok().map(|mut course| work(&mut course)));
+        let done = detached(py, || {
+            self.course.lock().ok().map(|mut course| work(&mut course))
+        })?;
         done.ok_or_else(broken)
     }
 }

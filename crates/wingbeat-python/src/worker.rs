@@ -8,6 +8,7 @@ use std::time::Duration;
 use pyo3::prelude::*;
 
 use crate::errors::broken;
+use crate::threads::within;
 
 /// How often signals are looked for.
 const PERIOD: Duration = Duration::from_millis(40);
@@ -51,8 +52,9 @@ pub fn work<T: Send + 'static>(
     let of_work = Arc::clone(&watch);
     std::thread::spawn(move || {
         // Within the pool: handing it work from outside wakes a thread for every sum.
-        let result = rayon::scope(|_| work(&of_work));
-        let _ = sender.send(result); // nobody waits for it any more
+        if let Ok(result) = within(|| rayon::scope(|_| work(&of_work))) {
+            let _ = sender.send(result); // nobody waits for it any more
+        }
     });
     let interrupted = loop {
         match py.detach(|| receive(&results, Some(PERIOD))) {

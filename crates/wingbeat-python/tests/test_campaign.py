@@ -330,7 +330,6 @@ BAD = {
     "negative time": {"chunk_s": -1.0},
     "no attempts": {"attempts": 0},
     "executor that is none": {"executor": 4},
-    "executor that forks": {"executor": ProcessPoolExecutor(1, multiprocessing.get_context("fork"))},
     "executor that is a class": {"executor": campaign.Serial},
     "unknown preset": {"base": "fruit-fli"},
     "base with parts of its own": {"base": Flight.preset("fruit-fly-blade").with_air(lambda _: np.zeros((3, 6)))},

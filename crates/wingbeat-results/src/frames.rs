@@ -313,7 +313,11 @@ impl Mesh {
         (r, c): (usize, usize),
     ) -> f64 {
         let gamma = self.cell("circulation_m2_per_s");
-        let ring = |c: usize| gamma.get(sheet.first_cell + r * sheet.cols + c).unwrap_or(&0.0);
+        let ring = |c: usize| {
+            gamma
+                .get(sheet.first_cell + r * sheet.cols + c)
+                .unwrap_or(&0.0)
+        };
         let beyond = || self.ring_beyond(all, sheet, (r, c));
         let left = if c > 0 { *ring(c - 1) } else { beyond() };
         let right = if c < sheet.cols { *ring(c) } else { beyond() };

@@ -152,19 +152,7 @@ def engine(executor: Any, workers: int | None) -> tuple[Executor, bool]:
         executor = executor.get_executor()
     if not callable(getattr(executor, "submit", None)):
         raise _no_executor(executor, "Processes(), Serial() or Ray() of wingbeat.campaign, or any concurrent.futures.Executor")
-    _check_start(executor)
     return executor, False
-
-
-def _check_start(executor: Any) -> None:
-    """Refuses processes that are forks of this one: threads of a flight do not go with a fork, which then waits for them."""
-    context = getattr(executor, "_mp_context", None)
-    if context is not None and context.get_start_method() == "fork":
-        raise CaseError(
-            "executor: its processes are forks, which wait for ever if anything was flown in this one",
-            key="executor",
-            remedy="ProcessPoolExecutor(mp_context=multiprocessing.get_context('forkserver')) or 'spawn'; or executor=None",
-        )
 
 
 def capacity(executor: Any, workers: int | None) -> int:

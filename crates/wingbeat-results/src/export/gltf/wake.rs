@@ -145,13 +145,7 @@ impl Wakes {
 
 impl Piece {
     /// Takes the newest rows of a sheet. An edge that it shares with another has their common circulation.
-    fn sheet(
-        &mut self,
-        mesh: &Mesh,
-        sheet: &Sheet,
-        all: (&[Sheet], &[JoinedEdges]),
-        most: usize,
-    ) {
+    fn sheet(&mut self, mesh: &Mesh, sheet: &Sheet, all: (&[Sheet], &[JoinedEdges]), most: usize) {
         let (rows, cols) = (sheet.rows().min(most), sheet.cols);
         if rows == 0 {
             return;
