@@ -67,6 +67,11 @@ impl Mode {
         (!self.is_neutral()).then(|| LN_2 / self.growth.abs())
     }
 
+    /// Whether no component is larger than heading.
+    fn is_heading(&self) -> bool {
+        self.vector.iter().any(|c| c.0 == "psi" && c.1 == 1.0)
+    }
+
     /// Neither grows nor decays by a millionth in a wingbeat.
     pub fn is_neutral(&self) -> bool {
         (self.growth * self.wingbeat).abs() < 1e-6 && self.frequency * self.wingbeat < 1e-3
@@ -123,7 +128,7 @@ impl ModeSet {
         let mode = |p: &Eigenpair| {
             let (exponent, multiplier) = with(p);
             let vector = scaled_vector(p, scales, rest);
-            Mode {
+            let mut mode = Mode {
                 name: String::new(),
                 plane: plane(&vector),
                 growth: exponent[0],
@@ -131,7 +136,11 @@ impl ModeSet {
                 multiplier,
                 wingbeat: scales.period,
                 vector,
+            };
+            if mode.is_neutral() {
+                mode.frequency = 0.0; // of a rounding
             }
+            mode
         };
         let mut modes: Vec<Mode> = upper.map(mode).collect();
         modes.sort_by(|a, b| b.growth.total_cmp(&a.growth));
@@ -214,7 +223,7 @@ fn plane(vector: &[(&'static str, f64, f64)]) -> Plane {
 
 /// Names the modes of each plane: oscillations by stability, two longitudinal ones as phugoid
 /// (the slower) and short period; real ones as divergence or subsidence, the fastest and slowest
-/// subsidence told apart; a neutral lateral one is heading.
+/// subsidence told apart; a neutral one that is most of all a turn about the vertical is heading.
 fn name(modes: &mut [Mode]) {
     for plane in [
         Plane::Longitudinal,
@@ -241,7 +250,8 @@ fn name(modes: &mut [Mode]) {
         let fastest = decaying.iter().copied().fold(0.0, f64::min);
         for m in modes.iter_mut().filter(|m| m.plane == plane) {
             m.name = match (m.is_neutral(), m.frequency > 0.0, m.growth > 0.0) {
-                (true, _, _) => "neutral (heading)".to_owned(),
+                (true, _, _) if m.is_heading() => "neutral (heading)".to_owned(),
+                (true, _, _) => "neutral".to_owned(),
                 (_, true, true) => format!("unstable {}", wave(m)),
                 (_, true, false) => format!("stable {}", wave(m)),
                 (_, false, true) => "divergence".to_owned(),
