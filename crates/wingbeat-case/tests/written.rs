@@ -97,3 +97,25 @@ fn agrees_a_hold_on_a_moving_tether_with_the_case_of_its_setup() {
         assert!(parts.iter().all(|d| d.length() < 1e-15), "{parts:?}");
     }
 }
+
+/// Cases of which some keys have no effect beside the others, as a load that does not oscillate.
+#[test]
+fn exact_resolved_cases_can_be_read() {
+    for sets in [
+        vec!["load=[{force_newton=[0,0,-1e-7]}]"],
+        vec!["load=[{couple_newton_m=[0,1e-9,0]}]"],
+        vec!["load=[{frequency_hz=50,force_sine_newton=[[1e-7,0,0]]}]"],
+        vec!["load=[{frequency_hz=50,couple_cosine_newton_m=[[1e-9,0,0]]}]"],
+        vec!["flight.mode=tethered", "flight.tether.yaw.rate_deg_s=100"],
+        vec![
+            "flight.mode=tethered",
+            "flight.tether.pitch={rate_deg_s=1,frequency_hz=20,cosine_deg=[3]}",
+        ],
+    ] {
+        let sets: Vec<String> = sets.iter().map(|s| (*s).to_owned()).collect();
+        let case = LoadedCase::find("fruit-fly-blade", &sets).unwrap_or_else(|e| panic!("{e}"));
+        let again = LoadedCase::from_text("again", &case.resolved(), ".".as_ref(), &[]);
+        let again = again.unwrap_or_else(|e| panic!("{sets:?}: {e}"));
+        assert!(format!("{:?}", case.setup) == format!("{:?}", again.setup));
+    }
+}

@@ -154,7 +154,13 @@ fn kept(shape: Shape, root: &Table, table: &Table) -> Table {
         let key = shape.at(name)?;
         effective(key).then(|| (name.clone(), kept_in(key, root, value)))
     };
-    table.iter().filter_map(keep).collect()
+    let left: Table = table.iter().filter_map(keep).collect();
+    // Keys that need each other go together: what needs one that went goes next.
+    if left.len() < table.len() {
+        kept(shape, root, &left)
+    } else {
+        left
+    }
 }
 
 fn kept_in(shape: Shape, root: &Table, value: &Value) -> Value {
