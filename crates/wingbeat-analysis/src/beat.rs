@@ -8,7 +8,7 @@
 //! State: mass centre, quaternion, linear momentum, angular momentum about the mass centre (13
 //! numbers, N components), then coordinates and speeds of the free joints.
 
-mod periodic;
+pub(crate) mod periodic;
 
 use std::ops::Range;
 use std::sync::Arc;
@@ -18,7 +18,7 @@ use wingbeat_dynamics::free::JointOffsets;
 use wingbeat_dynamics::{BodyMotion, Formulation, Joint};
 use wingbeat_flight::{FlightSetup, FreeFlight, FreeFlightScratch, Passage};
 use wingbeat_math::ode::Rk4;
-use wingbeat_math::{DMat3, DQuat, DVec3, RotationLaw};
+use wingbeat_math::{DMat3, DQuat, DVec3, RotationLaw, rotation_vector};
 use wingbeat_model::motion::Adjustment;
 use wingbeat_model::{Animal, Start, Wing, WingMotion};
 
@@ -262,7 +262,7 @@ impl Beat {
         let of = |(hinge, s): (&Joint, &JointOffsets)| {
             let q = &q[s.q..s.q + s.coordinates];
             let coordinates = match s.coordinates {
-                4 => DQuat::from_slice(q).to_scaled_axis().to_array().to_vec(),
+                4 => rotation_vector(DQuat::from_slice(q)).to_array().to_vec(),
                 _ => q.to_vec(),
             };
             (
@@ -281,6 +281,23 @@ impl Beat {
     pub fn advance(&self, y: &[f64]) -> Result<State, AnalysisError> {
         crate::progress::beat();
         self.advance_over(0..self.steps, y)
+    }
+
+    /// Mean attitude of the root over the wingbeat from `y`, root to N: that about which loads are averaged.
+    ///
+    /// # Errors
+    /// As [`Self::advance`].
+    pub fn mean_attitude(&self, y: &[f64]) -> Result<DMat3, AnalysisError> {
+        let mut integration = Integration::new(self);
+        let mut y = y.to_vec();
+        let first = DQuat::from_slice(&y[3..7]);
+        let mut sum = DQuat::from_xyzw(0.0, 0.0, 0.0, 0.0);
+        for step in 0..self.steps {
+            let q = DQuat::from_slice(&y[3..7]);
+            sum = if q.dot(first) < 0.0 { sum - q } else { sum + q };
+            integration.step(self, step, &mut y)?;
+        }
+        Ok(DMat3::from_quat(sum.normalize()))
     }
 
     /// The state after these steps of the beat.

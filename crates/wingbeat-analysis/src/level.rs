@@ -1,6 +1,6 @@
 //! The level frame of a reference attitude, and small departures from it.
 
-use wingbeat_math::{DMat3, DQuat, DVec3};
+use wingbeat_math::{DMat3, DQuat, DVec3, rotation_vector};
 
 use crate::beat::{Beat, State};
 
@@ -106,7 +106,7 @@ impl Perturbation {
         Self {
             velocity: turned.transpose() * velocity,
             rate: level.to_root.transpose() * rate,
-            tilt: DQuat::from_mat3(&(level.to_n.transpose() * turned)).to_scaled_axis(),
+            tilt: rotation_vector(DQuat::from_mat3(&(level.to_n.transpose() * turned))),
         }
     }
 }

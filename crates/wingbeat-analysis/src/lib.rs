@@ -48,6 +48,7 @@ pub mod power;
 pub mod progress;
 pub mod realisation;
 pub mod regulator;
+mod rigid_body;
 pub mod route;
 pub mod sensors;
 pub mod stabiliser;

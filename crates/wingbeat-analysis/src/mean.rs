@@ -1,11 +1,11 @@
 //! Loads averaged over a beat while the body moves steadily.
 
 use wingbeat_dynamics::{BodyAcceleration, BodyMotion};
-use wingbeat_math::{DMat3, DVec3};
+use wingbeat_math::{DMat3, DQuat, DVec3};
 
 use crate::AnalysisError;
 use crate::beat::Beat;
-use crate::level::Level;
+use crate::level::{Level, Perturbation};
 
 /// Mean force and moment of the air over a beat, components of the level frame.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -54,6 +54,13 @@ impl Beat {
         }
     }
 
+    /// Mean angular momentum about the mass centre of the motion seen from the root, root components [kg m2/s]: that of
+    /// wings whose strokes draw loops.
+    pub fn mean_momentum(&self) -> DVec3 {
+        let sum: DVec3 = self.configurations().map(|(_, whole)| whole.h).sum();
+        sum / (2 * self.steps()) as f64
+    }
+
     /// Mean air load when the mean mass centre moves with `velocity` [m/s] and the body turns with
     /// `rate` [rad/s], the rate and the velocity through the air steady in the level frame that turns with the body. Equal
     /// weights over the beat: spectrally accurate for a periodic motion.
@@ -66,20 +73,39 @@ impl Beat {
         velocity: DVec3,
         rate: DVec3,
     ) -> Result<MeanLoad, AnalysisError> {
+        let state = Perturbation {
+            velocity,
+            rate,
+            tilt: DVec3::ZERO,
+        };
+        self.changing_load(level, &state, [DVec3::ZERO; 2])
+    }
+
+    /// The same in a tilted attitude, and while the velocity through the air changes by `rates[0]` [m/s2] and the rate by
+    /// `rates[1]` [rad/s2]: components of the level frame that turns and is tilted with the body, the load's too.
+    pub(crate) fn changing_load(
+        &self,
+        level: &Level,
+        state: &Perturbation,
+        rates: [DVec3; 2],
+    ) -> Result<MeanLoad, AnalysisError> {
         self.check_averaged()?;
         let system = self.flight().system();
         let centre = self.mean_centre();
-        let r = level.to_n * level.to_root.transpose();
-        let (v, w) = (level.to_n * velocity, level.to_root * rate);
+        let tilted = level.to_n * DMat3::from_quat(DQuat::from_scaled_axis(state.tilt));
+        let r = tilted * level.to_root.transpose();
+        let (v, w) = (tilted * state.velocity, level.to_root * state.rate);
         let root = BodyMotion {
             p: DVec3::ZERO,
             r,
             v: v - r * w.cross(centre),
             w,
         };
+        let [linear, angular] = rates.map(|x| level.to_root * x);
+        let steady = w.cross(r.transpose() * (root.v - self.stream()));
         let turning = BodyAcceleration {
-            linear: r * w.cross(r.transpose() * (root.v - self.stream())),
-            angular: DVec3::ZERO,
+            linear: r * (steady + linear - angular.cross(centre)),
+            angular,
         };
         let bodies = system.bodies().len();
         let mut motions = vec![BodyMotion::REST; bodies];
@@ -97,7 +123,7 @@ impl Beat {
             }
         }
         let n = (2 * self.steps()) as f64;
-        let to_level = level.to_n.transpose() / n;
+        let to_level = tilted.transpose() / n;
         Ok(MeanLoad {
             force: to_level * force,
             moment: to_level * moment,

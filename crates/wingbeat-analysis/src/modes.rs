@@ -52,7 +52,8 @@ pub struct Mode {
     pub multiplier: [f64; 2],
     /// Period of a wingbeat [s], for times in wingbeats.
     pub wingbeat: f64,
-    /// Components of the eigenvector over their natural sizes, largest 1: size and phase \[rad\].
+    /// Components of the eigenvector over their natural sizes, largest 1: size, and phase from that of the largest component of
+    /// flight \[rad\].
     pub vector: Vec<(&'static str, f64, f64)>,
 }
 
@@ -190,10 +191,14 @@ fn scaled_vector(
     let flight: Vec<[f64; 2]> = flight.iter().zip(&scales.array()).map(scaled).collect();
     let squares = rest.iter().zip(sizes).map(scaled);
     let of_rest = squares.map(|z| z[0] * z[0] + z[1] * z[1]).sum::<f64>();
-    let largest = flight.iter().map(|z| z[0].hypot(z[1]));
-    let largest = largest.fold(of_rest.sqrt(), f64::max);
+    let size = |z: &[f64; 2]| z[0].hypot(z[1]);
+    let first = flight.iter().max_by(|a, b| size(a).total_cmp(&size(b)));
+    let [re, im] = *first.expect("nine components");
+    let largest = f64::max(re.hypot(im), of_rest.sqrt());
+    // Phases from that of the largest component of flight.
     let component = |(z, name): (&[f64; 2], &&'static str)| {
-        (*name, z[0].hypot(z[1]) / largest, z[1].atan2(z[0]))
+        let phase = (z[1] * re - z[0] * im).atan2(z[0] * re + z[1] * im);
+        (*name, size(z) / largest, phase)
     };
     let mut vector: Vec<_> = flight.iter().zip(&STATE).map(component).collect();
     if !sizes.is_empty() {

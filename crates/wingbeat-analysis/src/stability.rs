@@ -1,15 +1,15 @@
 //! Linear models of flight: averaged over the beat, and Floquet's.
 
-use wingbeat_math::{DMat3, DQuat, DVec3, r3};
+use wingbeat_math::{DVec3, r3};
 
 use crate::AnalysisError;
 use crate::beat::{Beat, JOINTS, State};
 use crate::derivatives::ControlDerivative;
 use crate::eigen::eigen;
 use crate::level::{Level, Perturbation};
-use crate::mean::MeanLoad;
 use crate::modes::{ModeSet, Scales};
 use crate::monodromy::monodromy;
+use crate::rigid_body::RigidBody;
 use crate::trim::Trim;
 
 /// Names of the six loads.
@@ -23,6 +23,11 @@ pub struct LinearModel {
     pub matrix: Vec<f64>,
     /// Derivatives of (X, Y, Z, L, M, N) by (u, v, w, p, q, r), 6 x 6 by rows [SI: N, m, s, rad].
     pub derivatives: [[f64; 6]; 6],
+    /// Added mass of the air: derivatives of (X, Y, Z, L, M, N), reversed, by the rates of (u, v, w, p, q, r) through the air, 6 x
+    /// 6 by rows [SI: N, m, s, rad].
+    pub added_mass: [[f64; 6]; 6],
+    /// Mean angular momentum of the beating wings seen from the body, level frame [kg m2/s].
+    pub momentum: DVec3,
     /// Modes.
     pub modes: ModeSet,
 }
@@ -36,23 +41,35 @@ fn scales(beat: &Beat) -> Scales {
     }
 }
 
-/// The cycle-averaged model about steady flight with the attitude and mean velocity of the
+/// The steady flight with the mean attitude and velocity of the orbit through `state`.
+///
+/// # Errors
+/// Numbers that are not finite.
+pub fn reference(beat: &Beat, state: &State) -> Result<(Level, Perturbation), AnalysisError> {
+    let level = Level::new(beat.mean_attitude(state)?, beat.gravity());
+    let end = beat.advance(state)?;
+    let travelled = DVec3::from_slice(&end) - DVec3::from_slice(state);
+    let steady = Perturbation {
+        velocity: level.to_n.transpose() * travelled / beat.period(),
+        ..Perturbation::default()
+    };
+    Ok((level, steady))
+}
+
+/// The cycle-averaged model about steady flight with the mean attitude and mean velocity of the
 /// periodic orbit through `state`.
 ///
 /// # Errors
 /// Numbers that are not finite.
 pub fn linear_model(beat: &Beat, state: &State) -> Result<LinearModel, AnalysisError> {
-    let level = Level::new(beat.root(state).r, beat.gravity());
-    let end = beat.advance(state)?;
-    let travelled = DVec3::from_slice(&end) - DVec3::from_slice(state);
-    let velocity = level.to_n.transpose() * travelled / beat.period();
-    let reference = Perturbation {
-        velocity,
-        ..Perturbation::default()
-    };
+    let (level, reference) = reference(beat, state)?;
     let size = scales(beat);
+    let body = RigidBody::of(beat, &level, &reference)?;
     let f = |x: &[f64]| -> Result<Vec<f64>, AnalysisError> {
-        Ok(averaged_rates(beat, &level, x)?.to_vec())
+        let rates = body.rates(x, |state| {
+            beat.changing_load(&level, state, [DVec3::ZERO; 2])
+        })?;
+        Ok(rates.to_vec())
     };
     // Mean loads are smooth: steps of 1e-3 of the natural sizes, error of the formula 1e-12.
     let steps = size.array().map(|s| 1e-3 * s);
@@ -60,78 +77,41 @@ pub fn linear_model(beat: &Beat, state: &State) -> Result<LinearModel, AnalysisE
     let modes = ModeSet::of_exponents(eigen(&matrix, 9)?, &size);
     Ok(LinearModel {
         derivatives: load_derivatives(beat, &level, &reference, &steps)?,
+        added_mass: body.added_mass,
+        momentum: body.momentum,
         matrix,
         modes,
     })
 }
 
-/// Newton's and Euler's laws for the mean rigid body in the level frame that turns with it.
-fn averaged_rates(beat: &Beat, level: &Level, x: &[f64]) -> Result<[f64; 9], AnalysisError> {
-    let body = RigidBody {
-        mass: beat.mass(),
-        inertia: level.to_root.transpose() * beat.mean_inertia() * level.to_root,
-        gravity: level.to_n.transpose() * beat.gravity(),
-        stream: level.to_n.transpose() * beat.stream(),
-    };
-    body.rates(x, |v, w| beat.mean_load(level, v, w))
-}
-
-/// What the equations of a rigid aircraft need; axes fixed in the body, level in the reference
-/// attitude.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct RigidBody {
-    pub(crate) mass: f64,
-    /// About the mass centre.
-    pub(crate) inertia: DMat3,
-    /// In the reference attitude.
-    pub(crate) gravity: DVec3,
-    /// Velocity of the undisturbed air in the reference attitude.
-    pub(crate) stream: DVec3,
-}
-
-impl RigidBody {
-    /// Rates of the nine components of [`Perturbation`] under the air's `load(velocity, rate)` in the reference attitude: in
-    /// another the stream comes from elsewhere, as if the body moved otherwise through that of the reference.
-    pub(crate) fn rates<E>(
-        &self,
-        x: &[f64],
-        load: impl Fn(DVec3, DVec3) -> Result<MeanLoad, E>,
-    ) -> Result<[f64; 9], E> {
-        let state = Perturbation::from_array(x.try_into().expect("nine components"));
-        let (v, w, j) = (state.velocity, state.rate, self.inertia);
-        let tilt = DMat3::from_quat(DQuat::from_scaled_axis(state.tilt));
-        let load = load(v + (self.stream - tilt.transpose() * self.stream), w)?;
-        // To first order in tilt and rate the rotation vector changes at the rate w.
-        let rates = Perturbation {
-            velocity: load.force / self.mass + tilt.transpose() * self.gravity - w.cross(v),
-            rate: j.inverse() * (load.moment - w.cross(j * w)),
-            tilt: w,
-        };
-        Ok(rates.to_array())
-    }
-}
-
 /// How the averaged model about the flight through `state` answers controls: derivatives of the rates of (u, v, w, p,
 /// q, r, phi, theta, psi) by each of `controls`, by rows, 9 x their number.
 ///
-/// `d(u, v, w)' = dF / m`, `d(p, q, r)' = J^-1 dM`, J the mean inertia about the mean mass centre, level frame: the
-/// input matrix B beside [`LinearModel::matrix`].
-pub fn input_matrix(beat: &Beat, state: &State, controls: &[ControlDerivative]) -> Vec<f64> {
-    let level = Level::new(beat.root(state).r, beat.gravity());
-    let inertia = level.to_root.transpose() * beat.mean_inertia() * level.to_root;
+/// Rates are those that the loads give the mean rigid body with the added mass of the air: the input matrix B beside
+/// [`LinearModel::matrix`].
+///
+/// # Errors
+/// What the air reports.
+pub fn input_matrix(
+    beat: &Beat,
+    state: &State,
+    controls: &[ControlDerivative],
+) -> Result<Vec<f64>, AnalysisError> {
+    let (level, reference) = reference(beat, state)?;
+    let body = RigidBody::of(beat, &level, &reference)?;
     let n = controls.len();
     let mut b = vec![0.0; 9 * n];
     for (k, control) in controls.iter().enumerate() {
-        let load = &control.derivative;
+        let [velocity, rate] = body.accelerations(&control.derivative)?;
         let rates = Perturbation {
-            velocity: load.force / beat.mass(),
-            rate: inertia.inverse() * load.moment,
+            velocity,
+            rate,
             tilt: DVec3::ZERO,
         };
         let column = rates.to_array();
         (0..9).for_each(|i| b[i * n + k] = column[i]);
     }
-    b
+    Ok(b)
 }
 
 /// Derivatives of the mean loads by velocities and rates.

@@ -23,7 +23,7 @@ pub struct Swept {
     pub velocity: DVec3,
     /// How it flies.
     pub trim: Trim,
-    /// What it costs, the body carried in the trimmed attitude at the trimmed velocity.
+    /// What it costs over the free wingbeat.
     pub power: Power,
     /// Stroke angle of the first wing from end to end \[rad\]; 0 where it does not flap by itself.
     pub stroke_amplitude: f64,

@@ -4,15 +4,15 @@
 use wingbeat_blade::DerivativeTable;
 use wingbeat_blade::FrameMotion;
 use wingbeat_flight::{AirModel, FlightSetup};
-use wingbeat_math::{DMat3, DVec3};
+use wingbeat_math::{DMat3, DVec3, tilde};
 
 use crate::AnalysisError;
 use crate::eigen::eigen;
-use crate::level::Level;
 use crate::mean::MeanLoad;
 use crate::modes::{ModeSet, Scales};
 use crate::monodromy::monodromy;
-use crate::stability::{LinearModel, RigidBody};
+use crate::rigid_body::RigidBody;
+use crate::stability::{LinearModel, reference};
 use crate::trim::Trim;
 
 /// The linear model of a rigid animal under its table of derivatives about the table's reference
@@ -39,12 +39,15 @@ pub fn table_model(setup: &FlightSetup) -> Result<LinearModel, AnalysisError> {
         inertia: table.to_body.transpose() * inertia * table.to_body,
         gravity: DVec3::Z * setup.gravity.length(),
         stream: DVec3::ZERO, // velocities are those through the air
+        momentum: DVec3::ZERO,
+        added_mass: table.added_mass,
+        length: (inertia.col(0).length() / setup.animal.body.mass).sqrt(),
     };
     let mut reference = [0.0; 9];
     table.velocity.write_to_slice(&mut reference);
     let rates = |x: &[f64]| -> Result<Vec<f64>, AnalysisError> {
         Ok(body
-            .rates(x, |v, w| Ok::<_, AnalysisError>(load(&table, v, w)))?
+            .rates(x, |state| Ok(load(&table, state.velocity, state.rate)))?
             .to_vec())
     };
     let period = setup.time.period.unwrap_or(1.0);
@@ -62,6 +65,8 @@ pub fn table_model(setup: &FlightSetup) -> Result<LinearModel, AnalysisError> {
     Ok(LinearModel {
         matrix,
         derivatives: table.derivatives,
+        added_mass: body.added_mass,
+        momentum: body.momentum,
         modes,
     })
 }
@@ -96,18 +101,23 @@ pub fn rigid_animal(
     trim: &Trim,
     model: &LinearModel,
 ) -> Result<(f64, DMat3, DerivativeTable), AnalysisError> {
-    let root = trim.beat.root(&trim.state);
-    let level = Level::new(root.r, trim.beat.gravity());
-    let velocity = level.to_n.transpose() * trim.mean_velocity()?;
+    let (level, steady) = reference(&trim.beat, &trim.state)?;
     let stream = level.to_n.transpose() * trim.beat.stream();
-    let air = trim.beat.mean_load(&level, velocity, DVec3::ZERO)?;
-    let (f, m) = (air.force, air.moment);
+    // The trimmed flight is in balance.
+    let f = -trim.beat.mass() * (level.to_n.transpose() * trim.beat.gravity());
+    let mut derivatives = model.derivatives;
+    // Wings that carry angular momentum along turn a body that turns.
+    let gyroscopic = tilde(model.momentum);
+    for (i, row) in derivatives[3..].iter_mut().enumerate() {
+        (0..3).for_each(|j| row[3 + j] += gyroscopic.col(j)[i]);
+    }
     let table = DerivativeTable {
         to_body: level.to_root,
         point: DVec3::ZERO,
-        velocity: velocity - stream,
-        reference: [f.x, f.y, f.z, m.x, m.y, m.z],
-        derivatives: model.derivatives,
+        velocity: steady.velocity - stream,
+        reference: [f.x, f.y, f.z, 0.0, 0.0, 0.0],
+        derivatives,
+        added_mass: model.added_mass,
         stream: DVec3::ZERO,
     };
     Ok((trim.beat.mass(), trim.beat.mean_inertia(), table))

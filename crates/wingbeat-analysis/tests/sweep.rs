@@ -3,7 +3,7 @@
 use crate::common;
 
 use common::*;
-use wingbeat_analysis::power::power;
+use wingbeat_analysis::power::power_of_trim;
 use wingbeat_analysis::sweep::{Lost, sweep};
 use wingbeat_analysis::*;
 use wingbeat_math::DVec3;
@@ -27,7 +27,7 @@ fn agrees_a_sweep_with_trims_one_by_one() {
         for (a, b) in alone.point.iter().zip(&f.trim.point) {
             assert!((a - b).abs() < 1e-7, "{:?} {:?}", alone.point, f.trim.point);
         }
-        let paid = power(&alone.tethered().unwrap()).unwrap();
+        let paid = power_of_trim(&alone).unwrap();
         assert!((paid.aerodynamic / f.power.aerodynamic - 1.0).abs() < 1e-6);
     }
     let least = found.least_power().unwrap().power.perfect_storage;

@@ -25,21 +25,30 @@ pub struct DerivativeTable {
     pub reference: [f64; 6],
     /// Rows X, Y, Z, L, M, N; columns u, v, w [m/s], p, q, r [rad/s].
     pub derivatives: [[f64; 6]; 6],
+    /// Added mass of the air A: the load is smaller by A times the rates of (u, v, w) through the air and of (p, q, r), symmetric
+    /// [kg, kg m, kg m2].
+    pub added_mass: [[f64; 6]; 6],
     /// Velocity of the undisturbed air, N components [m/s].
     pub stream: DVec3,
 }
 
 impl DerivativeTable {
-    /// Force and moment about the body's origin, body components.
+    /// Force and moment about the body's origin, body components; of the added mass what is felt where the velocity of the body
+    /// over the ground does not change in its own axes.
     pub fn load(&self, body: &FrameMotion) -> Load {
         let air = body.rotation.transpose() * (body.velocity - self.stream);
         let here = air + body.rate.cross(self.point);
         let v = self.to_body.transpose() * here - self.velocity;
         let w = self.to_body.transpose() * body.rate;
         let x = [v.x, v.y, v.z, w.x, w.y, w.z];
+        // The stream turns against the body.
+        let stream = (body.rotation * self.to_body).transpose() * self.stream;
+        let turning = w.cross(stream).to_array();
+        let times =
+            |row: &[f64; 6], x: &[f64]| -> f64 { row.iter().zip(x).map(|(d, x)| d * x).sum() };
         let row = |i: usize| -> f64 {
-            let sum: f64 = self.derivatives[i].iter().zip(x).map(|(d, x)| d * x).sum();
-            self.reference[i] + sum
+            let sum = times(&self.derivatives[i], &x);
+            self.reference[i] + sum - times(&self.added_mass[i], &turning)
         };
         let force = self.to_body * DVec3::new(row(0), row(1), row(2));
         let moment = self.to_body * DVec3::new(row(3), row(4), row(5));
@@ -47,6 +56,37 @@ impl DerivativeTable {
             force,
             moment: moment + self.point.cross(force),
         }
+    }
+
+    /// Added mass about the body's origin, body components; none if it is zero.
+    pub fn added_mass_of_body(&self) -> Option<[[f64; 6]; 6]> {
+        let is_zero = self.added_mass.as_flattened().iter().all(|x| *x == 0.0);
+        if is_zero {
+            return None;
+        }
+        // Rates at the reference point in the table's axes from those at the origin in the body's.
+        let column = |k: usize| -> [f64; 6] {
+            let unit = |of: usize| {
+                if k / 3 == of {
+                    DVec3::AXES[k % 3]
+                } else {
+                    DVec3::ZERO
+                }
+            };
+            let (linear, angular) = (unit(0), unit(1));
+            let v = self.to_body.transpose() * (linear + angular.cross(self.point));
+            let w = self.to_body.transpose() * angular;
+            [v.x, v.y, v.z, w.x, w.y, w.z]
+        };
+        let columns: [[f64; 6]; 6] = std::array::from_fn(column);
+        let entry = |j: usize, k: usize| -> f64 {
+            let rows = self.added_mass.iter().zip(&columns[j]);
+            rows.map(|(row, x)| x * row.iter().zip(&columns[k]).map(|(a, y)| a * y).sum::<f64>())
+                .sum()
+        };
+        // Exactly symmetric, as energy asks.
+        let mean = |j: usize, k: usize| 0.5 * (entry(j, k) + entry(k, j));
+        Some(std::array::from_fn(|j| std::array::from_fn(|k| mean(j, k))))
     }
 }
 
@@ -102,6 +142,7 @@ mod tests {
             velocity: DVec3::new(1.0, 0.0, 0.0),
             reference: [10.0, 0.0, 0.0, 0.0, 0.0, 0.0],
             derivatives: d,
+            added_mass: [[0.0; 6]; 6],
             stream: DVec3::ZERO,
         };
         let load = table.load(&FrameMotion {

@@ -246,12 +246,12 @@ fn derivatives(
     table: &DerivativeTable,
     [body_roll_deg, body_pitch_deg]: [f64; 2],
 ) -> DerivativesCase {
-    let block = |i: usize, k: usize| -> Option<[[f64; 3]; 3]> {
-        let entry = |r: usize, c: usize| table.derivatives[i + r][k + c];
-        Some(std::array::from_fn(|r| {
-            std::array::from_fn(|c| entry(r, c))
-        }))
+    let part = |m: &[[f64; 6]; 6], i: usize, k: usize| -> [[f64; 3]; 3] {
+        std::array::from_fn(|r| std::array::from_fn(|c| m[i + r][k + c]))
     };
+    let block = |i: usize, k: usize| Some(part(&table.derivatives, i, k));
+    let felt = table.added_mass.as_flattened().iter().any(|x| *x != 0.0);
+    let added = |i: usize, k: usize| felt.then(|| part(&table.added_mass, i, k));
     let r = table.reference;
     DerivativesCase {
         body_pitch_deg,
@@ -263,6 +263,9 @@ fn derivatives(
         force_by_rate_newton_s: block(0, 3),
         moment_by_velocity_newton_s: block(3, 0),
         moment_by_rate_newton_m_s: block(3, 3),
+        added_mass_kg: added(0, 0),
+        added_mass_by_turning_kg_m: added(0, 3),
+        added_inertia_kg_m2: added(3, 3),
         dimensionless: None,
     }
 }

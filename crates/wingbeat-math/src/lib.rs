@@ -30,7 +30,9 @@ pub use glam::{DMat3, DQuat, DVec2, DVec3};
 pub use iterative::{BiCgStab, Product};
 pub use lu::{DenseLu, LuError};
 pub use mass::{MassError, MassProperties};
-pub use rotation::{MovingRotation, RotationLaw, r1, r2, r3, rotation_about, tilde, untilde};
+pub use rotation::{
+    MovingRotation, RotationLaw, r1, r2, r3, rotation_about, rotation_vector, tilde, untilde,
+};
 pub use secants::{Secants, Shown};
 pub use series::{DriftingFourier, interpolate};
 pub use small_lu::{SingularMatrix, solve_small};

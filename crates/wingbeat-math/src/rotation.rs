@@ -1,6 +1,6 @@
 //! Elementary rotations (active, right-handed) and rotations that move in time.
 
-use glam::{DMat3, DVec3};
+use glam::{DMat3, DQuat, DVec3};
 
 /// Active rotation about axis 1 by `a` [rad]: `[[1,0,0],[0,c,-s],[0,s,c]]`.
 pub fn r1(a: f64) -> DMat3 {
@@ -51,6 +51,19 @@ pub fn untilde(m: DMat3) -> DVec3 {
         m.z_axis.x - m.x_axis.z,
         m.x_axis.y - m.y_axis.x,
     )
+}
+
+/// Rotation vector \[rad\] of a quaternion, at most half a turn; right for small turns, too (glam's has no
+/// turns below 2e-8).
+pub fn rotation_vector(q: DQuat) -> DVec3 {
+    let q = if q.w < 0.0 { -q } else { q };
+    let v = q.xyz();
+    let sine = v.length();
+    if sine > 0.0 {
+        v * (2.0 * sine.atan2(q.w) / sine)
+    } else {
+        v * 2.0
+    }
 }
 
 /// A rotation matrix with its angular velocity and acceleration at one instant.

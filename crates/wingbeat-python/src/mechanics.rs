@@ -268,12 +268,13 @@ impl Trim {
         Bound<'py, PyAny>,
     )> {
         let found = self.controls(py)?;
+        let b = input_matrix(&self.trim.beat, &self.trim.state, &found);
+        let b = b.map_err(|e| raised(py, &e.into()))?;
         let names = found.iter().map(|d| (d.control, d.wing.clone())).collect();
         let loads = |d: &ControlDerivative| [d.derivative.force, d.derivative.moment];
         let rows = found.iter().flat_map(loads).flat_map(|v| v.to_array());
         let rows: Vec<f64> = rows.collect();
         let count = found.len();
-        let b = input_matrix(&self.trim.beat, &self.trim.state, &found);
         Ok((
             names,
             array(py, rows, &[count, 6])?,

@@ -5,7 +5,7 @@
 //! screws is `[[A, dA[u]], [0, A]]`, `dA[u]` the derivative of A along u (Sonneville, Cardona & Bruls 2014, appendix A;
 //! Barfoot, State Estimation for Robotics, 2017, eq. 7.95).
 
-use wingbeat_math::{DMat3, DQuat, DVec3, tilde};
+use wingbeat_math::{DMat3, DQuat, DVec3, rotation_vector, tilde};
 
 /// A screw: translation u \[m\] and rotation theta \[rad\], both in the axes of its first frame.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -53,18 +53,6 @@ impl Screw {
             u: DVec3::from_slice(&n[..3]),
             theta: DVec3::from_slice(&n[3..]),
         }
-    }
-}
-
-/// Rotation vector \[rad\] of a quaternion, at most half a turn.
-fn rotation_vector(q: DQuat) -> DVec3 {
-    let q = if q.w < 0.0 { -q } else { q };
-    let v = q.xyz();
-    let sine = v.length();
-    if sine > 0.0 {
-        v * (2.0 * sine.atan2(q.w) / sine)
-    } else {
-        v * 2.0
     }
 }
 

@@ -7,7 +7,7 @@ use crate::AnalysisError;
 
 /// An error if a joint of the system is not back after a wingbeat of `period` [s] or is driven at another
 /// frequency.
-pub(super) fn check_periodic(system: &System, period: f64) -> Result<(), AnalysisError> {
+pub(crate) fn check_periodic(system: &System, period: f64) -> Result<(), AnalysisError> {
     // Roundings of a phase, some thousands of them.
     const CLOSE: f64 = 1e-9;
     let differs = |a: DVec3, b: DVec3, size: f64| (a - b).length() > CLOSE * size;

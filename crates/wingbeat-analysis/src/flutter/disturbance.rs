@@ -1,7 +1,7 @@
 //! Small velocities in the modes of the deformed wing, and where the response is looked at.
 
 use wingbeat_flight::FlightState;
-use wingbeat_math::{DQuat, DVec3};
+use wingbeat_math::{DQuat, DVec3, rotation_vector};
 use wingbeat_structure::NODE;
 
 use super::settings::FlutterSettings;
@@ -97,7 +97,7 @@ impl Stations {
         let at = &state.wings[0].structure.configuration;
         let of = |(&n, (x, r)): (&usize, &(DVec3, DQuat))| {
             let shift = (at.position[n] - *x) / self.size;
-            let turn = (at.rotation[n] * r.inverse()).to_scaled_axis();
+            let turn = rotation_vector(at.rotation[n] * r.inverse());
             [shift.to_array(), turn.to_array()].concat()
         };
         self.nodes.iter().zip(&self.rest).flat_map(of).collect()

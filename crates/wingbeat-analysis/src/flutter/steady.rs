@@ -4,7 +4,7 @@ use wingbeat_flight::elastic::{ElasticWing, ElasticWings};
 use wingbeat_flight::{
     AirModel, FlightSetup, FlightState, MotionMode, PrescribedMotion, Simulation,
 };
-use wingbeat_math::DVec3;
+use wingbeat_math::{DVec3, rotation_vector};
 use wingbeat_structure::{FrameMotion, Mode, modes};
 
 use super::settings::FlutterSettings;
@@ -162,7 +162,7 @@ impl ElasticRig {
         let modes = leading(self, state, settings.modes)?;
         Ok(SteadyWing {
             tip: at.position[tip] - rest.position[tip],
-            turn: (at.rotation[tip] * rest.rotation[tip].inverse()).to_scaled_axis(),
+            turn: rotation_vector(at.rotation[tip] * rest.rotation[tip].inverse()),
             drift: self.drift(state),
             vacuum: modes
                 .iter()

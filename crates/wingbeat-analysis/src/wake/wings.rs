@@ -11,7 +11,9 @@ use faer::{Mat, c64};
 use wingbeat_dynamics::BodyMotion;
 use wingbeat_flight::elastic::{ElasticState, ElasticWing, ElasticWings};
 use wingbeat_flight::{AirMemory, FlightError, MotionMode, Past, Record, Simulation, StartState};
-use wingbeat_math::{DMat3, DQuat, DVec3, EulerSequence, MassProperties, solve_small};
+use wingbeat_math::{
+    DMat3, DQuat, DVec3, EulerSequence, MassProperties, rotation_vector, solve_small,
+};
 use wingbeat_structure::{FrameMotion, Mode, NODE, modes};
 
 use super::free_beat::{rotation, start, steps_per_beat};
@@ -384,7 +386,7 @@ fn departure(state: &ElasticState, from: &ElasticState) -> (Vec<f64>, Vec<f64>) 
     let places = p.iter().zip(r);
     let others = (b.configuration.position.iter()).zip(&b.configuration.rotation);
     let moved = places.zip(others).flat_map(|((p, r), (q, s))| {
-        let turn = (s.inverse() * *r).to_scaled_axis();
+        let turn = rotation_vector(s.inverse() * *r);
         [(*p - *q).to_array(), turn.to_array()].concat()
     });
     let velocity = a.velocity.iter().zip(&b.velocity).map(|(u, v)| u - v);

@@ -73,13 +73,26 @@ impl Flyer {
         velocity: Vector,
         rate: Vector,
     ) -> [f64; 6] {
+        self.changing_load(centre, level, [velocity, rate], [STILL; 2])
+    }
+
+    /// The same while velocity and rate change.
+    fn changing_load(
+        &self,
+        centre: Vector,
+        level: &Matrix,
+        [velocity, rate]: [Vector; 2],
+        rates: [Vector; 2],
+    ) -> [f64; 6] {
         let w = turn(level, rate);
         let v = add(turn(level, velocity), times(-1.0, cross(w, centre)));
+        let [v_rate, w_rate] = rates.map(|x| turn(level, x));
+        let changing = add(v_rate, times(-1.0, cross(w_rate, centre)));
         let body = Motion {
             v,
             w,
-            a: cross(w, v),
-            w_rate: STILL,
+            a: add(cross(w, v), changing),
+            w_rate,
         };
         let mut sum = [0.0; 6];
         for x in Self::phases() {
@@ -107,6 +120,57 @@ impl Flyer {
         };
         let columns: Vec<[f64; 6]> = (0..6).map(column).collect();
         std::array::from_fn(|i| std::array::from_fn(|j| columns[j][i]))
+    }
+
+    /// What the mean load about hover is smaller by for unit rates of u, v, w, p, q, r: linear in them.
+    pub fn added_mass(&self, centre: Vector, level: &Matrix) -> [[f64; 6]; 6] {
+        let load = |rates| self.changing_load(centre, level, [STILL; 2], rates);
+        let still = load([STILL; 2]);
+        let column = |j: usize| {
+            let mut rates = [STILL; 2];
+            rates[j / 3][j % 3] = 1.0;
+            let moved = load(rates);
+            std::array::from_fn::<f64, 6, _>(|i| still[i] - moved[i])
+        };
+        let columns: [[f64; 6]; 6] = std::array::from_fn(column);
+        std::array::from_fn(|i| std::array::from_fn(|j| columns[j][i]))
+    }
+
+    /// Mean moment about the mass centre that the masses ask for when the body turns steadily, derivatives by p, q, r, level
+    /// axes: what wings exert whose angular momentum is turned. By the forces on every mass, no angular momentum is summed.
+    pub fn gyroscopic(&self, level: &Matrix, rate: f64) -> Matrix {
+        let moment = |w: Vector| {
+            let body = Motion {
+                v: STILL,
+                w,
+                a: STILL,
+                w_rate: STILL,
+            };
+            let mut sum = STILL;
+            for x in Self::phases() {
+                let mut need = self.body.inertial_less_weight(&body, STILL);
+                let mut whole = self.body;
+                for k in 0..self.wings.len() {
+                    let wing = self.wing(k, x, &body, STILL);
+                    need = add_wrench(need, wing.inertia);
+                    whole = whole.plus(&wing.mass);
+                }
+                let centre = times(1.0 / whole.mass, whole.first);
+                let about = add(need.moment, times(-1.0, cross(centre, need.force)));
+                sum = add(sum, times(1.0 / SAMPLES as f64, about));
+            }
+            turn(&transposed(level), sum)
+        };
+        let column = |j: usize| {
+            let at = |s: f64| {
+                let mut w = STILL;
+                w[j] = s * rate;
+                moment(turn(level, w))
+            };
+            times(1.0 / rate, slopes(at))
+        };
+        let columns = [0, 1, 2].map(column);
+        [0, 1, 2].map(|i| [0, 1, 2].map(|j| columns[j][i]))
     }
 
     /// Accelerations of the body (inertial, body components) that satisfy Newton's and Euler's laws: these are linear
@@ -162,11 +226,28 @@ impl Flyer {
         }
     }
 
+    /// Mean pitch \[rad\] over the beat from `start`, which pitches and does not roll or yaw.
+    pub fn mean_pitch(&self, start: &State) -> f64 {
+        let (mut sine, mut cosine) = (0.0, 0.0);
+        self.fly(start, |s| {
+            let half = 0.5 * s.attitude[0][2].atan2(s.attitude[0][0]);
+            sine += half.sin();
+            cosine += half.cos();
+        });
+        2.0 * f64::atan2(sine, cosine)
+    }
+
     /// The state a beat later.
     pub fn beat(&self, start: &State) -> State {
+        self.fly(start, |_| ())
+    }
+
+    /// The same, seen by `look` before every step.
+    fn fly(&self, start: &State, mut look: impl FnMut(&State)) -> State {
         let h = 1.0 / (self.frequency * STEPS as f64);
         let mut y = *start;
         for step in 0..STEPS {
+            look(&y);
             let at = |part: f64| (step as f64 + part) / STEPS as f64;
             let k1 = self.rates(at(0.0), &y);
             let k2 = self.rates(at(0.5), &along(&y, 0.5 * h, &k1));

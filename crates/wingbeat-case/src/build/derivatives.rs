@@ -28,6 +28,7 @@ pub(super) fn table(case: &Case, animal: &Animal) -> Built<DerivativeTable> {
         velocity: vector(d.velocity_m_s),
         reference: [f[0], f[1], f[2], m[0], m[1], m[2]],
         derivatives: matrix(case, d),
+        added_mass: added_mass(d)?,
         stream: vector(case.air.stream_m_s),
     })
 }
@@ -45,6 +46,38 @@ fn matrix(case: &Case, d: &DerivativesCase) -> [[f64; 6]; 6] {
         None => joined(given.map(Option::unwrap_or_default)),
         Some(plus) => dimensional(case, plus),
     }
+}
+
+fn added_mass(d: &DerivativesCase) -> Built<[[f64; 6]; 6]> {
+    let [mass, coupling, inertia] = [
+        d.added_mass_kg,
+        d.added_mass_by_turning_kg_m,
+        d.added_inertia_kg_m2,
+    ]
+    .map(Option::unwrap_or_default);
+    let symmetric = |key: &str, m: &Block| {
+        let size = m
+            .as_flattened()
+            .iter()
+            .fold(0.0, |s: f64, x| s.max(x.abs()));
+        let pairs = [(0, 1), (0, 2), (1, 2)];
+        let bad = pairs
+            .iter()
+            .find(|(i, j)| (m[*i][*j] - m[*j][*i]).abs() > 1e-6 * size);
+        match bad {
+            None => Ok(()),
+            Some((i, j)) => Err(Fault::new(
+                format!("air.derivatives.{key}"),
+                format!("not symmetric: {} and {}", m[*i][*j], m[*j][*i]),
+                "a symmetric matrix",
+                "take the mean of the two: the energy of the air is that of one motion",
+            )),
+        }
+    };
+    symmetric("added_mass_kg", &mass)?;
+    symmetric("added_inertia_kg_m2", &inertia)?;
+    let turned = std::array::from_fn(|i| std::array::from_fn(|j| coupling[j][i]));
+    Ok(joined([mass, coupling, turned, inertia]))
 }
 
 fn dimensional(case: &Case, plus: &DimensionlessCase) -> [[f64; 6]; 6] {

@@ -51,6 +51,21 @@ pub struct DerivativesCase {
     /// Change it to what was measured or computed.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub moment_by_rate_newton_m_s: Option<[[f64; 3]; 3]>,
+    /// Added mass of the air: force, reversed, by the rate of the velocity through the air, symmetric; left out: none.
+    ///
+    /// Change it to what was computed; light wings in air carry as much of it as they weigh.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub added_mass_kg: Option<[[f64; 3]; 3]>,
+    /// The same by the rate of the angular velocity; transposed: moment by the rate of the velocity.
+    ///
+    /// Change it to what was computed.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub added_mass_by_turning_kg_m: Option<[[f64; 3]; 3]>,
+    /// Added inertia: moment, reversed, by the rate of the angular velocity, symmetric; left out: none.
+    ///
+    /// Change it to what was computed.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub added_inertia_kg_m2: Option<[[f64; 3]; 3]>,
     /// Dimensionless derivatives instead of the four matrices.
     ///
     /// Change it for tables of papers.

@@ -25,7 +25,7 @@ pub struct FlightCase {
     ///
     /// Change it to the body angle of the flight.
     pub pitch_deg: f64,
-    /// Yaw, nose right for an upright body is negative: the second angle theta of 2-3-1.
+    /// Yaw, nose right of an upright body: the second angle theta of 2-3-1.
     ///
     /// Change it for sideslip.
     pub yaw_deg: f64,

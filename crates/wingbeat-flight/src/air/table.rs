@@ -1,7 +1,7 @@
 //! Stability derivatives on the root body.
 
 use wingbeat_blade::DerivativeTable;
-use wingbeat_dynamics::Wrench;
+use wingbeat_dynamics::{AddedMass, Wrench};
 use wingbeat_model::Animal;
 
 use super::blade::{frame, turned};
@@ -11,14 +11,20 @@ use crate::memory::AirMemory;
 
 /// A table of derivatives as the air of the whole animal.
 #[derive(Clone, Copy, Debug)]
-pub struct TableAir(DerivativeTable);
+pub struct TableAir {
+    table: DerivativeTable,
+    added: Option<AddedMass>,
+}
 
 impl TableAir {
     /// # Errors
     /// Wings that are deformed: the table does not know of it.
     pub fn new(animal: &Animal, table: DerivativeTable) -> Result<Self, FlightError> {
         match animal.wings.iter().find(|w| w.deformation.is_some()) {
-            None => Ok(Self(table)),
+            None => Ok(Self {
+                table,
+                added: table.added_mass_of_body().map(|a| AddedMass::new(0, a)),
+            }),
             Some(wing) => Err(FlightError::Setup {
                 key: "air.model",
                 value: "derivatives".into(),
@@ -41,7 +47,11 @@ impl Air for TableAir {
     ) -> Result<(), FlightError> {
         out.fill(Wrench::default());
         let root = &at.motions[0];
-        out[0] = turned(&self.0.load(&frame(root)), root);
+        out[0] = turned(&self.table.load(&frame(root)), root);
         Ok(())
+    }
+
+    fn added_mass(&self, _t: f64, out: &mut Vec<AddedMass>) {
+        out.extend(self.added);
     }
 }

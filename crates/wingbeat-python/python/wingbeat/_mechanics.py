@@ -236,7 +236,7 @@ class Trim:
         )
 
     def power(self) -> Power:
-        """Mean mechanical power, body carried in the trimmed attitude at the trimmed velocity."""
+        """Mean mechanical power over the free wingbeat that was trimmed."""
         return Power(*self._core.power())
 
 

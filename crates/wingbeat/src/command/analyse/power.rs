@@ -23,26 +23,23 @@ pub(crate) struct PowerArgs {
 pub(crate) fn run(args: &PowerArgs) -> Result<(), Failure> {
     let trimming = &args.trimming;
     trimming.report.deliver([], |report, []| {
-        let (found, flight) = if trimming.load()?.setup.has_memory() {
+        let found = if trimming.load()?.setup.has_memory() {
             let (_, trim) = trimmed_with_wake(trimming, report)?;
-            let found = watched("power", || power_with_wake(&trim))?;
-            (found, "the free wingbeat that was trimmed")
+            watched("power", || power_with_wake(&trim))?
         } else {
             let (_, trim) = trimmed(trimming, report)?;
-            let found = watched("power", || power_of_trim(&trim))?;
-            let flight = match trim.turn_rate {
-                0.0 => "a wingbeat, body carried in the trimmed attitude at the trimmed velocity",
-                _ => "the free wingbeat of the turn",
-            };
-            (found, flight)
+            watched("power", || power_of_trim(&trim))?
         };
-        tell(report, &found, flight, args.muscle);
+        tell(report, &found, args.muscle);
         Ok(())
     })
 }
 
-fn tell(report: &mut Report, p: &Power, flight: &str, muscle: f64) {
-    line!(report, "\nMean mechanical power over {flight}:");
+fn tell(report: &mut Report, p: &Power, muscle: f64) {
+    line!(
+        report,
+        "\nMean mechanical power over the free wingbeat that was trimmed:"
+    );
     line!(
         report,
         "  {:<44}{:>10}{:>12}{:>14}",
