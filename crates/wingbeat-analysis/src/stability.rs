@@ -28,6 +28,10 @@ pub struct LinearModel {
     pub added_mass: [[f64; 6]; 6],
     /// Mean angular momentum of the beating wings seen from the body, level frame [kg m2/s].
     pub momentum: DVec3,
+    /// What the mean loads of the steady body lack to balance: force over the weight, moment over the weight and the wing
+    /// length \[1\]. The free wingbeat is in balance; where this is not small, so much moves within a beat that averages say
+    /// little.
+    pub imbalance: [f64; 2],
     /// Modes.
     pub modes: ModeSet,
 }
@@ -75,7 +79,14 @@ pub fn linear_model(beat: &Beat, state: &State) -> Result<LinearModel, AnalysisE
     let steps = size.array().map(|s| 1e-3 * s);
     let matrix = monodromy(f, &reference.to_array(), &steps)?;
     let modes = ModeSet::of_exponents(eigen(&matrix, 9)?, &size);
+    let load = beat.changing_load(&level, &reference, [DVec3::ZERO; 2])?;
+    let weight = body.mass * body.gravity;
+    let size = weight.length();
     Ok(LinearModel {
+        imbalance: [
+            (load.force + weight).length() / size,
+            load.moment.length() / (size * beat.wing_length()),
+        ],
         derivatives: load_derivatives(beat, &level, &reference, &steps)?,
         added_mass: body.added_mass,
         momentum: body.momentum,

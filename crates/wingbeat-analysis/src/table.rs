@@ -67,6 +67,7 @@ pub fn table_model(setup: &FlightSetup) -> Result<LinearModel, AnalysisError> {
         derivatives: table.derivatives,
         added_mass: body.added_mass,
         momentum: body.momentum,
+        imbalance: [0.0; 2],
         modes,
     })
 }

@@ -156,4 +156,33 @@ mod tests {
         assert!(close(load.force, DVec3::new(1.0, 0.0, 3.5)), "{load:?}");
         assert!(close(load.moment, DVec3::new(0.0, -12.0, 0.0)), "{load:?}");
     }
+
+    /// Three kilograms down, felt 2 m ahead of the origin: a pitch that quickens lifts them by the lever.
+    #[test]
+    fn exact_added_mass_about_the_origin_by_hand() {
+        let mut table = DerivativeTable {
+            to_body: DMat3::IDENTITY,
+            point: DVec3::new(2.0, 0.0, 0.0),
+            velocity: DVec3::ZERO,
+            reference: [0.0; 6],
+            derivatives: [[0.0; 6]; 6],
+            added_mass: [[0.0; 6]; 6],
+            stream: DVec3::ZERO,
+        };
+        assert_eq!(table.added_mass_of_body(), None);
+        table.added_mass[2][2] = 3.0;
+        let mut about = [[0.0; 6]; 6];
+        about[2][2] = 3.0;
+        (about[2][4], about[4][2], about[4][4]) = (-6.0, -6.0, 12.0);
+        assert_eq!(table.added_mass_of_body(), Some(about));
+        // A stream of 5 m/s ahead, a body that turns nose up by 0.5 rad/s and keeps its velocity in its axes: the air's falls
+        // by w x s = (0, 0, -2.5) m/s2 in them.
+        table.stream = DVec3::new(5.0, 0.0, 0.0);
+        let load = table.load(&FrameMotion {
+            rotation: DMat3::IDENTITY,
+            velocity: DVec3::ZERO,
+            rate: DVec3::new(0.0, 0.5, 0.0),
+        });
+        assert_eq!(load.force, DVec3::new(0.0, 0.0, 7.5));
+    }
 }

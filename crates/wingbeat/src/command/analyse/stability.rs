@@ -111,6 +111,7 @@ fn of_trim(args: &Trimming, report: &mut Report, file: Option<Target>) -> Result
             "\nModes of the rigid body under mean loads (averaged over the beat):"
         );
         modes(report, "averaged_modes", &averaged.modes);
+        imbalance(report, averaged);
     }
     line!(report, "\nModes of the full periodic orbit (Floquet):");
     modes(report, "floquet_modes", &orbit);
@@ -125,6 +126,28 @@ fn of_trim(args: &Trimming, report: &mut Report, file: Option<Target>) -> Result
         report.wrote(&file);
     }
     Ok(())
+}
+
+/// Imbalance of an averaged model above which it is called rough.
+const ROUGH: f64 = 0.1;
+
+/// How far the steady body of the averaged model is from balance.
+fn imbalance(report: &mut Report, model: &LinearModel) {
+    let [force, moment] = model.imbalance;
+    line!(
+        report,
+        "  The free wingbeat is in balance; this steady body lacks {:.1} % of the weight and {:.1} % of weight times wing length.",
+        100.0 * force,
+        100.0 * moment
+    );
+    if force.max(moment) > ROUGH {
+        line!(
+            report,
+            "  So much moves within a beat that averages say little: trust Floquet's modes."
+        );
+    }
+    report.value("averaged_imbalance_over_weight", force);
+    report.value("averaged_imbalance_over_weight_and_length", moment);
 }
 
 /// Floquet's modes of the free wingbeat after a hold.
