@@ -29,12 +29,14 @@ pub struct CarriedAir {
     wings: Vec<usize>,
     /// Where one half of the air is computed: pairs of places in `wings` that are mirror images of each other.
     pairs: Vec<[usize; 2]>,
+    /// Velocity of the undisturbed air, N components \[m/s\]: rates are those of velocities through it, as the lattice's are.
+    stream: DVec3,
 }
 
 /// What is remembered of such a wing.
 #[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct CarriedState {
-    /// Velocities of its origin \[m/s\] in the last two accepted steps, newest first, wing components.
+    /// Velocities of its origin through the undisturbed air \[m/s\] in the last two accepted steps, newest first, wing components.
     linear: [DVec3; 2],
     /// Angular velocities \[rad/s\] in these steps, wing components.
     angular: [DVec3; 2],
@@ -66,7 +68,7 @@ impl CarriedAir {
     pub fn of_all(wings: usize) -> Self {
         Self {
             wings: (0..wings).collect(),
-            pairs: vec![],
+            ..Self::default()
         }
     }
 
@@ -81,7 +83,7 @@ impl CarriedAir {
         }
         Self {
             wings: (0..wings).filter(|w| free[w + 1]).collect(),
-            pairs: vec![],
+            ..Self::default()
         }
     }
 
@@ -93,7 +95,13 @@ impl CarriedAir {
         Self {
             pairs: pairs.collect(),
             wings: self.wings.clone(),
+            stream: self.stream,
         }
+    }
+
+    /// The same in air of this velocity, N components [m/s].
+    pub fn in_stream(self, stream: DVec3) -> Self {
+        Self { stream, ..self }
     }
 
     /// Whether there are none.
@@ -132,7 +140,7 @@ impl CarriedAir {
         for (answer, state) in s.answers.iter().zip(states) {
             let held = answer.as_ref().map(|(mass, weights)| {
                 let m = &at.motions[mass.body()];
-                mass.wrench(m, &state.rate(m, *weights))
+                mass.wrench(m, &state.rate(m, self.stream, *weights))
             });
             s.held.push(held.unwrap_or_default());
         }
@@ -154,7 +162,7 @@ impl CarriedAir {
     pub fn accept(&self, motions: &[BodyMotion], states: &mut [CarriedState]) {
         for (state, w) in states.iter_mut().zip(&self.wings) {
             let m = &motions[w + 1];
-            state.linear = [m.r.transpose() * m.v, state.linear[0]];
+            state.linear = [m.r.transpose() * (m.v - self.stream), state.linear[0]];
             state.angular = [m.w, state.angular[0]];
         }
     }
@@ -170,9 +178,14 @@ fn reflected(load: &Wrench, normal: DVec3) -> Wrench {
 }
 
 impl CarriedState {
-    /// The difference over steps of the velocities of a wing that moves like `m`, as an acceleration.
-    fn rate(&self, m: &BodyMotion, [now, before, earlier]: [f64; 3]) -> BodyAcceleration {
-        let v = m.r.transpose() * m.v;
+    /// The difference over steps of the velocities of a wing that moves like `m` in this stream, as an acceleration.
+    fn rate(
+        &self,
+        m: &BodyMotion,
+        stream: DVec3,
+        [now, before, earlier]: [f64; 3],
+    ) -> BodyAcceleration {
+        let v = m.r.transpose() * (m.v - stream);
         let difference =
             |x: DVec3, past: &[DVec3; 2]| now * x + before * past[0] + earlier * past[1];
         BodyAcceleration {

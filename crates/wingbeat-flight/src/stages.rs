@@ -138,7 +138,8 @@ fn carried(
     let carried = match is_light {
         true => CarriedAir::of_all(wings),
         false => on_joints,
-    };
+    }
+    .in_stream(options.lattice.free_stream);
     Ok(match options.mirror {
         true => carried.mirrored(&wing_pairs(&setup.animal)),
         false => carried,
