@@ -16,11 +16,11 @@ use std::sync::Arc;
 use wingbeat_dynamics::configuration::{Composite, Configuration};
 use wingbeat_dynamics::free::JointOffsets;
 use wingbeat_dynamics::{BodyMotion, Formulation, Joint};
-use wingbeat_flight::{FlightSetup, FreeFlight, FreeFlightScratch, Passage};
+use wingbeat_flight::{FlightSetup, FreeFlight, FreeFlightScratch, Passage, is_driven};
 use wingbeat_math::ode::Rk4;
 use wingbeat_math::{DMat3, DQuat, DVec3, RotationLaw, rotation_vector};
 use wingbeat_model::motion::Adjustment;
-use wingbeat_model::{Animal, Start, Wing, WingMotion};
+use wingbeat_model::{Animal, Wing};
 
 use crate::AnalysisError;
 use periodic::check_periodic;
@@ -46,14 +46,15 @@ pub struct Beat {
 
 impl Beat {
     /// The wingbeat of a setup, its wings beating steadily from the first instant, in `steps`
-    /// equal steps. Start state, mode and time grid of the setup do not matter.
+    /// equal steps. Start state, mode and time grid of the setup do not matter; of the start of the strokes what remains is
+    /// by how much it delays them behind joints that are driven in time.
     ///
     /// # Errors
     /// Air with a memory or that changes with time or place; applied loads; wings that do not beat or
     /// beat at different frequencies; joints that are not back after a wingbeat; loops whose motion
     /// the laws of joints do not determine; what bodies and air refuse.
     pub fn new(setup: &FlightSetup, steps: usize) -> Result<Self, AnalysisError> {
-        let beat = Self::with_law(setup, steps, |_, wing| Arc::new(steady(&wing.motion)))?;
+        let beat = Self::with_law(setup, steps, |_, wing| Arc::new(wing.motion.clone()))?;
         check_periodic(beat.flight.system(), beat.period)?;
         Ok(beat)
     }
@@ -85,7 +86,7 @@ impl Beat {
         [start, duration]: [f64; 2],
     ) -> Result<Self, AnalysisError> {
         Self::with_law(setup, steps, |k, wing| {
-            let motion = |a: &Adjustment| steady(&wing.motion.adjusted(wing.side, a));
+            let motion = |a: &Adjustment| wing.motion.adjusted(wing.side, a);
             Arc::new(Passage {
                 from: motion(&from[k]),
                 to: motion(&to[k]),
@@ -103,6 +104,7 @@ impl Beat {
         let period = common_period(&setup.animal)?;
         check_steady(setup)?;
         let half = period / (2 * steps) as f64;
+        let setup = &steadied(setup); // deformations of wings follow their phase too
         let flight = FreeFlight::new(setup, &law, half, 2 * steps)?;
         if !flight.air().is_uniform() {
             return Err(changing_air());
@@ -396,12 +398,20 @@ pub(crate) fn changing_air() -> AnalysisError {
     )
 }
 
-/// The motion without its start: at full rate from the first instant.
-fn steady(motion: &WingMotion) -> WingMotion {
-    WingMotion {
-        start: Start::Impulsive,
-        ..motion.clone()
+/// The setup without the start of its strokes: wings that beat at full rate from the first instant, the beat beginning
+/// at the phase of the case. Where joints are driven in time, a start that delays the wings does not delay the joints; so
+/// that a beat of both is one of the flight, it begins where the joints' laws do, at the phase of the wings that have
+/// risen ([`WingMotion::risen`](wingbeat_model::WingMotion::risen)).
+pub(crate) fn steadied(setup: &FlightSetup) -> FlightSetup {
+    let mut steady = setup.clone();
+    let driven = setup.joints.iter().any(is_driven);
+    for wing in &mut steady.animal.wings {
+        wing.motion = match driven {
+            true => wing.motion.risen(),
+            false => wing.motion.impulsive(),
+        };
     }
+    steady
 }
 
 /// The common period of all wings [s].

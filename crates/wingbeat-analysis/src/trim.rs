@@ -10,11 +10,10 @@ use wingbeat_flight::{
     StabilizationChoice, StartState, TimeGrid, closes_loop,
 };
 use wingbeat_math::{DMat3, DVec3, EulerSequence, solve_small};
-use wingbeat_model::Start;
 use wingbeat_model::motion::Adjustment;
 
 use crate::AnalysisError;
-use crate::beat::{Beat, JOINTS, State};
+use crate::beat::{Beat, JOINTS, State, steadied};
 use crate::progress;
 use crate::steady::{self, Measures, Residuals, Snapshot, TrimProblem};
 use crate::unknown::{Unknown, adjusted};
@@ -59,7 +58,8 @@ pub struct Trim {
     pub point: Vec<f64>,
     /// The wingbeat of the adjusted animal.
     pub beat: Beat,
-    /// The adjusted setup (animal only; start and time are those given).
+    /// The adjusted setup, its wings beating from the first instant at the phases of the trimmed beat (state at the start and time
+    /// are those given).
     pub setup: FlightSetup,
 }
 
@@ -71,7 +71,7 @@ impl Trim {
     /// # Errors
     /// Numbers that are not finite.
     pub fn tethered(&self) -> Result<FlightSetup, AnalysisError> {
-        let mut setup = self.impulsive();
+        let mut setup = self.from_orbit();
         let angles = DVec3::new(self.body_pitch, 0.0, self.body_roll);
         let mut motion = PrescribedMotion::at_rest(DVec3::ZERO, angles);
         for (x, v) in motion
@@ -91,13 +91,9 @@ impl Trim {
         Ok(setup)
     }
 
-    /// The adjusted setup with wings that beat from the first instant and free joints that begin as on the
-    /// trimmed orbit.
-    fn impulsive(&self) -> FlightSetup {
+    /// The adjusted setup with free joints that begin as on the trimmed orbit.
+    fn from_orbit(&self) -> FlightSetup {
         let mut setup = self.setup.clone();
-        for wing in &mut setup.animal.wings {
-            wing.motion.start = Start::Impulsive;
-        }
         let joints = self.beat.joints(&self.state);
         for joint in &mut setup.joints {
             if let Some((_, q, u)) = joints.iter().find(|j| j.0 == joint.name) {
@@ -127,7 +123,7 @@ impl Trim {
     /// The adjusted animal in free flight from the start of its periodic beat, joints and all, for
     /// one beat of the trim's steps by the trim's method.
     pub fn free(&self) -> FlightSetup {
-        let mut setup = self.impulsive();
+        let mut setup = self.from_orbit();
         let root = self.beat.root(&self.state);
         setup.mode = MotionMode::Free(StartState {
             position: root.p,
@@ -193,6 +189,7 @@ pub fn trim_from(
     problem: &TrimProblem,
     mut x: Vec<f64>,
 ) -> Result<Trim, AnalysisError> {
+    let setup = &steadied(setup);
     let mut residual = evaluate(setup, problem, &x)?.residual;
     let mut iterations = 0;
     while iterations < problem.settings.iterations

@@ -5,7 +5,7 @@ use wingbeat_analysis::wake::WakeTrim;
 use wingbeat_analysis::{AnalysisError, LinearModel, Trim};
 use wingbeat_blade::DerivativeTable;
 use wingbeat_dynamics::BodyMotion;
-use wingbeat_flight::closes_loop;
+use wingbeat_flight::{FlightSetup, closes_loop};
 use wingbeat_math::EulerSequence;
 use wingbeat_model::Side;
 use wingbeat_model::motion::Adjustment;
@@ -24,6 +24,7 @@ use crate::written::flight::tethered;
 /// trim's steps by the trim's method: what was trimmed is what flies.
 pub fn trimmed_case(case: &LoadedCase, trim: &Trim) -> String {
     let mut raw = adjusted(case, [&trim.adjustment, &trim.difference], trim.mass_centre);
+    lead(&mut raw, case, &trim.setup);
     let time = &case.setup.time;
     let flown = time.steps as f64 * time.step / trim.beat.period();
     raw.time = TimeCase {
@@ -94,6 +95,7 @@ pub fn wake_trimmed_case(case: &LoadedCase, trim: &WakeTrim) -> String {
     raw.motion.start = case.raw.motion.start;
     if trim.is_orbit() {
         (raw.motion.start, raw.motion.start_beats) = (StartCase::Smooth, RISE);
+        lead(&mut raw, case, &trim.setup);
     }
     let flight = FlightCase {
         held_beats: held,
@@ -123,6 +125,22 @@ fn adjusted(case: &LoadedCase, by: [&Adjustment; 2], mass_centre: f64) -> Case {
         hinge[0] -= mass_centre / raw.animal.scale;
     }
     raw
+}
+
+/// Phases of the wings as in the setup that was trimmed: where joints are driven in time, the beat begins at the phase that
+/// wings have whose start has delayed them.
+fn lead(raw: &mut Case, case: &LoadedCase, trimmed: &FlightSetup) {
+    let wings = |setup: &FlightSetup| setup.animal.wings.first().map_or(0.0, |w| w.motion.phase);
+    let lead = wings(trimmed) - wings(&case.setup);
+    let motions = raw.wing.values_mut().filter_map(|w| w.motion.as_mut());
+    let mut own: Vec<_> = motions.map(|m| &mut m.phase).collect();
+    let all = !own.is_empty() && own.iter().all(|phase| phase.is_some());
+    own.iter_mut()
+        .filter_map(|phase| phase.as_mut())
+        .for_each(|phase| *phase += lead);
+    if !all {
+        raw.motion.phase += lead; // refused where no wing reads it
+    }
 }
 
 /// An adjustment as a case has it; the frequency stands elsewhere.

@@ -60,7 +60,7 @@ pub use interface::{
     Air, AirScratch, Announcement, ExternalAir, ExternalSession, Instant, Shape, WingInertia,
     WingResponse,
 };
-pub use joints::{closes_loop, faster};
+pub use joints::{closes_loop, faster, is_driven};
 pub use memory::AirMemory;
 pub use record::{
     AccelerationRecord, ElasticRecord, HingeRecord, LoadRecord, ParticleSnapshot, Record, STATIONS,

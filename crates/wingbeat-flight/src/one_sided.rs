@@ -16,7 +16,7 @@
 use crate::setup::{AirModel, FlightSetup, MotionMode};
 use wingbeat_air::AirSettings;
 use wingbeat_math::{DMat3, DVec3, RotationLaw};
-use wingbeat_model::{Start, Wing, WingMotion};
+use wingbeat_model::{Wing, WingMotion};
 
 /// Instants of a beat that are looked at.
 const INSTANTS: usize = 100;
@@ -66,10 +66,7 @@ impl FlightSetup {
         if wing.motion.frequency <= 0.0 {
             return 0.0;
         }
-        let motion = WingMotion {
-            start: Start::Impulsive,
-            ..wing.motion.clone()
-        };
+        let motion = wing.motion.impulsive();
         let (mut net, mut gross) = (0.0, 0.0);
         for k in 0..INSTANTS {
             let t = k as f64 / INSTANTS as f64 / motion.frequency;

@@ -8,8 +8,8 @@ use std::sync::{Arc, RwLock};
 
 use wingbeat_flight::control::smoothstep;
 use wingbeat_math::{MovingRotation, RotationLaw};
+use wingbeat_model::Wing;
 use wingbeat_model::motion::{Adjustment, wing_rotation};
-use wingbeat_model::{Start, Wing, WingMotion};
 
 /// The angles of a wing over a steady beat.
 #[derive(Debug)]
@@ -27,12 +27,9 @@ pub struct SteadyStroke {
 }
 
 impl SteadyStroke {
-    /// Of a wing that beats in `steps` steps a beat of `period` [s].
+    /// Of a wing, beating from the first instant, in `steps` steps a beat of `period` [s].
     pub fn new(wing: &Wing, period: f64, steps: usize) -> Self {
-        let motion = WingMotion {
-            start: Start::Impulsive,
-            ..wing.motion.clone()
-        };
+        let motion = wing.motion.impulsive();
         let half = period / (2 * steps) as f64;
         Self {
             angles: (0..2 * steps)

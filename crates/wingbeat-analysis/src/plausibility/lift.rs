@@ -6,9 +6,10 @@ use wingbeat_flight::{
     AirModel, BladeOptions, FlightSetup, MotionMode, PrescribedMotion, Simulation, TimeGrid,
 };
 use wingbeat_math::DVec3;
-use wingbeat_model::{Start, Wing};
+use wingbeat_model::Wing;
 
 use super::air::{density, stream};
+use crate::beat::steadied;
 use crate::error::AnalysisError;
 
 /// Steps per wingbeat with which the blade elements are flown.
@@ -37,9 +38,8 @@ pub(super) fn lift_over_weight(setup: &FlightSetup) -> Result<Option<f64>, Analy
             _ => Wind::default(),
         },
     };
-    let mut tethered = setup.clone();
+    let mut tethered = steadied(setup);
     for wing in &mut tethered.animal.wings {
-        wing.motion.start = Start::Impulsive;
         wing.structure = None; // blade elements know no wings that bend
     }
     if !matches!(setup.air, AirModel::BladeElement(_)) {

@@ -5,13 +5,13 @@ use wingbeat_flight::{
     AirModel, FlightSetup, MotionMode, Past, PrescribedMotion, Record, StartState,
 };
 use wingbeat_math::{DVec3, solve_small};
-use wingbeat_model::Start;
 use wingbeat_model::motion::Adjustment;
 
 use super::free_beat::{free_beat, rotation, start, steps_per_beat};
 use super::orbit::{check_alike, check_orbit, has_orbit, periodic_beat};
 use super::sway::sway;
 use crate::AnalysisError;
+use crate::beat::steadied;
 use crate::progress;
 use crate::steady::{self, Measures, Residuals, Snapshot, TrimProblem};
 use crate::trim::largest;
@@ -123,7 +123,7 @@ pub fn trim_with_wake(
     let mut setup = setup.clone();
     if has_orbit {
         check_orbit(&setup)?;
-        (setup.animal.wings.iter_mut()).for_each(|w| w.motion.start = Start::Impulsive);
+        setup = steadied(&setup);
     }
     if let (AirModel::VortexLattice(air), Residuals::All) = (&mut setup.air, residuals) {
         air.mirror = false; // right and left part

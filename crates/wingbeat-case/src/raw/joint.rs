@@ -84,7 +84,8 @@ pub struct JointCase {
     #[schemars(extend("with" = "kind = universal"))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub axes: Option<[[f64; 3]; 2]>,
-    /// Prescribed rotation of a segment's joint about an axis; left out: none.
+    /// Prescribed rotation of a segment's joint about an axis, of the time since the start: a smooth start of the wings
+    /// (`motion.start_beats`) does not delay it. Left out: none.
     ///
     /// Change it to move the segment as prescribed.
     #[serde(skip_serializing_if = "Option::is_none")]

@@ -34,7 +34,7 @@ pub struct MotionCase {
     /// Change it to `impulsive` to begin inside the periodic beat; loads then jump at the first instant.
     #[default(StartCase::Smooth)]
     pub start: StartCase,
-    /// Length of a smooth start in wingbeats.
+    /// Length of a smooth start in wingbeats. Half of it is what the strokes are late from then on, behind laws of joints too.
     ///
     /// Change it to start more gently.
     #[schemars(extend("exclusiveMinimum" = 0, "with" = "start = smooth"))]

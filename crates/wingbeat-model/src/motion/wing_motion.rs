@@ -134,6 +134,24 @@ impl WingMotion {
         }
     }
 
+    /// The motion without its start: at full rate from the first instant, from the same phase on.
+    pub fn impulsive(&self) -> Self {
+        Self {
+            start: Start::Impulsive,
+            ..self.clone()
+        }
+    }
+
+    /// The motion as it is once it has risen, at full rate at all times: by what the start delays it, its phase lags that of
+    /// [`Self::impulsive`]. Delays of whole wingbeats change nothing.
+    pub fn risen(&self) -> Self {
+        let lag = self.frequency * self.start.delay();
+        Self {
+            phase: self.phase - (lag - lag.round()),
+            ..self.impulsive()
+        }
+    }
+
     /// Phase and its first two time derivatives [wingbeats, 1/s, 1/s2] at `t` \[s\].
     pub fn phase_at(&self, t: f64) -> [f64; 3] {
         let [tau, rate, accel] = self.start.warp(t);
