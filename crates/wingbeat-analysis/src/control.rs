@@ -122,7 +122,8 @@ impl Steering {
     }
 
     /// Feedback of a flight of `steps_per_beat` steps per wingbeat whose commands act `latency`
-    /// looks later.
+    /// looks later. Its wings are at the looks where they are on the beat that the law was laid out about: they beat from the first instant
+    /// ([`wingbeat_model::Start`]); a [`Design`](crate::design::Design) lays a law out about any start.
     pub fn feedback(self, steps_per_beat: usize, latency: usize) -> Feedback {
         Feedback {
             interval: steps_per_beat / self.orbit.len(),

@@ -65,7 +65,8 @@ pub struct Design {
 }
 
 impl Design {
-    /// The trimmed flight about which the controller of a flight of `setup` is laid out.
+    /// The trimmed flight about which the controller of a flight of `setup` is laid out; its beat begins where the flight, its
+    /// strokes once risen, is after whole wingbeats: a smooth start makes them late, not the looks.
     ///
     /// # Errors
     /// A flight that has none, or that [`trim()`] does not cover.
@@ -78,12 +79,16 @@ impl Design {
             settings: self.settings(),
             ..TrimProblem::straight(self.velocity, body_pitch)
         };
-        let plain = FlightSetup {
+        let mut plain = FlightSetup {
             air: AirModel::BladeElement(self.air.clone()),
             loads: vec![],
             feedback: None,
             ..setup.clone()
         };
+        // The beat begins at the phase that the wings have at the looks of a beat's start, once they have risen.
+        for wing in &mut plain.animal.wings {
+            wing.motion = wing.motion.risen();
+        }
         let found = trim(&plain, &problem)?;
         if found.converged {
             return Ok(found);
