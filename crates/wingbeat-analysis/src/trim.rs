@@ -71,7 +71,7 @@ impl Trim {
     /// # Errors
     /// Numbers that are not finite.
     pub fn tethered(&self) -> Result<FlightSetup, AnalysisError> {
-        let mut setup = self.from_orbit();
+        let mut setup = self.at_its_start();
         let angles = DVec3::new(self.body_pitch, 0.0, self.body_roll);
         let mut motion = PrescribedMotion::at_rest(DVec3::ZERO, angles);
         for (x, v) in motion
@@ -92,7 +92,7 @@ impl Trim {
     }
 
     /// The adjusted setup with free joints that begin as on the trimmed orbit.
-    fn from_orbit(&self) -> FlightSetup {
+    fn at_its_start(&self) -> FlightSetup {
         let mut setup = self.setup.clone();
         let joints = self.beat.joints(&self.state);
         for joint in &mut setup.joints {
@@ -123,7 +123,7 @@ impl Trim {
     /// The adjusted animal in free flight from the start of its periodic beat, joints and all, for
     /// one beat of the trim's steps by the trim's method.
     pub fn free(&self) -> FlightSetup {
-        let mut setup = self.from_orbit();
+        let mut setup = self.at_its_start();
         let root = self.beat.root(&self.state);
         setup.mode = MotionMode::Free(StartState {
             position: root.p,
