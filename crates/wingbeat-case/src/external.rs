@@ -108,6 +108,18 @@ impl Conversation {
         }
     }
 
+    /// Refuses lines that nothing asked for: what is heard next would be old.
+    fn check_silence(&mut self, bodies: usize) -> Result<(), String> {
+        let Some(line) = self.partner.unasked() else {
+            return Ok(());
+        };
+        let line = self.unless_error(line)?;
+        let problem = format!(
+            "it says more than a line for each of the {bodies} bodies, or a line that nothing asked for: `{line}`"
+        );
+        Err(self.partner.complain(&problem))
+    }
+
     fn wrench(&mut self) -> Result<Wrench, String> {
         let line = self.hear()?;
         let numbers: Result<Vec<f64>, _> = line.split_whitespace().map(str::parse).collect();
@@ -152,6 +164,7 @@ impl ExternalSession for Conversation {
         for m in motions {
             let _ = writeln!(question, "{}", numbers(m)); // a string takes everything
         }
+        self.check_silence(motions.len())?;
         self.partner.say(question)?;
         for w in out {
             *w = self.wrench()?;

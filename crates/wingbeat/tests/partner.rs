@@ -52,6 +52,37 @@ fn behaves_a_check_starts_nothing_and_a_run_says_what_it_starts() {
 const CALM: &str = r#"while read a b c; do case $a in
 bodies) echo ready 2;; evaluate) echo 0 0 0 0 0 0; echo 0 0 0 0 0 0; echo 0 0 0 0 0 0;; esac; done"#;
 
+/// A line too many, in an answer or after `accept`, ends the flight: loads heard later would be old ones. An error is heard.
+#[test]
+fn refuses_lines_that_nothing_asked_for() {
+    let scratch = Scratch::new("unasked");
+    let dir = &scratch.0;
+    let extra = "it says more than a line for each of the 3 bodies, or a line that nothing asked for: `7 7 7 7 7 7`";
+    for (script, wanted) in [
+        (
+            CALM.replacen("evaluate)", "evaluate) echo 7 7 7 7 7 7;", 1),
+            "nothing asked for: `0 0 0 0 0 0`",
+        ),
+        (
+            CALM.replacen("esac", "accept) echo 7 7 7 7 7 7;; esac", 1),
+            extra,
+        ),
+        (
+            CALM.replacen("esac", "accept) echo error no more;; esac", 1),
+            "no more",
+        ),
+    ] {
+        // Each answer takes a while, in which what was said before is heard.
+        let script = script.replacen("evaluate)", "evaluate) sleep 0.01;", 1);
+        scripted(dir, &script, "5");
+        let out = wingbeat(dir, &["run", "case.toml", "--quiet", "--out", "r"]);
+        let said = complaint(&out);
+        assert_ne!(out.status.code(), Some(0), "{script}");
+        assert!(said.contains(wanted), "{said}");
+        let _ = fs::remove_dir_all(dir.join("r"));
+    }
+}
+
 #[test]
 fn behaves_looking_at_a_result_starts_nothing() {
     let scratch = Scratch::new("look-starts");
