@@ -44,8 +44,25 @@ pub enum Taken {
 pub struct Leases {
     folder: PathBuf,
     own: Process,
-    /// The file whose time of change the heart beats into.
-    beating: Arc<Mutex<Option<File>>>,
+    /// Where the heart beats.
+    beating: Arc<Mutex<Option<Heart>>>,
+}
+
+/// A lease, opened once more so that it has a place of its own in the file.
+#[derive(Debug)]
+struct Heart {
+    file: File,
+    /// First byte of the lease.
+    first: u8,
+}
+
+impl Heart {
+    /// Writes what is there already: the file system sets the time by its own clock, which is not that of this machine.
+    fn beat(&mut self) -> std::io::Result<()> {
+        self.file.seek(SeekFrom::Start(0))?;
+        self.file.write_all(&[self.first])?;
+        self.file.sync_data() // others do not see what a network's file system only notes here
+    }
 }
 
 /// A block that this process holds.
@@ -81,9 +98,9 @@ impl Leases {
         std::thread::spawn(move || {
             loop {
                 std::thread::sleep(BEAT);
-                let file = beating.lock().unwrap_or_else(PoisonError::into_inner);
-                if let Some(file) = &*file {
-                    let _ = file.set_modified(SystemTime::now()); // a late heartbeat is the worst
+                let mut heart = beating.lock().unwrap_or_else(PoisonError::into_inner);
+                if let Some(heart) = &mut *heart {
+                    let _ = heart.beat(); // a late heartbeat is the worst
                 }
             }
         });
@@ -164,6 +181,11 @@ impl Leases {
                 let _ = fs::remove_file(&path); // nobody may take it for a lease
                 IoError::write(&path)(e)
             })?;
+        let again = OpenOptions::new().write(true).open(&path);
+        let heart = Heart {
+            file: again.map_err(IoError::write(&path))?,
+            first: head.as_bytes()[0],
+        };
         let lease = Lease {
             next: self.file(block, generation + 1),
             folder: self.folder.clone(),
@@ -171,13 +193,13 @@ impl Leases {
             block,
             generation,
             at: head.len() as u64,
-            file: file.try_clone().map_err(IoError::write(&self.folder))?,
+            file,
         };
         if done_file(&self.folder, block).exists() {
             lease.let_go(); // it was done meanwhile
             return Ok(Taken::Done);
         }
-        *self.beating.lock().unwrap_or_else(PoisonError::into_inner) = Some(file);
+        *self.beating.lock().unwrap_or_else(PoisonError::into_inner) = Some(heart);
         Ok(Taken::Own(lease, flown))
     }
 
@@ -345,6 +367,33 @@ mod tests {
         assert_eq!(leases.done(), [3]);
         leases.undo(3).unwrap();
         assert!(matches!(leases.take(3).unwrap(), Taken::Own(_, None)));
+        fs::remove_dir_all(&leases.folder).unwrap();
+    }
+
+    /// The file system sets the time of a heartbeat: an old lease is as young as a file written just then. The lease stays
+    /// what it is while its points are written between heartbeats.
+    #[test]
+    fn behaves_a_heartbeat_has_the_time_of_the_file_system() {
+        let leases = leases("heart");
+        let Taken::Own(mut lease, None) = leases.take(4).unwrap() else {
+            panic!("it is free")
+        };
+        let path = leases.file(4, 0);
+        let text = |point: &str| {
+            let own = &leases.own;
+            format!("{} {} {}\n{point}\n", own.machine, own.number, own.start)
+        };
+        for point in [7, 8] {
+            assert!(lease.fly(point).unwrap());
+            let old = SystemTime::now() - 2 * STALE;
+            lease.file.set_modified(old).unwrap();
+            let mut heart = leases.beating.lock().unwrap();
+            heart.as_mut().unwrap().beat().unwrap();
+            let changed = fs::metadata(&path).unwrap().modified().unwrap();
+            assert!(leases.age(changed).unwrap() < STALE / 2);
+            let wanted = text(&format!("{point:0DIGITS$}"));
+            assert_eq!(fs::read_to_string(&path).unwrap(), wanted);
+        }
         fs::remove_dir_all(&leases.folder).unwrap();
     }
 
