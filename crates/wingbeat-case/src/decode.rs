@@ -4,12 +4,26 @@ use serde::de::DeserializeOwned;
 
 use crate::error::{CaseError, Fault};
 use crate::keys::without_unit;
-use crate::source::CaseSource;
+use crate::source::{self, CaseSource};
 
 /// Decodes the document; unknown keys, missing keys and wrong types become located errors.
 pub(crate) fn decode<T: DeserializeOwned>(source: &CaseSource) -> Result<T, Box<CaseError>> {
-    let document = toml::Value::Table(source.table.clone());
-    serde_path_to_error::deserialize(document).map_err(|e| {
+    let mut table = source.table.clone();
+    let decoded = loop {
+        let document = toml::Value::Table(table.clone());
+        match serde_path_to_error::deserialize(document) {
+            // 40.0 where a whole number is wanted; each turn makes one of them whole.
+            Err(e) if wants_whole(e.inner().message()) => {
+                let value = source::find_mut(&mut table, &e.path().to_string());
+                match value.and_then(|v| Some((whole(v)?, v))) {
+                    Some((n, value)) => *value = toml::Value::Integer(n),
+                    None => break Err(e),
+                }
+            }
+            other => break other,
+        }
+    };
+    decoded.map_err(|e| {
         let path = e.path().to_string();
         let path = if path == "." { String::new() } else { path };
         let message = e.inner().message();
@@ -19,6 +33,24 @@ pub(crate) fn decode<T: DeserializeOwned>(source: &CaseSource) -> Result<T, Box<
         };
         Box::new(source.locate(fault))
     })
+}
+
+/// Whether the decoder complains of a number in the place of a whole one.
+fn wants_whole(message: &str) -> bool {
+    let rest = message.strip_prefix("invalid type: floating point");
+    let wanted = rest.and_then(|r| r.split_once(", expected "));
+    wanted.is_some_and(|(_, what)| {
+        ["usize", "u64", "u32", "i64"]
+            .iter()
+            .any(|w| what.starts_with(w))
+    })
+}
+
+/// The whole number that a number without a fraction is.
+fn whole(value: &toml::Value) -> Option<i64> {
+    const EXACT: f64 = (1_u64 << 53) as f64;
+    let x = value.as_float().filter(|x| x.fract() == 0.0)?;
+    (x.abs() < EXACT).then_some(x as i64)
 }
 
 /// How the decoder begins what it says of a choice that is none, or several.
@@ -133,7 +165,15 @@ fn found_in_words(problem: &str) -> String {
     }
     let (what, found) = match problem.split_once(": ") {
         Some(("invalid type", rest)) if rest.starts_with("floating point") => {
-            return "wrong type: a number with a fraction".to_owned();
+            let number = problem
+                .split('`')
+                .nth(1)
+                .and_then(|x| x.parse::<f64>().ok());
+            return match number.is_some_and(|x| x.fract() == 0.0) {
+                true => "wrong type: a number",
+                false => "wrong type: a number with a fraction",
+            }
+            .to_owned();
         }
         Some(("invalid type", rest)) => ("wrong type: ", kind(rest)),
         Some(("invalid value", rest)) => ("value out of range: ", kind(rest)),

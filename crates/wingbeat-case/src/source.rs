@@ -278,6 +278,18 @@ fn find<'a>(table: &'a Table, path: &str) -> Option<&'a Value> {
     })
 }
 
+/// The same, to be changed.
+pub(crate) fn find_mut<'a>(table: &'a mut Table, path: &str) -> Option<&'a mut Value> {
+    let mut steps = parts(path);
+    let Some(Part::Name(first)) = steps.next() else {
+        return None;
+    };
+    steps.try_fold(table.get_mut(first)?, |value, part| match part {
+        Part::Name(name) => value.get_mut(name),
+        Part::Index(k) => value.get_mut(k),
+    })
+}
+
 /// Puts a value at a path, making tables on the way.
 fn set(table: &mut Table, path: &str, value: Value) -> Result<(), String> {
     let steps: Vec<Part<'_>> = parts(path).collect();
