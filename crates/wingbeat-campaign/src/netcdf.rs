@@ -13,13 +13,15 @@ use crate::rows::Row;
 use crate::value::Value;
 
 /// Version of the layout.
-const LAYOUT: i64 = 1;
+const LAYOUT: i64 = 2;
 
 /// Numbers of a dataset that are written when all places are known.
 enum Data {
     Whole(Vec<i64>),
     Float(Vec<f64>),
     Bytes(Vec<u8>),
+    /// Texts, which the layout has.
+    There,
 }
 
 #[derive(Default)]
@@ -46,12 +48,8 @@ impl File {
             return self.put(name, Kind::Float, &shape, Data::Float(list));
         }
         let texts: Vec<String> = values.iter().map(Value::shown).collect();
-        let length = texts.iter().map(String::len).max().unwrap_or(0).max(1);
-        let mut bytes = vec![0; length * texts.len()];
-        for (place, text) in bytes.chunks_mut(length).zip(&texts) {
-            place[..text.len()].copy_from_slice(text.as_bytes());
-        }
-        self.put(name, Kind::Text(length), &shape, Data::Bytes(bytes))
+        self.data.push(Data::There);
+        self.layout.texts(name, texts)
     }
 
     /// Makes a dataset the coordinate of a dimension.
@@ -72,6 +70,7 @@ impl File {
                 Data::Whole(list) => file.integers(k, 0, list)?,
                 Data::Float(list) => file.floats(k, 0, list)?,
                 Data::Bytes(bytes) => file.put(k, 0, bytes)?,
+                Data::There => {}
             }
         }
         Ok(())

@@ -11,6 +11,8 @@ pub enum Kind {
     Integer,
     /// Text of a fixed length in bytes.
     Text(usize),
+    /// Texts of any length, which stand in the heap.
+    Texts,
 }
 
 /// Value of an attribute.
@@ -31,6 +33,7 @@ impl Kind {
         match self {
             Self::Float | Self::Integer => 8,
             Self::Text(n) => n.max(1),
+            Self::Texts => 16,
         }
     }
 
@@ -55,6 +58,12 @@ impl Kind {
             Self::Text(_) => {
                 let mut m = vec![0x13, 0x11, 0, 0]; // padded with zeros, UTF-8
                 m.extend(size);
+                m
+            }
+            Self::Texts => {
+                let mut m = vec![0x19, 0x01, 0x01, 0]; // a string, UTF-8, of
+                m.extend(size);
+                m.extend([0x10, 0, 0, 0, 1, 0, 0, 0, 0, 0, 8, 0]); // bytes without sign
                 m
             }
         }

@@ -4,6 +4,7 @@
 //!
 //! Section numbers refer to the *HDF5 File Format Specification, version 3.0* (The HDF Group).
 
+mod heap;
 mod message;
 
 use std::fs::File;
@@ -35,6 +36,8 @@ pub struct Layout {
     pub datasets: Vec<Dataset>,
     /// Attributes of groups; the root is "".
     pub attributes: Vec<(String, String, Attribute)>,
+    /// Arrays of texts.
+    texts: Vec<(usize, Vec<String>)>,
 }
 
 /// A file with its layout written.
@@ -73,6 +76,13 @@ impl Layout {
             attributes: vec![],
         });
         self.datasets.len() - 1
+    }
+
+    /// Adds a list of texts of any length, which need not be put in later; returns its number.
+    pub fn texts(&mut self, path: &str, texts: Vec<String>) -> usize {
+        let dataset = self.dataset(path, Kind::Texts, &[texts.len()]);
+        self.texts.push((dataset, texts));
+        dataset
     }
 
     /// Gives an array an attribute.
@@ -172,8 +182,15 @@ impl Layout {
             at += self.header(o, &none, &empty, 0).len() as u64;
         }
         let heap = at.next_multiple_of(8);
-        let collection = self.heap(&places[1 + self.groups.len()..]);
-        at = heap + collection.len() as u64;
+        let arrays: Vec<[u8; 8]> = places[1 + self.groups.len()..]
+            .iter()
+            .map(|place| place.to_le_bytes())
+            .collect();
+        let mut heaps = heap::collection(arrays.iter().map(<[u8; 8]>::as_slice));
+        let lists: Vec<&[String]> = self.texts.iter().map(|(_, list)| &list[..]).collect();
+        let (collections, references) = heap::texts(&lists, heap + heaps.len() as u64);
+        heaps.extend(collections);
+        at = heap + heaps.len() as u64;
         let mut data = vec![];
         let mut sizes = vec![];
         for k in 0..self.datasets.len() {
@@ -187,36 +204,19 @@ impl Layout {
             front.extend(self.header(o, &places, &data, heap));
         }
         front.resize(heap as usize, 0);
-        front.extend(collection);
+        front.extend(heaps);
         let mut file = File::create(path)?;
         file.write_all(&front)?;
         file.set_len(at)?;
-        Ok(Hdf5File {
+        let mut file = Hdf5File {
             file,
             places: data,
             sizes,
-        })
-    }
-
-    /// Global heap collection (III.E) with the place of every array as an object of its own,
-    /// numbered from 1 in the order of the arrays.
-    fn heap(&self, datasets: &[u64]) -> Vec<u8> {
-        let mut objects = vec![];
-        for (k, place) in datasets.iter().enumerate() {
-            objects.extend((k as u16 + 1).to_le_bytes());
-            objects.extend([1, 0, 0, 0, 0, 0]); // referred to
-            objects.extend(8_u64.to_le_bytes());
-            objects.extend(place.to_le_bytes());
+        };
+        for ((dataset, _), references) in self.texts.iter().zip(references) {
+            file.put(*dataset, 0, &references)?;
         }
-        let size = (16 + objects.len() + 16).max(4096);
-        let free = size - 16 - objects.len();
-        let mut out = b"GCOL\x01\0\0\0".to_vec();
-        out.extend((size as u64).to_le_bytes());
-        out.extend(objects);
-        out.extend([0; 8]); // object 0: what is left
-        out.extend((free as u64).to_le_bytes());
-        out.resize(size, 0);
-        out
+        Ok(file)
     }
 }
 
