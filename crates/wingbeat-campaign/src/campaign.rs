@@ -9,6 +9,7 @@ use wingbeat_flight::FlightSetup;
 use crate::axes::Reader;
 use crate::blocks::points_of_block;
 use crate::checks;
+use crate::named::{self, Contents};
 use crate::number::{self, Number, Of, Source};
 use crate::plan::Plan;
 use crate::raw::TrimOptions;
@@ -42,6 +43,8 @@ pub struct Campaign {
     folder: PathBuf,
     /// Of everything but the values of the point.
     digest: Sha256,
+    /// What is in the files that values name.
+    contents: Contents,
 }
 
 impl Campaign {
@@ -57,6 +60,8 @@ impl Campaign {
         let mut campaign = Self::without_numbers(path, document)?;
         campaign.numbers = campaign.kept()?;
         campaign.digest = campaign.digest_of();
+        let folder = campaign.case_folder();
+        campaign.contents = named::contents(&campaign.plan, &campaign.base, &folder);
         campaign.block =
             points_of_block(&campaign.raw, &campaign.base.setup, campaign.plan.points());
         Ok(campaign)
@@ -91,6 +96,7 @@ impl Campaign {
             numbers: vec![],
             block: 1,
             digest: Sha256::new(),
+            contents: Contents::new(),
             folder,
             raw,
             plan,
@@ -151,12 +157,16 @@ impl Campaign {
         }
     }
 
-    /// SHA-256 of what is done at point `i`: version, case, tasks, numbers that are kept, values of the point.
+    /// SHA-256 of what is done at point `i`: version, case, tasks, numbers that are kept, values of the point and what is in
+    /// the files that they name.
     pub fn hash(&self, i: usize) -> [u8; 32] {
         let mut hash = self.digest.clone();
         for line in self.plan.overrides(i) {
-            hash.update(line);
+            hash.update(&line);
             hash.update(b"\n");
+            if let Some(content) = self.contents.get(&line) {
+                hash.update(content);
+            }
         }
         hash.finalize().into()
     }
@@ -193,6 +203,7 @@ impl Campaign {
         if let Some(axis) = self.plan.axes.iter().find(|a| a.place == "table") {
             hash.update(format!("{axis:?}"));
         }
+        self.contents.values().for_each(|c| hash.update(c));
         hash.finalize().into()
     }
 

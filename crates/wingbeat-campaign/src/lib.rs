@@ -1,7 +1,7 @@
 //! Campaigns: thousands of flights from one file, flown by any number of workers that share a directory.
 //!
 //! The chapter in order: [`raw`] is the file as it is written; `axes` turns it into a [`plan`] (`checks` what its words say of each other), what is drawn by [`sample`];
-//! [`number`] knows what may be kept; [`campaign`] joins them: point i -> values -> case -> hash, a pure function of the
+//! [`number`] knows what may be kept, `named` the files that values name; [`campaign`] joins them: point i -> values -> case -> hash, a pure function of the
 //! file. [`point`] does what is to be done at a point (`trimming`, `flight`, `evaluate`), [`store`] keeps its result,
 //! [`lease`] says who flies which points, [`worker`] goes from block to block. [`rows`], [`status`], [`merge`] and [`page`] read what is there;
 //! [`scripts`] writes what other engines need, [`cost`] tells what a campaign will take.
@@ -19,6 +19,7 @@ mod evaluate;
 mod flight;
 pub mod lease;
 pub mod merge;
+mod named;
 mod netcdf;
 pub mod number;
 pub mod page;

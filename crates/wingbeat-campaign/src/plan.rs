@@ -111,13 +111,16 @@ impl Plan {
 
     /// What is put on top of the case at point `i`: `KEY=VALUE`.
     pub fn overrides(&self, i: usize) -> Vec<String> {
-        let pair = |(key, value): (&String, Value)| {
-            let mut text = format!("{key}=");
-            value.write(&mut text);
-            text
-        };
-        self.keys.iter().zip(self.values(i)).map(pair).collect()
+        let of = |(key, value): (&String, Value)| pair(key, &value);
+        self.keys.iter().zip(self.values(i)).map(of).collect()
     }
+}
+
+/// What puts a value on top of a case: `KEY=VALUE`.
+pub fn pair(key: &str, value: &Value) -> String {
+    let mut text = format!("{key}=");
+    value.write(&mut text);
+    text
 }
 
 #[cfg(test)]

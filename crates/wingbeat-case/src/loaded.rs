@@ -167,6 +167,11 @@ impl LoadedCase {
         &self.source.text
     }
 
+    /// The text that is given for a key, with what is set on top; none where it is left out or no text.
+    pub fn text_at(&self, key: &str) -> Option<&str> {
+        self.source.value_at(key)?.as_str()
+    }
+
     /// Where the case came from: the file or preset.
     pub fn origin(&self) -> &str {
         &self.source.name

@@ -113,7 +113,12 @@ impl CaseSource {
 
     /// Whether the document has a value at `key`.
     pub fn gives(&self, key: &str) -> bool {
-        find(&self.table, key).is_some()
+        self.value_at(key).is_some()
+    }
+
+    /// The value of the document at `key`.
+    pub fn value_at(&self, key: &str) -> Option<&Value> {
+        find(&self.table, key)
     }
 
     /// The bytes of a value (or of its key), or of the key of the nearest table around it.
