@@ -33,6 +33,7 @@ impl Reader<'_> {
     pub fn plan(&self, raw: &RawCampaign) -> Found<Plan> {
         let (mut axes, mut samplers) = (vec![], vec![]);
         let samples = self.samples(raw)?;
+        let seed = self.seed(raw)?;
         for key in self.document.names("parameter") {
             let Some(variation) = raw.parameter.get(&key) else {
                 continue;
@@ -42,7 +43,6 @@ impl Reader<'_> {
                 Some(values) => axes.push(Axis::of_key(&key, place, values)),
                 None => {
                     let dimension = samplers.len();
-                    let seed = raw.seed.unwrap_or(0) as u64;
                     self.check_law(&place, variation, samples, dimension)?;
                     samplers.push(sampler(&key, seed, variation, samples, dimension));
                 }
@@ -54,7 +54,7 @@ impl Reader<'_> {
         if let Some(name) = &raw.table {
             axes.push(self.table(name)?);
         }
-        self.check_once(&axes, &samplers)?;
+        self.check_once(raw, &axes, &samplers)?;
         let count = if samplers.is_empty() { 1 } else { samples };
         let plan = Plan::new(axes, samplers, count).filter(|p| p.points() <= MAX_POINTS);
         plan.ok_or_else(|| {
@@ -109,6 +109,24 @@ impl Reader<'_> {
                     "add `samples = 100`, for instance",
                 ))
             }
+        }
+    }
+
+    /// The seed; a Sobol sequence has as many as 32 bits hold.
+    fn seed(&self, raw: &RawCampaign) -> Found<u64> {
+        let seed = raw.seed.unwrap_or(0) as u64;
+        let sobol = |v: &Variation| matches!(v, Variation::Sobol(_));
+        match u32::try_from(seed).is_ok() || !raw.parameter.values().any(sobol) {
+            true => Ok(seed),
+            false => Err(self.wrong(
+                "seed",
+                format!("{seed} is too large a seed for a Sobol sequence"),
+                format!(
+                    "a whole number from 0 to {}, where sobol is drawn",
+                    u32::MAX
+                ),
+                "choose a seed in this range",
+            )),
         }
     }
 
@@ -334,8 +352,8 @@ impl Reader<'_> {
         Ok(())
     }
 
-    /// No key varies twice.
-    fn check_once(&self, axes: &[Axis], samplers: &[Sampler]) -> Found<()> {
+    /// No key varies twice, and none is set that varies.
+    fn check_once(&self, raw: &RawCampaign, axes: &[Axis], samplers: &[Sampler]) -> Found<()> {
         let listed = axes.iter().flat_map(|a| {
             let place = |key: &String| match &a.place[..] {
                 "table" => "table".to_owned(),
@@ -348,14 +366,22 @@ impl Reader<'_> {
             .iter()
             .map(|s| (s.key(), format!("parameter.{}", s.key())));
         let all: Vec<(&str, String)> = listed.chain(drawn).collect();
+        let inside = |a: &str, b: &str| {
+            let rest = b.strip_prefix(a);
+            rest.is_some_and(|r| r.is_empty() || r.starts_with(['.', '[']))
+        };
+        for set in raw.set.keys() {
+            if let Some((key, place)) = all.iter().find(|(key, _)| inside(key, set)) {
+                return Err(self.wrong(
+                    &format!("set.{set}"),
+                    format!("this has no effect: `{key}` is varied, by {place}"),
+                    "keys that do not vary",
+                    "remove it from [set], or vary the key no more",
+                ));
+            }
+        }
         for (k, (key, place)) in all.iter().enumerate() {
-            let related = |other: &&(&str, String)| {
-                let inside = |a: &str, b: &str| {
-                    let rest = b.strip_prefix(a);
-                    rest.is_some_and(|r| r.is_empty() || r.starts_with(['.', '[']))
-                };
-                inside(key, other.0) || inside(other.0, key)
-            };
+            let related = |other: &&(&str, String)| inside(key, other.0) || inside(other.0, key);
             if let Some((other, _)) = all[..k].iter().find(related) {
                 return Err(self.wrong(
                     place,

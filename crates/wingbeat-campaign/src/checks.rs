@@ -110,6 +110,14 @@ pub fn words(document: &Document, raw: &RawCampaign, name: &str) -> Result<(), I
             "add \"trim\" to do, or remove the table",
         );
     }
+    if raw.mean_beats == Some(0) {
+        return wrong(
+            "mean_beats",
+            "there is no mean over no wingbeat",
+            "a whole number >= 1",
+            "1, the default, takes the last wingbeat",
+        );
+    }
     check_files(document, raw)?;
     check_budget(document, raw)
 }

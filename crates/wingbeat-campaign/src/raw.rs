@@ -23,7 +23,7 @@ pub struct RawCampaign {
     #[serde(default)]
     #[schemars(with = "BTreeMap<String, serde_json::Value>")]
     pub set: BTreeMap<String, toml::Value>,
-    /// Seed of everything that is drawn.
+    /// Seed of everything that is drawn; below 2^32 where `sobol` is.
     pub seed: Option<usize>,
     /// Points that are drawn (at every point of the grid, where there is one).
     pub samples: Option<usize>,
@@ -32,7 +32,7 @@ pub struct RawCampaign {
     pub tasks: Vec<Task>,
     /// Numbers that are kept, by their names.
     pub keep: Vec<String>,
-    /// Wingbeats at the end over which means are taken, default 1.
+    /// Wingbeats at the end over which means are taken, 1 or more, default 1.
     pub mean_beats: Option<usize>,
     /// Files that are kept of each flight.
     #[serde(default)]

@@ -35,7 +35,7 @@ type Wrong = (
     &'static [&'static str],
 );
 
-const FILES: [Wrong; 38] = [
+const FILES: [Wrong; 41] = [
     (
         "do = [\"run\"]",
         "do = [\"run\"",
@@ -107,6 +107,27 @@ const FILES: [Wrong; 38] = [
         &["no number is kept"],
     ),
     ("seed = 1", "seed = -1", "seed =", &["a whole number >= 0"]),
+    (
+        "seed = 1",
+        "seed = 1\nmean_beats = 0",
+        "mean_beats =",
+        &["there is no mean over no wingbeat", "a whole number >= 1"],
+    ),
+    (
+        "seed = 1",
+        "seed = 4294967297 # beside sobol\n[parameter.\"body.part.thorax.length_m\"]\nsobol = { from = 1e-3, to = 2e-3 }",
+        "seed =",
+        &["4294967297", "a whole number from 0 to 4294967295"],
+    ),
+    (
+        "\"time.beats\" = 1",
+        "\"time.beats\" = 1\n\"motion.frequency_hz\" = 100",
+        "\"motion.frequency_hz\" = 100",
+        &[
+            "`motion.frequency_hz` is varied, by parameter.motion.frequency_hz",
+            "remove it from [set]",
+        ],
+    ),
     (
         "samples = 3\n",
         "",
@@ -299,7 +320,7 @@ fn refuses_keys_that_vary_twice_and_options_without_effect() {
     let dir = &scratch.0;
     let more = [
         (
-            "[[zip]]\n\"motion.frequency_hz\" = [1, 2]\n\"time.beats\" = [1, 2]\n",
+            "[[zip]]\n\"motion.frequency_hz\" = [1, 2]\n\"time.steps_per_beat\" = [40, 60]\n",
             "varied already",
         ),
         ("[parameter.motion]\nlist = [1]\n", "varied already"),
