@@ -9,6 +9,7 @@ use wingbeat_analysis::power::power_of_trim;
 use wingbeat_analysis::{AnalysisError, Trim};
 use wingbeat_case::{IoError, LoadedCase, trimmed_case};
 use wingbeat_flight::FlightError;
+use wingbeat_results::saver;
 
 use crate::campaign::Campaign;
 use crate::evaluate;
@@ -33,11 +34,43 @@ const KEPT: [(FileKind, &[&str]); 5] = [
     (FileKind::Page, &["flight.html"]),
     (FileKind::History, &["history.csv"]),
     (FileKind::Figures, &["figures"]),
-    (FileKind::Frames, &["frames", "flight.pvd"]),
+    (FileKind::Frames, &["frames", INDEX]),
     (FileKind::Summary, &["summary.txt", "summary.json"]),
 ];
+/// Index of the frames, where there are any.
+const INDEX: &str = "flight.pvd";
+/// Steps of a flight that has a page, at least.
+const DRAWN: usize = 2;
 /// What is kept beside any of them.
 const ALWAYS: [&str; 2] = ["case.toml", "manifest.json"];
+
+/// Whether the files that point `i` keeps are there, of figures and frames their folders: a short flight has none in them.
+pub fn has_files(campaign: &Campaign, i: usize, hash: &str, store: &Store) -> bool {
+    if !campaign.keeps_files(i) {
+        return true;
+    }
+    let place = store.path("files").join(hash);
+    let Ok(manifest) = saver::read_manifest(&place) else {
+        return false;
+    };
+    let frames = campaign.base.output.frames_every > 0
+        && !campaign
+            .plan
+            .keys()
+            .iter()
+            .any(|k| k == "output.frames_every");
+    let written = |kind: FileKind| match kind {
+        FileKind::Page => manifest.steps >= DRAWN,
+        FileKind::Frames => frames,
+        FileKind::Figures | FileKind::History | FileKind::Summary => true,
+    };
+    let kept = KEPT
+        .iter()
+        .filter(|(kind, _)| campaign.raw.files.contains(kind) && written(*kind));
+    let names = kept.flat_map(|(_, names)| names.iter().copied());
+    let mut names = names.filter(|name| *name != INDEX).chain(ALWAYS);
+    names.all(|name| place.join(name).exists())
+}
 
 /// Does what is to be done at point `i`, whose hash is `hash`; with a `store`, flights that take long or keep files have
 /// a directory there.

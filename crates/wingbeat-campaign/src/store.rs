@@ -235,6 +235,18 @@ impl Store {
         Ok(None)
     }
 
+    /// Forgets the numbers of a point.
+    ///
+    /// # Errors
+    /// A file that cannot be removed.
+    pub fn forget(&self, hash: &str) -> Result<(), IoError> {
+        let path = self.place(hash, "ok");
+        match fs::remove_file(&path) {
+            Err(e) if e.kind() != ErrorKind::NotFound => Err(IoError::write(&path)(e)),
+            _ => Ok(()),
+        }
+    }
+
     /// Forgets the result of a point that failed; whether there was one.
     ///
     /// # Errors

@@ -261,8 +261,8 @@ pub fn blocks(range: &Range<usize>, block: usize) -> Range<usize> {
     }
 }
 
-/// Before work begins: damaged results are removed, and blocks that lack results are no longer done. How many points of
-/// the range are done.
+/// Before work begins: damaged results are removed, and so are those of flights that lack the files that are kept of them,
+/// and blocks that lack results are no longer done. How many points of the range are done.
 ///
 /// # Errors
 /// A directory that cannot be read or written.
@@ -273,7 +273,15 @@ pub fn inspect(campaign: &Campaign, store: &Store, range: &Range<usize>) -> Resu
     let mut done = 0;
     for i in range.clone() {
         let hash = hexadecimal(&campaign.hash(i));
-        let there = known.contains_key(&hash) && store.get(&hash)?.is_some();
+        let there = match known.get(&hash) {
+            None => false,
+            Some(_) if store.get(&hash)?.is_none() => false,
+            Some(failed) if *failed || point::has_files(campaign, i, &hash, store) => true,
+            Some(_) => {
+                store.forget(&hash)?;
+                false
+            }
+        };
         done += usize::from(there);
         let block = i / campaign.block;
         if !there && finished.contains(&block) {
