@@ -9,7 +9,9 @@ use crate::raw::Task;
 pub fn command(campaign: &Campaign, i: usize) -> String {
     let trim = campaign.trim_options(i).ok().flatten();
     let verb = if trim.is_some() { "trim" } else { "run" };
-    let mut text = format!("wingbeat {verb} {}", shell(&campaign.raw.case));
+    let case = &campaign.raw.case;
+    let here = if case.starts_with('-') { "./" } else { "" }; // no option
+    let mut text = format!("wingbeat {verb} {}", shell(&format!("{here}{case}")));
     for set in campaign.overrides(i) {
         let _ = write!(text, " --set {}", shell(&set)); // a string takes everything
     }

@@ -20,6 +20,14 @@ pub(super) struct Place {
     pub(super) out: Option<PathBuf>,
 }
 
+/// A path as a word that no program takes for an option.
+pub(super) fn operand(path: &Path) -> PathBuf {
+    match path.as_os_str().as_encoded_bytes().first() {
+        Some(b'-') => Path::new(".").join(path),
+        _ => path.to_owned(),
+    }
+}
+
 impl Place {
     /// Reads the campaign.
     pub(super) fn campaign(&self) -> Result<Campaign, IoError> {
@@ -29,7 +37,7 @@ impl Place {
     /// Its directory.
     pub(super) fn folder(&self, campaign: &Campaign) -> PathBuf {
         let default = || Path::new("results").join(&campaign.name);
-        self.out.clone().unwrap_or_else(default)
+        operand(&self.out.clone().unwrap_or_else(default))
     }
 
     /// The campaign and its directory, which is there.

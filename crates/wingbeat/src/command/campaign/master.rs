@@ -12,7 +12,7 @@ use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressDrawTarget};
 
-use super::args::duration;
+use super::args::{duration, operand};
 use crate::command::failure::{FAILED, Failure, INTERRUPTED};
 use crate::command::progress::bar;
 use crate::command::terminal::tell;
@@ -54,7 +54,7 @@ impl Master {
         let words = ["campaign", "work"].map(OsString::from).into_iter();
         let points = format!("{}..{}", range.start, range.end);
         let rest = [
-            file.into(),
+            operand(file).into(),
             "--out".into(),
             folder.into(),
             "--points".into(),

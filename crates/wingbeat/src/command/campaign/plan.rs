@@ -9,7 +9,7 @@ use wingbeat::campaign::{Campaign, Store};
 use wingbeat::case::IoError;
 use wingbeat::results::file::NewFile;
 
-use super::args::{Part, Place};
+use super::args::{Part, Place, operand};
 use crate::command::failure::{FAILED, Failure};
 use crate::command::terminal::{output, say, tell};
 
@@ -99,7 +99,7 @@ fn tables(campaign: &Campaign, store: &Store, partial: bool) -> Result<(), Failu
         return Err(Failure::Option(format!(
             "{missing} of {} points have no result yet; `wingbeat campaign run {}` flies them, --partial merges what there is",
             campaign.plan.points(),
-            campaign.path.display()
+            operand(&campaign.path).display()
         )));
     }
     for path in merge::merge(campaign, store)? {

@@ -6,7 +6,7 @@ use clap::Args;
 use wingbeat::campaign::worker::{inspect, left};
 use wingbeat::campaign::{Campaign, Status, Store};
 
-use super::args::{Part, Place};
+use super::args::{Part, Place, operand};
 use super::master::{Master, processors};
 use crate::command::failure::{Failure, INTERRUPTED};
 use crate::command::options;
@@ -64,6 +64,7 @@ pub(super) fn run(args: &RunArgs) -> Result<(), Failure> {
 
 fn finish(campaign: &Campaign, store: &Store, file: &Path) -> Result<(), Failure> {
     let status = Status::of(campaign, store)?;
+    let file = operand(file);
     let file = file.display();
     say!(
         "{} of {} points are done, {} failed.",

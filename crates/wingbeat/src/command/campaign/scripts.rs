@@ -3,7 +3,7 @@
 use clap::Args;
 use wingbeat::campaign::scripts::Engine;
 
-use super::args::Place;
+use super::args::{Place, operand};
 use crate::command::failure::Failure;
 use crate::command::options::{self, MAX_THREADS};
 use crate::command::terminal::output;
@@ -71,7 +71,7 @@ pub(super) fn snakemake(args: &SnakemakeArgs) -> Result<(), Failure> {
 /// File and directory, in which a script can stand between quotation marks.
 fn words(place: &Place, folder: &std::path::Path) -> Result<[String; 2], Failure> {
     let plain = |c: char| c.is_alphanumeric() || "-_./ =+,:@%~".contains(c);
-    let [file, out] = [place.file.as_path(), folder].map(|p| p.display().to_string());
+    let [file, out] = [&operand(&place.file), folder].map(|p| p.display().to_string());
     match [&file, &out].iter().find(|w| !w.chars().all(plain)) {
         None => Ok([file, out]),
         Some(word) => Err(Failure::Option(format!(

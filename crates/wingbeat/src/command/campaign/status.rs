@@ -7,7 +7,7 @@ use wingbeat::campaign::Status;
 use wingbeat::campaign::status::retry as forget;
 
 use super::args::Place;
-use super::args::duration;
+use super::args::{duration, operand};
 use crate::command::failure::Failure;
 use crate::command::terminal::say;
 
@@ -82,7 +82,7 @@ pub(super) fn retry(place: &Place) -> Result<(), Failure> {
     let count = forget(&campaign, &store)?;
     say!(
         "{count} points that failed are forgotten; `wingbeat campaign run {}` flies them again.",
-        place.file.display()
+        operand(&place.file).display()
     );
     Ok(())
 }
