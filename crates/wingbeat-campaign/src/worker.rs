@@ -46,8 +46,12 @@ pub struct Worker<'a> {
 /// # Errors
 /// A folder that cannot be made.
 pub fn leases(campaign: &Campaign, store: &Store) -> Result<Leases, IoError> {
-    let plan = hexadecimal(&campaign.plan_hash()[..8]);
-    Leases::new(store.path("leases").join(plan))
+    Leases::new(store.path("leases").join(plan_name(campaign)))
+}
+
+/// The plan of a campaign in 16 letters, as its leases and the workers of a master know it.
+pub fn plan_name(campaign: &Campaign) -> String {
+    hexadecimal(&campaign.plan_hash()[..8])
 }
 
 impl<'a> Worker<'a> {

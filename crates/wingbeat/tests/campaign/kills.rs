@@ -264,3 +264,41 @@ fn behaves_an_interrupted_run_goes_on() {
         ],
     );
 }
+
+/// A worker that starts after the file was changed flies nothing of the new one: the run ends with what happened.
+#[test]
+fn refuses_a_file_that_is_changed_while_it_is_flown() {
+    let scratch = Scratch::new("campaign-changed");
+    let dir = &scratch.0;
+    write(dir, &blade(200));
+    let mut child = Command::new(env!("CARGO_BIN_EXE_wingbeat"));
+    child
+        .current_dir(dir)
+        .stderr(Stdio::piped())
+        .stdout(Stdio::null());
+    child.args([
+        "campaign", "run", "c.toml", "--out", "b", "--jobs", "2", "--quiet",
+    ]);
+    let master = child.spawn().unwrap();
+    let begun = Instant::now();
+    while !dir.join("b/points").exists() {
+        assert!(begun.elapsed() < Duration::from_secs(60));
+        std::thread::sleep(Duration::from_millis(5));
+    }
+    fs::write(
+        dir.join("c.toml"),
+        blade(200).replace("seed = 3", "seed = 4"),
+    )
+    .unwrap();
+    workers(&master).into_iter().for_each(kill);
+    let out = master.wait_with_output().unwrap();
+    let report = String::from_utf8_lossy(&out.stderr);
+    assert_eq!(out.status.code(), Some(1), "{report}");
+    assert!(
+        report.contains("c.toml was changed while it was flown"),
+        "{report}"
+    );
+    assert!(!report.contains("interrupted"), "{report}");
+    let leases = fs::read_dir(dir.join("b/leases")).unwrap();
+    assert_eq!(leases.count(), 1, "nothing of the new plan was flown");
+}

@@ -45,7 +45,13 @@ enum End {
 }
 
 impl Master {
-    pub(super) fn new(file: &Path, folder: &Path, range: Range<usize>, quiet: bool) -> Self {
+    pub(super) fn new(
+        file: &Path,
+        folder: &Path,
+        plan: &str,
+        range: Range<usize>,
+        quiet: bool,
+    ) -> Self {
         let target = if quiet {
             ProgressDrawTarget::hidden()
         } else {
@@ -59,6 +65,8 @@ impl Master {
             folder.into(),
             "--points".into(),
             points.into(),
+            "--plan".into(),
+            plan.into(),
         ];
         Self {
             arguments: words.chain(rest).collect(),

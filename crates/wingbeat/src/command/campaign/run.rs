@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use clap::Args;
-use wingbeat::campaign::worker::{inspect, left};
+use wingbeat::campaign::worker::{inspect, left, plan_name};
 use wingbeat::campaign::{Campaign, Status, Store};
 
 use super::args::{Part, Place, operand};
@@ -48,7 +48,8 @@ pub(super) fn run(args: &RunArgs) -> Result<(), Failure> {
         name_program(&campaign.base);
         let jobs = args.jobs.unwrap_or_else(processors);
         let stop = stop_flag();
-        let mut master = Master::new(&args.place.file, &folder, range.clone(), args.quiet);
+        let (file, plan) = (&args.place.file, plan_name(&campaign));
+        let mut master = Master::new(file, &folder, &plan, range.clone(), args.quiet);
         master.work(jobs, done, &stop)?;
     }
     let left = left(&campaign, &store, &range);

@@ -5,6 +5,7 @@ use std::time::Duration;
 use clap::Args;
 use wingbeat::campaign::Status;
 use wingbeat::campaign::status::retry as forget;
+use wingbeat::campaign::worker::plan_name;
 
 use super::args::Place;
 use super::args::{duration, operand};
@@ -33,7 +34,7 @@ pub(super) fn status(args: &StatusArgs) -> Result<(), Failure> {
     loop {
         let status = Status::of(&campaign, &store)?;
         match args.json {
-            true => say!("{}", json(&status)),
+            true => say!("{}", json(&status, &plan_name(&campaign))),
             false => say!("{}: {}", campaign.name, words(&status)),
         }
         if !args.watch || status.done == status.points {
@@ -43,13 +44,14 @@ pub(super) fn status(args: &StatusArgs) -> Result<(), Failure> {
     }
 }
 
-fn json(status: &Status) -> String {
+fn json(status: &Status, plan: &str) -> String {
     serde_json::json!({
         "points": status.points,
         "done": status.done,
         "failed": status.failed,
         "blocks_in_flight": status.flying,
         "points_per_s": status.rate,
+        "plan": plan,
         "seconds_left": status.left().map(|t| t.as_secs_f64()),
     })
     .to_string()

@@ -6,6 +6,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
 use clap::Args;
+use wingbeat::campaign::worker::plan_name;
 use wingbeat::campaign::{Ended, Store, Worker};
 
 use super::args::{Part, Place};
@@ -23,6 +24,9 @@ pub(super) struct WorkArgs {
     place: Place,
     #[command(flatten)]
     part: Part,
+    /// The plan that is to be flown, as whoever started us read it.
+    #[arg(long)]
+    plan: Option<String>,
 }
 
 /// The whole command: one thread; points counted on the standard output, an end with the standard input.
@@ -34,6 +38,17 @@ pub(super) fn work(args: &WorkArgs) -> Result<(), Failure> {
     let stop = stop_flag();
     end_with_input(Arc::clone(&stop));
     let campaign = args.place.campaign()?;
+    if args
+        .plan
+        .as_ref()
+        .is_some_and(|p| *p != plan_name(&campaign))
+    {
+        tell!(
+            "error: {} was changed while it was flown; what is done is kept: the same command flies the file as it is now",
+            args.place.file.display()
+        );
+        return Err(Failure::Told(FAILED));
+    }
     let range = args.part.range(campaign.plan.points())?;
     let folder = args.place.folder(&campaign);
     let store = Store::existing(&folder)?;
