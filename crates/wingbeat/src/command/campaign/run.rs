@@ -27,6 +27,9 @@ pub(super) struct RunArgs {
     /// No progress and no summary on the terminal.
     #[arg(long)]
     quiet: bool,
+    /// Look through the results of all points, whichever are flown: others will fly the rest.
+    #[arg(long, hide = true)]
+    inspect: bool,
 }
 
 /// The whole command.
@@ -35,6 +38,9 @@ pub(super) fn run(args: &RunArgs) -> Result<(), Failure> {
     let range = args.part.range(campaign.plan.points())?;
     let folder = args.place.folder(&campaign);
     let store = Store::open(&folder, campaign.text())?;
+    if args.inspect {
+        inspect(&campaign, &store, &(0..campaign.plan.points()))?;
+    }
     let done = inspect(&campaign, &store, &range)?;
     if !args.quiet {
         let name = &campaign.name;
