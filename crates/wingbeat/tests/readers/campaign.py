@@ -26,4 +26,12 @@ assert "body.mass_kg" in data.coords and data["body.mass_kg"].dims == ("sample",
 assert data["body.mass_kg"].values.tolist() == [float(r["body.mass_kg"]) for r in rows[:2]]
 chosen = lift.sel({"motion.frequency_hz": 200, "air.density_kg_m3": 1.2}).values
 assert numpy.all(numpy.isfinite(chosen))
-assert [x.decode() if isinstance(x, bytes) else str(x) for x in data["dynamics.formulation"].values] == ["momentum", "quaternion"]
+assert data["dynamics.formulation"].values.tolist() == ["momentum", "quaternion"]
+
+# Texts as an axis: chosen by name, of several lengths and letters.
+named = xarray.open_dataset(folder.parent / "texts" / "points.nc", engine="h5netcdf")
+axis = named["wing.right.motion.phi.table.file"].values.tolist()
+assert axis == ["a.csv", "Flügel schlag.csv"], axis
+for k, name in enumerate(axis):
+    found = named["end.wing_right_prescribed_phi_rad"].sel({"wing.right.motion.phi.table.file": name})
+    assert found.values.tolist() == named["end.wing_right_prescribed_phi_rad"].values[k].tolist(), name
