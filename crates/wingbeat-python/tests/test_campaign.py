@@ -7,6 +7,7 @@ import multiprocessing
 import os
 import pickle
 import random
+import re
 import signal
 import subprocess
 import sys
@@ -180,6 +181,32 @@ def test_exact_units_are_those_of_the_columns(blade):
     for name, unit, *_ in run._core.columns():
         assert _names.unit(name) == unit, name
     assert _names.unit("motion.frequency_hz") == "Hz" and _names.unit("air.density_kg_m3") == "kg m-3"
+
+
+def test_agrees_units_with_those_of_all_keys_and_of_all_numbers_of_campaigns(tmp_path):
+    keys = (Path(__file__).parents[3] / "docs" / "case-keys.md").read_text()
+    rows = re.findall(r"^\| `(\w+)` \| ([^|]*) \|", keys, re.MULTILINE)
+    assert len(rows) > 400
+    for key, unit in rows:
+        assert _names.unit(f"some.{key}") == ", ".join(map(written, unit.strip().split(", "))), key
+    file = tmp_path / "c.toml"
+    file.write_text('case = "fruit-fly-hover"\nkeep = ["power_watt"]\n')
+    said = subprocess.run([sys.executable, "-m", "wingbeat", "campaign", "numbers", file], check=True, capture_output=True, text=True)
+    numbers = [line.split(maxsplit=1) for line in said.stdout.splitlines()]
+    assert len(numbers) > 300
+    for name, rest in numbers:
+        unit = rest[:10].strip()
+        if unit != "SI":  # of derivatives, whose names have no unit
+            assert _names.unit(name) == unit.replace("deg", "degree"), name
+
+
+def written(unit: str) -> str:
+    """A unit of the page of keys with exponents: kg/m3 as kg m-3."""
+    if unit in ("", "wingbeats", "chords", "mean chords"):
+        return "1"
+    over, _, under = unit.replace("deg", "degree").partition("/")
+    over = "" if over == "1" else over + " "
+    return over + re.sub(r"(\D+)(\d*)", lambda m: f"{m[1]}-{m[2] or 1}", under) if under else over.strip()
 
 
 def test_exact_names_are_those_of_runs_and_trims(blade):

@@ -58,7 +58,8 @@ ADJUSTMENT = (
 TRIM_OPTIONS = ("forward_m_per_s", "sideslip_m_per_s", "climb_m_per_s", "turn_rate_rad_per_s")
 """What points may ask of a trim, as ``trim.forward_m_per_s``."""
 
-# Endings of names, the longest that fits counts.
+# Endings of names, the longest that fits counts; those of keys are the endings of docs/case-keys.md. Two units are those of the
+# columns of a table. Lengths in chords and times in wingbeats are numbers.
 _UNITS = {
     "m": "m",
     "mm": "mm",
@@ -67,8 +68,12 @@ _UNITS = {
     "hz": "Hz",
     "kg": "kg",
     "mg": "mg",
+    "kg_m": "kg m",
     "kg_m2": "kg m2",
     "kg_m3": "kg m-3",
+    "kg_per_m": "kg m-1",
+    "density_kg_m2": "kg m-2",
+    "table_m_kg_m2": "m, kg m-2",
     "kg_m_per_s": "kg m s-1",
     "kg_m2_per_s": "kg m2 s-1",
     "m_s": "m s-1",
@@ -79,6 +84,8 @@ _UNITS = {
     "m2_per_s": "m2 s-1",
     "1_s": "s-1",
     "per_s": "s-1",
+    "s_per_rad": "s rad-1",
+    "per_rad2": "rad-2",
     "deg": "degree",
     "deg_s": "degree s-1",
     "rad": "rad",
@@ -86,8 +93,18 @@ _UNITS = {
     "rad_per_s2": "rad s-2",
     "newton": "N",
     "newton_m": "N m",
+    "newton_m2": "N m2",
+    "newton_m_m2": "N m, N m2",
+    "newton_m_s": "N m s",
+    "newton_m_per_rad": "N m rad-1",
+    "newton_m_s_per_rad": "N m s rad-1",
+    "newton_per_m": "N m-1",
     "newton_s": "N s",
+    "newton_s_m": "N s m-1",
+    "newton_s_per_m": "N s m-1",
+    "pa": "Pa",
     "watt": "W",
+    "watt_per_kg": "W kg-1",
     "joule": "J",
 }
 
