@@ -52,6 +52,12 @@ def test_behaves_points_that_are_kept_are_flown_once(tmp_path):
     assert hover(executor=Serial(), out=tmp_path).evaluate([*X, [220.0, 9e-7]])[:2].tolist() == Y.tolist() and kept() == 3
 
 
+def test_exact_whole_numbers_are_variables():
+    steps = Problem("fruit-fly-blade", {"time.steps_per_beat": (20, 80)}, "steps", executor=Serial())
+    assert steps.evaluate([[20.0], [40.0]]).tolist() == [[100.0], [200.0]], steps.reasons
+    assert np.isnan(steps.evaluate([40.5])).all() and "a number with a fraction" in steps.reasons[0]
+
+
 def test_behaves_failures_are_nan_with_reasons():
     problem = hover(executor=Serial())
     Y = problem.evaluate([[200.0, 9e-7], [-1.0, 9e-7]])
@@ -105,6 +111,7 @@ BAD = {
     "unknown objective": lambda: Problem("fruit-fly-blade", VARIABLES, ["power_wat"]),
     "a sense of its own": lambda: Problem("fruit-fly-blade", VARIABLES, {"power_watt": "least"}),
     "constraint without bounds": lambda: Problem("fruit-fly-blade", VARIABLES, "power_watt", {"lift_newton": (None, None)}),
+    "constraint that is no number": lambda: Problem("fruit-fly-blade", VARIABLES, "power_watt", {"lift_newton": (np.nan, None)}),
     "constraint upside down": lambda: Problem("fruit-fly-blade", VARIABLES, "power_watt", {"lift_newton": (2, 1)}),
     "unknown constraint": lambda: Problem("fruit-fly-blade", VARIABLES, "power_watt", {"lift": (1, 2)}),
     "executor that is none": lambda: Problem("fruit-fly-blade", VARIABLES, "power_watt", executor=3),

@@ -198,6 +198,8 @@ def _constraints(given: Bounds) -> dict[str, tuple[float | None, float | None]]:
             least, most = (None if bound is None else float(bound) for bound in pair)
         except (TypeError, ValueError):
             least = most = None
+        if any(bound is not None and bound != bound for bound in (least, most)):
+            least = most = None  # not a number
         if least is most is None or (least is not None and most is not None and not least <= most):
             remedy = "the least and the most that is allowed, as (1.0, None)"
             raise CaseError(f"constraints: {name} = {pair!r}: no bounds", key="constraints", remedy=remedy)
