@@ -51,6 +51,41 @@ def test_agrees_with_the_command_line_to_the_byte(file: Path, tmp_path: Path) ->
     assert campaign.run(file, campaign.Serial(), out=there) == found, "nothing is left to fly"
 
 
+def test_agrees_with_the_command_line_where_the_results_go(file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    file.write_text(FILE.replace("samples = 12", "samples = 2"))
+    (tmp_path / "link.toml").symlink_to(file)
+    for words, name in (("", "link"), ('name = "my map"\n', "my map")):
+        file.write_text(words + file.read_text())
+        assert campaign.run("link.toml", campaign.Serial())["done"] == 2
+        command("status", "link.toml")
+        assert (tmp_path / "results" / name / "points").is_dir()
+    assert sorted(folder.name for folder in (tmp_path / "results").iterdir()) == ["link", "my map"]
+
+
+def test_refuses_a_file_that_is_changed_while_it_is_flown(file: Path, tmp_path: Path) -> None:
+    class Changes(campaign.Serial):
+        def submit(self, fn: Callable[..., Any], /, *args: Any, **kwargs: Any) -> Future[Any]:
+            file.write_text(FILE.replace("seed = 1", "seed = 2"))
+            return super().submit(fn, *args, **kwargs)
+
+    with pytest.raises(wingbeat.FlightError, match="was changed while it was flown"):
+        campaign.run(file, Changes(), out=tmp_path / "out")
+
+
+def test_behaves_damaged_results_and_lost_files_are_flown_again(file: Path, tmp_path: Path) -> None:
+    out = tmp_path / "out"
+    file.write_text(FILE.replace("samples = 12", 'samples = 6\nfiles = ["history"]'))
+    assert campaign.run(file, campaign.Serial(), out=out)["done"] == 6
+    results, histories = sorted(out.glob("points/*/*.ok")), sorted(out.glob("files/*/history.csv"))
+    whole = [path.read_bytes() for path in results]
+    results[-1].write_bytes(whole[-1][:-9])
+    lost = histories[0].read_bytes()
+    histories[0].unlink()
+    assert campaign.run(file, campaign.Serial(), out=out)["done"] == 6
+    assert [path.read_bytes() for path in results] == whole and histories[0].read_bytes() == lost
+
+
 class Remembers(campaign.Serial):
     """Takes equal calls for one, as Dask does; the worker of its first call is killed."""
 

@@ -10,6 +10,7 @@ import json
 import os
 import subprocess
 import sys
+import tomllib
 import uuid
 from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, Executor, Future, wait
 from pathlib import Path
@@ -34,13 +35,14 @@ def run(
 ) -> dict[str, int]:
     """Flies a campaign file on an engine, into the directory that ``wingbeat campaign run`` would use.
 
-    ``out`` is that directory (results/NAME); all workers must see it and the file by the same paths. ``executor`` and
-    ``workers`` are those of :func:`wingbeat.campaign.map`. Points that are done are not flown again; a part of the points
-    whose worker dies is handed out again, in a row ``attempts`` times at most without a point more being done. Returns how many
-    ``points`` there are, how many are ``done`` and how many of those ``failed``. ``wingbeat campaign merge FILE`` makes the tables.
+    ``out`` is that directory (results/NAME, by ``name`` in the file or that of the file); all workers must see it and the file
+    by the same paths. ``executor`` and ``workers`` are those of :func:`wingbeat.campaign.map`. Points that are done are not flown
+    again; a part of the points whose worker dies is handed out again, in a row ``attempts`` times at most without a point more
+    being done. Returns how many ``points`` there are, how many are ``done`` and how many of those ``failed``.
+    ``wingbeat campaign merge FILE`` makes the tables.
     """
-    path = Path(file).resolve()
-    folder = Path(out).resolve() if out is not None else Path("results").resolve() / path.stem
+    path = Path(file).absolute()  # names beside a link are relative to the link
+    folder = Path(out).absolute() if out is not None else Path("results").absolute() / _name(path)
     if isinstance(attempts, bool) or not isinstance(attempts, int) or attempts < 1:
         raise CaseError(f"attempts = {attempts!r}: no count", key="attempts", remedy="1 or more")
     _begin(path, folder)
@@ -56,9 +58,20 @@ def run(
     return _status(path, folder)
 
 
+def _name(path: Path) -> str:
+    """The name of a campaign; of a file that cannot be read, which is told later, that of the file."""
+    try:
+        name = tomllib.loads(path.read_text(encoding="utf-8")).get("name")
+    except (OSError, ValueError):
+        name = None
+    return name if isinstance(name, str) else path.stem
+
+
 def _begin(path: Path, folder: Path) -> None:
-    """Flies the first point here: what is wrong with file or directory is told before anything is handed out."""
-    words = ["run", str(path), "--out", str(folder), "--points", "0..1", "--jobs", "1", "--quiet"]
+    """Flies the first point here: what is wrong with file or directory is told before anything is handed out, and results
+    that are damaged, or lack the files that are kept, are found.
+    """
+    words = ["run", str(path), "--out", str(folder), "--points", "0..1", "--jobs", "1", "--quiet", "--inspect"]
     done = subprocess.run(_command(words), capture_output=True, text=True)
     if done.returncode == 2:
         raise CaseError(done.stderr.strip(), key="file", remedy=f"wingbeat campaign check {path}")
@@ -66,18 +79,23 @@ def _begin(path: Path, folder: Path) -> None:
 
 
 def _status(path: Path, folder: Path) -> dict[str, int]:
-    done = subprocess.run(_command(["status", str(path), "--out", str(folder), "--json"]), capture_output=True, text=True)
-    _check(done.returncode, done.stderr)
-    status = json.loads(done.stdout)
+    status = _told(path, folder)
     return {name: int(status[name]) for name in ("points", "done", "failed")}
 
 
-def work(path: str, folder: str, points: str, call: str) -> int:
+def _told(path: Path, folder: Path) -> dict[str, Any]:
+    done = subprocess.run(_command(["status", str(path), "--out", str(folder), "--json"]), capture_output=True, text=True)
+    _check(done.returncode, done.stderr)
+    status: dict[str, Any] = json.loads(done.stdout)
+    return status
+
+
+def work(path: str, folder: str, points: str, plan: str, call: str) -> int:
     """In a worker of an engine: a worker process, which ends with this one. Its exit code; 0 and 130 are no failure.
 
-    ``call`` differs from call to call: Dask takes equal calls for one.
+    ``plan`` is that of the file as it was when the campaign began; ``call`` differs from call to call: Dask takes equal calls for one.
     """
-    words = ["work", path, "--out", folder, "--points", points]
+    words = ["work", path, "--out", folder, "--points", points, "--plan", plan]
     with subprocess.Popen(
         _command(words), stdin=subprocess.PIPE, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True
     ) as process:
@@ -91,7 +109,8 @@ def work(path: str, folder: str, points: str, call: str) -> int:
 
 def _fly(path: Path, folder: Path, executor: Executor, workers: int, attempts: int) -> None:
     """Hands out parts until each has ended well."""
-    count = _status(path, folder)["points"]
+    begun = _told(path, folder)
+    count, plan = int(begun["points"]), str(begun["plan"])
     parts = min(count, _PARTS * workers)
     waiting = [f"{count * k // parts}..{count * (k + 1) // parts}" for k in range(parts)]
     waiting.reverse()
@@ -100,7 +119,7 @@ def _fly(path: Path, folder: Path, executor: Executor, workers: int, attempts: i
     while waiting or flying:
         while waiting and len(flying) < 2 * workers:
             part = waiting.pop()
-            flying[_submitted(executor, (str(path), str(folder), part, uuid.uuid4().hex))] = part
+            flying[_submitted(executor, (str(path), str(folder), part, plan, uuid.uuid4().hex))] = part
         for future in wait(flying, timeout=_PERIOD_S, return_when=FIRST_COMPLETED).done:
             part = flying.pop(future)
             error = future.exception()
