@@ -6,6 +6,8 @@ import os
 import signal
 import sys
 import time
+from collections.abc import Callable
+from typing import Any
 
 import numpy as np
 
@@ -68,3 +70,34 @@ def wrong(flight: wingbeat.Flight) -> dict[str, float]:
 def exits(flight: wingbeat.Flight) -> dict[str, float]:
     """A function that ends its program."""
     sys.exit("over")
+
+
+def number(factor: Any) -> float:
+    """The number that is somehow in what a function carries."""
+    if callable(factor):
+        return float(factor(None)["x"])
+    if isinstance(factor, Study):
+        return factor.factor
+    if isinstance(factor, dict):
+        return float(factor["a"])
+    return 7.0 if isinstance(factor, wingbeat.Flight) else float(np.ravel(factor)[0])
+
+
+def scaled(factor: Any) -> Callable[[Any], dict[str, float]]:
+    """A function that carries ``factor``."""
+
+    def do(flight: Any) -> dict[str, float]:
+        return {"x": number(factor)}
+
+    return do
+
+
+class Study:
+    """A method carries its object."""
+
+    def __init__(self, factor: float) -> None:
+        self.factor = factor
+
+    def do(self, flight: wingbeat.Flight) -> dict[str, float]:
+        """Its number."""
+        return {"x": self.factor}

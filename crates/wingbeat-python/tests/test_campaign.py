@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import errno
+import inspect
 import multiprocessing
 import os
 import pickle
@@ -23,7 +24,7 @@ import pytest
 
 import wingbeat
 from wingbeat import CaseError, Flight, campaign
-from wingbeat.campaign import _names
+from wingbeat.campaign import _identity, _names
 
 FREQUENCIES = np.linspace(180.0, 220.0, 24)
 POINTS = {"motion.frequency_hz": FREQUENCIES, "time.beats": 1}
@@ -135,6 +136,67 @@ def test_behaves_what_was_flown_is_not_flown_again(tmp_path, serial):
     assert campaign.map(more, campaign.Serial(), keep=["lift_newton"], **settings).flown == 25
     lighter = settings | {"base": Flight.preset("fruit-fly-blade").set("body.mass_kg", 9e-7)}
     assert campaign.map(POINTS, campaign.Serial(), **lighter).flown == 24
+
+
+def test_behaves_a_changed_file_that_a_point_names_is_flown_again(tmp_path):
+    def table(name: str, angle: float) -> None:
+        (tmp_path / name).write_text(f"phase,angle\n0,{angle}\n0.25,0\n0.5,{-angle}\n0.75,0\n1,{angle}\n")
+
+    table("a.csv", 60.0)
+    table("b.csv", 70.0)
+    case = Flight.preset("fruit-fly-blade").set({"time.beats": 1, "time.steps_per_beat": 40}).case_text
+    (tmp_path / "case.toml").write_text(case)
+    points = {f"wing.{side}.motion.phi.table.file": ["a.csv", "b.csv"] for side in ("left", "right")}
+    settings = {"base": str(tmp_path / "case.toml"), "keep": ["power_watt"], "out": tmp_path / "kept"}
+    before = campaign.map(points, campaign.Serial(), **settings)
+    assert before.flown == 2 and before.ok.all(), before.reasons
+    table("b.csv", 75.0)
+    after = campaign.map(points, campaign.Serial(), **settings)
+    assert after.flown == 1 and after["power_watt"][0] == before["power_watt"][0] != after["power_watt"][1]
+    table("b.csv", 70.0)
+    assert same(campaign.map(points, campaign.Serial(), **settings), before)
+
+
+def test_behaves_what_a_function_carries_is_part_of_the_point(tmp_path):
+    def flown(do, **options) -> list[float]:
+        table = campaign.map({"time.beats": [1]}, campaign.Serial(), base="fruit-fly-blade", do=do, keep={"x": "1"}, out=tmp_path)
+        assert table.flown == options.get("flown", 1), options
+        return table["x"].tolist()
+
+    base = Flight.preset("fruit-fly-blade")
+    for factor in (1.0, 1000.0, np.array([2.0]), (3.0,), {"a": 4.0}, tasks.Study(5.0), tasks.scaled(6.0), base):
+        number = 7.0 if isinstance(factor, Flight) else tasks.number(factor)
+        assert flown(tasks.scaled(factor)) == [number]
+        assert flown(tasks.scaled(factor), flown=0) == [number], "it is the same another time"
+    for factor in (10.0, 20.0):
+        assert flown(lambda flight, factor=factor: {"x": factor}) == [factor]
+        assert flown(lambda flight, *, factor=factor: {"x": factor}) == [factor]
+        assert flown(tasks.Study(factor).do) == [factor]
+        assert flown(tasks.Study(factor).do, flown=0) == [factor]
+
+
+def test_exact_identity_of_a_function_that_carries_nothing_is_its_source():
+    assert _identity.of_part(tasks.slow, "do") == [tasks.__name__, "slow", inspect.getsource(tasks.slow)]
+
+
+def test_refuses_to_keep_what_a_function_carries_that_may_be_another_next_time(tmp_path):
+    for carried in (threading.Lock(), np.random.default_rng(1), open(__file__), iter([1.0])):  # noqa: SIM115
+        with pytest.raises(CaseError, match="carries `factor`") as caught:
+            campaign.map({"time.beats": [1]}, base="fruit-fly-blade", do=tasks.scaled(carried), keep={"x": "1"}, out=tmp_path)
+        assert caught.value.key == "out" and caught.value.remedy
+
+
+def test_refuses_a_folder_of_points_that_cannot_be_read(tmp_path):
+    def link(path: Path) -> None:
+        path.symlink_to(tmp_path / "nowhere")
+
+    for k, make in enumerate((Path.mkdir, link)):
+        place = tmp_path / str(k) / "points" / "x.jsonl"
+        place.parent.mkdir(parents=True)
+        make(place)
+        with pytest.raises(wingbeat.ResultError, match="x.jsonl: cannot be read") as caught:
+            campaign.map(POINTS, base="fruit-fly-blade", out=tmp_path / str(k))
+        assert caught.value.remedy
 
 
 def test_behaves_damaged_points_are_flown_again(tmp_path, serial):

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import hashlib
-import inspect
 import json
 import os
 import uuid
@@ -14,8 +13,9 @@ from typing import Any
 
 from wingbeat import _core
 from wingbeat._flight import Flight
+from wingbeat.campaign._identity import of_part
 from wingbeat.campaign._points import Point
-from wingbeat.campaign._task import Found, Task, packed
+from wingbeat.campaign._task import Found, Task
 from wingbeat.errors import ResultError
 
 _FORMAT = 1
@@ -37,13 +37,30 @@ class Store:
         except OSError as e:
             raise _unwritten(self._folder, e) from e
         self._task = _digest(task)
+        source = task.base._source if isinstance(task.base, Flight) else None
+        self._beside = Path(source.base if source else "")
+        self._files: dict[tuple[Path, int, int], str] = {}
         self._lines: list[str] = []
         self._known: dict[str, Found] = dict(self._read())
 
     def key(self, point: Point) -> str:
-        """The hash of a point."""
+        """The hash of a point: of its values, and of what is in files that they name."""
         text = self._task + json.dumps(point, sort_keys=True)
+        for key in sorted(point):
+            if key.endswith(".file") and isinstance(point[key], str):
+                text += self._content(self._beside / point[key])
         return hashlib.sha256(text.encode()).hexdigest()[:32]
+
+    def _content(self, path: Path) -> str:
+        """The hash of what is in a file; an empty text of one that cannot be read, which no case can name."""
+        try:
+            state = path.stat()
+            known = (path, state.st_mtime_ns, state.st_size)
+            if known not in self._files:
+                self._files[known] = hashlib.sha256(path.read_bytes()).hexdigest() if path.is_file() else ""
+            return self._files[known]
+        except OSError:
+            return ""
 
     def get(self, key: str) -> Found | None:
         """What is kept of a point."""
@@ -73,7 +90,15 @@ class Store:
 
     def _read(self) -> Iterator[tuple[str, Found]]:
         for path in sorted(self._folder.glob("*.jsonl")):
-            for line in path.read_text(errors="replace").splitlines():
+            try:
+                lines = path.read_text(errors="replace").splitlines()
+            except OSError as e:
+                raise ResultError(
+                    f"{path}: cannot be read: {e.strerror or e}",
+                    key=str(path),
+                    remedy="remove it, if it is not a file of points, or make it readable",
+                ) from e
+            for line in lines:
                 checksum, _, text = line.partition(" ")
                 if checksum == f"{zlib.crc32(text.encode()):08x}":
                     key, values, reason = json.loads(text)
@@ -82,20 +107,9 @@ class Store:
 
 def _digest(task: Task) -> str:
     """Everything that all points share: version, case, what is done, what is kept."""
-    parts = [_FORMAT, _core.version(), _identity(task.base), _identity(task.do), task.keep, task.last_beats]
+    base, do = of_part(task.base, "base"), of_part(task.do, "do")
+    parts = [_FORMAT, _core.version(), base, do, task.keep, task.last_beats]
     return hashlib.sha256(json.dumps(parts).encode()).hexdigest()
-
-
-def _identity(part: Any) -> Any:
-    if isinstance(part, Flight):
-        source = part._source
-        return [part.case_text, source and [source.text, source.origin, source.sets]]
-    if isinstance(part, str):
-        return part
-    try:
-        return [part.__module__, part.__qualname__, inspect.getsource(part)]
-    except (OSError, TypeError, AttributeError):
-        return packed(part).hex()
 
 
 def _unwritten(path: Path, error: OSError) -> ResultError:
