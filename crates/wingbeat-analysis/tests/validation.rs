@@ -151,7 +151,7 @@ fn converges_averaged_modes_of_heavy_bodies_to_floquets() {
         setup.gravity /= heavier;
         setup.animal.body.mass *= heavier;
         setup.animal.body.first_moment *= heavier;
-        setup.animal.body.inertia = setup.animal.body.inertia * heavier;
+        setup.animal.body.inertia *= heavier;
         for part in &mut setup.animal.parts {
             part.mass = wingbeat_math::MassProperties::ZERO; // not asked for
         }

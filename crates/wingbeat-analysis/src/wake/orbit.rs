@@ -11,11 +11,10 @@ use wingbeat_flight::air::BladeAir;
 use wingbeat_flight::elastic::ElasticState;
 use wingbeat_flight::{AirMemory, AirModel, FlightSetup, Past, Record, Simulation, system_of};
 use wingbeat_math::{DVec3, rotation_vector};
-use wingbeat_model::Start;
 
 use crate::AnalysisError;
 use crate::beat::periodic::check_periodic;
-use crate::beat::{changing_air, check_steady};
+use crate::beat::{changing_air, check_steady, steadied};
 
 /// Change of places over the wing length, of attitudes \[rad\], and of velocities over wing length and wingbeat, within which
 /// wings count as back, over the residuals that count as trimmed; and some ten times what a step leaves unbalanced.
@@ -41,11 +40,10 @@ pub fn check_alike(setup: &FlightSetup) -> Result<(), AnalysisError> {
         ));
     }
     check_steady(setup)?;
-    let mut beating = setup.clone();
-    for wing in &mut beating.animal.wings {
-        wing.motion.start = Start::Impulsive;
-    }
-    check_periodic(&system_of(&beating)?, setup.time.period.unwrap_or(0.0))?;
+    check_periodic(
+        &system_of(&steadied(setup))?,
+        setup.time.period.unwrap_or(0.0),
+    )?;
     let has_wind = setup.air.clone().wind_mut().is_some_and(|w| !w.is_none());
     let changes = match &setup.air {
         AirModel::VortexLattice(air) => !air.lattice.images.is_empty(),
