@@ -160,6 +160,19 @@ fn behaves_implausible_motions_are_doubted() {
     };
     let against = "stroke against each other";
     assert!(both(60.0).contains(against) && !both(-60.0).contains(against));
+    let feathered = "wing.right.motion.psi.constant_deg=2";
+    let crossing = "pass through each other";
+    for air in ["vortex_lattice", "blade_element"] {
+        let model = format!("air.model={air}");
+        let said = doubts("bird-cruise", &[feathered, &model]);
+        assert!(!said.contains(crossing), "{air}: {said}");
+    }
+    assert!(doubts("bird-cruise", &[feathered, "wing.right.joined=false"]).contains(crossing));
+    let inside = "wings `left` and `right` are inside the body part `trunk` in 100 % of the beat";
+    for (body, told) in [("true", true), ("false", false)] {
+        let said = doubts("bird-cruise", &[&format!("air.body={body}")]);
+        assert_eq!(said.contains(inside), told, "{said}");
+    }
     let bent = "wing.right.deformation.bending=[{ table_m = [[0, 0], [0.5, 4], [1, 25]], fourier = { sine = [1] } }]";
     let twisted = "wing.right.deformation.twist=[{ table_deg = [[0, 0], [1, 120]], fourier = { sine = [1] } }]";
     for (set, says) in [

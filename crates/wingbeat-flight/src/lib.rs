@@ -32,6 +32,7 @@ pub mod elastic;
 mod equations;
 mod error;
 mod free;
+mod impossible;
 mod interface;
 pub mod joints;
 mod light;

@@ -8,7 +8,7 @@ use wingbeat_blade::DerivativeTable;
 use wingbeat_blade::{BladeSettings, BodyDrag};
 use wingbeat_dynamics::Joint;
 use wingbeat_math::{DMat3, DVec3, EulerSequence};
-use wingbeat_model::{Animal, Crossing, crossings};
+use wingbeat_model::Animal;
 
 pub use crate::applied::{AppliedLoad, LoadFrame, PointSpring};
 use crate::controller::Controller;
@@ -77,26 +77,6 @@ impl FlightSetup {
             springs: vec![],
             feedback: None,
         }
-    }
-
-    /// Says which wings pass through each other in their prescribed motion ([`crossings`]), and what to do about it; wings with
-    /// joints of their own, whose motion is not known beforehand, are left out.
-    pub fn crossing_wings(&self) -> Vec<String> {
-        let wings = &self.animal.wings;
-        let has_joint = |w: usize| self.joints.iter().any(|j| j.child == w + 1);
-        let prescribed: Vec<usize> = (0..wings.len()).filter(|&w| !has_joint(w)).collect();
-        let say = |c: Crossing| {
-            let [a, b] = c.wings.map(|w| &wings[w].name);
-            format!(
-                "wings `{a}` and `{b}` pass through each other in {:.0} % of the beat: move their hinges apart \
-                 (hinge_m), sweep them (theta) or change their phase",
-                (100.0 * c.part).max(1.0)
-            )
-        };
-        crossings(&self.animal, &prescribed)
-            .into_iter()
-            .map(say)
-            .collect()
     }
 }
 

@@ -1,11 +1,12 @@
 //! Wings that pass through each other: no animal's do, and no vortex lattice says what the air does then.
 
 use crate::animal::{Animal, Wing};
+use crate::mesh::GridMesh;
 use crate::motion::{Start, WingMotion};
 use wingbeat_math::{DVec3, RotationLaw};
 
 /// Instants of a beat at which wings are compared.
-const INSTANTS: usize = 100;
+pub(crate) const INSTANTS: usize = 100;
 /// Beats that are looked at of the faster wing that are looked at where two beat at different frequencies.
 const BEATS: usize = 10;
 /// Lines of nodes along chord and span that are compared at most.
@@ -23,18 +24,31 @@ pub struct Crossing {
 }
 
 /// Which of `wings` of the animal pass through each other once their motion has started: at 100 instants of a beat, in ten
-/// beats where frequencies differ, shapes at rest, on at most 8 x 16 panels.
-pub fn crossings(animal: &Animal, wings: &[usize]) -> Vec<Crossing> {
+/// beats where frequencies differ, shapes at rest, on at most 8 x 16 panels. Pairs that are `joined` at their roots have the
+/// edge there midway, as in the lattice, unless their roots part by more than [`root_gap`].
+pub fn crossings(animal: &Animal, wings: &[usize], joined: &[[usize; 2]]) -> Vec<Crossing> {
     let pairs = |(k, &a)| wings[k + 1..].iter().map(move |&b| [a, b]);
     let pairs = wings.iter().enumerate().flat_map(pairs);
     let crossing = |wings: [usize; 2]| {
-        let part = part_of_time(wings.map(|w| &animal.wings[w]));
+        let is_joined = joined.iter().any(|j| wings.iter().all(|w| j.contains(w)));
+        let part = part_of_time(wings.map(|w| &animal.wings[w]), is_joined);
         (part > 0.0).then_some(Crossing { wings, part })
     };
     pairs.filter_map(crossing).collect()
 }
 
-fn part_of_time(wings: [&Wing; 2]) -> f64 {
+/// How far the roots of two joined wings may part \[m\]: half the width of the narrowest panel there.
+pub fn root_gap(meshes: [&GridMesh; 2]) -> f64 {
+    let width = |mesh: &GridMesh, i: usize| {
+        let [root, next] = [0, 1].map(|j| mesh.nodes[mesh.node(i, j)]);
+        root.distance(next)
+    };
+    let rows = 0..=meshes[0].rows.min(meshes[1].rows);
+    let widths = rows.flat_map(|i| meshes.map(|m| width(m, i)));
+    0.5 * widths.fold(f64::INFINITY, f64::min)
+}
+
+fn part_of_time(wings: [&Wing; 2], is_joined: bool) -> f64 {
     let [a, b] = wings.map(|w| w.motion.frequency);
     let beats = if a == b || a * b == 0.0 { 1 } else { BEATS };
     let faster = [a, b].into_iter().filter(|f| *f > 0.0).reduce(f64::max);
@@ -43,9 +57,13 @@ fn part_of_time(wings: [&Wing; 2]) -> f64 {
         None => (1, 0.0),
     };
     let sheets = wings.map(Sheet::new);
+    let gap = is_joined.then(|| root_gap(wings.map(|w| &w.mesh)));
     let met = (0..instants).filter(|&k| {
         let t = beat * k as f64 / INSTANTS as f64;
-        let [a, b] = [0, 1].map(|w| sheets[w].at(t));
+        let [mut a, mut b] = [0, 1].map(|w| sheets[w].at(t));
+        if let Some(gap) = gap {
+            join(&sheets, [&mut a, &mut b], gap);
+        }
         a.iter()
             .any(|x| x.distance(b[0]) < sheets[0].size + sheets[1].size)
             && (sheets[0].passes(&a, &sheets[1], &b) || sheets[1].passes(&b, &sheets[0], &a))
@@ -53,8 +71,20 @@ fn part_of_time(wings: [&Wing; 2]) -> f64 {
     met.count() as f64 / instants as f64
 }
 
+/// Puts the roots of two sheets midway between them, where they are at most `gap` \[m\] apart.
+fn join(sheets: &[Sheet; 2], [a, b]: [&mut [DVec3]; 2], gap: f64) {
+    let rows = sheets[0].rows.min(sheets[1].rows);
+    let roots = || (0..rows).map(|i| [0, 1].map(|w| i * sheets[w].columns));
+    if roots().all(|[m, n]| a[m].distance(b[n]) <= gap) {
+        for [m, n] in roots() {
+            let middle = 0.5 * (a[m] + b[n]);
+            (a[m], b[n]) = (middle, middle);
+        }
+    }
+}
+
 /// Nodes of a wing at rest, and what moves them.
-struct Sheet {
+pub(crate) struct Sheet {
     motion: WingMotion,
     hinge: DVec3,
     rows: usize,
@@ -65,7 +95,7 @@ struct Sheet {
 }
 
 impl Sheet {
-    fn new(wing: &Wing) -> Self {
+    pub fn new(wing: &Wing) -> Self {
         let mesh = &wing.mesh;
         let rows = lines(mesh.rows, LINES[0]);
         let columns = lines(mesh.cols, LINES[1]);
@@ -87,7 +117,7 @@ impl Sheet {
     }
 
     /// Its nodes at time `t` \[s\], body components \[m\].
-    fn at(&self, t: f64) -> Vec<DVec3> {
+    pub fn at(&self, t: f64) -> Vec<DVec3> {
         let r = self.motion.at(t).c;
         self.nodes.iter().map(|x| self.hinge + r * *x).collect()
     }
@@ -107,7 +137,7 @@ impl Sheet {
     }
 
     /// Nodes at the ends of the lines between neighbours.
-    fn lines(&self) -> impl Iterator<Item = [usize; 2]> + '_ {
+    pub fn lines(&self) -> impl Iterator<Item = [usize; 2]> + '_ {
         let (rows, columns) = (self.rows, self.columns);
         let along = (0..rows * columns).filter(move |n| n % columns + 1 < columns);
         let across = 0..(rows - 1) * columns;
@@ -133,7 +163,7 @@ fn lines(panels: usize, most: usize) -> Vec<usize> {
 }
 
 /// Whether the line passes through the triangle, and does not only `touch` \[m\] it.
-fn pierces([x, y]: [DVec3; 2], [a, b, c]: [DVec3; 3], touch: f64) -> bool {
+pub(crate) fn pierces([x, y]: [DVec3; 2], [a, b, c]: [DVec3; 3], touch: f64) -> bool {
     let normal = (b - a).cross(c - a);
     let area = normal.length();
     if area <= touch * touch {
@@ -198,7 +228,7 @@ mod tests {
             (wing(0.5, 0.0, 7.0), "the same"),
             (wing(0.5, 0.0, 0.0), "none"),
         ] {
-            let found = crossings(&animal(vec![flapping(), still]), &[0, 1]);
+            let found = crossings(&animal(vec![flapping(), still]), &[0, 1], &[]);
             assert_eq!(found.len(), 1, "{frequency}");
             assert_eq!(found[0].wings, [0, 1]);
             // Instants are a hundredth apart, and there are two ends.
@@ -209,9 +239,9 @@ mod tests {
             );
         }
         let slow = animal(vec![flapping(), wing(0.5, 0.0, 0.7)]);
-        assert!((crossings(&slow, &[0, 1])[0].part - 1.0 / 3.0).abs() < 0.02);
+        assert!((crossings(&slow, &[0, 1], &[])[0].part - 1.0 / 3.0).abs() < 0.02);
         let far = animal(vec![flapping(), wing(0.9, 0.0, 7.0)]);
-        assert_eq!(crossings(&far, &[0, 1]), []);
+        assert_eq!(crossings(&far, &[0, 1], &[]), []);
     }
 
     /// Wings that share the line of their roots touch there and do not pass; nor does a wing with itself.
@@ -220,9 +250,28 @@ mod tests {
         let right = wing(0.0, 1.0, 7.0);
         let left = right.mirrored("left");
         let two = animal(vec![right, left]);
-        assert_eq!(crossings(&two, &[0, 1]), []);
-        assert_eq!(crossings(&two, &[0, 0]), []);
-        assert_eq!(crossings(&two, &[]), []);
+        assert_eq!(crossings(&two, &[0, 1], &[]), []);
+        assert_eq!(crossings(&two, &[0, 0], &[]), []);
+        assert_eq!(crossings(&two, &[], &[]), []);
+    }
+
+    /// Wings that share their roots and feather while flapped pass through each other by a sliver beside the roots, which joined
+    /// ones do not have; those that feather beyond half a panel do, and so do joined wings that meet elsewhere.
+    #[test]
+    fn behaves_joined_wings_that_feather_do_not_cross_within_half_a_panel() {
+        let feathering = |phi: f64, psi: f64| {
+            let mut right = wing(0.0, phi.to_radians(), 7.0);
+            right.motion.angles.psi = AngleLaw::Constant(psi.to_radians());
+            let left = right.mirrored("left");
+            animal(vec![right, left])
+        };
+        let little = feathering(30.0, 2.0);
+        assert_eq!(crossings(&little, &[0, 1], &[]).len(), 1);
+        assert_eq!(crossings(&little, &[0, 1], &[[1, 0]]), []);
+        let much = feathering(30.0, 20.0);
+        assert_eq!(crossings(&much, &[0, 1], &[[0, 1]]).len(), 1);
+        let clapping = feathering(100.0, 1.0);
+        assert_eq!(crossings(&clapping, &[0, 1], &[[0, 1]]).len(), 1);
     }
 
     #[test]

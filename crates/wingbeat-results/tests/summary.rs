@@ -132,6 +132,21 @@ fn behaves_summaries_tell_of_leading_edges_that_shed_one_sign() {
     }
 }
 
+/// Wings whose roots are inside the trunk, with and without it in the air.
+#[test]
+fn behaves_summaries_tell_of_wings_inside_parts_of_the_body() {
+    for (body, told) in [("true", true), ("false", false)] {
+        let body = format!("air.body={body}");
+        let summary = flown(&preset("bird-cruise", &["time.beats=0.05", &body]));
+        let says = says(
+            &summary,
+            "are inside the body part `trunk` in 100 % of the beat",
+        );
+        assert_eq!(says, told, "{:?}", summary.warnings);
+        assert!(!told || summary.verdict >= Verdict::Amber);
+    }
+}
+
 /// The same flight in finer steps goes from red to green: the residual of a fourth-order method falls with them.
 #[test]
 fn behaves_the_verdict_follows_the_balances() {

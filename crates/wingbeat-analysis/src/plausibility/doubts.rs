@@ -213,6 +213,7 @@ pub(super) fn doubts(setup: &FlightSetup, e: &Estimate) -> Vec<String> {
     }
     list.extend(against_each_other(&setup.animal.wings));
     list.extend(setup.crossing_wings());
+    list.extend(setup.wings_inside_parts());
     list.extend(setup.one_sided_leading_edges());
     list
 }

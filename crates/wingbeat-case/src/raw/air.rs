@@ -40,7 +40,7 @@ pub struct AirCase {
     pub stream_m_s: [f64; 3],
     /// Whether head, thorax and abdomen are part of the lattice.
     ///
-    /// Change it to false where the body hardly moves the air at the wings: the flight is faster.
+    /// Change it to false where the body hardly moves the air at the wings: the flight is faster. Wings must be outside of its parts.
     #[default = true]
     #[schemars(extend("with" = LATTICE))]
     pub body: bool,

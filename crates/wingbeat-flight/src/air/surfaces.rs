@@ -4,7 +4,7 @@
 use wingbeat_air::{AirLoads, EdgeKind, JoinedEdge, NodeMotion, SheddingSegment, Surface};
 use wingbeat_dynamics::{BodyMotion, Wrench};
 use wingbeat_math::{DVec3, RotationLaw};
-use wingbeat_model::{Animal, BodyPart, DeformingMesh, GridMesh, Side, Wing, WingMotion};
+use wingbeat_model::{Animal, BodyPart, DeformingMesh, GridMesh, Side, Wing, WingMotion, root_gap};
 
 use crate::error::FlightError;
 use crate::interface::Instant;
@@ -265,15 +265,10 @@ impl Roots {
 /// The roots of two wings, whose nodes are numbered as in `nodes`.
 fn roots(animal: &Animal, wings: [usize; 2], nodes: [std::ops::Range<usize>; 2]) -> Roots {
     let meshes = wings.map(|w| &animal.wings[w].mesh);
-    let width = |mesh: &GridMesh, i: usize| {
-        let [root, next] = [0, 1].map(|j| mesh.nodes[mesh.node(i, j)]);
-        root.distance(next)
-    };
     let rows = 0..=meshes[0].rows.min(meshes[1].rows);
-    let widths = rows.clone().flat_map(|i| meshes.map(|m| width(m, i)));
     Roots {
         wings,
-        limit: 0.5 * widths.fold(f64::INFINITY, f64::min),
+        limit: root_gap(meshes),
         nodes: rows
             .map(|i| [0, 1].map(|k| nodes[k].start + meshes[k].node(i, 0)))
             .collect(),

@@ -172,6 +172,13 @@ fn air_warnings(
     };
     let crossing = setup.crossing_wings().into_iter().map(no_meaning);
     crossing.for_each(|text| list.limit(text));
+    let no_meaning = |inside| {
+        format!(
+            "A wing and a body cannot both be surfaces of the lattice in one place: {inside}. The forces of those instants have no meaning."
+        )
+    };
+    let inside = setup.wings_inside_parts().into_iter().map(no_meaning);
+    inside.for_each(|text| list.limit(text));
     if let Some(text) = setup.one_sided_leading_edges() {
         list.limit(format!("By the prescribed motion {text}."));
     }

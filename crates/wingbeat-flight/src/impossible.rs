@@ -1,0 +1,81 @@
+//! Prescribed motions that no animal has, and of which no vortex lattice says what the air does.
+
+use wingbeat_model::{BodyPart, Crossing, crossings, inside};
+
+use crate::air::{check_joined, wing_pairs};
+use crate::setup::{AirModel, FlightSetup};
+
+impl FlightSetup {
+    /// Says which wings pass through each other in their prescribed motion ([`crossings`]), and what to do about it; wings with
+    /// joints of their own, whose motion is not known beforehand, are left out.
+    pub fn crossing_wings(&self) -> Vec<String> {
+        let wings = &self.animal.wings;
+        let joined = self.joined_pairs();
+        let say = |c: Crossing| {
+            let [a, b] = c.wings.map(|w| &wings[w].name);
+            let remedy = match joined.iter().any(|j| c.wings.iter().all(|w| j.contains(w))) {
+                false => {
+                    "move their hinges apart (hinge_m), sweep them (theta) or change their phase"
+                }
+                true => {
+                    "feather less at the joined roots (twist the wing instead), change their phase, or do not join them"
+                }
+            };
+            format!(
+                "wings `{a}` and `{b}` pass through each other in {:.0} % of the beat: {remedy}",
+                (100.0 * c.part).max(1.0)
+            )
+        };
+        let found = crossings(&self.animal, &self.prescribed_wings(), &joined);
+        found.into_iter().map(say).collect()
+    }
+
+    /// Says which wings are inside which parts of the body in their prescribed motion where the lattice has both as surfaces
+    /// ([`inside`]), and what to do about it; wings with joints of their own are left out, and so are parts of segments.
+    pub fn wings_inside_parts(&self) -> Vec<String> {
+        if !matches!(&self.air, AirModel::VortexLattice(air) if air.body_surfaces) {
+            return vec![];
+        }
+        let found = inside(&self.animal, &self.prescribed_wings());
+        let of_part = |(k, part): (usize, &BodyPart)| {
+            let here = || found.iter().filter(move |i| i.part == k);
+            let most = here().map(|i| i.time).reduce(f64::max)?;
+            let names: Vec<String> = here()
+                .map(|i| format!("`{}`", self.animal.wings[i.wing].name))
+                .collect();
+            let (wings, are) = match names.len() {
+                1 => ("wing", "is"),
+                _ => ("wings", "are"),
+            };
+            Some(format!(
+                "{wings} {} {are} inside the body part `{}` in {:.0} % of the beat: move the hinges out of it (hinge_m), make it \
+                 smaller (body.part.{}), or leave bodies out of the air (air.body = false)",
+                names.join(" and "),
+                part.name,
+                (100.0 * most).max(1.0),
+                part.name,
+            ))
+        };
+        let parts = self.animal.parts.iter().enumerate();
+        parts.filter_map(of_part).collect()
+    }
+
+    /// Wings without joints of their own.
+    fn prescribed_wings(&self) -> Vec<usize> {
+        let has_joint = |w: usize| self.joints.iter().any(|j| j.child == w + 1);
+        let all = 0..self.animal.wings.len();
+        all.filter(|&w| !has_joint(w)).collect()
+    }
+
+    /// Pairs of wings that are joined at their roots; where no air joins them, those that could be.
+    fn joined_pairs(&self) -> Vec<[usize; 2]> {
+        match &self.air {
+            AirModel::VortexLattice(air) => air.joined.clone(),
+            _ => {
+                let mut pairs = wing_pairs(&self.animal);
+                pairs.retain(|&pair| check_joined(&self.animal, pair).is_ok());
+                pairs
+            }
+        }
+    }
+}
