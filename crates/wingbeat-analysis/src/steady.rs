@@ -65,8 +65,8 @@ impl TrimProblem {
         own.copied().unwrap_or_else(|| Bound::default_of(unknown))
     }
 
-    /// The unknowns whose values are outside the given bounds, and those at a bound that steady flight does not
-    /// determine.
+    /// The unknowns whose values are outside the given bounds or turn strokes inside out, and those at a bound that steady flight
+    /// does not determine.
     pub(crate) fn beyond(&self, unknowns: &[Unknown], values: &[f64]) -> [Vec<Unknown>; 2] {
         // Of relative changes and radians.
         const NEAR: f64 = 1e-3;
@@ -76,7 +76,10 @@ impl TrimProblem {
         let room = |(u, x): &(&Unknown, &f64)| self.bound(**u).room(**x);
         let outside = pairs().filter(|p| room(p) < -NEAR).map(|p| *p.0);
         let near = pairs().filter(|p| room(p).abs() <= NEAR).map(|p| *p.0);
-        [outside.collect(), near.collect()]
+        let mut outside: Vec<Unknown> = outside.collect();
+        let turned = turned_inside_out(unknowns, values);
+        outside.extend(turned.filter(|u| !outside.contains(u)));
+        [outside, near.collect()]
     }
 
     /// Chosen unknowns with `values`, then those that are given.
@@ -91,6 +94,22 @@ impl TrimProblem {
     /// Pitch and roll at the start of the iteration.
     pub(crate) fn angles(&self) -> [f64; 2] {
         [self.body_pitch, self.body_roll]
+    }
+}
+
+/// The unknown by which wings stroke the other way round, with an amplitude below nothing: another motion in antiphase, not a
+/// smaller stroke.
+pub fn turned_inside_out(unknowns: &[Unknown], values: &[f64]) -> Option<Unknown> {
+    let value = |u: Unknown| {
+        let at = unknowns.iter().position(|k| *k == u);
+        at.map_or(0.0, |k| values[k])
+    };
+    let both = 1.0 + value(Unknown::StrokeAmplitude);
+    let apart = value(Unknown::StrokeAmplitudeDifference);
+    match () {
+        () if both < 0.0 => Some(Unknown::StrokeAmplitude),
+        () if both < 0.5 * apart.abs() => Some(Unknown::StrokeAmplitudeDifference),
+        () => None,
     }
 }
 

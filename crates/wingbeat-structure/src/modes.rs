@@ -122,8 +122,11 @@ fn symmetric(n: usize, rows: &[f64]) -> Mat<f64> {
     Mat::from_fn(n, n, |i, j| 0.5 * (rows[i * n + j] + rows[j * n + i]))
 }
 
-/// Shifts tried, over the smallest ratio of the diagonals of stiffness and mass.
-const SHIFTS: [f64; 6] = [1e-8, 1e-6, 1e-4, 1e-2, 1.0, 100.0];
+/// Shifts tried, over the smallest ratio of the diagonals of stiffness and mass: small ones for frequencies of all sizes, large ones
+/// where modes grow fast, as those of a sheet that buckles.
+const SHIFTS: [f64; 16] = [
+    1e-8, 1e-6, 1e-4, 1e-2, 1.0, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12,
+];
 
 /// Eigenvalues `1 / (omega^2 + shift)` and vectors of `M x = mu (K + shift M) x`, and the shift: small frequencies
 /// come out best, and neither massless directions nor rigid motions disturb.
@@ -151,6 +154,6 @@ fn shifted_eigen(k: &Mat<f64>, m: &Mat<f64>) -> Result<(Vec<f64>, Mat<f64>, f64)
         return Ok((values, vectors, shift));
     }
     Err(StructureError::Modes(
-        "the stiffness has strongly negative eigenvalues: the state is not an equilibrium that can vibrate",
+        "the stiffness has strongly negative eigenvalues: the state is not an equilibrium that can vibrate; look at structure of the wing: less tension at rest (shell.prestress_newton_per_m) where edges are free, more thickness, or smaller loads",
     ))
 }

@@ -5,7 +5,7 @@ use wingbeat_flight::{FlightError, FlightSetup};
 
 use super::{joint, lattice};
 use crate::error::Fault;
-use crate::raw::{Case, ControlCase, ControllerCase};
+use crate::raw::{Case, ControlCase, ControllerCase, WingCase};
 
 /// The error of a flight of `setup`, which `case` made, as a fault of the case.
 pub(crate) fn refused(case: &Case, setup: &FlightSetup, error: &FlightError) -> Fault {
@@ -18,6 +18,14 @@ pub(crate) fn refused(case: &Case, setup: &FlightSetup, error: &FlightError) -> 
             "run the program by itself; docs/external-air.md says what it is asked",
         ),
         FlightError::Control { .. } => of_control(case),
+        FlightError::Folded { wing, elastic, .. } => (
+            of_wing(
+                case,
+                wing,
+                if *elastic { "structure" } else { "deformation" },
+            ),
+            "the message says what to try",
+        ),
         FlightError::RootsApart { wings, .. } => (
             format!("wing.{}.joined", wings[1]),
             "bring the roots together, or do not join them",
@@ -35,6 +43,18 @@ pub(crate) fn refused(case: &Case, setup: &FlightSetup, error: &FlightError) -> 
         other => other.to_string(),
     };
     Fault::new(key, problem, "", remedy)
+}
+
+/// The key of a wing, or that of the wing of which it is the mirror image.
+fn of_wing(case: &Case, wing: &str, key: &str) -> String {
+    let has = |w: &WingCase| match key {
+        "structure" => w.structure.is_some(),
+        _ => w.deformation.is_some(),
+    };
+    let own = case.wing.get(wing).filter(|w| has(w)).map(|_| wing);
+    let other = || case.wing.iter().find(|(_, w)| has(w));
+    let name = own.or_else(|| other().map(|(name, _)| &name[..]));
+    format!("wing.{}.{key}", name.unwrap_or(wing))
 }
 
 fn of_control(case: &Case) -> (String, &'static str) {

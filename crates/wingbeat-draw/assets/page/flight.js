@@ -20,7 +20,8 @@ const bytes = (() => {
 })();
 
 // Whether a wing goes down in a step: the flight begins with an upstroke and turns at flight.turns of the wing. The last
-// wing stands for those that are not named or do not beat.
+// wing that beats stands for those that are not named or do not beat.
+const REFERENCE = flight.turns.reduce((found, turns, k) => (turns.length ? k : found), -1);
 const downOf = (() => {
   const steps = LAST >= 0 ? flight.frames[LAST].step : 0;
   const downs = flight.turns.map((turns) => {
@@ -32,10 +33,9 @@ const downOf = (() => {
     }
     return down;
   });
-  const last = downs.length - 1;
-  return (step, wing = last) => (last < 0 ? 0 : downs[flight.turns[wing]?.length ? wing : last][Math.max(0, Math.min(steps, step))]);
+  return (step, wing = REFERENCE) => (REFERENCE < 0 ? 0 : downs[flight.turns[wing]?.length ? wing : REFERENCE][Math.max(0, Math.min(steps, step))]);
 })();
-const hasStrokes = flight.turns.length > 0 && flight.turns[flight.turns.length - 1].length > 0;
+const hasStrokes = REFERENCE >= 0;
 
 const WINGS = (() => {
   let first = 0;

@@ -318,6 +318,32 @@ mod tests {
         );
     }
 
+    /// Fore wings beat, hind wings are a fixed tail: the fore wing's downstroke, which is the first half of the beat, is shaded.
+    #[test]
+    fn behaves_a_fixed_tail_does_not_stand_for_the_wings() {
+        let still = ["left", "right"].map(|side| {
+            format!("wing.hind-{side}.motion={{ phi = {{ constant_deg = 0 }}, psi = {{ constant_deg = 0 }} }}")
+        });
+        let setup = LoadedCase::find("dragonfly", &still).unwrap().setup;
+        let history = history(&setup, false, 41, |k, r| {
+            let phi = -(k as f64 * std::f64::consts::TAU / 40.0).cos();
+            for (angles, wing) in r.wing_angles.iter_mut().zip(&setup.animal.wings) {
+                let beats = f64::from(u8::from(wing.name.contains("fore")));
+                angles[0] = beats * wing.side.sign() * phi;
+            }
+        });
+        let (wing, _) = crate::figures::strokes::reference_wing(&setup).unwrap();
+        assert!(wing.contains("fore"), "{wing}");
+        let forces = chart(&setup, &history, "forces");
+        assert!(
+            forces.title.ends_with("(downstroke shaded)"),
+            "{}",
+            forces.title
+        );
+        assert_eq!(forces.shaded.len(), 1);
+        assert!((forces.shaded[0][1] - 0.5).abs() < 1e-9);
+    }
+
     #[test]
     fn behaves_bending_names_its_wing() {
         let setup = LoadedCase::find("hawkmoth-elastic", &[]).unwrap().setup;

@@ -10,7 +10,7 @@ use super::font;
 use super::grid::one_scale;
 use super::part::Part;
 use super::plot::{self, Area, Axes, Plot};
-use super::strokes::{goes_down, reference_wing, stroke};
+use super::strokes::{goes_down, reference_number, reference_wing, stroke};
 use super::style::Look;
 use super::units::prefix;
 use wingbeat_results::History;
@@ -72,11 +72,11 @@ fn half_strokes(
         .then_some(half_strokes)
 }
 
-/// The chord of the last wing in a row.
+/// The chord of the wing of reference in a row.
 fn chord(setup: &FlightSetup, history: &History, poses: &Poses, k: usize) -> Chord {
     let names = history.names().iter();
     let row: Vec<f64> = names.map(|name| history.column(name)[k]).collect();
-    let number = setup.animal.wings.len();
+    let number = reference_number(setup).map_or(0, |w| w + 1);
     let wing = &setup.animal.wings[number - 1];
     let stroke = poses.pose(&row, 0).1 * DMat3::from_rotation_y(wing.motion.stroke_plane_pitch);
     let section = Section::of(wing, stroke.transpose() * poses.pose(&row, number).1);

@@ -55,12 +55,21 @@ use wingbeat_results::{ResultDir, Summary, frames};
 
 use source::Source;
 
-/// Draws what is ordered from a result; returns the files, newly written or the same already.
+/// What was drawn of an order.
+#[derive(Debug, Default)]
+pub struct Plotted {
+    /// The files, newly written or the same already.
+    pub files: Vec<PathBuf>,
+    /// Figures that were asked for beside others and that the run does not have.
+    pub lacking: Vec<IoError>,
+}
+
+/// Draws what is ordered from a result.
 ///
 /// # Errors
-/// A result that cannot be read, a figure the run cannot give, a file that is there already or
+/// A result that cannot be read, figures none of which the run can give, a file that is there already or
 /// cannot be written.
-pub fn plot(dir: &ResultDir, order: &Order) -> Result<Vec<PathBuf>, IoError> {
+pub fn plot(dir: &ResultDir, order: &Order) -> Result<Plotted, IoError> {
     let case = dir.case()?;
     let path = dir.join("history.csv");
     let manifest = dir.manifest()?;
@@ -88,7 +97,7 @@ pub fn plot(dir: &ResultDir, order: &Order) -> Result<Vec<PathBuf>, IoError> {
     };
     dir.check_folder(&order.folder)?;
     // Everything that can be refused is, before anything is written.
-    let (mut stills, mut films) = (vec![], vec![]);
+    let (mut stills, mut films, mut lacking) = (vec![], vec![], vec![]);
     for kind in kinds {
         let format = Format::of(order.format, kind).map_err(fault(&order.folder))?;
         let file = format!("{}.{}", kind.name(), format.ending());
@@ -103,10 +112,15 @@ pub fn plot(dir: &ResultDir, order: &Order) -> Result<Vec<PathBuf>, IoError> {
                 stills.push((file, bytes));
             }
             None if order.kinds.is_empty() => {}
-            None => return Err(fault(&file)(source.lacks(kind))),
+            None => lacking.push(fault(&file)(source.lacks(kind))),
         }
     }
-    make_folder(&order.folder)?;
+    if stills.is_empty() && films.is_empty() && lacking.len() == 1 {
+        return Err(lacking.remove(0));
+    }
+    if lacking.is_empty() || !(stills.is_empty() && films.is_empty()) {
+        make_folder(&order.folder)?;
+    }
     for (file, bytes) in &stills {
         write_file(file, bytes, order.overwrite)?;
     }
@@ -114,9 +128,11 @@ pub fn plot(dir: &ResultDir, order: &Order) -> Result<Vec<PathBuf>, IoError> {
         animate(&source, file, *film, order.overwrite)?;
     }
     let stills = stills.into_iter().map(|(file, _)| file);
-    Ok(stills
-        .chain(films.into_iter().map(|(file, _)| file))
-        .collect())
+    let files = stills.chain(films.into_iter().map(|(file, _)| file));
+    Ok(Plotted {
+        files: files.collect(),
+        lacking,
+    })
 }
 
 fn fault(path: &Path) -> impl FnOnce(String) -> IoError + '_ {

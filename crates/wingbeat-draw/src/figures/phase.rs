@@ -6,7 +6,7 @@ use super::drawing::{COLOURS, Drawing};
 use super::grid::grid;
 use super::kinds::from_start;
 use super::plot::{self, Plot};
-use super::strokes::reference_wing;
+use super::strokes::{reference_number, reference_wing};
 use super::style::Look;
 use super::units::{prefix, scaled};
 use super::wing_angles::wing_angles;
@@ -137,10 +137,10 @@ fn body(setup: &FlightSetup, history: &History) -> Vec<Plane> {
 
 /// Stroke angle of the reference wing against its rate, and against its feathering angle.
 fn wing(setup: &FlightSetup, history: &History) -> Vec<Plane> {
-    let Some((wing, _)) = reference_wing(setup) else {
+    let (Some((wing, _)), Some(number)) = (reference_wing(setup), reference_number(setup)) else {
         return vec![];
     };
-    let found = wing_angles(setup, history, setup.animal.wings.len() - 1);
+    let found = wing_angles(setup, history, number);
     let prescribed = if found.joint.is_empty() {
         ""
     } else {

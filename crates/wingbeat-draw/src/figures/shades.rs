@@ -5,7 +5,7 @@ use super::strokes::downstrokes;
 /// More downstrokes than this are not shaded: they could not be told apart.
 const MAX_SHADED: usize = 80;
 
-/// Intervals of the downstrokes, wing by wing; the wing of reference is the last one.
+/// Intervals of the downstrokes, wing by wing; the wing of reference is the last one that has any.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Shades {
     wings: Vec<Vec<[f64; 2]>>,
@@ -25,7 +25,7 @@ impl Shades {
 
     /// What is shaded where nothing says of which wing.
     pub fn of_chart(&self) -> Vec<[f64; 2]> {
-        self.wings.last().map_or(vec![], |w| few(w))
+        few(self.reference())
     }
 
     /// What is shaded for wing number `k`, if that is not what is shaded for the wing of reference.
@@ -40,8 +40,13 @@ impl Shades {
         beating.into_iter().any(|w| !self.is_as_reference(w))
     }
 
+    fn reference(&self) -> &[[f64; 2]] {
+        let beating = self.wings.iter().rev().find(|w| !w.is_empty());
+        beating.map_or(&[], |w| w)
+    }
+
     fn is_as_reference(&self, wing: &[[f64; 2]]) -> bool {
-        let reference = self.wings.last().map_or(&[][..], |w| w);
+        let reference = self.reference();
         let near = |a: &[f64; 2], b: &[f64; 2]| (0..2).all(|c| (a[c] - b[c]).abs() <= self.step);
         wing.len() == reference.len() && wing.iter().zip(reference).all(|(a, b)| near(a, b))
     }

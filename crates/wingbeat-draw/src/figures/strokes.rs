@@ -1,15 +1,28 @@
 //! How the wings stroke: angles that rise in the downstroke, and when that is.
 
 use wingbeat_flight::FlightSetup;
+use wingbeat_model::Wing;
 
 use super::units::scaled;
 use wingbeat_results::History;
 use wingbeat_results::columns::body_names;
 
-/// Name in column names of the wing that stands for all, the last one, and the sign that makes its
+/// Number of the wing that stands for all: the last one that beats, so no fixed tail; the last one where none does.
+pub(super) fn reference_number(setup: &FlightSetup) -> Option<usize> {
+    let wings = &setup.animal.wings;
+    let beats = |w: &Wing| {
+        let phi = |k: usize| w.motion.angles.phi.at(k as f64 / 8.0)[0];
+        w.motion.frequency > 0.0 && (1..8).any(|k| (phi(k) - phi(0)).abs() > 0.0)
+    };
+    let beating = wings.iter().rposition(beats);
+    beating.or(wings.len().checked_sub(1))
+}
+
+/// Name in column names of the wing that stands for all ([`reference_number`]), and the sign that makes its
 /// stroke angle rise in the downstroke; none for a motion without a period.
 pub(super) fn reference_wing(setup: &FlightSetup) -> Option<(String, f64)> {
-    stroking(setup).pop()
+    let number = reference_number(setup)?;
+    stroking(setup).into_iter().nth(number)
 }
 
 /// Where the stroke angles of the wings stand in a row, and the signs by which they rise in the
@@ -34,10 +47,14 @@ fn stroking(setup: &FlightSetup) -> Vec<(String, f64)> {
 /// Stroke angle of the reference wing, row by row, with the sign by which it rises in the downstroke;
 /// nothing without one \[rad\].
 pub(super) fn stroke(setup: &FlightSetup, history: &History) -> Vec<f64> {
-    strokes(setup, history).pop().unwrap_or_default()
+    let number = reference_number(setup).unwrap_or(0);
+    strokes(setup, history)
+        .into_iter()
+        .nth(number)
+        .unwrap_or_default()
 }
 
-/// The same of every wing; that of reference comes last.
+/// The same of every wing.
 pub(super) fn strokes(setup: &FlightSetup, history: &History) -> Vec<Vec<f64>> {
     let angle = |(wing, sign): (String, f64)| {
         scaled(history.column(&format!("{wing}_prescribed_phi_rad")), sign)

@@ -175,7 +175,9 @@ impl Air for LatticeAir {
         let state = wakes_of(memory).ok_or_else(|| misfit("a lattice needs its wakes"))?;
         if !(s.is_current && s.nodes == s.nodes_done) {
             let (t, h) = (at.time, at.step);
-            (self.lattice).loads(state, t, h, &s.nodes, &mut s.workspace, &mut s.loads)?;
+            (self.lattice)
+                .loads(state, t, h, &s.nodes, &mut s.workspace, &mut s.loads)
+                .map_err(|e| self.map.error_of(e, at))?;
             s.nodes_done.clone_from(&s.nodes);
             s.is_current = true;
         }

@@ -1,7 +1,9 @@
 //! From bodies to lattice surfaces and back: node positions and velocities for the air, panel
 //! forces gathered into wrenches for the dynamics (seed eq. 9).
 
-use wingbeat_air::{AirLoads, EdgeKind, JoinedEdge, NodeMotion, SheddingSegment, Surface};
+use wingbeat_air::{
+    AirError, AirLoads, EdgeKind, JoinedEdge, NodeMotion, SheddingSegment, Surface,
+};
 use wingbeat_dynamics::{BodyMotion, Wrench};
 use wingbeat_math::{DVec3, RotationLaw};
 use wingbeat_model::{Animal, BodyPart, DeformingMesh, GridMesh, Side, Wing, WingMotion, root_gap};
@@ -146,6 +148,28 @@ impl SurfaceMap {
         self.roots
             .iter()
             .try_for_each(|r| r.join(at.time, self, out))
+    }
+
+    /// The error of the lattice at this instant: a panel that is none belongs to a sheet that folded over, if its wing changes its
+    /// shape.
+    pub fn error_of(&self, error: AirError, at: &Instant<'_>) -> FlightError {
+        let (AirError::Crossed { surface, panel, .. }
+        | AirError::NoLength { surface, panel, .. }
+        | AirError::FlatPanel { surface, panel, .. }) = &error
+        else {
+            return error.into();
+        };
+        let number = self.surfaces.iter().position(|s| s.name == *surface);
+        let elastic = number.is_some_and(|k| matches!(at.shapes.get(k), Some(Some(_))));
+        if elastic || number.is_some_and(|k| self.deforming[k].is_some()) {
+            return FlightError::Folded {
+                time: at.time,
+                wing: surface.clone(),
+                panel: *panel,
+                elastic,
+            };
+        }
+        error.into()
     }
 
     /// Power that is needed to deform the wings against the air [W], body by body: that of the air

@@ -6,10 +6,10 @@ use clap::Args;
 use wingbeat::draw::figures::{self, Format, Kind, Order, Style, Window};
 use wingbeat::results::ResultDir;
 
-use crate::command::failure::Failure;
+use crate::command::failure::{FAILED, Failure};
 use crate::command::options::{self, choose};
 use crate::command::target::folder;
-use crate::command::terminal::say;
+use crate::command::terminal::{say, tell};
 
 /// Arguments of `wingbeat plot`.
 #[derive(Args)]
@@ -81,8 +81,15 @@ pub(crate) fn plot(args: &PlotArgs) -> Result<(), Failure> {
         folder,
         overwrite: args.overwrite,
     };
-    for file in figures::plot(&dir, &order)? {
+    let plotted = figures::plot(&dir, &order)?;
+    for file in &plotted.files {
         say!("{}", file.display());
     }
-    Ok(())
+    for problem in &plotted.lacking {
+        tell!("error: {problem}");
+    }
+    match plotted.lacking.is_empty() {
+        true => Ok(()),
+        false => Err(Failure::Told(FAILED)),
+    }
 }

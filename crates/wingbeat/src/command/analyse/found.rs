@@ -2,7 +2,7 @@
 
 use serde_json::{Map, Value, json};
 use wingbeat::analysis::plausibility::stroke_amplitude;
-use wingbeat::analysis::steady::Residuals;
+use wingbeat::analysis::steady::{Residuals, turned_inside_out};
 use wingbeat::analysis::unknown::{Bound, UNKNOWNS};
 use wingbeat::analysis::wake::WakeTrim;
 use wingbeat::analysis::{Trim, TrimProblem, Unknown};
@@ -119,6 +119,15 @@ pub(super) fn tell(report: &mut Report, case: &LoadedCase, problem: &TrimProblem
     if stroke > 180.0 {
         tell!(
             "warning: strokes of {stroke:.0} deg: right and left wings pass through each other; choose other --unknowns (frequency, for instance), or a slower flight"
+        );
+    }
+    let strokes = [Unknown::StrokeAmplitude, Unknown::StrokeAmplitudeDifference];
+    let changes = [t.adjustment, t.difference].map(|a| a.stroke_amplitude);
+    if let Some(unknown) = turned_inside_out(&strokes, &changes) {
+        tell!(
+            "warning: {} of {}: below -100 % a stroke is turned inside out, back and forth exchanged, which is another motion; choose other --unknowns (frequency or feathering_offset, for instance), or a flight nearer to the motion of the case",
+            unknown.name(),
+            value(unknown, t).0
         );
     }
     report.value("stroke_deg", stroke);
