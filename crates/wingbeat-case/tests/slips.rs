@@ -113,6 +113,18 @@ fn refuses_fibres_without_direction() {
 }
 
 #[test]
+fn refuses_tables_without_a_header() {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("slips");
+    fs::create_dir_all(&folder).unwrap();
+    let file = folder.join("no-header.csv");
+    fs::write(&file, "# digitised\n0,10\n0.25,3\n0.5,-10\n0.75,3\n1,10\n").unwrap();
+    let law = format!("wing.right.motion.phi={{ table = {{ file = {file:?} }} }}");
+    let said = refusal("fruit-fly-hover", &[&law]);
+    let says = "line 2: `0,10` is a row of numbers, and there is no header line above it";
+    assert!(said.contains(says), "{said}");
+}
+
+#[test]
 fn refuses_phases_in_other_units_by_the_line() {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("slips");
     fs::create_dir_all(&folder).unwrap();

@@ -143,6 +143,16 @@ fn refuses_to_replace_figures_unasked() {
         refused(&scratch.0, &["plot", "run", kind], reason);
     }
     assert!(!scratch.0.join("run/figures/forces.svg").exists());
+    // Of several kinds those are drawn that there are.
+    let several = ["plot", "run", "forces", "trajectory", "--out", "several"];
+    let out = wingbeat(&scratch.0, &several);
+    let said = String::from_utf8_lossy(&out.stderr);
+    assert_eq!(out.status.code(), Some(1), "{said}");
+    assert!(
+        said.contains("forces.svg` cannot be drawn: this flight has no air"),
+        "{said}"
+    );
+    assert!(scratch.0.join("several/trajectory.svg").exists());
 }
 
 #[test]

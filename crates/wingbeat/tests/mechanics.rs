@@ -72,6 +72,17 @@ fn behaves_a_trim_beyond_half_a_turn_is_warned_of() {
     assert!(warned("2") && !warned("0.2"));
 }
 
+/// The strokes of the case are those of the preset inside out; the trim turns them back, by less than -100 %.
+#[test]
+fn behaves_a_trim_that_turns_strokes_inside_out_is_none() {
+    let scratch = Scratch::new("inside-out");
+    let turned = "motion.adjust.stroke_amplitude=-2";
+    let out = wingbeat(&scratch.0, &["trim", "fruit-fly-blade", "--set", turned]);
+    assert_eq!(out.status.code(), Some(1));
+    let said = String::from_utf8(out.stderr).unwrap();
+    assert!(said.contains("a stroke is turned inside out"), "{said}");
+}
+
 /// Refusals before anything is flown have exit code 2.
 #[test]
 fn refuses_what_has_no_map_of_a_beat() {

@@ -49,6 +49,72 @@ mass_kg_per_m = [1.5, 1.5]
 inertia_kg_m = [0.1, 0.1]
 "#;
 
+/// A film between two spars under tension along the span.
+const FILM: &str = r#"
+format = 1
+name = "film"
+[time]
+steps_per_beat = 60
+beats = 1
+[motion]
+frequency_hz = 9.0
+[flight]
+mode = "tethered"
+pitch_deg = 8
+velocity_m_s = [5, 0, 0]
+[air]
+shed = ["trailing"]
+body = false
+mirror = false
+[body]
+mass_kg = 0.02
+inertia_about_centre_kg_m2 = [1e-5, 1e-5, 1e-5, 0, 0, 0]
+[wing.right]
+hinge_m = [0, 0.012, 0]
+mass_kg = 0.0015
+[wing.right.planform.outline]
+leading_m = [[0, 0], [0.06, 0.03], [0.17, 0]]
+trailing_m = [[0, -0.06], [0.08, -0.05], [0.17, -0.015]]
+[wing.right.mesh]
+chordwise = 4
+spanwise = 8
+[wing.right.motion]
+phi = { fourier = { mean_deg = -5, cosine_deg = [-35] } }
+[wing.right.structure.shell]
+young_pa = 5e6
+thickness_m = [1e-4, 1e-4]
+prestress_newton_per_m = [2, 0]
+clamped_root = true
+[[wing.right.structure.vein]]
+radius_m = [1e-3, 5e-4]
+young_pa = 15e9
+density_kg_m3 = 1500
+[[wing.right.structure.vein]]
+from = [0, 0.5]
+to = [1, 1]
+radius_m = [8e-4, 2e-4]
+young_pa = 10e9
+"#;
+
+/// A film whose tension nearly pulls its spars over has modes, and one that folds over in flight is named with the key of what it is.
+#[test]
+fn behaves_films_that_buckle_have_modes_and_those_that_fold_are_named() {
+    let scratch = Scratch::new("film");
+    std::fs::write(scratch.0.join("film.toml"), FILM).unwrap();
+    for tension in ["0.7", "1", "2"] {
+        let set = format!("wing.right.structure.shell.prestress_newton_per_m=[{tension}, 0]");
+        let out = wingbeat(&scratch.0, &["modes", "film.toml", "--set", &set]);
+        let said = String::from_utf8_lossy(&out.stderr);
+        assert!(out.status.success(), "{tension}: {said}");
+    }
+    let out = wingbeat(&scratch.0, &["check", "film.toml"]);
+    let said = String::from_utf8_lossy(&out.stderr);
+    assert_eq!(out.status.code(), Some(2), "{said}");
+    for part in ["wing.right.structure", "has folded over", "steps_per_beat"] {
+        assert!(said.contains(part), "{said}");
+    }
+}
+
 fn modes(text: &str, set: &[&str], about: About) -> WingModes {
     let set: Vec<String> = set.iter().map(|s| (*s).to_owned()).collect();
     let case = LoadedCase::from_text("case", text, Path::new("."), &set).unwrap();

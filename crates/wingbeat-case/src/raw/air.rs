@@ -65,7 +65,8 @@ pub struct AirCase {
     /// Core of the vortex filaments in the wakes: a physical input of hover. Default:
     /// algebraic, from 0.07 mean chords on.
     ///
-    /// Change it by a factor of two both ways to see what hangs on it.
+    /// Change it by a factor of two both ways to see what hangs on it; for the drag of attached wings in a stream to 0.01 chords,
+    /// with `wake_overlap = 0` (docs/wings.md, "Induced drag of attached wings").
     #[default(LambOseenCase::chords(0.07))]
     #[schemars(extend("with" = LATTICE))]
     pub wake_core: CoreCase,
@@ -73,7 +74,8 @@ pub struct AirCase {
     /// stretches. Default: 1, or 0 where `wake_core` is a cut-off, which has no radius. Algebraic cores are no wider for
     /// it than a quarter of the way along the sheet from its edge.
     ///
-    /// Change it to 0 to compare with codes whose cores do not widen; long hover then blows up.
+    /// Change it to 0 for the drag of attached wings in a stream, and to compare with codes whose cores do not widen; long hover then
+    /// blows up.
     #[schemars(extend("minimum" = 0, "with" = LATTICE))]
     #[serde(skip_serializing_if = "Open::is_open")]
     pub wake_overlap: Open<f64>,
