@@ -194,11 +194,10 @@ fn read_table(path: &str, table: &mut TableCase, base: &Path) -> Result<(), Faul
     let header = reader.headers().map_err(|e| bad(e.to_string()))?.clone();
     if !header.is_empty() && header.iter().all(|h| h.parse::<f64>().is_ok()) {
         let numbers = header.iter().collect::<Vec<_>>().join(",");
-        let line = header.position().map_or(0, csv::Position::line);
         return Err(Fault::new(
             key,
             format!(
-                "`{}`: line {line}: `{numbers}` is a row of numbers, and there is no header line above it",
+                "`{}`: its first row, `{numbers}`, consists of numbers, and there is no header line above it",
                 file.display()
             ),
             "a CSV file with one header line and finite numbers",

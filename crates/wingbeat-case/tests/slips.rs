@@ -120,7 +120,7 @@ fn refuses_tables_without_a_header() {
     fs::write(&file, "# digitised\n0,10\n0.25,3\n0.5,-10\n0.75,3\n1,10\n").unwrap();
     let law = format!("wing.right.motion.phi={{ table = {{ file = {file:?} }} }}");
     let said = refusal("fruit-fly-hover", &[&law]);
-    let says = "line 2: `0,10` is a row of numbers, and there is no header line above it";
+    let says = "its first row, `0,10`, consists of numbers, and there is no header line above it";
     assert!(said.contains(says), "{said}");
 }
 
