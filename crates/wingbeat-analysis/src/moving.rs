@@ -6,6 +6,11 @@ use wingbeat_structure::Mode;
 /// Part of the kinetic energy in the turns of the nodes of a sheet from which on nothing moves \[1\].
 const TURNING: f64 = 0.5;
 
+/// Whether nodes turn in this mode and nothing moves.
+pub fn only_turns(wing: &ElasticWing, mode: &Mode) -> bool {
+    wing.is_sheet() && mode.turning(wing.structure()) > TURNING
+}
+
 /// The leading `count` of `all` modes of a wing in which something moves, and how many below the last of them were left out.
 pub fn moving(wing: &ElasticWing, all: Vec<Mode>, count: usize) -> (Vec<Mode>, usize) {
     let (mut kept, mut left_out, mut since) = (vec![], 0, 0);
@@ -13,7 +18,7 @@ pub fn moving(wing: &ElasticWing, all: Vec<Mode>, count: usize) -> (Vec<Mode>, u
         if kept.len() == count {
             break;
         }
-        if wing.is_sheet() && mode.turning(wing.structure()) > TURNING {
+        if only_turns(wing, &mode) {
             since += 1;
             continue;
         }

@@ -21,7 +21,7 @@ use wingbeat_structure::{Configuration, FrameMotion, Mode, modes};
 
 use crate::AnalysisError;
 use crate::flutter::{ElasticRig, FlutterSettings};
-use crate::moving::moving;
+use crate::moving::{moving, only_turns};
 
 /// The state that wings vibrate about.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -130,6 +130,8 @@ pub struct WingModes {
     pub alike: Vec<Alike>,
     /// How many modes below the last of these were left out in which nodes turn and nothing moves: in vacuum, in air.
     pub left_out: [usize; 2],
+    /// Fastest growth in vacuum of a mode in which nodes turn and nothing moves; 0 if none grows [1/s].
+    pub turning_growth: f64,
 }
 
 /// The leading `count` modes of all elastic wings of `setup`.
@@ -196,6 +198,10 @@ fn of_wing(flight: &Simulation, k: usize, count: usize) -> Result<WingModes, Ana
     let (nodes, rest) = (places(at), places(structure.rest()));
     let added = flight.added_mass(k)?;
     let in_vacuum = all(None)?;
+    let fastest = in_vacuum.last().map_or(0.0, Mode::frequency);
+    let turning = in_vacuum.iter().filter(|m| only_turns(wing, m));
+    let turning_growth = turning.map(|m| (-m.square).max(0.0).sqrt());
+    let turning_growth = turning_growth.fold(0.0, f64::max);
     let (vacuum, below) = leading(in_vacuum.clone(), count);
     let air = added.map(|a| all(Some(&a))).transpose()?;
     let (air, below_in_air) = air.map(|a| leading(a, count)).unzip();
@@ -210,5 +216,9 @@ fn of_wing(flight: &Simulation, k: usize, count: usize) -> Result<WingModes, Ana
         alike: alike.collect(),
         air,
         left_out: [below, below_in_air.unwrap_or(0)],
+        turning_growth: match turning_growth > ROUNDING * fastest {
+            true => turning_growth,
+            false => 0.0,
+        },
     })
 }

@@ -42,7 +42,7 @@ fn refuses_files_that_are_no_cases() {
             "line",
             format!("name = \"{}\"", "x".repeat(5_000_000)).into(),
         ),
-        ("format", QUICK.replace("format = 1", "format = 1.0").into()),
+        ("format", QUICK.replace("format = 1", "format = 1.5").into()),
         ("no-rows", table("rows_deg = []").into()),
         ("no-file", table("file = \"nowhere.csv\"").into()),
         ("empty-csv", table("file = \"empty.csv\"").into()),

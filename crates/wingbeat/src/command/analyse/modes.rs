@@ -85,6 +85,13 @@ fn tell(report: &mut Report, name: &str, steady: bool, wings: &[Wing], found: &[
         }
         table(report, "in vacuum", wing, &w.vacuum, None);
         tell_left_out(report, w.left_out[0]);
+        if w.turning_growth > 0.0 {
+            line!(
+                report,
+                "  some of these grow, by up to {:.3e} 1/s: the sheet buckles between its nodes, and this state is no stable equilibrium",
+                w.turning_growth
+            );
+        }
         if let Some(air) = &w.air {
             let title = "with the added mass of the air";
             table(report, title, wing, air, Some(&w.alike));
@@ -218,6 +225,7 @@ fn values(wing: &Wing, w: &WingModes) -> Value {
         "air": w.air.as_ref().map(air),
         "vacuum_left_out": w.left_out[0],
         "air_left_out": w.left_out[1],
+        "left_out_growth_per_s": w.turning_growth,
     })
 }
 
