@@ -238,7 +238,7 @@ impl Trim {
         py: Python<'py>,
     ) -> PyResult<(
         Bound<'py, PyAny>,
-        Bound<'py, PyAny>,
+        [Bound<'py, PyAny>; 2],
         Vec<ModeParts>,
         Vec<ModeParts>,
     )> {
@@ -247,10 +247,12 @@ impl Trim {
             let model = linear_model(&trim.beat, &trim.state)?;
             Ok((model, floquet_of_trim(trim)?))
         })?;
-        let derivatives = model.derivatives.concat();
+        let six = |matrix: [[f64; 6]; 6]| array(py, matrix.concat(), &[6, 6]);
+        let derivatives = six(model.derivatives)?;
+        let added_mass = six(model.added_mass)?;
         Ok((
             array(py, model.matrix, &[9, 9])?,
-            array(py, derivatives, &[6, 6])?,
+            [derivatives, added_mass],
             modes(&model.modes),
             modes(&orbit),
         ))

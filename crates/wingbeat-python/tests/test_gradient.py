@@ -47,7 +47,7 @@ def test_agrees_with_central_differences_in_free_flight():
 
 
 def test_agrees_with_central_differences_of_trims():
-    keep = ["no_storage_watt", "stroke_amplitude", "body_pitch_rad"]
+    keep = ["perfect_storage_watt", "stroke_amplitude", "body_pitch_rad"]
     variables = {"body.mass_kg": (8e-7, 1e-6), "trim.forward_m_per_s": (-0.3, 0.3)}
     problem = Problem("fruit-fly-blade", variables, keep, do="trim", executor=Serial())
     x = np.array([9.3e-7, 0.05])

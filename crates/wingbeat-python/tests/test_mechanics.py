@@ -60,9 +60,12 @@ def test_exact_modes_are_the_eigenvalues_of_a(trim):
 
 
 def test_balances_inputs_are_loads_over_mass(trim, blade):
-    """The first three rows of B are forces over the mass; a mirror image turns the lateral ones round."""
+    """Forces move the mass and the air that goes with it by the first rows of B; a mirror image turns the lateral ones round."""
     model, controls = trim.stability(), trim.derivatives()
-    np.testing.assert_allclose(model.B[:3], controls.loads[:, :3].T / blade.mass_kg, rtol=1e-12)
+    moved = blade.mass_kg * model.B[:3] + model.added_mass[:3] @ model.B[:6]
+    forces = controls.loads[:, :3].T
+    np.testing.assert_allclose(moved, forces, rtol=1e-9, atol=1e-12 * abs(forces).max())
+    np.testing.assert_array_equal(model.added_mass, model.added_mass.T)
     np.testing.assert_array_equal(model.B[6:], 0.0)
     assert model.inputs == tuple(f"{c} {w}" for c, w in zip(controls.controls, controls.wings, strict=True))
     left, right, both = (model.B[:, model.inputs.index(f"stroke_amplitude {w}")] for w in ("left", "right", "all"))

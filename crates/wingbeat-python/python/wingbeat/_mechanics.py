@@ -71,6 +71,8 @@ class LinearModel:
     input_units: tuple[str, ...]
     derivatives: NDArray[Any]
     """Of the mean loads X, Y, Z, L, M, N by u, v, w, p, q, r, shape (6, 6)."""
+    added_mass: NDArray[Any]
+    """Of the air: what the mean loads are smaller by for the rates of u, v, w (through the air), p, q, r, shape (6, 6)."""
     averaged_modes: tuple[Mode, ...]
     """Modes of A."""
     floquet_modes: tuple[Mode, ...]
@@ -219,7 +221,7 @@ class Trim:
         """The averaged linear model with its inputs, its modes, and Floquet's modes of the periodic orbit."""
         import numpy as np
 
-        a, derivatives, averaged, orbit = self._core.stability()
+        a, (derivatives, added_mass), averaged, orbit = self._core.stability()
         names, _, b = self._controls
         return LinearModel(
             A=a,
@@ -231,6 +233,7 @@ class Trim:
             inputs=tuple(f"{control} {wing}" for control, wing in names),
             input_units=tuple(_input_unit(control) for control, _ in names),
             derivatives=derivatives,
+            added_mass=added_mass,
             averaged_modes=_modes(averaged),
             floquet_modes=_modes(orbit),
         )

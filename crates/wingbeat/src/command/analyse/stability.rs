@@ -269,6 +269,8 @@ fn derivatives(report: &mut Report, model: &LinearModel) {
         line!(report, "  {name:<4}{}", cells.concat());
     }
     report.value("derivatives_si_by_u_v_w_p_q_r", json!(model.derivatives));
+    let key = "added_mass_si_by_rates_of_u_v_w_p_q_r";
+    report.value(key, json!(model.added_mass));
 }
 
 /// The modes as a table.
