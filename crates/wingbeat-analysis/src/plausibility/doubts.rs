@@ -126,11 +126,12 @@ const LIFT_DOWN: Limit = Limit {
     ..LIFT
 };
 
+/// A hundredth is what attached wings in a stream want.
 const WAKE_CORE: Limit = Limit {
-    low: 0.02,
+    low: 0.009,
     high: 0.4,
     hints: [
-        "finer than the lattice can resolve; 0.07 chords are usual: air.wake_core, after the size of the animal",
+        "finer than the lattice can resolve; 0.07 chords are usual, 0.01 behind attached wings in a stream: air.wake_core, after the size of the animal",
         "it blurs the wake over the wing; 0.07 chords are usual: air.wake_core, after the size of the animal",
     ],
 };
