@@ -10,5 +10,6 @@ mod meshes;
 mod presets;
 mod slips;
 mod table1;
+mod tables;
 mod wings;
 mod written;

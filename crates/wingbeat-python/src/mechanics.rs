@@ -160,7 +160,7 @@ impl Trim {
         self.check_straight(py)?;
         let velocity = self.velocity;
         self.analyse(py, move |trim| {
-            let r = trim.beat.root(&trim.state).r;
+            let r = trim.beat.mean_attitude(&trim.state)?;
             let velocity = Level::new(r, trim.setup.gravity).to_n.transpose() * velocity;
             control_derivatives(&trim.setup, r, velocity, trim.beat.steps())
         })

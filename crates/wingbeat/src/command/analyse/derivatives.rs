@@ -18,7 +18,7 @@ fn find(args: &Trimming, report: &mut Report) -> Result<(), Failure> {
     args.check_averaged()?;
     args.without_turn("a steadily moving body, about which loads are averaged,")?;
     let (_, trim) = trimmed(args, report)?;
-    let r = trim.beat.root(&trim.state).r;
+    let r = trim.beat.mean_attitude(&trim.state)?;
     let level = Level::new(r, trim.setup.gravity);
     let velocity = level.to_n.transpose() * trim_velocity(args);
     let list: Result<Vec<_>, AnalysisError> = watched("derivatives", || {
