@@ -13,7 +13,7 @@ use crate::named::{self, Contents};
 use crate::number::{self, Number, Of, Source};
 use crate::plan::Plan;
 use crate::raw::TrimOptions;
-use crate::raw::{RawCampaign, Task};
+use crate::raw::{FRAMES_EVERY, FileKind, RawCampaign, Task};
 use crate::trimming::{self, TRIM};
 
 /// Values of an axis that are tried before anything is flown.
@@ -104,6 +104,7 @@ impl Campaign {
             document,
         };
         campaign.check_points()?;
+        campaign.check_frames()?;
         Ok(campaign)
     }
 
@@ -298,6 +299,25 @@ impl Campaign {
             block *= axis.len();
         }
         self.check_point(0)
+    }
+
+    /// Frames that are kept are written.
+    fn check_frames(&self) -> Result<(), IoError> {
+        let kept = self.raw.files.contains(&FileKind::Frames);
+        if !kept || self.base.output.frames_every > 0 || self.varies(FRAMES_EVERY) {
+            return Ok(());
+        }
+        Err(self.fault(
+            "files",
+            format!("no frames are there to be kept: {FRAMES_EVERY} is 0"),
+            "frames of a case that writes them",
+            "write `\"output.frames_every\" = 10` in [set], for instance: every tenth step",
+        ))
+    }
+
+    /// Whether a key varies from point to point.
+    pub(crate) fn varies(&self, key: &str) -> bool {
+        self.plan.keys().iter().any(|k| k == key)
     }
 
     fn check_point(&self, i: usize) -> Result<(), IoError> {

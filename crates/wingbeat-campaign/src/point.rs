@@ -14,7 +14,7 @@ use wingbeat_results::saver;
 use crate::campaign::Campaign;
 use crate::evaluate;
 use crate::flight::{self, Halt, in_directory, in_memory};
-use crate::raw::{FileKind, Task};
+use crate::raw::{FRAMES_EVERY, FileKind, Task};
 use crate::store::{PointResult, Reason, Store};
 use crate::trimming;
 
@@ -53,12 +53,7 @@ pub fn has_files(campaign: &Campaign, i: usize, hash: &str, store: &Store) -> bo
     let Ok(manifest) = saver::read_manifest(&place) else {
         return false;
     };
-    let frames = campaign.base.output.frames_every > 0
-        && !campaign
-            .plan
-            .keys()
-            .iter()
-            .any(|k| k == "output.frames_every");
+    let frames = !campaign.varies(FRAMES_EVERY);
     let written = |kind: FileKind| match kind {
         FileKind::Page => manifest.steps >= DRAWN,
         FileKind::Frames => frames,
@@ -175,7 +170,7 @@ impl Point<'_> {
             format!("output.figures={}", keeps(FileKind::Figures)),
         ];
         if !keeps(FileKind::Page) && !keeps(FileKind::Frames) {
-            set.push("output.frames_every=0".to_owned());
+            set.push(format!("{FRAMES_EVERY}=0"));
         }
         set
     }

@@ -35,7 +35,7 @@ type Wrong = (
     &'static [&'static str],
 );
 
-const FILES: [Wrong; 41] = [
+const FILES: [Wrong; 42] = [
     (
         "do = [\"run\"]",
         "do = [\"run\"",
@@ -152,6 +152,12 @@ const FILES: [Wrong; 41] = [
         "files = [\"pages\"]",
         "files",
         &["unknown choice `pages`", "did you mean `page`?"],
+    ),
+    (
+        "[set]",
+        "files = [\"frames\"]\n\n[set]\n\"output.frames_every\" = 0",
+        "files",
+        &["no frames are there to be kept: output.frames_every is 0"],
     ),
     (
         "seed = 1",
