@@ -73,11 +73,12 @@ pub fn table_model(setup: &FlightSetup) -> Result<LinearModel, AnalysisError> {
 }
 
 /// Loads about the mass centre, axes of the table, when the body stands in its reference
-/// attitude.
+/// attitude and its velocities do not change in these axes.
 fn load(table: &DerivativeTable, velocity: DVec3, rate: DVec3) -> MeanLoad {
     let (v, w) = (table.to_body * velocity, table.to_body * rate);
     let still = DerivativeTable {
         stream: DVec3::ZERO,
+        added_mass: [[0.0; 6]; 6],
         ..*table
     };
     let load = still.load(&FrameMotion {

@@ -33,17 +33,17 @@ pub struct DerivativeTable {
 }
 
 impl DerivativeTable {
-    /// Force and moment about the body's origin, body components; of the added mass what is felt where the velocity of the body
-    /// over the ground does not change in its own axes.
+    /// Force and moment about the body's origin, body components, but for what follows its acceleration over the ground
+    /// ([`Self::added_mass_of_body`]).
     pub fn load(&self, body: &FrameMotion) -> Load {
         let air = body.rotation.transpose() * (body.velocity - self.stream);
         let here = air + body.rate.cross(self.point);
         let v = self.to_body.transpose() * here - self.velocity;
         let w = self.to_body.transpose() * body.rate;
         let x = [v.x, v.y, v.z, w.x, w.y, w.z];
-        // The stream turns against the body.
-        let stream = (body.rotation * self.to_body).transpose() * self.stream;
-        let turning = w.cross(stream).to_array();
+        // Where the origin does not accelerate, its velocity through the air turns against the axes.
+        let turning = -w.cross(self.to_body.transpose() * air);
+        let turning = turning.to_array();
         let times =
             |row: &[f64; 6], x: &[f64]| -> f64 { row.iter().zip(x).map(|(d, x)| d * x).sum() };
         let row = |i: usize| -> f64 {
@@ -175,14 +175,14 @@ mod tests {
         about[2][2] = 3.0;
         (about[2][4], about[4][2], about[4][4]) = (-6.0, -6.0, 12.0);
         assert_eq!(table.added_mass_of_body(), Some(about));
-        // A stream of 5 m/s ahead, a body that turns nose up by 0.5 rad/s and keeps its velocity in its axes: the air's falls
-        // by w x s = (0, 0, -2.5) m/s2 in them.
-        table.stream = DVec3::new(5.0, 0.0, 0.0);
+        // A body that goes ahead by 7 m/s through air of 2 m/s, without acceleration, and turns nose up by 0.5 rad/s: its velocity
+        // of 5 m/s through the air changes by -w x v = (0, 0, 2.5) m/s2 in its axes.
+        table.stream = DVec3::new(2.0, 0.0, 0.0);
         let load = table.load(&FrameMotion {
             rotation: DMat3::IDENTITY,
-            velocity: DVec3::ZERO,
+            velocity: DVec3::new(7.0, 0.0, 0.0),
             rate: DVec3::new(0.0, 0.5, 0.0),
         });
-        assert_eq!(load.force, DVec3::new(0.0, 0.0, 7.5));
+        assert_eq!(load.force, DVec3::new(0.0, 0.0, -7.5));
     }
 }
