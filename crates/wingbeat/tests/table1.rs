@@ -114,7 +114,7 @@ fn published_locust_has_a_divergence_a_subsidence_and_a_stable_oscillation() {
     let text = said(&scratch, &["stability", "table1-taylor-thomas-2003"]);
     assert_eq!(
         names(&text, 3),
-        ["divergence", "stable oscillation", "subsidence"]
+        ["divergence", "subsidence", "stable oscillation"]
     );
 }
 
