@@ -6,8 +6,8 @@
 //! u = -(omega^2 (x + iota sum of x) + 2 zeta omega x') / B
 //! ```
 //!
-//! with B the acceleration per unit of the control (control derivative over mass or inertia;
-//! of roll and heading a 2 x 2 matrix, for either control does both): each loop, alone and
+//! with B the acceleration per unit of the control, that of the mean rigid body with the added mass of the air
+//! ([`input_matrix`]; of roll and heading a 2 x 2 matrix, for either control does both): each loop, alone and
 //! without latency, has the natural frequency omega and the damping zeta. With iota above 0 it is proportional-integral-
 //! derivative: sums over the looks take back wholly what pulls steadily, and stand still while a command is at its limit.
 //! Drift is braked by leaning against it: the pitch and roll held are `-+ omega_v u / g`. The
@@ -18,9 +18,14 @@ use wingbeat_model::Wing;
 
 use crate::AnalysisError;
 use crate::departure::{Controls, Departure};
-use crate::derivatives::{ControlDerivative, control_derivatives};
-use crate::level::Level;
+use crate::stability::{input_matrix, trimmed_controls};
 use crate::trim::Trim;
+
+/// Rows of the input matrix: w, p, q, r.
+const DOWN: usize = 2;
+const ROLL_RATE: usize = 3;
+const PITCH_RATE: usize = 4;
+const YAW_RATE: usize = 5;
 
 /// How stiff the loops are.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -81,21 +86,23 @@ impl ProportionalDerivative {
     /// # Errors
     /// A setup without control derivatives; a control without effect.
     pub fn new(trim: &Trim, stiffness: &Stiffness) -> Result<Self, AnalysisError> {
-        let root = trim.beat.root(&trim.state);
-        let level = Level::new(root.r, trim.beat.gravity());
-        let velocity = level.to_n.transpose() * trim.mean_velocity()?;
-        let list = control_derivatives(&trim.setup, root.r, velocity, trim.beat.steps())?;
-        let wings = &trim.setup.animal.wings;
-        let j = level.to_root.transpose() * trim.beat.mean_inertia() * level.to_root;
-        let turn = |moment: DVec3| j.inverse() * moment;
-        let apart = |name: &str| {
-            let part = |w: &Wing| 0.5 * w.side.sign() * find(&list, name, &w.name).moment;
-            turn(wings.iter().map(part).sum())
+        let list = trimmed_controls(trim)?;
+        let rates = input_matrix(&trim.beat, &trim.state, &list)?;
+        let effect = |name: &str, wing: &str, row: usize| {
+            let found = list
+                .iter()
+                .position(|d| d.control == name && d.wing == wing);
+            found.map_or(0.0, |k| rates[row * list.len() + k])
         };
-        let (bank, yaw) = (apart("stroke_amplitude"), apart("stroke_plane"));
-        let det = bank.x * yaw.z - yaw.x * bank.z;
-        let lift = find(&list, "stroke_amplitude", "all").force.z / trim.beat.mass();
-        let nod = turn(find(&list, "stroke_offset", "all").moment).y;
+        let apart = |name: &str, row: usize| -> f64 {
+            let part = |w: &Wing| 0.5 * w.side.sign() * effect(name, &w.name, row);
+            trim.setup.animal.wings.iter().map(part).sum()
+        };
+        let [bank, yaw] = ["stroke_amplitude", "stroke_plane"]
+            .map(|name| [apart(name, ROLL_RATE), apart(name, YAW_RATE)]);
+        let det = bank[0] * yaw[1] - yaw[0] * bank[1];
+        let lift = effect("stroke_amplitude", "all", DOWN);
+        let nod = effect("stroke_offset", "all", PITCH_RATE);
         if [det, lift, nod].iter().any(|x| *x == 0.0 || !x.is_finite()) {
             return Err(AnalysisError::Numbers(
                 "a control of the stabiliser has no effect on this flyer".into(),
@@ -105,7 +112,10 @@ impl ProportionalDerivative {
         Ok(Self {
             lift,
             nod,
-            lateral: [[yaw.z / det, -yaw.x / det], [-bank.z / det, bank.x / det]],
+            lateral: [
+                [yaw[1] / det, -yaw[0] / det],
+                [-bank[1] / det, bank[0] / det],
+            ],
             omega: [k.lateral, k.pitch, k.lateral, k.altitude].map(|x| x / period),
             lean: k.drift / period / trim.beat.gravity().length(),
             damping: k.damping,
@@ -166,10 +176,4 @@ impl ProportionalDerivative {
     pub fn restore(&mut self, memory: &[f64]) {
         self.sums = memory.try_into().unwrap_or_default();
     }
-}
-
-/// The derivative of a control in the list.
-fn find(list: &[ControlDerivative], control: &str, wing: &str) -> crate::mean::MeanLoad {
-    let found = list.iter().find(|d| d.control == control && d.wing == wing);
-    found.map(|d| d.derivative).unwrap_or_default()
 }

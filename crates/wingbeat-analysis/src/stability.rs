@@ -4,7 +4,7 @@ use wingbeat_math::{DVec3, r3};
 
 use crate::AnalysisError;
 use crate::beat::{Beat, JOINTS, State};
-use crate::derivatives::ControlDerivative;
+use crate::derivatives::{ControlDerivative, control_derivatives};
 use crate::eigen::eigen;
 use crate::level::{Level, Perturbation};
 use crate::modes::{ModeSet, Scales};
@@ -93,6 +93,17 @@ pub fn linear_model(beat: &Beat, state: &State) -> Result<LinearModel, AnalysisE
         matrix,
         modes,
     })
+}
+
+/// Control derivatives about the steady flight with the mean attitude and velocity of a trimmed one.
+///
+/// # Errors
+/// As [`control_derivatives`].
+pub fn trimmed_controls(trim: &Trim) -> Result<Vec<ControlDerivative>, AnalysisError> {
+    let attitude = trim.beat.mean_attitude(&trim.state)?;
+    let level = Level::new(attitude, trim.beat.gravity());
+    let velocity = level.to_n.transpose() * trim.mean_velocity()?;
+    control_derivatives(&trim.setup, attitude, velocity, trim.beat.steps())
 }
 
 /// How the averaged model about the flight through `state` answers controls: derivatives of the rates of (u, v, w, p,

@@ -1,10 +1,10 @@
 //! Trim, stability, controls, power.
 
 use pyo3::prelude::*;
-use wingbeat::analysis::derivatives::{CONTROLS, ControlDerivative, control_derivatives};
-use wingbeat::analysis::level::{Level, STATE};
+use wingbeat::analysis::derivatives::{CONTROLS, ControlDerivative};
+use wingbeat::analysis::level::STATE;
 use wingbeat::analysis::power::{Power, power_of_trim};
-use wingbeat::analysis::stability::{LinearModel, floquet_of_trim, input_matrix};
+use wingbeat::analysis::stability::{LinearModel, floquet_of_trim, input_matrix, trimmed_controls};
 use wingbeat::analysis::unknown::{Bound as Limits, UNKNOWNS, Unknown};
 use wingbeat::analysis::{AnalysisError, Mode, ModeSet, TrimProblem, linear_model};
 use wingbeat::case::{LoadedCase, trimmed_case};
@@ -86,22 +86,15 @@ pub fn trim(
 ) -> PyResult<Trim> {
     let mut open = flight.clone();
     open.setup.feedback = None;
-    let velocity = problem.velocity;
     let found = analyse(py, move || open.trim(&problem))?;
     let trim = found.map_err(|e| raised(py, &e))?;
-    Ok(Trim {
-        trim,
-        velocity,
-        case,
-    })
+    Ok(Trim { trim, case })
 }
 
 /// A trimmed flight, or the best point that was found.
 #[pyclass(frozen, module = "wingbeat._core")]
 pub struct Trim {
     trim: wingbeat::analysis::Trim,
-    /// Mean velocity that was asked for, N components [m/s].
-    velocity: DVec3,
     /// None where parts written in Python fly, which no case says.
     case: Option<LoadedCase>,
 }
@@ -158,12 +151,7 @@ impl Trim {
 
     fn controls(&self, py: Python<'_>) -> PyResult<Vec<ControlDerivative>> {
         self.check_straight(py)?;
-        let velocity = self.velocity;
-        self.analyse(py, move |trim| {
-            let r = trim.beat.mean_attitude(&trim.state)?;
-            let velocity = Level::new(r, trim.setup.gravity).to_n.transpose() * velocity;
-            control_derivatives(&trim.setup, r, velocity, trim.beat.steps())
-        })
+        self.analyse(py, trimmed_controls)
     }
 }
 

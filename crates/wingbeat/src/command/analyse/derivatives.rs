@@ -1,9 +1,7 @@
 //! `wingbeat derivatives`.
 
 use serde_json::{Value, json};
-use wingbeat::analysis::derivatives::control_derivatives;
-use wingbeat::analysis::{AnalysisError, Level};
-use wingbeat::math::DVec3;
+use wingbeat::analysis::stability::trimmed_controls;
 
 use super::trimming::{Trimming, trimmed, watched};
 use crate::command::failure::Failure;
@@ -18,12 +16,7 @@ fn find(args: &Trimming, report: &mut Report) -> Result<(), Failure> {
     args.check_averaged()?;
     args.without_turn("a steadily moving body, about which loads are averaged,")?;
     let (_, trim) = trimmed(args, report)?;
-    let r = trim.beat.mean_attitude(&trim.state)?;
-    let level = Level::new(r, trim.setup.gravity);
-    let velocity = level.to_n.transpose() * trim_velocity(args);
-    let list: Result<Vec<_>, AnalysisError> = watched("derivatives", || {
-        control_derivatives(&trim.setup, r, velocity, trim.beat.steps())
-    });
+    let list = watched("derivatives", || trimmed_controls(&trim));
     line!(
         report,
         "\nControl derivatives of the mean loads, N and N m per unit (1, rad, wingbeat):"
@@ -58,11 +51,4 @@ fn find(args: &Trimming, report: &mut Report) -> Result<(), Failure> {
     );
     report.value("control_derivatives", values);
     Ok(())
-}
-
-/// The velocity trimmed to, N components [m/s].
-fn trim_velocity(args: &Trimming) -> DVec3 {
-    let given = [args.forward, args.sideslip, args.climb];
-    let [forward, right, climb] = given.map(|v| v.unwrap_or(0.0));
-    DVec3::new(forward, right, -climb)
 }
