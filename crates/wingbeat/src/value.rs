@@ -6,9 +6,11 @@ use std::path::Path;
 use wingbeat_analysis::{Trim, TrimProblem};
 use wingbeat_case::{IoError, LoadedCase};
 use wingbeat_draw::draw_run;
-use wingbeat_flight::{AirModel, Feedback, FlightSetup, MotionMode, Simulation, StartState};
+use wingbeat_flight::{
+    AirModel, Feedback, FlightSetup, MotionMode, Simulation, StartState, faster,
+};
 use wingbeat_math::DVec3;
-use wingbeat_model::Animal;
+use wingbeat_model::{Animal, Start};
 use wingbeat_results::{Outcome, RunWriter};
 
 use crate::flown::{Run, new_dir};
@@ -110,11 +112,19 @@ impl Flight {
         (time.period.unwrap_or(1.0) / time.step).round()
     }
 
-    /// All wings beat with this frequency [Hz]; steps per beat and number of steps stay.
+    /// All wings beat with this frequency [Hz], and what drives joints becomes faster as they do; steps per beat, number of
+    /// steps and wingbeats of a smooth start stay.
     pub fn frequency_hz(mut self, frequency: f64) -> Self {
         let steps = self.steps_per_beat();
+        let factor = frequency * self.setup.time.period.unwrap_or(1.0 / frequency);
         for wing in &mut self.setup.animal.wings {
             wing.motion.frequency = frequency;
+            if let Start::Smooth { duration } = &mut wing.motion.start {
+                *duration /= factor;
+            }
+        }
+        for joint in &mut self.setup.joints {
+            *joint = faster(joint, factor);
         }
         self.setup.time.period = Some(1.0 / frequency);
         self.setup.time.step = 1.0 / (frequency * steps);
@@ -125,13 +135,6 @@ impl Flight {
     pub fn beats(mut self, beats: f64) -> Self {
         self.setup.time.steps = (beats * self.steps_per_beat()).round() as usize;
         self
-    }
-
-    /// In how many steps a wingbeat is flown; the number of beats stays.
-    pub fn steps_per_beat_count(mut self, steps: usize) -> Self {
-        let beats = self.setup.time.steps as f64 / self.steps_per_beat();
-        self.setup.time.step = self.setup.time.period.unwrap_or(1.0) / steps as f64;
-        self.beats(beats)
     }
 
     /// In which air.

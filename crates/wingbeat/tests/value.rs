@@ -102,6 +102,22 @@ fn agrees_case_of_changed_presets() {
 }
 
 #[test]
+fn agrees_frequency_with_that_of_the_case() {
+    let keys = ["time.beats=0.2", "motion.frequency_hz=220"];
+    for preset in ["fruit-fly-blade", "fruit-fly-abdomen"] {
+        let flight = Flight::preset_with(preset, &keys[..1]).unwrap();
+        let [a, b] = [
+            flight.frequency_hz(220.0),
+            Flight::preset_with(preset, &keys).unwrap(),
+        ]
+        .map(|flight| flight.fly().unwrap().records);
+        let last = |records: &[wingbeat::flight::Record]| records.last().unwrap().mass_centre;
+        let apart = last(&a).distance(last(&b)) / last(&a).length();
+        assert!(a.len() == b.len() && apart < 1e-9, "{preset}: {apart:e}");
+    }
+}
+
+#[test]
 fn agrees_case_of_flights_built_in_rust() {
     use wingbeat::model::species::{FlyOptions, drosophila_melanogaster};
     let options = FlyOptions {
