@@ -109,14 +109,13 @@ impl Beat {
         if !flight.air().is_uniform() {
             return Err(changing_air());
         }
-        let tips = setup.animal.wings.iter().flat_map(|w| &w.mesh.nodes);
         Ok(Self {
             mass: flight.system().total_mass(),
             gravity: setup.gravity,
             stream: (setup.air.clone().stream_mut()).map_or(DVec3::ZERO, |s| *s),
             steps,
             period,
-            wing_length: tips.fold(0.0, |m, r| m.max(r.length())),
+            wing_length: setup.animal.wing_length(),
             joint_sizes: flight.form().scales().split_off(JOINTS),
             flight,
         })

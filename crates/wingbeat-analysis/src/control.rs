@@ -78,8 +78,8 @@ pub struct Steering {
     held: Held,
     /// Side of every wing, right +1, left -1.
     sides: Vec<f64>,
-    /// Commands of the reference flight: amplitude \[1\], mean stroke angle \[rad\].
-    base: [f64; 2],
+    /// Commands of the reference flight.
+    base: Adjustment,
     /// Largest departures of commands from those of the reference flight.
     pub limits: Limits,
     /// Looks from one command to the next; it is kept between them.
@@ -103,7 +103,7 @@ impl Steering {
             law,
             held,
             sides: wings.iter().map(|w| w.side.sign()).collect(),
-            base: [0.0; 2],
+            base: Adjustment::default(),
             limits: Limits::default(),
             every: 1,
             sensors: None,
@@ -114,10 +114,9 @@ impl Steering {
         }
     }
 
-    /// The reference flight has the motion of the setup with this adjustment of stroke amplitude
-    /// and mean stroke angle, which is commanded too.
+    /// The reference flight has the motion of the setup with this adjustment, which is commanded too.
     pub fn adjusted(mut self, by: &Adjustment) -> Self {
-        self.base = [by.stroke_amplitude, by.stroke_offset];
+        self.base = *by;
         self
     }
 
@@ -158,12 +157,8 @@ impl Controller for Steering {
         }
         let limited = self.limits.reached(&self.command);
         self.law.remember(&d, self.command, limited);
-        let [amplitude, offset] = self.base;
         let mut list = adjustments(&self.command, &self.sides);
-        for a in &mut list {
-            a.stroke_amplitude = (1.0 + amplitude) * (1.0 + a.stroke_amplitude) - 1.0;
-            a.stroke_offset += offset;
-        }
+        list.iter_mut().for_each(|a| *a = self.base.then(a));
         Ok(list)
     }
 

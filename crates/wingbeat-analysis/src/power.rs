@@ -54,8 +54,7 @@ impl Power {
 /// A setup in free flight or shorter than a beat; free joints that have not found a periodic motion at its end;
 /// what the flight reports.
 pub fn power(setup: &FlightSetup) -> Result<Power, AnalysisError> {
-    let period = setup.time.period.unwrap_or(0.0);
-    let per_beat = (period / setup.time.step).round() as usize;
+    let per_beat = setup.time.steps_per_beat().unwrap_or(0);
     let tethered = matches!(setup.mode, wingbeat_flight::MotionMode::Tethered(_));
     if per_beat == 0 || setup.time.steps < per_beat || !tethered {
         return Err(AnalysisError::not_covered(
@@ -78,7 +77,7 @@ pub fn power(setup: &FlightSetup) -> Result<Power, AnalysisError> {
         if is_periodic {
             break;
         }
-        if beat + 1 == beats && beat > 0 && !flight.record().joints.is_empty() {
+        if beat + 1 == beats && !flight.record().joints.is_empty() {
             return Err(AnalysisError::NotPeriodic {
                 what: format!(
                     "the free joints find no periodic motion within {beats} wingbeats while the body is held"

@@ -190,8 +190,7 @@ pub(crate) fn adjusted(
         }
     }
     let mut setup = setup.clone();
-    let tips = setup.animal.wings.iter().flat_map(|w| &w.mesh.nodes);
-    shift *= tips.fold(0.0_f64, |m, r| m.max(r.length()));
+    shift *= setup.animal.wing_length();
     for wing in &mut setup.animal.wings {
         wing.motion = wing.motion.adjusted(wing.side, &a.on(wing.side, &d));
         wing.hinge_b.x -= shift;

@@ -27,11 +27,11 @@
 //! | Gamma_rot | - | `C_rot c^2 q` | m2/s |
 //!
 //! A section is taken as symmetric fore and aft: air from the trailing edge (u < 0) gives the
-//! mirrored force. Velocities along the span are ignored, as in all the sources, but by the moment of
+//! mirrored force, but for the circulation of feathering, which hangs on the feathering axis alone, as in the sources. Velocities along the span are ignored, as in all the sources, but by the moment of
 //! the added momentum. Twist and bending of
 //! a wing place and move its strips ([`SectionMotion`] where they are prescribed, [`Section`] where loads bend the wing).
 //!
-//! What this crate does not know: wakes of other strips, animals, coordinates, time.
+//! What this crate does not know: wakes of other strips, animals, coordinates; of time no more than the age of a strip's wake.
 
 mod bent;
 mod body_drag;

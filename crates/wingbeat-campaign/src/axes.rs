@@ -200,9 +200,10 @@ impl Reader<'_> {
         let last = range.count - 1;
         if let (toml::Value::Integer(a), toml::Value::Integer(b)) = (&range.from, &range.to)
             && !logarithmic
-            && (b - a) % last as i64 == 0
+            && let Some(length) = b.checked_sub(*a)
+            && length % last as i64 == 0
         {
-            let step = (b - a) / last as i64;
+            let step = length / last as i64;
             return Ok((0..=last)
                 .map(|k| Value::Whole(a + k as i64 * step))
                 .collect());

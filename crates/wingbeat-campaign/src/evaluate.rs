@@ -5,7 +5,7 @@ use wingbeat_analysis::stability::{LinearModel, floquet_of_trim};
 use wingbeat_analysis::{AnalysisError, ModeSet, Trim, linear_model};
 use wingbeat_flight::{FlightSetup, Record};
 use wingbeat_results::columns::Columns;
-use wingbeat_results::summary::{BeatMeans, Beats, steps_per_beat};
+use wingbeat_results::summary::{BeatMeans, Beats};
 use wingbeat_results::{Outcome, Summary};
 
 use crate::number::{ModeNumber, Modes, Number, Of, Source, TrimNumber};
@@ -62,7 +62,7 @@ impl Flown {
 
     /// The rows of the last wingbeats.
     fn rows(&self, beats: &[BeatMeans]) -> &[Record] {
-        let each = steps_per_beat(&self.setup.time).unwrap_or(0);
+        let each = self.setup.time.steps_per_beat().unwrap_or(0);
         let end = beats.last().map_or(0, |b| b.beat * each);
         let start = end - beats.len() * each;
         let at = |step: usize| self.records.partition_point(|r| r.step < step);
@@ -97,10 +97,14 @@ impl Flown {
             Of::Max => all.iter().map(value).fold(f64::NEG_INFINITY, f64::max),
             Of::Mean => {
                 let rows = self.rows(beats);
+                let [first, .., last] = rows else {
+                    return Err("records of its wingbeats are not at hand".to_owned());
+                };
+                let time = last.time - first.time;
                 let values: Vec<f64> = rows.iter().map(value).collect();
                 let pairs = rows.windows(2).zip(values.windows(2));
                 let area = pairs.map(|(r, v)| 0.5 * (v[0] + v[1]) * (r[1].time - r[0].time));
-                area.sum::<f64>() / (rows[rows.len() - 1].time - rows[0].time)
+                area.sum::<f64>() / time
             }
         })
     }

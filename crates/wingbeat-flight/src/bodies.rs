@@ -184,9 +184,9 @@ pub fn loop_names(setup: &FlightSetup) -> Result<Vec<String>, DynamicsError> {
 /// period of a wingbeat (else ten steps).
 pub fn natural_units(setup: &FlightSetup) -> NaturalUnits {
     let farthest = |nodes: &[DVec3]| nodes.iter().fold(0.0_f64, |m, r| m.max(r.length()));
-    let wings = setup.animal.wings.iter().map(|w| farthest(&w.mesh.nodes));
     let body = setup.animal.parts.iter().map(|p| farthest(&p.mesh.nodes));
-    let length = [wings.fold(0.0, f64::max), body.fold(0.0, f64::max), 1.0];
+    let wings = setup.animal.wing_length();
+    let length = [wings, body.fold(0.0, f64::max), 1.0];
     NaturalUnits {
         length: length
             .into_iter()

@@ -404,6 +404,14 @@ pub struct TimeGrid {
     pub period: Option<f64>,
 }
 
+impl TimeGrid {
+    /// Steps of a wingbeat, the nearest whole number; none of motions without one.
+    pub fn steps_per_beat(&self) -> Option<usize> {
+        let steps = (self.period? / self.step).round() as usize;
+        (steps > 0).then_some(steps)
+    }
+}
+
 /// When the corrector of one step has converged.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CorrectorSettings {

@@ -153,6 +153,12 @@ impl Animal {
         self.wings.iter().any(|w| w.structure.is_some())
     }
 
+    /// Distance of the farthest wing node from its hinge \[m\]; 0 without wings.
+    pub fn wing_length(&self) -> f64 {
+        let nodes = self.wings.iter().flat_map(|w| &w.mesh.nodes);
+        nodes.fold(0.0, |m, r| m.max(r.length()))
+    }
+
     /// Total mass \[kg\].
     pub fn mass(&self) -> f64 {
         let wings = self.wings.iter().map(|w| w.mass.mass);

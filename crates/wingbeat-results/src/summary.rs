@@ -16,7 +16,7 @@ use std::path::Path;
 use wingbeat_flight::{FlightSetup, Record};
 
 use super::Outcome;
-pub use beats::{BeatMeans, Beats, down, over_weight, steps_per_beat};
+pub use beats::{BeatMeans, Beats, down, over_weight};
 pub use ensemble::{Ensemble, EnsembleBeat};
 pub use impulse::ImpulseBudget;
 pub use means::{Estimate, ManyBeats};

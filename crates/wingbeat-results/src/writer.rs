@@ -9,7 +9,6 @@ use super::framer::Framer;
 use super::history::HistoryWriter;
 use super::manifest::{Manifest, Outcome, sha256};
 use super::saver::{self, Schedule};
-use super::summary::steps_per_beat;
 use super::vtp::pvd;
 use super::{ResultDir, Summary};
 use wingbeat_case::IoError;
@@ -202,7 +201,9 @@ impl RunWriter {
         let last = record.step == time.steps;
         let framed = every > 0 && (record.step.is_multiple_of(every) || last);
         let due = record.step.is_multiple_of(output.history_every);
-        let beat_ends = steps_per_beat(time).is_some_and(|n| record.step.is_multiple_of(n));
+        let beat_ends = time
+            .steps_per_beat()
+            .is_some_and(|n| record.step.is_multiple_of(n));
         self.history
             .append(record, due || beat_ends || framed || last)?;
         self.manifest.steps = record.step;

@@ -3,10 +3,11 @@
 use wingbeat_dynamics::BodyMotion;
 use wingbeat_flight::StartState;
 use wingbeat_flight::{AirModel, FlightSetup, MotionMode, Record};
-use wingbeat_math::{DMat3, DQuat, EulerSequence, solve_small};
+use wingbeat_math::{DMat3, DQuat, EulerSequence};
 
 use super::free_beat::{free_beat, rotation, start, steps_per_beat};
 use super::trim::WakeTrim;
+use super::wings::map_between;
 use crate::AnalysisError;
 use crate::eigen::eigen;
 use crate::level::{Level, Perturbation};
@@ -56,16 +57,7 @@ pub fn wake_monodromy(trim: &WakeTrim, memory: WakeMemory) -> Result<Vec<f64>, A
             after[9 * i + k] = (plus[1][i] - minus[1][i]) / (2.0 * h);
         }
     }
-    // after = M before: rows of M solve before^T m = after row.
-    let mut m = vec![0.0; 81];
-    for i in 0..9 {
-        let mut transposed: Vec<f64> = (0..81).map(|e| before[9 * (e % 9) + e / 9]).collect();
-        let mut row = after[9 * i..9 * i + 9].to_vec();
-        solve_small(&mut transposed, &mut row)
-            .map_err(|e| AnalysisError::Numbers(format!("the disturbances are dependent: {e}")))?;
-        m[9 * i..9 * i + 9].copy_from_slice(&row);
-    }
-    Ok(m)
+    map_between(&before, &after, 9)
 }
 
 /// The free beat with a disturbance.
@@ -114,8 +106,7 @@ fn disturbed(
 }
 
 fn scales(setup: &FlightSetup) -> Scales {
-    let nodes = setup.animal.wings.iter().flat_map(|w| &w.mesh.nodes);
-    let length = nodes.fold(0.0_f64, |m, r| m.max(r.length()));
+    let length = setup.animal.wing_length();
     let period = setup.time.period.unwrap_or(1.0);
     Scales {
         velocity: length / period,

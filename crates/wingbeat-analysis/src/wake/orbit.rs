@@ -167,9 +167,7 @@ fn change_of_wakes(setup: &FlightSetup, before: &Past, after: &Past) -> f64 {
 
 /// Natural size of velocities \[m/s\]: a wing length a wingbeat.
 pub(super) fn speed(setup: &FlightSetup) -> f64 {
-    let nodes = setup.animal.wings.iter().flat_map(|w| &w.mesh.nodes);
-    let length = nodes.fold(0.0_f64, |m, r| m.max(r.length()));
-    length / setup.time.period.unwrap_or(1.0)
+    setup.animal.wing_length() / setup.time.period.unwrap_or(1.0)
 }
 
 /// States of the wakes of all strips \[m/s\].

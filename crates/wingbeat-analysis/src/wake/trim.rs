@@ -164,8 +164,7 @@ struct Search<'a> {
 
 impl Search<'_> {
     fn scales(&self) -> (f64, f64) {
-        let nodes = self.setup.animal.wings.iter().flat_map(|w| &w.mesh.nodes);
-        let length = nodes.fold(0.0_f64, |m, r| m.max(r.length()));
+        let length = self.setup.animal.wing_length();
         (length, self.setup.time.period.unwrap_or(1.0))
     }
 

@@ -193,8 +193,7 @@ impl<'a> Rig<'a> {
         let elastic = ElasticWings::new(&setup.animal, setup.gravity)?;
         let both = elastic.wings().iter().zip(&trim.past.wings);
         let wings = both.map(|(w, s)| WingBasis::new(w, s, count));
-        let nodes = setup.animal.wings.iter().flat_map(|w| &w.mesh.nodes);
-        let length = nodes.fold(0.0_f64, |m, r| m.max(r.length()));
+        let length = setup.animal.wing_length();
         let period = setup.time.period.unwrap_or(1.0);
         Ok(Self {
             trim,

@@ -101,23 +101,26 @@ impl ParquetWriter {
     /// Adds a row.
     ///
     /// # Errors
-    /// A file that cannot be written.
+    /// A row that has not one cell for each column, of its kind; a file that cannot be written.
     pub fn cells<'a>(&mut self, row: impl IntoIterator<Item = Cell<'a>>) -> std::io::Result<()> {
-        let columns = self.columns.iter_mut().zip(&self.cells);
-        for ((column, cells), cell) in columns.zip(row) {
-            match (cells, cell) {
-                (Cells::Numbers, Cell::Number(x)) => column.extend(x.to_le_bytes()),
-                (Cells::Counts, Cell::Number(x)) => column.extend((x as i64).to_le_bytes()),
-                (Cells::Texts, Cell::Text(text)) => {
+        let mut row = row.into_iter();
+        for (column, cells) in self.columns.iter_mut().zip(&self.cells) {
+            match (cells, row.next()) {
+                (Cells::Numbers, Some(Cell::Number(x))) => column.extend(x.to_le_bytes()),
+                (Cells::Counts, Some(Cell::Number(x))) => column.extend((x as i64).to_le_bytes()),
+                (Cells::Texts, Some(Cell::Text(text))) => {
                     column.extend((text.len() as u32).to_le_bytes());
                     column.extend(text.as_bytes());
                 }
                 _ => {
                     return Err(std::io::Error::other(
-                        "a cell of another kind than its column",
+                        "a row without a cell of its kind for each column",
                     ));
                 }
             }
+        }
+        if row.next().is_some() {
+            return Err(std::io::Error::other("a row longer than its table"));
         }
         self.rows += 1;
         if self.rows >= GROUP {

@@ -5,7 +5,7 @@
 //! lift by impulse. The integrals are in every record, so a thinned history has the same means.
 
 use serde::{Deserialize, Serialize};
-use wingbeat_flight::{FlightSetup, Record, TimeGrid};
+use wingbeat_flight::{FlightSetup, Record};
 use wingbeat_math::DVec3;
 
 /// Means over one wingbeat.
@@ -61,12 +61,6 @@ pub fn over_weight(setup: &FlightSetup, force: f64) -> Option<f64> {
     (weight > 0.0).then(|| force / weight)
 }
 
-/// Steps of a wingbeat; none of motions without one.
-pub fn steps_per_beat(time: &TimeGrid) -> Option<usize> {
-    let steps = (time.period? / time.step).round() as usize;
-    (steps > 0).then_some(steps)
-}
-
 /// Gathers whole wingbeats, record by record.
 pub struct Beats<'a> {
     setup: &'a FlightSetup,
@@ -79,7 +73,7 @@ impl<'a> Beats<'a> {
     pub fn new(setup: &'a FlightSetup) -> Self {
         Self {
             setup,
-            steps: steps_per_beat(&setup.time),
+            steps: setup.time.steps_per_beat(),
             start: None,
         }
     }
@@ -109,7 +103,7 @@ mod tests {
     fn exact_means_of_a_period_from_all_rows_and_from_few() {
         let case = LoadedCase::find("fruit-fly-blade", &[]).unwrap();
         let mut setup = case.setup;
-        setup.time = TimeGrid {
+        setup.time = wingbeat_flight::TimeGrid {
             step: 1.0,
             steps: 20,
             period: Some(8.0),

@@ -92,8 +92,7 @@ fn wake_of_strips(setup: &FlightSetup, air: &BladeOptions, summary: &Summary, li
     let Some(period) = setup.time.period else {
         return;
     };
-    let nodes = setup.animal.wings.iter().flat_map(|w| &w.mesh.nodes);
-    let length = nodes.fold(0.0_f64, |m, r| m.max(r.length()));
+    let length = setup.animal.wing_length();
     let flown = DVec3::from_array(summary.displacement_m) / summary.time_s;
     let wind = air.wind.at(DVec3::ZERO, 0.5 * summary.time_s);
     let passed = (flown - air.blade.free_stream - wind).length() * period / length;

@@ -28,7 +28,7 @@ impl Flown {
     pub fn new(name: &str, text: &str, base: &Path, set: &[String]) -> Result<Self, VerifyError> {
         let case = LoadedCase::from_text(name, text, base, set)?;
         let time = case.setup.time;
-        let per_beat = time.period.map_or(1, |p| (p / time.step).round() as usize);
+        let per_beat = time.steps_per_beat().unwrap_or(1);
         let mut flight = Simulation::new(case.setup)?;
         // Where no hinge leaves it open, pitch is the third of the prescribed angles.
         let angle = |f: &Simulation| {
