@@ -1,11 +1,12 @@
 //! Motion in time.
 
-mod balance;
+mod carried;
 mod generalized_alpha;
+mod response;
 mod solver;
 mod step;
 
-pub use balance::{RootWrench, carried_by_frame, kinetic_energy, reaction, relative_momentum};
+pub use carried::{carried_by_frame, resultant};
 pub use generalized_alpha::{GeneralizedAlpha, State, Trial, Weights};
 pub use solver::{LoadTangent, Solver};
 pub(crate) use solver::{inertial, larger, size};

@@ -37,9 +37,9 @@ pub use beam::{Beam, BeamEnd, Section, Stiffness};
 pub use builder::StructureBuilder;
 pub use configuration::{Configuration, NODE};
 pub use dynamics::{
-    GeneralizedAlpha, LoadTangent, Passes, RootWrench, Solver, State, Step, Trial, Weights,
+    GeneralizedAlpha, LoadTangent, Passes, Solver, State, Step, Trial, Weights, carried_by_frame,
+    resultant,
 };
-pub use dynamics::{carried_by_frame, kinetic_energy, reaction, relative_momentum};
 pub use element::{Element, ElementForces};
 pub use error::StructureError;
 pub use follower::{Follower, Share};

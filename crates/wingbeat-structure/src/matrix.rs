@@ -9,6 +9,8 @@ pub(crate) struct Matrix {
     /// Largest distance of an entry from the diagonal.
     band: usize,
     dense: Option<Dense>,
+    /// Room for dense ones while the matrix is banded.
+    spare: Option<Dense>,
     /// Rows of `3 band + 1` columns, the diagonal at `band`; factors overwrite them.
     rows: Vec<f64>,
     scale: Vec<f64>,
@@ -19,6 +21,15 @@ pub(crate) struct Matrix {
 struct Dense {
     rows: Vec<f64>,
     lu: DenseLu,
+}
+
+impl Dense {
+    fn new(n: usize) -> Self {
+        Self {
+            rows: vec![0.0; n * n],
+            lu: DenseLu::new(n),
+        }
+    }
 }
 
 impl std::fmt::Debug for Matrix {
@@ -34,6 +45,7 @@ impl Matrix {
             n,
             band,
             dense: None,
+            spare: None,
             rows: vec![0.0; n * (3 * band + 1)],
             scale: vec![1.0; n],
             pivots: vec![0; n],
@@ -42,16 +54,13 @@ impl Matrix {
 
     /// Sets all entries to zero; `dense` says whether any entry may differ from zero then.
     pub fn clear(&mut self, dense: bool) {
-        self.rows.fill(0.0);
-        match (&mut self.dense, dense) {
-            (Some(d), true) => d.rows.fill(0.0),
-            (None, true) => {
-                self.dense = Some(Dense {
-                    rows: vec![0.0; self.n * self.n],
-                    lu: DenseLu::new(self.n),
-                });
-            }
-            (_, false) => self.dense = None,
+        let room = self.dense.take().or_else(|| self.spare.take());
+        if dense {
+            let room = room.unwrap_or_else(|| Dense::new(self.n));
+            self.dense.insert(room).rows.fill(0.0);
+        } else {
+            self.spare = room;
+            self.rows.fill(0.0);
         }
     }
 

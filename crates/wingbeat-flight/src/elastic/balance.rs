@@ -3,6 +3,7 @@
 use wingbeat_dynamics::budget::kinetic_energy;
 use wingbeat_dynamics::{AddedMass, Body, BodyMotion, Budget, ShapeMass, Wrench};
 use wingbeat_math::{DVec3, EulerSequence, MassProperties};
+use wingbeat_structure::resultant;
 
 use super::coupling::{ElasticScratch, Moment};
 use super::step::WingScratch;
@@ -41,13 +42,13 @@ impl ElasticWings {
         for (w, ws) in self.wings.iter().zip(&s.wings) {
             let m = &motions[w.wing + 1];
             let at = &ws.trial.configuration;
-            let needed = w.resultant(at, &ws.residual);
-            let loads = w.resultant(at, &ws.loads);
+            let needed = resultant(at, &ws.residual);
+            let loads = resultant(at, &ws.loads);
             let rigid = w.rigid_inertia(&ws.frame);
             let mut both = [0, 1].map(|k| rigid[k] - needed[k] - loads[k]);
             if w.structure.damping().mass > 0.0 {
                 // What momentum relative to the frame loses, the frame gains.
-                let damped = w.resultant(at, ws.solver.damping());
+                let damped = resultant(at, ws.solver.damping());
                 both = [0, 1].map(|k| both[k] + damped[k]);
             }
             out[w.wing + 1] = turned(m, both);

@@ -150,17 +150,6 @@ impl ElasticWing {
         }
     }
 
-    /// Force and moment about the origin of the frame, wing components, of six numbers at every node.
-    pub(super) fn resultant(&self, at: &Configuration, numbers: &[f64]) -> [DVec3; 2] {
-        let (mut force, mut moment) = (DVec3::ZERO, DVec3::ZERO);
-        for (n, six) in numbers.chunks_exact(NODE).enumerate() {
-            let (f, m) = (DVec3::from_slice(six), DVec3::from_slice(&six[3..]));
-            force += f;
-            moment += at.position[n].cross(f) + at.rotation[n] * m;
-        }
-        [force, moment]
-    }
-
     /// What the wing as the rigid body it is at rest needs to move like its frame, less its weight; wing components.
     pub(super) fn rigid_inertia(&self, frame: &FrameMotion) -> [DVec3; 2] {
         let (s, j, w) = (self.rigid.first_moment, self.rigid.inertia, frame.w);

@@ -2,6 +2,7 @@
 
 use wingbeat_math::{DMat3, DVec3};
 
+use super::carried::ResponseScratch;
 use super::generalized_alpha::{State, Trial, Weights};
 use crate::assembly::{Assembly, Viscous};
 use crate::block::{Block, ZERO, add_pair, block, pair, product};
@@ -67,6 +68,7 @@ pub struct Solver {
     /// Where stresses are foreseen from, and six increments a node.
     before: Configuration,
     ahead: Vec<f64>,
+    pub(super) response: ResponseScratch,
 }
 
 impl Solver {
@@ -81,6 +83,7 @@ impl Solver {
             given: vec![],
             before: Configuration::default(),
             ahead: vec![],
+            response: ResponseScratch::default(),
         }
     }
 
@@ -106,7 +109,7 @@ impl Solver {
     }
 
     /// Largest residual at a free number [N, N m].
-    pub fn largest_residual(&self, structure: &Structure) -> f64 {
+    pub(super) fn largest_residual(&self, structure: &Structure) -> f64 {
         let free = structure.number.iter().map(|&k| self.residual[k].abs());
         free.fold(0.0, f64::max)
     }
@@ -260,11 +263,16 @@ impl Solver {
     /// Newton's correction of a trial, from the last residual and factors: returns its size \[1\], the largest of rotations
     /// \[rad\] and translations over the size of the body.
     pub fn correct(&mut self, structure: &Structure, trial: &mut Trial) -> f64 {
+        self.solve_residual(structure);
+        apply(structure, &self.change, trial)
+    }
+
+    /// Fills `change` with what takes the last residual away, by the last factors.
+    pub(super) fn solve_residual(&mut self, structure: &Structure) {
         for (x, &k) in self.change.iter_mut().zip(&structure.number) {
             *x = -self.residual[k];
         }
         self.assembly.matrix.solve(&mut self.change);
-        apply(structure, &self.change, trial)
     }
 
     /// Ends a step: the trial, with what damping dissipated, becomes the state. To be called after [`Self::residual`] of

@@ -63,10 +63,7 @@ impl Solver {
             self.assembly.add(structure, [n, n], &mass_matrix(m, r));
         }
         self.assembly.factor(structure)?;
-        for (x, &k) in self.change.iter_mut().zip(&structure.number) {
-            *x = -self.residual[k];
-        }
-        self.assembly.matrix.solve(&mut self.change);
+        self.solve_residual(structure);
         for (x, &k) in self.change.iter().zip(&structure.number) {
             state.acceleration[k] = *x;
         }
