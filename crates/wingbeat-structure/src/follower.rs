@@ -2,7 +2,8 @@
 
 use wingbeat_math::{DMat3, DVec3};
 
-use crate::configuration::{Configuration, NODE};
+use crate::block::{add_pair, pair};
+use crate::configuration::Configuration;
 
 /// Part of a point that one node carries.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -79,16 +80,7 @@ impl Follower {
         for s in &self.shares {
             let part = s.weight * force;
             let back = DMat3::from_quat(at.rotation[s.node]).transpose();
-            let to = &mut loads[NODE * s.node..NODE * (s.node + 1)];
-            let moment = s.arm.cross(back * part);
-            (0..3).for_each(|k| to[k] += part[k]);
-            (0..3).for_each(|k| to[3 + k] += moment[k]);
+            add_pair(loads, s.node, [part, s.arm.cross(back * part)]);
         }
     }
-}
-
-/// Two vectors of the six numbers of node `n`.
-fn pair(numbers: &[f64], n: usize) -> [DVec3; 2] {
-    let at = &numbers[NODE * n..];
-    [DVec3::from_slice(at), DVec3::from_slice(&at[3..])]
 }

@@ -7,6 +7,8 @@
 
 use wingbeat_math::{DMat3, DQuat, DVec3, rotation_vector, tilde};
 
+use crate::block::{pair, six};
+
 /// A screw: translation u \[m\] and rotation theta \[rad\], both in the axes of its first frame.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct Screw {
@@ -43,16 +45,13 @@ impl Screw {
 
     /// The six numbers, translation first.
     pub fn numbers(&self) -> [f64; 6] {
-        let (u, t) = (self.u, self.theta);
-        [u.x, u.y, u.z, t.x, t.y, t.z]
+        six(self.u, self.theta)
     }
 
     /// From six numbers, translation first.
     pub fn from_numbers(n: &[f64; 6]) -> Self {
-        Self {
-            u: DVec3::from_slice(&n[..3]),
-            theta: DVec3::from_slice(&n[3..]),
-        }
+        let [u, theta] = pair(n, 0);
+        Self { u, theta }
     }
 }
 

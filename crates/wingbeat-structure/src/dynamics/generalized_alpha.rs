@@ -133,7 +133,6 @@ impl Trial {
 /// The method's parameters.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct GeneralizedAlpha {
-    spectral_radius: f64,
     alpha_m: f64,
     alpha_f: f64,
     gamma: f64,
@@ -158,17 +157,11 @@ impl GeneralizedAlpha {
         let alpha_f = rho / (rho + 1.0);
         let gamma = 0.5 - alpha_m + alpha_f;
         Ok(Self {
-            spectral_radius: rho,
             alpha_m,
             alpha_f,
             gamma,
             beta: 0.25 * (gamma + 0.5) * (gamma + 0.5),
         })
-    }
-
-    /// The spectral radius at high frequencies \[1\].
-    pub fn spectral_radius(&self) -> f64 {
-        self.spectral_radius
     }
 
     fn weights(&self, h: f64) -> Weights {

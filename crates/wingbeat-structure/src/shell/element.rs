@@ -66,7 +66,7 @@ impl Shell {
             lumps: lumps(places, quad.axes, section),
             area: quad.area,
         };
-        shell.rest = shell.strains(rest);
+        shell.rest = shell.strains(&shell.pose(rest));
         Ok(shell)
     }
 
@@ -75,25 +75,25 @@ impl Shell {
         self.area
     }
 
-    /// Rotations of the corners' nodes.
-    fn rotations(&self, at: &Configuration) -> [DMat3; 4] {
-        self.corner
-            .map(|k| DMat3::from_quat(at.rotation[self.nodes[k]]))
-    }
-
-    /// Places and axes of the corners.
-    fn vectors(&self, at: &Configuration, rotations: &[DMat3; 4]) -> Vectors {
+    /// How the corners stand in a configuration.
+    fn pose(&self, at: &Configuration) -> Pose {
+        let rotations = (self.corner).map(|k| DMat3::from_quat(at.rotation[self.nodes[k]]));
         let axis = |k: usize| std::array::from_fn(|i| rotations[i] * self.axes[i].col(k));
         let places = self.corner.map(|k| at.position[self.nodes[k]]);
-        [places, axis(0), axis(1), axis(2)]
+        let vectors = [places, axis(0), axis(1), axis(2)];
+        Pose { rotations, vectors }
+    }
+
+    /// Derivatives of the strains by the numbers of the corners.
+    fn gradient(&self, pose: &Pose) -> Gradient {
+        Gradient::new(&self.terms, &pose.vectors, &pose.rotations, &self.axes)
     }
 
     /// Changes of the strains' forms from rest.
-    fn strains(&self, at: &Configuration) -> [f64; STRAINS] {
-        let vectors = self.vectors(at, &self.rotations(at));
+    fn strains(&self, pose: &Pose) -> [f64; STRAINS] {
         let mut s = self.rest.map(|r| -r);
         for term in &self.terms {
-            let [left, right] = term.vectors(&vectors);
+            let [left, right] = term.vectors(&pose.vectors);
             s[term.strain] += left.dot(right);
         }
         s
@@ -111,6 +111,36 @@ impl Shell {
         });
         (stress, energy)
     }
+
+    /// Adds the tangent under the forces `stress` of the strains.
+    fn add_tangent(
+        &self,
+        (pose, gradient): (&Pose, &Gradient),
+        stress: &[f64; STRAINS],
+        out: &mut [f64],
+    ) {
+        let mut sum = self.tangent(out);
+        sum.material(gradient, &self.stiffness);
+        sum.geometric(
+            &self.terms,
+            stress,
+            &pose.vectors,
+            &pose.rotations,
+            &self.axes,
+        );
+    }
+
+    fn tangent<'a>(&'a self, out: &'a mut [f64]) -> Tangent<'a> {
+        Tangent::new(&self.corner, NODE * self.nodes.len(), out)
+    }
+}
+
+/// How the corners stand.
+struct Pose {
+    /// Rotations of their nodes.
+    rotations: [DMat3; 4],
+    /// Places and axes.
+    vectors: Vectors,
 }
 
 /// Each node once, and which of them stands at each corner.
@@ -131,20 +161,17 @@ impl Element for Shell {
     }
 
     fn internal(&self, at: &Configuration, tangent: bool, out: &mut ElementForces) -> f64 {
-        let rotations = self.rotations(at);
-        let vectors = self.vectors(at, &rotations);
-        let (stress, energy) = self.stresses(&self.strains(at));
+        let pose = self.pose(at);
+        let (stress, energy) = self.stresses(&self.strains(&pose));
         let size = NODE * self.nodes.len();
         out.force.clear();
         out.force.resize(size, 0.0);
-        let gradient = Gradient::new(&self.terms, &vectors, &rotations, &self.axes);
+        let gradient = self.gradient(&pose);
         gradient.force(&stress, &self.corner, &mut out.force);
         if tangent {
             out.tangent.clear();
             out.tangent.resize(size * size, 0.0);
-            let mut sum = Tangent::new(&self.corner, size, &mut out.tangent);
-            sum.material(&gradient, &self.stiffness);
-            sum.geometric(&self.terms, &stress, &vectors, &rotations, &self.axes);
+            self.add_tangent((&pose, &gradient), &stress, &mut out.tangent);
         }
         energy
     }
@@ -156,12 +183,9 @@ impl Element for Shell {
     /// Of the tangent the material's part, of bending alone. In a sheet that turns by much in a step the rates of its stretching
     /// are errors of the step times its large stiffness; what they damp is beyond what steps resolve.
     fn dissipation(&self, at: &Configuration, out: &mut ElementForces) {
-        let rotations = self.rotations(at);
-        let vectors = self.vectors(at, &rotations);
-        let size = NODE * self.nodes.len();
-        out.resize(size);
-        let gradient = Gradient::new(&self.terms, &vectors, &rotations, &self.axes);
-        let mut sum = Tangent::new(&self.corner, size, &mut out.tangent);
+        out.resize(NODE * self.nodes.len());
+        let gradient = self.gradient(&self.pose(at));
+        let mut sum = self.tangent(&mut out.tangent);
         sum.between([&gradient, &gradient], &self.stiffness, 1.0, &DAMPED);
     }
 
@@ -172,13 +196,10 @@ impl Element for Shell {
         factor: f64,
         tangent: &mut [f64],
     ) {
-        let rotations = self.rotations(at);
-        let vectors = self.vectors(at, &rotations);
-        let gradient = Gradient::new(&self.terms, &vectors, &rotations, &self.axes);
+        let pose = self.pose(at);
+        let gradient = self.gradient(&pose);
         let mut rates = [0.0; STRAINS];
-        let turned = self.rotations(before);
-        let from = self.vectors(before, &turned);
-        let foreseen = Gradient::new(&self.terms, &from, &turned, &self.axes);
+        let foreseen = self.gradient(&self.pose(before));
         foreseen.add_strains(velocity, &self.corner, &mut rates);
         let mut stress = [0.0; STRAINS];
         for [first, count] in DAMPED {
@@ -189,9 +210,10 @@ impl Element for Shell {
             }
         }
         let corners = self.corner.map(|k| pair(velocity, k));
-        let turned = Gradient::of_rates(&self.terms, &vectors, &rotations, &self.axes, &corners);
-        let mut sum = Tangent::new(&self.corner, NODE * self.nodes.len(), tangent);
-        sum.geometric(&self.terms, &stress, &vectors, &rotations, &self.axes);
+        let (vectors, rotations) = (&pose.vectors, &pose.rotations);
+        let turned = Gradient::of_rates(&self.terms, vectors, rotations, &self.axes, &corners);
+        let mut sum = self.tangent(tangent);
+        sum.geometric(&self.terms, &stress, vectors, rotations, &self.axes);
         sum.between([&gradient, &turned], &self.stiffness, factor, &DAMPED);
     }
 
@@ -202,20 +224,14 @@ impl Element for Shell {
         increment: &[f64],
         out: &mut ElementForces,
     ) {
-        let turned = self.rotations(before);
-        let from = self.vectors(before, &turned);
-        let rows = Gradient::new(&self.terms, &from, &turned, &self.axes);
-        let mut strains = self.strains(before);
-        rows.add_strains(increment, &self.corner, &mut strains);
+        let from = self.pose(before);
+        let mut strains = self.strains(&from);
+        let foreseen = self.gradient(&from);
+        foreseen.add_strains(increment, &self.corner, &mut strains);
         let (stress, _) = self.stresses(&strains);
-        let rotations = self.rotations(at);
-        let vectors = self.vectors(at, &rotations);
-        let size = NODE * self.nodes.len();
-        out.resize(size);
-        let gradient = Gradient::new(&self.terms, &vectors, &rotations, &self.axes);
-        let mut sum = Tangent::new(&self.corner, size, &mut out.tangent);
-        sum.material(&gradient, &self.stiffness);
-        sum.geometric(&self.terms, &stress, &vectors, &rotations, &self.axes);
+        let pose = self.pose(at);
+        out.resize(NODE * self.nodes.len());
+        self.add_tangent((&pose, &self.gradient(&pose)), &stress, &mut out.tangent);
     }
 
     fn add_mass(&self, rest: &Configuration, masses: &mut [MassProperties]) {
