@@ -37,7 +37,9 @@ pub struct Secants {
     sums: Vec<Vec<f64>>,
     /// Spare columns.
     spare: Vec<Vec<f64>>,
+    /// Orthonormal combinations of the corrections, and the same of the sums.
     basis: Vec<Vec<f64>>,
+    along: Vec<Vec<f64>>,
     has_past: bool,
 }
 
@@ -59,6 +61,7 @@ impl Secants {
             sums: vec![],
             spare: vec![],
             basis: vec![],
+            along: vec![],
             has_past: false,
         }
     }
@@ -131,14 +134,14 @@ impl Secants {
     /// Least squares by Gram and Schmidt, newest columns first: whatever is done to a column is done to its sum, too.
     fn combine(&mut self, f: &mut [f64]) {
         self.spare.append(&mut self.basis);
-        let mut along: Vec<Vec<f64>> = vec![];
+        self.spare.append(&mut self.along);
         for k in (0..self.corrections.len()).rev() {
             let (mut d, mut s) = (self.column(), self.column());
             d.extend_from_slice(&self.corrections[k]);
             s.extend_from_slice(&self.sums[k]);
             let size = norm(&d);
             for _ in 0..2 {
-                for (q, sum) in self.basis.iter().zip(&along) {
+                for (q, sum) in self.basis.iter().zip(&self.along) {
                     let part = dot(q, &d);
                     add(&mut d, -part, q);
                     add(&mut s, -part, sum);
@@ -146,18 +149,17 @@ impl Secants {
             }
             let rest = norm(&d);
             if rest <= self.dependent * size || size == 0.0 {
+                self.spare.extend([d, s]);
                 continue;
             }
             d.iter_mut().for_each(|x| *x /= rest);
             s.iter_mut().for_each(|x| *x /= rest);
             self.basis.push(d);
-            along.push(s);
+            self.along.push(s);
         }
-        let parts: Vec<f64> = self.basis.iter().map(|q| dot(q, &self.before)).collect();
-        for (part, sum) in parts.iter().zip(&along) {
-            add(f, -part, sum);
+        for (q, sum) in self.basis.iter().zip(&self.along) {
+            add(f, -dot(q, &self.before), sum);
         }
-        self.spare.append(&mut along);
     }
 }
 
