@@ -301,44 +301,37 @@ impl BladeWing {
         load
     }
 
-    /// How the forces on the nodes answer to motions of the sections, section by section, their wakes lagging as `lag` says; terms of
-    /// second order in the rates of turning are left out.
+    /// How the forces on the nodes answer to motions of the sections, section by section into `out`, their wakes lagging as `lag` says;
+    /// terms of second order in the rates of turning are left out.
     pub fn bent_answers(
         &self,
         sections: &[Section],
         states: &[SectionState],
         mut lag: Option<Lag<'_>>,
-    ) -> Vec<SectionAnswer> {
-        let by_velocity = self.velocity_answers(states, lag.as_mut());
-        let all = self
-            .strips()
-            .iter()
-            .zip(sections)
-            .zip(states.iter().zip(by_velocity));
-        let answer =
-            |((strip, section), (s, velocity)): ((&Strip, &Section), (&SectionState, _))| {
-                let mut answer = SectionAnswer {
-                    ways: ways(section, s),
-                    velocity,
-                    acceleration: [[0.0; 3]; 3],
-                };
-                if self.has_added_mass() {
-                    self.add_mass_answer(strip, s, &mut answer);
-                }
-                answer
-            };
-        all.map(answer).collect()
+        out: &mut Vec<SectionAnswer>,
+    ) {
+        out.resize_with(states.len(), SectionAnswer::default);
+        self.set_velocity_answers(states, lag.as_mut(), out);
+        let all = self.strips().iter().zip(sections).zip(states);
+        for (((strip, section), s), answer) in all.zip(out) {
+            set_ways(section, s, &mut answer.ways);
+            answer.acceleration = [[0.0; 3]; 3];
+            if self.has_added_mass() {
+                self.add_mass_answer(strip, s, answer);
+            }
+        }
     }
 
     /// Derivatives of force along chord and normal and moment at the feathering axis by the three velocities there.
-    fn velocity_answers(
+    fn set_velocity_answers(
         &self,
         states: &[SectionState],
         lag: Option<&mut Lag<'_>>,
-    ) -> Vec<[[f64; 3]; 3]> {
+        out: &mut [SectionAnswer],
+    ) {
         let gust = |k: usize, _: f64| states[k].wind;
         let mut slowed = self.slowed(lag, &gust);
-        let mut all = vec![[[0.0; 3]; 3]; states.len()];
+        out.iter_mut().for_each(|a| a.velocity = [[0.0; 3]; 3]);
         for way in 0..3 {
             for sign in [1.0, -1.0] {
                 let mut changed = [0.0; 3];
@@ -350,14 +343,13 @@ impl BladeWing {
                         let j = 2 * k + lane;
                         let step = 2.0 * SMALL * states[j].sizes()[way];
                         let loads = [f.along[lane], f.normal[lane], f.about[lane]];
-                        for (row, load) in all[j].iter_mut().zip(loads) {
+                        for (row, load) in out[j].velocity.iter_mut().zip(loads) {
                             row[way] += sign * load / step;
                         }
                     }
                 });
             }
         }
-        all
     }
 
     /// Adds the added mass of a strip: `-m (w' n)` at mid chord, in which `w' = .. + u q`, and `-J q'`.
@@ -418,20 +410,18 @@ fn pairs_of(
     }
 }
 
-/// The three ways to move a section, by its nodes.
-fn ways(section: &Section, s: &SectionState) -> [Vec<(usize, [DVec3; 2])>; 3] {
+/// Fills the three ways to move a section, by its nodes.
+fn set_ways(section: &Section, s: &SectionState, out: &mut [Vec<(usize, [DVec3; 2])>; 3]) {
     let ([e1, _, n], [u, w, _]) = (s.e, s.moves());
-    let nodes = |of: &dyn Fn(f64, f64) -> [DVec3; 2]| {
-        let share = |share: &Share| {
-            let here = share.place - s.x * share.chord;
-            (share.node, of(here, share.chord / s.d))
-        };
-        section.shares.iter().map(share).collect()
-    };
-    // A chord that sinks by its change along n turns chord and normal.
-    [
-        nodes(&|here, chord| [here * e1, w * chord * n]),
-        nodes(&|here, chord| [here * n, -u * chord * n]),
-        nodes(&|_, chord| [-chord * n, DVec3::ZERO]),
-    ]
+    out.iter_mut().for_each(Vec::clear);
+    for share in &section.shares {
+        let (here, chord) = (share.place - s.x * share.chord, share.chord / s.d);
+        // A chord that sinks by its change along n turns chord and normal.
+        let by = [
+            [here * e1, w * chord * n],
+            [here * n, -u * chord * n],
+            [-chord * n, DVec3::ZERO],
+        ];
+        (out.iter_mut().zip(by)).for_each(|(way, by)| way.push((share.node, by)));
+    }
 }

@@ -4,7 +4,7 @@
 use std::fmt;
 
 use wingbeat_air::{AirLoads, AirWorkspace, NodeMotion, Points};
-use wingbeat_blade::{SectionState, StripTrial};
+use wingbeat_blade::{SectionAnswer, SectionState, StripTrial};
 use wingbeat_dynamics::{AddedMass, BodyAcceleration, BodyMotion, Wrench};
 use wingbeat_math::DVec3;
 
@@ -87,6 +87,7 @@ pub(crate) struct BentScratch {
     pub velocity: Vec<DVec3>,
     pub acceleration: Vec<DVec3>,
     pub states: Vec<SectionState>,
+    pub answers: Vec<SectionAnswer>,
     pub forces: Vec<Vec<DVec3>>,
 }
 
@@ -95,6 +96,8 @@ pub(crate) struct BentScratch {
 pub(crate) struct StripScratch {
     pub time: f64,
     pub trials: Vec<Vec<StripTrial>>,
+    /// Those of a wing that is asked how it answers.
+    pub asked: Vec<StripTrial>,
 }
 
 /// Air around bodies that move.
@@ -214,7 +217,7 @@ pub trait Air: fmt::Debug + Send + Sync {
         _wing: usize,
         _at: &Instant<'_>,
         _memory: Option<&AirMemory>,
-        _scratch: &AirScratch,
+        _scratch: &mut AirScratch,
         _out: &mut WingResponse,
     ) -> Result<bool, FlightError> {
         Ok(false)

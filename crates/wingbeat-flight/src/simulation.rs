@@ -231,14 +231,8 @@ impl Simulation {
             }
             _ if self.equations().air.follows_accelerations() => {
                 let (mut answer, memory) = (WingResponse::default(), self.state.air.as_ref());
-                let air = &self.equations().air;
-                air.wing_response(
-                    wing.wing(),
-                    &at,
-                    memory,
-                    &self.scratch.air_scratch,
-                    &mut answer,
-                )?;
+                let (air, number) = (&self.equations().air, wing.wing());
+                air.wing_response(number, &at, memory, &mut air.scratch(), &mut answer)?;
                 answer
             }
             _ => return Ok(None),

@@ -1,4 +1,5 @@
-//! Steps allocate nothing once a flight is under way: in blade elements, with and without feedback.
+//! Steps allocate nothing once a flight is under way: in blade elements, with and without feedback, of rigid wings and of
+//! those that bend.
 
 mod common;
 
@@ -8,6 +9,9 @@ use allocation_counter::measure;
 use common::Fly;
 use wingbeat_blade::{BladeSettings, Unsteady};
 use wingbeat_flight::*;
+use wingbeat_model::deformation::SpanLaw;
+use wingbeat_model::structure::Damping;
+use wingbeat_model::{Coupling, Members, WingBeam, WingShell, WingStructure};
 
 fn blade() -> FlightSetup {
     let mut setup = Fly::default().setup(40, 4.0);
@@ -78,4 +82,69 @@ fn exact_no_allocation_between_looks() {
     (0..45).for_each(|_| step());
     let between = measure(|| (0..30).for_each(|_| step()));
     assert_eq!(between.count_total, 0);
+}
+
+/// Wings of 1 kHz that are beams, and such of sheets.
+fn members() -> [Members; 2] {
+    let beam = WingBeam {
+        axis_fraction: 0.3,
+        elements: 4,
+        stations: None,
+        flap: SpanLaw::constant(3e-10),
+        lag: SpanLaw::constant(3e-8),
+        torsion: SpanLaw::constant(1e-10),
+        axial: None,
+        coupling: Coupling::default(),
+        mass: None,
+        mass_fraction: 0.5,
+        inertia: None,
+        masses: vec![],
+    };
+    let sheet = WingShell {
+        young: [3e9; 2],
+        shear: None,
+        stretching: None,
+        thickness: SpanLaw::constant(1e-5),
+        ..WingShell::combes_daniel([common::SPAN, 1.7e-6, 6e-9], 0.3)
+    };
+    [Members::Beam(beam), Members::Shell(sheet)]
+}
+
+#[test]
+fn exact_no_allocation_in_steps_of_wings_that_bend() {
+    let wakes = Some(Unsteady::Peters { states: 8 });
+    for (members, unsteady) in members()
+        .into_iter()
+        .flat_map(|m| [(m.clone(), None), (m, wakes)])
+    {
+        let mut setup = blade();
+        for wing in &mut setup.animal.wings {
+            wing.structure = Some(WingStructure {
+                members: members.clone(),
+                damping: Damping {
+                    strain_rate: 1e-5,
+                    mass: 1.0,
+                },
+                spectral_radius: 0.9,
+            });
+        }
+        if let AirModel::BladeElement(air) = &mut setup.air {
+            air.blade.unsteady = unsteady;
+        }
+        let mut flight = Simulation::new(setup).expect("the little fly");
+        let mut copy = Record::default();
+        let mut step = || {
+            let record = flight.step().expect("a step");
+            copy.clone_from(record);
+        };
+        // Room grows with the most passes that a step has needed: a beat with its start.
+        (0..50).for_each(|_| step());
+        let half = measure(|| (0..20).for_each(|_| step()));
+        assert_eq!(half.count_total, 0, "{members:?} {unsteady:?}");
+        assert!(
+            copy.elastic
+                .iter()
+                .all(|e| e.tip.length() > 1e-3 * common::SPAN)
+        );
+    }
 }

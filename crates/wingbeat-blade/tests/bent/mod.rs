@@ -195,7 +195,8 @@ fn agrees_answers_of_sections_with_differences_of_their_forces() {
         .iter()
         .map(|s| s.state(&moving, calm, DMat3::IDENTITY))
         .collect();
-    let answers = bent.wing.bent_answers(&bent.sections, &states, None);
+    let mut answers = vec![];
+    (bent.wing).bent_answers(&bent.sections, &states, None, &mut answers);
     let predicted = |of: &dyn Fn(&SectionAnswer) -> [[f64; 3]; 3], change: &[DVec3]| {
         let mut out = vec![DVec3::ZERO; r.len()];
         for answer in &answers {

@@ -94,38 +94,36 @@ impl BentStrips {
         at: &Instant<'_>,
         wind: impl Fn(DVec3) -> DVec3,
         lag: Option<Lag<'_>>,
-        out: &mut WingResponse,
+        (s, out): (&mut BentScratch, &mut WingResponse),
     ) -> bool {
         let Some(shape) = self.shape(at) else {
             return false;
         };
         let m = &at.motions[self.wing + 1];
-        let mut s = BentScratch::default();
         s.set_nodes(
             m,
             at.accelerations.get(self.wing + 1),
             shape,
             blade.settings().free_stream,
         );
-        self.set_states(wind, m.r, &mut s);
-        let answers = blade.bent_answers(&self.sections, &s.states, lag);
-        let order = 3 * answers.len();
-        out.panels.clear();
+        self.set_states(wind, m.r, s);
+        blade.bent_answers(&self.sections, &s.states, lag, &mut s.answers);
+        let order = 3 * s.answers.len();
+        out.panels.resize_with(order, Vec::new);
         for matrix in [&mut out.matrix, &mut out.inertia] {
             matrix.clear();
             matrix.resize(order * order, 0.0);
         }
-        for (k, answer) in answers.into_iter().enumerate() {
+        for (k, answer) in s.answers.iter().enumerate() {
             for i in 0..3 {
                 let row = (3 * k + i) * order + 3 * k;
                 out.matrix[row..row + 3].copy_from_slice(&answer.velocity[i]);
                 out.inertia[row..row + 3].copy_from_slice(&answer.acceleration[i]);
             }
-            let turned = |nodes: Vec<(usize, [DVec3; 2])>| {
-                nodes.into_iter().map(|(n, by)| (n, by.map(|b| m.r * b)))
-            };
-            out.panels
-                .extend(answer.ways.map(|way| turned(way).collect()));
+            for (way, panel) in answer.ways.iter().zip(&mut out.panels[3 * k..]) {
+                panel.clear();
+                panel.extend(way.iter().map(|(n, by)| (*n, by.map(|b| m.r * b))));
+            }
         }
         if !blade.has_added_mass() {
             out.inertia.clear();

@@ -170,14 +170,15 @@ impl BladeAir {
         let load = |linear: DVec3, angular: DVec3| {
             let acc = BodyAcceleration { linear, angular };
             let (load, _) = self.acceleration_load(i, t, &BodyMotion::REST, &acc);
-            [load.force.to_array(), load.moment.to_array()].concat()
+            let (f, m) = (load.force, load.moment);
+            [f.x, f.y, f.z, m.x, m.y, m.z]
         };
         let still = load(DVec3::ZERO, DVec3::ZERO);
         let unit = |k: usize| match k {
             0..3 => load(DVec3::AXES[k], DVec3::ZERO),
             _ => load(DVec3::ZERO, DVec3::AXES[k - 3]),
         };
-        let columns: [Vec<f64>; 6] = std::array::from_fn(unit);
+        let columns: [[f64; 6]; 6] = std::array::from_fn(unit);
         // Exactly symmetric, as energy asks: the two halves differ by roundings.
         let entry = |j: usize, k: usize| still[j] - columns[k][j];
         let mean = |j: usize, k: usize| 0.5 * (entry(j, k) + entry(k, j));
@@ -245,7 +246,7 @@ impl Air for BladeAir {
         memory: &mut Option<AirMemory>,
         scratch: &AirScratch,
     ) -> Result<(), FlightError> {
-        let StripScratch { time, trials } = &scratch.strips;
+        let StripScratch { time, trials, .. } = &scratch.strips;
         if let Some(AirMemory::Strips(wakes)) = memory {
             let wings = self.wings.iter().zip(wakes).zip(trials);
             wings.for_each(|((wing, wake), trial)| wing.accept(wake, trial, *time));
@@ -290,13 +291,18 @@ impl Air for BladeAir {
         wing: usize,
         at: &Instant<'_>,
         memory: Option<&AirMemory>,
-        _scratch: &AirScratch,
+        scratch: &mut AirScratch,
         out: &mut WingResponse,
     ) -> Result<bool, FlightError> {
         let wind = self.wind_on(&at.motions[wing + 1], at.time);
-        let (bent, mut trial) = (self.bent[wing].as_ref(), vec![]);
-        let lag = lag(self.wakes(memory)?, wing, at.time, &mut trial);
-        Ok(bent.is_some_and(|b| b.respond(&self.wings[wing], at, wind, lag, out)))
+        let (bent, room) = (self.bent[wing].as_ref(), &mut scratch.bent);
+        let lag = lag(
+            self.wakes(memory)?,
+            wing,
+            at.time,
+            &mut scratch.strips.asked,
+        );
+        Ok(bent.is_some_and(|b| b.respond(&self.wings[wing], at, wind, lag, (room, out))))
     }
 
     fn follows_accelerations(&self) -> bool {

@@ -100,12 +100,12 @@ impl LatticeAir {
 
     /// How nodes of the mesh share in the panels of a wing, and move them.
     fn set_panels(&self, wing: usize, s: &AirScratch, out: &mut WingResponse) {
-        out.panels.clear();
-        for p in self.lattice.panels_of(wing) {
-            let mut nodes = vec![];
-            let now = (&s.loads, &s.nodes.position[..]);
+        let panels = self.lattice.panels_of(wing);
+        let now = (&s.loads, &s.nodes.position[..]);
+        out.panels.resize_with(panels.len(), Vec::new);
+        for (p, nodes) in panels.zip(&mut out.panels) {
+            nodes.clear();
             (self.lattice).normal_wash(p, &s.workspace, now, |n, by| nodes.push((n, by)));
-            out.panels.push(nodes);
         }
     }
 
@@ -252,7 +252,7 @@ impl Air for LatticeAir {
         wing: usize,
         _at: &Instant<'_>,
         memory: Option<&AirMemory>,
-        s: &AirScratch,
+        s: &mut AirScratch,
         out: &mut WingResponse,
     ) -> Result<bool, FlightError> {
         let state = wakes_of(memory).ok_or_else(|| misfit("a lattice needs its wakes"))?;
@@ -328,9 +328,9 @@ fn rigid_mass(
     let six = |p: usize| {
         let normal = back * loads.panels.normal[p];
         let turn = (back * (loads.panels.point[p] - m.p)).cross(normal);
-        [normal.to_array(), turn.to_array()].concat()
+        [normal.x, normal.y, normal.z, turn.x, turn.y, turn.z]
     };
-    let six: Vec<Vec<f64>> = panels.map(six).collect();
+    let six: Vec<[f64; 6]> = panels.map(six).collect();
     let mut mass = [[0.0; 6]; 6];
     for (row, by) in answer.chunks_exact(six.len()).zip(&six) {
         for (factor, of) in row.iter().zip(&six) {

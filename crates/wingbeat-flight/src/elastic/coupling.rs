@@ -220,7 +220,7 @@ impl ElasticWings {
         instant: &Instant<'_>,
         (air, memory): (&dyn Air, Option<&AirMemory>),
         s: &mut ElasticScratch,
-        air_scratch: &AirScratch,
+        air_scratch: &mut AirScratch,
     ) -> Result<(), FlightError> {
         for (w, ws) in self.wings.iter().zip(&mut s.wings) {
             let m = &instant.motions[w.wing + 1];
