@@ -178,7 +178,8 @@ impl Air for LatticeAir {
             (self.lattice)
                 .loads(state, t, h, &s.nodes, &mut s.workspace, &mut s.loads)
                 .map_err(|e| self.map.error_of(e, at))?;
-            s.nodes_done.clone_from(&s.nodes);
+            (s.nodes_done.position).clone_from(&s.nodes.position);
+            (s.nodes_done.velocity).clone_from(&s.nodes.velocity);
             s.is_current = true;
         }
         self.map.wrenches(&s.loads, at.motions, out);
