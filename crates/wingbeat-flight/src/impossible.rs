@@ -1,6 +1,6 @@
 //! Prescribed motions that no animal has, and of which no vortex lattice says what the air does.
 
-use wingbeat_model::{BodyPart, Crossing, crossings, inside};
+use wingbeat_model::{BodyPart, Crossing, FlownCrossings, crossings, inside};
 
 use crate::air::{check_joined, wing_pairs};
 use crate::setup::{AirModel, FlightSetup};
@@ -9,25 +9,48 @@ impl FlightSetup {
     /// Says which wings pass through each other in their prescribed motion ([`crossings`]), and what to do about it; wings with
     /// joints of their own, whose motion is not known beforehand, are left out.
     pub fn crossing_wings(&self) -> Vec<String> {
-        let wings = &self.animal.wings;
         let joined = self.joined_pairs();
-        let say = |c: Crossing| {
-            let [a, b] = c.wings.map(|w| &wings[w].name);
-            let remedy = match joined.iter().any(|j| c.wings.iter().all(|w| j.contains(w))) {
-                false => {
-                    "move their hinges apart (hinge_m), sweep them (theta) or change their phase"
-                }
-                true => {
-                    "feather less at the joined roots (twist the wing instead), change their phase, or do not join them"
-                }
-            };
-            format!(
-                "wings `{a}` and `{b}` pass through each other in {:.0} % of the beat: {remedy}",
-                (100.0 * c.part).max(1.0)
-            )
+        let remedy = |c: &Crossing| match joined
+            .iter()
+            .any(|j| c.wings.iter().all(|w| j.contains(w)))
+        {
+            false => "move their hinges apart (hinge_m), sweep them (theta) or change their phase",
+            true => {
+                "feather less at the joined roots (twist the wing instead), change their phase, or do not join them"
+            }
         };
-        let found = crossings(&self.animal, &self.prescribed_wings(), &joined);
-        found.into_iter().map(say).collect()
+        let say = |c: Crossing| format!("{}: {}", self.crossing(&c, "beat"), remedy(&c));
+        self.prescribed_crossings().into_iter().map(say).collect()
+    }
+
+    /// Which wings pass through each other in their prescribed motion; those with joints of their own are left out.
+    pub fn prescribed_crossings(&self) -> Vec<Crossing> {
+        crossings(&self.animal, &self.prescribed_wings(), &self.joined_pairs())
+    }
+
+    /// Counts how often wings pass through each other as they are flown, where that is not known beforehand: under feedback, or
+    /// with wings on joints of their own.
+    pub fn flown_crossings(&self) -> Option<FlownCrossings> {
+        let wings = self.animal.wings.len();
+        let is_open = self.feedback.is_some() || self.prescribed_wings().len() < wings;
+        (is_open && wings > 1).then(|| FlownCrossings::new(&self.animal, &self.joined_pairs()))
+    }
+
+    /// Says which wings passed through each other as they were flown, and what to do about it.
+    pub fn say_flown_crossing(&self, found: &Crossing) -> String {
+        let remedy = match self.feedback {
+            Some(_) => {
+                "limit the commands (control.amplitude_limit, control.angle_limit_deg), or move the hinges apart (hinge_m)"
+            }
+            None => "stop or stiffen the joints, or move the hinges apart (hinge_m)",
+        };
+        format!("{}: {remedy}", self.crossing(found, "flight"))
+    }
+
+    fn crossing(&self, found: &Crossing, time: &str) -> String {
+        let [a, b] = found.wings.map(|w| &self.animal.wings[w].name);
+        let part = (100.0 * found.part).max(1.0);
+        format!("wings `{a}` and `{b}` pass through each other in {part:.0} % of the {time}")
     }
 
     /// Says which wings are inside which parts of the body in their prescribed motion where the lattice has both as surfaces

@@ -3,7 +3,7 @@
 use crate::animal::{Animal, Wing};
 use crate::mesh::GridMesh;
 use crate::motion::{Start, WingMotion};
-use wingbeat_math::{DVec3, RotationLaw};
+use wingbeat_math::{DMat3, DVec3, RotationLaw};
 
 /// Instants of a beat at which wings are compared.
 pub(crate) const INSTANTS: usize = 100;
@@ -14,7 +14,7 @@ const LINES: [usize; 2] = [9, 17];
 /// What is no crossing but a touch, over the longest way across a wing.
 const TOUCH: f64 = 1e-6;
 
-/// Two wings that pass through each other in their prescribed motion.
+/// Two wings that pass through each other.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Crossing {
     /// The two, among the wings of the animal.
@@ -60,19 +60,92 @@ fn part_of_time(wings: [&Wing; 2], is_joined: bool) -> f64 {
     let gap = is_joined.then(|| root_gap(wings.map(|w| &w.mesh)));
     let met = (0..instants).filter(|&k| {
         let t = beat * k as f64 / INSTANTS as f64;
-        let [mut a, mut b] = [0, 1].map(|w| sheets[w].at(t));
-        if let Some(gap) = gap {
-            join(&sheets, [&mut a, &mut b], gap);
-        }
-        a.iter()
-            .any(|x| x.distance(b[0]) < sheets[0].size + sheets[1].size)
-            && (sheets[0].passes(&a, &sheets[1], &b) || sheets[1].passes(&b, &sheets[0], &a))
+        let nodes = [0, 1].map(|w| sheets[w].at(t));
+        meet(sheets.each_ref(), nodes, gap)
     });
     met.count() as f64 / instants as f64
 }
 
+/// Whether two sheets with these nodes pass through each other, roots at most `gap` \[m\] apart being joined.
+fn meet(sheets: [&Sheet; 2], [mut a, mut b]: [Vec<DVec3>; 2], gap: Option<f64>) -> bool {
+    if let Some(gap) = gap {
+        join(sheets, [&mut a, &mut b], gap);
+    }
+    let [one, other] = sheets;
+    !are_apart(&a, &b) && (one.passes(&a, other, &b) || other.passes(&b, one, &a))
+}
+
+/// Whether a plane across the line between their middles is between them.
+fn are_apart(a: &[DVec3], b: &[DVec3]) -> bool {
+    let middle = |nodes: &[DVec3]| nodes.iter().sum::<DVec3>() / nodes.len() as f64;
+    let way = middle(b) - middle(a);
+    let along = |nodes: &[DVec3]| nodes.iter().map(|x| x.dot(way)).collect::<Vec<f64>>();
+    let last = along(a).into_iter().fold(f64::NEG_INFINITY, f64::max);
+    let first = along(b).into_iter().fold(f64::INFINITY, f64::min);
+    last < first
+}
+
+/// Counts how often wings pass through each other as they are flown, shapes at rest.
+#[derive(Clone, Debug)]
+pub struct FlownCrossings {
+    sheets: Vec<Sheet>,
+    pairs: Vec<Pair>,
+    /// Instants that were looked at.
+    instants: usize,
+}
+
+/// Two wings, how near their roots are taken for joined \[m\], and at how many instants they met.
+#[derive(Clone, Debug)]
+struct Pair {
+    wings: [usize; 2],
+    gap: Option<f64>,
+    met: usize,
+}
+
+impl FlownCrossings {
+    /// For all pairs of wings of the animal; those `joined` as in [`crossings`].
+    pub fn new(animal: &Animal, joined: &[[usize; 2]]) -> Self {
+        let wings = &animal.wings;
+        let pairs = (0..wings.len()).flat_map(|a| (a + 1..wings.len()).map(move |b| [a, b]));
+        let pair = |of: [usize; 2]| {
+            let is_joined = joined.iter().any(|j| of.iter().all(|w| j.contains(w)));
+            let meshes = of.map(|w| &wings[w].mesh);
+            Pair {
+                wings: of,
+                gap: is_joined.then(|| root_gap(meshes)),
+                met: 0,
+            }
+        };
+        Self {
+            sheets: wings.iter().map(Sheet::new).collect(),
+            pairs: pairs.map(pair).collect(),
+            instants: 0,
+        }
+    }
+
+    /// Looks at an instant: places of the hinges \[m\] and attitudes of all wings in one frame.
+    pub fn see(&mut self, poses: &[(DVec3, DMat3)]) {
+        self.instants += 1;
+        for pair in &mut self.pairs {
+            let sheets = pair.wings.map(|w| &self.sheets[w]);
+            let nodes = pair.wings.map(|w| self.sheets[w].placed(poses[w]));
+            pair.met += usize::from(meet(sheets, nodes, pair.gap));
+        }
+    }
+
+    /// The pairs that passed through each other, and in which part of the instants.
+    pub fn found(&self) -> Vec<Crossing> {
+        let met = self.pairs.iter().filter(|p| p.met > 0);
+        let crossing = |p: &Pair| Crossing {
+            wings: p.wings,
+            part: p.met as f64 / self.instants as f64,
+        };
+        met.map(crossing).collect()
+    }
+}
+
 /// Puts the roots of two sheets midway between them, where they are at most `gap` \[m\] apart.
-fn join(sheets: &[Sheet; 2], [a, b]: [&mut [DVec3]; 2], gap: f64) {
+fn join(sheets: [&Sheet; 2], [a, b]: [&mut [DVec3]; 2], gap: f64) {
     let rows = sheets[0].rows.min(sheets[1].rows);
     let roots = || (0..rows).map(|i| [0, 1].map(|w| i * sheets[w].columns));
     if roots().all(|[m, n]| a[m].distance(b[n]) <= gap) {
@@ -84,6 +157,7 @@ fn join(sheets: &[Sheet; 2], [a, b]: [&mut [DVec3]; 2], gap: f64) {
 }
 
 /// Nodes of a wing at rest, and what moves them.
+#[derive(Clone, Debug)]
 pub(crate) struct Sheet {
     motion: WingMotion,
     hinge: DVec3,
@@ -118,8 +192,12 @@ impl Sheet {
 
     /// Its nodes at time `t` \[s\], body components \[m\].
     pub fn at(&self, t: f64) -> Vec<DVec3> {
-        let r = self.motion.at(t).c;
-        self.nodes.iter().map(|x| self.hinge + r * *x).collect()
+        self.placed((self.hinge, self.motion.at(t).c))
+    }
+
+    /// Its nodes \[m\] where the hinge is here and the wing has this attitude.
+    fn placed(&self, (hinge, r): (DVec3, DMat3)) -> Vec<DVec3> {
+        self.nodes.iter().map(|x| hinge + r * *x).collect()
     }
 
     /// Whether a line of this sheet, whose nodes are at `a`, passes through the other, whose are at `b`.
@@ -240,6 +318,21 @@ mod tests {
         }
         let slow = animal(vec![flapping(), wing(0.5, 0.0, 0.7)]);
         assert!((crossings(&slow, &[0, 1], &[])[0].part - 1.0 / 3.0).abs() < 0.02);
+        let flown = animal(vec![flapping(), wing(0.5, 0.0, 7.0)]);
+        let mut counted = FlownCrossings::new(&flown, &[]);
+        for k in 0..INSTANTS {
+            let t = k as f64 / INSTANTS as f64 / 7.0;
+            let pose = |w: &Wing| {
+                let motion = WingMotion {
+                    start: Start::Impulsive,
+                    ..w.motion.clone()
+                };
+                (w.hinge_b, motion.at(t).c)
+            };
+            let poses: Vec<_> = flown.wings.iter().map(pose).collect();
+            counted.see(&poses);
+        }
+        assert_eq!(counted.found(), crossings(&flown, &[0, 1], &[]));
         let far = animal(vec![flapping(), wing(0.9, 0.0, 7.0)]);
         assert_eq!(crossings(&far, &[0, 1], &[]), []);
     }

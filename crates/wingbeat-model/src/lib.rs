@@ -44,7 +44,7 @@ pub mod structure;
 pub use animal::{Animal, BodyPart, Segment, Wing};
 pub use build::{BodyMass, fit_body_length};
 pub use check::{ElasticReport, WingReport};
-pub use crossing::{Crossing, crossings, root_gap};
+pub use crossing::{Crossing, FlownCrossings, crossings, root_gap};
 pub use deformation::{Deformation, DeformingMesh};
 pub use error::ModelError;
 pub use import::Imported;

@@ -73,7 +73,12 @@ impl Summary {
             means: ManyBeats::of(&s.beats),
             beats: s.beats,
         };
-        let warnings = trust::warnings(setup, &summary);
+        let mut warnings = trust::warnings(setup, &summary);
+        trust::flown_crossings(
+            setup,
+            &s.crossings.map_or(vec![], |c| c.found()),
+            &mut warnings,
+        );
         (summary.verdict, summary.verdict_reason) = warnings.verdict(outcome);
         summary.warnings = warnings.into_texts();
         summary
@@ -111,7 +116,7 @@ fn momentum_residual(setup: &FlightSetup, s: &Statistics) -> f64 {
 /// What a thinned history leaves out.
 fn thinning(case: &LoadedCase) -> Option<String> {
     let every = case.output.history_every;
-    (every > 1).then(|| format!("The history holds every {} step and the ends of wingbeats: means of wingbeats, sums and extremes are those of all steps, residuals of balances those of its rows.", ordinal(every)))
+    (every > 1).then(|| format!("The history holds every {} step and the ends of wingbeats: means of wingbeats, sums and extremes are those of all steps, residuals of balances, passes of the corrector and forces that turn back from step to step those of its rows.", ordinal(every)))
 }
 
 /// A number as one counts: 1st, 2nd, 11th.

@@ -282,6 +282,12 @@ fn behaves_a_sweep_draws_power_against_speed_and_says_where_flight_ends() {
     assert_eq!(figure(&text, "least power at"), "2.000 m/s", "{text}");
     let svg = fs::read_to_string(dir.join("s.svg")).unwrap();
     assert!(svg.contains("speed forward [m/s]"));
+    let flies = [
+        "trim", "--steps", "40", "--sweep", "0.3", "0.9", "--points", "2",
+    ];
+    let text = said(dir, &flies);
+    let crossing = "warning: wings pass through each other from 0.900 to 0.900 m/s";
+    assert!(text.contains(crossing), "{text}");
     let out = wingbeat(dir, &[&sweep[..], &["2", "8", "--points", "3"]].concat());
     let told = String::from_utf8_lossy(&out.stdout);
     assert_eq!(out.status.code(), Some(1), "{told}");

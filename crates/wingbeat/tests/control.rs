@@ -16,6 +16,7 @@ use wingbeat::flight::{
     AirModel, ControlModel, Controller, Feedback, FlightSetup, FlightState, Sensed, Simulation,
 };
 use wingbeat::model::motion::Adjustment;
+use wingbeat::results::{Outcome, Summary};
 
 const PRESET: &str = "fruit-fly-controlled";
 
@@ -274,6 +275,30 @@ fn exact_actuators_lag_behind_a_step() {
             assert!((a - 0.1 * share).abs() < 1e-14, "{look}: {a}");
             assert!((b + 0.05 * share).abs() < 1e-14, "{look}: {b}");
         }
+    }
+}
+
+/// Strokes that feedback moves aft until the wings meet behind the body.
+#[test]
+fn behaves_summary_names_wings_that_commands_bring_through_each_other() {
+    for (offset, crosses) in [(-5_f64, false), (-40.0, true)] {
+        let mut setup = in_blades(&["time.beats=3"]);
+        let back = Adjustment {
+            stroke_offset: offset.to_radians(),
+            ..Adjustment::default()
+        };
+        setup.feedback = Some(Feedback {
+            controller: Arc::new(Constant(back)),
+            interval: 40,
+            latency: 0,
+            lag: 0.0,
+        });
+        assert!(setup.crossing_wings().is_empty());
+        let run = Flight::from(setup.clone()).fly().unwrap();
+        let summary = Summary::of(&setup, &run.records, &Outcome::Finished);
+        let named = "wings `left` and `right` pass through each other";
+        let said = summary.warnings.iter().any(|w| w.contains(named));
+        assert_eq!(said, crosses, "{offset}: {:?}", summary.warnings);
     }
 }
 

@@ -3,6 +3,8 @@
 use std::path::Path;
 
 use wingbeat_flight::{FlightSetup, Record};
+use wingbeat_math::{DVec3, EulerSequence};
+use wingbeat_model::FlownCrossings;
 
 use super::alternation::Alternation;
 use super::beats::{BeatMeans, Beats};
@@ -66,32 +68,48 @@ pub(super) struct Statistics {
     pub alternation: Alternation,
     /// Means over whole wingbeats.
     pub beats: Vec<BeatMeans>,
+    /// Of wings whose motion is not known beforehand.
+    pub crossings: Option<FlownCrossings>,
 }
 
 impl Statistics {
     /// Reads the history once.
     pub fn read(path: &Path, setup: &FlightSetup) -> Result<Self, IoError> {
         let mut records = Records::open(path, setup)?;
-        let (mut s, mut beats) = (Self::default(), Beats::new(setup));
+        let (mut s, mut beats) = (Self::new(setup), Beats::new(setup));
         while let Some(record) = records.next_record()? {
-            s.take(record, &mut beats);
-            s.alternation.take(record, setup.animal.wings.len());
+            s.take(record, &mut beats, setup.animal.wings.len());
         }
         Ok(s)
     }
 
     /// Of records in memory.
     pub fn of(records: &[Record], setup: &FlightSetup) -> Self {
-        let (mut s, mut beats) = (Self::default(), Beats::new(setup));
+        let (mut s, mut beats) = (Self::new(setup), Beats::new(setup));
         for record in records {
-            s.take(record, &mut beats);
-            s.alternation.take(record, setup.animal.wings.len());
+            s.take(record, &mut beats, setup.animal.wings.len());
         }
         s
     }
 
-    fn take(&mut self, r: &Record, beats: &mut Beats<'_>) {
+    fn new(setup: &FlightSetup) -> Self {
+        Self {
+            crossings: setup.flown_crossings(),
+            ..Self::default()
+        }
+    }
+
+    fn take(&mut self, r: &Record, beats: &mut Beats<'_>, wings: usize) {
         self.beats.extend(beats.take(r));
+        self.alternation.take(r, wings);
+        if let Some(crossings) = &mut self.crossings {
+            let of_wings = r.coordinates.chunks_exact(6).skip(1).take(wings);
+            let pose = |q: &[f64]| {
+                let attitude = EulerSequence::WING_132.rotation(DVec3::from_slice(&q[3..]));
+                (DVec3::from_slice(q), attitude)
+            };
+            crossings.see(&of_wings.map(pose).collect::<Vec<_>>());
+        }
         if self.rows == 0 {
             self.first.clone_from(r);
         }

@@ -7,6 +7,7 @@ use wingbeat_flight::{
     AirModel, BladeOptions, FlightSetup, FormulationChoice, IntegratorChoice, MotionMode,
 };
 use wingbeat_math::DVec3;
+use wingbeat_model::Crossing;
 
 use super::beats::BeatMeans;
 use super::numbers::Summary;
@@ -18,6 +19,9 @@ const IMPLAUSIBLE_LIFT: f64 = 10.0;
 /// Steps in a row in which the force of a wing turns back, from which on the integrator is not stable. Presets have 0 to 4;
 /// a body that is light in pitch, by `hamming`, all.
 const ALTERNATING: usize = 10;
+
+/// Relative difference from a whole number of steps in a wingbeat that is rounding.
+const WHOLE: f64 = 1e-9;
 
 /// A balance with a larger residual is open; the tolerances are lower where the motion is smooth.
 const OPEN: f64 = 1e-2;
@@ -70,6 +74,12 @@ pub(super) fn warnings(setup: &FlightSetup, summary: &Summary) -> Warnings {
             summary.violation_position_m, summary.violation_orientation
         ));
     }
+    if let (Some(period), false) = (setup.time.period, summary.beats.is_empty()) {
+        let steps = period / setup.time.step;
+        if (steps - steps.round()).abs() > WHOLE * steps {
+            list.limit(format!("A wingbeat is {steps:.4} steps long: what is called a wingbeat here are {:.0} steps, and means over them drift through the beat. Give time.steps_per_beat in place of time.step_s.", steps.round()));
+        }
+    }
     if matches!(setup.mode, MotionMode::Tethered(_)) {
         list.note("Tethered: the body does not answer to the forces on it.".to_owned());
     }
@@ -81,6 +91,22 @@ pub(super) fn warnings(setup: &FlightSetup, summary: &Summary) -> Warnings {
         );
     }
     list
+}
+
+/// Wings that passed through each other as they were flown, where their prescribed motion alone does not.
+pub(super) fn flown_crossings(setup: &FlightSetup, found: &[Crossing], list: &mut Warnings) {
+    if !setup.crossing_wings().is_empty() {
+        return;
+    }
+    let texts = found.iter().map(|c| setup.say_flown_crossing(c));
+    for text in texts {
+        match &setup.air {
+            AirModel::VortexLattice(_) => list.limit(format!(
+                "The motion that was flown is impossible: {text}. The forces of those instants have no meaning."
+            )),
+            _ => list.note(format!("The motion that was flown is impossible: {text}.")),
+        }
+    }
 }
 
 /// Wing lengths by which a flyer passes through the air in a wingbeat below which wings come back into their wakes \[1\].

@@ -29,6 +29,8 @@ pub(crate) struct Found {
     pub(crate) body_roll: f64,
     /// Largest stroke angle of a wing from end to end \[rad\].
     pub(crate) stroke: f64,
+    /// Which wings pass through each other.
+    pub(crate) crossing_wings: Vec<String>,
 }
 
 /// Largest stroke angle of a wing from end to end \[rad\].
@@ -52,6 +54,7 @@ impl From<&Trim> for Found {
             body_pitch: t.body_pitch,
             body_roll: t.body_roll,
             stroke: stroke(&t.setup),
+            crossing_wings: t.setup.crossing_wings(),
         }
     }
 }
@@ -71,6 +74,7 @@ impl From<&WakeTrim> for Found {
             body_pitch: t.body_pitch,
             body_roll: t.body_roll,
             stroke: stroke(&t.setup),
+            crossing_wings: t.setup.crossing_wings(),
         }
     }
 }
@@ -121,6 +125,10 @@ pub(super) fn tell(report: &mut Report, case: &LoadedCase, problem: &TrimProblem
             "warning: strokes of {stroke:.0} deg: right and left wings pass through each other; choose other --unknowns (frequency, for instance), or a slower flight"
         );
     }
+    if stroke <= 180.0 {
+        (t.crossing_wings.iter()).for_each(|text| tell!("warning: {text}"));
+    }
+    report.value("crossing_wings", t.crossing_wings.as_slice());
     let strokes = [Unknown::StrokeAmplitude, Unknown::StrokeAmplitudeDifference];
     let changes = [t.adjustment, t.difference].map(|a| a.stroke_amplitude);
     if let Some(unknown) = turned_inside_out(&strokes, &changes) {

@@ -88,6 +88,15 @@ fn tell(report: &mut Report, name: &str, found: &Sweep) {
         line!(report, "  least work per distance at {v:.3} m/s");
         report.value("least_work_per_distance_forward_m_s", v);
     }
+    let crossing: Vec<(f64, f64)> = found.flights.iter().filter_map(crossing).collect();
+    if let (Some((from, _)), Some((to, _))) = (crossing.first(), crossing.last()) {
+        let most = crossing.iter().fold(0.0_f64, |m, (_, part)| m.max(*part));
+        line!(
+            report,
+            "  warning: wings pass through each other from {from:.3} to {to:.3} m/s, in up to {:.0} % of the beat: no animal flies so",
+            (100.0 * most).max(1.0)
+        );
+    }
     if let Some((velocity, lost)) = &found.lost {
         let why = match lost {
             Lost::NotTrimmed(Some(residual)) => format!("largest residual {residual:.1e}"),
@@ -111,6 +120,13 @@ fn tell(report: &mut Report, name: &str, found: &Sweep) {
     report.value("flights", flights);
 }
 
+/// Speed of a flight whose wings pass through each other, and the part of the beat in which they do.
+fn crossing(flight: &Swept) -> Option<(f64, f64)> {
+    let found = flight.trim.setup.prescribed_crossings();
+    let part = found.iter().map(|c| c.part).reduce(f64::max)?;
+    Some((flight.velocity.x, part))
+}
+
 fn value(flight: &Swept) -> Value {
     let r = row(flight);
     let [air, perfect, none] = r.power;
@@ -123,6 +139,7 @@ fn value(flight: &Swept) -> Value {
         "stroke_amplitude_deg": r.stroke_amplitude.to_degrees(),
         "frequency_hz": r.frequency,
         "body_pitch_deg": r.body_pitch.to_degrees(),
+        "crossing_wings_part_of_beat": crossing(flight).map_or(0.0, |(_, part)| part),
         "unknowns": values(&flight.trim.unknowns, &Found::from(&flight.trim)),
     })
 }
