@@ -234,6 +234,14 @@ impl Campaign {
 
     /// The numbers that are kept.
     fn kept(&self) -> Result<Vec<Number>, IoError> {
+        if self.raw.keep.is_empty() {
+            return Err(self.fault(
+                "keep",
+                "no number is kept".to_owned(),
+                "at least one name",
+                "keep = [\"lift_over_weight\", \"power_watt\"], for instance; `wingbeat campaign numbers FILE` lists all",
+            ));
+        }
         let all = self.possible()?;
         let mut kept: Vec<Number> = vec![];
         for (k, name) in self.raw.keep.iter().enumerate() {

@@ -94,14 +94,6 @@ pub fn words(document: &Document, raw: &RawCampaign, name: &str) -> Result<(), I
         );
     }
     check_tasks(document, raw)?;
-    if raw.keep.is_empty() {
-        return wrong(
-            "keep",
-            "no number is kept",
-            "at least one name",
-            "keep = [\"lift_over_weight\", \"power_watt\"], for instance",
-        );
-    }
     if raw.trim.is_some() && !raw.tasks.contains(&Task::Trim) {
         return wrong(
             "trim",

@@ -30,7 +30,8 @@ pub struct RawCampaign {
     /// What is done at each point, one after the other.
     #[serde(rename = "do", default = "only_run")]
     pub tasks: Vec<Task>,
-    /// Numbers that are kept, by their names.
+    /// Numbers that are kept, by their names, one at least; `wingbeat campaign numbers FILE` lists all.
+    #[serde(default)]
     pub keep: Vec<String>,
     /// Wingbeats at the end over which means are taken, 1 or more, default 1.
     pub mean_beats: Option<usize>,

@@ -319,6 +319,11 @@ fn set(table: &mut Table, path: &str, value: Value) -> Result<(), String> {
             }
             (Part::Index(k), Value::Array(items)) if *k < items.len() => &mut items[*k],
             (Part::Index(k), _) => return Err(format!("there is no element [{k}] to set")),
+            (Part::Name(name), _) if name.parse::<usize>().is_ok() => {
+                return Err(format!(
+                    "`{name}` cannot be set: the elements of a list are [0], [1] and so on, without a point before them"
+                ));
+            }
             (Part::Name(name), _) => {
                 return Err(format!(
                     "`{name}` cannot be set: what holds it is not a table"

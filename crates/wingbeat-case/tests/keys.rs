@@ -388,6 +388,17 @@ fn invariant_every_key_says_what_it_is_and_when_to_change_it() {
 }
 
 #[test]
+fn invariant_the_key_of_coefficients_names_all_shipped_sets() {
+    let schema = schema();
+    let mut of_blades = keys_of(&schema, "BladeCase");
+    let (_, key) = of_blades.find(|(name, _)| *name == "coefficients").unwrap();
+    let about = key["description"].as_str().unwrap();
+    for set in wingbeat_blade::SETS {
+        assert!(about.contains(&format!("`{}`", set.name)), "{}", set.name);
+    }
+}
+
+#[test]
 fn regress_the_page_of_keys_is_that_of_the_program() {
     let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/case-keys.md");
     let page = std::fs::read_to_string(file).unwrap();

@@ -18,6 +18,8 @@ const ATTACK: f64 = 35.0;
 const DENSITY: f64 = 1000.0;
 /// Height of the hinges above the mass centre in hover over the wing length.
 const HINGE_HEIGHT: f64 = 0.25;
+/// Hinges to the side of the middle, over the diameter of the body, at least: wings do not dip into it.
+const HINGE_CLEARANCE: f64 = 0.65;
 /// Distance of the wing's root from its hinge over the wing length.
 const ROOT: f64 = 0.045;
 /// Pitch of the body in hover [deg].
@@ -117,10 +119,19 @@ frames_every = 2
 ";
 
 /// An ellipsoid of revolution with the density of water.
+fn body_mass(insect: &Insect) -> f64 {
+    insect.mass.value - 2.0 * insect.wing_mass.value
+}
+
+/// Diameter of the ellipsoid that stands for the body [m].
+fn diameter(insect: &Insect) -> f64 {
+    let volume = body_mass(insect) / DENSITY;
+    (6.0 * volume / (std::f64::consts::PI * insect.body_length.value)).sqrt()
+}
+
 fn body(insect: &Insect) -> String {
-    let mass = insect.mass.value - 2.0 * insect.wing_mass.value;
-    let length = insect.body_length.value;
-    let diameter = (6.0 * mass / (std::f64::consts::PI * DENSITY * length)).sqrt();
+    let (mass, length) = (body_mass(insect), insect.body_length.value);
+    let diameter = diameter(insect);
     format!(
         "
 [body]
@@ -142,7 +153,8 @@ diameter_m = {}
 
 fn wing(insect: &Insect, stroke: f64) -> String {
     let length = insect.wing_length.value;
-    let aside = HINGE_HEIGHT * length / 2.0_f64.sqrt();
+    let up = HINGE_HEIGHT * length / 2.0_f64.sqrt();
+    let aside = up.max(HINGE_CLEARANCE * diameter(insect));
     let measured = insect.stroke.as_ref().map_or(String::new(), |stroke| {
         format!(
             "; {} deg from end to end: {}",
@@ -154,7 +166,7 @@ fn wing(insect: &Insect, stroke: f64) -> String {
         "
 # The right wing; the left one is its mirror image.
 [wing.right]
-hinge_m = [{aside}, {aside}, -{aside}]  # {HINGE_HEIGHT} wing lengths above the mass centre in hover: estimate
+hinge_m = [{up}, {aside}, -{up}]  # {HINGE_HEIGHT} wing lengths above the mass centre in hover: estimate
 mass_kg = {mass}  # a wing; {rest}
 
 [wing.right.motion.phi.fourier]
@@ -178,6 +190,7 @@ least_chord = 0.15         # at root and tip, relative to the largest
 chordwise = 4
 spanwise = 10
 ",
+        up = number(up),
         aside = number(aside),
         mass = number(insect.wing_mass.value),
         rest = insect.wing_mass.source,

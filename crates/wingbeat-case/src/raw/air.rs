@@ -141,13 +141,13 @@ pub struct AirCase {
     ///
     /// Change it with the section of the wing: aerofoils hold about 0.18 times the root of their nose's radius over 0.008 chords.
     #[default(0.15)]
-    #[schemars(extend("exclusiveMinimum" = 0, "with" = [LATTICE, "leading_edge = suction | suction_implicit | vortex_lift"]))]
+    #[schemars(extend("exclusiveMinimum" = 0, "with" = [LATTICE, "leading_edge = suction | suction_implicit | vortex_lift", "shed = leading"]))]
     pub leading_edge_threshold: f64,
     /// Part of the force of that suction which acts, and of all else that pulls along the wing: none on the thin edges of insects.
     ///
     /// Change it to 1 for round leading edges.
     #[default(0.0)]
-    #[schemars(extend("minimum" = 0, "maximum" = 1, "with" = [LATTICE, "leading_edge = suction | suction_implicit | vortex_lift", "loads = joukowski"]))]
+    #[schemars(extend("minimum" = 0, "maximum" = 1, "with" = [LATTICE, "leading_edge = suction | suction_implicit | vortex_lift", "shed = leading", "loads = joukowski"]))]
     pub leading_edge_suction_efficiency: f64,
     /// Chords of travel, of each strip by the chord of its section normal to the edge, for which the vortex of a leading edge can be fed before its lift is lost.
     ///

@@ -9,7 +9,8 @@ use wingbeat_blade::{AddedMass, CentreOfPressure};
 #[derive(Clone, Debug, PartialEq, SmartDefault, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct BladeCase {
-    /// Published set of translational coefficients by name.
+    /// Published set of translational coefficients by name: `dickson-2008`, `dickinson-1999`, `berman-wang-fruit-fly`,
+    /// `whitney-wood-2010`, `wang-dragonfly`, `byl`, `deng-2006`.
     ///
     /// Change it to the set that was measured nearest to your Reynolds number and aspect ratio.
     #[default("dickson-2008".to_owned())]

@@ -121,18 +121,18 @@ pub struct WingMotionCase {
     /// Change it for wings that beat differently.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub data: Option<String>,
-    /// Flap (stroke) angle about axis 1. Left out: that of the data set, else 0.
+    /// Flap (stroke) angle about axis 1 of the right wing, growing forward (in the downstroke); 0 is straight out. Left out: that of the data set, else 0.
     ///
     /// Change it for angles of your own.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub phi: Option<AngleCase>,
-    /// Deviation out of the stroke plane about axis 3. Left out: that of the data set, else 0.
+    /// Deviation out of the stroke plane about axis 3 of the right wing, in hover growing downward. Left out: that of the data set, else 0.
     ///
     /// Change it for angles of your own.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub theta: Option<AngleCase>,
-    /// Feathering about axis 2; in hover 0 is the chord along the normal of the stroke plane
-    /// and +-90 lies in the plane. Left out: that of the data set, else 0.
+    /// Feathering about axis 2 of the right wing; in hover 0 is the chord along the normal of the stroke plane
+    /// and +-90 lies in the plane; near -50 in the downstroke, when the leading edge leads, near +50 in the upstroke. Left out: that of the data set, else 0.
     ///
     /// Change it for angles of your own.
     #[serde(skip_serializing_if = "Option::is_none")]

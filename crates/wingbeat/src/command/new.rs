@@ -140,7 +140,9 @@ fn write_schema(case: &Target, overwrite: bool) -> Result<(), Failure> {
         return Err(Failure::Option(problem.to_owned()));
     };
     let file = path.with_file_name(case::SCHEMA_FILE);
-    write_file(&file, case::schema().as_bytes(), overwrite)?;
+    // As `wingbeat schema` prints it.
+    let schema = format!("{}\n", case::schema());
+    write_file(&file, schema.as_bytes(), overwrite)?;
     say!("wrote {}", file.display());
     Ok(())
 }
