@@ -58,14 +58,13 @@ impl JointType {
         }
     }
 
-    /// Number of free directions that elements can act along.
+    /// Number of free directions that elements can act along: a point on a line has its three rotations.
     pub fn directions(&self) -> usize {
         match self {
             Self::Weld => 0,
             Self::Revolute { .. } | Self::Prismatic { .. } => 1,
             Self::Universal { .. } => 2,
-            Self::Spherical => 3,
-            Self::PointOnLine { .. } => 4,
+            Self::Spherical | Self::PointOnLine { .. } => 3,
         }
     }
 }
@@ -162,6 +161,17 @@ impl ElementLaw {
         }
     }
 
+    /// A range of a stop whose upper end is below its lower one.
+    fn reversed_range(&self) -> Option<(String, f64)> {
+        match self {
+            Self::Stop { lower, upper, .. } if lower > upper => Some((
+                format!("upper end of a stop (it must not be below the lower end {lower})"),
+                *upper,
+            )),
+            _ => None,
+        }
+    }
+
     /// The numbers of the law with their names.
     fn numbers(&self) -> Vec<(&'static str, f64)> {
         let series = |f: &DriftingFourier| {
@@ -186,7 +196,6 @@ impl ElementLaw {
                 ("upper end", *upper),
                 ("stiffness", *stiffness),
                 ("damping", *damping),
-                ("width of the range, square root", (upper - lower).sqrt()),
             ],
             Self::Effort(f) => series(f),
             Self::Follow {
@@ -281,11 +290,14 @@ impl JointModel {
             ));
         }
         for e in &self.elements {
-            if e.direction >= self.kind.directions().min(3) {
+            if e.direction >= self.kind.directions() {
                 return Some(("free direction of an element".into(), e.direction as f64));
             }
             if let Some((name, x)) = e.law.numbers().into_iter().find(|(_, x)| !x.is_finite()) {
                 return Some((format!("{name} of an element"), x));
+            }
+            if let Some(fault) = e.law.reversed_range() {
+                return Some(fault);
             }
         }
         let start = self.coordinates.iter().chain(&self.rates);

@@ -5,8 +5,8 @@ use crate::common;
 use common::*;
 use wingbeat_dynamics::euler::assembly::{consistent_coordinates, consistent_rates, kinematics};
 use wingbeat_dynamics::{
-    Baumgarte, Body, BodyMotion, DynamicsError, EulerForm, Formulation, Joint, MomentumForm,
-    NaturalUnits, System,
+    Baumgarte, Body, BodyMotion, DynamicsError, ElementLaw, EulerForm, Formulation, Joint,
+    JointModel, JointType, MomentumForm, NaturalUnits, System,
 };
 use wingbeat_math::{DMat3, DVec3, EulerSequence, MassProperties};
 
@@ -39,6 +39,20 @@ fn exact_impossible_systems_are_refused_by_name() {
     assert!(
         nan.contains("`right hinge`") && nan.contains("NaN"),
         "{nan}"
+    );
+    let stop = ElementLaw::Stop {
+        lower: 0.5,
+        upper: -0.25,
+        stiffness: 1e-8,
+        damping: 0.0,
+    };
+    let range = message(changed(|_, h, _, _| {
+        h[1].model.kind = JointType::Spherical;
+        h[1].model.elements = JointModel::new(JointType::Spherical).with(0, stop).elements;
+    }));
+    assert!(
+        range.contains("`right hinge`") && range.contains("0.5") && range.contains("-0.25"),
+        "{range}"
     );
     let gravity = message(changed(|_, _, g, _| g.z = f64::INFINITY));
     assert!(gravity.contains("gravity"), "{gravity}");

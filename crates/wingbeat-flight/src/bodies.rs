@@ -160,7 +160,7 @@ pub fn joint_coordinates(setup: &FlightSetup) -> Result<Vec<JointCoordinate>, Dy
     let mechanism = Mechanism::of(&system_of(setup)?);
     let of = |joint: &Joint| {
         let (name, kind) = (joint.name.clone(), joint.model.kind);
-        let of = kind.directions().min(3);
+        let of = kind.directions();
         (0..of).map(move |direction| JointCoordinate {
             joint: name.clone(),
             kind,

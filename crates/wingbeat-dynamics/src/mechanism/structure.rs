@@ -80,7 +80,7 @@ impl Mechanism {
     pub fn coordinates(&self, t: f64, motions: &[BodyMotion], out: &mut Vec<[f64; 2]>) {
         out.clear();
         for joint in &self.joints {
-            let n = joint.model.kind.directions().min(3);
+            let n = joint.model.kind.directions();
             out.extend(&kinematics(joint, t, motions).coordinates()[..n]);
         }
     }
