@@ -1,6 +1,6 @@
 //! Mechanical power of flapping: aerodynamic, inertial, and what the muscles pay.
 
-use wingbeat_dynamics::{Body, BodyMotion, Element, Joint, Mechanism};
+use wingbeat_dynamics::{Body, BodyMotion, ElementLaw, Joint, Mechanism};
 use wingbeat_flight::{FlightSetup, LoadRecord, Past, Record, Simulation, system_of};
 use wingbeat_math::DVec3;
 
@@ -222,19 +222,12 @@ fn joint_powers(record: &Record) -> Vec<f64> {
 fn passive_powers(mechanism: &Mechanism, record: &Record) -> Vec<f64> {
     let mut coordinates = record.joints.as_slice();
     let of = |joint: &Joint| {
-        let n = joint.model.kind.directions().min(3).min(coordinates.len());
+        let n = joint.model.kind.directions().min(coordinates.len());
         let (own, rest) = coordinates.split_at(n);
         coordinates = rest;
-        let passive = joint
-            .model
-            .elements
-            .iter()
-            .filter(|e| e.law.drive().is_none());
-        let power = |e: &Element| {
-            let [q, u] = own[e.direction];
-            e.law.effort(record.time, q, u) * u
-        };
-        passive.map(power).sum()
+        let passive = |law: &ElementLaw| law.drive().is_none();
+        let efforts = joint.model.efforts(record.time, own, passive);
+        efforts.iter().zip(own).map(|(f, [_, u])| f * u).sum()
     };
     mechanism.joints().iter().map(of).collect()
 }

@@ -210,14 +210,16 @@ impl FreeScratch {
         if joint.elements.is_empty() {
             return 0.0;
         }
-        let k = j - offsets.u;
-        let value = if joint.kind == JointType::Spherical {
-            let turn = DQuat::from_slice(&q[offsets.q..]).normalize();
-            rotation_vector(DMat3::from_quat(turn))[k]
+        let mut motion = [[0.0; 2]; 3];
+        let (q, u) = (&q[offsets.q..], &u[offsets.u..]);
+        if joint.kind == JointType::Spherical {
+            let turn = DQuat::from_slice(q).normalize();
+            let theta = rotation_vector(DMat3::from_quat(turn));
+            (0..3).for_each(|k| motion[k] = [theta[k], u[k]]);
         } else {
-            q[offsets.q + k]
-        };
-        joint.effort(k, t, value, u[j])
+            (0..offsets.speeds).for_each(|k| motion[k] = [q[k], u[k]]);
+        }
+        joint.efforts(t, &motion, |_| true)[j - offsets.u]
     }
 
     /// Row j of the matrix.

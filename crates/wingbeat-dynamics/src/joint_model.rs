@@ -215,7 +215,8 @@ impl ElementLaw {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Element {
     /// Index of the direction: 0 for one axis; 0 or 1 for a universal joint; 0, 1, 2 for the
-    /// components of the rotation vector of a spherical one.
+    /// components of the rotation vector of a spherical one, and for its dampers and given moments the axes of the
+    /// child.
     pub direction: usize,
     /// What acts.
     pub law: ElementLaw,
@@ -262,14 +263,6 @@ impl JointModel {
             rates: rates.to_vec(),
             ..self
         }
-    }
-
-    /// Sum of the efforts along `direction` at time `t` \[s\].
-    pub fn effort(&self, direction: usize, t: f64, q: f64, u: f64) -> f64 {
-        (self.elements.iter())
-            .filter(|e| e.direction == direction)
-            .map(|e| e.law.effort(t, q, u))
-            .sum()
     }
 
     /// The first thing wrong with the joint's numbers: what it is and its value.

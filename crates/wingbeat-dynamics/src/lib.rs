@@ -58,6 +58,7 @@ mod check;
 pub mod configuration;
 mod cycle;
 mod driven;
+mod effort;
 mod error;
 pub mod euler;
 mod euler_form;

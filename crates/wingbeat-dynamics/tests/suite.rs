@@ -11,5 +11,6 @@ mod mechanism_motions;
 mod mechanisms;
 mod refusals;
 mod solutions;
+mod spherical;
 mod tether;
 mod verification;

@@ -21,6 +21,7 @@ pub mod mass;
 pub mod newton;
 pub mod ode;
 pub mod rotation;
+pub mod rotation_jacobian;
 mod secants;
 pub mod series;
 mod small_lu;

@@ -5,6 +5,7 @@
 //! screws is `[[A, dA[u]], [0, A]]`, `dA[u]` the derivative of A along u (Sonneville, Cardona & Bruls 2014, appendix A;
 //! Barfoot, State Estimation for Robotics, 2017, eq. 7.95).
 
+use wingbeat_math::rotation_jacobian::{Curve, inverse_right_jacobian as a};
 use wingbeat_math::{DMat3, DQuat, DVec3, rotation_vector, tilde};
 
 use crate::block::{pair, six};
@@ -53,69 +54,6 @@ impl Screw {
         let [u, theta] = pair(n, 0);
         Self { u, theta }
     }
-}
-
-/// `c(x) = (1 - h cot h) / x`, `h = sqrt(x) / 2`, with its first two derivatives by x = theta^2.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Curve {
-    c: f64,
-    first: f64,
-    second: f64,
-}
-
-/// Coefficients of the power series of c: `|B_2n| / (2n)!`, n = 1, 2, ... with Bernoulli's numbers.
-const SERIES: [f64; 10] = [
-    1.0 / 12.0,
-    1.0 / 720.0,
-    1.0 / 30_240.0,
-    1.0 / 1_209_600.0,
-    1.0 / 47_900_160.0,
-    691.0 / 1_307_674_368_000.0,
-    1.0 / 74_724_249_600.0,
-    3617.0 / 10_670_622_842_880_000.0,
-    43_867.0 / 5_109_094_217_170_944_000.0,
-    174_611.0 / 802_857_662_698_291_200_000.0,
-];
-
-impl Curve {
-    /// At a rotation vector of at most half a turn.
-    pub fn at(theta: DVec3) -> Self {
-        let x = theta.length_squared();
-        // The series converges as (x / 39.5)^n; the closed form loses digits as x^-2.
-        if x < 0.5 {
-            Self::series(x)
-        } else {
-            Self::closed(x)
-        }
-    }
-
-    fn series(x: f64) -> Self {
-        let (mut c, mut first, mut second) = (0.0, 0.0, 0.0);
-        for s in SERIES.iter().rev() {
-            second = second * x + 2.0 * first;
-            first = first * x + c;
-            c = c * x + s;
-        }
-        Self { c, first, second }
-    }
-
-    /// `a = h cot h` fulfils `a' = (a - a^2) / (2 x) - 1/8`.
-    fn closed(x: f64) -> Self {
-        let h = 0.5 * x.sqrt();
-        let a = h / h.tan();
-        let bend = (a - a * a) / (2.0 * x);
-        let (a1, c) = (bend - 0.125, (1.0 - a) / x);
-        let a2 = a1 * (0.5 - a) / x - bend / x;
-        let first = -(a1 + c) / x;
-        let second = -(a2 + 2.0 * first) / x;
-        Self { c, first, second }
-    }
-}
-
-/// Inverse of the right Jacobian of rotations, A(theta).
-fn a(curve: &Curve, theta: DVec3) -> DMat3 {
-    let t = tilde(theta);
-    DMat3::IDENTITY + t * 0.5 + t * t * curve.c
 }
 
 /// Derivative of A(theta) along u.

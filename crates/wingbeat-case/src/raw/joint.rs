@@ -138,7 +138,7 @@ pub enum JointKind {
     Revolute,
     /// Rotation about two perpendicular `axes`.
     Universal,
-    /// Any rotation.
+    /// Any rotation; its three angles are the components of the rotation vector, at most half a turn.
     Spherical,
     /// Displacement along `axis`.
     Prismatic,
@@ -201,6 +201,9 @@ pub struct TravelCase {
 
 /// What acts along a free direction: any of spring, damper, stop, actuator. Rotations take the
 /// keys with `newton_m`, displacements those with `newton` and `m`.
+///
+/// At a `spherical` joint springs, stops and `follow` act along components of the rotation vector, so that springs of any
+/// stiffness keep energy; dampers and `moment_newton_m` act about the axes of the child.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct ElementCase {

@@ -165,11 +165,14 @@ fn effort(joint: &Joint, l: &JointKinematics, t: f64) -> [DVec3; 2] {
     if joint.model.elements.is_empty() {
         return sum;
     }
-    let q = l.coordinates();
-    for e in &joint.model.elements {
-        let [value, rate] = q[e.direction];
-        let (size, d) = (e.law.effort(t, value, rate), l.direction(e.direction));
-        (0..2).for_each(|k| sum[k] += size * d[k]);
+    let efforts = joint.model.efforts(t, &l.coordinates(), |_| true);
+    for (k, size) in efforts
+        .iter()
+        .enumerate()
+        .take(joint.model.kind.directions())
+    {
+        let d = l.direction(k);
+        (0..2).for_each(|part| sum[part] += *size * d[part]);
     }
     sum
 }
