@@ -7,6 +7,7 @@ mod idle;
 mod joints;
 mod keys;
 mod meshes;
+mod mirrored_joints;
 mod presets;
 mod slips;
 mod table1;

@@ -9,7 +9,7 @@ use wingbeat_math::{DVec3, EulerSequence, RotationLaw};
 use wingbeat_model::Animal;
 
 use super::fault::Built;
-use super::joint::body_names;
+use super::names::body_names;
 use super::numbers::vector;
 use crate::error::Fault;
 use crate::raw::{

@@ -9,21 +9,12 @@ use wingbeat_math::DVec3;
 use wingbeat_model::Animal;
 
 use super::fault::Built;
+use super::mirrored::mirrored;
+use super::names::body_names;
 use super::numbers::vector;
-use super::{element, segment};
+use super::{element, segment, wing};
 use crate::error::Fault;
 use crate::raw::{Case, JointCase, JointKind, TravelCase, TurnCase};
-use crate::sides::mirror_name;
-
-/// Names of all bodies in the order of the system: body, wings, segments.
-pub(super) fn body_names(animal: &Animal) -> Vec<&str> {
-    let wings = animal.wings.iter().map(|w| w.name.as_str());
-    let segments = animal.segments.iter().map(|s| s.name.as_str());
-    std::iter::once("body")
-        .chain(wings)
-        .chain(segments)
-        .collect()
-}
 
 /// All joints, those mirrored to left wings among them.
 pub(super) fn build_all(case: &Case, animal: &Animal) -> Built<Vec<Joint>> {
@@ -256,42 +247,6 @@ fn start(path: &str, joint: &JointCase) -> Built<[Vec<f64>; 2]> {
         }
     }
     Ok(starts)
-}
-
-/// The joint of a right wing for a left wing that has none, and the other way round: points are
-/// mirrored, axes of rotation too, so that equal angles are mirror images.
-fn mirrored(
-    case: &Case,
-    animal: &Animal,
-    name: &str,
-    joint: &JointCase,
-) -> Option<(String, JointCase)> {
-    let is_wing = |n: &str| animal.wings.iter().any(|w| w.name == n);
-    let counterpart = mirror_name(&joint.child).filter(|t| is_wing(t) && is_wing(&joint.child))?;
-    let taken = case.joint.values().any(|j| j.child == counterpart);
-    if taken || joint.kind == JointKind::Spherical {
-        return None;
-    }
-    let point = |[x, y, z]: [f64; 3]| [x, -y, z];
-    let turning = |[x, y, z]: [f64; 3]| [-x, y, -z];
-    let slides = matches!(joint.kind, JointKind::Prismatic | JointKind::PointOnLine);
-    let parent = joint.parent.as_deref().and_then(|p| {
-        let other = mirror_name(p).filter(|t| body_names(animal).contains(&t.as_str()));
-        other.or(Some(p.to_owned()))
-    });
-    let image = JointCase {
-        parent,
-        child: counterpart.clone(),
-        at_m: joint.at_m.map(point),
-        at_child_m: joint.at_child_m.map(point),
-        axis: joint
-            .axis
-            .map(|a| if slides { point(a) } else { turning(a) }),
-        axes: joint.axes.map(|axes| axes.map(turning)),
-        ..joint.clone()
-    };
-    let name = mirror_name(name).unwrap_or_else(|| format!("{name}-{counterpart}"));
-    Some((name, image))
 }
 
 /// The key of what the dynamics finds wrong with the joints.

@@ -15,6 +15,7 @@ mod flight;
 mod joint;
 mod lattice;
 mod lengths;
+mod mirrored;
 mod motion;
 mod names;
 mod numbers;

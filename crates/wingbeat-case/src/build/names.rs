@@ -38,3 +38,13 @@ pub(super) fn check(animal: &Animal) -> Built<()> {
     }
     Ok(())
 }
+
+/// Names of all bodies in the order of the system: body, wings, segments.
+pub(super) fn body_names(animal: &Animal) -> Vec<&str> {
+    let wings = animal.wings.iter().map(|w| w.name.as_str());
+    let segments = animal.segments.iter().map(|s| s.name.as_str());
+    std::iter::once("body")
+        .chain(wings)
+        .chain(segments)
+        .collect()
+}

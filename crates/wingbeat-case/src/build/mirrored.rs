@@ -1,0 +1,86 @@
+//! Joints of wings that came along by mirror symmetry.
+
+use wingbeat_model::Animal;
+
+use super::names::body_names;
+use crate::raw::{Case, ElementCase, JointCase, JointKind, SeriesCase, TravelCase};
+use crate::sides::mirror_name;
+
+/// The joint of a right wing for a left wing that has none, and the other way round: points and displacements are
+/// mirrored, axes of rotation too, so that equal angles are mirror images. A spherical joint has no axes: the first and
+/// third component of its rotation vector change sign.
+pub(super) fn mirrored(
+    case: &Case,
+    animal: &Animal,
+    name: &str,
+    joint: &JointCase,
+) -> Option<(String, JointCase)> {
+    let is_wing = |n: &str| animal.wings.iter().any(|w| w.name == n);
+    let counterpart = mirror_name(&joint.child).filter(|t| is_wing(t) && is_wing(&joint.child))?;
+    if case.joint.values().any(|j| j.child == counterpart) {
+        return None;
+    }
+    let turning = |[x, y, z]: [f64; 3]| [-x, y, -z];
+    let slides = matches!(joint.kind, JointKind::Prismatic | JointKind::PointOnLine);
+    let parent = joint.parent.as_deref().and_then(|p| {
+        let other = mirror_name(p).filter(|t| body_names(animal).contains(&t.as_str()));
+        other.or(Some(p.to_owned()))
+    });
+    let mut image = JointCase {
+        parent,
+        child: counterpart.clone(),
+        at_m: joint.at_m.map(point),
+        at_child_m: joint.at_child_m.map(point),
+        axis: joint
+            .axis
+            .map(|a| if slides { point(a) } else { turning(a) }),
+        axes: joint.axes.map(|axes| axes.map(turning)),
+        travel: joint.travel.as_ref().map(travel),
+        ..joint.clone()
+    };
+    if joint.kind == JointKind::Spherical {
+        reverse_turns(&mut image);
+    }
+    let name = mirror_name(name).unwrap_or_else(|| format!("{name}-{counterpart}"));
+    Some((name, image))
+}
+
+fn point([x, y, z]: [f64; 3]) -> [f64; 3] {
+    [x, -y, z]
+}
+
+fn travel(of: &TravelCase) -> TravelCase {
+    let points = |list: &[[f64; 3]]| list.iter().copied().map(point).collect();
+    TravelCase {
+        frequency_hz: of.frequency_hz,
+        cosine_m: points(&of.cosine_m),
+        sine_m: points(&of.sine_m),
+    }
+}
+
+/// The other sense for the first and third angle of a spherical joint.
+fn reverse_turns(joint: &mut JointCase) {
+    for starts in [&mut joint.start_deg, &mut joint.start_deg_s] {
+        let angles = starts.iter_mut().flatten().step_by(2);
+        angles.for_each(|angle| *angle = -*angle);
+    }
+    let reversed = joint.element.iter_mut().filter(|e| e.direction != 1);
+    reversed.for_each(reverse);
+}
+
+/// The other sense for what acts along an angle.
+fn reverse(element: &mut ElementCase) {
+    element.rest_deg = element.rest_deg.map(|angle| -angle);
+    if let Some(stop) = &mut element.stop {
+        (stop.lower_deg, stop.upper_deg) = (-stop.upper_deg, -stop.lower_deg);
+    }
+    let target = element.follow.as_mut().map(|f| &mut f.angle_deg);
+    let series = element.moment_newton_m.as_mut().into_iter().chain(target);
+    series.for_each(negate);
+}
+
+fn negate(series: &mut SeriesCase) {
+    series.mean = -series.mean;
+    let amplitudes = series.cosine.iter_mut().chain(&mut series.sine);
+    amplitudes.for_each(|x| *x = -*x);
+}

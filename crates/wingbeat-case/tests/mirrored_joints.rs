@@ -1,0 +1,92 @@
+//! Joints of wings: mirror images on the left, one place of the hinge, and what is not scaled or shifted with it.
+
+use std::path::Path;
+
+use wingbeat_case::LoadedCase;
+use wingbeat_flight::{Record, Simulation};
+use wingbeat_math::DVec3;
+
+const FLYER: &str = "format = 1
+[time]
+steps_per_beat = 80
+beats = 0.25
+[motion]
+frequency_hz = 25
+stroke_plane_pitch_deg = 40
+[flight]
+mode = \"free\"
+pitch_deg = 45
+[dynamics]
+integrator = \"bdf\"
+[air]
+model = \"blade_element\"
+[body]
+mass_kg = 1.5e-3
+inertia_about_centre_kg_m2 = [1e-7, 2e-7, 2.1e-7, 0, 0, 0]
+[wing.right]
+hinge_m = [8e-3, 6e-3, -8e-3]
+mass_kg = 5e-5
+[wing.right.planform.rectangle]
+chord_m = 18e-3
+span_m = 48e-3
+[wing.right.mesh]
+chordwise = 2
+spanwise = 6
+[wing.right.motion]
+phi.fourier = { sine_deg = [40.0] }
+";
+
+/// A spherical joint with something of each kind along each of its angles.
+const BALL: &str = "joint.h={ child = \"right\", kind = \"spherical\", start_deg = [8, -4, 5], start_deg_s = [100, 200, -300], element = [
+{ direction = 0, stiffness_newton_m_per_rad = 5e-4, rest_deg = 10, stop = { lower_deg = -3, upper_deg = 6, stiffness_newton_m_per_rad = 1e-3 } },
+{ direction = 1, stiffness_newton_m_per_rad = 9e-4, rest_deg = -5, damping_newton_m_s_per_rad = 1e-6 },
+{ direction = 2, moment_newton_m = { mean = 1e-5, sine = [2e-5] }, follow = { angle_deg = { mean = 4, cosine = [3] }, stiffness_newton_m_per_rad = 7e-4, damping_newton_m_s_per_rad = 1e-6 } },
+] }";
+
+fn load(set: &[&str]) -> Result<LoadedCase, String> {
+    let set: Vec<String> = set.iter().map(|&s| s.to_owned()).collect();
+    LoadedCase::from_text("flyer", FLYER, Path::new(""), &set).map_err(|e| e.to_string())
+}
+
+fn fly(set: &[&str]) -> Vec<Record> {
+    let mut flight = Simulation::new(load(set).unwrap().setup).unwrap();
+    let mut records = vec![flight.record().clone()];
+    while !flight.finished() {
+        records.push(flight.step().unwrap().clone());
+    }
+    records
+}
+
+fn place(record: &Record, body: usize) -> DVec3 {
+    DVec3::from_slice(&record.coordinates[6 * body..])
+}
+
+#[test]
+fn invariant_spherical_joints_of_both_wings_are_mirror_images() {
+    let records = fly(&[BALL]);
+    let mut largest = 0.0_f64;
+    for r in &records {
+        let [left, right] = [&r.joints[..3], &r.joints[3..]];
+        for ((l, r), sign) in left.iter().zip(right).zip([-1.0, 1.0, -1.0]) {
+            // The body's own rounding grows with the fall.
+            assert!((l[0] - sign * r[0]).abs() < 1e-9, "{l:?} {r:?}");
+            largest = largest.max((r[0] - records[0].joints[3][0]).abs());
+        }
+        assert!(place(r, 0).y.abs() < 1e-12, "{}", place(r, 0).y); // rounding of the steps
+    }
+    assert!(largest > 0.02); // the joints move
+}
+
+#[test]
+fn exact_travel_of_the_right_wing_is_mirrored() {
+    let travel = "joint.h={ child = \"right\", travel = { sine_m = [[1e-3, 2e-3, 3e-3]] } }";
+    let records = fly(&[travel, "flight.mode=tethered", "air.model=none"]);
+    for r in &records {
+        let [left, right] = [1, 2].map(|wing| place(r, wing) - place(r, 0));
+        // In the axes of the world: the body is pitched about the axis of the mirror.
+        let image = DVec3::new(right.x, -right.y, right.z);
+        assert!(left.distance(image) < 1e-15, "{left} {right}");
+    }
+    let [first, last] = [&records[0], &records[20]].map(|r| place(r, 2));
+    assert!((last - first).y > 1.9e-3); // a quarter of a beat: all of the sine
+}
