@@ -3,6 +3,7 @@
 use std::f64::consts::{FRAC_PI_3, PI};
 
 use wingbeat_flight::{FlightSetup, faster};
+use wingbeat_math::DVec3;
 use wingbeat_model::motion::Adjustment;
 
 use crate::AnalysisError;
@@ -143,21 +144,35 @@ pub(crate) struct Adjusted {
     pub roll: f64,
 }
 
-/// An error if an unknown is not what it says for the joints of `setup`.
+/// An error if an unknown is not what it says for what `setup` has at places of its own: joints, springs, loads.
 pub(crate) fn check_unknowns(
     setup: &FlightSetup,
     unknowns: &[Unknown],
 ) -> Result<(), AnalysisError> {
-    match setup.joints.first() {
-        Some(joint) if unknowns.contains(&Unknown::MassCentre) => Err(AnalysisError::not_covered(
-            format!(
-                "mass_centre shifts the hinges of wings against the body, and joint `{}` has a place of its own",
-                joint.name
-            ),
-            "choose other unknowns, or shift at_m of the joints in the case",
-        )),
-        _ => Ok(()),
+    if !unknowns.contains(&Unknown::MassCentre) {
+        return Ok(());
     }
+    let refused = |what: String, remedy| {
+        let why = format!(
+            "mass_centre shifts the hinges of wings against the body, and {what} has a place of its own"
+        );
+        Err(AnalysisError::not_covered(why, remedy))
+    };
+    if let Some(joint) = setup.joints.first() {
+        let remedy = "choose other unknowns, or shift at_m of the joints in the case";
+        return refused(format!("joint `{}`", joint.name), remedy);
+    }
+    let mut springs = setup.springs.iter();
+    if let Some(spring) = springs.find(|s| s.bodies.contains(&0)) {
+        let remedy = "choose other unknowns, or shift at_m of the springs in the case";
+        return refused(format!("spring `{}`", spring.name), remedy);
+    }
+    let mut loads = setup.loads.iter();
+    if let Some(k) = loads.position(|l| l.body == 0 && l.point != DVec3::ZERO) {
+        let remedy = "choose other unknowns, or load the body at its origin";
+        return refused(format!("the point of load[{k}]"), remedy);
+    }
+    Ok(())
 }
 
 /// The setup with the values of `unknowns`; a body attitude that is not among them is `pitch` and `roll`.

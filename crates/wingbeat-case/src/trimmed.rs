@@ -229,6 +229,8 @@ pub fn derivative_case(
     raw.segment.clear();
     raw.joint.clear();
     raw.spring.clear();
+    let points = raw.load.iter_mut().flat_map(|load| &mut load.point_m);
+    points.for_each(|x| *x *= raw.animal.scale);
     raw.animal.scale = 1.0;
     raw.body = BodyCase {
         mass_kg: Some(mass),

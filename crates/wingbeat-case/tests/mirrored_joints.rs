@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use wingbeat_analysis::{TrimProblem, Unknown, trim};
 use wingbeat_case::LoadedCase;
 use wingbeat_flight::{Record, Simulation};
 use wingbeat_math::DVec3;
@@ -89,4 +90,56 @@ fn exact_travel_of_the_right_wing_is_mirrored() {
     }
     let [first, last] = [&records[0], &records[20]].map(|r| place(r, 2));
     assert!((last - first).y > 1.9e-3); // a quarter of a beat: all of the sine
+}
+
+fn refused(set: &[&str], words: &[&str]) {
+    let text = load(set).map(|_| ()).unwrap_err();
+    assert!(words.iter().all(|w| text.contains(w)), "{text}");
+}
+
+#[test]
+fn refuses_another_place_for_the_hinge_of_a_wing() {
+    let joint = |at: &str| format!("joint.h={{ child = \"right\", at_m = {at} }}");
+    let words = ["joint.h.at_m", "wing.right.hinge_m", "remove at_m"];
+    refused(&[&joint("[0.02, 0.01, 0]")], &words);
+    load(&[&joint("[8e-3, 6e-3, -8e-3]")]).unwrap();
+}
+
+#[test]
+fn refuses_a_point_on_a_wing_that_came_along_by_mirror_symmetry() {
+    let joint = "joint.h={ child = \"left\", at_child_m = [0, 0.01, 0] }";
+    refused(&[joint], &["joint.h.at_child_m", "closes loops there"]);
+}
+
+const SPRING: &str = "spring.t={ between = [\"body\", \"right\"], at_m = [[0, 0, 0], [0, 0.01, 0]], stiffness_newton_per_m = 1.0 }";
+const PULL: &str = "load=[{ force_newton = [0, 0, 1e-3], point_m = [1e-3, 0, 0] }]";
+
+#[test]
+fn exact_points_of_loads_are_scaled_with_the_animal_and_springs_are_refused() {
+    let large = load(&[PULL, "animal.scale=2"]).unwrap().setup;
+    assert_eq!(large.loads[0].point, DVec3::new(2e-3, 0.0, 0.0));
+    refused(
+        &[SPRING, "animal.scale=2"],
+        &["animal.scale", "springs between points", "[spring.*]"],
+    );
+}
+
+#[test]
+fn refuses_to_shift_the_mass_centre_of_a_body_with_springs_and_loads() {
+    let unknowns = [
+        Unknown::StrokeAmplitude,
+        Unknown::Frequency,
+        Unknown::MassCentre,
+    ];
+    for (set, named) in [(SPRING, "spring `t`"), (PULL, "the point of load[0]")] {
+        let setup = load(&[set, "dynamics.integrator=\"hamming\""])
+            .unwrap()
+            .setup;
+        let problem = TrimProblem {
+            unknowns: unknowns.to_vec(),
+            ..TrimProblem::straight(DVec3::ZERO, 0.7)
+        };
+        let text = trim(&setup, &problem).map(|_| ()).unwrap_err().to_string();
+        assert!(text.contains(named), "{text}");
+    }
 }

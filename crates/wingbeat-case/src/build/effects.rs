@@ -147,7 +147,8 @@ fn adjustments(case: &Case, setup: &FlightSetup) -> Built<()> {
 
 /// What joints are told and cannot do.
 fn joints(case: &Case) -> Built<()> {
-    let is_wing = |name: &str| case.wing.contains_key(name);
+    let given = |name: &str| case.wing.contains_key(name);
+    let is_wing = |name: &str| given(name) || mirror_name(name).is_some_and(|other| given(&other));
     for (name, joint) in &case.joint {
         let path = |key: &str| format!("joint.{name}.{key}");
         let JointCase { child, travel, .. } = joint;
@@ -155,7 +156,7 @@ fn joints(case: &Case) -> Built<()> {
         if joint.at_child_m.is_some() && on_wing {
             return Err(idle(
                 path("at_child_m"),
-                "at a wing, which turns about its hinge",
+                "at a wing, which turns about its hinge and closes loops there",
             ));
         }
         let moves = |t: &crate::raw::TravelCase| !t.cosine_m.is_empty() || !t.sine_m.is_empty();

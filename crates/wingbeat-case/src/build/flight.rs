@@ -178,10 +178,10 @@ fn singular(key: &str, what: &str) -> Fault {
     )
 }
 
-/// Applied loads.
+/// Applied loads: their points are places on the animal and scaled with it, their forces are as given.
 pub(super) fn loads(case: &Case, animal: &Animal) -> Built<Vec<AppliedLoad>> {
     let all = case.load.iter().enumerate();
-    all.map(|(k, load)| applied(&format!("load[{k}]"), load, animal))
+    all.map(|(k, load)| applied(&format!("load[{k}]"), load, animal, case.animal.scale))
         .collect()
 }
 
@@ -225,7 +225,7 @@ pub(super) fn springs(case: &Case, animal: &Animal) -> Built<Vec<PointSpring>> {
     built.collect()
 }
 
-fn applied(path: &str, load: &LoadCase, animal: &Animal) -> Built<AppliedLoad> {
+fn applied(path: &str, load: &LoadCase, animal: &Animal, scale: f64) -> Built<AppliedLoad> {
     let body = body(format!("{path}.on"), &load.on, animal)?;
     let f = load.frequency_hz;
     let series = |constant: &[f64; 3], cosine: &[[f64; 3]], sine: &[[f64; 3]]| {
@@ -240,7 +240,7 @@ fn applied(path: &str, load: &LoadCase, animal: &Animal) -> Built<AppliedLoad> {
     Ok(AppliedLoad {
         body,
         frame: load.frame,
-        point: vector(load.point_m),
+        point: vector(load.point_m) * scale,
         force: series(
             &load.force_newton,
             &load.force_cosine_newton,

@@ -18,14 +18,7 @@ use crate::raw::{Case, JointCase, JointKind, TravelCase, TurnCase};
 
 /// All joints, those mirrored to left wings among them.
 pub(super) fn build_all(case: &Case, animal: &Animal) -> Built<Vec<Joint>> {
-    if !case.joint.is_empty() && case.animal.scale != 1.0 {
-        return Err(Fault::new(
-            "animal.scale",
-            "an animal with joints is not scaled: springs have no common law of size",
-            "1 with [joint.*]",
-            "give masses, sizes and springs of the animal in its own size",
-        ));
-    }
+    check_scale(case)?;
     let mut joints = vec![];
     for (name, joint) in &case.joint {
         joints.push(build(case, animal, name, joint)?);
@@ -35,6 +28,24 @@ pub(super) fn build_all(case: &Case, animal: &Animal) -> Built<Vec<Joint>> {
     }
     segment::check_carried(animal, &joints)?;
     Ok(joints)
+}
+
+/// What has no law of size is not scaled.
+fn check_scale(case: &Case) -> Built<()> {
+    if case.animal.scale == 1.0 {
+        return Ok(());
+    }
+    let (what, tables) = match (case.joint.is_empty(), case.spring.is_empty()) {
+        (true, true) => return Ok(()),
+        (false, _) => ("joints", "[joint.*]"),
+        (true, false) => ("springs between points", "[spring.*]"),
+    };
+    Err(Fault::new(
+        "animal.scale",
+        format!("an animal with {what} is not scaled: springs have no common law of size"),
+        format!("1 with {tables}"),
+        "give masses, sizes and springs of the animal in its own size",
+    ))
 }
 
 fn build(case: &Case, animal: &Animal, name: &str, joint: &JointCase) -> Built<Joint> {
@@ -58,6 +69,7 @@ fn build(case: &Case, animal: &Animal, name: &str, joint: &JointCase) -> Built<J
             "exchange parent and child",
         ));
     }
+    check_hinge(case, animal, &path, joint, [parent, child])?;
     let (anchor_parent, anchor_child) = anchors(animal, &path, joint, [parent, child])?;
     let wing = child <= animal.wings.len();
     if wing && joint.turn.is_some() {
@@ -104,6 +116,35 @@ fn find(animal: &Animal, path: &str, key: &str, name: &str) -> Built<usize> {
             format!("use one of these names, or add [segment.{name}]"),
         )
     })
+}
+
+/// A wing has one hinge: a joint that carries it from another body than a wing is there.
+fn check_hinge(
+    case: &Case,
+    animal: &Animal,
+    path: &str,
+    joint: &JointCase,
+    [parent, child]: [usize; 2],
+) -> Built<()> {
+    let on_wing = (1..=animal.wings.len()).contains(&parent);
+    let wing = animal.wings.get(child - 1).filter(|_| !on_wing);
+    let (Some(at), Some(wing)) = (joint.at_m.map(vector), wing) else {
+        return Ok(());
+    };
+    let hinge = wing.hinge_b;
+    if at.distance(hinge) <= 1e-9 * hinge.length() {
+        return Ok(());
+    }
+    let key = format!("wing.{}.hinge_m", wing::source_of(case, &wing.name));
+    Err(Fault::new(
+        format!("{path}.at_m"),
+        format!(
+            "this is another place than the hinge of wing `{}`, about which it turns",
+            wing.name
+        ),
+        format!("the place of {key}: {:?}", hinge.to_array()),
+        format!("remove at_m, or correct {key}"),
+    ))
 }
 
 /// Joint point on parent and child. On a wing it is given in wing axes from its hinge.

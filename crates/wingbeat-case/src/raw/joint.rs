@@ -24,7 +24,7 @@ pub struct SegmentCase {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub mass_kg: Option<f64>,
     /// Mass centre in body axes in the reference configuration, from the point the hinges of wings
-    /// are measured from. Left out: that point.
+    /// are measured from; of a segment that a wing carries in wing axes from the point of its joint. Left out: that point.
     ///
     /// Change it to what was measured.
     #[schemars(extend("with" = "inertia_about_centre_kg_m2"))]
@@ -43,7 +43,7 @@ pub struct SegmentCase {
 /// The joint's frame sits on the parent at `at_m` and is turned by `turn` and moved by `travel`; for
 /// a wing it is turned by the wing's motion instead. Axes are given in this frame: body axes for
 /// segments, wing axes for wings. A joint of a right wing is mirrored to a left wing that came
-/// along by mirror symmetry.
+/// along by mirror symmetry: points, displacements, axes, and angles of spherical joints.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct JointCase {
@@ -56,14 +56,14 @@ pub struct JointCase {
     ///
     /// Change it to name the body that moves.
     pub child: String,
-    /// Joint point in body axes in the reference configuration; left out
-    /// for a wing: its hinge.
+    /// Joint point in body axes in the reference configuration; where the parent is a wing, in wing axes from its hinge.
+    /// Left out for a wing: its hinge, which is no other place than `wing.NAME.hinge_m`.
     ///
     /// Change it to what was measured.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub at_m: Option<[f64; 3]>,
     /// Joint point on the child, likewise. Left out: `at_m`. Another point opens a gap that only a
-    /// loop can close.
+    /// loop can close. Not at a wing: a wing closes loops by its hinge, and a segment on a wing by its own joint's point.
     ///
     /// Change it for links of a loop.
     #[serde(skip_serializing_if = "Option::is_none")]

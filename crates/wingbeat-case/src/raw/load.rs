@@ -22,7 +22,7 @@ pub struct LoadCase {
     /// Change it for loads that keep their direction in space.
     #[serde(default = "body_frame")]
     pub frame: LoadFrame,
-    /// Point of application in the axes of the loaded body, from its origin.
+    /// Point of application in the axes of the loaded body, from its origin; `animal.scale` scales it, and no force.
     ///
     /// Change it for forces off the origin.
     #[schemars(extend("with" = "force_newton | force_cosine_newton | force_sine_newton"))]
