@@ -12,5 +12,6 @@ mod presets;
 mod slips;
 mod table1;
 mod tables;
+mod turns;
 mod wings;
 mod written;

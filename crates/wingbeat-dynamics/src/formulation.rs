@@ -22,6 +22,12 @@ pub trait Formulation: Send + Sync {
         false
     }
 
+    /// Whether angles of joints are coordinates of its own, so that whole turns count; else they are those of the bodies'
+    /// attitudes, in (-pi, pi].
+    fn counts_turns(&self) -> bool {
+        false
+    }
+
     /// Whether its momenta are those of bodies that change their shapes ([`Workspace::set_shapes`]): its rates are then
     /// asked for under external loads alone, its accelerations under all.
     fn takes_shapes(&self) -> bool {

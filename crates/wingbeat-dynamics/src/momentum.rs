@@ -182,6 +182,10 @@ impl Formulation for MomentumForm {
         &self.system
     }
 
+    fn counts_turns(&self) -> bool {
+        true
+    }
+
     fn takes_shapes(&self) -> bool {
         self.system.speeds() == 0
     }

@@ -63,6 +63,14 @@ impl Core {
         }
     }
 
+    /// Whether whole turns of joints count among the state.
+    pub fn counts_turns(&self) -> bool {
+        match self {
+            Self::Free(form) => form.counts_turns(),
+            Self::Tethered { .. } => false,
+        }
+    }
+
     /// Length of the state vector; 0 when tethered.
     pub fn dim(&self) -> usize {
         match self {

@@ -104,6 +104,16 @@ pub enum FlightError {
         /// Names of the joints.
         joints: String,
     },
+    /// A joint has turned farther than what acts along its angle can know.
+    #[error(
+        "t = {time:.6e} s: joint `{joint}` has turned by more than half a turn, and its spring, stop or follower knows its angle within half a turn here: only free flight by dynamics.formulation = \"momentum\" counts turns, not that of a held root or by \"quaternion\" (joints that close loops); limit it by a stop, or make its spring stiffer"
+    )]
+    TurnedPast {
+        /// Time \[s\].
+        time: f64,
+        /// Name of the joint.
+        joint: String,
+    },
     /// The adaptive integrator made too many steps.
     #[error(
         "t = {time:.6e} s: {most} adaptive steps inside one step of the time grid: something changes fast there (a stiff spring or stop, a law of a short period); make it softer or slower, or shorten the step"

@@ -46,6 +46,7 @@ pub mod setup;
 pub mod simulation;
 mod solver;
 mod stages;
+mod turns;
 mod validate;
 
 pub use air::{check_joined, strips};

@@ -38,7 +38,7 @@ pub struct Record {
     /// Per joint that closes a loop: what the parent does to the child.
     pub loops: Vec<HingeRecord>,
     /// Coordinate and rate along every free direction of every joint, in the order of the joints
-    /// [rad or m, per s].
+    /// [rad or m, per s]; angles of revolute and universal joints go on beyond half a turn.
     pub joints: Vec<[f64; 2]>,
     /// Per wing: power of what deforms it against the air [W]; empty where nothing is deformed.
     pub deformation_power: Vec<f64>,

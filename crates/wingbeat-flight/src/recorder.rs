@@ -7,9 +7,11 @@ use wingbeat_math::{DQuat, DVec3};
 
 use crate::elastic::ElasticState;
 use crate::equations::{Equations, Scratch};
+use crate::error::FlightError;
 use crate::memory::{AirMemory, wakes_of};
 use crate::quadratures::Quadratures;
 use crate::record::{AccelerationRecord, AirImpulse, HingeRecord, LoadRecord, Record};
+use crate::turns;
 
 /// Below this |cos theta| Euler angles and their rates are not evaluated but kept: they lose
 /// all their digits there.
@@ -31,6 +33,8 @@ pub struct Ledger {
     pub coordinates: Vec<f64>,
     /// Their rates [m/s, rad/s].
     pub rates: Vec<f64>,
+    /// Coordinates along the free directions of all joints last recorded [rad or m].
+    pub joints: Vec<f64>,
     /// Regularised events of the air up to the last record.
     pub events: u64,
     /// Impulse of the air on all bodies up to the last record.
@@ -75,16 +79,31 @@ pub struct Sources<'a> {
 impl Sources<'_> {
     /// Makes `r` the record of step `step` at time `time` [s], in the room that it has; the ledger takes note of the
     /// angles.
-    pub fn write(&self, step: usize, time: f64, ledger: &mut Ledger, r: &mut Record) {
+    ///
+    /// # Errors
+    /// A joint has turned farther than its elements can know.
+    pub fn write(
+        &self,
+        step: usize,
+        time: f64,
+        ledger: &mut Ledger,
+        r: &mut Record,
+    ) -> Result<(), FlightError> {
         (r.step, r.time) = (step, time);
-        self.write_motion(time, ledger, r);
+        self.write_motion(time, ledger, r)?;
         self.write_loads(r);
         self.write_balances(ledger, r);
         self.write_air(time, ledger, r);
+        Ok(())
     }
 
     /// Coordinates, attitudes, accelerations, and how well they are determined.
-    fn write_motion(&self, time: f64, ledger: &mut Ledger, r: &mut Record) {
+    fn write_motion(
+        &self,
+        time: f64,
+        ledger: &mut Ledger,
+        r: &mut Record,
+    ) -> Result<(), FlightError> {
         let (s, solution) = (self.scratch, &self.scratch.solution);
         let bodies = self.equations.core.system().bodies();
         r.euler_regularity = note_coordinates(bodies, &s.motions, ledger);
@@ -94,11 +113,12 @@ impl Sources<'_> {
         r.root_angular_velocity = s.motions[0].w;
         r.mass_centre = solution.budget.centre;
         refill(&mut r.accelerations, &solution.bodies, acceleration);
-        self.write_joints(time, r);
+        self.write_joints(time, ledger, r)?;
         r.violation_position = solution.violation.position;
         r.violation_orientation = solution.violation.orientation;
         r.corrector_passes = self.report.passes;
         r.corrector_residual = self.report.residual;
+        Ok(())
     }
 
     /// Loads on bodies, reactions of joints.
@@ -154,11 +174,25 @@ impl Sources<'_> {
     }
 
     /// Coordinates along the free directions of all joints.
-    fn write_joints(&self, time: f64, r: &mut Record) {
+    fn write_joints(
+        &self,
+        time: f64,
+        ledger: &mut Ledger,
+        r: &mut Record,
+    ) -> Result<(), FlightError> {
         r.joints.clear();
-        let system = self.equations.core.system();
-        if system.speeds() > 0 || !system.loops().is_empty() {
-            (self.equations.mechanism).coordinates(time, &self.scratch.motions, &mut r.joints);
+        let Equations {
+            core, mechanism, ..
+        } = self.equations;
+        let system = core.system();
+        if system.speeds() == 0 && system.loops().is_empty() {
+            return Ok(());
+        }
+        mechanism.coordinates(time, &self.scratch.motions, &mut r.joints);
+        turns::count(mechanism, &mut r.joints, &mut ledger.joints);
+        match core.counts_turns() {
+            true => Ok(()),
+            false => turns::check(mechanism, time, &r.joints),
         }
     }
 

@@ -403,7 +403,7 @@ impl Simulation {
             wings: &self.state.wings,
             report,
         };
-        sources.write(step, time, &mut self.state.ledger, &mut self.record);
+        sources.write(step, time, &mut self.state.ledger, &mut self.record)?;
         self.write_reference();
         let equations = &self.stages[self.state.stage].equations;
         let remembered = (&mut self.state.wings[..], &mut self.state.carried[..]);

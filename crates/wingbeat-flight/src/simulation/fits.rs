@@ -45,9 +45,13 @@ pub(super) fn check_fits(
         );
     }
     let ledger = &state.ledger;
-    let lengths = [ledger.coordinates.len(), ledger.rates.len()];
-    if lengths != [own.coordinates.len(), own.rates.len()] {
-        return misfit(format!("{lengths:?} coordinates"), "the case has others");
+    let lengths = |of: &Ledger| [of.coordinates.len(), of.rates.len(), of.joints.len()];
+    let lengths = [ledger, own].map(lengths);
+    if lengths[0] != lengths[1] {
+        return misfit(
+            format!("{:?} coordinates", lengths[0]),
+            "the case has others",
+        );
     }
     check_wings(stage, &state.wings)?;
     if state.carried.len() != stage.equations.carried.initial().len() {

@@ -1,0 +1,107 @@
+//! Joints that turn all the way round.
+
+use std::path::Path;
+
+use wingbeat_case::LoadedCase;
+use wingbeat_flight::{FlightError, FlightSetup, Record, Simulation};
+
+/// A vane on a heavy body in vacuum that makes about two turns.
+const VANE: &str = "format = 1
+gravity_m_s2 = [0, 0, 0]
+[time]
+step_s = 1e-3
+steps = 200
+[flight]
+mode = \"free\"
+[air]
+model = \"none\"
+[body]
+mass_kg = 1.0
+inertia_about_centre_kg_m2 = [1, 1, 1, 0, 0, 0]
+[wing.right]
+hinge_m = [0, 0, 0]
+mirror = false
+mass_kg = 5e-5
+[wing.right.planform.rectangle]
+chord_m = 0.01
+span_m = 0.05
+axis_fraction = 0.5
+[wing.right.mesh]
+chordwise = 1
+spanwise = 10
+[wing.right.motion]
+psi.constant_deg = 0
+";
+
+const FREE: &str =
+    "joint.h={ child = \"right\", kind = \"revolute\", axis = [1, 0, 0], start_deg_s = [4000] }";
+const SPRUNG: &str = "joint.h={ child = \"right\", kind = \"revolute\", axis = [1, 0, 0], start_deg_s = [4000], element = [{ stiffness_newton_m_per_rad = 1e-6 }] }";
+const QUATERNION: &str = "dynamics.formulation=quaternion";
+
+fn setup(set: &[&str]) -> FlightSetup {
+    let set: Vec<String> = set.iter().map(|&s| s.to_owned()).collect();
+    let case = LoadedCase::from_text("vane", VANE, Path::new(""), &set);
+    case.unwrap_or_else(|e| panic!("{e}")).setup
+}
+
+fn fly(flight: &mut Simulation) -> Result<Vec<Record>, FlightError> {
+    let mut records = vec![flight.record().clone()];
+    while !flight.finished() {
+        records.push(flight.step()?.clone());
+    }
+    Ok(records)
+}
+
+fn flown(set: &[&str]) -> Result<Vec<Record>, FlightError> {
+    fly(&mut Simulation::new(setup(set)).unwrap())
+}
+
+/// Largest step of the angle of the joint, and its last value \[deg\].
+fn steps(records: &[Record]) -> [f64; 2] {
+    let angle = |r: &Record| r.joints[0][0].to_degrees();
+    let step = |pair: &[Record]| (angle(&pair[1]) - angle(&pair[0])).abs();
+    let largest = records.windows(2).map(step).fold(0.0, f64::max);
+    [largest, angle(records.last().unwrap())]
+}
+
+#[test]
+fn exact_angles_of_joints_go_on_past_half_a_turn() {
+    let records = flown(&[SPRUNG]).unwrap();
+    let [step, end] = steps(&records);
+    assert!(step < 4.1 && end > 540.0, "{step} {end}"); // 4000 deg/s in steps of a millisecond
+    // The spring counts the turns: its energy comes from the motion.
+    let kinetic = records[0].kinetic_energy;
+    let last = records.last().unwrap();
+    let stored = 0.5e-6 * last.joints[0][0].powi(2);
+    assert!((last.kinetic_energy + stored - kinetic).abs() < 1e-9 * kinetic);
+    assert!(stored > 0.01 * kinetic);
+    // A free vane turns alike in both formulations.
+    let ends = [&[FREE][..], &[FREE, QUATERNION]].map(|set| steps(&flown(set).unwrap()));
+    assert!((ends[0][1] - ends[1][1]).abs() < 1e-5, "{ends:?}"); // tolerance of the steps
+    assert!(ends[1][1] > 700.0, "{ends:?}");
+}
+
+#[test]
+fn exact_angles_of_joints_go_on_in_resumed_flights() {
+    let setup = setup(&[SPRUNG]);
+    let mut whole = Simulation::new(setup.clone()).unwrap();
+    let mut states = vec![];
+    while !whole.finished() {
+        states.push(whole.state().clone());
+        whole.step().unwrap();
+    }
+    let mut again = Simulation::resume(setup, states.swap_remove(100)).unwrap();
+    let end = fly(&mut again).unwrap().pop().unwrap();
+    assert_eq!(end.joints, whole.record().joints);
+}
+
+#[test]
+fn refuses_springs_past_half_a_turn_where_turns_are_not_counted() {
+    for set in [&[SPRUNG, QUATERNION][..], &[SPRUNG, "flight.mode=tethered"]] {
+        let error = flown(set).map(|_| ()).unwrap_err();
+        assert!(
+            matches!(&error, FlightError::TurnedPast { joint, .. } if joint == "h"),
+            "{error}"
+        );
+    }
+}
