@@ -34,7 +34,7 @@ struct Share {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Section {
     shares: Vec<Share>,
-    /// Place at rest along axis 1, and those of the leading and the trailing edge \[m\].
+    /// Place at rest along the chord ahead of the feathering axis, and those of the leading and the trailing edge \[m\].
     x: f64,
     edges: [f64; 2],
     /// 1 where columns go along axis 2, -1 where against it.
@@ -85,11 +85,14 @@ impl Section {
     /// \[m\], wing frame.
     pub fn new(rest: &[DVec3], inner: &[usize], outer: &[usize]) -> Self {
         let rows: Vec<[usize; 2]> = inner.iter().zip(outer).map(|(a, b)| [*a, *b]).collect();
+        let last = rows.len() - 1;
+        let side = (rest[outer[0]].y - rest[inner[0]].y).signum();
+        let edge = |i: usize| rows[i].map(|n| rest[n]);
+        let e1 = Strip::between(edge(0), edge(last), side).turn.x_axis;
         let x: Vec<f64> = rows
             .iter()
-            .map(|[a, b]| 0.5 * (rest[*a].x + rest[*b].x))
+            .map(|[a, b]| 0.5 * (e1.dot(rest[*a]) + e1.dot(rest[*b])))
             .collect();
-        let last = x.len() - 1;
         // Of even pressure along the chord each row carries half of the panels beside it.
         let weight = |i: usize| (x[i.saturating_sub(1)] - x[(i + 1).min(last)]) / 2.0;
         let total = x[0] - x[last];
@@ -109,7 +112,6 @@ impl Section {
                 });
             }
         }
-        let side = (rest[outer[0]].y - rest[inner[0]].y).signum();
         Self {
             shares,
             x: mean,

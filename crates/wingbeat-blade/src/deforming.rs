@@ -1,16 +1,22 @@
-//! Wings that are deformed: every strip a rigid section that is moved and turned in the wing frame.
+//! Wings that are deformed, or not flat: every strip a rigid section that lies, moves and turns in the wing frame.
 //!
 //! The loads are those of the flat wing, with the velocity of the section's own point on the
-//! feathering axis and the rate at which the section itself turns, `q = w2 + tau'`. Sections stay in
-//! planes of axes 1 and 3; camber is left to the coefficients.
+//! feathering axis and the angular velocity of the section itself, `Omega = w + tau' e_2`, in its own axes; `q = Omega . e2`.
+//! Camber is left to the coefficients.
+//!
+//! | symbol | name in code | meaning | unit |
+//! |---|---|---|---|
+//! | e1, e2, n | `axes()` | directions of chord (forward), span and normal of a section, wing components | 1 |
+//! | tau | `twist` | turn of a section about axis 2 of the wing frame | rad |
+//! | w | `motion.rate` | angular velocity of the wing frame, wing components | rad/s |
 
-use wingbeat_math::{DVec2, DVec3};
+use wingbeat_math::{DMat3, DVec2, DVec3};
 
 use crate::lag::{Lag, StripWind};
 use crate::pair::{PairMotion, StripPair};
 use crate::settings::AddedMass;
 use crate::slowed::slowed_forces;
-use crate::strip::Strip;
+use crate::strip::{PlacedStrip, Strip};
 use crate::wing::{BladeWing, FrameAcceleration, FrameMotion, Load};
 
 /// How a section lies and moves in the wing frame, wing components.
@@ -19,26 +25,49 @@ pub struct SectionMotion {
     /// The point that is on the feathering axis of the flat wing: place [m], velocity [m/s],
     /// acceleration [m/s2].
     pub axis: [DVec3; 3],
-    /// Turn about axis 2 with its first two time derivatives [rad].
+    /// Turn about axis 2 of the wing frame with its first two time derivatives [rad].
     pub twist: [f64; 3],
+    /// Directions of chord (forward), span and normal without the twist; the wing's axes for a flat wing.
+    pub rest: DMat3,
 }
 
 impl SectionMotion {
-    /// Directions of chord (forward) and normal.
-    fn axes(&self) -> [DVec3; 2] {
+    /// A section of a rigid wing.
+    pub fn fixed(placed: &PlacedStrip) -> Self {
+        Self {
+            axis: [placed.axis, DVec3::ZERO, DVec3::ZERO],
+            twist: [0.0; 3],
+            rest: placed.turn,
+        }
+    }
+
+    /// Directions of chord (forward), span and normal.
+    fn axes(&self) -> [DVec3; 3] {
         let (sin, cos) = self.twist[0].sin_cos();
-        [DVec3::new(cos, 0.0, -sin), DVec3::new(sin, 0.0, cos)]
+        let turned = |e: DVec3| DVec3::new(cos * e.x + sin * e.z, e.y, cos * e.z - sin * e.x);
+        [self.rest.x_axis, self.rest.y_axis, self.rest.z_axis].map(turned)
     }
 
     /// Place, velocity, acceleration of the point `x` ahead of the axis.
     fn point(&self, x: f64) -> [DVec3; 3] {
-        let ([e1, e3], [p, p1, p2], [_, t1, t2]) = (self.axes(), self.axis, self.twist);
+        let ([e1, ..], [p, p1, p2], [_, t1, t2]) = (self.axes(), self.axis, self.twist);
+        let turn = about_2(e1); // its derivative by the twist
         [
             p + x * e1,
-            p1 - x * t1 * e3,
-            p2 - x * (t2 * e3 + t1 * t1 * e1),
+            p1 + x * t1 * turn,
+            p2 + x * (t2 * turn + t1 * t1 * about_2(turn)),
         ]
     }
+
+    /// Angular velocity of the section, wing components, in a frame that turns with `rate`.
+    fn turning(&self, rate: DVec3) -> DVec3 {
+        rate.with_y(rate.y + self.twist[1])
+    }
+}
+
+/// `e_2 x e`.
+fn about_2(e: DVec3) -> DVec3 {
+    DVec3::new(e.z, 0.0, -e.x)
 }
 
 /// Loads on a wing, and what deforming it takes.
@@ -51,12 +80,12 @@ pub struct DeformingLoad {
 }
 
 impl DeformingLoad {
-    /// Adds `force` at the axis of a section and the moment `about_2` there, wing components.
-    fn add(&mut self, section: &SectionMotion, force: DVec3, about_2: f64) {
+    /// Adds `force` at the axis of a section and the `couple`, wing components.
+    fn add(&mut self, section: &SectionMotion, force: DVec3, couple: DVec3) {
         let [p, p1, _] = section.axis;
         self.load.force += force;
-        self.load.moment += DVec3::new(0.0, about_2, 0.0) + p.cross(force);
-        self.power -= force.dot(p1) + about_2 * section.twist[1];
+        self.load.moment += couple + p.cross(force);
+        self.power -= force.dot(p1) + couple.y * section.twist[1];
     }
 }
 
@@ -82,9 +111,9 @@ impl BladeWing {
         // Velocities along chord and normal and rate of feathering of a section.
         let moves = |k: usize| {
             let s = section(k.min(last));
-            let ([e1, e3], [p, p1, _]) = (s.axes(), s.axis);
+            let ([e1, e2, n], [p, p1, _]) = (s.axes(), s.axis);
             let here = v - wind(p) + motion.rate.cross(p) + p1;
-            [here.dot(e1), here.dot(e3), motion.rate.y + s.twist[1]]
+            [here.dot(e1), here.dot(n), s.turning(motion.rate).dot(e2)]
         };
         let pair_moves = |k: usize, _: &StripPair| {
             let (a, b) = (moves(2 * k), moves(2 * k + 1));
@@ -93,12 +122,12 @@ impl BladeWing {
         };
         let gust = |k: usize, front: f64| {
             let (s, strip) = (section(k), &self.strips()[k]);
-            let [e1, e3] = s.axes();
+            let [e1, _, n] = s.axes();
             let x = strip.x_mid() + 0.5 * strip.chord * front;
             StripWind {
-                at_axis: wind(s.axis[0]).dot(e3),
+                at_axis: wind(s.axis[0]).dot(n),
                 at_front: motion.rotation * wind(s.axis[0] + x * e1),
-                normal: motion.rotation * e3,
+                normal: motion.rotation * n,
             }
         };
         let mut slowed = self.slowed(lag.as_mut(), &gust);
@@ -107,8 +136,9 @@ impl BladeWing {
         slowed_forces(pairs, settings, slowed.as_mut(), pair_moves, |k, _, f| {
             for lane in 0..2.min(self.strips().len() - 2 * k) {
                 let s = section(2 * k + lane);
-                let [e1, e3] = s.axes();
-                sum.add(&s, f.along[lane] * e1 + f.normal[lane] * e3, f.about[lane]);
+                let [e1, e2, n] = s.axes();
+                let force = f.along[lane] * e1 + f.normal[lane] * n;
+                sum.add(&s, force, f.about[lane] * e2);
             }
         });
         self.add_turning(motion, section, |p| v - wind(p), &mut sum);
@@ -152,7 +182,7 @@ impl BladeWing {
         let linear = motion.rotation.transpose() * acc.linear;
         for (k, strip) in self.strips().iter().enumerate() {
             let s = section(k);
-            let ([e1, n], x) = (s.axes(), strip.x_mid());
+            let ([_, e2, n], x) = (s.axes(), strip.x_mid());
             let [p, p1, p2] = s.point(x);
             let hinge = hinge - wind(p);
             let through = Through {
@@ -163,15 +193,17 @@ impl BladeWing {
             };
             let v = through.hinge + through.w.cross(p) + p1;
             let v_rate = through.hinge_rate + through.turn.cross(p) + through.w.cross(p1) + p2;
-            // Rate of v . n; the normal turns by tau' towards the leading edge.
-            let rate = v_rate.dot(n) + s.twist[1] * v.dot(e1);
+            // Rate of v . n; the twist turns the normal.
+            let rate = v_rate.dot(n) + s.twist[1] * v.dot(about_2(n));
             let force = -strip.added_mass(self.settings().density) * rate;
             let inertia = match self.settings().added_mass.has_inertia() {
                 true => strip.added_inertia(self.settings().density),
                 false => 0.0,
             };
-            let turn = through.turn.y + s.twist[2];
-            sum.add(&s, force * n, -x * force - inertia * turn);
+            // Rate of Omega . e2, likewise.
+            let carried = s.twist[1] * s.turning(through.w).dot(about_2(e2));
+            let turn = through.turn.with_y(through.turn.y + s.twist[2]).dot(e2) + carried;
+            sum.add(&s, force * n, (-x * force - inertia * turn) * e2);
         }
         sum
     }
@@ -185,11 +217,11 @@ impl BladeWing {
         v: DVec3,
         sum: &mut DeformingLoad,
     ) {
-        let ([e1, n], [p, p1, _]) = (s.axes(), s.point(strip.x_mid()));
+        let ([e1, e2, n], [p, p1, _]) = (s.axes(), s.point(strip.x_mid()));
         let normal = (v + motion.rate.cross(p) + p1).dot(n);
-        let q = motion.rate.y + s.twist[1];
+        let q = s.turning(motion.rate).dot(e2);
         let mass = strip.added_mass(self.settings().density);
-        sum.add(s, -mass * q * normal * e1, 0.0);
+        sum.add(s, -mass * q * normal * e1, DVec3::ZERO);
     }
 
     /// What changes the impulse `m w n` of the air at mid chord, and the angular momentum `J q` about
@@ -203,15 +235,16 @@ impl BladeWing {
         v: DVec3,
         sum: &mut DeformingLoad,
     ) {
-        let ([e1, n], [p, p1, _]) = (s.axes(), s.point(strip.x_mid()));
-        let (w, rho, twist_rate) = (motion.rate, self.settings().density, s.twist[1]);
-        let here = v + w.cross(p) + p1;
+        let ([_, e2, n], [p, p1, _]) = (s.axes(), s.point(strip.x_mid()));
+        let (w, rho) = (motion.rate, self.settings().density);
+        let (here, turning) = (v + w.cross(p) + p1, s.turning(w));
         let impulse = strip.added_mass(rho) * here.dot(n);
-        let force = -impulse * (w.cross(n) + twist_rate * e1);
-        let spin = strip.added_inertia(rho) * (w.y + twist_rate);
-        let couple = -impulse * here.cross(n).with_y(0.0) - spin * w.cross(DVec3::Y);
+        let force = -impulse * (w.cross(n) + s.twist[1] * about_2(n));
+        let spin = strip.added_inertia(rho) * turning.dot(e2);
+        let munk = here.cross(n);
+        let couple = -impulse * (munk - munk.dot(e2) * e2) - spin * turning.cross(e2);
         sum.load.force += force;
         sum.load.moment += p.cross(force) + couple;
-        sum.power -= force.dot(p1);
+        sum.power -= force.dot(p1) + couple.y * s.twist[1];
     }
 }

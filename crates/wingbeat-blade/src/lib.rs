@@ -28,7 +28,7 @@
 //!
 //! A section is taken as symmetric fore and aft: air from the trailing edge (u < 0) gives the
 //! mirrored force, but for the circulation of feathering, which hangs on the feathering axis alone, as in the sources. Velocities along the span are ignored, as in all the sources, but by the moment of
-//! the added momentum. Twist and bending of
+//! the added momentum. Strips of wings that are not flat have frames of their own ([`PlacedStrip`]). Twist and bending of
 //! a wing place and move its strips ([`SectionMotion`] where they are prescribed, [`Section`] where loads bend the wing).
 //!
 //! What this crate does not know: wakes of other strips, animals, coordinates; of time no more than the age of a strip's wake.
@@ -56,5 +56,5 @@ pub use error::BladeError;
 pub use indicial::{Indicial, MAX_STATES, Pole, Unsteady};
 pub use lag::{Lag, StripMemory, StripTrial, WingMemory};
 pub use settings::{AddedMass, BladeSettings, CentreOfPressure, Rotation, ViscousMoment};
-pub use strip::Strip;
+pub use strip::{PlacedStrip, Strip};
 pub use wing::{BladeWing, FrameAcceleration, FrameMotion, Load, calm};

@@ -2,10 +2,13 @@
 
 use std::f64::consts::PI;
 
+use wingbeat_math::{DMat3, DVec3};
+
 use crate::error::BladeError;
 
 /// A strip of a flat wing across its span, in the wing frame (origin at the hinge, axis 1 to
-/// the leading edge, axis 2 along the span, axis 3 normal). The feathering axis is x = 0.
+/// the leading edge, axis 2 along the span, axis 3 normal). The feathering axis is x = 0. Of a wing that is not flat each strip
+/// has a frame of its own ([`PlacedStrip`]).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Strip {
     /// Place along axis 2 \[m\]; negative on a left wing.
@@ -16,6 +19,27 @@ pub struct Strip {
     pub chord: f64,
     /// Width along the span dr \[m\].
     pub width: f64,
+}
+
+/// Height above the plane of axes 1 and 2 over the chord that is rounding \[1\].
+const FLAT: f64 = 1e-9;
+
+/// A strip and the frame that its chord lies in.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PlacedStrip {
+    /// The strip; `x` counts along its own chord.
+    pub strip: Strip,
+    /// Its point on the feathering axis: where the plane through the hinge across its chord meets it \[m\], wing components.
+    pub axis: DVec3,
+    /// Directions of chord (forward), span and normal, wing components.
+    pub turn: DMat3,
+}
+
+impl PlacedStrip {
+    /// Whether it lies in the plane of axes 1 and 2, its chord along axis 1.
+    pub fn is_flat(&self) -> bool {
+        self.turn == DMat3::IDENTITY && self.axis.z == 0.0
+    }
 }
 
 impl Strip {
@@ -56,6 +80,44 @@ impl Strip {
             width,
         };
         (0..count).map(strip).collect()
+    }
+
+    /// The part of a surface between two lines along its chord: their ends at the leading and at the trailing edge \[m\], wing
+    /// frame, root first; `side` +1 right, -1 left.
+    ///
+    /// In the plane of axes 1 and 2 chord and width are along these axes. Elsewhere the chord is the line between the middles of
+    /// both edges, and the width is across it.
+    pub fn between(leading: [DVec3; 2], trailing: [DVec3; 2], side: f64) -> PlacedStrip {
+        let [lead, trail] = [leading, trailing].map(|[a, b]| 0.5 * (a + b));
+        let chord = (lead - trail).length();
+        let heights = leading.iter().chain(&trailing).map(|x| x.z.abs());
+        if heights.fold(0.0, f64::max) <= FLAT * chord {
+            return PlacedStrip {
+                strip: Self {
+                    y: lead.y,
+                    x_leading: lead.x,
+                    chord: lead.x - trail.x,
+                    width: (leading[1].y - leading[0].y).abs(),
+                },
+                axis: DVec3::new(0.0, lead.y, 0.0),
+                turn: DMat3::IDENTITY,
+            };
+        }
+        let e1 = (lead - trail) / chord;
+        let along = 0.5 * ((leading[1] - leading[0]) + (trailing[1] - trailing[0]));
+        let across = along - along.dot(e1) * e1;
+        let e2 = side * across.normalize_or_zero();
+        let x_leading = e1.dot(lead);
+        PlacedStrip {
+            strip: Self {
+                y: lead.y,
+                x_leading,
+                chord,
+                width: across.length(),
+            },
+            axis: lead - x_leading * e1,
+            turn: DMat3::from_cols(e1, e2, e1.cross(e2)),
+        }
     }
 
     pub(crate) fn check(&self, index: usize) -> Result<(), BladeError> {

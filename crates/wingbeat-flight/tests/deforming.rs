@@ -7,7 +7,7 @@ use common::{FREQUENCY, Fly, fly, sine};
 use wingbeat_air::LoadMethod;
 use wingbeat_blade::{AddedMass, BladeSettings};
 use wingbeat_flight::*;
-use wingbeat_math::{DVec3, MassProperties};
+use wingbeat_math::{DVec3, MassProperties, r2};
 use wingbeat_model::deformation::{MovingSurface, SpanLaw, Term};
 use wingbeat_model::motion::Fourier;
 use wingbeat_model::{AngleLaw, Deformation, DeformingMesh};
@@ -254,6 +254,24 @@ fn agrees_uniform_bending_with_plunging() {
     bending_is_plunging(Fly::default().setup(40, 0.5));
     for added in [AddedMass::None, AddedMass::Section, AddedMass::Impulse] {
         bending_is_plunging(blade(Fly::default().setup(40, 0.5), added));
+    }
+}
+
+#[test]
+fn invariant_strips_of_a_mesh_at_incidence_fly_as_feathered_ones() {
+    let angle = 0.3;
+    for added in [AddedMass::None, AddedMass::Section, AddedMass::Impulse] {
+        let feathered = blade(Fly::default().setup(40, 0.5), added);
+        let mut turned = feathered.clone();
+        for wing in &mut turned.animal.wings {
+            wing.mesh.nodes.iter_mut().for_each(|x| *x = r2(angle) * *x);
+            wing.mass = wing.mass.moved(r2(angle), DVec3::ZERO);
+            wing.motion.angles.psi = sine(-angle, 0.0, -0.8);
+        }
+        let [gap, place] = difference(&fly(turned), &fly(feathered));
+        println!("{added:?}: {gap:.1e}, {place:.1e}");
+        // The feathering angle itself differs by the incidence.
+        assert!(gap < 1e-10 && place < angle + 1e-10);
     }
 }
 

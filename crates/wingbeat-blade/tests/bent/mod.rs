@@ -2,7 +2,7 @@
 
 use super::{RHO, motions};
 use wingbeat_blade::*;
-use wingbeat_math::{DMat3, DVec3};
+use wingbeat_math::{DMat3, DVec3, r1, r2};
 
 const ROWS: usize = 3;
 const COLS: usize = 7;
@@ -15,12 +15,17 @@ struct Bent {
 }
 
 fn bent(added_mass: AddedMass, side: f64) -> Bent {
+    turned(added_mass, side, DMat3::IDENTITY)
+}
+
+/// The same with its mesh turned about the hinge.
+fn turned(added_mass: AddedMass, side: f64, turn: DMat3) -> Bent {
     let y = |j: usize| 0.1 + 0.2 * j as f64;
     let lead = |y: f64| 0.075 - 0.03 * y * y;
     let chord = |y: f64| 0.3 - 0.1 * y;
     let node = |k: usize| {
         let (i, y) = (k / (COLS + 1), y(k % (COLS + 1)));
-        DVec3::new(lead(y) - chord(y) * i as f64 / ROWS as f64, side * y, 0.0)
+        turn * DVec3::new(lead(y) - chord(y) * i as f64 / ROWS as f64, side * y, 0.0)
     };
     let nodes: Vec<DVec3> = (0..(ROWS + 1) * (COLS + 1)).map(node).collect();
     let strip = |j: usize| {
@@ -93,8 +98,13 @@ fn acceleration(m: &FrameMotion) -> FrameAcceleration {
 
 #[test]
 fn exact_nodes_that_move_as_a_rigid_wing_carry_its_loads() {
-    for (law, side) in LAWS.iter().flat_map(|l| [(*l, 1.0), (*l, -1.0)]) {
-        let bent = bent(law, side);
+    let turns = [DMat3::IDENTITY, r2(0.4), r1(0.5), r1(-0.3) * r2(0.2)];
+    let wings = LAWS.iter().flat_map(|l| [(*l, 1.0), (*l, -1.0)]);
+    for (q, (law, side)) in turns
+        .iter()
+        .flat_map(|q| wings.clone().map(move |w| (*q, w)))
+    {
+        let bent = turned(law, side, q);
         for m in motions() {
             let acc = acceleration(&m);
             let back = m.rotation.transpose();
@@ -106,7 +116,20 @@ fn exact_nodes_that_move_as_a_rigid_wing_carry_its_loads() {
                 bent.nodes.iter().map(a).collect(),
             ];
             let forces = bent.forces(&bent.nodes, &moving[0], &moving[1]);
-            let rigid = bent.wing.load(&m, &acc);
+            let own = FrameMotion {
+                rotation: m.rotation * q,
+                rate: q.transpose() * m.rate,
+                ..m
+            };
+            let own_acc = FrameAcceleration {
+                angular: q.transpose() * acc.angular,
+                ..acc
+            };
+            let flat = bent.wing.load(&own, &own_acc);
+            let rigid = Load {
+                force: q * flat.force,
+                moment: q * flat.moment,
+            };
             let size: f64 = forces.iter().map(|f| f.length()).sum();
             assert_same(&sum(&bent.nodes, &forces), &rigid, size);
         }
@@ -140,6 +163,7 @@ fn agrees_with_sections_whose_twist_is_prescribed_in_force_moment_and_power() {
                 moved[2],
             ],
             twist: tau,
+            ..SectionMotion::default()
         };
         for m in motions() {
             let acc = acceleration(&m);

@@ -6,15 +6,15 @@
 
 use wingbeat_air::Wind;
 use wingbeat_blade::{
-    BladeError, BladeWing, BodyDrag, FrameAcceleration, FrameMotion, Lag, Load, SectionMotion,
-    Strip, StripTrial, WingMemory, calm,
+    BladeError, BladeWing, BodyDrag, FrameAcceleration, FrameMotion, Lag, Load, StripTrial,
+    WingMemory, calm,
 };
 use wingbeat_dynamics::{AddedMass, BodyAcceleration, BodyMotion, Wrench};
 use wingbeat_math::DVec3;
-use wingbeat_model::deformation::Stations;
-use wingbeat_model::{Animal, Wing, WingMotion};
+use wingbeat_model::{Animal, Wing};
 
 use super::bent::{BentStrips, refuse_measured_surfaces};
+use super::strips::{MovingStrips, strips};
 use crate::error::FlightError;
 use crate::interface::{Air, AirScratch, Instant, StripScratch, WingResponse, misfit};
 use crate::memory::AirMemory;
@@ -25,49 +25,16 @@ use crate::setup::BladeOptions;
 pub struct BladeAir {
     /// Wings in the animal's order: body `i + 1`.
     wings: Vec<BladeWing>,
-    /// How they are deformed.
-    deforming: Vec<Option<DeformingStrips>>,
+    /// How their strips lie and move where they are deformed or not flat.
+    moving: Vec<Option<MovingStrips>>,
     /// How loads bend them.
     bent: Vec<Option<BentStrips>>,
-    /// Added mass of those that neither deforms.
+    /// Added mass of those that keep their shape.
     added: Vec<AddedMass>,
     drag: Option<BodyDrag>,
     density: f64,
     stream: DVec3,
     wind: Wind,
-}
-
-/// Strips of a wing that changes its shape in the phase of its beat.
-#[derive(Clone, Debug)]
-struct DeformingStrips {
-    stations: Stations,
-    motion: WingMotion,
-    /// Span and distance of the feathering axis ahead of the twist axis, strip by strip [m].
-    places: Vec<[f64; 2]>,
-}
-
-impl DeformingStrips {
-    fn new(wing: &Wing) -> Option<Self> {
-        let deformation = wing.deformation.as_ref()?;
-        let strips = strips(wing);
-        let tip = wing.report().length;
-        let r: Vec<f64> = strips.iter().map(|s| s.y.abs() / tip).collect();
-        let ahead = |s: &Strip| deformation.axis_fraction * s.chord - s.x_leading;
-        Some(Self {
-            stations: Stations::new(deformation, &r, wing.root()),
-            motion: wing.motion.clone(),
-            places: strips.iter().map(|s| [s.y, ahead(s)]).collect(),
-        })
-    }
-
-    fn section(&self, k: usize, phase: [f64; 3]) -> SectionMotion {
-        let (s, [y, ahead]) = (self.stations.at(k, phase), self.places[k]);
-        let [d, v, a] = s.displacement(ahead, 0.0, 0.0);
-        SectionMotion {
-            axis: [DVec3::new(0.0, y, 0.0) + d, v, a],
-            twist: s.twist,
-        }
-    }
 }
 
 impl BladeAir {
@@ -83,11 +50,11 @@ impl BladeAir {
         refuse_measured_surfaces(animal)?;
         let mut settings = options.blade;
         settings.free_stream += options.induced;
-        let wing = |w: &Wing| BladeWing::new(strips(w), settings);
+        let wing = |w: &Wing| BladeWing::new(strips(w).iter().map(|s| s.strip).collect(), settings);
         let wings: Result<Vec<BladeWing>, BladeError> = animal.wings.iter().map(wing).collect();
         let mut air = Self {
             wings: wings?,
-            deforming: animal.wings.iter().map(DeformingStrips::new).collect(),
+            moving: animal.wings.iter().map(MovingStrips::new).collect(),
             bent: (animal.wings.iter().enumerate())
                 .map(|(i, w)| BentStrips::new(i, w))
                 .collect(),
@@ -97,7 +64,7 @@ impl BladeAir {
             stream: options.blade.free_stream,
             wind: options.wind.clone(),
         };
-        let rigid = |i: &usize| air.deforming[*i].is_none() && air.bent[*i].is_none();
+        let rigid = |i: &usize| !air.is_deformed(*i) && air.bent[*i].is_none();
         let rigid = (0..air.wings.len()).filter(rigid);
         air.added = rigid.filter_map(|i| air.added_to(i, 0.0)).collect();
         Ok(air)
@@ -106,6 +73,13 @@ impl BladeAir {
     /// The wings, in the animal's order.
     pub fn wings(&self) -> &[BladeWing] {
         &self.wings
+    }
+
+    /// Whether the shape of wing `i` is prescribed.
+    fn is_deformed(&self, i: usize) -> bool {
+        self.moving[i]
+            .as_ref()
+            .is_some_and(MovingStrips::is_deformed)
     }
 
     /// Force and moment of the added mass of a wing that moves like `m` and accelerates like `acc`.
@@ -118,10 +92,10 @@ impl BladeAir {
     ) -> (Load, f64) {
         let (wing, acc) = (&self.wings[i], acceleration(acc));
         let wind = self.wind_on(m, t);
-        match &self.deforming[i] {
+        match &self.moving[i] {
             None => (wing.acceleration_load_in(&frame(m), &acc, wind), 0.0),
             Some(d) => {
-                let phase = d.motion.phase_at(t);
+                let phase = d.phase_at(t);
                 let section = |k| d.section(k, phase);
                 let sum = wing.deforming_acceleration_load(&frame(m), &acc, section, wind);
                 (sum.load, sum.power)
@@ -132,11 +106,11 @@ impl BladeAir {
     /// Force and moment on a wing by its velocities and the wakes that `lag` tells of, and the power that deforms it.
     fn velocity_load(&self, i: usize, t: f64, m: &BodyMotion, lag: Option<Lag<'_>>) -> (Load, f64) {
         let (wing, wind) = (&self.wings[i], self.wind_on(m, t));
-        match &self.deforming[i] {
+        match &self.moving[i] {
             None if self.wind.is_none() => (wing.lagging_load(&frame(m), calm, lag), 0.0),
             None => (wing.lagging_load(&frame(m), wind, lag), 0.0),
             Some(d) => {
-                let phase = d.motion.phase_at(t);
+                let phase = d.phase_at(t);
                 let section = |k| d.section(k, phase);
                 let sum = wing.deforming_velocity_load(&frame(m), section, wind, lag);
                 (sum.load, sum.power)
@@ -228,7 +202,7 @@ impl Air for BladeAir {
 
     fn added_mass(&self, t: f64, out: &mut Vec<AddedMass>) {
         out.extend_from_slice(&self.added);
-        let deforming = (0..self.wings.len()).filter(|&i| self.deforming[i].is_some());
+        let deforming = (0..self.wings.len()).filter(|&i| self.is_deformed(i));
         out.extend(deforming.filter_map(|i| self.added_to(i, t)));
     }
 
@@ -311,7 +285,7 @@ impl Air for BladeAir {
     }
 
     fn deforms(&self) -> bool {
-        self.deforming.iter().any(Option::is_some)
+        (0..self.wings.len()).any(|i| self.is_deformed(i))
     }
 
     fn deformation_power(
@@ -322,7 +296,7 @@ impl Air for BladeAir {
         out: &mut [f64],
     ) {
         out.fill(0.0);
-        for i in (0..self.wings.len()).filter(|&i| self.deforming[i].is_some()) {
+        for i in (0..self.wings.len()).filter(|&i| self.is_deformed(i)) {
             let (m, a) = (&at.motions[i + 1], &accelerations[i + 1]);
             let known = scratch.strips.trials.get(i).map(|t| Lag::Known(t));
             let [by_velocity, by_mass] = [
@@ -346,23 +320,6 @@ fn lag<'a>(
         time: t,
         trial,
     })
-}
-
-/// One strip per spanwise panel: mean chord and mean place of its leading edge.
-pub fn strips(wing: &Wing) -> Vec<Strip> {
-    let mesh = &wing.mesh;
-    let strip = |j: usize| {
-        let at = |i: usize, j: usize| mesh.nodes[mesh.node(i, j)];
-        let leading = 0.5 * (at(0, j) + at(0, j + 1));
-        let trailing = 0.5 * (at(mesh.rows, j) + at(mesh.rows, j + 1));
-        Strip {
-            y: leading.y,
-            x_leading: leading.x,
-            chord: leading.x - trailing.x,
-            width: (at(0, j + 1).y - at(0, j).y).abs(),
-        }
-    };
-    (0..mesh.cols).map(strip).collect()
 }
 
 /// Accelerations in the words of the blade elements.

@@ -15,6 +15,7 @@ mod blade;
 pub mod external;
 mod lattice;
 mod mirror;
+mod strips;
 mod surfaces;
 mod table;
 
@@ -29,8 +30,9 @@ use crate::setup::{AirModel, FlightSetup};
 
 pub(crate) use self::mirror::wing_pairs;
 pub use crate::interface::{Air, AirScratch, Instant};
-pub use blade::{BladeAir, strips};
+pub use blade::BladeAir;
 pub use lattice::LatticeAir;
+pub use strips::strips;
 pub use surfaces::check_joined;
 
 /// No air at all.

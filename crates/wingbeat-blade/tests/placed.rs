@@ -1,0 +1,182 @@
+//! Strips of wings that are not flat, against flat wings whose frames are turned.
+
+use wingbeat_blade::*;
+use wingbeat_math::{DMat3, DVec3, r1, r2, r3};
+
+const RHO: f64 = 1.2;
+const LAWS: [AddedMass; 4] = [
+    AddedMass::None,
+    AddedMass::Impulse,
+    AddedMass::Normal,
+    AddedMass::Section,
+];
+
+fn settings(added_mass: AddedMass) -> BladeSettings {
+    BladeSettings {
+        added_mass,
+        ..BladeSettings::insect(RHO)
+    }
+}
+
+/// Some motions of all kinds.
+fn motions() -> impl Iterator<Item = (FrameMotion, FrameAcceleration)> {
+    (0..40).map(|k: i32| {
+        let n = |m: i32| f64::from((k * m + m) % 13 - 6) * 0.4;
+        let motion = FrameMotion {
+            rotation: r2(n(3)) * r3(n(5)) * r1(n(7)),
+            velocity: DVec3::new(n(2), n(9), n(4)),
+            rate: DVec3::new(n(6), n(8), n(11)),
+        };
+        let acc = FrameAcceleration {
+            linear: DVec3::new(n(5), n(4), n(10)),
+            angular: DVec3::new(n(7), n(3), n(2)),
+        };
+        (motion, acc)
+    })
+}
+
+/// Wind that differs from place to place.
+fn wind(r: DVec3) -> DVec3 {
+    DVec3::new(0.3 - r.y, 0.2 + r.x, 0.5 * r.y - 0.1 * r.z)
+}
+
+fn assert_same(a: &Load, b: &Load) {
+    let apart = (a.force - b.force).length() + (a.moment - b.moment).length();
+    let size = b.force.length() + b.moment.length();
+    assert!(apart <= 1e-12 * size.max(1e-3), "{a:?} {b:?}");
+}
+
+/// Strips of a swept, tapered wing of one `side` whose mesh is turned by `turn` about the hinge.
+fn placed(turn: DMat3, side: f64) -> Vec<PlacedStrip> {
+    let y = |j: usize| 0.1 + 0.2 * j as f64;
+    let node = |x: f64, y: f64| turn * DVec3::new(x, side * y, 0.0);
+    let lead = |j: usize| node(0.075 - 0.03 * y(j), y(j));
+    let trail = |j: usize| node(-0.225 + 0.05 * y(j), y(j));
+    let strip = |j: usize| {
+        let ends = |of: &dyn Fn(usize) -> DVec3| [of(j), of(j + 1)];
+        Strip::between(ends(&lead), ends(&trail), side)
+    };
+    (0..5).map(strip).collect()
+}
+
+fn wing(placed: &[PlacedStrip], law: AddedMass) -> BladeWing {
+    BladeWing::new(placed.iter().map(|p| p.strip).collect(), settings(law)).unwrap()
+}
+
+/// Incidence, dihedral and both.
+fn turns() -> [DMat3; 4] {
+    [
+        r2(0.4),
+        r1(0.5),
+        r1(-0.3) * r2(0.2),
+        r3(0.2) * r1(0.4) * r2(-0.7),
+    ]
+}
+
+#[test]
+fn invariant_a_mesh_turned_about_the_hinge_is_a_frame_turned_about_it() {
+    for (law, side) in LAWS.iter().flat_map(|l| [(*l, 1.0), (*l, -1.0)]) {
+        let flat = wing(&placed(DMat3::IDENTITY, side), law);
+        for q in turns() {
+            let strips = placed(q, side);
+            let turned = wing(&strips, law);
+            let section = |k: usize| SectionMotion::fixed(&strips[k]);
+            for (m, acc) in motions() {
+                let own = FrameMotion {
+                    rotation: m.rotation * q,
+                    velocity: m.velocity,
+                    rate: q.transpose() * m.rate,
+                };
+                let own_acc = FrameAcceleration {
+                    linear: acc.linear,
+                    angular: q.transpose() * acc.angular,
+                };
+                let local = |r: DVec3| q.transpose() * wind(q * r);
+                let back = |load: Load| Load {
+                    force: q * load.force,
+                    moment: q * load.moment,
+                };
+                let expected = back(flat.velocity_load_in(&own, local));
+                // The flat wing feels the added mass in the wind at the centre of it, the placed one strip by strip.
+                if matches!(law, AddedMass::None | AddedMass::Normal) {
+                    let load = turned.deforming_velocity_load(&m, section, wind, None);
+                    assert_same(&load.load, &expected);
+                }
+                let calmly = turned.deforming_velocity_load(&m, section, calm, None);
+                assert_same(&calmly.load, &back(flat.velocity_load(&own)));
+                let mass = turned.deforming_acceleration_load(&m, &acc, section, calm);
+                assert_same(&mass.load, &back(flat.acceleration_load(&own, &own_acc)));
+                assert_eq!([calmly.power, mass.power].map(f64::abs), [0.0; 2]);
+            }
+        }
+    }
+}
+
+#[test]
+fn exact_strips_in_the_plane_of_the_wing_are_measured_along_its_axes() {
+    let skewed = Strip::between(
+        [DVec3::new(0.1, 0.2, 0.0), DVec3::new(0.08, 0.4, 0.0)],
+        [DVec3::new(-0.2, 0.25, 0.0), DVec3::new(-0.18, 0.42, 0.0)],
+        1.0,
+    );
+    let strip = Strip {
+        y: 0.5 * (0.2 + 0.4),
+        x_leading: 0.5 * (0.1 + 0.08),
+        chord: 0.5 * (0.1 + 0.08) - 0.5 * (-0.2 - 0.18),
+        width: 0.4 - 0.2,
+    };
+    assert!(skewed.is_flat());
+    assert_eq!(skewed.strip, strip);
+}
+
+/// A section with dihedral and incidence that moves, and is turned about axis 2 of the wing frame, is a flat strip in a frame that
+/// moves and turns so; the power is that of its load on this motion.
+#[test]
+fn agrees_twist_of_a_section_with_dihedral_with_a_frame_that_turns() {
+    let strip = Strip {
+        y: 0.0,
+        x_leading: 0.075,
+        chord: 0.3,
+        width: 0.2,
+    };
+    let twist = [0.3, 1.7, -4.0];
+    let axis = [
+        DVec3::new(0.02, 0.6, -0.1),
+        DVec3::new(0.3, -0.2, 0.7),
+        DVec3::new(1.0, 2.0, -3.0),
+    ];
+    for (law, rest) in LAWS.iter().flat_map(|l| turns().map(|q| (*l, q))) {
+        let wing = BladeWing::new(vec![strip], settings(law)).unwrap();
+        let section = |_: usize| SectionMotion { axis, twist, rest };
+        let (q, [p, p1, p2]) = (r2(twist[0]) * rest, axis);
+        let [spin, spin_rate] = [twist[1], twist[2]].map(|t| t * DVec3::Y);
+        for (m, acc) in motions() {
+            let (r, w) = (m.rotation, m.rate);
+            let turning = acc.angular.cross(p) + w.cross(w.cross(p) + 2.0 * p1) + p2;
+            let own = FrameMotion {
+                rotation: r * q,
+                velocity: m.velocity + r * (w.cross(p) + p1),
+                rate: q.transpose() * (w + spin),
+            };
+            let own_acc = FrameAcceleration {
+                linear: acc.linear + r * turning,
+                angular: q.transpose() * (acc.angular + spin_rate + w.cross(spin)),
+            };
+            let check = |got: DeformingLoad, flat: Load| {
+                let (force, moment) = (q * flat.force, q * flat.moment);
+                let expected = Load {
+                    force,
+                    moment: moment + p.cross(force),
+                };
+                assert_same(&got.load, &expected);
+                let power = -(force.dot(p1) + moment.dot(spin));
+                let size = force.length() + moment.length();
+                assert!((got.power - power).abs() <= 1e-12 * size.max(1e-3));
+            };
+            let still = wing.deforming_velocity_load(&m, section, calm, None);
+            check(still, wing.velocity_load(&own));
+            let mass = wing.deforming_acceleration_load(&m, &acc, section, calm);
+            check(mass, wing.acceleration_load(&own, &own_acc));
+        }
+    }
+}
