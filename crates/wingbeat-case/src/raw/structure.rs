@@ -119,8 +119,9 @@ pub struct BeamCase {
     #[schemars(length(min = 2))]
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub coupling_table_newton_m_m2: Vec<[f64; 7]>,
-    /// Mass per length at root and tip, instead of the mass of the wing spread evenly over its area. 0 is allowed beside
-    /// lumped masses.
+    /// Mass per length at root and tip, instead of the mass of the wing spread evenly over its area. The length is that of the
+    /// span, across the chord: of a beam swept by 30 deg a metre along the beam has 0.87 times as much, while stiffnesses are those
+    /// along the beam. 0 is allowed beside lumped masses.
     ///
     /// Change it to what was measured.
     #[schemars(extend("or" = "wing.NAME.mass_kg"))]
@@ -138,8 +139,8 @@ pub struct BeamCase {
     #[default = 0.5]
     #[schemars(range(min = 0, max = 1))]
     pub mass_fraction: f64,
-    /// Moment of inertia of a section about its mass centre and the axis of the beam, per length, at root and tip. Left
-    /// out: that of mass spread evenly over the chord.
+    /// Moment of inertia of a section about its mass centre and the axis of the beam, per length of the span as `mass_kg_per_m`,
+    /// at root and tip. Left out: that of mass spread evenly over the chord.
     ///
     /// Change it to what was measured.
     #[serde(skip_serializing_if = "Option::is_none")]

@@ -11,6 +11,8 @@
 //! 3. bending moves the section by `w(r, t)` towards -axis 3. It stays parallel to itself and at its
 //!    place along axis 2, so the surface is stretched at second order of the slope dw/dr.
 //!
+//! These axes are those of the wing frame, whatever incidence and dihedral the mesh has; `c` and `s` are measured along axis 1.
+//!
 //! Towards -axis 3 is up for a wing at zero angles. Time enters through the phase of the wing's own
 //! beat, so a smooth start of the motion is one of the deformation too. Positions, velocities and
 //! accelerations are analytic. Both wings of a mirrored pair have the same laws.
@@ -26,7 +28,7 @@ mod shape;
 mod surface;
 
 pub use law::{Section, SpanLaw, Term};
-pub(crate) use lines::{column, span};
+pub(crate) use lines::{behind, chord_line, column, is_flat, span, strip_axes};
 pub use prescribed::Deformation;
 pub use shape::{DeformingMesh, Stations};
 pub use surface::MovingSurface;

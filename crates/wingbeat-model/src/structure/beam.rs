@@ -12,7 +12,7 @@ use wingbeat_structure::{
 };
 
 use super::body::{Blank, ElasticBody, check_not_negative, check_positive};
-use crate::deformation::{SpanLaw, column, span};
+use crate::deformation::{SpanLaw, chord_line, column, is_flat, span};
 use crate::error::{ModelError, require, require_count};
 use crate::mesh::GridMesh;
 
@@ -35,7 +35,7 @@ pub struct WingBeam {
     pub axial: Option<SpanLaw>,
     /// Terms that couple stretch, twist and bending.
     pub coupling: Coupling,
-    /// Mass per length \[kg/m\], over r/R; none spreads the mass of the wing, less lumped masses, evenly over its area.
+    /// Mass per length of the span, across the chord and not along a swept beam \[kg/m\], over r/R; none spreads the mass of the wing, less lumped masses, evenly over its area.
     pub mass: Option<SpanLaw>,
     /// Place of the mass centre behind the leading edge over the chord \[1\].
     pub mass_fraction: f64,
@@ -46,29 +46,37 @@ pub struct WingBeam {
     pub masses: Vec<BeamMass>,
 }
 
-/// Leading edge, chord \[m\] and place along axis 2 \[m\] at a distance from the hinge.
+/// Leading edge and chord, from the trailing to the leading edge \[m\], at a distance from the hinge, wing components.
 struct Station {
-    lead: f64,
-    chord: f64,
-    y: f64,
-    z: f64,
+    lead: DVec3,
+    chord: DVec3,
 }
 
-/// The wing at the distance `r` \[m\] from the hinge, straight between columns of nodes.
+/// The wing at the distance `r` \[m\] from the hinge along axis 2, straight between columns of nodes.
 fn station(mesh: &GridMesh, r: f64) -> Station {
     let distance = |j: usize| column(mesh, j).0;
     let j = (1..mesh.cols)
         .find(|&j| distance(j) > r)
         .unwrap_or(mesh.cols);
-    let (a, b) = (j - 1, j);
-    let s = (r - distance(a)) / (distance(b) - distance(a));
-    let at = |of: &dyn Fn(usize) -> f64| of(a) + s * (of(b) - of(a));
+    let s = (r - distance(j - 1)) / (distance(j) - distance(j - 1));
+    let [inner, outer] = [j - 1, j].map(|j| chord_line(mesh, j));
+    let at = |k: usize| inner[k] + s * (outer[k] - inner[k]);
     Station {
-        lead: at(&|j| column(mesh, j).1),
-        chord: at(&|j| column(mesh, j).2),
-        y: at(&|j| mesh.nodes[mesh.node(0, j)].y),
-        z: at(&|j| mesh.nodes[mesh.node(0, j)].z),
+        lead: at(0),
+        chord: at(1),
     }
+}
+
+/// An element of the beam.
+struct Piece {
+    /// Distance of its middle from the hinge along axis 2 \[m\].
+    r: f64,
+    /// Width of the wing along it, across the chord \[m\].
+    width: f64,
+    /// Its width over its length \[1\].
+    along: f64,
+    /// Direction of the chord there (forward), wing components.
+    chordwise: DVec3,
 }
 
 /// 1 on a right wing, -1 on a left one.
@@ -100,15 +108,15 @@ impl WingBeam {
             position: at.iter().map(|&r| self.axis(wing.mesh, r)).collect(),
             rotation: vec![DQuat::IDENTITY; at.len()],
         };
-        let even = self.even(wing, &at);
+        let pieces = self.pieces(wing.mesh, &at);
+        let even = self.even(wing, &pieces);
         let mut builder = StructureBuilder::new(rest.clone())
             .clamp(0)
             .damping(damping);
-        for (k, pair) in at.windows(2).enumerate() {
-            let length = rest.position[k].distance(rest.position[k + 1]);
-            let along = (pair[1] - pair[0]) / length;
-            let section = self.section(wing, 0.5 * (pair[0] + pair[1]), (even, along));
-            builder = builder.element(Beam::straight(&rest, [k, k + 1], DVec3::X, &section)?);
+        for (k, piece) in pieces.iter().enumerate() {
+            let section = self.section(wing, piece, even);
+            let beam = Beam::straight(&rest, [k, k + 1], piece.chordwise, &section)?;
+            builder = builder.element(beam);
         }
         for m in &self.masses {
             let (node, mass) = self.lumped(wing.mesh, (&at, &rest), m);
@@ -134,15 +142,36 @@ impl WingBeam {
     /// Place of the elastic axis at the distance `r` \[m\] from the hinge, wing components \[m\].
     fn axis(&self, mesh: &GridMesh, r: f64) -> DVec3 {
         let s = station(mesh, r);
-        DVec3::new(s.lead - self.axis_fraction * s.chord, s.y, s.z)
+        s.lead - self.axis_fraction * s.chord
+    }
+
+    /// The elements between nodes at the distances `at` \[m\] from the hinge.
+    fn pieces(&self, mesh: &GridMesh, at: &[f64]) -> Vec<Piece> {
+        let flat = is_flat(mesh);
+        let piece = |pair: &[f64]| {
+            let r = 0.5 * (pair[0] + pair[1]);
+            let line = self.axis(mesh, pair[1]) - self.axis(mesh, pair[0]);
+            let (chordwise, width) = match flat {
+                true => (DVec3::X, pair[1] - pair[0]),
+                false => {
+                    let e1 = station(mesh, r).chord.normalize();
+                    (e1, (line - line.dot(e1) * e1).length())
+                }
+            };
+            Piece {
+                r,
+                width,
+                along: width / line.length(),
+                chordwise,
+            }
+        };
+        at.windows(2).map(piece).collect()
     }
 
     /// Mass of the wing, less lumped masses, over its area \[kg/m2\].
-    fn even(&self, wing: &Blank<'_>, at: &[f64]) -> f64 {
-        let strip = |pair: &[f64]| {
-            (pair[1] - pair[0]) * station(wing.mesh, 0.5 * (pair[0] + pair[1])).chord
-        };
-        let area: f64 = at.windows(2).map(strip).sum();
+    fn even(&self, wing: &Blank<'_>, pieces: &[Piece]) -> f64 {
+        let strip = |p: &Piece| p.width * station(wing.mesh, p.r).chord.length();
+        let area: f64 = pieces.iter().map(strip).sum();
         let lumped: f64 = self.masses.iter().map(|m| m.mass).sum();
         (wing.mass - lumped) / area
     }
@@ -161,12 +190,12 @@ impl WingBeam {
         (node, m.about_node(axis - rest.position[node], side(mesh)))
     }
 
-    /// Section at the distance `r` \[m\] from the hinge; `even` is the mass of the wing over its area \[kg/m2\], `along` the
-    /// distance along the span over the length of the beam.
-    fn section(&self, wing: &Blank<'_>, r: f64, (even, along): (f64, f64)) -> Section {
+    /// Section of a piece; `even` is the mass of the wing over its area \[kg/m2\].
+    fn section(&self, wing: &Blank<'_>, piece: &Piece, even: f64) -> Section {
         let [root, tip] = span(wing.mesh);
+        let (r, along) = (piece.r, piece.along);
         let value = |law: &SpanLaw| law.at(r / tip, root / tip);
-        let Station { chord, .. } = station(wing.mesh, r);
+        let chord = station(wing.mesh, r).chord.length();
         let [flap, lag, torsion] = [&self.flap, &self.lag, &self.torsion].map(value);
         // As a plate that is as stiff in its plane has it: EA = 12 EI / c2; shear as of solid sections.
         let plate = 12.0 * lag.max(flap) / (chord * chord);

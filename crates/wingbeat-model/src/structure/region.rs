@@ -4,7 +4,7 @@ use wingbeat_math::DVec3;
 use wingbeat_structure::Lamina;
 
 use super::body::{Fibres, check_poisson, check_tension};
-use crate::deformation::column;
+use crate::deformation::{behind, column, strip_axes};
 use crate::error::{ModelError, require};
 use crate::mesh::GridMesh;
 
@@ -34,19 +34,15 @@ pub struct Region {
 /// The middle of panel `k`: r/R, and place behind the leading edge over the chord; `tip` is the wing length \[m\].
 pub(super) fn middle(grid: &GridMesh, k: usize, tip: f64) -> [f64; 2] {
     let (i, j) = (k / grid.cols, k % grid.cols);
-    let behind = |i: usize, j: usize| {
-        let (_, lead, chord) = column(grid, j);
-        (lead - grid.nodes[grid.node(i, j)].x) / chord
-    };
     let corners = [(i, j), (i, j + 1), (i + 1, j), (i + 1, j + 1)];
-    let x = corners.map(|(i, j)| behind(i, j)).iter().sum::<f64>() / 4.0;
+    let x = corners.map(|(i, j)| behind(grid, i, j)).iter().sum::<f64>() / 4.0;
     [0.5 * (column(grid, j).0 + column(grid, j + 1).0) / tip, x]
 }
 
-/// Direction of fibres at an angle \[rad\] from the span towards the leading edge, wing components.
-pub(super) fn fibres(grid: &GridMesh, angle: f64) -> DVec3 {
-    let outward = (grid.nodes[grid.node(0, grid.cols)].y - grid.nodes[grid.node(0, 0)].y).signum();
-    DVec3::new(angle.sin(), outward * angle.cos(), 0.0)
+/// Direction of the fibres of panel `k` at an angle \[rad\] from the span towards the leading edge, wing components.
+pub(super) fn fibres(grid: &GridMesh, k: usize, angle: f64) -> DVec3 {
+    let [chord, span] = strip_axes(grid, k % grid.cols);
+    angle.sin() * chord + angle.cos() * span
 }
 
 impl Region {
@@ -56,8 +52,8 @@ impl Region {
         (place.iter().zip(ranges)).all(|(x, [from, to])| (from..=to).contains(x))
     }
 
-    /// What a panel in it is made of.
-    pub(super) fn applied(&self, grid: &GridMesh, elsewhere: Lamina) -> Lamina {
+    /// What panel `k` in it is made of.
+    pub(super) fn applied(&self, grid: &GridMesh, k: usize, elsewhere: Lamina) -> Lamina {
         let young = self.young.unwrap_or(elsewhere.young);
         let poisson = self.poisson.unwrap_or(elsewhere.poisson);
         let alike = self.young.map(|[along, _]| along / (2.0 * (1.0 + poisson)));
@@ -67,7 +63,7 @@ impl Region {
             shear: self.shear.or(alike).unwrap_or(elsewhere.shear),
             thickness: self.thickness.unwrap_or(elsewhere.thickness),
             density: self.density.unwrap_or(elsewhere.density),
-            axis: (self.fibre_angle).map_or(elsewhere.axis, |angle| fibres(grid, angle)),
+            axis: (self.fibre_angle).map_or(elsewhere.axis, |angle| fibres(grid, k, angle)),
             prestress: (self.prestress).map_or(elsewhere.prestress, |[a, b]| [a, b, 0.0]),
             ..elsewhere
         }

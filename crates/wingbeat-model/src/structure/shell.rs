@@ -8,7 +8,7 @@ use wingbeat_structure::{
 use super::body::{Blank, ElasticBody, Fibres, check_poisson, check_positive, check_tension};
 use super::region::{Region, fibres, middle};
 use super::vein::Vein;
-use crate::deformation::{SpanLaw, column, span};
+use crate::deformation::{SpanLaw, behind, span};
 use crate::error::{MemberError, ModelError, require};
 use crate::mesh::GridMesh;
 
@@ -171,11 +171,11 @@ impl WingShell {
                 thickness: self.thickness.at(r, root / tip),
                 density: self.density.unwrap_or(0.0),
                 added_mass: 0.0,
-                axis: fibres(grid, self.fibre_angle),
+                axis: fibres(grid, k, self.fibre_angle),
                 prestress: [self.prestress[0], self.prestress[1], 0.0],
             };
             let here = self.regions.iter().filter(|g| g.holds([r, x]));
-            here.fold(lamina, |lamina, region| region.applied(grid, lamina))
+            here.fold(lamina, |lamina, region| region.applied(grid, k, lamina))
         };
         Ok((0..count).map(lamina).collect())
     }
@@ -209,9 +209,8 @@ impl WingShell {
     /// Whether node `p` of the mesh is rigid with the wing frame.
     fn is_held(&self, grid: &GridMesh, p: usize) -> bool {
         let [i, j] = [p / (grid.cols + 1), p % (grid.cols + 1)];
-        let (_, front, chord) = column(grid, j);
-        let behind = (front - grid.nodes[p].x) / chord;
-        let rigid = self.rigid_fraction > 0.0 && behind <= self.rigid_fraction + ROUNDING;
+        let rigid =
+            self.rigid_fraction > 0.0 && behind(grid, i, j) <= self.rigid_fraction + ROUNDING;
         let edge = [0, grid.rows].contains(&i) || [0, grid.cols].contains(&j);
         let lead = self.clamps_leading_edge && i == 0;
         rigid || lead || (self.clamps_root && j == 0) || (self.clamps_perimeter && edge)

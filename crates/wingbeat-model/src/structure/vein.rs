@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use wingbeat_math::DVec3;
 use wingbeat_structure::{Beam, Configuration, Section, ShellMesh, Stiffness, StructureError};
 
-use crate::deformation::{column, span};
+use crate::deformation::{behind, column, span};
 use crate::error::{MemberError, ModelError, require};
 use crate::mesh::GridMesh;
 
@@ -185,7 +185,7 @@ fn distance(rest: &Configuration, [a, b]: [usize; 2]) -> f64 {
     rest.position[a].distance(rest.position[b])
 }
 
-/// A beam whose section's axis 2 lies in the plane of the wing.
+/// A beam whose section's axis 2 lies in the plane of a flat wing; sections are alike in all directions.
 fn beam(
     rest: &Configuration,
     nodes: [usize; 2],
@@ -204,7 +204,5 @@ fn nearest(grid: &GridMesh, [r, x]: [f64; 2]) -> [usize; 2] {
             .unwrap_or(0)
     };
     let j = closest(grid.cols, &|j| (column(grid, j).0 / tip - r).abs());
-    let (_, lead, chord) = column(grid, j);
-    let behind = |i: usize| (lead - grid.nodes[grid.node(i, j)].x) / chord;
-    [closest(grid.rows, &|i| (behind(i) - x).abs()), j]
+    [closest(grid.rows, &|i| (behind(grid, i, j) - x).abs()), j]
 }

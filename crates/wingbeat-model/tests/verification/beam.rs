@@ -1,9 +1,11 @@
 //! Beams of wings: lumped masses, coupled sections, the left wing as the mirror image, bad input.
 
-use wingbeat_math::{DMat3, DVec3};
+use wingbeat_math::{DMat3, DVec3, r1, r2};
 use wingbeat_model::deformation::SpanLaw;
 use wingbeat_model::structure::{Blank, Damping};
-use wingbeat_model::{BeamMass, Coupling, ElasticBody, GridMesh, Members, WingBeam, WingStructure};
+use wingbeat_model::{
+    BeamMass, Coupling, ElasticBody, GridMesh, Members, WingBeam, WingShell, WingStructure,
+};
 use wingbeat_structure::{
     Configuration, FrameMotion, NodeLoad, StaticSettings, equilibrium, modes,
 };
@@ -283,4 +285,67 @@ fn refuses_impossible_beams_by_name() {
     let (name, mesh) = ("wing", &mesh());
     let mass = 0.0;
     assert!(structure.body(&Blank { name, mesh, mass }).is_err());
+}
+
+/// A swept, tapered wing whose mesh is turned by `turn` about the hinge.
+fn turned(turn: DMat3) -> GridMesh {
+    let node = |k: usize| {
+        let (i, y) = ((k / 5) as f64 / 2.0, 0.1 + 0.45 * (k % 5) as f64);
+        turn * DVec3::new(0.4 - 0.1 * y - (0.8 - 0.2 * y) * i, y, 0.0)
+    };
+    GridMesh {
+        rows: 2,
+        cols: 4,
+        nodes: (0..15).map(node).collect(),
+    }
+}
+
+#[test]
+fn invariant_elastic_wings_of_a_turned_mesh_have_the_same_modes_and_mass() {
+    let of_beam = |mass: Option<SpanLaw>| {
+        let beam = beam();
+        Members::Beam(WingBeam { mass, ..beam })
+    };
+    let sheet = WingShell {
+        fibre_angle: 0.3,
+        rigid_fraction: 0.3,
+        ..WingShell::combes_daniel([2.0, 1.0, 0.5], 0.3)
+    };
+    let all = [
+        of_beam(None),
+        of_beam(Some(SpanLaw::constant(0.5))),
+        Members::Shell(sheet),
+    ];
+    for members in all {
+        let structure = WingStructure {
+            members,
+            damping: Damping::default(),
+            spectral_radius: 1.0,
+        };
+        let found = |q: DMat3| {
+            let mesh = turned(q);
+            let wing = Blank {
+                name: "wing",
+                mesh: &mesh,
+                mass: 0.5,
+            };
+            let body = structure.body(&wing).unwrap().structure;
+            let modes = modes(&body, body.rest(), &FrameMotion::REST, None).unwrap();
+            let first = modes
+                .iter()
+                .take(6)
+                .map(|m| m.frequency())
+                .collect::<Vec<_>>();
+            (first, body.mass_properties(body.rest()))
+        };
+        let (flat, mass) = found(DMat3::IDENTITY);
+        for q in [r2(0.4), r1(0.5), r1(-0.3) * r2(0.6)] {
+            let (frequencies, own) = found(q);
+            for (a, b) in frequencies.iter().zip(&flat) {
+                assert!((a / b - 1.0).abs() < 1e-6, "{frequencies:?} {flat:?}");
+            }
+            let centre = (own.first_moment - q * mass.first_moment).length();
+            assert!((own.mass / mass.mass - 1.0).abs() < 1e-12 && centre < 1e-12);
+        }
+    }
 }
