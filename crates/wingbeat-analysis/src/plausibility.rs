@@ -27,19 +27,19 @@ use wingbeat_math::DVec3;
 use self::air::{stream, viscosity};
 use self::doubts::doubts;
 use self::lift::lift_over_weight;
-use crate::error::AnalysisError;
 
-/// Estimates what a flight will be like.
-///
-/// # Errors
-/// Blade elements that cannot be flown: what the flight reports.
-pub fn estimate(setup: &FlightSetup) -> Result<Estimate, AnalysisError> {
+/// Estimates what a flight will be like. Where the blade elements cannot be flown it says why, and leaves the lift out.
+pub fn estimate(setup: &FlightSetup) -> Estimate {
     let animal = &setup.animal;
     let reports = animal.wing_reports();
     let area: f64 = reports.iter().map(|r| r.area).sum();
     let weight = animal.mass() * setup.gravity.length();
     let inertia = animal.body.inertia_about_centre();
     let flight_speed = (start_velocity(setup) - stream(&setup.air)).length();
+    let (lift_over_weight, lift_left_out) = match lift_over_weight(setup) {
+        Ok(lift) => (lift, None),
+        Err(e) => (None, Some(e.to_string())),
+    };
     let mut estimate = Estimate {
         mass: animal.mass(),
         frequency: setup.time.period.map(|p| 1.0 / p),
@@ -48,13 +48,14 @@ pub fn estimate(setup: &FlightSetup) -> Result<Estimate, AnalysisError> {
         inertia: DVec3::new(inertia.x_axis.x, inertia.y_axis.y, inertia.z_axis.z),
         viscosity: viscosity(&setup.air),
         wings: vec![],
-        lift_over_weight: lift_over_weight(setup)?,
+        lift_over_weight,
+        lift_left_out,
         doubts: vec![],
     };
     let wings = animal.wings.iter().zip(reports);
     estimate.wings = wings.map(|(w, r)| estimate.wing(w, r)).collect();
     estimate.doubts = doubts(setup, &estimate);
-    Ok(estimate)
+    estimate
 }
 
 /// Velocity of the body at the start, N components [m/s].

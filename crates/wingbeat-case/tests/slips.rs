@@ -159,10 +159,7 @@ fn behaves_implausible_motions_are_doubted() {
     let doubts = |case: &str, set: &[&str]| {
         let set: Vec<String> = set.iter().map(|s| (*s).to_owned()).collect();
         let case = LoadedCase::find(case, &set).unwrap();
-        wingbeat_analysis::estimate(&case.setup)
-            .unwrap()
-            .doubts
-            .join("\n")
+        wingbeat_analysis::estimate(&case.setup).doubts.join("\n")
     };
     let both = |left: f64| {
         let [left, right] = [("left", left), ("right", 60.0)].map(|(wing, angle)| {
@@ -195,4 +192,21 @@ fn behaves_implausible_motions_are_doubted() {
         assert!(said.contains(says), "{said}");
         assert!(!doubts("bird-cruise", &[]).contains(says));
     }
+}
+
+/// Steps on trial are those of the flight where a hinge is stiff; with steps too long for it the lift alone is left out.
+#[test]
+fn behaves_lift_beside_stiff_hinges_is_estimated_or_left_out() {
+    let text = include_str!("data/stiff-hinge.toml");
+    let estimate = |set: &[&str]| {
+        let set: Vec<String> = set.iter().map(|s| (*s).to_owned()).collect();
+        let here = std::path::Path::new("");
+        let case = LoadedCase::from_text("hinge.toml", text, here, &set).unwrap();
+        wingbeat_analysis::estimate(&case.setup)
+    };
+    let fine = estimate(&[]);
+    assert!(fine.lift_over_weight.is_some() && fine.lift_left_out.is_none());
+    let coarse = estimate(&["time.steps_per_beat=40"]);
+    assert!(coarse.lift_over_weight.is_none() && coarse.lift_left_out.is_some());
+    assert_eq!(coarse.wings.len(), 2);
 }

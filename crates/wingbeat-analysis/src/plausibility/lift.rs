@@ -4,6 +4,7 @@ use wingbeat_air::Wind;
 use wingbeat_blade::BladeSettings;
 use wingbeat_flight::{
     AirModel, BladeOptions, FlightSetup, MotionMode, PrescribedMotion, Simulation, TimeGrid,
+    system_of,
 };
 use wingbeat_math::DVec3;
 use wingbeat_model::Wing;
@@ -12,8 +13,17 @@ use super::air::{density, stream};
 use crate::beat::steadied;
 use crate::error::AnalysisError;
 
-/// Steps per wingbeat with which the blade elements are flown.
+/// Steps per wingbeat with which the blade elements are flown at least.
 const STEPS: usize = 60;
+
+/// Steps of a wingbeat of the `period` \[s\] on trial: with free joints, which may be stiff, no longer than those of the flight.
+fn steps(setup: &FlightSetup, period: f64) -> usize {
+    let has_free_joints = system_of(setup).is_ok_and(|s| s.speeds() > 0);
+    match has_free_joints {
+        true => STEPS.max((period / setup.time.step).round() as usize),
+        false => STEPS,
+    }
+}
 
 /// Mean lift over weight of the second wingbeat of a tethered flight in blade elements, all wings rigid; none where these cannot
 /// follow a measured surface.
@@ -47,20 +57,21 @@ pub(super) fn lift_over_weight(setup: &FlightSetup) -> Result<Option<f64>, Analy
     }
     tethered.feedback = None;
     tethered.mode = MotionMode::Tethered(held(setup));
+    let steps = steps(setup, period);
     tethered.time = TimeGrid {
-        step: period / STEPS as f64,
-        steps: 2 * STEPS,
+        step: period / steps as f64,
+        steps: 2 * steps,
         period: Some(period),
     };
     let mut flight = Simulation::new(tethered)?;
     let (down, mut lift) = (setup.gravity / setup.gravity.length(), 0.0);
     while !flight.finished() {
         let record = flight.step()?;
-        if record.step > STEPS {
+        if record.step > steps {
             lift -= record.air.iter().map(|a| a.force.dot(down)).sum::<f64>();
         }
     }
-    Ok(Some(lift / STEPS as f64 / weight))
+    Ok(Some(lift / steps as f64 / weight))
 }
 
 /// The root as it is held or starts, attitude and velocity kept.

@@ -40,6 +40,8 @@ pub struct Estimate {
     /// Mean lift over weight in the attitude and at the velocity of the start, by blade elements; none without
     /// weight, air or wingbeats \[1\].
     pub lift_over_weight: Option<f64>,
+    /// Why the lift is left out, where the blade elements could not be flown.
+    pub lift_left_out: Option<String>,
     /// What is implausible, in whole sentences; empty where nothing is.
     pub doubts: Vec<String>,
 }

@@ -75,9 +75,10 @@ fn lift(insect: &Insect, stroke: f64) -> Result<f64, IoError> {
         problem,
         remedy: "give other sizes".to_owned(),
     };
-    let found = estimate(&case.setup).map_err(|e| refused(e.to_string()))?;
+    let found = estimate(&case.setup);
     let lift = found.lift_over_weight.filter(|l| l.is_finite());
-    lift.ok_or_else(|| refused("blade elements give no lift for it".to_owned()))
+    let why = found.lift_left_out;
+    lift.ok_or_else(|| refused(why.unwrap_or("blade elements give no lift for it".to_owned())))
 }
 
 /// Why these wings do not hover with a stroke at the end of the range; lift goes with the square of the frequency.

@@ -39,11 +39,7 @@ pub(crate) fn check(args: &CheckArgs) -> Result<(), Failure> {
 
 fn look(args: &CheckArgs, report: &mut Report) -> Result<(), IoError> {
     let case = LoadedCase::find(&args.case, &args.set)?;
-    let fault = |e: String| {
-        let fault = case.fault("", e, "correct the case and check it again");
-        IoError::from(fault)
-    };
-    let estimate = estimate(&case.setup).map_err(|e| fault(e.to_string()))?;
+    let estimate = estimate(&case.setup);
     let cost = trial_cost(&case, args.trial)?;
     line!(report, "{}: this case can be flown.\n", case.origin());
     report.value("case", case.name.as_str());

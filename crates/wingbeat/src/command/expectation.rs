@@ -85,6 +85,13 @@ pub(crate) fn tell(report: &mut Report, e: &Estimate) {
             "lift"
         );
     }
+    if let Some(why) = &e.lift_left_out {
+        line!(
+            report,
+            "{:<10}left out, blade elements on trial failed: {why}",
+            "lift"
+        );
+    }
     report.value("lift_over_weight", e.lift_over_weight);
 }
 
