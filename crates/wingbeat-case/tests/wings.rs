@@ -402,3 +402,21 @@ fn refuses_roots_that_do_not_meet_and_drag_without_sense() {
         "{error}"
     );
 }
+
+#[test]
+fn refuses_what_acts_on_one_point_of_an_elastic_wing() {
+    let beam = "[wing.right.structure.beam]\nflap_newton_m2 = [1, 1]\ntorsion_newton_m2 = [1, 1]\n";
+    let load_on = "[[load]]\non = \"right\"\nforce_newton = [0, 0, 1]\npoint_m = [0, 0.4, 0]\n";
+    let spring = "[spring.t]\nbetween = [\"body\", \"right\"]\nat_m = [[0, 0, 0.1], [0, 0.4, 0]]\nstiffness_newton_per_m = 1\n";
+    let store = "[segment.store]\nmass_kg = 1e-3\ncentre_m = [0, 0, 0]\ninertia_about_centre_kg_m2 = [1e-7, 1e-7, 1e-7, 0, 0, 0]\n[joint.s]\nparent = \"right\"\nchild = \"store\"\nat_m = [0, 0.4, 0]\n";
+    for (what, key) in [
+        (load_on, "load[0].on"),
+        (spring, "spring.t.between[1]"),
+        (store, "joint.s.parent"),
+    ] {
+        let rigid = format!("{GOOD}{what}");
+        good(&rigid, &["air.model=none"]);
+        let error = load(&format!("{rigid}{beam}"), &["air.model=none"]).unwrap_err();
+        assert!(error.contains(key) && error.contains("bends"), "{error}");
+    }
+}

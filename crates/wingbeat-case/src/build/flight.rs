@@ -199,6 +199,27 @@ fn body(key: String, name: &str, animal: &Animal) -> Built<usize> {
     })
 }
 
+/// As [`body`], refused where it is a wing that loads bend: `what` acts on one point of a body.
+fn rigid_body(key: String, name: &str, animal: &Animal, what: &str) -> Built<usize> {
+    let index = body(key.clone(), name, animal)?;
+    match index.checked_sub(1).and_then(|k| animal.wings.get(k)) {
+        Some(wing) if wing.structure.is_some() => Err(bends(key, name, what)),
+        _ => Ok(index),
+    }
+}
+
+/// What acts on one point of a wing would act on its frame, and not bend it.
+pub(super) fn bends(key: String, name: &str, what: &str) -> Fault {
+    Fault::new(
+        key,
+        format!(
+            "wing `{name}` bends under loads, and {what} on it would act on the frame of its root without bending it"
+        ),
+        "the central body, segments and wings without `structure`",
+        "put it on the body or on a segment that carries the wing; give stores as lumped masses (structure.beam.mass); or remove the structure of the wing",
+    )
+}
+
 /// Springs between points.
 pub(super) fn springs(case: &Case, animal: &Animal) -> Built<Vec<PointSpring>> {
     let built = case.spring.iter().map(|(name, spring)| {
@@ -215,7 +236,10 @@ pub(super) fn springs(case: &Case, animal: &Animal) -> Built<Vec<PointSpring>> {
         let key = |k: usize| format!("{path}.between[{k}]");
         Ok(PointSpring {
             name: name.clone(),
-            bodies: [body(key(0), a, animal)?, body(key(1), b, animal)?],
+            bodies: [
+                rigid_body(key(0), a, animal, "a spring")?,
+                rigid_body(key(1), b, animal, "a spring")?,
+            ],
             points: spring.at_m.map(vector),
             stiffness: spring.stiffness_newton_per_m,
             rest: spring.rest_m,
@@ -226,7 +250,7 @@ pub(super) fn springs(case: &Case, animal: &Animal) -> Built<Vec<PointSpring>> {
 }
 
 fn applied(path: &str, load: &LoadCase, animal: &Animal, scale: f64) -> Built<AppliedLoad> {
-    let body = body(format!("{path}.on"), &load.on, animal)?;
+    let body = rigid_body(format!("{path}.on"), &load.on, animal, "a load")?;
     let f = load.frequency_hz;
     let series = |constant: &[f64; 3], cosine: &[[f64; 3]], sine: &[[f64; 3]]| {
         std::array::from_fn(|i| DriftingFourier {

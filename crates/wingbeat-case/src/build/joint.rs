@@ -9,6 +9,7 @@ use wingbeat_math::DVec3;
 use wingbeat_model::Animal;
 
 use super::fault::Built;
+use super::flight::bends;
 use super::mirrored::mirrored;
 use super::names::body_names;
 use super::numbers::vector;
@@ -70,6 +71,12 @@ fn build(case: &Case, animal: &Animal, name: &str, joint: &JointCase) -> Built<J
         ));
     }
     check_hinge(case, animal, &path, joint, [parent, child])?;
+    if let Some(carrier) = parent.checked_sub(1).and_then(|k| animal.wings.get(k))
+        && carrier.structure.is_some()
+    {
+        let key = format!("{path}.parent");
+        return Err(bends(key, &carrier.name, "what a joint carries"));
+    }
     let (anchor_parent, anchor_child) = anchors(animal, &path, joint, [parent, child])?;
     let wing = child <= animal.wings.len();
     if wing && joint.turn.is_some() {

@@ -12,7 +12,7 @@ const SERIES: &str =
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct LoadCase {
-    /// `body` or the name of a wing or segment.
+    /// `body` or the name of a segment or of a wing without `structure`.
     ///
     /// Change it to load another body.
     #[serde(default = "root")]
