@@ -309,3 +309,18 @@ fn behaves_a_wake_that_does_not_keep_its_impulse_is_blamed() {
     assert_eq!(summary.verdict, Verdict::Amber);
     assert!(summary.verdict_reason.starts_with("Two ways"));
 }
+
+/// A flyer whose waist is free keeps its momentum to second order in the step where its wings are elastic.
+#[test]
+fn behaves_elastic_wings_beside_a_free_waist_raise_no_alarm() {
+    let text = include_str!("data/elastic-free-waist.toml");
+    let case = LoadedCase::from_text("waist.toml", text, std::path::Path::new(""), &[]).unwrap();
+    let summary = flown(&case);
+    let residual = summary.momentum_residual_relative;
+    assert!(residual > 1e-6, "the test is void: {residual:e}");
+    assert!(
+        !says(&summary, "momentum balance"),
+        "{:?}",
+        summary.warnings
+    );
+}
