@@ -129,6 +129,13 @@ impl Share {
         }
     }
 
+    /// Whether the filament takes part in what leaves the edge within the step, be its circulation zero, a rounding or more.
+    pub(crate) fn changes(&self, leaving: &[f64]) -> bool {
+        let [a, b] = self.part;
+        let leaves = |k: usize| self.leaving[k] != 0.0 && leaving[self.strip[k]] != 0.0;
+        a + b != 0.0 || leaves(0) || leaves(1)
+    }
+
     pub(crate) fn net(&self, [gamma, leaving]: [&[f64]; 2]) -> f64 {
         let of = |k: usize| self.part[k] * gamma[self.panel[k]];
         let net = self.fixed + (of(0) + of(1));
@@ -294,6 +301,26 @@ pub(crate) fn at_edge(row: &Row, column: usize) -> [f64; 2] {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// A panel that has what it had when its row left, to a rounding or exactly: its row's filaments are joints either way.
+    #[test]
+    fn invariant_joints_of_the_newest_row_under_roundings_of_circulation() {
+        let old = 0.1 + 0.2;
+        let share = |part: f64| Share {
+            fixed: -part * old,
+            part: [part, 0.0],
+            ..Share::default()
+        };
+        for gamma in [old, 0.3] {
+            let net = share(0.25).net([&[gamma], &[]]);
+            assert!(net.abs() < 1e-16 && share(0.25).changes(&[]));
+        }
+        let of_one_strip = Share {
+            part: [0.25, -0.25],
+            ..Share::default()
+        };
+        assert!(!of_one_strip.changes(&[]));
+    }
 
     /// Filaments of a uniform sheet at distances l k from the edge, summed one by one at the collocation
     /// point half a panel ahead, and what the edge holds back.

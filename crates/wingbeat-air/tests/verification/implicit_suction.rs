@@ -166,29 +166,39 @@ fn agrees_second_method_impulse_in_hover_with_implicit_suction() {
     }
 }
 
-/// Two wings that hover as each other's mirror image, the wakes' clearance on.
+/// Two wings that hover as each other's mirror image, the wakes' clearance on. Edges that by the state's criterion shed and then hold have
+/// filaments in the newest row whose circulation is zero or a rounding: which of both must not matter.
 #[test]
 fn invariant_left_and_right_wing_in_hover() {
-    let settings = AirSettings {
-        shedding: ALL,
-        wake_overlap: 1.0,
-        clearance: 0.1,
-        free_stream: DVec3::ZERO,
-        ..settings(implicit(0.15))
+    let explicit = LeadingEdge::Suction {
+        threshold: 0.15,
+        efficiency: 0.0,
     };
-    let wings = ["right", "left"].map(|name| Surface::grid(name, 4, 6));
-    let lattice = Lattice::new(wings.to_vec(), settings).unwrap();
-    let (mut apart, mut largest) = (0.0_f64, 0.0_f64);
-    fly(&lattice, normal_hover, 0.025, 60, |_, _, loads, _| {
-        let [right, left] = [0, 1].map(|s| loads.surfaces[s].force);
-        let image = DVec3::new(left.x, -left.y, left.z);
-        apart = apart.max(right.distance(image));
-        largest = largest.max(right.length());
-    })
-    .unwrap();
-    println!("{apart:e} of {largest}");
-    // Roundings, which grow in a wake that is chaotic.
-    assert!(apart < 1e-6 * largest);
+    let angle = LeadingEdge::AngleOfAttack {
+        threshold: 15_f64.to_radians(),
+    };
+    for leading in [implicit(0.15), explicit, angle] {
+        let settings = AirSettings {
+            shedding: ALL,
+            wake_overlap: 1.0,
+            clearance: 0.1,
+            free_stream: DVec3::ZERO,
+            ..settings(leading)
+        };
+        let wings = ["right", "left"].map(|name| Surface::grid(name, 4, 6));
+        let lattice = Lattice::new(wings.to_vec(), settings).unwrap();
+        let (mut apart, mut largest) = (0.0_f64, 0.0_f64);
+        fly(&lattice, normal_hover, 0.025, 60, |_, _, loads, _| {
+            let [right, left] = [0, 1].map(|s| loads.surfaces[s].force);
+            let image = DVec3::new(left.x, -left.y, left.z);
+            apart = apart.max(right.distance(image));
+            largest = largest.max(right.length());
+        })
+        .unwrap();
+        println!("{leading:?}: {apart:e} of {largest}");
+        // Roundings, which grow in a wake that is chaotic.
+        assert!(apart < 1e-6 * largest);
+    }
 }
 
 /// Two halves in pairs of mirror images or not; joined at the root, or apart, and then they shed all around.
