@@ -52,6 +52,7 @@ impl Wash {
                 self.parts[n].1 += 1;
             }
         }
+        self.pool(&topology.joined_nodes);
         for node in aft {
             let (n, part) = (node.node, self.part(node.node));
             let way = |of| part * node.way(&rings.position, of);
@@ -65,6 +66,15 @@ impl Wash {
             if let Some(normal) = vector_area(&of(&self.nodes.position)).try_normalize() {
                 self.normal[p] = normal;
             }
+        }
+    }
+
+    /// Joined nodes are one, with the panels on both sides.
+    fn pool(&mut self, joined: &[[usize; 2]]) {
+        for &[a, b] in joined {
+            let [one, other] = [a, b].map(|n| self.parts[n]);
+            let both = (one.0 + other.0, one.1 + other.1);
+            (self.parts[a], self.parts[b]) = (both, both);
         }
     }
 

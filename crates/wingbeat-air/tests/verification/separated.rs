@@ -236,7 +236,7 @@ fn turning_wing(
 }
 
 /// An edge that holds suction up to this parameter, and this part of its force.
-fn held(threshold: f64, efficiency: f64) -> LeadingEdge {
+pub(crate) fn held(threshold: f64, efficiency: f64) -> LeadingEdge {
     LeadingEdge::Suction {
         threshold,
         efficiency,
