@@ -192,7 +192,7 @@ fn move_each(
             move_sheet(mover, (k, state.step), sheet)?;
             lattice.shed(k, sheet, state, lengths);
             let mut account = SheetAccount::of_move(mover, sheet, before);
-            mover.events += lattice.truncate(k, sheet, state, &mut account);
+            mover.events += lattice.truncate(k, sheet, (state, mover.dt), &mut account);
             accounts.push(account);
             continue;
         };

@@ -7,13 +7,13 @@ use crate::wake::account::{SheetAccount, free_rings, oldest_rings};
 use wingbeat_math::DVec3;
 
 impl Lattice {
-    /// Drops the oldest rows that are too many, too old or too far, or makes particles of them, and puts their impulse
-    /// into the `account`.
+    /// Drops the oldest rows that are too many, too old or too far at the end of the step of `dt` [s], or makes particles of them, and puts
+    /// their impulse into the `account`.
     pub(crate) fn truncate(
         &self,
         k: usize,
         sheet: &mut WakeSheet,
-        state: &AirState,
+        (state, dt): (&AirState, f64),
         account: &mut SheetAccount,
     ) -> WakeEvents {
         let settings = self.settings();
@@ -24,7 +24,7 @@ impl Lattice {
             keep = keep.min(sheet.shed_time.iter().filter(young).count());
         }
         if let Some(far) = settings.max_distance {
-            let edge = self.edge_middle(k, state);
+            let edge = self.edge_middle(k, (state, dt));
             let is_far = |r: usize| {
                 let mut row = (0..=sheet.columns).map(|c| sheet.node(r, c));
                 row.all(|x| x.distance(edge) > far)
@@ -34,7 +34,7 @@ impl Lattice {
         }
         let dropped = before - keep.max(settings.least_rows()).min(before);
         if settings.particles.is_some() {
-            return self.make_particles(k, sheet, dropped, state, account);
+            return self.make_particles(k, sheet, dropped, (state, dt), account);
         }
         account.cut = oldest_rings(sheet, dropped);
         account.free -= account.cut;
@@ -45,11 +45,12 @@ impl Lattice {
         }
     }
 
-    /// Middle of the edge that sheet `k` leaves [m], N components.
-    fn edge_middle(&self, k: usize, state: &AirState) -> DVec3 {
+    /// Middle of the edge that sheet `k` leaves [m], N components, where it is at the end of the step by its velocity, as the
+    /// nodes of the wake are.
+    fn edge_middle(&self, k: usize, (state, dt): (&AirState, f64)) -> DVec3 {
         let nodes = &self.sheets()[k].nodes;
-        let sum: DVec3 = nodes.iter().map(|&n| state.position[n]).sum();
-        sum / nodes.len() as f64
+        let at = |&n: &usize| state.position[n] + dt * state.velocity[n];
+        nodes.iter().map(at).sum::<DVec3>() / nodes.len() as f64
     }
 
     /// Makes particles of the rows of sheet `k` that are due, and of its oldest `dropped` rows in any
@@ -59,7 +60,7 @@ impl Lattice {
         k: usize,
         sheet: &mut WakeSheet,
         dropped: usize,
-        state: &AirState,
+        (state, dt): (&AirState, f64),
         account: &mut SheetAccount,
     ) -> WakeEvents {
         let Some(settings) = &self.settings().particles else {
@@ -74,7 +75,7 @@ impl Lattice {
         let new_particles = sheet.convert(settings.radius, due);
         sheet.drop_converted();
         let (age, far) = (self.settings().max_age, self.settings().max_distance);
-        let edge = self.edge_middle(k, state);
+        let edge = self.edge_middle(k, (state, dt));
         let before = sheet.particles.impulse();
         account.converted = free_rings(sheet) + before - account.free;
         let dropped_particles = sheet.particles.retain(|x, shed| {

@@ -80,6 +80,27 @@ fn invariant_under_the_motion_of_the_observer() {
     assert!((ma - mb).length() < 1e-9 * ma.length());
 }
 
+/// Wings that move through air at rest, and the same in a stream that carries everything along: as many rows of wake are too far.
+#[test]
+fn invariant_rows_dropped_for_their_distance_under_the_motion_of_the_observer() {
+    let rows = |stream: DVec3, u: DVec3| {
+        let settings = AirSettings {
+            max_distance: Some(0.5),
+            ..lattice(stream + u).settings().clone()
+        };
+        let lattice = Lattice::new(lattice(stream).surfaces().to_vec(), settings).unwrap();
+        let run = run(&lattice, |t| turned(pair(t), DMat3::IDENTITY, t * u, u));
+        (run.state.sheets[0].rows(), total_force(&run.loads))
+    };
+    let (kept, force) = rows(STREAM, DVec3::ZERO);
+    assert!(kept < STEPS);
+    for u in [-STREAM, 5.0 * STREAM] {
+        let (moving, other) = rows(STREAM, u);
+        assert_eq!(moving, kept);
+        assert!((force - other).length() < 1e-9 * force.length()); // as above
+    }
+}
+
 /// Two wings beside a sphere, with mirror pairs; the left wing's panels run the other way round.
 pub(crate) fn halves(motion: &NodeMotion, whole: bool) -> Lattice {
     let right = Surface::grid("right", 3, 4);
