@@ -36,7 +36,7 @@ pub(crate) fn outer_forces(lattice: &Lattice, state: &AirState, out: &mut AirLoa
             continue; // without dGamma/dt the jump holds nothing of the inner fluid
         }
         let gradient = (momentum - state.inner_momentum[s]) / out.dt / volume;
-        let centre = mean_point(&out.panels, panels.clone());
+        let centre = mean(&out.panels.point[panels.clone()]);
         for p in panels {
             let pressure = gradient.dot(out.panels.point[p] - centre);
             out.force[p] += pressure * out.panels.vector_area[p];
@@ -44,20 +44,23 @@ pub(crate) fn outer_forces(lattice: &Lattice, state: &AirState, out: &mut AirLoa
     }
 }
 
-/// Volume [m3] and `surface-integral x (v . n) dA` [m4/s] of a closed surface.
+/// Volume Vol [m3] and `surface-integral x (v . n) dA` [m4/s] of a closed surface, in the form
+/// `Vol V + surface-integral x ((v - V) . n) dA` with the mean velocity V.
+///
+/// On plane panels `sum x (V . A)` is Vol V only up to the error of the quadrature, which turns with the body: as the rate of a
+/// momentum it would be a force that grows with the speed of the observer.
 fn volume_and_flux(panels: &Panels, range: Range<usize>) -> (f64, DVec3) {
-    let centre = mean_point(panels, range.clone());
+    let centre = mean(&panels.point[range.clone()]);
+    let velocity = mean(&panels.velocity[range.clone()]);
     let (mut volume, mut flux) = (0.0, DVec3::ZERO);
     for p in range {
         let x = panels.point[p] - centre;
         volume += x.dot(panels.vector_area[p]) / 3.0;
-        flux += x * panels.velocity[p].dot(panels.vector_area[p]);
+        flux += x * (panels.velocity[p] - velocity).dot(panels.vector_area[p]);
     }
-    (volume, flux)
+    (volume, volume * velocity + flux)
 }
 
-fn mean_point(panels: &Panels, range: Range<usize>) -> DVec3 {
-    let count = range.len() as f64;
-    let sum: DVec3 = range.map(|p| panels.point[p]).sum();
-    sum / count
+fn mean(of: &[DVec3]) -> DVec3 {
+    of.iter().sum::<DVec3>() / of.len() as f64
 }
