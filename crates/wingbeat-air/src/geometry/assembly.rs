@@ -309,8 +309,8 @@ fn joined_columns(joined: &[[usize; 2]], sheets: &[Sheet]) -> Vec<JoinedColumns>
     };
     // A sheet that leaves a surface all around ends where it begins.
     let around = |(s, sheet): (usize, &Sheet)| {
-        let closed = sheet.panels.len() > 2 && sheet.nodes.first() == sheet.nodes.last();
-        closed.then_some(JoinedColumns([(s, 0), (s, sheet.panels.len())]))
+        let ends = JoinedColumns([(s, 0), (s, sheet.panels.len())]);
+        sheet.is_closed().then_some(ends)
     };
     let closed = sheets.iter().enumerate().filter_map(around);
     joined.iter().flat_map(pairs).chain(closed).collect()

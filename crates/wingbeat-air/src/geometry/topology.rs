@@ -43,6 +43,13 @@ pub struct Sheet {
     pub kinds: Vec<EdgeKind>,
 }
 
+impl Sheet {
+    /// Whether it leaves its surface all around: it ends where it begins.
+    pub(crate) fn is_closed(&self) -> bool {
+        self.panels.len() > 2 && self.nodes.first() == self.nodes.last()
+    }
+}
+
 /// One edge as a panel sees it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PanelEdge {

@@ -13,6 +13,7 @@ impl Lattice {
     pub fn initial_state(&self, motion: &NodeMotion) -> AirState {
         let sheet = |root: &Sheet| WakeSheet {
             columns: root.panels.len(),
+            is_closed: root.is_closed(),
             converted: vec![0; root.panels.len()],
             ..WakeSheet::default()
         };
@@ -57,6 +58,7 @@ impl Lattice {
         }
         let fits = |(sheet, root): (&WakeSheet, &Sheet)| {
             sheet.columns == root.panels.len()
+                && sheet.is_closed == root.is_closed()
                 && [&sheet.nodes, &sheet.velocity].into_iter().all(is_whole)
                 && sheet.nodes.len() == sheet.rows() * (sheet.columns + 1)
                 && sheet.gamma.len() == sheet.rows() * sheet.columns

@@ -15,6 +15,8 @@ use wingbeat_vortex::Points;
 pub struct WakeSheet {
     /// Rings per row; a row has one node more.
     pub columns: usize,
+    /// Whether it leaves its surface all around, so that its last line of nodes is its first.
+    pub is_closed: bool,
     /// Free nodes [m], N, row by row.
     pub nodes: Points,
     /// Circulation of the rings [m2/s], row by row.

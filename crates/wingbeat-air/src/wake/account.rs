@@ -2,7 +2,6 @@
 
 use crate::images::Mirror;
 use crate::state::WakeSheet;
-use crate::wake::conversion::borders_ring;
 use crate::wake::mover::Mover;
 use wingbeat_math::DVec3;
 
@@ -104,11 +103,11 @@ pub(crate) fn impulse_with(
     for r in 0..=rows {
         for c in 0..=sheet.columns {
             let mut add = |to: DVec3, net: f64| sum += 0.5 * net * at(r, c).cross(to);
-            if borders_ring(&sheet.converted, [r, c], true) {
+            if sheet.borders_ring([r, c], true) {
                 let older = r.checked_sub(1).map_or(0.0, |r| gamma(r, c));
                 add(at(r, c + 1), gamma(r, c) - older);
             }
-            if r < rows && borders_ring(&sheet.converted, [r, c], false) {
+            if r < rows && sheet.borders_ring([r, c], false) {
                 add(at(r + 1, c), sheet.between_columns(r, c));
             }
         }

@@ -6,7 +6,8 @@
 //! particles segment by segment: a segment from a to b of net circulation Gamma becomes particles of
 //! strength Gamma (b - a) / n in the middles of its n equal pieces, which has exactly its vorticity
 //! `Gamma (b - a)` and its linear impulse `1/2 Gamma a x b`. A segment between a ring that stays and
-//! one that goes stays a filament with the circulation of both, so that nothing is doubled or lost.
+//! one that goes stays a filament with the circulation of both, so that nothing is doubled or lost. So
+//! does the line where a sheet that leaves its surface all around meets itself, as long as a ring on either side stays.
 //!
 //! | symbol | name in code | meaning | unit |
 //! |---|---|---|---|
@@ -30,8 +31,8 @@ impl WakeSheet {
         for r in 0..after.iter().copied().max().unwrap_or(0) {
             for c in 0..=self.columns {
                 let goes = |along: bool| {
-                    borders_ring(&self.converted, [r, c], along)
-                        && !borders_ring(&after, [r, c], along)
+                    self.borders_ring([r, c], along)
+                        && !borders_ring(&after, self.is_closed, [r, c], along)
                 };
                 let mut push = |to: [usize; 2], gamma: f64| {
                     let ends = [self.node(r, c), self.node(to[0], to[1])];
@@ -49,6 +50,11 @@ impl WakeSheet {
         count
     }
 
+    /// Whether the segment from node `[row, column]`, along the row or toward the next newer one, lies at a ring that is still there.
+    pub(crate) fn borders_ring(&self, node: [usize; 2], along: bool) -> bool {
+        borders_ring(&self.converted, self.is_closed, node, along)
+    }
+
     /// Forgets rows that hold no ring and border none.
     pub(crate) fn drop_converted(&mut self) {
         let converted = self.converted.iter().copied().min().unwrap_or(0);
@@ -56,11 +62,18 @@ impl WakeSheet {
     }
 }
 
-/// Whether the segment from node `[row, column]`, along the row or toward the next newer one, lies at
-/// a ring, the oldest `converted` ones of each column being particles.
-pub(crate) fn borders_ring(converted: &[usize], [row, column]: [usize; 2], along: bool) -> bool {
+/// The same at a ring, the oldest `converted` ones of each column being particles. First and last line of a `closed` sheet are one.
+fn borders_ring(converted: &[usize], closed: bool, [row, column]: [usize; 2], along: bool) -> bool {
     let ring = |c: usize| converted.get(c).is_some_and(|&rows| row >= rows);
-    ring(column) || (!along && column > 0 && ring(column - 1))
+    if along {
+        return ring(column);
+    }
+    let last = converted.len();
+    let before = match column {
+        0 if closed => Some(last - 1),
+        _ => column.checked_sub(1),
+    };
+    ring(column) || before.is_some_and(ring) || closed && column == last && ring(0)
 }
 
 /// Appends the segment from `a` to `b` of circulation `gamma`; none without circulation.

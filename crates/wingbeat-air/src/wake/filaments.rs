@@ -4,7 +4,6 @@
 use crate::lattice::Lattice;
 use crate::settings::AirSettings;
 use crate::state::{AirState, WakeSheet};
-use crate::wake::conversion::borders_ring;
 use crate::wake::cores::{add_cores, join_cores};
 use crate::wake::near_wake::{Row, Share, add_near_wake, at_edge, row_lengths, strips};
 use wingbeat_math::DVec3;
@@ -259,7 +258,7 @@ impl Filaments {
                 wake.push_edge(from, to, (1.0 - part) * net, core);
             }
         };
-        let there = |r: usize, c: usize, along: bool| borders_ring(&sheet.converted, [r, c], along);
+        let there = |r: usize, c: usize, along: bool| sheet.borders_ring([r, c], along);
         for first in (0..=columns).step_by(STRIP) {
             let strip = |count: usize| first..count.min(first + STRIP);
             for r in 0..rows {

@@ -171,12 +171,18 @@ fn invariant_force_on_a_turning_ellipsoid_under_the_motion_of_the_observer() {
             }
         };
         let run = fly(&lattice, motion, 0.1, 3, |_, _, _, _| {}).unwrap();
-        (total_force(&run.loads), run.loads.surfaces[0].moment.length())
+        (
+            total_force(&run.loads),
+            run.loads.surfaces[0].moment.length(),
+        )
     };
     let (still, moment) = force(DVec3::ZERO);
     let (moving, _) = force(DVec3::new(5.0, -2.0, 3.0));
     // Roundings; the force of an ellipsoid that turns about its middle is zero.
-    assert!(still.distance(moving) < 1e-10 * moment, "{still} {moving} {moment}");
+    assert!(
+        still.distance(moving) < 1e-10 * moment,
+        "{still} {moving} {moment}"
+    );
 }
 
 /// The null space is removed: no circulation on average, no net flux, no air goes through; a

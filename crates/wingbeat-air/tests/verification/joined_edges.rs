@@ -3,8 +3,8 @@
 use crate::common::{Run, fly, rectangle, total_force};
 use crate::separated::{core_of, held};
 use wingbeat_air::{
-    AirError, AirLoads, AirSettings, JoinedEdge, Lattice, LeadingEdge, LoadMethod, MirrorPairs, NodeMotion,
-    Plane, SheddingKinds, Surface,
+    AirError, AirLoads, AirSettings, JoinedEdge, Lattice, LeadingEdge, LoadMethod, MirrorPairs,
+    NodeMotion, Plane, SheddingKinds, Surface,
 };
 use wingbeat_math::{DVec3, r2};
 
