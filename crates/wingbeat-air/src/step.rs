@@ -41,7 +41,7 @@ impl Lattice {
         forces(self, state, &ws.filaments, &motion.position, out);
         outer_forces(self, state, out);
         if self.settings().is_symmetric() {
-            ws.filaments.soften(self.settings(), state);
+            ws.filaments.soften(self, state);
             ws.sums.load_attached(self.settings(), &ws.filaments);
         }
         let flow = Flow {
@@ -228,7 +228,7 @@ impl Lattice {
         ws.filaments
             .gather(self, state, state.time, &state.position);
         (ws.filaments).set_bound(self, state, [&state.gamma, &state.leaving]);
-        ws.filaments.soften(self.settings(), state);
+        ws.filaments.soften(self, state);
     }
 
     /// Velocity of the air [m/s] at `points` [m], N, in the accepted step; `out` is resized. At a

@@ -119,10 +119,11 @@ impl Filaments {
     /// be reaction: those of the lattice as wide as the newest free nodes have them in the mean, those of a newest
     /// row in between. One width for a whole lattice, for where it varies along a filament, action is not quite
     /// reaction. Control points, which carry no vorticity, go on to see the cores of the settings.
-    pub(crate) fn soften(&mut self, settings: &AirSettings, state: &AirState) {
-        if !settings.is_symmetric() {
+    pub(crate) fn soften(&mut self, lattice: &Lattice, state: &AirState) {
+        if !lattice.settings().is_symmetric() {
             return;
         }
+        let attached = self.attached_core(lattice, state);
         let free = &self.wake.nodes.core;
         let sheets = state.sheets.iter().zip(&self.inner);
         let ends = sheets.scan(0, |end, (sheet, inner)| {
@@ -131,13 +132,6 @@ impl Filaments {
         });
         let newest = ends.filter(|(sheet, ..)| sheet.rows() > 0);
         let newest = newest.map(|(sheet, inner, end)| (inner, &free[end - sheet.columns - 1..end]));
-        let (sum, count) = newest.clone().fold((0.0, 0), |(sum, count), (_, cores)| {
-            (sum + cores.iter().sum::<f64>(), count + cores.len())
-        });
-        let attached = match count {
-            0 => settings.wake_core.core(0.0, 0.0),
-            _ => sum / count as f64,
-        };
         self.bound.nodes.core.clear();
         self.bound
             .nodes
@@ -152,6 +146,25 @@ impl Filaments {
             }
             let ends = std::iter::repeat_n(attached, inner);
             self.near_wake.nodes.core.extend(ends);
+        }
+    }
+
+    /// Mean squared core radius [m2] of the newest free nodes, those of joined columns counted once.
+    fn attached_core(&self, lattice: &Lattice, state: &AirState) -> f64 {
+        let joined = &lattice.topology().joined_columns;
+        let is_counted = |k: usize, c: usize| !joined.iter().any(|j| j.0[1] == (k, c));
+        let (mut sum, mut count, mut end) = (0.0, 0, 0);
+        for (k, sheet) in state.sheets.iter().enumerate() {
+            end += sheet.nodes.len();
+            let first = end - (sheet.columns + 1).min(sheet.nodes.len());
+            let newest = self.wake.nodes.core[first..end].iter().enumerate();
+            let once = newest.filter(|(c, _)| is_counted(k, *c)).map(|(_, x)| x);
+            count += once.clone().count();
+            sum += once.sum::<f64>();
+        }
+        match count {
+            0 => lattice.settings().wake_core.core(0.0, 0.0),
+            _ => sum / count as f64,
         }
     }
 

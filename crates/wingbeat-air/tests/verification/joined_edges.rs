@@ -3,8 +3,8 @@
 use crate::common::{Run, fly, rectangle, total_force};
 use crate::separated::{core_of, held};
 use wingbeat_air::{
-    AirError, AirLoads, AirSettings, JoinedEdge, Lattice, LeadingEdge, LoadMethod, MirrorPairs,
-    NodeMotion, Plane, SheddingKinds, Surface,
+    AirError, AirLoads, AirSettings, CoreModel, JoinedEdge, Lattice, LeadingEdge, LoadMethod,
+    MirrorPairs, NodeMotion, Plane, SheddingKinds, Surface,
 };
 use wingbeat_math::{DVec3, r2};
 
@@ -32,6 +32,17 @@ fn symmetric(shedding: SheddingKinds, loads: LoadMethod) -> AirSettings {
         bound_core: core_of(0.02)[0],
         wake_core: core_of(0.1)[0],
         ..settings(shedding, loads)
+    }
+}
+
+/// The same with cores so small that those of the newest rows differ from node to node.
+fn sharp(shedding: SheddingKinds) -> AirSettings {
+    AirSettings {
+        wake_core: CoreModel::Algebraic {
+            radius: 0.005,
+            viscosity: 0.0,
+        },
+        ..symmetric(shedding, LoadMethod::Joukowski)
     }
 }
 
@@ -136,6 +147,8 @@ fn exact_joined_pair_is_one_wing_of_twice_the_span() {
         (settings(ALL, LoadMethod::Pressure), 0.5),
         (symmetric(with_tips, LoadMethod::Joukowski), 0.5),
         (symmetric(ALL, LoadMethod::Joukowski), 0.5),
+        (sharp(with_tips), 0.5),
+        (sharp(ALL), 0.5),
         (holding(held(0.15, 0.0)), 0.5),
     ] {
         let (shedding, loads) = (settings.shedding, settings.loads);
