@@ -215,3 +215,35 @@ fn refuses_particles_without_a_radius_or_rows() {
         &["air.particles", "nothing becomes a particle"],
     );
 }
+
+#[test]
+fn refuses_choices_that_do_not_fit_each_other_in_the_words_of_the_case() {
+    refused(
+        "air-rows-beside-particles",
+        "after_rows = 2 }\n",
+        "after_rows = 2 }\nmax_wake_rows = 3\n",
+        "max_wake_rows",
+        &["air.max_wake_rows = 3", ": 3 does not fit"],
+    );
+    let air = GOOD.split("[air]\n").nth(1).unwrap();
+    let air = air.split("\n\n").next().unwrap();
+    let at_once = "leading_edge = \"never\"
+bound_core.scully = { radius_m = 1e-5 }
+wake_core.scully = { radius_m = 1e-4 }
+wake_overlap = 0
+particles = { leading_edge = true }";
+    refused(
+        "air-particles-of-no-edge",
+        air,
+        at_once,
+        "particles",
+        &["air.particles.leading_edge = true", "does not fit"],
+    );
+    refused(
+        "air-lift-of-pressures",
+        "leading_edge = \"suction\"\n",
+        "leading_edge = \"vortex_lift\"\nloads = \"pressure\"\n",
+        "loads",
+        &["air.loads = \"pressure\"", ": pressure does not fit"],
+    );
+}

@@ -89,6 +89,17 @@ pub enum LoadMethod {
     Polhamus,
 }
 
+impl LoadMethod {
+    /// As a case has it.
+    pub(crate) fn name(self) -> &'static str {
+        match self {
+            Self::Pressure => "pressure",
+            Self::Joukowski => "joukowski",
+            Self::Polhamus => "polhamus",
+        }
+    }
+}
+
 /// Where and when the flow leaves leading edges, judged strip by strip at every step. Needs
 /// [`SheddingKinds::leading`].
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

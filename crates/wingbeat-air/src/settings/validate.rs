@@ -56,7 +56,7 @@ impl AirSettings {
         require(
             self.max_rows.is_none_or(|rows| rows >= self.least_rows()),
             "max_rows",
-            format!("{:?}", self.max_rows),
+            shown(self.max_rows),
             "at least 2 rows where leading edges shed by a criterion, which asks what left the step before",
         )
     }
@@ -74,14 +74,14 @@ impl AirSettings {
             self.wake_blob_length
                 .is_none_or(|l| is_positive(l) && self.wake_overlap >= 0.5),
             "wake_blob_length",
-            format!("{:?}", self.wake_blob_length),
+            shown(self.wake_blob_length),
             "a finite length in m above 0, with wake_overlap 0.5 or more: blobs narrower than their filaments are \
              long leave gaps; or none",
         )?;
         require(
             self.max_displacement.is_none_or(is_positive),
             "max_displacement",
-            format!("{:?}", self.max_displacement),
+            shown(self.max_displacement),
             "a finite length in m above 0, or none for no limit",
         )?;
         require(
@@ -95,12 +95,7 @@ impl AirSettings {
             ("max_distance", self.max_distance),
         ] {
             let allowed = "a finite number above 0, or none for no limit";
-            require(
-                value.is_none_or(is_positive),
-                key,
-                format!("{value:?}"),
-                allowed,
-            )?;
+            require(value.is_none_or(is_positive), key, shown(value), allowed)?;
         }
         Ok(())
     }
@@ -144,7 +139,7 @@ impl AirSettings {
         require(
             !(self.is_symmetric() && self.wake_blob_length.is_some()),
             "wake_blob_length",
-            format!("{:?}", self.wake_blob_length),
+            shown(self.wake_blob_length),
             "none with algebraic cores, whose filaments stay filaments",
         )
     }
@@ -174,13 +169,13 @@ impl AirSettings {
                 require(
                     leading,
                     "shedding",
-                    format!("{:?}", self.shedding),
+                    "no leading edges",
                     "leading edges too: it is theirs that the vortex lift is",
                 )?;
                 require(
                     self.loads == LoadMethod::Joukowski,
                     "loads",
-                    format!("{:?}", self.loads),
+                    self.loads.name(),
                     "forces on segments with the vortex lift of leading edges, which is made of their suction",
                 )
             }
@@ -223,7 +218,7 @@ impl AirSettings {
         require(
             self.max_rows.is_none(),
             "max_rows",
-            format!("{:?}", self.max_rows),
+            shown(self.max_rows),
             "none beside particles, which have no rows: truncate by age or distance",
         )
     }
@@ -261,6 +256,11 @@ impl AirSettings {
             )
         })
     }
+}
+
+/// A limit that there may be, as a user writes it.
+fn shown(value: Option<impl ToString>) -> String {
+    value.map_or_else(|| "none".to_owned(), |value| value.to_string())
 }
 
 fn is_positive(x: f64) -> bool {

@@ -126,6 +126,7 @@ pub(super) fn key_of(setting: &str) -> &'static str {
         "shear" => "air.shear_1_s",
         name if name.starts_with("gust") => "air.gust",
         name if name.starts_with("vortex street") => "air.vortex_street",
+        "particles leading_at_once" => "air.particles.leading_edge",
         name if name.starts_with("particles") => "air.particles",
         name if name.starts_with("section drag") => "air.section_drag",
         "loads" => "air.loads",
