@@ -150,7 +150,7 @@ const BEATS: [Entry<BeatMeans>; 6] = [
     (
         "lift_by_impulse_newton",
         "N",
-        "the same by the rate of the vortex impulse",
+        "the same by the rate of the vortex impulse; with vortex particles it depends on the origin",
         |b| b.lift_by_impulse_newton,
     ),
 ];

@@ -25,7 +25,7 @@ pub struct BeatMeans {
     /// without a lattice.
     #[serde(default)]
     pub inviscid_lift_newton: f64,
-    /// The same by another way, the rate of the vortex impulse \[N\].
+    /// The same by another way, the rate of the vortex impulse \[N\]. With vortex particles it depends on the origin.
     #[serde(default)]
     pub lift_by_impulse_newton: f64,
 }

@@ -30,12 +30,13 @@ pub struct ImpulseBudget {
 }
 
 impl ImpulseBudget {
-    /// Between two records; none without a lattice, and of results of older versions, which lack the account.
+    /// Between two records; none without a lattice, with vortex particles, whose vorticity does not close, so that their impulse depends
+    /// on the origin, and of results of older versions, which lack the account.
     pub(super) fn between(setup: &FlightSetup, from: &Record, to: &Record) -> Option<Self> {
         let AirModel::VortexLattice(air) = &setup.air else {
             return None;
         };
-        if !to.impulse_residual.is_finite() {
+        if air.lattice.particles.is_some() || !to.impulse_residual.is_finite() {
             return None;
         }
         let along = |of: fn(&ImpulseAccount) -> wingbeat_math::DVec3| {

@@ -348,6 +348,12 @@ fn core_is_an_input(setup: &FlightSetup, lattice: &AirSettings) -> String {
 
 /// The inviscid lift of a beat by the loads and by the impulse of the vortices, and what it means if they differ.
 fn two_ways_to_the_lift(lattice: &AirSettings, beat: &BeatMeans, list: &mut Warnings) {
+    if lattice.particles.is_some() {
+        list.note(
+            "The vorticity of particles does not close: the vortex impulse depends on the origin, and its rate is no second way to the lift.",
+        );
+        return;
+    }
     let (other, inviscid, lift) = (
         beat.lift_by_impulse_newton,
         beat.inviscid_lift_newton,

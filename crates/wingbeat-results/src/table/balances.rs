@@ -123,7 +123,7 @@ pub(super) const WAKE: &[Quantity] = &[
     scalar(
         "vortex_impulse_{c}",
         Unit::Momentum,
-        "impulse of all vorticity",
+        "impulse of all vorticity; with vortex particles, whose vorticity does not close, it depends on the origin",
         |r, _, c| Real(&mut r.vortex_impulse[c]),
     )
     .along(Inertial, Frame::Inertial),
@@ -186,7 +186,7 @@ pub(super) const WAKE: &[Quantity] = &[
     scalar(
         "impulse_residual_{c}",
         Unit::Momentum,
-        "vortex impulse and inviscid impulse together, less those of the start: nothing where wakes carry no force, in still air without a ground",
+        "vortex impulse and inviscid impulse together, less those of the start: nothing where wakes carry no force, in still air without a ground and without particles",
         |r, _, c| Real(&mut r.impulse_residual[c]),
     )
     .along(Inertial, Frame::Inertial)
