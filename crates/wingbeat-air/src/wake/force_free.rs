@@ -112,7 +112,7 @@ impl ForceFree {
         self.beside.clear();
         self.joints.clear();
         self.add_wake(&filaments.wake);
-        self.add_near_wake(filaments, &state.leaving);
+        self.add_near_wake(filaments);
         self.merge_joined();
         self.velocity.reset(self.middles.len());
         self.vorticity.reset(self.middles.len());
@@ -202,7 +202,7 @@ impl ForceFree {
     }
 
     /// Short: the middle says it all. Strips of a row that have one circulation whatever leaves the edge within the step are one.
-    fn add_near_wake(&mut self, filaments: &Filaments, leaving: &[f64]) {
+    fn add_near_wake(&mut self, filaments: &Filaments) {
         let near = &filaments.near_wake;
         for ((e, &[a, b]), share) in near.edges.iter().enumerate().zip(&filaments.shares) {
             let [a, b] = [a, b].map(|n| self.near[n as usize]);
@@ -213,7 +213,7 @@ impl ForceFree {
             let ends = ends.filter_map(|(node, part)| Some((node?, [0.0, 0.5 * part])));
             let [column, other] = [a, b].map(|ends| ends.map(|(node, _)| node));
             let is_across = column == other || other == [None, None];
-            if !is_across && !share.changes(leaving) {
+            if !is_across && !share.is_joint(near.gamma[e]) {
                 continue;
             }
             let between = column.map(|node| node.filter(|_| is_across));

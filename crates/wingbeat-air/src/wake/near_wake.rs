@@ -129,11 +129,14 @@ impl Share {
         }
     }
 
-    /// Whether the filament takes part in what leaves the edge within the step, be its circulation zero, a rounding or more.
-    pub(crate) fn changes(&self, leaving: &[f64]) -> bool {
+    /// Whether the filament of the circulation `net` is one beside others: it takes part in what leaves the edge within the step,
+    /// be its circulation zero, a rounding or more; where that is unknown with the circulations of the panels, it has one.
+    pub(crate) fn is_joint(&self, net: f64) -> bool {
         let [a, b] = self.part;
-        let leaves = |k: usize| self.leaving[k] != 0.0 && leaving[self.strip[k]] != 0.0;
-        a + b != 0.0 || leaves(0) || leaves(1)
+        match self.leaving {
+            [0.0, 0.0] => a + b != 0.0,
+            _ => net != 0.0,
+        }
     }
 
     pub(crate) fn net(&self, [gamma, leaving]: [&[f64]; 2]) -> f64 {
@@ -313,13 +316,13 @@ mod tests {
         };
         for gamma in [old, 0.3] {
             let net = share(0.25).net([&[gamma], &[]]);
-            assert!(net.abs() < 1e-16 && share(0.25).changes(&[]));
+            assert!(net.abs() < 1e-16 && share(0.25).is_joint(net));
         }
         let of_one_strip = Share {
             part: [0.25, -0.25],
             ..Share::default()
         };
-        assert!(!of_one_strip.changes(&[]));
+        assert!(!of_one_strip.is_joint(1e-17));
     }
 
     /// Filaments of a uniform sheet at distances l k from the edge, summed one by one at the collocation
