@@ -9,7 +9,7 @@ use crate::{AddedMass, BodyMotion, DynamicsError, Solution, System, Workspace, W
 /// A way to write the motion of a [`System`] as `y' = f(t, y)`.
 ///
 /// `loads` holds one [`Wrench`] per body, gravity not included. All buffers are in the
-/// [`Workspace`]; no method but `initial` allocates, errors apart.
+/// [`Workspace`]: steps allocate nothing, errors apart, but where bodies on free joints carry air along.
 pub trait Formulation: Send + Sync {
     /// The system.
     fn system(&self) -> &System;

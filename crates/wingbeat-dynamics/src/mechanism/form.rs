@@ -177,7 +177,7 @@ impl AbsoluteForm {
     }
 
     /// Quaternions to unit length and, if asked for, positions and velocities onto the
-    /// constraints: three steps of Newton in the metric of the masses.
+    /// constraints: two steps of Newton in the metric of the masses.
     ///
     /// # Errors
     /// The equations are singular.
