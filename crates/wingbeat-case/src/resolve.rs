@@ -7,7 +7,7 @@ use wingbeat_math::DVec3;
 use crate::data::find_data;
 use crate::error::Fault;
 use crate::raw::{
-    AirCase, AirModel, Case, CoreCase, Formulation, IntegratorCase, JointCase, JointKind,
+    AIR, AirCase, AirModel, Case, CoreCase, Formulation, IntegratorCase, JointCase, JointKind,
     MotionCase, SchemeCase, TimeCase,
 };
 
@@ -52,7 +52,7 @@ fn time(case: &mut TimeCase, beats: bool) {
     }
 }
 
-/// What the scheme says; cores that widen where they have a radius; distance of the wake.
+/// What the scheme says; cores that spread in air and widen where they have a radius; distance of the wake.
 fn air(case: &mut AirCase) {
     let scheme = match case.scheme {
         SchemeCase::Benchmark => AirSettings::benchmark,
@@ -62,6 +62,9 @@ fn air(case: &mut AirCase) {
     case.circulation_rate.decide(scheme.rate);
     case.convection.decide(scheme.convection);
     case.ring_inset.decide(scheme.inset);
+    if let CoreCase::LambOseen(core) | CoreCase::Algebraic(core) = &mut case.wake_core {
+        core.viscosity_m2_s.get_or_insert(AIR);
+    }
     let has_radius = !matches!(case.wake_core, CoreCase::CutOff { .. });
     case.wake_overlap.decide(if has_radius { 1.0 } else { 0.0 });
     if case.clearance_m.is_none() {

@@ -337,6 +337,55 @@ fn refuses_keys_without_effect_by_name() {
 }
 
 #[test]
+fn refuses_motions_of_wings_that_are_not_there() {
+    let wings = ANIMAL.find("[wing.right]").unwrap();
+    let none = format!("{}[air]\nmodel = \"none\"\n", &ANIMAL[..wings]);
+    let load = |set: &[String]| LoadedCase::from_text("idle", &none, Path::new(""), set);
+    load(&[]).unwrap();
+    for set in [
+        "motion.data=\"fwuav-hawkmoth\"",
+        "motion.stroke_plane_pitch_deg=20",
+        "motion.phase=0.25",
+        "motion.adjust={ stroke_amplitude = 0.1 }",
+        "motion.difference={ stroke_offset_deg = 1 }",
+        "motion.start=impulsive",
+    ] {
+        let Err(refused) = load(&[set.to_owned()]) else {
+            panic!("{set} is accepted");
+        };
+        let (key, refused) = (set.split_once('=').unwrap().0, refused.to_string());
+        assert!(
+            refused.contains(key) && refused.contains("no effect without wings"),
+            "{refused}"
+        );
+    }
+}
+
+#[test]
+fn refuses_viscosity_of_surfaces_that_is_not_that_of_the_wakes() {
+    let cores = |bound: &str| {
+        [
+            format!("air.bound_core.algebraic={{ radius_m = 1e-5{bound} }}"),
+            "air.wake_core.algebraic={ radius_m = 7e-5, viscosity_m2_s = 1e-6 }".to_owned(),
+        ]
+    };
+    let load = |bound: &str| LoadedCase::from_text("idle", ANIMAL, Path::new(""), &cores(bound));
+    let refused = load(", viscosity_m2_s = 1.5e-5").err().unwrap().to_string();
+    for word in [
+        "air.bound_core.algebraic.viscosity_m2_s",
+        "no effect",
+        "0.000001",
+    ] {
+        assert!(refused.contains(word), "{refused}");
+    }
+    let (left_out, same) = (load("").unwrap(), load(", viscosity_m2_s = 1e-6").unwrap());
+    assert_eq!(
+        format!("{:?}", left_out.setup.air),
+        format!("{:?}", same.setup.air)
+    );
+}
+
+#[test]
 fn refuses_leading_edges_alone_where_they_shed_nothing() {
     for choice in ["never", "vortex_lift"] {
         let choice = format!("air.leading_edge={choice}");

@@ -5,7 +5,7 @@ use wingbeat_model::{AngleLaw, Wing};
 
 use super::Built;
 use crate::error::Fault;
-use crate::raw::{Case, Formulation, JointCase, Mode, WingCase};
+use crate::raw::{AdjustCase, Case, Formulation, JointCase, Mode, StartCase, WingCase};
 use crate::sides::mirror_name;
 use crate::source::CaseSource;
 
@@ -78,8 +78,36 @@ fn bodies(case: &Case) -> Built<()> {
     Ok(())
 }
 
+/// Motions of wings that are not there.
+fn motion_without_wings(case: &Case) -> Built<()> {
+    let motion = &case.motion;
+    let still = AdjustCase::default();
+    for (key, acts) in [
+        ("data", motion.data.is_some()),
+        (
+            "stroke_plane_pitch_deg",
+            motion.stroke_plane_pitch_deg.value() != 0.0,
+        ),
+        ("phase", motion.phase != 0.0),
+        ("adjust", motion.adjust != still),
+        ("difference", motion.difference != still),
+        (
+            "start",
+            motion.start != StartCase::Smooth && case.joint.is_empty(),
+        ),
+    ] {
+        if acts {
+            return Err(idle(format!("motion.{key}"), "without wings"));
+        }
+    }
+    Ok(())
+}
+
 /// Motions for all wings that every wing replaces.
 fn motion(case: &Case, source: &CaseSource) -> Built<()> {
+    if case.wing.is_empty() {
+        return motion_without_wings(case);
+    }
     let own = |wing: &WingCase| wing.motion.clone().unwrap_or_default();
     let all_angles = |wing: &WingCase| {
         let motion = own(wing);

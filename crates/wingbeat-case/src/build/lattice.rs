@@ -13,7 +13,8 @@ use super::numbers::vector;
 use super::{deformation, wind};
 use crate::error::Fault;
 use crate::raw::{
-    AirCase, Case, FrictionCase, LeadingEdgeCase, ParticlesCase, SchemeCase, SectionDragCase,
+    AirCase, Case, CoreCase, FrictionCase, LeadingEdgeCase, ParticlesCase, SchemeCase,
+    SectionDragCase,
 };
 
 /// The lattice and what of the animal it sees.
@@ -41,7 +42,7 @@ fn settings(case: &AirCase, chord: &Chord) -> Built<AirSettings> {
     let ground = case.ground.map(|g| wind::ground(&g, stream)).transpose()?;
     let particles = |p| particles(p, case, chord, wake_core);
     Ok(AirSettings {
-        bound_core: chord.core("air.bound_core", &case.bound_core)?,
+        bound_core: bound_core(chord, &case.bound_core, wake_core)?,
         wake_core,
         wake_overlap: case.wake_overlap.value(),
         wake_blob_length: length(
@@ -142,6 +143,27 @@ fn viscosity(core: CoreModel) -> Option<f64> {
             Some(viscosity).filter(|v| *v > 0.0)
         }
         CoreModel::CutOff { .. } | CoreModel::Vatistas { .. } | CoreModel::Scully { .. } => None,
+    }
+}
+
+/// The core of the surfaces, which do not age: its viscosity is that of the wakes, which no case needs to give.
+fn bound_core(chord: &Chord, case: &CoreCase, wake_core: CoreModel) -> Built<CoreModel> {
+    let spreading = viscosity(wake_core).unwrap_or(0.0);
+    let mut case = case.clone();
+    let (name, core) = match &mut case {
+        CoreCase::LambOseen(core) => ("lamb_oseen", core),
+        CoreCase::Algebraic(core) => ("algebraic", core),
+        _ => return chord.core("air.bound_core", &case),
+    };
+    let own = core.viscosity_m2_s.replace(spreading);
+    match own.filter(|own| *own != spreading) {
+        Some(own) => Err(Fault::new(
+            format!("air.bound_core.{name}.viscosity_m2_s"),
+            format!("{own} has no effect: filaments on surfaces do not age"),
+            format!("the {spreading} of air.wake_core, or none"),
+            "give the viscosity of the air in air.wake_core",
+        )),
+        None => chord.core("air.bound_core", &case),
     }
 }
 

@@ -5,7 +5,7 @@ use wingbeat_model::Animal;
 
 use super::fault::Built;
 use crate::error::Fault;
-use crate::raw::CoreCase;
+use crate::raw::{AIR, CoreCase};
 
 /// The mean chord of all wings, where there are any.
 pub(super) struct Chord(Option<f64>);
@@ -68,11 +68,11 @@ impl Chord {
             },
             CoreCase::Algebraic(c) => CoreModel::Algebraic {
                 radius: radius("algebraic", c.radius_m, c.radius_chords)?,
-                viscosity: c.viscosity_m2_s,
+                viscosity: c.viscosity_m2_s.unwrap_or(AIR),
             },
             CoreCase::LambOseen(c) => CoreModel::LambOseen {
                 radius: radius("lamb_oseen", c.radius_m, c.radius_chords)?,
-                viscosity: c.viscosity_m2_s,
+                viscosity: c.viscosity_m2_s.unwrap_or(AIR),
             },
         })
     }

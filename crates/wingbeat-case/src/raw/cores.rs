@@ -2,10 +2,9 @@
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use smart_default::SmartDefault;
 
 /// Kinematic viscosity of air at 20 degrees Celsius \[m2/s\].
-const AIR: f64 = 1.5e-5;
+pub(crate) const AIR: f64 = 1.5e-5;
 
 /// Regularisation of a vortex filament.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -61,7 +60,7 @@ pub struct RadiusCase {
 }
 
 /// A core that grows with age.
-#[derive(Clone, Debug, PartialEq, SmartDefault, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct LambOseenCase {
     /// Core radius at age zero.
@@ -76,12 +75,13 @@ pub struct LambOseenCase {
     #[schemars(range(min = 0), extend("or" = "radius_m"))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub radius_chords: Option<f64>,
-    /// Effective kinematic viscosity; the default is that of air.
+    /// Effective kinematic viscosity, of `wake_core`: filaments on surfaces do not age, so `bound_core`
+    /// has none of its own. Default: that of air, 1.5e-5.
     ///
     /// Change it for another fluid, or to a larger one for turbulent wakes.
-    #[default(AIR)]
     #[schemars(range(min = 0))]
-    pub viscosity_m2_s: f64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub viscosity_m2_s: Option<f64>,
 }
 
 impl LambOseenCase {

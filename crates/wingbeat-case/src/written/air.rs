@@ -246,7 +246,7 @@ fn settings(lattice: &AirSettings) -> AirCase {
         density_kg_m3: density,
         stream_m_s: free_stream.to_array(),
         shed: shed(shedding),
-        bound_core: core(bound_core),
+        bound_core: without_viscosity(core(bound_core)),
         wake_core: core(wake_core),
         wake_overlap: wake_overlap.into(),
         wake_blob_length_m: wake_blob_length,
@@ -284,6 +284,14 @@ fn shed(shedding: SheddingKinds) -> Vec<EdgeKind> {
     sheds.map(|(_, edge)| edge).collect()
 }
 
+/// The core of surfaces, which do not age.
+fn without_viscosity(mut case: CoreCase) -> CoreCase {
+    if let CoreCase::LambOseen(core) | CoreCase::Algebraic(core) = &mut case {
+        core.viscosity_m2_s = None;
+    }
+    case
+}
+
 fn core(model: CoreModel) -> CoreCase {
     let plain = |radius| RadiusCase {
         radius_m: Some(radius),
@@ -291,7 +299,7 @@ fn core(model: CoreModel) -> CoreCase {
     };
     let spreading = |radius, viscosity| LambOseenCase {
         radius_m: Some(radius),
-        viscosity_m2_s: viscosity,
+        viscosity_m2_s: Some(viscosity),
         ..LambOseenCase::default()
     };
     match model {

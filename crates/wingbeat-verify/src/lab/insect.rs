@@ -158,7 +158,7 @@ impl Choice {
     fn core(&self, part: f64, fluid: &Fluid) -> CoreCase {
         let core = LambOseenCase {
             radius_m: Some(part * self.core * fluid.chord),
-            viscosity_m2_s: fluid.viscosity,
+            viscosity_m2_s: Some(fluid.viscosity),
             ..LambOseenCase::default()
         };
         match self.blobs.is_some() || self.particles {
