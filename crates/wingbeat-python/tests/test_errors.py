@@ -144,3 +144,14 @@ def test_behaves_a_flight_that_cannot_go_on_keeps_what_was_flown(blade):
     run = caught.value.run
     assert run.outcome == "failed" and caught.value.remedy
     assert 30 < len(run.arrays["time_s"]) < 50 and run.why in str(caught.value)
+
+
+def test_the_text_of_an_error_says_once_what_to_try() -> None:
+    base = wingbeat.Flight.preset("fruit-fly-blade")
+    with pytest.raises(wingbeat.CaseError) as of_python:
+        wingbeat.Problem(base, {}, ["power_watt"])
+    with pytest.raises(wingbeat.CaseError) as of_a_case:
+        base.set("time.beats", -1)
+    for error in (of_python.value, of_a_case.value):
+        assert error.remedy
+        assert str(error).count(error.remedy) == 1

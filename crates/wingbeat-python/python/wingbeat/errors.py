@@ -28,6 +28,11 @@ class Error(Exception):
         self.remedy = remedy
         self.run = None
 
+    def __str__(self) -> str:
+        """The message, and the remedy where the message does not say it."""
+        message = super().__str__()
+        return message if self.remedy in message else f"{message}; try: {self.remedy}"
+
 
 class CaseError(Error, ValueError):
     """A case, or a value given to a function, that is refused."""
