@@ -5,6 +5,7 @@ use std::path::Path;
 
 use wingbeat_case::LoadedCase;
 use wingbeat_flight::{AirModel, FlightSetup, Record, Simulation};
+use wingbeat_model::WingMotion;
 
 const GOOD: &str = r#"format = 1
 name = "wings"
@@ -418,5 +419,47 @@ fn refuses_what_acts_on_one_point_of_an_elastic_wing() {
         good(&rigid, &["air.model=none"]);
         let error = load(&format!("{rigid}{beam}"), &["air.model=none"]).unwrap_err();
         assert!(error.contains(key) && error.contains("bends"), "{error}");
+    }
+}
+
+#[test]
+fn exact_motion_that_a_wing_leaves_out_is_the_mirror_image_of_its_counterpart() {
+    let right_of = [
+        "wing.right.motion.psi.fourier={ mean_deg = 8, cosine_deg = [30] }",
+        "wing.right.motion.stroke_plane_pitch_deg=20",
+    ];
+    let wings = |left: &str| {
+        let set: Vec<&str> = right_of.iter().copied().chain([left]).collect();
+        let wings = good(GOOD, &set).animal.wings;
+        ["left", "right"].map(|name| {
+            let named = wings.iter().find(|w| w.name == name);
+            named.map(|w| w.motion.clone()).expect("the wing")
+        })
+    };
+    let [left, right] = wings("wing.left.motion.phase=0.25");
+    let late = WingMotion {
+        phase: 0.25,
+        ..right.mirrored()
+    };
+    assert_eq!(left, late);
+    assert_eq!(right.phase, 0.0);
+
+    // Measured angles are whole: nothing of the other wing is mixed in.
+    let [left, right] = wings("wing.left.motion.data=\"fry-hover\"");
+    assert_ne!(left.angles.psi, right.angles.psi);
+    assert_ne!(left.angles.theta, right.mirrored().angles.theta);
+    assert_eq!(left.stroke_plane_pitch, 0.0);
+
+    for (key, more) in [
+        ("psi", "wing.left.motion.phi.fourier={ sine_deg = [25] }"),
+        ("phi", "wing.left.motion.theta={ constant_deg = 3 }"),
+    ] {
+        let set: Vec<&str> = right_of.iter().copied().chain([more]).collect();
+        let refused = load(GOOD, &set).err().expect("a refusal");
+        let key = format!("wing.left.motion.{key}");
+        assert!(
+            refused.contains(&key) && refused.contains("constant_deg = 0"),
+            "{refused}"
+        );
     }
 }

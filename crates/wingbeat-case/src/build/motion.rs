@@ -12,16 +12,21 @@ use crate::raw::{
     AngleCase, Case, FourierCase, MotionCase, StartCase, TableCase, WingCase, WingMotionCase,
 };
 
-/// The motion of one wing, without adjustments.
-pub(super) fn law(case: &Case, name: &str, wing: &WingCase, side: Side) -> Built<WingMotion> {
+/// The motion of `wing`, `name` in the case; what it leaves out is that of `base`, else that of `[motion]`.
+pub(super) fn law(
+    case: &Case,
+    name: &str,
+    wing: &WingCase,
+    side: Side,
+    base: Option<&WingMotion>,
+) -> Built<WingMotion> {
     let none = WingMotionCase::default();
     let own = wing.motion.as_ref().unwrap_or(&none);
     let path = format!("wing.{name}.motion");
     let frequency = case.motion.frequency_hz.value();
-    let laws = laws(case, &path, own, side)?;
-    let pitch = own
-        .stroke_plane_pitch_deg
-        .unwrap_or(case.motion.stroke_plane_pitch_deg.value());
+    let laws = laws(case, &path, own, side, base.map(|b| &b.angles))?;
+    let shared = case.motion.stroke_plane_pitch_deg.value().to_radians();
+    let pitch = own.stroke_plane_pitch_deg.map(f64::to_radians);
     let still = |law: &AngleLaw| matches!(law, AngleLaw::Constant(_));
     if frequency == 0.0 && ![&laws.phi, &laws.theta, &laws.psi].into_iter().all(still) {
         return Err(Fault::new(
@@ -34,8 +39,8 @@ pub(super) fn law(case: &Case, name: &str, wing: &WingCase, side: Side) -> Built
     Ok(WingMotion {
         angles: laws,
         frequency,
-        phase: own.phase.unwrap_or(case.motion.phase),
-        stroke_plane_pitch: pitch.to_radians(),
+        phase: (own.phase).unwrap_or(base.map_or(case.motion.phase, |b| b.phase)),
+        stroke_plane_pitch: pitch.unwrap_or(base.map_or(shared, |b| b.stroke_plane_pitch)),
         start: start(case, frequency),
     })
 }
@@ -58,7 +63,53 @@ fn start(case: &Case, frequency: f64) -> Start {
     }
 }
 
-fn laws(case: &Case, path: &str, own: &WingMotionCase, side: Side) -> Built<AngleLaws> {
+/// Whether a wing of this motion takes what it leaves out from the mirror image of that of its `counterpart`: it gives
+/// no motion, or no angles.
+pub(super) fn takes(own: Option<&WingMotionCase>, counterpart: &WingMotionCase) -> bool {
+    own.is_none_or(|own| !gives_angles(own) && gives_angles(counterpart))
+}
+
+fn gives_angles(motion: &WingMotionCase) -> bool {
+    let angles = [&motion.phi, &motion.theta, &motion.psi];
+    motion.data.is_some() || angles.into_iter().any(Option::is_some)
+}
+
+/// Refuses strokes and feathering that stand still where only the wing on the other side has any.
+pub(super) fn check_halves(
+    shared: &MotionCase,
+    (name, own): (&str, &WingMotionCase),
+    (other, counterpart): (&str, &WingMotionCase),
+) -> Built<()> {
+    if !gives_angles(own) || own.data.is_some() || shared.data.is_some() {
+        return Ok(());
+    }
+    let angles = [
+        ("phi", &own.phi, &counterpart.phi),
+        ("psi", &own.psi, &counterpart.psi),
+    ];
+    match angles
+        .into_iter()
+        .find(|(_, a, b)| a.is_none() && b.is_some())
+    {
+        None => Ok(()),
+        Some((key, _, _)) => Err(Fault::new(
+            format!("wing.{name}.motion.{key}"),
+            format!("this angle would stand still at 0, while that of wing `{other}` is given"),
+            "an angle of its own beside others of its own; a wing that gives none has those of the other side",
+            format!(
+                "copy wing.{other}.motion.{key} with the signs of this side, or give {{ constant_deg = 0 }}"
+            ),
+        )),
+    }
+}
+
+fn laws(
+    case: &Case,
+    path: &str,
+    own: &WingMotionCase,
+    side: Side,
+    base: Option<&AngleLaws>,
+) -> Built<AngleLaws> {
     let shared = case
         .motion
         .data
@@ -69,8 +120,9 @@ fn laws(case: &Case, path: &str, own: &WingMotionCase, side: Side) -> Built<Angl
         .as_deref()
         .map(|n| (format!("{path}.data"), n))
         .or(shared);
-    let base = match data {
-        Some((key, name)) => {
+    let base = match (base.filter(|_| own.data.is_none()), data) {
+        (Some(base), _) => base.clone(),
+        (None, Some((key, name))) => {
             let right = find_data(&key, name)?.right;
             if side == Side::Right {
                 right
@@ -78,7 +130,7 @@ fn laws(case: &Case, path: &str, own: &WingMotionCase, side: Side) -> Built<Angl
                 right.mirrored()
             }
         }
-        None => {
+        (None, None) => {
             let [phi, theta, psi] = [0.0; 3].map(AngleLaw::Constant);
             AngleLaws { phi, theta, psi }
         }

@@ -2,7 +2,7 @@
 
 use wingbeat_math::DVec3;
 use wingbeat_model::planform::{Beta, ChordSize, Planform, WingShape};
-use wingbeat_model::{GridMesh, MassInput, Side, Wing};
+use wingbeat_model::{GridMesh, MassInput, Side, Wing, WingMotion};
 
 use super::fault::{Built, fault_at};
 use super::numbers::{given_mass, symmetric, vector};
@@ -96,10 +96,7 @@ fn build(
     };
     let mesh = mesh(&source, side)?;
     let mass = mass(&source)?;
-    let (motion_name, motion_case, mirrored) = source.of(|w| w.motion.is_some());
-    let motion_side = if mirrored { side.other() } else { side };
-    let law = motion::law(case, motion_name, motion_case, motion_side)?;
-    let law = if mirrored { law.mirrored() } else { law };
+    let law = motion_of(case, &source, side)?;
     let path = format!("wing.{name}");
     let wing = Wing::with_mesh(name, side, hinge(&source)?, mesh, &mass, law);
     let wing = wing.map_err(|e| fault_of_wing(&path, &source, &e))?;
@@ -116,6 +113,24 @@ fn build(
         }
         None => Ok(wing),
     }
+}
+
+/// The motion of the wing of this source, with what it takes from the mirror image of its counterpart.
+fn motion_of(case: &Case, source: &Source<'_>, side: Side) -> Built<WingMotion> {
+    if let (Some(own), Some((other, counterpart))) = (&source.own.motion, source.counterpart)
+        && let Some(counterpart) = &counterpart.motion
+    {
+        motion::check_halves(&case.motion, (source.name, own), (other, counterpart))?;
+    }
+    let taken = source.counterpart.filter(|(_, counterpart)| {
+        let there = counterpart.motion.as_ref();
+        there.is_some_and(|there| motion::takes(source.own.motion.as_ref(), there))
+    });
+    let base = taken.map(|(name, counterpart)| {
+        Ok(motion::law(case, name, counterpart, side.other(), None)?.mirrored())
+    });
+    let base = base.transpose()?;
+    motion::law(case, source.name, source.own, side, base.as_ref())
 }
 
 /// A structure has the `mass` of the wing \[kg\] spread evenly, or its own.

@@ -110,7 +110,8 @@ pub enum StartCase {
     Impulsive,
 }
 
-/// Motion of one wing; what is left out comes from `[motion]`. Angles follow the right-hand
+/// Motion of one wing. A wing that gives no angles takes what it leaves out from the mirror image of the motion of its
+/// counterpart; where either gives none, or this one gives angles, it comes from `[motion]`. Angles follow the right-hand
 /// rule about this wing's axes, so a left wing that mirrors a right one has phi and theta of
 /// opposite sign.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
