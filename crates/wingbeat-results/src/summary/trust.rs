@@ -222,7 +222,11 @@ fn air_warnings(
     };
     let inside = setup.wings_inside_parts().into_iter().map(no_meaning);
     inside.for_each(|text| list.limit(text));
-    if let Some(text) = setup.one_sided_leading_edges() {
+    let by_motion = [
+        setup.one_sided_leading_edges(),
+        setup.tips_of_attached_wings(),
+    ];
+    for text in by_motion.into_iter().flatten() {
         list.limit(format!("By the prescribed motion {text}."));
     }
     list.note(core_is_an_input(setup, lattice));

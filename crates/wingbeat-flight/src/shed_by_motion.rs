@@ -1,4 +1,5 @@
-//! Wings whose leading edges shed more vorticity of one sign than of the other.
+//! What the prescribed motion tells of shedding: leading edges that shed more vorticity of one sign than of the other, tips
+//! of attached wings.
 //!
 //! While the flow has left a leading edge, vorticity leaves it at a rate that goes with the square of the speed past the section and with
 //! the suction beyond what the edge holds. Strokes that are alike back and forth shed as much of either sign; those of
@@ -11,15 +12,20 @@
 //! | A0 | `suction` | suction parameter of the undisturbed flow: normal velocity at mid chord over \|u\| | 1 |
 //! | H | `held` | suction parameter that the edge holds | 1 |
 //!
+//! By the same velocities wings whose flow stays attached are known, and whether their tips shed nevertheless.
+//!
 //! What is left out: the velocities that wakes make, and that the body of a free flight does not go on as it starts.
 
-use crate::setup::{AirModel, FlightSetup, MotionMode};
+use crate::setup::{AirModel, AirOptions, FlightSetup, MotionMode};
 use wingbeat_air::AirSettings;
 use wingbeat_math::{DMat3, DVec3, RotationLaw};
 use wingbeat_model::{Wing, WingMotion};
 
 /// Instants of a beat that are looked at.
 const INSTANTS: usize = 100;
+
+/// Suction parameter below which flow stays attached: what leading edges hold by default.
+const ATTACHED: f64 = 0.15;
 
 /// Part that is left over of one sign from which on it is said. Hovering presets have 0 to 0.02; strokes of four
 /// dragonflies, whose lift changes by 10 to 40 % in ten beats or with free roots, have 0.21 to 0.90 in one pair at least.
@@ -53,6 +59,48 @@ impl FlightSetup {
             names.join(", "),
             100.0 * most
         ))
+    }
+
+    /// Says which wings meet the air at such small angles throughout their prescribed motion that the flow stays attached, while
+    /// their tips shed: wakes that go along the tip, with the cores of wakes, in place of the sharp edge there
+    /// (docs/wings.md, "Side edges"). Wings with joints of their own are left out.
+    pub fn tips_of_attached_wings(&self) -> Option<String> {
+        let AirModel::VortexLattice(air) = &self.air else {
+            return None;
+        };
+        if !air.lattice.shedding.tip {
+            return None;
+        }
+        let has_joint = |w: usize| self.joints.iter().any(|j| j.child == w + 1);
+        let wings = self.animal.wings.iter().enumerate();
+        let attached = wings.filter(|(w, wing)| !has_joint(*w) && self.stays_attached(air, wing));
+        let names: Vec<String> = attached
+            .map(|(_, wing)| format!("`{}`", wing.name))
+            .collect();
+        (!names.is_empty()).then(|| {
+            format!(
+                "flow stays attached (wings {}: never more than {ATTACHED} of suction, some 9 deg of incidence, in the undisturbed \
+                 air), and tips shed nevertheless: the lift comes out high, by a quarter at an aspect ratio of 2, a tenth at 4, a \
+                 twentieth at 8: air.shed = [\"trailing\"] (docs/wings.md, \"Side edges\")",
+                names.join(", "),
+            )
+        })
+    }
+
+    /// Whether the wing meets air, and no strip of it ever with more suction than [`ATTACHED`].
+    fn stays_attached(&self, air: &AirOptions, wing: &Wing) -> bool {
+        let motion = wing.motion.impulsive();
+        let span = match motion.frequency > 0.0 {
+            true => 1.0 / motion.frequency,
+            false => self.time.step * self.time.steps as f64,
+        };
+        let instants = (0..INSTANTS).map(|k| k as f64 / INSTANTS as f64 * span);
+        let sections = instants.flat_map(|t| {
+            let past = self.air_past(&air.lattice, wing, &motion, t);
+            sections(wing, past)
+        });
+        let mut moving = sections.filter(|s| s.speed > 0.0).peekable();
+        moving.peek().is_some() && moving.all(|s| s.suction.abs() <= ATTACHED)
     }
 
     /// Part of the vorticity that the leading edge of wing `w` sheds in a beat of its prescribed motion that is left over of one sign
@@ -128,22 +176,39 @@ struct Root {
     turning: DVec3,
 }
 
+/// How a chordwise strip meets the air.
+struct Section {
+    speed: f64,
+    suction: f64,
+    /// Across the strip [m].
+    width: f64,
+}
+
+fn sections(wing: &Wing, past: impl Fn(DVec3) -> DVec3) -> impl Iterator<Item = Section> {
+    let mesh = &wing.mesh;
+    let at = |i: usize, j: usize| mesh.nodes[mesh.node(i, j)];
+    (0..mesh.cols).map(move |j| {
+        let [front, rear] = [0, mesh.rows].map(|i| at(i, j).midpoint(at(i, j + 1)));
+        let aft = (rear - front).normalize_or_zero();
+        let quarter = past(front.lerp(rear, 0.25));
+        let speed = quarter.dot(aft).hypot(quarter.z);
+        Section {
+            speed,
+            suction: past(front.midpoint(rear)).z / speed.max(f64::MIN_POSITIVE),
+            width: (at(0, j + 1) - at(0, j)).reject_from(aft).length(),
+        }
+    })
+}
+
 /// What leaves the leading edge in unit time but for a factor without a unit, strip by strip [m3/s2].
 fn shed_rates(
     lattice: &AirSettings,
     wing: &Wing,
     past: impl Fn(DVec3) -> DVec3,
 ) -> impl Iterator<Item = f64> {
-    let (mesh, held) = (&wing.mesh, lattice.leading.suction().map_or(0.0, |s| s[0]));
-    let at = |i: usize, j: usize| mesh.nodes[mesh.node(i, j)];
-    (0..mesh.cols).map(move |j| {
-        let [front, rear] = [0, mesh.rows].map(|i| at(i, j).midpoint(at(i, j + 1)));
-        let aft = (rear - front).normalize_or_zero();
-        let width = (at(0, j + 1) - at(0, j)).reject_from(aft).length();
-        let quarter = past(front.lerp(rear, 0.25));
-        let speed = quarter.dot(aft).hypot(quarter.z);
-        let suction = past(front.midpoint(rear)).z / speed.max(f64::MIN_POSITIVE);
-        let beyond = (suction.abs() - held).max(0.0).copysign(suction);
-        speed * speed * beyond * width
+    let held = lattice.leading.suction().map_or(0.0, |s| s[0]);
+    sections(wing, past).map(move |s| {
+        let beyond = (s.suction.abs() - held).max(0.0).copysign(s.suction);
+        s.speed * s.speed * beyond * s.width
     })
 }
