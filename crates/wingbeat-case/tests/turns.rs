@@ -105,3 +105,27 @@ fn refuses_springs_past_half_a_turn_where_turns_are_not_counted() {
         );
     }
 }
+
+/// A body that only yaws, beyond half a turn and back, is said to yaw: the other triple of Euler angles, half a turn of pitch and
+/// of roll off, is the same attitude and jumps there.
+#[test]
+fn exact_yaw_goes_on_beyond_a_quarter_turn() {
+    let at = |start: &str| {
+        let case = setup(&[
+            "flight={ mode = \"tethered\", tether = { yaw = { rate_deg_s = 4000 } } }",
+            start,
+        ]);
+        fly(&mut Simulation::new(case).unwrap()).unwrap()
+    };
+    for (start, from) in [("flight.yaw_deg=0", 0.0_f64), ("flight.yaw_deg=171", 171.0)] {
+        for record in at(start) {
+            let angles = &record.coordinates[3..6];
+            let yaw = (from + 4000.0 * record.time).to_radians();
+            let off = [angles[0], angles[1] - yaw, angles[2]];
+            assert!(
+                off.iter().all(|x| x.abs() < 1e-9),
+                "{start}: {angles:?} for {yaw}"
+            );
+        }
+    }
+}

@@ -12,6 +12,7 @@ use crate::memory::{AirMemory, wakes_of};
 use crate::quadratures::Quadratures;
 use crate::record::{AccelerationRecord, AirImpulse, HingeRecord, LoadRecord, Record};
 use crate::turns;
+use std::f64::consts::PI;
 
 /// Below this |cos theta| Euler angles and their rates are not evaluated but kept: they lose
 /// all their digits there.
@@ -256,8 +257,8 @@ fn quaternion(m: &BodyMotion) -> [f64; 4] {
     [q.w, q.x, q.y, q.z]
 }
 
-/// Writes coordinates and rates of all bodies (seed eq. 2) into the ledger, angles without jumps
-/// of a turn; returns the smallest |cos theta|.
+/// Writes coordinates and rates of all bodies (seed eq. 2) into the ledger, angles without jumps,
+/// the first those nearest to zero; returns the smallest |cos theta|.
 fn note_coordinates(bodies: &[Body], motions: &[BodyMotion], ledger: &mut Ledger) -> f64 {
     let first = ledger.coordinates.is_empty();
     ledger.coordinates.resize(6 * bodies.len(), 0.0);
@@ -274,11 +275,7 @@ fn note_coordinates(bodies: &[Body], motions: &[BodyMotion], ledger: &mut Ledger
             continue;
         }
         let before = DVec3::from_slice(&ledger.coordinates[at + 3..]);
-        let eta = if first {
-            eta
-        } else {
-            without_turns(eta, before)
-        };
+        let eta = without_jumps(eta, before);
         let rates = body.sequence.g(eta).inverse() * m.w;
         eta.write_to_slice(&mut ledger.coordinates[at + 3..]);
         if rates.is_finite() {
@@ -288,9 +285,15 @@ fn note_coordinates(bodies: &[Body], motions: &[BodyMotion], ledger: &mut Ledger
     smallest
 }
 
-/// The angles plus whole turns that come nearest to `before`. The two attitudes (a, b, c) and
-/// (a + pi, pi - b, c + pi) are one; the first, with b in [-pi/2, pi/2], is always reported.
-fn without_turns(eta: DVec3, before: DVec3) -> DVec3 {
-    let turn = 2.0 * std::f64::consts::PI;
-    eta + turn * ((before - eta) / turn).round()
+/// The angles of the attitude `eta` that come nearest to `before`: with whole turns more or less, and of the two triples
+/// (a, b, c) and (a + pi, pi - b, c + pi), which are one attitude.
+fn without_jumps(eta: DVec3, before: DVec3) -> DVec3 {
+    let turn = 2.0 * PI;
+    let nearest = |eta: DVec3| eta + turn * ((before - eta) / turn).round();
+    let one = nearest(eta);
+    let other = nearest(DVec3::new(eta.x + PI, PI - eta.y, eta.z + PI));
+    match other.distance_squared(before) < one.distance_squared(before) {
+        true => other,
+        false => one,
+    }
 }

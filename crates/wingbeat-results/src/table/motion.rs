@@ -34,7 +34,7 @@ pub(super) const POSES: &[Quantity] = &[
     scalar(
         "{s}_{c}",
         Unit::Radian,
-        "Euler angle of {s}, without jumps of a turn",
+        "Euler angle of {s}, without jumps",
         |r, s, c| Real(&mut r.coordinates[6 * s + 3 + c]),
     )
     .along(Angles, Frame::Attitude)
