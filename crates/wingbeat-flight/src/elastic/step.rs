@@ -104,14 +104,14 @@ impl WingScratch {
 
     /// The forces at the nodes that residuals are measured by \[N\].
     pub fn set_scale(&mut self, w: &ElasticWing) {
-        let force = |six: &[f64]| DVec3::from_slice(six).length();
-        let loads: f64 = self.loads.chunks_exact(NODE).map(force).sum();
+        let loads = forces(&self.loads);
         let spin = self.frame.w_dot.length() + self.frame.w.length_squared();
         let carried = self.frame.acceleration.length() + spin * w.structure.size();
         self.scale = loads + w.rigid.mass * carried;
     }
 
-    /// Residual of the trial under the loads `given`; moments count over the size of the wing.
+    /// Residual of the trial under the loads `given`; moments count over the size of the wing. A wing under tension without
+    /// loads is measured by what holds it.
     pub fn set_residual(&mut self, w: &ElasticWing) {
         let (trial, frame) = (&self.trial, &self.frame);
         let residual = (self.solver).residual(&w.structure, trial, frame, &self.given);
@@ -126,7 +126,11 @@ impl WingScratch {
         self.unbalanced = if largest == 0.0 {
             0.0
         } else {
-            largest / self.scale
+            largest
+                / match self.scale > 0.0 {
+                    true => self.scale,
+                    false => forces(&self.residual),
+                }
         };
     }
 
@@ -284,4 +288,10 @@ impl WingScratch {
             acceleration: &self.trial.acceleration,
         }
     }
+}
+
+/// Sum of the forces at the nodes \[N\].
+fn forces(all: &[f64]) -> f64 {
+    let force = |six: &[f64]| DVec3::from_slice(six).length();
+    all.chunks_exact(NODE).map(force).sum()
 }

@@ -5,6 +5,7 @@ use std::path::Path;
 
 use wingbeat::analysis::wing_modes::{About, WingModes, wing_modes};
 use wingbeat::case::LoadedCase;
+use wingbeat::flight::Simulation;
 
 use super::{CASE, strings};
 
@@ -177,6 +178,42 @@ fn limit_tension_that_nothing_holds_changes_no_frequency() {
             .all(|m| m.growth == 0.0)
     );
     assert!(across.vacuum[0].growth > 0.0 && across.vacuum[0].frequency == 0.0);
+}
+
+/// A stretched film on a frame, without weight or air, has the frequencies of a membrane, `sqrt(T / m) pi sqrt(1 / a^2 + 1 / b^2)`
+/// and so on, and flies: nothing loads it, and what is left unbalanced is measured by what holds it.
+#[test]
+fn exact_frequencies_of_a_film_under_tension_without_loads() {
+    let film = |chordwise: usize, spanwise: usize| {
+        let text = format!(
+            "format = 1\ngravity_m_s2 = [0, 0, 0]\n[time]\nstep_s = 1e-3\nsteps = 3\n[flight]\nmode = \"tethered\"\n\
+             [air]\nmodel = \"none\"\n[body]\nmass_kg = 1\ninertia_about_centre_kg_m2 = [1, 1, 1, 0, 0, 0]\n\
+             [wing.right]\nmirror = false\nhinge_m = [0, 0.1, 0]\nplanform.rectangle = {{ chord_m = 0.3, span_m = 0.6 }}\n\
+             mesh = {{ chordwise = {chordwise}, spanwise = {spanwise} }}\n\
+             structure.shell = {{ young_pa = 70e9, density_kg_m3 = 2700, thickness_m = [1e-3, 1e-3], \
+             clamped_perimeter = true, prestress_newton_per_m = [500, 500], bending_factor = 1e-4 }}\n"
+        );
+        LoadedCase::from_text("film", &text, Path::new("."), &[]).unwrap()
+    };
+    let speed = (500.0_f64 / 2.7).sqrt();
+    let errors = [[6, 12], [12, 24]].map(|[chordwise, spanwise]| {
+        let found = both(&film(chordwise, spanwise)).pop().unwrap();
+        [1.0, 2.0].map(|half_waves: f64| {
+            let exact = speed * PI * (half_waves / 0.6).hypot(1.0 / 0.3);
+            frequencies(&found)[half_waves as usize - 1] / exact - 1.0
+        })
+    });
+    println!("{errors:?}");
+    for (coarse, fine) in errors[0].iter().zip(&errors[1]) {
+        assert!(
+            fine.abs() < 0.03 && fine.abs() < 0.4 * coarse.abs(),
+            "{errors:?}"
+        );
+    }
+    let mut flight = Simulation::new(film(6, 12).setup).unwrap();
+    while !flight.finished() {
+        flight.step().unwrap();
+    }
 }
 
 /// An outer half of twice the thickness weighs twice as much; a whole region is as if the sheet were of it.
