@@ -25,6 +25,7 @@ pub mod rotation_jacobian;
 mod secants;
 pub mod series;
 mod small_lu;
+mod smoothstep;
 
 pub use euler::{EulerMatrices, EulerSequence};
 pub use glam::{DMat3, DQuat, DVec2, DVec3};
@@ -37,3 +38,4 @@ pub use rotation::{
 pub use secants::{Secants, Shown};
 pub use series::{DriftingFourier, interpolate};
 pub use small_lu::{SingularMatrix, solve_small};
+pub use smoothstep::smoothstep;
