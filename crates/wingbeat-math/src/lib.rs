@@ -15,6 +15,7 @@
 #![warn(missing_docs)]
 
 pub mod euler;
+mod extremes;
 mod iterative;
 pub mod lu;
 pub mod mass;
@@ -28,6 +29,7 @@ mod small_lu;
 mod smoothstep;
 
 pub use euler::{EulerMatrices, EulerSequence};
+pub use extremes::larger;
 pub use glam::{DMat3, DQuat, DVec2, DVec3};
 pub use iterative::{BiCgStab, Product};
 pub use lu::{DenseLu, LuError};

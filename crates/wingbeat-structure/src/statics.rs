@@ -2,12 +2,13 @@
 
 use crate::assembly::Assembly;
 use crate::configuration::{Configuration, NODE};
-use crate::dynamics::{inertial, larger, size};
+use crate::dynamics::{inertial, size};
 use crate::error::StructureError;
 use crate::frame::FrameMotion;
 use crate::inertia::{self, Motion};
 use crate::loads::Loading;
 use crate::structure::{HELD, Structure};
+use wingbeat_math::larger;
 
 /// How an equilibrium is sought.
 #[derive(Clone, Copy, Debug, PartialEq)]
