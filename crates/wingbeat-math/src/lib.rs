@@ -27,6 +27,7 @@ mod secants;
 pub mod series;
 mod small_lu;
 mod smoothstep;
+mod split_mix;
 
 pub use euler::{EulerMatrices, EulerSequence};
 pub use extremes::larger;
@@ -41,3 +42,4 @@ pub use secants::{Secants, Shown};
 pub use series::{DriftingFourier, interpolate};
 pub use small_lu::{SingularMatrix, solve_small};
 pub use smoothstep::smoothstep;
+pub use split_mix::SplitMix64;
