@@ -8,12 +8,13 @@ use std::path::PathBuf;
 use wingbeat_case::IoError;
 use wingbeat_results::export::parquet::{Cell, Cells, ParquetWriter};
 use wingbeat_results::file::NewFile;
+use wingbeat_results::manifest::hexadecimal;
 
 use crate::campaign::Campaign;
 use crate::command::command;
 use crate::netcdf;
 use crate::rows::{KeyKind, Row, kinds, rows};
-use crate::store::{Store, hexadecimal};
+use crate::store::Store;
 use crate::value::Value;
 
 /// Files that a merge writes.

@@ -1,5 +1,7 @@
 //! Equilibrium under loads and steady motion of the frame.
 
+use wingbeat_math::larger;
+
 use crate::assembly::Assembly;
 use crate::configuration::{Configuration, NODE};
 use crate::dynamics::{inertial, size};
@@ -8,7 +10,6 @@ use crate::frame::FrameMotion;
 use crate::inertia::{self, Motion};
 use crate::loads::Loading;
 use crate::structure::{HELD, Structure};
-use wingbeat_math::larger;
 
 /// How an equilibrium is sought.
 #[derive(Clone, Copy, Debug, PartialEq)]
