@@ -143,7 +143,7 @@ impl AbsoluteForm {
         };
         let first = 6 * s.motions.len();
         for (k, (_, r)) in s.rows.iter().enumerate() {
-            s.rhs[first + k] = -r.bias - 2.0 * b.alpha * r.rate - b.beta * b.beta * r.value;
+            s.rhs[first + k] = b.right_side(r.bias, r.rate, r.value);
         }
         put_constraints(&self.mechanism, s);
         eliminate(&self.mechanism, t, s)?;
