@@ -19,6 +19,7 @@ mod extremes;
 mod iterative;
 pub mod lu;
 pub mod mass;
+mod matrix;
 pub mod newton;
 pub mod ode;
 pub mod rotation;
@@ -35,6 +36,7 @@ pub use glam::{DMat3, DQuat, DVec2, DVec3};
 pub use iterative::{BiCgStab, Product};
 pub use lu::{DenseLu, LuError};
 pub use mass::{MassError, MassProperties};
+pub use matrix::{outer, trace};
 pub use rotation::{
     MovingRotation, RotationLaw, r1, r2, r3, rotation_about, rotation_vector, tilde, untilde,
 };

@@ -9,7 +9,7 @@
 
 use crate::error::{ModelError, not_negative, positive};
 use crate::mesh::{GridMesh, QuadMesh, Side};
-use wingbeat_math::{DMat3, DVec3, MassProperties};
+use wingbeat_math::{DMat3, DVec3, MassProperties, outer, trace};
 
 /// Abscissas on [0, 1] and weights of the three-point Gauss rule (exact to degree five).
 pub(crate) const GAUSS: [(f64, f64); 3] = [
@@ -73,7 +73,7 @@ const ROUNDING: f64 = 1e-14;
 /// First and second moments of the volume `v` without what is left of those that symmetry makes zero: a body
 /// that does not tell left from right must not turn by roundings.
 fn without_rounding(v: f64, s: DVec3, second: DMat3) -> (DVec3, DMat3) {
-    let trace = second.x_axis.x + second.y_axis.y + second.z_axis.z;
+    let trace = trace(second);
     // |s|^2 <= v trace, by Cauchy and Schwarz.
     let size = (v * trace).abs().sqrt();
     let above = |x: f64, size: f64| if x.abs() < ROUNDING * size { 0.0 } else { x };
@@ -97,16 +97,12 @@ pub fn shell(mesh: &QuadMesh, sigma: impl Fn(DVec3) -> f64) -> MassProperties {
 
 /// `J = tr(P) I - P` with `P = int rho r r^T`.
 fn from_moments(mass: f64, first_moment: DVec3, second: DMat3) -> MassProperties {
-    let trace = second.x_axis.x + second.y_axis.y + second.z_axis.z;
+    let trace = trace(second);
     MassProperties {
         mass,
         first_moment,
         inertia: DMat3::from_diagonal(DVec3::splat(trace)) - second,
     }
-}
-
-fn outer(x: DVec3) -> DMat3 {
-    DMat3::from_cols(x * x.x, x * x.y, x * x.z)
 }
 
 /// The mass of a body part or a wing.
