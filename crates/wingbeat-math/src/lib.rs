@@ -41,7 +41,7 @@ pub use rotation::{
     MovingRotation, RotationLaw, r1, r2, r3, rotation_about, rotation_vector, tilde, untilde,
 };
 pub use secants::{Secants, Shown};
-pub use series::{DriftingFourier, interpolate};
+pub use series::{DriftingFourier, interpolate, with_harmonics};
 pub use small_lu::{SingularMatrix, solve_small};
 pub use smoothstep::smoothstep;
 pub use split_mix::SplitMix64;
