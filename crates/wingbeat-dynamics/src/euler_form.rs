@@ -5,8 +5,7 @@
 //! The constraints hold only as far as integration and stabilization keep them: `alpha = beta =
 //! a / h` with a = 0.1 drifts least at 80 steps per beat; constants of a few tens per second do
 //! nothing at 200 Hz; a > 2.7 makes Runge-Kutta unstable. A stabilization tied to the step lowers a
-//! fourth-order integrator to second order, a fixed one keeps its order. Projection
-//! ([`EulerForm::with_projection`]) removes the drift between steps of a one-step integrator.
+//! fourth-order integrator to second order, a fixed one keeps its order.
 
 use wingbeat_math::DVec3;
 
@@ -28,25 +27,12 @@ use crate::{
 pub struct EulerForm {
     system: System,
     baumgarte: Baumgarte,
-    projection: bool,
 }
 
 impl EulerForm {
     /// The Euler form of `system` with stabilization `baumgarte`.
     pub fn new(system: System, baumgarte: Baumgarte) -> Self {
-        Self {
-            system,
-            baumgarte,
-            projection: false,
-        }
-    }
-
-    /// Projects coordinates and rates onto the constraints in [`Formulation::normalise`].
-    pub fn with_projection(self) -> Self {
-        Self {
-            projection: true,
-            ..self
-        }
+        Self { system, baumgarte }
     }
 
     /// Number of coordinates, six per body.
@@ -216,12 +202,8 @@ impl Formulation for EulerForm {
         (0..n).map(coordinate).chain(rates).collect()
     }
 
-    fn normalise(&self, t: f64, y: &mut [f64], _ws: &mut Workspace) -> Result<(), DynamicsError> {
-        if !self.projection {
-            return Ok(());
-        }
-        let (q, qd) = y.split_at_mut(self.coordinates());
-        consistent_coordinates(&self.system, t, q)?;
-        consistent_rates(&self.system, t, q, qd)
+    /// Nothing: coordinates without norms, and constraints that the stabilization keeps.
+    fn normalise(&self, _t: f64, _y: &mut [f64], _: &mut Workspace) -> Result<(), DynamicsError> {
+        Ok(())
     }
 }

@@ -7,7 +7,8 @@
 //! ```
 //!
 //! Velocities are taken in N components, angular velocities in body components, so that M is
-//! `[[m I, -R tilde(S)], [tilde(S) R^T, J]]`. Scaled as [`crate::euler::saddle`].
+//! `[[m I, -R tilde(S)], [tilde(S) R^T, J]]`. Coordinates are scaled by
+//! `1/sqrt(M_ii)`, multipliers by `1/sqrt((B M^-1 B^T)_kk)`.
 
 use wingbeat_math::{DMat3, DQuat, DVec3};
 

@@ -1,17 +1,15 @@
-//! The saddle-point system of seed eq. 30, assembled, scaled and solved.
+//! The saddle-point system of seed eq. 30 as printed: assembled, scaled and solved as a whole.
 //!
 //! In SI units its condition number for an insect is 1e14. Coordinates are scaled by
 //! `1/sqrt(M_ii)` and multipliers by `1/sqrt((B M^-1 B^T)_kk)`, which makes it of order ten. A body
 //! without mass has `M_ii = 0`; there the scale is that of a millionth of the total mass. The
 //! matrix as a whole stays regular, because elimination exchanges rows between M and B_q.
 
+use wingbeat_dynamics::euler::constraint::{AngleJacobian, HingeKinematics};
+use wingbeat_dynamics::euler::coordinates::{BodyKinematics, PER_BODY};
+use wingbeat_dynamics::euler::inertia::equations;
+use wingbeat_dynamics::{Baumgarte, System, Wrench};
 use wingbeat_math::{DMat3, DVec3, SingularMatrix, solve_small};
-
-use super::constraint::{AngleJacobian, HingeKinematics};
-use super::coordinates::{BodyKinematics, PER_BODY};
-use super::inertia::equations;
-use crate::baumgarte::Baumgarte;
-use crate::{System, Wrench};
 
 /// Share of the total mass that sets the scale of a body without mass.
 const LIGHTEST: f64 = 1e-6;
@@ -87,7 +85,10 @@ impl Saddle {
         let hinge = &system.hinges()[k];
         let connection = self.coordinates + 3 * k;
         let orientation = connection + 3 * system.hinges().len();
-        let (a, c) = (PER_BODY * hinge.tree_parent(), PER_BODY * hinge.child);
+        let (a, c) = (
+            PER_BODY * hinge.parent.expect("a tree"),
+            PER_BODY * hinge.child,
+        );
         self.put_twice(connection, a, -DMat3::IDENTITY);
         self.put_twice(connection, c, DMat3::IDENTITY);
         self.put_angles(connection, a, c, &h.connection_jacobian());
