@@ -15,7 +15,7 @@ use crate::check::{check_rotation, check_state};
 use crate::configuration::Configuration;
 use crate::euler::assembly::{consistent_coordinates, consistent_rates};
 use crate::euler::constraint::HingeKinematics;
-use crate::euler::coordinates::{BodyKinematics, PER_BODY, write};
+use crate::euler::coordinates::{BodyKinematics, COORDINATES, write};
 use crate::euler::scratch::EulerScratch;
 use crate::{
     BodyAcceleration, BodyMotion, DynamicsError, Formulation, HingeReaction, Solution, System,
@@ -37,7 +37,7 @@ impl EulerForm {
 
     /// Number of coordinates, six per body.
     pub fn coordinates(&self) -> usize {
-        PER_BODY * self.system.bodies().len()
+        COORDINATES * self.system.bodies().len()
     }
 
     /// The state with the given motions of all bodies.
@@ -59,7 +59,7 @@ impl EulerForm {
         assert_eq!(y.len(), 2 * n, "the Euler form has {} components", 2 * n);
         check_state(t, y)?;
         for (i, body) in self.system.bodies().iter().enumerate() {
-            let (q, qd) = (&y[PER_BODY * i..n], &y[n + PER_BODY * i..]);
+            let (q, qd) = (&y[COORDINATES * i..n], &y[n + COORDINATES * i..]);
             let k = BodyKinematics::new(body, q, qd);
             k.check(body, t)?;
             ws.euler.bodies[i] = k;
@@ -90,7 +90,7 @@ impl EulerForm {
     /// Accelerations of bodies and reactions of hinges from the solved equations.
     fn read_solved(&self, s: &EulerScratch, out: &mut Solution) {
         for (i, k) in s.bodies.iter().enumerate() {
-            let a = &s.condensed.accelerations()[PER_BODY * i..];
+            let a = &s.condensed.accelerations()[COORDINATES * i..];
             out.bodies[i] = BodyAcceleration {
                 linear: DVec3::from_slice(a),
                 angular: k.g * DVec3::from_slice(&a[3..]) + k.g_dot * k.eta_dot,
@@ -196,7 +196,7 @@ impl Formulation for EulerForm {
 
     fn scales(&self) -> Vec<f64> {
         let u = self.system.units();
-        let coordinate = |i: usize| if i % PER_BODY < 3 { u.length } else { 1.0 };
+        let coordinate = |i: usize| if i % COORDINATES < 3 { u.length } else { 1.0 };
         let n = self.coordinates();
         let rates = (0..n).map(|i| coordinate(i) / u.time);
         (0..n).map(coordinate).chain(rates).collect()

@@ -6,7 +6,7 @@
 //! matrix as a whole stays regular, because elimination exchanges rows between M and B_q.
 
 use wingbeat_dynamics::euler::constraint::{AngleJacobian, HingeKinematics};
-use wingbeat_dynamics::euler::coordinates::{BodyKinematics, PER_BODY};
+use wingbeat_dynamics::euler::coordinates::{BodyKinematics, COORDINATES};
 use wingbeat_dynamics::euler::inertia::equations;
 use wingbeat_dynamics::{Baumgarte, System, Wrench};
 use wingbeat_math::{DMat3, DVec3, SingularMatrix, solve_small};
@@ -27,7 +27,7 @@ pub struct Saddle {
 impl Saddle {
     /// Room for the saddle-point system of `system`.
     pub fn new(system: &System) -> Self {
-        let coordinates = PER_BODY * system.bodies().len();
+        let coordinates = COORDINATES * system.bodies().len();
         let n = coordinates + 6 * system.hinges().len();
         Self {
             coordinates,
@@ -67,7 +67,7 @@ impl Saddle {
 
     /// Mass matrix and generalized forces of one body (seed eq. 21).
     fn put_body(&mut self, system: &System, i: usize, k: &BodyKinematics, load: &Wrench) {
-        let (body, at) = (&system.bodies()[i], PER_BODY * i);
+        let (body, at) = (&system.bodies()[i], COORDINATES * i);
         let (m, force) = equations(body, k, load, system.gravity());
         self.put(at, at, DMat3::from_diagonal(DVec3::splat(m.rr)));
         self.put(at, at + 3, m.r_eta);
@@ -86,8 +86,8 @@ impl Saddle {
         let connection = self.coordinates + 3 * k;
         let orientation = connection + 3 * system.hinges().len();
         let (a, c) = (
-            PER_BODY * hinge.parent.expect("a tree"),
-            PER_BODY * hinge.child,
+            COORDINATES * hinge.parent.expect("a tree"),
+            COORDINATES * hinge.child,
         );
         self.put_twice(connection, a, -DMat3::IDENTITY);
         self.put_twice(connection, c, DMat3::IDENTITY);
@@ -122,7 +122,7 @@ impl Saddle {
     fn scale_body(&mut self, system: &System, at: usize) {
         let (n, length) = (self.rhs.len(), system.units().length);
         let least = LIGHTEST * system.total_mass();
-        for c in 0..PER_BODY {
+        for c in 0..COORDINATES {
             let floor = if c < 3 {
                 least
             } else {
