@@ -5,7 +5,7 @@ use crate::common;
 use common::*;
 use wingbeat_analysis::beat::Integration;
 use wingbeat_analysis::eigen::eigen;
-use wingbeat_analysis::monodromy::{determinant, monodromy};
+use wingbeat_analysis::monodromy::monodromy;
 use wingbeat_analysis::stability::orbit_monodromy;
 use wingbeat_analysis::*;
 use wingbeat_flight::air::BladeAir;
