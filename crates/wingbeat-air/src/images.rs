@@ -6,7 +6,7 @@
 //! targets and its result reflected back.
 
 use crate::error::AirError;
-use wingbeat_math::{DMat3, DVec3};
+use wingbeat_math::{DMat3, DVec3, outer};
 
 /// What directions and places that are the same in exact arithmetic may differ by, relative to their size: far above
 /// round-off, far below what anyone means.
@@ -57,9 +57,8 @@ impl Mirror {
 
     fn new(plane: &Plane) -> Self {
         let n = plane.normal.normalize();
-        let outer = DMat3::from_cols(n * n.x, n * n.y, n * n.z);
         Self {
-            turn: DMat3::IDENTITY - outer * 2.0,
+            turn: DMat3::IDENTITY - outer(n) * 2.0,
             shift: 2.0 * plane.point.dot(n) * n,
         }
     }

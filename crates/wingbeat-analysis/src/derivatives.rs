@@ -33,7 +33,7 @@ pub enum Control {
 }
 
 /// All controls with their names.
-pub const CONTROLS: [(Control, &str); 8] = [
+pub const CONTROL_NAMES: [(Control, &str); 8] = [
     (Control::StrokeAmplitude, "stroke_amplitude"),
     (Control::StrokeOffset, "stroke_offset"),
     (Control::Frequency, "frequency"),
@@ -95,7 +95,9 @@ pub fn control_derivatives(
     const STEP: f64 = 1e-4;
     let wings = setup.animal.wings.len();
     let mut list = vec![];
-    let had = CONTROLS.iter().filter(|c| c.0.is_had(&setup.animal.wings));
+    let had = CONTROL_NAMES
+        .iter()
+        .filter(|c| c.0.is_had(&setup.animal.wings));
     let had: Vec<_> = had.copied().collect();
     for (k, &(control, name)) in had.iter().enumerate() {
         progress::task(&format!("derivatives by {name}"), k, had.len());

@@ -49,6 +49,7 @@ pub mod progress;
 pub mod realisation;
 pub mod regulator;
 mod rigid_body;
+mod root;
 pub mod route;
 pub mod sensors;
 pub mod stabiliser;

@@ -7,7 +7,7 @@
 use std::f64::consts::TAU;
 
 use wingbeat_flight::Sensed;
-use wingbeat_math::{DMat3, DQuat, DVec3};
+use wingbeat_math::{DMat3, DQuat, DVec3, SplitMix64};
 
 /// One number for each thing that is sensed.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -55,20 +55,12 @@ impl Sensors {
 
     /// A normal number of mean 0 and deviation 1.
     fn normal(&self, look: u64, channel: u64) -> f64 {
-        let bits = scrambled(scrambled(scrambled(self.seed) ^ look) ^ channel);
+        let bits = SplitMix64::mixed_with(self.seed, &[look, channel]);
         // Two numbers in (0, 1) of 32 bits each.
         let share = |bits: u64| (bits as f64 + 0.5) / 4_294_967_296.0;
         let [u, v] = [share(bits >> 32), share(bits & 0xffff_ffff)];
         (-2.0 * u.ln()).sqrt() * (TAU * v).cos()
     }
-}
-
-/// The mixing function of SplitMix64 [Steele, Lea & Flood 2014, fig. 16].
-pub(crate) fn scrambled(x: u64) -> u64 {
-    let x = x.wrapping_add(0x9e37_79b9_7f4a_7c15);
-    let x = (x ^ (x >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-    let x = (x ^ (x >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-    x ^ (x >> 31)
 }
 
 #[cfg(test)]

@@ -2,7 +2,7 @@
 //! from the cycle means of a flapping one.
 
 use wingbeat_blade::DerivativeTable;
-use wingbeat_blade::FrameMotion;
+use wingbeat_blade::WingFrame;
 use wingbeat_flight::{AirModel, FlightSetup};
 use wingbeat_math::{DMat3, DVec3, tilde};
 
@@ -81,7 +81,7 @@ fn load(table: &DerivativeTable, velocity: DVec3, rate: DVec3) -> MeanLoad {
         added_mass: [[0.0; 6]; 6],
         ..*table
     };
-    let load = still.load(&FrameMotion {
+    let load = still.load(&WingFrame {
         rotation: DMat3::IDENTITY,
         velocity: v - w.cross(table.point),
         rate: w,

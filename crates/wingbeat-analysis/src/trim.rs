@@ -9,12 +9,13 @@ use wingbeat_flight::{
     AirModel, FlightSetup, FormulationChoice, IntegratorChoice, MotionMode, PrescribedMotion,
     StabilizationChoice, StartState, TimeGrid, closes_loop,
 };
-use wingbeat_math::{DMat3, DVec3, EulerSequence, solve_small};
+use wingbeat_math::{DMat3, DVec3, EulerSequence};
 use wingbeat_model::motion::Adjustment;
 
 use crate::AnalysisError;
 use crate::beat::{Beat, JOINTS, State, steadied};
 use crate::progress;
+use crate::root::{Map, Search, largest, matrix_of, moved};
 use crate::steady::{self, Measures, Residuals, Snapshot, TrimProblem};
 use crate::unknown::{Unknown, adjusted};
 
@@ -187,28 +188,22 @@ pub fn trim(setup: &FlightSetup, problem: &TrimProblem) -> Result<Trim, Analysis
 pub fn trim_from(
     setup: &FlightSetup,
     problem: &TrimProblem,
-    mut x: Vec<f64>,
+    x: Vec<f64>,
 ) -> Result<Trim, AnalysisError> {
-    let setup = &steadied(setup);
-    let mut residual = evaluate(setup, problem, &x)?.residual;
-    let mut iterations = 0;
-    while iterations < problem.settings.iterations
-        && largest(&residual) > problem.settings.tolerance
-    {
-        let error = largest(&residual);
-        progress::task(
-            &format!("Newton step {iterations}, residual {error:.1e}"),
-            0,
-            0,
-        );
-        let jacobian = jacobian(setup, problem, &x)?;
-        let Some((better, r)) = line_search(setup, problem, &x, &residual, jacobian)? else {
-            break;
-        };
-        (x, residual) = (better, r);
-        iterations += 1;
-    }
-    let mut found = evaluate(setup, problem, &x)?;
+    let search = Search {
+        tolerance: problem.settings.tolerance,
+        iterations: problem.settings.iterations,
+        updates: false,
+        reach: 0.5, // radians, relative changes, R f
+        shortening: (0.5, 20),
+    };
+    let mut map = BeatMap {
+        setup: &steadied(setup),
+        problem,
+        steps: 0,
+    };
+    let (x, iterations) = search.from(&mut map, x)?;
+    let mut found = evaluate(map.setup, problem, &x)?;
     found.iterations = iterations;
     found.converged = found.error() <= problem.settings.tolerance;
     if found.converged {
@@ -297,30 +292,35 @@ fn evaluate(setup: &FlightSetup, problem: &TrimProblem, x: &[f64]) -> Result<Tri
     })
 }
 
-/// Derivatives of the residuals, rows by residual, by central differences.
-fn jacobian(
-    setup: &FlightSetup,
-    problem: &TrimProblem,
-    x: &[f64],
-) -> Result<Vec<f64>, AnalysisError> {
-    // The cube root of the rounding of the map: central differences are then best.
-    const STEP: f64 = 1e-5;
-    let n = x.len();
-    let mut j = vec![0.0; n * n];
-    for k in 0..n {
-        let moved = |s: f64| {
-            let mut x = x.to_vec();
-            x[k] += s;
-            evaluate(setup, problem, &x).map(|t| t.residual)
-        };
-        let (plus, minus) = (moved(STEP)?, moved(-STEP)?);
-        for i in 0..n {
-            j[i * n + k] = (plus[i] - minus[i]) / (2.0 * STEP);
-        }
-        let column: Vec<f64> = (0..n).map(|i| j[i * n + k]).collect();
-        check_effect(problem, k, &column)?;
+/// The residuals of one beat as a map of the point.
+struct BeatMap<'a> {
+    setup: &'a FlightSetup,
+    problem: &'a TrimProblem,
+    /// Newton steps begun.
+    steps: usize,
+}
+
+impl Map for BeatMap<'_> {
+    fn residual(&mut self, x: &[f64]) -> Result<Vec<f64>, AnalysisError> {
+        evaluate(self.setup, self.problem, x).map(|found| found.residual)
     }
-    Ok(j)
+
+    /// By central differences.
+    fn slopes(&mut self, x: &[f64], r: &[f64]) -> Result<Vec<f64>, AnalysisError> {
+        // The cube root of the rounding of the map: central differences are then best.
+        const STEP: f64 = 1e-5;
+        let (step, error) = (self.steps, largest(r));
+        progress::task(&format!("Newton step {step}, residual {error:.1e}"), 0, 0);
+        self.steps += 1;
+        matrix_of(x.len(), |k| {
+            let plus = self.residual(&moved(x, k, STEP))?;
+            let minus = self.residual(&moved(x, k, -STEP))?;
+            let slopes = plus.iter().zip(&minus).map(|(p, m)| (p - m) / (2.0 * STEP));
+            let column: Vec<f64> = slopes.collect();
+            check_effect(self.problem, k, &column)?;
+            Ok(column)
+        })
+    }
 }
 
 /// An error if the control that unknown `k` is changes nothing.
@@ -339,45 +339,4 @@ fn check_effect(problem: &TrimProblem, k: usize, column: &[f64]) -> Result<(), A
         )),
         _ => Ok(()),
     }
-}
-
-type Point = (Vec<f64>, Vec<f64>);
-
-/// A point on Newton's direction that lowers the sum of squares of the residuals; none if there
-/// is none.
-fn line_search(
-    setup: &FlightSetup,
-    problem: &TrimProblem,
-    x: &[f64],
-    residual: &[f64],
-    mut jacobian: Vec<f64>,
-) -> Result<Option<Point>, AnalysisError> {
-    let mut step = residual.to_vec();
-    if solve_small(&mut jacobian, &mut step).is_err() {
-        return Ok(None);
-    }
-    let squares = |r: &[f64]| r.iter().map(|x| x * x).sum::<f64>();
-    // No unknown moves by more than 0.5 (radians, relative changes, R f) at once.
-    let longest = step.iter().fold(0.0_f64, |m, s| m.max(s.abs()));
-    let mut length = (0.5 / longest).min(1.0);
-    for _ in 0..20 {
-        let trial: Vec<f64> = x.iter().zip(&step).map(|(x, s)| x - length * s).collect();
-        if let Ok(found) = evaluate(setup, problem, &trial)
-            && squares(&found.residual) < squares(residual)
-        {
-            return Ok(Some((trial, found.residual)));
-        }
-        length *= 0.5;
-    }
-    Ok(None)
-}
-
-pub(crate) fn largest(r: &[f64]) -> f64 {
-    r.iter().fold(0.0, |m, x| {
-        if x.is_nan() {
-            f64::INFINITY
-        } else {
-            m.max(x.abs())
-        }
-    })
 }

@@ -43,6 +43,19 @@ pub enum Unknown {
     DeviationOffsetDifference,
 }
 
+/// What the value of an unknown counts.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum UnknownKind {
+    /// A change relative to what the animal has \[1\].
+    Relative,
+    /// Wingbeats.
+    Beats,
+    /// Wing lengths.
+    WingLengths,
+    /// An angle \[rad\].
+    Angle,
+}
+
 /// All unknowns with their names in cases and reports.
 pub const UNKNOWNS: [(Unknown, &str); 15] = [
     (Unknown::StrokeAmplitude, "stroke_amplitude"),
@@ -76,6 +89,18 @@ impl Unknown {
     pub fn name(self) -> &'static str {
         let found = UNKNOWNS.iter().find(|u| u.0 == self);
         found.expect("the table holds all").1
+    }
+
+    /// What its value counts.
+    pub fn kind(self) -> UnknownKind {
+        match self {
+            Self::StrokeAmplitude | Self::Frequency | Self::StrokeAmplitudeDifference => {
+                UnknownKind::Relative
+            }
+            Self::FeatheringLead => UnknownKind::Beats,
+            Self::MassCentre => UnknownKind::WingLengths,
+            _ => UnknownKind::Angle,
+        }
     }
 
     /// Whether it parts right from left.

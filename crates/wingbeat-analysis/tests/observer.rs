@@ -4,7 +4,6 @@ use crate::common;
 
 use wingbeat_analysis::control::{Held, Law, SteeredBeats, Steering};
 use wingbeat_analysis::departure::{CONTROLS, Controls, Departure, Reference};
-use wingbeat_analysis::monodromy::determinant;
 use wingbeat_analysis::regulator::observer::{Kalman, Observer, ProcessNoise, kalman};
 use wingbeat_analysis::regulator::plant::{STATES, states};
 use wingbeat_analysis::regulator::{Regulator, Weights};
@@ -165,7 +164,7 @@ fn exact_eigenvalues_of_the_loop_are_those_of_regulator_and_filter() {
     let polynomial = |a: &[f64], n: usize, z: f64| {
         let mut a: Vec<f64> = a.iter().map(|x| -x).collect();
         (0..n).for_each(|i| a[i * n + i] += z);
-        determinant(&a, n)
+        common::determinant(&a, n)
     };
     for k in 0..=m {
         let z = -2.0 + 4.0 * k as f64 / m as f64 + 0.01;

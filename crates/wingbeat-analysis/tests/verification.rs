@@ -5,7 +5,7 @@ use crate::common;
 use common::*;
 use wingbeat_analysis::beat::Integration;
 use wingbeat_analysis::eigen::eigen;
-use wingbeat_analysis::monodromy::{determinant, monodromy};
+use wingbeat_analysis::monodromy::monodromy;
 use wingbeat_analysis::stability::orbit_monodromy;
 use wingbeat_analysis::*;
 use wingbeat_flight::air::BladeAir;
@@ -268,7 +268,7 @@ fn rigid_body_beat(
     v0: DVec3,
     w0: DVec3,
 ) -> (DVec3, DVec3) {
-    use wingbeat_blade::FrameMotion;
+    use wingbeat_blade::WingFrame;
     use wingbeat_math::{DQuat, RotationLaw};
     let AirModel::BladeElement(options) = &setup.air else {
         unreachable!("blade elements")
@@ -284,7 +284,7 @@ fn rigid_body_beat(
         let (mut force, mut moment) = (q.inverse() * (m * setup.gravity), DVec3::ZERO);
         for (wing, strips) in setup.animal.wings.iter().zip(side.wings()) {
             let law = wing.motion.at(t);
-            let load = strips.velocity_load(&FrameMotion {
+            let load = strips.velocity_load(&WingFrame {
                 rotation: law.c,
                 velocity: v + w.cross(wing.hinge_b),
                 rate: law.c.transpose() * w + law.w,

@@ -17,7 +17,7 @@ use crate::pair::{PairMotion, StripPair};
 use crate::settings::AddedMass;
 use crate::slowed::slowed_forces;
 use crate::strip::{PlacedStrip, Strip};
-use crate::wing::{BladeWing, FrameAcceleration, FrameMotion, Load};
+use crate::wing::{BladeWing, FrameAcceleration, Load, WingFrame};
 
 /// How a section lies and moves in the wing frame, wing components.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -101,7 +101,7 @@ impl BladeWing {
     /// As [`BladeWing::lagging_load`], strip `k` lying and moving like `section(k)`.
     pub fn deforming_velocity_load(
         &self,
-        motion: &FrameMotion,
+        motion: &WingFrame,
         section: impl Fn(usize) -> SectionMotion,
         wind: impl Fn(DVec3) -> DVec3,
         mut lag: Option<Lag<'_>>,
@@ -149,7 +149,7 @@ impl BladeWing {
     /// of the hinge through the air that is at `p`.
     fn add_turning(
         &self,
-        motion: &FrameMotion,
+        motion: &WingFrame,
         section: impl Fn(usize) -> SectionMotion,
         through: impl Fn(DVec3) -> DVec3,
         sum: &mut DeformingLoad,
@@ -169,7 +169,7 @@ impl BladeWing {
     /// accelerations are included.
     pub fn deforming_acceleration_load(
         &self,
-        motion: &FrameMotion,
+        motion: &WingFrame,
         acc: &FrameAcceleration,
         section: impl Fn(usize) -> SectionMotion,
         wind: impl Fn(DVec3) -> DVec3,
@@ -213,7 +213,7 @@ impl BladeWing {
         &self,
         strip: &Strip,
         s: &SectionMotion,
-        motion: &FrameMotion,
+        motion: &WingFrame,
         v: DVec3,
         sum: &mut DeformingLoad,
     ) {
@@ -231,7 +231,7 @@ impl BladeWing {
         &self,
         strip: &Strip,
         s: &SectionMotion,
-        motion: &FrameMotion,
+        motion: &WingFrame,
         v: DVec3,
         sum: &mut DeformingLoad,
     ) {

@@ -10,7 +10,7 @@
 
 use wingbeat_math::{DMat3, DVec3};
 
-use crate::wing::{FrameMotion, Load};
+use crate::wing::{Load, WingFrame};
 
 /// A table of stability derivatives, SI.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -35,7 +35,7 @@ pub struct DerivativeTable {
 impl DerivativeTable {
     /// Force and moment about the body's origin, body components, but for what follows its acceleration over the ground
     /// ([`Self::added_mass_of_body`]).
-    pub fn load(&self, body: &FrameMotion) -> Load {
+    pub fn load(&self, body: &WingFrame) -> Load {
         let air = body.rotation.transpose() * (body.velocity - self.stream);
         let here = air + body.rate.cross(self.point);
         let v = self.to_body.transpose() * here - self.velocity;
@@ -145,7 +145,7 @@ mod tests {
             added_mass: [[0.0; 6]; 6],
             stream: DVec3::ZERO,
         };
-        let load = table.load(&FrameMotion {
+        let load = table.load(&WingFrame {
             rotation: wingbeat_math::r2(std::f64::consts::FRAC_PI_2),
             velocity: DVec3::new(0.0, 0.0, -4.0),
             rate: DVec3::new(0.0, 0.5, 0.0),
@@ -178,7 +178,7 @@ mod tests {
         // A body that goes ahead by 7 m/s through air of 2 m/s, without acceleration, and turns nose up by 0.5 rad/s: its velocity
         // of 5 m/s through the air changes by -w x v = (0, 0, 2.5) m/s2 in its axes.
         table.stream = DVec3::new(2.0, 0.0, 0.0);
-        let load = table.load(&FrameMotion {
+        let load = table.load(&WingFrame {
             rotation: DMat3::IDENTITY,
             velocity: DVec3::new(7.0, 0.0, 0.0),
             rate: DVec3::new(0.0, 0.5, 0.0),

@@ -57,4 +57,4 @@ pub use indicial::{Indicial, MAX_STATES, Pole, Unsteady};
 pub use lag::{Lag, StripMemory, StripTrial, WingMemory};
 pub use settings::{AddedMass, BladeSettings, CentreOfPressure, Rotation, ViscousMoment};
 pub use strip::{PlacedStrip, Strip};
-pub use wing::{BladeWing, FrameAcceleration, FrameMotion, Load, calm};
+pub use wing::{BladeWing, FrameAcceleration, Load, WingFrame, calm};

@@ -11,7 +11,7 @@ use crate::strip::Strip;
 
 /// How the frame of a wing moves.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct FrameMotion {
+pub struct WingFrame {
     /// Rotation: wing components to N components.
     pub rotation: DMat3,
     /// Velocity of the frame origin (the hinge), N components [m/s].
@@ -137,20 +137,20 @@ impl BladeWing {
 
     /// Everything that depends on velocities alone: translation, rotation, viscous moment, and
     /// the part of the added mass that is no acceleration.
-    pub fn velocity_load(&self, motion: &FrameMotion) -> Load {
+    pub fn velocity_load(&self, motion: &WingFrame) -> Load {
         self.velocity_load_in(motion, calm)
     }
 
     /// As [`Self::velocity_load`], `wind` being added to the free stream: a velocity [m/s] at a
     /// point [m] of the wing frame, wing components.
-    pub fn velocity_load_in(&self, motion: &FrameMotion, wind: impl Fn(DVec3) -> DVec3) -> Load {
+    pub fn velocity_load_in(&self, motion: &WingFrame, wind: impl Fn(DVec3) -> DVec3) -> Load {
         self.lagging_load(motion, wind, None)
     }
 
     /// As [`Self::velocity_load_in`], the circulation of the strips lagging behind as `lag` says.
     pub fn lagging_load(
         &self,
-        motion: &FrameMotion,
+        motion: &WingFrame,
         wind: impl Fn(DVec3) -> DVec3,
         lag: Option<Lag<'_>>,
     ) -> Load {
@@ -171,7 +171,7 @@ impl BladeWing {
     }
 
     /// The added mass: linear in the rates of the velocity components in the wing frame.
-    pub fn acceleration_load(&self, motion: &FrameMotion, acc: &FrameAcceleration) -> Load {
+    pub fn acceleration_load(&self, motion: &WingFrame, acc: &FrameAcceleration) -> Load {
         self.acceleration_load_in(motion, acc, calm)
     }
 
@@ -179,7 +179,7 @@ impl BladeWing {
     /// mass sees the velocity at its own centre.
     pub fn acceleration_load_in(
         &self,
-        motion: &FrameMotion,
+        motion: &WingFrame,
         acc: &FrameAcceleration,
         wind: impl Fn(DVec3) -> DVec3,
     ) -> Load {
@@ -198,7 +198,7 @@ impl BladeWing {
     }
 
     /// Both together in uniform air, for motions whose accelerations are known.
-    pub fn load(&self, motion: &FrameMotion, acc: &FrameAcceleration) -> Load {
+    pub fn load(&self, motion: &WingFrame, acc: &FrameAcceleration) -> Load {
         let (a, b) = (
             self.velocity_load(motion),
             self.acceleration_load(motion, acc),
@@ -210,7 +210,7 @@ impl BladeWing {
     }
 
     /// Energy [J] of the air that the added mass moves, `sum m w^2/2` (and `J q^2/2`).
-    pub fn added_energy(&self, motion: &FrameMotion) -> f64 {
+    pub fn added_energy(&self, motion: &WingFrame) -> f64 {
         let v = self.velocity_through_air(motion).z;
         let (w, a) = (motion.rate, &self.added);
         let quadratic = a.m * v * v + a.myy * w.x * w.x + (a.mxx + a.inertia) * w.y * w.y;
@@ -219,7 +219,7 @@ impl BladeWing {
     }
 
     /// Velocity of the hinge through the undisturbed air, wing components.
-    pub(crate) fn velocity_through_air(&self, motion: &FrameMotion) -> DVec3 {
+    pub(crate) fn velocity_through_air(&self, motion: &WingFrame) -> DVec3 {
         motion.rotation.transpose() * (motion.velocity - self.settings.free_stream)
     }
 
@@ -228,7 +228,7 @@ impl BladeWing {
     fn strip_load(
         &self,
         v: DVec3,
-        frame: &FrameMotion,
+        frame: &WingFrame,
         wind: &impl Fn(DVec3) -> DVec3,
         mut lag: Option<Lag<'_>>,
     ) -> Load {

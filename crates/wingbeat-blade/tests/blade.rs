@@ -18,8 +18,8 @@ fn wing(settings: BladeSettings, count: usize, side: f64) -> BladeWing {
 }
 
 /// A motion without rotation of the frame against N.
-fn motion(velocity: DVec3, rate: DVec3) -> FrameMotion {
-    FrameMotion {
+fn motion(velocity: DVec3, rate: DVec3) -> WingFrame {
+    WingFrame {
         rotation: DMat3::IDENTITY,
         velocity,
         rate,
@@ -27,10 +27,10 @@ fn motion(velocity: DVec3, rate: DVec3) -> FrameMotion {
 }
 
 /// Some motions of all kinds: (velocity, rate), small integers spread over both signs.
-fn motions() -> impl Iterator<Item = FrameMotion> {
+fn motions() -> impl Iterator<Item = WingFrame> {
     (0..60).map(|k: i32| {
         let n = |m: i32| f64::from((k * m + m) % 13 - 6) * 0.4;
-        FrameMotion {
+        WingFrame {
             rotation: r2(n(3)) * r3(n(5)) * r1(n(7)),
             velocity: DVec3::new(n(2), n(9), n(4)),
             rate: DVec3::new(n(6), n(8), n(11)),
@@ -167,7 +167,7 @@ fn returns_its_energy(form: AddedMass) {
         // E is quadratic in the velocity components: its central difference is exact.
         let rate = m.rotation.transpose() * acc.linear - m.rate.cross(v);
         let h = 1e-3;
-        let moved = |s: f64| FrameMotion {
+        let moved = |s: f64| WingFrame {
             velocity: m.rotation * (v + s * h * rate),
             rate: m.rate + s * h * acc.angular,
             ..m
@@ -179,7 +179,7 @@ fn returns_its_energy(form: AddedMass) {
 }
 
 /// Munk's couple about the span, `sum m w u`, which the centre of pressure has in it.
-fn munk(wing: &BladeWing, m: &FrameMotion) -> f64 {
+fn munk(wing: &BladeWing, m: &WingFrame) -> f64 {
     let v = m.rotation.transpose() * m.velocity;
     let couple = |s: &Strip| {
         let at_mid = v + m.rate.cross(DVec3::new(s.x_mid(), s.y, 0.0));
@@ -189,7 +189,7 @@ fn munk(wing: &BladeWing, m: &FrameMotion) -> f64 {
 }
 
 /// A wing on a moving hinge at the phase x of its beat: where the hinge is, motion, acceleration.
-fn beating(x: f64) -> (DVec3, FrameMotion, FrameAcceleration) {
+fn beating(x: f64) -> (DVec3, WingFrame, FrameAcceleration) {
     let wave = |k: f64, a: f64, shift: f64| {
         let (s, c) = (2.0 * PI * k * x + shift).sin_cos();
         [a * s, 2.0 * PI * k * a * c, -4.0 * PI * PI * k * k * a * s]
@@ -204,7 +204,7 @@ fn beating(x: f64) -> (DVec3, FrameMotion, FrameAcceleration) {
         wave(1.0, 0.2, 1.0),
     ];
     let at = |k: usize| DVec3::new(place[0][k], place[1][k], place[2][k]);
-    let motion = FrameMotion {
+    let motion = WingFrame {
         rotation: turned.c,
         velocity: at(1),
         rate: turned.w,
@@ -285,7 +285,7 @@ fn invariant_mirror_gives_the_mirrored_load() {
                 linear: DVec3::new(0.3, -1.0, 2.0),
                 angular: DVec3::new(1.0, 2.0, -0.7),
             };
-            let mirrored = FrameMotion {
+            let mirrored = WingFrame {
                 rotation: flip * m.rotation * flip,
                 velocity: flip * m.velocity,
                 rate: -(flip * m.rate), // an axial vector
@@ -317,11 +317,11 @@ fn invariant_galilean_and_rotated_frames() {
     let turn = r3(0.4) * r1(-1.2);
     for m in motions() {
         let a = still.velocity_load(&m);
-        let b = windy.velocity_load(&FrameMotion {
+        let b = windy.velocity_load(&WingFrame {
             velocity: m.velocity + stream,
             ..m
         });
-        let c = still.velocity_load(&FrameMotion {
+        let c = still.velocity_load(&WingFrame {
             rotation: turn * m.rotation,
             velocity: turn * m.velocity,
             ..m

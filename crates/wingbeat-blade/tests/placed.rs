@@ -19,10 +19,10 @@ fn settings(added_mass: AddedMass) -> BladeSettings {
 }
 
 /// Some motions of all kinds.
-fn motions() -> impl Iterator<Item = (FrameMotion, FrameAcceleration)> {
+fn motions() -> impl Iterator<Item = (WingFrame, FrameAcceleration)> {
     (0..40).map(|k: i32| {
         let n = |m: i32| f64::from((k * m + m) % 13 - 6) * 0.4;
-        let motion = FrameMotion {
+        let motion = WingFrame {
             rotation: r2(n(3)) * r3(n(5)) * r1(n(7)),
             velocity: DVec3::new(n(2), n(9), n(4)),
             rate: DVec3::new(n(6), n(8), n(11)),
@@ -82,7 +82,7 @@ fn invariant_a_mesh_turned_about_the_hinge_is_a_frame_turned_about_it() {
             let turned = wing(&strips, law);
             let section = |k: usize| SectionMotion::fixed(&strips[k]);
             for (m, acc) in motions() {
-                let own = FrameMotion {
+                let own = WingFrame {
                     rotation: m.rotation * q,
                     velocity: m.velocity,
                     rate: q.transpose() * m.rate,
@@ -153,7 +153,7 @@ fn agrees_twist_of_a_section_with_dihedral_with_a_frame_that_turns() {
         for (m, acc) in motions() {
             let (r, w) = (m.rotation, m.rate);
             let turning = acc.angular.cross(p) + w.cross(w.cross(p) + 2.0 * p1) + p2;
-            let own = FrameMotion {
+            let own = WingFrame {
                 rotation: r * q,
                 velocity: m.velocity + r * (w.cross(p) + p1),
                 rate: q.transpose() * (w + spin),

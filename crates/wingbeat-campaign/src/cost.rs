@@ -3,9 +3,10 @@
 use std::sync::atomic::AtomicBool;
 use std::time::{Duration, Instant};
 
+use wingbeat_results::manifest::hexadecimal;
+
 use crate::campaign::Campaign;
 use crate::point::{self, Done};
-use crate::store::hexadecimal;
 
 /// Bytes of a result of so many numbers on the disk, which gives files whole blocks.
 const BLOCK_BYTES: u64 = 4096;

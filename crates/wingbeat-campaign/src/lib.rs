@@ -1,45 +1,51 @@
 //! Campaigns: thousands of flights from one file, flown by any number of workers that share a directory.
 //!
-//! The chapter in order: [`raw`] is the file as it is written; `axes` turns it into a [`plan`] (`checks` what its words say of each other), what is drawn by [`sample`];
-//! [`number`] knows what may be kept, `named` the files that values name; [`campaign`] joins them: point i -> values -> case -> hash, a pure function of the
-//! file. [`point`] does what is to be done at a point (`trimming`, `flight`, `evaluate`), [`store`] keeps its result,
-//! [`lease`] says who flies which points, [`worker`] goes from block to block. [`rows`], [`status`], [`merge`] and [`page`] read what is there;
-//! [`scripts`] writes what other engines need, [`cost`] tells what a campaign will take.
+//! The chapter in order: `raw` is the file as it is written; `axes` turns it into a `plan` (`checks` what its words say of each other), what is drawn by `sample`;
+//! `number` knows what may be kept, `named` the files that values name; `campaign` joins them: point i -> values -> case -> hash, a pure function of the
+//! file. `point` does what is to be done at a point (`trimming`, `flight`, `evaluate`), `store` keeps its result,
+//! `lease` says who flies which points, `worker` goes from block to block. `rows`, `status`, [`merge`] and [`page`] read what is there;
+//! `scripts` writes what other engines need, `cost` tells what a campaign will take.
 //!
 //! What it does not know: processes, command lines, how pages look.
 #![warn(missing_docs)]
 
 mod axes;
 mod blocks;
-pub mod campaign;
+mod campaign;
 mod checks;
 mod command;
-pub mod cost;
+mod cost;
 mod evaluate;
 mod flight;
-pub mod lease;
+mod lease;
 pub mod merge;
 mod named;
 mod netcdf;
-pub mod number;
+mod number;
 pub mod page;
-pub mod plan;
-pub mod point;
+mod plan;
+mod point;
 mod process;
-pub mod raw;
-pub mod rows;
-pub mod sample;
-pub mod scripts;
-pub mod status;
-pub mod store;
+mod raw;
+mod rows;
+mod sample;
+mod scripts;
+mod status;
+mod store;
 mod trimming;
-pub mod value;
-pub mod worker;
+mod value;
+mod worker;
 
 pub use campaign::Campaign;
-pub use status::Status;
+pub use cost::Cost;
+pub use number::Number;
+pub use plan::Plan;
+pub use raw::RawCampaign;
+pub use scripts::Engine;
+pub use status::{Status, retry};
 pub use store::Store;
-pub use worker::{Ended, Worker};
+pub use value::Value;
+pub use worker::{Ended, Worker, inspect, left, plan_name};
 
 /// The JSON schema of the file, for editors.
 pub fn schema() -> String {

@@ -8,12 +8,13 @@ use std::path::PathBuf;
 use wingbeat_case::IoError;
 use wingbeat_results::export::parquet::{Cell, Cells, ParquetWriter};
 use wingbeat_results::file::NewFile;
+use wingbeat_results::manifest::hexadecimal;
 
 use crate::campaign::Campaign;
 use crate::command::command;
 use crate::netcdf;
 use crate::rows::{KeyKind, Row, kinds, rows};
-use crate::store::{Store, hexadecimal};
+use crate::store::Store;
 use crate::value::Value;
 
 /// Files that a merge writes.
@@ -165,8 +166,9 @@ fn parquet(campaign: &Campaign, rows: &[Row], path: &std::path::Path) -> std::io
     let mut table = ParquetWriter::create(path, "points", columns)?;
     for row in rows {
         let texts: Vec<String> = row.keys.iter().map(Value::shown).collect();
-        let key = |(k, value): (usize, &Value)| match kinds[k] {
-            KeyKind::Text => Cell::Text(texts[k].as_str()),
+        let key = |(k, value): (usize, &Value)| match (kinds[k], value) {
+            (KeyKind::Text, _) => Cell::Text(texts[k].as_str()),
+            (KeyKind::Whole, Value::Whole(n)) => Cell::Count(*n),
             _ => Cell::Number(value.number().unwrap_or(f64::NAN)),
         };
         let keys: Vec<Cell> = row.keys.iter().enumerate().map(key).collect();

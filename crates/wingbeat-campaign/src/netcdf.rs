@@ -38,9 +38,11 @@ impl File {
 
     fn values(&mut self, name: &str, values: &[Value]) -> usize {
         let shape = [values.len()];
-        if values.iter().all(|v| matches!(v, Value::Whole(_))) {
-            let whole = |v: &Value| v.number().unwrap_or(0.0) as i64;
-            let list = values.iter().map(whole).collect();
+        let whole = |v: &Value| match v {
+            Value::Whole(n) => Some(*n),
+            _ => None,
+        };
+        if let Some(list) = values.iter().map(whole).collect() {
             return self.put(name, Kind::Integer, &shape, Data::Whole(list));
         }
         let numbers: Option<Vec<f64>> = values.iter().map(Value::number).collect();
@@ -163,5 +165,18 @@ fn describe(campaign: &Campaign, file: &mut File, beside: &[String]) {
     ] {
         let bytes = content.as_bytes().to_vec();
         file.put(name, Kind::Text(bytes.len()), &[], Data::Bytes(bytes));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn exact_whole_numbers_beyond_those_of_doubles_are_kept() {
+        let mut file = File::default();
+        let seeds = [1_i64 << 53, (1 << 53) + 1];
+        file.values("seed", &seeds.map(Value::Whole));
+        assert!(matches!(&file.data[0], Data::Whole(list) if *list == seeds));
     }
 }

@@ -2,7 +2,7 @@
 
 use wingbeat_analysis::power::Power;
 use wingbeat_analysis::stability::LOADS;
-use wingbeat_analysis::unknown::UNKNOWNS;
+use wingbeat_analysis::unknown::{UNKNOWNS, UnknownKind};
 use wingbeat_analysis::{AnalysisError, Unknown};
 use wingbeat_case::nearest;
 use wingbeat_flight::FlightSetup;
@@ -347,13 +347,11 @@ fn modes_and_derivatives(put: &mut impl FnMut(String, &str, &str, Source)) {
 
 /// Ending of the name of an unknown, and its unit.
 fn unit_of(unknown: Unknown) -> [&'static str; 2] {
-    match unknown {
-        Unknown::StrokeAmplitude | Unknown::Frequency | Unknown::StrokeAmplitudeDifference => {
-            ["", "1"]
-        }
-        Unknown::FeatheringLead => ["_beats", "1"],
-        Unknown::MassCentre => ["_lengths", "1"],
-        _ => ["_rad", "rad"],
+    match unknown.kind() {
+        UnknownKind::Relative => ["", "1"],
+        UnknownKind::Beats => ["_beats", "1"],
+        UnknownKind::WingLengths => ["_lengths", "1"],
+        UnknownKind::Angle => ["_rad", "rad"],
     }
 }
 

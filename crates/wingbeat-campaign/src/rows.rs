@@ -1,9 +1,10 @@
 //! The points of a campaign with what came of them, one after the other.
 
 use wingbeat_case::IoError;
+use wingbeat_results::manifest::hexadecimal;
 
 use crate::campaign::Campaign;
-use crate::store::{PointResult, Reason, Store, hexadecimal};
+use crate::store::{PointResult, Reason, Store};
 use crate::value::Value;
 
 /// A point with what came of it.

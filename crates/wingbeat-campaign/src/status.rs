@@ -3,9 +3,10 @@
 use std::time::{Duration, SystemTime};
 
 use wingbeat_case::IoError;
+use wingbeat_results::manifest::hexadecimal;
 
 use crate::campaign::Campaign;
-use crate::store::{Store, hexadecimal};
+use crate::store::Store;
 use crate::worker::leases;
 
 /// Time over which the rate is taken.

@@ -84,13 +84,6 @@ impl PointResult {
     }
 }
 
-/// The hash of a point in hexadecimal.
-pub fn hexadecimal(hash: &[u8]) -> String {
-    const DIGITS: &[u8; 16] = b"0123456789abcdef";
-    let digits = hash.iter().flat_map(|b| [b >> 4, b & 15]);
-    digits.map(|d| char::from(DIGITS[usize::from(d)])).collect()
-}
-
 /// How often the process died that flew a point, and how far its checkpoint was.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Attempts {
@@ -314,6 +307,8 @@ fn decoded(bytes: &[u8]) -> Option<PointResult> {
 
 #[cfg(test)]
 mod tests {
+    use wingbeat_results::manifest::hexadecimal;
+
     use super::*;
 
     #[test]

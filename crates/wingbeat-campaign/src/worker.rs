@@ -7,12 +7,13 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
 use wingbeat_case::IoError;
+use wingbeat_results::manifest::hexadecimal;
 
 use crate::campaign::Campaign;
 use crate::flight::saved_step;
 use crate::lease::{Lease, Leases, Taken};
 use crate::point::{self, Done};
-use crate::store::{PointResult, Reason, Store, hexadecimal};
+use crate::store::{PointResult, Reason, Store};
 
 /// Time between two looks for a block that somebody has to let go.
 const WAIT: Duration = Duration::from_millis(50);

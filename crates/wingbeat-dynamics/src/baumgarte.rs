@@ -1,6 +1,6 @@
 //! Baumgarte's stabilization: constraints kept by feedback (seed eq. 29).
 
-use wingbeat_math::DVec3;
+use std::ops::{Mul, Neg, Sub};
 
 /// Constants of Baumgarte's stabilization (seed eq. 29).
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -31,8 +31,11 @@ impl Baumgarte {
         Self::step_tied(0.1, h)
     }
 
-    /// S of seed eq. 30 from the bias of `Phi''`, and `Phi'` and `Phi`.
-    pub fn right_side(&self, bias: DVec3, rate: DVec3, value: DVec3) -> DVec3 {
-        -bias - 2.0 * self.alpha * rate - self.beta * self.beta * value
+    /// S of seed eq. 30 from the bias of `Phi''`, and `Phi'` and `Phi`: numbers or vectors.
+    pub fn right_side<V>(&self, bias: V, rate: V, value: V) -> V
+    where
+        V: Neg<Output = V> + Sub<Output = V> + Mul<f64, Output = V>,
+    {
+        -bias - rate * (2.0 * self.alpha) - value * (self.beta * self.beta)
     }
 }

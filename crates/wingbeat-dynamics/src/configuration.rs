@@ -1,6 +1,6 @@
 //! The bodies as seen from the root: a function of time and of the free joint coordinates.
 
-use wingbeat_math::{DMat3, DVec3, MovingRotation, tilde};
+use wingbeat_math::{DMat3, DVec3, MovingRotation, tilde, trace};
 
 use crate::check::check_rotation;
 use crate::cycle::Cycle;
@@ -319,10 +319,6 @@ fn symmetric(s: DVec3, d: DVec3) -> DMat3 {
     let trace = 2.0 * s.dot(d);
     let col = |k: usize| trace * DVec3::AXES[k] - s * d[k] - d * s[k];
     DMat3::from_cols(col(0), col(1), col(2))
-}
-
-fn trace(m: DMat3) -> f64 {
-    m.x_axis.x + m.y_axis.y + m.z_axis.z
 }
 
 /// Change of the inertia about the origin when a body of mass `m` \[kg\] and first moment `s`

@@ -250,3 +250,14 @@ pub enum DynamicsError {
         hinge: String,
     },
 }
+
+/// Names in quotes, each once, in the order in which they come first.
+pub(crate) fn quoted_once<'a>(names: impl Iterator<Item = &'a str>) -> String {
+    let mut quoted: Vec<String> = vec![];
+    for name in names.map(|name| format!("`{name}`")) {
+        if !quoted.contains(&name) {
+            quoted.push(name);
+        }
+    }
+    quoted.join(", ")
+}

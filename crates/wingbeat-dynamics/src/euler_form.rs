@@ -5,8 +5,7 @@
 //! The constraints hold only as far as integration and stabilization keep them: `alpha = beta =
 //! a / h` with a = 0.1 drifts least at 80 steps per beat; constants of a few tens per second do
 //! nothing at 200 Hz; a > 2.7 makes Runge-Kutta unstable. A stabilization tied to the step lowers a
-//! fourth-order integrator to second order, a fixed one keeps its order. Projection
-//! ([`EulerForm::with_projection`]) removes the drift between steps of a one-step integrator.
+//! fourth-order integrator to second order, a fixed one keeps its order.
 
 use wingbeat_math::DVec3;
 
@@ -16,7 +15,7 @@ use crate::check::{check_rotation, check_state};
 use crate::configuration::Configuration;
 use crate::euler::assembly::{consistent_coordinates, consistent_rates};
 use crate::euler::constraint::HingeKinematics;
-use crate::euler::coordinates::{BodyKinematics, PER_BODY, write};
+use crate::euler::coordinates::{BodyKinematics, COORDINATES, write};
 use crate::euler::scratch::EulerScratch;
 use crate::{
     BodyAcceleration, BodyMotion, DynamicsError, Formulation, HingeReaction, Solution, System,
@@ -28,30 +27,17 @@ use crate::{
 pub struct EulerForm {
     system: System,
     baumgarte: Baumgarte,
-    projection: bool,
 }
 
 impl EulerForm {
     /// The Euler form of `system` with stabilization `baumgarte`.
     pub fn new(system: System, baumgarte: Baumgarte) -> Self {
-        Self {
-            system,
-            baumgarte,
-            projection: false,
-        }
-    }
-
-    /// Projects coordinates and rates onto the constraints in [`Formulation::normalise`].
-    pub fn with_projection(self) -> Self {
-        Self {
-            projection: true,
-            ..self
-        }
+        Self { system, baumgarte }
     }
 
     /// Number of coordinates, six per body.
     pub fn coordinates(&self) -> usize {
-        PER_BODY * self.system.bodies().len()
+        COORDINATES * self.system.bodies().len()
     }
 
     /// The state with the given motions of all bodies.
@@ -73,7 +59,7 @@ impl EulerForm {
         assert_eq!(y.len(), 2 * n, "the Euler form has {} components", 2 * n);
         check_state(t, y)?;
         for (i, body) in self.system.bodies().iter().enumerate() {
-            let (q, qd) = (&y[PER_BODY * i..n], &y[n + PER_BODY * i..]);
+            let (q, qd) = (&y[COORDINATES * i..n], &y[n + COORDINATES * i..]);
             let k = BodyKinematics::new(body, q, qd);
             k.check(body, t)?;
             ws.euler.bodies[i] = k;
@@ -104,7 +90,7 @@ impl EulerForm {
     /// Accelerations of bodies and reactions of hinges from the solved equations.
     fn read_solved(&self, s: &EulerScratch, out: &mut Solution) {
         for (i, k) in s.bodies.iter().enumerate() {
-            let a = &s.condensed.accelerations()[PER_BODY * i..];
+            let a = &s.condensed.accelerations()[COORDINATES * i..];
             out.bodies[i] = BodyAcceleration {
                 linear: DVec3::from_slice(a),
                 angular: k.g * DVec3::from_slice(&a[3..]) + k.g_dot * k.eta_dot,
@@ -210,18 +196,14 @@ impl Formulation for EulerForm {
 
     fn scales(&self) -> Vec<f64> {
         let u = self.system.units();
-        let coordinate = |i: usize| if i % PER_BODY < 3 { u.length } else { 1.0 };
+        let coordinate = |i: usize| if i % COORDINATES < 3 { u.length } else { 1.0 };
         let n = self.coordinates();
         let rates = (0..n).map(|i| coordinate(i) / u.time);
         (0..n).map(coordinate).chain(rates).collect()
     }
 
-    fn normalise(&self, t: f64, y: &mut [f64], _ws: &mut Workspace) -> Result<(), DynamicsError> {
-        if !self.projection {
-            return Ok(());
-        }
-        let (q, qd) = y.split_at_mut(self.coordinates());
-        consistent_coordinates(&self.system, t, q)?;
-        consistent_rates(&self.system, t, q, qd)
+    /// Nothing: coordinates without norms, and constraints that the stabilization keeps.
+    fn normalise(&self, _t: f64, _y: &mut [f64], _: &mut Workspace) -> Result<(), DynamicsError> {
+        Ok(())
     }
 }

@@ -21,7 +21,7 @@
 //! The chapter, in reading order: [`System`], [`configuration`] (where the bodies are, seen from the
 //! root), [`MomentumForm`], [`inverse`] (reactions), [`budget`] (energy, momenta), then the seed's
 //! form: [`euler::coordinates`] (eq. 2, 3, 14-16), [`euler::constraint`] (eq. 4, 5, 27),
-//! [`euler::forces`] (eq. 6-10), [`euler::inertia`] (eq. 17-26), [`euler::saddle`] (eq. 28-30),
+//! [`euler::forces`] (eq. 6-10), [`euler::inertia`] (eq. 17-26), [`euler::condensed`] (eq. 28-30),
 //! [`euler::assembly`] (consistent initial conditions).
 //!
 //! | symbol | name in code | meaning | unit | frame | seed |
@@ -34,7 +34,6 @@
 //! | D | `HingeKinematics::d` | prescribed orientation seen from the child | 1 | child | eq. 4 |
 //! | Phi | `connection`, `orientation` | constraints | m, 1 | N, child | eq. 4, 5 |
 //! | B_q | `connection_jacobian`, `orientation_jacobian` | constraint Jacobian | | | eq. 11 |
-//! | H_j | `point_jacobian` | derivative of a point by the angles | m | N | eq. 9 |
 //! | M_i | `mass_matrix` | mass matrix of a body | kg, kg m, kg m2 | | eq. 18, 19 |
 //! | Q^v | `quadratic_velocity` | quadratic velocity vector | N, N m | | eq. 26 |
 //! | lambda | [`Solution::multipliers`] | multipliers of connection and orientation | N, N m | N, child | eq. 11 |

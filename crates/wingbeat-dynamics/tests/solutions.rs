@@ -3,12 +3,12 @@
 
 use crate::common;
 
+use common::saddle::Saddle;
 use common::*;
 use wingbeat_dynamics::configuration::Configuration;
 use wingbeat_dynamics::euler::assembly::kinematics;
 use wingbeat_dynamics::euler::condensed::Condensed;
 use wingbeat_dynamics::euler::coordinates::BodyKinematics;
-use wingbeat_dynamics::euler::saddle::Saddle;
 use wingbeat_dynamics::{
     Baumgarte, BodyAcceleration, BodyMotion, EulerForm, Formulation, MomentumForm, Solution,
     System, Wrench,

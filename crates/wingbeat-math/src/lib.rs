@@ -15,9 +15,11 @@
 #![warn(missing_docs)]
 
 pub mod euler;
+mod extremes;
 mod iterative;
 pub mod lu;
 pub mod mass;
+mod matrix;
 pub mod newton;
 pub mod ode;
 pub mod rotation;
@@ -25,15 +27,21 @@ pub mod rotation_jacobian;
 mod secants;
 pub mod series;
 mod small_lu;
+mod smoothstep;
+mod split_mix;
 
 pub use euler::{EulerMatrices, EulerSequence};
+pub use extremes::larger;
 pub use glam::{DMat3, DQuat, DVec2, DVec3};
 pub use iterative::{BiCgStab, Product};
 pub use lu::{DenseLu, LuError};
 pub use mass::{MassError, MassProperties};
+pub use matrix::{outer, trace};
 pub use rotation::{
     MovingRotation, RotationLaw, r1, r2, r3, rotation_about, rotation_vector, tilde, untilde,
 };
 pub use secants::{Secants, Shown};
-pub use series::{DriftingFourier, interpolate};
+pub use series::{DriftingFourier, interpolate, with_harmonics};
 pub use small_lu::{SingularMatrix, solve_small};
+pub use smoothstep::smoothstep;
+pub use split_mix::SplitMix64;

@@ -1,5 +1,6 @@
 //! Mass properties of rigid bodies about a frame origin and their algebra (seed eq. 19).
 
+use crate::matrix::outer;
 use crate::rotation::{rotation_about, tilde};
 use glam::{DMat3, DVec3};
 
@@ -153,11 +154,6 @@ impl MassProperties {
             other => other.map(|()| self),
         }
     }
-}
-
-/// `v v^T`.
-fn outer(v: DVec3) -> DMat3 {
-    DMat3::from_cols(v.x * v, v.y * v, v.z * v)
 }
 
 impl std::ops::Add for MassProperties {

@@ -1,5 +1,7 @@
 //! Functions of time: Fourier series with a drift; tables with straight lines between the rows.
 
+use std::f64::consts::TAU;
+
 /// A truncated Fourier series with a drift:
 /// `x(t) = x0 + rate t + sum_k a_k cos(2 pi k f t) + b_k sin(2 pi k f t)`, k = 1, 2, ...
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -33,19 +35,33 @@ impl DriftingFourier {
     /// assert_eq!(f.at(0.0)[..2], [2.5, 0.0]);
     /// ```
     pub fn at(&self, t: f64) -> [f64; 3] {
-        let mut x = [self.constant + self.rate * t, self.rate, 0.0];
-        let base = 2.0 * std::f64::consts::PI * self.frequency;
-        for k in 1..=self.cosine.len().max(self.sine.len()) {
-            let a = self.cosine.get(k - 1).copied().unwrap_or(0.0);
-            let b = self.sine.get(k - 1).copied().unwrap_or(0.0);
-            let w = base * k as f64;
-            let (s, c) = (w * t).sin_cos();
-            x[0] += a * c + b * s;
-            x[1] += w * (b * c - a * s);
-            x[2] -= w * w * (a * c + b * s);
-        }
-        x
+        let rest = [self.constant + self.rate * t, self.rate, 0.0];
+        let base = TAU * self.frequency;
+        let turn = |k: usize| (base * k as f64 * t).sin_cos();
+        with_harmonics(rest, base, [&self.cosine, &self.sine], turn)
     }
+}
+
+/// `x` and its first two derivatives, `rest`, with the harmonics `a_k cos(k w t) + b_k sin(k w t)`, k = 1, 2, ... on top:
+/// `base` is w [rad/s], `coefficients` are a and b, and `turn` gives sine and cosine of `k w t`, asked for k in order.
+pub fn with_harmonics(
+    rest: [f64; 3],
+    base: f64,
+    coefficients: [&[f64]; 2],
+    mut turn: impl FnMut(usize) -> (f64, f64),
+) -> [f64; 3] {
+    let mut x = rest;
+    let [cosine, sine] = coefficients;
+    for k in 1..=cosine.len().max(sine.len()) {
+        let [a, b] = coefficients.map(|list| list.get(k - 1).copied().unwrap_or(0.0));
+        let w = base * k as f64;
+        let (s, c) = turn(k);
+        let harmonic = a * c + b * s;
+        x[0] += harmonic;
+        x[1] += w * (b * c - a * s);
+        x[2] -= w * w * harmonic;
+    }
+    x
 }
 
 /// Value at `x` of a table of `rows` whose abscissae rise, straight lines between, constant beyond the

@@ -163,6 +163,30 @@ pub(crate) fn finite(key: &str, value: f64) -> Result<f64, ModelError> {
     require(key, value, true, "a finite number")
 }
 
+/// What is wrong with a row of a table, counted from zero.
+pub(crate) fn in_row(table: &str, row: usize, problem: impl Into<String>) -> ModelError {
+    ModelError::Table {
+        table: table.to_owned(),
+        row: row + 1,
+        problem: problem.into(),
+    }
+}
+
+/// Checks that a table holds finite numbers and that its first column, `name` in messages, rises.
+pub(crate) fn check_rising(table: &str, name: &str, rows: &[(f64, f64)]) -> Result<(), ModelError> {
+    for (k, &(x, y)) in rows.iter().enumerate() {
+        if !(x.is_finite() && y.is_finite()) {
+            return Err(in_row(table, k, format!("({x}, {y}) is not finite")));
+        }
+        if k > 0 && x <= rows[k - 1].0 {
+            let before = rows[k - 1].0;
+            let problem = format!("{name} {x} does not increase (row before: {before})");
+            return Err(in_row(table, k, problem));
+        }
+    }
+    Ok(())
+}
+
 /// `value` if it is `ok`, else [`ModelError::Count`].
 pub(crate) fn require_count(
     key: &str,

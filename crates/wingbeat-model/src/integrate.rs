@@ -7,9 +7,9 @@
 //! The integrands are polynomials of at most fourth degree in u and v: three Gauss points each
 //! way are exact.
 
-use crate::error::{ModelError, not_negative, positive};
+use crate::error::{ModelError, check_rising, in_row, not_negative, positive};
 use crate::mesh::{GridMesh, QuadMesh, Side};
-use wingbeat_math::{DMat3, DVec3, MassProperties};
+use wingbeat_math::{DMat3, DVec3, MassProperties, outer, trace};
 
 /// Abscissas on [0, 1] and weights of the three-point Gauss rule (exact to degree five).
 pub(crate) const GAUSS: [(f64, f64); 3] = [
@@ -73,7 +73,7 @@ const ROUNDING: f64 = 1e-14;
 /// First and second moments of the volume `v` without what is left of those that symmetry makes zero: a body
 /// that does not tell left from right must not turn by roundings.
 fn without_rounding(v: f64, s: DVec3, second: DMat3) -> (DVec3, DMat3) {
-    let trace = second.x_axis.x + second.y_axis.y + second.z_axis.z;
+    let trace = trace(second);
     // |s|^2 <= v trace, by Cauchy and Schwarz.
     let size = (v * trace).abs().sqrt();
     let above = |x: f64, size: f64| if x.abs() < ROUNDING * size { 0.0 } else { x };
@@ -97,16 +97,12 @@ pub fn shell(mesh: &QuadMesh, sigma: impl Fn(DVec3) -> f64) -> MassProperties {
 
 /// `J = tr(P) I - P` with `P = int rho r r^T`.
 fn from_moments(mass: f64, first_moment: DVec3, second: DMat3) -> MassProperties {
-    let trace = second.x_axis.x + second.y_axis.y + second.z_axis.z;
+    let trace = trace(second);
     MassProperties {
         mass,
         first_moment,
         inertia: DMat3::from_diagonal(DVec3::splat(trace)) - second,
     }
-}
-
-fn outer(x: DVec3) -> DMat3 {
-    DMat3::from_cols(x * x.x, x * x.y, x * x.z)
 }
 
 /// The mass of a body part or a wing.
@@ -135,11 +131,7 @@ impl MassInput {
             MassInput::Total(m) => solid(mesh, not_negative(&key, m)? / volume(mesh)),
             MassInput::Given(given) => given,
             MassInput::SpanTable(_) => {
-                return Err(ModelError::Table {
-                    table: key,
-                    row: 1,
-                    problem: "a table along the span is for wings only".to_owned(),
-                });
+                return Err(in_row(&key, 0, "a table along the span is for wings only"));
             }
         };
         validated(name, found)
@@ -208,11 +200,7 @@ const LAST_ROW: std::ops::RangeInclusive<f64> = 0.5..=1.1;
 
 /// `tip`: distance of the tip from the hinge along the span \[m\].
 fn check_span_table(key: &str, rows: &[(f64, f64)], tip: f64) -> Result<(), ModelError> {
-    let bad = |row: usize, problem: &str| ModelError::Table {
-        table: key.to_owned(),
-        row: row + 1,
-        problem: problem.to_owned(),
-    };
+    let bad = |row: usize, problem: &str| in_row(key, row, problem);
     let last = match rows {
         [] => return Err(bad(0, "the table is empty; give at least one row")),
         [_] => tip, // even all over
@@ -224,16 +212,9 @@ fn check_span_table(key: &str, rows: &[(f64, f64)], tip: f64) -> Result<(), Mode
         );
         return Err(bad(rows.len() - 1, &problem));
     }
-    for (k, &(r, d)) in rows.iter().enumerate() {
-        if !(r.is_finite() && d.is_finite() && d >= 0.0) {
-            return Err(bad(
-                k,
-                "distance and areal density must be finite, density >= 0",
-            ));
-        }
-        if k > 0 && r <= rows[k - 1].0 {
-            return Err(bad(k, "distances along the span must increase"));
-        }
+    check_rising(key, "distance", rows)?;
+    if let Some(k) = rows.iter().position(|row| row.1 < 0.0) {
+        return Err(bad(k, "areal densities are at least 0"));
     }
     positive(key, rows.iter().map(|r| r.1).sum())?;
     Ok(())

@@ -1,6 +1,6 @@
 //! Meshes of four-node quadrilaterals: flat wing grids and closed surfaces (seed sec. 2).
 
-use crate::error::{ModelError, require_count};
+use crate::error::{ModelError, in_row, require_count};
 use std::collections::BTreeMap;
 use wingbeat_math::DVec3;
 
@@ -171,11 +171,8 @@ impl QuadMesh {
     /// Finite nodes and panels with area.
     pub(crate) fn check_panels(&self, name: &str) -> Result<(), ModelError> {
         if let Some(row) = self.nodes.iter().position(|x| !x.is_finite()) {
-            return Err(ModelError::Table {
-                table: format!("nodes of `{name}`"),
-                row: row + 1,
-                problem: format!("{} is not a finite point", self.nodes[row]),
-            });
+            let problem = format!("{} is not a finite point", self.nodes[row]);
+            return Err(in_row(&format!("nodes of `{name}`"), row, problem));
         }
         let flat = |p: &usize| {
             let [a, b, c, d] = self.corners(*p);

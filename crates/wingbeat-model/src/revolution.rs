@@ -5,7 +5,7 @@
 //! number of meridians.
 
 use crate::ModelError;
-use crate::error::{finite, positive, require, require_count};
+use crate::error::{finite, in_row, positive, require, require_count};
 use crate::integrate::interpolate;
 use crate::mesh::QuadMesh;
 use std::f64::consts::{PI, TAU};
@@ -52,13 +52,7 @@ impl Profile {
 
 fn check_table(key: &str, rows: &[(f64, f64)]) -> Result<(), ModelError> {
     let n = rows.len();
-    let bad = |row: usize, problem: &str| {
-        Err(ModelError::Table {
-            table: key.to_owned(),
-            row,
-            problem: problem.to_owned(),
-        })
-    };
+    let bad = |row: usize, problem: &str| Err(in_row(key, row - 1, problem));
     if n < 3 || rows[0] != (0.0, 0.0) {
         return bad(1, "a profile has at least 3 rows and starts with (0, 0)");
     }

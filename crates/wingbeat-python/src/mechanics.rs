@@ -1,7 +1,7 @@
 //! Trim, stability, controls, power.
 
 use pyo3::prelude::*;
-use wingbeat::analysis::derivatives::{CONTROLS, ControlDerivative};
+use wingbeat::analysis::derivatives::{CONTROL_NAMES, ControlDerivative};
 use wingbeat::analysis::level::STATE;
 use wingbeat::analysis::power::{Power, power_of_trim};
 use wingbeat::analysis::stability::{LinearModel, floquet_of_trim, input_matrix, trimmed_controls};
@@ -288,7 +288,7 @@ impl Trim {
     /// Names of the state of the averaged model, and of the controls.
     #[staticmethod]
     fn names() -> (Vec<&'static str>, Vec<&'static str>) {
-        (STATE.to_vec(), CONTROLS.iter().map(|c| c.1).collect())
+        (STATE.to_vec(), CONTROL_NAMES.iter().map(|c| c.1).collect())
     }
 }
 

@@ -93,7 +93,7 @@ impl HistoryWriter {
     /// A file that cannot be written.
     pub fn seal(&self) -> Result<(u64, String), IoError> {
         self.file.sync_data().map_err(IoError::write(&self.path))?;
-        Ok((self.bytes, hexadecimal(self.hash.clone())))
+        Ok((self.bytes, hexadecimal(&self.hash.clone().finalize())))
     }
 
     /// The bits of the row that is not written yet; none right after a row.

@@ -77,11 +77,10 @@ impl Manifest {
 
 /// SHA-256 in hexadecimal.
 pub fn sha256(data: &[u8]) -> String {
-    hexadecimal(Sha256::new_with_prefix(data))
+    hexadecimal(&Sha256::digest(data))
 }
 
-/// The digest in hexadecimal.
-pub(crate) fn hexadecimal(hash: Sha256) -> String {
-    let digits = hash.finalize();
-    digits.iter().map(|b| format!("{b:02x}")).collect()
+/// A digest in hexadecimal.
+pub fn hexadecimal(digest: &[u8]) -> String {
+    digest.iter().map(|b| format!("{b:02x}")).collect()
 }

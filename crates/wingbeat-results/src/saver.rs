@@ -4,6 +4,7 @@ use std::fs;
 use std::path::Path;
 use std::time::{Duration, Instant};
 
+use sha2::Digest;
 use wingbeat_flight::FlightState;
 
 use super::checkpoint::{self, FILE, Header};
@@ -134,7 +135,7 @@ fn check_start(path: &Path, header: &Header) -> Result<(), IoError> {
 /// Whether a file begins with so many bytes of this hash.
 fn starts_with(path: &Path, (bytes, hash): (u64, &str)) -> Result<bool, IoError> {
     let file = fs::File::open(path).map_err(IoError::read(path))?;
-    let sum = hash_start(&file, bytes).map(hexadecimal);
+    let sum = hash_start(&file, bytes).map(|hash| hexadecimal(&hash.finalize()));
     Ok(sum.is_ok_and(|sum| sum == hash))
 }
 

@@ -9,5 +9,5 @@ mod step;
 pub use carried::{carried_by_frame, resultant};
 pub use generalized_alpha::{GeneralizedAlpha, State, Trial, Weights};
 pub use solver::{LoadTangent, Solver};
-pub(crate) use solver::{inertial, larger, size};
+pub(crate) use solver::{inertial, size};
 pub use step::{Passes, Step};

@@ -1,8 +1,10 @@
 //! Equilibrium under loads and steady motion of the frame.
 
+use wingbeat_math::larger;
+
 use crate::assembly::Assembly;
 use crate::configuration::{Configuration, NODE};
-use crate::dynamics::{inertial, larger, size};
+use crate::dynamics::{inertial, size};
 use crate::error::StructureError;
 use crate::frame::FrameMotion;
 use crate::inertia::{self, Motion};

@@ -13,7 +13,7 @@
 
 use std::path::Path;
 use wingbeat_air::{AirError, AirSettings, Lattice, NodeMotion, SheddingKinds, Surface};
-use wingbeat_blade::{BladeSettings, BladeWing, FrameAcceleration, FrameMotion, Strip};
+use wingbeat_blade::{BladeSettings, BladeWing, FrameAcceleration, Strip, WingFrame};
 use wingbeat_flight::AirOptions;
 use wingbeat_math::{DMat3, DVec3, r2};
 use wingbeat_model::planform::{Beta, ChordSize};
@@ -119,7 +119,7 @@ impl Track {
             let wing = BladeWing::new(strips, BladeSettings::insect(DENSITY)).expect("a wing");
             let (linear, angular) = (rates(&frames.velocity), rates(&frames.spin));
             for k in 0..sum.len() {
-                let motion = FrameMotion {
+                let motion = WingFrame {
                     rotation: frames.turns[k],
                     velocity: frames.velocity[k],
                     rate: frames.spin[k],

@@ -118,6 +118,12 @@ fn agrees_frequency_with_that_of_the_case() {
 }
 
 #[test]
+fn refuses_a_frequency_of_zero_and_steps_without_length() {
+    let still = short().frequency_hz(0.0).fly();
+    assert!(still.unwrap_err().to_string().contains("time.step = inf"));
+}
+
+#[test]
 fn agrees_case_of_flights_built_in_rust() {
     use wingbeat::model::species::{FlyOptions, drosophila_melanogaster};
     let options = FlyOptions {

@@ -6,7 +6,7 @@ use crate::settings::choices::{CirculationRate, Convection, LeadingEdge, LoadMet
 use crate::settings::particles::ParticleSettings;
 use crate::settings::section_drag::SectionDrag;
 use crate::settings::wind::Wind;
-use wingbeat_math::DVec3;
+use wingbeat_math::{DVec3, smoothstep};
 use wingbeat_vortex::{CoreModel, LAMB_ALPHA, Method};
 
 /// Settings of the air. [`AirSettings::benchmark`] is the discretisation of the published
@@ -222,10 +222,8 @@ impl AirSettings {
 
     /// The part of a free wake filament of this length [m] that is a blob: rises smoothly from 0 to 1.
     pub(crate) fn blob_part(&self, length: f64) -> f64 {
-        self.wake_blob_length.map_or(0.0, |from| {
-            let t = ((length / from - 1.0) / 0.25).clamp(0.0, 1.0);
-            t * t * (3.0 - 2.0 * t)
-        })
+        self.wake_blob_length
+            .map_or(0.0, |from| smoothstep((length / from - 1.0) / 0.25))
     }
 
     /// Variance [m2] of the Gaussian that a Lamb-Oseen core of this squared radius [m2] has across its filament.

@@ -15,6 +15,8 @@
 
 use std::f64::consts::{PI, TAU};
 
+use wingbeat_math::SplitMix64;
+
 use crate::error::{AirError, require};
 
 /// Which spectrum, and of which component.
@@ -92,19 +94,6 @@ impl Spectrum {
     }
 }
 
-/// Numbers in [0, 1) from a seed [Steele, Lea & Flood 2014, SplitMix64].
-struct Draw(u64);
-
-impl Draw {
-    fn next(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
-    }
-}
-
 impl Turbulence {
     /// Turbulence of this spectrum with the time scale `time_scale` [s].
     ///
@@ -114,7 +103,7 @@ impl Turbulence {
         let allowed = "a time in s above 0";
         let is_time = time_scale.is_finite() && time_scale > 0.0;
         require(is_time, "turbulence time scale", time_scale, allowed)?;
-        let mut draw = Draw(seed);
+        let mut draw = SplitMix64::new(seed);
         let ratio = (BAND.1 / BAND.0).powf(1.0 / WAVES as f64);
         let wave = |k: usize| {
             let from = BAND.0 * ratio.powi(k as i32);
@@ -124,8 +113,8 @@ impl Turbulence {
                 0.0
             };
             let variance = below + spectrum.variance([from, from * ratio]);
-            let x = from * ratio.powf(draw.next());
-            [x / time_scale, (2.0 * variance).sqrt(), TAU * draw.next()]
+            let x = from * ratio.powf(draw.unit());
+            [x / time_scale, (2.0 * variance).sqrt(), TAU * draw.unit()]
         };
         Ok(Self {
             spectrum,

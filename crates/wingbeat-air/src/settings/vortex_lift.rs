@@ -21,6 +21,7 @@
 //! - An edge that has again no more suction than it holds recovers within [`RECOVERY`] chords.
 
 use crate::error::{AirError, require};
+use wingbeat_math::smoothstep;
 
 /// Rounding, relative to the threshold and to T*: plates hold 0.11 to 0.19 about 0.15 [Ramesh et al. 2014, J. Fluid Mech. 751:500], flow
 /// attaches again at 0.07 to 0.13, and vortex lift decays within two to three chords [Leishman & Beddoes 1989].
@@ -131,8 +132,7 @@ fn held(ratio: f64) -> f64 {
 
 /// Rises from 0 to 1 within [`SPREAD`] of 1.
 fn step(x: f64) -> f64 {
-    let t = ((x - 1.0 + SPREAD) / (2.0 * SPREAD)).clamp(0.0, 1.0);
-    t * t * (3.0 - 2.0 * t)
+    smoothstep((x - 1.0 + SPREAD) / (2.0 * SPREAD))
 }
 
 /// Mean of `exp(-s)` from 0 to `x`.

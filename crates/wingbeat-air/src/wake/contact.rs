@@ -23,7 +23,7 @@
 use crate::lattice::Lattice;
 use crate::state::AirState;
 use rayon::prelude::*;
-use wingbeat_math::DVec3;
+use wingbeat_math::{DVec3, smoothstep};
 
 /// Height over a surface, in clearances, below which the side of a node is uncertain.
 const THIN: f64 = 1e-3;
@@ -173,7 +173,7 @@ impl Obstacle {
             .fold(f64::INFINITY, f64::min);
         let (mut push, mut shares) = (DVec3::ZERO, 0.0);
         for panel in &self.panels {
-            let share = smooth(1.0 - (distance(panel) - nearest) / clearance);
+            let share = smoothstep(1.0 - (distance(panel) - nearest) / clearance);
             let lack = clearance - (to - panel.centre[1]).dot(panel.normal[1]);
             push += share * lack.max(0.0) * panel.normal[1];
             shares += share;
@@ -211,7 +211,7 @@ impl Obstacle {
                 continue;
             }
             let depth = self.depth(panel, from.lerp(to, s), s);
-            let weight = share * smooth(depth / clearance);
+            let weight = share * smoothstep(depth / clearance);
             let side = (height / (THIN * clearance)).clamp(-1.0, 1.0);
             let lack = (clearance - side * end).max(0.0);
             sum.push += weight * side * lack * panel.normal[1];
@@ -299,14 +299,8 @@ impl Panel {
             return 0.0;
         }
         let inside = (0..4).map(|k| self.inside(x, s, k));
-        smooth(0.5 + inside.fold(f64::INFINITY, f64::min) / clearance)
+        smoothstep(0.5 + inside.fold(f64::INFINITY, f64::min) / clearance)
     }
-}
-
-/// Rises smoothly from 0 at 0 to 1 at 1.
-fn smooth(t: f64) -> f64 {
-    let t = t.clamp(0.0, 1.0);
-    t * t * (3.0 - 2.0 * t)
 }
 
 fn distance_to_segment(p: DVec3, a: DVec3, b: DVec3) -> f64 {

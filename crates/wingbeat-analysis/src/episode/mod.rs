@@ -26,11 +26,11 @@ use std::f64::consts::TAU;
 use std::sync::{Arc, Mutex};
 
 use wingbeat_flight::Sensed;
-use wingbeat_math::DVec3;
+use wingbeat_math::{DVec3, SplitMix64};
 
 use crate::AnalysisError;
 use crate::departure::{CONTROLS, Controls, Departure, Limits, Reference};
-use crate::sensors::{Sensors, scrambled};
+use crate::sensors::Sensors;
 use crate::trim::Trim;
 
 pub use flyer::{Flyer, Model, SharedModel};
@@ -162,7 +162,7 @@ impl Episode {
     fn sensors(&self) -> Sensors {
         let shared = self.course.sensors;
         Sensors {
-            seed: scrambled(scrambled(shared.seed ^ self.seed) ^ self.number),
+            seed: SplitMix64::mixed_with(shared.seed ^ self.seed, &[self.number]),
             ..shared
         }
     }

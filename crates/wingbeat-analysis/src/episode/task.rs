@@ -3,12 +3,11 @@
 use std::f64::consts::TAU;
 
 use wingbeat_air::{Gust, GustShape};
-use wingbeat_math::{DMat3, DQuat, DVec3};
+use wingbeat_math::{DMat3, DQuat, DVec3, SplitMix64};
 
 use crate::beat::{Beat, JOINTS, State};
 use crate::departure::{CONTROLS, Departure};
 use crate::level::Level;
-use crate::sensors::scrambled;
 use crate::trim::Trim;
 
 /// A task.
@@ -76,18 +75,19 @@ impl Task {
 }
 
 /// Numbers that follow from seed and episode alone.
-pub struct Draw(u64);
+pub struct Draw(SplitMix64);
 
 impl Draw {
     /// Those of an episode of `seed`.
     pub fn new(seed: u64, episode: u64) -> Self {
-        Self(scrambled(scrambled(seed) ^ episode))
+        let mut numbers = SplitMix64::new(SplitMix64::mixed_with(seed, &[episode]));
+        numbers.bits(); // the first is passed over: episodes stay what they were
+        Self(numbers)
     }
 
     /// Between -1 and 1.
     pub fn number(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        (scrambled(self.0) >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
+        2.0 * self.0.unit() - 1.0
     }
 
     fn vector(&mut self) -> DVec3 {

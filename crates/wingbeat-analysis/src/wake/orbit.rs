@@ -10,7 +10,7 @@ use wingbeat_dynamics::BodyMotion;
 use wingbeat_flight::air::BladeAir;
 use wingbeat_flight::elastic::ElasticState;
 use wingbeat_flight::{AirMemory, AirModel, FlightSetup, Past, Record, Simulation, system_of};
-use wingbeat_math::{DVec3, rotation_vector};
+use wingbeat_math::{DVec3, larger, rotation_vector};
 
 use crate::AnalysisError;
 use crate::beat::periodic::check_periodic;
@@ -210,9 +210,4 @@ fn change(setup: &FlightSetup, before: &[ElasticState], after: &[ElasticState]) 
         }
     }
     largest
-}
-
-/// The larger of two numbers, or what is not a number.
-fn larger(a: f64, b: f64) -> f64 {
-    if b <= a { a } else { b }
 }

@@ -4,7 +4,7 @@ use wingbeat_dynamics::BodyMotion;
 use wingbeat_flight::{
     AirModel, FlightSetup, MotionMode, Past, PrescribedMotion, Record, StartState,
 };
-use wingbeat_math::{DVec3, solve_small};
+use wingbeat_math::DVec3;
 use wingbeat_model::motion::Adjustment;
 
 use super::free_beat::{free_beat, rotation, start, steps_per_beat};
@@ -13,8 +13,8 @@ use super::sway::sway;
 use crate::AnalysisError;
 use crate::beat::steadied;
 use crate::progress;
+use crate::root::{Map, Search, largest, matrix_of, moved};
 use crate::steady::{self, Measures, Residuals, Snapshot, TrimProblem};
-use crate::trim::largest;
 use crate::unknown::{Unknown, adjusted};
 
 /// How the flights are flown.
@@ -128,7 +128,7 @@ pub fn trim_with_wake(
     if let (AirModel::VortexLattice(air), Residuals::All) = (&mut setup.air, residuals) {
         air.mirror = false; // right and left part
     }
-    let mut search = Search {
+    let mut flights = Flights {
         setup: &setup,
         problem,
         residuals,
@@ -140,14 +140,14 @@ pub fn trim_with_wake(
         beats: 0,
         best: f64::INFINITY,
     };
-    search.run()
+    flights.run()
 }
 
 /// Right and left of a wingbeat after a hold part by less than this where wakes are chaotic, and where there are none \[1\].
 const ROUNDING: [f64; 2] = [1e-2, 1e-5];
 
-/// The search: what to fly and how often it was.
-struct Search<'a> {
+/// What to fly, and how often it was.
+struct Flights<'a> {
     setup: &'a FlightSetup,
     problem: &'a TrimProblem,
     residuals: Residuals,
@@ -162,7 +162,7 @@ struct Search<'a> {
     best: f64,
 }
 
-impl Search<'_> {
+impl Flights<'_> {
     fn scales(&self) -> (f64, f64) {
         let length = self.setup.animal.wing_length();
         (length, self.setup.time.period.unwrap_or(1.0))
@@ -170,38 +170,17 @@ impl Search<'_> {
 
     /// Quasi-Newton steps until the residuals are within the tolerance, or nothing helps.
     fn run(&mut self) -> Result<WakeTrim, AnalysisError> {
-        let settings = self.settings;
-        let mut x = self.start();
-        let mut r = self.fly(&x)?.residual;
-        let mut iterations = 0;
-        let mut jacobian = vec![];
-        if largest(&r) > settings.tolerance {
-            jacobian = self.jacobian(&x, &r)?;
-        }
-        let mut fresh = true;
-        while iterations < settings.iterations && largest(&r) > settings.tolerance {
-            let found = self.step(&x, &r, &jacobian);
-            let Some((x_new, r_new)) = found else {
-                if fresh {
-                    break;
-                }
-                jacobian = self.jacobian(&x, &r)?;
-                fresh = true;
-                continue;
-            };
-            // A step that hardly helps: the slopes have become old.
-            let poor = largest(&r_new) > 0.5 * largest(&r) && !fresh;
-            broyden(&mut jacobian, &x, &r, &x_new, &r_new);
-            (x, r) = (x_new, r_new);
-            fresh = false;
-            iterations += 1;
-            if poor && largest(&r) > settings.tolerance {
-                jacobian = self.jacobian(&x, &r)?;
-                fresh = true;
-            }
-        }
+        let search = Search {
+            tolerance: self.settings.tolerance,
+            iterations: self.settings.iterations,
+            updates: true,
+            reach: 0.3, // radians, relative changes, R f
+            shortening: (0.4, 6),
+        };
+        let start = self.start();
+        let (x, iterations) = search.from(self, start)?;
         let mut found = self.fly(&x)?;
-        found.converged = found.error() <= settings.tolerance;
+        found.converged = found.error() <= self.settings.tolerance;
         found.iterations = iterations;
         if found.converged {
             steady::check_symmetric(found.aside, ROUNDING[usize::from(self.has_orbit)])?;
@@ -320,58 +299,24 @@ impl Search<'_> {
         self.beats += found.beats;
         Ok((found.ends, at_start, found.roots))
     }
+}
 
-    /// Slopes of the residuals at `x`, rows by residual, by one-sided differences, over steps beside which the
-    /// roughness of the map is small.
-    fn jacobian(&mut self, x: &[f64], r: &[f64]) -> Result<Vec<f64>, AnalysisError> {
+impl Map for Flights<'_> {
+    fn residual(&mut self, x: &[f64]) -> Result<Vec<f64>, AnalysisError> {
+        self.fly(x).map(|found| found.residual)
+    }
+
+    /// By one-sided differences, over steps beside which the roughness of the map is small.
+    fn slopes(&mut self, x: &[f64], r: &[f64]) -> Result<Vec<f64>, AnalysisError> {
         let step = if self.settings.tolerance < SMOOTH {
             1e-4
         } else {
             2e-2
         };
-        let n = x.len();
-        let mut j = vec![0.0; n * n];
-        for k in 0..n {
-            let mut moved = x.to_vec();
-            moved[k] += step;
-            let at = self.fly(&moved)?.residual;
-            (0..n).for_each(|i| j[n * i + k] = (at[i] - r[i]) / step);
-        }
-        Ok(j)
-    }
-
-    /// A point on the quasi-Newton direction with smaller residuals.
-    fn step(&mut self, x: &[f64], r: &[f64], jacobian: &[f64]) -> Option<(Vec<f64>, Vec<f64>)> {
-        let mut direction = r.to_vec();
-        solve_small(&mut jacobian.to_vec(), &mut direction).ok()?;
-        let longest = direction.iter().fold(0.0_f64, |m, s| m.max(s.abs()));
-        let squares = |r: &[f64]| r.iter().map(|x| x * x).sum::<f64>();
-        let mut length = (0.3 / longest).min(1.0);
-        for _ in 0..6 {
-            let trial: Vec<f64> = (x.iter().zip(&direction))
-                .map(|(x, d)| x - length * d)
-                .collect();
-            if let Ok(found) = self.fly(&trial)
-                && squares(&found.residual) < squares(r)
-            {
-                return Some((trial, found.residual));
-            }
-            length *= 0.4;
-        }
-        None
-    }
-}
-
-/// Broyden's update of the slopes by what a step showed [Broyden 1965].
-fn broyden(j: &mut [f64], x: &[f64], r: &[f64], x1: &[f64], r1: &[f64]) {
-    let s: Vec<f64> = x1.iter().zip(x).map(|(a, b)| a - b).collect();
-    let square: f64 = s.iter().map(|a| a * a).sum();
-    for (i, row) in j.chunks_mut(x.len()).enumerate() {
-        let predicted: f64 = row.iter().zip(&s).map(|(j, s)| j * s).sum();
-        let gap = r1[i] - r[i] - predicted;
-        row.iter_mut()
-            .zip(&s)
-            .for_each(|(j, s)| *j += gap * s / square);
+        matrix_of(x.len(), |k| {
+            let at = self.residual(&moved(x, k, step))?;
+            Ok(at.iter().zip(r).map(|(at, r)| (at - r) / step).collect())
+        })
     }
 }
 

@@ -110,3 +110,28 @@ pub fn hover(steps: usize) -> TrimProblem {
         ..TrimProblem::straight(DVec3::ZERO, HOVER_BODY_PITCH)
     }
 }
+
+/// Determinant of the n x n matrix `a` given by rows, by elimination with row exchanges.
+pub fn determinant(a: &[f64], n: usize) -> f64 {
+    let mut a = a.to_vec();
+    let mut d = 1.0;
+    for k in 0..n {
+        let size = |i: &usize| a[i * n + k].abs();
+        let p = (k..n)
+            .max_by(|i, j| size(i).total_cmp(&size(j)))
+            .unwrap_or(k);
+        if a[p * n + k] == 0.0 {
+            return 0.0;
+        }
+        if p != k {
+            (0..n).for_each(|j| a.swap(p * n + j, k * n + j));
+            d = -d;
+        }
+        d *= a[k * n + k];
+        for i in k + 1..n {
+            let f = a[i * n + k] / a[k * n + k];
+            (k..n).for_each(|j| a[i * n + j] -= f * a[k * n + j]);
+        }
+    }
+    d
+}

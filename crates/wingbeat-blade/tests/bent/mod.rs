@@ -89,7 +89,7 @@ fn assert_same(a: &Load, b: &Load, size: f64) {
 }
 
 /// Some acceleration that goes with a motion.
-fn acceleration(m: &FrameMotion) -> FrameAcceleration {
+fn acceleration(m: &WingFrame) -> FrameAcceleration {
     FrameAcceleration {
         linear: 3.0 * m.velocity.cross(DVec3::new(1.0, -2.0, 0.5)),
         angular: 2.0 * m.rate.cross(DVec3::new(0.3, 1.0, -1.0)) + m.rate,
@@ -116,7 +116,7 @@ fn exact_nodes_that_move_as_a_rigid_wing_carry_its_loads() {
                 bent.nodes.iter().map(a).collect(),
             ];
             let forces = bent.forces(&bent.nodes, &moving[0], &moving[1]);
-            let own = FrameMotion {
+            let own = WingFrame {
                 rotation: m.rotation * q,
                 rate: q.transpose() * m.rate,
                 ..m

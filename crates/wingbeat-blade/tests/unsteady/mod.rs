@@ -46,7 +46,7 @@ impl Flown {
     }
 
     /// The load by velocities at `time`, which is accepted.
-    fn load(&mut self, time: f64, m: &FrameMotion, wind: impl Fn(DVec3) -> DVec3) -> Load {
+    fn load(&mut self, time: f64, m: &WingFrame, wind: impl Fn(DVec3) -> DVec3) -> Load {
         let lag = Lag::Trial {
             memory: &self.memory,
             time,
@@ -58,8 +58,8 @@ impl Flown {
     }
 }
 
-fn along(velocity: DVec3) -> FrameMotion {
-    FrameMotion {
+fn along(velocity: DVec3) -> WingFrame {
+    WingFrame {
         rotation: DMat3::IDENTITY,
         velocity,
         rate: DVec3::ZERO,
@@ -130,7 +130,7 @@ fn flown_amplitudes(k: f64, a: f64, pitches: bool) -> [[f64; 2]; 2] {
         let [v, acc] = [-SIZE * k * sin, -SIZE * k * k * cos];
         let (m, by) = match pitches {
             true => (
-                FrameMotion {
+                WingFrame {
                     rotation: r2(x),
                     velocity: DVec3::X,
                     rate: DVec3::new(0.0, v, 0.0),
@@ -245,7 +245,7 @@ fn pitching(stream: DVec3, wind: DVec3) -> Vec<Load> {
         let t = 10.0 * step as f64 / per as f64;
         let (sin, cos) = (TAU * t / 10.0).sin_cos();
         let rotation = r2(0.8 * sin);
-        let m = FrameMotion {
+        let m = WingFrame {
             rotation,
             velocity: DVec3::new(0.0, 0.0, 0.3 * cos),
             rate: DVec3::new(0.0, 0.8 * TAU / 10.0 * cos, 0.0),

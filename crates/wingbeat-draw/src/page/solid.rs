@@ -2,7 +2,7 @@
 //! body without any shape the homogeneous ellipsoid of its mass and inertia.
 
 use serde::Serialize;
-use wingbeat_math::{DMat3, DVec3, MassProperties};
+use wingbeat_math::{DMat3, DVec3, MassProperties, trace};
 use wingbeat_model::Animal;
 
 use wingbeat_results::poses::{Poses, picture};
@@ -73,7 +73,7 @@ pub(super) fn solids(animal: &Animal, poses: &Poses) -> Vec<Solid> {
 /// or extent.
 fn ellipsoid(name: &str, body: usize, mass: &MassProperties) -> Option<Solid> {
     let inertia = mass.inertia_about_centre();
-    let trace = inertia.x_axis.x + inertia.y_axis.y + inertia.z_axis.z;
+    let trace = trace(inertia);
     let moments = 0.5 * trace * DMat3::IDENTITY - inertia;
     if mass.mass <= 0.0 || trace <= 0.0 {
         return None;

@@ -12,11 +12,12 @@
 use wingbeat_math::{DQuat, DVec3, MovingRotation};
 
 use crate::configuration::Configuration;
+use crate::error::quoted_once;
 use crate::joint::Joint;
 use crate::mechanism::Mechanism;
 use crate::mechanism::form::{AbsoluteForm, Stabilization};
 use crate::mechanism::joint::{Row, kinematics};
-use crate::mechanism::partition::partition;
+use crate::mechanism::partition::{NEARLY_SINGULAR, partition};
 use crate::placement::{Placement, carry};
 use crate::{BodyAcceleration, BodyMotion, DynamicsError, JointType, System};
 
@@ -29,9 +30,6 @@ const TOLERANCE: f64 = 1e-12;
 /// Coordinates that are farther than this from where their speeds took them \[rad, natural lengths\] belong to
 /// another closed position.
 const JUMP: f64 = 0.3;
-
-/// Below this part of the largest a pivot means a position in which loops may go on in several ways.
-const NEARLY: f64 = 1e-3;
 
 /// The rotation and the displacement of a joint's child against its parent.
 pub(super) type Relative = (MovingRotation, [DVec3; 3]);
@@ -141,7 +139,7 @@ impl<'a> Closing<'a> {
         };
         let matrix = (0..base.len()).map(row).collect();
         let right = right.iter().zip(&base).map(|(x, (_, r))| -x * scale(r));
-        let found = partition(matrix, right.collect(), &vec![true; n], NEARLY);
+        let found = partition(matrix, right.collect(), &vec![true; n], NEARLY_SINGULAR);
         if let Some(d) = found.dependent.first() {
             let shares = d.combination.iter().zip(&base);
             let names = shares.filter(|(c, _)| c.abs() > 1e-6);
@@ -214,14 +212,7 @@ impl<'a> Closing<'a> {
 
     /// The error of a position in which loops may go on in several ways.
     fn undetermined(&self, time: f64, loops: &[usize]) -> DynamicsError {
-        let mut names: Vec<String> = vec![];
-        for k in loops {
-            let name = format!("`{}`", self.system.loops()[*k].name);
-            if !names.contains(&name) {
-                names.push(name);
-            }
-        }
-        let joints = names.join(", ");
+        let joints = quoted_once(loops.iter().map(|k| &*self.system.loops()[*k].name));
         DynamicsError::SingularPosition { time, joints }
     }
 }

@@ -5,7 +5,7 @@ use wingbeat_math::newton::{NewtonError, NewtonSettings, newton};
 use wingbeat_math::{DMat3, solve_small};
 
 use super::constraint::HingeKinematics;
-use super::coordinates::{BodyKinematics, PER_BODY};
+use super::coordinates::{BodyKinematics, COORDINATES};
 use crate::{DynamicsError, System};
 
 /// Largest angle \[rad\] of the relative rotation taken for a fulfilled orientation. The wrong
@@ -21,7 +21,7 @@ pub fn kinematics(
 ) -> (Vec<BodyKinematics>, Vec<HingeKinematics>) {
     let bodies: Vec<_> = (system.bodies().iter().enumerate())
         .map(|(i, b)| {
-            let range = PER_BODY * i..PER_BODY * (i + 1);
+            let range = COORDINATES * i..COORDINATES * (i + 1);
             BodyKinematics::new(b, &q[range.clone()], &qd[range])
         })
         .collect();
@@ -45,7 +45,7 @@ pub fn kinematics(
 pub fn consistent_coordinates(system: &System, t: f64, q: &mut [f64]) -> Result<(), DynamicsError> {
     let length = system.units().length;
     let zero = vec![0.0; q.len()];
-    let (root, dependent) = q.split_at_mut(PER_BODY);
+    let (root, dependent) = q.split_at_mut(COORDINATES);
     let far = root[..3].iter().fold(0.0, |a: f64, x| a.max(x.abs())) / length;
     let settings = NewtonSettings {
         tolerance: 1e-12 + 4.0 * f64::EPSILON * far, // round-off of the positions
@@ -54,7 +54,7 @@ pub fn consistent_coordinates(system: &System, t: f64, q: &mut [f64]) -> Result<
     let mut x = scaled(dependent, 1.0 / length);
     let mut all = root.to_vec();
     newton(&mut x, settings, |x, residual, jacobian| {
-        all.truncate(PER_BODY);
+        all.truncate(COORDINATES);
         all.extend(scaled(x, length));
         let (_, hinges) = kinematics(system, t, &all, &zero);
         fill_jacobian(system, &hinges, jacobian);
@@ -80,9 +80,9 @@ pub fn consistent_rates(
     qd: &mut [f64],
 ) -> Result<(), DynamicsError> {
     let length = system.units().length;
-    qd[PER_BODY..].fill(0.0);
+    qd[COORDINATES..].fill(0.0);
     let (_, hinges) = kinematics(system, t, q, qd);
-    let n = qd.len() - PER_BODY;
+    let n = qd.len() - COORDINATES;
     let (mut jacobian, mut rhs) = (vec![0.0; n * n], vec![0.0; n]);
     fill_jacobian(system, &hinges, &mut jacobian);
     for (k, h) in hinges.iter().enumerate() {
@@ -90,14 +90,14 @@ pub fn consistent_rates(
         (-h.orientation_rate()).write_to_slice(&mut rhs[6 * k + 3..]);
     }
     solve_small(&mut jacobian, &mut rhs).map_err(|_| DynamicsError::SingularSaddle { time: t })?;
-    qd[PER_BODY..].copy_from_slice(&scaled(&rhs, length));
+    qd[COORDINATES..].copy_from_slice(&scaled(&rhs, length));
     Ok(())
 }
 
 /// The coordinates `x` with the positions multiplied by `factor`.
 fn scaled(x: &[f64], factor: f64) -> Vec<f64> {
     (x.iter().enumerate())
-        .map(|(i, x)| if i % PER_BODY < 3 { x * factor } else { *x })
+        .map(|(i, x)| if i % COORDINATES < 3 { x * factor } else { *x })
         .collect()
 }
 
@@ -108,7 +108,7 @@ fn fill_jacobian(system: &System, hinges: &[HingeKinematics], jacobian: &mut [f6
     let mut put = |row: usize, body: usize, part: usize, block: DMat3| {
         if body > 0 {
             for i in 0..3 {
-                let at = (row + i) * n + PER_BODY * (body - 1) + 3 * part;
+                let at = (row + i) * n + COORDINATES * (body - 1) + 3 * part;
                 block.row(i).write_to_slice(&mut jacobian[at..at + 3]);
             }
         }

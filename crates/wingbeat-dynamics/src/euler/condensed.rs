@@ -7,10 +7,10 @@
 //! `B_c^T lambda = F_c - M_c x_c`. The unknowns are those of the saddle-point matrix
 //! ([`super::saddle`]) at a tenth of its cost; a child without mass is as good as any.
 
-use wingbeat_math::{DMat3, DVec3};
+use wingbeat_math::{DMat3, DVec3, trace};
 
 use super::constraint::HingeKinematics;
-use super::coordinates::{BodyKinematics, PER_BODY, write};
+use super::coordinates::{BodyKinematics, COORDINATES, write};
 use super::inertia::{MassBlocks, equations};
 use crate::baumgarte::Baumgarte;
 use crate::{System, Wrench};
@@ -48,7 +48,7 @@ impl Condensed {
             mass: vec![MassBlocks::default(); bodies],
             force: vec![[DVec3::ZERO; 2]; bodies],
             transfer: vec![Transfer::default(); hinges],
-            accelerations: vec![0.0; PER_BODY * bodies],
+            accelerations: vec![0.0; COORDINATES * bodies],
             multipliers: vec![0.0; 6 * hinges],
         }
     }
@@ -98,7 +98,7 @@ impl Condensed {
         let (m, [f, g]) = (self.mass[0], self.force[0]);
         let (lever, lever_t) = (m.r_eta * (1.0 / m.rr), m.r_eta.transpose());
         let inertia = m.eta_eta - lever_t * lever;
-        let scale = (inertia.x_axis.x + inertia.y_axis.y + inertia.z_axis.z) / 3.0;
+        let scale = trace(inertia) / 3.0;
         // As for the momentum form: a rod a million times longer than thick, at |cos theta| > 0.05.
         let singular = inertia.determinant() <= 1e-15 * scale.powi(3);
         if singular || !inertia.is_finite() {
@@ -117,7 +117,7 @@ impl Condensed {
     /// The child's accelerations and the hinge's multipliers.
     fn expand(&mut self, k: usize, parent: usize, child: usize) {
         let t = &self.transfer[k];
-        let at = |i: usize| DVec3::from_slice(&self.accelerations[PER_BODY * parent + i..]);
+        let at = |i: usize| DVec3::from_slice(&self.accelerations[COORDINATES * parent + i..]);
         let (x, angles) = (at(0), at(3));
         let child_x = x + t.p * angles + t.b[0];
         let child_angles = t.a * angles + t.b[1];

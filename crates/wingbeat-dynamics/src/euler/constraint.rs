@@ -6,7 +6,7 @@
 //! `n . e` with `n = d_j x e_i`, d_j column j of D. From this form all derivatives follow without
 //! third-order tensors.
 
-use wingbeat_math::{DMat3, DVec3, MovingRotation, tilde};
+use wingbeat_math::{DMat3, DVec3, MovingRotation, tilde, trace};
 
 use super::coordinates::BodyKinematics;
 use crate::joint::Joint;
@@ -152,7 +152,6 @@ impl HingeKinematics {
 
     /// Angle of the relative rotation D \[rad\].
     pub fn angle(&self) -> f64 {
-        let trace = self.d.x_axis.x + self.d.y_axis.y + self.d.z_axis.z;
-        (0.5 * (trace - 1.0)).clamp(-1.0, 1.0).acos()
+        (0.5 * (trace(self.d) - 1.0)).clamp(-1.0, 1.0).acos()
     }
 }

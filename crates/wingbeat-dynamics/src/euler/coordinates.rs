@@ -5,7 +5,7 @@ use wingbeat_math::{DMat3, DVec3, EulerMatrices};
 use crate::{Body, BodyMotion, DynamicsError};
 
 /// Coordinates per body: x, y, z, phi, theta, psi (seed eq. 2).
-pub const PER_BODY: usize = 6;
+pub const COORDINATES: usize = 6;
 
 /// Least |cos theta| at which the Euler angles are trusted.
 pub const REGULARITY_LIMIT: f64 = 0.05;
@@ -69,6 +69,6 @@ impl BodyKinematics {
 
 /// Writes six coordinates (or their rates) of body `i`.
 pub(crate) fn write(out: &mut [f64], i: usize, position: DVec3, angles: DVec3) {
-    position.write_to_slice(&mut out[PER_BODY * i..]);
-    angles.write_to_slice(&mut out[PER_BODY * i + 3..]);
+    position.write_to_slice(&mut out[COORDINATES * i..]);
+    angles.write_to_slice(&mut out[COORDINATES * i + 3..]);
 }

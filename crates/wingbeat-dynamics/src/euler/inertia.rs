@@ -50,12 +50,6 @@ pub fn mass_matrix_rate(body: &Body, k: &BodyKinematics) -> MassBlocks {
     }
 }
 
-/// Kinetic energy \[J\], `q'^T M q' / 2` (seed eq. 20).
-pub fn kinetic_energy(body: &Body, k: &BodyKinematics) -> f64 {
-    let [p, h] = mass_matrix(body, k).times(k.motion.v, k.eta_dot);
-    0.5 * (k.motion.v.dot(p) + k.eta_dot.dot(h))
-}
-
 /// Derivative of the kinetic energy by the angles at fixed rates (the last terms of seed eq. 26):
 /// `-(R^T v) . [g_k x (S x w) + S x (dG/deta_k eta')] + (dG/deta_k eta') . I w`, where g_k is
 /// column k of G because dR/deta_k = R tilde(g_k).

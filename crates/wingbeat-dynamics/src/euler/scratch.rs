@@ -3,7 +3,7 @@
 use super::assembly::kinematics;
 use super::condensed::Condensed;
 use super::constraint::HingeKinematics;
-use super::coordinates::{BodyKinematics, PER_BODY};
+use super::coordinates::{BodyKinematics, COORDINATES};
 use crate::system::System;
 
 /// Scratch of the Euler form.
@@ -16,7 +16,7 @@ pub(crate) struct EulerScratch {
 
 impl EulerScratch {
     pub(crate) fn new(system: &System) -> Self {
-        let zero = vec![0.0; PER_BODY * system.bodies().len()];
+        let zero = vec![0.0; COORDINATES * system.bodies().len()];
         let (bodies, hinges) = kinematics(system, 0.0, &zero, &zero);
         Self {
             bodies,

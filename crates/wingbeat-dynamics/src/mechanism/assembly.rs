@@ -4,16 +4,14 @@
 use wingbeat_math::{DMat3, DQuat, DVec3};
 
 use super::form::{AbsoluteForm, AbsoluteScratch};
-use super::partition::{Dependent, Partition, RANK_TOLERANCE, partition};
+use super::partition::{Dependent, NEARLY_SINGULAR, Partition, RANK_TOLERANCE, partition};
+use crate::error::quoted_once;
 use crate::{BodyMotion, DynamicsError};
 
 /// Scaled constraint values allowed at the start.
 const TOLERANCE: f64 = 1e-13;
 /// Iterations of Newton's method allowed.
 const ITERATIONS: usize = 60;
-/// Below this part of the largest entry a pivot of the Jacobian means a singular position is near:
-/// reactions and accelerations are there a thousand times what they are elsewhere.
-const NEARLY: f64 = 1e-3;
 /// A combination of dependent rows whose right-hand sides leave more than this contradicts itself.
 const CONTRADICTION: f64 = 1e-8;
 
@@ -48,7 +46,7 @@ impl AbsoluteForm {
         let mut s = self.scratch();
         s.motions.copy_from_slice(motions);
         self.find_rows(t, &mut s);
-        let p = self.eliminated_to(NEARLY, &s, &self.free_columns(&[]), |_| 0.0);
+        let p = self.eliminated_to(NEARLY_SINGULAR, &s, &self.free_columns(&[]), |_| 0.0);
         p.dependent.first().map(|d| self.names(&s, &d.combination))
     }
 
@@ -216,14 +214,9 @@ impl AbsoluteForm {
 
     /// Names of the joints with a share in a combination of rows.
     fn names(&self, s: &AbsoluteScratch, combination: &[f64]) -> String {
-        let mut names: Vec<String> = vec![];
-        for (c, (joint, _)) in combination.iter().zip(Self::rows(s)) {
-            let name = format!("`{}`", self.mechanism().joints()[*joint].name);
-            if c.abs() > 1e-6 && !names.contains(&name) {
-                names.push(name);
-            }
-        }
-        names.join(", ")
+        let rows = combination.iter().zip(Self::rows(s));
+        let shared = rows.filter(|(c, _)| c.abs() > 1e-6);
+        quoted_once(shared.map(|(_, (joint, _))| &*self.mechanism().joints()[*joint].name))
     }
 
     /// Why the positions cannot be matched: joints that contradict each other, or the worst one.

@@ -1,6 +1,6 @@
 //! The equations of a mechanism at one instant: matrix and right-hand side, scaled and solved.
 
-use wingbeat_math::{DMat3, DVec3, solve_small, tilde};
+use wingbeat_math::{DMat3, DVec3, solve_small, tilde, trace};
 
 use super::joint::{JointKinematics, Row};
 use super::structure::Mechanism;
@@ -74,7 +74,7 @@ pub(super) fn put_bodies(mechanism: &Mechanism, s: &mut AbsoluteScratch) {
         force.write_to_slice(&mut s.rhs[at..]);
         moment.write_to_slice(&mut s.rhs[at + 3..]);
         let floor = 1e-6 * total;
-        let spin = (j.x_axis.x + j.y_axis.y + j.z_axis.z) / 3.0;
+        let spin = trace(j) / 3.0;
         s.scale[at..at + 3].fill(1.0 / mass.max(floor).sqrt());
         s.scale[at + 3..at + 6].fill(1.0 / spin.max(floor * length * length).sqrt());
     }

@@ -7,7 +7,8 @@
 //! ```
 //!
 //! Velocities are taken in N components, angular velocities in body components, so that M is
-//! `[[m I, -R tilde(S)], [tilde(S) R^T, J]]`. Scaled as [`crate::euler::saddle`].
+//! `[[m I, -R tilde(S)], [tilde(S) R^T, J]]`. Coordinates are scaled by
+//! `1/sqrt(M_ii)`, multipliers by `1/sqrt((B M^-1 B^T)_kk)`.
 
 use wingbeat_math::{DMat3, DQuat, DVec3};
 
@@ -21,7 +22,7 @@ use crate::joint::Joint;
 use crate::{Baumgarte, BodyAcceleration, BodyMotion, DynamicsError, HingeReaction, Wrench};
 
 /// Numbers per body in the state.
-pub const PER_BODY: usize = 13;
+pub(crate) const STATE_NUMBERS: usize = 13;
 
 /// How the constraints are kept.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -63,7 +64,7 @@ impl AbsoluteForm {
 
     /// Length of the state.
     pub fn dim(&self) -> usize {
-        PER_BODY * self.mechanism.bodies().len()
+        STATE_NUMBERS * self.mechanism.bodies().len()
     }
 
     /// Room for intermediate results.
@@ -92,7 +93,7 @@ impl AbsoluteForm {
 
     /// The state of bodies that move like `motions`.
     pub fn pack(&self, motions: &[BodyMotion], y: &mut [f64]) {
-        for (m, y) in motions.iter().zip(y.chunks_exact_mut(PER_BODY)) {
+        for (m, y) in motions.iter().zip(y.chunks_exact_mut(STATE_NUMBERS)) {
             m.p.write_to_slice(&mut y[0..]);
             DQuat::from_mat3(&m.r)
                 .normalize()
@@ -109,7 +110,7 @@ impl AbsoluteForm {
     pub fn motions(&self, t: f64, y: &[f64], out: &mut [BodyMotion]) -> Result<(), DynamicsError> {
         assert_eq!(y.len(), self.dim(), "13 components for every body");
         check_state(t, y)?;
-        for (m, y) in out.iter_mut().zip(y.chunks_exact(PER_BODY)) {
+        for (m, y) in out.iter_mut().zip(y.chunks_exact(STATE_NUMBERS)) {
             let v = |i: usize| DVec3::from_slice(&y[i..]);
             *m = BodyMotion {
                 p: v(0),
@@ -143,7 +144,7 @@ impl AbsoluteForm {
         };
         let first = 6 * s.motions.len();
         for (k, (_, r)) in s.rows.iter().enumerate() {
-            s.rhs[first + k] = -r.bias - 2.0 * b.alpha * r.rate - b.beta * b.beta * r.value;
+            s.rhs[first + k] = b.right_side(r.bias, r.rate, r.value);
         }
         put_constraints(&self.mechanism, s);
         eliminate(&self.mechanism, t, s)?;
@@ -164,7 +165,9 @@ impl AbsoluteForm {
         dy: &mut [f64],
     ) -> Result<(), DynamicsError> {
         self.solve(t, y, loads, s)?;
-        let bodies = y.chunks_exact(PER_BODY).zip(dy.chunks_exact_mut(PER_BODY));
+        let bodies = y
+            .chunks_exact(STATE_NUMBERS)
+            .zip(dy.chunks_exact_mut(STATE_NUMBERS));
         for (a, (y, dy)) in s.accelerations.iter().zip(bodies) {
             let (q, w) = (DQuat::from_slice(&y[3..]), DVec3::from_slice(&y[10..]));
             dy[0..3].copy_from_slice(&y[7..10]);

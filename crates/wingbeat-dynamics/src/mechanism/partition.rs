@@ -8,6 +8,10 @@
 /// order one, and constraints hold to 1e-12 when ranks are asked for.
 pub const RANK_TOLERANCE: f64 = 1e-9;
 
+/// Below this part of the largest entry a pivot of the Jacobian means a singular position is near: reactions and
+/// accelerations are there a thousand times what they are elsewhere, and loops may go on in several ways.
+pub const NEARLY_SINGULAR: f64 = 1e-3;
+
 /// A row that follows from others.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Dependent {

@@ -14,15 +14,7 @@ pub(super) fn total_load(
     motions: &[BodyMotion],
     x_c: DVec3,
 ) -> Wrench {
-    let mut sum = Wrench {
-        force: system.total_mass() * system.gravity(),
-        moment: DVec3::ZERO,
-    };
-    for (l, m) in loads.iter().zip(motions) {
-        sum.force += l.force;
-        sum.moment += l.moment + (m.p - x_c).cross(l.force);
-    }
-    sum
+    load_with(system, loads, motions.iter().map(|m| m.p - x_c))
 }
 
 /// As [`total_load`], from the placements: `r` is the root's rotation, `c` the mass centre
@@ -34,13 +26,19 @@ pub(super) fn whole_load(
     r: DMat3,
     c: DVec3,
 ) -> Wrench {
+    let arms = configuration.placements().iter().map(|at| r * (at.d - c));
+    load_with(system, loads, arms)
+}
+
+/// Gravity and the loads, with their arms from the mass centre \[m\].
+fn load_with(system: &System, loads: &[Wrench], arms: impl Iterator<Item = DVec3>) -> Wrench {
     let mut sum = Wrench {
         force: system.total_mass() * system.gravity(),
         moment: DVec3::ZERO,
     };
-    for (l, at) in loads.iter().zip(configuration.placements()) {
+    for (l, arm) in loads.iter().zip(arms) {
         sum.force += l.force;
-        sum.moment += l.moment + (r * (at.d - c)).cross(l.force);
+        sum.moment += l.moment + arm.cross(l.force);
     }
     sum
 }

@@ -2,6 +2,7 @@
 #![allow(dead_code, unused_imports)] // every test binary uses its own part
 
 pub mod mechanism;
+pub mod saddle;
 
 use std::f64::consts::{FRAC_PI_2, TAU};
 use std::sync::Arc;

@@ -6,7 +6,7 @@
 
 use wingbeat_air::Wind;
 use wingbeat_blade::{
-    BladeError, BladeWing, BodyDrag, FrameAcceleration, FrameMotion, Lag, Load, StripTrial,
+    BladeError, BladeWing, BodyDrag, FrameAcceleration, Lag, Load, StripTrial, WingFrame,
     WingMemory, calm,
 };
 use wingbeat_dynamics::{AddedMass, BodyAcceleration, BodyMotion, Wrench};
@@ -331,8 +331,8 @@ fn acceleration(a: &BodyAcceleration) -> FrameAcceleration {
 }
 
 /// A body's motion in the words of the blade elements.
-pub(super) fn frame(m: &BodyMotion) -> FrameMotion {
-    FrameMotion {
+pub(super) fn frame(m: &BodyMotion) -> WingFrame {
+    WingFrame {
         rotation: m.r,
         velocity: m.v,
         rate: m.w,

@@ -276,7 +276,7 @@ impl Air for LatticeAir {
         };
         let answer = (self.lattice).normal_inertia(wing, state, &s.workspace, &s.loads)?;
         let panels = self.lattice.panels_of(wing);
-        let mass = rigid_mass(&answer, &s.loads, panels, &at.motions[wing + 1]);
+        let mass = rigid_added_mass(&answer, &s.loads, panels, &at.motions[wing + 1]);
         Ok(Some(WingInertia { mass, rate_weights }))
     }
 
@@ -319,7 +319,7 @@ const NOTHING: f64 = 1e-12;
 
 /// The added mass of a wing that moves as a rigid body like `m`, from the `answer` of the normal forces of its panels to normal accelerations
 /// \[kg\], row by row; symmetric as energy asks.
-fn rigid_mass(
+fn rigid_added_mass(
     answer: &[f64],
     loads: &AirLoads,
     panels: Range<usize>,

@@ -1,10 +1,10 @@
 //! One step of the elastic wings with the air, at given motions and accelerations of the bodies.
 
 use wingbeat_dynamics::{BodyAcceleration, BodyMotion, Wrench};
-use wingbeat_math::Secants;
+use wingbeat_math::{Secants, larger};
 use wingbeat_structure::NODE;
 
-use super::step::{ROUNDING, SMALL, WingScratch, larger};
+use super::step::{ROUNDING, SMALL, WingScratch};
 use super::wing::{ElasticState, ElasticWing};
 use super::wings::{ElasticWings, frame_motion};
 use crate::error::FlightError;

@@ -1,7 +1,7 @@
 //! One elastic wing within a step: Newton's iteration under loads that follow its motion.
 
 use wingbeat_dynamics::AddedMass;
-use wingbeat_math::DVec3;
+use wingbeat_math::{DVec3, larger};
 use wingbeat_structure::{
     FrameMotion, LoadTangent, NODE, Solver, StructureError, Trial, carried_by_frame,
 };
@@ -68,11 +68,6 @@ pub(super) struct WingScratch {
     pub tangent: AirTangent,
     /// How the wing answers to accelerations of its frame beside the rigid one: an added mass.
     pub carried: Option<AddedMass>,
-}
-
-/// The larger of two numbers, or what is not a number.
-pub(super) fn larger(a: f64, b: f64) -> f64 {
-    if b <= a { a } else { b }
 }
 
 impl WingScratch {

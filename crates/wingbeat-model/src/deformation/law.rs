@@ -1,6 +1,6 @@
 //! The laws of a deformation: along the span and over the beat.
 
-use crate::error::{ModelError, finite};
+use crate::error::{ModelError, check_rising, finite, in_row};
 use crate::motion::Fourier;
 
 /// A quantity along the span, at the relative distance r/R from the hinge.
@@ -67,22 +67,8 @@ impl SpanLaw {
 }
 
 fn check_table(table: &str, rows: &[(f64, f64)], root: f64) -> Result<(), ModelError> {
-    let bad = |row: usize, problem: String| {
-        Err(ModelError::Table {
-            table: table.to_owned(),
-            row: row + 1,
-            problem,
-        })
-    };
-    for (k, &(r, v)) in rows.iter().enumerate() {
-        if !(r.is_finite() && v.is_finite()) {
-            return bad(k, format!("({r}, {v}) is not finite"));
-        }
-        if k > 0 && r <= rows[k - 1].0 {
-            let before = rows[k - 1].0;
-            return bad(k, format!("r/R = {r} does not rise (row before: {before})"));
-        }
-    }
+    let bad = |row: usize, problem: String| Err(in_row(table, row, problem));
+    check_rising(table, "r/R =", rows)?;
     match rows {
         [] | [_] => bad(rows.len(), "a table needs at least 2 rows".to_owned()),
         [first, ..] if first.0 > root + END => bad(

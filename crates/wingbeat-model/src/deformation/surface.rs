@@ -8,7 +8,7 @@
 //! wherever they lie \[Groechenig 1992, Math. Comput. 59:181, for one dimension\]; others are refused.
 
 use crate::deformation::lines::{column, span};
-use crate::error::{ModelError, finite};
+use crate::error::{ModelError, finite, in_row};
 use crate::mesh::GridMesh;
 use crate::motion::{Fourier, WingMotion};
 use std::f64::consts::TAU;
@@ -60,7 +60,7 @@ impl MovingSurface {
     }
 
     fn check_phases(&self, table: &str) -> Result<(), ModelError> {
-        let bad = |row, problem| fault(table, row, problem);
+        let bad = |row, problem: String| Err(in_row(table, row, problem));
         let (n, x) = (self.harmonics, &self.phases);
         let (Some(first), Some(last)) = (x.first(), x.last()) else {
             return bad(0, "no phases".to_owned());
@@ -97,7 +97,7 @@ impl MovingSurface {
     }
 
     fn check_places(&self, table: &str) -> Result<(), ModelError> {
-        let bad = |row, problem| fault(table, row, problem);
+        let bad = |row, problem: String| Err(in_row(table, row, problem));
         if self.places.len() != self.phases.len() {
             let (places, phases) = (self.places.len(), self.phases.len());
             return bad(places, format!("{places} surfaces for {phases} phases"));
@@ -186,15 +186,6 @@ impl MovingSurface {
         let row = |k: usize| columns.iter().map(|c| c[k]).collect();
         Ok((0..size).map(row).collect())
     }
-}
-
-/// What is wrong with a row of a table, counted from zero.
-fn fault(table: &str, row: usize, problem: String) -> Result<(), ModelError> {
-    Err(ModelError::Table {
-        table: table.to_owned(),
-        row: row + 1,
-        problem,
-    })
 }
 
 /// The series of values at the phases.

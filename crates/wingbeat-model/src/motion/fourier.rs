@@ -1,5 +1,7 @@
 //! Fourier series of an angle.
 
+use wingbeat_math::with_harmonics;
+
 use crate::ModelError;
 use crate::error::finite;
 use std::f64::consts::TAU;
@@ -25,19 +27,13 @@ impl Fourier {
     /// As [`Self::at`], from sine and cosine of 2 pi x; those of the harmonics follow by addition
     /// of angles, each with a rounding more.
     pub(crate) fn at_turn(&self, (s1, c1): (f64, f64)) -> [f64; 3] {
-        let mut q = [self.mean, 0.0, 0.0];
         let (mut s, mut c) = (0.0, 1.0);
-        for k in 0..self.cos.len().max(self.sin.len()) {
-            let w = TAU * (k + 1) as f64;
+        let turn = |_| {
             (s, c) = (s * c1 + c * s1, c * c1 - s * s1);
-            let a = self.cos.get(k).copied().unwrap_or(0.0);
-            let b = self.sin.get(k).copied().unwrap_or(0.0);
-            let harmonic = a * c + b * s;
-            q[0] += harmonic;
-            q[1] += w * (b * c - a * s);
-            q[2] -= w * w * harmonic;
-        }
-        q
+            (s, c)
+        };
+        let coefficients = [&*self.cos, &*self.sin];
+        with_harmonics([self.mean, 0.0, 0.0], TAU, coefficients, turn)
     }
 
     /// The series times `factor`.

@@ -1,6 +1,6 @@
 //! Periodic cubic spline through a table of samples: twice continuously differentiable.
 
-use crate::ModelError;
+use crate::error::{ModelError, check_rising, in_row};
 
 /// Cubic spline of period one through samples of an angle.
 ///
@@ -93,30 +93,15 @@ impl PeriodicSpline {
 }
 
 fn check_rows(name: &str, rows: &[(f64, f64)]) -> Result<(), ModelError> {
-    let bad = |row: usize, problem: String| {
-        Err(ModelError::Table {
-            table: name.to_owned(),
-            row,
-            problem,
-        })
-    };
-    for (k, &(x, q)) in rows.iter().enumerate() {
-        if !(x.is_finite() && q.is_finite()) {
-            return bad(k + 1, format!("({x}, {q}) is not finite"));
-        }
-        if k > 0 && x <= rows[k - 1].0 {
-            let before = rows[k - 1].0;
-            return bad(
-                k + 1,
-                format!("phase {x} does not increase (row before: {before})"),
-            );
-        }
-    }
+    check_rising(name, "phase", rows)?;
     let n = rows.len();
+    let bad = |problem| in_row(name, n.saturating_sub(1), problem);
     if n < 4 {
-        return bad(n, format!("{n} row(s); a periodic table needs at least 4"));
+        return Err(bad(format!(
+            "{n} row(s); a periodic table needs at least 4"
+        )));
     }
-    check_closure(n, rows[0], rows[n - 1], range(rows)).or_else(|problem| bad(n, problem))
+    check_closure(n, rows[0], rows[n - 1], range(rows)).map_err(bad)
 }
 
 fn check_closure(n: usize, first: (f64, f64), last: (f64, f64), range: f64) -> Result<(), String> {

@@ -1,6 +1,8 @@
 //! Outlines of wings.
 
-use crate::error::{ModelError, finite, fraction, not_negative, positive, require, require_count};
+use crate::error::{
+    ModelError, finite, fraction, in_row, not_negative, positive, require, require_count,
+};
 use crate::integrate::interpolate;
 use crate::planform::beta::Beta;
 use crate::planform::edges::{Curve, Edges};
@@ -151,11 +153,8 @@ fn check_edge(table: &str, points: &[(f64, f64)]) -> Result<(), ModelError> {
         finite(&format!("{table}[{k}].r"), r)?;
         finite(&format!("{table}[{k}].x"), x)?;
         if k > 0 && r <= points[k - 1].0 {
-            return Err(ModelError::Table {
-                table: table.to_owned(),
-                row: k + 1,
-                problem: format!("r = {r} m does not increase from root to tip"),
-            });
+            let problem = format!("r = {r} m does not increase from root to tip");
+            return Err(in_row(table, k, problem));
         }
     }
     Ok(())

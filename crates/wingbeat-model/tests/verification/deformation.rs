@@ -235,7 +235,7 @@ fn refuses_laws_that_do_not_fit() {
     );
     says(
         table(vec![(0.0, 0.0), (0.7, 1.0), (0.7, 2.0), (1.0, 0.0)]),
-        &["row 3", "rise"],
+        &["row 3", "does not increase"],
     );
     says(table(vec![(0.0, 0.0), (1.0, f64::NAN)]), &["row 2", "NaN"]);
     says(table(vec![(1.0, 0.0)]), &["2 rows"]);

@@ -43,8 +43,10 @@ impl Cells {
 /// A cell.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Cell<'a> {
-    /// A number, or a whole number.
+    /// A number; a whole one for a column of these.
     Number(f64),
+    /// A whole number, kept to its last digit.
+    Count(i64),
     /// A text.
     Text(&'a str),
 }
@@ -107,6 +109,7 @@ impl ParquetWriter {
         for (column, cells) in self.columns.iter_mut().zip(&self.cells) {
             match (cells, row.next()) {
                 (Cells::Numbers, Some(Cell::Number(x))) => column.extend(x.to_le_bytes()),
+                (Cells::Counts, Some(Cell::Count(n))) => column.extend(n.to_le_bytes()),
                 (Cells::Counts, Some(Cell::Number(x))) => column.extend((x as i64).to_le_bytes()),
                 (Cells::Texts, Some(Cell::Text(text))) => {
                     column.extend((text.len() as u32).to_le_bytes());
@@ -313,5 +316,23 @@ impl Thrift {
             value >>= 7;
         }
         self.bytes.push(value as u8);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn exact_whole_numbers_beyond_those_of_doubles_are_kept_and_rows_that_do_not_fit_refused() {
+        let path = std::env::temp_dir().join(format!("wingbeat-{}.parquet", std::process::id()));
+        let columns = vec![("seed".to_owned(), Cells::Counts)];
+        let mut table = ParquetWriter::create(&path, "points", columns).unwrap();
+        let seed = (1_i64 << 53) + 1;
+        table.cells([Cell::Count(seed)]).unwrap();
+        assert!(table.cells([]).is_err());
+        assert_eq!(table.columns[0], seed.to_le_bytes());
+        assert!(table.cells([Cell::Count(1), Cell::Count(2)]).is_err());
+        std::fs::remove_file(&path).unwrap();
     }
 }

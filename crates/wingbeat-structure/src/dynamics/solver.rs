@@ -1,6 +1,6 @@
 //! Newton's iteration for a step in time.
 
-use wingbeat_math::{DMat3, DVec3};
+use wingbeat_math::{DMat3, DVec3, larger};
 
 use super::carried::ResponseScratch;
 use super::generalized_alpha::{State, Trial, Weights};
@@ -332,14 +332,6 @@ pub(crate) fn apply(structure: &Structure, change: &[f64], trial: &mut Trial) ->
 pub(crate) fn size(numbers: &[f64; NODE], length: f64) -> f64 {
     let [dx, turn] = pair(numbers, 0);
     larger(dx.length() / length, turn.length())
-}
-
-/// The larger of two; not a number where one of them is not, which [`f64::max`] leaves out.
-pub(crate) fn larger(a: f64, b: f64) -> f64 {
-    match a.is_nan() || a > b {
-        true => a,
-        false => b,
-    }
 }
 
 /// Adds the inertial forces of all nodes.

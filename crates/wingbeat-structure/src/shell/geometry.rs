@@ -1,6 +1,6 @@
 //! A quadrilateral at rest: axes, gradients, hourglass, area.
 
-use wingbeat_math::{DMat3, DVec2, DVec3, MassProperties};
+use wingbeat_math::{DMat3, DVec2, DVec3, MassProperties, outer};
 
 use super::{Section, ShellError};
 
@@ -116,7 +116,7 @@ fn roughness(x: [DVec2; 4]) -> [f64; 3] {
 /// add to those of the whole without error.
 pub(super) fn lumps(corners: [DVec3; 4], axes: DMat3, section: &Section) -> [MassProperties; 4] {
     let n = axes.z_axis;
-    let plane = DMat3::IDENTITY - DMat3::from_cols(n.x * n, n.y * n, n.z * n);
+    let plane = DMat3::IDENTITY - outer(n);
     std::array::from_fn(|i| {
         let mut sum = MassProperties::ZERO;
         for [u, v] in CORNER {

@@ -3,7 +3,7 @@
 use serde_json::{Map, Value, json};
 use wingbeat::analysis::plausibility::stroke_amplitude;
 use wingbeat::analysis::steady::{Residuals, turned_inside_out};
-use wingbeat::analysis::unknown::{Bound, UNKNOWNS};
+use wingbeat::analysis::unknown::{Bound, UNKNOWNS, UnknownKind};
 use wingbeat::analysis::wake::WakeTrim;
 use wingbeat::analysis::{Trim, TrimProblem, Unknown};
 use wingbeat::case::LoadedCase;
@@ -234,13 +234,11 @@ fn value(u: Unknown, t: &Found) -> (String, &'static str, f64) {
 
 /// The unit of an unknown: as the end of its name for programs, and in words.
 fn unit(u: Unknown) -> [&'static str; 2] {
-    match u {
-        Unknown::StrokeAmplitude | Unknown::Frequency | Unknown::StrokeAmplitudeDifference => {
-            ["_change_relative", "%"]
-        }
-        Unknown::FeatheringLead => ["_wingbeats", "wingbeats"],
-        Unknown::MassCentre => ["_forward_m", "mm forward"],
-        _ => ["_deg", "deg"],
+    match u.kind() {
+        UnknownKind::Relative => ["_change_relative", "%"],
+        UnknownKind::Beats => ["_wingbeats", "wingbeats"],
+        UnknownKind::WingLengths => ["_forward_m", "mm forward"],
+        UnknownKind::Angle => ["_deg", "deg"],
     }
 }
 
@@ -261,8 +259,8 @@ pub(super) fn bound(text: &str) -> Result<Bound, String> {
         let names = UNKNOWNS.map(|u| u.1).join(", ");
         return Err(format!("`{name}` is no unknown; give one of {names}"));
     };
-    let scale = match unit(unknown)[1] {
-        "deg" => std::f64::consts::PI / 180.0,
+    let scale = match unknown.kind() {
+        UnknownKind::Angle => std::f64::consts::PI / 180.0,
         _ => 1.0,
     };
     let (from, to) = (scale * from, scale * to);

@@ -4,8 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 use serde_json::json;
-use wingbeat::campaign::Campaign;
-use wingbeat::campaign::cost::Cost;
+use wingbeat::campaign::{Campaign, Cost};
 
 use super::args::duration;
 use super::master::processors;

@@ -3,8 +3,7 @@
 use std::path::Path;
 
 use clap::Args;
-use wingbeat::campaign::worker::{inspect, left, plan_name};
-use wingbeat::campaign::{Campaign, Status, Store};
+use wingbeat::campaign::{Campaign, Status, Store, inspect, left, plan_name};
 
 use super::args::{Part, Place, operand};
 use super::master::{Master, processors};

@@ -1,7 +1,7 @@
 //! `wingbeat campaign slurm` and `snakemake`.
 
 use clap::Args;
-use wingbeat::campaign::scripts::Engine;
+use wingbeat::campaign::Engine;
 
 use super::args::{Place, operand};
 use crate::command::failure::Failure;

@@ -3,9 +3,7 @@
 use std::time::Duration;
 
 use clap::Args;
-use wingbeat::campaign::Status;
-use wingbeat::campaign::status::retry as forget;
-use wingbeat::campaign::worker::plan_name;
+use wingbeat::campaign::{Status, plan_name, retry as forget};
 
 use super::args::Place;
 use super::args::{duration, operand};

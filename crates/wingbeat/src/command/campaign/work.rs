@@ -6,8 +6,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
 use clap::Args;
-use wingbeat::campaign::worker::plan_name;
-use wingbeat::campaign::{Ended, Store, Worker};
+use wingbeat::campaign::{Ended, Store, Worker, plan_name};
 
 use super::args::{Part, Place};
 use crate::command::failure::{FAILED, Failure, INTERRUPTED};

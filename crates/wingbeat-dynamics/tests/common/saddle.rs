@@ -1,17 +1,15 @@
-//! The saddle-point system of seed eq. 30, assembled, scaled and solved.
+//! The saddle-point system of seed eq. 30 as printed: assembled, scaled and solved as a whole.
 //!
 //! In SI units its condition number for an insect is 1e14. Coordinates are scaled by
 //! `1/sqrt(M_ii)` and multipliers by `1/sqrt((B M^-1 B^T)_kk)`, which makes it of order ten. A body
 //! without mass has `M_ii = 0`; there the scale is that of a millionth of the total mass. The
 //! matrix as a whole stays regular, because elimination exchanges rows between M and B_q.
 
+use wingbeat_dynamics::euler::constraint::{AngleJacobian, HingeKinematics};
+use wingbeat_dynamics::euler::coordinates::{BodyKinematics, COORDINATES};
+use wingbeat_dynamics::euler::inertia::equations;
+use wingbeat_dynamics::{Baumgarte, System, Wrench};
 use wingbeat_math::{DMat3, DVec3, SingularMatrix, solve_small};
-
-use super::constraint::{AngleJacobian, HingeKinematics};
-use super::coordinates::{BodyKinematics, PER_BODY};
-use super::inertia::equations;
-use crate::baumgarte::Baumgarte;
-use crate::{System, Wrench};
 
 /// Share of the total mass that sets the scale of a body without mass.
 const LIGHTEST: f64 = 1e-6;
@@ -29,7 +27,7 @@ pub struct Saddle {
 impl Saddle {
     /// Room for the saddle-point system of `system`.
     pub fn new(system: &System) -> Self {
-        let coordinates = PER_BODY * system.bodies().len();
+        let coordinates = COORDINATES * system.bodies().len();
         let n = coordinates + 6 * system.hinges().len();
         Self {
             coordinates,
@@ -69,7 +67,7 @@ impl Saddle {
 
     /// Mass matrix and generalized forces of one body (seed eq. 21).
     fn put_body(&mut self, system: &System, i: usize, k: &BodyKinematics, load: &Wrench) {
-        let (body, at) = (&system.bodies()[i], PER_BODY * i);
+        let (body, at) = (&system.bodies()[i], COORDINATES * i);
         let (m, force) = equations(body, k, load, system.gravity());
         self.put(at, at, DMat3::from_diagonal(DVec3::splat(m.rr)));
         self.put(at, at + 3, m.r_eta);
@@ -87,7 +85,10 @@ impl Saddle {
         let hinge = &system.hinges()[k];
         let connection = self.coordinates + 3 * k;
         let orientation = connection + 3 * system.hinges().len();
-        let (a, c) = (PER_BODY * hinge.tree_parent(), PER_BODY * hinge.child);
+        let (a, c) = (
+            COORDINATES * hinge.parent.expect("a tree"),
+            COORDINATES * hinge.child,
+        );
         self.put_twice(connection, a, -DMat3::IDENTITY);
         self.put_twice(connection, c, DMat3::IDENTITY);
         self.put_angles(connection, a, c, &h.connection_jacobian());
@@ -121,7 +122,7 @@ impl Saddle {
     fn scale_body(&mut self, system: &System, at: usize) {
         let (n, length) = (self.rhs.len(), system.units().length);
         let least = LIGHTEST * system.total_mass();
-        for c in 0..PER_BODY {
+        for c in 0..COORDINATES {
             let floor = if c < 3 {
                 least
             } else {

@@ -1,0 +1,15 @@
+//! Extremes of numbers that may be none.
+
+/// The larger of two; not a number where one of them is not, which [`f64::max`] leaves out.
+///
+/// ```
+/// use wingbeat_math::larger;
+/// assert_eq!(larger(1.0, 2.0), 2.0);
+/// assert!(larger(f64::NAN, 2.0).is_nan() && larger(2.0, f64::NAN).is_nan());
+/// ```
+pub fn larger(a: f64, b: f64) -> f64 {
+    match a.is_nan() || a > b {
+        true => a,
+        false => b,
+    }
+}
