@@ -332,7 +332,7 @@ impl<'a> SteeredBeats<'a> {
         self.state = beat.advance_over(steps, &self.state).map_err(lost)?;
         self.acting = next;
         // The next part begins as this one ended.
-        let held = Beat::between(&trim.setup, 1, &self.acting, &self.acting)?;
+        let held = Beat::between(&trim.setup, part.of, &self.acting, &self.acting)?;
         self.sensed = seen(&held, &self.state, look, part.next());
         Ok(())
     }

@@ -7,6 +7,7 @@ use std::sync::Arc;
 use common::*;
 use wingbeat_analysis::derivatives::control_derivatives;
 use wingbeat_analysis::power::power;
+use wingbeat_analysis::regulator::{Regulator, Timing, Weights};
 use wingbeat_analysis::*;
 use wingbeat_dynamics::{ElementLaw, Joint, JointModel, JointType};
 use wingbeat_flight::joints::AxisTurn;
@@ -205,6 +206,19 @@ fn agrees_trim_of_a_linkage_with_prescribed_joints() {
         beat.advance(&a.state).unwrap()
     });
     assert!(apart(&x[10..], &y[10..]) < 1e-9);
+    // Looks within the wingbeat, too: loops are known at those instants.
+    let timing = Timing {
+        parts: 4,
+        latency: 1,
+        lag: 0.2,
+    };
+    let [p, q] = [&a, &b].map(|t| {
+        let regulator = Regulator::timed(t, &Weights::default(), &timing).unwrap();
+        let plants = regulator.plants().iter();
+        plants.flat_map(|p| p.m.clone()).collect::<Vec<f64>>()
+    });
+    println!("{:e}", apart(&p, &q));
+    assert!(apart(&p, &q) < 1e-6, "{:.1e}", apart(&p, &q));
 }
 
 fn refused<T>(found: Result<T, AnalysisError>) -> String {

@@ -321,7 +321,7 @@ fn refuses_deformations_that_do_not_fit() {
     refused(
         &table("[[0, 0], [0.7, 1], [0.6, 1], [1, 0]]"),
         at,
-        &["table_deg[2]", "rise"],
+        &["table_deg[2]", "does not increase"],
     );
     refused(&table("[[0, 0], [1, nan]]"), at, &["table_deg"]);
     refused(&table("[[0, 0]]"), at, &["at least 2 elements"]);
@@ -462,4 +462,20 @@ fn exact_motion_that_a_wing_leaves_out_is_the_mirror_image_of_its_counterpart() 
             "{refused}"
         );
     }
+}
+
+#[test]
+fn refuses_panels_that_one_wing_of_a_pair_leaves_out() {
+    let refused = load(GOOD, &["wing.left.mesh.chordwise=3"])
+        .err()
+        .expect("a refusal");
+    for word in ["wing.left.mesh.spanwise", "10", "4 on wing `right`"] {
+        assert!(refused.contains(word), "{refused}");
+    }
+    let setup = good(GOOD, &["wing.left.mesh={ chordwise = 3, spanwise = 4 }"]);
+    let panels = |name: &str| {
+        let wing = setup.animal.wings.iter().find(|w| w.name == name);
+        wing.map(|w| [w.mesh.rows, w.mesh.cols]).expect("the wing")
+    };
+    assert_eq!([panels("left"), panels("right")], [[3, 4], [2, 4]]);
 }

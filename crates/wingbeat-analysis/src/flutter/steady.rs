@@ -182,6 +182,9 @@ fn check(setup: &FlightSetup) -> Result<(), AnalysisError> {
         ));
     };
     let is_held = rests(motion);
+    let mut air = setup.air.clone();
+    let wind = air.wind_mut();
+    let changes = wind.is_some_and(|w| !w.gusts.is_empty() || w.street.is_some());
     let refused = [
         (
             wings.iter().all(|w| w.structure.is_none()),
@@ -202,6 +205,11 @@ fn check(setup: &FlightSetup) -> Result<(), AnalysisError> {
             !(matches!(setup.air, AirModel::VortexLattice(_)) || setup.air.has_strip_wakes()),
             "the air has no wakes",
             "air.model = \"vortex_lattice\", or blade elements with air.blade.unsteady",
+        ),
+        (
+            changes,
+            "the air changes with time (gusts, turbulence, a vortex street)",
+            "leave air.gust and air.vortex_street out, or fly it with `run`",
         ),
     ];
     match refused.into_iter().find(|r| r.0) {

@@ -140,7 +140,7 @@ fn fly(
     };
     let (now, next) = (command(STATES), command(STATES + CONTROLS));
     let beat = part.passing(trim, [&now, &next])?;
-    let after = Beat::between(&trim.setup, 1, &next, &next)?;
+    let after = Beat::between(&trim.setup, part.of, &next, &next)?;
     let [start, end] = [part, part.next()].map(|p| p.start(beat.period()));
     let x = std::array::from_fn(|i| z[3 + i]);
     let y = Perturbation::from_array(x).state_at(&beat, start, level, joints);

@@ -12,6 +12,7 @@ use crate::source::CaseSource;
 /// Checks what takes more than one look: `setup` was made of `case`, which was read from `source`.
 pub(crate) fn check(case: &Case, setup: &FlightSetup, source: &CaseSource) -> Built<()> {
     bodies(case)?;
+    meshes(case, source)?;
     motion(case, source)?;
     adjustments(case, setup)?;
     joints(case)?;
@@ -73,6 +74,36 @@ fn bodies(case: &Case) -> Built<()> {
         if wing.mass_kg == Some(0.0) && wing.inertia_about_centre_kg_m2.is_some() {
             let key = format!("wing.{name}.inertia_about_centre_kg_m2");
             return Err(idle(key, "for a wing of mass_kg = 0"));
+        }
+    }
+    Ok(())
+}
+
+/// Panels that one wing of a pair leaves out and the other gives: the default would part them.
+fn meshes(case: &Case, source: &CaseSource) -> Built<()> {
+    for (name, wing) in &case.wing {
+        let other = mirror_name(name).and_then(|other| Some((case.wing.get(&other)?, other)));
+        let (Some(mesh), Some((counterpart, other))) = (&wing.mesh, other) else {
+            continue;
+        };
+        let Some(there) = &counterpart.mesh else {
+            continue;
+        };
+        for (key, own, theirs) in [
+            ("chordwise", mesh.chordwise, there.chordwise),
+            ("spanwise", mesh.spanwise, there.spanwise),
+        ] {
+            let path = format!("wing.{name}.mesh.{key}");
+            if own != theirs && source.gives(&format!("wing.{name}.mesh")) && !source.gives(&path) {
+                return Err(Fault::new(
+                    path,
+                    format!(
+                        "left out beside other panels of this wing it would be {own}, and {theirs} on wing `{other}`"
+                    ),
+                    "the number of panels of this wing",
+                    format!("give {theirs}, or remove [wing.{name}.mesh]"),
+                ));
+            }
         }
     }
     Ok(())

@@ -1,4 +1,4 @@
-//! Joints of wings that came along by mirror symmetry.
+//! Joints of wings on one side that the wings on the other side have in mirror image.
 
 use wingbeat_model::Animal;
 
@@ -6,7 +6,7 @@ use super::names::body_names;
 use crate::raw::{Case, ElementCase, JointCase, JointKind, SeriesCase, TravelCase};
 use crate::sides::mirror_name;
 
-/// The joint of a right wing for a left wing that has none, and the other way round: points and displacements are
+/// The joint of a right wing for a left wing that has none, and the other way round, unless that wing is not to be mirrored: points and displacements are
 /// mirrored, axes of rotation too, so that equal angles are mirror images. A spherical joint has no axes: the first and
 /// third component of its rotation vector change sign.
 pub(super) fn mirrored(
@@ -17,7 +17,8 @@ pub(super) fn mirrored(
 ) -> Option<(String, JointCase)> {
     let is_wing = |n: &str| animal.wings.iter().any(|w| w.name == n);
     let counterpart = mirror_name(&joint.child).filter(|t| is_wing(t) && is_wing(&joint.child))?;
-    if case.joint.values().any(|j| j.child == counterpart) {
+    let alone = case.wing.get(&joint.child).and_then(|w| w.mirror) == Some(false);
+    if alone || case.joint.values().any(|j| j.child == counterpart) {
         return None;
     }
     let turning = |[x, y, z]: [f64; 3]| [-x, y, -z];

@@ -42,8 +42,8 @@ pub struct SegmentCase {
 ///
 /// The joint's frame sits on the parent at `at_m` and is turned by `turn` and moved by `travel`; for
 /// a wing it is turned by the wing's motion instead. Axes are given in this frame: body axes for
-/// segments, wing axes for wings. A joint of a right wing is mirrored to a left wing that came
-/// along by mirror symmetry: points, displacements, axes, and angles of spherical joints.
+/// segments, wing axes for wings. A joint of a right wing is mirrored to a left wing that has
+/// none, and the other way round: points, displacements, axes, and angles of spherical joints. With `mirror = false` at the wing it is not.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct JointCase {

@@ -18,9 +18,9 @@ pub struct WingCase {
     /// Change it for wings whose name does not tell the side.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub side: Option<Side>,
-    /// Whether the mirror image on the other side comes along when it is not given. Left out: true.
+    /// Whether the mirror image on the other side comes along when it is not given, and has the joint of this wing if it has none. Left out: true.
     ///
-    /// Change it to false for a single wing.
+    /// Change it to false for a single wing, or for a joint on one side alone.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub mirror: Option<bool>,
     /// Hinge in body axes.
