@@ -44,6 +44,7 @@ pub fn estimate(setup: &FlightSetup) -> Estimate {
         mass: animal.mass(),
         frequency: setup.time.period.map(|p| 1.0 / p),
         flight_speed,
+        tether: tether(setup),
         wing_loading: (weight > 0.0 && area > 0.0).then(|| weight / area),
         inertia: DVec3::new(inertia.x_axis.x, inertia.y_axis.y, inertia.z_axis.z),
         viscosity: viscosity(&setup.air),
@@ -56,6 +57,19 @@ pub fn estimate(setup: &FlightSetup) -> Estimate {
     estimate.wings = wings.map(|(w, r)| estimate.wing(w, r)).collect();
     estimate.doubts = doubts(setup, &estimate);
     estimate
+}
+
+/// Fastest speed through the undisturbed air and fastest turning of a tethered body [m/s, rad/s].
+fn tether(setup: &FlightSetup) -> [f64; 2] {
+    let MotionMode::Tethered(motion) = &setup.mode else {
+        return [0.0; 2];
+    };
+    let (air, time) = (stream(&setup.air), &setup.time);
+    let instants = (0..=time.steps).map(|k| motion.at(k as f64 * time.step));
+    instants.fold([0.0_f64; 2], |[speed, turning], root| {
+        let past = (root.velocity - air).length();
+        [speed.max(past), turning.max(root.angular_velocity.length())]
+    })
 }
 
 /// Velocity of the body at the start, N components [m/s].

@@ -17,12 +17,20 @@
 //! What is left out: the velocities that wakes make, and that the body of a free flight does not go on as it starts.
 
 use crate::setup::{AirModel, AirOptions, FlightSetup, MotionMode};
-use wingbeat_air::AirSettings;
+use std::f64::consts::PI;
+
+use wingbeat_air::{AirSettings, LeadingEdge};
 use wingbeat_math::{DMat3, DVec3, RotationLaw};
 use wingbeat_model::{Wing, WingMotion};
 
+/// Of a sweep \[1\].
+const ROUNDING: f64 = 1e-9;
+
 /// Instants of a beat that are looked at.
 const INSTANTS: usize = 100;
+
+/// Sweep of a leading edge from root to tip \[rad\] from which on vortex lift is known to fail: a delta of an aspect ratio of 4 has it.
+const SWEPT: f64 = PI / 4.0;
 
 /// Suction parameter below which flow stays attached: what leading edges hold by default.
 const ATTACHED: f64 = 0.15;
@@ -85,6 +93,37 @@ impl FlightSetup {
                 names.join(", "),
             )
         })
+    }
+
+    /// Says which wings with vortex lift have leading edges so swept that their vortex is carried along the edge, which the law does
+    /// not know (docs/separated-flow.md, "Vortex lift without free vorticity").
+    pub fn vortex_lift_of_swept_edges(&self) -> Option<String> {
+        let AirModel::VortexLattice(air) = &self.air else {
+            return None;
+        };
+        if !air.lattice.shedding.leading
+            || !matches!(air.lattice.leading, LeadingEdge::VortexLift(_))
+        {
+            return None;
+        }
+        let sweep = |wing: &Wing| {
+            let mesh = &wing.mesh;
+            let along = mesh.nodes[mesh.node(0, mesh.cols)] - mesh.nodes[mesh.node(0, 0)];
+            along.x.abs().atan2(along.y.abs())
+        };
+        let wings = self.animal.wings.iter();
+        let swept: Vec<_> = wings
+            .filter(|w| sweep(w) >= SWEPT * (1.0 - ROUNDING))
+            .collect();
+        let most = swept.iter().map(|w| sweep(w)).reduce(f64::max)?;
+        let names: Vec<String> = swept.iter().map(|w| format!("`{}`", w.name)).collect();
+        Some(format!(
+            "leading edges are swept by up to {:.0} deg (wings {}), and vortex lift does not know that the vortex of a swept edge is carried \
+             along it: a delta of an aspect ratio of 1 has a third of its lift: air.loads = \"polhamus\" without shedding from leading edges, \
+             or leading edges that shed",
+            most.to_degrees(),
+            names.join(", "),
+        ))
     }
 
     /// Whether the wing meets air, and no strip of it ever with more suction than [`ATTACHED`].

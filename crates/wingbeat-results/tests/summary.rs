@@ -324,3 +324,24 @@ fn behaves_elastic_wings_beside_a_free_waist_raise_no_alarm() {
         summary.warnings
     );
 }
+
+/// A front that travels acts on the wakes it goes through: nothing says that the vortex impulse is what surfaces gave.
+#[test]
+fn behaves_a_gust_that_travels_has_no_impulse_budget() {
+    let gust = |front: &str| {
+        format!("air.gust=[{{ amplitude_m_s = [0, 0, 0.3], duration_s = 0.01{front} }}]")
+    };
+    let flown = |front: &str| {
+        let case = preset(
+            "fruit-fly-tethered",
+            &["air.shed=[\"trailing\"]", "time.beats=2", &gust(front)],
+        );
+        flown(&case)
+    };
+    let (everywhere, front) = (flown(""), flown(", front_m_s = [2, 0, 0]"));
+    // Measured 0.015.
+    let budget = everywhere.impulse_budget.expect("a budget");
+    assert!(budget.residual_relative < 0.05, "{budget:?}");
+    assert!(front.impulse_budget.is_none());
+    assert!(!front.to_text().contains("impulse residual"));
+}

@@ -80,6 +80,12 @@ impl Wind {
         self.shear.is_none() && self.gusts.is_empty() && self.street.is_none()
     }
 
+    /// Whether it is the same everywhere: no shear, no street, no gust whose front travels.
+    pub fn is_uniform(&self) -> bool {
+        let travels = |g: &Gust| g.slowness != DVec3::ZERO;
+        self.shear.is_none() && self.street.is_none() && !self.gusts.iter().any(travels)
+    }
+
     /// Velocity [m/s] that is added at `x` [m] and time `t` [s], N components.
     pub fn at(&self, x: DVec3, t: f64) -> DVec3 {
         let gust = |g: &Gust| g.amplitude * g.shape.at(t - g.start - g.slowness.dot(x));

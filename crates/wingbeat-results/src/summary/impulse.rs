@@ -31,12 +31,14 @@ pub struct ImpulseBudget {
 
 impl ImpulseBudget {
     /// Between two records; none without a lattice, with vortex particles, whose vorticity does not close, so that their impulse depends
-    /// on the origin, and of results of older versions, which lack the account.
+    /// on the origin, in wind that varies in space, which acts on the wakes, and of results of older versions, which lack the account.
     pub(super) fn between(setup: &FlightSetup, from: &Record, to: &Record) -> Option<Self> {
         let AirModel::VortexLattice(air) = &setup.air else {
             return None;
         };
-        if air.lattice.particles.is_some() || !to.impulse_residual.is_finite() {
+        let lattice = &air.lattice;
+        let is_kept = lattice.particles.is_none() && lattice.wind.is_uniform();
+        if !is_kept || !to.impulse_residual.is_finite() {
             return None;
         }
         let along = |of: fn(&ImpulseAccount) -> wingbeat_math::DVec3| {

@@ -222,6 +222,9 @@ fn air_warnings(
     };
     let inside = setup.wings_inside_parts().into_iter().map(no_meaning);
     inside.for_each(|text| list.limit(text));
+    if let Some(text) = setup.vortex_lift_of_swept_edges() {
+        list.limit(format!("Outside of what it was made for: {text}."));
+    }
     let by_motion = [
         setup.one_sided_leading_edges(),
         setup.tips_of_attached_wings(),

@@ -152,6 +152,29 @@ fn values(c: &Condition) -> Value {
     })
 }
 
+/// Which speeds are not to be relied on, and which onsets lie beside one of them.
+fn doubtful(conditions: &[Condition], found: &[Crossing]) -> Option<String> {
+    let noted = conditions.iter().filter(|c| !notes(c).is_empty());
+    let speeds: Vec<f64> = noted.map(|c| c.speed).collect();
+    let list = |of: &[f64]| {
+        let numbers: Vec<String> = of.iter().map(|v| format!("{v:.3}")).collect();
+        numbers.join(", ")
+    };
+    let beside = |c: &&Crossing| c.between.iter().any(|v| speeds.contains(v));
+    let onsets: Vec<f64> = found.iter().filter(beside).map(|c| c.speed).collect();
+    let hence = match (found.is_empty(), onsets.is_empty()) {
+        (true, _) => String::new(),
+        (false, true) => "; what begins and ends above lies between other speeds".to_owned(),
+        (false, false) => format!(", and with them what is found at {} m/s", list(&onsets)),
+    };
+    (!speeds.is_empty()).then(|| {
+        format!(
+            "Not to be relied on at {} m/s: see the notes on nonlinearity and residual above{hence}.",
+            list(&speeds)
+        )
+    })
+}
+
 fn conclude(report: &mut Report, conditions: &[Condition], found: &[Crossing]) {
     for c in found {
         let what = if c.begins { "begins" } else { "ends" };
@@ -176,11 +199,8 @@ fn conclude(report: &mut Report, conditions: &[Condition], found: &[Crossing]) {
     if found.is_empty() && through.is_empty() {
         line!(report, "\n{}", unchanged(conditions));
     }
-    if conditions.iter().any(|c| !notes(c).is_empty()) {
-        line!(
-            report,
-            "\nThis is not to be relied on: see the notes on nonlinearity and residual above."
-        );
+    if let Some(text) = doubtful(conditions, found) {
+        line!(report, "\n{text}");
     }
     if conditions
         .iter()
