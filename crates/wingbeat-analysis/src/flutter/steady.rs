@@ -175,6 +175,12 @@ impl ElasticRig {
 /// An error for what flutter is not sought in.
 fn check(setup: &FlightSetup) -> Result<(), AnalysisError> {
     let wings = &setup.animal.wings;
+    if wings.iter().all(|w| w.structure.is_none()) {
+        return Err(AnalysisError::not_covered(
+            "no wing is elastic",
+            "give one a structure: [wing.NAME.structure]",
+        ));
+    }
     let MotionMode::Tethered(motion) = &setup.mode else {
         return Err(AnalysisError::not_covered(
             "the flight is free",
@@ -186,11 +192,6 @@ fn check(setup: &FlightSetup) -> Result<(), AnalysisError> {
     let wind = air.wind_mut();
     let changes = wind.is_some_and(|w| !w.gusts.is_empty() || w.street.is_some());
     let refused = [
-        (
-            wings.iter().all(|w| w.structure.is_none()),
-            "no wing is elastic",
-            "give one a structure: [wing.NAME.structure]",
-        ),
         (
             wings.iter().any(|w| w.motion.frequency > 0.0),
             "the wings beat",

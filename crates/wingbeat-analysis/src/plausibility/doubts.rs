@@ -317,7 +317,8 @@ fn wing_doubts(setup: &FlightSetup, wing: &Wing, w: &WingEstimate) -> Vec<String
         see(&CLEARANCE, "clearance", clearance, " mean chords");
     }
     let outward = wing.side.sign() * wing.hinge_b.y;
-    if outward < -1e-3 * w.report.length {
+    // One wing alone may span both sides.
+    if setup.animal.wings.len() > 1 && outward < -1e-3 * w.report.length {
         list.push(format!(
             "its hinge lies {:.3} mm on the other side of the body: the sign of hinge_m[1]",
             -1e3 * outward

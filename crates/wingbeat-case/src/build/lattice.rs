@@ -92,13 +92,13 @@ fn refused(case: &AirCase, error: &AirError) -> Fault {
         return Fault::new("air", error.to_string(), "", "correct the air");
     };
     let in_chords = case.wake_blob_length_chords.is_some();
-    let key = match key_of(key) {
-        "air.wake_blob_length_m" if in_chords => "air.wake_blob_length_chords",
-        key => key,
+    let (key, unit) = match key_of(key) {
+        "air.wake_blob_length_m" if in_chords => ("air.wake_blob_length_chords", " m"),
+        key => (key, ""),
     };
     Fault::new(
         key,
-        format!("{value} does not fit the other settings"),
+        format!("{value}{unit} does not fit the other settings"),
         *allowed,
         "change this key or the one it does not fit",
     )

@@ -122,7 +122,7 @@ pub(super) fn tell(report: &mut Report, case: &LoadedCase, problem: &TrimProblem
     let stroke = t.stroke.to_degrees();
     if stroke > 180.0 {
         tell!(
-            "warning: strokes of {stroke:.0} deg: right and left wings pass through each other; choose other --unknowns (frequency, for instance), or a slower flight"
+            "warning: strokes of {stroke:.0} deg: wings pass through each other or through the body; choose other --unknowns (frequency, for instance), or a slower flight"
         );
     }
     if stroke <= 180.0 {

@@ -103,7 +103,7 @@ fn tell(report: &mut Report, name: &str, found: &Sweep) {
             Lost::NotTrimmed(None) => "no finite flight".to_owned(),
             Lost::Bound(unknown) => format!("{} outside its bound", unknown.name()),
             Lost::Stroke(angle) => format!(
-                "strokes of {:.0} deg, with which right and left wings pass through each other",
+                "strokes of {:.0} deg, with which wings pass through each other or through the body",
                 angle.to_degrees()
             ),
         };
