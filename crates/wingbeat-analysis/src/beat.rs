@@ -112,7 +112,7 @@ impl Beat {
         Ok(Self {
             mass: flight.system().total_mass(),
             gravity: setup.gravity,
-            stream: (setup.air.clone().stream_mut()).map_or(DVec3::ZERO, |s| *s),
+            stream: setup.air.stream().unwrap_or(DVec3::ZERO),
             steps,
             period,
             wing_length: setup.animal.wing_length(),

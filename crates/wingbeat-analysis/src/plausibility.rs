@@ -22,7 +22,8 @@ pub use numbers::stroke_amplitude;
 pub use numbers::{Estimate, WingEstimate};
 
 use wingbeat_flight::{FlightSetup, MotionMode};
-use wingbeat_math::DVec3;
+use wingbeat_math::{DVec3, RotationLaw};
+use wingbeat_model::Wing;
 
 use self::air::{stream, viscosity};
 use self::doubts::doubts;
@@ -44,7 +45,6 @@ pub fn estimate(setup: &FlightSetup) -> Estimate {
         mass: animal.mass(),
         frequency: setup.time.period.map(|p| 1.0 / p),
         flight_speed,
-        tether: tether(setup),
         wing_loading: (weight > 0.0 && area > 0.0).then(|| weight / area),
         inertia: DVec3::new(inertia.x_axis.x, inertia.y_axis.y, inertia.z_axis.z),
         viscosity: viscosity(&setup.air),
@@ -54,22 +54,27 @@ pub fn estimate(setup: &FlightSetup) -> Estimate {
         doubts: vec![],
     };
     let wings = animal.wings.iter().zip(reports);
-    estimate.wings = wings.map(|(w, r)| estimate.wing(w, r)).collect();
+    let wing = |(w, r)| estimate.wing(w, r, carried(setup, w));
+    estimate.wings = wings.map(wing).collect();
     estimate.doubts = doubts(setup, &estimate);
     estimate
 }
 
-/// Fastest speed through the undisturbed air and fastest turning of a tethered body [m/s, rad/s].
-fn tether(setup: &FlightSetup) -> [f64; 2] {
+/// Fastest speed through the undisturbed air at which a tether moves the tip of the wing, strokes left out [m/s]; 0 in free flight.
+fn carried(setup: &FlightSetup, wing: &Wing) -> f64 {
     let MotionMode::Tethered(motion) = &setup.mode else {
-        return [0.0; 2];
+        return 0.0;
     };
     let (air, time) = (stream(&setup.air), &setup.time);
-    let instants = (0..=time.steps).map(|k| motion.at(k as f64 * time.step));
-    instants.fold([0.0_f64; 2], |[speed, turning], root| {
-        let past = (root.velocity - air).length();
-        [speed.max(past), turning.max(root.angular_velocity.length())]
-    })
+    let tip = wing.mesh.nodes.iter().copied();
+    let tip = tip.max_by(|a, b| a.length().total_cmp(&b.length()));
+    let tip = wing.hinge_b + tip.map_or(DVec3::ZERO, |x| wing.motion.at(0.0).c * x);
+    let past = |k: usize| {
+        let root = motion.at(k as f64 * time.step);
+        let turned = root.rotation * root.angular_velocity.cross(tip);
+        (root.velocity + turned - air).length()
+    };
+    (0..=time.steps).map(past).fold(0.0, f64::max)
 }
 
 /// Velocity of the body at the start, N components [m/s].

@@ -364,7 +364,7 @@ pub(crate) fn check_determined(
 /// An error if what surrounds the flight does not look the same from all headings.
 fn check_turn(setup: &FlightSetup) -> Result<(), AnalysisError> {
     let aside = |v: DVec3| v.x != 0.0 || v.y != 0.0;
-    let stream = setup.air.clone().stream_mut().copied();
+    let stream = setup.air.stream();
     if aside(setup.gravity) || stream.is_some_and(aside) {
         return Err(AnalysisError::not_covered(
             "a steady turn is about the vertical, and gravity is not along n3 or the air streams sideways",

@@ -159,7 +159,7 @@ pub fn wing_modes(
 
 /// The flight in its steady state.
 fn steady(setup: &FlightSetup) -> Result<Simulation, AnalysisError> {
-    let speed = setup.air.clone().stream_mut().map_or(0.0, |s| s.length());
+    let speed = setup.air.stream().map_or(0.0, |s| s.length());
     let rig = ElasticRig::new(setup, speed)?;
     let (state, _) = rig.to_steady(&FlutterSettings::default())?;
     Ok(Simulation::resume(rig.setup, state)?)

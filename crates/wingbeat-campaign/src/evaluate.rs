@@ -71,7 +71,7 @@ impl Flown {
 
     /// Mean speed of the mass centre along n1 through the air [m/s].
     fn airspeed(&self, beats: &[BeatMeans]) -> f64 {
-        let stream = self.setup.air.clone().stream_mut().map_or(0.0, |s| s.x);
+        let stream = self.setup.air.stream().map_or(0.0, |s| s.x);
         match self.rows(beats) {
             [first, .., last] => {
                 (last.mass_centre.x - first.mass_centre.x) / (last.time - first.time) - stream

@@ -173,7 +173,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_whole_numbers_beyond_those_of_doubles_are_kept() {
+    fn behaves_whole_numbers_beyond_those_of_doubles_are_kept() {
         let mut file = File::default();
         let seeds = [1_i64 << 53, (1 << 53) + 1];
         file.values("seed", &seeds.map(Value::Whole));

@@ -146,7 +146,7 @@ fn refuses_to_shift_the_mass_centre_of_a_body_with_springs_and_loads() {
 
 /// One passive hinge: a wing that is not to be mirrored keeps its joint to itself, though the other side is given.
 #[test]
-fn exact_joint_of_a_wing_that_is_not_mirrored_stays_on_its_side() {
+fn behaves_joint_of_a_wing_that_is_not_mirrored_stays_on_its_side() {
     let hinge = "joint.h={ child = \"right\", kind = \"revolute\", axis = [0, 1, 0], element = [{ stiffness_newton_m_per_rad = 1e-3 }] }";
     let left = "wing.left.motion.phase=0.1";
     let joints = |set: &[&str]| -> Vec<String> {

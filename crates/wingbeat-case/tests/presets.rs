@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use wingbeat_air::LeadingEdge;
 use wingbeat_case::{LoadedCase, presets::PRESETS};
 use wingbeat_flight::{AirModel, FlightSetup, Record, Simulation};
 use wingbeat_math::{DMat3, DVec3, RotationLaw};
@@ -447,7 +448,52 @@ fn agrees_tips_of_attached_wings_shed_what_is_told_of_them() {
     println!("{more}");
     assert!((1.08..1.13).contains(&more), "{more}");
     let said = |incidence, shed| glider(incidence, shed).tips_of_attached_wings();
-    assert!(said(2.0, default).unwrap().contains("`left`, `right`"));
+    assert!(said(2.0, default).unwrap().contains("(`left`, `right`)"));
     assert_eq!(said(2.0, r#"["trailing"]"#), None);
     assert_eq!(said(10.0, default), None);
+    let with = |choice: &str| {
+        let mut setup = glider(2.0, default);
+        let AirModel::VortexLattice(air) = &mut setup.air else {
+            panic!("a lattice");
+        };
+        air.lattice.leading = match choice {
+            "always" => LeadingEdge::Always,
+            _ => LeadingEdge::Suction {
+                threshold: 0.02,
+                efficiency: 0.0,
+            },
+        };
+        setup.tips_of_attached_wings()
+    };
+    assert_eq!(with("always"), None);
+    assert_eq!(with("0.02"), None);
+}
+
+/// A delta's edges are swept by more than 45 deg; insects' wings are not, nor is anything said where leading edges shed.
+#[test]
+fn behaves_vortex_lift_is_doubted_at_swept_edges() {
+    let wing = |name: &str, swept: &str, choice: &str| {
+        let set = [
+            format!("air.leading_edge={choice}"),
+            format!("wing.right.planform={swept}"),
+        ];
+        let case = LoadedCase::find(name, &set).unwrap_or_else(|e| panic!("{e}"));
+        case.setup.vortex_lift_of_swept_edges()
+    };
+    let outline = |sweep: f64| {
+        let [tip, root] = [-3e-3 * sweep, 1e-3];
+        format!(
+            "{{ outline = {{ leading_m = [[0, {root}], [3e-3, {}]], trailing_m = [[0, -2e-3], [3e-3, {}]] }} }}",
+            root + tip,
+            root + tip - 1e-4
+        )
+    };
+    let fly = "fruit-fly-tethered";
+    assert!(
+        wing(fly, &outline(1.3), "vortex_lift")
+            .unwrap()
+            .contains("are swept by up to")
+    );
+    assert_eq!(wing(fly, &outline(0.9), "vortex_lift"), None);
+    assert_eq!(wing(fly, &outline(1.3), "suction"), None);
 }

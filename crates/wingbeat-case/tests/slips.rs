@@ -210,3 +210,46 @@ fn behaves_lift_beside_stiff_hinges_is_estimated_or_left_out() {
     assert!(coarse.lift_over_weight.is_none() && coarse.lift_left_out.is_some());
     assert_eq!(coarse.wings.len(), 2);
 }
+
+/// A wing that a tether revolves meets air at its tip's speed, one that is pitched about its span in a stream at that of the stream, and
+/// one wing alone may span both sides of the body.
+#[test]
+fn behaves_wings_on_tethers_have_the_speed_of_their_tips() {
+    let text = "format = 1
+[time]
+step_s = 0.01
+steps = 50
+[body]
+mass_kg = 0.1
+inertia_about_centre_kg_m2 = [1e-4, 1e-4, 1e-4, 0, 0, 0]
+[wing.right]
+mirror = false
+hinge_m = [0, -1, 0]
+mass_kg = 0
+planform.rectangle = { chord_m = 0.1, span_m = 3 }
+[flight]
+mode = \"tethered\"
+";
+    let estimate = |set: &[&str]| {
+        let set: Vec<String> = set.iter().map(|&s| s.to_owned()).collect();
+        let case = LoadedCase::from_text("tether", text, Path::new(""), &set);
+        wingbeat_analysis::plausibility::estimate(&case.unwrap_or_else(|e| panic!("{e}")).setup)
+    };
+    let speed = |set: &[&str]| estimate(set).wings[0].speed;
+    let turned = speed(&["flight.tether.yaw.rate_deg_s=180"]);
+    // The tip is at 2 m; half a panel's diagonal farther for its corner.
+    assert!(
+        (turned / (2.0 * std::f64::consts::PI) - 1.0).abs() < 1e-3,
+        "{turned}"
+    );
+    let pitched = speed(&[
+        "air.stream_m_s=[-1, 0, 0]",
+        "flight.tether.pitch={ frequency_hz = 2, sine_deg = [5] }",
+    ]);
+    assert!((pitched - 1.0).abs() < 0.1, "{pitched}");
+    let doubts = estimate(&[]).doubts;
+    assert!(
+        !doubts.iter().any(|d| d.contains("hinge_m[1]")),
+        "{doubts:?}"
+    );
+}

@@ -142,8 +142,7 @@ pub trait Formulation: Send + Sync {
     /// Natural size of every component of y, for norms of differences.
     fn scales(&self) -> Vec<f64>;
 
-    /// Moves the state back onto what it must fulfil (unit quaternion; constraints where the
-    /// formulation was asked to project). For one-step integrators, between steps.
+    /// Moves the state back onto what it must fulfil (unit quaternions). For one-step integrators, between steps.
     ///
     /// # Errors
     /// The projection fails.

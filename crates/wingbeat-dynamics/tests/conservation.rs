@@ -163,7 +163,7 @@ fn balances_constraints_of_the_seeds_form_over_two_hundred_beats() {
 }
 
 #[test]
-fn balances_projection_leaves_no_violation() {
+fn balances_states_made_consistent_have_no_violation() {
     let system = fly(GRAVITY);
     let form = EulerForm::new(system.clone(), Baumgarte::OFF);
     let mut flight = Flight::new(&form, applied);

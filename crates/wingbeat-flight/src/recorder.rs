@@ -1,5 +1,7 @@
 //! From the last evaluation to a [`Record`]: every quantity in the units a reader expects.
 
+use std::f64::consts::{PI, TAU};
+
 use wingbeat_air::{AirState, WakeSheet};
 use wingbeat_dynamics::{Body, BodyMotion, Budget, Wrench};
 use wingbeat_math::ode::StepReport;
@@ -12,14 +14,13 @@ use crate::memory::{AirMemory, wakes_of};
 use crate::quadratures::Quadratures;
 use crate::record::{AccelerationRecord, AirImpulse, HingeRecord, LoadRecord, Record};
 use crate::turns;
-use std::f64::consts::PI;
 
 /// Below this |cos theta| Euler angles and their rates are not evaluated but kept: they lose
 /// all their digits there.
 const EULER_LIMIT: f64 = 1e-6;
 
 /// What balances are counted from, and the angles last recorded (so that they go on without
-/// jumps of a whole turn).
+/// jumps).
 #[derive(Clone, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Ledger {
     /// Energy at the start [J].
@@ -288,8 +289,7 @@ fn note_coordinates(bodies: &[Body], motions: &[BodyMotion], ledger: &mut Ledger
 /// The angles of the attitude `eta` that come nearest to `before`: with whole turns more or less, and of the two triples
 /// (a, b, c) and (a + pi, pi - b, c + pi), which are one attitude.
 fn without_jumps(eta: DVec3, before: DVec3) -> DVec3 {
-    let turn = 2.0 * PI;
-    let nearest = |eta: DVec3| eta + turn * ((before - eta) / turn).round();
+    let nearest = |eta: DVec3| eta + TAU * ((before - eta) / TAU).round();
     let one = nearest(eta);
     let other = nearest(DVec3::new(eta.x + PI, PI - eta.y, eta.z + PI));
     match other.distance_squared(before) < one.distance_squared(before) {

@@ -198,6 +198,15 @@ impl AirModel {
     }
 
     /// Velocity of the undisturbed air, N components [m/s]; none where the model has no stream.
+    pub fn stream(&self) -> Option<DVec3> {
+        match self {
+            Self::BladeElement(options) => Some(options.blade.free_stream),
+            Self::VortexLattice(options) => Some(options.lattice.free_stream),
+            Self::None | Self::Derivatives(_) | Self::External(_) | Self::Own(_) => None,
+        }
+    }
+
+    /// The same, to be changed.
     pub fn stream_mut(&mut self) -> Option<&mut DVec3> {
         match self {
             Self::BladeElement(options) => Some(&mut options.blade.free_stream),
@@ -212,6 +221,15 @@ impl AirModel {
     }
 
     /// Shear and gusts that are added to the stream; none where the model has no wind.
+    pub fn wind(&self) -> Option<&Wind> {
+        match self {
+            Self::BladeElement(options) => Some(&options.wind),
+            Self::VortexLattice(options) => Some(&options.lattice.wind),
+            Self::None | Self::Derivatives(_) | Self::External(_) | Self::Own(_) => None,
+        }
+    }
+
+    /// The same, to be changed.
     pub fn wind_mut(&mut self) -> Option<&mut Wind> {
         match self {
             Self::BladeElement(options) => Some(&mut options.wind),

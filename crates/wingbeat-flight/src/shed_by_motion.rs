@@ -16,14 +16,14 @@
 //!
 //! What is left out: the velocities that wakes make, and that the body of a free flight does not go on as it starts.
 
-use crate::setup::{AirModel, AirOptions, FlightSetup, MotionMode};
 use std::f64::consts::PI;
 
+use crate::setup::{AirModel, FlightSetup, MotionMode};
 use wingbeat_air::{AirSettings, LeadingEdge};
 use wingbeat_math::{DMat3, DVec3, RotationLaw};
 use wingbeat_model::{Wing, WingMotion};
 
-/// Of a sweep \[1\].
+/// Of a sweep angle, relative.
 const ROUNDING: f64 = 1e-9;
 
 /// Instants of a beat that are looked at.
@@ -32,7 +32,7 @@ const INSTANTS: usize = 100;
 /// Sweep of a leading edge from root to tip \[rad\] from which on vortex lift is known to fail: a delta of an aspect ratio of 4 has it.
 const SWEPT: f64 = PI / 4.0;
 
-/// Suction parameter below which flow stays attached: what leading edges hold by default.
+/// Suction parameter below which flow stays attached where leading edges shed nothing: what they hold by default.
 const ATTACHED: f64 = 0.15;
 
 /// Part that is left over of one sign from which on it is said. Hovering presets have 0 to 0.02; strokes of four
@@ -79,18 +79,21 @@ impl FlightSetup {
         if !air.lattice.shedding.tip {
             return None;
         }
+        let held = held(&air.lattice)?;
         let has_joint = |w: usize| self.joints.iter().any(|j| j.child == w + 1);
         let wings = self.animal.wings.iter().enumerate();
-        let attached = wings.filter(|(w, wing)| !has_joint(*w) && self.stays_attached(air, wing));
+        let attached =
+            wings.filter(|(w, wing)| !has_joint(*w) && self.holds(&air.lattice, wing, held));
         let names: Vec<String> = attached
             .map(|(_, wing)| format!("`{}`", wing.name))
             .collect();
         (!names.is_empty()).then(|| {
             format!(
-                "flow stays attached (wings {}: never more than {ATTACHED} of suction, some 9 deg of incidence, in the undisturbed \
-                 air), and tips shed nevertheless: the lift comes out high, by a quarter at an aspect ratio of 2, a tenth at 4, a \
-                 twentieth at 8: air.shed = [\"trailing\"] (docs/wings.md, \"Side edges\")",
+                "wings ({}) meet the air with no more than {held} of suction ({:.0} deg of incidence), where flow stays attached, and \
+                 their tips shed nevertheless: the lift comes out high, by a quarter at an aspect ratio of 2, a tenth at 4, a twentieth \
+                 at 8; take air.shed = [\"trailing\"] (docs/wings.md, \"Side edges\")",
                 names.join(", "),
+                held.asin().to_degrees()
             )
         })
     }
@@ -119,27 +122,28 @@ impl FlightSetup {
         let names: Vec<String> = swept.iter().map(|w| format!("`{}`", w.name)).collect();
         Some(format!(
             "leading edges are swept by up to {:.0} deg (wings {}), and vortex lift does not know that the vortex of a swept edge is carried \
-             along it: a delta of an aspect ratio of 1 has a third of its lift: air.loads = \"polhamus\" without shedding from leading edges, \
-             or leading edges that shed",
+             along it (a delta of an aspect ratio of 1 has a third of its lift); take air.loads = \"polhamus\" without shedding from leading \
+             edges, or leading edges that shed",
             most.to_degrees(),
             names.join(", "),
         ))
     }
 
-    /// Whether the wing meets air, and no strip of it ever with more suction than [`ATTACHED`].
-    fn stays_attached(&self, air: &AirOptions, wing: &Wing) -> bool {
+    /// Whether the wing meets air, and no strip of it ever with more suction than `held`.
+    fn holds(&self, lattice: &AirSettings, wing: &Wing, held: f64) -> bool {
         let motion = wing.motion.impulsive();
-        let span = match motion.frequency > 0.0 {
-            true => 1.0 / motion.frequency,
-            false => self.time.step * self.time.steps as f64,
+        let steps = self.time.steps;
+        // A root that moves may take longer than a beat.
+        let (count, step) = match (&self.mode, motion.frequency > 0.0) {
+            (MotionMode::Free(_), true) => (INSTANTS, 1.0 / (motion.frequency * INSTANTS as f64)),
+            _ => (steps, self.time.step),
         };
-        let instants = (0..INSTANTS).map(|k| k as f64 / INSTANTS as f64 * span);
-        let sections = instants.flat_map(|t| {
-            let past = self.air_past(&air.lattice, wing, &motion, t);
+        let sections = (0..count).flat_map(|k| {
+            let past = self.air_past(lattice, wing, &motion, k as f64 * step);
             sections(wing, past)
         });
         let mut moving = sections.filter(|s| s.speed > 0.0).peekable();
-        moving.peek().is_some() && moving.all(|s| s.suction.abs() <= ATTACHED)
+        moving.peek().is_some() && moving.all(|s| s.suction.abs() <= held)
     }
 
     /// Part of the vorticity that the leading edge of wing `w` sheds in a beat of its prescribed motion that is left over of one sign
@@ -215,14 +219,28 @@ struct Root {
     turning: DVec3,
 }
 
+/// Suction parameter up to which flow stays attached \[1\]; none where edges shed at any.
+fn held(lattice: &AirSettings) -> Option<f64> {
+    match lattice.leading {
+        _ if !lattice.shedding.leading => Some(ATTACHED),
+        LeadingEdge::Always => None,
+        LeadingEdge::AngleOfAttack { threshold } => Some(threshold.min(0.5 * PI).sin()),
+        LeadingEdge::Never => Some(ATTACHED),
+        _ => lattice.leading.suction().map(|[held, _]| held.min(1.0)),
+    }
+}
+
 /// How a chordwise strip meets the air.
 struct Section {
+    /// |u| [m/s].
     speed: f64,
+    /// A0 \[1\].
     suction: f64,
     /// Across the strip [m].
     width: f64,
 }
 
+/// The strips of a wing, `past` the air past its places [m/s].
 fn sections(wing: &Wing, past: impl Fn(DVec3) -> DVec3) -> impl Iterator<Item = Section> {
     let mesh = &wing.mesh;
     let at = |i: usize, j: usize| mesh.nodes[mesh.node(i, j)];

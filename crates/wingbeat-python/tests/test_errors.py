@@ -146,7 +146,7 @@ def test_behaves_a_flight_that_cannot_go_on_keeps_what_was_flown(blade):
     assert 30 < len(run.arrays["time_s"]) < 50 and run.why in str(caught.value)
 
 
-def test_the_text_of_an_error_says_once_what_to_try() -> None:
+def test_behaves_the_text_of_an_error_says_once_what_to_try() -> None:
     base = wingbeat.Flight.preset("fruit-fly-blade")
     with pytest.raises(wingbeat.CaseError) as of_python:
         wingbeat.Problem(base, {}, ["power_watt"])

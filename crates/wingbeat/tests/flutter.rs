@@ -107,7 +107,12 @@ fn refuses_what_has_no_steady_state_to_look_about() {
         let error: AnalysisError = found.map(|_| ()).unwrap_err();
         error.to_string()
     };
-    let cases: [(&[&str], &str); 3] = [
+    let gust = "air.gust=[{ amplitude_m_s = [0, 0, 5], duration_s = 0.1 }]";
+    let street =
+        "air.vortex_street={ circulation_m2_s = 1, spacing_m = 1, drift_m_s = [-1, 0, 0] }";
+    let cases: [(&[&str], &str); 5] = [
+        (&[gust], "the air changes with time"),
+        (&[street], "the air changes with time"),
         (&["flight.mode=free"], "the flight is free"),
         (&["flight.velocity_m_s=[1,0,0]"], "the body moves"),
         (&["air.stream_m_s=[0,0,0]"], "there is no stream"),

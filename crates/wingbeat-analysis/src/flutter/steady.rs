@@ -175,6 +175,7 @@ impl ElasticRig {
 /// An error for what flutter is not sought in.
 fn check(setup: &FlightSetup) -> Result<(), AnalysisError> {
     let wings = &setup.animal.wings;
+    // Before anything that holding the body would mend.
     if wings.iter().all(|w| w.structure.is_none()) {
         return Err(AnalysisError::not_covered(
             "no wing is elastic",
@@ -188,9 +189,7 @@ fn check(setup: &FlightSetup) -> Result<(), AnalysisError> {
         ));
     };
     let is_held = rests(motion);
-    let mut air = setup.air.clone();
-    let wind = air.wind_mut();
-    let changes = wind.is_some_and(|w| !w.gusts.is_empty() || w.street.is_some());
+    let changes = (setup.air.wind()).is_some_and(|w| !w.gusts.is_empty() || w.street.is_some());
     let refused = [
         (
             wings.iter().any(|w| w.motion.frequency > 0.0),

@@ -29,8 +29,6 @@ pub struct Estimate {
     pub frequency: Option<f64>,
     /// Speed through the undisturbed air at the start [m/s].
     pub flight_speed: f64,
-    /// Fastest speed of a tethered body through the undisturbed air [m/s], and fastest turning [rad/s]; 0 in free flight.
-    pub tether: [f64; 2],
     /// Weight over the area of all wings [N/m2]; none without weight or wings.
     pub wing_loading: Option<f64>,
     /// Moments of inertia of the central body about its mass centre, body axes [kg m2].
@@ -49,13 +47,11 @@ pub struct Estimate {
 }
 
 impl Estimate {
-    pub(super) fn wing(&self, wing: &Wing, report: WingReport) -> WingEstimate {
+    pub(super) fn wing(&self, wing: &Wing, report: WingReport, carried: f64) -> WingEstimate {
         let stroke_amplitude = stroke_amplitude(wing);
         let f = wing.motion.frequency;
         let flapping = 2.0 * stroke_amplitude * report.length * f;
         let tip_speed = flapping.max(f * path_of_measured_tip(wing));
-        let [fastest, turning] = self.tether;
-        let carried = fastest + turning * (wing.hinge_b.length() + report.length);
         let speed = tip_speed.max(self.flight_speed).max(carried);
         let flaps = tip_speed > 0.0;
         WingEstimate {

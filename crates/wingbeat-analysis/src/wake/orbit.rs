@@ -44,7 +44,7 @@ pub fn check_alike(setup: &FlightSetup) -> Result<(), AnalysisError> {
         &system_of(&steadied(setup))?,
         setup.time.period.unwrap_or(0.0),
     )?;
-    let has_wind = setup.air.clone().wind_mut().is_some_and(|w| !w.is_none());
+    let has_wind = setup.air.wind().is_some_and(|w| !w.is_none());
     let changes = match &setup.air {
         AirModel::VortexLattice(air) => !air.lattice.images.is_empty(),
         AirModel::Own(air) => !air.is_uniform(),

@@ -1,11 +1,14 @@
 //! Keys that others make idle in ways no single key tells: each is refused by name.
 
 use wingbeat_flight::FlightSetup;
+use wingbeat_model::planform::Spacing;
 use wingbeat_model::{AngleLaw, Wing};
 
 use super::Built;
 use crate::error::Fault;
-use crate::raw::{AdjustCase, Case, Formulation, JointCase, Mode, StartCase, WingCase};
+use crate::raw::{
+    AdjustCase, Case, Formulation, JointCase, Mode, StartCase, WingCase, WingMeshCase,
+};
 use crate::sides::mirror_name;
 use crate::source::CaseSource;
 
@@ -89,10 +92,16 @@ fn meshes(case: &Case, source: &CaseSource) -> Built<()> {
         let Some(there) = &counterpart.mesh else {
             continue;
         };
-        for (key, own, theirs) in [
-            ("chordwise", mesh.chordwise, there.chordwise),
-            ("spanwise", mesh.spanwise, there.spanwise),
-        ] {
+        let spacing = |of: Spacing| format!("{of:?}").to_lowercase();
+        let keys = |m: &WingMeshCase| {
+            [
+                ("chordwise", m.chordwise.to_string()),
+                ("spanwise", m.spanwise.to_string()),
+                ("chordwise_spacing", spacing(m.chordwise_spacing)),
+                ("spanwise_spacing", spacing(m.spanwise_spacing)),
+            ]
+        };
+        for ((key, own), (_, theirs)) in keys(mesh).into_iter().zip(keys(there)) {
             let path = format!("wing.{name}.mesh.{key}");
             if own != theirs && source.gives(&format!("wing.{name}.mesh")) && !source.gives(&path) {
                 return Err(Fault::new(
@@ -100,7 +109,7 @@ fn meshes(case: &Case, source: &CaseSource) -> Built<()> {
                     format!(
                         "left out beside other panels of this wing it would be {own}, and {theirs} on wing `{other}`"
                     ),
-                    "the number of panels of this wing",
+                    "the panels of this wing",
                     format!("give {theirs}, or remove [wing.{name}.mesh]"),
                 ));
             }
@@ -110,11 +119,14 @@ fn meshes(case: &Case, source: &CaseSource) -> Built<()> {
 }
 
 /// Motions of wings that are not there.
-fn motion_without_wings(case: &Case) -> Built<()> {
+fn motion_without_wings(case: &Case, source: &CaseSource) -> Built<()> {
     let motion = &case.motion;
     let still = AdjustCase::default();
     for (key, acts) in [
-        ("data", motion.data.is_some()),
+        (
+            "data", // gives the frequency where the case does not
+            motion.data.is_some() && source.gives("motion.frequency_hz"),
+        ),
         (
             "stroke_plane_pitch_deg",
             motion.stroke_plane_pitch_deg.value() != 0.0,
@@ -137,7 +149,7 @@ fn motion_without_wings(case: &Case) -> Built<()> {
 /// Motions for all wings that every wing replaces.
 fn motion(case: &Case, source: &CaseSource) -> Built<()> {
     if case.wing.is_empty() {
-        return motion_without_wings(case);
+        return motion_without_wings(case, source);
     }
     let own = |wing: &WingCase| wing.motion.clone().unwrap_or_default();
     let all_angles = |wing: &WingCase| {
@@ -150,10 +162,16 @@ fn motion(case: &Case, source: &CaseSource) -> Built<()> {
             return Err(idle(key, "beside phi, theta and psi"));
         }
     }
-    // A left wing that is a mirror image has no motion of its own.
+    // A wing that takes its motion from the other side has none of its own.
+    let takes = |name: &str, wing: &WingCase| {
+        let other = mirror_name(name).and_then(|other| case.wing.get(&other));
+        let there = other.and_then(|w| w.motion.as_ref());
+        there.is_some_and(|there| super::motion::takes(wing.motion.as_ref(), there))
+    };
     let all = |has: &dyn Fn(&WingCase) -> bool| {
-        let mut moved = case.wing.values().filter(|w| w.motion.is_some());
-        !case.wing.is_empty() && moved.clone().count() > 0 && moved.all(has)
+        let moved = case.wing.iter().filter(|(_, w)| w.motion.is_some());
+        let mut whole = moved.filter(|(name, w)| !takes(name, w)).map(|(_, w)| w);
+        whole.clone().count() > 0 && whole.all(has)
     };
     let every = "beside that of every wing";
     if case.motion.phase != 0.0 && all(&|w| own(w).phase.is_some()) {

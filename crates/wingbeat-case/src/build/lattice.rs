@@ -13,7 +13,7 @@ use super::numbers::vector;
 use super::{deformation, wind};
 use crate::error::Fault;
 use crate::raw::{
-    AirCase, Case, CoreCase, FrictionCase, LeadingEdgeCase, ParticlesCase, SchemeCase,
+    AIR, AirCase, Case, CoreCase, FrictionCase, LeadingEdgeCase, ParticlesCase, SchemeCase,
     SectionDragCase,
 };
 
@@ -156,15 +156,26 @@ fn bound_core(chord: &Chord, case: &CoreCase, wake_core: CoreModel) -> Built<Cor
         _ => return chord.core("air.bound_core", &case),
     };
     let own = core.viscosity_m2_s.replace(spreading);
-    match own.filter(|own| *own != spreading) {
-        Some(own) => Err(Fault::new(
-            format!("air.bound_core.{name}.viscosity_m2_s"),
-            format!("{own} has no effect: filaments on surfaces do not age"),
-            format!("the {spreading} of air.wake_core, or none"),
+    // Resolved cases of older versions name that of air, whatever the wakes have.
+    let Some(own) = own.filter(|own| *own != spreading && *own != AIR) else {
+        return chord.core("air.bound_core", &case);
+    };
+    let (allowed, remedy) = match viscosity(wake_core) {
+        Some(of_wakes) => (
+            format!("the {of_wakes} of air.wake_core, or none"),
             "give the viscosity of the air in air.wake_core",
-        )),
-        None => chord.core("air.bound_core", &case),
-    }
+        ),
+        None => (
+            "none".to_owned(),
+            "remove it; friction takes that of air.section_drag.viscosity_m2_s",
+        ),
+    };
+    Err(Fault::new(
+        format!("air.bound_core.{name}.viscosity_m2_s"),
+        format!("{own} has no effect: filaments on surfaces do not age"),
+        allowed,
+        remedy,
+    ))
 }
 
 /// Drag of the sections in air of this viscosity; friction if nothing is said.

@@ -87,20 +87,23 @@ pub(super) fn check_halves(
         ("phi", &own.phi, &counterpart.phi),
         ("psi", &own.psi, &counterpart.psi),
     ];
-    match angles
+    let measured = counterpart.data.is_some();
+    let still = angles
         .into_iter()
-        .find(|(_, a, b)| a.is_none() && b.is_some())
-    {
-        None => Ok(()),
-        Some((key, _, _)) => Err(Fault::new(
-            format!("wing.{name}.motion.{key}"),
-            format!("this angle would stand still at 0, while that of wing `{other}` is given"),
-            "an angle of its own beside others of its own; a wing that gives none has those of the other side",
-            format!(
-                "copy wing.{other}.motion.{key} with the signs of this side, or give {{ constant_deg = 0 }}"
-            ),
-        )),
-    }
+        .find(|(_, a, b)| a.is_none() && (measured || b.is_some()));
+    let Some((key, _, _)) = still else {
+        return Ok(());
+    };
+    let from = match measured {
+        true => format!("give wing.{name}.motion.data as that of wing.{other}"),
+        false => format!("copy wing.{other}.motion.{key} with the signs of this side"),
+    };
+    Err(Fault::new(
+        format!("wing.{name}.motion.{key}"),
+        format!("this angle would stand still at 0, while that of wing `{other}` is given"),
+        "an angle of its own beside others of its own; a wing that gives none has those of the other side",
+        format!("{from}, or give {{ constant_deg = 0 }}"),
+    ))
 }
 
 fn laws(

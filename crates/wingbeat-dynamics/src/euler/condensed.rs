@@ -4,8 +4,8 @@
 //! parent's, `x_c = T x_p + b`, because their Jacobian by the child's coordinates is regular away
 //! from the singularity of the Euler angles. Put into the equations of motion from the tips inward
 //! this leaves six equations for the root; the multipliers follow outward from
-//! `B_c^T lambda = F_c - M_c x_c`. The unknowns are those of the saddle-point matrix
-//! ([`super::saddle`]) at a tenth of its cost; a child without mass is as good as any.
+//! `B_c^T lambda = F_c - M_c x_c`. The unknowns are those of the saddle-point matrix,
+//! at a tenth of its cost; a child without mass is as good as any.
 
 use wingbeat_math::{DMat3, DVec3, trace};
 

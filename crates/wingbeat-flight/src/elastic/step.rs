@@ -11,7 +11,7 @@ use super::wing::{ElasticState, ElasticWing, Nodes};
 use crate::error::FlightError;
 use crate::interface::WingResponse;
 
-/// Forces that are left unbalanced at the end of a step over those at the nodes \[1\].
+/// Forces that are left unbalanced at the end of a step over those at the nodes, without loads over those that hold the wing \[1\].
 pub const TOLERANCE: f64 = 1e-10;
 
 /// The same of wings on free joints and of light flyers, whose small moments of inertia turn what is left into accelerations: passes of bodies and air
@@ -118,15 +118,13 @@ impl WingScratch {
         let numbers = w.structure.free_numbers().iter();
         let part = |&k: &usize| self.residual[k].abs() / if k % NODE < 3 { 1.0 } else { size };
         let largest = numbers.map(part).fold(0.0, larger);
-        self.unbalanced = if largest == 0.0 {
-            0.0
+        let is_loaded = self.scale != 0.0;
+        let scale = if is_loaded {
+            self.scale
         } else {
-            largest
-                / match self.scale > 0.0 {
-                    true => self.scale,
-                    false => forces(&self.residual),
-                }
+            forces(&self.residual)
         };
+        self.unbalanced = if largest == 0.0 { 0.0 } else { largest / scale };
     }
 
     /// The elastic body brought to balance under loads that follow its motion as the air has answered. The motion that the

@@ -87,7 +87,7 @@ def check_key(key: str) -> None:
         shapes = _inner(part._shapes, name)
         if not shapes:
             error = part._unknown(name)
-            raise CaseError(str(error), key=error.key, remedy=error.remedy)
+            raise CaseError(error.args[0], key=error.key, remedy=error.remedy)
         part = Part({}, shapes, f"{part._path}.{name}".lstrip("."))
 
 

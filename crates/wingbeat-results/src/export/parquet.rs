@@ -324,7 +324,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_whole_numbers_beyond_those_of_doubles_are_kept_and_rows_that_do_not_fit_refused() {
+    fn behaves_whole_numbers_beyond_those_of_doubles_are_kept_and_rows_that_do_not_fit_refused() {
         let path = std::env::temp_dir().join(format!("wingbeat-{}.parquet", std::process::id()));
         let columns = vec![("seed".to_owned(), Cells::Counts)];
         let mut table = ParquetWriter::create(&path, "points", columns).unwrap();

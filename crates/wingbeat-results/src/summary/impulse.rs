@@ -37,8 +37,8 @@ impl ImpulseBudget {
             return None;
         };
         let lattice = &air.lattice;
-        let is_kept = lattice.particles.is_none() && lattice.wind.is_uniform();
-        if !is_kept || !to.impulse_residual.is_finite() {
+        let closes = lattice.particles.is_none() && lattice.wind.is_uniform();
+        if !closes || !to.impulse_residual.is_finite() {
             return None;
         }
         let along = |of: fn(&ImpulseAccount) -> wingbeat_math::DVec3| {

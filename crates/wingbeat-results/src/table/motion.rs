@@ -34,7 +34,7 @@ pub(super) const POSES: &[Quantity] = &[
     scalar(
         "{s}_{c}",
         Unit::Radian,
-        "Euler angle of {s}, without jumps",
+        "Euler angle of {s}, without jumps: of the two triples of an attitude, with whole turns, the one nearest to the row before (the first to zero)",
         |r, s, c| Real(&mut r.coordinates[6 * s + 3 + c]),
     )
     .along(Angles, Frame::Attitude)

@@ -152,15 +152,16 @@ fn values(c: &Condition) -> Value {
     })
 }
 
-/// Which speeds are not to be relied on, and which onsets lie beside one of them.
-fn doubtful(conditions: &[Condition], found: &[Crossing]) -> Option<String> {
-    let noted = conditions.iter().filter(|c| !notes(c).is_empty());
-    let speeds: Vec<f64> = noted.map(|c| c.speed).collect();
+/// That these `speeds` [m/s] are not to be relied on, and which onsets lie between speeds one of which is among them.
+fn doubtful(speeds: &[f64], found: &[Crossing]) -> Option<String> {
     let list = |of: &[f64]| {
         let numbers: Vec<String> = of.iter().map(|v| format!("{v:.3}")).collect();
         numbers.join(", ")
     };
-    let beside = |c: &&Crossing| c.between.iter().any(|v| speeds.contains(v));
+    let beside = |c: &&Crossing| {
+        let [low, high] = c.between;
+        speeds.iter().any(|v| (low..=high).contains(v))
+    };
     let onsets: Vec<f64> = found.iter().filter(beside).map(|c| c.speed).collect();
     let hence = match (found.is_empty(), onsets.is_empty()) {
         (true, _) => String::new(),
@@ -170,7 +171,7 @@ fn doubtful(conditions: &[Condition], found: &[Crossing]) -> Option<String> {
     (!speeds.is_empty()).then(|| {
         format!(
             "Not to be relied on at {} m/s: see the notes on nonlinearity and residual above{hence}.",
-            list(&speeds)
+            list(speeds)
         )
     })
 }
@@ -199,7 +200,9 @@ fn conclude(report: &mut Report, conditions: &[Condition], found: &[Crossing]) {
     if found.is_empty() && through.is_empty() {
         line!(report, "\n{}", unchanged(conditions));
     }
-    if let Some(text) = doubtful(conditions, found) {
+    let noted = conditions.iter().filter(|c| !notes(c).is_empty());
+    let speeds: Vec<f64> = noted.map(|c| c.speed).collect();
+    if let Some(text) = doubtful(&speeds, found) {
         line!(report, "\n{text}");
     }
     if conditions
@@ -233,5 +236,39 @@ fn unchanged(conditions: &[Condition]) -> String {
             "Growth is positive at {} m/s, but its mode cannot be followed to other speeds: try --speeds that lie closer together.",
             speeds.join(", ")
         ),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn behaves_an_onset_is_doubted_if_one_of_the_speeds_about_it_is() {
+        let onset = |between: [f64; 2]| Crossing {
+            begins: true,
+            speed: between[0].midpoint(between[1]),
+            frequency: 1.0,
+            between,
+        };
+        let found = [onset([30.0, 34.0])];
+        assert_eq!(doubtful(&[], &found), None);
+        let said = |speed: f64| doubtful(&[speed], &found).expect("a doubt");
+        assert!(
+            said(40.0).contains("at 40.000 m/s")
+                && said(40.0).contains("lies between other speeds")
+        );
+        // 32 m/s, at which the mode is neutral, was passed over.
+        for speed in [30.0, 32.0, 34.0] {
+            assert!(
+                said(speed).contains("with them what is found at 32.000 m/s"),
+                "{speed}"
+            );
+        }
+        assert!(
+            !doubtful(&[40.0], &[])
+                .expect("a doubt")
+                .contains("other speeds")
+        );
     }
 }
