@@ -1,9 +1,11 @@
-//! Joints that turn all the way round.
+//! Joints and bodies that turn all the way round, and tethers that turn and move them.
 
 use std::path::Path;
 
 use wingbeat_case::LoadedCase;
-use wingbeat_flight::{FlightError, FlightSetup, Record, Simulation};
+use wingbeat_flight::{FlightError, FlightSetup, MotionMode, PrescribedMotion, Record, Simulation};
+use wingbeat_math::{DMat3, DVec3};
+use wingbeat_model::Start;
 
 /// A vane on a heavy body in vacuum that makes about two turns.
 const VANE: &str = "format = 1
@@ -127,5 +129,64 @@ fn exact_yaw_goes_on_beyond_a_quarter_turn() {
                 "{start}: {angles:?} for {yaw}"
             );
         }
+    }
+}
+
+/// A tether that starts smoothly: at rest at first, by velocities and accelerations that are derivatives of the motion, late by half of the
+/// rise from then on; what drives it is the change of the momentum of the whole flyer.
+#[test]
+fn exact_tether_starts_from_rest() {
+    let mode = "flight={ mode = \"tethered\", velocity_m_s = [2, 0, 0], tether = { z = { frequency_hz = 9, sine_m = [0.01] }, yaw = { rate_deg_s = 700 }, start_s = 0.05 } }";
+    let setup = setup(&[mode]);
+    let MotionMode::Tethered(motion) = &setup.mode else {
+        panic!("a tether");
+    };
+    let at_once = PrescribedMotion {
+        start: Start::Impulsive,
+        ..motion.clone()
+    };
+    let first = motion.at(0.0);
+    assert_eq!([first.velocity, first.angular_velocity], [DVec3::ZERO; 2]);
+    let (late, whole) = (motion.at(0.1), at_once.at(0.075));
+    assert!(late.position.distance(whole.position) < 1e-15);
+    assert!(late.velocity.distance(whole.velocity) < 1e-15);
+    let turned = late.rotation.transpose() * whole.rotation;
+    assert!((turned - DMat3::IDENTITY).col(0).length() < 1e-15);
+    let h = 1e-5;
+    for t in [0.01, 0.027, 0.049] {
+        let [before, now, after] = [t - h, t, t + h].map(|t| motion.at(t));
+        let by_place = (after.position - before.position) / (2.0 * h);
+        let by_velocity = (after.velocity - before.velocity) / (2.0 * h);
+        // Differences of second order: a sixth of the third derivative times h^2.
+        assert!(by_place.distance(now.velocity) < 1e-6, "{t}");
+        assert!(by_velocity.distance(now.acceleration) < 1e-3, "{t}");
+        let by_turn = (after.angular_velocity - before.angular_velocity) / (2.0 * h);
+        assert!(by_turn.distance(now.angular_acceleration) < 1e-3, "{t}");
+    }
+    let records = fly(&mut Simulation::new(setup).unwrap()).unwrap();
+    let residual = |r: &Record| r.momentum_residual.length();
+    let worst = records.iter().map(residual).fold(0.0, f64::max);
+    println!("{worst:e}");
+    assert!(worst < 1e-8, "{worst:e}");
+}
+
+#[test]
+fn refuses_starts_of_tethers_that_move_nothing() {
+    let refused = |flight: &str| {
+        let set = [format!("flight={flight}")];
+        let case = LoadedCase::from_text("vane", VANE, Path::new(""), &set);
+        case.err().expect("a refusal").to_string()
+    };
+    let still = refused("{ mode = \"tethered\", tether = { start_s = 0.1 } }");
+    assert!(
+        still.contains("flight.tether.start_s") && still.contains("at rest"),
+        "{still}"
+    );
+    for length in ["0.0", "-1.0", "nan"] {
+        let text = format!(
+            "{{ mode = \"tethered\", velocity_m_s = [1, 0, 0], tether = {{ start_s = {length} }} }}"
+        );
+        let bad = refused(&text);
+        assert!(bad.contains("flight.tether.start_s"), "{bad}");
     }
 }

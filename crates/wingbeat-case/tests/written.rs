@@ -109,6 +109,11 @@ fn exact_resolved_cases_can_be_read() {
         vec!["flight.mode=tethered", "flight.tether.yaw.rate_deg_s=100"],
         vec![
             "flight.mode=tethered",
+            "flight.velocity_m_s=[1,0,0]",
+            "flight.tether.start_s=0.01",
+        ],
+        vec![
+            "flight.mode=tethered",
             "flight.tether.pitch={rate_deg_s=1,frequency_hz=20,cosine_deg=[3]}",
         ],
     ] {

@@ -1,6 +1,7 @@
-//! Motions prescribed as Fourier series in time.
+//! Motions prescribed as Fourier series in time, from rest on or at once.
 
 use wingbeat_math::{DMat3, DVec3, DriftingFourier, MovingRotation};
+use wingbeat_model::Start;
 
 /// A prescribed motion of the root body.
 #[derive(Clone, Debug, PartialEq)]
@@ -9,6 +10,8 @@ pub struct PrescribedMotion {
     pub position: [DriftingFourier; 3],
     /// 2-3-1 Euler angles phi, theta, psi [rad].
     pub angles: [DriftingFourier; 3],
+    /// How all of it starts.
+    pub start: Start,
 }
 
 /// Pose, velocities and accelerations of a prescribed root at one instant.
@@ -35,18 +38,39 @@ impl PrescribedMotion {
         Self {
             position: fixed(position),
             angles: fixed(angles),
+            start: Start::Impulsive,
         }
+    }
+
+    /// Whether nothing moves.
+    pub fn rests(&self) -> bool {
+        let still = |law: &DriftingFourier| {
+            let mut waves = law.cosine.iter().chain(&law.sine);
+            law.rate == 0.0 && (law.frequency == 0.0 || waves.all(|a| *a == 0.0))
+        };
+        self.position.iter().chain(&self.angles).all(still)
+    }
+
+    /// A coordinate at time `t` [s] with its first two derivatives.
+    fn value(&self, law: &DriftingFourier, t: f64) -> [f64; 3] {
+        if self.start == Start::Impulsive {
+            return law.at(t);
+        }
+        let [tau, rate, change] = self.start.warp(t);
+        let [x, v, a] = law.at(tau);
+        [x, v * rate, a * rate * rate + v * change]
     }
 
     /// Rotation R_NB of the root at time `t` [s] with its derivatives.
     pub(crate) fn turning(&self, t: f64) -> MovingRotation {
-        let about = |axis: usize, i: usize| MovingRotation::about(axis, self.angles[i].at(t));
+        let about =
+            |axis: usize, i: usize| MovingRotation::about(axis, self.value(&self.angles[i], t));
         about(1, 0).then(&about(2, 1)).then(&about(0, 2))
     }
 
     /// The root at time `t` [s].
     pub fn at(&self, t: f64) -> PrescribedRoot {
-        let x: [[f64; 3]; 3] = std::array::from_fn(|i| self.position[i].at(t));
+        let x: [[f64; 3]; 3] = std::array::from_fn(|i| self.value(&self.position[i], t));
         let derivative = |k: usize| DVec3::new(x[0][k], x[1][k], x[2][k]);
         let r = self.turning(t);
         PrescribedRoot {

@@ -8,7 +8,7 @@ use wingbeat_blade::DerivativeTable;
 use wingbeat_blade::{BladeSettings, BodyDrag};
 use wingbeat_dynamics::Joint;
 use wingbeat_math::{DMat3, DVec3, EulerSequence};
-use wingbeat_model::Animal;
+use wingbeat_model::{Animal, Start};
 
 pub use crate::applied::{AppliedLoad, LoadFrame, PointSpring};
 use crate::controller::Controller;
@@ -337,6 +337,7 @@ impl StartState {
         PrescribedMotion {
             position: std::array::from_fn(|i| about(x[i], v[i], more.map(|m| &m.position[i]))),
             angles: std::array::from_fn(|i| about(angles[i], 0.0, more.map(|m| &m.angles[i]))),
+            start: more.map_or(Start::Impulsive, |m| m.start),
         }
     }
 }

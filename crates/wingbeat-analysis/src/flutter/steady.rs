@@ -1,9 +1,7 @@
 //! An elastic wing held in a stream, and its deformed steady state.
 
 use wingbeat_flight::elastic::{ElasticWing, ElasticWings};
-use wingbeat_flight::{
-    AirModel, FlightSetup, FlightState, MotionMode, PrescribedMotion, Simulation,
-};
+use wingbeat_flight::{AirModel, FlightSetup, FlightState, MotionMode, Simulation};
 use wingbeat_math::{DVec3, rotation_vector};
 use wingbeat_structure::{FrameMotion, Mode, modes};
 
@@ -188,7 +186,7 @@ fn check(setup: &FlightSetup) -> Result<(), AnalysisError> {
             "hold the body: flight.mode = \"tethered\"",
         ));
     };
-    let is_held = rests(motion);
+    let is_held = motion.rests();
     let changes = (setup.air.wind()).is_some_and(|w| !w.gusts.is_empty() || w.street.is_some());
     let refused = [
         (
@@ -216,14 +214,6 @@ fn check(setup: &FlightSetup) -> Result<(), AnalysisError> {
         Some((_, what, remedy)) => Err(AnalysisError::not_covered(what, remedy)),
         None => Ok(()),
     }
-}
-
-/// Whether a motion is at rest.
-fn rests(motion: &PrescribedMotion) -> bool {
-    [0.1, 0.7, 1.3]
-        .map(|t| motion.at(t))
-        .iter()
-        .all(|root| root.velocity == DVec3::ZERO && root.angular_velocity == DVec3::ZERO)
 }
 
 /// Leading modes in vacuum of the first elastic wing about a state.

@@ -5,6 +5,7 @@ use std::f64::consts::TAU;
 use wingbeat_dynamics::BodyMotion;
 use wingbeat_flight::PrescribedMotion;
 use wingbeat_math::{DVec3, DriftingFourier, EulerSequence};
+use wingbeat_model::Start;
 
 /// Harmonics that are kept: bodies are smooth.
 const HARMONICS: usize = 12;
@@ -29,7 +30,11 @@ pub(super) fn sway(roots: &[BodyMotion], frequency: f64) -> PrescribedMotion {
             }
         }
     }
-    PrescribedMotion { position, angles }
+    PrescribedMotion {
+        position,
+        angles,
+        start: Start::Impulsive,
+    }
 }
 
 /// The series of three coordinates.

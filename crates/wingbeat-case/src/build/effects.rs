@@ -1,6 +1,6 @@
 //! Keys that others make idle in ways no single key tells: each is refused by name.
 
-use wingbeat_flight::FlightSetup;
+use wingbeat_flight::{FlightSetup, MotionMode};
 use wingbeat_model::planform::Spacing;
 use wingbeat_model::{AngleLaw, Wing};
 
@@ -34,6 +34,20 @@ pub(crate) fn check(case: &Case, setup: &FlightSetup, source: &CaseSource) -> Bu
             "flight.tether",
             "in free flight that is not held at first: give flight.held_beats, or mode = \"tethered\"",
         ));
+    }
+    if case
+        .flight
+        .tether
+        .as_ref()
+        .is_some_and(|t| t.start_s.is_some())
+    {
+        let why = match &setup.mode {
+            MotionMode::Free(_) => Some("in free flight, which goes on as it is held"),
+            MotionMode::Tethered(motion) => motion.rests().then_some("on a body at rest"),
+        };
+        if let Some(why) = why {
+            return Err(idle("flight.tether.start_s", why));
+        }
     }
     let has_joints = setup.joints.iter().any(|j| j.model.kind.directions() > 0);
     let default = case.dynamics.formulation.value() == Formulation::Momentum;

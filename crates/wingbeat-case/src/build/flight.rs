@@ -6,7 +6,7 @@ use wingbeat_flight::{
     TimeGrid,
 };
 use wingbeat_math::{DVec3, EulerSequence, RotationLaw};
-use wingbeat_model::Animal;
+use wingbeat_model::{Animal, Start};
 
 use super::fault::Built;
 use super::names::body_names;
@@ -56,13 +56,14 @@ fn tethered(flight: &FlightCase) -> PrescribedMotion {
     on_tether(tether, [flight.position_m, flight.velocity_m_s, angles])
 }
 
-/// Oscillations about a constant velocity from a place \[m\] on, at an attitude \[rad\].
+/// Oscillations about a constant velocity from a place \[m\] on, at an attitude \[rad\], from rest on if it is to start smoothly.
 fn on_tether(tether: &TetherCase, [p, v, angles]: [[f64; 3]; 3]) -> PrescribedMotion {
     let paths = [&tether.x, &tether.y, &tether.z];
     let turns = [&tether.pitch, &tether.yaw, &tether.roll];
     PrescribedMotion {
         position: std::array::from_fn(|i| path(paths[i].as_ref(), p[i], v[i])),
         angles: std::array::from_fn(|i| turn(turns[i].as_ref(), angles[i])),
+        start: (tether.start_s).map_or(Start::Impulsive, |duration| Start::Smooth { duration }),
     }
 }
 

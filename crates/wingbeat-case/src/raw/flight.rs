@@ -99,6 +99,13 @@ pub struct TetherCase {
     /// Change it to move the body as an experiment did.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub roll: Option<AngleOscillation>,
+    /// Time in which all of the motion of a tethered body (`velocity_m_s`, rates, oscillations) rises from rest; from then on it is
+    /// late by half of that. Left out: at full speed from the first instant.
+    ///
+    /// Change it for wings that are towed or revolved from rest.
+    #[schemars(extend("exclusiveMinimum" = 0, "with" = "flight.mode = tethered"))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub start_s: Option<f64>,
 }
 
 /// `sum_k cosine_k cos(2 pi k f t) + sine_k sin(2 pi k f t)`.

@@ -5,7 +5,7 @@ use wingbeat_flight::{
     PrescribedMotion, StabilizationChoice, StartState, TimeGrid,
 };
 use wingbeat_math::DVec3;
-use wingbeat_model::Animal;
+use wingbeat_model::{Animal, Start};
 
 use super::refusal::{Written, no_keys};
 use crate::raw::{
@@ -86,7 +86,15 @@ fn pitched(angles: DVec3) -> FlightCase {
 
 /// A body that follows a motion.
 pub(crate) fn tethered(motion: &PrescribedMotion) -> FlightCase {
-    let PrescribedMotion { position, angles } = motion;
+    let PrescribedMotion {
+        position,
+        angles,
+        start,
+    } = motion;
+    let start_s = match *start {
+        Start::Impulsive => None,
+        Start::Smooth { duration } => Some(duration),
+    };
     let [x, y, z] = position.each_ref().map(path);
     let [pitch, yaw, roll] = angles.each_ref().map(turn);
     let constant = DVec3::from_array(angles.each_ref().map(|a| a.constant));
@@ -101,6 +109,7 @@ pub(crate) fn tethered(motion: &PrescribedMotion) -> FlightCase {
             pitch,
             yaw,
             roll,
+            start_s,
         }),
         ..pitched(constant)
     }
