@@ -5,6 +5,7 @@ use std::fs::{File, OpenOptions, TryLockError};
 use std::io::{Read, Write};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
+use std::time::Duration;
 
 use sha2::{Digest, Sha256};
 use wingbeat_flight::{FlightSetup, Record};
@@ -172,21 +173,36 @@ impl HistoryWriter {
     }
 }
 
+/// How often a lock is asked for, and how long is waited in between.
+const LOCK_TRIES: usize = 20;
+const LOCK_WAIT: Duration = Duration::from_millis(10);
+
 /// One writer at a time; the system lets go of the lock however the program ends.
 fn lock(file: &File, path: &Path) -> Result<(), IoError> {
-    match file.try_lock() {
-        Err(TryLockError::WouldBlock) => Err(IoError::Damaged {
+    match stays_locked(file) {
+        true => Err(IoError::Damaged {
             path: path.to_owned(),
             problem: "another wingbeat is writing it right now; wait for it or end it".to_owned(),
         }),
-        _ => Ok(()), // file systems without locks are written to all the same
+        false => Ok(()),
     }
+}
+
+/// Whether another program has the lock and keeps it: one that is just being started may hold a copy for an instant. File systems
+/// without locks are written to all the same.
+fn stays_locked(file: &File) -> bool {
+    for _ in 0..LOCK_TRIES {
+        if !matches!(file.try_lock(), Err(TryLockError::WouldBlock)) {
+            return false;
+        }
+        std::thread::sleep(LOCK_WAIT);
+    }
+    true
 }
 
 /// Whether some wingbeat is writing this history.
 pub(crate) fn is_locked(path: &Path) -> bool {
-    let file = File::open(path).map(|f| f.try_lock());
-    matches!(file, Ok(Err(TryLockError::WouldBlock)))
+    File::open(path).is_ok_and(|file| stays_locked(&file))
 }
 
 /// Whether nobody is writing this history; false, too, where the file system has no locks to tell.

@@ -1,9 +1,12 @@
 //! Where the surfaces of an animal are, from a row of its history: wings and body parts carried
-//! along by their bodies, wings deformed as the case says.
+//! along by their bodies, wings deformed as the case says or bent as their sections are.
+
+mod bent;
 
 use wingbeat_math::{DMat3, DVec3, EulerSequence};
-use wingbeat_model::{Animal, BodyPart, DeformingMesh, WingMotion};
+use wingbeat_model::{Animal, BodyPart, DeformingMesh, Wing, WingMotion};
 
+use self::bent::Bent;
 use super::columns::body_names;
 
 /// Column of the time.
@@ -18,10 +21,30 @@ pub struct Surface {
     pub body: usize,
     /// Nodes in the axes of the body \[m\]; at rest where they are deformed.
     pub nodes: Vec<DVec3>,
-    /// How it is deformed, in the phase of which motion.
-    deforming: Option<(DeformingMesh, WingMotion)>,
+    shape: Shape,
     /// Panels as four nodes.
     pub quads: Vec<[usize; 4]>,
+}
+
+/// How nodes move in the axes of their body.
+#[derive(Clone, Debug)]
+enum Shape {
+    Rigid,
+    /// As prescribed, in the phase of the motion.
+    Deforming(DeformingMesh, WingMotion),
+    /// By what the history says of sections.
+    Bent(Bent),
+}
+
+impl Shape {
+    fn of(wing: &Wing, names: &[String]) -> Self {
+        let bent = wing.structure.as_ref().and_then(|_| Bent::new(wing, names));
+        match (&wing.deformation, bent) {
+            (Some(d), _) => Self::Deforming(DeformingMesh::new(&wing.mesh, d), wing.motion.clone()),
+            (None, Some(bent)) => Self::Bent(bent),
+            (None, None) => Self::Rigid,
+        }
+    }
 }
 
 impl Surface {
@@ -31,7 +54,7 @@ impl Surface {
             name: part.name.clone(),
             body,
             nodes: part.mesh.nodes.clone(),
-            deforming: None,
+            shape: Shape::Rigid,
             quads: part.mesh.quads.clone(),
         }
     }
@@ -56,8 +79,7 @@ impl Poses {
             name: w.name.clone(),
             body: k + 1,
             nodes: w.mesh.nodes.clone(),
-            deforming: (w.deformation.as_ref())
-                .map(|d| (DeformingMesh::new(&w.mesh, d), w.motion.clone())),
+            shape: Shape::of(w, names),
             quads: w.panels(),
         });
         let own = animal.parts.iter().map(|p| Surface::part(p, 0));
@@ -99,9 +121,10 @@ impl Poses {
     pub fn nodes(&self, row: &[f64], surface: usize) -> impl Iterator<Item = DVec3> {
         let s = &self.surfaces[surface];
         let (p, r) = self.pose(row, s.body);
-        let nodes = match &s.deforming {
-            None => s.nodes.clone(),
-            Some((mesh, motion)) => mesh.places(motion.phase_at(row[TIME])[0]),
+        let nodes = match &s.shape {
+            Shape::Rigid => s.nodes.clone(),
+            Shape::Deforming(mesh, motion) => mesh.places(motion.phase_at(row[TIME])[0]),
+            Shape::Bent(bent) => bent.places(&s.nodes, row),
         };
         nodes.into_iter().map(move |x| p + r * x)
     }
