@@ -14,6 +14,8 @@
 //! | - | [`Condition::uncertainty`] | what is not known of sigma | 1/s |
 //! | omega | [`Vibration::frequency`](crate::realisation::Vibration::frequency) | angular frequency of a mode | rad/s |
 //!
+//! A motion that grows without vibrating is static divergence ([`Condition::divergence`]).
+//!
 //! The step of the setup goes with the speed: the stream passes the same way in a step as in the setup.
 
 mod condition;

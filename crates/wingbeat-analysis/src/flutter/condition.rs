@@ -21,6 +21,8 @@ pub struct Condition {
     pub modes: Vec<Vibration>,
     /// What is not known of the growth of each of them [1/s] (see `uncertainty.rs`).
     pub uncertainty: Vec<f64>,
+    /// The motion that grows fastest without vibrating, and what is not known of its growth [1/s]; none where none grows.
+    pub divergence: Option<(Vibration, f64)>,
     /// The whole response as a linear system.
     pub response: Realisation,
     /// Difference to twice the response to half the disturbance, over the response \[1\].
@@ -93,10 +95,17 @@ pub fn condition(
         length: whole.len() as f64 * step,
     };
     let uncertainty = uncertainties(&modes, &response, &taken, &others)?;
+    let grows = |v: &&Vibration| v.frequency == 0.0 && v.growth > 0.0 && v.share >= MIN_SHARE;
+    let growing = response.vibrations.iter().filter(grows).copied();
+    let divergence = match growing.max_by(|a, b| a.growth.total_cmp(&b.growth)) {
+        None => None,
+        Some(v) => Some((v, uncertainties(&[v], &response, &taken, &others)?[0])),
+    };
     Ok(Condition {
         speed,
         modes,
         uncertainty,
+        divergence,
         steady,
         response,
         nonlinearity,
@@ -104,6 +113,11 @@ pub fn condition(
 }
 
 impl Condition {
+    /// Whether the wing diverges: a motion that does not vibrate grows, beyond what is known of it.
+    pub fn diverges(&self) -> bool {
+        (self.divergence.as_ref()).is_some_and(|(motion, uncertainty)| motion.growth > *uncertainty)
+    }
+
     /// Whether mode `k` grows or dies out; none where its growth is neutral within what is known of it.
     pub fn grows(&self, k: usize) -> Option<bool> {
         let growth = self.modes[k].growth;

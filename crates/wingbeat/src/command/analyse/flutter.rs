@@ -100,6 +100,19 @@ fn tell(report: &mut Report, c: &Condition) {
             m.share
         );
     }
+    if let Some((motion, uncertainty)) = c.divergence.filter(|_| c.diverges()) {
+        line!(
+            report,
+            "  {:>10}{:>12}{:>12}{:>12.4}{:>10.1e}{:>12}{:>10.4}",
+            "",
+            "",
+            "none",
+            motion.growth,
+            uncertainty,
+            "",
+            motion.share
+        );
+    }
     for note in notes(c) {
         line!(report, "  {:>10}{note}", "");
     }
@@ -146,10 +159,30 @@ fn values(c: &Condition) -> Value {
         "drift": c.steady.drift,
         "vacuum_hz": c.steady.vacuum.iter().map(|w| w / TAU).collect::<Vec<_>>(),
         "modes": c.modes.iter().zip(&c.uncertainty).map(mode).collect::<Vec<_>>(),
+        "divergence_growth_per_s": c.divergence.map(|(motion, _)| motion.growth),
+        "divergence_growth_uncertainty_per_s": c.divergence.map(|(_, uncertainty)| uncertainty),
         "order": c.response.order,
         "residual": c.response.residual,
         "nonlinearity": c.nonlinearity,
     })
+}
+
+/// From which of the speeds on the wing diverges, if it does.
+fn divergence(conditions: &[Condition]) -> Option<String> {
+    let first = conditions.iter().position(Condition::diverges)?;
+    let at = &conditions[first];
+    let growth = at.divergence.map_or(f64::NAN, |(motion, _)| motion.growth);
+    // Growth that is not known well enough may be positive already.
+    let mut before = conditions[..first].iter().rev();
+    let begins = match before.find(|c| c.divergence.is_none()) {
+        Some(before) => format!("begins between {:.3} and {:.3} m/s", before.speed, at.speed),
+        None => "begins below these speeds; try lower --speeds".to_owned(),
+    };
+    Some(format!(
+        "Static divergence {begins}: at {:.3} m/s a motion grows at {growth:.3} per s and does not vibrate. A steady state found beyond is \
+         one to which the wing has diverged, if it is not symmetric.",
+        at.speed
+    ))
 }
 
 /// That these `speeds` [m/s] are not to be relied on, and which onsets lie between speeds one of which is among them.
@@ -197,6 +230,9 @@ fn conclude(report: &mut Report, conditions: &[Condition], found: &[Crossing]) {
             last.frequency / TAU
         );
     }
+    if let Some(text) = divergence(conditions) {
+        line!(report, "\n{text}");
+    }
     if found.is_empty() && through.is_empty() {
         line!(report, "\n{}", unchanged(conditions));
     }
@@ -231,6 +267,9 @@ fn unchanged(conditions: &[Condition]) -> String {
     let speeds = conditions.iter().filter(grows);
     let speeds: Vec<String> = speeds.map(|c| format!("{:.3}", c.speed)).collect();
     match speeds.is_empty() {
+        true if conditions.iter().any(Condition::diverges) => {
+            "No vibration grows, beyond what is known of it, at any of these speeds.".into()
+        }
         true => "No growth is positive, beyond what is known of it, at any of these speeds.".into(),
         false => format!(
             "Growth is positive at {} m/s, but its mode cannot be followed to other speeds: try --speeds that lie closer together.",
