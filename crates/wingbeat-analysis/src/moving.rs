@@ -11,19 +11,40 @@ pub fn only_turns(wing: &ElasticWing, mode: &Mode) -> bool {
     wing.is_sheet() && mode.turning(wing.structure()) > TURNING
 }
 
-/// The leading `count` of `all` modes of a wing in which something moves, and how many below the last of them were left out.
-pub fn moving(wing: &ElasticWing, all: Vec<Mode>, count: usize) -> (Vec<Mode>, usize) {
-    let (mut kept, mut left_out, mut since) = (vec![], 0, 0);
+/// Part of the kinetic energy in the turns of the nodes up to which a mode that is left out moves, too: a wave of the sheet mixed with such
+/// turns of nearly its frequency \[1\].
+const MIXED: f64 = 0.9;
+
+/// The leading modes of a wing in which something moves.
+pub struct Moving {
+    /// The modes.
+    pub modes: Vec<Mode>,
+    /// How many below the last of them were left out.
+    pub left_out: usize,
+    /// Frequencies of those left out that are mixed with waves [rad/s].
+    pub mixed: Vec<f64>,
+}
+
+/// The leading `count` of `all` modes of a wing in which something moves.
+pub fn moving(wing: &ElasticWing, all: Vec<Mode>, count: usize) -> Moving {
+    let (mut modes, mut left_out, mut since) = (vec![], vec![], vec![]);
     for mode in all {
-        if kept.len() == count {
+        if modes.len() == count {
             break;
         }
         if only_turns(wing, &mode) {
-            since += 1;
+            since.push(mode);
             continue;
         }
-        left_out += std::mem::take(&mut since);
-        kept.push(mode);
+        left_out.append(&mut since);
+        modes.push(mode);
     }
-    (kept, left_out)
+    let mixed = left_out
+        .iter()
+        .filter(|m| m.turning(wing.structure()) < MIXED);
+    Moving {
+        modes,
+        mixed: mixed.map(Mode::frequency).collect(),
+        left_out: left_out.len(),
+    }
 }

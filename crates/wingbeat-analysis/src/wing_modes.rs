@@ -130,6 +130,8 @@ pub struct WingModes {
     pub alike: Vec<Alike>,
     /// How many modes below the last of these were left out in which nodes turn and nothing moves: in vacuum, in air.
     pub left_out: [usize; 2],
+    /// Frequencies of those left out in vacuum that move, too, if less than they turn: waves of the sheet mixed with turns [rad/s].
+    pub mixed: Vec<f64>,
     /// Fastest growth in vacuum of a mode in which nodes turn and nothing moves; 0 if none grows [1/s].
     pub turning_growth: f64,
 }
@@ -181,15 +183,15 @@ fn of_wing(flight: &Simulation, k: usize, count: usize) -> Result<WingModes, Ana
         );
         Ok(modes(structure, at, &FrameMotion::REST, added).map_err(FlightError::from)?)
     };
-    let leading = |all: Vec<Mode>, count: usize| -> (Vec<WingMode>, usize) {
-        let (leading, left_out) = moving(wing, all, count);
-        let leading = leading.iter().map(|m| WingMode::new(wing, at, m));
+    let leading = |all: Vec<Mode>, count: usize| -> (Vec<WingMode>, (usize, Vec<f64>)) {
+        let found = moving(wing, all, count);
+        let leading = found.modes.iter().map(|m| WingMode::new(wing, at, m));
         let mut leading: Vec<WingMode> = leading.collect();
         let fastest = leading.iter().map(|m| m.frequency).fold(0.0, f64::max);
         for m in leading.iter_mut().filter(|m| m.growth < ROUNDING * fastest) {
             m.growth = 0.0;
         }
-        (leading, left_out)
+        (leading, (found.left_out, found.mixed))
     };
     let places = |at: &Configuration| -> Vec<DVec3> {
         let followers = wing.followers().iter();
@@ -202,7 +204,7 @@ fn of_wing(flight: &Simulation, k: usize, count: usize) -> Result<WingModes, Ana
     let turning = in_vacuum.iter().filter(|m| only_turns(wing, m));
     let turning_growth = turning.map(|m| (-m.square).max(0.0).sqrt());
     let turning_growth = turning_growth.fold(0.0, f64::max);
-    let (vacuum, below) = leading(in_vacuum.clone(), count);
+    let (vacuum, (below, mixed)) = leading(in_vacuum.clone(), count);
     let air = added.map(|a| all(Some(&a))).transpose()?;
     let (air, below_in_air) = air.map(|a| leading(a, count)).unzip();
     let compared = leading(in_vacuum, COMPARED * count).0;
@@ -215,7 +217,8 @@ fn of_wing(flight: &Simulation, k: usize, count: usize) -> Result<WingModes, Ana
         vacuum,
         alike: alike.collect(),
         air,
-        left_out: [below, below_in_air.unwrap_or(0)],
+        left_out: [below, below_in_air.map_or(0, |(below, _)| below)],
+        mixed,
         turning_growth: match turning_growth > ROUNDING * fastest {
             true => turning_growth,
             false => 0.0,

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use wingbeat_analysis::{TrimProblem, Unknown, trim};
 use wingbeat_case::LoadedCase;
-use wingbeat_flight::{Record, Simulation};
+use wingbeat_flight::{AirModel, Record, Simulation};
 use wingbeat_math::DVec3;
 
 const FLYER: &str = "format = 1
@@ -115,9 +115,14 @@ const SPRING: &str = "spring.t={ between = [\"body\", \"right\"], at_m = [[0, 0,
 const PULL: &str = "load=[{ force_newton = [0, 0, 1e-3], point_m = [1e-3, 0, 0] }]";
 
 #[test]
-fn exact_points_of_loads_are_scaled_with_the_animal_and_springs_are_refused() {
-    let large = load(&[PULL, "animal.scale=2"]).unwrap().setup;
+fn exact_points_of_loads_and_drag_areas_are_scaled_with_the_animal_and_springs_are_refused() {
+    let drag = "air.blade.body_drag={ area_m2 = 1e-5, along = 0.5, across = 1.0 }";
+    let large = load(&[PULL, drag, "animal.scale=2"]).unwrap().setup;
     assert_eq!(large.loads[0].point, DVec3::new(2e-3, 0.0, 0.0));
+    let AirModel::BladeElement(air) = &large.air else {
+        panic!("blade elements");
+    };
+    assert_eq!(air.body_drag.map(|d| d.area), Some(4e-5));
     refused(
         &[SPRING, "animal.scale=2"],
         &["animal.scale", "springs between points", "[spring.*]"],
@@ -155,4 +160,34 @@ fn behaves_joint_of_a_wing_that_is_not_mirrored_stays_on_its_side() {
     };
     assert_eq!(joints(&[hinge, left]).len(), 2);
     assert_eq!(joints(&[hinge, left, "wing.right.mirror=false"]), ["h"]);
+}
+
+/// Stores on both wings, the left one being a mirror image or given: one animal, symmetric.
+#[test]
+fn exact_stores_on_a_wing_that_came_along_lie_where_they_are_given() {
+    let store = |side: &str, sign: f64| {
+        [
+            format!(
+                "segment.tip{side}={{ mass_kg = 2e-5, centre_m = [1e-3, {}, 3e-4], inertia_about_centre_kg_m2 = [1e-11, 2e-11, 2.5e-11, 0, 0, 0] }}",
+                sign * 1e-3
+            ),
+            format!(
+                "joint.t{side}={{ parent = \"{side}\", child = \"tip{side}\", at_m = [1e-3, {}, 0] }}",
+                sign * 9e-3
+            ),
+        ]
+    };
+    let stores = [store("right", 1.0), store("left", -1.0)].concat();
+    let flown = |more: &[&str]| {
+        let set: Vec<&str> = stores
+            .iter()
+            .map(String::as_str)
+            .chain(more.iter().copied())
+            .collect();
+        fly(&set).pop().unwrap().coordinates
+    };
+    let (image, given) = (flown(&[]), flown(&["wing.left.mass_kg=5e-5"]));
+    assert_eq!(image, given);
+    let aside = [image[1], image[4], image[5]];
+    assert!(aside.iter().all(|x| x.abs() < 1e-12), "{aside:?}");
 }

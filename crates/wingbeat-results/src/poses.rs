@@ -31,7 +31,7 @@ pub struct Surface {
 enum Shape {
     Rigid,
     /// As prescribed, in the phase of the motion.
-    Deforming(DeformingMesh, WingMotion),
+    Deforming(Box<(DeformingMesh, WingMotion)>),
     /// By what the history says of sections.
     Bent(Bent),
 }
@@ -40,7 +40,10 @@ impl Shape {
     fn of(wing: &Wing, names: &[String]) -> Self {
         let bent = wing.structure.as_ref().and_then(|_| Bent::new(wing, names));
         match (&wing.deformation, bent) {
-            (Some(d), _) => Self::Deforming(DeformingMesh::new(&wing.mesh, d), wing.motion.clone()),
+            (Some(d), _) => {
+                let mesh = DeformingMesh::new(&wing.mesh, d);
+                Self::Deforming(Box::new((mesh, wing.motion.clone())))
+            }
             (None, Some(bent)) => Self::Bent(bent),
             (None, None) => Self::Rigid,
         }
@@ -117,15 +120,23 @@ impl Poses {
         (DVec3::from_slice(q), sequence.rotation(angles))
     }
 
+    /// Nodes of a surface in the axes of its body \[m\].
+    pub fn shape(&self, row: &[f64], surface: usize) -> Vec<DVec3> {
+        let s = &self.surfaces[surface];
+        match &s.shape {
+            Shape::Rigid => s.nodes.clone(),
+            Shape::Deforming(prescribed) => {
+                let (mesh, motion) = &**prescribed;
+                mesh.places(motion.phase_at(row[TIME])[0])
+            }
+            Shape::Bent(bent) => bent.places(&s.nodes, row),
+        }
+    }
+
     /// Nodes of a surface, N components \[m\].
     pub fn nodes(&self, row: &[f64], surface: usize) -> impl Iterator<Item = DVec3> {
-        let s = &self.surfaces[surface];
-        let (p, r) = self.pose(row, s.body);
-        let nodes = match &s.shape {
-            Shape::Rigid => s.nodes.clone(),
-            Shape::Deforming(mesh, motion) => mesh.places(motion.phase_at(row[TIME])[0]),
-            Shape::Bent(bent) => bent.places(&s.nodes, row),
-        };
+        let (p, r) = self.pose(row, self.surfaces[surface].body);
+        let nodes = self.shape(row, surface);
         nodes.into_iter().map(move |x| p + r * x)
     }
 }

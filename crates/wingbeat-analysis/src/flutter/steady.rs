@@ -226,7 +226,7 @@ pub(super) fn leading(
     let found = modes(rig.first().structure(), at, &FrameMotion::REST, None);
     let mut found = found.map_err(wingbeat_flight::FlightError::from)?;
     found.retain(|m| m.square > 0.0);
-    let (found, _) = moving(rig.first(), found, count);
+    let found = moving(rig.first(), found, count).modes;
     match found.is_empty() {
         true => Err(AnalysisError::Numbers("the wing has no vibration".into())),
         false => Ok(found),

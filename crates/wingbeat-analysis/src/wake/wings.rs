@@ -320,7 +320,7 @@ impl WingBasis {
         let structure = wing.structure();
         let at = &at.structure.configuration;
         let all = modes(structure, at, &FrameMotion::REST, None).map_err(FlightError::from)?;
-        let (modes, _) = moving(wing, all, count);
+        let modes = moving(wing, all, count).modes;
         let size = |m: &Mode| {
             let nodes = m.shape.chunks_exact(NODE);
             let moves = |six: &[f64]| {

@@ -15,7 +15,9 @@ use crate::raw::{AirModel as Model, Case};
 pub(super) fn model(case: &Case, animal: &Animal) -> Built<AirModel> {
     Ok(match case.air.model {
         Model::None => AirModel::None,
-        Model::BladeElement => AirModel::BladeElement(blade::options(&case.air)?),
+        Model::BladeElement => {
+            AirModel::BladeElement(blade::options(&case.air, case.animal.scale)?)
+        }
         Model::Derivatives => AirModel::Derivatives(derivatives::table(case, animal)?),
         Model::External => {
             let external = case.air.external.as_ref();

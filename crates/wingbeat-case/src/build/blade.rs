@@ -11,8 +11,8 @@ use super::wind::wind;
 use crate::error::Fault;
 use crate::raw::{AirCase, BladeCase, BodyDragCase, RotationCase, UnsteadyCase};
 
-/// The blade elements of the case.
-pub(super) fn options(air: &AirCase) -> Built<BladeOptions> {
+/// The blade elements of the case, about an animal of this scale.
+pub(super) fn options(air: &AirCase, scale: f64) -> Built<BladeOptions> {
     let case = &air.blade;
     let blade = BladeSettings {
         density: air.density_kg_m3,
@@ -40,7 +40,7 @@ pub(super) fn options(air: &AirCase) -> Built<BladeOptions> {
     };
     Ok(BladeOptions {
         blade,
-        body_drag: case.body_drag.map(body_drag),
+        body_drag: case.body_drag.map(|drag| body_drag(drag, scale)),
         induced: vector(case.induced_m_s),
         wind: wind(air)?,
     })
@@ -65,9 +65,9 @@ fn translation(case: &BladeCase) -> Built<Translation> {
     Ok(set.law)
 }
 
-fn body_drag(case: BodyDragCase) -> BodyDrag {
+fn body_drag(case: BodyDragCase, scale: f64) -> BodyDrag {
     BodyDrag {
-        area: case.area_m2,
+        area: case.area_m2 * scale * scale,
         along: case.along,
         across: case.across,
     }

@@ -68,7 +68,7 @@ fn design(case: &Case, control: &ControlCase, law: LawDesign) -> Built<Design> {
         },
         air: BladeOptions {
             wind: Wind::default(),
-            ..blade::options(&case.air)?
+            ..blade::options(&case.air, case.animal.scale)?
         },
         velocity: DVec3::new(control.forward_m_s, 0.0, -control.climb_m_s),
         timing: timing(case, control)?,

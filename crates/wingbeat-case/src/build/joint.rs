@@ -345,6 +345,10 @@ pub(super) fn fault_of(case: &Case, setup: &FlightSetup, error: &DynamicsError) 
         DynamicsError::NotATree { body, .. } | DynamicsError::Disconnected { body, .. } => {
             (of_body(body), "let every chain of joints begin at the body")
         }
+        DynamicsError::NotFinite { .. } => (
+            "time".to_owned(),
+            "take smaller steps, and check speeds, masses and stiffnesses: units are part of the keys",
+        ),
         _ => ("joint".to_owned(), "correct the joints of the animal"),
     };
     Fault::new(key, error.to_string(), "", remedy)

@@ -17,7 +17,7 @@ pub(super) fn split(case: &Case, animal: &mut Animal) -> Built<()> {
         check_name(&path, name, animal)?;
         let parts = take_parts(&path, segment, animal)?;
         let mass = mass(&path, segment, &parts, lumped)?;
-        let origin = origin(case, name).unwrap_or(DVec3::ZERO);
+        let origin = origin(case, animal, name).unwrap_or(DVec3::ZERO);
         let shifted = |m: &MassProperties| m.moved(DMat3::IDENTITY, -origin);
         animal.segments.push(Segment {
             name: name.clone(),
@@ -47,13 +47,13 @@ pub(super) fn split(case: &Case, animal: &mut Animal) -> Built<()> {
     Ok(())
 }
 
-/// Point of the joint that carries the segment.
-fn origin(case: &Case, name: &str) -> Option<DVec3> {
+/// Point of the joint that carries the segment; none of one on a wing, be it given or the mirror image of one.
+fn origin(case: &Case, animal: &Animal, name: &str) -> Option<DVec3> {
     let joint = case.joint.values().find(|j| j.child == name)?;
     let on_wing = joint
         .parent
         .as_ref()
-        .is_some_and(|p| case.wing.contains_key(p));
+        .is_some_and(|p| animal.wings.iter().any(|w| w.name == *p));
     if on_wing {
         None
     } else {

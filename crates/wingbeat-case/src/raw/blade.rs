@@ -34,7 +34,8 @@ pub struct BladeCase {
     #[schemars(extend("with" = "rotation = circulation"))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub rotation_coefficient: Option<f64>,
-    /// Added mass.
+    /// Added mass, of the motion of the wings. Gusts and shears act by their velocities; the rate at which the wind changes
+    /// past a wing is not in it (with `unsteady` it is part of Kuessner's function).
     ///
     /// Change it to reproduce a published model.
     #[default(AddedMass::Impulse)]
@@ -133,7 +134,7 @@ pub struct ViscousCase {
     pub quadratic: f64,
 }
 
-/// Drag of the body along and across its axis.
+/// Drag of the body along and across its axis, at the origin of the body.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct BodyDragCase {

@@ -24,7 +24,7 @@ pub struct SegmentCase {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub mass_kg: Option<f64>,
     /// Mass centre in body axes in the reference configuration, from the point the hinges of wings
-    /// are measured from; of a segment that a wing carries in wing axes from the point of its joint. Left out: that point.
+    /// are measured from; of a segment that a wing carries, itself or by other segments, in wing axes from the point of the joint at the wing. Left out: that point.
     ///
     /// Change it to what was measured.
     #[schemars(extend("with" = "inertia_about_centre_kg_m2"))]
@@ -107,7 +107,8 @@ pub struct JointCase {
     #[schemars(extend("with" = "kind = revolute | universal | spherical"))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub start_deg: Option<Vec<f64>>,
-    /// Angular rates at the start. Left out: zeros.
+    /// Angular rates at the start; of a spherical joint the components of the angular velocity of the child against the parent in the
+    /// axes of the child. Left out: zeros.
     ///
     /// Change it to start moving.
     #[schemars(extend("with" = "kind = revolute | universal | spherical"))]

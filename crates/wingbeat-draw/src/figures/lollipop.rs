@@ -79,7 +79,8 @@ fn chord(setup: &FlightSetup, history: &History, poses: &Poses, k: usize) -> Cho
     let number = reference_number(setup).map_or(0, |w| w + 1);
     let wing = &setup.animal.wings[number - 1];
     let stroke = poses.pose(&row, 0).1 * DMat3::from_rotation_y(wing.motion.stroke_plane_pitch);
-    let section = Section::of(wing, stroke.transpose() * poses.pose(&row, number).1);
+    let turned_to = stroke.transpose() * poses.pose(&row, number).1;
+    let section = Section::of(wing, &poses.shape(&row, number - 1), turned_to);
     let name = &body_names(&setup.animal)[number];
     let force = |c: usize| history.column(&format!("air_{name}_force_n{c}_newton"));
     let force = [1, 2, 3].map(|c| force(c).get(k).copied().unwrap_or(0.0));
@@ -103,11 +104,11 @@ struct Section {
 }
 
 impl Section {
-    /// For the rotation of the wing to the axes of the stroke plane.
-    fn of(wing: &Wing, relative: DMat3) -> Self {
+    /// For the rotation of the wing, whose nodes are at `shape`, to the axes of the stroke plane.
+    fn of(wing: &Wing, shape: &[DVec3], relative: DMat3) -> Self {
         let side = wing.side.sign();
         let column = (STATION * wing.mesh.cols as f64).round() as usize;
-        let node = |i: usize| wing.mesh.nodes[wing.mesh.node(i, column)];
+        let node = |i: usize| shape[wing.mesh.node(i, column)];
         let [leading, trailing] = [node(0), node(wing.mesh.rows)];
         let radius = 0.5 * side * (leading.y + trailing.y);
         // Where the span points: azimuth forward, elevation upward.
@@ -287,7 +288,8 @@ mod tests {
             let side = wing.side.sign();
             let [phi, theta, psi] = wing.motion.angles(t).map(|a| a[0]);
             let eta = DMat3::from_rotation_y(wing.motion.stroke_plane_pitch);
-            let section = Section::of(wing, eta.transpose() * wing.motion.at(t).c);
+            let relative = eta.transpose() * wing.motion.at(t).c;
+            let section = Section::of(wing, &wing.mesh.nodes, relative);
             let chord = [0, 1].map(|c| section.leading[c] - section.trailing[c]);
             let length = chord[0].hypot(chord[1]);
             assert!((chord[0] + length * psi.sin()).abs() < 1e-12);

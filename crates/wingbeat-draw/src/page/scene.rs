@@ -117,13 +117,15 @@ impl<'a> Scene<'a> {
         let posed = self.posed();
         let steps = self.plan.steps.clone();
         let mut wanted = steps.into_iter().peekable();
+        let mut before = 0; // step of the row before
         while let Some(row) = rows.next_row()? {
             let step = row[0] as usize;
             for (stroke, turns) in strokes.iter_mut().zip(&mut self.turns) {
                 if stroke.turns(row) {
-                    turns.push(step.saturating_sub(1));
+                    turns.push(before);
                 }
             }
+            before = step;
             if wanted.next_if_eq(&step).is_none() {
                 continue;
             }

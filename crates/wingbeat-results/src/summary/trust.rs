@@ -54,6 +54,7 @@ pub(super) fn warnings(setup: &FlightSetup, summary: &Summary) -> Warnings {
     }
     deformation_warnings(setup, &mut list);
     balance_warnings(setup, summary, &mut list);
+    power_notes(setup, &mut list);
     if summary.euler_regularity < 0.05 {
         let held = match setup.formulation {
             FormulationChoice::Momentum | FormulationChoice::Quaternion(_) => {
@@ -148,6 +149,14 @@ fn deformation_warnings(setup: &FlightSetup, list: &mut Warnings) {
     list.note("The wings' deformation is prescribed: it does not answer to the air, and for their inertia the wings stay rigid, so hinge moments lack what the moving shape would add. What deforms the wings against the air is in the power and in its own columns (deformation_...).".to_owned());
     if matches!(setup.air, AirModel::BladeElement(_)) && deformed().any(|d| !d.camber.is_empty()) {
         list.note("Blade elements take twist and bending of the wings, not their camber: that is in the coefficients or nowhere.".to_owned());
+    }
+}
+
+/// What powers of hinges count beside actuators.
+fn power_notes(setup: &FlightSetup, list: &mut Warnings) {
+    let mut free = (setup.joints.iter()).filter(|j| j.model.kind.directions() > 0);
+    if free.any(|j| !j.model.elements.is_empty()) {
+        list.note("Powers at free hinges are those of their actuators, springs, dampers and stops together: what dampers and stops take up is missing in the mean. `wingbeat power` has that of the actuators.".to_owned());
     }
 }
 

@@ -21,7 +21,7 @@ pub(super) const ENERGIES: &[Quantity] = &[
     scalar(
         "hinge_work",
         Unit::Joule,
-        "work of the actuators of all joints so far",
+        "work at all joints so far: of actuators, springs, dampers and stops",
         |r, _, _| Real(&mut r.hinge_work),
     ),
     scalar(

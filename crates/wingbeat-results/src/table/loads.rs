@@ -38,7 +38,7 @@ pub(super) const HINGES: &[Quantity] = &[
     scalar(
         "hinge_{s}_power",
         Unit::Watt,
-        "power of the actuators at the hinge of {s}, positive when they feed it",
+        "power at the hinge of {s}, positive when it feeds it: of its actuators, and on a free hinge of springs, dampers and stops",
         |r, s, _| Real(&mut r.hinges[s].power),
     ),
 ];
@@ -63,7 +63,7 @@ pub(super) const LOOPS: &[Quantity] = &[
     scalar(
         "loop_{s}_power",
         Unit::Watt,
-        "power of the actuators of {s}",
+        "power of the actuators, springs, dampers and stops of {s}",
         |r, s, _| Real(&mut r.loops[s].power),
     )
     .new_here(),

@@ -47,7 +47,7 @@ fn find(args: &Trimming, report: &mut Report) -> Result<(), Failure> {
     }
     line!(
         report,
-        "\nAxes: level frame, forward, right, down; moments about the mean mass centre."
+        "\nAxes: level frame, forward, right, down; moments about the mean mass centre, where the control puts it."
     );
     report.value("control_derivatives", values);
     Ok(())

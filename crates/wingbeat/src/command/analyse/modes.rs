@@ -85,6 +85,7 @@ fn tell(report: &mut Report, name: &str, steady: bool, wings: &[Wing], found: &[
         }
         table(report, "in vacuum", wing, &w.vacuum, None);
         tell_left_out(report, w.left_out[0]);
+        tell_mixed(report, &w.mixed);
         if w.turning_growth > 0.0 {
             line!(
                 report,
@@ -111,6 +112,20 @@ fn tell_left_out(report: &mut Report, count: usize) {
             "  left out below the last: {count} in which nodes turn and nothing moves, of the elements and not of the film"
         );
     }
+}
+
+/// Frequencies about which waves of the sheet are missing from the table.
+fn tell_mixed(report: &mut Report, mixed: &[f64]) {
+    if mixed.is_empty() {
+        return;
+    }
+    let hz: Vec<String> = mixed.iter().map(|w| format!("{:.1}", w / TAU)).collect();
+    line!(
+        report,
+        "  of these, modes of {} Hz move, too: waves of the sheet mixed with turns of nearly their frequency, which are missing above and lie \
+         near them; take another mesh, or a smaller structure.shell.bending_factor",
+        hz.join(", ")
+    );
 }
 
 fn is_same(a: &WingModes, b: &WingModes) -> bool {
@@ -225,6 +240,7 @@ fn values(wing: &Wing, w: &WingModes) -> Value {
         "air": w.air.as_ref().map(air),
         "vacuum_left_out": w.left_out[0],
         "air_left_out": w.left_out[1],
+        "vacuum_left_out_mixed_hz": w.mixed.iter().map(|w| w / TAU).collect::<Vec<_>>(),
         "left_out_growth_per_s": w.turning_growth,
     })
 }

@@ -45,7 +45,7 @@ fn tell(report: &mut Report, p: &Power, muscle: f64) {
         "  {:<44}{:>10}{:>12}{:>14}",
         "",
         "uW",
-        "W/kg body",
+        "W/kg total",
         "W/kg muscle"
     );
     let rows = [
@@ -74,7 +74,10 @@ fn tell(report: &mut Report, p: &Power, muscle: f64) {
         let value = json!({ "watt": x, "watt_per_kg_body": body, "watt_per_kg_muscle": muscle });
         values.insert(key.to_owned(), value);
     }
-    line!(report, "  muscle counted as {muscle} of the body mass");
+    line!(
+        report,
+        "  muscle counted as {muscle} of the mass of the whole animal"
+    );
     report.value("power", values);
     report.value("muscle_share", muscle);
 }

@@ -80,12 +80,21 @@ fn tell(report: &mut Report, name: &str, found: &Sweep) {
         "  air: power against the air; storage: of muscles with perfect elastic storage, no storage: with none"
     );
     let forward = |f: Option<&Swept>| f.map(|f| f.velocity.x);
+    let ends = [found.flights.first(), found.flights.last()].map(forward);
+    let at_end = |v: f64| match ends.contains(&Some(v)) {
+        true => ", the end of what was swept: look beyond it",
+        false => "",
+    };
     if let (true, Some(v)) = (found.flights.len() > 2, forward(found.least_power())) {
-        line!(report, "  least power at {v:.3} m/s");
+        line!(report, "  least power at {v:.3} m/s{}", at_end(v));
         report.value("least_power_forward_m_s", v);
     }
     if let (true, Some(v)) = (found.flights.len() > 2, forward(found.least_work())) {
-        line!(report, "  least work per distance at {v:.3} m/s");
+        line!(
+            report,
+            "  least work per distance at {v:.3} m/s{}",
+            at_end(v)
+        );
         report.value("least_work_per_distance_forward_m_s", v);
     }
     let crossing: Vec<(f64, f64)> = found.flights.iter().filter_map(crossing).collect();
