@@ -276,7 +276,8 @@ fn note_coordinates(bodies: &[Body], motions: &[BodyMotion], ledger: &mut Ledger
             continue;
         }
         let before = DVec3::from_slice(&ledger.coordinates[at + 3..]);
-        let eta = without_jumps(eta, before);
+        let near = without_jumps(eta, before);
+        let eta = if first && near == eta { eta } else { near }; // zeros keep their signs
         let rates = body.sequence.g(eta).inverse() * m.w;
         eta.write_to_slice(&mut ledger.coordinates[at + 3..]);
         if rates.is_finite() {

@@ -259,7 +259,8 @@ impl RunWriter {
     /// manifest.
     ///
     /// # Errors
-    /// A file that cannot be written.
+    /// A file that cannot be written. [`IoError::Damaged`]: one that `draw` cannot read; all else is written then, for no drawing
+    /// again mends it.
     pub fn finish(
         mut self,
         outcome: Outcome,
@@ -271,7 +272,10 @@ impl RunWriter {
         self.seal()?;
         let path = self.dir.join("history.csv");
         let summary = Summary::read(&self.case, &path, &outcome)?;
-        draw(&self.dir, &self.case, &summary)?;
+        let drawn = match draw(&self.dir, &self.case, &summary) {
+            Err(e) if !matches!(e, IoError::Damaged { .. }) => return Err(e),
+            drawn => drawn,
+        };
         self.dir
             .write("summary.txt", summary.to_text().as_bytes())?;
         self.dir
@@ -283,7 +287,7 @@ impl RunWriter {
         if self.manifest.outcome == Outcome::Finished && !self.case.output.save.keep {
             saver::forget(self.dir.path())?;
         }
-        Ok(summary)
+        drawn.map(|()| summary)
     }
 }
 

@@ -4,7 +4,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use wingbeat_case::LoadedCase;
+use wingbeat_case::{IoError, LoadedCase};
 use wingbeat_flight::{Record, Simulation};
 use wingbeat_results::columns::Columns;
 use wingbeat_results::history::HistoryWriter;
@@ -471,4 +471,29 @@ fn agrees_bent_wings_of_rows_with_the_lattice() {
     }
     // Measured 0.011: what lies between the sections, and shortening.
     assert!(off < 0.05 * bent, "{off:e} of {bent:e}");
+}
+
+/// A frame that cannot be read for the page costs the page alone: the flight is at its end, and flying on would not mend it.
+#[test]
+fn behaves_a_damaged_frame_leaves_a_finished_result() {
+    let scratch = Scratch::new("damaged");
+    let case = case("fruit-fly-blade", &["time.beats=0.1"]);
+    let dir = scratch.0.join("run");
+    let mut writer = RunWriter::new(ResultDir::create(&dir).unwrap(), &case, 1).unwrap();
+    let mut flight = Simulation::new(case.setup.clone()).unwrap();
+    writer.write(flight.record(), || flight.snapshot()).unwrap();
+    while !flight.finished() {
+        flight.step().unwrap();
+        writer.write(flight.record(), || flight.snapshot()).unwrap();
+    }
+    let damaged = writer.finish(Outcome::Finished, |dir, _, _| {
+        Err(IoError::Damaged {
+            path: dir.path().to_owned(),
+            problem: "a frame".to_owned(),
+        })
+    });
+    assert!(matches!(damaged, Err(IoError::Damaged { .. })));
+    assert!(dir.join("summary.json").is_file() && !dir.join("checkpoint.bin").exists());
+    let manifest = fs::read_to_string(dir.join("manifest.json")).unwrap();
+    assert!(manifest.contains("finished"), "{manifest}");
 }

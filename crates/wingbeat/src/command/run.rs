@@ -202,6 +202,13 @@ fn fly(options: &RunOptions, mut run: Run, stop: &AtomicBool) -> Result<(), Fail
             say!("\n{text}\nResults: {}", path.display());
         }
         Ok(_) => {}
+        Err(e @ IoError::Damaged { .. }) => {
+            tell!(
+                "error: {e}\nThe flight is at its end and its summary is written, `wingbeat show {0}`; what needs that file is not drawn.",
+                path.display()
+            );
+            return Err(Failure::Told(FAILED));
+        }
         Err(e) => {
             tell!(
                 "error: {e}\nThe flight itself is kept: `wingbeat resume {0}` goes on from its last checkpoint.",
