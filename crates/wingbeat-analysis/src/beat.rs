@@ -16,7 +16,7 @@ use std::sync::Arc;
 use wingbeat_dynamics::configuration::{Composite, Configuration};
 use wingbeat_dynamics::free::JointOffsets;
 use wingbeat_dynamics::{BodyMotion, Formulation, Joint};
-use wingbeat_flight::{FlightSetup, FreeFlight, FreeFlightScratch, Passage, is_driven};
+use wingbeat_flight::{FlightSetup, FreeFlight, FreeFlightScratch, MotionMode, Passage, is_driven};
 use wingbeat_math::ode::Rk4;
 use wingbeat_math::{DMat3, DQuat, DVec3, RotationLaw, rotation_vector};
 use wingbeat_model::motion::Adjustment;
@@ -397,7 +397,7 @@ pub(crate) fn changing_air() -> AnalysisError {
     )
 }
 
-/// The setup without the start of its strokes: wings that beat at full rate from the first instant, the beat beginning
+/// The setup without the start of its strokes and of its tether: wings that beat at full rate from the first instant, the beat beginning
 /// at the phase of the case. Where joints are driven in time, a start that delays the wings does not delay the joints; so
 /// that a beat of both is one of the flight, it begins where the joints' laws do, at the phase of the wings that have
 /// risen ([`WingMotion::risen`](wingbeat_model::WingMotion::risen)).
@@ -409,6 +409,9 @@ pub(crate) fn steadied(setup: &FlightSetup) -> FlightSetup {
             true => wing.motion.risen(),
             false => wing.motion.impulsive(),
         };
+    }
+    if let MotionMode::Tethered(motion) = &mut steady.mode {
+        *motion = motion.impulsive();
     }
     steady
 }

@@ -107,3 +107,11 @@ impl RotationLaw for PrescribedMotion {
         self.turning(t)
     }
 }
+
+/// Its place in N.
+impl TravelLaw for PrescribedMotion {
+    fn at(&self, t: f64) -> [DVec3; 3] {
+        let root = PrescribedMotion::at(self, t);
+        [root.position, root.velocity, root.acceleration]
+    }
+}

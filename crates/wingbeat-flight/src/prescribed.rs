@@ -42,6 +42,14 @@ impl PrescribedMotion {
         }
     }
 
+    /// The motion without its start: at full rate from the first instant.
+    pub fn impulsive(&self) -> Self {
+        Self {
+            start: Start::Impulsive,
+            ..self.clone()
+        }
+    }
+
     /// Whether nothing moves.
     pub fn rests(&self) -> bool {
         let still = |law: &DriftingFourier| {

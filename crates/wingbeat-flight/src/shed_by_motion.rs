@@ -201,7 +201,7 @@ impl FlightSetup {
                 turning: DVec3::ZERO,
             },
             MotionMode::Tethered(motion) => {
-                let root = motion.at(t);
+                let root = motion.impulsive().at(t);
                 Root {
                     rotation: root.rotation,
                     velocity: root.velocity,

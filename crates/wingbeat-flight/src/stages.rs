@@ -15,7 +15,6 @@ use crate::core::Core;
 use crate::elastic::ElasticWings;
 use crate::equations::Equations;
 use crate::error::FlightError;
-use crate::joints::Path;
 use crate::light::is_light;
 use crate::setup::{
     AirModel, BaumgarteChoice, FlightSetup, FormulationChoice, IntegratorChoice, MotionMode,
@@ -157,8 +156,8 @@ fn tethered(setup: &FlightSetup, system: System, motion: &PrescribedMotion) -> C
         FormulationChoice::Quaternion(choice) => stabilization(choice, setup.time.step),
         _ => Stabilization::Baumgarte(Baumgarte::for_step(setup.time.step)),
     };
-    let path = Arc::new(Path(motion.position.clone()));
-    let form = QuaternionForm::new(system, stabilization).supported(Arc::new(motion), path);
+    let motion = Arc::new(motion);
+    let form = QuaternionForm::new(system, stabilization).supported(motion.clone(), motion);
     Core::Free(Box::new(form))
 }
 

@@ -259,8 +259,8 @@ impl RunWriter {
     /// manifest.
     ///
     /// # Errors
-    /// A file that cannot be written. [`IoError::Damaged`]: one that `draw` cannot read; all else is written then, for no drawing
-    /// again mends it.
+    /// A file that cannot be written. One that `draw` cannot read ([`IoError::Damaged`]): of a flight at its end all else is written
+    /// nevertheless, for no flying on mends it.
     pub fn finish(
         mut self,
         outcome: Outcome,
@@ -273,7 +273,9 @@ impl RunWriter {
         let path = self.dir.join("history.csv");
         let summary = Summary::read(&self.case, &path, &outcome)?;
         let drawn = match draw(&self.dir, &self.case, &summary) {
-            Err(e) if !matches!(e, IoError::Damaged { .. }) => return Err(e),
+            Err(e) if outcome != Outcome::Finished || !matches!(e, IoError::Damaged { .. }) => {
+                return Err(e);
+            }
             drawn => drawn,
         };
         self.dir

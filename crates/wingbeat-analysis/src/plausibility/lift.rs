@@ -74,10 +74,10 @@ pub(super) fn lift_over_weight(setup: &FlightSetup) -> Result<Option<f64>, Analy
     Ok(Some(lift / steps as f64 / weight))
 }
 
-/// The root as it is held or starts, attitude and velocity kept.
+/// The root as it is held once it moves, or as it starts, attitude and velocity kept.
 fn held(setup: &FlightSetup) -> PrescribedMotion {
     match &setup.mode {
-        MotionMode::Tethered(motion) => motion.clone(),
+        MotionMode::Tethered(motion) => motion.impulsive(),
         MotionMode::Free(start) => start.hold(),
     }
 }

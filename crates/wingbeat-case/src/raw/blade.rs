@@ -138,7 +138,7 @@ pub struct ViscousCase {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct BodyDragCase {
-    /// Reference area.
+    /// Reference area, before `animal.scale`, by whose square it grows.
     ///
     /// Change it to the frontal area of the body.
     #[schemars(range(min = 0))]

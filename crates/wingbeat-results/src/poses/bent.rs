@@ -9,6 +9,9 @@ use wingbeat_model::Wing;
 /// Names of the sections in columns, at [`STATIONS`].
 const SECTIONS: [&str; 4] = ["quarter", "half", "three_quarters", "tip"];
 
+/// Chord of a tip over that of the root below which it is a point \[1\].
+const POINTED: f64 = 1e-6;
+
 /// Displacement along axis 3 \[m\], twist \[rad\] and camber \[1\] of the sections, and where nodes lie on theirs.
 #[derive(Clone, Debug)]
 pub(super) struct Bent {
@@ -47,20 +50,28 @@ impl Bent {
             let [front, rear] = chord(j);
             front.midpoint(rear)
         };
-        let [root, tip] = [0, mesh.cols].map(|j| middle(j).y);
+        // Where the sections are recorded: by the leading edge.
+        let front = |j: usize| mesh.nodes[mesh.node(0, j)].y;
+        let [root, tip] = [0, mesh.cols].map(front);
         let places = (0..mesh.nodes.len()).map(|n| {
             let j = n % (mesh.cols + 1);
-            let [front, rear] = chord(j);
-            let length = front.distance(rear);
-            let part = mesh.nodes[n].distance(front) / length.max(f64::MIN_POSITIVE);
+            let [leading, trailing] = chord(j);
+            let length = leading.distance(trailing);
+            let part = mesh.nodes[n].distance(leading) / length.max(f64::MIN_POSITIVE);
             Place {
-                span: (middle(j).y - root) / (tip - root),
+                span: (front(j) - root) / (tip - root),
                 middle: middle(j),
                 height: 4.0 * part * (1.0 - part) * length,
             }
         });
+        let mut columns: [[usize; 3]; 4] = columns?.try_into().ok()?;
+        // A tip that is a point has neither twist nor camber of its own.
+        let [at_root, at_tip] = [0, mesh.cols].map(|j| chord(j)[0].distance(chord(j)[1]));
+        if at_tip < POINTED * at_root {
+            (columns[3][1], columns[3][2]) = (columns[2][1], columns[2][2]);
+        }
         Some(Self {
-            columns: columns?.try_into().ok()?,
+            columns,
             places: places.collect(),
         })
     }
