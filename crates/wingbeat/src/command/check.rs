@@ -10,7 +10,7 @@ use wingbeat::results::fixed::fixed;
 
 use crate::command::expectation;
 use crate::command::failure::Failure;
-use crate::command::report::{Report, ReportArgs, line};
+use crate::command::report::{Report, ReportArgs, entry, line};
 use crate::command::terminal::tell;
 use crate::command::watch::Watch;
 
@@ -44,45 +44,47 @@ fn look(args: &CheckArgs, report: &mut Report) -> Result<(), IoError> {
     line!(report, "{}: this case can be flown.\n", case.origin());
     report.value("case", case.name.as_str());
     describe(report, &case.setup);
-    if let Some(feedback) = &case.setup.feedback {
-        let [every, late] = [feedback.interval, feedback.latency];
-        line!(
-            report,
-            "{:<10}a look every {every} steps, acting {late} looks later",
-            "feedback"
-        );
-        report.value(
-            "feedback",
-            json!({ "every_steps": every, "latency_looks": late }),
-        );
-    }
+    feedback(report, &case.setup);
     let panels = expectation::panels(&case.setup);
-    line!(report, "{:<10}{panels} panels", "lattice");
+    entry!(report, "lattice", "{panels} panels");
     report.value("panels", panels);
-    if let Some(program) = case.program() {
-        line!(
-            report,
-            "{:<10}`wingbeat run` will start this one with your rights: {program}",
-            "program"
-        );
-        report.value("program", program);
-    }
-    if let Some(program) = case.control_program() {
-        line!(
-            report,
-            "{:<10}`wingbeat run` will start this one with your rights: {program}",
-            "control"
-        );
-        report.value("control_program", program);
-    }
+    programs(report, &case);
     expectation::tell(report, &estimate);
-    line!(report, "{:<10}{cost}", "cost");
+    entry!(report, "cost", "{cost}");
     report.value("cost", cost);
     for doubt in &estimate.doubts {
         tell!("warning: {doubt}");
     }
     report.value("warnings", estimate.doubts);
     Ok(())
+}
+
+/// How often feedback looks, and how late it acts.
+fn feedback(report: &mut Report, setup: &FlightSetup) {
+    let Some(feedback) = &setup.feedback else {
+        return;
+    };
+    let [every, late] = [feedback.interval, feedback.latency];
+    entry!(
+        report,
+        "feedback",
+        "a look every {every} steps, acting {late} looks later"
+    );
+    let value = json!({ "every_steps": every, "latency_looks": late });
+    report.value("feedback", value);
+}
+
+/// Programs that a flight of the case starts.
+fn programs(report: &mut Report, case: &LoadedCase) {
+    let started = "`wingbeat run` will start this one with your rights";
+    if let Some(program) = case.program() {
+        entry!(report, "program", "{started}: {program}");
+        report.value("program", program);
+    }
+    if let Some(program) = case.control_program() {
+        entry!(report, "control", "{started}: {program}");
+        report.value("control_program", program);
+    }
 }
 
 /// What the first steps cost, flown on trial where that is quick. A check starts no other program.
@@ -107,55 +109,37 @@ fn trial_cost(case: &LoadedCase, trial: bool) -> Result<String, IoError> {
     Ok(cost.map_err(|e| case.refused(&e))?)
 }
 
-fn said(w: &ElasticReport) -> String {
-    let kind = if w.is_sheet { "sheet" } else { "beam" };
-    let slack = match w.slack > 0.0 {
-        true => format!(
-            "; its tension at rest pulls at free edges, which give way by {:.2e} mm",
-            1e3 * w.slack
-        ),
-        false => String::new(),
-    };
-    format!(
-        "`{}`: a {kind} of {} nodes, {} of them held{slack}",
-        w.name, w.nodes, w.held
-    )
-}
-
-fn value(w: &ElasticReport) -> Value {
-    json!({
-        "name": w.name,
-        "kind": if w.is_sheet { "sheet" } else { "beam" },
-        "nodes": w.nodes,
-        "held_nodes": w.held,
-        "slack_m": w.slack,
-    })
-}
-
+/// What the case holds and how it is flown.
 fn describe(report: &mut Report, setup: &FlightSetup) {
-    let animal = &setup.animal;
-    line!(
+    body(report, setup);
+    wings(report, setup);
+    course(report, setup);
+}
+
+/// Mass and mass centre.
+fn body(report: &mut Report, setup: &FlightSetup) {
+    let (mass, body) = (setup.animal.mass(), &setup.animal.body);
+    entry!(
         report,
-        "{:<10}{:.4e} kg, of it body {:.4e} kg",
         "mass",
-        animal.mass(),
-        animal.body.mass
+        "{mass:.4e} kg, of it body {:.4e} kg",
+        body.mass
     );
-    report.value("mass_kg", animal.mass());
-    report.value("body_mass_kg", animal.body.mass);
-    let centre = animal.body.centre().to_array();
-    line!(
-        report,
-        "{:<10}mass centre of the body at [{}] mm",
-        "body",
-        centre.map(|x| fixed(1e3 * x, 3)).join(", ")
-    );
+    report.value("mass_kg", mass);
+    report.value("body_mass_kg", body.mass);
+    let centre = body.centre().to_array();
+    let shown = centre.map(|x| fixed(1e3 * x, 3)).join(", ");
+    entry!(report, "body", "mass centre of the body at [{shown}] mm");
     report.value("body_mass_centre_m", json!(centre));
-    for w in animal.wing_reports() {
-        line!(
+}
+
+/// The wings, and what the elastic ones are made of.
+fn wings(report: &mut Report, setup: &FlightSetup) {
+    for w in setup.animal.wing_reports() {
+        entry!(
             report,
-            "{:<10}`{}`: length {:.3} mm, area {:.3} mm2, mean chord {:.3} mm, r2_hat {:.3}, mass {:.3e} kg",
             "wing",
+            "`{}`: length {:.3} mm, area {:.3} mm2, mean chord {:.3} mm, r2_hat {:.3}, mass {:.3e} kg",
             w.name,
             w.length * 1e3,
             w.area * 1e6,
@@ -164,26 +148,61 @@ fn describe(report: &mut Report, setup: &FlightSetup) {
             w.mass
         );
     }
-    let elastic = animal.wings.iter().filter_map(|w| w.elastic_report());
+    let elastic = setup.animal.wings.iter().filter_map(|w| w.elastic_report());
     let elastic: Vec<ElasticReport> = elastic.collect();
     for w in &elastic {
-        line!(report, "{:<10}{}", "elastic", said(w));
+        entry!(report, "elastic", "{}", said(w));
     }
     let values: Vec<Value> = elastic.iter().map(value).collect();
     report.value("elastic_wings", values);
+}
+
+fn said(w: &ElasticReport) -> String {
+    let slack = match w.slack > 0.0 {
+        true => format!(
+            "; its tension at rest pulls at free edges, which give way by {:.2e} mm",
+            1e3 * w.slack
+        ),
+        false => String::new(),
+    };
+    format!(
+        "`{}`: a {} of {} nodes, {} of them held{slack}",
+        w.name,
+        kind(w),
+        w.nodes,
+        w.held
+    )
+}
+
+fn value(w: &ElasticReport) -> Value {
+    json!({
+        "name": w.name,
+        "kind": kind(w),
+        "nodes": w.nodes,
+        "held_nodes": w.held,
+        "slack_m": w.slack,
+    })
+}
+
+fn kind(w: &ElasticReport) -> &'static str {
+    if w.is_sheet { "sheet" } else { "beam" }
+}
+
+/// Free or tethered, in which air, in which steps.
+fn course(report: &mut Report, setup: &FlightSetup) {
     let mode = match setup.mode {
         MotionMode::Free(_) => "free flight",
         MotionMode::Tethered(_) => "tethered",
     };
     let air = setup.air.name();
-    line!(report, "{:<10}{mode}, {air}", "flight");
+    entry!(report, "flight", "{mode}, {air}");
     report.value("flight", mode);
     report.value("air", air);
     let time = &setup.time;
-    line!(
+    entry!(
         report,
-        "{:<10}{} steps of {:.4e} s",
         "time",
+        "{} steps of {:.4e} s",
         time.steps,
         time.step
     );

@@ -9,7 +9,7 @@ use wingbeat::analysis::plausibility::WingEstimate;
 use wingbeat::flight::{AirModel, FlightError, FlightSetup, Simulation};
 
 use crate::command::pace::Pace;
-use crate::command::report::{Report, line};
+use crate::command::report::{Report, entry};
 
 /// Unknown circulations beyond which the trial is left out: their matrix takes some seconds and
 /// 0.1 GB, and eight times the one and four times the other with every doubling.
@@ -41,55 +41,58 @@ pub(crate) fn unknowns(setup: &FlightSetup) -> usize {
 /// The numbers of a flight, a line each.
 pub(crate) fn tell(report: &mut Report, e: &Estimate) {
     for w in &e.wings {
-        let mut parts = vec![];
-        if w.tip_speed > 0.0 {
-            if w.stroke_amplitude > 0.0 {
-                parts.push(format!("stroke {:.1} deg", w.stroke_amplitude.to_degrees()));
-            }
-            parts.push(format!("mean tip speed {:.3} m/s", w.tip_speed));
-        }
-        parts.extend(w.reynolds.map(|re| format!("Reynolds number {re:.0}")));
-        parts.extend(
-            w.reduced_frequency
-                .map(|k| format!("reduced frequency {k:.3}")),
-        );
-        let (name, parts) = (&w.report.name, parts.join(", "));
-        line!(report, "{:<10}`{name}`: {parts}", "motion");
+        entry!(report, "motion", "`{}`: {}", w.report.name, motion(w));
     }
     report.value("wings", e.wings.iter().map(wing).collect::<Vec<Value>>());
     let speed = e.flight_speed;
     if let Some(f) = e.frequency {
-        line!(
-            report,
-            "{:<10}{f:.4} Hz, flight speed {speed:.3} m/s",
-            "beat"
-        );
+        entry!(report, "beat", "{f:.4} Hz, flight speed {speed:.3} m/s");
     }
     report.value("frequency_hz", e.frequency);
     report.value("flight_speed_m_s", speed);
     if let Some(loading) = e.wing_loading {
-        line!(report, "{:<10}{loading:.3} N per m2 of wing", "loading");
+        entry!(report, "loading", "{loading:.3} N per m2 of wing");
     }
     report.value("wing_loading_newton_m2", e.wing_loading);
     let [x, y, z] = e.inertia.to_array();
-    line!(
+    entry!(
         report,
-        "{:<10}of the body about its mass centre: roll {x:.3e}, pitch {y:.3e}, yaw {z:.3e} kg m2",
-        "inertia"
+        "inertia",
+        "of the body about its mass centre: roll {x:.3e}, pitch {y:.3e}, yaw {z:.3e} kg m2"
     );
     report.value("inertia_roll_pitch_yaw_kg_m2", json!([x, y, z]));
+    lift(report, e);
+}
+
+/// How a wing moves, as far as it does.
+fn motion(w: &WingEstimate) -> String {
+    let mut parts = vec![];
+    if w.tip_speed > 0.0 {
+        if w.stroke_amplitude > 0.0 {
+            parts.push(format!("stroke {:.1} deg", w.stroke_amplitude.to_degrees()));
+        }
+        parts.push(format!("mean tip speed {:.3} m/s", w.tip_speed));
+    }
+    parts.extend(w.reynolds.map(|re| format!("Reynolds number {re:.0}")));
+    let frequency = |k| format!("reduced frequency {k:.3}");
+    parts.extend(w.reduced_frequency.map(frequency));
+    parts.join(", ")
+}
+
+/// Mean lift at the start, or why it is not known.
+fn lift(report: &mut Report, e: &Estimate) {
     if let Some(lift) = e.lift_over_weight {
-        line!(
+        entry!(
             report,
-            "{:<10}{lift:.2} weights on average as it starts, by blade elements",
-            "lift"
+            "lift",
+            "{lift:.2} weights on average as it starts, by blade elements"
         );
     }
     if let Some(why) = &e.lift_left_out {
-        line!(
+        entry!(
             report,
-            "{:<10}left out, blade elements on trial failed: {why}",
-            "lift"
+            "lift",
+            "left out, blade elements on trial failed: {why}"
         );
     }
     report.value("lift_over_weight", e.lift_over_weight);

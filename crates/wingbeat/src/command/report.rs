@@ -55,7 +55,14 @@ macro_rules! line {
     };
 }
 
-pub(crate) use line;
+/// A line of a report that begins with what it is of, in a column of its own.
+macro_rules! entry {
+    ($report:expr, $of:literal, $($text:tt)*) => {
+        $crate::command::report::line!($report, "{:<10}{}", $of, format_args!($($text)*))
+    };
+}
+
+pub(crate) use {entry, line};
 
 impl ReportArgs {
     /// Runs an analysis and delivers what it reported, also where it failed midway. `others` are

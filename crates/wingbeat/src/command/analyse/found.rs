@@ -39,48 +39,44 @@ fn stroke(setup: &FlightSetup) -> f64 {
     strokes.fold(0.0, f64::max)
 }
 
-impl From<&Trim> for Found {
-    fn from(t: &Trim) -> Self {
-        Self {
-            converged: t.converged,
-            residual: t.residual.clone(),
-            iterations: t.iterations,
-            unknowns: t.unknowns.clone(),
-            outside: t.outside.clone(),
-            at_bound: t.at_bound.clone(),
-            adjustment: t.adjustment,
-            difference: t.difference,
-            mass_centre: t.mass_centre,
-            body_pitch: t.body_pitch,
-            body_roll: t.body_roll,
-            stroke: stroke(&t.setup),
-            crossing_wings: t.setup.crossing_wings(),
+/// What both kinds of trim have under the same names.
+macro_rules! found_from {
+    ($($trim:ty),*) => {$(
+        impl From<&$trim> for Found {
+            fn from(t: &$trim) -> Self {
+                Self {
+                    converged: t.converged,
+                    residual: t.residual.clone(),
+                    iterations: t.iterations,
+                    unknowns: t.unknowns.clone(),
+                    outside: t.outside.clone(),
+                    at_bound: t.at_bound.clone(),
+                    adjustment: t.adjustment,
+                    difference: t.difference,
+                    mass_centre: t.mass_centre,
+                    body_pitch: t.body_pitch,
+                    body_roll: t.body_roll,
+                    stroke: stroke(&t.setup),
+                    crossing_wings: t.setup.crossing_wings(),
+                }
+            }
         }
-    }
+    )*};
 }
 
-impl From<&WakeTrim> for Found {
-    fn from(t: &WakeTrim) -> Self {
-        Self {
-            converged: t.converged,
-            residual: t.residual.clone(),
-            iterations: t.iterations,
-            unknowns: t.unknowns.clone(),
-            outside: t.outside.clone(),
-            at_bound: t.at_bound.clone(),
-            adjustment: t.adjustment,
-            difference: t.difference,
-            mass_centre: t.mass_centre,
-            body_pitch: t.body_pitch,
-            body_roll: t.body_roll,
-            stroke: stroke(&t.setup),
-            crossing_wings: t.setup.crossing_wings(),
-        }
-    }
-}
+found_from!(Trim, WakeTrim);
 
 /// The trim.
 pub(super) fn tell(report: &mut Report, case: &LoadedCase, problem: &TrimProblem, t: &Found) {
+    heading(report, case, problem);
+    verdict(report, t);
+    unknowns(report, t);
+    residuals(report, problem, t);
+    warn(report, t);
+}
+
+/// What was trimmed, to which flight.
+fn heading(report: &mut Report, case: &LoadedCase, problem: &TrimProblem) {
     let (forward, up) = (problem.velocity.x, 0.0 - problem.velocity.z);
     line!(
         report,
@@ -93,19 +89,34 @@ pub(super) fn tell(report: &mut Report, case: &LoadedCase, problem: &TrimProblem
         line!(report, "of the open loop: [control] is left out");
     }
     report.value("control_left_out", has_control);
-    let verdict = if t.converged && t.outside.is_empty() {
-        "trimmed"
-    } else if t.converged {
-        "steady, but NOT within the bounds,"
-    } else {
-        "NOT trimmed; the best point found"
+    report.value("case", case.name.as_str());
+    report.value("forward_m_s", forward);
+    report.value("climb_m_s", up);
+    report.value("sideslip_m_s", problem.velocity.y);
+    report.value("turn_rate_deg_s", problem.turn_rate.to_degrees());
+}
+
+/// Whether it was found.
+fn verdict(report: &mut Report, t: &Found) {
+    let is_within = t.outside.is_empty();
+    let verdict = match (t.converged, is_within) {
+        (true, true) => "trimmed",
+        (true, false) => "steady, but NOT within the bounds,",
+        (false, _) => "NOT trimmed; the best point found",
     };
-    let largest = t.residual.iter().fold(0.0_f64, |m, r| m.max(r.abs()));
     line!(
         report,
-        "{verdict} after {} Newton steps, largest residual {largest:.1e}",
-        t.iterations
+        "{verdict} after {} Newton steps, largest residual {:.1e}",
+        t.iterations,
+        largest(&t.residual)
     );
+    report.value("converged", t.converged);
+    report.value("within_bounds", is_within);
+    report.value("newton_steps", t.iterations);
+}
+
+/// The unknowns, a line each.
+fn unknowns(report: &mut Report, t: &Found) {
     let width = t.unknowns.iter().map(|u| u.name().len()).max();
     let width = width.unwrap_or(0).max(16) + 2;
     for &u in &t.unknowns {
@@ -118,16 +129,21 @@ pub(super) fn tell(report: &mut Report, case: &LoadedCase, problem: &TrimProblem
         };
         line!(report, "  {:<width$}{}{note}", u.name(), value(u, t).0);
     }
-    let residuals = residuals(report, problem, t);
+    report.value("unknowns", values(&t.unknowns, t));
+    report.value("at_bound", names_of(&t.at_bound));
+    report.value("outside_bounds", names_of(&t.outside));
+}
+
+/// Strokes with which nothing flies.
+fn warn(report: &mut Report, t: &Found) {
     let stroke = t.stroke.to_degrees();
-    if stroke > 180.0 {
-        tell!(
+    match stroke > 180.0 {
+        true => tell!(
             "warning: strokes of {stroke:.0} deg: wings pass through each other or through the body; choose other --unknowns (frequency, for instance), or a slower flight"
-        );
+        ),
+        false => (t.crossing_wings.iter()).for_each(|text| tell!("warning: {text}")),
     }
-    if stroke <= 180.0 {
-        (t.crossing_wings.iter()).for_each(|text| tell!("warning: {text}"));
-    }
+    report.value("stroke_deg", stroke);
     report.value("crossing_wings", t.crossing_wings.as_slice());
     let strokes = [Unknown::StrokeAmplitude, Unknown::StrokeAmplitudeDifference];
     let changes = [t.adjustment, t.difference].map(|a| a.stroke_amplitude);
@@ -138,41 +154,31 @@ pub(super) fn tell(report: &mut Report, case: &LoadedCase, problem: &TrimProblem
             value(unknown, t).0
         );
     }
-    report.value("stroke_deg", stroke);
-    report.value("case", case.name.as_str());
-    report.value("forward_m_s", forward);
-    report.value("climb_m_s", up);
-    report.value("sideslip_m_s", problem.velocity.y);
-    report.value("turn_rate_deg_s", problem.turn_rate.to_degrees());
-    report.value("converged", t.converged);
-    report.value("within_bounds", t.outside.is_empty());
-    report.value("at_bound", names_of(&t.at_bound));
-    report.value("outside_bounds", names_of(&t.outside));
-    report.value("newton_steps", t.iterations);
-    report.value("unknowns", values(&t.unknowns, t));
-    report.value("residuals", residuals);
 }
 
-/// Says the residuals; as they stand in the report.
-fn residuals(report: &mut Report, problem: &TrimProblem, t: &Found) -> Map<String, Value> {
-    let names = Residuals::of(problem).names();
-    for ([name, _], r) in names.iter().zip(&t.residual) {
+/// The residuals, a line each; those of free joints in one.
+fn residuals(report: &mut Report, problem: &TrimProblem, t: &Found) {
+    let mut values = Map::new();
+    let mut one = |name: &str, key: &str, r: f64| {
         line!(report, "  residual of {name:<28}{r:>10.1e}");
+        values.insert(key.to_owned(), json!(r));
+    };
+    let names = Residuals::of(problem).names();
+    for ([name, key], r) in names.iter().zip(&t.residual) {
+        one(name, key, *r);
     }
-    let residuals = names.iter().zip(&t.residual);
-    let mut residuals: Map<String, Value> = residuals
-        .map(|([_, key], r)| ((*key).to_owned(), json!(r)))
-        .collect();
     if let Some(joints) = t.residual.get(names.len()..).filter(|j| !j.is_empty()) {
-        let largest = joints.iter().fold(0.0_f64, |m, r| m.max(r.abs()));
-        line!(
-            report,
-            "  residual of {:<28}{largest:>10.1e}",
-            "free joints, largest"
+        one(
+            "free joints, largest",
+            "free_joints_largest",
+            largest(joints),
         );
-        residuals.insert("free_joints_largest".to_owned(), json!(largest));
     }
-    residuals
+    report.value("residuals", values);
+}
+
+fn largest(residuals: &[f64]) -> f64 {
+    residuals.iter().fold(0.0, |m, r| m.max(r.abs()))
 }
 
 fn names_of(unknowns: &[Unknown]) -> Vec<&'static str> {

@@ -53,6 +53,16 @@ fn row(flight: &Swept) -> SpeedRow {
 
 fn tell(report: &mut Report, name: &str, found: &Sweep) {
     line!(report, "{name}: trimmed flights against speed");
+    table(report, &found.flights);
+    cheapest(report, found);
+    crossings(report, &found.flights);
+    end(report, found);
+    let flights: Vec<Value> = found.flights.iter().map(value).collect();
+    report.value("case", name);
+    report.value("flights", flights);
+}
+
+fn table(report: &mut Report, flights: &[Swept]) {
     line!(
         report,
         "  {:>11}{:>12}{:>14}{:>17}{:>12}{:>14}{:>11}",
@@ -64,7 +74,7 @@ fn tell(report: &mut Report, name: &str, found: &Sweep) {
         "frequency Hz",
         "pitch deg"
     );
-    for r in found.flights.iter().map(row) {
+    for r in flights.iter().map(row) {
         let [air, perfect, none] = r.power;
         line!(
             report,
@@ -79,25 +89,39 @@ fn tell(report: &mut Report, name: &str, found: &Sweep) {
         report,
         "  air: power against the air; storage: of muscles with perfect elastic storage, no storage: with none"
     );
-    let forward = |f: Option<&Swept>| f.map(|f| f.velocity.x);
-    let ends = [found.flights.first(), found.flights.last()].map(forward);
-    let at_end = |v: f64| match ends.contains(&Some(v)) {
-        true => ", the end of what was swept: look beyond it",
-        false => "",
-    };
-    if let (true, Some(v)) = (found.flights.len() > 2, forward(found.least_power())) {
-        line!(report, "  least power at {v:.3} m/s{}", at_end(v));
-        report.value("least_power_forward_m_s", v);
+}
+
+/// The speeds of least power and of least work per distance.
+fn cheapest(report: &mut Report, found: &Sweep) {
+    if found.flights.len() < 3 {
+        return;
     }
-    if let (true, Some(v)) = (found.flights.len() > 2, forward(found.least_work())) {
-        line!(
-            report,
-            "  least work per distance at {v:.3} m/s{}",
-            at_end(v)
-        );
-        report.value("least_work_per_distance_forward_m_s", v);
+    let forward = |f: &Swept| f.velocity.x;
+    let ends = [found.flights.first(), found.flights.last()].map(|f| f.map(forward));
+    let least = [
+        ("power", "least_power_forward_m_s", found.least_power()),
+        (
+            "work per distance",
+            "least_work_per_distance_forward_m_s",
+            found.least_work(),
+        ),
+    ];
+    for (what, key, flight) in least {
+        let Some(v) = flight.map(forward) else {
+            continue;
+        };
+        let note = match ends.contains(&Some(v)) {
+            true => ", the end of what was swept: look beyond it",
+            false => "",
+        };
+        line!(report, "  least {what} at {v:.3} m/s{note}");
+        report.value(key, v);
     }
-    let crossing: Vec<(f64, f64)> = found.flights.iter().filter_map(crossing).collect();
+}
+
+/// The speeds at which wings pass through each other.
+fn crossings(report: &mut Report, flights: &[Swept]) {
+    let crossing: Vec<(f64, f64)> = flights.iter().filter_map(crossing).collect();
     if let (Some((from, _)), Some((to, _))) = (crossing.first(), crossing.last()) {
         let most = crossing.iter().fold(0.0_f64, |m, (_, part)| m.max(*part));
         line!(
@@ -106,27 +130,29 @@ fn tell(report: &mut Report, name: &str, found: &Sweep) {
             (100.0 * most).max(1.0)
         );
     }
-    if let Some((velocity, lost)) = &found.lost {
-        let why = match lost {
-            Lost::NotTrimmed(Some(residual)) => format!("largest residual {residual:.1e}"),
-            Lost::NotTrimmed(None) => "no finite flight".to_owned(),
-            Lost::Bound(unknown) => format!("{} outside its bound", unknown.name()),
-            Lost::Stroke(angle) => format!(
-                "strokes of {:.0} deg, with which wings pass through each other or through the body",
-                angle.to_degrees()
-            ),
-        };
-        line!(
-            report,
-            "NOT trimmed at {:.3} m/s ({why}): the range ends before; choose other --unknowns, or a narrower range",
-            velocity.x
-        );
-        report.value("not_trimmed_forward_m_s", velocity.x);
-        report.value("not_trimmed_reason", why);
-    }
-    let flights: Vec<Value> = found.flights.iter().map(value).collect();
-    report.value("case", name);
-    report.value("flights", flights);
+}
+
+/// Where the range ended early, and why.
+fn end(report: &mut Report, found: &Sweep) {
+    let Some((velocity, lost)) = &found.lost else {
+        return;
+    };
+    let why = match lost {
+        Lost::NotTrimmed(Some(residual)) => format!("largest residual {residual:.1e}"),
+        Lost::NotTrimmed(None) => "no finite flight".to_owned(),
+        Lost::Bound(unknown) => format!("{} outside its bound", unknown.name()),
+        Lost::Stroke(angle) => format!(
+            "strokes of {:.0} deg, with which wings pass through each other or through the body",
+            angle.to_degrees()
+        ),
+    };
+    line!(
+        report,
+        "NOT trimmed at {:.3} m/s ({why}): the range ends before; choose other --unknowns, or a narrower range",
+        velocity.x
+    );
+    report.value("not_trimmed_forward_m_s", velocity.x);
+    report.value("not_trimmed_reason", why);
 }
 
 /// Speed of a flight whose wings pass through each other, and the part of the beat in which they do.

@@ -11,7 +11,7 @@ use super::master::processors;
 use crate::command::analyse::trimming::watched;
 use crate::command::failure::Failure;
 use crate::command::options;
-use crate::command::report::{Report, ReportArgs, line};
+use crate::command::report::{Report, ReportArgs, entry, line};
 
 /// Arguments of `wingbeat campaign check`.
 #[derive(Args)]
@@ -31,10 +31,10 @@ pub(super) fn check(args: &CheckArgs) -> Result<(), Failure> {
         let campaign = Campaign::read(&args.file)?;
         describe(report, &campaign);
         if campaign.base.program().is_some() || campaign.base.control_program().is_some() {
-            line!(
+            entry!(
                 report,
-                "{:<10}not tried: a check does not start other programs",
-                "cost"
+                "cost",
+                "not tried: a check does not start other programs"
             );
             return Ok(());
         }
@@ -56,7 +56,7 @@ fn describe(report: &mut Report, campaign: &Campaign) {
         "{}: this campaign can be run.\n",
         campaign.path.display()
     );
-    line!(report, "{:<10}{}", "case", campaign.base.origin());
+    entry!(report, "case", "{}", campaign.base.origin());
     report.value("campaign", campaign.name.as_str());
     let mut axes: Vec<String> = plan
         .axes
@@ -67,10 +67,10 @@ fn describe(report: &mut Report, campaign: &Campaign) {
         let keys: Vec<&str> = plan.samplers.iter().map(|s| s.key()).collect();
         axes.push(format!("{} samples of {}", plan.samples, keys.join(", ")));
     }
-    line!(
+    entry!(
         report,
-        "{:<10}{}: {}",
         "points",
+        "{}: {}",
         plan.points(),
         if axes.is_empty() {
             "the case itself".to_owned()
@@ -81,9 +81,9 @@ fn describe(report: &mut Report, campaign: &Campaign) {
     report.value("points", plan.points());
     report.value("shape", json!(plan.shape()));
     let tasks: Vec<&str> = campaign.raw.tasks.iter().map(|t| t.name()).collect();
-    line!(report, "{:<10}{}", "do", tasks.join(", "));
+    entry!(report, "do", "{}", tasks.join(", "));
     let numbers: Vec<&str> = campaign.numbers.iter().map(|n| n.name.as_str()).collect();
-    line!(report, "{:<10}{}", "keep", numbers.join(", "));
+    entry!(report, "keep", "{}", numbers.join(", "));
     report.value("keep", json!(numbers));
 }
 
@@ -92,26 +92,26 @@ fn tell(report: &mut Report, campaign: &Campaign, cost: &Cost, jobs: usize) {
         let failed = failed
             .as_ref()
             .map_or_else(String::new, |e| format!(", failed: {e}"));
-        line!(
+        entry!(
             report,
-            "{:<10}point {i}: {:.3} s{failed}",
             "sample",
+            "point {i}: {:.3} s{failed}",
             time.as_secs_f64()
         );
     }
     let each = cost.per_point().as_secs_f64();
     let all = each * campaign.plan.points() as f64 / jobs as f64;
-    line!(
+    entry!(
         report,
-        "{:<10}{:.3} s a point; {} in {jobs} processes",
         "cost",
+        "{:.3} s a point; {} in {jobs} processes",
         each,
         duration(all)
     );
-    line!(
+    entry!(
         report,
-        "{:<10}{:.1} MB of results{}",
         "disk",
+        "{:.1} MB of results{}",
         cost.results_bytes as f64 / 1e6,
         if campaign.raw.files.is_empty() {
             ""
