@@ -1,0 +1,280 @@
+//! How far the results of a vortex lattice can be trusted.
+
+use wingbeat_air::{
+    AirSettings, Convection, CoreModel, Friction, LeadingEdge, LoadMethod, SectionDrag,
+};
+use wingbeat_flight::{AirOptions, FlightSetup, IntegratorChoice};
+
+use crate::summary::beats::BeatMeans;
+use crate::summary::numbers::Summary;
+use crate::summary::verdict::Warnings;
+
+/// No animal carries this many of its weights over a whole wingbeat.
+const IMPLAUSIBLE_LIFT: f64 = 10.0;
+
+/// Steps in a row in which the force of a wing turns back, from which on the integrator is not stable. Presets have 0 to 4;
+/// a body that is light in pitch, by `hamming`, all.
+const ALTERNATING: usize = 10;
+
+/// What a reader should know of the air: what it leaves out, where it was used beyond what it was made for, what was put in, and
+/// signs that it failed.
+pub(super) fn warnings(
+    setup: &FlightSetup,
+    air: &AirOptions,
+    summary: &Summary,
+    list: &mut Warnings,
+) {
+    let lattice = &air.lattice;
+    left_out(setup, lattice, list);
+    motion(setup, list);
+    inputs(setup, air, list);
+    failures(setup, summary, list);
+    let still = lattice.images.is_empty() && lattice.wind.is_none();
+    if let Some(beat) = summary.beats.last().filter(|_| still) {
+        two_ways_to_the_lift(lattice, beat, list);
+    }
+    wakes(summary, list);
+}
+
+/// Friction and suction.
+fn left_out(setup: &FlightSetup, lattice: &AirSettings, list: &mut Warnings) {
+    let suction = suction(lattice);
+    if has_vortex_lift(lattice) && setup.animal.wings.len() > 2 {
+        list.limit("Vortex lift was tried on two pairs of wings and failed: 0.65 to 2.4 times the lift of the references (docs/separated-flow.md). Take air.loads = pressure without shedding from leading edges, or leading-edge vorticity.");
+    }
+    list.note(match &lattice.section_drag {
+        None => format!("The air is inviscid: without friction, drag and power come out low, the more so the smaller the Reynolds number. {suction}"),
+        Some(drag) => format!("The air is inviscid; drag of the sections was added to its forces (air.section_drag: {}, cd0 = {}, cd2 = {} per rad2), from the undisturbed air past each strip. {suction}", friction(lattice, drag), drag.cd0, drag.cd2),
+    });
+}
+
+/// A motion that is impossible, or not one that the models of edges were made for.
+fn motion(setup: &FlightSetup, list: &mut Warnings) {
+    const NO_MEANING: &str = "The forces of those instants have no meaning.";
+    for crossing in setup.crossing_wings() {
+        list.limit(format!(
+            "The prescribed motion is impossible: {crossing}. {NO_MEANING}"
+        ));
+    }
+    for inside in setup.wings_inside_parts() {
+        list.limit(format!(
+            "A wing and a body cannot both be surfaces of the lattice in one place: {inside}. {NO_MEANING}"
+        ));
+    }
+    if let Some(text) = setup.vortex_lift_of_swept_edges() {
+        list.limit(format!("Outside of what it was made for: {text}."));
+    }
+    let by_motion = [
+        setup.one_sided_leading_edges(),
+        setup.tips_of_attached_wings(),
+    ];
+    for text in by_motion.into_iter().flatten() {
+        list.limit(format!("By the prescribed motion {text}."));
+    }
+}
+
+/// What was chosen, and the results depend on.
+fn inputs(setup: &FlightSetup, air: &AirOptions, list: &mut Warnings) {
+    let lattice = &air.lattice;
+    list.note(core_is_an_input(setup, lattice));
+    if air.mirror {
+        list.note("Mirror symmetry was assumed (air.mirror): a real flow of this kind loses it, and with it roll, yaw and sideways drift would come.");
+    }
+    if lattice.shedding.leading && lattice.leading.sheds() {
+        list.note("Leading edges shed: such sheets have no converged history beyond the first half stroke. Read means over several beats and their spread, not single peaks.");
+    }
+    if setup.time.period.is_some() && lattice.convection == Convection::Euler {
+        list.limit("The air is first order in the step and the wings are coarse: halve the step and double the panels before quoting a number.");
+    }
+}
+
+/// Loads that diverged, or alternate from step to step.
+fn failures(setup: &FlightSetup, summary: &Summary, list: &mut Warnings) {
+    let weights = |b: &BeatMeans| b.lift_over_weight.unwrap_or(0.0).abs();
+    if let Some(b) = summary.beats.iter().find(|b| weights(b) > IMPLAUSIBLE_LIFT) {
+        list.fault(format!(
+            "The air diverged: a mean lift of {:.0} weights in beat {} is not physical. Enlarge the wake core, take smaller steps, keep fewer wake rows, or do not shed from leading edges.",
+            weights(b), b.beat
+        ));
+    }
+    if summary.alternating_steps >= ALTERNATING {
+        let remedy = match setup.integrator {
+            IntegratorChoice::Bdf => "take smaller steps, or larger ones",
+            _ => "set dynamics.integrator = \"bdf\"",
+        };
+        list.fault(format!(
+            "Forces alternate from step to step (up to {} steps in a row): the air that moves with the wings weighs too much for the integrator, and the motion means nothing; {remedy}.",
+            summary.alternating_steps
+        ));
+    }
+}
+
+/// What was limited or left over in the wakes.
+fn wakes(summary: &Summary, list: &mut Warnings) {
+    if summary.wake_particles > 0 {
+        list.note(format!(
+            "Part of the wake is vortex particles ({} at the end); their radius is an input, not a result.",
+            summary.wake_particles
+        ));
+    }
+    if summary.regularised > 0 {
+        list.note(format!(
+            "{} times a wake node was stopped, ran close to a surface, or left a leading edge that has more suction than it holds, and was regularised.",
+            summary.regularised
+        ));
+    }
+    if summary.net_flux_residual_m_s > 0.0 {
+        list.note(format!(
+            "Net flux through closed body surfaces: a normal velocity of at most {:.1e} m/s is left (their influence matrix has a null space of one dimension).",
+            summary.net_flux_residual_m_s
+        ));
+    }
+}
+
+/// What is said of the suction of leading edges.
+fn suction(lattice: &AirSettings) -> String {
+    match (lattice.loads, held(lattice)) {
+        (LoadMethod::Pressure, _) => {
+            "Forces are pressure times normal, without leading-edge suction.".to_owned()
+        }
+        (LoadMethod::Joukowski, None) => {
+            "Forces hold the full suction of the edges that do not shed.".to_owned()
+        }
+        (LoadMethod::Joukowski, Some([threshold, efficiency])) if has_vortex_lift(lattice) => {
+            format!(
+                "No vorticity leaves leading edges: they hold a suction parameter of {threshold} and have {efficiency} of its force \
+             (air.leading_edge_threshold, air.leading_edge_suction_efficiency), what is beyond it is the lift of a vortex that \
+             grows and is lost by a law from measurements (air.leading_edge = vortex_lift)."
+            )
+        }
+        (LoadMethod::Joukowski, Some([threshold, efficiency])) => format!(
+            "Leading edges hold a suction parameter of {threshold} and have {efficiency} of its force (air.leading_edge_threshold, \
+             air.leading_edge_suction_efficiency)."
+        ),
+        (LoadMethod::Polhamus, _) => {
+            "The suction of attached leading edges is turned into a normal force (Polhamus)."
+                .to_owned()
+        }
+    }
+}
+
+/// Suction parameter that leading edges hold and part of its force that acts, where they may shed by this criterion.
+fn held(lattice: &AirSettings) -> Option<[f64; 2]> {
+    lattice
+        .leading
+        .suction()
+        .filter(|_| lattice.shedding.leading)
+}
+
+/// Whether leading edges have vortex lift in place of free vorticity.
+fn has_vortex_lift(lattice: &AirSettings) -> bool {
+    lattice.shedding.leading && matches!(lattice.leading, LeadingEdge::VortexLift(_))
+}
+
+/// What is said of the vortex core of the wakes.
+fn core_is_an_input(setup: &FlightSetup, lattice: &AirSettings) -> String {
+    let chord = setup
+        .animal
+        .wing_reports()
+        .first()
+        .map_or(1.0, |r| r.mean_chord);
+    let (kind, size) = core(&lattice.wake_core);
+    let overlap = match lattice.wake_overlap {
+        0.0 => String::new(),
+        part if lattice.is_symmetric() => format!(
+            ", at least {part} times a filament's length or a quarter of the way from its edge"
+        ),
+        part => format!(", at least {part} times a filament's length"),
+    };
+    let blobs = match lattice.wake_blob_length {
+        None => String::new(),
+        Some(length) => format!("; filaments longer than {length:.1e} m are blobs"),
+    };
+    format!(
+        "The vortex core ({kind}, {size:.1e} m = {:.3} mean chords{overlap}{blobs}) is an input, not a result: vary it and see what changes.",
+        size / chord
+    )
+}
+
+/// The inviscid lift of a beat by the loads and by the impulse of the vortices, and what it means if they differ.
+fn two_ways_to_the_lift(lattice: &AirSettings, beat: &BeatMeans, list: &mut Warnings) {
+    if lattice.particles.is_some() {
+        list.note(
+            "The vorticity of particles does not close: the vortex impulse depends on the origin, and its rate is no second way to the lift.",
+        );
+        return;
+    }
+    let (other, inviscid, lift) = (
+        beat.lift_by_impulse_newton,
+        beat.inviscid_lift_newton,
+        beat.lift_newton,
+    );
+    let loads = match lattice.loads {
+        LoadMethod::Joukowski => "Joukowski's forces",
+        LoadMethod::Pressure | LoadMethod::Polhamus => {
+            "pressures and the suction of edges that do not shed"
+        }
+    };
+    let flown = differences(lattice).map_or(String::new(), |how| {
+        format!(" (the flight has {lift:.3e} N, {how})")
+    });
+    let both = format!(
+        "Mean lift of the last beat by the rate of the vortex impulse, another way to the same force: {other:.3e} N; by {loads} {inviscid:.3e} N{flown}."
+    );
+    // A tenth: six times what the two differ by in attached hover with algebraic cores, and what they do with
+    // leading-edge sheets.
+    match (other - inviscid).abs() > 0.1 * inviscid.abs() {
+        false => list.note(both),
+        true => list.limit(format!(
+            "Two ways to the mean lift are apart: the wake does not keep its impulse (cores that are not algebraic, steps too long for its rolled-up parts, nodes held off surfaces), so its shape is not to be trusted. {both}"
+        )),
+    }
+}
+
+/// What the lift that was flown has or lacks beside the inviscid one.
+fn differences(lattice: &AirSettings) -> Option<&'static str> {
+    let is_lost = held(lattice).is_some_and(|[_, efficiency]| efficiency < 1.0);
+    match (lattice.loads, lattice.section_drag) {
+        (LoadMethod::Joukowski, None) if has_vortex_lift(lattice) => {
+            Some("with the vortex lift of leading edges")
+        }
+        (LoadMethod::Joukowski, Some(_)) if has_vortex_lift(lattice) => {
+            Some("with section drag and the vortex lift of leading edges")
+        }
+        (LoadMethod::Joukowski, None) if is_lost => Some("without the suction that is lost"),
+        (LoadMethod::Joukowski, None) => None,
+        (LoadMethod::Joukowski, Some(_)) if is_lost => {
+            Some("with section drag, without the suction that is lost")
+        }
+        (LoadMethod::Joukowski, Some(_)) => Some("with section drag"),
+        (LoadMethod::Pressure, None) => Some("without the suction"),
+        (LoadMethod::Pressure, Some(_)) => Some("with section drag, without the suction"),
+        (LoadMethod::Polhamus, None) => Some("with the suction turned into a normal force"),
+        (LoadMethod::Polhamus, Some(_)) => {
+            Some("with section drag and the suction turned into a normal force")
+        }
+    }
+}
+
+fn friction(lattice: &AirSettings, drag: &SectionDrag) -> String {
+    match drag.friction {
+        Friction::None => "no friction".to_owned(),
+        Friction::Blasius { viscosity } => {
+            let of = match lattice.flow_may_leave_leading_edges() {
+                true => ", less on faces that the flow has left at the leading edge",
+                false => "",
+            };
+            format!("laminar friction at a viscosity of {viscosity:.2e} m2/s{of}")
+        }
+    }
+}
+
+fn core(model: &CoreModel) -> (&'static str, f64) {
+    match *model {
+        CoreModel::CutOff { delta } => ("cut-off", delta),
+        CoreModel::Vatistas { radius } => ("Vatistas", radius),
+        CoreModel::Scully { radius } => ("Scully", radius),
+        CoreModel::LambOseen { radius, .. } => ("Lamb-Oseen", radius),
+        CoreModel::Algebraic { radius, .. } => ("algebraic", radius),
+    }
+}
