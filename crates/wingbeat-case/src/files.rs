@@ -2,9 +2,10 @@
 //! afterwards.
 
 use std::io::Read as _;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
+use csv::StringRecord;
 use wingbeat_model::motion::PeriodicSpline;
 use wingbeat_model::{ModelError, import};
 
@@ -177,67 +178,113 @@ fn read_table(path: &str, table: &mut TableCase, base: &Path) -> Result<(), Faul
     if table.rows_deg.is_some() {
         return Err(twice(key, "the table", "file or rows_deg"));
     }
-    let file = base.join(&name);
-    let text = bytes_of(&key, &file)?;
-    let mut reader = csv::ReaderBuilder::new()
-        .comment(Some(b'#'))
-        .trim(csv::Trim::All)
-        .from_reader(text.as_slice());
-    let bad = |problem: String| {
-        Fault::new(
-            key.clone(),
-            format!("`{}`: {problem}", file.display()),
-            "a CSV file with one header line and finite numbers",
-            "correct the file",
-        )
-    };
-    let header = reader.headers().map_err(|e| bad(e.to_string()))?.clone();
-    if !header.is_empty() && header.iter().all(|h| h.parse::<f64>().is_ok()) {
-        let numbers = header.iter().collect::<Vec<_>>().join(",");
-        return Err(Fault::new(
-            key,
-            format!(
-                "`{}`: its first row, `{numbers}`, consists of numbers, and there is no header line above it",
-                file.display()
-            ),
-            "a CSV file with one header line and finite numbers",
-            "write the names of the columns above the numbers, for instance phase,angle_deg",
-        ));
+    let columns = [&table.phase_column, &table.angle_column];
+    let columns = columns.map(|c| c.as_deref());
+    let rows = TableFile {
+        file: base.join(&name),
+        key,
     }
-    let column = |wanted: &Option<String>, default: usize| match wanted {
-        None => Ok(default),
-        Some(w) => header.iter().position(|h| h == w).ok_or_else(|| {
-            bad(format!(
-                "there is no column `{w}` among {}",
-                header.iter().collect::<Vec<_>>().join(", ")
-            ))
-        }),
-    };
-    let columns = [
-        column(&table.phase_column, 0)?,
-        column(&table.angle_column, 1)?,
-    ];
-    let (mut rows, mut lines) = (vec![], vec![]);
-    for record in reader.records() {
-        let record = record.map_err(|e| bad(e.to_string()))?;
-        let line = record.position().map_or(0, csv::Position::line);
-        let number = |k: usize| {
-            let text = record.get(k).unwrap_or("");
-            let value = text.parse::<f64>().ok().filter(|x| x.is_finite());
-            value.ok_or_else(|| bad(format!("line {line}: `{text}` is not a finite number")))
-        };
-        rows.push([number(columns[0])?, number(columns[1])?]);
-        lines.push(line);
-    }
-    if rows.is_empty() {
-        return Err(bad("there are no rows below the header".to_owned()));
-    }
-    let pairs: Vec<(f64, f64)> = rows.iter().map(|&[x, q]| (x, q)).collect();
-    if let Err(ModelError::Table { row, problem, .. }) = PeriodicSpline::new("", &pairs) {
-        let line = row.checked_sub(1).and_then(|k| lines.get(k)).copied();
-        return Err(bad(format!("line {}: {problem}", line.unwrap_or_default())));
-    }
+    .rows(columns)?;
     table.rows_deg = Some(rows);
     (table.phase_column, table.angle_column) = (None, None);
     Ok(())
+}
+
+/// A table of phases and angles, and the key that names it.
+struct TableFile {
+    key: String,
+    file: PathBuf,
+}
+
+impl TableFile {
+    /// Phase \[1\] and angle \[deg\] of each row, from these columns, or the first two.
+    fn rows(&self, names: [Option<&str>; 2]) -> Result<Vec<[f64; 2]>, Fault> {
+        let text = bytes_of(&self.key, &self.file)?;
+        let mut reader = csv::ReaderBuilder::new()
+            .comment(Some(b'#'))
+            .trim(csv::Trim::All)
+            .from_reader(text.as_slice());
+        let header = reader.headers().map_err(|e| self.bad(&e.to_string()))?;
+        self.check_names(header)?;
+        let columns = [
+            self.column(header, names[0], 0)?,
+            self.column(header, names[1], 1)?,
+        ];
+        let (mut rows, mut lines) = (vec![], vec![]);
+        for record in reader.records() {
+            let record = record.map_err(|e| self.bad(&e.to_string()))?;
+            let [x, q] = columns.map(|k| self.number(&record, k));
+            rows.push([x?, q?]);
+            lines.push(line_of(&record));
+        }
+        self.check(&rows, &lines)?;
+        Ok(rows)
+    }
+
+    /// A header that is numbers is the first row of a table without one.
+    fn check_names(&self, header: &StringRecord) -> Result<(), Fault> {
+        if header.is_empty() || header.iter().any(|h| h.parse::<f64>().is_err()) {
+            return Ok(());
+        }
+        let numbers = header.iter().collect::<Vec<_>>().join(",");
+        let problem = format!(
+            "its first row, `{numbers}`, consists of numbers, and there is no header line above it"
+        );
+        let mut fault = self.bad(&problem);
+        fault.remedy =
+            "write the names of the columns above the numbers, for instance phase,angle_deg".into();
+        Err(fault)
+    }
+
+    /// Which column has this name; where none is asked for, the one at `default`.
+    fn column(
+        &self,
+        header: &StringRecord,
+        name: Option<&str>,
+        default: usize,
+    ) -> Result<usize, Fault> {
+        let Some(name) = name else {
+            return Ok(default);
+        };
+        header.iter().position(|h| h == name).ok_or_else(|| {
+            let names = header.iter().collect::<Vec<_>>().join(", ");
+            self.bad(&format!("there is no column `{name}` among {names}"))
+        })
+    }
+
+    fn number(&self, record: &StringRecord, column: usize) -> Result<f64, Fault> {
+        let text = record.get(column).unwrap_or("");
+        let value = text.parse::<f64>().ok().filter(|x| x.is_finite());
+        value.ok_or_else(|| {
+            let line = line_of(record);
+            self.bad(&format!("line {line}: `{text}` is not a finite number"))
+        })
+    }
+
+    /// Rows, at these lines of the file, that are no motion are refused here, where their lines are known.
+    fn check(&self, rows: &[[f64; 2]], lines: &[u64]) -> Result<(), Fault> {
+        if rows.is_empty() {
+            return Err(self.bad("there are no rows below the header"));
+        }
+        let pairs: Vec<(f64, f64)> = rows.iter().map(|&[x, q]| (x, q)).collect();
+        if let Err(ModelError::Table { row, problem, .. }) = PeriodicSpline::new("", &pairs) {
+            let line = row.checked_sub(1).and_then(|k| lines.get(k)).copied();
+            let line = line.unwrap_or_default();
+            return Err(self.bad(&format!("line {line}: {problem}")));
+        }
+        Ok(())
+    }
+
+    fn bad(&self, problem: &str) -> Fault {
+        Fault::new(
+            self.key.clone(),
+            format!("`{}`: {problem}", self.file.display()),
+            "a CSV file with one header line and finite numbers",
+            "correct the file",
+        )
+    }
+}
+
+fn line_of(record: &StringRecord) -> u64 {
+    record.position().map_or(0, csv::Position::line)
 }

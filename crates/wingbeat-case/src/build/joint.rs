@@ -51,57 +51,17 @@ fn check_scale(case: &Case) -> Built<()> {
 
 fn build(case: &Case, animal: &Animal, name: &str, joint: &JointCase) -> Built<Joint> {
     let path = format!("joint.{name}");
-    let parent = find(
-        animal,
-        &path,
-        "parent",
-        joint.parent.as_deref().unwrap_or("body"),
-    )?;
-    let child = find(animal, &path, "child", &joint.child)?;
-    if parent == child || child == 0 {
-        return Err(Fault::new(
-            format!("{path}.child"),
-            if child == 0 {
-                "the central body is carried by nothing"
-            } else {
-                "a body cannot hang on itself"
-            },
-            "a wing or a segment, another body than the parent",
-            "exchange parent and child",
-        ));
-    }
-    check_hinge(case, animal, &path, joint, [parent, child])?;
-    if let Some(carrier) = parent.checked_sub(1).and_then(|k| animal.wings.get(k))
-        && carrier.structure.is_some()
-    {
-        let key = format!("{path}.parent");
-        return Err(bends(key, &carrier.name, "what a joint carries"));
-    }
-    let (anchor_parent, anchor_child) = anchors(animal, &path, joint, [parent, child])?;
-    let wing = child <= animal.wings.len();
-    if wing && joint.turn.is_some() {
-        return Err(Fault::new(
-            format!("{path}.turn"),
-            "the rotation of a wing is prescribed by its motion",
-            format!(
-                "no `turn` at the joint of a wing; [wing.{}.motion] instead",
-                joint.child
-            ),
-            "remove it",
-        ));
-    }
+    let bodies = bodies(animal, &path, joint)?;
+    check_hinge(case, animal, &path, joint, bodies)?;
+    check_carrier(animal, &path, bodies)?;
+    let (anchor_parent, anchor_child) = anchors(animal, &path, joint, bodies)?;
+    check_turn(animal, &path, joint, bodies)?;
     let frequency = case.motion.frequency_hz.value();
     let law = match &joint.turn {
         Some(t) => Some(Arc::new(turn(&path, t, frequency)?) as _),
         None => None,
     };
-    let mut model = JointModel::new(kind(&path, joint)?);
-    model.travel = joint
-        .travel
-        .as_ref()
-        .map(|t| Arc::new(travel(t, frequency)) as _);
-    model.elements = element::build_all(&path, joint, frequency)?;
-    [model.coordinates, model.rates] = start(&path, joint)?;
+    let [parent, child] = bodies;
     Ok(Joint {
         name: name.to_owned(),
         parent: Some(parent),
@@ -109,8 +69,36 @@ fn build(case: &Case, animal: &Animal, name: &str, joint: &JointCase) -> Built<J
         anchor_parent,
         anchor_child,
         law,
-        model,
+        model: model(&path, joint, frequency)?,
     })
+}
+
+/// Parent and child.
+fn bodies(animal: &Animal, path: &str, joint: &JointCase) -> Built<[usize; 2]> {
+    let parent = joint.parent.as_deref().unwrap_or("body");
+    let parent = find(animal, path, "parent", parent)?;
+    let child = find(animal, path, "child", &joint.child)?;
+    let problem = match child {
+        0 => "the central body is carried by nothing",
+        _ if parent == child => "a body cannot hang on itself",
+        _ => return Ok([parent, child]),
+    };
+    Err(Fault::new(
+        format!("{path}.child"),
+        problem,
+        "a wing or a segment, another body than the parent",
+        "exchange parent and child",
+    ))
+}
+
+/// What is free at the joint, what acts along it, and how it starts.
+fn model(path: &str, joint: &JointCase, frequency: f64) -> Built<JointModel> {
+    let mut model = JointModel::new(kind(path, joint)?);
+    let travel = joint.travel.as_ref().map(|t| travel(t, frequency));
+    model.travel = travel.map(|t| Arc::new(t) as _);
+    model.elements = element::build_all(path, joint, frequency)?;
+    [model.coordinates, model.rates] = start(path, joint)?;
+    Ok(model)
 }
 
 fn find(animal: &Animal, path: &str, key: &str, name: &str) -> Built<usize> {
@@ -151,6 +139,35 @@ fn check_hinge(
         ),
         format!("the place of {key}: {:?}", hinge.to_array()),
         format!("remove at_m, or correct {key}"),
+    ))
+}
+
+/// An elastic wing carries nothing.
+fn check_carrier(animal: &Animal, path: &str, [parent, _]: [usize; 2]) -> Built<()> {
+    let carrier = parent.checked_sub(1).and_then(|k| animal.wings.get(k));
+    match carrier.filter(|w| w.structure.is_some()) {
+        Some(wing) => Err(bends(
+            format!("{path}.parent"),
+            &wing.name,
+            "what a joint carries",
+        )),
+        None => Ok(()),
+    }
+}
+
+/// Wings turn by their own motion.
+fn check_turn(animal: &Animal, path: &str, joint: &JointCase, [_, child]: [usize; 2]) -> Built<()> {
+    if child > animal.wings.len() || joint.turn.is_none() {
+        return Ok(());
+    }
+    Err(Fault::new(
+        format!("{path}.turn"),
+        "the rotation of a wing is prescribed by its motion",
+        format!(
+            "no `turn` at the joint of a wing; [wing.{}.motion] instead",
+            joint.child
+        ),
+        "remove it",
     ))
 }
 
@@ -199,49 +216,48 @@ fn unit(key: &str, v: [f64; 3]) -> Built<DVec3> {
 }
 
 fn kind(path: &str, joint: &JointCase) -> Built<JointType> {
-    let axis = || {
-        let key = format!("{path}.axis");
-        let given = joint.axis.ok_or_else(|| {
-            Fault::new(
-                &key,
-                "this key is missing",
-                "a direction [x, y, z]",
-                "axis = [0, 1, 0]",
-            )
-        })?;
-        unit(&key, given)
-    };
     Ok(match joint.kind {
         JointKind::Weld => JointType::Weld,
         JointKind::Spherical => JointType::Spherical,
-        JointKind::Revolute => JointType::Revolute { axis: axis()? },
-        JointKind::Prismatic => JointType::Prismatic { axis: axis()? },
-        JointKind::PointOnLine => JointType::PointOnLine { axis: axis()? },
-        JointKind::Universal => {
-            let key = format!("{path}.axes");
-            let missing = || {
-                let two = "two perpendicular directions";
-                Fault::new(
-                    &key,
-                    "this key is missing",
-                    two,
-                    "axes = [[0, 1, 0], [0, 0, 1]]",
-                )
-            };
-            let [a, b] = joint.axes.ok_or_else(missing)?;
-            let axes = [unit(&key, a)?, unit(&key, b)?];
-            if axes[0].dot(axes[1]).abs() > 1e-9 {
-                let two = "two perpendicular directions";
-                return Err(Fault::new(
-                    key,
-                    "the axes are not perpendicular",
-                    two,
-                    "turn one",
-                ));
-            }
-            JointType::Universal { axes }
-        }
+        JointKind::Revolute => JointType::Revolute {
+            axis: axis(path, joint)?,
+        },
+        JointKind::Prismatic => JointType::Prismatic {
+            axis: axis(path, joint)?,
+        },
+        JointKind::PointOnLine => JointType::PointOnLine {
+            axis: axis(path, joint)?,
+        },
+        JointKind::Universal => JointType::Universal {
+            axes: axes(path, joint)?,
+        },
     })
+}
+
+fn axis(path: &str, joint: &JointCase) -> Built<DVec3> {
+    let key = format!("{path}.axis");
+    match joint.axis {
+        Some(axis) => unit(&key, axis),
+        None => Err(Fault::new(
+            key,
+            "this key is missing",
+            "a direction [x, y, z]",
+            "axis = [0, 1, 0]",
+        )),
+    }
+}
+
+fn axes(path: &str, joint: &JointCase) -> Built<[DVec3; 2]> {
+    let key = format!("{path}.axes");
+    let bad = |problem, remedy| Fault::new(&key, problem, "two perpendicular directions", remedy);
+    let Some([a, b]) = joint.axes else {
+        return Err(bad("this key is missing", "axes = [[0, 1, 0], [0, 0, 1]]"));
+    };
+    let axes = [unit(&key, a)?, unit(&key, b)?];
+    match axes[0].dot(axes[1]).abs() > 1e-9 {
+        true => Err(bad("the axes are not perpendicular", "turn one")),
+        false => Ok(axes),
+    }
 }
 
 fn turn(path: &str, case: &TurnCase, frequency: f64) -> Built<AxisTurn> {
@@ -299,35 +315,14 @@ fn start(path: &str, joint: &JointCase) -> Built<[Vec<f64>; 2]> {
 
 /// The key of what the dynamics finds wrong with the joints.
 pub(super) fn fault_of(case: &Case, setup: &FlightSetup, error: &DynamicsError) -> Fault {
-    let of_joint = |name: &str| {
-        let known = case.joint.contains_key(name);
-        if known {
-            format!("joint.{name}")
-        } else {
-            "joint".to_owned()
-        }
-    };
-    let first = |names: &str| {
-        let all = names.split('`').skip(1).step_by(2);
-        let known = all.filter(|n| case.joint.contains_key(*n)).last();
-        known.map_or("joint".to_owned(), |n| format!("joint.{n}"))
-    };
-    let of_body = |name: &str| {
-        let segment = setup.animal.segments.iter().any(|s| s.name == name);
-        if segment {
-            format!("segment.{name}")
-        } else {
-            format!("wing.{name}")
-        }
-    };
     let (key, remedy) = match error {
-        DynamicsError::BadJoint { joint, .. } => (of_joint(joint), "correct this joint"),
+        DynamicsError::BadJoint { joint, .. } => (key_of(case, joint), "correct this joint"),
         DynamicsError::NotAssembled { joint, .. } => (
-            of_joint(joint),
+            key_of(case, joint),
             "check at_m and axes of the joints of the loop: they hold in the reference configuration",
         ),
         DynamicsError::Loop { joint, .. } => (
-            of_joint(joint),
+            key_of(case, joint),
             "remove dynamics.formulation, or set it to \"quaternion\"",
         ),
         DynamicsError::NotInEulerForm { .. } => (
@@ -335,16 +330,17 @@ pub(super) fn fault_of(case: &Case, setup: &FlightSetup, error: &DynamicsError) 
             "remove dynamics.formulation, or set it to \"momentum\"",
         ),
         DynamicsError::Contradiction { joints, .. } => (
-            first(joints),
+            key_among(case, joints),
             "remove one of these joints, or make them agree",
         ),
         DynamicsError::Redundant { joints, .. } => (
-            first(joints),
+            key_among(case, joints),
             "close planar loops with kind = \"point_on_line\"",
         ),
-        DynamicsError::NotATree { body, .. } | DynamicsError::Disconnected { body, .. } => {
-            (of_body(body), "let every chain of joints begin at the body")
-        }
+        DynamicsError::NotATree { body, .. } | DynamicsError::Disconnected { body, .. } => (
+            key_of_body(setup, body),
+            "let every chain of joints begin at the body",
+        ),
         DynamicsError::NotFinite { .. } => (
             "time".to_owned(),
             "take smaller steps, and check speeds, masses and stiffnesses: units are part of the keys",
@@ -352,4 +348,26 @@ pub(super) fn fault_of(case: &Case, setup: &FlightSetup, error: &DynamicsError) 
         _ => ("joint".to_owned(), "correct the joints of the animal"),
     };
     Fault::new(key, error.to_string(), "", remedy)
+}
+
+/// The table of a joint; all joints where the case has none of this name.
+fn key_of(case: &Case, joint: &str) -> String {
+    match case.joint.contains_key(joint) {
+        true => format!("joint.{joint}"),
+        false => "joint".to_owned(),
+    }
+}
+
+/// The table of the last joint of the case among `names`, each between backticks.
+fn key_among(case: &Case, names: &str) -> String {
+    let all = names.split('`').skip(1).step_by(2);
+    let known = all.filter(|n| case.joint.contains_key(*n)).last();
+    known.map_or("joint".to_owned(), |name| key_of(case, name))
+}
+
+/// The table of a segment or wing.
+fn key_of_body(setup: &FlightSetup, body: &str) -> String {
+    let is_segment = setup.animal.segments.iter().any(|s| s.name == body);
+    let table = if is_segment { "segment" } else { "wing" };
+    format!("{table}.{body}")
 }
