@@ -7,6 +7,7 @@ use super::settings::FlutterSettings;
 use super::steady::{ElasticRig, SteadyWing};
 use super::uncertainty::{Taken, uncertainties};
 use crate::AnalysisError;
+use crate::progress;
 use crate::realisation::{Realisation, Vibration, realise, rms};
 
 /// The elastic wing at one speed.
@@ -55,20 +56,11 @@ pub fn condition(
     settings: &FlutterSettings,
 ) -> Result<Condition, AnalysisError> {
     let rig = ElasticRig::new(setup, speed)?;
-    crate::progress::task("steady state", 0, 0);
+    progress::task("steady state", 0, 0);
     let (state, steady) = rig.to_steady(settings)?;
-    crate::progress::task("response", 0, 0);
+    progress::task("response", 0, 0);
     let disturbance = Disturbance::new(&rig, &state, settings)?;
-    let sampling = Sampling::new(rig.setup.time.step, &steady.vacuum, settings);
-    if sampling.count < LEAST {
-        return Err(AnalysisError::not_covered(
-            format!(
-                "--periods {}: the response has {} samples of at least {LEAST} that are needed",
-                settings.periods, sampling.count
-            ),
-            "lengthen it: 1 period of the first mode or more",
-        ));
-    }
+    let sampling = Sampling::new(rig.setup.time.step, &steady.vacuum, settings)?;
     let stations = Stations::of(&rig);
     let flown = |part: f64| {
         let from = disturbance.added(&state, part);
@@ -76,39 +68,18 @@ pub fn condition(
     };
     let still = flown(0.0)?;
     let whole = difference(&flown(1.0)?, &still);
-    let half = difference(&flown(0.5)?, &still);
-    let doubled: Vec<Vec<f64>> = half
-        .iter()
-        .map(|y| y.iter().map(|x| 2.0 * x).collect())
-        .collect();
-    let nonlinearity = rms(&difference(&whole, &doubled)) / rms(&whole);
-    let step = sampling.every as f64 * rig.setup.time.step;
-    let response = realise(&whole, step)?;
-    let vibrates =
-        |v: &&Vibration| v.frequency > 0.0 && v.share >= MIN_SHARE && v.damping() <= MAX_DAMPING;
-    let found = response.vibrations.iter().filter(vibrates);
-    let modes: Vec<Vibration> = found.copied().collect();
-    let others = [&doubled[..], &whole[..KEPT * whole.len() / 4]];
-    let taken = Taken {
-        flight: rig.setup.time.step,
-        step,
-        length: whole.len() as f64 * step,
-    };
-    let uncertainty = uncertainties(&modes, &response, &taken, &others)?;
-    let grows = |v: &&Vibration| v.frequency == 0.0 && v.growth > 0.0 && v.share >= MIN_SHARE;
-    let growing = response.vibrations.iter().filter(grows).copied();
-    let divergence = match growing.max_by(|a, b| a.growth.total_cmp(&b.growth)) {
-        None => None,
-        Some(v) => Some((v, uncertainties(&[v], &response, &taken, &others)?[0])),
-    };
+    let doubled = doubled(&difference(&flown(0.5)?, &still));
+    let identified = Identified::of(&whole, &doubled, rig.setup.time.step, &sampling)?;
+    let modes = identified.modes();
+    let uncertainty = identified.uncertainties(&modes)?;
     Ok(Condition {
         speed,
         modes,
         uncertainty,
-        divergence,
+        divergence: identified.divergence()?,
         steady,
-        response,
-        nonlinearity,
+        nonlinearity: rms(&difference(&whole, &doubled)) / rms(&whole),
+        response: identified.response,
     })
 }
 
@@ -125,6 +96,58 @@ impl Condition {
     }
 }
 
+/// A response as a linear system, and others by which what is not known of it is judged.
+struct Identified<'a> {
+    response: Realisation,
+    taken: Taken,
+    others: [&'a [Vec<f64>]; 2],
+}
+
+impl<'a> Identified<'a> {
+    /// From the whole response and twice that to half the disturbance, to `sampling` of flights in steps of `step` [s].
+    fn of(
+        whole: &'a [Vec<f64>],
+        doubled: &'a [Vec<f64>],
+        step: f64,
+        sampling: &Sampling,
+    ) -> Result<Self, AnalysisError> {
+        let apart = sampling.every as f64 * step;
+        Ok(Self {
+            response: realise(whole, apart)?,
+            taken: Taken {
+                flight: step,
+                step: apart,
+                length: whole.len() as f64 * apart,
+            },
+            others: [doubled, &whole[..KEPT * whole.len() / 4]],
+        })
+    }
+
+    /// Motions that take part and vibrate.
+    fn modes(&self) -> Vec<Vibration> {
+        let vibrates = |v: &&Vibration| {
+            v.frequency > 0.0 && v.share >= MIN_SHARE && v.damping() <= MAX_DAMPING
+        };
+        let found = self.response.vibrations.iter().filter(vibrates);
+        found.copied().collect()
+    }
+
+    /// The motion that grows fastest without vibrating, and what is not known of its growth [1/s].
+    fn divergence(&self) -> Result<Option<(Vibration, f64)>, AnalysisError> {
+        let grows = |v: &&Vibration| v.frequency == 0.0 && v.growth > 0.0 && v.share >= MIN_SHARE;
+        let growing = self.response.vibrations.iter().filter(grows).copied();
+        let fastest = growing.max_by(|a, b| a.growth.total_cmp(&b.growth));
+        fastest
+            .map(|v| Ok((v, self.uncertainties(&[v])?[0])))
+            .transpose()
+    }
+
+    /// What is not known of the growth of each of these motions [1/s].
+    fn uncertainties(&self, modes: &[Vibration]) -> Result<Vec<f64>, AnalysisError> {
+        uncertainties(modes, &self.response, &self.taken, &self.others)
+    }
+}
+
 /// When outputs are taken.
 struct Sampling {
     /// Steps between samples.
@@ -133,15 +156,24 @@ struct Sampling {
 }
 
 impl Sampling {
-    fn new(step: f64, vacuum: &[f64], settings: &FlutterSettings) -> Self {
+    /// # Errors
+    /// Too few of them.
+    fn new(step: f64, vacuum: &[f64], settings: &FlutterSettings) -> Result<Self, AnalysisError> {
         use std::f64::consts::TAU;
         let (first, last) = (vacuum[0], vacuum[vacuum.len() - 1]);
         let length = settings.periods * TAU / first;
         let apart = (length / SAMPLES[0]).min(TAU / last / SAMPLES[1]);
         let every = ((apart / step) as usize).max(1);
-        Self {
-            every,
-            count: (length / (every as f64 * step)).ceil() as usize,
+        let count = (length / (every as f64 * step)).ceil() as usize;
+        match count < LEAST {
+            true => Err(AnalysisError::not_covered(
+                format!(
+                    "--periods {}: the response has {count} samples of at least {LEAST} that are needed",
+                    settings.periods
+                ),
+                "lengthen it: 1 period of the first mode or more",
+            )),
+            false => Ok(Self { every, count }),
         }
     }
 }
@@ -167,4 +199,9 @@ fn flown(
 fn difference(a: &[Vec<f64>], b: &[Vec<f64>]) -> Vec<Vec<f64>> {
     let row = |(a, b): (&Vec<f64>, &Vec<f64>)| a.iter().zip(b).map(|(a, b)| a - b).collect();
     a.iter().zip(b).map(row).collect()
+}
+
+fn doubled(response: &[Vec<f64>]) -> Vec<Vec<f64>> {
+    let row = |y: &Vec<f64>| y.iter().map(|x| 2.0 * x).collect();
+    response.iter().map(row).collect()
 }

@@ -172,39 +172,25 @@ const TURN: Limit = Limit {
     hints: ["", "twist is in degrees: deformation.twist"],
 };
 
+/// Doubts about the numbers of a flight.
+#[derive(Default)]
+struct Doubts(Vec<String>);
+
+impl Doubts {
+    /// Looks at the number `x` of the quantity `what`, if there is one.
+    fn see(&mut self, limit: &Limit, what: &str, x: impl Into<Option<f64>>, unit: &str) {
+        let doubt = x.into().and_then(|x| limit.doubt(what, x, unit));
+        self.0.extend(doubt);
+    }
+}
+
 pub(super) fn doubts(setup: &FlightSetup, e: &Estimate) -> Vec<String> {
-    let mut list: Vec<String> = vec![];
-    let mut see = |limit: &Limit, what: &str, x: Option<f64>, unit: &str| {
-        list.extend(x.and_then(|x| limit.doubt(what, x, unit)));
-    };
-    let is_free = matches!(setup.mode, MotionMode::Free(_));
-    see(&FREQUENCY, "wingbeat frequency", e.frequency, " Hz");
-    let loading = e.wing_loading.filter(|_| is_free);
-    see(&WING_LOADING, "wing loading", loading, " N/m2");
-    let lift = e.lift_over_weight.filter(|_| is_free);
-    let of_lift = match lift {
-        Some(lift) if lift < 0.0 => &LIFT_DOWN,
-        _ => &LIFT,
-    };
-    see(of_lift, "mean lift over weight by blade elements", lift, "");
-    let wings: f64 = e.wings.iter().map(|w| w.report.mass).sum();
-    let part = (is_free && e.mass > 0.0).then(|| wings / e.mass);
-    see(
-        &WING_MASS,
-        "mass of the wings over that of the animal",
-        part,
-        "",
-    );
-    let body = setup.animal.body.mass;
-    let length = e.wings.iter().map(|w| w.report.length).fold(0.0, f64::max);
-    let gyration = (e.inertia.max_element() / body).sqrt() / length;
-    let gyration = Some(gyration).filter(|g| is_free && g.is_finite() && *g > 0.0);
-    see(
-        &GYRATION,
-        "radius of gyration of the body over the wing length",
-        gyration,
-        "",
-    );
+    let mut list = Doubts::default();
+    list.see(&FREQUENCY, "wingbeat frequency", e.frequency, " Hz");
+    if matches!(setup.mode, MotionMode::Free(_)) {
+        free_flight(setup, e, &mut list);
+    }
+    let Doubts(mut list) = list;
     let mut said = std::collections::BTreeSet::new();
     for (wing, w) in setup.animal.wings.iter().zip(&e.wings) {
         let mut own = wing_doubts(setup, wing, w);
@@ -219,6 +205,27 @@ pub(super) fn doubts(setup: &FlightSetup, e: &Estimate) -> Vec<String> {
     list.extend(setup.tips_of_attached_wings());
     list.extend(setup.vortex_lift_of_swept_edges());
     list
+}
+
+/// Weight, lift and inertia of a flyer that nothing holds.
+fn free_flight(setup: &FlightSetup, e: &Estimate, list: &mut Doubts) {
+    list.see(&WING_LOADING, "wing loading", e.wing_loading, " N/m2");
+    let of_lift = match e.lift_over_weight {
+        Some(lift) if lift < 0.0 => &LIFT_DOWN,
+        _ => &LIFT,
+    };
+    let lift = "mean lift over weight by blade elements";
+    list.see(of_lift, lift, e.lift_over_weight, "");
+    let wings: f64 = e.wings.iter().map(|w| w.report.mass).sum();
+    let part = (e.mass > 0.0).then(|| wings / e.mass);
+    let mass = "mass of the wings over that of the animal";
+    list.see(&WING_MASS, mass, part, "");
+    let body = setup.animal.body.mass;
+    let length = e.wings.iter().map(|w| w.report.length).fold(0.0, f64::max);
+    let radius = (e.inertia.max_element() / body).sqrt() / length;
+    let radius = Some(radius).filter(|g| g.is_finite() && *g > 0.0);
+    let gyration = "radius of gyration of the body over the wing length";
+    list.see(&GYRATION, gyration, radius, "");
 }
 
 /// Right and left wings of one place that go opposite ways: signs of a left wing taken for those of a right one.
@@ -264,58 +271,26 @@ fn strokes(m: &WingMotion) -> Vec<f64> {
 }
 
 fn wing_doubts(setup: &FlightSetup, wing: &Wing, w: &WingEstimate) -> Vec<String> {
-    let mut list = vec![];
-    let mut see = |limit: &Limit, what: &str, x: Option<f64>, unit: &str| {
-        list.extend(x.and_then(|x| limit.doubt(what, x, unit)));
-    };
+    let mut list = Doubts::default();
     let flaps = Some(w.tip_speed).filter(|u| *u > 0.0);
-    see(&TIP_SPEED, "mean tip speed", flaps, " m/s");
-    see(
-        &STROKE,
-        "stroke amplitude",
-        Some(w.stroke_amplitude.to_degrees()),
-        " deg",
-    );
-    see(
-        &REYNOLDS,
-        "Reynolds number",
-        w.reynolds.filter(|_| w.speed > 0.0),
-        "",
-    );
-    see(
-        &REDUCED_FREQUENCY,
-        "reduced frequency",
-        w.reduced_frequency,
-        "",
-    );
+    list.see(&TIP_SPEED, "mean tip speed", flaps, " m/s");
+    let stroke = w.stroke_amplitude.to_degrees();
+    list.see(&STROKE, "stroke amplitude", stroke, " deg");
+    let reynolds = w.reynolds.filter(|_| w.speed > 0.0);
+    list.see(&REYNOLDS, "Reynolds number", reynolds, "");
+    let frequency = w.reduced_frequency;
+    list.see(&REDUCED_FREQUENCY, "reduced frequency", frequency, "");
     let [away, turn] = deformation(wing);
-    let away = Some(away / w.report.length);
-    see(
-        &DISPLACEMENT,
-        "way that deformation moves the surface",
-        away,
-        " wing lengths",
-    );
-    see(
-        &TURN,
-        "turn of a section by deformation",
-        Some(turn),
-        " deg",
-    );
+    let way = "way that deformation moves the surface";
+    list.see(&DISPLACEMENT, way, away / w.report.length, " wing lengths");
+    list.see(&TURN, "turn of a section by deformation", turn, " deg");
     if let AirModel::VortexLattice(air) = &setup.air {
         let chord = w.report.mean_chord;
         let step = flaps.map(|u| u * setup.time.step / chord);
-        see(&TIP_STEP, "way of the tip in a step", step, " chords");
-        let [wake, bound, clearance] = lattice_sizes(air, wing, chord);
-        see(&WAKE_CORE, "vortex core of the wake", wake, " mean chords");
-        see(
-            &BOUND_CORE,
-            "vortex core of the wing",
-            bound,
-            " panel lengths",
-        );
-        see(&CLEARANCE, "clearance", clearance, " mean chords");
+        list.see(&TIP_STEP, "way of the tip in a step", step, " chords");
+        lattice_sizes(air, wing, chord, &mut list);
     }
+    let Doubts(mut list) = list;
     let outward = wing.side.sign() * wing.hinge_b.y;
     // One wing alone may span both sides.
     if setup.animal.wings.len() > 1 && outward < -1e-3 * w.report.length {
@@ -356,14 +331,19 @@ fn deformation(wing: &Wing) -> [f64; 2] {
 }
 
 /// Wake core and clearance over the mean chord, bound core over the mean panel length.
-fn lattice_sizes(air: &AirOptions, wing: &Wing, chord: f64) -> [Option<f64>; 3] {
+fn lattice_sizes(air: &AirOptions, wing: &Wing, chord: f64, list: &mut Doubts) {
     let s = &air.lattice;
     let panel = chord / wing.mesh.rows as f64;
-    [
-        radius(&s.wake_core).map(|r| r / chord),
-        radius(&s.bound_core).map(|r| r / panel),
-        Some(s.clearance / chord),
-    ]
+    let wake = radius(&s.wake_core).map(|r| r / chord);
+    list.see(&WAKE_CORE, "vortex core of the wake", wake, " mean chords");
+    let bound = radius(&s.bound_core).map(|r| r / panel);
+    list.see(
+        &BOUND_CORE,
+        "vortex core of the wing",
+        bound,
+        " panel lengths",
+    );
+    list.see(&CLEARANCE, "clearance", s.clearance / chord, " mean chords");
 }
 
 /// Radius of a core \[m\]; a cut-off has none.

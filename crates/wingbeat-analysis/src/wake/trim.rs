@@ -163,6 +163,7 @@ struct Flights<'a> {
 }
 
 impl Flights<'_> {
+    /// Wing length [m] and period [s] of the case, by which points are scaled.
     fn scales(&self) -> (f64, f64) {
         let length = self.setup.animal.wing_length();
         (length, self.setup.time.period.unwrap_or(1.0))
@@ -200,12 +201,7 @@ impl Flights<'_> {
             }
             _ => (problem.velocity, DVec3::ZERO),
         };
-        let scaled = DVec3::new(
-            v.x * period / length,
-            v.y * period / length,
-            v.z * period / length,
-        );
-        let mut x = self.residuals.point(scaled, w * period);
+        let mut x = self.residuals.point(v * period / length, w * period);
         x.extend(steady::first_controls(problem));
         x
     }
@@ -221,40 +217,10 @@ impl Flights<'_> {
         let problem = self.problem;
         let (unknowns, values) = problem.with_given(&x[self.residuals.controls()..]);
         let a = adjusted(self.setup, &unknowns, problem.angles(), &values);
-        let mut setup = a.setup;
-        let first = setup.animal.wings.first();
-        let period = 1.0 / first.map_or(0.0, |w| w.motion.frequency);
-        let (length, old) = self.scales();
-        let [velocity, rate] = self.residuals.motion(x);
-        setup.time.step = period / self.steps as f64;
-        setup.time.period = Some(period);
-        let held_beats = if self.has_orbit {
-            0
-        } else {
-            self.settings.held_beats
-        };
-        setup.time.steps = (held_beats + 1) * self.steps;
-        setup.mode = MotionMode::Free(StartState {
-            position: DVec3::ZERO,
-            angles: DVec3::new(a.pitch, 0.0, a.roll),
-            velocity: velocity * length / old,
-            angular_velocity: rate / old,
-            held_steps: held_beats * self.steps,
-            held_motion: None,
-        });
+        let period = period(&a.setup);
+        let setup = self.timed(a.setup, period, self.start_at(x, [a.pitch, a.roll]));
         let (ends, past, roots) = self.beat(&setup)?;
-        let size = Measures {
-            length,
-            period,
-            weight: setup.animal.mass() * setup.gravity.length(),
-        };
-        let seen = ends.map(|r| Snapshot {
-            centre: r.mass_centre,
-            momentum: r.momentum,
-            spin: spin(&r),
-            rotation: rotation(&r),
-        });
-        let (residual, aside) = self.residuals.between(problem, &size, &seen);
+        let (residual, aside) = self.residuals_between(&setup, period, &ends);
         self.best = self.best.min(largest(&residual));
         let [outside, at_bound] = problem.beyond(&unknowns, &values);
         Ok(WakeTrim {
@@ -276,6 +242,58 @@ impl Flights<'_> {
             beats: self.beats,
             setup,
         })
+    }
+
+    /// How the body starts at the point `x`, with these angles \[rad\]: as it is released.
+    fn start_at(&self, x: &[f64], [pitch, roll]: [f64; 2]) -> StartState {
+        let (length, period) = self.scales();
+        let [velocity, rate] = self.residuals.motion(x);
+        StartState {
+            position: DVec3::ZERO,
+            angles: DVec3::new(pitch, 0.0, roll),
+            velocity: velocity * length / period,
+            angular_velocity: rate / period,
+            held_steps: self.held_beats() * self.steps,
+            held_motion: None,
+        }
+    }
+
+    /// Wingbeats during which the body is held: none before a periodic orbit, whose wakes are there from its start.
+    fn held_beats(&self) -> usize {
+        match self.has_orbit {
+            true => 0,
+            false => self.settings.held_beats,
+        }
+    }
+
+    /// The adjusted flight over the beats that are held and a free one, of this period [s].
+    fn timed(&self, mut setup: FlightSetup, period: f64, start: StartState) -> FlightSetup {
+        setup.time.step = period / self.steps as f64;
+        setup.time.period = Some(period);
+        setup.time.steps = (self.held_beats() + 1) * self.steps;
+        setup.mode = MotionMode::Free(start);
+        setup
+    }
+
+    /// What is not periodic between the ends of the free beat, and how far right and left part (see [`Residuals::between`]).
+    fn residuals_between(
+        &self,
+        setup: &FlightSetup,
+        period: f64,
+        ends: &[Record; 2],
+    ) -> (Vec<f64>, f64) {
+        let size = Measures {
+            length: self.scales().0,
+            period,
+            weight: setup.animal.mass() * setup.gravity.length(),
+        };
+        let seen = ends.each_ref().map(|r| Snapshot {
+            centre: r.mass_centre,
+            momentum: r.momentum,
+            spin: spin(r),
+            rotation: rotation(r),
+        });
+        self.residuals.between(self.problem, &size, &seen)
     }
 
     /// The free beat of `setup`: its ends; of a periodic orbit elastic wings and wakes at its start, and the motion of the root.
@@ -318,6 +336,12 @@ impl Map for Flights<'_> {
             Ok(at.iter().zip(r).map(|(at, r)| (at - r) / step).collect())
         })
     }
+}
+
+/// Period of the first wing [s].
+fn period(setup: &FlightSetup) -> f64 {
+    let first = setup.animal.wings.first();
+    1.0 / first.map_or(0.0, |w| w.motion.frequency)
 }
 
 /// Angular momentum about the mass centre, N components.
