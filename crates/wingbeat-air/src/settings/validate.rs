@@ -158,6 +158,7 @@ impl AirSettings {
             "other edges too, or none: leading edges of this choice shed nothing",
         )?;
         match self.leading {
+            LeadingEdge::Never | LeadingEdge::Always => Ok(()),
             LeadingEdge::AngleOfAttack { threshold } => require(
                 (0.0..=PI).contains(&threshold),
                 "leading angle-of-attack threshold",
@@ -166,18 +167,7 @@ impl AirSettings {
             ),
             LeadingEdge::VortexLift(law) => {
                 law.validate()?;
-                require(
-                    leading,
-                    "shedding",
-                    "no leading edges",
-                    "leading edges too: it is theirs that the vortex lift is",
-                )?;
-                require(
-                    self.loads == LoadMethod::Joukowski,
-                    "loads",
-                    self.loads.name(),
-                    "forces on segments with the vortex lift of leading edges, which is made of their suction",
-                )
+                self.check_vortex_lift()
             }
             LeadingEdge::Suction {
                 threshold,
@@ -186,22 +176,24 @@ impl AirSettings {
             | LeadingEdge::SuctionImplicit {
                 threshold,
                 efficiency,
-            } => {
-                require(
-                    is_positive(threshold),
-                    "leading suction threshold",
-                    threshold,
-                    "a finite number above 0",
-                )?;
-                require(
-                    (0.0..=1.0).contains(&efficiency),
-                    "leading suction efficiency",
-                    efficiency,
-                    "a number from 0 to 1",
-                )
-            }
-            LeadingEdge::Never | LeadingEdge::Always => Ok(()),
+            } => check_suction(threshold, efficiency),
         }
+    }
+
+    /// Vortex lift is made of the suction of leading edges, which only forces on segments have.
+    fn check_vortex_lift(&self) -> Result<(), AirError> {
+        require(
+            self.shedding.leading,
+            "shedding",
+            "no leading edges",
+            "leading edges too: it is theirs that the vortex lift is",
+        )?;
+        require(
+            self.loads == LoadMethod::Joukowski,
+            "loads",
+            self.loads.name(),
+            "forces on segments with the vortex lift of leading edges, which is made of their suction",
+        )
     }
 
     fn check_particles(&self) -> Result<(), AirError> {
@@ -256,6 +248,21 @@ impl AirSettings {
             )
         })
     }
+}
+
+fn check_suction(threshold: f64, efficiency: f64) -> Result<(), AirError> {
+    require(
+        is_positive(threshold),
+        "leading suction threshold",
+        threshold,
+        "a finite number above 0",
+    )?;
+    require(
+        (0.0..=1.0).contains(&efficiency),
+        "leading suction efficiency",
+        efficiency,
+        "a number from 0 to 1",
+    )
 }
 
 /// A limit that there may be, as a user writes it.
