@@ -71,68 +71,86 @@ pub struct Plotted {
 /// cannot be written.
 pub fn plot(dir: &ResultDir, order: &Order) -> Result<Plotted, IoError> {
     let case = dir.case()?;
-    let path = dir.join("history.csv");
     let manifest = dir.manifest()?;
-    if let Some(step) = order.step {
-        let frames = frames::steps(dir.path())?;
-        let problem = match frames.is_empty() {
-            true => Some("it has no frames, so there is no wake to draw at a step".to_owned()),
-            false if step > manifest.steps => Some(format!(
-                "there is no step {step}: its steps are 0 to {}",
-                manifest.steps
-            )),
-            false => None,
-        };
-        problem.map_or(Ok(()), |p| Err(fault(dir.path())(p)))?;
-    }
-    let summary = Summary::read(&case, &path, &manifest.outcome)?;
+    check_step(dir, order, manifest.steps)?;
+    let summary = Summary::read(&case, &dir.join("history.csv"), &manifest.outcome)?;
     let source = Source::new(dir.path(), &case, &summary, (order.window, order.step))?;
-    let still = Kind::ALL
-        .iter()
-        .map(|k| k.1)
-        .filter(|k| *k != Kind::Animation);
-    let kinds = match order.kinds.is_empty() {
-        true => still.collect(),
-        false => order.kinds.clone(),
-    };
     dir.check_folder(&order.folder)?;
     // Everything that can be refused is, before anything is written.
-    let (mut stills, mut films, mut lacking) = (vec![], vec![], vec![]);
-    for kind in kinds {
-        let format = Format::of(order.format, kind).map_err(fault(&order.folder))?;
-        let file = format!("{}.{}", kind.name(), format.ending());
-        let file = order.folder.join(file);
-        if kind == Kind::Animation {
-            films.push((file, format == Format::Mp4));
-            continue;
-        }
-        match source.draw(kind, order.style)? {
-            Some(drawing) => {
-                let bytes = encoded(&drawing, order.style, format).map_err(fault(&file))?;
-                stills.push((file, bytes));
-            }
-            None if order.kinds.is_empty() => {}
-            None => lacking.push(fault(&file)(source.lacks(kind))),
-        }
+    let mut drawn = Drawn::of(&source, order)?;
+    let is_empty = drawn.stills.is_empty() && drawn.films.is_empty();
+    if is_empty && drawn.lacking.len() == 1 {
+        return Err(drawn.lacking.remove(0));
     }
-    if stills.is_empty() && films.is_empty() && lacking.len() == 1 {
-        return Err(lacking.remove(0));
-    }
-    if lacking.is_empty() || !(stills.is_empty() && films.is_empty()) {
+    if drawn.lacking.is_empty() || !is_empty {
         make_folder(&order.folder)?;
     }
-    for (file, bytes) in &stills {
-        write_file(file, bytes, order.overwrite)?;
+    drawn.write(&source, order.overwrite)
+}
+
+/// A step that is asked for is one of the run, which has frames.
+fn check_step(dir: &ResultDir, order: &Order, steps: usize) -> Result<(), IoError> {
+    let Some(step) = order.step else {
+        return Ok(());
+    };
+    let problem = if frames::steps(dir.path())?.is_empty() {
+        "it has no frames, so there is no wake to draw at a step".to_owned()
+    } else if step > steps {
+        format!("there is no step {step}: its steps are 0 to {steps}")
+    } else {
+        return Ok(());
+    };
+    Err(fault(dir.path())(problem))
+}
+
+/// What an order comes to.
+#[derive(Default)]
+struct Drawn {
+    /// Files and their bytes.
+    stills: Vec<(PathBuf, Vec<u8>)>,
+    /// Files of animations, and whether they are films: they are drawn when they are written.
+    films: Vec<(PathBuf, bool)>,
+    /// As [`Plotted::lacking`].
+    lacking: Vec<IoError>,
+}
+
+impl Drawn {
+    fn of(source: &Source<'_>, order: &Order) -> Result<Self, IoError> {
+        let mut drawn = Self::default();
+        for kind in order.wanted() {
+            let format = Format::of(order.format, kind).map_err(fault(&order.folder))?;
+            let file = format!("{}.{}", kind.name(), format.ending());
+            let file = order.folder.join(file);
+            if kind == Kind::Animation {
+                drawn.films.push((file, format == Format::Mp4));
+                continue;
+            }
+            match source.draw(kind, order.style)? {
+                Some(drawing) => {
+                    let bytes = encoded(&drawing, order.style, format).map_err(fault(&file))?;
+                    drawn.stills.push((file, bytes));
+                }
+                None if order.kinds.is_empty() => {}
+                None => drawn.lacking.push(fault(&file)(source.lacks(kind))),
+            }
+        }
+        Ok(drawn)
     }
-    for (file, film) in &films {
-        animate(&source, file, *film, order.overwrite)?;
+
+    fn write(self, source: &Source<'_>, overwrite: bool) -> Result<Plotted, IoError> {
+        for (file, bytes) in &self.stills {
+            write_file(file, bytes, overwrite)?;
+        }
+        for (file, film) in &self.films {
+            animate(source, file, *film, overwrite)?;
+        }
+        let stills = self.stills.into_iter().map(|(file, _)| file);
+        let films = self.films.into_iter().map(|(file, _)| file);
+        Ok(Plotted {
+            files: stills.chain(films).collect(),
+            lacking: self.lacking,
+        })
     }
-    let stills = stills.into_iter().map(|(file, _)| file);
-    let files = stills.chain(films.into_iter().map(|(file, _)| file));
-    Ok(Plotted {
-        files: files.collect(),
-        lacking,
-    })
 }
 
 fn fault(path: &Path) -> impl FnOnce(String) -> IoError + '_ {

@@ -175,6 +175,17 @@ pub struct Order {
     pub overwrite: bool,
 }
 
+impl Order {
+    /// The kinds that are drawn.
+    pub(super) fn wanted(&self) -> Vec<Kind> {
+        let stills = Kind::ALL.map(|k| k.1).into_iter();
+        match self.kinds.is_empty() {
+            true => stills.filter(|k| *k != Kind::Animation).collect(),
+            false => self.kinds.clone(),
+        }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -62,30 +62,8 @@ pub(super) fn path(
     (path, part): (&Path, &Part),
     look: &Look,
 ) -> Option<Drawing> {
-    let ends = ends(path);
-    let longest = ends.iter().map(|[a, b]| b - a).fold(0.0, f64::max);
-    if longest.is_nan() || longest <= 1e-6 * setup.animal.body_length().max(1e-6) {
-        return None;
-    }
-    let (scale, unit) = prefix(&[longest]);
-    // A way that is nearly straight gets a frame that is not too flat.
-    let range = |c: usize| {
-        let [a, b] = ends[c];
-        let half = 0.5 * (b - a).max(0.3 * longest) * 1.12;
-        [0.5 * (a + b) - half, 0.5 * (a + b) + half].map(|v| v / scale)
-    };
-    let ranges = [0, 1, 2].map(range);
-    let left = 5.0 * look.font;
-    let width = look.width - left - 1.6 * look.font;
-    let extent = |c: usize| ranges[c][1] - ranges[c][0];
-    // Points per unit: the widest view fills the width, and none is much higher.
-    let per_unit = width / extent(0).max(extent(1)).max(0.8 * extent(2));
-    let head = look.row() + 0.6 * look.font;
-    let foot = 3.1 * look.font;
-    let high: f64 = VIEWS
-        .iter()
-        .map(|v| per_unit * extent(v.1[1]) + head + foot)
-        .sum();
+    let frame = Frame::of(path, setup, look)?;
+    let high: f64 = VIEWS.iter().map(|v| frame.height(v.1, look)).sum();
     let mut drawing = Drawing::new([look.width, look.head() + high]);
     let title = format!(
         "{}: path of the body (dots: starts of wingbeats){}",
@@ -96,31 +74,95 @@ pub(super) fn path(
     let dots = setup.time.period.map_or(vec![], |p| path.beats(p));
     let mut top = look.head();
     for (name, axes, words) in VIEWS {
-        top += head;
-        let [x, y] = axes.map(|c| ranges[c]);
-        let [wide, height] = axes.map(|c| per_unit * extent(c));
-        let flat = |p: &[f64; 3]| axes.map(|c| p[c] / scale);
-        let points: Vec<[f64; 2]> = path.points.iter().map(|p| flat(&p.1)).collect();
+        let flat = |p: &[f64; 3]| axes.map(|c| p[c] / frame.scale);
+        let points = path.points.iter().map(|p| flat(&p.1)).collect();
+        let unit = frame.unit;
         let labels = [
             format!("{} [{unit}m]", words[0]),
             format!("{name}: {} [{unit}m]", words[1]),
         ];
-        let plot = view(labels, [x, y], points, look);
-        let area = Area {
-            left,
-            top,
-            width: wide,
-            height,
-        };
+        let plot = view(labels, axes.map(|c| frame.ranges[c]), points, look);
+        let area = frame.area(axes, top + head(look), look);
         let placed = plot.draw(&mut drawing, area, look);
         if dots.len() <= MAX_DOTS {
             dots.iter()
                 .for_each(|p| drawing.dot(placed.at(flat(p)), 1.3 * look.line, COLOURS[1]));
         }
         start_mark(&mut drawing, placed.at([0.0, 0.0]), &part.start(), look);
-        top += height + foot;
+        top = area.top + (area.height + foot(look));
     }
     Some(drawing)
+}
+
+/// What all views share: unit, ranges along the axes, and how large they are on paper.
+struct Frame {
+    /// Unit of the axes [m], and its prefix.
+    scale: f64,
+    unit: &'static str,
+    ranges: [[f64; 2]; 3],
+    /// Points per unit.
+    per_unit: f64,
+}
+
+impl Frame {
+    fn of(path: &Path, setup: &FlightSetup, look: &Look) -> Option<Self> {
+        let ends = ends(path);
+        let longest = ends.iter().map(|[a, b]| b - a).fold(0.0, f64::max);
+        if longest.is_nan() || longest <= 1e-6 * setup.animal.body_length().max(1e-6) {
+            return None;
+        }
+        let (scale, unit) = prefix(&[longest]);
+        // A way that is nearly straight gets a frame that is not too flat.
+        let ranges = ends.map(|[a, b]| {
+            let half = 0.5 * (b - a).max(0.3 * longest) * 1.12;
+            [0.5 * (a + b) - half, 0.5 * (a + b) + half].map(|v| v / scale)
+        });
+        let extent = |c: usize| ranges[c][1] - ranges[c][0];
+        let width = look.width - left(look) - 1.6 * look.font;
+        // The widest view fills the width, and none is much higher.
+        let per_unit = width / extent(0).max(extent(1)).max(0.8 * extent(2));
+        Some(Self {
+            scale,
+            unit,
+            ranges,
+            per_unit,
+        })
+    }
+
+    /// Extent of an axis on paper \[pt\].
+    fn extent(&self, c: usize) -> f64 {
+        self.per_unit * (self.ranges[c][1] - self.ranges[c][0])
+    }
+
+    /// Height of a view with its head and foot \[pt\].
+    fn height(&self, axes: [usize; 2], look: &Look) -> f64 {
+        self.extent(axes[1]) + head(look) + foot(look)
+    }
+
+    /// Where the curves of a view stand, below `top` \[pt\].
+    fn area(&self, axes: [usize; 2], top: f64, look: &Look) -> Area {
+        Area {
+            left: left(look),
+            top,
+            width: self.extent(axes[0]),
+            height: self.extent(axes[1]),
+        }
+    }
+}
+
+/// Space left of the curves for labels \[pt\].
+fn left(look: &Look) -> f64 {
+    5.0 * look.font
+}
+
+/// Space above the curves \[pt\].
+fn head(look: &Look) -> f64 {
+    look.row() + 0.6 * look.font
+}
+
+/// Space below the curves for labels \[pt\].
+fn foot(look: &Look) -> f64 {
+    3.1 * look.font
 }
 
 /// Least and largest coordinate along each axis.
