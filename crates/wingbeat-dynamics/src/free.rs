@@ -13,10 +13,9 @@
 //!
 //! F, N the sum of all demands and of their moments about the mass centre. All in root components.
 
-use wingbeat_math::{DMat3, DQuat, DVec3, SingularMatrix, solve_small};
+use wingbeat_math::{DMat3, DQuat, DVec3, SingularMatrix, rotation_vector, solve_small};
 
 use crate::configuration::Composite;
-use crate::mechanism::joint::rotation_vector;
 pub use crate::offsets::JointOffsets;
 use crate::placement::Placement;
 use crate::{JointType, System, Wrench};
@@ -214,7 +213,7 @@ impl FreeScratch {
         let (q, u) = (&q[offsets.q..], &u[offsets.u..]);
         if joint.kind == JointType::Spherical {
             let turn = DQuat::from_slice(q).normalize();
-            let theta = rotation_vector(DMat3::from_quat(turn));
+            let theta = rotation_vector(turn);
             (0..3).for_each(|k| motion[k] = [theta[k], u[k]]);
         } else {
             (0..offsets.speeds).for_each(|k| motion[k] = [q[k], u[k]]);

@@ -38,7 +38,8 @@ pub use lu::{DenseLu, LuError};
 pub use mass::{MassError, MassProperties};
 pub use matrix::{outer, trace};
 pub use rotation::{
-    MovingRotation, RotationLaw, r1, r2, r3, rotation_about, rotation_vector, tilde, untilde,
+    MovingRotation, RotationLaw, r1, r2, r3, rotation_about, rotation_vector,
+    rotation_vector_of_matrix, tilde, untilde,
 };
 pub use secants::{Secants, Shown};
 pub use series::{DriftingFourier, interpolate, with_harmonics};

@@ -66,6 +66,19 @@ pub fn rotation_vector(q: DQuat) -> DVec3 {
     }
 }
 
+/// Rotation vector \[rad\] of a rotation matrix, at most half a turn.
+///
+/// Of small turns it is that of the antisymmetric part of the matrix, which is not rounded as a quaternion is.
+pub fn rotation_vector_of_matrix(r: DMat3) -> DVec3 {
+    let sine = untilde(r);
+    if sine.length_squared() < 1e-6 && r.x_axis.x + r.y_axis.y > 0.0 && r.z_axis.z > 0.0 {
+        // asin x = x (1 + x2/6 + 3 x4/40 + ...): exact to round-off below a thousandth.
+        let s2 = sine.length_squared();
+        return sine * (1.0 + s2 / 6.0 + 3.0 * s2 * s2 / 40.0);
+    }
+    rotation_vector(DQuat::from_mat3(&r).normalize())
+}
+
 /// A rotation matrix with its angular velocity and acceleration at one instant.
 ///
 /// `c` maps components in the moving frame W to components in the reference frame B.
@@ -156,6 +169,26 @@ mod tests {
         assert!((r1(q) * DVec3::Y - DVec3::Z).length() < 1e-15); // one rounding of cos(pi/2)
         assert!((r2(q) * DVec3::Z - DVec3::X).length() < 1e-15);
         assert!((r3(q) * DVec3::X - DVec3::Y).length() < 1e-15);
+    }
+
+    #[test]
+    fn exact_rotation_vectors_turn_as_they_were_made() {
+        let axis = DVec3::new(0.48, -0.6, 0.64);
+        for angle in [0.0, 1e-12, 1e-5, 9e-4, 1.1e-3, 0.5, 3.0] {
+            let theta = angle * axis;
+            // To the rounding of the entries of the matrix.
+            let matrix = rotation_vector_of_matrix(DMat3::from_axis_angle(axis, angle));
+            assert!((matrix - theta).length() < 1e-14, "{angle}: {matrix}");
+            let q = DQuat::from_axis_angle(axis, angle);
+            for q in [q, -q] {
+                // Small turns keep their digits.
+                let found = rotation_vector(q);
+                assert!(
+                    (found - theta).length() <= 2e-15 * angle,
+                    "{angle}: {found}"
+                );
+            }
+        }
     }
 
     #[test]

@@ -7,7 +7,7 @@
 //! written for velocities, `J v + ... = 0`, whose derivative is exact; the position value beside
 //! each is one whose rate is the velocity constraint where the constraint holds.
 
-use wingbeat_math::{DMat3, DQuat, DVec3, untilde};
+use wingbeat_math::{DMat3, DVec3, rotation_vector_of_matrix};
 
 use crate::joint::Joint;
 use crate::joint_model::JointType;
@@ -101,7 +101,7 @@ impl JointKinematics {
         }
         match self.kind {
             JointType::Weld | JointType::Prismatic { .. } => {
-                let turned = rotation_vector(self.d.transpose());
+                let turned = rotation_vector_of_matrix(self.d.transpose());
                 for n in DVec3::AXES {
                     put(self.turned(n, DVec3::ZERO, turned.dot(n)));
                 }
@@ -185,7 +185,7 @@ impl JointKinematics {
                 out[1] = [second, b.dot(self.w)];
             }
             JointType::Spherical | JointType::PointOnLine { .. } => {
-                let turned = rotation_vector(e);
+                let turned = rotation_vector_of_matrix(e);
                 (0..3).for_each(|k| out[k] = [turned[k], self.w[k]]);
             }
             JointType::Prismatic { axis } => {
@@ -247,17 +247,4 @@ pub(crate) fn across(axis: DVec3) -> [DVec3; 2] {
 fn angle(axis: DVec3, e: DMat3) -> f64 {
     let [s, t] = across(axis);
     t.dot(e * s).atan2(s.dot(e * s))
-}
-
-/// Rotation vector \[rad\] of a rotation matrix, of length at most pi.
-pub(crate) fn rotation_vector(e: DMat3) -> DVec3 {
-    let sine = untilde(e);
-    if sine.length_squared() < 1e-6 && e.x_axis.x + e.y_axis.y > 0.0 && e.z_axis.z > 0.0 {
-        // asin x = x (1 + x2/6 + 3 x4/40 + ...): exact to round-off below a thousandth.
-        let s2 = sine.length_squared();
-        return sine * (1.0 + s2 / 6.0 + 3.0 * s2 * s2 / 40.0);
-    }
-    let q = DQuat::from_mat3(&e).normalize();
-    let short = if q.w < 0.0 { -q } else { q };
-    short.to_scaled_axis()
 }
