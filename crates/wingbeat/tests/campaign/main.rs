@@ -1,5 +1,6 @@
 //! Campaigns: files that are refused, points that survive their processes, tables that do not tell how they were made.
 
+mod again;
 #[path = "../support/browser.rs"]
 #[allow(dead_code, reason = "this page is not driven by keys")]
 mod browser;

@@ -1,9 +1,12 @@
-//! Feedback in the loop, from a case file: what is flown, what is refused, what goes on after a
-//! break.
+//! Feedback in the loop, from a case file: what is flown, what goes on after a break; what actuators do
+//! with commands, what is refused.
 
 use std::path::Path;
 use std::sync::Arc;
 
+mod actuators;
+mod refusals;
+#[path = "../support/mod.rs"]
 mod support;
 
 use support::{Scratch, wingbeat as program};
@@ -12,11 +15,7 @@ use wingbeat::analysis::control::{Held, Law, Steering};
 use wingbeat::analysis::departure::{Limits, Reference};
 use wingbeat::analysis::regulator::{Regulator, Weights};
 use wingbeat::case::LoadedCase;
-use wingbeat::flight::{
-    AirModel, ControlModel, Controller, Feedback, FlightSetup, FlightState, Sensed, Simulation,
-};
-use wingbeat::model::motion::Adjustment;
-use wingbeat::results::{Outcome, Summary};
+use wingbeat::flight::{AirModel, ControlModel, FlightSetup, FlightState, Simulation};
 
 const PRESET: &str = "fruit-fly-controlled";
 
@@ -234,230 +233,6 @@ fn balances_a_square_and_a_turn_along_waypoints() {
     assert!(
         height.abs() < 0.05 && turn.abs() < 1.0,
         "{height:e} R, {turn:e} deg"
-    );
-}
-
-/// Commands the same at every look.
-#[derive(Clone, Debug)]
-struct Constant(Adjustment);
-
-impl Controller for Constant {
-    fn command(&mut self, _: &Sensed) -> Result<Vec<Adjustment>, String> {
-        Ok(vec![self.0; 2])
-    }
-}
-
-/// A step of the command, through actuators of first order: `1 - exp(-t / lag)` at the looks, after the latency.
-#[test]
-fn exact_actuators_lag_behind_a_step() {
-    let mut setup = in_blades(&["time.beats=6"]);
-    let step = Adjustment {
-        stroke_amplitude: 0.1,
-        stroke_plane: -0.05,
-        ..Adjustment::default()
-    };
-    for (interval, latency, lag) in [(40, 0, 2.0), (40, 2, 0.5), (10, 1, 1.0)] {
-        setup.feedback = Some(Feedback {
-            controller: Arc::new(Constant(step)),
-            interval,
-            latency,
-            lag: lag * 0.005, // a wingbeat is 5 ms
-        });
-        let records = Flight::from(setup.clone()).fly().unwrap().records;
-        for (look, record) in records.iter().step_by(interval).enumerate() {
-            // At the end of the passage that begins here.
-            let beats = ((look + 1).saturating_sub(latency) * interval) as f64 / 40.0;
-            let share = 1.0 - (-beats / lag).exp();
-            let [a, b] = [
-                record.commands[0].stroke_amplitude,
-                record.commands[1].stroke_plane,
-            ];
-            assert!((a - 0.1 * share).abs() < 1e-14, "{look}: {a}");
-            assert!((b + 0.05 * share).abs() < 1e-14, "{look}: {b}");
-        }
-    }
-}
-
-/// Strokes that feedback moves aft until the wings meet behind the body.
-#[test]
-fn behaves_summary_names_wings_that_commands_bring_through_each_other() {
-    for (offset, crosses) in [(-5_f64, false), (-40.0, true)] {
-        let mut setup = in_blades(&["time.beats=3"]);
-        let back = Adjustment {
-            stroke_offset: offset.to_radians(),
-            ..Adjustment::default()
-        };
-        setup.feedback = Some(Feedback {
-            controller: Arc::new(Constant(back)),
-            interval: 40,
-            latency: 0,
-            lag: 0.0,
-        });
-        assert!(setup.crossing_wings().is_empty());
-        let run = Flight::from(setup.clone()).fly().unwrap();
-        let summary = Summary::of(&setup, &run.records, &Outcome::Finished);
-        let named = "wings `left` and `right` pass through each other";
-        let said = summary.warnings.iter().any(|w| w.contains(named));
-        assert_eq!(said, crosses, "{offset}: {:?}", summary.warnings);
-    }
-}
-
-/// Actuators that lag by a wingbeat: a regulator that counts with it holds a tilted fly.
-#[test]
-fn balances_a_tilted_flight_behind_slow_actuators() {
-    let tilted = [
-        "flight.pitch_deg=69.54",
-        "time.beats=80",
-        "control.weights={}",
-        "control.lag_beats=1",
-    ];
-    let (way, turned) = beats(in_blades(&tilted))[79];
-    println!("{turned} deg, {way:e} m");
-    assert!(
-        (turned - 20.0).abs() < 0.1 && way < 0.01 * 2.5e-3,
-        "{turned} deg, {way:e} m"
-    );
-}
-
-/// A twentieth of the weight hangs on the body: proportional-derivative loops of altitude give way by `a / omega^2`, the
-/// integral action takes it back.
-#[test]
-fn exact_altitude_under_a_load_with_and_without_integral_action() {
-    let sunk = [0.0, 0.02].map(|integral| {
-        let integral = format!("control.stiffness={{altitude=0.2,integral={integral}}}");
-        let setup = in_blades(&[
-            "flight.pitch_deg=49.58",
-            "time.beats=400",
-            "control.controller=stabiliser",
-            "control.latency_beats=0",
-            "load=[{frame=\"inertial\",force_newton=[0,0,4.62e-7]}]",
-            &integral,
-        ]);
-        let mut flight = Simulation::new(setup).unwrap();
-        let from = flight.record().mass_centre.z;
-        (0..40 * 400).for_each(|_| _ = flight.step().unwrap());
-        flight.record().mass_centre.z - from
-    });
-    let expect = 4.62e-7 / 0.9422e-6 / (0.2_f64 / 0.005).powi(2);
-    println!("{sunk:?} m, {expect:e} m");
-    // Lift is not quite linear in the amplitude: 0.5 %. What is left of the sum's way after 400 beats is 1e-4.
-    assert!((sunk[0] / expect - 1.0).abs() < 0.02, "{sunk:?} {expect}");
-    assert!(sunk[1].abs() < 5e-4 * expect, "{sunk:?} {expect}");
-}
-
-#[test]
-fn exact_noise_is_that_of_its_seed() {
-    let noisy = |seed: u32| {
-        let sensors = format!("control.sensors={{seed={seed},tilt_noise_deg=1}}");
-        let setup = in_blades(&["time.beats=3", &sensors]);
-        Flight::from(setup).fly().unwrap().records.pop().unwrap()
-    };
-    assert_eq!(noisy(1), noisy(1));
-    assert_ne!(noisy(1).mass_centre, noisy(2).mass_centre);
-}
-
-#[test]
-fn refuses_what_control_cannot_do_by_name() {
-    let wrong: [(&[&str], &str); 27] = [
-        (&["control.controller=\"pid\""], "control.controller"),
-        (&["control.latency_beats=-1"], "control.latency_beats"),
-        (&["control.latency_beats=21"], "control.latency_beats"),
-        (&["control.lag_beats=-1"], "control.lag_beats"),
-        (&["control.every_beats=0"], "control.every_beats"),
-        (&["control.looks_per_beat=0"], "control.looks_per_beat"),
-        (&["control.looks_per_beat=4"], "control.looks_per_beat"), // of 30 steps
-        (&["control.looks_per_beat=10"], "control.looks_per_beat"),
-        (
-            &["control.looks_per_beat=2", "control.latency_beats=0.25"],
-            "control.latency_beats",
-        ),
-        (
-            &["control.looks_per_beat=2", "control.every_beats=2"],
-            "control.every_beats",
-        ),
-        (&["control.amplitude_limit=0"], "control.amplitude_limit"),
-        (&["control.angle_limit_deg=120"], "control.angle_limit_deg"),
-        (&["control.weights.place=1"], "control.weights.place"),
-        (&["control.stiffness.pitch=0.3"], "control.stiffness"),
-        (
-            &["control.sensors.tilt_noise_deg=-1"],
-            "control.sensors.tilt_noise_deg",
-        ),
-        (
-            &["control.waypoint=[{time_s=0}]"],
-            "control.waypoint[0].time_s",
-        ),
-        (
-            &["control.waypoint=[{time_s=0.1},{time_s=0.104}]"],
-            "control.waypoint[1].time_s",
-        ),
-        (
-            &["control.waypoint=[{time_s=1}]", "control.climb_m_s=0.1"],
-            "control.climb_m_s",
-        ),
-        (
-            &[
-                "control.controller=stabiliser",
-                "control.waypoint=[{time_s=1,position_m=[1e-3,0,0]}]",
-            ],
-            "control.waypoint[0].position_m",
-        ),
-        (&["control.observer={}"], "control.observer"),
-        (
-            &[
-                "control.sensors={tilt_noise_deg=1}",
-                "control.observer={velocity=0}",
-            ],
-            "control.observer.velocity",
-        ),
-        (&["control.controller=external"], "control.external.command"),
-        (
-            &[
-                "control.external={command=[\"true\"]}",
-                "control.controller=regulator",
-            ],
-            "control.external",
-        ),
-        (
-            &[
-                "control.controller=external",
-                "control.external={command=[\"true\"]}",
-                "control.climb_m_s=0.1",
-            ],
-            "control.climb_m_s",
-        ),
-        (&["air.model=none"], "control"),
-        (&["flight.mode=tethered"], "control"),
-        (
-            &["air.model=blade_element", "flight.held_beats=0.5"],
-            "flight.held_beats",
-        ),
-    ];
-    for (set, key) in wrong {
-        let set: Vec<String> = set.iter().map(|s| (*s).to_owned()).collect();
-        let error = LoadedCase::find(PRESET, &set).unwrap_err().to_string();
-        assert!(error.contains(key), "{set:?}: {error}");
-        assert!(
-            error.contains("try") || error.contains("did you mean"),
-            "{set:?}: {error}"
-        );
-    }
-    let mirror = ["air.model=vortex_lattice", "air.mirror=true"].map(str::to_owned);
-    let error = LoadedCase::find(PRESET, &mirror).unwrap_err().to_string();
-    assert!(error.contains("air.mirror"), "{error}");
-}
-
-#[test]
-fn refuses_a_flyer_that_cannot_be_trimmed_when_it_is_built() {
-    // Ten times the weight that the strokes carry.
-    let case = case(&[&BLADES[..], &["body.mass_kg=1e-5"]].concat());
-    let error = Simulation::new(case.setup.clone())
-        .err()
-        .expect("too heavy");
-    let told = case.refused(&error).to_string();
-    assert!(
-        told.contains("control.controller") && told.contains("trim"),
-        "{told}"
     );
 }
 

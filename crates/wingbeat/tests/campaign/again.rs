@@ -1,0 +1,149 @@
+//! Points that are flown again: damaged results, files that changed or are gone.
+
+use std::fs;
+use std::path::Path;
+
+use crate::support::{QUICK, Scratch, flown, wingbeat};
+use crate::{blade, merged, numbers, write};
+
+/// A damaged result is found, and its point flown again.
+#[test]
+fn behaves_damaged_results_are_flown_again() {
+    let scratch = Scratch::new("campaign-damage");
+    let dir = &scratch.0;
+    write(dir, &blade(4));
+    flown(dir, &["campaign", "run", "c.toml", "--out", "a", "--quiet"]);
+    let whole = merged(dir, "a");
+    let folders = fs::read_dir(dir.join("a/points")).unwrap();
+    let files = folders.flat_map(|f| fs::read_dir(f.unwrap().path()).unwrap());
+    let mut files: Vec<_> = files.map(|f| f.unwrap().path()).collect();
+    files.sort();
+    fs::write(&files[0], "").unwrap(); // as after a power failure
+    let text = fs::read_to_string(&files[1]).unwrap();
+    fs::write(&files[1], text.replacen("values", "value5", 1)).unwrap();
+    fs::remove_file(&files[2]).unwrap();
+    let out = wingbeat(dir, &["campaign", "merge", "c.toml", "--out", "a"]);
+    let report = String::from_utf8(out.stderr).unwrap();
+    assert_eq!(out.status.code(), Some(2), "{report}");
+    assert!(
+        report.contains("3 of 12 points have no result yet"),
+        "{report}"
+    );
+    flown(dir, &["campaign", "run", "c.toml", "--out", "a", "--quiet"]);
+    assert!(merged(dir, "a") == whole);
+}
+
+/// A campaign of two motions from files.
+pub const NAMED: &str = r#"case = "case.toml"
+keep = ["end.wing_right_prescribed_phi_rad"]
+[parameter."wing.right.motion.phi.table.file"]
+list = ["a.csv", "Flügel schlag.csv"]
+[parameter."motion.frequency_hz"]
+list = [90, 100]
+"#;
+
+/// The campaign, and a case whose stroke is a table.
+pub fn write_named(dir: &Path, text: &str) {
+    write(dir, text);
+    let (head, _) = QUICK.split_once("[wing.right.motion.phi.fourier]").unwrap();
+    let table = "[wing.right.motion.phi.table]\nfile = \"a.csv\"\n";
+    fs::write(dir.join("case.toml"), format!("{head}{table}")).unwrap();
+}
+
+/// A table of a stroke with this amplitude [deg].
+pub fn stroke(angle: i32) -> String {
+    format!("phase,angle,other\n0,{angle},1\n0.25,0,2\n0.5,-{angle},3\n0.75,0,2\n1,{angle},1\n")
+}
+
+/// A file that a value names is part of the point: what is in it counts, not its name. Points that name none keep theirs.
+#[test]
+fn behaves_a_changed_file_that_a_value_names_is_flown_again() {
+    let scratch = Scratch::new("campaign-named");
+    let dir = &scratch.0;
+    write_named(dir, &NAMED.replace("Flügel schlag", "b"));
+    let fly = || {
+        let args = ["campaign", "run", "c.toml", "--out", "r", "--jobs", "1"];
+        let out = wingbeat(dir, &args);
+        assert!(
+            out.status.success(),
+            "{}",
+            String::from_utf8_lossy(&out.stderr)
+        );
+        merged(dir, "r");
+        let said = String::from_utf8(out.stderr).unwrap();
+        (said, numbers(dir, "r", "end.wing_right_prescribed_phi_rad"))
+    };
+    fs::write(dir.join("a.csv"), stroke(40)).unwrap();
+    fs::write(dir.join("b.csv"), stroke(50)).unwrap();
+    let (_, before) = fly();
+    assert_ne!(before[0], before[2]);
+    fs::write(dir.join("b.csv"), stroke(60)).unwrap();
+    let (said, after) = fly();
+    assert!(said.contains("4 points, 2 of them done"), "{said}");
+    assert_eq!(before[..2], after[..2]);
+    assert!(before[2] != after[2] && before[3] != after[3]);
+    fs::write(dir.join("b.csv"), stroke(50)).unwrap();
+    let (said, again) = fly();
+    assert!(said.contains("4 points, 4 of them done"), "{said}");
+    assert_eq!(before, again);
+    // A column of a file that the case names: only what is read of it stands in the resolved case.
+    let columns = "case = \"case.toml\"\nkeep = [\"end.wing_right_prescribed_phi_rad\"]\n[parameter.\"wing.right.motion.phi.table.angle_column\"]\nlist = [\"angle\", \"other\"]\n";
+    fs::write(dir.join("c.toml"), columns).unwrap();
+    let (_, before) = fly();
+    fs::write(dir.join("a.csv"), stroke(40).replace(",3\n", ",9\n")).unwrap();
+    let (_, after) = fly();
+    assert_eq!(before[0], after[0]);
+    assert_ne!(before[1], after[1]);
+}
+
+/// Files of every so many points: a campaign that grows flies those again that have none yet, and a point whose files were
+/// removed is flown again.
+#[test]
+fn behaves_points_without_the_files_they_keep_are_flown_again() {
+    let scratch = Scratch::new("campaign-files");
+    let dir = &scratch.0;
+    let text = |list: &str| {
+        format!(
+            "case = \"case.toml\"\nkeep = [\"end.mass_centre_n3_m\"]\nfiles = [\"history\", \"page\", \"figures\", \"frames\", \"summary\"]\n[retention]\nevery = 2\n[parameter.\"motion.frequency_hz\"]\nlist = [{list}]\n"
+        )
+    };
+    let fly = |list: &str| {
+        write(dir, &text(list));
+        let args = ["campaign", "run", "c.toml", "--out", "r", "--jobs", "1"];
+        let out = wingbeat(dir, &args);
+        let said = String::from_utf8(out.stderr).unwrap();
+        assert!(out.status.success(), "{said}");
+        let kept = fs::read_dir(dir.join("r/files")).unwrap();
+        let kept: Vec<_> = kept.map(|f| f.unwrap().path()).collect();
+        (said, kept)
+    };
+    let (_, kept) = fly("90, 100, 110");
+    assert_eq!(kept.len(), 2);
+    let (said, kept) = fly("80, 90, 100, 110");
+    assert!(said.contains("4 points, 2 of them done"), "{said}");
+    // 80 and 100 keep theirs now; those of 90 and 110 are left where they are.
+    assert_eq!(kept.len(), 4);
+    let (said, _) = fly("80, 90, 100, 110");
+    assert!(said.contains("4 points, 4 of them done"), "{said}");
+    for name in [
+        "history.csv",
+        "flight.html",
+        "summary.json",
+        "manifest.json",
+        "figures",
+        "frames",
+    ] {
+        for folder in &kept {
+            let path = folder.join(name);
+            let removed = match path.is_dir() {
+                true => fs::remove_dir_all(&path),
+                false => fs::remove_file(&path),
+            };
+            removed.unwrap();
+        }
+        let (said, _) = fly("80, 90, 100, 110");
+        assert!(said.contains("4 points, 2 of them done"), "{name}: {said}");
+        let there = kept.iter().filter(|k| k.join(name).exists());
+        assert_eq!(there.count(), 2, "{name}");
+    }
+}

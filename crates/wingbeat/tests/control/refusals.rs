@@ -1,0 +1,111 @@
+//! What control cannot do.
+
+use wingbeat::case::LoadedCase;
+use wingbeat::flight::Simulation;
+
+use crate::{BLADES, PRESET, case};
+
+#[test]
+fn refuses_what_control_cannot_do_by_name() {
+    let wrong: [(&[&str], &str); 27] = [
+        (&["control.controller=\"pid\""], "control.controller"),
+        (&["control.latency_beats=-1"], "control.latency_beats"),
+        (&["control.latency_beats=21"], "control.latency_beats"),
+        (&["control.lag_beats=-1"], "control.lag_beats"),
+        (&["control.every_beats=0"], "control.every_beats"),
+        (&["control.looks_per_beat=0"], "control.looks_per_beat"),
+        (&["control.looks_per_beat=4"], "control.looks_per_beat"), // of 30 steps
+        (&["control.looks_per_beat=10"], "control.looks_per_beat"),
+        (
+            &["control.looks_per_beat=2", "control.latency_beats=0.25"],
+            "control.latency_beats",
+        ),
+        (
+            &["control.looks_per_beat=2", "control.every_beats=2"],
+            "control.every_beats",
+        ),
+        (&["control.amplitude_limit=0"], "control.amplitude_limit"),
+        (&["control.angle_limit_deg=120"], "control.angle_limit_deg"),
+        (&["control.weights.place=1"], "control.weights.place"),
+        (&["control.stiffness.pitch=0.3"], "control.stiffness"),
+        (
+            &["control.sensors.tilt_noise_deg=-1"],
+            "control.sensors.tilt_noise_deg",
+        ),
+        (
+            &["control.waypoint=[{time_s=0}]"],
+            "control.waypoint[0].time_s",
+        ),
+        (
+            &["control.waypoint=[{time_s=0.1},{time_s=0.104}]"],
+            "control.waypoint[1].time_s",
+        ),
+        (
+            &["control.waypoint=[{time_s=1}]", "control.climb_m_s=0.1"],
+            "control.climb_m_s",
+        ),
+        (
+            &[
+                "control.controller=stabiliser",
+                "control.waypoint=[{time_s=1,position_m=[1e-3,0,0]}]",
+            ],
+            "control.waypoint[0].position_m",
+        ),
+        (&["control.observer={}"], "control.observer"),
+        (
+            &[
+                "control.sensors={tilt_noise_deg=1}",
+                "control.observer={velocity=0}",
+            ],
+            "control.observer.velocity",
+        ),
+        (&["control.controller=external"], "control.external.command"),
+        (
+            &[
+                "control.external={command=[\"true\"]}",
+                "control.controller=regulator",
+            ],
+            "control.external",
+        ),
+        (
+            &[
+                "control.controller=external",
+                "control.external={command=[\"true\"]}",
+                "control.climb_m_s=0.1",
+            ],
+            "control.climb_m_s",
+        ),
+        (&["air.model=none"], "control"),
+        (&["flight.mode=tethered"], "control"),
+        (
+            &["air.model=blade_element", "flight.held_beats=0.5"],
+            "flight.held_beats",
+        ),
+    ];
+    for (set, key) in wrong {
+        let set: Vec<String> = set.iter().map(|s| (*s).to_owned()).collect();
+        let error = LoadedCase::find(PRESET, &set).unwrap_err().to_string();
+        assert!(error.contains(key), "{set:?}: {error}");
+        assert!(
+            error.contains("try") || error.contains("did you mean"),
+            "{set:?}: {error}"
+        );
+    }
+    let mirror = ["air.model=vortex_lattice", "air.mirror=true"].map(str::to_owned);
+    let error = LoadedCase::find(PRESET, &mirror).unwrap_err().to_string();
+    assert!(error.contains("air.mirror"), "{error}");
+}
+
+#[test]
+fn refuses_a_flyer_that_cannot_be_trimmed_when_it_is_built() {
+    // Ten times the weight that the strokes carry.
+    let case = case(&[&BLADES[..], &["body.mass_kg=1e-5"]].concat());
+    let error = Simulation::new(case.setup.clone())
+        .err()
+        .expect("too heavy");
+    let told = case.refused(&error).to_string();
+    assert!(
+        told.contains("control.controller") && told.contains("trim"),
+        "{told}"
+    );
+}

@@ -1,0 +1,135 @@
+//! What a user does with the page: time, keys, films, two flights beside each other.
+
+use serde_json::json;
+
+use crate::support::{Scratch, flown, wingbeat};
+use crate::{CASE, content, started};
+
+#[test]
+fn behaves_time_can_be_chosen_while_it_plays() {
+    let scratch = Scratch::new("browser-seek");
+    let Some(mut browser) = started(&scratch, &[]) else {
+        return;
+    };
+    flown(&scratch.0, &CASE);
+    browser.open(&scratch.0.join("run/flight.html"), "wake=");
+    let set = "(id, v) => { const e = document.getElementById(id); e.value = v; e.dispatchEvent(new Event('input', { bubbles: true })); }";
+    browser.value(&format!("({set})('speed', -6)"));
+    browser.value("document.getElementById('play').click()");
+    browser.value("new Promise((r) => setTimeout(r, 300))");
+    browser.value(&format!("({set})('time', 10)"));
+    browser.value("new Promise((r) => setTimeout(r, 800))");
+    let frame: usize = browser.state("frame").parse().unwrap();
+    assert!((10..=12).contains(&frame), "it jumped to {frame}");
+    assert_eq!(
+        browser.value("document.getElementById('time').value"),
+        json!(frame.to_string())
+    );
+    content(&mut browser);
+}
+
+#[test]
+fn behaves_keys_belong_to_the_control_that_has_the_focus() {
+    let scratch = Scratch::new("browser-keys");
+    let Some(mut browser) = started(&scratch, &[]) else {
+        return;
+    };
+    flown(&scratch.0, &CASE);
+    browser.open(&scratch.0.join("run/flight.html"), "");
+    // Closed in a window as narrow as this one.
+    browser.value("document.getElementById('display').open = true");
+    let playing = "document.getElementById('play').dataset.playing";
+    for id in ["on-loop", "on-smoke", "values-box"] {
+        browser.value(&format!(
+            "(document.querySelector('#{id} > summary') || document.getElementById('{id}')).focus()"
+        ));
+        browser.press(" ", "Space", 32);
+        assert_eq!(
+            browser.value(playing),
+            json!("false"),
+            "Space on {id} plays"
+        );
+    }
+    let pressed = "['on-loop', 'on-smoke'].map((i) => document.getElementById(i).getAttribute('aria-pressed')).join()";
+    assert_eq!(browser.value(pressed), json!("false,false"));
+    browser.value("document.activeElement.blur()");
+    browser.press("ArrowRight", "ArrowRight", 39);
+    browser.wait("document.getElementById('state').dataset.frame === '1'");
+    browser.press(" ", "Space", 32);
+    assert_eq!(browser.value(playing), json!("true"));
+    browser.press(" ", "Space", 32);
+    // With the focus on the scene, arrows turn it and time stands.
+    let frame = browser.state("frame");
+    browser.value("document.getElementById('gl').focus()");
+    let before = browser.value("camera.position.toArray()");
+    browser.press("ArrowRight", "ArrowRight", 39);
+    assert_ne!(browser.value("camera.position.toArray()"), before);
+    assert_eq!(browser.state("frame"), frame);
+    content(&mut browser);
+}
+
+#[test]
+fn behaves_a_film_of_the_scene_is_recorded() {
+    let scratch = Scratch::new("browser-film");
+    let Some(mut browser) = started(&scratch, &[]) else {
+        return;
+    };
+    flown(&scratch.0, &CASE);
+    browser.open(
+        &scratch.0.join("run/flight.html"),
+        "frame=8&wake=smoke&speed=2",
+    );
+    browser.value("save = (blob) => { window.saved = [blob.type, blob.size]; }");
+    browser.value("document.getElementById('record').click()");
+    browser.wait("!!window.saved");
+    let saved = browser.value("window.saved");
+    assert_eq!(saved[0], "video/webm");
+    assert!(saved[1].as_u64().unwrap() > 5_000, "{saved}");
+    browser.value("window.saved = null; document.getElementById('picture').click()");
+    browser.wait("!!window.saved");
+    assert_eq!(browser.value("window.saved[0]"), json!("image/png"));
+    content(&mut browser);
+}
+
+/// Two flights in one page: what one is made to show, the other shows.
+#[test]
+fn behaves_two_flights_keep_step() {
+    let scratch = Scratch::new("browser-pair");
+    let Some(mut browser) = started(&scratch, &[]) else {
+        return;
+    };
+    for out in ["a", "b"] {
+        let args = [
+            "run",
+            "fruit-fly-vacuum",
+            "--quiet",
+            "--out",
+            out,
+            "--set=time.beats=0.2",
+        ];
+        flown(&scratch.0, &args);
+    }
+    let compare = ["compare", "a", "b", "--page", "pair.html"];
+    flown(&scratch.0, &compare);
+    let again = wingbeat(&scratch.0, &compare);
+    assert_eq!(
+        again.status.code(),
+        Some(2),
+        "an existing page was replaced"
+    );
+    browser.open(&scratch.0.join("pair.html"), "");
+    // Frames made from blobs have no origin: what they tell is all that is seen of them.
+    browser.value("window.seen = []; window.addEventListener('message', ({ source, data }) => seen.push([frames.findIndex((f) => f.contentWindow === source), data.shown.x]))");
+    // What the second is told it shows, and says so when it is drawn anew (here: for another size).
+    let kept = browser.value(
+        "new Promise((kept) => { const t = setInterval(() => {
+          frames[1].contentWindow.postMessage({ shown: { x: 0.15, arm: null } }, '*');
+          frames[1].style.height = 80 + 10 * Math.random() + '%';
+          if (seen.some(([k, x]) => k === 1 && Math.abs(x - 0.15) < 0.02)) { clearInterval(t); kept(true); }
+        }, 300); })",
+    );
+    assert_eq!(kept, json!(true));
+    // And the page around has told the first.
+    browser.wait("seen.length = 0, frames[0].style.height = 80 + 10 * Math.random() + '%', new Promise((r) => setTimeout(() => r(seen.some(([k, x]) => k === 0 && Math.abs(x - 0.15) < 0.02)), 400))");
+    assert!(browser.complaints.is_empty(), "{:?}", browser.complaints);
+}

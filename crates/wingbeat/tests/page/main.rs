@@ -1,0 +1,232 @@
+//! The flight page: bounded in size, true to the frames, and at work in a real browser.
+
+use std::fs;
+
+#[path = "../support/browser.rs"]
+mod browser;
+mod controls;
+mod drawn;
+#[path = "../support/mod.rs"]
+mod support;
+
+use browser::Browser;
+use support::{Scratch, flown, required, wingbeat};
+use wingbeat::results::frames::{self, Frame};
+
+const CASE: [&str; 13] = [
+    "run",
+    "fruit-fly-tethered",
+    "--quiet",
+    "--out",
+    "run",
+    "--set",
+    "time.beats=0.75",
+    "--set",
+    "wing.right.mesh.spanwise=6",
+    "--set",
+    "wing.right.mesh.chordwise=3",
+    "--set=air.shed=[\"trailing\"]",
+    "--set=air.particles={after_rows=8,radius_m=2.5e-4}",
+];
+
+/// Wing tips as the page says, picture axes \[m\].
+fn tips(browser: &mut Browser) -> Vec<Vec<f64>> {
+    let numbers = |tip: &str| tip.split(' ').map(|x| x.parse().unwrap()).collect();
+    browser.state("tip").split(" | ").map(numbers).collect()
+}
+
+/// A browser, or a word that there is none.
+fn started(scratch: &Scratch, flags: &[&str]) -> Option<Browser> {
+    let browser = Browser::start(&scratch.0, flags);
+    if browser.is_none() {
+        required("no browser (chromium, google-chrome) was found");
+    }
+    browser
+}
+
+fn content(browser: &mut Browser) {
+    assert_eq!(browser.state("errors"), "0", "{:?}", browser.complaints);
+    assert!(browser.complaints.is_empty(), "{:?}", browser.complaints);
+}
+
+#[test]
+fn exact_the_page_works_in_a_browser() {
+    let scratch = Scratch::new("browser");
+    let Some(mut browser) = started(&scratch, &[]) else {
+        return;
+    };
+    flown(&scratch.0, &CASE);
+    let page = scratch.0.join("run/flight.html");
+    let steps = frames::steps(&scratch.0.join("run")).unwrap();
+    let mut seen: Vec<Vec<Vec<f64>>> = vec![];
+    for k in [0, steps.len() - 4] {
+        browser.open(&page, &format!("frame={k}"));
+        browser.wait(&format!(
+            "document.getElementById('state').dataset.frame === '{k}'"
+        ));
+        content(&mut browser);
+        let triangles: usize = browser.state("triangles").parse().unwrap();
+        assert!(triangles > 100, "only {triangles} triangles were drawn");
+        let frame = Frame::read(&scratch.0.join("run"), steps[k]).unwrap();
+        let particles: usize = browser.state("particles").parse().unwrap();
+        assert_eq!(particles, frame.particles.len());
+        assert!(k == 0 || particles > 0, "no particle is shown");
+        if k > 0 {
+            browser.wait("+document.getElementById('state').dataset.surface > 100");
+        }
+        // The tip is a node of the wing that stands in the frame.
+        let tips = tips(&mut browser);
+        assert_eq!(tips.len(), 2);
+        for tip in &tips {
+            let miss = |p: &[f64; 3]| (0..3).map(|c| (p[c] - tip[c]).abs()).fold(0.0, f64::max);
+            let nearest = frame
+                .surfaces
+                .points
+                .iter()
+                .map(miss)
+                .fold(f64::INFINITY, f64::min);
+            // 16 bits of a box below 1 cm
+            assert!(nearest < 2e-7, "the tip is {nearest} m from every node");
+        }
+        seen.push(tips);
+    }
+    let travel = |tips: &Vec<Vec<f64>>| {
+        let along = |c: usize| (tips[0][c] - seen[0][0][c]).abs();
+        (0..3).map(along).fold(0.0, f64::max)
+    };
+    let moved = seen.iter().map(travel).fold(0.0, f64::max);
+    assert!(moved > 5e-4, "the slider moved the tip by {moved} m only"); // a fifth of its length
+}
+
+#[test]
+fn behaves_without_webgl_the_flight_is_drawn_flat_and_says_so() {
+    let scratch = Scratch::new("browser-flat");
+    let Some(mut browser) = started(&scratch, &["--disable-3d-apis"]) else {
+        return;
+    };
+    flown(&scratch.0, &CASE);
+    browser.open(&scratch.0.join("run/flight.html"), "frame=3");
+    let note = "document.getElementById('note').textContent";
+    for k in [3, 9] {
+        browser.value(&format!("seek({k})"));
+        browser.wait(&format!(
+            "document.getElementById('state').dataset.frame === '{k}'"
+        ));
+        let said = browser.value(note);
+        assert!(said.as_str().unwrap().contains("no WebGL"), "{said}");
+    }
+    // There is a picture: colours that the ramp of the sky has not, and it moves.
+    let pixels = "new Uint32Array(canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height).data.buffer)";
+    let drawn = browser.value(&format!(
+        "(() => {{ const now = {pixels}, sky = new Set(now.filter((_, i) => i % canvas.width === 0));
+          const own = new Set(now.filter((c) => !sky.has(c))).size;
+          seek(3); drawAll(); const before = {pixels};
+          return [sky.size, own, now.filter((c, i) => c !== before[i]).length / now.length]; }})()"
+    ));
+    println!("{drawn}");
+    let [own, moved] = [1, 2].map(|k| drawn[k].as_f64().unwrap());
+    assert!(own > 500.0, "{own} colours beside the sky's");
+    assert!(moved > 0.01, "{moved} of the picture moved");
+    assert_eq!(browser.state("errors"), "0");
+}
+
+#[test]
+fn behaves_any_description_is_shown() {
+    let scratch = Scratch::new("browser-words");
+    let Some(mut browser) = started(&scratch, &[]) else {
+        return;
+    };
+    let words = "<!--<script>alert(1)</script> & \"quotes\" -->";
+    let args = [
+        "run",
+        "fruit-fly-vacuum",
+        "--quiet",
+        "--out",
+        "run",
+        "--set=time.beats=0.05",
+    ];
+    flown(
+        &scratch.0,
+        &[&args[..], &["--set", &format!("description='{words}'")]].concat(),
+    );
+    browser.open(&scratch.0.join("run/flight.html"), "");
+    let about = browser.value("document.getElementById('about').textContent");
+    assert!(about.as_str().unwrap().starts_with(words), "{about}");
+    content(&mut browser);
+}
+
+#[test]
+fn exact_the_page_is_whole_and_stays_within_its_size() {
+    let scratch = Scratch::new("page");
+    flown(&scratch.0, &CASE);
+    let page = fs::read_to_string(scratch.0.join("run/flight.html")).unwrap();
+    assert!(
+        !page.contains("src=\"") && !page.contains("<link"),
+        "the page needs other files"
+    );
+    assert!(page.contains("Shown here: 16 of 16 frames that were written; plots with every step"));
+    let viewed = |size: &str| {
+        let out = wingbeat(&scratch.0, &["view", "run", "--no-open", "--size", size]);
+        assert!(out.status.success());
+        let small = fs::read_to_string(scratch.0.join("run/flight.html")).unwrap();
+        (small, String::from_utf8(out.stdout).unwrap())
+    };
+    let (small, said) = viewed("0.7");
+    assert!(
+        small.len() < 700_000 && small.len() < page.len(),
+        "{} of {}",
+        small.len(),
+        page.len()
+    );
+    assert!(!said.contains("larger than"), "{said}");
+    // Program and plots are not left out, but that the page is larger for them is said.
+    let (bare, said) = viewed("0.1");
+    assert!(bare.len() < small.len());
+    let size = format!(
+        "{:.3} MB, larger than the 0.1 MB asked for",
+        bare.len() as f64 / 1e6
+    );
+    assert!(said.contains(&size), "{said}");
+    assert!(small.contains("without their oldest wake rows") || small.contains(" of 16 frames"));
+}
+
+#[test]
+fn exact_a_flight_without_a_lattice_is_drawn_from_its_history() {
+    let scratch = Scratch::new("bare");
+    let args = [
+        "run",
+        "fruit-fly-vacuum",
+        "--quiet",
+        "--out",
+        "run",
+        "--set",
+        "time.beats=0.1",
+    ];
+    flown(&scratch.0, &args);
+    let page = fs::read_to_string(scratch.0.join("run/flight.html")).unwrap();
+    assert!(page.contains("steps, drawn from the history (no wakes)"));
+}
+
+#[test]
+fn refuses_damaged_and_missing_frames() {
+    let scratch = Scratch::new("frames-damaged");
+    flown(&scratch.0, &CASE);
+    let refused = |reason: &str| {
+        let out = wingbeat(&scratch.0, &["view", "run", "--no-open"]);
+        let said = String::from_utf8_lossy(&out.stderr).into_owned();
+        assert_eq!(out.status.code(), Some(2), "{said}");
+        assert!(said.contains(reason), "{said}\ndoes not say: {reason}");
+    };
+    let path = scratch.0.join("run/frames/wakes_000004.vtp");
+    let whole = fs::read(&path).unwrap();
+    fs::write(&path, &whole[..whole.len() / 2]).unwrap();
+    refused("wakes_000004.vtp`: this frame is cut");
+    let mut flipped = whole.clone();
+    flipped[whole.len() / 2] = b'!';
+    fs::write(&path, &flipped).unwrap();
+    refused("wakes_000004.vtp`: this frame is damaged");
+    fs::remove_file(&path).unwrap();
+    refused("this frame is missing");
+    let out = wingbeat(&scratch.0, &["view", "."]);
+    assert!(String::from_utf8_lossy(&out.stderr).contains("not a result directory of wingbeat"));
+}
