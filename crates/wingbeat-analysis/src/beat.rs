@@ -13,9 +13,7 @@ pub(crate) mod periodic;
 use std::ops::Range;
 use std::sync::Arc;
 
-use wingbeat_dynamics::configuration::{Composite, Configuration};
-use wingbeat_dynamics::free::JointOffsets;
-use wingbeat_dynamics::{BodyMotion, Formulation, Joint};
+use wingbeat_dynamics::{BodyMotion, Composite, Configuration, Formulation, Joint, JointOffsets};
 use wingbeat_flight::{FlightSetup, FreeFlight, FreeFlightScratch, MotionMode, Passage, is_driven};
 use wingbeat_math::ode::Rk4;
 use wingbeat_math::{DMat3, DQuat, DVec3, RotationLaw, rotation_vector};

@@ -3,7 +3,7 @@
 use wingbeat_math::DVec3;
 
 use crate::body::inertia_wrench;
-pub use crate::body::kinetic_energy;
+use crate::body::kinetic_energy;
 use crate::{Body, BodyAcceleration, BodyMotion, Budget, System, Wrench};
 
 /// Mass centre of the system \[m\], N components.

@@ -4,7 +4,7 @@ use wingbeat_math::{DMat3, DVec3, MovingRotation, tilde, trace};
 
 use crate::check::check_rotation;
 use crate::cycle::Cycle;
-pub use crate::placement::Placement;
+use crate::placement::Placement;
 use crate::placement::carry;
 use crate::shape::ShapeMass;
 use crate::{BodyAcceleration, BodyMotion, DynamicsError, System};

@@ -16,7 +16,6 @@
 use wingbeat_math::{DMat3, DQuat, DVec3, SingularMatrix, rotation_vector, solve_small};
 
 use crate::configuration::Composite;
-pub use crate::offsets::JointOffsets;
 use crate::placement::Placement;
 use crate::{JointType, System, Wrench};
 

@@ -2,7 +2,7 @@
 //! accelerate as they do. Newton and Euler for every body, summed from the tips to the root.
 
 use crate::body::inertia_wrench;
-pub use crate::body::weight_wrench;
+use crate::body::weight_wrench;
 use crate::solution::{HingeReaction, Solution};
 use crate::workspace::Workspace;
 use crate::{BodyAcceleration, BodyMotion, System, Wrench};

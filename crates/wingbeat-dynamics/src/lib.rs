@@ -11,18 +11,16 @@
 //!   multipliers, Baumgarte stabilization, the saddle-point system of seed eq. 30.
 //!
 //! - [`QuaternionForm`]: positions and quaternions of all bodies with multipliers, singular
-//!   nowhere, with loops ([`mechanism`]); also for a root on a moving support.
+//!   nowhere, with loops ([`Mechanism`]); also for a root on a moving support.
 //!
-//! Hinges may leave freedoms beside what they prescribe ([`JointModel`], [`free`]), with springs, dampers,
+//! Hinges may leave freedoms beside what they prescribe ([`JointModel`]), with springs, dampers,
 //! stops and actuators along them.
 //!
 //! [`tethered`] answers the inverse question: what a support of the root carries.
 //!
-//! The chapter, in reading order: [`System`], [`configuration`] (where the bodies are, seen from the
-//! root), [`MomentumForm`], [`inverse`] (reactions), [`budget`] (energy, momenta), then the seed's
-//! form: [`euler::coordinates`] (eq. 2, 3, 14-16), [`euler::constraint`] (eq. 4, 5, 27),
-//! [`euler::forces`] (eq. 6-10), [`euler::inertia`] (eq. 17-26), [`euler::condensed`] (eq. 28-30),
-//! [`euler::assembly`] (consistent initial conditions).
+//! The chapter, in reading order: [`System`], `configuration` (where the bodies are, seen from the
+//! root), [`MomentumForm`], `free` (the equations of free joints), `inverse` (reactions), `budget` (energy, momenta), then the
+//! seed's form in [`euler`] and that of mechanisms in `mechanism`.
 //!
 //! | symbol | name in code | meaning | unit | frame | seed |
 //! |---|---|---|---|---|---|
@@ -40,7 +38,7 @@
 //! | alpha, beta | [`Baumgarte`] | stabilization constants | 1/s | | eq. 29 |
 //! | S | `Baumgarte::right_side` | right-hand side of the constraint rows | m/s2, 1/s2 | | eq. 30 |
 //! | P, H | state of [`MomentumForm`] | momenta of the whole, H about its mass centre | kg m/s, kg m2/s | N | |
-//! | I, h, c | [`configuration::Composite`] | inertia, relative angular momentum, mass centre of the whole | kg m2, kg m2/s, m | root | |
+//! | I, h, c | [`Composite`] | inertia, relative angular momentum, mass centre of the whole | kg m2, kg m2/s, m | root | |
 //!
 //! The multipliers mean: hinge force on a wing = -(lambda_1, lambda_2, lambda_3) in N components,
 //! hinge moment on it = -(lambda_8, lambda_9, lambda_7) in wing components, and so on for every
@@ -49,12 +47,12 @@
 //! What this crate does not know: air, panels, animals, files, units other than SI.
 #![warn(missing_docs)]
 
-pub mod added_mass;
+mod added_mass;
 mod baumgarte;
 mod body;
-pub mod budget;
+mod budget;
 mod check;
-pub mod configuration;
+mod configuration;
 mod cycle;
 mod driven;
 mod effort;
@@ -62,11 +60,11 @@ mod error;
 pub mod euler;
 mod euler_form;
 mod formulation;
-pub mod free;
-pub mod inverse;
+mod free;
+mod inverse;
 mod joint;
 mod joint_model;
-pub mod mechanism;
+mod mechanism;
 mod momentum;
 mod motion;
 mod offsets;
@@ -79,9 +77,11 @@ mod system;
 mod tether;
 mod workspace;
 
-pub use added_mass::AddedMass;
+pub use added_mass::{AddedMass, Six};
 pub use baumgarte::Baumgarte;
-pub use body::{Body, NaturalUnits};
+pub use body::{Body, NaturalUnits, kinetic_energy, weight_wrench};
+pub use budget::{budget, load_power, mass_centre, relative_energy};
+pub use configuration::{Composite, CompositeRates, Configuration, ConfigurationTable};
 pub use cycle::Cycle;
 pub use driven::driven;
 pub use error::DynamicsError;
@@ -93,6 +93,8 @@ pub use mechanism::Mechanism;
 pub use mechanism::form::{AbsoluteForm, AbsoluteScratch, Stabilization};
 pub use momentum::MomentumForm;
 pub use motion::{BodyAcceleration, BodyMotion, Wrench};
+pub use offsets::JointOffsets;
+pub use placement::Placement;
 pub use quaternion::QuaternionForm;
 pub use shape::ShapeMass;
 pub use solution::{Budget, HingeReaction, Solution, Violation};

@@ -12,7 +12,7 @@
 //! vacuum P and H are constant in the arithmetic itself. Constraints hold by construction, so
 //! nothing can drift; a body without mass is as good as any.
 //!
-//! Free joints add their coordinates and speeds to the state ([`crate::free`]); I and h then
+//! Free joints add their coordinates and speeds to the state (`free`); I and h then
 //! depend on them too. Added masses join the inertia of the whole (`added`).
 
 mod added;

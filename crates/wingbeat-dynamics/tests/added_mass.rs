@@ -2,10 +2,10 @@
 
 use std::sync::Arc;
 
-use wingbeat_dynamics::add_by_response;
 use wingbeat_dynamics::{
     AddedMass, Baumgarte, Body, BodyMotion, EulerForm, Formulation, Joint, JointModel, JointType,
     MomentumForm, NaturalUnits, QuaternionForm, Solution, Stabilization, System, Wrench,
+    add_by_response,
 };
 use wingbeat_math::{DMat3, DVec3, EulerSequence, MassProperties, MovingRotation, RotationLaw};
 

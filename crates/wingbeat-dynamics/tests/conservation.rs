@@ -3,7 +3,7 @@
 use crate::common;
 
 use common::*;
-use wingbeat_dynamics::euler::assembly::{consistent_coordinates, consistent_rates};
+use wingbeat_dynamics::euler::{consistent_coordinates, consistent_rates};
 use wingbeat_dynamics::{
     Baumgarte, Body, BodyMotion, DynamicsError, EulerForm, Formulation, MomentumForm, Solution,
     System, Wrench,

@@ -3,9 +3,9 @@
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
-use wingbeat_dynamics::configuration::Configuration;
 use wingbeat_dynamics::{
-    Body, DynamicsError, Joint, JointModel, JointType, NaturalUnits, System, TravelLaw, driven,
+    Body, Configuration, DynamicsError, Joint, JointModel, JointType, NaturalUnits, System,
+    TravelLaw, driven,
 };
 use wingbeat_math::{DMat3, DVec3, EulerSequence, MassProperties, MovingRotation, RotationLaw};
 

@@ -5,10 +5,9 @@ use crate::common;
 
 use common::*;
 use std::sync::Arc;
-use wingbeat_dynamics::budget::{budget, relative_energy};
 use wingbeat_dynamics::{
     BodyAcceleration, BodyMotion, ElementLaw, Formulation, JointModel, JointType, MomentumForm,
-    QuaternionForm, Stabilization, System, TravelLaw, tethered_motions,
+    QuaternionForm, Stabilization, System, TravelLaw, budget, relative_energy, tethered_motions,
 };
 use wingbeat_math::ode::{Dop853, Tolerance};
 use wingbeat_math::{DMat3, DVec3, DriftingFourier, EulerSequence, MassProperties};

@@ -3,7 +3,7 @@
 use crate::common;
 
 use common::*;
-use wingbeat_dynamics::euler::assembly::{consistent_coordinates, consistent_rates, kinematics};
+use wingbeat_dynamics::euler::{consistent_coordinates, consistent_rates, kinematics};
 use wingbeat_dynamics::{
     Baumgarte, Body, BodyMotion, DynamicsError, ElementLaw, EulerForm, Formulation, Joint,
     JointModel, JointType, MomentumForm, NaturalUnits, System,

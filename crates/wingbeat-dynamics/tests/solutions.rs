@@ -5,13 +5,10 @@ use crate::common;
 
 use common::saddle::Saddle;
 use common::*;
-use wingbeat_dynamics::configuration::Configuration;
-use wingbeat_dynamics::euler::assembly::kinematics;
-use wingbeat_dynamics::euler::condensed::Condensed;
-use wingbeat_dynamics::euler::coordinates::BodyKinematics;
+use wingbeat_dynamics::euler::{BodyKinematics, Condensed, kinematics};
 use wingbeat_dynamics::{
-    Baumgarte, BodyAcceleration, BodyMotion, EulerForm, Formulation, MomentumForm, Solution,
-    System, Wrench,
+    Baumgarte, BodyAcceleration, BodyMotion, Configuration, EulerForm, Formulation, MomentumForm,
+    Solution, System, Wrench,
 };
 use wingbeat_math::{DVec3, solve_small};
 

@@ -3,7 +3,7 @@
 use crate::common;
 
 use common::*;
-use wingbeat_dynamics::euler::coordinates::BodyKinematics;
+use wingbeat_dynamics::euler::BodyKinematics;
 use wingbeat_dynamics::{
     BodyAcceleration, BodyMotion, Formulation, MomentumForm, RootMotion, Solution, Workspace,
     Wrench, tethered,

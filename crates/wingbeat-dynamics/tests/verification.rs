@@ -3,12 +3,8 @@
 use crate::common;
 
 use common::*;
-use wingbeat_dynamics::budget;
-use wingbeat_dynamics::euler::constraint::HingeKinematics;
-use wingbeat_dynamics::euler::coordinates::BodyKinematics;
-use wingbeat_dynamics::euler::{forces, inertia};
-use wingbeat_dynamics::inverse::weight_wrench;
-use wingbeat_dynamics::{Body, Joint, Wrench};
+use wingbeat_dynamics::euler::{self, BodyKinematics, HingeKinematics};
+use wingbeat_dynamics::{Body, Joint, Wrench, weight_wrench};
 use wingbeat_math::{DVec3, EulerSequence, MassProperties, RotationLaw, tilde};
 
 const SEQUENCES: [EulerSequence; 2] = [EulerSequence::BODY_231, EulerSequence::WING_132];
@@ -61,7 +57,7 @@ fn agrees_point_velocity_with_differences_of_point_position() {
 
 /// Kinetic energy \[J\], `q'^T M q' / 2` (seed eq. 20).
 fn kinetic_energy(body: &Body, k: &BodyKinematics) -> f64 {
-    let [p, h] = inertia::mass_matrix(body, k).times(k.motion.v, k.eta_dot);
+    let [p, h] = euler::mass_matrix(body, k).times(k.motion.v, k.eta_dot);
     0.5 * (k.motion.v.dot(p) + k.eta_dot.dot(h))
 }
 
@@ -81,7 +77,9 @@ fn exact_kinetic_energy_is_the_sum_over_points() {
         let points = |(m, r): &(f64, DVec3)| 0.5 * m * k.motion.point_velocity(*r).length_squared();
         let sum: f64 = cloud().iter().map(points).sum();
         assert!((kinetic_energy(&b, &k) - sum).abs() < 1e-14 * sum.max(1.0)); // roundings
-        assert!((budget::kinetic_energy(&b, &k.motion) - sum).abs() < 1e-14 * sum.max(1.0));
+        assert!(
+            (wingbeat_dynamics::kinetic_energy(&b, &k.motion) - sum).abs() < 1e-14 * sum.max(1.0)
+        );
     }
 }
 
@@ -90,8 +88,8 @@ fn agrees_mass_matrix_rate_with_differences() {
     // seed eq. 25.
     for s in SEQUENCES {
         let b = cloud_body(s);
-        let rate = inertia::mass_matrix_rate(&b, &along(&b, 0.5, 0.1));
-        let at = |t: f64| inertia::mass_matrix(&b, &along(&b, 0.5, 0.1 + t));
+        let rate = euler::mass_matrix_rate(&b, &along(&b, 0.5, 0.1));
+        let at = |t: f64| euler::mass_matrix(&b, &along(&b, 0.5, 0.1 + t));
         // Fourth-order differences of numbers of order ten.
         assert!(size(derivative(|t| at(t).r_eta, 1e-3) - rate.r_eta) < 1e-10);
         assert!(size(derivative(|t| at(t).eta_eta, 1e-3) - rate.eta_eta) < 1e-10);
@@ -109,7 +107,7 @@ fn agrees_quadratic_velocity_with_lagrange_differences() {
             let at = |i: usize| q[i] + t * qd[i];
             let moved: [f64; 6] = std::array::from_fn(at);
             let k = BodyKinematics::new(&b, &moved, &qd);
-            inertia::mass_matrix(&b, &k).times(k.motion.v, k.eta_dot)
+            euler::mass_matrix(&b, &k).times(k.motion.v, k.eta_dot)
         };
         let gradient = |i: usize| {
             derivative(
@@ -121,7 +119,7 @@ fn agrees_quadratic_velocity_with_lagrange_differences() {
                 1e-3,
             )
         };
-        let [qr, qe] = inertia::quadratic_velocity(&b, &k);
+        let [qr, qe] = euler::quadratic_velocity(&b, &k);
         let dr = -derivative(|t| momentum(t)[0], 1e-3);
         let de = -derivative(|t| momentum(t)[1], 1e-3)
             + DVec3::new(gradient(3), gradient(4), gradient(5));
@@ -158,7 +156,7 @@ fn agrees_generalized_forces_with_virtual_work() {
             wrench += Wrench::at(force(i), k.motion.r * r);
             sum = [sum[0] + part[0], sum[1] + part[1]];
         }
-        let whole = forces::generalized_wrench(&k, &wrench);
+        let whole = euler::generalized_wrench(&k, &wrench);
         assert!((whole[0] - sum[0]).length() + (whole[1] - sum[1]).length() < 1e-13); // roundings
     }
 }

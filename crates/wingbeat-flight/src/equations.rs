@@ -6,9 +6,9 @@ mod loads;
 
 use std::sync::Arc;
 
-use wingbeat_dynamics::budget::{mass_centre, relative_energy};
 use wingbeat_dynamics::{
     AbsoluteForm, AddedMass, BodyMotion, Mechanism, Solution, Stabilization, Workspace, Wrench,
+    mass_centre, relative_energy,
 };
 
 use crate::air::{Air, AirScratch, Instant};

@@ -7,10 +7,9 @@
 
 use std::sync::Arc;
 
-use wingbeat_dynamics::configuration::ConfigurationTable;
 use wingbeat_dynamics::{
-    AddedMass, BodyAcceleration, BodyMotion, Formulation, Mechanism, MomentumForm, System, Wrench,
-    driven,
+    AddedMass, BodyAcceleration, BodyMotion, ConfigurationTable, Formulation, Mechanism,
+    MomentumForm, System, Wrench, driven,
 };
 
 use crate::air::{Air, AirScratch, Instant};

@@ -2,10 +2,9 @@
 
 use std::sync::Arc;
 
-use wingbeat_dynamics::configuration::ConfigurationTable;
 use wingbeat_dynamics::{
-    Baumgarte, Cycle, EulerForm, Formulation, Mechanism, MomentumForm, QuaternionForm,
-    Stabilization, System,
+    Baumgarte, ConfigurationTable, Cycle, EulerForm, Formulation, Mechanism, MomentumForm,
+    QuaternionForm, Stabilization, System,
 };
 
 use crate::air::{Air, wing_pairs};

@@ -7,12 +7,11 @@
 //! follow from which, and what is asked twice), `equations` (matrix and right-hand side), [`form`], [`assembly`]
 //! (consistent starts).
 
-pub mod assembly;
+pub(crate) mod assembly;
 mod equations;
-pub mod form;
-pub mod joint;
-pub mod partition;
+pub(crate) mod form;
+pub(crate) mod joint;
+pub(crate) mod partition;
 mod structure;
 
-pub use crate::joint::Joint;
 pub use structure::Mechanism;

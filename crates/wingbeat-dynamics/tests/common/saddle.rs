@@ -5,9 +5,9 @@
 //! without mass has `M_ii = 0`; there the scale is that of a millionth of the total mass. The
 //! matrix as a whole stays regular, because elimination exchanges rows between M and B_q.
 
-use wingbeat_dynamics::euler::constraint::{AngleJacobian, HingeKinematics};
-use wingbeat_dynamics::euler::coordinates::{BodyKinematics, COORDINATES};
-use wingbeat_dynamics::euler::inertia::equations;
+use wingbeat_dynamics::euler::{
+    AngleJacobian, BodyKinematics, COORDINATES, HingeKinematics, equations,
+};
 use wingbeat_dynamics::{Baumgarte, System, Wrench};
 use wingbeat_math::{DMat3, DVec3, SingularMatrix, solve_small};
 

@@ -1,7 +1,6 @@
 //! What the elastic wings do to the bodies that carry them, their energies and momenta.
 
-use wingbeat_dynamics::budget::kinetic_energy;
-use wingbeat_dynamics::{AddedMass, Body, BodyMotion, Budget, ShapeMass, Wrench};
+use wingbeat_dynamics::{AddedMass, Body, BodyMotion, Budget, ShapeMass, Wrench, kinetic_energy};
 use wingbeat_math::{DVec3, EulerSequence, MassProperties};
 use wingbeat_structure::resultant;
 
