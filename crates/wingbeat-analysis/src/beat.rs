@@ -27,7 +27,7 @@ use periodic::check_periodic;
 pub type State = Vec<f64>;
 
 /// Where the coordinates of the joints begin in a [`State`].
-pub const JOINTS: usize = 13;
+pub(crate) const JOINTS: usize = 13;
 
 /// Free flight over one wingbeat in equal steps.
 #[derive(Clone, Debug)]

@@ -10,7 +10,6 @@ use wingbeat_flight::{
 use wingbeat_math::DVec3;
 
 use crate::AnalysisError;
-use crate::control::{Held, Law, Steering};
 use crate::departure::{Limits, Reference};
 use crate::part::Orbit;
 use crate::regulator::observer::ProcessNoise;
@@ -19,6 +18,7 @@ use crate::route::Route;
 use crate::sensors::Sensors;
 use crate::stabiliser::{ProportionalDerivative, Stiffness};
 use crate::steady::{TrimProblem, TrimSettings};
+use crate::steering::{Held, Law, Steering};
 use crate::trim::{Trim, trim};
 
 /// Which law, and how it is laid out.

@@ -21,7 +21,7 @@ pub struct Eigenpair {
 ///
 /// ```
 /// // A rotation by 90 degrees: eigenvalues +-i.
-/// let pairs = wingbeat_analysis::eigen::eigen(&[0.0, -1.0, 1.0, 0.0], 2).unwrap();
+/// let pairs = wingbeat_analysis::eigen(&[0.0, -1.0, 1.0, 0.0], 2).unwrap();
 /// assert!(pairs[0].value[0].abs() < 1e-15 && (pairs[0].value[1].abs() - 1.0).abs() < 1e-15);
 /// ```
 ///

@@ -2,29 +2,30 @@
 //!
 //! At each speed the wing is flown to its deformed steady state with much damping, first with long steps. From there two
 //! flights go on with the damping of the wing itself, one of them with small velocities added in the leading modes of the deformed wing
-//! ([`disturbance`]). The difference of the two is the response of the system linearised about the deformed state, wakes
-//! and all; [`crate::realisation`] finds its eigenvalues. Growth that changes its sign between speeds is an onset or an
-//! end of flutter ([`crossing`]), if it differs from zero by more than is not known of it (`uncertainty`). The disturbance of
+//! (`disturbance`). The difference of the two is the response of the system linearised about the deformed state, wakes
+//! and all; [`realise`] finds its eigenvalues. Growth that changes its sign between speeds is an onset or an
+//! end of flutter ([`crossings`]), if it differs from zero by more than is not known of it (`uncertainty`). The disturbance of
 //! half the size tells how far the response is linear.
 //!
 //! | symbol | name in code | meaning | unit |
 //! |---|---|---|---|
 //! | V | [`Condition::speed`] | speed of the stream | m/s |
-//! | sigma | [`Vibration::growth`](crate::realisation::Vibration::growth) | growth of a mode | 1/s |
+//! | sigma | [`Vibration::growth`] | growth of a mode | 1/s |
 //! | - | [`Condition::uncertainty`] | what is not known of sigma | 1/s |
-//! | omega | [`Vibration::frequency`](crate::realisation::Vibration::frequency) | angular frequency of a mode | rad/s |
+//! | omega | [`Vibration::frequency`] | angular frequency of a mode | rad/s |
 //!
 //! A motion that grows without vibrating is static divergence ([`Condition::divergence`]).
 //!
 //! The step of the setup goes with the speed: the stream passes the same way in a step as in the setup.
 
 mod condition;
-pub mod crossing;
-pub mod disturbance;
+mod crossing;
+mod disturbance;
 mod settings;
 mod steady;
 mod uncertainty;
 
+pub use crate::realisation::{NOISE, Realisation, Vibration, realise};
 pub use condition::{Condition, MAX_DAMPING, MIN_SHARE, condition};
 pub use crossing::{Crossing, crossings, growing};
 pub use settings::FlutterSettings;

@@ -1,13 +1,13 @@
 //! Questions of flight dynamics, asked of the full flapping model.
 //!
-//! The chapter in order: [`beat`] is one wingbeat of free flight as a map of the state; [`trim`]
-//! finds steady flight as a periodic orbit of that map (Newton's method, shooting over one beat);
-//! [`mean`] averages loads over a beat of steadily moving body; [`stability`] linearises: the
-//! cycle-averaged rigid-body model with its derivatives, and Floquet's multipliers of the
-//! periodic orbit from the [`monodromy`] matrix; [`modes`] names what comes out; [`derivatives`]
-//! are the controls; [`power`] is what it takes; [`control`] holds a flyer on its orbit by feedback, laid out by
-//! [`stabiliser`] or [`regulator`] when a flight is built ([`design`]), along a [`route`] if there is one; an [`episode`] is steered from outside, for who learns;
-//! [`wing_modes`] are the vibrations of elastic wings, [`flutter`] asks when they grow.
+//! The chapter in order: [`Beat`] is one wingbeat of free flight as a map of the state; [`trim()`]
+//! finds steady flight as a periodic orbit of that map (Newton's method, shooting over one beat), [`sweep()`] over a range of
+//! speeds; [`MeanLoad`] averages loads over a beat of steadily moving body; [`linear_model`] linearises: the
+//! cycle-averaged rigid-body model with its derivatives; [`floquet`] has Floquet's multipliers of the
+//! periodic orbit from the [`monodromy()`] matrix; [`ModeSet`] names what comes out; [`control_derivatives`]
+//! are the controls; [`power()`] is what it takes; [`control`] holds a flyer on its orbit by feedback; an [`episode`] is
+//! steered from outside, for who learns; [`wing_modes()`] are the vibrations of elastic wings, [`flutter`] asks when they grow;
+//! [`estimate`] says before a flight what it will be like.
 //!
 //! | symbol | name in code | meaning | unit |
 //! |---|---|---|---|
@@ -18,7 +18,7 @@
 //! | p, q, r | `rate` | angular velocity about F turned with the body | rad/s |
 //! | (phi, theta, psi) | `tilt` | small rotation vector roll, pitch, heading | rad |
 //! | A | [`LinearModel::matrix`] | rates of (u, v, w, p, q, r, phi, theta, psi) | - |
-//! | M | [`monodromy::monodromy`] | derivative of the state one beat later by the state now | - |
+//! | M | [`monodromy()`] | derivative of the state one beat later by the state now | - |
 //!
 //! **Wake memory.** Most of this linearises air without memory (blade elements). In a vortex
 //! lattice a perturbed flight carries a perturbed wake; [`wake`] trims there and offers both
@@ -27,50 +27,61 @@
 //! What this crate does not know: files, clocks, units other than SI.
 #![warn(missing_docs)]
 
-pub mod beat;
+mod beat;
 pub mod control;
-pub mod departure;
-pub mod derivatives;
-pub mod design;
-pub mod eigen;
+mod departure;
+mod derivatives;
+mod design;
+mod eigen;
 pub mod episode;
 mod error;
 pub mod flutter;
-pub mod least_power;
-pub mod level;
-pub mod mean;
-pub mod modes;
-pub mod monodromy;
+mod least_power;
+mod level;
+mod mean;
+mod modes;
+mod monodromy;
 mod moving;
-pub mod part;
-pub mod plausibility;
-pub mod power;
+mod part;
+mod plausibility;
+mod power;
 pub mod progress;
-pub mod realisation;
-pub mod regulator;
+mod realisation;
+mod regulator;
 mod rigid_body;
 mod root;
-pub mod route;
-pub mod sensors;
-pub mod stabiliser;
-pub mod stability;
-pub mod steady;
-pub mod sweep;
-pub mod table;
-pub mod trim;
-pub mod unknown;
+mod route;
+mod sensors;
+mod stabiliser;
+mod stability;
+mod steady;
+mod steering;
+mod sweep;
+mod table;
+mod trim;
+mod unknown;
 pub mod wake;
-pub mod wing_modes;
+mod wing_modes;
 
-pub use beat::{Beat, State};
+pub use beat::{Beat, Integration, State};
+pub use derivatives::{CONTROL_NAMES, Control, ControlDerivative, control_derivatives};
+pub use eigen::{Eigenpair, eigen};
 pub use error::AnalysisError;
 pub use flutter::{Condition, FlutterSettings};
-pub use level::{Level, Perturbation};
-pub use modes::{Mode, ModeSet};
-pub use plausibility::{Estimate, estimate};
-pub use stability::{LinearModel, floquet, linear_model};
-pub use steady::{TrimProblem, TrimSettings};
-pub use table::table_model;
-pub use trim::{Trim, trim};
-pub use unknown::Unknown;
-pub use wing_modes::{About, WingMode, WingModes, wing_modes};
+pub use least_power::trim_within;
+pub use level::{Level, Perturbation, STATE};
+pub use mean::MeanLoad;
+pub use modes::{Mode, ModeSet, Plane, Scales};
+pub use monodromy::monodromy;
+pub use plausibility::{Estimate, WingEstimate, estimate, stroke_amplitude};
+pub use power::{Power, power, power_of_trim, power_with_wake};
+pub use stability::{
+    LOADS, LinearModel, floquet, floquet_of_trim, input_matrix, linear_model, orbit_monodromy,
+    trimmed_controls,
+};
+pub use steady::{Residuals, TrimProblem, TrimSettings, turned_inside_out};
+pub use sweep::{Lost, Sweep, Swept, sweep};
+pub use table::{rigid_animal, table_model};
+pub use trim::{Trim, trim, trim_from};
+pub use unknown::{Bound, UNKNOWNS, Unknown, UnknownKind};
+pub use wing_modes::{About, Alike, WingMode, WingModes, wing_modes};

@@ -7,7 +7,7 @@ use wingbeat_structure::Mode;
 const TURNING: f64 = 0.5;
 
 /// Whether nodes turn in this mode and nothing moves.
-pub fn only_turns(wing: &ElasticWing, mode: &Mode) -> bool {
+pub(crate) fn only_turns(wing: &ElasticWing, mode: &Mode) -> bool {
     wing.is_sheet() && mode.turning(wing.structure()) > TURNING
 }
 
@@ -16,7 +16,7 @@ pub fn only_turns(wing: &ElasticWing, mode: &Mode) -> bool {
 const MIXED: f64 = 0.9;
 
 /// The leading modes of a wing in which something moves.
-pub struct Moving {
+pub(crate) struct Moving {
     /// The modes.
     pub modes: Vec<Mode>,
     /// How many below the last of them were left out.
@@ -26,7 +26,7 @@ pub struct Moving {
 }
 
 /// The leading `count` of `all` modes of a wing in which something moves.
-pub fn moving(wing: &ElasticWing, all: Vec<Mode>, count: usize) -> Moving {
+pub(crate) fn moving(wing: &ElasticWing, all: Vec<Mode>, count: usize) -> Moving {
     let (mut modes, mut left_out, mut since) = (vec![], vec![], vec![]);
     for mode in all {
         if modes.len() == count {

@@ -52,7 +52,7 @@ pub struct Realisation {
 /// The linear system that answers by `samples`: one row of outputs, all of one size, every `step` \[s\].
 ///
 /// ```
-/// # use wingbeat_analysis::realisation::realise;
+/// # use wingbeat_analysis::flutter::realise;
 /// let sample = |k: i32| vec![0.9_f64.powi(k)];
 /// let samples: Vec<_> = (0..12).map(sample).collect();
 /// let found = realise(&samples, 0.1).unwrap();

@@ -13,8 +13,8 @@
 //! air that differs from that of the layout, is then found and taken back wholly. Noise of what is seen is filtered by an
 //! [`observer`] where there is one.
 
-pub mod observer;
-pub mod plant;
+pub(crate) mod observer;
+pub(crate) mod plant;
 mod riccati;
 
 use std::collections::VecDeque;

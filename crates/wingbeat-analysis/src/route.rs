@@ -26,7 +26,7 @@ impl Route {
     /// Where to be at `time` [s] since the release, relative to place and heading there.
     ///
     /// ```
-    /// use wingbeat_analysis::route::{Route, Waypoint};
+    /// use wingbeat_analysis::control::{Route, Waypoint};
     /// use wingbeat_math::DVec3;
     /// let there = Waypoint { time: 2.0, position: DVec3::X, heading: 0.0 };
     /// let middle = Route(vec![there]).at(1.0);

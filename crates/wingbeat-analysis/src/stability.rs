@@ -49,7 +49,10 @@ fn scales(beat: &Beat) -> Scales {
 ///
 /// # Errors
 /// Numbers that are not finite.
-pub fn reference(beat: &Beat, state: &State) -> Result<(Level, Perturbation), AnalysisError> {
+pub(crate) fn reference(
+    beat: &Beat,
+    state: &State,
+) -> Result<(Level, Perturbation), AnalysisError> {
     let level = Level::new(beat.mean_attitude(state)?, beat.gravity());
     let end = beat.advance(state)?;
     let travelled = DVec3::from_slice(&end) - DVec3::from_slice(state);

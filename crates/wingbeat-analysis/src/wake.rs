@@ -3,7 +3,7 @@
 //! A periodic orbit of body **and** wake has thousands of unknowns. What is done instead: the body
 //! is held for some wingbeats with constant velocity and attitude while the wake grows, then
 //! released; the free wingbeat that follows is the map of the state. Trim asks that this beat
-//! changes nothing but the place (the residuals of [`crate::steady`]). For stability the map is
+//! changes nothing but the place (the residuals of [`TrimProblem`](crate::TrimProblem)). For stability the map is
 //! differentiated, and two things can be held fixed:
 //!
 //! - [`WakeMemory::Given`]: the wake of the trimmed hold; the disturbance is put on the body at

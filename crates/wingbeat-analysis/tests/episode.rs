@@ -4,14 +4,13 @@ use crate::common;
 
 use std::sync::{Arc, Mutex};
 
-use wingbeat_analysis::control::{Held, Law, SteeredBeats, Steering};
-use wingbeat_analysis::departure::{Reference, adjustments};
-use wingbeat_analysis::episode::strokes::{SteadyStroke, SteeredStroke, Transition};
-use wingbeat_analysis::episode::tumble::{CALM_BEATS, CALM_SPEED, CALM_TILT, Tumbles};
-use wingbeat_analysis::episode::{
-    Course, Draw, Episode, Flyer, Model, OBSERVED, SharedModel, Start, Task,
+use wingbeat_analysis::control::{
+    Held, Law, Reference, Regulator, SteeredBeats, Steering, Weights, adjustments,
 };
-use wingbeat_analysis::regulator::{Regulator, Weights};
+use wingbeat_analysis::episode::{
+    CALM_BEATS, CALM_SPEED, CALM_TILT, Course, Draw, Episode, Flyer, Model, OBSERVED, SharedModel,
+    Start, SteadyStroke, SteeredStroke, Task, Transition, Tumbles,
+};
 use wingbeat_analysis::{Beat, Trim, trim};
 use wingbeat_dynamics::Formulation;
 use wingbeat_flight::Passage;

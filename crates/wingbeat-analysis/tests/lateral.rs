@@ -4,10 +4,6 @@
 use crate::common;
 
 use common::*;
-use wingbeat_analysis::least_power::trim_within;
-use wingbeat_analysis::power::power_of_trim;
-use wingbeat_analysis::stability::floquet_of_trim;
-use wingbeat_analysis::unknown::Bound;
 use wingbeat_analysis::*;
 use wingbeat_flight::{FlightSetup, Simulation};
 use wingbeat_math::{DVec3, r3};

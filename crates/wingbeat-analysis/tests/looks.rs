@@ -2,13 +2,11 @@
 
 use crate::common;
 
-use wingbeat_analysis::control::{Held, Law, SteeredBeats, Steering};
-use wingbeat_analysis::departure::{CONTROLS, Controls, Departure, Limits, Reference, adjustments};
-use wingbeat_analysis::eigen::eigen;
-use wingbeat_analysis::part::Orbit;
-use wingbeat_analysis::regulator::plant::{STATES, states};
-use wingbeat_analysis::regulator::{Regulator, Timing, Weights};
-use wingbeat_analysis::{Beat, Level, Perturbation, Trim, trim};
+use wingbeat_analysis::control::{
+    CONTROLS, Controls, Departure, Held, Law, Limits, Orbit, Reference, Regulator, STATES,
+    SteeredBeats, Steering, Timing, Weights, adjustments, states,
+};
+use wingbeat_analysis::{Beat, Level, Perturbation, Trim, eigen, trim};
 use wingbeat_flight::Controller;
 use wingbeat_math::DVec3;
 

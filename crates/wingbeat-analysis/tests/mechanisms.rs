@@ -5,9 +5,7 @@ use crate::common;
 use std::sync::Arc;
 
 use common::*;
-use wingbeat_analysis::derivatives::control_derivatives;
-use wingbeat_analysis::power::power;
-use wingbeat_analysis::regulator::{Regulator, Timing, Weights};
+use wingbeat_analysis::control::{Regulator, Timing, Weights};
 use wingbeat_analysis::*;
 use wingbeat_dynamics::{ElementLaw, Joint, JointModel, JointType};
 use wingbeat_flight::joints::AxisTurn;

@@ -2,12 +2,10 @@
 
 use crate::common;
 
-use wingbeat_analysis::control::{Held, Law, SteeredBeats, Steering};
-use wingbeat_analysis::departure::{CONTROLS, Controls, Departure, Reference};
-use wingbeat_analysis::regulator::observer::{Kalman, Observer, ProcessNoise, kalman};
-use wingbeat_analysis::regulator::plant::{STATES, states};
-use wingbeat_analysis::regulator::{Regulator, Weights};
-use wingbeat_analysis::sensors::{Channels, Sensors};
+use wingbeat_analysis::control::{
+    CONTROLS, Channels, Controls, Departure, Held, Kalman, Law, Observer, ProcessNoise, Reference,
+    Regulator, STATES, Sensors, SteeredBeats, Steering, Weights, kalman, states,
+};
 use wingbeat_analysis::{Perturbation, Trim, trim};
 use wingbeat_math::DVec3;
 

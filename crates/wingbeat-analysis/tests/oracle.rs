@@ -6,7 +6,6 @@
 //! mean lift and power, the 36 derivatives of the mean loads, the modes of the averaged rigid body, the closure of
 //! the trimmed orbit and Floquet's multipliers.
 
-use wingbeat_analysis::power::power;
 use wingbeat_analysis::*;
 use wingbeat_blade::Translation;
 use wingbeat_flight::{AirModel, FlightSetup};

@@ -1,6 +1,6 @@
 //! Modes of linear systems from their free responses.
 
-use wingbeat_analysis::realisation::*;
+use wingbeat_analysis::flutter::*;
 
 /// Growth, angular frequency and phases at three outputs.
 const MODES: [(f64, f64, [f64; 3]); 3] = [

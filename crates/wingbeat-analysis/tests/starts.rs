@@ -5,14 +5,10 @@ use crate::common;
 use std::sync::Arc;
 
 use common::{fly, hover, moth};
-use wingbeat_analysis::departure::Limits;
-use wingbeat_analysis::design::{Design, LawDesign, Target};
-use wingbeat_analysis::power::power_of_trim;
-use wingbeat_analysis::regulator::{Timing, Weights};
-use wingbeat_analysis::route::Route;
-use wingbeat_analysis::stabiliser::Stiffness;
-use wingbeat_analysis::stability::{floquet_of_trim, linear_model};
-use wingbeat_analysis::{Beat, Trim, trim};
+use wingbeat_analysis::control::{
+    Design, LawDesign, Limits, Route, Stiffness, Target, Timing, Weights,
+};
+use wingbeat_analysis::{Beat, Trim, floquet_of_trim, linear_model, power_of_trim, trim};
 use wingbeat_dynamics::{Joint, JointType};
 use wingbeat_flight::joints::AxisTurn;
 use wingbeat_flight::*;

@@ -3,8 +3,6 @@
 use crate::common;
 
 use common::*;
-use wingbeat_analysis::power::power_of_trim;
-use wingbeat_analysis::sweep::{Lost, sweep};
 use wingbeat_analysis::*;
 use wingbeat_math::DVec3;
 

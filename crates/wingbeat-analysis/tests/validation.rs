@@ -3,12 +3,10 @@
 use crate::common;
 
 use common::*;
-use wingbeat_analysis::control::{Held, Law, SteeredBeats, Steering, disturbed};
-use wingbeat_analysis::departure::{Departure, Reference};
-use wingbeat_analysis::modes::Plane;
-use wingbeat_analysis::power::power;
-use wingbeat_analysis::regulator::{Regulator, Weights};
-use wingbeat_analysis::stabiliser::{ProportionalDerivative, Stiffness};
+use wingbeat_analysis::control::{
+    Departure, Held, Law, ProportionalDerivative, Reference, Regulator, SteeredBeats, Steering,
+    Stiffness, Weights, disturbed,
+};
 use wingbeat_analysis::*;
 use wingbeat_flight::*;
 use wingbeat_math::{DMat3, DQuat, DVec3};

@@ -3,10 +3,6 @@
 use crate::common;
 
 use common::*;
-use wingbeat_analysis::beat::Integration;
-use wingbeat_analysis::eigen::eigen;
-use wingbeat_analysis::monodromy::monodromy;
-use wingbeat_analysis::stability::orbit_monodromy;
 use wingbeat_analysis::*;
 use wingbeat_flight::air::BladeAir;
 use wingbeat_flight::*;
@@ -220,7 +216,7 @@ fn limit_modes_tend_to_the_rigid_body_at_first_order_in_wing_mass() {
         let t = trim(&setup, &hover(60)).unwrap();
         assert!(t.converged);
         let modes = floquet(&t.beat, &t.state).unwrap();
-        let longitudinal = modes.plane(modes::Plane::Longitudinal);
+        let longitudinal = modes.plane(Plane::Longitudinal);
         longitudinal
             .map(|m| [m.growth, m.frequency])
             .collect::<Vec<_>>()

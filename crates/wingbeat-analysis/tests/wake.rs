@@ -4,7 +4,6 @@ use crate::common;
 
 use common::*;
 use wingbeat_air::{AirSettings, CoreModel};
-use wingbeat_analysis::modes::Plane;
 use wingbeat_analysis::wake::*;
 use wingbeat_analysis::*;
 use wingbeat_flight::*;
@@ -174,8 +173,8 @@ fn agrees_power_of_a_free_wingbeat_with_that_of_a_carried_body_where_air_forgets
         ..WakeSettings::default()
     };
     let flown = trim_with_wake(&setup, &hover(100), &settings).unwrap();
-    let free = power::power_with_wake(&flown).unwrap();
-    let carried = power::power(&trim(&setup, &hover(100)).unwrap().tethered().unwrap()).unwrap();
+    let free = power_with_wake(&flown).unwrap();
+    let carried = power(&trim(&setup, &hover(100)).unwrap().tethered().unwrap()).unwrap();
     assert!((free.aerodynamic / carried.aerodynamic - 1.0).abs() < 0.05);
     assert!((free.no_storage / carried.no_storage - 1.0).abs() < 0.05);
     assert_eq!(free.mass, carried.mass);

@@ -1,8 +1,8 @@
 //! From what was flown or found to the numbers that are kept.
 
-use wingbeat_analysis::power::Power;
-use wingbeat_analysis::stability::{LinearModel, floquet_of_trim};
-use wingbeat_analysis::{AnalysisError, ModeSet, Trim, linear_model};
+use wingbeat_analysis::{
+    AnalysisError, LinearModel, ModeSet, Power, Trim, floquet_of_trim, linear_model,
+};
 use wingbeat_flight::{FlightSetup, Record};
 use wingbeat_results::columns::Columns;
 use wingbeat_results::summary::{BeatMeans, Beats};

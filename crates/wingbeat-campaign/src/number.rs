@@ -1,9 +1,6 @@
 //! The numbers that may be kept of a point, by their names: what each is, in which unit, and which task gives it.
 
-use wingbeat_analysis::power::Power;
-use wingbeat_analysis::stability::LOADS;
-use wingbeat_analysis::unknown::{UNKNOWNS, UnknownKind};
-use wingbeat_analysis::{AnalysisError, Unknown};
+use wingbeat_analysis::{AnalysisError, LOADS, Power, UNKNOWNS, Unknown, UnknownKind};
 use wingbeat_case::nearest;
 use wingbeat_flight::FlightSetup;
 use wingbeat_results::Summary;

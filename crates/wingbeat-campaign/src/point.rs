@@ -5,8 +5,7 @@ use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
-use wingbeat_analysis::power::power_of_trim;
-use wingbeat_analysis::{AnalysisError, Trim};
+use wingbeat_analysis::{AnalysisError, Trim, power_of_trim};
 use wingbeat_case::{IoError, LoadedCase, trimmed_case};
 use wingbeat_flight::FlightError;
 use wingbeat_results::saver;

@@ -1,9 +1,8 @@
 //! What is asked of the trim at a point.
 
-use wingbeat_analysis::least_power::trim_within;
-use wingbeat_analysis::steady::Residuals;
-use wingbeat_analysis::unknown::UNKNOWNS;
-use wingbeat_analysis::{AnalysisError, Trim, TrimProblem, TrimSettings, Unknown};
+use wingbeat_analysis::{
+    AnalysisError, Residuals, Trim, TrimProblem, TrimSettings, UNKNOWNS, Unknown, trim_within,
+};
 use wingbeat_case::{Document, IoError, nearest};
 use wingbeat_flight::FlightSetup;
 use wingbeat_math::DVec3;

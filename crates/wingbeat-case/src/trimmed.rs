@@ -1,8 +1,7 @@
 //! A trimmed flight as a case file.
 
-use wingbeat_analysis::table::rigid_animal;
 use wingbeat_analysis::wake::WakeTrim;
-use wingbeat_analysis::{AnalysisError, LinearModel, Trim};
+use wingbeat_analysis::{AnalysisError, LinearModel, Trim, rigid_animal};
 use wingbeat_blade::DerivativeTable;
 use wingbeat_dynamics::BodyMotion;
 use wingbeat_flight::{FlightSetup, closes_loop};

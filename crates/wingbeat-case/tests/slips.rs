@@ -233,7 +233,7 @@ mode = \"tethered\"
     let estimate = |set: &[&str]| {
         let set: Vec<String> = set.iter().map(|&s| s.to_owned()).collect();
         let case = LoadedCase::from_text("tether", text, Path::new(""), &set);
-        wingbeat_analysis::plausibility::estimate(&case.unwrap_or_else(|e| panic!("{e}")).setup)
+        wingbeat_analysis::estimate(&case.unwrap_or_else(|e| panic!("{e}")).setup)
     };
     let speed = |set: &[&str]| estimate(set).wings[0].speed;
     let turned = speed(&["flight.tether.yaw.rate_deg_s=180"]);

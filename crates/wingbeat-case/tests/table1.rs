@@ -1,7 +1,7 @@
 //! The literature table: every preset has the model that the paper's table gives its row, and where both derivatives
 //! and modes were published, the modes follow from the derivatives.
 
-use wingbeat_analysis::{Mode, modes::Plane, table_model};
+use wingbeat_analysis::{Mode, Plane, table_model};
 use wingbeat_blade::{AddedMass, Rotation};
 use wingbeat_case::LoadedCase;
 use wingbeat_flight::{AirModel, FlightSetup};

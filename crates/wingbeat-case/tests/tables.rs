@@ -1,6 +1,6 @@
 //! Tables of derivatives with the added mass of the air, against closed forms.
 
-use wingbeat_analysis::{modes::Plane, table_model};
+use wingbeat_analysis::{Plane, table_model};
 use wingbeat_case::LoadedCase;
 use wingbeat_flight::Simulation;
 use wingbeat_math::DVec3;

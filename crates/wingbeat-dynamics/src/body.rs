@@ -27,7 +27,7 @@ pub struct NaturalUnits {
 /// Rate of change of the momentum of a body: force \[N\] in N components and moment about its
 /// frame origin [N m] in N components,
 /// `f = m a + R (w' x s + w x (w x s))`, `n = R (J w' + w x J w + s x R^T a)`.
-pub fn inertia_wrench(body: &Body, m: &BodyMotion, acc: &BodyAcceleration) -> Wrench {
+pub(crate) fn inertia_wrench(body: &Body, m: &BodyMotion, acc: &BodyAcceleration) -> Wrench {
     let (s, j, w) = (body.mass.first_moment, body.mass.inertia, m.w);
     let turning = acc.angular.cross(s) + w.cross(w.cross(s));
     let spin = j * acc.angular + w.cross(j * w) + s.cross(m.r.transpose() * acc.linear);

@@ -5,8 +5,8 @@ use std::sync::{Arc, Mutex, PoisonError};
 use numpy::{PyReadonlyArray2, PyReadwriteArray1, PyReadwriteArray2};
 use pyo3::prelude::*;
 use rayon::prelude::*;
+use wingbeat::analysis::control::{Regulator, Weights};
 use wingbeat::analysis::episode::{Course, Episode, OBSERVED, Task};
-use wingbeat::analysis::regulator::{Regulator, Weights};
 use wingbeat::analysis::{AnalysisError, Trim};
 
 use crate::errors::{broken, raised, refused};

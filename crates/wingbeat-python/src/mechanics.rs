@@ -1,12 +1,11 @@
 //! Trim, stability, controls, power.
 
 use pyo3::prelude::*;
-use wingbeat::analysis::derivatives::{CONTROL_NAMES, ControlDerivative};
-use wingbeat::analysis::level::STATE;
-use wingbeat::analysis::power::{Power, power_of_trim};
-use wingbeat::analysis::stability::{LinearModel, floquet_of_trim, input_matrix, trimmed_controls};
-use wingbeat::analysis::unknown::{Bound as Limits, UNKNOWNS, Unknown};
-use wingbeat::analysis::{AnalysisError, Mode, ModeSet, TrimProblem, linear_model};
+use wingbeat::analysis::{
+    AnalysisError, Bound as Limits, CONTROL_NAMES, ControlDerivative, LinearModel, Mode, ModeSet,
+    Power, STATE, TrimProblem, UNKNOWNS, Unknown, floquet_of_trim, input_matrix, linear_model,
+    power_of_trim, trimmed_controls,
+};
 use wingbeat::case::{LoadedCase, trimmed_case};
 use wingbeat::math::DVec3;
 

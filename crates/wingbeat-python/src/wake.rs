@@ -1,11 +1,10 @@
 //! Trim and stability in air with a memory: the vortex lattice.
 
 use pyo3::prelude::*;
-use wingbeat::analysis::power::power_with_wake;
 use wingbeat::analysis::wake::{
     WakeMemory, WakeSettings, trim_with_wake, wake_modes, wake_monodromy,
 };
-use wingbeat::analysis::{TrimProblem, Unknown};
+use wingbeat::analysis::{TrimProblem, Unknown, power_with_wake};
 use wingbeat::case::{LoadedCase, wake_trimmed_case};
 
 use crate::arrays::array;

@@ -185,7 +185,7 @@ impl Flight {
         TrimProblem::straight(DVec3::ZERO, self.setup.angles_at_release().x)
     }
 
-    /// Steady flight as a periodic orbit, see [`wingbeat_analysis::least_power::trim_within`]. The trimmed animal flies
+    /// Steady flight as a periodic orbit, see [`wingbeat_analysis::trim_within`]. The trimmed animal flies
     /// on as `Flight::from(trim.free())`. Whether it was found says [`Trim::converged`].
     ///
     /// ```
@@ -202,10 +202,7 @@ impl Flight {
     /// # Errors
     /// Air with a memory, wind, applied loads, loops; numbers that stop being finite at once.
     pub fn trim(&self, problem: &TrimProblem) -> Result<Trim, Error> {
-        Ok(wingbeat_analysis::least_power::trim_within(
-            &self.setup,
-            problem,
-        )?)
+        Ok(wingbeat_analysis::trim_within(&self.setup, problem)?)
     }
 
     /// Flies it to its end.

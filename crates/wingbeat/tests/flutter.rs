@@ -4,9 +4,8 @@ use std::f64::consts::{PI, TAU};
 
 use wingbeat::analysis::AnalysisError;
 use wingbeat::analysis::flutter::{
-    Condition, FlutterSettings, SteadyWing, condition, crossings, growing,
+    Condition, FlutterSettings, Realisation, SteadyWing, Vibration, condition, crossings, growing,
 };
-use wingbeat::analysis::realisation::{Realisation, Vibration};
 use wingbeat::case::LoadedCase;
 
 #[path = "flutter/theodorsen.rs"]

@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 use std::path::Path;
 
 use wingbeat::analysis::flutter::{FlutterSettings, condition};
-use wingbeat::analysis::wing_modes::{About, WingModes, wing_modes};
+use wingbeat::analysis::{About, WingModes, wing_modes};
 use wingbeat::case::LoadedCase;
 
 mod support;

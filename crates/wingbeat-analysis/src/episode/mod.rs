@@ -2,7 +2,7 @@
 //!
 //! An [`Episode`] begins near the trimmed flight, disturbed as its [`Task`] says and its seed draws. Controls
 //! ([`Controls`], as fractions of their limits) come once per control step, a wingbeat or less; the strokes go over to them smoothly
-//! until the next one ([`strokes`]). The equations are those of a flight ([`FreeFlight`](wingbeat_flight::FreeFlight)), by
+//! until the next one ([`SteeredStroke`]). The equations are those of a flight ([`FreeFlight`](wingbeat_flight::FreeFlight)), by
 //! the classical Runge-Kutta method; air without memory.
 //!
 //! | number | observed | unit |
@@ -17,9 +17,9 @@
 //! R: wing length, T: period of the wingbeat.
 
 mod flyer;
-pub mod strokes;
+mod strokes;
 mod task;
-pub mod tumble;
+mod tumble;
 
 use std::collections::VecDeque;
 use std::f64::consts::TAU;
@@ -34,7 +34,9 @@ use crate::sensors::Sensors;
 use crate::trim::Trim;
 
 pub use flyer::{Flyer, Model, SharedModel};
+pub use strokes::{SteadyStroke, SteeredStroke, Transition};
 pub use task::{Draw, Start, Task};
+pub use tumble::{CALM_BEATS, CALM_SPEED, CALM_TILT, Recovery, Tumbles};
 
 /// How many numbers are observed.
 pub const OBSERVED: usize = 17;

@@ -13,7 +13,7 @@ const STATIONS: usize = 4;
 
 /// Velocities to be added, wing by wing.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Disturbance {
+pub(crate) struct Disturbance {
     velocity: Vec<Vec<f64>>,
 }
 
@@ -72,7 +72,7 @@ fn mirrored(velocity: &[f64]) -> Vec<f64> {
 
 /// Nodes of the first elastic wing that are looked at.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Stations {
+pub(crate) struct Stations {
     nodes: Vec<usize>,
     rest: Vec<(DVec3, DQuat)>,
     size: f64,

@@ -3,12 +3,9 @@
 use std::sync::Arc;
 
 use wingbeat_air::Wind;
-use wingbeat_analysis::departure::Limits;
-use wingbeat_analysis::design::{Design, LawDesign, Target};
-use wingbeat_analysis::regulator::observer::ProcessNoise;
-use wingbeat_analysis::regulator::{Timing, Weights};
-use wingbeat_analysis::sensors::{Channels, Sensors};
-use wingbeat_analysis::stabiliser::Stiffness;
+use wingbeat_analysis::control::{
+    Channels, Design, LawDesign, Limits, ProcessNoise, Sensors, Stiffness, Target, Timing, Weights,
+};
 use wingbeat_flight::control::MIN_INTERVAL;
 use wingbeat_flight::{BladeOptions, ControlModel, Feedback};
 use wingbeat_math::DVec3;

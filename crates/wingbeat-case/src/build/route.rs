@@ -1,6 +1,6 @@
 //! `[[control.waypoint]]`.
 
-use wingbeat_analysis::route::{Route, Waypoint};
+use wingbeat_analysis::control::{Route, Waypoint};
 
 use super::fault::Built;
 use super::numbers::vector;

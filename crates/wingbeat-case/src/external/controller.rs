@@ -4,9 +4,7 @@
 //! beyond its present line it can give back as `memory`, which is part of the state of the flight.
 
 use serde::{Deserialize, Serialize};
-use wingbeat_analysis::departure::Limits;
-use wingbeat_analysis::route::Route;
-use wingbeat_analysis::sensors::Sensors;
+use wingbeat_analysis::control::{Limits, Route, Sensors};
 use wingbeat_flight::{Aim, ControlModel, Controller, FlightError, FlightSetup, Sensed};
 use wingbeat_math::DVec3;
 use wingbeat_model::motion::Adjustment;

@@ -3,9 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use smart_default::SmartDefault;
-use wingbeat_analysis::regulator::Weights;
-use wingbeat_analysis::regulator::observer::ProcessNoise;
-use wingbeat_analysis::stabiliser::Stiffness;
+use wingbeat_analysis::control::{ProcessNoise, Stiffness, Weights};
 
 use super::ExternalCase;
 

@@ -15,7 +15,7 @@ use crate::motion::BodyMotion;
 
 /// One scalar constraint.
 #[derive(Clone, Copy, Debug)]
-pub struct Row {
+pub(crate) struct Row {
     /// Factors of the parent's velocity (N components) and angular velocity (body components) [1 and m].
     pub parent: [DVec3; 2],
     /// Factors of the child's velocity (N components) and angular velocity (body components) [1 and m].
@@ -32,7 +32,7 @@ pub struct Row {
 
 /// A joint with its bodies at one instant.
 #[derive(Clone, Copy, Debug)]
-pub struct JointKinematics {
+pub(crate) struct JointKinematics {
     kind: JointType,
     parent: BodyMotion,
     child: BodyMotion,

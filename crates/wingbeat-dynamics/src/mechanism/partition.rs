@@ -6,15 +6,15 @@
 
 /// Below this part of the largest entry a pivot counts as zero: scaled Jacobians have entries of
 /// order one, and constraints hold to 1e-12 when ranks are asked for.
-pub const RANK_TOLERANCE: f64 = 1e-9;
+pub(crate) const RANK_TOLERANCE: f64 = 1e-9;
 
 /// Below this part of the largest entry a pivot of the Jacobian means a singular position is near: reactions and
 /// accelerations are there a thousand times what they are elsewhere, and loops may go on in several ways.
-pub const NEARLY_SINGULAR: f64 = 1e-3;
+pub(crate) const NEARLY_SINGULAR: f64 = 1e-3;
 
 /// A row that follows from others.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Dependent {
+pub(crate) struct Dependent {
     /// Factors of all rows in the combination that vanishes \[1\].
     pub combination: Vec<f64>,
     /// The same combination of the right-hand sides [m/s2 or rad/s2]: zero if the rows do not contradict.
@@ -23,7 +23,7 @@ pub struct Dependent {
 
 /// Result of the elimination.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Partition {
+pub(crate) struct Partition {
     /// Solution with all independent unknowns zero [m/s2 or rad/s2].
     pub step: Vec<f64>,
     /// Columns of the dependent unknowns.
@@ -34,7 +34,12 @@ pub struct Partition {
 
 /// Solves the rows `a x = b` for as many unknowns as there are independent rows; columns not
 /// `allowed` stay zero. Pivots below `zero` times the largest entry count as zero.
-pub fn partition(mut a: Vec<Vec<f64>>, mut b: Vec<f64>, allowed: &[bool], zero: f64) -> Partition {
+pub(crate) fn partition(
+    mut a: Vec<Vec<f64>>,
+    mut b: Vec<f64>,
+    allowed: &[bool],
+    zero: f64,
+) -> Partition {
     let (m, n) = (a.len(), allowed.len());
     let largest = a.iter().flatten().fold(0.0_f64, |s, x| s.max(x.abs()));
     let mut combos: Vec<Vec<f64>> = (0..m)

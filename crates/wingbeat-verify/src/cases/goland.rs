@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 use std::path::Path;
 
 use wingbeat_analysis::flutter::{Condition, FlutterSettings, condition, crossings};
-use wingbeat_analysis::wing_modes::{About, wing_modes};
+use wingbeat_analysis::{About, wing_modes};
 use wingbeat_case::LoadedCase;
 
 use crate::{Case, Part, Row, VerifyError};

@@ -3,9 +3,8 @@
 use std::f64::consts::TAU;
 use std::path::Path;
 
-use wingbeat_analysis::AnalysisError;
 use wingbeat_analysis::flutter::{Condition, FlutterSettings, condition, crossings};
-use wingbeat_analysis::wing_modes::{About, wing_modes};
+use wingbeat_analysis::{About, AnalysisError, wing_modes};
 use wingbeat_case::LoadedCase;
 use wingbeat_flight::Simulation;
 use wingbeat_math::DVec3;

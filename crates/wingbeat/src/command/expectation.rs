@@ -4,8 +4,7 @@
 use std::time::{Duration, Instant};
 
 use serde_json::{Value, json};
-use wingbeat::analysis::Estimate;
-use wingbeat::analysis::plausibility::WingEstimate;
+use wingbeat::analysis::{Estimate, WingEstimate};
 use wingbeat::flight::{AirModel, FlightError, FlightSetup, Simulation};
 
 use crate::command::pace::Pace;

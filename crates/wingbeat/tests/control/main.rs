@@ -11,9 +11,7 @@ mod support;
 
 use support::{Scratch, wingbeat as program};
 use wingbeat::Flight;
-use wingbeat::analysis::control::{Held, Law, Steering};
-use wingbeat::analysis::departure::{Limits, Reference};
-use wingbeat::analysis::regulator::{Regulator, Weights};
+use wingbeat::analysis::control::{Held, Law, Limits, Reference, Regulator, Steering, Weights};
 use wingbeat::case::LoadedCase;
 use wingbeat::flight::{AirModel, ControlModel, FlightSetup, FlightState, Simulation};
 

@@ -3,13 +3,13 @@
 use std::path::Path;
 
 use super::{LATTICE, beam, fly, goes_on, hawkmoth_extremes, strings};
-use wingbeat::analysis::power::power_with_wake;
-use wingbeat::analysis::stability::floquet_of_trim;
 use wingbeat::analysis::wake::{
     WakeSettings, WakeTrim, change_by_last_mode, elastic_floquet, elastic_modes, elastic_monodromy,
     trim_with_wake,
 };
-use wingbeat::analysis::{ModeSet, TrimProblem, TrimSettings, Unknown, trim};
+use wingbeat::analysis::{
+    ModeSet, TrimProblem, TrimSettings, Unknown, floquet_of_trim, power_with_wake, trim,
+};
 use wingbeat::case::{LoadedCase, wake_trimmed_case};
 use wingbeat::flight::{FlightSetup, MotionMode, Record, Simulation};
 use wingbeat::math::{DQuat, DVec3};

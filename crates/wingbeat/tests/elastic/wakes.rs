@@ -2,11 +2,9 @@
 
 use super::blades::departures;
 use super::{apart, beam, fly, goes_on, strings};
-use wingbeat::analysis::modes::Plane;
-use wingbeat::analysis::power::power_with_wake;
-use wingbeat::analysis::realisation::realise;
+use wingbeat::analysis::flutter::realise;
 use wingbeat::analysis::wake::{WakeSettings, WakeTrim, elastic_floquet, trim_with_wake};
-use wingbeat::analysis::{TrimProblem, TrimSettings};
+use wingbeat::analysis::{Plane, TrimProblem, TrimSettings, power_with_wake};
 use wingbeat::case::LoadedCase;
 use wingbeat::flight::{MotionMode, Past, Record, Simulation};
 use wingbeat::math::DVec3;

@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 use std::path::Path;
 
-use wingbeat::analysis::wing_modes::{About, WingModes, wing_modes};
+use wingbeat::analysis::{About, WingModes, wing_modes};
 use wingbeat::case::LoadedCase;
 use wingbeat::flight::Simulation;
 

@@ -1,7 +1,7 @@
 //! `wingbeat derivatives`.
 
 use serde_json::{Value, json};
-use wingbeat::analysis::stability::trimmed_controls;
+use wingbeat::analysis::trimmed_controls;
 
 use super::trimming::{Trimming, trimmed, watched};
 use crate::command::failure::Failure;

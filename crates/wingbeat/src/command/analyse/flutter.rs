@@ -5,9 +5,8 @@ use std::f64::consts::TAU;
 use clap::Args;
 use serde_json::{Value, json};
 use wingbeat::analysis::flutter::{
-    Condition, Crossing, FlutterSettings, condition, crossings, growing,
+    Condition, Crossing, FlutterSettings, Vibration, condition, crossings, growing,
 };
-use wingbeat::analysis::realisation::Vibration;
 use wingbeat::case::LoadedCase;
 
 use super::trimming::watched;

@@ -1,11 +1,11 @@
 //! What is reported of a trim.
 
 use serde_json::{Map, Value, json};
-use wingbeat::analysis::plausibility::stroke_amplitude;
-use wingbeat::analysis::steady::{Residuals, turned_inside_out};
-use wingbeat::analysis::unknown::{Bound, UNKNOWNS, UnknownKind};
 use wingbeat::analysis::wake::WakeTrim;
-use wingbeat::analysis::{Trim, TrimProblem, Unknown};
+use wingbeat::analysis::{
+    Bound, Residuals, Trim, TrimProblem, UNKNOWNS, Unknown, UnknownKind, stroke_amplitude,
+    turned_inside_out,
+};
 use wingbeat::case::LoadedCase;
 use wingbeat::flight::FlightSetup;
 use wingbeat::model::motion::Adjustment;

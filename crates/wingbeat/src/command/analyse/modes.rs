@@ -6,7 +6,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 use serde_json::{Value, json};
-use wingbeat::analysis::wing_modes::{About, Alike, WingMode, WingModes, wing_modes};
+use wingbeat::analysis::{About, Alike, WingMode, WingModes, wing_modes};
 use wingbeat::case::LoadedCase;
 use wingbeat::model::Wing;
 

@@ -2,7 +2,7 @@
 
 use clap::Args;
 use serde_json::{Map, json};
-use wingbeat::analysis::power::{Power, power_of_trim, power_with_wake};
+use wingbeat::analysis::{Power, power_of_trim, power_with_wake};
 
 use super::trimming::{Trimming, trimmed, trimmed_with_wake, watched};
 use crate::command::failure::Failure;

@@ -5,11 +5,11 @@ use std::path::PathBuf;
 use clap::{Args, ValueEnum};
 use rayon::prelude::*;
 use serde_json::{Value, json};
-use wingbeat::analysis::control::{Held, Law, SteeredBeats, Steering, disturbed};
-use wingbeat::analysis::departure::Reference;
-use wingbeat::analysis::episode::tumble::{Recovery, Tumbles};
-use wingbeat::analysis::regulator::{Regulator, Weights};
-use wingbeat::analysis::stabiliser::{ProportionalDerivative, Stiffness};
+use wingbeat::analysis::control::{
+    Held, Law, ProportionalDerivative, Reference, Regulator, SteeredBeats, Steering, Stiffness,
+    Weights, disturbed,
+};
+use wingbeat::analysis::episode::{Recovery, Tumbles};
 use wingbeat::analysis::{AnalysisError, Trim};
 use wingbeat::draw::figures::stabilised::{BeatRow, stabilised};
 use wingbeat::math::DVec3;

@@ -4,13 +4,12 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 use serde_json::{Value, json};
-use wingbeat::analysis::modes::Plane;
-use wingbeat::analysis::stability::floquet_of_trim;
-use wingbeat::analysis::stability::{LOADS, LinearModel};
 use wingbeat::analysis::wake::{
     WakeMemory, change_by_last_mode, elastic_modes, elastic_monodromy, wake_floquet,
 };
-use wingbeat::analysis::{ModeSet, linear_model, table_model};
+use wingbeat::analysis::{
+    LOADS, LinearModel, ModeSet, Plane, floquet_of_trim, linear_model, table_model,
+};
 use wingbeat::case::LoadedCase;
 use wingbeat::case::derivative_case;
 use wingbeat::flight::AirModel;

@@ -1,7 +1,7 @@
 //! `wingbeat trim --sweep`: trimmed flights over a range of speeds.
 
 use serde_json::{Value, json};
-use wingbeat::analysis::sweep::{Lost, Sweep, Swept, sweep};
+use wingbeat::analysis::{Lost, Sweep, Swept, sweep};
 use wingbeat::draw::figures::swept::{SpeedRow, swept};
 use wingbeat::math::DVec3;
 

@@ -1,11 +1,10 @@
 //! What is trimmed and how, for all analysing commands.
 
 use clap::Args;
-use wingbeat::analysis::least_power::trim_within;
-use wingbeat::analysis::steady::Residuals;
-use wingbeat::analysis::unknown::{Bound, UNKNOWNS};
 use wingbeat::analysis::wake::{WakeSettings, WakeTrim, check_alike, trim_with_wake};
-use wingbeat::analysis::{Beat, Trim, TrimProblem, TrimSettings, Unknown};
+use wingbeat::analysis::{
+    Beat, Bound, Residuals, Trim, TrimProblem, TrimSettings, UNKNOWNS, Unknown, trim_within,
+};
 use wingbeat::case::{IoError, LoadedCase};
 use wingbeat::math::DVec3;
 

@@ -2,7 +2,7 @@
 
 use serde_json::{Value, json};
 use wingbeat::analysis::Trim;
-use wingbeat::analysis::episode::tumble::{CALM_BEATS, CALM_SPEED, CALM_TILT, Recovery};
+use wingbeat::analysis::episode::{CALM_BEATS, CALM_SPEED, CALM_TILT, Recovery};
 
 use crate::command::report::{Report, line};
 
