@@ -2,7 +2,7 @@
 
 use crate::animal::{Animal, BodyPart, Wing};
 use crate::error::{ModelError, positive};
-use crate::integrate::MassInput;
+use crate::integrate::{self, MassInput};
 use crate::mesh::{GridMesh, QuadMesh, Side};
 use crate::motion::WingMotion;
 use crate::planform::WingShape;
@@ -16,7 +16,7 @@ impl BodyPart {
     /// A mesh that is not closed and outward, a mass that is not allowed.
     pub fn new(name: &str, mesh: QuadMesh, mass: &MassInput) -> Result<Self, ModelError> {
         mesh.check_closed(name)?;
-        let mass = mass.of_solid(name, &mesh)?;
+        let mass = mass.of_solid(name, &integrate::solid(&mesh, 1.0))?;
         Ok(Self {
             name: name.to_owned(),
             mesh,
@@ -24,7 +24,7 @@ impl BodyPart {
         })
     }
 
-    /// A surface of revolution.
+    /// A surface of revolution. Its mass is that of the round solid, its panels are the surface in the air.
     ///
     /// # Errors
     /// As [`Self::new`], and sizes that are not allowed.
@@ -33,7 +33,8 @@ impl BodyPart {
         shape: &Revolution,
         mass: &MassInput,
     ) -> Result<Self, ModelError> {
-        Self::new(name, shape.mesh(name)?, mass)
+        let round = mass.of_solid(name, &shape.solid(name, 1.0)?)?;
+        Self::new(name, shape.mesh(name)?, &MassInput::Given(round))
     }
 }
 

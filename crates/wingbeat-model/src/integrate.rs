@@ -96,7 +96,7 @@ pub fn shell(mesh: &QuadMesh, sigma: impl Fn(DVec3) -> f64) -> MassProperties {
 }
 
 /// `J = tr(P) I - P` with `P = int rho r r^T`.
-fn from_moments(mass: f64, first_moment: DVec3, second: DMat3) -> MassProperties {
+pub(crate) fn from_moments(mass: f64, first_moment: DVec3, second: DMat3) -> MassProperties {
     let trace = trace(second);
     MassProperties {
         mass,
@@ -120,15 +120,20 @@ pub enum MassInput {
 }
 
 impl MassInput {
-    /// Mass properties of a closed part about the origin of the mesh frame.
+    /// Mass properties of a closed part about the origin of its frame; `solid` is that of the part filled with
+    /// density 1 kg/m3.
     ///
     /// # Errors
     /// A negative or non-finite number, or impossible given moments.
-    pub fn of_solid(&self, name: &str, mesh: &QuadMesh) -> Result<MassProperties, ModelError> {
+    pub fn of_solid(
+        &self,
+        name: &str,
+        solid: &MassProperties,
+    ) -> Result<MassProperties, ModelError> {
         let key = format!("{name}.mass");
         let found = match *self {
-            MassInput::Density(rho) => solid(mesh, not_negative(&key, rho)?),
-            MassInput::Total(m) => solid(mesh, not_negative(&key, m)? / volume(mesh)),
+            MassInput::Density(rho) => solid.scaled(not_negative(&key, rho)?),
+            MassInput::Total(m) => solid.scaled(not_negative(&key, m)? / solid.mass),
             MassInput::Given(given) => given,
             MassInput::SpanTable(_) => {
                 return Err(in_row(&key, 0, "a table along the span is for wings only"));

@@ -6,10 +6,11 @@
 
 use crate::ModelError;
 use crate::error::{finite, in_row, positive, require, require_count};
-use crate::integrate::interpolate;
+use crate::integrate::{GAUSS, from_moments, interpolate};
 use crate::mesh::QuadMesh;
+use statrs::function::beta::beta;
 use std::f64::consts::{PI, TAU};
-use wingbeat_math::DVec3;
+use wingbeat_math::{DMat3, DVec3, MassProperties, outer};
 
 /// Radius along the axis, relative to the largest, over the station s in [0, 1] from front pole
 /// to rear pole.
@@ -39,6 +40,23 @@ impl Profile {
         }
     }
 
+    /// The integrals over the station of `r^2`, `r^2 z`, `r^2 z^2` and `r^4`, with `z = s - 1/2` \[1\]: exact.
+    fn moments(&self) -> [f64; 4] {
+        match self {
+            // Polynomials of the fourth degree at most, on the whole and between two rows.
+            Profile::Ellipsoid => over_station(&[0.0, 1.0], |s| self.radius(s)),
+            Profile::Table(rows) => {
+                let ends: Vec<f64> = rows.iter().map(|&(s, _)| s).collect();
+                over_station(&ends, |s| self.radius(s))
+            }
+            &Profile::Superellipse { exponent: n } => {
+                // With t = |2 z|, the integral of t^k (1 - t^n)^(p / n) from 0 to 1.
+                let half = |k: f64, p: f64| beta((k + 1.0) / n, p / n + 1.0) / n;
+                [half(0.0, 2.0), 0.0, 0.25 * half(2.0, 2.0), half(0.0, 4.0)]
+            }
+        }
+    }
+
     fn check(&self, key: &str) -> Result<(), ModelError> {
         match self {
             Profile::Ellipsoid => Ok(()),
@@ -48,6 +66,23 @@ impl Profile {
             Profile::Table(rows) => check_table(key, rows),
         }
     }
+}
+
+/// [`Profile::moments`] by three Gauss points between each two of `ends`.
+fn over_station(ends: &[f64], radius: impl Fn(f64) -> f64) -> [f64; 4] {
+    let mut sum = [0.0; 4];
+    for pair in ends.windows(2) {
+        let width = pair[1] - pair[0];
+        for (u, weight) in GAUSS {
+            let s = pair[0] + u * width;
+            let (z, square) = (s - 0.5, radius(s).powi(2));
+            let values = [square, square * z, square * z * z, square * square];
+            for (sum, value) in sum.iter_mut().zip(values) {
+                *sum += weight * width * value;
+            }
+        }
+    }
+    sum
 }
 
 fn check_table(key: &str, rows: &[(f64, f64)]) -> Result<(), ModelError> {
@@ -115,6 +150,25 @@ impl Revolution {
             nodes: self.nodes(),
             quads: quads(self.stations, self.meridians),
         })
+    }
+
+    /// Mass properties about the origin of the body frame of the solid of density `density` \[kg/m3\] within the
+    /// surface itself, whatever the panels of its mesh: exact.
+    ///
+    /// # Errors
+    /// As [`Self::mesh`].
+    pub fn solid(&self, name: &str, density: f64) -> Result<MassProperties, ModelError> {
+        self.check(name)?;
+        let [volume, first, axial, across] = self.profile.moments();
+        let axis = self.direction.normalize();
+        let mass_per_volume = density * PI * self.radius.powi(2) * self.length;
+        // Stations count from the front pole to the rear, against the axis.
+        let first_moment = axis * (-first * mass_per_volume * self.length);
+        let along = axial * mass_per_volume * self.length.powi(2);
+        let across = 0.25 * across * mass_per_volume * self.radius.powi(2);
+        let second = DMat3::from_diagonal(DVec3::splat(across)) + outer(axis) * (along - across);
+        let about_middle = from_moments(volume * mass_per_volume, first_moment, second);
+        Ok(about_middle.moved(DMat3::IDENTITY, self.centre))
     }
 
     /// All lengths multiplied by `s`.

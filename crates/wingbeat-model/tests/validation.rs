@@ -14,32 +14,25 @@ fn angles(m: &PublishedMotion, x: f64) -> [f64; 2] {
 /// 0.0755 mg mm2.
 #[test]
 fn published_fruit_fly_sizes_masses_and_body_inertia() {
-    let coarse = drosophila_melanogaster(&FlyOptions::default()).unwrap();
-    let fine = drosophila_melanogaster(&FlyOptions {
+    let fly = drosophila_melanogaster(&FlyOptions::default()).unwrap();
+    assert!((fly.body_length() - 2.5e-3).abs() < 1e-15);
+    assert!((fly.body.mass - 0.9315e-6).abs() < 1e-18);
+    assert!(fly.body.centre().length() < 1e-15); // the origin is the mass centre
+    let j = fly.body.inertia_about_centre();
+    let mg_mm2 = 1e-12;
+    let off = |computed: f64, measured: f64| (computed / (measured * mg_mm2) - 1.0).abs();
+    // Three round ellipsoids in line against a scanned, bent body of one density.
+    let across = [off(j.y_axis.y, 0.4077), off(j.z_axis.z, 0.4008)];
+    assert!(across[0] < 0.15 && across[1] < 0.15, "{across:?}");
+    let along = off(j.x_axis.x, 0.0755); // slimmer
+    assert!(along < 0.25, "{along}");
+    // Near the density of water; the thorax carries the six legs' mass as well.
+    let fine = FlyOptions {
         stations: [24; 3],
         meridians: [32; 3],
         ..Default::default()
-    })
-    .unwrap();
-    for (fly, along) in [(&fine, 0.25), (&coarse, 0.35)] {
-        assert!((fly.body_length() - 2.5e-3).abs() < 1e-15);
-        assert!((fly.body.mass - 0.9315e-6).abs() < 1e-18);
-        assert!(fly.body.centre().length() < 1e-15); // the origin is the mass centre
-        let j = fly.body.inertia_about_centre();
-        let mg_mm2 = 1e-12;
-        let off = |ours: f64, theirs: f64| (ours / (theirs * mg_mm2) - 1.0).abs();
-        // Three ellipsoids in line against a scanned, bent body of one density: 15 % across;
-        // along the body ours is slimmer: 25 %, and 35 % for the inscribed coarse mesh.
-        let across = [off(j.y_axis.y, 0.4077), off(j.z_axis.z, 0.4008)];
-        assert!(across[0] < 0.15 && across[1] < 0.15, "{across:?}");
-        assert!(
-            off(j.x_axis.x, 0.0755) < along,
-            "{}",
-            off(j.x_axis.x, 0.0755)
-        );
-    }
-    // Near the density of water; the thorax carries the six legs' mass as well.
-    for part in &fine.parts {
+    };
+    for part in &drosophila_melanogaster(&fine).unwrap().parts {
         let density = part.mass.mass / wingbeat_model::integrate::volume(&part.mesh);
         assert!(
             (800.0..1500.0).contains(&density),

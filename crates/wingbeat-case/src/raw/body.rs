@@ -97,7 +97,7 @@ pub struct PartCase {
     pub profile: Option<ProfileCase>,
     /// Panels from front to rear. Left out: 6.
     ///
-    /// Change it for finer pressures on the body, and for its mass and inertia, which are those of the solid within the panels.
+    /// Change it for finer pressures on the body; mass and inertia are those of the round body whatever the panels.
     #[schemars(range(min = 2), extend("with" = REVOLUTION))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub stations: Option<usize>,
@@ -138,8 +138,7 @@ pub struct PartCase {
     #[schemars(range(min = 0))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub mass_kg: Option<f64>,
-    /// Density of the part. The mass is that of the solid within its panels: of an ellipsoid on the default 6 x 8 panels 84 % of the round one's,
-    /// on 20 x 32 99 %.
+    /// Density of the part. Surfaces of revolution have the mass of the round solid, meshes that of the solid within their panels.
     ///
     /// Change it where no mass was measured: insect tissue has about 1000.
     #[schemars(range(min = 0), extend("or" = "mass_kg"))]

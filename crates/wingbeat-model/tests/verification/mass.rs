@@ -3,7 +3,9 @@
 use crate::gap;
 use wingbeat_math::{DMat3, DVec3, MassProperties, r1, r3};
 use wingbeat_model::species::{FlyOptions, drosophila_melanogaster};
-use wingbeat_model::{MassInput, Planform, QuadMesh, Side, WingShape, integrate};
+use wingbeat_model::{
+    BodyPart, MassInput, Planform, Profile, QuadMesh, Revolution, Side, WingShape, integrate,
+};
 
 /// A box of edges `e` with its lowest corner at `p`.
 fn cuboid(p: DVec3, e: DVec3) -> QuadMesh {
@@ -46,7 +48,7 @@ fn exact_box() {
 #[test]
 fn invariant_integration_commutes_with_moving_the_mesh() {
     let (r, p) = (r1(0.7) * r3(-1.2), DVec3::new(0.3, -0.8, 1.1));
-    let shape = wingbeat_model::Revolution::ellipsoid(DVec3::new(0.1, 0.2, 0.3), 2.0, 0.4, [5, 6]);
+    let shape = Revolution::ellipsoid(DVec3::new(0.1, 0.2, 0.3), 2.0, 0.4, [5, 6]);
     let mesh = shape.mesh("part").unwrap();
     let moved = integrate::solid(&mesh.map(|x| r * x + p), 3.0);
     // Bilinear patches move rigidly with their corners: equal up to rounding.
@@ -55,6 +57,64 @@ fn invariant_integration_commutes_with_moving_the_mesh() {
         &integrate::solid(&mesh, 3.0).moved(r, p),
         1e-12
     ));
+}
+
+/// Off the origin and slanted, so that every moment is in use.
+fn slanted(profile: Profile, panels: [usize; 2]) -> Revolution {
+    Revolution {
+        direction: DVec3::new(1.0, 0.4, -0.7),
+        profile,
+        ..Revolution::ellipsoid(DVec3::new(0.3, -0.2, 0.5), 2.0, 0.4, panels)
+    }
+}
+
+#[test]
+fn exact_mass_of_a_round_ellipsoid_whatever_its_panels() {
+    let (a, b, rho) = (1.0, 0.4, 3.0); // semi-axes
+    let m = rho * 4.0 / 3.0 * std::f64::consts::PI * a * b * b;
+    let shape = slanted(Profile::Ellipsoid, [6, 8]);
+    let axis = shape.direction.normalize();
+    let across = 0.2 * m * (a * a + b * b);
+    let about_centre = DMat3::from_diagonal(DVec3::splat(across))
+        + wingbeat_math::outer(axis) * (0.4 * m * b * b - across);
+    let expected = MassProperties::about_centre(m, shape.centre, about_centre);
+    for panels in [[6, 8], [3, 4]] {
+        let shape = slanted(Profile::Ellipsoid, panels);
+        let part = |mass| BodyPart::revolution("part", &shape, &mass).unwrap().mass;
+        // Moments of 4 kg m2: rounding.
+        assert!(close(&part(MassInput::Density(rho)), &expected, 1e-14));
+        assert!(close(&part(MassInput::Total(m)), &expected, 1e-14));
+    }
+}
+
+#[test]
+fn order_solids_within_panels_converge_to_the_round_ones_at_second_order() {
+    let table = vec![(0.0, 0.0), (0.25, 0.9), (0.5, 1.0), (1.0, 0.0)];
+    let profiles = [
+        Profile::Ellipsoid,
+        Profile::Superellipse { exponent: 3.0 },
+        Profile::Superellipse { exponent: 1.5 },
+        Profile::Table(table),
+    ];
+    for profile in profiles {
+        let gaps = |n: usize| {
+            let shape = slanted(profile.clone(), [n, 2 * n]);
+            let panels = integrate::solid(&shape.mesh("part").unwrap(), 1.0);
+            let round = shape.solid("part", 1.0).unwrap();
+            [
+                (panels.mass - round.mass).abs(),
+                (panels.first_moment - round.first_moment).length(),
+                gap(panels.inertia, round.inertia),
+            ]
+        };
+        let (coarse, fine) = (gaps(60), gaps(120));
+        for k in 0..3 {
+            // Rows of the table are stations of both meshes; 3.8 at the ends of the exponent 1.5.
+            let ratio = coarse[k] / fine[k];
+            assert!((3.7..4.3).contains(&ratio), "{profile:?} {k}: {ratio}");
+            assert!(fine[k] < 1e-3, "{profile:?} {k}: {}", fine[k]);
+        }
+    }
 }
 
 #[test]
