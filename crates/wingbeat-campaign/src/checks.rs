@@ -293,9 +293,12 @@ pub fn base_case(
                 .iter()
                 .find(|o| e.origin.starts_with(&format!("{o} (set")));
             match by.and_then(|o| o.split_once('=')) {
-                Some((key, _)) => Err(document
+                Some((key, value)) => Err(document
                     .fault(
-                        &format!("set.{key}"),
+                        &match value {
+                            "" => "remove".to_owned(),
+                            _ => format!("set.{key}"),
+                        },
                         format!("{}: {}", e.key, e.problem),
                         e.allowed.clone(),
                         e.remedy.clone(),
@@ -308,10 +311,9 @@ pub fn base_case(
     }
 }
 
-/// Keys of `[set]` as overrides.
+/// Keys of `remove` and of `[set]` as overrides.
 pub fn set_of(raw: &RawCampaign) -> Vec<String> {
-    raw.set
-        .iter()
-        .map(|(key, value)| format!("{key}={value}"))
-        .collect()
+    let removed = raw.remove.iter().map(|key| format!("{key}="));
+    let set = raw.set.iter().map(|(key, value)| format!("{key}={value}"));
+    removed.chain(set).collect()
 }

@@ -135,7 +135,7 @@ const BEATS: [Entry<BeatMeans>; 6] = [
     (
         "power_watt",
         "W",
-        "mean power of actuators and prescribed deformation",
+        "mean power of the joints and of prescribed deformation; at free hinges it counts springs, dampers and stops too",
         |b| b.power_watt,
     ),
     (
@@ -195,9 +195,12 @@ const SUMMARY: [Entry<Summary>; 16] = [
 ];
 
 const POWERS: [Entry<Power>; 7] = [
-    ("aerodynamic_watt", "W", "mean power against the air", |p| {
-        p.aerodynamic
-    }),
+    (
+        "aerodynamic_watt",
+        "W",
+        "mean power against the air, of the motion relative to the body",
+        |p| p.aerodynamic,
+    ),
     (
         "inertial_positive_watt",
         "W",

@@ -23,6 +23,9 @@ pub struct RawCampaign {
     #[serde(default)]
     #[schemars(with = "BTreeMap<String, serde_json::Value>")]
     pub set: BTreeMap<String, toml::Value>,
+    /// Keys of the case that are taken out of it at all points.
+    #[serde(default)]
+    pub remove: Vec<String>,
     /// Seed of everything that is drawn; below 2^32 where `sobol` is.
     pub seed: Option<usize>,
     /// Points that are drawn (at every point of the grid, where there is one).

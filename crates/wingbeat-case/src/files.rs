@@ -202,6 +202,7 @@ impl TableFile {
         let text = bytes_of(&self.key, &self.file)?;
         let mut reader = csv::ReaderBuilder::new()
             .comment(Some(b'#'))
+            .delimiter(delimiter(&text))
             .trim(csv::Trim::All)
             .from_reader(text.as_slice());
         let header = reader.headers().map_err(|e| self.bad(&e.to_string()))?;
@@ -279,10 +280,20 @@ impl TableFile {
         Fault::new(
             self.key.clone(),
             format!("`{}`: {problem}", self.file.display()),
-            "a CSV file with one header line and finite numbers",
+            "a CSV file with one header line and finite numbers, a point before decimals; commas, semicolons or tabs part its columns",
             "correct the file",
         )
     }
+}
+
+/// What parts the columns: a comma, or a semicolon or tab where the header has no comma.
+fn delimiter(text: &[u8]) -> u8 {
+    let is_comment = |line: &&[u8]| line.starts_with(b"#") || line.trim_ascii().is_empty();
+    let mut lines = text.split(|&b| b == b'\n');
+    let header = lines.find(|line| !is_comment(line)).unwrap_or_default();
+    let others = [b';', b'\t'];
+    let other = others.into_iter().find(|sign| header.contains(sign));
+    other.filter(|_| !header.contains(&b',')).unwrap_or(b',')
 }
 
 fn line_of(record: &StringRecord) -> u64 {

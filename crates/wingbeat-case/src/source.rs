@@ -33,7 +33,7 @@ struct Place {
 }
 
 impl CaseSource {
-    /// Parses `text` and applies `KEY=VALUE` overrides.
+    /// Parses `text` and applies `KEY=VALUE` overrides; `KEY=` takes a key away.
     ///
     /// # Errors
     /// Broken TOML, a broken override, or a number that is not finite anywhere.
@@ -83,6 +83,10 @@ impl CaseSource {
             remedy: fault.remedy,
             excerpt: None,
         };
+        // Where keys are set on top of a case, one of the case may be in their way.
+        if error.remedy.starts_with("remove it") && !self.overrides.is_empty() {
+            error.remedy += &format!("; `{}=`, set to nothing, takes it away", error.key);
+        }
         if let Some((key, typed)) = overridden {
             error.origin = format!("{key}={typed} (set on top of {})", self.name);
         } else if let Some(span) = self.span(&fault.key, error.problem.starts_with("unknown key")) {
@@ -188,6 +192,11 @@ impl CaseSource {
             .split_once('=')
             .ok_or_else(|| wrong("", format!("`{}` has no `=`", shortened(item))))?;
         let (key, typed) = (key.trim(), typed.trim());
+        if typed.is_empty() {
+            take_away(&mut self.table, key).map_err(|problem| wrong(key, problem))?;
+            self.overrides.push((key.to_owned(), String::new()));
+            return Ok(());
+        }
         let document = format!("value = {typed}").parse::<Table>();
         let value = match document {
             Ok(mut table) if table.len() == 1 => table.remove("value"),
@@ -333,6 +342,20 @@ fn set(table: &mut Table, path: &str, value: Value) -> Result<(), String> {
     }
     *slot = value;
     Ok(())
+}
+
+/// Takes the key at `path` out of the document.
+fn take_away(table: &mut Table, path: &str) -> Result<(), String> {
+    let none = || {
+        format!("nothing stands behind `=`, which takes a key away, and there is no `{path}` here")
+    };
+    let (outer, key) = path.rsplit_once('.').unwrap_or(("", path));
+    let holder = match outer {
+        "" => Some(table),
+        outer => find_mut(table, outer).and_then(Value::as_table_mut),
+    };
+    let gone = holder.and_then(|t| t.remove(key));
+    gone.map(|_| ()).ok_or_else(none)
 }
 
 /// A value in one line, shortened.

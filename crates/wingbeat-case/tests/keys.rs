@@ -431,3 +431,29 @@ fn regress_the_dictionary_of_the_fuzzer_has_every_key_and_choice() {
         }
     }
 }
+
+#[test]
+fn exact_nothing_behind_the_equals_sign_takes_a_key_away() {
+    let sets = |sets: &[&str]| sets.iter().map(|s| (*s).to_owned()).collect::<Vec<_>>();
+    let tethered = "flight.mode=tethered";
+    let held = LoadedCase::find("fruit-fly-hover", &sets(&[tethered]));
+    let Err(error) = held else {
+        panic!("a body on a tether is held for no beats");
+    };
+    assert!(
+        error.to_string().contains("`flight.held_beats=`"),
+        "{error}"
+    );
+    assert!(LoadedCase::find("fruit-fly-hover", &sets(&[tethered, "flight.held_beats="])).is_ok());
+    // Whole tables, too.
+    let headless = LoadedCase::find("fruit-fly-blade", &sets(&["body.part.head="])).unwrap();
+    assert_eq!(headless.setup.animal.parts.len(), 2);
+    let missing = LoadedCase::find("fruit-fly-blade", &sets(&["time.step_s="]));
+    let Err(error) = missing else {
+        panic!("a key that is not there was taken away");
+    };
+    assert!(
+        error.to_string().contains("there is no `time.step_s`"),
+        "{error}"
+    );
+}

@@ -125,6 +125,22 @@ fn refuses_tables_without_a_header() {
 }
 
 #[test]
+fn exact_semicolons_and_tabs_part_columns_like_commas() {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("slips");
+    fs::create_dir_all(&folder).unwrap();
+    let rows = "# digitised, by hand\nphase,angle_deg\n0,10\n0.25,3\n0.5,-10\n0.75,3\n1,10\n";
+    let [comma, semicolon, tab] = [",", ";", "\t"].map(|sign| {
+        let file = folder.join(format!("columns-{}.csv", sign.as_bytes()[0]));
+        fs::write(&file, rows.replace(',', sign)).unwrap();
+        let law = format!("wing.right.motion.phi={{ table = {{ file = {file:?} }} }}");
+        let case = LoadedCase::find("fruit-fly-hover", &[law]).unwrap();
+        case.setup.animal.wings[1].motion.clone()
+    });
+    assert_eq!(comma, semicolon);
+    assert_eq!(comma, tab);
+}
+
+#[test]
 fn refuses_phases_in_other_units_by_the_line() {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("slips");
     fs::create_dir_all(&folder).unwrap();
@@ -138,6 +154,11 @@ fn refuses_phases_in_other_units_by_the_line() {
             "degrees",
             "0,10\n90,3\n180,-10\n270,3\n360,10",
             "phases in degrees are to be divided by 360",
+        ),
+        (
+            "seconds",
+            "0,10\n0.001,3\n0.002,-10\n0.004,3\n0.005,10",
+            "times are to be divided by the period",
         ),
         (
             "unsorted",

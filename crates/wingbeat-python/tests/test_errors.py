@@ -34,7 +34,7 @@ BAD: dict[str, Bad] = {
     "key that is no text": lambda *_: Flight.from_case({3: 1}),
     "value that is no value": lambda *_: Flight.from_case({"time": {"beats": object()}}),
     "bytes": lambda blade, _: blade.set("name", b"fly"),
-    "None": lambda blade, _: blade.set("time.beats", None),
+    "None": lambda blade, _: blade.set("time.steps", None),
     "no value": lambda blade, _: blade.set("time.beats"),
     "unknown key": lambda blade, _: blade.set("motion.frequenzy_hz", 200),
     "unit of another kind": lambda blade, _: blade.set("body.mass_mg", 1.0),

@@ -110,7 +110,7 @@ fn check_closure(n: usize, first: (f64, f64), last: (f64, f64), range: f64) -> R
         let unit = match period {
             90.0..=101.0 => ": phases in per cent are to be divided by 100",
             330.0..=361.0 => ": phases in degrees are to be divided by 360",
-            _ => "",
+            _ => ": times are to be divided by the period of a wingbeat",
         };
         return Err(format!(
             "the table spans {period} wingbeats, not 1{unit}; row {n} must repeat the first row one period after it"
@@ -118,7 +118,7 @@ fn check_closure(n: usize, first: (f64, f64), last: (f64, f64), range: f64) -> R
     }
     if (last.1 - first.1).abs() > CLOSURE * range {
         return Err(format!(
-            "the table is not periodic: it ends at {} and starts at {}; the last row must repeat the first value",
+            "the table is not periodic: it ends at {} and starts at {}; the last row must repeat the first value (of measured angles take out the drift first)",
             last.1, first.1
         ));
     }

@@ -73,7 +73,7 @@ class Flight:
 
     def set(self, key: str | Mapping[str, Any], value: Any = _UNSET) -> Flight:
         """A new flight with a key of the case at another value, e.g. ``set("motion.frequency_hz", 210)``, or several
-        by a dict. All keys: docs/case-keys.md.
+        by a dict; None takes a key out of the case. All keys: docs/case-keys.md.
         """
         items: Mapping[str, Any] = key if isinstance(key, Mapping) else {key: value}
         sets = []
@@ -82,7 +82,7 @@ class Flight:
                 raise CaseError(f"{name!r} is no key of a case", key=str(name) or "case", remedy="a path as motion.frequency_hz")
             if item is _UNSET:
                 raise CaseError(f"{name}: no value is given", key=name, remedy="set(key, value)")
-            sets.append(f"{name}={_toml.value(item, name)}")
+            sets.append(f"{name}=" if item is None else f"{name}={_toml.value(item, name)}")
         source = self._source and replace(self._source, sets=(*self._source.sets, *sets))
         return Flight(self._core.set(sets), source)
 

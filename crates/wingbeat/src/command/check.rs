@@ -19,7 +19,7 @@ use crate::command::watch::Watch;
 pub(crate) struct CheckArgs {
     /// Case file or preset; - is the standard input.
     case: String,
-    /// Set a key of the case, e.g. time.beats=3 (may be repeated).
+    /// Set a key of the case, e.g. time.beats=3; KEY= takes it away (may be repeated).
     #[arg(long = "set", value_name = "KEY=VALUE")]
     set: Vec<String>,
     /// Build and try lattices, too, that take long to build.

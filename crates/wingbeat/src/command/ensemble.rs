@@ -22,7 +22,7 @@ pub(crate) struct EnsembleArgs {
     /// Case file or preset; - is the standard input.
     #[arg(default_value = "fruit-fly-hover")]
     case: String,
-    /// Set a key of the case, e.g. time.beats=3 (may be repeated).
+    /// Set a key of the case, e.g. time.beats=3; KEY= takes it away (may be repeated).
     #[arg(long = "set", value_name = "KEY=VALUE")]
     set: Vec<String>,
     /// Flights; in all but the first the air moves by a millionth of the wings' speed.

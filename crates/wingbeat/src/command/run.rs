@@ -28,7 +28,7 @@ pub(crate) struct RunArgs {
     /// Replace an earlier run in the result directory.
     #[arg(long, requires = "out")]
     overwrite: bool,
-    /// Set a key of the case, e.g. time.beats=3 (may be repeated).
+    /// Set a key of the case, e.g. time.beats=3; KEY= takes it away (may be repeated).
     #[arg(long = "set", value_name = "KEY=VALUE")]
     set: Vec<String>,
     #[command(flatten)]

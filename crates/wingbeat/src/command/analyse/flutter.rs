@@ -19,7 +19,7 @@ use crate::command::report::{Report, ReportArgs, line};
 pub(crate) struct FlutterArgs {
     /// Case file or preset with elastic wings held in a stream; - is the standard input.
     case: String,
-    /// Set a key of the case, e.g. air.density_kg_m3=1 (may be repeated).
+    /// Set a key of the case, e.g. air.density_kg_m3=1; KEY= takes it away (may be repeated).
     #[arg(long = "set", value_name = "KEY=VALUE")]
     set: Vec<String>,
     /// Speeds of the stream, m/s: from, to and their number.

@@ -26,7 +26,7 @@ const ALIKE: f64 = 0.5;
 pub(crate) struct ModesArgs {
     /// Case file or preset with elastic wings; - is the standard input.
     case: String,
-    /// Set a key of the case, e.g. wing.right.structure.shell.young_pa=2e9 (may be repeated).
+    /// Set a key of the case, e.g. wing.right.structure.shell.young_pa=2e9; KEY= takes it away (may be repeated).
     #[arg(long = "set", value_name = "KEY=VALUE")]
     set: Vec<String>,
     /// Modes of each wing.

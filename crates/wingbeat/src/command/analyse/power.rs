@@ -49,7 +49,11 @@ fn tell(report: &mut Report, p: &Power, muscle: f64) {
         "W/kg muscle"
     );
     let rows = [
-        ("against the air", "aerodynamic", p.aerodynamic),
+        (
+            "against the air, relative to the body",
+            "aerodynamic",
+            p.aerodynamic,
+        ),
         (
             "inertial, positive part",
             "inertial_positive",

@@ -47,7 +47,7 @@ pub(crate) struct Trimming {
     /// Case file or preset in blade elements; trim, stability and power take the vortex lattice, too; - is the standard input.
     #[arg(default_value = "fruit-fly-blade")]
     case: String,
-    /// Set a key of the case, e.g. time.beats=3 (may be repeated).
+    /// Set a key of the case, e.g. time.beats=3; KEY= takes it away (may be repeated).
     #[arg(long = "set", value_name = "KEY=VALUE")]
     set: Vec<String>,
     /// What trim may choose: three things [default: body_pitch stroke_amplitude stroke_offset]; six, three of them
