@@ -7,9 +7,11 @@ use std::sync::{Arc, Mutex};
 use common::Fly;
 use wingbeat_air::{Gust, GustShape, VortexStreet, Wind};
 use wingbeat_blade::BladeSettings;
-use wingbeat_dynamics::{BodyMotion, Wrench};
+use wingbeat_dynamics::{BodyAcceleration, BodyMotion, Wrench};
+use wingbeat_flight::air::BladeAir;
 use wingbeat_flight::*;
-use wingbeat_math::{DMat3, DVec3, MassProperties};
+use wingbeat_math::{DMat3, DVec3, MassProperties, r1, r2};
+use wingbeat_model::deformation::{Deformation, SpanLaw, Term};
 
 fn blade(stream: DVec3, wind: Wind) -> FlightSetup {
     let mut setup = Fly::default().setup(40, 1.0);
@@ -61,6 +63,88 @@ fn exact_steady_gust_on_blade_elements_is_a_stream() {
         "the stream carries the fly along: {drift:e} m"
     );
     assert!(gap < 1e-10 * drift, "{gap:e} of {drift:e} m");
+}
+
+/// Loads of blade elements on the bodies of `setup` that move like `motions` at time `t` \[s\], and those of their added mass if all
+/// accelerate alike by `acc` \[m/s2\] and do not turn the faster.
+fn loads(setup: &FlightSetup, t: f64, motions: &[BodyMotion], acc: DVec3) -> Vec<Wrench> {
+    let AirModel::BladeElement(options) = &setup.air else {
+        panic!("blade elements");
+    };
+    let air = BladeAir::new(&setup.animal, options).expect("strips");
+    let at = Instant {
+        time: t,
+        step: 1e-4,
+        motions,
+        accelerations: &[],
+        shapes: &[],
+    };
+    let mut out = vec![Wrench::default(); motions.len()];
+    air.loads(&at, None, &mut air.scratch(), &mut out)
+        .expect("loads");
+    let mut masses = vec![];
+    air.added_mass(t, &mut masses);
+    for mass in masses {
+        let by = BodyAcceleration {
+            linear: acc,
+            angular: DVec3::ZERO,
+        };
+        out[mass.body()] += mass.wrench(&motions[mass.body()], &by);
+    }
+    out
+}
+
+#[test]
+fn invariant_wings_in_air_that_swings_feel_what_wings_that_swing_in_still_air_do() {
+    let gust = Gust {
+        amplitude: DVec3::new(0.3, -0.2, 0.9),
+        start: 1e-3,
+        slowness: DVec3::ZERO,
+        shape: GustShape::OneMinusCosine { duration: 4e-3 },
+    };
+    let twist = Deformation {
+        twist: vec![Term::steady(SpanLaw::Linear {
+            root: 0.1,
+            tip: -0.4,
+        })],
+        ..Deformation::default()
+    };
+    let wind = Wind {
+        gusts: vec![gust],
+        ..Wind::default()
+    };
+    let flat = [Wind::default(), wind.clone()].map(|w| blade(DVec3::new(-0.4, 0.0, 0.1), w));
+    let mut bent = flat.clone();
+    for wing in bent.iter_mut().flat_map(|s| &mut s.animal.wings) {
+        *wing = wing.clone().deformed_by(twist.clone()).expect("a twist");
+    }
+    for [still, windy] in [flat, bent] {
+        let t = 2.3e-3;
+        let [u, rate] = wind.at_once(t);
+        // At rest, and in some motion.
+        for size in [0.0, 1.0] {
+            let motion = |k: usize| BodyMotion {
+                r: r1(0.3 + k as f64) * r2(0.7),
+                v: size * DVec3::new(0.5, 0.1, -0.4),
+                w: size * DVec3::new(90.0, -300.0, 200.0) * k as f64,
+                ..BodyMotion::REST
+            };
+            let motions = [0, 1, 2].map(motion);
+            let met = loads(&windy, t, &motions, DVec3::ZERO);
+            let swung = motions.map(|m| BodyMotion { v: m.v - u, ..m });
+            let moved = loads(&still, t, &swung, -rate);
+            let slow = loads(&still, t, &swung, DVec3::ZERO);
+            for k in 1..3 {
+                let apart = (met[k].force - moved[k].force).length();
+                let rated = (slow[k].force - moved[k].force).length();
+                let turned = (met[k].moment - moved[k].moment).length();
+                assert!(apart < 1e-12 * moved[k].force.length(), "{apart:e}");
+                assert!(turned < 1e-12 * moved[k].moment.length(), "{turned:e}");
+                // The rate is a part of the force that counts.
+                assert!(rated > 0.01 * moved[k].force.length(), "{rated:e}");
+            }
+        }
+    }
 }
 
 #[test]

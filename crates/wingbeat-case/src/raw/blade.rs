@@ -34,8 +34,8 @@ pub struct BladeCase {
     #[schemars(extend("with" = "rotation = circulation"))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub rotation_coefficient: Option<f64>,
-    /// Added mass, of the motion of the wings. Gusts and shears act by their velocities; the rate at which the wind changes
-    /// past a wing is not in it (with `unsteady` it is part of Kuessner's function).
+    /// Added mass, of the motion of the wings through the air: the rate at which the wind changes at a moving strip is in it (with `unsteady` that of
+    /// gusts without a front; Kuessner's function has the rest). A jump of a gust's table has no rate.
     ///
     /// Change it to reproduce a published model.
     #[default(AddedMass::Impulse)]
