@@ -263,7 +263,7 @@ impl AirModel {
 pub struct BladeOptions {
     /// Coefficients, rotation, added mass, density and stream.
     pub blade: BladeSettings,
-    /// Drag of the body; none leaves the body out of the air.
+    /// Drag of the body, at [`Animal::body_centre`] where it names no other point; none leaves the body out of the air.
     pub body_drag: Option<BodyDrag>,
     /// Induced flow at the wings, added to the stream, N components [m/s]; zero for coefficients
     /// that hold it already.

@@ -6,12 +6,13 @@ use std::sync::{Arc, Mutex};
 
 use common::Fly;
 use wingbeat_air::{Gust, GustShape, VortexStreet, Wind};
-use wingbeat_blade::BladeSettings;
+use wingbeat_blade::{BladeSettings, BodyDrag};
 use wingbeat_dynamics::{BodyAcceleration, BodyMotion, Wrench};
 use wingbeat_flight::air::BladeAir;
 use wingbeat_flight::*;
-use wingbeat_math::{DMat3, DVec3, MassProperties, r1, r2};
+use wingbeat_math::{DMat3, DVec3, EulerSequence, MassProperties, r1, r2};
 use wingbeat_model::deformation::{Deformation, SpanLaw, Term};
+use wingbeat_model::{Animal, BodyPart, MassInput, Profile, Revolution};
 
 fn blade(stream: DVec3, wind: Wind) -> FlightSetup {
     let mut setup = Fly::default().setup(40, 1.0);
@@ -144,6 +145,68 @@ fn invariant_wings_in_air_that_swings_feel_what_wings_that_swing_in_still_air_do
                 assert!(rated > 0.01 * moved[k].force.length(), "{rated:e}");
             }
         }
+    }
+}
+
+/// The fly with drag of its body, whose drag names the point `centre` or none, described from the origin `o` \[m\].
+fn dragged(animal: &Animal, centre: Option<DVec3>, o: DVec3) -> Record {
+    let mut setup = blade(DVec3::new(-1.5, 0.4, 0.6), Wind::default());
+    setup.animal = animal.with_origin(o);
+    let MotionMode::Free(start) = &mut setup.mode else {
+        panic!("a free flight");
+    };
+    let turn = EulerSequence::BODY_231.rotation(start.angles);
+    start.position += turn * o;
+    start.velocity += turn * start.angular_velocity.cross(o);
+    let AirModel::BladeElement(options) = &mut setup.air else {
+        panic!("blade elements");
+    };
+    options.body_drag = Some(BodyDrag {
+        area: 1e-6,
+        along: 0.6,
+        across: 1.3,
+        centre,
+    });
+    end(setup)
+}
+
+#[test]
+fn invariant_flights_of_a_body_with_drag_do_not_hang_on_its_origin() {
+    let bare = Fly::default().animal();
+    let solid = Revolution {
+        centre: DVec3::new(-3e-4, 0.0, 2e-4),
+        direction: DVec3::new(1.0, 0.0, -0.2),
+        length: 2e-3,
+        radius: 4e-4,
+        profile: Profile::Ellipsoid,
+        stations: 4,
+        meridians: 6,
+    };
+    let part = BodyPart::revolution("trunk", &solid, &MassInput::Density(0.0)).expect("a part");
+    let clad = Animal {
+        parts: vec![part],
+        ..bare.clone()
+    };
+    assert!((clad.body_centre() - solid.centre).length() < 1e-12);
+    assert_eq!(bare.body_centre(), bare.body.centre());
+    let o = DVec3::new(7e-4, 0.0, -4e-4);
+    let at = DVec3::new(-5e-4, 0.0, 3e-4);
+    for (animal, centre) in [(&bare, None), (&clad, None), (&clad, Some(at))] {
+        let here = dragged(animal, centre, DVec3::ZERO);
+        let moved = dragged(animal, centre.map(|c| c - o), o);
+        let elsewhere = dragged(animal, Some(animal.body_centre() + o), DVec3::ZERO);
+        let spin = |a: &Record, b: &Record| {
+            let apart = a.angular_momentum - b.angular_momentum;
+            apart.length() / here.angular_momentum.length()
+        };
+        let gap = (here.mass_centre - moved.mass_centre).length();
+        // Roundings of 40 steps; a lever of the size of the body turns it by far more.
+        assert!(gap < 1e-10 * here.mass_centre.length(), "{gap:e}");
+        assert!(spin(&here, &moved) < 1e-9, "{:e}", spin(&here, &moved));
+        assert!(spin(&here, &elsewhere) > 1e-3);
+        // The work of the air holds that of the moment.
+        let open = here.energy_residual.abs() / here.air_work.abs();
+        assert!(open < 1e-4, "{open:e}");
     }
 }
 

@@ -134,7 +134,7 @@ pub struct ViscousCase {
     pub quadratic: f64,
 }
 
-/// Drag of the body along and across its axis, at the origin of the body.
+/// Drag of the body along and across its axis.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct BodyDragCase {
@@ -153,4 +153,10 @@ pub struct BodyDragCase {
     /// Change it to what was measured.
     #[schemars(range(min = 0))]
     pub across: f64,
+    /// Where it acts, in the body frame in which hinges are given, before `animal.scale`: it follows the velocity of this point and turns the body by
+    /// its lever. Left out: the centre of the volume of the body's parts, without parts the mass centre of the body.
+    ///
+    /// Change it to where the drag was found to act.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub centre_m: Option<[f64; 3]>,
 }

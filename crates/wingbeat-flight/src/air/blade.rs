@@ -31,7 +31,8 @@ pub struct BladeAir {
     bent: Vec<Option<BentStrips>>,
     /// Added mass of those that keep their shape.
     added: Vec<AddedMass>,
-    drag: Option<BodyDrag>,
+    /// Drag of the body and where it acts, body components \[m\].
+    drag: Option<(BodyDrag, DVec3)>,
     density: f64,
     stream: DVec3,
     induced: DVec3,
@@ -60,7 +61,8 @@ impl BladeAir {
                 .map(|(i, w)| BentStrips::new(i, w))
                 .collect(),
             added: vec![],
-            drag: options.body_drag,
+            drag: (options.body_drag)
+                .map(|d| (d, d.centre.unwrap_or_else(|| animal.body_centre()))),
             density: options.blade.density,
             stream: options.blade.free_stream,
             induced: options.induced,
@@ -132,6 +134,15 @@ impl BladeAir {
         }
     }
 
+    /// The `drag` of the body that moves like `b`, at the point `centre`.
+    fn drag_on(&self, drag: &BodyDrag, centre: DVec3, t: f64, b: &BodyMotion) -> Wrench {
+        let wind = self.wind_on(b, t, None).velocity(centre);
+        let v = b.r.transpose() * (b.v - self.stream) + b.w.cross(centre) - wind;
+        let force = drag.force(self.density, v);
+        let moment = centre.cross(force);
+        turned(&Load { force, moment }, b)
+    }
+
     /// Wind on a wing that moves like `m` at time `t` \[s\], whose strips may remember their wakes (`lag`).
     fn wind_on(&self, m: &BodyMotion, t: f64, lag: Option<&Lag<'_>>) -> WindOn<'_> {
         WindOn {
@@ -180,11 +191,8 @@ impl Air for BladeAir {
         (scratch.strips.trials).resize_with(self.wings.len(), Vec::new);
         let (t, still) = (at.time, BodyAcceleration::default());
         out.fill(Wrench::default());
-        if let Some(drag) = &self.drag {
-            let b = &at.motions[0];
-            let wind = self.wind_on(b, t, None).velocity(DVec3::ZERO);
-            let v = b.r.transpose() * (b.v - self.stream) - wind;
-            out[0].force = b.r * drag.force(self.density, v);
+        if let Some((drag, centre)) = &self.drag {
+            out[0] = self.drag_on(drag, *centre, t, &at.motions[0]);
         }
         for (i, m) in (0..self.wings.len()).zip(&at.motions[1..]) {
             let bent = self.bent[i].as_ref();
