@@ -304,8 +304,8 @@ pub(crate) fn feedback(setup: &FlightSetup) -> Result<Option<Loop>, FlightError>
     if matches!(setup.mode, MotionMode::Tethered(_)) {
         return Err(FlightError::Setup {
             key: "control",
-            value: "of a tethered flyer".into(),
-            problem: "feedback steers a free flight: set flight.mode = \"free\", or leave it out"
+            value: String::new(),
+            problem: "the flyer is tethered, and feedback steers a free flight: set flight.mode = \"free\", or leave it out"
                 .into(),
         });
     }
