@@ -169,6 +169,21 @@ fn read_mesh(path: &str, part: &mut PartCase, base: &Path) -> Result<(), Fault> 
     Ok(())
 }
 
+/// Degrees in the unit that the name of a column says, as `psi_rad` or `psi [deg]`; degrees where it says none.
+fn degrees(column: &str) -> Result<f64, String> {
+    let words = column.split(|c: char| !c.is_alphanumeric());
+    let words: Vec<String> = words.map(str::to_lowercase).collect();
+    let any = |names: &[&str]| words.iter().any(|w| names.contains(&w.as_str()));
+    let radians = any(&["rad", "rads", "radian", "radians"]);
+    match (radians, any(&["deg", "degs", "degree", "degrees"])) {
+        (true, true) => Err(format!(
+            "the name of the column `{column}` says both radians and degrees"
+        )),
+        (true, false) => Ok(1f64.to_degrees()),
+        (false, _) => Ok(1.0),
+    }
+}
+
 fn read_table(path: &str, table: &mut TableCase, base: &Path) -> Result<(), Fault> {
     let Some(name) = table.file.take() else {
         return Ok(());
@@ -217,6 +232,10 @@ fn read_table(path: &str, table: &mut TableCase, base: &Path) -> Result<(), Faul
         column(&table.phase_column, 0)?,
         column(&table.angle_column, 1)?,
     ];
+    let to_degrees = header
+        .get(columns[1])
+        .map_or(Ok(1.0), degrees)
+        .map_err(bad)?;
     let (mut rows, mut lines) = (vec![], vec![]);
     for record in reader.records() {
         let record = record.map_err(|e| bad(e.to_string()))?;
@@ -226,7 +245,7 @@ fn read_table(path: &str, table: &mut TableCase, base: &Path) -> Result<(), Faul
             let value = text.parse::<f64>().ok().filter(|x| x.is_finite());
             value.ok_or_else(|| bad(format!("line {line}: `{text}` is not a finite number")))
         };
-        rows.push([number(columns[0])?, number(columns[1])?]);
+        rows.push([number(columns[0])?, to_degrees * number(columns[1])?]);
         lines.push(line);
     }
     if rows.is_empty() {
