@@ -1,11 +1,10 @@
 //! A route: waypoints with their times, and the smooth way between them.
 //!
 //! From one waypoint to the next place and heading go over by the polynomial of degree seven that begins and ends at
-//! rest ([`smoothstep`]); the last one is held. At the middle of the way the velocity is 35/16 of its mean.
+//! rest ([`smoothstep7`]); the last one is held. At the middle of the way the velocity is 35/16 of its mean.
 
 use wingbeat_flight::Aim;
-use wingbeat_flight::control::smoothstep;
-use wingbeat_math::DVec3;
+use wingbeat_math::{DVec3, smoothstep7};
 
 /// Where to be, and when.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -46,7 +45,7 @@ impl Route {
                 ..Aim::default()
             };
         };
-        let [way, rate, _] = smoothstep(time, from.time, to.time - from.time);
+        let [way, rate, _] = smoothstep7(time, from.time, to.time - from.time);
         let (step, turn) = (to.position - from.position, to.heading - from.heading);
         Aim {
             position: from.position + way * step,

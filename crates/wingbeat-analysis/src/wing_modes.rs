@@ -22,6 +22,7 @@ use wingbeat_structure::{Configuration, FrameMotion, Mode, modes};
 use crate::AnalysisError;
 use crate::flutter::{ElasticRig, FlutterSettings};
 use crate::moving::{moving, only_turns};
+use crate::progress;
 
 /// The state that wings vibrate about.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -171,44 +172,19 @@ fn of_wing(flight: &Simulation, k: usize, count: usize) -> Result<WingModes, Ana
     let wing = &flight.elastic_wings().wings()[k];
     let state: &FlightState = flight.state();
     let (structure, at) = (wing.structure(), &state.wings[k].structure.configuration);
-    let all = |added: Option<&[f64]>| -> Result<Vec<Mode>, AnalysisError> {
-        crate::progress::task(
-            if added.is_some() {
-                "in air"
-            } else {
-                "in vacuum"
-            },
-            0,
-            0,
-        );
+    let all = |what: &str, added: Option<&[f64]>| -> Result<Vec<Mode>, AnalysisError> {
+        progress::task(what, 0, 0);
         Ok(modes(structure, at, &FrameMotion::REST, added).map_err(FlightError::from)?)
     };
-    let leading = |all: Vec<Mode>, count: usize| -> (Vec<WingMode>, (usize, Vec<f64>)) {
-        let found = moving(wing, all, count);
-        let leading = found.modes.iter().map(|m| WingMode::new(wing, at, m));
-        let mut leading: Vec<WingMode> = leading.collect();
-        let fastest = leading.iter().map(|m| m.frequency).fold(0.0, f64::max);
-        for m in leading.iter_mut().filter(|m| m.growth < ROUNDING * fastest) {
-            m.growth = 0.0;
-        }
-        (leading, (found.left_out, found.mixed))
-    };
-    let places = |at: &Configuration| -> Vec<DVec3> {
-        let followers = wing.followers().iter();
-        followers.map(|f| f.position(at)).collect()
-    };
-    let (nodes, rest) = (places(at), places(structure.rest()));
     let added = flight.added_mass(k)?;
-    let in_vacuum = all(None)?;
-    let fastest = in_vacuum.last().map_or(0.0, Mode::frequency);
-    let turning = in_vacuum.iter().filter(|m| only_turns(wing, m));
-    let turning_growth = turning.map(|m| (-m.square).max(0.0).sqrt());
-    let turning_growth = turning_growth.fold(0.0, f64::max);
-    let (vacuum, (below, mixed)) = leading(in_vacuum.clone(), count);
-    let air = added.map(|a| all(Some(&a))).transpose()?;
-    let (air, below_in_air) = air.map(|a| leading(a, count)).unzip();
-    let compared = leading(in_vacuum, COMPARED * count).0;
+    let in_vacuum = all("in vacuum", None)?;
+    let in_air = added.map(|a| all("in air", Some(&a))).transpose()?;
+    let turning_growth = turning_growth(wing, &in_vacuum);
+    let (vacuum, left_out) = leading(wing, at, in_vacuum.clone(), count);
+    let (air, left_out_in_air) = in_air.map(|a| leading(wing, at, a, count)).unzip();
+    let compared = leading(wing, at, in_vacuum, COMPARED * count).0;
     let alike = air.iter().flatten().map(|m| Alike::of(m, &compared));
+    let [nodes, rest] = [at, structure.rest()].map(|at| places(wing, at));
     Ok(WingModes {
         wing: wing.wing(),
         deflection: nodes.iter().zip(rest).map(|(a, b)| *a - b).collect(),
@@ -217,11 +193,54 @@ fn of_wing(flight: &Simulation, k: usize, count: usize) -> Result<WingModes, Ana
         vacuum,
         alike: alike.collect(),
         air,
-        left_out: [below, below_in_air.map_or(0, |(below, _)| below)],
-        mixed,
-        turning_growth: match turning_growth > ROUNDING * fastest {
-            true => turning_growth,
-            false => 0.0,
-        },
+        left_out: [left_out.count, left_out_in_air.map_or(0, |l| l.count)],
+        mixed: left_out.mixed,
+        turning_growth,
     })
+}
+
+/// Modes that are not among the leading ones.
+struct LeftOut {
+    /// How many turn nodes and move nothing.
+    count: usize,
+    /// As [`WingModes::mixed`].
+    mixed: Vec<f64>,
+}
+
+/// The first `count` of the modes that move the wing; growth that is rounding is none.
+fn leading(
+    wing: &ElasticWing,
+    at: &Configuration,
+    all: Vec<Mode>,
+    count: usize,
+) -> (Vec<WingMode>, LeftOut) {
+    let found = moving(wing, all, count);
+    let leading = found.modes.iter().map(|m| WingMode::new(wing, at, m));
+    let mut leading: Vec<WingMode> = leading.collect();
+    let fastest = leading.iter().map(|m| m.frequency).fold(0.0, f64::max);
+    for m in leading.iter_mut().filter(|m| m.growth < ROUNDING * fastest) {
+        m.growth = 0.0;
+    }
+    let left_out = LeftOut {
+        count: found.left_out,
+        mixed: found.mixed,
+    };
+    (leading, left_out)
+}
+
+/// As [`WingModes::turning_growth`].
+fn turning_growth(wing: &ElasticWing, all: &[Mode]) -> f64 {
+    let fastest = all.last().map_or(0.0, Mode::frequency);
+    let turning = all.iter().filter(|m| only_turns(wing, m));
+    let growth = turning.map(|m| (-m.square).max(0.0).sqrt());
+    let largest = growth.fold(0.0, f64::max);
+    match largest > ROUNDING * fastest {
+        true => largest,
+        false => 0.0,
+    }
+}
+
+/// Where the nodes of the wing are.
+fn places(wing: &ElasticWing, at: &Configuration) -> Vec<DVec3> {
+    wing.followers().iter().map(|f| f.position(at)).collect()
 }

@@ -19,6 +19,7 @@ use crate::pair::{PairMotion, StripPair};
 use crate::settings::AddedMass;
 use crate::slowed::{front, slowed_forces};
 use crate::strip::Strip;
+use crate::wind::LocalWind;
 use crate::wing::BladeWing;
 
 /// How much a node shares in the place, the chord \[1/m\] and the sides of a section.
@@ -63,6 +64,8 @@ pub struct SectionState {
     x: f64,
     v: DVec3,
     a: DVec3,
+    /// What the wind at mid chord has more than at the feathering axis.
+    beyond: DVec3,
     /// Rates of d.
     chord_rate: DVec3,
     chord_acceleration: DVec3,
@@ -132,12 +135,13 @@ impl Section {
         })
     }
 
-    /// How it lies and moves where its nodes move like `nodes` in the `wind` \[m/s\] at points \[m\], wing components; `rotation`
-    /// takes these to N components.
+    /// How it lies and moves as a strip of the `wing` where its nodes move like `nodes` in the `wind`; `rotation` takes wing
+    /// components to N components.
     pub fn state(
         &self,
+        wing: &BladeWing,
         nodes: &NodesInMotion<'_>,
-        wind: impl Fn(DVec3) -> DVec3,
+        wind: &impl LocalWind,
         rotation: DMat3,
     ) -> SectionState {
         let [p, chord, s] = self.sums(nodes.position);
@@ -152,10 +156,14 @@ impl Section {
         let q = -chord_rate.dot(n) / d;
         let about_1 = (s_rate.dot(n) + q * s[0]) / s[1];
         let normal_rate = q * e1 - about_1 * e2;
-        let wind = |x: f64| wind(p + (x - self.x) * chord);
+        let [leading, trailing] = self.edges;
+        let middle = 0.5 * (leading + trailing);
+        let back = middle - self.x;
+        let blows = wing.wind_rate(wind, p + back * chord, v + back * chord_rate);
+        let at_once = rotation * wind.at_once()[0];
+        let wind = |x: f64| wind.velocity(p + (x - self.x) * chord);
         let here = wind(0.0);
         let at_axis = v - here - self.x * chord_rate;
-        let [leading, trailing] = self.edges;
         let ahead = front(at_axis.dot(e1), at_axis.dot(n));
         let at_front = wind(0.5 * (leading + trailing + (leading - trailing) * ahead));
         let falls = chord_acceleration.dot(n) + chord_rate.dot(normal_rate);
@@ -165,7 +173,8 @@ impl Section {
             s,
             x: self.x,
             v: v - here,
-            a,
+            a: a - blows,
+            beyond: wind(middle) - here,
             chord_rate,
             turn: DVec3::new(about_1, q, chord_rate.dot(e2) / d),
             chord_acceleration,
@@ -173,6 +182,7 @@ impl Section {
             wind: StripWind {
                 at_axis: here.dot(n),
                 at_front: rotation * at_front,
+                at_once,
                 normal: rotation * n,
             },
         }
@@ -203,10 +213,15 @@ impl SectionState {
         self.turn.y * self.e[0] - self.turn.x * self.e[1]
     }
 
-    /// Rate of the normal velocity of the point `x`.
+    /// Velocity of mid chord, the point `x`, through the air that is there.
+    fn at_middle(&self, x: f64) -> DVec3 {
+        self.velocity(x) - self.beyond
+    }
+
+    /// Rate of the normal velocity of mid chord, the point `x`.
     fn normal_velocity_rate(&self, x: f64) -> f64 {
         let acceleration = self.a + (x - self.x) * self.chord_acceleration;
-        acceleration.dot(self.e[2]) + self.velocity(x).dot(self.normal_rate())
+        acceleration.dot(self.e[2]) + self.at_middle(x).dot(self.normal_rate())
     }
 }
 
@@ -280,7 +295,7 @@ impl BladeWing {
             self.settings().density,
             strip.x_mid(),
         );
-        let (mass, v) = (strip.added_mass(rho), s.velocity(x));
+        let (mass, v) = (strip.added_mass(rho), s.at_middle(x));
         let impulse = mass * v.dot(s.e[2]);
         let inertia = match law.has_inertia() {
             true => strip.added_inertia(rho),

@@ -17,6 +17,7 @@ use crate::pair::{PairMotion, StripPair};
 use crate::settings::AddedMass;
 use crate::slowed::slowed_forces;
 use crate::strip::{PlacedStrip, Strip};
+use crate::wind::LocalWind;
 use crate::wing::{BladeWing, FrameAcceleration, Load, WingFrame};
 
 /// How a section lies and moves in the wing frame, wing components.
@@ -103,7 +104,7 @@ impl BladeWing {
         &self,
         motion: &WingFrame,
         section: impl Fn(usize) -> SectionMotion,
-        wind: impl Fn(DVec3) -> DVec3,
+        wind: impl LocalWind,
         mut lag: Option<Lag<'_>>,
     ) -> DeformingLoad {
         let v = self.velocity_through_air(motion);
@@ -112,7 +113,7 @@ impl BladeWing {
         let moves = |k: usize| {
             let s = section(k.min(last));
             let ([e1, e2, n], [p, p1, _]) = (s.axes(), s.axis);
-            let here = v - wind(p) + motion.rate.cross(p) + p1;
+            let here = v - wind.velocity(p) + motion.rate.cross(p) + p1;
             [here.dot(e1), here.dot(n), s.turning(motion.rate).dot(e2)]
         };
         let pair_moves = |k: usize, _: &StripPair| {
@@ -125,8 +126,9 @@ impl BladeWing {
             let [e1, _, n] = s.axes();
             let x = strip.x_mid() + 0.5 * strip.chord * front;
             StripWind {
-                at_axis: wind(s.axis[0]).dot(n),
-                at_front: motion.rotation * wind(s.axis[0] + x * e1),
+                at_axis: wind.velocity(s.axis[0]).dot(n),
+                at_front: motion.rotation * wind.velocity(s.axis[0] + x * e1),
+                at_once: motion.rotation * wind.at_once()[0],
                 normal: motion.rotation * n,
             }
         };
@@ -141,7 +143,7 @@ impl BladeWing {
                 sum.add(&s, force, f.about[lane] * e2);
             }
         });
-        self.add_turning(motion, section, |p| v - wind(p), &mut sum);
+        self.add_turning(motion, section, |p| v - wind.velocity(p), &mut sum);
         sum
     }
 
@@ -161,18 +163,19 @@ impl BladeWing {
         };
         for (k, strip) in self.strips().iter().enumerate() {
             let s = section(k);
-            add(self, strip, &s, motion, through(s.axis[0]), sum);
+            let middle = s.point(strip.x_mid())[0];
+            add(self, strip, &s, motion, through(middle), sum);
         }
     }
 
     /// As [`BladeWing::acceleration_load`], strip `k` lying and moving like `section(k)`; its own
-    /// accelerations are included.
+    /// accelerations and the rate of the wind at mid chord are included.
     pub fn deforming_acceleration_load(
         &self,
         motion: &WingFrame,
         acc: &FrameAcceleration,
         section: impl Fn(usize) -> SectionMotion,
-        wind: impl Fn(DVec3) -> DVec3,
+        wind: impl LocalWind,
     ) -> DeformingLoad {
         let mut sum = DeformingLoad::default();
         if self.settings().added_mass == AddedMass::None {
@@ -184,10 +187,12 @@ impl BladeWing {
             let s = section(k);
             let ([_, e2, n], x) = (s.axes(), strip.x_mid());
             let [p, p1, p2] = s.point(x);
-            let hinge = hinge - wind(p);
+            let moved = hinge + motion.rate.cross(p) + p1;
+            let blows = self.wind_rate(&wind, p, moved);
+            let hinge = hinge - wind.velocity(p);
             let through = Through {
                 hinge,
-                hinge_rate: linear - motion.rate.cross(hinge),
+                hinge_rate: linear - motion.rate.cross(hinge) - blows,
                 w: motion.rate,
                 turn: acc.angular,
             };
@@ -206,6 +211,44 @@ impl BladeWing {
             sum.add(&s, force * n, (-x * force - inertia * turn) * e2);
         }
         sum
+    }
+
+    /// As [`Self::acceleration_load`] in `wind`, of which each strip sees velocity and rate at its mid chord.
+    pub fn acceleration_load_in(
+        &self,
+        motion: &WingFrame,
+        acc: &FrameAcceleration,
+        wind: impl LocalWind,
+    ) -> Load {
+        match wind.is_calm() {
+            true => self.acceleration_load(motion, acc),
+            false => {
+                self.deforming_acceleration_load(motion, acc, |k| self.flat(k), wind)
+                    .load
+            }
+        }
+    }
+
+    /// The part of the added mass of a flat wing that follows from velocities alone, strip by strip in the wind at each: `through(p)` is
+    /// the velocity of the hinge through the air that is at `p`, wing components.
+    pub(crate) fn turning_load_in(
+        &self,
+        motion: &WingFrame,
+        through: impl Fn(DVec3) -> DVec3,
+    ) -> Load {
+        let mut sum = DeformingLoad::default();
+        self.add_turning(motion, |k| self.flat(k), through, &mut sum);
+        sum.load
+    }
+
+    /// Strip `k` of the flat wing.
+    fn flat(&self, k: usize) -> SectionMotion {
+        let strip = self.strips()[k];
+        SectionMotion::fixed(&PlacedStrip {
+            strip,
+            axis: DVec3::new(0.0, strip.y, 0.0),
+            turn: DMat3::IDENTITY,
+        })
     }
 
     /// Force `-m q w` along the chord at mid chord.

@@ -7,7 +7,7 @@
 //! The downwash of the wake comes up to the whole strip, along its normal: the strip's coefficients, whatever their law, see
 //! `w - lambda`. The way is that with the speed through the air, `sqrt(u^2 + w^2)`: where the strip turns back or meets the
 //! air broadside on, all of this stays finite and smooth. Where the wind beside the stream changes, what changes comes up by Kuessner's function from when
-//! the edge in front meets it; what the turning of the strip changes of the wind along its normal is part of the strip's own motion, as of the stream.
+//! the edge in front meets it, but for what changes everywhere at once, which is as a motion of the strip ([`crate::LocalWind`]); what the turning of the strip changes of the wind along its normal is part of the strip's own motion, as of the stream.
 //!
 //! | symbol | name in code | meaning | unit |
 //! |---|---|---|---|
@@ -50,6 +50,8 @@ pub(crate) struct StripWind {
     pub at_axis: f64,
     /// Its velocity where the strip meets the air, N components \[m/s\].
     pub at_front: DVec3,
+    /// Of it what has changed everywhere at once since the memory, N components \[m/s\].
+    pub at_once: DVec3,
     /// Normal of the strip, N components \[1\].
     pub normal: DVec3,
 }
@@ -60,6 +62,7 @@ pub struct StripTrial {
     drive: f64,
     speed: f64,
     wind: DVec3,
+    at_once: DVec3,
     normal: DVec3,
     /// Downwash of its wake \[m/s\].
     pub(crate) downwash: f64,
@@ -79,6 +82,16 @@ pub enum Lag<'a> {
     },
     /// It is that of the trial before.
     Known(&'a [StripTrial]),
+}
+
+impl Lag<'_> {
+    /// When the memory was accepted \[s\]; none of a trial that is known.
+    pub fn since(&self) -> Option<f64> {
+        match self {
+            Self::Trial { memory, .. } => Some(memory.time),
+            Self::Known(_) => None,
+        }
+    }
 }
 
 impl WingMemory {
@@ -221,6 +234,7 @@ impl Lags {
             drive,
             speed,
             wind: wind.at_front,
+            at_once: wind.at_once,
             normal: wind.normal,
             downwash: 0.0,
         };
@@ -279,14 +293,18 @@ impl StripMemory {
     }
 
     /// By how much the downwash of the motion, and of the wind that is met, has changed in a trial \[m/s\]: of the product of wind and normal
-    /// what the normal changes belongs to the motion.
+    /// what the normal changes belongs to the motion, and what changes everywhere at once is a motion of the strip against it.
     fn changes(&self, trial: &StripTrial) -> [f64; 2] {
         let normal = match self.normal == DVec3::ZERO {
             true => trial.normal,
             false => self.normal,
         };
         let turned = 0.5 * (self.wind + trial.wind).dot(trial.normal - normal);
-        let met = 0.5 * (trial.wind - self.wind).dot(trial.normal + normal);
-        [trial.drive - self.drive - turned, met]
+        let both = 0.5 * (trial.normal + normal);
+        let met = (trial.wind - self.wind - trial.at_once).dot(both);
+        [
+            trial.drive - self.drive - turned - trial.at_once.dot(both),
+            met,
+        ]
     }
 }

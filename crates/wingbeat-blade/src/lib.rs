@@ -45,6 +45,7 @@ mod pair;
 mod settings;
 mod slowed;
 mod strip;
+mod wind;
 mod wing;
 
 pub use bent::{NodesInMotion, Section, SectionAnswer, SectionState};
@@ -57,4 +58,5 @@ pub use indicial::{Indicial, MAX_STATES, Pole, Unsteady};
 pub use lag::{Lag, StripMemory, StripTrial, WingMemory};
 pub use settings::{AddedMass, BladeSettings, CentreOfPressure, Rotation, ViscousMoment};
 pub use strip::{PlacedStrip, Strip};
-pub use wing::{BladeWing, FrameAcceleration, Load, WingFrame, calm};
+pub use wind::{Calm, LocalWind};
+pub use wing::{BladeWing, FrameAcceleration, Load, WingFrame};

@@ -8,6 +8,7 @@ use crate::pair::{PairMotion, StripPair};
 use crate::settings::{AddedMass, BladeSettings};
 use crate::slowed::{Gust, Slowed, slowed_forces};
 use crate::strip::Strip;
+use crate::wind::{Calm, LocalWind};
 
 /// How the frame of a wing moves.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -84,21 +85,6 @@ impl AddedMoments {
     }
 }
 
-impl AddedMoments {
-    /// Centre of the added mass, wing components [m]; the hinge where there is none.
-    fn centre(&self) -> DVec3 {
-        match self.m > 0.0 {
-            true => DVec3::new(self.mx / self.m, self.my / self.m, 0.0),
-            false => DVec3::ZERO,
-        }
-    }
-}
-
-/// No wind beside the free stream.
-pub fn calm(_point: DVec3) -> DVec3 {
-    DVec3::ZERO
-}
-
 impl BladeWing {
     /// A wing of these strips.
     ///
@@ -138,12 +124,11 @@ impl BladeWing {
     /// Everything that depends on velocities alone: translation, rotation, viscous moment, and
     /// the part of the added mass that is no acceleration.
     pub fn velocity_load(&self, motion: &WingFrame) -> Load {
-        self.velocity_load_in(motion, calm)
+        self.velocity_load_in(motion, Calm)
     }
 
-    /// As [`Self::velocity_load`], `wind` being added to the free stream: a velocity [m/s] at a
-    /// point [m] of the wing frame, wing components.
-    pub fn velocity_load_in(&self, motion: &WingFrame, wind: impl Fn(DVec3) -> DVec3) -> Load {
+    /// As [`Self::velocity_load`], `wind` being added to the free stream.
+    pub fn velocity_load_in(&self, motion: &WingFrame, wind: impl LocalWind) -> Load {
         self.lagging_load(motion, wind, None)
     }
 
@@ -151,39 +136,28 @@ impl BladeWing {
     pub fn lagging_load(
         &self,
         motion: &WingFrame,
-        wind: impl Fn(DVec3) -> DVec3,
+        wind: impl LocalWind,
         lag: Option<Lag<'_>>,
     ) -> Load {
         let v = self.velocity_through_air(motion);
         let mut sum = self.strip_load(v, motion, &wind, lag);
+        if !wind.is_calm() {
+            let turning = self.turning_load_in(motion, |p| v - wind.velocity(p));
+            sum.force += turning.force;
+            sum.moment += turning.moment;
+            return sum;
+        }
         match self.settings.added_mass {
             AddedMass::None | AddedMass::Normal => {}
-            AddedMass::Section => {
-                let through = v - wind(self.added.centre());
-                self.add_chordwise_added_mass(through, motion.rate, &mut sum);
-            }
-            AddedMass::Impulse => {
-                let through = v - wind(self.added.centre());
-                self.add_turning_impulse(through, motion.rate, &mut sum);
-            }
+            AddedMass::Section => self.add_chordwise_added_mass(v, motion.rate, &mut sum),
+            AddedMass::Impulse => self.add_turning_impulse(v, motion.rate, &mut sum),
         }
         sum
     }
 
     /// The added mass: linear in the rates of the velocity components in the wing frame.
     pub fn acceleration_load(&self, motion: &WingFrame, acc: &FrameAcceleration) -> Load {
-        self.acceleration_load_in(motion, acc, calm)
-    }
-
-    /// As [`Self::acceleration_load`] in `wind` as for [`Self::velocity_load_in`]: of it the added
-    /// mass sees the velocity at its own centre.
-    pub fn acceleration_load_in(
-        &self,
-        motion: &WingFrame,
-        acc: &FrameAcceleration,
-        wind: impl Fn(DVec3) -> DVec3,
-    ) -> Load {
-        let v = self.velocity_through_air(motion) - wind(self.added.centre());
+        let v = self.velocity_through_air(motion);
         // Rate of the components in the turning frame.
         let rate = motion.rotation.transpose() * acc.linear - motion.rate.cross(v);
         let (a, turn) = (&self.added, acc.angular);
@@ -194,6 +168,15 @@ impl BladeWing {
         Load {
             force: DVec3::new(0.0, 0.0, force),
             moment: DVec3::new(about_1, about_2 - a.inertia * turn.y, 0.0),
+        }
+    }
+
+    /// Rate of the `wind` that the added mass feels at a point that moves with `through` [m/s] through the stream, wing components
+    /// [m/s2]: with wakes Kuessner's function has what a strip comes into.
+    pub(crate) fn wind_rate(&self, wind: &impl LocalWind, point: DVec3, through: DVec3) -> DVec3 {
+        match self.settings.unsteady {
+            None => wind.rate(point, through),
+            Some(_) => wind.at_once()[1],
         }
     }
 
@@ -229,12 +212,12 @@ impl BladeWing {
         &self,
         v: DVec3,
         frame: &WingFrame,
-        wind: &impl Fn(DVec3) -> DVec3,
+        wind: &impl LocalWind,
         mut lag: Option<Lag<'_>>,
     ) -> Load {
         let rate = frame.rate;
         let motion = |_: usize, pair: &StripPair| {
-            let [a, b] = [pair.y.x, pair.y.y].map(|y| v - wind(DVec3::new(0.0, y, 0.0)));
+            let [a, b] = [pair.y.x, pair.y.y].map(|y| v - wind.velocity(DVec3::new(0.0, y, 0.0)));
             // Velocity of the points on the feathering axis, v + rate x (0, y, 0).
             PairMotion {
                 u: DVec2::new(a.x, b.x) - rate.z * pair.y,
@@ -244,10 +227,11 @@ impl BladeWing {
         };
         let gust = |k: usize, front: f64| {
             let s = &self.strips[k];
-            let at = |x: f64| wind(DVec3::new(x, s.y, 0.0));
+            let at = |x: f64| wind.velocity(DVec3::new(x, s.y, 0.0));
             StripWind {
                 at_axis: at(0.0).z,
                 at_front: frame.rotation * at(s.x_mid() + 0.5 * s.chord * front),
+                at_once: frame.rotation * wind.at_once()[0],
                 normal: frame.rotation.z_axis,
             }
         };

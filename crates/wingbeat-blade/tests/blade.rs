@@ -9,6 +9,8 @@ use wingbeat_math::{DMat3, DVec3, MovingRotation, r1, r2, r3};
 mod bent;
 #[path = "unsteady/mod.rs"]
 mod unsteady;
+#[path = "wind/mod.rs"]
+mod wind;
 
 const RHO: f64 = 1.2;
 

@@ -97,14 +97,14 @@ fn invariant_a_mesh_turned_about_the_hinge_is_a_frame_turned_about_it() {
                     moment: q * load.moment,
                 };
                 let expected = back(flat.velocity_load_in(&own, local));
-                // The flat wing feels the added mass in the wind at the centre of it, the placed one strip by strip.
-                if matches!(law, AddedMass::None | AddedMass::Normal) {
-                    let load = turned.deforming_velocity_load(&m, section, wind, None);
-                    assert_same(&load.load, &expected);
-                }
-                let calmly = turned.deforming_velocity_load(&m, section, calm, None);
+                let load = turned.deforming_velocity_load(&m, section, wind, None);
+                assert_same(&load.load, &expected);
+                let windy = turned.deforming_acceleration_load(&m, &acc, section, wind);
+                let expected = flat.acceleration_load_in(&own, &own_acc, local);
+                assert_same(&windy.load, &back(expected));
+                let calmly = turned.deforming_velocity_load(&m, section, Calm, None);
                 assert_same(&calmly.load, &back(flat.velocity_load(&own)));
-                let mass = turned.deforming_acceleration_load(&m, &acc, section, calm);
+                let mass = turned.deforming_acceleration_load(&m, &acc, section, Calm);
                 assert_same(&mass.load, &back(flat.acceleration_load(&own, &own_acc)));
                 assert_eq!([calmly.power, mass.power].map(f64::abs), [0.0; 2]);
             }
@@ -173,9 +173,9 @@ fn agrees_twist_of_a_section_with_dihedral_with_a_frame_that_turns() {
                 let size = force.length() + moment.length();
                 assert!((got.power - power).abs() <= 1e-12 * size.max(1e-3));
             };
-            let still = wing.deforming_velocity_load(&m, section, calm, None);
+            let still = wing.deforming_velocity_load(&m, section, Calm, None);
             check(still, wing.velocity_load(&own));
-            let mass = wing.deforming_acceleration_load(&m, &acc, section, calm);
+            let mass = wing.deforming_acceleration_load(&m, &acc, section, Calm);
             check(mass, wing.acceleration_load(&own, &own_acc));
         }
     }

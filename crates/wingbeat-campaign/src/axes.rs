@@ -164,21 +164,7 @@ impl Reader<'_> {
 
     fn range(&self, place: &str, range: &Range, logarithmic: bool) -> Found<Vec<Value>> {
         let end = |name: &str, value: &toml::Value| {
-            let number = Value::of(value).and_then(|v| v.number());
-            number.filter(|x| !logarithmic || *x > 0.0).ok_or_else(|| {
-                let allowed = if logarithmic {
-                    "a number above 0"
-                } else {
-                    "a number"
-                };
-                let key = format!("{place}.{name}");
-                self.wrong(
-                    &key,
-                    "this is no end of the range",
-                    allowed,
-                    "give a number; other values go into a list",
-                )
-            })
+            self.end(&format!("{place}.{name}"), value, logarithmic)
         };
         let [from, to] = [end("from", &range.from)?, end("to", &range.to)?];
         if !(2..=MAX_VALUES).contains(&range.count) {
@@ -197,17 +183,10 @@ impl Reader<'_> {
                 "correct one of them",
             ));
         }
-        let last = range.count - 1;
-        if let (toml::Value::Integer(a), toml::Value::Integer(b)) = (&range.from, &range.to)
-            && !logarithmic
-            && let Some(length) = b.checked_sub(*a)
-            && length % last as i64 == 0
-        {
-            let step = length / last as i64;
-            return Ok((0..=last)
-                .map(|k| Value::Whole(a + k as i64 * step))
-                .collect());
+        if let Some(whole) = whole(range).filter(|_| !logarithmic) {
+            return Ok(whole);
         }
+        let last = range.count - 1;
         let at = |k: usize| match k {
             0 => from,
             k if k == last => to,
@@ -217,6 +196,24 @@ impl Reader<'_> {
         // 12 digits: 0.1, not 0.1 and its rounding.
         let round = |x: f64| format!("{x:.11e}").parse().unwrap_or(x);
         Ok((0..=last).map(|k| Value::Number(round(at(k)))).collect())
+    }
+
+    /// An end of a range.
+    fn end(&self, key: &str, value: &toml::Value, logarithmic: bool) -> Found<f64> {
+        let number = Value::of(value).and_then(|v| v.number());
+        let number = number.filter(|x| !logarithmic || *x > 0.0);
+        let allowed = match logarithmic {
+            true => "a number above 0",
+            false => "a number",
+        };
+        number.ok_or_else(|| {
+            self.wrong(
+                key,
+                "this is no end of the range",
+                allowed,
+                "give a number; other values go into a list",
+            )
+        })
     }
 
     fn zipped(&self, place: &str, group: &BTreeMap<String, Vec<toml::Value>>) -> Found<Axis> {
@@ -394,6 +391,17 @@ impl Reader<'_> {
         }
         Ok(())
     }
+}
+
+/// The values of a range of whole numbers that are whole numbers apart.
+fn whole(range: &Range) -> Option<Vec<Value>> {
+    let (toml::Value::Integer(from), toml::Value::Integer(to)) = (&range.from, &range.to) else {
+        return None;
+    };
+    let last = range.count as i64 - 1;
+    let length = to.checked_sub(*from)?;
+    let value = |k: i64| Value::Whole(from + k * (length / last));
+    (length % last == 0).then(|| (0..=last).map(value).collect())
 }
 
 fn is_drawn(v: &Variation) -> bool {

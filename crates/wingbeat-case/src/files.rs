@@ -170,6 +170,21 @@ fn read_mesh(path: &str, part: &mut PartCase, base: &Path) -> Result<(), Fault> 
     Ok(())
 }
 
+/// Degrees in the unit that the name of a column says, as `psi_rad` or `psi [deg]`; degrees where it says none.
+fn degrees(column: &str) -> Result<f64, String> {
+    let words = column.split(|c: char| !c.is_alphanumeric());
+    let words: Vec<String> = words.map(str::to_lowercase).collect();
+    let any = |names: &[&str]| words.iter().any(|w| names.contains(&w.as_str()));
+    let radians = any(&["rad", "rads", "radian", "radians"]);
+    match (radians, any(&["deg", "degs", "degree", "degrees"])) {
+        (true, true) => Err(format!(
+            "the name of the column `{column}` says both radians and degrees"
+        )),
+        (true, false) => Ok(1f64.to_degrees()),
+        (false, _) => Ok(1.0),
+    }
+}
+
 fn read_table(path: &str, table: &mut TableCase, base: &Path) -> Result<(), Fault> {
     let Some(name) = table.file.take() else {
         return Ok(());
@@ -211,11 +226,13 @@ impl TableFile {
             self.column(header, names[0], 0)?,
             self.column(header, names[1], 1)?,
         ];
+        let unit = header.get(columns[1]).map_or(Ok(1.0), degrees);
+        let to_degrees = unit.map_err(|problem| self.bad(&problem))?;
         let (mut rows, mut lines) = (vec![], vec![]);
         for record in reader.records() {
             let record = record.map_err(|e| self.bad(&e.to_string()))?;
             let [x, q] = columns.map(|k| self.number(&record, k));
-            rows.push([x?, q?]);
+            rows.push([x?, to_degrees * q?]);
             lines.push(line_of(&record));
         }
         self.check(&rows, &lines)?;

@@ -54,6 +54,9 @@ impl LoadedCase {
             .and_then(|()| build::setup(&raw, &name))
             .and_then(|setup| build::check_effects(&raw, &setup, &source).map(|()| setup));
         let setup = built.map_err(|fault| Box::new(source.locate(fault)))?;
+        if raw.air.model != raw::AirModel::VortexLattice {
+            raw.output.frames_every = 0; // there are none
+        }
         let output = build::output(&raw.output);
         Ok(Self {
             name,

@@ -433,3 +433,33 @@ fn refuses_at_its_key_what_only_the_flight_finds() {
         assert!(report.contains(&format!("case.toml:{line}:")), "{report}");
     }
 }
+
+#[test]
+fn behaves_air_without_wakes_has_no_frames() {
+    let flown = |set: &[&str]| preset("fruit-fly-hover", set).unwrap().output.frames_every;
+    let [vacuum, blade] = ["air.model=none", "air.model=blade_element"];
+    // What a file wants for the lattice stands by where the command line chooses another model.
+    assert_eq!([flown(&[]), flown(&[vacuum]), flown(&[blade])], [2, 0, 0]);
+    assert_eq!(flown(&[blade, "output.frames_every=0"]), 0);
+    let said = preset("fruit-fly-hover", &[blade, "output.frames_every=4"]);
+    let said = said.map(|_| ()).unwrap_err().to_string();
+    assert!(said.contains("no frames are written"), "{said}");
+    // The resolved case is one of the same flight.
+    let case = preset("fruit-fly-hover", &[blade]).unwrap();
+    let again = load(&case.resolved(), &[]).unwrap();
+    assert_eq!(again.output, case.output);
+}
+
+/// So a script can put its own choices after those that it was given.
+#[test]
+fn behaves_of_a_key_that_is_set_twice_the_last_value_counts() {
+    let beats = |set: &[&str]| {
+        let set = [&["time.steps_per_beat=40"], set].concat();
+        preset("fruit-fly-hover", &set).unwrap().setup.time.steps
+    };
+    assert_eq!(beats(&["time.beats=1", "time.beats=3"]), 120);
+    assert_eq!(beats(&["time.beats=3", "time.beats=1"]), 40);
+    let said = preset("fruit-fly-hover", &["time.beats=1", "time.beats=-2"]);
+    let said = said.map(|_| ()).unwrap_err();
+    assert!(said.contains("time.beats=-2 (set on top of"), "{said}");
+}

@@ -116,13 +116,15 @@ const PULL: &str = "load=[{ force_newton = [0, 0, 1e-3], point_m = [1e-3, 0, 0] 
 
 #[test]
 fn exact_points_of_loads_and_drag_areas_are_scaled_with_the_animal_and_springs_are_refused() {
-    let drag = "air.blade.body_drag={ area_m2 = 1e-5, along = 0.5, across = 1.0 }";
+    let drag = "air.blade.body_drag={ area_m2 = 1e-5, along = 0.5, across = 1.0, centre_m = [1e-3, 0, 2e-3] }";
     let large = load(&[PULL, drag, "animal.scale=2"]).unwrap().setup;
     assert_eq!(large.loads[0].point, DVec3::new(2e-3, 0.0, 0.0));
     let AirModel::BladeElement(air) = &large.air else {
         panic!("blade elements");
     };
     assert_eq!(air.body_drag.map(|d| d.area), Some(4e-5));
+    let centre = air.body_drag.and_then(|d| d.centre);
+    assert_eq!(centre, Some(DVec3::new(2e-3, 0.0, 4e-3)));
     refused(
         &[SPRING, "animal.scale=2"],
         &["animal.scale", "springs between points", "[spring.*]"],

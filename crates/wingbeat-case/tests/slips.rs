@@ -174,6 +174,38 @@ fn refuses_phases_in_other_units_by_the_line() {
     }
 }
 
+#[test]
+fn exact_angles_of_a_file_are_in_the_unit_that_their_column_says() {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("units");
+    fs::create_dir_all(&folder).unwrap();
+    let load = |column: &str, size: f64| {
+        let file = folder.join(format!("{}.csv", column.replace([' ', '[', ']'], "-")));
+        let row = |k: i32| format!("{},{}\n", 0.25 * f64::from(k), size * f64::from(k % 4));
+        let rows: String = (0..=4).map(row).collect();
+        fs::write(&file, format!("phase,{column}\n{rows}")).unwrap();
+        let law = format!("wing.right.motion.psi={{ table = {{ file = {file:?} }} }}");
+        LoadedCase::find("fruit-fly-hover", &[law]).map_err(|e| e.to_string())
+    };
+    let angle = |column: &str, size: f64| {
+        let case = load(column, size).unwrap();
+        case.setup.animal.wings[1].motion.angles.psi.at(0.25)[0]
+    };
+    let expected = angle("psi", 20.0);
+    assert!((expected - 20f64.to_radians()).abs() < 1e-12, "{expected}");
+    for (column, size) in [
+        ("psi_deg", 20.0),
+        ("psi [degrees]", 20.0),
+        ("gradient", 20.0),
+        ("psi_rad", 20f64.to_radians()),
+        ("psi [rad]", 20f64.to_radians()),
+    ] {
+        let found = angle(column, size);
+        assert!((found - expected).abs() < 1e-12, "{column}: {found}");
+    }
+    let said = load("psi_rad_deg", 20.0).unwrap_err();
+    assert!(said.contains("both radians and degrees"), "{said}");
+}
+
 /// Left wings have the signs of their mirror images; deformation in millimetres for metres.
 #[test]
 fn behaves_implausible_motions_are_doubted() {

@@ -8,7 +8,7 @@
 use std::collections::VecDeque;
 use std::sync::{Arc, RwLock};
 
-use wingbeat_math::{DVec3, MovingRotation, RotationLaw};
+use wingbeat_math::{DVec3, MovingRotation, RotationLaw, smoothstep7};
 use wingbeat_model::motion::{Adjustment, wing_rotation};
 use wingbeat_model::{Side, Wing, WingMotion};
 
@@ -21,24 +21,12 @@ use crate::setup::{FlightSetup, MotionMode};
 /// see a change of command.
 pub const MIN_INTERVAL: usize = 4;
 
-/// The smoothstep of degree seven from 0 at `start` to 1 `duration` later \[s\], three times continuously
-/// differentiable: value, rate, acceleration at time `t`.
-pub fn smoothstep(t: f64, start: f64, duration: f64) -> [f64; 3] {
-    let z = ((t - start) / duration).clamp(0.0, 1.0);
-    let y = z * (1.0 - z);
-    [
-        z.powi(4) * (35.0 + z * (-84.0 + z * (70.0 - 20.0 * z))),
-        140.0 * y * y * y / duration,
-        420.0 * y * y * (1.0 - 2.0 * z) / (duration * duration),
-    ]
-}
-
 /// The share of the way to a command that actuators go within `time`, in units of their time constant (infinity: no lag).
 pub fn share(time: f64) -> f64 {
     -(-time).exp_m1()
 }
 
-/// A wing whose angles and stroke plane go over from one motion to another by [`smoothstep`].
+/// A wing whose angles and stroke plane go over from one motion to another by [`smoothstep7`].
 #[derive(Clone, Debug)]
 pub struct Passage {
     /// The motion before.
@@ -55,7 +43,7 @@ impl Passage {
     /// Pitch of the stroke plane and angles phi, theta, psi at time `t` [s], each value, rate,
     /// acceleration [rad].
     pub fn angles(&self, t: f64) -> [[f64; 3]; 4] {
-        let s = smoothstep(t, self.start, self.duration);
+        let s = smoothstep7(t, self.start, self.duration);
         let blend = |a: [f64; 3], b: [f64; 3]| {
             let d: [f64; 3] = std::array::from_fn(|i| b[i] - a[i]);
             [
@@ -304,8 +292,8 @@ pub(crate) fn feedback(setup: &FlightSetup) -> Result<Option<Loop>, FlightError>
     if matches!(setup.mode, MotionMode::Tethered(_)) {
         return Err(FlightError::Setup {
             key: "control",
-            value: "of a tethered flyer".into(),
-            problem: "feedback steers a free flight: set flight.mode = \"free\", or leave it out"
+            value: String::new(),
+            problem: "the flyer is tethered, and feedback steers a free flight: set flight.mode = \"free\", or leave it out"
                 .into(),
         });
     }

@@ -148,11 +148,11 @@ pub enum FlightError {
         in_air: bool,
     },
     /// The setup contradicts itself.
-    #[error("{key} = {value}: {problem}")]
+    #[error("{}: {problem}", match &value[..] { "" => (*key).to_owned(), value => format!("{key} = {value}") })]
     Setup {
         /// What is wrong, as a key of the setup.
         key: &'static str,
-        /// Its value.
+        /// Its value; empty where it has none in a word.
         value: String,
         /// What is allowed and what to try.
         problem: String,

@@ -7,6 +7,7 @@
 
 use std::sync::Arc;
 
+use wingbeat_blade::Unsteady;
 use wingbeat_dynamics::{
     AddedMass, BodyAcceleration, BodyMotion, ConfigurationTable, Formulation, Mechanism,
     MomentumForm, System, Wrench, driven,
@@ -85,9 +86,10 @@ impl FreeFlight {
         let air = AirModel::build(setup, form.system())?;
         setup.refuse_elastic("a map of one wingbeat (averaged models, control derivatives, feedback that is laid out)")?;
         if air.has_memory() {
-            let (key, value) = match setup.air.has_strip_wakes() {
-                true => ("air.blade.unsteady", "set"),
-                false => ("air.model", setup.air.name()),
+            let (key, value) = match setup.air.strip_wakes() {
+                Some(Unsteady::Jones) => ("air.blade.unsteady", "jones"),
+                Some(Unsteady::Peters { .. }) => ("air.blade.unsteady", "peters"),
+                None => ("air.model", setup.air.name()),
             };
             return Err(FlightError::Setup {
                 key,
@@ -214,8 +216,11 @@ fn untabulated(setup: &FlightSetup, law: &WingLaw<'_>) -> Result<MomentumForm, F
         None => Ok(MomentumForm::new(system)),
         Some(joint) => Err(FlightError::Setup {
             key: "joint",
-            value: joint.name.clone(),
-            problem: "it closes a loop, which is solved for motions that are known beforehand only: leave it out".into(),
+            value: String::new(),
+            problem: format!(
+                "`{}` closes a loop, which is solved for motions that are known beforehand only: leave it out",
+                joint.name
+            ),
         }),
     }
 }

@@ -62,6 +62,17 @@ impl Ledger {
     }
 }
 
+impl Ledger {
+    /// A jump of the motion that nothing in the flight makes, as when a root is released with another velocity: the balances go on as
+    /// if it had been there from the start. The books were opened `before` and `after` it.
+    pub fn count_jump(&mut self, before: &Self, after: &Self) {
+        self.energy += after.energy - before.energy;
+        self.relative_energy += after.relative_energy - before.relative_energy;
+        self.momentum += after.momentum - before.momentum;
+        self.angular_momentum += after.angular_momentum - before.angular_momentum;
+    }
+}
+
 /// Everything a record is made from, but for angles and commands of the wings.
 pub struct Sources<'a> {
     /// The equations in force.

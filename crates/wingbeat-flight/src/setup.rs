@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use wingbeat_air::{AirSettings, CoreModel, LeadingEdge, LoadMethod, SheddingKinds, Wind};
 use wingbeat_blade::DerivativeTable;
-use wingbeat_blade::{BladeSettings, BodyDrag};
+use wingbeat_blade::{BladeSettings, BodyDrag, Unsteady};
 use wingbeat_dynamics::Joint;
 use wingbeat_math::{DMat3, DVec3, EulerSequence};
 use wingbeat_model::{Animal, Start};
@@ -254,7 +254,15 @@ impl AirModel {
 
     /// Whether strips remember their own wakes, in a few states each.
     pub fn has_strip_wakes(&self) -> bool {
-        matches!(self, Self::BladeElement(options) if options.blade.unsteady.is_some())
+        self.strip_wakes().is_some()
+    }
+
+    /// By which theory strips remember their own wakes, if they do.
+    pub fn strip_wakes(&self) -> Option<Unsteady> {
+        match self {
+            Self::BladeElement(options) => options.blade.unsteady,
+            _ => None,
+        }
     }
 }
 
@@ -263,7 +271,7 @@ impl AirModel {
 pub struct BladeOptions {
     /// Coefficients, rotation, added mass, density and stream.
     pub blade: BladeSettings,
-    /// Drag of the body; none leaves the body out of the air.
+    /// Drag of the body, at [`Animal::body_centre`] where it names no other point; none leaves the body out of the air.
     pub body_drag: Option<BodyDrag>,
     /// Induced flow at the wings, added to the stream, N components [m/s]; zero for coefficients
     /// that hold it already.

@@ -4,6 +4,7 @@
 //! it; predict; correct bodies and air together until they agree; accept both; record.
 
 mod fits;
+mod release;
 mod start;
 mod state;
 mod wings;
@@ -18,7 +19,7 @@ use self::fits::check_fits;
 use self::start::Start;
 use self::wings::WingAngles;
 use crate::air::LatticeAir;
-use crate::bodies::{carry, own_motion};
+use crate::bodies::own_motion;
 use crate::control::{Loop, Sensed, feedback};
 use crate::elastic::{ElasticState, ElasticWings};
 use crate::equations::{Equations, Memory, Scratch};
@@ -28,7 +29,7 @@ use crate::memory::{AirMemory, wakes_of};
 use crate::quadratures::QUADRATURES;
 use crate::record::{Record, Snapshot};
 use crate::recorder::{Ledger, Sources};
-use crate::setup::{AirModel, FlightSetup, MotionMode};
+use crate::setup::{AirModel, FlightSetup};
 use crate::solver::{Solver, convergence};
 use crate::stages::{Stage, stages};
 
@@ -339,36 +340,6 @@ impl Simulation {
         self.solver
             .advance((before, t), past, equations, memory, scratch)
             .map_err(|e| failure(e, self.state.step, t, &self.setup))
-    }
-
-    /// Goes over into the next stage where one starts, records, accepts, starts.
-    fn arrive(&mut self, report: StepReport) -> Result<(), FlightError> {
-        let next = self.state.stage + 1;
-        let enters = self
-            .stages
-            .get(next)
-            .is_some_and(|s| s.from_step == self.state.step);
-        if enters {
-            let past = &self.state.past.y[self.newest()];
-            let quadratures = past[past.len() - QUADRATURES..].to_vec();
-            let mut root = self.scratch.motions[0];
-            // As `StartState::released`; a root that is held still has no rounding of its support.
-            if let MotionMode::Free(start) = &self.setup.mode {
-                let swaying = start.held_motion.as_ref().map(|_| root.w);
-                root.w = start.angular_velocity + swaying.unwrap_or_default();
-            }
-            let root = self.release.take().unwrap_or(root);
-            let core = &self.stages[next].equations.core;
-            let mut motions = self.scratch.motions.clone();
-            carry(&mut motions, &root);
-            let elastic = &self.stages[next].equations.elastic;
-            let shapes: Vec<_> = elastic.shape_masses(&self.scratch.elastic).collect();
-            let mut y0 = core.initial_from(self.time(self.state.step), &motions, &shapes)?;
-            y0.extend(quadratures);
-            self.state.stage = next;
-            self.enter_stage(y0)?;
-        }
-        self.finish_arrival(report, enters)
     }
 
     /// Makes `y0` the state at the present step in the equations of the present stage.

@@ -65,9 +65,10 @@ impl FlightSetup {
             None => Ok(()),
             Some(wing) => Err(FlightError::Setup {
                 key: "wing.structure",
-                value: wing.name.clone(),
+                value: String::new(),
                 problem: format!(
-                    "{what} knows no wings that loads bend: leave out [wing.NAME.structure] for it"
+                    "{what} knows no wings that loads bend, as `{}` is: leave out [wing.NAME.structure] for it",
+                    wing.name
                 ),
             }),
         }

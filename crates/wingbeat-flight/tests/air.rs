@@ -6,10 +6,13 @@ use std::sync::{Arc, Mutex};
 
 use common::Fly;
 use wingbeat_air::{Gust, GustShape, VortexStreet, Wind};
-use wingbeat_blade::BladeSettings;
-use wingbeat_dynamics::{BodyMotion, Wrench};
+use wingbeat_blade::{BladeSettings, BodyDrag};
+use wingbeat_dynamics::{BodyAcceleration, BodyMotion, Wrench};
+use wingbeat_flight::air::BladeAir;
 use wingbeat_flight::*;
-use wingbeat_math::{DMat3, DVec3, MassProperties};
+use wingbeat_math::{DMat3, DVec3, EulerSequence, MassProperties, r1, r2};
+use wingbeat_model::deformation::{Deformation, SpanLaw, Term};
+use wingbeat_model::{Animal, BodyPart, MassInput, Profile, Revolution};
 
 fn blade(stream: DVec3, wind: Wind) -> FlightSetup {
     let mut setup = Fly::default().setup(40, 1.0);
@@ -61,6 +64,150 @@ fn exact_steady_gust_on_blade_elements_is_a_stream() {
         "the stream carries the fly along: {drift:e} m"
     );
     assert!(gap < 1e-10 * drift, "{gap:e} of {drift:e} m");
+}
+
+/// Loads of blade elements on the bodies of `setup` that move like `motions` at time `t` \[s\], and those of their added mass if all
+/// accelerate alike by `acc` \[m/s2\] and do not turn the faster.
+fn loads(setup: &FlightSetup, t: f64, motions: &[BodyMotion], acc: DVec3) -> Vec<Wrench> {
+    let AirModel::BladeElement(options) = &setup.air else {
+        panic!("blade elements");
+    };
+    let air = BladeAir::new(&setup.animal, options).expect("strips");
+    let at = Instant {
+        time: t,
+        step: 1e-4,
+        motions,
+        accelerations: &[],
+        shapes: &[],
+    };
+    let mut out = vec![Wrench::default(); motions.len()];
+    air.loads(&at, None, &mut air.scratch(), &mut out)
+        .expect("loads");
+    let mut masses = vec![];
+    air.added_mass(t, &mut masses);
+    for mass in masses {
+        let by = BodyAcceleration {
+            linear: acc,
+            angular: DVec3::ZERO,
+        };
+        out[mass.body()] += mass.wrench(&motions[mass.body()], &by);
+    }
+    out
+}
+
+#[test]
+fn invariant_wings_in_air_that_swings_feel_what_wings_that_swing_in_still_air_do() {
+    let gust = Gust {
+        amplitude: DVec3::new(0.3, -0.2, 0.9),
+        start: 1e-3,
+        slowness: DVec3::ZERO,
+        shape: GustShape::OneMinusCosine { duration: 4e-3 },
+    };
+    let twist = Deformation {
+        twist: vec![Term::steady(SpanLaw::Linear {
+            root: 0.1,
+            tip: -0.4,
+        })],
+        ..Deformation::default()
+    };
+    let wind = Wind {
+        gusts: vec![gust],
+        ..Wind::default()
+    };
+    let flat = [Wind::default(), wind.clone()].map(|w| blade(DVec3::new(-0.4, 0.0, 0.1), w));
+    let mut bent = flat.clone();
+    for wing in bent.iter_mut().flat_map(|s| &mut s.animal.wings) {
+        *wing = wing.clone().deformed_by(twist.clone()).expect("a twist");
+    }
+    for [still, windy] in [flat, bent] {
+        let t = 2.3e-3;
+        let [u, rate] = wind.at_once(t);
+        // At rest, and in some motion.
+        for size in [0.0, 1.0] {
+            let motion = |k: usize| BodyMotion {
+                r: r1(0.3 + k as f64) * r2(0.7),
+                v: size * DVec3::new(0.5, 0.1, -0.4),
+                w: size * DVec3::new(90.0, -300.0, 200.0) * k as f64,
+                ..BodyMotion::REST
+            };
+            let motions = [0, 1, 2].map(motion);
+            let met = loads(&windy, t, &motions, DVec3::ZERO);
+            let swung = motions.map(|m| BodyMotion { v: m.v - u, ..m });
+            let moved = loads(&still, t, &swung, -rate);
+            let slow = loads(&still, t, &swung, DVec3::ZERO);
+            for k in 1..3 {
+                let apart = (met[k].force - moved[k].force).length();
+                let rated = (slow[k].force - moved[k].force).length();
+                let turned = (met[k].moment - moved[k].moment).length();
+                assert!(apart < 1e-12 * moved[k].force.length(), "{apart:e}");
+                assert!(turned < 1e-12 * moved[k].moment.length(), "{turned:e}");
+                // The rate is a part of the force that counts.
+                assert!(rated > 0.01 * moved[k].force.length(), "{rated:e}");
+            }
+        }
+    }
+}
+
+/// The fly with drag of its body, whose drag names the point `centre` or none, described from the origin `o` \[m\].
+fn dragged(animal: &Animal, centre: Option<DVec3>, o: DVec3) -> Record {
+    let mut setup = blade(DVec3::new(-1.5, 0.4, 0.6), Wind::default());
+    setup.animal = animal.with_origin(o);
+    let MotionMode::Free(start) = &mut setup.mode else {
+        panic!("a free flight");
+    };
+    let turn = EulerSequence::BODY_231.rotation(start.angles);
+    start.position += turn * o;
+    start.velocity += turn * start.angular_velocity.cross(o);
+    let AirModel::BladeElement(options) = &mut setup.air else {
+        panic!("blade elements");
+    };
+    options.body_drag = Some(BodyDrag {
+        area: 1e-6,
+        along: 0.6,
+        across: 1.3,
+        centre,
+    });
+    end(setup)
+}
+
+#[test]
+fn invariant_flights_of_a_body_with_drag_do_not_hang_on_its_origin() {
+    let bare = Fly::default().animal();
+    let solid = Revolution {
+        centre: DVec3::new(-3e-4, 0.0, 2e-4),
+        direction: DVec3::new(1.0, 0.0, -0.2),
+        length: 2e-3,
+        radius: 4e-4,
+        profile: Profile::Ellipsoid,
+        stations: 4,
+        meridians: 6,
+    };
+    let part = BodyPart::revolution("trunk", &solid, &MassInput::Density(0.0)).expect("a part");
+    let clad = Animal {
+        parts: vec![part],
+        ..bare.clone()
+    };
+    assert!((clad.body_centre() - solid.centre).length() < 1e-12);
+    assert_eq!(bare.body_centre(), bare.body.centre());
+    let o = DVec3::new(7e-4, 0.0, -4e-4);
+    let at = DVec3::new(-5e-4, 0.0, 3e-4);
+    for (animal, centre) in [(&bare, None), (&clad, None), (&clad, Some(at))] {
+        let here = dragged(animal, centre, DVec3::ZERO);
+        let moved = dragged(animal, centre.map(|c| c - o), o);
+        let elsewhere = dragged(animal, Some(animal.body_centre() + o), DVec3::ZERO);
+        let spin = |a: &Record, b: &Record| {
+            let apart = a.angular_momentum - b.angular_momentum;
+            apart.length() / here.angular_momentum.length()
+        };
+        let gap = (here.mass_centre - moved.mass_centre).length();
+        // Roundings of 40 steps; a lever of the size of the body turns it by far more.
+        assert!(gap < 1e-10 * here.mass_centre.length(), "{gap:e}");
+        assert!(spin(&here, &moved) < 1e-9, "{:e}", spin(&here, &moved));
+        assert!(spin(&here, &elsewhere) > 1e-3);
+        // The work of the air holds that of the moment.
+        let open = here.energy_residual.abs() / here.air_work.abs();
+        assert!(open < 1e-4, "{open:e}");
+    }
 }
 
 #[test]

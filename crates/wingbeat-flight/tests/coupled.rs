@@ -320,6 +320,37 @@ fn invariant_held_start_does_not_move_and_the_release_is_smooth() {
 }
 
 #[test]
+fn balances_go_on_where_a_held_body_is_released_into_a_turn() {
+    let residuals = |spin: f64| {
+        let mut setup = Fly::default().setup(80, 1.0);
+        setup.air = AirModel::None;
+        if let MotionMode::Free(start) = &mut setup.mode {
+            start.held_steps = 40;
+            start.angular_velocity = spin * DVec3::new(30.0, 200.0, -50.0);
+        }
+        let records = fly(setup);
+        let open = |r: &Record| {
+            let scale = records[80].kinetic_energy;
+            let turn = records[80].angular_momentum.length();
+            [
+                r.energy_residual.abs() / scale,
+                r.momentum_residual.length() / records[80].momentum.length(),
+                r.angular_momentum_residual.length() / turn,
+            ]
+        };
+        // The jump itself, and the flight after it.
+        let jumped = (records[40].kinetic_energy - records[39].kinetic_energy).abs();
+        assert!(spin == 0.0 || jumped > 1e-2 * records[80].kinetic_energy);
+        [open(&records[40]), open(&records[80])]
+    };
+    let [smooth, turning] = [0.0, 1.0].map(residuals);
+    for (a, b) in smooth.iter().flatten().zip(turning.iter().flatten()) {
+        // As much as is missing without the jump: the error of the quadratures.
+        assert!(*b < 3.0 * a.max(1e-4), "{smooth:?} {turning:?}");
+    }
+}
+
+#[test]
 fn exact_ballistic_flight_without_air_and_wing_mass() {
     let mut setup = Fly {
         wing_mass: 0.0,

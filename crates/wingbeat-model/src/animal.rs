@@ -2,7 +2,7 @@
 
 use crate::deformation::{Deformation, span};
 use crate::error::ModelError;
-use crate::integrate::scaled_properties;
+use crate::integrate::{scaled_properties, solid};
 use crate::mesh::{GridMesh, QuadMesh, Side};
 use crate::motion::WingMotion;
 use crate::structure::{Blank, WingStructure};
@@ -164,6 +164,24 @@ impl Animal {
         let wings = self.wings.iter().map(|w| w.mass.mass);
         let segments = self.segments.iter().map(|s| s.mass.mass);
         self.body.mass + wings.sum::<f64>() + segments.sum::<f64>()
+    }
+
+    /// Centre of the volume that the parts of the central body enclose, without parts its mass centre \[m\], body frame. What is
+    /// rounding beside the size of the parts is zero.
+    pub fn body_centre(&self) -> DVec3 {
+        /// Part of the size of the parts that moving the origin leaves as rounding.
+        const ROUNDING: f64 = 1e-12;
+        let solids = self.parts.iter().map(|p| solid(&p.mesh, 1.0));
+        let (volume, moment) = solids.fold((0.0, DVec3::ZERO), |(v, s), p| {
+            (v + p.mass, s + p.first_moment)
+        });
+        if volume <= 0.0 {
+            return self.body.centre();
+        }
+        let nodes = self.parts.iter().flat_map(|p| &p.mesh.nodes);
+        let size = nodes.fold(0.0, |most: f64, x| most.max(x.length()));
+        let felt = |x: f64| if x.abs() < ROUNDING * size { 0.0 } else { x };
+        DVec3::from_array((moment / volume).to_array().map(felt))
     }
 
     /// Body length L \[m\]: extent of the parts of body and segments along b1 in the posture of

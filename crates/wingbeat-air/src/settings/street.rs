@@ -56,6 +56,40 @@ impl VortexStreet {
         [-half * y.sinh() / below, half * c * sin / below]
     }
 
+    /// Rate [m/s2] of that velocity at a point that is at `x` [m] and moves with `v` [m/s] at time `t` [s], N components.
+    pub fn rate(&self, x: DVec3, v: DVec3, t: f64) -> DVec3 {
+        let along = self.drift.normalize();
+        let across = self.axis.normalize().cross(along);
+        let r = x - self.point - t * self.drift;
+        let (x, y) = (r.dot(along), r.dot(across));
+        // The street stands still in its own frame.
+        let through = v - self.drift;
+        let (dx, dy) = (through.dot(along), through.dot(across));
+        let [[ux, uy], [vx, vy]] = self.row_slopes(x, y - 0.5 * self.width);
+        let [[px, py], [qx, qy]] = self.row_slopes(x + 0.5 * self.spacing, y + 0.5 * self.width);
+        let (u, v) = (
+            (px - ux) * dx + (py - uy) * dy,
+            (qx - vx) * dx + (qy - vy) * dy,
+        );
+        u * along + v * across
+    }
+
+    /// Slopes of the two velocities of [`Self::row`] along and across it [1/s].
+    fn row_slopes(&self, x: f64, y: f64) -> [[f64; 2]; 2] {
+        let wave = TAU / self.spacing;
+        let y = (wave * y).clamp(-40.0, 40.0);
+        let (sin, cos) = (wave * x).sin_cos();
+        let (sinh, cosh) = (y.sinh(), y.cosh());
+        let c = self.concentration;
+        let below = cosh - c * cos;
+        let size = 0.5 * self.circulation / self.spacing * wave / (below * below);
+        let shear = size * c * sinh * sin;
+        [
+            [shear, -size * (1.0 - c * cos * cosh)],
+            [size * c * (cos * cosh - c), -shear],
+        ]
+    }
+
     /// # Errors
     /// [`AirError::Setting`] names the first number that makes no sense.
     pub(crate) fn validate(&self) -> Result<(), AirError> {

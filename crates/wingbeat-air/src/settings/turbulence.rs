@@ -129,6 +129,13 @@ impl Turbulence {
         let wave = |[omega, amplitude, phase]: &[f64; 3]| amplitude * (omega * tau + phase).cos();
         self.waves.iter().map(wave).sum()
     }
+
+    /// Rate of that share at the time `tau` [1/s].
+    pub fn rate(&self, tau: f64) -> f64 {
+        let wave =
+            |[omega, amplitude, phase]: &[f64; 3]| -amplitude * omega * (omega * tau + phase).sin();
+        self.waves.iter().map(wave).sum()
+    }
 }
 
 #[cfg(test)]

@@ -6,8 +6,7 @@
 
 use std::sync::{Arc, RwLock};
 
-use wingbeat_flight::control::smoothstep;
-use wingbeat_math::{MovingRotation, RotationLaw};
+use wingbeat_math::{MovingRotation, RotationLaw, smoothstep7};
 use wingbeat_model::Wing;
 use wingbeat_model::motion::{Adjustment, wing_rotation};
 
@@ -107,7 +106,7 @@ impl RotationLaw for SteeredStroke {
         let k = (t / steady.half).round() as usize % steady.angles.len();
         let [phi, theta, psi] = steady.angles[k];
         let transition = *self.transition.read().expect("no writer panicked");
-        let s = smoothstep(t, transition.start, transition.duration);
+        let s = smoothstep7(t, transition.start, transition.duration);
         let now = |i: usize| {
             let change = transition.to[i] - transition.from[i];
             [

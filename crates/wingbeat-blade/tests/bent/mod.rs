@@ -66,7 +66,7 @@ impl Bent {
             acceleration: a,
         };
         let states: Vec<SectionState> = (self.sections.iter())
-            .map(|s| s.state(&moving, calm, DMat3::IDENTITY))
+            .map(|s| s.state(&self.wing, &moving, &Calm, DMat3::IDENTITY))
             .collect();
         let mut out = vec![DVec3::ZERO; r.len()];
         self.wing
@@ -177,10 +177,10 @@ fn agrees_with_sections_whose_twist_is_prescribed_in_force_moment_and_power() {
                 })
                 .collect();
             let forces = bent.forces(&r, &v, &a);
-            let by_velocity = bent.wing.deforming_velocity_load(&m, section, calm, None);
+            let by_velocity = bent.wing.deforming_velocity_load(&m, section, Calm, None);
             let by_mass = bent
                 .wing
-                .deforming_acceleration_load(&m, &acc, section, calm);
+                .deforming_acceleration_load(&m, &acc, section, Calm);
             let both = Load {
                 force: by_velocity.load.force + by_mass.load.force,
                 moment: by_velocity.load.moment + by_mass.load.moment,
@@ -217,7 +217,7 @@ fn agrees_answers_of_sections_with_differences_of_their_forces() {
     let states: Vec<_> = bent
         .sections
         .iter()
-        .map(|s| s.state(&moving, calm, DMat3::IDENTITY))
+        .map(|s| s.state(&bent.wing, &moving, &Calm, DMat3::IDENTITY))
         .collect();
     let mut answers = vec![];
     (bent.wing).bent_answers(&bent.sections, &states, None, &mut answers);

@@ -46,7 +46,7 @@ impl Flown {
     }
 
     /// The load by velocities at `time`, which is accepted.
-    fn load(&mut self, time: f64, m: &WingFrame, wind: impl Fn(DVec3) -> DVec3) -> Load {
+    fn load(&mut self, time: f64, m: &WingFrame, wind: impl LocalWind) -> Load {
         let lag = Lag::Trial {
             memory: &self.memory,
             time,
@@ -72,7 +72,7 @@ fn wagner_error(theory: Unsteady) -> f64 {
     let mut worst = 0.0_f64;
     for k in 0..=640 {
         let s = 0.1 * f64::from(k);
-        let lift = -flown.load(s, &along(DVec3::new(1.0, 0.0, w)), calm).force.z;
+        let lift = -flown.load(s, &along(DVec3::new(1.0, 0.0, w)), Calm).force.z;
         let phi = lift / (TAU * w);
         assert!((phi - theory.indicial().at(s)).abs() < 1e-7, "{s}");
         if let Some(exact) = functions::WAGNER.iter().find(|e| (e.0 - s).abs() < 1e-9) {
@@ -148,7 +148,7 @@ fn flown_amplitudes(k: f64, a: f64, pitches: bool) -> [[f64; 2]; 2] {
                 },
             ),
         };
-        let mut load = flown.load(t, &m, calm);
+        let mut load = flown.load(t, &m, Calm);
         let added = flown.wing.acceleration_load(&m, &by);
         load.force += added.force;
         load.moment += added.moment;
@@ -293,7 +293,7 @@ fn limit_slow_motion_has_the_quasi_steady_force() {
         let m = along(DVec3::new(0.9, 0.0, 0.6));
         let mut load = Load::default();
         for k in 0..3000 {
-            load = flown.load(f64::from(k), &m, calm);
+            load = flown.load(f64::from(k), &m, Calm);
         }
         let expected = steady.velocity_load(&m);
         assert!((load.force - expected.force).length() < 1e-12, "{theory:?}");
@@ -310,7 +310,7 @@ fn order_of_downwash_that_is_no_straight_line_is_second() {
         for k in 0..=steps {
             let t = 10.0 * k as f64 / steps as f64;
             let v = DVec3::new(1.0 + 0.5 * (0.7 * t).sin(), 0.0, 0.3 * (1.1 * t).sin());
-            last = flown.load(t, &along(v), calm).force.z;
+            last = flown.load(t, &along(v), Calm).force.z;
         }
         last
     };
@@ -330,7 +330,7 @@ fn behaves_smoothly_where_a_strip_turns_back() {
     for k in 0..=3 * steps {
         let t = TAU * f64::from(k) / f64::from(steps);
         let (u, w) = (t.cos(), 0.8 * (2.0 * t).sin());
-        let load = flown.load(t, &along(DVec3::new(u, 0.0, w)), calm).force;
+        let load = flown.load(t, &along(DVec3::new(u, 0.0, w)), Calm).force;
         assert!(load.is_finite());
         largest = largest.max(load.length());
         if let Some(before) = before {
@@ -362,7 +362,7 @@ fn exact_periodic_memory_is_what_many_beats_come_to() {
         for k in 0..=40 {
             let t = 0.5 * f64::from(k);
             let w = 0.1 * (TAU * t / 20.0).sin();
-            flown.load(t, &along(DVec3::new(1.0, 0.0, w)), calm);
+            flown.load(t, &along(DVec3::new(1.0, 0.0, w)), Calm);
         }
         flown.memory
     };

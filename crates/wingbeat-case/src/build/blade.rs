@@ -70,5 +70,6 @@ fn body_drag(case: BodyDragCase, scale: f64) -> BodyDrag {
         area: case.area_m2 * scale * scale,
         along: case.along,
         across: case.across,
+        centre: case.centre_m.map(|x| vector(x) * scale),
     }
 }

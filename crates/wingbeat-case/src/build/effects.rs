@@ -7,7 +7,7 @@ use wingbeat_model::{AngleLaw, Wing};
 use super::Built;
 use crate::error::Fault;
 use crate::raw::{
-    AdjustCase, Case, Formulation, JointCase, Mode, StartCase, WingCase, WingMeshCase,
+    AdjustCase, AirModel, Case, Formulation, JointCase, Mode, StartCase, WingCase, WingMeshCase,
 };
 use crate::sides::mirror_name;
 use crate::source::CaseSource;
@@ -19,6 +19,7 @@ pub(crate) fn check(case: &Case, setup: &FlightSetup, source: &CaseSource) -> Bu
     motion(case, source)?;
     adjustments(case, setup)?;
     joints(case)?;
+    frames(case, source)?;
     for (name, spring) in &case.spring {
         if spring.stiffness_newton_per_m == 0.0 && spring.damping_newton_s_per_m == 0.0 {
             let why = "without stiffness_newton_per_m or damping_newton_s_per_m";
@@ -56,6 +57,22 @@ pub(crate) fn check(case: &Case, setup: &FlightSetup, source: &CaseSource) -> Bu
         return Err(idle("dynamics.formulation", why));
     }
     Ok(())
+}
+
+/// Frames of air without surfaces and wakes. Those that the file wants for a lattice stand by where the command line chose another model.
+fn frames(case: &Case, source: &CaseSource) -> Built<()> {
+    const KEY: &str = "output.frames_every";
+    let wanted = case.output.frames_every > 0 && source.gives(KEY);
+    let stands_by = source.chooses("air.model") && !source.touches(KEY);
+    if case.air.model == AirModel::VortexLattice || !wanted || stands_by {
+        return Ok(());
+    }
+    Err(Fault::new(
+        KEY,
+        "this has no effect in air without wakes: no frames are written",
+        "0, or air.model = \"vortex_lattice\"",
+        "remove it; page and animation draw the flight from its history",
+    ))
 }
 
 /// A key without effect, and why.

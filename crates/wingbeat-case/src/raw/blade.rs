@@ -34,8 +34,8 @@ pub struct BladeCase {
     #[schemars(extend("with" = "rotation = circulation"))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub rotation_coefficient: Option<f64>,
-    /// Added mass, of the motion of the wings. Gusts and shears act by their velocities; the rate at which the wind changes
-    /// past a wing is not in it (with `unsteady` it is part of Kuessner's function).
+    /// Added mass, of the motion of the wings through the air: the rate at which the wind changes at a moving strip is in it (with `unsteady` that of
+    /// gusts without a front; Kuessner's function has the rest). A jump of a gust's table has no rate.
     ///
     /// Change it to reproduce a published model.
     #[default(AddedMass::Impulse)]
@@ -134,7 +134,7 @@ pub struct ViscousCase {
     pub quadratic: f64,
 }
 
-/// Drag of the body along and across its axis, at the origin of the body.
+/// Drag of the body along and across its axis.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct BodyDragCase {
@@ -153,4 +153,10 @@ pub struct BodyDragCase {
     /// Change it to what was measured.
     #[schemars(range(min = 0))]
     pub across: f64,
+    /// Where it acts, in the body frame in which hinges are given, before `animal.scale`: it follows the velocity of this point and turns the body by
+    /// its lever. Left out: the centre of the volume of the body's parts, without parts the mass centre of the body.
+    ///
+    /// Change it to where the drag was found to act.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub centre_m: Option<[f64; 3]>,
 }

@@ -236,7 +236,7 @@ pub struct OutputCase {
     #[default = 1]
     #[schemars(range(min = 1))]
     pub history_every: usize,
-    /// Write surfaces and wakes (.vtp) every so many steps; 0 writes none.
+    /// Write surfaces and wakes (.vtp) of the vortex lattice every so many steps; 0 writes none, nor does other air.
     ///
     /// Change it to 0 for long flights whose wakes nobody looks at.
     #[default = 2]

@@ -291,7 +291,7 @@ pub struct TableCase {
     #[schemars(extend("with" = "file"))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub phase_column: Option<String>,
-    /// Column of the angle in degrees. Left out: the second.
+    /// Column of the angle, in radians where its name says `rad` (`psi_rad`), else in degrees. Left out: the second.
     ///
     /// Change it where the file has other columns first.
     #[schemars(extend("with" = "file"))]

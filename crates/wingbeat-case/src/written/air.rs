@@ -146,6 +146,7 @@ fn blade(options: &BladeOptions) -> Written<AirCase> {
             area_m2: d.area,
             along: d.along,
             across: d.across,
+            centre_m: d.centre.map(|x| x.to_array()),
         }),
         unsteady,
         states,

@@ -78,61 +78,50 @@ fn plot(plane: &Plane, look: &Look) -> Plot {
 
 /// Coordinates of the body that move, against their rates.
 fn body(setup: &FlightSetup, history: &History) -> Vec<Plane> {
-    let length = |name: &'static str, column: &'static str, sign: f64| {
-        let x = from_start(history.column(&format!("body_{column}_m")));
-        let rate = history.column(&format!("body_{column}_rate_m_per_s"));
-        let [(scale, unit), (rate_scale, rate_unit)] = [prefix(&x), prefix(rate)];
-        Plane {
-            x: (format!("{name} [{unit}m]"), scaled(&x, sign / scale)),
-            y: (
-                format!("rate [{rate_unit}m/s]"),
-                scaled(rate, sign / rate_scale),
-            ),
-        }
-    };
-    let angle = |name: &'static str, column: &'static str| {
-        let degrees = |c: String| scaled(history.column(&c), 1f64.to_degrees());
-        Plane {
-            x: (
-                format!("{name} [deg]"),
-                degrees(format!("body_{column}_rad")),
-            ),
-            y: (
-                "rate [deg/s]".to_owned(),
-                degrees(format!("body_{column}_rate_rad_per_s")),
-            ),
-        }
-    };
-    let span = |plane: &Plane| {
-        let ends = plane
-            .x
-            .1
-            .iter()
-            .fold([f64::MAX, f64::MIN], |[a, b], v| [a.min(*v), b.max(*v)]);
-        ends[1] - ends[0]
-    };
-    let way = |name: &str| {
-        let ends = from_start(history.column(name));
-        ends.iter().fold(0.0_f64, |a, v| a.max(v.abs()))
-    };
     let size = setup.animal.body_length().max(1e-6);
-    let mut list = vec![];
-    for (name, column, sign) in [
+    let places = [
         ("forward", "x", 1.0),
         ("right", "y", 1.0),
         ("up", "z", -1.0),
-    ] {
-        if way(&format!("body_{column}_m")) > 1e-6 * size {
-            list.push(length(name, column, sign));
-        }
-    }
-    for (name, column) in [("pitch", "phi"), ("yaw", "theta"), ("roll", "psi")] {
-        let plane = angle(name, column);
-        if span(&plane) > 1e-4 {
-            list.push(plane);
-        }
-    }
-    list
+    ];
+    let places = places
+        .into_iter()
+        .filter_map(|(name, column, sign)| place(history, name, column, sign, size));
+    let angles = [("pitch", "phi"), ("yaw", "theta"), ("roll", "psi")];
+    let angles = angles
+        .into_iter()
+        .filter_map(|(name, column)| angle(history, name, column));
+    places.chain(angles).collect()
+}
+
+/// Way along an axis against its rate, if it is not next to nothing of the `size` of the body [m].
+fn place(history: &History, name: &str, column: &str, sign: f64, size: f64) -> Option<Plane> {
+    let x = from_start(history.column(&format!("body_{column}_m")));
+    let way = x.iter().fold(0.0_f64, |a, v| a.max(v.abs()));
+    let rate = history.column(&format!("body_{column}_rate_m_per_s"));
+    let [(scale, unit), (rate_scale, rate_unit)] = [prefix(&x), prefix(rate)];
+    let plane = || Plane {
+        x: (format!("{name} [{unit}m]"), scaled(&x, sign / scale)),
+        y: (
+            format!("rate [{rate_unit}m/s]"),
+            scaled(rate, sign / rate_scale),
+        ),
+    };
+    (way > 1e-6 * size).then(plane)
+}
+
+/// An angle against its rate, if it changes.
+fn angle(history: &History, name: &str, column: &str) -> Option<Plane> {
+    let degrees = |c: &str| scaled(history.column(c), 1f64.to_degrees());
+    let angle = degrees(&format!("body_{column}_rad"));
+    let ends = angle
+        .iter()
+        .fold([f64::MAX, f64::MIN], |[a, b], v| [a.min(*v), b.max(*v)]);
+    let rate = degrees(&format!("body_{column}_rate_rad_per_s"));
+    (ends[1] - ends[0] > 1e-4).then(|| Plane {
+        x: (format!("{name} [deg]"), angle),
+        y: ("rate [deg/s]".to_owned(), rate),
+    })
 }
 
 /// Stroke angle of the reference wing against its rate, and against its feathering angle.

@@ -1,6 +1,6 @@
 //! Blade elements on wings that loads bend: nodes of the wing's mesh move the sections, whose forces go back to them.
 
-use wingbeat_blade::{BladeWing, Lag, NodesInMotion, Section};
+use wingbeat_blade::{BladeWing, Lag, LocalWind, NodesInMotion, Section};
 use wingbeat_dynamics::{BodyAcceleration, BodyMotion, Wrench};
 use wingbeat_math::{DMat3, DVec3};
 use wingbeat_model::{Animal, Wing};
@@ -41,7 +41,7 @@ impl BentStrips {
         &self,
         blade: &BladeWing,
         at: &Instant<'_>,
-        wind: impl Fn(DVec3) -> DVec3,
+        wind: impl LocalWind,
         lag: Option<Lag<'_>>,
         s: &mut BentScratch,
     ) -> Option<Wrench> {
@@ -53,7 +53,7 @@ impl BentStrips {
             shape,
             blade.settings().free_stream,
         );
-        self.set_states(wind, m.r, s);
+        self.set_states(blade, &wind, m.r, s);
         if s.forces.len() <= self.wing {
             s.forces.resize(self.wing + 1, vec![]);
         }
@@ -73,7 +73,13 @@ impl BentStrips {
         })
     }
 
-    fn set_states(&self, wind: impl Fn(DVec3) -> DVec3, turn: DMat3, s: &mut BentScratch) {
+    fn set_states(
+        &self,
+        blade: &BladeWing,
+        wind: &impl LocalWind,
+        turn: DMat3,
+        s: &mut BentScratch,
+    ) {
         let nodes = NodesInMotion {
             position: &s.position,
             velocity: &s.velocity,
@@ -83,7 +89,7 @@ impl BentStrips {
         (s.states).extend(
             self.sections
                 .iter()
-                .map(|section| section.state(&nodes, &wind, turn)),
+                .map(|section| section.state(blade, &nodes, wind, turn)),
         );
     }
 
@@ -92,7 +98,7 @@ impl BentStrips {
         &self,
         blade: &BladeWing,
         at: &Instant<'_>,
-        wind: impl Fn(DVec3) -> DVec3,
+        wind: impl LocalWind,
         lag: Option<Lag<'_>>,
         (s, out): (&mut BentScratch, &mut WingResponse),
     ) -> bool {
@@ -106,7 +112,7 @@ impl BentStrips {
             shape,
             blade.settings().free_stream,
         );
-        self.set_states(wind, m.r, s);
+        self.set_states(blade, &wind, m.r, s);
         blade.bent_answers(&self.sections, &s.states, lag, &mut s.answers);
         let order = 3 * s.answers.len();
         out.panels.resize_with(order, Vec::new);

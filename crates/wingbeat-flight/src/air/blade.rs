@@ -6,8 +6,8 @@
 
 use wingbeat_air::Wind;
 use wingbeat_blade::{
-    BladeError, BladeWing, BodyDrag, FrameAcceleration, Lag, Load, StripTrial, WingFrame,
-    WingMemory, calm,
+    BladeError, BladeWing, BodyDrag, Calm, FrameAcceleration, Lag, Load, LocalWind, StripTrial,
+    WingFrame, WingMemory,
 };
 use wingbeat_dynamics::{AddedMass, BodyAcceleration, BodyMotion, Wrench};
 use wingbeat_math::DVec3;
@@ -31,9 +31,11 @@ pub struct BladeAir {
     bent: Vec<Option<BentStrips>>,
     /// Added mass of those that keep their shape.
     added: Vec<AddedMass>,
-    drag: Option<BodyDrag>,
+    /// Drag of the body and where it acts, body components \[m\].
+    drag: Option<(BodyDrag, DVec3)>,
     density: f64,
     stream: DVec3,
+    induced: DVec3,
     wind: Wind,
 }
 
@@ -59,9 +61,11 @@ impl BladeAir {
                 .map(|(i, w)| BentStrips::new(i, w))
                 .collect(),
             added: vec![],
-            drag: options.body_drag,
+            drag: (options.body_drag)
+                .map(|d| (d, d.centre.unwrap_or_else(|| animal.body_centre()))),
             density: options.blade.density,
             stream: options.blade.free_stream,
+            induced: options.induced,
             wind: options.wind.clone(),
         };
         let rigid = |i: &usize| !air.is_deformed(*i) && air.bent[*i].is_none();
@@ -91,7 +95,7 @@ impl BladeAir {
         acc: &BodyAcceleration,
     ) -> (Load, f64) {
         let (wing, acc) = (&self.wings[i], acceleration(acc));
-        let wind = self.wind_on(m, t);
+        let wind = self.wind_on(m, t, None);
         match &self.moving[i] {
             None => (wing.acceleration_load_in(&frame(m), &acc, wind), 0.0),
             Some(d) => {
@@ -105,9 +109,9 @@ impl BladeAir {
 
     /// Force and moment on a wing by its velocities and the wakes that `lag` tells of, and the power that deforms it.
     fn velocity_load(&self, i: usize, t: f64, m: &BodyMotion, lag: Option<Lag<'_>>) -> (Load, f64) {
-        let (wing, wind) = (&self.wings[i], self.wind_on(m, t));
+        let (wing, wind) = (&self.wings[i], self.wind_on(m, t, lag.as_ref()));
         match &self.moving[i] {
-            None if self.wind.is_none() => (wing.lagging_load(&frame(m), calm, lag), 0.0),
+            None if self.wind.is_none() => (wing.lagging_load(&frame(m), Calm, lag), 0.0),
             None => (wing.lagging_load(&frame(m), wind, lag), 0.0),
             Some(d) => {
                 let phase = d.phase_at(t);
@@ -130,12 +134,24 @@ impl BladeAir {
         }
     }
 
-    /// Wind at a point of a wing that moves like `m`, wing components.
-    fn wind_on(&self, m: &BodyMotion, t: f64) -> impl Fn(DVec3) -> DVec3 {
-        let calm = self.wind.is_none();
-        move |r| match calm {
-            true => DVec3::ZERO,
-            false => m.r.transpose() * self.wind.at(m.point(r), t),
+    /// The `drag` of the body that moves like `b`, at the point `centre`.
+    fn drag_on(&self, drag: &BodyDrag, centre: DVec3, t: f64, b: &BodyMotion) -> Wrench {
+        let wind = self.wind_on(b, t, None).velocity(centre);
+        let v = b.r.transpose() * (b.v - self.stream) + b.w.cross(centre) - wind;
+        let force = drag.force(self.density, v);
+        let moment = centre.cross(force);
+        turned(&Load { force, moment }, b)
+    }
+
+    /// Wind on a wing that moves like `m` at time `t` \[s\], whose strips may remember their wakes (`lag`).
+    fn wind_on(&self, m: &BodyMotion, t: f64, lag: Option<&Lag<'_>>) -> WindOn<'_> {
+        WindOn {
+            wind: &self.wind,
+            is_calm: self.wind.is_none(),
+            stream: self.stream + self.induced,
+            motion: *m,
+            time: t,
+            remembered: lag.and_then(Lag::since),
         }
     }
 
@@ -175,18 +191,15 @@ impl Air for BladeAir {
         (scratch.strips.trials).resize_with(self.wings.len(), Vec::new);
         let (t, still) = (at.time, BodyAcceleration::default());
         out.fill(Wrench::default());
-        if let Some(drag) = &self.drag {
-            let b = &at.motions[0];
-            let wind = self.wind_on(b, t)(DVec3::ZERO);
-            let v = b.r.transpose() * (b.v - self.stream) - wind;
-            out[0].force = b.r * drag.force(self.density, v);
+        if let Some((drag, centre)) = &self.drag {
+            out[0] = self.drag_on(drag, *centre, t, &at.motions[0]);
         }
         for (i, m) in (0..self.wings.len()).zip(&at.motions[1..]) {
             let bent = self.bent[i].as_ref();
-            let wind = self.wind_on(m, t);
             let trial = &mut scratch.strips.trials[i];
             if let Some(load) = bent.and_then(|b| {
                 let lag = lag(wakes, i, t, trial);
+                let wind = self.wind_on(m, t, lag.as_ref());
                 b.load(&self.wings[i], at, wind, lag, &mut scratch.bent)
             }) {
                 out[i + 1] = load;
@@ -268,7 +281,6 @@ impl Air for BladeAir {
         scratch: &mut AirScratch,
         out: &mut WingResponse,
     ) -> Result<bool, FlightError> {
-        let wind = self.wind_on(&at.motions[wing + 1], at.time);
         let (bent, room) = (self.bent[wing].as_ref(), &mut scratch.bent);
         let lag = lag(
             self.wakes(memory)?,
@@ -276,6 +288,7 @@ impl Air for BladeAir {
             at.time,
             &mut scratch.strips.asked,
         );
+        let wind = self.wind_on(&at.motions[wing + 1], at.time, lag.as_ref());
         Ok(bent.is_some_and(|b| b.respond(&self.wings[wing], at, wind, lag, (room, out))))
     }
 
@@ -305,6 +318,54 @@ impl Air for BladeAir {
             ];
             out[i + 1] = by_velocity + by_mass;
         }
+    }
+}
+
+/// The wind on a wing.
+struct WindOn<'a> {
+    wind: &'a Wind,
+    is_calm: bool,
+    /// Velocity of the air at the wings without it, N components \[m/s\].
+    stream: DVec3,
+    motion: BodyMotion,
+    time: f64,
+    /// When the strips' memory was accepted \[s\], where they have one.
+    remembered: Option<f64>,
+}
+
+impl LocalWind for WindOn<'_> {
+    fn velocity(&self, point: DVec3) -> DVec3 {
+        match self.is_calm {
+            true => DVec3::ZERO,
+            false => {
+                let m = &self.motion;
+                m.r.transpose() * self.wind.at(m.point(point), self.time)
+            }
+        }
+    }
+
+    fn rate(&self, point: DVec3, through: DVec3) -> DVec3 {
+        match self.is_calm {
+            true => DVec3::ZERO,
+            false => {
+                let m = &self.motion;
+                let (x, v) = (m.point(point), self.stream + m.r * through);
+                m.r.transpose() * self.wind.rate(x, v, self.time)
+            }
+        }
+    }
+
+    fn at_once(&self) -> [DVec3; 2] {
+        if self.is_calm {
+            return [DVec3::ZERO; 2];
+        }
+        let [now, rate] = self.wind.at_once(self.time);
+        let before = self.remembered.map_or(now, |t| self.wind.at_once(t)[0]);
+        [now - before, rate].map(|x| self.motion.r.transpose() * x)
+    }
+
+    fn is_calm(&self) -> bool {
+        self.is_calm
     }
 }
 

@@ -1,0 +1,56 @@
+//! From the stage in which the root is held into free flight.
+
+use wingbeat_dynamics::BodyMotion;
+use wingbeat_math::DVec3;
+use wingbeat_math::ode::StepReport;
+
+use crate::bodies::carry;
+use crate::error::FlightError;
+use crate::quadratures::QUADRATURES;
+use crate::recorder::Ledger;
+use crate::setup::MotionMode;
+use crate::simulation::Simulation;
+
+impl Simulation {
+    /// Goes over into the next stage where one starts, records, accepts, starts.
+    pub(super) fn arrive(&mut self, report: StepReport) -> Result<(), FlightError> {
+        let next = self.state.stage + 1;
+        let enters = self
+            .stages
+            .get(next)
+            .is_some_and(|s| s.from_step == self.state.step);
+        if enters {
+            let past = &self.state.past.y[self.newest()];
+            let quadratures = past[past.len() - QUADRATURES..].to_vec();
+            let (root, jumps) = self.released();
+            let core = &self.stages[next].equations.core;
+            let mut motions = self.scratch.motions.clone();
+            carry(&mut motions, &root);
+            let elastic = &self.stages[next].equations.elastic;
+            let shapes: Vec<_> = elastic.shape_masses(&self.scratch.elastic).collect();
+            let mut y0 = core.initial_from(self.time(self.state.step), &motions, &shapes)?;
+            y0.extend(quadratures);
+            self.state.stage = next;
+            let before = jumps.then(|| Ledger::open(&self.scratch));
+            self.enter_stage(y0)?;
+            if let Some(before) = before {
+                let after = Ledger::open(&self.scratch);
+                self.state.ledger.count_jump(&before, &after);
+            }
+        }
+        self.finish_arrival(report, enters)
+    }
+
+    /// How the root goes on when its hold ends, and whether with another velocity or attitude than it had.
+    fn released(&mut self) -> (BodyMotion, bool) {
+        let mut root = self.scratch.motions[0];
+        let mut jumps = self.release.is_some();
+        // As `StartState::released`; a root that is held still has no rounding of its support.
+        if let MotionMode::Free(start) = &self.setup.mode {
+            let swaying = start.held_motion.as_ref().map(|_| root.w);
+            root.w = start.angular_velocity + swaying.unwrap_or_default();
+            jumps |= start.angular_velocity != DVec3::ZERO;
+        }
+        (self.release.take().unwrap_or(root), jumps)
+    }
+}
