@@ -30,8 +30,9 @@ impl Flown {
             .iter()
             .filter_map(|r| counted.take(r))
             .collect();
-        let wants_mean = numbers.iter().any(|n| n.source.is_mean());
-        if wants_mean && means.len() < beats {
+        let has_beats = self.setup.time.steps_per_beat().is_some();
+        let wants_beats = |n: &Number| n.source.is_mean() && (has_beats || !n.source.is_extreme());
+        if numbers.iter().any(wants_beats) && means.len() < beats {
             return Err(format!(
                 "means over {beats} wingbeats, but only {} whole ones were flown",
                 means.len()
@@ -90,11 +91,15 @@ impl Flown {
             columns.values(r, &mut scratch, &mut row);
             row[place]
         };
-        let all = &self.records;
+        let all = &self.records[..];
+        let counted = match beats {
+            [] => all,
+            beats => self.rows(beats),
+        };
         Ok(match of {
             Of::End => value(&all[all.len() - 1]),
-            Of::Min => all.iter().map(value).fold(f64::INFINITY, f64::min),
-            Of::Max => all.iter().map(value).fold(f64::NEG_INFINITY, f64::max),
+            Of::Min => counted.iter().map(value).fold(f64::INFINITY, f64::min),
+            Of::Max => (counted.iter().map(value)).fold(f64::NEG_INFINITY, f64::max),
             Of::Mean => {
                 let rows = self.rows(beats);
                 let [first, .., last] = rows else {

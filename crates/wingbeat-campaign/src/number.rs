@@ -56,9 +56,9 @@ pub enum Of {
     Mean,
     /// The last number.
     End,
-    /// The least number of the flight.
+    /// The least number in the last wingbeats; of a flight without wingbeats, of all of it.
     Min,
-    /// The largest number of the flight.
+    /// The largest number, likewise.
     Max,
 }
 
@@ -102,12 +102,19 @@ impl Source {
         }
     }
 
-    /// Whether it is taken over the last wingbeats.
+    /// Whether it is taken over the last wingbeats: a mean, or an extreme.
     pub fn is_mean(&self) -> bool {
         matches!(
             self,
-            Self::Beat(_) | Self::Efficiency | Self::Column(Of::Mean, _)
+            Self::Beat(_)
+                | Self::Efficiency
+                | Self::Column(Of::Mean | Of::Min | Of::Max, _)
         )
+    }
+
+    /// Whether it is an extreme of a column.
+    pub fn is_extreme(&self) -> bool {
+        matches!(self, Self::Column(Of::Min | Of::Max, _))
     }
 
     /// Whether it needs the averaged model.
@@ -271,8 +278,8 @@ pub fn registry(setup: &FlightSetup) -> Result<Vec<Number>, AnalysisError> {
     for (prefix, words, of) in [
         ("", "mean of ", Of::Mean),
         ("end.", "at the end: ", Of::End),
-        ("min.", "least: ", Of::Min),
-        ("max.", "largest: ", Of::Max),
+        ("min.", "least in the last wingbeats: ", Of::Min),
+        ("max.", "largest in the last wingbeats: ", Of::Max),
     ] {
         for c in columns.iter() {
             let name = format!("{prefix}{}", c.name);

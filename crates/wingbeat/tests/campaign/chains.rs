@@ -84,7 +84,7 @@ fn agrees_means_with_the_history() {
     write(
         dir,
         r#"case = "fruit-fly-blade"
-keep = ["body_phi_rad", "max.body_phi_rad", "end.body_phi_rad", "efficiency", "thrust_newton", "power_watt"]
+keep = ["body_phi_rad", "min.body_phi_rad", "max.body_phi_rad", "end.body_phi_rad", "efficiency", "thrust_newton", "power_watt"]
 mean_beats = 2
 [set]
 "time.beats" = 3.5
@@ -113,10 +113,17 @@ mean_beats = 2
         "roundings of 80 terms"
     );
     assert_eq!(own("end.body_phi_rad"), angle[140]);
+    // Extremes are of the same wingbeats, not of the start before them nor of the half beat behind them.
+    let extremes = |angle: &[f64]| {
+        let over = |f: fn(f64, f64) -> f64| angle.iter().copied().reduce(f).unwrap();
+        [over(f64::min), over(f64::max)]
+    };
+    let counted = extremes(&angle[40..=120]);
     assert_eq!(
-        own("max.body_phi_rad"),
-        angle.iter().copied().fold(f64::NEG_INFINITY, f64::max)
+        ["min", "max"].map(|of| own(&format!("{of}.body_phi_rad"))),
+        counted
     );
+    assert_ne!(counted, extremes(angle));
     let way = run.records[120].mass_centre.x - run.records[40].mass_centre.x;
     let speed = way / (run.records[120].time - run.records[40].time) + 0.5;
     let wanted = own("thrust_newton") * speed / own("power_watt");
