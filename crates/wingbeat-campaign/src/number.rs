@@ -33,6 +33,8 @@ pub struct Number {
 pub enum Source {
     /// Of the means of wingbeats, averaged over the last ones.
     Beat(fn(&BeatMeans) -> f64),
+    /// Standard error of such a mean.
+    Error(fn(&BeatMeans) -> f64),
     /// Thrust times airspeed over power.
     Efficiency,
     /// Of a column of the history.
@@ -95,7 +97,11 @@ impl Source {
     /// The task that gives it.
     pub fn task(&self) -> Task {
         match self {
-            Self::Beat(_) | Self::Efficiency | Self::Column(..) | Self::Summary(_) => Task::Run,
+            Self::Beat(_)
+            | Self::Error(_)
+            | Self::Efficiency
+            | Self::Column(..)
+            | Self::Summary(_) => Task::Run,
             Self::Trim(_) => Task::Trim,
             Self::Mode(..) | Self::Derivative(..) => Task::Stability,
             Self::Power(_) => Task::Power,
@@ -107,6 +113,7 @@ impl Source {
         matches!(
             self,
             Self::Beat(_)
+                | Self::Error(_)
                 | Self::Efficiency
                 | Self::Column(Of::Mean | Of::Min | Of::Max, _)
         )
@@ -162,7 +169,7 @@ const BEATS: [Entry<BeatMeans>; 6] = [
     ),
 ];
 
-const SUMMARY: [Entry<Summary>; 16] = [
+const SUMMARY: [Entry<Summary>; 17] = [
     ("steps", "1", "steps made", |s| s.steps as f64),
     ("time_s", "s", "time flown", |s| s.time_s),
     ("mass_kg", "kg", "mass of the animal", |s| s.mass_kg),
@@ -199,6 +206,12 @@ const SUMMARY: [Entry<Summary>; 16] = [
     ("wake_particles", "1", "vortex particles at the end", |s| {
         s.wake_particles as f64
     }),
+    (
+        "verdict",
+        "1",
+        "how far the flight can be trusted: 0 green, 1 amber, 2 red",
+        |s| f64::from(s.verdict.level()),
+    ),
     ("warnings", "1", "how many warnings the summary has", |s| {
         s.warnings.len() as f64
     }),
@@ -266,6 +279,8 @@ pub fn registry(setup: &FlightSetup) -> Result<Vec<Number>, AnalysisError> {
     };
     for (name, unit, about, of) in BEATS {
         put(name.to_owned(), unit, about, Source::Beat(of));
+        let error = format!("standard error (of three wingbeats or more): {about}");
+        put(format!("error.{name}"), unit, &error, Source::Error(of));
     }
     put(
         EFFICIENCY.0.to_owned(),

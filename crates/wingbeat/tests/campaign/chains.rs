@@ -3,7 +3,7 @@
 use serde_json::Value;
 
 use crate::support::{Scratch, flown, wingbeat};
-use crate::{merged, numbers, write};
+use crate::{column, merged, numbers, write};
 
 /// A chain of all tasks at two speeds.
 const CHAIN: &str = r#"case = "fruit-fly-blade"
@@ -74,6 +74,63 @@ fn agrees_trim_stability_and_power_with_their_commands() {
         );
     }
     assert!(own("trim.stroke_amplitude")[0] != own("trim.stroke_amplitude")[1]);
+}
+
+/// Tables say how far each flight can be trusted, and how well its means are known.
+#[test]
+fn agrees_verdicts_and_errors_with_those_of_the_flights() {
+    let scratch = Scratch::new("campaign-verdicts");
+    let dir = &scratch.0;
+    write(
+        dir,
+        r#"case = "fruit-fly-blade"
+keep = ["lift_over_weight", "error.lift_over_weight", "summary.verdict"]
+mean_beats = 3
+[set]
+"time.beats" = 5
+"flight.mode" = "tethered"
+[parameter."time.steps_per_beat"]
+list = [5, 200]
+"#,
+    );
+    flown(dir, &["campaign", "run", "c.toml", "--out", "r", "--quiet"]);
+    merged(dir, "r");
+    let own = |name: &str| numbers(dir, "r", name);
+    let mut words = vec![];
+    for (k, steps) in [5, 200].into_iter().enumerate() {
+        let keys = [
+            "time.beats=5".to_owned(),
+            "flight.mode=tethered".to_owned(),
+            format!("time.steps_per_beat={steps}"),
+        ];
+        let keys: Vec<&str> = keys.iter().map(String::as_str).collect();
+        let run = wingbeat::Flight::preset_with("fruit-fly-blade", &keys)
+            .unwrap()
+            .fly()
+            .unwrap();
+        let summary = run.summary();
+        let lift = summary.means.unwrap().lift_over_weight.unwrap();
+        assert_eq!(own("lift_over_weight")[k], lift.mean);
+        assert_eq!(
+            own("error.lift_over_weight")[k],
+            lift.standard_error.unwrap()
+        );
+        assert_eq!(
+            own("summary.verdict")[k],
+            f64::from(summary.verdict.level())
+        );
+        words.push(summary.verdict.word().to_owned());
+    }
+    assert_ne!(words[0], "green", "five steps a beat");
+    assert_eq!(column(dir, "r", "verdict"), words);
+    let doubtful = words.iter().filter(|w| *w != "green").count();
+    let status = wingbeat(
+        dir,
+        &["campaign", "status", "c.toml", "--out", "r", "--json"],
+    );
+    let status: Value = serde_json::from_slice(&status.stdout).unwrap();
+    let count = |of: &str| status[of].as_u64().unwrap() as usize;
+    assert_eq!(count("red") + count("amber"), doubtful);
 }
 
 /// Means of a column are those of the history; efficiency is thrust times airspeed over power.
