@@ -2,6 +2,7 @@
 
 mod alternation;
 pub mod beats;
+mod comparison;
 mod ensemble;
 mod estimate;
 mod impulse;
@@ -18,6 +19,7 @@ use wingbeat_flight::{FlightSetup, Record};
 
 use super::Outcome;
 pub use beats::{BeatMeans, Beats, down, over_weight};
+pub use comparison::MeanDifference;
 pub use ensemble::{Ensemble, EnsembleBeat, Members};
 pub use estimate::Estimate;
 pub use impulse::ImpulseBudget;
