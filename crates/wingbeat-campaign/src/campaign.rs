@@ -188,6 +188,9 @@ impl Campaign {
         );
         let files = (&raw.files, &raw.retention, &raw.set);
         hash.update(format!("{tasks:?} {files:?}\n"));
+        if self.numbers.iter().any(|n| n.source.is_extreme()) {
+            hash.update("extremes of the last wingbeats\n"); // they were those of the whole flight once
+        }
         hash
     }
 
@@ -248,7 +251,7 @@ impl Campaign {
             let place = format!("keep[{k}]");
             let number = number::find(&all, name).map_err(|remedy| {
                 let problem = format!("there is no number called `{name}`");
-                self.fault(&place, problem, "a column of the history, lift_over_weight, power_watt, efficiency, summary.*, trim.*, stability.*, power.*", &remedy)
+                self.fault(&place, problem, "a column of the history, lift_over_weight, power_watt, efficiency, error.*, summary.*, trim.*, stability.*, power.*", &remedy)
             })?;
             if kept.iter().any(|n| n.name == number.name) {
                 let problem = format!("`{name}` is kept twice");
@@ -275,6 +278,11 @@ impl Campaign {
             );
             let remedy = format!("add \"{}\" to do, or remove the number", task.name());
             return Err(self.fault(place, problem, "numbers of what is done", &remedy));
+        }
+        if matches!(number.source, Source::Error(_)) && self.raw.mean_beats < Some(3) {
+            let problem = format!("`{}` needs a mean over several wingbeats", number.name);
+            let remedy = "set mean_beats = 3, or more";
+            return Err(self.fault(place, problem, "with mean_beats of 3 or more", remedy));
         }
         let thinned = self.base.output.history_every > 1;
         if thinned

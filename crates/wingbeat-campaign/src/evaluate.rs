@@ -5,7 +5,7 @@ use wingbeat_analysis::{
 };
 use wingbeat_flight::{FlightSetup, Record};
 use wingbeat_results::columns::Columns;
-use wingbeat_results::summary::{BeatMeans, Beats};
+use wingbeat_results::summary::{BeatMeans, Beats, Estimate, Verdict};
 use wingbeat_results::{Outcome, Summary};
 
 use crate::number::{ModeNumber, Modes, Number, Of, Source, TrimNumber};
@@ -19,45 +19,52 @@ pub struct Flown {
 }
 
 impl Flown {
-    /// Its numbers, put where `numbers` has them; others are left as they are.
+    /// Its numbers, put where `numbers` has them (others are left as they are), and how far it can be trusted.
     ///
     /// # Errors
     /// Fewer wingbeats than means are taken over; a column that this flight does not have.
-    pub fn fill(&self, numbers: &[Number], beats: usize, values: &mut [f64]) -> Result<(), String> {
+    pub fn fill(
+        &self,
+        numbers: &[Number],
+        beats: usize,
+        values: &mut [f64],
+    ) -> Result<Verdict, String> {
         let mut counted = Beats::new(&self.setup);
         let means: Vec<BeatMeans> = self
             .records
             .iter()
             .filter_map(|r| counted.take(r))
             .collect();
-        let wants_mean = numbers.iter().any(|n| n.source.is_mean());
-        if wants_mean && means.len() < beats {
+        let has_beats = self.setup.time.steps_per_beat().is_some();
+        let wants_beats = |n: &Number| n.source.is_mean() && (has_beats || !n.source.is_extreme());
+        if numbers.iter().any(wants_beats) && means.len() < beats {
             return Err(format!(
                 "means over {beats} wingbeats, but only {} whole ones were flown",
                 means.len()
             ));
         }
         let last = &means[means.len().saturating_sub(beats)..];
-        let summary = numbers
-            .iter()
-            .any(|n| matches!(n.source, Source::Summary(_)));
-        let summary = summary.then(|| Summary::of(&self.setup, &self.records, &Outcome::Finished));
+        let summary = Summary::of(&self.setup, &self.records, &Outcome::Finished);
         for (number, value) in numbers.iter().zip(values) {
             let mean = |of: fn(&BeatMeans) -> f64| {
                 last.iter().map(of).sum::<f64>() / last.len().max(1) as f64
             };
             match &number.source {
                 Source::Beat(of) => *value = mean(*of),
+                Source::Error(of) => {
+                    let each: Vec<f64> = last.iter().map(*of).collect();
+                    *value = Estimate::of(&each).standard_error.unwrap_or(f64::NAN);
+                }
                 Source::Efficiency => {
                     let work = mean(|b| b.thrust_newton) * self.airspeed(last);
                     *value = work / mean(|b| b.power_watt);
                 }
                 Source::Column(of, name) => *value = self.column(*of, name, last)?,
-                Source::Summary(of) => *value = summary.as_ref().map_or(f64::NAN, of),
+                Source::Summary(of) => *value = of(&summary),
                 _ => {}
             }
         }
-        Ok(())
+        Ok(summary.verdict)
     }
 
     /// The rows of the last wingbeats.
@@ -90,11 +97,15 @@ impl Flown {
             columns.values(r, &mut scratch, &mut row);
             row[place]
         };
-        let all = &self.records;
+        let all = &self.records[..];
+        let counted = match beats {
+            [] => all,
+            beats => self.rows(beats),
+        };
         Ok(match of {
             Of::End => value(&all[all.len() - 1]),
-            Of::Min => all.iter().map(value).fold(f64::INFINITY, f64::min),
-            Of::Max => all.iter().map(value).fold(f64::NEG_INFINITY, f64::max),
+            Of::Min => counted.iter().map(value).fold(f64::INFINITY, f64::min),
+            Of::Max => (counted.iter().map(value)).fold(f64::NEG_INFINITY, f64::max),
             Of::Mean => {
                 let rows = self.rows(beats);
                 let [first, .., last] = rows else {

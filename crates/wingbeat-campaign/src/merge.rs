@@ -9,6 +9,7 @@ use wingbeat_case::IoError;
 use wingbeat_results::export::parquet::{Cell, Cells, ParquetWriter};
 use wingbeat_results::file::NewFile;
 use wingbeat_results::manifest::hexadecimal;
+use wingbeat_results::summary::Verdict;
 
 use crate::campaign::Campaign;
 use crate::command::command;
@@ -79,7 +80,7 @@ fn points_csv(campaign: &Campaign, rows: &[Row]) -> Result<Vec<u8>, IoError> {
     let header = ["point"]
         .into_iter()
         .chain(keys)
-        .chain(["success"])
+        .chain(["success", "verdict"])
         .chain(numbers);
     let lost = "memory takes every row";
     table.write_record(header.chain(["reason"])).expect(lost);
@@ -90,6 +91,7 @@ fn points_csv(campaign: &Campaign, rows: &[Row]) -> Result<Vec<u8>, IoError> {
             row.success
                 .map_or_else(String::new, |s| u8::from(s).to_string()),
         );
+        cells.push(verdict(row).to_owned());
         let number = |x: &f64| {
             if x.is_finite() {
                 format!("{x:?}")
@@ -102,6 +104,10 @@ fn points_csv(campaign: &Campaign, rows: &[Row]) -> Result<Vec<u8>, IoError> {
         table.write_record(&cells).expect(lost);
     }
     Ok(table.into_inner().expect(lost))
+}
+
+fn verdict(row: &Row) -> &'static str {
+    row.verdict.map_or("", Verdict::word)
 }
 
 fn reason(row: &Row) -> &'static str {
@@ -156,6 +162,7 @@ fn parquet(campaign: &Campaign, rows: &[Row], path: &std::path::Path) -> std::io
             .zip(kinds.iter().map(cells)),
     );
     columns.push(("success".to_owned(), Cells::Numbers));
+    columns.push(("verdict".to_owned(), Cells::Texts));
     columns.extend(
         campaign
             .numbers
@@ -175,7 +182,7 @@ fn parquet(campaign: &Campaign, rows: &[Row], path: &std::path::Path) -> std::io
         let success = row.success.map_or(f64::NAN, |s| f64::from(u8::from(s)));
         let head = [Cell::Number(row.point as f64)].into_iter().chain(keys);
         let numbers = row.numbers.iter().map(|x| Cell::Number(*x));
-        let all = head.chain([Cell::Number(success)]).chain(numbers);
+        let all = (head.chain([Cell::Number(success), Cell::Text(verdict(row))])).chain(numbers);
         table.cells(all.chain([Cell::Text(reason(row))]))?;
     }
     let note = |of: &dyn Fn(&crate::number::Number) -> String| {

@@ -13,7 +13,7 @@ use crate::rows::Row;
 use crate::value::Value;
 
 /// Version of the layout.
-const LAYOUT: i64 = 2;
+const LAYOUT: i64 = 3;
 
 /// Numbers of a dataset that are written when all places are known.
 enum Data {
@@ -95,6 +95,12 @@ pub fn write(campaign: &Campaign, rows: &[Row], path: &Path) -> std::io::Result<
         "long_name",
         "1 where there are numbers, 0 where the point failed",
     );
+    file.along(dataset, &scales);
+    let verdict = |r: &Row| r.verdict.map_or(f64::NAN, |v| f64::from(v.level()));
+    let all = Data::Float(rows.iter().map(verdict).collect());
+    let dataset = file.put("verdict", Kind::Float, &shape, all);
+    let about = "how far the flight can be trusted: 0 green, 1 amber, 2 red";
+    file.layout.text(dataset, "long_name", about);
     file.along(dataset, &scales);
     for (k, number) in campaign.numbers.iter().enumerate() {
         let column = Data::Float(rows.iter().map(|r| r.numbers[k]).collect());

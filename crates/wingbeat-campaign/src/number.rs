@@ -30,6 +30,8 @@ pub struct Number {
 pub enum Source {
     /// Of the means of wingbeats, averaged over the last ones.
     Beat(fn(&BeatMeans) -> f64),
+    /// Standard error of such a mean.
+    Error(fn(&BeatMeans) -> f64),
     /// Thrust times airspeed over power.
     Efficiency,
     /// Of a column of the history.
@@ -53,9 +55,9 @@ pub enum Of {
     Mean,
     /// The last number.
     End,
-    /// The least number of the flight.
+    /// The least number in the last wingbeats; of a flight without wingbeats, of all of it.
     Min,
-    /// The largest number of the flight.
+    /// The largest number, likewise.
     Max,
 }
 
@@ -92,19 +94,31 @@ impl Source {
     /// The task that gives it.
     pub fn task(&self) -> Task {
         match self {
-            Self::Beat(_) | Self::Efficiency | Self::Column(..) | Self::Summary(_) => Task::Run,
+            Self::Beat(_)
+            | Self::Error(_)
+            | Self::Efficiency
+            | Self::Column(..)
+            | Self::Summary(_) => Task::Run,
             Self::Trim(_) => Task::Trim,
             Self::Mode(..) | Self::Derivative(..) => Task::Stability,
             Self::Power(_) => Task::Power,
         }
     }
 
-    /// Whether it is taken over the last wingbeats.
+    /// Whether it is taken over the last wingbeats: a mean, or an extreme.
     pub fn is_mean(&self) -> bool {
         matches!(
             self,
-            Self::Beat(_) | Self::Efficiency | Self::Column(Of::Mean, _)
+            Self::Beat(_)
+                | Self::Error(_)
+                | Self::Efficiency
+                | Self::Column(Of::Mean | Of::Min | Of::Max, _)
         )
+    }
+
+    /// Whether it is an extreme of a column.
+    pub fn is_extreme(&self) -> bool {
+        matches!(self, Self::Column(Of::Min | Of::Max, _))
     }
 
     /// Whether it needs the averaged model.
@@ -152,7 +166,7 @@ const BEATS: [Entry<BeatMeans>; 6] = [
     ),
 ];
 
-const SUMMARY: [Entry<Summary>; 16] = [
+const SUMMARY: [Entry<Summary>; 17] = [
     ("steps", "1", "steps made", |s| s.steps as f64),
     ("time_s", "s", "time flown", |s| s.time_s),
     ("mass_kg", "kg", "mass of the animal", |s| s.mass_kg),
@@ -189,6 +203,12 @@ const SUMMARY: [Entry<Summary>; 16] = [
     ("wake_particles", "1", "vortex particles at the end", |s| {
         s.wake_particles as f64
     }),
+    (
+        "verdict",
+        "1",
+        "how far the flight can be trusted: 0 green, 1 amber, 2 red",
+        |s| f64::from(s.verdict.level()),
+    ),
     ("warnings", "1", "how many warnings the summary has", |s| {
         s.warnings.len() as f64
     }),
@@ -259,6 +279,8 @@ pub fn registry(setup: &FlightSetup) -> Result<Vec<Number>, AnalysisError> {
     };
     for (name, unit, about, of) in BEATS {
         put(name.to_owned(), unit, about, Source::Beat(of));
+        let error = format!("standard error (of three wingbeats or more): {about}");
+        put(format!("error.{name}"), unit, &error, Source::Error(of));
     }
     put(
         EFFICIENCY.0.to_owned(),
@@ -271,8 +293,8 @@ pub fn registry(setup: &FlightSetup) -> Result<Vec<Number>, AnalysisError> {
     for (prefix, words, of) in [
         ("", "mean of ", Of::Mean),
         ("end.", "at the end: ", Of::End),
-        ("min.", "least: ", Of::Min),
-        ("max.", "largest: ", Of::Max),
+        ("min.", "least in the last wingbeats: ", Of::Min),
+        ("max.", "largest in the last wingbeats: ", Of::Max),
     ] {
         for c in columns.iter() {
             let name = format!("{prefix}{}", c.name);

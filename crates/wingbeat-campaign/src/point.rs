@@ -9,6 +9,7 @@ use wingbeat_analysis::{AnalysisError, Trim, power_of_trim};
 use wingbeat_case::{IoError, LoadedCase, trimmed_case};
 use wingbeat_flight::FlightError;
 use wingbeat_results::saver;
+use wingbeat_results::summary::Verdict;
 
 use crate::campaign::Campaign;
 use crate::evaluate;
@@ -84,6 +85,7 @@ pub fn fly(
         end: (campaign.raw.budget.time_per_point_s)
             .map(|s| Instant::now() + Duration::from_secs_f64(s)),
         values: vec![f64::NAN; campaign.numbers.len()],
+        verdict: None,
     };
     let found = point.tasks().and_then(|()| match store {
         Some(store) => Ok(point.keep_files(store, hash)?),
@@ -91,7 +93,7 @@ pub fn fly(
     });
     let failed = |reason, words| Done::Result(PointResult::failure(reason, words));
     let done = match found {
-        Ok(()) => Done::Result(PointResult::of(&point.values)),
+        Ok(()) => Done::Result(PointResult::of(&point.values, point.verdict)),
         Err(Halt::Stopped) => return Done::Stopped,
         Err(Halt::Io(e)) => return Done::Unwritten(e),
         Err(Halt::Slow) => {
@@ -114,6 +116,7 @@ struct Point<'a> {
     stop: &'a AtomicBool,
     end: Option<Instant>,
     values: Vec<f64>,
+    verdict: Option<Verdict>,
 }
 
 impl Point<'_> {
@@ -202,9 +205,9 @@ impl Point<'_> {
             None => in_memory(case, &mut || self.watch())?,
         };
         let beats = campaign.raw.mean_beats.unwrap_or(1);
-        flown
-            .fill(&campaign.numbers, beats, &mut self.values)
-            .map_err(Halt::Diverged)
+        let verdict = flown.fill(&campaign.numbers, beats, &mut self.values);
+        self.verdict = Some(verdict.map_err(Halt::Diverged)?);
+        Ok(())
     }
 
     fn trim(&mut self, case: &LoadedCase) -> Result<Trim, Halt> {

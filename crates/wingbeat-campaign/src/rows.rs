@@ -2,6 +2,7 @@
 
 use wingbeat_case::IoError;
 use wingbeat_results::manifest::hexadecimal;
+use wingbeat_results::summary::Verdict;
 
 use crate::campaign::Campaign;
 use crate::store::{PointResult, Reason, Store};
@@ -20,6 +21,8 @@ pub struct Row {
     pub numbers: Vec<f64>,
     /// Whether it has numbers; none where it was not flown.
     pub success: Option<bool>,
+    /// How far its flight can be trusted; none where nothing was flown.
+    pub verdict: Option<Verdict>,
     /// Why it has none.
     pub failed: Option<(Reason, String)>,
 }
@@ -40,6 +43,7 @@ pub fn rows<'a>(
             keys: campaign.plan.values(i),
             numbers: numbers.unwrap_or_else(|| vec![f64::NAN; count]),
             success: found.as_ref().map(|r| r.failed.is_none()),
+            verdict: found.as_ref().and_then(|r| r.verdict),
             failed: found.and_then(|r| r.failed),
         })
     })

@@ -4,6 +4,7 @@ use std::time::{Duration, SystemTime};
 
 use wingbeat_case::IoError;
 use wingbeat_results::manifest::hexadecimal;
+use wingbeat_results::summary::Verdict;
 
 use crate::campaign::Campaign;
 use crate::store::Store;
@@ -11,7 +12,7 @@ use crate::worker::leases;
 
 /// Time over which the rate is taken.
 const WINDOW: Duration = Duration::from_secs(30);
-/// Points whose time is looked at, at most: of more, each so many-th.
+/// Points that are looked at, at most: of more, each so many-th for their time, none for their verdict.
 const LOOKS: usize = 20_000;
 
 /// How far a campaign is.
@@ -23,6 +24,8 @@ pub struct Status {
     pub done: usize,
     /// Points that failed.
     pub failed: usize,
+    /// Points whose flights are red, and amber; none of more points than are looked at.
+    pub doubtful: Option<[usize; 2]>,
     /// Blocks that are being flown.
     pub flying: usize,
     /// Points over the last half minute [1/s]; none where nothing was done in it, or everything is.
@@ -56,6 +59,7 @@ impl Status {
             points,
             done,
             failed,
+            doubtful: doubtful(store, &names)?,
             flying,
             rate: if finished { None } else { rate(store, &names) },
         })
@@ -66,6 +70,22 @@ impl Status {
         let seconds = (self.points - self.done) as f64 / self.rate?;
         Duration::try_from_secs_f64(seconds).ok()
     }
+}
+
+/// Numbers of red and amber flights among these points, if they are not too many to be read.
+fn doubtful(store: &Store, names: &[(String, bool)]) -> Result<Option<[usize; 2]>, IoError> {
+    if names.len() > LOOKS {
+        return Ok(None);
+    }
+    let mut counts = [0; 2];
+    for (hash, _) in names.iter().filter(|(_, failed)| !failed) {
+        match store.get(hash)?.and_then(|found| found.verdict) {
+            Some(Verdict::Red) => counts[0] += 1,
+            Some(Verdict::Amber) => counts[1] += 1,
+            Some(Verdict::Green) | None => {}
+        }
+    }
+    Ok(Some(counts))
 }
 
 fn rate(store: &Store, names: &[(String, bool)]) -> Option<f64> {

@@ -22,6 +22,7 @@ use std::path::{Path, PathBuf};
 use serde::{Deserialize, Serialize};
 use wingbeat_case::IoError;
 use wingbeat_results::manifest::sha256;
+use wingbeat_results::summary::Verdict;
 
 /// The copy of the campaign's file; where it is, there is a campaign.
 pub const FILE: &str = "campaign.toml";
@@ -61,16 +62,20 @@ impl Reason {
 pub struct PointResult {
     /// Its numbers, in the order of `keep` \[unit of each\]; none where they are not finite, empty where it failed.
     pub values: Vec<Option<f64>>,
+    /// How far its flight can be trusted; none where nothing was flown, and of results that do not say it yet.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub verdict: Option<Verdict>,
     /// Why it failed.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub failed: Option<(Reason, String)>,
 }
 
 impl PointResult {
-    /// Of a point that was flown.
-    pub fn of(values: &[f64]) -> Self {
+    /// Of a point that was flown, with the verdict on its flight.
+    pub fn of(values: &[f64], verdict: Option<Verdict>) -> Self {
         Self {
             values: values.iter().map(|x| x.is_finite().then_some(*x)).collect(),
+            verdict,
             failed: None,
         }
     }
@@ -79,6 +84,7 @@ impl PointResult {
     pub fn failure(reason: Reason, words: String) -> Self {
         Self {
             values: vec![],
+            verdict: None,
             failed: Some((reason, words)),
         }
     }
@@ -316,10 +322,13 @@ mod tests {
         let root = std::env::temp_dir().join(format!("wingbeat-store-{}", std::process::id()));
         let store = Store::open(&root, "text").unwrap();
         let hash = hexadecimal(&[0xa7; 32]);
-        let result = PointResult::of(&[0.1 + 0.2, f64::NAN, -1e-300]);
+        let result = PointResult::of(&[0.1 + 0.2, f64::NAN, -1e-300], Some(Verdict::Red));
         store.put(&hash, &result).unwrap();
         assert!(store.has(&hash));
         assert_eq!(store.get(&hash).unwrap(), Some(result));
+        let before = r#"{"values":[0.5,null]}"#; // of a version without verdicts
+        let found: PointResult = serde_json::from_str(before).unwrap();
+        assert_eq!((found.values[0], found.verdict), (Some(0.5), None));
         let path = store.place(&hash, "ok");
         let whole = fs::read(&path).unwrap();
         for k in 0..whole.len() {

@@ -281,7 +281,7 @@ pub struct SurfaceSnapshot {
     pub nodes: Vec<DVec3>,
     /// Panels as four node indices.
     pub quads: Vec<[usize; 4]>,
-    /// Ring circulation per panel [m2/s].
+    /// Ring circulation per panel [m2/s], positive when its lift is along the normal: left-handed about the corners.
     pub circulation: Vec<f64>,
     /// Pressure jump per panel [Pa], positive along the panel normal (pushes along the normal).
     pub pressure_jump: Vec<f64>,
@@ -298,7 +298,8 @@ pub struct WakeSnapshot {
     pub cols: usize,
     /// (rows + 1) x (cols + 1) nodes, row by row, N components [m].
     pub nodes: Vec<DVec3>,
-    /// Ring circulations, row by row [m2/s].
+    /// Ring circulations, row by row [m2/s], right-handed about the corners (row, column), (row + 1, column),
+    /// (row + 1, column + 1), (row, column + 1).
     pub circulation: Vec<f64>,
     /// Vortex particles that rings of the sheet have become, oldest first.
     pub particles: Vec<ParticleSnapshot>,

@@ -6,9 +6,15 @@ use std::path::{Path, PathBuf};
 
 use super::arrays::{arrays, groups};
 use super::particles::Cloud;
-use super::vtp::{frame_name, indexed};
+use super::vtp::{RIGHT_HANDED, frame_name, indexed};
 use wingbeat_case::IoError;
 use wingbeat_flight::{AirModel, FlightSetup};
+
+/// Array that surfaces are known by.
+const PRESSURE: &str = "pressure_jump_pascal";
+
+/// Lines at the beginning of a frame that say what is in it.
+const HEAD: usize = 4;
 
 /// One `.vtp` file: points, quadrilaterals and numbers per quadrilateral.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -17,7 +23,7 @@ pub struct Mesh {
     pub points: Vec<[f64; 3]>,
     /// Corner points of each cell.
     pub quads: Vec<[usize; 4]>,
-    /// Numbers per cell by name.
+    /// Numbers per cell by name; circulations are right-handed about the corners, whatever version wrote them.
     pub cells: BTreeMap<String, Vec<f64>>,
 }
 
@@ -126,7 +132,7 @@ impl Frame {
     /// A file that cannot be read, is damaged, or holds the other part.
     pub fn part(dir: &Path, step: usize, part: usize) -> Result<Mesh, IoError> {
         let path = &Self::paths(dir, step)[part];
-        Mesh::read(path)?.with(path, ["pressure_jump_pascal", "sheet"][part])
+        Mesh::read(path)?.with(path, [PRESSURE, "sheet"][part])
     }
 }
 
@@ -202,7 +208,18 @@ impl Mesh {
                 }
             }
         }
+        if !text.lines().take(HEAD).any(|l| l.contains(RIGHT_HANDED)) {
+            mesh.turn_surface_circulations();
+        }
         mesh.check().map(|()| mesh)
+    }
+
+    /// Makes circulations of surfaces right-handed that are left-handed.
+    fn turn_surface_circulations(&mut self) {
+        if self.cells.contains_key(PRESSURE) {
+            let gamma = self.cells.get_mut("circulation_m2_per_s");
+            gamma.into_iter().flatten().for_each(|g| *g = -*g);
+        }
     }
 
     fn check(&self) -> Result<(), String> {
@@ -350,5 +367,30 @@ impl Sheet {
     /// Rows of rings.
     pub fn rows(&self) -> usize {
         self.rings / self.cols
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::vtp::{CHECKSUM, PolyData, summed};
+    use super::*;
+
+    /// Frames of older versions hold circulations of surfaces left-handed about the corners; they are turned when read.
+    #[test]
+    fn agrees_older_frames_with_those_of_today() {
+        const GAMMA: &str = "circulation_m2_per_s";
+        for (other, sign) in [(PRESSURE, -1.0), ("sheet", 1.0)] {
+            let data = PolyData {
+                points: vec![wingbeat_math::DVec3::ZERO; 4],
+                quads: vec![[0, 1, 2, 3]],
+                cells: vec![(GAMMA, vec![0.25]), (other, vec![0.25])],
+            };
+            let text = data.to_vtp();
+            let body = text.split(CHECKSUM).next().unwrap_or_default();
+            let older = summed(body.replace(RIGHT_HANDED, ""));
+            let gamma = |text: &str| Mesh::parse(text).map(|m| m.cell(GAMMA).to_vec());
+            assert_eq!(gamma(&text), Ok(vec![0.25]));
+            assert_eq!(gamma(&older), Ok(vec![sign * 0.25]));
+        }
     }
 }

@@ -2,7 +2,9 @@
 
 mod alternation;
 pub mod beats;
+mod comparison;
 mod ensemble;
+mod estimate;
 mod impulse;
 mod means;
 mod numbers;
@@ -17,9 +19,11 @@ use wingbeat_flight::{FlightSetup, Record};
 
 use super::Outcome;
 pub use beats::{BeatMeans, Beats, down, over_weight};
-pub use ensemble::{Ensemble, EnsembleBeat};
+pub use comparison::MeanDifference;
+pub use ensemble::{Ensemble, EnsembleBeat, Members};
+pub use estimate::Estimate;
 pub use impulse::ImpulseBudget;
-pub use means::{Estimate, ManyBeats};
+pub use means::ManyBeats;
 pub use numbers::Summary;
 use statistics::Statistics;
 pub use verdict::Verdict;

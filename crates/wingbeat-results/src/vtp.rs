@@ -3,7 +3,8 @@
 //!
 //! A frame ends with a comment that holds its checksum.
 //!
-//! Points are written in picture axes (n1, -n2, -n3): x forward, y to the left, z up.
+//! Points are written in picture axes (n1, -n2, -n3): x forward, y to the left, z up. Circulations of surfaces and wakes
+//! are right-handed about the corners of their panels in order: a vortex ring along them with this circulation is the flow's.
 
 use std::fmt::Write as _;
 
@@ -15,8 +16,12 @@ use wingbeat_math::DVec3;
 use super::manifest::sha256;
 use super::poses::picture;
 
+/// What a frame says of its circulations. Frames without it are of older versions, in which those of surfaces (not of wakes)
+/// are left-handed: positive when their lift is along the panel normal.
+pub(super) const RIGHT_HANDED: &str = "circulations right-handed about the corners";
+
 /// Begins the last line of a frame, which holds the hash of everything before it.
-const CHECKSUM: &str = "<!-- SHA-256 of the lines above: ";
+pub(super) const CHECKSUM: &str = "<!-- SHA-256 of the lines above: ";
 
 /// Points, quadrilaterals and numbers per quadrilateral.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -42,7 +47,8 @@ impl PolyData {
         let (mut gamma, mut jump, mut id) = (vec![], vec![], vec![]);
         for (k, s) in snapshot.surfaces.iter().enumerate() {
             data.add(&s.nodes, s.quads.iter().copied());
-            gamma.extend_from_slice(&s.circulation);
+            // A ring of the lattice is positive when its lift is along its normal: left-handed about its corners.
+            gamma.extend(s.circulation.iter().map(|g| -g));
             jump.extend_from_slice(&s.pressure_jump);
             id.extend(s.quads.iter().map(|_| k as f64));
         }
@@ -130,7 +136,7 @@ impl PolyData {
 /// The beginning of a file, up to the array of its points, with its numbers of vertices and polygons.
 pub(super) fn begin(points: usize, [verts, polys]: [usize; 2]) -> String {
     format!(
-        "<?xml version=\"1.0\"?>\n<!-- picture axes (n1, -n2, -n3): x forward, y left, z up; metres -->\n<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">\n<PolyData>\n<Piece NumberOfPoints=\"{points}\" NumberOfVerts=\"{verts}\" NumberOfLines=\"0\" NumberOfStrips=\"0\" NumberOfPolys=\"{polys}\">\n<Points>\n"
+        "<?xml version=\"1.0\"?>\n<!-- picture axes (n1, -n2, -n3): x forward, y left, z up; metres; {RIGHT_HANDED} -->\n<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">\n<PolyData>\n<Piece NumberOfPoints=\"{points}\" NumberOfVerts=\"{verts}\" NumberOfLines=\"0\" NumberOfStrips=\"0\" NumberOfPolys=\"{polys}\">\n<Points>\n"
     )
 }
 
@@ -141,7 +147,7 @@ pub(super) fn end(mut out: String) -> String {
 }
 
 /// The text with its checksum as the last line.
-fn summed(mut out: String) -> String {
+pub(super) fn summed(mut out: String) -> String {
     let sum = sha256(out.as_bytes());
     let _ = writeln!(out, "{CHECKSUM}{sum} -->");
     out

@@ -14,13 +14,15 @@ const DIFFERENCE: f64 = 1e-6;
 /// Flies `flight` so many times as there are `members`, at least two, over `threads` (0: as many as the machine has): the
 /// first as it is, in the others the air moves by a millionth of the wings' speed (length over period, or that of the
 /// stream), each in a direction of its own, all in the plane of symmetry where half is computed. What separated flow makes of
-/// that is its uncertainty. The same bits on any number of threads.
+/// that is its uncertainty, as soon as the members have parted; until then they are one flight. The same bits on any number
+/// of threads.
 ///
 /// ```
 /// let flight = wingbeat::Flight::preset("fruit-fly-blade")?.beats(2.0);
 /// let found = wingbeat::ensemble(&flight, 3, 0)?;
 /// assert_eq!((found.members, found.beats.len()), (3, 2));
 /// assert!(found.beats[1].spread < 1e-4); // blade elements forget
+/// assert_eq!(found.beats[1].lift_newton.standard_error, None); // and members that have not parted are one flight
 /// # Ok::<(), wingbeat::Error>(())
 /// ```
 ///

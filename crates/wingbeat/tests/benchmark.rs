@@ -57,11 +57,12 @@ fn compare(preset: &str, reference: &str) -> [f64; 4] {
     let mut worst = [0.0_f64; 4];
     for row in table(&format!("{reference}_panels.csv")) {
         let text = frame("surfaces", row[0].parse().unwrap());
-        let (k, name) = match row[1].as_str() {
-            "gamma" => (0, "circulation_m2_per_s"),
-            _ => (1, "pressure_jump_pascal"),
+        // Circulations of frames are right-handed about the corners, pressure jumps along the normal.
+        let (k, name, sign) = match row[1].as_str() {
+            "gamma" => (0, "circulation_m2_per_s", 1.0),
+            _ => (1, "pressure_jump_pascal", -1.0),
         };
-        let ours: Vec<f64> = floats(&text, name).iter().map(|g| -g).collect();
+        let ours: Vec<f64> = floats(&text, name).iter().map(|g| sign * g).collect();
         worst[k] = worst[k].max(largest_difference(&ours, &numbers(&row[2..])));
     }
     let history = History::read(&scratch.0.join("run/history.csv")).unwrap();

@@ -122,6 +122,36 @@ fn behaves_a_flight_that_is_never_released_says_so() {
     assert!(fly("held", "9").contains(words) && !fly("free", "1").contains(words));
 }
 
+/// Flights that are compared have means with errors, and verdicts.
+#[test]
+fn agrees_compare_tells_means_with_their_errors_from_chance() {
+    let scratch = Scratch::new("means");
+    let dir = &scratch.0;
+    for (out, hertz) in [("slow", "180"), ("fast", "220")] {
+        let frequency = format!("motion.frequency_hz={hertz}");
+        let set = ["--set=flight.mode=tethered", "--set=time.beats=5", "--set"];
+        let run = ["run", "fruit-fly-blade", "--quiet", "--out", out];
+        said(dir, &[&run[..], &set, &[frequency.as_str()]].concat());
+    }
+    let json: serde_json::Value =
+        serde_json::from_str(&said(dir, &["compare", "slow", "fast", "--json"])).unwrap();
+    let lift = &json["means"][1];
+    assert_eq!(lift["what"], "lift [N]");
+    for (which, out) in [("first", "slow"), ("second", "fast")] {
+        let text = std::fs::read_to_string(dir.join(out).join("summary.json")).unwrap();
+        let summary: serde_json::Value = serde_json::from_str(&text).unwrap();
+        assert_eq!(lift[which], summary["means"]["lift_newton"]);
+    }
+    assert_eq!(lift["is_beyond_errors"], true);
+    assert_eq!(json["verdicts"].as_array().unwrap().len(), 2);
+    let same = said(dir, &["compare", "slow", "slow"]);
+    assert!(
+        same.contains("within twice its error") && !same.contains("beyond"),
+        "{same}"
+    );
+    assert!(same.lines().any(|l| l.starts_with("second  ")), "{same}");
+}
+
 #[test]
 fn exact_compare_gives_differences_over_the_first() {
     let scratch = Scratch::new("over");

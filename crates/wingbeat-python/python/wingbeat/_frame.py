@@ -20,7 +20,7 @@ class Surface:
     panels: NDArray[Any]
     """Corners of the panels, shape (panels, 4): rows of ``nodes_m``."""
     circulation_m2_per_s: NDArray[Any]
-    """Ring circulation of each panel."""
+    """Ring circulation of each panel, right-handed about its corners in their order."""
     pressure_jump_pascal: NDArray[Any]
     """Pressure jump of each panel, positive along its normal."""
     surface: NDArray[Any]

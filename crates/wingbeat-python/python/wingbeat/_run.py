@@ -36,8 +36,8 @@ class Estimate:
     """A mean over wingbeats."""
 
     mean: float
-    standard_error: float
-    """Of the mean, neighbouring beats being correlated."""
+    standard_error: float | None
+    """Of the mean, the correlation of neighbouring beats and Student's factor counted in; None of fewer than three values."""
 
 
 class Beats(Mapping[str, "NDArray[Any]"]):

@@ -1,6 +1,6 @@
 //! The history as Parquet; history, frames, case and summary as HDF5.
 //!
-//! Layout of the HDF5 file, version 3: see docs/exports.md.
+//! Layout of the HDF5 file, version 4: see docs/exports.md.
 
 use std::path::Path;
 
@@ -15,7 +15,7 @@ use crate::particles::{Cloud, NUMBERS};
 use wingbeat_case::IoError;
 
 /// Version of the layout of the HDF5 file.
-const LAYOUT: i64 = 3;
+const LAYOUT: i64 = 4;
 
 /// The history as a table.
 pub(super) fn parquet(source: &Source, path: &Path) -> Result<(), IoError> {

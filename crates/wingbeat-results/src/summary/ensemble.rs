@@ -1,11 +1,20 @@
 //! Means of an ensemble: the same flight many times over, each from a start that differs by next to nothing.
 //!
-//! Wingbeats that follow each other are correlated; members of an ensemble are not, once their wakes have parted.
+//! Wingbeats that follow each other are correlated; members of an ensemble are not, once their wakes have parted. Until
+//! then they are one flight, and how little they differ says nothing of how well the mean of such a flight is known.
 
 use serde::{Deserialize, Serialize};
 
 use super::beats::BeatMeans;
-use super::means::{Estimate, LEFT_OUT};
+use super::estimate::{Estimate, FEWEST, moments};
+use super::means::LEFT_OUT;
+
+/// Members have parted with the beat in which their forces scatter by this part of what those of the beats of a member
+/// scatter among themselves (half of the variance).
+const PARTED: f64 = 0.7;
+
+/// Growth of the members' scatter from the first beat to the last up to which nothing parts them.
+const NO_GROWTH: f64 = 2.0;
 
 /// One wingbeat over all members.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -25,14 +34,29 @@ pub struct EnsembleBeat {
     pub spread: f64,
 }
 
+/// As what the members of an ensemble count.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Members {
+    /// They have parted: each is a flight of its own.
+    Independent,
+    /// They have not (yet): all are one flight, and errors are those of its beats.
+    OneFlight,
+    /// They do not part at all: the same start makes the same flight, and there is nothing to take a mean of but its beats.
+    Deterministic,
+}
+
 /// An ensemble.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Ensemble {
     /// Members that flew.
     pub members: usize,
-    /// The beats that all of them finished.
+    /// The beats that all of them finished; those before the members have parted are without errors.
     pub beats: Vec<EnsembleBeat>,
-    /// The beats from the third on as one (its number is that of the first); none of fewer than three beats.
+    /// As what the members count.
+    pub members_are: Members,
+    /// The beats after the one in which members have parted (from the third on, if they have not) as one: its number is
+    /// that of the first. None of fewer than three beats.
     pub means: Option<EnsembleBeat>,
 }
 
@@ -43,37 +67,109 @@ impl Ensemble {
         if members.len() < 2 {
             return None;
         }
-        let over = |from: usize, to: usize| {
-            let value = |f: fn(&BeatMeans) -> f64| -> Vec<f64> {
-                let mean = |m: &Vec<BeatMeans>| {
-                    m[from..to].iter().map(f).sum::<f64>() / (to - from) as f64
-                };
-                members.iter().map(mean).collect()
-            };
-            let lift = value(|b| b.lift_newton);
-            let weighed = members
-                .iter()
-                .flatten()
-                .all(|b| b.lift_over_weight.is_some());
-            let size = lift.iter().map(|x| x.abs()).sum::<f64>() / lift.len() as f64;
-            let lift_newton = Estimate::of_independent(&lift);
-            let deviation = lift_newton.standard_error * (lift.len() as f64).sqrt();
-            EnsembleBeat {
-                beat: members[0][from].beat,
-                lift_newton,
-                lift_over_weight: weighed.then(|| {
-                    Estimate::of_independent(&value(|b| b.lift_over_weight.unwrap_or(0.0)))
-                }),
-                thrust_newton: Estimate::of_independent(&value(|b| b.thrust_newton)),
-                power_watt: Estimate::of_independent(&value(|b| b.power_watt)),
-                spread: if size > 0.0 { deviation / size } else { 0.0 },
-            }
+        let parted = first_parted(members, count);
+        let members_are = match parted {
+            Some(_) => Members::Independent,
+            None if is_deterministic(members, count) => Members::Deterministic,
+            None => Members::OneFlight,
         };
+        let beat = |k: usize| match parted.is_some_and(|p| k >= p) {
+            true => over(members, [k, k + 1], Members::Independent),
+            false => over(members, [k, k + 1], Members::OneFlight),
+        };
+        let from = parted.unwrap_or(LEFT_OUT);
         Some(Self {
             members: members.len(),
-            beats: (0..count).map(|k| over(k, k + 1)).collect(),
-            means: (count > LEFT_OUT).then(|| over(LEFT_OUT, count)),
+            beats: (0..count).map(beat).collect(),
+            members_are,
+            means: (count > LEFT_OUT).then(|| over(members, [from, count], members_are)),
         })
+    }
+
+    /// What the errors of its means are, in a sentence.
+    pub fn remark(&self) -> String {
+        let errors = match &self.means {
+            Some(means) if means.lift_newton.standard_error.is_some() => {
+                "the error is that of the beats of one flight"
+            }
+            _ => "of so few beats the mean has no error",
+        };
+        match (self.members_are, &self.means) {
+            (Members::Independent, means) => format!(
+                "the flights have parted by beat {}; the mean from there on counts each of them as a flight of its own",
+                means.as_ref().map_or(0, |m| m.beat)
+            ),
+            (Members::OneFlight, _) => format!(
+                "the flights have not parted: they count as one, and {errors}; fly longer (time.beats); flights without separation or turbulence may never part"
+            ),
+            (Members::Deterministic, _) => "the flights do not part: the case is deterministic, there is no scatter over flights and no error of the mean; whether its beats have become periodic, the summary of `wingbeat run` says".to_owned(),
+        }
+    }
+}
+
+/// Index of the first beat behind the one, after those left out, in which the forces of members scatter as those of beats
+/// do: in that one they still have much in common.
+fn first_parted(members: &[Vec<BeatMeans>], count: usize) -> Option<usize> {
+    let counted = LEFT_OUT..count;
+    if counted.len() < FEWEST {
+        return None; // how beats scatter is not known
+    }
+    let within = members.iter().map(|m| variance(&m[counted.clone()]));
+    let among_beats = within.sum::<f64>() / members.len() as f64;
+    let has_parted = |k: &usize| scatter(members, *k) >= PARTED * among_beats.sqrt();
+    let first = 1 + counted.into_iter().find(has_parted)?;
+    (first < count && !is_deterministic(members, count)).then_some(first)
+}
+
+/// Whether the scatter over members does not grow.
+fn is_deterministic(members: &[Vec<BeatMeans>], count: usize) -> bool {
+    count >= LEFT_OUT + FEWEST && scatter(members, count - 1) <= NO_GROWTH * scatter(members, 0)
+}
+
+/// Standard deviation of the force (lift, thrust) of a beat over the members \[N\].
+fn scatter(members: &[Vec<BeatMeans>], beat: usize) -> f64 {
+    let all: Vec<BeatMeans> = members.iter().map(|m| m[beat].clone()).collect();
+    variance(&all).sqrt()
+}
+
+/// Variance of the force (lift, thrust) over beats, at least two \[N2\].
+fn variance(beats: &[BeatMeans]) -> f64 {
+    let parts: [fn(&BeatMeans) -> f64; 2] = [|b| b.lift_newton, |b| b.thrust_newton];
+    let square = |of| moments(&beats.iter().map(of).collect::<Vec<f64>>()).1;
+    parts.map(square).iter().sum::<f64>() / (beats.len() - 1) as f64
+}
+
+/// Beats `from` up to `to`, that excluded, as one.
+fn over(members: &[Vec<BeatMeans>], [from, to]: [usize; 2], are: Members) -> EnsembleBeat {
+    let mean = |x: &[f64]| x.iter().sum::<f64>() / x.len() as f64;
+    let of_members = |f: fn(&BeatMeans) -> f64| -> Vec<f64> {
+        let member = |m: &Vec<BeatMeans>| mean(&m[from..to].iter().map(f).collect::<Vec<_>>());
+        members.iter().map(member).collect()
+    };
+    let of_beats = |f: fn(&BeatMeans) -> f64| -> Vec<f64> {
+        let beat = |k| mean(&members.iter().map(|m| f(&m[k])).collect::<Vec<_>>());
+        (from..to).map(beat).collect()
+    };
+    let estimate = |f: fn(&BeatMeans) -> f64| match are {
+        Members::Independent => Estimate::of_independent(&of_members(f)),
+        Members::OneFlight => Estimate::of(&of_beats(f)),
+        Members::Deterministic => Estimate {
+            mean: mean(&of_beats(f)),
+            standard_error: None,
+        },
+    };
+    let lift = of_members(|b| b.lift_newton);
+    let size = lift.iter().map(|x| x.abs()).sum::<f64>() / lift.len() as f64;
+    let deviation = (moments(&lift).1 / (lift.len() - 1) as f64).sqrt();
+    let mut all = members.iter().flatten();
+    let weighed = all.all(|b| b.lift_over_weight.is_some());
+    EnsembleBeat {
+        beat: members[0][from].beat,
+        lift_newton: estimate(|b| b.lift_newton),
+        lift_over_weight: weighed.then(|| estimate(|b| b.lift_over_weight.unwrap_or(0.0))),
+        thrust_newton: estimate(|b| b.thrust_newton),
+        power_watt: estimate(|b| b.power_watt),
+        spread: if size > 0.0 { deviation / size } else { 0.0 },
     }
 }
 
@@ -95,22 +191,56 @@ mod tests {
     }
 
     #[test]
-    fn exact_means_and_errors_over_members() {
+    fn exact_means_and_errors_over_members_that_have_parted() {
         let members = [
-            member(&[1.0, 1.0, 3.0, 5.0]),
-            member(&[1.0, 1.0, 1.0, 3.0, 9.0]),
+            member(&[1.0, 1.0, 3.0, 3.0, 5.0]),
+            member(&[1.0, 1.0, 1.0, 1.0, 3.0, 9.0]),
         ];
         let e = Ensemble::of(&members).unwrap();
-        assert_eq!((e.members, e.beats.len()), (2, 4));
+        assert_eq!((e.members, e.beats.len()), (2, 5));
         assert_eq!((e.beats[0].spread, e.beats[0].lift_newton.mean), (0.0, 1.0));
-        let third = &e.beats[2].lift_newton;
-        // 3 and 1: deviation sqrt 2, error of the mean of two 1.
-        assert_eq!(third.mean, 2.0);
-        assert!((third.standard_error - 1.0).abs() < 1e-15);
-        let all = e.means.unwrap();
-        assert_eq!((all.beat, all.lift_newton.mean), (3, 3.0));
+        assert_eq!(e.beats[2].lift_newton.standard_error, None);
+        assert_eq!(e.members_are, Members::Independent);
+        let fourth = e.beats[3].lift_newton;
+        assert_eq!(fourth.mean, 2.0);
+        // 3 and 1: deviation sqrt 2, error of the mean of two 1, Student's factor of one degree of freedom 1.837.
+        assert!((fourth.standard_error.unwrap() - 1.837).abs() < 0.03);
+        let all = e.means.clone().unwrap();
+        assert_eq!((all.beat, all.lift_newton.mean), (4, 3.0));
         assert_eq!(all.lift_over_weight.unwrap().mean, 1.5);
+        assert!(e.remark().contains("parted by beat 4"), "{}", e.remark());
         assert_eq!(Ensemble::of(&members[..1]), None);
         assert_eq!(Ensemble::of(&[vec![], vec![]]), None);
+    }
+
+    /// Flights that are the same but for 1e-4 are one flight, whose beats scatter by a tenth: the mean is not known to
+    /// 1e-5.
+    #[test]
+    fn limit_members_that_have_not_parted_count_as_one_flight() {
+        let apart = |grown: f64| {
+            let beats = [0.8, 0.9, 1.0, 1.1, 0.95, 1.05];
+            let of = |m: f64| {
+                let lift = |(k, x): (usize, &f64)| x + m * 1e-9 * grown.powi(k as i32);
+                member(&beats.iter().enumerate().map(lift).collect::<Vec<_>>())
+            };
+            Ensemble::of(&[of(-1.0), of(1.0), of(0.5)]).unwrap()
+        };
+        let e = apart(10.0);
+        assert_eq!(e.members_are, Members::OneFlight);
+        let error = e.means.as_ref().unwrap().lift_newton.standard_error;
+        assert!(error.is_some_and(|s| s > 0.03), "{error:?}");
+        assert!(
+            e.beats
+                .iter()
+                .all(|b| b.lift_newton.standard_error.is_none())
+        );
+        assert!(e.remark().contains("have not parted") && e.remark().contains("fly longer"));
+        let same = apart(1.0);
+        assert_eq!(same.members_are, Members::Deterministic);
+        assert_eq!(
+            same.means.as_ref().unwrap().lift_newton.standard_error,
+            None
+        );
+        assert!(same.remark().contains("deterministic"));
     }
 }

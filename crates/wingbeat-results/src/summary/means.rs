@@ -1,33 +1,18 @@
 //! Means over many wingbeats with their standard errors, and whether the wingbeats still change.
-//!
-//! Beats that follow each other are not independent. With the correlation r of neighbours, n of them count as
-//! `n (1 - r) / (1 + r)`, the effective number of a first-order autoregressive series [von Storch & Zwiers 1999, sec. 6.6];
-//! r below zero, which few beats give by chance, is taken as zero.
 
 use serde::{Deserialize, Serialize};
 
 use super::beats::BeatMeans;
+use super::estimate::{Estimate, FEWEST, correlation, moments};
 
 /// Beats at the start that are left out: the wake comes up.
 pub(super) const LEFT_OUT: usize = 2;
-
-/// Fewest beats of which a mean has an error.
-const FEWEST: usize = 3;
 
 /// A change of the force from the first half of the beats to the second, in parts of it, that is none.
 const NO_CHANGE: f64 = 0.01;
 
 /// A change that must show beside the scatter of the beats if they are to count as steady.
 const MUST_SHOW: f64 = 0.1;
-
-/// A mean over wingbeats.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Estimate {
-    /// The mean \[unit of the values\].
-    pub mean: f64,
-    /// Its standard error, neighbouring beats being correlated \[unit of the values\].
-    pub standard_error: f64,
-}
 
 /// Means over the wingbeats after the second one.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -111,10 +96,10 @@ impl Change {
         // The error of each half is that of the scatter about its own mean: a drift must not excuse itself.
         let error = match half > 1 {
             true => {
-                let [a, b] = halves.map(|part| Estimate::of(part).standard_error);
+                let [a, b] = halves.map(shown_error);
                 a.hypot(b)
             }
-            false => Estimate::of(values).standard_error,
+            false => shown_error(values),
         };
         Self {
             change: (means[1] - means[0]) / size,
@@ -127,73 +112,20 @@ impl Change {
     }
 }
 
-impl Estimate {
-    /// Of independent values, at least two.
-    pub(super) fn of_independent(values: &[f64]) -> Self {
-        let n = values.len() as f64;
-        let mean = values.iter().sum::<f64>() / n;
-        let square: f64 = values.iter().map(|x| (x - mean).powi(2)).sum();
-        Self {
-            mean,
-            standard_error: (square / (n - 1.0) / n).sqrt(),
-        }
-    }
-
-    /// Of values that follow each other, at least two.
-    fn of(values: &[f64]) -> Self {
-        let n = values.len() as f64;
-        let mean = values.iter().sum::<f64>() / n;
-        let square: f64 = values.iter().map(|x| (x - mean).powi(2)).sum();
-        let pairs = values.iter().zip(&values[1..]);
-        let product: f64 = pairs.map(|(a, b)| (a - mean) * (b - mean)).sum();
-        let correlation = if square > 0.0 { product / square } else { 0.0 };
-        let correlation = correlation.clamp(0.0, (n - 2.0).max(0.0) / n); // two count at least
-        let effective = (n * (1.0 - correlation) / (1.0 + correlation)).max(1.0);
-        Self {
-            mean,
-            standard_error: (square / (n - 1.0) / effective).sqrt(),
-        }
-    }
+/// Error of the mean of two values or more as they show it themselves: without what few of them hide, so that a change is
+/// felt rather too soon. Correlation r of neighbours makes n values `n (1 - r) / (1 + r)`.
+fn shown_error(values: &[f64]) -> f64 {
+    let n = values.len() as f64;
+    let (mean, square) = moments(values);
+    let most = (n - 2.0).max(0.0) / n; // two count at least
+    let r = correlation(values, (mean, square)).clamp(0.0, most);
+    let effective = (n * (1.0 - r) / (1.0 + r)).max(1.0);
+    (square / (n - 1.0) / effective).sqrt()
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    /// Normal numbers with unit variance and correlation `r` of neighbours: sums of twelve uniform ones.
-    fn series(r: f64, n: usize, seed: u64) -> Vec<f64> {
-        let mut state = seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) | 1;
-        let mut uniform = || {
-            state = state
-                .wrapping_mul(6_364_136_223_846_793_005)
-                .wrapping_add(1);
-            (state >> 11) as f64 / (1u64 << 53) as f64
-        };
-        let mut normal = || (0..12).map(|_| uniform()).sum::<f64>() - 6.0;
-        let mut x = normal();
-        let mut next = || {
-            x = r * x + (1.0 - r * r).sqrt() * normal();
-            x
-        };
-        (0..n).map(|_| next()).collect()
-    }
-
-    /// Means of many series scatter as the error of one says, correlated or not.
-    #[test]
-    fn agrees_standard_error_with_the_scatter_of_many_series() {
-        for r in [0.0, 0.5] {
-            let estimates: Vec<Estimate> = (0..2000)
-                .map(|seed| Estimate::of(&series(r, 60, seed)))
-                .collect();
-            let square = |f: fn(&Estimate) -> f64| {
-                estimates.iter().map(|e| f(e).powi(2)).sum::<f64>() / 2000.0
-            };
-            let ratio = (square(|e| e.standard_error) / square(|e| e.mean)).sqrt();
-            println!("correlation {r}: error over scatter {ratio:.3}");
-            // Measured 1.05 and 0.92: r of 60 values is good to 0.13.
-            assert!((0.85..1.15).contains(&ratio), "{r}: {ratio}");
-        }
-    }
 
     fn flown(lift: impl Fn(usize) -> f64) -> Option<ManyBeats> {
         flown_with(lift, |_| 0.0)
@@ -217,7 +149,7 @@ mod tests {
         let same = flown(|k| if k < 3 { 9.0 } else { 2.0 }).unwrap();
         assert_eq!(same.beats, [3, 10]);
         assert_eq!(same.lift_over_weight.unwrap().mean, 1.0);
-        assert_eq!(same.lift_newton.standard_error, 0.0);
+        assert_eq!(same.lift_newton.standard_error, Some(0.0));
         assert!(same.is_steady && same.change_of_lift == 0.0);
         let falls = flown(|k| 10.0 - 0.5 * k as f64).unwrap();
         assert!(

@@ -18,6 +18,15 @@ pub enum Verdict {
 }
 
 impl Verdict {
+    /// As a number: 0 green, 1 amber, 2 red.
+    pub fn level(self) -> u8 {
+        match self {
+            Self::Green => 0,
+            Self::Amber => 1,
+            Self::Red => 2,
+        }
+    }
+
     /// Its word.
     pub fn word(self) -> &'static str {
         match self {

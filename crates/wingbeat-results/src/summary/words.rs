@@ -2,8 +2,9 @@
 
 use std::fmt::Write as _;
 
+use super::estimate::Estimate;
 use super::impulse::ImpulseBudget;
-use super::means::{Estimate, ManyBeats};
+use super::means::ManyBeats;
 use super::numbers::Summary;
 use crate::Outcome;
 use crate::fixed::{fixed, signed};
@@ -141,6 +142,9 @@ fn impulse_rows(budget: &ImpulseBudget, out: &mut String) {
     row("taken by contact with surfaces", budget.absorbed_newton_s);
 }
 
+/// Beats of which a standard error is no longer rough.
+const ENOUGH: usize = 6;
+
 /// Means over many wingbeats, below the table of all.
 fn mean_rows(means: &ManyBeats, out: &mut String) {
     let mut row = |name: &str, of: fn(&Estimate) -> f64| {
@@ -155,7 +159,10 @@ fn mean_rows(means: &ManyBeats, out: &mut String) {
         );
     };
     row(" mean", |e| e.mean);
-    row("   +-", |e| e.standard_error);
+    let has_errors = means.lift_newton.standard_error.is_some();
+    if has_errors {
+        row("   +-", |e| e.standard_error.unwrap_or(0.0));
+    }
     let [first, last] = means.beats;
     let [lift, thrust] =
         [means.change_of_lift, means.change_of_thrust].map(|x| signed(100.0 * x, 1));
@@ -164,8 +171,13 @@ fn mean_rows(means: &ManyBeats, out: &mut String) {
         (false, true) => "which are NOT steady",
         (false, false) => "which scatter too much to tell whether they are steady",
     };
+    let count = last + 1 - first;
+    let few = match count < ENOUGH {
+        true => " (rough, of so few beats)",
+        false => "",
+    };
     let text = format!(
-        "Mean and standard error of beats {first} to {last}, {verdict}: from the first half of them to the second, lift changes by {lift} % of the force, the force forward by {thrust} %."
+        "Mean and standard error of the {count} beats {first} to {last}{few}, {verdict}: from the first half of them to the second, lift changes by {lift} % of the force, the force forward by {thrust} %."
     );
     out.push_str(&wrapped("       ", &text));
 }

@@ -79,16 +79,21 @@ fn tell(report: &mut Report, name: &str, found: &Ensemble) {
     }
     line!(
         report,
-        "  means over the flights +- their standard errors; spread: standard deviation of the lift over the flights"
+        "  means over the flights +- their standard errors, where the flights are independent; spread: standard deviation of the lift over the flights"
     );
+    line!(report, "  {}", found.remark());
+    report.value("remark", found.remark());
     report.value("case", name);
     report.value("ensemble", json!(found));
 }
 
 fn row(report: &mut Report, name: &str, b: &EnsembleBeat) {
     let cell = |e: &Estimate, scale: f64, digits: usize| {
-        let [mean, error] = [e.mean, e.standard_error].map(|x| scale * x);
-        format!("{mean:.digits$} +- {error:.digits$}")
+        let mean = scale * e.mean;
+        match e.standard_error {
+            Some(error) => format!("{mean:.digits$} +- {:.digits$}", scale * error),
+            None => format!("{mean:.digits$}"),
+        }
     };
     let lift = b.lift_over_weight.as_ref();
     line!(

@@ -8,6 +8,7 @@ use wingbeat::case::IoError;
 use wingbeat::case::{Difference, differences};
 use wingbeat::draw::page;
 use wingbeat::results::fixed::fixed;
+use wingbeat::results::summary::{Estimate, ManyBeats};
 use wingbeat::results::{Manifest, ResultDir, Summary};
 
 use crate::command::failure::Failure;
@@ -73,6 +74,7 @@ pub(crate) fn compare(args: &CompareArgs) -> Result<(), Failure> {
         let keys = differences(&case(dirs[0])?, &case(dirs[1])?);
         tell_keys(report, dirs, &keys);
         tell_numbers(report, &first.0.beside(&second.0));
+        tell_means(report, [&first.0, &second.0]);
         if let Some(file) = page {
             let [first, second] = [ResultDir::read(dirs[0])?, ResultDir::read(dirs[1])?];
             let text = page::pair([&first, &second], 2 * page::DEFAULT_BYTES)?;
@@ -134,4 +136,56 @@ fn tell_numbers(report: &mut Report, rows: &[(String, f64, f64)]) {
     let numbers = rows.iter();
     let numbers = numbers.map(|(what, a, b)| json!({ "what": what, "first": a, "second": b }));
     report.value("numbers", numbers.collect::<Vec<_>>());
+}
+
+/// Verdicts, and means over wingbeats with their errors.
+fn tell_means(report: &mut Report, [first, second]: [&Summary; 2]) {
+    line!(report, "");
+    for (which, summary) in [("first", first), ("second", second)] {
+        let (word, reason) = (summary.verdict.word(), &summary.verdict_reason);
+        line!(report, "{which:<8}{word}: {reason}");
+    }
+    let verdict = |s: &Summary| json!({ "verdict": s.verdict, "reason": s.verdict_reason });
+    report.value("verdicts", json!([verdict(first), verdict(second)]));
+    let rows = first.means_beside(second);
+    report.value("means", json!(rows));
+    let (Some(a), Some(b)) = (&first.means, &second.means) else {
+        line!(
+            report,
+            "no means of wingbeats with errors to compare: both flights need five whole wingbeats or more"
+        );
+        return;
+    };
+    let named = |m: &ManyBeats| format!("beats {} to {}", m.beats[0], m.beats[1]);
+    line!(
+        report,
+        "\n{:<20}{:>26}{:>26}{:>26}",
+        "mean +- error",
+        named(a),
+        named(b),
+        "difference"
+    );
+    for row in &rows {
+        let [x, y, d] = [&row.first, &row.second, &row.difference].map(estimate);
+        let beyond = match row.is_beyond_errors {
+            Some(true) => "  beyond twice its error",
+            Some(false) => "  within twice its error",
+            None => "",
+        };
+        line!(report, "{:<20}{x:>26}{y:>26}{d:>26}{beyond}", row.what);
+    }
+    let changing = [("first", a), ("second", b)].into_iter();
+    for (which, _) in changing.filter(|(_, means)| !means.is_steady) {
+        line!(
+            report,
+            "the beats of the {which} flight are not known to be steady: its mean is of these beats alone"
+        );
+    }
+}
+
+fn estimate(e: &Estimate) -> String {
+    match e.standard_error {
+        Some(error) => format!("{:.4e} +- {error:.1e}", e.mean),
+        None => format!("{:.4e}", e.mean),
+    }
 }

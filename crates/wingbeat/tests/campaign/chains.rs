@@ -3,7 +3,7 @@
 use serde_json::Value;
 
 use crate::support::{Scratch, flown, wingbeat};
-use crate::{merged, numbers, write};
+use crate::{column, merged, numbers, write};
 
 /// A chain of all tasks at two speeds.
 const CHAIN: &str = r#"case = "fruit-fly-blade"
@@ -76,6 +76,63 @@ fn agrees_trim_stability_and_power_with_their_commands() {
     assert!(own("trim.stroke_amplitude")[0] != own("trim.stroke_amplitude")[1]);
 }
 
+/// Tables say how far each flight can be trusted, and how well its means are known.
+#[test]
+fn agrees_verdicts_and_errors_with_those_of_the_flights() {
+    let scratch = Scratch::new("campaign-verdicts");
+    let dir = &scratch.0;
+    write(
+        dir,
+        r#"case = "fruit-fly-blade"
+keep = ["lift_over_weight", "error.lift_over_weight", "summary.verdict"]
+mean_beats = 3
+[set]
+"time.beats" = 5
+"flight.mode" = "tethered"
+[parameter."time.steps_per_beat"]
+list = [5, 200]
+"#,
+    );
+    flown(dir, &["campaign", "run", "c.toml", "--out", "r", "--quiet"]);
+    merged(dir, "r");
+    let own = |name: &str| numbers(dir, "r", name);
+    let mut words = vec![];
+    for (k, steps) in [5, 200].into_iter().enumerate() {
+        let keys = [
+            "time.beats=5".to_owned(),
+            "flight.mode=tethered".to_owned(),
+            format!("time.steps_per_beat={steps}"),
+        ];
+        let keys: Vec<&str> = keys.iter().map(String::as_str).collect();
+        let run = wingbeat::Flight::preset_with("fruit-fly-blade", &keys)
+            .unwrap()
+            .fly()
+            .unwrap();
+        let summary = run.summary();
+        let lift = summary.means.unwrap().lift_over_weight.unwrap();
+        assert_eq!(own("lift_over_weight")[k], lift.mean);
+        assert_eq!(
+            own("error.lift_over_weight")[k],
+            lift.standard_error.unwrap()
+        );
+        assert_eq!(
+            own("summary.verdict")[k],
+            f64::from(summary.verdict.level())
+        );
+        words.push(summary.verdict.word().to_owned());
+    }
+    assert_ne!(words[0], "green", "five steps a beat");
+    assert_eq!(column(dir, "r", "verdict"), words);
+    let doubtful = words.iter().filter(|w| *w != "green").count();
+    let status = wingbeat(
+        dir,
+        &["campaign", "status", "c.toml", "--out", "r", "--json"],
+    );
+    let status: Value = serde_json::from_slice(&status.stdout).unwrap();
+    let count = |of: &str| status[of].as_u64().unwrap() as usize;
+    assert_eq!(count("red") + count("amber"), doubtful);
+}
+
 /// Means of a column are those of the history; efficiency is thrust times airspeed over power.
 #[test]
 fn agrees_means_with_the_history() {
@@ -84,7 +141,7 @@ fn agrees_means_with_the_history() {
     write(
         dir,
         r#"case = "fruit-fly-blade"
-keep = ["body_phi_rad", "max.body_phi_rad", "end.body_phi_rad", "efficiency", "thrust_newton", "power_watt"]
+keep = ["body_phi_rad", "min.body_phi_rad", "max.body_phi_rad", "end.body_phi_rad", "efficiency", "thrust_newton", "power_watt"]
 mean_beats = 2
 [set]
 "time.beats" = 3.5
@@ -113,10 +170,17 @@ mean_beats = 2
         "roundings of 80 terms"
     );
     assert_eq!(own("end.body_phi_rad"), angle[140]);
+    // Extremes are of the same wingbeats, not of the start before them nor of the half beat behind them.
+    let extremes = |angle: &[f64]| {
+        let over = |f: fn(f64, f64) -> f64| angle.iter().copied().reduce(f).unwrap();
+        [over(f64::min), over(f64::max)]
+    };
+    let counted = extremes(&angle[40..=120]);
     assert_eq!(
-        own("max.body_phi_rad"),
-        angle.iter().copied().fold(f64::NEG_INFINITY, f64::max)
+        ["min", "max"].map(|of| own(&format!("{of}.body_phi_rad"))),
+        counted
     );
+    assert_ne!(counted, extremes(angle));
     let way = run.records[120].mass_centre.x - run.records[40].mass_centre.x;
     let speed = way / (run.records[120].time - run.records[40].time) + 0.5;
     let wanted = own("thrust_newton") * speed / own("power_watt");

@@ -7,7 +7,7 @@ rows = list(csv.DictReader(open(folder / "points.csv")))
 table = pyarrow.parquet.read_table(folder / "points.parquet")
 assert table.num_rows == len(rows) == 3 * 2 * 2
 numbers = ["point", "motion.frequency_hz", "air.density_kg_m3", "body.mass_kg", "success", "lift_over_weight", "power_watt", "end.mass_centre_n3_m"]
-texts = ["dynamics.formulation", "reason"]
+texts = ["dynamics.formulation", "verdict", "reason"]
 assert sorted(table.column_names) == sorted(numbers + texts), table.column_names
 for name in numbers:
     assert [float(r[name]) for r in rows] == [float(x) for x in table.column(name).to_pylist()], name
@@ -22,6 +22,8 @@ assert lift.dims == ("motion.frequency_hz", "air.density_kg_m3", "sample"), lift
 assert lift.shape == (3, 2, 2) and lift.attrs["units"] == "1"
 assert lift.values.ravel().tolist() == [float(r["lift_over_weight"]) for r in rows]
 assert data["motion.frequency_hz"].values.tolist() == [190, 200, 210]
+verdicts = [["green", "amber", "red"][int(v)] for v in data["verdict"].values.ravel()]
+assert verdicts == [r["verdict"] for r in rows], verdicts
 assert "body.mass_kg" in data.coords and data["body.mass_kg"].dims == ("sample",)
 assert data["body.mass_kg"].values.tolist() == [float(r["body.mass_kg"]) for r in rows[:2]]
 chosen = lift.sel({"motion.frequency_hz": 200, "air.density_kg_m3": 1.2}).values

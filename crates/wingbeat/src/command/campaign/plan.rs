@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 use wingbeat::campaign::merge;
-use wingbeat::campaign::{Campaign, Store};
+use wingbeat::campaign::{Campaign, Status, Store};
 use wingbeat::case::IoError;
 use wingbeat::results::file::NewFile;
 
@@ -104,6 +104,14 @@ fn tables(campaign: &Campaign, store: &Store, partial: bool) -> Result<(), Failu
     }
     for path in merge::merge(campaign, store)? {
         say!("wrote {}", path.display());
+    }
+    if let Some([red, amber]) = Status::of(campaign, store)?
+        .doubtful
+        .filter(|d| *d != [0, 0])
+    {
+        say!(
+            "{red} flights are red, {amber} amber: look at `verdict` before you use their numbers."
+        );
     }
     Ok(())
 }

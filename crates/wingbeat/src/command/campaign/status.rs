@@ -47,6 +47,8 @@ fn json(status: &Status, plan: &str) -> String {
         "points": status.points,
         "done": status.done,
         "failed": status.failed,
+        "red": status.doubtful.map(|d| d[0]),
+        "amber": status.doubtful.map(|d| d[1]),
         "blocks_in_flight": status.flying,
         "points_per_s": status.rate,
         "plan": plan,
@@ -64,6 +66,9 @@ fn words(status: &Status) -> String {
         ..
     } = status;
     let mut text = format!("{done} of {points} points done, {failed} failed");
+    if let Some([red, amber]) = status.doubtful.filter(|d| *d != [0, 0]) {
+        text += &format!(", {red} red and {amber} amber (`verdict` in the tables)");
+    }
     if done < points {
         text += &format!(", {flying} blocks in flight");
     }
