@@ -17,7 +17,7 @@ const GROWTH: f64 = 1.5;
 /// The same over those of all below from which on it counts: rates of a tenth.
 const COUNTS: f64 = 0.01;
 /// Amplitude over that of the noise from which on a harmonic is motion.
-const MOTION: f64 = 3.0;
+const MOTION: f64 = 5.0;
 
 /// How the samples of an angle scatter.
 #[derive(Clone, Copy, Debug, PartialEq)]
