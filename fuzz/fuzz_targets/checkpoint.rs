@@ -49,6 +49,7 @@ fn read_state(flight: usize, bytes: &[u8]) {
         history_bytes: 0,
         history_sha256: CASE.to_owned(),
             pending: vec![],
+            each_step: vec![],
     };
     let file = checkpoint::encode(&header, &state);
     let (_, state) = read(&file).expect("a checkpoint that was just written is read");

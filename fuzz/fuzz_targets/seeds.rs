@@ -29,6 +29,7 @@ pub fn write(folder: &Path) -> std::io::Result<()> {
             history_bytes: 1,
             history_sha256: "1".repeat(64),
             pending: vec![],
+            each_step: vec![],
         };
         let file = checkpoint::encode(&header, flight.state());
         let first = file.iter().position(|b| *b == b'\n').expect("a line") + 1;

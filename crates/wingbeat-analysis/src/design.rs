@@ -164,4 +164,8 @@ impl ControlModel for Design {
     fn follows(&self) -> bool {
         !self.route.0.is_empty()
     }
+
+    fn velocity(&self) -> Option<DVec3> {
+        Some(self.velocity)
+    }
 }

@@ -17,6 +17,7 @@ mod air;
 mod doubts;
 mod lift;
 mod numbers;
+mod sides;
 
 pub use numbers::stroke_amplitude;
 pub use numbers::{Estimate, WingEstimate};

@@ -167,6 +167,10 @@ impl Controller for Steering {
         Some(reference.aim(&self.route.at(time), time, origin))
     }
 
+    fn is_limited(&self) -> bool {
+        self.limits.reached(&self.command)
+    }
+
     fn memory(&self) -> Vec<f64> {
         let first = self.first.map_or(vec![], |(reference, origin)| {
             [reference.to_vec(), origin.to_array().to_vec()].concat()

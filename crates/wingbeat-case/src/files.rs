@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
 use csv::StringRecord;
-use wingbeat_model::motion::PeriodicSpline;
+use wingbeat_model::motion::{Fourier, PeriodicSpline};
 use wingbeat_model::{ModelError, import};
 
 use super::raw::{AngleCase, Case, PartCase, TableCase};
@@ -199,7 +199,7 @@ fn read_table(path: &str, table: &mut TableCase, base: &Path) -> Result<(), Faul
         file: base.join(&name),
         key,
     }
-    .rows(columns)?;
+    .rows(columns, table.harmonics)?;
     table.rows_deg = Some(rows);
     (table.phase_column, table.angle_column) = (None, None);
     Ok(())
@@ -213,7 +213,11 @@ struct TableFile {
 
 impl TableFile {
     /// Phase \[1\] and angle \[deg\] of each row, from these columns, or the first two.
-    fn rows(&self, names: [Option<&str>; 2]) -> Result<Vec<[f64; 2]>, Fault> {
+    fn rows(
+        &self,
+        names: [Option<&str>; 2],
+        harmonics: Option<usize>,
+    ) -> Result<Vec<[f64; 2]>, Fault> {
         let text = bytes_of(&self.key, &self.file)?;
         let mut reader = csv::ReaderBuilder::new()
             .comment(Some(b'#'))
@@ -235,7 +239,7 @@ impl TableFile {
             rows.push([x?, to_degrees * q?]);
             lines.push(line_of(&record));
         }
-        self.check(&rows, &lines)?;
+        self.check(&rows, &lines, harmonics)?;
         Ok(rows)
     }
 
@@ -280,12 +284,21 @@ impl TableFile {
     }
 
     /// Rows, at these lines of the file, that are no motion are refused here, where their lines are known.
-    fn check(&self, rows: &[[f64; 2]], lines: &[u64]) -> Result<(), Fault> {
+    fn check(
+        &self,
+        rows: &[[f64; 2]],
+        lines: &[u64],
+        harmonics: Option<usize>,
+    ) -> Result<(), Fault> {
         if rows.is_empty() {
             return Err(self.bad("there are no rows below the header"));
         }
         let pairs: Vec<(f64, f64)> = rows.iter().map(|&[x, q]| (x, q)).collect();
-        if let Err(ModelError::Table { row, problem, .. }) = PeriodicSpline::new("", &pairs) {
+        let motion = match harmonics {
+            None => PeriodicSpline::new("", &pairs).map(|_| ()),
+            Some(n) => Fourier::fitted("", &pairs, n).map(|_| ()),
+        };
+        if let Err(ModelError::Table { row, problem, .. }) = motion {
             let line = row.checked_sub(1).and_then(|k| lines.get(k)).copied();
             let line = line.unwrap_or_default();
             return Err(self.bad(&format!("line {line}: {problem}")));

@@ -206,6 +206,89 @@ fn exact_angles_of_a_file_are_in_the_unit_that_their_column_says() {
     assert!(said.contains("both radians and degrees"), "{said}");
 }
 
+/// Signs of angles on a tethered animal: both wings, or a left one with the signs of a right one; and samples that scatter.
+#[test]
+fn behaves_signs_and_noise_of_measured_angles_are_doubted_on_tethers_too() {
+    let doubts = |set: &[String]| {
+        let case = LoadedCase::find("fruit-fly-tethered", set).unwrap();
+        wingbeat_analysis::estimate(&case.setup).doubts.join("\n")
+    };
+    let wing = |side: &str, [phi, theta, psi]: [f64; 3]| {
+        let motion = [
+            format!("phi={{fourier={{cosine_deg=[{phi}]}}}}"),
+            format!("theta={{fourier={{cosine_deg=[0.0, {theta}]}}}}"),
+            format!("psi={{fourier={{sine_deg=[{psi}]}}}}"),
+        ];
+        motion.map(|m| format!("wing.{side}.motion.{m}"))
+    };
+    let both = |left: [f64; 3], right: [f64; 3]| {
+        let air = ["air.mirror=false", "air.body=false"].map(str::to_owned);
+        doubts(&[&air[..], &wing("left", left), &wing("right", right)].concat())
+    };
+    let right = [-70.0, 5.0, -45.0];
+    let down = "it pushes the body down: look at the signs and phases";
+    let sound = both([70.0, -5.0, -45.0], right);
+    assert!(
+        !sound.contains("against each other") && !sound.contains(down),
+        "{sound}"
+    );
+    for (left, right, says) in [
+        ([70.0, -5.0, 45.0], [-70.0, 5.0, 45.0], down),
+        ([70.0, -5.0, 45.0], right, "feather against each other"),
+        ([70.0, 5.0, -45.0], right, "deviate against each other"),
+    ] {
+        let said = both(left, right);
+        assert!(said.contains(says), "{says}: {said}");
+    }
+}
+
+/// A table in which a sample of 200 is wrong by a whole turn; the harmonics of a fit, what it leaves, and fits that the samples do not
+/// determine.
+#[test]
+fn behaves_tables_of_angles_can_be_fitted() {
+    let stroke = |k: usize| 70.0 * (std::f64::consts::TAU * k as f64 / 200.0).cos();
+    let row = |k: usize| {
+        let wrong = if k == 30 { 360.0 } else { 0.0 };
+        format!("[{}, {}]", k as f64 / 200.0, stroke(k) + wrong)
+    };
+    let rows = (0..=200).map(row).collect::<Vec<_>>().join(", ");
+    let law = |more: &str| format!("wing.right.motion.phi={{table={{rows_deg=[{rows}]{more}}}}}");
+    let case = LoadedCase::find("fruit-fly-tethered", &[law("")]).unwrap();
+    assert!(case.fitted_tables().is_empty());
+    let doubts = wingbeat_analysis::estimate(&case.setup).doubts.join("\n");
+    assert!(
+        doubts.contains("the samples of motion.phi scatter by some"),
+        "{doubts}"
+    );
+    let case = LoadedCase::find("fruit-fly-tethered", &[law(", harmonics=3")]).unwrap();
+    let [fit] = &case.fitted_tables()[..] else {
+        panic!("one table is fitted")
+    };
+    assert_eq!(
+        (&fit.key[..], fit.samples),
+        ("wing.right.motion.phi.table", 200)
+    );
+    // All of the 360 deg but the share of 7 coefficients of 200: 360 sqrt((1 - 7 / 200) / 200).
+    assert!(
+        (fit.residual_deg - 25.0).abs() < 0.1,
+        "{}",
+        fit.residual_deg
+    );
+    let flown = LoadedCase::from_text(
+        "again.toml",
+        &case.resolved(),
+        std::path::Path::new(""),
+        &[],
+    );
+    assert_eq!(flown.unwrap().setup.animal, case.setup.animal);
+    let said = refusal("fruit-fly-tethered", &[&law(", harmonics=100")]);
+    assert!(
+        said.contains("give more phases or fewer harmonics"),
+        "{said}"
+    );
+    assert!(said.contains("motion.phi.table.rows_deg"), "{said}");
+}
+
 /// Left wings have the signs of their mirror images; deformation in millimetres for metres.
 #[test]
 fn behaves_implausible_motions_are_doubted() {

@@ -124,6 +124,8 @@ impl RotationLaw for CommandedMotion {
 pub struct ControlState {
     /// Looks so far.
     pub looks: usize,
+    /// Those at which the command stood at a limit.
+    pub limited_looks: usize,
     /// Start of the present passage [s].
     pub since: f64,
     /// Command before the present passage, wing by wing.
@@ -214,6 +216,11 @@ impl Loop {
         self.state.looks
     }
 
+    /// Looks so far at which the command stood at a limit.
+    pub fn limited_looks(&self) -> usize {
+        self.state.limited_looks
+    }
+
     /// Commands in force at the end of the present passage, wing by wing.
     pub fn commands(&self) -> &[Adjustment] {
         &self.state.to
@@ -244,6 +251,7 @@ impl Loop {
         let refused = |problem| FlightError::Control { time: t, problem };
         let command = self.controller.command(sensed).map_err(refused)?;
         self.check(&command, t)?;
+        self.state.limited_looks += usize::from(self.controller.is_limited());
         self.state.queue.push_back(command);
         let mut due = self.state.queue.pop_front().expect("one was just pushed");
         if self.share < 1.0 {

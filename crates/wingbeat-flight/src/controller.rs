@@ -46,6 +46,11 @@ pub trait Controller: Send {
         None
     }
 
+    /// Whether its newest command stands at a limit, beyond which it would go.
+    fn is_limited(&self) -> bool {
+        false
+    }
+
     /// Everything it remembers, for a flight that is resumed.
     fn memory(&self) -> Vec<f64> {
         vec![]

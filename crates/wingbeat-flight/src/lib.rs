@@ -41,6 +41,7 @@ mod prescribed;
 mod quadratures;
 pub mod record;
 mod recorder;
+mod scattered;
 pub mod setup;
 mod shed_by_motion;
 pub mod simulation;

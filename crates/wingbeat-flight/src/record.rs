@@ -17,6 +17,8 @@ pub struct Record {
     pub wing_angles: Vec<DVec3>,
     /// Per wing: the command of feedback at the end of the passage under way; empty without feedback.
     pub commands: Vec<Adjustment>,
+    /// Looks of feedback so far, and of them those at which the command stood at a limit.
+    pub looks: [usize; 2],
     /// Where feedback is to bring the flyer; empty where nothing is followed.
     pub reference: Vec<Aim>,
     /// Generalized coordinates q of seed eq. 2: per body x, y, z [m], phi, theta, psi [rad].

@@ -106,6 +106,12 @@ pub trait ControlModel: fmt::Debug + Send + Sync {
     fn follows(&self) -> bool {
         false
     }
+
+    /// Mean velocity of the straight flight that it holds from the release on, N components [m/s]; none if it holds no place, or one
+    /// that it does not tell.
+    fn velocity(&self) -> Option<DVec3> {
+        None
+    }
 }
 
 /// A controller that can be copied controls any flight.

@@ -133,6 +133,21 @@ impl FlownCrossings {
         }
     }
 
+    /// What was counted so far: instants, then those at which each pair met.
+    pub fn counts(&self) -> Vec<usize> {
+        let met = self.pairs.iter().map(|p| p.met);
+        std::iter::once(self.instants).chain(met).collect()
+    }
+
+    /// Goes on from [`Self::counts`] of the same wings.
+    pub fn count_on(&mut self, counts: &[usize]) {
+        let [instants, met @ ..] = counts else { return };
+        self.instants = *instants;
+        for (pair, met) in self.pairs.iter_mut().zip(met) {
+            pair.met = *met;
+        }
+    }
+
     /// The pairs that passed through each other, and in which part of the instants.
     pub fn found(&self) -> Vec<Crossing> {
         let met = self.pairs.iter().filter(|p| p.met > 0);

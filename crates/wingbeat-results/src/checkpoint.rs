@@ -21,7 +21,7 @@ use wingbeat_case::IoError;
 pub const FILE: &str = "checkpoint.bin";
 const MAGIC: &str = "wingbeat-checkpoint ";
 /// What the bytes of a state mean, and with which forces a flight goes on from them: another one is refused.
-pub const FORMAT: &str = "12";
+pub const FORMAT: &str = "13";
 
 /// What a checkpoint says about itself.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -39,6 +39,9 @@ pub struct Header {
     /// Of a thinned history: the next row as far as it is known, the bits of its numbers.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub pending: Vec<u64>,
+    /// Of a thinned history: what the summary knows of all steps so far, in bytes.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub each_step: Vec<u8>,
 }
 
 /// The file.

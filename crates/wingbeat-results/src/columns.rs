@@ -317,6 +317,9 @@ impl Subjects {
         let half = 3 * (shape.bodies - 1);
         match of {
             Of::Flight => vec![Subject::new(String::new(), "", Kind::Flight, 0)],
+            Of::Steered => (0..shape.commanded.min(1))
+                .map(|_| Subject::new(String::new(), "", Kind::Flight, 0))
+                .collect(),
             Of::Following => (0..shape.following)
                 .map(|_| Subject::new(String::new(), "", Kind::Flight, 0))
                 .collect(),

@@ -263,6 +263,8 @@ pub(crate) enum Of {
     Bending,
     /// The wings, where feedback commands them.
     Commanded,
+    /// The whole flight, where there is feedback.
+    Steered,
     /// The whole flight, where feedback follows a reference.
     Following,
     /// What hangs at a hinge: wings and segments.

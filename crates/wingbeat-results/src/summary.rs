@@ -3,8 +3,10 @@
 mod alternation;
 pub mod beats;
 mod comparison;
+mod each_step;
 mod ensemble;
 mod estimate;
+mod held;
 mod impulse;
 mod means;
 mod numbers;
@@ -15,39 +17,76 @@ mod words;
 
 use std::path::Path;
 
-use wingbeat_flight::{FlightSetup, Record};
+use wingbeat_flight::{FlightSetup, MotionMode, Record};
 
 use super::Outcome;
 pub use beats::{BeatMeans, Beats, down, over_weight};
 pub use comparison::MeanDifference;
+pub(crate) use each_step::EachStep;
 pub use ensemble::{Ensemble, EnsembleBeat, Members};
 pub use estimate::Estimate;
+pub use held::{Departure, Departures};
 pub use impulse::ImpulseBudget;
 pub use means::ManyBeats;
 pub use numbers::Summary;
 use statistics::Statistics;
 pub use verdict::Verdict;
+use verdict::Warnings;
 use wingbeat_case::IoError;
 use wingbeat_case::LoadedCase;
 
 impl Summary {
-    /// From the history of a run, read row by row.
+    /// From the history of a run, read row by row. A thinned history does not hold every step: there it is the summary beside it, if
+    /// one of these steps was written, or it says that its verdict goes no farther than the rows.
     ///
     /// # Errors
     /// A history that cannot be read.
     pub fn read(case: &LoadedCase, history: &Path, outcome: &Outcome) -> Result<Self, IoError> {
-        let statistics = Statistics::read(history, &case.setup)?;
-        let mut summary = Self::from_statistics(&case.setup, statistics, outcome);
-        summary.warnings.extend(thinning(case));
-        Ok(summary)
+        let found = Self::of_run(case, history, outcome, None)?;
+        if case.output.history_every == 1 {
+            return Ok(found);
+        }
+        let text = std::fs::read_to_string(history.with_file_name("summary.json"));
+        let written = text
+            .ok()
+            .and_then(|t| serde_json::from_str::<Self>(&t).ok());
+        let fits = |s: &Self| s.steps == found.steps && s.outcome == found.outcome;
+        Ok(written.filter(fits).unwrap_or(found))
+    }
+
+    /// The same, with what was gathered of each step as it was flown.
+    ///
+    /// # Errors
+    /// As [`Self::read`].
+    pub(crate) fn of_run(
+        case: &LoadedCase,
+        history: &Path,
+        outcome: &Outcome,
+        each: Option<EachStep>,
+    ) -> Result<Self, IoError> {
+        let knows_all = each.is_some();
+        let statistics = Statistics::read(history, &case.setup, each)?;
+        let thinning = |list: &mut Warnings| thinning(case, knows_all, list);
+        Ok(Self::from_statistics(
+            &case.setup,
+            statistics,
+            outcome,
+            thinning,
+        ))
     }
 
     /// From the records of a flight in memory, one per step, the start first.
     pub fn of(setup: &FlightSetup, records: &[Record], outcome: &Outcome) -> Self {
-        Self::from_statistics(setup, Statistics::of(records, setup), outcome)
+        Self::from_statistics(setup, Statistics::of(records, setup), outcome, |_| {})
     }
 
-    fn from_statistics(setup: &FlightSetup, s: Statistics, outcome: &Outcome) -> Self {
+    fn from_statistics(
+        setup: &FlightSetup,
+        s: Statistics,
+        outcome: &Outcome,
+        say_more: impl FnOnce(&mut Warnings),
+    ) -> Self {
+        let each = &s.each;
         let mut summary = Self {
             case: setup.name.clone(),
             outcome: outcome.clone(),
@@ -60,19 +99,20 @@ impl Summary {
             final_thrust_newton: s.last.air_force().x,
             displacement_m: [0, 1, 2].map(|k| s.change(k)),
             turn_deg: [3, 4, 5].map(|k| s.change(k).to_degrees()),
-            energy_residual_relative: energy_residual(&s),
-            momentum_residual_relative: momentum_residual(setup, &s),
-            violation_position_m: s.violation_position.most,
-            violation_orientation: s.violation_orientation.most,
-            euler_regularity: s.euler_regularity.least.min(1.0),
-            corrector_passes_most: s.corrector_passes.most as usize,
-            corrector_passes_mean: s.passes_sum as f64 / s.rows.max(1) as f64,
+            energy_residual_relative: energy_residual(each),
+            momentum_residual_relative: momentum_residual(setup, each, s.last.time),
+            violation_position_m: each.violation_position.most,
+            violation_orientation: each.violation_orientation.most,
+            euler_regularity: each.euler_regularity.least.min(1.0),
+            corrector_passes_most: each.corrector_passes.most as usize,
+            corrector_passes_mean: each.passes_sum as f64 / each.steps.max(1) as f64,
             regularised: s.regularised,
-            alternating_steps: s.alternation.longest,
+            alternating_steps: each.alternation.longest,
             wake_rings: s.last.wake_rings,
             wake_particles: s.last.wake_particles,
-            net_flux_residual_m_s: s.net_flux_residual.most,
+            net_flux_residual_m_s: each.net_flux_residual.most,
             impulse_budget: ImpulseBudget::between(setup, &s.first, &s.last),
+            departures: each.departures.clone(),
             warnings: vec![],
             means: ManyBeats::of(&s.beats),
             beats: s.beats,
@@ -80,9 +120,10 @@ impl Summary {
         let mut warnings = trust::warnings(setup, &summary);
         trust::flown_crossings(
             setup,
-            &s.crossings.map_or(vec![], |c| c.found()),
+            &s.each.crossings.map_or(vec![], |c| c.found()),
             &mut warnings,
         );
+        say_more(&mut warnings);
         (summary.verdict, summary.verdict_reason) = warnings.verdict(outcome);
         summary.warnings = warnings.into_texts();
         summary
@@ -95,7 +136,7 @@ const POTENTIAL_FLOOR: f64 = 1e-6;
 
 /// Largest residual over the largest of what is in play: kinetic energy, change of potential energy,
 /// works.
-fn energy_residual(s: &Statistics) -> f64 {
+fn energy_residual(s: &EachStep) -> f64 {
     let works = [s.hinge_work, s.air_work, s.deformation_work, s.applied_work];
     let energies = [
         s.kinetic_energy.most,
@@ -108,19 +149,34 @@ fn energy_residual(s: &Statistics) -> f64 {
 }
 
 /// Largest residual over the largest of what is in play: the momentum, the impulse of the weight, and
-/// the momentum that the kinetic energy stands for where that of the parts cancels.
-fn momentum_residual(setup: &FlightSetup, s: &Statistics) -> f64 {
+/// the momentum that the kinetic energy stands for where that of the parts cancels. A support bears the weight of a tethered animal:
+/// there that impulse counts over a wingbeat, lest every flight be a good one if it is but long.
+fn momentum_residual(setup: &FlightSetup, s: &EachStep, time: f64) -> f64 {
     let mass = setup.animal.mass();
-    let impulse = mass * setup.gravity.length() * s.last.time;
+    let time = match (&setup.mode, setup.time.period) {
+        (MotionMode::Tethered(_), Some(period)) => time.min(period),
+        _ => time,
+    };
+    let impulse = mass * setup.gravity.length() * time;
     let of_parts = (2.0 * mass * s.kinetic_energy.most).sqrt();
     let scale = impulse.max(s.momentum.most).max(of_parts);
     ratio(s.momentum_residual.most, scale)
 }
 
-/// What a thinned history leaves out.
-fn thinning(case: &LoadedCase) -> Option<String> {
+/// What a thinned history leaves out: nothing of what the summary says, where every step was seen as it was flown.
+fn thinning(case: &LoadedCase, knows_all: bool, list: &mut Warnings) {
     let every = case.output.history_every;
-    (every > 1).then(|| format!("The history holds every {} step and the ends of wingbeats: means of wingbeats, sums and extremes are those of all steps, residuals of balances, passes of the corrector and forces that turn back from step to step those of its rows.", ordinal(every)))
+    if every <= 1 {
+        return;
+    }
+    let holds = format!(
+        "the history holds every {} step and the ends of wingbeats",
+        ordinal(every)
+    );
+    match knows_all {
+        true => list.note(format!("What is said here is of all steps; {holds}: its means of wingbeats, sums and extremes are those of all steps, its residuals of balances those of its rows.")),
+        false => list.limit(format!("The verdict goes as far as a thinned history shows. All steps were not seen as they were flown, and {holds}: residuals of balances, passes of the corrector, forces that turn back from step to step and wings that pass through each other are those of its rows.")),
+    }
 }
 
 /// A number as one counts: 1st, 2nd, 11th.

@@ -6,7 +6,7 @@ mod loads;
 mod motion;
 
 use self::balances::{ENERGIES, MOMENTA, QUALITY, WAKE};
-use self::feedback::{COMMANDS, REFERENCE};
+use self::feedback::{COMMANDS, LOOKS, REFERENCE};
 use self::loads::{
     AIR, APPLIED, CONNECTIONS, COORDINATES, DEFORMATION, DISSIPATION, ELASTIC, HINGES, LOOPS,
     ORIENTATIONS, TETHER,
@@ -42,5 +42,6 @@ pub(crate) const GROUPS: &[Group] = &[
     group(Of::Flight, QUALITY),
     group(Of::Flight, WAKE),
     group(Of::Commanded, COMMANDS),
+    group(Of::Steered, LOOKS),
     group(Of::Following, REFERENCE),
 ];

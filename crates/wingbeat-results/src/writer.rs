@@ -9,6 +9,7 @@ use super::framer::Framer;
 use super::history::HistoryWriter;
 use super::manifest::{Manifest, Outcome, sha256};
 use super::saver::{self, Schedule};
+use super::summary::EachStep;
 use super::vtp::pvd;
 use super::{ResultDir, Summary};
 use wingbeat_case::IoError;
@@ -23,6 +24,8 @@ pub struct RunWriter {
     dir: ResultDir,
     case: LoadedCase,
     history: HistoryWriter,
+    /// Of a thinned history: what the summary is to know of every step; none where a checkpoint lacks it.
+    each: Option<EachStep>,
     /// The thread that writes frames; none before the first.
     framer: Option<Framer>,
     frames: Vec<(f64, usize)>,
@@ -70,6 +73,7 @@ impl RunWriter {
             dir,
             case: case.clone(),
             history,
+            each: is_thinned(case).then(|| EachStep::new(&case.setup)),
             framer: None,
             frames: vec![],
             indexed: 0,
@@ -115,6 +119,10 @@ impl RunWriter {
         let writer = Self {
             case: case.clone(),
             history,
+            each: match is_thinned(case) {
+                true => EachStep::restored(&case.setup, &header.each_step),
+                false => None,
+            },
             framer: None,
             frames: steps.iter().map(|k| (*k as f64 * step, *k)).collect(),
             indexed: 0,
@@ -156,6 +164,7 @@ impl RunWriter {
             history_bytes,
             history_sha256,
             pending: self.history.pending(),
+            each_step: self.each.as_ref().map_or(vec![], EachStep::saved),
         };
         saver::write(self.dir.path(), &header, state)?;
         self.schedule.done();
@@ -206,6 +215,9 @@ impl RunWriter {
             .is_some_and(|n| record.step.is_multiple_of(n));
         self.history
             .append(record, due || beat_ends || framed || last)?;
+        if let Some(each) = &mut self.each {
+            each.take(record, &self.case.setup);
+        }
         self.manifest.steps = record.step;
         self.manifest.wake_rings = record.wake_rings;
         if framed {
@@ -271,17 +283,18 @@ impl RunWriter {
         self.history.flush()?; // of a thinned history, the step where the flight stopped
         self.seal()?;
         let path = self.dir.join("history.csv");
-        let summary = Summary::read(&self.case, &path, &outcome)?;
+        let summary = Summary::of_run(&self.case, &path, &outcome, self.each.take())?;
+        // Before what draws, which reads it.
+        self.dir
+            .write("summary.txt", summary.to_text().as_bytes())?;
+        self.dir
+            .write("summary.json", summary.to_json().as_bytes())?;
         let drawn = match draw(&self.dir, &self.case, &summary) {
             Err(e) if outcome != Outcome::Finished || !matches!(e, IoError::Damaged { .. }) => {
                 return Err(e);
             }
             drawn => drawn,
         };
-        self.dir
-            .write("summary.txt", summary.to_text().as_bytes())?;
-        self.dir
-            .write("summary.json", summary.to_json().as_bytes())?;
         self.writing += begun.elapsed();
         self.manifest.outcome = outcome;
         self.manifest.warnings.clone_from(&summary.warnings);
@@ -291,6 +304,11 @@ impl RunWriter {
         }
         drawn.map(|()| summary)
     }
+}
+
+/// Whether the history of a case leaves steps out.
+fn is_thinned(case: &LoadedCase) -> bool {
+    case.output.history_every > 1
 }
 
 /// What a frame of the flight of a case is made of.

@@ -67,6 +67,7 @@ fn numbers(record: &Record) -> usize {
         time: _,
         wing_angles,
         commands,
+        looks,
         reference,
         coordinates,
         rates,
@@ -113,7 +114,8 @@ fn numbers(record: &Record) -> usize {
     let lists = coordinates.len() + rates.len() + multipliers.len() + deformation_power.len();
     // Tip (3), twist, four sections (3), elastic energy and its power, that of the air, passes of each; what all have dissipated.
     let elastic = 20 * elastic.len() + usize::from(!elastic.is_empty());
-    let feedback = 8 * commands.len() + 8 * reference.len();
+    let steered = looks.len() * commands.len().min(1);
+    let feedback = 8 * commands.len() + steered + 8 * reference.len();
     let vectors = 3 * wing_angles.len() + feedback + 6 * accelerations.len();
     let reactions = 7 * (hinges.len() + loops.len()) + 2 * joints.len();
     let loads = 6 * (air.len() + applied.len() + 1);

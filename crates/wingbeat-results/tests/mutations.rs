@@ -125,6 +125,7 @@ fn corpus() -> Corpus {
         history_bytes: 1,
         history_sha256: "1".repeat(64),
         pending: vec![],
+        each_step: vec![],
     };
     let presets = PRESETS.iter().map(|p| p.text.as_bytes().to_vec());
     Corpus {

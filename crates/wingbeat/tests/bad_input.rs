@@ -403,3 +403,18 @@ fn exact_no_such_case_and_no_overwriting_by_new() {
         "mine"
     );
 }
+
+/// A body a thousand times too heavy to turn and one too light fail on trial with a message of numbers; what is implausible is said
+/// before it.
+#[test]
+fn refuses_flights_that_fail_on_trial_with_their_doubts_first() {
+    let scratch = Scratch::new("doubts-first");
+    let inertia = "body.inertia_about_centre_kg_m2=[1.5e-12,1.5e-12,0.5e-12,0,0,0]";
+    let set = ["--set", "air.model=blade_element", "--set", inertia];
+    let out = wingbeat(&scratch.0, &[&["check", "robobee"][..], &set].concat());
+    let said = String::from_utf8_lossy(&out.stderr);
+    assert!(!out.status.success(), "{said}");
+    let doubt = said.find("is the inertia in kg m2?");
+    let error = said.find("error: ");
+    assert!(doubt.is_some() && doubt < error, "{said}");
+}

@@ -1,11 +1,12 @@
 //! What of an estimate is implausible: a number outside wide limits.
 
 use wingbeat_air::CoreModel;
-use wingbeat_flight::{AirModel, AirOptions, FlightSetup, MotionMode};
+use wingbeat_flight::{AirModel, AirOptions, FlightSetup, MotionMode, system_of};
 use wingbeat_math::DVec3;
-use wingbeat_model::{DeformingMesh, Wing, WingMotion};
+use wingbeat_model::{DeformingMesh, Wing};
 
-use super::numbers::{Estimate, SAMPLES, WingEstimate};
+use super::numbers::{Estimate, WingEstimate};
+use super::sides::against_each_other;
 
 /// A number outside these limits is doubted.
 struct Limit {
@@ -126,6 +127,18 @@ const LIFT_DOWN: Limit = Limit {
     ..LIFT
 };
 
+/// Tethers carry what the lift does not, but no animal pushes itself down, nor lifts ten of itself.
+const TETHERED_LIFT: Limit = Limit {
+    low: -0.1,
+    high: 10.0,
+    hints: [
+        LIFT_DOWN.hints[0],
+        "more than any animal carries; look at mass and lengths, wingbeat frequency and the wings' angles",
+    ],
+};
+
+const LIFT_NAME: &str = "mean lift over weight by blade elements";
+
 /// A hundredth is what attached wings in a stream want.
 const WAKE_CORE: Limit = Limit {
     low: 0.009,
@@ -187,10 +200,14 @@ impl Doubts {
 pub(super) fn doubts(setup: &FlightSetup, e: &Estimate) -> Vec<String> {
     let mut list = Doubts::default();
     list.see(&FREQUENCY, "wingbeat frequency", e.frequency, " Hz");
-    if matches!(setup.mode, MotionMode::Free(_)) {
-        free_flight(setup, e, &mut list);
+    match setup.mode {
+        MotionMode::Free(_) => free_flight(setup, e, &mut list),
+        MotionMode::Tethered(_) => list.see(&TETHERED_LIFT, LIFT_NAME, e.lift_over_weight, ""),
     }
     let Doubts(mut list) = list;
+    if !setup.animal.wings.is_empty() {
+        list.extend(system_of(setup).map_or(vec![], |s| s.warnings()));
+    }
     let mut said = std::collections::BTreeSet::new();
     for (wing, w) in setup.animal.wings.iter().zip(&e.wings) {
         let mut own = wing_doubts(setup, wing, w);
@@ -199,6 +216,7 @@ pub(super) fn doubts(setup: &FlightSetup, e: &Estimate) -> Vec<String> {
         list.extend(own.into_iter().map(name));
     }
     list.extend(against_each_other(&setup.animal.wings));
+    list.extend(setup.scattered_angles());
     list.extend(setup.crossing_wings());
     list.extend(setup.wings_inside_parts());
     list.extend(setup.one_sided_leading_edges());
@@ -214,8 +232,7 @@ fn free_flight(setup: &FlightSetup, e: &Estimate, list: &mut Doubts) {
         Some(lift) if lift < 0.0 => &LIFT_DOWN,
         _ => &LIFT,
     };
-    let lift = "mean lift over weight by blade elements";
-    list.see(of_lift, lift, e.lift_over_weight, "");
+    list.see(of_lift, LIFT_NAME, e.lift_over_weight, "");
     let wings: f64 = e.wings.iter().map(|w| w.report.mass).sum();
     let part = (e.mass > 0.0).then(|| wings / e.mass);
     let mass = "mass of the wings over that of the animal";
@@ -226,48 +243,6 @@ fn free_flight(setup: &FlightSetup, e: &Estimate, list: &mut Doubts) {
     let radius = Some(radius).filter(|g| g.is_finite() && *g > 0.0);
     let gyration = "radius of gyration of the body over the wing length";
     list.see(&GYRATION, gyration, radius, "");
-}
-
-/// Right and left wings of one place that go opposite ways: signs of a left wing taken for those of a right one.
-fn against_each_other(wings: &[Wing]) -> Vec<String> {
-    let across = |a: &Wing, b: &Wing| {
-        let place = DVec3::new(b.hinge_b.x, -b.hinge_b.y, b.hinge_b.z);
-        a.hinge_b.distance(place) <= 1e-6 * a.report().length
-    };
-    let pairs = wings.iter().enumerate().flat_map(|(k, a)| {
-        let others = wings[k + 1..].iter();
-        others
-            .filter(move |b| a.side != b.side && across(a, b))
-            .map(move |b| (a, b))
-    });
-    let opposite = pairs.filter(|(a, b)| likeness_of_strokes(a, b) < -0.5);
-    let say = |(a, b): (&Wing, &Wing)| {
-        format!(
-            "wings `{}` and `{}` stroke against each other, one forward while the other goes back: look at sign and phase of motion.phi",
-            a.name, b.name
-        )
-    };
-    opposite.map(say).collect()
-}
-
-/// Correlation of the strokes of a wing and of one on the other side, as seen in a mirror \[1\]; 0 where one does not stroke by
-/// itself.
-fn likeness_of_strokes(a: &Wing, b: &Wing) -> f64 {
-    let [a, b] = [a.motion.clone(), b.motion.mirrored()].map(|m| strokes(&m));
-    let product = |x: &[f64], y: &[f64]| x.iter().zip(y).map(|(x, y)| x * y).sum::<f64>();
-    let sizes = (product(&a, &a) * product(&b, &b)).sqrt();
-    match sizes > 0.0 {
-        true => product(&a, &b) / sizes,
-        false => 0.0,
-    }
-}
-
-/// Stroke angles over a beat less their mean \[rad\].
-fn strokes(m: &WingMotion) -> Vec<f64> {
-    let at = |k: usize| m.angles.phi.at(k as f64 / SAMPLES as f64 + m.phase)[0];
-    let all: Vec<f64> = (0..SAMPLES).map(at).collect();
-    let mean = all.iter().sum::<f64>() / SAMPLES as f64;
-    all.iter().map(|x| x - mean).collect()
 }
 
 fn wing_doubts(setup: &FlightSetup, wing: &Wing, w: &WingEstimate) -> Vec<String> {

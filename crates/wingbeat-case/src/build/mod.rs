@@ -31,6 +31,7 @@ mod wind;
 mod wing;
 
 pub(crate) use effects::check as check_effects;
+pub(crate) use motion::radians;
 pub use names::column_name;
 pub(crate) use output::output;
 pub(crate) use refused::refused;

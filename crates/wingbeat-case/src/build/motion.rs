@@ -187,7 +187,7 @@ fn angle_law(path: &str, case: &AngleCase) -> Built<AngleLaw> {
             shift: s.shift_deg.to_radians(),
             mean: s.mean_deg.to_radians(),
         }),
-        AngleCase::Table(t) => AngleLaw::Table(spline(&format!("{path}.table"), t)?),
+        AngleCase::Table(t) => table(&format!("{path}.table"), t)?,
     })
 }
 
@@ -200,7 +200,7 @@ fn fourier(case: &FourierCase) -> Fourier {
     }
 }
 
-fn spline(path: &str, table: &TableCase) -> Built<PeriodicSpline> {
+fn table(path: &str, table: &TableCase) -> Built<AngleLaw> {
     let Some(rows) = &table.rows_deg else {
         return Err(Fault::new(
             path,
@@ -209,17 +209,33 @@ fn spline(path: &str, table: &TableCase) -> Built<PeriodicSpline> {
             "add one of them",
         ));
     };
-    let radians: Vec<(f64, f64)> = rows.iter().map(|&[x, q]| (x, q.to_radians())).collect();
-    PeriodicSpline::new("the table", &radians).map_err(|e| {
+    let radians = radians(rows);
+    let law = match table.harmonics {
+        None => PeriodicSpline::new("the table", &radians).map(AngleLaw::Table),
+        Some(n) => Fourier::fitted("the table", &radians, n).map(|fit| AngleLaw::Fourier(fit.0)),
+    };
+    law.map_err(|e| {
         let row = match &e {
-            wingbeat_model::ModelError::Table { row, .. } if (1..=rows.len()).contains(row) => format!("[{}]", row - 1),
+            wingbeat_model::ModelError::Table { row, .. } if (1..=rows.len()).contains(row) => {
+                format!("[{}]", row - 1)
+            }
             _ => String::new(),
         };
-        Fault::new(
-            format!("{path}.rows_deg{row}"),
-            e.to_string(),
-            "at least 4 rows [phase, angle], phases rising, the last row one beat after the first with the same angle",
-            "repeat the first angle in a last row whose phase is 1 larger",
-        )
+        let [allowed, remedy] = match table.harmonics {
+            None => [
+                "at least 4 rows [phase, angle], phases rising, the last row one beat after the first with the same angle",
+                "repeat the first angle in a last row whose phase is 1 larger",
+            ],
+            Some(_) => [
+                "at least 4 rows [phase, angle] of one beat, phases rising, neighbours less than 1 / (2 harmonics) apart",
+                "give the samples of one beat, or fewer harmonics",
+            ],
+        };
+        Fault::new(format!("{path}.rows_deg{row}"), e.to_string(), allowed, remedy)
     })
+}
+
+/// Rows of a table in radians.
+pub(crate) fn radians(rows: &[[f64; 2]]) -> Vec<(f64, f64)> {
+    rows.iter().map(|&[x, q]| (x, q.to_radians())).collect()
 }

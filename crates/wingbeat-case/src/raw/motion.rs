@@ -166,7 +166,7 @@ pub enum AngleCase {
     Oval(OvalCase),
     /// Split-cycle strokes (Doman et al. 2009): half strokes of unequal length.
     SplitCycle(SplitCycleCase),
-    /// Samples over one beat, joined by a periodic cubic spline.
+    /// Samples over one beat, joined by a periodic cubic spline or fitted by a Fourier series.
     Table(TableCase),
 }
 
@@ -297,4 +297,12 @@ pub struct TableCase {
     #[schemars(extend("with" = "file"))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub angle_column: Option<String>,
+    /// Harmonics of a Fourier series fitted to the samples by least squares; two neighbouring phases may be less than 1 / (2 harmonics)
+    /// wingbeats apart, and the beat need not close. Left out: the spline, which goes through every sample.
+    ///
+    /// Change it for samples that scatter: as many as stand out of the noise, 4 to 10 for strokes; `wingbeat check` tells how many do, and
+    /// what a fit leaves.
+    #[schemars(range(min = 1))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub harmonics: Option<usize>,
 }

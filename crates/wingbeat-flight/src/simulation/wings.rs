@@ -35,6 +35,7 @@ impl WingAngles {
             (Some(feedback), _) => {
                 r.wing_angles.extend(feedback.angles(t));
                 r.commands.extend_from_slice(feedback.commands());
+                r.looks = [feedback.look(), feedback.limited_looks()];
             }
             (None, Some((cycle, known))) => {
                 let wings = setup.animal.wings.len();

@@ -4,15 +4,13 @@
 //! points the surface is bilinear in the parts of chord and span. So places, velocities and accelerations are analytic,
 //! and the surface may do what no twist, camber and bending can: change its area, sweep and fold.
 //!
-//! A series of n harmonics is determined by phases of which no two neighbours are 1 / (2 n) apart or more,
-//! wherever they lie \[Groechenig 1992, Math. Comput. 59:181, for one dimension\]; others are refused.
+//! Phases that do not determine the series are refused ([`Fourier::fitted`]).
 
 use crate::deformation::lines::{column, span};
 use crate::error::{ModelError, finite, in_row};
 use crate::mesh::GridMesh;
-use crate::motion::{Fourier, WingMotion};
-use std::f64::consts::TAU;
-use wingbeat_math::{DVec3, SingularMatrix, solve_small};
+use crate::motion::{Fourier, FourierFit, WingMotion, check_gaps};
+use wingbeat_math::DVec3;
 
 /// Points of a surface at phases of the beat.
 #[derive(Clone, Debug, PartialEq)]
@@ -50,7 +48,7 @@ impl MovingSurface {
         let phases = format!("{key}.phases");
         self.check_phases(&phases)?;
         self.check_places(&format!("{key}.nodes"))?;
-        if self.fit().is_err() {
+        if FourierFit::new(&self.phases, self.harmonics).is_err() {
             let (value, allowed) = (self.phases.len(), "enough to determine the harmonics");
             crate::error::require_count(&phases, value, false, allowed)?;
         }
@@ -80,20 +78,7 @@ impl MovingSurface {
         if n == 0 {
             return bad(0, "a series without harmonics does not move".to_owned());
         }
-        let gap = |k: usize| x.get(k + 1).unwrap_or(&(first + 1.0)) - x[k];
-        let widest = (0..x.len()).max_by(|&a, &b| gap(a).total_cmp(&gap(b)));
-        let widest = widest.unwrap_or(0);
-        let limit = 0.5 / n as f64;
-        match gap(widest) < limit {
-            true => Ok(()),
-            false => bad(
-                widest,
-                format!(
-                    "the next phase is {:.4} wingbeats later, and {n} harmonics need less than {limit:.4}: give more phases or fewer harmonics",
-                    gap(widest)
-                ),
-            ),
-        }
+        check_gaps(table, x, n)
     }
 
     fn check_places(&self, table: &str) -> Result<(), ModelError> {
@@ -131,7 +116,7 @@ impl MovingSurface {
 
     /// Courses of the nodes of a mesh, which lie on the surface at the parts of chord and span at which they lie at rest.
     pub(super) fn courses(&self, mesh: &GridMesh) -> Vec<Course> {
-        let fit = self.fit().expect("a checked surface");
+        let fit = FourierFit::new(&self.phases, self.harmonics).expect("a checked surface");
         let [inner, tip] = span(mesh);
         let side = mesh.nodes[mesh.node(0, mesh.cols)].y.signum();
         let mut courses = Vec::with_capacity(mesh.nodes.len());
@@ -149,52 +134,11 @@ impl MovingSurface {
             let component = |k: usize| {
                 let sign = if k == 1 { side } else { 1.0 };
                 let values: Vec<f64> = places.iter().map(|x| sign * x[k]).collect();
-                series(&fit, &values)
+                fit.series(&values)
             };
             courses.push([0, 1, 2].map(component));
         }
         courses
-    }
-
-    /// Rows of the matrix that makes the coefficients (mean, cosines, sines in turn) of the values at the phases: least squares.
-    fn fit(&self) -> Result<Vec<Vec<f64>>, SingularMatrix> {
-        let size = 2 * self.harmonics + 1;
-        let basis = |x: f64| -> Vec<f64> {
-            let wave = |k: usize| {
-                let (s, c) = (TAU * k.div_ceil(2) as f64 * x).sin_cos();
-                if k % 2 == 1 { c } else { s }
-            };
-            (0..size)
-                .map(|k| if k == 0 { 1.0 } else { wave(k) })
-                .collect()
-        };
-        let rows: Vec<Vec<f64>> = self.phases.iter().map(|x| basis(*x)).collect();
-        let mut normal = vec![0.0; size * size];
-        for row in &rows {
-            for (a, b) in (0..size).flat_map(|a| (0..size).map(move |b| (a, b))) {
-                normal[a * size + b] += row[a] * row[b];
-            }
-        }
-        let column = |row: &Vec<f64>| {
-            let mut x = row.clone();
-            solve_small(&mut normal.clone(), &mut x).map(|()| x)
-        };
-        let columns = rows
-            .iter()
-            .map(column)
-            .collect::<Result<Vec<Vec<f64>>, _>>()?;
-        let row = |k: usize| columns.iter().map(|c| c[k]).collect();
-        Ok((0..size).map(row).collect())
-    }
-}
-
-/// The series of values at the phases.
-fn series(fit: &[Vec<f64>], values: &[f64]) -> Fourier {
-    let of = |row: &Vec<f64>| row.iter().zip(values).map(|(w, v)| w * v).sum();
-    Fourier {
-        mean: of(&fit[0]),
-        cos: fit[1..].iter().step_by(2).map(of).collect(),
-        sin: fit[2..].iter().step_by(2).map(of).collect(),
     }
 }
 

@@ -6,7 +6,9 @@
 
 pub mod adjust;
 pub mod berman_wang;
+mod fit;
 pub mod fourier;
+mod scatter;
 pub mod spline;
 pub mod split_cycle;
 pub mod start;
@@ -14,7 +16,9 @@ mod wing_motion;
 
 pub use adjust::Adjustment;
 pub use berman_wang::{Oval, SmoothSquare, SmoothTriangle};
+pub(crate) use fit::{FourierFit, check_gaps};
 pub use fourier::Fourier;
+pub use scatter::Scatter;
 pub use spline::PeriodicSpline;
 pub use split_cycle::SplitCycle;
 pub use start::Start;

@@ -408,3 +408,17 @@ fn invariant_in_every_published_motion_the_leading_edge_leads_both_half_strokes(
         }
     }
 }
+
+/// Measured sets hold no noise that a spline would beat with.
+#[test]
+fn limit_tables_of_the_robofly_do_not_scatter() {
+    for timing in [Timing::Advanced, Timing::Symmetrical, Timing::Delayed] {
+        let set = kinematics::robofly_table(timing).unwrap();
+        for law in [set.right.phi, set.right.psi] {
+            let AngleLaw::Table(table) = law else {
+                panic!("a table")
+            };
+            assert_eq!(table.scatter(), None);
+        }
+    }
+}

@@ -5,6 +5,7 @@
 //! *Integrators*): no change is much smaller than the one before. Forces of wings among their own
 //! wakes turn back as well, a dozen times in a row in flights of few panels and long steps, but by changes of any size.
 
+use serde::{Deserialize, Serialize};
 use wingbeat_flight::Record;
 use wingbeat_math::DVec3;
 
@@ -14,7 +15,7 @@ const CHANGE: f64 = 0.02;
 const LASTS: f64 = 0.5;
 
 /// What was seen of the forces of the wings.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub(super) struct Alternation {
     wings: Vec<Wing>,
     step: usize,
@@ -22,7 +23,7 @@ pub(super) struct Alternation {
     pub longest: usize,
 }
 
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
 struct Wing {
     force: DVec3,
     change: DVec3,

@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::beats::BeatMeans;
+use super::held::Departures;
 use super::impulse::ImpulseBudget;
 use super::means::ManyBeats;
 use super::verdict::Verdict;
@@ -69,6 +70,9 @@ pub struct Summary {
     /// What became of the impulse that surfaces gave to the air; none without a lattice.
     #[serde(default)]
     pub impulse_budget: Option<ImpulseBudget>,
+    /// Under feedback: how far the flight was from what it is to hold.
+    #[serde(default)]
+    pub departures: Option<Departures>,
     /// What a reader should know before using the numbers.
     pub warnings: Vec<String>,
 }

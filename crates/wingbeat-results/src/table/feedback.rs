@@ -1,7 +1,7 @@
 //! Columns of feedback: commands and reference.
 
 use crate::quantity::Components::Place;
-use crate::quantity::Slot::Real;
+use crate::quantity::Slot::{Count, Real};
 use crate::quantity::{Frame, Quantity, Unit, scalar};
 
 /// What feedback commands.
@@ -54,6 +54,24 @@ pub(super) const COMMANDS: &[Quantity] = &[
         "relative change of the frequency of {s}",
         |r, s, _| Real(&mut r.commands[s].frequency),
     ),
+];
+
+/// How often feedback looked.
+pub(super) const LOOKS: &[Quantity] = &[
+    scalar(
+        "looks",
+        Unit::Count,
+        "looks of feedback so far",
+        |r, _, _| Count(&mut r.looks[0]),
+    )
+    .new_here(),
+    scalar(
+        "limited_looks",
+        Unit::Count,
+        "looks so far at which the command stood at a limit",
+        |r, _, _| Count(&mut r.looks[1]),
+    )
+    .new_here(),
 ];
 
 /// Where feedback is to bring the flyer.

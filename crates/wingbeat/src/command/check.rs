@@ -3,7 +3,7 @@
 use clap::Args;
 use serde_json::{Value, json};
 use wingbeat::analysis::estimate;
-use wingbeat::case::{IoError, LoadedCase};
+use wingbeat::case::{FittedTable, IoError, LoadedCase};
 use wingbeat::flight::{AirModel, FlightSetup, MotionMode, Simulation};
 use wingbeat::model::ElasticReport;
 use wingbeat::results::fixed::fixed;
@@ -40,7 +40,9 @@ pub(crate) fn check(args: &CheckArgs) -> Result<(), Failure> {
 fn look(args: &CheckArgs, report: &mut Report) -> Result<(), IoError> {
     let case = LoadedCase::find(&args.case, &args.set)?;
     let estimate = estimate(&case.setup);
-    let cost = trial_cost(&case, args.trial)?;
+    let warn = || estimate.doubts.iter().for_each(|d| tell!("warning: {d}"));
+    // A flight that fails on trial fails of a wrong unit more often than of its steps.
+    let cost = trial_cost(&case, args.trial).inspect_err(|_| warn())?;
     line!(report, "{}: this case can be flown.\n", case.origin());
     report.value("case", case.name.as_str());
     describe(report, &case.setup);
@@ -52,11 +54,35 @@ fn look(args: &CheckArgs, report: &mut Report) -> Result<(), IoError> {
     expectation::tell(report, &estimate);
     entry!(report, "cost", "{cost}");
     report.value("cost", cost);
-    for doubt in &estimate.doubts {
-        tell!("warning: {doubt}");
-    }
+    fits(report, &case);
+    warn();
     report.value("warnings", estimate.doubts);
     Ok(())
+}
+
+/// What is left between samples of angles and the series fitted to them.
+fn fits(report: &mut Report, case: &LoadedCase) {
+    let fits = case.fitted_tables();
+    for fit in &fits {
+        entry!(
+            report,
+            "fit",
+            "{}: {} harmonics leave {:.3} deg (rms) of {} samples",
+            fit.key,
+            fit.harmonics,
+            fit.residual_deg,
+            fit.samples
+        );
+    }
+    let value = |f: &FittedTable| {
+        json!({
+            "key": f.key,
+            "harmonics": f.harmonics,
+            "residual_deg": f.residual_deg,
+            "samples": f.samples,
+        })
+    };
+    report.value("fitted_tables", fits.iter().map(value).collect::<Vec<_>>());
 }
 
 /// How often feedback looks, and how late it acts.

@@ -9,9 +9,6 @@ use crate::summary::beats::BeatMeans;
 use crate::summary::numbers::Summary;
 use crate::summary::verdict::Warnings;
 
-/// No animal carries this many of its weights over a whole wingbeat.
-const IMPLAUSIBLE_LIFT: f64 = 10.0;
-
 /// Steps in a row in which the force of a wing turns back, from which on the integrator is not stable. Presets have 0 to 4;
 /// a body that is light in pitch, by `hamming`, all.
 const ALTERNATING: usize = 10;
@@ -48,14 +45,9 @@ fn left_out(setup: &FlightSetup, lattice: &AirSettings, list: &mut Warnings) {
     });
 }
 
-/// A motion that is impossible, or not one that the models of edges were made for.
+/// Wings inside of bodies, and motions that the models of edges were not made for.
 fn motion(setup: &FlightSetup, list: &mut Warnings) {
     const NO_MEANING: &str = "The forces of those instants have no meaning.";
-    for crossing in setup.crossing_wings() {
-        list.limit(format!(
-            "The prescribed motion is impossible: {crossing}. {NO_MEANING}"
-        ));
-    }
     for inside in setup.wings_inside_parts() {
         list.limit(format!(
             "A wing and a body cannot both be surfaces of the lattice in one place: {inside}. {NO_MEANING}"
@@ -88,15 +80,8 @@ fn inputs(setup: &FlightSetup, air: &AirOptions, list: &mut Warnings) {
     }
 }
 
-/// Loads that diverged, or alternate from step to step.
+/// Loads that alternate from step to step.
 fn failures(setup: &FlightSetup, summary: &Summary, list: &mut Warnings) {
-    let weights = |b: &BeatMeans| b.lift_over_weight.unwrap_or(0.0).abs();
-    if let Some(b) = summary.beats.iter().find(|b| weights(b) > IMPLAUSIBLE_LIFT) {
-        list.fault(format!(
-            "The air diverged: a mean lift of {:.0} weights in beat {} is not physical. Enlarge the wake core, take smaller steps, keep fewer wake rows, or do not shed from leading edges.",
-            weights(b), b.beat
-        ));
-    }
     if summary.alternating_steps >= ALTERNATING {
         let remedy = match setup.integrator {
             IntegratorChoice::Bdf => "take smaller steps, or larger ones",

@@ -1,0 +1,127 @@
+//! Noise in measured angles: samples that scatter about the motion, all of which a spline goes through.
+//!
+//! The rates of a smooth motion fall from octave to octave of its harmonics: by a half for a triangle wave, whose corners are the
+//! sharpest that a stroke has, faster for others. Noise has the same amplitude at all of them, so its rates grow eightfold. Where the
+//! highest octave that the samples resolve has clearly more than the one below, and is no small part of the whole, it is noise.
+
+use crate::motion::spline::PeriodicSpline;
+use std::f64::consts::TAU;
+
+/// Samples from which on octaves can be told apart.
+const SAMPLES: usize = 32;
+/// Harmonics that are looked at at most.
+const HARMONICS: usize = 256;
+/// Mean square rates of the highest octave over those of the one below from which on it is noise: triangle waves have 0.5, in 32 to 40 samples up to
+/// 1.1, noise 8, as it falls out 2 or more.
+const GROWTH: f64 = 1.5;
+/// The same over those of all below from which on it counts: rates of a tenth.
+const COUNTS: f64 = 0.01;
+/// Amplitude over that of the noise from which on a harmonic is motion.
+const MOTION: f64 = 5.0;
+
+/// How the samples of an angle scatter.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Scatter {
+    /// Standard deviation of a sample, about \[rad\].
+    pub deviation: f64,
+    /// Samples of a beat \[1\].
+    pub samples: usize,
+    /// Harmonics that stand out of the noise \[1\].
+    pub harmonics: usize,
+    /// Root mean square of the rates beyond these over that of theirs \[1\].
+    pub rates: f64,
+}
+
+impl PeriodicSpline {
+    /// How its samples scatter; none where they do not, or are too few to know.
+    pub fn scatter(&self) -> Option<Scatter> {
+        let samples = self.rows().count() - 1;
+        if samples < SAMPLES {
+            return None;
+        }
+        let amplitude = amplitudes(self, samples);
+        let highest = amplitude.len() - 1;
+        let rates = |from: usize, to: usize| -> f64 {
+            (from + 1..=to)
+                .map(|k| (k as f64 * amplitude[k]).powi(2))
+                .sum()
+        };
+        let [quarter, half] = [highest / 4, highest / 2];
+        let upper = rates(half, highest);
+        if upper < GROWTH * rates(quarter, half) || upper <= COUNTS * rates(0, half) {
+            return None;
+        }
+        let square: f64 = amplitude[half + 1..].iter().map(|a| a * a).sum();
+        let noise = (square / (highest - half) as f64).sqrt();
+        let stands_out = |k: &usize| amplitude[*k] > MOTION * noise;
+        let harmonics = (1..=half).rev().find(stands_out).unwrap_or(1);
+        Some(Scatter {
+            // Of all harmonics of noise, that many times half the mean square.
+            deviation: noise * (0.25 * samples as f64).sqrt(),
+            samples,
+            harmonics,
+            rates: (rates(harmonics, highest) / rates(0, harmonics)).sqrt(),
+        })
+    }
+}
+
+/// Amplitudes of the harmonics 0, 1, 2, ... up to half as many as there are samples \[rad\].
+fn amplitudes(spline: &PeriodicSpline, samples: usize) -> Vec<f64> {
+    let points = 4 * samples;
+    let at = |n: usize| spline.at(n as f64 / points as f64)[0];
+    let values: Vec<f64> = (0..points).map(at).collect();
+    let amplitude = |k: usize| {
+        let turn = |n: usize| (TAU * ((k * n) % points) as f64 / points as f64).sin_cos();
+        let add = |(a, b): (f64, f64), (n, q): (usize, &f64)| {
+            let (s, c) = turn(n);
+            (a + q * c, b + q * s)
+        };
+        let (a, b) = values.iter().enumerate().fold((0.0, 0.0), add);
+        2.0 * a.hypot(b) / points as f64
+    };
+    (0..=(samples / 2).min(HARMONICS)).map(amplitude).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use wingbeat_math::SplitMix64;
+
+    fn spline(samples: usize, q: impl FnMut(f64) -> f64) -> PeriodicSpline {
+        let phases = (0..samples).map(|k| k as f64 / samples as f64);
+        let mut values: Vec<f64> = phases.clone().map(q).collect();
+        values.push(values[0]);
+        let rows: Vec<_> = phases.chain([1.0]).zip(values).collect();
+        PeriodicSpline::new("q", &rows).expect("a table")
+    }
+
+    /// A degree of white noise on a stroke of 140 deg is found, and how much it is; the harmonics of the motion stand out.
+    #[test]
+    fn exact_noise_is_found_with_its_size() {
+        for samples in [64, 200] {
+            let mut random = SplitMix64::new(7);
+            let mut noise = || (random.unit() - 0.5) * 12f64.sqrt();
+            let stroke = |x: f64| 70.0 * (TAU * x).cos() + 6.0 * (3.0 * TAU * x).sin();
+            let table = spline(samples, |x| (stroke(x) + noise()).to_radians());
+            let found = table.scatter().expect("noise");
+            let deviation = found.deviation.to_degrees();
+            println!("{found:?} {deviation}");
+            assert!((deviation - 1.0).abs() < 0.5, "{deviation}"); // 0.66 to 0.94: of few harmonics, less what splines smooth
+            assert_eq!((found.samples, found.harmonics), (samples, 3));
+            assert!(found.rates > 0.1);
+        }
+    }
+
+    /// Corners, quick turns and steps of rounding are no noise.
+    #[test]
+    fn limit_sharp_but_sound_motions_do_not_scatter() {
+        for samples in [32, 40, 100, 200] {
+            let triangle = |x: f64| 70.0 - 280.0 * (x - 0.5).abs();
+            assert_eq!(spline(samples, triangle).scatter(), None);
+            let turns = |x: f64| 45.0 * (5.0 * (TAU * x).sin()).tanh();
+            assert_eq!(spline(samples, turns).scatter(), None);
+            let rounded = |x: f64| (700.0 * (TAU * x).cos()).round() / 10.0;
+            assert_eq!(spline(samples, rounded).scatter(), None);
+        }
+    }
+}

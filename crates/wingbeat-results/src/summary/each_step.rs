@@ -1,0 +1,140 @@
+//! What a summary needs to know of every step, whichever of them a thinned history holds: balances, passes of the corrector, forces
+//! that turn back, wings that pass through each other, departures under feedback.
+
+use serde::{Deserialize, Serialize};
+use wingbeat_flight::{FlightSetup, Record};
+use wingbeat_math::{DVec3, EulerSequence};
+use wingbeat_model::FlownCrossings;
+
+use super::alternation::Alternation;
+use super::held::Departures;
+
+/// Ends of the range of a number, and its largest magnitude.
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
+pub(super) struct Extent {
+    pub least: f64,
+    pub highest: f64,
+    pub most: f64,
+}
+
+impl Default for Extent {
+    fn default() -> Self {
+        Self {
+            least: f64::INFINITY,
+            highest: f64::NEG_INFINITY,
+            most: 0.0,
+        }
+    }
+}
+
+impl Extent {
+    pub fn take(&mut self, value: f64) {
+        self.least = self.least.min(value);
+        self.highest = self.highest.max(value);
+        self.most = self.most.max(value.abs());
+    }
+
+    /// From end to end; 0 of nothing.
+    pub fn range(&self) -> f64 {
+        (self.highest - self.least).max(0.0)
+    }
+}
+
+/// Gathered from all steps of a flight, one after the other.
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
+pub(crate) struct EachStep {
+    pub(super) steps: usize,
+    pub(super) kinetic_energy: Extent,
+    pub(super) potential_energy: Extent,
+    pub(super) hinge_work: Extent,
+    pub(super) air_work: Extent,
+    pub(super) deformation_work: Extent,
+    pub(super) applied_work: Extent,
+    pub(super) energy_residual: Extent,
+    pub(super) momentum: Extent,
+    pub(super) momentum_residual: Extent,
+    pub(super) violation_position: Extent,
+    pub(super) violation_orientation: Extent,
+    pub(super) euler_regularity: Extent,
+    pub(super) corrector_passes: Extent,
+    pub(super) net_flux_residual: Extent,
+    /// Sum over all steps.
+    pub(super) passes_sum: usize,
+    pub(super) alternation: Alternation,
+    /// Under feedback.
+    pub(super) departures: Option<Departures>,
+    /// Of wings whose motion is not known beforehand.
+    #[serde(skip)]
+    pub(super) crossings: Option<FlownCrossings>,
+    /// What these had counted when this was saved.
+    counts: Vec<usize>,
+}
+
+impl EachStep {
+    /// Of a flight of `setup`, before its start.
+    pub fn new(setup: &FlightSetup) -> Self {
+        Self {
+            crossings: setup.flown_crossings(),
+            departures: Departures::of(setup),
+            ..Self::default()
+        }
+    }
+
+    /// Everything that was gathered, as bytes.
+    pub fn saved(&self) -> Vec<u8> {
+        let counts = self.crossings.as_ref().map_or(vec![], |c| c.counts());
+        let whole = Self {
+            counts,
+            ..self.clone()
+        };
+        postcard::to_allocvec(&whole).expect("numbers are plain data")
+    }
+
+    /// Goes on from [`Self::saved`]; none from other bytes.
+    pub fn restored(setup: &FlightSetup, bytes: &[u8]) -> Option<Self> {
+        let mut s: Self = postcard::from_bytes(bytes).ok()?;
+        s.crossings = setup.flown_crossings();
+        if let Some(crossings) = &mut s.crossings {
+            crossings.count_on(&s.counts);
+        }
+        Some(s)
+    }
+
+    /// Takes the next step.
+    pub fn take(&mut self, r: &Record, setup: &FlightSetup) {
+        self.steps += 1;
+        self.motion(r, setup);
+        self.kinetic_energy.take(r.kinetic_energy);
+        self.potential_energy.take(r.potential_energy);
+        self.hinge_work.take(r.hinge_work);
+        self.air_work.take(r.air_work);
+        self.deformation_work.take(r.deformation_work);
+        self.applied_work.take(r.applied_work);
+        self.energy_residual.take(r.energy_residual);
+        self.momentum.take(r.momentum.length());
+        self.momentum_residual.take(r.momentum_residual.length());
+        self.violation_position.take(r.violation_position);
+        self.violation_orientation.take(r.violation_orientation);
+        self.euler_regularity.take(r.euler_regularity);
+        self.corrector_passes.take(r.corrector_passes as f64);
+        self.net_flux_residual.take(r.net_flux_residual);
+        self.passes_sum += r.corrector_passes;
+    }
+
+    /// Forces and places of the wings, and the way of the flyer.
+    fn motion(&mut self, r: &Record, setup: &FlightSetup) {
+        let wings = setup.animal.wings.len();
+        self.alternation.take(r, wings);
+        if let Some(departures) = &mut self.departures {
+            departures.take(r, setup);
+        }
+        if let Some(crossings) = &mut self.crossings {
+            let of_wings = r.coordinates.chunks_exact(6).skip(1).take(wings);
+            let pose = |q: &[f64]| {
+                let attitude = EulerSequence::WING_132.rotation(DVec3::from_slice(&q[3..]));
+                (DVec3::from_slice(q), attitude)
+            };
+            crossings.see(&of_wings.map(pose).collect::<Vec<_>>());
+        }
+    }
+}

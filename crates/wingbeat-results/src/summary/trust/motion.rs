@@ -1,0 +1,72 @@
+//! Motions that are impossible or implausible, whatever the air.
+
+use wingbeat_flight::{AirModel, FlightSetup};
+use wingbeat_model::Crossing;
+
+use crate::summary::beats::BeatMeans;
+use crate::summary::numbers::Summary;
+use crate::summary::verdict::Warnings;
+
+/// No animal carries this many of its weights over a whole wingbeat.
+const IMPLAUSIBLE_LIFT: f64 = 10.0;
+
+/// Wings that pass through each other, angles that scatter, and a lift that no animal has.
+pub(super) fn warnings(setup: &FlightSetup, summary: &Summary, list: &mut Warnings) {
+    for crossing in setup.crossing_wings() {
+        list.limit(format!(
+            "The prescribed motion is impossible: {crossing}. {}",
+            meaning(setup)
+        ));
+    }
+    for scatter in setup.scattered_angles() {
+        list.limit(format!("Angles that scatter: {scatter}."));
+    }
+    lift(setup, summary, list);
+}
+
+/// What becomes of forces while wings pass through each other.
+fn meaning(setup: &FlightSetup) -> &'static str {
+    match &setup.air {
+        AirModel::VortexLattice(_) => "The forces of those instants have no meaning.",
+        _ => "No animal beats so, and the air of this case does not feel it.",
+    }
+}
+
+/// Wings that passed through each other as they were flown, where their prescribed motion alone does not.
+pub(in crate::summary) fn flown_crossings(
+    setup: &FlightSetup,
+    found: &[Crossing],
+    list: &mut Warnings,
+) {
+    if !setup.crossing_wings().is_empty() {
+        return;
+    }
+    for crossing in found {
+        list.limit(format!(
+            "The motion that was flown is impossible: {}. {}",
+            setup.say_flown_crossing(crossing),
+            meaning(setup)
+        ));
+    }
+}
+
+/// A mean lift of a beat beyond all animals.
+fn lift(setup: &FlightSetup, summary: &Summary, list: &mut Warnings) {
+    let weights = |b: &BeatMeans| b.lift_over_weight.unwrap_or(0.0).abs();
+    let Some(b) = summary.beats.iter().find(|b| weights(b) > IMPLAUSIBLE_LIFT) else {
+        return;
+    };
+    let found = format!(
+        "a mean lift of {:.0} weights in beat {}",
+        weights(b),
+        b.beat
+    );
+    match &setup.air {
+        AirModel::VortexLattice(_) => list.fault(format!(
+            "The air diverged: {found} is not physical. Enlarge the wake core, take smaller steps, keep fewer wake rows, or do not shed from leading edges."
+        )),
+        _ => list.limit(format!(
+            "Implausible: {found} is more than any animal carries. Look at mass and lengths, wingbeat frequency and angles (`wingbeat check` helps), then at the steps."
+        )),
+    }
+}
