@@ -52,12 +52,12 @@ impl Summary {
         if let (Some(x), Some(y)) = (a.lift_over_weight, b.lift_over_weight) {
             rows.push(MeanDifference::between("lift over weight", x, y));
         }
-        let of: [(&'static str, fn(&ManyBeats) -> Estimate); 3] = [
-            ("lift [N]", |m| m.lift_newton),
-            ("forward force [N]", |m| m.thrust_newton),
-            ("power [W]", |m| m.power_watt),
-        ];
-        rows.extend(of.map(|(what, of)| MeanDifference::between(what, of(a), of(b))));
+        let mut row = |what, of: fn(&ManyBeats) -> Estimate| {
+            rows.push(MeanDifference::between(what, of(a), of(b)));
+        };
+        row("lift [N]", |m| m.lift_newton);
+        row("forward force [N]", |m| m.thrust_newton);
+        row("power [W]", |m| m.power_watt);
         rows
     }
 }
