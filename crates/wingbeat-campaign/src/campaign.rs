@@ -327,7 +327,7 @@ impl Campaign {
             "files",
             format!("no frames are there to be kept: {FRAMES_EVERY} is 0"),
             "frames of a case that writes them",
-            "write `\"output.frames_every\" = 10` in [set], for instance: every tenth step",
+            "in a lattice write `\"output.frames_every\" = 10` in [set], for instance: every tenth step; air without wakes has no frames",
         ))
     }
 

@@ -47,7 +47,11 @@ fn behaves_stiffer_hinges_feather_less() {
 fn behaves_gust_carries_off_downwind_while_it_blows() {
     gust::main().expect("a flight in a gust");
     let gap = gust::carried_off().expect("a flight in a gust");
-    assert_eq!(gap[..2], [wingbeat::math::DVec3::ZERO; 2], "calm before it");
+    // Of flights of 1e-4 m with and without a wind that is none yet: rounding.
+    assert!(
+        gap[..2].iter().all(|x| x.length() < 1e-18),
+        "calm before it: {gap:?}"
+    );
     assert!(gap[2].y > 0.0 && gap[3].y > gap[2].y, "{gap:?}");
 }
 

@@ -8,6 +8,7 @@ mod support;
 use support::{Scratch, flown};
 use wingbeat::case::LoadedCase;
 use wingbeat::case::presets::PRESETS;
+use wingbeat::flight::AirModel;
 use wingbeat::math::DVec3;
 use wingbeat::results::ResultDir;
 use wingbeat::results::frames::{self, Frame};
@@ -25,14 +26,15 @@ fn fly(dir: &Path, preset: &str) {
         Some(period) => format!("time.beats={}", STEPS as f64 * time.step / period),
         None => format!("time.steps={STEPS}"),
     };
+    let is_lattice = matches!(case.setup.air, AirModel::VortexLattice(_));
     let set = [
         length.as_str(),
         "output.page=true",
         "output.figures=true",
-        "output.frames_every=2",
         "output.keep_checkpoint=true",
     ];
-    let set = set.iter().flat_map(|s| ["--set", s]);
+    let frames = is_lattice.then_some("output.frames_every=2");
+    let set = set.into_iter().chain(frames).flat_map(|s| ["--set", s]);
     let args = ["run", preset, "--quiet", "--out", preset];
     flown(dir, &args.into_iter().chain(set).collect::<Vec<_>>());
 }

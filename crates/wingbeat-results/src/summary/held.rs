@@ -4,12 +4,12 @@ use serde::{Deserialize, Serialize};
 use wingbeat_flight::{FlightSetup, MotionMode, Record};
 use wingbeat_math::{DMat3, DQuat, DVec3};
 
-/// The largest and the last of a number.
+/// The largest and the last of a number, in the unit of that number.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Departure {
-    /// The largest.
+    /// The largest \[1\] or \[deg\].
     pub largest: f64,
-    /// The last.
+    /// The last \[1\] or \[deg\].
     pub last: f64,
 }
 

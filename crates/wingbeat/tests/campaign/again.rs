@@ -104,7 +104,7 @@ fn behaves_points_without_the_files_they_keep_are_flown_again() {
     let dir = &scratch.0;
     let text = |list: &str| {
         format!(
-            "case = \"case.toml\"\nkeep = [\"end.mass_centre_n3_m\"]\nfiles = [\"history\", \"page\", \"figures\", \"frames\", \"summary\"]\n[retention]\nevery = 2\n[parameter.\"motion.frequency_hz\"]\nlist = [{list}]\n"
+            "case = \"case.toml\"\nkeep = [\"end.mass_centre_n3_m\"]\nfiles = [\"history\", \"page\", \"figures\", \"summary\"]\n[retention]\nevery = 2\n[parameter.\"motion.frequency_hz\"]\nlist = [{list}]\n"
         )
     };
     let fly = |list: &str| {
@@ -131,7 +131,6 @@ fn behaves_points_without_the_files_they_keep_are_flown_again() {
         "summary.json",
         "manifest.json",
         "figures",
-        "frames",
     ] {
         for folder in &kept {
             let path = folder.join(name);

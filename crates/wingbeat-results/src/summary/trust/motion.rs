@@ -33,11 +33,7 @@ fn meaning(setup: &FlightSetup) -> &'static str {
 }
 
 /// Wings that passed through each other as they were flown, where their prescribed motion alone does not.
-pub(in crate::summary) fn flown_crossings(
-    setup: &FlightSetup,
-    found: &[Crossing],
-    list: &mut Warnings,
-) {
+pub(crate) fn flown_crossings(setup: &FlightSetup, found: &[Crossing], list: &mut Warnings) {
     if !setup.crossing_wings().is_empty() {
         return;
     }
