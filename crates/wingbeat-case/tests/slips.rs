@@ -222,7 +222,7 @@ fn behaves_signs_and_noise_of_measured_angles_are_doubted_on_tethers_too() {
         motion.map(|m| format!("wing.{side}.motion.{m}"))
     };
     let both = |left: [f64; 3], right: [f64; 3]| {
-        let air = ["air.mirror=false", "air.body=false"].map(str::to_owned);
+        let air = ["motion.data=", "air.mirror=false", "air.body=false"].map(str::to_owned);
         doubts(&[&air[..], &wing("left", left), &wing("right", right)].concat())
     };
     let right = [-70.0, 5.0, -45.0];
