@@ -70,10 +70,11 @@ fn amplitudes(spline: &PeriodicSpline, samples: usize) -> Vec<f64> {
     let points = 4 * samples;
     let at = |n: usize| spline.at(n as f64 / points as f64)[0];
     let values: Vec<f64> = (0..points).map(at).collect();
+    let turn = |n: usize| (TAU * n as f64 / points as f64).sin_cos();
+    let turns: Vec<_> = (0..points).map(turn).collect();
     let amplitude = |k: usize| {
-        let turn = |n: usize| (TAU * ((k * n) % points) as f64 / points as f64).sin_cos();
         let add = |(a, b): (f64, f64), (n, q): (usize, &f64)| {
-            let (s, c) = turn(n);
+            let (s, c) = turns[(k * n) % points];
             (a + q * c, b + q * s)
         };
         let (a, b) = values.iter().enumerate().fold((0.0, 0.0), add);

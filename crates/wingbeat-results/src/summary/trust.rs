@@ -154,8 +154,12 @@ fn deformation(setup: &FlightSetup, list: &mut Warnings) {
     }
 }
 
-/// Wing lengths from its place at which a flyer under feedback is lost, and degrees from its attitude.
-const LOST: [f64; 2] = [20.0, 90.0];
+/// Wing lengths from its place at which a flyer under feedback is lost.
+const LOST: f64 = 20.0;
+
+/// The same of one that is turned by more than these degrees from its attitude at the release: one that was released tumbling and came
+/// back to its place is turned from that, too.
+const TURNED: [f64; 2] = [90.0, 5.0];
 
 /// How far a flight under feedback was from what it is to hold.
 fn feedback(summary: &Summary, list: &mut Warnings) {
@@ -169,17 +173,18 @@ fn feedback(summary: &Summary, list: &mut Warnings) {
                 "{:.1} wing lengths from its place at most and {:.1} in the end, ",
                 d.largest, d.last
             ),
-            d.last,
+            Some(d.last),
         ),
-        None => (String::new(), 0.0),
+        None => (String::new(), None),
     };
     let limited = 100.0 * departures.limited;
     let text = format!(
         "commands stood at their limits at {limited:.0} % of the looks; at these it was {place}its attitude {:.0} deg from that of the release at most and {:.0} in the end.",
         turn.largest, turn.last
     );
-    let [far, over] = LOST;
-    match (turn.largest > over, away > far) {
+    let [over, near] = TURNED;
+    let turned = turn.last > over && away.is_none_or(|a| a > near);
+    match (turned, away.is_some_and(|a| a > LOST)) {
         (false, false) => list.note(format!("Feedback: {text}")),
         (true, _) => list.limit(format!("The flyer turned over under feedback: {text}")),
         (false, true) => list.limit(format!("The flyer is lost under feedback: {text}")),
