@@ -1,6 +1,6 @@
 //! Mechanical power of flapping: aerodynamic, inertial, and what the muscles pay.
 
-use wingbeat_dynamics::{Body, BodyMotion, ElementLaw, Joint, Mechanism};
+use wingbeat_dynamics::{Body, BodyMotion, Mechanism};
 use wingbeat_flight::{FlightSetup, LoadRecord, Past, Record, Simulation, system_of};
 use wingbeat_math::DVec3;
 
@@ -148,8 +148,12 @@ fn over_beat(limbs: &Limbs, flight: &mut Simulation, steps: usize) -> Result<Pow
         for (&wing, bent) in elastic.iter().zip(&record.elastic) {
             air[wing + 1] -= bent.air_power;
         }
-        let passive = passive_powers(mechanism, record);
-        let muscles: Vec<f64> = joints.iter().zip(&passive).map(|(a, b)| a - b).collect();
+        let passive = mechanism.passive(record.time, &record.joints);
+        let muscles: Vec<f64> = joints
+            .iter()
+            .zip(passive)
+            .map(|(a, b)| a - b.power)
+            .collect();
         let mut inertial = vec![0.0; mechanism.bodies().len()];
         for (joint, p) in mechanism.joints().iter().zip(&joints) {
             inertial[limbs[joint.child]] += p;
@@ -216,20 +220,6 @@ fn limbs(mechanism: &Mechanism) -> Vec<usize> {
 fn joint_powers(record: &Record) -> Vec<f64> {
     let loops = record.loops.iter().map(|l| l.power);
     record.hinge_powers().chain(loops).collect()
-}
-
-/// Power of springs, dampers and stops along the free directions of every joint [W].
-fn passive_powers(mechanism: &Mechanism, record: &Record) -> Vec<f64> {
-    let mut coordinates = record.joints.as_slice();
-    let of = |joint: &Joint| {
-        let n = joint.model.kind.directions().min(coordinates.len());
-        let (own, rest) = coordinates.split_at(n);
-        coordinates = rest;
-        let passive = |law: &ElementLaw| law.drive().is_none();
-        let efforts = joint.model.efforts(record.time, own, passive);
-        efforts.iter().zip(own).map(|(f, [_, u])| f * u).sum()
-    };
-    mechanism.joints().iter().map(of).collect()
 }
 
 /// Motions of all bodies.

@@ -355,10 +355,14 @@ fn balances_power_of_passive_hinges() {
     );
     let setup = held(setup, 60);
     let p = power(&setup).unwrap();
+    let period = setup.time.period.unwrap();
     let mut flight = Simulation::new(setup).unwrap();
-    let mut damped = 0.0;
+    let (mut damped, mut driven) = (0.0, 0.0);
     while !flight.finished() {
         let record = flight.step().unwrap();
+        if record.step == 5900 {
+            driven -= record.driving_work();
+        }
         if record.step > 5900 {
             damped += record
                 .joints
@@ -371,4 +375,9 @@ fn balances_power_of_passive_hinges() {
     let open = p.perfect_storage - p.aerodynamic - damped;
     println!("{p:?} damped {damped:.3e} W, balance open by {open:.1e} W");
     assert!(open.abs() < 1e-3 * damped, "{open:.1e} of {damped:.1e} W");
+    // What a flight counts of its actuators, springs and dampers left out.
+    driven = (driven + flight.record().driving_work()) / period;
+    let apart = driven / p.perfect_storage - 1.0;
+    println!("work of the actuators differs by {apart:.1e}");
+    assert!(apart.abs() < 1e-4, "{driven:e} W, {apart:.1e}");
 }

@@ -149,7 +149,7 @@ const BEATS: [Entry<BeatMeans>; 6] = [
     (
         "power_watt",
         "W",
-        "mean power of the joints and of prescribed deformation; at free hinges it counts springs, dampers and stops too",
+        "mean power of actuators and of prescribed deformation",
         |b| b.power_watt,
     ),
     (

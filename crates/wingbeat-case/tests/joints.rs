@@ -81,6 +81,33 @@ fn balances_energy_of_every_preset_alone() {
     }
 }
 
+/// The abdomen hangs on a spring that nothing drives: the law of the spring against Newton's and Euler's equations of all bodies behind
+/// the hinge.
+#[test]
+fn agrees_power_of_springs_with_that_of_the_reactions_at_their_hinge() {
+    let records = fly(
+        "fruit-fly-abdomen-spring",
+        &["air.model=none", "time.beats=2"],
+    );
+    let most = |f: &dyn Fn(&Record) -> f64| records.iter().map(f).fold(0.0, f64::max);
+    let at_hinge = |r: &Record| r.hinges[2..].iter().map(|h| h.power).sum::<f64>(); // the neck is welded
+    let scale = most(&|r| at_hinge(r).abs());
+    let apart = most(&|r| (at_hinge(r) - r.passive_power).abs()) / scale;
+    println!("power of {scale:.2e} W, apart by {apart:.1e}");
+    assert!(scale > 0.0 && apart < 1e-9, "{scale:.1e} W, {apart:.1e}");
+    // Its work: by differences of what is stored against the trapezoidal rule over 40 steps a beat.
+    let trapezoid =
+        |w: &[Record]| 0.5 * (w[1].time - w[0].time) * (at_hinge(&w[0]) + at_hinge(&w[1]));
+    let by_power: f64 = records.windows(2).map(trapezoid).sum();
+    let apart = (records.last().unwrap().passive_work - by_power).abs();
+    let turned_over = most(&|r| r.passive_work.abs());
+    println!("work of {turned_over:.2e} J, apart by {apart:.1e}");
+    assert!(
+        apart < 1e-2 * turned_over,
+        "{turned_over:.1e} J, {apart:.1e}"
+    );
+}
+
 /// A tail on a slider: a spring of the joint, and a spring between points on the line of the slider.
 #[test]
 fn agrees_spring_between_points_with_the_spring_of_a_slider() {

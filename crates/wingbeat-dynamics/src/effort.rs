@@ -15,9 +15,60 @@
 use wingbeat_math::DVec3;
 use wingbeat_math::rotation_jacobian::{Curve, inverse_right_jacobian};
 
-use crate::{ElementLaw, JointModel, JointType};
+use crate::{ElementLaw, Joint, JointModel, JointType, Mechanism};
+
+/// What springs, dampers and stops along the free directions of a joint do.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Passive {
+    /// Power that they give \[W\].
+    pub power: f64,
+    /// Energy stored in springs and stops \[J\].
+    pub stored: f64,
+    /// Power that dampers and stops take up \[W\].
+    pub dissipation: f64,
+}
+
+impl Mechanism {
+    /// What springs, dampers and stops of each joint do at time `t` \[s\], in the order of the joints; `coordinates` are
+    /// those of [`Self::coordinates`], with their rates.
+    pub fn passive<'a>(
+        &'a self,
+        t: f64,
+        coordinates: &'a [[f64; 2]],
+    ) -> impl Iterator<Item = Passive> + 'a {
+        let mut rest = coordinates;
+        self.joints().iter().map(move |joint: &Joint| {
+            let n = joint.model.kind.directions().min(rest.len());
+            let (own, others) = rest.split_at(n);
+            rest = others;
+            joint.model.passive(t, own)
+        })
+    }
+}
 
 impl JointModel {
+    /// What its springs, dampers and stops do: arguments as for [`Self::efforts`].
+    fn passive(&self, t: f64, motion: &[[f64; 2]]) -> Passive {
+        if self.elements.is_empty() {
+            return Passive::default();
+        }
+        let mut still = [[0.0; 2]; 3];
+        let places = still.iter_mut().zip(motion);
+        places.for_each(|([place, _], [q, _])| *place = *q);
+        let power = |efforts: [f64; 3]| -> f64 {
+            efforts.iter().zip(motion).map(|(f, [_, u])| f * u).sum()
+        };
+        let given = power(self.efforts(t, motion, |law| law.drive().is_none()));
+        // At rest springs and stops exert what they store and give back.
+        let given_back = power(self.efforts(t, &still[..motion.len()], ElementLaw::stores));
+        let elements = self.elements.iter();
+        Passive {
+            power: given,
+            stored: elements.map(|e| e.law.stored(motion[e.direction][0])).sum(),
+            dissipation: given_back - given,
+        }
+    }
+
     /// Efforts \[N m or N\] at time `t` \[s\] of the elements that `acts` chooses, for coordinates and rates
     /// `[q, u]` along the free directions, as [`crate::Mechanism::coordinates`] gives them.
     pub fn efforts(

@@ -153,6 +153,11 @@ impl ElementLaw {
         }
     }
 
+    /// Whether it stores energy: springs and stops.
+    pub(crate) fn stores(&self) -> bool {
+        matches!(self, Self::Spring { .. } | Self::Stop { .. })
+    }
+
     /// The function of time that drives an actuator, whose power comes from outside; none: passive.
     pub fn drive(&self) -> Option<&DriftingFourier> {
         match self {

@@ -84,6 +84,7 @@ pub use budget::{budget, load_power, mass_centre, relative_energy};
 pub use configuration::{Composite, CompositeRates, Configuration, ConfigurationTable};
 pub use cycle::Cycle;
 pub use driven::driven;
+pub use effort::Passive;
 pub use error::DynamicsError;
 pub use euler_form::EulerForm;
 pub use formulation::{Formulation, add_by_response};

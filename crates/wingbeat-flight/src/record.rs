@@ -1,6 +1,7 @@
 //! What one accepted step leaves behind: every quantity a reader may ask for, SI and radians.
 
 use wingbeat_air::ImpulseAccount;
+use wingbeat_dynamics::{Mechanism, Passive};
 use wingbeat_math::DVec3;
 use wingbeat_model::motion::Adjustment;
 
@@ -56,8 +57,12 @@ pub struct Record {
     pub kinetic_energy: f64,
     /// Potential energy of weight, zero at the inertial origin, and elastic energy of wings [J].
     pub potential_energy: f64,
-    /// Work done so far by the hinge actuators [J].
+    /// Work done so far at all joints [J]: of actuators, springs, dampers and stops.
     pub hinge_work: f64,
+    /// Power of springs, dampers and stops along the free directions of joints [W].
+    pub passive_power: f64,
+    /// Their work so far [J].
+    pub passive_work: f64,
     /// Work done so far by the air on the bodies [J], on their deformation too.
     pub air_work: f64,
     /// Work done so far by what deforms the wings against the air [J].
@@ -159,7 +164,7 @@ impl Record {
         -self.air_force().dot(down)
     }
 
-    /// Power that drives each hinge [W]: its actuators and, for wings, what deforms them against
+    /// Power at each hinge [W]: of its actuators, springs, dampers and stops and, for wings, of what deforms them against
     /// the air. Wings first, then segments.
     pub fn hinge_powers(&self) -> impl Iterator<Item = f64> {
         let deforming = self.deformation_power.iter().copied();
@@ -167,16 +172,28 @@ impl Record {
         self.hinges.iter().zip(deforming).map(|(h, d)| h.power + d)
     }
 
+    /// Puts in what springs, dampers and stops of all joints do, by their coordinates; `work` is what they did up to the record before.
+    pub fn count_passive(&mut self, mechanism: &Mechanism, work: &mut PassiveWork) {
+        let mut sum = Passive::default();
+        for joint in mechanism.passive(self.time, &self.joints) {
+            sum.power += joint.power;
+            sum.stored += joint.stored;
+            sum.dissipation += joint.dissipation;
+        }
+        self.passive_power = sum.power;
+        self.passive_work = work.count(self.time, &sum);
+    }
+
     /// Power of all actuators and of all prescribed deformation [W].
-    pub fn hinge_power(&self) -> f64 {
+    pub fn driving_power(&self) -> f64 {
         let loops: f64 = self.loops.iter().map(|l| l.power).sum();
-        self.hinge_powers().sum::<f64>() + loops
+        self.hinge_powers().sum::<f64>() + loops - self.passive_power
     }
 
     /// Work of all actuators and of all prescribed deformation since the start [J], the integral
-    /// of [`Self::hinge_power`].
-    pub fn power_work(&self) -> f64 {
-        self.hinge_work + self.deformation_work
+    /// of [`Self::driving_power`].
+    pub fn driving_work(&self) -> f64 {
+        self.hinge_work + self.deformation_work - self.passive_work
     }
 }
 
@@ -195,6 +212,27 @@ impl AirImpulse {
     pub fn count(&mut self, time: f64, force: DVec3) -> DVec3 {
         self.sum += 0.5 * (time - self.time) * (self.force + force);
         (self.time, self.force) = (time, force);
+        self.sum
+    }
+}
+
+/// The work of springs, dampers and stops, counted step by step: what is stored by its difference, what is dissipated by the
+/// trapezoidal rule.
+#[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
+pub struct PassiveWork {
+    /// Time \[s\], energy stored \[J\], power dissipated \[W\].
+    last: Option<[f64; 3]>,
+    sum: f64,
+}
+
+impl PassiveWork {
+    /// Counts on to `time` [s], where all joints together do `now`; returns the work up to there [J]. The first call sets the start.
+    fn count(&mut self, time: f64, now: &Passive) -> f64 {
+        if let Some([before, stored, dissipation]) = self.last {
+            let dissipated = 0.5 * (time - before) * (dissipation + now.dissipation);
+            self.sum += stored - now.stored - dissipated;
+        }
+        self.last = Some([time, now.stored, now.dissipation]);
         self.sum
     }
 }
@@ -248,7 +286,7 @@ pub struct HingeRecord {
     pub force: DVec3,
     /// Moment on the wing about the hinge, wing components [N m].
     pub moment: DVec3,
-    /// Power of the actuators at this hinge, positive when it feeds the wing [W].
+    /// Power at this hinge, positive when it feeds the wing [W]: of actuators, springs, dampers and stops.
     pub power: f64,
 }
 

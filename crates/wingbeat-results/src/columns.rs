@@ -314,20 +314,15 @@ impl Subjects {
                 |k| Subject::new(format!("{}", k + 1), &format!("{}", k + 1), Kind::Flight, k);
             range.map(one).collect()
         };
+        let flight = |times| vec![Subject::new(String::new(), "", Kind::Flight, 0); times];
         let half = 3 * (shape.bodies - 1);
         match of {
-            Of::Flight => vec![Subject::new(String::new(), "", Kind::Flight, 0)],
-            Of::Steered => (0..shape.commanded.min(1))
-                .map(|_| Subject::new(String::new(), "", Kind::Flight, 0))
-                .collect(),
-            Of::Following => (0..shape.following)
-                .map(|_| Subject::new(String::new(), "", Kind::Flight, 0))
-                .collect(),
+            Of::Flight => flight(1),
+            Of::Steered => flight(shape.commanded.min(1)),
+            Of::Following => flight(shape.following),
             Of::Elastic => self.elastic.clone(),
-            Of::Bending => match self.elastic.is_empty() {
-                true => vec![],
-                false => vec![Subject::new(String::new(), "", Kind::Flight, 0)],
-            },
+            Of::Bending => flight(shape.elastic.min(1)),
+            Of::Jointed => flight(shape.joints.min(1)),
             Of::Bodies => self.bodies.clone(),
             Of::Wings => self.wings(shape.wings),
             Of::Deforming => self.wings(shape.deforming),

@@ -275,6 +275,8 @@ pub(crate) enum Of {
     Orientations,
     /// Coordinates along the free directions of joints.
     Coordinates,
+    /// The whole flight, where joints have free directions.
+    Jointed,
     /// Joints that close loops.
     Loops,
 }

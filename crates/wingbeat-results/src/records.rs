@@ -2,8 +2,9 @@
 
 use std::path::Path;
 
-use wingbeat_flight::record::AirImpulse;
-use wingbeat_flight::{AirModel, FlightSetup, Record};
+use wingbeat_dynamics::Mechanism;
+use wingbeat_flight::record::{AirImpulse, PassiveWork};
+use wingbeat_flight::{AirModel, FlightSetup, Record, system_of};
 use wingbeat_math::DVec3;
 
 use crate::columns::{Column, Columns};
@@ -19,14 +20,16 @@ pub struct Records {
     record: Record,
     /// Counted again where an older result lacks it.
     air_impulse: Option<AirImpulse>,
+    /// Counted again where an older result lacks it.
+    passive: Option<(Mechanism, PassiveWork)>,
     /// Where an older result of a lattice does not tell the inviscid force from the whole one.
     takes_whole_for_inviscid: bool,
 }
 
 impl Records {
     /// Opens the history of a flight. Numbers that results of older versions lack are not numbers
-    /// (NaN), but the impulse of the air, which is counted from the rows, and that of its inviscid force, which is taken
-    /// for the same.
+    /// (NaN), but the impulse of the air and the work of springs, dampers and stops, which are counted from the rows, and the impulse
+    /// of the inviscid force, which is taken for that of the whole.
     ///
     /// # Errors
     /// A file that cannot be read or is not a history; a column that is missing or belongs to
@@ -65,6 +68,9 @@ impl Records {
         if lacks_inviscid {
             record.inviscid_impulse = DVec3::ZERO; // as without a lattice
         }
+        let lacks_passive = record.passive_work.is_nan();
+        let system = lacks_passive.then(|| system_of(setup)).transpose();
+        let system = system.map_err(|e| damaged(format!("the joints do not fit together: {e}")))?;
         let is_lattice = matches!(setup.air, AirModel::VortexLattice(_));
         Ok(Self {
             rows,
@@ -72,6 +78,7 @@ impl Records {
             places,
             record,
             air_impulse: counts.then(AirImpulse::default),
+            passive: system.map(|s| (Mechanism::of(&s), PassiveWork::default())),
             takes_whole_for_inviscid: lacks_inviscid && is_lattice,
         })
     }
@@ -91,6 +98,9 @@ impl Records {
         }
         if let Some(impulse) = &mut self.air_impulse {
             self.record.air_impulse = impulse.count(self.record.time, self.record.air_force());
+        }
+        if let Some((mechanism, work)) = &mut self.passive {
+            self.record.count_passive(mechanism, work);
         }
         if self.takes_whole_for_inviscid {
             self.record.inviscid_impulse = self.record.air_impulse;

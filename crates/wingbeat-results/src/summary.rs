@@ -215,14 +215,17 @@ pub fn driving_power(history: &super::History) -> Vec<f64> {
             .iter()
             .any(|s| n.starts_with(s))
     };
-    history.sum(|n| gives(n) && n.ends_with("_power_watt"))
+    let mut power = history.sum(|n| gives(n) && n.ends_with("_power_watt"));
+    let passive = history.sum(|n| n == "passive_power_watt");
+    (power.iter_mut().zip(passive)).for_each(|(all, passive)| *all -= passive);
+    power
 }
 
 /// What [`driving_power`] is the power of, in words.
 pub fn driving_power_name(history: &super::History) -> &'static str {
     let deforms = |n: &String| n.starts_with("deformation_") && n.ends_with("_power_watt");
     match history.names().iter().any(deforms) {
-        true => "power of hinges and deformation",
-        false => "power of the hinges",
+        true => "power of actuators and deformation",
+        false => "power of the actuators",
     }
 }

@@ -9,7 +9,7 @@ use self::balances::{ENERGIES, MOMENTA, QUALITY, WAKE};
 use self::feedback::{COMMANDS, LOOKS, REFERENCE};
 use self::loads::{
     AIR, APPLIED, CONNECTIONS, COORDINATES, DEFORMATION, DISSIPATION, ELASTIC, HINGES, LOOPS,
-    ORIENTATIONS, TETHER,
+    ORIENTATIONS, PASSIVE, TETHER,
 };
 use self::motion::{ACCELERATIONS, POSES, PRESCRIBED, RATES, ROOT, TIME};
 use crate::quantity::{Group, Of, Quantity};
@@ -31,6 +31,7 @@ pub(crate) const GROUPS: &[Group] = &[
     group(Of::Children, HINGES),
     group(Of::Loops, LOOPS),
     group(Of::Coordinates, COORDINATES),
+    group(Of::Jointed, PASSIVE),
     group(Of::Deforming, DEFORMATION),
     group(Of::Elastic, ELASTIC),
     group(Of::Bending, DISSIPATION),

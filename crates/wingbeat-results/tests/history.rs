@@ -110,6 +110,8 @@ fn numbers(record: &Record) -> usize {
         wake_particles: _,
         regularised: _,
         net_flux_residual: _,
+        passive_power: _,
+        passive_work: _,
     } = record;
     let lists = coordinates.len() + rates.len() + multipliers.len() + deformation_power.len();
     // Tip (3), twist, four sections (3), elastic energy and its power, that of the air, passes of each; what all have dissipated.
@@ -117,7 +119,8 @@ fn numbers(record: &Record) -> usize {
     let steered = looks.len() * commands.len().min(1);
     let feedback = 8 * commands.len() + steered + 8 * reference.len();
     let vectors = 3 * wing_angles.len() + feedback + 6 * accelerations.len();
-    let reactions = 7 * (hinges.len() + loops.len()) + 2 * joints.len();
+    let passive = 2 * joints.len().min(1); // power and work of springs, dampers and stops
+    let reactions = 7 * (hinges.len() + loops.len()) + 2 * joints.len() + passive;
     let loads = 6 * (air.len() + applied.len() + 1);
     let (scalars, own_vectors) = (18, 15);
     lists

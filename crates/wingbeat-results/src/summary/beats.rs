@@ -42,7 +42,7 @@ impl BeatMeans {
             lift_newton,
             lift_over_weight: over_weight(setup, lift_newton),
             thrust_newton: force.x,
-            power_watt: (to.power_work() - from.power_work()) / period,
+            power_watt: (to.driving_work() - from.driving_work()) / period,
             inviscid_lift_newton: -mean(to.inviscid_impulse - from.inviscid_impulse)
                 .dot(down(setup)),
             lift_by_impulse_newton: mean(to.vortex_impulse - from.vortex_impulse).dot(down(setup)),

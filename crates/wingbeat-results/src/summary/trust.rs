@@ -32,7 +32,6 @@ pub(super) fn warnings(setup: &FlightSetup, summary: &Summary) -> Warnings {
     air(setup, summary, &mut list);
     deformation(setup, &mut list);
     balances(setup, summary, &mut list);
-    powers(setup, &mut list);
     feedback(summary, &mut list);
     euler_angles(setup, summary, &mut list);
     steps(setup, summary, &mut list);
@@ -188,14 +187,6 @@ fn feedback(summary: &Summary, list: &mut Warnings) {
         (false, false) => list.note(format!("Feedback: {text}")),
         (true, _) => list.limit(format!("The flyer turned over under feedback: {text}")),
         (false, true) => list.limit(format!("The flyer is lost under feedback: {text}")),
-    }
-}
-
-/// What powers of hinges count beside actuators.
-fn powers(setup: &FlightSetup, list: &mut Warnings) {
-    let mut free = (setup.joints.iter()).filter(|j| j.model.kind.directions() > 0);
-    if free.any(|j| !j.model.elements.is_empty()) {
-        list.note("Powers at free hinges are those of their actuators, springs, dampers and stops together: what dampers and stops take up is missing in the mean. `wingbeat power` has that of the actuators.");
     }
 }
 

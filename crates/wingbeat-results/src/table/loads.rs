@@ -69,6 +69,23 @@ pub(super) const LOOPS: &[Quantity] = &[
     .new_here(),
 ];
 
+pub(super) const PASSIVE: &[Quantity] = &[
+    scalar(
+        "passive_power",
+        Unit::Watt,
+        "power of springs, dampers and stops at all joints; what is left of the powers at hinges is that of actuators",
+        |r, _, _| Real(&mut r.passive_power),
+    )
+    .new_here(),
+    scalar(
+        "passive_work",
+        Unit::Joule,
+        "work of springs, dampers and stops at all joints so far",
+        |r, _, _| Real(&mut r.passive_work),
+    )
+    .new_here(),
+];
+
 pub(super) const COORDINATES: &[Quantity] = &[
     scalar("joint_{s}", Unit::Coordinate, "{s}", |r, s, _| {
         Real(&mut r.joints[s][0])

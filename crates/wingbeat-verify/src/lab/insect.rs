@@ -206,7 +206,7 @@ impl Flown {
             .push(record.air[1..].iter().map(|a| a.force).sum());
         self.inviscid_impulse.push(record.inviscid_impulse);
         self.vortex_impulse.push(record.vortex_impulse);
-        self.power.push(record.hinge_power());
+        self.power.push(record.driving_power());
     }
 }
 

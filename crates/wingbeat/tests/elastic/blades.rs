@@ -207,11 +207,11 @@ fn agrees_a_trimmed_orbit_of_body_and_wings_with_flights_that_go_on_from_it() {
     // What the muscles pay: work of the hinges in the beat, by another sum.
     let power = power_with_wake(&trim).unwrap();
     let mut flight = Simulation::bent(trim.setup.clone(), &trim.past.wings).unwrap();
-    let before = flight.record().power_work();
+    let before = flight.record().driving_work();
     while !flight.finished() {
         flight.step().unwrap();
     }
-    let mean = (flight.record().power_work() - before) / setup.time.period.unwrap();
+    let mean = (flight.record().driving_work() - before) / setup.time.period.unwrap();
     assert!(
         (power.perfect_storage / mean - 1.0).abs() < 1e-2,
         "{power:?} {mean}"

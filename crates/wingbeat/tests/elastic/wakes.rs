@@ -143,7 +143,7 @@ fn agrees_orbit_and_modes_of_a_fly_with_wakes_with_flights_about_it() {
     assert!(change(1) < 1e-7, "{:e}", change(1));
     assert!(change(2) < 2e-3, "{:e}", change(2));
     let power = power_with_wake(&trim).unwrap();
-    let work = still[1].power_work() - still[0].power_work();
+    let work = still[1].driving_work() - still[0].driving_work();
     assert!((power.perfect_storage * period / work - 1.0).abs() < 1e-2);
     // Small departures in speed, flight by flight, and the linear system that they show.
     let by = 1e-3 * speed * DVec3::X;
