@@ -81,7 +81,8 @@ pub struct AirCase {
     pub wake_overlap: Open<f64>,
     /// Length from which a wake filament turns into a vortex blob, wholly at 1.25 times this
     /// length; left out: never. Blobs are summed on a mesh: the cost of long flights then grows
-    /// with the wake and not with its square. Needs `wake_overlap` of 0.5 or more.
+    /// with the wake and not with its square. Needs `wake_overlap` of 0.5 or more, and as
+    /// `wake_core` `lamb_oseen`, `vatistas` or `scully`: algebraic cores, as `fruit-fly-hover` has them, refuse it.
     ///
     /// Change it for flights of more than ten beats: two mean chords.
     #[schemars(extend("exclusiveMinimum" = 0, "with" = LATTICE))]
@@ -89,7 +90,7 @@ pub struct AirCase {
     pub wake_blob_length_m: Option<f64>,
     /// The length of `wake_blob_length_m` in mean chords of all wings.
     ///
-    /// Change it for flights of more than ten beats: 2 is a good length.
+    /// Change it for flights of more than ten beats: 2 is a good length. Refused by algebraic cores.
     #[schemars(extend("exclusiveMinimum" = 0, "with" = LATTICE, "or" = "wake_blob_length_m"))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub wake_blob_length_chords: Option<f64>,

@@ -25,9 +25,10 @@ pub struct FlightCase {
     ///
     /// Change it to the body angle of the flight.
     pub pitch_deg: f64,
-    /// Yaw, nose right of an upright body: the second angle theta of 2-3-1.
+    /// Yaw, about b3 of the pitched body: the second angle theta of 2-3-1. Nose right of a body without pitch; a pitched one tilts, too.
     ///
-    /// Change it for sideslip.
+    /// Change it for sideslip; of a body pitched by q turn the velocity or the stream instead, or head h to the right by pitch_deg =
+    /// atan(tan q / cos h), yaw_deg = asin(cos q sin h), roll_deg = -atan(sin q tan h).
     pub yaw_deg: f64,
     /// Roll, right wing down: the third angle psi of 2-3-1.
     ///

@@ -14,7 +14,7 @@ use crate::command::report::{Report, line};
 pub(crate) struct PowerArgs {
     #[command(flatten)]
     trimming: Trimming,
-    /// Flight muscle as a part of the body mass.
+    /// Flight muscle as a part of the mass of the whole animal.
     #[arg(long, value_name = "SHARE", default_value_t = 0.3, value_parser = options::share)]
     muscle: f64,
 }
