@@ -17,6 +17,29 @@ pub struct FittedTable {
     pub samples: usize,
     /// Root mean square of what is left between samples and series \[deg\].
     pub residual_deg: f64,
+    /// Most that is left of a sample \[deg\], and its phase \[wingbeats\].
+    pub farthest: [f64; 2],
+}
+
+/// More than this is no noise of measured angles [deg]: video has 1 to 2.
+const NOISE_DEG: f64 = 3.0;
+
+/// A sample farther off than so many times the root mean square is none of the others' kind; of two hundred with normal noise the
+/// farthest is at 3.
+const OUTLIER: f64 = 5.0;
+
+impl FittedTable {
+    /// Why samples or number of harmonics are to be doubted; none if the series follows the samples.
+    pub fn doubt(&self) -> Option<String> {
+        let ([most, phase], rms) = (self.farthest, self.residual_deg);
+        let is_outlier = most > OUTLIER * rms && most > NOISE_DEG;
+        (rms > NOISE_DEG || is_outlier).then(|| {
+            format!(
+                "{}: {} harmonics leave {rms:.1} deg (rms) and {most:.1} deg of the sample at phase {phase}: take out samples that are no measurements (lost frames), or fit more harmonics",
+                self.key, self.harmonics
+            )
+        })
+    }
 }
 
 impl LoadedCase {
@@ -40,12 +63,15 @@ fn of_wing(name: &str, motion: &WingMotionCase) -> Vec<FittedTable> {
         };
         let (rows, harmonics) = (table.rows_deg.as_ref()?, table.harmonics?);
         let (_, left) = Fourier::fitted("", &radians(rows), harmonics).ok()?;
-        let span = rows.last()?[0] - rows.first()?[0];
+        let square = left.iter().map(|x| x * x).sum::<f64>() / left.len() as f64;
+        let sizes = left.iter().map(|x| x.abs().to_degrees());
+        let farthest = sizes.enumerate().max_by(|a, b| a.1.total_cmp(&b.1))?;
         Some(FittedTable {
             key: format!("wing.{name}.motion.{angle}.table"),
             harmonics,
-            samples: rows.len() - usize::from(span > 1.0 - 1e-9),
-            residual_deg: left.to_degrees(),
+            samples: left.len(),
+            residual_deg: square.sqrt().to_degrees(),
+            farthest: [farthest.1, rows[farthest.0][0]],
         })
     };
     angles.into_iter().filter_map(fitted).collect()

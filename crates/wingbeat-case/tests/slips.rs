@@ -274,6 +274,21 @@ fn behaves_tables_of_angles_can_be_fitted() {
         "{}",
         fit.residual_deg
     );
+    let doubt = fit.doubt().expect("a doubt");
+    assert!(
+        doubt
+            .contains("3 harmonics leave 25.0 deg (rms) and 347.4 deg of the sample at phase 0.15"),
+        "{doubt}"
+    );
+    // Scatter of a degree is what measured angles have.
+    let noisy = |k: usize| {
+        let sign = [1.0, -1.0, -1.0][k % 3];
+        format!("[{}, {}]", k as f64 / 200.0, stroke(k) + sign)
+    };
+    let rows = (0..200).map(noisy).collect::<Vec<_>>().join(", ");
+    let noisy = format!("wing.right.motion.phi={{table={{rows_deg=[{rows}], harmonics=3}}}}");
+    let noisy = LoadedCase::find("fruit-fly-tethered", &[noisy]).unwrap();
+    assert_eq!(noisy.fitted_tables()[0].doubt(), None);
     let flown = LoadedCase::from_text(
         "again.toml",
         &case.resolved(),

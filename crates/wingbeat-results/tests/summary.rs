@@ -302,7 +302,7 @@ fn behaves_summaries_tell_of_wings_inside_parts_of_the_body() {
 fn behaves_the_verdict_follows_the_balances() {
     for (steps, verdict, reason) in [
         (6, Verdict::Red, "The energy balance does not close"),
-        (50, Verdict::Amber, "The energy balance does not close"),
+        (24, Verdict::Amber, "The energy balance does not close"),
         (400, Verdict::Green, "its balances close"),
     ] {
         let name = ["bumblebee-blade", "hawkmoth-blade"][usize::from(steps == 6)];

@@ -39,7 +39,11 @@ pub(crate) fn check(args: &CheckArgs) -> Result<(), Failure> {
 
 fn look(args: &CheckArgs, report: &mut Report) -> Result<(), IoError> {
     let case = LoadedCase::find(&args.case, &args.set)?;
-    let estimate = estimate(&case.setup);
+    let mut estimate = estimate(&case.setup);
+    let fits = case.fitted_tables();
+    estimate
+        .doubts
+        .extend(fits.iter().filter_map(FittedTable::doubt));
     let warn = || estimate.doubts.iter().for_each(|d| tell!("warning: {d}"));
     // A flight that fails on trial fails of a wrong unit more often than of its steps.
     let cost = trial_cost(&case, args.trial).inspect_err(|_| warn())?;
@@ -54,16 +58,15 @@ fn look(args: &CheckArgs, report: &mut Report) -> Result<(), IoError> {
     expectation::tell(report, &estimate);
     entry!(report, "cost", "{cost}");
     report.value("cost", cost);
-    fits(report, &case);
+    tell_fits(report, &fits);
     warn();
     report.value("warnings", estimate.doubts);
     Ok(())
 }
 
 /// What is left between samples of angles and the series fitted to them.
-fn fits(report: &mut Report, case: &LoadedCase) {
-    let fits = case.fitted_tables();
-    for fit in &fits {
+fn tell_fits(report: &mut Report, fits: &[FittedTable]) {
+    for fit in fits {
         entry!(
             report,
             "fit",

@@ -75,7 +75,10 @@ fn motion(w: &WingEstimate) -> String {
     parts.extend(w.reynolds.map(|re| format!("Reynolds number {re:.0}")));
     let frequency = |k| format!("reduced frequency {k:.3}");
     parts.extend(w.reduced_frequency.map(frequency));
-    parts.join(", ")
+    match parts.is_empty() {
+        true => "at rest on the body".to_owned(),
+        false => parts.join(", "),
+    }
 }
 
 /// Mean lift at the start, or why it is not known.

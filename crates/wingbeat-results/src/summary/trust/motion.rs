@@ -10,10 +10,13 @@ use crate::summary::verdict::Warnings;
 /// No animal carries this many of its weights over a whole wingbeat.
 const IMPLAUSIBLE_LIFT: f64 = 10.0;
 
+/// Mean lift over weight below which wings push the body down.
+const PUSHES_DOWN: f64 = -0.1;
+
 /// Wings that pass through each other, angles that scatter, and a lift that no animal has.
 pub(super) fn warnings(setup: &FlightSetup, summary: &Summary, list: &mut Warnings) {
     for crossing in setup.crossing_wings() {
-        list.limit(format!(
+        list.limit_first(format!(
             "The prescribed motion is impossible: {crossing}. {}",
             meaning(setup)
         ));
@@ -38,7 +41,7 @@ pub(crate) fn flown_crossings(setup: &FlightSetup, found: &[Crossing], list: &mu
         return;
     }
     for crossing in found {
-        list.limit(format!(
+        list.limit_first(format!(
             "The motion that was flown is impossible: {}. {}",
             setup.say_flown_crossing(crossing),
             meaning(setup)
@@ -46,9 +49,13 @@ pub(crate) fn flown_crossings(setup: &FlightSetup, found: &[Crossing], list: &mu
     }
 }
 
-/// A mean lift of a beat beyond all animals.
+/// A mean lift of a beat beyond all animals, or wings that push down.
 fn lift(setup: &FlightSetup, summary: &Summary, list: &mut Warnings) {
     let weights = |b: &BeatMeans| b.lift_over_weight.unwrap_or(0.0).abs();
+    let pushes_down = |b: &BeatMeans| b.lift_over_weight.is_some_and(|l| l < PUSHES_DOWN);
+    if !summary.beats.is_empty() && summary.beats.iter().all(pushes_down) {
+        list.limit("The wings push the body down in every wingbeat: look at the signs and phases of their angles, the feathering (psi) first (`wingbeat check` helps).");
+    }
     let Some(b) = summary.beats.iter().find(|b| weights(b) > IMPLAUSIBLE_LIFT) else {
         return;
     };
