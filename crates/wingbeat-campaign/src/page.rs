@@ -6,6 +6,7 @@ use serde_json::{Value as Json, json};
 use wingbeat_case::IoError;
 use wingbeat_draw::points;
 use wingbeat_results::file::NewFile;
+use wingbeat_results::summary::Verdict;
 
 use crate::campaign::Campaign;
 use crate::command::command;
@@ -45,13 +46,22 @@ fn data(campaign: &Campaign, store: &Store, shown: &[Row], stride: usize) -> Jso
         .numbers
         .iter()
         .map(|n| json!({ "name": n.name, "kind": "number", "unit": n.unit, "about": n.about }));
-    let columns: Vec<Json> = keys.chain(numbers).collect();
+    let verdict = shown.iter().any(|row| row.verdict.is_some()).then(|| {
+        let names = [Verdict::Red, Verdict::Amber, Verdict::Green].map(Verdict::word);
+        json!({ "name": "verdict", "kind": "verdict", "names": names, "about": "how far the flight can be trusted" })
+    });
+    let of_verdict = |row: &Row| {
+        verdict
+            .is_some()
+            .then(|| json!(row.verdict.map(Verdict::word)))
+    };
+    let columns: Vec<Json> = keys.chain(numbers).chain(verdict.clone()).collect();
     let value = |v: &Value| v.number().map_or_else(|| json!(v.shown()), |x| json!(x));
     let number = |x: &f64| if x.is_finite() { json!(x) } else { Json::Null };
     let points: Vec<Json> = shown
         .iter()
         .map(|row| {
-            let cells: Vec<Json> = row.keys.iter().map(value).chain(row.numbers.iter().map(number)).collect();
+            let cells: Vec<Json> = row.keys.iter().map(value).chain(row.numbers.iter().map(number)).chain(of_verdict(row)).collect();
             let page = format!("files/{}/flight.html", row.hash);
             let kept = store.path(&page).is_file();
             json!({

@@ -16,8 +16,9 @@ for (const c of columns) {
   const values = rows.map((r) => r.cells[c.k]).filter((v) => v !== null);
   c.words = values.some((v) => typeof v === "string");
   if (c.words) {
-    c.names = [...new Set(values.map(String))];
-    c.of = (row) => c.names.indexOf(String(row.cells[c.k]));
+    const found = new Set(values.map(String));
+    c.names = c.names ? c.names.filter((name) => found.has(name)) : [...found];
+    c.of = (row) => row.cells[c.k] === null ? null : c.names.indexOf(String(row.cells[c.k]));
     c.range = [0, Math.max(1, c.names.length - 1)];
   } else {
     c.of = (row) => row.cells[c.k];
@@ -171,7 +172,9 @@ function fillTable() {
   });
   $("table").tBodies[0].replaceChildren(...body);
   const failed = rows.filter((r) => r.failed !== null).length, missing = rows.filter((r) => !r.flown).length;
-  $("count").textContent = `${list.length} of ${rows.length} points` + (list.length > ROWS_AT_MOST ? `, the first ${ROWS_AT_MOST} of them listed` : "") + (failed ? `, ${failed} failed` : "") + (missing ? `, ${missing} not flown yet` : "");
+  const judged = columns.find((c) => c.kind === "verdict");
+  const doubtful = ["red", "amber"].map((word) => [judged ? rows.filter((r) => r.cells[judged.k] === word).length : 0, word]).filter(([n]) => n);
+  $("count").textContent = `${list.length} of ${rows.length} points` + (list.length > ROWS_AT_MOST ? `, the first ${ROWS_AT_MOST} of them listed` : "") + (failed ? `, ${failed} failed` : "") + (missing ? `, ${missing} not flown yet` : "") + doubtful.map(([n, word]) => `, ${n} ${word}`).join("");
   state.rows = body.length; state.first = list.length ? list[0].point : "";
 }
 

@@ -46,6 +46,20 @@ fn exact_the_page_shows_all_points_in_a_browser() {
             .unwrap()
             .contains("3 failed")
     );
+    // Each flown point has its verdict, in the order of trust and beside the count.
+    let judged = browser.value("(() => { const c = columns.find((c) => c.kind === 'verdict'); return [c.names, rows.map((r) => r.cells[c.k])]; })()");
+    let of = |word: &str| {
+        let all = judged[1].as_array().unwrap();
+        all.iter().filter(|v| **v == json!(word)).count()
+    };
+    let [red, amber, green] = ["red", "amber", "green"].map(of);
+    assert_eq!(red + amber + green, 6, "three failed: {judged}");
+    let counted = browser.value("document.getElementById('count').textContent");
+    let says = |n: usize, word: &str| counted.as_str().unwrap().contains(&format!(", {n} {word}"));
+    assert!(
+        says(red, "red") == (red > 0) && says(amber, "amber") == (amber > 0),
+        "{counted} {judged}"
+    );
     // A click on a spot chooses its point; one whose page is kept opens it.
     browser.value("window.open = (page) => { window.opened = page; }");
     let click = |k: usize| {
