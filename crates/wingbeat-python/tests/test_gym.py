@@ -214,8 +214,9 @@ def test_refuses_copies_of_environments(copied):
 def test_refuses_actions():
     envs = VectorEnvironment(2)
     for seed in (-1, 1.5, "ab"):
-        with pytest.raises(wingbeat.CaseError):
-            envs.reset(seed=seed)
+        for env in (envs, Environment()):
+            with pytest.raises(wingbeat.CaseError):
+                env.reset(seed=seed)
     with pytest.raises(wingbeat.CaseError):
         Environment().step("abcd")
     for actions in (np.zeros((3, 4)), np.zeros(4), np.full((2, 4), np.nan), np.zeros((2, 4), complex), "ab"):

@@ -140,9 +140,10 @@ pub(crate) fn beside_own_air(source: &CaseSource) -> Checked {
         };
         let of_model = needs::of(key).iter().any(|n| n.is_value_of(MODEL));
         let moves = key.key.get("always").is_some() || name == "stream_m_s";
-        if of_model && says(value) && (moves || source.touches(&path)) {
+        let lost = moves.then(|| path.clone()).or_else(|| source.set_at(&path));
+        if let Some(lost) = lost.filter(|_| of_model && says(value)) {
             return Err(Fault::new(
-                path,
+                lost,
                 "this has no effect beside a model of the air of your own",
                 "no such key here",
                 "let the model compute it, and take the key away",

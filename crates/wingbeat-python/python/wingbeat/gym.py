@@ -179,6 +179,7 @@ class Environment(_Uncopied, gymnasium.Env[Any, Any]):
     def reset(self, *, seed: int | None = None, options: dict[str, Any] | None = None) -> tuple[Any, dict[str, Any]]:
         """A new episode; the first of ``seed``, else the next one (before any seed, one drawn at random)."""
         _check_options(options)
+        seed = None if seed is None else whole("seed", seed, 0, 2**64 - 1)
         super().reset(seed=seed)
         self._fleet.reset([seed], [True])
         return self._fleet.observed[0].copy(), {}
