@@ -12,9 +12,9 @@ use wingbeat_math::{DMat3, DQuat, DVec3, SplitMix64};
 /// One number for each thing that is sensed.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Channels<T> {
-    /// Of the mass centre, N components [m].
+    /// Of the place, N components [m]: mass centre and origin of the root have the same error.
     pub position: T,
-    /// Of its velocity, N components [m/s].
+    /// Of the velocity, N components [m/s]: that of mass centre and of the origin of the root, likewise.
     pub velocity: T,
     /// Rotation vector of the attitude, root components \[rad\].
     pub tilt: T,
@@ -45,8 +45,10 @@ impl Sensors {
         };
         let (noise, bias) = (&self.noise, &self.bias);
         let mut seen = *truth;
-        seen.centre += error(0, noise.position, bias.position);
-        seen.velocity += error(1, noise.velocity, bias.velocity);
+        let place = error(0, noise.position, bias.position);
+        let velocity = error(1, noise.velocity, bias.velocity);
+        (seen.centre, seen.root.p) = (truth.centre + place, truth.root.p + place);
+        (seen.velocity, seen.root.v) = (truth.velocity + velocity, truth.root.v + velocity);
         let turn = DQuat::from_scaled_axis(error(2, noise.tilt, bias.tilt));
         seen.root.r *= DMat3::from_quat(turn);
         seen.root.w += error(3, noise.rate, bias.rate);
@@ -65,7 +67,36 @@ impl Sensors {
 
 #[cfg(test)]
 mod tests {
+    use wingbeat_dynamics::BodyMotion;
+
     use super::*;
+
+    #[test]
+    fn behaves_one_error_of_place_shifts_mass_centre_and_body() {
+        let sensors = Sensors {
+            noise: Channels {
+                position: 1e-4,
+                velocity: 0.01,
+                ..Channels::default()
+            },
+            bias: Channels {
+                velocity: DVec3::new(0.5, 0.0, 0.0),
+                ..Channels::default()
+            },
+            ..Sensors::default()
+        };
+        let truth = Sensed {
+            look: 3,
+            time: 0.0,
+            root: BodyMotion::REST,
+            centre: DVec3::new(0.0, 0.0, 1e-3),
+            velocity: DVec3::ZERO,
+        };
+        let seen = sensors.seen(&truth);
+        assert!(seen.root.p.length() > 0.0 && seen.root.v.x > 0.4);
+        assert_eq!(truth.centre + seen.root.p, seen.centre);
+        assert_eq!(seen.root.v, seen.velocity);
+    }
 
     #[test]
     fn agrees_noise_with_the_moments_of_the_normal_distribution() {

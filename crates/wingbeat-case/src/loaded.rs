@@ -197,6 +197,15 @@ impl LoadedCase {
         lean.try_into().expect("a case without idle keys is a case")
     }
 
+    /// Refuses what a model of the air of one's own in place of that of the case would lose: streams, gusts, streets, shear
+    /// and the ground, and keys of the air that were set on top.
+    ///
+    /// # Errors
+    /// The first such key.
+    pub fn check_own_air(&self) -> Result<(), Box<CaseError>> {
+        keys::beside_own_air(&self.source).map_err(|fault| Box::new(self.source.locate(fault)))
+    }
+
     /// What a flight of this case refused, at the key it is about.
     pub fn refused(&self, error: &FlightError) -> CaseError {
         self.source

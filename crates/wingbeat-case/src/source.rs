@@ -109,6 +109,15 @@ impl CaseSource {
         self.overrides.iter().any(|(k, _)| related(k, key))
     }
 
+    /// The key at which an override gives a value that the document has: `key` or one inside it.
+    pub fn set_at(&self, key: &str) -> Option<String> {
+        let is_given = |(name, typed): &&(String, String)| {
+            related(name, key) && !typed.trim().is_empty() && self.gives(name)
+        };
+        let (name, _) = self.overrides.iter().rev().find(is_given)?;
+        Some(if name.len() > key.len() { name } else { key }.to_owned())
+    }
+
     /// The value of a key as it is written in the file.
     pub fn written(&self, key: &str) -> Option<&str> {
         let place = self.places.get(key)?;

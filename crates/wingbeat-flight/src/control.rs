@@ -12,10 +12,10 @@ use wingbeat_math::{DVec3, MovingRotation, RotationLaw, smoothstep7};
 use wingbeat_model::motion::{Adjustment, wing_rotation};
 use wingbeat_model::{Side, Wing, WingMotion};
 
-pub use crate::controller::{Aim, Controller, Sensed};
+pub use crate::controller::{Aim, Controller, Sensed, check_heeded, for_all};
 use crate::error::FlightError;
+use crate::setup::{AirModel, FlightSetup, MotionMode};
 pub use crate::setup::{ControlModel, Feedback};
-use crate::setup::{FlightSetup, MotionMode};
 
 /// Shortest interval of looks [time steps]: the starting values of a multistep method must not
 /// see a change of command.
@@ -297,15 +297,34 @@ pub(crate) fn feedback(setup: &FlightSetup) -> Result<Option<Loop>, FlightError>
     let Some(feedback) = &setup.feedback else {
         return Ok(None);
     };
-    if matches!(setup.mode, MotionMode::Tethered(_)) {
+    if let Some(problem) = unsteered(setup) {
         return Err(FlightError::Setup {
             key: "control",
             value: String::new(),
-            problem: "the flyer is tethered, and feedback steers a free flight: set flight.mode = \"free\", or leave it out"
-                .into(),
+            problem: problem.into(),
         });
     }
     let wings = setup.animal.wings.iter();
     let wings = wings.map(|w| Arc::new(CommandedMotion::new(w))).collect();
     Ok(Some(Loop::new(setup, feedback, wings)?))
+}
+
+/// Why commands to the wings of `setup` would move nothing; none where they act.
+fn unsteered(setup: &FlightSetup) -> Option<&'static str> {
+    let wings = &setup.animal.wings;
+    match &setup.air {
+        _ if matches!(setup.mode, MotionMode::Tethered(_)) => Some(
+            "the flyer is tethered, and feedback steers a free flight: set flight.mode = \"free\", or leave it out",
+        ),
+        _ if wings.is_empty() => Some(
+            "a controller steers by the wings, and there are none: give wings, or leave it out",
+        ),
+        AirModel::Derivatives(_) => Some(
+            "no wing steers in air that follows from a table of derivatives: choose another air.model, or leave it out",
+        ),
+        AirModel::None if wings.iter().all(|w| w.mass.mass == 0.0) => Some(
+            "no wing without mass steers without air: choose another air.model, give the wings mass, or leave it out",
+        ),
+        _ => None,
+    }
 }

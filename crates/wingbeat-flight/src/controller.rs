@@ -2,6 +2,7 @@
 
 use wingbeat_dynamics::BodyMotion;
 use wingbeat_math::DVec3;
+use wingbeat_model::Wing;
 use wingbeat_model::motion::Adjustment;
 
 /// What a controller sees.
@@ -58,4 +59,42 @@ pub trait Controller: Send {
 
     /// Goes on from what it remembered.
     fn restore(&mut self, _memory: &[f64]) {}
+}
+
+/// Refuses a command of which a part can have no effect on its wing: of an angle that is constant there is neither
+/// swing nor lead.
+///
+/// # Errors
+/// The wing, the part and the reason.
+pub fn check_heeded(wings: &[Wing], command: &[Adjustment]) -> Result<(), String> {
+    let mut wings = wings.iter().zip(command);
+    match wings.find_map(|(wing, by)| Some((wing, wing.motion.idle(by).next()?))) {
+        None => Ok(()),
+        Some((wing, idle)) => Err(unheeded(&wing.name, idle)),
+    }
+}
+
+/// One command for all wings: each has of it what has an effect there.
+///
+/// # Errors
+/// As [`check_heeded`], for a part that has an effect on no wing.
+pub fn for_all(wings: &[Wing], by: &Adjustment) -> Result<Vec<Adjustment>, String> {
+    let heeded: Vec<_> = wings.iter().map(|w| w.motion.heeded(by)).collect();
+    let parts = by.numbers().into_iter().enumerate();
+    let mut lost =
+        parts.filter(|(k, (_, x))| *x != 0.0 && heeded.iter().all(|a| a.numbers()[*k].1 == 0.0));
+    match (lost.next(), wings.first()) {
+        (Some((_, idle)), Some(wing)) => Err(unheeded(&wing.name, idle)),
+        _ => Ok(heeded),
+    }
+}
+
+fn unheeded(wing: &str, (part, x): (&str, f64)) -> String {
+    let angle = match part.starts_with("stroke") {
+        true => "stroke",
+        false => "feathering",
+    };
+    format!(
+        "{part} = {x} has no effect on wing `{wing}`: its {angle} angle is constant in the motion of the case; leave it at 0"
+    )
 }

@@ -130,7 +130,7 @@ fn flight(error: &FlightError) -> (&'static str, Parts) {
             ("FlightError", about("time.steps_per_beat", remedy))
         }
         FlightError::Control { .. } => {
-            let remedy = "answer with one adjustment per wing, its numbers finite, frequency 0";
+            let remedy = "answer with one adjustment per wing, its numbers finite, frequency 0, and 0 where nothing beats";
             ("FlightError", about("control", remedy))
         }
         FlightError::External(_) => ("FlightError", about("air", "see what the air says")),

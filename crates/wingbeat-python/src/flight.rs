@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use pyo3::prelude::*;
 use wingbeat::analysis::TrimSettings;
 use wingbeat::analysis::wake::WakeSettings;
-use wingbeat::case::LoadedCase;
+use wingbeat::case::{IoError, LoadedCase};
 use wingbeat::flight::Snapshot;
 
 use crate::errors::{raised, refused};
@@ -124,9 +124,11 @@ impl Flight {
     }
 
     /// In air that `function` computes.
-    fn with_air(&self, function: Py<PyAny>, has_memory: bool) -> Self {
+    fn with_air(&self, py: Python<'_>, function: Py<PyAny>, has_memory: bool) -> PyResult<Self> {
+        let checked = self.case.check_own_air();
+        checked.map_err(|e| raised(py, &IoError::Case(e).into()))?;
         let air = air(function, &self.slot, has_memory);
-        self.with(|flight| flight.setup.air = air)
+        Ok(self.with(|flight| flight.setup.air = air))
     }
 
     /// Name of the case.
@@ -139,6 +141,18 @@ impl Flight {
     #[getter]
     fn case_text(&self) -> String {
         self.case.resolved()
+    }
+
+    /// Whether a controller steers it, of the case or written in Python.
+    #[getter]
+    fn is_steered(&self) -> bool {
+        self.flight.setup.feedback.is_some()
+    }
+
+    /// Wingbeats for which the body is held at first.
+    #[getter]
+    fn held_beats(&self) -> f64 {
+        self.case.raw.flight.held_beats
     }
 
     /// Whether it has parts written in Python.
@@ -217,7 +231,7 @@ impl Flight {
         let own = self.slot.take();
         match result {
             None => Ok((None, interrupted)),
-            Some(Err(e)) => Err(own.unwrap_or_else(|| raised(py, &e))),
+            Some(Err(e)) => Ok((None, Some(own.unwrap_or_else(|| raised(py, &e))))),
             Some(Ok((run, error, snapshots))) => {
                 let error = own.or_else(|| error.map(|e| raised(py, &e)));
                 let run = Run::flown(run, snapshots, out, self.case_text());

@@ -18,6 +18,9 @@ use crate::worker::analyse;
 /// names of the unknowns; of those with bounds the least and the largest value.
 pub type Asked = ([f64; 3], f64, Vec<String>, Vec<(String, f64, f64)>);
 
+/// Fewest and most steps per wingbeat: in fewer the loads of a beat are off by more than a trim is.
+const STEPS: (usize, usize) = (20, 2000);
+
 /// What is asked of a trim.
 pub fn problem(
     py: Python<'_>,
@@ -40,13 +43,10 @@ pub fn problem(
             return Err(refused(py, key, "it is not finite", "finite numbers"));
         }
     }
-    if !(4..=2000).contains(&steps) {
-        return Err(refused(
-            py,
-            "steps",
-            "out of range",
-            "4 to 2000 steps per wingbeat",
-        ));
+    let (least, most) = STEPS;
+    if !(least..=most).contains(&steps) {
+        let remedy = format!("{least} to {most} steps per wingbeat");
+        return Err(refused(py, "steps", "out of range", &remedy));
     }
     let mut problem = flight.hover();
     let twice = (1..unknowns.len()).find(|&k| unknowns[..k].contains(&unknowns[k]));

@@ -9,11 +9,13 @@ use numpy::{PyArray2, PyArrayMethods};
 use pyo3::prelude::*;
 use wingbeat::dynamics::{BodyMotion, Wrench};
 use wingbeat::flight::AirMemory;
+use wingbeat::flight::control::{check_heeded, for_all};
 use wingbeat::flight::{
     Air, AirModel, AirScratch, Announcement, ControlModel, Controller, ExternalAir,
     ExternalSession, Feedback, FlightError, FlightSetup, Instant,
 };
 use wingbeat::math::DVec3;
+use wingbeat::model::Wing;
 use wingbeat::model::motion::Adjustment;
 
 use crate::arrays::{array, vector};
@@ -107,7 +109,7 @@ impl fmt::Debug for Function {
     }
 }
 
-/// A controller: a function from [`Sensed`] to eight numbers per wing.
+/// A controller: a function from [`Sensed`] to eight numbers for all wings, or for each.
 #[derive(Clone, Debug)]
 struct PythonController(Function);
 
@@ -126,25 +128,36 @@ pub fn feedback(function: Py<PyAny>, slot: &Slot, interval: usize, latency: usiz
 }
 
 impl ControlModel for PythonController {
-    fn open(&self, _setup: &FlightSetup) -> Result<Box<dyn Controller>, FlightError> {
+    fn open(&self, setup: &FlightSetup) -> Result<Box<dyn Controller>, FlightError> {
         let reset = Python::attach(|py| self.0.function.call_method0(py, "reset").map(drop));
         let refused = |problem| FlightError::Control { time: 0.0, problem };
         self.0.slot.keep(reset).map_err(refused)?;
-        Ok(Box::new(Steered(self.0.clone())))
+        Ok(Box::new(Steered {
+            function: self.0.clone(),
+            wings: setup.animal.wings.clone(),
+        }))
     }
 }
 
 /// The controller of a flight.
-struct Steered(Function);
+struct Steered {
+    function: Function,
+    wings: Vec<Wing>,
+}
 
 impl Controller for Steered {
     fn command(&mut self, sensed: &wingbeat::flight::Sensed) -> Result<Vec<Adjustment>, String> {
         let answer = Python::attach(|py| -> PyResult<Vec<[f64; 8]>> {
             let seen = Bound::new(py, Sensed(*sensed))?;
-            self.0.function.call1(py, (seen,))?.extract(py)
+            self.function.function.call1(py, (seen,))?.extract(py)
         });
-        let numbers = self.0.slot.keep(answer)?;
-        Ok(numbers.into_iter().map(adjustment).collect())
+        let numbers = self.function.slot.keep(answer)?;
+        let command: Vec<Adjustment> = numbers.into_iter().map(adjustment).collect();
+        if let [one] = &command[..] {
+            return for_all(&self.wings, one);
+        }
+        check_heeded(&self.wings, &command)?;
+        Ok(command)
     }
 }
 

@@ -79,16 +79,16 @@ impl Stepper {
         Ok(count)
     }
 
-    /// Steps made.
+    /// Steps made: one that fails is not.
     #[getter]
     fn steps_done(&self, py: Python<'_>) -> PyResult<usize> {
-        self.with(py, |course| course.flight.state().step)
+        self.with(py, |course| course.records.len() - 1)
     }
 
-    /// Time [s].
+    /// Time after them [s].
     #[getter]
     fn time_s(&self, py: Python<'_>) -> PyResult<f64> {
-        self.with(py, |course| course.flight.newest_time())
+        self.with(py, |course| course.newest().time)
     }
 
     /// Whether it is at its end: the last step was made, or an error ended it.
@@ -135,6 +135,11 @@ impl Stepper {
 }
 
 impl Course {
+    /// After the last step made.
+    fn newest(&self) -> &Record {
+        self.records.last().expect("the start has a record")
+    }
+
     /// One step; false at the end.
     fn step(&mut self, output: &OutputSettings) -> Result<bool, wingbeat::Error> {
         if self.outcome != Outcome::Running {

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import copy
+import pickle
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -96,6 +98,16 @@ BAD: dict[str, Bad] = {
     "unknown unknown": lambda blade, _: blade.trim(unknowns=("body_pitch", "courage", "frequency")),
     "trim at infinite speed": lambda blade, _: blade.trim(forward_m_per_s=float("inf")),
     "trim in one step": lambda blade, _: blade.trim(steps=1),
+    "trim in few steps": lambda blade, _: blade.trim(steps=19),
+    "stability in few steps": lambda blade, _: blade.stability(steps=5),
+    "trim in less than none": lambda blade, _: blade.trim(steps=-1),
+    "trim in half a step": lambda blade, _: blade.trim(steps=20.5),
+    "trim at the speed of a word": lambda blade, _: blade.trim(forward_m_per_s="a"),
+    "trim with a wake, held for less": lambda *_: Flight.preset("fruit-fly-hover").trim_with_wake(held_beats=-1),
+    "more steps than there are numbers": lambda blade, _: blade.start().step(2**70),
+    "complex loads": blown(np.zeros((3, 6), complex)),
+    "loads in words": blown([["a"] * 6] * 3),
+    "complex motion": lambda blade, _: blade.with_motion(phi_deg=np.zeros(8, complex)),
     "trim with a wake, to nothing": lambda *_: Flight.preset("fruit-fly-hover").trim_with_wake(tolerance=0),
     "trim with a wake, held for nothing": lambda *_: Flight.preset("fruit-fly-hover").trim_with_wake(held_beats=0),
     "trim under a load": lambda blade, _: Flight.preset("fruit-fly-hover").trim(),
@@ -112,6 +124,26 @@ def test_refuses(name, blade, tmp_path, capfd):
     assert error.key or isinstance(error, wingbeat.AnalysisError), f"no key: {error}"
     assert "--set" not in str(error) + error.remedy
     assert "panic" not in str(error) and "panicked" not in capfd.readouterr().err
+
+
+@pytest.mark.parametrize("copied", [copy.copy, copy.deepcopy, pickle.dumps])
+def test_refuses_copies_of_a_run_in_memory(blade, copied):
+    with pytest.raises(wingbeat.CaseError, match="copied or pickled") as caught:
+        copied(blade.set("time.beats", 0.1).fly())
+    assert "run.arrays" in caught.value.remedy
+
+
+def test_exact_a_run_in_a_directory_is_pickled_as_that(blade, tmp_path):
+    run = blade.set("time.beats", 0.1).fly(out=tmp_path / "run")
+    again = pickle.loads(pickle.dumps(run))
+    assert again.dir == run.dir
+    np.testing.assert_array_equal(again.arrays["body_z_m"], run.arrays["body_z_m"])
+
+
+def test_behaves_steps_may_be_numbers_of_numpy(blade):
+    stepper = blade.start()
+    assert stepper.step(np.int64(3)) == 3 == stepper.steps_done
+    assert blade.set("time.beats", 0.1).start().step(10**18) == 10
 
 
 def test_behaves_errors_of_keys_that_were_set_name_them(blade):

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import copy
 import os
+import pickle
 import subprocess
 import sys
 import time
@@ -174,11 +176,50 @@ def test_refuses_settings(settings):
     assert caught.value.remedy
 
 
+FLY = wingbeat.Flight.preset("fruit-fly-blade")
+
+
+@pytest.mark.parametrize(
+    ("flight", "key"),
+    [
+        (FLY.with_controller(lambda _: wingbeat.Adjustment()), "control.controller"),
+        (FLY.set("control.controller", "regulator"), "control.controller"),
+        (FLY.set("flight.held_beats", 3), "flight.held_beats"),
+    ],
+)
+def test_refuses_what_episodes_would_drop_of_a_flight(flight, key):
+    with pytest.raises(wingbeat.CaseError) as caught:
+        Environment(flight=flight)
+    assert caught.value.key == key and caught.value.remedy
+
+
+def test_refuses_options_that_are_not_known():
+    envs, single = VectorEnvironment(2), Environment()
+    with pytest.raises(wingbeat.CaseError, match="did you mean reset_mask"):
+        envs.reset(options={"reset_maks": np.array([True, False])})
+    with pytest.raises(wingbeat.CaseError, match="leave it out"):
+        single.reset(options={"reset_mask": [True]})
+    envs.reset(options={})
+    single.reset(options={})
+
+
+@pytest.mark.parametrize("copied", [copy.copy, copy.deepcopy, pickle.dumps])
+def test_refuses_copies_of_environments(copied):
+    for env in (Environment(), VectorEnvironment(2)):
+        with pytest.raises(wingbeat.CaseError, match="copied or pickled") as caught:
+            copied(env)
+        assert "seed" in caught.value.remedy
+
+
 def test_refuses_actions():
     envs = VectorEnvironment(2)
+    for seed in (-1, 1.5, "ab"):
+        for env in (envs, Environment()):
+            with pytest.raises(wingbeat.CaseError):
+                env.reset(seed=seed)
     with pytest.raises(wingbeat.CaseError):
-        envs.reset(seed=-1)
-    for actions in (np.zeros((3, 4)), np.zeros(4), np.full((2, 4), np.nan)):
+        Environment().step("abcd")
+    for actions in (np.zeros((3, 4)), np.zeros(4), np.full((2, 4), np.nan), np.zeros((2, 4), complex), "ab"):
         with pytest.raises(wingbeat.CaseError):
             envs.step(actions)
     with pytest.raises(wingbeat.AnalysisError):

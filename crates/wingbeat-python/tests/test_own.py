@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import pickle
 import time
 
 import numpy as np
 import pytest
 
 import wingbeat
+from wingbeat import Flight
 
 
 def test_behaves_a_controller_sees_at_its_own_rate_and_moves_the_wings(blade):
@@ -67,11 +69,29 @@ def test_behaves_an_exception_in_a_controller_stops_the_flight_and_keeps_it(blad
     assert run.outcome == "failed" and len(run.arrays["time_s"]) == 100
     np.testing.assert_array_equal(run.arrays["body_z_m"], blade.fly().arrays["body_z_m"][:100])
     stepper = blade.with_controller(fails).start()
-    with pytest.raises(ZeroDivisionError):
+    with pytest.raises(ZeroDivisionError) as caught:
         stepper.step(1000)
-    assert stepper.is_finished and stepper.run.outcome == "failed"
+    assert stepper.is_finished and stepper.run.outcome == caught.value.run.outcome == "failed"
+    assert stepper.steps_done + 1 == len(stepper.run.arrays["time_s"]) == 100
+    assert stepper.time_s == stepper.run.arrays["time_s"][-1]
 
 
+def test_behaves_an_exception_at_the_start_has_no_run(blade):
+    def fails(_: object) -> None:
+        raise ZeroDivisionError("gain")
+
+    def stops(_: object) -> None:
+        raise KeyboardInterrupt
+
+    for flight, kind in (
+        (blade.with_controller(fails), ZeroDivisionError),
+        (blade.with_controller(stops), KeyboardInterrupt),
+        (blade.with_air(fails), ZeroDivisionError),
+    ):
+        for fly in (flight.fly, flight.start):
+            with pytest.raises(kind) as caught:
+                fly()
+            assert caught.value.run is None
 
 
 def test_exact_vacuum_written_in_python_is_vacuum():
@@ -79,6 +99,45 @@ def test_exact_vacuum_written_in_python_is_vacuum():
     own = flight.with_air(lambda motions: np.zeros((3, 6))).fly()
     for column, numbers in flight.fly().arrays.items():
         np.testing.assert_allclose(own.arrays[column], numbers, rtol=1e-9, atol=1e-8 * max(1.0, np.nanmax(np.abs(numbers))))  # beats known beforehand differ by roundings
+
+
+@pytest.mark.parametrize(
+    ("key", "value"),
+    [
+        ("air.stream_m_s", [0.3, 0.0, 0.0]),
+        ("air.gust", [{"amplitude_m_s": [0.1, 0.0, 0.0], "start_s": 1e-3, "duration_s": 1e-3}]),
+        ("air.shear_1_s", [[0.0, 0.0, 1.0], [0.0, 0.0, 0.0], [0.0, 0.0, 0.0]]),
+        ("air.density_kg_m3", 1.0),
+        ("air.blade.body_drag.area_m2", 1e-6),
+    ],
+)
+def test_refuses_what_air_written_in_python_would_lose(blade, key, value):
+    def air(_motions: wingbeat.Motions) -> np.ndarray:
+        return np.zeros((3, 6))
+
+    told = blade.set(key, value)
+    with pytest.raises(wingbeat.CaseError, match="your own") as caught:
+        told.with_air(air)
+    assert caught.value.key == key and caught.value.remedy
+    away = key.removesuffix(".area_m2")  # a drag of the body has an area
+    assert told.set(away, None).with_air(air).steps == blade.steps
+
+
+def test_refuses_streams_of_a_file_beside_air_written_in_python(blade):
+    case = blade.case
+    case.air.stream_m_s = [0.3, 0.0, 0.0]
+    with pytest.raises(wingbeat.CaseError, match="your own"):
+        Flight.from_case(case).with_air(lambda _: np.zeros((3, 6)))
+    case.air.stream_m_s = [0.0, 0.0, 0.0]
+    case.air.density_kg_m3 = 1.0
+    Flight.from_case(case).with_air(lambda _: np.zeros((3, 6)))
+
+
+@pytest.mark.parametrize("name", ["fruit-fly-hover", "fruit-fly-blade", "hawkmoth-blade", "locust-blade", "robobee"])
+def test_behaves_presets_fly_in_air_written_in_python(name):
+    flight = Flight.preset(name)
+    count = len(flight._core.wings) + 1
+    assert flight.with_air(lambda _: np.zeros((count, 6))).steps == flight.steps
 
 
 def test_exact_a_steady_force_on_the_body_accelerates_all_of_it():
@@ -138,6 +197,20 @@ def test_agrees_a_motion_from_a_function_with_one_from_an_array(blade):
     assert error < 1.5 * 60.0 * 5 * (2 * np.pi / 48) ** 4 / 384
     left = one.fly().arrays["wing_left_prescribed_phi_rad"]
     np.testing.assert_allclose(left, -angle, atol=1e-12)
+
+
+@pytest.mark.parametrize("wing", [None, "right"])
+def test_behaves_a_motion_of_all_angles_replaces_the_data(blade, wing):
+    """Of two angles the third is that of the data; with all three nothing is left of them."""
+    cosine, sine = 60.0 * np.cos(2 * np.pi * np.arange(48) / 48), 40.0 * np.sin(2 * np.pi * np.arange(48) / 48)
+    assert "data" in blade.case.motion
+    flight = blade.set("time.beats", 1).with_motion(phi_deg=cosine, theta_deg=0.0 * sine, psi_deg=-sine, wing=wing)
+    run = flight.fly().arrays
+    np.testing.assert_allclose(run["wing_left_prescribed_phi_rad"], -run["wing_right_prescribed_phi_rad"], atol=1e-12)
+    np.testing.assert_allclose(run["wing_right_prescribed_theta_rad"], 0.0, atol=1e-12)
+    again = pickle.loads(pickle.dumps(flight))
+    assert again.case_text == flight.case_text
+    assert "data" in blade.with_motion(phi_deg=cosine, psi_deg=-sine).case.motion
 
 
 def test_behaves_a_look_costs_less_than_a_tenth_of_a_millisecond(blade):

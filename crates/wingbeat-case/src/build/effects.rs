@@ -1,8 +1,9 @@
 //! Keys that others make idle in ways no single key tells: each is refused by name.
 
 use wingbeat_flight::{FlightSetup, MotionMode};
+use wingbeat_model::Wing;
+use wingbeat_model::motion::Adjustment;
 use wingbeat_model::planform::Spacing;
-use wingbeat_model::{AngleLaw, Wing};
 
 use super::Built;
 use crate::error::Fault;
@@ -226,28 +227,21 @@ fn motion(case: &Case, source: &CaseSource) -> Built<()> {
     Ok(())
 }
 
-/// Changes of what does not vary.
+/// Changes of what does not vary on any wing.
 fn adjustments(case: &Case, setup: &FlightSetup) -> Built<()> {
-    let varies = |angle: fn(&Wing) -> &AngleLaw| {
-        let constant = |w: &Wing| matches!(angle(w), AngleLaw::Constant(_));
-        !setup.animal.wings.iter().all(constant)
-    };
-    let strokes = varies(|w| &w.motion.angles.phi);
-    let feathers = varies(|w| &w.motion.angles.psi);
+    let wings = &setup.animal.wings;
     let motion = &case.motion;
     for (table, by) in [
         ("adjust", &motion.adjust),
         ("difference", &motion.difference),
     ] {
-        for (key, value, varies) in [
-            ("stroke_amplitude", by.stroke_amplitude, strokes),
-            ("feathering_amplitude", by.feathering_amplitude, feathers),
-            ("feathering_lead", by.feathering_lead, feathers),
-        ] {
-            if value != 0.0 && !varies {
-                let key = format!("motion.{table}.{key}");
-                return Err(idle(key, "on wings whose angle is constant"));
-            }
+        let by = Adjustment::from(by);
+        let mut parts = by.numbers().into_iter();
+        let lost_on = |wing: &Wing, part: &(&str, f64)| wing.motion.idle(&by).any(|i| i == *part);
+        let lost = parts.find(|part| !wings.is_empty() && wings.iter().all(|w| lost_on(w, part)));
+        if let Some((part, _)) = lost {
+            let key = format!("motion.{table}.{part}");
+            return Err(idle(key, "on wings whose angle is constant"));
         }
     }
     Ok(())

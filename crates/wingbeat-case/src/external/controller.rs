@@ -5,6 +5,7 @@
 
 use serde::{Deserialize, Serialize};
 use wingbeat_analysis::control::{Limits, Route, Sensors};
+use wingbeat_flight::control::check_heeded;
 use wingbeat_flight::{Aim, ControlModel, Controller, FlightError, FlightSetup, Sensed};
 use wingbeat_math::DVec3;
 use wingbeat_model::motion::Adjustment;
@@ -59,10 +60,12 @@ impl ControlModel for ProcessController {
         Ok(Box::new(Conversation {
             partner,
             model: self.clone(),
-            wings: wings.iter().map(WingName::of).collect(),
+            names: wings.iter().map(WingName::of).collect(),
+            wings: wings.clone(),
             period: setup.time.period.unwrap_or(0.0),
             origin: None,
             command: vec![Adjustment::default(); wings.len()],
+            is_limited: false,
             memory: vec![],
         }))
     }
@@ -95,12 +98,15 @@ impl Controller for Still {
 struct Conversation {
     partner: Partner,
     model: ProcessController,
-    wings: Vec<WingName>,
+    wings: Vec<Wing>,
+    names: Vec<WingName>,
     /// Of the wingbeat [s].
     period: f64,
     /// Mass centre at the first look, as it was seen, N components [m].
     origin: Option<DVec3>,
     command: Vec<Adjustment>,
+    /// Whether the limits cut what was asked for.
+    is_limited: bool,
     memory: Vec<f64>,
 }
 
@@ -207,7 +213,7 @@ impl Conversation {
                 heading_deg: aim.heading.to_degrees(),
                 heading_rate_deg_s: aim.heading_rate.to_degrees(),
             },
-            wings: &self.wings,
+            wings: &self.names,
             limits: LimitsTold {
                 amplitude: model.limits.amplitude,
                 angle_deg: model.limits.angle.to_degrees(),
@@ -218,7 +224,7 @@ impl Conversation {
         line + "\n"
     }
 
-    /// Commands and memory of an answer.
+    /// What the wings are asked for, and the memory of an answer.
     fn understood(&self, line: &str) -> Result<(Vec<Adjustment>, Vec<f64>), String> {
         let answer: Answer = serde_json::from_str(line).map_err(|e| {
             format!(
@@ -232,7 +238,7 @@ impl Conversation {
             "its answer has no \"wings\": {\"wings\": [{...}, ...]}, one {...} for each".to_owned()
         })?;
         if wings.len() != self.wings.len() {
-            let names: Vec<&str> = self.wings.iter().map(|w| &w.name[..]).collect();
+            let names: Vec<&str> = self.names.iter().map(|w| &w.name[..]).collect();
             return Err(format!(
                 "its answer commands {} wings, and there are {}, in this order: {}",
                 wings.len(),
@@ -249,9 +255,9 @@ impl Conversation {
                 "its answer has feathering_lead = {lead} wingbeats; allowed: from -{MAX_LEAD} to {MAX_LEAD}"
             ));
         }
-        let limits = &self.model.limits;
-        let commands = wings.iter().map(|w| limited(w.into(), limits));
-        Ok((commands.collect(), answer.memory))
+        let asked: Vec<Adjustment> = wings.iter().map(Adjustment::from).collect();
+        check_heeded(&self.wings, &asked).map_err(|problem| format!("its answer: {problem}"))?;
+        Ok((asked, answer.memory))
     }
 
     fn asked(&mut self, sensed: &Sensed) -> Result<(Vec<Adjustment>, Vec<f64>), String> {
@@ -271,7 +277,7 @@ impl Conversation {
 const MAX_LEAD: f64 = 0.5;
 
 /// The command of a wing within the limits.
-fn limited(a: Adjustment, limits: &Limits) -> Adjustment {
+fn limited(a: &Adjustment, limits: &Limits) -> Adjustment {
     let share = |x: f64| x.clamp(-limits.amplitude, limits.amplitude);
     let angle = |x: f64| x.clamp(-limits.angle, limits.angle);
     Adjustment {
@@ -291,12 +297,16 @@ impl Controller for Conversation {
         if sensed.look.is_multiple_of(self.model.every) {
             let seen = self.model.sensors.map_or(*sensed, |s| s.seen(sensed));
             let answer = self.asked(&seen);
-            (self.command, self.memory) = answer.map_err(|problem| {
+            let (wanted, memory) = answer.map_err(|problem| {
                 let look = sensed.look;
                 format!(
                     "look {look}: {problem}; try the program on a line by hand, see docs/control.md"
                 )
             })?;
+            let limits = &self.model.limits;
+            self.command = wanted.iter().map(|a| limited(a, limits)).collect();
+            self.is_limited = self.command != wanted;
+            self.memory = memory;
         }
         Ok(self.command.clone())
     }
@@ -305,11 +315,16 @@ impl Controller for Conversation {
         self.origin.map(|origin| self.aim_from(origin, time))
     }
 
+    fn is_limited(&self) -> bool {
+        self.is_limited
+    }
+
     fn memory(&self) -> Vec<f64> {
         let numbers = |a: &Adjustment| a.numbers().map(|(_, x)| x).into_iter().take(NUMBERS);
         let command: Vec<f64> = self.command.iter().flat_map(numbers).collect();
         let origin = self.origin.map_or([0.0; 3], |o| o.to_array());
-        let begun = f64::from(u8::from(self.origin.is_some()));
+        // 0 before the first look, 1 after it, 2 if the command stands at a limit.
+        let begun = f64::from(u8::from(self.origin.is_some()) + u8::from(self.is_limited));
         [&command[..], &origin, &[begun], &self.memory].concat()
     }
 
@@ -319,6 +334,7 @@ impl Controller for Conversation {
             return;
         };
         self.origin = (*begun != 0.0).then(|| DVec3::new(*x, *y, *z));
+        self.is_limited = *begun == 2.0;
         for (a, x) in self.command.iter_mut().zip(command.chunks(NUMBERS)) {
             *a = Adjustment {
                 stroke_amplitude: x[0],

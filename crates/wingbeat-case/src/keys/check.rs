@@ -129,6 +129,38 @@ impl Pair<'_> {
     }
 }
 
+/// Checks that the case says nothing that a model of the air of one's own would lose: how the air moves and where the
+/// ground is, and whatever was set on top for another model. What the file says for that one may stand by.
+pub(crate) fn beside_own_air(source: &CaseSource) -> Checked {
+    let air = source.table.get("air").and_then(Value::as_table);
+    for (name, value) in air.into_iter().flatten() {
+        let path = join("air", name);
+        let Some(key) = Shape::case().at("air").and_then(|air| air.at(name)) else {
+            continue;
+        };
+        let of_model = needs::of(key).iter().any(|n| n.is_value_of(MODEL));
+        let moves = key.key.get("always").is_some() || name == "stream_m_s";
+        let lost = moves.then(|| path.clone()).or_else(|| source.set_at(&path));
+        if let Some(lost) = lost.filter(|_| of_model && says(value)) {
+            return Err(Fault::new(
+                lost,
+                "this has no effect beside a model of the air of your own",
+                "no such key here",
+                "let the model compute it, and take the key away",
+            ));
+        }
+    }
+    Ok(())
+}
+
+/// Whether a value is more than an empty list or zeros.
+fn says(value: &Value) -> bool {
+    let is_zero = |v: &Value| v.as_float() == Some(0.0) || v.as_integer() == Some(0);
+    value
+        .as_array()
+        .is_none_or(|list| !list.iter().all(is_zero))
+}
+
 /// Of alternatives only one is given.
 fn given_once(key: Shape, name: &str, path: &str, given: &Table) -> Checked {
     let others = key.texts("or");

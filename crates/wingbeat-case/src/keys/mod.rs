@@ -12,7 +12,7 @@ mod page;
 mod schema;
 mod unit;
 
-pub(crate) use check::{alone, effective, together};
+pub(crate) use check::{alone, beside_own_air, effective, together};
 pub use page::page;
 pub use schema::{SCHEMA_FILE, schema, with_schema};
 pub(crate) use unit::without_unit;

@@ -170,6 +170,26 @@ impl Adjustment {
 }
 
 impl WingMotion {
+    /// What of `by` has an effect here: of an angle that is constant there is neither swing nor lead.
+    pub fn heeded(&self, by: &Adjustment) -> Adjustment {
+        let is_constant = |law: &AngleLaw| matches!(law, AngleLaw::Constant(_));
+        let mut heeded = *by;
+        if is_constant(&self.angles.phi) {
+            heeded.stroke_amplitude = 0.0;
+        }
+        if is_constant(&self.angles.psi) {
+            (heeded.feathering_amplitude, heeded.feathering_lead) = (0.0, 0.0);
+        }
+        heeded
+    }
+
+    /// The numbers of `by` that are not zero and have no effect here, with their names.
+    pub fn idle(&self, by: &Adjustment) -> impl Iterator<Item = (&'static str, f64)> {
+        let numbers = by.numbers().into_iter().zip(self.heeded(by).numbers());
+        let idle = numbers.filter(|(told, heeded)| told.1 != 0.0 && heeded.1 == 0.0);
+        idle.map(|(told, _)| told)
+    }
+
     /// The motion of a wing of this side with the adjustment.
     pub fn adjusted(&self, side: Side, by: &Adjustment) -> Self {
         if *by == Adjustment::default() {

@@ -13,6 +13,7 @@ from wingbeat import _core, _toml
 from wingbeat._case import Part
 from wingbeat._frame import Frame
 from wingbeat._mechanics import Derivatives, LinearModel, Power, Trim, WakeTrim, _not_trimmed
+from wingbeat._numbers import real, reals, whole
 from wingbeat._own import Air, Controller, Loads, Steering
 from wingbeat._run import Run
 from wingbeat._source import Source
@@ -115,7 +116,17 @@ class Flight:
             for name in wings
             for angle, rows in given.items()
         }
-        return self.set(keys)
+        return self._with_angles(keys)
+
+    def _with_angles(self, keys: dict[str, Any]) -> Flight:
+        """With these keys; data that all angles have replaced are taken away."""
+        try:
+            return self.set(keys)
+        except CaseError as error:
+            is_replaced = error.key.startswith(("motion.", "wing.")) and error.key.endswith("motion.data")
+            if not is_replaced or error.key in keys:
+                raise
+            return self._with_angles({error.key: None} | keys)
 
     def with_controller(
         self, controller: Controller, *, every_steps: int | None = None, latency_looks: int = 0
@@ -124,22 +135,24 @@ class Flight:
         every ``every_steps`` steps after it (a wingbeat if left out), never inside a step; it answers with one
         :class:`wingbeat.Adjustment` for all wings or one for each. Commands act ``latency_looks`` looks later, and the
         wings go over to them smoothly until the next look. A controller with a method ``reset`` is reset when a
-        flight begins. An exception in it stops the flight; ``error.run`` is what was flown.
+        flight begins. An exception in it stops the flight; ``error.run`` is what was flown. Flights that no wing steers are
+        refused when they begin: tethered ones, those without wings or in air by a table of derivatives.
         """
         if not callable(controller):
             raise CaseError("control: the controller cannot be called", key="control", remedy="a function of Sensed")
-        steps = self._interval() if every_steps is None else every_steps
-        for key, number, least in (("every_steps", steps, 4), ("latency_looks", latency_looks, 0)):
-            if isinstance(number, bool) or not isinstance(number, int) or not least <= number < 2**31:
-                raise CaseError(f"{key} = {number!r}: no number of them", key=key, remedy=f"a whole number >= {least}")
+        steps = whole("every_steps", self._interval() if every_steps is None else every_steps, 4, 2**31 - 1)
+        latency = whole("latency_looks", latency_looks, 0, 2**31 - 1)
         steering = Steering(controller, len(self._core.wings))
-        return Flight(self._core.with_controller(steering, steps, latency_looks))
+        return Flight(self._core.with_controller(steering, steps, latency))
 
     def with_air(self, air: Air) -> Flight:
         """A new flight in the air that ``air`` computes: called with :class:`wingbeat.Motions`, it answers with forces [N]
         and moments about the origins of all bodies [N m], N components, shape (bodies, 6). It is called several times a
         step. Air with a memory has a method ``accept(step)``, told which step holds (docs/external-air.md), and may
         have ``open(names, step_s)``.
+
+        It takes the place of the air of the case, of which it knows nothing: streams, gusts, vortex streets, shear and the ground of
+        the case are refused, and keys of the air that :meth:`set` gave; ``set(KEY, None)`` takes them away.
         """
         if not callable(air):
             raise CaseError("air: the model of the air cannot be called", key="air", remedy="a function of Motions")
@@ -205,7 +218,7 @@ class Flight:
         ``progress`` is called with steps done and all steps; True shows a bar (tqdm where there is one). ``frames=False``
         keeps no surfaces and wakes in memory. Other threads run meanwhile. Ctrl-C stops the flight: with ``out`` its
         state is saved, and ``wingbeat resume`` goes on from it. Whatever exception ends a flight, what was flown is its
-        ``run``.
+        ``run``: None if it ended at its start.
         """
         if out is not None and self._core.is_own:
             raise CaseError(
@@ -217,14 +230,18 @@ class Flight:
         folder = None if out is None else os.fspath(out)
         run, error = self._core.fly(folder, bar, frames)
         if error is not None:
-            error.run = None if run is None else Run(run)  # type: ignore[attr-defined]
+            _keep(error, None if run is None else Run(run))
             raise error
         assert run is not None
         return Run(run)
 
     def start(self) -> Stepper:
         """The flight before its first step, to be flown step by step."""
-        return Stepper(self._core.start())
+        try:
+            return Stepper(self._core.start())
+        except BaseException as error:
+            _keep(error, None)
+            raise
 
     def trim(
         self,
@@ -242,8 +259,9 @@ class Flight:
         has wings that differ; those beyond for least power. ``bounds`` are of unknowns, in radians and parts of 1. See
         docs/flight-mechanics.md.
         """
-        velocity = (float(forward_m_per_s), float(sideslip_m_per_s), float(climb_m_per_s))
-        return Trim(self._core.trim(_asked(velocity, float(turn_rate_rad_per_s), unknowns, bounds), steps))
+        velocity = _velocity(forward_m_per_s, sideslip_m_per_s, climb_m_per_s)
+        turn_rate = real("turn_rate_rad_per_s", turn_rate_rad_per_s)
+        return Trim(self._core.trim(_asked(velocity, turn_rate, unknowns, bounds), whole("steps", steps, 20, 2000)))
 
     def trim_with_wake(
         self,
@@ -260,9 +278,9 @@ class Flight:
         wake grows, and the free wingbeat after them is the one that is trimmed: its residuals, forces over weight, within
         ``tolerance``. Some 10 to 30 such flights: minutes.
         """
-        velocity = (float(forward_m_per_s), float(sideslip_m_per_s), float(climb_m_per_s))
-        asked = _asked(velocity, 0.0, unknowns, bounds)
-        return WakeTrim(self._core.trim_with_wake(asked, held_beats, float(tolerance)))
+        asked = _asked(_velocity(forward_m_per_s, sideslip_m_per_s, climb_m_per_s), 0.0, unknowns, bounds)
+        beats = whole("held_beats", held_beats, 1, 100)
+        return WakeTrim(self._core.trim_with_wake(asked, beats, real("tolerance", tolerance)))
 
     def stability(self, **trim: Any) -> LinearModel:
         """Linear model about the trimmed flight; arguments are those of :meth:`trim`."""
@@ -293,19 +311,25 @@ class Stepper:
         return f"<wingbeat.Stepper after step {self.steps_done}>"
 
     def step(self, count: int = 1) -> int:
-        """Makes up to ``count`` steps; how many were made before the end."""
-        if isinstance(count, bool) or not isinstance(count, int) or count < 0:
-            raise CaseError(f"count = {count!r}: no number of steps", key="count", remedy="a whole number >= 0")
-        return self._core.step(count)
+        """Makes up to ``count`` steps; how many were made before the end. An exception that ends the flight has what was flown as
+        its ``run``.
+        """
+        number = whole("count", count, 0, sys.maxsize)
+        try:
+            return self._core.step(number)
+        except BaseException as error:
+            if self.is_finished:
+                _keep(error, self.run)
+            raise
 
     @property
     def steps_done(self) -> int:
-        """Steps made."""
+        """Steps made: one that fails is not."""
         return self._core.steps_done
 
     @property
     def time_s(self) -> float:
-        """Time [s]."""
+        """Time after them [s]."""
         return self._core.time_s
 
     @property
@@ -333,8 +357,17 @@ class Stepper:
         return Run(self._core.run())
 
 
+def _keep(error: BaseException, run: Run | None) -> None:
+    """What was flown goes with the exception that ended it."""
+    error.run = run  # type: ignore[attr-defined]
+
+
 def _made(source: Source) -> Flight:
     return Flight(source.core(), source)
+
+
+def _velocity(forward: float, right: float, up: float) -> tuple[float, float, float]:
+    return real("forward_m_per_s", forward), real("sideslip_m_per_s", right), real("climb_m_per_s", up)
 
 
 def _asked(
@@ -362,10 +395,9 @@ def _rows(name: str, angle: ArrayLike | Callable[[float], float], samples: int) 
     import numpy as np
 
     if callable(angle):
-        if not isinstance(samples, int) or not 4 <= samples <= 100_000:
-            raise CaseError(f"samples = {samples!r}: out of range", key="samples", remedy="4 to 100000")
+        samples = whole("samples", samples, 4, 100_000)
         angle = [float(angle(k / samples)) for k in range(samples)]
-    values = np.asarray(angle, dtype=np.float64)
+    values = reals(f"{name}_deg", angle)
     if values.ndim != 1 or values.size < 4:
         raise CaseError(
             f"{name}_deg: an array of shape {values.shape}",

@@ -7,6 +7,7 @@ from dataclasses import astuple, dataclass
 from typing import TYPE_CHECKING, Any, Protocol
 
 from wingbeat._core import Sensed
+from wingbeat._numbers import reals
 from wingbeat.errors import CaseError
 
 if TYPE_CHECKING:
@@ -17,7 +18,10 @@ __all__ = ["Adjustment", "Motions", "Sensed"]
 
 @dataclass(frozen=True, slots=True)
 class Adjustment:
-    """What a controller adds to the motion of a wing, as trim finds it."""
+    """What a controller adds to the motion of a wing, as trim finds it. A part that can have no effect ends the flight: swing and
+    lead of an angle that the case holds constant, as that of a passive hinge. Of one adjustment for all wings each has the parts that
+    have an effect there.
+    """
 
     stroke_amplitude: float = 0.0
     """Relative change of the stroke's swing about its mean."""
@@ -57,7 +61,7 @@ class Steering:
     def __call__(self, sensed: Sensed) -> list[tuple[float, ...]]:
         answer = self._controller(sensed)
         if isinstance(answer, Adjustment):
-            return [astuple(answer)] * self._wings
+            return [astuple(answer)]  # one for all
         for item in answer if isinstance(answer, Sequence) else [answer]:
             if not isinstance(item, Adjustment):
                 raise CaseError(
@@ -140,7 +144,7 @@ class Loads:
     def __call__(self, step: int | None, time_s: float, rows: NDArray[Any]) -> NDArray[Any]:
         import numpy as np
 
-        loads = np.ascontiguousarray(self._air(Motions(step, time_s, rows)), dtype=np.float64)
+        loads = reals("air", self._air(Motions(step, time_s, rows)))
         if loads.shape != (self._bodies, 6):
             raise CaseError(
                 f"air: the model of the air answered with an array of shape {loads.shape}",

@@ -5,7 +5,7 @@ from __future__ import annotations
 import html
 import json
 import os
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
@@ -91,6 +91,15 @@ class Run:
     def __repr__(self) -> str:
         where = f" in {self.dir}" if self.dir else ""
         return f"<wingbeat.Run {self.outcome}: {self._core.rows} rows{where}>"
+
+    def __reduce__(self) -> tuple[Callable[[str], Run], tuple[str]]:
+        if self.dir is None:
+            raise CaseError(
+                "a run in memory cannot be copied or pickled",
+                key="out",
+                remedy="dict(run.arrays) and run.case_text, or fly(out=DIR): such a run is read again from its directory",
+            )
+        return read, (os.fspath(self.dir),)
 
     def _repr_html_(self) -> str:
         page = self._core.page()

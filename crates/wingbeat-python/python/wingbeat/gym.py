@@ -17,7 +17,8 @@ noise of the sensors follow from the seed of ``reset`` and the number of the epi
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any
+from difflib import get_close_matches
+from typing import TYPE_CHECKING, Any, NoReturn
 
 import gymnasium
 import numpy as np
@@ -26,6 +27,7 @@ from gymnasium.vector.utils import batch_space
 
 from wingbeat import _core
 from wingbeat._flight import Flight
+from wingbeat._numbers import reals, whole
 from wingbeat.errors import AnalysisError, CaseError
 
 if TYPE_CHECKING:
@@ -37,19 +39,49 @@ TASKS = ("hover", "recover", "path", "gust")
 _OBSERVED, _CONTROLS = 17, 4
 
 
-def _whole(key: str, number: int, least: int, most: int) -> int:
-    if isinstance(number, bool) or not isinstance(number, int | np.integer) or not least <= number <= most:
-        raise CaseError(f"{key} = {number!r}: out of range", key=key, remedy=f"a whole number from {least} to {most}")
-    return int(number)
-
-
 def _size(key: str, number: float, most: float) -> float:
     if isinstance(number, bool) or not isinstance(number, int | float | np.number) or not 0.0 <= number <= most:
         raise CaseError(f"{key} = {number!r}: out of range", key=key, remedy=f"a number from 0 to {most}")
     return float(number)
 
 
-class _Fleet:
+def _check_plain(flight: Flight) -> None:
+    """Refuses what episodes about the trimmed flight would drop."""
+    if flight._core.is_steered:
+        raise CaseError(
+            "flight: it has a controller, and actions are the only commands here",
+            key="control.controller",
+            remedy='a flight without one: set("control.controller", "none"), or leave out with_controller',
+        )
+    if flight._core.held_beats > 0.0:
+        raise CaseError(
+            "flight: its body is held at first, and episodes begin in free flight",
+            key="flight.held_beats",
+            remedy='set("flight.held_beats", None)',
+        )
+
+
+def _check_options(options: dict[str, Any] | None, *known: str) -> None:
+    """Refuses options of ``reset`` that are not known."""
+    for name in options or {}:
+        if name not in known:
+            near = get_close_matches(str(name), known, 1)
+            remedy = f"did you mean {near[0]}?" if near else f"one of {', '.join(known)}" if known else "leave it out"
+            raise CaseError(f"options: {name!r} is not known", key="options", remedy=remedy)
+
+
+class _Uncopied:
+    """Flyers live in the compiled core: they are neither copied nor pickled."""
+
+    def __reduce__(self) -> NoReturn:
+        raise CaseError(
+            f"a {type(self).__name__} cannot be copied or pickled: its flyers cannot",
+            key="environment",
+            remedy="keep its settings, its seed and the actions since reset(seed=...): the same ones give the same bits",
+        )
+
+
+class _Fleet(_Uncopied):
     """Environments in the core, and their arrays."""
 
     def __init__(
@@ -70,15 +102,15 @@ class _Fleet:
         tilt_noise_rad: float = 0.0,
         rate_noise_rad_per_s: float = 0.0,
     ) -> None:
-        steps = _whole("steps_per_beat", steps_per_beat, 20, 2000)
-        controls = _whole("controls_per_beat", controls_per_beat, 1, steps)
+        steps = whole("steps_per_beat", steps_per_beat, 20, 2000)
+        controls = whole("controls_per_beat", controls_per_beat, 1, steps)
         if steps % controls:
             raise CaseError(
                 f"controls_per_beat = {controls}: {steps} steps are no whole number for each",
                 key="controls_per_beat",
                 remedy="a divisor of steps_per_beat",
             )
-        beats = _whole("beats", beats, 1, 1_000_000)
+        beats = whole("beats", beats, 1, 1_000_000)
         limits = (_size("amplitude_limit", amplitude_limit, 0.5), _size("angle_limit_rad", angle_limit_rad, 0.5))
         noise = [
             _size("position_noise_m", position_noise_m, 1e3),
@@ -90,12 +122,13 @@ class _Fleet:
         if not isinstance(flight, Flight):
             remedy = "Flight.preset(NAME) or Flight.from_case(FILE)"
             raise CaseError(f"flight = {flight!r}: no Flight", key="flight", remedy=remedy)
+        _check_plain(flight)
         trim = flight.trim(steps=steps)
         if not trim.converged:
             raise AnalysisError("the flight is not trimmed", remedy="another flight; see what flight.trim() says")
-        delay = _whole("delay", delay, 0, 10_000)
+        delay = whole("delay", delay, 0, 10_000)
         settings = (task, steps // controls, beats, limits, delay, noise, autoreset)
-        self.count = _whole("num_envs", count, 1, 1_000_000)
+        self.count = whole("num_envs", count, 1, 1_000_000)
         self.period_s = trim.period_s
         seeds = np.random.default_rng().integers(2**63, size=self.count)  # until reset() gives others
         self.core = trim._core.fleet(settings, [int(s) for s in seeds])
@@ -108,12 +141,12 @@ class _Fleet:
         self.action_space = gymnasium.spaces.Box(-1.0, 1.0, (_CONTROLS,), np.float32)
 
     def reset(self, seeds: Sequence[int | None], mask: Sequence[bool]) -> None:
-        seeds = [None if s is None else _whole("seed", s, 0, 2**64 - 1) for s in seeds]
+        seeds = [None if s is None else whole("seed", s, 0, 2**64 - 1) for s in seeds]
         self.core.reset(seeds, list(mask), self.observed)
 
     def step(self, actions: Any) -> bool:
         """Whether any episode has ended."""
-        plain = np.ascontiguousarray(actions, np.float32)
+        plain = reals("actions", actions, np.float32)
         if plain.shape != (self.count, _CONTROLS):
             remedy = f"shape ({self.count}, {_CONTROLS})"
             raise CaseError(f"actions: an array of shape {plain.shape}", key="actions", remedy=remedy)
@@ -128,7 +161,7 @@ class _Fleet:
         return actions
 
 
-class Environment(gymnasium.Env[Any, Any]):
+class Environment(_Uncopied, gymnasium.Env[Any, Any]):
     """One flyer. Keywords: ``flight`` (the fruit fly in blade elements if left out), ``steps_per_beat``, ``controls_per_beat``,
     ``beats`` of an episode, ``amplitude_limit``, ``angle_limit_rad``, ``delay`` in control steps and standard deviations of the
     sensors (``position_noise_m``, ``velocity_noise_m_per_s``, ``tilt_noise_rad``, ``rate_noise_rad_per_s``).
@@ -145,6 +178,8 @@ class Environment(gymnasium.Env[Any, Any]):
 
     def reset(self, *, seed: int | None = None, options: dict[str, Any] | None = None) -> tuple[Any, dict[str, Any]]:
         """A new episode; the first of ``seed``, else the next one (before any seed, one drawn at random)."""
+        _check_options(options)
+        seed = None if seed is None else whole("seed", seed, 0, 2**64 - 1)
         super().reset(seed=seed)
         self._fleet.reset([seed], [True])
         return self._fleet.observed[0].copy(), {}
@@ -152,7 +187,7 @@ class Environment(gymnasium.Env[Any, Any]):
     def step(self, action: Any) -> tuple[Any, float, bool, bool, dict[str, Any]]:
         """One control step."""
         fleet = self._fleet
-        fleet.step(np.asarray(action)[np.newaxis])
+        fleet.step(reals("actions", action, np.float32)[np.newaxis])
         ended = bool(fleet.terminated[0]), bool(fleet.truncated[0])
         return fleet.observed[0].copy(), float(fleet.rewards[0]), *ended, {}
 
@@ -162,7 +197,7 @@ class Environment(gymnasium.Env[Any, Any]):
         return actions
 
 
-class VectorEnvironment(gymnasium.vector.VectorEnv[Any, Any, Any]):
+class VectorEnvironment(_Uncopied, gymnasium.vector.VectorEnv[Any, Any, Any]):
     """Many flyers, stepped by one call on all threads. Keywords as those of :class:`Environment`.
 
     Observations, rewards and ends are arrays that the next step writes again: copy what is kept (``copy=True`` does it).
@@ -201,11 +236,13 @@ class VectorEnvironment(gymnasium.vector.VectorEnv[Any, Any, Any]):
         self, *, seed: int | Sequence[int | None] | None = None, options: dict[str, Any] | None = None
     ) -> tuple[Any, dict[str, Any]]:
         """New episodes, of the seeds ``seed + k`` or those of a list; where ``options["reset_mask"]`` says, if given."""
+        _check_options(options, "reset_mask")
         count = self.num_envs
-        if seed is None or isinstance(seed, int | np.integer):
-            seeds: list[int | None] = [None if seed is None else int(seed) + k for k in range(count)]
+        if isinstance(seed, Sequence | np.ndarray):
+            seeds: list[int | None] = list(seed)
         else:
-            seeds = list(seed)
+            first = None if seed is None else whole("seed", seed, 0, 2**64 - count)
+            seeds = [None if first is None else first + k for k in range(count)]
         mask = np.ones(count, np.bool_) if options is None else options.get("reset_mask", np.ones(count, np.bool_))
         if len(seeds) != count or np.shape(mask) != (count,):
             raise CaseError("seed: not one for each", key="seed", remedy=f"{count} seeds, a mask of {count}")
@@ -239,7 +276,7 @@ class VectorEnvironment(gymnasium.vector.VectorEnv[Any, Any, Any]):
 
     def core_seconds(self, count: int) -> float:
         """Seconds that ``count`` control steps of all take within Rust: what Python adds is seen beside it."""
-        return self._fleet.core.core_seconds(_whole("count", count, 0, 10**9))
+        return self._fleet.core.core_seconds(whole("count", count, 0, 10**9))
 
 
 for _task in TASKS:

@@ -1,0 +1,43 @@
+"""Numbers that are given: whole ones, real ones, arrays of real ones."""
+
+from __future__ import annotations
+
+import operator
+from typing import TYPE_CHECKING, Any
+
+from wingbeat.errors import CaseError
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+
+def whole(key: str, number: Any, least: int, most: int) -> int:
+    """A whole number from ``least`` to ``most``: an int, or what stands for one, as numpy's do."""
+    try:
+        plain = least - 1 if isinstance(number, bool) else operator.index(number)
+    except TypeError:
+        plain = least - 1
+    if not least <= plain <= most:
+        raise CaseError(f"{key} = {number!r}: out of range", key=key, remedy=f"a whole number from {least} to {most}")
+    return plain
+
+
+def real(key: str, number: Any) -> float:
+    """A real number; texts that read like one are none."""
+    if isinstance(number, str | bytes):
+        raise CaseError(f"{key} = {number!r}: no number", key=key, remedy="a number")
+    return float(number)
+
+
+def reals(key: str, numbers: Any, kind: Any = float) -> NDArray[Any]:
+    """An array of real numbers: complex ones would lose a part, texts and ragged lists are none."""
+    import numpy as np
+
+    remedy = "an array of real numbers"
+    try:
+        array = np.asarray(numbers)
+    except ValueError as error:
+        raise CaseError(f"{key}: no array: {error}", key=key, remedy=remedy) from None
+    if array.dtype.kind not in "biuf":
+        raise CaseError(f"{key}: an array of {array.dtype}", key=key, remedy=remedy)
+    return np.ascontiguousarray(array, kind)
