@@ -416,7 +416,12 @@ pub(crate) fn steadied(setup: &FlightSetup) -> FlightSetup {
 
 /// The common period of all wings [s].
 fn common_period(animal: &Animal) -> Result<f64, AnalysisError> {
-    let first = animal.wings.first().map_or(0.0, |w| w.motion.frequency);
+    let Some(first) = animal.wings.first().map(|w| w.motion.frequency) else {
+        return Err(AnalysisError::not_covered(
+            "the case has no beating wings, and what is analysed are wingbeats",
+            "analyse the case whose wings beat, as that of which a table of derivatives was made; fly this one with `run`",
+        ));
+    };
     if first <= 0.0 {
         return Err(AnalysisError::not_covered(
             "no wing beats",

@@ -4,6 +4,8 @@
 //! Blade elements are smooth and have no memory, so gains follow from the map of one wingbeat. What
 //! disturbs a flight (applied loads, gusts) has no part in the layout.
 
+use std::sync::Arc;
+
 use wingbeat_flight::{
     AirModel, BladeOptions, ControlModel, Controller, FlightError, FlightSetup, MotionMode,
 };
@@ -89,7 +91,7 @@ impl Design {
         for wing in &mut plain.animal.wings {
             wing.motion = wing.motion.risen();
         }
-        let found = trim(&plain, &problem)?;
+        let found = trim(&plain, &problem).map_err(symmetric)?;
         if found.converged {
             return Ok(found);
         }
@@ -148,6 +150,17 @@ impl Design {
     }
 }
 
+/// The error of a trim whose flight parts right from left, as who lays feedback out has to know it.
+fn symmetric(e: AnalysisError) -> AnalysisError {
+    match e {
+        AnalysisError::Asymmetric { aside, .. } => AnalysisError::Asymmetric {
+            aside,
+            remedy: "feedback is laid out for symmetric flight: make right and left wings alike (no [wing.left] of its own, no motion.difference), and let the wind blow along the plane of symmetry (air.stream_m_s without a part along n2); `control.controller = \"external\"` steers any flight",
+        },
+        e => e,
+    }
+}
+
 impl ControlModel for Design {
     fn open(&self, setup: &FlightSetup) -> Result<Box<dyn Controller>, FlightError> {
         let refused = |e: AnalysisError| FlightError::Setup {
@@ -167,5 +180,13 @@ impl ControlModel for Design {
 
     fn velocity(&self) -> Option<DVec3> {
         Some(self.velocity)
+    }
+
+    fn redrawn(&self, by: u64) -> Option<Arc<dyn ControlModel>> {
+        let sensors = self.sensors?.redrawn(by)?;
+        Some(Arc::new(Self {
+            sensors: Some(sensors),
+            ..self.clone()
+        }))
     }
 }

@@ -28,6 +28,16 @@ pub enum AnalysisError {
         /// What to try.
         remedy: &'static str,
     },
+    /// Right and left part where only the plane of symmetry was asked.
+    #[error(
+        "this flight parts right from left: the largest of its lateral forces, moments, turns and drifts in a wingbeat is {aside:.1e} (of weight, weight times wing length, radian, wing length): {remedy}"
+    )]
+    Asymmetric {
+        /// The largest of them \[1\].
+        aside: f64,
+        /// What to do instead.
+        remedy: &'static str,
+    },
     /// A wing in a stream does not come to rest.
     #[error(
         "at {speed} m/s the wing does not come to rest: a node still moves at {drift:.1e} of the speed of the stream. A wing that diverges or whose flow separates has no steady state: try lower speeds, less incidence or a stiffer wing"

@@ -28,6 +28,7 @@
 #![warn(missing_docs)]
 
 mod beat;
+mod closed_loop;
 pub mod control;
 mod departure;
 mod derivatives;

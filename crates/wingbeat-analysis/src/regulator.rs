@@ -8,7 +8,9 @@
 //! ```
 //!
 //! Controls: amplitude of all wings, mean stroke angle of all wings, right-left differences of
-//! amplitude and of stroke plane. With a weight of their sums, position and heading are summed from
+//! amplitude and of stroke plane. Free joints are states of the map that nobody sees: their departures are what the map makes
+//! of what was seen and commanded since the start, `j[k+1] = M_jx x[k] + M_jj j[k] + ...`; the closed loop has the eigenvalues
+//! of the regulator and those of `M_jj`. With a weight of their sums, position and heading are summed from
 //! beat to beat and fed back too (integral action): what steadily pulls the flyer away, a load or an
 //! air that differs from that of the layout, is then found and taken back wholly. Noise of what is seen is filtered by an
 //! [`observer`] where there is one.
@@ -22,6 +24,7 @@ use std::collections::VecDeque;
 use wingbeat_math::DVec3;
 
 use crate::AnalysisError;
+use crate::closed_loop::ClosedLoop;
 use crate::departure::{CONTROLS, Controls, Departure};
 use crate::level::Perturbation;
 use crate::part::Orbit;
@@ -89,6 +92,8 @@ pub struct Regulator {
     sums: Vec<f64>,
     /// Commands in force and under way, oldest first.
     commands: VecDeque<Controls>,
+    /// Departures of the free joints that are reckoned with [rad or m, and per s].
+    joints: Vec<f64>,
     /// Share of the way to a command that actuators go from look to look.
     share: f64,
     plants: Vec<Plant>,
@@ -99,7 +104,7 @@ impl Regulator {
     /// Gains for the trimmed flight and commands that act `latency` beats after sensing.
     ///
     /// # Errors
-    /// A flight that the strokes cannot stabilise: Riccati's iteration does not converge.
+    /// A flight that the strokes cannot stabilise: Riccati's iteration does not converge; free joints that keep on moving.
     pub fn new(trim: &Trim, weights: &Weights, latency: usize) -> Result<Self, AnalysisError> {
         let timing = Timing {
             parts: 1,
@@ -119,18 +124,32 @@ impl Regulator {
         let orbit = Orbit::new(trim, timing.parts)?;
         let plants = Plant::parts(trim, &orbit, &sides)?;
         let sums = if weights.sum.is_some() { CONTROLS } else { 0 };
-        let n = STATES + sums + CONTROLS * (timing.latency + 1);
+        let joints = trim.beat.joint_sizes().len();
         let step = |p: &Plant| p.augmented(sums, timing.latency, timing.share());
         let steps: Vec<Step> = plants.iter().map(step).collect();
+        let n = STATES + joints + sums + CONTROLS * (timing.latency + 1);
         let (q, r) = cost(trim, weights, timing.parts, n);
-        Ok(Self {
+        let found = Self {
             gains: riccati(&steps, &q, &r, n)?,
             sums: vec![0.0; sums],
             commands: VecDeque::from(vec![[0.0; CONTROLS]; timing.latency + 1]),
+            joints: vec![0.0; joints],
             share: timing.share(),
             plants,
             observer: None,
-        })
+        };
+        found.check_joints(trim, timing)?;
+        Ok(found)
+    }
+
+    /// An error if free joints keep it from holding the flight.
+    fn check_joints(&self, trim: &Trim, timing: &Timing) -> Result<(), AnalysisError> {
+        let closed = ClosedLoop {
+            trim,
+            regulator: self,
+            timing,
+        };
+        closed.check()
     }
 
     /// With the steady Kalman filter for a flight `trim` that is seen with `noise`.
@@ -153,11 +172,12 @@ impl Regulator {
     }
 
     /// The departure that is estimated where `seen` is seen.
-    pub fn estimated(&self, seen: &Departure) -> Departure {
+    pub fn estimated(&mut self, seen: &Departure) -> Departure {
         let Some(observer) = &self.observer else {
             return *seen;
         };
         let x = observer.estimate(seen.beat, &states(seen));
+        self.joints.copy_from_slice(&x[STATES..]);
         Departure {
             beat: seen.beat,
             position: DVec3::from_slice(&x),
@@ -165,7 +185,7 @@ impl Regulator {
         }
     }
 
-    /// Feedback gains of every look of a wingbeat, `CONTROLS` rows; columns: position, velocity, rate, tilt (SI), sums, then
+    /// Feedback gains of every look of a wingbeat, `CONTROLS` rows; columns: position, velocity, rate, tilt (SI), free joints, sums, then
     /// commands in force and under way.
     pub fn gains(&self) -> &[Vec<f64>] {
         &self.gains
@@ -173,12 +193,18 @@ impl Regulator {
 
     /// The controls against a departure, without limits.
     pub fn controls(&self, departure: &Departure) -> Controls {
-        let mut z = states(departure).to_vec();
+        let mut z = self.states(departure);
         z.extend(&self.sums);
         z.extend(self.commands.iter().flatten());
         let n = z.len();
         let gain = &self.gains[departure.beat % self.gains.len()];
         std::array::from_fn(|i| -(0..n).map(|j| gain[i * n + j] * z[j]).sum::<f64>())
+    }
+
+    /// What is seen, and free joints as they are reckoned with.
+    fn states(&self, departure: &Departure) -> Vec<f64> {
+        let seen = states(departure);
+        seen.iter().chain(&self.joints).copied().collect()
     }
 
     /// A beat goes by: the command `u` joins those under way, the departure the sums, unless the
@@ -190,9 +216,13 @@ impl Regulator {
             let due = self.commands[0];
             self.commands[0] = std::array::from_fn(|c| now[c] + self.share * (due[c] - now[c]));
         }
+        let (x, next) = (self.states(departure), &self.commands[0]);
+        let plant = &self.plants[departure.beat % self.plants.len()];
         if let Some(observer) = &mut self.observer {
-            let plant = &self.plants[departure.beat % self.plants.len()];
-            observer.advance(plant, &states(departure), &now, &self.commands[0]);
+            observer.advance(plant, &x, &now, next);
+        } else if plant.joints > 0 {
+            let ahead = plant.advance(&x, &now, next);
+            self.joints.copy_from_slice(&ahead[STATES..]);
         }
         if !limited {
             let states = states(departure);
@@ -201,12 +231,15 @@ impl Regulator {
         }
     }
 
-    /// Sums and commands, for a flight that is resumed.
+    /// Sums, commands, and the filter's states or those of the free joints, for a flight that is resumed.
     pub fn memory(&self) -> Vec<f64> {
         let commands = self.commands.iter().flatten();
-        let filter = self.observer.as_ref().map_or(vec![], Observer::memory);
+        let unseen = match &self.observer {
+            Some(observer) => observer.memory(),
+            None => self.joints.clone(),
+        };
         let numbers = self.sums.iter().chain(commands).copied();
-        numbers.chain(filter).collect()
+        numbers.chain(unseen).collect()
     }
 
     /// Goes on from what it remembered.
@@ -215,8 +248,9 @@ impl Regulator {
         let numbers = self.sums.iter_mut().chain(commands);
         let mut saved = memory.iter();
         numbers.zip(&mut saved).for_each(|(x, saved)| *x = *saved);
-        if let Some(observer) = &mut self.observer {
-            observer.restore(saved.as_slice());
+        match &mut self.observer {
+            Some(observer) => observer.restore(saved.as_slice()),
+            None => (self.joints.iter_mut().zip(saved)).for_each(|(x, saved)| *x = *saved),
         }
     }
 }
@@ -235,11 +269,12 @@ fn cost(trim: &Trim, w: &Weights, parts: usize, n: usize) -> (Vec<f64>, [f64; CO
         q[k] = sizes[k / 3].powi(-2);
     }
     if let Some(sum) = w.sum {
+        let first = STATES + trim.beat.joint_sizes().len();
         for (k, state) in SUMMED.into_iter().enumerate() {
             // As many times as often is summed.
             let sum = parts as f64 * sum;
             let size = if state < 3 { sum * length } else { sum };
-            q[STATES + k] = size.powi(-2);
+            q[first + k] = size.powi(-2);
         }
     }
     (q, [w.command.powi(-2); CONTROLS])

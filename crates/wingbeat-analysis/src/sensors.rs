@@ -34,6 +34,14 @@ pub struct Sensors {
 }
 
 impl Sensors {
+    /// The same with a seed later by `by`; none where there is no noise.
+    pub fn redrawn(mut self, by: u64) -> Option<Self> {
+        let noise = &self.noise;
+        let parts = [noise.position, noise.velocity, noise.tilt, noise.rate];
+        self.seed = self.seed.wrapping_add(by);
+        parts.iter().any(|x| *x != 0.0).then_some(self)
+    }
+
     /// What they make of the truth.
     pub fn seen(&self, truth: &Sensed) -> Sensed {
         let error = |channel: u64, noise: f64, bias: DVec3| {

@@ -277,12 +277,10 @@ impl Residuals {
 pub(crate) fn check_symmetric(aside: f64, rounding: f64) -> Result<(), AnalysisError> {
     match aside <= rounding {
         true => Ok(()),
-        false => Err(AnalysisError::not_covered(
-            format!(
-                "this flight parts right from left: the largest of its lateral forces, moments, turns and drifts in a wingbeat is {aside:.1e} (of weight, weight times wing length, radian, wing length)"
-            ),
-            "name six unknowns, three of them lateral, e.g. body_pitch stroke_amplitude stroke_offset body_roll stroke_amplitude_difference stroke_plane_difference",
-        )),
+        false => Err(AnalysisError::Asymmetric {
+            aside,
+            remedy: "name six unknowns, three of them lateral, e.g. body_pitch stroke_amplitude stroke_offset body_roll stroke_amplitude_difference stroke_plane_difference; or make right and left wings alike and let the wind blow along the plane of symmetry",
+        }),
     }
 }
 
@@ -319,6 +317,12 @@ pub(crate) fn attitude([pitch, roll]: [f64; 2]) -> DMat3 {
 
 /// An error if the problem cannot be posed for `setup`.
 pub(crate) fn check(setup: &FlightSetup, problem: &TrimProblem) -> Result<(), AnalysisError> {
+    if setup.gravity == DVec3::ZERO {
+        return Err(AnalysisError::not_covered(
+            "there is no gravity (gravity_m_s2), and a trim balances the weight",
+            "leave gravity_m_s2 out, or give the animal a weight to carry",
+        ));
+    }
     let all = problem.with_given(&[]).0;
     check_unknowns(setup, &all)?;
     let (residuals, named) = (Residuals::of(problem), problem.unknowns.len());

@@ -41,7 +41,7 @@ impl Law {
     }
 
     /// The departure that is reckoned with where `seen` is seen.
-    pub fn estimated(&self, seen: &Departure) -> Departure {
+    pub fn estimated(&mut self, seen: &Departure) -> Departure {
         match self {
             Self::Stabiliser(_) => *seen,
             Self::Regulator(regulator) => regulator.estimated(seen),
@@ -53,6 +53,22 @@ impl Law {
         match self {
             Self::Stabiliser(loops) => loops.remember(d, limited),
             Self::Regulator(regulator) => regulator.remember(d, u, limited),
+        }
+    }
+
+    /// What it remembers, for a flight that is resumed.
+    pub fn memory(&self) -> Vec<f64> {
+        match self {
+            Self::Stabiliser(loops) => loops.memory(),
+            Self::Regulator(regulator) => regulator.memory(),
+        }
+    }
+
+    /// Goes on from what it remembered.
+    pub fn restore(&mut self, memory: &[f64]) {
+        match self {
+            Self::Stabiliser(loops) => loops.restore(memory),
+            Self::Regulator(regulator) => regulator.restore(memory),
         }
     }
 }
@@ -175,10 +191,7 @@ impl Controller for Steering {
         let first = self.first.map_or(vec![], |(reference, origin)| {
             [reference.to_vec(), origin.to_array().to_vec()].concat()
         });
-        let law = match &self.law {
-            Law::Stabiliser(loops) => loops.memory(),
-            Law::Regulator(regulator) => regulator.memory(),
-        };
+        let law = self.law.memory();
         [vec![first.len() as f64], first, self.command.to_vec(), law].concat()
     }
 
@@ -199,10 +212,7 @@ impl Controller for Steering {
                 ))
             });
         self.command.copy_from_slice(command);
-        match &mut self.law {
-            Law::Stabiliser(loops) => loops.restore(law),
-            Law::Regulator(regulator) => regulator.restore(law),
-        }
+        self.law.restore(law);
     }
 }
 

@@ -57,7 +57,8 @@ fn predicted(regulator: &Regulator, z: &[f64]) -> Vec<f64> {
             |r: &Regulator| -> Controls { r.memory()[..CONTROLS].try_into().expect("one") };
         let now = in_force(&regulator);
         regulator.remember(&d, u, false);
-        x = regulator.plants()[look].advance(&x, &now, &in_force(&regulator));
+        let ahead = regulator.plants()[look].advance(&x, &now, &in_force(&regulator));
+        x = ahead.try_into().expect("no free joints");
     }
     [&x[..], &regulator.memory()].concat()
 }

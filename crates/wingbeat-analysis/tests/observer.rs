@@ -157,7 +157,7 @@ fn exact_eigenvalues_of_the_loop_are_those_of_regulator_and_filter() {
                 .sum::<f64>()
         });
         let none = [0.0; CONTROLS];
-        plain.plants()[0].advance(&left, &none, &none).to_vec()
+        plain.plants()[0].advance(&left, &none, &none)
     });
     let polynomial = |a: &[f64], n: usize, z: f64| {
         let mut a: Vec<f64> = a.iter().map(|x| -x).collect();

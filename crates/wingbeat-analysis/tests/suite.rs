@@ -8,6 +8,7 @@ mod mechanisms;
 mod observer;
 mod oracle;
 mod realisation;
+mod refusals;
 mod starts;
 mod sweep;
 mod validation;

@@ -3,12 +3,14 @@
 use std::path::{Path, PathBuf};
 
 use sha2::{Digest, Sha256};
+use wingbeat_analysis::estimate;
 use wingbeat_case::{CaseError, Document, IoError, LoadedCase, nearest};
 use wingbeat_flight::FlightSetup;
 
 use crate::axes::Reader;
 use crate::blocks::points_of_block;
 use crate::checks;
+use crate::evaluate;
 use crate::named::{self, Contents};
 use crate::number::{self, Number, Of, Source};
 use crate::plan::Plan;
@@ -47,6 +49,12 @@ pub struct Campaign {
     contents: Contents,
 }
 
+/// A sentence without its numbers.
+fn wording(sentence: &str) -> String {
+    let is_letter = |c: &char| !c.is_ascii_digit() && !".+-".contains(*c);
+    sentence.chars().filter(is_letter).collect()
+}
+
 impl Campaign {
     /// Reads the file of a campaign and checks it, as far as that goes without flying.
     ///
@@ -59,6 +67,7 @@ impl Campaign {
     fn of(path: &Path, document: Document) -> Result<Self, IoError> {
         let mut campaign = Self::without_numbers(path, document)?;
         campaign.numbers = campaign.kept()?;
+        campaign.check_beats()?;
         campaign.digest = campaign.digest_of();
         let folder = campaign.case_folder();
         campaign.contents = named::contents(&campaign.plan, &campaign.base, &folder);
@@ -73,7 +82,9 @@ impl Campaign {
     /// As [`Self::read`].
     pub fn possible_numbers(path: &Path) -> Result<Vec<Number>, IoError> {
         let campaign = Self::without_numbers(path, Document::read(path, REMEDY)?)?;
-        campaign.possible()
+        let mut all = campaign.possible()?;
+        number::join(&mut all, campaign.possible_at_points());
+        Ok(all)
     }
 
     fn without_numbers(path: &Path, document: Document) -> Result<Self, IoError> {
@@ -159,7 +170,7 @@ impl Campaign {
     }
 
     /// SHA-256 of what is done at point `i`: version, case, tasks, numbers that are kept, values of the point and what is in
-    /// the files that they name.
+    /// the files that they name, and in those that commands of other programs name.
     pub fn hash(&self, i: usize) -> [u8; 32] {
         let mut hash = self.digest.clone();
         for line in self.plan.overrides(i) {
@@ -180,14 +191,12 @@ impl Campaign {
         let case = Sha256::digest(self.base.resolved());
         hash.update(case);
         hash.update(Sha256::digest(self.base.text()));
-        let tasks = (
-            &raw.tasks,
-            &raw.trim,
-            &raw.keep,
-            raw.mean_beats.unwrap_or(1),
-        );
+        let tasks = (&raw.tasks, &raw.trim, &raw.keep, self.mean_beats());
         let files = (&raw.files, &raw.retention, &raw.set);
         hash.update(format!("{tasks:?} {files:?}\n"));
+        named::of_programs(&self.base)
+            .iter()
+            .for_each(|program| hash.update(program));
         if self.numbers.iter().any(|n| n.source.is_extreme()) {
             hash.update("extremes of the last wingbeats\n"); // they were those of the whole flight once
         }
@@ -235,6 +244,17 @@ impl Campaign {
         })
     }
 
+    /// The numbers that points may keep which are tried: a varied key may bring columns that the case does not have.
+    fn possible_at_points(&self) -> Vec<Number> {
+        let mut all = vec![];
+        for i in self.tried() {
+            let case = self.case_with(&self.overrides(i)).ok();
+            let more = case.and_then(|case| number::registry(&case.setup).ok());
+            number::join(&mut all, more.unwrap_or_default());
+        }
+        all
+    }
+
     /// The numbers that are kept.
     fn kept(&self) -> Result<Vec<Number>, IoError> {
         if self.raw.keep.is_empty() {
@@ -245,7 +265,11 @@ impl Campaign {
                 "keep = [\"lift_over_weight\", \"power_watt\"], for instance; `wingbeat campaign numbers FILE` lists all",
             ));
         }
-        let all = self.possible()?;
+        let mut all = self.possible()?;
+        let has = |all: &[Number], name: &String| all.iter().any(|n| n.name == *name);
+        if !self.raw.keep.iter().all(|name| has(&all, name)) {
+            number::join(&mut all, self.possible_at_points());
+        }
         let mut kept: Vec<Number> = vec![];
         for (k, name) in self.raw.keep.iter().enumerate() {
             let place = format!("keep[{k}]");
@@ -306,15 +330,78 @@ impl Campaign {
     fn check_points(&self) -> Result<(), IoError> {
         trimming::check(&self.document, &self.raw, &self.base.setup)?;
         self.check_options()?;
-        let mut block = 1;
+        self.tried().try_for_each(|i| self.check_point(i))
+    }
+
+    /// The points that are tried before anything is flown: the values of every axis, up to twenty of each and the last,
+    /// beside the first ones of the others.
+    fn tried(&self) -> impl Iterator<Item = usize> {
+        let mut block = self.plan.samples;
+        let mut points = vec![];
         for axis in self.plan.axes.iter().rev() {
             let stride = (axis.len() / TRIED).max(1);
-            for at in (0..axis.len()).step_by(stride).chain([axis.len() - 1]) {
-                self.check_point(at * block * self.plan.samples)?;
-            }
+            let places = (0..axis.len()).step_by(stride).chain([axis.len() - 1]);
+            points.extend(places.map(|at| at * block));
             block *= axis.len();
         }
-        self.check_point(0)
+        points.push(0);
+        points.into_iter()
+    }
+
+    /// What an estimate finds doubtful of the case and of the points that are tried, each said once.
+    pub fn doubts(&self) -> Vec<String> {
+        let mut found = estimate(&self.base.setup).doubts;
+        let points = self.tried().map(|i| self.case_with(&self.overrides(i)));
+        let doubts = points
+            .flatten()
+            .flat_map(|case| estimate(&case.setup).doubts);
+        for doubt in doubts {
+            if found.iter().all(|known| wording(known) != wording(&doubt)) {
+                found.push(doubt);
+            }
+        }
+        found
+    }
+
+    /// Wingbeats that means are taken over.
+    pub fn mean_beats(&self) -> usize {
+        self.raw.mean_beats.unwrap_or(1)
+    }
+
+    /// An error if no point that is tried has as many whole wingbeats as means are taken over, and none that is not would
+    /// have more.
+    fn check_beats(&self) -> Result<(), IoError> {
+        let wanted = self.mean_beats();
+        let (mut most, mut asked) = (0, false);
+        for i in self.tried() {
+            let Ok(case) = self.case_with(&self.overrides(i)) else {
+                continue;
+            };
+            if !evaluate::needs_beats(&self.numbers, &case.setup) {
+                return Ok(());
+            }
+            let each = case.setup.time.steps_per_beat();
+            most = most.max(each.map_or(0, |each| case.setup.time.steps / each));
+            asked = true;
+            if most >= wanted {
+                return Ok(());
+            }
+        }
+        let all_tried = self.plan.points() <= self.tried().count();
+        let timed = |key: &String| key.starts_with("time.") || key == "motion.frequency_hz";
+        if !asked || (!all_tried && self.plan.keys().iter().any(timed)) {
+            return Ok(());
+        }
+        let place = match self.raw.mean_beats {
+            Some(_) => "mean_beats",
+            None => "keep",
+        };
+        Err(self.fault(
+            place,
+            format!("means over {wanted} wingbeats, and flights of {most} whole ones"),
+            &format!("a whole number from 1 to {}", most.max(1)),
+            "fly longer (`\"time.beats\"` in [set]), take means over fewer, or keep what is no mean (`end.`, `summary.`)",
+        ))
     }
 
     /// Frames that are kept are written.

@@ -19,30 +19,39 @@ pub struct Flown {
 }
 
 impl Flown {
+    /// That it has fewer wingbeats than means are taken over, in words; none where it has enough.
+    pub fn lacks(&self, numbers: &[Number], beats: usize) -> Option<String> {
+        if !needs_beats(numbers, &self.setup) {
+            return None;
+        }
+        let flown = self.means().len();
+        let words = || {
+            format!(
+                "means over {beats} wingbeats, but only {flown} whole ones were flown: fly longer (time.beats), or take mean_beats = {}",
+                flown.max(1)
+            )
+        };
+        (flown < beats).then(words)
+    }
+
+    /// Means of its whole wingbeats.
+    fn means(&self) -> Vec<BeatMeans> {
+        let mut counted = Beats::new(&self.setup);
+        let records = self.records.iter();
+        records.filter_map(|r| counted.take(r)).collect()
+    }
+
     /// Its numbers, put where `numbers` has them (others are left as they are), and how far it can be trusted.
     ///
     /// # Errors
-    /// Fewer wingbeats than means are taken over; a column that this flight does not have.
+    /// Nothing flown; records of its wingbeats that are not at hand.
     pub fn fill(
         &self,
         numbers: &[Number],
         beats: usize,
         values: &mut [f64],
     ) -> Result<Verdict, String> {
-        let mut counted = Beats::new(&self.setup);
-        let means: Vec<BeatMeans> = self
-            .records
-            .iter()
-            .filter_map(|r| counted.take(r))
-            .collect();
-        let has_beats = self.setup.time.steps_per_beat().is_some();
-        let wants_beats = |n: &Number| n.source.is_mean() && (has_beats || !n.source.is_extreme());
-        if numbers.iter().any(wants_beats) && means.len() < beats {
-            return Err(format!(
-                "means over {beats} wingbeats, but only {} whole ones were flown",
-                means.len()
-            ));
-        }
+        let means = self.means();
         let last = &means[means.len().saturating_sub(beats)..];
         let summary = Summary::of(&self.setup, &self.records, &Outcome::Finished);
         for (number, value) in numbers.iter().zip(values) {
@@ -87,11 +96,13 @@ impl Flown {
         }
     }
 
+    /// What is taken of a column; not a number where this flight has none of that name.
     fn column(&self, of: Of, name: &str, beats: &[BeatMeans]) -> Result<f64, String> {
         let first = self.records.first().ok_or("nothing was flown")?;
         let columns = Columns::of(&self.setup, first).map_err(|e| e.to_string())?;
-        let place = columns.iter().position(|c| c.name == name);
-        let place = place.ok_or_else(|| format!("this flight has no column {name}"))?;
+        let Some(place) = columns.iter().position(|c| c.name == name) else {
+            return Ok(f64::NAN);
+        };
         let (mut scratch, mut row) = (first.clone(), vec![]);
         let mut value = |r: &Record| {
             columns.values(r, &mut scratch, &mut row);
@@ -119,6 +130,13 @@ impl Flown {
             }
         })
     }
+}
+
+/// Whether any of the numbers is taken over wingbeats of flights of `setup`.
+pub fn needs_beats(numbers: &[Number], setup: &FlightSetup) -> bool {
+    let has_beats = setup.time.steps_per_beat().is_some();
+    let wants = |n: &Number| n.source.is_mean() && (has_beats || !n.source.is_extreme());
+    numbers.iter().any(wants)
 }
 
 /// Numbers of a trim.

@@ -19,6 +19,8 @@ pub enum Halt {
     Slow,
     /// It cannot begin.
     Refused(String),
+    /// It has fewer wingbeats than means are taken over.
+    Short(String),
     /// It cannot go on.
     Diverged(String),
     /// A file cannot be read or written.

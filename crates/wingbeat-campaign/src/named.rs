@@ -1,5 +1,5 @@
-//! Files that values of varied keys name, as those of motion tables and meshes: what is in them belongs to a point as its
-//! values do, so a file that has changed is another point.
+//! Files that values of varied keys name, as those of motion tables and meshes, and those that the commands of other programs
+//! name: what is in them belongs to a point as its values do, so a file that has changed is another point.
 
 use std::collections::{BTreeMap, HashMap};
 use std::path::Path;
@@ -13,6 +13,9 @@ use crate::value::Value;
 /// Endings of keys that name a file, and of those that choose a column of the file beside them.
 const FILE: &str = ".file";
 const COLUMNS: [&str; 2] = [".phase_column", ".angle_column"];
+
+/// Beginnings of the keys of programs that are asked in a flight.
+const PROGRAMS: [&str; 2] = ["control.external", "air.external"];
 
 /// SHA-256 of the files by the `KEY=VALUE` that names them.
 pub type Contents = BTreeMap<String, [u8; 32]>;
@@ -33,7 +36,9 @@ pub fn contents(plan: &Plan, base: &LoadedCase, folder: &Path) -> Contents {
             for value in values {
                 let own = key.ends_with(FILE).then(|| text(value)).flatten();
                 let digest = own.as_deref().or(beside).and_then(&mut content);
-                if let Some(digest) = digest {
+                let is_program = PROGRAMS.iter().any(|p| key.starts_with(p));
+                let program = || is_program.then(|| of_words(&words(value))).flatten();
+                if let Some(digest) = digest.or_else(program) {
                     found.insert(pair(key, value), digest);
                 }
             }
@@ -47,6 +52,40 @@ fn text(value: &Value) -> Option<String> {
     matches!(value, Value::Other(_)).then_some(())?;
     let document = pair("value", value).parse::<toml::Table>().ok()?;
     Some(document.get("value")?.as_str()?.to_owned())
+}
+
+/// SHA-256 of the files that the commands of the programs of a case name.
+pub fn of_programs(case: &LoadedCase) -> Vec<[u8; 32]> {
+    let control = case.raw.control.as_ref();
+    let control = control.and_then(|c| c.external.as_ref());
+    let programs = [control, case.raw.air.external.as_ref()];
+    let commands = programs.into_iter().flatten().map(|p| &p.command);
+    commands.filter_map(|words| of_words(words)).collect()
+}
+
+/// SHA-256 of those words of a command that are files, from the folder in which programs are started: the working one.
+fn of_words(words: &[String]) -> Option<[u8; 32]> {
+    let files: Vec<_> = words
+        .iter()
+        .filter_map(|w| digest_of(Path::new(w)))
+        .collect();
+    (!files.is_empty()).then(|| Sha256::digest(files.concat()).into())
+}
+
+/// All texts in a value.
+fn words(value: &Value) -> Vec<String> {
+    let document = pair("value", value).parse::<toml::Table>();
+    let (mut left, mut found) = (vec![], vec![]);
+    left.extend(document.ok().and_then(|mut d| d.remove("value")));
+    while let Some(value) = left.pop() {
+        match value {
+            toml::Value::String(word) => found.push(word),
+            toml::Value::Array(all) => left.extend(all.into_iter().rev()),
+            toml::Value::Table(all) => left.extend(all.into_iter().map(|(_, value)| value)),
+            _ => {}
+        }
+    }
+    found
 }
 
 fn digest_of(path: &Path) -> Option<[u8; 32]> {

@@ -1,5 +1,7 @@
 //! The numbers that may be kept of a point, by their names: what each is, in which unit, and which task gives it.
 
+use std::collections::HashSet;
+
 use wingbeat_analysis::{AnalysisError, LOADS, Power, UNKNOWNS, Unknown, UnknownKind};
 use wingbeat_case::nearest;
 use wingbeat_flight::FlightSetup;
@@ -375,6 +377,12 @@ fn unit_of(unknown: Unknown) -> [&'static str; 2] {
         UnknownKind::WingLengths => ["_lengths", "1"],
         UnknownKind::Angle => ["_rad", "rad"],
     }
+}
+
+/// Takes those of `more` whose names are new.
+pub fn join(all: &mut Vec<Number>, more: Vec<Number>) {
+    let known: HashSet<String> = all.iter().map(|n| n.name.clone()).collect();
+    all.extend(more.into_iter().filter(|n| !known.contains(&n.name)));
 }
 
 /// The number called `name`; else what to try.

@@ -101,6 +101,7 @@ pub fn fly(
             failed(Reason::Slow, format!("it took longer than {limit} s"))
         }
         Err(Halt::Refused(words)) => failed(Reason::Refused, words),
+        Err(Halt::Short(words)) => failed(Reason::Short, words),
         Err(Halt::Diverged(words)) => failed(Reason::Diverged, words),
     };
     if let Some(work) = work.filter(|w| !campaign.raw.retention.failed && w.exists()) {
@@ -204,7 +205,10 @@ impl Point<'_> {
             }
             None => in_memory(case, &mut || self.watch())?,
         };
-        let beats = campaign.raw.mean_beats.unwrap_or(1);
+        let beats = campaign.mean_beats();
+        if let Some(words) = flown.lacks(&campaign.numbers, beats) {
+            return Err(Halt::Short(words));
+        }
         let verdict = flown.fill(&campaign.numbers, beats, &mut self.values);
         self.verdict = Some(verdict.map_err(Halt::Diverged)?);
         Ok(())
@@ -258,9 +262,9 @@ impl Point<'_> {
 
 fn analysis(e: AnalysisError) -> Halt {
     match e {
-        AnalysisError::NotCovered { .. } | AnalysisError::Flight(FlightError::Setup { .. }) => {
-            Halt::Refused(e.to_string())
-        }
+        AnalysisError::NotCovered { .. }
+        | AnalysisError::Asymmetric { .. }
+        | AnalysisError::Flight(FlightError::Setup { .. }) => Halt::Refused(e.to_string()),
         e => Halt::Diverged(e.to_string()),
     }
 }

@@ -34,6 +34,8 @@ const MAGIC: &str = "wingbeat-point 1 ";
 pub enum Reason {
     /// The case was refused.
     Refused,
+    /// The flight has fewer wingbeats than means are taken over.
+    Short,
     /// The flight or the analysis could not go on.
     Diverged,
     /// The process that flew it died, too often.
@@ -49,6 +51,7 @@ impl Reason {
     pub fn name(self) -> &'static str {
         match self {
             Self::Refused => "refused",
+            Self::Short => "short",
             Self::Diverged => "diverged",
             Self::Died => "died",
             Self::Unwritten => "unwritten",

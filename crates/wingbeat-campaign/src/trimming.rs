@@ -24,7 +24,7 @@ pub const OPTIONS: [&str; 5] = [
 
 /// Steps per wingbeat unless the file says otherwise, and at least and most.
 const DEFAULT_STEPS: usize = 100;
-const STEPS: [usize; 2] = [4, 2000];
+const STEPS: [usize; 2] = [20, 2000];
 /// The air is incompressible [m/s].
 const SOUND: f64 = 340.0;
 
@@ -149,7 +149,7 @@ fn check_options(options: &TrimOptions) -> Result<(), Bad> {
         Some(steps) => Err(Bad {
             key: format!("{TRIM}steps_per_beat"),
             problem: format!("{steps} steps per wingbeat"),
-            allowed: "a whole number from 4 to 2000",
+            allowed: "a whole number from 20 to 2000",
             remedy: "100 is the default",
         }),
     }

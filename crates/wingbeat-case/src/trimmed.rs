@@ -5,22 +5,22 @@ use wingbeat_analysis::{AnalysisError, LinearModel, Trim, rigid_animal};
 use wingbeat_blade::DerivativeTable;
 use wingbeat_dynamics::BodyMotion;
 use wingbeat_flight::{FlightSetup, closes_loop};
-use wingbeat_math::EulerSequence;
+use wingbeat_math::{DVec3, EulerSequence};
 use wingbeat_model::Side;
 use wingbeat_model::motion::Adjustment;
 
 use super::LoadedCase;
 use super::raw::{
-    AdjustCase, AirCase, AirModel, BodyCase, Case, CorrectorCase, DerivativesCase, DynamicsCase,
-    FlightCase, Formulation, IntegratorCase, JointCase, JointKind, Mode, MotionCase,
-    StabilisationCase, StartCase, TimeCase,
+    AdjustCase, AirCase, AirModel, BodyCase, Case, ControlCase, ControllerCase, CorrectorCase,
+    DerivativesCase, DynamicsCase, FlightCase, Formulation, IntegratorCase, JointCase, JointKind,
+    Mode, MotionCase, StabilisationCase, StartCase, TargetCase, TimeCase,
 };
 use crate::loaded::written;
 use crate::written::flight::tethered;
 
 /// The case of a trimmed flight as TOML: the given case with the adjusted wing motion, hinges and
 /// the state of body and free joints at the start of the periodic beat, impulsively started, in the
-/// trim's steps by the trim's method: what was trimmed is what flies.
+/// trim's steps by the trim's method: what was trimmed is what flies. Feedback holds it as it begins.
 pub fn trimmed_case(case: &LoadedCase, trim: &Trim) -> String {
     let mut raw = adjusted(case, [&trim.adjustment, &trim.difference], trim.mass_centre);
     lead(&mut raw, case, &trim.setup);
@@ -57,7 +57,24 @@ pub fn trimmed_case(case: &LoadedCase, trim: &Trim) -> String {
         }
     }
     let flight = released_into(&trim.beat.root(&trim.state));
+    if let Ok(velocity) = trim.mean_velocity() {
+        hold(&mut raw, velocity);
+    }
     with_start(case, raw, flight, trim.error())
+}
+
+/// Feedback holds the flight as it begins, with the mean velocity `velocity` [m/s] of what was trimmed. Waypoints lead
+/// along a way of their own.
+fn hold(raw: &mut Case, velocity: DVec3) {
+    let laws = [ControllerCase::Regulator, ControllerCase::Stabiliser];
+    let holds = |c: &&mut ControlCase| laws.contains(&c.controller) && c.waypoint.is_empty();
+    let Some(control) = raw.control.as_mut().filter(holds) else {
+        return;
+    };
+    // Trims are found to a billionth of their speeds.
+    let rounded = |x: f64| (x * 1e9).round() / 1e9 + 0.0;
+    control.hold = TargetCase::Start;
+    (control.forward_m_s, control.climb_m_s) = (rounded(velocity.x), rounded(-velocity.z));
 }
 
 /// Wingbeats of the rise of the beat and of the hold in which elastic wings and wakes of strips come into their motion. The clock of the
@@ -100,6 +117,7 @@ pub fn wake_trimmed_case(case: &LoadedCase, trim: &WakeTrim) -> String {
         held_beats: held,
         ..flight
     };
+    hold(&mut raw, trim.velocity);
     with_start(case, raw, flight, trim.error())
 }
 

@@ -112,6 +112,11 @@ pub trait ControlModel: fmt::Debug + Send + Sync {
     fn velocity(&self) -> Option<DVec3> {
         None
     }
+
+    /// The same whose noise of the senses has a seed later by `by`; none without noise that it draws itself.
+    fn redrawn(&self, _by: u64) -> Option<Arc<dyn ControlModel>> {
+        None
+    }
 }
 
 /// A controller that can be copied controls any flight.

@@ -141,9 +141,9 @@ fn flight(error: &FlightError) -> (&'static str, Parts) {
 fn analysis(error: &AnalysisError) -> (&'static str, Parts) {
     match error {
         AnalysisError::Flight(e) => flight(e),
-        AnalysisError::NotCovered { remedy, .. } | AnalysisError::NotPeriodic { remedy, .. } => {
-            ("AnalysisError", about("", *remedy))
-        }
+        AnalysisError::NotCovered { remedy, .. }
+        | AnalysisError::Asymmetric { remedy, .. }
+        | AnalysisError::NotPeriodic { remedy, .. } => ("AnalysisError", about("", *remedy)),
         _ => {
             let remedy = "start nearer to the flight that is looked for";
             ("AnalysisError", about("", remedy))

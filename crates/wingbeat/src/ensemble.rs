@@ -1,5 +1,6 @@
 //! The same flight many times over.
 
+use wingbeat_flight::Feedback;
 use wingbeat_math::DVec3;
 use wingbeat_results::summary::{BeatMeans, Ensemble};
 
@@ -14,8 +15,9 @@ const DIFFERENCE: f64 = 1e-6;
 /// Flies `flight` so many times as there are `members`, at least two, over `threads` (0: as many as the machine has): the
 /// first as it is, in the others the air moves by a millionth of the wings' speed (length over period, or that of the
 /// stream), each in a direction of its own, all in the plane of symmetry where half is computed. What separated flow makes of
-/// that is its uncertainty, as soon as the members have parted; until then they are one flight. The same bits on any number
-/// of threads.
+/// that is its uncertainty, as soon as the members have parted; until then they are one flight. Where the senses of a
+/// controller are noisy, each member has noise of its own (seeds that count on from that of the case), and is a flight of its
+/// own from the start. The same bits on any number of threads.
 ///
 /// ```
 /// let flight = wingbeat::Flight::preset("fruit-fly-blade")?.beats(2.0);
@@ -37,9 +39,20 @@ pub fn ensemble(flight: &Flight, members: usize, threads: usize) -> Result<Ensem
     })?;
     let beats = fly_all(&flights, threads, |run: Run| run.summary().beats)?;
     let beats: Vec<Vec<BeatMeans>> = beats.into_iter().collect::<Result<_, Error>>()?;
-    Ensemble::of(&beats).ok_or(Error::Ensemble {
+    let is_noisy = noisy(flight, 1).is_some();
+    Ensemble::of(&beats, is_noisy).ok_or(Error::Ensemble {
         problem: "an ensemble is of two members or more that fly a whole wingbeat",
         remedy: "more members, or time.beats of 1 or more",
+    })
+}
+
+/// The flight's feedback with the noise of member `k`; none without noise.
+fn noisy(flight: &Flight, k: usize) -> Option<Feedback> {
+    let feedback = flight.setup.feedback.as_ref()?;
+    let controller = feedback.controller.redrawn(k as u64)?;
+    Some(Feedback {
+        controller,
+        ..feedback.clone()
     })
 }
 
@@ -51,6 +64,9 @@ fn member(flight: &Flight, k: usize, members: usize) -> Option<Flight> {
     let length = reports.iter().map(|r| r.length).fold(0.0, f64::max);
     let flapping = setup.time.period.map_or(0.0, |p| length / p);
     let is_mirrored = setup.air.is_mirrored();
+    if let Some(feedback) = (k > 0).then(|| noisy(flight, k)).flatten() {
+        setup.feedback = Some(feedback);
+    }
     let stream = setup.air.stream_mut()?;
     if k > 0 {
         let mut along = direction(k, members);

@@ -7,10 +7,13 @@
 //! L = P (P + R)^-1,  P = M (P - L P) M^T + W                R: noise of what is seen, W: of the flight
 //! ```
 //!
+//! Free joints are states that are not seen: their noise R is beyond any measure, and what is expected of them is corrected by
+//! what is seen of the body.
+//!
 //! With the gains of the regulator on x^ this is the linear-quadratic-Gaussian regulator: the eigenvalues of the closed
 //! loop are those of regulator and filter.
 
-use super::plant::{Plant, STATES};
+use super::plant::{Plant, STATES, natural_sizes};
 use super::riccati::{product, solve_columns};
 use crate::AnalysisError;
 use crate::beat::Beat;
@@ -19,6 +22,8 @@ use crate::sensors::Channels;
 
 /// Parts of natural sizes below which noise of what is seen is not counted.
 const FLOOR: f64 = 1e-4;
+/// Noise of states that are not seen, in natural sizes.
+const UNSEEN: f64 = 1e6;
 /// Change of a pass, relative to natural sizes, at which the iteration stands.
 const TOLERANCE: f64 = 1e-11;
 /// Passes of the iteration at most.
@@ -47,8 +52,8 @@ impl Default for ProcessNoise {
 pub struct Observer {
     /// L of every look of a wingbeat, by rows.
     gains: Vec<Vec<f64>>,
-    /// What is expected at the next look; none before the first.
-    expected: Option<[f64; STATES]>,
+    /// What is expected at the next look, free joints last; none before the first.
+    expected: Option<Vec<f64>>,
 }
 
 impl Observer {
@@ -62,16 +67,18 @@ impl Observer {
         process: &ProcessNoise,
         noise: &Channels<f64>,
     ) -> Result<Self, AnalysisError> {
-        let (length, period) = (beat.wing_length(), beat.period());
-        let [speed, rate] = [length / period, 1.0 / period];
-        let sizes = [length, speed, rate, 1.0];
+        let sizes = natural_sizes(beat);
+        let [speed, rate] = [sizes[3], sizes[6]];
         let seen = [noise.position, noise.velocity, noise.rate, noise.tilt];
         let moved = [0.0, process.velocity * speed, process.rate * rate, 0.0];
-        let r = |k: usize| seen[k / 3].max(FLOOR * sizes[k / 3]).powi(2);
-        let r: Vec<f64> = (0..STATES).map(r).collect();
+        let r = |(k, size): (usize, &f64)| match seen.get(k / 3) {
+            Some(noise) => noise.max(FLOOR * size).powi(2),
+            None => (UNSEEN * size).powi(2),
+        };
+        let r: Vec<f64> = sizes.iter().enumerate().map(r).collect();
         let share = plants.len() as f64;
-        let w = |k: usize| moved[k / 3].powi(2) / share;
-        let w: Vec<f64> = (0..STATES).map(w).collect();
+        let w = |k: usize| moved.get(k / 3).map_or(0.0, |w| w.powi(2) / share);
+        let w: Vec<f64> = (0..sizes.len()).map(w).collect();
         let maps: Vec<&[f64]> = plants.iter().map(|p| &p.m[..]).collect();
         let filters = kalman(&maps, &w, &r)?;
         Ok(Self {
@@ -85,32 +92,35 @@ impl Observer {
         &self.gains
     }
 
-    /// What is estimated where `seen` is seen at look number `look`.
-    pub fn estimate(&self, look: usize, seen: &[f64; STATES]) -> [f64; STATES] {
+    /// What is estimated where `seen` is seen at look number `look`; free joints last, at first as on the trimmed orbit.
+    pub fn estimate(&self, look: usize, seen: &[f64; STATES]) -> Vec<f64> {
         let gain = &self.gains[look % self.gains.len()];
-        let Some(expected) = self.expected else {
-            return *seen;
+        let n = gain.len().isqrt();
+        let Some(expected) = &self.expected else {
+            let joints = std::iter::repeat_n(0.0, n - STATES);
+            return seen.iter().copied().chain(joints).collect();
         };
-        std::array::from_fn(|i| {
-            let row = gain[i * STATES..].iter();
-            let news = seen.iter().zip(&expected);
+        let corrected = |i: usize| {
+            let row = gain[i * n..].iter();
+            let news = seen.iter().zip(expected);
             expected[i] + row.zip(news).map(|(l, (y, x))| l * (y - x)).sum::<f64>()
-        })
+        };
+        (0..n).map(corrected).collect()
     }
 
     /// Time goes by from the estimate `x` on the map `plant`, in which the command `now` goes over to `next`.
-    pub fn advance(&mut self, plant: &Plant, x: &[f64; STATES], now: &Controls, next: &Controls) {
+    pub fn advance(&mut self, plant: &Plant, x: &[f64], now: &Controls, next: &Controls) {
         self.expected = Some(plant.advance(x, now, next));
     }
 
     /// What it remembers.
     pub fn memory(&self) -> Vec<f64> {
-        self.expected.map_or(vec![], |x| x.to_vec())
+        self.expected.clone().unwrap_or_default()
     }
 
     /// Goes on from what it remembered.
     pub fn restore(&mut self, memory: &[f64]) {
-        self.expected = memory.try_into().ok();
+        self.expected = (!memory.is_empty()).then(|| memory.to_vec());
     }
 }
 

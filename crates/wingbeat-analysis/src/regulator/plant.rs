@@ -3,7 +3,7 @@
 use wingbeat_math::DVec3;
 
 use crate::AnalysisError;
-use crate::beat::Beat;
+use crate::beat::{Beat, JOINTS};
 use crate::departure::{CONTROLS, Controls, Departure, adjustments};
 use crate::level::{Level, Perturbation};
 use crate::monodromy::monodromy;
@@ -12,7 +12,7 @@ use crate::trim::Trim;
 
 use super::riccati::Step;
 
-/// Number of states: position, velocity, angular velocity, tilt.
+/// Number of states that are seen: position, velocity, angular velocity, tilt.
 pub const STATES: usize = 12;
 /// Of the states, those that are summed over the beats: position and heading, as many as there are
 /// controls.
@@ -24,9 +24,12 @@ pub fn states(departure: &Departure) -> [f64; STATES] {
     std::array::from_fn(|k| if k < 3 { position[k] } else { rest[k - 3] })
 }
 
-/// The linear map over one beat, or a part of it, about the trimmed flight.
+/// The linear map over one beat, or a part of it, about the trimmed flight. States are those that are seen, then
+/// coordinates and speeds of the free joints.
 #[derive(Clone, Debug)]
 pub struct Plant {
+    /// Number of coordinates and speeds of free joints.
+    pub joints: usize,
     /// Of the states, by rows \[1\].
     pub m: Vec<f64>,
     /// Effect of the command in force at the start and of the next one, by rows \[1\].
@@ -46,52 +49,54 @@ impl Plant {
     fn new(trim: &Trim, orbit: &Orbit, sides: &[f64], part: Part) -> Result<Self, AnalysisError> {
         let root = trim.beat.root(&trim.state);
         let level = Level::new(root.r, trim.beat.gravity());
+        let joints = &orbit.joints[part.number];
+        let states = STATES + joints.len();
         let mut all = vec![0.0; 3];
         all.extend(orbit.seen[part.number].to_array());
+        all.extend(joints);
         all.extend([0.0; 2 * CONTROLS]);
-        let joints = &orbit.joints[part.number];
-        let map = |z: &[f64]| fly(trim, part, joints, &level, sides, z);
-        let speed = trim.beat.wing_length() / trim.beat.period();
-        let rate = 1.0 / trim.beat.period();
-        let sizes = [trim.beat.wing_length(), speed, rate, 1.0];
-        let step = |k: usize| 1e-4 * if k < STATES { sizes[k / 3] } else { 1.0 };
-        let steps: Vec<f64> = (0..all.len()).map(step).collect();
+        let map = |z: &[f64]| fly(trim, part, &level, sides, z);
+        let mut sizes = natural_sizes(&trim.beat);
+        sizes.extend([1.0; 2 * CONTROLS]);
+        let steps: Vec<f64> = sizes.iter().map(|size| 1e-4 * size).collect();
         let d = monodromy(map, &all, &steps)?;
-        let columns = STATES + 2 * CONTROLS;
+        let columns = states + 2 * CONTROLS;
         let block = |from: usize, width: usize| {
             let entry = |k: usize| d[(k / width) * columns + from + k % width];
-            (0..STATES * width).map(entry).collect::<Vec<f64>>()
+            (0..states * width).map(entry).collect::<Vec<f64>>()
         };
         Ok(Self {
-            m: block(0, STATES),
-            b: [block(STATES, CONTROLS), block(STATES + CONTROLS, CONTROLS)],
+            joints: joints.len(),
+            m: block(0, states),
+            b: [block(states, CONTROLS), block(states + CONTROLS, CONTROLS)],
         })
     }
 
+    /// Number of states.
+    pub fn states(&self) -> usize {
+        STATES + self.joints
+    }
+
     /// The states at its end, in which `now` goes over to `next`.
-    pub fn advance(&self, x: &[f64; STATES], now: &Controls, next: &Controls) -> [f64; STATES] {
-        std::array::from_fn(|i| {
-            let row = |m: &[f64], v: &[f64]| -> f64 {
-                let n = v.len();
-                m[i * n..(i + 1) * n]
-                    .iter()
-                    .zip(v)
-                    .map(|(a, b)| a * b)
-                    .sum()
-            };
-            row(&self.m, x) + row(&self.b[0], now) + row(&self.b[1], next)
-        })
+    pub fn advance(&self, x: &[f64], now: &Controls, next: &Controls) -> Vec<f64> {
+        let row = |m: &[f64], v: &[f64], i: usize| -> f64 {
+            let row = m[i * v.len()..].iter().zip(v);
+            row.map(|(a, b)| a * b).sum()
+        };
+        let of = |i| row(&self.m, x, i) + row(&self.b[0], now, i) + row(&self.b[1], next, i);
+        (0..self.states()).map(of).collect()
     }
 
     /// The map of states, sums, command in force and commands under way, and the effect of a new
     /// command; actuators go the share `share` of the way to what is due.
     pub(super) fn augmented(&self, sums: usize, latency: usize, share: f64) -> Step {
-        let first = STATES + sums;
+        let states = self.states();
+        let first = states + sums;
         let n = first + CONTROLS * (latency + 1);
         let (mut a, mut b) = (vec![0.0; n * n], vec![0.0; n * CONTROLS]);
-        for i in 0..STATES {
-            for j in 0..STATES {
-                a[i * n + j] = self.m[i * STATES + j];
+        for i in 0..states {
+            for j in 0..states {
+                a[i * n + j] = self.m[i * states + j];
             }
             for c in 0..CONTROLS {
                 let [now, next] = [0, 1].map(|k| self.b[k][i * CONTROLS + c]);
@@ -106,7 +111,7 @@ impl Plant {
             }
         }
         for (k, state) in SUMMED.into_iter().enumerate().take(sums) {
-            let i = STATES + k;
+            let i = states + k;
             (a[i * n + i], a[i * n + state]) = (1.0, 1.0);
         }
         // The queue moves up; the new command joins at its end.
@@ -124,29 +129,37 @@ impl Plant {
     }
 }
 
-/// Position and state after a part of a beat from position, state, command in force and next command. Free
-/// joints start as on the trimmed orbit: what they remember of the beat before is left to feedback.
+/// Natural sizes of the states of a plant.
+pub(crate) fn natural_sizes(beat: &Beat) -> Vec<f64> {
+    let (length, period) = (beat.wing_length(), beat.period());
+    let sizes = [length, length / period, 1.0 / period, 1.0];
+    let seen = (0..STATES).map(|k| sizes[k / 3]);
+    seen.chain(beat.joint_sizes().iter().copied()).collect()
+}
+
+/// Position, state and free joints after a part of a beat from the same, command in force and next command.
 fn fly(
     trim: &Trim,
     part: Part,
-    joints: &[f64],
     level: &Level,
     sides: &[f64],
     z: &[f64],
 ) -> Result<Vec<f64>, AnalysisError> {
+    let (states, commands) = z.split_at(z.len() - 2 * CONTROLS);
     let command = |from: usize| {
-        let u = std::array::from_fn(|c| z[from + c]);
+        let u = std::array::from_fn(|c| commands[from + c]);
         adjustments(&u, sides)
     };
-    let (now, next) = (command(STATES), command(STATES + CONTROLS));
+    let (now, next) = (command(0), command(CONTROLS));
     let beat = part.passing(trim, [&now, &next])?;
     let after = Beat::between(&trim.setup, part.of, &next, &next)?;
     let [start, end] = [part, part.next()].map(|p| p.start(beat.period()));
-    let x = std::array::from_fn(|i| z[3 + i]);
-    let y = Perturbation::from_array(x).state_at(&beat, start, level, joints);
+    let x = std::array::from_fn(|i| states[3 + i]);
+    let y = Perturbation::from_array(x).state_at(&beat, start, level, &states[STATES..]);
     let y = beat.advance_over(part.steps(&beat), &y)?;
     let moved = level.to_n.transpose() * DVec3::from_slice(&y);
-    let mut out = (moved + DVec3::from_slice(z)).to_array().to_vec();
+    let mut out = (moved + DVec3::from_slice(states)).to_array().to_vec();
     out.extend(Perturbation::at(&after, end, level, &y).to_array());
+    out.extend_from_slice(&y[JOINTS..]);
     Ok(out)
 }

@@ -67,6 +67,8 @@ pub struct WakeTrim {
     pub difference: Adjustment,
     /// Shift of the mass centre along b1 [m].
     pub mass_centre: f64,
+    /// Mean velocity that was asked for, N components [m/s].
+    pub velocity: DVec3,
     /// Pitch of the body at its release \[rad\].
     pub body_pitch: f64,
     /// Roll of the body at its release, right side down \[rad\].
@@ -235,6 +237,7 @@ impl Flights<'_> {
             adjustment: a.adjustment,
             difference: a.difference,
             mass_centre: a.mass_centre,
+            velocity: problem.velocity,
             body_pitch: a.pitch,
             body_roll: a.roll,
             past,

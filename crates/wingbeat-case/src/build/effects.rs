@@ -21,6 +21,8 @@ pub(crate) fn check(case: &Case, setup: &FlightSetup, source: &CaseSource) -> Bu
     adjustments(case, setup)?;
     joints(case)?;
     frames(case, source)?;
+    senses(case, source)?;
+    loads(case, source)?;
     for (name, spring) in &case.spring {
         if spring.stiffness_newton_per_m == 0.0 && spring.damping_newton_s_per_m == 0.0 {
             let why = "without stiffness_newton_per_m or damping_newton_s_per_m";
@@ -242,6 +244,54 @@ fn adjustments(case: &Case, setup: &FlightSetup) -> Built<()> {
         if let Some((part, _)) = lost {
             let key = format!("motion.{table}.{part}");
             return Err(idle(key, "on wings whose angle is constant"));
+        }
+    }
+    Ok(())
+}
+
+/// What sees no otherwise than without, and leads nowhere.
+fn senses(case: &Case, source: &CaseSource) -> Built<()> {
+    let Some(control) = &case.control else {
+        return Ok(());
+    };
+    for (k, w) in control.waypoint.iter().enumerate() {
+        if w.position_m.is_none() && w.heading_deg.is_none() {
+            let why = "without position_m or heading_deg: it is the place and heading before it";
+            return Err(idle(format!("control.waypoint[{k}]"), why));
+        }
+    }
+    let given = source.keys_at("control.sensors");
+    let has = |ending: &str| given.iter().any(|key| key.contains(ending));
+    if control.sensors.is_some() && !has("_noise_") {
+        if !has("_bias_") {
+            return Err(idle("control.sensors", "without noise or bias"));
+        }
+        if has("seed") {
+            return Err(idle("control.sensors.seed", "without noise"));
+        }
+    }
+    Ok(())
+}
+
+/// Harmonics that stand still.
+fn loads(case: &Case, source: &CaseSource) -> Built<()> {
+    for (k, load) in case.load.iter().enumerate() {
+        let path = |key: &str| format!("load[{k}].{key}");
+        let series = [
+            ("force_cosine_newton", load.force_cosine_newton.is_empty()),
+            (
+                "couple_cosine_newton_m",
+                load.couple_cosine_newton_m.is_empty(),
+            ),
+        ];
+        let oscillates = source.gives(&path("frequency_hz"));
+        if let Some((key, _)) = series.iter().find(|s| !s.1 && !oscillates) {
+            return Err(Fault::new(
+                path(key),
+                "without frequency_hz this stands still: it is a constant load",
+                "beside frequency_hz",
+                "give frequency_hz, or the constant part: force_newton, couple_newton_m",
+            ));
         }
     }
     Ok(())

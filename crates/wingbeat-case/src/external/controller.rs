@@ -3,6 +3,8 @@
 //! The protocol is that of `docs/control.md`: one line of JSON each way. All that the program wants to remember
 //! beyond its present line it can give back as `memory`, which is part of the state of the flight.
 
+use std::sync::Arc;
+
 use serde::{Deserialize, Serialize};
 use wingbeat_analysis::control::{Limits, Route, Sensors};
 use wingbeat_flight::control::check_heeded;
@@ -72,6 +74,14 @@ impl ControlModel for ProcessController {
 
     fn follows(&self) -> bool {
         !self.route.0.is_empty()
+    }
+
+    fn redrawn(&self, by: u64) -> Option<Arc<dyn ControlModel>> {
+        let sensors = self.sensors?.redrawn(by)?;
+        Some(Arc::new(Self {
+            sensors: Some(sensors),
+            ..self.clone()
+        }))
     }
 }
 

@@ -7,7 +7,8 @@ use serde::{Deserialize, Serialize};
 
 use super::beats::BeatMeans;
 use super::estimate::{Estimate, FEWEST, moments};
-use super::means::LEFT_OUT;
+use super::means::{LEFT_OUT, ManyBeats};
+use super::words::steadiness;
 
 /// Members have parted with the beat in which their forces scatter by this part of what those of the beats of a member
 /// scatter among themselves (half of the variance).
@@ -53,21 +54,31 @@ pub struct Ensemble {
     pub members: usize,
     /// The beats that all of them finished; those before the members have parted are without errors.
     pub beats: Vec<EnsembleBeat>,
+    /// Whether each member has noise of its own.
+    #[serde(default)]
+    pub is_noisy: bool,
     /// As what the members count.
     pub members_are: Members,
     /// The beats after the one in which members have parted (from the third on, if they have not) as one: its number is
     /// that of the first. None of fewer than three beats.
     pub means: Option<EnsembleBeat>,
+    /// The means over the members, beat by beat after the second, as those of one flight: whether the beats still change.
+    #[serde(default)]
+    pub course: Option<ManyBeats>,
 }
 
 impl Ensemble {
-    /// Of the beats of two members or more; none of fewer, or if one has no whole beat.
-    pub fn of(members: &[Vec<BeatMeans>]) -> Option<Self> {
+    /// Of the beats of two members or more, whose noise differs if they are `noisy`; none of fewer, or if one has no whole
+    /// beat.
+    pub fn of(members: &[Vec<BeatMeans>], is_noisy: bool) -> Option<Self> {
         let count = members.iter().map(Vec::len).min().filter(|n| *n > 0)?;
         if members.len() < 2 {
             return None;
         }
-        let parted = first_parted(members, count);
+        let parted = match is_noisy {
+            true => Some(0),
+            false => first_parted(members, count),
+        };
         let members_are = match parted {
             Some(_) => Members::Independent,
             None if is_deterministic(members, count) => Members::Deterministic,
@@ -77,17 +88,26 @@ impl Ensemble {
             true => over(members, [k, k + 1], Members::Independent),
             false => over(members, [k, k + 1], Members::OneFlight),
         };
-        let from = parted.unwrap_or(LEFT_OUT);
+        let from = parted.map_or(LEFT_OUT, |p| p.max(LEFT_OUT));
         Some(Self {
             members: members.len(),
             beats: (0..count).map(beat).collect(),
+            is_noisy,
             members_are,
+            course: ManyBeats::of(&(0..count).map(|k| mean_of(members, k)).collect::<Vec<_>>()),
             means: (count > LEFT_OUT).then(|| over(members, [from, count], members_are)),
         })
     }
 
-    /// What the errors of its means are, in a sentence.
+    /// What the errors of its means are, and whether its beats are steady.
     pub fn remark(&self) -> String {
+        let errors = self.errors();
+        let course = self.course.as_ref().map(steadiness);
+        course.map_or_else(|| errors.clone(), |course| format!("{errors}; {course}"))
+    }
+
+    /// What the errors of its means are, in a sentence.
+    fn errors(&self) -> String {
         let errors = match &self.means {
             Some(means) if means.lift_newton.standard_error.is_some() => {
                 "the error is that of the beats of one flight"
@@ -95,6 +115,9 @@ impl Ensemble {
             _ => "of so few beats the mean has no error",
         };
         match (self.members_are, &self.means) {
+            (Members::Independent, _) if self.is_noisy => {
+                "every flight has noise of its own, and counts as a flight of its own".to_owned()
+            }
             (Members::Independent, means) => format!(
                 "the flights have parted by beat {}; the mean from there on counts each of them as a flight of its own",
                 means.as_ref().map_or(0, |m| m.beat)
@@ -102,8 +125,25 @@ impl Ensemble {
             (Members::OneFlight, _) => format!(
                 "the flights have not parted: they count as one, and {errors}; fly longer (time.beats); flights without separation or turbulence may never part"
             ),
-            (Members::Deterministic, _) => "the flights do not part: the case is deterministic, there is no scatter over flights and no error of the mean; whether its beats have become periodic, the summary of `wingbeat run` says".to_owned(),
+            (Members::Deterministic, _) => "the flights do not part: the case is deterministic, there is no scatter over flights and no error of the mean".to_owned(),
         }
+    }
+}
+
+/// A beat as the mean over the members.
+fn mean_of(members: &[Vec<BeatMeans>], beat: usize) -> BeatMeans {
+    let mean = |of: fn(&BeatMeans) -> f64| {
+        members.iter().map(|m| of(&m[beat])).sum::<f64>() / members.len() as f64
+    };
+    let ratio = mean(|b| b.lift_over_weight.unwrap_or(f64::NAN));
+    BeatMeans {
+        beat: members[0][beat].beat,
+        lift_newton: mean(|b| b.lift_newton),
+        lift_over_weight: ratio.is_finite().then_some(ratio),
+        thrust_newton: mean(|b| b.thrust_newton),
+        power_watt: mean(|b| b.power_watt),
+        inviscid_lift_newton: mean(|b| b.inviscid_lift_newton),
+        lift_by_impulse_newton: mean(|b| b.lift_by_impulse_newton),
     }
 }
 
@@ -196,7 +236,7 @@ mod tests {
             member(&[1.0, 1.0, 3.0, 3.0, 5.0]),
             member(&[1.0, 1.0, 1.0, 1.0, 3.0, 9.0]),
         ];
-        let e = Ensemble::of(&members).unwrap();
+        let e = Ensemble::of(&members, false).unwrap();
         assert_eq!((e.members, e.beats.len()), (2, 5));
         assert_eq!((e.beats[0].spread, e.beats[0].lift_newton.mean), (0.0, 1.0));
         assert_eq!(e.beats[2].lift_newton.standard_error, None);
@@ -209,8 +249,8 @@ mod tests {
         assert_eq!((all.beat, all.lift_newton.mean), (4, 3.0));
         assert_eq!(all.lift_over_weight.unwrap().mean, 1.5);
         assert!(e.remark().contains("parted by beat 4"), "{}", e.remark());
-        assert_eq!(Ensemble::of(&members[..1]), None);
-        assert_eq!(Ensemble::of(&[vec![], vec![]]), None);
+        assert_eq!(Ensemble::of(&members[..1], false), None);
+        assert_eq!(Ensemble::of(&[vec![], vec![]], false), None);
     }
 
     /// Flights that are the same but for 1e-4 are one flight, whose beats scatter by a tenth: the mean is not known to
@@ -223,7 +263,7 @@ mod tests {
                 let lift = |(k, x): (usize, &f64)| x + m * 1e-9 * grown.powi(k as i32);
                 member(&beats.iter().enumerate().map(lift).collect::<Vec<_>>())
             };
-            Ensemble::of(&[of(-1.0), of(1.0), of(0.5)]).unwrap()
+            Ensemble::of(&[of(-1.0), of(1.0), of(0.5)], false).unwrap()
         };
         let e = apart(10.0);
         assert_eq!(e.members_are, Members::OneFlight);
@@ -242,5 +282,30 @@ mod tests {
             None
         );
         assert!(same.remark().contains("deterministic"));
+    }
+    /// Members whose noise differs are flights of their own, however little the noise does; beats that fall are said to.
+    #[test]
+    fn exact_errors_over_members_with_noise_of_their_own() {
+        let of = |m: f64| member(&[1.2, 1.1, 1.0 + m, 0.9 + m, 0.8 + m, 0.7 + m]);
+        let members = [of(-1e-3), of(1e-3)];
+        let e = Ensemble::of(&members, true).unwrap();
+        assert_eq!(e.members_are, Members::Independent);
+        assert!((e.means.as_ref().unwrap().lift_newton.mean - 0.85).abs() < 1e-12);
+        let error = e
+            .means
+            .as_ref()
+            .unwrap()
+            .lift_newton
+            .standard_error
+            .unwrap();
+        // Deviation 1.41e-3, error of the mean of two 1e-3, Student's factor 1.837.
+        assert!((error - 1.837e-3).abs() < 3e-5, "{error:e}");
+        let said = e.remark();
+        assert!(
+            said.contains("noise of its own") && said.contains("NOT steady"),
+            "{said}"
+        );
+        let same = Ensemble::of(&members, false).unwrap();
+        assert!(same.remark().contains("NOT steady"), "{}", same.remark());
     }
 }

@@ -164,6 +164,20 @@ fn mean_rows(means: &ManyBeats, out: &mut String) {
         row("   +-", |e| e.standard_error.unwrap_or(0.0));
     }
     let [first, last] = means.beats;
+    let count = last + 1 - first;
+    let few = match count < ENOUGH {
+        true => " (rough, of so few beats)",
+        false => "",
+    };
+    let text = format!(
+        "Mean and standard error of the {count} beats {first} to {last}{few}, {}.",
+        verdict(means)
+    );
+    out.push_str(&wrapped("       ", &text));
+}
+
+/// Whether beats are steady, as the end of a sentence about them.
+fn verdict(means: &ManyBeats) -> String {
     let [lift, thrust] =
         [means.change_of_lift, means.change_of_thrust].map(|x| signed(100.0 * x, 1));
     let verdict = match (means.is_steady, means.is_known) {
@@ -171,15 +185,18 @@ fn mean_rows(means: &ManyBeats, out: &mut String) {
         (false, true) => "which are NOT steady",
         (false, false) => "which scatter too much to tell whether they are steady",
     };
-    let count = last + 1 - first;
-    let few = match count < ENOUGH {
-        true => " (rough, of so few beats)",
-        false => "",
-    };
-    let text = format!(
-        "Mean and standard error of the {count} beats {first} to {last}{few}, {verdict}: from the first half of them to the second, lift changes by {lift} % of the force, the force forward by {thrust} %."
-    );
-    out.push_str(&wrapped("       ", &text));
+    format!(
+        "{verdict}: from the first half of them to the second, lift changes by {lift} % of the force, the force forward by {thrust} %"
+    )
+}
+
+/// The same of the beats of several flights.
+pub(super) fn steadiness(means: &ManyBeats) -> String {
+    let [first, last] = means.beats;
+    format!(
+        "together they have the beats {first} to {last}, {}",
+        verdict(means)
+    )
 }
 
 /// A number with a prefix that leaves one to three digits before the point.

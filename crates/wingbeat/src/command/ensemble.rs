@@ -2,6 +2,7 @@
 
 use clap::Args;
 use serde_json::json;
+use wingbeat::analysis::estimate;
 use wingbeat::case::LoadedCase;
 use wingbeat::results::summary::{Ensemble, EnsembleBeat, Estimate};
 use wingbeat::{Flight, ensemble};
@@ -11,6 +12,7 @@ use super::failure::Failure;
 use super::options;
 use super::report::{Report, ReportArgs, line};
 use super::run::name_program;
+use super::terminal::tell;
 
 /// Members at most, and unless told otherwise.
 const MAX_MEMBERS: usize = 10_000;
@@ -25,7 +27,7 @@ pub(crate) struct EnsembleArgs {
     /// Set a key of the case, e.g. time.beats=3; KEY= takes it away (may be repeated).
     #[arg(long = "set", value_name = "KEY=VALUE")]
     set: Vec<String>,
-    /// Flights; in all but the first the air moves by a millionth of the wings' speed.
+    /// Flights; in all but the first the air moves by a millionth of the wings' speed, and noise of the senses is drawn anew.
     #[arg(long, value_name = "N", default_value_t = DEFAULT_MEMBERS,
           value_parser = options::count::<2, MAX_MEMBERS>)]
     members: usize,
@@ -41,18 +43,21 @@ pub(crate) fn run(args: &EnsembleArgs) -> Result<(), Failure> {
     args.report.deliver([], |report, []| {
         let case = LoadedCase::find(&args.case, &args.set)?;
         name_program(&case);
+        let doubts = estimate(&case.setup).doubts;
+        doubts.iter().for_each(|d| tell!("warning: {d}"));
+        report.value("warnings", doubts);
         let name = case.name.clone();
         let flight = Flight::from(case);
         let what = format!("{} flights", args.members);
         let found = watched(&what, || {
             ensemble(&flight, args.members, args.threads.unwrap_or(0))
         })?;
-        tell(report, &name, &found);
+        show(report, &name, &found);
         Ok(())
     })
 }
 
-fn tell(report: &mut Report, name: &str, found: &Ensemble) {
+fn show(report: &mut Report, name: &str, found: &Ensemble) {
     line!(
         report,
         "{name}: {} flights, in all but the first the air moves by a millionth of the wings' speed",

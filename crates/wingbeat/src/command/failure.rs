@@ -67,7 +67,9 @@ impl Failure {
         match self {
             Self::Told(code) => *code,
             Self::Analysis(
-                AnalysisError::NotCovered { .. } | AnalysisError::Flight(FlightError::Setup { .. }),
+                AnalysisError::NotCovered { .. }
+                | AnalysisError::Asymmetric { .. }
+                | AnalysisError::Flight(FlightError::Setup { .. }),
             )
             | Self::Flight(Error::Flight(FlightError::Setup { .. })) => REFUSED,
             Self::Analysis(_) | Self::Flight(Error::Flight(_)) => FAILED,

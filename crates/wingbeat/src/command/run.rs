@@ -12,7 +12,7 @@ use wingbeat::results::{Outcome, ResultDir, RunWriter, saver};
 use crate::command::failure::{FAILED, Failure, INTERRUPTED};
 use crate::command::options::RunOptions;
 use crate::command::progress::Progress;
-use crate::command::signals::stop_flag;
+use crate::command::signals::Interrupts;
 use crate::command::target::folder;
 use crate::command::terminal::{self, say, tell};
 
@@ -54,24 +54,27 @@ struct Run {
 /// `wingbeat run`.
 pub(crate) fn run(args: &RunArgs) -> Result<(), Failure> {
     let threads = set_threads(args.options.threads)?;
-    start(&args.options, prepare(args, threads)?)
+    let interrupts = Interrupts::while_building();
+    let run = prepare(args, threads, &interrupts)?;
+    start(&args.options, run, &interrupts)
 }
 
 /// `wingbeat resume`.
 pub(crate) fn resume(args: &ResumeArgs) -> Result<(), Failure> {
     let threads = set_threads(args.options.threads)?;
-    match go_back(&args.dir, threads)? {
-        Some(run) => start(&args.options, run),
+    let interrupts = Interrupts::while_building();
+    match go_back(&args.dir, threads, &interrupts)? {
+        Some(run) => start(&args.options, run, &interrupts),
         None => Ok(()),
     }
 }
 
-fn start(options: &RunOptions, run: Run) -> Result<(), Failure> {
+fn start(options: &RunOptions, run: Run, interrupts: &Interrupts) -> Result<(), Failure> {
     if !options.silent() {
         let dir = run.writer.dir().path().display();
         tell!("{}: results go to {dir}", run.case.name);
     }
-    fly(options, run, &stop_flag())
+    fly(options, run, interrupts.stop())
 }
 
 /// The number of threads in use.
@@ -100,7 +103,7 @@ pub(crate) fn name_program(case: &LoadedCase) {
 }
 
 /// Everything that can be refused before a step is made; the directory is made last.
-fn prepare(args: &RunArgs, threads: usize) -> Result<Run, IoError> {
+fn prepare(args: &RunArgs, threads: usize, interrupts: &Interrupts) -> Result<Run, IoError> {
     let case = LoadedCase::find(&args.case, &args.set)?;
     if let Some(out) = args
         .out
@@ -109,7 +112,7 @@ fn prepare(args: &RunArgs, threads: usize) -> Result<Run, IoError> {
     {
         ResultDir::create(out)?; // refuses before the flight is built
     }
-    let flight = build(&case)?;
+    let flight = build(&case, interrupts)?;
     let dir = match &args.out {
         Some(out) if args.overwrite => ResultDir::overwrite(out)?,
         Some(out) => ResultDir::create(out)?,
@@ -118,9 +121,10 @@ fn prepare(args: &RunArgs, threads: usize) -> Result<Run, IoError> {
     begin(dir, case, flight, threads)
 }
 
-fn build(case: &LoadedCase) -> Result<Simulation, IoError> {
+fn build(case: &LoadedCase, interrupts: &Interrupts) -> Result<Simulation, IoError> {
     name_program(case);
     let flight = Simulation::new(case.setup.clone());
+    interrupts.flight_is_built();
     Ok(flight.map_err(|e| case.refused(&e))?)
 }
 
@@ -142,7 +146,7 @@ fn begin(
 
 /// Goes back to the last checkpoint; to the start, where a run was killed before its first one;
 /// nowhere, where it flew to its end.
-fn go_back(dir: &Path, threads: usize) -> Result<Option<Run>, IoError> {
+fn go_back(dir: &Path, threads: usize, interrupts: &Interrupts) -> Result<Option<Run>, IoError> {
     let dir = ResultDir::open(dir)?;
     let saved = saver::read(dir.path())?;
     if saved.manifest.outcome == Outcome::Finished {
@@ -160,7 +164,7 @@ fn go_back(dir: &Path, threads: usize) -> Result<Option<Run>, IoError> {
                 case.name
             );
         }
-        let flight = build(&case)?;
+        let flight = build(&case, interrupts)?;
         return begin(dir, case, flight, threads).map(Some);
     };
     if case.program().is_none() {
@@ -170,6 +174,7 @@ fn go_back(dir: &Path, threads: usize) -> Result<Option<Run>, IoError> {
         path: dir.join("checkpoint.bin"),
         problem: format!("the flight cannot go on from it: {e}"),
     })?;
+    interrupts.flight_is_built();
     tell!(
         "{}: goes on after step {} of {}",
         case.name,

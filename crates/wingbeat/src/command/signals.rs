@@ -1,32 +1,61 @@
-//! Ctrl-C, SIGTERM and hang-up: the first ends a flight after its step, a second one at once.
+//! Ctrl-C, SIGTERM and hang-up: the first ends a flight after its step, a second one at once. While a flight is being built, its
+//! controller laid out, the first ends the program: nothing is written yet.
 
 use std::sync::Arc;
-use std::sync::atomic::AtomicBool;
-#[cfg(unix)]
-use std::sync::atomic::Ordering;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 use signal_hook::consts::{SIGINT, SIGTERM};
 
 use crate::command::failure::INTERRUPTED;
 use crate::command::terminal::tell;
 
-/// Set by the first signal. Signals that are ignored when the program starts stay ignored:
+/// What the first signal sets. Signals that are ignored when the program starts stay ignored:
 /// `nohup wingbeat run` outlives its terminal, `wingbeat run &` in a script the Ctrl-C meant for
 /// another program.
-pub(crate) fn stop_flag() -> Arc<AtomicBool> {
-    let stop = Arc::new(AtomicBool::new(false));
-    if let Err(e) = watch(Arc::clone(&stop)) {
-        tell!("warning: Ctrl-C will not end the run cleanly ({e})");
+#[derive(Clone, Default)]
+pub(crate) struct Interrupts {
+    stop: Arc<AtomicBool>,
+    is_built: Arc<AtomicBool>,
+}
+
+impl Interrupts {
+    /// From now on; until [`Self::flight_is_built`] a signal ends the program at once.
+    pub(crate) fn while_building() -> Self {
+        let interrupts = Self::default();
+        if let Err(e) = watch(interrupts.clone()) {
+            tell!("warning: Ctrl-C will not end the run cleanly ({e})");
+        }
+        interrupts
     }
-    stop
+
+    /// The flight is there, and is written from now on: signals end it after its step.
+    pub(crate) fn flight_is_built(&self) {
+        self.is_built.store(true, Ordering::SeqCst);
+    }
+
+    /// Set by the first signal.
+    pub(crate) fn stop(&self) -> &AtomicBool {
+        &self.stop
+    }
+}
+
+/// Set by the first signal, for what is begun already.
+pub(crate) fn stop_flag() -> Arc<AtomicBool> {
+    let interrupts = Interrupts::while_building();
+    interrupts.flight_is_built();
+    interrupts.stop
 }
 
 #[cfg(unix)]
-fn watch(stop: Arc<AtomicBool>) -> std::io::Result<()> {
+fn watch(interrupts: Interrupts) -> std::io::Result<()> {
     let mut signals = signal_hook::iterator::Signals::new(heeded())?;
     std::thread::spawn(move || {
         for _ in signals.forever() {
-            if stop.swap(true, Ordering::SeqCst) {
+            let is_built = interrupts.is_built.load(Ordering::SeqCst);
+            if !is_built {
+                tell!("interrupted before the flight began: nothing is written");
+            }
+            if interrupts.stop.swap(true, Ordering::SeqCst) || !is_built {
                 wingbeat::case::external::end_all();
                 std::process::exit(i32::from(INTERRUPTED));
             }
@@ -36,7 +65,7 @@ fn watch(stop: Arc<AtomicBool>) -> std::io::Result<()> {
 }
 
 #[cfg(not(unix))]
-fn watch(stop: Arc<AtomicBool>) -> std::io::Result<()> {
+fn watch(Interrupts { stop, .. }: Interrupts) -> std::io::Result<()> {
     for signal in [SIGINT, SIGTERM] {
         let code = i32::from(INTERRUPTED);
         signal_hook::flag::register_conditional_shutdown(signal, code, Arc::clone(&stop))?;

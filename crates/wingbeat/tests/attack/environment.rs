@@ -7,7 +7,7 @@ const COMMANDS: [&[&str]; 6] = [
     &["check", "case.toml"],
     &["show", "r"],
     &["compare", "r", "r", "--json"],
-    &["trim", "--steps", "8"],
+    &["trim", "--steps", "20"],
     &["new", "--species", "honeybee", "-"],
     &["presets"],
 ];

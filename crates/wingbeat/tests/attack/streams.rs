@@ -77,7 +77,7 @@ fn refuses_bad_places_for_every_text() {
         "..",
         &long,
     ];
-    let quick = ["--steps", "8"];
+    let quick = ["--steps", "20"];
     let commands: [(&[&str], &str); 13] = [
         (&["check", "case.toml"], "--out"),
         (&["show", "r"], "--out"),
@@ -99,8 +99,8 @@ fn refuses_bad_places_for_every_text() {
         }
     }
     let twice: [&[&str]; 9] = [
-        &["trim", "--steps", "8", "--write", "new", "--out", "new"],
-        &["trim", "--steps", "8", "--write", "new", "--out", "./new"],
+        &["trim", "--steps", "20", "--write", "new", "--out", "new"],
+        &["trim", "--steps", "20", "--write", "new", "--out", "./new"],
         &[
             "stability",
             "--steps",

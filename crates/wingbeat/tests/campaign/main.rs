@@ -6,6 +6,7 @@ mod again;
 mod browser;
 mod chains;
 mod docs;
+mod kept;
 mod kills;
 mod page;
 mod refusals;

@@ -120,7 +120,7 @@ list = [0.5, 1]
     flown(dir, &["campaign", "run", "c.toml", "--out", "r", "--quiet"]);
     let tables = merged(dir, "r");
     assert_eq!(column(dir, "r", "success"), ["0", "1"]);
-    assert_eq!(column(dir, "r", "reason"), ["diverged", ""]);
+    assert_eq!(column(dir, "r", "reason"), ["short", ""]);
     assert_eq!(column(dir, "r", "lift_over_weight")[0], "");
     let failed = String::from_utf8(tables["failed.csv"].clone()).unwrap();
     for part in [

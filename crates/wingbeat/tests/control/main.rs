@@ -5,9 +5,11 @@ use std::path::Path;
 use std::sync::Arc;
 
 mod actuators;
+mod joints;
 mod refusals;
 #[path = "../support/mod.rs"]
 mod support;
+mod written;
 
 use support::{Scratch, wingbeat as program};
 use wingbeat::Flight;

@@ -7,7 +7,7 @@ use crate::{BLADES, PRESET, case};
 
 #[test]
 fn refuses_what_control_cannot_do_by_name() {
-    let wrong: [(&[&str], &str); 27] = [
+    let wrong: [(&[&str], &str); 31] = [
         (&["control.controller=\"pid\""], "control.controller"),
         (&["control.latency_beats=-1"], "control.latency_beats"),
         (&["control.latency_beats=21"], "control.latency_beats"),
@@ -33,15 +33,18 @@ fn refuses_what_control_cannot_do_by_name() {
             "control.sensors.tilt_noise_deg",
         ),
         (
-            &["control.waypoint=[{time_s=0}]"],
+            &["control.waypoint=[{time_s=0,heading_deg=9}]"],
             "control.waypoint[0].time_s",
         ),
         (
-            &["control.waypoint=[{time_s=0.1},{time_s=0.104}]"],
+            &["control.waypoint=[{time_s=0.1,heading_deg=9},{time_s=0.104,heading_deg=0}]"],
             "control.waypoint[1].time_s",
         ),
         (
-            &["control.waypoint=[{time_s=1}]", "control.climb_m_s=0.1"],
+            &[
+                "control.waypoint=[{time_s=1,heading_deg=9}]",
+                "control.climb_m_s=0.1",
+            ],
             "control.climb_m_s",
         ),
         (
@@ -74,6 +77,13 @@ fn refuses_what_control_cannot_do_by_name() {
                 "control.climb_m_s=0.1",
             ],
             "control.climb_m_s",
+        ),
+        (&["control.waypoint=[{time_s=0.1}]"], "control.waypoint[0]"),
+        (&["control.sensors={}"], "control.sensors"),
+        (&["control.sensors={seed=4}"], "control.sensors"),
+        (
+            &["control.sensors={seed=4,velocity_bias_m_s=[0.1,0,0]}"],
+            "control.sensors.seed",
         ),
         (&["air.model=none"], "control"),
         (&["flight.mode=tethered"], "control"),
@@ -108,4 +118,38 @@ fn refuses_a_flyer_that_cannot_be_trimmed_when_it_is_built() {
         told.contains("control.controller") && told.contains("trim"),
         "{told}"
     );
+}
+
+/// Wings that differ, and a wind across, are named as what [control] does not fly; unknowns of a trim are none of its keys.
+#[test]
+fn refuses_asymmetric_flights_in_words_of_the_case() {
+    for key in [
+        "motion.difference.stroke_amplitude=0.1",
+        "air.stream_m_s=[0,-0.1,0]",
+    ] {
+        let case = case(&[&BLADES[..], &[key]].concat());
+        let error = Simulation::new(case.setup.clone())
+            .err()
+            .expect("asymmetric");
+        let told = case.refused(&error).to_string();
+        for word in [
+            "symmetric",
+            "wings alike",
+            "air.stream_m_s",
+            "control.controller",
+        ] {
+            assert!(told.contains(word), "{key}: {told}");
+        }
+        assert!(!told.contains("unknowns"), "{key}: {told}");
+    }
+}
+
+#[test]
+fn refuses_harmonics_of_loads_without_a_frequency() {
+    let set = |load: &str| LoadedCase::find(PRESET, &[format!("load=[{{{load}}}]")]);
+    let error = set("force_cosine_newton=[[1e-6,0,0]]")
+        .unwrap_err()
+        .to_string();
+    assert!(error.contains("load[0].force_cosine_newton") && error.contains("frequency_hz"));
+    assert!(set("frequency_hz=50,force_cosine_newton=[[1e-6,0,0]]").is_ok());
 }

@@ -17,7 +17,7 @@ use crate::command::terminal::tell;
 use crate::command::watch::Watch;
 
 /// Steps per wingbeat at least and at most; of order four, 2,000 are at the last bits.
-const STEPS: [usize; 2] = [4, 2_000];
+const STEPS: [usize; 2] = [20, 2_000];
 
 /// Steps per wingbeat unless told otherwise.
 const DEFAULT_STEPS: usize = 100;

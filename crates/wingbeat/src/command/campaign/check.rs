@@ -12,6 +12,7 @@ use crate::command::analyse::trimming::watched;
 use crate::command::failure::Failure;
 use crate::command::options;
 use crate::command::report::{Report, ReportArgs, entry, line};
+use crate::command::terminal::tell;
 
 /// Arguments of `wingbeat campaign check`.
 #[derive(Args)]
@@ -30,6 +31,9 @@ pub(super) fn check(args: &CheckArgs) -> Result<(), Failure> {
     args.report.deliver([], |report, []| {
         let campaign = Campaign::read(&args.file)?;
         describe(report, &campaign);
+        let doubts = campaign.doubts();
+        doubts.iter().for_each(|d| tell!("warning: {d}"));
+        report.value("warnings", json!(doubts));
         if campaign.base.program().is_some() || campaign.base.control_program().is_some() {
             entry!(
                 report,
@@ -39,7 +43,7 @@ pub(super) fn check(args: &CheckArgs) -> Result<(), Failure> {
             return Ok(());
         }
         let cost = watched("three points", || Cost::of(&campaign));
-        tell(
+        show(
             report,
             &campaign,
             &cost,
@@ -87,7 +91,7 @@ fn describe(report: &mut Report, campaign: &Campaign) {
     report.value("keep", json!(numbers));
 }
 
-fn tell(report: &mut Report, campaign: &Campaign, cost: &Cost, jobs: usize) {
+fn show(report: &mut Report, campaign: &Campaign, cost: &Cost, jobs: usize) {
     for (i, time, failed) in &cost.samples {
         let failed = failed
             .as_ref()

@@ -1,0 +1,107 @@
+//! Numbers that only some points have, and means over more wingbeats than are flown.
+
+use std::fs;
+
+use crate::support::{Scratch, flown, wingbeat};
+use crate::{column, write};
+
+/// Two controllers, one of which there is not: commands are columns of the points that have them.
+const CONTROLLED: &str = r#"case = "fruit-fly-blade"
+keep = ["end.command_wing_left_stroke_amplitude_dimensionless", "lift_over_weight"]
+[set]
+"time.beats" = 1
+"time.steps_per_beat" = 40
+[parameter."control.controller"]
+list = ["none", "stabiliser"]
+"#;
+
+#[test]
+fn behaves_numbers_that_only_a_varied_key_brings_are_kept() {
+    let scratch = Scratch::new("campaign-union");
+    let dir = &scratch.0;
+    write(dir, CONTROLLED);
+    flown(dir, &["campaign", "run", "c.toml", "--out", "r", "--quiet"]);
+    flown(dir, &["campaign", "merge", "c.toml", "--out", "r"]);
+    assert_eq!(column(dir, "r", "success"), ["1", "1"]);
+    let name = "end.command_wing_left_stroke_amplitude_dimensionless";
+    let commands = column(dir, "r", name);
+    assert_eq!(commands[0], "", "{commands:?}");
+    assert!(commands[1].parse::<f64>().is_ok(), "{commands:?}");
+    let out = wingbeat(dir, &["campaign", "numbers", "c.toml"]);
+    assert!(String::from_utf8(out.stdout).unwrap().contains(name));
+}
+
+#[test]
+fn refuses_means_over_more_wingbeats_than_any_point_flies() {
+    let scratch = Scratch::new("campaign-short");
+    let dir = &scratch.0;
+    let short = CONTROLLED.replace("[set]", "mean_beats = 10\n[set]");
+    write(dir, &short);
+    let out = wingbeat(dir, &["campaign", "check", "c.toml"]);
+    let said = String::from_utf8(out.stderr).unwrap();
+    assert_eq!(out.status.code(), Some(2), "{said}");
+    assert!(
+        said.contains("mean_beats") && said.contains("flights of 1 whole ones"),
+        "{said}"
+    );
+    let line = 1 + short
+        .lines()
+        .position(|l| l.starts_with("mean_beats"))
+        .unwrap();
+    assert!(said.contains(&format!("c.toml:{line}")), "{said}");
+}
+
+/// The program that commands the wings belongs to a point as its values do.
+#[test]
+fn behaves_a_changed_program_is_another_point() {
+    let scratch = Scratch::new("campaign-program");
+    let dir = &scratch.0;
+    let text = r#"case = "fruit-fly-blade"
+keep = ["lift_over_weight"]
+[set]
+"control.controller" = "external"
+"control.external" = { command = ["python3", "wings.py"] }
+[parameter."time.beats"]
+list = [1, 2]
+"#;
+    write(dir, text);
+    let hashes = |program: &str| {
+        fs::write(dir.join("wings.py"), program).unwrap();
+        let out = wingbeat(dir, &["campaign", "plan", "c.toml"]);
+        assert!(
+            out.status.success(),
+            "{}",
+            String::from_utf8_lossy(&out.stderr)
+        );
+        String::from_utf8(out.stdout).unwrap()
+    };
+    let [first, second, again] = ["pass", "pass # other", "pass"].map(hashes);
+    assert_ne!(first, second);
+    assert_eq!(first, again);
+}
+
+/// What is doubtful of the case or of a point that is tried is said before anything is flown, once.
+#[test]
+fn behaves_a_check_tells_what_is_doubtful() {
+    let scratch = Scratch::new("campaign-doubts");
+    let dir = &scratch.0;
+    let text = r#"case = "fruit-fly-blade"
+keep = ["lift_over_weight"]
+[set]
+"time.beats" = 1
+"time.steps_per_beat" = 40
+[parameter."body.mass_kg"]
+list = [0.93e-6, 0.93e-3, 0.94e-3]
+"#;
+    write(dir, text);
+    let out = wingbeat(dir, &["campaign", "check", "c.toml"]);
+    let said = String::from_utf8(out.stderr).unwrap();
+    assert!(said.contains("warning: "), "{said}");
+    let warnings: Vec<&str> = said
+        .lines()
+        .filter(|l| l.starts_with("warning: "))
+        .collect();
+    let mut unique = warnings.clone();
+    unique.dedup();
+    assert_eq!(unique, warnings);
+}
