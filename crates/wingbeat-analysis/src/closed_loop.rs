@@ -22,15 +22,30 @@ use crate::trim::Trim;
 const STEADY: f64 = 1.0 - 1e-6;
 
 /// The loop that `regulator` closes over the trimmed flight.
-pub(crate) struct ClosedLoop<'a> {
-    pub trim: &'a Trim,
-    pub regulator: &'a Regulator,
-    pub timing: &'a Timing,
+struct ClosedLoop<'a> {
+    trim: &'a Trim,
+    regulator: &'a Regulator,
+    timing: &'a Timing,
+}
+
+impl Regulator {
+    /// An error if free joints keep it from holding the flight that it was laid out for.
+    ///
+    /// # Errors
+    /// A departure of the closed loop that grows or stays, with the joint that has the largest part in it.
+    pub(crate) fn check_joints(&self, trim: &Trim, timing: &Timing) -> Result<(), AnalysisError> {
+        let closed = ClosedLoop {
+            trim,
+            regulator: self,
+            timing,
+        };
+        closed.check()
+    }
 }
 
 impl ClosedLoop<'_> {
     /// An error if a departure of a flight with free joints grows or stays.
-    pub fn check(&self) -> Result<(), AnalysisError> {
+    fn check(&self) -> Result<(), AnalysisError> {
         if self.trim.beat.joint_sizes().is_empty() {
             return Ok(());
         }
@@ -49,7 +64,7 @@ impl ClosedLoop<'_> {
     }
 
     /// The eigenvalue that is largest in size, with its eigenvector in natural sizes.
-    pub fn slowest(&self) -> Result<Eigenpair, AnalysisError> {
+    fn slowest(&self) -> Result<Eigenpair, AnalysisError> {
         let commands = CONTROLS * (self.timing.latency + 1);
         let mut sizes = natural_sizes(&self.trim.beat);
         let rest = self.regulator.memory().len() + commands;

@@ -24,7 +24,6 @@ use std::collections::VecDeque;
 use wingbeat_math::DVec3;
 
 use crate::AnalysisError;
-use crate::closed_loop::ClosedLoop;
 use crate::departure::{CONTROLS, Controls, Departure};
 use crate::level::Perturbation;
 use crate::part::Orbit;
@@ -140,16 +139,6 @@ impl Regulator {
         };
         found.check_joints(trim, timing)?;
         Ok(found)
-    }
-
-    /// An error if free joints keep it from holding the flight.
-    fn check_joints(&self, trim: &Trim, timing: &Timing) -> Result<(), AnalysisError> {
-        let closed = ClosedLoop {
-            trim,
-            regulator: self,
-            timing,
-        };
-        closed.check()
     }
 
     /// With the steady Kalman filter for a flight `trim` that is seen with `noise`.

@@ -208,6 +208,9 @@ pub fn air_force(history: &super::History, direction: wingbeat_math::DVec3) -> V
     total
 }
 
+/// Column of the power of springs, dampers and stops.
+const PASSIVE_POWER: &str = "passive_power_watt";
+
 /// Total power of the actuators of all joints and of prescribed deformation, row by row \[W\].
 pub fn driving_power(history: &super::History) -> Vec<f64> {
     let gives = |n: &str| {
@@ -216,7 +219,7 @@ pub fn driving_power(history: &super::History) -> Vec<f64> {
             .any(|s| n.starts_with(s))
     };
     let mut power = history.sum(|n| gives(n) && n.ends_with("_power_watt"));
-    let passive = history.sum(|n| n == "passive_power_watt");
+    let passive = history.sum(|n| n == PASSIVE_POWER);
     (power.iter_mut().zip(passive)).for_each(|(all, passive)| *all -= passive);
     power
 }
@@ -224,8 +227,12 @@ pub fn driving_power(history: &super::History) -> Vec<f64> {
 /// What [`driving_power`] is the power of, in words.
 pub fn driving_power_name(history: &super::History) -> &'static str {
     let deforms = |n: &String| n.starts_with("deformation_") && n.ends_with("_power_watt");
-    match history.names().iter().any(deforms) {
-        true => "power of actuators and deformation",
-        false => "power of the actuators",
+    let names = history.names();
+    let has_springs = names.iter().any(|n| n == PASSIVE_POWER);
+    match (names.iter().any(deforms), has_springs) {
+        (false, false) => "power of the hinges",
+        (true, false) => "power of hinges and deformation",
+        (false, true) => "power of the actuators",
+        (true, true) => "power of actuators and deformation",
     }
 }
