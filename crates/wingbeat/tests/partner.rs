@@ -392,8 +392,7 @@ fn exact_a_program_is_told_the_reference() {
     trimmed(dir);
     let script = "while read -r line; do echo \"$line\" >> told; echo '{\"wings\":[{},{}]}'; done";
     let command = serde_json::json!(["sh", "-c", script]).to_string();
-    let way =
-        "control.waypoint=[{time_s=0.01,position_m=[0,0,-2e-3],heading_deg=90},{time_s=0.03}]";
+    let way = "control.waypoint=[{time_s=0.01,position_m=[0,0,-2e-3],heading_deg=90},{time_s=0.03},{time_s=0.04,heading_deg=0}]";
     let out = commanded(dir, "r", &command, &["time.beats=3", way]);
     assert!(out.status.success(), "{}", complaint(&out));
     let told = fs::read_to_string(dir.join("told")).unwrap();

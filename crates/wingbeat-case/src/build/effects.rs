@@ -254,11 +254,13 @@ fn senses(case: &Case, source: &CaseSource) -> Built<()> {
     let Some(control) = &case.control else {
         return Ok(());
     };
-    for (k, w) in control.waypoint.iter().enumerate() {
-        if w.position_m.is_none() && w.heading_deg.is_none() {
-            let why = "without position_m or heading_deg: it is the place and heading before it";
-            return Err(idle(format!("control.waypoint[{k}]"), why));
-        }
+    // One without place and heading in between is a stay; at the end there is nothing that it waits for.
+    if let Some((last, w)) = control.waypoint.iter().enumerate().next_back()
+        && w.position_m.is_none()
+        && w.heading_deg.is_none()
+    {
+        let why = "without position_m or heading_deg at the end: the place and heading before it are held anyway";
+        return Err(idle(format!("control.waypoint[{last}]"), why));
     }
     let given = source.keys_at("control.sensors");
     let has = |ending: &str| given.iter().any(|key| key.contains(ending));

@@ -401,11 +401,13 @@ mod tests {
                 "power of hinges and deformation [W]",
             ),
             ("fruit-fly-hover", false, 2.0, "power of the hinges [W]"),
+            ("robobee", false, 1.5, "power of the actuators [W]"),
         ] {
             let setup = LoadedCase::find(preset, &[]).unwrap().setup;
             let history = history(&setup, deforms, 3, |_, r| {
                 r.hinges[..2].iter_mut().for_each(|h| h.power = 1.0);
                 r.deformation_power.iter_mut().for_each(|p| *p = 2.0);
+                r.passive_power = 0.5;
             });
             let panel = &chart(&setup, &history, "forces").panels[1];
             assert_eq!((&panel.label[..], panel.series[0].values[2]), (name, power));

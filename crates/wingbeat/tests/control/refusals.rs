@@ -79,6 +79,10 @@ fn refuses_what_control_cannot_do_by_name() {
             "control.climb_m_s",
         ),
         (&["control.waypoint=[{time_s=0.1}]"], "control.waypoint[0]"),
+        (
+            &["control.waypoint=[{time_s=0.1,heading_deg=9},{time_s=0.2}]"],
+            "control.waypoint[1]",
+        ),
         (&["control.sensors={}"], "control.sensors"),
         (&["control.sensors={seed=4}"], "control.sensors"),
         (
