@@ -7,7 +7,7 @@ use crate::{BLADES, PRESET, case};
 
 #[test]
 fn refuses_what_control_cannot_do_by_name() {
-    let wrong: [(&[&str], &str); 31] = [
+    let wrong: [(&[&str], &str); 32] = [
         (&["control.controller=\"pid\""], "control.controller"),
         (&["control.latency_beats=-1"], "control.latency_beats"),
         (&["control.latency_beats=21"], "control.latency_beats"),
