@@ -297,6 +297,24 @@ fn behaves_summaries_tell_of_wings_inside_parts_of_the_body() {
     }
 }
 
+/// Feathering against the stroke lifts, with the other sign it pushes down: 1.1 and -0.8 weights.
+#[test]
+fn behaves_wings_that_push_the_body_down_are_named() {
+    for (sine, told) in [(50, false), (-50, true)] {
+        let law = format!(
+            "wing.right.motion={{phi={{fourier={{cosine_deg=[70]}}}},psi={{fourier={{sine_deg=[{sine}]}}}}}}"
+        );
+        let summary = flown(&preset(
+            "fruit-fly-blade",
+            &["time.beats=1", "motion.data=", &law],
+        ));
+        let lift = summary.beats[0].lift_over_weight.unwrap();
+        assert_eq!(lift < 0.0, told, "{lift}");
+        assert_eq!(says(&summary, "push the body down"), told);
+        assert!(!told || summary.verdict >= Verdict::Amber);
+    }
+}
+
 /// Flights in finer steps go from red to green: the residual of a fourth-order method falls with them. A hawkmoth's wings meet.
 #[test]
 fn behaves_the_verdict_follows_the_balances() {
