@@ -2,8 +2,10 @@
 
 mod absurd;
 mod defaults;
+mod differences;
 mod hinged;
 mod idle;
+mod insects;
 mod joints;
 mod keys;
 mod meshes;

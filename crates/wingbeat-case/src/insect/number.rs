@@ -12,17 +12,3 @@ pub(super) fn number(x: f64) -> String {
     }
     format!("{rounded:?}")
 }
-
-#[cfg(test)]
-mod tests {
-    use super::number;
-
-    #[test]
-    fn exact_five_digits_with_exponents_by_threes() {
-        assert_eq!(number(0.000_101_900_04), "101.9e-6");
-        assert_eq!(number(9.8e-3), "9.8e-3");
-        assert_eq!(number(231.0), "231.0");
-        assert_eq!(number(52.123_456), "52.123");
-        assert_eq!(number(0.999_999_9e-6), "1e-6");
-    }
-}
