@@ -104,7 +104,7 @@ impl Beat {
         let half = period / (2 * steps) as f64;
         let setup = &steadied(setup); // deformations of wings follow their phase too
         let flight = FreeFlight::new(setup, &law, half, 2 * steps)?;
-        if !flight.air().is_uniform() {
+        if !flight.air().is_steady_and_uniform() {
             return Err(changing_air());
         }
         Ok(Self {

@@ -128,9 +128,9 @@ pub trait Air: fmt::Debug + Send + Sync {
         false
     }
 
-    /// Whether the loads depend on time or place beside the motion of the bodies: gusts, shear,
-    /// ground. A wingbeat is then not like the next.
-    fn is_uniform(&self) -> bool {
+    /// Whether the loads depend on the motion of the bodies alone, not on time or place besides, as in gusts, shear or
+    /// over a ground. A wingbeat may then be like the next.
+    fn is_steady_and_uniform(&self) -> bool {
         true
     }
 

@@ -47,7 +47,7 @@ pub fn check_alike(setup: &FlightSetup) -> Result<(), AnalysisError> {
     let has_wind = setup.air.wind().is_some_and(|w| !w.is_none());
     let changes = match &setup.air {
         AirModel::VortexLattice(air) => !air.lattice.images.is_empty(),
-        AirModel::Own(air) => !air.is_uniform(),
+        AirModel::Own(air) => !air.is_steady_and_uniform(),
         _ => false,
     };
     match has_wind || changes {

@@ -257,7 +257,7 @@ impl Air for BladeAir {
         }
     }
 
-    fn is_uniform(&self) -> bool {
+    fn is_steady_and_uniform(&self) -> bool {
         self.wind.is_none()
     }
 

@@ -190,7 +190,7 @@ impl Air for LatticeAir {
         true
     }
 
-    fn is_uniform(&self) -> bool {
+    fn is_steady_and_uniform(&self) -> bool {
         let settings = self.lattice.settings();
         settings.wind.is_none() && settings.images.is_empty()
     }
