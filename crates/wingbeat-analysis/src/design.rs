@@ -92,7 +92,7 @@ impl Design {
             wing.motion = wing.motion.risen();
         }
         let found = trim(&plain, &problem).map_err(symmetric)?;
-        if found.converged {
+        if found.is_as_asked() {
             return Ok(found);
         }
         Err(AnalysisError::not_covered(

@@ -49,6 +49,7 @@ mod power;
 pub mod progress;
 mod realisation;
 mod regulator;
+mod request;
 mod rigid_body;
 mod root;
 mod route;
@@ -76,6 +77,7 @@ pub use modes::{Mode, ModeSet, Plane, Scales};
 pub use monodromy::monodromy;
 pub use plausibility::{Estimate, WingEstimate, estimate, stroke_amplitude};
 pub use power::{Power, power, power_of_trim, power_with_wake};
+pub use request::{SPEED_OF_SOUND, TRIM_STEPS, TrimRequest};
 pub use stability::{
     LOADS, LinearModel, floquet, floquet_of_trim, input_matrix, linear_model, orbit_monodromy,
     trimmed_controls,

@@ -157,6 +157,11 @@ impl Trim {
     pub fn error(&self) -> f64 {
         largest(&self.residual)
     }
+
+    /// Whether it is steady flight, and within the bounds that were asked.
+    pub fn is_as_asked(&self) -> bool {
+        self.converged && self.outside.is_empty()
+    }
 }
 
 /// Trims the flight of `setup`.

@@ -91,6 +91,11 @@ impl Unknown {
         found.expect("the table holds all").1
     }
 
+    /// The unknown of a name.
+    pub fn from_name(name: &str) -> Option<Self> {
+        UNKNOWNS.iter().find(|u| u.1 == name).map(|u| u.0)
+    }
+
     /// What its value counts.
     pub fn kind(self) -> UnknownKind {
         match self {

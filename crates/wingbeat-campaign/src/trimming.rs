@@ -1,7 +1,7 @@
 //! What is asked of the trim at a point.
 
 use wingbeat_analysis::{
-    AnalysisError, Residuals, Trim, TrimProblem, TrimSettings, UNKNOWNS, Unknown, trim_within,
+    AnalysisError, SPEED_OF_SOUND, TRIM_STEPS, Trim, TrimRequest, UNKNOWNS, Unknown, trim_within,
 };
 use wingbeat_case::{Document, IoError, nearest};
 use wingbeat_flight::FlightSetup;
@@ -20,19 +20,6 @@ pub const OPTIONS: [&str; 5] = [
     "sideslip_m_s",
     "turn_rate_deg_s",
     "steps_per_beat",
-];
-
-/// Steps per wingbeat unless the file says otherwise, and at least and most.
-const DEFAULT_STEPS: usize = 100;
-const STEPS: [usize; 2] = [20, 2000];
-/// The air is incompressible [m/s].
-const SOUND: f64 = 340.0;
-
-/// The unknowns of flight that turns or slips sideways, beside those of straight flight.
-const LATERAL: [Unknown; 3] = [
-    Unknown::BodyRoll,
-    Unknown::StrokeAmplitudeDifference,
-    Unknown::StrokePlaneDifference,
 ];
 
 /// Checks the options themselves, and that the air can be trimmed in.
@@ -132,7 +119,7 @@ fn check_options(options: &TrimOptions) -> Result<(), Bad> {
         ("sideslip_m_s", options.sideslip_m_s),
     ];
     for (name, speed) in speeds {
-        if let Some(speed) = speed.filter(|v| v.abs() >= SOUND) {
+        if let Some(speed) = speed.filter(|v| v.abs() >= SPEED_OF_SOUND) {
             return Err(Bad {
                 key: format!("{TRIM}{name}"),
                 problem: format!("{speed} m/s is no speed below that of sound"),
@@ -143,7 +130,7 @@ fn check_options(options: &TrimOptions) -> Result<(), Bad> {
     }
     match options
         .steps_per_beat
-        .filter(|s| !(STEPS[0]..=STEPS[1]).contains(s))
+        .filter(|s| !(TRIM_STEPS[0]..=TRIM_STEPS[1]).contains(s))
     {
         None => Ok(()),
         Some(steps) => Err(Bad {
@@ -162,33 +149,21 @@ fn check_options(options: &TrimOptions) -> Result<(), Bad> {
 pub fn trim(setup: &FlightSetup, options: &TrimOptions) -> Result<Trim, AnalysisError> {
     let mut open = setup.clone();
     open.feedback = None;
-    let start = open.angles_at_release();
     let number = |x: Option<f64>| x.unwrap_or(0.0);
-    let velocity = DVec3::new(
-        number(options.forward_m_s),
-        number(options.sideslip_m_s),
-        -number(options.climb_m_s),
-    );
-    let mut problem = TrimProblem::straight(velocity, start.x);
-    problem.turn_rate = number(options.turn_rate_deg_s).to_radians();
-    let lateral = Residuals::of(&problem) == Residuals::All;
-    match &options.unknowns {
-        Some(names) => {
-            let known = |name: &String| UNKNOWNS.iter().find(|u| u.1 == name).map(|u| u.0);
-            problem.unknowns = names.iter().filter_map(known).collect();
-        }
-        None if lateral => problem.unknowns.extend(LATERAL),
-        None => {}
-    }
-    if problem.unknowns.contains(&Unknown::BodyRoll) {
-        problem.body_roll = start.z;
-    }
-    problem.settings = TrimSettings {
-        steps: options.steps_per_beat.unwrap_or(DEFAULT_STEPS),
-        ..TrimSettings::default()
+    let named = |names: &Vec<String>| names.iter().filter_map(|n| Unknown::from_name(n)).collect();
+    let request = TrimRequest {
+        velocity: DVec3::new(
+            number(options.forward_m_s),
+            number(options.sideslip_m_s),
+            -number(options.climb_m_s),
+        ),
+        turn_rate: number(options.turn_rate_deg_s).to_radians(),
+        unknowns: options.unknowns.as_ref().map(named),
+        bounds: vec![],
+        steps: options.steps_per_beat,
     };
-    let trim = trim_within(&open, &problem)?;
-    match trim.converged && trim.outside.is_empty() {
+    let trim = trim_within(&open, &request.problem(&open))?;
+    match trim.is_as_asked() {
         true => Ok(trim),
         false => Err(AnalysisError::Numbers(format!(
             "no steady flight was found: residual {:.1e} after {} Newton steps",

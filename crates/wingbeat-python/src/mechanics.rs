@@ -3,8 +3,8 @@
 use pyo3::prelude::*;
 use wingbeat::analysis::{
     AnalysisError, Bound as Limits, CONTROL_NAMES, ControlDerivative, LinearModel, Mode, ModeSet,
-    Power, STATE, TrimProblem, UNKNOWNS, Unknown, floquet_of_trim, input_matrix, linear_model,
-    power_of_trim, trimmed_controls,
+    Power, STATE, TRIM_STEPS, TrimProblem, TrimRequest, UNKNOWNS, Unknown, floquet_of_trim,
+    input_matrix, linear_model, power_of_trim, trimmed_controls,
 };
 use wingbeat::case::{LoadedCase, trimmed_case};
 use wingbeat::math::DVec3;
@@ -15,11 +15,8 @@ use crate::fleet::{Fleet, Settings};
 use crate::worker::analyse;
 
 /// What is asked of a trim, as Python has it: mean velocity forward, right and up [m/s]; turn to the right [rad/s];
-/// names of the unknowns; of those with bounds the least and the largest value.
-pub type Asked = ([f64; 3], f64, Vec<String>, Vec<(String, f64, f64)>);
-
-/// Fewest and most steps per wingbeat: in fewer the loads of a beat are off by more than a trim is.
-const STEPS: (usize, usize) = (20, 2000);
+/// names of the unknowns, none for those of its kind; of those with bounds the least and the largest value.
+pub type Asked = ([f64; 3], f64, Option<Vec<String>>, Vec<(String, f64, f64)>);
 
 /// What is asked of a trim.
 pub fn problem(
@@ -30,8 +27,8 @@ pub fn problem(
 ) -> PyResult<TrimProblem> {
     let names = UNKNOWNS.map(|u| u.1).join(", ");
     let known = |key: &str, name: &String| {
-        let found = UNKNOWNS.iter().find(|u| u.1 == name).map(|u| u.0);
-        found.ok_or_else(|| refused(py, key, &format!("`{name}` is not known"), &names))
+        Unknown::from_name(name)
+            .ok_or_else(|| refused(py, key, &format!("`{name}` is not known"), &names))
     };
     let [forward, right, up] = *velocity;
     let numbers = [
@@ -43,22 +40,30 @@ pub fn problem(
             return Err(refused(py, key, "it is not finite", "finite numbers"));
         }
     }
-    let (least, most) = STEPS;
+    let [least, most] = TRIM_STEPS;
     if !(least..=most).contains(&steps) {
         let remedy = format!("{least} to {most} steps per wingbeat");
         return Err(refused(py, "steps", "out of range", &remedy));
     }
-    let mut problem = flight.hover();
-    let twice = (1..unknowns.len()).find(|&k| unknowns[..k].contains(&unknowns[k]));
-    if let Some(k) = twice {
-        let problem = format!("`{}` is named twice", unknowns[k]);
-        return Err(refused(py, "unknowns", &problem, &names));
+    if let Some(unknowns) = unknowns {
+        let twice = (1..unknowns.len()).find(|&k| unknowns[..k].contains(&unknowns[k]));
+        if let Some(k) = twice {
+            let problem = format!("`{}` is named twice", unknowns[k]);
+            return Err(refused(py, "unknowns", &problem, &names));
+        }
+        if unknowns.len() < 3 {
+            return Err(refused(py, "unknowns", "fewer than three", &names));
+        }
     }
-    let known_all = unknowns.iter().map(|name| known("unknowns", name));
-    problem.unknowns = known_all.collect::<PyResult<_>>()?;
-    if unknowns.len() < 3 {
-        return Err(refused(py, "unknowns", "fewer than three", &names));
-    }
+    let named = |list: &Vec<String>| list.iter().map(|name| known("unknowns", name)).collect();
+    let request = TrimRequest {
+        velocity: DVec3::new(forward, right, -up),
+        turn_rate: *turn_rate,
+        unknowns: unknowns.as_ref().map(named).transpose()?,
+        bounds: vec![],
+        steps: Some(steps),
+    };
+    let mut problem = request.problem(&flight.setup);
     for (name, from, to) in bounds {
         let unknown = known("bounds", name)?;
         let is_range = from < to && from.is_finite() && to.is_finite();
@@ -70,9 +75,6 @@ pub fn problem(
         let (from, to) = (*from, *to);
         problem.bounds.push(Limits { unknown, from, to });
     }
-    problem.velocity = DVec3::new(forward, right, -up);
-    problem.turn_rate = *turn_rate;
-    problem.settings.steps = steps;
     Ok(problem)
 }
 
@@ -156,6 +158,12 @@ impl Trim {
 
 #[pymethods]
 impl Trim {
+    /// Whether it is steady flight, and within the bounds that were asked.
+    #[getter]
+    fn is_as_asked(&self) -> bool {
+        self.trim.is_as_asked()
+    }
+
     /// Whether the residual is within the tolerance.
     #[getter]
     fn converged(&self) -> bool {

@@ -37,6 +37,12 @@ pub struct WakeTrim {
 
 #[pymethods]
 impl WakeTrim {
+    /// Whether it is steady flight, and within the bounds that were asked.
+    #[getter]
+    fn is_as_asked(&self) -> bool {
+        self.trim.is_as_asked()
+    }
+
     /// Whether the residual is within the tolerance.
     #[getter]
     fn converged(&self) -> bool {

@@ -89,6 +89,11 @@ impl WakeTrim {
         largest(&self.residual)
     }
 
+    /// Whether it is steady flight, and within the bounds that were asked.
+    pub fn is_as_asked(&self) -> bool {
+        self.converged && self.outside.is_empty()
+    }
+
     /// Whether the whole orbit is periodic: body, elastic wings, wakes of strips.
     pub fn is_orbit(&self) -> bool {
         !self.past.is_empty()

@@ -12,7 +12,7 @@ __all__ = ["Fleet", "Flight", "Frame", "Run", "Sensed", "Stepper", "Trim", "Wake
 
 _Array = NDArray[Any]
 _Mode = tuple[str, str, float, float, list[float], list[tuple[str, float, float]]]
-_Asked = tuple[tuple[float, float, float], float, list[str], list[tuple[str, float, float]]]
+_Asked = tuple[tuple[float, float, float], float, list[str] | None, list[tuple[str, float, float]]]
 _Panel = tuple[str, list[tuple[str, list[float]]], list[list[float]]]
 
 def main(args: Sequence[str]) -> int: ...
@@ -130,6 +130,8 @@ class Sensed:
 @final
 class Trim:
     @property
+    def is_as_asked(self) -> bool: ...
+    @property
     def converged(self) -> bool: ...
     @property
     def residual(self) -> _Array: ...
@@ -160,6 +162,8 @@ class Trim:
 
 @final
 class WakeTrim:
+    @property
+    def is_as_asked(self) -> bool: ...
     @property
     def converged(self) -> bool: ...
     @property

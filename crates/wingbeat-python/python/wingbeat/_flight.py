@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 from wingbeat import _core, _toml
 from wingbeat._case import Part
 from wingbeat._frame import Frame
-from wingbeat._mechanics import Derivatives, LinearModel, Power, Trim, WakeTrim, _not_trimmed
+from wingbeat._mechanics import Derivatives, LinearModel, Power, Trim, WakeTrim
 from wingbeat._numbers import real, reals, whole
 from wingbeat._own import Air, Controller, Loads, Steering
 from wingbeat._run import Run
@@ -26,8 +26,6 @@ Progress = Callable[[int, int], object]
 """Called with the steps done and all steps some 25 times a second; an exception in it stops the flight."""
 
 _UNSET: Any = object()
-_HOVER = ("body_pitch", "stroke_amplitude", "stroke_offset")
-_LATERAL = ("body_roll", "stroke_amplitude_difference", "stroke_plane_difference")
 
 
 class Flight:
@@ -284,21 +282,15 @@ class Flight:
 
     def stability(self, **trim: Any) -> LinearModel:
         """Linear model about the trimmed flight; arguments are those of :meth:`trim`."""
-        return self._trimmed(trim).stability()
+        return self.trim(**trim).stability()
 
     def derivatives(self, **trim: Any) -> Derivatives:
         """Control derivatives about the trimmed flight; arguments are those of :meth:`trim`."""
-        return self._trimmed(trim).derivatives()
+        return self.trim(**trim).derivatives()
 
     def power(self, **trim: Any) -> Power:
         """Mechanical power of the trimmed flight; arguments are those of :meth:`trim`."""
-        return self._trimmed(trim).power()
-
-    def _trimmed(self, arguments: dict[str, Any]) -> Trim:
-        trim = self.trim(**arguments)
-        if not trim.converged:
-            raise _not_trimmed(trim.residual)
-        return trim
+        return self.trim(**trim).power()
 
 
 class Stepper:
@@ -376,18 +368,18 @@ def _asked(
     unknowns: Sequence[str] | None,
     bounds: Mapping[str, tuple[float, float]] | None,
 ) -> _core._Asked:
-    """What is asked of a trim, unknowns by default those of its kind."""
-    if unknowns is None:
-        unknowns = _HOVER if velocity[1] == 0.0 and turn_rate == 0.0 else _HOVER + _LATERAL
-    if isinstance(unknowns, str) or not all(isinstance(name, str) for name in unknowns):
-        raise CaseError(f"unknowns = {unknowns!r}: not a list of names", key="unknowns", remedy=f"as {_HOVER}")
+    """What is asked of a trim."""
+    names = None if unknowns is None or isinstance(unknowns, str) else list(unknowns)
+    if unknowns is not None and (names is None or not all(isinstance(name, str) for name in names)):
+        remedy = "as ('body_pitch', 'stroke_amplitude', 'stroke_offset')"
+        raise CaseError(f"unknowns = {unknowns!r}: not a list of names", key="unknowns", remedy=remedy)
     try:
         ranges = [(name, float(least), float(most)) for name, (least, most) in (bounds or {}).items()]
     except (AttributeError, TypeError, ValueError):
         raise CaseError(
             f"bounds = {bounds!r}: not pairs by name", key="bounds", remedy="as {'stroke_amplitude': (-0.2, 0.2)}"
         ) from None
-    return velocity, turn_rate, list(unknowns), ranges
+    return velocity, turn_rate, names, ranges
 
 
 def _rows(name: str, angle: ArrayLike | Callable[[float], float], samples: int) -> list[list[float]]:

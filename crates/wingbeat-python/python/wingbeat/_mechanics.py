@@ -140,19 +140,18 @@ class WakeModel:
     """Modes of M."""
 
 
-class Trim:
-    """Steady flight as a periodic orbit of the full model: the point found, converged or not."""
+class _Trimmed:
+    """What trims in any air have: the point found, converged or not."""
 
-    def __init__(self, core: _core.Trim) -> None:
-        self._core = core
+    _core: _core.Trim | _core.WakeTrim
 
     def __repr__(self) -> str:
         found = "converged" if self.converged else "NOT converged"
-        return f"<wingbeat.Trim {found}: largest residual {abs(self.residual).max():.1e}>"
+        return f"<wingbeat.{type(self).__name__} {found}: largest residual {abs(self.residual).max():.1e}>"
 
     @property
     def converged(self) -> bool:
-        """Whether it was found."""
+        """Whether steady flight was found; :attr:`outside_bounds` says whether it is as asked."""
         return self._core.converged
 
     @property
@@ -162,11 +161,6 @@ class Trim:
         of each: forward, right, down. Then those of free joints.
         """
         return self._core.residual
-
-    @property
-    def iterations(self) -> int:
-        """Newton steps made."""
-        return self._core.iterations
 
     @property
     def adjustment(self) -> Adjustment:
@@ -180,7 +174,7 @@ class Trim:
 
     @property
     def outside_bounds(self) -> tuple[str, ...]:
-        """Unknowns outside their bounds: the flight is steady, but not as asked."""
+        """Unknowns outside their bounds, or by which strokes are turned inside out: the flight is steady, but not as asked."""
         return tuple(self._core.at_bounds[0])
 
     @property
@@ -195,8 +189,39 @@ class Trim:
 
     @property
     def body_pitch_rad(self) -> float:
-        """Pitch of the body at the start of the wingbeat [rad]."""
+        """Pitch of the body at the start of the wingbeat, in air with a memory at its release [rad]."""
         return self._core.body_pitch_rad
+
+    def power(self) -> Power:
+        """Mean mechanical power over the free wingbeat that was trimmed."""
+        self._check()
+        return Power(*self._core.power())
+
+    def _check(self) -> None:
+        """Refuses to say anything of a flight that is not as asked."""
+        if self._core.is_as_asked:
+            return
+        remedy = "start nearer to it (flight.pitch_deg, motion), or choose other unknowns"
+        if self.converged:
+            names = ", ".join(self.outside_bounds)
+            raise AnalysisError(f"the trimmed flight is outside its bounds: {names}", remedy=f"wider bounds; {remedy}")
+        raise AnalysisError(f"the flight is not trimmed: largest residual {abs(self.residual).max():.1e}", remedy=remedy)
+
+
+class Trim(_Trimmed):
+    """Steady flight as a periodic orbit of the full model: the point found, converged or not. What is derived from it
+    (stability, derivatives, power) is refused if it is not as asked.
+    """
+
+    _core: _core.Trim
+
+    def __init__(self, core: _core.Trim) -> None:
+        self._core = core
+
+    @property
+    def iterations(self) -> int:
+        """Newton steps made."""
+        return self._core.iterations
 
     @property
     def period_s(self) -> float:
@@ -209,6 +234,7 @@ class Trim:
 
     @cached_property
     def _controls(self) -> tuple[list[tuple[str, str]], NDArray[Any], NDArray[Any]]:
+        self._check()
         return self._core.derivatives()
 
     def derivatives(self) -> Derivatives:
@@ -221,6 +247,7 @@ class Trim:
         """The averaged linear model with its inputs, its modes, and Floquet's modes of the periodic orbit."""
         import numpy as np
 
+        self._check()
         a, (derivatives, added_mass), averaged, orbit = self._core.stability()
         names, _, b = self._controls
         return LinearModel(
@@ -238,32 +265,16 @@ class Trim:
             floquet_modes=_modes(orbit),
         )
 
-    def power(self) -> Power:
-        """Mean mechanical power over the free wingbeat that was trimmed."""
-        return Power(*self._core.power())
 
-
-class WakeTrim:
+class WakeTrim(_Trimmed):
     """Steady flight in air with a memory: a wingbeat that changes nothing but the place, after wingbeats in which the body was
     held while its wake grew; the point found, converged or not.
     """
 
+    _core: _core.WakeTrim
+
     def __init__(self, core: _core.WakeTrim) -> None:
         self._core = core
-
-    def __repr__(self) -> str:
-        found = "converged" if self.converged else "NOT converged"
-        return f"<wingbeat.WakeTrim {found}: largest residual {abs(self.residual).max():.1e}>"
-
-    @property
-    def converged(self) -> bool:
-        """Whether it was found."""
-        return self._core.converged
-
-    @property
-    def residual(self) -> NDArray[Any]:
-        """As :attr:`Trim.residual`, shape (6,) or (12,)."""
-        return self._core.residual
 
     @property
     def iterations(self) -> int:
@@ -274,40 +285,6 @@ class WakeTrim:
     def flights(self) -> int:
         """Flights flown."""
         return self._core.effort[1]
-
-    @property
-    def adjustment(self) -> Adjustment:
-        """What trim adds to the motion of all wings."""
-        return Adjustment(*self._core.adjustment)
-
-    @property
-    def difference(self) -> Adjustment:
-        """What right wings have more of it than left ones."""
-        return Adjustment(*self._core.difference)
-
-    @property
-    def outside_bounds(self) -> tuple[str, ...]:
-        """Unknowns outside their bounds: the flight is steady, but not as asked."""
-        return tuple(self._core.at_bounds[0])
-
-    @property
-    def at_bound(self) -> tuple[str, ...]:
-        """Unknowns at a bound."""
-        return tuple(self._core.at_bounds[1])
-
-    @property
-    def body_roll_rad(self) -> float:
-        """Roll of the body at the start of the wingbeat, right side down [rad]."""
-        return self._core.body_roll_rad
-
-    @property
-    def body_pitch_rad(self) -> float:
-        """Pitch of the body at its release [rad]."""
-        return self._core.body_pitch_rad
-
-    def power(self) -> Power:
-        """Mean mechanical power over the free wingbeat."""
-        return Power(*self._core.power())
 
     def flight(self) -> Flight:
         """The trimmed flight: held, released, and the free wingbeat."""
@@ -320,15 +297,9 @@ class WakeTrim:
         """
         if wake not in ("given", "carried"):
             raise CaseError(f"wake = {wake!r}: there is none of this name", key="wake", remedy="given, carried")
-        if not self.converged:
-            raise _not_trimmed(self.residual)
+        self._check()
         matrix, modes = self._core.stability(wake == "given")
         return WakeModel(matrix, STATES, STATE_UNITS, _modes(modes))
-
-
-def _not_trimmed(residual: NDArray[Any]) -> AnalysisError:
-    remedy = "start nearer to it (flight.pitch_deg, motion), or choose other unknowns"
-    return AnalysisError(f"the flight is not trimmed: largest residual {abs(residual).max():.1e}", remedy=remedy)
 
 
 def _flight(case_text: str | None) -> Flight:

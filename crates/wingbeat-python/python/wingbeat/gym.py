@@ -124,8 +124,7 @@ class _Fleet(_Uncopied):
             raise CaseError(f"flight = {flight!r}: no Flight", key="flight", remedy=remedy)
         _check_plain(flight)
         trim = flight.trim(steps=steps)
-        if not trim.converged:
-            raise AnalysisError("the flight is not trimmed", remedy="another flight; see what flight.trim() says")
+        trim._check()
         delay = whole("delay", delay, 0, 10_000)
         settings = (task, steps // controls, beats, limits, delay, noise, autoreset)
         self.count = whole("num_envs", count, 1, 1_000_000)

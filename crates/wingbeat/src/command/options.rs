@@ -1,9 +1,7 @@
 //! Numbers and names on the command line, each with the range it may have.
 
 use clap::Args;
-
-/// The air is incompressible: speeds stay below that of sound [m/s].
-const SOUND: f64 = 340.0;
+use wingbeat::analysis::SPEED_OF_SOUND;
 
 /// A finite number for which `allowed` holds; `range` says so in words.
 fn number(text: &str, allowed: impl Fn(f64) -> bool, range: &str) -> Result<f64, String> {
@@ -25,7 +23,7 @@ pub(crate) fn positive(text: &str) -> Result<f64, String> {
 /// A speed with sign [m/s].
 pub(crate) fn speed(text: &str) -> Result<f64, String> {
     let range = "a speed in m/s below that of sound (-340 to 340): the air is incompressible";
-    number(text, |x| x.abs() < SOUND, range)
+    number(text, |x| x.abs() < SPEED_OF_SOUND, range)
 }
 
 /// An angle from -180 to 180 \[deg\].

@@ -77,7 +77,7 @@ def _flown(flight: Flight, keep: Sequence[str], last: int | None) -> dict[str, A
 
 
 def _trimmed(flight: Flight, options: dict[str, float]) -> dict[str, Any]:
-    trim = flight._trimmed(options)
+    trim = flight.trim(**options)
     power = trim.power()
     numbers: dict[str, Any] = {name: getattr(power, name) for name in _names.POWER}
     numbers |= {name: getattr(trim.adjustment, name) for name in _names.ADJUSTMENT}

@@ -3,7 +3,8 @@
 use clap::Args;
 use wingbeat::analysis::wake::{WakeSettings, WakeTrim, check_alike, trim_with_wake};
 use wingbeat::analysis::{
-    Beat, Bound, Residuals, Trim, TrimProblem, TrimSettings, UNKNOWNS, Unknown, trim_within,
+    Beat, Bound, TRIM_STEPS, Trim, TrimProblem, TrimRequest, TrimSettings, UNKNOWNS, Unknown,
+    trim_within,
 };
 use wingbeat::case::{IoError, LoadedCase};
 use wingbeat::math::DVec3;
@@ -16,24 +17,11 @@ use crate::command::run::name_program;
 use crate::command::terminal::tell;
 use crate::command::watch::Watch;
 
-/// Steps per wingbeat at least and at most; of order four, 2,000 are at the last bits.
-const STEPS: [usize; 2] = [20, 2_000];
-
-/// Steps per wingbeat unless told otherwise.
-const DEFAULT_STEPS: usize = 100;
-
 /// Wingbeats of the hold at most.
 const MAX_HELD: usize = 100;
 
 /// Wingbeats of the hold unless told otherwise.
 const DEFAULT_HELD: usize = 2;
-
-/// The unknowns of flight that turns or slips sideways, unless told otherwise, beside those of straight flight.
-const LATERAL_UNKNOWNS: [Unknown; 3] = [
-    Unknown::BodyRoll,
-    Unknown::StrokeAmplitudeDifference,
-    Unknown::StrokePlaneDifference,
-];
 
 /// Largest residual of a trim of body and elastic wings unless told otherwise.
 const ORBIT: f64 = 1e-6;
@@ -77,7 +65,7 @@ pub(crate) struct Trimming {
     pub(super) turn_rate: Option<f64>,
     /// Steps per wingbeat; default 100, in a vortex lattice and with elastic wings those of the case.
     #[arg(long, value_name = "N", help_heading = HEADING,
-          value_parser = options::count::<{ STEPS[0] }, { STEPS[1] }>)]
+          value_parser = options::count::<{ TRIM_STEPS[0] }, { TRIM_STEPS[1] }>)]
     steps: Option<usize>,
     /// In a vortex lattice: wingbeats during which the body is held while its wake grows
     /// [default: 2].
@@ -136,7 +124,7 @@ impl Trimming {
 
     /// Refuses a case whose loads cannot be averaged over a wingbeat.
     pub(super) fn check_averaged(&self) -> Result<(), Failure> {
-        let steps = self.steps.unwrap_or(DEFAULT_STEPS);
+        let steps = self.steps.unwrap_or(TrimSettings::default().steps);
         Ok(Beat::new(&self.load()?.setup, steps)?.check_averaged()?)
     }
 
@@ -168,29 +156,19 @@ impl Trimming {
 
     /// What is asked of the trim.
     pub(super) fn problem(&self, case: &LoadedCase) -> Result<TrimProblem, Failure> {
-        let start = case.setup.angles_at_release();
-        let velocity = DVec3::new(
-            self.forward.unwrap_or(0.0),
-            self.sideslip.unwrap_or(0.0),
-            -self.climb.unwrap_or(0.0),
-        );
-        let mut problem = TrimProblem::straight(velocity, start.x);
-        problem.turn_rate = self.turn_rate.unwrap_or(0.0).to_radians();
-        let lateral = Residuals::of(&problem) == Residuals::All;
-        match &self.unknowns {
-            Some(named) => problem.unknowns.clone_from(named),
-            None if lateral => problem.unknowns.extend(LATERAL_UNKNOWNS),
-            None => {}
-        }
-        if problem.unknowns.contains(&Unknown::BodyRoll) {
-            problem.body_roll = start.z;
-        }
-        problem.bounds.clone_from(&self.bound);
-        self.check_bounds(&problem)?;
-        problem.settings = TrimSettings {
-            steps: self.steps.unwrap_or(DEFAULT_STEPS),
-            ..TrimSettings::default()
+        let request = TrimRequest {
+            velocity: DVec3::new(
+                self.forward.unwrap_or(0.0),
+                self.sideslip.unwrap_or(0.0),
+                -self.climb.unwrap_or(0.0),
+            ),
+            turn_rate: self.turn_rate.unwrap_or(0.0).to_radians(),
+            unknowns: self.unknowns.clone(),
+            bounds: self.bound.clone(),
+            steps: self.steps,
         };
+        let problem = request.problem(&case.setup);
+        self.check_bounds(&problem)?;
         Ok(problem)
     }
 
@@ -237,7 +215,7 @@ pub(crate) fn trimmed(args: &Trimming, report: &mut Report) -> Result<(LoadedCas
     let problem = args.problem(&case)?;
     let found = watched("trimming", || trim_within(&case.setup, &problem))?;
     found::tell(report, &case, &problem, &Found::from(&found));
-    match found.converged && found.outside.is_empty() {
+    match found.is_as_asked() {
         true => Ok((case, found)),
         false => Err(not_trimmed()),
     }
@@ -294,7 +272,7 @@ pub(crate) fn trimmed_with_wake(
     );
     report.value("flights", found.flights);
     report.value("wingbeats", found.beats);
-    match found.converged && found.outside.is_empty() {
+    match found.is_as_asked() {
         true => Ok((case, found)),
         false => Err(not_trimmed()),
     }
