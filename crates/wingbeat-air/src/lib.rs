@@ -69,7 +69,7 @@ pub use settings::{
     NEUTRAL_WIDTH, NewestRow, ParticleSettings, SectionDrag, Spectrum, Turbulence, VortexLift,
     VortexStreet, Wind,
 };
-pub use state::{AirState, ImpulseAccount, Particles, WakeEvents, WakeSheet};
+pub use state::{AirState, ImpulseAccount, InnerFlow, Particles, WakeEvents, WakeSheet};
 pub use wake::Filaments;
 pub use wingbeat_vortex::{CoreModel, Method, Points, Stretching};
 pub use workspace::AirWorkspace;

@@ -173,7 +173,8 @@ impl Lattice {
         state.dt_before = loads.dt;
         state.position.copy_from_slice(&motion.position);
         state.velocity.copy_from_slice(&motion.velocity);
-        state.inner_momentum.copy_from_slice(&loads.inner_momentum);
+        std::mem::swap(&mut state.inner, &mut state.inner_before);
+        state.inner.copy_from_slice(&loads.inner);
         (state.impulse, state.attached_impulse) = (loads.account, loads.attached_impulse);
         state.hold.copy_from_slice(&loads.hold);
         state.leaving.copy_from_slice(&loads.leaving);

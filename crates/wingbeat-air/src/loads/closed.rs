@@ -1,64 +1,150 @@
-//! Closed surfaces: from the jump across the skin to the force of the outer air alone.
+//! Closed surfaces: from the jump across the skin to the pressure of the outer air alone.
 //!
 //! The rings of a closed skin make a flow inside as well. Inside there is no vorticity and the
-//! normal velocity at the skin is the skin's, so the momentum of the inner fluid is exactly
-//! `P = rho surface-integral x (v . n) dA`, which for a rigid body is rho x volume x velocity of the
-//! centroid. The jump of pressure across the skin holds `-dP/dt` of inner fluid, which no real
-//! body feels; it is given back as the pressure field `rho a . x` of a fluid accelerated as a
-//! whole, whose resultant is `dP/dt` and which has no moment about the centroid. What is left out
-//! is the rate of the inner angular momentum about the centroid: zero for a sphere,
-//! `rho Vol (b^2 - c^2)^2 / (5 (b^2 + c^2))` times the angular acceleration about axis a for an
-//! ellipsoid (Lamb, Hydrodynamics, art. 110), so below the body's own by the ratio of the
-//! densities of air and body, 1e-3 for an insect.
+//! normal velocity at the skin is the skin's, so its potential is that of a vessel full of fluid. About the centroid X,
+//!
+//! ```text
+//! phi = V . x + 1/2 x . H x        velocity V + H x        x from X
+//! ```
+//!
+//! V is exactly the velocity of the centroid, from the momentum `rho surface-integral x (v . n) dA` of the inner fluid. H, symmetric
+//! without trace, is of all quadratic potentials the one nearest in energy (Ritz): with the second moments S of the volume the
+//! solution of `int (H_i x) . (H x) dV = surface-integral phi_i (v . n) dA` for the five H_i that span them. For ellipsoids it is the
+//! exact flow, whose angular momentum is `rho Vol (b^2 - c^2)^2 / (5 (b^2 + c^2))` times the angular velocity about axis a
+//! (Lamb, Hydrodynamics, art. 110); for other shapes it holds somewhat less than there is.
+//!
+//! The jump of pressure across the skin holds the pressure of the inner fluid, which no real body feels; it is given back:
+//!
+//! ```text
+//! -p = rho (V' . x + 1/2 x . (H' + H H) x) + const
+//! ```
+//!
+//! Rates V', H' are differences over steps with the weights that the rate of the circulation has in the jump: what is
+//! added leaves no trace of its own order.
 
 use crate::geometry::Panels;
 use crate::lattice::Lattice;
 use crate::loads::rate::rate_weights;
 use crate::loads::values::AirLoads;
-use crate::state::AirState;
+use crate::state::{AirState, InnerFlow};
 use std::ops::Range;
-use wingbeat_math::DVec3;
+use wingbeat_math::{DMat3, DVec3, outer, solve_small, trace};
 
 /// Adds to the panel forces of every closed surface what the inner fluid took.
 pub(crate) fn outer_forces(lattice: &Lattice, state: &AirState, out: &mut AirLoads) {
     let rho = lattice.settings().density;
-    out.inner_momentum.clear();
+    let weights = rate_weights(lattice, state, out.dt);
+    out.inner.clear();
     for (s, surface) in lattice.surfaces().iter().enumerate() {
-        let panels = lattice.panels_of(s);
         if !surface.closed {
-            out.inner_momentum.push(DVec3::ZERO);
+            out.inner.push(InnerFlow::REST);
             continue;
         }
-        let (volume, flux) = volume_and_flux(&out.panels, panels.clone());
-        let momentum = rho * flux;
-        out.inner_momentum.push(momentum);
-        if rate_weights(lattice, state, out.dt)[0] == 0.0 {
+        let panels = lattice.panels_of(s);
+        let solid = Solid::of(&out.panels, panels.clone());
+        let now = solid.inner_flow(rho, &out.panels, panels.clone());
+        out.inner.push(now);
+        if weights[0] == 0.0 {
             continue; // without dGamma/dt the jump holds nothing of the inner fluid
         }
-        let gradient = (momentum - state.inner_momentum[s]) / out.dt / volume;
-        let centre = mean(&out.panels.point[panels.clone()]);
+        let flows = [now, state.inner[s], state.inner_before[s]];
+        let mut rate = InnerFlow::REST;
+        for (weight, flow) in weights.iter().zip(&flows) {
+            rate.momentum += *weight * flow.momentum;
+            rate.strain += flow.strain * *weight;
+        }
+        let gradient = rate.momentum / solid.volume;
+        let bend = (rate.strain + now.strain * now.strain) * (0.5 * rho);
         for p in panels {
-            let pressure = gradient.dot(out.panels.point[p] - centre);
-            out.force[p] += pressure * out.panels.vector_area[p];
+            let x = out.panels.point[p] - solid.centroid;
+            out.force[p] += (gradient.dot(x) + x.dot(bend * x)) * out.panels.vector_area[p];
         }
     }
 }
 
-/// Volume Vol [m3] and `surface-integral x (v . n) dA` [m4/s] of a closed surface, in the form
-/// `Vol V + surface-integral x ((v - V) . n) dA` with the mean velocity V.
-///
-/// On plane panels `sum x (V . A)` is Vol V only up to the error of the quadrature, which turns with the body: as the rate of a
-/// momentum it would be a force that grows with the speed of the observer.
-fn volume_and_flux(panels: &Panels, range: Range<usize>) -> (f64, DVec3) {
-    let centre = mean(&panels.point[range.clone()]);
-    let velocity = mean(&panels.velocity[range.clone()]);
-    let (mut volume, mut flux) = (0.0, DVec3::ZERO);
-    for p in range {
-        let x = panels.point[p] - centre;
-        volume += x.dot(panels.vector_area[p]) / 3.0;
-        flux += x * (panels.velocity[p] - velocity).dot(panels.vector_area[p]);
+/// The volume within a closed surface: volume [m3], centroid [m], second moments about it `int x x^T dV` [m5], N components.
+struct Solid {
+    volume: f64,
+    centroid: DVec3,
+    moments: DMat3,
+}
+
+impl Solid {
+    /// By one point on each panel.
+    fn of(panels: &Panels, range: Range<usize>) -> Self {
+        let middle = mean(&panels.point[range.clone()]);
+        // x . n dA is 3, 4, 5 times what a cone from the middle has of volume, first and second moments.
+        let cones = |from: DVec3| {
+            let cone = move |p: usize| {
+                let x = panels.point[p] - from;
+                (x, x.dot(panels.vector_area[p]))
+            };
+            range.clone().map(cone)
+        };
+        let volume = cones(middle).map(|(_, d)| d / 3.0).sum::<f64>();
+        let first: DVec3 = cones(middle).map(|(x, d)| x * (d / 4.0)).sum();
+        let centroid = middle + first / volume;
+        let second = cones(centroid).map(|(x, d)| outer(x) * (d / 5.0));
+        Self {
+            volume,
+            centroid,
+            moments: second.fold(DMat3::ZERO, |sum, m| sum + m),
+        }
     }
-    (volume, volume * velocity + flux)
+
+    fn inner_flow(&self, rho: f64, panels: &Panels, range: Range<usize>) -> InnerFlow {
+        let (middle, mean_velocity) = (
+            mean(&panels.point[range.clone()]),
+            mean(&panels.velocity[range.clone()]),
+        );
+        // On plane panels `sum x (V . A)` is Vol V only up to the error of the quadrature, which turns with the body: as the
+        // rate of a momentum it would be a force that grows with the speed of the observer.
+        let flux = range.clone().map(|p| {
+            let x = panels.point[p] - middle;
+            x * (panels.velocity[p] - mean_velocity).dot(panels.vector_area[p])
+        });
+        let velocity = mean_velocity + flux.sum::<DVec3>() / self.volume;
+        let mut through = [0.0; 5];
+        for p in range {
+            let x = panels.point[p] - self.centroid;
+            let flux = (panels.velocity[p] - velocity).dot(panels.vector_area[p]);
+            for (sum, h) in through.iter_mut().zip(&QUADRATICS) {
+                *sum += 0.5 * x.dot(*h * x) * flux;
+            }
+        }
+        InnerFlow {
+            momentum: rho * self.volume * velocity,
+            strain: self.nearest_strain(through),
+        }
+    }
+
+    /// H from `surface-integral phi_i (v . n) dA`; none in a volume without extent in some direction.
+    fn nearest_strain(&self, mut through: [f64; 5]) -> DMat3 {
+        let product = |i: usize, j: usize| trace(QUADRATICS[i] * self.moments * QUADRATICS[j]);
+        let mut energies: [f64; 25] = std::array::from_fn(|k| product(k / 5, k % 5));
+        match solve_small(&mut energies, &mut through) {
+            Ok(()) => (through.iter().zip(&QUADRATICS)).fold(DMat3::ZERO, |h, (c, q)| h + *q * *c),
+            Err(_) => DMat3::ZERO,
+        }
+    }
+}
+
+/// A basis of the symmetric matrices without trace.
+const QUADRATICS: [DMat3; 5] = [
+    symmetric([0.0; 3], [1.0, 0.0, 0.0]),
+    symmetric([0.0; 3], [0.0, 1.0, 0.0]),
+    symmetric([0.0; 3], [0.0, 0.0, 1.0]),
+    symmetric([1.0, -1.0, 0.0], [0.0; 3]),
+    symmetric([0.0, 1.0, -1.0], [0.0; 3]),
+];
+
+/// With this diagonal and the entries yz, zx, xy.
+const fn symmetric([xx, yy, zz]: [f64; 3], [yz, zx, xy]: [f64; 3]) -> DMat3 {
+    DMat3::from_cols(
+        DVec3::new(xx, xy, zx),
+        DVec3::new(xy, yy, yz),
+        DVec3::new(zx, yz, zz),
+    )
 }
 
 fn mean(of: &[DVec3]) -> DVec3 {

@@ -36,7 +36,7 @@ pub(crate) fn impulse(
     filaments: &Filaments,
     out: &mut AirLoads,
 ) {
-    let inner: DVec3 = out.inner_momentum.iter().sum();
+    let inner: DVec3 = out.inner.iter().map(|i| i.momentum).sum();
     let present = lattice.settings().density * filaments.impulse(DVec3::ZERO) - inner;
     out.impulse = present + state.impulse.dropped();
     out.attached_impulse = present - state.free_impulse;

@@ -1,7 +1,7 @@
 //! Loads of one instant.
 
 use crate::geometry::Panels;
-use crate::state::ImpulseAccount;
+use crate::state::{ImpulseAccount, InnerFlow};
 use wingbeat_math::DVec3;
 
 /// What the air does to one surface.
@@ -63,8 +63,8 @@ pub struct AirLoads {
     pub unfound: u64,
     /// Resultants of the surfaces.
     pub surfaces: Vec<SurfaceLoads>,
-    /// Momentum of the fictitious fluid inside each closed surface [kg m/s].
-    pub inner_momentum: Vec<DVec3>,
+    /// Flow of the fictitious fluid inside each surface.
+    pub inner: Vec<InnerFlow>,
     /// Force on all surfaces of the inviscid air alone [N], N, with the suction of the edges that do not shed, whatever the
     /// forces of the panels make of it: without friction and profile drag, and without Polhamus's normal force. It is
     /// what the impulse is to be compared with.

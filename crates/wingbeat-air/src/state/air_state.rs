@@ -1,6 +1,7 @@
 //! What the air remembers from step to step: circulations and wakes.
 
 use crate::state::impulse_account::ImpulseAccount;
+use crate::state::inner_flow::InnerFlow;
 use crate::state::wake_sheet::WakeSheet;
 use wingbeat_math::DVec3;
 
@@ -61,9 +62,10 @@ pub struct AirState {
     pub position: Vec<DVec3>,
     /// Their velocities [m/s], N components.
     pub velocity: Vec<DVec3>,
-    /// Momentum of the fictitious fluid inside each surface (zero for open ones) at the last
-    /// accepted step [kg m/s], N components.
-    pub inner_momentum: Vec<DVec3>,
+    /// Flow of the fictitious fluid inside each surface at the last accepted step.
+    pub inner: Vec<InnerFlow>,
+    /// The same one accepted step earlier.
+    pub inner_before: Vec<InnerFlow>,
     /// Wake sheets, in the order of [`crate::Lattice::sheets`].
     pub sheets: Vec<WakeSheet>,
     /// Regularised events since the start.

@@ -4,9 +4,9 @@ use crate::error::AirError;
 use crate::geometry::{NodeMotion, Sheet};
 use crate::lattice::Lattice;
 use crate::state::air_state::AirState;
+use crate::state::inner_flow::InnerFlow;
 use crate::state::particles::is_whole;
 use crate::state::wake_sheet::WakeSheet;
-use wingbeat_math::DVec3;
 
 impl Lattice {
     /// Air without circulation and wake around the surfaces as they are: the start from rest.
@@ -22,7 +22,8 @@ impl Lattice {
             gamma_before: vec![0.0; self.panel_count()],
             position: motion.position.clone(),
             velocity: motion.velocity.clone(),
-            inner_momentum: vec![DVec3::ZERO; self.surfaces().len()],
+            inner: vec![InnerFlow::REST; self.surfaces().len()],
+            inner_before: vec![InnerFlow::REST; self.surfaces().len()],
             hold: vec![f64::MAX; self.strips().len()],
             leaving: vec![0.0; self.strips().len()],
             fed: vec![0.0; self.strips().len()],
@@ -53,7 +54,10 @@ impl Lattice {
         {
             return mismatch("number of leading-edge strips");
         }
-        if state.inner_momentum.len() != self.surfaces().len() {
+        if [&state.inner, &state.inner_before]
+            .iter()
+            .any(|x| x.len() != self.surfaces().len())
+        {
             return mismatch("number of surfaces");
         }
         let fits = |(sheet, root): (&WakeSheet, &Sheet)| {

@@ -1,24 +1,35 @@
 //! Lengths of the air in metres or in mean chords, and the cores of vortices.
 
 use wingbeat_air::CoreModel;
-use wingbeat_model::Animal;
+use wingbeat_math::DVec3;
+use wingbeat_model::{Animal, BodyPart};
 
 use super::fault::Built;
 use crate::error::Fault;
 use crate::raw::{AIR, CoreCase};
 
-/// The mean chord of all wings, where there are any.
+/// The mean chord of all wings; of an animal without wings the largest extent of a part of its body.
 pub(super) struct Chord(Option<f64>);
 
 impl Chord {
-    /// Area over length of all wings \[m\].
+    /// Area over length of all wings, or that extent \[m\].
     pub fn of(animal: &Animal) -> Self {
         let wings = animal.wing_reports();
         let [area, length] = [
             wings.iter().map(|w| w.area).sum::<f64>(),
             wings.iter().map(|w| w.length).sum(),
         ];
-        Self((!wings.is_empty()).then(|| area / length))
+        if !wings.is_empty() {
+            return Self(Some(area / length));
+        }
+        let extent = |part: &BodyPart| {
+            let nodes = part.mesh.nodes.iter();
+            let [least, most] = nodes.fold([DVec3::INFINITY, DVec3::NEG_INFINITY], |[a, b], x| {
+                [a.min(*x), b.max(*x)]
+            });
+            (most - least).max_element()
+        };
+        Self(animal.parts.iter().map(extent).reduce(f64::max))
     }
 
     /// A length \[m\] that the case gives as `STEM_m` or `STEM_chords`; none where it gives neither.
@@ -33,7 +44,7 @@ impl Chord {
             (None, Some(chords), Some(chord)) => Ok(Some(chords * chord)),
             (None, Some(_), None) => Err(Fault::new(
                 format!("{stem}_chords"),
-                "there are no wings whose chord could be meant",
+                "there are neither wings whose chord could be meant nor parts of a body",
                 format!("{stem}_m"),
                 "give the length in metres",
             )),

@@ -14,17 +14,17 @@ const CHANGE: f64 = 0.02;
 /// A change counts beside the one before from this part of it on.
 const LASTS: f64 = 0.5;
 
-/// What was seen of the forces of the wings.
+/// What was seen of the forces of the wings, or of the body of a flyer without wings.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub(super) struct Alternation {
-    wings: Vec<Wing>,
+    bodies: Vec<Seen>,
     step: usize,
     /// Most steps in a row in which the force of a wing turned back by no much smaller a change.
     pub longest: usize,
 }
 
 #[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
-struct Wing {
+struct Seen {
     force: DVec3,
     change: DVec3,
     most: f64,
@@ -34,17 +34,18 @@ struct Wing {
 impl Alternation {
     /// Takes the next record; `wings` of its bodies behind the first are wings. Where steps were left out nothing is counted.
     pub fn take(&mut self, record: &Record, wings: usize) {
-        let forces = record.air.iter().skip(1).take(wings).map(|w| w.force);
-        self.wings.resize(wings, Wing::default());
+        let [first, count] = if wings == 0 { [0, 1] } else { [1, wings] };
+        let forces = record.air.iter().skip(first).take(count).map(|w| w.force);
+        self.bodies.resize(count, Seen::default());
         let follows = record.step == self.step + 1;
         self.step = record.step;
-        for (wing, force) in self.wings.iter_mut().zip(forces) {
-            self.longest = self.longest.max(wing.take(force, follows));
+        for (seen, force) in self.bodies.iter_mut().zip(forces) {
+            self.longest = self.longest.max(seen.take(force, follows));
         }
     }
 }
 
-impl Wing {
+impl Seen {
     /// Steps in a row, up to this one, in which the force turned back by no much smaller a change.
     fn take(&mut self, force: DVec3, follows: bool) -> usize {
         let change = if follows {

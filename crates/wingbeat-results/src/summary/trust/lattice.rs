@@ -35,7 +35,10 @@ pub(super) fn warnings(
 
 /// Friction and suction.
 fn left_out(setup: &FlightSetup, lattice: &AirSettings, list: &mut Warnings) {
-    let suction = suction(lattice);
+    let suction = match setup.animal.wings.is_empty() {
+        true => String::new(),
+        false => suction(lattice),
+    };
     if has_vortex_lift(lattice) && setup.animal.wings.len() > 2 {
         list.limit("Vortex lift was tried on two pairs of wings and failed: 0.65 to 2.4 times the lift of the references (docs/separated-flow.md). Take air.loads = pressure without shedding from leading edges, or leading-edge vorticity.");
     }
@@ -68,11 +71,14 @@ fn motion(setup: &FlightSetup, list: &mut Warnings) {
 /// What was chosen, and the results depend on.
 fn inputs(setup: &FlightSetup, air: &AirOptions, list: &mut Warnings) {
     let lattice = &air.lattice;
-    list.note(core_is_an_input(setup, lattice));
+    let has_wings = !setup.animal.wings.is_empty();
+    if has_wings {
+        list.note(core_is_an_input(setup, lattice));
+    }
     if air.mirror {
         list.note("Mirror symmetry was assumed (air.mirror): a real flow of this kind loses it, and with it roll, yaw and sideways drift would come.");
     }
-    if lattice.shedding.leading && lattice.leading.sheds() {
+    if has_wings && lattice.shedding.leading && lattice.leading.sheds() {
         list.note("Leading edges shed: such sheets have no converged history beyond the first half stroke. Read means over several beats and their spread, not single peaks.");
     }
     if setup.time.period.is_some() && lattice.convection == Convection::Euler {
@@ -88,7 +94,7 @@ fn failures(setup: &FlightSetup, summary: &Summary, list: &mut Warnings) {
             _ => "set dynamics.integrator = \"bdf\"",
         };
         list.fault(format!(
-            "Forces alternate from step to step (up to {} steps in a row): the air that moves with the wings weighs too much for the integrator, and the motion means nothing; {remedy}.",
+            "Forces alternate from step to step (up to {} steps in a row): the air that moves with wings or body weighs too much for the integrator, and the motion means nothing; {remedy}.",
             summary.alternating_steps
         ));
     }
