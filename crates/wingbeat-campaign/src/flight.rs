@@ -6,6 +6,7 @@ use std::path::Path;
 use wingbeat_case::{IoError, LoadedCase};
 use wingbeat_draw::draw_run;
 use wingbeat_flight::{FlightError, Simulation};
+use wingbeat_results::history::is_locked;
 use wingbeat_results::{Outcome, Records, ResultDir, RunWriter, saver};
 
 use crate::evaluate::Flown;
@@ -66,8 +67,12 @@ pub fn in_memory(case: &LoadedCase, watch: Watch) -> Result<Flown, Halt> {
 /// Flies a case in the result directory `path`, which may hold a part of it already.
 ///
 /// # Errors
-/// Why it has no end; where it was asked to stop, its state is saved.
+/// Why it has no end; where it was asked to stop, its state is saved. [`IoError::Busy`] where another process writes there.
 pub fn in_directory(path: &Path, case: &LoadedCase, watch: Watch) -> Result<Flown, Halt> {
+    let history = path.join("history.csv");
+    if is_locked(&history) {
+        return Err(IoError::Busy { path: history }.into()); // nothing of it may be removed
+    }
     match resumed(path, case)? {
         Some((flight, writer)) => fly(flight, writer, case, watch)?,
         None if is_finished(path) => {}
@@ -80,7 +85,7 @@ pub fn in_directory(path: &Path, case: &LoadedCase, watch: Watch) -> Result<Flow
             fly(flight, writer, case, watch)?;
         }
     }
-    let mut rows = Records::open(&path.join("history.csv"), &case.setup)?;
+    let mut rows = Records::open(&history, &case.setup)?;
     let mut records = vec![];
     while let Some(record) = rows.next_record()? {
         records.push(record.clone());

@@ -25,6 +25,8 @@ pub enum Done {
     Result(PointResult),
     /// It was asked to stop.
     Stopped,
+    /// Another process is flying it.
+    Busy,
     /// Files could not be written.
     Unwritten(IoError),
 }
@@ -95,6 +97,7 @@ pub fn fly(
     let done = match found {
         Ok(()) => Done::Result(PointResult::of(&point.values, point.verdict)),
         Err(Halt::Stopped) => return Done::Stopped,
+        Err(Halt::Io(IoError::Busy { .. })) => return Done::Busy,
         Err(Halt::Io(e)) => return Done::Unwritten(e),
         Err(Halt::Slow) => {
             let limit = campaign.raw.budget.time_per_point_s.unwrap_or(0.0);

@@ -178,6 +178,15 @@ pub enum IoError {
         /// What the drawing library says.
         problem: String,
     },
+    /// A run that another process is writing.
+    #[error(
+        "`{}`: another wingbeat is writing it right now; wait for it or end it",
+        path.display()
+    )]
+    Busy {
+        /// Its history.
+        path: PathBuf,
+    },
     /// A file of a result directory that is damaged or foreign.
     #[error("`{}`: {problem}", path.display())]
     Damaged {
