@@ -18,6 +18,9 @@ const WAYS: [&str; 8] = [
     "normal",
 ];
 
+/// Times per point at most [s].
+const LONGEST: f64 = 1e9;
+
 /// What an enum of tables cannot say clearly: one way to vary each.
 ///
 /// # Errors
@@ -250,6 +253,16 @@ fn check_budget(document: &Document, raw: &RawCampaign) -> Result<(), IoError> {
                 )
                 .into());
         }
+    }
+    if budget.time_per_point_s.is_some_and(|x| x > LONGEST) {
+        return Err(document
+            .fault(
+                "budget.time_per_point_s",
+                "this is longer than any flight takes",
+                "a time above 0 s, at most 1e9 s",
+                "remove it for no limit",
+            )
+            .into());
     }
     Ok(())
 }

@@ -25,6 +25,7 @@ pub const OPTIONS: [&str; 5] = [
 /// Steps per wingbeat unless the file says otherwise, and at least and most.
 const DEFAULT_STEPS: usize = 100;
 const STEPS: [usize; 2] = [20, 2000];
+const STEPS_ALLOWED: &str = "a whole number from 20 to 2000";
 /// The air is incompressible [m/s].
 const SOUND: f64 = 340.0;
 
@@ -118,11 +119,24 @@ pub fn options(raw: &RawCampaign, plan: &Plan, i: usize) -> Result<TrimOptions, 
             "climb_m_s" => options.climb_m_s = Some(number),
             "sideslip_m_s" => options.sideslip_m_s = Some(number),
             "turn_rate_deg_s" => options.turn_rate_deg_s = Some(number),
-            _ => options.steps_per_beat = Some(number as usize),
+            _ => options.steps_per_beat = Some(whole(key, number)?),
         }
     }
     check_options(&options)?;
     Ok(options)
+}
+
+/// A number of steps without a fraction; one that is too large for any is refused with the others out of range.
+fn whole(key: &str, number: f64) -> Result<usize, Bad> {
+    match number.fract() == 0.0 {
+        true => Ok(number as usize),
+        false => Err(Bad {
+            key: key.to_owned(),
+            problem: format!("{number} has a fraction"),
+            allowed: STEPS_ALLOWED,
+            remedy: "give whole numbers, by a list or a range",
+        }),
+    }
 }
 
 fn check_options(options: &TrimOptions) -> Result<(), Bad> {
@@ -149,7 +163,7 @@ fn check_options(options: &TrimOptions) -> Result<(), Bad> {
         Some(steps) => Err(Bad {
             key: format!("{TRIM}steps_per_beat"),
             problem: format!("{steps} steps per wingbeat"),
-            allowed: "a whole number from 20 to 2000",
+            allowed: STEPS_ALLOWED,
             remedy: "100 is the default",
         }),
     }
