@@ -12,10 +12,10 @@ use crate::blocks::points_of_block;
 use crate::checks;
 use crate::evaluate;
 use crate::named::{self, Contents};
-use crate::number::{self, Number, Of, Source};
+use crate::number::{self, Number, Source};
 use crate::plan::Plan;
 use crate::raw::TrimOptions;
-use crate::raw::{FRAMES_EVERY, FileKind, RawCampaign, Task};
+use crate::raw::{FRAMES_EVERY, FileKind, HISTORY_EVERY, RawCampaign, Task};
 use crate::trimming::{self, TRIM};
 
 /// Values of an axis that are tried before anything is flown.
@@ -308,22 +308,33 @@ impl Campaign {
             let remedy = "set mean_beats = 3, or more";
             return Err(self.fault(place, problem, "with mean_beats of 3 or more", remedy));
         }
-        let thinned = self.base.output.history_every > 1;
-        if thinned
-            && matches!(
-                number.source,
-                Source::Column(Of::Mean | Of::Min | Of::Max, _)
-            )
-        {
-            let problem = "the history of this case leaves steps out, which means and extremes of its columns need".to_owned();
-            return Err(self.fault(
-                place,
-                problem,
-                "with output.history_every = 1",
-                "add `\"output.history_every\" = 1` to [set]",
-            ));
+        self.check_steps(place, number)
+    }
+
+    /// Means and extremes of columns need every step in the history of every point.
+    fn check_steps(&self, place: &str, number: &Number) -> Result<(), IoError> {
+        let thinned = |case: &LoadedCase| case.output.history_every > 1;
+        if !number.source.needs_every_step() {
+            return Ok(());
         }
-        Ok(())
+        let mut tried = self
+            .tried()
+            .filter_map(|i| self.case_with(&self.overrides(i)).ok());
+        let (whose, remedy) = match self.varies(HISTORY_EVERY) {
+            true if tried.any(|case| thinned(&case)) => (
+                "some points",
+                format!("vary {HISTORY_EVERY} no more, or keep `end.` of the column"),
+            ),
+            false if thinned(&self.base) => (
+                "this case",
+                format!("add `\"{HISTORY_EVERY}\" = 1` to [set]"),
+            ),
+            _ => return Ok(()),
+        };
+        let problem = format!(
+            "the history of {whose} leaves steps out, which means and extremes of its columns need"
+        );
+        Err(self.fault(place, problem, "with output.history_every = 1", &remedy))
     }
 
     /// Tries the case with the values of every axis, up to twenty of each, and what is drawn first.

@@ -7,7 +7,7 @@ use wingbeat_case::{IoError, LoadedCase};
 use wingbeat_draw::draw_run;
 use wingbeat_flight::{FlightError, Simulation};
 use wingbeat_results::history::is_locked;
-use wingbeat_results::{Outcome, Records, ResultDir, RunWriter, saver};
+use wingbeat_results::{Outcome, Records, ResultDir, RunWriter, Summary, saver};
 
 use crate::evaluate::Flown;
 
@@ -60,6 +60,7 @@ pub fn in_memory(case: &LoadedCase, watch: Watch) -> Result<Flown, Halt> {
     }
     Ok(Flown {
         setup: flight.setup().clone(),
+        summary: Summary::of(flight.setup(), &records, &Outcome::Finished),
         records,
     })
 }
@@ -93,6 +94,8 @@ pub fn in_directory(path: &Path, case: &LoadedCase, watch: Watch) -> Result<Flow
     Ok(Flown {
         setup: case.setup.clone(),
         records,
+        // As it was written: of all steps, also where the history leaves some out.
+        summary: Summary::read(case, &history, &Outcome::Finished)?,
     })
 }
 

@@ -14,7 +14,7 @@ use wingbeat_results::summary::Verdict;
 use crate::campaign::Campaign;
 use crate::evaluate;
 use crate::flight::{self, Halt, in_directory, in_memory};
-use crate::raw::{FRAMES_EVERY, FileKind, Task};
+use crate::raw::{FRAMES_EVERY, FileKind, HISTORY_EVERY, Task};
 use crate::store::{PointResult, Reason, Store};
 use crate::trimming;
 
@@ -197,6 +197,12 @@ impl Point<'_> {
 
     fn run(&mut self, case: &LoadedCase) -> Result<(), Halt> {
         let campaign = self.campaign;
+        if case.output.history_every > 1 && evaluate::need_every_step(&campaign.numbers) {
+            let words = format!(
+                "{HISTORY_EVERY} leaves steps out, which means and extremes of columns need"
+            );
+            return Err(Halt::Refused(words));
+        }
         let place = self
             .work
             .filter(|_| campaign.has_directory(self.i, &case.setup));
@@ -212,8 +218,9 @@ impl Point<'_> {
         if let Some(words) = flown.lacks(&campaign.numbers, beats) {
             return Err(Halt::Short(words));
         }
-        let verdict = flown.fill(&campaign.numbers, beats, &mut self.values);
-        self.verdict = Some(verdict.map_err(Halt::Diverged)?);
+        let filled = flown.fill(&campaign.numbers, beats, &mut self.values);
+        filled.map_err(Halt::Diverged)?;
+        self.verdict = Some(flown.summary.verdict);
         Ok(())
     }
 

@@ -97,6 +97,9 @@ impl Task {
 /// The key of the case that says how often frames are written.
 pub(crate) const FRAMES_EVERY: &str = "output.frames_every";
 
+/// The key of the case that says how often the history has a row.
+pub(crate) const HISTORY_EVERY: &str = "output.history_every";
+
 /// A file, or files, of a result directory.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
