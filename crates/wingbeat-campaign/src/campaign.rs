@@ -170,7 +170,7 @@ impl Campaign {
     }
 
     /// SHA-256 of what is done at point `i`: version, case, tasks, numbers that are kept, values of the point and what is in
-    /// the files that they name, and in those that commands of other programs name.
+    /// the files that they name, and in those that commands of other programs name. Which files of it are kept is no part.
     pub fn hash(&self, i: usize) -> [u8; 32] {
         let mut hash = self.digest.clone();
         for line in self.plan.overrides(i) {
@@ -191,9 +191,14 @@ impl Campaign {
         let case = Sha256::digest(self.base.resolved());
         hash.update(case);
         hash.update(Sha256::digest(self.base.text()));
-        let tasks = (&raw.tasks, &raw.trim, &raw.keep, self.mean_beats());
-        let files = (&raw.files, &raw.retention, &raw.set);
-        hash.update(format!("{tasks:?} {files:?}\n"));
+        let tasks = (
+            &raw.tasks,
+            &raw.trim,
+            &raw.keep,
+            self.mean_beats(),
+            &raw.set,
+        );
+        hash.update(format!("{tasks:?}\n"));
         named::of_programs(&self.base)
             .iter()
             .for_each(|program| hash.update(program));
@@ -203,16 +208,16 @@ impl Campaign {
         hash
     }
 
-    /// SHA-256 of the whole plan, which blocks of points belong to.
+    /// SHA-256 of the whole plan, which blocks of points belong to: which points there are and in which order, and what is
+    /// kept of them.
     pub fn plan_hash(&self) -> [u8; 32] {
+        let raw = &self.raw;
         let mut hash = self.digest.clone();
-        let varied = (
-            &self.raw.parameter,
-            &self.raw.zip,
-            self.plan.samples,
-            self.raw.seed,
-        );
-        hash.update(format!("{varied:?} {}\n", self.block));
+        let varied = (&raw.parameter, &raw.zip, self.plan.samples, raw.seed);
+        // The keys as they follow each other in the file: points are counted in this order.
+        let keys = (self.plan.keys(), self.block);
+        let files = (&raw.files, raw.retention.every, raw.retention.failed);
+        hash.update(format!("{varied:?} {keys:?} {files:?}\n"));
         if let Some(axis) = self.plan.axes.iter().find(|a| a.place == "table") {
             hash.update(format!("{axis:?}"));
         }
