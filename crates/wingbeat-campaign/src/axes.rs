@@ -7,7 +7,7 @@ use wingbeat_case::{CaseError, Document};
 
 use crate::plan::{Axis, Plan};
 use crate::raw::{Ends, Normal, Range, RawCampaign, Variation};
-use crate::sample::{MAX_SOBOL, MAX_SOBOL_KEYS, Sampler, cumulative};
+use crate::sample::{MAX_SOBOL, MAX_SOBOL_KEYS, Sampler, cumulative, rounded};
 use crate::value::Value;
 
 /// Points of a campaign at most.
@@ -193,9 +193,7 @@ impl Reader<'_> {
             k if logarithmic => from * (to / from).powf(k as f64 / last as f64),
             k => from + (to - from) * k as f64 / last as f64,
         };
-        // 12 digits: 0.1, not 0.1 and its rounding.
-        let round = |x: f64| format!("{x:.11e}").parse().unwrap_or(x);
-        Ok((0..=last).map(|k| Value::Number(round(at(k)))).collect())
+        Ok((0..=last).map(|k| Value::Number(rounded(at(k)))).collect())
     }
 
     /// An end of a range.
