@@ -55,7 +55,7 @@ pub fn has_files(campaign: &Campaign, i: usize, hash: &str, store: &Store) -> bo
     let Ok(manifest) = saver::read_manifest(&place) else {
         return false;
     };
-    let frames = !campaign.varies(FRAMES_EVERY);
+    let frames = !campaign.plan.varies(FRAMES_EVERY);
     let written = |kind: FileKind| match kind {
         FileKind::Page => manifest.steps >= DRAWN,
         FileKind::Frames => frames,
@@ -214,7 +214,7 @@ impl Point<'_> {
             }
             None => in_memory(case, &mut || self.watch())?,
         };
-        let beats = campaign.mean_beats();
+        let beats = campaign.raw.mean_beats();
         if let Some(words) = flown.lacks(&campaign.numbers, beats) {
             return Err(Halt::Short(words));
         }

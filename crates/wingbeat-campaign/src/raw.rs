@@ -60,6 +60,13 @@ pub struct RawCampaign {
     pub retention: Retention,
 }
 
+impl RawCampaign {
+    /// Wingbeats that means are taken over.
+    pub fn mean_beats(&self) -> usize {
+        self.mean_beats.unwrap_or(1)
+    }
+}
+
 fn first() -> u32 {
     1
 }

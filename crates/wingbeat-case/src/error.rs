@@ -53,6 +53,9 @@ pub struct CaseError {
     pub key: String,
     /// The value as it was written, if there is one.
     pub value: Option<String>,
+    /// The key that was set on top of the case and caused this: `key`, one around it or one inside it; `None` where the
+    /// case itself did.
+    pub overridden: Option<String>,
     /// What is wrong.
     pub problem: String,
     /// What is allowed.

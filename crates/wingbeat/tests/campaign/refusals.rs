@@ -414,3 +414,21 @@ fn refuses_a_fraction_of_a_step_of_the_trim() {
         }
     }
 }
+
+/// Values of any length are traced to their lines, wherever they stand.
+#[test]
+fn refuses_long_values_with_their_lines() {
+    let scratch = Scratch::new("campaign-long");
+    let dir = &scratch.0;
+    let long = "long".repeat(50);
+    let set = format!("[set]\n\"body.part.thorax.mass_kg.a\" = \"{long}\"\n");
+    let varied = format!("[parameter.\"body.part.thorax.mass_kg.a\"]\nlist = [\"{long}\"]\n");
+    for text in [set, varied] {
+        let head = "case = \"case.toml\"\nkeep = [\"summary.mass_kg\"]\n";
+        write(dir, &format!("{head}{text}"));
+        let out = wingbeat(dir, &["campaign", "plan", "c.toml"]);
+        let report = String::from_utf8(out.stderr).unwrap();
+        assert_eq!(out.status.code(), Some(2), "{report}");
+        assert!(report.contains("c.toml:4:"), "{report}");
+    }
+}
