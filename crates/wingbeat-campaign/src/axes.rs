@@ -5,9 +5,9 @@ use std::path::Path;
 
 use wingbeat_case::{CaseError, Document};
 
-use crate::plan::{Axis, Plan};
+use crate::plan::{Axis, Place, Plan};
 use crate::raw::{Ends, Normal, Range, RawCampaign, Variation};
-use crate::sample::{MAX_SOBOL, MAX_SOBOL_KEYS, Sampler, cumulative};
+use crate::sample::{MAX_SOBOL, MAX_SOBOL_KEYS, Sampler, cumulative, rounded};
 use crate::value::Value;
 
 /// Points of a campaign at most.
@@ -38,9 +38,9 @@ impl Reader<'_> {
             let Some(variation) = raw.parameter.get(&key) else {
                 continue;
             };
-            let place = format!("parameter.{key}");
+            let place = Place::Parameter.of_key(&key);
             match self.listed(&place, variation)? {
-                Some(values) => axes.push(Axis::of_key(&key, place, values)),
+                Some(values) => axes.push(Axis::of_key(&key, values)),
                 None => {
                     let dimension = samplers.len();
                     self.check_law(&place, variation, samples, dimension)?;
@@ -49,7 +49,7 @@ impl Reader<'_> {
             }
         }
         for (k, group) in raw.zip.iter().enumerate() {
-            axes.push(self.zipped(&format!("zip[{k}]"), group)?);
+            axes.push(self.zipped(k, group)?);
         }
         if let Some(name) = &raw.table {
             axes.push(self.table(name)?);
@@ -193,9 +193,7 @@ impl Reader<'_> {
             k if logarithmic => from * (to / from).powf(k as f64 / last as f64),
             k => from + (to - from) * k as f64 / last as f64,
         };
-        // 12 digits: 0.1, not 0.1 and its rounding.
-        let round = |x: f64| format!("{x:.11e}").parse().unwrap_or(x);
-        Ok((0..=last).map(|k| Value::Number(round(at(k)))).collect())
+        Ok((0..=last).map(|k| Value::Number(rounded(at(k)))).collect())
     }
 
     /// An end of a range.
@@ -216,10 +214,10 @@ impl Reader<'_> {
         })
     }
 
-    fn zipped(&self, place: &str, group: &BTreeMap<String, Vec<toml::Value>>) -> Found<Axis> {
+    fn zipped(&self, k: usize, group: &BTreeMap<String, Vec<toml::Value>>) -> Found<Axis> {
         let mut values: Vec<Vec<Value>> = vec![];
         for (key, list) in group {
-            let place = format!("{place}.{key}");
+            let place = Place::Zip(k).of_key(key);
             values.push(self.list(&place, list)?);
             let wanted = values[0].len();
             if list.len() != wanted {
@@ -236,7 +234,7 @@ impl Reader<'_> {
         }
         if group.len() < 2 {
             return Err(self.wrong(
-                place,
+                &format!("zip[{k}]"),
                 "keys that vary together are two at least",
                 "two or more lists of the same length",
                 "vary a single key by [parameter.\"KEY\"] list = [...]",
@@ -244,7 +242,7 @@ impl Reader<'_> {
         }
         Ok(Axis {
             name: group.keys().next().cloned().unwrap_or_default(),
-            place: place.to_owned(),
+            place: Place::Zip(k),
             keys: group.keys().cloned().collect(),
             values,
         })
@@ -283,7 +281,7 @@ impl Reader<'_> {
         }
         Ok(Axis {
             name: "row".to_owned(),
-            place: "table".to_owned(),
+            place: Place::Table,
             keys,
             values,
         })
@@ -353,16 +351,12 @@ impl Reader<'_> {
     /// No key varies twice, and none is set that varies.
     fn check_once(&self, raw: &RawCampaign, axes: &[Axis], samplers: &[Sampler]) -> Found<()> {
         let listed = axes.iter().flat_map(|a| {
-            let place = |key: &String| match &a.place[..] {
-                "table" => "table".to_owned(),
-                zip if zip.starts_with("zip") => format!("{zip}.{key}"),
-                parameter => parameter.to_owned(),
-            };
-            a.keys.iter().map(move |key| (key.as_str(), place(key)))
+            let keys = a.keys.iter();
+            keys.map(|key| (key.as_str(), a.place.of_key(key)))
         });
         let drawn = samplers
             .iter()
-            .map(|s| (s.key(), format!("parameter.{}", s.key())));
+            .map(|s| (s.key(), Place::Parameter.of_key(s.key())));
         let all: Vec<(&str, String)> = listed.chain(drawn).collect();
         let inside = |a: &str, b: &str| {
             let rest = b.strip_prefix(a);

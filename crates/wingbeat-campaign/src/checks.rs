@@ -4,6 +4,8 @@ use std::path::Path;
 
 use wingbeat_case::{Document, IoError, LoadedCase, nearest};
 
+use crate::cases::set_of;
+use crate::places::Places;
 use crate::raw::{FileKind, RawCampaign, Task};
 
 /// Ways to vary a parameter.
@@ -17,6 +19,9 @@ const WAYS: [&str; 8] = [
     "log_uniform",
     "normal",
 ];
+
+/// Times per point at most [s].
+const LONGEST: f64 = 1e9;
 
 /// What an enum of tables cannot say clearly: one way to vary each.
 ///
@@ -68,252 +73,243 @@ pub fn shape(document: &Document) -> Result<(), IoError> {
     Ok(())
 }
 
-/// What the words of the file say of each other.
-///
-/// # Errors
-/// The first that has no effect, or contradicts another.
-pub fn words(document: &Document, raw: &RawCampaign, name: &str) -> Result<(), IoError> {
-    let wrong = |key: &str, problem: &str, allowed: &str, remedy: &str| {
-        Err(document.fault(key, problem, allowed, remedy).into())
-    };
-    if raw.format != 1 {
-        return wrong(
-            "format",
-            "this version of the language is not known",
-            "1",
-            "write format = 1",
-        );
-    }
-    let plain = |c: char| c.is_alphanumeric() || "-_. ".contains(c);
-    if name.is_empty() || name.len() > 100 || name.starts_with('.') || !name.chars().all(plain) {
-        return wrong(
-            "name",
-            "the name becomes the name of a directory",
-            "letters, digits, -, _, . and spaces, not beginning with a dot, at most 100 bytes",
-            "choose a plain name",
-        );
-    }
-    check_tasks(document, raw)?;
-    if raw.trim.is_some() && !raw.tasks.contains(&Task::Trim) {
-        return wrong(
-            "trim",
-            "this has no effect: nothing is trimmed",
-            "with do = [\"trim\", ...]",
-            "add \"trim\" to do, or remove the table",
-        );
-    }
-    if raw.mean_beats == Some(0) {
-        return wrong(
-            "mean_beats",
-            "there is no mean over no wingbeat",
-            "a whole number >= 1",
-            "1, the default, takes the last wingbeat",
-        );
-    }
-    check_files(document, raw)?;
-    check_budget(document, raw)
+/// The words of a file.
+pub struct Words<'a> {
+    /// The file.
+    pub document: &'a Document,
+    /// What it says.
+    pub raw: &'a RawCampaign,
 }
 
-/// Each task once, and after what it needs.
-fn check_tasks(document: &Document, raw: &RawCampaign) -> Result<(), IoError> {
-    let wrong = |key: &str, problem: &str, allowed: &str, remedy: &str| {
-        Err(document.fault(key, problem, allowed, remedy).into())
-    };
-    if raw.tasks.is_empty() {
-        return wrong(
-            "do",
-            "nothing is done",
-            "run, trim, stability, power",
-            "write do = [\"run\"], or leave it out",
-        );
+impl Words<'_> {
+    fn wrong<T>(
+        &self,
+        key: &str,
+        problem: &str,
+        allowed: &str,
+        remedy: &str,
+    ) -> Result<T, IoError> {
+        let fault = self.document.fault(key, problem, allowed, remedy);
+        Err(fault.into())
     }
-    for (k, task) in raw.tasks.iter().enumerate() {
-        let place = format!("do[{k}]");
-        if raw.tasks[..k].contains(task) {
-            return wrong(
-                &place,
-                "this is done twice",
-                "each task once",
+
+    /// What the words of the file say of each other.
+    ///
+    /// # Errors
+    /// The first that has no effect, or contradicts another.
+    pub fn check(&self, name: &str) -> Result<(), IoError> {
+        let raw = self.raw;
+        if raw.format != 1 {
+            return self.wrong(
+                "format",
+                "this version of the language is not known",
+                "1",
+                "write format = 1",
+            );
+        }
+        let plain = |c: char| c.is_alphanumeric() || "-_. ".contains(c);
+        if name.is_empty() || name.len() > 100 || name.starts_with('.') || !name.chars().all(plain)
+        {
+            return self.wrong(
+                "name",
+                "the name becomes the name of a directory",
+                "letters, digits, -, _, . and spaces, not beginning with a dot, at most 100 bytes",
+                "choose a plain name",
+            );
+        }
+        self.check_tasks()?;
+        if raw.trim.is_some() && !raw.tasks.contains(&Task::Trim) {
+            return self.wrong(
+                "trim",
+                "this has no effect: nothing is trimmed",
+                "with do = [\"trim\", ...]",
+                "add \"trim\" to do, or remove the table",
+            );
+        }
+        if raw.mean_beats == Some(0) {
+            return self.wrong(
+                "mean_beats",
+                "there is no mean over no wingbeat",
+                "a whole number >= 1",
+                "1, the default, takes the last wingbeat",
+            );
+        }
+        self.check_files()?;
+        self.check_budget()
+    }
+
+    /// Each task once, and after what it needs.
+    fn check_tasks(&self) -> Result<(), IoError> {
+        let raw = self.raw;
+        if raw.tasks.is_empty() {
+            return self.wrong(
+                "do",
+                "nothing is done",
+                "run, trim, stability, power",
+                "write do = [\"run\"], or leave it out",
+            );
+        }
+        for (k, task) in raw.tasks.iter().enumerate() {
+            let place = format!("do[{k}]");
+            if raw.tasks[..k].contains(task) {
+                return self.wrong(
+                    &place,
+                    "this is done twice",
+                    "each task once",
+                    "remove one of them",
+                );
+            }
+            let needs_trim = matches!(task, Task::Stability | Task::Power);
+            if needs_trim && !raw.tasks[..k].contains(&Task::Trim) {
+                return self.wrong(
+                    &place,
+                    "this needs a trimmed flight",
+                    "after trim",
+                    "put \"trim\" before it",
+                );
+            }
+        }
+        Ok(())
+    }
+
+    /// Files are of flights, each kind once; what stays of them stays of something.
+    fn check_files(&self) -> Result<(), IoError> {
+        let raw = self.raw;
+        let runs = raw.tasks.contains(&Task::Run);
+        if !raw.files.is_empty() && !runs {
+            return self.wrong(
+                "files",
+                "this has no effect: nothing is flown",
+                "with do = [..., \"run\"]",
+                "add \"run\" to do, or remove it",
+            );
+        }
+        if let Some(k) = (1..raw.files.len()).find(|&k| raw.files[..k].contains(&raw.files[k])) {
+            return self.wrong(
+                &format!("files[{k}]"),
+                "this is named twice",
+                "each kind once",
                 "remove one of them",
             );
         }
-        let needs_trim = matches!(task, Task::Stability | Task::Power);
-        if needs_trim && !raw.tasks[..k].contains(&Task::Trim) {
-            return wrong(
-                &place,
-                "this needs a trimmed flight",
-                "after trim",
-                "put \"trim\" before it",
+        if raw.retention.every == 0 {
+            return self.wrong(
+                "retention.every",
+                "this must not be zero",
+                "a whole number >= 1",
+                "1 keeps the files of all points",
             );
         }
-    }
-    Ok(())
-}
-
-fn check_files(document: &Document, raw: &RawCampaign) -> Result<(), IoError> {
-    let wrong = |key: &str, problem: &str, allowed: &str, remedy: &str| {
-        Err(document.fault(key, problem, allowed, remedy).into())
-    };
-    let runs = raw.tasks.contains(&Task::Run);
-    if !raw.files.is_empty() && !runs {
-        return wrong(
-            "files",
-            "this has no effect: nothing is flown",
-            "with do = [..., \"run\"]",
-            "add \"run\" to do, or remove it",
-        );
-    }
-    if let Some(k) = (1..raw.files.len()).find(|&k| raw.files[..k].contains(&raw.files[k])) {
-        return wrong(
-            &format!("files[{k}]"),
-            "this is named twice",
-            "each kind once",
-            "remove one of them",
-        );
-    }
-    if raw.retention.every == 0 {
-        return wrong(
-            "retention.every",
-            "this must not be zero",
-            "a whole number >= 1",
-            "1 keeps the files of all points",
-        );
-    }
-    if raw.retention.every > 1 && raw.files.is_empty() {
-        return wrong(
-            "retention.every",
-            "this has no effect without files",
-            "beside files = [...]",
-            "remove it, or keep files",
-        );
-    }
-    if raw.retention.failed && !runs {
-        return wrong(
-            "retention.failed",
-            "this has no effect: nothing is flown",
-            "with do = [..., \"run\"]",
-            "remove it",
-        );
-    }
-    check_output(document, raw)
-}
-
-/// What is drawn follows from the files that are kept.
-fn check_output(document: &Document, raw: &RawCampaign) -> Result<(), IoError> {
-    let wrong = |key: &str, problem: &str, allowed: &str, remedy: &str| {
-        Err(document.fault(key, problem, allowed, remedy).into())
-    };
-    for (key, kinds) in [
-        ("output.page", FileKind::Page),
-        ("output.figures", FileKind::Figures),
-    ] {
-        if raw.set.contains_key(key) {
-            let remedy = match kinds {
-                FileKind::Page => "remove it; files = [\"page\"] keeps pages",
-                _ => "remove it; files = [\"figures\"] keeps figures",
-            };
-            return wrong(
-                &format!("set.{key}"),
-                "this has no effect: `files` says what is drawn",
-                "no key output.page or output.figures",
-                remedy,
+        if raw.retention.every > 1 && raw.files.is_empty() {
+            return self.wrong(
+                "retention.every",
+                "this has no effect without files",
+                "beside files = [...]",
+                "remove it, or keep files",
             );
         }
+        if raw.retention.failed && !runs {
+            return self.wrong(
+                "retention.failed",
+                "this has no effect: nothing is flown",
+                "with do = [..., \"run\"]",
+                "remove it",
+            );
+        }
+        self.check_output()
     }
-    Ok(())
-}
 
-fn check_budget(document: &Document, raw: &RawCampaign) -> Result<(), IoError> {
-    let budget = &raw.budget;
-    if !(1..=1000).contains(&budget.attempts) {
-        return Err(document
-            .fault(
+    /// What is drawn follows from the files that are kept.
+    fn check_output(&self) -> Result<(), IoError> {
+        let raw = self.raw;
+        for (key, kinds) in [
+            ("output.page", FileKind::Page),
+            ("output.figures", FileKind::Figures),
+        ] {
+            if raw.set.contains_key(key) {
+                let remedy = match kinds {
+                    FileKind::Page => "remove it; files = [\"page\"] keeps pages",
+                    _ => "remove it; files = [\"figures\"] keeps figures",
+                };
+                return self.wrong(
+                    &format!("set.{key}"),
+                    "this has no effect: `files` says what is drawn",
+                    "no key output.page or output.figures",
+                    remedy,
+                );
+            }
+        }
+        Ok(())
+    }
+
+    /// Limits that can be kept.
+    fn check_budget(&self) -> Result<(), IoError> {
+        let raw = self.raw;
+        let budget = &raw.budget;
+        if !(1..=1000).contains(&budget.attempts) {
+            return self.wrong(
                 "budget.attempts",
                 "a number of attempts out of range",
                 "a whole number from 1 to 1000",
                 "3 is the default",
-            )
-            .into());
-    }
-    for (key, value) in [
-        ("time_per_point_s", budget.time_per_point_s),
-        ("disk_mb", budget.disk_mb),
-    ] {
-        if value.is_some_and(|x| x <= 0.0) {
-            let key = format!("budget.{key}");
-            return Err(document
-                .fault(
-                    &key,
+            );
+        }
+        for (key, value) in [
+            ("time_per_point_s", budget.time_per_point_s),
+            ("disk_mb", budget.disk_mb),
+        ] {
+            if value.is_some_and(|x| x <= 0.0) {
+                return self.wrong(
+                    &format!("budget.{key}"),
                     "this must be positive",
                     "a number above 0",
                     "remove it for no limit",
-                )
-                .into());
+                );
+            }
         }
+        if budget.time_per_point_s.is_some_and(|x| x > LONGEST) {
+            return self.wrong(
+                "budget.time_per_point_s",
+                "this is longer than any flight takes",
+                "a time above 0 s, at most 1e9 s",
+                "remove it for no limit",
+            );
+        }
+        Ok(())
     }
-    Ok(())
-}
 
-/// The case that is varied, with what is set at all points.
-///
-/// # Errors
-/// No such case; a case that cannot be flown.
-pub fn base_case(
-    document: &Document,
-    raw: &RawCampaign,
-    folder: &Path,
-) -> Result<LoadedCase, IoError> {
-    let set = set_of(raw);
-    let file = folder.join(&raw.case);
-    let name = match file.is_file() {
-        true => file.display().to_string(),
-        false => raw.case.clone(),
-    };
-    if name == "-" {
-        return Err(document
-            .fault(
+    /// The case that is varied, with what is set at all points; paths are relative to `folder`.
+    ///
+    /// # Errors
+    /// No such case; a case that cannot be flown.
+    pub fn base_case(&self, folder: &Path) -> Result<LoadedCase, IoError> {
+        let file = folder.join(&self.raw.case);
+        let name = match file.is_file() {
+            true => file.display().to_string(),
+            false => self.raw.case.clone(),
+        };
+        if name == "-" {
+            return self.wrong(
                 "case",
                 "a campaign cannot read its case from the standard input",
                 "a preset or a file",
                 "name a file",
-            )
-            .into());
-    }
-    match LoadedCase::find(&name, &set) {
-        Err(e @ IoError::NoCase { .. }) => Err(document
-            .fault(
+            );
+        }
+        let places = Places {
+            document: self.document,
+            raw: self.raw,
+            axes: &[],
+        };
+        match LoadedCase::find(&name, &set_of(self.raw)) {
+            Err(e @ IoError::NoCase { .. }) => self.wrong(
                 "case",
-                e.to_string(),
+                &e.to_string(),
                 "a preset, or a file beside this one",
                 "correct the name",
-            )
-            .into()),
-        Err(IoError::Case(e)) => {
-            let by = set
-                .iter()
-                .find(|o| e.origin.starts_with(&format!("{o} (set")));
-            match by.and_then(|o| o.split_once('=')) {
-                Some((key, value)) => Err(document
-                    .fault(
-                        &match value {
-                            "" => "remove".to_owned(),
-                            _ => format!("set.{key}"),
-                        },
-                        format!("{}: {}", e.key, e.problem),
-                        e.allowed.clone(),
-                        e.remedy.clone(),
-                    )
-                    .into()),
-                None => Err(IoError::Case(e)),
-            }
+            ),
+            Err(IoError::Case(e)) => Err(places.traced(*e)),
+            found => found,
         }
-        found => found,
     }
-}
-
-/// Keys of `remove` and of `[set]` as overrides.
-pub fn set_of(raw: &RawCampaign) -> Vec<String> {
-    let removed = raw.remove.iter().map(|key| format!("{key}="));
-    let set = raw.set.iter().map(|(key, value)| format!("{key}={value}"));
-    removed.chain(set).collect()
 }

@@ -32,7 +32,7 @@ impl Cost {
             let done = point::fly(campaign, i, &hash, None, &AtomicBool::new(false));
             let failed = match done {
                 Done::Result(result) => result.failed.map(|(_, words)| words),
-                Done::Stopped => None,
+                Done::Stopped | Done::Busy => None,
                 Done::Unwritten(e) => Some(e.to_string()),
             };
             (i, begun.elapsed(), failed)

@@ -4,9 +4,9 @@ use wingbeat_analysis::{
     AnalysisError, LinearModel, ModeSet, Power, Trim, floquet_of_trim, linear_model,
 };
 use wingbeat_flight::{FlightSetup, Record};
+use wingbeat_results::Summary;
 use wingbeat_results::columns::Columns;
-use wingbeat_results::summary::{BeatMeans, Beats, Estimate, Verdict};
-use wingbeat_results::{Outcome, Summary};
+use wingbeat_results::summary::{BeatMeans, Estimate};
 
 use crate::number::{ModeNumber, Modes, Number, Of, Source, TrimNumber};
 
@@ -14,8 +14,10 @@ use crate::number::{ModeNumber, Modes, Number, Of, Source, TrimNumber};
 pub struct Flown {
     /// What was flown.
     pub setup: FlightSetup,
-    /// One record per step.
+    /// One record per step, or per row of a history that leaves steps out.
     pub records: Vec<Record>,
+    /// Of all steps.
+    pub summary: Summary,
 }
 
 impl Flown {
@@ -24,7 +26,7 @@ impl Flown {
         if !needs_beats(numbers, &self.setup) {
             return None;
         }
-        let flown = self.means().len();
+        let flown = self.summary.beats.len();
         let words = || {
             format!(
                 "means over {beats} wingbeats, but only {flown} whole ones were flown: fly longer (time.beats), or take mean_beats = {}",
@@ -34,26 +36,13 @@ impl Flown {
         (flown < beats).then(words)
     }
 
-    /// Means of its whole wingbeats.
-    fn means(&self) -> Vec<BeatMeans> {
-        let mut counted = Beats::new(&self.setup);
-        let records = self.records.iter();
-        records.filter_map(|r| counted.take(r)).collect()
-    }
-
-    /// Its numbers, put where `numbers` has them (others are left as they are), and how far it can be trusted.
+    /// Its numbers, put where `numbers` has them (others are left as they are).
     ///
     /// # Errors
     /// Nothing flown; records of its wingbeats that are not at hand.
-    pub fn fill(
-        &self,
-        numbers: &[Number],
-        beats: usize,
-        values: &mut [f64],
-    ) -> Result<Verdict, String> {
-        let means = self.means();
+    pub fn fill(&self, numbers: &[Number], beats: usize, values: &mut [f64]) -> Result<(), String> {
+        let means = &self.summary.beats;
         let last = &means[means.len().saturating_sub(beats)..];
-        let summary = Summary::of(&self.setup, &self.records, &Outcome::Finished);
         for (number, value) in numbers.iter().zip(values) {
             let mean = |of: fn(&BeatMeans) -> f64| {
                 last.iter().map(of).sum::<f64>() / last.len().max(1) as f64
@@ -69,11 +58,11 @@ impl Flown {
                     *value = work / mean(|b| b.power_watt);
                 }
                 Source::Column(of, name) => *value = self.column(*of, name, last)?,
-                Source::Summary(of) => *value = of(&summary),
+                Source::Summary(of) => *value = of(&self.summary),
                 _ => {}
             }
         }
-        Ok(summary.verdict)
+        Ok(())
     }
 
     /// The rows of the last wingbeats.
@@ -137,6 +126,11 @@ pub fn needs_beats(numbers: &[Number], setup: &FlightSetup) -> bool {
     let has_beats = setup.time.steps_per_beat().is_some();
     let wants = |n: &Number| n.source.is_mean() && (has_beats || !n.source.is_extreme());
     numbers.iter().any(wants)
+}
+
+/// Whether any of the numbers is taken of every step of the history.
+pub fn need_every_step(numbers: &[Number]) -> bool {
+    numbers.iter().any(|n| n.source.needs_every_step())
 }
 
 /// Numbers of a trim.

@@ -6,7 +6,8 @@ use std::path::Path;
 use wingbeat_case::{IoError, LoadedCase};
 use wingbeat_draw::draw_run;
 use wingbeat_flight::{FlightError, Simulation};
-use wingbeat_results::{Outcome, Records, ResultDir, RunWriter, saver};
+use wingbeat_results::history::is_locked;
+use wingbeat_results::{Outcome, Records, ResultDir, RunWriter, Summary, saver};
 
 use crate::evaluate::Flown;
 
@@ -59,6 +60,7 @@ pub fn in_memory(case: &LoadedCase, watch: Watch) -> Result<Flown, Halt> {
     }
     Ok(Flown {
         setup: flight.setup().clone(),
+        summary: Summary::of(flight.setup(), &records, &Outcome::Finished),
         records,
     })
 }
@@ -66,8 +68,12 @@ pub fn in_memory(case: &LoadedCase, watch: Watch) -> Result<Flown, Halt> {
 /// Flies a case in the result directory `path`, which may hold a part of it already.
 ///
 /// # Errors
-/// Why it has no end; where it was asked to stop, its state is saved.
+/// Why it has no end; where it was asked to stop, its state is saved. [`IoError::Busy`] where another process writes there.
 pub fn in_directory(path: &Path, case: &LoadedCase, watch: Watch) -> Result<Flown, Halt> {
+    let history = path.join("history.csv");
+    if is_locked(&history) {
+        return Err(IoError::Busy { path: history }.into()); // nothing of it may be removed
+    }
     match resumed(path, case)? {
         Some((flight, writer)) => fly(flight, writer, case, watch)?,
         None if is_finished(path) => {}
@@ -80,7 +86,7 @@ pub fn in_directory(path: &Path, case: &LoadedCase, watch: Watch) -> Result<Flow
             fly(flight, writer, case, watch)?;
         }
     }
-    let mut rows = Records::open(&path.join("history.csv"), &case.setup)?;
+    let mut rows = Records::open(&history, &case.setup)?;
     let mut records = vec![];
     while let Some(record) = rows.next_record()? {
         records.push(record.clone());
@@ -88,6 +94,8 @@ pub fn in_directory(path: &Path, case: &LoadedCase, watch: Watch) -> Result<Flow
     Ok(Flown {
         setup: case.setup.clone(),
         records,
+        // As it was written: of all steps, also where the history leaves some out.
+        summary: Summary::read(case, &history, &Outcome::Finished)?,
     })
 }
 

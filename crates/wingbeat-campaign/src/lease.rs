@@ -16,6 +16,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, SystemTime};
 
 use wingbeat_case::IoError;
+use wingbeat_results::manifest::sha256;
 
 use crate::process::{Process, start_of};
 
@@ -233,11 +234,24 @@ impl Leases {
 
     /// How long ago that was by the clock of the file system.
     fn age(&self, changed: SystemTime) -> Result<Duration, IoError> {
-        let path = self.folder.join(format!("clock.{}", self.own.number));
-        let now = fs::write(&path, "").and_then(|()| fs::metadata(&path)?.modified());
+        let path = self.clock();
+        let read = || {
+            let mut file = File::create(&path)?;
+            file.write_all(b"?")?;
+            file.sync_data()?; // as a heartbeat
+            file.metadata()?.modified() // of the open file: its name may be gone
+        };
+        let now = read();
         let _ = fs::remove_file(&path); // only its time was asked for
         let now = now.map_err(IoError::write(&path))?;
         Ok(now.duration_since(changed).unwrap_or_default())
+    }
+
+    /// The file whose time is that of the file system; processes of two machines or containers may have the same number.
+    fn clock(&self) -> PathBuf {
+        let machine = &sha256(self.own.machine.as_bytes())[..8];
+        let name = format!("clock.{machine}.{}", self.own.number);
+        self.folder.join(name)
     }
 
     /// Blocks that somebody alive flies now.
@@ -395,6 +409,26 @@ mod tests {
             assert_eq!(fs::read_to_string(&path).unwrap(), wanted);
         }
         fs::remove_dir_all(&leases.folder).unwrap();
+    }
+
+    /// Two containers in which processes have the same number ask for the time of one file system at once.
+    #[test]
+    fn behaves_processes_of_the_same_number_do_not_share_a_clock() {
+        let one = leases("clock");
+        let mut other = one.clone();
+        other.own.machine += "/another";
+        assert_ne!(one.clock(), other.clock());
+        let ask = |leases: &Leases| {
+            for _ in 0..300 {
+                leases.age(SystemTime::now()).unwrap();
+            }
+        };
+        std::thread::scope(|threads| {
+            for leases in [&one, &one, &other] {
+                threads.spawn(move || ask(leases));
+            }
+        });
+        fs::remove_dir_all(&one.folder).unwrap();
     }
 
     /// Another machine: only the age of the heartbeat tells.

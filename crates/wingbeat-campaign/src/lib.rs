@@ -1,10 +1,12 @@
 //! Campaigns: thousands of flights from one file, flown by any number of workers that share a directory.
 //!
-//! The chapter in order: `raw` is the file as it is written; `axes` turns it into a `plan` (`checks` what its words say of each other), what is drawn by `sample`;
-//! `number` knows what may be kept, `named` the files that values name; `campaign` joins them: point i -> values -> case -> hash, a pure function of the
-//! file. `point` does what is to be done at a point (`trimming`, `flight`, `evaluate`), `store` keeps its result,
-//! `lease` says who flies which points, `worker` goes from block to block. `rows`, `status`, [`merge`] and [`page`] read what is there;
-//! `scripts` writes what other engines need, `cost` tells what a campaign will take.
+//! The chapter in order: `raw` is the file as it is written; `axes` turns it into a `plan` (`checks` what its words say of
+//! each other, `places` where its keys stand), what is drawn by `sample`; `cases` puts values on top of the case; `number`
+//! knows what may be kept, `trial` tries points and says what is refused, `named` knows the files that values name;
+//! `campaign` joins them: point i -> values -> case -> hash, a pure function of the file. `point` does what is to be done
+//! at a point (`trimming`, `flight`, `evaluate`), `store` keeps its result, `lease` says who flies which points, `worker`
+//! goes from block to block. `rows`, `status`, [`merge`] and [`page`] read what is there; `scripts` writes what other
+//! engines need, `cost` tells what a campaign will take.
 //!
 //! What it does not know: processes, command lines, how pages look.
 #![warn(missing_docs)]
@@ -12,6 +14,7 @@
 mod axes;
 mod blocks;
 mod campaign;
+mod cases;
 mod checks;
 mod command;
 mod cost;
@@ -23,6 +26,7 @@ mod named;
 mod netcdf;
 mod number;
 pub mod page;
+mod places;
 mod plan;
 mod point;
 mod process;
@@ -32,6 +36,7 @@ mod sample;
 mod scripts;
 mod status;
 mod store;
+mod trial;
 mod trimming;
 mod value;
 mod worker;

@@ -123,6 +123,11 @@ impl Source {
         matches!(self, Self::Column(Of::Min | Of::Max, _))
     }
 
+    /// Whether it is taken of all steps of the history: a mean of a column, or an extreme.
+    pub fn needs_every_step(&self) -> bool {
+        matches!(self, Self::Column(Of::Mean | Of::Min | Of::Max, _))
+    }
+
     /// Whether it needs the averaged model.
     pub fn needs_average(&self) -> bool {
         matches!(self, Self::Mode(Modes::Averaged, ..) | Self::Derivative(..))

@@ -9,13 +9,35 @@ use crate::value::Value;
 /// Name of the axis along which samples run.
 pub const SAMPLE: &str = "sample";
 
+/// Where the values of an axis stand in the file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Place {
+    /// In `[parameter."KEY"]`.
+    Parameter,
+    /// In the group of `[[zip]]` of this number, from 0.
+    Zip(usize),
+    /// In the table of points.
+    Table,
+}
+
+impl Place {
+    /// Where the values of a key stand, as errors name it.
+    pub fn of_key(self, key: &str) -> String {
+        match self {
+            Self::Parameter => format!("parameter.{key}"),
+            Self::Zip(k) => format!("zip[{k}].{key}"),
+            Self::Table => "table".to_owned(),
+        }
+    }
+}
+
 /// Keys that vary together.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Axis {
     /// Its name: that of its first key, or `row` of a table.
     pub name: String,
     /// Where it stands in the file.
-    pub place: String,
+    pub place: Place,
     /// Its keys.
     pub keys: Vec<String>,
     /// The values of each key.
@@ -24,10 +46,10 @@ pub struct Axis {
 
 impl Axis {
     /// Of one key.
-    pub fn of_key(key: &str, place: String, values: Vec<Value>) -> Self {
+    pub fn of_key(key: &str, values: Vec<Value>) -> Self {
         Self {
             name: key.to_owned(),
-            place,
+            place: Place::Parameter,
             keys: vec![key.to_owned()],
             values: vec![values],
         }
@@ -83,6 +105,11 @@ impl Plan {
         &self.keys
     }
 
+    /// Whether a key varies from point to point.
+    pub fn varies(&self, key: &str) -> bool {
+        self.keys.iter().any(|k| k == key)
+    }
+
     /// Sizes of the grid, samples last where something is drawn.
     pub fn shape(&self) -> Vec<usize> {
         let drawn = (!self.samplers.is_empty()).then_some(self.samples);
@@ -131,8 +158,8 @@ mod tests {
     #[test]
     fn exact_points_of_a_grid_with_samples() {
         let whole = |list: &[i64]| list.iter().map(|n| Value::Whole(*n)).collect::<Vec<_>>();
-        let a = Axis::of_key("a", String::new(), whole(&[1, 2, 3]));
-        let b = Axis::of_key("b", String::new(), whole(&[10, 20]));
+        let a = Axis::of_key("a", whole(&[1, 2, 3]));
+        let b = Axis::of_key("b", whole(&[10, 20]));
         let ends = Ends { from: 0.0, to: 1.0 };
         let draw = Sampler::uniform("c", 1, ends);
         let plan = Plan::new(vec![a, b], vec![draw.clone()], 4).unwrap();

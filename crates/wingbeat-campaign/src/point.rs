@@ -14,7 +14,7 @@ use wingbeat_results::summary::Verdict;
 use crate::campaign::Campaign;
 use crate::evaluate;
 use crate::flight::{self, Halt, in_directory, in_memory};
-use crate::raw::{FRAMES_EVERY, FileKind, Task};
+use crate::raw::{FRAMES_EVERY, FileKind, HISTORY_EVERY, Task};
 use crate::store::{PointResult, Reason, Store};
 use crate::trimming;
 
@@ -25,6 +25,8 @@ pub enum Done {
     Result(PointResult),
     /// It was asked to stop.
     Stopped,
+    /// Another process is flying it.
+    Busy,
     /// Files could not be written.
     Unwritten(IoError),
 }
@@ -53,7 +55,7 @@ pub fn has_files(campaign: &Campaign, i: usize, hash: &str, store: &Store) -> bo
     let Ok(manifest) = saver::read_manifest(&place) else {
         return false;
     };
-    let frames = !campaign.varies(FRAMES_EVERY);
+    let frames = !campaign.plan.varies(FRAMES_EVERY);
     let written = |kind: FileKind| match kind {
         FileKind::Page => manifest.steps >= DRAWN,
         FileKind::Frames => frames,
@@ -95,6 +97,7 @@ pub fn fly(
     let done = match found {
         Ok(()) => Done::Result(PointResult::of(&point.values, point.verdict)),
         Err(Halt::Stopped) => return Done::Stopped,
+        Err(Halt::Io(IoError::Busy { .. })) => return Done::Busy,
         Err(Halt::Io(e)) => return Done::Unwritten(e),
         Err(Halt::Slow) => {
             let limit = campaign.raw.budget.time_per_point_s.unwrap_or(0.0);
@@ -194,6 +197,12 @@ impl Point<'_> {
 
     fn run(&mut self, case: &LoadedCase) -> Result<(), Halt> {
         let campaign = self.campaign;
+        if case.output.history_every > 1 && evaluate::need_every_step(&campaign.numbers) {
+            let words = format!(
+                "{HISTORY_EVERY} leaves steps out, which means and extremes of columns need"
+            );
+            return Err(Halt::Refused(words));
+        }
         let place = self
             .work
             .filter(|_| campaign.has_directory(self.i, &case.setup));
@@ -205,12 +214,13 @@ impl Point<'_> {
             }
             None => in_memory(case, &mut || self.watch())?,
         };
-        let beats = campaign.mean_beats();
+        let beats = campaign.raw.mean_beats();
         if let Some(words) = flown.lacks(&campaign.numbers, beats) {
             return Err(Halt::Short(words));
         }
-        let verdict = flown.fill(&campaign.numbers, beats, &mut self.values);
-        self.verdict = Some(verdict.map_err(Halt::Diverged)?);
+        let filled = flown.fill(&campaign.numbers, beats, &mut self.values);
+        filled.map_err(Halt::Diverged)?;
+        self.verdict = Some(flown.summary.verdict);
         Ok(())
     }
 

@@ -60,6 +60,13 @@ pub struct RawCampaign {
     pub retention: Retention,
 }
 
+impl RawCampaign {
+    /// Wingbeats that means are taken over.
+    pub fn mean_beats(&self) -> usize {
+        self.mean_beats.unwrap_or(1)
+    }
+}
+
 fn first() -> u32 {
     1
 }
@@ -96,6 +103,9 @@ impl Task {
 
 /// The key of the case that says how often frames are written.
 pub(crate) const FRAMES_EVERY: &str = "output.frames_every";
+
+/// The key of the case that says how often the history has a row.
+pub(crate) const HISTORY_EVERY: &str = "output.history_every";
 
 /// A file, or files, of a result directory.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]

@@ -62,7 +62,7 @@ impl Sampler {
         Self::new(key, seed, Law::LatinHypercube(ends, parts))
     }
 
-    /// Dimension number `dimension` of a Sobol sequence.
+    /// Dimension number `dimension` of a Sobol sequence, whose seed is below 2^32.
     pub fn sobol(key: &str, seed: u64, ends: Ends, dimension: usize) -> Self {
         Self::new(key, seed, Law::Sobol(ends, dimension as u32))
     }
@@ -90,11 +90,10 @@ impl Sampler {
             Law::LatinHypercube(ends, parts) => {
                 between(ends, (f64::from(parts[s]) + u()) / parts.len() as f64)
             }
-            Law::Sobol(ends, dimension) => {
-                let seed = (self.seed ^ (self.seed >> 32)) as u32;
-                let u = sobol_burley::sample(s as u32, *dimension, seed);
-                between(ends, f64::from(u))
-            }
+            Law::Sobol(ends, dimension) => between(
+                ends,
+                f64::from(sobol_burley::sample(s as u32, *dimension, self.seed as u32)),
+            ),
         })
     }
 }
@@ -138,8 +137,8 @@ fn fraction(bits: u64) -> f64 {
     ((bits >> 12) as f64 + 0.5) / (1_u64 << 52) as f64
 }
 
-/// To 12 significant digits.
-fn rounded(x: f64) -> f64 {
+/// To 12 significant digits: 0.1, not 0.1 and its rounding.
+pub fn rounded(x: f64) -> f64 {
     format!("{x:.11e}").parse().unwrap_or(x)
 }
 

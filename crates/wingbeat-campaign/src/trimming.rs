@@ -22,6 +22,8 @@ pub const OPTIONS: [&str; 5] = [
     "steps_per_beat",
 ];
 
+const STEPS_ALLOWED: &str = "a whole number from 20 to 2000";
+
 /// Checks the options themselves, and that the air can be trimmed in.
 ///
 /// # Errors
@@ -105,11 +107,24 @@ pub fn options(raw: &RawCampaign, plan: &Plan, i: usize) -> Result<TrimOptions, 
             "climb_m_s" => options.climb_m_s = Some(number),
             "sideslip_m_s" => options.sideslip_m_s = Some(number),
             "turn_rate_deg_s" => options.turn_rate_deg_s = Some(number),
-            _ => options.steps_per_beat = Some(number as usize),
+            _ => options.steps_per_beat = Some(whole(key, number)?),
         }
     }
     check_options(&options)?;
     Ok(options)
+}
+
+/// A number of steps without a fraction; one that is too large for any is refused with the others out of range.
+fn whole(key: &str, number: f64) -> Result<usize, Bad> {
+    match number.fract() == 0.0 {
+        true => Ok(number as usize),
+        false => Err(Bad {
+            key: key.to_owned(),
+            problem: format!("{number} has a fraction"),
+            allowed: STEPS_ALLOWED,
+            remedy: "give whole numbers, by a list or a range",
+        }),
+    }
 }
 
 fn check_options(options: &TrimOptions) -> Result<(), Bad> {
@@ -136,7 +151,7 @@ fn check_options(options: &TrimOptions) -> Result<(), Bad> {
         Some(steps) => Err(Bad {
             key: format!("{TRIM}steps_per_beat"),
             problem: format!("{steps} steps per wingbeat"),
-            allowed: "a whole number from 20 to 2000",
+            allowed: STEPS_ALLOWED,
             remedy: "100 is the default",
         }),
     }

@@ -17,6 +17,9 @@ use crate::store::{PointResult, Reason, Store};
 
 /// Time between two looks for a block that somebody has to let go.
 const WAIT: Duration = Duration::from_millis(50);
+/// Pause after the first failure to write files of a point; twice as long after each further one, up to the longest.
+const PAUSE: Duration = Duration::from_secs(1);
+const LONGEST_PAUSE: Duration = Duration::from_secs(60);
 /// Time between two looks at the size of the directory.
 const WEIGH: Duration = Duration::from_secs(10);
 
@@ -29,6 +32,16 @@ pub enum Ended {
     Stopped,
     /// The directory has the size that it may have.
     Full(u64),
+}
+
+/// What came of a point that a worker flew.
+enum Tried {
+    /// It has a result.
+    Kept,
+    /// Another process is flying it: its block is looked at again.
+    Busy,
+    /// The worker was asked to stop.
+    Stopped,
 }
 
 /// A worker.
@@ -99,18 +112,16 @@ impl<'a> Worker<'a> {
                 if stop.load(Ordering::Relaxed) {
                     return Ok(Ended::Stopped);
                 }
-                if let Some(full) = self.is_full()? {
+                if let Some(full) = self.above_limit()? {
                     return Ok(Ended::Full(full));
                 }
                 match self.leases.take(block)? {
                     Taken::Done => self.complete[block - blocks.start] = true,
-                    Taken::Held => waits = !self.is_complete(block, blocks.start),
-                    Taken::Own(lease, died) => {
-                        flew = true;
-                        if !self.block(lease, block, died, stop, tell)? {
-                            waits = true;
-                        }
-                    }
+                    Taken::Held => waits |= !self.is_complete(block, blocks.start),
+                    Taken::Own(lease, died) => match self.block(lease, block, died, stop, tell)? {
+                        true => flew = true,
+                        false => waits = true,
+                    },
                 }
             }
             if self.complete.iter().all(|c| *c) {
@@ -148,6 +159,7 @@ impl<'a> Worker<'a> {
         if let Some(i) = died.filter(|i| *i < self.campaign.plan.points()) {
             self.count_death(i)?;
         }
+        let mut busy = false;
         for i in self.points(block, &self.range) {
             let hash = hexadecimal(&self.campaign.hash(i));
             if self.store.has(&hash) {
@@ -157,8 +169,9 @@ impl<'a> Worker<'a> {
                 return Ok(false); // somebody took us for dead
             }
             match self.point(i, &hash, stop) {
-                Ok(true) => tell(),
-                Ok(false) => {
+                Ok(Tried::Kept) => tell(),
+                Ok(Tried::Busy) => busy = true,
+                Ok(Tried::Stopped) => {
                     lease.rest()?;
                     lease.let_go();
                     return Ok(false);
@@ -171,6 +184,10 @@ impl<'a> Worker<'a> {
             }
         }
         lease.rest()?;
+        if busy {
+            lease.let_go();
+            return Ok(false);
+        }
         let first = blocks(&self.range, self.campaign.block).start;
         self.complete[block - first] = true;
         let all = 0..self.campaign.plan.points();
@@ -184,24 +201,26 @@ impl<'a> Worker<'a> {
         Ok(true)
     }
 
-    /// Flies a point and keeps its result; false where it was asked to stop.
-    fn point(&self, i: usize, hash: &str, stop: &AtomicBool) -> Result<bool, IoError> {
+    /// Flies a point and keeps its result.
+    fn point(&self, i: usize, hash: &str, stop: &AtomicBool) -> Result<Tried, IoError> {
         loop {
             match point::fly(self.campaign, i, hash, Some(self.store), stop) {
-                Done::Stopped => return Ok(false),
+                Done::Stopped => return Ok(Tried::Stopped),
+                Done::Busy => return Ok(Tried::Busy),
                 Done::Result(result) => {
                     self.store.put(hash, &result)?;
-                    return Ok(true);
+                    return Ok(Tried::Kept);
                 }
-                Done::Unwritten(e) if is_full(&e) => return Err(e),
+                Done::Unwritten(e) if has_no_space(&e) => return Err(e),
                 Done::Unwritten(e) => {
                     let deaths = self.store.count_death(hash, 0)?;
                     if deaths >= self.campaign.raw.budget.attempts {
                         let words = format!("{e} ({deaths} attempts)");
                         self.store
                             .put(hash, &PointResult::failure(Reason::Unwritten, words))?;
-                        return Ok(true);
+                        return Ok(Tried::Kept);
                     }
+                    rest(pause_after(deaths), stop);
                 }
             }
         }
@@ -224,7 +243,7 @@ impl<'a> Worker<'a> {
     }
 
     /// The size of the directory, where that is more than it may be.
-    fn is_full(&mut self) -> Result<Option<u64>, IoError> {
+    fn above_limit(&mut self) -> Result<Option<u64>, IoError> {
         let Some(limit) = self.campaign.raw.budget.disk_mb else {
             return Ok(None);
         };
@@ -234,6 +253,20 @@ impl<'a> Worker<'a> {
         self.weighed = Some(Instant::now());
         let bytes = size(self.store.root());
         Ok((bytes as f64 > limit * 1e6).then_some(bytes))
+    }
+}
+
+/// How long is waited after so many failures to write.
+fn pause_after(failures: usize) -> Duration {
+    let doublings = failures.saturating_sub(1).min(10) as u32;
+    (PAUSE * 2_u32.pow(doublings)).min(LONGEST_PAUSE)
+}
+
+/// Waits, unless it is asked to stop.
+fn rest(length: Duration, stop: &AtomicBool) {
+    let begun = Instant::now();
+    while begun.elapsed() < length && !stop.load(Ordering::Relaxed) {
+        std::thread::sleep(WAIT);
     }
 }
 
@@ -249,7 +282,7 @@ pub fn size(folder: &std::path::Path) -> u64 {
 }
 
 /// Whether there is no space, or a file may not grow.
-pub fn is_full(e: &IoError) -> bool {
+pub fn has_no_space(e: &IoError) -> bool {
     let kinds = [
         ErrorKind::StorageFull,
         ErrorKind::QuotaExceeded,

@@ -53,6 +53,9 @@ pub struct CaseError {
     pub key: String,
     /// The value as it was written, if there is one.
     pub value: Option<String>,
+    /// The key that was set on top of the case and caused this: `key`, one around it or one inside it; `None` where the
+    /// case itself did.
+    pub overridden: Option<String>,
     /// What is wrong.
     pub problem: String,
     /// What is allowed.
@@ -177,6 +180,15 @@ pub enum IoError {
         path: PathBuf,
         /// What the drawing library says.
         problem: String,
+    },
+    /// A run that another process is writing.
+    #[error(
+        "`{}`: another wingbeat is writing it right now; wait for it or end it",
+        path.display()
+    )]
+    Busy {
+        /// Its history.
+        path: PathBuf,
     },
     /// A file of a result directory that is damaged or foreign.
     #[error("`{}`: {problem}", path.display())]

@@ -78,6 +78,7 @@ impl CaseSource {
             column: None,
             key: fault.key.clone(),
             value,
+            overridden: overridden.map(|(key, _)| key.clone()),
             problem: fault.problem,
             allowed: fault.allowed,
             remedy: fault.remedy,
@@ -190,6 +191,7 @@ impl CaseSource {
                 column: None,
                 key: key.to_owned(),
                 value: None,
+                overridden: (!key.is_empty()).then(|| key.to_owned()),
                 problem,
                 allowed: "a key as in a case file, and its value".to_owned(),
                 remedy: "motion.frequency_hz=200 or 'air.stream_m_s=[1, 0, 0]', for instance"

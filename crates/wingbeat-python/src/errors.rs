@@ -94,6 +94,10 @@ fn file(error: &IoError) -> (&'static str, Parts) {
             let remedy = "choose another figure, or another folder";
             ("ResultError", about(path.display().to_string(), remedy))
         }
+        IoError::Busy { path } => {
+            let remedy = "wait for the other wingbeat, or end it";
+            ("ResultError", about(path.display().to_string(), remedy))
+        }
         IoError::Damaged { path, .. } => {
             let remedy =
                 "give the directory of a run, whole as it was written; or fly the case again";

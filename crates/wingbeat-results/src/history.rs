@@ -180,9 +180,8 @@ const LOCK_WAIT: Duration = Duration::from_millis(10);
 /// One writer at a time; the system lets go of the lock however the program ends.
 fn lock(file: &File, path: &Path) -> Result<(), IoError> {
     match stays_locked(file) {
-        true => Err(IoError::Damaged {
+        true => Err(IoError::Busy {
             path: path.to_owned(),
-            problem: "another wingbeat is writing it right now; wait for it or end it".to_owned(),
         }),
         false => Ok(()),
     }
@@ -201,7 +200,7 @@ fn stays_locked(file: &File) -> bool {
 }
 
 /// Whether some wingbeat is writing this history.
-pub(crate) fn is_locked(path: &Path) -> bool {
+pub fn is_locked(path: &Path) -> bool {
     File::open(path).is_ok_and(|file| stays_locked(&file))
 }
 

@@ -146,3 +146,52 @@ fn behaves_points_without_the_files_they_keep_are_flown_again() {
         assert_eq!(there.count(), 2, "{name}");
     }
 }
+
+/// Which files are kept is no part of a point: its results stay, and only points that lack files are flown again.
+#[test]
+fn invariant_points_do_not_depend_on_the_files_that_are_kept() {
+    let scratch = Scratch::new("campaign-more-files");
+    let dir = &scratch.0;
+    let fly = |files: &str| {
+        write(
+            dir,
+            &format!(
+                "case = \"case.toml\"\nkeep = [\"end.mass_centre_n3_m\"]\n{files}[parameter.\"motion.frequency_hz\"]\nlist = [80, 90, 100, 110]\n"
+            ),
+        );
+        let plan = wingbeat(dir, &["campaign", "plan", "c.toml"]).stdout;
+        let args = ["campaign", "run", "c.toml", "--out", "r", "--jobs", "1"];
+        let out = wingbeat(dir, &args);
+        let said = String::from_utf8(out.stderr).unwrap();
+        assert!(out.status.success(), "{said}");
+        (plan, said)
+    };
+    let (plan, _) = fly("");
+    let (same, said) = fly("files = [\"history\"]\n[retention]\nevery = 2\n");
+    assert!(plan == same, "the hashes changed");
+    assert!(said.contains("4 points, 2 of them done"), "{said}");
+    assert_eq!(fs::read_dir(dir.join("r/files")).unwrap().count(), 2);
+    let (_, said) = fly("files = [\"history\"]\n");
+    assert!(said.contains("4 points, 2 of them done"), "{said}");
+    assert_eq!(fs::read_dir(dir.join("r/files")).unwrap().count(), 4);
+    let (_, said) = fly("");
+    assert!(said.contains("4 points, 4 of them done"), "{said}");
+}
+
+/// Points are counted in the order of the file: parameters that change places make another plan, with leases of its own.
+#[test]
+fn behaves_another_order_of_parameters_is_another_plan() {
+    let scratch = Scratch::new("campaign-order");
+    let dir = &scratch.0;
+    let frequency = "[parameter.\"motion.frequency_hz\"]\nlist = [90, 100]\n";
+    let beats = "[parameter.\"time.beats\"]\nlist = [1, 2]\n";
+    let head = "case = \"case.toml\"\nkeep = [\"summary.time_s\"]\n";
+    for order in [[frequency, beats], [beats, frequency]] {
+        write(dir, &format!("{head}{}", order.concat()));
+        flown(dir, &["campaign", "run", "c.toml", "--out", "r", "--quiet"]);
+    }
+    assert_eq!(fs::read_dir(dir.join("r/leases")).unwrap().count(), 2);
+    merged(dir, "r");
+    let beats = numbers(dir, "r", "time.beats");
+    assert_eq!(beats, [1.0, 1.0, 2.0, 2.0], "the last one runs fastest");
+}

@@ -302,3 +302,68 @@ fn refuses_a_file_that_is_changed_while_it_is_flown() {
     let leases = fs::read_dir(dir.join("b/leases")).unwrap();
     assert_eq!(leases.count(), 1, "nothing of the new plan was flown");
 }
+
+/// The hash of point `i` of the campaign.
+fn hash_of(dir: &Path, i: usize) -> String {
+    let plan = wingbeat(dir, &["campaign", "plan", "c.toml"]);
+    let plan = String::from_utf8(plan.stdout).unwrap();
+    let hash = plan.lines().nth(i + 1).unwrap().split(',').nth(1).unwrap();
+    hash.to_owned()
+}
+
+/// Two points that keep their histories.
+const KEPT: &str = r#"case = "case.toml"
+keep = ["end.mass_centre_n3_m"]
+files = ["history"]
+[parameter."motion.frequency_hz"]
+list = [90, 100]
+"#;
+
+/// A point whose directory another process writes is waited for, and counts as no failure.
+#[test]
+fn behaves_a_point_that_is_flown_elsewhere_is_waited_for() {
+    let scratch = Scratch::new("campaign-busy");
+    let dir = &scratch.0;
+    write(dir, KEPT);
+    let work = dir.join("b/work").join(hash_of(dir, 0));
+    fs::create_dir_all(&work).unwrap();
+    fs::write(dir.join("b/campaign.toml"), KEPT).unwrap();
+    let history = fs::File::create(work.join("history.csv")).unwrap();
+    history.lock().unwrap();
+    let mut master = start(dir, "b", &[]);
+    let begun = Instant::now();
+    while !dir.join("b/files").exists() {
+        assert!(begun.elapsed() < Duration::from_secs(60), "the other point");
+        std::thread::sleep(Duration::from_millis(5));
+    }
+    std::thread::sleep(Duration::from_secs(3)); // looks of 0.2 s each
+    assert!(work.join("history.csv").exists(), "it was removed");
+    assert!(!dir.join("b/attempts").exists(), "it counts as a failure");
+    assert!(master.try_wait().unwrap().is_none(), "it has ended");
+    drop(history);
+    assert!(master.wait().unwrap().success());
+    merged(dir, "b");
+    assert_eq!(numbers(dir, "b", "success"), [1.0, 1.0]);
+}
+
+/// A disk that cannot be written for a second is tried again.
+#[test]
+fn behaves_a_point_survives_a_short_fault_of_the_disk() {
+    let scratch = Scratch::new("campaign-fault");
+    let dir = &scratch.0;
+    write(dir, KEPT);
+    fs::create_dir_all(dir.join("b")).unwrap();
+    fs::write(dir.join("b/campaign.toml"), KEPT).unwrap();
+    fs::write(dir.join("b/work"), "in the way").unwrap(); // no directory can be made there
+    let mut master = start(dir, "b", &[]);
+    let begun = Instant::now();
+    while !dir.join("b/attempts").exists() {
+        assert!(begun.elapsed() < Duration::from_secs(60));
+        std::thread::sleep(Duration::from_millis(5));
+    }
+    std::thread::sleep(Duration::from_millis(300));
+    fs::remove_file(dir.join("b/work")).unwrap();
+    assert!(master.wait().unwrap().success());
+    merged(dir, "b");
+    assert_eq!(numbers(dir, "b", "success"), [1.0, 1.0]);
+}

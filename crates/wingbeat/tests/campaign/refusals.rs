@@ -35,7 +35,7 @@ type Wrong = (
     &'static [&'static str],
 );
 
-const FILES: [Wrong; 42] = [
+const FILES: [Wrong; 43] = [
     (
         "do = [\"run\"]",
         "do = [\"run\"",
@@ -200,6 +200,12 @@ const FILES: [Wrong; 42] = [
         "seed = 1\n[budget]\ndisk_mb = -2.0\n",
         "disk_mb",
         &["this must be positive"],
+    ),
+    (
+        "seed = 1\n",
+        "seed = 1\n[budget]\ntime_per_point_s = 1e20\n",
+        "time_per_point_s",
+        &["longer than any flight takes", "at most 1e9 s"],
     ),
     (
         "seed = 1\n",
@@ -380,4 +386,49 @@ fn refuses_a_directory_that_holds_something_else() {
         assert_eq!(out.status.code(), Some(2), "{option} {value}");
     }
     assert!(before == contents(dir));
+}
+
+/// Steps of a trim are whole: 50.7 is not taken for 50.
+#[test]
+fn refuses_a_fraction_of_a_step_of_the_trim() {
+    let scratch = Scratch::new("campaign-fraction");
+    let dir = &scratch.0;
+    let text = |list: &str| {
+        format!(
+            "case = \"fruit-fly-blade\"\ndo = [\"trim\"]\nkeep = [\"trim.residual\"]\n[parameter.\"trim.steps_per_beat\"]\nlist = [{list}]\n"
+        )
+    };
+    write(dir, &text("50.0, 60"));
+    let out = wingbeat(dir, &["campaign", "plan", "c.toml"]);
+    assert!(out.status.success(), "{out:?}");
+    for (list, word) in [
+        ("50.7", "50.7 has a fraction"),
+        ("1e300", "steps per wingbeat"),
+    ] {
+        write(dir, &text(list));
+        let out = wingbeat(dir, &["campaign", "plan", "c.toml"]);
+        let report = String::from_utf8(out.stderr).unwrap();
+        assert_eq!(out.status.code(), Some(2), "{report}");
+        for part in ["c.toml:4:", word, "a whole number from 20 to 2000"] {
+            assert!(report.contains(part), "{part} not in:\n{report}");
+        }
+    }
+}
+
+/// Values of any length are traced to their lines, wherever they stand.
+#[test]
+fn refuses_long_values_with_their_lines() {
+    let scratch = Scratch::new("campaign-long");
+    let dir = &scratch.0;
+    let long = "long".repeat(50);
+    let set = format!("[set]\n\"body.part.thorax.mass_kg.a\" = \"{long}\"\n");
+    let varied = format!("[parameter.\"body.part.thorax.mass_kg.a\"]\nlist = [\"{long}\"]\n");
+    for text in [set, varied] {
+        let head = "case = \"case.toml\"\nkeep = [\"summary.mass_kg\"]\n";
+        write(dir, &format!("{head}{text}"));
+        let out = wingbeat(dir, &["campaign", "plan", "c.toml"]);
+        let report = String::from_utf8(out.stderr).unwrap();
+        assert_eq!(out.status.code(), Some(2), "{report}");
+        assert!(report.contains("c.toml:4:"), "{report}");
+    }
 }
