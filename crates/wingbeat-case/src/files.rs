@@ -205,6 +205,9 @@ fn read_table(path: &str, table: &mut TableCase, base: &Path) -> Result<(), Faul
     Ok(())
 }
 
+/// The angles of a wing.
+const ANGLES: [&str; 3] = ["phi", "theta", "psi"];
+
 /// A table of phases and angles, and the key that names it.
 struct TableFile {
     key: String,
@@ -230,6 +233,9 @@ impl TableFile {
             self.column(header, names[0], 0)?,
             self.column(header, names[1], 1)?,
         ];
+        if names[1].is_none() {
+            self.check_angle(header)?;
+        }
         let unit = header.get(columns[1]).map_or(Ok(1.0), degrees);
         let to_degrees = unit.map_err(|problem| self.bad(&problem))?;
         let (mut rows, mut lines) = (vec![], vec![]);
@@ -272,6 +278,23 @@ impl TableFile {
             let names = header.iter().collect::<Vec<_>>().join(", ");
             self.bad(&format!("there is no column `{name}` among {names}"))
         })
+    }
+
+    /// Refuses a second column that is named after another angle than the key's.
+    fn check_angle(&self, header: &StringRecord) -> Result<(), Fault> {
+        let name = header.get(1).unwrap_or_default();
+        let own = ANGLES.iter().find(|a| self.key.contains(&format!(".{a}.")));
+        let named = ANGLES.iter().find(|a| name.starts_with(**a));
+        match (own, named) {
+            (Some(own), Some(named)) if own != named => {
+                let problem =
+                    format!("its second column is `{name}`, and this is the table of {own}");
+                let mut fault = self.bad(&problem);
+                fault.remedy = format!("name the column of {own}: angle_column = \"...\"");
+                Err(fault)
+            }
+            _ => Ok(()),
+        }
     }
 
     fn number(&self, record: &StringRecord, column: usize) -> Result<f64, Fault> {

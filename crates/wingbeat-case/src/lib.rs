@@ -25,6 +25,7 @@ mod fitted;
 pub mod insect;
 pub mod keys;
 mod loaded;
+mod measured;
 mod output;
 pub mod presets;
 pub mod raw;

@@ -8,6 +8,7 @@ mod idle;
 mod insects;
 mod joints;
 mod keys;
+mod measured;
 mod meshes;
 mod mirrored_joints;
 mod presets;

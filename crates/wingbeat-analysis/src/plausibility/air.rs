@@ -9,13 +9,7 @@ const AIR_VISCOSITY: f64 = 1.5e-5;
 
 /// Velocity of the undisturbed air, N components [m/s].
 pub(super) fn stream(air: &AirModel) -> DVec3 {
-    match air {
-        AirModel::VortexLattice(air) => air.lattice.free_stream,
-        AirModel::BladeElement(air) => air.blade.free_stream,
-        AirModel::None | AirModel::Derivatives(_) | AirModel::External(_) | AirModel::Own(_) => {
-            DVec3::ZERO
-        }
-    }
+    air.stream().unwrap_or(DVec3::ZERO)
 }
 
 /// Density [kg/m3], where the air has one.

@@ -5,6 +5,7 @@ use wingbeat_flight::{AirModel, AirOptions, FlightSetup, MotionMode, system_of};
 use wingbeat_math::DVec3;
 use wingbeat_model::{DeformingMesh, Wing};
 
+use super::air::stream;
 use super::numbers::{Estimate, WingEstimate};
 use super::sides::against_each_other;
 
@@ -205,6 +206,8 @@ pub(super) fn doubts(setup: &FlightSetup, e: &Estimate) -> Vec<String> {
         MotionMode::Tethered(_) => list.see(&TETHERED_LIFT, LIFT_NAME, e.lift_over_weight, ""),
     }
     let Doubts(mut list) = list;
+    list.extend(air_from_behind(setup, e));
+    list.extend(drag_of_small_insects(setup, e));
     if !setup.animal.wings.is_empty() {
         list.extend(system_of(setup).map_or(vec![], |s| s.warnings()));
     }
@@ -223,6 +226,44 @@ pub(super) fn doubts(setup: &FlightSetup, e: &Estimate) -> Vec<String> {
     list.extend(setup.tips_of_attached_wings());
     list.extend(setup.vortex_lift_of_swept_edges());
     list
+}
+
+/// Flight backwards at a speed that counts beside that of the tips: no animal's, but of streams with a wrong sign.
+fn air_from_behind(setup: &FlightSetup, e: &Estimate) -> Option<String> {
+    const COUNTS: f64 = 0.3;
+    let root = setup.root_at_start();
+    let forward = root.r.x_axis.with_z(0.0).normalize_or_zero();
+    let speed = (root.v - stream(&setup.air)).dot(forward);
+    let tips = e.wings.iter().map(|w| w.tip_speed).fold(0.0, f64::max);
+    (speed < 0.0 && -speed > COUNTS * tips).then(|| {
+        format!(
+            "the air comes from behind at {} m/s: a stream that the animal faces has air.stream_m_s = [-{}, 0, 0]",
+            rounded(-speed),
+            rounded(-speed)
+        )
+    })
+}
+
+/// Blade elements whose drag at no incidence is many times the friction of a plate, where drag at small incidence counts: in flight
+/// that is not slow beside the tips.
+fn drag_of_small_insects(setup: &FlightSetup, e: &Estimate) -> Option<String> {
+    const TIMES: f64 = 10.0;
+    const FAST: f64 = 0.5;
+    let AirModel::BladeElement(air) = &setup.air else {
+        return None;
+    };
+    let fast = |w: &&WingEstimate| e.flight_speed > FAST * w.tip_speed;
+    let reynolds = e.wings.iter().filter(fast).filter_map(|w| w.reynolds);
+    let reynolds = reynolds.reduce(f64::max)?;
+    let [drag, friction] = [air.blade.translation.at(0.0)[1], 2.656 / reynolds.sqrt()];
+    (drag > TIMES * friction).then(|| {
+        format!(
+            "the drag coefficient of the wings at no incidence, {}, is {} times the friction of a plate at their Reynolds number of {}: coefficients (air.blade.coefficients) measured on wings of small insects; give your own in [air.blade.own]",
+            rounded(drag),
+            rounded(drag / friction),
+            rounded(reynolds)
+        )
+    })
 }
 
 /// Weight, lift and inertia of a flyer that nothing holds.

@@ -224,11 +224,11 @@ fn table(path: &str, table: &TableCase) -> Built<AngleLaw> {
         let [allowed, remedy] = match table.harmonics {
             None => [
                 "at least 4 rows [phase, angle], phases rising, the last row one beat after the first with the same angle",
-                "repeat the first angle in a last row whose phase is 1 larger",
+                "repeat the first angle in a last row whose phase is 1 larger; measured samples, of one beat or several, are fitted by `harmonics = 4` or so",
             ],
             Some(_) => [
-                "at least 4 rows [phase, angle] of one beat, phases rising, neighbours less than 1 / (2 harmonics) apart",
-                "give the samples of one beat, or fewer harmonics",
+                "at least 4 rows [phase, angle], phases in wingbeats that do not fall, neighbours within a beat less than 1 / (2 harmonics) apart",
+                "divide times by the period of a wingbeat; give more samples, or fewer harmonics",
             ],
         };
         Fault::new(format!("{path}.rows_deg{row}"), e.to_string(), allowed, remedy)

@@ -269,7 +269,7 @@ fn half() -> f64 {
     0.5
 }
 
-/// Samples over one beat; the last row repeats the first value one beat later.
+/// Samples over one beat, the last row the first value one beat later; samples to be fitted (`harmonics`) may be those of several beats.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct TableCase {
@@ -298,7 +298,7 @@ pub struct TableCase {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub angle_column: Option<String>,
     /// Harmonics of a Fourier series fitted to the samples by least squares; two neighbouring phases may be less than 1 / (2 harmonics)
-    /// wingbeats apart, and the beat need not close. Left out: the spline, which goes through every sample.
+    /// wingbeats apart, phases may repeat or go on over several beats, which are folded into one, and the beat need not close. Left out: the spline, which goes through every sample.
     ///
     /// Change it for samples that scatter: as many as stand out of the noise, 4 to 10 for strokes; `wingbeat check` tells how many do, and
     /// what a fit leaves.

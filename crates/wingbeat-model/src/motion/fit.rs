@@ -3,7 +3,7 @@
 //! A series of n harmonics is determined by phases of which no two neighbours are 1 / (2 n) apart or more,
 //! wherever they lie \[Groechenig 1992, Math. Comput. 59:181, for one dimension\]; others are refused.
 
-use crate::error::{ModelError, check_rising, in_row};
+use crate::error::{ModelError, in_row};
 use crate::motion::fourier::Fourier;
 use std::f64::consts::TAU;
 use wingbeat_math::{SingularMatrix, solve_small};
@@ -80,19 +80,45 @@ pub(crate) fn check_gaps(table: &str, x: &[f64], harmonics: usize) -> Result<(),
     }
 }
 
+/// The same for phases of any beats.
+fn check_folded_gaps(table: &str, x: &[f64], harmonics: usize) -> Result<(), ModelError> {
+    let in_beat = |k: usize| (x[k] - x[0]).rem_euclid(1.0);
+    let mut order: Vec<usize> = (0..x.len()).collect();
+    order.sort_by(|&a, &b| in_beat(a).total_cmp(&in_beat(b)));
+    let sorted: Vec<f64> = order.iter().map(|&k| in_beat(k)).collect();
+    check_gaps(table, &sorted, harmonics).map_err(|e| match e {
+        ModelError::Table { row, problem, .. } => in_row(table, order[row - 1], problem),
+        other => other,
+    })
+}
+
+fn check_not_falling(name: &str, rows: &[(f64, f64)]) -> Result<(), ModelError> {
+    for (k, (x, q)) in rows.iter().enumerate() {
+        if !x.is_finite() || !q.is_finite() {
+            return Err(in_row(name, k, "not a finite number".to_owned()));
+        }
+        if k > 0 && *x < rows[k - 1].0 {
+            let problem = format!("phase {x} is below the one before, {}", rows[k - 1].0);
+            return Err(in_row(name, k, problem));
+        }
+    }
+    Ok(())
+}
+
 impl Fourier {
-    /// The series of `harmonics` harmonics that is nearest to the rows `(phase \[wingbeats\], angle \[rad\])` of one beat by least
-    /// squares, and what is left of each row \[rad\]. A last row one beat after the first is left out.
+    /// The series of `harmonics` harmonics that is nearest to the rows `(phase \[wingbeats\], angle \[rad\])` by least squares, and
+    /// what is left of each row \[rad\]. Rows of several beats are folded into one, and phases may repeat. Of one beat a last row
+    /// a beat after the first is left out.
     ///
     /// # Errors
-    /// [`ModelError::Table`] names the row: no harmonics, fewer than four rows, a number that is not finite, phases that do not rise,
-    /// span more than a beat or are too far apart for so many harmonics.
+    /// [`ModelError::Table`] names the row: no harmonics, fewer than four rows, a number that is not finite, phases that fall, or
+    /// are too far apart for so many harmonics.
     pub fn fitted(
         name: &str,
         rows: &[(f64, f64)],
         harmonics: usize,
     ) -> Result<(Self, Vec<f64>), ModelError> {
-        check_rising(name, "phase", rows)?;
+        check_not_falling(name, rows)?;
         let bad = |row: usize, problem: String| Err(in_row(name, row, problem));
         if harmonics == 0 || rows.len() < 4 {
             return bad(
@@ -101,15 +127,10 @@ impl Fourier {
             );
         }
         let (last, span) = (rows.len() - 1, rows[rows.len() - 1].0 - rows[0].0);
-        if span > 1.0 + 1e-9 {
-            return bad(
-                last,
-                format!("the table spans {span} wingbeats, more than 1"),
-            );
-        }
-        let rows = &rows[..rows.len() - usize::from(span > 1.0 - 1e-9)];
+        let repeats = (span - 1.0).abs() <= 1e-9;
+        let rows = &rows[..rows.len() - usize::from(repeats)];
         let (phases, values): (Vec<f64>, Vec<f64>) = rows.iter().copied().unzip();
-        check_gaps(name, &phases, harmonics)?;
+        check_folded_gaps(name, &phases, harmonics)?;
         let Ok(fit) = FourierFit::new(&phases, harmonics) else {
             return bad(
                 last,

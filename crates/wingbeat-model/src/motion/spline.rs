@@ -110,7 +110,9 @@ fn check_closure(n: usize, first: (f64, f64), last: (f64, f64), range: f64) -> R
         let unit = match period {
             90.0..=101.0 => ": phases in per cent are to be divided by 100",
             330.0..=361.0 => ": phases in degrees are to be divided by 360",
-            _ => ": times are to be divided by the period of a wingbeat",
+            _ => {
+                ": times are to be divided by the period of a wingbeat; samples of several beats are fitted by `harmonics`"
+            }
         };
         return Err(format!(
             "the table spans {period} wingbeats, not 1{unit}; row {n} must repeat the first row one period after it"

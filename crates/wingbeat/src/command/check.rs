@@ -41,9 +41,7 @@ fn look(args: &CheckArgs, report: &mut Report) -> Result<(), IoError> {
     let case = LoadedCase::find(&args.case, &args.set)?;
     let mut estimate = estimate(&case.setup);
     let fits = case.fitted_tables();
-    estimate
-        .doubts
-        .extend(fits.iter().filter_map(FittedTable::doubt));
+    estimate.doubts.extend(case.doubtful_measurements());
     let warn = || estimate.doubts.iter().for_each(|d| tell!("warning: {d}"));
     // A flight that fails on trial fails of a wrong unit more often than of its steps.
     let cost = trial_cost(&case, args.trial).inspect_err(|_| warn())?;

@@ -8,6 +8,7 @@ use wingbeat::analysis::{
 };
 use wingbeat::case::LoadedCase;
 use wingbeat::flight::FlightSetup;
+use wingbeat::math::DVec3;
 use wingbeat::model::motion::Adjustment;
 use wingbeat::results::fixed::signed;
 
@@ -84,6 +85,15 @@ fn heading(report: &mut Report, case: &LoadedCase, problem: &TrimProblem) {
         case.name,
         aside(problem)
     );
+    let stream = case.setup.air.stream().unwrap_or(DVec3::ZERO);
+    let airspeed = (problem.velocity - stream).length();
+    if stream != DVec3::ZERO {
+        line!(
+            report,
+            "in a stream (air.stream_m_s), which adds to that: {airspeed:.3} m/s through the air"
+        );
+    }
+    report.value("airspeed_m_s", airspeed);
     let has_control = case.raw.control.is_some();
     if has_control {
         line!(report, "of the open loop: [control] is left out");

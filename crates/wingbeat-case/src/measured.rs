@@ -1,0 +1,165 @@
+//! Measurements in a case that look like slips: of units, turns, lost frames, the order of points.
+
+use wingbeat_model::Wing;
+use wingbeat_model::motion::Fourier;
+
+use crate::fitted::FittedTable;
+use crate::loaded::LoadedCase;
+use crate::raw::{AngleCase, SurfaceCase, WingMotionCase};
+
+/// Angles of a table that are all below this could be radians \[deg\].
+const HALF_A_TURN: f64 = 3.2;
+
+/// A sample that stands this far from both neighbours, alone in its value, was hardly measured \[deg\].
+const LEAP_DEG: f64 = 10.0;
+
+/// What a fit leaves of one phase of a surface counts beside the others from so many times their root mean square on, and beside the
+/// wing from this part of its length on.
+const OUTLIER: f64 = 5.0;
+const SMALL: f64 = 0.02;
+
+impl LoadedCase {
+    /// What of the measurements in the case is to be doubted, in sentences.
+    pub fn doubtful_measurements(&self) -> Vec<String> {
+        let fits = self.fitted_tables();
+        let mut doubts: Vec<String> = fits.iter().filter_map(FittedTable::doubt).collect();
+        for (name, wing) in &self.raw.wing {
+            let tables = wing.motion.as_ref().map(tables).unwrap_or_default();
+            doubts.extend(radians(name, &tables));
+            for (angle, rows) in tables {
+                let key = format!("wing.{name}.motion.{angle}.table");
+                doubts.extend(turn(&key, rows));
+                doubts.extend(lost(&key, rows));
+            }
+            let surface = wing.deformation.as_ref().and_then(|d| d.surface.as_ref());
+            let flown = self.setup.animal.wings.iter().find(|w| w.name == *name);
+            if let (Some(surface), Some(wing)) = (surface, flown) {
+                let key = format!("wing.{name}.deformation.surface");
+                doubts.extend(order(&key, surface, wing));
+                doubts.extend(stray_phase(&key, surface));
+            }
+        }
+        doubts
+    }
+}
+
+fn tables(motion: &WingMotionCase) -> Vec<(&'static str, &[[f64; 2]])> {
+    let angles = [
+        ("phi", &motion.phi),
+        ("theta", &motion.theta),
+        ("psi", &motion.psi),
+    ];
+    let rows = |(angle, case)| match case {
+        &Some(AngleCase::Table(ref table)) => Some((angle, table.rows_deg.as_deref()?)),
+        _ => None,
+    };
+    angles.into_iter().filter_map(rows).collect()
+}
+
+/// Tables whose angles are all small.
+fn radians(wing: &str, tables: &[(&str, &[[f64; 2]])]) -> Option<String> {
+    let angles = || tables.iter().flat_map(|t| t.1).map(|row| row[1].abs());
+    let most = angles().fold(0.0, f64::max);
+    let has_stroke = tables.iter().any(|t| t.0 == "phi");
+    (has_stroke && most > 0.0 && most < HALF_A_TURN).then(|| {
+        format!("all angles in the tables of wing.{wing}.motion are below {HALF_A_TURN} deg: are they radians? Tables are in degrees, and columns of files in radians where their name says so (phi_rad)")
+    })
+}
+
+/// Neighbours that differ by most of a turn.
+fn turn(key: &str, rows: &[[f64; 2]]) -> Option<String> {
+    let [a, b] = rows.windows(2).find_map(|w| match w {
+        &[a, b] if (b[1] - a[1]).abs() > 180.0 => Some([a, b]),
+        _ => None,
+    })?;
+    Some(format!(
+        "{key}: {} and {} deg at phases {} and {} are neighbours: angles were wrapped there; let them go on beyond 180 deg",
+        a[1], b[1], a[0], b[0]
+    ))
+}
+
+/// Rows that hold zero in the midst of other angles, as frames do in which nothing was found.
+fn lost(key: &str, rows: &[[f64; 2]]) -> Option<String> {
+    let mut from = 1;
+    while from + 1 < rows.len() {
+        let length = rows[from..].iter().take_while(|r| r[1] == 0.0).count();
+        let (before, after) = (rows[from - 1][1], rows.get(from + length));
+        if let Some(after) = after.filter(|_| length > 0)
+            && before.abs().min(after[1].abs()) > LEAP_DEG
+        {
+            let [first, last] = [rows[from][0], rows[from + length - 1][0]];
+            return Some(format!(
+                "{key}: exactly 0 from phase {first} to {last}, between {before} and {} deg: lost frames? Leave such rows out",
+                after[1]
+            ));
+        }
+        from += length.max(1);
+    }
+    None
+}
+
+/// A surface whose points run the other way than those of the wing at rest.
+fn order(key: &str, surface: &SurfaceCase, wing: &Wing) -> Option<String> {
+    let mut span = 0.0;
+    let mut aside = 0.0;
+    let mut chord = 0.0;
+    for rows in &surface.nodes_m {
+        let (leading, trailing) = (rows.first()?, rows.last()?);
+        for row in rows {
+            span += row.last()?[1] - row.first()?[1];
+            aside += row.iter().map(|x| x[1]).sum::<f64>();
+        }
+        let along = leading.iter().zip(trailing).map(|(a, b)| a[0] - b[0]);
+        chord += along.sum::<f64>();
+    }
+    let mesh = &wing.mesh;
+    let ends = |j| mesh.nodes[mesh.node(0, j)].x - mesh.nodes[mesh.node(mesh.rows, j)].x;
+    let at_rest: f64 = (0..=mesh.cols).map(ends).sum();
+    let problem = if aside < 0.0 {
+        "its points lie inboard of the hinge: distances along axis 2 are positive outboard, on wings of either side"
+    } else if span < 0.0 {
+        "its rows run from the tip to the root: points go from root to tip"
+    } else if chord * at_rest < 0.0 {
+        "its first row is at the trailing edge: rows go from the leading to the trailing edge"
+    } else {
+        return None;
+    };
+    Some(format!("{key}: {problem}"))
+}
+
+/// The phase of a surface that the series of its points pass by.
+fn stray_phase(key: &str, surface: &SurfaceCase) -> Option<String> {
+    let squares = squares_left(surface)?;
+    let (worst, most) = (squares.iter().copied().enumerate()).max_by(|a, b| a.1.total_cmp(&b.1))?;
+    let others = (squares.iter().sum::<f64>() - most) / (squares.len() - 1) as f64;
+    let points = surface.nodes_m.iter().flatten().flatten();
+    let length = points.map(|x| x[1].abs()).fold(0.0, f64::max);
+    let is_stray = most.sqrt() > OUTLIER * others.sqrt() || others.sqrt() > SMALL * length;
+    (is_stray && most.sqrt() > SMALL * length).then(|| {
+        format!(
+            "{key}: {} harmonics leave {:.3e} m (rms) of the points at phase {}, and {:.3e} m of those at the others: take out phases that are no measurements, or fit more harmonics",
+            surface.harmonics,
+            most.sqrt(),
+            surface.phases[worst],
+            others.sqrt()
+        )
+    })
+}
+
+/// Mean square of what is left of all points at each phase [m2].
+fn squares_left(surface: &SurfaceCase) -> Option<Vec<f64>> {
+    let mut squares = vec![0.0; surface.phases.len()];
+    let first = surface.nodes_m.first()?;
+    let count = first.iter().map(Vec::len).sum::<usize>() as f64;
+    for (i, row) in first.iter().enumerate() {
+        for (j, k) in (0..row.len()).flat_map(|j| (0..3).map(move |k| (j, k))) {
+            let values = surface.nodes_m.iter().map(|rows| rows[i][j][k]);
+            let samples: Vec<(f64, f64)> = surface.phases.iter().copied().zip(values).collect();
+            let (_, left) = Fourier::fitted("", &samples, surface.harmonics).ok()?;
+            for (square, x) in squares.iter_mut().zip(left) {
+                *square += x * x / count;
+            }
+        }
+    }
+    Some(squares)
+}

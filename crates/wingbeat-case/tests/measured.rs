@@ -1,0 +1,181 @@
+//! Slips in measurements are named before they are flown.
+
+use std::f64::consts::TAU;
+use std::path::Path;
+
+use wingbeat_case::{LoadedCase, presets};
+
+fn stroke(x: f64) -> f64 {
+    70.0 * (TAU * x).cos() + 8.0 * (2.0 * TAU * x).sin()
+}
+
+fn table(angle: &str, rows: &[(f64, f64)], more: &str) -> String {
+    let rows: Vec<String> = rows.iter().map(|(x, q)| format!("[{x}, {q}]")).collect();
+    format!(
+        "wing.right.motion.{angle}={{table={{rows_deg=[{}]{more}}}}}",
+        rows.join(", ")
+    )
+}
+
+fn fly(set: &[String]) -> LoadedCase {
+    LoadedCase::find("fruit-fly-tethered", set).unwrap()
+}
+
+/// Fifty samples of a beat and the repetition of the first, each changed by `change`.
+fn samples(change: impl Fn(usize, f64) -> f64) -> Vec<(f64, f64)> {
+    let row = |k: usize| {
+        let x = k as f64 / 50.0;
+        (x, change(k, stroke(x)))
+    };
+    (0..=50).map(row).collect()
+}
+
+fn doubts(rows: &[(f64, f64)]) -> Vec<String> {
+    fly(&[table("phi", rows, "")]).doubtful_measurements()
+}
+
+#[test]
+fn behaves_lost_frames_and_wrapped_angles_of_tables_are_named() {
+    assert_eq!(doubts(&samples(|_, q| q)), [""; 0]);
+    for frames in [1, 2, 3, 6] {
+        let lost = samples(|k, q| {
+            if (20..20 + frames).contains(&k) {
+                0.0
+            } else {
+                q
+            }
+        });
+        let [said] = &doubts(&lost)[..] else {
+            panic!("{frames} lost frames")
+        };
+        assert!(said.contains("exactly 0 from phase 0.4"), "{said}");
+    }
+    let wrapped = samples(|_, q| if q > 60.0 { q - 360.0 } else { q });
+    let [said] = &doubts(&wrapped)[..] else {
+        panic!("a turn")
+    };
+    assert!(said.contains("angles were wrapped there"), "{said}");
+}
+
+#[test]
+fn behaves_tables_in_radians_are_named() {
+    let said = doubts(&samples(|_, q| q.to_radians())).join("\n");
+    assert!(said.contains("are they radians?"), "{said}");
+}
+
+/// A series is that of its samples, in whatever beats they were taken.
+#[test]
+fn invariant_a_fit_of_several_beats_is_that_of_one() {
+    let fitted = |rows: &[(f64, f64)]| {
+        let case = fly(&[table("phi", rows, ", harmonics=4")]);
+        let angles = |x: f64| case.setup.animal.wings[0].motion.angles.phi.at(x)[0];
+        (0..20)
+            .map(|k| angles(f64::from(k) / 20.0))
+            .collect::<Vec<f64>>()
+    };
+    let one = fitted(&samples(|_, q| q));
+    // 12.5 samples a beat: those of four beats lie between each other; then every sample twice.
+    let four: Vec<(f64, f64)> = (0..50)
+        .map(|k| f64::from(k) * 0.08)
+        .map(|x| (x, stroke(x)))
+        .collect();
+    let twice: Vec<(f64, f64)> = samples(|_, q| q).into_iter().flat_map(|r| [r, r]).collect();
+    for other in [fitted(&four), fitted(&twice[..100])] {
+        for (a, b) in one.iter().zip(&other) {
+            assert!((a - b).abs() < 1e-12, "{a} {b}"); // roundings of a fit
+        }
+    }
+}
+
+#[test]
+fn behaves_surfaces_in_another_order_and_lost_phases_are_named() {
+    let surface = |change: &dyn Fn(usize, usize, usize, [f64; 3]) -> [f64; 3]| {
+        let point = |t: usize, i: usize, j: usize| {
+            let bent = 1e-4 * (TAU * t as f64 / 20.0).sin() * j as f64;
+            let x = change(
+                t,
+                i,
+                j,
+                [2e-4 - 8e-4 * i as f64 / 2.0, 8e-4 * j as f64, bent],
+            );
+            format!("[{}, {}, {}]", x[0], x[1], x[2])
+        };
+        let row = |t, i| (0..4).map(|j| point(t, i, j)).collect::<Vec<_>>().join(",");
+        let at = |t| {
+            (0..3)
+                .map(|i| format!("[{}]", row(t, i)))
+                .collect::<Vec<_>>()
+                .join(",")
+        };
+        let nodes = (0..20)
+            .map(|t| format!("[{}]", at(t)))
+            .collect::<Vec<_>>()
+            .join(",");
+        let phases = (0..20)
+            .map(|t| (f64::from(t) / 20.0).to_string())
+            .collect::<Vec<_>>()
+            .join(",");
+        let set = format!("wing.right.deformation.surface={{phases=[{phases}],nodes_m=[{nodes}]}}");
+        fly(&[set]).doubtful_measurements().join("\n")
+    };
+    assert_eq!(surface(&|_, _, _, x| x), "");
+    let cases: [(&str, &dyn Fn(usize, usize, usize, [f64; 3]) -> [f64; 3]); 4] = [
+        ("from the tip to the root", &|_, _, _, [x, y, z]| {
+            [x, 2.4e-3 - y, z]
+        }),
+        ("inboard of the hinge", &|_, _, _, [x, y, z]| [x, -y, z]),
+        ("at the trailing edge", &|_, _, _, [x, y, z]| [-x, y, z]),
+        ("of the points at phase 0.35", &|t, _, _, x| {
+            if t == 7 { [0.0; 3] } else { x }
+        }),
+    ];
+    for (words, change) in cases {
+        let said = surface(change);
+        assert!(said.contains(words), "{words}: {said}");
+    }
+}
+
+#[test]
+fn refuses_a_second_column_that_is_named_after_another_angle() {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("measured");
+    std::fs::create_dir_all(&folder).unwrap();
+    let file = folder.join("angles.csv");
+    let rows = samples(|_, q| q);
+    let rows: Vec<String> = rows.iter().map(|(x, q)| format!("{x},{q},{q}")).collect();
+    let text = format!("phase,phi_deg,psi_deg\n{}\n", rows.join("\n"));
+    std::fs::write(&file, text).unwrap();
+    let case = |more: &str| {
+        let law = format!("wing.right.motion.psi={{table={{file={file:?}{more}}}}}");
+        LoadedCase::find("fruit-fly-tethered", &[law])
+    };
+    let said = case("").unwrap_err().to_string();
+    let words = "its second column is `phi_deg`, and this is the table of psi";
+    assert!(said.contains(words), "{said}");
+    case(", angle_column=\"psi_deg\"").unwrap();
+}
+
+#[test]
+fn behaves_air_from_behind_and_drag_of_small_insects_are_named() {
+    let said = |name: &str, set: &[&str]| {
+        let set: Vec<String> = set.iter().map(|s| (*s).to_owned()).collect();
+        let case = LoadedCase::find(name, &set).unwrap();
+        wingbeat_analysis::estimate(&case.setup).doubts.join("\n")
+    };
+    let behind = said("bird-cruise", &["air.stream_m_s=[12,0,0]"]);
+    assert!(
+        behind.contains("the air comes from behind at 12.0 m/s"),
+        "{behind}"
+    );
+    let fast = ["air.stream_m_s=[-20,0,0]"];
+    let drag = said("hawkmoth-blade", &fast);
+    assert!(drag.contains("times the friction of a plate"), "{drag}");
+    for name in presets::PRESETS.iter().map(|p| p.name) {
+        let doubts = said(name, &[]);
+        assert!(
+            !doubts.contains("from behind") && !doubts.contains("friction of a plate"),
+            "{name}: {doubts}"
+        );
+        let case = LoadedCase::find(name, &[]).unwrap();
+        assert_eq!(case.doubtful_measurements(), [""; 0], "{name}");
+    }
+}
