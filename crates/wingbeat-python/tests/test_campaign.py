@@ -364,6 +364,7 @@ def rest(tmp_path: Path) -> campaign.Table:
     return campaign.map(points, ThreadPoolExecutor(50), **settings)
 
 
+@pytest.mark.timed
 @pytest.mark.skipif(not os.path.isdir("/proc/self"), reason="looks for processes in /proc")
 def test_behaves_ctrl_c_stops_and_keeps(tmp_path):
     process = begun(tmp_path)

@@ -194,6 +194,7 @@ def test_behaves_progress_is_told_and_may_stop_the_flight(lattice):
     assert 4 < len(caught.value.run.arrays["time_s"]) < flight.steps
 
 
+@pytest.mark.timed
 def test_behaves_ctrl_c_is_noticed_within_a_fifth_of_a_second(tmp_path):
     code = "wingbeat.Flight.preset('fruit-fly-hover').set('time.beats', 40).fly(progress=flying)"
     assert min(interrupted(code, tmp_path) for _ in range(3)) < 0.2

@@ -226,6 +226,7 @@ def test_refuses_actions():
         VectorEnvironment(2, controls_per_beat=2).regulated()
 
 
+@pytest.mark.timed
 @pytest.mark.parametrize("controls_per_beat", [1, 40])
 def test_behaves_python_adds_little_to_the_rust_core(controls_per_beat):
     """Of release builds docs/python.md has the figures; here the part that Python adds, on a machine that is not quiet."""

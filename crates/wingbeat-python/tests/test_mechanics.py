@@ -46,6 +46,9 @@ def test_agrees_turns_and_bounds_with_the_command_line(blade, program):
     assert turn.outside_bounds == ("body_roll",) == tuple(told["outside_bounds"]) and done.returncode == 1
     assert math.degrees(turn.body_roll_rad) == told["unknowns"]["body_roll_deg"]
     assert turn.difference.stroke_amplitude == told["unknowns"]["stroke_amplitude_difference_change_relative"]
+    with pytest.raises(wingbeat.AnalysisError, match="outside its bounds: body_roll"):
+        turn.power()
+    turn = blade.trim(forward_m_per_s=0.3, turn_rate_rad_per_s=math.radians(300))
     assert turn.power().perfect_storage_watt > 0
     with pytest.raises(wingbeat.CaseError, match="straight in the mean"):
         turn.stability()
