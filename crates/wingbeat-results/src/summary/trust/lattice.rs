@@ -81,6 +81,10 @@ fn inputs(setup: &FlightSetup, air: &AirOptions, list: &mut Warnings) {
     if has_wings && lattice.shedding.leading && lattice.leading.sheds() {
         list.note("Leading edges shed: such sheets have no converged history beyond the first half stroke. Read means over several beats and their spread, not single peaks.");
     }
+    let is_attached = !lattice.shedding.tip && !lattice.shedding.leading;
+    if has_wings && is_attached && lattice.wake_overlap > 0.0 {
+        list.note("Behind attached wings cores as wide as filaments are long (air.wake_overlap) blur what the wake induces: induced drag comes out up to a tenth low, lift 2 % high. For drag and power in a stream take air.wake_core.algebraic.radius_chords = 0.01 and air.wake_overlap = 0 (docs/wings.md, \"Induced drag of attached wings\").");
+    }
     if setup.time.period.is_some() && lattice.convection == Convection::Euler {
         list.limit("The air is first order in the step and the wings are coarse: halve the step and double the panels before quoting a number.");
     }
