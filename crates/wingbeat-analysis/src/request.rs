@@ -23,7 +23,7 @@ const LATERAL: [Unknown; 3] = [
 /// What is asked of a trim; by default hover by the usual unknowns.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct TrimRequest {
-    /// Mean velocity along the heading, to the right of it, down [m/s].
+    /// Mean velocity in the level frame of the heading: along it, to the right of it, down [m/s].
     pub velocity: DVec3,
     /// Turn of the heading, positive to the right [rad/s].
     pub turn_rate: f64,

@@ -54,8 +54,8 @@ impl Flown {
                     *value = Estimate::of(&each).standard_error.unwrap_or(f64::NAN);
                 }
                 Source::Efficiency => {
-                    let work = mean(|b| b.thrust_newton) * self.airspeed(last);
-                    *value = work / mean(|b| b.power_watt);
+                    let useful = mean(|b| b.thrust_newton) * self.airspeed(last);
+                    *value = efficiency(useful, mean(|b| b.power_watt));
                 }
                 Source::Column(of, name) => *value = self.column(*of, name, last)?,
                 Source::Summary(of) => *value = of(&self.summary),
@@ -193,5 +193,27 @@ pub fn of_power(power: &Power, numbers: &[Number], values: &mut [f64]) {
         if let Source::Power(of) = &number.source {
             *value = of(power);
         }
+    }
+}
+
+/// Useful power over the power of the wings; none where this is not positive: air that drives the wings is not propulsion.
+fn efficiency(useful: f64, power: f64) -> f64 {
+    if power > 0.0 {
+        useful / power
+    } else {
+        f64::NAN
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn exact_wings_that_the_air_drives_have_no_efficiency() {
+        assert_eq!(efficiency(1.0, 4.0), 0.25);
+        assert_eq!(efficiency(-1.0, 4.0), -0.25); // drag
+        assert!(efficiency(-1.0, -0.06).is_nan());
+        assert!(efficiency(1.0, 0.0).is_nan());
     }
 }

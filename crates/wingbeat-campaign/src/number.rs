@@ -267,7 +267,7 @@ const MOTIONS: [&str; 6] = ["u", "v", "w", "p", "q", "r"];
 /// Name of the efficiency.
 const EFFICIENCY: (&str, &str) = (
     "efficiency",
-    "propulsive efficiency: mean thrust times the mean speed through the air along n1 over mean power",
+    "propulsive efficiency: mean thrust times the mean speed through the air along n1 over mean power; none where the air drives the wings, negative of drag",
 );
 
 /// All numbers that flights of `setup` may give.

@@ -204,7 +204,13 @@ impl CaseSource {
             .ok_or_else(|| wrong("", format!("`{}` has no `=`", shortened(item))))?;
         let (key, typed) = (key.trim(), typed.trim());
         if typed.is_empty() {
-            take_away(&mut self.table, key).map_err(|problem| wrong(key, problem))?;
+            take_away(&mut self.table, key).map_err(|problem| {
+                Box::new(CaseError {
+                    allowed: "a key that the case has".to_owned(),
+                    remedy: "correct the name, or leave it out".to_owned(),
+                    ..*wrong(key, problem)
+                })
+            })?;
             self.overrides.push((key.to_owned(), String::new()));
             return Ok(());
         }
@@ -355,11 +361,10 @@ fn set(table: &mut Table, path: &str, value: Value) -> Result<(), String> {
     Ok(())
 }
 
-/// Takes the key at `path` out of the document.
+/// Takes the key at `path` out of the document, which must have it.
 fn take_away(table: &mut Table, path: &str) -> Result<(), String> {
-    let none = || {
-        format!("nothing stands behind `=`, which takes a key away, and there is no `{path}` here")
-    };
+    let none =
+        || format!("the case has no such key to take away (which `{path}=` without a value does)");
     let (outer, key) = path.rsplit_once('.').unwrap_or(("", path));
     let holder = match outer {
         "" => Some(table),

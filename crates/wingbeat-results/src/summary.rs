@@ -27,7 +27,7 @@ pub use ensemble::{Ensemble, EnsembleBeat, Members};
 pub use estimate::Estimate;
 pub use held::{Departure, Departures};
 pub use impulse::ImpulseBudget;
-pub use means::ManyBeats;
+pub use means::{LEFT_OUT, ManyBeats};
 pub use numbers::Summary;
 use statistics::Statistics;
 pub use verdict::Verdict;

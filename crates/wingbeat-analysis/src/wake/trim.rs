@@ -216,11 +216,11 @@ impl Flights<'_> {
     /// The flight at the point (velocity over R f, angular velocity times T, controls).
     fn fly(&mut self, x: &[f64]) -> Result<WakeTrim, AnalysisError> {
         self.flights += 1;
-        progress::task(
-            &format!("flight {}, residual {:.1e}", self.flights, self.best),
-            0,
-            0,
-        );
+        let best = match self.best.is_finite() {
+            true => format!(", residual {:.1e}", self.best),
+            false => String::new(), // the first
+        };
+        progress::task(&format!("flight {}{best}", self.flights), 0, 0);
         let problem = self.problem;
         let (unknowns, values) = problem.with_given(&x[self.residuals.controls()..]);
         let a = adjusted(self.setup, &unknowns, problem.angles(), &values);

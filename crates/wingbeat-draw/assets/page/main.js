@@ -1,7 +1,25 @@
 // Ties everything together: words, controls, keys, one frame everywhere.
 byId("name").textContent = flight.name;
-byId("about").textContent = [flight.description, "wingbeat " + flight.version, flight.outcome].filter(Boolean).join(" · ");
-byId("summary").textContent = flight.summary;
+byId("verdict").textContent = flight.verdict;
+byId("verdict").title = flight.verdict_reason;
+byId("verdict").dataset.level = flight.verdict;
+byId("outcome").textContent = flight.outcome;
+byId("outcome").classList.toggle("alarm", !flight.is_whole);
+byId("about").textContent = [flight.description, "wingbeat " + flight.version].filter(Boolean).join(" · ");
+byId("summary").replaceChildren(...blocks(flight.summary));
+// Prose is broken where it must; lines with columns are not, and scroll together.
+function blocks(text) {
+  const list = [];
+  for (const line of text.trimEnd().split("\n")) {
+    const kind = /\S {3,}\S/.test(line) ? "columns" : "prose", last = list[list.length - 1];
+    if (last?.className === kind) { last.textContent += "\n" + line; continue; }
+    const block = document.createElement("pre");
+    block.className = kind; block.textContent = line;
+    if (kind === "columns") block.tabIndex = 0;
+    list.push(block);
+  }
+  return list;
+}
 byId("case").textContent = flight.case;
 byId("thinned").textContent = flight.thinned + ".";
 const notes = [];

@@ -4,8 +4,8 @@ const $ = (id) => document.getElementById(id);
 const state = $("state").dataset;
 state.errors = 0;
 addEventListener("error", () => { state.errors = +state.errors + 1; });
-// Colours from low to high, those of the flight page's wake; grey where there is no number.
-const RAMPS = { dark: ["#2b1f6b", "#8b2f86", "#f0703a", "#fff0b8"], light: ["#9f90d0", "#b0549c", "#b8330f", "#4a0d05"] };
+// Colours from low to high, all of them apart from the panel behind; grey where there is no number.
+const RAMPS = { dark: ["#6f5fe0", "#c458ae", "#f58746", "#fff0b8"], light: ["#9f90d0", "#b0549c", "#b8330f", "#4a0d05"] };
 const GREY = { dark: "#55647a", light: "#b3bdc9" };
 const ALARM = { dark: "#ff9d8a", light: "#a3200f" };
 const LINES_AT_MOST = 4000, ROWS_AT_MOST = 500;
@@ -119,8 +119,10 @@ function drawMap() {
 
 let axes = [];
 function drawLines() {
-  const { pen, width, height } = canvas("lines"), top = 34, bottom = 18, h = height - top - bottom, colour = columns[shown.colour];
-  const x = (k) => columns.length < 2 ? width / 2 : 60 + k * (width - 120) / (columns.length - 1);
+  const { pen, width, height } = canvas("lines"), colour = columns[shown.colour];
+  // Where axes stand close, their words are turned.
+  const turned = (width - 120) / Math.max(1, columns.length - 1) < 72, [top, bottom, side] = turned ? [116, 62, 18] : [34, 18, 60], h = height - top - bottom;
+  const x = (k) => columns.length < 2 ? width / 2 : side + k * (width - 2 * side) / (columns.length - 1);
   axes = columns.map((c, k) => ({ k, x: x(k), top, h }));
   const draw = (row, paint, width) => {
     pen.strokeStyle = paint; pen.lineWidth = width; pen.beginPath();
@@ -133,25 +135,35 @@ function drawLines() {
   for (let k = 0; k < list.length; k += stride) draw(list[k], dye(colour.share(list[k])), 1.2);
   pen.globalAlpha = 1;
   if (shown.point) draw(shown.point, style("--text"), 2);
-  const room = (width - 120) / Math.max(1, columns.length - 1) - 8;
-  const fit = (words) => { let t = words; while (t.length > 4 && pen.measureText(t).width > Math.max(56, room)) t = t.slice(0, -2) + "…"; return t.replace(/…+/, "…"); };
+  const room = turned ? top - 8 : (width - 120) / Math.max(1, columns.length - 1) - 8;
+  const fit = (words) => { let t = words; while (t.length > 4 && pen.measureText(t).width > room) t = t.slice(0, -2) + "…"; return t.replace(/…+/, "…"); };
+  const upright = (words, at, y, align) => { pen.save(); pen.translate(at, y); pen.rotate(-Math.PI / 2); pen.textAlign = align; pen.fillText(words, 0, 0); pen.restore(); };
   columns.forEach((c, k) => {
     pen.strokeStyle = style("--muted"); pen.lineWidth = 1; pen.beginPath(); pen.moveTo(x(k), top); pen.lineTo(x(k), top + h); pen.stroke();
     const limits = shown.limits[k];
     if (limits) { pen.fillStyle = style("--accent"); pen.fillRect(x(k) - 3, top + h * (1 - limits[1]), 6, Math.max(2, h * (limits[1] - limits[0]))); }
+    const ink = style(c.kind === "key" ? "--accent" : "--text");
+    if (turned) {
+      pen.fillStyle = ink; upright(fit(c.name), x(k) - 3, top - 5, "left");
+      pen.fillStyle = style("--muted"); upright(atEnd(c, 1), x(k) + 11, top - 5, "left"); upright(atEnd(c, 0), x(k) + 4, top + h + 5, "right");
+      return;
+    }
     pen.textAlign = k === 0 ? "left" : k === columns.length - 1 ? "right" : "center";
     const at = k === 0 ? 4 : k === columns.length - 1 ? width - 4 : x(k);
-    pen.fillStyle = style(c.kind === "key" ? "--accent" : "--text"); pen.fillText(fit(c.name), at, 13);
+    pen.fillStyle = ink; pen.fillText(fit(c.name), at, 13);
     pen.fillStyle = style("--muted"); pen.fillText(atEnd(c, 1), at, 27); pen.fillText(atEnd(c, 0), at, height - 5);
   });
 }
+
+// A name that may be broken after its points and underscores.
+const breakable = (name) => name.split(/(?<=[._])/).flatMap((part) => [part, document.createElement("wbr")]);
 
 function fillTable() {
   const heads = [{ name: "point", of: (r) => r.point }, ...columns.map((c) => ({ name: c.label, about: c.about, of: c.of }))];
   const head = document.createElement("tr");
   heads.forEach((h, k) => {
     const cell = document.createElement("th"), button = document.createElement("button");
-    button.textContent = h.name + (shown.sort === k ? (shown.falls ? " ▼" : " ▲") : ""); button.title = h.about || "sort";
+    button.append(...breakable(h.name), shown.sort === k ? (shown.falls ? " ▼" : " ▲") : ""); button.title = h.about || "sort";
     button.onclick = () => { shown.falls = shown.sort === k && !shown.falls; shown.sort = k; fillTable(); };
     cell.setAttribute("aria-sort", shown.sort !== k ? "none" : shown.falls ? "descending" : "ascending");
     cell.append(button); head.append(cell);
@@ -187,7 +199,7 @@ function choose(row, opens) {
   $("open").hidden = !row.page;
   if (row.page) $("open").href = row.page;
   $("command").textContent = row.command; $("command").hidden = $("copy").hidden = Boolean(row.page);
-  $("values").replaceChildren(...columns.map((c) => { const line = document.createElement("tr"), th = document.createElement("th"), td = document.createElement("td"); th.textContent = c.label; th.title = c.about || ""; td.textContent = text(row.cells[c.k]); line.append(th, td); return line; }));
+  $("values").replaceChildren(...columns.map((c) => { const line = document.createElement("tr"), th = document.createElement("th"), td = document.createElement("td"); th.append(...breakable(c.label)); th.title = c.about || ""; td.textContent = text(row.cells[c.k]); line.append(th, td); return line; }));
   state.point = row.point; state.opened = opens && row.page || "";
   if (opens && row.page) window.open(row.page, "_blank");
   drawMap(); drawLines();

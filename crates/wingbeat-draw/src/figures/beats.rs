@@ -9,7 +9,9 @@ use super::strokes::{downstrokes, stroke};
 use super::style::Look;
 use super::units::{force_unit, prefix, scaled};
 use wingbeat_results::History;
-use wingbeat_results::summary::{BeatMeans, air_force, down, driving_power, driving_power_name};
+use wingbeat_results::summary::{
+    BeatMeans, LEFT_OUT, air_force, down, driving_power, driving_power_name,
+};
 
 /// What is drawn: name of the axis, over time, number and mean of every beat.
 type Quantity = (String, Vec<f64>, Vec<[f64; 2]>);
@@ -62,8 +64,8 @@ fn quantities(setup: &FlightSetup, history: &History, beats: &[BeatMeans]) -> Ve
     list
 }
 
-/// The phase mean of the wingbeats with its spread, and the last wingbeat; of fewer than three
-/// wingbeats, each. Dashed: the mean of the last.
+/// The phase mean of the wingbeats that the summary's means are of, with its spread, and the last wingbeat; of fewer than
+/// three of them, the last two. Dotted: the mean of the last.
 fn over_phase(
     setup: &FlightSetup,
     history: &History,
@@ -75,8 +77,8 @@ fn over_phase(
         .map(|m| (m[0], beat(x, values, m[0])))
         .filter(|b| b.1.len() > 2)
         .collect();
-    // The first wingbeat of a flight starts from rest.
-    let later: Vec<&(f64, Vec<[f64; 2]>)> = beats.iter().filter(|b| b.0 > 1.0).collect();
+    let counts = |b: &&(f64, Vec<[f64; 2]>)| b.0 > LEFT_OUT as f64;
+    let later: Vec<&(f64, Vec<[f64; 2]>)> = beats.iter().filter(counts).collect();
     let (mut curves, mut bands) = (vec![], vec![]);
     if later.len() > 2 {
         let spread = spread(&later);
@@ -93,7 +95,7 @@ fn over_phase(
     let [number, last] = means[means.len() - 1];
     let ends = vec![[0.0, last], [1.0, last]];
     let mut mean = plot::curve("its mean", ends, COLOURS[1], 1, look);
-    mean.stroke.dash = &[5.0, 2.0];
+    mean.stroke.dash = &[1.5, 1.5];
     let inside = curves.iter().flat_map(|c| &c.points).map(|p| p[1]);
     let edges = bands
         .iter()
@@ -123,7 +125,7 @@ fn last_beats(beats: &[(f64, Vec<[f64; 2]>)], many: bool, look: &Look) -> Vec<Cu
             &format!("beat {number}"),
             points.clone(),
             colour,
-            n + 1,
+            if many { 1 } else { n },
             look,
         ));
     }
@@ -185,6 +187,33 @@ fn over_beats((label, _, means): &Quantity, look: &Look) -> Plot {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::figures::Style;
+    use wingbeat_case::LoadedCase;
+    use wingbeat_results::columns::Columns;
+
+    /// Of many wingbeats those that the summary counts, of few the last two; no two lines with one dash on paper.
+    #[test]
+    fn exact_beats_are_those_of_the_summary_and_lines_differ() {
+        let setup = LoadedCase::find("fruit-fly-blade", &[]).unwrap().setup;
+        let columns = Columns::new(&setup, false).unwrap();
+        let look = Style::Paper.look();
+        for (count, labels) in [
+            (6, &["mean of 3 to 6, ± spread", "beat 6", "its mean"]),
+            (3, &["beat 2", "beat 3", "its mean"]),
+        ] {
+            let x: Vec<f64> = (0..=20 * count).map(|k| k as f64 / 20.0).collect();
+            let history = History::of(&columns, &vec![columns.blank(); x.len()]);
+            let means = (1..=count).map(|k| [k as f64, 0.0]).collect();
+            let quantity = ("power [W]".to_owned(), vec![0.0; x.len()], means);
+            let plot = over_phase(&setup, &history, &x, &quantity, &look);
+            let found: Vec<&str> = plot.curves.iter().map(|c| &c.label[..]).collect();
+            assert_eq!(found, labels);
+            for (k, a) in plot.curves.iter().enumerate() {
+                let others = &plot.curves[k + 1..];
+                assert!(others.iter().all(|b| b.stroke.dash != a.stroke.dash));
+            }
+        }
+    }
 
     /// Three beats of a ramp, one higher, one lower than the middle one by 1: spread 1 at every phase.
     #[test]

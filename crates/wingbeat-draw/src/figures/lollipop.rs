@@ -29,6 +29,8 @@ struct Chord {
     leading: [f64; 2],
     trailing: [f64; 2],
     force: [f64; 2],
+    /// As [`level`].
+    level: f64,
 }
 
 /// The figure of the last whole beat of this part; none for wings that do not flap.
@@ -90,6 +92,7 @@ fn chord(setup: &FlightSetup, history: &History, poses: &Poses, k: usize) -> Cho
         leading: turned(section.leading, level),
         trailing: turned(section.trailing, level),
         force: turned(force, level),
+        level,
     }
 }
 
@@ -183,12 +186,14 @@ fn draw(setup: &FlightSetup, chords: &[Vec<Chord>; 2], when: &str, look: &Look) 
     );
     plot::title(&mut drawing, &title, look);
     let mut top = look.head();
-    for (half, name) in ["downstroke →", "← upstroke"].iter().enumerate() {
+    let leans = all().map(|c| c.level.sin().abs()).fold(0.0, f64::max);
+    let (names, along) = words(leans);
+    for (half, name) in names.iter().enumerate() {
         top += above;
-        let along = format!("along the stroke, forward [{}m]", scales.unit);
+        let along = format!("{along} [{}m]", scales.unit);
         let plot = Plot {
             x_label: if half == 1 { along } else { String::new() },
-            y_label: format!("{name}   up [{}m]", scales.unit),
+            y_label: format!("up [{}m]", scales.unit),
             x,
             y,
             ..Plot::default()
@@ -200,6 +205,8 @@ fn draw(setup: &FlightSetup, chords: &[Vec<Chord>; 2], when: &str, look: &Look) 
             height,
         };
         let axes = plot.draw(&mut drawing, area, look);
+        let middle = [left + 0.5 * width, top - 0.55 * look.font];
+        drawing.text(middle, name, look.font, Anchor::Middle);
         for chord in &chords[half] {
             draw_chord(&mut drawing, &axes, chord, &scales, look);
         }
@@ -209,6 +216,16 @@ fn draw(setup: &FlightSetup, chords: &[Vec<Chord>; 2], when: &str, look: &Look) 
         top += height + below[half];
     }
     drawing
+}
+
+/// Names of the half strokes and of the axis along, by how far the normal of the stroke plane leans from the vertical (its
+/// sine): strokes that are level go along this axis, steep ones across it.
+fn words(leans: f64) -> ([&'static str; 2], &'static str) {
+    const STEEP: f64 = std::f64::consts::FRAC_1_SQRT_2;
+    match leans < STEEP {
+        true => (["downstroke →", "← upstroke"], "along the stroke, forward"),
+        false => (["downstroke", "upstroke"], "across the stroke, forward"),
+    }
 }
 
 /// The longest arrow is as long as two chords.
@@ -311,5 +328,11 @@ mod tests {
         let normal = turned([0.0, 1.0], level);
         let n = stroke * DVec3::X; // N: forward, right, down
         assert!((normal[0] - n.x).abs() < 1e-12 && (normal[1] + n.z).abs() < 1e-12);
+        assert!(words(level.sin().abs()).1.starts_with("along"));
+        // A stroke up and down: forward is along the normal of its plane.
+        let level = super::level(DMat3::IDENTITY, DVec3::Z);
+        let forward = turned([0.0, 1.0], level);
+        assert!((forward[0] - 1.0).abs() < 1e-12 && forward[1].abs() < 1e-12);
+        assert!(words(level.sin().abs()).1.starts_with("across"));
     }
 }

@@ -98,9 +98,10 @@ impl Line {
         if self.from_start { self.first } else { 0.0 }
     }
 
-    /// Its largest value in size.
-    pub fn most(&self) -> f64 {
-        self.values.iter().fold(0.0, |a, v| a.max(v.abs()))
+    /// Its largest value in size, as it is shown.
+    fn way(&self) -> f64 {
+        let from = self.offset();
+        self.values.iter().fold(0.0, |a, v| a.max((v - from).abs()))
     }
 }
 
@@ -124,6 +125,13 @@ impl Measure {
         Self { floor, ..self }
     }
 
+    /// The same, left out where no line has more than the floor.
+    pub fn if_moving(mut self) -> Self {
+        let kept = Kept::Over(self.floor);
+        self.lines.iter_mut().for_each(|line| line.kept = kept);
+        self
+    }
+
     /// The same with the downstrokes of wing number `k` shaded.
     pub fn of_wing(self, k: usize) -> Self {
         Self {
@@ -142,12 +150,12 @@ impl Measure {
 
     /// The panel; none where no line is worth showing.
     fn panel(&self, setup: &FlightSetup, shades: &Shades) -> Option<Panel> {
-        let most = self.lines.iter().map(Line::most).fold(0.0, f64::max);
+        let most = self.lines.iter().map(Line::way).fold(0.0, f64::max);
         let kept = |line: &&Line| match line.kept {
             Kept::Always => true,
             Kept::NotZero => line.values.iter().any(|v| *v != 0.0),
             Kept::Over(least) => most > least,
-            Kept::Felt => line.most() > 1e-9 * most,
+            Kept::Felt => line.way() > 1e-9 * most,
         };
         let lines = self.lines.iter().filter(kept);
         let lines: Vec<(&str, Vec<f64>)> = lines

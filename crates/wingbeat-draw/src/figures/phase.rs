@@ -12,10 +12,15 @@ use super::units::{prefix, scaled};
 use super::wing_angles::wing_angles;
 use wingbeat_results::History;
 
+/// Least extent of the axes of angles of wings \[deg\]: some are held, and differ by rounding.
+const MIN_ANGLE: f64 = 1.0;
+
 /// Two quantities over time, with their names.
 struct Plane {
     x: (String, Vec<f64>),
     y: (String, Vec<f64>),
+    /// Least extent of its axes.
+    least: f64,
 }
 
 /// The figure; none where nothing moves. `note` says which part of the flight it is.
@@ -69,8 +74,8 @@ fn plot(plane: &Plane, look: &Look) -> Plot {
     Plot {
         x_label: plane.x.0.clone(),
         y_label: plane.y.0.clone(),
-        x: plot::range(plane.x.1.iter().copied()),
-        y: plot::range(plane.y.1.iter().copied()),
+        x: plot::at_least(plot::range(plane.x.1.iter().copied()), plane.least),
+        y: plot::at_least(plot::range(plane.y.1.iter().copied()), plane.least),
         curves: vec![curve],
         ..Plot::default()
     }
@@ -106,6 +111,7 @@ fn place(history: &History, name: &str, column: &str, sign: f64, size: f64) -> O
             format!("rate [{rate_unit}m/s]"),
             scaled(rate, sign / rate_scale),
         ),
+        least: 0.0,
     };
     (way > 1e-6 * size).then(plane)
 }
@@ -121,6 +127,7 @@ fn angle(history: &History, name: &str, column: &str) -> Option<Plane> {
     (ends[1] - ends[0] > 1e-4).then(|| Plane {
         x: (format!("{name} [deg]"), angle),
         y: ("rate [deg/s]".to_owned(), rate),
+        least: 0.0,
     })
 }
 
@@ -142,7 +149,32 @@ fn wing(setup: &FlightSetup, history: &History) -> Vec<Plane> {
     let plane = |(label, values): (String, Vec<f64>)| Plane {
         x: (format!("{name}: stroke φ [deg]"), degrees(&phi)),
         y: (format!("{label} [deg]"), degrees(&values)),
+        least: MIN_ANGLE,
     };
     let all = std::iter::once((feathering, psi)).chain(found.joint);
     all.map(plane).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use wingbeat_case::LoadedCase;
+    use wingbeat_results::columns::Columns;
+
+    /// The feathering of a wing that only bends is held.
+    #[test]
+    fn exact_axes_of_held_angles_do_not_show_rounding() {
+        let setup = LoadedCase::find("bird-cruise", &[]).unwrap().setup;
+        let columns = Columns::new(&setup, true).unwrap();
+        let records = [0.0, 1e-17].map(|noise| {
+            let mut record = columns.blank();
+            record.wing_angles.iter_mut().for_each(|a| a[2] = noise);
+            record
+        });
+        let history = History::of(&columns, &records);
+        let planes = wing(&setup, &history);
+        let look = crate::figures::Style::Screen.look();
+        let [low, high] = plot(&planes[0], &look).y;
+        assert!((high - low - MIN_ANGLE).abs() < 1e-9, "{low} {high}");
+    }
 }

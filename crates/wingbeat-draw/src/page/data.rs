@@ -15,12 +15,12 @@ const MAX_POINTS: usize = 3000;
 /// Room for what describes the scene beside its frames \[bytes\].
 const DESCRIPTION: usize = 5000;
 
-/// Title and data of the page in at most about `budget` bytes.
+/// Data of the page of a result under this name, in at most about `budget` bytes.
 pub(super) fn gather(
-    dir: &ResultDir,
+    (dir, name): (&ResultDir, &str),
     outcome: &Outcome,
     budget: usize,
-) -> Result<(String, String), IoError> {
+) -> Result<String, IoError> {
     let case = dir.case()?;
     let path = dir.join("history.csv");
     let every = case.output.history_every;
@@ -30,11 +30,14 @@ pub(super) fn gather(
     let (charts, group) = figures::charts(&case.setup, &path, rows, (part, MAX_POINTS))?;
     let summary = Summary::read(&case, &path, outcome)?;
     let mut head = json!({
-        "name": case.name,
+        "name": name,
         "description": case.raw.description,
         "version": dir.manifest()?.version,
         "outcome": words(outcome),
         "failed": reason(outcome),
+        "is_whole": *outcome == Outcome::Finished,
+        "verdict": summary.verdict.word(),
+        "verdict_reason": summary.verdict_reason,
         "summary": summary.to_text(),
         "case": case.text(),
         "period": case.setup.time.period,
@@ -51,7 +54,7 @@ pub(super) fn gather(
         scene.thinned(),
         plots(group, every)
     ));
-    Ok((case.name, inert(&head.to_string())))
+    Ok(inert(&head.to_string()))
 }
 
 const PRECISION: &str =

@@ -57,25 +57,31 @@ const GAP: char = '\0';
 /// # Errors
 /// A result that cannot be read or a page that cannot be written.
 pub fn write(dir: &ResultDir, outcome: &Outcome, most_bytes: usize) -> Result<PathBuf, IoError> {
-    let (title, data) = data::gather(dir, outcome, most_bytes.saturating_sub(program_bytes()))?;
-    let [before, after] = program(&title);
+    let name = dir.case()?.name;
+    let data = data::gather(
+        (dir, &name),
+        outcome,
+        most_bytes.saturating_sub(program_bytes()),
+    )?;
+    let [before, after] = program(&name);
     let page = [before, data, after].concat();
     dir.write(FILE, page.as_bytes())?;
     Ok(dir.join(FILE))
 }
 
 /// Two flights beside each other as one page of at most `most_bytes`, which keeps their times and
-/// views together.
+/// views together. Flights of one name are told apart by their directories.
 ///
 /// # Errors
 /// A result that cannot be read.
 pub fn pair(dirs: [&ResultDir; 2], most_bytes: usize) -> Result<String, IoError> {
     let room = most_bytes.saturating_sub(program_bytes()) / 2;
-    let [first, second] = dirs.map(|dir| {
+    let [a, b] = told_apart(dirs)?;
+    let data = |dir: &ResultDir, name: &str| {
         let outcome = dir.manifest()?.outcome;
-        data::gather(dir, &outcome, room)
-    });
-    let [(a, first), (b, second)] = [first?, second?];
+        data::gather((dir, name), &outcome, room)
+    };
+    let [first, second] = [data(dirs[0], &a)?, data(dirs[1], &b)?];
     let title = format!("{a} and {b}");
     let json = |parts: [String; 2]| data::inert(&serde_json::json!(parts).to_string());
     Ok(fill(
@@ -87,6 +93,15 @@ pub fn pair(dirs: [&ResultDir; 2], most_bytes: usize) -> Result<String, IoError>
             ("data", &json([first, second])),
         ],
     ))
+}
+
+/// The names of two flights, with their directories where they are alike.
+fn told_apart(dirs: [&ResultDir; 2]) -> Result<[String; 2], IoError> {
+    let names = [dirs[0].case()?.name, dirs[1].case()?.name];
+    if names[0] != names[1] {
+        return Ok(names);
+    }
+    Ok(dirs.map(|dir| format!("{}: {}", dir.path().display(), names[0])))
 }
 
 /// Size of everything but the data.

@@ -5,8 +5,8 @@ use serde::{Deserialize, Serialize};
 use super::beats::BeatMeans;
 use super::estimate::{Estimate, FEWEST, correlation, moments};
 
-/// Beats at the start that are left out: the wake comes up.
-pub(super) const LEFT_OUT: usize = 2;
+/// Beats at the start that means over wingbeats leave out: the wake comes up.
+pub const LEFT_OUT: usize = 2;
 
 /// A change of the force from the first half of the beats to the second, in parts of it, that is none.
 const NO_CHANGE: f64 = 0.01;

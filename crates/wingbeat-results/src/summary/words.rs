@@ -199,8 +199,30 @@ pub(super) fn steadiness(means: &ManyBeats) -> String {
     )
 }
 
+impl Estimate {
+    /// Its mean and its error, if it has one, in the prefix that suits the larger of them: `4.8065 +- 0.0021 W`.
+    pub fn in_words(&self, unit: &str) -> String {
+        const DIGITS: usize = 4;
+        let error = self.standard_error;
+        let (scale, prefix) = prefix(self.mean.abs().max(error.unwrap_or(0.0)));
+        let number = |x: f64| fixed(x / scale, DIGITS);
+        let error = error.map_or(String::new(), |e| format!(" +- {}", number(e)));
+        format!("{}{error} {}{unit}", number(self.mean), prefix.trim())
+    }
+}
+
 /// A number with a prefix that leaves one to three digits before the point.
 fn engineering(x: f64, unit: &str) -> String {
+    if x.abs() >= 1e6 {
+        return format!("{x:8.2e}  {unit}");
+    }
+    let x = if x.abs() < 1e-12 { 0.0 } else { x };
+    let (scale, prefix) = prefix(x);
+    format!("{:>8} {prefix}{unit}", fixed(x / scale, 3))
+}
+
+/// The factor and the letter of the prefix for this magnitude; a blank where there is none.
+fn prefix(x: f64) -> (f64, &'static str) {
     const PREFIXES: [(f64, &str); 6] = [
         (1e3, "k"),
         (1.0, " "),
@@ -209,13 +231,8 @@ fn engineering(x: f64, unit: &str) -> String {
         (1e-9, "n"),
         (1e-12, "p"),
     ];
-    if x.abs() >= 1e6 {
-        return format!("{x:8.2e}  {unit}");
-    }
-    let x = if x.abs() < 1e-12 { 0.0 } else { x };
     let fits = |p: &&(f64, &str)| x.abs() >= p.0;
-    let (scale, prefix) = PREFIXES.iter().find(fits).copied().unwrap_or((1.0, " "));
-    format!("{:>8} {prefix}{unit}", fixed(x / scale, 3))
+    PREFIXES.iter().find(fits).copied().unwrap_or((1.0, " "))
 }
 
 /// Text broken at 92 columns, continued under the first word.
@@ -245,6 +262,15 @@ mod tests {
         assert_eq!(engineering(9.24e-6, "N").trim(), "9.240 uN");
         assert_eq!(engineering(0.0, "W").trim(), "0.000  W");
         assert_eq!(engineering(-2.5e60, "N").trim(), "-2.50e60  N");
+        let estimate = |mean, standard_error| Estimate {
+            mean,
+            standard_error,
+        };
+        assert_eq!(estimate(4.80653, None).in_words("W"), "4.8065 W");
+        let fly = estimate(9.24e-6, Some(2.5e-8)).in_words("N");
+        assert_eq!(fly, "9.2400 +- 0.0250 uN");
+        let none = estimate(1e-9, Some(2e-6)).in_words("N");
+        assert_eq!(none, "0.0010 +- 2.0000 uN");
         let text = wrapped("  - ", &"word ".repeat(30));
         assert!(
             text.lines().count() == 2 && text.lines().all(|l| l.len() <= 92 && !l.ends_with(' '))

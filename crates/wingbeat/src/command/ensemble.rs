@@ -68,8 +68,8 @@ fn show(report: &mut Report, name: &str, found: &Ensemble) {
         "\n  {:<9}{:>24}{:>26}{:>26}{:>12}",
         "beat",
         "lift over weight",
-        "forward, uN",
-        "power, uW",
+        "forward",
+        "power",
         "spread, %"
     );
     for b in &found.beats {
@@ -93,20 +93,17 @@ fn show(report: &mut Report, name: &str, found: &Ensemble) {
 }
 
 fn row(report: &mut Report, name: &str, b: &EnsembleBeat) {
-    let cell = |e: &Estimate, scale: f64, digits: usize| {
-        let mean = scale * e.mean;
-        match e.standard_error {
-            Some(error) => format!("{mean:.digits$} +- {:.digits$}", scale * error),
-            None => format!("{mean:.digits$}"),
-        }
+    let ratio = |e: &Estimate| match e.standard_error {
+        Some(error) => format!("{:.5} +- {error:.5}", e.mean),
+        None => format!("{:.5}", e.mean),
     };
     let lift = b.lift_over_weight.as_ref();
     line!(
         report,
         "  {name:<9}{:>24}{:>26}{:>26}{:>12.4}",
-        lift.map_or_else(|| "-".to_owned(), |e| cell(e, 1.0, 5)),
-        cell(&b.thrust_newton, 1e6, 4),
-        cell(&b.power_watt, 1e6, 3),
+        lift.map_or_else(|| "-".to_owned(), ratio),
+        b.thrust_newton.in_words("N"),
+        b.power_watt.in_words("W"),
         100.0 * b.spread
     );
 }

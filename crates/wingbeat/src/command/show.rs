@@ -97,7 +97,7 @@ fn tell_keys(report: &mut Report, dirs: [&PathBuf; 2], keys: &[Difference]) {
         let or_none = |value: &Option<String>| value.clone().unwrap_or_else(|| "-".to_owned());
         line!(
             report,
-            "  {:<36}{:>14}  {:>14}",
+            "  {:<36}  {:>14}  {:>14}",
             d.key,
             or_none(&d.first),
             or_none(&d.second)
@@ -120,7 +120,8 @@ fn tell_numbers(report: &mut Report, rows: &[(String, f64, f64)]) {
         "of the first"
     );
     for (what, a, b) in rows {
-        let part = (b - a) / a.abs();
+        let difference = difference(*a, *b);
+        let part = difference / a.abs();
         let part = match part.is_finite() {
             true => format!("{}%", fixed(100.0 * part, 2)),
             false => "-".to_owned(),
@@ -130,12 +131,22 @@ fn tell_numbers(report: &mut Report, rows: &[(String, f64, f64)]) {
             "{what:<38}{:>14.5e}{:>14.5e}{:>14.5e}{part:>14}",
             a + 0.0,
             b + 0.0,
-            b - a + 0.0
+            difference + 0.0
         );
     }
     let numbers = rows.iter();
     let numbers = numbers.map(|(what, a, b)| json!({ "what": what, "first": a, "second": b }));
     report.value("numbers", numbers.collect::<Vec<_>>());
+}
+
+/// Of the second number to the first; none within rounding.
+fn difference(first: f64, second: f64) -> f64 {
+    const ROUNDING: f64 = 1e-14;
+    let difference = second - first;
+    match difference.abs() <= ROUNDING * first.abs() {
+        true => 0.0,
+        false => difference,
+    }
 }
 
 /// Verdicts, and means over wingbeats with their errors.

@@ -118,6 +118,27 @@ fn behaves_two_flights_keep_step() {
         "an existing page was replaced"
     );
     browser.open(&scratch.0.join("pair.html"), "");
+    // Both are of one case: their directories tell them apart. The theme is what the link says, or the browser.
+    let names = "[document.title, document.documentElement.dataset.theme, ...frames.map((f) => f.src.split('#')[1])]";
+    let told = browser.value(names);
+    let title = told[0].as_str().unwrap();
+    assert!(
+        title.starts_with("a: ") && title.contains(" and b: "),
+        "{title}"
+    );
+    assert!(
+        told[2]
+            .as_str()
+            .unwrap()
+            .contains(&format!("theme={}", told[1].as_str().unwrap()))
+    );
+    browser.open(&scratch.0.join("pair.html"), "theme=light&frame=3");
+    let told = browser.value(names);
+    assert_eq!(told[1], "light");
+    assert_eq!(
+        (&told[2], &told[3]),
+        (&json!("theme=light&frame=3&narrow=1"), &told[2])
+    );
     // Frames made from blobs have no origin: what they tell is all that is seen of them.
     browser.value("window.seen = []; window.addEventListener('message', ({ source, data }) => seen.push([frames.findIndex((f) => f.contentWindow === source), data.shown.x]))");
     // What the second is told it shows, and says so when it is drawn anew (here: for another size).

@@ -10,6 +10,7 @@ mod drawn;
 mod support;
 
 use browser::Browser;
+use serde_json::json;
 use support::{Scratch, flown, required, wingbeat};
 use wingbeat::results::frames::{self, Frame};
 
@@ -136,7 +137,10 @@ fn behaves_any_description_is_shown() {
     let Some(mut browser) = started(&scratch, &[]) else {
         return;
     };
-    let words = "<!--<script>alert(1)</script> & \"quotes\" -->";
+    let words = &format!(
+        "<!--<script>alert(1)</script> & \"quotes\" -->{}",
+        " and so on".repeat(40)
+    );
     let args = [
         "run",
         "fruit-fly-vacuum",
@@ -152,6 +156,10 @@ fn behaves_any_description_is_shown() {
     browser.open(&scratch.0.join("run/flight.html"), "");
     let about = browser.value("document.getElementById('about').textContent");
     assert!(about.as_str().unwrap().starts_with(words), "{about}");
+    // However long it is, the verdict and how the flight ended stand before it, whole.
+    let seen = browser.value("['verdict', 'outcome'].map((id) => { const e = document.getElementById(id), box = e.getBoundingClientRect(); return box.left >= 0 && box.right <= innerWidth && e.scrollWidth <= e.clientWidth + 1 ? e.textContent : ''; })");
+    let level = browser.value("flight.summary.split(':')[0]");
+    assert_eq!(seen, json!([level, "flown to its end"]));
     content(&mut browser);
 }
 

@@ -51,10 +51,12 @@ pub(crate) fn run(args: &FlutterArgs) -> Result<(), Failure> {
     };
     args.report.deliver([], |report, []| {
         let case = LoadedCase::find(&args.case, &args.set)?;
-        head(report, &case.name);
         let mut found: Vec<Condition> = vec![];
         for speed in args.speeds.values() {
             let next = watched("flutter", || condition(&case.setup, speed, &settings))?;
+            if found.is_empty() {
+                head(report, &case.name);
+            }
             tell(report, &next);
             found.push(next);
             report.value("speeds", found.iter().map(values).collect::<Vec<_>>());
