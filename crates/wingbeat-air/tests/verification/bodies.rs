@@ -137,18 +137,20 @@ fn exact_added_mass_of_a_spheroid() {
     }
 }
 
+/// On a circle of radius 3, an angle of 1 in unit time, without turning.
+fn circling(nodes: &[DVec3], t: f64) -> NodeMotion {
+    let (s, c) = t.sin_cos();
+    let (path, velocity) = (3.0 * DVec3::new(c, s, 0.0), 3.0 * DVec3::new(-s, c, 0.0));
+    translating(nodes.iter().map(|x| *x + path).collect(), velocity)
+}
+
 /// A sphere on a circular path feels half its displaced mass times the centripetal acceleration:
 /// the pressure of a moving, not only an accelerated, body.
 #[test]
 fn exact_force_on_a_sphere_on_a_circle() {
     let (lattice, nodes) = ellipsoid(6, DVec3::ONE, DVec3::new(0.2, 0.0, 0.1));
-    let motion = |t: f64| {
-        let (s, c) = t.sin_cos();
-        let (path, velocity) = (3.0 * DVec3::new(c, s, 0.0), 3.0 * DVec3::new(-s, c, 0.0));
-        translating(nodes.iter().map(|x| *x + path).collect(), velocity)
-    };
     let dt = 0.02;
-    let run = fly(&lattice, motion, dt, 3, |_, _, _, _| {}).unwrap();
+    let run = fly(&lattice, |t| circling(&nodes, t), dt, 3, |_, _, _, _| {}).unwrap();
     let t = 3.0 * dt - 0.5 * dt; // backward differences belong to the middle of the step
     let exact = 0.5 * RHO * volume(DVec3::ONE) * 3.0 * DVec3::new(t.cos(), t.sin(), 0.0);
     let error = (total_force(&run.loads) - exact).length() / exact.length();
@@ -168,12 +170,7 @@ fn exact_no_force_along_the_path_of_a_circling_sphere() {
     };
     let lattice = Lattice::new(lattice.surfaces().to_vec(), settings).unwrap();
     let along = |dt: f64| {
-        let motion = |t: f64| {
-            let (s, c) = t.sin_cos();
-            let (path, velocity) = (3.0 * DVec3::new(c, s, 0.0), 3.0 * DVec3::new(-s, c, 0.0));
-            translating(nodes.iter().map(|x| *x + path).collect(), velocity)
-        };
-        let run = fly(&lattice, motion, dt, 4, |_, _, _, _| {}).unwrap();
+        let run = fly(&lattice, |t| circling(&nodes, t), dt, 4, |_, _, _, _| {}).unwrap();
         let (s, c) = (4.0 * dt).sin_cos();
         let displaced = RHO * volume(DVec3::ONE) * 3.0;
         total_force(&run.loads).dot(DVec3::new(-s, c, 0.0)).abs() / displaced
