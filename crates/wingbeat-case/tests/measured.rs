@@ -87,9 +87,12 @@ fn invariant_a_fit_of_several_beats_is_that_of_one() {
     }
 }
 
+/// A point by phase, row and place in the row, and where it stands.
+type Change<'a> = &'a dyn Fn(usize, usize, usize, [f64; 3]) -> [f64; 3];
+
 #[test]
 fn behaves_surfaces_in_another_order_and_lost_phases_are_named() {
-    let surface = |change: &dyn Fn(usize, usize, usize, [f64; 3]) -> [f64; 3]| {
+    let surface = |change: Change<'_>| {
         let point = |t: usize, i: usize, j: usize| {
             let bent = 1e-4 * (TAU * t as f64 / 20.0).sin() * j as f64;
             let x = change(
@@ -119,7 +122,7 @@ fn behaves_surfaces_in_another_order_and_lost_phases_are_named() {
         fly(&[set]).doubtful_measurements().join("\n")
     };
     assert_eq!(surface(&|_, _, _, x| x), "");
-    let cases: [(&str, &dyn Fn(usize, usize, usize, [f64; 3]) -> [f64; 3]); 4] = [
+    let cases: [(&str, Change<'_>); 4] = [
         ("from the tip to the root", &|_, _, _, [x, y, z]| {
             [x, 2.4e-3 - y, z]
         }),
