@@ -213,6 +213,7 @@ def test_behaves_a_motion_of_all_angles_replaces_the_data(blade, wing):
     assert "data" in blade.with_motion(phi_deg=cosine, psi_deg=-sine).case.motion
 
 
+@pytest.mark.timed
 def test_behaves_a_look_costs_less_than_a_tenth_of_a_millisecond(blade):
     flight = blade.set("time.beats", 20)
     nothing = flight.with_controller(lambda _: wingbeat.Adjustment(), every_steps=4)

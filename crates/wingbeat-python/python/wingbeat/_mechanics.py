@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
 from wingbeat import _core
 from wingbeat._own import Adjustment
@@ -140,10 +140,14 @@ class WakeModel:
     """Modes of M."""
 
 
-class _Trimmed:
+_Core = TypeVar("_Core", bound="_core.Trim | _core.WakeTrim")
+
+
+class _Trimmed(Generic[_Core]):
     """What trims in any air have: the point found, converged or not."""
 
-    _core: _core.Trim | _core.WakeTrim
+    def __init__(self, core: _Core) -> None:
+        self._core: _Core = core
 
     def __repr__(self) -> str:
         found = "converged" if self.converged else "NOT converged"
@@ -208,15 +212,10 @@ class _Trimmed:
         raise AnalysisError(f"the flight is not trimmed: largest residual {abs(self.residual).max():.1e}", remedy=remedy)
 
 
-class Trim(_Trimmed):
+class Trim(_Trimmed[_core.Trim]):
     """Steady flight as a periodic orbit of the full model: the point found, converged or not. What is derived from it
     (stability, derivatives, power) is refused if it is not as asked.
     """
-
-    _core: _core.Trim
-
-    def __init__(self, core: _core.Trim) -> None:
-        self._core = core
 
     @property
     def iterations(self) -> int:
@@ -266,15 +265,10 @@ class Trim(_Trimmed):
         )
 
 
-class WakeTrim(_Trimmed):
+class WakeTrim(_Trimmed[_core.WakeTrim]):
     """Steady flight in air with a memory: a wingbeat that changes nothing but the place, after wingbeats in which the body was
     held while its wake grew; the point found, converged or not.
     """
-
-    _core: _core.WakeTrim
-
-    def __init__(self, core: _core.WakeTrim) -> None:
-        self._core = core
 
     @property
     def iterations(self) -> int:

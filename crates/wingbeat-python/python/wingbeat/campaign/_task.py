@@ -76,7 +76,7 @@ def _flown(flight: Flight, keep: Sequence[str], last: int | None) -> dict[str, A
     return numbers
 
 
-def _trimmed(flight: Flight, options: dict[str, float]) -> dict[str, Any]:
+def _trimmed(flight: Flight, options: dict[str, Any]) -> dict[str, Any]:
     trim = flight.trim(**options)
     power = trim.power()
     numbers: dict[str, Any] = {name: getattr(power, name) for name in _names.POWER}
