@@ -177,8 +177,8 @@ fn exact_no_force_along_the_path_of_a_circling_sphere() {
     };
     let [coarse, fine] = [0.04, 0.02].map(along);
     println!("force along the path {coarse:.2e} {fine:.2e}");
-    // Backward differences of second order: the part along the path is of third order here.
-    assert!(fine < 1e-5 && order(coarse, fine) > 2.5);
+    // Backward differences of second order: the part along the path is of third order here; 9.5e-7 is found.
+    assert!(fine < 5e-6 && order(coarse, fine) > 2.5);
 }
 
 /// Added moment of inertia of a prolate spheroid about an axis across, over its displaced mass [Lamb art. 115]; with the fluid inside it
@@ -207,7 +207,8 @@ fn exact_added_moment_of_inertia_of_a_spheroid() {
         -run.loads.surfaces[0].moment.y / (acceleration * RHO * volume(axes) * exact) - 1.0
     });
     println!("added moment of inertia errors {errors:.4?}");
-    assert!(errors[1].abs() < 0.1 && order(errors[0], errors[1]) > 0.8);
+    // -0.008 is found; meshes converge at second order.
+    assert!(errors[1].abs() < 0.02 && order(errors[0], errors[1]) > 1.5);
 }
 
 /// A body that turns, seen at rest and from a moving observer: its inner fluid has the same force.

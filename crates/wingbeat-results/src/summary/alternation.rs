@@ -75,6 +75,11 @@ mod tests {
 
     /// Longest run of a force along n3 on one wing, the body beside it alternating all the time.
     fn longest(force: impl Fn(usize) -> f64, every: usize) -> usize {
+        longest_of(1, force, every)
+    }
+
+    /// The same where so many bodies behind the first count as wings.
+    fn longest_of(wings: usize, force: impl Fn(usize) -> f64, every: usize) -> usize {
         let mut seen = Alternation::default();
         for step in (0..400).step_by(every) {
             let of = |f: f64| LoadRecord {
@@ -87,7 +92,7 @@ mod tests {
                 air: vec![of(body), of(force(step))],
                 ..Record::default()
             };
-            seen.take(&record, 1);
+            seen.take(&record, wings);
         }
         seen.longest
     }
@@ -96,6 +101,7 @@ mod tests {
     fn limit_smooth_forces_do_not_alternate_and_growing_zigzags_do() {
         let smooth = |k: usize| (0.1 * k as f64).sin();
         assert_eq!(longest(smooth, 1), 0);
+        assert!(longest_of(0, smooth, 1) > 300); // without wings the body counts
         let zigzag = |k: usize| if k.is_multiple_of(2) { 1.0 } else { -1.0 };
         let growing = |k: usize| smooth(k) + 1e-6 * 1.05_f64.powi(k as i32) * zigzag(k);
         assert!(longest(growing, 1) > 50);
