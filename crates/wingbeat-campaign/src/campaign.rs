@@ -238,9 +238,9 @@ fn digest_of(raw: &RawCampaign, base: &LoadedCase, numbers: &[Number]) -> Sha256
     hash.update(Sha256::digest(base.text()));
     let tasks = (&raw.tasks, &raw.trim, &raw.keep, raw.mean_beats(), &raw.set);
     hash.update(format!("{tasks:?}\n"));
-    named::of_programs(base)
-        .iter()
-        .for_each(|program| hash.update(program));
+    if let Some(programs) = named::of_programs(base) {
+        hash.update(programs);
+    }
     if numbers.iter().any(|n| n.source.is_extreme()) {
         hash.update("extremes of the last wingbeats\n"); // they were those of the whole flight once
     }

@@ -22,7 +22,7 @@ mod evaluate;
 mod flight;
 mod lease;
 pub mod merge;
-mod named;
+pub mod named;
 mod netcdf;
 mod number;
 pub mod page;

@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use pyo3::prelude::*;
 use wingbeat::analysis::TrimSettings;
 use wingbeat::analysis::wake::WakeSettings;
+use wingbeat::campaign::named;
 use wingbeat::case::{IoError, LoadedCase};
 use wingbeat::flight::Snapshot;
 
@@ -104,6 +105,11 @@ impl Flight {
             self.base.clone(),
             sets,
         )
+    }
+
+    /// The hash of what is in the files that the commands of its programs name, in hexadecimal digits; empty where none are.
+    fn hash_of_programs(&self) -> String {
+        hexadecimal(named::of_programs(&self.case))
     }
 
     /// Under the controller `function`, which looks every `interval` steps; commands act `latency` looks later.
@@ -287,4 +293,18 @@ impl Flight {
         let found = wake::trim(py, &self.flight, problem, settings, case);
         found.map_err(|e| self.slot.take().unwrap_or(e))
     }
+}
+
+/// The hash of what is in the files that a key set to another value names (`line` is `KEY=VALUE`), in hexadecimal digits;
+/// empty where none are. `base` is the flight on which it is set: paths are relative to its folder.
+#[pyfunction]
+#[pyo3(signature = (line, base))]
+pub fn hash_of_files(line: &str, base: Option<&Flight>) -> String {
+    let (case, folder) = base.map_or((None, Path::new("")), |f| (Some(&f.case), &*f.base));
+    hexadecimal(named::content(line, case, folder))
+}
+
+fn hexadecimal(hash: Option<[u8; 32]>) -> String {
+    let bytes = hash.iter().flatten();
+    bytes.map(|byte| format!("{byte:02x}")).collect()
 }

@@ -43,7 +43,7 @@ mod _core {
     #[pymodule_export]
     use crate::fleet::Fleet;
     #[pymodule_export]
-    use crate::flight::Flight;
+    use crate::flight::{Flight, hash_of_files};
     #[pymodule_export]
     use crate::frame::Frame;
     #[pymodule_export]

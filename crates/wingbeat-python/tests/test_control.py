@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 import wingbeat
-from wingbeat import Adjustment, Flight
+from wingbeat import Adjustment, Flight, campaign
 
 PROGRAM = """import json, sys
 for line in sys.stdin:
@@ -106,3 +106,13 @@ def test_refuses_controllers_where_no_wing_steers(preset, keys, why):
         with pytest.raises(wingbeat.CaseError, match=why) as caught:
             fly()
         assert caught.value.key == "control" and caught.value.run is None
+
+
+def test_behaves_points_under_a_changed_program_are_flown_again(tmp_path):
+    def flown(answer: str) -> int:
+        flight = steered(Flight.preset("fruit-fly-blade"), tmp_path, answer, **{"sensors.seed": 1})
+        points = {"time.beats": [1]}
+        return campaign.map(points, campaign.Serial(), base=flight, keep=["power_watt"], out=tmp_path / "kept").flown
+
+    changed = '{"stroke_amplitude_rad": 0.01}'
+    assert [flown("{}"), flown("{}"), flown(changed), flown(changed)] == [1, 0, 1, 0]

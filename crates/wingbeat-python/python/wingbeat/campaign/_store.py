@@ -11,12 +11,12 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
-from wingbeat import _core
+from wingbeat import _core, _toml
 from wingbeat._flight import Flight
 from wingbeat.campaign._identity import of_part
 from wingbeat.campaign._points import Point
 from wingbeat.campaign._task import Found, Task
-from wingbeat.errors import ResultError
+from wingbeat.errors import CaseError, ResultError
 
 _FORMAT = 1
 _MOST = 1000
@@ -37,30 +37,27 @@ class Store:
         except OSError as e:
             raise _unwritten(self._folder, e) from e
         self._task = _digest(task)
-        source = task.base._source if isinstance(task.base, Flight) else None
-        self._beside = Path(source.base if source else "")
-        self._files: dict[tuple[Path, int, int], str] = {}
+        self._base = task.base._core if isinstance(task.base, Flight) else None
+        self._files: dict[str, str] = {}
         self._lines: list[str] = []
         self._known: dict[str, Found] = dict(self._read())
 
     def key(self, point: Point) -> str:
         """The hash of a point: of its values, and of what is in files that they name."""
         text = self._task + json.dumps(point, sort_keys=True)
-        for key in sorted(point):
-            if key.endswith(".file") and isinstance(point[key], str):
-                text += self._content(self._beside / point[key])
+        text += "".join(self._content(key, point[key]) for key in sorted(point))
         return hashlib.sha256(text.encode()).hexdigest()[:32]
 
-    def _content(self, path: Path) -> str:
-        """The hash of what is in a file; an empty text of one that cannot be read, which no case can name."""
+    def _content(self, key: str, value: Any) -> str:
+        """The hash of what is in files that a value names; an empty text where it names none."""
         try:
-            state = path.stat()
-            known = (path, state.st_mtime_ns, state.st_size)
-            if known not in self._files:
-                self._files[known] = hashlib.sha256(path.read_bytes()).hexdigest() if path.is_file() else ""
-            return self._files[known]
-        except OSError:
+            line = f"{key}={_toml.value(value, key)}"
+        except CaseError:  # a key that is taken out, or what a function of the user makes something of
             return ""
+        content = self._files.get(line) or _core.hash_of_files(line, self._base)
+        if content:
+            self._files[line] = content
+        return content
 
     def get(self, key: str) -> Found | None:
         """What is kept of a point."""
@@ -106,9 +103,11 @@ class Store:
 
 
 def _digest(task: Task) -> str:
-    """Everything that all points share: version, case, what is done, what is kept."""
+    """Everything that all points share: version, case, programs that it asks, what is done, what is kept."""
     base, do = of_part(task.base, "base"), of_part(task.do, "do")
     parts = [_FORMAT, _core.version(), base, do, task.keep, task.last_beats]
+    if isinstance(task.base, Flight):
+        parts.append(task.base._core.hash_of_programs())
     return hashlib.sha256(json.dumps(parts).encode()).hexdigest()
 
 
