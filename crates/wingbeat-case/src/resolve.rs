@@ -74,7 +74,8 @@ fn air(case: &mut AirCase) {
 
 /// The quaternion form where joints close loops, the momentum form else; Hamming's method with air,
 /// order eight without. What moves freely in a wake, as wings on passive hinges do, weighs little beside the air that
-/// moves with it: backward differences, which bear that. Elastic wings remember their shape, as air remembers its wakes.
+/// moves with it: backward differences, which bear that, and the vibrations of elastic wings on such joints, too. Elastic
+/// wings remember their shape, as air remembers its wakes.
 fn dynamics(case: &mut Case) {
     let children: Vec<&str> = case.joint.values().map(|j| j.child.as_str()).collect();
     let again = |k: usize| children[..k].contains(&children[k]);
@@ -89,6 +90,7 @@ fn dynamics(case: &mut Case) {
     case.dynamics.integrator.decide(match case.air.model {
         AirModel::None if !bends => IntegratorCase::OrderEight,
         AirModel::VortexLattice if has_free => IntegratorCase::Bdf,
+        _ if has_free && bends => IntegratorCase::Bdf,
         _ => IntegratorCase::Hamming,
     });
 }

@@ -465,7 +465,7 @@ impl Default for CorrectorSettings {
     fn default() -> Self {
         Self {
             tolerance: 1e-10,
-            max_passes: 30,
+            max_passes: 60,
             relaxation: 1.0,
         }
     }

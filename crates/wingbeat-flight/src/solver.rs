@@ -69,7 +69,13 @@ impl Solver {
                 let method = Hamming::new(step, convergence(c, equations), scales);
                 Self::Hamming(method.followed_by(equations.followers()))
             }
-            IntegratorChoice::Bdf => Self::Bdf(Bdf::new(step, convergence(c, equations), scales)),
+            IntegratorChoice::Bdf => {
+                let method = Bdf::new(step, convergence(c, equations), scales);
+                Self::Bdf(match equations.elastic.damping_on_joints() {
+                    Some(rho) => method.order_two(rho),
+                    None => method,
+                })
+            }
             IntegratorChoice::Adams => {
                 Self::Adams(AdamsBashforthMoulton::new(step, equations.dim()))
             }

@@ -42,12 +42,10 @@ pub fn stages(setup: &FlightSetup, law: &WingLaw<'_>) -> Result<Vec<Stage>, Flig
     let elastic = ElasticWings::new(&setup.animal, setup.gravity)?;
     let on_joints = !CarriedAir::new(&system, setup.animal.wings.len()).is_empty();
     let is_light = is_light_as_a_whole(setup, (&system, air.as_ref()))?;
-    let elastic = match on_joints || is_light {
-        true => Arc::new(elastic.on_light_bodies()),
-        false => Arc::new(elastic),
-    };
+    let elastic = Arc::new(elastic.carried_by(on_joints, is_light));
+    check_integrator(setup, &elastic)?;
     let mechanism = Mechanism::of(&system);
-    let carried = carried(setup, (&system, is_light), &elastic)?;
+    let carried = carried(setup, (&system, is_light), &elastic);
     let is_carried = !carried.is_empty() || ((on_joints || is_light) && !elastic.is_empty());
     let accelerated_from = accelerated_from(setup, is_carried);
     let stage = |from_step: usize, core: Core| Stage {
@@ -110,38 +108,42 @@ fn is_light_as_a_whole(
 /// The wings whose air joins the inertia of the bodies: of a flyer that is light as a whole all, else those on free joints. What
 /// bends has its answer to accelerations from the elastic side; where any wing bends, rigid wings on free joints are left to
 /// the passes, too.
-///
-/// # Errors
-/// Wings that bend on free joints, or on a flyer that is light as a whole, by `hamming`.
 fn carried(
     setup: &FlightSetup,
     (system, is_light): (&System, bool),
     elastic: &ElasticWings,
-) -> Result<CarriedAir, FlightError> {
+) -> CarriedAir {
     let AirModel::VortexLattice(options) = &setup.air else {
-        return Ok(CarriedAir::default());
+        return CarriedAir::default();
     };
     let wings = setup.animal.wings.len();
     let on_joints = CarriedAir::new(system, wings);
     if !elastic.is_empty() {
-        if setup.integrator == IntegratorChoice::Hamming && (is_light || !on_joints.is_empty()) {
-            return Err(FlightError::Setup {
-                key: "dynamics.integrator",
-                value: "hamming".into(),
-                problem: "with elastic wings, wings on free joints or on a body that weighs little beside the air carry air along that velocities over steps alone tell of, and by hamming these alternate from step to step: take bdf, or leave out [wing.NAME.structure]".into(),
-            });
-        }
-        return Ok(CarriedAir::default());
+        return CarriedAir::default();
     }
     let carried = match is_light {
         true => CarriedAir::of_all(wings),
         false => on_joints,
     }
     .in_stream(options.lattice.free_stream);
-    Ok(match options.mirror {
+    match options.mirror {
         true => carried.mirrored(&wing_pairs(&setup.animal)),
         false => carried,
-    })
+    }
+}
+
+/// # Errors
+/// Elastic wings on free joints, or on a flyer that is light as a whole, by `hamming`.
+fn check_integrator(setup: &FlightSetup, elastic: &ElasticWings) -> Result<(), FlightError> {
+    let is_hamming = setup.integrator == IntegratorChoice::Hamming;
+    match is_hamming && elastic.is_delicate() && !elastic.is_empty() {
+        true => Err(FlightError::Setup {
+            key: "dynamics.integrator",
+            value: "hamming".into(),
+            problem: "elastic wings on free joints, or on a body that weighs little beside the air, vibrate together with what carries them, and by hamming that grows from step to step: take bdf, or leave out [wing.NAME.structure]".into(),
+        }),
+        false => Ok(()),
+    }
 }
 
 /// A root that moves like `motion`: inverse dynamics where all joints are prescribed, the

@@ -1,6 +1,7 @@
 //! Orders and restart of the integrators on problems with closed solutions.
 
 use std::convert::Infallible;
+use std::ops::Range;
 
 use wingbeat_math::ode::{
     AdamsBashforthMoulton, AdaptiveError, Asked, Bdf, Convergence, Dop853, Hamming, Memoryless,
@@ -368,11 +369,16 @@ fn limit_of_hammings_stability_on_both_axes() {
 }
 
 #[test]
-fn order_bdf_is_four() {
+fn order_bdf_is_four_or_two() {
+    order_of_bdf("four", |method| method, 3.9..4.3);
+    order_of_bdf("two", |method| method.order_two(0.8), 1.9..2.2);
+}
+
+fn order_of_bdf(name: &str, of: fn(Bdf) -> Bdf, expected: Range<f64>) {
     let error = |steps: usize| {
         let h = 2.0 / steps as f64;
         let mut past = started(h);
-        let mut method = Bdf::new(h, CONVERGENCE, vec![1.0; 2]);
+        let mut method = of(Bdf::new(h, CONVERGENCE, vec![1.0; 2]));
         for n in 3..steps {
             let t = (n + 1) as f64 * h;
             let f = |y: &[f64], dy: &mut [f64]| {
@@ -384,8 +390,68 @@ fn order_bdf_is_four() {
         self::error(past.newest(), 2.0)
     };
     let s = slopes(error);
-    println!("BDF: {s:.2?}");
-    assert!(s.iter().all(|s| (3.9..4.3).contains(s)), "{s:?}");
+    println!("BDF of order {name}: {s:.2?}");
+    assert!(s.iter().all(|s| expected.contains(s)), "{s:?}");
+}
+
+/// Growth per step of an undamped vibration of the angular frequency `w` per step.
+fn growth_of_a_vibration(mut method: Bdf, w: f64) -> f64 {
+    let at = |k: i32| [(w * f64::from(k)).cos(), -w * (w * f64::from(k)).sin()];
+    let rates = |y: &[f64], dy: &mut [f64]| {
+        (dy[0], dy[1]) = (y[1], -w * w * y[0]);
+        Ok::<(), Infallible>(())
+    };
+    let mut past = Multistep::from_start(
+        std::array::from_fn(|k| at(k as i32).to_vec()),
+        std::array::from_fn(|k| {
+            let mut dy = vec![0.0; 2];
+            rates(&at(k as i32), &mut dy).expect("rates");
+            dy
+        }),
+    );
+    let size = |past: &Multistep| past.newest()[0].hypot(past.newest()[1] / w);
+    let mut sizes = vec![];
+    for _ in 0..200 {
+        method.advance(&mut past, rates).expect("a step");
+        sizes.push(size(&past));
+    }
+    (sizes[199] / sizes[99]).powf(0.01)
+}
+
+/// Roots of the characteristic polynomial of `y' = i w y`: of order four 1.0137 and 1.106 at 0.6 and 1. That of order two damps all
+/// vibrations, the fastest as is asked.
+#[test]
+fn exact_growth_of_vibrations_by_bdf() {
+    let method = Bdf::new(
+        1.0,
+        Convergence {
+            accelerated_from: Some(1),
+            ..CONVERGENCE
+        },
+        vec![1.0; 2],
+    );
+    for (w, grows) in [(0.6, 1.0137), (1.0, 1.106)] {
+        let found = growth_of_a_vibration(method.clone(), w);
+        assert!((found - grows).abs() < 1e-3, "{w}: {found}");
+    }
+    for w in [0.1_f64, 0.3, 0.6, 1.0, 2.0, 10.0] {
+        // (3 - 2 i w) z^2 - 4 z + 1 = 0: z = 1 / (2 - sqrt(1 + 2 i w)).
+        let root = (1.0 + 4.0 * w * w).sqrt();
+        let (re, im) = ((0.5 * (root + 1.0)).sqrt(), (0.5 * (root - 1.0)).sqrt());
+        let expected = 1.0 / (2.0 - re).hypot(im);
+        let found = growth_of_a_vibration(method.clone().order_two(0.0), w);
+        println!("{w}: {found} {expected}");
+        assert!(
+            (found - expected).abs() < 1e-3 && found < 1.0,
+            "{w}: {found} {expected}"
+        );
+        let light = growth_of_a_vibration(method.clone().order_two(0.8), w);
+        assert!(light < 1.0 && light > found, "{w}: {light}");
+    }
+    for rho in [0.5, 0.8] {
+        let found = growth_of_a_vibration(method.clone().order_two(rho), 1e3);
+        assert!((found - rho).abs() < 1e-3, "{rho}: {found}");
+    }
 }
 
 /// A step of either method.

@@ -151,14 +151,16 @@ impl ElasticWings {
             let all = self.wings.iter().zip(&mut s.wings);
             all.for_each(|(w, ws)| ws.carried = ws.carried_air(w));
         }
-        if s.unbalanced <= self.tolerance || is_exact || !s.is_stepping {
+        if s.unbalanced <= self.tolerance() || is_exact || !s.is_stepping {
             return Ok(true);
         }
         if !s.unbalanced.is_finite() {
             return Err(self.failed(at.time, s));
         }
-        // Answers at once, without a wake between, hardly change while bodies and wings are brought to agree.
-        let is_known = s.passes == 1 && s.has_answers && air.follows_accelerations();
+        // Answers at once, without a wake between, hardly change while bodies and wings are brought to agree; on free joints
+        // passes need to know them well.
+        let is_known = s.has_answers && air.follows_accelerations() && !self.on_joints;
+        let is_known = is_known && s.passes == 1;
         if s.passes % RENEWAL == 1 && !is_known {
             self.take_answers(at, (air, memory), s, air_scratch)?;
         }
@@ -171,7 +173,7 @@ impl ElasticWings {
             wings: self.wings.iter().map(|w| w.name.clone()).collect(),
             passes: s.passes,
             unbalanced: s.unbalanced,
-            tolerance: self.tolerance,
+            tolerance: self.tolerance(),
         }
     }
 

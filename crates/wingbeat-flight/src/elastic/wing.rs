@@ -30,6 +30,8 @@ pub struct ElasticWing {
     /// Sections that are recorded.
     pub(super) stations: [Station; 4],
     pub(super) method: GeneralizedAlpha,
+    /// Share of the fastest vibrations that it leaves from step to step \[1\].
+    pub(super) spectral_radius: f64,
     /// Mass properties at rest, as the multibody system has them.
     pub(super) rigid: MassProperties,
 }
@@ -80,6 +82,7 @@ impl ElasticWing {
             structure: body.structure,
             followers: body.followers,
             method,
+            spectral_radius: structure.spectral_radius,
         }))
     }
 

@@ -16,8 +16,10 @@ pub struct ElasticWings {
     /// Number of wings, elastic or not.
     count: usize,
     pub(super) gravity: DVec3,
-    /// Forces that are left unbalanced over those at the nodes \[1\].
-    pub(super) tolerance: f64,
+    /// Whether wings hang on free joints.
+    pub(super) on_joints: bool,
+    /// Whether they do, or the flyer is light as a whole: small moments of inertia turn small forces into accelerations.
+    is_delicate: bool,
 }
 
 impl ElasticWings {
@@ -32,15 +34,37 @@ impl ElasticWings {
             wings: wings.collect::<Result<_, _>>()?,
             count: animal.wings.len(),
             gravity,
-            tolerance: TOLERANCE,
+            on_joints: false,
+            is_delicate: false,
         })
     }
 
-    /// The same of an animal whose wings hang on free joints, or that is light as a whole.
-    pub fn on_light_bodies(self) -> Self {
+    /// The same of an animal whose wings hang on free joints, if `on_joints`, or that is light as a whole, if `is_light`.
+    pub fn carried_by(self, on_joints: bool, is_light: bool) -> Self {
         Self {
-            tolerance: FINE_TOLERANCE,
+            on_joints,
+            is_delicate: on_joints || is_light,
             ..self
+        }
+    }
+
+    /// Where free joints carry wings: the share \[1\] of the fastest vibrations that is to be left from step to step, the least that any
+    /// of the structures asks for. Such joints take part in vibrations far above one over the step.
+    pub fn damping_on_joints(&self) -> Option<f64> {
+        let radii = self.wings.iter().map(|w| w.spectral_radius);
+        self.on_joints.then(|| radii.reduce(f64::min)).flatten()
+    }
+
+    /// Whether wings hang on free joints, or the flyer is light as a whole.
+    pub fn is_delicate(&self) -> bool {
+        self.is_delicate
+    }
+
+    /// Forces that are left unbalanced over those at the nodes \[1\].
+    pub(super) fn tolerance(&self) -> f64 {
+        match self.is_delicate {
+            true => FINE_TOLERANCE,
+            false => TOLERANCE,
         }
     }
 
