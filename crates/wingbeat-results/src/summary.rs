@@ -3,6 +3,7 @@
 mod alternation;
 pub mod beats;
 mod comparison;
+mod driven;
 mod each_step;
 mod ensemble;
 mod estimate;
@@ -100,6 +101,7 @@ impl Summary {
             displacement_m: [0, 1, 2].map(|k| s.change(k)),
             turn_deg: [3, 4, 5].map(|k| s.change(k).to_degrees()),
             energy_residual_relative: energy_residual(each),
+            joint_residual_relative: joint_residual(each),
             momentum_residual_relative: momentum_residual(setup, each, s.last.time),
             violation_position_m: each.violation_position.most,
             violation_orientation: each.violation_orientation.most,
@@ -134,9 +136,20 @@ impl Summary {
 /// over: far above its round-off.
 const POTENTIAL_FLOOR: f64 = 1e-6;
 
-/// Largest residual over the largest of what is in play: kinetic energy, change of potential energy,
-/// works.
+/// What passive joints lose or gain beside their springs and dampers; 0 where there are none.
+fn joint_residual(s: &EachStep) -> f64 {
+    match s.passive_work.range() > 0.0 {
+        true => ratio(s.driven.residual.most, energy_scale(s)),
+        false => 0.0,
+    }
+}
+
 fn energy_residual(s: &EachStep) -> f64 {
+    ratio(s.energy_residual.most, energy_scale(s))
+}
+
+/// The largest of what residuals of the energy are measured by [J]: kinetic energy, change of potential energy, works.
+fn energy_scale(s: &EachStep) -> f64 {
     let works = [s.hinge_work, s.air_work, s.deformation_work, s.applied_work];
     let energies = [
         s.kinetic_energy.most,
@@ -144,8 +157,7 @@ fn energy_residual(s: &EachStep) -> f64 {
         POTENTIAL_FLOOR * s.potential_energy.most,
     ];
     let works = works.map(|w| w.most);
-    let scale = energies.into_iter().chain(works).fold(0.0, f64::max);
-    ratio(s.energy_residual.most, scale)
+    energies.into_iter().chain(works).fold(0.0, f64::max)
 }
 
 /// Largest residual over the largest of what is in play: the momentum, the impulse of the weight, and

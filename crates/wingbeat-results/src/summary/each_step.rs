@@ -7,6 +7,7 @@ use wingbeat_math::{DVec3, EulerSequence};
 use wingbeat_model::FlownCrossings;
 
 use super::alternation::Alternation;
+use super::driven::DrivenWork;
 use super::held::Departures;
 
 /// Ends of the range of a number, and its largest magnitude.
@@ -51,6 +52,8 @@ pub(crate) struct EachStep {
     pub(super) deformation_work: Extent,
     pub(super) applied_work: Extent,
     pub(super) energy_residual: Extent,
+    pub(super) passive_work: Extent,
+    pub(super) driven: DrivenWork,
     pub(super) momentum: Extent,
     pub(super) momentum_residual: Extent,
     pub(super) violation_position: Extent,
@@ -111,6 +114,8 @@ impl EachStep {
         self.deformation_work.take(r.deformation_work);
         self.applied_work.take(r.applied_work);
         self.energy_residual.take(r.energy_residual);
+        self.passive_work.take(r.passive_work);
+        self.driven.take(r);
         self.momentum.take(r.momentum.length());
         self.momentum_residual.take(r.momentum_residual.length());
         self.violation_position.take(r.violation_position);

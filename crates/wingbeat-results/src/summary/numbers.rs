@@ -43,6 +43,9 @@ pub struct Summary {
     pub turn_deg: [f64; 3],
     /// Largest energy residual over the largest energy or work in play \[1\].
     pub energy_residual_relative: f64,
+    /// What passive joints lose or gain beside their springs, dampers and stops, over the same \[1\]; 0 where there are none.
+    #[serde(default)]
+    pub joint_residual_relative: f64,
     /// Largest momentum residual over the largest impulse or momentum in play \[1\].
     pub momentum_residual_relative: f64,
     /// Largest violation of a connection constraint \[m\].
