@@ -55,7 +55,7 @@ impl Reference {
     /// # Errors
     /// Numbers that are not finite.
     pub fn trimmed(trim: &Trim) -> Result<Self, AnalysisError> {
-        let level = Level::new(trim.beat.root(&trim.state).r, trim.beat.gravity());
+        let level = Level::of(&trim.beat, &trim.state);
         Ok(Self {
             state: Perturbation::of(&trim.beat, &level, &trim.state),
             level,

@@ -33,6 +33,7 @@ pub mod control;
 mod departure;
 mod derivatives;
 mod design;
+mod disturbance;
 mod eigen;
 pub mod episode;
 mod error;

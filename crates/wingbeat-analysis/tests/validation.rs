@@ -253,11 +253,10 @@ fn balances_power_of_hover() {
     assert!((10.0..60.0).contains(&specific), "{specific} W/kg");
 }
 
-/// The trimmed flight disturbed by a tilt [rad] and a velocity [m/s].
+/// The trimmed flight disturbed.
 struct Disturbed<'a> {
     trim: &'a Trim,
-    tilt: DVec3,
-    velocity: DVec3,
+    by: Perturbation,
 }
 
 impl Disturbed<'_> {
@@ -269,7 +268,7 @@ impl Disturbed<'_> {
     /// The same in free flight, for `beats` wingbeats.
     fn setup(&self, feedback: Option<Feedback>, beats: usize) -> FlightSetup {
         let trim = Trim {
-            state: disturbed(self.trim, self.tilt, self.velocity),
+            state: disturbed(self.trim, &self.by),
             ..self.trim.clone()
         };
         let mut setup = trim.free();
@@ -280,7 +279,7 @@ impl Disturbed<'_> {
 
     /// Departures at the ends of the first `beats` wingbeats.
     fn flown(&self, controller: Option<Steering>, latency: usize, beats: usize) -> Vec<Departure> {
-        let start = disturbed(self.trim, self.tilt, self.velocity);
+        let start = disturbed(self.trim, &self.by);
         let mut flight = SteeredBeats::new(self.trim, start, controller, latency).unwrap();
         let beat = |_| {
             flight.beat().unwrap();
@@ -294,8 +293,7 @@ impl Disturbed<'_> {
 fn hundred_beats(t: &Trim, law: Option<Law>, latency: usize) -> [f64; 3] {
     let case = Disturbed {
         trim: t,
-        tilt: DVec3::new(0.0, 10.0_f64.to_radians(), 0.0),
-        velocity: DVec3::ZERO,
+        by: Perturbation::component(7, 10.0_f64.to_radians()),
     };
     let flown = case.flown(law.map(|law| case.steering(law)), latency, 100);
     let far = flown
@@ -338,8 +336,7 @@ fn balances_integral_action_takes_back_a_steady_load() {
         let law = Law::Regulator(Regulator::new(&t, &weights, 1).unwrap());
         let case = Disturbed {
             trim: &t,
-            tilt: DVec3::ZERO,
-            velocity: DVec3::ZERO,
+            by: Perturbation::default(),
         };
         let mut setup = case.setup(Some(case.steering(law).feedback(steps, 1)), 200);
         let force = 0.05 * t.beat.mass() * 9.81;
@@ -385,8 +382,10 @@ fn balances_loops_hold_attitude_and_altitude() {
     let loops = ProportionalDerivative::new(&t, &Stiffness::default()).unwrap();
     let case = Disturbed {
         trim: &t,
-        tilt: DVec3::new(3.0, 10.0, 3.0).map(f64::to_radians),
-        velocity: DVec3::ZERO,
+        by: Perturbation {
+            tilt: DVec3::new(3.0, 10.0, 3.0).map(f64::to_radians),
+            ..Perturbation::default()
+        },
     };
     for (latency, every) in [(0, 1), (1, 1), (0, 2)] {
         let mut steering = case.steering(Law::Stabiliser(loops.clone()));
@@ -410,8 +409,10 @@ fn agrees_feedback_in_flight_with_feedback_on_the_map_of_beats() {
     let regulator = Regulator::new(&t, &weights, 1).unwrap();
     let case = Disturbed {
         trim: &t,
-        tilt: DVec3::ZERO,
-        velocity: DVec3::new(0.05, 0.03, -0.02),
+        by: Perturbation {
+            velocity: DVec3::new(0.05, 0.03, -0.02),
+            ..Perturbation::default()
+        },
     };
     let steering = case.steering(Law::Regulator(regulator));
     let expect = case.flown(Some(steering.clone()), 1, 12);
