@@ -238,8 +238,7 @@ impl Trim {
         Ok(powers(&p))
     }
 
-    /// Episodes about it, one for each seed; settings: task, steps from one control to the next, wingbeats, limits, delay, noise,
-    /// autoreset mode.
+    /// Episodes about it, one for each seed.
     fn fleet(&self, py: Python<'_>, settings: Settings, seeds: Vec<u64>) -> PyResult<Fleet> {
         Fleet::of(py, self.trim.clone(), settings, seeds)
     }

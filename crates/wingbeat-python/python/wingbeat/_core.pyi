@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Sequence
 from os import PathLike
-from typing import Any, final
+from typing import Any, ClassVar, final
 
 from numpy.typing import NDArray
 
@@ -159,9 +159,7 @@ class Trim:
     def stability(self, /) -> tuple[_Array, list[_Array], list[_Mode], list[_Mode]]: ...
     def derivatives(self, /) -> tuple[list[tuple[str, str]], _Array, _Array]: ...
     def power(self, /) -> list[float]: ...
-    def fleet(
-        self, /, settings: tuple[str, int, int, tuple[float, float], int, Sequence[float], str], seeds: Sequence[int]
-    ) -> Fleet: ...
+    def fleet(self, /, settings: dict[str, Any], seeds: Sequence[int]) -> Fleet: ...
     @staticmethod
     def names() -> tuple[list[str], list[str]]: ...
 
@@ -178,6 +176,9 @@ class WakeTrim:
 
 @final
 class Fleet:
+    TASKS: ClassVar[list[str]]
+    CONTROLS: ClassVar[int]
+    OBSERVED: ClassVar[int]
     def reset(self, /, seeds: Sequence[int | None], mask: Sequence[bool], observed: _Array) -> None: ...
     def step(
         self,
