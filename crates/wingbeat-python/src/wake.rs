@@ -8,7 +8,7 @@ use wingbeat::analysis::{TrimProblem, power_with_wake};
 use wingbeat::case::{LoadedCase, wake_trimmed_case};
 
 use crate::arrays::array;
-use crate::errors::raised;
+use crate::errors::{named, raised};
 use crate::mechanics::{ModeParts, modes, powers};
 use crate::solution::TrimSolution;
 use crate::worker::analyse;
@@ -66,18 +66,19 @@ impl WakeTrim {
     }
 
     /// Monodromy matrix of the free wingbeat by rows, and Floquet's modes; held fixed when the body is disturbed: the wake of
-    /// the trimmed flight (`is_given`), or the disturbance during the hold.
+    /// the trimmed flight (`given`), or the disturbance during the hold (`carried`).
     fn stability<'py>(
         &self,
         py: Python<'py>,
-        is_given: bool,
+        wake: &str,
     ) -> PyResult<(Bound<'py, PyAny>, Vec<ModeParts>)> {
+        let memories = [
+            ("given", WakeMemory::Given),
+            ("carried", WakeMemory::Carried),
+        ];
+        let memory = named(py, "wake", wake, &memories)?;
         let trim = self.trim.clone();
         let found = analyse(py, move || {
-            let memory = match is_given {
-                true => WakeMemory::Given,
-                false => WakeMemory::Carried,
-            };
             let matrix = wake_monodromy(&trim, memory)?;
             wake_modes(&trim, &matrix).map(|set| (matrix, set))
         })?;

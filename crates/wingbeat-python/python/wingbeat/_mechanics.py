@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
 from wingbeat import _core
 from wingbeat._own import Adjustment
-from wingbeat.errors import AnalysisError, CaseError
+from wingbeat.errors import AnalysisError
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -281,10 +281,8 @@ class WakeTrim(_Trimmed[_core.WakeTrim]):
         disturbed: the wake of the trimmed flight (``given``), or the disturbance during the hold, so that the wake goes with it
         (``carried``). Neither is the whole problem of body and wake; the two bracket it.
         """
-        if wake not in ("given", "carried"):
-            raise CaseError(f"wake = {wake!r}: there is none of this name", key="wake", remedy="given, carried")
         self._check()
-        matrix, modes = self._core.stability(wake == "given")
+        matrix, modes = self._core.stability(wake)
         return WakeModel(matrix, STATES, STATE_UNITS, _modes(modes))
 
 
